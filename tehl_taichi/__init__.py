@@ -1,0 +1,37 @@
+"""tehl_taichi: transient thermal elastohydrodynamic contacts with surface features, and the fatigue they cause.
+
+Importing this package does not import taichi; the compiled parts load when a simulation starts.
+
+>>> import tehl_taichi as tehl
+>>> tehl.scene("gear").replace(srr=-0.12).operation.u_a < 8.5
+True
+"""
+
+import os
+
+# Waiting FFT or BLAS threads must sleep, not spin: a spinning pool stalls every other pool on a busy machine.
+os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
+
+__version__ = "0.1.0"
+__all__ = ["__version__", "march", "scene", "simulate"]
+
+
+def scene(name="gear"):
+    """The built-in scene `name`; see :mod:`tehl_taichi.scene.builtin`. Raises SceneError for an unknown name."""
+    from tehl_taichi.scene.builtin import scene as built_in
+
+    return built_in(name)
+
+
+def march(scene, state=None):
+    """Generator of snapshots of `scene`: the steady start, then one per time step (for loops of one's own)."""
+    from tehl_taichi import runtime
+    from tehl_taichi.simulation import march as run
+
+    runtime.ensure()
+    return run(scene, state)
+
+
+def simulate(scene):
+    """All snapshots of `scene` as a list; long runs are better streamed with :func:`march` or `tehl run`."""
+    return list(march(scene))

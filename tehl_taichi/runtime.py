@@ -1,0 +1,79 @@
+"""The only place that starts Taichi: architecture, precision and threads, once per process."""
+
+import os
+import sys
+from pathlib import Path
+
+from tehl_taichi import __version__
+
+_started = {}
+
+
+class RuntimeUnavailable(RuntimeError):
+    """The requested architecture or precision cannot be had in this process."""
+
+
+def cache_dir():
+    """Folder of compiled kernels (`TEHL_CACHE`, else below `XDG_CACHE_HOME` or `~/.cache`).
+
+    It is private to this project and version, because one start option below is not part of Taichi's cache key.
+    """
+    root = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
+    return Path(os.environ.get("TEHL_CACHE") or os.path.join(root, "tehl_taichi")) / f"kernels-{__version__}"
+
+
+def start(arch="cpu", threads=None, precision="f64"):
+    """Start Taichi and say what was really started.
+
+    arch: "cpu" (others when their kernels are checked); threads: number of CPU threads or None for all;
+    precision: "f64". Returns a dict with arch, threads, precision, taichi (version) and cache (folder).
+    Raises RuntimeUnavailable when the arch or precision cannot be had or another start is already active.
+    """
+    _check(arch, precision)
+    threads = int(threads or os.cpu_count() or 1)
+    if _started:
+        return _same_start(arch, threads, precision)
+    import taichi as ti
+
+    with _stdout_to_stderr():
+        ti.init(arch=ti.cpu, default_fp=ti.f64, fast_math=False, cpu_max_num_threads=threads, log_level=ti.ERROR,
+                # Taichi would run loops of up to 512 rows on one thread: our loops run over rows of that number
+                make_cpu_multithreading_loop=False,
+                offline_cache=True, offline_cache_file_path=str(cache_dir()))
+    _started.update(arch=arch, threads=threads, precision=precision, taichi=".".join(map(str, ti.__version__)),
+                    cache=str(cache_dir()))
+    return dict(_started)
+
+
+def ensure():
+    """Start with the defaults unless something is running already."""
+    return dict(_started) if _started else start()
+
+
+def _check(arch, precision):
+    if arch != "cpu":
+        raise RuntimeUnavailable(f"arch = {arch!r} is not available in this version: 'cpu' is")
+    if precision != "f64":
+        raise RuntimeUnavailable(f"precision = {precision!r} is not available in this version: 'f64' is")
+
+
+def _same_start(arch, threads, precision):
+    wanted = dict(arch=arch, threads=threads, precision=precision)
+    if any(_started[key] != value for key, value in wanted.items()):
+        raise RuntimeUnavailable(f"this process already runs with {_started['arch']}, {_started['threads']} threads; "
+                                 "start a new process for other settings")
+    return dict(_started)
+
+
+class _stdout_to_stderr:
+    """Taichi prints a banner to stdout, which must stay clean for `--json`."""
+
+    def __enter__(self):
+        sys.stdout.flush()
+        self.saved = os.dup(1)
+        os.dup2(2, 1)
+
+    def __exit__(self, *_):
+        sys.stdout.flush()
+        os.dup2(self.saved, 1)
+        os.close(self.saved)

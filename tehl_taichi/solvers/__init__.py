@@ -1,0 +1,1 @@
+"""Iterate kernels to a tolerance and return a report; nothing here prints."""

@@ -1,0 +1,101 @@
+"""The grids of one contact problem and their state table."""
+
+import math
+
+import numpy as np
+
+from tehl_taichi.kernels import fields, reynolds
+from tehl_taichi.physics.viscosity import ln_eta
+from tehl_taichi.solvers import influence
+from tehl_taichi.solvers.transforms import Deflection, Distribution
+
+COARSEST_2D = 16  # cells along x below which no coarser grid is made
+COARSEST_1D = 32
+DENSE_LIMIT = 700  # nodes up to which the coarsest grid is solved directly
+
+
+class Levels:
+    """State table S, level table G and the constants of one contact on a grid of nx x ny cells and its coarser ones.
+
+    scene: the description; scales: its Hertz units; nx, ny: cells (ny = 0: one-dimensional). Arrays that a caller may
+    read or write as (ny+1, nx+1) views of the finest grid come from :meth:`view`.
+    """
+
+    def __init__(self, scene, scales, nx, ny):
+        self.scene, self.scales, self.kind = scene, scales, scales.kind
+        self.nx, self.ny = nx, ny
+        grid = scene.grid
+        self.X = np.linspace(grid.x_min, grid.x_max, nx + 1)
+        self.Y = np.linspace(0.0, grid.y_max, ny + 1) if ny else np.zeros(1)
+        self.dx, self.dy = self.X[1] - self.X[0], grid.y_max / ny if ny else 1.0
+        self.sizes = _coarsen(nx, ny)
+        self.G = self._level_table()
+        self.n = (nx + 1) * (ny + 1)
+        self.S = np.zeros((fields.NROWS, int(self.G[-1, fields.OFF]) + self._nodes(-1) + 2))
+        self.deflection = Deflection(nx, ny, self.dx, self.dy, self.kind)
+        self._set_laws()
+
+    def _nodes(self, l):
+        return (self.sizes[l][0] + 1) * (self.sizes[l][1] + 1)
+
+    def _level_table(self):
+        G = np.zeros((len(self.sizes), fields.NCOLS))
+        off = 0
+        for l, (nx, ny) in enumerate(self.sizes):
+            dx, dy = self.dx * 2**l, self.dy * 2**l
+            own = self.near_kernel(l)[0]
+            rows = ny + 1 if self.kind == "line" else ny
+            G[l] = [off, nx, ny, rows, dx, dy, 0.0, own[0], own[1], self.scene.rheology.film_floor]
+            off += (nx + 1) * (ny + 1)
+        return G
+
+    def near_kernel(self, l, length=8):
+        """Deflection at distances 0..7 along x of a node in an inner and in the outermost row; shape (2, 8)."""
+        dx, dy = self.dx * 2**l, self.dy * 2**l
+        if self.kind == "line":
+            strip = influence.strip(length, dx)[:length]
+        if self.sizes[l][1] == 0:
+            return np.vstack([strip, strip])
+        inner = influence.rectangle(length, 1, dx, dy, self.kind)[:length, 0]
+        # the outermost row of a line contact goes on to infinity on one side only
+        return np.vstack([inner, 0.5 * (inner + strip) if self.kind == "line" else inner])
+
+    def _set_laws(self):
+        scene, s = self.scene, self.scales
+        self.Gamma = scene.operation.temperature
+        self.ln_eta0 = float(ln_eta(scene.oil, 0.0, self.Gamma))
+        lam = 12 * math.exp(self.ln_eta0) * s.u_m * s.R**2 / (s.a**3 * s.p_H)
+        self.inv_lambda = 1 / lam
+
+    def laws(self, l=0, slopes=False):
+        """Evaluate the lubricant laws at the nodes of level l."""
+        reynolds.laws(self.S, self.G, l, self.scene.oil, self.scales.p_H, self.Gamma, self.ln_eta0, self.inv_lambda,
+                      int(slopes))
+
+    def view(self, row):
+        """Field `row` of the finest grid as (ny+1, nx+1)."""
+        return self.S[row, : self.n].reshape(self.ny + 1, self.nx + 1)
+
+    def flat(self, row):
+        return self.S[row, : self.n]
+
+    def set_rate(self, weight):
+        """Weight of the newest level in d/dT, 1/T units (0: steady); scaled with dx on every level."""
+        self.G[:, fields.CT] = weight * self.G[:, fields.DX]
+
+    def distribution(self, l):
+        nx, ny = self.sizes[l]
+        return Distribution(nx, ny, self.dx * 2**l, self.dy * 2**l, self.kind)
+
+
+def _coarsen(nx, ny):
+    sizes = [(nx, ny)]
+    while _can_halve(*sizes[-1]):
+        sizes.append((sizes[-1][0] // 2, sizes[-1][1] // 2))
+    return sizes
+
+
+def _can_halve(nx, ny):
+    if nx % 2 or ny % 2:
+        return False
+    return nx // 2 >= COARSEST_1D if ny == 0 else nx // 2 >= COARSEST_2D and ny // 2 >= 3

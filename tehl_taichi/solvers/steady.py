@@ -1,0 +1,121 @@
+"""Steady contact from nothing: Hertz pressure on a coarse grid, then every finer grid from the one before.
+
+The coarser solutions also give each scalar's discretisation error (Richardson with the observed order).
+"""
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from tehl_taichi.kernels import fields
+from tehl_taichi.solvers.levels import Levels
+from tehl_taichi.solvers.newton import PressureSolver, Report
+
+FIRST_CELLS = 64  # along x of the first grid: fine enough for a film from Hertz, cheap enough not to matter
+KRYLOV_TOLERANCE = 1e-3  # looser lets H0 creep on fine point contacts (6e-5 a Newton step)
+FIRST_FILM = 0.05  # central film of the first guess, Hertz units: thick enough to flow, thin enough to be near
+START_TRIES = (1.0, 0.3, 3.0)  # times FIRST_FILM
+CREDIBLE_ORDER = (0.5, 4.0)  # observed orders outside are not believed
+
+
+@dataclass
+class SteadyResult:
+    """solver: holds the finest state; report: its last solve; values: scalars per grid; work: Krylov iterations."""
+
+    solver: PressureSolver
+    report: Report
+    values: list = field(default_factory=list)
+    work: int = 0
+
+    def errors(self):
+        """Estimated error of the finest h_c, h_min, p_max (dimensionless); see :func:`estimated_error`."""
+        return {key: estimated_error([v[key] for v in self.values]) for key in self.values[-1]}
+
+
+def estimated_error(values):
+    """Error of the last of `values` (each grid twice as fine as the one before), by Richardson's extrapolation.
+
+    With three grids the observed order is used when it is credible, otherwise the last difference stands as it is
+    (order 1), which is the larger estimate; with one grid the error is unknown (nan).
+    """
+    if len(values) < 2:
+        return math.nan
+    last = values[-1] - values[-2]
+    if len(values) < 3 or last == 0 or (values[-2] - values[-3]) / last <= 0:
+        return abs(last)
+    order = math.log2((values[-2] - values[-3]) / last)
+    if not CREDIBLE_ORDER[0] <= order <= CREDIBLE_ORDER[1]:
+        return abs(last)
+    return abs(last) / (2**min(order, 2.0) - 1)
+
+
+def grid_sequence(nx, ny, first=FIRST_CELLS):
+    """Sizes from the first grid up to (nx, ny), each twice as fine."""
+    sizes = [(nx, ny)]
+    while nx % 2 == 0 and nx // 2 >= first and ny % 2 == 0 and (ny == 0 or ny // 2 >= 4):
+        nx, ny = nx // 2, ny // 2
+        sizes.append((nx, ny))
+    return sizes[::-1]
+
+
+def solve_steady(scene, scales, nx, ny):
+    """Steady smooth contact on nx x ny cells (ny = 0: line). Returns a SteadyResult; check `report.converged`."""
+    result, P = None, None
+    for size in grid_sequence(nx, ny):
+        solver = PressureSolver(Levels(scene, scales, *size))
+        _undeformed(solver.levels)
+        report = _first(solver) if P is None else _next(solver, P, H0)
+        P, H0 = solver.levels.view(fields.P).copy(), solver.H0
+        values = (result.values if result else []) + [scalars(solver)]
+        result = SteadyResult(solver, report, values, (result.work if result else 0) + report.cycles)
+    return result
+
+
+def _undeformed(levels):
+    X, Y = levels.X[None, :], levels.Y[:, None]
+    levels.view(fields.GAP0)[:] = 0.5 * X**2 + (0.5 * Y**2 if levels.kind == "point" else 0 * Y)
+
+
+def _first(solver):
+    for factor in START_TRIES:
+        _hertz(solver, FIRST_FILM * factor)
+        report = solver.solve(KRYLOV_TOLERANCE)
+        if report.converged:
+            break
+    return report
+
+
+def _hertz(solver, film):
+    v = solver.levels
+    r2 = v.X[None, :] ** 2 + (v.Y[:, None] ** 2 if v.kind == "point" else 0 * v.Y[:, None])
+    v.view(fields.P)[:] = np.sqrt(np.maximum(1 - r2, 0.0))
+    solver.H0 = 0.0
+    solver.film()
+    centre = v.view(fields.H)[0, int(np.argmin(np.abs(v.X)))]
+    solver.H0 = film - float(centre)
+
+
+def _next(solver, P, H0):
+    fine = refine(P)
+    fine.ravel()[~solver.inside] = 0.0
+    solver.levels.view(fields.P)[:] = fine
+    solver.H0 = H0
+    return solver.solve(KRYLOV_TOLERANCE)
+
+
+def refine(P):
+    """Linear interpolation of (ny+1, nx+1) to twice the cells in each direction."""
+    x = np.zeros((P.shape[0], 2 * P.shape[1] - 1))
+    x[:, ::2], x[:, 1::2] = P, 0.5 * (P[:, 1:] + P[:, :-1])
+    out = np.zeros((2 * P.shape[0] - 1, x.shape[1]))
+    out[::2], out[1::2] = x, 0.5 * (x[1:] + x[:-1])
+    return out
+
+
+def scalars(solver):
+    """h_c (X = 0, interpolated), h_min and p_max of the state in the table, dimensionless."""
+    v = solver.levels
+    H, P = v.view(fields.H), v.view(fields.P)
+    row = 0 if v.kind == "point" else -1
+    return {"h_c": float(np.interp(0.0, v.X, H[row])), "h_min": float(H.min()), "p_max": float(P.max())}
