@@ -11,6 +11,8 @@ import os
 
 # Waiting FFT or BLAS threads must sleep, not spin: a spinning pool stalls every other pool on a busy machine.
 os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
+# the products here are small: threaded BLAS only costs (and stalls on a busy machine)
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 __version__ = "0.1.0"
 __all__ = ["__version__", "march", "scene", "simulate"]

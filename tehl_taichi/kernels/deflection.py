@@ -1,4 +1,4 @@
-"""What surrounds the transforms of the deflection: packing, multiplication by the symbol, adding the line part."""
+"""What surrounds the transforms of the deflection: packing, adding the line part."""
 
 import taichi as ti
 
@@ -15,15 +15,6 @@ def pack(V: Table, n: ti.i32, nx: ti.i32, ny: ti.i32, line: ti.i32, padded: Tabl
             padded[j, i] = V[n, j * (nx + 1) + i] - e
             if j == ny:
                 edge[i] = e
-
-
-@ti.kernel
-def multiply(spectrum: Table, symbol: Table, rows: ti.i32, columns: ti.i32):
-    """spectrum (complex, stored as pairs) times the real symbol."""
-    for j in range(rows):
-        for i in range(columns):
-            spectrum[j, 2 * i] *= symbol[j, i]
-            spectrum[j, 2 * i + 1] *= symbol[j, i]
 
 
 @ti.kernel

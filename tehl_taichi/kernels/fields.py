@@ -45,4 +45,6 @@ CT = next(_col)  # dx times the weight of the newest level in d/dT (0: steady)
 K0 = next(_col)  # deflection of a node by its own unit pressure
 K1 = next(_col)  # and by that of its neighbour in x
 FLOOR = next(_col)  # film floor H_min
+SPREAD = next(_col)  # first entry of this level in the buffers of the distribution transform
+PERIOD = next(_col)  # and its row length there
 NCOLS = next(_col)

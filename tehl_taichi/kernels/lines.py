@@ -8,8 +8,10 @@ a unit at one node and the rows become banded transport.
 
 import taichi as ti
 
-from tehl_taichi.kernels.fields import COR, CT, CX, CY, DRY, EX, EY, JN, K0, KIND, QP, RES, RHO, SOL, TOUCH
-from tehl_taichi.kernels.reynolds import Flat, Table, cells, couette_weight
+from tehl_taichi.kernels.fields import (
+    COR, CT, CX, CY, DRY, EX, EY, JN, K0, KIND, NX, OFF, PERIOD, QP, RES, RHO, SOL, SPREAD, TOUCH,
+)
+from tehl_taichi.kernels.reynolds import Flat, Rows, Table, cells, couette_weight
 
 HALF = 3  # half bandwidth; 2 converges slower, 1 diverges, 4..6 gain nothing
 TINY_PIVOT = 1e-14
@@ -89,9 +91,9 @@ def entry(S: ti.template(), G: ti.template(), l, k, i, dk, a, near: ti.template(
                 if t == dk:
                     v += a[t + 2]
             else:
-                v += a[t + 2] * inverse[0, abs(t - dk)]
+                v += a[t + 2] * inverse[2 * l, abs(t - dk)]
         if not gs:
-            v += (a[4] + a[5]) * inverse[1, abs(dk)]
+            v += (a[4] + a[5]) * inverse[2 * l + 1, abs(dk)]
     return v
 
 
@@ -113,35 +115,53 @@ def factorise(B: ti.template(), first, n2):
 
 
 @ti.kernel
-def build_lines(S: Table, G: Table, l: ti.i32, B: Table, near: Table, inverse: Table, theta: ti.f64):
-    """Classify the columns, fill and factorise every row's band B[node, 0..6] of level l.
-
-    near[0 or 1, m]: deflection at distance m in x (row 1: the outermost row of a line contact, which goes on to
-    infinity); inverse[0 or 1, m]: pressure of a unit film change, in its own row and in the next one.
-    """
-    nx, ny, off = cells(G, l)
-    n2 = nx + 1
-    for j in range(ny + 1):
-        for i in range(n2):
-            k = off + j * n2 + i
+def classify(S: Table, G: Table, rows: Rows, count: ti.i32, theta: ti.f64):
+    """KIND of every node in the first `count` grid rows."""
+    for r in range(count):
+        l, j = rows[r, 0], rows[r, 1]
+        nx, ny, off = cells(G, l)
+        for i in range(nx + 1):
+            k = off + j * (nx + 1) + i
             S[KIND, k] = 0.0
             if S[DRY, k] == 0.0:
                 S[KIND, k] = kind_of(S, G, l, k, i, j, theta)
-    for j in range(ny + 1):
-        m_row = 1 if j == ny and int(G[l, JN]) == ny + 1 else 0
+
+
+@ti.func
+def fill_row(S: ti.template(), G: ti.template(), l, k, i, j, B: ti.template(), near: ti.template(),
+             inverse: ti.template()):
+    """The seven entries of one wet node; columns without an unknown stay empty."""
+    nx, ny, off = cells(G, l)
+    table = 2 * l
+    if j == ny and int(G[l, JN]) == ny + 1:
+        table += 1
+    a = local_part(S, G, l, k, i, j)
+    for b in range(2 * HALF + 1):
+        dk = b - HALF
+        B[k, b] = 0.0
+        if i + dk > 0 and i + dk < nx:
+            if S[KIND, k + dk] > 0.0:
+                B[k, b] = entry(S, G, l, k, i, dk, a, near, table, inverse)
+
+
+@ti.kernel
+def build_lines(S: Table, G: Table, rows: Rows, count: ti.i32, B: Table, near: Table, inverse: Table):
+    """Fill and factorise the bands B[node, 0..6] of the first `count` grid rows; needs `classify`.
+
+    near[2 l + (0 or 1), m]: deflection at distance m in x on level l (1: the outermost row of a line contact, which
+    goes on to infinity); inverse[2 l + (0 or 1), m]: pressure of a unit film change, in its own and in the next row.
+    """
+    for r in range(count):
+        l, j = rows[r, 0], rows[r, 1]
+        nx, ny, off = cells(G, l)
+        n2 = nx + 1
         for i in range(n2):
             k = off + j * n2 + i
-            for b in range(2 * HALF + 1):
-                B[k, b] = 1.0 if b == HALF else 0.0
             if S[DRY, k] == 0.0:
-                a = local_part(S, G, l, k, i, j)
+                fill_row(S, G, l, k, i, j, B, near, inverse)
+            else:
                 for b in range(2 * HALF + 1):
-                    dk = b - HALF
-                    if i + dk > 0 and i + dk < nx:
-                        if S[KIND, k + dk] > 0.0:
-                            B[k, b] = entry(S, G, l, k, i, dk, a, near, m_row, inverse)
-                        elif dk == 0:
-                            B[k, b] = 1.0
+                    B[k, b] = 1.0 if b == HALF else 0.0
         factorise(B, off + j * n2, n2)
 
 
@@ -163,24 +183,26 @@ def substitute(S: ti.template(), B: ti.template(), first, n2):
 
 
 @ti.kernel
-def solve_lines(S: Table, G: Table, l: ti.i32, B: Table, spread: Table):
-    """SOL = line solutions of RES; `spread` (ny+1, >= nx+1) gets the part that K^-1 must distribute."""
-    nx, ny, off = cells(G, l)
-    n2 = nx + 1
-    for j in range(ny + 1):
-        first = off + j * n2
+def solve_lines(S: Table, G: Table, rows: Rows, count: ti.i32, B: Table, spread: Flat):
+    """SOL = line solutions of RES in the first `count` grid rows; `spread` gets the part that K^-1 must distribute."""
+    for r in range(count):
+        l, j = rows[r, 0], rows[r, 1]
+        n2 = int(G[l, NX]) + 1
+        first = int(G[l, OFF]) + j * n2
+        target = int(G[l, SPREAD]) + j * int(G[l, PERIOD])
         substitute(S, B, first, n2)
         for i in range(n2):
-            spread[j, i] = S[SOL, first + i] if S[KIND, first + i] == 2.0 else 0.0
+            spread[target + i] = S[SOL, first + i] if S[KIND, first + i] == 2.0 else 0.0
 
 
 @ti.kernel
-def collect_lines(S: Table, G: Table, l: ti.i32, spread: Table):
-    """COR = correction of this level: K^-1 of the distributed part, the line solution elsewhere, RES where dry."""
-    nx, ny, off = cells(G, l)
-    n2 = nx + 1
-    for j in range(ny + 1):
+def collect_lines(S: Table, G: Table, rows: Rows, count: ti.i32, spread: Flat):
+    """COR = correction of each level: K^-1 of the distributed part, the line solution elsewhere, RES where dry."""
+    for r in range(count):
+        l, j = rows[r, 0], rows[r, 1]
+        n2 = int(G[l, NX]) + 1
+        source = int(G[l, SPREAD]) + j * int(G[l, PERIOD])
         for i in range(n2):
-            k = off + j * n2 + i
+            k = int(G[l, OFF]) + j * n2 + i
             z = S[SOL, k] if S[KIND, k] == 1.0 else S[RES, k]
-            S[COR, k] = spread[j, i] if S[KIND, k] == 2.0 else z
+            S[COR, k] = spread[source + i] if S[KIND, k] == 2.0 else z

@@ -15,6 +15,7 @@ from tehl_taichi.physics.viscosity import ln_eta
 
 Table = ti.types.ndarray(dtype=ti.f64, ndim=2)
 Flat = ti.types.ndarray(dtype=ti.f64, ndim=1)
+Rows = ti.types.ndarray(dtype=ti.i32, ndim=2)  # (level, j) of every grid row, finest level first
 
 # weights of q_{i-2}, q_{i-1}, q_i, q_{i+1} in dx dq/dX
 C_M2, C_M1, C_0, C_P1 = 1 / 6, -1.0, 0.5, 1 / 3
@@ -67,11 +68,12 @@ def node_laws(S: ti.template(), k, oil: ti.template(), p_H, Gamma, ln_eta0, inv_
 
 
 @ti.kernel
-def laws(S: Table, G: Table, l: ti.i32, oil: ti.template(), p_H: ti.f64, Gamma: ti.f64, ln_eta0: ti.f64,
-         inv_lambda: ti.f64, slopes: ti.i32):
-    """Density, viscosity and mobility at the nodes; with `slopes` also their derivatives in P."""
-    nx, ny, off = cells(G, l)
-    for j in range(ny + 1):
+def laws(S: Table, G: Table, rows: Rows, first: ti.i32, last: ti.i32, oil: ti.template(), p_H: ti.f64, Gamma: ti.f64,
+         ln_eta0: ti.f64, inv_lambda: ti.f64, slopes: ti.i32):
+    """Density, viscosity and mobility in the grid rows first..last-1; with `slopes` also their derivatives in P."""
+    for r in range(first, last):
+        l, j = rows[r, 0], rows[r, 1]
+        nx, ny, off = cells(G, l)
         for i in range(nx + 1):
             k = off + j * (nx + 1) + i
             node_laws(S, k, oil, p_H, Gamma, ln_eta0, inv_lambda, G[l, FLOOR])
@@ -192,12 +194,12 @@ def diagonal(S: ti.template(), G: ti.template(), l, k, i, j):
 
 
 @ti.kernel
-def linearise(S: Table, G: Table, l: ti.i32):
-    """Face derivatives and the diagonal; needs `laws` with slopes."""
-    nx, ny, off = cells(G, l)
-    n2 = nx + 1
-    jn = int(G[l, JN])
-    for j in range(ny + 1):
+def linearise(S: Table, G: Table, rows: Rows, first: ti.i32, last: ti.i32):
+    """Face derivatives and the diagonal in the grid rows first..last-1; needs `laws` with slopes."""
+    for r in range(first, last):
+        l, j = rows[r, 0], rows[r, 1]
+        nx, ny, off = cells(G, l)
+        n2 = nx + 1
         for i in range(nx):
             k = off + j * n2 + i
             store_face(S, ti.static(CX), EX, k, linear_face(S, k, k + 1, 1 / G[l, DX], G[l, FLOOR]))
@@ -205,11 +207,13 @@ def linearise(S: Table, G: Table, l: ti.i32):
             for i in range(1, nx):
                 k = off + j * n2 + i
                 store_face(S, ti.static(CY), EY, k, linear_face(S, k, k + n2, G[l, DX] / G[l, DY] ** 2, G[l, FLOOR]))
-    for j in range(ny + 1):
-        for i in range(n2):
-            k = off + j * n2 + i
+    for r in range(first, last):
+        l, j = rows[r, 0], rows[r, 1]
+        nx, ny, off = cells(G, l)
+        for i in range(nx + 1):
+            k = off + j * (nx + 1) + i
             S[D, k] = 1.0
-            if j < jn and i > 0 and i < nx:
+            if j < int(G[l, JN]) and i > 0 and i < nx:
                 S[D, k] = diagonal(S, G, l, k, i, j)
 
 

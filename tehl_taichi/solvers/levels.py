@@ -7,7 +7,7 @@ import numpy as np
 from tehl_taichi.kernels import fields, reynolds
 from tehl_taichi.physics.viscosity import ln_eta
 from tehl_taichi.solvers import influence
-from tehl_taichi.solvers.transforms import Deflection, Distribution
+from tehl_taichi.solvers.transforms import Deflection
 
 COARSEST_2D = 16  # cells along x below which no coarser grid is made
 COARSEST_1D = 32
@@ -29,13 +29,14 @@ class Levels:
         self.Y = np.linspace(0.0, grid.y_max, ny + 1) if ny else np.zeros(1)
         self.dx, self.dy = self.X[1] - self.X[0], grid.y_max / ny if ny else 1.0
         self.sizes = _coarsen(nx, ny)
+        self.rows = np.array([(l, j) for l, (_, my) in enumerate(self.sizes) for j in range(my + 1)], np.int32)
         self.G = self._level_table()
         self.n = (nx + 1) * (ny + 1)
-        self.S = np.zeros((fields.NROWS, int(self.G[-1, fields.OFF]) + self._nodes(-1) + 2))
+        self.S = np.zeros((fields.NROWS, int(self.G[-1, fields.OFF]) + self.nodes(-1) + 2))
         self.deflection = Deflection(nx, ny, self.dx, self.dy, self.kind)
         self._set_laws()
 
-    def _nodes(self, l):
+    def nodes(self, l):
         return (self.sizes[l][0] + 1) * (self.sizes[l][1] + 1)
 
     def _level_table(self):
@@ -45,7 +46,7 @@ class Levels:
             dx, dy = self.dx * 2**l, self.dy * 2**l
             own = self.near_kernel(l)[0]
             rows = ny + 1 if self.kind == "line" else ny
-            G[l] = [off, nx, ny, rows, dx, dy, 0.0, own[0], own[1], self.scene.rheology.film_floor]
+            G[l] = [off, nx, ny, rows, dx, dy, 0.0, own[0], own[1], self.scene.rheology.film_floor, 0, 0]
             off += (nx + 1) * (ny + 1)
         return G
 
@@ -67,10 +68,17 @@ class Levels:
         lam = 12 * math.exp(self.ln_eta0) * s.u_m * s.R**2 / (s.a**3 * s.p_H)
         self.inv_lambda = 1 / lam
 
-    def laws(self, l=0, slopes=False):
-        """Evaluate the lubricant laws at the nodes of level l."""
-        reynolds.laws(self.S, self.G, l, self.scene.oil, self.scales.p_H, self.Gamma, self.ln_eta0, self.inv_lambda,
-                      int(slopes))
+    def laws(self, first=0, last=None, slopes=False):
+        """Evaluate the lubricant laws in the grid rows first..last-1 (default: the finest level)."""
+        last = self.ny + 1 if last is None else last
+        reynolds.laws(self.S, self.G, self.rows, first, last, self.scene.oil, self.scales.p_H, self.Gamma,
+                      self.ln_eta0, self.inv_lambda, int(slopes))
+
+    def linearise(self, first=0, last=None):
+        """Laws with slopes, face derivatives and the diagonal in those rows."""
+        last = self.ny + 1 if last is None else last
+        self.laws(first, last, slopes=True)
+        reynolds.linearise(self.S, self.G, self.rows, first, last)
 
     def view(self, row):
         """Field `row` of the finest grid as (ny+1, nx+1)."""
@@ -82,10 +90,6 @@ class Levels:
     def set_rate(self, weight):
         """Weight of the newest level in d/dT, 1/T units (0: steady); scaled with dx on every level."""
         self.G[:, fields.CT] = weight * self.G[:, fields.DX]
-
-    def distribution(self, l):
-        nx, ny = self.sizes[l]
-        return Distribution(nx, ny, self.dx * 2**l, self.dy * 2**l, self.kind)
 
 
 def _coarsen(nx, ny):

@@ -77,8 +77,7 @@ class PressureSolver:
         return self._report(self._merit(), newton + 1, cycles, tolerance)
 
     def _linearise(self):
-        self.levels.laws(slopes=True)
-        reynolds.linearise(self.levels.S, self.levels.G, 0)
+        self.levels.linearise()
         self.scale = self.levels.flat(fields.D).copy()
 
     def _phi(self):

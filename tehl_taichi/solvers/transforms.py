@@ -10,6 +10,7 @@ from tehl_taichi.kernels import deflection as kernel
 from tehl_taichi.solvers import influence
 
 PLAN = dict(flags=("FFTW_ESTIMATE",), threads=1)
+MATRIX_ROWS = 257  # modes up to which the cosine transform is a matrix product (equal times at 257)
 
 
 def even_fast_length(n):
@@ -29,48 +30,85 @@ def _complex(*shape):
 
 
 class EvenConvolution:
-    """Real transform along x (length nx_period), cosine transform along y (rows 0..rows-1, even about both ends).
+    """Real transform along x (length nx_period), cosine transform along y (`rows` modes, even about both ends).
 
-    `source` (ny+1, nx_period) -> `result` (ny+1, nx_period) multiplied by the symbol (rows, nx_period//2+1) in between.
-    Columns of `source` beyond the grid stay zero, as do the padding rows of the spectrum.
+    `source` (ny+1, nx_period) -> `result` (same shape), multiplied by the symbol (rows, nx_period//2+1) in between.
+    Columns of `source` beyond the grid must be zero. Buffers may be handed in (then aligned by the caller).
     """
 
-    def __init__(self, ny, rows, nx_period):
+    def __init__(self, ny, rows, nx_period, source=None, result=None):
         self.rows, self.half = rows, nx_period // 2 + 1
-        self.source, self.result = _real(ny + 1, nx_period), _real(ny + 1, nx_period)
-        first, self.mixed, last = (_complex(rows, self.half) for _ in range(3))
-        cosine = dict(axes=(0,), direction="FFTW_REDFT00", **PLAN)
-        forward = pyfftw.FFTW(self.source, first[: ny + 1], axes=(1,), **PLAN)
-        back = pyfftw.FFTW(last[: ny + 1], self.result, axes=(1,), direction="FFTW_BACKWARD", **PLAN)
-        if rows == 1:
-            self.mixed, self.forward, self.back = first, [forward], [pyfftw.FFTW(
-                first, self.result, axes=(1,), direction="FFTW_BACKWARD", **PLAN)]
-        else:
-            pairs = [buffer.view("float64") for buffer in (first, self.mixed, last)]
-            self.forward = [forward, pyfftw.FFTW(pairs[0], pairs[1], **cosine)]
-            self.back = [pyfftw.FFTW(pairs[1], pairs[2], **cosine), back]
+        self.source = _real(ny + 1, nx_period) if source is None else source
+        self.result = _real(ny + 1, nx_period) if result is None else result
+        first, last = _complex(ny + 1, self.half), _complex(ny + 1, self.half)
+        self.forward = pyfftw.FFTW(self.source, first, axes=(1,), **PLAN)
+        self.back = pyfftw.FFTW(last, self.result, axes=(1,), direction="FFTW_BACKWARD", **PLAN)
+        self.first, self.last = first.view("float64"), last.view("float64")
+        self.cosine = Cosine(ny, rows, 2 * self.half)
         self.scale = 1 / (nx_period * (2 * (rows - 1) if rows > 1 else 1))
-        self.pairs = self.mixed.view("float64")
 
     def set_kernel(self, values):
         """Symbol from the even kernel values (rows, nx_period) laid out for this transform."""
-        buffer = np.zeros((self.rows, self.half))
         spectrum = np.fft.rfft(values, axis=1).real
         if self.rows > 1:
             spectrum = np.fft.rfft(np.vstack([spectrum, spectrum[-2:0:-1]]), axis=0).real
-        buffer[:] = spectrum
-        self.set_symbol(buffer)
+        self.set_symbol(spectrum)
 
     def set_symbol(self, symbol):
-        self.symbol = np.ascontiguousarray(symbol * self.scale)
+        """Real symbol (rows, nx_period//2+1), stored twice: for the real and the imaginary parts."""
+        self.symbol = np.repeat(symbol * self.scale, 2, axis=1)
 
     def run(self):
-        """result = symbol * source; the zeros that pad `source` are kept."""
-        for plan in self.forward:
-            plan.execute()
-        kernel.multiply(self.pairs, self.symbol, self.rows, self.half)
-        for plan in self.back:
-            plan.execute()
+        """result = symbol * source."""
+        self.forward.execute()
+        spectrum = self.cosine.forward(self.first)
+        np.multiply(spectrum, self.symbol, out=spectrum)
+        self.cosine.back(spectrum, self.last)
+        self.back.execute()
+
+
+class Cosine:
+    """Cosine transform (type I) along the rows: ny+1 given rows (zeros beyond) <-> `rows` modes.
+
+    As a matrix product up to MATRIX_ROWS modes: it uses the zero rows and wins there (129 modes, 542 columns: 0.20 ms
+    against 0.63 ms for FFTW's REDFT00); as FFTW's transform beyond.
+    """
+
+    def __init__(self, ny, rows, columns):
+        self.ny, self.rows = ny, rows
+        self.spectrum = _real(rows, columns)
+        self.plain = rows <= MATRIX_ROWS
+        if self.plain:
+            self._matrices()
+        else:
+            self.padded = _real(rows, columns)
+            plan = dict(axes=(0,), direction="FFTW_REDFT00", **PLAN)
+            self.there = pyfftw.FFTW(self.padded, self.spectrum, **plan)
+            self.again = pyfftw.FFTW(self.spectrum, self.padded, **plan)
+
+    def _matrices(self):
+        j = np.arange(self.rows)
+        weight = np.full(self.rows, 2.0)
+        weight[[0, -1]] = 1.0
+        full = np.cos(np.pi * (np.outer(j, j) % (2 * max(self.rows - 1, 1))) / max(self.rows - 1, 1)) * weight
+        self.to_modes = np.ascontiguousarray(full[:, : self.ny + 1])
+        self.to_rows = np.ascontiguousarray(full[: self.ny + 1])
+
+    def forward(self, values):
+        """Modes (rows, columns) of values (ny+1, columns); an own buffer."""
+        if self.plain:
+            return np.matmul(self.to_modes, values, out=self.spectrum)
+        self.padded[: self.ny + 1], self.padded[self.ny + 1 :] = values, 0.0
+        self.there.execute()
+        return self.spectrum
+
+    def back(self, spectrum, values):
+        """Rows 0..ny of the modes into `values` (unnormalised)."""
+        if self.plain:
+            np.matmul(self.to_rows, spectrum, out=values)
+        else:
+            self.again.execute()
+            values[:] = self.padded[: self.ny + 1]
 
 
 class Deflection:
@@ -120,22 +158,39 @@ def _wrap(coefficients, period):
 
 
 class Distribution:
-    """K^-1 by its symbol, unpadded (mirrored in y): the pressure that gives a wanted film change. A preconditioner."""
+    """K^-1 by its symbol on every level, unpadded (mirrored in y): pressures that give wanted film changes.
 
-    def __init__(self, nx, ny, dx, dy, kind):
-        period = even_fast_length(nx + 1)
-        self.convolution = EvenConvolution(ny, ny + 1, period)
-        self.convolution.set_symbol(1 / influence.symbol(period, ny, dx, dy, kind))
-        self.source, self.result = self.convolution.source, self.convolution.result
-        self.run = self.convolution.run
+    All levels share the flat buffers `source` and `result`; (first entry, row length) of each level in `places`.
+    """
+
+    def __init__(self, sizes, dx, dy, kind):
+        periods = [even_fast_length(nx + 1) for nx, _ in sizes]
+        lengths = [8 * ((period * (ny + 1) + 7) // 8) for period, (_, ny) in zip(periods, sizes)]
+        self.source, self.result = _real(sum(lengths)), _real(sum(lengths))
+        starts = np.concatenate([[0], np.cumsum(lengths)[:-1]]).astype(int)
+        self.places = list(zip(starts.tolist(), periods))
+        self.levels = []
+        for l, ((_, ny), (start, period)) in enumerate(zip(sizes, self.places)):
+            cut = slice(start, start + period * (ny + 1))
+            views = [buffer[cut].reshape(ny + 1, period) for buffer in (self.source, self.result)]
+            convolution = EvenConvolution(ny, ny + 1, period, *views)
+            convolution.set_symbol(1 / influence.symbol(period, ny, dx * 2**l, dy * 2**l, kind))
+            self.levels.append(convolution)
+
+    def run(self):
+        """result = K^-1 source on every level."""
+        for convolution in self.levels:
+            convolution.run()
 
     def near(self, length=8):
-        """Pressure of a unit film change at distances 0..length-1 in its own row and the next; shape (2, length)."""
+        """Pressure of a unit film change at distances 0..length-1 in its own row and the next: (2 levels, length)."""
         self.source[:] = 0.0
-        self.source[0, 0] = 1.0
+        for convolution in self.levels:
+            convolution.source[0, 0] = 1.0
         self.run()
         self.source[:] = 0.0
-        out = np.zeros((2, length))
-        rows = self.result[:2, :length]
-        out[: rows.shape[0]] = rows
+        out = np.zeros((2 * len(self.levels), length))
+        for l, convolution in enumerate(self.levels):
+            rows = convolution.result[:2, :length]
+            out[2 * l : 2 * l + rows.shape[0]] = rows
         return out
