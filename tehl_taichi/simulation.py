@@ -51,7 +51,7 @@ def total_steps(scene):
     t, g = scene.time, scene.grid
     cell = (g.x_max - g.x_min) / g.nx
     steps = math.ceil((t.x_end - t.x_start) / (t.courant * cell) - 1e-9)
-    return steps if t.steps is None else min(steps, t.steps)
+    return min(steps, t.steps) if t.steps else steps
 
 
 def march(scene, state=None):

@@ -1,0 +1,24 @@
+"""Density over rho_0 (p = 0, 40 deg C), p in Pa, Gamma in deg C."""
+
+import taichi as ti
+
+
+@ti.pyfunc
+def compression(oil: ti.template(), p):
+    """1 + D1 p / (1 + D2 p) (Dowson & Higginson's form)."""
+    return 1 + oil.D1 * p / (1 + oil.D2 * p)
+
+
+@ti.pyfunc
+def expansion(oil: ti.template(), p, Gamma):
+    """1 - beta(p) (Gamma - 40), beta = beta0 exp(-beta_c p) (Larsson et al. 2000)."""
+    return 1 - oil.beta0 * ti.exp(-oil.beta_c * p) * (Gamma - 40)
+
+
+@ti.pyfunc
+def rho_ratio(oil: ti.template(), p, Gamma):
+    """rho / rho_0; the thermal factor acts when `oil.expansion` is "always"."""
+    out = compression(oil, p)
+    if ti.static(oil.expansion == "always"):
+        out = out * expansion(oil, p, Gamma)
+    return out

@@ -1,0 +1,30 @@
+"""Shear laws: the stress that a film bears for a given Newtonian stress eta * (shear rate), all in Pa."""
+
+import taichi as ti
+
+
+@ti.pyfunc
+def shear_limit(rheology: ti.template(), p):
+    """Limiting shear stress tau_L0 + gamma p."""
+    return rheology.tau_L0 + rheology.gamma * p
+
+
+@ti.pyfunc
+def shear_stress(rheology: ti.template(), newtonian, p):
+    """Stress by the chosen law.
+
+    limiting: shear rate = (tau/eta) (1 - (tau/tau_L)^2)^(-1/2), solved for tau; eyring: tau_0 asinh(newtonian/tau_0);
+    carreau: newtonian (1 + (newtonian/tau_0)^2)^((n-1)/2); newtonian: as it is.
+    """
+    out = newtonian
+    if ti.static(rheology.law == "limiting"):
+        r = newtonian / shear_limit(rheology, p)
+        out = newtonian / ti.sqrt(1 + r * r)
+    elif ti.static(rheology.law == "eyring"):
+        r = ti.abs(newtonian) / rheology.tau_0
+        sign = ti.select(newtonian < 0, -1.0, 1.0)
+        out = sign * rheology.tau_0 * ti.log(r + ti.sqrt(r * r + 1))
+    elif ti.static(rheology.law == "carreau"):
+        r = newtonian / rheology.tau_0
+        out = newtonian * ti.exp(0.5 * (rheology.carreau_n - 1) * ti.log(1 + r * r))
+    return out

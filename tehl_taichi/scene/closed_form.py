@@ -1,0 +1,67 @@
+"""Closed-form solutions: Hertz contacts and film-thickness formulas (SI unless said)."""
+
+import math
+
+import numpy as np
+
+
+def hertz_line(load, R, E):
+    """(half-width a, maximum pressure p_H) for load per length f (N/m), E' as in 2/E' = sum (1-nu^2)/E [Eq 1.6]."""
+    a = math.sqrt(8 * load * R / (math.pi * E))
+    return a, 2 * load / (math.pi * a)
+
+
+def hertz_line_load(p_H, R, E):
+    """Load per length that gives the maximum pressure p_H."""
+    return 2 * math.pi * R * p_H**2 / E
+
+
+def hertz_point(load, R, E):
+    """(radius a, maximum pressure p_H) of a circular contact, load in N (Johnson, section 4.2)."""
+    a = (3 * load * R / (2 * E)) ** (1 / 3)
+    return a, 3 * load / (2 * math.pi * a**2)
+
+
+def hertz_point_load(p_H, R, E):
+    """Load (N) that gives the maximum pressure p_H in a circular contact."""
+    return (2 * math.pi * p_H) ** 3 * R**2 / (12 * E**2)
+
+
+def hertz_pressure_point(r, a, p_H):
+    """Pressure at radius r of a circular Hertz contact."""
+    return p_H * np.sqrt(np.maximum(1 - (r / a) ** 2, 0.0))
+
+
+def dowson_higginson(G, U, W):
+    """H_c = h_c/R' of a line contact, 2.65 G^0.54 U^0.7 W^-0.13 [Eq 1.7]; U with eta0 u_m/(E' R')."""
+    return 2.65 * G**0.54 * U**0.7 * W**-0.13
+
+
+def hamrock_dowson(G, U, W, k=1.0):
+    """H_c = h_c/R_x of an elliptic contact, 2.69 U^0.67 G^0.53 W^-0.067 (1 - 0.61 exp(-0.73 k)) (1977)."""
+    return 2.69 * U**0.67 * G**0.53 * W**-0.067 * (1 - 0.61 * math.exp(-0.73 * k))
+
+
+def nijenbanning(M, L):
+    """Central film of a circular contact in Moes units, all regimes (Nijenbanning, Venner & Moes 1994, ratio 1)."""
+    H_RI, H_RP = 145 * 1.796 ** (-15 / 7) * M**-2.0, 1.29 * 1.691 ** (-2 / 3) * L ** (2 / 3)
+    H_EI, H_EP = 3.18 * 1.63 ** (-14 / 25) * M ** (-2 / 15), 1.48 * 1.63 ** (-7 / 20) * M ** (-1 / 12) * L**0.75
+    s = 1.5 * (1 + math.exp(-1.2 * H_EI / H_EP))
+    iso = (H_RI**1.5 + (H_EI**-4 + 1.8**-4) ** (-3 / 8)) ** (2 * s / 3)
+    return (iso + (H_RP**-8 + H_EP**-8) ** (-s / 8)) ** (1 / s)
+
+
+def moes_line(M, L):
+    """Film of a line contact in Moes units from the four asymptotes (Venner 1991, after Moes)."""
+    H_RI, H_RP = 3 / M, 1.287 * L ** (2 / 3)
+    H_EI, H_EP = 2.621 * M ** (-1 / 5), 1.311 * M ** (-1 / 8) * L**0.75
+    s = (7 + 8 * math.exp(-2 * H_EI / H_RI)) / 5
+    iso = (H_RI ** (7 / 3) + H_EI ** (7 / 3)) ** (3 * s / 7)
+    return (iso + (H_RP**-3.5 + H_EP**-3.5) ** (-2 * s / 7)) ** (1 / s)
+
+
+def moes_numbers(load, R, E, eta0, alpha, u_m, kind="line"):
+    """(M, L) with U = 2 eta0 u_m/(E' R')."""
+    U = 2 * eta0 * u_m / (E * R)
+    L = alpha * E * U**0.25
+    return (load / (E * R) * U**-0.5 if kind == "line" else load / (E * R**2) * U**-0.75), L

@@ -1,0 +1,191 @@
+"""The whole scene: its parts, the checks between them, changes, and the way to and from plain dictionaries."""
+
+import dataclasses
+from dataclasses import dataclass, field
+
+from tehl_taichi.scene import oil as oils
+from tehl_taichi.scene import scales
+from tehl_taichi.scene.checks import SceneError, build, nearest
+from tehl_taichi.scene.oil import Oil
+from tehl_taichi.scene.parts import (
+    Body, Contact, Fatigue, Feature, Grid, Numerics, Operation, Output, Rheology, Thermal, Time,
+)
+
+SECTIONS = {"contact": Contact, "operation": Operation, "rheology": Rheology, "thermal": Thermal, "fatigue": Fatigue,
+            "grid": Grid, "time": Time, "numerics": Numerics, "output": Output}
+SHORT = {"srr": "operation.srr", "load": "contact.load", "hertz_pressure": "contact.hertz_pressure",
+         "speed": "operation.u_m", "temperature": "operation.temperature", "height": "feature.height",
+         "width": "feature.width", "kappa": "fatigue.kappa", "endurance": "fatigue.endurance"}
+MAX_HERTZ, MIN_HERTZ = 6e9, 1e7  # Pa: outside this range the laws say nothing
+
+
+@dataclass(frozen=True)
+class Scene:
+    """One contact, its bodies, oil and motion, and how it is computed. Raises SceneError when the parts do not fit."""
+
+    name: str = "gear"
+    contact: Contact = field(default_factory=lambda: Contact(load=1.1e6))
+    body_a: Body = Body()
+    body_b: Body = Body()
+    operation: Operation = Operation()
+    oil: Oil = Oil()
+    rheology: Rheology = Rheology()
+    features: tuple = (Feature(),)
+    thermal: Thermal = Thermal()
+    fatigue: Fatigue = Fatigue()
+    grid: Grid = Grid()
+    time: Time = Time()
+    numerics: Numerics = Numerics()
+    output: Output = Output()
+
+    def __post_init__(self):
+        if self.contact.moes_M > 0:
+            speed = dataclasses.replace(self.operation, u_m=scales.moes_speed(self))
+            object.__setattr__(self, "operation", speed)
+        self._check_pressure()
+        self._check_motion()
+
+    def _check_pressure(self):
+        p_H = scales.Scales.of(self).p_H
+        if not MIN_HERTZ <= p_H <= MAX_HERTZ:
+            raise SceneError(f"the load gives a Hertz pressure of {p_H:.3g} Pa; allowed: {MIN_HERTZ:.0e} to "
+                             f"{MAX_HERTZ:.0e} Pa")
+
+    def _check_motion(self):
+        if self.transient and self.operation.u_a < 1e-3 * self.operation.u_m:
+            raise SceneError(f"operation.srr = {self.operation.srr:g} leaves surface a, which carries the feature, at "
+                             f"{self.operation.u_a:g} m/s: it never passes; allowed with a feature: srr > -1.998, or use "
+                             "--steady")
+
+    @property
+    def load(self):
+        """N/m (line) or N (point), however the contact was described."""
+        return scales.load_of(self)
+
+    @property
+    def transient(self):
+        """True when a feature passes."""
+        return bool(self.features) and not self.time.steady_only
+
+    @property
+    def one_dimensional(self):
+        """True for a smooth or steady line contact."""
+        return self.contact.kind == "line" and not self.transient
+
+    @property
+    def isothermal(self):
+        return not self.thermal.on
+
+    def left_out(self):
+        """What this scene does not need and therefore does not compute, each with its reason."""
+        out = ["energy equation and temperatures (isothermal film)"]
+        if self.oil.expansion == "thermal" and self.oil.beta0 > 0:
+            out.append("thermal expansion of the oil (isothermal film; oil.expansion = 'always' keeps it)")
+        if self.one_dimensional:
+            out.append("y direction (nothing varies across a smooth line contact)")
+        else:
+            out.append("half of the domain (symmetric in y)")
+        if not self.transient:
+            out.append("march in time (steady)" if self.features else "march in time (no feature)")
+        if not self.fatigue_wanted:
+            out.append("stresses and fatigue (" + ("switched off" if not self.fatigue.on else "no passage") + ")")
+        if self.operation.u_s == 0:
+            out.append("sliding friction (SRR = 0)")
+        return out
+
+    @property
+    def fatigue_wanted(self):
+        """Fatigue needs a passage: the stress history of material points."""
+        return self.fatigue.on and self.transient
+
+    def replace(self, **changes):
+        """A changed copy. Keys: srr, load, hertz_pressure, speed, temperature, height, width, kappa, endurance, name,
+        or dotted ("grid.nx"; "feature.height" is the first feature, "feature.1.height" the second). Raises SceneError.
+        """
+        data = self.to_dict()
+        for key, value in changes.items():
+            _assign(data, SHORT.get(key, key), value)
+        return Scene.from_dict(data)
+
+    def to_dict(self):
+        """Plain nested dictionary with every value, defaults included; the sections of a scene file."""
+        data = {"name": self.name}
+        for key in SECTIONS:
+            data[key] = dataclasses.asdict(getattr(self, key))
+        data["bodies"] = {"a": dataclasses.asdict(self.body_a), "b": dataclasses.asdict(self.body_b)}
+        data["oil"] = dataclasses.asdict(self.oil)
+        data["feature"] = [dataclasses.asdict(f) for f in self.features]
+        return data
+
+    @classmethod
+    def from_dict(cls, data):
+        """Scene from such a dictionary; missing values take their defaults, unknown keys are refused."""
+        data = dict(data)
+        known = {"name", "bodies", "oil", "feature", *SECTIONS}
+        for key in data:
+            if key not in known:
+                raise SceneError(f"unknown section or key {key!r}{nearest(key, known)}; known: {', '.join(sorted(known))}")
+        parts = {key: build(kind, data[key], key) for key, kind in SECTIONS.items() if key in data and key != "operation"}
+        if "operation" in data:
+            parts["operation"] = build(Operation, _speeds(data["operation"]), "operation")
+        parts.update(_bodies(data.get("bodies", {})))
+        if "oil" in data:
+            parts["oil"] = oils.from_values(data["oil"])
+        if "feature" in data:
+            parts["features"] = _features(data["feature"])
+        return cls(name=str(data.get("name", "gear")), **parts)
+
+
+def _speeds(values):
+    """u_a, u_b (m/s) in place of u_m and srr."""
+    values = dict(values)
+    if "u_a" in values or "u_b" in values:
+        if not {"u_a", "u_b"} <= values.keys() or values.keys() & {"u_m", "srr"}:
+            raise SceneError("operation takes u_a and u_b together, or u_m and srr")
+        u_a, u_b = float(values.pop("u_a")), float(values.pop("u_b"))
+        u_m = 0.5 * (u_a + u_b)
+        if not abs(u_m) > 0:
+            raise SceneError(f"operation.u_a = {u_a:g} m/s and u_b = {u_b:g} m/s give no entrainment (mean speed 0): "
+                             "there is no film and SRR has no meaning")
+        values.update(u_m=u_m, srr=(u_a - u_b) / u_m)
+    return values
+
+
+def _bodies(values):
+    if not isinstance(values, dict) or set(values) - {"a", "b"}:
+        raise SceneError(f"[bodies] has the tables [bodies.a] and [bodies.b] only, not {', '.join(map(str, values))}")
+    return {f"body_{key}": build(Body, value, f"bodies.{key}") for key, value in values.items()}
+
+
+def _features(values):
+    if not isinstance(values, (list, tuple)):
+        raise SceneError("features are written as [[feature]] tables")
+    return tuple(build(Feature, value, "feature") for value in values)
+
+
+def _assign(data, dotted, value):
+    """Set the dotted key in the nested dictionary; keys that exclude each other are cleared."""
+    *path, last = dotted.split(".")
+    target = data
+    if path and path[0] == "feature":
+        index = int(path[1]) if len(path) > 1 and path[1].isdigit() else 0
+        if index >= len(data["feature"]):
+            raise SceneError(f"{dotted}: scene {data['name']!r} has {len(data['feature'])} features")
+        target, path = data["feature"][index], []
+    for key in path:
+        if not isinstance(target, dict) or key not in target:
+            raise SceneError(f"unknown key {dotted}{nearest(key, target)}")
+        target = target[key]
+    if last not in target:
+        target_keys = list(target)
+        if not path and "." not in dotted:
+            target_keys += list(SHORT)
+        raise SceneError(f"unknown key {dotted}{nearest(last, target_keys)}; known: {', '.join(map(str, target_keys))}")
+    if target is data.get("contact") and last in ("load", "hertz_pressure"):
+        target.update(load=0.0, hertz_pressure=0.0, moes_M=0.0, moes_L=0.0)
+    if dotted == "oil.name" and value in oils.OILS:
+        data["oil"] = dataclasses.asdict(oils.OILS[value])
+    else:
+        target[last] = value
+
+
