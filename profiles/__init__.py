@@ -1,0 +1,1 @@
+"""Scene profiles and the profiling and benchmark suites that use them."""

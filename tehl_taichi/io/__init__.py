@@ -1,0 +1,1 @@
+"""Scene files, stores, summaries and figures."""

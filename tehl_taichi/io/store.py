@@ -1,0 +1,230 @@
+"""The result store: one zarr v3 group that xarray opens as it is, written step by step.
+
+Arrays are laid out for the whole run at once; what a reader sees is the consolidated metadata in the group's own
+`zarr.json`, whose shapes end at the last complete step. That one file is replaced atomically after all chunks of a step
+and its checkpoint are written, so a step becomes visible as a whole, and a killed run leaves a store that opens.
+"""
+
+import json
+import os
+import shutil
+from pathlib import Path
+
+import numpy as np
+import zarr
+
+from tehl_taichi.io import scene_file
+from tehl_taichi.scene import Scene
+
+FIELDS = {
+    "pressure": ("f4", "Pa", "film pressure"), "film": ("f4", "m", "film thickness"),
+    "contact": ("u1", "1", "solid contact (1 where the surfaces touch)"),
+    "traction_x_a": ("f4", "Pa", "shear traction on body a along x"),
+    "traction_y_a": ("f4", "Pa", "shear traction on body a along y"),
+    "traction_x_b": ("f4", "Pa", "shear traction on body b along x"),
+    "traction_y_b": ("f4", "Pa", "shear traction on body b along y"),
+}
+SCALARS = {
+    "feature_x": ("m", "centre of the first feature"), "h0_m": ("m", "rigid approach"),
+    "p_max_Pa": ("Pa", "largest pressure"), "h_min_m": ("m", "smallest film"), "h_c_m": ("m", "film at x = 0, far edge"),
+    "load_error": ("1", "relative load error"), "mass_error": ("1", "net mass defect over the Couette flux"),
+    "residual": ("1", "rms residual of the discrete equations"), "newton": ("1", "Newton steps"),
+    "cycles": ("1", "Krylov iterations"), "rejected": ("1", "rejected attempts"), "dt_s": ("s", "time step"),
+    "wall_s": ("s", "run time of the step"), "contact_load_fraction": ("1", "load carried by solid contact"),
+    "friction_coefficient": ("1", "friction coefficient"),
+}
+
+
+class StoreError(Exception):
+    """The store cannot be used as asked; one sentence says why."""
+
+
+class Store:
+    """One run on disk. Create with :meth:`create`, read or continue with :meth:`open`."""
+
+    def __init__(self, path):
+        self.path = Path(path)
+        self.root = json.loads((self.path / "zarr.json").read_text())
+        self.attrs = self.root["attributes"]
+        self.steps = int(self.attrs["steps"])
+        self.scene = Scene.from_dict(json.loads(self.attrs["scene"]))
+        self.group = zarr.open_group(str(self.path), mode="r+", use_consolidated=False)
+        self.arrays = {name: self.group[name] for name in FIELDS}
+        self.series = {name: self.group[name][:] for name in [*SCALARS, "step", "time"]}
+
+    @classmethod
+    def create(cls, path, scene, snapshot, capacity, attrs=None):
+        """New store on the grid of `snapshot`, which becomes its first entry; room for `capacity` entries.
+
+        Raises StoreError if `path` exists or cannot be written.
+        """
+        path = Path(path)
+        check_free(path)
+        group = zarr.open_group(str(path), mode="w", zarr_format=3)
+        _coordinates(group, snapshot)
+        _series(group, capacity, snapshot.x.size, snapshot.y.size)
+        (path / CHECKPOINTS).mkdir()
+        _publish(path, {"Conventions": "CF-1.10", "scene": json.dumps(scene.to_dict()),
+                        "scene_toml": scene_file.dumps(scene), **(attrs or {}), "steps": 0, "finished": False})
+        store = cls(path)
+        store.append(snapshot)
+        return store
+
+    @classmethod
+    def open(cls, path):
+        """Existing store. Raises StoreError if `path` is none."""
+        path = Path(path)
+        try:
+            if "scene" not in json.loads((path / "zarr.json").read_text())["attributes"]:
+                raise KeyError
+        except (OSError, ValueError, KeyError):
+            raise StoreError(f"{path} is not a store of tehl run") from None
+        return cls(path)
+
+    def __len__(self):
+        return self.steps
+
+    @property
+    def finished(self):
+        return bool(self.attrs["finished"])
+
+    @property
+    def summary(self):
+        """The summary of a finished run, or {}."""
+        return json.loads(self.attrs.get("summary", "{}"))
+
+    @property
+    def x(self):
+        return self.group["x"][:]
+
+    @property
+    def y(self):
+        return self.group["y"][:]
+
+    @property
+    def time(self):
+        return self.series["time"][: self.steps]
+
+    def scalar(self, name):
+        """Values of one scalar series, one per stored entry."""
+        return self.series[name][: self.steps]
+
+    def feature_x(self, n):
+        """Centre of the first feature (m) at entry n."""
+        return float(self.series["feature_x"][n])
+
+    def fields(self, n, names=tuple(FIELDS)):
+        """{name: (nx+1, ny+1) array} of entry n."""
+        return {name: self.group[name][n] for name in names}
+
+    def map(self, name):
+        """One of the maps that :meth:`finish` stored, or None."""
+        return self.group[name][:] if name in self.group else None
+
+    def append(self, snapshot):
+        """Write one snapshot and its checkpoint, then make it visible."""
+        n = self.steps
+        for name, array in self.arrays.items():
+            array[n] = snapshot.fields[name]
+        values = {**snapshot.scalars, "feature_x": snapshot.feature_x, "step": snapshot.step, "time": snapshot.time}
+        for name, series in self.series.items():
+            series[n] = values[name]
+            _write_chunk(self.path / name / "c" / "0", series)
+        self._checkpoint(snapshot.state, n + 1)
+        self._commit(steps=n + 1)
+        (self.path / CHECKPOINTS / f"{n}.npz").unlink(missing_ok=True)
+
+    def _commit(self, **attrs):
+        self.attrs.update(attrs)
+        self.steps = int(self.attrs["steps"])
+        _publish(self.path, self.attrs)
+
+    def _checkpoint(self, state, number):
+        target = self.path / CHECKPOINTS / f"{number}.npz"
+        temporary = target.with_suffix(".tmp")
+        with open(temporary, "wb") as file:
+            np.savez(file, **{key: value for key, value in state.items() if value is not None})
+        os.replace(temporary, target)
+
+    def last_state(self):
+        """The state of the last committed step, for :func:`tehl_taichi.simulation.march`."""
+        with np.load(self.path / CHECKPOINTS / f"{self.steps}.npz") as saved:
+            return {key: saved[key] for key in saved.files}
+
+    def finish(self, summary, maps=None):
+        """Store the summary (and maps {name: (values, dims, units, text)}) and mark the run as finished."""
+        for name, (values, dims, units, text) in (maps or {}).items():
+            if name in self.group:
+                del self.group[name]
+            values = np.asarray(values, "f8")
+            _array(self.group, name, values.shape, values.shape, "f8", dims, units, text, float("nan"))[...] = values
+        self._commit(summary=json.dumps(summary), finished=True)
+
+
+CHECKPOINTS = ".checkpoints"
+
+
+def check_free(path):
+    """Raise StoreError unless a new store can be made at `path`."""
+    path = Path(path)
+    if path.exists():
+        raise StoreError(f"{path} exists already; choose another --out, or --force to replace it")
+    parent = path.absolute().parent
+    while not parent.exists():
+        parent = parent.parent
+    if not parent.is_dir() or not os.access(parent, os.W_OK):
+        raise StoreError(f"cannot write to {parent}: no permission, or not a folder")
+    free = shutil.disk_usage(parent).free
+    if free < ROOM:
+        raise StoreError(f"{parent} has only {free / 1e6:.0f} MB left; a run needs at least {ROOM / 1e6:.0f} MB")
+
+
+ROOM = 50e6  # bytes
+
+
+def _write_chunk(path, values):
+    """The one chunk of an uncompressed series: plain little-endian numbers (zarr v3's bytes codec), replaced as a whole.
+
+    The same write through the library costs 5 ms, times 17 series a step.
+    """
+    path.parent.mkdir(parents=True, exist_ok=True)
+    temporary = path.with_suffix(".tmp")
+    temporary.write_bytes(values.astype(values.dtype.newbyteorder("<"), copy=False).tobytes())
+    os.replace(temporary, path)
+
+
+def _publish(path, attrs):
+    """Replace the group's metadata: attributes, and every array with its time axis cut at attrs['steps']."""
+    arrays = {file.parent.name: json.loads(file.read_text()) for file in sorted(path.glob("*/zarr.json"))}
+    for array in arrays.values():
+        if array["dimension_names"][0] == "time":
+            array["shape"][0] = attrs["steps"]
+    root = {"zarr_format": 3, "node_type": "group", "attributes": attrs,
+            "consolidated_metadata": {"kind": "inline", "must_understand": False, "metadata": arrays}}
+    temporary = path / "zarr.json.tmp"
+    temporary.write_text(json.dumps(root))
+    os.replace(temporary, path / "zarr.json")
+
+
+def _array(group, name, shape, chunks, dtype, dims, units, long_name, fill, **options):
+    array = group.create_array(name, shape=shape, chunks=chunks, dtype=dtype, dimension_names=dims, fill_value=fill,
+                               **options)
+    array.attrs.update({"units": units, "long_name": long_name})
+    return array
+
+
+def _coordinates(group, snapshot):
+    for name, values, text in (("x", snapshot.x, "along rolling"), ("y", snapshot.y, "across, half domain")):
+        array = _array(group, name, values.shape, values.shape, "f8", [name], "m", text, 0.0)
+        array[:] = values
+
+
+def _series(group, capacity, nx, ny):
+    for name, (dtype, units, text) in FIELDS.items():
+        fill = 0 if dtype == "u1" else float("nan")
+        _array(group, name, (capacity, nx, ny), (1, nx, ny), dtype, ["time", "x", "y"], units, text, fill)
+    for name, (units, text) in SCALARS.items():
+        _array(group, name, (capacity,), (capacity,), "f8", ["time"], units, text, float("nan"), compressors=None)
+    _array(group, "step", (capacity,), (capacity,), "i8", ["time"], "1", "step number", -1, compressors=None)
+    _array(group, "time", (capacity,), (capacity,), "f8", ["time"], "s", "time since the steady start", float("nan"),
+           compressors=None)
