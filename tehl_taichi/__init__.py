@@ -14,6 +14,9 @@ os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
 # the products here are small: threaded BLAS only costs (and stalls on a busy machine)
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
+# its banner would go to stdout, which belongs to `--json`
+os.environ.setdefault("ENABLE_TAICHI_HEADER_PRINT", "0")
+
 __version__ = "0.1.0"
 __all__ = ["__version__", "march", "scene", "simulate"]
 

@@ -1,0 +1,1 @@
+"""What reads snapshots only: surface stresses and fatigue."""

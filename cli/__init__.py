@@ -1,0 +1,1 @@
+"""The `tehl` command. No formula lives here."""

@@ -1,0 +1,96 @@
+"""Commands that look: scenes, oils, new, show, plot, doctor."""
+
+from pathlib import Path
+
+import typer
+
+from tehl_cli.live import say
+
+
+def register(app):
+    """Add the commands to the app."""
+    for command in (scenes, oils, new, show, plot, doctor):
+        app.command()(command)
+
+
+def scenes():
+    """List the built-in scenes."""
+    from tehl_cli.tables import list_table
+    from tehl_taichi.scene import BUILT_INS
+
+    list_table("built-in scenes (tehl run NAME)", ("name", "what"), [(name, text) for name, (_, text) in BUILT_INS.items()])
+
+
+def oils():
+    """List the named oils with their sources."""
+    from tehl_cli.tables import list_table
+    from tehl_taichi.scene.oil import OILS
+
+    list_table("named oils (--set oil.name=NAME)", ("name", "viscosity law", "source"),
+               [(oil.name, oil.viscosity, oil.source) for oil in OILS.values()])
+
+
+def new(
+    file: Path = typer.Argument(..., help="scene file to write, as my.toml"),
+    base: str = typer.Option("gear", help="built-in scene to start from"),
+):
+    """Write a commented scene file with every value. Example: `tehl new my.toml`"""
+    from tehl_taichi.io import scene_file
+    from tehl_taichi.scene import SceneError, scene
+
+    if file.exists():
+        raise SceneError(f"{file} exists already; choose another name")
+    if not file.absolute().parent.is_dir():
+        raise SceneError(f"{file.absolute().parent} is not a folder")
+    file.write_text(scene_file.dumps(scene(base).replace(name=file.stem)))
+    print(f"wrote {file}; run it with: tehl run {file}")
+
+
+def show(store: Path = typer.Argument(..., help="store of a finished, running or broken run")):
+    """Summary and residual history of a run."""
+    from tehl_cli.tables import list_table, summary_table
+    from tehl_taichi.io.store import Store
+
+    saved = Store.open(store)
+    state = "finished" if saved.finished else f"not finished; go on with: tehl resume {store}"
+    print(f"{store}: scene {saved.scene.name}, {saved.steps} entries, {state}")
+    if saved.summary:
+        summary_table(saved.summary)
+    names = ("step", "residual", "load_error", "mass_error", "newton", "cycles", "p_max_Pa", "h_min_m")
+    shown = sorted({*range(0, saved.steps, max(saved.steps // 20, 1)), saved.steps - 1})
+    list_table("history", names, [[f"{float(saved.scalar(name)[n]):.4g}" for name in names] for n in shown])
+
+
+def plot(store: Path = typer.Argument(..., help="store of a run"),
+         out: Path = typer.Option(None, help="folder for the figures (default: beside the store)")):
+    """PNG figures: centreline pressure and film, maps, fatigue."""
+    from tehl_taichi.io import figures
+    from tehl_taichi.io.store import Store
+
+    for path in figures.write_all(Store.open(store), out or store.with_suffix("")):
+        print(path)
+
+
+def doctor():
+    """Versions, threads, cache and a short self-test."""
+    import importlib.metadata
+    import os
+    import time
+
+    from tehl_cli.tables import list_table
+    from tehl_taichi import __version__, runtime
+    from tehl_taichi.scene import scene
+
+    info = runtime.start()
+    names = ("numpy", "pyfftw", "zarr", "rich", "typer")
+    rows = [("tehl_taichi", __version__), *((name, importlib.metadata.version(name)) for name in names)]
+    rows += [(key, str(value)) for key, value in info.items()] + [("cores", str(os.cpu_count()))]
+    list_table("this installation", ("what", "value"), rows)
+    from tehl_taichi.simulation import march
+
+    started = time.perf_counter()
+    film = next(march(scene("smooth-line").replace(**{"grid.nx": 128}))).scalars["h_c_m"]
+    good = 0.42e-6 < film < 0.45e-6
+    say(f"self-test: steady film of smooth-line {film * 1e6:.4f} um in {time.perf_counter() - started:.1f} s: "
+        f"{'good' if good else 'WRONG, expected 0.43 um'}")
+    raise typer.Exit(0 if good else 1)

@@ -1,0 +1,39 @@
+"""Entry point: the commands, and one place that turns errors into a sentence and an exit code."""
+
+import sys
+
+import typer
+
+from tehl_cli import inspect, runs
+from tehl_cli.errors import BAD_INPUT, FAILED, INTERRUPTED, NOT_CONVERGED, Interrupted
+
+app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False, rich_markup_mode="rich",
+                  help="Lubricated contacts with surface features: film, pressure, stresses, fatigue.\n\n"
+                       "Example: tehl run --srr -0.12")
+runs.register(app)
+inspect.register(app)
+
+
+def main():
+    """Run the command line; exit codes: 0 done, 2 bad input, 3 not converged, 4 interrupted, 1 anything else."""
+    debug = "--debug" in sys.argv
+    if debug:
+        sys.argv.remove("--debug")
+    try:
+        app()
+    except Exception as error:  # noqa: BLE001  every failure ends in one sentence
+        if debug:
+            raise
+        print(f"tehl: {error or type(error).__name__}", file=sys.stderr)
+        sys.exit(_code(error))
+    except KeyboardInterrupt:
+        print("tehl: interrupted before anything was stored", file=sys.stderr)
+        sys.exit(INTERRUPTED)
+
+
+def _code(error):
+    if isinstance(error, Interrupted):
+        return INTERRUPTED
+    if type(error).__name__ == "NotConverged":
+        return NOT_CONVERGED
+    return BAD_INPUT if type(error).__name__ in ("SceneError", "StoreError", "RuntimeUnavailable") else FAILED

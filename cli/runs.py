@@ -1,0 +1,219 @@
+"""`tehl run` and `tehl resume`."""
+
+import json
+import shutil
+import sys
+import time
+from pathlib import Path
+from typing import List, Optional
+
+import typer
+
+from tehl_cli.errors import Interrupted
+from tehl_cli.live import Live, say
+
+GRIDS = {"coarse": (128, 32), "medium": (256, 64), "fine": (512, 128)}
+
+
+def register(app):
+    """Add the commands to the app."""
+    app.command()(run)
+    app.command()(resume)
+
+
+def run(
+    scene: str = typer.Argument("gear", help="built-in name (see `tehl scenes`), TOML file, or a store to repeat"),
+    srr: Optional[float] = typer.Option(None, help="slip over mean speed, (u_a - u_b)/u_m; negative: dedendum"),
+    load: Optional[float] = typer.Option(None, help="N/m (line) or N (point)"),
+    hertz_pressure: Optional[float] = typer.Option(None, help="Pa, instead of a load"),
+    speed: Optional[float] = typer.Option(None, help="mean speed u_m, m/s"),
+    temperature: Optional[float] = typer.Option(None, help="inlet temperature, deg C"),
+    height: Optional[float] = typer.Option(None, help="feature height, m (negative: dent)"),
+    width: Optional[float] = typer.Option(None, help="feature width, m"),
+    set_: Optional[List[str]] = typer.Option(None, "--set", help="dotted.key=value, repeatable"),
+    grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY (cells or nodes)"),
+    steady: bool = typer.Option(False, "--steady", help="no march in time"),
+    thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="energy equation on or off"),
+    fatigue: Optional[bool] = typer.Option(None, "--fatigue/--no-fatigue", help="stresses and Findley index"),
+    kappa: Optional[float] = typer.Option(None, help="Findley's kappa_F"),
+    endurance: Optional[float] = typer.Option(None, help="Findley's endurance limit sigma_eF, Pa"),
+    steps: Optional[int] = typer.Option(None, help="stop after this many time steps"),
+    out: Optional[Path] = typer.Option(None, help="store to write (default: runs/SCENE-N.zarr)"),
+    force: bool = typer.Option(False, "--force", help="replace an existing store"),
+    arch: str = typer.Option("cpu", help="cpu"),
+    threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
+    precision: str = typer.Option("f64", help="f64"),
+    as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout, everything else on stderr"),
+    quiet: bool = typer.Option(False, "--quiet", help="no progress"),
+):
+    """Steady start, the feature passes, stresses, fatigue; streamed to a store.
+
+    Examples: `tehl run --srr -0.12` · `tehl run dent --grid coarse` · `tehl run my.toml --set feature.height=1e-6`
+    """
+    started = time.perf_counter()
+    from tehl_taichi.io import scene_file
+    from tehl_taichi.io.store import check_free
+
+    changes = {"srr": srr, "load": load, "hertz_pressure": hertz_pressure, "speed": speed, "temperature": temperature,
+               "height": height, "width": width, "kappa": kappa, "endurance": endurance, "thermal.on": thermal,
+               "fatigue.on": fatigue, "time.steps": steps, "time.steady_only": True if steady else None}
+    changes = {key: value for key, value in changes.items() if value is not None}
+    changes.update(_grid(grid))
+    changes.update(_settings(set_ or []))
+    description = scene_file.find(scene)
+    description = description.replace(**changes) if changes else description
+    _check_threads(threads)
+    path = out or _fresh(description.name)
+    if not (force and _is_store(path)):
+        check_free(path)
+    _start(arch, threads, precision)
+    _simulate(description, path, started, as_json, quiet, force)
+
+
+def resume(
+    store: Path = typer.Argument(..., help="store of an interrupted run"),
+    threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
+    as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout"),
+    quiet: bool = typer.Option(False, "--quiet", help="no progress"),
+):
+    """Go on from the last committed step. Example: `tehl resume runs/gear-1.zarr`"""
+    started = time.perf_counter()
+    from tehl_taichi.io.store import Store
+
+    saved = Store.open(store)
+    if saved.finished:
+        say(f"{store} is finished ({saved.steps} entries); `tehl show {store}` prints its summary")
+        if as_json:
+            print(json.dumps(saved.summary))
+        return
+    _check_threads(threads)
+    _start("cpu", threads, "f64")
+    _go(saved, started, as_json, quiet, json.loads(saved.attrs["steady_error"]), 0.0)
+
+
+def _start(arch, threads, precision):
+    from tehl_taichi import runtime
+
+    return runtime.start(arch, threads, precision)
+
+
+def _simulate(description, path, started, as_json, quiet, force):
+    from tehl_taichi.io.store import Store
+    from tehl_taichi.simulation import march, total_steps
+
+    for line in description.left_out():
+        if not quiet:
+            say(f"left out: {line}")
+    first = next(march(description))
+    compile_s = max(time.perf_counter() - started - first.scalars["wall_s"], 0.0)
+    if path.exists() and force:
+        shutil.rmtree(path)
+    attrs = {"command": " ".join(sys.argv), "steady_error": json.dumps(first.error), **_machine()}
+    saved = Store.create(path, description, first, total_steps(description) + 1, attrs)
+    _go(saved, started, as_json, quiet, first.error, compile_s)
+
+
+def _go(saved, started, as_json, quiet, steady_error, compile_s):
+    from tehl_taichi.io.summary import summarise
+
+    try:
+        _march(saved, quiet)
+        fatigue, maps = _fatigue(saved, quiet)
+    except KeyboardInterrupt:
+        raise Interrupted(f"interrupted after {saved.steps - 1} steps; go on with: tehl resume {saved.path}") from None
+    extra = {"wall_s": time.perf_counter() - started, "compile_s": compile_s, "steady_error": steady_error}
+    summary = summarise(saved, extra, fatigue)
+    saved.finish(summary, maps)
+    print(json.dumps(_plain(summary))) if as_json else _print(summary)
+
+
+def _march(saved, quiet):
+    from tehl_taichi.simulation import march, total_steps
+
+    with Live(total_steps(saved.scene), saved.steps - 1, quiet) as live:
+        for snapshot in march(saved.scene, saved.last_state()):
+            saved.append(snapshot)
+            live.step(snapshot)
+
+
+def _fatigue(saved, quiet):
+    if not saved.scene.fatigue_wanted or saved.steps < 3:
+        return None, None
+    from tehl_taichi.post import fatigue
+
+    if not quiet:
+        say("stresses and Findley search")
+    result = fatigue.run(saved.scene, saved)
+    return result.summary, result.maps
+
+
+def _grid(text):
+    if text is None:
+        return {}
+    from tehl_taichi.scene import SceneError
+
+    if text in GRIDS:
+        nx, ny = GRIDS[text]
+    else:
+        try:
+            nx, ny = (int(part) // 2 * 2 for part in text.lower().split("x"))
+        except ValueError:
+            raise SceneError(f"--grid {text!r} is not known; allowed: {', '.join(GRIDS)} or NXxNY, as in 256x64") from None
+    return {"grid.nx": nx, "grid.ny": ny}
+
+
+def _settings(pairs):
+    import tomllib
+
+    from tehl_taichi.scene import SceneError
+
+    out = {}
+    for pair in pairs:
+        key, equals, text = pair.partition("=")
+        if not equals:
+            raise SceneError(f"--set {pair!r} must look like dotted.key=value, as in feature.height=1e-6")
+        try:
+            out[key.strip()] = tomllib.loads(f"v = {text}")["v"]
+        except tomllib.TOMLDecodeError:
+            out[key.strip()] = text
+    return out
+
+
+def _check_threads(threads):
+    from tehl_taichi.scene import SceneError
+
+    if threads is not None and not 1 <= threads <= 1024:
+        raise SceneError(f"--threads {threads} is out of range; allowed: 1 to 1024")
+
+
+def _is_store(path):
+    return (path / "zarr.json").exists()
+
+
+def _fresh(name):
+    number = 1
+    while (path := Path("runs") / f"{name}-{number}.zarr").exists():
+        number += 1
+    return path
+
+
+def _machine():
+    import platform
+
+    from tehl_taichi import __version__, runtime
+
+    return {"version": __version__, "machine": platform.platform(), "python": platform.python_version(),
+            "runtime": json.dumps(runtime.ensure())}
+
+
+def _plain(value):
+    """JSON has no NaN: null instead."""
+    if isinstance(value, dict):
+        return {key: _plain(v) for key, v in value.items()}
+    return None if isinstance(value, float) and value != value else value
+
+
+def _print(summary):
+    from tehl_cli.tables import summary_table
+
+    summary_table(summary)

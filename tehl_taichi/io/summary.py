@@ -1,0 +1,47 @@
+"""The summary of a run, assembled from its store: the JSON object of `tehl run --json` (SI units in the names)."""
+
+import numpy as np
+
+from tehl_taichi import __version__
+from tehl_taichi.scene.scales import Scales
+
+
+def summarise(store, extra, fatigue=None):
+    """Summary dictionary. extra: wall_s, compile_s and steady_error; fatigue: its own dictionary or None."""
+    scene = store.scene
+    scales = Scales.of(scene)
+    out = {"scene": scene.name, "version": __version__, "store": str(store.path), "converged": True,
+           "wall_s": extra["wall_s"], "compile_s": extra["compile_s"], "steps": int(store.series["step"][len(store) - 1]),
+           "grid": {"nx": store.x.size, "ny": store.y.size, "nz": 1},
+           "hertz": {"a_m": scales.a, "p_Pa": scales.p_H}, "left_out": scene.left_out(),
+           "steady": _steady(store, extra["steady_error"])}
+    if len(store) > 1:
+        out["transient"] = _transient(store)
+    if fatigue:
+        out["fatigue"] = fatigue
+    out["work"] = _work(store)
+    out["clamps"] = {}
+    return out
+
+
+def _steady(store, error):
+    names = ("h_c_m", "h_min_m", "p_max_Pa", "load_error", "mass_error", "friction_coefficient")
+    out = {name: float(store.scalar(name)[0]) for name in names}
+    out["error"] = error
+    return out
+
+
+def _transient(store):
+    def largest(name):
+        return float(np.max(store.scalar(name)[1:]))
+
+    return {"p_max_Pa": largest("p_max_Pa"), "h_min_m": float(np.min(store.scalar("h_min_m")[1:])),
+            "contact_load_fraction_max": largest("contact_load_fraction"), "load_error_max": largest("load_error"),
+            "mass_error_max": largest("mass_error"), "residual_max": largest("residual"), "dt_s": largest("dt_s"),
+            "friction_coefficient_mean": float(np.mean(store.scalar("friction_coefficient")[1:]))}
+
+
+def _work(store):
+    cycles = store.scalar("cycles")
+    return {"pressure_cycles": int(cycles.sum()), "cycles_per_step_max": int(cycles[1:].max()) if len(store) > 1 else 0,
+            "newton_steps": int(store.scalar("newton").sum()), "rejected_steps": int(store.scalar("rejected").sum())}
