@@ -1,149 +1,201 @@
-"""Findley search: for every material point the plane with the largest tau_amp + kappa sigma_n,max over its history.
+"""Findley's critical plane for many points at once: max over planes of tau_amp + kappa * sigma_n,max.
 
-tau_amp = radius of the smallest circle around the path of the shear vector on the plane, exact, by pivoting: start from
-the farthest pair seen, add the farthest point outside until none is left (3 to 4 passes a plane).
+tau_amp is the radius of the smallest circle around the path of the shear vector on the plane (exact, by pivoting).
+One point per parallel iteration, everything inside serial, so results do not depend on the number of threads.
 """
 
 import taichi as ti
 
-History = ti.types.ndarray(dtype=ti.f64, ndim=3)
-Table = ti.types.ndarray(dtype=ti.f64, ndim=2)
+SHRINKS = 12  # halvings of the step, 5 degrees -> 2e-5 rad: error of the maximum about 1e-9 (quadratic in the step)
+MOVES = 24    # moves at one step length at most
+PIVOTS = 60   # farthest points added to a circle at most (about 4 are usual)
+INSIDE = 1e-12
 
-PASSES = 60  # far above the 3 to 4 that occur; bounds the loop for any input
-INSIDE = 1 + 1e-12  # a point this close to the circle counts as inside (f64)
-LAST_STEP = 1e-5  # rad, end of the refinement; the error is of second order in it
-
-
-@ti.func
-def normal(theta, phi):
-    return ti.Vector([ti.sin(theta) * ti.cos(phi), ti.sin(theta) * ti.sin(phi), ti.cos(theta)])
+vec3 = ti.types.vector(3, ti.f64)
 
 
 @ti.func
-def through_three(ax, ay, bx, by, cx, cy):
-    """Centre and squared radius of the circle through three points (squared radius -1: on a line)."""
+def circle2(ax, ay, bx, by):
+    """Circle (centre x, y, squared radius) with the diameter a-b."""
+    ux, uy = 0.5 * (bx - ax), 0.5 * (by - ay)
+    return vec3(ax + ux, ay + uy, ux * ux + uy * uy)
+
+
+@ti.func
+def circle3(ax, ay, bx, by, cx, cy):
+    """Circle through three points; squared radius -1 if they lie on a line."""
     ux, uy, vx, vy = bx - ax, by - ay, cx - ax, cy - ay
+    u2, v2 = ux * ux + uy * uy, vx * vx + vy * vy
     d = 2 * (ux * vy - uy * vx)
-    out = ti.Vector([0.0, 0.0, -1.0])
-    if abs(d) > 1e-14 * (ux * ux + uy * uy + vx * vx + vy * vy):
-        u2, v2 = ux * ux + uy * uy, vx * vx + vy * vy
+    out = vec3(ax, ay, -1.0)
+    if ti.abs(d) > 1e-14 * ti.sqrt(u2 * v2):
         x, y = (vy * u2 - uy * v2) / d, (ux * v2 - vx * u2) / d
-        out = ti.Vector([ax + x, ay + y, x * x + y * y])
+        out = vec3(ax + x, ay + y, x * x + y * y)
     return out
 
 
 @ti.func
-def outside(c, x, y):
-    return (x - c[0]) ** 2 + (y - c[1]) ** 2 > c[2] * INSIDE + 1e-300
+def inside(c, x, y):
+    return (x - c[0]) ** 2 + (y - c[1]) ** 2 <= c[2] * (1 + INSIDE)
 
 
 @ti.func
-def grow(sx, sy, count, x, y):
-    """Smallest circle of the support (up to 3 points) and the new point on its rim; the new support with it."""
-    best = ti.Vector([0.0, 0.0, -1.0])
-    i0, i1 = -1, -1
-    for i in ti.static(range(3)):
-        if i < count:
-            c = ti.Vector([0.5 * (sx[i] + x), 0.5 * (sy[i] + y), 0.25 * ((sx[i] - x) ** 2 + (sy[i] - y) ** 2)])
-            holds = True
-            for m in ti.static(range(3)):
-                if m < count and outside(c, sx[m], sy[m]):
-                    holds = False
-            if holds and (best[2] < 0 or c[2] < best[2]):
-                best, i0, i1 = c, i, -1
-    if best[2] < 0:
-        for i in ti.static(range(3)):
-            for j in ti.static(range(i + 1, 3)):
-                if j < count:
-                    c = through_three(sx[i], sy[i], sx[j], sy[j], x, y)
-                    holds = c[2] >= 0
-                    for m in ti.static(range(3)):
-                        if m < count and m != i and m != j and outside(c, sx[m], sy[m]):
-                            holds = False
-                    if holds and (best[2] < 0 or c[2] < best[2]):
-                        best, i0, i1 = c, i, j
-    return best, i0, i1
-
-
-@ti.func
-def radius(U: ti.template(), V: ti.template(), p, steps):
-    """Radius of the smallest circle around the points (U[p, t], V[p, t])."""
-    sx, sy = ti.Vector([U[p, 0], 0.0, 0.0]), ti.Vector([V[p, 0], 0.0, 0.0])
-    count = 1
-    c = ti.Vector([U[p, 0], V[p, 0], 0.0])
-    going = 1
-    for _ in range(PASSES):
-        if going == 1:
-            far, at = -1.0, 0
-            for t in range(steps):
-                d = (U[p, t] - c[0]) ** 2 + (V[p, t] - c[1]) ** 2
-                if d > far:
-                    far, at = d, t
-            if far <= c[2] * INSIDE + 1e-300:
-                going = 0
-            else:
-                x, y = U[p, at], V[p, at]
-                new, i0, i1 = grow(sx, sy, count, x, y)
-                if i0 < 0:
-                    going = 0
-                else:
-                    ax, ay = 0.0, 0.0
-                    bx, by = 0.0, 0.0
-                    for m in ti.static(range(3)):
-                        if m == i0:
-                            ax, ay = sx[m], sy[m]
-                        if m == i1:
-                            bx, by = sx[m], sy[m]
-                    c = new
-                    count = 2 if i1 < 0 else 3
-                    sx, sy = ti.Vector([ax, x, bx]), ti.Vector([ay, y, by])
-    return ti.sqrt(ti.max(c[2], 0.0))
-
-
-@ti.func
-def on_plane(S: ti.template(), U: ti.template(), V: ti.template(), p, steps, theta, phi, kappa, best, prune):
-    """tau_amp + kappa sigma_n,max on one plane; -1e300 if it cannot beat `best` (bound: half the box diagonal)."""
-    n = normal(theta, phi)
-    u = ti.Vector([ti.cos(theta) * ti.cos(phi), ti.cos(theta) * ti.sin(phi), -ti.sin(theta)])
-    v = ti.Vector([-ti.sin(phi), ti.cos(phi), 0.0])
-    top, u0, u1, v0, v1 = -1e300, 1e300, -1e300, 1e300, -1e300
+def farthest(a: ti.template(), b: ti.template(), row, steps, c):
+    """(index, squared distance) of the point farthest from the centre of c."""
+    far, distance = 0, -1.0
     for t in range(steps):
-        xx, yy, zz, xy, xz, yz = S[p, t, 0], S[p, t, 1], S[p, t, 2], S[p, t, 3], S[p, t, 4], S[p, t, 5]
-        tx, ty, tz = xx * n[0] + xy * n[1] + xz * n[2], xy * n[0] + yy * n[1] + yz * n[2], xz * n[0] + yz * n[1] + zz * n[2]
-        a, b = tx * u[0] + ty * u[1] + tz * u[2], tx * v[0] + ty * v[1] + tz * v[2]
-        U[p, t], V[p, t] = a, b
-        top = ti.max(top, tx * n[0] + ty * n[1] + tz * n[2])
-        u0, u1, v0, v1 = ti.min(u0, a), ti.max(u1, a), ti.min(v0, b), ti.max(v1, b)
-    out = -1e300
-    if prune == 0 or 0.5 * ti.sqrt((u1 - u0) ** 2 + (v1 - v0) ** 2) + kappa * top > best:
-        out = radius(U, V, p, steps) + kappa * top
-    return out
+        d = (a[row, t] - c[0]) ** 2 + (b[row, t] - c[1]) ** 2
+        if d > distance:
+            distance, far = d, t
+    return far, distance
+
+
+@ti.func
+def pivot(px, py, m, fx, fy):
+    """Smallest circle around m <= 3 points and one outside point f, which lies on it: circle and the two partners."""
+    best = vec3(0.0, 0.0, 1e300)
+    bi, bj = -1, -1
+    for i in ti.static(range(3)):
+        if i < m:
+            c = circle2(fx, fy, px[i], py[i])
+            good = 1
+            for k in ti.static(range(3)):
+                if k < m and k != i and not inside(c, px[k], py[k]):
+                    good = 0
+            if good == 1 and c[2] < best[2]:
+                best, bi, bj = c, i, -1
+    if bi < 0:
+        for i in ti.static(range(3)):
+            for j in ti.static(range(i)):
+                if i < m:
+                    c = circle3(fx, fy, px[i], py[i], px[j], py[j])
+                    good = 1
+                    for k in ti.static(range(3)):
+                        if k < m and k != i and k != j and not inside(c, px[k], py[k]):
+                            good = 0
+                    if c[2] > 0 and good == 1 and c[2] < best[2]:
+                        best, bi, bj = c, i, j
+    return best, bi, bj
+
+
+@ti.func
+def circle_radius(a: ti.template(), b: ti.template(), row, steps, i0, i1):
+    """Radius of the smallest circle around the points (a, b)[row, :steps]; i0, i1: two far points to start from.
+
+    Pivoting (Gaertner 1999): add the farthest point, solve the problem of at most four points exactly, repeat.
+    """
+    px, py = vec3(a[row, i0], a[row, i1], 0.0), vec3(b[row, i0], b[row, i1], 0.0)
+    m, going, count = 2, 1, 0
+    c = circle2(px[0], py[0], px[1], py[1])
+    while going == 1 and count < PIVOTS:
+        count += 1
+        far, distance = farthest(a, b, row, steps, c)
+        going = 0
+        if distance > c[2] * (1 + INSIDE):
+            fx, fy = a[row, far], b[row, far]
+            best, bi, bj = pivot(px, py, m, fx, fy)
+            if bi >= 0 and best[2] > c[2]:
+                qx, qy = vec3(fx, 0.0, 0.0), vec3(fy, 0.0, 0.0)
+                for k in ti.static(range(3)):
+                    if k == bi:
+                        qx[1], qy[1] = px[k], py[k]
+                    if k == bj:
+                        qx[2], qy[2] = px[k], py[k]
+                px, py, c = qx, qy, best
+                m = 3 if bj >= 0 else 2
+                going = 1
+    far, distance = farthest(a, b, row, steps, c)
+    return ti.sqrt(ti.max(distance, 0.0))
+
+
+@ti.func
+def plane_frame(n):
+    """Two unit vectors that complete n to a right-handed frame."""
+    h = vec3(0.0, 0.0, 1.0)
+    if ti.abs(n[2]) > 0.9:
+        h = vec3(1.0, 0.0, 0.0)
+    e = h.cross(n).normalized()
+    return e, n.cross(e)
+
+
+@ti.func
+def project(S: ti.template(), row, t, u, n):
+    """u . sigma . n for the stress (xx, yy, zz, xy, xz, yz) of this point and time."""
+    return (u[0] * n[0] * S[row, t, 0] + u[1] * n[1] * S[row, t, 1] + u[2] * n[2] * S[row, t, 2]
+            + (u[0] * n[1] + u[1] * n[0]) * S[row, t, 3] + (u[0] * n[2] + u[2] * n[0]) * S[row, t, 4]
+            + (u[1] * n[2] + u[2] * n[1]) * S[row, t, 5])
+
+
+@ti.func
+def plane_value(S: ti.template(), a: ti.template(), b: ti.template(), row, steps, n, kappa, best, prune):
+    """tau_amp + kappa * sigma_n,max on the plane n, or -1e300 where a bound shows that it is not above `best`.
+
+    The bound: a circle around the bounding box of the path encloses the path.
+    """
+    e1, e2 = plane_frame(n)
+    top, la, ha, lb, hb = -1e300, 1e300, -1e300, 1e300, -1e300
+    ia, ja, ib, jb = 0, 0, 0, 0
+    for t in range(steps):
+        u, v = project(S, row, t, e1, n), project(S, row, t, e2, n)
+        top = ti.max(top, project(S, row, t, n, n))
+        a[row, t], b[row, t] = u, v
+        if u < la:
+            la, ia = u, t
+        if u > ha:
+            ha, ja = u, t
+        if v < lb:
+            lb, ib = v, t
+        if v > hb:
+            hb, jb = v, t
+    bound = 0.5 * ti.sqrt((ha - la) ** 2 + (hb - lb) ** 2) * (1 + 1e-11)
+    value = -1e300
+    if prune == 0 or bound + kappa * top + 1e-13 * ti.abs(kappa * top) > best:
+        if hb - lb > ha - la:
+            ia, ja = ib, jb
+        value = circle_radius(a, b, row, steps, ia, ja) + kappa * top
+    return value
+
+
+@ti.func
+def refine(S: ti.template(), a: ti.template(), b: ti.template(), row, steps, start, value, kappa, step0, prune):
+    """Pattern search on the sphere: eight neighbours, move to the best, else halve the step and turn the pattern."""
+    n, best, step, turn = start, value, step0, 0.0
+    for _ in range(SHRINKS):
+        moving, count = 1, 0
+        while moving == 1 and count < MOVES:
+            count += 1
+            moving = 0
+            e1, e2 = plane_frame(n)
+            chosen = n
+            for k in range(8):
+                angle = turn + k * 0.7853981633974483
+                trial = (n + step * (ti.cos(angle) * e1 + ti.sin(angle) * e2)).normalized()
+                v = plane_value(S, a, b, row, steps, trial, kappa, best, prune)
+                if v > best:
+                    best, chosen, moving = v, trial, 1
+            n = chosen
+        step *= 0.5
+        turn += 0.2763932022500210
+    return n, best
 
 
 @ti.kernel
-def search(S: History, planes: Table, U: Table, V: Table, kappa: ti.f64, first_step: ti.f64, prune: ti.i32,
-           out: Table):
-    """out[p] = (largest tau_amp + kappa sigma_n,max, theta, phi) of point p.
+def search(points: ti.i32, steps: ti.i32, kappa: ti.f64, step0: ti.f64, prune: ti.i32,
+           S: ti.types.ndarray(dtype=ti.f64, ndim=3), planes: ti.types.ndarray(dtype=ti.f64, ndim=2),
+           a: ti.types.ndarray(dtype=ti.f64, ndim=2), b: ti.types.ndarray(dtype=ti.f64, ndim=2),
+           out: ti.types.ndarray(dtype=ti.f64, ndim=2)):
+    """out[point] = (f, n_x, n_y, n_z) from S[point, time, (xx, yy, zz, xy, xz, yz)].
 
-    S[p, t, 6]: xx yy zz xy xz yz; planes[m] = (theta, phi) of the normals on a hemisphere about z, then a pattern
-    search (8 neighbours, step halved down to 1e-5 rad) from the best one; U, V: scratch (points, steps).
+    planes (m, 3): unit normals to begin with; a, b (points, steps): scratch; step0: first refinement step, rad.
     """
-    for p in range(S.shape[0]):
-        steps = S.shape[1]
-        best, theta, phi = -1e299, 0.0, 0.0
-        for m in range(planes.shape[0]):
-            f = on_plane(S, U, V, p, steps, planes[m, 0], planes[m, 1], kappa, best, prune)
-            if f > best:
-                best, theta, phi = f, planes[m, 0], planes[m, 1]
-        step = first_step
-        while step > LAST_STEP:
-            t0, p0, moved = theta, phi, 0
-            wide = step / ti.max(ti.sin(t0), 0.1)
-            for k in range(9):
-                a, b = t0 + (k // 3 - 1) * step, p0 + (k % 3 - 1) * wide
-                f = on_plane(S, U, V, p, steps, a, b, kappa, best, prune)
-                if f > best:
-                    best, theta, phi, moved = f, a, b, 1
-            if moved == 0:
-                step *= 0.5
-        out[p, 0], out[p, 1], out[p, 2] = best, theta, phi
+    for row in range(points):
+        best, n = -1e300, vec3(0.0, 0.0, 1.0)
+        for k in range(planes.shape[0]):
+            trial = vec3(planes[k, 0], planes[k, 1], planes[k, 2])
+            v = plane_value(S, a, b, row, steps, trial, kappa, best, prune)
+            if v > best:
+                best, n = v, trial
+        n, best = refine(S, a, b, row, steps, n, best, kappa, step0, prune)
+        out[row, 0] = best
+        for k in ti.static(range(3)):
+            out[row, k + 1] = n[k]

@@ -1,123 +1,161 @@
-"""Findley index of the material points around the feature, over the whole passage.
+"""Fatigue of the surface around a feature: stress histories of material points of body a, Findley index.
 
-The stress history of each point is gathered in the frame of the feature (which moves with body a), from a reader of
-snapshots; Fi = max over planes of (tau_amp + kappa_F sigma_n,max) / sigma_eF [Everitt 2018, Eq 1.13].
+Material points keep their place in the frame of the feature, x' = x - x_a(t). Before the first and after the last
+snapshot (feature outside the contact) they move through the steady field, so every history begins and ends unloaded.
 """
 
-import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
-from tehl_taichi.kernels import findley
-from tehl_taichi.post.half_space import SurfaceStress
+from tehl_taichi.post import findley
+from tehl_taichi.post.half_space import COMPONENTS, SurfaceStress
+from tehl_taichi.scene import SceneError
 from tehl_taichi.scene.scales import Scales
 
-WINDOW = 0.6  # in a: beyond it the stress is that of the smooth line (the deviation falls as 1/r^2)
-PLANE_STEP = 10.0  # degrees of the first plane grid; the refinement makes the result independent of it
+WINDOW = 0.6       # half width (in a) of the part searched: farther out the feature's stress has died out (as 1/r^2)
+LOADED = 1.5       # material points are followed while within this distance (in a) of the centre of the contact
+BLOCK_BYTES = 4e8  # histories held at once; more points than fit are done in blocks of y rows
 NAMES = ("pressure", "traction_x_a", "traction_y_a")
 
 
-@dataclass
+@dataclass(frozen=True)
 class FatigueResult:
-    """summary: the numbers of the worst point; maps: {name: (array, dims, units, text)} in the feature's frame."""
+    """summary: numbers in SI; maps: name -> (values, dimensions, units, text), in the frame of the feature."""
 
     summary: dict
-    maps: dict = field(default_factory=dict)
+    maps: dict
 
 
-def hemisphere(step_deg=PLANE_STEP):
-    """Plane normals (theta from z, phi) about step_deg apart on a hemisphere; shape (planes, 2), radians."""
-    out = []
-    for theta in np.arange(0, 90 + 1e-9, step_deg):
-        full = 180 if theta == 90 else 360
-        count = max(1, round(full * math.sin(math.radians(theta)) / step_deg))
-        out += [(math.radians(theta), math.radians(full * k / count)) for k in range(count)]
-    return np.array(out)
+class Snapshots:
+    """A list of snapshots (all of one grid) as the reader that :func:`run` wants."""
 
+    def __init__(self, snapshots):
+        self.items = list(snapshots)
+        self.x, self.y = self.items[0].x, self.items[0].y
+        self.time = np.array([s.time for s in self.items])
 
-def findley_stress(history, kappa, prune=True, step_deg=PLANE_STEP):
-    """(points, 3): Findley stress (Pa), theta, phi for history (points, steps, 6) in the order xx yy zz xy xz yz."""
-    points, steps = history.shape[:2]
-    scratch = np.zeros((2, points, steps))
-    out = np.zeros((points, 3))
-    findley.search(np.ascontiguousarray(history), hemisphere(step_deg), scratch[0], scratch[1], float(kappa),
-                   math.radians(step_deg) / 2, int(prune), out)
-    return out
+    def __len__(self):
+        return len(self.items)
 
+    def feature_x(self, n):
+        """Centre of the feature (m) at entry n."""
+        return self.items[n].feature_x
 
-def gather(scene, reader, progress=None):
-    """Stress histories around the feature: (x', y, history (nxw, nyw, steps, 6)); x' (m) from the feature's centre.
-
-    Memory: nxw nyw steps 48 bytes, 28 MB for 257x65 nodes and 193 steps.
-    """
-    x, y = np.asarray(reader.x), np.asarray(reader.y)
-    a = Scales.of(scene).a
-    stress = SurfaceStress(x, y, scene.body_a.nu, scene.contact.kind == "line")
-    dx = x[1] - x[0]
-    reach = int(WINDOW * a / dx)
-    # offsets that fall on grid nodes in the first entry: with whole-cell steps they then always do
-    first = reader.feature_x(0)
-    local = x[np.argmin(np.abs(x - first))] - first + np.arange(-reach, reach + 1) * dx
-    rows = int(np.sum(y <= WINDOW * a + 1e-12))
-    history = np.empty((local.size, rows, len(reader), 6))
-    for n in range(len(reader)):
-        f = reader.fields(n, NAMES)
-        now = stress(*(np.asarray(f[name], float) for name in NAMES))
-        for c in range(6):
-            history[:, :, n, c] = sample(now[c][:, :rows], x, local + reader.feature_x(n))
-        if progress:
-            progress(n + 1, len(reader))
-    return local, y[:rows], history
-
-
-def sample(values, x, at):
-    """Rows of values (nx+1, ...) at positions `at`: exact on nodes, linear between, the end value beyond."""
-    s = np.clip((at - x[0]) / (x[1] - x[0]), 0, x.size - 1)
-    near = np.rint(s)
-    s = np.where(np.abs(s - near) < 1e-6, near, s)
-    i = np.minimum(s.astype(int), x.size - 2)
-    w = (s - i)[:, None]
-    return (1 - w) * values[i] + w * values[i + 1]
+    def fields(self, n, names):
+        """{name: (nx+1, ny+1) array} of entry n."""
+        return {name: self.items[n].fields[name] for name in names}
 
 
 def run(scene, reader, progress=None):
-    """FatigueResult of a passage. reader: x, y, feature_x(n), fields(n, names), len(); see gather for its memory."""
-    local, y, history = gather(scene, reader, progress)
-    shape = history.shape[:2]
-    found = findley_stress(history.reshape(-1, *history.shape[2:]), scene.fatigue.kappa).reshape(*shape, 3)
-    i, j = np.unravel_index(int(np.argmax(found[..., 0])), shape)
-    stress, theta, phi = found[i, j]
-    angle = plane_angle(theta)
-    summary = {"Fi_max": stress / scene.fatigue.endurance, "findley_stress_max_Pa": stress, "x_m": local[i],
-               "y_m": y[j], "plane_theta_deg": math.degrees(theta), "plane_phi_deg": math.degrees(phi),
-               "surface_angle_deg": angle, "sigma1_max_Pa": largest_principal(history),
-               "kappa_F": scene.fatigue.kappa, "sigma_eF_Pa": scene.fatigue.endurance}
-    return FatigueResult({key: float(value) for key, value in summary.items()}, _maps(scene, local, y, found))
+    """Findley index of the surface points of body a within 0.6 a of the first feature, over its whole passage.
+
+    reader: x, y (m), len, feature_x(n) (m), fields(n, names) in Pa; or a list of snapshots. Entry 0 is the steady
+    start. progress: called with (done, total) entries. Isothermal stresses; on y = 0 and y > 0 (y < 0 is the mirror).
+    Raises SceneError when no feature passes.
+    """
+    reader = Snapshots(reader) if isinstance(reader, (list, tuple)) else reader
+    centres = np.array([reader.feature_x(n) for n in range(len(reader))])
+    if len(reader) < 2 or not np.isfinite(centres).all():
+        raise SceneError("fatigue needs the passage of a feature: a scene with a feature and at least one time step")
+    passage = Passage(scene, reader, centres)
+    found = [passage.block(rows, progress) for rows in passage.row_blocks()]
+    return _result(scene, passage, *(np.concatenate(part, axis=1) for part in zip(*found)))
 
 
-def plane_angle(theta):
-    """Angle (deg, 0..90) between the plane with its normal at theta from z and the surface."""
-    angle = math.degrees(theta) % 180
-    return min(angle, 180 - angle)
+class Passage:
+    """The window of material points and where they are at every moment."""
+
+    def __init__(self, scene, reader, centres):
+        self.scene, self.reader = scene, reader
+        self.a = Scales.of(scene).a
+        self.dx = float(reader.x[-1] - reader.x[0]) / (reader.x.size - 1)
+        cells = max(1, int(WINDOW * self.a / self.dx + 1e-9))
+        self.x = np.arange(-cells, cells + 1) * self.dx
+        self.y = reader.y[reader.y <= WINDOW * self.a * (1 + 1e-9)]
+        # centre of the feature and entry of the reader at every moment
+        before, after = self._lead_in(centres[0]), self._lead_out(centres[-1])
+        self.centres = np.concatenate([before, centres, after])
+        self.entries = np.concatenate([0 * before, np.arange(len(centres)), 0 * after]).astype(int)
+        self._widen()
+
+    def _lead_in(self, first):
+        if first > -self.a:
+            return np.zeros(0)
+        steps = int(np.ceil((first + self.x[-1] + LOADED * self.a) / self.dx))
+        return first - np.arange(max(steps, 0), 0, -1) * self.dx
+
+    def _lead_out(self, last):
+        if last < self.a:
+            return np.zeros(0)
+        steps = int(np.ceil((LOADED * self.a - last - self.x[0]) / self.dx))
+        return last + np.arange(1, max(steps, 0) + 1) * self.dx
+
+    def _widen(self):
+        """Unloaded columns on both sides, so that no material point leaves the grid."""
+        x0, x1 = self.reader.x[0], self.reader.x[-1]
+        low, high = self.centres.min() + self.x[0], self.centres.max() + self.x[-1]
+        self.pad = tuple(max(0, int(np.ceil(gap / self.dx)) + 2) for gap in (x0 - low, high - x1))
+        self.grid_x = x0 + (np.arange(self.reader.x.size + sum(self.pad)) - self.pad[0]) * self.dx
+        line = self.scene.contact.kind == "line"
+        self.stress = SurfaceStress(self.grid_x, self.reader.y, self.scene.body_a.nu, line)
+
+    def row_blocks(self):
+        """Slices of y rows whose histories fit into BLOCK_BYTES."""
+        row_bytes = 8.0 * self.x.size * (self.centres.size + 1) * (len(COMPONENTS) + 2)
+        rows = max(1, int(BLOCK_BYTES / row_bytes))
+        return [slice(j, min(j + rows, self.y.size)) for j in range(0, self.y.size, rows)]
+
+    def block(self, rows, progress):
+        """Findley stress, theta, phi, largest principal stress, each (nx, rows)."""
+        shape = self.x.size, rows.stop - rows.start
+        history = self.history(rows, progress)
+        f, normals = findley.search(history, self.scene.fatigue.kappa)
+        sigma1 = np.array([findley.largest_principal(part).max() for part in history])
+        return [v.reshape(shape) for v in (f, *findley.angles(normals), sigma1)]
+
+    def history(self, rows, progress=None):
+        """(points, times + 1, 6) Pa; points run over x', then rows; the last moment is the unloaded state."""
+        shape = self.x.size, rows.stop - rows.start
+        out = np.zeros((*shape, self.centres.size + 1, len(COMPONENTS)))
+        previous, fields = -1, None
+        for t, (centre, entry) in enumerate(zip(self.centres, self.entries)):
+            if entry != previous:
+                previous, fields = entry, self._surface(entry, rows)
+            out[:, :, t] = _shifted(fields, (centre + self.x[0] - self.grid_x[0]) / self.dx, self.x.size)
+            if progress:
+                progress(t + 1, self.centres.size)
+        return out.reshape(-1, *out.shape[2:])
+
+    def _surface(self, entry, rows):
+        loads = self.reader.fields(int(entry), NAMES)
+        loads = [np.pad(np.asarray(loads[name], float), (self.pad, (0, 0))) for name in NAMES]
+        stress = self.stress(*loads)
+        return np.stack([stress[name][:, rows] for name in COMPONENTS], axis=-1)
 
 
-def largest_principal(history):
-    """Largest principal stress over all points and steps (Pa)."""
-    top = -math.inf
-    for part in np.array_split(history.reshape(-1, 6), max(1, history.size // 600000)):
-        s = np.empty((len(part), 3, 3))
-        for c, (i, j) in enumerate(((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))):
-            s[:, i, j] = s[:, j, i] = part[:, c]
-        top = max(top, float(np.linalg.eigvalsh(s)[:, -1].max()))
-    return top
+def _shifted(fields, start, count):
+    """`count` columns of fields (x, y, 6) from column `start`; exact for whole numbers, else cubic in x."""
+    whole = int(np.round(start))
+    if abs(start - whole) < 1e-6:
+        return fields[whole: whole + count]
+    whole = int(np.floor(start))
+    s = start - whole
+    weights = (-s * (s - 1) * (s - 2) / 6, (s + 1) * (s - 1) * (s - 2) / 2,
+               -(s + 1) * s * (s - 2) / 2, (s + 1) * s * (s - 1) / 6)
+    return sum(w * fields[whole + k: whole + k + count] for k, w in zip((-1, 0, 1, 2), weights))
 
 
-def _maps(scene, local, y, found):
-    dims = ["feature_frame_x", "feature_frame_y"]
-    return {"feature_frame_x": (local, dims[:1], "m", "from the feature's centre, along rolling"),
-            "feature_frame_y": (y, dims[1:], "m", "from the feature's centre, across"),
-            "findley_stress": (found[..., 0], dims, "Pa", "Findley stress tau_amp + kappa_F sigma_n,max"),
-            "Fi": (found[..., 0] / scene.fatigue.endurance, dims, "1", "Findley index"),
-            "plane_theta": (np.degrees(found[..., 1]), dims, "degree", "critical plane normal from z"),
-            "plane_phi": (np.degrees(found[..., 2]), dims, "degree", "critical plane normal about z, from x")}
+def _result(scene, passage, f, theta, phi, sigma1):
+    limit = scene.fatigue.endurance
+    i, j = np.unravel_index(np.argmax(f), f.shape)
+    summary = {"Fi_max": f[i, j] / limit, "findley_stress_max_Pa": f[i, j], "x_m": passage.x[i], "y_m": passage.y[j],
+               "plane_theta_deg": theta[i, j], "plane_phi_deg": phi[i, j], "surface_angle_deg": theta[i, j],
+               "sigma1_max_Pa": sigma1.max(), "kappa_F": scene.fatigue.kappa, "sigma_eF_Pa": limit}
+    both = ["feature_frame_x", "feature_frame_y"]
+    maps = {both[0]: (passage.x, both[:1], "m", "along rolling, from the centre of the feature"),
+            both[1]: (passage.y, both[1:], "m", "across, from the centre of the contact"),
+            "findley_stress": (f, both, "Pa", "Findley stress"), "Fi": (f / limit, both, "1", "Findley index"),
+            "plane_theta": (theta, both, "degree", "angle of the critical plane's normal from the surface normal"),
+            "plane_phi": (phi, both, "degree", "direction of the critical plane's normal in the surface, from x")}
+    return FatigueResult({key: float(value) for key, value in summary.items()}, maps)

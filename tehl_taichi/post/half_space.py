@@ -1,125 +1,149 @@
-"""Surface stresses of body a from its pressure and shear tractions (Boussinesq, Cerruti), uniform rectangles.
+"""Stresses at the surface of an elastic half-space under pressure and shear.
 
-z points into the body: sigma_zz = -p, tau_xz = -q_x, tau_yz = -q_y at z = 0. Closed forms integrated from Johnson,
-Contact Mechanics, sections 3.2 and 3.6 (Love 1929 for the pressure). The part of a line contact that does not vary in y
-is treated as plane strain in closed form; only the deviation from it is convolved in two dimensions, because a
-truncated three-dimensional sum of a line load is wrong by percents.
+The half-space is z >= 0, z into the body. Loads on its surface: pressure p > 0 and shear q_x, q_y (force per area on
+this body), so sigma_zz = -p, tau_xz = -q_x, tau_yz = -q_y at z = 0. Coefficients of uniform rectangles follow from the
+potentials of Boussinesq and Cerruti (Johnson, Contact Mechanics, sections 3.2 and 3.6; Love 1929; Liu & Wang 2002).
 """
 
 import numpy as np
 import pyfftw
 
-
-def _even_fast(n):
-    length = pyfftw.next_fast_len(n)
-    while length % 2:
-        length = pyfftw.next_fast_len(length + 1)
-    return length
+COMPONENTS = ("sxx", "syy", "szz", "sxy", "sxz", "syz")
 
 
-def _corners(F, x, y, dx, dy):
-    """F at the four corners of the cell, with alternating signs."""
-    a, b = dx / 2, dy / 2
+def _corners(F, x, y, a, b):
+    """F summed over the corners of the rectangle |x| <= a, |y| <= b with alternating signs."""
     return F(x + a, y + b) - F(x + a, y - b) - F(x - a, y + b) + F(x - a, y - b)
 
 
-def pressure_kernels(x, y, dx, dy, nu):
-    """(sxx, syy, sxy) at offset (x, y), arrays, from unit pressure on the cell dx x dy at the origin."""
-    inside = (np.abs(x) < dx / 2) & (np.abs(y) < dy / 2)
+def pressure_coefficients(x, y, a, b, nu):
+    """(sxx, syy, sxy) at (x, y, 0) from unit pressure on |x| <= a, |y| <= b; no point may lie on an edge line."""
+    inside = (np.abs(x) < a) & (np.abs(y) < b)
     c = (1 - 2 * nu) / (2 * np.pi)
-    sxx = -2 * nu * inside - c * _corners(lambda X, Y: np.arctan(Y / X), x, y, dx, dy)
-    syy = -2 * nu * inside - c * _corners(lambda X, Y: np.arctan(X / Y), x, y, dx, dy)
-    sxy = -c / 2 * _corners(lambda X, Y: np.log(X * X + Y * Y), x, y, dx, dy)
+    sxx = -2 * nu * inside - c * _corners(lambda X, Y: np.arctan(Y / X), x, y, a, b)
+    syy = -2 * nu * inside - c * _corners(lambda X, Y: np.arctan(X / Y), x, y, a, b)
+    return sxx, syy, -c / 2 * _corners(lambda X, Y: np.log(X * X + Y * Y), x, y, a, b)
+
+
+def shear_x_coefficients(x, y, a, b, nu):
+    """(sxx, syy, sxy) at (x, y, 0) from unit q_x on |x| <= a, |y| <= b; no point may lie on an edge line."""
+    sxx = _corners(lambda X, Y: np.arcsinh(Y / np.abs(X)) + nu * Y / np.hypot(X, Y), x, y, a, b) / np.pi
+    syy = _corners(lambda X, Y: np.arcsinh(Y / np.abs(X)) - Y / np.hypot(X, Y), x, y, a, b) * nu / np.pi
+    sxy = _corners(lambda X, Y: np.arcsinh(X / np.abs(Y)) - 2 * nu * X / np.hypot(X, Y), x, y, a, b) / (2 * np.pi)
     return sxx, syy, sxy
 
 
-def shear_kernels(x, y, dx, dy, nu):
-    """(sxx, syy, sxy) at offset (x, y) from unit traction q_x on the cell at the origin."""
-    def ahead(X, Y):
-        return np.arcsinh(Y / np.abs(X))
-
-    sxx = _corners(lambda X, Y: ahead(X, Y) + nu * Y / np.hypot(X, Y), x, y, dx, dy) / np.pi
-    syy = nu / np.pi * _corners(lambda X, Y: ahead(X, Y) - Y / np.hypot(X, Y), x, y, dx, dy)
-    sxy = _corners(lambda X, Y: np.arcsinh(X / np.abs(Y)) - 2 * nu * X / np.hypot(X, Y), x, y, dx, dy) / (2 * np.pi)
+def shear_y_coefficients(x, y, a, b, nu):
+    """(sxx, syy, sxy) at (x, y, 0) from unit q_y: the q_x case with x and y exchanged."""
+    syy, sxx, sxy = shear_x_coefficients(y, x, b, a, nu)
     return sxx, syy, sxy
 
 
-def strip_kernel(x, dx):
-    """sxx at distance x from unit traction q_x on a strip of width dx, infinite in y: -(2/pi) ln|(x+a)/(x-a)|."""
-    return -2 / np.pi * np.log(np.abs((x + dx / 2) / (x - dx / 2)))
+def strip_coefficient(x, a):
+    """sxx at x from unit q_x on the endless strip |x| <= a (plane strain; pressure adds -p where it acts)."""
+    return -2 / np.pi * np.log(np.abs((x + a) / (x - a)))
 
 
 class SurfaceStress:
-    """Surface stress operator on a grid x (nx+1,), y (ny+1,) m with y >= 0 mirrored (p, q_x even; q_y odd).
+    """Surface stresses on a uniform half domain, y >= 0 mirrored (p, q_x even in y; q_y odd).
 
-    nu: Poisson's ratio; line: the outermost y row continues to infinity. A single y row is plane strain throughout.
+    x (nx+1,), y (ny+1,) in m, y[0] = 0; one row of y means plane strain. nu: Poisson's ratio.
+    line=True: p and q_x of the last y row go on to infinity; that part is plane strain (analytic strip), the deviation
+    from it a convolution over the rectangles around the nodes. line=False: nothing acts outside the domain.
+    Raises ValueError for a grid that is not uniform, or a single row without line=True.
     """
 
     def __init__(self, x, y, nu, line=True):
-        self.nu, self.line = nu, line
-        self.nx, self.ny, self.dx = x.size - 1, y.size - 1, x[1] - x[0]
-        offsets = np.arange(-self.nx, self.nx + 1) * self.dx
-        self.strip = strip_kernel(offsets, self.dx)
-        if self.ny:
-            self._plan(y[1] - y[0])
-
-    def _plan(self, dy):
-        self.shape = (_even_fast(2 * self.nx + 1), _even_fast(4 * self.ny + 1))
-        x, y = np.arange(-self.nx, self.nx + 1) * self.dx, np.arange(-2 * self.ny, 2 * self.ny + 1) * dy
-        X, Y = x[:, None] + 0 * y[None, :], y[None, :] + 0 * x[:, None]
-        half = (self.shape[0], self.shape[1] // 2 + 1)
-        self.real, self.spectrum = pyfftw.zeros_aligned(self.shape), pyfftw.zeros_aligned(half, dtype="complex128")
-        self.forward = pyfftw.FFTW(self.real, self.spectrum, axes=(0, 1), flags=("FFTW_ESTIMATE",), threads=1)
-        self.inverse = pyfftw.FFTW(self.spectrum, self.real, axes=(0, 1), direction="FFTW_BACKWARD",
-                                   flags=("FFTW_ESTIMATE",), threads=1)
-        p, qx = pressure_kernels(X, Y, self.dx, dy, self.nu), shear_kernels(X, Y, self.dx, dy, self.nu)
-        swapped = shear_kernels(Y, X, dy, self.dx, self.nu)
-        sources = (p, qx, (swapped[1], swapped[0], swapped[2]))
-        self.kernels = [[self._transform(self._wrap(k)) for k in kernels] for kernels in sources]
-
-    def _wrap(self, kernel):
-        """Offsets -n..n put where a circular convolution wants them."""
-        out = np.zeros(self.shape)
-        ix = np.arange(-self.nx, self.nx + 1) % self.shape[0]
-        iy = np.arange(-2 * self.ny, 2 * self.ny + 1) % self.shape[1]
-        out[np.ix_(ix, iy)] = kernel
-        return out
-
-    def _transform(self, values):
-        self.real[:] = values
-        self.forward.execute()
-        return self.spectrum.copy()
+        self.x, self.y, self.nu, self.line = np.asarray(x, float), np.asarray(y, float), float(nu), line
+        if self.y.size == 1 and not line:
+            raise ValueError("one row of y describes a line contact only (line=True)")
+        dx = _spacing(self.x)
+        lags = np.arange(-self.x.size + 1, self.x.size) * dx
+        self.strip = strip_coefficient(lags, dx / 2)
+        if self.y.size > 1:
+            self.convolution = _Convolution(self.x.size, self.y.size, dx, _spacing(self.y), self.nu)
 
     def __call__(self, p, qx, qy):
-        """(sxx, syy, szz, sxy, sxz, syz), each (nx+1, ny+1) like the inputs p, qx, qy (Pa)."""
-        sxx, syy, sxy = np.zeros_like(p, float), np.zeros_like(p, float), np.zeros_like(p, float)
-        edge_p, edge_q = p[:, -1:], qx[:, -1:]
+        """{component: (nx+1, ny+1) Pa} for p, qx, qy (nx+1, ny+1) Pa: sxx, syy, szz, sxy, sxz, syz."""
+        p, qx, qy = (np.asarray(v, float) for v in (p, qx, qy))
+        sxx, syy, sxy = np.zeros((3, *p.shape))
+        far_p, far_q = np.zeros((2, p.shape[0]))
         if self.line:
-            line = -edge_p + self._strip(edge_q[:, 0])[:, None]
-            sxx, syy = sxx + line, syy + self.nu * (line - edge_p)
-            p2, qx2 = p - edge_p, qx - edge_q
-        else:
-            p2, qx2 = p, qx
-        if self.ny:
-            parts = self._plane(p2, qx2, qy)
-            sxx, syy, sxy = sxx + parts[0], syy + parts[1], sxy + parts[2]
-        return sxx, syy, -p.astype(float), sxy, -qx.astype(float), -qy.astype(float)
+            far_p, far_q = p[:, -1], qx[:, -1]
+            sxx, syy = (np.repeat(s[:, None], p.shape[1], axis=1) for s in self._plane_strain(far_p, far_q))
+        if self.y.size > 1:
+            rest = self.convolution(p - far_p[:, None], qx - far_q[:, None], qy)
+            sxx, syy, sxy = sxx + rest[0], syy + rest[1], rest[2]
+        return dict(zip(COMPONENTS, (sxx, syy, -p, sxy, -qx, -qy)))
 
-    def _strip(self, q):
-        return np.convolve(q, self.strip)[self.nx : 2 * self.nx + 1]
+    def _plane_strain(self, p, q):
+        sxx = np.convolve(q, self.strip)[q.size - 1: 2 * q.size - 1] - p
+        return sxx, self.nu * (sxx - p)
 
-    def _plane(self, p, qx, qy):
-        spectra = [self._transform(self._mirror(f, s)) for f, s in ((p, 1), (qx, 1), (qy, -1))]
-        out = []
-        for component in range(3):
-            self.spectrum[:] = sum(s * k[component] for s, k in zip(spectra, self.kernels))
-            self.inverse.execute()
-            out.append(self.real[: self.nx + 1, : self.ny + 1] / self.real.size)
-        return out
 
-    def _mirror(self, field, sign):
-        """Field on y >= 0 laid out with its mirror image at negative y (circular)."""
-        out = np.zeros(self.shape)
-        out[: self.nx + 1, : self.ny + 1] = field
-        out[: self.nx + 1, self.shape[1] - self.ny :] = sign * field[:, :0:-1]
-        return out
+class _Convolution:
+    """Zero-padded real transforms of the loads on 2 ny + 1 mirrored rows; results on the rows y >= 0."""
+
+    def __init__(self, nx, ny, dx, dy, nu):
+        self.nx, self.ny = nx, ny
+        self.shape = _even_fast(2 * nx - 1), _even_fast(3 * ny - 2)
+        spectrum = self.shape[0], self.shape[1] // 2 + 1
+        self.real, self.complex = pyfftw.zeros_aligned(self.shape), pyfftw.zeros_aligned(spectrum, "complex128")
+        # estimated plans on one thread: the same plan, so the same bits, in every run
+        options = {"axes": (0, 1), "flags": ("FFTW_ESTIMATE",), "threads": 1}
+        self.forward = pyfftw.FFTW(self.real, self.complex, **options)
+        self.backward = pyfftw.FFTW(self.complex, self.real, direction="FFTW_BACKWARD", **options)
+        self.spectra = self._spectra(dx, dy, nu)
+
+    def _spectra(self, dx, dy, nu):
+        x, y = np.meshgrid(_lags(self.shape[0]) * dx, _lags(self.shape[1], self.ny) * dy, indexing="ij")
+        loads = (pressure_coefficients, shear_x_coefficients, shear_y_coefficients)
+        return [[self._transform(k) for k in load(x, y, dx / 2, dy / 2, nu)] for load in loads]
+
+    def _transform(self, values):
+        self.real[:] = 0
+        self.real[: values.shape[0], : values.shape[1]] = values
+        return self.forward().copy()
+
+    def _mirrored(self, values, sign):
+        """Row of y = 0 first, then y > 0, then (wrapped) y < 0."""
+        self.real[:] = 0
+        self.real[: self.nx, : self.ny] = values
+        self.real[: self.nx, self.shape[1] - self.ny + 1:] = sign * values[:, :0:-1]
+        return self.forward().copy()
+
+    def __call__(self, p, qx, qy):
+        """(sxx, syy, sxy), each (nx, ny), from loads of that shape."""
+        loads = [self._mirrored(p, 1), self._mirrored(qx, 1), self._mirrored(qy * _no_axis(qy), -1)]
+        return [self._back(sum(load * row[n] for load, row in zip(loads, self.spectra))) for n in range(3)]
+
+    def _back(self, spectrum):
+        self.complex[:] = spectrum
+        return self.backward()[: self.nx, : self.ny].copy()
+
+
+def _no_axis(q):
+    """An odd load vanishes on the axis y = 0."""
+    keep = np.ones_like(q)
+    keep[:, 0] = 0
+    return keep
+
+
+def _lags(n, negative=None):
+    """Lags in cells in wrapped order, -negative+1 ... n-negative (default: half of them negative)."""
+    k = np.arange(n)
+    return np.where(k <= n - (negative or n // 2), k, k - n)
+
+
+def _even_fast(n):
+    n = pyfftw.next_fast_len(n)
+    while n % 2:
+        n = pyfftw.next_fast_len(n + 1)
+    return n
+
+
+def _spacing(v):
+    steps = np.diff(v)
+    if v.size < 2 or not np.allclose(steps, steps.mean(), rtol=1e-6):
+        raise ValueError("surface stresses need a uniform grid of at least two nodes")
+    return float(steps.mean())

@@ -1,0 +1,61 @@
+"""Findley stress of stress histories: f = max over planes of tau_amp + kappa * sigma_n,max (Findley 1959)."""
+
+import math
+
+import numpy as np
+
+GRID = 10.0  # degrees between the planes the search begins with: refinement from them always found the maximum
+
+
+def planes(degrees=GRID):
+    """Unit normals (m, 3) about evenly spread on the upper hemisphere: 211 at 10 degrees."""
+    rows = []
+    count = round(90 / degrees)
+    for i in range(count + 1):
+        theta = math.pi / 2 * i / count
+        m = max(1, math.ceil(4 * count * math.sin(theta) * (0.5 if i == count else 1) - 1e-9))
+        phi = (math.pi if i == count else 2 * math.pi) * np.arange(m) / m
+        rows.append(np.stack([math.sin(theta) * np.cos(phi), math.sin(theta) * np.sin(phi),
+                              np.full(m, math.cos(theta))], axis=1))
+    return np.concatenate(rows)
+
+
+def search(history, kappa, prune=True):
+    """Findley stress and critical plane of every point.
+
+    history (points, times, 6) Pa: xx, yy, zz, xy, xz, yz. kappa >= 0. prune=False evaluates every plane (for tests).
+    Returns f (points,) Pa (may be negative: nowhere near fatigue) and unit normals (points, 3), n_z >= 0.
+    Raises ValueError for a history with NaN or of another shape.
+    """
+    from tehl_taichi.kernels import findley
+
+    history = np.ascontiguousarray(history, float)
+    if history.ndim != 3 or history.shape[2] != 6 or not np.isfinite(history).all():
+        raise ValueError(f"a stress history must be finite and shaped (points, times, 6), not {history.shape}")
+    points, steps, _ = history.shape
+    out = np.zeros((points, 4))
+    a, b = np.zeros((2, points, steps))
+    findley.search(points, steps, kappa, math.radians(GRID / 2), int(prune), history, planes(), a, b, out)
+    n = out[:, 1:]
+    return out[:, 0], np.where(n[:, 2:] < 0, -n, n)
+
+
+def angles(normals):
+    """(theta, phi) in degrees: angle of the normal from z (into the body), and its direction in the surface from x.
+
+    theta is also the angle between the critical plane and the surface.
+    """
+    theta = np.degrees(np.arccos(np.clip(normals[:, 2], 0.0, 1.0)))
+    return theta, np.degrees(np.arctan2(normals[:, 1], normals[:, 0]))
+
+
+def largest_principal(S):
+    """Largest principal stress of S (..., 6): xx, yy, zz, xy, xz, yz (trigonometric form of the cubic's root)."""
+    xx, yy, zz, xy, xz, yz = np.moveaxis(S, -1, 0)
+    mean = (xx + yy + zz) / 3
+    dx, dy, dz = xx - mean, yy - mean, zz - mean
+    j2 = 0.5 * (dx * dx + dy * dy + dz * dz) + xy * xy + xz * xz + yz * yz
+    j3 = dx * (dy * dz - yz * yz) - xy * (xy * dz - yz * xz) + xz * (xy * yz - dy * xz)
+    radius = np.sqrt(j2 / 3)
+    ratio = np.divide(j3, 2 * radius**3, out=np.ones_like(j3), where=radius > 0)
+    return mean + 2 * radius * np.cos(np.arccos(np.clip(ratio, -1, 1)) / 3)
