@@ -6,10 +6,14 @@ One point per parallel iteration, everything inside serial, so results do not de
 
 import taichi as ti
 
-SHRINKS = 12  # halvings of the step, 5 degrees -> 2e-5 rad: error of the maximum about 1e-9 (quadratic in the step)
-MOVES = 24    # moves at one step length at most
+SHRINKS = 12  # halvings of the step, 5 degrees -> 2e-5 rad: error of a smooth maximum about 1e-9
+MOVES = 40    # moves at one step length at most
+TURNS = 3     # turned patterns without success before the step is halved: the maximum often lies on a sharp ridge
 PIVOTS = 60   # farthest points added to a circle at most (about 4 are usual)
 INSIDE = 1e-12
+MARGIN = 0.03  # other peaks of the grid within this of its best are refined too (the grid itself is about 1 % low)
+STARTS = 20    # peaks refined at most
+NEAR = 0.975   # cosine of the angle (13 degrees) below which planes of the grid belong to one peak
 
 vec3 = ti.types.vector(3, ti.f64)
 
@@ -158,13 +162,13 @@ def plane_value(S: ti.template(), a: ti.template(), b: ti.template(), row, steps
 
 @ti.func
 def refine(S: ti.template(), a: ti.template(), b: ti.template(), row, steps, start, value, kappa, step0, prune):
-    """Pattern search on the sphere: eight neighbours, move to the best, else halve the step and turn the pattern."""
+    """Pattern search on the sphere: eight neighbours, move to the best; after TURNS turned patterns halve the step."""
     n, best, step, turn = start, value, step0, 0.0
     for _ in range(SHRINKS):
-        moving, count = 1, 0
-        while moving == 1 and count < MOVES:
+        failed, count = 0, 0
+        while failed < TURNS and count < MOVES:
             count += 1
-            moving = 0
+            failed += 1
             e1, e2 = plane_frame(n)
             chosen = n
             for k in range(8):
@@ -172,30 +176,61 @@ def refine(S: ti.template(), a: ti.template(), b: ti.template(), row, steps, sta
                 trial = (n + step * (ti.cos(angle) * e1 + ti.sin(angle) * e2)).normalized()
                 v = plane_value(S, a, b, row, steps, trial, kappa, best, prune)
                 if v > best:
-                    best, chosen, moving = v, trial, 1
+                    best, chosen, failed = v, trial, 0
             n = chosen
+            turn += 0.2763932022500210
         step *= 0.5
-        turn += 0.2763932022500210
     return n, best
+
+
+@ti.func
+def scan(S: ti.template(), planes: ti.template(), values: ti.template(), a: ti.template(), b: ti.template(), row, steps,
+         kappa, prune):
+    """Values on all planes of the grid (hopeless ones -1e300); returns the largest."""
+    best = -1e300
+    for k in range(planes.shape[0]):
+        trial = vec3(planes[k, 0], planes[k, 1], planes[k, 2])
+        values[row, k] = plane_value(S, a, b, row, steps, trial, kappa, best - MARGIN * ti.abs(best), prune)
+        best = ti.max(best, values[row, k])
+    return best
+
+
+@ti.func
+def take_best(planes: ti.template(), values: ti.template(), row):
+    """(value, normal) of the best plane left on the grid; it and its neighbourhood are crossed out."""
+    top, chosen = -1e300, 0
+    for k in range(planes.shape[0]):
+        if values[row, k] > top:
+            top, chosen = values[row, k], k
+    n = vec3(planes[chosen, 0], planes[chosen, 1], planes[chosen, 2])
+    for k in range(planes.shape[0]):
+        if ti.abs(n[0] * planes[k, 0] + n[1] * planes[k, 1] + n[2] * planes[k, 2]) > NEAR:
+            values[row, k] = -1e300
+    return top, n
 
 
 @ti.kernel
 def search(points: ti.i32, steps: ti.i32, kappa: ti.f64, step0: ti.f64, prune: ti.i32,
            S: ti.types.ndarray(dtype=ti.f64, ndim=3), planes: ti.types.ndarray(dtype=ti.f64, ndim=2),
-           a: ti.types.ndarray(dtype=ti.f64, ndim=2), b: ti.types.ndarray(dtype=ti.f64, ndim=2),
-           out: ti.types.ndarray(dtype=ti.f64, ndim=2)):
+           values: ti.types.ndarray(dtype=ti.f64, ndim=2), a: ti.types.ndarray(dtype=ti.f64, ndim=2),
+           b: ti.types.ndarray(dtype=ti.f64, ndim=2), out: ti.types.ndarray(dtype=ti.f64, ndim=2)):
     """out[point] = (f, n_x, n_y, n_z) from S[point, time, (xx, yy, zz, xy, xz, yz)].
 
-    planes (m, 3): unit normals to begin with; a, b (points, steps): scratch; step0: first refinement step, rad.
+    planes (m, 3): unit normals of the grid; values (points, m), a, b (points, steps): scratch; step0: first step, rad.
     """
     for row in range(points):
+        on_grid = scan(S, planes, values, a, b, row, steps, kappa, prune)
         best, n = -1e300, vec3(0.0, 0.0, 1.0)
-        for k in range(planes.shape[0]):
-            trial = vec3(planes[k, 0], planes[k, 1], planes[k, 2])
-            v = plane_value(S, a, b, row, steps, trial, kappa, best, prune)
-            if v > best:
-                best, n = v, trial
-        n, best = refine(S, a, b, row, steps, n, best, kappa, step0, prune)
+        going, count = 1, 0
+        while going == 1 and count < STARTS:
+            count += 1
+            top, start = take_best(planes, values, row)
+            going = 0
+            if top > on_grid - MARGIN * ti.abs(on_grid):
+                going = 1
+                normal, value = refine(S, a, b, row, steps, start, top, kappa, step0, prune)
+                if value > best:
+                    best, n = value, normal
         out[row, 0] = best
         for k in ti.static(range(3)):
             out[row, k + 1] = n[k]

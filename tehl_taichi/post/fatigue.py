@@ -71,7 +71,9 @@ class Passage:
         self.a = Scales.of(scene).a
         self.dx = float(reader.x[-1] - reader.x[0]) / (reader.x.size - 1)
         cells = max(1, int(WINDOW * self.a / self.dx + 1e-9))
-        self.x = np.arange(-cells, cells + 1) * self.dx
+        # material points on nodes of the grid at entry 0: steps of whole cells then need no interpolation
+        offset = (reader.x[0] - centres[0]) / self.dx
+        self.x = (np.arange(-cells, cells + 1) + offset - round(offset)) * self.dx
         self.y = reader.y[reader.y <= WINDOW * self.a * (1 + 1e-9)]
         # centre of the feature and entry of the reader at every moment
         before, after = self._lead_in(centres[0]), self._lead_out(centres[-1])
@@ -135,15 +137,13 @@ class Passage:
 
 
 def _shifted(fields, start, count):
-    """`count` columns of fields (x, y, 6) from column `start`; exact for whole numbers, else cubic in x."""
+    """`count` columns of fields (x, y, 6) from column `start`; exact for whole numbers, else linear in x (no overshoot)."""
     whole = int(np.round(start))
     if abs(start - whole) < 1e-6:
         return fields[whole: whole + count]
     whole = int(np.floor(start))
-    s = start - whole
-    weights = (-s * (s - 1) * (s - 2) / 6, (s + 1) * (s - 1) * (s - 2) / 2,
-               -(s + 1) * s * (s - 2) / 2, (s + 1) * s * (s - 1) / 6)
-    return sum(w * fields[whole + k: whole + k + count] for k, w in zip((-1, 0, 1, 2), weights))
+    part = start - whole
+    return (1 - part) * fields[whole: whole + count] + part * fields[whole + 1: whole + 1 + count]
 
 
 def _result(scene, passage, f, theta, phi, sigma1):

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-GRID = 10.0  # degrees between the planes the search begins with: refinement from them always found the maximum
+GRID = 10.0  # degrees between the planes the search begins with
 
 
 def planes(degrees=GRID):
@@ -35,7 +35,9 @@ def search(history, kappa, prune=True):
     points, steps, _ = history.shape
     out = np.zeros((points, 4))
     a, b = np.zeros((2, points, steps))
-    findley.search(points, steps, kappa, math.radians(GRID / 2), int(prune), history, planes(), a, b, out)
+    grid = planes()
+    values = np.zeros((points, len(grid)))
+    findley.search(points, steps, kappa, math.radians(GRID / 2), int(prune), history, grid, values, a, b, out)
     n = out[:, 1:]
     return out[:, 0], np.where(n[:, 2:] < 0, -n, n)
 

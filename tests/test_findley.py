@@ -1,0 +1,235 @@
+"""Critical planes: closed forms, an independent oracle, invariances; histories in the frame of the feature."""
+
+import numpy as np
+import pytest
+
+import tehl_taichi as tehl
+from tehl_taichi.post import fatigue, findley
+from tehl_taichi.scene import SceneError
+
+S = 100.0
+T = np.linspace(0, 2 * np.pi, 360, endpoint=False)
+NAMES = ("xx", "yy", "zz", "xy", "xz", "yz")
+KAPPAS = (0.2, 0.3, 0.627)
+
+
+def history(**components):
+    out = np.zeros((1, T.size, 6))
+    for name, values in components.items():
+        out[0, :, NAMES.index(name)] = values
+    return out
+
+
+def rotating(k):
+    s = (-1 + np.sqrt(1 + 32 * k * k)) / (8 * k)
+    return S * np.sqrt(1 - s * s) * (1 + 2 * k * s)
+
+
+wave, both = S * np.cos(T), S * (1 + np.cos(T))
+CASES = {
+    "uniaxial R=-1": (history(xx=wave), lambda k: S / 2 * (k + np.sqrt(1 + k * k))),
+    "uniaxial R=0": (history(yy=both), lambda k: (200 * k + np.sqrt(S**2 + (200 * k) ** 2)) / 2),
+    "compression only": (history(zz=-both), lambda k: S / 2),
+    "torsion R=-1": (history(xy=wave), lambda k: S * np.sqrt(1 + k * k)),
+    "torsion R=0": (history(xy=both), lambda k: np.sqrt(S**2 + (200 * k) ** 2)),
+    "equibiaxial": (history(xx=wave, yy=wave), lambda k: S / 2 * (k + np.sqrt(1 + k * k))),
+    "on hydrostatic pressure": (history(xx=wave - 300, yy=0 * T - 300, zz=0 * T - 300),
+                                lambda k: S / 2 * (k + np.sqrt(1 + k * k)) - 300 * k),
+    "axial and torsion, 90 degrees": (history(xx=wave, xy=S * np.sin(T)), lambda k: S + k * S),
+    "rotating shear": (history(xz=wave, yz=S * np.sin(T)), rotating),
+}
+
+
+@pytest.mark.parametrize("kappa", KAPPAS)
+@pytest.mark.parametrize("name", CASES)
+def test_closed_forms(taichi_cpu, name, kappa):
+    stress, exact = CASES[name]
+    f, _ = findley.search(stress, kappa)
+    assert f[0] == pytest.approx(exact(kappa), rel=2e-8, abs=1e-6)
+
+
+@pytest.mark.parametrize("kappa,exact", [(0.3, 106.97452908), (0.627, 129.934653206)])
+def test_triangular_path_has_the_circle_not_the_chord(taichi_cpu, kappa, exact):
+    corners = np.array([0, 2, 4]) * np.pi / 3
+    stress = np.zeros((1, 3, 6))
+    stress[0, :, 4], stress[0, :, 5] = S * np.cos(corners), S * np.sin(corners)
+    assert findley.search(stress, kappa)[0][0] == pytest.approx(exact, rel=1e-8)
+
+
+def test_planes_of_the_ten_degree_grid():
+    normals = findley.planes()
+    assert normals.shape == (211, 3) and (normals[:, 2] > -1e-15).all()
+    np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1, rtol=1e-14)
+
+
+def passages(points=12, steps=60, seed=3):
+    """Smooth stress histories like those of a passage, (points, steps, 6)."""
+    rng = np.random.default_rng(seed)
+    t = np.linspace(-3, 3, steps)
+    centre, width = rng.uniform(-0.5, 0.5, (points, 6, 1)), rng.uniform(0.3, 1, (points, 6, 1))
+    size = rng.standard_normal((points, 6, 1)) * 1e8
+    return np.ascontiguousarray((size * np.exp(-(((t - centre) / width) ** 2))).transpose(0, 2, 1))
+
+
+def tensors(h):
+    xx, yy, zz, xy, xz, yz = np.moveaxis(h, -1, 0)
+    return np.stack([np.stack(row, -1) for row in ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))], -2)
+
+
+def vectors(s):
+    return np.stack([s[..., i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))], -1)
+
+
+def smallest_circle(points):
+    """Radius by brute force: every pair and triple, the smallest circle that holds all points."""
+    z = points[:, 0] + 1j * points[:, 1]
+    scale = np.abs(z - z.mean()).max()
+    i, j = np.triu_indices(len(z), 1)
+    centres = [(z[i] + z[j]) / 2]
+    for k in range(len(z)):
+        u, v = z[j] - z[i], z[k] - z[i]
+        with np.errstate(all="ignore"):
+            centres.append(z[i] + (abs(u) ** 2 * v - abs(v) ** 2 * u) / (u.conjugate() * v - u * v.conjugate()))
+    c = np.concatenate(centres)
+    c = c[np.isfinite(c) & (np.abs(c - z.mean()) < 3 * scale)]
+    return np.abs(c[:, None] - z[None]).max(axis=1).min()
+
+
+def oracle(h, n, kappa):
+    """tau_amp + kappa sigma_n,max of one history (times, 6) on the plane n."""
+    s = tensors(h)
+    e1 = np.linalg.svd(n[None])[2][1]
+    e2 = np.cross(n, e1)
+    path = np.stack([s @ n @ e1, s @ n @ e2], axis=1)
+    return smallest_circle(path) + kappa * (s @ n @ n).max()
+
+
+def test_value_on_the_plane_found_agrees_with_the_oracle(taichi_cpu):
+    h = passages(6, 40)
+    f, normals = findley.search(h, 0.3)
+    for point in range(len(h)):
+        assert f[point] == pytest.approx(oracle(h[point], normals[point], 0.3), rel=1e-11)
+
+
+def test_no_plane_of_a_scan_is_above_the_maximum(taichi_cpu):
+    h = passages(2, 20)
+    f, _ = findley.search(h, 0.3)
+    for point in range(len(h)):
+        scan = max(oracle(h[point], n, 0.3) for n in findley.planes(6.0))
+        assert scan <= f[point] * (1 + 1e-12) and scan > 0.98 * f[point]
+
+
+def test_pruning_changes_nothing(taichi_cpu):
+    h = passages(40, 80)
+    for one, all_ in zip(findley.search(h, 0.3), findley.search(h, 0.3, prune=False)):
+        np.testing.assert_array_equal(one, all_)
+
+
+def test_mirror_and_rotation_change_nothing(taichi_cpu):
+    h = passages(30, 80, seed=5)
+    f, _ = findley.search(h, 0.3)
+    mirrored = findley.search(h * np.array([1, 1, 1, -1, 1, -1]), 0.3)[0]
+    np.testing.assert_allclose(mirrored, f, rtol=1e-6)
+    q = np.linalg.qr(np.random.default_rng(7).standard_normal((3, 3)))[0]
+    np.testing.assert_allclose(findley.search(vectors(q @ tensors(h) @ q.T), 0.3)[0], f, rtol=1e-6)
+
+
+def test_bad_histories_are_refused(taichi_cpu):
+    h = passages(1, 5)
+    h[0, 2, 1] = np.nan
+    with pytest.raises(ValueError, match="finite"):
+        findley.search(h, 0.3)
+
+
+def test_largest_principal_stress():
+    h = passages(10, 30)
+    exact = np.linalg.eigvalsh(tensors(h))[..., -1]
+    np.testing.assert_allclose(findley.largest_principal(h), exact, atol=1e-7 * np.abs(h).max())
+
+
+def test_angles():
+    theta, phi = findley.angles(np.array([[0, 0, 1.0], [0, 1.0, 0], [np.sqrt(0.5), 0, np.sqrt(0.5)]]))
+    np.testing.assert_allclose(theta, (0, 90, 45), atol=1e-6)
+    np.testing.assert_allclose(phi, (0, 90, 0), atol=1e-12)
+
+
+class Moving:
+    """Reader of a Hertz line with a pressure bump that rides on it; shear 0.05 p along x."""
+
+    def __init__(self, scene, cells=16, rows=9, stride=1.0):
+        from tehl_taichi.scene.scales import Scales
+
+        self.s = Scales.of(scene)
+        self.x = np.linspace(-2, 2, 4 * cells + 1) * self.s.a
+        self.y = np.linspace(0, 1, rows) * self.s.a
+        dx = stride * self.s.a / cells
+        self.centres = -1.6 * self.s.a + dx * np.arange(int(3.0 * self.s.a / dx) + 1)
+        self.time = self.centres - self.centres[0]
+
+    def __len__(self):
+        return self.centres.size
+
+    def feature_x(self, n):
+        return self.centres[n]
+
+    def fields(self, n, names):
+        x, y = self.x[:, None] / self.s.a, self.y[None, :] / self.s.a
+        hertz = np.sqrt(np.maximum(1 - x**2, 0))
+        bump = np.exp(-((x - self.centres[n] / self.s.a) ** 2 + y**2) / 0.04) if n else 0
+        p = self.s.p_H * hertz * (1 + bump + 0 * y)
+        return {"pressure": p, "traction_x_a": 0.05 * p, "traction_y_a": 0 * p}
+
+
+def test_passage_in_the_frame_of_the_feature(taichi_cpu):
+    scene = tehl.scene("gear")
+    reader = Moving(scene)
+    result = fatigue.run(scene, reader)
+    assert set(result.summary) == {"Fi_max", "findley_stress_max_Pa", "x_m", "y_m", "plane_theta_deg", "plane_phi_deg",
+                                   "surface_angle_deg", "sigma1_max_Pa", "kappa_F", "sigma_eF_Pa"}
+    assert abs(result.summary["x_m"]) < 0.5 * reader.s.a
+    assert 0.15 < result.summary["findley_stress_max_Pa"] / reader.s.p_H < 0.5
+    sizes = tuple(result.maps[name][0].size for name in ("feature_frame_x", "feature_frame_y"))
+    assert result.maps["Fi"][0].shape == sizes
+
+
+def test_history_of_whole_cells_is_exact_and_begins_and_ends_unloaded(taichi_cpu):
+    scene = tehl.scene("gear")
+    reader = Moving(scene)
+    passage = fatigue.Passage(scene, reader, reader.centres)
+    h = passage.history(slice(0, 1))
+    n = int(np.argmin(np.abs(reader.centres)))
+    t = int(np.flatnonzero(passage.entries == n)[0])
+    point = passage.x.size // 2 + 3
+    column = int(round((passage.centres[t] + passage.x[point] - reader.x[0]) / passage.dx))
+    assert -h[point, t, 2] == reader.fields(n, ())["pressure"][column, 0] > 0
+    assert np.abs(h[:, 0, 2]).max() == np.abs(h[:, -2, 2]).max() == np.abs(h[:, -1]).max() == 0.0
+
+
+def test_blocks_of_rows_change_nothing(taichi_cpu, monkeypatch):
+    scene = tehl.scene("gear")
+    reader = Moving(scene, cells=8, rows=5)
+    whole = fatigue.run(scene, reader)
+    monkeypatch.setattr(fatigue, "BLOCK_BYTES", 1.0)
+    assert fatigue.run(scene, reader).summary == whole.summary
+
+
+def test_broken_shifts_are_interpolated(taichi_cpu):
+    scene = tehl.scene("gear")
+    one, other = (fatigue.run(scene, Moving(scene, 32, 17, stride)).summary["findley_stress_max_Pa"]
+                  for stride in (1.0, 0.7))
+    assert other == pytest.approx(one, rel=0.02)
+
+
+class Still:
+    """Reader of a run without feature."""
+
+    def __len__(self):
+        return 1
+
+    def feature_x(self, n):
+        return np.nan
+
+
+def test_no_feature_is_refused():
+    with pytest.raises(SceneError, match="passage of a feature"):
+        fatigue.run(tehl.scene("smooth-line"), Still())

@@ -1,0 +1,132 @@
+"""Surface stresses: coefficients against quadrature and known values, Hertz contacts, sliding, the endless line."""
+
+import numpy as np
+import pytest
+
+from tehl_taichi.post import half_space as hs
+
+NU = 0.3
+
+
+def gauss(a, b, n=40):
+    nodes, weights = np.polynomial.legendre.leggauss(n)
+    s, t = np.meshgrid(a * nodes, b * nodes, indexing="ij")
+    return s, t, a * b * np.outer(weights, weights)
+
+
+def point_pressure(X, Y):
+    """(sxx, syy, sxy) at the surface from a unit normal force (Johnson 3.18, 3.19 at z = 0)."""
+    r2 = X * X + Y * Y
+    c = (1 - 2 * NU) / (2 * np.pi * r2 * r2)
+    return c * (X * X - Y * Y), c * (Y * Y - X * X), 2 * c * X * Y
+
+
+def point_shear(X, Y):
+    """(sxx, syy, sxy) at the surface from a unit force along x on the body (Johnson 3.75 at z = 0)."""
+    r = np.hypot(X, Y)
+    m = 1 - 2 * NU
+    sxx = -3 * X**3 / r**5 + m * (X / r**3 - 3 * X / r**3 + X**3 / r**5 + 2 * X**3 / r**5)
+    syy = -3 * X * Y * Y / r**5 + m * (X / r**3 - X / r**3 + X * Y * Y / r**5 + 2 * X * Y * Y / r**5)
+    sxy = -3 * X * X * Y / r**5 + m * (-Y / r**3 + X * X * Y / r**5 + 2 * X * X * Y / r**5)
+    return tuple(v / (2 * np.pi) for v in (sxx, syy, sxy))
+
+
+@pytest.mark.parametrize("x,y", [(2.0, 0.7), (-1.4, 1.9), (0.3, -2.5), (3.0, 0.0)])
+def test_coefficients_agree_with_quadrature_of_the_point_force(x, y):
+    a, b = 0.5, 0.4
+    s, t, w = gauss(a, b)
+    for exact, point in ((hs.pressure_coefficients, point_pressure), (hs.shear_x_coefficients, point_shear)):
+        sums = [np.sum(w * v) for v in point(x - s, y - t)]
+        np.testing.assert_allclose(exact(x, y, a, b, NU), sums, atol=1e-12)
+
+
+def test_coefficients_have_their_known_values():
+    np.testing.assert_allclose(hs.pressure_coefficients(0.0, 0.0, 0.5, 0.5, NU), (-0.8, -0.8, 0), atol=1e-14)
+    known = 0.0590334470601733
+    np.testing.assert_allclose(hs.pressure_coefficients(1.0, 0.0, 0.5, 0.5, NU), (known, -known, 0), atol=1e-14)
+    np.testing.assert_allclose(hs.pressure_coefficients(0.0, 1.0, 0.5, 0.5, NU), (-known, known, 0), atol=1e-14)
+    np.testing.assert_allclose(hs.shear_x_coefficients(0.0, 0.0, 0.5, 0.5, NU), 0, atol=1e-14)
+
+
+def test_shear_along_y_is_shear_along_x_turned():
+    sxx, syy, sxy = hs.shear_y_coefficients(0.9, -1.3, 0.5, 0.4, NU)
+    np.testing.assert_allclose((syy, sxx, sxy), hs.shear_x_coefficients(-1.3, 0.9, 0.4, 0.5, NU), rtol=1e-14)
+
+
+def test_convolution_equals_the_direct_sum():
+    rng = np.random.default_rng(2)
+    x, y = np.arange(9) * 0.3, np.arange(5) * 0.2
+    p, qx, qy = rng.standard_normal((3, 9, 5))
+    qy[:, 0] = 0
+    got = hs.SurfaceStress(x, y, NU, line=False)(p, qx, qy)
+    full = np.concatenate([-y[:0:-1], y])
+    lag_x = x[:, None, None, None] - x[None, None, :, None]
+    lag_y = y[None, :, None, None] - full[None, None, None, :]
+    kernels = [k(lag_x, lag_y, 0.15, 0.1, NU)
+               for k in (hs.pressure_coefficients, hs.shear_x_coefficients, hs.shear_y_coefficients)]
+    loads = [np.concatenate([s * v[:, :0:-1], v], axis=1) for v, s in ((p, 1), (qx, 1), (qy, -1))]
+    for n, name in enumerate(("sxx", "syy", "sxy")):
+        direct = sum(np.einsum("ijkl,kl->ij", k[n], load) for k, load in zip(kernels, loads))
+        np.testing.assert_allclose(got[name], direct, atol=1e-12)
+    np.testing.assert_array_equal(got["szz"], -p)
+    np.testing.assert_array_equal(got["sxz"], -qx)
+
+
+def hertz_point(cells):
+    n = int(1.5 * cells)
+    x, y = np.arange(-n, n + 1) / cells, np.arange(n + 1) / cells
+    p = np.sqrt(np.maximum(1 - x[:, None] ** 2 - y[None, :] ** 2, 0))
+    return x, hs.SurfaceStress(x, y, NU, line=False)(p, 0 * p, 0 * p)
+
+
+def test_hertz_point_tension_approaches_a_seventh_of_the_pressure():
+    """Largest sigma_1 = (1 - 2 nu) p_0 / 3 at r = a."""
+    errors = [abs(hertz_point(n)[1]["sxx"].max() - (1 - 2 * NU) / 3) for n in (16, 32, 64)]
+    assert errors[2] < errors[1] < errors[0] < 0.012 and errors[2] < 0.003
+    x, stress = hertz_point(64)
+    assert abs(stress["sxx"][x.size // 2, 0] + (1 + 2 * NU) / 2) < 1e-3
+
+
+def sliding_cylinder(cells):
+    """Rows of an endless line: q = sqrt(1 - x^2) towards +x."""
+    x = np.arange(-2 * cells, 2 * cells + 1) / cells
+    q = np.sqrt(np.maximum(1 - x**2, 0))[:, None]
+    return x, hs.SurfaceStress(x, [0.0], NU)(0 * q, q, 0 * q)
+
+
+def test_sliding_cylinder():
+    """sxx = -2 x q_0 inside, so 2 q_0 of tension at the trailing edge; -2 (x -+ sqrt(x^2 - 1)) outside."""
+    peaks = [sliding_cylinder(n)[1]["sxx"].max() for n in (25, 50, 100)]
+    assert 1.8 < peaks[0] < peaks[1] < peaks[2] < 2.0
+    x, stress = sliding_cylinder(100)
+    sxx = stress["sxx"][:, 0]
+    inner, outer = np.abs(x) < 0.8, np.abs(x) > 1.2
+    np.testing.assert_allclose(sxx[inner], -2 * x[inner], atol=5e-3)
+    exact = -2 * (x - np.sign(x) * np.sqrt(np.maximum(x**2 - 1, 0)))
+    np.testing.assert_allclose(sxx[outer], exact[outer], atol=5e-3)
+    np.testing.assert_allclose(stress["syy"][:, 0], NU * sxx, rtol=1e-13)
+
+
+def test_endless_line_pressure_has_no_surface_tension():
+    x, y = np.linspace(-2, 2, 81), np.linspace(0, 1, 17)
+    p = np.repeat(np.sqrt(np.maximum(1 - x**2, 0))[:, None], 17, axis=1)
+    stress = hs.SurfaceStress(x, y, NU)(p, 0 * p, 0 * p)
+    np.testing.assert_allclose(stress["sxx"], -p, atol=1e-14)
+    np.testing.assert_allclose(stress["syy"], -2 * NU * p, atol=1e-14)
+
+
+def test_endless_line_is_the_limit_of_a_long_one():
+    """The truncated line misses 0.2 a / L of sxx in the middle; the analytic line part misses nothing."""
+    x = np.linspace(-1.5, 1.5, 61)
+    for length in (5.0, 20.0):
+        y = np.linspace(0, length, int(10 * length) + 1)
+        p = np.repeat(np.sqrt(np.maximum(1 - x**2, 0))[:, None], y.size, axis=1)
+        middle = hs.SurfaceStress(x, y, NU, line=False)(p, 0 * p, 0 * p)["sxx"][30, 0]
+        assert abs(middle + 1 - 0.2 / length) < 0.1 / length
+
+
+def test_grids_are_checked():
+    with pytest.raises(ValueError, match="uniform"):
+        hs.SurfaceStress([0.0, 1.0, 3.0], [0.0], NU)
+    with pytest.raises(ValueError, match="line"):
+        hs.SurfaceStress([0.0, 1.0], [0.0], NU, line=False)
