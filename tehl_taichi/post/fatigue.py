@@ -137,7 +137,7 @@ class Passage:
 
 
 def _shifted(fields, start, count):
-    """`count` columns of fields (x, y, 6) from column `start`; exact for whole numbers, else linear in x (no overshoot)."""
+    """`count` columns of fields (x, y, 6) from column `start`; exact for whole numbers, else linear in x."""
     whole = int(np.round(start))
     if abs(start - whole) < 1e-6:
         return fields[whole: whole + count]
