@@ -3,7 +3,6 @@
 from pathlib import Path
 
 import typer
-
 from tehl_cli.live import say
 
 
@@ -16,6 +15,7 @@ def register(app):
 def scenes():
     """List the built-in scenes."""
     from tehl_cli.tables import list_table
+
     from tehl_taichi.scene import BUILT_INS
 
     list_table("built-in scenes (tehl run NAME)", ("name", "what"), [(name, text) for name, (_, text) in BUILT_INS.items()])
@@ -24,6 +24,7 @@ def scenes():
 def oils():
     """List the named oils with their sources."""
     from tehl_cli.tables import list_table
+
     from tehl_taichi.scene.oil import OILS
 
     list_table("named oils (--set oil.name=NAME)", ("name", "viscosity law", "source"),
@@ -49,6 +50,7 @@ def new(
 def show(store: Path = typer.Argument(..., help="store of a finished, running or broken run")):
     """Summary and residual history of a run."""
     from tehl_cli.tables import list_table, summary_table
+
     from tehl_taichi.io.store import Store
 
     saved = Store.open(store)
@@ -78,6 +80,7 @@ def doctor():
     import time
 
     from tehl_cli.tables import list_table
+
     from tehl_taichi import __version__, runtime
     from tehl_taichi.scene import scene
 

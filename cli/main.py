@@ -3,7 +3,6 @@
 import sys
 
 import typer
-
 from tehl_cli import inspect, runs
 from tehl_cli.errors import BAD_INPUT, FAILED, INTERRUPTED, NOT_CONVERGED, Interrupted
 

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import List, Optional
 
 import typer
-
 from tehl_cli.errors import Interrupted
 from tehl_cli.live import Live, say
 

@@ -21,13 +21,6 @@ __version__ = "0.1.0"
 __all__ = ["__version__", "march", "scene", "simulate"]
 
 
-def scene(name="gear"):
-    """The built-in scene `name`; see :mod:`tehl_taichi.scene.builtin`. Raises SceneError for an unknown name."""
-    from tehl_taichi.scene.builtin import scene as built_in
-
-    return built_in(name)
-
-
 def march(scene, state=None):
     """Generator of snapshots of `scene`: the steady start, then one per time step (for loops of one's own)."""
     from tehl_taichi import runtime
@@ -40,3 +33,6 @@ def march(scene, state=None):
 def simulate(scene):
     """All snapshots of `scene` as a list; long runs are better streamed with :func:`march` or `tehl run`."""
     return list(march(scene))
+
+
+from tehl_taichi import scene  # noqa: E402  callable: scene("gear"); after the settings above, which numpy reads

@@ -241,19 +241,7 @@ def _scalars(solver, report, stress):
     P, touch = v.flat(fields.P), v.flat(fields.TOUCH)
     drag = 0.5 * abs(float(np.sum(w * (stress[0] - stress[2]))))
     return {"h0_m": solver.H0 * s.h, "p_max_Pa": values["p_max"] * s.p_H, "h_min_m": values["h_min"] * s.h,
-            "h_c_m": values["h_c"] * s.h, "load_error": abs(report.load_error), "mass_error": mass_error(solver),
+            "h_c_m": values["h_c"] * s.h, "load_error": abs(report.load_error), "mass_error": solver.mass_error(),
             "residual": report.residual, "newton": float(report.newton), "cycles": float(report.cycles),
             "rejected": 0.0, "dt_s": 0.0, "contact_load_fraction": float(np.sum(w * P * touch)) / solver.load,
             "friction_coefficient": drag / s.p_H / solver.load}
-
-
-def mass_error(solver):
-    """Net outflow of the full-film region plus its storage, relative to the Couette flux through X = 0."""
-    v = solver.levels
-    wet = (v.flat(fields.P) > 0) & (v.flat(fields.TOUCH) == 0) & solver.inside
-    rows = np.ones(v.ny + 1)
-    rows[0] = 0.5 if v.ny else 1.0
-    R = (v.flat(fields.R) * wet).reshape(v.ny + 1, -1)
-    middle = int(np.argmin(np.abs(v.X)))
-    couette = (v.view(fields.RHO) * v.view(fields.H))[:, middle]
-    return abs(float(np.sum(rows * R.sum(axis=1)))) / float(np.sum(rows * couette))

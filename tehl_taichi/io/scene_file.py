@@ -1,11 +1,12 @@
 """Scene files (TOML): reading with a base scene, writing with every value, the commented template."""
 
 import math
-import tomllib
 from pathlib import Path
 
+import tomllib
+
 from tehl_taichi.scene import BUILT_INS, Scene, SceneError, scene
-from tehl_taichi.scene.scene import SECTIONS
+from tehl_taichi.scene.whole import SECTIONS
 
 HEADER = "# A tehl_taichi scene. SI units (m, s, N, Pa, kg), temperatures in deg C; lengths of [grid] and [time] in a."
 COMMENTS = {

@@ -9,7 +9,25 @@ a unit at one node and the rows become banded transport.
 import taichi as ti
 
 from tehl_taichi.kernels.fields import (
-    COR, CT, CX, CY, DRY, EX, EY, JN, K0, KIND, NX, OFF, PERIOD, QP, RES, RHO, SOL, SPREAD, TOUCH,
+    COR,
+    CT,
+    CX,
+    CY,
+    DRY,
+    EX,
+    EY,
+    JN,
+    K0,
+    KIND,
+    NX,
+    OFF,
+    PERIOD,
+    QP,
+    RES,
+    RHO,
+    SOL,
+    SPREAD,
+    TOUCH,
 )
 from tehl_taichi.kernels.reynolds import Flat, Rows, Table, cells, couette_weight
 

@@ -7,8 +7,34 @@ third-order upwind-biased, q_{i+1/2} = (2 q_{i+1} + 5 q_i - q_{i-1})/6; BDF2 in 
 import taichi as ti
 
 from tehl_taichi.kernels.fields import (
-    CT, CX, CY, D, DLE, DRHO, DRY, DX, DY, EX, EY, FLOOR, H, IE, JN, K0, K1, LE, MOB, NX, NY, OFF, P, QOLD, QP, R, RHO,
+    CT,
+    CX,
+    CY,
+    DLE,
+    DRHO,
+    DRY,
+    DX,
+    DY,
+    EX,
+    EY,
+    FLOOR,
+    IE,
+    JN,
+    K0,
+    K1,
+    LE,
+    MOB,
+    NX,
+    NY,
+    OFF,
+    QOLD,
+    QP,
+    RHO,
     TOUCH,
+    D,
+    H,
+    P,
+    R,
 )
 from tehl_taichi.physics.density import rho_ratio
 from tehl_taichi.physics.viscosity import ln_eta

@@ -2,7 +2,7 @@
 
 import taichi as ti
 
-from tehl_taichi.kernels.fields import H, IE, P, TOUCH
+from tehl_taichi.kernels.fields import IE, TOUCH, H, P
 from tehl_taichi.kernels.reynolds import Table, cells
 from tehl_taichi.physics.rheology import shear_limit, shear_stress
 

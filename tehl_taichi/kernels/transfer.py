@@ -5,7 +5,7 @@ The transfers to and from the finest level run in parallel; the others are too s
 
 import taichi as ti
 
-from tehl_taichi.kernels.fields import COR, DRY, H, JN, P, RES, TOUCH
+from tehl_taichi.kernels.fields import COR, DRY, JN, RES, TOUCH, H, P
 from tehl_taichi.kernels.reynolds import Table, cells
 
 

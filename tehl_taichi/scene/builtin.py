@@ -2,9 +2,7 @@
 
 from tehl_taichi.scene.checks import SceneError, nearest
 from tehl_taichi.scene.parts import Feature, Operation
-from tehl_taichi.scene.scene import Scene
-
-
+from tehl_taichi.scene.whole import Scene
 
 BUILT_INS = {
     "gear": (Scene(), "dedendum of a driving gear: 1.5 um asperity on the slower surface (SRR -0.12), 1.93 GPa"),

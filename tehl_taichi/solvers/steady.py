@@ -61,7 +61,7 @@ def grid_sequence(nx, ny, first=FIRST_CELLS):
 
 def solve_steady(scene, scales, nx, ny):
     """Steady smooth contact on nx x ny cells (ny = 0: line). Returns a SteadyResult; check `report.converged`."""
-    result, P = None, None
+    result, P, H0 = None, None, 0.0
     for size in grid_sequence(nx, ny):
         solver = PressureSolver(Levels(scene, scales, *size))
         _undeformed(solver.levels)

@@ -7,9 +7,7 @@ from tehl_taichi.scene import oil as oils
 from tehl_taichi.scene import scales
 from tehl_taichi.scene.checks import SceneError, build, nearest
 from tehl_taichi.scene.oil import Oil
-from tehl_taichi.scene.parts import (
-    Body, Contact, Fatigue, Feature, Grid, Numerics, Operation, Output, Rheology, Thermal, Time,
-)
+from tehl_taichi.scene.parts import Body, Contact, Fatigue, Feature, Grid, Numerics, Operation, Output, Rheology, Thermal, Time
 
 SECTIONS = {"contact": Contact, "operation": Operation, "rheology": Rheology, "thermal": Thermal, "fatigue": Fatigue,
             "grid": Grid, "time": Time, "numerics": Numerics, "output": Output}

@@ -1,0 +1,103 @@
+"""PNG figures of a store (matplotlib, the `plot` extra)."""
+
+from pathlib import Path
+
+import numpy as np
+
+from tehl_taichi.io.store import StoreError
+from tehl_taichi.scene.scales import Scales
+
+POSITIONS = (-0.8, 0.0, 0.8)  # feature positions (in a) shown beside the steady state
+
+
+def write_all(store, folder):
+    """Write every figure the store has data for into `folder`; returns the paths. Raises StoreError."""
+    plt = _matplotlib()
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    figures = {"centreline": centreline(plt, store)}
+    if store.y.size > 1:
+        figures["maps"] = maps(plt, store)
+    if store.map("Fi") is not None:
+        figures["fatigue"] = fatigue(plt, store)
+    return [_save(plt, figure, folder / f"{name}.png") for name, figure in figures.items()]
+
+
+def _matplotlib():
+    try:
+        import matplotlib
+    except ImportError:
+        raise StoreError("figures need matplotlib: pip install 'tehl_taichi[plot]'") from None
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    return plt
+
+
+def _save(plt, figure, path):
+    figure.savefig(path, dpi=110)
+    plt.close(figure)
+    return path
+
+
+def entries(store):
+    """Entries nearest to the steady state and to the feature positions shown."""
+    if store.steps < 2:
+        return [0]
+    a = Scales.of(store.scene).a
+    at = store.scalar("feature_x")[: store.steps] / a
+    near = [int(np.nanargmin(np.abs(at - position))) for position in POSITIONS if np.nanmax(at) >= position - 0.05]
+    return sorted({0, *near})
+
+
+def centreline(plt, store):
+    """Pressure and film along y = 0 for several feature positions."""
+    a = Scales.of(store.scene).a
+    figure, (top, low) = plt.subplots(2, 1, sharex=True, figsize=(8, 6.5), constrained_layout=True)
+    for n in entries(store):
+        f = store.fields(n, ("pressure", "film"))
+        label = "steady start" if n == 0 else f"feature at {store.feature_x(n) / a:+.2f} a"
+        style = dict(label=label, color="0.45" if n == 0 else None, ls="--" if n == 0 else "-", lw=1.5)
+        top.plot(store.x / a, f["pressure"][:, 0] / 1e9, **style)
+        low.plot(store.x / a, f["film"][:, 0] * 1e6, **style)
+    top.set(ylabel="pressure (GPa)", title=f"{store.scene.name}: centreline y = 0")
+    low.set(ylabel="film (µm)", xlabel="x / a (flow to the right)", ylim=(0, 1.2), xlim=(-1.6, 1.4))
+    top.legend(frameon=False)
+    for axes in (top, low):
+        axes.grid(alpha=0.25)
+    return figure
+
+
+def maps(plt, store):
+    """Pressure and film over x, y with the feature nearest to the middle."""
+    a = Scales.of(store.scene).a
+    n = int(np.nanargmin(np.abs(store.scalar("feature_x")[: store.steps])))
+    f = store.fields(n, ("pressure", "film"))
+    figure, axes = plt.subplots(2, 1, figsize=(8, 6.5), constrained_layout=True, sharex=True)
+    panels = ((f["pressure"] / 1e9, "pressure (GPa)", "inferno", None), (f["film"] * 1e6, "film (µm)", "viridis", 1.0))
+    for ax, (values, label, colours, top) in zip(axes, panels):
+        full = np.hstack([values[:, :0:-1], values])
+        y = np.concatenate([-store.y[:0:-1], store.y]) / a
+        image = ax.pcolormesh(store.x / a, y, full.T, cmap=colours, vmax=top, shading="gouraud")
+        figure.colorbar(image, ax=ax, label=label)
+        ax.set(ylabel="y / a", aspect="equal", xlim=(-1.6, 1.4))
+    axes[0].set_title(f"{store.scene.name}: feature at {store.feature_x(n) / a:+.2f} a")
+    axes[1].set_xlabel("x / a (flow to the right)")
+    return figure
+
+
+def fatigue(plt, store):
+    """Findley index around the feature."""
+    x, y, Fi = (store.map(name) for name in ("feature_frame_x", "feature_frame_y", "Fi"))
+    figure, ax = plt.subplots(figsize=(8, 4.2), constrained_layout=True)
+    full = np.hstack([Fi[:, :0:-1], Fi])
+    ys = np.concatenate([-y[:0:-1], y]) * 1e6
+    image = ax.pcolormesh(x * 1e6, ys, full.T, cmap="magma", shading="gouraud")
+    figure.colorbar(image, ax=ax, label="Fi")
+    i, j = np.unravel_index(int(np.argmax(Fi)), Fi.shape)
+    ax.plot(x[i] * 1e6, y[j] * 1e6, "c+", ms=12, mew=2, label=f"worst point, Fi = {Fi[i, j]:.3f}")
+    ax.set(xlabel="x from the feature's centre (µm), flow to the right", ylabel="y (µm)", aspect="equal",
+           title=f"{store.scene.name}: Findley index, κ_F = {store.scene.fatigue.kappa:g}, "
+                 f"σ_eF = {store.scene.fatigue.endurance / 1e6:g} MPa")
+    ax.legend(loc="upper right")
+    return figure

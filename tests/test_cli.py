@@ -1,0 +1,117 @@
+"""The command line and the store, end to end in processes of their own."""
+
+import json
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+
+TINY = ("--grid", "64x16", "--threads", "2")
+CALL = (sys.executable, "-c", "from tehl_cli.main import main; main()")
+
+
+def tehl(*words, cwd=None):
+    return subprocess.run([*CALL, *map(str, words)], capture_output=True, text=True, cwd=cwd)
+
+
+def assert_same(one, other):
+    """Every field of two stores agrees to 1e-10."""
+    from tehl_taichi.io.store import FIELDS, Store
+
+    a, b = Store.open(one), Store.open(other)
+    assert len(a) == len(b) and a.finished and b.finished
+    for n in range(len(a)):
+        for name in FIELDS:
+            assert np.allclose(a.fields(n)[name], b.fields(n)[name], rtol=1e-10, atol=0), (n, name)
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    """A short finished run."""
+    path = tmp_path_factory.mktemp("runs") / "whole.zarr"
+    done = tehl("run", "gear", *TINY, "--steps", 10, "--out", path, "--json")
+    assert done.returncode == 0, done.stderr
+    return path, json.loads(done.stdout)
+
+
+def test_json_summary_has_the_keys_of_the_interface(finished):
+    path, summary = finished
+    assert {"scene", "version", "store", "converged", "wall_s", "compile_s", "steps", "grid", "hertz", "left_out", "steady",
+            "transient", "fatigue", "work", "clamps"} <= summary.keys()
+    assert summary["steps"] == 10 and summary["grid"] == {"nx": 65, "ny": 17, "nz": 1}
+    assert set(summary["steady"]["error"]) == {"h_c_m", "h_min_m", "p_max_Pa"}
+    assert {"Fi_max", "findley_stress_max_Pa", "x_m", "y_m", "plane_theta_deg", "plane_phi_deg", "surface_angle_deg",
+            "sigma1_max_Pa", "kappa_F", "sigma_eF_Pa"} == set(summary["fatigue"])
+    assert summary["transient"]["load_error_max"] < 1e-6 and summary["transient"]["mass_error_max"] < 1e-6
+
+
+def test_xarray_opens_the_store_as_it_is(finished):
+    xarray = pytest.importorskip("xarray")
+    data = xarray.open_zarr(finished[0])
+    assert data.sizes["time"] == 11 and data.pressure.dims == ("time", "x", "y")
+    assert data.pressure.attrs["units"] == "Pa" and data.x.attrs["units"] == "m"
+    assert float(data.pressure.max()) == pytest.approx(finished[1]["transient"]["p_max_Pa"], rel=1e-6)
+
+
+def test_show_plot_and_repeat(finished, tmp_path):
+    assert "finished" in tehl("show", finished[0]).stdout
+    drawn = tehl("plot", finished[0], "--out", tmp_path / "figures")
+    assert drawn.returncode == 0 and (tmp_path / "figures" / "fatigue.png").stat().st_size > 5000
+    again = tehl("run", finished[0], "--out", tmp_path / "again.zarr", "--threads", 1, "--quiet")
+    assert again.returncode == 0, again.stderr
+    assert_same(finished[0], tmp_path / "again.zarr")  # one thread instead of two: the same numbers
+
+
+@pytest.mark.parametrize("stop", [signal.SIGKILL, signal.SIGINT])
+def test_a_broken_run_opens_and_resumes_to_the_same_result(finished, tmp_path, stop):
+    from tehl_taichi.io.store import Store
+
+    path = tmp_path / "broken.zarr"
+    run = subprocess.Popen([*CALL, "run", "gear", *TINY, "--steps", "10", "--out", str(path)], stderr=subprocess.DEVNULL)
+    while not (path / ".checkpoints").exists() and run.poll() is None:
+        time.sleep(0.02)
+    time.sleep(random.uniform(0.0, 1.5))
+    os.kill(run.pid, stop)
+    code = run.wait()
+    if (path / "zarr.json").exists() and "steps" in Store.open(path).attrs and len(Store.open(path)):
+        assert code in (-signal.SIGKILL, 4, 0)
+        assert tehl("resume", path, "--threads", 2).returncode == 0
+        assert_same(finished[0], path)
+
+
+@pytest.mark.parametrize("words, said", [
+    (("run", "--load", "-5"), "N/m"), (("run", "--load", "nan"), "not a number"), (("run", "geer"), "gear"),
+    (("run", "no-such.toml"), "cannot read"), (("run", "--set", "feature.hight=1e-6"), "height"),
+    (("run", "--set", "feature.height"), "key=value"), (("run", "--grid", "huge"), "NXxNY"),
+    (("run", "--thermal"), "isothermal"),
+    (("run", "--arch", "cuda"), "cpu"), (("run", "--precision", "f16"), "f64"), (("run", "--threads", "0"), "1 to"),
+    (("run", "--speed", "0"), "entrainment"), (("run", "--srr", "-2"), "never passes"), (("run", "--sr", "1"), "srr"),
+    (("show", "nothing.zarr"), "not a store"), (("resume", "nothing.zarr"), "not a store"),
+])
+def test_bad_input_is_a_sentence_and_writes_nothing(words, said, tmp_path):
+    done = tehl(*words, cwd=tmp_path)
+    assert done.returncode == 2 and said in done.stderr.lower() + done.stderr
+    assert "Traceback" not in done.stderr and list(tmp_path.iterdir()) == []
+
+
+def test_an_existing_store_is_not_overwritten(finished):
+    before = (finished[0] / "zarr.json").read_bytes()
+    done = tehl("run", "smooth-line", "--out", finished[0])
+    assert done.returncode == 2 and "exists" in done.stderr and (finished[0] / "zarr.json").read_bytes() == before
+
+
+def test_new_scene_file_runs(tmp_path):
+    assert tehl("new", "mine.toml", "--base", "smooth-line", cwd=tmp_path).returncode == 0
+    done = tehl("run", "mine.toml", "--json", "--threads", 2, cwd=tmp_path)
+    assert done.returncode == 0 and json.loads(done.stdout)["steady"]["h_c_m"] == pytest.approx(0.4366e-6, rel=1e-3)
+    assert tehl("new", "mine.toml", cwd=tmp_path).returncode == 2
+
+
+def test_lists_and_doctor():
+    assert "touching-asperity" in tehl("scenes").stdout and "reference-pao" in tehl("oils").stdout
+    assert tehl("doctor").returncode == 0
