@@ -11,7 +11,7 @@ class Workspace:
 
     def __init__(self, n, iterations):
         self.iterations = iterations
-        self.V, self.Z = np.zeros((iterations + 1, n)), np.zeros((iterations, n))
+        self.V, self.Z = np.zeros((iterations + 1, n)), np.zeros((iterations, n - 1))
 
 
 def fgmres(apply, precondition, b, tolerance, work):
@@ -21,7 +21,7 @@ def fgmres(apply, precondition, b, tolerance, work):
     """
     beta = float(np.sqrt(np.sum(b * b)))
     if beta == 0.0:
-        return np.zeros_like(b), 0, 0.0
+        return np.zeros(work.Z.shape[1]), 0, 0.0
     hessenberg = np.zeros((work.iterations + 1, work.iterations))
     work.V[0] = b / beta
     for k in range(work.iterations):

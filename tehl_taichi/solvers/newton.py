@@ -17,10 +17,10 @@ from tehl_taichi.solvers.preconditioner import AdditiveLines
 SHORTEST_STEP = 0.05  # of a Newton step; below it a step is taken as it is and the next linearisation decides
 SMALL_CHANGE = 0.05  # in P/p_H: near the solution full steps are taken although the merit may rise for a moment
 SMALL_MERIT = 1e-2
-# Largest row scale in the Krylov norm. The diagonal is about 0.02 in the contact but 1e3 in the inlet: scaled with it, a
-# mass defect there is invisible. To a mass error of 1e-6 at 128x32: 6.2 Newton, 49 Krylov a step without the cap, 4.7/41
-# with 1, 4.1/38 with 0.1, 3.7/34 with 0.03 (cap in the merit too: no convergence from Hertz).
-ROW_CAP = 0.03
+# Largest row scale in the Krylov norm: the diagonal is about 0.02 in the contact but 1e3 in the inlet. Newton / Krylov per
+# step over the inlet (256x64, to a mass error of 1e-6): no cap 4.2/32, at most 10/111; cap 1 3.7/38, at most 4/50; without
+# the mass component of the norm and cap 0.03 3.7/58. A cap in the merit too does not converge from Hertz.
+ROW_CAP = 1.0
 
 
 @dataclass
@@ -41,11 +41,15 @@ class PressureSolver:
     def __init__(self, levels):
         self.levels = levels
         numerics = levels.scene.numerics
-        self.work = Workspace(levels.n + 1, numerics.krylov_max)
+        self.work = Workspace(levels.n + 2, numerics.krylov_max)
         self.preconditioner = AdditiveLines(levels)
         self.film_row, self.product = np.zeros((1, levels.n)), np.zeros((1, levels.n + 1))
         self.inside = _inside(levels)
         self.weights, self.load = load_weights(levels)
+        self.rows_weight = np.ones((levels.ny + 1, levels.nx + 1))
+        if levels.ny:
+            self.rows_weight[0] = 0.5  # the row y = 0 stands for half a cell
+        self.rows_weight = self.rows_weight.ravel()
         self.H0 = 0.0
 
     def film(self):
@@ -67,12 +71,7 @@ class PressureSolver:
         """Net outflow of the full-film region plus its storage, relative to the Couette flux through X = 0."""
         v = self.levels
         wet = (v.flat(fields.P) > 0) & (v.flat(fields.TOUCH) == 0) & self.inside
-        rows = np.ones(v.ny + 1)
-        rows[0] = 0.5 if v.ny else 1.0
-        R = (v.flat(fields.R) * wet).reshape(v.ny + 1, -1)
-        middle = int(np.argmin(np.abs(v.X)))
-        couette = (v.view(fields.RHO) * v.view(fields.H))[:, middle]
-        return abs(float(np.sum(rows * R.sum(axis=1)))) / float(np.sum(rows * couette))
+        return abs(float(np.sum(self.rows_weight * v.flat(fields.R) * wet))) / self.couette()
 
     def solve(self, krylov_tolerance=None, tolerance=None, newton_max=None):
         """Newton iteration from the pressure in the table and H0; leaves the solution there. Returns a Report."""
@@ -140,7 +139,9 @@ class PressureSolver:
         b = self._sets()
         self.preconditioner.build()
         self._border()
-        right = np.append(b, -self.load_error() * self.load)
+        self._mass_row()
+        right = np.concatenate([b, [-self.load_error() * self.load, 0.0]])
+        right[-1] = self.mass_row @ b
         step, used, _ = fgmres(self._apply, self._precondition, right, krylov_tolerance, self.work)
         step[:-1] *= self.inside
         return step, used
@@ -151,10 +152,29 @@ class PressureSolver:
         row = z[None, :]
         v.deflection(row, 0, float(z[-1]), self.film_row)
         reynolds.jacobian(v.S, v.G, 0, row, self.film_row, self.product, 1)
-        out = self.product[0].copy()
-        out[:-1] /= self.row_scale
-        out[-1] = np.sum(self.weights * z[:-1])
+        out = np.empty(v.n + 2)
+        np.divide(self.product[0, : v.n], self.row_scale, out=out[: v.n])
+        out[-2] = self.weights @ z[:-1]
+        out[-1] = self.mass_row @ out[: v.n]
         return out
+
+    def _mass_row(self):
+        """Weights of the scaled rows in the net mass defect, itself scaled like the sum of all rows.
+
+        The defect is appended to the Krylov vectors as one more (redundant) component, that is, the norm gets one more
+        term: row scales of 1e3 in the inlet would hide it, and it would cost three more Newton steps.
+        """
+        v = self.levels
+        wet = (v.flat(fields.DRY) == 0) & (v.flat(fields.TOUCH) == 0)
+        weight = self.rows_weight * np.sqrt(self.inside.sum()) / self.couette()
+        self.mass_row = np.where(wet, weight * self.row_scale, 0.0)
+
+    def couette(self):
+        """Couette flux through X = 0, summed over the rows like the residual."""
+        v = self.levels
+        middle = int(np.argmin(np.abs(v.X)))
+        q = (v.view(fields.RHO) * v.view(fields.H))[:, middle]
+        return float(np.sum(self.rows_weight.reshape(v.ny + 1, -1)[:, middle] * q))
 
     def _border(self):
         """Answer of the preconditioner to a change of H0, for the bordered system."""
@@ -166,9 +186,9 @@ class PressureSolver:
         self.lift_load = float(np.sum(self.weights * self.lift))
 
     def _precondition(self, r):
-        z = np.empty_like(r)
-        z[:-1] = self.preconditioner.apply(r[:-1] * self.row_scale)
-        z[-1] = (np.sum(self.weights * z[:-1]) - r[-1]) / self.lift_load
+        z = np.empty(r.size - 1)
+        z[:-1] = self.preconditioner.apply(r[:-2] * self.row_scale)
+        z[-1] = (self.weights @ z[:-1] - r[-2]) / self.lift_load
         z[:-1] -= self.lift * z[-1]
         z[:-1] *= self.inside
         return z
