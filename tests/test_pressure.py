@@ -38,7 +38,7 @@ def test_fft_deflection_is_the_direct_sum():
 
     nx, ny, dx, dy = 16, 8, 0.2, 0.15
     P, W = np.random.default_rng(1).random((1, 17 * 9)), np.zeros((1, 17 * 9))
-    Deflection(nx, ny, dx, dy, "line")(P, 0, 0.25, W)
+    Deflection(nx, ny, dx, dy, "line").bound(P, 0, W)(0.25)
     K, k = influence.rectangle(nx, 2 * ny, dx, dy, "line"), influence.strip(nx, dx)
     p = P.reshape(9, 17)
     extra = p - p[-1]
@@ -57,7 +57,7 @@ def unevenness(cells):
 
     x = np.linspace(-2, 2, cells + 1)
     W = np.zeros((1, cells + 1))
-    Deflection(cells, 0, x[1] - x[0], 1.0, "line")(np.sqrt(np.maximum(1 - x**2, 0))[None], 0, 0.0, W)
+    Deflection(cells, 0, x[1] - x[0], 1.0, "line").bound(np.sqrt(np.maximum(1 - x**2, 0))[None], 0, W)()
     return np.ptp((W[0] + x**2 / 2)[np.abs(x) < 0.9])
 
 

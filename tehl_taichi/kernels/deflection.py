@@ -18,11 +18,11 @@ def pack(V: Table, n: ti.i32, nx: ti.i32, ny: ti.i32, line: ti.i32, padded: Tabl
 
 
 @ti.kernel
-def unpack(padded: Table, edge: Flat, nx: ti.i32, ny: ti.i32, add: ti.f64, W: Table, n: ti.i32):
-    """W[n] = deflection + line part + add."""
+def unpack(padded: Table, edge: Flat, nx: ti.i32, ny: ti.i32, W: Table):
+    """W[0] = deflection + line part (which carries the rigid approach too)."""
     for j in range(ny + 1):
         for i in range(nx + 1):
-            W[n, j * (nx + 1) + i] = padded[j, i] + edge[i] + add
+            W[0, j * (nx + 1) + i] = padded[j, i] + edge[i]
 
 
 @ti.kernel

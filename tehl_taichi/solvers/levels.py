@@ -4,8 +4,9 @@ import math
 
 import numpy as np
 
-from tehl_taichi.kernels import fields, reynolds
+from tehl_taichi.kernels import fields, reynolds, transfer
 from tehl_taichi.physics.viscosity import ln_eta
+from tehl_taichi.runtime import bind
 from tehl_taichi.solvers import influence
 from tehl_taichi.solvers.transforms import Deflection
 
@@ -35,6 +36,7 @@ class Levels:
         self.S = np.zeros((fields.NROWS, int(self.G[-1, fields.OFF]) + self.nodes(-1) + 2))
         self.deflection = Deflection(nx, ny, self.dx, self.dy, self.kind)
         self._set_laws()
+        self._bind()
 
     def nodes(self, l):
         return (self.sizes[l][0] + 1) * (self.sizes[l][1] + 1)
@@ -68,17 +70,31 @@ class Levels:
         lam = 12 * math.exp(self.ln_eta0) * s.u_m * s.R**2 / (s.a**3 * s.p_H)
         self.inv_lambda = 1 / lam
 
-    def laws(self, first=0, last=None, slopes=False):
-        """Evaluate the lubricant laws in the grid rows first..last-1 (default: the finest level)."""
-        last = self.ny + 1 if last is None else last
-        reynolds.laws(self.S, self.G, self.rows, first, last, self.scene.oil, self.scales.p_H, self.Gamma,
-                      self.ln_eta0, self.inv_lambda, int(slopes))
+    def _bind_laws(self, first, last, slopes):
+        return bind(reynolds.laws, self.S, self.G, self.rows, first, last, self.scene.oil, self.scales.p_H, self.Gamma,
+                    self.ln_eta0, self.inv_lambda, int(slopes))
 
-    def linearise(self, first=0, last=None):
-        """Laws with slopes, face derivatives and the diagonal in those rows."""
-        last = self.ny + 1 if last is None else last
-        self.laws(first, last, slopes=True)
-        reynolds.linearise(self.S, self.G, self.rows, first, last)
+    def _bind(self):
+        """Launches of the kernels that this table is used with, on the finest level and on the coarser ones."""
+        fine, coarse = (0, self.ny + 1), (self.ny + 1, len(self.rows))
+        self.laws = self._bind_laws(*fine, slopes=False)
+        self._slopes, self._slopes_coarse = self._bind_laws(*fine, True), self._bind_laws(*coarse, True)
+        self._faces = bind(reynolds.linearise, self.S, self.G, self.rows, *fine)
+        self._faces_coarse = bind(reynolds.linearise, self.S, self.G, self.rows, *coarse)
+        self.evaluate_residual = bind(reynolds.residual, self.S, self.G, 0)
+        self.inject = bind(transfer.inject, self.S, self.G, len(self.sizes))
+        self.restrict = bind(transfer.restrict, self.S, self.G, len(self.sizes)) if len(self.sizes) > 1 else _nothing
+
+    def linearise(self):
+        """Laws with slopes, face derivatives and the diagonal of the finest level."""
+        self._slopes()
+        self._faces()
+
+    def linearise_coarse(self):
+        """The same on every coarser level, about the injected state."""
+        self.inject()
+        self._slopes_coarse()
+        self._faces_coarse()
 
     def view(self, row):
         """Field `row` of the finest grid as (ny+1, nx+1)."""
@@ -90,6 +106,10 @@ class Levels:
     def set_rate(self, weight):
         """Weight of the newest level in d/dT, 1/T units (0: steady); scaled with dx on every level."""
         self.G[:, fields.CT] = weight * self.G[:, fields.DX]
+
+
+def _nothing():
+    """Stands for the transfers of a table with one level."""
 
 
 def _coarsen(nx, ny):

@@ -11,6 +11,7 @@ import numpy as np
 
 from tehl_taichi.kernels import deflection as gap_kernel
 from tehl_taichi.kernels import fields, reynolds
+from tehl_taichi.runtime import bind
 from tehl_taichi.solvers.krylov import Workspace, fgmres
 from tehl_taichi.solvers.preconditioner import AdditiveLines
 
@@ -43,7 +44,8 @@ class PressureSolver:
         numerics = levels.scene.numerics
         self.work = Workspace(levels.n + 2, numerics.krylov_max)
         self.preconditioner = AdditiveLines(levels)
-        self.film_row, self.product = np.zeros((1, levels.n)), np.zeros((1, levels.n + 1))
+        self.trial, self.film_row, self.product = (np.zeros((1, levels.n)) for _ in range(3))
+        self._bind()
         self.inside = _inside(levels)
         self.weights, self.load = load_weights(levels)
         self.rows_weight = np.ones((levels.ny + 1, levels.nx + 1))
@@ -52,17 +54,23 @@ class PressureSolver:
         self.rows_weight = self.rows_weight.ravel()
         self.H0 = 0.0
 
+    def _bind(self):
+        v = self.levels
+        self.deflect = v.deflection.bound(v.S, fields.P, self.film_row)
+        self.deflect_trial = v.deflection.bound(self.trial, 0, self.film_row)
+        self.add_gap = bind(gap_kernel.add_gap, v.S, v.G, self.film_row)
+        self.jacobian = bind(reynolds.jacobian, v.S, v.G, 0, self.trial, self.film_row, self.product, 1)
+
     def film(self):
         """H from the pressure in the table and H0."""
-        v = self.levels
-        v.deflection(v.S, fields.P, self.H0, self.film_row)
-        gap_kernel.add_gap(v.S, v.G, self.film_row)
+        self.deflect(self.H0)
+        self.add_gap()
 
     def residual(self):
         """H, laws and R of the state in the table."""
         self.film()
         self.levels.laws()
-        reynolds.residual(self.levels.S, self.levels.G, 0)
+        self.levels.evaluate_residual()
 
     def load_error(self):
         return float(np.sum(self.weights * self.levels.flat(fields.P))) / self.load - 1
@@ -129,11 +137,13 @@ class PressureSolver:
 
     def _contact_residual(self):
         """The contact rows applied to the present violation H - H_floor."""
-        v = self.levels
-        gap = v.S[fields.H : fields.H + 1, : v.n] - v.G[0, fields.FLOOR]
-        out = np.zeros((1, v.n))
-        reynolds.jacobian(v.S, v.G, 0, np.zeros((1, v.n)), np.ascontiguousarray(gap), out, 1)
-        return out[0]
+        return self._rows(0.0, self.levels.flat(fields.H) - self.levels.G[0, fields.FLOOR])
+
+    def _rows(self, pressure, film):
+        """Jacobian rows for given changes of pressure and film; a view that the next call overwrites."""
+        self.trial[0], self.film_row[0] = pressure, film
+        self.jacobian()
+        return self.product[0]
 
     def _direction(self, krylov_tolerance):
         b = self._sets()
@@ -149,11 +159,11 @@ class PressureSolver:
     def _apply(self, z):
         """Scaled Jacobian times (pressure change, H0 change)."""
         v = self.levels
-        row = z[None, :]
-        v.deflection(row, 0, float(z[-1]), self.film_row)
-        reynolds.jacobian(v.S, v.G, 0, row, self.film_row, self.product, 1)
+        self.trial[0] = z[:-1]
+        self.deflect_trial(float(z[-1]))
+        self.jacobian()
         out = np.empty(v.n + 2)
-        np.divide(self.product[0, : v.n], self.row_scale, out=out[: v.n])
+        np.divide(self.product[0], self.row_scale, out=out[: v.n])
         out[-2] = self.weights @ z[:-1]
         out[-1] = self.mass_row @ out[: v.n]
         return out
@@ -179,9 +189,7 @@ class PressureSolver:
     def _border(self):
         """Answer of the preconditioner to a change of H0, for the bordered system."""
         v = self.levels
-        column = np.zeros((1, v.n))
-        reynolds.jacobian(v.S, v.G, 0, np.zeros((1, v.n)), np.ones((1, v.n)), column, 1)
-        self.lift = self.preconditioner.apply(column[0])
+        self.lift = self.preconditioner.apply(self._rows(0.0, 1.0))
         self.lift[v.flat(fields.DRY) == 1.0] = 0.0
         self.lift_load = float(np.sum(self.weights * self.lift))
 

@@ -7,6 +7,7 @@ Inside a Krylov method one undamped parallel sweep per level beats alternating c
 import numpy as np
 
 from tehl_taichi.kernels import fields, lines, reynolds, transfer
+from tehl_taichi.runtime import bind
 from tehl_taichi.solvers.levels import DENSE_LIMIT
 from tehl_taichi.solvers.transforms import Deflection, Distribution
 
@@ -30,6 +31,7 @@ class AdditiveLines:
         self.bands = np.zeros((levels.S.shape[1], 2 * lines.HALF + 1))
         if self.dense:
             self._prepare_dense(len(smoothed))
+        self._bind()
 
     def _prepare_dense(self, l):
         v = self.levels
@@ -37,34 +39,45 @@ class AdditiveLines:
         n = v.nodes(-1)
         deflect = Deflection(nx, ny, v.dx * 2**l, v.dy * 2**l, v.kind)
         self.unit, self.unit_film, self.jacobian = np.eye(n), np.zeros((n, n)), np.zeros((n, n))
+        film = np.zeros((1, n))
         for q in range(n):
-            deflect(self.unit, q, 0.0, self.unit_film[q : q + 1])
+            deflect.bound(self.unit, q, film)()
+            self.unit_film[q] = film[0]
+
+    def _bind(self):
+        v, d = self.levels, self.distribution
+        table = (v.S, v.G, v.rows, self.count)
+        self.classify = bind(lines.classify, *table, THETA)
+        self.build_lines = bind(lines.build_lines, *table, self.bands, self.near, self.inverse)
+        self.solve_lines = bind(lines.solve_lines, *table, self.bands, d.source)
+        self.collect_lines = bind(lines.collect_lines, *table, d.result)
+        if len(v.sizes) > 1:
+            self.prolong = bind(transfer.prolong, v.S, v.G, len(v.sizes), COARSE_WEIGHT)
+        if self.dense:
+            self.coarse_jacobian = bind(reynolds.jacobian, v.S, v.G, len(v.sizes) - 1, self.unit, self.unit_film,
+                                        self.jacobian, len(self.unit))
 
     def build(self):
         """Linearise the coarser levels about the injected state and factorise every level."""
-        v = self.levels
-        transfer.inject(v.S, v.G, len(v.sizes))
-        v.linearise(v.ny + 1, len(v.rows))
-        lines.classify(v.S, v.G, v.rows, self.count, THETA)
-        lines.build_lines(v.S, v.G, v.rows, self.count, self.bands, self.near, self.inverse)
+        self.levels.linearise_coarse()
+        self.classify()
+        self.build_lines()
         if self.dense:
-            last = len(v.sizes) - 1
-            reynolds.jacobian(v.S, v.G, last, self.unit, self.unit_film, self.jacobian, self.unit.shape[0])
+            self.coarse_jacobian()
             self.coarse_inverse = np.linalg.inv(self.jacobian.T)
 
     def apply(self, r):
         """Correction of the finest level for the unscaled right-hand side r (n,); a copy."""
         v = self.levels
         v.flat(fields.RES)[:] = r
-        if len(v.sizes) > 1:
-            transfer.restrict(v.S, v.G, len(v.sizes))
-        lines.solve_lines(v.S, v.G, v.rows, self.count, self.bands, self.distribution.source)
+        v.restrict()
+        self.solve_lines()
         self.distribution.run()
-        lines.collect_lines(v.S, v.G, v.rows, self.count, self.distribution.result)
+        self.collect_lines()
         if self.dense:
             self._solve_coarsest()
         if len(v.sizes) > 1:
-            transfer.prolong(v.S, v.G, len(v.sizes), COARSE_WEIGHT)
+            self.prolong()
         return v.flat(fields.COR).copy()
 
     def _solve_coarsest(self):

@@ -7,6 +7,7 @@ import numpy as np
 import pyfftw
 
 from tehl_taichi.kernels import deflection as kernel
+from tehl_taichi.runtime import bind
 from tehl_taichi.solvers import influence
 
 PLAN = dict(flags=("FFTW_ESTIMATE",), threads=1)
@@ -121,7 +122,6 @@ class Deflection:
         self.plane = self._plane(period, dx, dy, kind) if ny else None
         self.strip = self._strip(period, dx) if self.line else None
         self.flat = np.zeros((ny + 1, nx + 1))
-        self.calls = 0
 
     def _plane(self, period, dx, dy, kind):
         convolution = EvenConvolution(self.ny, 2 * self.ny + 1, period)
@@ -134,18 +134,27 @@ class Deflection:
         convolution.set_kernel(_wrap(influence.strip(self.nx, dx)[None, :], period))
         return convolution
 
-    def __call__(self, V, n, add, W):
-        """W[0] = K V[n] + add, tables of rows over the grid."""
-        self.calls += 1
-        source = self.plane.source if self.plane else self.flat
-        kernel.pack(V, n, self.nx, self.ny, self.line, source, self.edge)
+    def bound(self, V, n, W):
+        """A function of `add` that sets W[0] = K V[n] + add, for tables that stay where they are."""
+        source, result = (self.plane.source, self.plane.result) if self.plane else (self.flat, self.flat)
+        pack = bind(kernel.pack, V, n, self.nx, self.ny, self.line, source, self.edge)
+        unpack = bind(kernel.unpack, result, self.edge, self.nx, self.ny, W)
+
+        def deflect(add=0.0):
+            pack()
+            self._transform()
+            self.edge += add
+            unpack()
+
+        return deflect
+
+    def _transform(self):
         if self.plane:
             self.plane.run()
         if self.strip:
             self.strip.source[0, : self.nx + 1] = self.edge
             self.strip.run()
             self.edge[:] = self.strip.result[0, : self.nx + 1]
-        kernel.unpack(self.plane.result if self.plane else self.flat, self.edge, self.nx, self.ny, add, W, 0)
 
 
 def _wrap(coefficients, period):
