@@ -4,6 +4,7 @@ import json
 import shutil
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import List, Optional
 
@@ -129,10 +130,16 @@ def _go(saved, started, as_json, quiet, steady_error, compile_s):
 def _march(saved, quiet):
     from tehl_taichi.simulation import march, total_steps
 
-    with Live(total_steps(saved.scene), saved.steps - 1, quiet) as live:
+    # one step is written while the next one is computed; leaving the block waits for the last write
+    with Live(total_steps(saved.scene), saved.steps - 1, quiet) as live, ThreadPoolExecutor(1) as writer:
+        pending = None
         for snapshot in march(saved.scene, saved.last_state()):
-            saved.append(snapshot)
+            if pending:
+                pending.result()
+            pending = writer.submit(saved.append, snapshot)
             live.step(snapshot)
+        if pending:
+            pending.result()
 
 
 def _fatigue(saved, quiet):
