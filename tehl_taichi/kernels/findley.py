@@ -12,7 +12,7 @@ TURNS = 3     # turned patterns without success before the step is halved: the m
 PIVOTS = 60   # farthest points added to a circle at most (about 4 are usual)
 INSIDE = 1e-12
 MARGIN = 0.03  # other peaks of the grid within this of its best are refined too (the grid itself is about 1 % low)
-STARTS = 20    # peaks refined at most
+STARTS = 5      # peaks refined at most: 4 and 20 agree to 2e-7 at every point of the gear passage (4.2 s against 5.6 s)
 NEAR = 0.975   # cosine of the angle (13 degrees) below which planes of the grid belong to one peak
 
 vec3 = ti.types.vector(3, ti.f64)
