@@ -4,6 +4,8 @@ Material points keep their place in the frame of the feature, x' = x - x_a(t). B
 snapshot (feature outside the contact) they move through the steady field, so every history begins and ends unloaded.
 """
 
+import itertools
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +18,7 @@ from tehl_taichi.scene.scales import Scales
 WINDOW = 0.6       # half width (in a) of the part searched: farther out the feature's stress has died out (as 1/r^2)
 LOADED = 1.5       # material points are followed while within this distance (in a) of the centre of the contact
 BLOCK_BYTES = 4e8  # histories held at once; more points than fit are done in blocks of y rows
+WORKERS = 4         # threads of the history pass (transforms run outside the interpreter's lock)
 NAMES = ("pressure", "traction_x_a", "traction_y_a")
 
 
@@ -120,19 +123,29 @@ class Passage:
         """(points, times + 1, 6) Pa; points run over x', then rows; the last moment is the unloaded state."""
         shape = self.x.size, rows.stop - rows.start
         out = np.zeros((*shape, self.centres.size + 1, len(COMPONENTS)))
-        previous, fields = -1, None
-        for t, (centre, entry) in enumerate(zip(self.centres, self.entries)):
-            if entry != previous:
-                previous, fields = entry, self._surface(entry, rows)
-            out[:, :, t] = _shifted(fields, (centre + self.x[0] - self.grid_x[0]) / self.dx, self.x.size)
-            if progress:
-                progress(t + 1, self.centres.size)
+        done = itertools.count(1)
+        entries = np.unique(self.entries)
+        parts = np.array_split(entries, min(WORKERS, entries.size))
+        with ThreadPoolExecutor(WORKERS) as pool:
+            tasks = [pool.submit(self._fill, out, part, rows, self.stress.twin()) for part in parts]
+            for task in tasks:
+                task.result()
+                if progress:
+                    progress(next(done), len(tasks))
         return out.reshape(-1, *out.shape[2:])
 
-    def _surface(self, entry, rows):
+    def _fill(self, out, entries, rows, stress):
+        """The moments that belong to these entries of the reader."""
+        for entry in entries:
+            fields = self._surface(entry, rows, stress)
+            for t in np.flatnonzero(self.entries == entry):
+                start = (self.centres[t] + self.x[0] - self.grid_x[0]) / self.dx
+                out[:, :, t] = _shifted(fields, start, self.x.size)
+
+    def _surface(self, entry, rows, operator):
         loads = self.reader.fields(int(entry), NAMES)
         loads = [np.pad(np.asarray(loads[name], float), (self.pad, (0, 0))) for name in NAMES]
-        stress = self.stress(*loads)
+        stress = operator(*loads)
         return np.stack([stress[name][:, rows] for name in COMPONENTS], axis=-1)
 
 

@@ -5,6 +5,8 @@ this body), so sigma_zz = -p, tau_xz = -q_x, tau_yz = -q_y at z = 0. Coefficient
 potentials of Boussinesq and Cerruti (Johnson, Contact Mechanics, sections 3.2 and 3.6; Love 1929; Liu & Wang 2002).
 """
 
+import copy
+
 import numpy as np
 import pyfftw
 
@@ -76,6 +78,14 @@ class SurfaceStress:
             sxx, syy, sxy = sxx + rest[0], syy + rest[1], rest[2]
         return dict(zip(COMPONENTS, (sxx, syy, -p, sxy, -qx, -qy)))
 
+    def twin(self):
+        """A second operator with the same coefficients and buffers of its own, for another thread."""
+        other = copy.copy(self)
+        if self.y.size > 1:
+            other.convolution = copy.copy(self.convolution)
+            other.convolution._plan()
+        return other
+
     def _plane_strain(self, p, q):
         sxx = np.convolve(q, self.strip)[q.size - 1: 2 * q.size - 1] - p
         return sxx, self.nu * (sxx - p)
@@ -87,13 +97,16 @@ class _Convolution:
     def __init__(self, nx, ny, dx, dy, nu):
         self.nx, self.ny = nx, ny
         self.shape = _even_fast(2 * nx - 1), _even_fast(3 * ny - 2)
+        self._plan()
+        self.spectra = self._spectra(dx, dy, nu)
+
+    def _plan(self):
         spectrum = self.shape[0], self.shape[1] // 2 + 1
         self.real, self.complex = pyfftw.zeros_aligned(self.shape), pyfftw.zeros_aligned(spectrum, "complex128")
         # estimated plans on one thread: the same plan, so the same bits, in every run
         options = {"axes": (0, 1), "flags": ("FFTW_ESTIMATE",), "threads": 1}
         self.forward = pyfftw.FFTW(self.real, self.complex, **options)
         self.backward = pyfftw.FFTW(self.complex, self.real, direction="FFTW_BACKWARD", **options)
-        self.spectra = self._spectra(dx, dy, nu)
 
     def _spectra(self, dx, dy, nu):
         x, y = np.meshgrid(_lags(self.shape[0]) * dx, _lags(self.shape[1], self.ny) * dy, indexing="ij")
