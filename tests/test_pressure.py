@@ -143,3 +143,18 @@ def test_isothermal_passage_at_the_default_grid():
     at = min(march(description), key=lambda s: abs(s.feature_x) if s.step else 1)
     assert at.scalars["p_max_Pa"] == pytest.approx(3.96e9, rel=0.015)
     assert at.scalars["h_min_m"] == pytest.approx(0.143e-6, rel=0.10)
+
+
+@pytest.mark.slow
+def test_second_order_in_time():
+    from tehl_taichi.simulation import march
+
+    ends = []
+    for courant in (0.25, 0.125, 0.0625):
+        description = scene("gear").replace(**{
+            "grid.nx": 64, "grid.ny": 16, "time.courant": courant, "time.x_end": -0.6, "numerics.tolerance": 1e-9,
+            "numerics.krylov_tolerance": 1e-3, "height": 0.5e-6, "width": 400e-6})
+        ends.append(list(march(description))[-1].fields)
+    for name in ("pressure", "film"):
+        steps = [np.sqrt(np.mean((a[name] - b[name]) ** 2)) for a, b in zip(ends, ends[1:])]
+        assert np.log2(steps[0] / steps[1]) > 1.9
