@@ -1,8 +1,10 @@
 """The only place that starts Taichi: architecture, precision and threads, once per process."""
 
 import functools
+import gc
 import os
 import sys
+import weakref
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +12,8 @@ import numpy as np
 from tehl_taichi import __version__
 
 _started = {}
+_tables = []  # [field, weak reference to its owner]
+SMALLEST_TABLE = 5000  # columns; sizes grow by factors of 4, because every size of a field compiles its kernels anew
 
 
 class RuntimeUnavailable(RuntimeError):
@@ -53,6 +57,28 @@ def ensure():
     return dict(_started) if _started else start()
 
 
+def lease(owner, rows, lanes, columns):
+    """A vector field of `rows` x at least `columns` columns of `lanes` numbers, zero, for `owner` alone while it lives.
+
+    Fields are never freed by Taichi and a new one compiles its kernels anew, so that of a former owner is used again.
+    """
+    gc.collect()  # an owner that is only held by a reference cycle is gone
+    for entry in _tables:
+        field, holder = entry
+        if holder() is None and field.shape[0] == rows and field.n == lanes and field.shape[1] >= columns:
+            entry[1] = weakref.ref(owner)
+            field.fill(0.0)
+            return field
+    import taichi as ti
+
+    capacity = SMALLEST_TABLE
+    while capacity < columns:
+        capacity *= 4
+    field = ti.Vector.field(lanes, ti.f64, shape=(rows, capacity))
+    _tables.append([field, weakref.ref(owner)])
+    return field
+
+
 def bind(kernel, *args):
     """A launch of `kernel` with these very arguments, to be called without any, as often as wanted.
 
@@ -77,7 +103,7 @@ def _recorded(kernel, args):
     for argument, value in zip(primal.arguments, args):
         if isinstance(argument.annotation, template):
             continue
-        _set(record, (slot,), value)
+        _set(record, (slot,), value, argument.annotation)
         slot += 1
     program = impl.get_runtime().prog
     code = program.compile_kernel(program.config(), program.get_device_caps(), compiled)
@@ -88,11 +114,12 @@ def _recorded(kernel, args):
     return launch
 
 
-def _set(record, slot, value):
+def _set(record, slot, value, annotation):
     if isinstance(value, np.ndarray):
         if not value.flags.c_contiguous:
             raise ValueError("bound arrays must be contiguous")
-        record.set_arg_external_array_with_shape(slot, int(value.ctypes.data), value.nbytes, value.shape, 0)
+        shape = value.shape[: annotation.ndim]  # without the lanes
+        record.set_arg_external_array_with_shape(slot, int(value.ctypes.data), value.nbytes, shape, 0)
     elif isinstance(value, int):
         record.set_arg_int(slot, value)
     else:

@@ -12,7 +12,7 @@ import numpy as np
 from tehl_taichi.kernels import fields, traction
 from tehl_taichi.physics.gap import feature_height
 from tehl_taichi.scene.scales import Scales
-from tehl_taichi.solvers.levels import Levels
+from tehl_taichi.solvers.levels import Levels, load_weights
 from tehl_taichi.solvers.newton import PressureSolver
 from tehl_taichi.solvers.steady import scalars, solve_steady
 
@@ -130,8 +130,8 @@ class Passage:
 
     def _start(self):
         self._move_feature(0)
-        self.levels.view(fields.P)[:] = self.P
-        self.solver.film()
+        self.levels.put(fields.P, self.P)
+        self.levels.set_film(self.solver.H0)
         self.levels.laws()
         self.mass = self._mass()
 
@@ -142,7 +142,7 @@ class Passage:
         for feature in self.scene.features:
             x = (X - self.position(step)) * s.a - feature.x
             gap = gap - feature_height(feature, x, (Y * s.a - feature.y)) / s.h
-        v.view(fields.GAP0)[:] = gap
+        v.put(fields.GAP0, gap)
 
     def _discretise_time(self):
         """BDF2; the very first step is BDF1."""
@@ -152,7 +152,7 @@ class Passage:
         else:
             weight, old = 1.5 / self.dT, (-2 * self.mass + 0.5 * self.mass_before) / self.dT
         v.set_rate(weight)
-        v.view(fields.QOLD)[:] = old * v.dx
+        v.put(fields.QOLD, old * v.dx)
 
     def _predict(self):
         v = self.levels
@@ -160,14 +160,14 @@ class Passage:
         if self.position(self.step + 1) < SHIFT_UNTIL:
             P = np.maximum(P[-1:] + _shift(P - P[-1:], self.step_x / v.dx), 0.0)
             P[:, [0, -1]] = 0.0
-        v.view(fields.P)[:] = P
+        v.put(fields.P, P)
 
     def _solve(self):
         H0 = self.solver.H0
         report = self.solver.solve()
         if report.converged:
             return report, 0
-        self.levels.view(fields.P)[:] = self.P
+        self.levels.put(fields.P, self.P)
         self.solver.H0 = H0
         report = self.solver.solve(RETRY_KRYLOV, newton_max=2 * self.scene.numerics.newton_max)
         if not report.converged:
@@ -177,12 +177,12 @@ class Passage:
 
     def _accept(self):
         self.step += 1
-        self.P = self.levels.view(fields.P).copy()
+        self.P = self.levels.get(fields.P)
         self.mass_before, self.mass = self.mass, self._mass()
 
     def _mass(self):
         v = self.levels
-        return v.view(fields.RHO) * v.view(fields.H)
+        return v.get(fields.RHO) * v.get(fields.H)
 
     def _describe(self, report, rejected, started):
         time_s = self.step * self.dT * self.scales.t
@@ -208,40 +208,40 @@ def _roll(field_, cells):
 
 def _reason(solver, report, where):
     v = solver.levels
-    j, i = divmod(report.worst, v.nx + 1)
+    i, j = solver.worst()
     return (f"{where} did not converge: residual {report.residual:.1e} (tolerance {v.scene.numerics.tolerance:.0e}), "
             f"largest at X = {v.X[i]:.2f}, Y = {v.Y[j]:.2f}; try a finer grid (--grid) or a smaller time.courant")
 
 
 def _snapshot(solver, scene, step, time_s, feature_x, report, started):
     v, s = solver.levels, solver.levels.scales
+    P, H, touch = (v.get(row) for row in (fields.P, fields.H, fields.TOUCH))
     stress = _tractions(solver, scene)
-    si = {"pressure": v.view(fields.P) * s.p_H, "film": v.view(fields.H) * s.h,
-          "contact": v.view(fields.TOUCH).astype(np.uint8)}
+    si = {"pressure": P * s.p_H, "film": H * s.h, "contact": touch.astype(np.uint8)}
     names = ("traction_x_a", "traction_y_a", "traction_x_b", "traction_y_b")
-    si.update({name: stress[n].reshape(v.ny + 1, v.nx + 1) for n, name in enumerate(names)})
+    si.update(zip(names, stress))
     numbers = _scalars(solver, report, stress)
     numbers["wall_s"] = time.perf_counter() - started
-    state = {"step": step, "P": v.view(fields.P).copy(), "H0": solver.H0}
+    state = {"step": step, "P": P, "H0": solver.H0}
     return Snapshot(step, time_s, feature_x, v.X * s.a, v.Y * s.a,
                     {key: np.ascontiguousarray(value.T) for key, value in si.items()}, numbers, state)
 
 
 def _tractions(solver, scene):
     v, s = solver.levels, solver.levels.scales
-    out = np.zeros((4, v.n))
+    out = np.zeros((4, v.ny + 1, v.nx + 1))
     traction.tractions(v.S, v.G, scene.rheology, s.p_H, s.h, s.a, math.exp(v.ln_eta0), scene.operation.u_s, v.dx, v.dy,
                        out)
     return out
 
 
 def _scalars(solver, report, stress):
-    v, s, w = solver.levels, solver.levels.scales, solver.weights
+    v, s, w = solver.levels, solver.levels.scales, load_weights(solver.levels)
     values = scalars(solver)
-    P, touch = v.flat(fields.P), v.flat(fields.TOUCH)
+    P, touch = v.get(fields.P), v.get(fields.TOUCH)
     drag = 0.5 * abs(float(np.sum(w * (stress[0] - stress[2]))))
     return {"h0_m": solver.H0 * s.h, "p_max_Pa": values["p_max"] * s.p_H, "h_min_m": values["h_min"] * s.h,
-            "h_c_m": values["h_c"] * s.h, "load_error": abs(report.load_error), "mass_error": solver.mass_error(),
+            "h_c_m": values["h_c"] * s.h, "load_error": abs(report.load_error), "mass_error": report.mass_error,
             "residual": report.residual, "newton": float(report.newton), "cycles": float(report.cycles),
             "rejected": 0.0, "dt_s": 0.0, "contact_load_fraction": float(np.sum(w * P * touch)) / solver.load,
             "friction_coefficient": drag / s.p_H / solver.load}

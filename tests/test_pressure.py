@@ -32,33 +32,41 @@ def test_influence_coefficients_against_quadrature():
     assert influence.strip(4, dx)[3] == pytest.approx(-integral / np.pi, rel=1e-12)
 
 
-def test_fft_deflection_is_the_direct_sum():
-    from tehl_taichi.solvers import influence
+def deflection(P, dx, dy, kind="line", add=0.0):
+    """Deflection of P (ny+1, nx+1) by the transforms, through the block order of the state table."""
+    from tehl_taichi.kernels.lanes import W
     from tehl_taichi.solvers.transforms import Deflection
 
+    ny, nx = P.shape[0] - 1, P.shape[1] - 1
+    padded = np.zeros((ny // W * W + W, nx + 1))
+    padded[: ny + 1] = P
+    blocks = padded.reshape(-1, W, nx + 1).transpose(0, 2, 1)
+    out = Deflection(nx, ny, dx, dy, kind).apply(blocks, add)
+    return out.transpose(0, 2, 1).reshape(-1, nx + 1)[: ny + 1]
+
+
+@pytest.mark.parametrize("kind", ["line", "point"])
+def test_fft_deflection_is_the_direct_sum(kind):
+    from tehl_taichi.solvers import influence
+
     nx, ny, dx, dy = 16, 8, 0.2, 0.15
-    P, W = np.random.default_rng(1).random((1, 17 * 9)), np.zeros((1, 17 * 9))
-    Deflection(nx, ny, dx, dy, "line").bound(P, 0, W)(0.25)
-    K, k = influence.rectangle(nx, 2 * ny, dx, dy, "line"), influence.strip(nx, dx)
-    p = P.reshape(9, 17)
-    extra = p - p[-1]
+    p = np.random.default_rng(1).random((9, 17))
+    edge = p[-1] if kind == "line" else 0 * p[-1]
+    K, k = influence.rectangle(nx, 2 * ny, dx, dy, kind), influence.strip(nx, dx)
     i = np.arange(17)
     direct = np.zeros((9, 17))
     for j in range(9):
         for q in range(-ny, ny + 1):
-            direct[j] += K[np.abs(i[:, None] - i), abs(j - q)] @ extra[abs(q)]
-        direct[j] += k[np.abs(i[:, None] - i)] @ p[-1]
-    assert W.reshape(9, 17) == pytest.approx(direct + 0.25, abs=1e-13)
+            direct[j] += K[np.abs(i[:, None] - i), abs(j - q)] @ (p - edge)[abs(q)]
+        direct[j] += k[np.abs(i[:, None] - i)] @ edge
+    assert deflection(p, dx, dy, kind, 0.25) == pytest.approx(direct + 0.25, abs=1e-13)
 
 
 def unevenness(cells):
     """Largest difference of the gap under a Hertz pressure, which should be flat."""
-    from tehl_taichi.solvers.transforms import Deflection
-
     x = np.linspace(-2, 2, cells + 1)
-    W = np.zeros((1, cells + 1))
-    Deflection(cells, 0, x[1] - x[0], 1.0, "line").bound(np.sqrt(np.maximum(1 - x**2, 0))[None], 0, W)()
-    return np.ptp((W[0] + x**2 / 2)[np.abs(x) < 0.9])
+    W = deflection(np.sqrt(np.maximum(1 - x**2, 0))[None], x[1] - x[0], 1.0)[0]
+    return np.ptp((W + x**2 / 2)[np.abs(x) < 0.9])
 
 
 def test_hertz_pressure_deflects_to_a_parabola():
@@ -133,6 +141,63 @@ def test_mirror_symmetry_of_friction():
     both = [passage(srr=srr, **{"time.steady_only": True})[0]
             for srr in (-0.12, 0.12)]
     assert np.allclose(both[0].fields["traction_x_a"], both[1].fields["traction_x_b"], rtol=1e-12, atol=1e-3)
+
+
+def manufactured(X, Y):
+    """A smooth pressure and film, even about Y = 0 and Y = 1 like a line contact's."""
+    return (0.3 + 0.2 * np.cos(1.3 * X + 0.4) * (1 + 0.3 * np.cos(np.pi * Y)),
+            0.4 + 0.1 * np.sin(0.9 * X) + 0.05 * np.cos(np.pi * Y) * np.cos(X))
+
+
+def reynolds_operator(levels, X, Y, rate):
+    """d(rho H)/dX + rate rho H - div(eps grad P) of the manufactured fields, by differences with a step of 1e-3 and
+    Richardson's extrapolation: good to 1e-7."""
+    from tehl_taichi.physics.density import rho_ratio
+    from tehl_taichi.physics.viscosity import ln_eta
+
+    oil, p_H = levels.scene.oil, levels.scales.p_H
+
+    def mass(x, y):
+        P, H = manufactured(x, y)
+        return rho_ratio(oil, P * p_H, levels.Gamma) * H
+
+    def mobility(x, y):
+        P, H = manufactured(x, y)
+        return mass(x, y) * H**2 * levels.inv_lambda * np.exp(levels.ln_eta0 - ln_eta(oil, P * p_H, levels.Gamma))
+
+    def central(f, step):
+        return ((f(X + step, Y) - f(X - step, Y)) / (2 * step))
+
+    def second(axis, step):
+        a, b = (step, 0.0) if axis == 0 else (0.0, step)
+        P = [manufactured(X + q * a, Y + q * b)[0] for q in (-1, 0, 1)]
+        eps = [mobility(X + q * a / 2, Y + q * b / 2) for q in (-1, 1)]
+        return (eps[1] * (P[2] - P[1]) - eps[0] * (P[1] - P[0])) / step**2
+
+    def operator(step):
+        return central(mass, step) + rate * mass(X, Y) - second(0, step) - second(1, step)
+
+    return (4 * operator(1e-3) - operator(2e-3)) / 3
+
+
+def test_manufactured_solution_of_the_reynolds_operator():
+    from tehl_taichi.kernels import fields
+    from tehl_taichi.solvers.levels import Levels
+
+    description = scene("gear").replace(**{"contact.hertz_pressure": 0.2e9})
+    errors = []
+    for cells in (32, 64, 128):
+        levels = Levels(description, Scales.of(description), 2 * cells, cells)
+        X, Y = levels.X[None, :], levels.Y[:, None]
+        levels.set_rate(0.7)
+        for row, values in zip((fields.P, fields.H), manufactured(X, Y)):
+            levels.put(row, values)
+        levels.laws()
+        levels.evaluate_residual()
+        exact = reynolds_operator(levels, X, Y, 0.7)
+        errors.append(np.abs(levels.get(fields.R) / levels.dx - exact)[:, 2:-2].max() / np.abs(exact).max())
+    assert errors[-1] < 2e-3
+    assert np.log2(errors[1] / errors[2]) > 1.9 and np.log2(errors[0] / errors[1]) > 1.9
 
 
 @pytest.mark.slow

@@ -1,41 +1,56 @@
-"""All state of the pressure problem in one table: row = field, column = node, levels one after another.
+"""All state of the pressure problem in one table: row = field, column = a block of W nodes, levels one after another.
 
-Node k of a level = OFF + j (NX + 1) + i, i along x (rolling), j along y. Capital letters are dimensionless (X = x/a,
-P = p/p_H, H = h R'/a^2). One table keeps a kernel's argument list at three entries and compiles it once for every size.
+Column k of a level = OFF + s (NX + 1) + i: i along x (rolling), block s holds the nodes j = W s ... W s + W - 1 along y,
+one per lane. Capital letters are dimensionless (X = x/a, P = p/p_H, H = h R'/a^2). Lanes beyond the last row are ghosts:
+MASK 0, dry for ever.
 """
 
 import itertools
 
 _row = itertools.count()
 
+
+def _rows(count):
+    return [next(_row) for _ in range(count)]
+
+
 P = next(_row)  # pressure
 H = next(_row)  # film thickness
 GAP0 = next(_row)  # undeformed gap without the rigid approach H0: X^2/2 (+ Y^2/2) - feature
 QOLD = next(_row)  # dx * (old levels of d(rho H)/dT)
+MASK = next(_row)  # 1 where P is unknown, 0 on the border and on ghosts
+WEIGHT = next(_row)  # weight of P in the load
 RHO = next(_row)  # density over rho_0
-DRHO = next(_row)  # d RHO / dP
 LE = next(_row)  # ln(eta / eta(p=0))
-DLE = next(_row)  # d LE / dP
 IE = next(_row)  # exp(-LE)
 MOB = next(_row)  # RHO H^3 / lambda: the mobility without its viscosity
+DLE = next(_row)  # d LE / dP
+DMP = next(_row)  # d MOB / dP
+DMH = next(_row)  # d MOB / dH
 QP = next(_row)  # d(RHO H)/dP at fixed H
-EX = next(_row)  # mobility at the face i+1/2, over dx
-EY = next(_row)  # mobility at the face j+1/2, times dx/dy^2
-CX = [next(_row) for _ in range(4)]  # linearised x face flux: P_l, P_r, H_l, H_r
-CY = [next(_row) for _ in range(4)]  # linearised y face flux
+A = _rows(4)  # row of the Jacobian: pressure of the nodes i-2, i-1, i, i+1
+AU, AD = _rows(2)  # and of j+1, j-1
+B = _rows(4)  # the same for the film
+BU, BD = _rows(2)
+STENCIL = (*A, AU, AD, *B, BU, BD)  # rows without a gap
+EPS = next(_row)  # sum of the four face mobilities of the row
 R = next(_row)  # residual of the Reynolds equation, times dx
-D = next(_row)  # its diagonal, the row scale
+D = next(_row)  # its diagonal
+SCALE = next(_row)  # row scale of the Krylov norm
 DRY = next(_row)  # 1 where P = 0 is the equation (cavitated, or outside the unknowns)
 TOUCH = next(_row)  # 1 where H = H_floor is the equation (solid contact)
 KIND = next(_row)  # line solver: 0 dry, 1 Gauss-Seidel column, 2 column distributed with K^-1
 RES = next(_row)  # right-hand side handed to the preconditioner on this level
 SOL = next(_row)  # solution of the line solves
 COR = next(_row)  # correction of this level
+TRIAL = next(_row)  # pressure change that the Jacobian is applied to
+FILM = next(_row)  # film change that goes with it
+BAND = _rows(7)  # factorised line systems
 NROWS = next(_row)
 
 # columns of the level table
 _col = itertools.count()
-OFF = next(_col)  # first node
+OFF = next(_col)  # first column in the state table
 NX = next(_col)  # cells along x
 NY = next(_col)  # cells along y (0: one-dimensional)
 JN = next(_col)  # rows that carry unknowns (NY + 1 for a line contact, NY for P = 0 at the outer row)
@@ -45,6 +60,4 @@ CT = next(_col)  # dx times the weight of the newest level in d/dT (0: steady)
 K0 = next(_col)  # deflection of a node by its own unit pressure
 K1 = next(_col)  # and by that of its neighbour in x
 FLOOR = next(_col)  # film floor H_min
-SPREAD = next(_col)  # first entry of this level in the buffers of the distribution transform
-PERIOD = next(_col)  # and its row length there
 NCOLS = next(_col)

@@ -1,4 +1,4 @@
-"""Line solver along x: one small banded system (7 diagonals) per row, all rows at once.
+"""Line solver along x: one small banded system (7 diagonals) per row, W rows per lane vector, all blocks at once.
 
 Two kinds of columns. Where the Poiseuille part is strong a node is changed by itself ("Gauss-Seidel" column: the local
 part of the deflection kernel is in the matrix). In the high-pressure zone eps is about 1e-10 and the equation is pure
@@ -9,218 +9,236 @@ a unit at one node and the rows become banded transport.
 import taichi as ti
 
 from tehl_taichi.kernels.fields import (
+    AD,
+    AU,
+    BAND,
+    BD,
+    BU,
     COR,
     CT,
-    CX,
-    CY,
     DRY,
-    EX,
-    EY,
+    EPS,
     JN,
     K0,
     KIND,
-    NX,
     OFF,
-    PERIOD,
-    QP,
     RES,
     RHO,
     SOL,
-    SPREAD,
+    STENCIL,
     TOUCH,
+    A,
+    B,
 )
-from tehl_taichi.kernels.reynolds import Flat, Rows, Table, cells, couette_weight
+from tehl_taichi.kernels.lanes import Blocks, Table, V, Vector, W, above, below, cells, load, neighbour_masks
+from tehl_taichi.kernels.reynolds import couette_weights
 
 HALF = 3  # half bandwidth; 2 converges slower, 1 diverges, 4..6 gain nothing
 TINY_PIVOT = 1e-14
+REACH = HALF + 3  # distances at which a column of the band meets the stencil
+Near = ti.types.vector(REACH, ti.f64)
 
 
 @ti.func
-def kind_of(S: ti.template(), G: ti.template(), l, k, i, j, theta):
-    nx, ny, off = cells(G, l)
-    eps = S[EX, k] + S[EX, k - 1]
-    if j < ny:
-        eps += S[EY, k] * (2.0 if j == 0 else 1.0)
-    if j > 0:
-        eps += S[EY, k - nx - 1]
-    jn = int(G[l, JN])
-    strong = eps > theta * G[l, K0] * (0.5 + G[l, CT]) or i == 1 or i == nx - 1
-    strong = strong or S[DRY, k - 1] + S[DRY, k + 1] > 0
-    if j > 0:
-        strong = strong or S[DRY, k - nx - 1] > 0
-    if j + 1 < jn:
-        strong = strong or S[DRY, k + nx + 1] > 0
-    kind = 2.0
-    if strong and S[TOUCH, k] == 0.0:
-        kind = 1.0
-    return kind
+def contact_rows(S: ti.template(), G: ti.template(), l, k, i):
+    """Rows of touching nodes: the transport operator on rho W of the touching nodes (equivalent to W = 0 there)."""
+    w, touch = couette_weights(i), S[TOUCH, k] > 0.0
+    for t in ti.static(range(4)):
+        c = w[t]
+        if ti.static(t == 2):
+            c += G[l, CT]
+        S[A[t], k] = ti.select(touch, V(0.0), S[A[t], k])
+        S[B[t], k] = ti.select(touch, c * S[RHO, k + t - 2] * S[TOUCH, k + t - 2], S[B[t], k])
+    for row in ti.static((AU, AD, BU, BD)):
+        S[row, k] = ti.select(touch, V(0.0), S[row, k])
 
 
 @ti.func
-def weight(G: ti.template(), l, i, t):
-    return couette_weight(i, t) + (G[l, CT] if t == 0 else 0.0)
+def dry_rows(S: ti.template(), k):
+    """Rows of dry nodes: the identity."""
+    dry = S[DRY, k] > 0.0
+    for row in ti.static(STENCIL):
+        S[row, k] = ti.select(dry, V(0.0), S[row, k])
+    S[A[2], k] = ti.select(dry, V(1.0), S[A[2], k])
 
 
 @ti.func
-def local_part(S: ti.template(), G: ti.template(), l, k, i, j):
-    """Entries of a Reynolds row that do not come from the deflection: columns i-2..i+1, row above, row below."""
-    nx, ny, off = cells(G, l)
-    n2 = nx + 1
-    a = ti.Vector([0.0] * 6)
-    for t in ti.static(range(-2, 2)):
-        if i + t >= 0:
-            a[t + 2] = weight(G, l, i, t) * S[QP, k + t]
-    a[3] -= S[CX[1], k]
-    a[2] += S[CX[1], k - 1] - S[CX[0], k]
-    a[1] += S[CX[0], k - 1]
-    if j < ny:
-        s = 2.0 if j == 0 else 1.0
-        a[2] -= s * S[CY[0], k]
-        a[4] -= s * S[CY[1], k]
-    if j > 0:
-        a[2] += S[CY[1], k - n2]
-        a[5] += S[CY[0], k - n2]
-    return a
-
-
-@ti.func
-def film_part(S: ti.template(), G: ti.template(), l, k, i, dk, gs, self_kernel: ti.template(), m_row):
-    """Transport of the film change that column i+dk causes, at row i."""
-    nx = cells(G, l)[0]
-    v = 0.0
-    for t in ti.static(range(-2, 2)):
-        if i + t >= 0 and i + t <= nx and (S[TOUCH, k] == 0.0 or S[TOUCH, k + t] == 1.0):
-            m = abs(t - dk)
-            h = 1.0 if m == 0 else 0.0
-            if gs:
-                h = self_kernel[m_row, m]
-            v += weight(G, l, i, t) * S[RHO, k + t] * h
-    return v
-
-
-@ti.func
-def entry(S: ti.template(), G: ti.template(), l, k, i, dk, a, near: ti.template(), m_row, inverse: ti.template()):
-    """Matrix entry of row i, column i + dk."""
-    gs = S[KIND, k + dk] == 1.0
-    v = film_part(S, G, l, k, i, dk, gs, near, m_row)
-    if S[TOUCH, k] == 0.0:
-        for t in ti.static(range(-2, 2)):
-            if gs:
-                if t == dk:
-                    v += a[t + 2]
-            else:
-                v += a[t + 2] * inverse[2 * l, abs(t - dk)]
-        if not gs:
-            v += (a[4] + a[5]) * inverse[2 * l + 1, abs(dk)]
-    return v
-
-
-@ti.func
-def factorise(B: ti.template(), first, n2):
-    """LU without pivoting of the banded row, in place."""
-    for i in range(n2):
-        pivot = B[first + i, HALF]
-        if abs(pivot) < TINY_PIVOT:
-            pivot = TINY_PIVOT
-            B[first + i, HALF] = pivot
-        for s in range(1, HALF + 1):
-            if i + s < n2:
-                g = B[first + i + s, HALF - s] / pivot
-                B[first + i + s, HALF - s] = g
-                for q in range(1, HALF + 1):
-                    if i + q < n2:
-                        B[first + i + s, HALF - s + q] -= g * B[first + i, HALF + q]
+def kind_of(S: ti.template(), G: ti.template(), l, k, n2, i, up, down, theta):
+    dry = S[DRY, k - 1] + S[DRY, k + 1] + up * above(S, DRY, k, n2) + down * below(S, DRY, k, n2)
+    bound = theta * G[l, K0] * (0.5 + G[l, CT])
+    if i == 1 or i == n2 - 2:
+        bound = -1.0
+    strong = ti.select(S[EPS, k] > bound, V(1.0), V(0.0)) + dry
+    kind = ti.select(strong > 0.0, V(1.0), V(2.0))
+    kind = ti.select(S[TOUCH, k] > 0.0, V(2.0), kind)
+    return ti.select(S[DRY, k] > 0.0, V(0.0), kind)
 
 
 @ti.kernel
-def classify(S: Table, G: Table, rows: Rows, count: ti.i32, theta: ti.f64):
-    """KIND of every node in the first `count` grid rows."""
-    for r in range(count):
-        l, j = rows[r, 0], rows[r, 1]
+def classify(S: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: ti.i32, touching: ti.i32, theta: ti.f64):
+    """KIND of every node in the blocks first..last-1; rows of dry and touching nodes replaced by their own equations."""
+    for b in range(first, last):
+        l, s = blocks[b, 0], blocks[b, 1]
         nx, ny, off = cells(G, l)
-        for i in range(nx + 1):
-            k = off + j * (nx + 1) + i
-            S[KIND, k] = 0.0
-            if S[DRY, k] == 0.0:
-                S[KIND, k] = kind_of(S, G, l, k, i, j, theta)
+        n2 = nx + 1
+        up, down = neighbour_masks(G, l, s)
+        for i in range(n2):
+            k = off + s * n2 + i
+            S[KIND, k] = kind_of(S, G, l, k, n2, i, up, down, theta)
+            if touching == 1:
+                contact_rows(S, G, l, k, i)
+            dry_rows(S, k)
 
 
 @ti.func
-def fill_row(S: ti.template(), G: ti.template(), l, k, i, j, B: ti.template(), near: ti.template(),
-             inverse: ti.template()):
-    """The seven entries of one wet node; columns without an unknown stay empty."""
-    nx, ny, off = cells(G, l)
-    table = 2 * l
-    if j == ny and int(G[l, JN]) == ny + 1:
-        table += 1
-    a = local_part(S, G, l, k, i, j)
-    for b in range(2 * HALF + 1):
-        dk = b - HALF
-        B[k, b] = 0.0
-        if i + dk > 0 and i + dk < nx:
-            if S[KIND, k + dk] > 0.0:
-                B[k, b] = entry(S, G, l, k, i, dk, a, near, table, inverse)
+def gauss_seidel_entry(S: ti.template(), k, dk: ti.template(), near: ti.template(), rim: ti.template(), outer):
+    """Row k, column k + dk: a unit pressure there and the film change it causes nearby."""
+    v = V(0.0)
+    for t in ti.static(range(-2, 2)):
+        v += S[B[t + 2], k] * (near[abs(t - dk)] + outer * rim[abs(t - dk)])
+    if ti.static(-2 <= dk <= 1):
+        v += S[A[dk + 2], k]
+    return v
+
+
+@ti.func
+def distributed_entry(S: ti.template(), k, dk: ti.template(), inverse: ti.template(), beside: ti.template()):
+    """Row k, column k + dk: a unit film change there and the pressure that makes it."""
+    v = (S[AU, k] + S[AD, k]) * beside[abs(dk)]
+    for t in ti.static(range(-2, 2)):
+        v += S[A[t + 2], k] * inverse[abs(t - dk)]
+    if ti.static(-2 <= dk <= 1):
+        v += S[B[dk + 2], k]
+    return v
+
+
+@ti.func
+def fill_row(S: ti.template(), k, i, nx, near: ti.template(), rim: ti.template(), inverse: ti.template(),
+             beside: ti.template(), outer):
+    """The seven entries of one node; columns without an unknown stay empty, dry rows are the identity."""
+    dry = S[DRY, k] > 0.0
+    for b in ti.static(range(2 * HALF + 1)):
+        kind = S[KIND, k + b - HALF]
+        v = ti.select(kind == 1.0, gauss_seidel_entry(S, k, b - HALF, near, rim, outer),
+                      distributed_entry(S, k, b - HALF, inverse, beside))
+        v = ti.select(kind == 0.0, V(0.0), v)
+        if i + b - HALF <= 0 or i + b - HALF >= nx:
+            v = V(0.0)
+        if ti.static(b == HALF):
+            S[BAND[b], k] = ti.select(dry, V(1.0), v)
+        else:
+            S[BAND[b], k] = ti.select(dry, V(0.0), v)
+
+
+@ti.func
+def row_of(table: ti.template(), n):
+    """The first REACH entries of a row of a table, as constants of a loop."""
+    v = Near(0.0)
+    for m in ti.static(range(REACH)):
+        v[m] = table[n, m]
+    return v
+
+
+@ti.func
+def reciprocal(pivot):
+    return 1.0 / ti.select(ti.abs(pivot) < TINY_PIVOT, V(TINY_PIVOT), pivot)
+
+
+@ti.func
+def factorise(S: ti.template(), first, n2):
+    """LU by rows without pivoting, in place; the diagonal keeps the reciprocal of the pivot.
+
+    The three rows above stay in registers (r = a, b, c: nearest first; their upper part and reciprocal pivot): with
+    columns eliminated in the table instead it takes twelve times as long.
+    """
+    a4, a5, a6, a_inv = V(0.0), V(0.0), V(0.0), V(0.0)
+    b4, b5, b6, b_inv = V(0.0), V(0.0), V(0.0), V(0.0)
+    c4, c5, c6, c_inv = V(0.0), V(0.0), V(0.0), V(0.0)
+    for k in range(first, first + n2):
+        l3 = S[BAND[0], k] * c_inv
+        l2 = (S[BAND[1], k] - l3 * c4) * b_inv
+        l1 = (S[BAND[2], k] - l3 * c5 - l2 * b4) * a_inv
+        inv = reciprocal(S[BAND[3], k] - l3 * c6 - l2 * b5 - l1 * a4)
+        u4 = S[BAND[4], k] - l2 * b6 - l1 * a5
+        u5 = S[BAND[5], k] - l1 * a6
+        u6 = S[BAND[6], k]
+        S[BAND[0], k], S[BAND[1], k], S[BAND[2], k] = l3, l2, l1
+        S[BAND[3], k], S[BAND[4], k], S[BAND[5], k] = inv, u4, u5
+        c4, c5, c6, c_inv = b4, b5, b6, b_inv
+        b4, b5, b6, b_inv = a4, a5, a6, a_inv
+        a4, a5, a6, a_inv = u4, u5, u6, inv
 
 
 @ti.kernel
-def build_lines(S: Table, G: Table, rows: Rows, count: ti.i32, B: Table, near: Table, inverse: Table):
-    """Fill and factorise the bands B[node, 0..6] of the first `count` grid rows; needs `classify`.
+def build_lines(S: ti.template(), G: Table, blocks: Blocks, count: ti.i32, near: Table, inverse: Table):
+    """Fill and factorise the bands of the first `count` blocks; needs `classify`.
 
     near[2 l + (0 or 1), m]: deflection at distance m in x on level l (1: the outermost row of a line contact, which
     goes on to infinity); inverse[2 l + (0 or 1), m]: pressure of a unit film change, in its own and in the next row.
     """
-    for r in range(count):
-        l, j = rows[r, 0], rows[r, 1]
+    for b in range(count):
+        l, s = blocks[b, 0], blocks[b, 1]
         nx, ny, off = cells(G, l)
-        n2 = nx + 1
-        for i in range(n2):
-            k = off + j * n2 + i
-            if S[DRY, k] == 0.0:
-                fill_row(S, G, l, k, i, j, B, near, inverse)
-            else:
-                for b in range(2 * HALF + 1):
-                    B[k, b] = 1.0 if b == HALF else 0.0
-        factorise(B, off + j * n2, n2)
+        first = off + s * (nx + 1)
+        outer = V(0.0)
+        for u in ti.static(range(W)):
+            if s * W + u == ny and int(G[l, JN]) == ny + 1:
+                outer[u] = 1.0
+        inner, own, beside = row_of(near, 2 * l), row_of(inverse, 2 * l), row_of(inverse, 2 * l + 1)
+        rim = row_of(near, 2 * l + 1) - inner
+        for i in range(nx + 1):
+            fill_row(S, first + i, i, nx, inner, rim, own, beside, outer)
+        factorise(S, first, nx + 1)
 
 
 @ti.func
-def substitute(S: ti.template(), B: ti.template(), first, n2):
+def substitute(S: ti.template(), first, n2):
+    """SOL from RES of one block."""
+    y1, y2, y3 = V(0.0), V(0.0), V(0.0)
     for i in range(n2):
-        s = S[RES, first + i]
-        for b in range(HALF):
-            if i - HALF + b >= 0:
-                s -= B[first + i, b] * S[SOL, first + i - HALF + b]
-        S[SOL, first + i] = s
+        k = first + i
+        y = S[RES, k] - S[BAND[0], k] * y3 - S[BAND[1], k] * y2 - S[BAND[2], k] * y1
+        S[SOL, k] = y
+        y3, y2, y1 = y2, y1, y
+    y1, y2, y3 = V(0.0), V(0.0), V(0.0)
     for r in range(n2):
-        i = n2 - 1 - r
-        s = S[SOL, first + i]
-        for b in range(HALF + 1, 2 * HALF + 1):
-            if i - HALF + b < n2:
-                s -= B[first + i, b] * S[SOL, first + i - HALF + b]
-        S[SOL, first + i] = s / B[first + i, HALF]
+        k = first + n2 - 1 - r
+        y = (S[SOL, k] - S[BAND[4], k] * y1 - S[BAND[5], k] * y2 - S[BAND[6], k] * y3) * S[BAND[HALF], k]
+        S[SOL, k] = y
+        y3, y2, y1 = y2, y1, y
 
 
 @ti.kernel
-def solve_lines(S: Table, G: Table, rows: Rows, count: ti.i32, B: Table, spread: Flat):
-    """SOL = line solutions of RES in the first `count` grid rows; `spread` gets the part that K^-1 must distribute."""
-    for r in range(count):
-        l, j = rows[r, 0], rows[r, 1]
-        n2 = int(G[l, NX]) + 1
-        first = int(G[l, OFF]) + j * n2
-        target = int(G[l, SPREAD]) + j * int(G[l, PERIOD])
-        substitute(S, B, first, n2)
-        for i in range(n2):
-            spread[target + i] = S[SOL, first + i] if S[KIND, first + i] == 2.0 else 0.0
+def solve_lines(S: ti.template(), G: Table, blocks: Blocks, count: ti.i32, spread: Vector):
+    """SOL = line solutions of RES in the first `count` blocks; `spread` gets the part that K^-1 must distribute."""
+    start = int(G[0, OFF])
+    for b in range(count):
+        l, s = blocks[b, 0], blocks[b, 1]
+        nx, ny, off = cells(G, l)
+        first = off + s * (nx + 1)
+        substitute(S, first, nx + 1)
+        for k in range(first, first + nx + 1):
+            spread[k - start] = ti.select(S[KIND, k] == 2.0, S[SOL, k], V(0.0))
+
+
+@ti.func
+def collect_block(S: ti.template(), G: ti.template(), l, s, spread: ti.template()):
+    """COR of one block: K^-1 of the distributed part, the line solution elsewhere, RES where dry."""
+    nx, ny, off = cells(G, l)
+    start = int(G[0, OFF])
+    for k in range(off + s * (nx + 1), off + (s + 1) * (nx + 1)):
+        z = ti.select(S[KIND, k] == 1.0, S[SOL, k], load(spread, k - start))
+        S[COR, k] = ti.select(S[KIND, k] == 0.0, S[RES, k], z)
 
 
 @ti.kernel
-def collect_lines(S: Table, G: Table, rows: Rows, count: ti.i32, spread: Flat):
-    """COR = correction of each level: K^-1 of the distributed part, the line solution elsewhere, RES where dry."""
-    for r in range(count):
-        l, j = rows[r, 0], rows[r, 1]
-        n2 = int(G[l, NX]) + 1
-        source = int(G[l, SPREAD]) + j * int(G[l, PERIOD])
-        for i in range(n2):
-            k = int(G[l, OFF]) + j * n2 + i
-            z = S[SOL, k] if S[KIND, k] == 1.0 else S[RES, k]
-            S[COR, k] = spread[source + i] if S[KIND, k] == 2.0 else z
+def export_rows(S: ti.template(), G: Table, l: ti.i32, out: Table):
+    """out[row of the stencil, node j (NX + 1) + i] = Jacobian rows of level l."""
+    nx, ny, off = cells(G, l)
+    for s in range(ny // W + 1):
+        for i in range(nx + 1):
+            for n in range(ti.static(len(STENCIL))):
+                v = S[STENCIL[0] + n, off + s * (nx + 1) + i]
+                for u in ti.static(range(W)):
+                    if s * W + u <= ny:
+                        out[n, (s * W + u) * (nx + 1) + i] = v[u]

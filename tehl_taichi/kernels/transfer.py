@@ -5,27 +5,44 @@ The transfers to and from the finest level run in parallel; the others are too s
 
 import taichi as ti
 
-from tehl_taichi.kernels.fields import COR, DRY, JN, RES, TOUCH, H, P
-from tehl_taichi.kernels.reynolds import Table, cells
+from tehl_taichi.kernels.fields import COR, DRY, JN, RES, SCALE, TOUCH, H, P
+from tehl_taichi.kernels.lanes import Blocks, Table, V, Vector, W, cells, load
+from tehl_taichi.kernels.lines import collect_block
+
+HALF_W = W // 2
 
 
 @ti.func
-def inject_row(S: ti.template(), G: ti.template(), l, J):
-    nx, ny, off = cells(G, l)
-    mx, my, coff = cells(G, l + 1)
-    for I in range(mx + 1):
-        c, k = coff + J * (mx + 1) + I, off + 2 * J * (nx + 1) + 2 * I
-        for row in ti.static((P, H, DRY, TOUCH)):
-            S[row, c] = S[row, k]
+def every_second(S: ti.template(), row, k, n2):
+    """Lanes of a coarse block: the rows 2 j of the fine blocks at columns k and k + n2."""
+    a, b, out = S[row, k], S[row, k + n2], V(0.0)
+    for u in ti.static(range(W)):
+        if ti.static(2 * u < W):
+            out[u] = a[2 * u]
+        else:
+            out[u] = b[2 * u - W]
+    return out
 
 
 @ti.kernel
-def inject(S: Table, G: Table, levels: ti.i32):
-    """State and sets of every coarser level from the coinciding nodes of the finest."""
+def inject(S: ti.template(), G: Table, levels: ti.i32):
+    """State and sets of every coarser level from the coinciding nodes of the finest; ghosts stay dry."""
     for _ in range(1):
         for l in range(levels - 1):
-            for J in range(cells(G, l + 1)[1] + 1):
-                inject_row(S, G, l, J)
+            nx, ny, off = cells(G, l)
+            mx, my, coff = cells(G, l + 1)
+            for t in range(my // W + 1):
+                for I in range(mx + 1):
+                    c, k = coff + t * (mx + 1) + I, off + 2 * t * (nx + 1) + 2 * I
+                    for row in ti.static((P, H, DRY, TOUCH)):
+                        S[row, c] = every_second(S, row, k, nx + 1)
+                    for u in ti.static(range(W)):
+                        if t * W + u >= int(G[l + 1, JN]):
+                            S[DRY, c][u] = 1.0
+                            S[TOUCH, c][u] = 0.0
+                            if t * W + u > my:
+                                S[P, c][u] = 0.0
+                                S[H, c][u] = 1.0
 
 
 @ti.func
@@ -34,60 +51,127 @@ def wet(S: ti.template(), k):
 
 
 @ti.func
-def weighted_row(S: ti.template(), k):
+def weighted_x(S: ti.template(), k):
     return 0.5 * wet(S, k) + 0.25 * (wet(S, k - 1) + wet(S, k + 1))
 
 
 @ti.func
-def restrict_row(S: ti.template(), G: ti.template(), l, J):
-    nx, ny, off = cells(G, l)
-    mx, my, coff = cells(G, l + 1)
-    mirrored_top = int(G[l, JN]) == ny + 1
-    for I in range(mx + 1):
-        c, k = coff + J * (mx + 1) + I, off + 2 * J * (nx + 1) + 2 * I
-        s = 0.0
-        if S[DRY, c] == 0.0:
-            s = weighted_row(S, k)
-            if ny > 0:
-                below = k - nx - 1 if J > 0 else k + nx + 1
-                above = k + nx + 1 if J < my else k - nx - 1
-                s = 0.5 * s + 0.25 * weighted_row(S, below)
-                if J < my or mirrored_top:
-                    s += 0.25 * weighted_row(S, above)
-        S[RES, c] = 2.0 * s
-
-
-@ti.kernel
-def restrict(S: Table, G: Table, levels: ti.i32):
-    """RES of the coarser levels: twice the full weighting (rows carry dx), 0 at dry nodes of either level."""
-    for J in range(cells(G, 1)[1] + 1):
-        restrict_row(S, G, 0, J)
-    for _ in range(1):
-        for l in range(1, levels - 1):
-            for J in range(cells(G, l + 1)[1] + 1):
-                restrict_row(S, G, l, J)
+def transfer_weights(G: ti.template(), l, t):
+    """y weights of the fine rows 2 j - 1, 2 j, 2 j + 1 for the coarse rows of block t; mirrored at the borders."""
+    my = cells(G, l + 1)[1]
+    lower, centre, upper = V(0.25), V(0.5), V(0.25)
+    for u in ti.static(range(W)):
+        j = t * W + u
+        if j == 0:
+            lower[u], upper[u] = 0.0, 0.5
+        elif j == my and int(G[l + 1, JN]) == my + 1:
+            lower[u], upper[u] = 0.5, 0.0
+        if my == 0:
+            lower[u], centre[u], upper[u] = 0.0, 1.0, 0.0
+    return lower, centre, upper
 
 
 @ti.func
-def prolong_row(S: ti.template(), G: ti.template(), l, j, damping):
+def restrict_block(S: ti.template(), G: ti.template(), l, t):
     nx, ny, off = cells(G, l)
     mx, my, coff = cells(G, l + 1)
-    for i in range(1, nx):
-        k = off + j * (nx + 1) + i
-        if S[DRY, k] == 0.0:
-            c = coff + j // 2 * (mx + 1) + i // 2
-            right, up = i % 2, (j % 2) * (mx + 1)
-            v = S[COR, c] + S[COR, c + right] + S[COR, c + up] + S[COR, c + up + right]
-            S[COR, k] += damping * 0.25 * v
+    n2 = nx + 1
+    lower, centre, upper = transfer_weights(G, l, t)
+    for I in range(mx + 1):
+        c, k = coff + t * (mx + 1) + I, off + 2 * t * n2 + 2 * I
+        a, b, before = weighted_x(S, k), weighted_x(S, k + n2), 0.0
+        if t > 0:
+            before = weighted_x(S, k - n2)[W - 1]
+        out = V(0.0)
+        for u in ti.static(range(W)):
+            if ti.static(2 * u < W):
+                down = before
+                if ti.static(u > 0):
+                    down = a[2 * u - 1]
+                out[u] = lower[u] * down + centre[u] * a[2 * u] + upper[u] * a[2 * u + 1]
+            else:
+                down = a[W - 1]
+                if ti.static(2 * u > W):
+                    down = b[2 * u - W - 1]
+                out[u] = lower[u] * down + centre[u] * b[2 * u - W] + upper[u] * b[2 * u - W + 1]
+        S[RES, c] = 2.0 * out * (1.0 - S[DRY, c])
+
+
+@ti.func
+def copy_out(S: ti.template(), G: ti.template(), l, row: ti.template(), values: ti.template()):
+    nx, ny, off = cells(G, l)
+    for q in range((ny // W + 1) * (nx + 1)):
+        values[q] = S[row, off + q]
 
 
 @ti.kernel
-def prolong(S: Table, G: Table, levels: ti.i32, damping: ti.f64):
-    """COR of each level += damping * bilinear interpolation of the next coarser one, from coarse to fine, where wet."""
+def descend(S: ti.template(), G: Table, levels: ti.i32, r: Vector, coarse: Vector):
+    """RES of the finest level = r times the row scale, and of the coarser ones: twice the full weighting (rows carry
+    dx), 0 at dry nodes of either level; `coarse` gets that of the coarsest."""
+    nx, ny, off = cells(G, 0)
+    for s in range(ny // W + 1):
+        for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
+            S[RES, off + q] = load(r, q) * S[SCALE, off + q]
+    for t in range(cells(G, ti.min(1, levels - 1))[1] // W + 1):
+        if levels > 1:
+            restrict_block(S, G, 0, t)
     for _ in range(1):
+        for l in range(1, levels - 1):
+            for t in range(cells(G, l + 1)[1] // W + 1):
+                restrict_block(S, G, l, t)
+        copy_out(S, G, levels - 1, RES, coarse)
+
+
+@ti.func
+def doubled(S: ti.template(), c, m2, upper_half):
+    """Correction at the fine rows of a block from the coarse block at c: mean of rows j // 2 and (j + 1) // 2."""
+    v, rim = S[COR, c], S[COR, c + m2][0]
+    out = V(0.0)
+    for u in ti.static(range(W)):
+        a, b = v[u // 2], v[(u + 1) // 2]
+        if upper_half:
+            a = v[HALF_W + u // 2]
+            if ti.static(HALF_W + (u + 1) // 2 < W):
+                b = v[HALF_W + (u + 1) // 2]
+            else:
+                b = rim
+        out[u] = 0.5 * (a + b)
+    return out
+
+
+@ti.func
+def prolong_block(S: ti.template(), G: ti.template(), l, s, damping):
+    nx, ny, off = cells(G, l)
+    mx, my, coff = cells(G, l + 1)
+    first, c, half = off + s * (nx + 1), coff + s // 2 * (mx + 1), s % 2
+    left = doubled(S, c, mx + 1, half)
+    for I in range(mx):
+        right = doubled(S, c + I + 1, mx + 1, half)
+        k = first + 2 * I
+        S[COR, k] += damping * left * (1.0 - S[DRY, k])
+        S[COR, k + 1] += damping * 0.5 * (left + right) * (1.0 - S[DRY, k + 1])
+        left = right
+
+
+@ti.kernel
+def ascend(S: ti.template(), G: Table, blocks: Blocks, solved: ti.i32, levels: ti.i32, spread: Vector, coarse: Vector,
+           damping: ti.f64, z: Vector):
+    """COR of each level from its line solution (the first `solved` blocks) or from `coarse`, plus damping times the
+    bilinear interpolation of the next coarser one, from coarse to fine, where wet; z gets that of the finest."""
+    nx, ny, off = cells(G, 0)
+    for b in range(solved):
+        collect_block(S, G, blocks[b, 0], blocks[b, 1], spread)
+    for _ in range(1):
+        mx, my, last = cells(G, levels - 1)
+        if blocks[solved - 1, 0] < levels - 1:
+            for q in range((my // W + 1) * (mx + 1)):
+                S[COR, last + q] = load(coarse, q)
         for step in range(levels - 2):
             l = levels - 2 - step
-            for j in range(cells(G, l)[1] + 1):
-                prolong_row(S, G, l, j, damping)
-    for j in range(cells(G, 0)[1] + 1):
-        prolong_row(S, G, 0, j, damping)
+            for s in range(cells(G, l)[1] // W + 1):
+                prolong_block(S, G, l, s, damping)
+    for s in range(ny // W + 1):
+        if levels > 1:
+            prolong_block(S, G, 0, s, damping)
+        for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
+            z[q] = S[COR, off + q]

@@ -67,7 +67,7 @@ def table(oil: ti.template(), p, Gamma):
 @ti.pyfunc
 def ln_eta(oil: ti.template(), p, Gamma):
     """ln of the viscosity by the oil's own law."""
-    out = 0.0
+    out = 0.0 * p  # of the type of p: a number or lanes
     if ti.static(oil.viscosity == "roelands-temperature"):
         out = roelands_temperature(oil, p, Gamma)
     elif ti.static(oil.viscosity == "roelands"):

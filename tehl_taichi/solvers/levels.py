@@ -4,7 +4,8 @@ import math
 
 import numpy as np
 
-from tehl_taichi.kernels import fields, reynolds, transfer
+from tehl_taichi import runtime
+from tehl_taichi.kernels import fields, lanes, measure, reynolds, transfer
 from tehl_taichi.physics.viscosity import ln_eta
 from tehl_taichi.runtime import bind
 from tehl_taichi.solvers import influence
@@ -13,13 +14,15 @@ from tehl_taichi.solvers.transforms import Deflection
 COARSEST_2D = 16  # cells along x below which no coarser grid is made
 COARSEST_1D = 32
 DENSE_LIMIT = 700  # nodes up to which the coarsest grid is solved directly
+PAD = 4  # columns in front of the first and behind the last level that stencils may touch
 
 
 class Levels:
     """State table S, level table G and the constants of one contact on a grid of nx x ny cells and its coarser ones.
 
-    scene: the description; scales: its Hertz units; nx, ny: cells (ny = 0: one-dimensional). Arrays that a caller may
-    read or write as (ny+1, nx+1) views of the finest grid come from :meth:`view`.
+    scene: the description; scales: its Hertz units; nx, ny: cells (ny = 0: one-dimensional). The fields of the finest
+    grid are read and written as arrays (ny+1, nx+1) with :meth:`get` and :meth:`put`. Vectors of the Krylov solver are
+    flat arrays of `n` numbers in the order of the table, ghosts included.
     """
 
     def __init__(self, scene, scales, nx, ny):
@@ -29,27 +32,26 @@ class Levels:
         self.X = np.linspace(grid.x_min, grid.x_max, nx + 1)
         self.Y = np.linspace(0.0, grid.y_max, ny + 1) if ny else np.zeros(1)
         self.dx, self.dy = self.X[1] - self.X[0], grid.y_max / ny if ny else 1.0
-        self.sizes = _coarsen(nx, ny)
-        self.rows = np.array([(l, j) for l, (_, my) in enumerate(self.sizes) for j in range(my + 1)], np.int32)
+        self.sizes = coarsen(nx, ny)
+        self.blocks = np.array([(l, s) for l, (_, my) in enumerate(self.sizes) for s in range(my // lanes.W + 1)], np.int32)
+        self.fine = self.sizes[0][1] // lanes.W + 1  # blocks of the finest grid
         self.G = self._level_table()
-        self.n = (nx + 1) * (ny + 1)
-        self.S = np.zeros((fields.NROWS, int(self.G[-1, fields.OFF]) + self.nodes(-1) + 2))
+        self.n = columns(nx, ny) * lanes.W
+        self.S = runtime.lease(self, fields.NROWS, lanes.W, max(table_columns(nx, ny), _final_columns(scene)))
         self.deflection = Deflection(nx, ny, self.dx, self.dy, self.kind)
         self._set_laws()
         self._bind()
-
-    def nodes(self, l):
-        return (self.sizes[l][0] + 1) * (self.sizes[l][1] + 1)
+        self._set_masks()
 
     def _level_table(self):
         G = np.zeros((len(self.sizes), fields.NCOLS))
-        off = 0
+        off = PAD + self.nx + 1
         for l, (nx, ny) in enumerate(self.sizes):
             dx, dy = self.dx * 2**l, self.dy * 2**l
             own = self.near_kernel(l)[0]
             rows = ny + 1 if self.kind == "line" else ny
-            G[l] = [off, nx, ny, rows, dx, dy, 0.0, own[0], own[1], self.scene.rheology.film_floor, 0, 0]
-            off += (nx + 1) * (ny + 1)
+            G[l] = [off, nx, ny, rows, dx, dy, 0.0, own[0], own[1], self.scene.rheology.film_floor]
+            off += columns(nx, ny)
         return G
 
     def near_kernel(self, l, length=8):
@@ -70,49 +72,116 @@ class Levels:
         lam = 12 * math.exp(self.ln_eta0) * s.u_m * s.R**2 / (s.a**3 * s.p_H)
         self.inv_lambda = 1 / lam
 
-    def _bind_laws(self, first, last, slopes):
-        return bind(reynolds.laws, self.S, self.G, self.rows, first, last, self.scene.oil, self.scales.p_H, self.Gamma,
-                    self.ln_eta0, self.inv_lambda, int(slopes))
-
     def _bind(self):
         """Launches of the kernels that this table is used with, on the finest level and on the coarser ones."""
-        fine, coarse = (0, self.ny + 1), (self.ny + 1, len(self.rows))
-        self.laws = self._bind_laws(*fine, slopes=False)
-        self._slopes, self._slopes_coarse = self._bind_laws(*fine, True), self._bind_laws(*coarse, True)
-        self._faces = bind(reynolds.linearise, self.S, self.G, self.rows, *fine)
-        self._faces_coarse = bind(reynolds.linearise, self.S, self.G, self.rows, *coarse)
-        self.evaluate_residual = bind(reynolds.residual, self.S, self.G, 0)
+        fine, coarse = (0, self.fine), (self.fine, len(self.blocks))
+        self.laws, self._slopes, self._rows = self._bind_laws(*fine)
+        self._laws_coarse, self._slopes_coarse, self._rows_coarse = self._bind_laws(*coarse)
+        self.evaluate_residual = bind(reynolds.residual, self.S, self.G)
         self.inject = bind(transfer.inject, self.S, self.G, len(self.sizes))
-        self.restrict = bind(transfer.restrict, self.S, self.G, len(self.sizes)) if len(self.sizes) > 1 else _nothing
+        self._vector = np.empty((self.n // lanes.W, lanes.W))
+        self._save_P = self.binder(measure.save, fields.P, self._vector)
+        self._set_film = self.binder(reynolds.set_film, self._vector)
+
+    def _bind_laws(self, first, last):
+        table = (self.S, self.G, self.blocks, first, last)
+        law = (self.scene.oil, self.scales.p_H, self.Gamma, self.ln_eta0)
+        return (bind(reynolds.laws, *table, *law, self.inv_lambda), bind(reynolds.slopes, *table, *law),
+                bind(reynolds.linearise, *table))
+
+    def _set_masks(self):
+        inside = np.zeros((self.ny + 1, self.nx + 1))
+        inside[: int(self.G[0, fields.JN]), 1:-1] = 1.0
+        self.unknowns = int(inside.sum())
+        self.put(fields.MASK, inside)
+        self.put(fields.WEIGHT, load_weights(self))
+        self._clear_ghosts(fields.MASK, fields.WEIGHT)
+        self.inside = self.vector(fields.MASK)
+        for l in range(len(self.sizes)):
+            self._clear_level(l)
+
+    def _clear_level(self, l):
+        """Everything dry with a film of 1 and the diagonal 1, so that ghosts and borders stay finite."""
+        nx, ny = self.sizes[l]
+        ones = np.ones((ny + 1, nx + 1))
+        for row in (fields.DRY, fields.H, fields.RHO, fields.D, fields.SCALE):
+            self.put(row, ones, l)
+
+    def _clear_ghosts(self, *rows):
+        """`put` repeats the last row in the ghosts; these fields must vanish there."""
+        first, last = lanes.W * (self.fine - 1), self.ny
+        for row in rows:
+            lanes.clear_ghosts(self.S, self.G, row, last - first)
 
     def linearise(self):
-        """Laws with slopes, face derivatives and the diagonal of the finest level."""
+        """Slopes of the laws, Jacobian rows and the diagonal of the finest level."""
         self._slopes()
-        self._faces()
+        self._rows()
 
     def linearise_coarse(self):
         """The same on every coarser level, about the injected state."""
         self.inject()
+        self._laws_coarse()
         self._slopes_coarse()
-        self._faces_coarse()
+        self._rows_coarse()
 
-    def view(self, row):
-        """Field `row` of the finest grid as (ny+1, nx+1)."""
-        return self.S[row, : self.n].reshape(self.ny + 1, self.nx + 1)
+    def get(self, row, l=0):
+        """Field `row` of level l as a new array (ny+1, nx+1)."""
+        nx, ny = self.sizes[l]
+        out = np.empty((ny + 1, nx + 1))
+        lanes.get(self.S, self.G, l, row, out)
+        return out
 
-    def flat(self, row):
-        return self.S[row, : self.n]
+    def put(self, row, values, l=0):
+        """Set field `row` of level l from an array that broadcasts to (ny+1, nx+1)."""
+        nx, ny = self.sizes[l]
+        lanes.put(self.S, self.G, l, row, np.ascontiguousarray(np.broadcast_to(values, (ny + 1, nx + 1)), dtype=float))
+
+    def vector(self, row):
+        """Field `row` of the finest level as a new flat vector in table order."""
+        out = np.empty((self.n // lanes.W, lanes.W))
+        measure.save(self.S, self.G, row, out)
+        return out.ravel()
+
+    def put_vector(self, row, values):
+        """Set field `row` of the finest level from a flat vector in table order, or from one number."""
+        values = np.array(np.broadcast_to(values, self.n), dtype=float)
+        measure.restore(self.S, self.G, row, values.reshape(-1, lanes.W))
+
+    def binder(self, kernel, *args):
+        """A launch of `kernel` on this table."""
+        return bind(kernel, self.S, self.G, *args)
+
+    def set_film(self, H0):
+        """H from the pressure in the table and the rigid approach H0."""
+        self._save_P()
+        shape = (self.fine, self.nx + 1, lanes.W)
+        self._vector.reshape(shape)[:] = self.deflection.apply(self._vector.reshape(shape), H0)
+        self._set_film()
 
     def set_rate(self, weight):
         """Weight of the newest level in d/dT, 1/T units (0: steady); scaled with dx on every level."""
         self.G[:, fields.CT] = weight * self.G[:, fields.DX]
 
 
-def _nothing():
-    """Stands for the transfers of a table with one level."""
+def load_weights(levels):
+    """Weights w (ny+1, nx+1) such that sum(w P) is the load (model.md section 4, Hertz units).
+
+    Line: the mean over y (trapezoid over the stored half domain) of int P dX = pi/2; point: double integral = 2 pi/3.
+    """
+    w_y = np.full((levels.ny + 1, 1), levels.dx)
+    if levels.ny:
+        w_y[0] *= 0.5
+        if levels.kind == "point":
+            w_y *= 2 * levels.dy
+        else:
+            w_y[-1] *= 0.5
+            w_y /= levels.ny
+    return np.broadcast_to(w_y, (levels.ny + 1, levels.nx + 1))
 
 
-def _coarsen(nx, ny):
+def coarsen(nx, ny):
+    """Sizes of the grids from (nx, ny) down."""
     sizes = [(nx, ny)]
     while _can_halve(*sizes[-1]):
         sizes.append((sizes[-1][0] // 2, sizes[-1][1] // 2))
@@ -123,3 +192,19 @@ def _can_halve(nx, ny):
     if nx % 2 or ny % 2:
         return False
     return nx // 2 >= COARSEST_1D if ny == 0 else nx // 2 >= COARSEST_2D and ny // 2 >= 3
+
+
+def columns(nx, ny):
+    """Columns of one grid in the state table."""
+    return (ny // lanes.W + 1) * (nx + 1)
+
+
+def table_columns(nx, ny):
+    """Columns of all its grids, with what stencils touch in front and behind."""
+    return sum(columns(*size) for size in coarsen(nx, ny)) + 2 * (PAD + nx + 1)
+
+
+def _final_columns(scene):
+    """Columns of the finest grid of the scene: the steady start takes its smaller tables from the same memory."""
+    one_dimensional = scene.contact.kind == "line" and not scene.transient
+    return table_columns(scene.grid.nx, 0 if one_dimensional else scene.grid.ny)

@@ -6,7 +6,7 @@ Inside a Krylov method one undamped parallel sweep per level beats alternating c
 
 import numpy as np
 
-from tehl_taichi.kernels import fields, lines, reynolds, transfer
+from tehl_taichi.kernels import fields, lanes, lines, transfer
 from tehl_taichi.runtime import bind
 from tehl_taichi.solvers.levels import DENSE_LIMIT
 from tehl_taichi.solvers.transforms import Deflection, Distribution
@@ -20,68 +20,90 @@ class AdditiveLines:
 
     def __init__(self, levels):
         self.levels = levels
-        self.dense = levels.nodes(-1) <= DENSE_LIMIT
-        smoothed = levels.sizes[:-1] if self.dense and len(levels.sizes) > 1 else levels.sizes
-        self.dense = len(smoothed) < len(levels.sizes)
-        self.count = sum(ny + 1 for _, ny in smoothed)
+        nx, ny = levels.sizes[-1]
+        dense = len(levels.sizes) > 1 and (nx + 1) * (ny + 1) <= DENSE_LIMIT
+        smoothed = levels.sizes[:-1] if dense else levels.sizes
         self.distribution = Distribution(smoothed, levels.dx, levels.dy, levels.kind)
-        levels.G[: len(smoothed), [fields.SPREAD, fields.PERIOD]] = self.distribution.places
         self.inverse = self.distribution.near()
         self.near = np.vstack([levels.near_kernel(l) for l in range(len(smoothed))])
-        self.bands = np.zeros((levels.S.shape[1], 2 * lines.HALF + 1))
-        if self.dense:
-            self._prepare_dense(len(smoothed))
+        self.count = sum(ny // lanes.W + 1 for _, ny in smoothed)
+        self.coarsest = Coarsest(levels) if dense else None
+        self.r, self.z = np.zeros((levels.n // lanes.W, lanes.W)), np.zeros((levels.n // lanes.W, lanes.W))
         self._bind()
 
-    def _prepare_dense(self, l):
-        v = self.levels
-        nx, ny = v.sizes[l]
-        n = v.nodes(-1)
-        deflect = Deflection(nx, ny, v.dx * 2**l, v.dy * 2**l, v.kind)
-        self.unit, self.unit_film, self.jacobian = np.eye(n), np.zeros((n, n)), np.zeros((n, n))
-        film = np.zeros((1, n))
-        for q in range(n):
-            deflect.bound(self.unit, q, film)()
-            self.unit_film[q] = film[0]
-
     def _bind(self):
-        v, d = self.levels, self.distribution
-        table = (v.S, v.G, v.rows, self.count)
-        self.classify = bind(lines.classify, *table, THETA)
-        self.build_lines = bind(lines.build_lines, *table, self.bands, self.near, self.inverse)
-        self.solve_lines = bind(lines.solve_lines, *table, self.bands, d.source)
-        self.collect_lines = bind(lines.collect_lines, *table, d.result)
-        if len(v.sizes) > 1:
-            self.prolong = bind(transfer.prolong, v.S, v.G, len(v.sizes), COARSE_WEIGHT)
-        if self.dense:
-            self.coarse_jacobian = bind(reynolds.jacobian, v.S, v.G, len(v.sizes) - 1, self.unit, self.unit_film,
-                                        self.jacobian, len(self.unit))
+        v, d, size = self.levels, self.distribution, len(self.levels.sizes)
+        coarse = self.coarsest or Coarsest(v, dense=False)
+        self._classify = [bind(lines.classify, v.S, v.G, v.blocks, *cut, touching, THETA) for touching in (0, 1)
+                          for cut in ((0, v.fine), (v.fine, len(v.blocks)))]
+        self._build_lines = bind(lines.build_lines, v.S, v.G, v.blocks, self.count, self.near, self.inverse)
+        self._descend = bind(transfer.descend, v.S, v.G, size, self.r, coarse.right)
+        self._solve_lines = bind(lines.solve_lines, v.S, v.G, v.blocks, self.count, d.source)
+        self._ascend = bind(transfer.ascend, v.S, v.G, v.blocks, self.count, size, d.result, coarse.solution,
+                            COARSE_WEIGHT, self.z)
 
-    def build(self):
+    def build(self, touching):
         """Linearise the coarser levels about the injected state and factorise every level."""
         self.levels.linearise_coarse()
-        self.classify()
-        self.build_lines()
-        if self.dense:
-            self.coarse_jacobian()
-            self.coarse_inverse = np.linalg.inv(self.jacobian.T)
+        fine, coarse = self._classify[2:] if touching else self._classify[:2]
+        fine()
+        coarse()
+        self._build_lines()
+        if self.coarsest:
+            self.coarsest.build()
 
     def apply(self, r):
-        """Correction of the finest level for the unscaled right-hand side r (n,); a copy."""
-        v = self.levels
-        v.flat(fields.RES)[:] = r
-        v.restrict()
-        self.solve_lines()
+        """Correction (n,) of the finest level for the right-hand side r (n,) of the scaled rows; a buffer."""
+        self.r.ravel()[:] = r
+        self._descend()
+        self._solve_lines()
         self.distribution.run()
-        self.collect_lines()
-        if self.dense:
-            self._solve_coarsest()
-        if len(v.sizes) > 1:
-            self.prolong()
-        return v.flat(fields.COR).copy()
+        if self.coarsest:
+            self.coarsest.solve()
+        self._ascend()
+        return self.z.ravel()
 
-    def _solve_coarsest(self):
-        v = self.levels
-        off = int(v.G[-1, fields.OFF])
-        nodes = slice(off, off + v.nodes(-1))
-        v.S[fields.COR, nodes] = self.coarse_inverse @ v.S[fields.RES, nodes]
+
+class Coarsest:
+    """The coarsest level as a dense matrix: its Jacobian with the full deflection, inverted at every Newton step."""
+
+    def __init__(self, levels, dense=True):
+        self.levels, self.l = levels, len(levels.sizes) - 1
+        nx, ny = levels.sizes[-1]
+        size = (ny // lanes.W + 1) * (nx + 1)
+        self.right, self.solution = np.zeros((size, lanes.W)), np.zeros((size, lanes.W))
+        j, i = (q.ravel() for q in np.mgrid[: ny + 1, : nx + 1])
+        self.place = (j // lanes.W * (nx + 1) + i) * lanes.W + j % lanes.W
+        if dense:
+            self.neighbours = self._neighbours(i, j, nx, ny)
+            self.influence = self._influence(nx, ny)
+            self.rows = np.zeros((len(fields.STENCIL), i.size))
+            self._export = bind(lines.export_rows, levels.S, levels.G, self.l, self.rows)
+
+    def _neighbours(self, i, j, nx, ny):
+        """Node numbers of i-2, i-1, i, i+1, j+1, j-1; those outside have no weight."""
+        steps = ((-2, 0), (-1, 0), (0, 0), (1, 0), (0, 1), (0, -1))
+        return [np.clip(j + q, 0, ny) * (nx + 1) + np.clip(i + p, 0, nx) for p, q in steps]
+
+    def _influence(self, nx, ny):
+        """Deflection matrix (nodes, nodes)."""
+        v, n = self.levels, (nx + 1) * (ny + 1)
+        deflect = Deflection(nx, ny, v.dx * 2**self.l, v.dy * 2**self.l, v.kind)
+        K, unit = np.empty((n, n)), np.zeros((self.right.shape[0] // (nx + 1), nx + 1, lanes.W))
+        for node, place in enumerate(self.place):
+            unit.ravel()[place] = 1.0
+            K[:, node] = deflect.apply(unit).ravel()[self.place]
+            unit.ravel()[place] = 0.0
+        return K
+
+    def build(self):
+        self._export()
+        half, nodes = len(fields.STENCIL) // 2, np.arange(self.place.size)
+        J = np.zeros((nodes.size, nodes.size))
+        for a, b, q in zip(self.rows[:half], self.rows[half:], self.neighbours):
+            J += b[:, None] * self.influence[q]
+            J[nodes, q] += a
+        self.inverse = np.linalg.inv(J)
+
+    def solve(self):
+        self.solution.ravel()[self.place] = self.inverse @ self.right.ravel()[self.place]

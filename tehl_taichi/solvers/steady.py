@@ -61,20 +61,21 @@ def grid_sequence(nx, ny, first=FIRST_CELLS):
 
 def solve_steady(scene, scales, nx, ny):
     """Steady smooth contact on nx x ny cells (ny = 0: line). Returns a SteadyResult; check `report.converged`."""
-    result, P, H0 = None, None, 0.0
+    P, H0, values, work = None, 0.0, [], 0
     for size in grid_sequence(nx, ny):
+        solver = None  # gives its table to the next grid
         solver = PressureSolver(Levels(scene, scales, *size))
         _undeformed(solver.levels)
         report = _first(solver) if P is None else _next(solver, P, H0)
-        P, H0 = solver.levels.view(fields.P).copy(), solver.H0
-        values = (result.values if result else []) + [scalars(solver)]
-        result = SteadyResult(solver, report, values, (result.work if result else 0) + report.cycles)
-    return result
+        P, H0 = solver.levels.get(fields.P), solver.H0
+        values.append(scalars(solver))
+        work += report.cycles
+    return SteadyResult(solver, report, values, work)
 
 
 def _undeformed(levels):
     X, Y = levels.X[None, :], levels.Y[:, None]
-    levels.view(fields.GAP0)[:] = 0.5 * X**2 + (0.5 * Y**2 if levels.kind == "point" else 0 * Y)
+    levels.put(fields.GAP0, 0.5 * X**2 + (0.5 * Y**2 if levels.kind == "point" else 0 * Y))
 
 
 def _first(solver):
@@ -89,17 +90,14 @@ def _first(solver):
 def _hertz(solver, film):
     v = solver.levels
     r2 = v.X[None, :] ** 2 + (v.Y[:, None] ** 2 if v.kind == "point" else 0 * v.Y[:, None])
-    v.view(fields.P)[:] = np.sqrt(np.maximum(1 - r2, 0.0))
-    solver.H0 = 0.0
-    solver.film()
-    centre = v.view(fields.H)[0, int(np.argmin(np.abs(v.X)))]
+    v.put(fields.P, np.sqrt(np.maximum(1 - r2, 0.0)))
+    v.set_film(0.0)
+    centre = v.get(fields.H)[0, int(np.argmin(np.abs(v.X)))]
     solver.H0 = film - float(centre)
 
 
 def _next(solver, P, H0):
-    fine = refine(P)
-    fine.ravel()[~solver.inside] = 0.0
-    solver.levels.view(fields.P)[:] = fine
+    solver.levels.put(fields.P, refine(P) * solver.levels.get(fields.MASK))
     solver.H0 = H0
     return solver.solve(KRYLOV_TOLERANCE)
 
@@ -116,6 +114,6 @@ def refine(P):
 def scalars(solver):
     """h_c (X = 0, interpolated), h_min and p_max of the state in the table, dimensionless."""
     v = solver.levels
-    H, P = v.view(fields.H), v.view(fields.P)
+    H, P = v.get(fields.H), v.get(fields.P)
     row = 0 if v.kind == "point" else -1
     return {"h_c": float(np.interp(0.0, v.X, H[row])), "h_min": float(H.min()), "p_max": float(P.max())}
