@@ -181,10 +181,11 @@ def reynolds_operator(levels, X, Y, rate):
 
 
 def test_manufactured_solution_of_the_reynolds_operator():
+    """Of the inner rows: the outermost one stands for all beyond, where nothing changes along y any more."""
     from tehl_taichi.kernels import fields
     from tehl_taichi.solvers.levels import Levels
 
-    description = scene("gear").replace(**{"contact.hertz_pressure": 0.2e9})
+    description = scene("gear").replace(**{"contact.hertz_pressure": 0.2e9, "speed": 0.5})
     errors = []
     for cells in (32, 64, 128):
         levels = Levels(description, Scales.of(description), 2 * cells, cells)
@@ -195,8 +196,8 @@ def test_manufactured_solution_of_the_reynolds_operator():
         levels.laws()
         levels.evaluate_residual()
         exact = reynolds_operator(levels, X, Y, 0.7)
-        errors.append(np.abs(levels.get(fields.R) / levels.dx - exact)[:, 2:-2].max() / np.abs(exact).max())
-    assert errors[-1] < 2e-3
+        errors.append(np.sqrt(np.mean((levels.get(fields.R) / levels.dx - exact)[:-1, 2:-2] ** 2) / np.mean(exact**2)))
+    assert errors[-1] < 1e-4
     assert np.log2(errors[1] / errors[2]) > 1.9 and np.log2(errors[0] / errors[1]) > 1.9
 
 
