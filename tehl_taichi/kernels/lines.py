@@ -77,6 +77,7 @@ def kind_of(S: ti.template(), G: ti.template(), l, k, n2, i, up, down, theta):
 @ti.kernel
 def classify(S: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: ti.i32, touching: ti.i32, theta: ti.f64):
     """KIND of every node in the blocks first..last-1; rows of dry and touching nodes replaced by their own equations."""
+    ti.loop_config(block_dim=1)
     for b in range(first, last):
         l, s = blocks[b, 0], blocks[b, 1]
         nx, ny, off = cells(G, l)
@@ -176,6 +177,7 @@ def build_lines(S: ti.template(), G: Table, blocks: Blocks, count: ti.i32, near:
     near[2 l + (0 or 1), m]: deflection at distance m in x on level l (1: the outermost row of a line contact, which
     goes on to infinity); inverse[2 l + (0 or 1), m]: pressure of a unit film change, in its own and in the next row.
     """
+    ti.loop_config(block_dim=1)
     for b in range(count):
         l, s = blocks[b, 0], blocks[b, 1]
         nx, ny, off = cells(G, l)
@@ -212,6 +214,7 @@ def substitute(S: ti.template(), first, n2):
 def solve_lines(S: ti.template(), G: Table, blocks: Blocks, count: ti.i32, spread: Vector):
     """SOL = line solutions of RES in the first `count` blocks; `spread` gets the part that K^-1 must distribute."""
     start = int(G[0, OFF])
+    ti.loop_config(block_dim=1)
     for b in range(count):
         l, s = blocks[b, 0], blocks[b, 1]
         nx, ny, off = cells(G, l)
@@ -235,6 +238,7 @@ def collect_block(S: ti.template(), G: ti.template(), l, s, spread: ti.template(
 def export_rows(S: ti.template(), G: Table, l: ti.i32, out: Table):
     """out[row of the stencil, node j (NX + 1) + i] = Jacobian rows of level l."""
     nx, ny, off = cells(G, l)
+    ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
         for i in range(nx + 1):
             for n in range(ti.static(len(STENCIL))):

@@ -16,6 +16,7 @@ def parts(S: ti.template(), k, floor, inv):
 def sums(S: ti.template(), G: Table, middle: ti.i32, out: Table):
     """out[block] = phi^2, net outflow of the full-film region, Couette flux through the column `middle`."""
     nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
         floor, inv = G[0, FLOOR], 1 / G[0, K0]
         down = face_weights(s, ny)[1]
@@ -42,6 +43,7 @@ def choose_sets(S: ti.template(), G: Table, cap: ti.f64, b: Vector, mass_row: Ve
     """DRY, TOUCH and the row scale; b = right-hand side of the scaled Newton equations (touching rows are the caller's);
     mass_row = weight of each scaled row in the net outflow; touching[block, 0] = touching nodes."""
     nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
         floor, inv = G[0, FLOOR], 1 / G[0, K0]
         half = 0.5 + 0.5 * face_weights(s, ny)[1]
@@ -65,6 +67,7 @@ def choose_sets(S: ti.template(), G: Table, cap: ti.f64, b: Vector, mass_row: Ve
 def advance(S: ti.template(), G: Table, old: Vector, step: Vector, t: ti.f64):
     """P = max(old + t step, 0) on the unknowns."""
     nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
         for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
             p = load(old, q)
@@ -75,6 +78,7 @@ def advance(S: ti.template(), G: Table, old: Vector, step: Vector, t: ti.f64):
 def save(S: ti.template(), G: Table, row: ti.i32, out: Vector):
     """out = S[row] of the finest level, in block order."""
     nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
         for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
             out[q] = S[row, off + q]
@@ -84,6 +88,7 @@ def save(S: ti.template(), G: Table, row: ti.i32, out: Vector):
 def restore(S: ti.template(), G: Table, row: ti.i32, values: Vector):
     """S[row] of the finest level = values, in block order."""
     nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
         for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
             S[row, off + q] = load(values, q)

@@ -81,6 +81,7 @@ def node_slopes(S: ti.template(), k, oil: ti.template(), p_H, Gamma, ln_eta0, fl
 def laws(S: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: ti.i32, oil: ti.template(), p_H: ti.f64,
          Gamma: ti.f64, ln_eta0: ti.f64, inv_lambda: ti.f64):
     """Density, viscosity and mobility in the blocks first..last-1."""
+    ti.loop_config(block_dim=1)
     for b in range(first, last):
         l, s = blocks[b, 0], blocks[b, 1]
         nx, ny, off = cells(G, l)
@@ -93,6 +94,7 @@ def laws(S: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: ti.i32
 def slopes(S: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: ti.i32, oil: ti.template(), p_H: ti.f64,
            Gamma: ti.f64, ln_eta0: ti.f64):
     """Their derivatives; needs `laws`."""
+    ti.loop_config(block_dim=1)
     for b in range(first, last):
         l, s = blocks[b, 0], blocks[b, 1]
         nx, ny, off = cells(G, l)
@@ -150,6 +152,7 @@ def residual(S: ti.template(), G: Table):
     """R = dx [ d(rho H)/dX + d(rho H)/dT - div(eps grad P) ] on the unknowns of the finest level, 0 elsewhere."""
     nx, ny, off = cells(G, 0)
     n2 = nx + 1
+    ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
         up, down = face_weights(s, ny)
         inv, metric, CT_0 = 1 / G[0, DX], G[0, DX] / G[0, DY] ** 2, G[0, CT]
@@ -208,6 +211,7 @@ def store_rows(S: ti.template(), k, rows: ti.template(), c0, c1, c2, c3):
 @ti.kernel
 def linearise(S: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: ti.i32):
     """Jacobian rows, EPS and the diagonal in the blocks first..last-1; needs `laws` and `slopes`."""
+    ti.loop_config(block_dim=1)
     for b in range(first, last):
         l, s = blocks[b, 0], blocks[b, 1]
         nx, ny, off = cells(G, l)
@@ -255,10 +259,12 @@ def jacobian(S: ti.template(), G: Table, pressure: Vector, film: Vector, out: Ve
     """out = J (pressure, film) / SCALE on the finest level."""
     nx, ny, off = cells(G, 0)
     n2 = nx + 1
+    ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
         for q in range(s * n2, (s + 1) * n2):
             S[TRIAL, off + q] = load(pressure, q)
             S[FILM, off + q] = load(film, q)
+    ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
         for q in range(s * n2, (s + 1) * n2):
             k = off + q
@@ -269,6 +275,7 @@ def jacobian(S: ti.template(), G: Table, pressure: Vector, film: Vector, out: Ve
 def set_film(S: ti.template(), G: Table, film: Vector):
     """H = undeformed gap + film (deflection and rigid approach)."""
     nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
         for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
             S[H, off + q] = S[GAP0, off + q] + load(film, q)

@@ -45,6 +45,7 @@ def tractions(S: ti.template(), G: Table, rheology: ti.template(), p_H: ti.f64, 
     shear law; body a feels tau(0), body b feels -tau(h). Touching nodes: mu_b p, at most the shear limit.
     """
     nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
         for i in range(nx + 1):
             k = off + s * (nx + 1) + i

@@ -109,9 +109,11 @@ def descend(S: ti.template(), G: Table, levels: ti.i32, r: Vector, coarse: Vecto
     """RES of the finest level = r times the row scale, and of the coarser ones: twice the full weighting (rows carry
     dx), 0 at dry nodes of either level; `coarse` gets that of the coarsest."""
     nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
         for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
             S[RES, off + q] = load(r, q) * S[SCALE, off + q]
+    ti.loop_config(block_dim=1)
     for t in range(cells(G, ti.min(1, levels - 1))[1] // W + 1):
         if levels > 1:
             restrict_block(S, G, 0, t)
@@ -159,6 +161,7 @@ def ascend(S: ti.template(), G: Table, blocks: Blocks, solved: ti.i32, levels: t
     """COR of each level from its line solution (the first `solved` blocks) or from `coarse`, plus damping times the
     bilinear interpolation of the next coarser one, from coarse to fine, where wet; z gets that of the finest."""
     nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1)
     for b in range(solved):
         collect_block(S, G, blocks[b, 0], blocks[b, 1], spread)
     for _ in range(1):
@@ -170,6 +173,7 @@ def ascend(S: ti.template(), G: Table, blocks: Blocks, solved: ti.i32, levels: t
             l = levels - 2 - step
             for s in range(cells(G, l)[1] // W + 1):
                 prolong_block(S, G, l, s, damping)
+    ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
         if levels > 1:
             prolong_block(S, G, 0, s, damping)
