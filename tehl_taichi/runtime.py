@@ -44,6 +44,8 @@ def start(arch="cpu", threads=None, precision="f64"):
 
     with _stdout_to_stderr():
         ti.init(arch=ti.cpu, default_fp=ti.f64, fast_math=False, cpu_max_num_threads=threads, log_level=ti.ERROR,
+                # its own optimisation passes take 40 s for the Findley search (2 s without) and gain nothing over LLVM's
+                advanced_optimization=False,
                 # Taichi would run loops of up to 512 rows on one thread: our loops run over rows of that number
                 make_cpu_multithreading_loop=False,
                 offline_cache=True, offline_cache_file_path=str(cache_dir()))

@@ -1,115 +1,32 @@
 """Findley's critical plane for many points at once: max over planes of tau_amp + kappa * sigma_n,max.
 
-tau_amp is the radius of the smallest circle around the path of the shear vector on the plane (exact, by pivoting).
+tau_amp is the radius of the smallest circle around the path of the shear vector on the plane (kernels/circle.py).
 One point per parallel iteration, everything inside serial, so results do not depend on the number of threads.
+
+What makes it fast is a bound for several planes in one pass over the history: the circle around the shear path may be
+drawn about any centre. About the centre that belongs to the best plane so far (the same mean of the same moments) the
+bound is nearly the value itself, and only planes that are really better are evaluated exactly.
 """
 
 import taichi as ti
 
+from tehl_taichi.kernels.circle import enclose, vec3
+
 SHRINKS = 12  # halvings of the step, 5 degrees -> 2e-5 rad: error of a smooth maximum about 1e-9
+FIRST = 4     # of them done for every peak; the others only for peaks within CLOSE of the best by then
+CLOSE = 5e-3
 MOVES = 40    # moves at one step length at most
 TURNS = 3     # turned patterns without success before the step is halved: the maximum often lies on a sharp ridge
-PIVOTS = 60   # farthest points added to a circle at most (about 4 are usual)
-INSIDE = 1e-12
 MARGIN = 0.03  # other peaks of the grid within this of its best are refined too (the grid itself is about 1 % low)
 STARTS = 5      # peaks refined at most: 4 and 20 agree to 2e-7 at every point of the gear passage (4.2 s against 5.6 s)
 NEAR = 0.975   # cosine of the angle (13 degrees) below which planes of the grid belong to one peak
+SAME = 0.9998  # the same (1 degree) for peaks after the first halvings
+SLACK = 1e-11  # relative rounding of a bound
 
-vec3 = ti.types.vector(3, ti.f64)
-
-
-@ti.func
-def circle2(ax, ay, bx, by):
-    """Circle (centre x, y, squared radius) with the diameter a-b."""
-    ux, uy = 0.5 * (bx - ax), 0.5 * (by - ay)
-    return vec3(ax + ux, ay + uy, ux * ux + uy * uy)
-
-
-@ti.func
-def circle3(ax, ay, bx, by, cx, cy):
-    """Circle through three points; squared radius -1 if they lie on a line."""
-    ux, uy, vx, vy = bx - ax, by - ay, cx - ax, cy - ay
-    u2, v2 = ux * ux + uy * uy, vx * vx + vy * vy
-    d = 2 * (ux * vy - uy * vx)
-    out = vec3(ax, ay, -1.0)
-    if ti.abs(d) > 1e-14 * ti.sqrt(u2 * v2):
-        x, y = (vy * u2 - uy * v2) / d, (ux * v2 - vx * u2) / d
-        out = vec3(ax + x, ay + y, x * x + y * y)
-    return out
-
-
-@ti.func
-def inside(c, x, y):
-    return (x - c[0]) ** 2 + (y - c[1]) ** 2 <= c[2] * (1 + INSIDE)
-
-
-@ti.func
-def farthest(a: ti.template(), b: ti.template(), row, steps, c):
-    """(index, squared distance) of the point farthest from the centre of c."""
-    far, distance = 0, -1.0
-    for t in range(steps):
-        d = (a[row, t] - c[0]) ** 2 + (b[row, t] - c[1]) ** 2
-        if d > distance:
-            distance, far = d, t
-    return far, distance
-
-
-@ti.func
-def pivot(px, py, m, fx, fy):
-    """Smallest circle around m <= 3 points and one outside point f, which lies on it: circle and the two partners."""
-    best = vec3(0.0, 0.0, 1e300)
-    bi, bj = -1, -1
-    for i in ti.static(range(3)):
-        if i < m:
-            c = circle2(fx, fy, px[i], py[i])
-            good = 1
-            for k in ti.static(range(3)):
-                if k < m and k != i and not inside(c, px[k], py[k]):
-                    good = 0
-            if good == 1 and c[2] < best[2]:
-                best, bi, bj = c, i, -1
-    if bi < 0:
-        for i in ti.static(range(3)):
-            for j in ti.static(range(i)):
-                if i < m:
-                    c = circle3(fx, fy, px[i], py[i], px[j], py[j])
-                    good = 1
-                    for k in ti.static(range(3)):
-                        if k < m and k != i and k != j and not inside(c, px[k], py[k]):
-                            good = 0
-                    if c[2] > 0 and good == 1 and c[2] < best[2]:
-                        best, bi, bj = c, i, j
-    return best, bi, bj
-
-
-@ti.func
-def circle_radius(a: ti.template(), b: ti.template(), row, steps, i0, i1):
-    """Radius of the smallest circle around the points (a, b)[row, :steps]; i0, i1: two far points to start from.
-
-    Pivoting (Gaertner 1999): add the farthest point, solve the problem of at most four points exactly, repeat.
-    """
-    px, py = vec3(a[row, i0], a[row, i1], 0.0), vec3(b[row, i0], b[row, i1], 0.0)
-    m, going, count = 2, 1, 0
-    c = circle2(px[0], py[0], px[1], py[1])
-    while going == 1 and count < PIVOTS:
-        count += 1
-        far, distance = farthest(a, b, row, steps, c)
-        going = 0
-        if distance > c[2] * (1 + INSIDE):
-            fx, fy = a[row, far], b[row, far]
-            best, bi, bj = pivot(px, py, m, fx, fy)
-            if bi >= 0 and best[2] > c[2]:
-                qx, qy = vec3(fx, 0.0, 0.0), vec3(fy, 0.0, 0.0)
-                for k in ti.static(range(3)):
-                    if k == bi:
-                        qx[1], qy[1] = px[k], py[k]
-                    if k == bj:
-                        qx[2], qy[2] = px[k], py[k]
-                px, py, c = qx, qy, best
-                m = 3 if bj >= 0 else 2
-                going = 1
-    far, distance = farthest(a, b, row, steps, c)
-    return ti.sqrt(ti.max(distance, 0.0))
+vec6 = ti.types.vector(6, ti.f64)
+LANES = 4     # planes bounded at once
+lanes = ti.types.vector(LANES, ti.f64)
+PEAK = 11     # numbers kept per peak: normal (3), value, turn, middle (6)
 
 
 @ti.func
@@ -131,11 +48,34 @@ def project(S: ti.template(), row, t, u, n):
 
 
 @ti.func
-def plane_value(S: ti.template(), a: ti.template(), b: ti.template(), row, steps, n, kappa, best, prune):
-    """tau_amp + kappa * sigma_n,max on the plane n, or -1e300 where a bound shows that it is not above `best`.
+def traction(s, x, y, z):
+    """Stress s on planes with normals (x, y, z): vector and normal component."""
+    a, b, c = s[0] * x + s[3] * y + s[4] * z, s[3] * x + s[1] * y + s[5] * z, s[4] * x + s[5] * y + s[2] * z
+    return a, b, c, a * x + b * y + c * z
 
-    The bound: a circle around the bounding box of the path encloses the path.
-    """
+
+@ti.func
+def stress(S: ti.template(), row, t):
+    return vec6(S[row, t, 0], S[row, t, 1], S[row, t, 2], S[row, t, 3], S[row, t, 4], S[row, t, 5])
+
+
+@ti.func
+def bounds(S: ti.template(), row, steps, x, y, z, middle, kappa):
+    """Upper bounds of the values on several planes (x, y, z): the circle about the shear of the stress `middle`."""
+    ca, cb, cc, cn = traction(middle, x, y, z)
+    top, far = lanes(-1e300), lanes(0.0)
+    for t in range(steps):
+        a, b, c, normal = traction(stress(S, row, t), x, y, z)
+        n = normal - cn
+        da, db, dc = a - ca - n * x, b - cb - n * y, c - cc - n * z
+        far = ti.max(far, da * da + db * db + dc * dc)
+        top = ti.max(top, normal)
+    return ti.sqrt(far) * (1 + SLACK) + kappa * top + SLACK * kappa * ti.abs(top)
+
+
+@ti.func
+def plane_value(S: ti.template(), a: ti.template(), b: ti.template(), row, steps, n, kappa):
+    """tau_amp + kappa * sigma_n,max on the plane n, and the mean stress whose shear is the centre of its circle."""
     e1, e2 = plane_frame(n)
     top, la, ha, lb, hb = -1e300, 1e300, -1e300, 1e300, -1e300
     ia, ja, ib, jb = 0, 0, 0, 0
@@ -151,47 +91,117 @@ def plane_value(S: ti.template(), a: ti.template(), b: ti.template(), row, steps
             lb, ib = v, t
         if v > hb:
             hb, jb = v, t
-    bound = 0.5 * ti.sqrt((ha - la) ** 2 + (hb - lb) ** 2) * (1 + 1e-11)
-    value = -1e300
-    if prune == 0 or bound + kappa * top + 1e-13 * ti.abs(kappa * top) > best:
-        if hb - lb > ha - la:
-            ia, ja = ib, jb
-        value = circle_radius(a, b, row, steps, ia, ja) + kappa * top
-    return value
+    if hb - lb > ha - la:
+        ia, ja = ib, jb
+    radius, index, weight = enclose(a, b, row, steps, ia, ja)
+    middle = vec6(0.0)
+    for k in ti.static(range(3)):
+        middle += weight[k] * stress(S, row, index[k])
+    return radius + kappa * top, middle
 
 
 @ti.func
-def refine(S: ti.template(), a: ti.template(), b: ti.template(), row, steps, start, value, kappa, step0, prune):
+def best_of_ring(S: ti.template(), a: ti.template(), b: ti.template(), row, steps, centre, step, turn, value, middle,
+                 kappa, prune):
+    """Best of eight planes around `centre` (tilted by `step`): normal, value and middle; the given ones if none is better."""
+    e1, e2 = plane_frame(centre)
+    n, best, mid = centre, value, middle
+    for half in range(8 // LANES):
+        x, y, z = lanes(0.0), lanes(0.0), lanes(0.0)
+        for k in ti.static(range(LANES)):
+            angle = turn + (8 // LANES * k + half) * 0.7853981633974483
+            trial = (centre + step * (ti.cos(angle) * e1 + ti.sin(angle) * e2)).normalized()
+            x[k], y[k], z[k] = trial[0], trial[1], trial[2]
+        bound = bounds(S, row, steps, x, y, z, middle, kappa)
+        for _ in range(LANES):
+            top, at, trial = -1e300, 0, centre
+            for k in ti.static(range(LANES)):
+                if bound[k] > top:
+                    top, at, trial = bound[k], k, vec3(x[k], y[k], z[k])
+            if top > best or prune == 0:
+                v, m = plane_value(S, a, b, row, steps, trial, kappa)
+                if v > best:
+                    n, best, mid = trial, v, m
+            for k in ti.static(range(LANES)):
+                if k == at:
+                    bound[k] = -1e300
+    return n, best, mid
+
+
+@ti.func
+def refine(S: ti.template(), a: ti.template(), b: ti.template(), peaks: ti.template(), row, steps, peak, kappa, step0,
+           shrinks, prune):
     """Pattern search on the sphere: eight neighbours, move to the best; after TURNS turned patterns halve the step."""
-    n, best, step, turn = start, value, step0, 0.0
-    for _ in range(SHRINKS):
+    n, best, middle = get_peak(peaks, row, peak)
+    step, turn = step0, peaks[row, peak, 4]
+    for _ in range(shrinks):
         failed, count = 0, 0
         while failed < TURNS and count < MOVES:
             count += 1
             failed += 1
-            e1, e2 = plane_frame(n)
-            chosen = n
-            for k in range(8):
-                angle = turn + k * 0.7853981633974483
-                trial = (n + step * (ti.cos(angle) * e1 + ti.sin(angle) * e2)).normalized()
-                v = plane_value(S, a, b, row, steps, trial, kappa, best, prune)
-                if v > best:
-                    best, chosen, failed = v, trial, 0
-            n = chosen
+            chosen, value, mid = best_of_ring(S, a, b, row, steps, n, step, turn, best, middle, kappa, prune)
+            if value > best:
+                n, best, middle, failed = chosen, value, mid, 0
             turn += 0.2763932022500210
         step *= 0.5
-    return n, best
+    put_peak(peaks, row, peak, n, best, turn, middle)
+
+
+@ti.func
+def get_peak(peaks: ti.template(), row, peak):
+    middle = vec6(0.0)
+    for k in ti.static(range(6)):
+        middle[k] = peaks[row, peak, 5 + k]
+    return vec3(peaks[row, peak, 0], peaks[row, peak, 1], peaks[row, peak, 2]), peaks[row, peak, 3], middle
+
+
+@ti.func
+def put_peak(peaks: ti.template(), row, peak, n, value, turn, middle):
+    for k in ti.static(range(3)):
+        peaks[row, peak, k] = n[k]
+    peaks[row, peak, 3], peaks[row, peak, 4] = value, turn
+    for k in ti.static(range(6)):
+        peaks[row, peak, 5 + k] = middle[k]
+
+
+@ti.func
+def extent(S: ti.template(), row, steps):
+    """Middle of the range of every stress component."""
+    low, high = stress(S, row, 0), stress(S, row, 0)
+    for t in range(1, steps):
+        s = stress(S, row, t)
+        low, high = ti.min(low, s), ti.max(high, s)
+    return 0.5 * (low + high)
 
 
 @ti.func
 def scan(S: ti.template(), planes: ti.template(), values: ti.template(), a: ti.template(), b: ti.template(), row, steps,
          kappa, prune):
     """Values on all planes of the grid (hopeless ones -1e300); returns the largest."""
+    count, middle = planes.shape[0], extent(S, row, steps)
+    for group in range((count + LANES - 1) // LANES):
+        x, y, z = lanes(0.0), lanes(0.0), lanes(0.0)
+        for k in ti.static(range(LANES)):
+            q = ti.min(group * LANES + k, count - 1)
+            x[k], y[k], z[k] = planes[q, 0], planes[q, 1], planes[q, 2]
+        bound = bounds(S, row, steps, x, y, z, middle, kappa)
+        for k in ti.static(range(LANES)):
+            if group * LANES + k < count:
+                values[row, group * LANES + k] = bound[k]
+    first, top = 0, -1e300
+    for k in range(count):
+        if values[row, k] > top:
+            top, first = values[row, k], k
     best = -1e300
-    for k in range(planes.shape[0]):
-        trial = vec3(planes[k, 0], planes[k, 1], planes[k, 2])
-        values[row, k] = plane_value(S, a, b, row, steps, trial, kappa, best - MARGIN * ti.abs(best), prune)
-        best = ti.max(best, values[row, k])
+    for q in range(count + 1):  # the most promising plane first
+        k = first if q == 0 else q - 1
+        if q == 0 or k != first:
+            if prune == 0 or values[row, k] > best - MARGIN * ti.abs(best):
+                trial = vec3(planes[k, 0], planes[k, 1], planes[k, 2])
+                values[row, k] = plane_value(S, a, b, row, steps, trial, kappa)[0]
+                best = ti.max(best, values[row, k])
+            else:
+                values[row, k] = -1e300
     return best
 
 
@@ -209,28 +219,59 @@ def take_best(planes: ti.template(), values: ti.template(), row):
     return top, n
 
 
+@ti.func
+def collect(S: ti.template(), planes: ti.template(), values: ti.template(), a: ti.template(), b: ti.template(),
+            peaks: ti.template(), row, steps, on_grid, kappa):
+    """The peaks of the grid worth a refinement; returns how many."""
+    count, going = 0, 1
+    while going == 1 and count < STARTS:
+        top, n = take_best(planes, values, row)
+        going = 0
+        if top > on_grid - MARGIN * ti.abs(on_grid):
+            going = 1
+            value, middle = plane_value(S, a, b, row, steps, n, kappa)
+            put_peak(peaks, row, count, n, value, 0.0, middle)
+            count += 1
+    return count
+
+
+@ti.func
+def hopeful(peaks: ti.template(), row, peak, count):
+    """Whether this peak is close to the best one, and none in front of it is the same."""
+    n, value, _ = get_peak(peaks, row, peak)
+    good = 1
+    for other in range(count):
+        m, top, _ = get_peak(peaks, row, other)
+        if value < top - CLOSE * ti.abs(top):
+            good = 0
+        if other < peak and ti.abs(n.dot(m)) > SAME:
+            good = 0
+    return good
+
+
 @ti.kernel
 def search(points: ti.i32, steps: ti.i32, kappa: ti.f64, step0: ti.f64, prune: ti.i32,
            S: ti.types.ndarray(dtype=ti.f64, ndim=3), planes: ti.types.ndarray(dtype=ti.f64, ndim=2),
            values: ti.types.ndarray(dtype=ti.f64, ndim=2), a: ti.types.ndarray(dtype=ti.f64, ndim=2),
-           b: ti.types.ndarray(dtype=ti.f64, ndim=2), out: ti.types.ndarray(dtype=ti.f64, ndim=2)):
+           b: ti.types.ndarray(dtype=ti.f64, ndim=2), peaks: ti.types.ndarray(dtype=ti.f64, ndim=3),
+           out: ti.types.ndarray(dtype=ti.f64, ndim=2)):
     """out[point] = (f, n_x, n_y, n_z) from S[point, time, (xx, yy, zz, xy, xz, yz)].
 
-    planes (m, 3): unit normals of the grid; values (points, m), a, b (points, steps): scratch; step0: first step, rad.
+    planes (m, 3): unit normals of the grid; step0: first step, rad; scratch: values (points, m), a, b (points, steps),
+    peaks (points, STARTS, PEAK).
     """
+    ti.loop_config(block_dim=8)
     for row in range(points):
         on_grid = scan(S, planes, values, a, b, row, steps, kappa, prune)
-        best, n = -1e300, vec3(0.0, 0.0, 1.0)
-        going, count = 1, 0
-        while going == 1 and count < STARTS:
-            count += 1
-            top, start = take_best(planes, values, row)
-            going = 0
-            if top > on_grid - MARGIN * ti.abs(on_grid):
-                going = 1
-                normal, value = refine(S, a, b, row, steps, start, top, kappa, step0, prune)
-                if value > best:
-                    best, n = value, normal
-        out[row, 0] = best
-        for k in ti.static(range(3)):
-            out[row, k + 1] = n[k]
+        count = collect(S, planes, values, a, b, peaks, row, steps, on_grid, kappa)
+        for stage in range(2):
+            for peak in range(count):
+                if stage == 0 or hopeful(peaks, row, peak, count):
+                    step = step0 if stage == 0 else step0 * 0.5**FIRST
+                    refine(S, a, b, peaks, row, steps, peak, kappa, step, FIRST if stage == 0 else SHRINKS - FIRST, prune)
+        out[row, 0] = -1e300
+        for peak in range(count):
+            if peaks[row, peak, 3] > out[row, 0]:
+                out[row, 0] = peaks[row, peak, 3]
+                for k in ti.static(range(3)):
+                    out[row, k + 1] = peaks[row, peak, k]

@@ -12,6 +12,13 @@ def parts(S: ti.template(), k, floor, inv):
     return S[P, k], S[R, k] / S[D, k], (S[H, k] - floor) * inv
 
 
+@ti.func
+def sets(p, r, gap, inside):
+    """(touch, dry) of a node, 1 or 0: the side of the complementarity that is smallest; the rest is full film."""
+    touch = ti.select(gap < ti.min(p, r), inside, V(0.0))
+    return touch, ti.max(ti.select(p - r <= 0.0, 1.0 - touch, V(0.0)), 1.0 - inside)
+
+
 @ti.kernel
 def sums(S: ti.template(), G: Table, middle: ti.i32, out: Table):
     """out[block] = phi^2, net outflow of the full-film region, Couette flux through the column `middle`."""
@@ -28,8 +35,9 @@ def sums(S: ti.template(), G: Table, middle: ti.i32, out: Table):
             phi = ti.min(ti.min(a, b), c) * S[MASK, k]
             phi2 += phi * phi
             load_sum += S[WEIGHT, k] * S[P, k]
-            full = ti.select(S[P, k] > 0.0, S[MASK, k], V(0.0)) * (1.0 - S[TOUCH, k])
-            mass += half * S[R, k] * full
+            # not P > 0: a pressure of 1e-12 left on a ruptured node would count its whole residual
+            touch, dry = sets(a, b, c, S[MASK, k])
+            mass += half * S[R, k] * (1.0 - touch) * (1.0 - dry)
         m = off + s * (nx + 1) + middle
         couette = half * S[RHO, m] * S[H, m]
         for u in ti.static(range(W)):
@@ -52,9 +60,7 @@ def choose_sets(S: ti.template(), G: Table, cap: ti.f64, b: Vector, mass_row: Ve
             k = off + s * (nx + 1) + i
             p, r, gap = parts(S, k, floor, inv)
             inside = S[MASK, k]
-            touch = ti.select(gap < ti.min(p, r), inside, V(0.0))
-            dry = ti.select(p - r <= 0.0, 1.0 - touch, V(0.0))
-            dry = ti.max(dry, 1.0 - inside)
+            touch, dry = sets(p, r, gap, inside)
             scale = ti.select(dry > 0.0, V(1.0), ti.min(S[D, k], cap))
             S[TOUCH, k], S[DRY, k], S[SCALE, k] = touch, dry, scale
             b[k - off] = ti.select(dry > 0.0, -p * inside, -S[R, k] / scale * inside)

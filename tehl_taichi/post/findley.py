@@ -36,8 +36,8 @@ def search(history, kappa, prune=True):
     out = np.zeros((points, 4))
     a, b = np.zeros((2, points, steps))
     grid = planes()
-    values = np.zeros((points, len(grid)))
-    findley.search(points, steps, kappa, math.radians(GRID / 2), int(prune), history, grid, values, a, b, out)
+    values, peaks = np.zeros((points, len(grid))), np.zeros((points, findley.STARTS, findley.PEAK))
+    findley.search(points, steps, kappa, math.radians(GRID / 2), int(prune), history, grid, values, a, b, peaks, out)
     n = out[:, 1:]
     return out[:, 0], np.where(n[:, 2:] < 0, -n, n)
 

@@ -85,7 +85,8 @@ class PressureSolver:
         for newton in range(newton_max or numerics.newton_max):
             self.levels.linearise()
             merit = self.measure()
-            if self._converged(merit, tolerance) or not np.isfinite(merit):
+            # at least one Newton step: the residual does not see pressure errors where eps is 0, a prediction adds them up
+            if newton and self._converged(merit, tolerance) or not np.isfinite(merit):
                 return self._report(merit, newton, cycles, tolerance)
             step, used = self._direction(self._forcing(krylov_tolerance or numerics.krylov_tolerance, merit, tolerance))
             cycles += used
