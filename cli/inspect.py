@@ -49,7 +49,7 @@ def new(
 
 def show(store: Path = typer.Argument(..., help="store of a finished, running or broken run")):
     """Summary and residual history of a run."""
-    from tehl_cli.tables import list_table, summary_table
+    from tehl_cli.tables import history_table, summary_table
 
     from tehl_taichi.io.store import Store
 
@@ -58,9 +58,8 @@ def show(store: Path = typer.Argument(..., help="store of a finished, running or
     print(f"{store}: scene {saved.scene.name}, {saved.steps} entries, {state}")
     if saved.summary:
         summary_table(saved.summary)
-    names = ("step", "residual", "load_error", "mass_error", "newton", "cycles", "p_max_Pa", "h_min_m")
     shown = sorted({*range(0, saved.steps, max(saved.steps // 20, 1)), saved.steps - 1})
-    list_table("history", names, [[f"{float(saved.scalar(name)[n]):.4g}" for name in names] for n in shown])
+    history_table(saved.scalar, shown)
 
 
 def plot(store: Path = typer.Argument(..., help="store of a run"),

@@ -25,7 +25,7 @@ def summary_table(summary):
         rows.append((name, f"{steady[key] * factor:.4f}{plus} {unit}"))
     rows.append(("steady friction coefficient", f"{steady['friction_coefficient']:.4f}"))
     rows += _passage_rows(summary)
-    rows.append(("run time", f"{summary['wall_s']:.1f} s, of which start and compile {summary['compile_s']:.1f} s"))
+    rows.append(("run time", f"{summary['wall_s']:.1f} s (start, compile {summary['compile_s']:.1f} s)"))
     _table(f"{summary['scene']}: {summary['steps']} steps, store {summary['store']}", rows)
 
 
@@ -57,3 +57,16 @@ def list_table(title, columns, rows):
     for row in rows:
         table.add_row(*row)
     Console().print(table)
+
+
+# scalar in the store -> column, factor, format
+HISTORY = (("step", "step", 1, ".0f"), ("p_max_Pa", "p_max GPa", 1e-9, ".4f"), ("h_min_m", "h_min um", 1e6, ".4f"),
+           ("residual", "residual", 1, ".0e"), ("load_error", "load", 1, ".0e"), ("mass_error", "mass", 1, ".0e"),
+           ("newton", "newton", 1, ".0f"), ("cycles", "cycles", 1, ".0f"))
+
+
+def history_table(scalar, entries):
+    """Print scalars of some entries of a store; scalar(name) -> its values."""
+    columns = [(scalar(name), factor, form) for name, _, factor, form in HISTORY]
+    list_table("history", [title for _, title, _, _ in HISTORY],
+               [[format(float(values[n]) * factor, form) for values, factor, form in columns] for n in entries])

@@ -42,7 +42,7 @@ def start(arch="cpu", threads=None, precision="f64"):
         return _same_start(arch, threads, precision)
     import taichi as ti
 
-    with _stdout_to_stderr():
+    with _no_banner():
         ti.init(arch=ti.cpu, default_fp=ti.f64, fast_math=False, cpu_max_num_threads=threads, log_level=ti.ERROR,
                 # its own optimisation passes take 40 s for the Findley search (2 s without) and gain nothing over LLVM's
                 advanced_optimization=False,
@@ -143,13 +143,14 @@ def _same_start(arch, threads, precision):
     return dict(_started)
 
 
-class _stdout_to_stderr:
-    """Taichi prints a banner to stdout, which must stay clean for `--json`."""
+class _no_banner:
+    """Taichi prints a banner to stdout, which must stay clean for `--json`; failures are exceptions."""
 
     def __enter__(self):
         sys.stdout.flush()
-        self.saved = os.dup(1)
-        os.dup2(2, 1)
+        self.saved, nowhere = os.dup(1), os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, 1)
+        os.close(nowhere)
 
     def __exit__(self, *_):
         sys.stdout.flush()

@@ -61,11 +61,16 @@ def centreline(plt, store):
         top.plot(store.x / a, f["pressure"][:, 0] / 1e9, **style)
         low.plot(store.x / a, f["film"][:, 0] * 1e6, **style)
     top.set(ylabel="pressure (GPa)", title=f"{store.scene.name}: centreline y = 0")
-    low.set(ylabel="film (µm)", xlabel="x / a (flow to the right)", ylim=(0, 1.2), xlim=(-1.6, 1.4))
+    low.set(ylabel="film (µm)", xlabel="x / a (flow to the right)", ylim=(0, _film_top(store)), xlim=(-1.6, 1.4))
     top.legend(frameon=False)
     for axes in (top, low):
         axes.grid(alpha=0.25)
     return figure
+
+
+def _film_top(store):
+    """Upper end (um) of the film's axis: well above the film in the contact, below the gap outside."""
+    return 2.5e6 * store.scalar("h_c_m")[0]
 
 
 def maps(plt, store):
@@ -73,8 +78,9 @@ def maps(plt, store):
     a = Scales.of(store.scene).a
     n = int(np.nanargmin(np.abs(store.scalar("feature_x")[: store.steps])))
     f = store.fields(n, ("pressure", "film"))
-    figure, axes = plt.subplots(2, 1, figsize=(8, 6.5), constrained_layout=True, sharex=True)
-    panels = ((f["pressure"] / 1e9, "pressure (GPa)", "inferno", None), (f["film"] * 1e6, "film (µm)", "viridis", 1.0))
+    figure, axes = plt.subplots(2, 1, figsize=(6.5, 8), constrained_layout=True, sharex=True)
+    panels = ((f["pressure"] / 1e9, "pressure (GPa)", "inferno", None),
+              (f["film"] * 1e6, "film (µm)", "viridis", _film_top(store)))
     for ax, (values, label, colours, top) in zip(axes, panels):
         full = np.hstack([values[:, :0:-1], values])
         y = np.concatenate([-store.y[:0:-1], store.y]) / a
@@ -89,7 +95,7 @@ def maps(plt, store):
 def fatigue(plt, store):
     """Findley index around the feature."""
     x, y, Fi = (store.map(name) for name in ("feature_frame_x", "feature_frame_y", "Fi"))
-    figure, ax = plt.subplots(figsize=(8, 4.2), constrained_layout=True)
+    figure, ax = plt.subplots(figsize=(6.4, 5.2), constrained_layout=True)
     full = np.hstack([Fi[:, :0:-1], Fi])
     ys = np.concatenate([-y[:0:-1], y]) * 1e6
     image = ax.pcolormesh(x * 1e6, ys, full.T, cmap="magma", shading="gouraud")
