@@ -59,8 +59,9 @@ def test_file_with_a_base(tmp_path):
     ("speed", 0.0, "no film"), ("srr", 3.0, "at most 2"), ("temperature", 1e4, "deg C"), ("height", 1.0, "at most"),
     ("grid.nx", 100, "multiple of 16"), ("grid.nx", 64.5, "whole number"), ("oil.viscosity", "roeland", "roelands"),
     ("feature.hight", 1e-6, "height"), ("bodies.a.E", -1.0, "Pa"), ("thermal.on", True, "isothermal"),
-    ("feature.y", 1e-4, "y = 0"), ("srr", -2.0, "never passes"), ("load", 1e9, "Hertz pressure"),
-    ("contact.radius_y", 0.01, "line"), ("time.courant", 0.0, "at least"), ("sr", 0.1, "srr"),
+    ("feature.y", 1.0, "at most 0.1 m"), ("srr", -2.0, "never passes"), ("load", 1e9, "Hertz pressure"),
+    ("contact.radius_y", 0.01, "line"), ("feature.shape", "map", "CSV or NPY"), ("feature.shape", "waviness", "extent_x"),
+    ("time.x_start", -0.5, "steady start"), ("contact.kind", "elliptic", "a length in m"), ("time.courant", 0.0, "at least"), ("sr", 0.1, "srr"),
 ])
 def test_bad_values_are_refused_with_a_sentence(key, value, words):
     with pytest.raises(SceneError, match=words):
@@ -86,3 +87,75 @@ def test_unknown_keys_name_the_nearest(tmp_path):
 def test_left_out_says_why():
     assert any("steady" in line or "no feature" in line for line in scene("smooth-line").left_out())
     assert any("friction" in line for line in scene("pitch-line").left_out())
+
+
+def test_hertz_ellipse_is_the_circle_and_keeps_the_load():
+    from tehl_taichi.scene import closed_form as hertz
+
+    a, b, p = hertz.hertz_ellipse(50.0, 0.01, 0.01 * (1 + 1e-5), 2e11)
+    circle = hertz.hertz_point(50.0, 0.01, 2e11)
+    assert (a, b, p) == pytest.approx((circle[0], circle[0], circle[1]), rel=1e-5)
+    a, b, p = hertz.hertz_ellipse(50.0, 0.01, 0.06, 2e11)
+    assert b > a and 2 * math.pi / 3 * p * a * b == pytest.approx(50.0)
+    assert hertz.hertz_ellipse(50.0, 0.06, 0.01, 2e11) == pytest.approx((b, a, p))
+    assert hertz.hertz_ellipse_load(p, 0.01, 0.06, 2e11) == pytest.approx(50.0)
+
+
+def test_elliptic_integrals_against_quadrature():
+    import numpy as np
+
+    from tehl_taichi.scene.closed_form import elliptic_integrals
+
+    t, w = np.polynomial.legendre.leggauss(60)
+    root = np.sqrt(1 - 0.9 * np.sin((t + 1) * math.pi / 4) ** 2)
+    assert elliptic_integrals(0.9) == pytest.approx(((w / root).sum() * math.pi / 4, (w * root).sum() * math.pi / 4), rel=1e-12)
+
+
+def test_long_features_start_earlier_and_end_later():
+    short, long = scene("gear"), scene("gear").replace(width=1e-3)
+    assert short.path == (-1.6, 1.4)
+    assert long.path[0] + 0.5e-3 / Scales.of(long).a == pytest.approx(-1.3) and long.path[1] > 2.4
+
+
+def test_a_height_map_gives_the_feature_it_was_sampled_from(tmp_path):
+    import numpy as np
+
+    from tehl_taichi.physics.gap import feature_height
+    from tehl_taichi.scene.feature import Feature
+
+    bump = Feature(height=2e-6, width=100e-6)
+    x = np.arange(-60, 61) * 1e-6
+    np.save(tmp_path / "bump.npy", feature_height(bump, x[None, :], x[:, None]) * 1e6)
+    map_ = Feature(shape="map", file=str(tmp_path / "bump.npy"), height=1e-6, pixel=1e-6, level="none", taper=2e-6)
+    X, Y = np.meshgrid(np.linspace(-80e-6, 80e-6, 77), np.linspace(-80e-6, 80e-6, 53))
+    np.testing.assert_allclose(feature_height(map_, X, Y), feature_height(bump, X, Y), atol=2e-9)
+    assert map_.reach == pytest.approx(60e-6) and not map_.symmetric
+
+
+def test_a_tilted_map_is_levelled_and_a_broken_one_refused(tmp_path):
+    import numpy as np
+
+    from tehl_taichi.scene.height_map import read
+
+    y, x = np.mgrid[:20, :30]
+    np.savetxt(tmp_path / "tilt.csv", 3.0 + 0.2 * x - 0.1 * y, delimiter=",")
+    assert np.abs(read(str(tmp_path / "tilt.csv"), "plane")).max() < 1e-12
+    (tmp_path / "broken.csv").write_text("1,2\n3,nan\n")
+    with pytest.raises(SceneError, match="4 x 4"):
+        read(str(tmp_path / "broken.csv"))
+    with pytest.raises(SceneError, match="topography"):
+        (tmp_path / "scan.sur").write_text("x")
+        read(str(tmp_path / "scan.sur"))
+
+
+def test_rough_patch_has_its_rms_and_fades_out():
+    import numpy as np
+
+    from tehl_taichi.physics.gap import feature_height
+
+    f = scene("rough").features[0]
+    x = np.linspace(-f.extent_x / 2, f.extent_x / 2, 301)
+    s = feature_height(f, x[None, :], x[:, None])
+    inner = np.abs(x) < f.extent_x / 2 - f.taper
+    assert s[np.ix_(inner, inner)].std() == pytest.approx(f.height, rel=0.3)
+    assert np.abs(s[[0, -1]]).max() < 1e-12 and np.allclose(s, s[::-1])

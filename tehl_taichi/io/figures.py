@@ -52,14 +52,14 @@ def entries(store):
 
 def centreline(plt, store):
     """Pressure and film along y = 0 for several feature positions."""
-    a = Scales.of(store.scene).a
+    a, centre = Scales.of(store.scene).a, int(np.argmin(np.abs(store.y)))
     figure, (top, low) = plt.subplots(2, 1, sharex=True, figsize=(8, 6.5), constrained_layout=True)
     for n in entries(store):
         f = store.fields(n, ("pressure", "film"))
         label = "steady start" if n == 0 else f"feature at {store.feature_x(n) / a:+.2f} a"
         style = dict(label=label, color="0.45" if n == 0 else None, ls="--" if n == 0 else "-", lw=1.5)
-        top.plot(store.x / a, f["pressure"][:, 0] / 1e9, **style)
-        low.plot(store.x / a, f["film"][:, 0] * 1e6, **style)
+        top.plot(store.x / a, f["pressure"][:, centre] / 1e9, **style)
+        low.plot(store.x / a, f["film"][:, centre] * 1e6, **style)
     top.set(ylabel="pressure (GPa)", title=f"{store.scene.name}: centreline y = 0")
     low.set(ylabel="film (µm)", xlabel="x / a (flow to the right)", ylim=(0, _film_top(store)), xlim=(-1.6, 1.4))
     top.legend(frameon=False)
@@ -76,28 +76,34 @@ def _film_top(store):
 def maps(plt, store):
     """Pressure and film over x, y with the feature nearest to the middle."""
     a = Scales.of(store.scene).a
-    n = int(np.nanargmin(np.abs(store.scalar("feature_x")[: store.steps])))
+    at = store.scalar("feature_x")[: store.steps]
+    n = int(np.nanargmin(np.abs(at))) if np.isfinite(at).any() else 0
     f = store.fields(n, ("pressure", "film"))
     figure, axes = plt.subplots(2, 1, figsize=(6.5, 8), constrained_layout=True, sharex=True)
     panels = ((f["pressure"] / 1e9, "pressure (GPa)", "inferno", None),
               (f["film"] * 1e6, "film (µm)", "viridis", _film_top(store)))
     for ax, (values, label, colours, top) in zip(axes, panels):
-        full = np.hstack([values[:, :0:-1], values])
-        y = np.concatenate([-store.y[:0:-1], store.y]) / a
+        y, full = whole(store.y / a, values)
         image = ax.pcolormesh(store.x / a, y, full.T, cmap=colours, vmax=top, shading="gouraud")
         figure.colorbar(image, ax=ax, label=label)
         ax.set(ylabel="y / a", aspect="equal", xlim=(-1.6, 1.4))
-    axes[0].set_title(f"{store.scene.name}: feature at {store.feature_x(n) / a:+.2f} a")
+    axes[0].set_title(f"{store.scene.name}: " + (f"feature at {at[n] / a:+.2f} a" if n else "steady"))
     axes[1].set_xlabel("x / a (flow to the right)")
     return figure
+
+
+def whole(y, values):
+    """y and values (x, y) with the mirror image of a half domain."""
+    if y[0] < 0:
+        return y, values
+    return np.concatenate([-y[:0:-1], y]), np.hstack([values[:, :0:-1], values])
 
 
 def fatigue(plt, store):
     """Findley index around the feature."""
     x, y, Fi = (store.map(name) for name in ("feature_frame_x", "feature_frame_y", "Fi"))
     figure, ax = plt.subplots(figsize=(6.4, 5.2), constrained_layout=True)
-    full = np.hstack([Fi[:, :0:-1], Fi])
-    ys = np.concatenate([-y[:0:-1], y]) * 1e6
+    ys, full = whole(y * 1e6, Fi)
     image = ax.pcolormesh(x * 1e6, ys, full.T, cmap="magma", shading="gouraud")
     figure.colorbar(image, ax=ax, label="Fi")
     i, j = np.unravel_index(int(np.argmax(Fi)), Fi.shape)

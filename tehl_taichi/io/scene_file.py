@@ -8,15 +8,15 @@ import tomllib
 from tehl_taichi.scene import BUILT_INS, Scene, SceneError, scene
 from tehl_taichi.scene.whole import SECTIONS
 
-HEADER = "# A tehl_taichi scene. SI units (m, s, N, Pa, kg), temperatures in deg C; lengths of [grid] and [time] in a."
+HEADER = "# A tehl_taichi scene. SI units (m, s, N, Pa, kg), temperatures in deg C; lengths of [grid] and [time] in half-widths a."
 COMMENTS = {
     "contact": "one of load (N/m line, N point), hertz_pressure (Pa) or the pair moes_M, moes_L; 0 = not given",
     "bodies.a": "carries the feature. E Pa, nu, k W/mK, rho kg/m3, c J/kgK", "bodies.b": "the other surface",
     "operation": "u_m m/s (mean), srr = (u_a - u_b)/u_m (negative: the feature is on the slower surface), temperature",
     "oil": "`tehl oils` lists the named ones", "rheology": "law: limiting, eyring, carreau or newtonian; stresses in Pa",
-    "feature": "height m (negative: dent), width m; x m relative to the first feature; y = 0",
+    "feature": "shape: cosine, ridge, furrow, waviness, rough or map; height m (negative: dent), all lengths in m",
     "thermal": "energy equation", "fatigue": "Findley: kappa, endurance = sigma_eF in Pa",
-    "grid": "cells of the half domain y >= 0; extent in a", "time": "path of the feature in a; courant cells a step",
+    "grid": "cells of the half domain y >= 0; extent in half-widths of the contact", "time": "path of the first feature in a (-inf, inf: from before to behind the contact); courant cells a step",
     "numerics": "tolerances of the discrete equations", "output": "store every n-th step",
 }
 
@@ -89,7 +89,7 @@ def _value(value):
     if isinstance(value, (tuple, list)):
         return "[" + ", ".join(_value(v) for v in value) + "]"
     if isinstance(value, float) and math.isinf(value):
-        return "inf"
+        return "inf" if value > 0 else "-inf"
     return repr(value)
 
 

@@ -15,7 +15,8 @@ from tehl_taichi.post.half_space import COMPONENTS, SurfaceStress
 from tehl_taichi.scene import SceneError
 from tehl_taichi.scene.scales import Scales
 
-WINDOW = 0.6       # half width (in a) of the part searched: farther out the feature's stress has died out (as 1/r^2)
+WINDOW = 0.6       # half width (in a) of the part searched around one small feature: farther out its stress has died out
+MARGIN = 0.3       # (in a) searched beyond the rim of larger features
 LOADED = 1.5       # material points are followed while within this distance (in a) of the centre of the contact
 BLOCK_BYTES = 4e8  # histories held at once; more points than fit are done in blocks of y rows
 WORKERS = 4         # threads of the history pass (transforms run outside the interpreter's lock)
@@ -51,10 +52,12 @@ class Snapshots:
 
 
 def run(scene, reader, progress=None):
-    """Findley index of the surface points of body a within 0.6 a of the first feature, over its whole passage.
+    """Findley index of the surface points of body a within 0.6 a of the first feature (0.3 a beyond larger ones), over its
+    whole passage.
 
     reader: x, y (m), len, feature_x(n) (m), fields(n, names) in Pa; or a list of snapshots. Entry 0 is the steady
-    start. progress: called with (done, total) entries. Isothermal stresses; on y = 0 and y > 0 (y < 0 is the mirror).
+    start. progress: called with (done, total) entries. Isothermal stresses; on the rows of the reader (where they begin
+    with y = 0, the others are its mirror).
     Raises SceneError when no feature passes.
     """
     reader = Snapshots(reader) if isinstance(reader, (list, tuple)) else reader
@@ -73,16 +76,24 @@ class Passage:
         self.scene, self.reader = scene, reader
         self.a = Scales.of(scene).a
         self.dx = float(reader.x[-1] - reader.x[0]) / (reader.x.size - 1)
-        cells = max(1, int(WINDOW * self.a / self.dx + 1e-9))
+        low, high = (max(1, int(side / self.dx + 1e-9)) for side in self._window("x"))
         # material points on nodes of the grid at entry 0: steps of whole cells then need no interpolation
         offset = (reader.x[0] - centres[0]) / self.dx
-        self.x = (np.arange(-cells, cells + 1) + offset - round(offset)) * self.dx
-        self.y = reader.y[reader.y <= WINDOW * self.a * (1 + 1e-9)]
+        self.x = (np.arange(-low, high + 1) + offset - round(offset)) * self.dx
+        low, high = self._window("y")
+        self.rows = np.flatnonzero((reader.y >= -low * (1 + 1e-9)) & (reader.y <= high * (1 + 1e-9)))
+        self.y = reader.y[self.rows]
         # centre of the feature and entry of the reader at every moment
         before, after = self._lead_in(centres[0]), self._lead_out(centres[-1])
         self.centres = np.concatenate([before, centres, after])
         self.entries = np.concatenate([0 * before, np.arange(len(centres)), 0 * after]).astype(int)
         self._widen()
+
+    def _window(self, axis):
+        """Distances (m) searched on the negative and the positive side of the first feature's centre."""
+        reach = [(getattr(f, axis), f.reach if axis == "x" else f.reach_y) for f in self.scene.features]
+        sides = (max(sign * at + r for at, r in reach) + MARGIN * self.a for sign in (-1, 1))
+        return [max(WINDOW * self.a, side) for side in sides]
 
     def _lead_in(self, first):
         if first > -self.a:
@@ -102,8 +113,9 @@ class Passage:
         low, high = self.centres.min() + self.x[0], self.centres.max() + self.x[-1]
         self.pad = tuple(max(0, int(np.ceil(gap / self.dx)) + 2) for gap in (x0 - low, high - x1))
         self.grid_x = x0 + (np.arange(self.reader.x.size + sum(self.pad)) - self.pad[0]) * self.dx
-        line = self.scene.contact.kind == "line"
-        self.stress = SurfaceStress(self.grid_x, self.reader.y, self.scene.body_a.nu, line)
+        line, y = self.scene.contact.kind == "line", self.reader.y
+        # a line contact is mirrored about its first row, in the plane of symmetry or (whole domain) far away
+        self.stress = SurfaceStress(self.grid_x, y - y[0], self.scene.body_a.nu, line, mirrored=line or y[0] == 0)
 
     def row_blocks(self):
         """Slices of y rows whose histories fit into BLOCK_BYTES."""
@@ -146,7 +158,7 @@ class Passage:
         loads = self.reader.fields(int(entry), NAMES)
         loads = [np.pad(np.asarray(loads[name], float), (self.pad, (0, 0))) for name in NAMES]
         stress = operator(*loads)
-        return np.stack([stress[name][:, rows] for name in COMPONENTS], axis=-1)
+        return np.stack([stress[name][:, self.rows[rows]] for name in COMPONENTS], axis=-1)
 
 
 def _shifted(fields, start, count):

@@ -47,15 +47,16 @@ def strip_coefficient(x, a):
 
 
 class SurfaceStress:
-    """Surface stresses on a uniform half domain, y >= 0 mirrored (p, q_x even in y; q_y odd).
+    """Surface stresses on a uniform half domain, y >= 0 mirrored (p, q_x even in y; q_y odd), or on a whole one.
 
-    x (nx+1,), y (ny+1,) in m, y[0] = 0; one row of y means plane strain. nu: Poisson's ratio.
+    x (nx+1,), y (ny+1,) in m, y[0] = 0; one row of y means plane strain. nu: Poisson's ratio. mirrored=False: nothing acts
+    at y < 0.
     line=True: p and q_x of the last y row go on to infinity; that part is plane strain (analytic strip), the deviation
     from it a convolution over the rectangles around the nodes. line=False: nothing acts outside the domain.
     Raises ValueError for a grid that is not uniform, or a single row without line=True.
     """
 
-    def __init__(self, x, y, nu, line=True):
+    def __init__(self, x, y, nu, line=True, mirrored=True):
         self.x, self.y, self.nu, self.line = np.asarray(x, float), np.asarray(y, float), float(nu), line
         if self.y.size == 1 and not line:
             raise ValueError("one row of y describes a line contact only (line=True)")
@@ -63,7 +64,7 @@ class SurfaceStress:
         lags = np.arange(-self.x.size + 1, self.x.size) * dx
         self.strip = strip_coefficient(lags, dx / 2)
         if self.y.size > 1:
-            self.convolution = _Convolution(self.x.size, self.y.size, dx, _spacing(self.y), self.nu)
+            self.convolution = _Convolution(self.x.size, self.y.size, dx, _spacing(self.y), self.nu, mirrored)
 
     def __call__(self, p, qx, qy):
         """{component: (nx+1, ny+1) Pa} for p, qx, qy (nx+1, ny+1) Pa: sxx, syy, szz, sxy, sxz, syz."""
@@ -92,10 +93,10 @@ class SurfaceStress:
 
 
 class _Convolution:
-    """Zero-padded real transforms of the loads on 2 ny + 1 mirrored rows; results on the rows y >= 0."""
+    """Zero-padded real transforms of the loads on 2 ny + 1 mirrored rows (or as they are); results on the rows y >= 0."""
 
-    def __init__(self, nx, ny, dx, dy, nu):
-        self.nx, self.ny = nx, ny
+    def __init__(self, nx, ny, dx, dy, nu, mirrored=True):
+        self.nx, self.ny, self.mirrored = nx, ny, mirrored
         self.shape = _even_fast(2 * nx - 1), _even_fast(3 * ny - 2)
         self._plan()
         self.spectra = self._spectra(dx, dy, nu)
@@ -122,12 +123,14 @@ class _Convolution:
         """Row of y = 0 first, then y > 0, then (wrapped) y < 0."""
         self.real[:] = 0
         self.real[: self.nx, : self.ny] = values
-        self.real[: self.nx, self.shape[1] - self.ny + 1:] = sign * values[:, :0:-1]
+        if self.mirrored:
+            self.real[: self.nx, self.shape[1] - self.ny + 1:] = sign * values[:, :0:-1]
         return self.forward().copy()
 
     def __call__(self, p, qx, qy):
         """(sxx, syy, sxy), each (nx, ny), from loads of that shape."""
-        loads = [self._mirrored(p, 1), self._mirrored(qx, 1), self._mirrored(qy * _no_axis(qy), -1)]
+        qy = qy * _no_axis(qy) if self.mirrored else qy
+        loads = [self._mirrored(p, 1), self._mirrored(qx, 1), self._mirrored(qy, -1)]
         return [self._back(sum(load * row[n] for load, row in zip(loads, self.spectra))) for n in range(3)]
 
     def _back(self, spectrum):

@@ -1,6 +1,7 @@
 """Lubricants: a law and its numbers, and the small library of named oils, each with its source."""
 
 import dataclasses
+import math
 from dataclasses import dataclass
 
 from tehl_taichi.scene.checks import SceneError, choice, nearest, number
@@ -67,6 +68,11 @@ OILS = {
     "moes-test-fluid": Oil(
         name="moes-test-fluid", viscosity="roelands", eta0=0.04, alpha=2.2e-8, p_r=1.96e8, Z=0.668,
         source="test fluid of the multigrid literature (Venner & Lubrecht); Dowson-Higginson density",
+        D1=0.34 / 5.9e8, D2=1 / 5.9e8, beta0=0.0, expansion="never"),
+    "ridge-test-fluid": Oil(
+        name="ridge-test-fluid", viscosity="roelands", eta0=1.22, alpha=2.2e-8, p_r=1.96e8,
+        Z=2.2e-8 * 1.96e8 / (math.log(1.22) + 9.67),
+        source="oil of the transverse ridge in a circular contact (Venner & Lubrecht 1994); Z from alpha, eta0, p_r",
         D1=0.34 / 5.9e8, D2=1 / 5.9e8, beta0=0.0, expansion="never"),
 }
 

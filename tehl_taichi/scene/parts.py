@@ -8,7 +8,7 @@ from tehl_taichi.scene.checks import SceneError, choice, flag, integer, number
 
 @dataclass(frozen=True)
 class Contact:
-    """Geometry and load. radius_x, radius_y: reduced radii m (radius_y = inf: line contact).
+    """Geometry and load. kind: line, point (circular) or elliptic; radius_x, radius_y: reduced radii m (line: radius_y = inf).
 
     One of load (N/m for a line, N for a point contact), hertz_pressure (Pa) or the Moes pair moes_M, moes_L; 0 = not
     given. With the pair the speed follows from L (with the oil's alpha and eta0) and the load from M.
@@ -23,7 +23,7 @@ class Contact:
     moes_L: float = 0.0
 
     def __post_init__(self):
-        choice("contact.kind", self.kind, ("line", "point"))
+        choice("contact.kind", self.kind, ("line", "point", "elliptic"))
         number("contact.radius_x", self.radius_x, "m", 1e-6, 1e3)
         number("contact.radius_y", self.radius_y, "m", 1e-6, infinite=True)
         unit = "N/m" if self.kind == "line" else "N"
@@ -43,10 +43,13 @@ class Contact:
                              "than 0")
         if (self.kind == "line") != math.isinf(self.radius_y):
             raise SceneError(f"contact.radius_y = {self.radius_y:g} m does not fit kind {self.kind!r}: inf for a line "
-                             "contact, radius_x for a point contact")
+                             "contact, a length in m otherwise")
         if self.kind == "point" and self.radius_y != self.radius_x:
-            raise SceneError(f"contact.radius_y = {self.radius_y:g} m differs from radius_x = {self.radius_x:g} m: "
-                             "elliptic contacts are not available in this version")
+            raise SceneError(f"contact.radius_y = {self.radius_y:g} m differs from radius_x = {self.radius_x:g} m: that is "
+                             "kind 'elliptic'")
+        if self.kind != "line" and not 0.02 <= self.radius_y / self.radius_x <= 50:
+            raise SceneError(f"contact.radius_y = {self.radius_y:g} m is out of range; allowed: radius_x/50 to 50 radius_x "
+                             f"(radius_x = {self.radius_x:g} m)")
 
 
 @dataclass(frozen=True)
@@ -124,29 +127,6 @@ class Rheology:
 
 
 @dataclass(frozen=True)
-class Feature:
-    """Surface feature on body a: height m (negative: dent), width m, x m behind (+: ahead of) the first feature, y m."""
-
-    shape: str = "cosine"
-    height: float = 1.5e-6
-    width: float = 200e-6
-    x: float = 0.0
-    y: float = 0.0
-
-    def __post_init__(self):
-        choice("feature.shape", self.shape, ("cosine", "ridge", "furrow"))
-        number("feature.height", self.height, "m", -1e-3, 1e-3)
-        number("feature.width", self.width, "m", 1e-6, 0.1)
-        number("feature.x", self.x, "m", -0.1, 0.1)
-        number("feature.y", self.y, "m")
-        if self.y != 0:
-            raise SceneError(f"feature.y = {self.y:g} m is not available in this version: half the domain is solved by "
-                             "symmetry, so features sit at y = 0")
-        if self.shape == "furrow" and self.height > 0:
-            raise SceneError(f"feature.height = {self.height:g} m must be negative for a furrow")
-
-
-@dataclass(frozen=True)
 class Thermal:
     """The energy equation; off: the film keeps the inlet temperature."""
 
@@ -178,7 +158,8 @@ class Fatigue:
 
 @dataclass(frozen=True)
 class Grid:
-    """nx x ny cells of the half domain y >= 0 (nodes: one more); extent in contact half-widths a."""
+    """nx x ny cells of the half domain y >= 0 (nodes: one more; twice ny cells where the scene is not symmetric); extent in
+    half-widths of the contact, a along x and b along y (b = a unless elliptic)."""
 
     nx: int = 256
     ny: int = 64
@@ -195,27 +176,26 @@ class Grid:
                                  "coarser grids exist")
         number("grid.x_min", self.x_min, "a", -20.0, -1.2)
         number("grid.x_max", self.x_max, "a", 1.2, 10.0)
-        number("grid.y_max", self.y_max, "a", 0.3, 20.0)
+        number("grid.y_max", self.y_max, "b", 0.3, 20.0)
 
 
 @dataclass(frozen=True)
 class Time:
-    """Path of the first feature's centre from x_start to x_end (in a), courant cells a step, at most `steps` (0: all)."""
+    """Path of the first feature's centre from x_start to x_end (in a; -inf, inf: from before the contact until behind it,
+    whatever the size of the features), courant cells a step, at most `steps` (0: all)."""
 
     steady_only: bool = False
-    x_start: float = -1.6
-    x_end: float = 1.4
+    x_start: float = -math.inf
+    x_end: float = math.inf
     courant: float = 1.0
     steps: int = 0
 
     def __post_init__(self):
         flag("time.steady_only", self.steady_only)
-        number("time.x_start", self.x_start, "a", -10.0, 5.0)
-        number("time.x_end", self.x_end, "a", -10.0, 20.0)
+        number("time.x_start", self.x_start, "a", high=20.0, infinite=True)
+        number("time.x_end", self.x_end, "a", -20.0, infinite=True)
         number("time.courant", self.courant, "", 0.05, 4.0)
         integer("time.steps", self.steps, 0, 10**7)
-        if self.x_end <= self.x_start:
-            raise SceneError(f"time.x_end = {self.x_end:g} a must be more than x_start = {self.x_start:g} a")
 
 
 @dataclass(frozen=True)

@@ -8,15 +8,18 @@ from tehl_taichi.scene import closed_form
 
 @dataclass(frozen=True)
 class Scales:
-    """kind; R = R' m; E = E' Pa; a m half-width (X = x/a); p_H Pa (P = p/p_H); h = a^2/R' m (H = h R'/a^2);
-    u_m m/s; t = a/u_m s (T = t u_m/a)."""
+    """kind: line or point (circular, elliptic); R = R' (along x) m; E = E' Pa; a m half-width along x (X = x/a), b m along
+    y (line: a); p_H Pa (P = p/p_H); h = a^2/R' m (H = h R'/a^2); u_m m/s; t = a/u_m s (T = t u_m/a); curvature: the
+    undeformed gap is X^2/2 + curvature Y^2/2."""
 
     kind: str
     R: float
     E: float
     a: float
+    b: float
     p_H: float
     u_m: float
+    curvature: float
 
     @property
     def h(self):
@@ -26,13 +29,30 @@ class Scales:
     def t(self):
         return self.a / self.u_m
 
+    @property
+    def line(self):
+        return self.kind == "line"
+
+    @property
+    def compliance(self):
+        """C in W = C int P/r dX dY: 1/(2 pi) for a line, 2/pi^2 for a circular contact."""
+        return 2 * self.p_H * self.R / (math.pi * self.E * self.a)
+
+    @property
+    def load(self):
+        """int P dX (line) or int P dX dY in Hertz units."""
+        return math.pi / 2 if self.line else 2 * math.pi / 3 * self.b / self.a
+
     @classmethod
     def of(cls, scene):
         """Scales of a scene."""
-        R, E = scene.contact.radius_x, reduced_modulus(scene)
-        hertz = closed_form.hertz_line if scene.contact.kind == "line" else closed_form.hertz_point
-        a, p_H = hertz(scene.load, R, E)
-        return cls(scene.contact.kind, R, E, a, p_H, scene.operation.u_m)
+        contact, E = scene.contact, reduced_modulus(scene)
+        R, R_y, u_m = contact.radius_x, contact.radius_y, scene.operation.u_m
+        if contact.kind == "line":
+            a, p_H = closed_form.hertz_line(scene.load, R, E)
+            return cls("line", R, E, a, a, p_H, u_m, 0.0)
+        a, b, p_H = closed_form.hertz_ellipse(scene.load, R, R_y, E)
+        return cls("point", R, E, a, b, p_H, u_m, R / R_y)
 
 
 def reduced_modulus(scene):
@@ -47,8 +67,9 @@ def load_of(scene):
     if contact.load > 0:
         return contact.load
     if contact.hertz_pressure > 0:
-        by_pressure = closed_form.hertz_line_load if contact.kind == "line" else closed_form.hertz_point_load
-        return by_pressure(contact.hertz_pressure, R, E)
+        if contact.kind == "line":
+            return closed_form.hertz_line_load(contact.hertz_pressure, R, E)
+        return closed_form.hertz_ellipse_load(contact.hertz_pressure, R, contact.radius_y, E)
     U = moes_speed(scene) * 2 * scene.oil.eta0 / (E * R)
     return contact.moes_M * (E * R * math.sqrt(U) if contact.kind == "line" else E * R**2 * U**0.75)
 

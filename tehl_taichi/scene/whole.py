@@ -1,19 +1,23 @@
 """The whole scene: its parts, the checks between them, changes, and the way to and from plain dictionaries."""
 
 import dataclasses
+import math
 from dataclasses import dataclass, field
 
 from tehl_taichi.scene import oil as oils
 from tehl_taichi.scene import scales
 from tehl_taichi.scene.checks import SceneError, build, nearest
+from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.oil import Oil
-from tehl_taichi.scene.parts import Body, Contact, Fatigue, Feature, Grid, Numerics, Operation, Output, Rheology, Thermal, Time
+from tehl_taichi.scene.parts import Body, Contact, Fatigue, Grid, Numerics, Operation, Output, Rheology, Thermal, Time
 
 SECTIONS = {"contact": Contact, "operation": Operation, "rheology": Rheology, "thermal": Thermal, "fatigue": Fatigue,
             "grid": Grid, "time": Time, "numerics": Numerics, "output": Output}
 SHORT = {"srr": "operation.srr", "load": "contact.load", "hertz_pressure": "contact.hertz_pressure",
          "speed": "operation.u_m", "temperature": "operation.temperature", "height": "feature.height",
          "width": "feature.width", "kappa": "fatigue.kappa", "endurance": "fatigue.endurance"}
+FIRST, LAST = -1.6, 1.4  # of the path of a small feature, in a
+CLEAR, LATEST = 1.3, 1.1  # distance in a of a feature's front from X = 0 at an automatic start; at any start at least
 MAX_HERTZ, MIN_HERTZ = 6e9, 1e7  # Pa: outside this range the laws say nothing
 
 
@@ -42,12 +46,22 @@ class Scene:
             object.__setattr__(self, "operation", speed)
         self._check_pressure()
         self._check_motion()
+        self._check_path()
 
     def _check_pressure(self):
         p_H = scales.Scales.of(self).p_H
         if not MIN_HERTZ <= p_H <= MAX_HERTZ:
             raise SceneError(f"the load gives a Hertz pressure of {p_H:.3g} Pa; allowed: {MIN_HERTZ:.0e} to "
                              f"{MAX_HERTZ:.0e} Pa")
+
+    def _check_path(self):
+        start, end = self.path
+        if end <= start:
+            raise SceneError(f"time.x_end = {end:g} a must be more than x_start = {start:g} a")
+        front = start + max((f.x + f.reach for f in self.features), default=-10.0) / scales.Scales.of(self).a
+        if self.transient and front > -LATEST:
+            raise SceneError(f"time.x_start = {start:g} a: the features reach up to {front:.2f} a at the start, but the steady "
+                             f"start has none; allowed: at most {start - front - LATEST:.2f} a (or -inf)")
 
     def _check_motion(self):
         if self.transient and self.operation.u_a < 1e-3 * self.operation.u_m:
@@ -66,9 +80,29 @@ class Scene:
         return bool(self.features) and not self.time.steady_only
 
     @property
+    def path(self):
+        """Start and end of the first feature's centre, in a: long features start earlier and end later."""
+        if not self.features:
+            return FIRST, LAST
+        a = scales.Scales.of(self).a
+        ahead, behind = max(f.x + f.reach for f in self.features) / a, max(f.reach - f.x for f in self.features) / a
+        start = self.time.x_start if self.time.x_start > -math.inf else min(FIRST, -CLEAR - ahead)
+        return start, self.time.x_end if self.time.x_end < math.inf else max(LAST, LATEST + behind)
+
+    @property
     def one_dimensional(self):
-        """True for a smooth or steady line contact."""
-        return self.contact.kind == "line" and not self.transient
+        """True for a line contact in which nothing varies across."""
+        return self.contact.kind == "line" and (not self.transient or all(f.transverse for f in self.features))
+
+    @property
+    def symmetric(self):
+        """True when the half domain y >= 0 says it all."""
+        return not self.transient or all(f.symmetric for f in self.features)
+
+    @property
+    def rows(self):
+        """Cells across: none in one dimension, grid.ny on the half domain, twice as many on the whole."""
+        return 0 if self.one_dimensional else self.grid.ny * (1 if self.symmetric else 2)
 
     @property
     def isothermal(self):
@@ -80,8 +114,8 @@ class Scene:
         if self.oil.expansion == "thermal" and self.oil.beta0 > 0:
             out.append("thermal expansion of the oil (isothermal film; oil.expansion = 'always' keeps it)")
         if self.one_dimensional:
-            out.append("y direction (nothing varies across a smooth line contact)")
-        else:
+            out.append("y direction (nothing varies across this line contact)")
+        elif self.symmetric:
             out.append("half of the domain (symmetric in y)")
         if not self.transient:
             out.append("march in time (steady)" if self.features else "march in time (no feature)")

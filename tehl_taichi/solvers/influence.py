@@ -1,20 +1,19 @@
 """Exact influence coefficients of the normal deflection for cell-constant pressure, dimensionless (Hertz units).
 
-Film change W = C int P / r dX dY with C = 1/(2 pi) (line units) or 2/pi^2 (circular units), and for the y-invariant part
-of a line contact W = -(1/pi) int P ln|X - X'| dX' (Johnson, Contact Mechanics, sections 2.2 and 3.2).
+Film change W = C int P / r dX dY with the compliance C of the scales (1/(2 pi) for a line, 2/pi^2 for a circular contact),
+and for the y-invariant part of a line contact W = -(1/pi) int P ln|X - X'| dX' (Johnson, Contact Mechanics, sections 2.2
+and 3.2).
 """
 
 import numpy as np
 
-POINT_FACTOR = {"line": 1 / (2 * np.pi), "point": 2 / np.pi**2}
 
-
-def rectangle(nx, ny, dx, dy, kind):
+def rectangle(nx, ny, dx, dy, compliance):
     """Deflection at offsets (i dx, j dy) of a unit pressure on the cell at the origin; shape (nx + 1, ny + 1)."""
     x, y = np.arange(nx + 1)[:, None] * dx, np.arange(ny + 1)[None, :] * dy
     left, right, low, high = x - dx / 2, x + dx / 2, y - dy / 2, y + dy / 2
     corners = _primitive(right, high) - _primitive(left, high) - _primitive(right, low) + _primitive(left, low)
-    return POINT_FACTOR[kind] * corners
+    return compliance * corners
 
 
 def _primitive(x, y):
@@ -28,7 +27,7 @@ def strip(nx, dx):
     return -np.diff(integral) / np.pi
 
 
-def symbol(nx_period, ny, dx, dy, kind, aliases=6):
+def symbol(nx_period, ny, dx, dy, compliance, aliases=6):
     """Fourier symbol of the deflection of a periodic row of cells: shape (ny + 1, nx_period // 2 + 1).
 
     Cosine modes of period 2 ny in y (ny = 0: one-dimensional), full aliasing sum of 2 pi C sinc sinc / |k|; the mean,
@@ -40,7 +39,7 @@ def symbol(nx_period, ny, dx, dy, kind, aliases=6):
     for p in range(-aliases, aliases + 1):
         for q in range(-aliases, aliases + 1) if ny else [0]:
             total += _mode(kx + 2 * np.pi * p / dx, ky + 2 * np.pi * q / dy, dx, dy if ny else 0.0)
-    total *= 2 * np.pi * POINT_FACTOR[kind]
+    total *= 2 * np.pi * compliance
     total[0, 0] = 2 * total[0, 1]
     return total
 

@@ -20,25 +20,27 @@ PAD = 4  # columns in front of the first and behind the last level that stencils
 class Levels:
     """State table S, level table G and the constants of one contact on a grid of nx x ny cells and its coarser ones.
 
-    scene: the description; scales: its Hertz units; nx, ny: cells (ny = 0: one-dimensional). The fields of the finest
+    scene: the description; scales: its Hertz units; nx, ny: cells (ny = 0: one-dimensional); full: from -y_max instead of
+    from the plane of symmetry (the lower edge of a line contact is then a mirror far away). The fields of the finest
     grid are read and written as arrays (ny+1, nx+1) with :meth:`get` and :meth:`put`. Vectors of the Krylov solver are
     flat arrays of `n` numbers in the order of the table, ghosts included.
     """
 
-    def __init__(self, scene, scales, nx, ny):
-        self.scene, self.scales, self.kind = scene, scales, scales.kind
-        self.nx, self.ny = nx, ny
-        grid = scene.grid
+    def __init__(self, scene, scales, nx, ny, full=False):
+        self.scene, self.scales, self.line = scene, scales, scales.line
+        self.nx, self.ny, self.mirrored = nx, ny, scales.line or not full
+        grid, y_max = scene.grid, scene.grid.y_max * scales.b / scales.a
         self.X = np.linspace(grid.x_min, grid.x_max, nx + 1)
-        self.Y = np.linspace(0.0, grid.y_max, ny + 1) if ny else np.zeros(1)
-        self.dx, self.dy = self.X[1] - self.X[0], grid.y_max / ny if ny else 1.0
+        self.Y = np.linspace(-y_max if full else 0.0, y_max, ny + 1) if ny else np.zeros(1)
+        self.dx, self.dy = self.X[1] - self.X[0], self.Y[1] - self.Y[0] if ny else 1.0
+        self.middle = int(np.argmin(np.abs(self.Y))) if not self.line else ny  # row of a central film without feature
         self.sizes = coarsen(nx, ny)
         self.blocks = np.array([(l, s) for l, (_, my) in enumerate(self.sizes) for s in range(my // lanes.W + 1)], np.int32)
         self.fine = self.sizes[0][1] // lanes.W + 1  # blocks of the finest grid
         self.G = self._level_table()
         self.n = columns(nx, ny) * lanes.W
         self.S = runtime.lease(self, fields.NROWS, lanes.W, max(table_columns(nx, ny), _final_columns(scene)))
-        self.deflection = Deflection(nx, ny, self.dx, self.dy, self.kind)
+        self.deflection = self.deflection_of(0)
         self._set_laws()
         self._bind()
         self._set_masks()
@@ -49,7 +51,7 @@ class Levels:
         for l, (nx, ny) in enumerate(self.sizes):
             dx, dy = self.dx * 2**l, self.dy * 2**l
             own = self.near_kernel(l)[0]
-            rows = ny + 1 if self.kind == "line" else ny
+            rows = ny + 1 if self.line else ny
             G[l] = [off, nx, ny, rows, dx, dy, 0.0, own[0], own[1], self.scene.rheology.film_floor]
             off += columns(nx, ny)
         return G
@@ -57,13 +59,17 @@ class Levels:
     def near_kernel(self, l, length=8):
         """Deflection at distances 0..7 along x of a node in an inner and in the outermost row; shape (2, 8)."""
         dx, dy = self.dx * 2**l, self.dy * 2**l
-        if self.kind == "line":
+        if self.line:
             strip = influence.strip(length, dx)[:length]
         if self.sizes[l][1] == 0:
             return np.vstack([strip, strip])
-        inner = influence.rectangle(length, 1, dx, dy, self.kind)[:length, 0]
+        inner = influence.rectangle(length, 1, dx, dy, self.scales.compliance)[:length, 0]
         # the outermost row of a line contact goes on to infinity on one side only
-        return np.vstack([inner, 0.5 * (inner + strip) if self.kind == "line" else inner])
+        return np.vstack([inner, 0.5 * (inner + strip) if self.line else inner])
+
+    def deflection_of(self, l):
+        """Deflection operator of level l."""
+        return Deflection(*self.sizes[l], self.dx * 2**l, self.dy * 2**l, self.scales.compliance, self.line, self.mirrored)
 
     def _set_laws(self):
         scene, s = self.scene, self.scales
@@ -91,7 +97,7 @@ class Levels:
 
     def _set_masks(self):
         inside = np.zeros((self.ny + 1, self.nx + 1))
-        inside[: int(self.G[0, fields.JN]), 1:-1] = 1.0
+        inside[0 if self.mirrored else 1 : int(self.G[0, fields.JN]), 1:-1] = 1.0
         self.unknowns = int(inside.sum())
         self.put(fields.MASK, inside)
         self.put(fields.WEIGHT, load_weights(self))
@@ -167,13 +173,13 @@ class Levels:
 def load_weights(levels):
     """Weights w (ny+1, nx+1) such that sum(w P) is the load (model.md section 4, Hertz units).
 
-    Line: the mean over y (trapezoid over the stored half domain) of int P dX = pi/2; point: double integral = 2 pi/3.
+    Line: the mean over y (trapezoid over the stored rows) of int P dX = pi/2; point: the double integral, both halves.
     """
     w_y = np.full((levels.ny + 1, 1), levels.dx)
     if levels.ny:
         w_y[0] *= 0.5
-        if levels.kind == "point":
-            w_y *= 2 * levels.dy
+        if not levels.line:
+            w_y *= 2 * levels.dy if levels.mirrored else levels.dy
         else:
             w_y[-1] *= 0.5
             w_y /= levels.ny
@@ -206,5 +212,4 @@ def table_columns(nx, ny):
 
 def _final_columns(scene):
     """Columns of the finest grid of the scene: the steady start takes its smaller tables from the same memory."""
-    one_dimensional = scene.contact.kind == "line" and not scene.transient
-    return table_columns(scene.grid.nx, 0 if one_dimensional else scene.grid.ny)
+    return table_columns(scene.grid.nx, scene.rows)

@@ -46,7 +46,7 @@ class PressureSolver:
         self.work = Workspace(levels.n + 2, levels.scene.numerics.krylov_max)
         self.preconditioner = AdditiveLines(levels)
         self.inside, self.weights = levels.inside, levels.vector(fields.WEIGHT)
-        self.load = 2 * np.pi / 3 if levels.kind == "point" else np.pi / 2
+        self.load = levels.scales.load
         self.H0 = 0.0
         self._bind()
 

@@ -9,7 +9,7 @@ import numpy as np
 from tehl_taichi.kernels import fields, lanes, lines, transfer
 from tehl_taichi.runtime import bind
 from tehl_taichi.solvers.levels import DENSE_LIMIT
-from tehl_taichi.solvers.transforms import Deflection, Distribution
+from tehl_taichi.solvers.transforms import Distribution
 
 COARSE_WEIGHT = 0.8  # of the coarser levels' sum: 30.1 Krylov iterations a step with 0.5, 22.9 with 0.8, 24.3 with 1 (256x64)
 THETA = 1.0  # switch between the two kinds of columns; flat from 0.3 to 3
@@ -23,7 +23,7 @@ class AdditiveLines:
         nx, ny = levels.sizes[-1]
         dense = len(levels.sizes) > 1 and (nx + 1) * (ny + 1) <= DENSE_LIMIT
         smoothed = levels.sizes[:-1] if dense else levels.sizes
-        self.distribution = Distribution(smoothed, levels.dx, levels.dy, levels.kind)
+        self.distribution = Distribution(smoothed, levels.dx, levels.dy, levels.scales.compliance)
         self.inverse = self.distribution.near()
         self.near = np.vstack([levels.near_kernel(l) for l in range(len(smoothed))])
         self.count = sum(ny // lanes.W + 1 for _, ny in smoothed)
@@ -88,7 +88,7 @@ class Coarsest:
     def _influence(self, nx, ny):
         """Deflection matrix (nodes, nodes)."""
         v, n = self.levels, (nx + 1) * (ny + 1)
-        deflect = Deflection(nx, ny, v.dx * 2**self.l, v.dy * 2**self.l, v.kind)
+        deflect = v.deflection_of(self.l)
         K, unit = np.empty((n, n)), np.zeros((self.right.shape[0] // (nx + 1), nx + 1, lanes.W))
         for node, place in enumerate(self.place):
             unit.ravel()[place] = 1.0

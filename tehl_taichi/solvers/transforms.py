@@ -120,18 +120,54 @@ class Cosine:
             values[:] = self.padded[: self.ny + 1]
 
 
+class PlainConvolution:
+    """The same without a mirror: zero padding in both directions, a full transform along y (source, run, result alike)."""
+
+    def __init__(self, nx, ny, rows, period):
+        self.ny, self.half = ny, period // 2 + 1
+        self.source, self.source_blocks = _lane_rows(nx, ny, period)
+        self.result, self.result_blocks = _lane_rows(nx, ny, period)
+        self.padded, last = _complex(rows, self.half), _complex(ny + 1, self.half)
+        self.first, self.last = self.padded[: ny + 1], last
+        self.forward = pyfftw.FFTW(self.source, self.first, axes=(1,), **PLAN)
+        self.along = pyfftw.FFTW(self.padded, self.padded, axes=(0,), **PLAN)
+        self.again = pyfftw.FFTW(self.padded, self.padded, axes=(0,), direction="FFTW_BACKWARD", **PLAN)
+        self.back = pyfftw.FFTW(last, self.result, axes=(1,), direction="FFTW_BACKWARD", **PLAN)
+        self.scale = 1 / (period * rows)
+
+    def set_kernel(self, values):
+        """Symbol from the even kernel values (rows, period) laid out for this transform."""
+        self.symbol = np.fft.fft(np.fft.rfft(values, axis=1).real, axis=0).real * self.scale
+
+    def run(self):
+        """result = symbol * source."""
+        self.padded[self.ny + 1 :] = 0.0
+        self.forward.execute()
+        self.along.execute()
+        np.multiply(self.padded, self.symbol, out=self.padded)
+        self.again.execute()
+        self.last[:] = self.first
+        self.back.execute()
+
+
 class Deflection:
-    """W = K P on one grid: exact coefficients, zero padding; for a line contact the outermost row continues for ever."""
+    """W = K P on one grid: exact coefficients, zero padding. line: the outermost row continues for ever; mirrored: rows
+    y < 0 are the mirror image of the others."""
 
-    def __init__(self, nx, ny, dx, dy, kind):
-        self.nx, self.ny, self.line = nx, ny, kind == "line"
+    def __init__(self, nx, ny, dx, dy, compliance, line, mirrored=True):
+        self.nx, self.ny, self.line, self.mirrored = nx, ny, line, mirrored
         period = even_fast_length(2 * nx + 1)
-        self.plane = self._plane(period, dx, dy, kind) if ny else None
-        self.strip = self._strip(period, dx) if self.line else None
+        self.plane = self._plane(period, dx, dy, compliance) if ny else None
+        self.strip = self._strip(period, dx) if line else None
 
-    def _plane(self, period, dx, dy, kind):
-        convolution = EvenConvolution(self.nx, self.ny, 2 * self.ny + 1, period)
-        coefficients = influence.rectangle(self.nx, 2 * self.ny, dx, dy, kind).T
+    def _plane(self, period, dx, dy, compliance):
+        coefficients = influence.rectangle(self.nx, 2 * self.ny, dx, dy, compliance).T
+        if self.mirrored:
+            convolution = EvenConvolution(self.nx, self.ny, 2 * self.ny + 1, period)
+        else:
+            rows = even_fast_length(2 * self.ny + 1)
+            convolution = PlainConvolution(self.nx, self.ny, rows, period)
+            coefficients = _wrap(coefficients[: self.ny + 1].T, rows).T
         convolution.set_kernel(_wrap(coefficients, period))
         return convolution
 
@@ -171,12 +207,12 @@ class Distribution:
     `source` and `result` hold the blocks of all levels one after another, (columns, W) as in the state table.
     """
 
-    def __init__(self, sizes, dx, dy, kind):
+    def __init__(self, sizes, dx, dy, compliance):
         self.levels, self.cuts, start = [], [], 0
         for l, (nx, ny) in enumerate(sizes):
             convolution = EvenConvolution(nx, ny, ny + 1, even_fast_length(nx + 1))
             period = convolution.source.shape[1]
-            convolution.set_symbol(1 / influence.symbol(period, ny, dx * 2**l, dy * 2**l, kind))
+            convolution.set_symbol(1 / influence.symbol(period, ny, dx * 2**l, dy * 2**l, compliance))
             self.levels.append(convolution)
             self.cuts.append((slice(start, start + (ny // W + 1) * (nx + 1)), (ny // W + 1, nx + 1, W)))
             start = self.cuts[-1][0].stop
