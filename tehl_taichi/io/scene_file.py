@@ -8,7 +8,7 @@ import tomllib
 from tehl_taichi.scene import BUILT_INS, Scene, SceneError, scene
 from tehl_taichi.scene.whole import SECTIONS
 
-HEADER = "# A tehl_taichi scene. SI units (m, s, N, Pa, kg), temperatures in deg C; lengths of [grid] and [time] in half-widths a."
+HEADER = "# A tehl_taichi scene. SI units (m, s, N, Pa, kg), temperatures in deg C; [grid] and [time] in half-widths."
 COMMENTS = {
     "contact": "one of load (N/m line, N point), hertz_pressure (Pa) or the pair moes_M, moes_L; 0 = not given",
     "bodies.a": "carries the feature. E Pa, nu, k W/mK, rho kg/m3, c J/kgK", "bodies.b": "the other surface",
@@ -16,7 +16,8 @@ COMMENTS = {
     "oil": "`tehl oils` lists the named ones", "rheology": "law: limiting, eyring, carreau or newtonian; stresses in Pa",
     "feature": "shape: cosine, ridge, furrow, waviness, rough or map; height m (negative: dent), all lengths in m",
     "thermal": "energy equation", "fatigue": "Findley: kappa, endurance = sigma_eF in Pa",
-    "grid": "cells of the half domain y >= 0; extent in half-widths of the contact", "time": "path of the first feature in a (-inf, inf: from before to behind the contact); courant cells a step",
+    "grid": "cells of the half domain y >= 0; extent in half-widths of the contact",
+    "time": "path of the first feature in a (-inf, inf: from before to behind the contact); courant: cells per step",
     "numerics": "tolerances of the discrete equations", "output": "store every n-th step",
 }
 

@@ -38,8 +38,8 @@ class SteadyResult:
 def estimated_error(values):
     """Error of the last of `values` (each grid twice as fine as the one before), by Richardson's extrapolation.
 
-    With three grids the observed order is used when it is credible (and a margin of a quarter added), otherwise the last difference stands as it is
-    (order 1), which is the larger estimate; with one grid the error is unknown (nan).
+    With three grids the observed order is used when it is credible (and a margin of a quarter added), otherwise the last
+    difference stands as it is (order 1), which is the larger estimate; with one grid the error is unknown (nan).
     """
     if len(values) < 2:
         return math.nan
