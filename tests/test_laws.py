@@ -82,7 +82,7 @@ def test_hertz_closed_forms():
     assert closed_form.hertz_line_load(p, 10.6e-3, 206e9 / 0.91) == pytest.approx(1.1e6)
     a, p = closed_form.hertz_point(38.35, 12.7e-3, 117e9)
     assert 2 / 3 * np.pi * a**2 * p == pytest.approx(38.35)
-    assert closed_form.hertz_point_load(p, 12.7e-3, 117e9) == pytest.approx(38.35)
+    assert closed_form.hertz_ellipse_load(p, 12.7e-3, 12.7e-3, 117e9) == pytest.approx(38.35)
 
 
 def test_film_formulas_lie_near_the_converged_films():

@@ -41,6 +41,7 @@ from tehl_taichi.kernels.fields import (
 )
 from tehl_taichi.kernels.lanes import Blocks, Table, V, Vector, W, above, below, cells, face_weights, load
 from tehl_taichi.physics.density import rho_ratio
+from tehl_taichi.physics.elementary import exp
 from tehl_taichi.physics.viscosity import ln_eta
 
 DP = 1e3  # Pa, step of the difference quotients of the laws: their scale is 1e8 Pa, so the quotient is good to 1e-5
@@ -63,7 +64,7 @@ def node_laws(S: ti.template(), k, oil: ti.template(), p_H, Gamma, ln_eta0, inv_
     h = ti.max(S[H, k], floor)
     S[RHO, k] = rho
     S[LE, k] = le
-    S[IE, k] = ti.exp(-le)
+    S[IE, k] = exp(-le)
     S[MOB, k] = rho * h * h * h * inv_lambda
 
 

@@ -2,6 +2,8 @@
 
 import taichi as ti
 
+from tehl_taichi.physics.elementary import exp
+
 
 @ti.pyfunc
 def compression(oil: ti.template(), p):
@@ -12,7 +14,7 @@ def compression(oil: ti.template(), p):
 @ti.pyfunc
 def expansion(oil: ti.template(), p, Gamma):
     """1 - beta(p) (Gamma - 40), beta = beta0 exp(-beta_c p) (Larsson et al. 2000)."""
-    return 1 - oil.beta0 * ti.exp(-oil.beta_c * p) * (Gamma - 40)
+    return 1 - oil.beta0 * exp(-oil.beta_c * p) * (Gamma - 40)
 
 
 @ti.pyfunc

@@ -2,6 +2,8 @@
 
 import taichi as ti
 
+from tehl_taichi.physics.elementary import exp, log
+
 
 @ti.pyfunc
 def shear_limit(rheology: ti.template(), p):
@@ -23,8 +25,8 @@ def shear_stress(rheology: ti.template(), newtonian, p):
     elif ti.static(rheology.law == "eyring"):
         r = ti.abs(newtonian) / rheology.tau_0
         sign = ti.select(newtonian < 0, -1.0, 1.0)
-        out = sign * rheology.tau_0 * ti.log(r + ti.sqrt(r * r + 1))
+        out = sign * rheology.tau_0 * log(r + ti.sqrt(r * r + 1))
     elif ti.static(rheology.law == "carreau"):
         r = newtonian / rheology.tau_0
-        out = newtonian * ti.exp(0.5 * (rheology.carreau_n - 1) * ti.log(1 + r * r))
+        out = newtonian * exp(0.5 * (rheology.carreau_n - 1) * log(1 + r * r))
     return out

@@ -5,6 +5,8 @@
 
 import taichi as ti
 
+from tehl_taichi.physics.elementary import exp, log
+
 LN10 = 2.302585092994046
 P_ROELANDS = 5.1e-9  # 1/Pa, Roelands' pressure scale (1.96e8 Pa)
 
@@ -12,44 +14,44 @@ P_ROELANDS = 5.1e-9  # 1/Pa, Roelands' pressure scale (1.96e8 Pa)
 @ti.pyfunc
 def ln_eta0_walther(oil: ti.template(), Gamma):
     """ln of the viscosity at p = 0: log10 eta0 = -4.2 + G0 (1 + Gamma/135)^-S0 (Everitt 2018, Eq 1.2)."""
-    return LN10 * (-4.2 + oil.G0 * ti.exp(-oil.S0 * ti.log(1 + Gamma / 135)))
+    return LN10 * (-4.2 + oil.G0 * exp(-oil.S0 * log(1 + Gamma / 135)))
 
 
 @ti.pyfunc
 def roelands_temperature(oil: ti.template(), p, Gamma):
     """Roelands with temperature, Z(Gamma) = D_z + C_z log10(1 + Gamma/135) (Everitt 2018, Eq 1.1-1.3)."""
     ln0 = ln_eta0_walther(oil, Gamma)
-    Z = oil.Dz + oil.Cz * ti.log(1 + Gamma / 135) / LN10
-    return ln0 + (ln0 + 9.67) * (ti.exp(Z * ti.log(1 + P_ROELANDS * p)) - 1)
+    Z = oil.Dz + oil.Cz * log(1 + Gamma / 135) / LN10
+    return ln0 + (ln0 + 9.67) * (exp(Z * log(1 + P_ROELANDS * p)) - 1)
 
 
 @ti.pyfunc
 def roelands(oil: ti.template(), p, Gamma):
     """eta0 exp{(alpha p_r/Z)(-1 + (1 + p/p_r)^Z)} (Venner & Lubrecht); no temperature."""
-    return ti.log(oil.eta0) + oil.alpha * oil.p_r / oil.Z * (ti.exp(oil.Z * ti.log(1 + p / oil.p_r)) - 1)
+    return log(oil.eta0) + oil.alpha * oil.p_r / oil.Z * (exp(oil.Z * log(1 + p / oil.p_r)) - 1)
 
 
 @ti.pyfunc
 def barus(oil: ti.template(), p, Gamma):
     """eta0 exp(alpha p); no temperature."""
-    return ti.log(oil.eta0) + oil.alpha * p
+    return log(oil.eta0) + oil.alpha * p
 
 
 @ti.pyfunc
 def houpert(oil: ti.template(), p, Gamma):
     """Roelands with Houpert's temperature factor ((Gamma + 135)/(Gamma_0 + 135))^-S_0 (Houpert 1985)."""
-    ln0 = ti.log(oil.eta0) + 9.67
+    ln0 = log(oil.eta0) + 9.67
     Z = oil.alpha * oil.p_r / ln0
-    temperature = ti.exp(-oil.S0 * ti.log((Gamma + 135) / (oil.Gamma0 + 135)))
-    return -9.67 + ln0 * ti.exp(Z * ti.log(1 + p / oil.p_r)) * temperature
+    temperature = exp(-oil.S0 * log((Gamma + 135) / (oil.Gamma0 + 135)))
+    return -9.67 + ln0 * exp(Z * log(1 + p / oil.p_r)) * temperature
 
 
 @ti.pyfunc
 def yasutomi(oil: ti.template(), p, Gamma):
     """Free-volume law of Yasutomi, Bair & Winer 1984: log10(eta/eta_g) = -C1 (Gamma - Tg) F / (C2 + (Gamma - Tg) F)."""
-    Tg = oil.Tg0 + oil.A1 * ti.log(1 + oil.A2 * p)
-    F = 1 - oil.B1 * ti.log(1 + oil.B2 * p)
-    return ti.log(oil.eta_g) - LN10 * oil.C1 * (Gamma - Tg) * F / (oil.C2 + (Gamma - Tg) * F)
+    Tg = oil.Tg0 + oil.A1 * log(1 + oil.A2 * p)
+    F = 1 - oil.B1 * log(1 + oil.B2 * p)
+    return log(oil.eta_g) - LN10 * oil.C1 * (Gamma - Tg) * F / (oil.C2 + (Gamma - Tg) * F)
 
 
 @ti.pyfunc
