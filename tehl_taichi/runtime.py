@@ -59,15 +59,16 @@ def ensure():
     return dict(_started) if _started else start()
 
 
-def lease(owner, rows, lanes, columns):
-    """A vector field of `rows` x at least `columns` columns of `lanes` numbers, zero, for `owner` alone while it lives.
+def lease(owner, rows, lanes, columns, slots=0):
+    """A vector field of `rows` x at least `columns` columns of `lanes` numbers, zero, for `owner` alone while it lives; with
+    `slots` (and rows 0) of at least `columns` columns x `slots`.
 
     Fields are never freed by Taichi and a new one compiles its kernels anew, so that of a former owner is used again.
     """
     gc.collect()  # an owner that is only held by a reference cycle is gone
     for entry in _tables:
         field, holder = entry
-        if holder() is None and field.shape[0] == rows and field.n == lanes and field.shape[1] >= columns:
+        if holder() is None and field.n == lanes and _fits(field.shape, rows, columns, slots):
             entry[1] = weakref.ref(owner)
             field.fill(0.0)
             return field
@@ -76,9 +77,13 @@ def lease(owner, rows, lanes, columns):
     capacity = SMALLEST_TABLE
     while capacity < columns:
         capacity *= 4
-    field = ti.Vector.field(lanes, ti.f64, shape=(rows, capacity))
+    field = ti.Vector.field(lanes, ti.f64, shape=(capacity, slots) if slots else (rows, capacity))
     _tables.append([field, weakref.ref(owner)])
     return field
+
+
+def _fits(shape, rows, columns, slots):
+    return shape[0] >= columns and shape[1] == slots if slots else shape[0] == rows and shape[1] >= columns
 
 
 def bind(kernel, *args):

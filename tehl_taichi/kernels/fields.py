@@ -47,6 +47,11 @@ TRIAL = next(_row)  # pressure change that the Jacobian is applied to
 FILM = next(_row)  # film change that goes with it
 BAND = _rows(7)  # factorised line systems
 NROWS = next(_row)
+RHOC = next(_row)  # thermal scenes only: density that the Couette flow carries, over rho_0 (isothermal: RHO)
+QCP = next(_row)  # d(RHOC H)/dP at fixed H (isothermal: QP)
+NROWS_THERMAL = next(_row)
+STATE = (P, H, DRY, TOUCH)  # carried to the coarser levels
+LAWS = (RHO, LE, IE, MOB, DLE, DMP, DMH, QP, RHOC, QCP)  # carried there too in a thermal film
 
 # columns of the level table
 _col = itertools.count()

@@ -140,16 +140,16 @@ def net_flux_y(S: ti.template(), k, n2, up, down):
 
 
 @ti.func
-def transport(S: ti.template(), k, i):
-    """dx d(rho H)/dX at node k."""
+def transport(S: ti.template(), k, i, couette):
+    """dx d(rho H)/dX at node k; couette: row of the density."""
     w, out = couette_weights(i), V(0.0)
     for t in ti.static(range(4)):
-        out += w[t] * S[RHO, k + t - 2] * S[H, k + t - 2]
+        out += w[t] * S[couette, k + t - 2] * S[H, k + t - 2]
     return out
 
 
 @ti.kernel
-def residual(S: ti.template(), G: Table):
+def residual(S: ti.template(), G: Table, couette: ti.template()):
     """R = dx [ d(rho H)/dX + d(rho H)/dT - div(eps grad P) ] on the unknowns of the finest level, 0 elsewhere."""
     nx, ny, off = cells(G, 0)
     n2 = nx + 1
@@ -163,7 +163,7 @@ def residual(S: ti.template(), G: Table):
         for i in range(1, nx):
             k = first + i
             right = flux_x(S, k)
-            r = transport(S, k, i) + CT_0 * S[RHO, k] * S[H, k] + S[QOLD, k] - (right - left) * inv
+            r = transport(S, k, i, couette) + CT_0 * S[RHO, k] * S[H, k] + S[QOLD, k] - (right - left) * inv
             if ny > 0:
                 r -= net_flux_y(S, k, n2, up, down) * metric
             S[R, k] = r * S[MASK, k]
@@ -210,8 +210,12 @@ def store_rows(S: ti.template(), k, rows: ti.template(), c0, c1, c2, c3):
 
 
 @ti.kernel
-def linearise(S: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: ti.i32):
-    """Jacobian rows, EPS and the diagonal in the blocks first..last-1; needs `laws` and `slopes`."""
+def linearise(S: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: ti.i32, couette: ti.template(),
+              slope: ti.template()):
+    """Jacobian rows, EPS and the diagonal in the blocks first..last-1; needs `laws` and `slopes`.
+
+    couette: row of the density in the Couette flow, slope: row of its derivative.
+    """
     ti.loop_config(block_dim=1)
     for b in range(first, last):
         l, s = blocks[b, 0], blocks[b, 1]
@@ -224,8 +228,8 @@ def linearise(S: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: t
             k = off + s * n2 + i
             w = couette_weights(i)
             p0, p1, h0, h1, eps = face_x(S, k)
-            a2 = (w[2] + CT_l) * S[QP, k] + (left_p1 - p0) * inv
-            b2 = (w[2] + CT_l) * S[RHO, k] + (left_h1 - h0) * inv
+            a2 = w[2] * S[slope, k] + CT_l * S[QP, k] + (left_p1 - p0) * inv
+            b2 = w[2] * S[couette, k] + CT_l * S[RHO, k] + (left_h1 - h0) * inv
             total = (left_eps + eps) * inv
             if ny > 0:
                 u, d = up * metric, down * metric
@@ -235,13 +239,13 @@ def linearise(S: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: t
                 b2 += d * f1 - u * g0
                 total += u * eps_up + d * eps_down
                 S[AU, k], S[AD, k], S[BU, k], S[BD, k] = -u * u1, d * d0, -u * g1, d * f0
-            store_rows(S, k, ti.static(A), w[0] * S[QP, k - 2], w[1] * S[QP, k - 1] + left_p0 * inv, a2,
-                       w[3] * S[QP, k + 1] - p1 * inv)
-            store_rows(S, k, ti.static(B), w[0] * S[RHO, k - 2], w[1] * S[RHO, k - 1] + left_h0 * inv, b2,
-                       w[3] * S[RHO, k + 1] - h1 * inv)
+            store_rows(S, k, ti.static(A), w[0] * S[slope, k - 2], w[1] * S[slope, k - 1] + left_p0 * inv, a2,
+                       w[3] * S[slope, k + 1] - p1 * inv)
+            store_rows(S, k, ti.static(B), w[0] * S[couette, k - 2], w[1] * S[couette, k - 1] + left_h0 * inv, b2,
+                       w[3] * S[couette, k + 1] - h1 * inv)
             S[EPS, k] = total
-            own = (0.5 + CT_l) * (S[QP, k] + S[RHO, k] * K_0)
-            S[D, k] = ti.max(own + (S[RHO, k + 1] / 3 - S[RHO, k - 1]) * K_1 + total, 0.5 * K_0)
+            own = 0.5 * (S[slope, k] + S[couette, k] * K_0) + CT_l * (S[QP, k] + S[RHO, k] * K_0)
+            S[D, k] = ti.max(own + (S[couette, k + 1] / 3 - S[couette, k - 1]) * K_1 + total, 0.5 * K_0)
             left_p0, left_p1, left_h0, left_h1, left_eps = p0, p1, h0, h1, eps
 
 

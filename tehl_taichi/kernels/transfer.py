@@ -25,8 +25,8 @@ def every_second(S: ti.template(), row, k, n2):
 
 
 @ti.kernel
-def inject(S: ti.template(), G: Table, levels: ti.i32):
-    """State and sets of every coarser level from the coinciding nodes of the finest; ghosts stay dry."""
+def inject(S: ti.template(), G: Table, levels: ti.i32, rows: ti.template()):
+    """The fields `rows` (state, sets, laws) of every coarser level from the coinciding nodes of the finest; ghosts stay dry."""
     for _ in range(1):
         for l in range(levels - 1):
             nx, ny, off = cells(G, l)
@@ -34,7 +34,7 @@ def inject(S: ti.template(), G: Table, levels: ti.i32):
             for t in range(my // W + 1):
                 for I in range(mx + 1):
                     c, k = coff + t * (mx + 1) + I, off + 2 * t * (nx + 1) + 2 * I
-                    for row in ti.static((P, H, DRY, TOUCH)):
+                    for row in ti.static(rows):
                         S[row, c] = every_second(S, row, k, nx + 1)
                     for u in ti.static(range(W)):
                         if t * W + u >= int(G[l + 1, JN]):

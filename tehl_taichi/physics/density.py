@@ -18,6 +18,24 @@ def expansion(oil: ti.template(), p, Gamma):
 
 
 @ti.pyfunc
+def rho_film(oil: ti.template(), p, Gamma):
+    """rho / rho_0 of a film with temperatures; the thermal factor acts unless `oil.expansion` is "never"."""
+    out = compression(oil, p)
+    if ti.static(oil.expansion != "never"):
+        out = out * expansion(oil, p, Gamma)
+    return out
+
+
+@ti.pyfunc
+def expansivity(oil: ti.template(), p, Gamma):
+    """-(1/rho) d rho/d Gamma, 1/K."""
+    out = 0.0 * p
+    if ti.static(oil.expansion != "never"):
+        out = oil.beta0 * exp(-oil.beta_c * p) / expansion(oil, p, Gamma)
+    return out
+
+
+@ti.pyfunc
 def rho_ratio(oil: ti.template(), p, Gamma):
     """rho / rho_0; the thermal factor acts when `oil.expansion` is "always"."""
     out = compression(oil, p)

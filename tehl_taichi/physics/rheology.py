@@ -12,6 +12,14 @@ def shear_limit(rheology: ti.template(), p):
 
 
 @ti.pyfunc
+def secant(rheology: ti.template(), newtonian, p):
+    """shear_stress / newtonian: what is left of the viscosity, 1 without shear."""
+    small = ti.abs(newtonian) < 1e-3
+    safe = ti.select(small, newtonian + 1.0, newtonian)
+    return ti.select(small, 0.0 * newtonian + 1.0, shear_stress(rheology, safe, p) / safe)
+
+
+@ti.pyfunc
 def shear_stress(rheology: ti.template(), newtonian, p):
     """Stress by the chosen law.
 

@@ -14,7 +14,8 @@ class Oil:
     """viscosity: the law, with its own numbers (tehl_taichi/physics/viscosity.py); density D1, D2 1/Pa, rho0 kg/m3.
 
     expansion: the thermal factor 1 - beta0 exp(-beta_c p)(Gamma - 40) of the density acts "always", "never", or
-    "thermal": only where the energy equation is solved (an isothermal film has density(p) alone).
+    "thermal": only where the energy equation is solved (an isothermal film has density(p) alone). k0 W/mK, k1, k2 1/Pa:
+    conductivity; c0 J/kgK, c1, c2, b0, b1, b2: heat capacity (tehl_taichi/physics/heat.py).
     """
 
     name: str = "reference-pao"
@@ -44,6 +45,15 @@ class Oil:
     beta0: float = 6.8e-4
     beta_c: float = 1.5e-9
     expansion: str = "thermal"
+    k0: float = 0.154
+    k1: float = 1.40e-9
+    k2: float = 0.34e-9
+    c0: float = 2080.0
+    c1: float = 0.41e-9
+    c2: float = 1.05e-9
+    b0: float = 6.5e-4
+    b1: float = 2.7e-9
+    b2: float = -1.5e-18
 
     def __post_init__(self):
         choice("oil.viscosity", self.viscosity, VISCOSITY_LAWS)
@@ -51,7 +61,7 @@ class Oil:
         for key, unit, low, high in (("eta0", "Pa s", 1e-6, 1e4), ("alpha", "1/Pa", 1e-10, 1e-6),
                                      ("p_r", "Pa", 1e6, 1e10), ("Z", "", 1e-3, 3.0), ("rho0", "kg/m3", 100, 5000),
                                      ("D1", "1/Pa", 0, 1e-7), ("D2", "1/Pa", 0, 1e-7), ("beta0", "1/K", 0, 1e-2),
-                                     ("beta_c", "1/Pa", 0, 1e-7), ("G0", "", 0, 20), ("S0", "", 0, 10)):
+                                     ("beta_c", "1/Pa", 0, 1e-7), ("k0", "W/mK", 1e-3, 10), ("c0", "J/kgK", 100, 1e4), ("G0", "", 0, 20), ("S0", "", 0, 10)):
             number(f"oil.{key}", getattr(self, key), unit, low, high)
         if self.viscosity == "table":
             self._check_table()

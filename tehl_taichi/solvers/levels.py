@@ -39,7 +39,8 @@ class Levels:
         self.fine = self.sizes[0][1] // lanes.W + 1  # blocks of the finest grid
         self.G = self._level_table()
         self.n = columns(nx, ny) * lanes.W
-        self.S = runtime.lease(self, fields.NROWS, lanes.W, max(table_columns(nx, ny), _final_columns(scene)))
+        rows = fields.NROWS if scene.isothermal else fields.NROWS_THERMAL
+        self.S = runtime.lease(self, rows, lanes.W, max(table_columns(nx, ny), _final_columns(scene)))
         self.deflection = self.deflection_of(0)
         self._set_laws()
         self._bind()
@@ -83,8 +84,8 @@ class Levels:
         fine, coarse = (0, self.fine), (self.fine, len(self.blocks))
         self.laws, self._slopes, self._rows = self._bind_laws(*fine)
         self._laws_coarse, self._slopes_coarse, self._rows_coarse = self._bind_laws(*coarse)
-        self.evaluate_residual = bind(reynolds.residual, self.S, self.G)
-        self.inject = bind(transfer.inject, self.S, self.G, len(self.sizes))
+        self.evaluate_residual = bind(reynolds.residual, self.S, self.G, fields.RHO)
+        self.inject = bind(transfer.inject, self.S, self.G, len(self.sizes), fields.STATE)
         self._vector = np.empty((self.n // lanes.W, lanes.W))
         self._save_P = self.binder(measure.save, fields.P, self._vector)
         self._set_film = self.binder(reynolds.set_film, self._vector)
@@ -93,7 +94,19 @@ class Levels:
         table = (self.S, self.G, self.blocks, first, last)
         law = (self.scene.oil, self.scales.p_H, self.Gamma, self.ln_eta0)
         return (bind(reynolds.laws, *table, *law, self.inv_lambda), bind(reynolds.slopes, *table, *law),
-                bind(reynolds.linearise, *table))
+                bind(reynolds.linearise, *table, fields.RHO, fields.QP))
+
+    def use_film(self, laws, slopes):
+        """Take the laws of the finest level from a film with temperatures; the coarser levels get theirs by injection."""
+        self.laws, self._slopes = laws, slopes
+        rows, fine, coarse = (fields.RHOC, fields.QCP), (0, self.fine), (self.fine, len(self.blocks))
+        self._rows, self._rows_coarse = (bind(reynolds.linearise, self.S, self.G, self.blocks, *cut, *rows)
+                                         for cut in (fine, coarse))
+        self.evaluate_residual = bind(reynolds.residual, self.S, self.G, fields.RHOC)
+        self.inject = bind(transfer.inject, self.S, self.G, len(self.sizes), fields.STATE + fields.LAWS)
+        self._laws_coarse = self._slopes_coarse = lambda: None
+        for l, (nx, ny) in enumerate(self.sizes):
+            self.put(fields.RHOC, np.ones((ny + 1, nx + 1)), l)
 
     def _set_masks(self):
         inside = np.zeros((self.ny + 1, self.nx + 1))
