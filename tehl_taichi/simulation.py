@@ -13,6 +13,7 @@ from tehl_taichi.kernels import fields
 from tehl_taichi.physics.gap import feature_height, undeformed
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.snapshot import Snapshot
+from tehl_taichi.solvers.heat import FilmHeat, step_cells
 from tehl_taichi.solvers.levels import Levels
 from tehl_taichi.solvers.newton import PressureSolver
 from tehl_taichi.solvers.steady import solve_steady
@@ -38,7 +39,7 @@ def total_steps(scene):
         return 0
     t, g, (start, end) = scene.time, scene.grid, scene.path
     cell = (g.x_max - g.x_min) / g.nx
-    steps = math.ceil((end - start) / (t.courant * cell) - 1e-9)
+    steps = math.ceil((end - start) / (step_cells(scene) * cell) - 1e-9)
     return min(steps, t.steps) if t.steps else steps
 
 
@@ -62,7 +63,7 @@ def _steady_snapshot(scene, scales):
     result = solve_steady(scene, scales, scene.grid.nx, 0 if scales.line else scene.grid.ny)
     if not result.report.converged:
         raise NotConverged(_reason(result.solver, result.report, "the steady start"))
-    first = snapshot.take(result.solver, scene, 0, 0.0, math.nan, result.report, started)
+    first = snapshot.take(result.solver, result.heat, 0, 0.0, math.nan, result.report, started)
     first.scalars["cycles"] = float(result.work)
     units = {"h_c": ("h_c_m", scales.h), "h_min": ("h_min_m", scales.h), "p_max": ("p_max_Pa", scales.p_H)}
     first.error = {units[key][0]: value * units[key][1] for key, value in result.errors().items()}
@@ -84,7 +85,9 @@ def _spread(first, scene, scales):
         first.y = np.concatenate([-first.y[:0:-1], first.y])
         across = np.abs(np.arange(rows) - scene.grid.ny)
     first.fields = {key: np.ascontiguousarray(value[:, across]) for key, value in first.fields.items()}
-    first.state["P"] = first.state["P"][across]
+    for key, value in first.state.items():
+        if key == "P" or key in FilmHeat.FIELDS:
+            first.state[key] = np.ascontiguousarray(value[..., across, :])
     return first
 
 
@@ -95,11 +98,19 @@ class Passage:
         self.scene, self.scales = scene, scales
         self.solver = PressureSolver(Levels(scene, scales, scene.grid.nx, scene.rows, full=not scene.symmetric))
         self.levels = self.solver.levels
-        self.step_x = scene.time.courant * self.levels.dx
+        self.step_x = step_cells(scene) * self.levels.dx
         self.dT = self.step_x * scene.operation.u_m / scene.operation.u_a
         self.step, self.P, self.solver.H0 = int(state["step"]), np.array(state["P"]), float(state["H0"])
         self.part = float(state.get("part", 1.0))
         self.P_before, self.mass, self.mass_before = (state.get(key) for key in ("P_before", "mass", "mass_before"))
+        self.heat = None if scene.isothermal else self._heat(state)
+
+    def _heat(self, state):
+        heat = FilmHeat(self.levels, self.dT * self.scales.t)
+        self.levels.put(fields.P, self.P)
+        heat.restore(state)
+        self.T, self.T_before = np.array(state["heat_T"]), state.get("T_before")
+        return heat
 
     def steps(self):
         """Generator of the snapshots that follow."""
@@ -128,8 +139,31 @@ class Passage:
         self._discretise_time(part)
         self._predict(until, part)
         report = self._solve()
+        if self.heat:
+            report = self._exchange(report, part)
         if report.converged:
             self._accept(part)
+        return report
+
+    def _exchange(self, report, part):
+        """Temperature and pressure by turns until the temperature changes by less than thermal.tolerance in a round."""
+        thermal = self.scene.thermal
+        self.heat.begin(part * self.dT * self.scales.t)
+        for turn in range(thermal.rounds):
+            if turn:
+                report = self._again(report)
+            if not report.converged:
+                return report
+            heat = self.heat.solve()
+            if thermal.rounds == 1 or (turn and heat.change < thermal.tolerance):
+                return report
+        report.converged = False
+        return report
+
+    def _again(self, before):
+        """The pressure for new temperatures; the effort of the rounds added up."""
+        report = self.solver.solve()
+        report.newton, report.cycles = report.newton + before.newton, report.cycles + before.cycles
         return report
 
     def _shorter(self, report, part):
@@ -172,12 +206,21 @@ class Passage:
         v.put(fields.QOLD, old * v.dx)
 
     def _predict(self, until, part):
-        P = self.P
+        P, moves = self.P, 0.0
         if self.P_before is not None:
             moves = self.step_x / self.levels.dx if self.position(self.step + until) < SHIFT_UNTIL else 0.0
             P = np.maximum(_extrapolated(P, self.P_before, moves * part, moves * self.part, part / self.part), 0.0)
             P[:, [0, -1]] = 0.0
         self.levels.put(fields.P, P)
+        if self.heat:
+            self._predict_temperature(moves, part)
+
+    def _predict_temperature(self, moves, part):
+        T = self.T
+        if self.T_before is not None:
+            T = _extrapolated(T, self.T_before, moves * part, moves * self.part, part / self.part)
+            T = np.clip(T, self.T.min(), self.T.max() + 20.0)
+        self.heat.set_temperature(T)
 
     def _solve(self):
         H0 = self.solver.H0
@@ -194,6 +237,9 @@ class Passage:
         self.P_before, self.P = self.P, self.levels.get(fields.P)
         self.mass_before, self.mass = self.mass, self._mass()
         self.part = part
+        if self.heat:
+            self.T_before, self.T = self.T, self.heat.temperature()
+            self.heat.accept()
 
     def _mass(self):
         v = self.levels
@@ -201,18 +247,20 @@ class Passage:
 
     def _describe(self, report, started):
         time_s = self.step * self.dT * self.scales.t
-        shot = snapshot.take(self.solver, self.scene, self.step, time_s, self.position(self.step) * self.scales.a, report,
+        shot = snapshot.take(self.solver, self.heat, self.step, time_s, self.position(self.step) * self.scales.a, report,
                              started)
         shot.scalars.update(rejected=float(self.rejected), dt_s=self.dT * self.scales.t)
         shot.state.update(P_before=self.P_before, mass=self.mass, mass_before=self.mass_before,
                           part=self.part)
+        if self.heat:
+            shot.state["T_before"] = self.T_before
         return shot
 
 
 def _extrapolated(P, P_before, cells, cells_before, ratio):
-    """The next pressure from the last two (ny+1, nx+1) in a frame in which what differs from the outermost row moves by
-    `cells` (the last time by `cells_before`); ratio: this step over the last one."""
-    edge, edge_before = P[-1:], P_before[-1:]
+    """The next pressure (or temperatures) from the last two (..., ny+1, nx+1) in a frame in which what differs from the
+    outermost row moves by `cells` (the last time by `cells_before`); ratio: this step over the last one."""
+    edge, edge_before = P[..., -1:, :], P_before[..., -1:, :]
     inner = (1 + ratio) * (P - edge) - ratio * _shift(P_before - edge_before, cells_before)
     return (1 + ratio) * edge - ratio * edge_before + _shift(inner, cells)
 
@@ -226,7 +274,7 @@ def _shift(field_, cells):
 
 def _roll(field_, cells):
     out = np.zeros_like(field_)
-    out[:, cells:] = field_[:, : field_.shape[1] - cells]
+    out[..., cells:] = field_[..., : field_.shape[-1] - cells]
     return out
 
 

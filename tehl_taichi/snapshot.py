@@ -31,26 +31,40 @@ class Snapshot:
     error: dict = field(default_factory=dict)
 
 
-def take(solver, scene, step, time_s, feature_x, report, started):
-    """Snapshot of what is in the solver's table; feature_x in m, started: time.perf_counter() when the step began."""
+def take(solver, heat, step, time_s, feature_x, report, started):
+    """Snapshot of what is in the solver's table; heat: its FilmHeat or None; feature_x in m, started: time.perf_counter()
+    when the step began."""
     v, s = solver.levels, solver.levels.scales
     P, H, touch = (v.get(row) for row in (fields.P, fields.H, fields.TOUCH))
-    stress = _tractions(solver, scene)
+    stress = _tractions(solver, heat)
     si = {"pressure": P * s.p_H, "film": H * s.h, "contact": touch.astype(np.uint8)}
     names = ("traction_x_a", "traction_y_a", "traction_x_b", "traction_y_b")
     si.update(zip(names, stress))
     numbers = _scalars(solver, report, stress)
+    if heat:
+        si.update(_temperatures(heat))
+        numbers.update(film_max_C=float(heat.temperature().max()), surface_a_max_C=float(si["temperature_a"].max()),
+                       surface_b_max_C=float(si["temperature_b"].max()))
     numbers["wall_s"] = time.perf_counter() - started
-    state = {"step": step, "P": P, "H0": solver.H0}
+    state = {"step": step, "P": P, "H0": solver.H0, **(heat.state() if heat else {})}
     return Snapshot(step, time_s, feature_x, v.X * s.a, v.Y * s.a,
                     {key: np.ascontiguousarray(value.T) for key, value in si.items()}, numbers, state)
 
 
-def _tractions(solver, scene):
-    v, s = solver.levels, solver.levels.scales
+def _temperatures(heat):
+    T = heat.temperature()
+    return {"temperature_mid": T[len(T) // 2], "temperature_a": T[0], "temperature_b": T[-1]}
+
+
+def _tractions(solver, heat):
+    """Shear (4, ny+1, nx+1) in Pa on body a along x, y and on body b along x, y."""
+    v, s, scene = solver.levels, solver.levels.scales, solver.levels.scene
     out = np.zeros((4, v.ny + 1, v.nx + 1))
     traction.tractions(v.S, v.G, scene.rheology, s.p_H, s.h, s.a, math.exp(v.ln_eta0), scene.operation.u_s, v.dx, v.dy,
                        out)
+    if heat:
+        wall, film = heat.shear(), (v.get(fields.P) > 0) & (v.get(fields.TOUCH) == 0)
+        out = np.where(film, wall * np.array([1, 1, -1, -1])[:, None, None], out)
     return out
 
 

@@ -24,10 +24,12 @@ FADE = 1e-4  # heat sources fade as P/(P + FADE) towards the cavitated outlet: s
 WARM, HOT = 100.0, 900.0  # the temperature stays above the inlet's minus WARM, and below HOT (deg C)
 
 # slots: nz numbers each from T on, then the single ones
-T, TN, U, VY, MX, MY, MS, MSN, NIE, NRHO, TS, PS = range(12)  # temperature, of the last step; velocities; h int_0 rho (u, v,
-# 1) and the last of the last step; 1/eta, rho; temperature and pressure change at the departure points
-PN, QA, QB, AA, AB, TAU, XA, YA, XB, YB = range(10)  # pressure of the last step (Pa); heat into the bodies; T_s = A + B q of the
-# bodies; stress of the Couette part; shear on the walls z = 0 and z = h
+# temperature, that of the last step; velocities; h int_0 rho (u, v, 1), the last one of the last step too; 1/eta, rho;
+# temperature and pressure change at the departure points
+T, TN, U, VY, MX, MY, MS, MSN, NIE, NRHO, TS, PS = range(12)
+# pressure of the last step (Pa); heat into the bodies; A of T_s = A + B q; stress of the Couette part; shear on the walls
+# z = 0 and z = h
+PN, QA, QB, AA, AB, TAU, XA, YA, XB, YB = range(10)
 SINGLES = 10
 
 Coefficients = ti.types.ndarray(dtype=ti.f64, ndim=2)
@@ -219,24 +221,24 @@ def along_x(Z: ti.template(), first, nx, slot, u, at, inflow):
 
 
 @ti.func
-def upwind(Z: ti.template(), q, slot, n2, s, ny, step):
-    """Change of a slot by flow along y, step = v dt/dy."""
+def upwind(Z: ti.template(), q, slot, n2, s, ny, moved):
+    """Change of a slot by flow along y, moved = v dt/dy."""
     here = Z[q, slot]
     lower, upper = slots_around(Z, q, slot, n2, s, ny)
-    return -ti.max(step, 0.0) * (here - lower) - ti.min(step, 0.0) * (upper - here)
+    return -ti.max(moved, 0.0) * (here - lower) - ti.min(moved, 0.0) * (upper - here)
 
 
 @ti.kernel
-def departures(S: ti.template(), Z: ti.template(), G: Table, nz: ti.i32, p_H: ti.f64, dt_x: ti.f64, dt_y: ti.f64,
-               inflow: ti.f64):
+def departures(S: ti.template(), Z: ti.template(), G: Table, nz: ti.i32, p_H: ti.f64, inflow: ti.f64, step: Coefficients):
     """Temperature and pressure where the oil of each node was a step ago: cubic along x, upwind along y.
 
-    dt_x, dt_y: time step over the cell sizes, s/m; inflow: temperature of what comes in from the left.
+    inflow: temperature of what comes in from the left; step: as in `energy`.
     """
     nx, ny, off = cells(G, 0)
     base, n2 = 12 * nz, nx + 1
     ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
+        dt_x, dt_y = step[0, 1] / step[0, 0], step[0, 2] / step[0, 0]
         for i in range(nx + 1):
             q = s * n2 + i
             for n in range(nz):
@@ -246,9 +248,9 @@ def departures(S: ti.template(), Z: ti.template(), G: Table, nz: ti.i32, p_H: ti
                     warm[u] = along_x(Z, s * n2, nx, TN * nz + n, u, at, inflow)
                     press[u] = along_x(Z, s * n2, nx, base + PN, u, at, 0.0)
                 if ny > 0:
-                    step = ti.min(ti.max(Z[q, VY * nz + n] * dt_y, -1.0), 1.0)
-                    warm += upwind(Z, q, TN * nz + n, n2, s, ny, step)
-                    press += upwind(Z, q, base + PN, n2, s, ny, step)
+                    moved = ti.min(ti.max(Z[q, VY * nz + n] * dt_y, -1.0), 1.0)
+                    warm += upwind(Z, q, TN * nz + n, n2, s, ny, moved)
+                    press += upwind(Z, q, base + PN, n2, s, ny, moved)
                 Z[q, TS * nz + n] = warm
                 Z[q, PS * nz + n] = S[P, off + q] * p_H - ti.max(press, 0.0)
 
@@ -347,8 +349,8 @@ def energy(S: ti.template(), Z: ti.template(), X: ti.template(), G: Table, C: Co
     """One implicit step of every column, by Newton; out[block] = (largest change of T against the last iterate, columns
     that did not converge, clamped nodes).
 
-    scale[0] = p_H, h, a, ln eta0, slip, inlet temperature, column of X = 0; step[0] = 1/dt, 1/dx, 1/dy (1/m), B_a, B_b, tolerance (K),
-    iterations.
+    scale[0] = p_H, h, a, ln eta0, slip, inlet temperature, column of X = 0; step[0] = 1/dt, 1/dx, 1/dy (1/m), B_a, B_b,
+    tolerance (K), iterations.
     """
     nx, ny, off = cells(G, 0)
     base = 12 * nz

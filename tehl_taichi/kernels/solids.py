@@ -9,7 +9,7 @@ import taichi as ti
 from tehl_taichi.kernels.film import cubic
 from tehl_taichi.kernels.lanes import Table, V, W, cells
 
-Modes = ti.types.ndarray(dtype=ti.f64, ndim=2)  # rows: weight, decay over the step, gain of the step
+Modes = ti.types.ndarray(dtype=ti.f64, ndim=2)  # rows: weight, decay over the step, gain of the step; then shift, rest
 
 
 @ti.func
@@ -22,13 +22,14 @@ def interpolate(F: ti.template(), first, i, nx, slot, rest):
 
 
 @ti.kernel
-def surface(F: ti.template(), Z: ti.template(), G: Table, modes: Modes, count: ti.i32, body: ti.i32, shift: ti.i32,
-            rest: ti.f64, ambient: ti.f64, slot: ti.i32):
+def surface(F: ti.template(), Z: ti.template(), G: Table, modes: Modes, count: ti.i32, body: ti.i32, ambient: ti.f64,
+            slot: ti.i32):
     """Z[slot] = A of T_s = A + B q at the nodes of the contact; material strip i lies at x_i + rest dx."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
         first, scratch = s * (nx + 1), 4 * count
+        shift, rest = int(modes[3, 0]), modes[3, 1]
         for i in range(nx + 1):
             total = V(ambient)
             if i - shift >= 0:
@@ -40,13 +41,12 @@ def surface(F: ti.template(), Z: ti.template(), G: Table, modes: Modes, count: t
 
 
 @ti.kernel
-def remember(F: ti.template(), Z: ti.template(), G: Table, modes: Modes, count: ti.i32, body: ti.i32, shift: ti.i32,
-             rest: ti.f64, slot: ti.i32):
+def remember(F: ti.template(), Z: ti.template(), G: Table, modes: Modes, count: ti.i32, body: ti.i32, slot: ti.i32):
     """The new memory of a body from the flux Z[slot] of this step."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
-        first = s * (nx + 1)
+        first, shift, rest = s * (nx + 1), int(modes[3, 0]), modes[3, 1]
         for i in range(nx + 1):
             q = interpolate(Z, first, i, nx, slot, rest)
             for m in range(count):

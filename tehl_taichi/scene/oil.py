@@ -61,7 +61,8 @@ class Oil:
         for key, unit, low, high in (("eta0", "Pa s", 1e-6, 1e4), ("alpha", "1/Pa", 1e-10, 1e-6),
                                      ("p_r", "Pa", 1e6, 1e10), ("Z", "", 1e-3, 3.0), ("rho0", "kg/m3", 100, 5000),
                                      ("D1", "1/Pa", 0, 1e-7), ("D2", "1/Pa", 0, 1e-7), ("beta0", "1/K", 0, 1e-2),
-                                     ("beta_c", "1/Pa", 0, 1e-7), ("k0", "W/mK", 1e-3, 10), ("c0", "J/kgK", 100, 1e4), ("G0", "", 0, 20), ("S0", "", 0, 10)):
+                                     ("beta_c", "1/Pa", 0, 1e-7), ("k0", "W/mK", 1e-3, 10), ("c0", "J/kgK", 100, 1e4),
+                                     ("G0", "", 0, 20), ("S0", "", 0, 10)):
             number(f"oil.{key}", getattr(self, key), unit, low, high)
         if self.viscosity == "table":
             self._check_table()

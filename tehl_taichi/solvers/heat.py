@@ -10,12 +10,20 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl_taichi import runtime
-from tehl_taichi.kernels import film, lanes
+from tehl_taichi.kernels import fields, film, lanes
 from tehl_taichi.kernels import solids as solid_kernels
 from tehl_taichi.runtime import bind
 from tehl_taichi.solvers import solids
 
+COLUMN_TOLERANCE = 0.1  # of the tolerance of a round
 COLUMN_ITERATIONS = 12  # Newton steps of a column; 2 are usual, 6 to 8 the most seen
+
+
+TRANSITS = 1.2  # of the domain by the oil in the first block of steps towards the steady state
+BLOCK = 6  # later blocks: this fraction of the columns
+LOADED = 1e-3  # of p_H: the eddy in front of the contact fills with warm oil for ever, and matters little
+BLOCKS = 40  # at most; 8 to 12 are usual
+OIL_CELLS = 1.5  # a step of a passage moves the faster surface by at most so many cells
 
 
 @dataclass
@@ -43,11 +51,55 @@ def chebyshev(count):
     return 0.5 * (x + 1), C, 2 * D, 4 * D @ D
 
 
+def step_cells(scene):
+    """Cells that the feature moves in a time step: time.courant; with temperatures a whole fraction of it where the other
+    surface is much faster."""
+    if scene.isothermal:
+        return scene.time.courant
+    o = scene.operation
+    return scene.time.courant / max(1, math.ceil(scene.time.courant * o.u_b / o.u_a / OIL_CELLS - 1e-9))
+
+
+def time_step(scene, scales, dx):
+    """Time step in s on cells of dx (Hertz units): that of the passage, or a cell of the faster surface."""
+    o = scene.operation
+    if scene.transient:
+        return step_cells(scene) * dx * scales.a / o.u_a
+    return dx * scales.a / max(o.u_a, o.u_b)
+
+
+def settle(solver, heat, krylov_tolerance):
+    """Steady pressure and temperature by turns: a block of time steps with the pressure at rest, then the pressure anew.
+
+    Settled when a block changes the temperature under load by less than thermal.tolerance. Returns the pressure's Report
+    with converged = False if that is not reached.
+    """
+    v = solver.levels
+    heat.start()
+    steps = math.ceil(TRANSITS * v.nx)
+    for _ in range(BLOCKS):
+        before = heat.temperature()
+        for _ in range(steps):
+            heat.begin(heat.dt)
+            heat.solve()
+            heat.accept()
+        loaded = v.get(fields.P) > LOADED
+        change = float(np.abs(heat.temperature() - before).max(axis=0)[loaded].max())
+        report = solver.solve(krylov_tolerance)
+        steps = math.ceil(v.nx / BLOCK)
+        if not report.converged or change < v.scene.thermal.tolerance:
+            return report
+    report.converged = False
+    return report
+
+
 class FilmHeat:
     """Temperatures on the finest grid of `levels`, whose laws it takes over.
 
     dt_s: the time step (s) that the memory of the bodies is made for; shorter ones may be taken too.
     """
+
+    FIELDS = ("heat_T", "heat_below", "heat_memory")  # of the state, (..., ny+1, nx+1)
 
     def __init__(self, levels, dt_s):
         scene, self.levels = levels.scene, levels
@@ -60,8 +112,8 @@ class FilmHeat:
         self.zeta, self.C, self.D1, self.D2 = chebyshev(self.nz)
         self.single = 12 * self.nz
         self.offset = np.zeros(2)  # cells that each body has moved since the start
-        self.still = False
         self._bind(scene)
+        self._bind_bodies()
 
     def _bind(self, scene):
         v, s, o = self.levels, self.levels.scales, scene.operation
@@ -76,35 +128,36 @@ class FilmHeat:
         self.step_numbers, self.partial = np.zeros((1, 7)), np.zeros((v.fine, 3))
         self._energy = bind(film.energy, v.S, self.Z, self.X, v.G, self.C, self.zeta, self.D1, self.D2, self.nz, scene.oil,
                             scene.rheology, self.scale, self.step_numbers, self.partial)
+        self._departures = bind(film.departures, v.S, self.Z, v.G, self.nz, s.p_H, self.inlet, self.step_numbers)
         self._accept = bind(film.accept, *table, self.nz, s.p_H)
+
+    def _bind_bodies(self):
+        G, count, inlet = self.levels.G, solids.MODES, self.inlet
+        self.modes = [np.zeros((4, count)) for _ in (0, 1)]
+        self._surface = [bind(solid_kernels.surface, self.F, self.Z, G, self.modes[body], count, body, inlet,
+                              self.single + (film.AA, film.AB)[body]) for body in (0, 1)]
+        self._remember = [bind(solid_kernels.remember, self.F, self.Z, G, self.modes[body], count, body,
+                               self.single + (film.QA, film.QB)[body]) for body in (0, 1)]
+        self._adopt = bind(solid_kernels.adopt, self.F, G, count)
 
     def start(self):
         """Everything at the inlet temperature; the pressure and film in the table count as those of the last step."""
         v = self.levels
         self.set_temperature(np.full((self.nz, v.ny + 1, v.nx + 1), self.inlet))
-        for body in (0, 1):
-            film.put_slots(self.Z, v.G, self.single + (film.AA, film.AB)[body], 1,
-                           np.full((1, v.ny + 1, v.nx + 1), self.inlet))
         v.laws()
         self._velocities()
         self._accept()
 
-    def begin(self, dt, part=1.0):
+    def begin(self, dt):
         """Prepare a step of dt s: what the bodies remember, A and B of both surfaces."""
-        v, cells = self.levels, np.array(self.speeds) * dt / (v_dx(self.levels))
-        self.until = self.offset + cells
-        self.dt_now, B = dt, []
+        v, a, B = self.levels, self.levels.scales.a, [0.0, 0.0]
+        self.until = self.offset + np.array(self.speeds) * dt / (v.dx * a)
         for body in (0, 1):
-            modes, b = solids.memory(dt, self.effusivities[body], self.dt)
-            shift, rest = self._position(body)
-            solid_kernels.surface(self.F, self.Z, v.G, modes, solids.MODES, body, shift, rest, self.inlet,
-                                  self.single + (film.AA, film.AB)[body])
-            B.append(b)
-        a = v.scales.a
-        rate = 0.0 if self.still else 1 / dt
-        self.step_numbers[0] = [1 / dt, 1 / (v.dx * a), 1 / (v.dy * a), *B, 0.0, COLUMN_ITERATIONS]
-        self.step_numbers[0, 5] = 0.1 * v.scene.thermal.tolerance
-        del rate
+            self.modes[body][:3], B[body] = solids.memory(dt, self.effusivities[body], self.dt)
+            self.modes[body][3, :2] = self._position(body)
+            self._surface[body]()
+        self.step_numbers[0] = [1 / dt, 1 / (v.dx * a), 1 / (v.dy * a), *B, COLUMN_TOLERANCE * v.scene.thermal.tolerance,
+                                COLUMN_ITERATIONS]
 
     def _position(self, body):
         """Whole cells that the grid overtakes material strips of the body by in this step, and where they lie then."""
@@ -113,24 +166,40 @@ class FilmHeat:
 
     def solve(self):
         """Temperatures of this step for the pressure and film in the table. Returns a HeatReport."""
-        v, s = self.levels, self.levels.scales
         self._velocities()
-        film.departures(v.S, self.Z, v.G, self.nz, s.p_H, self.dt_now / (v.dx * s.a), self.dt_now / (v.dy * s.a), self.inlet)
+        self._departures()
         self._energy()
         return HeatReport(float(self.partial[:, 0].max()), int(self.partial[:, 1].sum()), int(self.partial[:, 2].sum()))
 
     def accept(self):
         """Make this step the last one."""
-        v = self.levels
-        for body in (0, 1):
-            modes, _ = solids.memory(self.dt_now, self.effusivities[body], self.dt)
-            shift, rest = self._position(body)
-            solid_kernels.remember(self.F, self.Z, v.G, modes, solids.MODES, body, shift, rest,
-                                   self.single + (film.QA, film.QB)[body])
-        solid_kernels.adopt(self.F, v.G, solids.MODES)
+        for remember in self._remember:
+            remember()
+        self._adopt()
         self.offset = self.until
         self._velocities()
         self._accept()
+
+    def state(self):
+        """All that is needed to go on, as arrays."""
+        return {"heat_T": self.temperature(), "heat_below": self.slots(film.MSN * self.nz, self.nz),
+                "heat_memory": self.memory(), "heat_offset": self.offset}
+
+    def restore(self, state):
+        """Go on from a state; the pressure of the last step must be in the table."""
+        G, v = self.levels.G, self.levels
+        for first in (film.T, film.TN):
+            film.put_slots(self.Z, G, first * self.nz, self.nz, np.ascontiguousarray(state["heat_T"]))
+        film.put_slots(self.Z, G, film.MSN * self.nz, self.nz, np.ascontiguousarray(state["heat_below"]))
+        film.put_slots(self.Z, G, self.single + film.PN, 1, v.get(fields.P)[None] * v.scales.p_H)
+        film.put_slots(self.F, G, 0, 2 * solids.MODES, np.ascontiguousarray(state["heat_memory"]))
+        self.offset = np.array(state["heat_offset"])
+
+    def memory(self):
+        """Modes of both bodies, (2 MODES, ny+1, nx+1)."""
+        out = np.zeros((2 * solids.MODES, self.levels.ny + 1, self.levels.nx + 1))
+        film.get_slots(self.F, self.levels.G, 0, len(out), out)
+        return out
 
     def slots(self, first, count):
         """Slots as an array (count, ny+1, nx+1)."""
@@ -154,7 +223,3 @@ class FilmHeat:
     def shear(self):
         """Shear stress (Pa) at z = 0 along x, y and at z = h along x, y: (4, ny+1, nx+1)."""
         return self.slots(self.single + film.XA, 4)
-
-
-def v_dx(levels):
-    return levels.dx * levels.scales.a

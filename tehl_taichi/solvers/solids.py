@@ -7,6 +7,7 @@ exactly: T_s = A + B q, B = 2 sqrt(dt/pi)/sqrt(k rho c), the same at every node.
 """
 
 import math
+from functools import lru_cache
 
 import numpy as np
 
@@ -15,7 +16,7 @@ HORIZON = 2000.0  # steps that a strip spends on the grid at most
 
 
 def memory(dt, effusivity, base_dt):
-    """(modes (3, MODES): weight, decay over dt, gain of dt; B) for a step of dt s, fitted for steps of base_dt s.
+    """(rows of MODES numbers: weight, decay over dt, gain of dt; B) for a step of dt s, fitted for steps of base_dt s.
 
     effusivity: sqrt(k rho c) of the body, SI.
     """
@@ -25,6 +26,7 @@ def memory(dt, effusivity, base_dt):
     return np.array([weights, decay, (1 - decay) / rates]), 2 * math.sqrt(dt / math.pi) / effusivity
 
 
+@lru_cache(maxsize=1)
 def _fit():
     """Rates and weights for a step of 1 and effusivity 1: least squares on the response to the flux of one step, n steps
     later, relative to the exact 2/sqrt(pi) (sqrt(n + 1) - sqrt(n))."""

@@ -5,11 +5,13 @@ The coarser solutions also give each scalar's discretisation error (Richardson w
 
 import math
 from dataclasses import dataclass, field
+from typing import Optional
 
 import numpy as np
 
 from tehl_taichi.kernels import fields
 from tehl_taichi.physics.gap import undeformed
+from tehl_taichi.solvers.heat import FilmHeat, settle, time_step
 from tehl_taichi.solvers.levels import Levels
 from tehl_taichi.solvers.newton import PressureSolver, Report
 
@@ -18,6 +20,7 @@ KRYLOV_TOLERANCE = 1e-3  # looser lets H0 creep on fine point contacts (6e-5 a N
 FIRST_FILM = 0.05  # central film of the first guess, Hertz units: thick enough to flow, thin enough to be near
 START_TRIES = (1.0, 0.3, 3.0)  # times FIRST_FILM
 SAFETY = 1.25  # on an extrapolated error (Roache 1994, three grids)
+FINEST_THERMAL = 4  # temperatures on the grids up to four times as coarse as the finest: three grids for the error
 CREDIBLE_ORDER = (0.5, 4.0)  # observed orders outside are not believed
 
 
@@ -29,10 +32,12 @@ class SteadyResult:
     report: Report
     values: list = field(default_factory=list)
     work: int = 0
+    heat: Optional[FilmHeat] = None
 
     def errors(self):
         """Estimated error of the finest h_c, h_min, p_max (dimensionless); see :func:`estimated_error`."""
-        return {key: estimated_error([v[key] for v in self.values]) for key in self.values[-1]}
+        last = self.values if self.heat is None else self.values[-3:]
+        return {key: estimated_error([v[key] for v in last]) for key in self.values[-1]}
 
 
 def estimated_error(values):
@@ -65,14 +70,17 @@ def solve_steady(scene, scales, nx, ny):
     """Steady smooth contact on nx x ny cells (ny = 0: line). Returns a SteadyResult; check `report.converged`."""
     P, H0, values, work = None, 0.0, [], 0
     for size in grid_sequence(nx, ny):
-        solver = None  # gives its table to the next grid
+        solver = heat = None  # give their tables to the next grid
         solver = PressureSolver(Levels(scene, scales, *size))
         _undeformed(solver.levels)
         report = _first(solver) if P is None else _next(solver, P, H0)
+        if report.converged and not scene.isothermal and nx // size[0] <= FINEST_THERMAL:
+            heat = FilmHeat(solver.levels, time_step(scene, scales, solver.levels.dx))
+            report = settle(solver, heat, KRYLOV_TOLERANCE)
         P, H0 = solver.levels.get(fields.P), solver.H0
         values.append(scalars(solver))
         work += report.cycles
-    return SteadyResult(solver, report, values, work)
+    return SteadyResult(solver, report, values, work, heat)
 
 
 def _undeformed(levels):
