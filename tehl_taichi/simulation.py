@@ -25,6 +25,7 @@ __all__ = ["NotConverged", "Passage", "Snapshot", "march", "total_steps"]
 # 3.28/21.5, 2.99/20.4, 4.73/33.3; contact frame only 3.20/19.0, 2.97/17.9, 3.88/24.9; switch at -0.2 2.96/18.2, 2.67/17.6,
 # 3.58/23.2, at 0.3 3.06/19.4 (gear), at 0.8 3.60/25.4; the frame that was nearer one step ago 2.99/18.9, 2.67/17.8, 3.74/25.0
 SHIFT_UNTIL = -0.2
+HEAT_SHIFT_UNTIL = 0.65  # the same for temperatures: their first error is below 1 K in that frame, 13 K in the other
 RETRY_KRYLOV = 3e-3  # a failed step is repeated from the old pressure with a Krylov solve ten times tighter,
 SMALLEST_PART = 1 / 16  # then in halves down to this part of it; after that parts at most double
 
@@ -138,32 +139,30 @@ class Passage:
         self._move_feature(self.step + until)
         self._discretise_time(part)
         self._predict(until, part)
-        report = self._solve()
-        if self.heat:
-            report = self._exchange(report, part)
+        report = self._exchange(part) if self.heat else self._solve()
         if report.converged:
             self._accept(part)
         return report
 
-    def _exchange(self, report, part):
-        """Temperature and pressure by turns until the temperature changes by less than thermal.tolerance in a round."""
-        thermal = self.scene.thermal
+    def _exchange(self, part):
+        """Temperature and pressure by turns until the temperature changes by less than thermal.tolerance in a round.
+
+        The first round takes one Newton step only: its pressure belongs to guessed temperatures anyway.
+        """
+        thermal, newton, cycles = self.scene.thermal, 0, 0
         self.heat.begin(part * self.dT * self.scales.t)
         for turn in range(thermal.rounds):
-            if turn:
-                report = self._again(report)
-            if not report.converged:
-                return report
-            heat = self.heat.solve()
-            if thermal.rounds == 1 or (turn and heat.change < thermal.tolerance):
-                return report
-        report.converged = False
-        return report
-
-    def _again(self, before):
-        """The pressure for new temperatures; the effort of the rounds added up."""
-        report = self.solver.solve()
-        report.newton, report.cycles = report.newton + before.newton, report.cycles + before.cycles
+            first = turn == 0 and thermal.rounds > 1
+            report = self.solver.solve(newton_max=1) if first else self._solve()
+            newton, cycles = newton + report.newton, cycles + report.cycles
+            if not (first or report.converged):
+                break
+            change = self.heat.solve().change
+            if not first and (thermal.rounds == 1 or change < thermal.tolerance):
+                break
+        else:
+            report.converged = False
+        report.newton, report.cycles = newton, cycles
         return report
 
     def _shorter(self, report, part):
@@ -206,17 +205,17 @@ class Passage:
         v.put(fields.QOLD, old * v.dx)
 
     def _predict(self, until, part):
-        P, moves = self.P, 0.0
+        P = self.P
         if self.P_before is not None:
             moves = self.step_x / self.levels.dx if self.position(self.step + until) < SHIFT_UNTIL else 0.0
             P = np.maximum(_extrapolated(P, self.P_before, moves * part, moves * self.part, part / self.part), 0.0)
             P[:, [0, -1]] = 0.0
         self.levels.put(fields.P, P)
         if self.heat:
-            self._predict_temperature(moves, part)
+            self._predict_temperature(part)
 
-    def _predict_temperature(self, moves, part):
-        T = self.T
+    def _predict_temperature(self, part):
+        T, moves = self.T, self.step_x / self.levels.dx if self.position(self.step + 1) < HEAT_SHIFT_UNTIL else 0.0
         if self.T_before is not None:
             T = _extrapolated(T, self.T_before, moves * part, moves * self.part, part / self.part)
             T = np.clip(T, self.T.min(), self.T.max() + 20.0)
@@ -238,8 +237,8 @@ class Passage:
         self.mass_before, self.mass = self.mass, self._mass()
         self.part = part
         if self.heat:
-            self.T_before, self.T = self.T, self.heat.temperature()
             self.heat.accept()
+            self.T_before, self.T = self.T, self.heat.T
 
     def _mass(self):
         v = self.levels

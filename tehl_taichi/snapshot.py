@@ -43,7 +43,7 @@ def take(solver, heat, step, time_s, feature_x, report, started):
     numbers = _scalars(solver, report, stress)
     if heat:
         si.update(_temperatures(heat))
-        numbers.update(film_max_C=float(heat.temperature().max()), surface_a_max_C=float(si["temperature_a"].max()),
+        numbers.update(film_max_C=float(heat.T.max()), surface_a_max_C=float(si["temperature_a"].max()),
                        surface_b_max_C=float(si["temperature_b"].max()))
     numbers["wall_s"] = time.perf_counter() - started
     state = {"step": step, "P": P, "H0": solver.H0, **(heat.state() if heat else {})}
@@ -52,7 +52,7 @@ def take(solver, heat, step, time_s, feature_x, report, started):
 
 
 def _temperatures(heat):
-    T = heat.temperature()
+    T = heat.T
     return {"temperature_mid": T[len(T) // 2], "temperature_a": T[0], "temperature_b": T[-1]}
 
 

@@ -25,8 +25,10 @@ WARM, HOT = 100.0, 900.0  # the temperature stays above the inlet's minus WARM, 
 
 # slots: nz numbers each from T on, then the single ones
 # temperature, that of the last step; velocities; h int_0 rho (u, v, 1), the last one of the last step too; 1/eta, rho;
-# temperature and pressure change at the departure points
-T, TN, U, VY, MX, MY, MS, MSN, NIE, NRHO, TS, PS = range(12)
+# temperature and pressure change at the departure points; temperature of the last round
+T, TN, U, VY, MX, MY, MS, MSN, NIE, NRHO, TS, PS, LAST = range(13)
+KINDS = 13
+BETA, THROUGH = VY, U  # the velocities' slots, used again in the energy step
 # pressure of the last step (Pa); heat into the bodies; A of T_s = A + B q; stress of the Couette part; shear on the walls
 # z = 0 and z = h
 PN, QA, QB, AA, AB, TAU, XA, YA, XB, YB = range(10)
@@ -162,7 +164,7 @@ def velocities(S: ti.template(), Z: ti.template(), G: Table, C: Coefficients, ze
                ln_eta0: ti.f64, u_a: ti.f64, slip: ti.f64):
     """Velocities, mass fluxes below each node, and the shear on both walls."""
     nx, ny, off = cells(G, 0)
-    base = 12 * nz
+    base = KINDS * nz
     ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
         floor, eta0, dx, dy = G[0, FLOOR], ti.exp(ln_eta0), G[0, DX], G[0, DY]
@@ -235,7 +237,7 @@ def departures(S: ti.template(), Z: ti.template(), G: Table, nz: ti.i32, p_H: ti
     inflow: temperature of what comes in from the left; step: as in `energy`.
     """
     nx, ny, off = cells(G, 0)
-    base, n2 = 12 * nz, nx + 1
+    base, n2 = KINDS * nz, nx + 1
     ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
         dt_x, dt_y = step[0, 1] / step[0, 0], step[0, 2] / step[0, 0]
@@ -273,28 +275,34 @@ def outflow(Z: ti.template(), q, i, nx, s, ny, nz, n, inv_dt, inv_x, inv_y):
 
 
 @ti.func
-def assemble(S: ti.template(), Z: ti.template(), X: ti.template(), k, q, s, i, nx, ny, nz, C: ti.template(),
-             zeta: ti.template(), D1: ti.template(), D2: ti.template(), oil: ti.template(), rheology: ti.template(), p, h, px,
-             py, ln_eta0, slip, inv_dt, inv_x, inv_y, B_a, B_b, fade, mu_stress):
+def prepare(Z: ti.template(), q, s, i, nx, ny, nz, oil: ti.template(), p, inv_dt, inv_x, inv_y):
+    """What the Newton steps of a column share: the flow through its nodes and -d ln eta/d Gamma; keeps the last iterate."""
+    total = outflow(Z, q, i, nx, s, ny, nz, nz - 1, inv_dt, inv_x, inv_y)
+    for n in range(nz):
+        t = Z[q, T * nz + n]
+        share = Z[q, MS * nz + n] / Z[q, MS * nz + nz - 1]
+        Z[q, BETA * nz + n] = (ln_eta(oil, p, t) - ln_eta(oil, p, t + DT)) / DT
+        Z[q, THROUGH * nz + n] = outflow(Z, q, i, nx, s, ny, nz, n, inv_dt, inv_x, inv_y) - share * total
+        Z[q, LAST * nz + n] = t
+
+
+@ti.func
+def assemble(S: ti.template(), Z: ti.template(), X: ti.template(), k, q, s, nz, C: ti.template(), zeta: ti.template(),
+             D1: ti.template(), D2: ti.template(), oil: ti.template(), rheology: ti.template(), p, h, px, py, ln_eta0, slip,
+             inv_dt, B_a, B_b, fade, mu_stress):
     """Newton system of one column: X[s, n nz + m] the matrix, X[s, nz nz + n] minus the residual."""
-    base, eta0 = 12 * nz, ti.exp(ln_eta0)
+    base, eta0 = KINDS * nz, ti.exp(ln_eta0)
     kf = conductivity(oil, p)
     node_laws(Z, q, nz, oil, p, ln_eta0)
     e0, centre, newtonian, b = couette(Z, q, nz, C, zeta, rheology, p, h, slip, eta0)
     tau = b * newtonian
     bend = (secant(rheology, newtonian * 1.001, p) * 1.001 - b) * 1000.0  # d tau/d newtonian
-    total = outflow(Z, q, i, nx, s, ny, nz, nz - 1, inv_dt, inv_x, inv_y)
-    for n in range(nz):  # -d ln eta/d Gamma; the velocities' slot is free by now
-        t = Z[q, T * nz + n]
-        Z[q, VY * nz + n] = (ln_eta(oil, p, t) - ln_eta(oil, p, t + DT)) / DT
     for n in range(1, nz - 1):
         t, rho, ie = Z[q, T * nz + n], Z[q, NRHO * nz + n], Z[q, NIE * nz + n]
         rc = heat_capacity(oil, p, t)
-        share = Z[q, MS * nz + n] / Z[q, MS * nz + nz - 1]
-        through = outflow(Z, q, i, nx, s, ny, nz, n, inv_dt, inv_x, inv_y) - share * total
-        swept = rc / rho * through / h  # fluxes and rho are both over rho_0
+        swept = rc / rho * Z[q, THROUGH * nz + n] / h  # fluxes and rho are both over rho_0
         tx, ty = tau + (zeta[n] - centre) * h * px, (zeta[n] - centre) * h * py
-        beta = Z[q, VY * nz + n]
+        beta = Z[q, BETA * nz + n]
         heat = (tx * tx + ty * ty) * ie / (b * eta0) * fade
         squeeze = expansivity(oil, p, t) * Z[q, PS * nz + n] * inv_dt * fade
         solid = S[TOUCH, k] > 0.0
@@ -306,7 +314,7 @@ def assemble(S: ti.template(), Z: ti.template(), X: ti.template(), k, q, s, i, n
             other = Z[q, T * nz + m]
             link = swept * D1[n, m] - kf / (h * h) * D2[n, m]
             balance += link * other
-            X[s, n * nz + m] = link + gain * C[nz - 1, m] * Z[q, NIE * nz + m] * Z[q, VY * nz + m]
+            X[s, n * nz + m] = link + gain * C[nz - 1, m] * Z[q, NIE * nz + m] * Z[q, BETA * nz + m]
         X[s, n * nz + n] += rc * inv_dt - squeeze - ti.select(solid, V(0.0), heat * beta)
         X[s, nz * nz + n] = -balance
     flux_a, flux_b = V(0.0), V(0.0)
@@ -353,7 +361,7 @@ def energy(S: ti.template(), Z: ti.template(), X: ti.template(), G: Table, C: Co
     tolerance (K), iterations.
     """
     nx, ny, off = cells(G, 0)
-    base = 12 * nz
+    base = KINDS * nz
     ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
         p_H, h_scale, a, ln_eta0, slip = scale[0, 0], scale[0, 1], scale[0, 2], scale[0, 3], scale[0, 4]
@@ -369,14 +377,12 @@ def energy(S: ti.template(), Z: ti.template(), X: ti.template(), G: Table, C: Co
                 fade = S[P, k] / (S[P, k] + FADE)
             mu_stress = ti.min(rheology.mu_boundary * p, shear_limit(rheology, p))
             before = V(0.0)
-            for n in range(nz):
-                Z[q, U * nz + n] = Z[q, T * nz + n]  # velocities are used up: the slot keeps the last iterate
+            prepare(Z, q, s, i, nx, ny, nz, oil, p, step[0, 0], step[0, 1], step[0, 2])
             moved, count = 1e300, 0
             while moved > step[0, 5] and count < int(step[0, 6]):
                 count += 1
-                assemble(S, Z, X, k, q, s, i, nx, ny, nz, C, zeta, D1, D2, oil, rheology, p, h, px * (p_H / a),
-                         py * (p_H / a), ln_eta0, slip, step[0, 0], step[0, 1], step[0, 2], step[0, 3],
-                         step[0, 4], fade, mu_stress)
+                assemble(S, Z, X, k, q, s, nz, C, zeta, D1, D2, oil, rheology, p, h, px * (p_H / a), py * (p_H / a), ln_eta0,
+                         slip, step[0, 0], step[0, 3], step[0, 4], fade, mu_stress)
                 eliminate(X, s, nz)
                 moved = 0.0
                 for n in range(nz):
@@ -394,7 +400,7 @@ def energy(S: ti.template(), Z: ti.template(), X: ti.template(), G: Table, C: Co
             for m in range(nz):
                 flux_a += D1[0, m] * Z[q, T * nz + m]
                 flux_b += D1[nz - 1, m] * Z[q, T * nz + m]
-                before = ti.abs(Z[q, T * nz + m] - Z[q, U * nz + m])
+                before = ti.abs(Z[q, T * nz + m] - Z[q, LAST * nz + m])
                 for u in ti.static(range(W)):
                     if s * W + u <= ny:
                         largest = ti.max(largest, before[u])
@@ -412,7 +418,7 @@ def accept(S: ti.template(), Z: ti.template(), G: Table, nz: ti.i32, p_H: ti.f64
             for n in range(nz):
                 Z[q, TN * nz + n] = Z[q, T * nz + n]
                 Z[q, MSN * nz + n] = Z[q, MS * nz + n]
-            Z[q, 12 * nz + PN] = S[P, off + q] * p_H
+            Z[q, KINDS * nz + PN] = S[P, off + q] * p_H
 
 
 @ti.kernel

@@ -19,7 +19,7 @@ COLUMN_TOLERANCE = 0.1  # of the tolerance of a round
 COLUMN_ITERATIONS = 12  # Newton steps of a column; 2 are usual, 6 to 8 the most seen
 
 
-TRANSITS = 1.2  # of the domain by the oil in the first block of steps towards the steady state
+TRANSITS, STRIDE = 1.2, 3  # of the domain by the oil in the first block of steps towards the steady state, and their length
 BLOCK = 6  # later blocks: this fraction of the columns
 LOADED = 1e-3  # of p_H: the eddy in front of the contact fills with warm oil for ever, and matters little
 BLOCKS = 40  # at most; 8 to 12 are usual
@@ -76,17 +76,17 @@ def settle(solver, heat, krylov_tolerance):
     """
     v = solver.levels
     heat.start()
-    steps = math.ceil(TRANSITS * v.nx)
+    steps, dt = math.ceil(TRANSITS * v.nx / STRIDE), STRIDE * heat.dt
     for _ in range(BLOCKS):
-        before = heat.temperature()
+        before = heat.T
         for _ in range(steps):
-            heat.begin(heat.dt)
+            heat.begin(dt)
             heat.solve()
             heat.accept()
         loaded = v.get(fields.P) > LOADED
-        change = float(np.abs(heat.temperature() - before).max(axis=0)[loaded].max())
+        change = float(np.abs(heat.T - before).max(axis=0)[loaded].max())
         report = solver.solve(krylov_tolerance)
-        steps = math.ceil(v.nx / BLOCK)
+        steps, dt = math.ceil(v.nx / BLOCK), heat.dt
         if not report.converged or change < v.scene.thermal.tolerance:
             return report
     report.converged = False
@@ -105,12 +105,12 @@ class FilmHeat:
         scene, self.levels = levels.scene, levels
         self.nz, self.dt = scene.thermal.nodes, dt_s
         self.columns = levels.fine * (levels.nx + 1)
-        slots = 12 * self.nz + film.SINGLES
+        slots = film.KINDS * self.nz + film.SINGLES
         self.Z = runtime.lease(self, 0, lanes.W, self.columns, slots)
         self.F = runtime.lease(self, 0, lanes.W, self.columns, 4 * solids.MODES + 1)
         self.X = runtime.lease(self, 0, lanes.W, levels.fine, self.nz * (self.nz + 1))
         self.zeta, self.C, self.D1, self.D2 = chebyshev(self.nz)
-        self.single = 12 * self.nz
+        self.single = film.KINDS * self.nz
         self.offset = np.zeros(2)  # cells that each body has moved since the start
         self._bind(scene)
         self._bind_bodies()
@@ -147,6 +147,7 @@ class FilmHeat:
         v.laws()
         self._velocities()
         self._accept()
+        self.T = self.temperature()
 
     def begin(self, dt):
         """Prepare a step of dt s: what the bodies remember, A and B of both surfaces."""
@@ -179,10 +180,11 @@ class FilmHeat:
         self.offset = self.until
         self._velocities()
         self._accept()
+        self.T = self.temperature()
 
     def state(self):
         """All that is needed to go on, as arrays."""
-        return {"heat_T": self.temperature(), "heat_below": self.slots(film.MSN * self.nz, self.nz),
+        return {"heat_T": self.T, "heat_below": self.slots(film.MSN * self.nz, self.nz),
                 "heat_memory": self.memory(), "heat_offset": self.offset}
 
     def restore(self, state):
@@ -193,7 +195,7 @@ class FilmHeat:
         film.put_slots(self.Z, G, film.MSN * self.nz, self.nz, np.ascontiguousarray(state["heat_below"]))
         film.put_slots(self.Z, G, self.single + film.PN, 1, v.get(fields.P)[None] * v.scales.p_H)
         film.put_slots(self.F, G, 0, 2 * solids.MODES, np.ascontiguousarray(state["heat_memory"]))
-        self.offset = np.array(state["heat_offset"])
+        self.offset, self.T = np.array(state["heat_offset"]), np.array(state["heat_T"])
 
     def memory(self):
         """Modes of both bodies, (2 MODES, ny+1, nx+1)."""
