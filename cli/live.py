@@ -50,4 +50,4 @@ class Live:
 def _line(snapshot):
     s = snapshot.scalars
     return (f"p_max {s['p_max_Pa'] / 1e9:.3f} GPa  h_min {s['h_min_m'] * 1e6:.4f} um  residual {s['residual']:.0e}  "
-            f"cycles {s['cycles']:.0f}")
+            f"cycles {s['cycles']:.0f}" + (f"  film {s['film_max_C']:.0f} °C" if "film_max_C" in s else ""))

@@ -24,15 +24,24 @@ def summary_table(summary):
         plus = f" ± {error * factor:.2g}" if error is not None and error == error else ""
         rows.append((name, f"{steady[key] * factor:.4f}{plus} {unit}"))
     rows.append(("steady friction coefficient", f"{steady['friction_coefficient']:.4f}"))
+    rows += _heat_rows("steady", steady)
     rows += _passage_rows(summary)
     rows.append(("run time", f"{summary['wall_s']:.1f} s (start, compile {summary['compile_s']:.1f} s)"))
     _table(f"{summary['scene']}: {summary['steps']} steps, store {summary['store']}", rows)
+
+
+def _heat_rows(when, values):
+    if "film_max_C" not in values:
+        return []
+    return [(f"{when} film / surface a / surface b, largest",
+             " / ".join(f"{values[key]:.1f}" for key in ("film_max_C", "surface_a_max_C", "surface_b_max_C")) + " °C")]
 
 
 def _passage_rows(summary):
     rows = []
     if "transient" in summary:
         t = summary["transient"]
+        rows += _heat_rows("passage", t)
         rows += [("passage p_max", f"{t['p_max_Pa'] / 1e9:.4f} GPa"), ("passage h_min", f"{t['h_min_m'] * 1e6:.4f} um"),
                  ("load carried by solid contact", f"{t['contact_load_fraction_max']:.3%} at most"),
                  ("worst residual / load / mass error",

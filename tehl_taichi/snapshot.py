@@ -42,18 +42,20 @@ def take(solver, heat, step, time_s, feature_x, report, started):
     si.update(zip(names, stress))
     numbers = _scalars(solver, report, stress)
     if heat:
-        si.update(_temperatures(heat))
+        si.update(_temperatures(heat, solver.levels.scene.output.profiles))
         numbers.update(film_max_C=float(heat.T.max()), surface_a_max_C=float(si["temperature_a"].max()),
-                       surface_b_max_C=float(si["temperature_b"].max()))
+                       surface_b_max_C=float(si["temperature_b"].max()), temperature_change_K=heat.report.change,
+                       clamped=float(heat.report.clamped))
     numbers["wall_s"] = time.perf_counter() - started
     state = {"step": step, "P": P, "H0": solver.H0, **(heat.state() if heat else {})}
     return Snapshot(step, time_s, feature_x, v.X * s.a, v.Y * s.a,
-                    {key: np.ascontiguousarray(value.T) for key, value in si.items()}, numbers, state)
+                    {key: np.ascontiguousarray(value.swapaxes(0, 1)) for key, value in si.items()}, numbers, state)
 
 
-def _temperatures(heat):
+def _temperatures(heat, profiles):
     T = heat.T
-    return {"temperature_mid": T[len(T) // 2], "temperature_a": T[0], "temperature_b": T[-1]}
+    out = {"temperature_mid": T[len(T) // 2], "temperature_a": T[0], "temperature_b": T[-1]}
+    return {**out, "temperature": T.transpose(1, 2, 0)} if profiles else out
 
 
 def _tractions(solver, heat):

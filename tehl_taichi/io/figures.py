@@ -18,6 +18,12 @@ def write_all(store, folder):
     figures = {"centreline": centreline(plt, store)}
     if store.y.size > 1:
         figures["maps"] = maps(plt, store)
+    if not store.scene.isothermal:
+        figures["temperature"] = temperature(plt, store)
+        if store.y.size > 1:
+            figures["temperature_maps"] = temperature_maps(plt, store)
+    if store.map("temperature") is not None:
+        figures["profiles"] = profiles(plt, store)
     if store.map("Fi") is not None:
         figures["fatigue"] = fatigue(plt, store)
     return [_save(plt, figure, folder / f"{name}.png") for name, figure in figures.items()]
@@ -73,11 +79,66 @@ def _film_top(store):
     return 2.5e6 * store.scalar("h_c_m")[0]
 
 
+def middle_entry(store):
+    """Entry with the feature nearest to X = 0 (the only one of a steady run)."""
+    at = store.scalar("feature_x")[: store.steps]
+    return int(np.nanargmin(np.abs(at))) if np.isfinite(at).any() else 0
+
+
+SURFACES = (("temperature_mid", "mid-film", "-"), ("temperature_a", "surface a", "--"), ("temperature_b", "surface b", ":"))
+
+
+def temperature(plt, store):
+    """Mid-film and both surfaces along y = 0 for several feature positions."""
+    a, centre = Scales.of(store.scene).a, int(np.argmin(np.abs(store.y)))
+    figure, ax = plt.subplots(figsize=(8, 4.8), constrained_layout=True)
+    for colour, n in enumerate(entries(store)):
+        f = store.fields(n, [name for name, *_ in SURFACES])
+        for name, text, style in SURFACES:
+            where = "steady start" if n == 0 else f"feature at {store.feature_x(n) / a:+.2f} a"
+            ax.plot(store.x / a, f[name][:, centre], ls=style, color=f"C{colour}", lw=1.4,
+                    label=f"{where}: {text}" if colour == 0 or style == "-" else None)
+    ax.set(xlabel="x / a (flow to the right)", ylabel="temperature (°C)", xlim=(-1.6, 1.4),
+           title=f"{store.scene.name}: temperatures along y = 0")
+    ax.legend(frameon=False, fontsize=8)
+    ax.grid(alpha=0.25)
+    return figure
+
+
+def temperature_maps(plt, store):
+    """Mid-film and both surfaces over x, y with the feature nearest to the middle."""
+    a, n = Scales.of(store.scene).a, middle_entry(store)
+    f = store.fields(n, [name for name, *_ in SURFACES])
+    top = max(float(v.max()) for v in f.values())
+    figure, axes = plt.subplots(3, 1, figsize=(6.0, 9.5), constrained_layout=True, sharex=True)
+    for ax, (name, text, _) in zip(axes, SURFACES):
+        y, full = whole(store.y / a, f[name])
+        image = ax.pcolormesh(store.x / a, y, full.T, cmap="inferno", vmax=top, shading="gouraud")
+        ax.set(ylabel="y / a", aspect="equal", xlim=(-1.6, 1.4), title=text)
+        figure.colorbar(image, ax=ax, label="°C")
+    axes[-1].set_xlabel("x / a (flow to the right)")
+    return figure
+
+
+def profiles(plt, store):
+    """Temperature across the film at several x on y = 0, feature nearest to the middle."""
+    a, n = Scales.of(store.scene).a, middle_entry(store)
+    T = store.fields(n, ["temperature"])["temperature"][:, int(np.argmin(np.abs(store.y)))]
+    zeta = store.map("zeta")
+    figure, ax = plt.subplots(figsize=(6, 4.8), constrained_layout=True)
+    for X in (-1.0, -0.5, 0.0, 0.5, 1.0):
+        ax.plot(T[int(np.argmin(np.abs(store.x / a - X)))], zeta, "o-", ms=3, lw=1.2, label=f"x = {X:+.1f} a")
+    ax.set(xlabel="temperature (°C)", ylabel="z / h (0: surface a, 1: surface b)", title=f"{store.scene.name}: across the film")
+    ax.legend(frameon=False)
+    ax.grid(alpha=0.25)
+    return figure
+
+
 def maps(plt, store):
     """Pressure and film over x, y with the feature nearest to the middle."""
     a = Scales.of(store.scene).a
     at = store.scalar("feature_x")[: store.steps]
-    n = int(np.nanargmin(np.abs(at))) if np.isfinite(at).any() else 0
+    n = middle_entry(store)
     f = store.fields(n, ("pressure", "film"))
     figure, axes = plt.subplots(2, 1, figsize=(6.5, 8), constrained_layout=True, sharex=True)
     panels = ((f["pressure"] / 1e9, "pressure (GPa)", "inferno", None),

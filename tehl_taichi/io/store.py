@@ -25,6 +25,12 @@ FIELDS = {
     "traction_x_b": ("f4", "Pa", "shear traction on body b along x"),
     "traction_y_b": ("f4", "Pa", "shear traction on body b along y"),
 }
+THERMAL_FIELDS = {
+    "temperature_mid": ("f4", "degC", "mid-film temperature"),
+    "temperature_a": ("f4", "degC", "temperature of surface a"),
+    "temperature_b": ("f4", "degC", "temperature of surface b"),
+}
+PROFILE = ("f4", "degC", "temperature across the film")  # with output.profiles
 SCALARS = {
     "feature_x": ("m", "centre of the first feature"), "h0_m": ("m", "rigid approach"),
     "p_max_Pa": ("Pa", "largest pressure"), "h_min_m": ("m", "smallest film"), "h_c_m": ("m", "film at x = 0, far edge"),
@@ -34,6 +40,22 @@ SCALARS = {
     "wall_s": ("s", "run time of the step"), "contact_load_fraction": ("1", "load carried by solid contact"),
     "friction_coefficient": ("1", "friction coefficient"),
 }
+THERMAL_SCALARS = {
+    "film_max_C": ("degC", "largest film temperature"), "surface_a_max_C": ("degC", "largest temperature of surface a"),
+    "surface_b_max_C": ("degC", "largest temperature of surface b"),
+    "temperature_change_K": ("K", "largest change of temperature in the last round of the step"),
+    "clamped": ("1", "nodes held inside the allowed range of temperature"),
+}
+
+
+def fields_of(scene):
+    """{name: (dtype, units, text)} of what a run of this scene stores per step on x, y."""
+    return FIELDS if scene.isothermal else {**FIELDS, **THERMAL_FIELDS}
+
+
+def scalars_of(scene):
+    """{name: (units, text)} of its scalar series."""
+    return SCALARS if scene.isothermal else {**SCALARS, **THERMAL_SCALARS}
 
 
 class StoreError(Exception):
@@ -51,7 +73,10 @@ class Store:
         self.scene = Scene.from_dict(json.loads(self.attrs["scene"]))
         self.group = zarr.open_group(str(self.path), mode="r+", use_consolidated=False)
         self.metadata = _metadata(self.path)
-        self.series = {name: self.group[name][:] for name in [*SCALARS, "step", "time"]}
+        self.stored = {name: kind[0] for name, kind in fields_of(self.scene).items()}
+        if "temperature" in self.group:
+            self.stored["temperature"] = PROFILE[0]
+        self.series = {name: self.group[name][:] for name in [*scalars_of(self.scene), "step", "time"]}
 
     @classmethod
     def create(cls, path, scene, snapshot, capacity, attrs=None):
@@ -63,7 +88,7 @@ class Store:
         check_free(path)
         group = zarr.open_group(str(path), mode="w", zarr_format=3)
         _coordinates(group, snapshot)
-        _series(group, capacity, snapshot.x.size, snapshot.y.size)
+        _series(group, capacity, scene, snapshot)
         (path / CHECKPOINTS).mkdir()
         _publish(path, {"Conventions": "CF-1.10", "scene": json.dumps(scene.to_dict()),
                         "scene_toml": scene_file.dumps(scene), **(attrs or {}), "steps": 0, "finished": False}, _metadata(path))
@@ -125,9 +150,10 @@ class Store:
     def append(self, snapshot):
         """Write one snapshot and its checkpoint, then make it visible."""
         n = self.steps
-        for name, (dtype, *_) in FIELDS.items():
+        for name, dtype in self.stored.items():
             values = np.ascontiguousarray(snapshot.fields[name], "<" + dtype)
-            _write_file(self.path / name / "c" / str(n) / "0" / "0", zstd.compress(values.tobytes(), 1))
+            chunk = self.path / name / "c" / "/".join([str(n)] + ["0"] * values.ndim)
+            _write_file(chunk, zstd.compress(values.tobytes(), 1))
         values = {**snapshot.scalars, "feature_x": snapshot.feature_x, "step": snapshot.step, "time": snapshot.time}
         for name, series in self.series.items():
             series[n] = values[name]
@@ -221,17 +247,28 @@ def _array(group, name, shape, chunks, dtype, dims, units, long_name, fill, **op
 
 
 def _coordinates(group, snapshot):
-    for name, values, text in (("x", snapshot.x, "along rolling"), ("y", snapshot.y, "across, half domain")):
+    for name, values, text in (("x", snapshot.x, "along rolling"), ("y", snapshot.y, "across")):
         array = _array(group, name, values.shape, values.shape, "f8", [name], "m", text, 0.0)
         array[:] = values
+    if "temperature" in snapshot.fields:
+        from tehl_taichi.solvers.heat import chebyshev
+
+        zeta = chebyshev(snapshot.fields["temperature"].shape[2])[0]
+        array = _array(group, "zeta", zeta.shape, zeta.shape, "f8", ["zeta"], "1", "z/h from surface a to surface b", 0.0)
+        array[:] = zeta
 
 
-def _series(group, capacity, nx, ny):
-    for name, (dtype, units, text) in FIELDS.items():
+def _series(group, capacity, scene, snapshot):
+    nx, ny = snapshot.x.size, snapshot.y.size
+    for name, (dtype, units, text) in fields_of(scene).items():
         fill = 0 if dtype == "u1" else float("nan")
         _array(group, name, (capacity, nx, ny), (1, nx, ny), dtype, ["time", "x", "y"], units, text, fill,
                compressors=zarr.codecs.ZstdCodec(level=1))
-    for name, (units, text) in SCALARS.items():
+    if "temperature" in snapshot.fields:
+        shape, (dtype, units, text) = snapshot.fields["temperature"].shape, PROFILE
+        _array(group, "temperature", (capacity, *shape), (1, *shape), dtype, ["time", "x", "y", "zeta"], units, text,
+               float("nan"), compressors=zarr.codecs.ZstdCodec(level=1))
+    for name, (units, text) in scalars_of(scene).items():
         _array(group, name, (capacity,), (capacity,), "f8", ["time"], units, text, float("nan"), compressors=None)
     _array(group, "step", (capacity,), (capacity,), "i8", ["time"], "1", "step number", -1, compressors=None)
     _array(group, "time", (capacity,), (capacity,), "f8", ["time"], "s", "time since the steady start", float("nan"),

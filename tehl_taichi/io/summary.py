@@ -3,6 +3,7 @@
 import numpy as np
 
 from tehl_taichi import __version__
+from tehl_taichi.physics.limits import GAMMA_MEASURED, P_MEASURED
 from tehl_taichi.scene.scales import Scales
 
 
@@ -12,7 +13,7 @@ def summarise(store, extra, fatigue=None):
     scales = Scales.of(scene)
     out = {"scene": scene.name, "version": __version__, "store": str(store.path), "converged": True,
            "wall_s": extra["wall_s"], "compile_s": extra["compile_s"], "steps": int(store.series["step"][len(store) - 1]),
-           "grid": {"nx": store.x.size, "ny": store.y.size, "nz": 1},
+           "grid": {"nx": store.x.size, "ny": store.y.size, "nz": 1 if scene.isothermal else scene.thermal.nodes},
            "hertz": {"a_m": scales.a, "p_Pa": scales.p_H}, "left_out": scene.left_out(),
            "steady": _steady(store, extra["steady_error"])}
     if len(store) > 1:
@@ -20,12 +21,32 @@ def summarise(store, extra, fatigue=None):
     if fatigue:
         out["fatigue"] = fatigue
     out["work"] = _work(store)
-    out["clamps"] = {}
+    out["clamps"] = _clamps(store)
+    return out
+
+
+HEAT = ("film_max_C", "surface_a_max_C", "surface_b_max_C")
+
+
+def _clamps(store):
+    """Where laws left their measured range or values were held: {what: count or largest value}."""
+    scene, out = store.scene, {}
+    if scene.isothermal:
+        return out
+    p, T = float(np.max(store.scalar("p_max_Pa"))), float(np.max(store.scalar("film_max_C")))
+    if p > P_MEASURED:
+        out["conductivity and heat capacity measured up to Pa"] = P_MEASURED
+    if T > GAMMA_MEASURED:
+        out["heat capacity measured up to degC"] = GAMMA_MEASURED
+    held = int(np.nansum(store.scalar("clamped")))
+    if held:
+        out["temperatures held inside the allowed range"] = held
     return out
 
 
 def _steady(store, error):
-    names = ("h_c_m", "h_min_m", "p_max_Pa", "load_error", "mass_error", "friction_coefficient")
+    names = ["h_c_m", "h_min_m", "p_max_Pa", "load_error", "mass_error", "friction_coefficient"]
+    names += [] if store.scene.isothermal else HEAT
     out = {name: float(store.scalar(name)[0]) for name in names}
     out["error"] = error
     return out
@@ -35,7 +56,8 @@ def _transient(store):
     def largest(name):
         return float(np.max(store.scalar(name)[1:]))
 
-    return {"p_max_Pa": largest("p_max_Pa"), "h_min_m": float(np.min(store.scalar("h_min_m")[1:])),
+    heat = {} if store.scene.isothermal else {name: largest(name) for name in (*HEAT, "temperature_change_K")}
+    return {**heat, "p_max_Pa": largest("p_max_Pa"), "h_min_m": float(np.min(store.scalar("h_min_m")[1:])),
             "contact_load_fraction_max": largest("contact_load_fraction"), "load_error_max": largest("load_error"),
             "mass_error_max": largest("mass_error"), "residual_max": largest("residual"), "dt_s": largest("dt_s"),
             "friction_coefficient_mean": float(np.mean(store.scalar("friction_coefficient")[1:]))}

@@ -2,8 +2,7 @@
 
 import taichi as ti
 
-P_MEASURED = 1.1e9  # Pa and deg C up to which the fits were measured; the laws stay at their values there
-GAMMA_MEASURED = 107.0
+from tehl_taichi.physics.limits import GAMMA_MEASURED, P_MEASURED
 
 
 @ti.pyfunc

@@ -235,9 +235,11 @@ class Numerics:
 
 @dataclass(frozen=True)
 class Output:
-    """every: store every n-th step."""
+    """every: store every n-th step; profiles: store the temperature at every node across the film too."""
 
     every: int = 1
+    profiles: bool = False
 
     def __post_init__(self):
+        flag("output.profiles", self.profiles)
         integer("output.every", self.every, 1, 10**6)

@@ -110,8 +110,10 @@ class Scene:
 
     def left_out(self):
         """What this scene does not need and therefore does not compute, each with its reason."""
-        out = ["energy equation and temperatures (isothermal film)"]
-        if self.oil.expansion == "thermal" and self.oil.beta0 > 0:
+        out = []
+        if self.isothermal:
+            out.append("energy equation and temperatures (isothermal film; --thermal has them)")
+        if self.isothermal and self.oil.expansion == "thermal" and self.oil.beta0 > 0:
             out.append("thermal expansion of the oil (isothermal film; oil.expansion = 'always' keeps it)")
         if self.one_dimensional:
             out.append("y direction (nothing varies across this line contact)")

@@ -112,6 +112,7 @@ class FilmHeat:
         self.zeta, self.C, self.D1, self.D2 = chebyshev(self.nz)
         self.single = film.KINDS * self.nz
         self.offset = np.zeros(2)  # cells that each body has moved since the start
+        self.report = HeatReport(math.nan, 0, 0)
         self._bind(scene)
         self._bind_bodies()
 
@@ -170,7 +171,9 @@ class FilmHeat:
         self._velocities()
         self._departures()
         self._energy()
-        return HeatReport(float(self.partial[:, 0].max()), int(self.partial[:, 1].sum()), int(self.partial[:, 2].sum()))
+        changes = self.partial.max(axis=0)[0], *self.partial.sum(axis=0)[1:]
+        self.report = HeatReport(float(changes[0]), int(changes[1]), int(changes[2]))
+        return self.report
 
     def accept(self):
         """Make this step the last one."""
