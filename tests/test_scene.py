@@ -58,7 +58,7 @@ def test_file_with_a_base(tmp_path):
     ("load", -1.0, "at least 0 N/m"), ("load", math.nan, "not a number"), ("load", math.inf, "finite"),
     ("speed", 0.0, "no film"), ("srr", 3.0, "at most 2"), ("temperature", 1e4, "deg C"), ("height", 1.0, "at most"),
     ("grid.nx", 100, "multiple of 16"), ("grid.nx", 64.5, "whole number"), ("oil.viscosity", "roeland", "roelands"),
-    ("feature.hight", 1e-6, "height"), ("bodies.a.E", -1.0, "Pa"), ("thermal.on", True, "isothermal"),
+    ("feature.hight", 1e-6, "height"), ("bodies.a.E", -1.0, "Pa"), ("thermal.nodes", 8, "odd"),
     ("feature.y", 1.0, "at most 0.1 m"), ("srr", -2.0, "never passes"), ("load", 1e9, "Hertz pressure"),
     ("contact.radius_y", 0.01, "line"), ("feature.shape", "map", "CSV or NPY"), ("feature.shape", "waviness", "extent_x"),
     ("time.x_start", -0.5, "steady start"), ("contact.kind", "elliptic", "a length in m"),

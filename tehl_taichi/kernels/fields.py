@@ -49,9 +49,10 @@ BAND = _rows(7)  # factorised line systems
 NROWS = next(_row)
 RHOC = next(_row)  # thermal scenes only: density that the Couette flow carries, over rho_0 (isothermal: RHO)
 QCP = next(_row)  # d(RHOC H)/dP at fixed H (isothermal: QP)
+DLH = next(_row)  # d LE / dH by the shear law (isothermal: none)
 NROWS_THERMAL = next(_row)
 STATE = (P, H, DRY, TOUCH)  # carried to the coarser levels
-LAWS = (RHO, LE, IE, MOB, DLE, DMP, DMH, QP, RHOC, QCP)  # carried there too in a thermal film
+LAWS = (RHO, LE, IE, MOB, DLE, DMP, DMH, QP, RHOC, QCP, DLH)  # carried there too in a thermal film
 
 # columns of the level table
 _col = itertools.count()

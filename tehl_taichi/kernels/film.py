@@ -10,7 +10,7 @@ the shear law leaves of the viscosity: u = u_a + (u_b - u_a) int_0 dzeta/eta / E
 
 import taichi as ti
 
-from tehl_taichi.kernels.fields import DLE, DMH, DMP, DX, DY, FLOOR, IE, LE, MOB, QCP, QP, RHO, RHOC, TOUCH, H, P
+from tehl_taichi.kernels.fields import DLE, DLH, DMH, DMP, DX, DY, FLOOR, IE, LE, MOB, QCP, QP, RHO, RHOC, TOUCH, H, P
 from tehl_taichi.kernels.lanes import Table, V, W, above, below, cells
 from tehl_taichi.physics.density import expansivity, rho_film
 from tehl_taichi.physics.elementary import exp, log
@@ -95,11 +95,17 @@ def laws(S: ti.template(), Z: ti.template(), G: Table, C: Coefficients, zeta: ti
             S[MOB, k] = mean * h * h * h * inv_lambda
 
 
+@ti.func
+def sensitivity(rheology: ti.template(), newtonian, p, b):
+    """1 + d ln b/d ln(Newtonian stress): d tau/d newtonian over b."""
+    return (secant(rheology, newtonian * 1.001, p) * 1.001 - b) * 1000.0 / b
+
+
 @ti.kernel
 def slopes(S: ti.template(), Z: ti.template(), G: Table, C: Coefficients, zeta: ti.types.ndarray(dtype=ti.f64, ndim=1),
            nz: ti.i32, oil: ti.template(), rheology: ti.template(), p_H: ti.f64, h_scale: ti.f64, ln_eta0: ti.f64,
            inv_lambda: ti.f64, u_a: ti.f64, slip: ti.f64, u_m: ti.f64):
-    """Their derivatives; needs `laws`. The film acts on the shear law too: d ln(1/b)/d ln H = -(1 - b^2)."""
+    """Their derivatives; needs `laws`. The film acts on the shear law too (DLH)."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
@@ -114,7 +120,9 @@ def slopes(S: ti.template(), Z: ti.template(), G: Table, C: Coefficients, zeta: 
             S[DLE, k] = (-log(ie) - S[LE, k]) * rate
             S[QP, k], S[QCP, k] = (mean - S[RHO, k]) * rate * S[H, k], (carried - S[RHOC, k]) * rate * S[H, k]
             S[DMP, k] = S[MOB, k] * (mean / S[RHO, k] - 1.0) * rate
-            S[DMH, k] = ti.select(S[H, k] > floor, (2.0 + b * b) * S[MOB, k] / h, V(0.0))
+            free = S[H, k] > floor
+            S[DMH, k] = ti.select(free, 3.0 * S[MOB, k] / h, V(0.0))
+            S[DLH, k] = ti.select(free, (1.0 - sensitivity(rheology, stress, p, b)) / h, V(0.0))
 
 
 @ti.func
@@ -297,7 +305,7 @@ def assemble(S: ti.template(), Z: ti.template(), X: ti.template(), k, q, s, nz, 
     node_laws(Z, q, nz, oil, p, ln_eta0)
     e0, centre, newtonian, b = couette(Z, q, nz, C, zeta, rheology, p, h, slip, eta0)
     tau = b * newtonian
-    bend = (secant(rheology, newtonian * 1.001, p) * 1.001 - b) * 1000.0  # d tau/d newtonian
+    bend = b * sensitivity(rheology, newtonian, p, b)  # d tau/d newtonian
     for n in range(1, nz - 1):
         t, rho, ie = Z[q, T * nz + n], Z[q, NRHO * nz + n], Z[q, NIE * nz + n]
         rc = heat_capacity(oil, p, t)

@@ -171,7 +171,7 @@ def residual(S: ti.template(), G: Table, couette: ti.template()):
 
 
 @ti.func
-def linear_face(p0, l0, e0, m0, dl0, dp0, dh0, p1, l1, e1, m1, dl1, dp1, dh1):
+def linear_face(p0, l0, e0, m0, dl0, dp0, dh0, f0, p1, l1, e1, m1, dl1, dp1, dh1, f1):
     """Linearised flux between two nodes: derivatives in P0, P1, H0, H1 and the frozen mobility, times the distance."""
     d = l1 - l0
     near = ti.abs(d) < 1e-3
@@ -181,27 +181,56 @@ def linear_face(p0, l0, e0, m0, dl0, dp0, dh0, p1, l1, e1, m1, dl1, dp1, dh1):
     m = 0.5 * (m0 + m1)
     g, eps = p1 - p0, m * mean
     by_p0, by_p1 = g * (0.5 * dp0 * mean - m * mean_0 * dl0) - eps, g * (0.5 * dp1 * mean - m * mean_1 * dl1) + eps
-    return by_p0, by_p1, 0.5 * g * dh0 * mean, 0.5 * g * dh1 * mean, eps
+    by_h0, by_h1 = g * (0.5 * dh0 * mean - m * mean_0 * f0), g * (0.5 * dh1 * mean - m * mean_1 * f1)
+    return by_p0, by_p1, by_h0, by_h1, eps
 
 
 @ti.func
-def face_x(S: ti.template(), k):
-    return linear_face(S[P, k], S[LE, k], S[IE, k], S[MOB, k], S[DLE, k], S[DMP, k], S[DMH, k], S[P, k + 1],
-                       S[LE, k + 1], S[IE, k + 1], S[MOB, k + 1], S[DLE, k + 1], S[DMP, k + 1], S[DMH, k + 1])
+def slopes_at(S: ti.template(), k, thinning: ti.template()):
+    """P, LE, IE, MOB, their derivatives, and d LE/dH of a column."""
+    f = V(0.0)
+    if ti.static(thinning >= 0):
+        f = S[thinning, k]
+    return S[P, k], S[LE, k], S[IE, k], S[MOB, k], S[DLE, k], S[DMP, k], S[DMH, k], f
 
 
 @ti.func
-def face_above(S: ti.template(), k, n2):
-    return linear_face(S[P, k], S[LE, k], S[IE, k], S[MOB, k], S[DLE, k], S[DMP, k], S[DMH, k], above(S, P, k, n2),
-                       above(S, LE, k, n2), above(S, IE, k, n2), above(S, MOB, k, n2), above(S, DLE, k, n2),
-                       above(S, DMP, k, n2), above(S, DMH, k, n2))
+def slopes_above(S: ti.template(), k, n2, thinning: ti.template()):
+    f = V(0.0)
+    if ti.static(thinning >= 0):
+        f = above(S, thinning, k, n2)
+    return (above(S, P, k, n2), above(S, LE, k, n2), above(S, IE, k, n2), above(S, MOB, k, n2), above(S, DLE, k, n2),
+            above(S, DMP, k, n2), above(S, DMH, k, n2), f)
 
 
 @ti.func
-def face_below(S: ti.template(), k, n2):
-    return linear_face(below(S, P, k, n2), below(S, LE, k, n2), below(S, IE, k, n2), below(S, MOB, k, n2),
-                       below(S, DLE, k, n2), below(S, DMP, k, n2), below(S, DMH, k, n2), S[P, k], S[LE, k], S[IE, k],
-                       S[MOB, k], S[DLE, k], S[DMP, k], S[DMH, k])
+def slopes_below(S: ti.template(), k, n2, thinning: ti.template()):
+    f = V(0.0)
+    if ti.static(thinning >= 0):
+        f = below(S, thinning, k, n2)
+    return (below(S, P, k, n2), below(S, LE, k, n2), below(S, IE, k, n2), below(S, MOB, k, n2), below(S, DLE, k, n2),
+            below(S, DMP, k, n2), below(S, DMH, k, n2), f)
+
+
+@ti.func
+def face_x(S: ti.template(), k, thinning: ti.template()):
+    p0, l0, e0, m0, a0, b0, c0, f0 = slopes_at(S, k, thinning)
+    p1, l1, e1, m1, a1, b1, c1, f1 = slopes_at(S, k + 1, thinning)
+    return linear_face(p0, l0, e0, m0, a0, b0, c0, f0, p1, l1, e1, m1, a1, b1, c1, f1)
+
+
+@ti.func
+def face_above(S: ti.template(), k, n2, thinning: ti.template()):
+    p0, l0, e0, m0, a0, b0, c0, f0 = slopes_at(S, k, thinning)
+    p1, l1, e1, m1, a1, b1, c1, f1 = slopes_above(S, k, n2, thinning)
+    return linear_face(p0, l0, e0, m0, a0, b0, c0, f0, p1, l1, e1, m1, a1, b1, c1, f1)
+
+
+@ti.func
+def face_below(S: ti.template(), k, n2, thinning: ti.template()):
+    p0, l0, e0, m0, a0, b0, c0, f0 = slopes_below(S, k, n2, thinning)
+    p1, l1, e1, m1, a1, b1, c1, f1 = slopes_at(S, k, thinning)
+    return linear_face(p0, l0, e0, m0, a0, b0, c0, f0, p1, l1, e1, m1, a1, b1, c1, f1)
 
 
 @ti.func
@@ -211,10 +240,10 @@ def store_rows(S: ti.template(), k, rows: ti.template(), c0, c1, c2, c3):
 
 @ti.kernel
 def linearise(S: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: ti.i32, couette: ti.template(),
-              slope: ti.template()):
+              slope: ti.template(), thinning: ti.template()):
     """Jacobian rows, EPS and the diagonal in the blocks first..last-1; needs `laws` and `slopes`.
 
-    couette: row of the density in the Couette flow, slope: row of its derivative.
+    couette: row of the density in the Couette flow, slope: row of its derivative, thinning: row of d LE/dH or -1.
     """
     ti.loop_config(block_dim=1)
     for b in range(first, last):
@@ -223,18 +252,18 @@ def linearise(S: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: t
         n2 = nx + 1
         up, down = face_weights(s, ny)
         metric, inv, CT_l, K_0, K_1 = G[l, DX] / G[l, DY] ** 2, 1 / G[l, DX], G[l, CT], G[l, K0], G[l, K1]
-        left_p0, left_p1, left_h0, left_h1, left_eps = face_x(S, off + s * n2)
+        left_p0, left_p1, left_h0, left_h1, left_eps = face_x(S, off + s * n2, thinning)
         for i in range(1, nx):
             k = off + s * n2 + i
             w = couette_weights(i)
-            p0, p1, h0, h1, eps = face_x(S, k)
+            p0, p1, h0, h1, eps = face_x(S, k, thinning)
             a2 = w[2] * S[slope, k] + CT_l * S[QP, k] + (left_p1 - p0) * inv
             b2 = w[2] * S[couette, k] + CT_l * S[RHO, k] + (left_h1 - h0) * inv
             total = (left_eps + eps) * inv
             if ny > 0:
                 u, d = up * metric, down * metric
-                u0, u1, g0, g1, eps_up = face_above(S, k, n2)
-                d0, d1, f0, f1, eps_down = face_below(S, k, n2)
+                u0, u1, g0, g1, eps_up = face_above(S, k, n2, thinning)
+                d0, d1, f0, f1, eps_down = face_below(S, k, n2, thinning)
                 a2 += d * d1 - u * u0
                 b2 += d * f1 - u * g0
                 total += u * eps_up + d * eps_down

@@ -33,8 +33,8 @@ def roelands(oil: ti.template(), p, Gamma):
 
 @ti.pyfunc
 def barus(oil: ti.template(), p, Gamma):
-    """eta0 exp(alpha p); no temperature."""
-    return log(oil.eta0) + oil.alpha * p
+    """eta0 exp(alpha p - beta_eta (Gamma - Gamma0)): Barus, with Reynolds' temperature factor."""
+    return log(oil.eta0) + oil.alpha * p - oil.beta_eta * (Gamma - oil.Gamma0)
 
 
 @ti.pyfunc

@@ -30,6 +30,7 @@ class Oil:
     p_r: float = 1.96e8
     Z: float = 0.668
     Gamma0: float = 40.0
+    beta_eta: float = 0.0
     eta_g: float = 1e12
     Tg0: float = -80.0
     A1: float = 200.0
@@ -62,7 +63,7 @@ class Oil:
                                      ("p_r", "Pa", 1e6, 1e10), ("Z", "", 1e-3, 3.0), ("rho0", "kg/m3", 100, 5000),
                                      ("D1", "1/Pa", 0, 1e-7), ("D2", "1/Pa", 0, 1e-7), ("beta0", "1/K", 0, 1e-2),
                                      ("beta_c", "1/Pa", 0, 1e-7), ("k0", "W/mK", 1e-3, 10), ("c0", "J/kgK", 100, 1e4),
-                                     ("G0", "", 0, 20), ("S0", "", 0, 10)):
+                                     ("beta_eta", "1/K", 0, 1), ("G0", "", 0, 20), ("S0", "", 0, 10)):
             number(f"oil.{key}", getattr(self, key), unit, low, high)
         if self.viscosity == "table":
             self._check_table()

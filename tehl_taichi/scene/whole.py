@@ -18,6 +18,7 @@ SHORT = {"srr": "operation.srr", "load": "contact.load", "hertz_pressure": "cont
          "width": "feature.width", "kappa": "fatigue.kappa", "endurance": "fatigue.endurance"}
 FIRST, LAST = -1.6, 1.4  # of the path of a small feature, in a
 CLEAR, LATEST = 1.3, 1.1  # distance in a of a feature's front from X = 0 at an automatic start; at any start at least
+AT_REST = 0.01  # of the mean speed
 MAX_HERTZ, MIN_HERTZ = 6e9, 1e7  # Pa: outside this range the laws say nothing
 
 
@@ -64,6 +65,11 @@ class Scene:
                              f"start has none; allowed: at most {start - front - LATEST:.2f} a (or -inf)")
 
     def _check_motion(self):
+        o = self.operation
+        if not self.isothermal and min(o.u_a, o.u_b) < AT_REST * o.u_m:
+            raise SceneError(f"operation.srr = {o.srr:g} leaves a surface at {min(o.u_a, o.u_b):g} m/s: in the model of moving "
+                             f"half-spaces its heat would pile up for ever; allowed with temperatures: both surfaces at "
+                             f"least at {AT_REST * o.u_m:g} m/s, or use --isothermal")
         if self.transient and self.operation.u_a < 1e-3 * self.operation.u_m:
             raise SceneError(f"operation.srr = {self.operation.srr:g} leaves surface a, which carries the feature, at "
                              f"{self.operation.u_a:g} m/s: it never passes; allowed with a feature: srr > -1.998, or use "

@@ -94,12 +94,12 @@ class Levels:
         table = (self.S, self.G, self.blocks, first, last)
         law = (self.scene.oil, self.scales.p_H, self.Gamma, self.ln_eta0)
         return (bind(reynolds.laws, *table, *law, self.inv_lambda), bind(reynolds.slopes, *table, *law),
-                bind(reynolds.linearise, *table, fields.RHO, fields.QP))
+                bind(reynolds.linearise, *table, fields.RHO, fields.QP, -1))
 
     def use_film(self, laws, slopes):
         """Take the laws of the finest level from a film with temperatures; the coarser levels get theirs by injection."""
         self.laws, self._slopes = laws, slopes
-        rows, fine, coarse = (fields.RHOC, fields.QCP), (0, self.fine), (self.fine, len(self.blocks))
+        rows, fine, coarse = (fields.RHOC, fields.QCP, fields.DLH), (0, self.fine), (self.fine, len(self.blocks))
         self._rows, self._rows_coarse = (bind(reynolds.linearise, self.S, self.G, self.blocks, *cut, *rows)
                                          for cut in (fine, coarse))
         self.evaluate_residual = bind(reynolds.residual, self.S, self.G, fields.RHOC)

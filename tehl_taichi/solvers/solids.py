@@ -11,8 +11,9 @@ from functools import lru_cache
 
 import numpy as np
 
-MODES = 12  # to 2e-5 of the surface temperature for steps from 1 to 2000; 8 modes: 1e-3
-HORIZON = 2000.0  # steps that a strip spends on the grid at most
+MODES = 16  # to 4e-5 of the surface temperature from the shortest step to the horizon; 12 modes: 1e-3
+HORIZON = 2e4  # steps that a strip spends on the grid at most (a surface at a hundredth of the speed of the other)
+SHORTEST = 1 / 16  # part of a step that is ever taken
 
 
 def memory(dt, effusivity, base_dt):
@@ -28,11 +29,11 @@ def memory(dt, effusivity, base_dt):
 
 @lru_cache(maxsize=1)
 def _fit():
-    """Rates and weights for a step of 1 and effusivity 1: least squares on the response to the flux of one step, n steps
-    later, relative to the exact 2/sqrt(pi) (sqrt(n + 1) - sqrt(n))."""
-    n = np.unique(np.round(np.geomspace(1, HORIZON, 400)))
-    exact = 2 / math.sqrt(math.pi) * (np.sqrt(n + 1) - np.sqrt(n))
-    rates = np.geomspace(0.3 / HORIZON, 8.0, MODES)
-    response = (1 - np.exp(-rates)) / rates * np.exp(-rates * n[:, None])
+    """Rates and weights for a step of 1 and effusivity 1: least squares on the response to the flux of one shortest step, at
+    all later times, relative to the exact 2/sqrt(pi) (sqrt(t + dt) - sqrt(t))."""
+    n = np.unique(np.round(np.geomspace(1, HORIZON / SHORTEST, 600))) * SHORTEST
+    exact = 2 / math.sqrt(math.pi) * (np.sqrt(n + SHORTEST) - np.sqrt(n))
+    rates = np.geomspace(0.3 / HORIZON, 6.0 / SHORTEST, MODES)
+    response = (1 - np.exp(-rates * SHORTEST)) / rates * np.exp(-rates * n[:, None])
     weights = np.linalg.lstsq(response / exact[:, None], np.ones(n.size), rcond=None)[0]
     return rates, weights
