@@ -87,11 +87,16 @@ def settle(solver, heat, krylov_tolerance):
         loaded = v.get(fields.P) > LOADED
         change, before = float(np.abs(mean - before).max(axis=0)[loaded].max()), mean
         report = solver.solve(krylov_tolerance)
-        steps, dt = math.ceil(v.nx / BLOCK * (1 if ratio < SLOW else ratio) / later), later * heat.dt
+        steps, dt = _whole_cells(v.nx / BLOCK * (1 if ratio < SLOW else ratio) / later, later / ratio), later * heat.dt
         if not report.converged or change < v.scene.thermal.tolerance:
             return report
     report.converged = False
     return report
+
+
+def _whole_cells(steps, cells):
+    """About so many steps of `cells` each, that together are nearly whole cells."""
+    return max(1, round(max(1, round(steps * cells)) / cells))
 
 
 def _march(heat, steps, dt):
