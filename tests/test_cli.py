@@ -50,6 +50,22 @@ def test_json_summary_has_the_keys_of_the_interface(finished):
     assert summary["transient"]["load_error_max"] < 1e-6 and summary["transient"]["mass_error_max"] < 1e-6
 
 
+def test_a_thermal_run_tells_its_temperatures_and_resumes(tmp_path):
+    from tehl_taichi.io.store import Store
+
+    done = tehl("run", "gear", *TINY, "--thermal", "--steps", 4, "--set", "output.profiles=true", "--out", "warm.zarr", "--json",
+                cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    summary = json.loads(done.stdout)
+    assert 100 < summary["steady"]["surface_a_max_C"] < summary["transient"]["film_max_C"] < 200
+    assert summary["grid"]["nz"] == 9 and summary["transient"]["temperature_change_K"] < 0.05
+    store = Store.open(tmp_path / "warm.zarr")
+    T = store.fields(3, ["temperature", "temperature_mid"])
+    assert T["temperature"].shape == (65, 17, 9) and np.array_equal(T["temperature"][..., 4], T["temperature_mid"])
+    drawn = tehl("plot", "warm.zarr", "--out", "figures", cwd=tmp_path)
+    assert drawn.returncode == 0 and (tmp_path / "figures" / "temperature_maps.png").exists(), drawn.stderr
+
+
 def test_xarray_opens_the_store_as_it_is(finished):
     xarray = pytest.importorskip("xarray")
     data = xarray.open_zarr(finished[0])

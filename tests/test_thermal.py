@@ -204,3 +204,45 @@ def test_a_point_contact_heats_up():
     assert s.scalars["residual"] < 1e-6 and s.scalars["film_max_C"] > data["operation"]["temperature"] + 1
     # glass (b) keeps its heat: the hotter surface is the one that conducts less
     assert s.scalars["surface_b_max_C"] > s.scalars["surface_a_max_C"]
+
+
+def sources_and_sinks(heat, levels):
+    """Per column, W/m2: dissipation, compression heat, heat into the bodies, heat that the oil takes along (steady, 1-D)."""
+    from tehl_taichi.kernels import fields
+    from tehl_taichi.kernels import film as kernels
+    from tehl_taichi.physics.density import expansivity
+    from tehl_taichi.physics.heat import heat_capacity
+
+    S, oil, nz, w = levels.scales, levels.scene.oil, heat.nz, heat.C[-1][:, None]
+    P, H = levels.get(fields.P)[0] * S.p_H, levels.get(fields.H)[0] * S.h
+    T, TS, ie, rho, MX, MS, dp = (heat.slots(kind * nz, nz)[:, 0] for kind in (
+        kernels.T, kernels.TS, kernels.NIE, kernels.NRHO, kernels.MX, kernels.MS, kernels.PS))
+    shear, tau = heat.shear()[:, 0], heat.single_slot(kernels.TAU)[0]
+    e0, eta0 = (w * ie).sum(0), math.exp(levels.ln_eta0)
+    centre = (w * heat.zeta[:, None] * ie).sum(0) / e0
+    left = tau * H * e0 / (-levels.scene.operation.u_s * eta0)  # of the viscosity by the shear law
+    stress = tau + (heat.zeta[:, None] - centre) * (shear[2] - shear[0])
+    fade = np.where(levels.X > levels.X[np.searchsorted(levels.X, 0.0)], P / (P + 1e-4 * S.p_H), 1.0)
+    rc = np.array([[float(heat_capacity(oil, p, t)) for p, t in zip(P, row)] for row in T])
+    swell = np.array([[float(expansivity(oil, p, t)) for p, t in zip(P, row)] for row in T])
+    drift = -np.gradient(MX, levels.dx * S.a, axis=1)
+    drift = drift - MS / MS[-1] * drift[-1]
+    carried = H * (w * rc * (T - TS)).sum(0) / heat.dt + (w * rc / rho * drift * (heat.D1 @ T)).sum(0)
+    dissipated = H * (w * stress**2 * ie).sum(0) / (left * eta0) * fade
+    squeezed = H * (w * swell * (T + 273.15) * dp).sum(0) / heat.dt * fade
+    return dissipated, squeezed, (heat.single_slot(kernels.QA) + heat.single_slot(kernels.QB))[0], carried
+
+
+def test_heat_balance():
+    """Heat into the bodies and the oil = friction and compression, to 1e-3 of the friction; 58.2 kW/m go into the bodies."""
+    from tehl_taichi.kernels import fields
+    from tehl_taichi.solvers.steady import solve_steady
+
+    description = thermal(srr=-0.1176, **{"grid.nx": 256, "grid.x_min": -2.0})
+    result = solve_steady(description, Scales.of(description), 256, 0)
+    levels = result.solver.levels
+    wet = levels.get(fields.P)[0] > 0
+    cell = levels.dx * levels.scales.a
+    made, squeezed, bodies, carried = (float(q[wet].sum()) * cell for q in sources_and_sinks(result.heat, levels))
+    assert abs(bodies + carried - made - squeezed) < 1e-3 * made
+    assert bodies == pytest.approx(58.52e3, rel=0.01)
