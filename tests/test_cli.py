@@ -53,8 +53,8 @@ def test_json_summary_has_the_keys_of_the_interface(finished):
 def test_a_thermal_run_tells_its_temperatures_and_resumes(tmp_path):
     from tehl_taichi.io.store import Store
 
-    done = tehl("run", "gear", *TINY, "--thermal", "--steps", 4, "--set", "output.profiles=true", "--out", "warm.zarr", "--json",
-                cwd=tmp_path)
+    done = tehl("run", "gear", *TINY, "--thermal", "--steps", 4, "--set", "output.profiles=true", "--out", "warm.zarr",
+                "--json", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     summary = json.loads(done.stdout)
     assert 100 < summary["steady"]["surface_a_max_C"] < summary["transient"]["film_max_C"] < 200

@@ -132,7 +132,7 @@ GEAR = {-0.1176: (0.3926, 0.314, 0.0517, 141.3, 123.8, 122.4), 0.0: (0.3915, Non
 
 @pytest.mark.parametrize("srr", GEAR)
 def test_steady_thermal_gear(srr):
-    s = steady(srr=srr, **{"grid.nx": 512, "grid.x_min": -2.0})
+    s = steady(srr=srr, **{"grid.nx": 256, "grid.x_min": -2.0})
     h_c, h_min, mu, mid, a, b = GEAR[srr]
     assert s.scalars["h_c_m"] * 1e6 == pytest.approx(h_c, rel=0.005)
     assert s.scalars["friction_coefficient"] == pytest.approx(mu, rel=0.01, abs=1e-6)
