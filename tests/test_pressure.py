@@ -175,6 +175,13 @@ def test_elliptic_contacts(ratio, excess):
     assert s.scalars["h_min_m"] > 0 and s.scalars["p_max_Pa"] == pytest.approx(0.54e9 * (1 + excess), rel=0.01)
 
 
+@pytest.mark.parametrize("changes", [{"temperature": 20.0}, {"temperature": 150.0}, {"speed": 0.01}])
+def test_starts_far_from_hertz(changes):
+    """Thick cold films start through slower ones, thin ones on the first grid that resolves them."""
+    s = steady(scene("smooth-line").replace(**{"grid.nx": 128, **changes}))
+    assert s.scalars["residual"] < 1e-6 and s.scalars["mass_error"] < 1e-6 and s.scalars["h_min_m"] > 0
+
+
 def test_the_disturbance_of_a_furrow_travels_with_the_oil():
     """The film that the furrow (u_a = u_m/2) let in at the inlet moves ahead of it with u_m."""
     from tehl_taichi.simulation import march

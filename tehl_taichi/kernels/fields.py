@@ -66,4 +66,5 @@ CT = next(_col)  # dx times the weight of the newest level in d/dT (0: steady)
 K0 = next(_col)  # deflection of a node by its own unit pressure
 K1 = next(_col)  # and by that of its neighbour in x
 FLOOR = next(_col)  # film floor H_min
+ILAM = next(_col)  # 1/lambda; larger than that of the scene while a steady start is approached through slower ones
 NCOLS = next(_col)

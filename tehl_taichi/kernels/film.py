@@ -10,7 +10,7 @@ the shear law leaves of the viscosity: u = u_a + (u_b - u_a) int_0 dzeta/eta / E
 
 import taichi as ti
 
-from tehl_taichi.kernels.fields import DLE, DLH, DMH, DMP, DX, DY, FLOOR, IE, LE, MOB, QCP, QP, RHO, RHOC, TOUCH, H, P
+from tehl_taichi.kernels.fields import DLE, DLH, DMH, DMP, DX, DY, FLOOR, IE, ILAM, LE, MOB, QCP, QP, RHO, RHOC, TOUCH, H, P
 from tehl_taichi.kernels.lanes import Table, V, W, above, below, cells
 from tehl_taichi.physics.density import expansivity, rho_film
 from tehl_taichi.physics.elementary import exp, log
@@ -79,7 +79,7 @@ def integrals(Z: ti.template(), q, nz, C: ti.template(), zeta: ti.template(), e0
 @ti.kernel
 def laws(S: ti.template(), Z: ti.template(), G: Table, C: Coefficients, zeta: ti.types.ndarray(dtype=ti.f64, ndim=1),
          nz: ti.i32, oil: ti.template(), rheology: ti.template(), p_H: ti.f64, h_scale: ti.f64, ln_eta0: ti.f64,
-         inv_lambda: ti.f64, u_a: ti.f64, slip: ti.f64, u_m: ti.f64):
+         u_a: ti.f64, slip: ti.f64, u_m: ti.f64):
     """RHO, RHOC, LE, IE, MOB of the finest level from pressure, film and the temperatures; slip = u_b - u_a."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
@@ -92,7 +92,7 @@ def laws(S: ti.template(), Z: ti.template(), G: Table, C: Coefficients, zeta: ti
             e0, centre, stress, b = couette(Z, q, nz, C, zeta, rheology, p, h * h_scale, slip, eta0)
             mean, carried, ie = integrals(Z, q, nz, C, zeta, e0, centre, b, u_a, slip, u_m)
             S[RHO, k], S[RHOC, k], S[IE, k], S[LE, k] = mean, carried, ie, -log(ie)
-            S[MOB, k] = mean * h * h * h * inv_lambda
+            S[MOB, k] = mean * h * h * h * G[0, ILAM]
 
 
 @ti.func
@@ -104,7 +104,7 @@ def sensitivity(rheology: ti.template(), newtonian, p, b):
 @ti.kernel
 def slopes(S: ti.template(), Z: ti.template(), G: Table, C: Coefficients, zeta: ti.types.ndarray(dtype=ti.f64, ndim=1),
            nz: ti.i32, oil: ti.template(), rheology: ti.template(), p_H: ti.f64, h_scale: ti.f64, ln_eta0: ti.f64,
-           inv_lambda: ti.f64, u_a: ti.f64, slip: ti.f64, u_m: ti.f64):
+           u_a: ti.f64, slip: ti.f64, u_m: ti.f64):
     """Their derivatives; needs `laws`. The film acts on the shear law too (DLH)."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)

@@ -22,6 +22,7 @@ from tehl_taichi.kernels.fields import (
     FLOOR,
     GAP0,
     IE,
+    ILAM,
     K0,
     K1,
     LE,
@@ -80,7 +81,7 @@ def node_slopes(S: ti.template(), k, oil: ti.template(), p_H, Gamma, ln_eta0, fl
 
 @ti.kernel
 def laws(S: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: ti.i32, oil: ti.template(), p_H: ti.f64,
-         Gamma: ti.f64, ln_eta0: ti.f64, inv_lambda: ti.f64):
+         Gamma: ti.f64, ln_eta0: ti.f64):
     """Density, viscosity and mobility in the blocks first..last-1."""
     ti.loop_config(block_dim=1)
     for b in range(first, last):
@@ -88,7 +89,7 @@ def laws(S: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: ti.i32
         nx, ny, off = cells(G, l)
         floor = G[l, FLOOR]
         for i in range(nx + 1):
-            node_laws(S, off + s * (nx + 1) + i, oil, p_H, Gamma, ln_eta0, inv_lambda, floor)
+            node_laws(S, off + s * (nx + 1) + i, oil, p_H, Gamma, ln_eta0, G[l, ILAM], floor)
 
 
 @ti.kernel

@@ -48,6 +48,7 @@ class Scene:
         self._check_pressure()
         self._check_motion()
         self._check_path()
+        self._check_room()
 
     def _check_pressure(self):
         p_H = scales.Scales.of(self).p_H
@@ -63,6 +64,17 @@ class Scene:
         if self.transient and front > -LATEST:
             raise SceneError(f"time.x_start = {start:g} a: the features reach up to {front:.2f} a at the start, but the steady "
                              f"start has none; allowed: at most {start - front - LATEST:.2f} a (or -inf)")
+
+    def _check_room(self):
+        """A feature must fit into the gap at the ends of the grid, where it comes in and leaves."""
+        highest, s = max((f.height for f in self.features if f.shape != "map"), default=0.0), scales.Scales.of(self)
+        need = math.sqrt(2 * max(highest, 0.0) / s.h)
+        for key, end in (("x_min", self.grid.x_min), ("x_max", self.grid.x_max)):
+            if self.transient and abs(end) < need:
+                sign = "-" if end < 0 else ""
+                raise SceneError(f"grid.{key} = {end:g} a: the undeformed gap there, {0.5 * end**2 * s.h:.3g} m, is smaller "
+                                 f"than the height of a feature, {highest:.3g} m; allowed: {sign}{need * 1.05:.2g} a or "
+                                 "farther out")
 
     def _check_motion(self):
         o = self.operation

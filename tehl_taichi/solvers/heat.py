@@ -138,7 +138,7 @@ class FilmHeat:
         self.inlet, self.speeds = o.temperature, (o.u_a, o.u_b)
         self.effusivities = [math.sqrt(b.k * b.rho * b.c) for b in (scene.body_a, scene.body_b)]
         table, nodes = (v.S, self.Z, v.G), (self.C, self.zeta, self.nz, scene.oil, scene.rheology)
-        args = (*table, *nodes, s.p_H, s.h, v.ln_eta0, v.inv_lambda, o.u_a, -o.u_s, o.u_m)
+        args = (*table, *nodes, s.p_H, s.h, v.ln_eta0, o.u_a, -o.u_s, o.u_m)
         v.use_film(bind(film.laws, *args), bind(film.slopes, *args))
         self._velocities = bind(film.velocities, *table, *nodes, s.p_H, s.h, s.a, v.ln_eta0, o.u_a, -o.u_s)
         centre = float(np.searchsorted(v.X, 0.0))

@@ -53,7 +53,7 @@ class Levels:
             dx, dy = self.dx * 2**l, self.dy * 2**l
             own = self.near_kernel(l)[0]
             rows = ny + 1 if self.line else ny
-            G[l] = [off, nx, ny, rows, dx, dy, 0.0, own[0], own[1], self.scene.rheology.film_floor]
+            G[l] = [off, nx, ny, rows, dx, dy, 0.0, own[0], own[1], self.scene.rheology.film_floor, 1.0]
             off += columns(nx, ny)
         return G
 
@@ -77,7 +77,7 @@ class Levels:
         self.Gamma = scene.operation.temperature
         self.ln_eta0 = float(ln_eta(scene.oil, 0.0, self.Gamma))
         lam = 12 * math.exp(self.ln_eta0) * s.u_m * s.R**2 / (s.a**3 * s.p_H)
-        self.inv_lambda = 1 / lam
+        self.G[:, fields.ILAM] = self.inv_lambda = 1 / lam
 
     def _bind(self):
         """Launches of the kernels that this table is used with, on the finest level and on the coarser ones."""
@@ -93,8 +93,12 @@ class Levels:
     def _bind_laws(self, first, last):
         table = (self.S, self.G, self.blocks, first, last)
         law = (self.scene.oil, self.scales.p_H, self.Gamma, self.ln_eta0)
-        return (bind(reynolds.laws, *table, *law, self.inv_lambda), bind(reynolds.slopes, *table, *law),
+        return (bind(reynolds.laws, *table, *law), bind(reynolds.slopes, *table, *law),
                 bind(reynolds.linearise, *table, fields.RHO, fields.QP, -1))
+
+    def slow_down(self, factor):
+        """Take the speed of the film's balance to be that of the scene over `factor`."""
+        self.G[:, fields.ILAM] = factor * self.inv_lambda
 
     def use_film(self, laws, slopes):
         """Take the laws of the finest level from a film with temperatures; the coarser levels get theirs by injection."""

@@ -21,6 +21,7 @@ FIRST_FILM = 0.05  # central film of the first guess, Hertz units: thick enough 
 START_TRIES = (1.0, 0.3, 3.0)  # times FIRST_FILM
 SAFETY = 1.25  # on an extrapolated error (Roache 1994, three grids)
 FINEST_THERMAL = 4  # temperatures on the grids up to four times as coarse as the finest: three grids for the error
+SLOWER = (300.0, 100.0, 30.0, 10.0, 3.0, 1.0)  # factors of the speed below that of the scene
 CREDIBLE_ORDER = (0.5, 4.0)  # observed orders outside are not believed
 
 
@@ -77,8 +78,9 @@ def solve_steady(scene, scales, nx, ny):
         if report.converged and not scene.isothermal and nx // size[0] <= FINEST_THERMAL:
             heat = FilmHeat(solver.levels, time_step(scene, scales, solver.levels.dx))
             report = settle(solver, heat, KRYLOV_TOLERANCE)
-        P, H0 = solver.levels.get(fields.P), solver.H0
-        values.append(scalars(solver))
+        # a grid too coarse for the outlet of this film is no start for the next one, nor a step of its error
+        P, H0 = (solver.levels.get(fields.P), solver.H0) if report.converged else (None, 0.0)
+        values = [*values, scalars(solver)] if report.converged else [scalars(solver)]
         work += report.cycles
     return SteadyResult(solver, report, values, work, heat)
 
@@ -93,7 +95,16 @@ def _first(solver):
         _hertz(solver, FIRST_FILM * factor)
         report = solver.solve(KRYLOV_TOLERANCE)
         if report.converged:
-            break
+            return report
+    return _through_slower_ones(solver)
+
+
+def _through_slower_ones(solver):
+    """From Hertz at a low speed, where it is near, up to the speed of the scene."""
+    _hertz(solver, FIRST_FILM * START_TRIES[-1] / SLOWER[0] ** 0.7)
+    for factor in SLOWER:
+        solver.levels.slow_down(factor)
+        report = solver.solve(KRYLOV_TOLERANCE)
     return report
 
 

@@ -1,0 +1,104 @@
+"""Stiff and extreme scenes: each must converge, or stop with its reason; never NaN, a negative film or a hang."""
+
+import time
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl_taichi.scene import Scene, SceneError, scene
+
+LINE, POINT = {"grid.nx": 128, "grid.ny": 32}, {"grid.nx": 64, "grid.ny": 32}
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """verdict: converged, refused (at the door), stopped (not converged, with a reason) or failed (NaN, negative film)."""
+
+    name: str
+    verdict: str
+    reason: str
+    steps: int
+    newton: float
+    cycles: float
+    seconds: float
+
+
+def cases(thermal=False):
+    """{name: scene or SceneError} of the table in validation.md G."""
+    out, on = {}, {"thermal.on": thermal}
+
+    def add(name, base="gear", size=LINE, **changes):
+        try:
+            out[name] = edited(base, {**size, **on, **{key.replace("__", "."): value for key, value in changes.items()}})
+        except SceneError as error:
+            out[name] = error
+
+    for p in (0.3e9, 1e9, 3e9, 4e9):
+        wide = {"grid__x_min": -5.0, "grid__x_max": 4.0} if p < 0.5e9 else {}
+        add(f"Hertz pressure {p / 1e9:g} GPa", hertz_pressure=p, **wide)
+    for srr in (-1.99, -1.9, -1.0, -0.5, 0.0, 0.5, 1.0, 1.9, 2.0):
+        add(f"SRR {srr:+g}", srr=srr)
+    for T in (20.0, 60.0, 120.0, 150.0):
+        add(f"inlet {T:g} C", temperature=T)
+    for height in (0.1e-6, 3e-6, -0.1e-6, -3e-6):
+        for width in (20e-6, 400e-6):
+            add(f"cosine {height * 1e6:+g} um x {width * 1e6:g} um", height=height, width=width)
+    for speed in (0.01, 0.1, 1.0, 50.0):
+        add(f"u_m {speed:g} m/s", speed=speed)
+    for law in ("newtonian", "eyring", "carreau"):
+        add(f"shear law {law}", rheology__law=law)
+    add("one body ten times softer", bodies__b__E=20.6e9)
+    add("one body of glass", bodies__b__E=75e9, bodies__b__nu=0.22, bodies__b__k=1.0)
+    add("two features", feature=[{}, {"x": 150e-6, "height": -1e-6}])
+    add("waviness at the grid limit", feature=[{"shape": "waviness", "height": 0.1e-6, "width": 50e-6, "extent_x": 400e-6,
+                                                "extent_y": 400e-6, "taper": 50e-6}])
+    for M, L in ((5, 1), (5, 25), (50, 10), (1000, 10), (5000, 5)):
+        add(f"line M {M} L {L}", "smooth-line", contact={"load": 0.0, "moes_M": float(M), "moes_L": float(L)},
+            oil={"name": "moes-test-fluid"}, grid__x_min=-4.5 if M <= 20 else -2.5)
+    for ratio in (0.125, 1.0, 8.0):
+        add(f"ellipse R_y/R_x {ratio:g}", "ridge-on-ball", POINT, contact={"kind": "elliptic", "radius_y": ratio * 12.7e-3,
+                                                                           "load": 0.0, "hertz_pressure": 0.54e9})
+    for srr in (-1.0, 1.0):
+        add(f"ridge on ball SRR {srr:+g}", "ridge-on-ball", POINT, srr=srr)
+    return out
+
+
+def edited(base, changes):
+    """Scene `base` with dotted changes; tables and lists are merged or replaced whole."""
+    plain = {key: value for key, value in changes.items() if not isinstance(value, (dict, list))}
+    data = scene(base).replace(**plain).to_dict()
+    for key, value in changes.items():
+        if key == "oil":
+            data[key] = value
+        elif isinstance(value, dict):
+            data[key].update(value)
+        elif isinstance(value, list):
+            data[key] = [{**data[key][0], **part} for part in value]
+    return Scene.from_dict(data)
+
+
+def run_case(name, description):
+    """March one scene to its end. Returns an Outcome."""
+    from tehl_taichi.simulation import NotConverged, march
+
+    started, steps, newton, cycles = time.perf_counter(), -1, 0.0, 0.0
+    verdict, reason = "converged", ""
+    if isinstance(description, SceneError):
+        return Outcome(name, "refused", str(description), 0, 0.0, 0.0, 0.0)
+    try:
+        for shot in march(description):
+            steps += 1
+            newton, cycles = newton + shot.scalars["newton"], cycles + shot.scalars["cycles"] * (steps > 0)
+            if not sound(shot):
+                verdict, reason = "failed", f"NaN or negative film at step {shot.step}"
+                break
+    except NotConverged as error:
+        verdict, reason = "stopped", str(error)
+    count = max(steps, 1)
+    return Outcome(name, verdict, reason, max(steps, 0), newton / count, cycles / count, time.perf_counter() - started)
+
+
+def sound(shot):
+    """No NaN, no negative film or pressure."""
+    p, h = shot.fields["pressure"], shot.fields["film"]
+    return bool(np.isfinite(p).all() and np.isfinite(h).all() and p.min() >= 0 and h.min() > 0)

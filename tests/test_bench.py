@@ -1,0 +1,35 @@
+"""The suites: their cases are scenes, their verdicts tell good from bad."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from tehl_taichi.profiles import stability
+
+from tehl_taichi.scene import Scene, SceneError, scene
+
+pytestmark = pytest.mark.usefixtures("taichi_cpu")
+
+
+def test_every_case_is_a_scene_or_refused_in_a_sentence():
+    found = stability.cases()
+    assert len(found) > 40 and all(isinstance(case, (Scene, SceneError)) for case in found.values())
+    assert sum(isinstance(case, SceneError) for case in found.values()) < 3
+
+
+def test_a_case_that_converges_and_one_that_stops():
+    short = scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16, "time.steps": 2})
+    assert stability.run_case("short", short).verdict == "converged"
+    hard = dataclasses.replace(short, numerics=dataclasses.replace(short.numerics, newton_max=1, krylov_max=5))
+    stopped = stability.run_case("hard", hard)
+    assert stopped.verdict == "stopped" and "did not converge" in stopped.reason
+
+
+def test_a_negative_film_is_a_failure():
+    from tehl_taichi.simulation import march
+
+    shot = next(march(scene("smooth-line").replace(**{"grid.nx": 64})))
+    assert stability.sound(shot)
+    for name, bad in (("film", -1e-9), ("pressure", np.nan)):
+        broken = {**shot.fields, name: np.where(shot.x[:, None] > 0, shot.fields[name], bad)}
+        assert not stability.sound(dataclasses.replace(shot, fields=broken))
