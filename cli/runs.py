@@ -35,6 +35,8 @@ def run(
     steady: bool = typer.Option(False, "--steady", help="no march in time"),
     thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="energy equation on or off"),
     fatigue: Optional[bool] = typer.Option(None, "--fatigue/--no-fatigue", help="stresses and Findley index"),
+    estimate_error: Optional[bool] = typer.Option(None, "--estimate-error/--no-estimate-error",
+                                                  help="error of the passage's numbers, by companion runs"),
     kappa: Optional[float] = typer.Option(None, help="Findley's kappa_F"),
     endurance: Optional[float] = typer.Option(None, help="Findley's endurance limit sigma_eF, Pa"),
     steps: Optional[int] = typer.Option(None, help="stop after this many time steps"),
@@ -56,7 +58,8 @@ def run(
 
     changes = {"srr": srr, "load": load, "hertz_pressure": hertz_pressure, "speed": speed, "temperature": temperature,
                "height": height, "width": width, "kappa": kappa, "endurance": endurance, "thermal.on": thermal,
-               "fatigue.on": fatigue, "time.steps": steps, "time.steady_only": True if steady else None}
+               "fatigue.on": fatigue, "numerics.estimate_error": estimate_error,
+               "time.steps": steps, "time.steady_only": True if steady else None}
     changes = {key: value for key, value in changes.items() if value is not None}
     changes.update(_grid(grid))
     changes.update(_settings(set_ or []))
@@ -119,9 +122,11 @@ def _go(saved, started, as_json, quiet, steady_error, compile_s):
     try:
         _march(saved, quiet)
         fatigue, maps = _fatigue(saved, quiet)
+        error = _passage_error(saved, fatigue, quiet)
     except KeyboardInterrupt:
         raise Interrupted(f"interrupted after {saved.steps - 1} steps; go on with: tehl resume {saved.path}") from None
-    extra = {"wall_s": time.perf_counter() - started, "compile_s": compile_s, "steady_error": steady_error}
+    extra = {"wall_s": time.perf_counter() - started, "compile_s": compile_s, "steady_error": steady_error,
+             "passage_error": error}
     summary = summarise(saved, extra, fatigue)
     saved.finish(summary, maps)
     print(json.dumps(_plain(summary))) if as_json else _print(summary)
@@ -151,6 +156,15 @@ def _fatigue(saved, quiet):
         say("stresses and Findley search")
     result = fatigue.run(saved.scene, saved)
     return result.summary, result.maps
+
+
+def _passage_error(saved, fatigue, quiet):
+    if not saved.scene.numerics.estimate_error or saved.steps < 2:
+        return None
+    from tehl_taichi.io.summary import passage_values
+    from tehl_taichi.post import estimate
+
+    return estimate.errors(saved.scene, passage_values(saved, fatigue), None if quiet else say)
 
 
 def _grid(text):

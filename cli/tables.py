@@ -20,14 +20,17 @@ def summary_table(summary):
     steady = summary["steady"]
     for key, name, factor, unit in (("h_c_m", "steady h_c", 1e6, "um"), ("h_min_m", "steady h_min", 1e6, "um"),
                                     ("p_max_Pa", "steady p_max", 1e-9, "GPa")):
-        error = steady["error"].get(key)
-        plus = f" ± {error * factor:.2g}" if error is not None and error == error else ""
-        rows.append((name, f"{steady[key] * factor:.4f}{plus} {unit}"))
+        rows.append((name, f"{steady[key] * factor:.4f}{_plus(steady['error'].get(key), factor)} {unit}"))
     rows.append(("steady friction coefficient", f"{steady['friction_coefficient']:.4f}"))
     rows += _heat_rows("steady", steady)
     rows += _passage_rows(summary)
     rows.append(("run time", f"{summary['wall_s']:.1f} s (start, compile {summary['compile_s']:.1f} s)"))
     _table(f"{summary['scene']}: {summary['steps']} steps, store {summary['store']}", rows)
+
+
+def _plus(error, factor):
+    """' ± error', or nothing where it is not known."""
+    return f" ± {error * factor:.2g}" if error is not None and error == error else ""
 
 
 def _heat_rows(when, values):
@@ -42,13 +45,16 @@ def _passage_rows(summary):
     if "transient" in summary:
         t = summary["transient"]
         rows += _heat_rows("passage", t)
-        rows += [("passage p_max", f"{t['p_max_Pa'] / 1e9:.4f} GPa"), ("passage h_min", f"{t['h_min_m'] * 1e6:.4f} um"),
+        error = t.get("error", {})
+        rows += [("passage p_max", f"{t['p_max_Pa'] / 1e9:.4f}{_plus(error.get('p_max_Pa'), 1e-9)} GPa"),
+                 ("passage h_min", f"{t['h_min_m'] * 1e6:.4f}{_plus(error.get('h_min_m'), 1e6)} um"),
                  ("load carried by solid contact", f"{t['contact_load_fraction_max']:.3%} at most"),
                  ("worst residual / load / mass error",
                   f"{t['residual_max']:.1e} / {t['load_error_max']:.1e} / {t['mass_error_max']:.1e}")]
     if "fatigue" in summary:
         f = summary["fatigue"]
-        rows += [("Fi_max", f"{f['Fi_max']:.4f}"), ("Findley stress", f"{f['findley_stress_max_Pa'] / 1e6:.1f} MPa"),
+        rows += [("Fi_max", f"{f['Fi_max']:.4f}{_plus(f.get('error', {}).get('Fi_max'), 1)}"),
+                 ("Findley stress", f"{f['findley_stress_max_Pa'] / 1e6:.1f} MPa"),
                  ("at x, y of the feature", f"{f['x_m'] * 1e6:.1f}, {f['y_m'] * 1e6:.1f} um"),
                  ("critical plane to the surface", f"{f['surface_angle_deg']:.1f} deg"),
                  ("with kappa_F, sigma_eF", f"{f['kappa_F']:g}, {f['sigma_eF_Pa'] / 1e6:g} MPa")]

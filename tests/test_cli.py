@@ -66,6 +66,16 @@ def test_a_thermal_run_tells_its_temperatures_and_resumes(tmp_path):
     assert drawn.returncode == 0 and (tmp_path / "figures" / "temperature_maps.png").exists(), drawn.stderr
 
 
+def test_companion_runs_tell_the_error_of_a_passage(tmp_path):
+    done = tehl("run", "gear", "--grid", "128x32", "--threads", 2, "--steps", 12, "--estimate-error", "--out", "e.zarr",
+                "--json", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    summary = json.loads(done.stdout)
+    assert set(summary["transient"]["error"]) == {"p_max_Pa", "h_min_m"} and summary["fatigue"]["error"]["Fi_max"] >= 0
+    assert 0 < summary["transient"]["error"]["h_min_m"] < summary["transient"]["h_min_m"]
+    assert "companion run" in done.stderr and "±" in tehl("show", "e.zarr", cwd=tmp_path).stdout
+
+
 def test_xarray_opens_the_store_as_it_is(finished):
     xarray = pytest.importorskip("xarray")
     data = xarray.open_zarr(finished[0])

@@ -20,6 +20,8 @@ def summarise(store, extra, fatigue=None):
         out["transient"] = _transient(store)
     if fatigue:
         out["fatigue"] = fatigue
+    if extra.get("passage_error"):
+        _add_errors(out, extra["passage_error"])
     out["work"] = _work(store)
     out["clamps"] = _clamps(store)
     return out
@@ -50,6 +52,19 @@ def _steady(store, error):
     out = {name: float(store.scalar(name)[0]) for name in names}
     out["error"] = error
     return out
+
+
+def passage_values(store, fatigue):
+    """The numbers of a stored passage whose errors companion runs can tell, as those give them."""
+    transient = _transient(store)
+    names = [name for name in ("p_max_Pa", "h_min_m", *HEAT) if name in transient]
+    return {**{name: transient[name] for name in names}, **({"Fi_max": fatigue["Fi_max"]} if fatigue else {})}
+
+
+def _add_errors(out, errors):
+    out["transient"]["error"] = {name: value for name, value in errors.items() if name != "Fi_max"}
+    if "fatigue" in out:
+        out["fatigue"]["error"] = {"Fi_max": errors["Fi_max"]}
 
 
 def _transient(store):
