@@ -25,15 +25,19 @@ QUADRATIC = 0.1  # 1/K: a Newton step of a column that changes T by d is followe
 WARM, HOT = 100.0, 900.0  # the temperature stays above the inlet's minus WARM, and below HOT (deg C)
 
 # slots: nz numbers each from T on, then the single ones
-# temperature, that of the last step; velocities; h int_0 rho (u, v, 1), the last one of the last step too; 1/eta, rho;
-# temperature and pressure change at the departure points; temperature of the last round
-T, TN, U, VY, MX, MY, MS, MSN, NIE, NRHO, TS, PS, LAST = range(13)
-KINDS = 13
+# temperature, that of the last step and the one before; velocities; h int_0 rho (u, v, 1), the last one of the last two
+# steps too; 1/eta, rho; temperature and pressure change at the departure points; temperature of the last round
+T, TN, TNN, U, VY, MX, MY, MS, MSN, MSNN, NIE, NRHO, TS, PS, LAST = range(15)
+KINDS = 15
 BETA, THROUGH = VY, U  # the velocities' slots, used again in the energy step
-# pressure of the last step (Pa); heat into the bodies; A of T_s = A + B q; stress of the Couette part; shear on the walls
-# z = 0 and z = h
-PN, QA, QB, AA, AB, TAU, XA, YA, XB, YB = range(10)
-SINGLES = 10
+# pressure of the last step and the one before (Pa); heat into the bodies; A of T_s = A + B q; stress of the Couette part;
+# shear on the walls z = 0 and z = h
+PN, PNN, QA, QB, AA, AB, TAU, XA, YA, XB, YB = range(11)
+SINGLES = 11
+# step[0, ...] of the kernels: rate = weight of the new state in d/dt (1/s); 1/dx, 1/dy (1/m); B of both bodies; tolerance (K)
+# and iterations of a column; dt, dt with the step before (s); weights of these two states (adding up to 1)
+RATE, INV_X, INV_Y, B_A, B_B, TOLERANCE, ITERATIONS, BACK, BACK_2, NEAR, FAR = range(11)
+STEP_NUMBERS = 11
 
 Coefficients = ti.types.ndarray(dtype=ti.f64, ndim=2)
 
@@ -239,66 +243,75 @@ def upwind(Z: ti.template(), q, slot, n2, s, ny, moved):
     return -ti.max(moved, 0.0) * (here - lower) - ti.min(moved, 0.0) * (upper - here)
 
 
+@ti.func
+def origin(Z: ti.template(), q, s, i, nx, ny, nz, n, slot, step: ti.template(), back_by, inflow):
+    """Slot at the place where the oil of node n was step[0, back_by] seconds ago."""
+    out, n2, back, inv_x, inv_y = V(0.0), nx + 1, step[0, back_by], step[0, INV_X], step[0, INV_Y]
+    for u in ti.static(range(W)):
+        out[u] = along_x(Z, s * n2, nx, slot, u, i - Z[q, U * nz + n][u] * back * inv_x, inflow)
+    if ny > 0:
+        moved = ti.min(ti.max(Z[q, VY * nz + n] * back * inv_y, -1.0), 1.0)
+        out += upwind(Z, q, slot, n2, s, ny, moved)
+    return out
+
+
 @ti.kernel
 def departures(S: ti.template(), Z: ti.template(), G: Table, nz: ti.i32, p_H: ti.f64, inflow: ti.f64, step: Coefficients):
-    """Temperature and pressure where the oil of each node was a step ago: cubic along x, upwind along y.
+    """Temperature and pressure where the oil of each node was one and two steps ago (BDF2 along its path): cubic along x,
+    upwind along y.
 
-    inflow: temperature of what comes in from the left; step: as in `energy`.
+    inflow: temperature of what comes in from the left.
     """
     nx, ny, off = cells(G, 0)
-    base, n2 = KINDS * nz, nx + 1
+    base = KINDS * nz
     ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
-        dt_x, dt_y = step[0, 1] / step[0, 0], step[0, 2] / step[0, 0]
+        near, far = step[0, NEAR], step[0, FAR]
         for i in range(nx + 1):
-            q = s * n2 + i
+            q = s * (nx + 1) + i
             for n in range(nz):
-                warm, press = V(0.0), V(0.0)
-                for u in ti.static(range(W)):
-                    at = i - Z[q, U * nz + n][u] * dt_x
-                    warm[u] = along_x(Z, s * n2, nx, TN * nz + n, u, at, inflow)
-                    press[u] = along_x(Z, s * n2, nx, base + PN, u, at, 0.0)
-                if ny > 0:
-                    moved = ti.min(ti.max(Z[q, VY * nz + n] * dt_y, -1.0), 1.0)
-                    warm += upwind(Z, q, TN * nz + n, n2, s, ny, moved)
-                    press += upwind(Z, q, base + PN, n2, s, ny, moved)
+                warm = near * origin(Z, q, s, i, nx, ny, nz, n, TN * nz + n, step, BACK, inflow)
+                press = near * origin(Z, q, s, i, nx, ny, nz, n, base + PN, step, BACK, 0.0)
+                if far != 0.0:
+                    warm += far * origin(Z, q, s, i, nx, ny, nz, n, TNN * nz + n, step, BACK_2, inflow)
+                    press += far * origin(Z, q, s, i, nx, ny, nz, n, base + PNN, step, BACK_2, 0.0)
                 Z[q, TS * nz + n] = warm
-                Z[q, PS * nz + n] = S[P, off + q] * p_H - ti.max(press, 0.0)
+                Z[q, PS * nz + n] = S[P, off + q] * p_H - press
 
 
 @ti.func
-def outflow(Z: ti.template(), q, i, nx, s, ny, nz, n, inv_dt, inv_x, inv_y):
+def outflow(Z: ti.template(), q, i, nx, s, ny, nz, n, step: ti.template()):
     """rho w minus what the moving nodes take along: -(d/dt, d/dx, d/dy) of the mass (flux) below node n."""
     left, right = ti.min(i, 1), ti.min(nx - i, 1)
-    out = (Z[q, MS * nz + n] - Z[q, MSN * nz + n]) * inv_dt
-    out += (Z[q + right, MX * nz + n] - Z[q - left, MX * nz + n]) * (inv_x / (left + right))
+    out = (Z[q, MS * nz + n] - step[0, NEAR] * Z[q, MSN * nz + n] - step[0, FAR] * Z[q, MSNN * nz + n]) * step[0, RATE]
+    out += (Z[q + right, MX * nz + n] - Z[q - left, MX * nz + n]) * (step[0, INV_X] / (left + right))
     if ny > 0:
         lower, upper = slots_around(Z, q, MY * nz + n, nx + 1, s, ny)
         for u in ti.static(range(W)):
             j = s * W + u
             if j == 0:
-                out[u] += upper[u] * inv_y  # odd about the plane of symmetry
+                out[u] += upper[u] * step[0, INV_Y]  # odd about the plane of symmetry
             elif j < ny:
-                out[u] += 0.5 * (upper[u] - lower[u]) * inv_y
+                out[u] += 0.5 * (upper[u] - lower[u]) * step[0, INV_Y]
     return -out
 
 
 @ti.func
-def prepare(Z: ti.template(), q, s, i, nx, ny, nz, oil: ti.template(), p, inv_dt, inv_x, inv_y):
+def prepare(Z: ti.template(), q, s, i, nx, ny, nz, oil: ti.template(), p, step: ti.template()):
     """What the Newton steps of a column share: the flow through its nodes and -d ln eta/d Gamma; keeps the last iterate."""
-    total = outflow(Z, q, i, nx, s, ny, nz, nz - 1, inv_dt, inv_x, inv_y)
+    total = outflow(Z, q, i, nx, s, ny, nz, nz - 1, step)
     for n in range(nz):
         t = Z[q, T * nz + n]
         share = Z[q, MS * nz + n] / Z[q, MS * nz + nz - 1]
         Z[q, BETA * nz + n] = (ln_eta(oil, p, t) - ln_eta(oil, p, t + DT)) / DT
-        Z[q, THROUGH * nz + n] = outflow(Z, q, i, nx, s, ny, nz, n, inv_dt, inv_x, inv_y) - share * total
+        Z[q, THROUGH * nz + n] = outflow(Z, q, i, nx, s, ny, nz, n, step) - share * total
         Z[q, LAST * nz + n] = t
 
 
 @ti.func
 def assemble(S: ti.template(), Z: ti.template(), X: ti.template(), k, q, s, nz, C: ti.template(), zeta: ti.template(),
              D1: ti.template(), D2: ti.template(), oil: ti.template(), rheology: ti.template(), p, h, px, py, ln_eta0, slip,
-             inv_dt, B_a, B_b, fade, mu_stress):
+             rate, B_a, B_b, fade, mu_stress):
     """Newton system of one column: X[s, n nz + m] the matrix, X[s, nz nz + n] minus the residual."""
     base, eta0 = KINDS * nz, ti.exp(ln_eta0)
     kf = conductivity(oil, p)
@@ -313,18 +326,18 @@ def assemble(S: ti.template(), Z: ti.template(), X: ti.template(), k, q, s, nz, 
         tx, ty = tau + (zeta[n] - centre) * h * px, (zeta[n] - centre) * h * py
         beta = Z[q, BETA * nz + n]
         heat = (tx * tx + ty * ty) * ie / (b * eta0) * fade
-        squeeze = expansivity(oil, p, t) * Z[q, PS * nz + n] * inv_dt * fade
+        squeeze = expansivity(oil, p, t) * Z[q, PS * nz + n] * rate * fade
         solid = S[TOUCH, k] > 0.0
         heat = ti.select(solid, mu_stress * ti.abs(slip) / h, heat)
         squeeze = ti.select(solid, V(0.0), squeeze)
         gain = ti.select(solid, V(0.0), ie / eta0 * (bend * newtonian + tau) * newtonian / e0 * fade)
-        balance = rc * inv_dt * (t - Z[q, TS * nz + n]) - heat - squeeze * (t + 273.15)
+        balance = rc * rate * (t - Z[q, TS * nz + n]) - heat - squeeze * (t + 273.15)
         for m in range(nz):
             other = Z[q, T * nz + m]
             link = swept * D1[n, m] - kf / (h * h) * D2[n, m]
             balance += link * other
             X[s, n * nz + m] = link + gain * C[nz - 1, m] * Z[q, NIE * nz + m] * Z[q, BETA * nz + m]
-        X[s, n * nz + n] += rc * inv_dt - squeeze - ti.select(solid, V(0.0), heat * beta)
+        X[s, n * nz + n] += rc * rate - squeeze - ti.select(solid, V(0.0), heat * beta)
         X[s, nz * nz + n] = -balance
     flux_a, flux_b = V(0.0), V(0.0)
     last = nz - 1
@@ -366,8 +379,7 @@ def energy(S: ti.template(), Z: ti.template(), X: ti.template(), G: Table, C: Co
     """One implicit step of every column, by Newton; out[block] = (largest change of T against the last iterate, columns
     that did not converge, clamped nodes).
 
-    scale[0] = p_H, h, a, ln eta0, slip, inlet temperature, column of X = 0; step[0] = 1/dt, 1/dx, 1/dy (1/m), B_a, B_b,
-    tolerance (K), iterations.
+    scale[0] = p_H, h, a, ln eta0, slip, inlet temperature, column of X = 0.
     """
     nx, ny, off = cells(G, 0)
     base = KINDS * nz
@@ -386,13 +398,13 @@ def energy(S: ti.template(), Z: ti.template(), X: ti.template(), G: Table, C: Co
                 fade = S[P, k] / (S[P, k] + FADE)
             mu_stress = ti.min(rheology.mu_boundary * p, shear_limit(rheology, p))
             before = V(0.0)
-            prepare(Z, q, s, i, nx, ny, nz, oil, p, step[0, 0], step[0, 1], step[0, 2])
+            prepare(Z, q, s, i, nx, ny, nz, oil, p, step)
             moved, expected, count = 1e300, 1e300, 0
-            while expected > step[0, 5] and count < int(step[0, 6]):
+            while expected > step[0, TOLERANCE] and count < int(step[0, ITERATIONS]):
                 count += 1
                 previous = moved
                 assemble(S, Z, X, k, q, s, nz, C, zeta, D1, D2, oil, rheology, p, h, px * (p_H / a), py * (p_H / a), ln_eta0,
-                         slip, step[0, 0], step[0, 3], step[0, 4], fade, mu_stress)
+                         slip, step[0, RATE], step[0, B_A], step[0, B_B], fade, mu_stress)
                 eliminate(X, s, nz)
                 moved = 0.0
                 for n in range(nz):
@@ -406,7 +418,7 @@ def energy(S: ti.template(), Z: ti.template(), X: ti.template(), G: Table, C: Co
                                 clamped += 1.0
                 # of the next step: quadratic at first, then as the last two; saves the step that would only confirm
                 expected = QUADRATIC * moved * moved if count == 1 else moved * ti.min(moved / previous, 1.0)
-            if expected > step[0, 5]:
+            if expected > step[0, TOLERANCE]:
                 failed += 1.0
             flux_a, flux_b, kf = V(0.0), V(0.0), conductivity(oil, p)
             for m in range(nz):
@@ -428,9 +440,9 @@ def accept(S: ti.template(), Z: ti.template(), G: Table, nz: ti.i32, p_H: ti.f64
     for s in range(ny // W + 1):
         for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
             for n in range(nz):
-                Z[q, TN * nz + n] = Z[q, T * nz + n]
-                Z[q, MSN * nz + n] = Z[q, MS * nz + n]
-            Z[q, KINDS * nz + PN] = S[P, off + q] * p_H
+                Z[q, TNN * nz + n], Z[q, TN * nz + n] = Z[q, TN * nz + n], Z[q, T * nz + n]
+                Z[q, MSNN * nz + n], Z[q, MSN * nz + n] = Z[q, MSN * nz + n], Z[q, MS * nz + n]
+            Z[q, KINDS * nz + PNN], Z[q, KINDS * nz + PN] = Z[q, KINDS * nz + PN], S[P, off + q] * p_H
 
 
 @ti.kernel

@@ -1,7 +1,8 @@
 """Surface temperatures of the bodies: heat that went in earlier, remembered in the bodies' own frames.
 
-F[column, slot]: the memory modes of body a, those of body b, then both again for the new step, then one scratch slot; a
-column belongs to a material strip, which the grid of the contact overtakes by whole cells (`shift`) and a rest (`rest`).
+F[column, slot]: the memory modes of body a and of body b (`count` each) and the flux of the last step into both; all that
+again for the new step; one scratch slot. A column belongs to a material strip, which the grid of the contact overtakes by
+whole cells (shift) and a rest.
 """
 
 import taichi as ti
@@ -9,7 +10,9 @@ import taichi as ti
 from tehl_taichi.kernels.film import cubic
 from tehl_taichi.kernels.lanes import Table, V, W, cells
 
-Modes = ti.types.ndarray(dtype=ti.f64, ndim=2)  # rows: weight, decay over the step, gain of the step; then shift, rest
+# rows: weight, decay over the step, gain of the new flux and of the last one (linear in between); shift, rest, B of the last
+Modes = ti.types.ndarray(dtype=ti.f64, ndim=2)
+WEIGHT, DECAY, GAIN, GAIN_LAST, NUMBERS = range(5)
 
 
 @ti.func
@@ -28,13 +31,14 @@ def surface(F: ti.template(), Z: ti.template(), G: Table, modes: Modes, count: t
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
-        first, scratch = s * (nx + 1), 4 * count
-        shift, rest = int(modes[3, 0]), modes[3, 1]
+        first, scratch = s * (nx + 1), 4 * count + 4
+        shift, rest, last = int(modes[NUMBERS, 0]), modes[NUMBERS, 1], modes[NUMBERS, 2]
         for i in range(nx + 1):
             total = V(ambient)
             if i - shift >= 0:
+                total += last * F[first + i - shift, 2 * count + body]
                 for m in range(count):
-                    total += modes[0, m] * modes[1, m] * F[first + i - shift, body * count + m]
+                    total += modes[WEIGHT, m] * modes[DECAY, m] * F[first + i - shift, body * count + m]
             F[first + i, scratch] = total
         for i in range(nx + 1):
             Z[first + i, slot] = interpolate(F, first, i - 1, nx, scratch, 1.0 - rest)
@@ -42,18 +46,22 @@ def surface(F: ti.template(), Z: ti.template(), G: Table, modes: Modes, count: t
 
 @ti.kernel
 def remember(F: ti.template(), Z: ti.template(), G: Table, modes: Modes, count: ti.i32, body: ti.i32, slot: ti.i32):
-    """The new memory of a body from the flux Z[slot] of this step."""
+    """The new memory of a body from the flux Z[slot] of this step and that of the last."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
-        first, shift, rest = s * (nx + 1), int(modes[3, 0]), modes[3, 1]
+        first, shift, rest = s * (nx + 1), int(modes[NUMBERS, 0]), modes[NUMBERS, 1]
+        new = 2 * count + 2
         for i in range(nx + 1):
-            q = interpolate(Z, first, i, nx, slot, rest)
+            q, last = interpolate(Z, first, i, nx, slot, rest), V(0.0)
+            if i - shift >= 0:
+                last = F[first + i - shift, 2 * count + body]
             for m in range(count):
                 old = V(0.0)
                 if i - shift >= 0:
                     old = F[first + i - shift, body * count + m]
-                F[first + i, (2 + body) * count + m] = modes[1, m] * old + modes[2, m] * q
+                F[first + i, new + body * count + m] = modes[DECAY, m] * old + modes[GAIN, m] * q + modes[GAIN_LAST, m] * last
+            F[first + i, new + 2 * count + body] = q
 
 
 @ti.kernel
@@ -63,5 +71,5 @@ def adopt(F: ti.template(), G: Table, count: ti.i32):
     ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
         for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
-            for m in range(2 * count):
-                F[q, m] = F[q, 2 * count + m]
+            for m in range(2 * count + 2):
+                F[q, m] = F[q, 2 * count + 2 + m]

@@ -15,6 +15,7 @@ from tehl_taichi.kernels import solids as solid_kernels
 from tehl_taichi.runtime import bind
 from tehl_taichi.solvers import solids
 
+KEPT = 2 * solids.MODES + 2  # slots of the bodies that go on to the next step
 COLUMN_TOLERANCE = 0.1  # of the tolerance of a round
 COLUMN_ITERATIONS = 12  # Newton steps of a column; 2 are usual, 6 to 8 the most seen
 
@@ -23,6 +24,7 @@ TRANSITS, STRIDE = 1.2, 3  # of the domain by the slower surface in the first st
 SLOW, SLOW_STRIDE = 4, 8  # ratio of the speeds from which on the slower surface needs longer steps, and those
 BLOCK = 6  # later blocks: this fraction of the columns
 LOADED = 1e-3  # of p_H: the eddy in front of the contact fills with warm oil for ever, and matters little
+SETTLED = 0.05  # K
 BLOCKS = 40  # at most; 8 to 12 are usual
 OIL_CELLS = 1.5  # a step of a passage moves the faster surface by at most so many cells
 
@@ -69,26 +71,26 @@ def time_step(scene, scales, dx):
     return dx * scales.a / max(o.u_a, o.u_b)
 
 
-def settle(solver, heat, krylov_tolerance):
-    """Steady pressure and temperature by turns: a block of time steps with the pressure at rest, then the pressure anew.
+def settle(levels, heat, solve):
+    """Steady pressure and temperature by turns: a block of time steps with the pressure at rest, then the pressure anew by
+    solve() -> Report.
 
-    Settled when the mean temperatures of two blocks under load differ by less than thermal.tolerance (of single moments
+    Settled when the mean temperatures of two blocks under load differ by less than SETTLED (of single moments
     they differ by up to 0.2 K on 64 columns: material strips lie between nodes now and on them then). Returns the
     pressure's Report with converged = False if that is not reached.
     """
-    v = solver.levels
     heat.start()
     ratio = max(heat.speeds) / min(heat.speeds)
     first, later = (STRIDE, 1) if ratio < SLOW else (SLOW_STRIDE, SLOW_STRIDE // 2)
-    steps, dt = math.ceil(TRANSITS * v.nx * ratio / first), first * heat.dt
+    steps, dt = math.ceil(TRANSITS * levels.nx * ratio / first), first * heat.dt
     before = heat.T
     for _ in range(BLOCKS):
         mean = _march(heat, steps, dt)
-        loaded = v.get(fields.P) > LOADED
+        loaded = levels.get(fields.P) > LOADED
         change, before = float(np.abs(mean - before).max(axis=0)[loaded].max()), mean
-        report = solver.solve(krylov_tolerance)
-        steps, dt = _whole_cells(v.nx / BLOCK * (1 if ratio < SLOW else ratio) / later, later / ratio), later * heat.dt
-        if not report.converged or change < v.scene.thermal.tolerance:
+        report = solve()
+        steps, dt = _whole_cells(levels.nx / BLOCK * (1 if ratio < SLOW else ratio) / later, later / ratio), later * heat.dt
+        if not report.converged or change < SETTLED:
             return report
     report.converged = False
     return report
@@ -116,7 +118,8 @@ class FilmHeat:
     dt_s: the time step (s) that the memory of the bodies is made for; shorter ones may be taken too.
     """
 
-    FIELDS = ("heat_T", "heat_below", "heat_memory")  # of the state, (..., ny+1, nx+1)
+    # of the state, (..., ny+1, nx+1)
+    FIELDS = ("heat_T", "heat_T_before", "heat_below", "heat_below_before", "heat_p_before", "heat_memory")
 
     def __init__(self, levels, dt_s):
         scene, self.levels = levels.scene, levels
@@ -124,11 +127,12 @@ class FilmHeat:
         self.columns = levels.fine * (levels.nx + 1)
         slots = film.KINDS * self.nz + film.SINGLES
         self.Z = runtime.lease(self, 0, lanes.W, self.columns, slots)
-        self.F = runtime.lease(self, 0, lanes.W, self.columns, 4 * solids.MODES + 1)
+        self.F = runtime.lease(self, 0, lanes.W, self.columns, 4 * solids.MODES + 5)
         self.X = runtime.lease(self, 0, lanes.W, levels.fine, self.nz * (self.nz + 1))
         self.zeta, self.C, self.D1, self.D2 = chebyshev(self.nz)
         self.single = film.KINDS * self.nz
         self.offset = np.zeros(2)  # cells that each body has moved since the start
+        self.dt_before = 0.0
         self.report = HeatReport(math.nan, 0, 0)
         self._bind(scene)
         self._bind_bodies()
@@ -143,7 +147,7 @@ class FilmHeat:
         self._velocities = bind(film.velocities, *table, *nodes, s.p_H, s.h, s.a, v.ln_eta0, o.u_a, -o.u_s)
         centre = float(np.searchsorted(v.X, 0.0))
         self.scale = np.array([[s.p_H, s.h, s.a, v.ln_eta0, -o.u_s, self.inlet, centre]])
-        self.step_numbers, self.partial = np.zeros((1, 7)), np.zeros((v.fine, 3))
+        self.step_numbers, self.partial = np.zeros((1, film.STEP_NUMBERS)), np.zeros((v.fine, 3))
         self._energy = bind(film.energy, v.S, self.Z, self.X, v.G, self.C, self.zeta, self.D1, self.D2, self.nz, scene.oil,
                             scene.rheology, self.scale, self.step_numbers, self.partial)
         self._departures = bind(film.departures, v.S, self.Z, v.G, self.nz, s.p_H, self.inlet, self.step_numbers)
@@ -151,7 +155,7 @@ class FilmHeat:
 
     def _bind_bodies(self):
         G, count, inlet = self.levels.G, solids.MODES, self.inlet
-        self.modes = [np.zeros((4, count)) for _ in (0, 1)]
+        self.modes = [np.zeros((5, count)) for _ in (0, 1)]
         self._surface = [bind(solid_kernels.surface, self.F, self.Z, G, self.modes[body], count, body, inlet,
                               self.single + (film.AA, film.AB)[body]) for body in (0, 1)]
         self._remember = [bind(solid_kernels.remember, self.F, self.Z, G, self.modes[body], count, body,
@@ -169,14 +173,17 @@ class FilmHeat:
 
     def begin(self, dt):
         """Prepare a step of dt s: what the bodies remember, A and B of both surfaces."""
-        v, a, B = self.levels, self.levels.scales.a, [0.0, 0.0]
+        v, a, B, self.dt_now = self.levels, self.levels.scales.a, [0.0, 0.0], dt
         self.until = self.offset + np.array(self.speeds) * dt / (v.dx * a)
         for body in (0, 1):
-            self.modes[body][:3], B[body] = solids.memory(dt, self.effusivities[body], self.dt)
-            self.modes[body][3, :2] = self._position(body)
+            self.modes[body][:4], B[body], last = solids.memory(dt, self.effusivities[body], self.dt)
+            self.modes[body][4, :3] = *self._position(body), last
             self._surface[body]()
-        self.step_numbers[0] = [1 / dt, 1 / (v.dx * a), 1 / (v.dy * a), *B, COLUMN_TOLERANCE * v.scene.thermal.tolerance,
-                                COLUMN_ITERATIONS]
+        # BDF2 for steps of any length; the very first step is BDF1
+        r = dt / self.dt_before if self.dt_before else 0.0
+        rate, near = ((1 + 2 * r) / (1 + r) / dt, (1 + r) ** 2 / (1 + 2 * r)) if r else (1 / dt, 1.0)
+        self.step_numbers[0] = [rate, 1 / (v.dx * a), 1 / (v.dy * a), *B, COLUMN_TOLERANCE * v.scene.thermal.tolerance,
+                                COLUMN_ITERATIONS, dt, dt + self.dt_before, near, 1 - near]
 
     def _position(self, body):
         """Whole cells that the grid overtakes material strips of the body by in this step, and where they lie then."""
@@ -197,29 +204,35 @@ class FilmHeat:
         for remember in self._remember:
             remember()
         self._adopt()
-        self.offset = self.until
+        self.offset, self.dt_before = self.until, self.dt_now
         self._velocities()
         self._accept()
         self.T = self.temperature()
 
     def state(self):
         """All that is needed to go on, as arrays."""
-        return {"heat_T": self.T, "heat_below": self.slots(film.MSN * self.nz, self.nz),
-                "heat_memory": self.memory(), "heat_offset": self.offset}
+        return {"heat_T": self.T, "heat_T_before": self.slots(film.TNN * self.nz, self.nz),
+                "heat_below": self.slots(film.MSN * self.nz, self.nz),
+                "heat_below_before": self.slots(film.MSNN * self.nz, self.nz),
+                "heat_p_before": self.slots(self.single + film.PNN, 1), "heat_memory": self.memory(),
+                "heat_offset": self.offset, "heat_dt_before": self.dt_before}
 
     def restore(self, state):
         """Go on from a state; the pressure of the last step must be in the table."""
         G, v = self.levels.G, self.levels
         for first in (film.T, film.TN):
             film.put_slots(self.Z, G, first * self.nz, self.nz, np.ascontiguousarray(state["heat_T"]))
-        film.put_slots(self.Z, G, film.MSN * self.nz, self.nz, np.ascontiguousarray(state["heat_below"]))
+        for first, name in ((film.TNN, "heat_T_before"), (film.MSN, "heat_below"), (film.MSNN, "heat_below_before")):
+            film.put_slots(self.Z, G, first * self.nz, self.nz, np.ascontiguousarray(state[name]))
         film.put_slots(self.Z, G, self.single + film.PN, 1, v.get(fields.P)[None] * v.scales.p_H)
-        film.put_slots(self.F, G, 0, 2 * solids.MODES, np.ascontiguousarray(state["heat_memory"]))
+        film.put_slots(self.Z, G, self.single + film.PNN, 1, np.ascontiguousarray(state["heat_p_before"]))
+        film.put_slots(self.F, G, 0, KEPT, np.ascontiguousarray(state["heat_memory"]))
         self.offset, self.T = np.array(state["heat_offset"]), np.array(state["heat_T"])
+        self.dt_before = float(state["heat_dt_before"])
 
     def memory(self):
-        """Modes of both bodies, (2 MODES, ny+1, nx+1)."""
-        out = np.zeros((2 * solids.MODES, self.levels.ny + 1, self.levels.nx + 1))
+        """Modes of both bodies and the last flux into them, (KEPT, ny+1, nx+1)."""
+        out = np.zeros((KEPT, self.levels.ny + 1, self.levels.nx + 1))
         film.get_slots(self.F, self.levels.G, 0, len(out), out)
         return out
 

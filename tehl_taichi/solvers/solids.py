@@ -2,8 +2,8 @@
 
 Each material strip of a body's surface is a one-dimensional half-space (Carslaw & Jaeger, section 2.9; conduction along the
 surface is negligible at the Peclet numbers of these contacts): T_s(t) = T_0 + int q(t') K(t - t') dt', K = 1/sqrt(pi k rho c
-t). With K as a sum of exponentials the history becomes a few numbers per strip, and the flux of the running step enters
-exactly: T_s = A + B q, B = 2 sqrt(dt/pi)/sqrt(k rho c), the same at every node.
+t). With K as a sum of exponentials the history becomes a few numbers per strip, and the flux of the running step (linear in
+time) enters exactly: T_s = A + B q, B = (4/3) sqrt(dt/pi)/sqrt(k rho c), the same at every node.
 """
 
 import math
@@ -17,14 +17,16 @@ SHORTEST = 1 / 16  # part of a step that is ever taken
 
 
 def memory(dt, effusivity, base_dt):
-    """(rows of MODES numbers: weight, decay over dt, gain of dt; B) for a step of dt s, fitted for steps of base_dt s.
+    """(rows of MODES numbers: weight, decay over dt, gain of the new flux and of the last; B of the new flux, of the last)
+    for a step of dt s with a flux linear in time, fitted for steps of base_dt s.
 
     effusivity: sqrt(k rho c) of the body, SI.
     """
     rates, weights = _fit()
     rates, weights = rates / base_dt, weights / (effusivity * math.sqrt(base_dt))
-    decay = np.exp(-rates * dt)
-    return np.array([weights, decay, (1 - decay) / rates]), 2 * math.sqrt(dt / math.pi) / effusivity
+    mean = -np.expm1(-rates * dt) / (rates * dt)
+    B = 2 * math.sqrt(dt / math.pi) / effusivity
+    return np.array([weights, np.exp(-rates * dt), (1 - mean) / rates, (mean - np.exp(-rates * dt)) / rates]), 2 * B / 3, B / 3
 
 
 @lru_cache(maxsize=1)

@@ -77,7 +77,7 @@ def solve_steady(scene, scales, nx, ny):
         report = _first(solver) if P is None else _next(solver, P, H0)
         if report.converged and not scene.isothermal and nx // size[0] <= FINEST_THERMAL:
             heat = FilmHeat(solver.levels, time_step(scene, scales, solver.levels.dx))
-            report = settle(solver, heat, KRYLOV_TOLERANCE)
+            report = settle(solver.levels, heat, lambda solver=solver: _again(solver))
         # a grid too coarse for the outlet of this film is no start for the next one, nor a step of its error
         P, H0 = (solver.levels.get(fields.P), solver.H0) if report.converged else (None, 0.0)
         values = [*values, scalars(solver)] if report.converged else [scalars(solver)]
@@ -97,6 +97,12 @@ def _first(solver):
         if report.converged:
             return report
     return _through_slower_ones(solver)
+
+
+def _again(solver):
+    """The pressure for other temperatures."""
+    report = solver.solve(KRYLOV_TOLERANCE)
+    return report if report.converged else _through_slower_ones(solver)
 
 
 def _through_slower_ones(solver):
