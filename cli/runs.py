@@ -12,6 +12,7 @@ import typer
 from tehl_cli.errors import Interrupted
 from tehl_cli.live import Live, say
 
+SWITCH = 1e-4  # s
 GRIDS = {"coarse": (128, 32), "medium": (256, 64), "fine": (512, 128)}
 
 
@@ -135,7 +136,9 @@ def _go(saved, started, as_json, quiet, steady_error, compile_s):
 def _march(saved, quiet):
     from tehl_taichi.simulation import march, total_steps
 
-    # one step is written while the next one is computed; leaving the block waits for the last write
+    # one step is written while the next one is computed; leaving the block waits for the last write. The solver gives up the
+    # interpreter's lock thousands of times a step: it must not wait 5 ms for the writer each time
+    sys.setswitchinterval(SWITCH)
     with Live(total_steps(saved.scene), saved.steps - 1, quiet) as live, ThreadPoolExecutor(1) as writer:
         pending = None
         for snapshot in march(saved.scene, saved.last_state()):
