@@ -129,7 +129,10 @@ GEAR = {-0.1176: (0.3926, 0.314, 0.0517, 141.3, 123.8, 122.4), 0.0: (0.3915, Non
         -0.5: (0.380, None, 0.0259, 192.7, 164.3, 151.1)}
 
 
-@pytest.mark.parametrize("srr", GEAR)
+SLOW = [pytest.param(srr, marks=pytest.mark.slow) for srr in (0.0, -0.5)]
+
+
+@pytest.mark.parametrize("srr", [-0.1176, *SLOW])
 def test_steady_thermal_gear(srr):
     s = steady(srr=srr, **{"grid.nx": 256, "grid.x_min": -2.0})
     h_c, h_min, mu, mid, a, b = GEAR[srr]
