@@ -49,9 +49,24 @@ def start(arch="cpu", threads=None, precision="f64"):
                 # Taichi would run loops of up to 512 rows on one thread: our loops run over rows of that number
                 make_cpu_multithreading_loop=False,
                 offline_cache=True, offline_cache_file_path=str(cache_dir()))
+    _trace_without_positions()
     _started.update(arch=arch, threads=threads, precision=precision, taichi=".".join(map(str, ti.__version__)),
                     cache=str(cache_dir()))
     return dict(_started)
+
+
+def _trace_without_positions():
+    """Taichi notes the source line of every node it traces, half of the start of a large kernel (Findley search 2.9 s ->
+    1.2 s), for messages that only developers see: TEHL_DEBUG=1 keeps them."""
+    if os.environ.get("TEHL_DEBUG"):
+        return
+    try:
+        from taichi.lang.ast.ast_transformer_utils import ASTTransformerContext
+
+        assert callable(ASTTransformerContext.get_pos_info)
+    except (ImportError, AttributeError):
+        return
+    ASTTransformerContext.get_pos_info = lambda context, node: ""
 
 
 def ensure():

@@ -141,7 +141,17 @@ class Store:
 
     def fields(self, n, names=tuple(FIELDS)):
         """{name: (nx+1, ny+1) array} of entry n."""
-        return {name: self.group[name][n] for name in names}
+        return {name: self._values(name, n) for name in names}
+
+    def _values(self, name, n):
+        """One chunk, read as it was written: a tenth of the time of the general way, which a fatigue search feels."""
+        shape = self.metadata[name]["shape"][1:]
+        values = np.frombuffer(zstd.decompress(self._chunk(name, n).read_bytes()), "<" + self.stored[name])
+        return values.reshape(shape)
+
+    def _chunk(self, name, n):
+        """File of entry n of a field."""
+        return self.path / name / "c" / "/".join([str(n)] + ["0"] * (len(self.metadata[name]["shape"]) - 1))
 
     def map(self, name):
         """One of the maps that :meth:`finish` stored, or None."""
@@ -152,8 +162,7 @@ class Store:
         n = self.steps
         for name, dtype in self.stored.items():
             values = np.ascontiguousarray(snapshot.fields[name], "<" + dtype)
-            chunk = self.path / name / "c" / "/".join([str(n)] + ["0"] * values.ndim)
-            _write_file(chunk, zstd.compress(values.tobytes(), 1))
+            _write_file(self._chunk(name, n), zstd.compress(values.tobytes(), 1))
         values = {**snapshot.scalars, "feature_x": snapshot.feature_x, "step": snapshot.step, "time": snapshot.time}
         for name, series in self.series.items():
             series[n] = values[name]
