@@ -36,8 +36,10 @@ def _plus(error, factor):
 def _heat_rows(when, values):
     if "film_max_C" not in values:
         return []
-    return [(f"{when} film / surface a / surface b, largest",
-             " / ".join(f"{values[key]:.1f}" for key in ("film_max_C", "surface_a_max_C", "surface_b_max_C")) + " °C")]
+    from tehl_taichi.io.summary import HEAT
+
+    largest = " / ".join(f"{values[key]:.1f}" for key in HEAT)
+    return [(f"{when} film / surface a / surface b, largest", f"{largest} °C")]
 
 
 def _passage_rows(summary):

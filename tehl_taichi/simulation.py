@@ -13,7 +13,7 @@ from tehl_taichi.kernels import fields
 from tehl_taichi.physics.gap import feature_height, undeformed
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.snapshot import Snapshot
-from tehl_taichi.solvers.heat import FilmHeat, step_cells
+from tehl_taichi.solvers.heat import FilmHeat, bdf2, step_cells
 from tehl_taichi.solvers.levels import Levels
 from tehl_taichi.solvers.newton import PressureSolver
 from tehl_taichi.solvers.steady import solve_steady
@@ -110,7 +110,6 @@ class Passage:
         heat = FilmHeat(self.levels, self.dT * self.scales.t)
         self.levels.put(fields.P, self.P)
         heat.restore(state)
-        self.T, self.T_before = np.array(state["heat_T"]), state.get("T_before")
         return heat
 
     def steps(self):
@@ -193,16 +192,11 @@ class Passage:
         v.put(fields.GAP0, gap)
 
     def _discretise_time(self, part):
-        """BDF2 for steps of any length; the very first step is BDF1."""
-        v, dT = self.levels, part * self.dT
-        if self.mass_before is None:
-            weight, old = 1 / dT, -self.mass / dT
-        else:
-            r = part / self.part
-            weight = (1 + 2 * r) / (1 + r) / dT
-            old = (-(1 + r) * self.mass + r * r / (1 + r) * self.mass_before) / dT
-        v.set_rate(weight)
-        v.put(fields.QOLD, old * v.dx)
+        v, first = self.levels, self.mass_before is None
+        rate, near = bdf2(part * self.dT, 0.0 if first else self.part * self.dT)
+        old = self.mass if first else near * self.mass + (1 - near) * self.mass_before
+        v.set_rate(rate)
+        v.put(fields.QOLD, -rate * old * v.dx)
 
     def _predict(self, until, part):
         P = self.P
@@ -215,10 +209,10 @@ class Passage:
             self._predict_temperature(part)
 
     def _predict_temperature(self, part):
-        T, moves = self.T, self.step_x / self.levels.dx if self.position(self.step + 1) < HEAT_SHIFT_UNTIL else 0.0
-        if self.T_before is not None:
-            T = _extrapolated(T, self.T_before, moves * part, moves * self.part, part / self.part)
-            T = np.clip(T, self.T.min(), self.T.max() + 20.0)
+        T, moves = self.heat.T, self.step_x / self.levels.dx if self.position(self.step + 1) < HEAT_SHIFT_UNTIL else 0.0
+        if self.P_before is not None:
+            T = _extrapolated(T, self.heat.T_before, moves * part, moves * self.part, part / self.part)
+            T = np.clip(T, self.heat.T.min(), self.heat.T.max() + 20.0)
         self.heat.set_temperature(T)
 
     def _solve(self):
@@ -238,7 +232,6 @@ class Passage:
         self.part = part
         if self.heat:
             self.heat.accept()
-            self.T_before, self.T = self.T, self.heat.T
 
     def _mass(self):
         v = self.levels
@@ -249,10 +242,7 @@ class Passage:
         shot = snapshot.take(self.solver, self.heat, self.step, time_s, self.position(self.step) * self.scales.a, report,
                              started)
         shot.scalars.update(rejected=float(self.rejected), dt_s=self.dT * self.scales.t)
-        shot.state.update(P_before=self.P_before, mass=self.mass, mass_before=self.mass_before,
-                          part=self.part)
-        if self.heat:
-            shot.state["T_before"] = self.T_before
+        shot.state.update(P_before=self.P_before, mass=self.mass, mass_before=self.mass_before, part=self.part)
         return shot
 
 

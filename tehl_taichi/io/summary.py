@@ -56,8 +56,10 @@ def _steady(store, error):
 
 def passage_values(store, fatigue):
     """The numbers of a stored passage whose errors companion runs can tell, as those give them."""
+    from tehl_taichi.post.estimate import PASSAGE
+
     transient = _transient(store)
-    names = [name for name in ("p_max_Pa", "h_min_m", *HEAT) if name in transient]
+    names = [name for name in PASSAGE if name in transient]
     return {**{name: transient[name] for name in names}, **({"Fi_max": fatigue["Fi_max"]} if fatigue else {})}
 
 

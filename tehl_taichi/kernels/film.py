@@ -11,7 +11,7 @@ the shear law leaves of the viscosity: u = u_a + (u_b - u_a) int_0 dzeta/eta / E
 import taichi as ti
 
 from tehl_taichi.kernels.fields import DLE, DLH, DMH, DMP, DX, DY, FLOOR, IE, ILAM, LE, MOB, QCP, QP, RHO, RHOC, TOUCH, H, P
-from tehl_taichi.kernels.lanes import Table, V, W, above, below, cells
+from tehl_taichi.kernels.lanes import Flat, Table, V, W, above, below, cells
 from tehl_taichi.physics.density import expansivity, rho_film
 from tehl_taichi.physics.elementary import exp, log
 from tehl_taichi.physics.heat import conductivity, heat_capacity
@@ -64,39 +64,27 @@ def couette(Z: ti.template(), q, nz, C: ti.template(), zeta: ti.template(), rheo
 
 
 @ti.func
+def shear_integrals(Z: ti.template(), q, nz, n, C: ti.template(), zeta: ti.template(), centre):
+    """int_0^zeta of 1/eta and of (zeta - zeta_c)/eta up to node n."""
+    turn, flow = V(0.0), V(0.0)
+    for m in range(nz):
+        ie = C[n, m] * Z[q, NIE * nz + m]
+        turn += ie
+        flow += (zeta[m] - centre) * ie
+    return turn, flow
+
+
+@ti.func
 def integrals(Z: ti.template(), q, nz, C: ti.template(), zeta: ti.template(), e0, centre, b, u_a, slip, u_m):
     """Mean density, density carried by the Couette flow, and 1/eta that the Poiseuille flow feels."""
     mean, carried, mobile = V(0.0), V(0.0), V(0.0)
     for n in range(nz):
-        turn, flow = V(0.0), V(0.0)
-        for m in range(nz):
-            ie = C[n, m] * Z[q, NIE * nz + m]
-            turn += ie
-            flow += (zeta[m] - centre) * ie
+        turn, flow = shear_integrals(Z, q, nz, n, C, zeta, centre)
         rho = C[nz - 1, n] * Z[q, NRHO * nz + n]
         mean += rho
         carried += rho * (u_a + slip * turn / e0)
         mobile -= rho * flow
     return mean, carried / u_m, 12.0 * mobile / (mean * b)
-
-
-@ti.kernel
-def laws(S: ti.template(), Z: ti.template(), G: Table, C: Coefficients, zeta: ti.types.ndarray(dtype=ti.f64, ndim=1),
-         nz: ti.i32, oil: ti.template(), rheology: ti.template(), p_H: ti.f64, h_scale: ti.f64, ln_eta0: ti.f64,
-         u_a: ti.f64, slip: ti.f64, u_m: ti.f64):
-    """RHO, RHOC, LE, IE, MOB of the finest level from pressure, film and the temperatures; slip = u_b - u_a."""
-    nx, ny, off = cells(G, 0)
-    ti.loop_config(block_dim=1)
-    for s in range(ny // W + 1):
-        floor, eta0 = G[0, FLOOR], ti.exp(ln_eta0)
-        for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
-            k = off + q
-            p, h = S[P, k] * p_H, ti.max(S[H, k], floor)
-            node_laws(Z, q, nz, oil, p, ln_eta0)
-            e0, centre, stress, b = couette(Z, q, nz, C, zeta, rheology, p, h * h_scale, slip, eta0)
-            mean, carried, ie = integrals(Z, q, nz, C, zeta, e0, centre, b, u_a, slip, u_m)
-            S[RHO, k], S[RHOC, k], S[IE, k], S[LE, k] = mean, carried, ie, -log(ie)
-            S[MOB, k] = mean * h * h * h * G[0, ILAM]
 
 
 @ti.func
@@ -105,28 +93,43 @@ def sensitivity(rheology: ti.template(), newtonian, p, b):
     return (secant(rheology, newtonian * 1.001, p) * 1.001 - b) * 1000.0 / b
 
 
+@ti.func
+def store_laws(S: ti.template(), k, h, mean, carried, ie, inv_lambda):
+    S[RHO, k], S[RHOC, k], S[IE, k], S[LE, k] = mean, carried, ie, -log(ie)
+    S[MOB, k] = mean * h * h * h * inv_lambda
+
+
+@ti.func
+def store_slopes(S: ti.template(), k, h, floor, mean, carried, ie, thinning, rate):
+    """From the values at P + DP; the film acts on the shear law too (DLH)."""
+    S[DLE, k] = (-log(ie) - S[LE, k]) * rate
+    S[QP, k], S[QCP, k] = (mean - S[RHO, k]) * rate * S[H, k], (carried - S[RHOC, k]) * rate * S[H, k]
+    S[DMP, k] = S[MOB, k] * (mean / S[RHO, k] - 1.0) * rate
+    free = S[H, k] > floor
+    S[DMH, k] = ti.select(free, 3.0 * S[MOB, k] / h, V(0.0))
+    S[DLH, k] = ti.select(free, (1.0 - thinning) / h, V(0.0))
+
+
 @ti.kernel
-def slopes(S: ti.template(), Z: ti.template(), G: Table, C: Coefficients, zeta: ti.types.ndarray(dtype=ti.f64, ndim=1),
-           nz: ti.i32, oil: ti.template(), rheology: ti.template(), p_H: ti.f64, h_scale: ti.f64, ln_eta0: ti.f64,
-           u_a: ti.f64, slip: ti.f64, u_m: ti.f64):
-    """Their derivatives; needs `laws`. The film acts on the shear law too (DLH)."""
+def laws(S: ti.template(), Z: ti.template(), G: Table, C: Coefficients, zeta: Flat,
+         nz: ti.i32, oil: ti.template(), rheology: ti.template(), p_H: ti.f64, h_scale: ti.f64, ln_eta0: ti.f64,
+         u_a: ti.f64, slip: ti.f64, u_m: ti.f64, slopes: ti.template()):
+    """RHO, RHOC, LE, IE, MOB of the finest level from pressure, film and the temperatures; slip = u_b - u_a. With slopes = 1
+    their derivatives, which need the values."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
         floor, eta0 = G[0, FLOOR], ti.exp(ln_eta0)
         for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
             k = off + q
-            p, h = S[P, k] * p_H + DP, ti.max(S[H, k], floor)
+            p, h = S[P, k] * p_H + slopes * DP, ti.max(S[H, k], floor)
             node_laws(Z, q, nz, oil, p, ln_eta0)
             e0, centre, stress, b = couette(Z, q, nz, C, zeta, rheology, p, h * h_scale, slip, eta0)
             mean, carried, ie = integrals(Z, q, nz, C, zeta, e0, centre, b, u_a, slip, u_m)
-            rate = p_H / DP
-            S[DLE, k] = (-log(ie) - S[LE, k]) * rate
-            S[QP, k], S[QCP, k] = (mean - S[RHO, k]) * rate * S[H, k], (carried - S[RHOC, k]) * rate * S[H, k]
-            S[DMP, k] = S[MOB, k] * (mean / S[RHO, k] - 1.0) * rate
-            free = S[H, k] > floor
-            S[DMH, k] = ti.select(free, 3.0 * S[MOB, k] / h, V(0.0))
-            S[DLH, k] = ti.select(free, (1.0 - sensitivity(rheology, stress, p, b)) / h, V(0.0))
+            if ti.static(slopes):
+                store_slopes(S, k, h, floor, mean, carried, ie, sensitivity(rheology, stress, p, b), p_H / DP)
+            else:
+                store_laws(S, k, h, mean, carried, ie, G[0, ILAM])
 
 
 @ti.func
@@ -172,7 +175,7 @@ def gradients(S: ti.template(), k, i, nx, s, ny, n2, dx, dy):
 
 
 @ti.kernel
-def velocities(S: ti.template(), Z: ti.template(), G: Table, C: Coefficients, zeta: ti.types.ndarray(dtype=ti.f64, ndim=1),
+def velocities(S: ti.template(), Z: ti.template(), G: Table, C: Coefficients, zeta: Flat,
                nz: ti.i32, oil: ti.template(), rheology: ti.template(), p_H: ti.f64, h_scale: ti.f64, a: ti.f64,
                ln_eta0: ti.f64, u_a: ti.f64, slip: ti.f64):
     """Velocities, mass fluxes below each node, and the shear on both walls."""
@@ -191,11 +194,7 @@ def velocities(S: ti.template(), Z: ti.template(), G: Table, C: Coefficients, ze
             e0, centre, newtonian, b = couette(Z, q, nz, C, zeta, rheology, p, h, slip, eta0)
             flow = h * h / (b * eta0)
             for n in range(nz):
-                turn, poiseuille = V(0.0), V(0.0)
-                for m in range(nz):
-                    ie = C[n, m] * Z[q, NIE * nz + m]
-                    turn += ie
-                    poiseuille += (zeta[m] - centre) * ie
+                turn, poiseuille = shear_integrals(Z, q, nz, n, C, zeta, centre)
                 Z[q, U * nz + n] = u_a + slip * turn / e0 + flow * px * poiseuille
                 Z[q, VY * nz + n] = flow * py * poiseuille
             for n in range(nz):
@@ -309,6 +308,16 @@ def prepare(Z: ti.template(), q, s, i, nx, ny, nz, oil: ti.template(), p, step: 
 
 
 @ti.func
+def wall_slopes(Z: ti.template(), q, nz, D1: ti.template()):
+    """dT/dzeta at both walls."""
+    at_a, at_b = V(0.0), V(0.0)
+    for m in range(nz):
+        at_a += D1[0, m] * Z[q, T * nz + m]
+        at_b += D1[nz - 1, m] * Z[q, T * nz + m]
+    return at_a, at_b
+
+
+@ti.func
 def assemble(S: ti.template(), Z: ti.template(), X: ti.template(), k, q, s, nz, C: ti.template(), zeta: ti.template(),
              D1: ti.template(), D2: ti.template(), oil: ti.template(), rheology: ti.template(), p, h, px, py, ln_eta0, slip,
              rate, B_a, B_b, fade, mu_stress):
@@ -339,18 +348,15 @@ def assemble(S: ti.template(), Z: ti.template(), X: ti.template(), k, q, s, nz, 
             X[s, n * nz + m] = link + gain * C[nz - 1, m] * Z[q, NIE * nz + m] * Z[q, BETA * nz + m]
         X[s, n * nz + n] += rc * rate - squeeze - ti.select(solid, V(0.0), heat * beta)
         X[s, nz * nz + n] = -balance
-    flux_a, flux_b = V(0.0), V(0.0)
+    flux_a, flux_b = wall_slopes(Z, q, nz, D1)
     last = nz - 1
     for m in range(nz):
-        flux_a += D1[0, m] * Z[q, T * nz + m]
-        flux_b += D1[last, m] * Z[q, T * nz + m]
         X[s, m] = -B_a * kf / h * D1[0, m]
         X[s, last * nz + m] = B_b * kf / h * D1[last, m]
     X[s, 0] += 1.0
     X[s, last * nz + last] += 1.0
     X[s, nz * nz] = Z[q, base + AA] + B_a * kf / h * flux_a - Z[q, T * nz]
     X[s, nz * nz + last] = Z[q, base + AB] - B_b * kf / h * flux_b - Z[q, T * nz + last]
-    Z[q, base + QA], Z[q, base + QB] = kf / h * flux_a, -kf / h * flux_b
 
 
 @ti.func
@@ -374,7 +380,7 @@ def eliminate(X: ti.template(), s, nz):
 
 @ti.kernel
 def energy(S: ti.template(), Z: ti.template(), X: ti.template(), G: Table, C: Coefficients,
-           zeta: ti.types.ndarray(dtype=ti.f64, ndim=1), D1: Coefficients, D2: Coefficients, nz: ti.i32,
+           zeta: Flat, D1: Coefficients, D2: Coefficients, nz: ti.i32,
            oil: ti.template(), rheology: ti.template(), scale: Coefficients, step: Coefficients, out: Table):
     """One implicit step of every column, by Newton; out[block] = (largest change of T against the last iterate, columns
     that did not converge, clamped nodes).
@@ -397,7 +403,6 @@ def energy(S: ti.template(), Z: ti.template(), X: ti.template(), G: Table, C: Co
             if i > scale[0, 6]:
                 fade = S[P, k] / (S[P, k] + FADE)
             mu_stress = ti.min(rheology.mu_boundary * p, shear_limit(rheology, p))
-            before = V(0.0)
             prepare(Z, q, s, i, nx, ny, nz, oil, p, step)
             moved, expected, count = 1e300, 1e300, 0
             while expected > step[0, TOLERANCE] and count < int(step[0, ITERATIONS]):
@@ -420,14 +425,13 @@ def energy(S: ti.template(), Z: ti.template(), X: ti.template(), G: Table, C: Co
                 expected = QUADRATIC * moved * moved if count == 1 else moved * ti.min(moved / previous, 1.0)
             if expected > step[0, TOLERANCE]:
                 failed += 1.0
-            flux_a, flux_b, kf = V(0.0), V(0.0), conductivity(oil, p)
             for m in range(nz):
-                flux_a += D1[0, m] * Z[q, T * nz + m]
-                flux_b += D1[nz - 1, m] * Z[q, T * nz + m]
                 before = ti.abs(Z[q, T * nz + m] - Z[q, LAST * nz + m])
                 for u in ti.static(range(W)):
                     if s * W + u <= ny:
                         largest = ti.max(largest, before[u])
+            flux_a, flux_b = wall_slopes(Z, q, nz, D1)
+            kf = conductivity(oil, p)
             Z[q, base + QA], Z[q, base + QB] = kf / h * flux_a, -kf / h * flux_b
         out[s, 0], out[s, 1], out[s, 2] = largest, failed, clamped
 

@@ -88,13 +88,3 @@ def save(S: ti.template(), G: Table, row: ti.i32, out: Vector):
     for s in range(ny // W + 1):
         for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
             out[q] = S[row, off + q]
-
-
-@ti.kernel
-def restore(S: ti.template(), G: Table, row: ti.i32, values: Vector):
-    """S[row] of the finest level = values, in block order."""
-    nx, ny, off = cells(G, 0)
-    ti.loop_config(block_dim=1)
-    for s in range(ny // W + 1):
-        for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
-            S[row, off + q] = load(values, q)

@@ -38,8 +38,8 @@ def rough(f, x, y):
     k = 2 * np.pi / np.geomspace(longest, f.width, MODES)
     phase, size = rng.uniform(0, 2 * np.pi, (MODES, MODES)), rng.standard_normal((MODES, MODES))
     size *= 2 * f.height / np.sqrt((size**2).sum())
-    total = sum(size[p, q] * np.cos(k[p] * x + phase[p, q]) * np.cos(k[q] * y) for p in range(MODES) for q in range(MODES))
-    return total * _window(f, x, y)
+    along = [sum(size[p, q] * np.cos(k[p] * x + phase[p, q]) for p in range(MODES)) for q in range(MODES)]
+    return sum(along[q] * np.cos(k[q] * y) for q in range(MODES)) * _window(f, x, y)
 
 
 def measured(f, x, y):

@@ -54,6 +54,15 @@ def chebyshev(count):
     return 0.5 * (x + 1), C, 2 * D, 4 * D @ D
 
 
+def bdf2(dt, dt_before):
+    """(rate, near): d/dt of f is rate (f - near f_1 - (1 - near) f_2) with the values one and two steps ago, second order for
+    steps of any length; dt_before = 0: there is no f_2, first order (near = 1)."""
+    if not dt_before:
+        return 1 / dt, 1.0
+    r = dt / dt_before
+    return (1 + 2 * r) / (1 + r) / dt, (1 + r) ** 2 / (1 + 2 * r)
+
+
 def step_cells(scene):
     """Cells that the feature moves in a time step: time.courant; with temperatures a whole fraction of it where the other
     surface is much faster."""
@@ -143,7 +152,7 @@ class FilmHeat:
         self.effusivities = [math.sqrt(b.k * b.rho * b.c) for b in (scene.body_a, scene.body_b)]
         table, nodes = (v.S, self.Z, v.G), (self.C, self.zeta, self.nz, scene.oil, scene.rheology)
         args = (*table, *nodes, s.p_H, s.h, v.ln_eta0, o.u_a, -o.u_s, o.u_m)
-        v.use_film(bind(film.laws, *args), bind(film.slopes, *args))
+        v.use_film(bind(film.laws, *args, 0), bind(film.laws, *args, 1))
         self._velocities = bind(film.velocities, *table, *nodes, s.p_H, s.h, s.a, v.ln_eta0, o.u_a, -o.u_s)
         centre = float(np.searchsorted(v.X, 0.0))
         self.scale = np.array([[s.p_H, s.h, s.a, v.ln_eta0, -o.u_s, self.inlet, centre]])
@@ -169,7 +178,7 @@ class FilmHeat:
         v.laws()
         self._velocities()
         self._accept()
-        self.T = self.temperature()
+        self.T = self.T_before = self.temperature()
 
     def begin(self, dt):
         """Prepare a step of dt s: what the bodies remember, A and B of both surfaces."""
@@ -179,9 +188,7 @@ class FilmHeat:
             self.modes[body][:4], B[body], last = solids.memory(dt, self.effusivities[body], self.dt)
             self.modes[body][4, :3] = *self._position(body), last
             self._surface[body]()
-        # BDF2 for steps of any length; the very first step is BDF1
-        r = dt / self.dt_before if self.dt_before else 0.0
-        rate, near = ((1 + 2 * r) / (1 + r) / dt, (1 + r) ** 2 / (1 + 2 * r)) if r else (1 / dt, 1.0)
+        rate, near = bdf2(dt, self.dt_before)
         self.step_numbers[0] = [rate, 1 / (v.dx * a), 1 / (v.dy * a), *B, COLUMN_TOLERANCE * v.scene.thermal.tolerance,
                                 COLUMN_ITERATIONS, dt, dt + self.dt_before, near, 1 - near]
 
@@ -207,11 +214,11 @@ class FilmHeat:
         self.offset, self.dt_before = self.until, self.dt_now
         self._velocities()
         self._accept()
-        self.T = self.temperature()
+        self.T_before, self.T = self.T, self.temperature()
 
     def state(self):
         """All that is needed to go on, as arrays."""
-        return {"heat_T": self.T, "heat_T_before": self.slots(film.TNN * self.nz, self.nz),
+        return {"heat_T": self.T, "heat_T_before": self.T_before,
                 "heat_below": self.slots(film.MSN * self.nz, self.nz),
                 "heat_below_before": self.slots(film.MSNN * self.nz, self.nz),
                 "heat_p_before": self.slots(self.single + film.PNN, 1), "heat_memory": self.memory(),
@@ -227,7 +234,7 @@ class FilmHeat:
         film.put_slots(self.Z, G, self.single + film.PN, 1, v.get(fields.P)[None] * v.scales.p_H)
         film.put_slots(self.Z, G, self.single + film.PNN, 1, np.ascontiguousarray(state["heat_p_before"]))
         film.put_slots(self.F, G, 0, KEPT, np.ascontiguousarray(state["heat_memory"]))
-        self.offset, self.T = np.array(state["heat_offset"]), np.array(state["heat_T"])
+        self.offset, self.T, self.T_before = (np.array(state[key]) for key in ("heat_offset", "heat_T", "heat_T_before"))
         self.dt_before = float(state["heat_dt_before"])
 
     def memory(self):

@@ -166,11 +166,6 @@ class Levels:
         measure.save(self.S, self.G, row, out)
         return out.ravel()
 
-    def put_vector(self, row, values):
-        """Set field `row` of the finest level from a flat vector in table order, or from one number."""
-        values = np.array(np.broadcast_to(values, self.n), dtype=float)
-        measure.restore(self.S, self.G, row, values.reshape(-1, lanes.W))
-
     def binder(self, kernel, *args):
         """A launch of `kernel` on this table."""
         return bind(kernel, self.S, self.G, *args)
