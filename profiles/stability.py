@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tehl_taichi.io.scene_file import merge
 from tehl_taichi.scene import Scene, SceneError, scene
 
 LINE, POINT = {"grid.nx": 128, "grid.ny": 32}, {"grid.nx": 64, "grid.ny": 32}
@@ -53,28 +54,21 @@ def cases(thermal=False):
     add("waviness at the grid limit", feature=[{"shape": "waviness", "height": 0.1e-6, "width": 50e-6, "extent_x": 400e-6,
                                                 "extent_y": 400e-6, "taper": 50e-6}])
     for M, L in ((5, 1), (5, 25), (50, 10), (1000, 10), (5000, 5)):
-        add(f"line M {M} L {L}", "smooth-line", contact={"load": 0.0, "moes_M": float(M), "moes_L": float(L)},
-            oil={"name": "moes-test-fluid"}, grid__x_min=-4.5 if M <= 20 else -2.5)
+        add(f"line M {M} L {L}", "smooth-line", contact={"moes_M": float(M), "moes_L": float(L)},
+            oil__name="moes-test-fluid", grid__x_min=-4.5 if M <= 20 else -2.5)
     for ratio in (0.125, 1.0, 8.0):
         add(f"ellipse R_y/R_x {ratio:g}", "ridge-on-ball", POINT, contact={"kind": "elliptic", "radius_y": ratio * 12.7e-3,
-                                                                           "load": 0.0, "hertz_pressure": 0.54e9})
+                                                                           "hertz_pressure": 0.54e9})
     for srr in (-1.0, 1.0):
         add(f"ridge on ball SRR {srr:+g}", "ridge-on-ball", POINT, srr=srr)
     return out
 
 
 def edited(base, changes):
-    """Scene `base` with dotted changes; tables and lists are merged or replaced whole."""
-    plain = {key: value for key, value in changes.items() if not isinstance(value, (dict, list))}
-    data = scene(base).replace(**plain).to_dict()
-    for key, value in changes.items():
-        if key == "oil":
-            data[key] = value
-        elif isinstance(value, dict):
-            data[key].update(value)
-        elif isinstance(value, list):
-            data[key] = [{**data[key][0], **part} for part in value]
-    return Scene.from_dict(data)
+    """Scene `base` with dotted changes, and whole tables as a scene file would give them."""
+    tables = {key: value for key, value in changes.items() if isinstance(value, (dict, list))}
+    plain = {key: value for key, value in changes.items() if key not in tables}
+    return Scene.from_dict(merge(scene(base).replace(**plain).to_dict(), tables))
 
 
 def run_case(name, description):

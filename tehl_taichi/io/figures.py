@@ -22,7 +22,7 @@ def write_all(store, folder):
         figures["temperature"] = temperature(plt, store)
         if store.y.size > 1:
             figures["temperature_maps"] = temperature_maps(plt, store)
-    if store.map("temperature") is not None:
+    if "temperature" in store.stored:
         figures["profiles"] = profiles(plt, store)
     if store.map("Fi") is not None:
         figures["fatigue"] = fatigue(plt, store)
@@ -56,14 +56,31 @@ def entries(store):
     return sorted({0, *near})
 
 
+def moment(store, n, a):
+    """What entry n shows, in words."""
+    return "steady start" if n == 0 else f"feature at {store.feature_x(n) / a:+.2f} a"
+
+
+def axis_row(store):
+    """Row of y = 0."""
+    return int(np.argmin(np.abs(store.y)))
+
+
+def draw_map(figure, ax, store, a, values, label, **style):
+    """One field over x, y with its mirror image and a colour bar."""
+    y, full = whole(store.y / a, values)
+    image = ax.pcolormesh(store.x / a, y, full.T, shading="gouraud", **style)
+    figure.colorbar(image, ax=ax, label=label)
+    ax.set(ylabel="y / a", aspect="equal", xlim=(-1.6, 1.4))
+
+
 def centreline(plt, store):
     """Pressure and film along y = 0 for several feature positions."""
-    a, centre = Scales.of(store.scene).a, int(np.argmin(np.abs(store.y)))
+    a, centre = Scales.of(store.scene).a, axis_row(store)
     figure, (top, low) = plt.subplots(2, 1, sharex=True, figsize=(8, 6.5), constrained_layout=True)
     for n in entries(store):
         f = store.fields(n, ("pressure", "film"))
-        label = "steady start" if n == 0 else f"feature at {store.feature_x(n) / a:+.2f} a"
-        style = dict(label=label, color="0.45" if n == 0 else None, ls="--" if n == 0 else "-", lw=1.5)
+        style = dict(label=moment(store, n, a), color="0.45" if n == 0 else None, ls="--" if n == 0 else "-", lw=1.5)
         top.plot(store.x / a, f["pressure"][:, centre] / 1e9, **style)
         low.plot(store.x / a, f["film"][:, centre] * 1e6, **style)
     top.set(ylabel="pressure (GPa)", title=f"{store.scene.name}: centreline y = 0")
@@ -90,14 +107,13 @@ SURFACES = (("temperature_mid", "mid-film", "-"), ("temperature_a", "surface a",
 
 def temperature(plt, store):
     """Mid-film and both surfaces along y = 0 for several feature positions."""
-    a, centre = Scales.of(store.scene).a, int(np.argmin(np.abs(store.y)))
+    a, centre = Scales.of(store.scene).a, axis_row(store)
     figure, ax = plt.subplots(figsize=(8, 4.8), constrained_layout=True)
     for colour, n in enumerate(entries(store)):
         f = store.fields(n, [name for name, *_ in SURFACES])
         for name, text, style in SURFACES:
-            where = "steady start" if n == 0 else f"feature at {store.feature_x(n) / a:+.2f} a"
             ax.plot(store.x / a, f[name][:, centre], ls=style, color=f"C{colour}", lw=1.4,
-                    label=f"{where}: {text}" if colour == 0 or style == "-" else None)
+                    label=f"{moment(store, n, a)}: {text}" if colour == 0 or style == "-" else None)
     ax.set(xlabel="x / a (flow to the right)", ylabel="temperature (°C)", xlim=(-1.6, 1.4),
            title=f"{store.scene.name}: temperatures along y = 0")
     ax.legend(frameon=False, fontsize=8)
@@ -112,10 +128,8 @@ def temperature_maps(plt, store):
     top = max(float(v.max()) for v in f.values())
     figure, axes = plt.subplots(3, 1, figsize=(6.0, 9.5), constrained_layout=True, sharex=True)
     for ax, (name, text, _) in zip(axes, SURFACES):
-        y, full = whole(store.y / a, f[name])
-        image = ax.pcolormesh(store.x / a, y, full.T, cmap="inferno", vmax=top, shading="gouraud")
-        ax.set(ylabel="y / a", aspect="equal", xlim=(-1.6, 1.4), title=text)
-        figure.colorbar(image, ax=ax, label="°C")
+        draw_map(figure, ax, store, a, f[name], "°C", cmap="inferno", vmax=top)
+        ax.set_title(text)
     axes[-1].set_xlabel("x / a (flow to the right)")
     return figure
 
@@ -123,7 +137,7 @@ def temperature_maps(plt, store):
 def profiles(plt, store):
     """Temperature across the film at several x on y = 0, feature nearest to the middle."""
     a, n = Scales.of(store.scene).a, middle_entry(store)
-    T = store.fields(n, ["temperature"])["temperature"][:, int(np.argmin(np.abs(store.y)))]
+    T = store.fields(n, ["temperature"])["temperature"][:, axis_row(store)]
     zeta = store.map("zeta")
     figure, ax = plt.subplots(figsize=(6, 4.8), constrained_layout=True)
     for X in (-1.0, -0.5, 0.0, 0.5, 1.0):
@@ -136,19 +150,12 @@ def profiles(plt, store):
 
 def maps(plt, store):
     """Pressure and film over x, y with the feature nearest to the middle."""
-    a = Scales.of(store.scene).a
-    at = store.scalar("feature_x")[: store.steps]
-    n = middle_entry(store)
+    a, n = Scales.of(store.scene).a, middle_entry(store)
     f = store.fields(n, ("pressure", "film"))
     figure, axes = plt.subplots(2, 1, figsize=(6.5, 8), constrained_layout=True, sharex=True)
-    panels = ((f["pressure"] / 1e9, "pressure (GPa)", "inferno", None),
-              (f["film"] * 1e6, "film (µm)", "viridis", _film_top(store)))
-    for ax, (values, label, colours, top) in zip(axes, panels):
-        y, full = whole(store.y / a, values)
-        image = ax.pcolormesh(store.x / a, y, full.T, cmap=colours, vmax=top, shading="gouraud")
-        figure.colorbar(image, ax=ax, label=label)
-        ax.set(ylabel="y / a", aspect="equal", xlim=(-1.6, 1.4))
-    axes[0].set_title(f"{store.scene.name}: " + (f"feature at {at[n] / a:+.2f} a" if n else "steady"))
+    draw_map(figure, axes[0], store, a, f["pressure"] / 1e9, "pressure (GPa)", cmap="inferno")
+    draw_map(figure, axes[1], store, a, f["film"] * 1e6, "film (µm)", cmap="viridis", vmax=_film_top(store))
+    axes[0].set_title(f"{store.scene.name}: {moment(store, n, a)}")
     axes[1].set_xlabel("x / a (flow to the right)")
     return figure
 

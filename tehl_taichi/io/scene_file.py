@@ -40,17 +40,18 @@ def from_data(data, name):
     data.setdefault("name", name)
     if base is None:
         return Scene.from_dict({"feature": [], **data})
-    return Scene.from_dict(_merge(scene(base).to_dict(), data))
+    return Scene.from_dict(merge(scene(base).to_dict(), data))
 
 
-def _merge(base, data):
+def merge(base, data):
+    """`base` (a scene as nested dictionary) with the tables and values of `data`; what excludes each other is replaced."""
     for key, value in data.items():
         if key == "contact" and isinstance(value, dict):
             base[key] = _merge_contact(base[key], value)
         elif key == "operation" and isinstance(value, dict) and {"u_a", "u_b"} & value.keys():
             base[key] = {"temperature": base[key]["temperature"], **value}
         elif isinstance(value, dict) and isinstance(base.get(key), dict):
-            base[key] = _merge(base[key], value)
+            base[key] = merge(base[key], value)
         else:
             base[key] = value
     return base

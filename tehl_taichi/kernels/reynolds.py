@@ -81,28 +81,18 @@ def node_slopes(S: ti.template(), k, oil: ti.template(), p_H, Gamma, ln_eta0, fl
 
 @ti.kernel
 def laws(S: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: ti.i32, oil: ti.template(), p_H: ti.f64,
-         Gamma: ti.f64, ln_eta0: ti.f64):
-    """Density, viscosity and mobility in the blocks first..last-1."""
+         Gamma: ti.f64, ln_eta0: ti.f64, slopes: ti.template()):
+    """Density, viscosity and mobility in the blocks first..last-1; with slopes = 1 their derivatives, which need the values."""
     ti.loop_config(block_dim=1)
     for b in range(first, last):
         l, s = blocks[b, 0], blocks[b, 1]
         nx, ny, off = cells(G, l)
         floor = G[l, FLOOR]
-        for i in range(nx + 1):
-            node_laws(S, off + s * (nx + 1) + i, oil, p_H, Gamma, ln_eta0, G[l, ILAM], floor)
-
-
-@ti.kernel
-def slopes(S: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: ti.i32, oil: ti.template(), p_H: ti.f64,
-           Gamma: ti.f64, ln_eta0: ti.f64):
-    """Their derivatives; needs `laws`."""
-    ti.loop_config(block_dim=1)
-    for b in range(first, last):
-        l, s = blocks[b, 0], blocks[b, 1]
-        nx, ny, off = cells(G, l)
-        floor = G[l, FLOOR]
-        for i in range(nx + 1):
-            node_slopes(S, off + s * (nx + 1) + i, oil, p_H, Gamma, ln_eta0, floor)
+        for k in range(off + s * (nx + 1), off + (s + 1) * (nx + 1)):
+            if ti.static(slopes):
+                node_slopes(S, k, oil, p_H, Gamma, ln_eta0, floor)
+            else:
+                node_laws(S, k, oil, p_H, Gamma, ln_eta0, G[l, ILAM], floor)
 
 
 @ti.func

@@ -93,7 +93,7 @@ class Levels:
     def _bind_laws(self, first, last):
         table = (self.S, self.G, self.blocks, first, last)
         law = (self.scene.oil, self.scales.p_H, self.Gamma, self.ln_eta0)
-        return (bind(reynolds.laws, *table, *law), bind(reynolds.slopes, *table, *law),
+        return (bind(reynolds.laws, *table, *law, 0), bind(reynolds.laws, *table, *law, 1),
                 bind(reynolds.linearise, *table, fields.RHO, fields.QP, -1))
 
     def slow_down(self, factor):
