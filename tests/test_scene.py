@@ -54,6 +54,15 @@ def test_file_with_a_base(tmp_path):
     assert s.features == scene("gear").features
 
 
+def test_a_named_oil_replaces_that_of_the_base(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text('base = "gear"\n[oil]\nname = "moes-test-fluid"\nalpha = 2e-8\n')
+    oil = scene_file.load(path).oil
+    assert oil.viscosity == "roelands" and oil.alpha == 2e-8 and oil.expansion == "never"
+    path.write_text('base = "gear"\n[oil]\nG0 = 4.0\n')
+    assert scene_file.load(path).oil == scene("gear").replace(**{"oil.G0": 4.0}).oil
+
+
 @pytest.mark.parametrize("key, value, words", [
     ("load", -1.0, "at least 0 N/m"), ("load", math.nan, "not a number"), ("load", math.inf, "finite"),
     ("speed", 0.0, "no film"), ("srr", 3.0, "at most 2"), ("temperature", 1e4, "deg C"), ("height", 1.0, "at most"),

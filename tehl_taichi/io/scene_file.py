@@ -6,6 +6,7 @@ from pathlib import Path
 import tomllib
 
 from tehl_taichi.scene import BUILT_INS, Scene, SceneError, scene
+from tehl_taichi.scene.oil import OILS
 from tehl_taichi.scene.whole import SECTIONS
 
 HEADER = "# A tehl_taichi scene. SI units (m, s, N, Pa, kg), temperatures in deg C; [grid] and [time] in half-widths."
@@ -50,6 +51,8 @@ def merge(base, data):
             base[key] = _merge_contact(base[key], value)
         elif key == "operation" and isinstance(value, dict) and {"u_a", "u_b"} & value.keys():
             base[key] = {"temperature": base[key]["temperature"], **value}
+        elif key == "oil" and isinstance(value, dict) and value.get("name") in OILS:
+            base[key] = value  # a named oil brings its own numbers, not those of the base
         elif isinstance(value, dict) and isinstance(base.get(key), dict):
             base[key] = merge(base[key], value)
         else:
