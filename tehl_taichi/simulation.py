@@ -135,12 +135,15 @@ class Passage:
 
     def _try(self, until, part):
         """Solve at `until` steps from here, `part` of a step after the last accepted state; accepted if it converged."""
+        H0 = self.solver.H0
         self._move_feature(self.step + until)
         self._discretise_time(part)
         self._predict(until, part)
         report = self._exchange(part) if self.heat else self._solve()
         if report.converged:
             self._accept(part)
+        else:
+            self.solver.H0 = H0
         return report
 
     def _exchange(self, part):
@@ -222,8 +225,6 @@ class Passage:
             self.levels.put(fields.P, self.P)
             self.solver.H0 = H0
             report = self.solver.solve(RETRY_KRYLOV, newton_max=2 * self.scene.numerics.newton_max)
-        if not report.converged:
-            self.solver.H0 = H0
         return report
 
     def _accept(self, part):
