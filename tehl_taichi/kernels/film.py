@@ -346,15 +346,15 @@ def assemble(S: ti.template(), Z: ti.template(), X: ti.template(), k, q, s, nz, 
             link = swept * D1[n, m] - kf / (h * h) * D2[n, m]
             balance += link * other
             X[s, n * nz + m] = link + gain * C[nz - 1, m] * Z[q, NIE * nz + m] * Z[q, BETA * nz + m]
-        X[s, n * nz + n] += rc * rate - squeeze - ti.select(solid, V(0.0), heat * beta)
+        X[s, n * nz + n] = X[s, n * nz + n] + rc * rate - squeeze - ti.select(solid, V(0.0), heat * beta)
         X[s, nz * nz + n] = -balance
     flux_a, flux_b = wall_slopes(Z, q, nz, D1)
     last = nz - 1
     for m in range(nz):
         X[s, m] = -B_a * kf / h * D1[0, m]
         X[s, last * nz + m] = B_b * kf / h * D1[last, m]
-    X[s, 0] += 1.0
-    X[s, last * nz + last] += 1.0
+    X[s, 0] = X[s, 0] + 1.0
+    X[s, last * nz + last] = X[s, last * nz + last] + 1.0
     X[s, nz * nz] = Z[q, base + AA] + B_a * kf / h * flux_a - Z[q, T * nz]
     X[s, nz * nz + last] = Z[q, base + AB] - B_b * kf / h * flux_b - Z[q, T * nz + last]
 
@@ -368,8 +368,8 @@ def eliminate(X: ti.template(), s, nz):
         for r in range(c + 1, nz):
             f = X[s, r * nz + c] * inv
             for m in range(c + 1, nz):
-                X[s, r * nz + m] -= f * X[s, c * nz + m]
-            X[s, rhs + r] -= f * X[s, rhs + c]
+                X[s, r * nz + m] = X[s, r * nz + m] - f * X[s, c * nz + m]  # (x -= y of a field would be atomic)
+            X[s, rhs + r] = X[s, rhs + r] - f * X[s, rhs + c]
     for back in range(nz):
         c = nz - 1 - back
         total = X[s, rhs + c]

@@ -150,8 +150,8 @@ def prolong_block(S: ti.template(), G: ti.template(), l, s, damping):
     for I in range(mx):
         right = doubled(S, c + I + 1, mx + 1, half)
         k = first + 2 * I
-        S[COR, k] += damping * left * (1.0 - S[DRY, k])
-        S[COR, k + 1] += damping * 0.5 * (left + right) * (1.0 - S[DRY, k + 1])
+        S[COR, k] = S[COR, k] + damping * left * (1.0 - S[DRY, k])
+        S[COR, k + 1] = S[COR, k + 1] + damping * 0.5 * (left + right) * (1.0 - S[DRY, k + 1])
         left = right
 
 
