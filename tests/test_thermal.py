@@ -52,7 +52,8 @@ def test_bodies_remember_their_heat():
 @pytest.mark.parametrize("speed, sliding", [(8.5, 0.0), (8.5, -0.3)])
 def test_moving_half_space_under_a_uniform_flux(speed, sliding):
     """60 MW/m2 on steel: 40.30 K half a millimetre behind the edge at 8.5 m/s, 2 q sqrt(x/(pi k rho c u)) anywhere."""
-    from tehl_taichi.kernels import film as kernels
+    from tehl_taichi.kernels import slots as kernels
+    from tehl_taichi.kernels import step
 
     heat, levels = film(thermal(speed=speed, srr=sliding), 256)
     heat.start()
@@ -69,7 +70,7 @@ def test_moving_half_space_under_a_uniform_flux(speed, sliding):
         heat.offset = heat.until
     heat.begin(heat.dt)
     x = (levels.X - levels.X[edge] + 0.5 * levels.dx) * S.a
-    for slot, u, B in ((kernels.AA, heat.speeds[0], kernels.B_A), (kernels.AB, heat.speeds[1], kernels.B_B)):
+    for slot, u, B in ((kernels.AA, heat.speeds[0], step.B_A), (kernels.AB, heat.speeds[1], step.B_B)):
         rise = heat.single_slot(slot)[0] - heat.inlet + heat.step_numbers[0, B] * flux[0, 0]
         exact = 2 * 60e6 * np.sqrt(np.maximum(x, 0) / (math.pi * 47 * 7850 * 450 * u))
         far = x > 0.4e-3
@@ -86,7 +87,7 @@ COUETTE = {0.1: (0.0124225200, 0.9917491170), 1.0: (0.1177830357, 0.9241962407),
 def test_thermal_couette_flow(Na):
     """eta = eta0 exp(-b (T - T_w)) between walls at T_w: b dT_max = ln(1 + Na/8), tau h/(eta0 U) (closed form)."""
     from tehl_taichi.kernels import fields
-    from tehl_taichi.kernels import film as kernels
+    from tehl_taichi.kernels import slots as kernels
 
     b, h = 0.05, 1e-6
     oil = dataclasses.replace(scene().oil, name="reynolds", viscosity="barus", alpha=1e-9, beta_eta=b, Gamma0=90.0, eta0=0.02,
@@ -221,8 +222,8 @@ def test_a_point_contact_heats_up():
 
 def sources_and_sinks(heat, levels):
     """Per column, W/m2: dissipation, compression heat, heat into the bodies, heat that the oil takes along (steady, 1-D)."""
-    from tehl_taichi.kernels import fields
-    from tehl_taichi.kernels import film as kernels
+    from tehl_taichi.kernels import fields, step
+    from tehl_taichi.kernels import slots as kernels
     from tehl_taichi.physics.density import expansivity
     from tehl_taichi.physics.heat import heat_capacity
 
@@ -240,7 +241,7 @@ def sources_and_sinks(heat, levels):
     swell = np.array([[float(expansivity(oil, p, t)) for p, t in zip(P, row)] for row in T])
     drift = -np.gradient(MX, levels.dx * S.a, axis=1)
     drift = drift - MS / MS[-1] * drift[-1]
-    rate = heat.step_numbers[0, kernels.RATE]
+    rate = heat.step_numbers[0, step.RATE]
     carried = H * (w * rc * (T - TS)).sum(0) * rate + (w * rc / rho * drift * (heat.D1 @ T)).sum(0)
     dissipated = H * (w * stress**2 * ie).sum(0) / (left * eta0) * fade
     squeezed = H * (w * swell * (T + 273.15) * dp).sum(0) * rate * fade

@@ -12,6 +12,7 @@ from tehl_taichi.kernels.fields import JN, NX, NY, OFF
 
 W = 4
 V = ti.types.vector(W, ti.f64)
+TILE = 48  # columns of a tile: even a single row keeps several threads busy
 
 Table = ti.types.ndarray(dtype=ti.f64, ndim=2)
 Flat = ti.types.ndarray(dtype=ti.f64, ndim=1)
@@ -22,6 +23,20 @@ Blocks = ti.types.ndarray(dtype=ti.i32, ndim=2)  # (level, block) of every block
 @ti.func
 def cells(G: ti.template(), l):
     return int(G[l, NX]), int(G[l, NY]), int(G[l, OFF])
+
+
+@ti.func
+def tiles(nx, ny):
+    """Number of tiles of the finest level: pieces of blocks, for loops that are long enough in each column."""
+    return (ny // W + 1) * (nx // TILE + 1)
+
+
+@ti.func
+def tile(c, nx):
+    """Block, first column and the one behind the last of tile c."""
+    per = nx // TILE + 1
+    first = c % per * TILE
+    return c // per, first, ti.min(first + TILE, nx + 1)
 
 
 @ti.func

@@ -7,8 +7,8 @@ whole cells (shift) and a rest.
 
 import taichi as ti
 
-from tehl_taichi.kernels.film import cubic
 from tehl_taichi.kernels.lanes import Table, V, W, cells
+from tehl_taichi.kernels.paths import cubic
 
 # rows: weight, decay over the step, gain of the new flux and of the last one (linear in between); shift, rest, B of the last
 Modes = ti.types.ndarray(dtype=ti.f64, ndim=2)

@@ -8,20 +8,22 @@ import taichi as ti
 from tehl_taichi.physics.elementary import exp, log
 
 LN10 = 2.302585092994046
+PER_LN10 = 1 / LN10
+PER_135 = 1 / 135  # 1/K; divisions by constants are not turned into products, and cost ten times as much
 P_ROELANDS = 5.1e-9  # 1/Pa, Roelands' pressure scale (1.96e8 Pa)
 
 
 @ti.pyfunc
 def ln_eta0_walther(oil: ti.template(), Gamma):
     """ln of the viscosity at p = 0: log10 eta0 = -4.2 + G0 (1 + Gamma/135)^-S0 (Everitt 2018, Eq 1.2)."""
-    return LN10 * (-4.2 + oil.G0 * exp(-oil.S0 * log(1 + Gamma / 135)))
+    return LN10 * (-4.2 + oil.G0 * exp(-oil.S0 * log(1 + Gamma * PER_135)))
 
 
 @ti.pyfunc
 def roelands_temperature(oil: ti.template(), p, Gamma):
     """Roelands with temperature, Z(Gamma) = D_z + C_z log10(1 + Gamma/135) (Everitt 2018, Eq 1.1-1.3)."""
     ln0 = ln_eta0_walther(oil, Gamma)
-    Z = oil.Dz + oil.Cz * log(1 + Gamma / 135) / LN10
+    Z = oil.Dz + oil.Cz * log(1 + Gamma * PER_135) * PER_LN10
     return ln0 + (ln0 + 9.67) * (exp(Z * log(1 + P_ROELANDS * p)) - 1)
 
 

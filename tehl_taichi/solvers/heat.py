@@ -10,8 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl_taichi import runtime
-from tehl_taichi.kernels import fields, film, lanes
+from tehl_taichi.kernels import energy, fields, film, lanes, paths, slots
 from tehl_taichi.kernels import solids as solid_kernels
+from tehl_taichi.kernels.step import STEP_NUMBERS
 from tehl_taichi.runtime import bind
 from tehl_taichi.solvers import solids
 
@@ -134,12 +135,13 @@ class FilmHeat:
         scene, self.levels = levels.scene, levels
         self.nz, self.dt = scene.thermal.nodes, dt_s
         self.columns = levels.fine * (levels.nx + 1)
-        slots = film.KINDS * self.nz + film.SINGLES
-        self.Z = runtime.lease(self, 0, lanes.W, self.columns, slots)
+        self.Z = runtime.lease(self, 0, lanes.W, self.columns, slots.KINDS * self.nz + slots.SINGLES)
         self.F = runtime.lease(self, 0, lanes.W, self.columns, 4 * solids.MODES + 5)
-        self.X = runtime.lease(self, 0, lanes.W, levels.fine, self.nz * (self.nz + 1))
+        self.tiles = levels.fine * (levels.nx // lanes.TILE + 1)
+        self.X = runtime.lease(self, 0, lanes.W, self.tiles, self.nz * (self.nz + 2))
         self.zeta, self.C, self.D1, self.D2 = chebyshev(self.nz)
-        self.single = film.KINDS * self.nz
+        self.weights = np.ascontiguousarray(self.C[-1])
+        self.single = slots.KINDS * self.nz
         self.offset = np.zeros(2)  # cells that each body has moved since the start
         self.dt_before = 0.0
         self.report = HeatReport(math.nan, 0, 0)
@@ -150,25 +152,27 @@ class FilmHeat:
         v, s, o = self.levels, self.levels.scales, scene.operation
         self.inlet, self.speeds = o.temperature, (o.u_a, o.u_b)
         self.effusivities = [math.sqrt(b.k * b.rho * b.c) for b in (scene.body_a, scene.body_b)]
-        table, nodes = (v.S, self.Z, v.G), (self.C, self.zeta, self.nz, scene.oil, scene.rheology)
-        args = (*table, *nodes, s.p_H, s.h, v.ln_eta0, o.u_a, -o.u_s, o.u_m)
+        table, laws = (v.S, self.Z, v.G), (self.nz, scene.oil, scene.rheology)
+        nested = np.ascontiguousarray(self.weights[:, None] * self.C)
+        args = (*table, nested, self.weights, self.zeta, *laws, s.p_H, s.h, v.ln_eta0, o.u_a, -o.u_s, o.u_m)
         v.use_film(bind(film.laws, *args, 0), bind(film.laws, *args, 1))
-        self._velocities = bind(film.velocities, *table, *nodes, s.p_H, s.h, s.a, v.ln_eta0, o.u_a, -o.u_s)
+        self._velocities = bind(film.velocities, *table, self.C, self.weights, self.zeta, *laws, s.p_H, s.h, s.a, v.ln_eta0,
+                                o.u_a, -o.u_s)
         centre = float(np.searchsorted(v.X, 0.0))
         self.scale = np.array([[s.p_H, s.h, s.a, v.ln_eta0, -o.u_s, self.inlet, centre]])
-        self.step_numbers, self.partial = np.zeros((1, film.STEP_NUMBERS)), np.zeros((v.fine, 3))
-        self._energy = bind(film.energy, v.S, self.Z, self.X, v.G, self.C, self.zeta, self.D1, self.D2, self.nz, scene.oil,
-                            scene.rheology, self.scale, self.step_numbers, self.partial)
-        self._departures = bind(film.departures, v.S, self.Z, v.G, self.nz, s.p_H, self.inlet, self.step_numbers)
-        self._accept = bind(film.accept, *table, self.nz, s.p_H)
+        self.step_numbers, self.partial = np.zeros((1, STEP_NUMBERS)), np.zeros((self.tiles, 3))
+        self._energy = bind(energy.energy, v.S, self.Z, self.X, v.G, self.weights, self.zeta, self.D1, self.D2, *laws,
+                            self.scale, self.step_numbers, self.partial)
+        self._departures = bind(paths.departures, v.S, self.Z, v.G, self.nz, s.p_H, self.inlet, self.step_numbers)
+        self._accept = bind(paths.accept, *table, self.nz, s.p_H)
 
     def _bind_bodies(self):
         G, count, inlet = self.levels.G, solids.MODES, self.inlet
         self.modes = [np.zeros((5, count)) for _ in (0, 1)]
         self._surface = [bind(solid_kernels.surface, self.F, self.Z, G, self.modes[body], count, body, inlet,
-                              self.single + (film.AA, film.AB)[body]) for body in (0, 1)]
+                              self.single + (slots.AA, slots.AB)[body]) for body in (0, 1)]
         self._remember = [bind(solid_kernels.remember, self.F, self.Z, G, self.modes[body], count, body,
-                               self.single + (film.QA, film.QB)[body]) for body in (0, 1)]
+                               self.single + (slots.QA, slots.QB)[body]) for body in (0, 1)]
         self._adopt = bind(solid_kernels.adopt, self.F, G, count)
 
     def start(self):
@@ -219,35 +223,35 @@ class FilmHeat:
     def state(self):
         """All that is needed to go on, as arrays."""
         return {"heat_T": self.T, "heat_T_before": self.T_before,
-                "heat_below": self.slots(film.MSN * self.nz, self.nz),
-                "heat_below_before": self.slots(film.MSNN * self.nz, self.nz),
-                "heat_p_before": self.slots(self.single + film.PNN, 1), "heat_memory": self.memory(),
+                "heat_below": self.slots(slots.MSN * self.nz, self.nz),
+                "heat_below_before": self.slots(slots.MSNN * self.nz, self.nz),
+                "heat_p_before": self.slots(self.single + slots.PNN, 1), "heat_memory": self.memory(),
                 "heat_offset": self.offset, "heat_dt_before": self.dt_before}
 
     def restore(self, state):
         """Go on from a state; the pressure of the last step must be in the table."""
         G, v = self.levels.G, self.levels
-        for first in (film.T, film.TN):
-            film.put_slots(self.Z, G, first * self.nz, self.nz, np.ascontiguousarray(state["heat_T"]))
-        for first, name in ((film.TNN, "heat_T_before"), (film.MSN, "heat_below"), (film.MSNN, "heat_below_before")):
-            film.put_slots(self.Z, G, first * self.nz, self.nz, np.ascontiguousarray(state[name]))
-        film.put_slots(self.Z, G, self.single + film.PN, 1, v.get(fields.P)[None] * v.scales.p_H)
-        film.put_slots(self.Z, G, self.single + film.PNN, 1, np.ascontiguousarray(state["heat_p_before"]))
-        film.put_slots(self.F, G, 0, KEPT, np.ascontiguousarray(state["heat_memory"]))
+        for first in (slots.T, slots.TN):
+            slots.put_slots(self.Z, G, first * self.nz, self.nz, np.ascontiguousarray(state["heat_T"]))
+        for first, name in ((slots.TNN, "heat_T_before"), (slots.MSN, "heat_below"), (slots.MSNN, "heat_below_before")):
+            slots.put_slots(self.Z, G, first * self.nz, self.nz, np.ascontiguousarray(state[name]))
+        slots.put_slots(self.Z, G, self.single + slots.PN, 1, v.get(fields.P)[None] * v.scales.p_H)
+        slots.put_slots(self.Z, G, self.single + slots.PNN, 1, np.ascontiguousarray(state["heat_p_before"]))
+        slots.put_slots(self.F, G, 0, KEPT, np.ascontiguousarray(state["heat_memory"]))
         self.offset, self.T, self.T_before = (np.array(state[key]) for key in ("heat_offset", "heat_T", "heat_T_before"))
         self.dt_before = float(state["heat_dt_before"])
 
     def memory(self):
         """Modes of both bodies and the last flux into them, (KEPT, ny+1, nx+1)."""
         out = np.zeros((KEPT, self.levels.ny + 1, self.levels.nx + 1))
-        film.get_slots(self.F, self.levels.G, 0, len(out), out)
+        slots.get_slots(self.F, self.levels.G, 0, len(out), out)
         return out
 
     def slots(self, first, count):
         """Slots as an array (count, ny+1, nx+1)."""
         v = self.levels
         out = np.zeros((count, v.ny + 1, v.nx + 1))
-        film.get_slots(self.Z, v.G, first, count, out)
+        slots.get_slots(self.Z, v.G, first, count, out)
         return out
 
     def single_slot(self, slot):
@@ -256,12 +260,12 @@ class FilmHeat:
 
     def temperature(self):
         """(nz, ny+1, nx+1) deg C, from body a to body b."""
-        return self.slots(film.T * self.nz, self.nz)
+        return self.slots(slots.T * self.nz, self.nz)
 
     def set_temperature(self, values):
         """Start value of the next solve, (nz, ny+1, nx+1)."""
-        film.put_slots(self.Z, self.levels.G, film.T * self.nz, self.nz, np.ascontiguousarray(values))
+        slots.put_slots(self.Z, self.levels.G, slots.T * self.nz, self.nz, np.ascontiguousarray(values))
 
     def shear(self):
         """Shear stress (Pa) at z = 0 along x, y and at z = h along x, y: (4, ny+1, nx+1)."""
-        return self.slots(self.single + film.XA, 4)
+        return self.slots(self.single + slots.XA, 4)

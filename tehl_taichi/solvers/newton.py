@@ -80,19 +80,19 @@ class PressureSolver:
         numerics = self.levels.scene.numerics
         tolerance = tolerance or numerics.tolerance
         self.residual()
-        self.lift = None
-        cycles = 0
-        for newton in range(newton_max or numerics.newton_max):
-            self.levels.linearise()
-            merit = self.measure()
-            # at least one Newton step: the residual does not see pressure errors where eps is 0, a prediction adds them up
-            if newton and self._converged(merit, tolerance) or not np.isfinite(merit):
-                return self._report(merit, newton, cycles, tolerance)
+        self.levels.linearise()
+        self.lift, merit, cycles = None, self.measure(), 0
+        # at least one Newton step: the residual does not see pressure errors where eps is 0, a prediction adds them up
+        last = newton_max or numerics.newton_max
+        for newton in range(1, last + 1):
             step, used = self._direction(self._forcing(krylov_tolerance or numerics.krylov_tolerance, merit, tolerance))
             cycles += used
-            self._advance(step, merit, newton, tolerance)
-        self.levels.linearise()
-        return self._report(self.measure(), newton + 1, cycles, tolerance)
+            merit = self._advance(step, merit, newton == 1, tolerance)
+            if newton == last or self._converged(merit, tolerance) or not np.isfinite(merit):
+                break
+            self.levels.linearise()
+            merit = self.measure()
+        return Report(merit, self.load_error, self.mass_error, newton, cycles, self._converged(merit, tolerance))
 
     def _forcing(self, krylov_tolerance, merit, tolerance):
         """Relative accuracy of the linear solve: not much more than what convergence still needs."""
@@ -101,9 +101,6 @@ class PressureSolver:
 
     def _converged(self, merit, tolerance):
         return bool(merit < tolerance and self.mass_error < self.levels.scene.numerics.mass_tolerance)
-
-    def _report(self, merit, newton, cycles, tolerance):
-        return Report(merit, self.load_error, self.mass_error, newton, cycles, self._converged(merit, tolerance))
 
     def worst(self):
         """Column along x and row along y of the largest residual."""
@@ -169,8 +166,9 @@ class PressureSolver:
         z[:-1] += pressure
         return z
 
-    def _advance(self, step, merit, newton, tolerance):
-        """Damped update: halve until the merit falls (or the change is small and the merit stays small)."""
+    def _advance(self, step, merit, first, tolerance):
+        """Damped update: halve until the merit falls (or the change is small and the merit stays small). Returns the merit, by
+        the row scales of the last linearisation."""
         v = self.levels
         old_P, old_H0, t = v.vector(fields.P), self.H0, 1.0
         change = step[:-1].reshape(-1, W).copy()
@@ -180,8 +178,8 @@ class PressureSolver:
             self.H0 = old_H0 + t * float(step[-1])
             self.residual()
             new = self.measure()
-            falls = new < (1 - 1e-4 * t) * merit or (newton == 0 and new < 2 * merit)
+            falls = new < (1 - 1e-4 * t) * merit or (first and new < 2 * merit)
             settled = t * largest < SMALL_CHANGE and new < SMALL_MERIT
             if falls or settled or new < tolerance or t < SHORTEST_STEP:
-                return
+                return new
             t *= 0.5

@@ -1,0 +1,95 @@
+"""Where the oil of a film came from: values one and two steps ago at the departure points of its nodes."""
+
+import taichi as ti
+
+from tehl_taichi.kernels.fields import P
+from tehl_taichi.kernels.film import Coefficients
+from tehl_taichi.kernels.lanes import Table, V, W, cells, tile, tiles
+from tehl_taichi.kernels.slots import KINDS, MS, MSN, MSNN, PN, PNN, PS, TN, TNN, TS, VY, T, U, slots_around
+from tehl_taichi.kernels.step import BACK, BACK_2, FAR, INV_X, INV_Y, NEAR
+
+
+@ti.func
+def cubic(f):
+    """Lagrange weights of the nodes -1, 0, 1, 2 at f."""
+    return ti.Vector([-f * (f - 1) * (f - 2) / 6, (f + 1) * (f - 1) * (f - 2) / 2, -(f + 1) * f * (f - 2) / 2,
+                      (f + 1) * f * (f - 1) / 6])
+
+
+@ti.func
+def within(value, a, b):
+    return ti.min(ti.max(value, ti.min(a, b)), ti.max(a, b))
+
+
+@ti.func
+def along_x(Z: ti.template(), first, nx, warm, press, u, at, inflow):
+    """Slots `warm` and `press` at x = at (in cells) along row u of a block: cubic, within the two nearest values; from the left
+    comes oil of temperature `inflow` and pressure 0."""
+    i0 = int(ti.floor(at))
+    w, T4, p4 = cubic(at - i0), ti.Vector([inflow] * 4), ti.Vector([0.0] * 4)
+    for t in ti.static(range(4)):
+        i = i0 - 1 + t
+        if i >= 0:
+            q = first + ti.min(i, nx)
+            T4[t], p4[t] = Z[q, warm][u], Z[q, press][u]
+    return within(w.dot(T4), T4[1], T4[2]), within(w.dot(p4), p4[1], p4[2])
+
+
+@ti.func
+def upwind(Z: ti.template(), q, slot, n2, s, ny, moved):
+    """Change of a slot by flow along y, moved = v dt/dy."""
+    here = Z[q, slot]
+    lower, upper = slots_around(Z, q, slot, n2, s, ny)
+    return -ti.max(moved, 0.0) * (here - lower) - ti.min(moved, 0.0) * (upper - here)
+
+
+@ti.func
+def origin(Z: ti.template(), q, s, i, nx, ny, nz, n, warm, press, step: ti.template(), back_by, inflow):
+    """Two slots (temperature, pressure) at the place where the oil of node n was step[0, back_by] seconds ago."""
+    T0, p0, n2, back = V(0.0), V(0.0), nx + 1, step[0, back_by]
+    cells_back = Z[q, U * nz + n] * (back * step[0, INV_X])
+    for u in ti.static(range(W)):
+        T0[u], p0[u] = along_x(Z, s * n2, nx, warm, press, u, i - cells_back[u], inflow)
+    if ny > 0:
+        moved = ti.min(ti.max(Z[q, VY * nz + n] * (back * step[0, INV_Y]), -1.0), 1.0)
+        T0 += upwind(Z, q, warm, n2, s, ny, moved)
+        p0 += upwind(Z, q, press, n2, s, ny, moved)
+    return T0, p0
+
+
+@ti.kernel
+def departures(S: ti.template(), Z: ti.template(), G: Table, nz: ti.i32, p_H: ti.f64, inflow: ti.f64, step: Coefficients):
+    """Temperature and pressure where the oil of each node was one and two steps ago (BDF2 along its path): cubic along x,
+    upwind along y.
+
+    inflow: temperature of what comes in from the left.
+    """
+    nx, ny, off = cells(G, 0)
+    base = KINDS * nz
+    ti.loop_config(block_dim=1)
+    for c in range(tiles(nx, ny)):
+        s, first, last = tile(c, nx)
+        near, far = step[0, NEAR], step[0, FAR]
+        for i in range(first, last):
+            q = s * (nx + 1) + i
+            for n in range(nz):
+                warm, press = origin(Z, q, s, i, nx, ny, nz, n, TN * nz + n, base + PN, step, BACK, inflow)
+                if far != 0.0:
+                    warm_2, press_2 = origin(Z, q, s, i, nx, ny, nz, n, TNN * nz + n, base + PNN, step, BACK_2, inflow)
+                    warm, press = near * warm + far * warm_2, near * press + far * press_2
+                Z[q, TS * nz + n] = warm
+                Z[q, PS * nz + n] = S[P, off + q] * p_H - press
+
+
+@ti.kernel
+def accept(S: ti.template(), Z: ti.template(), G: Table, nz: ti.i32, p_H: ti.f64):
+    """The present state becomes that of the last step."""
+    nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1)
+    for c in range(tiles(nx, ny)):
+        s, first, last = tile(c, nx)
+        for q in range(s * (nx + 1) + first, s * (nx + 1) + last):
+            for n in range(nz):
+                Z[q, TNN * nz + n], Z[q, TN * nz + n] = Z[q, TN * nz + n], Z[q, T * nz + n]
+                Z[q, MSNN * nz + n], Z[q, MSN * nz + n] = Z[q, MSN * nz + n], Z[q, MS * nz + n]
+            Z[q, KINDS * nz + PNN], Z[q, KINDS * nz + PN] = Z[q, KINDS * nz + PN], S[P, off + q] * p_H
