@@ -36,31 +36,35 @@ def along_x(Z: ti.template(), first, nx, warm, press, u, at, inflow):
 
 
 @ti.func
-def upwind(Z: ti.template(), q, slot, n2, s, ny, moved):
-    """Change of a slot by flow along y, moved = v dt/dy."""
+def along_y(Z: ti.template(), q, slot, n2, s, ny, moved):
+    """Change of a slot by flow along y, moved = v dt/dy: quadratic, within the two nearest values."""
     here = Z[q, slot]
     lower, upper = slots_around(Z, q, slot, n2, s, ny)
-    return -ti.max(moved, 0.0) * (here - lower) - ti.min(moved, 0.0) * (upper - here)
+    value = here + 0.5 * moved * (lower - upper + moved * (upper - 2.0 * here + lower))
+    return within(value, here, ti.select(moved > 0.0, lower, upper)) - here
 
 
 @ti.func
 def origin(Z: ti.template(), q, s, i, nx, ny, nz, n, warm, press, step: ti.template(), back_by, inflow):
     """Two slots (temperature, pressure) at the place where the oil of node n was step[0, back_by] seconds ago."""
     T0, p0, n2, back = V(0.0), V(0.0), nx + 1, step[0, back_by]
-    cells_back = Z[q, U * nz + n] * (back * step[0, INV_X])
+    at = i - Z[q, U * nz + n] * (back * step[0, INV_X])
     for u in ti.static(range(W)):
-        T0[u], p0[u] = along_x(Z, s * n2, nx, warm, press, u, i - cells_back[u], inflow)
+        T0[u], p0[u] = along_x(Z, s * n2, nx, warm, press, u, at[u], inflow)
     if ny > 0:
         moved = ti.min(ti.max(Z[q, VY * nz + n] * (back * step[0, INV_Y]), -1.0), 1.0)
-        T0 += upwind(Z, q, warm, n2, s, ny, moved)
-        p0 += upwind(Z, q, press, n2, s, ny, moved)
+        # between the two columns next to the first row's origin: taken at i, the step would be of first order in x y
+        i0 = ti.min(ti.max(int(ti.floor(at[0])), 0), nx - 1)
+        f, q0 = ti.min(ti.max(at - i0, -1.0), 2.0), s * n2 + i0
+        T0 += (1.0 - f) * along_y(Z, q0, warm, n2, s, ny, moved) + f * along_y(Z, q0 + 1, warm, n2, s, ny, moved)
+        p0 += (1.0 - f) * along_y(Z, q0, press, n2, s, ny, moved) + f * along_y(Z, q0 + 1, press, n2, s, ny, moved)
     return T0, p0
 
 
 @ti.kernel
 def departures(S: ti.template(), Z: ti.template(), G: Table, nz: ti.i32, p_H: ti.f64, inflow: ti.f64, step: Coefficients):
     """Temperature and pressure where the oil of each node was one and two steps ago (BDF2 along its path): cubic along x,
-    upwind along y.
+    quadratic along y.
 
     inflow: temperature of what comes in from the left.
     """

@@ -92,14 +92,15 @@ def settle(levels, heat, solve):
     heat.start()
     ratio = max(heat.speeds) / min(heat.speeds)
     first, later = (STRIDE, 1) if ratio < SLOW else (SLOW_STRIDE, SLOW_STRIDE // 2)
-    steps, dt = math.ceil(TRANSITS * levels.nx * ratio / first), first * heat.dt
+    cell = max(heat.dt, levels.dx * levels.scales.a / max(heat.speeds))  # s; shorter steps would settle for less
+    steps, dt = math.ceil(TRANSITS * levels.nx * ratio / first), first * cell
     before = heat.T
     for _ in range(BLOCKS):
         mean = _march(heat, steps, dt)
         loaded = levels.get(fields.P) > LOADED
         change, before = float(np.abs(mean - before).max(axis=0)[loaded].max()), mean
         report = solve()
-        steps, dt = _whole_cells(levels.nx / BLOCK * (1 if ratio < SLOW else ratio) / later, later / ratio), later * heat.dt
+        steps, dt = _whole_cells(levels.nx / BLOCK * (1 if ratio < SLOW else ratio) / later, later / ratio), later * cell
         if not report.converged or change < SETTLED:
             return report
     report.converged = False
