@@ -159,8 +159,9 @@ class Passage:
             newton, cycles = newton + report.newton, cycles + report.cycles
             if not (first or report.converged):
                 break
-            change = self.heat.solve().change
-            if not first and (thermal.rounds == 1 or change < thermal.tolerance):
+            heat = self.heat.solve()
+            settled = heat.change < thermal.tolerance and not heat.failed
+            if not first and (settled or thermal.rounds == 1):
                 break
         else:
             report.converged = False
