@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from tehl_taichi.scene import Scene, SceneError, scene
+from tehl_taichi.scene import Scene, scene
 from tehl_taichi.scene.parts import Rheology, Thermal
 from tehl_taichi.scene.scales import Scales
 
@@ -47,6 +47,23 @@ def test_bodies_remember_their_heat():
             worst = max(worst, abs(warm / (2 * math.sqrt(n * part * 1e-6 / math.pi) / 13000.0) - 1))
             memory = decay * memory + gain + gain_last
         assert worst < 4e-5
+
+
+def test_a_slab_remembers_its_heat():
+    """Steady flux on a slab 100 diffusion lengths of a step deep: its series solution, and depth/k after a long time."""
+    from tehl_taichi.solvers import solids
+
+    depth = 100.0
+    (weight, decay, gain, gain_last), B, B_last = solids.memory(1.0, 1.0, 1.0, depth)
+    memory, times = np.zeros(solids.MODES), np.arange(1, 30001)
+    warm = np.zeros(times.size)
+    for n in range(times.size):
+        warm[n] = (weight * decay * memory).sum() + B + B_last
+        memory = decay * memory + gain + gain_last
+    odd = 2 * np.arange(400) + 1.0
+    exact = depth * (1 - 8 / math.pi**2 * np.sum(np.exp(-(odd * math.pi / 2 / depth) ** 2 * times[:, None]) / odd**2, axis=1))
+    assert np.abs(warm / exact - 1).max() < 1e-3
+    assert (weight * decay) @ solids.steady_modes(1.0, depth) + B + B_last == pytest.approx(depth, rel=1e-3)
 
 
 @pytest.mark.parametrize("speed, sliding", [(8.5, 0.0), (8.5, -0.3)])
@@ -153,9 +170,21 @@ def test_strong_sliding_settles(srr):
     assert s.scalars["residual"] < 1e-6 and 150 < s.scalars["film_max_C"] < 400 and s.scalars["clamped"] == 0
 
 
-def test_a_surface_at_rest_is_refused():
-    with pytest.raises(SceneError, match="pile up"):
-        thermal(srr=-2.0)
+@pytest.mark.parametrize("srr", [-2.0, 2.0])
+def test_simple_sliding(srr):
+    """A surface at rest conducts through 3 a of its body: T - T_0 = q 3 a/k at every point."""
+    from tehl_taichi.kernels import fields, slots
+    from tehl_taichi.solvers.steady import solve_steady
+
+    description = thermal(srr=srr, **{"grid.nx": 64})
+    result = solve_steady(description, Scales.of(description), 64, 0)
+    assert result.report.converged
+    heat, rest = result.heat, 0 if srr < 0 else 1
+    flux = heat.single_slot((slots.QA, slots.QB)[rest])[0]
+    rise, expected = heat.T[-rest, 0] - heat.inlet, flux * 3 * result.solver.levels.scales.a / description.body_a.k
+    loaded = result.solver.levels.get(fields.P)[0] > 1e-3
+    np.testing.assert_allclose(rise[loaded], expected[loaded], rtol=2e-3, atol=0.05)
+    assert rise.max() > 1.5 * (heat.T[rest - 1, 0] - heat.inlet).max()
 
 
 def passage(**changes):

@@ -77,11 +77,6 @@ class Scene:
                                  "farther out")
 
     def _check_motion(self):
-        o = self.operation
-        if not self.isothermal and min(o.u_a, o.u_b) < AT_REST * o.u_m:
-            raise SceneError(f"operation.srr = {o.srr:g} leaves a surface at {min(o.u_a, o.u_b):g} m/s: in the model of moving "
-                             f"half-spaces its heat would pile up for ever; allowed with temperatures: both surfaces at "
-                             f"least at {AT_REST * o.u_m:g} m/s, or use --isothermal")
         if self.transient and self.operation.u_a < 1e-3 * self.operation.u_m:
             raise SceneError(f"operation.srr = {self.operation.srr:g} leaves surface a, which carries the feature, at "
                              f"{self.operation.u_a:g} m/s: it never passes; allowed with a feature: srr > -1.998, or use "
@@ -96,6 +91,12 @@ class Scene:
     def transient(self):
         """True when a feature passes."""
         return bool(self.features) and not self.time.steady_only
+
+    @property
+    def at_rest(self):
+        """Of the surfaces a and b: whether it moves at less than a hundredth of the mean speed, for heat not at all."""
+        o = self.operation
+        return o.u_a < AT_REST * o.u_m, o.u_b < AT_REST * o.u_m
 
     @property
     def path(self):

@@ -81,16 +81,17 @@ def time_step(scene, scales, dx):
     return dx * scales.a / max(o.u_a, o.u_b)
 
 
-def settle(levels, heat, solve):
+def settle(levels, heat, solve, T=None):
     """Steady pressure and temperature by turns: a block of time steps with the pressure at rest, then the pressure anew by
-    solve() -> Report.
+    solve() -> Report. T: temperatures to begin with, from a coarser grid.
 
     Settled when the mean temperatures of two blocks under load differ by less than SETTLED (of single moments
     they differ by up to 0.2 K on 64 columns: material strips lie between nodes now and on them then). Returns the
     pressure's Report with converged = False if that is not reached.
     """
-    heat.start()
-    ratio = max(heat.speeds) / min(heat.speeds)
+    heat.start(T)
+    moving = [speed for speed in heat.speeds if speed]
+    ratio = max(moving) / min(moving)
     first, later = (STRIDE, 1) if ratio < SLOW else (SLOW_STRIDE, SLOW_STRIDE // 2)
     cell = max(heat.dt, levels.dx * levels.scales.a / max(heat.speeds))  # s; shorter steps would settle for less
     steps, dt = math.ceil(TRANSITS * levels.nx * ratio / first), first * cell
@@ -102,8 +103,10 @@ def settle(levels, heat, solve):
         report = solve()
         steps, dt = _whole_cells(levels.nx / BLOCK * (1 if ratio < SLOW else ratio) / later, later / ratio), later * cell
         if not report.converged or change < SETTLED:
-            return report
-    report.converged = False
+            break
+    else:
+        report.converged = False
+    heat.warm_resting()
     return report
 
 
@@ -151,8 +154,13 @@ class FilmHeat:
 
     def _bind(self, scene):
         v, s, o = self.levels, self.levels.scales, scene.operation
-        self.inlet, self.speeds = o.temperature, (o.u_a, o.u_b)
-        self.effusivities = [math.sqrt(b.k * b.rho * b.c) for b in (scene.body_a, scene.body_b)]
+        self.inlet, self.steady = o.temperature, False
+        self.resting = scene.at_rest
+        self.speeds = [0.0 if rest else u for rest, u in zip(self.resting, (o.u_a, o.u_b))]
+        bodies = scene.body_a, scene.body_b
+        self.effusivities = [math.sqrt(b.k * b.rho * b.c) for b in bodies]
+        self.depths = [solids.REST * s.a / math.sqrt(b.k / (b.rho * b.c) * self.dt) if rest else math.inf
+                       for rest, b in zip(self.resting, bodies)]
         table, laws = (v.S, self.Z, v.G), (self.nz, scene.oil, scene.rheology)
         nested = np.ascontiguousarray(self.weights[:, None] * self.C)
         args = (*table, nested, self.weights, self.zeta, *laws, s.p_H, s.h, v.ln_eta0, o.u_a, -o.u_s, o.u_m)
@@ -176,10 +184,11 @@ class FilmHeat:
                                self.single + (slots.QA, slots.QB)[body]) for body in (0, 1)]
         self._adopt = bind(solid_kernels.adopt, self.F, G, count)
 
-    def start(self):
-        """Everything at the inlet temperature; the pressure and film in the table count as those of the last step."""
-        v = self.levels
-        self.set_temperature(np.full((self.nz, v.ny + 1, v.nx + 1), self.inlet))
+    def start(self, T=None):
+        """Everything at the inlet temperature, or the film at T; the pressure and film in the table count as those of the last
+        step. Until :meth:`warm_resting`, surfaces at rest conduct as after a long time."""
+        v, self.steady = self.levels, True
+        self.set_temperature(np.full((self.nz, v.ny + 1, v.nx + 1), self.inlet) if T is None else T)
         v.laws()
         self._velocities()
         self._accept()
@@ -190,8 +199,12 @@ class FilmHeat:
         v, a, B, self.dt_now = self.levels, self.levels.scales.a, [0.0, 0.0], dt
         self.until = self.offset + np.array(self.speeds) * dt / (v.dx * a)
         for body in (0, 1):
-            self.modes[body][:4], B[body], last = solids.memory(dt, self.effusivities[body], self.dt)
+            depth = self.depths[body]
+            self.modes[body][:4], B[body], last = solids.memory(dt, self.effusivities[body], self.dt, depth)
             self.modes[body][4, :3] = *self._position(body), last
+            if self.steady and self.resting[body]:
+                weight, decay = self.modes[body][:2]
+                B[body] += last + float((weight * decay) @ solids.steady_modes(self.dt, depth))
             self._surface[body]()
         rate, near = bdf2(dt, self.dt_before)
         self.step_numbers[0] = [rate, 1 / (v.dx * a), 1 / (v.dy * a), *B, COLUMN_TOLERANCE * v.scene.thermal.tolerance,
@@ -213,13 +226,24 @@ class FilmHeat:
 
     def accept(self):
         """Make this step the last one."""
-        for remember in self._remember:
-            remember()
+        for remember, rest in zip(self._remember, self.resting):
+            if not (rest and self.steady):
+                remember()
         self._adopt()
         self.offset, self.dt_before = self.until, self.dt_now
         self._velocities()
         self._accept()
         self.T_before, self.T = self.T, self.temperature()
+
+    def warm_resting(self):
+        """Give the bodies whose surfaces rest the memory of a long time with the present heat."""
+        self.steady, memory = False, self.memory()
+        for body, flux in enumerate((slots.QA, slots.QB)):
+            if self.resting[body]:
+                memory[2 * solids.MODES + body] = self.single_slot(flux)
+                modes = solids.steady_modes(self.dt, self.depths[body])[:, None, None]
+                memory[body * solids.MODES : (body + 1) * solids.MODES] = modes * self.single_slot(flux)
+        slots.put_slots(self.F, self.levels.G, 0, KEPT, memory)
 
     def state(self):
         """All that is needed to go on, as arrays."""

@@ -4,6 +4,9 @@ Each material strip of a body's surface is a one-dimensional half-space (Carslaw
 surface is negligible at the Peclet numbers of these contacts): T_s(t) = T_0 + int q(t') K(t - t') dt', K = 1/sqrt(pi k rho c
 t). With K as a sum of exponentials the history becomes a few numbers per strip, and the flux of the running step (linear in
 time) enters exactly: T_s = A + B q, B = (4/3) sqrt(dt/pi)/sqrt(k rho c), the same at every node.
+
+A surface at rest has no steady temperature on a half-space. It gets a slab of depth REST (in a) on ambient temperature, the
+resistance of which, depth/k, is about that of a strip of width 2a on a body some 10 a thick.
 """
 
 import math
@@ -14,28 +17,45 @@ import numpy as np
 MODES = 16  # to 4e-5 of the surface temperature from the shortest step to the horizon; 12 modes: 1e-3
 HORIZON = 2e4  # steps that a strip spends on the grid at most (a surface at a hundredth of the speed of the other)
 SHORTEST = 1 / 16  # part of a step that is ever taken
+REST = 3.0  # a
 
 
-def memory(dt, effusivity, base_dt):
+def memory(dt, effusivity, base_dt, depth=math.inf):
     """(rows of MODES numbers: weight, decay over dt, gain of the new flux and of the last; B of the new flux, of the last)
     for a step of dt s with a flux linear in time, fitted for steps of base_dt s.
 
-    effusivity: sqrt(k rho c) of the body, SI.
+    effusivity: sqrt(k rho c) of the body, SI; depth: that of a slab over sqrt(diffusivity base_dt), infinite for a half-space.
     """
-    rates, weights = _fit()
+    rates, weights = _fit(depth)
     rates, weights = rates / base_dt, weights / (effusivity * math.sqrt(base_dt))
     mean = -np.expm1(-rates * dt) / (rates * dt)
     B = 2 * math.sqrt(dt / math.pi) / effusivity
     return np.array([weights, np.exp(-rates * dt), (1 - mean) / rates, (mean - np.exp(-rates * dt)) / rates]), 2 * B / 3, B / 3
 
 
-@lru_cache(maxsize=1)
-def _fit():
+def steady_modes(base_dt, depth):
+    """What the memory holds after a long time per flux, (MODES,)."""
+    return base_dt / _fit(depth)[0]
+
+
+@lru_cache(maxsize=8)
+def _fit(depth):
     """Rates and weights for a step of 1 and effusivity 1: least squares on the response to the flux of one shortest step, at
-    all later times, relative to the exact 2/sqrt(pi) (sqrt(t + dt) - sqrt(t))."""
-    n = np.unique(np.round(np.geomspace(1, HORIZON / SHORTEST, 600))) * SHORTEST
-    exact = 2 / math.sqrt(math.pi) * (np.sqrt(n + SHORTEST) - np.sqrt(n))
-    rates = np.geomspace(0.3 / HORIZON, 6.0 / SHORTEST, MODES)
+    all later times, relative to the exact one."""
+    slowest, horizon = (0.3 / HORIZON, HORIZON) if math.isinf(depth) else (math.pi**2 / (4 * depth**2), depth**2)
+    n = np.unique(np.round(np.geomspace(1, horizon / SHORTEST, 600))) * SHORTEST
+    exact = _warmed(n + SHORTEST, depth) - _warmed(n, depth)
+    rates = np.geomspace(slowest, 6.0 / SHORTEST, MODES)
     response = (1 - np.exp(-rates * SHORTEST)) / rates * np.exp(-rates * n[:, None])
     weights = np.linalg.lstsq(response / exact[:, None], np.ones(n.size), rcond=None)[0]
     return rates, weights
+
+
+def _warmed(t, depth):
+    """Surface temperature after a time t of unit flux: half-space, or slab by its own series."""
+    half_space = 2 * np.sqrt(t / math.pi)
+    if math.isinf(depth):
+        return half_space
+    odd = (2 * np.arange(60) + 1.0) ** 2
+    slab = depth * (1 - 8 / math.pi**2 * (np.exp(-odd * math.pi**2 / 4 / depth**2 * t[:, None]) / odd).sum(axis=1))
+    return np.where(t < 0.02 * depth**2, half_space, slab)

@@ -69,7 +69,7 @@ def grid_sequence(nx, ny, first=FIRST_CELLS):
 
 def solve_steady(scene, scales, nx, ny):
     """Steady smooth contact on nx x ny cells (ny = 0: line). Returns a SteadyResult; check `report.converged`."""
-    P, H0, values, work = None, 0.0, [], 0
+    P, H0, T, values, work = None, 0.0, None, [], 0
     for size in grid_sequence(nx, ny):
         solver = heat = None  # give their tables to the next grid
         solver = PressureSolver(Levels(scene, scales, *size))
@@ -77,7 +77,8 @@ def solve_steady(scene, scales, nx, ny):
         report = _first(solver) if P is None else _next(solver, P, H0)
         if report.converged and not scene.isothermal and nx // size[0] <= FINEST_THERMAL:
             heat = FilmHeat(solver.levels, time_step(scene, scales, solver.levels.dx))
-            report = settle(solver.levels, heat, lambda solver=solver: _again(solver))
+            report = settle(solver.levels, heat, lambda solver=solver: _again(solver), T)
+            T = np.stack([refine(layer) for layer in heat.T])
         # a grid too coarse for the outlet of this film is no start for the next one, nor a step of its error
         P, H0 = (solver.levels.get(fields.P), solver.H0) if report.converged else (None, 0.0)
         values = [*values, scalars(solver)] if report.converged else [scalars(solver)]
