@@ -11,7 +11,7 @@ import time
 import numpy as np
 import pytest
 
-TINY = ("--grid", "64x16", "--threads", "2")
+TINY = ("--grid", "64x16", "--threads", "2", "--isothermal")
 CALL = (sys.executable, "-c", "from tehl_cli.main import main; main()")
 
 
@@ -67,7 +67,8 @@ def test_a_thermal_run_tells_its_temperatures_and_resumes(tmp_path):
 
 
 def test_companion_runs_tell_the_error_of_a_passage(tmp_path):
-    done = tehl("run", "gear", "--grid", "128x32", "--threads", 2, "--steps", 12, "--estimate-error", "--out", "e.zarr",
+    done = tehl("run", "gear", "--isothermal", "--grid", "128x32", "--threads", 2, "--steps", 12, "--estimate-error",
+                "--out", "e.zarr",
                 "--json", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     summary = json.loads(done.stdout)
@@ -114,7 +115,6 @@ def test_a_broken_run_opens_and_resumes_to_the_same_result(finished, tmp_path, s
     (("run", "--load", "-5"), "N/m"), (("run", "--load", "nan"), "not a number"), (("run", "geer"), "gear"),
     (("run", "no-such.toml"), "cannot read"), (("run", "--set", "feature.hight=1e-6"), "height"),
     (("run", "--set", "feature.height"), "key=value"), (("run", "--grid", "huge"), "NXxNY"),
-    (("run", "--thermal", "--srr", "-2"), "--isothermal"),
     (("run", "--arch", "cuda"), "cpu"), (("run", "--precision", "f16"), "f64"), (("run", "--threads", "0"), "1 to"),
     (("run", "--speed", "0"), "entrainment"), (("run", "--srr", "-2"), "never passes"), (("run", "--sr", "1"), "srr"),
     (("show", "nothing.zarr"), "not a store"), (("resume", "nothing.zarr"), "not a store"),
@@ -133,7 +133,7 @@ def test_an_existing_store_is_not_overwritten(finished):
 
 def test_new_scene_file_runs(tmp_path):
     assert tehl("new", "mine.toml", "--base", "smooth-line", cwd=tmp_path).returncode == 0
-    done = tehl("run", "mine.toml", "--json", "--threads", 2, cwd=tmp_path)
+    done = tehl("run", "mine.toml", "--isothermal", "--json", "--threads", 2, cwd=tmp_path)
     assert done.returncode == 0 and json.loads(done.stdout)["steady"]["h_c_m"] == pytest.approx(0.4366e-6, rel=1e-3)
     assert tehl("new", "mine.toml", cwd=tmp_path).returncode == 2
 

@@ -3,10 +3,14 @@
 import numpy as np
 import pytest
 
-from tehl_taichi.scene import scene
+from tehl_taichi.scene import scene as built_in
 from tehl_taichi.scene.scales import Scales
 
 pytestmark = pytest.mark.usefixtures("taichi_cpu")
+
+
+def scene(name="gear"):
+    return built_in(name).replace(**{"thermal.on": False})
 
 
 def steady(description):

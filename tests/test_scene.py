@@ -9,6 +9,15 @@ from tehl_taichi.scene import BUILT_INS, SceneError, scene
 from tehl_taichi.scene.scales import Scales
 
 
+def test_temperatures_come_with_slip():
+    assert not scene("gear").isothermal and not scene("addendum").isothermal and scene("pitch-line").isothermal
+    assert scene("gear").replace(srr=0.0).isothermal
+    assert not scene("gear").replace(**{"srr": 0.0, "thermal.on": True}).isothermal
+    assert scene("ridge-on-ball").replace(srr=-1.0).isothermal
+    with pytest.raises(SceneError, match="auto"):
+        scene("gear").replace(**{"thermal.on": "maybe"})
+
+
 def test_gear_has_the_hertz_units_of_the_thesis():
     s = Scales.of(scene("gear"))
     assert s.a == pytest.approx(0.362e-3, rel=1e-3) and s.p_H == pytest.approx(1.934e9, rel=1e-3)

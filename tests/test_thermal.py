@@ -232,7 +232,7 @@ def test_isothermal_scenes_hold_nothing_of_it():
     from tehl_taichi.kernels import fields
     from tehl_taichi.simulation import march
 
-    s = next(march(scene("smooth-line").replace(**{"grid.nx": 64})))
+    s = next(march(scene("smooth-line").replace(**{"thermal.on": False, "grid.nx": 64})))
     assert not any("temperature" in name for name in s.fields) and "film_max_C" not in s.scalars
     assert fields.NROWS < fields.NROWS_THERMAL and not any(key.startswith("heat") for key in s.state)
 

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from typing import Union
 
 from tehl_taichi.scene.checks import SceneError, choice, flag, integer, number
 
@@ -126,22 +127,26 @@ class Rheology:
         number("rheology.film_floor", self.film_floor, "", 1e-9, 0.1)
 
 
+AUTO = "auto"
+
+
 @dataclass(frozen=True)
 class Thermal:
-    """The energy equation; off: the film keeps the inlet temperature.
+    """The energy equation; on: true, false (the film keeps the inlet temperature) or "auto": where the surfaces slip.
 
     nodes: Chebyshev nodes across the film (odd: one at mid-film; 9 are good to 0.01 %, 7 to 0.1 %); tolerance: K, change of
     the temperature in the last round of a step; rounds: pressure-temperature rounds of a step at most (1: one lagged
     pass, half the time, film under an asperity 0.3 % off).
     """
 
-    on: bool = False
+    on: Union[bool, str] = AUTO
     nodes: int = 9
     tolerance: float = 0.05
     rounds: int = 8
 
     def __post_init__(self):
-        flag("thermal.on", self.on)
+        if self.on not in (True, False, AUTO):
+            raise SceneError(f"thermal.on = {self.on!r} must be true, false or {AUTO!r}")
         integer("thermal.nodes", self.nodes, 5, 33)
         number("thermal.tolerance", self.tolerance, "K", 1e-6, 10.0)
         integer("thermal.rounds", self.rounds, 1, 50)

@@ -9,7 +9,7 @@ from tehl_taichi.scene import scales
 from tehl_taichi.scene.checks import SceneError, build, nearest
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.oil import Oil
-from tehl_taichi.scene.parts import Body, Contact, Fatigue, Grid, Numerics, Operation, Output, Rheology, Thermal, Time
+from tehl_taichi.scene.parts import AUTO, Body, Contact, Fatigue, Grid, Numerics, Operation, Output, Rheology, Thermal, Time
 
 SECTIONS = {"contact": Contact, "operation": Operation, "rheology": Rheology, "thermal": Thermal, "fatigue": Fatigue,
             "grid": Grid, "time": Time, "numerics": Numerics, "output": Output}
@@ -125,13 +125,16 @@ class Scene:
 
     @property
     def isothermal(self):
+        if self.thermal.on == AUTO:
+            return self.operation.srr == 0 or self.contact.moes_M > 0
         return not self.thermal.on
 
     def left_out(self):
         """What this scene does not need and therefore does not compute, each with its reason."""
         out = []
         if self.isothermal:
-            out.append("energy equation and temperatures (isothermal film; --thermal has them)")
+            why = "isothermal film" if self.thermal.on is False else "no slip" if self.operation.srr == 0 else "a Moes pair"
+            out.append(f"energy equation and temperatures ({why}; --thermal has them)")
         if self.isothermal and self.oil.expansion == "thermal" and self.oil.beta0 > 0:
             out.append("thermal expansion of the oil (isothermal film; oil.expansion = 'always' keeps it)")
         if self.one_dimensional:
