@@ -3,7 +3,7 @@
 import sys
 
 import typer
-from tehl_cli import bench, inspect, runs
+from tehl_cli import bench, fatigue, inspect, runs
 from tehl_cli.errors import BAD_INPUT, FAILED, INTERRUPTED, NOT_CONVERGED, Interrupted
 
 app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False, rich_markup_mode="rich",
@@ -11,6 +11,7 @@ app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_
                        "Example: tehl run --srr -0.12")
 runs.register(app)
 inspect.register(app)
+fatigue.register(app)
 bench.register(app)
 
 

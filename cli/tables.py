@@ -54,13 +54,24 @@ def _passage_rows(summary):
                  ("worst residual / load / mass error",
                   f"{t['residual_max']:.1e} / {t['load_error_max']:.1e} / {t['mass_error_max']:.1e}")]
     if "fatigue" in summary:
-        f = summary["fatigue"]
-        rows += [("Fi_max", f"{f['Fi_max']:.4f}{_plus(f.get('error', {}).get('Fi_max'), 1)}"),
-                 ("Findley stress", f"{f['findley_stress_max_Pa'] / 1e6:.1f} MPa"),
-                 ("at x, y of the feature", f"{f['x_m'] * 1e6:.1f}, {f['y_m'] * 1e6:.1f} um"),
-                 ("critical plane to the surface", f"{f['surface_angle_deg']:.1f} deg"),
-                 ("with kappa_F, sigma_eF", f"{f['kappa_F']:g}, {f['sigma_eF_Pa'] / 1e6:g} MPa")]
+        rows += fatigue_rows(summary["fatigue"])
     return rows
+
+
+def fatigue_rows(f):
+    """(quantity, value) of a fatigue summary."""
+    at = f"{f['x_m'] * 1e6:.1f}, {f['y_m'] * 1e6:.1f} um"
+    low, high = f["pit_angles_deg"]
+    rows = [("Fi_max", f"{f['Fi_max']:.4f}{_plus(f.get('error', {}).get('Fi_max'), 1)}"),
+            (f"{f['criterion']} stress", f"{f['findley_stress_max_Pa'] / 1e6:.1f} MPa"),
+            ("at x, y of the feature", at + (f", {f['depth_m'] * 1e6:.0f} um deep" if f.get("depth_m") else "")),
+            ("critical plane to the surface", f"{f['surface_angle_deg']:.1f} deg (pits begin at {low:g} to {high:g})"),
+            ("shear amplitude, largest normal stress", f"{f['tau_amp_Pa'] / 1e6:.1f}, {f['sigma_n_max_Pa'] / 1e6:.1f} MPa"),
+            ("largest principal stress", f"{f['sigma1_max_Pa'] / 1e6:.1f} MPa"),
+            ("with kappa, sigma_eF", f"{f['kappa_F']:g}, {f['sigma_eF_Pa'] / 1e6:g} MPa"),
+            ("thermal stress", "counted" if f["thermal_stress"] else "left out")]
+    return rows + [(f"largest at {layer['depth_m'] * 1e6:.0f} um", f"{layer['findley_stress_max_Pa'] / 1e6:.1f} MPa")
+                   for layer in f.get("by_depth", [])]
 
 
 def list_table(title, columns, rows):

@@ -54,6 +54,44 @@ def test_triangular_path_has_the_circle_not_the_chord(taichi_cpu, kappa, exact):
     stress = np.zeros((1, 3, 6))
     stress[0, :, 4], stress[0, :, 5] = S * np.cos(corners), S * np.sin(corners)
     assert findley.search(stress, kappa)[0][0] == pytest.approx(exact, rel=1e-8)
+    chord = {0.3: 101.4812, 0.627: 129.9347}[kappa]
+    assert findley.search(stress, kappa, criterion="findley-chord")[0][0] == pytest.approx(chord, rel=1e-6)
+
+
+# criterion: (history, value for kappa): on planes at 45 degrees amplitude and normal stress are S/2, the mean stress S/3
+OTHERS = {"matake": (history(xx=wave), lambda k: S / 2 + k * S / 2),
+          "dang-van": (history(xx=wave), lambda k: S / 2 + k * S / 3)}
+
+
+@pytest.mark.parametrize("criterion", OTHERS)
+def test_other_criteria(taichi_cpu, criterion):
+    stress, exact = OTHERS[criterion]
+    for prune in (True, False):
+        f, _ = findley.search(stress, 0.3, prune=prune, criterion=criterion)
+        assert f[0] == pytest.approx(exact(0.3), rel=1e-7)
+
+
+def test_dang_van_of_torsion_on_pressure(taichi_cpu):
+    stress = history(xy=wave, xx=0 * T - 60, yy=0 * T - 60, zz=0 * T - 60)
+    assert findley.search(stress, 0.3, criterion="dang-van")[0][0] == pytest.approx(S - 0.3 * 60, rel=1e-7)
+
+
+def test_limits_of_bending_and_torsion_give_the_constants(taichi_cpu):
+    kappa, limit = findley.from_limits(500e6, 320e6)
+    assert 500e6 / 2 * (kappa + np.sqrt(1 + kappa**2)) == pytest.approx(limit, rel=1e-12)
+    assert 320e6 * np.sqrt(1 + kappa**2) == pytest.approx(limit, rel=1e-12)
+    assert findley.from_limits(1.0, 0.643674)[0] == pytest.approx(0.3, rel=1e-4)
+    with pytest.raises(ValueError, match="between 0.5 and 1"):
+        findley.from_limits(500e6, 200e6)
+
+
+def test_the_path_on_a_plane(taichi_cpu):
+    stress = history(xz=wave, yz=S * np.sin(T), zz=-2 * both)[0]
+    dip, strike, normal = findley.shear_path(stress, np.array([0.0, 0.0, 1.0]))
+    u, v, radius = findley.smallest_circle(dip, strike)
+    np.testing.assert_allclose(np.hypot(dip, strike), S, rtol=1e-12)
+    assert radius == pytest.approx(S, rel=1e-9) and np.hypot(u, v) < 1e-6 * S and normal.max() == pytest.approx(0, abs=1e-9)
+    assert fatigue.on_circle(dip, strike, (0.0, 0.0, S)).size == T.size
 
 
 def test_planes_of_the_ten_degree_grid():
@@ -181,11 +219,16 @@ class Moving:
 
 
 def test_passage_in_the_frame_of_the_feature(taichi_cpu):
-    scene = tehl.scene("gear")
+    scene = tehl.scene("gear").replace(**{"thermal.on": False})
     reader = Moving(scene)
     result = fatigue.run(scene, reader)
     assert set(result.summary) == {"Fi_max", "findley_stress_max_Pa", "x_m", "y_m", "plane_theta_deg", "plane_phi_deg",
-                                   "surface_angle_deg", "sigma1_max_Pa", "kappa_F", "sigma_eF_Pa"}
+                                   "surface_angle_deg", "sigma1_max_Pa", "kappa_F", "sigma_eF_Pa", "tau_amp_Pa",
+                                   "sigma_n_max_Pa", "criterion", "thermal_stress", "pit_angles_deg",
+                                   "feature_x_at_normal_max_m", "feature_x_at_first_shear_extreme_m",
+                                   "feature_x_at_last_shear_extreme_m"}
+    total = result.summary["tau_amp_Pa"] + result.summary["kappa_F"] * result.summary["sigma_n_max_Pa"]
+    assert total == pytest.approx(result.summary["findley_stress_max_Pa"], rel=1e-6)
     assert abs(result.summary["x_m"]) < 0.5 * reader.s.a
     assert 0.15 < result.summary["findley_stress_max_Pa"] / reader.s.p_H < 0.5
     sizes = tuple(result.maps[name][0].size for name in ("feature_frame_x", "feature_frame_y"))
@@ -193,10 +236,10 @@ def test_passage_in_the_frame_of_the_feature(taichi_cpu):
 
 
 def test_history_of_whole_cells_is_exact_and_begins_and_ends_unloaded(taichi_cpu):
-    scene = tehl.scene("gear")
+    scene = tehl.scene("gear").replace(**{"thermal.on": False})
     reader = Moving(scene)
     passage = fatigue.Passage(scene, reader, reader.centres)
-    h = passage.history(slice(0, 1))
+    h = passage.history(slice(0, 1), passage.stresses(0.0))
     n = int(np.argmin(np.abs(reader.centres)))
     t = int(np.flatnonzero(passage.entries == n)[0])
     point = passage.x.size // 2 + 3
@@ -206,18 +249,59 @@ def test_history_of_whole_cells_is_exact_and_begins_and_ends_unloaded(taichi_cpu
 
 
 def test_blocks_of_rows_change_nothing(taichi_cpu, monkeypatch):
-    scene = tehl.scene("gear")
+    scene = tehl.scene("gear").replace(**{"thermal.on": False})
     reader = Moving(scene, cells=8, rows=5)
     whole = fatigue.run(scene, reader)
-    monkeypatch.setattr(fatigue, "BLOCK_BYTES", 1.0)
+    monkeypatch.setattr("tehl_taichi.post.passage.BLOCK_BYTES", 1.0)
     assert fatigue.run(scene, reader).summary == whole.summary
 
 
 def test_broken_shifts_are_interpolated(taichi_cpu):
-    scene = tehl.scene("gear")
+    scene = tehl.scene("gear").replace(**{"thermal.on": False})
     one, other = (fatigue.run(scene, Moving(scene, 32, 17, stride)).summary["findley_stress_max_Pa"]
                   for stride in (1.0, 0.7))
     assert other == pytest.approx(one, rel=0.02)
+
+
+def test_a_window_of_positions_counts_only_its_moments(taichi_cpu):
+    scene = tehl.scene("gear").replace(**{"thermal.on": False})
+    reader = Moving(scene)
+    entry, rest = (fatigue.run(scene.replace(**{f"fatigue.{key}": 0.0}), reader).summary["findley_stress_max_Pa"]
+                   for key in ("to_x", "from_x"))
+    whole = fatigue.run(scene, reader).summary["findley_stress_max_Pa"]
+    assert max(entry, rest) <= whole * (1 + 1e-9) and entry != rest
+    with pytest.raises(SceneError, match="no stored moment"):
+        fatigue.run(scene.replace(**{"fatigue.from_x": 7.0}), reader)
+
+
+def test_residual_stress_and_depths(taichi_cpu):
+    scene = tehl.scene("gear").replace(**{"thermal.on": False, "fatigue.depths": [20e-6, 200e-6]})
+    reader = Moving(scene, cells=8, rows=5)
+    free = fatigue.run(scene, reader)
+    pressed = fatigue.run(scene.replace(**{"fatigue.residual_xx": -3e8, "fatigue.residual_yy": -3e8}), reader)
+    levels = [layer["findley_stress_max_Pa"] for layer in free.summary["by_depth"]]
+    assert free.maps["findley_stress_at_depth"][0].shape[0] == 3 and len(set(levels)) == 3
+    assert all(b["findley_stress_max_Pa"] < a for a, b in zip(levels, pressed.summary["by_depth"]))
+    assert free.summary["findley_stress_max_Pa"] == max(levels)
+
+
+class Heated(Moving):
+    """The same with a warm spot under the bump."""
+
+    def fields(self, n, names):
+        warm = 50 + 40 * np.exp(-((self.x[:, None] - self.centres[n]) ** 2 + self.y**2) / (0.2 * self.s.a) ** 2) * (n > 0)
+        out = {"temperature_a": 90.0 + warm * (np.abs(self.x[:, None]) < self.s.a) + 0 * self.y}
+        return out if names == ("temperature_a",) else {**super().fields(n, names), **out}
+
+
+def test_thermal_stress_counts_where_there_is_heat(taichi_cpu):
+    scene = tehl.scene("gear")
+    reader = Heated(scene)
+    hot, cold = (fatigue.run(scene.replace(**{"fatigue.thermal_stress": on}), reader) for on in ("auto", False))
+    assert hot.summary["thermal_stress"] and not cold.summary["thermal_stress"]
+    assert abs(hot.summary["findley_stress_max_Pa"] / cold.summary["findley_stress_max_Pa"] - 1) > 0.02
+    with pytest.raises(SceneError, match="temperatures"):
+        scene.replace(**{"thermal.on": False, "fatigue.thermal_stress": True})
 
 
 class Still:

@@ -4,6 +4,8 @@ from pathlib import Path
 
 import numpy as np
 
+from tehl_taichi.io import fatigue_figures
+from tehl_taichi.io.fatigue_figures import whole
 from tehl_taichi.io.store import StoreError
 from tehl_taichi.scene.scales import Scales
 
@@ -24,8 +26,20 @@ def write_all(store, folder):
             figures["temperature_maps"] = temperature_maps(plt, store)
     if "temperature" in store.stored:
         figures["profiles"] = profiles(plt, store)
-    if store.map("Fi") is not None:
-        figures["fatigue"] = fatigue(plt, store)
+    if store.map("worst_stress") is not None:
+        worst = {name: store.map(f"worst_{name}") for name in ("x_a", "stress", "normal", "circle")}
+        found = {name: store.map(name) for name in ("feature_frame_x", "feature_frame_y", "Fi")}
+        figures |= fatigue_figures.all_figures(plt, store.scene.name, found, worst, store.summary["fatigue"],
+                                               Scales.of(store.scene).a)
+    return [_save(plt, figure, folder / f"{name}.png") for name, figure in figures.items()]
+
+
+def write_fatigue(result, title, a, folder):
+    """Write the figures of a FatigueResult into `folder`; returns the paths. Raises StoreError."""
+    plt, folder = _matplotlib(), Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    found = {name: value[0] for name, value in result.maps.items()}
+    figures = fatigue_figures.all_figures(plt, title, found, result.worst, result.summary, a)
     return [_save(plt, figure, folder / f"{name}.png") for name, figure in figures.items()]
 
 
@@ -157,27 +171,4 @@ def maps(plt, store):
     draw_map(figure, axes[1], store, a, f["film"] * 1e6, "film (µm)", cmap="viridis", vmax=_film_top(store))
     axes[0].set_title(f"{store.scene.name}: {moment(store, n, a)}")
     axes[1].set_xlabel("x / a (flow to the right)")
-    return figure
-
-
-def whole(y, values):
-    """y and values (x, y) with the mirror image of a half domain."""
-    if y[0] < 0:
-        return y, values
-    return np.concatenate([-y[:0:-1], y]), np.hstack([values[:, :0:-1], values])
-
-
-def fatigue(plt, store):
-    """Findley index around the feature."""
-    x, y, Fi = (store.map(name) for name in ("feature_frame_x", "feature_frame_y", "Fi"))
-    figure, ax = plt.subplots(figsize=(6.4, 5.2), constrained_layout=True)
-    ys, full = whole(y * 1e6, Fi)
-    image = ax.pcolormesh(x * 1e6, ys, full.T, cmap="magma", shading="gouraud")
-    figure.colorbar(image, ax=ax, label="Fi")
-    i, j = np.unravel_index(int(np.argmax(Fi)), Fi.shape)
-    ax.plot(x[i] * 1e6, y[j] * 1e6, "c+", ms=12, mew=2, label=f"worst point, Fi = {Fi[i, j]:.3f}")
-    ax.set(xlabel="x from the feature's centre (µm), flow to the right", ylabel="y (µm)", aspect="equal",
-           title=f"{store.scene.name}: Findley index, κ_F = {store.scene.fatigue.kappa:g}, "
-                 f"σ_eF = {store.scene.fatigue.endurance / 1e6:g} MPa")
-    ax.legend(loc="upper right")
     return figure

@@ -12,7 +12,7 @@ from tehl_taichi.scene.whole import SECTIONS
 HEADER = "# A tehl_taichi scene. SI units (m, s, N, Pa, kg), temperatures in deg C; [grid] and [time] in half-widths."
 COMMENTS = {
     "contact": "one of load (N/m line, N point), hertz_pressure (Pa) or the pair moes_M, moes_L; 0 = not given",
-    "bodies.a": "carries the feature. E Pa, nu, k W/mK, rho kg/m3, c J/kgK", "bodies.b": "the other surface",
+    "bodies.a": "carries the feature. E Pa, nu, k W/mK, rho kg/m3, c J/kgK, alpha 1/K", "bodies.b": "the other surface",
     "operation": "u_m m/s (mean), srr = (u_a - u_b)/u_m (negative: the feature is on the slower surface), temperature",
     "oil": "`tehl oils` lists the named ones", "rheology": "law: limiting, eyring, carreau or newtonian; stresses in Pa",
     "feature": "shape: cosine, ridge, furrow, waviness, rough or map; height m (negative: dent), all lengths in m",

@@ -1,4 +1,4 @@
-"""Findley's critical plane for many points at once: max over planes of tau_amp + kappa * sigma_n,max.
+"""Critical planes for many points at once: Findley's max over planes of tau_amp + kappa * sigma_n,max, and its relatives.
 
 tau_amp is the radius of the smallest circle around the path of the shear vector on the plane (kernels/circle.py).
 One point per parallel iteration, everything inside serial, so results do not depend on the number of threads.
@@ -22,6 +22,10 @@ STARTS = 5      # peaks refined at most: 4 and 20 agree to 2e-7 at every point o
 NEAR = 0.975   # cosine of the angle (13 degrees) below which planes of the grid belong to one peak
 SAME = 0.9998  # the same (1 degree) for peaks after the first halvings
 SLACK = 1e-11  # relative rounding of a bound
+
+# of a plane: tau_amp + kappa sigma_n,max with the radius of the smallest circle around the shear path or half its longest
+# chord; largest distance from the circle's centre plus kappa times the mean stress of the same moment
+CIRCLE, CHORD, DANG_VAN = range(3)
 
 vec6 = ti.types.vector(6, ti.f64)
 LANES = 4     # planes bounded at once
@@ -48,6 +52,13 @@ def project(S: ti.template(), row, t, u, n):
 
 
 @ti.func
+def shear_of(s, u, n):
+    """u . s . n"""
+    a, b, c, _ = traction(s, n[0], n[1], n[2])
+    return u[0] * a + u[1] * b + u[2] * c
+
+
+@ti.func
 def traction(s, x, y, z):
     """Stress s on planes with normals (x, y, z): vector and normal component."""
     a, b, c = s[0] * x + s[3] * y + s[4] * z, s[3] * x + s[1] * y + s[5] * z, s[4] * x + s[5] * y + s[2] * z
@@ -60,7 +71,12 @@ def stress(S: ti.template(), row, t):
 
 
 @ti.func
-def bounds(S: ti.template(), row, steps, x, y, z, middle, kappa):
+def mean_stress(S: ti.template(), row, t):
+    return (S[row, t, 0] + S[row, t, 1] + S[row, t, 2]) / 3
+
+
+@ti.func
+def bounds(S: ti.template(), row, steps, x, y, z, middle, kappa, rule: ti.template()):
     """Upper bounds of the values on several planes (x, y, z): the circle about the shear of the stress `middle`."""
     ca, cb, cc, cn = traction(middle, x, y, z)
     top, far = lanes(-1e300), lanes(0.0)
@@ -69,13 +85,16 @@ def bounds(S: ti.template(), row, steps, x, y, z, middle, kappa):
         n = normal - cn
         da, db, dc = a - ca - n * x, b - cb - n * y, c - cc - n * z
         far = ti.max(far, da * da + db * db + dc * dc)
-        top = ti.max(top, normal)
+        if ti.static(rule == DANG_VAN):
+            top = ti.max(top, lanes(mean_stress(S, row, t)))
+        else:
+            top = ti.max(top, normal)
     return ti.sqrt(far) * (1 + SLACK) + kappa * top + SLACK * kappa * ti.abs(top)
 
 
 @ti.func
-def plane_value(S: ti.template(), a: ti.template(), b: ti.template(), row, steps, n, kappa):
-    """tau_amp + kappa * sigma_n,max on the plane n, and the mean stress whose shear is the centre of its circle."""
+def plane_value(S: ti.template(), a: ti.template(), b: ti.template(), row, steps, n, kappa, rule: ti.template()):
+    """What the rule gives for the plane n, and the mean stress whose shear is the centre of its circle."""
     e1, e2 = plane_frame(n)
     top, la, ha, lb, hb = -1e300, 1e300, -1e300, 1e300, -1e300
     ia, ja, ib, jb = 0, 0, 0, 0
@@ -97,12 +116,29 @@ def plane_value(S: ti.template(), a: ti.template(), b: ti.template(), row, steps
     middle = vec6(0.0)
     for k in ti.static(range(3)):
         middle += weight[k] * stress(S, row, index[k])
-    return radius + kappa * top, middle
+    value = radius + kappa * top
+    if ti.static(rule == CHORD):
+        value = half_chord(a, b, row, steps) + kappa * top
+    elif ti.static(rule == DANG_VAN):
+        cu, cv = shear_of(middle, e1, n), shear_of(middle, e2, n)
+        value = -1e300
+        for t in range(steps):
+            value = ti.max(value, ti.sqrt((a[row, t] - cu) ** 2 + (b[row, t] - cv) ** 2) + kappa * mean_stress(S, row, t))
+    return value, middle
+
+
+@ti.func
+def half_chord(a: ti.template(), b: ti.template(), row, steps):
+    longest = 0.0
+    for t in range(steps):
+        for q in range(t):
+            longest = ti.max(longest, (a[row, t] - a[row, q]) ** 2 + (b[row, t] - b[row, q]) ** 2)
+    return 0.5 * ti.sqrt(longest)
 
 
 @ti.func
 def best_of_ring(S: ti.template(), a: ti.template(), b: ti.template(), row, steps, centre, step, turn, value, middle,
-                 kappa, prune):
+                 kappa, rule: ti.template(), prune):
     """Best of eight planes around `centre` (tilted by `step`): normal, value and middle; the given ones if none is better."""
     e1, e2 = plane_frame(centre)
     n, best, mid = centre, value, middle
@@ -112,14 +148,14 @@ def best_of_ring(S: ti.template(), a: ti.template(), b: ti.template(), row, step
             angle = turn + (8 // LANES * k + half) * 0.7853981633974483
             trial = (centre + step * (ti.cos(angle) * e1 + ti.sin(angle) * e2)).normalized()
             x[k], y[k], z[k] = trial[0], trial[1], trial[2]
-        bound = bounds(S, row, steps, x, y, z, middle, kappa)
+        bound = bounds(S, row, steps, x, y, z, middle, kappa, rule)
         for _ in range(LANES):
             top, at, trial = -1e300, 0, centre
             for k in ti.static(range(LANES)):
                 if bound[k] > top:
                     top, at, trial = bound[k], k, vec3(x[k], y[k], z[k])
             if top > best or prune == 0:
-                v, m = plane_value(S, a, b, row, steps, trial, kappa)
+                v, m = plane_value(S, a, b, row, steps, trial, kappa, rule)
                 if v > best:
                     n, best, mid = trial, v, m
             for k in ti.static(range(LANES)):
@@ -129,8 +165,8 @@ def best_of_ring(S: ti.template(), a: ti.template(), b: ti.template(), row, step
 
 
 @ti.func
-def refine(S: ti.template(), a: ti.template(), b: ti.template(), peaks: ti.template(), row, steps, peak, kappa, step0,
-           shrinks, prune):
+def refine(S: ti.template(), a: ti.template(), b: ti.template(), peaks: ti.template(), row, steps, peak, kappa,
+           rule: ti.template(), step0, shrinks, prune):
     """Pattern search on the sphere: eight neighbours, move to the best; after TURNS turned patterns halve the step."""
     n, best, middle = get_peak(peaks, row, peak)
     step, turn = step0, peaks[row, peak, 4]
@@ -139,7 +175,8 @@ def refine(S: ti.template(), a: ti.template(), b: ti.template(), peaks: ti.templ
         while failed < TURNS and count < MOVES:
             count += 1
             failed += 1
-            chosen, value, mid = best_of_ring(S, a, b, row, steps, n, step, turn, best, middle, kappa, prune)
+            chosen, value, mid = best_of_ring(S, a, b, row, steps, n, step, turn, best, middle, kappa, rule,
+                                              prune)
             if value > best:
                 n, best, middle, failed = chosen, value, mid, 0
             turn += 0.2763932022500210
@@ -176,7 +213,7 @@ def extent(S: ti.template(), row, steps):
 
 @ti.func
 def scan(S: ti.template(), planes: ti.template(), values: ti.template(), a: ti.template(), b: ti.template(), row, steps,
-         kappa, prune):
+         kappa, rule: ti.template(), prune):
     """Values on all planes of the grid (hopeless ones -1e300); returns the largest."""
     count, middle = planes.shape[0], extent(S, row, steps)
     for group in range((count + LANES - 1) // LANES):
@@ -184,7 +221,7 @@ def scan(S: ti.template(), planes: ti.template(), values: ti.template(), a: ti.t
         for k in ti.static(range(LANES)):
             q = ti.min(group * LANES + k, count - 1)
             x[k], y[k], z[k] = planes[q, 0], planes[q, 1], planes[q, 2]
-        bound = bounds(S, row, steps, x, y, z, middle, kappa)
+        bound = bounds(S, row, steps, x, y, z, middle, kappa, rule)
         for k in ti.static(range(LANES)):
             if group * LANES + k < count:
                 values[row, group * LANES + k] = bound[k]
@@ -198,7 +235,7 @@ def scan(S: ti.template(), planes: ti.template(), values: ti.template(), a: ti.t
         if q == 0 or k != first:
             if prune == 0 or values[row, k] > best - MARGIN * ti.abs(best):
                 trial = vec3(planes[k, 0], planes[k, 1], planes[k, 2])
-                values[row, k] = plane_value(S, a, b, row, steps, trial, kappa)[0]
+                values[row, k] = plane_value(S, a, b, row, steps, trial, kappa, rule)[0]
                 best = ti.max(best, values[row, k])
             else:
                 values[row, k] = -1e300
@@ -221,7 +258,7 @@ def take_best(planes: ti.template(), values: ti.template(), row):
 
 @ti.func
 def collect(S: ti.template(), planes: ti.template(), values: ti.template(), a: ti.template(), b: ti.template(),
-            peaks: ti.template(), row, steps, on_grid, kappa):
+            peaks: ti.template(), row, steps, on_grid, kappa, rule: ti.template()):
     """The peaks of the grid worth a refinement; returns how many."""
     count, going = 0, 1
     while going == 1 and count < STARTS:
@@ -229,7 +266,7 @@ def collect(S: ti.template(), planes: ti.template(), values: ti.template(), a: t
         going = 0
         if top > on_grid - MARGIN * ti.abs(on_grid):
             going = 1
-            value, middle = plane_value(S, a, b, row, steps, n, kappa)
+            value, middle = plane_value(S, a, b, row, steps, n, kappa, rule)
             put_peak(peaks, row, count, n, value, 0.0, middle)
             count += 1
     return count
@@ -250,25 +287,37 @@ def hopeful(peaks: ti.template(), row, peak, count):
 
 
 @ti.kernel
-def search(points: ti.i32, steps: ti.i32, kappa: ti.f64, step0: ti.f64, prune: ti.i32,
+def circle(steps: ti.i32, a: ti.types.ndarray(dtype=ti.f64, ndim=2), b: ti.types.ndarray(dtype=ti.f64, ndim=2),
+           out: ti.types.ndarray(dtype=ti.f64, ndim=1)):
+    """out = centre and radius of the smallest circle around the path (a, b)[0]."""
+    for _ in range(1):
+        radius, index, weight = enclose(a, b, 0, steps, 0, steps - 1)
+        out[0], out[1], out[2] = 0.0, 0.0, radius
+        for k in ti.static(range(3)):
+            out[0], out[1] = out[0] + weight[k] * a[0, index[k]], out[1] + weight[k] * b[0, index[k]]
+
+
+@ti.kernel
+def search(points: ti.i32, steps: ti.i32, kappa: ti.f64, rule: ti.template(), step0: ti.f64, prune: ti.i32,
            S: ti.types.ndarray(dtype=ti.f64, ndim=3), planes: ti.types.ndarray(dtype=ti.f64, ndim=2),
            values: ti.types.ndarray(dtype=ti.f64, ndim=2), a: ti.types.ndarray(dtype=ti.f64, ndim=2),
            b: ti.types.ndarray(dtype=ti.f64, ndim=2), peaks: ti.types.ndarray(dtype=ti.f64, ndim=3),
            out: ti.types.ndarray(dtype=ti.f64, ndim=2)):
     """out[point] = (f, n_x, n_y, n_z) from S[point, time, (xx, yy, zz, xy, xz, yz)].
 
-    planes (m, 3): unit normals of the grid; step0: first step, rad; scratch: values (points, m), a, b (points, steps),
-    peaks (points, STARTS, PEAK).
+    rule: CIRCLE, CHORD or DANG_VAN; planes (m, 3): unit normals of the grid; step0: first step, rad; scratch: values
+    (points, m), a, b (points, steps), peaks (points, STARTS, PEAK).
     """
     ti.loop_config(block_dim=8)
     for row in range(points):
-        on_grid = scan(S, planes, values, a, b, row, steps, kappa, prune)
-        count = collect(S, planes, values, a, b, peaks, row, steps, on_grid, kappa)
+        on_grid = scan(S, planes, values, a, b, row, steps, kappa, rule, prune)
+        count = collect(S, planes, values, a, b, peaks, row, steps, on_grid, kappa, rule)
         for stage in range(2):
             for peak in range(count):
                 if stage == 0 or hopeful(peaks, row, peak, count):
                     step = step0 if stage == 0 else step0 * 0.5**FIRST
-                    refine(S, a, b, peaks, row, steps, peak, kappa, step, FIRST if stage == 0 else SHRINKS - FIRST, prune)
+                    refine(S, a, b, peaks, row, steps, peak, kappa, rule, step, FIRST if stage == 0 else SHRINKS - FIRST,
+                           prune)
         out[row, 0] = -1e300
         for peak in range(count):
             if peaks[row, peak, 3] > out[row, 0]:

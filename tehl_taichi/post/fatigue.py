@@ -1,34 +1,25 @@
-"""Fatigue of the surface around a feature: stress histories of material points of body a, Findley index.
+"""Fatigue of the material around a feature: stress histories, critical planes, the index."""
 
-Material points keep their place in the frame of the feature, x' = x - x_a(t). Before the first and after the last
-snapshot (feature outside the contact) they move through the steady field, so every history begins and ends unloaded.
-"""
-
-import itertools
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
 
 from tehl_taichi.post import findley
-from tehl_taichi.post.half_space import COMPONENTS, SurfaceStress
+from tehl_taichi.post.passage import Passage
 from tehl_taichi.scene import SceneError
-from tehl_taichi.scene.scales import Scales
 
-WINDOW = 0.6       # half width (in a) of the part searched around one small feature: farther out its stress has died out
-MARGIN = 0.3       # (in a) searched beyond the rim of larger features
-LOADED = 1.5       # material points are followed while within this distance (in a) of the centre of the contact
-BLOCK_BYTES = 4e8  # histories held at once; more points than fit are done in blocks of y rows
-WORKERS = 4         # threads of the history pass (transforms run outside the interpreter's lock)
-NAMES = ("pressure", "traction_x_a", "traction_y_a")
+PIT_ANGLES = (18.0, 50.0)  # degrees to the surface at which pits begin (Everitt 2018)
 
 
 @dataclass(frozen=True)
 class FatigueResult:
-    """summary: numbers in SI; maps: name -> (values, dimensions, units, text), in the frame of the feature."""
+    """summary: numbers in SI; maps: name -> (values, dimensions, units, text), of the surface, in the frame of the feature;
+    worst: history of the worst point: x_a (m), stress (times, 6) Pa (the last one unloaded), normal (3,), circle
+    around the shear path (centre along dip and strike, radius; Pa)."""
 
     summary: dict
     maps: dict
+    worst: dict
 
 
 class Snapshots:
@@ -52,12 +43,12 @@ class Snapshots:
 
 
 def run(scene, reader, progress=None):
-    """Findley index of the surface points of body a within 0.6 a of the first feature (0.3 a beyond larger ones), over its
-    whole passage.
+    """Fatigue index of the points of body a within 0.6 a of the first feature (0.3 a beyond larger ones), over its passage.
 
-    reader: x, y (m), len, feature_x(n) (m), fields(n, names) in Pa; or a list of snapshots. Entry 0 is the steady
-    start. progress: called with (done, total) entries. Isothermal stresses; on the rows of the reader (where they begin
-    with y = 0, the others are its mirror).
+    At the surface and at scene.fatigue.depths, between its from_x and to_x, by its criterion. reader: see
+    :class:`tehl_taichi.post.passage.Passage`; or a list of snapshots. progress: called with (done, total) parts of a pass.
+    On the rows of the reader (where they begin with y = 0, the others are its mirror). Memory: one block of histories
+    (400 MB at most), with thermal stress 8 bytes more per entry and wave number (4 nodes of the grid).
     Raises SceneError when no feature passes.
     """
     reader = Snapshots(reader) if isinstance(reader, (list, tuple)) else reader
@@ -65,122 +56,97 @@ def run(scene, reader, progress=None):
     if len(reader) < 2 or not np.isfinite(centres).all():
         raise SceneError("fatigue needs the passage of a feature: a scene with a feature and at least one time step")
     passage = Passage(scene, reader, centres)
-    found = [passage.block(rows, progress) for rows in passage.row_blocks()]
-    return _result(scene, passage, *(np.concatenate(part, axis=1) for part in zip(*found)))
+    if passage.centres.size < 2:
+        f = scene.fatigue
+        raise SceneError(f"the feature is at no stored moment between fatigue.from_x = {f.from_x:g} a and to_x = {f.to_x:g} a; "
+                         f"it goes from {centres[0] / passage.a:.2f} to {centres[-1] / passage.a:.2f} a")
+    layers = [_layer(scene, passage, depth, progress) for depth in (0.0, *scene.fatigue.depths)]
+    return _result(scene, passage, layers)
 
 
-class Passage:
-    """The window of material points and where they are at every moment."""
+@dataclass(frozen=True)
+class Layer:
+    """What was found at one depth: maps (nx, rows) and the history of the worst point (place, stress, normal)."""
 
-    def __init__(self, scene, reader, centres):
-        self.scene, self.reader = scene, reader
-        self.a = Scales.of(scene).a
-        self.dx = float(reader.x[-1] - reader.x[0]) / (reader.x.size - 1)
-        low, high = (max(1, int(side / self.dx + 1e-9)) for side in self._window("x"))
-        # material points on nodes of the grid at entry 0: steps of whole cells then need no interpolation
-        offset = (reader.x[0] - centres[0]) / self.dx
-        self.x = (np.arange(-low, high + 1) + offset - round(offset)) * self.dx
-        low, high = self._window("y")
-        self.rows = np.flatnonzero((reader.y >= -low * (1 + 1e-9)) & (reader.y <= high * (1 + 1e-9)))
-        self.y = reader.y[self.rows]
-        # centre of the feature and entry of the reader at every moment
-        before, after = self._lead_in(centres[0]), self._lead_out(centres[-1])
-        self.centres = np.concatenate([before, centres, after])
-        self.entries = np.concatenate([0 * before, np.arange(len(centres)), 0 * after]).astype(int)
-        self._widen()
+    depth: float
+    f: np.ndarray
+    theta: np.ndarray
+    phi: np.ndarray
+    sigma1: np.ndarray
+    place: tuple
+    stress: np.ndarray
+    normal: np.ndarray
 
-    def _window(self, axis):
-        """Distances (m) searched on the negative and the positive side of the first feature's centre."""
-        reach = [(getattr(f, axis), f.reach if axis == "x" else f.reach_y) for f in self.scene.features]
-        sides = (max(sign * at + r for at, r in reach) + MARGIN * self.a for sign in (-1, 1))
-        return [max(WINDOW * self.a, side) for side in sides]
 
-    def _lead_in(self, first):
-        if first > -self.a:
-            return np.zeros(0)
-        steps = int(np.ceil((first + self.x[-1] + LOADED * self.a) / self.dx))
-        return first - np.arange(max(steps, 0), 0, -1) * self.dx
-
-    def _lead_out(self, last):
-        if last < self.a:
-            return np.zeros(0)
-        steps = int(np.ceil((LOADED * self.a - last - self.x[0]) / self.dx))
-        return last + np.arange(1, max(steps, 0) + 1) * self.dx
-
-    def _widen(self):
-        """Unloaded columns on both sides, so that no material point leaves the grid."""
-        x0, x1 = self.reader.x[0], self.reader.x[-1]
-        low, high = self.centres.min() + self.x[0], self.centres.max() + self.x[-1]
-        self.pad = tuple(max(0, int(np.ceil(gap / self.dx)) + 2) for gap in (x0 - low, high - x1))
-        self.grid_x = x0 + (np.arange(self.reader.x.size + sum(self.pad)) - self.pad[0]) * self.dx
-        line, y = self.scene.contact.kind == "line", self.reader.y
-        # a line contact is mirrored about its first row, in the plane of symmetry or (whole domain) far away
-        self.stress = SurfaceStress(self.grid_x, y - y[0], self.scene.body_a.nu, line, mirrored=line or y[0] == 0)
-
-    def row_blocks(self):
-        """Slices of y rows whose histories fit into BLOCK_BYTES."""
-        row_bytes = 8.0 * self.x.size * (self.centres.size + 1) * (len(COMPONENTS) + 2)
-        rows = max(1, int(BLOCK_BYTES / row_bytes))
-        return [slice(j, min(j + rows, self.y.size)) for j in range(0, self.y.size, rows)]
-
-    def block(self, rows, progress):
-        """Findley stress, theta, phi, largest principal stress, each (nx, rows)."""
-        shape = self.x.size, rows.stop - rows.start
-        history = self.history(rows, progress)
-        f, normals = findley.search(history, self.scene.fatigue.kappa)
+def _layer(scene, passage, depth, progress):
+    operators, parts, worst = passage.stresses(depth), [], (-np.inf,)
+    for rows in passage.row_blocks():
+        history = passage.history(rows, operators, progress)
+        f, normals = findley.search(history, scene.fatigue.kappa, criterion=scene.fatigue.criterion)
+        shape = passage.x.size, rows.stop - rows.start
         sigma1 = np.array([findley.largest_principal(part).max() for part in history])
-        return [v.reshape(shape) for v in (f, *findley.angles(normals), sigma1)]
-
-    def history(self, rows, progress=None):
-        """(points, times + 1, 6) Pa; points run over x', then rows; the last moment is the unloaded state."""
-        shape = self.x.size, rows.stop - rows.start
-        out = np.zeros((*shape, self.centres.size + 1, len(COMPONENTS)))
-        done = itertools.count(1)
-        entries = np.unique(self.entries)
-        parts = np.array_split(entries, min(WORKERS, entries.size))
-        with ThreadPoolExecutor(WORKERS) as pool:
-            tasks = [pool.submit(self._fill, out, part, rows, self.stress.twin()) for part in parts]
-            for task in tasks:
-                task.result()
-                if progress:
-                    progress(next(done), len(tasks))
-        return out.reshape(-1, *out.shape[2:])
-
-    def _fill(self, out, entries, rows, stress):
-        """The moments that belong to these entries of the reader."""
-        for entry in entries:
-            fields = self._surface(entry, rows, stress)
-            for t in np.flatnonzero(self.entries == entry):
-                start = (self.centres[t] + self.x[0] - self.grid_x[0]) / self.dx
-                out[:, :, t] = _shifted(fields, start, self.x.size)
-
-    def _surface(self, entry, rows, operator):
-        loads = self.reader.fields(int(entry), NAMES)
-        loads = [np.pad(np.asarray(loads[name], float), (self.pad, (0, 0))) for name in NAMES]
-        stress = operator(*loads)
-        return np.stack([stress[name][:, self.rows[rows]] for name in COMPONENTS], axis=-1)
+        parts.append([v.reshape(shape) for v in (f, *findley.angles(normals), sigma1)])
+        top = int(np.argmax(f))
+        if f[top] > worst[0]:
+            i, j = np.unravel_index(top, shape)
+            worst = f[top], (int(i), int(j) + rows.start), history[top].copy(), normals[top]
+    return Layer(depth, *(np.concatenate(part, axis=1) for part in zip(*parts)), *worst[1:])
 
 
-def _shifted(fields, start, count):
-    """`count` columns of fields (x, y, 6) from column `start`; exact for whole numbers, else linear in x."""
-    whole = int(np.round(start))
-    if abs(start - whole) < 1e-6:
-        return fields[whole: whole + count]
-    whole = int(np.floor(start))
-    part = start - whole
-    return (1 - part) * fields[whole: whole + count] + part * fields[whole + 1: whole + 1 + count]
-
-
-def _result(scene, passage, f, theta, phi, sigma1):
-    limit = scene.fatigue.endurance
-    i, j = np.unravel_index(np.argmax(f), f.shape)
+def _result(scene, passage, layers):
+    worst, limit = max(layers, key=lambda layer: layer.f.max()), scene.fatigue.endurance
+    (i, j), f = worst.place, worst.f
+    circle = findley.smallest_circle(*findley.shear_path(worst.stress, worst.normal)[:2])
     summary = {"Fi_max": f[i, j] / limit, "findley_stress_max_Pa": f[i, j], "x_m": passage.x[i], "y_m": passage.y[j],
-               "plane_theta_deg": theta[i, j], "plane_phi_deg": phi[i, j], "surface_angle_deg": theta[i, j],
-               "sigma1_max_Pa": sigma1.max(), "kappa_F": scene.fatigue.kappa, "sigma_eF_Pa": limit}
-    both = ["feature_frame_x", "feature_frame_y"]
-    maps = {both[0]: (passage.x, both[:1], "m", "along rolling, from the centre of the feature"),
-            both[1]: (passage.y, both[1:], "m", "across, from the centre of the contact"),
-            "findley_stress": (f, both, "Pa", "Findley stress"), "Fi": (f / limit, both, "1", "Findley index"),
-            "plane_theta": (theta, both, "degree", "angle of the critical plane's normal from the surface normal"),
-            "plane_phi": (phi, both, "degree", "direction of the critical plane's normal in the surface, from x")}
-    return FatigueResult({key: float(value) for key, value in summary.items()}, maps)
+               "plane_theta_deg": worst.theta[i, j], "plane_phi_deg": worst.phi[i, j],
+               "surface_angle_deg": worst.theta[i, j], "sigma1_max_Pa": max(layer.sigma1.max() for layer in layers),
+               "kappa_F": scene.fatigue.kappa, "sigma_eF_Pa": limit, **_moments(passage, worst, circle)}
+    summary = {key: float(value) for key, value in summary.items()}
+    summary |= {"criterion": scene.fatigue.criterion, "thermal_stress": scene.thermal_stress_wanted,
+                "pit_angles_deg": list(PIT_ANGLES)}
+    if len(layers) > 1:
+        summary |= {"depth_m": worst.depth, "by_depth": [
+            {"depth_m": layer.depth, "findley_stress_max_Pa": float(layer.f.max())} for layer in layers]}
+    history = {"x_a": np.append(passage.centres, np.nan), "stress": worst.stress, "normal": worst.normal,
+               "circle": circle}
+    return FatigueResult(summary, {**_maps(passage, layers, limit), **_history_maps(history)}, history)
+
+
+def _history_maps(worst):
+    """The history of the worst point as a store keeps it."""
+    return {"worst_x_a": (worst["x_a"], ["moment"], "m", "centre of the feature; the last moment is unloaded"),
+            "worst_stress": (worst["stress"], ["moment", "component"], "Pa", "xx, yy, zz, xy, xz, yz at the worst point"),
+            "worst_normal": (worst["normal"], ["direction"], "1", "unit normal of its critical plane"),
+            "worst_circle": (worst["circle"], ["of_circle"], "Pa", "around its shear path: centre along dip, strike; radius")}
+
+
+def _moments(passage, worst, circle):
+    """Positions of the feature (m) at the extremes on the critical plane, and its stresses."""
+    dip, strike, normal = findley.shear_path(worst.stress, worst.normal)
+    ends, loaded = on_circle(dip, strike, circle), passage.centres.size - 1
+    return {"feature_x_at_normal_max_m": passage.centres[min(int(np.argmax(normal)), loaded)],
+            "feature_x_at_first_shear_extreme_m": passage.centres[min(ends[0], loaded)],
+            "feature_x_at_last_shear_extreme_m": passage.centres[min(ends[-1], loaded)], "tau_amp_Pa": circle[2],
+            "sigma_n_max_Pa": normal.max()}
+
+
+def on_circle(u, v, circle):
+    """Moments at which the path (u, v) touches its smallest circle."""
+    distance = np.hypot(u - circle[0], v - circle[1])
+    return np.flatnonzero(distance >= distance.max() * (1 - 1e-6))
+
+
+def _maps(passage, layers, limit):
+    """Of the surface; with depths, the largest of each depth too."""
+    both, surface = ["feature_frame_x", "feature_frame_y"], layers[0]
+    out = {both[0]: (passage.x, both[:1], "m", "along rolling, from the centre of the feature"),
+           both[1]: (passage.y, both[1:], "m", "across, from the centre of the contact"),
+           "findley_stress": (surface.f, both, "Pa", "Findley stress"), "Fi": (surface.f / limit, both, "1", "Findley index"),
+           "sigma1_max": (surface.sigma1, both, "Pa", "largest principal stress of the passage"),
+           "plane_theta": (surface.theta, both, "degree", "angle of the critical plane's normal from the surface normal"),
+           "plane_phi": (surface.phi, both, "degree", "direction of the critical plane's normal in the surface, from x")}
+    if len(layers) > 1:
+        out["fatigue_depth"] = (np.array([layer.depth for layer in layers]), ["fatigue_depth"], "m", "below the surface")
+        out["findley_stress_at_depth"] = (np.stack([layer.f for layer in layers]), ["fatigue_depth", *both], "Pa",
+                                          "Findley stress")
+    return out

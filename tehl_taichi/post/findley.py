@@ -20,12 +20,18 @@ def planes(degrees=GRID):
     return np.concatenate(rows)
 
 
-def search(history, kappa, prune=True):
-    """Findley stress and critical plane of every point.
+RULES = {"findley": 0, "findley-chord": 1, "matake": 0, "dang-van": 2}  # of kernels/findley.py
 
-    history (points, times, 6) Pa: xx, yy, zz, xy, xz, yz. kappa >= 0. prune=False evaluates every plane (for tests).
+
+def search(history, kappa, prune=True, criterion="findley"):
+    """Largest value of a criterion over all planes, and its plane, of every point.
+
+    history (points, times, 6) Pa: xx, yy, zz, xy, xz, yz. kappa >= 0. criterion: "findley", tau_amp + kappa sigma_n,max, with
+    the radius of the smallest circle around the shear path; "findley-chord", with half its longest chord; "matake", Findley's
+    sum on the plane of the largest tau_amp (Matake 1977); "dang-van", largest (shear from the circle's centre + kappa mean
+    stress) of a moment (Dang Van 1989). prune=False evaluates every plane (for tests).
     Returns f (points,) Pa (may be negative: nowhere near fatigue) and unit normals (points, 3), n_z >= 0.
-    Raises ValueError for a history with NaN or of another shape.
+    Raises ValueError for a history with NaN or of another shape, KeyError for an unknown criterion.
     """
     from tehl_taichi.kernels import findley
 
@@ -37,9 +43,54 @@ def search(history, kappa, prune=True):
     a, b = np.zeros((2, points, steps))
     grid = planes()
     values, peaks = np.zeros((points, len(grid))), np.zeros((points, findley.STARTS, findley.PEAK))
-    findley.search(points, steps, kappa, math.radians(GRID / 2), int(prune), history, grid, values, a, b, peaks, out)
+    slope = 0.0 if criterion == "matake" else kappa
+    findley.search(points, steps, slope, RULES[criterion], math.radians(GRID / 2), int(prune), history, grid, values, a, b,
+                   peaks, out)
     n = out[:, 1:]
+    if criterion == "matake":
+        out[:, 0] += kappa * normal_stress(history, n).max(axis=1)
     return out[:, 0], np.where(n[:, 2:] < 0, -n, n)
+
+
+def normal_stress(history, normals):
+    """(points, times) Pa on the planes with these normals (points, 3)."""
+    x, y, z = normals.T
+    weights = np.stack([x * x, y * y, z * z, 2 * x * y, 2 * x * z, 2 * y * z], axis=-1)
+    return np.einsum("ptc,pc->pt", history, weights)
+
+
+def shear_path(history, normal):
+    """On one plane of one point: shear along dip and along strike and normal stress, each (times,); history (times, 6) Pa,
+    normal (3,) with n_z >= 0."""
+    xx, yy, zz, xy, xz, yz = history.T
+    tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    vector = np.einsum("ijt,j->it", tensor, normal)
+    strike = np.cross([0.0, 0.0, 1.0], normal)
+    strike = strike / np.linalg.norm(strike) if np.linalg.norm(strike) > 1e-9 else np.array([0.0, 1.0, 0.0])
+    return np.cross(strike, normal) @ vector, strike @ vector, normal @ vector
+
+
+def smallest_circle(u, v):
+    """(centre u, centre v, radius) of the smallest circle around the points (u, v), each (times,)."""
+    from tehl_taichi.kernels import findley
+
+    out = np.zeros(3)
+    findley.circle(u.size, np.array([u]), np.array([v]), out)
+    return out
+
+
+def from_limits(bending, torsion):
+    """(kappa, sigma_eF) from the fatigue limits in fully reversed bending and torsion (Pa), at which f = sigma_eF.
+
+    f = (b/2)(kappa + sqrt(1 + kappa^2)) in bending, t sqrt(1 + kappa^2) in torsion. Raises ValueError unless
+    b/2 < t < b: Findley's criterion fits no other materials.
+    """
+    excess = 2 * torsion / bending - 1
+    if not 0 < excess < 1:
+        raise ValueError(f"fatigue limits in bending {bending:g} Pa and torsion {torsion:g} Pa: Findley's criterion needs a "
+                         f"ratio torsion/bending between 0.5 and 1, not {torsion / bending:.3g}")
+    kappa = excess / math.sqrt(1 - excess**2)
+    return kappa, torsion * math.sqrt(1 + kappa**2)
 
 
 def angles(normals):

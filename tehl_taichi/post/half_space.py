@@ -1,83 +1,49 @@
-"""Stresses at the surface of an elastic half-space under pressure and shear.
-
-The half-space is z >= 0, z into the body. Loads on its surface: pressure p > 0 and shear q_x, q_y (force per area on
-this body), so sigma_zz = -p, tau_xz = -q_x, tau_yz = -q_y at z = 0. Coefficients of uniform rectangles follow from the
-potentials of Boussinesq and Cerruti (Johnson, Contact Mechanics, sections 3.2 and 3.6; Love 1929; Liu & Wang 2002).
-"""
+"""Stresses in a body under pressure and shear on its surface, at the surface or at one depth (half-space, see
+:mod:`tehl_taichi.post.rectangle` for the coefficients and the signs)."""
 
 import copy
 
 import numpy as np
 import pyfftw
 
+from tehl_taichi.post import rectangle
+
 COMPONENTS = ("sxx", "syy", "szz", "sxy", "sxz", "syz")
 
 
-def _corners(F, x, y, a, b):
-    """F summed over the corners of the rectangle |x| <= a, |y| <= b with alternating signs."""
-    return F(x + a, y + b) - F(x + a, y - b) - F(x - a, y + b) + F(x - a, y - b)
-
-
-def pressure_coefficients(x, y, a, b, nu):
-    """(sxx, syy, sxy) at (x, y, 0) from unit pressure on |x| <= a, |y| <= b; no point may lie on an edge line."""
-    inside = (np.abs(x) < a) & (np.abs(y) < b)
-    c = (1 - 2 * nu) / (2 * np.pi)
-    sxx = -2 * nu * inside - c * _corners(lambda X, Y: np.arctan(Y / X), x, y, a, b)
-    syy = -2 * nu * inside - c * _corners(lambda X, Y: np.arctan(X / Y), x, y, a, b)
-    return sxx, syy, -c / 2 * _corners(lambda X, Y: np.log(X * X + Y * Y), x, y, a, b)
-
-
-def shear_x_coefficients(x, y, a, b, nu):
-    """(sxx, syy, sxy) at (x, y, 0) from unit q_x on |x| <= a, |y| <= b; no point may lie on an edge line."""
-    sxx = _corners(lambda X, Y: np.arcsinh(Y / np.abs(X)) + nu * Y / np.hypot(X, Y), x, y, a, b) / np.pi
-    syy = _corners(lambda X, Y: np.arcsinh(Y / np.abs(X)) - Y / np.hypot(X, Y), x, y, a, b) * nu / np.pi
-    sxy = _corners(lambda X, Y: np.arcsinh(X / np.abs(Y)) - 2 * nu * X / np.hypot(X, Y), x, y, a, b) / (2 * np.pi)
-    return sxx, syy, sxy
-
-
-def shear_y_coefficients(x, y, a, b, nu):
-    """(sxx, syy, sxy) at (x, y, 0) from unit q_y: the q_x case with x and y exchanged."""
-    syy, sxx, sxy = shear_x_coefficients(y, x, b, a, nu)
-    return sxx, syy, sxy
-
-
-def strip_coefficient(x, a):
-    """sxx at x from unit q_x on the endless strip |x| <= a (plane strain; pressure adds -p where it acts)."""
-    return -2 / np.pi * np.log(np.abs((x + a) / (x - a)))
-
-
-class SurfaceStress:
-    """Surface stresses on a uniform half domain, y >= 0 mirrored (p, q_x even in y; q_y odd), or on a whole one.
+class Stress:
+    """Stresses on a uniform half domain, y >= 0 mirrored (p, q_x even in y; q_y odd), or on a whole one.
 
     x (nx+1,), y (ny+1,) in m, y[0] = 0; one row of y means plane strain. nu: Poisson's ratio. mirrored=False: nothing acts
-    at y < 0.
-    line=True: p and q_x of the last y row go on to infinity; that part is plane strain (analytic strip), the deviation
+    at y < 0. depth: m below the surface.
+    line=True: p and q_x of the last y row go on to infinity; that part is plane strain (analytic strips), the deviation
     from it a convolution over the rectangles around the nodes. line=False: nothing acts outside the domain.
     Raises ValueError for a grid that is not uniform, or a single row without line=True.
     """
 
-    def __init__(self, x, y, nu, line=True, mirrored=True):
+    def __init__(self, x, y, nu, line=True, mirrored=True, depth=0.0):
         self.x, self.y, self.nu, self.line = np.asarray(x, float), np.asarray(y, float), float(nu), line
         if self.y.size == 1 and not line:
             raise ValueError("one row of y describes a line contact only (line=True)")
-        dx = _spacing(self.x)
-        lags = np.arange(-self.x.size + 1, self.x.size) * dx
-        self.strip = strip_coefficient(lags, dx / 2)
+        self.depth, dx = depth, _spacing(self.x)
+        self.strips = self._strips(np.arange(-self.x.size + 1, self.x.size) * dx, dx / 2)
         if self.y.size > 1:
-            self.convolution = _Convolution(self.x.size, self.y.size, dx, _spacing(self.y), self.nu, mirrored)
+            self.convolution = _Convolution(self.x.size, self.y.size, dx, _spacing(self.y), self.nu, mirrored, depth)
 
     def __call__(self, p, qx, qy):
         """{component: (nx+1, ny+1) Pa} for p, qx, qy (nx+1, ny+1) Pa: sxx, syy, szz, sxy, sxz, syz."""
         p, qx, qy = (np.asarray(v, float) for v in (p, qx, qy))
-        sxx, syy, sxy = np.zeros((3, *p.shape))
+        out = np.zeros((6, *p.shape))
         far_p, far_q = np.zeros((2, p.shape[0]))
         if self.line:
             far_p, far_q = p[:, -1], qx[:, -1]
-            sxx, syy = (np.repeat(s[:, None], p.shape[1], axis=1) for s in self._plane_strain(far_p, far_q))
+            out += np.stack(self._plane_strain(far_p, far_q))[:, :, None]
         if self.y.size > 1:
             rest = self.convolution(p - far_p[:, None], qx - far_q[:, None], qy)
-            sxx, syy, sxy = sxx + rest[0], syy + rest[1], rest[2]
-        return dict(zip(COMPONENTS, (sxx, syy, -p, sxy, -qx, -qy)))
+            out[[0, 1, 3] if self.depth == 0 else slice(None)] += rest
+        if self.depth == 0:
+            out[2], out[4], out[5] = -p, -qx, -qy
+        return dict(zip(COMPONENTS, out))
 
     def twin(self):
         """A second operator with the same coefficients and buffers of its own, for another thread."""
@@ -87,16 +53,27 @@ class SurfaceStress:
             other.convolution._plan()
         return other
 
+    def _strips(self, lags, half):
+        """(sxx, szz, sxz) at the lags from unit pressure and from unit q_x on one strip."""
+        if self.depth:
+            return rectangle.strip_at_depth(lags, self.depth, half)
+        here, none = 1.0 * (lags == 0), np.zeros(lags.size)
+        return (-here, -here, none), (rectangle.strip_coefficient(lags, half), none, -here)
+
     def _plane_strain(self, p, q):
-        sxx = np.convolve(q, self.strip)[q.size - 1: 2 * q.size - 1] - p
-        return sxx, self.nu * (sxx - p)
+        """Six components (nx+1,) of loads that do not change along y."""
+        n = q.size
+        sxx, szz, sxz = (np.convolve(p, by_p)[n - 1 : 2 * n - 1] + np.convolve(q, by_q)[n - 1 : 2 * n - 1]
+                         for by_p, by_q in zip(*self.strips))
+        none = np.zeros(n)
+        return sxx, self.nu * (sxx + szz), szz, none, sxz, none
 
 
 class _Convolution:
     """Zero-padded real transforms of the loads on 2 ny + 1 mirrored rows (or as they are); results on the rows y >= 0."""
 
-    def __init__(self, nx, ny, dx, dy, nu, mirrored=True):
-        self.nx, self.ny, self.mirrored = nx, ny, mirrored
+    def __init__(self, nx, ny, dx, dy, nu, mirrored, depth):
+        self.nx, self.ny, self.mirrored, self.depth = nx, ny, mirrored, depth
         self.shape = _even_fast(2 * nx - 1), _even_fast(3 * ny - 2)
         self._plan()
         self.spectra = self._spectra(dx, dy, nu)
@@ -111,7 +88,10 @@ class _Convolution:
 
     def _spectra(self, dx, dy, nu):
         x, y = np.meshgrid(_lags(self.shape[0]) * dx, _lags(self.shape[1], self.ny) * dy, indexing="ij")
-        loads = (pressure_coefficients, shear_x_coefficients, shear_y_coefficients)
+        if self.depth:
+            loads = (rectangle.pressure_at_depth, rectangle.shear_x_at_depth, rectangle.shear_y_at_depth)
+            return [[self._transform(k) for k in load(x, y, self.depth, dx / 2, dy / 2, nu)] for load in loads]
+        loads = (rectangle.pressure_coefficients, rectangle.shear_x_coefficients, rectangle.shear_y_coefficients)
         return [[self._transform(k) for k in load(x, y, dx / 2, dy / 2, nu)] for load in loads]
 
     def _transform(self, values):
@@ -128,10 +108,10 @@ class _Convolution:
         return self.forward().copy()
 
     def __call__(self, p, qx, qy):
-        """(sxx, syy, sxy), each (nx, ny), from loads of that shape."""
+        """(sxx, syy, sxy), in depth all six components, each (nx, ny), from loads of that shape."""
         qy = qy * _no_axis(qy) if self.mirrored else qy
         loads = [self._mirrored(p, 1), self._mirrored(qx, 1), self._mirrored(qy, -1)]
-        return [self._back(sum(load * row[n] for load, row in zip(loads, self.spectra))) for n in range(3)]
+        return [self._back(sum(load * row[n] for load, row in zip(loads, self.spectra))) for n in range(len(self.spectra[0]))]
 
     def _back(self, spectrum):
         self.complex[:] = spectrum

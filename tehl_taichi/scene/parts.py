@@ -55,15 +55,20 @@ class Contact:
 
 @dataclass(frozen=True)
 class Body:
-    """Elastic half-space: E Pa, nu, k W/mK, rho kg/m3, c J/kgK. Default: steel (Everitt 2018)."""
+    """Elastic half-space: E Pa, nu, k W/mK, rho kg/m3, c J/kgK, alpha 1/K (thermal expansion, for thermal stress).
+
+    Default: steel (Everitt 2018); its alpha, 12e-6, is the usual handbook value of bearing and gear steels.
+    """
 
     E: float = 206e9
     nu: float = 0.3
     k: float = 47.0
     rho: float = 7850.0
     c: float = 450.0
+    alpha: float = 12e-6
 
     def __post_init__(self):
+        number("bodies.alpha", self.alpha, "1/K", 0.0, 1e-3)
         number("bodies.E", self.E, "Pa", 1e6, 1e13)
         number("bodies.nu", self.nu, "", 0.0, 0.499)
         number("bodies.k", self.k, "W/mK", 0.01, 1e4)
@@ -130,6 +135,12 @@ class Rheology:
 AUTO = "auto"
 
 
+def auto_flag(where, value):
+    """Refuse anything but true, false or "auto"."""
+    if value not in (True, False, AUTO):
+        raise SceneError(f"{where} = {value!r} must be true, false or {AUTO!r}")
+
+
 @dataclass(frozen=True)
 class Thermal:
     """The energy equation; on: true, false (the film keeps the inlet temperature) or "auto": where the surfaces slip.
@@ -145,8 +156,7 @@ class Thermal:
     rounds: int = 8
 
     def __post_init__(self):
-        if self.on not in (True, False, AUTO):
-            raise SceneError(f"thermal.on = {self.on!r} must be true, false or {AUTO!r}")
+        auto_flag("thermal.on", self.on)
         integer("thermal.nodes", self.nodes, 5, 33)
         number("thermal.tolerance", self.tolerance, "K", 1e-6, 10.0)
         integer("thermal.rounds", self.rounds, 1, 50)
@@ -156,18 +166,39 @@ class Thermal:
 
 @dataclass(frozen=True)
 class Fatigue:
-    """Findley index: kappa (normal stress sensitivity) and endurance (sigma_eF, Pa).
+    """Fatigue index: kappa (normal stress sensitivity) and endurance (sigma_eF, Pa).
 
     Both are example values to be replaced by those of the material at hand; no source is claimed for them.
+    criterion: findley, findley-chord, matake or dang-van; depths: m below the surface, searched too; thermal_stress: true,
+    false or "auto" (where the scene has temperatures); residual_xx, residual_yy: constant residual stress, Pa; from_x, to_x:
+    positions of the feature (a) between which moments count.
     """
 
     on: bool = True
     kappa: float = 0.3
     endurance: float = 400e6
     source: str = "example values, set your own"
+    criterion: str = "findley"
+    depths: tuple = ()
+    thermal_stress: Union[bool, str] = AUTO
+    residual_xx: float = 0.0
+    residual_yy: float = 0.0
+    from_x: float = -math.inf
+    to_x: float = math.inf
 
     def __post_init__(self):
         flag("fatigue.on", self.on)
+        choice("fatigue.criterion", self.criterion, ("findley", "findley-chord", "matake", "dang-van"))
+        auto_flag("fatigue.thermal_stress", self.thermal_stress)
+        for key in ("residual_xx", "residual_yy"):
+            number(f"fatigue.{key}", getattr(self, key), "Pa", -1e10, 1e10)
+        if not self.from_x < self.to_x:
+            raise SceneError(f"fatigue.from_x = {self.from_x!r} a must be less than to_x = {self.to_x!r} a")
+        if not isinstance(self.depths, (tuple, list)):
+            raise SceneError(f"fatigue.depths = {self.depths!r} must be a list of depths in m, as [50e-6, 100e-6]")
+        object.__setattr__(self, "depths", tuple(self.depths))
+        for depth in self.depths:
+            number("fatigue.depths", depth, "m", 1e-7, 0.1)
         number("fatigue.kappa", self.kappa, "", 0.0, 5.0)
         number("fatigue.endurance", self.endurance, "Pa", 1e3, 1e11)
 

@@ -45,6 +45,8 @@ class Scene:
         if self.contact.moes_M > 0:
             speed = dataclasses.replace(self.operation, u_m=scales.moes_speed(self))
             object.__setattr__(self, "operation", speed)
+        if self.fatigue.thermal_stress is True and self.isothermal:
+            raise SceneError("fatigue.thermal_stress = true needs temperatures: use --thermal, or \"auto\"")
         self._check_pressure()
         self._check_motion()
         self._check_path()
@@ -128,6 +130,12 @@ class Scene:
         if self.thermal.on == AUTO:
             return self.operation.srr == 0 or self.contact.moes_M > 0
         return not self.thermal.on
+
+    @property
+    def thermal_stress_wanted(self):
+        """Whether the heat of the surface counts in its stress."""
+        wanted = self.fatigue.thermal_stress
+        return not self.isothermal if wanted == AUTO else bool(wanted)
 
     def left_out(self):
         """What this scene does not need and therefore does not compute, each with its reason."""

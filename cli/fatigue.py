@@ -1,0 +1,89 @@
+"""tehl fatigue: the fatigue pass over a store, again and with other constants."""
+
+import json
+from pathlib import Path
+from typing import Optional
+
+import typer
+from tehl_cli.live import say
+
+
+def register(app):
+    """Add the command to the app."""
+    app.command()(fatigue)
+
+
+def fatigue(
+    store: Path = typer.Argument(..., help="store of a run with a feature, finished or not"),
+    kappa: Optional[float] = typer.Option(None, help="sensitivity to normal stress"),
+    endurance: Optional[float] = typer.Option(None, help="sigma_eF, Pa"),
+    bending_limit: Optional[float] = typer.Option(None, help="fatigue limit in reversed bending, Pa (with --torsion-limit)"),
+    torsion_limit: Optional[float] = typer.Option(None, help="the same in torsion: both give kappa, sigma_eF"),
+    criterion: Optional[str] = typer.Option(None, help="findley, findley-chord, matake or dang-van"),
+    depths: Optional[str] = typer.Option(None, help="depths to search too, m, as 50e-6,100e-6"),
+    from_x: Optional[float] = typer.Option(None, help="only moments with the feature beyond this position, a"),
+    to_x: Optional[float] = typer.Option(None, help="only moments with the feature before this position, a"),
+    thermal_stress: Optional[bool] = typer.Option(None, "--thermal-stress/--no-thermal-stress",
+                                                  help="stress of the heat at the surface (default: where there is heat)"),
+    residual_xx: Optional[float] = typer.Option(None, help="constant residual stress along x, Pa"),
+    residual_yy: Optional[float] = typer.Option(None, help="the same along y, Pa"),
+    figures: Optional[Path] = typer.Option(None, help="folder for PNG figures"),
+    threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
+    as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout"),
+):
+    """Fatigue of a stored passage; the store stays as it is.
+
+    Example: `tehl fatigue runs/gear-1.zarr --kappa 0.25 --endurance 450e6 --to-x 0.5`
+    """
+    from tehl_taichi import runtime
+    from tehl_taichi.io.store import Store
+    from tehl_taichi.post import fatigue as pass_
+    from tehl_taichi.scene.scales import Scales
+
+    saved = Store.open(store)
+    changes = {"kappa": kappa, "endurance": endurance, "criterion": criterion, "depths": _depths(depths), "from_x": from_x,
+               "to_x": to_x, "thermal_stress": thermal_stress, "residual_xx": residual_xx, "residual_yy": residual_yy,
+               **_limits(bending_limit, torsion_limit, kappa, endurance)}
+    changes = {f"fatigue.{key}": value for key, value in changes.items() if value is not None}
+    scene = saved.scene.replace(**changes) if changes else saved.scene
+    runtime.start(threads=threads)
+    result = pass_.run(scene, saved)
+    _show(result, as_json)
+    if figures:
+        from tehl_taichi.io.figures import write_fatigue
+
+        for path in write_fatigue(result, scene.name, Scales.of(scene).a, figures):
+            say(str(path))
+
+
+def _depths(text):
+    from tehl_taichi.scene import SceneError
+
+    try:
+        return None if text is None else [float(part) for part in text.split(",")]
+    except ValueError:
+        raise SceneError(f"--depths {text!r} must be numbers in m with commas between, as 50e-6,100e-6") from None
+
+
+def _limits(bending, torsion, kappa, endurance):
+    from tehl_taichi.post.findley import from_limits
+    from tehl_taichi.scene import SceneError
+
+    if bending is None and torsion is None:
+        return {"kappa": kappa, "endurance": endurance}
+    if bending is None or torsion is None or kappa is not None or endurance is not None:
+        raise SceneError("give --bending-limit and --torsion-limit together, and neither --kappa nor --endurance with them")
+    try:
+        found = from_limits(bending, torsion)
+    except ValueError as error:
+        raise SceneError(str(error)) from None
+    return dict(zip(("kappa", "endurance"), found))
+
+
+def _show(result, as_json):
+    from tehl_cli.tables import fatigue_rows, list_table
+
+    if as_json:
+        print(json.dumps(result.summary))
+    else:
+        list_table("fatigue", ("quantity", "value"), fatigue_rows(result.summary))
