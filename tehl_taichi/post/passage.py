@@ -129,6 +129,8 @@ class Passage:
     def _stress_field(self, entry, rows, stress, thermal):
         loads = self.reader.fields(entry, LOADS)
         loads = [np.pad(np.asarray(loads[name], float), (self.pad, (0, 0))) for name in LOADS]
+        if not self.scene.fatigue.shear:
+            loads[1:] = [0 * load for load in loads[1:]]
         found = stress(*loads)
         if thermal:
             for name, values in zip(("sxx", "syy", "sxy"), thermal(entry)):

@@ -169,9 +169,9 @@ class Fatigue:
     """Fatigue index: kappa (normal stress sensitivity) and endurance (sigma_eF, Pa).
 
     Both are example values to be replaced by those of the material at hand; no source is claimed for them.
-    criterion: findley, findley-chord, matake or dang-van; depths: m below the surface, searched too; thermal_stress: true,
-    false or "auto" (where the scene has temperatures); residual_xx, residual_yy: constant residual stress, Pa; from_x, to_x:
-    positions of the feature (a) between which moments count.
+    criterion: findley, findley-chord, matake or dang-van; depths: m below the surface, searched too; shear: whether the shear
+    tractions count; thermal_stress: true, false or "auto" (where the scene has temperatures); residual_xx, residual_yy:
+    constant residual stress, Pa; from_x, to_x: positions of the feature (a) between which moments count.
     """
 
     on: bool = True
@@ -180,6 +180,7 @@ class Fatigue:
     source: str = "example values, set your own"
     criterion: str = "findley"
     depths: tuple = ()
+    shear: bool = True
     thermal_stress: Union[bool, str] = AUTO
     residual_xx: float = 0.0
     residual_yy: float = 0.0
@@ -189,6 +190,7 @@ class Fatigue:
     def __post_init__(self):
         flag("fatigue.on", self.on)
         choice("fatigue.criterion", self.criterion, ("findley", "findley-chord", "matake", "dang-van"))
+        flag("fatigue.shear", self.shear)
         auto_flag("fatigue.thermal_stress", self.thermal_stress)
         for key in ("residual_xx", "residual_yy"):
             number(f"fatigue.{key}", getattr(self, key), "Pa", -1e10, 1e10)

@@ -1,0 +1,166 @@
+"""The conclusions of the thesis (Everitt 2018) as a table of Findley stresses with errors, and a verdict on each.
+
+Every case runs on three grids, each twice as fine (time steps shrink with the cells); errors by Richardson's extrapolation
+with the observed order where it is credible.
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from tehl_taichi.io.recorder import record
+from tehl_taichi.post import findley
+from tehl_taichi.post.passage import Passage
+from tehl_taichi.scene import scene
+from tehl_taichi.simulation import NotConverged
+from tehl_taichi.solvers.steady import estimated_error
+
+GRIDS, QUICK_GRIDS = ((64, 16), (128, 32), (256, 64)), ((64, 16), (128, 32))
+REFERENCE, FINER = "asperity 1.5 um", (512, 128)  # the case that decides runs on one grid more
+SLIPS = (-0.12, 0.0, 0.12)
+WINDOWS = {"entry": (-np.inf, -0.5), "inside": (-0.5, 0.5), "exit": (0.5, np.inf), "to 0.5 a": (-np.inf, 0.5),
+           "whole": (-np.inf, np.inf)}
+# what counts: pressure alone, with the shear tractions, with thermal stress too
+LOADS = {"pressure": {"fatigue.shear": False, "fatigue.thermal_stress": False},
+         "no thermal stress": {"fatigue.thermal_stress": False}, "all": {}}
+NEAR_ONE = 0.9
+
+
+@dataclass(frozen=True)
+class Row:
+    """One case: Findley stress in Pa by (loads, window) and its error; friction over load on the footprint at x_a = -0.5 and
+    0.5 a; reason: why it has no values."""
+
+    name: str
+    srr: float
+    values: dict
+    errors: dict
+    friction: tuple
+    reason: str = ""
+
+
+def cases(quick=False):
+    """{name: scene}; all with temperatures, so that pure rolling has its heat of compression."""
+    base = scene("gear").replace(**{"thermal.on": True})
+    kinds = {REFERENCE: {}, "dent 1.5 um": {"height": -1.5e-6}}
+    if not quick:
+        kinds |= {"asperity, 1.5 GPa": {"hertz_pressure": 1.5e9}, "asperity, 2.5 GPa": {"hertz_pressure": 2.5e9},
+                  "asperity 0.75 um": {"height": 0.75e-6}, "asperity 100 um wide": {"width": 100e-6},
+                  "asperity, oil at 120 C": {"temperature": 120.0}}
+    return {f"{kind}, SRR {srr:+g}": base.replace(srr=srr, **changes) for kind, changes in kinds.items() for srr in SLIPS}
+
+
+def run(folder, quick=False, progress=None):
+    """Rows of all cases; their stores lie in `folder` and are used again. progress: called with a line of text."""
+    grids = QUICK_GRIDS if quick else GRIDS
+    return [row(name, description, Path(folder), grids + (FINER,) * (name.startswith(REFERENCE) and not quick), progress)
+            for name, description in cases(quick).items()]
+
+
+def row(name, description, folder, grids, progress=None):
+    """One Row from runs on `grids`."""
+    found, friction = [], (np.nan, np.nan)
+    for nx, ny in grids:
+        if progress:
+            progress(f"{name}: {nx} x {ny} cells")
+        sized = description.replace(**{"grid.nx": nx, "grid.ny": ny})
+        try:
+            saved = record(sized, folder / f"{_slug(name)}-{nx}.zarr")
+        except NotConverged as error:
+            return Row(name, description.operation.srr, {}, {}, friction, str(error))
+        found.append(stresses(saved))
+        friction = tuple(footprint_friction(saved, at) for at in (-0.5, 0.5))
+    errors = {key: estimated_error([one[key] for one in found]) for key in found[-1]}
+    return Row(name, description.operation.srr, found[-1], errors, friction)
+
+
+def stresses(saved):
+    """{(loads, window): largest Findley stress, Pa}; windows with every load, the other loads over the whole passage."""
+    out = {}
+    for loads, changes in LOADS.items():
+        passage = Passage(saved.scene.replace(**changes) if changes else saved.scene, saved, saved.scalar("feature_x"))
+        history = passage.history(slice(0, passage.y.size), passage.stresses(0.0))
+        for window, (low, high) in WINDOWS.items():
+            if loads == "all" or window == "whole":
+                inside = np.append((passage.centres >= low * passage.a) & (passage.centres <= high * passage.a), True)
+                out[loads, window] = float(findley.search(history[:, inside], saved.scene.fatigue.kappa)[0].max())
+    return out
+
+
+def footprint_friction(saved, at):
+    """Friction over load on the feature's footprint when it is at x_a = at (in a)."""
+    a = Passage(saved.scene, saved, saved.scalar("feature_x")).a
+    n = int(np.argmin(np.abs(saved.scalar("feature_x") / a - at)))
+    fields = saved.fields(n, ("pressure", "traction_x_a"))
+    distance = np.hypot(saved.x[:, None] - saved.feature_x(n), saved.y[None, :])
+    under = distance < saved.scene.features[0].reach
+    return float(abs(fields["traction_x_a"][under].sum()) / fields["pressure"][under].sum())
+
+
+def verdicts(rows, limit):
+    """[(statement, verdict, figures)] from the rows; limit: sigma_eF, Pa."""
+    by_name = {r.name: r for r in rows if not r.reason}
+    out = []
+
+    def get(kind, srr, key=("all", "whole")):
+        r = by_name.get(f"{kind}, SRR {srr:+g}")
+        return (r.values[key], r.errors[key]) if r else (np.nan, np.nan)
+
+    f, e = get("asperity 1.5 um", 0.0)
+    out.append((f"an asperity brings Fi near or over 1 (>= {NEAR_ONE:g}) at about 2 GPa without slip",
+                decide(f - NEAR_ONE * limit, e), _pair((f, e), (NEAR_ONE * limit, 0.0))))
+    for srr in SLIPS:
+        one, other = get("asperity 1.5 um", srr), get("dent 1.5 um", srr)
+        out.append((f"a dent gives less than an asperity of the same size (SRR {srr:+g})", *_compared(one, other)))
+    for loads, window in (("all", "to 0.5 a"), ("all", "whole"), ("no thermal stress", "whole"), ("pressure", "whole")):
+        for kind in dict.fromkeys(r.name.rsplit(", SRR", 1)[0] for r in rows):
+            if kind.startswith("asperity") and (kind == "asperity 1.5 um" or loads == "all"):
+                one, other = (get(kind, srr, (loads, window)) for srr in (-0.12, 0.12))
+                out.append((f"Fi(SRR -0.12) > Fi(SRR +0.12): {kind}; {loads}; {window}", *_compared(one, other)))
+    r = by_name.get("asperity 1.5 um, SRR -0.12")
+    if r:
+        out.append(("friction on the asperity is larger near the inlet than near the outlet",
+                    "follows" if r.friction[0] > r.friction[1] else "does not follow",
+                    f"{r.friction[0]:.4f} at -0.5 a, {r.friction[1]:.4f} at 0.5 a"))
+    return out
+
+
+def decide(difference, error):
+    """Whether a difference expected to be positive is so beyond its error."""
+    if not np.isfinite(difference + error) or abs(difference) <= error:
+        return "not decided"
+    return "follows" if difference > 0 else "does not follow"
+
+
+def _compared(one, other):
+    return decide(one[0] - other[0], one[1] + other[1]), _pair(one, other)
+
+
+def _pair(one, other):
+    return " against ".join(f"{f / 1e6:.0f} ± {e / 1e6:.0f}" for f, e in (one, other)) + " MPa"
+
+
+def _slug(name):
+    signed = name.replace("SRR -", "SRR minus ").replace("SRR +", "SRR plus ")
+    return "-".join("".join(c if c.isalnum() else " " for c in signed).split())
+
+
+def cells(row, columns=tuple(("all", window) for window in WINDOWS)):
+    """Text of a row's values with errors, MPa; the reason first where there are none."""
+    if row.reason:
+        return [row.reason] + [""] * (len(columns) - 1)
+    return [f"{row.values[key] / 1e6:.0f} ± {row.errors[key] / 1e6:.0f}" for key in columns]
+
+
+def page(rows, judged, scene_):
+    """Markdown of the table and the verdicts."""
+    columns = [("all", window) for window in WINDOWS] + [("no thermal stress", "whole"), ("pressure", "whole")]
+    lines = ["| case | " + " | ".join(window if loads == "all" else f"{loads}" for loads, window in columns) + " |",
+             "|---" * (len(columns) + 1) + "|"]
+    for r in rows:
+        lines.append(f"| {r.name} | " + " | ".join(cells(r, columns)) + " |")
+    lines += ["", "| statement | verdict | figures |", "|---|---|---|"]
+    lines += [f"| {statement} | **{verdict}** | {figures} |" for statement, verdict, figures in judged]
+    f = scene_.fatigue
+    return "\n".join([f"Findley stress in MPa (kappa_F = {f.kappa:g}); Fi = f / {f.endurance / 1e6:g} MPa.", "", *lines, ""])
