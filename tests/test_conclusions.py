@@ -1,0 +1,50 @@
+"""The suite of the thesis' conclusions: verdicts tell decided from undecided, stores are used again."""
+
+import numpy as np
+import pytest
+from tehl_taichi.profiles import conclusions
+
+from tehl_taichi.io.store import StoreError
+from tehl_taichi.scene import scene
+
+
+def test_verdicts_need_more_than_the_error():
+    assert conclusions.decide(10.0, 3.0) == "follows" and conclusions.decide(-10.0, 3.0) == "does not follow"
+    assert conclusions.decide(2.0, 3.0) == conclusions.decide(np.nan, 1.0) == conclusions.decide(5.0, np.nan) == "not decided"
+
+
+def make(name, f, error):
+    keys = [("all", window) for window in conclusions.WINDOWS] + [("no thermal stress", "whole"), ("pressure", "whole")]
+    return conclusions.Row(name, 0.0, {key: f for key in keys}, {key: error for key in keys}, (0.06, 0.05))
+
+
+def test_the_statements_follow_from_the_rows():
+    f = {"-0.12": 400e6, "+0": 370e6, "+0.12": 380e6}
+    rows = [make(f"asperity 1.5 um, SRR {srr}", value, 5e6) for srr, value in f.items()]
+    rows += [make(f"dent 1.5 um, SRR {srr}", 365e6, 20e6) for srr in f]
+    judged = {statement: verdict for statement, verdict, _ in conclusions.verdicts(rows, 400e6)}
+    assert judged["Fi(SRR -0.12) > Fi(SRR +0.12): asperity 1.5 um; all; whole"] == "follows"
+    assert judged["a dent gives less than an asperity of the same size (SRR +0)"] == "not decided"
+    assert judged["a dent gives less than an asperity of the same size (SRR -0.12)"] == "follows"
+    assert [verdict for statement, verdict in judged.items() if "without slip" in statement] == ["follows"]
+    text = conclusions.page(rows, conclusions.verdicts(rows, 400e6), scene("gear"))
+    assert "400 ± 5" in text and "**follows**" in text
+
+
+def test_every_case_has_its_own_store():
+    names = [conclusions._slug(name) for name in conclusions.cases()]
+    assert len(set(names)) == len(names) == 21
+
+
+def test_a_row_is_computed_once_and_kept(taichi_cpu, tmp_path):
+    short = scene("gear").replace(**{"thermal.on": False, "time.steps": 8})
+    lines = []
+    one = conclusions.row("short", short, tmp_path, ((64, 16), (96, 16)), lines.append)
+    assert len(lines) == 2 and one.values["all", "whole"] > 1e8 and one.errors["all", "whole"] > 0
+    before = {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*") if path.is_file()}
+    assert conclusions.row("short", short, tmp_path, ((64, 16), (96, 16))) == one
+    assert before == {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*") if path.is_file()}
+    with pytest.raises(StoreError, match="another scene"):
+        conclusions.row("short", short.replace(srr=0.1), tmp_path, ((64, 16),))
+    hopeless = short.replace(**{"numerics.newton_max": 1, "numerics.krylov_max": 5})
+    assert "did not converge" in conclusions.row("hopeless", hopeless, tmp_path, ((64, 16),)).reason
