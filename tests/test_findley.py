@@ -248,6 +248,14 @@ def test_history_of_whole_cells_is_exact_and_begins_and_ends_unloaded(taichi_cpu
     assert np.abs(h[:, 0, 2]).max() == np.abs(h[:, -2, 2]).max() == np.abs(h[:, -1]).max() == 0.0
 
 
+def test_the_first_planes_are_close_enough(taichi_cpu):
+    """Histories of a passage: four times as many planes to begin with find the same to 1e-6."""
+    scene = tehl.scene("gear").replace(**{"thermal.on": False})
+    passage = fatigue.Passage(scene, reader := Moving(scene, 16, 9), reader.centres)
+    h = passage.history(slice(0, passage.y.size), passage.stresses(0.0))
+    np.testing.assert_allclose(findley.search(h, 0.3)[0], findley.search(h, 0.3, degrees=5.0)[0], rtol=1e-6)
+
+
 def test_blocks_of_rows_change_nothing(taichi_cpu, monkeypatch):
     scene = tehl.scene("gear").replace(**{"thermal.on": False})
     reader = Moving(scene, cells=8, rows=5)

@@ -23,13 +23,13 @@ def planes(degrees=GRID):
 RULES = {"findley": 0, "findley-chord": 1, "matake": 0, "dang-van": 2}  # of kernels/findley.py
 
 
-def search(history, kappa, prune=True, criterion="findley"):
+def search(history, kappa, prune=True, criterion="findley", degrees=GRID):
     """Largest value of a criterion over all planes, and its plane, of every point.
 
     history (points, times, 6) Pa: xx, yy, zz, xy, xz, yz. kappa >= 0. criterion: "findley", tau_amp + kappa sigma_n,max, with
     the radius of the smallest circle around the shear path; "findley-chord", with half its longest chord; "matake", Findley's
     sum on the plane of the largest tau_amp (Matake 1977); "dang-van", largest (shear from the circle's centre + kappa mean
-    stress) of a moment (Dang Van 1989). prune=False evaluates every plane (for tests).
+    stress) of a moment (Dang Van 1989). prune=False evaluates every plane (for tests); degrees: between the first planes.
     Returns f (points,) Pa (may be negative: nowhere near fatigue) and unit normals (points, 3), n_z >= 0.
     Raises ValueError for a history with NaN or of another shape, KeyError for an unknown criterion.
     """
@@ -41,10 +41,10 @@ def search(history, kappa, prune=True, criterion="findley"):
     points, steps, _ = history.shape
     out = np.zeros((points, 4))
     a, b = np.zeros((2, points, steps))
-    grid = planes()
+    grid = planes(degrees)
     values, peaks = np.zeros((points, len(grid))), np.zeros((points, findley.STARTS, findley.PEAK))
     slope = 0.0 if criterion == "matake" else kappa
-    findley.search(points, steps, slope, RULES[criterion], math.radians(GRID / 2), int(prune), history, grid, values, a, b,
+    findley.search(points, steps, slope, RULES[criterion], math.radians(degrees / 2), int(prune), history, grid, values, a, b,
                    peaks, out)
     n = out[:, 1:]
     if criterion == "matake":
