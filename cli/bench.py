@@ -1,6 +1,7 @@
 """tehl bench: the suites under profiles/."""
 
 import json
+import os
 from pathlib import Path
 from typing import Optional
 
@@ -13,7 +14,15 @@ def register(app):
     bench = typer.Typer(no_args_is_help=True, help="Benchmark suites; each prints a table, none asserts.")
     bench.command()(stability)
     bench.command()(conclusions)
+    bench.command()(speed)
+    bench.command()(scaling)
+    bench.command()(profile)
     app.add_typer(bench, name="bench")
+
+
+OUT = typer.Option(Path("runs/bench"), help="folder for the JSON and PNG")
+QUICK = typer.Option(False, "--quick", help="small grids, a few steps")
+THREADS = typer.Option(None, help="CPU threads (default: all)")
 
 
 def stability(
@@ -65,3 +74,57 @@ def conclusions(
         {"case": r.name, "reason": r.reason, "friction": r.friction, "findley_stress_Pa": {
             "; ".join(key): [value, r.errors[key]] for key, value in r.values.items()}} for r in rows], indent=1))
     say(f"wrote {out}/conclusions.md and conclusions.json")
+
+
+def speed(out: Path = OUT, quick: bool = QUICK, threads: Optional[int] = THREADS):
+    """Times against the project's targets, and reference loops to compare machines by. Example: `tehl bench speed --quick`"""
+    from tehl_taichi.profiles import speed as suite
+
+    rows = suite.run(quick, threads or os.cpu_count(), say)
+    _table("speed", rows, {"what": "{}", "seconds": "{:.3f}", "target": "{:g}", "step_ms": "{:.1f}", "cycles": "{:.1f}",
+                           "memory_mb": "{:.0f}"})
+    _write(out, "speed", rows, None if quick else lambda plt: suite.chart(plt, rows))
+
+
+def scaling(out: Path = OUT, quick: bool = QUICK, threads: Optional[int] = THREADS,
+            thermal: bool = typer.Option(False, "--thermal/--isothermal", help="with temperatures")):
+    """Time and memory against grid and threads. Example: `tehl bench scaling --quick`"""
+    from tehl_taichi.profiles import scaling as suite
+
+    rows = suite.run(quick, threads or os.cpu_count(), thermal, say)
+    _table("scaling", rows, {"nx": "{}", "ny": "{}", "threads": "{}", "step_ms": "{:.1f}", "node_ns": "{:.0f}",
+                             "newton": "{:.1f}", "cycles": "{:.1f}", "memory_mb": "{:.0f}"})
+    _write(out, "scaling", rows, lambda plt: suite.chart(plt, rows))
+
+
+def profile(out: Path = OUT, quick: bool = QUICK, threads: Optional[int] = THREADS,
+            thermal: bool = typer.Option(True, "--thermal/--isothermal", help="with temperatures")):
+    """Where the time of a step goes, per stage and per kernel. Example: `tehl bench profile --isothermal`"""
+    from tehl_taichi.profiles import measure
+    from tehl_taichi.profiles import profile as suite
+
+    nx, ny, steps = (128, 32, 8) if quick else (256, 64, 30)
+    stages, kernels, numbers = measure.fresh(threads or os.cpu_count(), suite.run, nx, ny, thermal, steps)
+    columns = {"what": "{}", "calls": "{:.1f}", "ms": "{:.2f}"}
+    _table("stages, per step (a stage may hold others)", stages, columns)
+    _table("kernels, per step", kernels, columns)
+    say(", ".join(f"{key} {value:.3f}" for key, value in numbers.items()))
+    rows = [{"kind": kind, **row} for kind, part in (("stage", stages), ("kernel", kernels)) for row in part]
+    _write(out, "profile", rows, lambda plt: suite.chart(plt, stages, kernels, numbers["step_s"]))
+
+
+def _table(title, rows, columns):
+    from tehl_cli.tables import list_table
+
+    list_table(title, columns, [[form.format(row[key]) if row.get(key) is not None else "" for key, form in columns.items()]
+                                for row in rows])
+
+
+def _write(folder, name, rows, chart):
+    from tehl_taichi.profiles import measure
+
+    say(f"wrote {measure.save(folder, name, rows)}")
+    plt = measure.pyplot()
+    if chart and plt:
+        chart(plt).savefig(folder / f"{name}.png", dpi=110)
+        say(f"wrote {folder / name}.png")

@@ -4,6 +4,7 @@ import functools
 import gc
 import os
 import sys
+import time
 import weakref
 from pathlib import Path
 
@@ -109,9 +110,31 @@ def bind(kernel, *args):
     once. Where the pinned Taichi's internals are not found, the launch falls back to the plain call.
     """
     try:
-        return _recorded(kernel, args)
+        launch = _recorded(kernel, args)
     except (AttributeError, TypeError):
-        return functools.partial(kernel, *args)
+        launch = functools.partial(kernel, *args)
+    return launch if _watched is None else _timed(kernel.__name__, launch)
+
+
+_watched = None  # {kernel: [launches, seconds]} once somebody wants to know
+
+
+def watch_launches():
+    """The dictionary {kernel: [launches, seconds]} that all launches bound from now on are counted in."""
+    global _watched
+    _watched = {}
+    return _watched
+
+
+def _timed(name, launch):
+    def counted():
+        started = time.perf_counter()
+        launch()
+        entry = _watched.setdefault(name, [0, 0.0])
+        entry[0] += 1
+        entry[1] += time.perf_counter() - started
+
+    return counted
 
 
 def _recorded(kernel, args):

@@ -1,0 +1,102 @@
+"""What the suites share: timings of a passage, fresh processes with a given number of threads, results as files."""
+
+import json
+import multiprocessing
+import platform
+import resource
+import time
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Timing:
+    """Of one passage: steady start and median step in s, whole passage by them, Newton and Krylov a step, MB of memory."""
+
+    start_s: float
+    step_s: float
+    passage_s: float
+    newton: float
+    cycles: float
+    memory_mb: float
+
+
+def fresh(threads, function, *args):
+    """function(*args) in a new process whose Taichi runs on `threads` threads."""
+    spawn = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(1, mp_context=spawn, initializer=_start, initargs=(threads,)) as pool:
+        return pool.submit(function, *args).result()
+
+
+def _start(threads):
+    from tehl_taichi import runtime
+
+    runtime.start(threads=threads)
+
+
+def passage(description, steps):
+    """Timing of `steps` steps after two for warming up."""
+    from tehl_taichi.simulation import march, total_steps
+
+    whole = total_steps(description)
+    run = march(description.replace(**{"time.steps": steps + 2}))
+    started = time.perf_counter()
+    next(run)
+    start_s, shots, seconds = time.perf_counter() - started, [], []
+    for _ in range(steps + 2):
+        started = time.perf_counter()
+        shots.append(next(run).scalars)
+        seconds.append(time.perf_counter() - started)
+    step = float(np.median(seconds[2:]))
+    newton, cycles = (float(np.mean([shot[key] for shot in shots[2:]])) for key in ("newton", "cycles"))
+    memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    return Timing(start_s, step, start_s + whole * step, newton, cycles, memory)
+
+
+def steady(description, repeats):
+    """Median time (s) of the steady solution after one for warming up."""
+    from tehl_taichi.simulation import march
+
+    seconds = []
+    for _ in range(repeats + 1):
+        started = time.perf_counter()
+        next(march(description.replace(**{"time.steady_only": True})))
+        seconds.append(time.perf_counter() - started)
+    return float(np.median(seconds[1:]))
+
+
+def machine():
+    """One line that says where figures come from."""
+    import os
+
+    name = platform.processor() or platform.machine()
+    try:
+        lines = Path("/proc/cpuinfo").read_text().splitlines()
+        name = next(line.split(":", 1)[1].strip() for line in lines if line.startswith("model name"))
+    except (OSError, StopIteration):
+        pass
+    return f"{name}, {os.cpu_count()} cores, {time.strftime('%Y-%m-%d')}"
+
+
+def save(folder, name, rows):
+    """Rows (dictionaries) as JSON with the machine; returns the path."""
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / f"{name}.json"
+    path.write_text(json.dumps({"machine": machine(), "rows": rows}, indent=1))
+    return path
+
+
+def pyplot():
+    """matplotlib's pyplot without a screen, or None where it is not installed."""
+    try:
+        import matplotlib
+    except ImportError:
+        return None
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    return plt

@@ -1,0 +1,88 @@
+"""Speed: the project's targets, what is reached, and loops that any machine can be compared by, in one table."""
+
+import time
+
+import numpy as np
+from tehl_taichi.profiles import measure
+
+from tehl_taichi.scene import scene
+
+GRID, QUICK_GRID = (256, 64), (128, 32)
+
+
+def run(quick=False, threads=4, progress=None):
+    """Rows: dictionaries of what, seconds, target (s, None without), reference loops first."""
+    say = progress or (lambda text: None)
+    nx, ny = QUICK_GRID if quick else GRID
+    steps = 8 if quick else 30
+    rows = [*measure.fresh(1, references, nx, ny)]
+    gear = scene("gear").replace(**{"grid.nx": nx, "grid.ny": ny})
+    # targets hold for 256 x 64 cells
+    for name, thermal, count, target in (("isothermal", False, 1, 10.0), ("isothermal", False, threads, 4.0),
+                                         ("thermal", True, 1, None), ("thermal", True, threads, 30.0)):
+        say(f"{name} passage, {nx} x {ny} cells, {count} threads")
+        timing = measure.fresh(count, measure.passage, gear.replace(**{"thermal.on": thermal}), steps)
+        rows.append({"what": f"{name} passage {nx}x{ny}, {count} threads", "seconds": timing.passage_s,
+                     "target": None if quick else target, "step_ms": 1e3 * timing.step_s, "newton": timing.newton,
+                     "cycles": timing.cycles, "memory_mb": timing.memory_mb})
+    for columns, target in ((128, None), *(() if quick else ((256, 0.3), (512, 1.0)))):
+        say(f"steady circular contact, {columns} columns, 1 thread")
+        rows.append({"what": f"steady circular contact {columns} columns, 1 thread", "target": target,
+                     "seconds": measure.fresh(1, measure.steady, circular(columns), 1 if quick else 3)})
+    say("Findley search")
+    points, moments = (2000, 200) if quick else (257 * 65, 400)
+    rows.append({"what": f"Findley search {points} points x {moments} moments, {threads} threads",
+                 "seconds": measure.fresh(threads, search, points, moments), "target": None if quick else 10.0})
+    return rows
+
+
+def circular(columns):
+    """Moes (200, 10) on half a domain of columns x columns/2 cells."""
+    base = scene("ball-on-disc").replace(**{"grid.nx": columns, "grid.ny": columns // 2, "grid.x_min": -2.5,
+                                            "grid.x_max": 1.5, "grid.y_max": 2.0})
+    return base.replace(**{"oil.name": "moes-test-fluid", "contact.load": 0.0, "contact.moes_M": 200.0, "contact.moes_L": 10.0})
+
+
+def references(nx, ny):
+    """A plain FFT convolution of the deflection's size and a copy of 64 MB, one thread."""
+    values, symbol = np.random.default_rng(0).standard_normal((2 * ny, 2 * nx)), np.ones((2 * ny, nx + 1))
+    convolution = _median(lambda: np.fft.irfft2(np.fft.rfft2(values) * symbol, values.shape), 30)
+    source, target = np.ones(2**23), np.empty(2**23)
+    copy = _median(lambda: np.copyto(target, source), 10)
+    return [{"what": f"reference: convolution {2 * nx}x{2 * ny} (numpy)", "seconds": convolution, "target": None},
+            {"what": f"reference: copy, {2 * source.nbytes / copy / 1e9:.1f} GB/s", "seconds": copy, "target": None}]
+
+
+def search(points, moments):
+    """Median time of the Findley search of passing load histories."""
+    from tehl_taichi.post import findley
+
+    rng, t = np.random.default_rng(1), np.linspace(-2, 2, moments)
+    centre, width = rng.uniform(-0.3, 0.3, (points, 1)), rng.uniform(0.5, 1.0, (points, 1))
+    pressure = 2e9 * np.sqrt(np.maximum(1 - ((t - centre) / width) ** 2, 0))
+    history = np.zeros((points, moments, 6))
+    for n, share in enumerate((-0.8, -0.7, -1.0, 0.05, 0.07, 0.03)):
+        history[..., n] = share * pressure * (1 + 0.3 * np.sin(3 * t + n + centre * (n + 1)))
+    findley.search(history[:8], 0.3)
+    return _median(lambda: findley.search(history, 0.3), 3)
+
+
+def _median(function, repeats):
+    seconds = []
+    for _ in range(repeats + 1):
+        started = time.perf_counter()
+        function()
+        seconds.append(time.perf_counter() - started)
+    return float(np.median(seconds[1:]))
+
+
+def chart(plt, rows):
+    """Bars of the times that have a target, in units of it."""
+    shown = [row for row in rows if row.get("target")]
+    figure, ax = plt.subplots(figsize=(8, 0.6 * len(shown) + 1.2), constrained_layout=True)
+    ratios = [row["seconds"] / row["target"] for row in shown]
+    ax.barh([row["what"] for row in shown], ratios, color=["tab:green" if r <= 1 else "tab:orange" for r in ratios])
+    ax.axvline(1, color="k", lw=0.8)
+    ax.set(xlabel="time / target", xscale="log", title=measure.machine())
+    ax.invert_yaxis()
+    return figure

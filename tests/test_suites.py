@@ -1,0 +1,44 @@
+"""The speed, scaling and profile suites: they measure what they say, in processes of their own."""
+
+import pytest
+from tehl_taichi.profiles import measure, profile, scaling, speed
+
+from tehl_taichi.scene import scene
+
+
+def small(**changes):
+    return scene("gear").replace(**{"thermal.on": False, "grid.nx": 64, "grid.ny": 16, **changes})
+
+
+def threads_here():
+    from tehl_taichi import runtime
+
+    return runtime.ensure()["threads"]
+
+
+def test_fresh_processes_have_their_own_threads():
+    assert measure.fresh(1, threads_here) == 1 and measure.fresh(3, threads_here) == 3
+
+
+def test_a_passage_is_timed(taichi_cpu):
+    timing = measure.passage(small(), 3)
+    assert 0 < timing.step_s < timing.passage_s and timing.newton >= 1 and timing.cycles > 1 and timing.memory_mb > 50
+    assert timing.passage_s == pytest.approx(timing.start_s + 48 * timing.step_s)
+
+
+def test_kernels_and_stages_of_a_step_are_told():
+    stages, kernels, numbers = measure.fresh(2, profile.run, 64, 16, False, 3)
+    names = {row["what"] for row in kernels}
+    assert {"jacobian", "solve_lines", "laws", "residual"} <= names and "energy" not in names
+    assert stages[0]["what"] == "pressure: Newton" and stages[0]["ms"] <= 1.05e3 * numbers["step_s"]
+    assert sum(row["ms"] for row in kernels) < 1e3 * numbers["step_s"]
+
+
+def test_charts_and_files(tmp_path):
+    plt = pytest.importorskip("matplotlib.pyplot")
+    rows = [{"nx": nx, "ny": nx // 4, "threads": count, "step_ms": 1.0, "node_ns": 2.0, "newton": 2.0, "cycles": 9.0,
+             "memory_mb": 100.0} for nx, count in ((64, 4), (128, 4), (128, 1))]
+    scaling.chart(plt, rows).savefig(tmp_path / "scaling.png")
+    speed.chart(plt, [{"what": "a", "seconds": 2.0, "target": 1.0}]).savefig(tmp_path / "speed.png")
+    path = measure.save(tmp_path, "scaling", rows)
+    assert "machine" in path.read_text() and (tmp_path / "scaling.png").stat().st_size > 1000
