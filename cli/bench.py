@@ -27,25 +27,35 @@ THREADS = typer.Option(None, help="CPU threads (default: all)")
 
 def stability(
     match: str = typer.Option("", help="only cases with this text in their name"),
-    thermal: bool = typer.Option(False, "--thermal/--isothermal", help="with temperatures"),
-    threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
+    thermal: bool = typer.Option(False, "--thermal/--isothermal", help="the table with temperatures"),
+    random: int = typer.Option(200, help="random scenes after the table"),
+    seed: int = typer.Option(0, help="of the random scenes"),
+    quick: bool = typer.Option(False, "--quick", help="every sixth case and eight random scenes"),
+    as_json: bool = typer.Option(False, "--json", help="one JSON object with the counts on stdout"),
+    threads: Optional[int] = THREADS,
 ):
     """Stiff and extreme scenes: converged, refused, stopped with the reason, or failed. Example: `tehl bench stability`"""
-    from tehl_cli.tables import list_table
-    from tehl_taichi.profiles.stability import cases, run_case
+    from tehl_taichi.profiles.stability import cases, random_cases, run_case
 
     from tehl_taichi import runtime
 
     runtime.start(threads=threads)
-    rows = []
-    for name, description in cases(thermal).items():
+    table = list(cases(thermal).items())
+    chosen = [*table[:: 6 if quick else 1], *random_cases(min(random, 8) if quick else random, seed).items()]
+    found = []
+    for name, description in chosen:
         if match.lower() in name.lower():
-            o = run_case(name, description)
-            say(f"{o.name}: {o.verdict} {o.reason}")
-            rows.append((o.name, o.verdict, str(o.steps), f"{o.newton:.1f}", f"{o.cycles:.0f}", f"{o.seconds:.1f}"))
-    list_table("stability" + (" with temperatures" if thermal else ""),
-               ("case", "verdict", "steps", "newton/step", "cycles/step", "s"), rows)
-    raise typer.Exit(1 if any(row[1] == "failed" for row in rows) else 0)
+            found.append(run_case(name, description))
+            say(f"{name}: {found[-1].verdict} {found[-1].reason}")
+    counts = {verdict: sum(o.verdict == verdict for o in found) for verdict in ("converged", "refused", "stopped", "failed")}
+    if as_json:
+        print(json.dumps({**counts, "cases": [vars(o) for o in found]}))
+    else:
+        rows = [{**vars(o), "case": o.name} for o in found]
+        _table("stability" + (" with temperatures" if thermal else ""), rows,
+               {"case": "{}", "verdict": "{}", "steps": "{}", "newton": "{:.1f}", "cycles": "{:.0f}", "seconds": "{:.1f}"})
+        say(", ".join(f"{verdict} {count}" for verdict, count in counts.items()))
+    raise typer.Exit(1 if counts["failed"] else 0)
 
 
 def conclusions(

@@ -9,6 +9,7 @@ from tehl_taichi.io.scene_file import merge
 from tehl_taichi.scene import Scene, SceneError, scene
 
 LINE, POINT = {"grid.nx": 128, "grid.ny": 32}, {"grid.nx": 64, "grid.ny": 32}
+RANDOM_LINE, RANDOM_POINT, RANDOM_STEPS = {"grid.nx": 64, "grid.ny": 16}, {"grid.nx": 64, "grid.ny": 16}, 12
 
 
 @dataclass(frozen=True)
@@ -64,6 +65,36 @@ def cases(thermal=False):
     return out
 
 
+def random_cases(count, seed=0):
+    """{name: scene or SceneError}: `count` scenes drawn from the whole admissible range, on small grids, the first steps of
+    the passage (the feature enters: it starts just in front of the contact)."""
+    rng, out = np.random.default_rng(seed), {}
+    for n in range(count):
+        name = f"random {seed}-{n}"
+        try:
+            out[name] = _drawn(rng)
+        except SceneError as error:
+            out[name] = error
+    return out
+
+
+def _drawn(rng):
+    def log_uniform(low, high):
+        return float(np.exp(rng.uniform(np.log(low), np.log(high))))
+
+    point = rng.random() < 0.3
+    sign, law = rng.choice([-1.0, 1.0]), str(rng.choice(["limiting", "newtonian", "eyring", "carreau"]))
+    feature = {"height": sign * log_uniform(0.1e-6, 3e-6), "width": log_uniform(20e-6, 400e-6),
+               "shape": str(rng.choice(["cosine", "ridge"]))}
+    contact = {"hertz_pressure": log_uniform(0.3e9, 2e9 if point else 4e9)}
+    if point:
+        contact |= {"kind": "elliptic", "radius_x": 12.7e-3, "radius_y": 12.7e-3 * log_uniform(1 / 8, 8)}
+    return edited("gear", {**(RANDOM_POINT if point else RANDOM_LINE), "srr": float(rng.uniform(-1.9, 2.0)),
+                           "temperature": float(rng.uniform(20, 150)), "speed": log_uniform(0.01, 50.0),
+                           "thermal.on": bool(rng.random() < 0.5), "rheology.law": law, "time.steps": RANDOM_STEPS,
+                           "bodies.b.E": 206e9 / log_uniform(1, 10), "contact": contact, "feature": [feature]})
+
+
 def edited(base, changes):
     """Scene `base` with dotted changes, and whole tables as a scene file would give them."""
     tables = {key: value for key, value in changes.items() if isinstance(value, (dict, list))}
@@ -88,6 +119,8 @@ def run_case(name, description):
                 break
     except NotConverged as error:
         verdict, reason = "stopped", str(error)
+    except Exception as error:  # noqa: BLE001  anything else is what the suite looks for
+        verdict, reason = "failed", repr(error)
     count = max(steps, 1)
     return Outcome(name, verdict, reason, max(steps, 0), newton / count, cycles / count, time.perf_counter() - started)
 

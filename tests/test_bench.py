@@ -33,3 +33,23 @@ def test_a_negative_film_is_a_failure():
     for name, bad in (("film", -1e-9), ("pressure", np.nan)):
         broken = {**shot.fields, name: np.where(shot.x[:, None] > 0, shot.fields[name], bad)}
         assert not stability.sound(dataclasses.replace(shot, fields=broken))
+
+
+def test_random_scenes_repeat_and_cover_the_range():
+    def drawn(seed):
+        return {name: case if isinstance(case, Scene) else str(case) for name, case in stability.random_cases(40, seed).items()}
+
+    found = drawn(3)
+    assert found == drawn(3) != drawn(4)
+    scenes = [case for case in found.values() if isinstance(case, Scene)]
+    assert len(scenes) > 25 and {s.contact.kind for s in scenes} == {"line", "elliptic"}
+    assert {s.isothermal for s in scenes} == {True, False} and len({s.rheology.law for s in scenes}) == 4
+
+
+def test_an_error_is_a_failure(monkeypatch):
+    def broken(description):
+        raise ZeroDivisionError("1/0")
+        yield
+
+    monkeypatch.setattr("tehl_taichi.simulation.march", broken)
+    assert stability.run_case("broken", scene("gear")).verdict == "failed"
