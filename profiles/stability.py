@@ -9,7 +9,7 @@ from tehl_taichi.io.scene_file import merge
 from tehl_taichi.scene import Scene, SceneError, scene
 
 LINE, POINT = {"grid.nx": 128, "grid.ny": 32}, {"grid.nx": 64, "grid.ny": 32}
-RANDOM_LINE, RANDOM_POINT, RANDOM_STEPS = {"grid.nx": 64, "grid.ny": 16}, {"grid.nx": 64, "grid.ny": 16}, 12
+RANDOM_LINE, RANDOM_POINT, RANDOM_STEPS = {"grid.nx": 64, "grid.ny": 16}, {"grid.nx": 64, "grid.ny": 16, "grid.y_max": 2.0}, 12
 
 
 @dataclass(frozen=True)

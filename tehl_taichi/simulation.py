@@ -63,7 +63,7 @@ def _steady_snapshot(scene, scales):
     started = time.perf_counter()
     result = solve_steady(scene, scales, scene.grid.nx, 0 if scales.line else scene.grid.ny)
     if not result.report.converged:
-        raise NotConverged(_reason(result.solver, result.report, "the steady start"))
+        raise NotConverged(_reason(result.solver, result.heat, result.report, "the steady start"))
     first = snapshot.take(result.solver, result.heat, 0, 0.0, math.nan, result.report, started)
     first.scalars["cycles"] = float(result.work)
     units = {"h_c": ("h_c_m", scales.h), "h_min": ("h_min_m", scales.h), "p_max": ("p_max_Pa", scales.p_H)}
@@ -172,7 +172,7 @@ class Passage:
         self.rejected += 1
         if part / 2 < SMALLEST_PART:
             where = f"step {self.step + 1} (feature at {self.position(self.step + 1):.2f} a), down to {part:g} of it,"
-            raise NotConverged(_reason(self.solver, report, where))
+            raise NotConverged(_reason(self.solver, self.heat, report, where))
         return part / 2
 
     def position(self, step):
@@ -269,8 +269,11 @@ def _roll(field_, cells):
     return out
 
 
-def _reason(solver, report, where):
-    v = solver.levels
+def _reason(solver, heat, report, where):
+    v, tolerance = solver.levels, solver.levels.scene.numerics.tolerance
+    if heat and report.residual < tolerance:
+        return (f"{where} did not converge: the temperatures still change by {heat.report.change:.2g} K from round to round; try "
+                "a finer grid (--grid), a smaller time.courant or --isothermal")
     i, j = solver.worst()
-    return (f"{where} did not converge: residual {report.residual:.1e} (tolerance {v.scene.numerics.tolerance:.0e}), "
+    return (f"{where} did not converge: residual {report.residual:.1e} (tolerance {tolerance:.0e}), "
             f"largest at X = {v.X[i]:.2f}, Y = {v.Y[j]:.2f}; try a finer grid (--grid) or a smaller time.courant")

@@ -178,3 +178,8 @@ def test_rough_patch_has_its_rms_and_fades_out():
     inner = np.abs(x) < f.extent_x / 2 - f.taper
     assert s[np.ix_(inner, inner)].std() == pytest.approx(f.height, rel=0.3)
     assert np.abs(s[[0, -1]]).max() < 1e-12 and np.allclose(s, s[::-1])
+
+
+def test_a_point_contact_must_fit_into_the_grid():
+    with pytest.raises(SceneError, match="y_max = 1 b"):
+        scene("ball-on-disc").replace(**{"grid.y_max": 1.0})

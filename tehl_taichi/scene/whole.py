@@ -18,6 +18,7 @@ SHORT = {"srr": "operation.srr", "load": "contact.load", "hertz_pressure": "cont
          "width": "feature.width", "kappa": "fatigue.kappa", "endurance": "fatigue.endurance"}
 FIRST, LAST = -1.6, 1.4  # of the path of a small feature, in a
 CLEAR, LATEST = 1.3, 1.1  # distance in a of a feature's front from X = 0 at an automatic start; at any start at least
+BEYOND = 1.2  # half-widths, at least, from the centre to the edge of the grid
 AT_REST = 0.01  # of the mean speed
 MAX_HERTZ, MIN_HERTZ = 6e9, 1e7  # Pa: outside this range the laws say nothing
 
@@ -68,7 +69,10 @@ class Scene:
                              f"start has none; allowed: at most {start - front - LATEST:.2f} a (or -inf)")
 
     def _check_room(self):
-        """A feature must fit into the gap at the ends of the grid, where it comes in and leaves."""
+        """A point contact must fit into the grid, and a feature into the gap at its ends, where it comes in and leaves."""
+        if self.contact.kind != "line" and self.grid.y_max < BEYOND:
+            raise SceneError(f"grid.y_max = {self.grid.y_max:g} b: a {self.contact.kind} contact reaches to 1; allowed: at least "
+                             f"{BEYOND:g} b")
         highest, s = max((f.height for f in self.features if f.shape != "map"), default=0.0), scales.Scales.of(self)
         need = math.sqrt(2 * max(highest, 0.0) / s.h)
         for key, end in (("x_min", self.grid.x_min), ("x_max", self.grid.x_max)):

@@ -105,7 +105,7 @@ def settle(levels, heat, solve, T=None):
         if not report.converged or change < SETTLED:
             break
     else:
-        report.converged = False
+        report.converged, heat.report.change = False, change
     heat.warm_resting()
     return report
 

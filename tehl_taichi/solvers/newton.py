@@ -72,7 +72,7 @@ class PressureSolver:
         self._sums()
         phi2, load, mass, self.couette = self.partial.sum(axis=0)
         self.load_error = load / self.load - 1
-        self.mass_error = abs(mass) / self.couette
+        self.mass_error = abs(mass / self.couette)
         return float(np.sqrt(phi2 / self.levels.unknowns)) + abs(self.load_error)
 
     def solve(self, krylov_tolerance=None, tolerance=None, newton_max=None):
