@@ -272,8 +272,8 @@ def _roll(field_, cells):
 def _reason(solver, heat, report, where):
     v, tolerance = solver.levels, solver.levels.scene.numerics.tolerance
     if heat and report.residual < tolerance:
-        return (f"{where} did not converge: the temperatures still change by {heat.report.change:.2g} K from round to round; try "
-                "a finer grid (--grid), a smaller time.courant or --isothermal")
+        return (f"{where} did not converge: the temperatures still change by {heat.report.change:.2g} K from round to round; "
+                "try a finer grid (--grid), a smaller time.courant or --isothermal")
     i, j = solver.worst()
     return (f"{where} did not converge: residual {report.residual:.1e} (tolerance {tolerance:.0e}), "
             f"largest at X = {v.X[i]:.2f}, Y = {v.Y[j]:.2f}; try a finer grid (--grid) or a smaller time.courant")

@@ -71,8 +71,8 @@ class Scene:
     def _check_room(self):
         """A point contact must fit into the grid, and a feature into the gap at its ends, where it comes in and leaves."""
         if self.contact.kind != "line" and self.grid.y_max < BEYOND:
-            raise SceneError(f"grid.y_max = {self.grid.y_max:g} b: a {self.contact.kind} contact reaches to 1; allowed: at least "
-                             f"{BEYOND:g} b")
+            raise SceneError(f"grid.y_max = {self.grid.y_max:g} b: a {self.contact.kind} contact reaches to 1; allowed: at "
+                             f"least {BEYOND:g} b")
         highest, s = max((f.height for f in self.features if f.shape != "map"), default=0.0), scales.Scales.of(self)
         need = math.sqrt(2 * max(highest, 0.0) / s.h)
         for key, end in (("x_min", self.grid.x_min), ("x_max", self.grid.x_max)):
