@@ -14,6 +14,7 @@ def register(app):
     bench = typer.Typer(no_args_is_help=True, help="Benchmark suites; each prints a table, none asserts.")
     bench.command()(stability)
     bench.command()(conclusions)
+    bench.command()(accuracy)
     bench.command()(speed)
     bench.command()(scaling)
     bench.command()(profile)
@@ -84,6 +85,22 @@ def conclusions(
         {"case": r.name, "reason": r.reason, "friction": r.friction, "findley_stress_Pa": {
             "; ".join(key): [value, r.errors[key]] for key, value in r.values.items()}} for r in rows], indent=1))
     say(f"wrote {out}/conclusions.md and conclusions.json")
+
+
+def accuracy(out: Path = OUT, quick: bool = QUICK, threads: Optional[int] = THREADS):
+    """Error against run time, and the grid that is enough for 5, 1 and 0.1 %. Example: `tehl bench accuracy --quick`"""
+    from tehl_cli.tables import list_table
+    from tehl_taichi.profiles import accuracy as suite
+
+    from tehl_taichi import runtime
+
+    runtime.start(threads=threads)
+    rows = suite.run(quick, say)
+    _table("accuracy", rows, {"family": "{}", "quantity": "{}", "columns": "{}", "seconds": "{:.2f}", "value": "{:.5g}",
+                              "error": "{:.1e}", "order": "{:.1f}"})
+    list_table("columns that are enough", ("family", "quantity", *(f"{target:g}" for target in suite.TARGETS)),
+               [(family, quantity, *(str(nx or "finer") for nx in grids)) for family, quantity, grids in suite.enough(rows)])
+    _write(out, "accuracy", rows, lambda plt: suite.chart(plt, rows))
 
 
 def speed(out: Path = OUT, quick: bool = QUICK, threads: Optional[int] = THREADS):

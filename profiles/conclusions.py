@@ -59,8 +59,8 @@ def run(folder, quick=False, progress=None):
 
 
 def row(name, description, folder, grids, progress=None):
-    """One Row from runs on `grids`."""
-    found, friction = [], (np.nan, np.nan)
+    """One Row from runs on `grids`; one that does not converge is too coarse, and no step of the error."""
+    found, friction, reason = [], (np.nan, np.nan), ""
     for nx, ny in grids:
         if progress:
             progress(f"{name}: {nx} x {ny} cells")
@@ -68,9 +68,12 @@ def row(name, description, folder, grids, progress=None):
         try:
             saved = record(sized, folder / f"{_slug(name)}-{nx}.zarr")
         except NotConverged as error:
-            return Row(name, description.operation.srr, {}, {}, friction, str(error))
+            found, reason = [], f"{nx} x {ny} cells: {error}"
+            continue
         found.append(stresses(saved))
         friction = tuple(footprint_friction(saved, at) for at in (-0.5, 0.5))
+    if not found:
+        return Row(name, description.operation.srr, {}, {}, friction, reason)
     errors = {key: estimated_error([one[key] for one in found]) for key in found[-1]}
     return Row(name, description.operation.srr, found[-1], errors, friction)
 

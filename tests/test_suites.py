@@ -1,7 +1,7 @@
 """The speed, scaling and profile suites: they measure what they say, in processes of their own."""
 
 import pytest
-from tehl_taichi.profiles import measure, profile, scaling, speed
+from tehl_taichi.profiles import accuracy, measure, profile, scaling, speed
 
 from tehl_taichi.scene import scene
 
@@ -42,3 +42,18 @@ def test_charts_and_files(tmp_path):
     speed.chart(plt, [{"what": "a", "seconds": 2.0, "target": 1.0}]).savefig(tmp_path / "speed.png")
     path = measure.save(tmp_path, "scaling", rows)
     assert "machine" in path.read_text() and (tmp_path / "scaling.png").stat().st_size > 1000
+
+
+def test_orders_and_limits():
+    limit, order = accuracy.extrapolated([1.0 + 0.16, 1.0 + 0.04, 1.0 + 0.01])
+    assert limit == pytest.approx(1.0) and order == pytest.approx(2.0)
+    found = [(nx, 0.1 * nx, {"h_c_m": 1.0 + 640.0 / nx**2}) for nx in (64, 128, 256, 512)]
+    rows = accuracy.judged("steady line", found)
+    assert [row["error"] for row in rows] == pytest.approx([640.0 / nx**2 for nx, _, _ in found], rel=1e-6)
+    assert accuracy.enough(rows) == [("steady line", "h_c_m", [128, 256, None])]
+
+
+def test_error_against_run_time_of_a_line(taichi_cpu):
+    found = [(nx, 1.0, accuracy.solve("steady line", nx)) for nx in (64, 128, 256)]
+    rows = [row for row in accuracy.judged("steady line", found) if row["quantity"] == "h_c_m"]
+    assert rows[0]["error"] > 10 * rows[2]["error"] and rows[2]["error"] < 1e-2 and rows[0]["order"] > 1.9  # 8.5 %, 0.55 %, 1.97
