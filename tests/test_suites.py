@@ -3,6 +3,7 @@
 import pytest
 from tehl_taichi.profiles import accuracy, measure, profile, scaling, speed
 
+from tehl_taichi import runtime
 from tehl_taichi.scene import scene
 
 
@@ -10,14 +11,8 @@ def small(**changes):
     return scene("gear").replace(**{"thermal.on": False, "grid.nx": 64, "grid.ny": 16, **changes})
 
 
-def threads_here():
-    from tehl_taichi import runtime
-
-    return runtime.ensure()["threads"]
-
-
 def test_fresh_processes_have_their_own_threads():
-    assert measure.fresh(1, threads_here) == 1 and measure.fresh(3, threads_here) == 3
+    assert [measure.fresh(count, runtime.ensure)["threads"] for count in (1, 3)] == [1, 3]
 
 
 def test_a_passage_is_timed(taichi_cpu):
