@@ -62,7 +62,7 @@ def stability(
 def conclusions(
     out: Path = typer.Option(Path("runs/conclusions"), help="folder of the stores (used again) and of the results"),
     quick: bool = typer.Option(False, "--quick", help="the reference asperity and dent on coarse grids"),
-    threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
+    threads: Optional[int] = THREADS,
 ):
     """What the thesis concludes, with errors: Findley stress by slip, feature, pressure, part of the passage.
 

@@ -8,6 +8,7 @@ from tehl_taichi.profiles.speed import circular
 
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.solvers.steady import observed_order
 
 TARGETS = (0.05, 0.01, 0.001)
 COLUMNS = {"steady line": (64, 128, 256, 512, 1024), "steady circle": (64, 128, 256),
@@ -66,11 +67,9 @@ def judged(family, found):
 
 def extrapolated(values):
     """(limit, observed order) of values on grids each twice as fine; order 1 where the differences show none."""
-    one, two, three = values[-3:]
-    ratio = (two - one) / (three - two) if three != two else math.inf
-    order = math.log2(ratio) if ratio > 0 else math.nan
+    order = observed_order(values)
     used = min(max(order, 1.0), 2.0) if math.isfinite(order) else 1.0
-    return three + (three - two) / (2**used - 1), order
+    return values[-1] + (values[-1] - values[-2]) / (2**used - 1), order
 
 
 def enough(rows):

@@ -13,6 +13,7 @@ from tehl_taichi.io.recorder import record
 from tehl_taichi.post import findley
 from tehl_taichi.post.passage import Passage
 from tehl_taichi.scene import scene
+from tehl_taichi.scene.scales import Scales
 from tehl_taichi.simulation import NotConverged
 from tehl_taichi.solvers.steady import estimated_error
 
@@ -93,7 +94,7 @@ def stresses(saved):
 
 def footprint_friction(saved, at):
     """Friction over load on the feature's footprint when it is at x_a = at (in a)."""
-    a = Passage(saved.scene, saved, saved.scalar("feature_x")).a
+    a = Scales.of(saved.scene).a
     n = int(np.argmin(np.abs(saved.scalar("feature_x") / a - at)))
     fields = saved.fields(n, ("pressure", "traction_x_a"))
     distance = np.hypot(saved.x[:, None] - saved.feature_x(n), saved.y[None, :])

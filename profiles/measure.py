@@ -60,10 +60,15 @@ def steady(description, repeats):
     """Median time (s) of the steady solution after one for warming up."""
     from tehl_taichi.simulation import march
 
+    return median(lambda: next(march(description.replace(**{"time.steady_only": True}))), repeats)
+
+
+def median(function, repeats):
+    """Median time (s) of so many calls after one for warming up."""
     seconds = []
     for _ in range(repeats + 1):
         started = time.perf_counter()
-        next(march(description.replace(**{"time.steady_only": True})))
+        function()
         seconds.append(time.perf_counter() - started)
     return float(np.median(seconds[1:]))
 
@@ -92,11 +97,10 @@ def save(folder, name, rows):
 
 def pyplot():
     """matplotlib's pyplot without a screen, or None where it is not installed."""
-    try:
-        import matplotlib
-    except ImportError:
-        return None
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
+    from tehl_taichi.io import figures
+    from tehl_taichi.io.store import StoreError
 
-    return plt
+    try:
+        return figures.pyplot()
+    except StoreError:
+        return None

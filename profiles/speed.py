@@ -1,7 +1,5 @@
 """Speed: the project's targets, what is reached, and loops that any machine can be compared by, in one table."""
 
-import time
-
 import numpy as np
 from tehl_taichi.profiles import measure
 
@@ -46,9 +44,9 @@ def circular(columns):
 def references(nx, ny):
     """A plain FFT convolution of the deflection's size and a copy of 64 MB, one thread."""
     values, symbol = np.random.default_rng(0).standard_normal((2 * ny, 2 * nx)), np.ones((2 * ny, nx + 1))
-    convolution = _median(lambda: np.fft.irfft2(np.fft.rfft2(values) * symbol, values.shape), 30)
+    convolution = measure.median(lambda: np.fft.irfft2(np.fft.rfft2(values) * symbol, values.shape), 30)
     source, target = np.ones(2**23), np.empty(2**23)
-    copy = _median(lambda: np.copyto(target, source), 10)
+    copy = measure.median(lambda: np.copyto(target, source), 10)
     return [{"what": f"reference: convolution {2 * nx}x{2 * ny} (numpy)", "seconds": convolution, "target": None},
             {"what": f"reference: copy, {2 * source.nbytes / copy / 1e9:.1f} GB/s", "seconds": copy, "target": None}]
 
@@ -64,16 +62,7 @@ def search(points, moments):
     for n, share in enumerate((-0.8, -0.7, -1.0, 0.05, 0.07, 0.03)):
         history[..., n] = share * pressure * (1 + 0.3 * np.sin(3 * t + n + centre * (n + 1)))
     findley.search(history[:8], 0.3)
-    return _median(lambda: findley.search(history, 0.3), 3)
-
-
-def _median(function, repeats):
-    seconds = []
-    for _ in range(repeats + 1):
-        started = time.perf_counter()
-        function()
-        seconds.append(time.perf_counter() - started)
-    return float(np.median(seconds[1:]))
+    return measure.median(lambda: findley.search(history, 0.3), 3)
 
 
 def chart(plt, rows):

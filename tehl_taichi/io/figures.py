@@ -14,7 +14,7 @@ POSITIONS = (-0.8, 0.0, 0.8)  # feature positions (in a) shown beside the steady
 
 def write_all(store, folder):
     """Write every figure the store has data for into `folder`; returns the paths. Raises StoreError."""
-    plt = _matplotlib()
+    plt = pyplot()
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     figures = {"centreline": centreline(plt, store)}
@@ -36,14 +36,15 @@ def write_all(store, folder):
 
 def write_fatigue(result, title, a, folder):
     """Write the figures of a FatigueResult into `folder`; returns the paths. Raises StoreError."""
-    plt, folder = _matplotlib(), Path(folder)
+    plt, folder = pyplot(), Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     found = {name: value[0] for name, value in result.maps.items()}
     figures = fatigue_figures.all_figures(plt, title, found, result.worst, result.summary, a)
     return [_save(plt, figure, folder / f"{name}.png") for name, figure in figures.items()]
 
 
-def _matplotlib():
+def pyplot():
+    """matplotlib's pyplot without a screen. Raises StoreError where it is not installed."""
     try:
         import matplotlib
     except ImportError:

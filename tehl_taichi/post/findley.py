@@ -20,7 +20,7 @@ def planes(degrees=GRID):
     return np.concatenate(rows)
 
 
-RULES = {"findley": 0, "findley-chord": 1, "matake": 0, "dang-van": 2}  # of kernels/findley.py
+RULES = {"findley": "CIRCLE", "findley-chord": "CHORD", "matake": "CIRCLE", "dang-van": "DANG_VAN"}  # of kernels/findley.py
 
 
 def search(history, kappa, prune=True, criterion="findley", degrees=GRID):
@@ -44,8 +44,8 @@ def search(history, kappa, prune=True, criterion="findley", degrees=GRID):
     grid = planes(degrees)
     values, peaks = np.zeros((points, len(grid))), np.zeros((points, findley.STARTS, findley.PEAK))
     slope = 0.0 if criterion == "matake" else kappa
-    findley.search(points, steps, slope, RULES[criterion], math.radians(degrees / 2), int(prune), history, grid, values, a, b,
-                   peaks, out)
+    rule = getattr(findley, RULES[criterion])
+    findley.search(points, steps, slope, rule, math.radians(degrees / 2), int(prune), history, grid, values, a, b, peaks, out)
     n = out[:, 1:]
     if criterion == "matake":
         out[:, 0] += kappa * normal_stress(history, n).max(axis=1)

@@ -50,12 +50,19 @@ def estimated_error(values):
     if len(values) < 2:
         return math.nan
     last = values[-1] - values[-2]
-    if len(values) < 3 or last == 0 or (values[-2] - values[-3]) / last <= 0:
-        return abs(last)
-    order = math.log2((values[-2] - values[-3]) / last)
+    order = observed_order(values)
     if not CREDIBLE_ORDER[0] <= order <= CREDIBLE_ORDER[1]:
         return abs(last)
     return SAFETY * abs(last) / (2**min(order, 2.0) - 1)
+
+
+def observed_order(values):
+    """Order by which the last three of `values` (each grid twice as fine as the one before) approach their limit; nan with
+    fewer, or where they do not."""
+    if len(values) < 3 or values[-1] == values[-2]:
+        return math.nan
+    ratio = (values[-2] - values[-3]) / (values[-1] - values[-2])
+    return math.log2(ratio) if ratio > 0 else math.nan
 
 
 def grid_sequence(nx, ny, first=FIRST_CELLS):
