@@ -29,8 +29,9 @@ def run(quick=False, threads=4, progress=None):
                      "seconds": measure.fresh(1, measure.steady, circular(columns), 1 if quick else 3)})
     say("Findley search")
     points, moments = (2000, 200) if quick else (257 * 65, 400)
-    rows.append({"what": f"Findley search {points} points x {moments} moments, {threads} threads",
-                 "seconds": measure.fresh(threads, search, points, moments), "target": None if quick else 10.0})
+    seconds, rate = measure.fresh(threads, search, points, moments)
+    rows.append({"what": f"Findley search {points} points x {moments} moments, {threads} threads", "seconds": seconds,
+                 "target": None if quick else 10.0, "planes_per_s_core": rate / threads})
     return rows
 
 
@@ -52,7 +53,7 @@ def references(nx, ny):
 
 
 def search(points, moments):
-    """Median time of the Findley search of passing load histories."""
+    """Median time of the Findley search of passing load histories, and points x planes decided x moments in a second."""
     from tehl_taichi.post import findley
 
     rng, t = np.random.default_rng(1), np.linspace(-2, 2, moments)
@@ -61,8 +62,9 @@ def search(points, moments):
     history = np.zeros((points, moments, 6))
     for n, share in enumerate((-0.8, -0.7, -1.0, 0.05, 0.07, 0.03)):
         history[..., n] = share * pressure * (1 + 0.3 * np.sin(3 * t + n + centre * (n + 1)))
-    findley.search(history[:8], 0.3)
-    return measure.median(lambda: findley.search(history, 0.3), 3)
+    decided = np.zeros(points)
+    seconds = measure.median(lambda: findley.search(history, 0.3, decided=decided), 3)
+    return seconds, decided.sum() * moments / seconds
 
 
 def chart(plt, rows):

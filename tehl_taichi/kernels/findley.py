@@ -12,11 +12,12 @@ import taichi as ti
 
 from tehl_taichi.kernels.circle import enclose, vec3
 
-SHRINKS = 12  # halvings of the step, 5 degrees -> 2e-5 rad: error of a smooth maximum about 1e-9
-FIRST = 4     # of them done for every peak; the others only for peaks within CLOSE of the best by then
+FIRST = 4     # halvings of the step done for every peak; the others only for peaks within CLOSE of the best by then
 CLOSE = 5e-3
 MOVES = 40    # moves at one step length at most
 TURNS = 3     # turned patterns without success before the step is halved: the maximum often lies on a sharp ridge
+FIRST_TURNS = 2  # the same in the first halvings: 3.1e-7 at most over 3003 points of the gear passage against 13 000 planes a
+                 # point from 4 degrees (with 1: 4.7e-6)
 MARGIN = 0.03  # other peaks of the grid within this of its best are refined too (the grid itself is about 1 % low)
 STARTS = 5      # peaks refined at most: 4 and 20 agree to 2e-7 at every point of the gear passage (4.2 s against 5.6 s)
 NEAR = 0.975   # cosine of the angle (13 degrees) below which planes of the grid belong to one peak
@@ -28,7 +29,7 @@ SLACK = 1e-11  # relative rounding of a bound
 CIRCLE, CHORD, DANG_VAN = range(3)
 
 vec6 = ti.types.vector(6, ti.f64)
-LANES = 4     # planes bounded at once
+LANES = 8     # planes bounded at once: one ring
 lanes = ti.types.vector(LANES, ti.f64)
 PEAK = 11     # numbers kept per peak: normal (3), value, turn, middle (6)
 
@@ -166,13 +167,14 @@ def best_of_ring(S: ti.template(), a: ti.template(), b: ti.template(), row, step
 
 @ti.func
 def refine(S: ti.template(), a: ti.template(), b: ti.template(), peaks: ti.template(), row, steps, peak, kappa,
-           rule: ti.template(), step0, shrinks, prune):
-    """Pattern search on the sphere: eight neighbours, move to the best; after TURNS turned patterns halve the step."""
+           rule: ti.template(), step0, shrinks, turns, prune):
+    """Pattern search on the sphere: eight neighbours, move to the best; after `turns` turned patterns halve the step.
+    Returns the number of planes decided."""
     n, best, middle = get_peak(peaks, row, peak)
-    step, turn = step0, peaks[row, peak, 4]
+    step, turn, decided = step0, peaks[row, peak, 4], 0
     for _ in range(shrinks):
         failed, count = 0, 0
-        while failed < TURNS and count < MOVES:
+        while failed < turns and count < MOVES:
             count += 1
             failed += 1
             chosen, value, mid = best_of_ring(S, a, b, row, steps, n, step, turn, best, middle, kappa, rule,
@@ -180,8 +182,10 @@ def refine(S: ti.template(), a: ti.template(), b: ti.template(), peaks: ti.templ
             if value > best:
                 n, best, middle, failed = chosen, value, mid, 0
             turn += 0.2763932022500210
+        decided += 8 * count
         step *= 0.5
     put_peak(peaks, row, peak, n, best, turn, middle)
+    return decided
 
 
 @ti.func
@@ -298,27 +302,29 @@ def circle(steps: ti.i32, a: ti.types.ndarray(dtype=ti.f64, ndim=2), b: ti.types
 
 
 @ti.kernel
-def search(points: ti.i32, steps: ti.i32, kappa: ti.f64, rule: ti.template(), step0: ti.f64, prune: ti.i32,
+def search(points: ti.i32, steps: ti.i32, kappa: ti.f64, rule: ti.template(), step0: ti.f64, shrinks: ti.i32, prune: ti.i32,
            S: ti.types.ndarray(dtype=ti.f64, ndim=3), planes: ti.types.ndarray(dtype=ti.f64, ndim=2),
            values: ti.types.ndarray(dtype=ti.f64, ndim=2), a: ti.types.ndarray(dtype=ti.f64, ndim=2),
            b: ti.types.ndarray(dtype=ti.f64, ndim=2), peaks: ti.types.ndarray(dtype=ti.f64, ndim=3),
            out: ti.types.ndarray(dtype=ti.f64, ndim=2)):
-    """out[point] = (f, n_x, n_y, n_z) from S[point, time, (xx, yy, zz, xy, xz, yz)].
+    """out[point] = (f, n_x, n_y, n_z, planes decided) from S[point, time, (xx, yy, zz, xy, xz, yz)].
 
-    rule: CIRCLE, CHORD or DANG_VAN; planes (m, 3): unit normals of the grid; step0: first step, rad; scratch: values
+    rule: CIRCLE, CHORD or DANG_VAN; planes (m, 3): unit normals of the grid; step0: first step, rad, halved
+    `shrinks` times; scratch: values
     (points, m), a, b (points, steps), peaks (points, STARTS, PEAK).
     """
     ti.loop_config(block_dim=8)
     for row in range(points):
         on_grid = scan(S, planes, values, a, b, row, steps, kappa, rule, prune)
         count = collect(S, planes, values, a, b, peaks, row, steps, on_grid, kappa, rule)
+        decided = planes.shape[0]
         for stage in range(2):
             for peak in range(count):
                 if stage == 0 or hopeful(peaks, row, peak, count):
                     step = step0 if stage == 0 else step0 * 0.5**FIRST
-                    refine(S, a, b, peaks, row, steps, peak, kappa, rule, step, FIRST if stage == 0 else SHRINKS - FIRST,
-                           prune)
-        out[row, 0] = -1e300
+                    decided += refine(S, a, b, peaks, row, steps, peak, kappa, rule, step,
+                                      FIRST if stage == 0 else shrinks - FIRST, FIRST_TURNS if stage == 0 else TURNS, prune)
+        out[row, 0], out[row, 4] = -1e300, decided
         for peak in range(count):
             if peaks[row, peak, 3] > out[row, 0]:
                 out[row, 0] = peaks[row, peak, 3]

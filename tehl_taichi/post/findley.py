@@ -5,6 +5,9 @@ import math
 import numpy as np
 
 GRID = 10.0  # degrees between the planes the search begins with
+# halvings of the step: 5 degrees -> 2e-5 rad, error of a smooth maximum about 1e-9; Matake's sum is not largest on its
+# plane, so it errs by as much as the plane's angle
+SHRINKS, MATAKE_SHRINKS = 12, 18
 
 
 def planes(degrees=GRID):
@@ -23,13 +26,14 @@ def planes(degrees=GRID):
 RULES = {"findley": "CIRCLE", "findley-chord": "CHORD", "matake": "CIRCLE", "dang-van": "DANG_VAN"}  # of kernels/findley.py
 
 
-def search(history, kappa, prune=True, criterion="findley", degrees=GRID):
+def search(history, kappa, prune=True, criterion="findley", degrees=GRID, decided=None):
     """Largest value of a criterion over all planes, and its plane, of every point.
 
     history (points, times, 6) Pa: xx, yy, zz, xy, xz, yz. kappa >= 0. criterion: "findley", tau_amp + kappa sigma_n,max, with
     the radius of the smallest circle around the shear path; "findley-chord", with half its longest chord; "matake", Findley's
     sum on the plane of the largest tau_amp (Matake 1977); "dang-van", largest (shear from the circle's centre + kappa mean
-    stress) of a moment (Dang Van 1989). prune=False evaluates every plane (for tests); degrees: between the first planes.
+    stress) of a moment (Dang Van 1989). prune=False evaluates every plane (for tests); degrees: between the first planes;
+    decided (points,), if given, takes the number of planes bounded or evaluated at each point.
     Returns f (points,) Pa (may be negative: nowhere near fatigue) and unit normals (points, 3), n_z >= 0.
     Raises ValueError for a history with NaN or of another shape, KeyError for an unknown criterion.
     """
@@ -39,14 +43,17 @@ def search(history, kappa, prune=True, criterion="findley", degrees=GRID):
     if history.ndim != 3 or history.shape[2] != 6 or not np.isfinite(history).all():
         raise ValueError(f"a stress history must be finite and shaped (points, times, 6), not {history.shape}")
     points, steps, _ = history.shape
-    out = np.zeros((points, 4))
+    out = np.zeros((points, 5))
     a, b = np.zeros((2, points, steps))
     grid = planes(degrees)
     values, peaks = np.zeros((points, len(grid))), np.zeros((points, findley.STARTS, findley.PEAK))
-    slope = 0.0 if criterion == "matake" else kappa
+    slope, shrinks = (0.0, MATAKE_SHRINKS) if criterion == "matake" else (kappa, SHRINKS)
     rule = getattr(findley, RULES[criterion])
-    findley.search(points, steps, slope, rule, math.radians(degrees / 2), int(prune), history, grid, values, a, b, peaks, out)
-    n = out[:, 1:]
+    findley.search(points, steps, slope, rule, math.radians(degrees / 2), shrinks, int(prune), history, grid, values, a, b,
+                   peaks, out)
+    if decided is not None:
+        decided[:] = out[:, 4]
+    n = out[:, 1:4]
     if criterion == "matake":
         out[:, 0] += kappa * normal_stress(history, n).max(axis=1)
     return out[:, 0], np.where(n[:, 2:] < 0, -n, n)
