@@ -147,20 +147,22 @@ class Passage:
         return report
 
     def _exchange(self, part):
-        """Temperature and pressure by turns until the temperature changes by less than thermal.tolerance in a round.
+        """Temperature and pressure by turns until another round would change the temperature by less than thermal.tolerance.
 
         The first round takes one Newton step only: its pressure belongs to guessed temperatures anyway.
         """
-        thermal, newton, cycles = self.scene.thermal, 0, 0
+        thermal, newton, cycles, change = self.scene.thermal, 0, 0, math.inf
         self.heat.begin(part * self.dT * self.scales.t)
         for turn in range(thermal.rounds):
             first = turn == 0 and thermal.rounds > 1
-            report = self.solver.solve(newton_max=1) if first else self._solve()
+            report = self.solver.improve() if first else self._solve()
             newton, cycles = newton + report.newton, cycles + report.cycles
             if not (first or report.converged):
                 break
-            heat = self.heat.solve()
-            settled = heat.change < thermal.tolerance and not heat.failed
+            heat, before = self.heat.solve(), change
+            change = heat.change
+            # rounds contract: the next one changes about as much less as this one did
+            settled = change * min(change / before, 1.0) < thermal.tolerance and not heat.failed
             if not first and (settled or thermal.rounds == 1):
                 break
         else:
@@ -260,7 +262,8 @@ def _shift(field_, cells):
     """Field moved by `cells` (not whole numbers only) towards +x, zeros coming in."""
     whole = int(math.floor(cells + 1e-9))
     part = max(cells - whole, 0.0)
-    return (1 - part) * _roll(field_, whole) + part * _roll(field_, whole + 1)
+    moved = _roll(field_, whole)
+    return moved if part < 1e-9 else (1 - part) * moved + part * _roll(field_, whole + 1)
 
 
 def _roll(field_, cells):

@@ -12,8 +12,8 @@ from tehl_taichi.kernels.step import BACK, BACK_2, FAR, INV_X, INV_Y, NEAR
 @ti.func
 def cubic(f):
     """Lagrange weights of the nodes -1, 0, 1, 2 at f."""
-    return ti.Vector([-f * (f - 1) * (f - 2) / 6, (f + 1) * (f - 1) * (f - 2) / 2, -(f + 1) * f * (f - 2) / 2,
-                      (f + 1) * f * (f - 1) / 6])
+    return (-f * (f - 1.0) * (f - 2.0) / 6.0, (f + 1.0) * (f - 1.0) * (f - 2.0) / 2.0, -(f + 1.0) * f * (f - 2.0) / 2.0,
+            (f + 1.0) * f * (f - 1.0) / 6.0)
 
 
 @ti.func
@@ -22,17 +22,39 @@ def within(value, a, b):
 
 
 @ti.func
-def along_x(Z: ti.template(), first, nx, warm, press, u, at, inflow):
-    """Slots `warm` and `press` at x = at (in cells) along row u of a block: cubic, within the two nearest values; from the left
-    comes oil of temperature `inflow` and pressure 0."""
-    i0 = int(ti.floor(at))
-    w, T4, p4 = cubic(at - i0), ti.Vector([inflow] * 4), ti.Vector([0.0] * 4)
+def along_x(Z: ti.template(), first, nx, warm, press, at, inflow):
+    """Slots `warm` and `press` of a block at x = at (in cells): cubic, within the two nearest values; from the left comes oil
+    of temperature `inflow` and pressure 0. Rows that come from one cell, as nearly all neighbours do, are taken together."""
+    i0 = int(ti.floor(at[0]))
+    together = 1
+    for u in ti.static(range(1, W)):
+        if int(ti.floor(at[u])) != i0:
+            together = 0
+    T0, p0 = V(0.0), V(0.0)
+    if together == 1:
+        T0, p0 = from_cell(Z, first, nx, warm, press, i0, at - i0, inflow)
+    else:
+        for u in ti.static(range(W)):
+            i = int(ti.floor(at[u]))
+            T, p = from_cell(Z, first, nx, warm, press, i, at - i, inflow)
+            T0[u], p0[u] = T[u], p[u]
+    return T0, p0
+
+
+@ti.func
+def from_cell(Z: ti.template(), first, nx, warm, press, i0, f, inflow):
+    """The same for all rows from the cell behind column i0, at the fractions f of it."""
+    T4, p4 = [V(inflow) for _ in range(4)], [V(0.0) for _ in range(4)]
     for t in ti.static(range(4)):
-        i = i0 - 1 + t
-        if i >= 0:
-            q = first + ti.min(i, nx)
-            T4[t], p4[t] = Z[q, warm][u], Z[q, press][u]
-    return within(w.dot(T4), T4[1], T4[2]), within(w.dot(p4), p4[1], p4[2])
+        if i0 - 1 + t >= 0:
+            q = first + ti.min(i0 - 1 + t, nx)
+            T4[t], p4[t] = Z[q, warm], Z[q, press]
+    w = cubic(f)
+    T, p = V(0.0), V(0.0)
+    for t in ti.static(range(4)):
+        T += w[t] * T4[t]
+        p += w[t] * p4[t]
+    return within(T, T4[1], T4[2]), within(p, p4[1], p4[2])
 
 
 @ti.func
@@ -47,10 +69,9 @@ def along_y(Z: ti.template(), q, slot, n2, s, ny, moved):
 @ti.func
 def origin(Z: ti.template(), q, s, i, nx, ny, nz, n, warm, press, step: ti.template(), back_by, inflow):
     """Two slots (temperature, pressure) at the place where the oil of node n was step[0, back_by] seconds ago."""
-    T0, p0, n2, back = V(0.0), V(0.0), nx + 1, step[0, back_by]
+    n2, back = nx + 1, step[0, back_by]
     at = i - Z[q, U * nz + n] * (back * step[0, INV_X])
-    for u in ti.static(range(W)):
-        T0[u], p0[u] = along_x(Z, s * n2, nx, warm, press, u, at[u], inflow)
+    T0, p0 = along_x(Z, s * n2, nx, warm, press, at, inflow)
     if ny > 0:
         moved = ti.min(ti.max(Z[q, VY * nz + n] * (back * step[0, INV_Y]), -1.0), 1.0)
         # between the two columns next to the first row's origin: taken at i, the step would be of first order in x y

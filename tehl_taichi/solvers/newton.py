@@ -94,6 +94,20 @@ class PressureSolver:
             merit = self.measure()
         return Report(merit, self.load_error, self.mass_error, newton, cycles, self._converged(merit, tolerance))
 
+    def improve(self):
+        """One Newton step from a good guess, not checked where it is small: what follows checks. Returns a Report."""
+        numerics = self.levels.scene.numerics
+        self.residual()
+        self.levels.linearise()
+        self.lift, merit = None, self.measure()
+        step, cycles = self._direction(self._forcing(numerics.krylov_tolerance, merit, numerics.tolerance))
+        if np.abs(step[:-1]).max() < SMALL_CHANGE:
+            self._move(self.levels.vector(fields.P), self.H0, step, 1.0)
+            self.levels.set_film(self.H0)
+        else:
+            merit = self._advance(step, merit, True, numerics.tolerance)
+        return Report(merit, self.load_error, self.mass_error, 1, cycles, False)
+
     def _forcing(self, krylov_tolerance, merit, tolerance):
         """Relative accuracy of the linear solve: not much more than what convergence still needs."""
         needed = min(tolerance / merit, self.levels.scene.numerics.mass_tolerance / max(self.mass_error, 1e-300))
@@ -169,13 +183,10 @@ class PressureSolver:
     def _advance(self, step, merit, first, tolerance):
         """Damped update: halve until the merit falls (or the change is small and the merit stays small). Returns the merit, by
         the row scales of the last linearisation."""
-        v = self.levels
-        old_P, old_H0, t = v.vector(fields.P), self.H0, 1.0
-        change = step[:-1].reshape(-1, W).copy()
-        largest = float(np.abs(change).max())
+        old_P, old_H0, t = self.levels.vector(fields.P), self.H0, 1.0
+        largest = float(np.abs(step[:-1]).max())
         while True:
-            measure.advance(v.S, v.G, old_P.reshape(-1, W), change, t)
-            self.H0 = old_H0 + t * float(step[-1])
+            self._move(old_P, old_H0, step, t)
             self.residual()
             new = self.measure()
             falls = new < (1 - 1e-4 * t) * merit or (first and new < 2 * merit)
@@ -183,3 +194,9 @@ class PressureSolver:
             if falls or settled or new < tolerance or t < SHORTEST_STEP:
                 return new
             t *= 0.5
+
+    def _move(self, old_P, old_H0, step, t):
+        """Pressure and H0: the old ones plus t times the step, no pressure below 0."""
+        v = self.levels
+        measure.advance(v.S, v.G, old_P.reshape(-1, W), step[:-1].reshape(-1, W), t)
+        self.H0 = old_H0 + t * float(step[-1])
