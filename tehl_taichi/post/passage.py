@@ -10,14 +10,13 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from tehl_taichi.post.half_space import COMPONENTS, Stress
-from tehl_taichi.post.thermal_stress import ThermalStress
+from tehl_taichi.post.thermal_stress import WORKERS, ThermalStress
 from tehl_taichi.scene.scales import Scales
 
 WINDOW = 0.6       # half width (in a) of the part searched around one small feature: farther out its stress has died out
 MARGIN = 0.3       # (in a) searched beyond the rim of larger features
 LOADED = 1.5       # material points are followed while within this distance (in a) of the centre of the contact
 BLOCK_BYTES = 4e8  # histories held at once; more points than fit are done in blocks of y rows
-WORKERS = 4         # threads of the history pass (transforms run outside the interpreter's lock)
 LOADS = ("pressure", "traction_x_a", "traction_y_a")
 
 

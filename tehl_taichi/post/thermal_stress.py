@@ -9,12 +9,15 @@ too): Theta = T sqrt(D)/(sqrt(s + D k^2) + |k| sqrt(D)) in Laplace space, D the 
 """
 
 import math
+import os
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
 SERIES = 32  # terms of Weideman's rational series
 TAPER = 1.0  # a: behind the grid its last temperatures fade over this length
-CHUNK = 4000  # wave numbers convolved at once
+CHUNK = 1000  # wave numbers convolved at once
+WORKERS = min(4, os.cpu_count() or 1)  # threads of a fatigue pass (transforms run outside the interpreter's lock)
 
 
 def erfcx(x):
@@ -92,7 +95,8 @@ class ThermalStress:
         w = self.waves
         steady = w.spectrum(self.rises[0])
         self.first = steady * steady_depth(w.kx, w.k, diffusivity, speed)
-        changes = np.stack([w.spectrum(rise - self.rises[0]).astype(np.complex64) for rise in self.rises])
+        with ThreadPoolExecutor(WORKERS) as pool:
+            changes = np.stack(list(pool.map(lambda rise: w.spectrum(rise - self.rises[0]).astype(np.complex64), self.rises)))
         self.thetas = _convolved(changes, w, diffusivity, speed, dt)
 
     def _extended(self, rise):
@@ -121,7 +125,8 @@ def _convolved(changes, waves, diffusivity, speed, dt):
     entries, shape = changes.shape[0], waves.k.shape
     k, kx = waves.k.ravel(), np.broadcast_to(waves.kx, shape).ravel()
     flat, times = changes.reshape(entries, -1), np.arange(entries) * dt
-    for start in range(0, k.size, CHUNK):
+
+    def convolve(start):
         cut = slice(start, start + CHUNK)
         turn = np.exp(1j * np.outer(times, kx[cut]) * speed)
         moving = flat[:, cut] * turn
@@ -132,4 +137,7 @@ def _convolved(changes, waves, diffusivity, speed, dt):
         size = 2 * entries
         theta = np.fft.ifft(np.fft.fft(moving, size, axis=0) * np.fft.fft(reach, size, axis=0), axis=0)[:entries]
         flat[:, cut] = theta / turn
+
+    with ThreadPoolExecutor(WORKERS) as pool:
+        list(pool.map(convolve, range(0, k.size, CHUNK)))
     return changes
