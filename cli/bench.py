@@ -96,11 +96,23 @@ def accuracy(out: Path = OUT, quick: bool = QUICK, threads: Optional[int] = THRE
 
     runtime.start(threads=threads)
     rows = suite.run(quick, say)
-    _table("accuracy", rows, {"family": "{}", "quantity": "{}", "columns": "{}", "seconds": "{:.2f}", "value": "{:.5g}",
-                              "error": "{:.1e}", "order": "{:.1f}"})
-    list_table("columns that are enough", ("family", "quantity", *(f"{target:g}" for target in suite.TARGETS)),
-               [(family, quantity, *(str(nx or "finer") for nx in grids)) for family, quantity, grids in suite.enough(rows)])
+    _errors(rows)
+    list_table("columns that are enough", ("family", "quantity", "order", *(f"{target:g}" for target in suite.TARGETS)),
+               [(family, quantity, f"{order:.1f}", *(str(nx or "finer") for nx in grids))
+                for family, quantity, order, grids in suite.enough(rows)])
     _write(out, "accuracy", rows, lambda plt: suite.chart(plt, rows))
+
+
+def _errors(rows):
+    """A line per run, its error in each quantity; * where no faster run of the family has a smaller one."""
+    from tehl_cli.tables import list_table
+
+    quantities, runs = list(dict.fromkeys(row["quantity"] for row in rows)), {}
+    for row in rows:
+        run = runs.setdefault((row["family"], row.get("setting", row["columns"])), {"s": f"{row['seconds']:.2f}"})
+        run[row["quantity"]] = f"{row['error']:.1e}{'*' if row['front'] else ' '}"
+    list_table("relative error (* no faster run has a smaller one)", ("family", "run", "s", *quantities),
+               [(family, str(name), *(run.get(key, "") for key in ("s", *quantities))) for (family, name), run in runs.items()])
 
 
 def speed(out: Path = OUT, quick: bool = QUICK, threads: Optional[int] = THREADS):

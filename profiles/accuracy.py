@@ -15,42 +15,87 @@ COLUMNS = {"steady line": (64, 128, 256, 512, 1024), "steady circle": (64, 128, 
            "passage": (64, 128, 256, 512), "thermal passage": (64, 128, 256)}
 QUICK = {"steady line": (64, 128, 256), "steady circle": (32, 64, 128), "passage": (32, 64, 128)}
 QUANTITIES = ("h_c_m", "h_min_m", "p_max_Pa", "film_max_C", "Fi_max")
+# of a thermal passage on one grid, against the first one
+REFERENCE = {"time.courant": 0.25, "thermal.nodes": 13, "thermal.tolerance": 5e-3, "numerics.tolerance": 1e-8,
+             "numerics.mass_tolerance": 1e-8}
+SETTINGS = {"as it is": {}, "half the time step": {"time.courant": 0.5}, "one lagged round of heat": {"thermal.rounds": 1},
+            "isothermal": {"thermal.on": False},
+            "tolerances 1e-4": {"numerics.tolerance": 1e-4, "numerics.mass_tolerance": 1e-4},
+            "tolerances 1e-8": {"numerics.tolerance": 1e-8, "numerics.mass_tolerance": 1e-8},
+            "Krylov 0.3": {"numerics.krylov_tolerance": 0.3}, "Krylov 1e-3": {"numerics.krylov_tolerance": 1e-3},
+            "5 nodes in z": {"thermal.nodes": 5}, "7 nodes in z": {"thermal.nodes": 7}, "13 nodes in z": {"thermal.nodes": 13}}
+SETTINGS_COLUMNS, QUICK_SETTINGS = (128, 64), 4  # (in full, quick); so many of the settings
 
 
 def run(quick=False, progress=None):
-    """Rows: family, columns, seconds, quantity, value, error (relative), order; the finest grid's error is that of its own
-    extrapolation. Time steps shrink with the cells."""
-    rows = []
+    """Rows: family, columns, setting, seconds, quantity, value, error (relative), order, front (whether no faster run of the
+    family has a smaller error). The finest grid's error is that of its own extrapolation; time steps shrink with the cells."""
+    say, rows = progress or (lambda text: None), []
     for family, columns in (QUICK if quick else COLUMNS).items():
         found = []
         for nx in (columns[0], *columns):  # the first one twice: kernels are compiled then
-            if progress:
-                progress(f"{family}: {nx} columns")
-            started = time.perf_counter()
-            values = solve(family, nx)
-            found.append((nx, time.perf_counter() - started, values))
+            say(f"{family}: {nx} columns")
+            found.append((nx, *timed(solve, family, nx)))
         rows += judged(family, found[1:])
+    return [*rows, *settings(SETTINGS_COLUMNS[quick], list(SETTINGS)[: QUICK_SETTINGS if quick else None], say)]
+
+
+def timed(function, *args):
+    """(seconds, result)."""
+    started = time.perf_counter()
+    result = function(*args)
+    return time.perf_counter() - started, result
+
+
+def settings(nx, names, say):
+    """Rows of a thermal passage on one grid with one of the SETTINGS changed, against REFERENCE."""
+    base, found = passage_scene(nx, True), []
+    for name in ("reference", *names):
+        say(f"settings: {name}")
+        found.append((name, *timed(passage_values, base.replace(**(SETTINGS | {"reference": REFERENCE})[name]))))
+    exact, rows = found[0][2], []
+    for quantity in [key for key in QUANTITIES if key in exact]:
+        own = [{"family": f"settings, {nx} columns", "columns": nx, "setting": name, "seconds": seconds, "quantity": quantity,
+                "value": values[quantity], "error": abs(values[quantity] / exact[quantity] - 1)}
+               for name, seconds, values in found[1:] if quantity in values]
+        rows += marked(own)
     return rows
 
 
 def solve(family, nx):
-    """{quantity: value} of one run; of a passage with the feature at x = 0, Fi over the whole."""
+    """{quantity: value} of one run."""
+    if family == "steady line":
+        return _numbers(scene("smooth-line").replace(**{"thermal.on": False, "grid.nx": nx}))
+    if family == "steady circle":
+        return _numbers(circular(nx))
+    return passage_values(passage_scene(nx, family == "thermal passage"))
+
+
+def passage_scene(nx, thermal):
+    """The gear on nx x nx/4 cells."""
+    return scene("gear").replace(**{"thermal.on": thermal, "grid.nx": nx, "grid.ny": nx // 4})
+
+
+def passage_values(description):
+    """{quantity: value} with the feature at x = 0, Fi over the whole passage."""
     from tehl_taichi.post import fatigue
     from tehl_taichi.simulation import march
 
-    if family == "steady line":
-        return _numbers(next(march(scene("smooth-line").replace(**{"thermal.on": False, "grid.nx": nx}))).scalars)
-    if family == "steady circle":
-        return _numbers(next(march(circular(nx))).scalars)
-    description = scene("gear").replace(**{"thermal.on": family == "thermal passage", "grid.nx": nx, "grid.ny": nx // 4})
-    shots = list(march(description))
+    shots = []
+    for shot in march(description):
+        if shots:
+            shot.state.clear()  # most of its memory
+        shots.append(shot)
     at = np.array([shot.feature_x for shot in shots[1:]]) / Scales.of(description).a
     middle = {key: float(np.interp(0.0, at, [shot.scalars[key] for shot in shots[1:]]))
               for key in ("h_min_m", "p_max_Pa", "film_max_C") if key in shots[0].scalars}
     return {**middle, "Fi_max": fatigue.run(description, shots).summary["Fi_max"]}
 
 
-def _numbers(scalars):
+def _numbers(description):
+    from tehl_taichi.simulation import march
+
+    scalars = next(march(description)).scalars
     return {key: scalars[key] for key in ("h_c_m", "h_min_m", "p_max_Pa")}
 
 
@@ -60,8 +105,17 @@ def judged(family, found):
     for quantity in [key for key in QUANTITIES if key in found[0][2]]:
         values = [values[quantity] for _, _, values in found]
         limit, order = extrapolated(values)
-        rows += [{"family": family, "columns": nx, "seconds": seconds, "quantity": quantity, "value": value,
-                  "error": abs(value / limit - 1), "order": order} for (nx, seconds, _), value in zip(found, values)]
+        rows += marked([{"family": family, "columns": nx, "seconds": seconds, "quantity": quantity, "value": value,
+                         "error": abs(value / limit - 1), "order": order} for (nx, seconds, _), value in zip(found, values)])
+    return rows
+
+
+def marked(rows):
+    """The rows of one quantity with `front`: 1 where no faster one has a smaller error (the Pareto front), else 0."""
+    best = math.inf
+    for row in sorted(rows, key=lambda row: row["seconds"]):
+        row["front"] = int(row["error"] < best)
+        best = min(best, row["error"])
     return rows
 
 
@@ -73,11 +127,11 @@ def extrapolated(values):
 
 
 def enough(rows):
-    """[(family, quantity, columns for each target or None)]."""
+    """[(family, quantity, observed order, columns for each target or None)]."""
     out = []
-    for family, quantity in dict.fromkeys((row["family"], row["quantity"]) for row in rows):
+    for family, quantity in dict.fromkeys((row["family"], row["quantity"]) for row in rows if "setting" not in row):
         own = [row for row in rows if (row["family"], row["quantity"]) == (family, quantity)]
-        out.append((family, quantity, [_coarsest(own, target) for target in TARGETS]))
+        out.append((family, quantity, own[0]["order"], [_coarsest(own, target) for target in TARGETS]))
     return out
 
 
@@ -92,14 +146,24 @@ def _coarsest(own, target):
 
 
 def chart(plt, rows):
-    """Error over run time, a panel per family."""
+    """Error over run time, a panel per family; settings by their numbers."""
     families = list(dict.fromkeys(row["family"] for row in rows))
-    figure, axes = plt.subplots(1, len(families), figsize=(3.6 * len(families), 3.6), constrained_layout=True, squeeze=False)
+    figure, axes = plt.subplots(1, len(families), figsize=(3.6 * len(families), 3.8), constrained_layout=True, squeeze=False)
     for ax, family in zip(axes[0], families):
-        for quantity in dict.fromkeys(row["quantity"] for row in rows if row["family"] == family):
-            own = [row for row in rows if row["family"] == family and row["quantity"] == quantity]
-            ax.loglog([row["seconds"] for row in own], [max(row["error"], 1e-8) for row in own], "o-", label=quantity)
-        ax.set(title=family, xlabel="run time (s)")
+        own = [row for row in rows if row["family"] == family]
+        for quantity in dict.fromkeys(row["quantity"] for row in own):
+            _curve(ax, sorted((row for row in own if row["quantity"] == quantity), key=lambda row: row["seconds"]), quantity)
+        ax.set(title=family, xlabel="run time (s)", xscale="log", yscale="log")
         ax.legend(fontsize=7)
     axes[0][0].set_ylabel("relative error")
     return figure
+
+
+def _curve(ax, own, quantity):
+    """All points, joined along the front; grids by their columns, settings by their place in SETTINGS."""
+    points = [(row["seconds"], max(row["error"], 1e-8)) for row in own]
+    line, = ax.plot(*zip(*(point for point, row in zip(points, own) if row["front"])), "-", lw=1, label=quantity)
+    ax.plot(*zip(*points), "o", ms=4, color=line.get_color())
+    for point, row in zip(points, own):
+        label = list(SETTINGS).index(row["setting"]) + 1 if "setting" in row else row["columns"]
+        ax.annotate(str(label), point, fontsize=6, xytext=(3, 2), textcoords="offset points")

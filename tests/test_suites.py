@@ -45,7 +45,12 @@ def test_orders_and_limits():
     found = [(nx, 0.1 * nx, {"h_c_m": 1.0 + 640.0 / nx**2}) for nx in (64, 128, 256, 512)]
     rows = accuracy.judged("steady line", found)
     assert [row["error"] for row in rows] == pytest.approx([640.0 / nx**2 for nx, _, _ in found], rel=1e-6)
-    assert accuracy.enough(rows) == [("steady line", "h_c_m", [128, 256, None])]
+    assert accuracy.enough(rows) == [("steady line", "h_c_m", pytest.approx(2.0), [128, 256, None])]
+
+
+def test_the_front_of_error_against_run_time():
+    rows = [{"seconds": s, "error": e} for s, e in ((1, 0.1), (2, 0.2), (3, 0.05), (4, 0.05), (0.5, 0.3))]
+    assert [row["front"] for row in accuracy.marked(rows)] == [1, 0, 1, 0, 1]
 
 
 def test_error_against_run_time_of_a_line(taichi_cpu):
