@@ -33,6 +33,7 @@ def run(
     width: Optional[float] = typer.Option(None, help="feature width, m"),
     set_: Optional[List[str]] = typer.Option(None, "--set", help="dotted.key=value, repeatable"),
     grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY (cells or nodes)"),
+    target_error: Optional[str] = typer.Option(None, help="the grid for this error, as in 1% (see `tehl bench accuracy`)"),
     steady: bool = typer.Option(False, "--steady", help="no march in time"),
     thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="energy equation on or off"),
     fatigue: Optional[bool] = typer.Option(None, "--fatigue/--no-fatigue", help="stresses and Findley index"),
@@ -66,6 +67,7 @@ def run(
     changes.update(_settings(set_ or []))
     description = scene_file.find(scene)
     description = description.replace(**changes) if changes else description
+    description = _on_grid_for(target_error, grid, description)
     _check_threads(threads)
     path = out or _fresh(description.name)
     if not (force and _is_store(path)):
@@ -183,6 +185,33 @@ def _grid(text):
         except ValueError:
             raise SceneError(f"--grid {text!r} is not known; allowed: {', '.join(GRIDS)} or NXxNY, as in 256x64") from None
     return {"grid.nx": nx, "grid.ny": ny}
+
+
+def _on_grid_for(target, grid, description):
+    """The scene on the grid that a target error needs."""
+    if target is None:
+        return description
+    from tehl_taichi.profiles.target import grid_for
+
+    from tehl_taichi.scene import SceneError
+
+    if grid is not None:
+        raise SceneError(f"--target-error {target} chooses the grid; leave out --grid {grid}")
+    nx, ny = grid_for(description, _share(target))
+    say(f"{nx} x {ny} cells for an error of {target}")
+    return description.replace(**{"grid.nx": nx, "grid.ny": ny})
+
+
+def _share(text):
+    from tehl_taichi.scene import SceneError
+
+    try:
+        value = float(text.removesuffix("%")) / (100 if text.endswith("%") else 1)
+    except ValueError:
+        value = -1.0
+    if not 1e-4 <= value <= 0.5:
+        raise SceneError(f"--target-error {text!r} must be a relative error from 0.01% to 50%, as in 1% or 0.01")
+    return value
 
 
 def _settings(pairs):

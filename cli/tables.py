@@ -69,7 +69,7 @@ def fatigue_rows(f):
             ("shear amplitude, largest normal stress", f"{f['tau_amp_Pa'] / 1e6:.1f}, {f['sigma_n_max_Pa'] / 1e6:.1f} MPa"),
             ("largest principal stress", f"{f['sigma1_max_Pa'] / 1e6:.1f} MPa"),
             ("with kappa, sigma_eF", f"{f['kappa_F']:g}, {f['sigma_eF_Pa'] / 1e6:g} MPa"),
-            ("thermal stress", "counted" if f["thermal_stress"] else "left out")]
+            ("thermal stress", "counted at the surface" if f["thermal_stress"] else "left out")]
     return rows + [(f"largest at {layer['depth_m'] * 1e6:.0f} um", f"{layer['findley_stress_max_Pa'] / 1e6:.1f} MPa")
                    for layer in f.get("by_depth", [])]
 

@@ -1,10 +1,10 @@
 """The speed, scaling and profile suites: they measure what they say, in processes of their own."""
 
 import pytest
-from tehl_taichi.profiles import accuracy, measure, profile, scaling, speed
+from tehl_taichi.profiles import accuracy, measure, profile, scaling, speed, target
 
 from tehl_taichi import runtime
-from tehl_taichi.scene import scene
+from tehl_taichi.scene import SceneError, scene
 
 
 def small(**changes):
@@ -58,3 +58,16 @@ def test_error_against_run_time_of_a_line(taichi_cpu):
     # 8.5 %, 0.55 %, order 1.97
     rows = [row for row in accuracy.judged("steady line", found) if row["quantity"] == "h_c_m"]
     assert rows[0]["error"] > 10 * rows[2]["error"] and rows[2]["error"] < 1e-2 and rows[0]["order"] > 1.9
+
+
+def test_a_target_error_chooses_the_grid():
+    line, gear = scene("smooth-line").replace(**{"thermal.on": False}), scene("gear").replace(**{"thermal.on": False})
+    errors = target.MEASURED["steady line"]
+    assert target.grid_for(line, errors[256])[0] == 256 and target.grid_for(line, errors[1024] / 2)[0] == 2048
+    assert 256 < target.grid_for(line, 0.5 * (errors[256] + errors[512]))[0] <= 512
+    assert target.grid_for(gear, target.MEASURED["passage"][256]) == (256, 64)
+    # half as wide a feature, twice as wide a domain: twice the columns each
+    for changes in ({"width": gear.features[0].width / 2}, {"grid.x_min": 2 * gear.grid.x_min, "grid.x_max": 2 * gear.grid.x_max}):
+        assert target.grid_for(gear.replace(**changes), target.MEASURED["passage"][256])[0] == 512
+    with pytest.raises(SceneError, match="at most 2048 are taken, good for"):
+        target.grid_for(gear, 1e-4)

@@ -26,9 +26,10 @@ def index_map(plt, title, maps, normal, summary):
     figure, ax = plt.subplots(figsize=(6.4, 5.2), constrained_layout=True)
     ys, full = whole(y * 1e6, Fi)
     image = ax.pcolormesh(x * 1e6, ys, full.T, cmap="magma", shading="gouraud")
-    figure.colorbar(image, ax=ax, label="Fi")
+    figure.colorbar(image, ax=ax, label="Fi at the surface")
     at = np.array([summary["x_m"], summary["y_m"]]) * 1e6
-    ax.plot(*at, "c+", ms=12, mew=2, label=f"worst point, Fi = {summary['Fi_max']:.3f}")
+    deep = f" {summary['depth_m'] * 1e6:g} µm deep" if summary.get("depth_m") else ""
+    ax.plot(*at, "c+", ms=12, mew=2, label=f"worst point{deep}, Fi = {summary['Fi_max']:.3f}")
     flat = np.hypot(normal[0], normal[1])
     if flat > 1e-6:
         trace = np.array([-normal[1], normal[0]]) / flat * 0.12 * np.ptp(x) * 1e6
