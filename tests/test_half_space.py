@@ -108,6 +108,28 @@ def test_sliding_cylinder():
     np.testing.assert_allclose(stress["syy"][:, 0], NU * sxx, rtol=1e-13)
 
 
+def sliding_sphere(cells):
+    """q = sqrt(1 - r^2) towards +x."""
+    n = int(1.5 * cells)
+    x, y = np.arange(-n, n + 1) / cells, np.arange(n + 1) / cells
+    q = np.sqrt(np.maximum(1 - x[:, None] ** 2 - y[None, :] ** 2, 0))
+    return x[:, None], y[None, :], hs.Stress(x, y, NU, line=False)(0 * q, q, 0 * q)
+
+
+def test_sliding_sphere():
+    """Linear inside (Hamilton 1983), so pi (4 + nu)/8 q_0 of tension at the trailing edge, met with an infinite slope."""
+    edge = np.pi * (4 + NU) / 8
+    peaks = [edge - sliding_sphere(n)[2]["sxx"].max() for n in (16, 32, 64)]
+    assert peaks[0] > 1.3 * peaks[1] > 1.3**2 * peaks[2] > 0
+    (x, y, coarse), (_, _, fine) = sliding_sphere(32), sliding_sphere(64)
+    inner = np.hypot(x, y) < 0.8
+    exact = {"sxx": -np.pi / 2 * x * (1 + NU / 4) + 0 * y, "syy": -3 * np.pi / 8 * NU * x + 0 * y,
+             "sxy": np.pi / 4 * y * (NU / 2 - 1) + 0 * x}
+    for name, values in exact.items():  # first order: the edge of the load lies between nodes
+        limit = 2 * fine[name][::2, ::2] - coarse[name]
+        np.testing.assert_allclose(limit[inner], values[inner], atol=1.5e-3)
+
+
 def test_endless_line_pressure_has_no_surface_tension():
     x, y = np.linspace(-2, 2, 81), np.linspace(0, 1, 17)
     p = np.repeat(np.sqrt(np.maximum(1 - x**2, 0))[:, None], 17, axis=1)

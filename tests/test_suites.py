@@ -67,7 +67,8 @@ def test_a_target_error_chooses_the_grid():
     assert 256 < target.grid_for(line, 0.5 * (errors[256] + errors[512]))[0] <= 512
     assert target.grid_for(gear, target.MEASURED["passage"][256]) == (256, 64)
     # half as wide a feature, twice as wide a domain: twice the columns each
-    for changes in ({"width": gear.features[0].width / 2}, {"grid.x_min": 2 * gear.grid.x_min, "grid.x_max": 2 * gear.grid.x_max}):
+    narrow = {"width": gear.features[0].width / 2}
+    for changes in (narrow, {"grid.x_min": 2 * gear.grid.x_min, "grid.x_max": 2 * gear.grid.x_max}):
         assert target.grid_for(gear.replace(**changes), target.MEASURED["passage"][256])[0] == 512
     with pytest.raises(SceneError, match="at most 2048 are taken, good for"):
         target.grid_for(gear, 1e-4)
