@@ -16,7 +16,8 @@ from tehl_taichi.solvers.levels import Levels
 from tehl_taichi.solvers.newton import PressureSolver, Report
 
 FIRST_CELLS = 64  # along x of the first grid: fine enough for a film from Hertz, cheap enough not to matter
-KRYLOV_TOLERANCE = 1e-3  # looser lets H0 creep on fine point contacts (6e-5 a Newton step)
+# Krylov iterations on 256 / 512 columns of a circular contact: 93 / 113 with 1e-3, 71 / 84 with 1e-2 (the same Newton steps)
+KRYLOV_TOLERANCE = 1e-2
 FIRST_FILM = 0.05  # central film of the first guess, Hertz units: thick enough to flow, thin enough to be near
 START_TRIES = (1.0, 0.3, 3.0)  # times FIRST_FILM
 SAFETY = 1.25  # on an extrapolated error (Roache 1994, three grids)
