@@ -110,8 +110,8 @@ def _errors(rows):
     quantities, runs = list(dict.fromkeys(row["quantity"] for row in rows)), {}
     for row in rows:
         run = runs.setdefault((row["family"], row.get("setting", row["columns"])), {"s": f"{row['seconds']:.2f}"})
-        run[row["quantity"]] = f"{row['error']:.1e}{'*' if row['front'] else ' '}"
-    list_table("relative error (* no faster run has a smaller one)", ("family", "run", "s", *quantities),
+        run[row["quantity"]] = f"{100 * row['error']:.2g}{'*' if row['front'] else ' '}"
+    list_table("error, % (* no faster run has a smaller one)", ("family", "run", "s", *quantities),
                [(family, str(name), *(run.get(key, "") for key in ("s", *quantities))) for (family, name), run in runs.items()])
 
 
@@ -120,8 +120,8 @@ def speed(out: Path = OUT, quick: bool = QUICK, threads: Optional[int] = THREADS
     from tehl_taichi.profiles import speed as suite
 
     rows = suite.run(quick, threads or os.cpu_count(), say)
-    _table("speed", rows, {"what": "{}", "seconds": "{:.3f}", "target": "{:g}", "step_ms": "{:.1f}", "cycles": "{:.1f}",
-                           "memory_mb": "{:.0f}"})
+    _table("speed", rows, {"what": "{}", "seconds": "{:.3f}", "target": "{:g}", "step_ms": "{:.1f}", "convolutions": "{:.0f}",
+                           "cycles": "{:.1f}", "memory_mb": "{:.0f}", "planes_per_s_core": "{:.2g}"})
     _write(out, "speed", rows, None if quick else lambda plt: suite.chart(plt, rows))
 
 

@@ -9,7 +9,8 @@ GRID, QUICK_GRID = (256, 64), (128, 32)
 
 
 def run(quick=False, threads=4, progress=None):
-    """Rows: dictionaries of what, seconds, target (s, None without), reference loops first."""
+    """Rows: dictionaries of what, seconds, target (s, None without), reference loops first. A passage also has its step in
+    units of the first of them (convolutions): that figure compares between machines."""
     say = progress or (lambda text: None)
     nx, ny = QUICK_GRID if quick else GRID
     steps = 8 if quick else 30
@@ -21,7 +22,8 @@ def run(quick=False, threads=4, progress=None):
         say(f"{name} passage, {nx} x {ny} cells, {count} threads")
         timing = measure.fresh(count, measure.passage, gear.replace(**{"thermal.on": thermal}), steps)
         rows.append({"what": f"{name} passage {nx}x{ny}, {count} threads", "seconds": timing.passage_s,
-                     "target": None if quick else target, "step_ms": 1e3 * timing.step_s, "newton": timing.newton,
+                     "target": None if quick else target, "step_ms": 1e3 * timing.step_s,
+                     "convolutions": timing.step_s / rows[0]["seconds"], "newton": timing.newton,
                      "cycles": timing.cycles, "memory_mb": timing.memory_mb})
     for columns, target in ((128, None), *(() if quick else ((256, 0.3), (512, 1.0)))):
         say(f"steady circular contact, {columns} columns, 1 thread")

@@ -11,10 +11,10 @@ from tehl_taichi.scene.scales import Scales
 
 # {columns: largest error of film, pressure and Findley index}; `tehl bench accuracy`, 2026-11-21 (docs/benchmarks.md)
 MEASURED = {
-    "steady line": {64: 0.085, 128: 0.055, 256: 0.027, 512: 0.0133, 1024: 0.0066},
-    "steady circle": {64: 0.031, 128: 0.0077, 256: 0.0019},
-    "passage": {64: 1.7, 128: 0.5, 256: 0.11, 512: 0.05},
-    "thermal passage": {64: 1.7, 128: 0.5, 256: 0.11},
+    "steady line": {64: 0.085, 128: 0.030, 256: 0.0054, 512: 0.0030, 1024: 0.0015},
+    "steady circle": {64: 0.031, 128: 0.016, 256: 0.0081},
+    "passage": {128: 0.23, 256: 0.12, 512: 0.059},
+    "thermal passage": {128: 0.29, 256: 0.15},
 }
 MOST = 2048  # columns
 MULTIPLE = 32  # of columns: the coarser grids of the solver need halves of halves

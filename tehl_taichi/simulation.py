@@ -161,8 +161,9 @@ class Passage:
                 break
             heat, before = self.heat.solve(), change
             change = heat.change
-            # rounds contract: the next one changes about as much less as this one did
-            settled = change * min(change / before, 1.0) < thermal.tolerance and not heat.failed
+            if thermal.rounds > 1:  # they contract: the next one changes about as much less as this one did
+                heat.change *= min(change / before, 1.0)
+            settled = heat.change < thermal.tolerance and not heat.failed
             if not first and (settled or thermal.rounds == 1):
                 break
         else:

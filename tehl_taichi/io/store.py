@@ -43,7 +43,7 @@ SCALARS = {
 THERMAL_SCALARS = {
     "film_max_C": ("degC", "largest film temperature"), "surface_a_max_C": ("degC", "largest temperature of surface a"),
     "surface_b_max_C": ("degC", "largest temperature of surface b"),
-    "temperature_change_K": ("K", "largest change of temperature in the last round of the step"),
+    "temperature_change_K": ("K", "largest change of temperature that another round of the step would make"),
     "clamped": ("1", "nodes held inside the allowed range of temperature"),
 }
 

@@ -32,8 +32,8 @@ OIL_CELLS = 1.5  # a step of a passage moves the faster surface by at most so ma
 
 @dataclass
 class HeatReport:
-    """change: largest difference from the last iterate (K); failed: columns that did not converge; clamped: nodes held
-    inside the allowed range."""
+    """change: largest difference from the last iterate (K), or the one that is expected of another round; failed: columns that
+    did not converge; clamped: nodes held inside the allowed range."""
 
     change: float
     failed: int
