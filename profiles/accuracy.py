@@ -162,8 +162,9 @@ def chart(plt, rows):
 def _curve(ax, own, quantity):
     """All points, joined along the front; grids by their columns, settings by their place in SETTINGS."""
     points = [(row["seconds"], max(row["error"], 1e-8)) for row in own]
-    line, = ax.plot(*zip(*(point for point, row in zip(points, own) if row["front"])), "-", lw=1, label=quantity)
-    ax.plot(*zip(*points), "o", ms=4, color=line.get_color())
+    color = f"C{QUANTITIES.index(quantity)}"
+    ax.plot(*zip(*(point for point, row in zip(points, own) if row["front"])), "-", lw=1, label=quantity, color=color)
+    ax.plot(*zip(*points), "o", ms=4, color=color)
     for point, row in zip(points, own):
         label = list(SETTINGS).index(row["setting"]) + 1 if "setting" in row else row["columns"]
         ax.annotate(str(label), point, fontsize=6, xytext=(3, 2), textcoords="offset points")
