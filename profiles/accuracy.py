@@ -49,7 +49,7 @@ def timed(function, *args):
 
 def settings(nx, names, say):
     """Rows of a thermal passage on one grid with one of the SETTINGS changed, against REFERENCE."""
-    base, found = passage_scene(nx, True), []
+    base, found = scene_of("thermal passage", nx), []
     for name in ("reference", *names):
         say(f"settings: {name}")
         found.append((name, *timed(passage_values, base.replace(**(SETTINGS | {"reference": REFERENCE})[name]))))
@@ -62,18 +62,19 @@ def settings(nx, names, say):
     return rows
 
 
+def scene_of(family, nx):
+    """The scene of a family on nx columns."""
+    if family == "steady line":
+        return scene("smooth-line").replace(**{"thermal.on": False, "grid.nx": nx})
+    if family == "steady circle":
+        return circular(nx)
+    return scene("gear").replace(**{"thermal.on": family == "thermal passage", "grid.nx": nx, "grid.ny": nx // 4})
+
+
 def solve(family, nx):
     """{quantity: value} of one run."""
-    if family == "steady line":
-        return _numbers(scene("smooth-line").replace(**{"thermal.on": False, "grid.nx": nx}))
-    if family == "steady circle":
-        return _numbers(circular(nx))
-    return passage_values(passage_scene(nx, family == "thermal passage"))
-
-
-def passage_scene(nx, thermal):
-    """The gear on nx x nx/4 cells."""
-    return scene("gear").replace(**{"thermal.on": thermal, "grid.nx": nx, "grid.ny": nx // 4})
+    description = scene_of(family, nx)
+    return passage_values(description) if description.transient else _numbers(description)
 
 
 def passage_values(description):

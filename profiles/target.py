@@ -3,10 +3,9 @@
 import math
 
 import numpy as np
-from tehl_taichi.profiles.accuracy import passage_scene
-from tehl_taichi.profiles.speed import circular
+from tehl_taichi.profiles.accuracy import scene_of
 
-from tehl_taichi.scene import SceneError, scene
+from tehl_taichi.scene import SceneError
 from tehl_taichi.scene.scales import Scales
 
 # {columns: largest error of film, pressure and Findley index}; `tehl bench accuracy`, 2026-11-21 (docs/benchmarks.md)
@@ -27,7 +26,7 @@ def grid_for(description, target):
     measured grid the error is taken to fall in proportion to the cells. Raises SceneError where that needs too fine a grid.
     """
     family = family_of(description)
-    needed = _columns(MEASURED[family], target) * _cells(description) / _cells(_origin(family))
+    needed = _columns(MEASURED[family], target) * _cells(description) / _cells(scene_of(family, 256))
     nx = math.ceil(needed / MULTIPLE - 1e-9) * MULTIPLE
     if nx > MOST:
         finest = target * nx / MOST
@@ -41,12 +40,6 @@ def family_of(description):
     if description.transient:
         return "passage" if description.isothermal else "thermal passage"
     return "steady line" if description.contact.kind == "line" else "steady circle"
-
-
-def _origin(family):
-    if family == "steady line":
-        return scene("smooth-line").replace(**{"thermal.on": False})
-    return circular(256) if family == "steady circle" else passage_scene(256, family == "thermal passage")
 
 
 def _cells(description):

@@ -29,7 +29,7 @@ SLACK = 1e-11  # relative rounding of a bound
 CIRCLE, CHORD, DANG_VAN = range(3)
 
 vec6 = ti.types.vector(6, ti.f64)
-LANES = 8     # planes bounded at once: one ring
+LANES = 8     # planes bounded at once: the ring of a pattern search
 lanes = ti.types.vector(LANES, ti.f64)
 PEAK = 11     # numbers kept per peak: normal (3), value, turn, middle (6)
 
@@ -143,25 +143,24 @@ def best_of_ring(S: ti.template(), a: ti.template(), b: ti.template(), row, step
     """Best of eight planes around `centre` (tilted by `step`): normal, value and middle; the given ones if none is better."""
     e1, e2 = plane_frame(centre)
     n, best, mid = centre, value, middle
-    for half in range(8 // LANES):
-        x, y, z = lanes(0.0), lanes(0.0), lanes(0.0)
+    x, y, z = lanes(0.0), lanes(0.0), lanes(0.0)
+    for k in ti.static(range(LANES)):
+        angle = turn + k * 0.7853981633974483
+        trial = (centre + step * (ti.cos(angle) * e1 + ti.sin(angle) * e2)).normalized()
+        x[k], y[k], z[k] = trial[0], trial[1], trial[2]
+    bound = bounds(S, row, steps, x, y, z, middle, kappa, rule)
+    for _ in range(LANES):
+        top, at, trial = -1e300, 0, centre
         for k in ti.static(range(LANES)):
-            angle = turn + (8 // LANES * k + half) * 0.7853981633974483
-            trial = (centre + step * (ti.cos(angle) * e1 + ti.sin(angle) * e2)).normalized()
-            x[k], y[k], z[k] = trial[0], trial[1], trial[2]
-        bound = bounds(S, row, steps, x, y, z, middle, kappa, rule)
-        for _ in range(LANES):
-            top, at, trial = -1e300, 0, centre
-            for k in ti.static(range(LANES)):
-                if bound[k] > top:
-                    top, at, trial = bound[k], k, vec3(x[k], y[k], z[k])
-            if top > best or prune == 0:
-                v, m = plane_value(S, a, b, row, steps, trial, kappa, rule)
-                if v > best:
-                    n, best, mid = trial, v, m
-            for k in ti.static(range(LANES)):
-                if k == at:
-                    bound[k] = -1e300
+            if bound[k] > top:
+                top, at, trial = bound[k], k, vec3(x[k], y[k], z[k])
+        if top > best or prune == 0:
+            v, m = plane_value(S, a, b, row, steps, trial, kappa, rule)
+            if v > best:
+                n, best, mid = trial, v, m
+        for k in ti.static(range(LANES)):
+            if k == at:
+                bound[k] = -1e300
     return n, best, mid
 
 
@@ -182,7 +181,7 @@ def refine(S: ti.template(), a: ti.template(), b: ti.template(), peaks: ti.templ
             if value > best:
                 n, best, middle, failed = chosen, value, mid, 0
             turn += 0.2763932022500210
-        decided += 8 * count
+        decided += LANES * count
         step *= 0.5
     put_peak(peaks, row, peak, n, best, turn, middle)
     return decided

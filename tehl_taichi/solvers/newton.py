@@ -79,9 +79,7 @@ class PressureSolver:
         """Newton iteration from the pressure in the table and H0; leaves the solution there. Returns a Report."""
         numerics = self.levels.scene.numerics
         tolerance = tolerance or numerics.tolerance
-        self.residual()
-        self.levels.linearise()
-        self.lift, merit, cycles = None, self.measure(), 0
+        merit, cycles = self._begin(), 0
         # at least one Newton step: the residual does not see pressure errors where eps is 0, a prediction adds them up
         last = newton_max or numerics.newton_max
         for newton in range(1, last + 1):
@@ -96,10 +94,7 @@ class PressureSolver:
 
     def improve(self):
         """One Newton step from a good guess, not checked where it is small: what follows checks. Returns a Report."""
-        numerics = self.levels.scene.numerics
-        self.residual()
-        self.levels.linearise()
-        self.lift, merit = None, self.measure()
+        numerics, merit = self.levels.scene.numerics, self._begin()
         step, cycles = self._direction(self._forcing(numerics.krylov_tolerance, merit, numerics.tolerance))
         if np.abs(step[:-1]).max() < SMALL_CHANGE:
             self._move(self.levels.vector(fields.P), self.H0, step, 1.0)
@@ -107,6 +102,13 @@ class PressureSolver:
         else:
             merit = self._advance(step, merit, True, numerics.tolerance)
         return Report(merit, self.load_error, self.mass_error, 1, cycles, False)
+
+    def _begin(self):
+        """Linearise about the state in the table. Returns its merit."""
+        self.residual()
+        self.levels.linearise()
+        self.lift = None
+        return self.measure()
 
     def _forcing(self, krylov_tolerance, merit, tolerance):
         """Relative accuracy of the linear solve: not much more than what convergence still needs."""
