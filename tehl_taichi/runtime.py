@@ -12,8 +12,11 @@ import numpy as np
 
 from tehl_taichi import __version__
 
+PRECISIONS = ("f64", "f32")  # of the linear solves; the state and its residual are always f64
+_defined = None  # precision that the kernels were defined with
 _started = {}
 _tables = []  # [field, weak reference to its owner]
+WORTH_THREADS = 2500
 SMALLEST_TABLE = 5000  # columns; sizes grow by factors of 4, because every size of a field compiles its kernels anew
 
 
@@ -30,11 +33,12 @@ def cache_dir():
     return Path(os.environ.get("TEHL_CACHE") or os.path.join(root, "tehl_taichi")) / f"kernels-{__version__}"
 
 
-def start(arch="cpu", threads=None, precision="f64"):
+def start(arch="cpu", threads=None, precision=PRECISIONS[0]):
     """Start Taichi and say what was really started.
 
     arch: "cpu" (others when their kernels are checked); threads: number of CPU threads or None for all;
-    precision: "f64". Returns a dict with arch, threads, precision, taichi (version) and cache (folder).
+    precision: "f64" or "f32", of the linear solves inside Newton's iteration (the state, its laws and its residual are
+    always f64). Returns a dict with arch, threads, precision, taichi (version) and cache (folder).
     Raises RuntimeUnavailable when the arch or precision cannot be had or another start is already active.
     """
     _check(arch, precision)
@@ -70,12 +74,27 @@ def _trace_without_positions():
     ASTTransformerContext.get_pos_info = lambda context, node: ""
 
 
+def precision():
+    """Precision of the linear solves, "f64" or "f32", which the kernels are defined with once and for all."""
+    global _defined
+    _defined = _defined or _started.get("precision", PRECISIONS[0])
+    return _defined
+
+
 def ensure():
     """Start with the defaults unless something is running already."""
     return dict(_started) if _started else start()
 
 
-def lease(owner, rows, lanes, columns, slots=0):
+def alone(work):
+    """Whether a loop of `work` (in units of the lane vectors that a copy moves) is better run by the calling thread.
+
+    To hand a loop to Taichi's threads takes 20 us at once and 50 to 100 us after some work outside, a copy 30 ns a vector.
+    """
+    return ensure()["threads"] == 1 or work < WORTH_THREADS
+
+
+def lease(owner, rows, lanes, columns, slots=0, precision="f64"):
     """A vector field of `rows` x at least `columns` columns of `lanes` numbers, zero, for `owner` alone while it lives; with
     `slots` (and rows 0) of at least `columns` columns x `slots`.
 
@@ -84,7 +103,7 @@ def lease(owner, rows, lanes, columns, slots=0):
     gc.collect()  # an owner that is only held by a reference cycle is gone
     for entry in _tables:
         field, holder = entry
-        if holder() is None and field.n == lanes and _fits(field.shape, rows, columns, slots):
+        if holder() is None and (field.n, str(field.dtype)) == (lanes, precision) and _fits(field.shape, rows, columns, slots):
             entry[1] = weakref.ref(owner)
             field.fill(0.0)
             return field
@@ -93,7 +112,7 @@ def lease(owner, rows, lanes, columns, slots=0):
     capacity = SMALLEST_TABLE
     while capacity < columns:
         capacity *= 4
-    field = ti.Vector.field(lanes, ti.f64, shape=(capacity, slots) if slots else (rows, capacity))
+    field = ti.Vector.field(lanes, getattr(ti, precision), shape=(capacity, slots) if slots else (rows, capacity))
     _tables.append([field, weakref.ref(owner)])
     return field
 
@@ -174,8 +193,10 @@ def _set(record, slot, value, annotation):
 def _check(arch, precision):
     if arch != "cpu":
         raise RuntimeUnavailable(f"arch = {arch!r} is not available in this version: 'cpu' is")
-    if precision != "f64":
-        raise RuntimeUnavailable(f"precision = {precision!r} is not available in this version: 'f64' is")
+    if precision not in PRECISIONS:
+        raise RuntimeUnavailable(f"precision = {precision!r} is not known: 'f64' and 'f32' are")
+    if _defined not in (None, precision):
+        raise RuntimeUnavailable(f"the kernels of this process are defined for precision = {_defined!r}; start a new one")
 
 
 def _same_start(arch, threads, precision):

@@ -1,4 +1,5 @@
-"""All state of the pressure problem in one table: row = field, column = a block of W nodes, levels one after another.
+"""The pressure problem in two tables, row = field, column = a block of W nodes, levels one after another: S (double
+precision) holds the state and what decides when it is solved, J (`lanes.LINEAR`) its linearisation and the linear solve.
 
 Column k of a level = OFF + s (NX + 1) + i: i along x (rolling), block s holds the nodes j = W s ... W s + W - 1 along y,
 one per lane. Capital letters are dimensionless (X = x/a, P = p/p_H, H = h R'/a^2). Lanes beyond the last row are ghosts:
@@ -7,13 +8,14 @@ MASK 0, dry for ever.
 
 import itertools
 
-_row = itertools.count()
+_row, _linear = itertools.count(), itertools.count()
 
 
 def _rows(count):
-    return [next(_row) for _ in range(count)]
+    return [next(_linear) for _ in range(count)]
 
 
+# S, the state
 P = next(_row)  # pressure
 H = next(_row)  # film thickness
 GAP0 = next(_row)  # undeformed gap without the rigid approach H0: X^2/2 (+ Y^2/2) - feature
@@ -28,24 +30,10 @@ DLE = next(_row)  # d LE / dP
 DMP = next(_row)  # d MOB / dP
 DMH = next(_row)  # d MOB / dH
 QP = next(_row)  # d(RHO H)/dP at fixed H
-A = _rows(4)  # row of the Jacobian: pressure of the nodes i-2, i-1, i, i+1
-AU, AD = _rows(2)  # and of j+1, j-1
-B = _rows(4)  # the same for the film
-BU, BD = _rows(2)
-STENCIL = (*A, AU, AD, *B, BU, BD)  # rows without a gap
-EPS = next(_row)  # sum of the four face mobilities of the row
 R = next(_row)  # residual of the Reynolds equation, times dx
 D = next(_row)  # its diagonal
-SCALE = next(_row)  # row scale of the Krylov norm
 DRY = next(_row)  # 1 where P = 0 is the equation (cavitated, or outside the unknowns)
 TOUCH = next(_row)  # 1 where H = H_floor is the equation (solid contact)
-KIND = next(_row)  # line solver: 0 dry, 1 Gauss-Seidel column, 2 column distributed with K^-1
-RES = next(_row)  # right-hand side handed to the preconditioner on this level
-SOL = next(_row)  # solution of the line solves
-COR = next(_row)  # correction of this level
-TRIAL = next(_row)  # pressure change that the Jacobian is applied to
-FILM = next(_row)  # film change that goes with it
-BAND = _rows(7)  # factorised line systems
 NROWS = next(_row)
 RHOC = next(_row)  # thermal scenes only: density that the Couette flow carries, over rho_0 (isothermal: RHO)
 QCP = next(_row)  # d(RHOC H)/dP at fixed H (isothermal: QP)
@@ -53,6 +41,24 @@ DLH = next(_row)  # d LE / dH by the shear law (isothermal: none)
 NROWS_THERMAL = next(_row)
 STATE = (P, H, DRY, TOUCH)  # carried to the coarser levels
 LAWS = (RHO, LE, IE, MOB, DLE, DMP, DMH, QP, RHOC, QCP, DLH)  # carried there too in a thermal film
+
+# J, the linear problem
+A = _rows(4)  # row of the Jacobian: pressure of the nodes i-2, i-1, i, i+1
+AU, AD = _rows(2)  # and of j+1, j-1
+B = _rows(4)  # the same for the film
+BU, BD = _rows(2)
+STENCIL = (*A, AU, AD, *B, BU, BD)  # rows without a gap
+EPS = next(_linear)  # sum of the four face mobilities of the row
+SCALE = next(_linear)  # row scale of the Krylov norm
+KIND = next(_linear)  # line solver: 0 dry, 1 Gauss-Seidel column, 2 column distributed with K^-1
+RES = next(_linear)  # right-hand side handed to the preconditioner on this level
+SOL = next(_linear)  # solution of the line solves
+COR = next(_linear)  # correction of this level
+TRIAL = next(_linear)  # pressure change that the Jacobian is applied to
+FILM = next(_linear)  # film change that goes with it
+PRODUCT = next(_linear)  # what comes out
+BAND = _rows(7)  # factorised line systems
+NROWS_LINEAR = next(_linear)
 
 # columns of the level table
 _col = itertools.count()
@@ -67,4 +73,6 @@ K0 = next(_col)  # deflection of a node by its own unit pressure
 K1 = next(_col)  # and by that of its neighbour in x
 FLOOR = next(_col)  # film floor H_min
 ILAM = next(_col)  # 1/lambda; larger than that of the scene while a steady start is approached through slower ones
+ROW0 = next(_col)  # of the rows that the transforms of K^-1 work on: the first number,
+PERIOD = next(_col)  # and the numbers from row to row
 NCOLS = next(_col)

@@ -3,20 +3,26 @@
 Measured on one core at 257x65 (scalar rows -> lanes): line solve 0.56 -> 0.13 ms, Jacobian product 0.95 -> 0.2 ms.
 
 Loops over blocks run in parallel with ti.loop_config(block_dim=1): Taichi would give less than about 100 blocks to one
-thread.
+thread. The argument `alone` of a kernel is True where its loops are too short for that (see :meth:`Levels.launch`).
 """
 
 import taichi as ti
 
+from tehl_taichi import runtime
 from tehl_taichi.kernels.fields import JN, NX, NY, OFF
 
 W = 4
 V = ti.types.vector(W, ti.f64)
+LINEAR = {"f32": ti.f32, "f64": ti.f64}[runtime.precision()]  # of the linear solves
+L = ti.types.vector(W, LINEAR)
 TILE = 48  # columns of a tile: even a single row keeps several threads busy
 
 Table = ti.types.ndarray(dtype=ti.f64, ndim=2)
 Flat = ti.types.ndarray(dtype=ti.f64, ndim=1)
 Vector = ti.types.ndarray(dtype=V, ndim=1)  # a field of the finest level in table order, as (columns, W)
+LinearFlat = ti.types.ndarray(dtype=LINEAR, ndim=1)
+LinearTable = ti.types.ndarray(dtype=LINEAR, ndim=2)
+LinearVector = ti.types.ndarray(dtype=L, ndim=1)
 Blocks = ti.types.ndarray(dtype=ti.i32, ndim=2)  # (level, block) of every block, finest level first
 
 
@@ -42,9 +48,9 @@ def tile(c, nx):
 @ti.func
 def above(S: ti.template(), row, k, n2):
     """Field at j + 1."""
-    here, out = S[row, k], V(0.0)
+    out = S[row, k]
     for u in ti.static(range(W - 1)):
-        out[u] = here[u + 1]
+        out[u] = out[u + 1]
     out[W - 1] = S[row, k + n2][0]
     return out
 
@@ -52,9 +58,9 @@ def above(S: ti.template(), row, k, n2):
 @ti.func
 def below(S: ti.template(), row, k, n2):
     """Field at j - 1."""
-    here, out = S[row, k], V(0.0)
-    for u in ti.static(range(1, W)):
-        out[u] = here[u - 1]
+    out = S[row, k]
+    for u in ti.static(range(W - 1, 0, -1)):
+        out[u] = out[u - 1]
     out[0] = S[row, k - n2][W - 1]
     return out
 
@@ -87,11 +93,20 @@ def neighbour_masks(G: ti.template(), l, s):
 
 @ti.func
 def load(values: ti.template(), q):
-    """Lanes of a Vector argument; lane by lane it costs half of values[q] (Taichi 1.7.4)."""
-    v = V(0.0)
+    """Lanes of a vector argument; lane by lane it costs half of values[q] (Taichi 1.7.4)."""
+    return ti.Vector([values[q][u] for u in ti.static(range(W))])
+
+
+@ti.func
+def rows_in(values: ti.template(), first, step, i):
+    """Column i of W rows of a flat array, `step` numbers apart from `first` on."""
+    return ti.Vector([values[first + u * step + i] for u in ti.static(range(W))])
+
+
+@ti.func
+def rows_out(values: ti.template(), first, step, i, v):
     for u in ti.static(range(W)):
-        v[u] = values[q][u]
-    return v
+        values[first + u * step + i] = v[u]
 
 
 @ti.kernel

@@ -21,63 +21,87 @@ from tehl_taichi.kernels.fields import (
     JN,
     K0,
     KIND,
-    OFF,
+    PERIOD,
     RES,
     RHO,
+    ROW0,
     SOL,
     STENCIL,
     TOUCH,
     A,
     B,
 )
-from tehl_taichi.kernels.lanes import Blocks, Table, V, Vector, W, above, below, cells, load, neighbour_masks
+from tehl_taichi.kernels.lanes import (
+    LINEAR,
+    Blocks,
+    L,
+    LinearFlat,
+    LinearTable,
+    Table,
+    V,
+    W,
+    above,
+    below,
+    cells,
+    neighbour_masks,
+    rows_in,
+    rows_out,
+)
 from tehl_taichi.kernels.reynolds import couette_weights
 
 HALF = 3  # half bandwidth; 2 converges slower, 1 diverges, 4..6 gain nothing
 TINY_PIVOT = 1e-14
 REACH = HALF + 3  # distances at which a column of the band meets the stencil
-Near = ti.types.vector(REACH, ti.f64)
+Near = ti.types.vector(REACH, LINEAR)
+DRY_KIND, LOCAL, DISTRIBUTED = 0.0, 1.0, 2.0  # values of KIND
 
 
 @ti.func
-def contact_rows(S: ti.template(), G: ti.template(), l, k, i):
+def is_kind(J: ti.template(), k, kind: ti.template()):
+    return J[KIND, k] == L(kind)
+
+
+@ti.func
+def contact_rows(S: ti.template(), J: ti.template(), G: ti.template(), l, k, i):
     """Rows of touching nodes: the transport operator on rho W of the touching nodes (equivalent to W = 0 there)."""
     w, touch = couette_weights(i), S[TOUCH, k] > 0.0
     for t in ti.static(range(4)):
         c = w[t]
         if ti.static(t == 2):
             c += G[l, CT]
-        S[A[t], k] = ti.select(touch, V(0.0), S[A[t], k])
-        S[B[t], k] = ti.select(touch, c * S[RHO, k + t - 2] * S[TOUCH, k + t - 2], S[B[t], k])
+        mass = ti.cast(c * S[RHO, k + t - 2] * S[TOUCH, k + t - 2], LINEAR)
+        J[A[t], k] = ti.select(touch, L(0.0), J[A[t], k])
+        J[B[t], k] = ti.select(touch, mass, J[B[t], k])
     for row in ti.static((AU, AD, BU, BD)):
-        S[row, k] = ti.select(touch, V(0.0), S[row, k])
+        J[row, k] = ti.select(touch, L(0.0), J[row, k])
 
 
 @ti.func
-def dry_rows(S: ti.template(), k):
+def dry_rows(J: ti.template(), k):
     """Rows of dry nodes: the identity."""
-    dry = S[DRY, k] > 0.0
+    dry = is_kind(J, k, DRY_KIND)
     for row in ti.static(STENCIL):
-        S[row, k] = ti.select(dry, V(0.0), S[row, k])
-    S[A[2], k] = ti.select(dry, V(1.0), S[A[2], k])
+        J[row, k] = ti.select(dry, L(0.0), J[row, k])
+    J[A[2], k] = ti.select(dry, L(1.0), J[A[2], k])
 
 
 @ti.func
-def kind_of(S: ti.template(), G: ti.template(), l, k, n2, i, up, down, theta):
+def kind_of(S: ti.template(), J: ti.template(), G: ti.template(), l, k, n2, i, up, down, theta):
     dry = S[DRY, k - 1] + S[DRY, k + 1] + up * above(S, DRY, k, n2) + down * below(S, DRY, k, n2)
     bound = theta * G[l, K0] * (0.5 + G[l, CT])
     if i == 1 or i == n2 - 2:
         bound = -1.0
-    strong = ti.select(S[EPS, k] > bound, V(1.0), V(0.0)) + dry
-    kind = ti.select(strong > 0.0, V(1.0), V(2.0))
-    kind = ti.select(S[TOUCH, k] > 0.0, V(2.0), kind)
-    return ti.select(S[DRY, k] > 0.0, V(0.0), kind)
+    strong = ti.select(J[EPS, k] > bound, V(1.0), V(0.0)) + dry
+    kind = ti.select(strong > 0.0, L(LOCAL), L(DISTRIBUTED))
+    kind = ti.select(S[TOUCH, k] > 0.0, L(DISTRIBUTED), kind)
+    return ti.select(S[DRY, k] > 0.0, L(DRY_KIND), kind)
 
 
 @ti.kernel
-def classify(S: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: ti.i32, touching: ti.i32, theta: ti.f64):
+def classify(S: ti.template(), J: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: ti.i32, touching: ti.i32,
+             theta: ti.f64, alone: ti.template()):
     """KIND of every node in the blocks first..last-1; rows of dry and touching nodes replaced by their own equations."""
-    ti.loop_config(block_dim=1)
+    ti.loop_config(block_dim=1, serialize=alone)
     for b in range(first, last):
         l, s = blocks[b, 0], blocks[b, 1]
         nx, ny, off = cells(G, l)
@@ -85,50 +109,49 @@ def classify(S: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: ti
         up, down = neighbour_masks(G, l, s)
         for i in range(n2):
             k = off + s * n2 + i
-            S[KIND, k] = kind_of(S, G, l, k, n2, i, up, down, theta)
+            J[KIND, k] = kind_of(S, J, G, l, k, n2, i, up, down, theta)
             if touching == 1:
-                contact_rows(S, G, l, k, i)
-            dry_rows(S, k)
+                contact_rows(S, J, G, l, k, i)
+            dry_rows(J, k)
 
 
 @ti.func
-def gauss_seidel_entry(S: ti.template(), k, dk: ti.template(), near: ti.template(), rim: ti.template(), outer):
+def gauss_seidel_entry(J: ti.template(), k, dk: ti.template(), near: ti.template(), rim: ti.template(), outer):
     """Row k, column k + dk: a unit pressure there and the film change it causes nearby."""
-    v = V(0.0)
+    v = L(0.0)
     for t in ti.static(range(-2, 2)):
-        v += S[B[t + 2], k] * (near[abs(t - dk)] + outer * rim[abs(t - dk)])
+        v += J[B[t + 2], k] * (near[abs(t - dk)] + outer * rim[abs(t - dk)])
     if ti.static(-2 <= dk <= 1):
-        v += S[A[dk + 2], k]
+        v += J[A[dk + 2], k]
     return v
 
 
 @ti.func
-def distributed_entry(S: ti.template(), k, dk: ti.template(), inverse: ti.template(), beside: ti.template()):
+def distributed_entry(J: ti.template(), k, dk: ti.template(), inverse: ti.template(), beside: ti.template()):
     """Row k, column k + dk: a unit film change there and the pressure that makes it."""
-    v = (S[AU, k] + S[AD, k]) * beside[abs(dk)]
+    v = (J[AU, k] + J[AD, k]) * beside[abs(dk)]
     for t in ti.static(range(-2, 2)):
-        v += S[A[t + 2], k] * inverse[abs(t - dk)]
+        v += J[A[t + 2], k] * inverse[abs(t - dk)]
     if ti.static(-2 <= dk <= 1):
-        v += S[B[dk + 2], k]
+        v += J[B[dk + 2], k]
     return v
 
 
 @ti.func
-def fill_row(S: ti.template(), k, i, nx, near: ti.template(), rim: ti.template(), inverse: ti.template(),
+def fill_row(J: ti.template(), k, i, nx, near: ti.template(), rim: ti.template(), inverse: ti.template(),
              beside: ti.template(), outer):
     """The seven entries of one node; columns without an unknown stay empty, dry rows are the identity."""
-    dry = S[DRY, k] > 0.0
+    dry = is_kind(J, k, DRY_KIND)
     for b in ti.static(range(2 * HALF + 1)):
-        kind = S[KIND, k + b - HALF]
-        v = ti.select(kind == 1.0, gauss_seidel_entry(S, k, b - HALF, near, rim, outer),
-                      distributed_entry(S, k, b - HALF, inverse, beside))
-        v = ti.select(kind == 0.0, V(0.0), v)
+        v = ti.select(is_kind(J, k + b - HALF, LOCAL), gauss_seidel_entry(J, k, b - HALF, near, rim, outer),
+                      distributed_entry(J, k, b - HALF, inverse, beside))
+        v = ti.select(is_kind(J, k + b - HALF, DRY_KIND), L(0.0), v)
         if i + b - HALF <= 0 or i + b - HALF >= nx:
-            v = V(0.0)
+            v = L(0.0)
         if ti.static(b == HALF):
-            S[BAND[b], k] = ti.select(dry, V(1.0), v)
+            J[BAND[b], k] = ti.select(dry, L(1.0), v)
         else:
-            S[BAND[b], k] = ti.select(dry, V(0.0), v)
+            J[BAND[b], k] = ti.select(dry, L(0.0), v)
 
 
 @ti.func
@@ -142,107 +165,116 @@ def row_of(table: ti.template(), n):
 
 @ti.func
 def reciprocal(pivot):
-    return 1.0 / ti.select(ti.abs(pivot) < TINY_PIVOT, V(TINY_PIVOT), pivot)
+    return L(1.0) / ti.select(ti.abs(pivot) < L(TINY_PIVOT), L(TINY_PIVOT), pivot)
 
 
 @ti.func
-def factorise(S: ti.template(), first, n2):
+def factorise(J: ti.template(), first, n2):
     """LU by rows without pivoting, in place; the diagonal keeps the reciprocal of the pivot.
 
     The three rows above stay in registers (r = a, b, c: nearest first; their upper part and reciprocal pivot): with
     columns eliminated in the table instead it takes twelve times as long.
     """
-    a4, a5, a6, a_inv = V(0.0), V(0.0), V(0.0), V(0.0)
-    b4, b5, b6, b_inv = V(0.0), V(0.0), V(0.0), V(0.0)
-    c4, c5, c6, c_inv = V(0.0), V(0.0), V(0.0), V(0.0)
+    a4, a5, a6, a_inv = L(0.0), L(0.0), L(0.0), L(0.0)
+    b4, b5, b6, b_inv = L(0.0), L(0.0), L(0.0), L(0.0)
+    c4, c5, c6, c_inv = L(0.0), L(0.0), L(0.0), L(0.0)
     for k in range(first, first + n2):
-        l3 = S[BAND[0], k] * c_inv
-        l2 = (S[BAND[1], k] - l3 * c4) * b_inv
-        l1 = (S[BAND[2], k] - l3 * c5 - l2 * b4) * a_inv
-        inv = reciprocal(S[BAND[3], k] - l3 * c6 - l2 * b5 - l1 * a4)
-        u4 = S[BAND[4], k] - l2 * b6 - l1 * a5
-        u5 = S[BAND[5], k] - l1 * a6
-        u6 = S[BAND[6], k]
-        S[BAND[0], k], S[BAND[1], k], S[BAND[2], k] = l3, l2, l1
-        S[BAND[3], k], S[BAND[4], k], S[BAND[5], k] = inv, u4, u5
+        l3 = J[BAND[0], k] * c_inv
+        l2 = (J[BAND[1], k] - l3 * c4) * b_inv
+        l1 = (J[BAND[2], k] - l3 * c5 - l2 * b4) * a_inv
+        inv = reciprocal(J[BAND[3], k] - l3 * c6 - l2 * b5 - l1 * a4)
+        u4 = J[BAND[4], k] - l2 * b6 - l1 * a5
+        u5 = J[BAND[5], k] - l1 * a6
+        u6 = J[BAND[6], k]
+        J[BAND[0], k], J[BAND[1], k], J[BAND[2], k] = l3, l2, l1
+        J[BAND[3], k], J[BAND[4], k], J[BAND[5], k] = inv, u4, u5
         c4, c5, c6, c_inv = b4, b5, b6, b_inv
         b4, b5, b6, b_inv = a4, a5, a6, a_inv
         a4, a5, a6, a_inv = u4, u5, u6, inv
 
 
 @ti.kernel
-def build_lines(S: ti.template(), G: Table, blocks: Blocks, count: ti.i32, near: Table, inverse: Table):
+def build_lines(J: ti.template(), G: Table, blocks: Blocks, count: ti.i32, near: LinearTable, inverse: LinearTable,
+                alone: ti.template()):
     """Fill and factorise the bands of the first `count` blocks; needs `classify`.
 
     near[2 l + (0 or 1), m]: deflection at distance m in x on level l (1: the outermost row of a line contact, which
     goes on to infinity); inverse[2 l + (0 or 1), m]: pressure of a unit film change, in its own and in the next row.
     """
-    ti.loop_config(block_dim=1)
+    ti.loop_config(block_dim=1, serialize=alone)
     for b in range(count):
         l, s = blocks[b, 0], blocks[b, 1]
         nx, ny, off = cells(G, l)
         first = off + s * (nx + 1)
-        outer = V(0.0)
+        outer = L(0.0)
         for u in ti.static(range(W)):
             if s * W + u == ny and int(G[l, JN]) == ny + 1:
                 outer[u] = 1.0
         inner, own, beside = row_of(near, 2 * l), row_of(inverse, 2 * l), row_of(inverse, 2 * l + 1)
         rim = row_of(near, 2 * l + 1) - inner
         for i in range(nx + 1):
-            fill_row(S, first + i, i, nx, inner, rim, own, beside, outer)
-        factorise(S, first, nx + 1)
+            fill_row(J, first + i, i, nx, inner, rim, own, beside, outer)
+        factorise(J, first, nx + 1)
 
 
 @ti.func
-def substitute(S: ti.template(), first, n2):
+def substitute(J: ti.template(), first, n2):
     """SOL from RES of one block."""
-    y1, y2, y3 = V(0.0), V(0.0), V(0.0)
+    y1, y2, y3 = L(0.0), L(0.0), L(0.0)
     for i in range(n2):
         k = first + i
-        y = S[RES, k] - S[BAND[0], k] * y3 - S[BAND[1], k] * y2 - S[BAND[2], k] * y1
-        S[SOL, k] = y
+        y = J[RES, k] - J[BAND[0], k] * y3 - J[BAND[1], k] * y2 - J[BAND[2], k] * y1
+        J[SOL, k] = y
         y3, y2, y1 = y2, y1, y
-    y1, y2, y3 = V(0.0), V(0.0), V(0.0)
+    y1, y2, y3 = L(0.0), L(0.0), L(0.0)
     for r in range(n2):
         k = first + n2 - 1 - r
-        y = (S[SOL, k] - S[BAND[4], k] * y1 - S[BAND[5], k] * y2 - S[BAND[6], k] * y3) * S[BAND[HALF], k]
-        S[SOL, k] = y
+        y = (J[SOL, k] - J[BAND[4], k] * y1 - J[BAND[5], k] * y2 - J[BAND[6], k] * y3) * J[BAND[HALF], k]
+        J[SOL, k] = y
         y3, y2, y1 = y2, y1, y
+
+
+@ti.func
+def rows_of(G: ti.template(), l, s):
+    """Place of the first row of block s among the rows of all levels, and the numbers from row to row."""
+    period = int(G[l, PERIOD])
+    return int(G[l, ROW0]) + s * W * period, period
 
 
 @ti.kernel
-def solve_lines(S: ti.template(), G: Table, blocks: Blocks, count: ti.i32, spread: Vector):
-    """SOL = line solutions of RES in the first `count` blocks; `spread` gets the part that K^-1 must distribute."""
-    start = int(G[0, OFF])
-    ti.loop_config(block_dim=1)
+def solve_lines(J: ti.template(), G: Table, blocks: Blocks, count: ti.i32, spread: LinearFlat, alone: ti.template()):
+    """SOL = line solutions of RES in the first `count` blocks; `spread` gets the part that K^-1 must distribute, by rows."""
+    ti.loop_config(block_dim=1, serialize=alone)
     for b in range(count):
         l, s = blocks[b, 0], blocks[b, 1]
         nx, ny, off = cells(G, l)
         first = off + s * (nx + 1)
-        substitute(S, first, nx + 1)
-        for k in range(first, first + nx + 1):
-            spread[k - start] = ti.select(S[KIND, k] == 2.0, S[SOL, k], V(0.0))
+        substitute(J, first, nx + 1)
+        row, period = rows_of(G, l, s)
+        for i in range(nx + 1):
+            rows_out(spread, row, period, i, ti.select(is_kind(J, first + i, DISTRIBUTED), J[SOL, first + i], L(0.0)))
 
 
 @ti.func
-def collect_block(S: ti.template(), G: ti.template(), l, s, spread: ti.template()):
+def collect_block(J: ti.template(), G: ti.template(), l, s, spread: ti.template()):
     """COR of one block: K^-1 of the distributed part, the line solution elsewhere, RES where dry."""
     nx, ny, off = cells(G, l)
-    start = int(G[0, OFF])
-    for k in range(off + s * (nx + 1), off + (s + 1) * (nx + 1)):
-        z = ti.select(S[KIND, k] == 1.0, S[SOL, k], load(spread, k - start))
-        S[COR, k] = ti.select(S[KIND, k] == 0.0, S[RES, k], z)
+    row, period = rows_of(G, l, s)
+    for i in range(nx + 1):
+        k = off + s * (nx + 1) + i
+        z = ti.select(is_kind(J, k, LOCAL), J[SOL, k], rows_in(spread, row, period, i))
+        J[COR, k] = ti.select(is_kind(J, k, DRY_KIND), J[RES, k], z)
 
 
 @ti.kernel
-def export_rows(S: ti.template(), G: Table, l: ti.i32, out: Table):
+def export_rows(J: ti.template(), G: Table, l: ti.i32, out: LinearTable, alone: ti.template()):
     """out[row of the stencil, node j (NX + 1) + i] = Jacobian rows of level l."""
     nx, ny, off = cells(G, l)
-    ti.loop_config(block_dim=1)
+    ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
         for i in range(nx + 1):
             for n in range(ti.static(len(STENCIL))):
-                v = S[STENCIL[0] + n, off + s * (nx + 1) + i]
+                v = J[STENCIL[0] + n, off + s * (nx + 1) + i]
                 for u in ti.static(range(W)):
                     if s * W + u <= ny:
                         out[n, (s * W + u) * (nx + 1) + i] = v[u]

@@ -3,7 +3,7 @@
 import taichi as ti
 
 from tehl_taichi.kernels.fields import DRY, FLOOR, K0, MASK, RHO, SCALE, TOUCH, WEIGHT, D, H, P, R
-from tehl_taichi.kernels.lanes import Table, V, Vector, W, cells, face_weights, load
+from tehl_taichi.kernels.lanes import LINEAR, LinearVector, Table, V, Vector, W, cells, face_weights, load
 
 
 @ti.func
@@ -20,10 +20,10 @@ def sets(p, r, gap, inside):
 
 
 @ti.kernel
-def sums(S: ti.template(), G: Table, middle: ti.i32, out: Table):
+def sums(S: ti.template(), G: Table, middle: ti.i32, out: Table, alone: ti.template()):
     """out[block] = phi^2, net outflow of the full-film region, Couette flux through the column `middle`."""
     nx, ny, off = cells(G, 0)
-    ti.loop_config(block_dim=1)
+    ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
         floor, inv = G[0, FLOOR], 1 / G[0, K0]
         down = face_weights(s, ny)[1]
@@ -47,11 +47,12 @@ def sums(S: ti.template(), G: Table, middle: ti.i32, out: Table):
 
 
 @ti.kernel
-def choose_sets(S: ti.template(), G: Table, cap: ti.f64, b: Vector, mass_row: Vector, touching: Table):
+def choose_sets(S: ti.template(), J: ti.template(), G: Table, cap: ti.f64, b: LinearVector, mass_row: LinearVector,
+                touching: Table, alone: ti.template()):
     """DRY, TOUCH and the row scale; b = right-hand side of the scaled Newton equations (touching rows are the caller's);
     mass_row = weight of each scaled row in the net outflow; touching[block, 0] = touching nodes."""
     nx, ny, off = cells(G, 0)
-    ti.loop_config(block_dim=1)
+    ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
         floor, inv = G[0, FLOOR], 1 / G[0, K0]
         half = 0.5 + 0.5 * face_weights(s, ny)[1]
@@ -62,18 +63,18 @@ def choose_sets(S: ti.template(), G: Table, cap: ti.f64, b: Vector, mass_row: Ve
             inside = S[MASK, k]
             touch, dry = sets(p, r, gap, inside)
             scale = ti.select(dry > 0.0, V(1.0), ti.min(S[D, k], cap))
-            S[TOUCH, k], S[DRY, k], S[SCALE, k] = touch, dry, scale
-            b[k - off] = ti.select(dry > 0.0, -p * inside, -S[R, k] / scale * inside)
-            mass_row[k - off] = half * scale * (1.0 - dry) * (1.0 - touch)
+            S[TOUCH, k], S[DRY, k], J[SCALE, k] = touch, dry, ti.cast(scale, LINEAR)
+            b[k - off] = ti.cast(ti.select(dry > 0.0, -p * inside, -S[R, k] / scale * inside), LINEAR)
+            mass_row[k - off] = ti.cast(half * scale * (1.0 - dry) * (1.0 - touch), LINEAR)
             count += touch
         touching[s, 0] = count.sum()
 
 
 @ti.kernel
-def advance(S: ti.template(), G: Table, old: Vector, step: Vector, t: ti.f64):
+def advance(S: ti.template(), G: Table, old: Vector, step: LinearVector, t: ti.f64, alone: ti.template()):
     """P = max(old + t step, 0) on the unknowns."""
     nx, ny, off = cells(G, 0)
-    ti.loop_config(block_dim=1)
+    ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
         for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
             p = load(old, q)
@@ -81,10 +82,10 @@ def advance(S: ti.template(), G: Table, old: Vector, step: Vector, t: ti.f64):
 
 
 @ti.kernel
-def save(S: ti.template(), G: Table, row: ti.i32, out: Vector):
+def save(S: ti.template(), G: Table, row: ti.i32, out: Vector, alone: ti.template()):
     """out = S[row] of the finest level, in block order."""
     nx, ny, off = cells(G, 0)
-    ti.loop_config(block_dim=1)
+    ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
         for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
             out[q] = S[row, off + q]

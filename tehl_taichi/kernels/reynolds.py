@@ -28,6 +28,7 @@ from tehl_taichi.kernels.fields import (
     LE,
     MASK,
     MOB,
+    PRODUCT,
     QOLD,
     QP,
     RHO,
@@ -40,7 +41,23 @@ from tehl_taichi.kernels.fields import (
     P,
     R,
 )
-from tehl_taichi.kernels.lanes import Blocks, Table, V, Vector, W, above, below, cells, face_weights, load
+from tehl_taichi.kernels.lanes import (
+    LINEAR,
+    Blocks,
+    Flat,
+    LinearFlat,
+    LinearVector,
+    Table,
+    V,
+    W,
+    above,
+    below,
+    cells,
+    face_weights,
+    load,
+    rows_in,
+    rows_out,
+)
 from tehl_taichi.physics.density import rho_ratio
 from tehl_taichi.physics.elementary import exp
 from tehl_taichi.physics.viscosity import ln_eta
@@ -81,9 +98,9 @@ def node_slopes(S: ti.template(), k, oil: ti.template(), p_H, Gamma, ln_eta0, fl
 
 @ti.kernel
 def laws(S: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: ti.i32, oil: ti.template(), p_H: ti.f64,
-         Gamma: ti.f64, ln_eta0: ti.f64, slopes: ti.template()):
+         Gamma: ti.f64, ln_eta0: ti.f64, slopes: ti.template(), alone: ti.template()):
     """Density, viscosity and mobility in the blocks first..last-1; with slopes = 1 their derivatives, which need the values."""
-    ti.loop_config(block_dim=1)
+    ti.loop_config(block_dim=1, serialize=alone)
     for b in range(first, last):
         l, s = blocks[b, 0], blocks[b, 1]
         nx, ny, off = cells(G, l)
@@ -140,11 +157,11 @@ def transport(S: ti.template(), k, i, couette):
 
 
 @ti.kernel
-def residual(S: ti.template(), G: Table, couette: ti.template()):
+def residual(S: ti.template(), G: Table, couette: ti.template(), alone: ti.template()):
     """R = dx [ d(rho H)/dX + d(rho H)/dT - div(eps grad P) ] on the unknowns of the finest level, 0 elsewhere."""
     nx, ny, off = cells(G, 0)
     n2 = nx + 1
-    ti.loop_config(block_dim=1)
+    ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
         up, down = face_weights(s, ny)
         inv, metric, CT_0 = 1 / G[0, DX], G[0, DX] / G[0, DY] ** 2, G[0, CT]
@@ -225,18 +242,19 @@ def face_below(S: ti.template(), k, n2, thinning: ti.template()):
 
 
 @ti.func
-def store_rows(S: ti.template(), k, rows: ti.template(), c0, c1, c2, c3):
-    S[rows[0], k], S[rows[1], k], S[rows[2], k], S[rows[3], k] = c0, c1, c2, c3
+def store_rows(J: ti.template(), k, rows: ti.template(), c0, c1, c2, c3):
+    for t, c in ti.static(enumerate((c0, c1, c2, c3))):
+        J[rows[t], k] = ti.cast(c, LINEAR)
 
 
 @ti.kernel
-def linearise(S: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: ti.i32, couette: ti.template(),
-              slope: ti.template(), thinning: ti.template()):
+def linearise(S: ti.template(), J: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: ti.i32,
+              couette: ti.template(), slope: ti.template(), thinning: ti.template(), alone: ti.template()):
     """Jacobian rows, EPS and the diagonal in the blocks first..last-1; needs `laws` and `slopes`.
 
     couette: row of the density in the Couette flow, slope: row of its derivative, thinning: row of d LE/dH or -1.
     """
-    ti.loop_config(block_dim=1)
+    ti.loop_config(block_dim=1, serialize=alone)
     for b in range(first, last):
         l, s = blocks[b, 0], blocks[b, 1]
         nx, ny, off = cells(G, l)
@@ -258,49 +276,74 @@ def linearise(S: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: t
                 a2 += d * d1 - u * u0
                 b2 += d * f1 - u * g0
                 total += u * eps_up + d * eps_down
-                S[AU, k], S[AD, k], S[BU, k], S[BD, k] = -u * u1, d * d0, -u * g1, d * f0
-            store_rows(S, k, ti.static(A), w[0] * S[slope, k - 2], w[1] * S[slope, k - 1] + left_p0 * inv, a2,
+                store_rows(J, k, ti.static((AU, AD, BU, BD)), -u * u1, d * d0, -u * g1, d * f0)
+            store_rows(J, k, ti.static(A), w[0] * S[slope, k - 2], w[1] * S[slope, k - 1] + left_p0 * inv, a2,
                        w[3] * S[slope, k + 1] - p1 * inv)
-            store_rows(S, k, ti.static(B), w[0] * S[couette, k - 2], w[1] * S[couette, k - 1] + left_h0 * inv, b2,
+            store_rows(J, k, ti.static(B), w[0] * S[couette, k - 2], w[1] * S[couette, k - 1] + left_h0 * inv, b2,
                        w[3] * S[couette, k + 1] - h1 * inv)
-            S[EPS, k] = total
+            J[EPS, k] = ti.cast(total, LINEAR)
             own = 0.5 * (S[slope, k] + S[couette, k] * K_0) + CT_l * (S[QP, k] + S[RHO, k] * K_0)
             S[D, k] = ti.max(own + (S[couette, k + 1] / 3 - S[couette, k - 1]) * K_1 + total, 0.5 * K_0)
             left_p0, left_p1, left_h0, left_h1, left_eps = p0, p1, h0, h1, eps
 
 
 @ti.func
-def reynolds_row(S: ti.template(), k, n2, pressure: ti.template(), film: ti.template()):
-    """Row k of the Jacobian times the fields in the rows `pressure` and `film`."""
-    out = S[AU, k] * above(S, pressure, k, n2) + S[AD, k] * below(S, pressure, k, n2)
-    out += S[BU, k] * above(S, film, k, n2) + S[BD, k] * below(S, film, k, n2)
+def reynolds_row(J: ti.template(), k, n2):
+    """Row k of the Jacobian times the changes of pressure (TRIAL) and film (FILM)."""
+    out = J[AU, k] * above(J, TRIAL, k, n2) + J[AD, k] * below(J, TRIAL, k, n2)
+    out += J[BU, k] * above(J, FILM, k, n2) + J[BD, k] * below(J, FILM, k, n2)
     for t in ti.static(range(4)):
-        out += S[A[t], k] * S[pressure, k + t - 2] + S[B[t], k] * S[film, k + t - 2]
+        out += J[A[t], k] * J[TRIAL, k + t - 2] + J[B[t], k] * J[FILM, k + t - 2]
     return out
 
 
 @ti.kernel
-def jacobian(S: ti.template(), G: Table, pressure: Vector, film: Vector, out: Vector):
-    """out = J (pressure, film) / SCALE on the finest level."""
+def place(J: ti.template(), G: Table, pressure: LinearVector, rows: LinearFlat, period: ti.i32, alone: ti.template()):
+    """TRIAL of the finest level = pressure, and so the rows that its deflection is computed from."""
     nx, ny, off = cells(G, 0)
-    n2 = nx + 1
-    ti.loop_config(block_dim=1)
+    ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
-        for q in range(s * n2, (s + 1) * n2):
-            S[TRIAL, off + q] = load(pressure, q)
-            S[FILM, off + q] = load(film, q)
-    ti.loop_config(block_dim=1)
-    for s in range(ny // W + 1):
-        for q in range(s * n2, (s + 1) * n2):
-            k = off + q
-            out[q] = reynolds_row(S, k, n2, TRIAL, FILM) / S[SCALE, k]
+        for i in range(nx + 1):
+            q = s * (nx + 1) + i
+            p = load(pressure, q)
+            J[TRIAL, off + q] = p
+            rows_out(rows, s * W * period, period, i, p)
 
 
 @ti.kernel
-def set_film(S: ti.template(), G: Table, film: Vector):
-    """H = undeformed gap + film (deflection and rigid approach)."""
+def jacobian(J: ti.template(), G: Table, film: LinearFlat, edge: LinearFlat, period: ti.i32, out: LinearVector,
+             alone: ti.template()):
+    """out = J (TRIAL, film + edge) / SCALE on the finest level."""
     nx, ny, off = cells(G, 0)
-    ti.loop_config(block_dim=1)
+    n2 = nx + 1
+    ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
-        for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
-            S[H, off + q] = S[GAP0, off + q] + load(film, q)
+        for i in range(n2):
+            J[FILM, off + s * n2 + i] = rows_in(film, s * W * period, period, i) + edge[i]
+    ti.loop_config(block_dim=1, serialize=alone)
+    for s in range(ny // W + 1):
+        for k in range(off + s * n2, off + (s + 1) * n2):
+            J[PRODUCT, k] = reynolds_row(J, k, n2) / J[SCALE, k]
+        for q in range(s * n2, (s + 1) * n2):
+            out[q] = J[PRODUCT, off + q]
+
+
+@ti.kernel
+def pressure_rows(S: ti.template(), G: Table, rows: Flat, period: ti.i32, alone: ti.template()):
+    """The rows that the deflection is computed from = P of the finest level."""
+    nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1, serialize=alone)
+    for s in range(ny // W + 1):
+        for i in range(nx + 1):
+            rows_out(rows, s * W * period, period, i, S[P, off + s * (nx + 1) + i])
+
+
+@ti.kernel
+def set_film(S: ti.template(), G: Table, film: Flat, edge: Flat, period: ti.i32, alone: ti.template()):
+    """H = undeformed gap + film + edge (deflection and rigid approach)."""
+    nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1, serialize=alone)
+    for s in range(ny // W + 1):
+        for i in range(nx + 1):
+            k = off + s * (nx + 1) + i
+            S[H, k] = S[GAP0, k] + rows_in(film, s * W * period, period, i) + edge[i]

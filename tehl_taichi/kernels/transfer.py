@@ -6,8 +6,8 @@ The transfers to and from the finest level run in parallel; the others are too s
 import taichi as ti
 
 from tehl_taichi.kernels.fields import COR, DRY, JN, RES, SCALE, TOUCH, H, P
-from tehl_taichi.kernels.lanes import Blocks, Table, V, Vector, W, cells, load
-from tehl_taichi.kernels.lines import collect_block
+from tehl_taichi.kernels.lanes import LINEAR, Blocks, L, LinearFlat, LinearVector, Table, V, W, cells, load
+from tehl_taichi.kernels.lines import DRY_KIND, collect_block, is_kind
 
 HALF_W = W // 2
 
@@ -27,6 +27,7 @@ def every_second(S: ti.template(), row, k, n2):
 @ti.kernel
 def inject(S: ti.template(), G: Table, levels: ti.i32, rows: ti.template()):
     """The fields `rows` (state, sets, laws) of every coarser level from the coinciding nodes of the finest; ghosts stay dry."""
+    ti.loop_config(serialize=True)
     for _ in range(1):
         for l in range(levels - 1):
             nx, ny, off = cells(G, l)
@@ -46,20 +47,20 @@ def inject(S: ti.template(), G: Table, levels: ti.i32, rows: ti.template()):
 
 
 @ti.func
-def wet(S: ti.template(), k):
-    return S[RES, k] * (1.0 - S[DRY, k])
+def wet(J: ti.template(), k):
+    return ti.select(is_kind(J, k, DRY_KIND), L(0.0), J[RES, k])
 
 
 @ti.func
-def weighted_x(S: ti.template(), k):
-    return 0.5 * wet(S, k) + 0.25 * (wet(S, k - 1) + wet(S, k + 1))
+def weighted_x(J: ti.template(), k):
+    return L(0.5) * wet(J, k) + L(0.25) * (wet(J, k - 1) + wet(J, k + 1))
 
 
 @ti.func
 def transfer_weights(G: ti.template(), l, t):
     """y weights of the fine rows 2 j - 1, 2 j, 2 j + 1 for the coarse rows of block t; mirrored at the borders."""
     my = cells(G, l + 1)[1]
-    lower, centre, upper = V(0.25), V(0.5), V(0.25)
+    lower, centre, upper = L(0.25), L(0.5), L(0.25)
     for u in ti.static(range(W)):
         j = t * W + u
         if j == 0:
@@ -72,17 +73,17 @@ def transfer_weights(G: ti.template(), l, t):
 
 
 @ti.func
-def restrict_block(S: ti.template(), G: ti.template(), l, t):
+def restrict_block(J: ti.template(), G: ti.template(), l, t):
     nx, ny, off = cells(G, l)
     mx, my, coff = cells(G, l + 1)
     n2 = nx + 1
     lower, centre, upper = transfer_weights(G, l, t)
     for I in range(mx + 1):
         c, k = coff + t * (mx + 1) + I, off + 2 * t * n2 + 2 * I
-        a, b, before = weighted_x(S, k), weighted_x(S, k + n2), 0.0
+        a, b, before = weighted_x(J, k), weighted_x(J, k + n2), ti.cast(0.0, LINEAR)
         if t > 0:
-            before = weighted_x(S, k - n2)[W - 1]
-        out = V(0.0)
+            before = weighted_x(J, k - n2)[W - 1]
+        out = L(0.0)
         for u in ti.static(range(W)):
             if ti.static(2 * u < W):
                 down = before
@@ -94,41 +95,42 @@ def restrict_block(S: ti.template(), G: ti.template(), l, t):
                 if ti.static(2 * u > W):
                     down = b[2 * u - W - 1]
                 out[u] = lower[u] * down + centre[u] * b[2 * u - W] + upper[u] * b[2 * u - W + 1]
-        S[RES, c] = 2.0 * out * (1.0 - S[DRY, c])
+        J[RES, c] = ti.select(is_kind(J, c, DRY_KIND), L(0.0), out + out)
 
 
 @ti.func
-def copy_out(S: ti.template(), G: ti.template(), l, row: ti.template(), values: ti.template()):
+def copy_out(J: ti.template(), G: ti.template(), l, row: ti.template(), values: ti.template()):
     nx, ny, off = cells(G, l)
     for q in range((ny // W + 1) * (nx + 1)):
-        values[q] = S[row, off + q]
+        values[q] = J[row, off + q]
 
 
 @ti.kernel
-def descend(S: ti.template(), G: Table, levels: ti.i32, r: Vector, coarse: Vector):
+def descend(J: ti.template(), G: Table, levels: ti.i32, r: LinearVector, coarse: LinearVector, alone: ti.template()):
     """RES of the finest level = r times the row scale, and of the coarser ones: twice the full weighting (rows carry
     dx), 0 at dry nodes of either level; `coarse` gets that of the coarsest."""
     nx, ny, off = cells(G, 0)
-    ti.loop_config(block_dim=1)
+    ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
         for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
-            S[RES, off + q] = load(r, q) * S[SCALE, off + q]
-    ti.loop_config(block_dim=1)
+            J[RES, off + q] = load(r, q) * J[SCALE, off + q]
+    ti.loop_config(block_dim=1, serialize=alone)
     for t in range(cells(G, ti.min(1, levels - 1))[1] // W + 1):
         if levels > 1:
-            restrict_block(S, G, 0, t)
+            restrict_block(J, G, 0, t)
+    ti.loop_config(serialize=True)
     for _ in range(1):
         for l in range(1, levels - 1):
             for t in range(cells(G, l + 1)[1] // W + 1):
-                restrict_block(S, G, l, t)
-        copy_out(S, G, levels - 1, RES, coarse)
+                restrict_block(J, G, l, t)
+        copy_out(J, G, levels - 1, RES, coarse)
 
 
 @ti.func
-def doubled(S: ti.template(), c, m2, upper_half):
+def doubled(J: ti.template(), c, m2, upper_half):
     """Correction at the fine rows of a block from the coarse block at c: mean of rows j // 2 and (j + 1) // 2."""
-    v, rim = S[COR, c], S[COR, c + m2][0]
-    out = V(0.0)
+    v, rim = J[COR, c], J[COR, c + m2][0]
+    out = L(0.0)
     for u in ti.static(range(W)):
         a, b = v[u // 2], v[(u + 1) // 2]
         if upper_half:
@@ -137,45 +139,51 @@ def doubled(S: ti.template(), c, m2, upper_half):
                 b = v[HALF_W + (u + 1) // 2]
             else:
                 b = rim
-        out[u] = 0.5 * (a + b)
-    return out
+        out[u] = a + b
+    return L(0.5) * out
 
 
 @ti.func
-def prolong_block(S: ti.template(), G: ti.template(), l, s, damping):
+def add_where_wet(J: ti.template(), k, change):
+    J[COR, k] = J[COR, k] + ti.select(is_kind(J, k, DRY_KIND), L(0.0), change)
+
+
+@ti.func
+def prolong_block(J: ti.template(), G: ti.template(), l, s, damping):
     nx, ny, off = cells(G, l)
     mx, my, coff = cells(G, l + 1)
     first, c, half = off + s * (nx + 1), coff + s // 2 * (mx + 1), s % 2
-    left = doubled(S, c, mx + 1, half)
+    left = doubled(J, c, mx + 1, half)
     for I in range(mx):
-        right = doubled(S, c + I + 1, mx + 1, half)
+        right = doubled(J, c + I + 1, mx + 1, half)
         k = first + 2 * I
-        S[COR, k] = S[COR, k] + damping * left * (1.0 - S[DRY, k])
-        S[COR, k + 1] = S[COR, k + 1] + damping * 0.5 * (left + right) * (1.0 - S[DRY, k + 1])
+        add_where_wet(J, k, damping * left)
+        add_where_wet(J, k + 1, damping * (L(0.5) * (left + right)))
         left = right
 
 
 @ti.kernel
-def ascend(S: ti.template(), G: Table, blocks: Blocks, solved: ti.i32, levels: ti.i32, spread: Vector, coarse: Vector,
-           damping: ti.f64, z: Vector):
+def ascend(J: ti.template(), G: Table, blocks: Blocks, solved: ti.i32, levels: ti.i32, spread: LinearFlat,
+           coarse: LinearVector, damping: LINEAR, z: LinearVector, alone: ti.template()):
     """COR of each level from its line solution (the first `solved` blocks) or from `coarse`, plus damping times the
     bilinear interpolation of the next coarser one, from coarse to fine, where wet; z gets that of the finest."""
     nx, ny, off = cells(G, 0)
-    ti.loop_config(block_dim=1)
+    ti.loop_config(block_dim=1, serialize=alone)
     for b in range(solved):
-        collect_block(S, G, blocks[b, 0], blocks[b, 1], spread)
+        collect_block(J, G, blocks[b, 0], blocks[b, 1], spread)
+    ti.loop_config(serialize=True)
     for _ in range(1):
         mx, my, last = cells(G, levels - 1)
         if blocks[solved - 1, 0] < levels - 1:
             for q in range((my // W + 1) * (mx + 1)):
-                S[COR, last + q] = load(coarse, q)
+                J[COR, last + q] = load(coarse, q)
         for step in range(levels - 2):
             l = levels - 2 - step
             for s in range(cells(G, l)[1] // W + 1):
-                prolong_block(S, G, l, s, damping)
-    ti.loop_config(block_dim=1)
+                prolong_block(J, G, l, s, damping)
+    ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
         if levels > 1:
-            prolong_block(S, G, 0, s, damping)
+            prolong_block(J, G, 0, s, damping)
         for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
-            z[q] = S[COR, off + q]
+            z[q] = J[COR, off + q]

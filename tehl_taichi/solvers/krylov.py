@@ -11,32 +11,33 @@ CANCELLED = 0.5  # fraction of the norm below which the projection is repeated
 class Workspace:
     """Basis V and preconditioned basis Z for vectors of length n."""
 
-    def __init__(self, n, iterations):
+    def __init__(self, n, iterations, dtype=float):
         self.iterations = iterations
-        self.V, self.Z = np.zeros((iterations + 1, n)), np.zeros((iterations, n - 1))
+        self.V, self.Z = np.zeros((iterations + 1, n), dtype), np.zeros((iterations, n - 1), dtype)
 
 
 def fgmres(apply, precondition, b, tolerance, work):
     """x with |b - A x| <= tolerance |b| as far as work.iterations allow.
 
-    apply(z) -> A z and precondition(v) -> M^-1 v take and return vectors (n,). Returns (x, iterations, reduction).
+    apply(z, out): out = A z; precondition(v, out): out = M^-1 v. Returns (x, iterations, reduction).
     """
     beta = float(np.sqrt(np.sum(b * b)))
     if beta == 0.0:
-        return np.zeros(work.Z.shape[1]), 0, 0.0
+        return np.zeros_like(work.Z[0]), 0, 0.0
     rotated = Rotations(work.iterations, beta)
     work.V[0] = b / beta
     for k in range(work.iterations):
-        work.Z[k] = precondition(work.V[k])
-        left = rotated.add(_extend(apply(work.Z[k]), k, work))
+        precondition(work.V[k], work.Z[k])
+        apply(work.Z[k], work.V[k + 1])
+        left = rotated.add(_extend(k, work))
         if left <= tolerance * beta or not np.isfinite(left):
             break
-    return rotated.solution() @ work.Z[: k + 1], k + 1, left / beta
+    return rotated.solution().astype(work.Z.dtype) @ work.Z[: k + 1], k + 1, left / beta
 
 
-def _extend(w, k, work):
-    """Orthogonalise w against the basis, append it, and return its column of the Hessenberg matrix (k + 2,)."""
-    V, column = work.V[: k + 1], np.zeros(k + 2)
+def _extend(k, work):
+    """Orthogonalise the newest vector against the basis; returns its column of the Hessenberg matrix (k + 2,)."""
+    V, w, column = work.V[: k + 1], work.V[k + 1], np.zeros(k + 2)
     norm = np.sqrt(w @ w)
     for _ in range(2):
         before = norm
@@ -47,7 +48,7 @@ def _extend(w, k, work):
         if norm > CANCELLED * before:
             break
     column[-1] = norm
-    np.multiply(w, 1 / norm if norm > 0 else 0.0, out=work.V[k + 1])
+    w *= w.dtype.type(1 / norm if norm > 0 else 0.0)
     return column
 
 

@@ -14,11 +14,14 @@ from tehl_taichi.solvers.transforms import Deflection
 COARSEST_2D = 16  # cells along x below which no coarser grid is made
 COARSEST_1D = 32
 DENSE_LIMIT = 700  # nodes up to which the coarsest grid is solved directly
+LINEAR = np.dtype({"f64": float, "f32": np.float32}[runtime.precision()])  # of the linear solves
+HEAVY = 4  # work of a column in the laws and in the linearisation, in units of a copy
 PAD = 4  # columns in front of the first and behind the last level that stencils may touch
 
 
 class Levels:
-    """State table S, level table G and the constants of one contact on a grid of nx x ny cells and its coarser ones.
+    """State table S, table of the linear problem J, level table G and the constants of one contact on a grid of nx x ny
+    cells and its coarser ones.
 
     scene: the description; scales: its Hertz units; nx, ny: cells (ny = 0: one-dimensional); full: from -y_max instead of
     from the plane of symmetry (the lower edge of a line contact is then a mirror far away). The fields of the finest
@@ -40,7 +43,9 @@ class Levels:
         self.G = self._level_table()
         self.n = columns(nx, ny) * lanes.W
         rows = fields.NROWS if scene.isothermal else fields.NROWS_THERMAL
-        self.S = runtime.lease(self, rows, lanes.W, max(table_columns(nx, ny), _final_columns(scene)))
+        size = max(table_columns(nx, ny), _final_columns(scene))
+        self.S = runtime.lease(self, rows, lanes.W, size)
+        self.J = runtime.lease(self, fields.NROWS_LINEAR, lanes.W, size, precision=runtime.precision())
         self.deflection = self.deflection_of(0)
         self._set_laws()
         self._bind()
@@ -53,7 +58,7 @@ class Levels:
             dx, dy = self.dx * 2**l, self.dy * 2**l
             own = self.near_kernel(l)[0]
             rows = ny + 1 if self.line else ny
-            G[l] = [off, nx, ny, rows, dx, dy, 0.0, own[0], own[1], self.scene.rheology.film_floor, 1.0]
+            G[l, : fields.ROW0] = off, nx, ny, rows, dx, dy, 0.0, *own[:2], self.scene.rheology.film_floor, 1.0
             off += columns(nx, ny)
         return G
 
@@ -68,9 +73,10 @@ class Levels:
         # the outermost row of a line contact goes on to infinity on one side only
         return np.vstack([inner, 0.5 * (inner + strip) if self.line else inner])
 
-    def deflection_of(self, l):
+    def deflection_of(self, l, dtype=float):
         """Deflection operator of level l."""
-        return Deflection(*self.sizes[l], self.dx * 2**l, self.dy * 2**l, self.scales.compliance, self.line, self.mirrored)
+        cells, spacing = self.sizes[l], (self.dx * 2**l, self.dy * 2**l)
+        return Deflection(*cells, *spacing, self.scales.compliance, self.line, self.mirrored, dtype)
 
     def _set_laws(self):
         scene, s = self.scene, self.scales
@@ -84,17 +90,20 @@ class Levels:
         fine, coarse = (0, self.fine), (self.fine, len(self.blocks))
         self.laws, self._slopes, self._rows = self._bind_laws(*fine)
         self._laws_coarse, self._slopes_coarse, self._rows_coarse = self._bind_laws(*coarse)
-        self.evaluate_residual = bind(reynolds.residual, self.S, self.G, fields.RHO)
+        self.evaluate_residual = self.launch(reynolds.residual, self.S, self.G, fields.RHO)
         self.inject = bind(transfer.inject, self.S, self.G, len(self.sizes), fields.STATE)
-        self._vector = np.empty((self.n // lanes.W, lanes.W))
-        self._save_P = self.binder(measure.save, fields.P, self._vector)
-        self._set_film = self.binder(reynolds.set_film, self._vector)
+        d = self.deflection
+        self._pressure_rows = self.launch(reynolds.pressure_rows, self.S, self.G, d.pressure.ravel(), d.pressure.shape[1])
+        self._set_film = self.launch(reynolds.set_film, self.S, self.G, d.film.ravel(), d.edge, d.film.shape[1])
 
     def _bind_laws(self, first, last):
         table = (self.S, self.G, self.blocks, first, last)
         law = (self.scene.oil, self.scales.p_H, self.Gamma, self.ln_eta0)
-        return (bind(reynolds.laws, *table, *law, 0), bind(reynolds.laws, *table, *law, 1),
-                bind(reynolds.linearise, *table, fields.RHO, fields.QP, -1))
+        values, slopes = (self.launch(reynolds.laws, *table, *law, with_slopes, work=HEAVY) for with_slopes in (0, 1))
+        return values, slopes, self._launch_rows(first, last, fields.RHO, fields.QP, -1)
+
+    def _launch_rows(self, *args):
+        return self.launch(reynolds.linearise, self.S, self.J, self.G, self.blocks, *args, work=HEAVY)
 
     def slow_down(self, factor):
         """Take the speed of the film's balance to be that of the scene over `factor`."""
@@ -104,9 +113,8 @@ class Levels:
         """Take the laws of the finest level from a film with temperatures; the coarser levels get theirs by injection."""
         self.laws, self._slopes = laws, slopes
         rows, fine, coarse = (fields.RHOC, fields.QCP, fields.DLH), (0, self.fine), (self.fine, len(self.blocks))
-        self._rows, self._rows_coarse = (bind(reynolds.linearise, self.S, self.G, self.blocks, *cut, *rows)
-                                         for cut in (fine, coarse))
-        self.evaluate_residual = bind(reynolds.residual, self.S, self.G, fields.RHOC)
+        self._rows, self._rows_coarse = (self._launch_rows(*cut, *rows) for cut in (fine, coarse))
+        self.evaluate_residual = self.launch(reynolds.residual, self.S, self.G, fields.RHOC)
         self.inject = bind(transfer.inject, self.S, self.G, len(self.sizes), fields.STATE + fields.LAWS)
         self._laws_coarse = self._slopes_coarse = lambda: None
         for l, (nx, ny) in enumerate(self.sizes):
@@ -122,12 +130,13 @@ class Levels:
         self.inside = self.vector(fields.MASK)
         for l in range(len(self.sizes)):
             self._clear_level(l)
+        lanes.put(self.J, self.G, 0, fields.SCALE, np.ones((self.ny + 1, self.nx + 1)))
 
     def _clear_level(self, l):
         """Everything dry with a film of 1 and the diagonal 1, so that ghosts and borders stay finite."""
         nx, ny = self.sizes[l]
         ones = np.ones((ny + 1, nx + 1))
-        for row in (fields.DRY, fields.H, fields.RHO, fields.D, fields.SCALE):
+        for row in (fields.DRY, fields.H, fields.RHO, fields.D):
             self.put(row, ones, l)
 
     def _clear_ghosts(self, *rows):
@@ -163,18 +172,17 @@ class Levels:
     def vector(self, row):
         """Field `row` of the finest level as a new flat vector in table order."""
         out = np.empty((self.n // lanes.W, lanes.W))
-        measure.save(self.S, self.G, row, out)
+        measure.save(self.S, self.G, row, out, True)
         return out.ravel()
 
-    def binder(self, kernel, *args):
-        """A launch of `kernel` on this table."""
-        return bind(kernel, self.S, self.G, *args)
+    def launch(self, kernel, *args, work=1):
+        """A launch of `kernel`, whose last argument is `alone`; work: of one column, in units of a copy."""
+        return bind(kernel, *args, runtime.alone(work * self.n // lanes.W))
 
     def set_film(self, H0):
         """H from the pressure in the table and the rigid approach H0."""
-        self._save_P()
-        shape = (self.fine, self.nx + 1, lanes.W)
-        self._vector.reshape(shape)[:] = self.deflection.apply(self._vector.reshape(shape), H0)
+        self._pressure_rows()
+        self.deflection.run(H0)
         self._set_film()
 
     def set_rate(self, weight):

@@ -12,6 +12,7 @@ import numpy as np
 from tehl_taichi.kernels import fields, measure, reynolds
 from tehl_taichi.kernels.lanes import W
 from tehl_taichi.solvers.krylov import Workspace, fgmres
+from tehl_taichi.solvers.levels import LINEAR
 from tehl_taichi.solvers.preconditioner import AdditiveLines
 
 SHORTEST_STEP = 0.05  # of a Newton step; below it a step is taken as it is and the next linearisation decides
@@ -43,20 +44,22 @@ class PressureSolver:
 
     def __init__(self, levels):
         self.levels = levels
-        self.work = Workspace(levels.n + 2, levels.scene.numerics.krylov_max)
+        self.work = Workspace(levels.n + 2, levels.scene.numerics.krylov_max, LINEAR)
         self.preconditioner = AdditiveLines(levels)
-        self.inside, self.weights = levels.inside, levels.vector(fields.WEIGHT)
+        self.inside, self.weights = levels.inside.astype(LINEAR), levels.vector(fields.WEIGHT).astype(LINEAR)
         self.load = levels.scales.load
         self.H0 = 0.0
         self._bind()
 
     def _bind(self):
         v = self.levels
-        self.trial, self.film, self.product, self.b, self.mass_row = (np.zeros((v.n // W, W)) for _ in range(5))
+        self.trial, self.product, self.b, self.mass_row = (np.zeros((v.n // W, W), LINEAR) for _ in range(4))
+        d = self.deflection = v.deflection if LINEAR == v.deflection.dtype else v.deflection_of(0, LINEAR)
         self.partial, self.touching = np.zeros((v.fine, 4)), np.zeros((v.fine, 1))
-        self._jacobian = v.binder(reynolds.jacobian, self.trial, self.film, self.product)
-        self._sums = v.binder(measure.sums, int(np.argmin(np.abs(v.X))), self.partial)
-        self._choose_sets = v.binder(measure.choose_sets, ROW_CAP, self.b, self.mass_row, self.touching)
+        self._place = v.launch(reynolds.place, v.J, v.G, self.trial, d.pressure.ravel(), d.pressure.shape[1])
+        self._jacobian = v.launch(reynolds.jacobian, v.J, v.G, d.film.ravel(), d.edge, d.film.shape[1], self.product)
+        self._sums = v.launch(measure.sums, v.S, v.G, int(np.argmin(np.abs(v.X))), self.partial)
+        self._choose_sets = v.launch(measure.choose_sets, v.S, v.J, v.G, ROW_CAP, self.b, self.mass_row, self.touching)
 
     def residual(self):
         """H, laws and R of the state in the table."""
@@ -133,12 +136,12 @@ class PressureSolver:
         v = self.levels
         b = self.b.ravel()
         if touching:
-            violation = v.vector(fields.H) - v.G[0, fields.FLOOR]
-            b = np.where(v.vector(fields.TOUCH) > 0, -self._rows(0.0, violation), b)
+            violation = v.get(fields.H) - v.G[0, fields.FLOOR]
+            b = np.where(v.vector(fields.TOUCH) > 0, -self._film_rows(violation), b)
         if self.lift is None:
             self._border()
         self._scale_mass(b)
-        right = np.concatenate([b, [-self.load_error * self.load, self.mass_row.ravel() @ b]])
+        right = np.concatenate([b, [-self.load_error * self.load, self.mass_row.ravel() @ b]], dtype=LINEAR)
         step, used, _ = fgmres(self._apply, self._precondition, right, krylov_tolerance, self.work)
         step[:-1] *= self.inside
         return step, used
@@ -151,36 +154,42 @@ class PressureSolver:
         if defect > 0:
             self.mass_row *= min(1.0, float(np.sqrt(b @ b)) / defect)
 
-    def _rows(self, pressure, film):
-        """Scaled Jacobian rows for given changes of pressure and film; a buffer."""
-        self.trial.ravel()[:], self.film.ravel()[:] = pressure, film
+    def _film_rows(self, change):
+        """Scaled Jacobian rows for a change of the film (ny+1, nx+1) alone; a buffer."""
+        v, d = self.levels, self.deflection
+        self.trial[:], d.edge[:], d.film[:] = 0.0, 0.0, 0.0
+        self._place()
+        d.film[: v.ny + 1, : v.nx + 1] = change
         self._jacobian()
         return self.product.ravel()
 
-    def _apply(self, z):
-        """Scaled Jacobian times (pressure change, H0 change), and its load and mass components.
+    def _apply(self, z, out):
+        """out = scaled Jacobian times (pressure change, H0 change), and its load and mass components.
 
         The net mass defect is a redundant component of the Krylov vectors, that is, the norm gets one more term, itself
         scaled like the sum of all rows: row scales of 1e3 in the inlet would hide the defect, and it would cost three
         more Newton steps.
         """
-        v = self.levels
-        film = v.deflection.apply(z[:-1].reshape(v.fine, v.nx + 1, W), z[-1])
-        rows = self._rows(z[:-1], film.ravel())
-        return np.concatenate([rows, [self.weights @ z[:-1], self.mass_row.ravel() @ rows]])
+        np.copyto(self.trial.ravel(), z[:-1])
+        self._place()
+        self.deflection.run(z[-1])
+        self._jacobian()
+        rows = self.product.ravel()
+        np.copyto(out[:-2], rows)
+        out[-2:] = self.weights @ z[:-1], self.mass_row.ravel() @ rows
 
     def _border(self):
         """Answer of the preconditioner to a change of H0, for the bordered system; kept for the whole step."""
-        self.lift = self.preconditioner.apply(self._rows(0.0, 1.0)) * (1 - self.levels.vector(fields.DRY))
+        wet = (1 - self.levels.vector(fields.DRY)).astype(LINEAR)
+        self.lift = self.preconditioner.apply(self._film_rows(1.0)) * wet
         self.lift_load = float(self.weights @ self.lift)
 
-    def _precondition(self, r):
-        z = np.empty(r.size - 1)
+    def _precondition(self, r, out):
+        """out = (pressure change, H0 change) of the bordered preconditioner for the rows r."""
         pressure = self.preconditioner.apply(r[:-2])
-        z[-1] = (self.weights @ pressure - r[-2]) / self.lift_load
-        np.multiply(self.lift, -z[-1], out=z[:-1])
-        z[:-1] += pressure
-        return z
+        out[-1] = (self.weights @ pressure - r[-2]) / self.lift_load
+        np.multiply(self.lift, -out[-1], out=out[:-1])
+        out[:-1] += pressure
 
     def _advance(self, step, merit, first, tolerance):
         """Damped update: halve until the merit falls (or the change is small and the merit stays small). Returns the merit, by
@@ -200,5 +209,5 @@ class PressureSolver:
     def _move(self, old_P, old_H0, step, t):
         """Pressure and H0: the old ones plus t times the step, no pressure below 0."""
         v = self.levels
-        measure.advance(v.S, v.G, old_P.reshape(-1, W), step[:-1].reshape(-1, W), t)
+        measure.advance(v.S, v.G, old_P.reshape(-1, W), step[:-1].reshape(-1, W), t, True)
         self.H0 = old_H0 + t * float(step[-1])

@@ -8,7 +8,7 @@ import numpy as np
 
 from tehl_taichi.kernels import fields, lanes, lines, transfer
 from tehl_taichi.runtime import bind
-from tehl_taichi.solvers.levels import DENSE_LIMIT
+from tehl_taichi.solvers.levels import DENSE_LIMIT, HEAVY, LINEAR
 from tehl_taichi.solvers.transforms import Distribution
 
 COARSE_WEIGHT = 0.8  # of the coarser levels' sum: 30.1 Krylov iterations a step with 0.5, 22.9 with 0.8, 24.3 with 1 (256x64)
@@ -23,24 +23,26 @@ class AdditiveLines:
         nx, ny = levels.sizes[-1]
         dense = len(levels.sizes) > 1 and (nx + 1) * (ny + 1) <= DENSE_LIMIT
         smoothed = levels.sizes[:-1] if dense else levels.sizes
-        self.distribution = Distribution(smoothed, levels.dx, levels.dy, levels.scales.compliance)
+        self.distribution = Distribution(smoothed, levels.dx, levels.dy, levels.scales.compliance, LINEAR)
         self.inverse = self.distribution.near()
-        self.near = np.vstack([levels.near_kernel(l) for l in range(len(smoothed))])
+        for l, place in enumerate(self.distribution.places):
+            levels.G[l, [fields.ROW0, fields.PERIOD]] = place
+        self.near = np.vstack([levels.near_kernel(l) for l in range(len(smoothed))]).astype(LINEAR)
         self.count = sum(ny // lanes.W + 1 for _, ny in smoothed)
         self.coarsest = Coarsest(levels) if dense else None
-        self.r, self.z = np.zeros((levels.n // lanes.W, lanes.W)), np.zeros((levels.n // lanes.W, lanes.W))
+        self.r, self.z = (np.zeros((levels.n // lanes.W, lanes.W), LINEAR) for _ in range(2))
         self._bind()
 
     def _bind(self):
         v, d, size = self.levels, self.distribution, len(self.levels.sizes)
         coarse = self.coarsest or Coarsest(v, dense=False)
-        self._classify = [bind(lines.classify, v.S, v.G, v.blocks, *cut, touching, THETA) for touching in (0, 1)
+        self._classify = [v.launch(lines.classify, v.S, v.J, v.G, v.blocks, *cut, touching, THETA) for touching in (0, 1)
                           for cut in ((0, v.fine), (v.fine, len(v.blocks)))]
-        self._build_lines = bind(lines.build_lines, v.S, v.G, v.blocks, self.count, self.near, self.inverse)
-        self._descend = bind(transfer.descend, v.S, v.G, size, self.r, coarse.right)
-        self._solve_lines = bind(lines.solve_lines, v.S, v.G, v.blocks, self.count, d.source)
-        self._ascend = bind(transfer.ascend, v.S, v.G, v.blocks, self.count, size, d.result, coarse.solution,
-                            COARSE_WEIGHT, self.z)
+        self._build_lines = v.launch(lines.build_lines, v.J, v.G, v.blocks, self.count, self.near, self.inverse, work=HEAVY)
+        self._descend = v.launch(transfer.descend, v.J, v.G, size, self.r, coarse.right)
+        self._solve_lines = v.launch(lines.solve_lines, v.J, v.G, v.blocks, self.count, d.source)
+        self._ascend = v.launch(transfer.ascend, v.J, v.G, v.blocks, self.count, size, d.result, coarse.solution,
+                                COARSE_WEIGHT, self.z)
 
     def build(self, touching):
         """Linearise the coarser levels about the injected state and factorise every level."""
@@ -54,7 +56,7 @@ class AdditiveLines:
 
     def apply(self, r):
         """Correction (n,) of the finest level for the right-hand side r (n,) of the scaled rows; a buffer."""
-        self.r.ravel()[:] = r
+        np.copyto(self.r.ravel(), r)
         self._descend()
         self._solve_lines()
         self.distribution.run()
@@ -71,14 +73,14 @@ class Coarsest:
         self.levels, self.l = levels, len(levels.sizes) - 1
         nx, ny = levels.sizes[-1]
         size = (ny // lanes.W + 1) * (nx + 1)
-        self.right, self.solution = np.zeros((size, lanes.W)), np.zeros((size, lanes.W))
+        self.right, self.solution = (np.zeros((size, lanes.W), LINEAR) for _ in range(2))
         j, i = (q.ravel() for q in np.mgrid[: ny + 1, : nx + 1])
         self.place = (j // lanes.W * (nx + 1) + i) * lanes.W + j % lanes.W
         if dense:
             self.neighbours = self._neighbours(i, j, nx, ny)
             self.influence = self._influence(nx, ny)
-            self.rows = np.zeros((len(fields.STENCIL), i.size))
-            self._export = bind(lines.export_rows, levels.S, levels.G, self.l, self.rows)
+            self.rows = np.zeros((len(fields.STENCIL), i.size), LINEAR)
+            self._export = bind(lines.export_rows, levels.J, levels.G, self.l, self.rows, True)
 
     def _neighbours(self, i, j, nx, ny):
         """Node numbers of i-2, i-1, i, i+1, j+1, j-1; those outside have no weight."""
@@ -89,11 +91,12 @@ class Coarsest:
         """Deflection matrix (nodes, nodes)."""
         v, n = self.levels, (nx + 1) * (ny + 1)
         deflect = v.deflection_of(self.l)
-        K, unit = np.empty((n, n)), np.zeros((self.right.shape[0] // (nx + 1), nx + 1, lanes.W))
-        for node, place in enumerate(self.place):
-            unit.ravel()[place] = 1.0
-            K[:, node] = deflect.apply(unit).ravel()[self.place]
-            unit.ravel()[place] = 0.0
+        K, unit = np.zeros((n, n)), np.zeros((ny + 1, nx + 1))
+        for node in range(n):
+            if node % (nx + 1):  # the first column has no pressure
+                unit.ravel()[node] = 1.0
+                K[:, node] = deflect.apply(unit).ravel()
+                unit.ravel()[node] = 0.0
         return K
 
     def build(self):
@@ -103,7 +106,7 @@ class Coarsest:
         for a, b, q in zip(self.rows[:half], self.rows[half:], self.neighbours):
             J += b[:, None] * self.influence[q]
             J[nodes, q] += a
-        self.inverse = np.linalg.inv(J)
+        self.inverse = np.linalg.inv(J).astype(LINEAR)
 
     def solve(self):
         self.solution.ravel()[self.place] = self.inverse @ self.right.ravel()[self.place]

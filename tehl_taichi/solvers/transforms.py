@@ -11,6 +11,7 @@ from tehl_taichi.kernels.lanes import W
 from tehl_taichi.solvers import influence
 
 PLAN = dict(flags=("FFTW_ESTIMATE",), threads=1)
+ALIGNED = 16  # numbers between starts that suit FFTW's vector loads
 MATRIX_ROWS = 257  # modes up to which the cosine transform is a matrix product (equal times at 257)
 
 
@@ -22,38 +23,35 @@ def even_fast_length(n):
     return length
 
 
-def _real(*shape):
-    return pyfftw.zeros_aligned(shape, dtype="float64")
+def _rows(ny, period, dtype):
+    """Zero array of the rows of all blocks of lanes, the last one whole: (blocks W, period)."""
+    return pyfftw.zeros_aligned((padded_rows(ny), period), dtype)
 
 
-def _lane_rows(nx, ny, period):
-    """Zero array (ny+1, period) and its first nx+1 columns as blocks of lanes (blocks, nx+1, W)."""
-    blocks = ny // W + 1
-    whole = _real(blocks * W, period)
-    return whole[: ny + 1], whole.reshape(blocks, W, period)[:, :, : nx + 1].transpose(0, 2, 1)
+def padded_rows(ny):
+    """Rows of the blocks of lanes that ny + 1 rows take."""
+    return (ny // W + 1) * W
 
 
-def _complex(*shape):
-    return pyfftw.zeros_aligned(shape, dtype="complex128")
+def _complex(shape, dtype):
+    return pyfftw.zeros_aligned(shape, np.result_type(dtype, np.complex64))
 
 
 class EvenConvolution:
     """Real transform along x (length `period`), cosine transform along y (`rows` modes, even about both ends).
 
-    `source` (ny+1, period) -> `result` (same shape), multiplied by the symbol (rows, period//2+1) in between. Columns of
-    `source` beyond the nx+1 of the grid stay zero. `source_blocks` and `result_blocks` are views (blocks, nx+1, W) of
-    their first nx+1 columns in the order of the state table.
+    `source` -> `result`, multiplied by the symbol (rows, period//2+1) in between: arrays of at least ny+1 rows and of
+    `period` columns, of which those beyond the nx+1 of the grid must stay zero in `source`.
     """
 
-    def __init__(self, nx, ny, rows, period):
-        self.rows, self.half = rows, period // 2 + 1
-        self.source, self.source_blocks = _lane_rows(nx, ny, period)
-        self.result, self.result_blocks = _lane_rows(nx, ny, period)
-        first, last = _complex(ny + 1, self.half), _complex(ny + 1, self.half)
-        self.forward = pyfftw.FFTW(self.source, first, axes=(1,), **PLAN)
-        self.back = pyfftw.FFTW(last, self.result, axes=(1,), direction="FFTW_BACKWARD", **PLAN)
-        self.first, self.last = first.view("float64"), last.view("float64")
-        self.cosine = Cosine(ny, rows, 2 * self.half)
+    def __init__(self, source, result, ny, rows):
+        period, self.dtype = source.shape[1], source.dtype
+        self.rows, self.half, self.source, self.result = rows, period // 2 + 1, source, result
+        first, last = (_complex((ny + 1, self.half), self.dtype) for _ in range(2))
+        self.forward = pyfftw.FFTW(source[: ny + 1], first, axes=(1,), **PLAN)
+        self.back = pyfftw.FFTW(last, result[: ny + 1], axes=(1,), direction="FFTW_BACKWARD", **PLAN)
+        self.first, self.last = first.view(self.dtype), last.view(self.dtype)
+        self.cosine = Cosine(ny, rows, 2 * self.half, self.dtype)
         self.scale = 1 / (period * (2 * (rows - 1) if rows > 1 else 1))
 
     def set_kernel(self, values):
@@ -65,7 +63,7 @@ class EvenConvolution:
 
     def set_symbol(self, symbol):
         """Real symbol (rows, period//2+1), stored twice: for the real and the imaginary parts."""
-        self.symbol = np.repeat(symbol * self.scale, 2, axis=1)
+        self.symbol = np.repeat(symbol * self.scale, 2, axis=1).astype(self.dtype)
 
     def run(self):
         """result = symbol * source."""
@@ -83,14 +81,14 @@ class Cosine:
     against 0.63 ms for FFTW's REDFT00); as FFTW's transform beyond.
     """
 
-    def __init__(self, ny, rows, columns):
-        self.ny, self.rows = ny, rows
-        self.spectrum = _real(rows, columns)
+    def __init__(self, ny, rows, columns, dtype):
+        self.ny, self.rows, self.dtype = ny, rows, dtype
+        self.spectrum = pyfftw.zeros_aligned((rows, columns), dtype)
         self.plain = rows <= MATRIX_ROWS
         if self.plain:
             self._matrices()
         else:
-            self.padded = _real(rows, columns)
+            self.padded = pyfftw.zeros_aligned((rows, columns), dtype)
             plan = dict(axes=(0,), direction="FFTW_REDFT00", **PLAN)
             self.there = pyfftw.FFTW(self.padded, self.spectrum, **plan)
             self.again = pyfftw.FFTW(self.spectrum, self.padded, **plan)
@@ -100,6 +98,7 @@ class Cosine:
         weight = np.full(self.rows, 2.0)
         weight[[0, -1]] = 1.0
         full = np.cos(np.pi * (np.outer(j, j) % (2 * max(self.rows - 1, 1))) / max(self.rows - 1, 1)) * weight
+        full = full.astype(self.dtype)
         self.to_modes = np.ascontiguousarray(full[:, : self.ny + 1])
         self.to_rows = np.ascontiguousarray(full[: self.ny + 1])
 
@@ -123,21 +122,21 @@ class Cosine:
 class PlainConvolution:
     """The same without a mirror: zero padding in both directions, a full transform along y (source, run, result alike)."""
 
-    def __init__(self, nx, ny, rows, period):
-        self.ny, self.half = ny, period // 2 + 1
-        self.source, self.source_blocks = _lane_rows(nx, ny, period)
-        self.result, self.result_blocks = _lane_rows(nx, ny, period)
-        self.padded, last = _complex(rows, self.half), _complex(ny + 1, self.half)
+    def __init__(self, source, result, ny, rows):
+        period, self.dtype = source.shape[1], source.dtype
+        self.ny, self.half, self.source, self.result = ny, period // 2 + 1, source, result
+        self.padded, last = _complex((rows, self.half), self.dtype), _complex((ny + 1, self.half), self.dtype)
         self.first, self.last = self.padded[: ny + 1], last
-        self.forward = pyfftw.FFTW(self.source, self.first, axes=(1,), **PLAN)
+        self.forward = pyfftw.FFTW(source[: ny + 1], self.first, axes=(1,), **PLAN)
         self.along = pyfftw.FFTW(self.padded, self.padded, axes=(0,), **PLAN)
         self.again = pyfftw.FFTW(self.padded, self.padded, axes=(0,), direction="FFTW_BACKWARD", **PLAN)
-        self.back = pyfftw.FFTW(last, self.result, axes=(1,), direction="FFTW_BACKWARD", **PLAN)
+        self.back = pyfftw.FFTW(last, result[: ny + 1], axes=(1,), direction="FFTW_BACKWARD", **PLAN)
         self.scale = 1 / (period * rows)
 
     def set_kernel(self, values):
         """Symbol from the even kernel values (rows, period) laid out for this transform."""
-        self.symbol = np.fft.fft(np.fft.rfft(values, axis=1).real, axis=0).real * self.scale
+        symbol = np.fft.fft(np.fft.rfft(values, axis=1).real, axis=0).real * self.scale
+        self.symbol = symbol.astype(self.dtype)
 
     def run(self):
         """result = symbol * source."""
@@ -152,44 +151,57 @@ class PlainConvolution:
 
 class Deflection:
     """W = K P on one grid: exact coefficients, zero padding. line: the outermost row continues for ever; mirrored: rows
-    y < 0 are the mirror image of the others."""
+    y < 0 are the mirror image of the others.
 
-    def __init__(self, nx, ny, dx, dy, compliance, line, mirrored=True):
-        self.nx, self.ny, self.line, self.mirrored = nx, ny, line, mirrored
-        period = even_fast_length(2 * nx + 1)
+    The pressure must vanish in the first column, and in the first row of a grid that is not mirrored: an even period of
+    twice the cells is exact then. It is written into `pressure`; the deflection is `film` + `edge`, rows (of whole blocks
+    of lanes, `period` columns) plus one line for all rows.
+    """
+
+    def __init__(self, nx, ny, dx, dy, compliance, line, mirrored=True, dtype=float):
+        self.nx, self.ny, self.line, self.mirrored, self.dtype = nx, ny, line, mirrored, dtype
+        period = even_fast_length(2 * nx)
+        self.pressure, self.film = _rows(ny, period, dtype), _rows(ny, period, dtype)
+        self.edge = np.zeros(nx + 1, dtype)
         self.plane = self._plane(period, dx, dy, compliance) if ny else None
         self.strip = self._strip(period, dx) if line else None
 
     def _plane(self, period, dx, dy, compliance):
         coefficients = influence.rectangle(self.nx, 2 * self.ny, dx, dy, compliance).T
         if self.mirrored:
-            convolution = EvenConvolution(self.nx, self.ny, 2 * self.ny + 1, period)
+            convolution = EvenConvolution(self.pressure, self.film, self.ny, 2 * self.ny + 1)
         else:
-            rows = even_fast_length(2 * self.ny + 1)
-            convolution = PlainConvolution(self.nx, self.ny, rows, period)
+            rows = even_fast_length(2 * self.ny)
+            convolution = PlainConvolution(self.pressure, self.film, self.ny, rows)
             coefficients = _wrap(coefficients[: self.ny + 1].T, rows).T
         convolution.set_kernel(_wrap(coefficients, period))
         return convolution
 
     def _strip(self, period, dx):
-        convolution = EvenConvolution(self.nx, 0, 1, period)
+        source, result = (pyfftw.zeros_aligned((1, period), self.dtype) for _ in range(2))
+        convolution = EvenConvolution(source, result, 0, 1)
         convolution.set_kernel(_wrap(influence.strip(self.nx, dx)[None, :], period))
         return convolution
 
-    def apply(self, P, add=0.0):
-        """Deflection plus `add`, (blocks, nx+1, W), of the pressure P of the same shape."""
-        last = P[-1, :, self.ny % W]
-        edge = self._edge(last) + add if self.line else add
-        if not self.plane:
-            return np.broadcast_to(np.reshape(edge, (1, -1, 1)), P.shape)
-        self.plane.source_blocks[:] = P - last[:, None] if self.line else P
-        self.plane.run()
-        return self.plane.result_blocks + np.reshape(edge, (1, -1, 1))
+    def run(self, add=0.0):
+        """`film` + `edge` = deflection of `pressure`, which is overwritten, plus `add`."""
+        self.edge[:] = add
+        if self.line:
+            last = self.strip.source[0]
+            last[:] = self.pressure[self.ny]
+            self.strip.run()
+            self.edge += self.strip.result[0, : self.nx + 1]
+            self.pressure -= last
+        if self.plane:
+            self.plane.run()
+        else:
+            self.film[:] = 0.0
 
-    def _edge(self, last):
-        self.strip.source[0, : self.nx + 1] = last
-        self.strip.run()
-        return self.strip.result[0, : self.nx + 1].copy()
+    def apply(self, P):
+        """Deflection (ny+1, nx+1) of the pressure P of the same shape."""
+        self.pressure[: self.ny + 1, : self.nx + 1] = P
+        self.run()
+        return self.film[: self.ny + 1, : self.nx + 1] + self.edge
 
 
 def _wrap(coefficients, period):
@@ -197,37 +209,36 @@ def _wrap(coefficients, period):
     rows, n2 = coefficients.shape
     out = np.zeros((rows, period))
     out[:, :n2] = coefficients
-    out[:, period - n2 + 1 :] = coefficients[:, :0:-1]
+    out[:, period - n2 + 1 :] = coefficients[:, :0:-1]  # with a period of twice the cells both ends are the same one
     return out
 
 
 class Distribution:
     """K^-1 by its symbol on every level, unpadded (mirrored in y): pressures that give wanted film changes.
 
-    `source` and `result` hold the blocks of all levels one after another, (columns, W) as in the state table.
+    `source` and `result` are flat: rows of all levels one after another; `places[l]` = (first number, period) of level l.
     """
 
-    def __init__(self, sizes, dx, dy, compliance):
-        self.levels, self.cuts, start = [], [], 0
-        for l, (nx, ny) in enumerate(sizes):
-            convolution = EvenConvolution(nx, ny, ny + 1, even_fast_length(nx + 1))
-            period = convolution.source.shape[1]
+    def __init__(self, sizes, dx, dy, compliance, dtype=float):
+        periods = [even_fast_length(nx + 1) for nx, _ in sizes]
+        lengths = [-(-padded_rows(ny) * period // ALIGNED) * ALIGNED for (_, ny), period in zip(sizes, periods)]
+        self.source, self.result = (pyfftw.zeros_aligned(sum(lengths), dtype) for _ in range(2))
+        self.places, self.levels = list(zip(np.cumsum([0, *lengths[:-1]]).tolist(), periods)), []
+        for l, ((_, ny), (start, period)) in enumerate(zip(sizes, self.places)):
+            source, result = (flat[start : start + padded_rows(ny) * period].reshape(-1, period)
+                              for flat in (self.source, self.result))
+            convolution = EvenConvolution(source, result, ny, ny + 1)
             convolution.set_symbol(1 / influence.symbol(period, ny, dx * 2**l, dy * 2**l, compliance))
             self.levels.append(convolution)
-            self.cuts.append((slice(start, start + (ny // W + 1) * (nx + 1)), (ny // W + 1, nx + 1, W)))
-            start = self.cuts[-1][0].stop
-        self.source, self.result = np.zeros((start, W)), np.zeros((start, W))
 
     def run(self):
         """result = K^-1 source on every level."""
-        for convolution, (cut, shape) in zip(self.levels, self.cuts):
-            convolution.source_blocks[:] = self.source[cut].reshape(shape)
+        for convolution in self.levels:
             convolution.run()
-            self.result[cut].reshape(shape)[:] = convolution.result_blocks
 
     def near(self, length=8):
         """Pressure of a unit film change at distances 0..length-1 in its own row and the next: (2 levels, length)."""
-        out = np.zeros((2 * len(self.levels), length))
+        out = np.zeros((2 * len(self.levels), length), self.source.dtype)
         for l, convolution in enumerate(self.levels):
             convolution.source[0, 0] = 1.0
             convolution.run()
