@@ -46,7 +46,8 @@ def run(
     force: bool = typer.Option(False, "--force", help="replace an existing store"),
     arch: str = typer.Option("cpu", help="cpu"),
     threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
-    precision: str = typer.Option("f64", help="f64"),
+    precision: Optional[str] = typer.Option(None, help="of the linear solves: f32 (default) or f64; the state and its residual "
+                                            "are always double"),
     as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout, everything else on stderr"),
     quiet: bool = typer.Option(False, "--quiet", help="no progress"),
 ):
@@ -93,7 +94,7 @@ def resume(
             print(json.dumps(saved.summary))
         return
     _check_threads(threads)
-    _start("cpu", threads, "f64")
+    _start("cpu", threads, json.loads(saved.attrs["runtime"])["precision"])
     _go(saved, started, as_json, quiet, json.loads(saved.attrs["steady_error"]), 0.0)
 
 

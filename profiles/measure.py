@@ -24,17 +24,17 @@ class Timing:
     memory_mb: float
 
 
-def fresh(threads, function, *args):
-    """function(*args) in a new process whose Taichi runs on `threads` threads."""
+def fresh(threads, function, *args, precision=None):
+    """function(*args) in a new process whose Taichi runs on `threads` threads and solves linear systems in `precision`."""
     spawn = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(1, mp_context=spawn, initializer=_start, initargs=(threads,)) as pool:
+    with ProcessPoolExecutor(1, mp_context=spawn, initializer=_start, initargs=(threads, precision)) as pool:
         return pool.submit(function, *args).result()
 
 
-def _start(threads):
+def _start(threads, precision):
     from tehl_taichi import runtime
 
-    runtime.start(threads=threads)
+    runtime.start(threads=threads, precision=precision)
 
 
 def passage(description, steps):

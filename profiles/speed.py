@@ -25,6 +25,9 @@ def run(quick=False, threads=4, progress=None):
                      "target": None if quick else target, "step_ms": 1e3 * timing.step_s,
                      "convolutions": timing.step_s / rows[0]["seconds"], "newton": timing.newton,
                      "cycles": timing.cycles, "memory_mb": timing.memory_mb})
+    timing = measure.fresh(1, measure.passage, gear.replace(**{"thermal.on": False}), steps, precision="f64")
+    rows.append({"what": f"isothermal passage {nx}x{ny}, 1 thread, linear solves in f64", "seconds": timing.passage_s,
+                 "target": None, "step_ms": 1e3 * timing.step_s, "newton": timing.newton, "cycles": timing.cycles})
     for columns, target in ((128, None), *(() if quick else ((256, 0.3), (512, 1.0)))):
         say(f"steady circular contact, {columns} columns, 1 thread")
         rows.append({"what": f"steady circular contact {columns} columns, 1 thread", "target": target,

@@ -94,6 +94,19 @@ def test_show_plot_and_repeat(finished, tmp_path):
     assert_same(finished[0], tmp_path / "again.zarr")  # one thread instead of two: the same numbers
 
 
+def test_linear_solves_in_single_and_in_double_give_the_same_answer(finished, tmp_path):
+    from tehl_taichi.io.store import FIELDS, Store
+
+    path = tmp_path / "double.zarr"
+    done = tehl("run", "gear", *TINY, "--steps", 10, "--out", path, "--precision", "f64", "--json")
+    assert done.returncode == 0, done.stderr
+    single, double = Store.open(finished[0]), Store.open(path)
+    assert [json.loads(s.attrs["runtime"])["precision"] for s in (single, double)] == ["f32", "f64"]
+    for name in FIELDS:
+        a, b = single.fields(10)[name], double.fields(10)[name]
+        assert np.abs(a - b).max() <= 1e-6 * np.abs(b).max(), name  # 7e-8: they are stored in single
+
+
 @pytest.mark.parametrize("stop", [signal.SIGKILL, signal.SIGINT])
 def test_a_broken_run_opens_and_resumes_to_the_same_result(finished, tmp_path, stop):
     from tehl_taichi.io.store import Store

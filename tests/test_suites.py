@@ -13,6 +13,7 @@ def small(**changes):
 
 def test_fresh_processes_have_their_own_threads():
     assert [measure.fresh(count, runtime.ensure)["threads"] for count in (1, 3)] == [1, 3]
+    assert [measure.fresh(1, runtime.ensure, precision=p)["precision"] for p in (None, "f64")] == ["f32", "f64"]
 
 
 def test_a_passage_is_timed(taichi_cpu):

@@ -176,8 +176,12 @@ class Levels:
         return out.ravel()
 
     def launch(self, kernel, *args, work=1):
-        """A launch of `kernel`, whose last argument is `alone`; work: of one column, in units of a copy."""
-        return bind(kernel, *args, runtime.alone(work * self.n // lanes.W))
+        """A launch of `kernel`, whose last argument is `alone`; work: of one column, in units of a copy.
+
+        The same for the smaller grids of a start as for the finest: either way of a kernel takes time to trace.
+        """
+        largest = max(columns(self.nx, self.ny), columns(self.scene.grid.nx, self.scene.rows))
+        return bind(kernel, *args, runtime.alone(work * largest))
 
     def set_film(self, H0):
         """H from the pressure in the table and the rigid approach H0."""
