@@ -137,17 +137,20 @@ def _go(saved, started, as_json, quiet, steady_error, compile_s):
 
 
 def _march(saved, quiet):
+    from tehl_taichi.io.recorder import Checkpoints
     from tehl_taichi.simulation import march, total_steps
 
     # one step is written while the next one is computed; leaving the block waits for the last write. The solver gives up the
     # interpreter's lock thousands of times a step: it must not wait 5 ms for the writer each time
     sys.setswitchinterval(SWITCH)
-    with Live(total_steps(saved.scene), saved.steps - 1, quiet) as live, ThreadPoolExecutor(1) as writer:
-        pending = None
-        for snapshot in march(saved.scene, saved.last_state()):
+    total, start = total_steps(saved.scene), saved.go_back()
+    with Live(total, saved.steps - 1, quiet) as live, ThreadPoolExecutor(1) as writer:
+        pending, states = None, Checkpoints(total)
+        for snapshot in march(saved.scene, start):
+            state = states.of(snapshot)
             if pending:
                 pending.result()
-            pending = writer.submit(saved.append, snapshot)
+            pending = writer.submit(saved.append, snapshot, state)
             live.step(snapshot)
         if pending:
             pending.result()

@@ -96,11 +96,7 @@ def passage_values(description):
     from tehl_taichi.post import fatigue
     from tehl_taichi.simulation import march
 
-    shots = []
-    for shot in march(description):
-        if shots:
-            shot.state.clear()  # most of its memory
-        shots.append(shot)
+    shots = list(march(description))
     at = np.array([shot.feature_x for shot in shots[1:]]) / Scales.of(description).a
     middle = {key: float(np.interp(0.0, at, [shot.scalars[key] for shot in shots[1:]]))
               for key in ("h_min_m", "p_max_Pa", "film_max_C") if key in shots[0].scalars}

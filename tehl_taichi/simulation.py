@@ -3,6 +3,7 @@
 A time step: move the feature, predict the pressure, solve film + cavitation + contact + load, accept.
 """
 
+import functools
 import math
 import time
 
@@ -45,7 +46,8 @@ def total_steps(scene):
 
 
 def march(scene, state=None):
-    """Yield a Snapshot per time step, from the steady start or after the snapshot whose `state` is given.
+    """Yield a Snapshot per time step, from the steady start or after the snapshot whose `state` is given (to be taken from it
+    before the next one is asked for).
 
     Raises NotConverged when a step fails for good. The same state gives the same following steps, bit for bit.
     """
@@ -64,7 +66,8 @@ def _steady_snapshot(scene, scales):
     result = solve_steady(scene, scales, scene.grid.nx, 0 if scales.line else scene.grid.ny)
     if not result.report.converged:
         raise NotConverged(_reason(result.solver, result.heat, result.report, "the steady start"))
-    first = snapshot.take(result.solver, result.heat, 0, 0.0, math.nan, result.report, started)
+    state = snapshot.state_of(result.solver, result.heat, 0)
+    first = snapshot.take(result.solver, result.heat, 0, 0.0, math.nan, result.report, started, lambda: state)
     first.scalars["cycles"] = float(result.work)
     units = {"h_c": ("h_c_m", scales.h), "h_min": ("h_min_m", scales.h), "p_max": ("p_max_Pa", scales.p_H)}
     first.error = {units[key][0]: value * units[key][1] for key, value in result.errors().items()}
@@ -245,10 +248,15 @@ class Passage:
     def _describe(self, report, started):
         time_s = self.step * self.dT * self.scales.t
         shot = snapshot.take(self.solver, self.heat, self.step, time_s, self.position(self.step) * self.scales.a, report,
-                             started)
+                             started, functools.partial(self._state, self.step))
         shot.scalars.update(rejected=float(self.rejected), dt_s=self.dT * self.scales.t)
-        shot.state.update(P_before=self.P_before, mass=self.mass, mass_before=self.mass_before, part=self.part)
         return shot
+
+    def _state(self, step):
+        if step != self.step:
+            raise RuntimeError(f"the state of step {step} is gone: ask for it before the next step is computed")
+        return {**snapshot.state_of(self.solver, self.heat, step), "P_before": self.P_before, "mass": self.mass,
+                "mass_before": self.mass_before, "part": self.part}
 
 
 def _extrapolated(P, P_before, cells, cells_before, ratio):

@@ -1,8 +1,10 @@
-"""A snapshot: one accepted state of a run in SI units, with all that is needed to go on from it."""
+"""A snapshot: one accepted state of a run in SI units; while it is the newest, all that is needed to go on from it."""
 
+import functools
 import math
 import time
 from dataclasses import dataclass, field
+from typing import Callable
 
 import numpy as np
 
@@ -16,8 +18,8 @@ class Snapshot:
     """One accepted state.
 
     step: 0 = steady start; time s; feature_x m, centre of the first feature (nan without one); x (nx+1,), y (ny+1,) m;
-    fields: (nx+1, ny+1) arrays in SI; scalars: numbers in SI; state: all that is needed to go on (f64);
-    error: estimated discretisation error of h_c_m, h_min_m, p_max_Pa (steady start only).
+    fields: (nx+1, ny+1) arrays in SI; scalars: numbers in SI; error: estimated discretisation error of h_c_m, h_min_m,
+    p_max_Pa (steady start only); make_state: called for :attr:`state`.
     """
 
     step: int
@@ -27,13 +29,18 @@ class Snapshot:
     y: np.ndarray
     fields: dict
     scalars: dict
-    state: dict
+    make_state: Callable[[], dict]
     error: dict = field(default_factory=dict)
 
+    @functools.cached_property
+    def state(self):
+        """All that is needed to go on (f64, large). Ask for it before the next snapshot is computed: RuntimeError later."""
+        return self.make_state()
 
-def take(solver, heat, step, time_s, feature_x, report, started):
+
+def take(solver, heat, step, time_s, feature_x, report, started, make_state):
     """Snapshot of what is in the solver's table; heat: its FilmHeat or None; feature_x in m, started: time.perf_counter()
-    when the step began."""
+    when the step began; make_state: see :class:`Snapshot`."""
     v, s = solver.levels, solver.levels.scales
     P, H, touch = (v.get(row) for row in (fields.P, fields.H, fields.TOUCH))
     stress = _tractions(solver, heat)
@@ -47,9 +54,13 @@ def take(solver, heat, step, time_s, feature_x, report, started):
                        surface_b_max_C=float(si["temperature_b"].max()), temperature_change_K=heat.report.change,
                        clamped=float(heat.report.clamped))
     numbers["wall_s"] = time.perf_counter() - started
-    state = {"step": step, "P": P, "H0": solver.H0, **(heat.state() if heat else {})}
     return Snapshot(step, time_s, feature_x, v.X * s.a, v.Y * s.a,
-                    {key: np.ascontiguousarray(value.swapaxes(0, 1)) for key, value in si.items()}, numbers, state)
+                    {key: np.ascontiguousarray(value.swapaxes(0, 1)) for key, value in si.items()}, numbers, make_state)
+
+
+def state_of(solver, heat, step):
+    """What is in the solver's table, as arrays to go on from."""
+    return {"step": step, "P": solver.levels.get(fields.P), "H0": solver.H0, **(heat.state() if heat else {})}
 
 
 def _temperatures(heat, profiles):

@@ -236,9 +236,14 @@ def test_going_on_from_a_state_repeats_the_run():
     from tehl_taichi.simulation import march
 
     description = scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16, "time.steps": 12})
-    whole = list(march(description))
-    rest = list(march(description, whole[5].state))
+    run = march(description)
+    whole = [next(run) for _ in range(6)]
+    state = whole[-1].state
+    whole += run
+    rest = list(march(description, state))
     assert len(rest) == 7
+    with pytest.raises(RuntimeError, match="state of step 4 is gone"):
+        whole[4].state
     for name, values in rest[-1].fields.items():
         assert np.array_equal(values, whole[-1].fields[name])
 

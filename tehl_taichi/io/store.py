@@ -93,7 +93,7 @@ class Store:
         _publish(path, {"Conventions": "CF-1.10", "scene": json.dumps(scene.to_dict()),
                         "scene_toml": scene_file.dumps(scene), **(attrs or {}), "steps": 0, "finished": False}, _metadata(path))
         store = cls(path)
-        store.append(snapshot)
+        store.append(snapshot, snapshot.state)
         return store
 
     @classmethod
@@ -157,8 +157,8 @@ class Store:
         """One of the maps that :meth:`finish` stored, or None."""
         return self.group[name][:] if name in self.group else None
 
-    def append(self, snapshot):
-        """Write one snapshot and its checkpoint, then make it visible."""
+    def append(self, snapshot, state=None):
+        """Write one snapshot, and its `state` as the checkpoint to go on from, then make it visible."""
         n = self.steps
         for name, dtype in self.stored.items():
             values = np.ascontiguousarray(snapshot.fields[name], "<" + dtype)
@@ -167,9 +167,15 @@ class Store:
         for name, series in self.series.items():
             series[n] = values[name]
             _write_file(self.path / name / "c" / "0", series.astype("<" + series.dtype.str[1:]).tobytes())
-        self._checkpoint(snapshot.state, n + 1)
+        before = self._checkpoints()
+        if state:
+            self._checkpoint(state, n + 1)
         self._commit(steps=n + 1)
-        (self.path / CHECKPOINTS / f"{n}.npz").unlink(missing_ok=True)
+        for number in before if state else ():
+            (self.path / CHECKPOINTS / f"{number}.npz").unlink(missing_ok=True)
+
+    def _checkpoints(self):
+        return sorted(int(file.stem) for file in (self.path / CHECKPOINTS).glob("*.npz"))
 
     def _commit(self, **attrs):
         self.attrs.update(attrs)
@@ -183,9 +189,13 @@ class Store:
             np.savez(file, **{key: value for key, value in state.items() if value is not None})
         os.replace(temporary, target)
 
-    def last_state(self):
-        """The state of the last committed step, for :func:`tehl_taichi.simulation.march`."""
-        with np.load(self.path / CHECKPOINTS / f"{self.steps}.npz") as saved:
+    def go_back(self):
+        """The state of the last checkpoint, for :func:`tehl_taichi.simulation.march`. Entries after it are taken back: they
+        come again, the same."""
+        number = max(n for n in self._checkpoints() if n <= self.steps)
+        if number < self.steps:
+            self._commit(steps=number)
+        with np.load(self.path / CHECKPOINTS / f"{number}.npz") as saved:
             return {key: saved[key] for key in saved.files}
 
     def finish(self, summary, maps=None):

@@ -110,10 +110,10 @@ def rows_out(values: ti.template(), first, step, i, v):
 
 
 @ti.kernel
-def put(S: ti.template(), G: Table, l: ti.i32, row: ti.i32, values: Table):
+def put(S: ti.template(), G: Table, l: ti.i32, row: ti.i32, values: Table, alone: ti.template()):
     """S[row] of level l from values (ny+1, nx+1); ghosts repeat the last row."""
     nx, ny, off = cells(G, l)
-    ti.loop_config(block_dim=1)
+    ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
         for i in range(nx + 1):
             v = V(0.0)
@@ -123,10 +123,10 @@ def put(S: ti.template(), G: Table, l: ti.i32, row: ti.i32, values: Table):
 
 
 @ti.kernel
-def get(S: ti.template(), G: Table, l: ti.i32, row: ti.i32, values: Table):
+def get(S: ti.template(), G: Table, l: ti.i32, row: ti.i32, values: Table, alone: ti.template()):
     """values (ny+1, nx+1) from S[row] of level l."""
     nx, ny, off = cells(G, l)
-    ti.loop_config(block_dim=1)
+    ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
         for i in range(nx + 1):
             v = S[row, off + s * (nx + 1) + i]

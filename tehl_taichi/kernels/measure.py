@@ -3,7 +3,7 @@
 import taichi as ti
 
 from tehl_taichi.kernels.fields import DRY, FLOOR, K0, MASK, RHO, SCALE, TOUCH, WEIGHT, D, H, P, R
-from tehl_taichi.kernels.lanes import LINEAR, LinearVector, Table, V, Vector, W, cells, face_weights, load
+from tehl_taichi.kernels.lanes import LINEAR, Flat, LinearVector, Table, V, Vector, W, cells, face_weights, load
 
 
 @ti.func
@@ -71,14 +71,14 @@ def choose_sets(S: ti.template(), J: ti.template(), G: Table, cap: ti.f64, b: Li
 
 
 @ti.kernel
-def advance(S: ti.template(), G: Table, old: Vector, step: LinearVector, t: ti.f64, alone: ti.template()):
-    """P = max(old + t step, 0) on the unknowns."""
+def advance(S: ti.template(), G: Table, old: Vector, step: LinearVector, t: Flat, alone: ti.template()):
+    """P = max(old + t[0] step, 0) on the unknowns."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
         for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
             p = load(old, q)
-            S[P, off + q] = ti.select(S[MASK, off + q] > 0.0, ti.max(p + t * load(step, q), 0.0), p)
+            S[P, off + q] = ti.select(S[MASK, off + q] > 0.0, ti.max(p + t[0] * load(step, q), 0.0), p)
 
 
 @ti.kernel

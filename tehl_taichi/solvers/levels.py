@@ -46,7 +46,7 @@ class Levels:
         size = max(table_columns(nx, ny), _final_columns(scene))
         self.S = runtime.lease(self, rows, lanes.W, size)
         self.J = runtime.lease(self, fields.NROWS_LINEAR, lanes.W, size, precision=runtime.precision())
-        self.deflection = self.deflection_of(0)
+        self.deflection, self._carriers = self.deflection_of(0), {}
         self._set_laws()
         self._bind()
         self._set_masks()
@@ -130,7 +130,7 @@ class Levels:
         self.inside = self.vector(fields.MASK)
         for l in range(len(self.sizes)):
             self._clear_level(l)
-        lanes.put(self.J, self.G, 0, fields.SCALE, np.ones((self.ny + 1, self.nx + 1)))
+        lanes.put(self.J, self.G, 0, fields.SCALE, np.ones((self.ny + 1, self.nx + 1)), True)
 
     def _clear_level(self, l):
         """Everything dry with a film of 1 and the diagonal 1, so that ghosts and borders stay finite."""
@@ -159,21 +159,28 @@ class Levels:
 
     def get(self, row, l=0):
         """Field `row` of level l as a new array (ny+1, nx+1)."""
-        nx, ny = self.sizes[l]
-        out = np.empty((ny + 1, nx + 1))
-        lanes.get(self.S, self.G, l, row, out)
-        return out
+        return self._carry(lanes.get, row, l).copy()
 
     def put(self, row, values, l=0):
         """Set field `row` of level l from an array that broadcasts to (ny+1, nx+1)."""
-        nx, ny = self.sizes[l]
-        lanes.put(self.S, self.G, l, row, np.ascontiguousarray(np.broadcast_to(values, (ny + 1, nx + 1)), dtype=float))
+        self._carry(lanes.put, row, l, values)
 
     def vector(self, row):
         """Field `row` of the finest level as a new flat vector in table order."""
-        out = np.empty((self.n // lanes.W, lanes.W))
-        measure.save(self.S, self.G, row, out, True)
-        return out.ravel()
+        return self._carry(measure.save, row).ravel().copy()
+
+    def _carry(self, kernel, row, l=None, values=None):
+        """Launch a kernel between a field and an array (filled with `values` before), bound at its first use. Returns the
+        array."""
+        if (kernel, row, l) not in self._carriers:
+            shape = (self.n // lanes.W, lanes.W) if l is None else (self.sizes[l][1] + 1, self.sizes[l][0] + 1)
+            array, place = np.empty(shape), (row,) if l is None else (l, row)
+            self._carriers[kernel, row, l] = array, self.launch(kernel, self.S, self.G, *place, array)
+        array, launch = self._carriers[kernel, row, l]
+        if values is not None:
+            array[:] = values
+        launch()
+        return array
 
     def launch(self, kernel, *args, work=1):
         """A launch of `kernel`, whose last argument is `alone`; work: of one column, in units of a copy.

@@ -56,6 +56,9 @@ class PressureSolver:
         self.trial, self.product, self.b, self.mass_row = (np.zeros((v.n // W, W), LINEAR) for _ in range(4))
         d = self.deflection = v.deflection if LINEAR == v.deflection.dtype else v.deflection_of(0, LINEAR)
         self.partial, self.touching = np.zeros((v.fine, 4)), np.zeros((v.fine, 1))
+        self.old, self.step, self.part = np.zeros((v.n // W, W)), np.zeros((v.n // W, W), LINEAR), np.ones(1)
+        self._keep_pressure = v.launch(measure.save, v.S, v.G, fields.P, self.old)
+        self._move_pressure = v.launch(measure.advance, v.S, v.G, self.old, self.step, self.part)
         self._place = v.launch(reynolds.place, v.J, v.G, self.trial, d.pressure.ravel(), d.pressure.shape[1])
         self._jacobian = v.launch(reynolds.jacobian, v.J, v.G, d.film.ravel(), d.edge, d.film.shape[1], self.product)
         self._sums = v.launch(measure.sums, v.S, v.G, int(np.argmin(np.abs(v.X))), self.partial)
@@ -100,7 +103,7 @@ class PressureSolver:
         numerics, merit = self.levels.scene.numerics, self._begin()
         step, cycles = self._direction(self._forcing(numerics.krylov_tolerance, merit, numerics.tolerance))
         if np.abs(step[:-1]).max() < SMALL_CHANGE:
-            self._move(self.levels.vector(fields.P), self.H0, step, 1.0)
+            self._move(self._keep(step), step, 1.0)
             self.levels.set_film(self.H0)
         else:
             merit = self._advance(step, merit, True, numerics.tolerance)
@@ -194,10 +197,10 @@ class PressureSolver:
     def _advance(self, step, merit, first, tolerance):
         """Damped update: halve until the merit falls (or the change is small and the merit stays small). Returns the merit, by
         the row scales of the last linearisation."""
-        old_P, old_H0, t = self.levels.vector(fields.P), self.H0, 1.0
+        old_H0, t = self._keep(step), 1.0
         largest = float(np.abs(step[:-1]).max())
         while True:
-            self._move(old_P, old_H0, step, t)
+            self._move(old_H0, step, t)
             self.residual()
             new = self.measure()
             falls = new < (1 - 1e-4 * t) * merit or (first and new < 2 * merit)
@@ -206,8 +209,14 @@ class PressureSolver:
                 return new
             t *= 0.5
 
-    def _move(self, old_P, old_H0, step, t):
+    def _keep(self, step):
+        """Remember the pressure and the step from it. Returns H0."""
+        self._keep_pressure()
+        np.copyto(self.step.ravel(), step[:-1])
+        return self.H0
+
+    def _move(self, old_H0, step, t):
         """Pressure and H0: the old ones plus t times the step, no pressure below 0."""
-        v = self.levels
-        measure.advance(v.S, v.G, old_P.reshape(-1, W), step[:-1].reshape(-1, W), t, True)
+        self.part[0] = t
+        self._move_pressure()
         self.H0 = old_H0 + t * float(step[-1])
