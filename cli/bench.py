@@ -54,7 +54,8 @@ def stability(
     else:
         rows = [{**vars(o), "case": o.name} for o in found]
         _table("stability" + (" with temperatures" if thermal else ""), rows,
-               {"case": "{}", "verdict": "{}", "steps": "{}", "newton": "{:.1f}", "cycles": "{:.0f}", "seconds": "{:.1f}"})
+               {"case": "{}", "verdict": "{}", "steps": "{}", "newton": "{:.1f}", "cycles": "{:.0f}", "seconds": "{:.1f}",
+                "Fi_max": "{:.3f}"})
         say(", ".join(f"{verdict} {count}" for verdict, count in counts.items()))
     raise typer.Exit(1 if counts["failed"] else 0)
 

@@ -1,7 +1,9 @@
-"""Stiff and extreme scenes: each must converge, or stop with its reason; never NaN, a negative film or a hang."""
+"""Stiff and extreme scenes, their fatigue included: each must converge, or stop with its reason; never NaN, a negative film
+or a hang."""
 
 import time
 from dataclasses import dataclass
+from typing import Optional
 
 import numpy as np
 
@@ -14,7 +16,10 @@ RANDOM_LINE, RANDOM_POINT, RANDOM_STEPS = {"grid.nx": 64, "grid.ny": 16}, {"grid
 
 @dataclass(frozen=True)
 class Outcome:
-    """verdict: converged, refused (at the door), stopped (not converged, with a reason) or failed (NaN, negative film)."""
+    """verdict: converged, refused (at the door), stopped (not converged, with a reason) or failed (NaN, negative film).
+
+    Fi_max: fatigue index of a passage that converged, else None.
+    """
 
     name: str
     verdict: str
@@ -23,6 +28,7 @@ class Outcome:
     newton: float
     cycles: float
     seconds: float
+    Fi_max: Optional[float] = None
 
 
 def cases(thermal=False):
@@ -103,26 +109,32 @@ def edited(base, changes):
 
 
 def run_case(name, description):
-    """March one scene to its end. Returns an Outcome."""
+    """March one scene to its end, and search the fatigue of a passage. Returns an Outcome."""
+    from tehl_taichi.post import fatigue
     from tehl_taichi.simulation import NotConverged, march
 
-    started, steps, newton, cycles = time.perf_counter(), -1, 0.0, 0.0
-    verdict, reason = "converged", ""
+    started, shots, newton, cycles = time.perf_counter(), [], 0.0, 0.0
+    verdict, reason, index = "converged", "", None
     if isinstance(description, SceneError):
         return Outcome(name, "refused", str(description), 0, 0.0, 0.0, 0.0)
     try:
         for shot in march(description):
-            steps += 1
-            newton, cycles = newton + shot.scalars["newton"], cycles + shot.scalars["cycles"] * (steps > 0)
+            newton, cycles = newton + shot.scalars["newton"], cycles + shot.scalars["cycles"] * bool(shots)
+            shots.append(shot)
             if not sound(shot):
                 verdict, reason = "failed", f"NaN or negative film at step {shot.step}"
                 break
+        if verdict == "converged" and description.fatigue_wanted and len(shots) > 2:
+            index = fatigue.run(description, shots).summary["Fi_max"]
+            if not 0 <= index < np.inf:
+                verdict, reason = "failed", f"fatigue index {index}"
     except NotConverged as error:
         verdict, reason = "stopped", str(error)
     except Exception as error:  # noqa: BLE001  anything else is what the suite looks for
         verdict, reason = "failed", repr(error)
-    count = max(steps, 1)
-    return Outcome(name, verdict, reason, max(steps, 0), newton / count, cycles / count, time.perf_counter() - started)
+    steps = max(len(shots) - 1, 0)
+    count, seconds = max(steps, 1), time.perf_counter() - started
+    return Outcome(name, verdict, reason, steps, newton / count, cycles / count, seconds, index)
 
 
 def sound(shot):
