@@ -145,10 +145,11 @@ def profile(out: Path = OUT, quick: bool = QUICK, threads: Optional[int] = THREA
 
     nx, ny, steps = (128, 32, 8) if quick else (256, 64, 30)
     stages, kernels, numbers = measure.fresh(threads or os.cpu_count(), suite.run, nx, ny, thermal, steps)
-    columns = {"what": "{}", "calls": "{:.1f}", "ms": "{:.2f}"}
+    columns = {"what": "{}", "calls": "{:.1f}", "ms": "{:.2f}", "limit_ms": "{:.2f}", "MB": "{:.1f}"}
     _table("stages, per step (a stage may hold others)", stages, columns)
     _table("kernels, per step", kernels, columns)
     say(", ".join(f"{key} {value:.3f}" for key, value in numbers.items()))
+    say("most to gain, ms a step: " + ", ".join(f"{what} {ms:.1f}" for what, ms in suite.gaps(stages, kernels)))
     rows = [{"kind": kind, **row} for kind, part in (("stage", stages), ("kernel", kernels)) for row in part]
     _write(out, "profile", rows, lambda plt: suite.chart(plt, stages, kernels, numbers["step_s"]))
 

@@ -1,28 +1,37 @@
-"""Where the time of a step goes: stages by Python's profiler, kernels by their launches."""
+"""Where the time of a step goes, and what it must at least take: stages by Python's profiler, kernels by their launches.
+
+The limit of a kernel is the time to copy the bytes that it must move (:mod:`tehl_taichi.profiles.traffic`), that of a
+transform the time which it takes alone, both measured in the same process on one thread.
+"""
 
 import cProfile
 import pstats
 import time
 
+import numpy as np
+from tehl_taichi.profiles import measure
+from tehl_taichi.profiles.traffic import IN_S, bytes_of
+
 from tehl_taichi.scene import scene
 
 # (file, function) -> stage; a stage may contain others
 STAGES = {("newton.py", "solve"): "pressure: Newton", ("krylov.py", "fgmres"): "pressure: Krylov",
-          ("transforms.py", "apply"): "pressure: deflection", ("transforms.py", "run"): "pressure: transforms in all",
+          ("transforms.py", "deflect"): "pressure: deflection", ("transforms.py", "distribute"): "pressure: distribution",
           ("preconditioner.py", "apply"): "pressure: preconditioner", ("preconditioner.py", "build"): "pressure: build",
           ("heat.py", "solve"): "temperatures", ("heat.py", "accept"): "temperatures: accept",
           ("simulation.py", "_predict"): "guess", ("snapshot.py", "take"): "snapshot"}
 
 
 def run(nx, ny, thermal, steps):
-    """(stages, kernels, numbers): rows {"what", "calls", "ms"} per step, and start, first step and step in s.
+    """(stages, kernels, numbers): rows {"what", "calls", "ms", "limit_ms"} per step (kernels: "MB" too); start (kernels
+    compiled), first step and step in s, rate of a copy in GB/s.
 
     To be called in a process of its own (:func:`tehl_taichi.profiles.measure.fresh`): kernels must be bound while watched.
     """
     from tehl_taichi import runtime
     from tehl_taichi.simulation import march
 
-    launches = runtime.watch_launches()
+    launches = runtime.watch_launches(bytes_of)
     description = scene("gear").replace(**{"grid.nx": nx, "grid.ny": ny, "thermal.on": thermal, "time.steps": steps + 1})
     started = time.perf_counter()
     passage = march(description)
@@ -34,9 +43,38 @@ def run(nx, ny, thermal, steps):
     profiler, started = cProfile.Profile(), time.perf_counter()
     profiler.runcall(lambda: list(passage))
     step = (time.perf_counter() - started) / steps
-    kernels = [{"what": name, "calls": count / steps, "ms": 1e3 * seconds / steps}
-               for name, (count, seconds) in sorted(launches.items(), key=lambda item: -item[1][1])]
-    return _stages(profiler, steps), kernels, {"start_s": start, "first_step_s": first, "step_s": step}
+    rate = copy_rate((nx + 1) * (ny + 1) * 8 * len(IN_S))
+    kernels = [{"what": name, "calls": count / steps, "ms": 1e3 * seconds / steps, "MB": moved / steps / 1e6,
+                "limit_ms": 1e3 * moved / rate / steps}
+               for name, (count, seconds, moved) in sorted(launches.items(), key=lambda item: -item[1][1])]
+    stages = _stages(profiler, steps)
+    for stage, alone in transforms_alone(nx, ny).items():
+        row = next(row for row in stages if row["what"] == stage)
+        row["limit_ms"] = 1e3 * alone * row["calls"]
+    return stages, kernels, {"start_s": start, "first_step_s": first, "step_s": step, "copy_GB_s": rate / 1e9}
+
+
+def copy_rate(size):
+    """Bytes read and written in a second by a copy of `size` bytes in all on one thread."""
+    source, target = np.ones(size // 16), np.empty(size // 16)
+    return 2 * source.nbytes / measure.median(lambda: np.copyto(target, source), 100)
+
+
+def transforms_alone(nx, ny):
+    """{stage: seconds of one call} where nothing else has used the caches."""
+    from tehl_taichi.solvers.levels import LINEAR, coarsen
+    from tehl_taichi.solvers.transforms import Deflection, Distribution
+
+    deflection = Deflection(nx, ny, 4 / nx, 2 / ny, 1.0, True, dtype=LINEAR)
+    distribution = Distribution(coarsen(nx, ny)[:-1], 4 / nx, 2 / ny, 1.0, LINEAR)
+    return {"pressure: deflection": measure.median(deflection.deflect, 50),
+            "pressure: distribution": measure.median(distribution.distribute, 50)}
+
+
+def gaps(stages, kernels, count=5):
+    """The largest times above their limit: [(what, ms to gain)], where the next factor must come from."""
+    rows = [row for row in [*stages, *kernels] if "limit_ms" in row]
+    return sorted(((row["what"], row["ms"] - row["limit_ms"]) for row in rows), key=lambda gap: -gap[1])[:count]
 
 
 def _stages(profiler, steps):
@@ -54,6 +92,8 @@ def chart(plt, stages, kernels, step_s):
     figure, axes = plt.subplots(1, 2, figsize=(11, 4.6), constrained_layout=True)
     for ax, rows, title in zip(axes, (stages, shown), (f"stages (a step takes {1e3 * step_s:.0f} ms)", "kernels")):
         ax.barh([row["what"] for row in rows], [row["ms"] for row in rows])
+        ax.barh([row["what"] for row in rows], [row.get("limit_ms", 0.0) for row in rows], height=0.35, label="limit")
         ax.set(xlabel="ms a step", title=title)
         ax.invert_yaxis()
+    axes[1].legend()
     return figure

@@ -134,26 +134,33 @@ def bind(kernel, *args):
         launch = _recorded(kernel, args)
     except (AttributeError, TypeError):
         launch = functools.partial(kernel, *args)
-    return launch if _watched is None else _timed(kernel.__name__, launch)
+    return launch if _watched is None else _timed(kernel, args, launch)
 
 
-_watched = None  # {kernel: [launches, seconds]} once somebody wants to know
+_watched = None  # {kernel: [launches, seconds, bytes]} once somebody wants to know
+_bytes_of = None
 
 
-def watch_launches():
-    """The dictionary {kernel: [launches, seconds]} that all launches bound from now on are counted in."""
-    global _watched
-    _watched = {}
+def watch_launches(bytes_of):
+    """The dictionary {kernel: [launches, seconds, bytes]} that all launches bound from now on are counted in.
+
+    bytes_of(kernel, args): bytes that one launch moves.
+    """
+    global _watched, _bytes_of
+    _watched, _bytes_of = {}, bytes_of
     return _watched
 
 
-def _timed(name, launch):
+def _timed(kernel, args, launch):
+    moved = _bytes_of(kernel, args)
+
     def counted():
         started = time.perf_counter()
         launch()
-        entry = _watched.setdefault(name, [0, 0.0])
+        entry = _watched.setdefault(kernel.__name__, [0, 0.0, 0])
         entry[0] += 1
         entry[1] += time.perf_counter() - started
+        entry[2] += moved
 
     return counted
 

@@ -28,6 +28,35 @@ def test_kernels_and_stages_of_a_step_are_told():
     assert {"jacobian", "solve_lines", "laws", "residual"} <= names and "energy" not in names
     assert stages[0]["what"] == "pressure: Newton" and stages[0]["ms"] <= 1.05e3 * numbers["step_s"]
     assert sum(row["ms"] for row in kernels) < 1e3 * numbers["step_s"]
+    limits = {row["what"]: row["limit_ms"] for row in [*stages, *kernels] if "limit_ms" in row}
+    assert {"pressure: deflection", "pressure: distribution", "jacobian"} <= limits.keys() and min(limits.values()) > 0
+    assert len(profile.gaps(stages, kernels, 3)) == 3
+
+
+def test_every_field_of_the_tables_has_its_bytes():
+    import numpy as np
+    from tehl_taichi.profiles import traffic
+
+    from tehl_taichi.kernels import fields, slots
+
+    assert sum(np.size(getattr(fields, name)) for name in traffic.IN_J) == fields.NROWS_LINEAR
+    assert len(traffic.IN_S) == fields.NROWS_THERMAL - 1 and len(traffic.IN_Z) == slots.KINDS
+    assert len(traffic.IN_Z_ONCE) == slots.SINGLES
+
+
+def test_bytes_of_a_kernel():
+    import numpy as np
+    from tehl_taichi.profiles import traffic
+
+    from tehl_taichi.kernels import fields, reynolds
+    from tehl_taichi.kernels.lanes import W
+
+    G = np.zeros((1, fields.NCOLS))
+    G[0, [fields.NX, fields.NY]] = 16, 8
+    rows, edge, out = np.zeros(32 * 12, np.float32), np.zeros(17, np.float32), np.zeros((17 * (8 // W + 1), W), np.float32)
+    # twelve rows of the Jacobian, its scale, pressure and film changes, what comes out; three arrays
+    moved = 16 * 4 * out.size + rows.nbytes + edge.nbytes + out.nbytes
+    assert traffic.bytes_of(reynolds.jacobian, (None, G, rows, edge, 32, out, True)) == moved
 
 
 def test_charts_and_files(tmp_path):

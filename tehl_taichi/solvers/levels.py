@@ -193,7 +193,7 @@ class Levels:
     def set_film(self, H0):
         """H from the pressure in the table and the rigid approach H0."""
         self._pressure_rows()
-        self.deflection.run(H0)
+        self.deflection.deflect(H0)
         self._set_film()
 
     def set_rate(self, weight):

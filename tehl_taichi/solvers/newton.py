@@ -175,7 +175,7 @@ class PressureSolver:
         """
         np.copyto(self.trial.ravel(), z[:-1])
         self._place()
-        self.deflection.run(z[-1])
+        self.deflection.deflect(z[-1])
         self._jacobian()
         rows = self.product.ravel()
         np.copyto(out[:-2], rows)

@@ -59,7 +59,7 @@ class AdditiveLines:
         np.copyto(self.r.ravel(), r)
         self._descend()
         self._solve_lines()
-        self.distribution.run()
+        self.distribution.distribute()
         if self.coarsest:
             self.coarsest.solve()
         self._ascend()

@@ -65,7 +65,7 @@ class EvenConvolution:
         """Real symbol (rows, period//2+1), stored twice: for the real and the imaginary parts."""
         self.symbol = np.repeat(symbol * self.scale, 2, axis=1).astype(self.dtype)
 
-    def run(self):
+    def convolve(self):
         """result = symbol * source."""
         self.forward.execute()
         spectrum = self.cosine.forward(self.first)
@@ -138,7 +138,7 @@ class PlainConvolution:
         symbol = np.fft.fft(np.fft.rfft(values, axis=1).real, axis=0).real * self.scale
         self.symbol = symbol.astype(self.dtype)
 
-    def run(self):
+    def convolve(self):
         """result = symbol * source."""
         self.padded[self.ny + 1 :] = 0.0
         self.forward.execute()
@@ -183,24 +183,24 @@ class Deflection:
         convolution.set_kernel(_wrap(influence.strip(self.nx, dx)[None, :], period))
         return convolution
 
-    def run(self, add=0.0):
+    def deflect(self, add=0.0):
         """`film` + `edge` = deflection of `pressure`, which is overwritten, plus `add`."""
         self.edge[:] = add
         if self.line:
             last = self.strip.source[0]
             last[:] = self.pressure[self.ny]
-            self.strip.run()
+            self.strip.convolve()
             self.edge += self.strip.result[0, : self.nx + 1]
             self.pressure -= last
         if self.plane:
-            self.plane.run()
+            self.plane.convolve()
         else:
             self.film[:] = 0.0
 
     def apply(self, P):
         """Deflection (ny+1, nx+1) of the pressure P of the same shape."""
         self.pressure[: self.ny + 1, : self.nx + 1] = P
-        self.run()
+        self.deflect()
         return self.film[: self.ny + 1, : self.nx + 1] + self.edge
 
 
@@ -231,17 +231,17 @@ class Distribution:
             convolution.set_symbol(1 / influence.symbol(period, ny, dx * 2**l, dy * 2**l, compliance))
             self.levels.append(convolution)
 
-    def run(self):
+    def distribute(self):
         """result = K^-1 source on every level."""
         for convolution in self.levels:
-            convolution.run()
+            convolution.convolve()
 
     def near(self, length=8):
         """Pressure of a unit film change at distances 0..length-1 in its own row and the next: (2 levels, length)."""
         out = np.zeros((2 * len(self.levels), length), self.source.dtype)
         for l, convolution in enumerate(self.levels):
             convolution.source[0, 0] = 1.0
-            convolution.run()
+            convolution.convolve()
             convolution.source[0, 0] = 0.0
             rows = convolution.result[:2, :length]
             out[2 * l : 2 * l + rows.shape[0]] = rows

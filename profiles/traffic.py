@@ -1,0 +1,63 @@
+"""Bytes that a kernel must at least move: each field that it names once, each array that it is given once."""
+
+import inspect
+
+import numpy as np
+
+from tehl_taichi.kernels import fields, slots
+from tehl_taichi.kernels.lanes import LINEAR, W
+
+# names in :mod:`tehl_taichi.kernels.fields`: of the linear problem (table J), and of the state (S)
+IN_J = ("A", "AU", "AD", "B", "BU", "BD", "EPS", "SCALE", "KIND", "RES", "SOL", "COR", "TRIAL", "FILM", "PRODUCT", "BAND")
+IN_S = ("P", "H", "GAP0", "QOLD", "MASK", "WEIGHT", "RHO", "LE", "IE", "MOB", "DLE", "DMP", "DMH", "QP", "R", "D", "DRY",
+        "TOUCH", "RHOC", "QCP", "DLH")
+IN_Z = ("T", "TN", "TNN", "U", "VY", "MX", "MY", "MS", "MSN", "MSNN", "NIE", "NRHO", "TS", "PS", "LAST")  # per node of zeta
+IN_Z_ONCE = ("PN", "PNN", "QA", "QB", "AA", "AB", "TAU", "XA", "YA", "XB", "YB")
+CONSTANT = ("G", "blocks")  # arguments too small to count
+
+
+def bytes_of(kernel, args):
+    """Bytes of one launch of `kernel` with these arguments."""
+    function = inspect.unwrap(kernel)
+    given, names = dict(zip(inspect.signature(function).parameters, args)), _names(function)
+    arrays = sum(value.nbytes for key, value in given.items() if isinstance(value, np.ndarray) and key not in CONSTANT)
+    return arrays + _columns(given) * W * _per_node(given, names)
+
+
+def _per_node(given, names):
+    """Bytes of the tables' fields at one node; a field that is chosen by the arguments `row` or `rows` counts too."""
+    nz, single = given.get("nz", 1), 8 if str(LINEAR) == "f64" else 4
+    chosen = (1 if "row" in given else 0) + len(given.get("rows", ()) if isinstance(given.get("rows"), tuple) else ())
+    total = 8 * (_rows(fields, IN_S, names) + chosen) if "S" in given else 0
+    total += single * _rows(fields, IN_J, names) if "J" in given else 0
+    total += 8 * given["count"] if "F" in given else 0  # the modes of one body
+    return total + (8 * (nz * _rows(slots, IN_Z, names) + _rows(slots, IN_Z_ONCE, names)) if "Z" in given else 0)
+
+
+def _rows(module, known, names):
+    """Rows of a table that the names {name: value} stand for."""
+    return sum(np.size(getattr(module, name)) for name in known if names.get(name) is getattr(module, name))
+
+
+def _columns(given):
+    """Lane vectors of a field that the loops run over: blocks first..last-1, the first `count` ones, or the finest level."""
+    G = given.get("G")
+    if G is None:
+        return 0
+    sizes = G[:, fields.NX] + 1
+    if "blocks" in given:
+        first, last = given.get("first", 0), given.get("last", given.get("count", given.get("solved")))
+        return int(sum(sizes[level] for level, _ in given["blocks"][first:last]))
+    return int(sizes[0] * (G[0, fields.NY] // W + 1))
+
+
+def _names(function, seen=None):
+    """{name: value} of the globals that a function and those it calls use."""
+    seen = {} if seen is None else seen
+    for name in function.__code__.co_names:
+        value = function.__globals__.get(name)
+        if value is not None and name not in seen:
+            seen[name] = value
+            if inspect.isfunction(value):
+                _names(inspect.unwrap(value), seen)
+    return seen
