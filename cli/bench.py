@@ -121,8 +121,10 @@ def speed(out: Path = OUT, quick: bool = QUICK, threads: Optional[int] = THREADS
     from tehl_taichi.profiles import speed as suite
 
     rows = suite.run(quick, threads or os.cpu_count(), say)
-    _table("speed", rows, {"what": "{}", "seconds": "{:.3f}", "target": "{:g}", "step_ms": "{:.1f}", "convolutions": "{:.0f}",
-                           "cycles": "{:.1f}", "memory_mb": "{:.0f}", "planes_per_s_core": "{:.2g}"})
+    details = {"step_ms": "step {:.1f} ms", "convolutions": "{:.0f} convolutions", "cycles": "{:.1f} Krylov",
+               "memory_mb": "{:.0f} MB", "planes_per_s_core": "{:.2g} planes/s core"}
+    _table("speed", [{**row, "detail": ", ".join(form.format(row[key]) for key, form in details.items() if key in row)}
+                     for row in rows], {"what": "{}", "seconds": "{:.3f}", "target": "{:g}", "detail": "{}"})
     _write(out, "speed", rows, None if quick else lambda plt: suite.chart(plt, rows))
 
 
@@ -133,7 +135,7 @@ def scaling(out: Path = OUT, quick: bool = QUICK, threads: Optional[int] = THREA
 
     rows = suite.run(quick, threads or os.cpu_count(), thermal, say)
     _table("scaling", rows, {"nx": "{}", "ny": "{}", "threads": "{}", "step_ms": "{:.1f}", "node_ns": "{:.0f}",
-                             "newton": "{:.1f}", "cycles": "{:.1f}", "memory_mb": "{:.0f}"})
+                             "newton": "{:.1f}", "cycles": "{:.1f}", "memory_mb": "{:.0f}", "node_B": "{:.0f}"})
     _write(out, "scaling", rows, lambda plt: suite.chart(plt, rows))
 
 

@@ -1,5 +1,11 @@
 """Speed: the project's targets, what is reached, and loops that any machine can be compared by, in one table."""
 
+import os
+import subprocess
+import sys
+import tempfile
+import time
+
 import numpy as np
 from tehl_taichi.profiles import measure
 
@@ -18,13 +24,21 @@ def run(quick=False, threads=4, progress=None):
     gear = scene("gear").replace(**{"grid.nx": nx, "grid.ny": ny})
     # targets hold for 256 x 64 cells
     for name, thermal, count, target in (("isothermal", False, 1, 10.0), ("isothermal", False, threads, 4.0),
-                                         ("thermal", True, 1, None), ("thermal", True, threads, 30.0)):
+                                         ("thermal", True, 1, None), ("thermal", True, threads, None)):
         say(f"{name} passage, {nx} x {ny} cells, {count} threads")
         timing = measure.fresh(count, measure.passage, gear.replace(**{"thermal.on": thermal}), steps)
         rows.append({"what": f"{name} passage {nx}x{ny}, {count} threads", "seconds": timing.passage_s,
                      "target": None if quick else target, "step_ms": 1e3 * timing.step_s,
                      "convolutions": timing.step_s / rows[0]["seconds"], "newton": timing.newton,
                      "cycles": timing.cycles, "memory_mb": timing.memory_mb})
+    if not quick:
+        say(f"thermal passage, {2 * nx} x {2 * ny} cells, {threads} threads")
+        timing = measure.fresh(threads, measure.passage, gear.replace(**{"grid.nx": 2 * nx, "grid.ny": 2 * ny}), 12)
+        rows.append({"what": f"thermal passage {2 * nx}x{2 * ny}, {threads} threads", "seconds": timing.passage_s,
+                     "target": 180.0, "step_ms": 1e3 * timing.step_s, "newton": timing.newton, "cycles": timing.cycles,
+                     "memory_mb": timing.memory_mb})
+    say("tehl run")
+    rows += commands(nx, ny, threads, quick)
     timing = measure.fresh(1, measure.passage, gear.replace(**{"thermal.on": False}), steps, precision="f64")
     rows.append({"what": f"isothermal passage {nx}x{ny}, 1 thread, linear solves in f64", "seconds": timing.passage_s,
                  "target": None, "step_ms": 1e3 * timing.step_s, "newton": timing.newton, "cycles": timing.cycles})
@@ -38,6 +52,29 @@ def run(quick=False, threads=4, progress=None):
     rows.append({"what": f"Findley search {points} points x {moments} moments, {threads} threads", "seconds": seconds,
                  "target": None if quick else 10.0, "planes_per_s_core": rate / threads})
     return rows
+
+
+def commands(nx, ny, threads, quick):
+    """Whole commands, with the start of Python: until the first step is stored, without and with compiled kernels; a thermal
+    passage with stresses and fatigue."""
+    base = ("--grid", f"{nx}x{ny}", "--threads", threads)
+    first = (*base, "--steps", 1, "--no-fatigue")
+    with tempfile.TemporaryDirectory() as folder:
+        found = [("first step of tehl run, nothing compiled", command(folder, *first), 10.0),
+                 ("first step of tehl run, kernels compiled", command(folder, *first), 5.0)]
+        if not quick:
+            found.append((f"tehl run: thermal passage {nx}x{ny}, stresses, fatigue, {threads} threads",
+                          float(np.median([command(folder, *base) for _ in range(3)])), 30.0))
+    return [{"what": what, "seconds": value, "target": None if quick else target} for what, value, target in found]
+
+
+def command(folder, *words):
+    """Seconds of `tehl run gear` with these options; store and compiled kernels in `folder`."""
+    words = ("run", "gear", "--quiet", "--force", "--out", f"{folder}/run.zarr", *map(str, words))
+    call = [sys.executable, "-c", "from tehl_cli.main import main; main()", *words]
+    started = time.perf_counter()
+    subprocess.run(call, check=True, capture_output=True, env=os.environ | {"TEHL_CACHE": f"{folder}/cache"})
+    return time.perf_counter() - started
 
 
 def circular(columns):
