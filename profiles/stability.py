@@ -11,7 +11,7 @@ from tehl_taichi.io.scene_file import merge
 from tehl_taichi.scene import Scene, SceneError, scene
 
 LINE, POINT = {"grid.nx": 128, "grid.ny": 32}, {"grid.nx": 64, "grid.ny": 32}
-MOST_STEPS = 600  # of a passage; with temperatures SRR -1.99 would need 50 000, the feature hardly moves in one
+MOST_STEPS = 600  # of a passage; with temperatures SRR -1.99 would need 25 536, the feature hardly moves in one
 RANDOM_LINE, RANDOM_POINT, RANDOM_STEPS = {"grid.nx": 64, "grid.ny": 16}, {"grid.nx": 64, "grid.ny": 16, "grid.y_max": 2.0}, 12
 
 

@@ -27,7 +27,7 @@ def strip(nx, dx):
     return -np.diff(integral) / np.pi
 
 
-def symbol(nx_period, ny, dx, dy, compliance, aliases=6):
+def symbol(nx_period, ny, dx, dy, compliance, aliases=2):
     """Fourier symbol of the deflection of a periodic row of cells: shape (ny + 1, nx_period // 2 + 1).
 
     Cosine modes of period 2 ny in y (ny = 0: one-dimensional), full aliasing sum of 2 pi C sinc sinc / |k|; the mean,

@@ -17,7 +17,7 @@ from tehl_taichi.solvers.newton import PressureSolver, Report
 
 FIRST_CELLS = 64  # along x of the first grid: fine enough for a film from Hertz, cheap enough not to matter
 # Krylov iterations on 256 / 512 columns of a circular contact: 93 / 113 with 1e-3, 71 / 84 with 1e-2 (the same Newton steps)
-KRYLOV_TOLERANCE = 1e-2
+KRYLOV_TOLERANCE = 0.1
 FIRST_FILM = 0.05  # central film of the first guess, Hertz units: thick enough to flow, thin enough to be near
 START_TRIES = (1.0, 0.3, 3.0)  # times FIRST_FILM
 SAFETY = 1.25  # on an extrapolated error (Roache 1994, three grids)
