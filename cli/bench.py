@@ -34,13 +34,14 @@ def stability(
     quick: bool = typer.Option(False, "--quick", help="every sixth case and eight random scenes"),
     as_json: bool = typer.Option(False, "--json", help="one JSON object with the counts on stdout"),
     threads: Optional[int] = THREADS,
+    precision: str = typer.Option("f64", help="of the linear solves: f64 or f32"),
 ):
     """Stiff and extreme scenes: converged, refused, stopped with the reason, or failed. Example: `tehl bench stability`"""
     from tehl_taichi.profiles.stability import cases, random_cases, run_case
 
     from tehl_taichi import runtime
 
-    runtime.start(threads=threads)
+    runtime.start(threads=threads, precision=precision)
     table = list(cases(thermal).items())
     chosen = [*table[:: 6 if quick else 1], *random_cases(min(random, 8) if quick else random, seed).items()]
     found = []
@@ -75,7 +76,7 @@ def conclusions(
     from tehl_taichi import runtime
     from tehl_taichi.scene import scene
 
-    runtime.start(threads=threads)
+    runtime.start(threads=threads, precision="f32")
     rows = suite.run(out, quick, say)
     base = scene("gear")
     judged = suite.verdicts(rows, base.fatigue.endurance)
@@ -95,7 +96,7 @@ def accuracy(out: Path = OUT, quick: bool = QUICK, threads: Optional[int] = THRE
 
     from tehl_taichi import runtime
 
-    runtime.start(threads=threads)
+    runtime.start(threads=threads, precision="f32")
     rows = suite.run(quick, say)
     _errors(rows)
     list_table("columns that are enough", ("family", "quantity", "order", *(f"{target:g}" for target in suite.TARGETS)),
@@ -146,7 +147,7 @@ def profile(out: Path = OUT, quick: bool = QUICK, threads: Optional[int] = THREA
     from tehl_taichi.profiles import profile as suite
 
     nx, ny, steps = (128, 32, 8) if quick else (256, 64, 30)
-    stages, kernels, numbers = measure.fresh(threads or os.cpu_count(), suite.run, nx, ny, thermal, steps)
+    stages, kernels, numbers = measure.fresh(threads or os.cpu_count(), suite.run, nx, ny, thermal, steps, precision="f32")
     columns = {"what": "{}", "calls": "{:.1f}", "ms": "{:.2f}", "limit_ms": "{:.2f}", "MB": "{:.1f}"}
     _table("stages, per step (a stage may hold others)", stages, columns)
     _table("kernels, per step", kernels, columns)

@@ -46,8 +46,8 @@ def run(
     force: bool = typer.Option(False, "--force", help="replace an existing store"),
     arch: str = typer.Option("cpu", help="cpu"),
     threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
-    precision: Optional[str] = typer.Option(None, help="of the linear solves: f32 (default) or f64; the state and its residual "
-                                            "are always double"),
+    precision: Optional[str] = typer.Option(None, help="of the linear solves: f32 or f64 (default: f32 for thick films); the "
+                                            "state and its residual are always double"),
     as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout, everything else on stderr"),
     quiet: bool = typer.Option(False, "--quiet", help="no progress"),
 ):
@@ -58,6 +58,7 @@ def run(
     started = time.perf_counter()
     from tehl_taichi.io import scene_file
     from tehl_taichi.io.store import check_free
+    from tehl_taichi.precision import suited
 
     changes = {"srr": srr, "load": load, "hertz_pressure": hertz_pressure, "speed": speed, "temperature": temperature,
                "height": height, "width": width, "kappa": kappa, "endurance": endurance, "thermal.on": thermal,
@@ -73,7 +74,7 @@ def run(
     path = out or _fresh(description.name)
     if not (force and _is_store(path)):
         check_free(path)
-    _start(arch, threads, precision)
+    _start(arch, threads, precision or suited(description))
     _simulate(description, path, started, as_json, quiet, force)
 
 

@@ -11,6 +11,9 @@ from pathlib import Path
 
 import numpy as np
 
+from tehl_taichi.precision import suited
+from tehl_taichi.scene import Scene
+
 
 @dataclass(frozen=True)
 class Timing:
@@ -25,7 +28,9 @@ class Timing:
 
 
 def fresh(threads, function, *args, precision=None):
-    """function(*args) in a new process whose Taichi runs on `threads` threads and solves linear systems in `precision`."""
+    """function(*args) in a new process whose Taichi runs on `threads` threads and solves linear systems in `precision` (None:
+    what suits the first scene among the arguments)."""
+    precision = precision or next((suited(arg) for arg in args if isinstance(arg, Scene)), None)
     spawn = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(1, mp_context=spawn, initializer=_start, initargs=(threads, precision)) as pool:
         return pool.submit(function, *args).result()

@@ -23,10 +23,11 @@ __all__ = ["__version__", "march", "scene", "simulate"]
 
 def march(scene, state=None):
     """Generator of snapshots of `scene`: the steady start, then one per time step (for loops of one's own)."""
-    from tehl_taichi import runtime
+    from tehl_taichi import precision, runtime
+
+    runtime.ensure(precision.suited(scene))
     from tehl_taichi.simulation import march as run
 
-    runtime.ensure()
     return run(scene, state)
 
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from tehl_taichi import __version__
 
-PRECISIONS = ("f32", "f64")  # of the linear solves; the state and its residual are always f64
+PRECISIONS = ("f64", "f32")  # of the linear solves; the state and its residual are always f64
 _defined = None  # precision that the kernels were defined with
 _started = {}
 _tables = []  # [field, weak reference to its owner]
@@ -37,8 +37,8 @@ def start(arch="cpu", threads=None, precision=None):
     """Start Taichi and say what was really started.
 
     arch: "cpu" (others when their kernels are checked); threads: number of CPU threads or None for all;
-    precision: "f32" (default) or "f64", of the linear solves inside Newton's iteration (the state, its laws and its
-    residual are always f64: the answers differ by less than the solver's tolerance).
+    precision: "f64" (default) or "f32", of the linear solves inside Newton's iteration (the state, its laws and its
+    residual are always f64: the answers differ by less than the solver's tolerance; see :mod:`tehl_taichi.precision`).
     Returns a dict with arch, threads, precision, taichi (version) and cache (folder).
     Raises RuntimeUnavailable when the arch or precision cannot be had or another start is already active.
     """
@@ -83,9 +83,9 @@ def precision():
     return _defined
 
 
-def ensure():
-    """Start with the defaults unless something is running already."""
-    return dict(_started) if _started else start()
+def ensure(precision=None):
+    """Start with the defaults, or with this precision, unless something is running already."""
+    return dict(_started) if _started else start(precision=precision)
 
 
 def alone(work):
@@ -213,7 +213,7 @@ def _check(arch, precision):
     if arch != "cpu":
         raise RuntimeUnavailable(f"arch = {arch!r} is not available in this version: 'cpu' is")
     if precision not in PRECISIONS:
-        raise RuntimeUnavailable(f"precision = {precision!r} is not known: 'f32' and 'f64' are")
+        raise RuntimeUnavailable(f"precision = {precision!r} is not known: 'f64' and 'f32' are")
     if _defined not in (None, precision):
         raise RuntimeUnavailable(f"the kernels of this process are defined for precision = {_defined!r}; start a new one")
 

@@ -9,7 +9,7 @@ import time
 
 import numpy as np
 
-from tehl_taichi import snapshot
+from tehl_taichi import runtime, snapshot
 from tehl_taichi.kernels import fields
 from tehl_taichi.physics.gap import feature_height, undeformed
 from tehl_taichi.scene.scales import Scales
@@ -283,9 +283,10 @@ def _roll(field_, cells):
 
 def _reason(solver, heat, report, where):
     v, tolerance = solver.levels, solver.levels.scene.numerics.tolerance
+    double = "" if runtime.precision() == "f64" else ", --precision f64"
     if heat and report.residual < tolerance:
         return (f"{where} did not converge: the temperatures still change by {heat.report.change:.2g} K from round to round; "
-                "try a finer grid (--grid), a smaller time.courant or --isothermal")
+                f"try a finer grid (--grid), a smaller time.courant{double} or --isothermal")
     i, j = solver.worst()
     return (f"{where} did not converge: residual {report.residual:.1e} (tolerance {tolerance:.0e}), "
-            f"largest at X = {v.X[i]:.2f}, Y = {v.Y[j]:.2f}; try a finer grid (--grid) or a smaller time.courant")
+            f"largest at X = {v.X[i]:.2f}, Y = {v.Y[j]:.2f}; try a finer grid (--grid){double} or a smaller time.courant")

@@ -183,3 +183,13 @@ def test_rough_patch_has_its_rms_and_fades_out():
 def test_a_point_contact_must_fit_into_the_grid():
     with pytest.raises(SceneError, match="y_max = 1 b"):
         scene("ball-on-disc").replace(**{"grid.y_max": 1.0})
+
+
+def test_thick_films_are_solved_in_single_precision():
+    from tehl_taichi.precision import expected_film, suited
+
+    gear = scene("gear")
+    assert expected_film(gear) == pytest.approx(0.44e-6 / Scales.of(gear).h, rel=0.3)  # computed: 0.44 um isothermal
+    assert suited(gear) == "f32" and suited(gear.replace(speed=0.05)) == "f64"
+    ball = scene("ball-on-disc")
+    assert expected_film(ball.replace(speed=2 * ball.operation.u_m)) > 1.5 * expected_film(ball)
