@@ -27,19 +27,19 @@ class Timing:
     memory_mb: float
 
 
-def fresh(threads, function, *args, precision=None):
-    """function(*args) in a new process whose Taichi runs on `threads` threads and solves linear systems in `precision` (None:
-    what suits the first scene among the arguments)."""
+def fresh(threads, function, *args, precision=None, arch="cpu"):
+    """function(*args) in a new process whose Taichi runs on `threads` threads (or on another `arch`) and solves linear systems
+    in `precision` (None: what suits the first scene among the arguments)."""
     precision = precision or next((suited(arg) for arg in args if isinstance(arg, Scene)), None)
     spawn = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(1, mp_context=spawn, initializer=_start, initargs=(threads, precision)) as pool:
+    with ProcessPoolExecutor(1, mp_context=spawn, initializer=_start, initargs=(threads, precision, arch)) as pool:
         return pool.submit(function, *args).result()
 
 
-def _start(threads, precision):
+def _start(threads, precision, arch):
     from tehl_taichi import runtime
 
-    runtime.start(threads=threads, precision=precision)
+    runtime.start(arch, threads, precision)
 
 
 def passage(description, steps):

@@ -12,6 +12,7 @@ import numpy as np
 
 from tehl_taichi import __version__
 
+ARCHES = ("cpu",)  # that the kernels have been checked on
 PRECISIONS = ("f64", "f32")  # of the linear solves; the state and its residual are always f64
 _defined = None  # precision that the kernels were defined with
 _started = {}
@@ -210,8 +211,8 @@ def _set(record, slot, value, annotation):
 
 
 def _check(arch, precision):
-    if arch != "cpu":
-        raise RuntimeUnavailable(f"arch = {arch!r} is not available in this version: 'cpu' is")
+    if arch not in ARCHES:
+        raise RuntimeUnavailable(f"arch = {arch!r} is not available in this version: {', '.join(map(repr, ARCHES))} is")
     if precision not in PRECISIONS:
         raise RuntimeUnavailable(f"precision = {precision!r} is not known: 'f64' and 'f32' are")
     if _defined not in (None, precision):

@@ -16,8 +16,10 @@ from tehl_taichi.solvers.levels import Levels
 from tehl_taichi.solvers.newton import PressureSolver, Report
 
 FIRST_CELLS = 64  # along x of the first grid: fine enough for a film from Hertz, cheap enough not to matter
-# Krylov iterations on 256 / 512 columns of a circular contact: 93 / 113 with 1e-3, 71 / 84 with 1e-2 (the same Newton steps)
+# Krylov iterations on 256 / 512 columns of a circular contact: 93 / 113 with 1e-3, 71 / 84 with 1e-2 (6 Newton steps each),
+# 52 / 62 with 0.1 (7 Newton steps)
 KRYLOV_TOLERANCE = 0.1
+CAREFUL = 1e-2  # where that did not converge
 FIRST_FILM = 0.05  # central film of the first guess, Hertz units: thick enough to flow, thin enough to be near
 START_TRIES = (1.0, 0.3, 3.0)  # times FIRST_FILM
 SAFETY = 1.25  # on an extrapolated error (Roache 1994, three grids)
@@ -101,17 +103,29 @@ def _undeformed(levels):
 
 def _first(solver):
     for factor in START_TRIES:
-        _hertz(solver, FIRST_FILM * factor)
-        report = solver.solve(KRYLOV_TOLERANCE)
-        if report.converged:
-            return report
+        for krylov_tolerance in (KRYLOV_TOLERANCE, CAREFUL):
+            _hertz(solver, FIRST_FILM * factor)
+            report = solver.solve(krylov_tolerance)
+            if report.converged:
+                return report
     return _through_slower_ones(solver)
 
 
 def _again(solver):
     """The pressure for other temperatures."""
-    report = solver.solve(KRYLOV_TOLERANCE)
+    report = _from_here(solver)
     return report if report.converged else _through_slower_ones(solver)
+
+
+def _from_here(solver):
+    """From the pressure in the table, carefully if need be."""
+    P, H0 = solver.levels.get(fields.P), solver.H0
+    report = solver.solve(KRYLOV_TOLERANCE)
+    if not report.converged:
+        solver.levels.put(fields.P, P)
+        solver.H0 = H0
+        report = solver.solve(CAREFUL)
+    return report
 
 
 def _through_slower_ones(solver):
@@ -119,7 +133,7 @@ def _through_slower_ones(solver):
     _hertz(solver, FIRST_FILM * START_TRIES[-1] / SLOWER[0] ** 0.7)
     for factor in SLOWER:
         solver.levels.slow_down(factor)
-        report = solver.solve(KRYLOV_TOLERANCE)
+        report = solver.solve(CAREFUL)
     return report
 
 
@@ -135,7 +149,7 @@ def _hertz(solver, film):
 def _next(solver, P, H0):
     solver.levels.put(fields.P, refine(P) * solver.levels.get(fields.MASK))
     solver.H0 = H0
-    return solver.solve(KRYLOV_TOLERANCE)
+    return _from_here(solver)
 
 
 def refine(P):
