@@ -71,12 +71,13 @@ def conclusions(
     Example: `tehl bench conclusions --quick`
     """
     from tehl_cli.tables import list_table
-    from tehl_taichi.profiles import conclusions as suite
 
     from tehl_taichi import runtime
     from tehl_taichi.scene import scene
 
     runtime.start(threads=threads, precision="f32")
+    from tehl_taichi.profiles import conclusions as suite  # now: it defines kernels
+
     rows = suite.run(out, quick, say)
     base = scene("gear")
     judged = suite.verdicts(rows, base.fatigue.endurance)

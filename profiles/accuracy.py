@@ -10,7 +10,6 @@ from tehl_taichi.profiles.speed import circular
 from tehl_taichi import runtime
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
-from tehl_taichi.solvers.steady import observed_order
 
 TARGETS = (0.05, 0.01, 0.001)
 COLUMNS = {"steady line": (64, 128, 256, 512, 1024), "steady circle": (64, 128, 256),
@@ -132,6 +131,8 @@ def marked(rows):
 
 def extrapolated(values):
     """(limit, observed order) of values on grids each twice as fine; order 1 where the differences show none."""
+    from tehl_taichi.solvers.steady import observed_order  # not above: the kernels are defined with the precision of the start
+
     order = observed_order(values)
     used = min(max(order, 1.0), 2.0) if math.isfinite(order) else 1.0
     return values[-1] + (values[-1] - values[-2]) / (2**used - 1), order

@@ -94,6 +94,12 @@ def test_show_plot_and_repeat(finished, tmp_path):
     assert_same(finished[0], tmp_path / "again.zarr")  # one thread instead of two: the same numbers
 
 
+def test_a_target_error_chooses_the_grid_of_the_run(tmp_path):
+    done = tehl("run", "smooth-line", "--steady", "--isothermal", "--target-error", "1%", "--json", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout)["grid"]["nx"] > 200 and "error of 1%" in done.stderr
+
+
 def test_linear_solves_in_single_and_in_double_give_the_same_answer(finished, tmp_path):
     from tehl_taichi.io.store import FIELDS, Store
 
