@@ -163,6 +163,9 @@ def chart(plt, rows):
         for quantity in dict.fromkeys(row["quantity"] for row in own):
             _curve(ax, sorted((row for row in own if row["quantity"] == quantity), key=lambda row: row["seconds"]), quantity)
         ax.set(title=family, xlabel="run time (s)", xscale="log", yscale="log")
+        ax.xaxis.set_major_locator(plt.matplotlib.ticker.LogLocator(subs=(1.0, 2.0, 5.0)))
+        ax.xaxis.set_major_formatter("{x:g}")
+        ax.xaxis.set_minor_formatter("")
         ax.legend(fontsize=7)
     axes[0][0].set_ylabel("relative error")
     return figure
