@@ -141,11 +141,22 @@ def bind(kernel, *args):
     call inspects every argument anew, some 40 us an array, more than most kernels run; here the argument record is made
     once. Where the pinned Taichi's internals are not found, the launch falls back to the plain call.
     """
+    global _binding
+    started = time.perf_counter()
     try:
         launch = _recorded(kernel, args)
     except (AttributeError, TypeError):
         launch = functools.partial(kernel, *args)
+    _binding += time.perf_counter() - started
     return launch if _watched is None else _timed(kernel, args, launch)
+
+
+_binding = 0.0  # s spent in `bind`
+
+
+def binding_seconds():
+    """Time (s) spent so far on tracing and compiling bound kernels, or on finding them in the cache."""
+    return _binding
 
 
 _watched = None  # {kernel: [launches, seconds, bytes]} once somebody wants to know

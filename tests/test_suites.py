@@ -31,6 +31,7 @@ def test_kernels_and_stages_of_a_step_are_told():
     limits = {row["what"]: row["limit_ms"] for row in [*stages, *kernels] if "limit_ms" in row}
     assert {"pressure: deflection", "pressure: distribution", "jacobian"} <= limits.keys() and min(limits.values()) > 0
     assert len(profile.gaps(stages, kernels, 3)) == 3
+    assert 0 < numbers["compile_s"] < numbers["start_s"] + numbers["first_step_s"] + 1
 
 
 def test_every_field_of_the_tables_has_its_bytes():
