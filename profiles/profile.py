@@ -23,8 +23,8 @@ STAGES = {("newton.py", "solve"): "pressure: Newton", ("krylov.py", "fgmres"): "
 
 
 def run(nx, ny, thermal, steps):
-    """(stages, kernels, numbers): rows {"what", "calls", "ms", "limit_ms"} per step (kernels: "MB" too); start, of which tracing
-    and compiling kernels (finding them in the cache), first step and step in s, rate of a copy in GB/s.
+    """(stages, kernels, numbers): rows {"what", "calls", "ms", "limit_ms"} per step (kernels: "MB" too); start, tracing and
+    compiling kernels (or finding them in the cache), first step and step in s, rate of a copy in GB/s.
 
     To be called in a process of its own (:func:`tehl_taichi.profiles.measure.fresh`): kernels must be bound while watched.
     """
@@ -51,7 +51,9 @@ def run(nx, ny, thermal, steps):
     for stage, alone in transforms_alone(nx, ny).items():
         row = next(row for row in stages if row["what"] == stage)
         row["limit_ms"] = 1e3 * alone * row["calls"]
-    return stages, kernels, {"start_s": start, "compile_s": runtime.binding_seconds(), "first_step_s": first, "step_s": step, "copy_GB_s": rate / 1e9}
+    numbers = {"start_s": start, "compile_s": runtime.binding_seconds(), "first_step_s": first, "step_s": step,
+               "copy_GB_s": rate / 1e9}
+    return stages, kernels, numbers
 
 
 def copy_rate(size):
