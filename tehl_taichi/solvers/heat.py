@@ -146,6 +146,7 @@ class FilmHeat:
         self.zeta, self.C, self.D1, self.D2 = chebyshev(self.nz)
         self.weights = np.ascontiguousarray(self.C[-1])
         self.single = slots.KINDS * self.nz
+        self._carriers = runtime.Carriers()
         self.offset = np.zeros(2)  # cells that each body has moved since the start
         self.dt_before = 0.0
         self.report = HeatReport(math.nan, 0, 0)
@@ -268,16 +269,17 @@ class FilmHeat:
 
     def memory(self):
         """Modes of both bodies and the last flux into them, (KEPT, ny+1, nx+1)."""
-        out = np.zeros((KEPT, self.levels.ny + 1, self.levels.nx + 1))
-        slots.get_slots(self.F, self.levels.G, 0, len(out), out)
-        return out
+        return self._carry(slots.get_slots, self.F, 0, KEPT).copy()
 
     def slots(self, first, count):
         """Slots as an array (count, ny+1, nx+1)."""
+        return self._carry(slots.get_slots, self.Z, first, count).copy()
+
+    def _carry(self, kernel, table, first, count, values=None):
+        """Launch a kernel between slots and an array. Returns the array."""
         v = self.levels
-        out = np.zeros((count, v.ny + 1, v.nx + 1))
-        slots.get_slots(self.Z, v.G, first, count, out)
-        return out
+        return self._carriers.carry((kernel, table is self.Z, first, count), (count, v.ny + 1, v.nx + 1),
+                                    lambda array: bind(kernel, table, v.G, first, count, array), values)
 
     def single_slot(self, slot):
         """One of the single slots, (ny+1, nx+1)."""
@@ -289,7 +291,7 @@ class FilmHeat:
 
     def set_temperature(self, values):
         """Start value of the next solve, (nz, ny+1, nx+1)."""
-        slots.put_slots(self.Z, self.levels.G, slots.T * self.nz, self.nz, np.ascontiguousarray(values))
+        self._carry(slots.put_slots, self.Z, slots.T * self.nz, self.nz, values)
 
     def shear(self):
         """Shear stress (Pa) at z = 0 along x, y and at z = h along x, y: (4, ny+1, nx+1)."""

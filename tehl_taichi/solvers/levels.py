@@ -46,7 +46,7 @@ class Levels:
         size = max(table_columns(nx, ny), _final_columns(scene))
         self.S = runtime.lease(self, rows, lanes.W, size)
         self.J = runtime.lease(self, fields.NROWS_LINEAR, lanes.W, size, precision=runtime.precision())
-        self.deflection, self._carriers = self.deflection_of(0), {}
+        self.deflection, self._carriers = self.deflection_of(0), runtime.Carriers()
         self._set_laws()
         self._bind()
         self._set_masks()
@@ -170,17 +170,12 @@ class Levels:
         return self._carry(measure.save, row).ravel().copy()
 
     def _carry(self, kernel, row, l=None, values=None):
-        """Launch a kernel between a field and an array (filled with `values` before), bound at its first use. Returns the
-        array."""
-        if (kernel, row, l) not in self._carriers:
-            shape = (self.n // lanes.W, lanes.W) if l is None else (self.sizes[l][1] + 1, self.sizes[l][0] + 1)
-            array, place = np.empty(shape), (row,) if l is None else (l, row)
-            self._carriers[kernel, row, l] = array, self.launch(kernel, self.S, self.G, *place, array)
-        array, launch = self._carriers[kernel, row, l]
-        if values is not None:
-            array[:] = values
-        launch()
-        return array
+        """Launch a kernel between a field of level l (or in table order) and an array. Returns the array."""
+        shape, place = (self.n // lanes.W, lanes.W), (row,)
+        if l is not None:
+            shape, place = (self.sizes[l][1] + 1, self.sizes[l][0] + 1), (l, row)
+        return self._carriers.carry((kernel, row, l), shape,
+                                    lambda array: self.launch(kernel, self.S, self.G, *place, array), values)
 
     def launch(self, kernel, *args, work=1):
         """A launch of `kernel`, whose last argument is `alone`; work: of one column, in units of a copy.
