@@ -1,5 +1,6 @@
 """`tehl run` and `tehl resume`."""
 
+import contextlib
 import json
 import shutil
 import sys
@@ -74,8 +75,9 @@ def run(
     path = out or _fresh(description.name)
     if not (force and _is_store(path)):
         check_free(path)
-    _start(arch, threads, precision or suited(description))
-    _simulate(description, path, started, as_json, quiet, force)
+    with _interruptible(path):
+        _start(arch, threads, precision or suited(description))
+        _simulate(description, path, started, as_json, quiet, force)
 
 
 def resume(
@@ -95,8 +97,9 @@ def resume(
             print(json.dumps(saved.summary))
         return
     _check_threads(threads)
-    _start("cpu", threads, json.loads(saved.attrs["runtime"])["precision"])
-    _go(saved, started, as_json, quiet, json.loads(saved.attrs["steady_error"]), 0.0)
+    with _interruptible(store):
+        _start("cpu", threads, json.loads(saved.attrs["runtime"])["precision"])
+        _go(saved, started, as_json, quiet, json.loads(saved.attrs["steady_error"]), 0.0)
 
 
 def _start(arch, threads, precision):
@@ -124,17 +127,37 @@ def _simulate(description, path, started, as_json, quiet, force):
 def _go(saved, started, as_json, quiet, steady_error, compile_s):
     from tehl_taichi.io.summary import summarise
 
-    try:
-        _march(saved, quiet)
-        fatigue, maps = _fatigue(saved, quiet)
-        error = _passage_error(saved, fatigue, quiet)
-    except KeyboardInterrupt:
-        raise Interrupted(f"interrupted after {saved.steps - 1} steps; go on with: tehl resume {saved.path}") from None
+    _march(saved, quiet)
+    fatigue, maps = _fatigue(saved, quiet)
+    error = _passage_error(saved, fatigue, quiet)
     extra = {"wall_s": time.perf_counter() - started, "compile_s": compile_s, "steady_error": steady_error,
              "passage_error": error}
     summary = summarise(saved, extra, fatigue)
     saved.finish(summary, maps)
     print(json.dumps(_plain(summary))) if as_json else _print(summary)
+
+
+@contextlib.contextmanager
+def _interruptible(path):
+    """Ctrl-C anywhere inside ends in a sentence that says what is stored at `path`, and exit code 4."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        raise Interrupted(_what_is_left(path)) from None
+
+
+def _what_is_left(path):
+    from tehl_taichi.io.store import Store, StoreError
+
+    try:
+        saved = Store.open(path)
+    except (StoreError, KeyError):
+        return "interrupted before anything was stored"
+    if saved.steps == 0:
+        return "interrupted before anything was stored"
+    if saved.finished:
+        return f"interrupted; {path} is finished"
+    return f"interrupted after {saved.steps - 1} steps; go on with: tehl resume {path}"
 
 
 def _march(saved, quiet):

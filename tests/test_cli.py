@@ -113,6 +113,15 @@ def test_linear_solves_in_single_and_in_double_give_the_same_answer(finished, tm
         assert np.abs(a - b).max() <= 1e-6 * np.abs(b).max(), name  # 7e-8: they are stored in single
 
 
+def test_an_interrupt_before_the_first_step_says_so(tmp_path):
+    run = subprocess.Popen([*CALL, "run", "gear", "--threads", "2", "--out", str(tmp_path / "none.zarr")], text=True,
+                           stderr=subprocess.PIPE)
+    run.stderr.readline()  # the scene is read, what it leaves out is told; the steady start takes seconds
+    os.kill(run.pid, signal.SIGINT)
+    assert run.wait() == 4 and "interrupted before anything was stored" in run.stderr.read()
+    assert not (tmp_path / "none.zarr").exists()
+
+
 @pytest.mark.parametrize("stop", [signal.SIGKILL, signal.SIGINT])
 def test_a_broken_run_opens_and_resumes_to_the_same_result(finished, tmp_path, stop):
     from tehl_taichi.io.store import Store

@@ -191,8 +191,10 @@ class Store:
 
     def go_back(self):
         """The state of the last checkpoint, for :func:`tehl_taichi.simulation.march`. Entries after it are taken back: they
-        come again, the same."""
-        number = max(n for n in self._checkpoints() if n <= self.steps)
+        come again, the same. Raises StoreError where there is none."""
+        number = max((n for n in self._checkpoints() if n <= self.steps), default=0)
+        if number == 0:
+            raise StoreError(f"{self.path} holds nothing to go on from; run the scene again with --force")
         if number < self.steps:
             self._commit(steps=number)
         with np.load(self.path / CHECKPOINTS / f"{number}.npz") as saved:
