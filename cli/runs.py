@@ -86,7 +86,7 @@ def resume(
     as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout"),
     quiet: bool = typer.Option(False, "--quiet", help="no progress"),
 ):
-    """Go on from the last committed step. Example: `tehl resume runs/gear-1.zarr`"""
+    """Go on, at most two seconds of work before the last stored step. Example: `tehl resume runs/gear-1.zarr`"""
     started = time.perf_counter()
     from tehl_taichi.io.store import Store
 
@@ -152,8 +152,8 @@ def _what_is_left(path):
     try:
         saved = Store.open(path)
     except (StoreError, KeyError):
-        return "interrupted before anything was stored"
-    if saved.steps == 0:
+        saved = None
+    if saved is None or saved.steps == 0:
         return "interrupted before anything was stored"
     if saved.finished:
         return f"interrupted; {path} is finished"

@@ -26,22 +26,17 @@ def run(quick=False, threads=4, progress=None):
     for name, thermal, count, target in (("isothermal", False, 1, 10.0), ("isothermal", False, threads, 4.0),
                                          ("thermal", True, 1, None), ("thermal", True, threads, None)):
         say(f"{name} passage, {nx} x {ny} cells, {count} threads")
-        timing = measure.fresh(count, measure.passage, gear.replace(**{"thermal.on": thermal}), steps)
-        rows.append({"what": f"{name} passage {nx}x{ny}, {count} threads", "seconds": timing.passage_s,
-                     "target": None if quick else target, "step_ms": 1e3 * timing.step_s,
-                     "convolutions": timing.step_s / rows[0]["seconds"], "newton": timing.newton,
-                     "cycles": timing.cycles, "memory_mb": timing.memory_mb})
+        row = passage(f"{name} passage {nx}x{ny}, {count} threads", count, gear.replace(**{"thermal.on": thermal}), steps,
+                      None if quick else target)
+        rows.append({**row, "convolutions": 1e-3 * row["step_ms"] / rows[0]["seconds"]})
     if not quick:
         say(f"thermal passage, {2 * nx} x {2 * ny} cells, {threads} threads")
-        timing = measure.fresh(threads, measure.passage, gear.replace(**{"grid.nx": 2 * nx, "grid.ny": 2 * ny}), 12)
-        rows.append({"what": f"thermal passage {2 * nx}x{2 * ny}, {threads} threads", "seconds": timing.passage_s,
-                     "target": 180.0, "step_ms": 1e3 * timing.step_s, "newton": timing.newton, "cycles": timing.cycles,
-                     "memory_mb": timing.memory_mb})
+        rows.append(passage(f"thermal passage {2 * nx}x{2 * ny}, {threads} threads", threads,
+                            gear.replace(**{"grid.nx": 2 * nx, "grid.ny": 2 * ny}), 12, 180.0))
     say("tehl run")
     rows += commands(nx, ny, threads, quick)
-    timing = measure.fresh(1, measure.passage, gear.replace(**{"thermal.on": False}), steps, precision="f64")
-    rows.append({"what": f"isothermal passage {nx}x{ny}, 1 thread, linear solves in f64", "seconds": timing.passage_s,
-                 "target": None, "step_ms": 1e3 * timing.step_s, "newton": timing.newton, "cycles": timing.cycles})
+    rows.append(passage(f"isothermal passage {nx}x{ny}, 1 thread, linear solves in f64", 1,
+                        gear.replace(**{"thermal.on": False}), steps, precision="f64"))
     for columns, target in ((128, None), *(() if quick else ((256, 0.3), (512, 1.0)))):
         say(f"steady circular contact, {columns} columns, 1 thread")
         rows.append({"what": f"steady circular contact {columns} columns, 1 thread", "target": target,
@@ -52,6 +47,13 @@ def run(quick=False, threads=4, progress=None):
     rows.append({"what": f"Findley search {points} points x {moments} moments, {threads} threads", "seconds": seconds,
                  "target": None if quick else 10.0, "planes_per_s_core": rate / threads})
     return rows
+
+
+def passage(what, threads, description, steps, target=None, precision=None):
+    """Row of a passage in a process of its own."""
+    timing = measure.fresh(threads, measure.passage, description, steps, precision=precision)
+    return {"what": what, "seconds": timing.passage_s, "target": target, "step_ms": 1e3 * timing.step_s,
+            "newton": timing.newton, "cycles": timing.cycles, "memory_mb": timing.memory_mb}
 
 
 def commands(nx, ny, threads, quick):

@@ -24,7 +24,7 @@ class Checkpoints:
 
 
 def record(scene, path, progress=None):
-    """March `scene` into a store at `path`, from its last committed step if it exists. Returns the Store.
+    """March `scene` into a store at `path`, from its last checkpoint if it exists. Returns the Store.
 
     progress: called with (done, total) steps. Raises StoreError if the store there is of another scene, NotConverged.
     """

@@ -13,7 +13,7 @@ from tehl_taichi.kernels.fields import JN, NX, NY, OFF
 
 W = 4
 V = ti.types.vector(W, ti.f64)
-LINEAR = {"f32": ti.f32, "f64": ti.f64}[runtime.precision()]  # of the linear solves
+LINEAR = getattr(ti, runtime.precision())  # of the linear solves
 L = ti.types.vector(W, LINEAR)
 TILE = 48  # columns of a tile: even a single row keeps several threads busy
 

@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+from taichi.lang.util import to_numpy_type
 
 from tehl_taichi import runtime
 from tehl_taichi.kernels import fields, lanes, measure, reynolds, transfer
@@ -14,7 +15,7 @@ from tehl_taichi.solvers.transforms import Deflection
 COARSEST_2D = 16  # cells along x below which no coarser grid is made
 COARSEST_1D = 32
 DENSE_LIMIT = 700  # nodes up to which the coarsest grid is solved directly
-LINEAR = np.dtype({"f64": float, "f32": np.float32}[runtime.precision()])  # of the linear solves
+LINEAR = np.dtype(to_numpy_type(lanes.LINEAR))  # of the linear solves
 HEAVY = 4  # work of a column in the laws and in the linearisation, in units of a copy
 PAD = 4  # columns in front of the first and behind the last level that stencils may touch
 
