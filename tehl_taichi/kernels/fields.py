@@ -25,7 +25,7 @@ WEIGHT = next(_row)  # weight of P in the load
 RHO = next(_row)  # density over rho_0
 LE = next(_row)  # ln(eta / eta(p=0))
 IE = next(_row)  # exp(-LE)
-MOB = next(_row)  # RHO H^3 / lambda: the mobility without its viscosity
+MOB = next(_row)  # root of RHO H^3 / lambda, of the mobility without its viscosity: times that of a neighbour at the face
 DLE = next(_row)  # d LE / dP
 DMP = next(_row)  # d MOB / dP
 DMH = next(_row)  # d MOB / dH

@@ -69,7 +69,7 @@ def sensitivity(rheology: ti.template(), newtonian, p, b):
 @ti.func
 def store_laws(S: ti.template(), k, h, mean, carried, ie, inv_lambda):
     S[RHO, k], S[RHOC, k], S[IE, k], S[LE, k] = mean, carried, ie, -log(ie)
-    S[MOB, k] = mean * h * h * h * inv_lambda
+    S[MOB, k] = ti.sqrt(mean * h * h * h * inv_lambda)
 
 
 @ti.func
@@ -77,9 +77,9 @@ def store_slopes(S: ti.template(), k, h, floor, mean, carried, ie, thinning, rat
     """From the values at P + DP; the film acts on the shear law too (DLH)."""
     S[DLE, k] = (-log(ie) - S[LE, k]) * rate
     S[QP, k], S[QCP, k] = (mean - S[RHO, k]) * rate * S[H, k], (carried - S[RHOC, k]) * rate * S[H, k]
-    S[DMP, k] = S[MOB, k] * (mean / S[RHO, k] - 1.0) * rate
+    S[DMP, k] = 0.5 * S[MOB, k] * (mean / S[RHO, k] - 1.0) * rate
     free = S[H, k] > floor
-    S[DMH, k] = ti.select(free, 3.0 * S[MOB, k] / h, V(0.0))
+    S[DMH, k] = ti.select(free, 1.5 * S[MOB, k] / h, V(0.0))
     S[DLH, k] = ti.select(free, (1.0 - thinning) / h, V(0.0))
 
 
