@@ -10,7 +10,7 @@ from tehl_taichi.solvers.levels import LINEAR
 
 # names in :mod:`tehl_taichi.kernels.fields`: of the linear problem (table J), and of the state (S)
 IN_J = ("A", "AU", "AD", "B", "BU", "BD", "EPS", "SCALE", "KIND", "RES", "SOL", "COR", "TRIAL", "FILM", "PRODUCT", "BAND")
-IN_S = ("P", "H", "GAP0", "QOLD", "MASK", "WEIGHT", "RHO", "LE", "IE", "MOB", "DLE", "DMP", "DMH", "QP", "R", "D", "DRY",
+IN_S = ("P", "H", "GAP0", "QOLD", "MASK", "WEIGHT", "RHO", "LE", "IE", "ROOT", "GAP", "DLE", "DRP", "QP", "R", "D", "DRY",
         "TOUCH", "RHOC", "QCP", "DLH")
 IN_Z = ("T", "TN", "TNN", "U", "VY", "MX", "MY", "MS", "MSN", "MSNN", "NIE", "NRHO", "TS", "PS", "LAST")  # per node of zeta
 IN_Z_ONCE = ("PN", "PNN", "QA", "QB", "AA", "AB", "TAU", "XA", "YA", "XB", "YB")

@@ -14,10 +14,11 @@ from tehl_taichi.kernels import fields
 from tehl_taichi.physics.gap import feature_height, undeformed
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.snapshot import Snapshot
-from tehl_taichi.solvers.heat import FilmHeat, bdf2, step_cells
+from tehl_taichi.solvers.heat import FilmHeat, step_cells
 from tehl_taichi.solvers.levels import Levels
 from tehl_taichi.solvers.newton import PressureSolver
 from tehl_taichi.solvers.steady import solve_steady
+from tehl_taichi.solvers.storage import Storage
 
 __all__ = ["NotConverged", "Passage", "Snapshot", "march", "total_steps"]
 
@@ -27,6 +28,7 @@ __all__ = ["NotConverged", "Passage", "Snapshot", "march", "total_steps"]
 # 3.58/23.2, at 0.3 3.06/19.4 (gear), at 0.8 3.60/25.4; the frame that was nearer one step ago 2.99/18.9, 2.67/17.8, 3.74/25.0
 SHIFT_UNTIL = -0.2
 HEAT_SHIFT_UNTIL = 0.65  # the same for temperatures: their first error is below 1 K in that frame, 13 K in the other
+SLUGGISH = 0.2  # rounds of pressure and temperature that leave more of the last change are relaxed; usual is 0.01 to 0.1
 RETRY_KRYLOV = 3e-3  # a failed step is repeated from the old pressure with a Krylov solve ten times tighter,
 SMALLEST_PART = 1 / 16  # then in halves down to this part of it; after that parts at most double
 
@@ -106,7 +108,8 @@ class Passage:
         self.dT = self.step_x * scene.operation.u_m / scene.operation.u_a
         self.step, self.P, self.solver.H0 = int(state["step"]), np.array(state["P"]), float(state["H0"])
         self.part = float(state.get("part", 1.0))
-        self.P_before, self.mass, self.mass_before = (state.get(key) for key in ("P_before", "mass", "mass_before"))
+        self.P_before = state.get("P_before")
+        self.storage = Storage(self.levels, state) if "mass" in state else None
         self.heat = None if scene.isothermal else self._heat(state)
 
     def _heat(self, state):
@@ -117,7 +120,7 @@ class Passage:
 
     def steps(self):
         """Generator of the snapshots that follow."""
-        if self.mass is None:
+        if self.storage is None:
             self._start()
         for _ in range(self.step, total_steps(self.scene)):
             yield self.advance()
@@ -140,7 +143,7 @@ class Passage:
         """Solve at `until` steps from here, `part` of a step after the last accepted state; accepted if it converged."""
         H0 = self.solver.H0
         self._move_feature(self.step + until)
-        self._discretise_time(part)
+        self.storage.begin(part * self.dT)
         self._predict(until, part)
         report = self._exchange(part) if self.heat else self._solve()
         if report.converged:
@@ -169,6 +172,8 @@ class Passage:
             settled = heat.change < thermal.tolerance and not heat.failed
             if not first and (settled or thermal.rounds == 1):
                 break
+            if change > SLUGGISH * before:
+                self.heat.relax()
         else:
             report.converged = False
         report.newton, report.cycles = newton, cycles
@@ -190,7 +195,7 @@ class Passage:
         self.levels.put(fields.P, self.P)
         self.levels.set_film(self.solver.H0)
         self.levels.laws()
-        self.mass = self._mass()
+        self.storage = Storage(self.levels)
 
     def _move_feature(self, step):
         v, s = self.levels, self.scales
@@ -200,13 +205,6 @@ class Passage:
             x = (X - self.position(step)) * s.a - feature.x
             gap = gap - feature_height(feature, x, (Y * s.a - feature.y)) / s.h
         v.put(fields.GAP0, gap)
-
-    def _discretise_time(self, part):
-        v, first = self.levels, self.mass_before is None
-        rate, near = bdf2(part * self.dT, 0.0 if first else self.part * self.dT)
-        old = self.mass if first else near * self.mass + (1 - near) * self.mass_before
-        v.set_rate(rate)
-        v.put(fields.QOLD, -rate * old * v.dx)
 
     def _predict(self, until, part):
         P = self.P
@@ -236,14 +234,10 @@ class Passage:
 
     def _accept(self, part):
         self.P_before, self.P = self.P, self.levels.get(fields.P)
-        self.mass_before, self.mass = self.mass, self._mass()
+        self.storage.accept(part * self.dT)
         self.part = part
         if self.heat:
             self.heat.accept()
-
-    def _mass(self):
-        v = self.levels
-        return v.get(fields.RHO) * v.get(fields.H)
 
     def _describe(self, report, started):
         time_s = self.step * self.dT * self.scales.t
@@ -255,8 +249,8 @@ class Passage:
     def _state(self, step):
         if step != self.step:
             raise RuntimeError(f"the state of step {step} is gone: ask for it before the next step is computed")
-        return {**snapshot.state_of(self.solver, self.heat, step), "P_before": self.P_before, "mass": self.mass,
-                "mass_before": self.mass_before, "part": self.part}
+        return {**snapshot.state_of(self.solver, self.heat, step), **self.storage.state(), "P_before": self.P_before,
+                "part": self.part}
 
 
 def _extrapolated(P, P_before, cells, cells_before, ratio):

@@ -19,16 +19,16 @@ def _rows(count):
 P = next(_row)  # pressure
 H = next(_row)  # film thickness
 GAP0 = next(_row)  # undeformed gap without the rigid approach H0: X^2/2 (+ Y^2/2) - feature
-QOLD = next(_row)  # dx * (old levels of d(rho H)/dT)
+QOLD = next(_row)  # dx * (what d(rho H)/dT in its moving frame takes from old levels)
 MASK = next(_row)  # 1 where P is unknown, 0 on the border and on ghosts
 WEIGHT = next(_row)  # weight of P in the load
 RHO = next(_row)  # density over rho_0
 LE = next(_row)  # ln(eta / eta(p=0))
 IE = next(_row)  # exp(-LE)
-MOB = next(_row)  # root of RHO H^3 / lambda, of the mobility without its viscosity: times that of a neighbour at the face
+ROOT = next(_row)  # root of RHO / lambda: times that of a neighbour, in the mobility of the face between them
+GAP = next(_row)  # film thickness, at least the floor: what the mobility sees
 DLE = next(_row)  # d LE / dP
-DMP = next(_row)  # d MOB / dP
-DMH = next(_row)  # d MOB / dH
+DRP = next(_row)  # d ROOT / dP
 QP = next(_row)  # d(RHO H)/dP at fixed H
 R = next(_row)  # residual of the Reynolds equation, times dx
 D = next(_row)  # its diagonal
@@ -40,7 +40,7 @@ QCP = next(_row)  # d(RHOC H)/dP at fixed H (isothermal: QP)
 DLH = next(_row)  # d LE / dH by the shear law (isothermal: none)
 NROWS_THERMAL = next(_row)
 STATE = (P, H, DRY, TOUCH)  # carried to the coarser levels
-LAWS = (RHO, LE, IE, MOB, DLE, DMP, DMH, QP, RHOC, QCP, DLH)  # carried there too in a thermal film
+LAWS = (RHO, LE, IE, ROOT, GAP, DLE, DRP, QP, RHOC, QCP, DLH)  # carried there too in a thermal film
 
 # J, the linear problem
 A = _rows(4)  # row of the Jacobian: pressure of the nodes i-2, i-1, i, i+1
@@ -69,6 +69,7 @@ JN = next(_col)  # rows that carry unknowns (NY + 1 for a line contact, NY for P
 DX = next(_col)
 DY = next(_col)
 CT = next(_col)  # dx times the weight of the newest level in d/dT (0: steady)
+FRAME = next(_col)  # speed over u_m of the frame in which d/dT is taken (0: at rest)
 K0 = next(_col)  # deflection of a node by its own unit pressure
 K1 = next(_col)  # and by that of its neighbour in x
 FLOOR = next(_col)  # film floor H_min

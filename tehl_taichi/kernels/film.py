@@ -10,7 +10,7 @@ Integrals over zeta: w weights of the whole film, C[n] those up to node n, neste
 
 import taichi as ti
 
-from tehl_taichi.kernels.fields import DLE, DLH, DMH, DMP, DX, DY, FLOOR, IE, ILAM, LE, MOB, QCP, QP, RHO, RHOC, H, P
+from tehl_taichi.kernels.fields import DLE, DLH, DRP, DX, DY, FLOOR, GAP, IE, ILAM, LE, QCP, QP, RHO, RHOC, ROOT, H, P
 from tehl_taichi.kernels.lanes import Flat, Table, V, W, above, below, cells, tile, tiles
 from tehl_taichi.kernels.slots import KINDS, MS, MX, MY, NIE, NRHO, TAU, VY, XA, XB, YA, YB, T, U
 from tehl_taichi.physics.density import rho_film
@@ -69,7 +69,7 @@ def sensitivity(rheology: ti.template(), newtonian, p, b):
 @ti.func
 def store_laws(S: ti.template(), k, h, mean, carried, ie, inv_lambda):
     S[RHO, k], S[RHOC, k], S[IE, k], S[LE, k] = mean, carried, ie, -log(ie)
-    S[MOB, k] = ti.sqrt(mean * h * h * h * inv_lambda)
+    S[ROOT, k], S[GAP, k] = ti.sqrt(mean * inv_lambda), h
 
 
 @ti.func
@@ -77,18 +77,16 @@ def store_slopes(S: ti.template(), k, h, floor, mean, carried, ie, thinning, rat
     """From the values at P + DP; the film acts on the shear law too (DLH)."""
     S[DLE, k] = (-log(ie) - S[LE, k]) * rate
     S[QP, k], S[QCP, k] = (mean - S[RHO, k]) * rate * S[H, k], (carried - S[RHOC, k]) * rate * S[H, k]
-    S[DMP, k] = 0.5 * S[MOB, k] * (mean / S[RHO, k] - 1.0) * rate
-    free = S[H, k] > floor
-    S[DMH, k] = ti.select(free, 1.5 * S[MOB, k] / h, V(0.0))
-    S[DLH, k] = ti.select(free, (1.0 - thinning) / h, V(0.0))
+    S[DRP, k] = 0.5 * S[ROOT, k] * (mean / S[RHO, k] - 1.0) * rate
+    S[DLH, k] = ti.select(S[H, k] > floor, (1.0 - thinning) / h, V(0.0))
 
 
 @ti.kernel
 def laws(S: ti.template(), Z: ti.template(), G: Table, nested: Coefficients, w: Flat, zeta: Flat,
          nz: ti.i32, oil: ti.template(), rheology: ti.template(), p_H: ti.f64, h_scale: ti.f64, ln_eta0: ti.f64,
          u_a: ti.f64, slip: ti.f64, u_m: ti.f64, slopes: ti.template()):
-    """RHO, RHOC, LE, IE, MOB of the finest level from pressure, film and the temperatures; slip = u_b - u_a. With slopes = 1
-    their derivatives, which need the values."""
+    """RHO, RHOC, LE, IE, ROOT, GAP of the finest level from pressure, film and the temperatures; slip = u_b - u_a. With
+    slopes = 1 their derivatives, which need the values."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for c in range(tiles(nx, ny)):

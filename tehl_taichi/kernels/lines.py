@@ -18,6 +18,7 @@ from tehl_taichi.kernels.fields import (
     CT,
     DRY,
     EPS,
+    FRAME,
     JN,
     K0,
     KIND,
@@ -66,7 +67,7 @@ def contact_rows(S: ti.template(), J: ti.template(), G: ti.template(), l, k, i):
     """Rows of touching nodes: the transport operator on rho W of the touching nodes (equivalent to W = 0 there)."""
     w, touch = couette_weights(i), S[TOUCH, k] > 0.0
     for t in ti.static(range(4)):
-        c = w[t]
+        c = (1.0 - G[l, FRAME]) * w[t]
         if ti.static(t == 2):
             c += G[l, CT]
         mass = ti.cast(c * S[RHO, k + t - 2] * S[TOUCH, k + t - 2], LINEAR)
@@ -88,7 +89,7 @@ def dry_rows(J: ti.template(), k):
 @ti.func
 def kind_of(S: ti.template(), J: ti.template(), G: ti.template(), l, k, n2, i, up, down, theta):
     dry = S[DRY, k - 1] + S[DRY, k + 1] + up * above(S, DRY, k, n2) + down * below(S, DRY, k, n2)
-    bound = theta * G[l, K0] * (0.5 + G[l, CT])
+    bound = theta * G[l, K0] * (0.5 * (1.0 - G[l, FRAME]) + G[l, CT])
     if i == 1 or i == n2 - 2:
         bound = -1.0
     strong = ti.select(J[EPS, k] > bound, V(1.0), V(0.0)) + dry

@@ -15,6 +15,7 @@ from tehl_taichi.kernels import solids as solid_kernels
 from tehl_taichi.kernels.step import STEP_NUMBERS
 from tehl_taichi.runtime import bind
 from tehl_taichi.solvers import solids
+from tehl_taichi.solvers.storage import bdf
 
 KEPT = 2 * solids.MODES + 2  # slots of the bodies that go on to the next step
 COLUMN_TOLERANCE = 0.1  # of the tolerance of a round
@@ -27,6 +28,7 @@ BLOCK = 6  # later blocks: this fraction of the columns
 LOADED = 1e-3  # of p_H: the eddy in front of the contact fills with warm oil for ever, and matters little
 SETTLED = 0.05  # K
 BLOCKS = 40  # at most; 8 to 12 are usual
+LEAST_SHARE = 0.2  # of a round's change that is taken
 OIL_CELLS = 1.5  # a step of a passage moves the faster surface by at most so many cells
 
 
@@ -53,15 +55,6 @@ def chebyshev(count):
     integral = np.stack([series.chebval(x, series.chebint(row, lbnd=-1)) for row in np.eye(count)], axis=1)
     C = 0.5 * integral @ np.linalg.inv(series.chebvander(x, count - 1))
     return 0.5 * (x + 1), C, 2 * D, 4 * D @ D
-
-
-def bdf2(dt, dt_before):
-    """(rate, near): d/dt of f is rate (f - near f_1 - (1 - near) f_2) with the values one and two steps ago, second order for
-    steps of any length; dt_before = 0: there is no f_2, first order (near = 1)."""
-    if not dt_before:
-        return 1 / dt, 1.0
-    r = dt / dt_before
-    return (1 + 2 * r) / (1 + r) / dt, (1 + r) ** 2 / (1 + 2 * r)
 
 
 def step_cells(scene):
@@ -198,6 +191,7 @@ class FilmHeat:
     def begin(self, dt):
         """Prepare a step of dt s: what the bodies remember, A and B of both surfaces."""
         v, a, B, self.dt_now = self.levels, self.levels.scales.a, [0.0, 0.0], dt
+        self.overshoot, self.share = None, 1.0
         self.until = self.offset + np.array(self.speeds) * dt / (v.dx * a)
         for body in (0, 1):
             depth = self.depths[body]
@@ -207,9 +201,9 @@ class FilmHeat:
                 weight, decay = self.modes[body][:2]
                 B[body] += last + float((weight * decay) @ solids.steady_modes(self.dt, depth))
             self._surface[body]()
-        rate, near = bdf2(dt, self.dt_before)
+        rate, (near, *far) = bdf([dt, self.dt_before] if self.dt_before else [dt])
         self.step_numbers[0] = [rate, 1 / (v.dx * a), 1 / (v.dy * a), *B, COLUMN_TOLERANCE * v.scene.thermal.tolerance,
-                                COLUMN_ITERATIONS, dt, dt + self.dt_before, near, 1 - near]
+                                COLUMN_ITERATIONS, dt, dt + self.dt_before, near, sum(far)]
 
     def _position(self, body):
         """Whole cells that the grid overtakes material strips of the body by in this step, and where they lie then."""
@@ -224,6 +218,18 @@ class FilmHeat:
         changes = self.partial.max(axis=0)[0], *self.partial.sum(axis=0)[1:]
         self.report = HeatReport(float(changes[0]), int(changes[1]), int(changes[2]))
         return self.report
+
+    def relax(self):
+        """Take less of what the last round changed, where rounds overshoot each other (at the outlet): Aitken's relaxation,
+        from the changes of the last two rounds."""
+        before = self.slots(slots.LAST * self.nz, self.nz)
+        change = self.temperature() - before
+        if self.overshoot is not None:
+            bend = change - self.overshoot
+            share = -self.share * float(np.vdot(self.overshoot, bend) / np.vdot(bend, bend))
+            self.share = min(max(share, LEAST_SHARE), 1.0)
+        self.overshoot = change
+        self.set_temperature(before + self.share * change)
 
     def accept(self):
         """Make this step the last one."""

@@ -59,7 +59,7 @@ class Levels:
             dx, dy = self.dx * 2**l, self.dy * 2**l
             own = self.near_kernel(l)[0]
             rows = ny + 1 if self.line else ny
-            G[l, : fields.ROW0] = off, nx, ny, rows, dx, dy, 0.0, *own[:2], self.scene.rheology.film_floor, 1.0
+            G[l, : fields.ROW0] = off, nx, ny, rows, dx, dy, 0.0, 0.0, *own[:2], self.scene.rheology.film_floor, 1.0
             off += columns(nx, ny)
         return G
 
@@ -137,7 +137,7 @@ class Levels:
         """Everything dry with a film of 1 and the diagonal 1, so that ghosts and borders stay finite."""
         nx, ny = self.sizes[l]
         ones = np.ones((ny + 1, nx + 1))
-        for row in (fields.DRY, fields.H, fields.RHO, fields.D):
+        for row in (fields.DRY, fields.H, fields.GAP, fields.RHO, fields.D):
             self.put(row, ones, l)
 
     def _clear_ghosts(self, *rows):
@@ -192,9 +192,11 @@ class Levels:
         self.deflection.deflect(H0)
         self._set_film()
 
-    def set_rate(self, weight):
-        """Weight of the newest level in d/dT, 1/T units (0: steady); scaled with dx on every level."""
+    def set_rate(self, weight, frame=0.0):
+        """Weight of the newest level in d/dT, 1/T units (0: steady), scaled with dx on every level; frame: speed over u_m of
+        the frame in which it is taken."""
         self.G[:, fields.CT] = weight * self.G[:, fields.DX]
+        self.G[:, fields.FRAME] = frame
 
 
 def load_weights(levels):
