@@ -5,6 +5,7 @@ film has ruptured (P = 0, R >= 0), or the surfaces touch (H = H_floor, R >= 0). 
 Converged = rms of phi plus the load error below the tolerance: a residual of the discrete equations, never a step size.
 """
 
+import functools
 from dataclasses import dataclass
 
 import numpy as np
@@ -37,6 +38,19 @@ class Report:
     newton: int
     cycles: int
     converged: bool
+
+
+def or_lost(solve):
+    """A solve that reports no convergence from a state so far off that its linearisation has no inverse."""
+
+    @functools.wraps(solve)
+    def guarded(*args, **options):
+        try:
+            return solve(*args, **options)
+        except np.linalg.LinAlgError:
+            return Report(np.nan, np.nan, np.nan, 0, 0, False)
+
+    return guarded
 
 
 class PressureSolver:
@@ -81,6 +95,7 @@ class PressureSolver:
         self.mass_error = abs(mass / self.couette)
         return float(np.sqrt(phi2 / self.levels.unknowns)) + abs(self.load_error)
 
+    @or_lost
     def solve(self, krylov_tolerance=None, tolerance=None, newton_max=None):
         """Newton iteration from the pressure in the table and H0; leaves the solution there. Returns a Report."""
         numerics = self.levels.scene.numerics
@@ -98,6 +113,7 @@ class PressureSolver:
             merit = self.measure()
         return Report(merit, self.load_error, self.mass_error, newton, cycles, self._converged(merit, tolerance))
 
+    @or_lost
     def improve(self):
         """One Newton step from a good guess, not checked where it is small: what follows checks. Returns a Report."""
         numerics, merit = self.levels.scene.numerics, self._begin()
