@@ -28,6 +28,7 @@ BLOCK = 6  # later blocks: this fraction of the columns
 LOADED = 1e-3  # of p_H: the eddy in front of the contact fills with warm oil for ever, and matters little
 SETTLED = 0.05  # K
 BLOCKS = 40  # at most; 8 to 12 are usual
+LONGEST_RUN = 8  # blocks that are averaged
 LEAST_SHARE = 0.2  # of a round's change that is taken
 OIL_CELLS = 1.5  # a step of a passage moves the faster surface by at most so many cells
 
@@ -78,9 +79,10 @@ def settle(levels, heat, solve, T=None):
     """Steady pressure and temperature by turns: a block of time steps with the pressure at rest, then the pressure anew by
     solve() -> Report. T: temperatures to begin with, from a coarser grid.
 
-    Settled when the mean temperatures of two blocks under load differ by less than SETTLED (of single moments
-    they differ by up to 0.2 K on 64 columns: material strips lie between nodes now and on them then). Returns the
-    pressure's Report with converged = False if that is not reached.
+    Settled when the mean temperatures under load of two blocks, or of two runs of 2, 4 or 8 blocks, differ by less than SETTLED
+    (material strips lie between nodes now and on them then: single moments differ by 0.2 K on 64 columns, blocks by up to
+    0.6 K where the surfaces slip fast, back and forth about the same mean). Returns the pressure's Report with converged =
+    False if that is not reached.
     """
     heat.start(T)
     moving = [speed for speed in heat.speeds if speed]
@@ -88,11 +90,10 @@ def settle(levels, heat, solve, T=None):
     first, later = (STRIDE, 1) if ratio < SLOW else (SLOW_STRIDE, SLOW_STRIDE // 2)
     cell = max(heat.dt, levels.dx * levels.scales.a / max(heat.speeds))  # s; shorter steps would settle for less
     steps, dt = math.ceil(TRANSITS * levels.nx * ratio / first), first * cell
-    before = heat.T
+    means = [heat.T]
     for _ in range(BLOCKS):
-        mean = _march(heat, steps, dt)
-        loaded = levels.get(fields.P) > LOADED
-        change, before = float(np.abs(mean - before).max(axis=0)[loaded].max()), mean
+        means = [_march(heat, steps, dt), *means[: 2 * LONGEST_RUN - 1]]
+        change = _unsettled(means, levels.get(fields.P) > LOADED)
         report = solve()
         steps, dt = _whole_cells(levels.nx / BLOCK * (1 if ratio < SLOW else ratio) / later, later / ratio), later * cell
         if not report.converged or change < SETTLED:
@@ -101,6 +102,14 @@ def settle(levels, heat, solve, T=None):
         report.converged, heat.report.change = False, change
     heat.warm_resting()
     return report
+
+
+def _unsettled(means, loaded):
+    """Smallest difference (K) between the last run of blocks and the one before, over runs of 1, 2, 4 ... blocks; means: newest
+    first."""
+    runs = [2**k for k in range(LONGEST_RUN.bit_length()) if 2 ** (k + 1) <= len(means)]
+    return min(float(np.abs(np.mean(means[:n], axis=0) - np.mean(means[n : 2 * n], axis=0)).max(axis=0)[loaded].max())
+               for n in runs)
 
 
 def _whole_cells(steps, cells):
