@@ -10,10 +10,10 @@ from tehl_taichi.scene.scales import Scales
 
 # {columns: largest error of film, pressure and Findley index}; `tehl bench accuracy`, 2026-11-21 (docs/benchmarks.md)
 MEASURED = {
-    "steady line": {64: 0.085, 128: 0.030, 256: 0.0054, 512: 0.0030, 1024: 0.0015},
-    "steady circle": {64: 0.031, 128: 0.016, 256: 0.0081},
-    "passage": {128: 0.23, 256: 0.12, 512: 0.059},
-    "thermal passage": {128: 0.29, 256: 0.15},
+    "steady line": {64: 0.028, 128: 0.010, 256: 0.0019, 512: 0.0011, 1024: 0.00055},
+    "steady circle": {64: 0.028, 128: 0.0015, 256: 0.0004},
+    "passage": {64: 0.22, 128: 0.041, 256: 0.011, 512: 0.0032},
+    "thermal passage": {64: 0.33, 128: 0.053, 256: 0.013},
 }
 MOST = 2048  # columns
 MULTIPLE = 32  # of columns: the coarser grids of the solver need halves of halves

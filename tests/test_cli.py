@@ -95,9 +95,9 @@ def test_show_plot_and_repeat(finished, tmp_path):
 
 
 def test_a_target_error_chooses_the_grid_of_the_run(tmp_path):
-    done = tehl("run", "smooth-line", "--steady", "--isothermal", "--target-error", "1%", "--json", cwd=tmp_path)
+    done = tehl("run", "smooth-line", "--steady", "--isothermal", "--target-error", "0.2%", "--json", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
-    assert json.loads(done.stdout)["grid"]["nx"] > 200 and "error of 1%" in done.stderr
+    assert json.loads(done.stdout)["grid"]["nx"] > 200 and "error of 0.2%" in done.stderr
 
 
 def test_linear_solves_in_single_and_in_double_give_the_same_answer(finished, tmp_path):
