@@ -3,11 +3,23 @@
 import sys
 
 import typer
+import typer.core
 from tehl_cli import bench, fatigue, inspect, runs
 from tehl_cli.errors import BAD_INPUT, FAILED, INTERRUPTED, NOT_CONVERGED, Interrupted
 
-app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False, rich_markup_mode="rich",
-                  help="Lubricated contacts with surface features: film, pressure, stresses, fatigue.\n\n"
+
+class Commands(typer.core.TyperGroup):
+    """The commands; Ctrl-C in any of them is one more error that ends in a sentence (typer's own end is "Aborted!")."""
+
+    def invoke(self, ctx):
+        try:
+            return super().invoke(ctx)
+        except KeyboardInterrupt:
+            raise Interrupted("interrupted; nothing that was stored is lost") from None
+
+
+app = typer.Typer(cls=Commands, no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False,
+                  rich_markup_mode="rich", help="Lubricated contacts with surface features: film, pressure, stresses, fatigue.\n\n"
                        "Example: tehl run --srr -0.12")
 runs.register(app)
 inspect.register(app)
@@ -27,9 +39,6 @@ def main():
             raise
         print(f"tehl: {error or type(error).__name__}", file=sys.stderr)
         sys.exit(_code(error))
-    except KeyboardInterrupt:
-        print("tehl: interrupted before anything was stored", file=sys.stderr)
-        sys.exit(INTERRUPTED)
 
 
 def _code(error):

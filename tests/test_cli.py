@@ -122,6 +122,14 @@ def test_an_interrupt_before_the_first_step_says_so(tmp_path):
     assert not (tmp_path / "none.zarr").exists()
 
 
+def test_ctrl_c_in_a_suite_ends_in_a_sentence(tmp_path):
+    run = subprocess.Popen([*CALL, "bench", "stability", "--random", "0", "--threads", "2"], text=True, cwd=tmp_path,
+                           stderr=subprocess.PIPE, stdout=subprocess.DEVNULL)
+    run.stderr.readline()  # the first case is through
+    os.kill(run.pid, signal.SIGINT)
+    assert run.wait() == 4 and "tehl: interrupted; nothing that was stored is lost" in run.stderr.read()
+
+
 @pytest.mark.parametrize("stop", [signal.SIGKILL, signal.SIGINT])
 def test_a_broken_run_opens_and_resumes_to_the_same_result(finished, tmp_path, stop):
     from tehl_taichi.io.store import Store
