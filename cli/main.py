@@ -19,7 +19,8 @@ class Commands(typer.core.TyperGroup):
 
 
 app = typer.Typer(cls=Commands, no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False,
-                  rich_markup_mode="rich", help="Lubricated contacts with surface features: film, pressure, stresses, fatigue.\n\n"
+                  rich_markup_mode="rich",
+                  help="Lubricated contacts with surface features: film, pressure, stresses, fatigue.\n\n"
                        "Example: tehl run --srr -0.12")
 runs.register(app)
 inspect.register(app)
