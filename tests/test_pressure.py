@@ -196,7 +196,7 @@ def test_the_disturbance_of_a_furrow_travels_with_the_oil():
             shifts = np.linspace(0, 0.3, 301)
             misfit = [np.sum((film[0] - np.interp(X + q, later.x / S.a, later.fields["film"][:, 0])) ** 2) for q in shifts]
             speeds.append(shifts[int(np.argmin(misfit))] * S.a / (later.time - one.time))
-    assert np.median(speeds) == pytest.approx(description.operation.u_m, rel=0.05)
+    assert np.median(speeds) == pytest.approx(description.operation.u_m, rel=0.005)
 
 
 def test_films_on_coarse_grids():
