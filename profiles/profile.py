@@ -64,11 +64,13 @@ def copy_rate(size):
 
 def transforms_alone(nx, ny):
     """{stage: seconds of one call} where nothing else has used the caches."""
-    from tehl_taichi.solvers.levels import LINEAR, coarsen
+    from tehl_taichi.solvers.levels import LINEAR, coarsen, solved_by
     from tehl_taichi.solvers.transforms import Deflection, Distribution
 
     deflection = Deflection(nx, ny, 4 / nx, 2 / ny, 1.0, True, dtype=LINEAR)
-    distribution = Distribution(coarsen(nx, ny)[:-1], 4 / nx, 2 / ny, 1.0, LINEAR)
+    sizes = coarsen(nx, ny)
+    grids = [(*sizes[l], 4 / nx * 2**l, 2 / ny * 2**l) for l in solved_by(sizes)[1]]
+    distribution = Distribution(grids, 1.0, LINEAR)
     return {"pressure: deflection": measure.median(deflection.deflect, 50),
             "pressure: distribution": measure.median(distribution.distribute, 50)}
 

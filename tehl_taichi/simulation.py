@@ -14,6 +14,7 @@ from tehl_taichi.kernels import fields
 from tehl_taichi.physics.gap import feature_height, undeformed
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.snapshot import Snapshot
+from tehl_taichi.solvers.guess import Guess, extrapolated
 from tehl_taichi.solvers.heat import FilmHeat, step_cells
 from tehl_taichi.solvers.levels import Levels
 from tehl_taichi.solvers.newton import PressureSolver
@@ -22,12 +23,7 @@ from tehl_taichi.solvers.storage import Storage
 
 __all__ = ["NotConverged", "Passage", "Snapshot", "march", "total_steps"]
 
-# Feature position (in a) up to which the pressure is extrapolated in the frame of the feature, later in the frame of the
-# contact. Newton / Krylov per step (gear, dent, touching asperity; 256x64): not extrapolated, moved along up to 0.3
-# 3.28/21.5, 2.99/20.4, 4.73/33.3; contact frame only 3.20/19.0, 2.97/17.9, 3.88/24.9; switch at -0.2 2.96/18.2, 2.67/17.6,
-# 3.58/23.2, at 0.3 3.06/19.4 (gear), at 0.8 3.60/25.4; the frame that was nearer one step ago 2.99/18.9, 2.67/17.8, 3.74/25.0
-SHIFT_UNTIL = -0.2
-HEAT_SHIFT_UNTIL = 0.65  # the same for temperatures: their first error is below 1 K in that frame, 13 K in the other
+ORDER, HEAT_ORDER = 3, 1  # of the extrapolation in time of pressure and temperatures
 SLUGGISH = 0.2  # rounds of pressure and temperature that leave more of the last change are relaxed; usual is 0.01 to 0.1
 RETRY_KRYLOV = 3e-3  # a failed step is repeated from the old pressure with a Krylov solve ten times tighter,
 SMALLEST_PART = 1 / 16  # then in halves down to this part of it; after that parts at most double
@@ -104,11 +100,13 @@ class Passage:
         self.scene, self.scales = scene, scales
         self.solver = PressureSolver(Levels(scene, scales, scene.grid.nx, scene.rows, full=not scene.symmetric))
         self.levels = self.solver.levels
+        self.smooth = undeformed(self.levels.X[None, :], self.levels.Y[:, None], scales.curvature) + 0 * self.levels.Y[:, None]
         self.step_x = step_cells(scene) * self.levels.dx
         self.dT = self.step_x * scene.operation.u_m / scene.operation.u_a
         self.step, self.P, self.solver.H0 = int(state["step"]), np.array(state["P"]), float(state["H0"])
         self.part = float(state.get("part", 1.0))
-        self.P_before = state.get("P_before")
+        self.guess = Guess(ORDER, self.P, self._moved(self.step), state, "P")
+        self.heights = list(state.get("H0_history", [self.solver.H0]))  # at the positions of the guess
         self.storage = Storage(self.levels, state) if "mass" in state else None
         self.heat = None if scene.isothermal else self._heat(state)
 
@@ -116,6 +114,7 @@ class Passage:
         heat = FilmHeat(self.levels, self.dT * self.scales.t)
         self.levels.put(fields.P, self.P)
         heat.restore(state)
+        self.heat_guess = Guess(HEAT_ORDER, heat.T, self._moved(self.step), state, "T")
         return heat
 
     def steps(self):
@@ -144,10 +143,10 @@ class Passage:
         H0 = self.solver.H0
         self._move_feature(self.step + until)
         self.storage.begin(part * self.dT)
-        self._predict(until, part)
+        self._predict(until)
         report = self._exchange(part) if self.heat else self._solve()
         if report.converged:
-            self._accept(part)
+            self._accept(until, part)
         else:
             self.solver.H0 = H0
         return report
@@ -190,6 +189,10 @@ class Passage:
         """Centre of the first feature in units of a."""
         return self.scene.path[0] + step * self.step_x
 
+    def _moved(self, step):
+        """Cells that the features have moved after so many steps."""
+        return float(step * self.step_x / self.levels.dx)
+
     def _start(self):
         self._move_feature(0)
         self.levels.put(fields.P, self.P)
@@ -198,30 +201,26 @@ class Passage:
         self.storage = Storage(self.levels)
 
     def _move_feature(self, step):
-        v, s = self.levels, self.scales
-        X, Y = v.X[None, :], v.Y[:, None]
-        gap = undeformed(X, Y, s.curvature)
+        v, s, gap = self.levels, self.scales, self.smooth.copy()
         for feature in self.scene.features:
-            x = (X - self.position(step)) * s.a - feature.x
-            gap = gap - feature_height(feature, x, (Y * s.a - feature.y)) / s.h
+            x, y = (v.X - self.position(step)) * s.a - feature.x, v.Y[:, None] * s.a - feature.y
+            under = np.abs(x) <= feature.reach
+            if feature.transverse:  # cheap, and a ridge does not quite end
+                under, y = slice(None), y[:1]
+            gap[:, under] -= feature_height(feature, x[under], y) / s.h
         v.put(fields.GAP0, gap)
 
-    def _predict(self, until, part):
-        P = self.P
-        if self.P_before is not None:
-            moves = self.step_x / self.levels.dx if self.position(self.step + until) < SHIFT_UNTIL else 0.0
-            P = np.maximum(_extrapolated(P, self.P_before, moves * part, moves * self.part, part / self.part), 0.0)
-            P[:, [0, -1]] = 0.0
+    def _predict(self, until):
+        P = np.maximum(self.guess.next(self._moved(self.step + until)), 0.0)
+        P[:, [0, -1]] = 0.0
         self.levels.put(fields.P, P)
+        self.solver.H0 = extrapolated(self.heights[: ORDER + 1], self.guess.at, self._moved(self.step + until))
         if self.heat:
-            self._predict_temperature(part)
+            self._predict_temperature(until)
 
-    def _predict_temperature(self, part):
-        T, moves = self.heat.T, self.step_x / self.levels.dx if self.position(self.step + 1) < HEAT_SHIFT_UNTIL else 0.0
-        if self.P_before is not None:
-            T = _extrapolated(T, self.heat.T_before, moves * part, moves * self.part, part / self.part)
-            T = np.clip(T, self.heat.T.min(), self.heat.T.max() + 20.0)
-        self.heat.set_temperature(T)
+    def _predict_temperature(self, until):
+        T = self.heat_guess.next(self._moved(self.step + until))
+        self.heat.set_temperature(np.clip(T, self.heat.T.min(), self.heat.T.max() + 20.0))
 
     def _solve(self):
         H0 = self.solver.H0
@@ -232,12 +231,14 @@ class Passage:
             report = self.solver.solve(RETRY_KRYLOV, newton_max=2 * self.scene.numerics.newton_max)
         return report
 
-    def _accept(self, part):
-        self.P_before, self.P = self.P, self.levels.get(fields.P)
+    def _accept(self, until, part):
+        self.P, self.part, at = self.levels.get(fields.P), part, self._moved(self.step + until)
+        self.guess.accept(self.P, at)
+        self.heights = [self.solver.H0, *self.heights[:ORDER]]
         self.storage.accept(part * self.dT)
-        self.part = part
         if self.heat:
             self.heat.accept()
+            self.heat_guess.accept(self.heat.T, at)
 
     def _describe(self, report, started):
         time_s = self.step * self.dT * self.scales.t
@@ -249,30 +250,8 @@ class Passage:
     def _state(self, step):
         if step != self.step:
             raise RuntimeError(f"the state of step {step} is gone: ask for it before the next step is computed")
-        return {**snapshot.state_of(self.solver, self.heat, step), **self.storage.state(), "P_before": self.P_before,
-                "part": self.part}
-
-
-def _extrapolated(P, P_before, cells, cells_before, ratio):
-    """The next pressure (or temperatures) from the last two (..., ny+1, nx+1) in a frame in which what differs from the
-    outermost row moves by `cells` (the last time by `cells_before`); ratio: this step over the last one."""
-    edge, edge_before = P[..., -1:, :], P_before[..., -1:, :]
-    inner = (1 + ratio) * (P - edge) - ratio * _shift(P_before - edge_before, cells_before)
-    return (1 + ratio) * edge - ratio * edge_before + _shift(inner, cells)
-
-
-def _shift(field_, cells):
-    """Field moved by `cells` (not whole numbers only) towards +x, zeros coming in."""
-    whole = int(math.floor(cells + 1e-9))
-    part = max(cells - whole, 0.0)
-    moved = _roll(field_, whole)
-    return moved if part < 1e-9 else (1 - part) * moved + part * _roll(field_, whole + 1)
-
-
-def _roll(field_, cells):
-    out = np.zeros_like(field_)
-    out[..., cells:] = field_[..., : field_.shape[-1] - cells]
-    return out
+        guesses = {**self.guess.state(), "H0_history": np.array(self.heights), **(self.heat_guess.state() if self.heat else {})}
+        return {**snapshot.state_of(self.solver, self.heat, step), **self.storage.state(), **guesses, "part": self.part}
 
 
 def _reason(solver, heat, report, where):

@@ -40,7 +40,8 @@ QCP = next(_row)  # d(RHOC H)/dP at fixed H (isothermal: QP)
 DLH = next(_row)  # d LE / dH by the shear law (isothermal: none)
 NROWS_THERMAL = next(_row)
 STATE = (P, H, DRY, TOUCH)  # carried to the coarser levels
-LAWS = (RHO, LE, IE, ROOT, GAP, DLE, DRP, QP, RHOC, QCP, DLH)  # carried there too in a thermal film
+LAWS = (RHO, LE, IE, ROOT, GAP, DLE, DRP, QP)  # and these, which follow from them
+FILM_LAWS = (RHOC, QCP, DLH)  # of a film with temperatures
 
 # J, the linear problem
 A = _rows(4)  # row of the Jacobian: pressure of the nodes i-2, i-1, i, i+1
@@ -76,4 +77,5 @@ FLOOR = next(_col)  # film floor H_min
 ILAM = next(_col)  # 1/lambda; larger than that of the scene while a steady start is approached through slower ones
 ROW0 = next(_col)  # of the rows that the transforms of K^-1 work on: the first number,
 PERIOD = next(_col)  # and the numbers from row to row
+LINES = next(_col)  # 1 where lines are solved, 0 where corrections only pass through
 NCOLS = next(_col)

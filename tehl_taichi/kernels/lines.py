@@ -53,6 +53,7 @@ from tehl_taichi.kernels.reynolds import couette_weights
 HALF = 3  # half bandwidth; 2 converges slower, 1 diverges, 4..6 gain nothing
 TINY_PIVOT = 1e-14
 REACH = HALF + 3  # distances at which a column of the band meets the stencil
+NEAR = 8  # distances in the tables of those
 Near = ti.types.vector(REACH, LINEAR)
 DRY_KIND, LOCAL, DISTRIBUTED = 0.0, 1.0, 2.0  # values of KIND
 

@@ -99,19 +99,18 @@ def node_slopes(S: ti.template(), k, oil: ti.template(), p_H, Gamma, ln_eta0):
 
 
 @ti.kernel
-def laws(S: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: ti.i32, oil: ti.template(), p_H: ti.f64,
-         Gamma: ti.f64, ln_eta0: ti.f64, slopes: ti.template(), alone: ti.template()):
-    """Density, viscosity and mobility in the blocks first..last-1; with slopes = 1 their derivatives, which need the values."""
+def laws(S: ti.template(), G: Table, oil: ti.template(), p_H: ti.f64, Gamma: ti.f64, ln_eta0: ti.f64, slopes: ti.template(),
+         alone: ti.template()):
+    """Density, viscosity and mobility on the finest level; with slopes = 1 their derivatives, which need the values."""
+    nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1, serialize=alone)
-    for b in range(first, last):
-        l, s = blocks[b, 0], blocks[b, 1]
-        nx, ny, off = cells(G, l)
-        floor = G[l, FLOOR]
+    for s in range(ny // W + 1):
+        floor = G[0, FLOOR]
         for k in range(off + s * (nx + 1), off + (s + 1) * (nx + 1)):
             if ti.static(slopes):
                 node_slopes(S, k, oil, p_H, Gamma, ln_eta0)
             else:
-                node_laws(S, k, oil, p_H, Gamma, ln_eta0, G[l, ILAM], floor)
+                node_laws(S, k, oil, p_H, Gamma, ln_eta0, G[0, ILAM], floor)
 
 
 @ti.func

@@ -27,13 +27,10 @@ def gradient(S: ti.template(), k, i, nx, s, ny, n2, dx, dy):
 @ti.func
 def shear(rheology: ti.template(), p, h, eta, touch, u_s):
     """Mean shear stress on body a: the film's, or friction where the surfaces touch."""
-    out = 0.0
-    if touch == 1.0:
-        friction = ti.min(rheology.mu_boundary * p, shear_limit(rheology, p))
-        out = -friction if u_s > 0 else (friction if u_s < 0 else 0.0)
-    elif p > 0:
-        out = shear_stress(rheology, -eta * u_s / h, p)
-    return out
+    against = -1.0 if u_s > 0 else (1.0 if u_s < 0 else 0.0)
+    friction = against * ti.min(rheology.mu_boundary * p, shear_limit(rheology, p))
+    film = ti.select(p > 0, shear_stress(rheology, -eta * u_s / h, p), V(0.0))
+    return ti.select(touch > 0, friction, film)
 
 
 @ti.kernel
@@ -51,9 +48,9 @@ def tractions(S: ti.template(), G: Table, rheology: ti.template(), p_H: ti.f64, 
             k = off + s * (nx + 1) + i
             px, py = gradient(S, k, i, nx, s, ny, nx + 1, dx, dy)
             half = 0.5 * S[H, k] * h_scale * p_H / a
+            mean = shear(rheology, S[P, k] * p_H, S[H, k] * h_scale, eta0 / S[IE, k], S[TOUCH, k], u_s)
+            a_x, b_x, y = mean - half * px, -mean - half * px, -half * py
             for u in ti.static(range(W)):
                 j = s * W + u
                 if j <= ny:
-                    mean = shear(rheology, S[P, k][u] * p_H, S[H, k][u] * h_scale, eta0 / S[IE, k][u], S[TOUCH, k][u], u_s)
-                    out[0, j, i], out[1, j, i] = mean - half[u] * px[u], -half[u] * py[u]
-                    out[2, j, i], out[3, j, i] = -mean - half[u] * px[u], -half[u] * py[u]
+                    out[0, j, i], out[1, j, i], out[2, j, i], out[3, j, i] = a_x[u], y[u], b_x[u], y[u]

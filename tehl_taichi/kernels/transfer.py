@@ -5,9 +5,9 @@ The transfers to and from the finest level run in parallel; the others are too s
 
 import taichi as ti
 
-from tehl_taichi.kernels.fields import COR, DRY, JN, RES, SCALE, TOUCH, H, P
+from tehl_taichi.kernels.fields import COR, DRY, JN, KIND, LINES, RES, SCALE, TOUCH, H, P
 from tehl_taichi.kernels.lanes import LINEAR, Blocks, L, LinearFlat, LinearVector, Table, V, W, cells, load
-from tehl_taichi.kernels.lines import DRY_KIND, collect_block, is_kind
+from tehl_taichi.kernels.lines import DRY_KIND, LOCAL, collect_block, is_kind
 
 HALF_W = W // 2
 
@@ -25,8 +25,9 @@ def every_second(S: ti.template(), row, k, n2):
 
 
 @ti.kernel
-def inject(S: ti.template(), G: Table, levels: ti.i32, rows: ti.template()):
-    """The fields `rows` (state, sets, laws) of every coarser level from the coinciding nodes of the finest; ghosts stay dry."""
+def inject(S: ti.template(), J: ti.template(), G: Table, levels: ti.i32, rows: ti.template()):
+    """The fields `rows` (state, sets, laws) of every coarser level from the coinciding nodes of the finest; ghosts stay dry.
+    KIND: what is dry, for levels that corrections only pass through."""
     ti.loop_config(serialize=True)
     for _ in range(1):
         for l in range(levels - 1):
@@ -44,6 +45,7 @@ def inject(S: ti.template(), G: Table, levels: ti.i32, rows: ti.template()):
                             if t * W + u > my:
                                 S[P, c][u] = 0.0
                                 S[H, c][u] = 1.0
+                    J[KIND, c] = ti.select(S[DRY, c] > 0.0, L(DRY_KIND), L(LOCAL))
 
 
 @ti.func
@@ -144,29 +146,29 @@ def doubled(J: ti.template(), c, m2, upper_half):
 
 
 @ti.func
-def add_where_wet(J: ti.template(), k, change):
-    J[COR, k] = J[COR, k] + ti.select(is_kind(J, k, DRY_KIND), L(0.0), change)
+def add_where_wet(J: ti.template(), k, own, change):
+    J[COR, k] = own * J[COR, k] + ti.select(is_kind(J, k, DRY_KIND), L(0.0), change)
 
 
 @ti.func
 def prolong_block(J: ti.template(), G: ti.template(), l, s, damping):
     nx, ny, off = cells(G, l)
     mx, my, coff = cells(G, l + 1)
-    first, c, half = off + s * (nx + 1), coff + s // 2 * (mx + 1), s % 2
+    first, c, half, own = off + s * (nx + 1), coff + s // 2 * (mx + 1), s % 2, ti.cast(G[l, LINES], LINEAR)
     left = doubled(J, c, mx + 1, half)
     for I in range(mx):
         right = doubled(J, c + I + 1, mx + 1, half)
         k = first + 2 * I
-        add_where_wet(J, k, damping * left)
-        add_where_wet(J, k + 1, damping * (L(0.5) * (left + right)))
+        add_where_wet(J, k, own, damping * left)
+        add_where_wet(J, k + 1, own, damping * (L(0.5) * (left + right)))
         left = right
 
 
 @ti.kernel
 def ascend(J: ti.template(), G: Table, blocks: Blocks, solved: ti.i32, levels: ti.i32, spread: LinearFlat,
            coarse: LinearVector, damping: LINEAR, z: LinearVector, alone: ti.template()):
-    """COR of each level from its line solution (the first `solved` blocks) or from `coarse`, plus damping times the
-    bilinear interpolation of the next coarser one, from coarse to fine, where wet; z gets that of the finest."""
+    """COR of each level from its line solution (the first `solved` blocks) or from `coarse`, or nothing, plus damping times
+    the bilinear interpolation of the next coarser one, from coarse to fine, where wet; z gets that of the finest."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1, serialize=alone)
     for b in range(solved):

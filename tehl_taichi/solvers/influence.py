@@ -5,6 +5,8 @@ and for the y-invariant part of a line contact W = -(1/pi) int P ln|X - X'| dX' 
 and 3.2).
 """
 
+import functools
+
 import numpy as np
 
 
@@ -27,6 +29,7 @@ def strip(nx, dx):
     return -np.diff(integral) / np.pi
 
 
+@functools.lru_cache(maxsize=16)  # levels of the same size belong to several grids of a start
 def symbol(nx_period, ny, dx, dy, compliance, aliases=2):
     """Fourier symbol of the deflection of a periodic row of cells: shape (ny + 1, nx_period // 2 + 1).
 

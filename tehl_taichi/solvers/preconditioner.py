@@ -1,15 +1,17 @@
-"""Additive line multigrid: one parallel line solve on every level, summed from coarse to fine.
+"""Additive line multigrid: one parallel line solve on every second level, summed from coarse to fine.
 
 Inside a Krylov method one undamped parallel sweep per level beats alternating colours and V cycles per transform
 (measured: 6-8 iterations a Newton step at any grid, load and contact); it must be rebuilt at every Newton step.
 """
 
+import functools
+
 import numpy as np
 
 from tehl_taichi.kernels import fields, lanes, lines, transfer
 from tehl_taichi.runtime import bind
-from tehl_taichi.solvers.levels import DENSE_LIMIT, HEAVY, LINEAR
-from tehl_taichi.solvers.transforms import Distribution
+from tehl_taichi.solvers.levels import HEAVY, LINEAR
+from tehl_taichi.solvers.transforms import Deflection, Distribution
 
 COARSE_WEIGHT = 0.8  # of the coarser levels' sum: 30.1 Krylov iterations a step with 0.5, 22.9 with 0.8, 24.3 with 1 (256x64)
 THETA = 1.0  # switch between the two kinds of columns; flat from 0.3 to 3
@@ -20,16 +22,16 @@ class AdditiveLines:
 
     def __init__(self, levels):
         self.levels = levels
-        nx, ny = levels.sizes[-1]
-        dense = len(levels.sizes) > 1 and (nx + 1) * (ny + 1) <= DENSE_LIMIT
-        smoothed = levels.sizes[:-1] if dense else levels.sizes
-        self.distribution = Distribution(smoothed, levels.dx, levels.dy, levels.scales.compliance, LINEAR)
-        self.inverse = self.distribution.near()
-        for l, place in enumerate(self.distribution.places):
+        spacing = [(*levels.sizes[l], levels.dx * 2**l, levels.dy * 2**l) for l in levels.lines]
+        self.distribution = Distribution(spacing, levels.scales.compliance, LINEAR)
+        self.near, self.inverse = (np.zeros((2 * len(levels.sizes), lines.NEAR), LINEAR) for _ in range(2))
+        inverse = self.distribution.near(lines.NEAR)
+        for n, (l, place) in enumerate(zip(levels.lines, self.distribution.places)):
             levels.G[l, [fields.ROW0, fields.PERIOD]] = place
-        self.near = np.vstack([levels.near_kernel(l) for l in range(len(smoothed))]).astype(LINEAR)
-        self.count = sum(ny // lanes.W + 1 for _, ny in smoothed)
-        self.coarsest = Coarsest(levels) if dense else None
+            self.near[2 * l : 2 * l + 2] = levels.near_kernel(l, lines.NEAR)
+            self.inverse[2 * l : 2 * l + 2] = inverse[2 * n : 2 * n + 2]
+        self.count = sum(levels.sizes[l][1] // lanes.W + 1 for l in levels.lines)
+        self.coarsest = Coarsest(levels) if levels.dense else None
         self.r, self.z = (np.zeros((levels.n // lanes.W, lanes.W), LINEAR) for _ in range(2))
         self._bind()
 
@@ -44,14 +46,15 @@ class AdditiveLines:
         self._ascend = v.launch(transfer.ascend, v.J, v.G, v.blocks, self.count, size, d.result, coarse.solution,
                                 COARSE_WEIGHT, self.z)
 
-    def build(self, touching):
-        """Linearise the coarser levels about the injected state and factorise every level."""
+    def build(self, touching, anew=True):
+        """Linearise the coarser levels about the injected state and factorise every level; with anew = False the coarsest one
+        stays what it was, for small changes."""
         self.levels.linearise_coarse()
         fine, coarse = self._classify[2:] if touching else self._classify[:2]
         fine()
         coarse()
         self._build_lines()
-        if self.coarsest:
+        if self.coarsest and anew:
             self.coarsest.build()
 
     def apply(self, r):
@@ -78,7 +81,8 @@ class Coarsest:
         self.place = (j // lanes.W * (nx + 1) + i) * lanes.W + j % lanes.W
         if dense:
             self.neighbours = self._neighbours(i, j, nx, ny)
-            self.influence = self._influence(nx, ny)
+            influence = dense_deflection(*levels.deflection_key(self.l))
+            self.influence = np.stack([influence[q] for q in self.neighbours])
             self.rows = np.zeros((len(fields.STENCIL), i.size), LINEAR)
             self._export = bind(lines.export_rows, levels.J, levels.G, self.l, self.rows, True)
 
@@ -87,26 +91,26 @@ class Coarsest:
         steps = ((-2, 0), (-1, 0), (0, 0), (1, 0), (0, 1), (0, -1))
         return [np.clip(j + q, 0, ny) * (nx + 1) + np.clip(i + p, 0, nx) for p, q in steps]
 
-    def _influence(self, nx, ny):
-        """Deflection matrix (nodes, nodes)."""
-        v, n = self.levels, (nx + 1) * (ny + 1)
-        deflect = v.deflection_of(self.l)
-        K, unit = np.zeros((n, n)), np.zeros((ny + 1, nx + 1))
-        for node in range(n):
-            if node % (nx + 1):  # the first column has no pressure
-                unit.ravel()[node] = 1.0
-                K[:, node] = deflect.apply(unit).ravel()
-                unit.ravel()[node] = 0.0
-        return K
-
     def build(self):
         self._export()
         half, nodes = len(fields.STENCIL) // 2, np.arange(self.place.size)
-        J = np.zeros((nodes.size, nodes.size))
-        for a, b, q in zip(self.rows[:half], self.rows[half:], self.neighbours):
-            J += b[:, None] * self.influence[q]
+        J = np.einsum("qn,qnm->nm", self.rows[half:], self.influence)
+        for a, q in zip(self.rows[:half], self.neighbours):
             J[nodes, q] += a
         self.inverse = np.linalg.inv(J).astype(LINEAR)
 
     def solve(self):
         self.solution.ravel()[self.place] = self.inverse @ self.right.ravel()[self.place]
+
+
+@functools.lru_cache(maxsize=4)  # the grids of a steady start end in the same one
+def dense_deflection(nx, ny, *rest):
+    """Deflection of a small grid as a matrix (nodes, nodes); rest: see :meth:`Levels.deflection_key`."""
+    deflect, n = Deflection(nx, ny, *rest), (nx + 1) * (ny + 1)
+    K, unit = np.zeros((n, n)), np.zeros((ny + 1, nx + 1))
+    for node in range(n):
+        if node % (nx + 1):  # the first column has no pressure
+            unit.ravel()[node] = 1.0
+            K[:, node] = deflect.apply(unit).ravel()
+            unit.ravel()[node] = 0.0
+    return K

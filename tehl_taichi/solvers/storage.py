@@ -19,6 +19,7 @@ from tehl_taichi.kernels import fields
 LONGEST_PATH = 2.0  # cells of a step; beyond, the frame moves slower than the oil
 STABLE_AT_REST = 0.5  # cells of a step that the oil may move in that frame with third-order differences
 ORDER = 3
+WHOLE = 1e-9  # cells
 STEADY = 1e-6  # relative; third-order differences need steps of equal length
 
 
@@ -37,10 +38,12 @@ def bdf(lengths):
 
 def carried(q, cells):
     """q (..., nx+1) moved by `cells` towards +x: interpolation between six nodes, what comes in is as at the border."""
-    whole, n = math.floor(cells + 1e-9), q.shape[-1]
+    whole, n = math.floor(cells + WHOLE), q.shape[-1]
     padded = np.concatenate([q[..., :1]] * (whole + 3) + [q] + [q[..., -1:]] * 2, axis=-1)
+    if cells - whole < WHOLE:
+        return padded[..., 3 : 3 + n]
     out, term = np.zeros_like(q), np.empty_like(q)
-    for k, weight in enumerate(_weights(max(cells - whole, 0.0))):
+    for k, weight in enumerate(_weights(cells - whole)):
         out += np.multiply(padded[..., k : k + n], weight, out=term)
     return out
 

@@ -1,17 +1,14 @@
-"""FFT operators on pyfftw's own buffers, which the kernels read and write directly (no copies).
-
-Plans are estimated and single-threaded: the same sums in the same order on every run and any number of threads. (FFTW's
-own threads halve a lone transform, but between kernel launches they have gone to sleep: 0.58 -> 1.97 ms a distribution.)
-"""
+"""FFT operators on pyfftw's own buffers, which the kernels read and write directly (no copies)."""
 
 import numpy as np
 import pyfftw
 
 from tehl_taichi.kernels.lanes import W
 from tehl_taichi.solvers import influence
+from tehl_taichi.solvers.plans import plan
 
-PLAN = dict(flags=("FFTW_ESTIMATE",), threads=1)
 ALIGNED = 16  # numbers between starts that suit FFTW's vector loads
+CACHED = 32768  # numbers of a piece of an array on which several operations follow each other
 
 
 def even_fast_length(n):
@@ -47,10 +44,10 @@ class EvenConvolution:
         period, self.dtype = source.shape[1], source.dtype
         self.rows, self.half, self.source, self.result = rows, period // 2 + 1, source, result
         first, last = (_complex((ny + 1, self.half), self.dtype) for _ in range(2))
-        self.forward = pyfftw.FFTW(source[: ny + 1], first, axes=(1,), **PLAN)
-        self.back = pyfftw.FFTW(last, result[: ny + 1], axes=(1,), direction="FFTW_BACKWARD", **PLAN)
+        self.forward = plan(source[: ny + 1], first, 1)
+        self.back = plan(last, result[: ny + 1], 1, "FFTW_BACKWARD")
         self.first, self.last = first.view(self.dtype), last.view(self.dtype)
-        self.cosine = Cosine(ny, rows, 2 * self.half, self.dtype)
+        self.across = Cosine(ny, rows, 2 * self.half, self.dtype) if rows > 1 else SingleRow(self.dtype)
         self.scale = 1 / (period * (2 * (rows - 1) if rows > 1 else 1))
 
     def set_kernel(self, values):
@@ -61,41 +58,84 @@ class EvenConvolution:
         self.set_symbol(spectrum)
 
     def set_symbol(self, symbol):
-        """Real symbol (rows, period//2+1), stored twice: for the real and the imaginary parts."""
-        self.symbol = np.repeat(symbol * self.scale, 2, axis=1).astype(self.dtype)
+        """Real symbol (rows, period//2+1), for the real and the imaginary parts alike."""
+        self.across.set_symbol(np.repeat(symbol * self.scale, 2, axis=1))
 
     def convolve(self):
         """result = symbol * source."""
         self.forward.execute()
-        spectrum = self.cosine.forward(self.first)
-        np.multiply(spectrum, self.symbol, out=spectrum)
-        self.cosine.back(spectrum, self.last)
+        self.across.convolve(self.first, self.last)
         self.back.execute()
 
 
-class Cosine:
-    """Cosine transform (type I) along the rows as a matrix product: ny+1 given rows (zeros beyond) <-> `rows` modes.
+class SingleRow:
+    """Multiplication by the symbol of a line."""
 
-    It uses the zero rows and single precision; FFTW's REDFT00 along rows takes 2 to 6 times as long (129 modes 0.09 against
-    0.53 ms, 513 modes 2.5 against 6.4 ms, 1025 modes 20 against 52 ms, in single precision).
+    def __init__(self, dtype):
+        self.dtype = dtype
+
+    def set_symbol(self, symbol):
+        """symbol (1, columns)."""
+        self.symbol = symbol.astype(self.dtype)
+
+    def convolve(self, given, wanted):
+        """Row `wanted` from the row `given`."""
+        np.multiply(given, self.symbol, out=wanted)
+
+
+class Cosine:
+    """Multiplication by a symbol between two cosine transforms (type I) along the rows, as matrix products: ny+1 given rows
+    (zeros beyond), `rows` modes.
+
+    Mode m and mode rows-1-m differ by the sign of the odd rows: even and odd rows go apart, to half of the modes each. Products
+    use the zero rows and single precision; FFTW's REDFT00 along rows takes far longer (the whole matrix took 0.09 against 0.53
+    ms for 129 modes, 2.5 against 6.4 for 513, 20 against 52 for 1025).
     """
 
     def __init__(self, ny, rows, columns, dtype):
-        self.spectrum = pyfftw.zeros_aligned((rows, columns), dtype)
-        j, last = np.arange(rows), max(rows - 1, 1)
-        weight = np.full(rows, 2.0)
-        weight[[0, -1]] = 1.0
-        matrix = (np.cos(np.pi * (np.outer(j, j) % (2 * last)) / last) * weight).astype(dtype)
-        self.to_modes = np.ascontiguousarray(matrix[:, : ny + 1])
-        self.to_rows = np.ascontiguousarray(matrix[: ny + 1])
+        last = rows - 1
+        modes, j = np.arange((rows - 1) // 2 + 1), np.arange(ny + 1)
+        cosines = np.cos(np.pi * (np.outer(modes, j) % (2 * last)) / last)
+        given, wanted = cosines * _ends(j, last), (cosines.T * _ends(modes, last)).astype(dtype)
+        self.to_modes = [np.ascontiguousarray(given[:, odd::2], dtype) for odd in (0, 1)]
+        self.to_rows = [np.ascontiguousarray(wanted[odd::2]) for odd in (0, 1)]
+        self.even, self.odd = (pyfftw.zeros_aligned((modes.size, columns), dtype) for _ in (0, 1))
+        self.pieces = [slice(k, k + max(CACHED // columns, 1)) for k in range(0, modes.size, max(CACHED // columns, 1))]
+        self.work = np.zeros((2, max(CACHED // columns, 1), columns), dtype)
 
-    def forward(self, values):
-        """Modes (rows, columns) of values (ny+1, columns); an own buffer."""
-        return np.matmul(self.to_modes, values, out=self.spectrum)
+    def set_symbol(self, symbol):
+        """symbol (rows, columns), by modes."""
+        near = symbol[: self.even.shape[0]]
+        far = symbol[::-1][: near.shape[0]].copy()
+        if symbol.shape[0] % 2:
+            far[-1] = 0.0  # the middle one has no partner
+        self.sum, self.difference = (np.ascontiguousarray(part, self.even.dtype) for part in (near + far, near - far))
 
-    def back(self, spectrum, values):
-        """Rows 0..ny of the modes into `values` (unnormalised)."""
-        np.matmul(self.to_rows, spectrum, out=values)
+    def convolve(self, given, wanted):
+        """Rows `wanted` (ny+1, columns) from the rows `given`."""
+        parts = self.even, self.odd
+        for odd, matrix, part in zip((0, 1), self.to_modes, parts):
+            np.matmul(matrix, given[odd::2], out=part)
+        for piece in self.pieces:
+            self._mix(piece)
+        for odd, matrix, part in zip((0, 1), self.to_rows, parts):
+            np.matmul(matrix, part, out=wanted[odd::2])
+
+    def _mix(self, piece):
+        """even, odd = sum even + difference odd, difference even + sum odd."""
+        even, odd, sums, differences = self.even[piece], self.odd[piece], self.sum[piece], self.difference[piece]
+        to_even, to_odd = self.work[:, : even.shape[0]]
+        np.multiply(odd, differences, out=to_even)
+        np.multiply(even, differences, out=to_odd)
+        even *= sums
+        odd *= sums
+        even += to_even
+        odd += to_odd
+
+
+def _ends(index, last):
+    """Weights of a cosine series: 1 for the first and the last term, 2 for the others."""
+    return np.where((index == 0) | (index == last), 1.0, 2.0)
 
 
 class PlainConvolution:
@@ -106,10 +146,10 @@ class PlainConvolution:
         self.ny, self.half, self.source, self.result = ny, period // 2 + 1, source, result
         self.padded, last = _complex((rows, self.half), self.dtype), _complex((ny + 1, self.half), self.dtype)
         self.first, self.last = self.padded[: ny + 1], last
-        self.forward = pyfftw.FFTW(source[: ny + 1], self.first, axes=(1,), **PLAN)
-        self.along = pyfftw.FFTW(self.padded, self.padded, axes=(0,), **PLAN)
-        self.again = pyfftw.FFTW(self.padded, self.padded, axes=(0,), direction="FFTW_BACKWARD", **PLAN)
-        self.back = pyfftw.FFTW(last, result[: ny + 1], axes=(1,), direction="FFTW_BACKWARD", **PLAN)
+        self.forward = plan(source[: ny + 1], self.first, 1)
+        self.along = plan(self.padded, self.padded, 0)
+        self.again = plan(self.padded, self.padded, 0, "FFTW_BACKWARD")
+        self.back = plan(last, result[: ny + 1], 1, "FFTW_BACKWARD")
         self.scale = 1 / (period * rows)
 
     def set_kernel(self, values):
@@ -193,35 +233,36 @@ def _wrap(coefficients, period):
 
 
 class Distribution:
-    """K^-1 by its symbol on every level, unpadded (mirrored in y): pressures that give wanted film changes.
+    """K^-1 by its symbol on several grids, unpadded (mirrored in y): pressures that give wanted film changes.
 
-    `source` and `result` are flat: rows of all levels one after another; `places[l]` = (first number, period) of level l.
+    grids: (nx, ny, dx, dy) of each; `source` and `result` are flat: rows of all grids one after another; `places[n]` = (first
+    number, period) of grid n.
     """
 
-    def __init__(self, sizes, dx, dy, compliance, dtype=float):
-        periods = [even_fast_length(nx + 1) for nx, _ in sizes]
-        lengths = [-(-padded_rows(ny) * period // ALIGNED) * ALIGNED for (_, ny), period in zip(sizes, periods)]
+    def __init__(self, grids, compliance, dtype=float):
+        periods = [even_fast_length(nx + 1) for nx, *_ in grids]
+        lengths = [-(-padded_rows(ny) * period // ALIGNED) * ALIGNED for (_, ny, *_), period in zip(grids, periods)]
         self.source, self.result = (pyfftw.zeros_aligned(sum(lengths), dtype) for _ in range(2))
-        self.places, self.levels = list(zip(np.cumsum([0, *lengths[:-1]]).tolist(), periods)), []
-        for l, ((_, ny), (start, period)) in enumerate(zip(sizes, self.places)):
+        self.places, self.grids = list(zip(np.cumsum([0, *lengths[:-1]]).tolist(), periods)), []
+        for (_, ny, dx, dy), (start, period) in zip(grids, self.places):
             source, result = (flat[start : start + padded_rows(ny) * period].reshape(-1, period)
                               for flat in (self.source, self.result))
             convolution = EvenConvolution(source, result, ny, ny + 1)
-            convolution.set_symbol(1 / influence.symbol(period, ny, dx * 2**l, dy * 2**l, compliance))
-            self.levels.append(convolution)
+            convolution.set_symbol(1 / influence.symbol(period, ny, dx, dy, compliance))
+            self.grids.append(convolution)
 
     def distribute(self):
-        """result = K^-1 source on every level."""
-        for convolution in self.levels:
+        """result = K^-1 source on every grid."""
+        for convolution in self.grids:
             convolution.convolve()
 
-    def near(self, length=8):
-        """Pressure of a unit film change at distances 0..length-1 in its own row and the next: (2 levels, length)."""
-        out = np.zeros((2 * len(self.levels), length), self.source.dtype)
-        for l, convolution in enumerate(self.levels):
+    def near(self, length):
+        """Pressure of a unit film change at distances 0..length-1 in its own row and the next: (2 grids, length)."""
+        out = np.zeros((2 * len(self.grids), length), self.source.dtype)
+        for n, convolution in enumerate(self.grids):
             convolution.source[0, 0] = 1.0
             convolution.convolve()
             convolution.source[0, 0] = 0.0
             rows = convolution.result[:2, :length]
-            out[2 * l : 2 * l + rows.shape[0]] = rows
+            out[2 * n : 2 * n + rows.shape[0]] = rows
         return out
