@@ -310,7 +310,7 @@ def on_ball(y, **changes):
 
 
 def test_the_whole_domain_gives_the_same_as_the_half():
-    half, whole = on_ball(0.0), on_ball(1e-15)
+    half, whole = (on_ball(y, **{"numerics.tolerance": 1e-8}) for y in (0.0, 1e-15))  # 1e-6 is 400 Pa, seen in the outlet
     assert whole.y.size == 2 * half.y.size - 1 and whole.y[0] == -whole.y[-1]
     for name in ("pressure", "film"):
         both = np.hstack([half.fields[name][:, :0:-1], half.fields[name]])
