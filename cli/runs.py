@@ -5,7 +5,6 @@ import json
 import shutil
 import sys
 import time
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import List, Optional
 
@@ -13,7 +12,6 @@ import typer
 from tehl_cli.errors import Interrupted
 from tehl_cli.live import Live, say
 
-SWITCH = 1e-4  # s
 GRIDS = {"coarse": (128, 32), "medium": (256, 64), "fine": (512, 128)}
 
 
@@ -161,23 +159,12 @@ def _what_is_left(path):
 
 
 def _march(saved, quiet):
-    from tehl_taichi.io.recorder import Checkpoints
-    from tehl_taichi.simulation import march, total_steps
+    from tehl_taichi.io.recorder import go_on
+    from tehl_taichi.simulation import total_steps
 
-    # one step is written while the next one is computed; leaving the block waits for the last write. The solver gives up the
-    # interpreter's lock thousands of times a step: it must not wait 5 ms for the writer each time
-    sys.setswitchinterval(SWITCH)
-    total, start = total_steps(saved.scene), saved.go_back()
-    with Live(total, saved.steps - 1, quiet) as live, ThreadPoolExecutor(1) as writer:
-        pending, states = None, Checkpoints(total)
-        for snapshot in march(saved.scene, start):
-            state = states.of(snapshot)
-            if pending:
-                pending.result()
-            pending = writer.submit(saved.append, snapshot, state)
-            live.step(snapshot)
-        if pending:
-            pending.result()
+    state = saved.go_back()
+    with Live(total_steps(saved.scene), saved.steps - 1, quiet) as live:
+        go_on(saved, state, live.step)
 
 
 def _fatigue(saved, quiet):

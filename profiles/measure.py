@@ -17,7 +17,7 @@ from tehl_taichi.scene import Scene
 
 @dataclass(frozen=True)
 class Timing:
-    """Of one passage: steady start and median step in s, whole passage by them, Newton and Krylov a step, MB of memory."""
+    """Of one passage: steady start, median step and whole passage in s, Newton and Krylov a step, MB of memory."""
 
     start_s: float
     step_s: float
@@ -42,23 +42,23 @@ def _start(threads, precision, arch):
     runtime.start(arch, threads, precision)
 
 
-def passage(description, steps):
-    """Timing of `steps` steps after two for warming up."""
+def passage(description, steps=None):
+    """Timing of `steps` steps after two for warming up, the others taken to be like them; of all steps without a number."""
     from tehl_taichi.simulation import march, total_steps
 
     whole = total_steps(description)
-    run = march(description.replace(**{"time.steps": steps + 2}))
+    run = march(description.replace(**{"time.steps": steps + 2}) if steps else description)
     started = time.perf_counter()
     next(run)
     start_s, shots, seconds = time.perf_counter() - started, [], []
-    for _ in range(steps + 2):
+    for _ in range(steps + 2 if steps else whole):
         started = time.perf_counter()
         shots.append(next(run).scalars)
         seconds.append(time.perf_counter() - started)
     step = float(np.median(seconds[2:]))
     newton, cycles = (float(np.mean([shot[key] for shot in shots[2:]])) for key in ("newton", "cycles"))
     memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-    return Timing(start_s, step, start_s + whole * step, newton, cycles, memory)
+    return Timing(start_s, step, start_s + (whole * step if steps else sum(seconds)), newton, cycles, memory)
 
 
 def steady(description, repeats):

@@ -19,7 +19,7 @@ def run(quick=False, threads=4, progress=None):
     units of the first of them (convolutions): that figure compares between machines."""
     say = progress or (lambda text: None)
     nx, ny = QUICK_GRID if quick else GRID
-    steps = 8 if quick else 30
+    steps = 8 if quick else None
     rows = [*measure.fresh(1, references, nx, ny)]
     gear = scene("gear").replace(**{"grid.nx": nx, "grid.ny": ny})
     # targets hold for 256 x 64 cells
@@ -32,7 +32,7 @@ def run(quick=False, threads=4, progress=None):
     if not quick:
         say(f"thermal passage, {2 * nx} x {2 * ny} cells, {threads} threads")
         rows.append(passage(f"thermal passage {2 * nx}x{2 * ny}, {threads} threads", threads,
-                            gear.replace(**{"grid.nx": 2 * nx, "grid.ny": 2 * ny}), 12, 180.0))
+                            gear.replace(**{"grid.nx": 2 * nx, "grid.ny": 2 * ny}), 12, 180.0))  # of the inlet
     say("tehl run")
     rows += commands(nx, ny, threads, quick)
     rows.append(passage(f"isothermal passage {nx}x{ny}, 1 thread, linear solves in f64", 1,

@@ -1,11 +1,14 @@
-"""A run into a store without a terminal, for suites and sweeps: resumable, finished ones are left as they are."""
+"""A run into a store: resumable, finished ones are left as they are."""
 
+import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from tehl_taichi.io.store import Store, StoreError
 from tehl_taichi.simulation import march, total_steps
 
+SWITCH = 1e-4  # s, interpreter switch interval while a thread writes
 EVERY = 2.0  # s between the states that a run can go on from; a thermal one has 11 MB at 257x65x9, a tenth of a step's time
 
 
@@ -23,8 +26,32 @@ class Checkpoints:
         return snapshot.state
 
 
+def go_on(saved, state, tell=None):
+    """March on from the last checkpoint of the store, whose state :meth:`Store.go_back` gave, to the end of its scene;
+    tell(snapshot) after each step.
+
+    One step is written while the next one is computed. The solver gives up the interpreter's lock thousands of times a step: it
+    must not wait 5 ms for the writer each time.
+    """
+    before, states, pending = sys.getswitchinterval(), Checkpoints(total_steps(saved.scene)), None
+    sys.setswitchinterval(SWITCH)
+    try:
+        with ThreadPoolExecutor(1) as writer:  # leaving it waits for the last write
+            for snapshot in march(saved.scene, state):
+                keep = states.of(snapshot)
+                if pending:
+                    pending.result()
+                pending = writer.submit(saved.append, snapshot, keep)
+                if tell:
+                    tell(snapshot)
+            if pending:
+                pending.result()
+    finally:
+        sys.setswitchinterval(before)
+
+
 def record(scene, path, progress=None):
-    """March `scene` into a store at `path`, from its last checkpoint if it exists. Returns the Store.
+    """March `scene` into a store at `path`, without a terminal, from its last checkpoint if it exists. Returns the Store.
 
     progress: called with (done, total) steps. Raises StoreError if the store there is of another scene, NotConverged.
     """
@@ -37,10 +64,6 @@ def record(scene, path, progress=None):
         path.parent.mkdir(parents=True, exist_ok=True)
         saved = Store.create(path, scene, next(march(scene)), total_steps(scene) + 1)
     if not saved.finished:
-        states = Checkpoints(total_steps(scene))
-        for snapshot in march(scene, saved.go_back()):
-            saved.append(snapshot, states.of(snapshot))
-            if progress:
-                progress(snapshot.step, total_steps(scene))
+        go_on(saved, saved.go_back(), progress and (lambda snapshot: progress(snapshot.step, total_steps(scene))))
         saved.finish({})
     return saved
