@@ -12,13 +12,12 @@ import taichi as ti
 
 from tehl_taichi.kernels.fields import DLE, DLH, DRP, DX, DY, FLOOR, GAP, IE, ILAM, LE, QCP, QP, RHO, RHOC, ROOT, H, P
 from tehl_taichi.kernels.lanes import Flat, Table, V, W, above, below, cells, tile, tiles
+from tehl_taichi.kernels.laws import DP
 from tehl_taichi.kernels.slots import KINDS, MS, MX, MY, NIE, NRHO, TAU, VY, XA, XB, YA, YB, T, U
 from tehl_taichi.physics.density import rho_film
 from tehl_taichi.physics.elementary import exp, log
 from tehl_taichi.physics.rheology import secant
 from tehl_taichi.physics.viscosity import ln_eta
-
-DP = 1e3  # Pa, step of the difference quotients in pressure
 
 Coefficients = ti.types.ndarray(dtype=ti.f64, ndim=2)
 

@@ -8,6 +8,7 @@ a unit at one node and the rows become banded transport.
 
 import taichi as ti
 
+from tehl_taichi.kernels.couette import couette_weights
 from tehl_taichi.kernels.fields import (
     AD,
     AU,
@@ -48,7 +49,6 @@ from tehl_taichi.kernels.lanes import (
     rows_in,
     rows_out,
 )
-from tehl_taichi.kernels.reynolds import couette_weights
 
 HALF = 3  # half bandwidth; 2 converges slower, 1 diverges, 4..6 gain nothing
 TINY_PIVOT = 1e-14

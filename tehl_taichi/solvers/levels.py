@@ -6,7 +6,7 @@ import numpy as np
 from taichi.lang.util import to_numpy_type
 
 from tehl_taichi import runtime
-from tehl_taichi.kernels import fields, lanes, measure, reynolds, transfer
+from tehl_taichi.kernels import fields, lanes, laws, measure, reynolds, transfer
 from tehl_taichi.physics.viscosity import ln_eta
 from tehl_taichi.runtime import bind
 from tehl_taichi.solvers import influence
@@ -99,16 +99,16 @@ class Levels:
     def _bind(self):
         """Launches of the kernels that this table is used with, on the finest level and on the coarser ones."""
         law = (self.S, self.G, self.scene.oil, self.scales.p_H, self.Gamma, self.ln_eta0)
-        self.laws, self._slopes = (self.launch(reynolds.laws, *law, with_slopes, work=HEAVY) for with_slopes in (0, 1))
+        self.laws, self._slopes = (self.launch(laws.laws, *law, with_slopes, work=HEAVY) for with_slopes in (0, 1))
         self._bind_rows(fields.LAWS, fields.RHO, fields.QP, -1)
         d = self.deflection
         self._pressure_rows = self.launch(reynolds.pressure_rows, self.S, self.G, d.pressure.ravel(), d.pressure.shape[1])
         self._set_film = self.launch(reynolds.set_film, self.S, self.G, d.film.ravel(), d.edge, d.film.shape[1])
 
-    def _bind_rows(self, laws, couette, slope, thinning):
-        """Launches of what makes equations of the rows `laws`; the last three: see :func:`reynolds.linearise`."""
+    def _bind_rows(self, follow, couette, slope, thinning):
+        """Launches of what makes equations of the laws; follow: their rows, the others: see :func:`reynolds.linearise`."""
         self.evaluate_residual = self.launch(reynolds.residual, self.S, self.G, couette)
-        self.inject = bind(transfer.inject, self.S, self.J, self.G, len(self.sizes), fields.STATE + laws)
+        self.inject = bind(transfer.inject, self.S, self.J, self.G, len(self.sizes), fields.STATE + follow)
         self._rows, self._rows_coarse = (
             self.launch(reynolds.linearise, self.S, self.J, self.G, self.blocks, *cut, couette, slope, thinning, work=HEAVY)
             for cut in ((0, self.fine), (self.fine, len(self.blocks))))
@@ -117,9 +117,9 @@ class Levels:
         """Take the speed of the film's balance to be that of the scene over `factor`."""
         self.G[:, fields.ILAM] = factor * self.inv_lambda
 
-    def use_film(self, laws, slopes):
+    def use_film(self, values, slopes):
         """Take the laws from a film with temperatures."""
-        self.laws, self._slopes = laws, slopes
+        self.laws, self._slopes = values, slopes
         self._bind_rows(fields.LAWS + fields.FILM_LAWS, fields.RHOC, fields.QCP, fields.DLH)
         for l, (nx, ny) in enumerate(self.sizes):
             self.put(fields.RHOC, np.ones((ny + 1, nx + 1)), l)

@@ -16,6 +16,7 @@ from tehl_taichi.solvers.levels import Levels
 from tehl_taichi.solvers.newton import PressureSolver, Report
 
 FIRST_CELLS = 64  # along x of the first grid: fine enough for a film from Hertz, cheap enough not to matter
+CLOSE = 0.03  # Krylov tolerance between blocks of temperatures: with 0.2 they may never settle (4 GPa, 64 columns)
 CAREFUL = 1e-2  # Krylov tolerance where that of the scene did not converge
 FIRST_FILM = 0.05  # central film of the first guess, Hertz units: thick enough to flow, thin enough to be near
 START_TRIES = (1.0, 0.3, 3.0)  # times FIRST_FILM
@@ -112,15 +113,15 @@ def _first(solver):
 
 
 def _again(solver):
-    """The pressure for other temperatures."""
-    report = _from_here(solver)
+    """The pressure for other temperatures, which must not see what is left of earlier linear solves."""
+    report = _from_here(solver, CLOSE)
     return report if report.converged else _through_slower_ones(solver)
 
 
-def _from_here(solver):
+def _from_here(solver, krylov_tolerance=None):
     """From the pressure in the table, carefully if need be."""
     P, H0 = solver.levels.get(fields.P), solver.H0
-    report = solver.solve()
+    report = solver.solve(krylov_tolerance)
     if not report.converged:
         _put(solver, P, H0)
         report = solver.solve(CAREFUL)

@@ -15,6 +15,7 @@ import math
 import numpy as np
 
 from tehl_taichi.kernels import fields
+from tehl_taichi.kernels.couette import FIRST, UPWIND
 
 LONGEST_PATH = 2.0  # cells of a step; beyond, the frame moves slower than the oil
 STABLE_AT_REST = 0.5  # cells of a step that the oil may move in that frame with third-order differences
@@ -57,9 +58,10 @@ def _weights(part):
 
 def third_order(q):
     """dx dq/dX of q (..., nx+1) by the Couette stencil of the Reynolds equation; 0 in the border columns."""
-    out = np.zeros_like(q)
-    out[..., 2:-1] = q[..., :-3] / 6 - q[..., 1:-2] + q[..., 2:-1] / 2 + q[..., 3:] / 3
-    out[..., 1] = (q[..., 2] - q[..., 0]) / 2
+    out, last = np.zeros_like(q), q.shape[-1] - 1
+    for t, (weight, first) in enumerate(zip(UPWIND, FIRST)):
+        out[..., 2:-1] += weight * q[..., t : last - 2 + t]
+        out[..., 1] += first * q[..., max(t - 1, 0)]
     return out
 
 
