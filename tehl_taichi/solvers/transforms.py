@@ -1,5 +1,7 @@
 """FFT operators on pyfftw's own buffers, which the kernels read and write directly (no copies)."""
 
+import functools
+
 import numpy as np
 import pyfftw
 
@@ -50,12 +52,13 @@ class EvenConvolution:
         self.across = Cosine(ny, rows, 2 * self.half, self.dtype) if rows > 1 else SingleRow(self.dtype)
         self.scale = 1 / (period * (2 * (rows - 1) if rows > 1 else 1))
 
-    def set_kernel(self, values):
-        """Symbol from the even kernel values (rows, period) laid out for this transform."""
+    @staticmethod
+    def spectrum(values):
+        """Symbol of the even kernel values (rows, period) laid out for this transform."""
         spectrum = np.fft.rfft(values, axis=1).real
-        if self.rows > 1:
+        if len(values) > 1:
             spectrum = np.fft.rfft(np.vstack([spectrum, spectrum[-2:0:-1]]), axis=0).real
-        self.set_symbol(spectrum)
+        return spectrum
 
     def set_symbol(self, symbol):
         """Real symbol (rows, period//2+1), for the real and the imaginary parts alike."""
@@ -152,10 +155,14 @@ class PlainConvolution:
         self.back = plan(last, result[: ny + 1], 1, "FFTW_BACKWARD")
         self.scale = 1 / (period * rows)
 
-    def set_kernel(self, values):
-        """Symbol from the even kernel values (rows, period) laid out for this transform."""
-        symbol = np.fft.fft(np.fft.rfft(values, axis=1).real, axis=0).real * self.scale
-        self.symbol = symbol.astype(self.dtype)
+    @staticmethod
+    def spectrum(values):
+        """Symbol of the even kernel values (rows, period) laid out for this transform."""
+        return np.fft.fft(np.fft.rfft(values, axis=1).real, axis=0).real
+
+    def set_symbol(self, symbol):
+        """Real symbol (rows, period//2+1)."""
+        self.symbol = (symbol * self.scale).astype(self.dtype)
 
     def convolve(self):
         """result = symbol * source."""
@@ -186,20 +193,16 @@ class Deflection:
         self.strip = self._strip(period, dx) if line else None
 
     def _plane(self, period, dx, dy, compliance):
-        coefficients = influence.rectangle(self.nx, 2 * self.ny, dx, dy, compliance).T
-        if self.mirrored:
-            convolution = EvenConvolution(self.pressure, self.film, self.ny, 2 * self.ny + 1)
-        else:
-            rows = even_fast_length(2 * self.ny)
-            convolution = PlainConvolution(self.pressure, self.film, self.ny, rows)
-            coefficients = _wrap(coefficients[: self.ny + 1].T, rows).T
-        convolution.set_kernel(_wrap(coefficients, period))
+        rows = 2 * self.ny + 1 if self.mirrored else even_fast_length(2 * self.ny)
+        kind = EvenConvolution if self.mirrored else PlainConvolution
+        convolution = kind(self.pressure, self.film, self.ny, rows)
+        convolution.set_symbol(_plane_symbol(self.nx, self.ny, dx, dy, compliance, kind, rows, period))
         return convolution
 
     def _strip(self, period, dx):
         source, result = (pyfftw.zeros_aligned((1, period), self.dtype) for _ in range(2))
         convolution = EvenConvolution(source, result, 0, 1)
-        convolution.set_kernel(_wrap(influence.strip(self.nx, dx)[None, :], period))
+        convolution.set_symbol(convolution.spectrum(_wrap(influence.strip(self.nx, dx)[None, :], period)))
         return convolution
 
     def deflect(self, add=0.0):
@@ -221,6 +224,15 @@ class Deflection:
         self.pressure[: self.ny + 1, : self.nx + 1] = P
         self.deflect()
         return self.film[: self.ny + 1, : self.nx + 1] + self.edge
+
+
+@functools.lru_cache(maxsize=2)  # a grid has one transform in single and one in double precision
+def _plane_symbol(nx, ny, dx, dy, compliance, kind, rows, period):
+    """Symbol of the deflection by cells for a convolution of this kind."""
+    coefficients = influence.rectangle(nx, 2 * ny, dx, dy, compliance).T
+    if kind is PlainConvolution:
+        coefficients = _wrap(coefficients[: ny + 1].T, rows).T
+    return kind.spectrum(_wrap(coefficients, period))
 
 
 def _wrap(coefficients, period):
