@@ -55,7 +55,7 @@ def run(
     Examples: `tehl run --srr -0.12` · `tehl run dent --grid coarse` · `tehl run my.toml --set feature.height=1e-6`
     """
     started = time.perf_counter()
-    from tehl_taichi.io import scene_file
+    from tehl_taichi.io.found import find
     from tehl_taichi.io.store import check_free
     from tehl_taichi.precision import suited
 
@@ -66,7 +66,7 @@ def run(
     changes = {key: value for key, value in changes.items() if value is not None}
     changes.update(_grid(grid))
     changes.update(_settings(set_ or []))
-    description = scene_file.find(scene)
+    description = find(scene)
     description = description.replace(**changes) if changes else description
     description = _on_grid_for(target_error, grid, description)
     _check_threads(threads)

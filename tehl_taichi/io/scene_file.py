@@ -5,7 +5,7 @@ from pathlib import Path
 
 import tomllib
 
-from tehl_taichi.scene import BUILT_INS, Scene, SceneError, scene
+from tehl_taichi.scene import Scene, SceneError, scene
 from tehl_taichi.scene.oil import OILS
 from tehl_taichi.scene.whole import SECTIONS
 
@@ -97,17 +97,3 @@ def _value(value):
     if isinstance(value, float) and math.isinf(value):
         return "inf" if value > 0 else "-inf"
     return repr(value)
-
-
-def find(name):
-    """Scene by built-in name, TOML path, or store (the scene of that run). Raises SceneError."""
-    if name in BUILT_INS:
-        return scene(name)
-    path = Path(name)
-    if path.is_dir() and (path / "zarr.json").exists():
-        from tehl_taichi.io.store import Store
-
-        return Store.open(path).scene
-    if path.suffix == ".toml" or path.exists():
-        return load(path)
-    return scene(name)
