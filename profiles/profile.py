@@ -28,10 +28,10 @@ def run(nx, ny, thermal, steps):
 
     To be called in a process of its own (:func:`tehl_taichi.profiles.measure.fresh`): kernels must be bound while watched.
     """
-    from tehl_taichi import runtime
+    from tehl_taichi import launches
     from tehl_taichi.simulation import march
 
-    launches = runtime.watch_launches(bytes_of)
+    watched = launches.watch_launches(bytes_of)
     description = scene("gear").replace(**{"grid.nx": nx, "grid.ny": ny, "thermal.on": thermal, "time.steps": steps + 1})
     started = time.perf_counter()
     passage = march(description)
@@ -39,19 +39,19 @@ def run(nx, ny, thermal, steps):
     start = time.perf_counter() - started
     next(passage)
     first = time.perf_counter() - started - start
-    launches.clear()
+    watched.clear()
     profiler, started = cProfile.Profile(), time.perf_counter()
     profiler.runcall(lambda: list(passage))
     step = (time.perf_counter() - started) / steps
     rate = copy_rate((nx + 1) * (ny + 1) * 8 * len(IN_S))
     kernels = [{"what": name, "calls": count / steps, "ms": 1e3 * seconds / steps, "MB": moved / steps / 1e6,
                 "limit_ms": 1e3 * moved / rate / steps}
-               for name, (count, seconds, moved) in sorted(launches.items(), key=lambda item: -item[1][1])]
+               for name, (count, seconds, moved) in sorted(watched.items(), key=lambda item: -item[1][1])]
     stages = _stages(profiler, steps)
     for stage, alone in transforms_alone(nx, ny).items():
         row = next(row for row in stages if row["what"] == stage)
         row["limit_ms"] = 1e3 * alone * row["calls"]
-    numbers = {"start_s": start, "compile_s": runtime.binding_seconds(), "first_step_s": first, "step_s": step,
+    numbers = {"start_s": start, "compile_s": launches.binding_seconds(), "first_step_s": first, "step_s": step,
                "copy_GB_s": rate / 1e9}
     return stages, kernels, numbers
 

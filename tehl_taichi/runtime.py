@@ -1,14 +1,8 @@
 """The only place that starts Taichi: architecture, precision and threads, once per process."""
 
-import functools
-import gc
 import os
 import sys
-import time
-import weakref
 from pathlib import Path
-
-import numpy as np
 
 from tehl_taichi import __version__
 
@@ -16,9 +10,7 @@ ARCHES = ("cpu",)  # that the kernels have been checked on
 PRECISIONS = ("f64", "f32")  # of the linear solves; the state and its residual are always f64
 _defined = None  # precision that the kernels were defined with
 _started = {}
-_tables = []  # [field, weak reference to its owner]
 WORTH_THREADS = 2500
-SMALLEST_TABLE = 5000  # columns; sizes grow by factors of 4, because every size of a field compiles its kernels anew
 
 
 class RuntimeUnavailable(RuntimeError):
@@ -95,151 +87,6 @@ def alone(work):
     To hand a loop to Taichi's threads takes 20 us at once and 50 to 100 us after some work outside, a copy 30 ns a vector.
     """
     return ensure()["threads"] == 1 or work < WORTH_THREADS
-
-
-def lease(owner, rows, lanes, columns, slots=0, precision="f64"):
-    """A vector field of `rows` x at least `columns` columns of `lanes` numbers, zero, for `owner` alone while it lives; with
-    `slots` (and rows 0) of at least `columns` columns x `slots`.
-
-    Fields are never freed by Taichi and a new one compiles its kernels anew, so that of a former owner is used again.
-    """
-    wanted = (lanes, precision), (rows, columns, slots)
-    entry = _free_table(*wanted)
-    if entry is None:
-        gc.collect()  # 28 ms; an owner that is only held by a reference cycle is gone then
-        entry = _free_table(*wanted)
-    if entry is not None:
-        field, entry[1] = entry[0], weakref.ref(owner)
-        field.fill(0.0)
-        return field
-    import taichi as ti
-
-    capacity = SMALLEST_TABLE
-    while capacity < columns:
-        capacity *= 4
-    field = ti.Vector.field(lanes, getattr(ti, precision), shape=(capacity, slots) if slots else (rows, capacity))
-    _tables.append([field, weakref.ref(owner)])
-    return field
-
-
-def _free_table(kind, size):
-    for entry in _tables:
-        field, holder = entry
-        if holder() is None and (field.n, str(field.dtype)) == kind and _fits(field.shape, *size):
-            return entry
-    return None
-
-
-def _fits(shape, rows, columns, slots):
-    return shape[0] >= columns and shape[1] == slots if slots else shape[0] == rows and shape[1] >= columns
-
-
-def bind(kernel, *args):
-    """A launch of `kernel` with these very arguments, to be called without any, as often as wanted.
-
-    Arrays are bound by address: they must stay alive (they are held here) and their contents may change. Taichi's own
-    call inspects every argument anew, some 40 us an array, more than most kernels run; here the argument record is made
-    once. Where the pinned Taichi's internals are not found, the launch falls back to the plain call.
-    """
-    global _binding
-    started = time.perf_counter()
-    try:
-        launch = _recorded(kernel, args)
-    except (AttributeError, TypeError):
-        launch = functools.partial(kernel, *args)
-    _binding += time.perf_counter() - started
-    return launch if _watched is None else _timed(kernel, args, launch)
-
-
-class Carriers:
-    """Launches that copy between a field and an array, bound at their first use (an unbound one costs 40 us an array)."""
-
-    def __init__(self):
-        self.bound = {}
-
-    def carry(self, key, shape, make_launch, values=None):
-        """Fill the array of `key` with `values`, if any, and launch. Returns that array: a buffer.
-
-        make_launch(array) is asked for the launch at the first use of the key.
-        """
-        if key not in self.bound:
-            array = np.empty(shape)
-            self.bound[key] = array, make_launch(array)
-        array, launch = self.bound[key]
-        if values is not None:
-            array[:] = values
-        launch()
-        return array
-
-
-_binding = 0.0  # s spent in `bind`
-
-
-def binding_seconds():
-    """Time (s) spent so far on tracing and compiling bound kernels, or on finding them in the cache."""
-    return _binding
-
-
-_watched = None  # {kernel: [launches, seconds, bytes]} once somebody wants to know
-_bytes_of = None
-
-
-def watch_launches(bytes_of):
-    """The dictionary {kernel: [launches, seconds, bytes]} that all launches bound from now on are counted in.
-
-    bytes_of(kernel, args): bytes that one launch moves.
-    """
-    global _watched, _bytes_of
-    _watched, _bytes_of = {}, bytes_of
-    return _watched
-
-
-def _timed(kernel, args, launch):
-    moved = _bytes_of(kernel, args)
-
-    def counted():
-        started = time.perf_counter()
-        launch()
-        entry = _watched.setdefault(kernel.__name__, [0, 0.0, 0])
-        entry[0] += 1
-        entry[1] += time.perf_counter() - started
-        entry[2] += moved
-
-    return counted
-
-
-def _recorded(kernel, args):
-    from taichi.lang import impl
-    from taichi.types.annotations import template
-
-    primal = kernel._primal
-    compiled = primal.compiled_kernels[primal.ensure_compiled(*args)]
-    record = compiled.make_launch_context()
-    slot = 0
-    for argument, value in zip(primal.arguments, args):
-        if isinstance(argument.annotation, template):
-            continue
-        _set(record, (slot,), value, argument.annotation)
-        slot += 1
-    program = impl.get_runtime().prog
-    code = program.compile_kernel(program.config(), program.get_device_caps(), compiled)
-
-    def launch(held=args):
-        program.launch_kernel(code, record)
-
-    return launch
-
-
-def _set(record, slot, value, annotation):
-    if isinstance(value, np.ndarray):
-        if not value.flags.c_contiguous:
-            raise ValueError("bound arrays must be contiguous")
-        shape = value.shape[: annotation.ndim]  # without the lanes
-        record.set_arg_external_array_with_shape(slot, int(value.ctypes.data), value.nbytes, shape, 0)
-    elif isinstance(value, int):
-        record.set_arg_int(slot, value)
-    else:
-        record.set_arg_float(slot, float(value))
 
 
 def _check(arch, precision):

@@ -9,11 +9,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl_taichi import runtime
+from tehl_taichi import tables
 from tehl_taichi.kernels import energy, fields, film, lanes, paths, slots
 from tehl_taichi.kernels import solids as solid_kernels
 from tehl_taichi.kernels.step import STEP_NUMBERS
-from tehl_taichi.runtime import bind
+from tehl_taichi.launches import Carriers, bind
 from tehl_taichi.solvers import solids
 from tehl_taichi.solvers.storage import bdf
 
@@ -141,14 +141,14 @@ class FilmHeat:
         scene, self.levels = levels.scene, levels
         self.nz, self.dt = scene.thermal.nodes, dt_s
         self.columns = levels.fine * (levels.nx + 1)
-        self.Z = runtime.lease(self, 0, lanes.W, self.columns, slots.KINDS * self.nz + slots.SINGLES)
-        self.F = runtime.lease(self, 0, lanes.W, self.columns, 4 * solids.MODES + 5)
+        self.Z = tables.lease(self, 0, lanes.W, self.columns, slots.KINDS * self.nz + slots.SINGLES)
+        self.F = tables.lease(self, 0, lanes.W, self.columns, 4 * solids.MODES + 5)
         self.tiles = levels.fine * (levels.nx // lanes.TILE + 1)
-        self.X = runtime.lease(self, 0, lanes.W, self.tiles, self.nz * (self.nz + 2))
+        self.X = tables.lease(self, 0, lanes.W, self.tiles, self.nz * (self.nz + 2))
         self.zeta, self.C, self.D1, self.D2 = chebyshev(self.nz)
         self.weights = np.ascontiguousarray(self.C[-1])
         self.single = slots.KINDS * self.nz
-        self._carriers = runtime.Carriers()
+        self._carriers = Carriers()
         self.offset = np.zeros(2)  # cells that each body has moved since the start
         self.dt_before = 0.0
         self.report = HeatReport(math.nan, 0, 0)

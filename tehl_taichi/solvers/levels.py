@@ -5,10 +5,10 @@ import math
 import numpy as np
 from taichi.lang.util import to_numpy_type
 
-from tehl_taichi import runtime
+from tehl_taichi import runtime, tables
 from tehl_taichi.kernels import fields, lanes, laws, measure, reynolds, transfer
+from tehl_taichi.launches import Carriers, bind
 from tehl_taichi.physics.viscosity import ln_eta
-from tehl_taichi.runtime import bind
 from tehl_taichi.solvers import influence
 from tehl_taichi.solvers.transforms import Deflection
 
@@ -47,9 +47,9 @@ class Levels:
         self.n = columns(nx, ny) * lanes.W
         rows = fields.NROWS if scene.isothermal else fields.NROWS_THERMAL
         size = max(table_columns(nx, ny), _final_columns(scene))
-        self.S = runtime.lease(self, rows, lanes.W, size)
-        self.J = runtime.lease(self, fields.NROWS_LINEAR, lanes.W, size, precision=runtime.precision())
-        self.deflection, self._carriers = self.deflection_of(0), runtime.Carriers()
+        self.S = tables.lease(self, rows, lanes.W, size)
+        self.J = tables.lease(self, fields.NROWS_LINEAR, lanes.W, size, precision=runtime.precision())
+        self.deflection, self._carriers = self.deflection_of(0), Carriers()
         self._set_laws()
         self._bind()
         self._set_masks()

@@ -9,7 +9,7 @@ import functools
 import numpy as np
 
 from tehl_taichi.kernels import fields, lanes, lines, transfer
-from tehl_taichi.runtime import bind
+from tehl_taichi.launches import bind
 from tehl_taichi.solvers.levels import HEAVY, LINEAR
 from tehl_taichi.solvers.transforms import Deflection, Distribution
 
