@@ -19,7 +19,7 @@ WORTH_MEASURING = 16000  # numbers; 65 x 512 of them take 0.2 s
 
 
 def plan(source, result, axis, direction="FFTW_FORWARD"):
-    """A transform from `source` to `result` along `axis`; both are zero afterwards."""
+    """A transform from `source` to `result` along `axis`; what they hold may be replaced by zeros."""
     make = functools.partial(pyfftw.FFTW, source, result, axes=(axis,), direction=direction, threads=1)
     if source.size < WORTH_MEASURING and result.size < WORTH_MEASURING or not _remembered():
         return make(flags=("FFTW_ESTIMATE",))
@@ -48,9 +48,9 @@ def _remembered():
     try:
         _place().parent.mkdir(parents=True, exist_ok=True)
         pyfftw.import_wisdom(tuple(text.encode() for text in json.loads(_place().read_text())))
-    except FileNotFoundError:
+    except (FileNotFoundError, ValueError):  # nothing yet, or a damaged record: measured anew
         pass
-    except (OSError, ValueError):
+    except OSError:
         return False
     return True
 
@@ -59,9 +59,13 @@ def _remember():
     """Keep everything measured so far; whether that was possible."""
     try:
         handle, name = tempfile.mkstemp(dir=_place().parent)
+    except OSError:
+        return False
+    try:
         with os.fdopen(handle, "w") as file:
             json.dump([text.decode() for text in pyfftw.export_wisdom()], file)
         os.replace(name, _place())
     except OSError:
+        os.unlink(name)
         return False
     return True
