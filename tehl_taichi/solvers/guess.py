@@ -45,14 +45,20 @@ class Guess:
         newest = self.fields[0]
         if len(self.fields) == 1:
             return newest
-        past = _extrapolations(self.fields[1:], self.at[1:], self.at[0])
+        judged, *known = (_judged(field) for field in self.fields)
+        past = _extrapolations(known, self.at[1:], self.at[0])
         coming = _extrapolations(self.fields[:-1], self.at[:-1], at)
         out, total = np.zeros_like(newest), np.zeros(newest.shape[-2:], newest.dtype)
         for before, guess in zip(past, coming):
-            trust = 1 / (_nearby(before - newest) + NOTHING)
+            trust = 1 / (_nearby(before - judged) + NOTHING)
             out += trust * guess
             total += trust
         return out / total
+
+
+def _judged(field):
+    """Of a field in layers the first, the middle and the last one."""
+    return field if field.ndim == 2 else field[:: max((len(field) - 1) // 2, 1)]
 
 
 def _single(field):
