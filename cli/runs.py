@@ -97,7 +97,7 @@ def resume(
     _check_threads(threads)
     with _interruptible(store):
         _start("cpu", threads, json.loads(saved.attrs["runtime"])["precision"])
-        _go(saved, started, as_json, quiet, json.loads(saved.attrs["steady_error"]), 0.0)
+        _go(saved, started, as_json, quiet, json.loads(saved.attrs["steady_error"]))
 
 
 def _start(arch, threads, precision):
@@ -114,21 +114,21 @@ def _simulate(description, path, started, as_json, quiet, force):
         if not quiet:
             say(f"left out: {line}")
     first = next(march(description))
-    compile_s = max(time.perf_counter() - started - first.scalars["wall_s"], 0.0)
     if path.exists() and force:
         shutil.rmtree(path)
     attrs = {"command": " ".join(sys.argv), "steady_error": json.dumps(first.error), **_machine()}
     saved = Store.create(path, description, first, total_steps(description) + 1, attrs)
-    _go(saved, started, as_json, quiet, first.error, compile_s)
+    _go(saved, started, as_json, quiet, first.error)
 
 
-def _go(saved, started, as_json, quiet, steady_error, compile_s):
+def _go(saved, started, as_json, quiet, steady_error):
     from tehl_taichi.io.summary import summarise
+    from tehl_taichi.launches import binding_seconds
 
     _march(saved, quiet)
     fatigue, maps = _fatigue(saved, quiet)
     error = _passage_error(saved, fatigue, quiet)
-    extra = {"wall_s": time.perf_counter() - started, "compile_s": compile_s, "steady_error": steady_error,
+    extra = {"wall_s": time.perf_counter() - started, "compile_s": binding_seconds(), "steady_error": steady_error,
              "passage_error": error}
     summary = summarise(saved, extra, fatigue)
     saved.finish(summary, maps)

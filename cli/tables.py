@@ -24,7 +24,7 @@ def summary_table(summary):
     rows.append(("steady friction coefficient", f"{steady['friction_coefficient']:.4f}"))
     rows += _heat_rows("steady", steady)
     rows += _passage_rows(summary)
-    rows.append(("run time", f"{summary['wall_s']:.1f} s (start, compile {summary['compile_s']:.1f} s)"))
+    rows.append(("run time", f"{summary['wall_s']:.1f} s (kernels {summary['compile_s']:.1f} s)"))
     _table(f"{summary['scene']}: {summary['steps']} steps, store {summary['store']}", rows)
 
 

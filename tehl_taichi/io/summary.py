@@ -8,7 +8,8 @@ from tehl_taichi.scene.scales import Scales
 
 
 def summarise(store, extra, fatigue=None):
-    """Summary dictionary. extra: wall_s, compile_s and steady_error; fatigue: its own dictionary or None."""
+    """Summary dictionary. extra: wall_s, compile_s (kernels traced, compiled or loaded) and steady_error; fatigue: its own
+    dictionary or None."""
     scene = store.scene
     scales = Scales.of(scene)
     out = {"scene": scene.name, "version": __version__, "store": str(store.path), "converged": True,
