@@ -11,7 +11,7 @@ import numpy as np
 
 from tehl_taichi import runtime, snapshot
 from tehl_taichi.kernels import fields
-from tehl_taichi.physics.gap import feature_height, undeformed
+from tehl_taichi.physics.gap import feature_height
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.snapshot import Snapshot
 from tehl_taichi.solvers.guess import Guess, extrapolated
@@ -100,7 +100,7 @@ class Passage:
         self.scene, self.scales = scene, scales
         self.solver = PressureSolver(Levels(scene, scales, scene.grid.nx, scene.rows, full=not scene.symmetric))
         self.levels = self.solver.levels
-        self.smooth = undeformed(self.levels.X[None, :], self.levels.Y[:, None], scales.curvature) + 0 * self.levels.Y[:, None]
+        self.smooth = self.levels.smooth_gap()
         self.step_x = step_cells(scene) * self.levels.dx
         self.dT = self.step_x * scene.operation.u_m / scene.operation.u_a
         self.step, self.P, self.solver.H0 = int(state["step"]), np.array(state["P"]), float(state["H0"])
@@ -140,13 +140,13 @@ class Passage:
 
     def _try(self, until, part):
         """Solve at `until` steps from here, `part` of a step after the last accepted state; accepted if it converged."""
-        H0 = self.solver.H0
+        H0, at = self.solver.H0, self._moved(self.step + until)
         self._move_feature(self.step + until)
         self.storage.begin(part * self.dT)
-        self._predict(until)
+        self._predict(at)
         report = self._exchange(part) if self.heat else self._solve()
         if report.converged:
-            self._accept(until, part)
+            self._accept(at, part)
         else:
             self.solver.H0 = H0
         return report
@@ -210,17 +210,15 @@ class Passage:
             gap[:, under] -= feature_height(feature, x[under], y) / s.h
         v.put(fields.GAP0, gap)
 
-    def _predict(self, until):
-        P = np.maximum(self.guess.next(self._moved(self.step + until)), 0.0)
+    def _predict(self, at):
+        """Start values for the state with the feature `at` cells from its start."""
+        P = np.maximum(self.guess.next(at), 0.0)
         P[:, [0, -1]] = 0.0
         self.levels.put(fields.P, P)
-        self.solver.H0 = extrapolated(self.heights[: ORDER + 1], self.guess.at, self._moved(self.step + until))
+        self.solver.H0 = extrapolated(self.heights[: ORDER + 1], self.guess.at, at)
         if self.heat:
-            self._predict_temperature(until)
-
-    def _predict_temperature(self, until):
-        T = self.heat_guess.next(self._moved(self.step + until))
-        self.heat.set_temperature(np.clip(T, self.heat.T.min(), self.heat.T.max() + 20.0))
+            T = self.heat_guess.next(at)
+            self.heat.set_temperature(np.clip(T, self.heat.T.min(), self.heat.T.max() + 20.0))
 
     def _solve(self):
         H0 = self.solver.H0
@@ -231,8 +229,8 @@ class Passage:
             report = self.solver.solve(RETRY_KRYLOV, newton_max=2 * self.scene.numerics.newton_max)
         return report
 
-    def _accept(self, until, part):
-        self.P, self.part, at = self.levels.get(fields.P), part, self._moved(self.step + until)
+    def _accept(self, at, part):
+        self.P, self.part = self.levels.get(fields.P), part
         self.guess.accept(self.P, at)
         self.heights = [self.solver.H0, *self.heights[:ORDER]]
         self.storage.accept(part * self.dT)

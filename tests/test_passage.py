@@ -59,6 +59,17 @@ def test_film_under_the_asperity_stays_what_it_was_let_in_as():
     assert centre.scalars["p_max_Pa"] == pytest.approx(3.98e9, rel=0.003)
 
 
+def test_snapshots_of_one_dimension_do_not_share_their_arrays():
+    """A row needs no turning into columns: what a snapshot keeps must be its own all the same."""
+    from tehl_taichi.simulation import march
+
+    description = built_in("furrow-line").replace(**{"thermal.on": False, "grid.nx": 64, "time.steps": 2})
+    shots = list(march(description))
+    assert description.one_dimensional and len(shots) == 3
+    for name, values in shots[1].fields.items():
+        assert not np.shares_memory(values, shots[2].fields[name]), name
+
+
 def test_touching_asperity_never_goes_negative():
     steps = passage(height=3e-6)
     assert min(s.scalars["h_min_m"] for s in steps) > 0

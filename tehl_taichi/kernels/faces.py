@@ -34,19 +34,21 @@ def cube(h0, h1):
 
 
 @ti.func
-def node(S: ti.template(), k):
-    """P, ln eta, 1/eta, root of rho, film of a column."""
-    return S[P, k], S[LE, k], S[IE, k], S[ROOT, k], S[GAP, k]
+def beside(S: ti.template(), row: ti.template(), k, n2, up: ti.template()):
+    """Field at row j + up of the lanes (up = -1, 0, 1)."""
+    out = S[row, k]
+    if ti.static(up == 1):
+        out = above(S, row, k, n2)
+    elif ti.static(up == -1):
+        out = below(S, row, k, n2)
+    return out
 
 
 @ti.func
-def node_above(S: ti.template(), k, n2):
-    return above(S, P, k, n2), above(S, LE, k, n2), above(S, IE, k, n2), above(S, ROOT, k, n2), above(S, GAP, k, n2)
-
-
-@ti.func
-def node_below(S: ti.template(), k, n2):
-    return below(S, P, k, n2), below(S, LE, k, n2), below(S, IE, k, n2), below(S, ROOT, k, n2), below(S, GAP, k, n2)
+def node(S: ti.template(), k, n2, up: ti.template()):
+    """P, ln eta, 1/eta, root of rho, film at row j + up."""
+    return (beside(S, P, k, n2, up), beside(S, LE, k, n2, up), beside(S, IE, k, n2, up), beside(S, ROOT, k, n2, up),
+            beside(S, GAP, k, n2, up))
 
 
 @ti.func
@@ -57,17 +59,13 @@ def flux(p0, l0, e0, r0, h0, p1, l1, e1, r1, h1):
 
 @ti.func
 def flux_x(S: ti.template(), k):
-    p0, l0, e0, r0, h0 = node(S, k)
-    p1, l1, e1, r1, h1 = node(S, k + 1)
-    return flux(p0, l0, e0, r0, h0, p1, l1, e1, r1, h1)
+    return flux(*node(S, k, 0, 0), *node(S, k + 1, 0, 0))
 
 
 @ti.func
 def net_flux_y(S: ti.template(), k, n2, up, down):
-    p, l, e, r, h = node(S, k)
-    p1, l1, e1, r1, h1 = node_above(S, k, n2)
-    p0, l0, e0, r0, h0 = node_below(S, k, n2)
-    return up * flux(p, l, e, r, h, p1, l1, e1, r1, h1) - down * flux(p0, l0, e0, r0, h0, p, l, e, r, h)
+    here = node(S, k, n2, 0)
+    return up * flux(*here, *node(S, k, n2, 1)) - down * flux(*node(S, k, n2, -1), *here)
 
 
 @ti.func
@@ -87,52 +85,25 @@ def linear_face(p0, l0, e0, r0, h0, dl0, dr0, f0, p1, l1, e1, r1, h1, dl1, dr1, 
 
 
 @ti.func
-def slopes_at(S: ti.template(), k, thinning: ti.template()):
-    """Derivatives of ln eta and of the root of rho by P, and of ln eta by H, of a column."""
+def linear_node(S: ti.template(), k, n2, up: ti.template(), thinning: ti.template()):
+    """:func:`node` and the derivatives of ln eta and of the root of rho by P, and of ln eta by H (row `thinning`, or none)."""
     f = V(0.0)
     if ti.static(thinning >= 0):
-        f = S[thinning, k]
-    return S[DLE, k], S[DRP, k], f
-
-
-@ti.func
-def slopes_above(S: ti.template(), k, n2, thinning: ti.template()):
-    f = V(0.0)
-    if ti.static(thinning >= 0):
-        f = above(S, thinning, k, n2)
-    return above(S, DLE, k, n2), above(S, DRP, k, n2), f
-
-
-@ti.func
-def slopes_below(S: ti.template(), k, n2, thinning: ti.template()):
-    f = V(0.0)
-    if ti.static(thinning >= 0):
-        f = below(S, thinning, k, n2)
-    return below(S, DLE, k, n2), below(S, DRP, k, n2), f
+        f = beside(S, thinning, k, n2, up)
+    p, l, e, r, h = node(S, k, n2, up)
+    return p, l, e, r, h, beside(S, DLE, k, n2, up), beside(S, DRP, k, n2, up), f
 
 
 @ti.func
 def face_x(S: ti.template(), k, thinning: ti.template()):
-    p0, l0, e0, r0, h0 = node(S, k)
-    p1, l1, e1, r1, h1 = node(S, k + 1)
-    a0, b0, f0 = slopes_at(S, k, thinning)
-    a1, b1, f1 = slopes_at(S, k + 1, thinning)
-    return linear_face(p0, l0, e0, r0, h0, a0, b0, f0, p1, l1, e1, r1, h1, a1, b1, f1)
+    return linear_face(*linear_node(S, k, 0, 0, thinning), *linear_node(S, k + 1, 0, 0, thinning))
 
 
 @ti.func
 def face_above(S: ti.template(), k, n2, thinning: ti.template()):
-    p0, l0, e0, r0, h0 = node(S, k)
-    p1, l1, e1, r1, h1 = node_above(S, k, n2)
-    a0, b0, f0 = slopes_at(S, k, thinning)
-    a1, b1, f1 = slopes_above(S, k, n2, thinning)
-    return linear_face(p0, l0, e0, r0, h0, a0, b0, f0, p1, l1, e1, r1, h1, a1, b1, f1)
+    return linear_face(*linear_node(S, k, n2, 0, thinning), *linear_node(S, k, n2, 1, thinning))
 
 
 @ti.func
 def face_below(S: ti.template(), k, n2, thinning: ti.template()):
-    p0, l0, e0, r0, h0 = node_below(S, k, n2)
-    p1, l1, e1, r1, h1 = node(S, k)
-    a0, b0, f0 = slopes_below(S, k, n2, thinning)
-    a1, b1, f1 = slopes_at(S, k, thinning)
-    return linear_face(p0, l0, e0, r0, h0, a0, b0, f0, p1, l1, e1, r1, h1, a1, b1, f1)
+    return linear_face(*linear_node(S, k, n2, -1, thinning), *linear_node(S, k, n2, 0, thinning))

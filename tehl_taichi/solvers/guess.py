@@ -10,11 +10,9 @@ by place, order 1 8e-5 / 9e-4 / 1e-4 / 2e-5 / 2e-5 / 1e-3 / 3e-3 / 3e-3, orders 
 / 3e-3 / 3e-3. Newton / Krylov per step with orders up to 1, 2, 3, 4: 2.85/17.9, 2.33/16.2, 2.32/15.1, 2.31/15.0.
 """
 
-import math
-
 import numpy as np
 
-from tehl_taichi.solvers.storage import carried
+from tehl_taichi.solvers.storage import carried, lagrange
 
 NOTHING = 1e-14  # squared error that is as good as none
 
@@ -88,8 +86,7 @@ def _moved(field, cells):
 
 def extrapolated(values, at, to):
     """The number at `to` by the polynomial through the given ones."""
-    at = at[: len(values)]
-    return float(sum(value * math.prod((to - b) / (a - b) for b in at if b != a) for value, a in zip(values, at)))
+    return float(sum(weight * value for weight, value in zip(lagrange(at[: len(values)], to), values)))
 
 
 def _nearby(error):

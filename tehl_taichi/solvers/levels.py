@@ -8,6 +8,7 @@ from taichi.lang.util import to_numpy_type
 from tehl_taichi import runtime, tables
 from tehl_taichi.kernels import fields, lanes, laws, measure, reynolds, transfer
 from tehl_taichi.launches import Carriers, bind
+from tehl_taichi.physics.gap import undeformed
 from tehl_taichi.physics.viscosity import ln_eta
 from tehl_taichi.solvers import influence
 from tehl_taichi.solvers.transforms import Deflection
@@ -57,8 +58,8 @@ class Levels:
     def _level_table(self):
         G = np.zeros((len(self.sizes), fields.NCOLS))
         off = PAD + self.nx + 1
-        for l, (nx, ny) in enumerate(self.sizes):
-            dx, dy = self.dx * 2**l, self.dy * 2**l
+        for l in range(len(self.sizes)):
+            nx, ny, dx, dy = self.grid(l)
             rows = ny + 1 if self.line else ny
             near, floor = self.near_kernel(l)[0], self.scene.rheology.film_floor
             G[l, : fields.ROW0] = off, nx, ny, rows, dx, dy, 0.0, 0.0, *near, floor, 1.0
@@ -70,12 +71,20 @@ class Levels:
         """(level, block) of all blocks of these levels."""
         return np.array([(l, s) for l in levels for s in range(self.sizes[l][1] // lanes.W + 1)], np.int32)
 
+    def grid(self, l):
+        """Cells and spacings (nx, ny, dx, dy) of level l."""
+        return (*self.sizes[l], self.dx * 2**l, self.dy * 2**l)
+
+    def smooth_gap(self):
+        """Undeformed gap without features (ny+1, nx+1)."""
+        return undeformed(self.X[None, :], self.Y[:, None], self.scales.curvature)
+
     def near_kernel(self, l, length=2):
         """Deflection at distances 0..length-1 along x of a node in an inner and in the outermost row; shape (2, length)."""
-        dx, dy = self.dx * 2**l, self.dy * 2**l
+        _, ny, dx, dy = self.grid(l)
         if self.line:
             strip = influence.strip(length, dx)[:length]
-        if self.sizes[l][1] == 0:
+        if ny == 0:
             return np.vstack([strip, strip])
         inner = influence.rectangle(length, 1, dx, dy, self.scales.compliance)[:length, 0]
         # the outermost row of a line contact goes on to infinity on one side only
@@ -87,7 +96,7 @@ class Levels:
 
     def deflection_key(self, l):
         """What the deflection of level l depends on: cells, spacings, compliance, line, mirrored."""
-        return (*self.sizes[l], self.dx * 2**l, self.dy * 2**l, self.scales.compliance, self.line, self.mirrored)
+        return (*self.grid(l), self.scales.compliance, self.line, self.mirrored)
 
     def _set_laws(self):
         scene, s = self.scene, self.scales
@@ -180,8 +189,8 @@ class Levels:
                                     lambda array: self.launch(kernel, self.S, self.G, *place, array), values)
 
     def fill(self, kernel, shape, *args):
-        """The array of this shape that kernel(S, G, *args, array) fills: a buffer, for the same arguments every time."""
-        return self._carriers.carry(kernel, shape, lambda array: bind(kernel, self.S, self.G, *args, array))
+        """A new array of this shape that kernel(S, G, *args, array) fills, for the same arguments every time."""
+        return self._carriers.carry(kernel, shape, lambda array: bind(kernel, self.S, self.G, *args, array)).copy()
 
     def launch(self, kernel, *args, work=1):
         """A launch of `kernel`, whose last argument is `alone`; work: of one column, in units of a copy.

@@ -22,8 +22,7 @@ class AdditiveLines:
 
     def __init__(self, levels):
         self.levels = levels
-        spacing = [(*levels.sizes[l], levels.dx * 2**l, levels.dy * 2**l) for l in levels.lines]
-        self.distribution = Distribution(spacing, levels.scales.compliance, LINEAR)
+        self.distribution = Distribution([levels.grid(l) for l in levels.lines], levels.scales.compliance, LINEAR)
         self.near, self.inverse = (np.zeros((2 * len(levels.sizes), lines.NEAR), LINEAR) for _ in range(2))
         inverse = self.distribution.near(lines.NEAR)
         for n, (l, place) in enumerate(zip(levels.lines, self.distribution.places)):

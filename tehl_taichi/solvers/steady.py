@@ -10,7 +10,6 @@ from typing import Optional
 import numpy as np
 
 from tehl_taichi.kernels import fields
-from tehl_taichi.physics.gap import undeformed
 from tehl_taichi.solvers.heat import FilmHeat, settle, time_step
 from tehl_taichi.solvers.levels import Levels
 from tehl_taichi.solvers.newton import PressureSolver, Report
@@ -84,7 +83,7 @@ def solve_steady(scene, scales, nx, ny):
     for size in grid_sequence(nx, ny):
         solver = heat = None  # give their tables to the next grid
         solver = PressureSolver(Levels(scene, scales, *size))
-        _undeformed(solver.levels)
+        solver.levels.put(fields.GAP0, solver.levels.smooth_gap())
         report = _first(solver) if P is None else _next(solver, P, H0)
         if report.converged and not scene.isothermal and nx // size[0] <= FINEST_THERMAL:
             heat = FilmHeat(solver.levels, time_step(scene, scales, solver.levels.dx))
@@ -95,11 +94,6 @@ def solve_steady(scene, scales, nx, ny):
         values = [*values, scalars(solver)] if report.converged else [scalars(solver)]
         work += report.cycles
     return SteadyResult(solver, report, values, work, heat)
-
-
-def _undeformed(levels):
-    X, Y = levels.X[None, :], levels.Y[:, None]
-    levels.put(fields.GAP0, undeformed(X, Y, levels.scales.curvature))
 
 
 def _first(solver):

@@ -51,9 +51,13 @@ def carried(q, cells):
 
 @functools.lru_cache(maxsize=16)
 def _weights(part):
-    """Of the nodes -3 ... 2 for the value at -part (Lagrange)."""
-    at = range(-3, 3)
-    return [math.prod((-part - b) / (a - b) for b in at if b != a) for a in at]
+    """Of the nodes -3 ... 2 for the value at -part."""
+    return lagrange(range(-3, 3), -part)
+
+
+def lagrange(at, to):
+    """Weights of the values at the places `at` for the value at `to`, by the polynomial through them."""
+    return [math.prod((to - b) / (a - b) for b in at if b != a) for a in at]
 
 
 def third_order(q):

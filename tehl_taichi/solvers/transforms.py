@@ -103,8 +103,9 @@ class Cosine:
         self.to_modes = [np.ascontiguousarray(given[:, odd::2], dtype) for odd in (0, 1)]
         self.to_rows = [np.ascontiguousarray(wanted[odd::2]) for odd in (0, 1)]
         self.even, self.odd = (pyfftw.zeros_aligned((modes.size, columns), dtype) for _ in (0, 1))
-        self.pieces = [slice(k, k + max(CACHED // columns, 1)) for k in range(0, modes.size, max(CACHED // columns, 1))]
-        self.work = np.zeros((2, max(CACHED // columns, 1), columns), dtype)
+        rows_at_once = max(CACHED // columns, 1)
+        self.pieces = [slice(k, k + rows_at_once) for k in range(0, modes.size, rows_at_once)]
+        self.work = np.zeros((2, rows_at_once, columns), dtype)
 
     def set_symbol(self, symbol):
         """symbol (rows, columns), by modes."""
