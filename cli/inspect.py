@@ -49,7 +49,7 @@ def new(
 
 def show(store: Path = typer.Argument(..., help="store of a finished, running or broken run")):
     """Summary and residual history of a run."""
-    from tehl_cli.tables import history_table, summary_table
+    from tehl_cli.tables import history_table, summary_table, warning_lines
 
     from tehl_taichi.io.store import Store
 
@@ -58,6 +58,8 @@ def show(store: Path = typer.Argument(..., help="store of a finished, running or
     print(f"{store}: scene {saved.scene.name}, {saved.steps} entries, {state}")
     if saved.summary:
         summary_table(saved.summary)
+    else:
+        warning_lines(saved.warnings)
     shown = sorted({*range(0, saved.steps, max(saved.steps // 20, 1)), saved.steps - 1})
     history_table(saved.scalar, shown)
 

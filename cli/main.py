@@ -5,7 +5,8 @@ import sys
 import typer
 import typer.core
 from tehl_cli import bench, fatigue, inspect, runs
-from tehl_cli.errors import BAD_INPUT, FAILED, INTERRUPTED, NOT_CONVERGED, Interrupted
+
+from tehl_taichi.errors import FAILED, Interrupted
 
 
 class Commands(typer.core.TyperGroup):
@@ -39,12 +40,4 @@ def main():
         if debug:
             raise
         print(f"tehl: {error or type(error).__name__}", file=sys.stderr)
-        sys.exit(_code(error))
-
-
-def _code(error):
-    if isinstance(error, Interrupted):
-        return INTERRUPTED
-    if type(error).__name__ == "NotConverged":
-        return NOT_CONVERGED
-    return BAD_INPUT if type(error).__name__ in ("SceneError", "StoreError", "RuntimeUnavailable") else FAILED
+        sys.exit(getattr(error, "exit_code", FAILED))

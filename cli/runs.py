@@ -9,8 +9,9 @@ from pathlib import Path
 from typing import List, Optional
 
 import typer
-from tehl_cli.errors import Interrupted
 from tehl_cli.live import Live, say
+
+from tehl_taichi.errors import Interrupted
 
 GRIDS = {"coarse": (128, 32), "medium": (256, 64), "fine": (512, 128)}
 
@@ -113,10 +114,13 @@ def _simulate(description, path, started, as_json, quiet, force):
     for line in description.left_out():
         if not quiet:
             say(f"left out: {line}")
+    for sentence in description.warnings():
+        say(f"warning: {sentence}")
     first = next(march(description))
     if path.exists() and force:
         shutil.rmtree(path)
-    attrs = {"command": " ".join(sys.argv), "steady_error": json.dumps(first.error), **_machine()}
+    attrs = {"command": " ".join(sys.argv), "steady_error": json.dumps(first.error),
+             "warnings": json.dumps(description.warnings()), **_machine()}
     saved = Store.create(path, description, first, total_steps(description) + 1, attrs)
     _go(saved, started, as_json, quiet, first.error)
 
@@ -145,7 +149,8 @@ def _interruptible(path):
 
 
 def _what_is_left(path):
-    from tehl_taichi.io.store import Store, StoreError
+    from tehl_taichi.errors import StoreError
+    from tehl_taichi.io.store import Store
 
     try:
         saved = Store.open(path)

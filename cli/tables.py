@@ -26,6 +26,13 @@ def summary_table(summary):
     rows += _passage_rows(summary)
     rows.append(("run time", f"{summary['wall_s']:.1f} s (kernels {summary['compile_s']:.1f} s)"))
     _table(f"{summary['scene']}: {summary['steps']} steps, store {summary['store']}", rows)
+    warning_lines(summary.get("warnings", []))
+
+
+def warning_lines(sentences):
+    """Print warnings below a table, a line each."""
+    for sentence in sentences:
+        print(f"warning: {sentence}")
 
 
 def _plus(error, factor):

@@ -9,12 +9,12 @@ from pathlib import Path
 
 import numpy as np
 
+from tehl_taichi.errors import NotConverged
 from tehl_taichi.io.recorder import record
 from tehl_taichi.post import findley
 from tehl_taichi.post.passage import Passage
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
-from tehl_taichi.simulation import NotConverged
 from tehl_taichi.solvers.steady import estimated_error
 
 GRIDS, QUICK_GRIDS = ((64, 16), (128, 32), (256, 64)), ((64, 16), (128, 32))

@@ -102,8 +102,8 @@ def save(folder, name, rows):
 
 def pyplot():
     """matplotlib's pyplot without a screen, or None where it is not installed."""
+    from tehl_taichi.errors import StoreError
     from tehl_taichi.io import figures
-    from tehl_taichi.io.store import StoreError
 
     try:
         return figures.pyplot()

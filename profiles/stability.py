@@ -111,8 +111,9 @@ def edited(base, changes):
 
 def run_case(name, description):
     """March one scene to its end, and search the fatigue of a passage. Returns an Outcome."""
+    from tehl_taichi.errors import NotConverged
     from tehl_taichi.post import fatigue
-    from tehl_taichi.simulation import NotConverged, march, total_steps
+    from tehl_taichi.simulation import march, total_steps
 
     started, shots, newton, cycles = time.perf_counter(), [], 0.0, 0.0
     verdict, reason, index = "converged", "", None

@@ -18,7 +18,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 os.environ.setdefault("ENABLE_TAICHI_HEADER_PRINT", "0")
 
 __version__ = "0.1.0"
-__all__ = ["__version__", "march", "scene", "simulate"]
+__all__ = ["Error", "__version__", "march", "scene", "simulate"]
 
 
 def march(scene, state=None):
@@ -37,3 +37,4 @@ def simulate(scene):
 
 
 from tehl_taichi import scene  # noqa: E402  callable: scene("gear"); after the settings above, which numpy reads
+from tehl_taichi.errors import Error  # noqa: E402

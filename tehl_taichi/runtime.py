@@ -5,16 +5,13 @@ import sys
 from pathlib import Path
 
 from tehl_taichi import __version__
+from tehl_taichi.errors import RuntimeUnavailable
 
 ARCHES = ("cpu",)  # that the kernels have been checked on
 PRECISIONS = ("f64", "f32")  # of the linear solves; the state and its residual are always f64
 _defined = None  # precision that the kernels were defined with
 _started = {}
 WORTH_THREADS = 2500
-
-
-class RuntimeUnavailable(RuntimeError):
-    """The requested architecture or precision cannot be had in this process."""
 
 
 def cache_dir():

@@ -10,6 +10,7 @@ import time
 import numpy as np
 
 from tehl_taichi import runtime, snapshot
+from tehl_taichi.errors import NotConverged
 from tehl_taichi.kernels import fields
 from tehl_taichi.physics.gap import feature_height
 from tehl_taichi.scene.scales import Scales
@@ -27,10 +28,6 @@ ORDER, HEAT_ORDER = 3, 1  # of the extrapolation in time of pressure and tempera
 SLUGGISH = 0.2  # rounds of pressure and temperature that leave more of the last change are relaxed; usual is 0.01 to 0.1
 RETRY_KRYLOV = 3e-3  # a failed step is repeated from the old pressure with a Krylov solve ten times tighter,
 SMALLEST_PART = 1 / 16  # then in halves down to this part of it; after that parts at most double
-
-
-class NotConverged(RuntimeError):
-    """A step did not converge; the message says where, why and what to try. Earlier snapshots are good."""
 
 
 def total_steps(scene):

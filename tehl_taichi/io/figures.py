@@ -4,9 +4,9 @@ from pathlib import Path
 
 import numpy as np
 
+from tehl_taichi.errors import StoreError
 from tehl_taichi.io import fatigue_figures
 from tehl_taichi.io.fatigue_figures import whole
-from tehl_taichi.io.store import StoreError
 from tehl_taichi.scene.scales import Scales
 
 POSITIONS = (-0.8, 0.0, 0.8)  # feature positions (in a) shown beside the steady state

@@ -5,7 +5,8 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from tehl_taichi.io.store import Store, StoreError
+from tehl_taichi.errors import StoreError
+from tehl_taichi.io.store import Store
 from tehl_taichi.simulation import march, total_steps
 
 SWITCH = 1e-4  # s, interpreter switch interval while a thread writes

@@ -14,6 +14,7 @@ import numpy as np
 import zarr
 from numcodecs import zstd
 
+from tehl_taichi.errors import StoreError
 from tehl_taichi.io import scene_file
 from tehl_taichi.scene import Scene
 
@@ -56,10 +57,6 @@ def fields_of(scene):
 def scalars_of(scene):
     """{name: (units, text)} of its scalar series."""
     return SCALARS if scene.isothermal else {**SCALARS, **THERMAL_SCALARS}
-
-
-class StoreError(Exception):
-    """The store cannot be used as asked; one sentence says why."""
 
 
 class Store:
@@ -118,6 +115,11 @@ class Store:
     def summary(self):
         """The summary of a finished run, or {}."""
         return json.loads(self.attrs.get("summary", "{}"))
+
+    @property
+    def warnings(self):
+        """What is doubtful, a sentence each: of the whole run where it is finished, else of its scene."""
+        return json.loads(self.attrs.get("warnings", "[]"))
 
     @property
     def x(self):
@@ -208,7 +210,7 @@ class Store:
             values = np.asarray(values, "f8")
             _array(self.group, name, values.shape, values.shape, "f8", dims, units, text, float("nan"))[...] = values
         self.metadata = _metadata(self.path)
-        self._commit(summary=json.dumps(summary), finished=True)
+        self._commit(summary=json.dumps(summary), warnings=json.dumps(summary.get("warnings", self.warnings)), finished=True)
 
 
 CHECKPOINTS = ".checkpoints"

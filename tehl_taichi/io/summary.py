@@ -3,6 +3,7 @@
 import numpy as np
 
 from tehl_taichi import __version__
+from tehl_taichi.io import judge
 from tehl_taichi.physics.limits import GAMMA_MEASURED, P_MEASURED
 from tehl_taichi.scene.scales import Scales
 
@@ -25,6 +26,7 @@ def summarise(store, extra, fatigue=None):
         _add_errors(out, extra["passage_error"])
     out["work"] = _work(store)
     out["clamps"] = _clamps(store)
+    out["warnings"] = judge.warnings(store, out)
     return out
 
 

@@ -6,8 +6,8 @@ The package itself can be called, `tehl_taichi.scene("gear")`, because the publi
 import sys
 from types import ModuleType
 
+from tehl_taichi.errors import SceneError
 from tehl_taichi.scene.builtin import BUILT_INS, scene  # last: the function must win over the submodule of its name
-from tehl_taichi.scene.checks import SceneError
 from tehl_taichi.scene.whole import Scene
 
 __all__ = ["BUILT_INS", "Scene", "SceneError", "scene"]

@@ -1,6 +1,7 @@
 """Built-in scenes."""
 
-from tehl_taichi.scene.checks import SceneError, nearest
+from tehl_taichi.errors import SceneError
+from tehl_taichi.scene.checks import nearest
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.oil import OILS
 from tehl_taichi.scene.parts import Body, Contact, Grid, Operation, Thermal

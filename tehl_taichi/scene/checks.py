@@ -4,9 +4,7 @@ import dataclasses
 import difflib
 import math
 
-
-class SceneError(ValueError):
-    """The scene cannot be simulated as it is described."""
+from tehl_taichi.errors import SceneError
 
 
 def number(where, value, unit="", low=-math.inf, high=math.inf, strict=False, infinite=False):

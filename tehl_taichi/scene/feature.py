@@ -3,7 +3,8 @@
 import math
 from dataclasses import dataclass
 
-from tehl_taichi.scene.checks import SceneError, choice, integer, number
+from tehl_taichi.errors import SceneError
+from tehl_taichi.scene.checks import choice, integer, number
 from tehl_taichi.scene.height_map import check_file, read
 
 SHAPES = ("cosine", "ridge", "furrow", "waviness", "rough", "map")

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from tehl_taichi.scene.checks import SceneError
+from tehl_taichi.errors import SceneError
 
 
 def check_file(file):

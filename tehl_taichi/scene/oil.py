@@ -4,7 +4,8 @@ import dataclasses
 import math
 from dataclasses import dataclass
 
-from tehl_taichi.scene.checks import SceneError, choice, nearest, number
+from tehl_taichi.errors import SceneError
+from tehl_taichi.scene.checks import choice, nearest, number
 
 VISCOSITY_LAWS = ("roelands-temperature", "roelands", "barus", "houpert", "yasutomi", "table")
 

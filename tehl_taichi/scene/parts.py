@@ -4,7 +4,8 @@ import math
 from dataclasses import dataclass
 from typing import Union
 
-from tehl_taichi.scene.checks import SceneError, choice, flag, integer, number
+from tehl_taichi.errors import SceneError
+from tehl_taichi.scene.checks import choice, flag, integer, number
 
 
 @dataclass(frozen=True)

@@ -4,9 +4,10 @@ import dataclasses
 import math
 from dataclasses import dataclass, field
 
+from tehl_taichi.errors import SceneError
+from tehl_taichi.scene import judge, scales
 from tehl_taichi.scene import oil as oils
-from tehl_taichi.scene import scales
-from tehl_taichi.scene.checks import SceneError, build, nearest
+from tehl_taichi.scene.checks import build, nearest
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.parts import AUTO, Body, Contact, Fatigue, Grid, Numerics, Operation, Output, Rheology, Thermal, Time
@@ -160,6 +161,10 @@ class Scene:
         if self.operation.u_s == 0:
             out.append("sliding friction (SRR = 0)")
         return out
+
+    def warnings(self):
+        """What is doubtful in this scene, a sentence each (see :mod:`tehl_taichi.scene.judge`)."""
+        return judge.warnings(self)
 
     @property
     def fatigue_wanted(self):

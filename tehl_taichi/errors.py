@@ -1,0 +1,39 @@
+"""Everything that tehl_taichi refuses or gives up is an Error: one or two sentences, and the exit code of the command line."""
+
+FAILED, BAD_INPUT, NOT_CONVERGED, INTERRUPTED = 1, 2, 3, 4
+
+
+class Error(Exception):
+    """Base of all errors raised on purpose; the message is for people."""
+
+    exit_code = FAILED
+
+
+class SceneError(Error, ValueError):
+    """The scene cannot be simulated as it is described."""
+
+    exit_code = BAD_INPUT
+
+
+class StoreError(Error):
+    """The store cannot be used as asked; one sentence says why."""
+
+    exit_code = BAD_INPUT
+
+
+class RuntimeUnavailable(Error, RuntimeError):
+    """What is asked of this process or machine (architecture, precision, threads) cannot be had."""
+
+    exit_code = BAD_INPUT
+
+
+class NotConverged(Error, RuntimeError):
+    """A step did not converge; the message says where, why and what to try. Earlier snapshots are good."""
+
+    exit_code = NOT_CONVERGED
+
+
+class Interrupted(Error):
+    """Stopped from outside in the middle of a run; the store can be resumed."""
+
+    exit_code = INTERRUPTED
