@@ -40,10 +40,16 @@ def choice(where, value, allowed):
         raise SceneError(f"{where} = {value!r} is not known; allowed: {', '.join(map(str, allowed))}{nearest(value, allowed)}")
 
 
-def flag(where, value):
-    """Refuse anything but true or false."""
+def flag(where, value, other=""):
+    """Refuse anything but true or false (`other`: a word that the caller allows too)."""
     if not isinstance(value, bool):
-        raise SceneError(f"{where} = {value!r} must be true or false")
+        raise SceneError(f"{where} = {value!r} must be " + (f"true, false or {other!r}" if other else "true or false"))
+
+
+def text(where, value):
+    """Refuse anything but words."""
+    if not isinstance(value, str):
+        raise SceneError(f"{where} = {value!r} must be words in quotes")
 
 
 def nearest(word, allowed):

@@ -4,8 +4,8 @@ import math
 from dataclasses import dataclass
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene.checks import choice, integer, number
 from tehl_taichi.scene.height_map import check_file, read
+from tehl_taichi.scene.quantity import check, choice, count, quantity, text
 
 SHAPES = ("cosine", "ridge", "furrow", "waviness", "rough", "map")
 RIDGE_REACH = 0.7  # of its width: 10^(-10 0.7^2) is 1e-5 of the height
@@ -14,42 +14,29 @@ LEVELS = ("none", "mean", "plane")
 
 @dataclass(frozen=True)
 class Feature:
-    """One feature. height m (negative: dent), width m, x m ahead of the first feature, y m (all from its centre).
+    """One feature of surface a; the other features stand x and y from the first.
 
-    cosine: bump or dent of that width; length m along y (0: as wide). ridge, furrow: transverse, the same for every y.
-    waviness: amplitude `height`, wavelengths width (x) and length (y; 0: transverse). rough: rms `height`, wavelengths
-    from `width` up to the patch, random with `seed`, even in y. map: heights measured on a grid (file: CSV or NPY, rows
-    along y, with pixel m; other formats with the `topography` extra), multiplied with `height` m per unit of the file,
-    levelled. waviness, rough and map fill a patch extent_x by extent_y m (0: a map's own size; in y without end) and
-    fade out over `taper` m at its rim.
+    cosine: a bump or dent. ridge, furrow: transverse, the same for every y. waviness: amplitude `height`, wavelengths width
+    and length. rough: rms `height`, wavelengths from `width` up to the patch, random with `seed`, even in y. map: heights
+    measured on a grid, rows along y. waviness, rough and map fill a patch extent_x by extent_y and fade out at its rim.
     """
 
-    shape: str = "cosine"
-    height: float = 1.5e-6
-    width: float = 200e-6
-    length: float = 0.0
-    x: float = 0.0
-    y: float = 0.0
-    extent_x: float = 0.0
-    extent_y: float = 0.0
-    taper: float = 0.0
-    seed: int = 1
-    file: str = ""
-    pixel: float = 1e-6
-    level: str = "plane"
+    shape: str = choice("cosine", "what it is", SHAPES)
+    height: float = quantity(1.5e-6, "m", "height, negative: dent; waviness: amplitude; rough: rms", -1e-3, 1e-3)
+    width: float = quantity(200e-6, "m", "along x; waviness: wavelength; rough: shortest wavelength", 1e-6, 0.1)
+    length: float = quantity(0.0, "m", "cosine: along y, 0: as wide; waviness: wavelength along y, 0: transverse", 0.0, 0.1)
+    x: float = quantity(0.0, "m", "centre, ahead of the first feature", -0.1, 0.1)
+    y: float = quantity(0.0, "m", "centre", -0.1, 0.1)
+    extent_x: float = quantity(0.0, "m", "waviness, rough, map: length of the patch; map: 0: the whole map", 0.0, 0.1)
+    extent_y: float = quantity(0.0, "m", "waviness, rough, map: its width; 0: without end, map: the whole map", 0.0, 0.1)
+    taper: float = quantity(0.0, "m", "waviness, rough, map: distance over which the patch fades out at its rim", 0.0, 0.1)
+    seed: int = count(1, "rough: of its random numbers", 0, 2**31)
+    file: str = text("", "map: CSV or NPY file (others with the `topography` extra), rows along y")
+    pixel: float = quantity(1e-6, "m", "map: distance of its points", 1e-9, 1e-2)
+    level: str = choice("plane", "map: what is taken off its heights", LEVELS)
 
     def __post_init__(self):
-        choice("feature.shape", self.shape, SHAPES)
-        highest = 1e3 if self.shape == "map" else 1e-3
-        number("feature.height", self.height, "m", -highest, highest)
-        number("feature.width", self.width, "m", 1e-6, 0.1)
-        for key in ("length", "extent_x", "extent_y", "taper"):
-            number(f"feature.{key}", getattr(self, key), "m", 0.0, 0.1)
-        for key in ("x", "y"):
-            number(f"feature.{key}", getattr(self, key), "m", -0.1, 0.1)
-        integer("feature.seed", self.seed, 0, 2**31)
-        number("feature.pixel", self.pixel, "m", 1e-9, 1e-2)
-        choice("feature.level", self.level, LEVELS)
+        check(self, "feature")
         self._check_shape()
 
     def _check_shape(self):

@@ -5,74 +5,65 @@ import math
 from dataclasses import dataclass
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene.checks import choice, nearest, number
+from tehl_taichi.scene.checks import nearest
+from tehl_taichi.scene.quantity import check, choice, pairs, quantity, text
 
 VISCOSITY_LAWS = ("roelands-temperature", "roelands", "barus", "houpert", "yasutomi", "table")
 
 
 @dataclass(frozen=True)
 class Oil:
-    """viscosity: the law, with its own numbers (tehl_taichi/physics/viscosity.py); density D1, D2 1/Pa, rho0 kg/m3.
-
-    expansion: the thermal factor 1 - beta0 exp(-beta_c p)(Gamma - 40) of the density acts "always", "never", or
-    "thermal": only where the energy equation is solved (an isothermal film has density(p) alone). k0 W/mK, k1, k2 1/Pa:
-    conductivity; c0 J/kgK, c1, c2, b0, b1, b2: heat capacity (tehl_taichi/physics/heat.py).
+    """A lubricant: viscosity by one of the laws of tehl_taichi/physics/viscosity.py with its own numbers (the others are not
+    used), density 1 + D1 p/(1 + D2 p) times a thermal factor, conductivity and heat capacity (tehl_taichi/physics/heat.py).
     """
 
-    name: str = "reference-pao"
-    source: str = "PAO of Everitt, licentiate thesis 2018; density after Larsson et al. 2000"
-    viscosity: str = "roelands-temperature"
-    G0: float = 4.57
-    S0: float = 1.25
-    Dz: float = 0.5
-    Cz: float = -0.071
-    eta0: float = 0.04
-    alpha: float = 2.2e-8
-    p_r: float = 1.96e8
-    Z: float = 0.668
-    Gamma0: float = 40.0
-    beta_eta: float = 0.0
-    eta_g: float = 1e12
-    Tg0: float = -80.0
-    A1: float = 200.0
-    A2: float = 1e-9
-    B1: float = 0.2
-    B2: float = 2e-8
-    C1: float = 16.0
-    C2: float = 26.0
-    table: tuple = ()
-    rho0: float = 853.0
-    D1: float = 0.69e-9
-    D2: float = 2.55e-9
-    beta0: float = 6.8e-4
-    beta_c: float = 1.5e-9
-    expansion: str = "thermal"
-    k0: float = 0.154
-    k1: float = 1.40e-9
-    k2: float = 0.34e-9
-    c0: float = 2080.0
-    c1: float = 0.41e-9
-    c2: float = 1.05e-9
-    b0: float = 6.5e-4
-    b1: float = 2.7e-9
-    b2: float = -1.5e-18
+    name: str = text("reference-pao", "`tehl oils` lists the named ones")
+    source: str = text("PAO of Everitt, licentiate thesis 2018; density after Larsson et al. 2000", "origin of its numbers")
+    viscosity: str = choice("roelands-temperature", "law of the viscosity", VISCOSITY_LAWS)
+    G0: float = quantity(4.57, "", "roelands-temperature: log10 eta0 = -4.2 + G0 (1 + Gamma/135)^-S0, eta0 in Pa s", 0, 20)
+    S0: float = quantity(1.25, "", "roelands-temperature, houpert: exponent of the temperature", 0, 10)
+    Dz: float = quantity(0.5, "", "roelands-temperature: pressure exponent Z = Dz + Cz log10(1 + Gamma/135)", -5, 5)
+    Cz: float = quantity(-0.071, "", "roelands-temperature: see Dz", -5, 5)
+    eta0: float = quantity(0.04, "Pa s", "roelands, barus, houpert: viscosity at p = 0", 1e-6, 1e4)
+    alpha: float = quantity(2.2e-8, "1/Pa", "roelands, barus, houpert: rise of the viscosity with pressure", 1e-10, 1e-6)
+    p_r: float = quantity(1.96e8, "Pa", "roelands, houpert: pressure scale", 1e6, 1e10)
+    Z: float = quantity(0.668, "", "roelands: pressure exponent", 1e-3, 3.0)
+    Gamma0: float = quantity(40.0, "deg C", "barus, houpert: temperature of eta0", -100, 300)
+    beta_eta: float = quantity(0.0, "1/K", "barus: fall of ln(viscosity) with temperature", 0, 1)
+    eta_g: float = quantity(1e12, "Pa s", "yasutomi: viscosity at the glass transition", 1, 1e15)
+    Tg0: float = quantity(-80.0, "deg C", "yasutomi: glass transition at p = 0, Tg = Tg0 + A1 ln(1 + A2 p)", -250, 150)
+    A1: float = quantity(200.0, "K", "yasutomi: see Tg0", 0, 1e4)
+    A2: float = quantity(1e-9, "1/Pa", "yasutomi: see Tg0", 0, 1e-6)
+    B1: float = quantity(0.2, "", "yasutomi: F = 1 - B1 ln(1 + B2 p)", 0, 10)
+    B2: float = quantity(2e-8, "1/Pa", "yasutomi: see B1", 0, 1e-6)
+    C1: float = quantity(16.0, "", "yasutomi: log10(eta/eta_g) = -C1 (Gamma - Tg) F/(C2 + (Gamma - Tg) F)", 0, 1e3)
+    C2: float = quantity(26.0, "K", "yasutomi: see C1", 1e-3, 1e4)
+    table: tuple = pairs((), "table: [p in Pa, ln(eta/Pa s)] with rising p")
+    rho0: float = quantity(853.0, "kg/m3", "density at p = 0 and 40 deg C", 100, 5000)
+    D1: float = quantity(0.69e-9, "1/Pa", "density: 1 + D1 p/(1 + D2 p)", 0, 1e-7)
+    D2: float = quantity(2.55e-9, "1/Pa", "density: see D1", 0, 1e-7)
+    beta0: float = quantity(6.8e-4, "1/K", "density: thermal factor 1 - beta0 exp(-beta_c p) (Gamma - 40)", 0, 1e-2)
+    beta_c: float = quantity(1.5e-9, "1/Pa", "density: see beta0", 0, 1e-7)
+    expansion: str = choice("thermal", "where the thermal factor of the density acts; thermal: only with the energy equation",
+                            ("thermal", "always", "never"))
+    k0: float = quantity(0.154, "W/mK", "conductivity k0 (1 + k1 p/(1 + k2 p))", 1e-3, 10)
+    k1: float = quantity(1.40e-9, "1/Pa", "conductivity: see k0", 0, 1e-7)
+    k2: float = quantity(0.34e-9, "1/Pa", "conductivity: see k0", 0, 1e-7)
+    c0: float = quantity(2080.0, "J/kgK", "heat capacity rho0 c0 (1 + c1 p/(1 + c2 p)) B, B as in b0", 100, 1e4)
+    c1: float = quantity(0.41e-9, "1/Pa", "heat capacity: see c0", 0, 1e-7)
+    c2: float = quantity(1.05e-9, "1/Pa", "heat capacity: see c0", 0, 1e-7)
+    b0: float = quantity(6.5e-4, "1/K", "heat capacity: B = 1 + b0 (1 + b1 p + b2 p^2) (Gamma - 22)", -0.01, 0.01)
+    b1: float = quantity(2.7e-9, "1/Pa", "heat capacity: see b0", -1e-7, 1e-7)
+    b2: float = quantity(-1.5e-18, "1/Pa^2", "heat capacity: see b0", -1e-15, 1e-15)
 
     def __post_init__(self):
-        choice("oil.viscosity", self.viscosity, VISCOSITY_LAWS)
-        choice("oil.expansion", self.expansion, ("thermal", "always", "never"))
-        for key, unit, low, high in (("eta0", "Pa s", 1e-6, 1e4), ("alpha", "1/Pa", 1e-10, 1e-6),
-                                     ("p_r", "Pa", 1e6, 1e10), ("Z", "", 1e-3, 3.0), ("rho0", "kg/m3", 100, 5000),
-                                     ("D1", "1/Pa", 0, 1e-7), ("D2", "1/Pa", 0, 1e-7), ("beta0", "1/K", 0, 1e-2),
-                                     ("beta_c", "1/Pa", 0, 1e-7), ("k0", "W/mK", 1e-3, 10), ("c0", "J/kgK", 100, 1e4),
-                                     ("beta_eta", "1/K", 0, 1), ("G0", "", 0, 20), ("S0", "", 0, 10)):
-            number(f"oil.{key}", getattr(self, key), unit, low, high)
+        check(self, "oil")
         if self.viscosity == "table":
             self._check_table()
 
     def _check_table(self):
-        pairs = self.table
-        rising = all(len(q) == 2 for q in pairs) and all(a[0] < b[0] for a, b in zip(pairs, pairs[1:]))
-        if len(pairs) < 2 or not rising:
+        rising = all(a[0] < b[0] for a, b in zip(self.table, self.table[1:]))
+        if len(self.table) < 2 or not rising:
             raise SceneError("oil.table needs at least two pairs [p in Pa, ln(eta/Pa s)] with rising p")
 
 

@@ -5,34 +5,26 @@ from dataclasses import dataclass
 from typing import Union
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene.checks import choice, flag, integer, number
+from tehl_taichi.scene.quantity import AUTO, check, choice, count, quantities, quantity, switch, text
 
 
 @dataclass(frozen=True)
 class Contact:
-    """Geometry and load. kind: line, point (circular) or elliptic; radius_x, radius_y: reduced radii m (line: radius_y = inf).
+    """Geometry and load: one of load, hertz_pressure or the Moes pair; 0 = not given.
 
-    One of load (N/m for a line, N for a point contact), hertz_pressure (Pa) or the Moes pair moes_M, moes_L; 0 = not
-    given. With the pair the speed follows from L (with the oil's alpha and eta0) and the load from M.
+    With the pair the speed follows from L (with the oil's alpha and eta0) and the load from M.
     """
 
-    kind: str = "line"
-    radius_x: float = 10.6e-3
-    radius_y: float = math.inf
-    load: float = 0.0
-    hertz_pressure: float = 0.0
-    moes_M: float = 0.0
-    moes_L: float = 0.0
+    kind: str = choice("line", "shape of the contact; point: circular", ("line", "point", "elliptic"))
+    radius_x: float = quantity(10.6e-3, "m", "reduced radius along x, 1/R' = 1/r_a + 1/r_b", 1e-6, 1e3)
+    radius_y: float = quantity(math.inf, "m", "reduced radius along y; line: inf", 1e-6, infinite=True)
+    load: float = quantity(0.0, "N/m (line) or N", "0: not given", 0.0, 1e10)
+    hertz_pressure: float = quantity(0.0, "Pa", "in place of a load; 0: not given", 0.0, 2e10)
+    moes_M: float = quantity(0.0, "", "Moes' load number, with moes_L in place of load and speed; 0: not given", 0.0, 1e6)
+    moes_L: float = quantity(0.0, "", "Moes' lubricant number, with moes_M; 0: not given", 0.0, 1e3)
 
     def __post_init__(self):
-        choice("contact.kind", self.kind, ("line", "point", "elliptic"))
-        number("contact.radius_x", self.radius_x, "m", 1e-6, 1e3)
-        number("contact.radius_y", self.radius_y, "m", 1e-6, infinite=True)
-        unit = "N/m" if self.kind == "line" else "N"
-        number("contact.load", self.load, unit, 0.0, 1e10)
-        number("contact.hertz_pressure", self.hertz_pressure, "Pa", 0.0, 2e10)
-        number("contact.moes_M", self.moes_M, "", 0.0, 1e6)
-        number("contact.moes_L", self.moes_L, "", 0.0, 1e3)
+        check(self, "contact", load="N/m" if self.kind == "line" else "N")
         self._check_combination()
 
     def _check_combination(self):
@@ -56,42 +48,32 @@ class Contact:
 
 @dataclass(frozen=True)
 class Body:
-    """Elastic half-space: E Pa, nu, k W/mK, rho kg/m3, c J/kgK, alpha 1/K (thermal expansion, for thermal stress).
+    """Elastic half-space. Default: steel (Everitt 2018); alpha is the usual handbook value of bearing and gear steels."""
 
-    Default: steel (Everitt 2018); its alpha, 12e-6, is the usual handbook value of bearing and gear steels.
-    """
-
-    E: float = 206e9
-    nu: float = 0.3
-    k: float = 47.0
-    rho: float = 7850.0
-    c: float = 450.0
-    alpha: float = 12e-6
+    E: float = quantity(206e9, "Pa", "Young's modulus", 1e6, 1e13)
+    nu: float = quantity(0.3, "", "Poisson's ratio", 0.0, 0.499)
+    k: float = quantity(47.0, "W/mK", "thermal conductivity", 0.01, 1e4)
+    rho: float = quantity(7850.0, "kg/m3", "density", 1.0, 1e5)
+    c: float = quantity(450.0, "J/kgK", "specific heat", 1.0, 1e5)
+    alpha: float = quantity(12e-6, "1/K", "thermal expansion, for the thermal stress", 0.0, 1e-3)
 
     def __post_init__(self):
-        number("bodies.alpha", self.alpha, "1/K", 0.0, 1e-3)
-        number("bodies.E", self.E, "Pa", 1e6, 1e13)
-        number("bodies.nu", self.nu, "", 0.0, 0.499)
-        number("bodies.k", self.k, "W/mK", 0.01, 1e4)
-        number("bodies.rho", self.rho, "kg/m3", 1.0, 1e5)
-        number("bodies.c", self.c, "J/kgK", 1.0, 1e5)
+        check(self, "bodies")
 
 
 @dataclass(frozen=True)
 class Operation:
-    """u_m m/s mean speed, srr = (u_a - u_b)/u_m, inlet temperature deg C. Surface a carries the feature."""
+    """Motion and inlet. Surface a carries the feature. A scene file may give u_a and u_b in place of u_m and srr."""
 
-    u_m: float = 8.5
-    srr: float = -0.12
-    temperature: float = 90.0
+    u_m: float = quantity(8.5, "m/s", "mean speed (u_a + u_b)/2", 1e-6, 1e3)
+    srr: float = quantity(-0.12, "", "slip (u_a - u_b)/u_m; negative: the feature is on the slower surface", -2.0, 2.0)
+    temperature: float = quantity(90.0, "deg C", "of oil and bodies at the inlet", -50.0, 300.0)
 
     def __post_init__(self):
-        number("operation.u_m", self.u_m, "m/s", 0.0, 1e3)
-        if self.u_m < 1e-6:
-            raise SceneError(f"operation.u_m = {self.u_m:g} m/s: without entrainment there is no film and SRR "
-                             f"(= {self.srr:g}) has no meaning; allowed: more than 1e-6 m/s")
-        number("operation.srr", self.srr, "", -2.0, 2.0)
-        number("operation.temperature", self.temperature, "deg C", -50.0, 300.0)
+        if self.u_m == 0:
+            raise SceneError(f"operation.u_m = 0 m/s: without entrainment there is no film and SRR (= {self.srr}) has no "
+                             "meaning; allowed: at least 1e-6 m/s")
+        check(self, "operation")
 
     @property
     def u_s(self):
@@ -109,179 +91,121 @@ class Operation:
 
 @dataclass(frozen=True)
 class Rheology:
-    """Shear law of the film and friction of solid contact.
+    """Shear law of the film and friction of solid contact (film_floor: Everitt 2018)."""
 
-    law: limiting (tau_L = tau_L0 + gamma p, smooth), eyring (tau_0), carreau (tau_0, carreau_n) or newtonian;
-    mu_boundary: friction where surfaces touch; film_floor: H at which they touch (Everitt 2018), in a^2/R'.
-    """
-
-    law: str = "limiting"
-    tau_L0: float = 10e6
-    gamma: float = 0.075
-    tau_0: float = 10e6
-    carreau_n: float = 0.8
-    mu_boundary: float = 0.3
-    film_floor: float = 5e-6
+    law: str = choice("limiting", "shear law of the film; limiting: smooth towards tau_L = tau_L0 + gamma p",
+                      ("limiting", "newtonian", "eyring", "carreau"))
+    tau_L0: float = quantity(10e6, "Pa", "limiting: limiting shear stress at p = 0", 1e3, 1e9)
+    gamma: float = quantity(0.075, "", "limiting: its rise with pressure", 0.0, 1.0)
+    tau_0: float = quantity(10e6, "Pa", "eyring, carreau: stress where the oil begins to thin", 1e3, 1e10)
+    carreau_n: float = quantity(0.8, "", "carreau: exponent (1: newtonian)", 0.1, 1.0)
+    mu_boundary: float = quantity(0.3, "", "friction coefficient where the surfaces touch", 0.0, 2.0)
+    film_floor: float = quantity(5e-6, "a^2/R'", "film at which the surfaces touch", 1e-9, 0.1)
 
     def __post_init__(self):
-        choice("rheology.law", self.law, ("limiting", "newtonian", "eyring", "carreau"))
-        number("rheology.tau_L0", self.tau_L0, "Pa", 1e3, 1e9)
-        number("rheology.gamma", self.gamma, "", 0.0, 1.0)
-        number("rheology.tau_0", self.tau_0, "Pa", 1e3, 1e10)
-        number("rheology.carreau_n", self.carreau_n, "", 0.1, 1.0)
-        number("rheology.mu_boundary", self.mu_boundary, "", 0.0, 2.0)
-        number("rheology.film_floor", self.film_floor, "", 1e-9, 0.1)
-
-
-AUTO = "auto"
-
-
-def auto_flag(where, value):
-    """Refuse anything but true, false or "auto"."""
-    if value not in (True, False, AUTO):
-        raise SceneError(f"{where} = {value!r} must be true, false or {AUTO!r}")
+        check(self, "rheology")
 
 
 @dataclass(frozen=True)
 class Thermal:
-    """The energy equation; on: true, false (the film keeps the inlet temperature) or "auto": where the surfaces slip.
+    """The energy equation; without it the film keeps the inlet temperature.
 
-    nodes: Chebyshev nodes across the film (odd: one at mid-film; 9 are good to 0.01 %, 7 to 0.1 %); tolerance: K, change of
-    the temperature in the last round of a step; rounds: pressure-temperature rounds of a step at most (1: one lagged
-    pass, half the time, film under an asperity 0.3 % off).
+    9 nodes are good to 0.01 %, 7 to 0.1 %. One round is one lagged pass: half the time, film under an asperity 0.3 % off.
     """
 
-    on: Union[bool, str] = AUTO
-    nodes: int = 9
-    tolerance: float = 0.05
-    rounds: int = 8
+    on: Union[bool, str] = switch(AUTO, "energy equation; auto: where the surfaces slip", auto=True)
+    nodes: int = count(9, "Chebyshev nodes across the film, odd: one at mid-film", 5, 33)
+    tolerance: float = quantity(0.05, "K", "change of the temperature in the last round of a step", 1e-6, 10.0)
+    rounds: int = count(8, "pressure-temperature rounds of a step at most", 1, 50)
 
     def __post_init__(self):
-        auto_flag("thermal.on", self.on)
-        integer("thermal.nodes", self.nodes, 5, 33)
-        number("thermal.tolerance", self.tolerance, "K", 1e-6, 10.0)
-        integer("thermal.rounds", self.rounds, 1, 50)
+        check(self, "thermal")
         if self.nodes % 2 == 0:
             raise SceneError(f"thermal.nodes = {self.nodes} must be odd, so that one node lies at mid-film")
 
 
 @dataclass(frozen=True)
 class Fatigue:
-    """Fatigue index: kappa (normal stress sensitivity) and endurance (sigma_eF, Pa).
+    """Fatigue index. kappa and endurance are example values to be replaced by those of the material at hand; no source is
+    claimed for them."""
 
-    Both are example values to be replaced by those of the material at hand; no source is claimed for them.
-    criterion: findley, findley-chord, matake or dang-van; depths: m below the surface, searched too; shear: whether the shear
-    tractions count; thermal_stress: true, false or "auto" (where the scene has temperatures); residual_xx, residual_yy:
-    constant residual stress, Pa; from_x, to_x: positions of the feature (a) between which moments count.
-    """
-
-    on: bool = True
-    kappa: float = 0.3
-    endurance: float = 400e6
-    source: str = "example values, set your own"
-    criterion: str = "findley"
-    depths: tuple = ()
-    shear: bool = True
-    thermal_stress: Union[bool, str] = AUTO
-    residual_xx: float = 0.0
-    residual_yy: float = 0.0
-    from_x: float = -math.inf
-    to_x: float = math.inf
+    on: bool = switch(True, "stresses and fatigue index of a passage")
+    kappa: float = quantity(0.3, "", "sensitivity to normal stress", 0.0, 5.0)
+    endurance: float = quantity(400e6, "Pa", "fatigue limit sigma_eF: Fi = 1", 1e3, 1e11)
+    source: str = text("example values, set your own", "where kappa and endurance come from")
+    criterion: str = choice("findley", "fatigue criterion", ("findley", "findley-chord", "matake", "dang-van"))
+    depths: tuple = quantities((), "m", "depths below the surface that are searched too, as [50e-6, 100e-6]", 1e-7, 0.1)
+    shear: bool = switch(True, "whether the shear tractions count")
+    thermal_stress: Union[bool, str] = switch(AUTO, "whether the stress of the heat counts; auto: where there are temperatures",
+                                              auto=True)
+    residual_xx: float = quantity(0.0, "Pa", "constant residual stress along x", -1e10, 1e10)
+    residual_yy: float = quantity(0.0, "Pa", "constant residual stress along y", -1e10, 1e10)
+    from_x: float = quantity(-math.inf, "a", "moments count from this position of the feature on", infinite=True)
+    to_x: float = quantity(math.inf, "a", "moments count up to this position of the feature", infinite=True)
 
     def __post_init__(self):
-        flag("fatigue.on", self.on)
-        choice("fatigue.criterion", self.criterion, ("findley", "findley-chord", "matake", "dang-van"))
-        flag("fatigue.shear", self.shear)
-        auto_flag("fatigue.thermal_stress", self.thermal_stress)
-        for key in ("residual_xx", "residual_yy"):
-            number(f"fatigue.{key}", getattr(self, key), "Pa", -1e10, 1e10)
+        check(self, "fatigue")
         if not self.from_x < self.to_x:
             raise SceneError(f"fatigue.from_x = {self.from_x!r} a must be less than to_x = {self.to_x!r} a")
-        if not isinstance(self.depths, (tuple, list)):
-            raise SceneError(f"fatigue.depths = {self.depths!r} must be a list of depths in m, as [50e-6, 100e-6]")
         object.__setattr__(self, "depths", tuple(self.depths))
-        for depth in self.depths:
-            number("fatigue.depths", depth, "m", 1e-7, 0.1)
-        number("fatigue.kappa", self.kappa, "", 0.0, 5.0)
-        number("fatigue.endurance", self.endurance, "Pa", 1e3, 1e11)
 
 
 @dataclass(frozen=True)
 class Grid:
-    """nx x ny cells of the half domain y >= 0 (nodes: one more; twice ny cells where the scene is not symmetric); extent in
+    """Cells of the half domain y >= 0 (nodes: one more; twice ny cells where the scene is not symmetric); extent in
     half-widths of the contact, a along x and b along y (b = a unless elliptic)."""
 
-    nx: int = 256
-    ny: int = 64
-    x_min: float = -2.5
-    x_max: float = 1.5
-    y_max: float = 1.0
+    nx: int = count(256, "cells along x", 32, 8192, 16)
+    ny: int = count(64, "cells along y, of the half domain y >= 0", 8, 4096, 4)
+    x_min: float = quantity(-2.5, "a", "inlet end of the grid", -20.0, -1.2)
+    x_max: float = quantity(1.5, "a", "outlet end of the grid", 1.2, 10.0)
+    y_max: float = quantity(1.0, "b", "side end of the grid", 0.3, 20.0)
 
     def __post_init__(self):
-        integer("grid.nx", self.nx, 32, 8192)
-        integer("grid.ny", self.ny, 8, 4096)
-        for key, multiple in (("nx", 16), ("ny", 4)):
-            if getattr(self, key) % multiple:
-                raise SceneError(f"grid.{key} = {getattr(self, key)} cells must be a multiple of {multiple}, so that "
-                                 "coarser grids exist")
-        number("grid.x_min", self.x_min, "a", -20.0, -1.2)
-        number("grid.x_max", self.x_max, "a", 1.2, 10.0)
-        number("grid.y_max", self.y_max, "b", 0.3, 20.0)
+        check(self, "grid")
 
 
 @dataclass(frozen=True)
 class Time:
-    """Path of the first feature's centre from x_start to x_end (in a; -inf, inf: from before the contact until behind it,
-    whatever the size of the features), courant cells a step, at most `steps` (0: all)."""
+    """Path of the first feature's centre and the length of a step."""
 
-    steady_only: bool = False
-    x_start: float = -math.inf
-    x_end: float = math.inf
-    courant: float = 1.0
-    steps: int = 0
+    steady_only: bool = switch(False, "no march in time")
+    x_start: float = quantity(-math.inf, "a", "position of the feature at the start; -inf: before the contact", high=20.0,
+                              infinite=True)
+    x_end: float = quantity(math.inf, "a", "position at the end; inf: behind the contact", -20.0, infinite=True)
+    courant: float = quantity(1.0, "cells", "way of the feature in a step", 0.05, 4.0)
+    steps: int = count(0, "stop after this many steps; 0: all", 0, 10**7)
 
     def __post_init__(self):
-        flag("time.steady_only", self.steady_only)
-        number("time.x_start", self.x_start, "a", high=20.0, infinite=True)
-        number("time.x_end", self.x_end, "a", -20.0, infinite=True)
-        number("time.courant", self.courant, "", 0.05, 4.0)
-        integer("time.steps", self.steps, 0, 10**7)
+        check(self, "time")
 
 
 @dataclass(frozen=True)
 class Numerics:
     """Tolerances of the pressure solver, each with its reason.
 
-    tolerance 1e-6: rms of min(P, R/D, gap) plus load error; ten times less moves the film by under 0.1 % at 256 columns.
-    mass_tolerance 1e-6: net mass defect over the Couette flux, the conservation that users check.
-    krylov_tolerance 0.2: at most, inside Newton; from 0.03 to 0.3 a passage costs the same. newton_max, krylov_max: no
-    converging case came near them. estimate_error: companion runs on coarser grids tell the error of the passage's numbers
-    (an eighth more work).
+    tolerance 1e-6: ten times less moves the film by under 0.1 % at 256 columns. mass_tolerance 1e-6: the conservation that
+    users check. krylov_tolerance: from 0.03 to 0.3 a passage costs the same. newton_max, krylov_max: no converging case came
+    near them. estimate_error: an eighth more work.
     """
 
-    tolerance: float = 1e-6
-    mass_tolerance: float = 1e-6
-    krylov_tolerance: float = 0.2
-    newton_max: int = 30
-    krylov_max: int = 80
-    estimate_error: bool = False
+    tolerance: float = quantity(1e-6, "", "rms of min(P, R/D, gap) plus load error", 1e-11, 1e-3)
+    mass_tolerance: float = quantity(1e-6, "", "net mass defect over the Couette flux", 1e-9, 1.0)
+    krylov_tolerance: float = quantity(0.2, "", "of the linear solves inside Newton, at most", 1e-6, 0.5)
+    newton_max: int = count(30, "Newton steps of an attempt at most", 1, 1000)
+    krylov_max: int = count(80, "Krylov iterations of a Newton step at most", 5, 500)
+    estimate_error: bool = switch(False, "error of the passage's numbers, by companion runs on coarser grids")
 
     def __post_init__(self):
-        flag("numerics.estimate_error", self.estimate_error)
-        number("numerics.tolerance", self.tolerance, "", 1e-11, 1e-3)
-        number("numerics.mass_tolerance", self.mass_tolerance, "", 1e-9, 1.0)
-        number("numerics.krylov_tolerance", self.krylov_tolerance, "", 1e-6, 0.5)
-        integer("numerics.newton_max", self.newton_max, 1, 1000)
-        integer("numerics.krylov_max", self.krylov_max, 5, 500)
+        check(self, "numerics")
 
 
 @dataclass(frozen=True)
 class Output:
-    """every: store every n-th step; profiles: store the temperature at every node across the film too."""
+    """What is stored."""
 
-    every: int = 1
-    profiles: bool = False
+    every: int = count(1, "store every n-th step", 1, 10**6)
+    profiles: bool = switch(False, "store the temperature at every node across the film too")
 
     def __post_init__(self):
-        flag("output.profiles", self.profiles)
-        integer("output.every", self.every, 1, 10**6)
+        check(self, "output")

@@ -1,0 +1,182 @@
+"""What a value of a scene is, declared once where it stands: default, unit, meaning, range.
+
+The checks at the door, the template of `tehl new` and the documents all read the same declaration:
+`width: float = quantity(200e-6, "m", "length along x", 1e-6, 0.1)`, and :func:`check` in `__post_init__`.
+"""
+
+import dataclasses
+import math
+from dataclasses import dataclass
+
+from tehl_taichi.scene import checks
+
+AUTO = "auto"
+
+
+@dataclass(frozen=True)
+class Number:
+    """A number in its unit; strict: `low` itself is refused; infinite: inf is allowed."""
+
+    about: str
+    unit: str = ""
+    low: float = -math.inf
+    high: float = math.inf
+    strict: bool = False
+    infinite: bool = False
+
+    def check(self, where, value):
+        checks.number(where, value, self.unit, self.low, self.high, self.strict, self.infinite)
+
+    @property
+    def allowed(self):
+        """The range in words, '' where there is none."""
+        if self.low > -math.inf and self.high < math.inf:
+            return f"{'more than ' if self.strict else ''}{self.low:g} to {self.high:g}"
+        above = f"{'more than' if self.strict else 'at least'} {self.low:g}" if self.low > -math.inf else ""
+        return above or (f"at most {self.high:g}" if self.high < math.inf else "")
+
+
+@dataclass(frozen=True)
+class Numbers(Number):
+    """A list of such numbers."""
+
+    def check(self, where, value):
+        if not isinstance(value, (tuple, list)):
+            raise checks.SceneError(f"{where} = {value!r} must be a list of numbers{' in ' * bool(self.unit)}{self.unit}")
+        for entry in value:
+            super().check(where, entry)
+
+
+@dataclass(frozen=True)
+class Count:
+    """A whole number from low to high, a multiple of `multiple`."""
+
+    about: str
+    low: int
+    high: int
+    multiple: int = 1
+    unit: str = ""
+
+    def check(self, where, value):
+        checks.integer(where, value, self.low, self.high)
+        if value % self.multiple:
+            raise checks.SceneError(f"{where} = {value} must be a multiple of {self.multiple}, so that coarser grids exist")
+
+    @property
+    def allowed(self):
+        return f"{self.low} to {self.high}" + (f" in steps of {self.multiple}" if self.multiple > 1 else "")
+
+
+@dataclass(frozen=True)
+class Choice:
+    """One of some words."""
+
+    about: str
+    words: tuple
+    unit: str = ""
+
+    def check(self, where, value):
+        checks.choice(where, value, self.words)
+
+    @property
+    def allowed(self):
+        return ", ".join(word or '""' for word in self.words)
+
+
+@dataclass(frozen=True)
+class Switch:
+    """true or false; with `auto`: the scene itself decides unless told."""
+
+    about: str
+    auto: bool = False
+    unit: str = ""
+
+    def check(self, where, value):
+        if not (self.auto and isinstance(value, str) and value == AUTO):
+            checks.flag(where, value, AUTO if self.auto else "")
+
+    @property
+    def allowed(self):
+        return f"true, false or {AUTO}" if self.auto else "true or false"
+
+
+@dataclass(frozen=True)
+class Text:
+    """Any words."""
+
+    about: str
+    unit: str = ""
+    allowed: str = ""
+
+    def check(self, where, value):
+        checks.text(where, value)
+
+
+@dataclass(frozen=True)
+class Pairs:
+    """A list of pairs of numbers, the first of each rising; checked by whoever needs it."""
+
+    about: str
+    unit: str = ""
+    allowed: str = ""
+
+    def check(self, where, value):
+        if not isinstance(value, (tuple, list)) or not all(isinstance(q, (tuple, list)) and len(q) == 2 for q in value):
+            raise checks.SceneError(f"{where} = {value!r} must be a list of pairs, {self.about}")
+        for pair in value:
+            for entry in pair:
+                checks.number(where, entry)
+
+
+def _declared(default, kind):
+    return dataclasses.field(default=default, metadata={"kind": kind})
+
+
+def quantity(default, unit, about, low=-math.inf, high=math.inf, strict=False, infinite=False):
+    """Field of a dataclass: a number in `unit` within low..high."""
+    return _declared(default, Number(about, unit, low, high, strict, infinite))
+
+
+def quantities(default, unit, about, low=-math.inf, high=math.inf):
+    """Field: a list of such numbers."""
+    return _declared(default, Numbers(about, unit, low, high))
+
+
+def count(default, about, low, high, multiple=1):
+    """Field: a whole number."""
+    return _declared(default, Count(about, low, high, multiple))
+
+
+def choice(default, about, words):
+    """Field: one of `words`."""
+    return _declared(default, Choice(about, words))
+
+
+def switch(default, about, auto=False):
+    """Field: true or false, or "auto"."""
+    return _declared(default, Switch(about, auto))
+
+
+def text(default, about):
+    """Field: words."""
+    return _declared(default, Text(about))
+
+
+def pairs(default, about):
+    """Field: a list of pairs of numbers."""
+    return _declared(default, Pairs(about))
+
+
+def kinds(cls):
+    """{key: its Number, Count, Choice, ...} of a section of a scene, in the order of its keys."""
+    return {f.name: f.metadata["kind"] for f in dataclasses.fields(cls)}
+
+
+def check(part, section, **units):
+    """Check every value of `part` as it is declared. units: {key: unit} where a unit depends on other values.
+
+    Raises SceneError: one sentence with the value, the unit and what is allowed.
+    """
+    for key, kind in kinds(type(part)).items():
+        kind = dataclasses.replace(kind, unit=units[key]) if key in units else kind
+        kind.check(f"{section}.{key}", getattr(part, key))
