@@ -6,22 +6,15 @@ from pathlib import Path
 import tomllib
 
 from tehl_taichi.scene import Scene, SceneError, scene
-from tehl_taichi.scene.oil import OILS
+from tehl_taichi.scene.feature import Feature
+from tehl_taichi.scene.oil import OILS, Oil
+from tehl_taichi.scene.parts import Body
+from tehl_taichi.scene.quantity import kinds
 from tehl_taichi.scene.whole import SECTIONS
 
 HEADER = "# A tehl_taichi scene. SI units (m, s, N, Pa, kg), temperatures in deg C; [grid] and [time] in half-widths."
-COMMENTS = {
-    "contact": "one of load (N/m line, N point), hertz_pressure (Pa) or the pair moes_M, moes_L; 0 = not given",
-    "bodies.a": "carries the feature. E Pa, nu, k W/mK, rho kg/m3, c J/kgK, alpha 1/K", "bodies.b": "the other surface",
-    "operation": "u_m m/s (mean), srr = (u_a - u_b)/u_m (negative: the feature is on the slower surface), temperature",
-    "oil": "`tehl oils` lists the named ones", "rheology": "law: limiting, eyring, carreau or newtonian; stresses in Pa",
-    "feature": "shape: cosine, ridge, furrow, waviness, rough or map; height m (negative: dent), all lengths in m",
-    "thermal": "energy equation; on: true, false or \"auto\" (where the surfaces slip)",
-    "fatigue": "Findley: kappa, endurance = sigma_eF in Pa",
-    "grid": "cells of the half domain y >= 0; extent in half-widths of the contact",
-    "time": "path of the first feature in a (-inf, inf: from before to behind the contact); courant: cells per step",
-    "numerics": "tolerances of the discrete equations", "output": "store every n-th step",
-}
+CARRIES = {"bodies.a": "Surface a carries the feature. ", "bodies.b": "The other surface. "}
+COLUMN = 26  # where the comments of short lines begin
 
 
 def load(path):
@@ -69,22 +62,27 @@ def _merge_contact(base, given):
 
 
 def dumps(description):
-    """TOML text of a scene, every value written out; reading it back gives an equal scene."""
+    """TOML text of a scene, every value written out with unit, range and meaning; reading it back gives an equal scene."""
     data = description.to_dict()
     lines = [HEADER, f"name = {_value(data['name'])}", ""]
     for key in ("contact", "bodies.a", "bodies.b", "operation", "oil", "rheology"):
-        table = data["bodies"][key[-1]] if key.startswith("bodies") else data[key]
-        lines += _table(f"[{key}]", table, COMMENTS[key])
+        table, kind = (data["bodies"][key[-1]], Body) if key in CARRIES else (data[key], {**SECTIONS, "oil": Oil}[key])
+        lines += _table(f"[{key}]", table, kind, CARRIES.get(key, ""))
     for feature in data["feature"]:
-        lines += _table("[[feature]]", feature, COMMENTS["feature"])
+        lines += _table("[[feature]]", feature, Feature)
     for key in SECTIONS:
         if key not in ("contact", "operation", "rheology"):
-            lines += _table(f"[{key}]", data[key], COMMENTS[key])
+            lines += _table(f"[{key}]", data[key], SECTIONS[key])
     return "\n".join(lines)
 
 
-def _table(head, values, comment):
-    return [f"{head}  # {comment}"] + [f"{key} = {_value(value)}" for key, value in values.items()] + [""]
+def _table(head, values, kind, first=""):
+    """The lines of a section, commented from its declarations (see tehl_taichi.scene.quantity)."""
+    lines, comments = [head], [first + (kind.__doc__ or "").partition("\n")[0]]
+    for key, declared in kinds(kind).items():
+        lines.append(f"{key} = {_value(values[key])}")
+        comments.append(declared.sentence)
+    return [f"{line:<{COLUMN}}  # {comment}" for line, comment in zip(lines, comments)] + [""]
 
 
 def _value(value):
@@ -96,4 +94,7 @@ def _value(value):
         return "[" + ", ".join(_value(v) for v in value) + "]"
     if isinstance(value, float) and math.isinf(value):
         return "inf" if value > 0 else "-inf"
+    if isinstance(value, float) and float(f"{value:g}") == value:
+        short = f"{value:g}"
+        return short if set(short) & set(".e") else short + ".0"
     return repr(value)

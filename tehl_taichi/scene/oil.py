@@ -13,8 +13,9 @@ VISCOSITY_LAWS = ("roelands-temperature", "roelands", "barus", "houpert", "yasut
 
 @dataclass(frozen=True)
 class Oil:
-    """A lubricant: viscosity by one of the laws of tehl_taichi/physics/viscosity.py with its own numbers (the others are not
-    used), density 1 + D1 p/(1 + D2 p) times a thermal factor, conductivity and heat capacity (tehl_taichi/physics/heat.py).
+    """A lubricant; each law of the viscosity has its own numbers, those of the other laws are not used.
+
+    The laws stand in tehl_taichi/physics: viscosity.py, density.py and heat.py.
     """
 
     name: str = text("reference-pao", "`tehl oils` lists the named ones")

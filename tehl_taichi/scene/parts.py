@@ -15,10 +15,10 @@ class Contact:
     With the pair the speed follows from L (with the oil's alpha and eta0) and the load from M.
     """
 
-    kind: str = choice("line", "shape of the contact; point: circular", ("line", "point", "elliptic"))
+    kind: str = choice("line", "shape; point: circular", ("line", "point", "elliptic"))
     radius_x: float = quantity(10.6e-3, "m", "reduced radius along x, 1/R' = 1/r_a + 1/r_b", 1e-6, 1e3)
     radius_y: float = quantity(math.inf, "m", "reduced radius along y; line: inf", 1e-6, infinite=True)
-    load: float = quantity(0.0, "N/m (line) or N", "0: not given", 0.0, 1e10)
+    load: float = quantity(0.0, "N/m or N", "line: N/m, point and elliptic: N; 0: not given", 0.0, 1e10)
     hertz_pressure: float = quantity(0.0, "Pa", "in place of a load; 0: not given", 0.0, 2e10)
     moes_M: float = quantity(0.0, "", "Moes' load number, with moes_L in place of load and speed; 0: not given", 0.0, 1e6)
     moes_L: float = quantity(0.0, "", "Moes' lubricant number, with moes_M; 0: not given", 0.0, 1e3)
@@ -48,7 +48,10 @@ class Contact:
 
 @dataclass(frozen=True)
 class Body:
-    """Elastic half-space. Default: steel (Everitt 2018); alpha is the usual handbook value of bearing and gear steels."""
+    """An elastic half-space; default: steel (Everitt 2018).
+
+    Its alpha is the usual handbook value of bearing and gear steels.
+    """
 
     E: float = quantity(206e9, "Pa", "Young's modulus", 1e6, 1e13)
     nu: float = quantity(0.3, "", "Poisson's ratio", 0.0, 0.499)
@@ -63,7 +66,7 @@ class Body:
 
 @dataclass(frozen=True)
 class Operation:
-    """Motion and inlet. Surface a carries the feature. A scene file may give u_a and u_b in place of u_m and srr."""
+    """Motion; u_a and u_b in m/s may be given in place of u_m and srr."""
 
     u_m: float = quantity(8.5, "m/s", "mean speed (u_a + u_b)/2", 1e-6, 1e3)
     srr: float = quantity(-0.12, "", "slip (u_a - u_b)/u_m; negative: the feature is on the slower surface", -2.0, 2.0)
@@ -126,8 +129,10 @@ class Thermal:
 
 @dataclass(frozen=True)
 class Fatigue:
-    """Fatigue index. kappa and endurance are example values to be replaced by those of the material at hand; no source is
-    claimed for them."""
+    """Fatigue index; kappa and endurance are example values: set those of your material.
+
+    No source is claimed for them.
+    """
 
     on: bool = switch(True, "stresses and fatigue index of a passage")
     kappa: float = quantity(0.3, "", "sensitivity to normal stress", 0.0, 5.0)
@@ -140,8 +145,8 @@ class Fatigue:
                                               auto=True)
     residual_xx: float = quantity(0.0, "Pa", "constant residual stress along x", -1e10, 1e10)
     residual_yy: float = quantity(0.0, "Pa", "constant residual stress along y", -1e10, 1e10)
-    from_x: float = quantity(-math.inf, "a", "moments count from this position of the feature on", infinite=True)
-    to_x: float = quantity(math.inf, "a", "moments count up to this position of the feature", infinite=True)
+    from_x: float = quantity(-math.inf, "a", "moments count from this position of the feature on; -inf: all", infinite=True)
+    to_x: float = quantity(math.inf, "a", "moments count up to this position of the feature; inf: all", infinite=True)
 
     def __post_init__(self):
         check(self, "fatigue")
@@ -152,8 +157,10 @@ class Fatigue:
 
 @dataclass(frozen=True)
 class Grid:
-    """Cells of the half domain y >= 0 (nodes: one more; twice ny cells where the scene is not symmetric); extent in
-    half-widths of the contact, a along x and b along y (b = a unless elliptic)."""
+    """Cells, and extent in half-widths of the contact, a along x and b along y (b = a unless elliptic).
+
+    Nodes: one more than cells; twice ny cells where the scene is not symmetric, none across where nothing varies there.
+    """
 
     nx: int = count(256, "cells along x", 32, 8192, 16)
     ny: int = count(64, "cells along y, of the half domain y >= 0", 8, 4096, 4)
@@ -182,7 +189,7 @@ class Time:
 
 @dataclass(frozen=True)
 class Numerics:
-    """Tolerances of the pressure solver, each with its reason.
+    """Tolerances and limits of the pressure solver, and the error of its numbers.
 
     tolerance 1e-6: ten times less moves the film by under 0.1 % at 256 columns. mass_tolerance 1e-6: the conservation that
     users check. krylov_tolerance: from 0.03 to 0.3 a passage costs the same. newton_max, krylov_max: no converging case came

@@ -13,19 +13,30 @@ from tehl_taichi.scene import checks
 AUTO = "auto"
 
 
+class Kind:
+    """Base of what a value can be. about: its meaning; unit: '' where it has none; allowed: its range in words."""
+
+    unit = allowed = ""
+
+    @property
+    def sentence(self):
+        """Unit, meaning and range in one line."""
+        return f"{self.unit}{': ' * bool(self.unit)}{self.about}{f' [{self.allowed}]' if self.allowed else ''}"
+
+
 @dataclass(frozen=True)
-class Number:
+class Number(Kind):
     """A number in its unit; strict: `low` itself is refused; infinite: inf is allowed."""
 
     about: str
-    unit: str = ""
+    unit: str = "-"
     low: float = -math.inf
     high: float = math.inf
     strict: bool = False
     infinite: bool = False
 
     def check(self, where, value):
-        checks.number(where, value, self.unit, self.low, self.high, self.strict, self.infinite)
+        checks.number(where, value, self.unit.strip("-"), self.low, self.high, self.strict, self.infinite)
 
     @property
     def allowed(self):
@@ -42,20 +53,19 @@ class Numbers(Number):
 
     def check(self, where, value):
         if not isinstance(value, (tuple, list)):
-            raise checks.SceneError(f"{where} = {value!r} must be a list of numbers{' in ' * bool(self.unit)}{self.unit}")
+            raise checks.SceneError(f"{where} = {value!r} must be a list of numbers in {self.unit}")
         for entry in value:
             super().check(where, entry)
 
 
 @dataclass(frozen=True)
-class Count:
+class Count(Kind):
     """A whole number from low to high, a multiple of `multiple`."""
 
     about: str
     low: int
     high: int
     multiple: int = 1
-    unit: str = ""
 
     def check(self, where, value):
         checks.integer(where, value, self.low, self.high)
@@ -68,12 +78,11 @@ class Count:
 
 
 @dataclass(frozen=True)
-class Choice:
+class Choice(Kind):
     """One of some words."""
 
     about: str
     words: tuple
-    unit: str = ""
 
     def check(self, where, value):
         checks.choice(where, value, self.words)
@@ -84,12 +93,11 @@ class Choice:
 
 
 @dataclass(frozen=True)
-class Switch:
+class Switch(Kind):
     """true or false; with `auto`: the scene itself decides unless told."""
 
     about: str
     auto: bool = False
-    unit: str = ""
 
     def check(self, where, value):
         if not (self.auto and isinstance(value, str) and value == AUTO):
@@ -101,24 +109,20 @@ class Switch:
 
 
 @dataclass(frozen=True)
-class Text:
+class Text(Kind):
     """Any words."""
 
     about: str
-    unit: str = ""
-    allowed: str = ""
 
     def check(self, where, value):
         checks.text(where, value)
 
 
 @dataclass(frozen=True)
-class Pairs:
+class Pairs(Kind):
     """A list of pairs of numbers, the first of each rising; checked by whoever needs it."""
 
     about: str
-    unit: str = ""
-    allowed: str = ""
 
     def check(self, where, value):
         if not isinstance(value, (tuple, list)) or not all(isinstance(q, (tuple, list)) and len(q) == 2 for q in value):
@@ -134,7 +138,7 @@ def _declared(default, kind):
 
 def quantity(default, unit, about, low=-math.inf, high=math.inf, strict=False, infinite=False):
     """Field of a dataclass: a number in `unit` within low..high."""
-    return _declared(default, Number(about, unit, low, high, strict, infinite))
+    return _declared(default, Number(about, unit or "-", low, high, strict, infinite))
 
 
 def quantities(default, unit, about, low=-math.inf, high=math.inf):
