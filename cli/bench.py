@@ -34,20 +34,20 @@ def stability(
     quick: bool = typer.Option(False, "--quick", help="every sixth case and eight random scenes"),
     as_json: bool = typer.Option(False, "--json", help="one JSON object with the counts on stdout"),
     threads: Optional[int] = THREADS,
-    precision: str = typer.Option("f64", help="of the linear solves: f64 or f32"),
+    precision: str = typer.Option("auto", help="of the linear solves: f32, f64 or what suits each scene"),
 ):
     """Stiff and extreme scenes: converged, refused, stopped with the reason, or failed. Example: `tehl bench stability`"""
     from tehl_taichi.profiles.stability import cases, random_cases, run_case
 
     from tehl_taichi import runtime
 
-    runtime.start(threads=threads, precision=precision)
+    runtime.start(threads=threads)
     table = list(cases(thermal).items())
     chosen = [*table[:: 6 if quick else 1], *random_cases(min(random, 8) if quick else random, seed).items()]
     found = []
     for name, description in chosen:
         if match.lower() in name.lower():
-            found.append(run_case(name, description))
+            found.append(run_case(name, description, precision))
             say(f"{name}: {found[-1].verdict} {found[-1].reason}")
     counts = {verdict: sum(o.verdict == verdict for o in found) for verdict in ("converged", "refused", "stopped", "failed")}
     if as_json:
@@ -75,8 +75,8 @@ def conclusions(
     from tehl_taichi import runtime
     from tehl_taichi.scene import scene
 
-    runtime.start(threads=threads, precision="f32")
-    from tehl_taichi.profiles import conclusions as suite  # now: it defines kernels
+    runtime.start(threads=threads)
+    from tehl_taichi.profiles import conclusions as suite
 
     rows = suite.run(out, quick, say)
     base = scene("gear")
@@ -97,7 +97,7 @@ def accuracy(out: Path = OUT, quick: bool = QUICK, threads: Optional[int] = THRE
 
     from tehl_taichi import runtime
 
-    runtime.start(threads=threads, precision="f32")
+    runtime.start(threads=threads)
     rows = suite.run(quick, say)
     _errors(rows)
     list_table("columns that are enough", ("family", "quantity", "order", *(f"{target:g}" for target in suite.TARGETS)),
@@ -148,7 +148,7 @@ def profile(out: Path = OUT, quick: bool = QUICK, threads: Optional[int] = THREA
     from tehl_taichi.profiles import profile as suite
 
     nx, ny, steps = (128, 32, 8) if quick else (256, 64, 30)
-    stages, kernels, numbers = measure.fresh(threads or os.cpu_count(), suite.run, nx, ny, thermal, steps, precision="f32")
+    stages, kernels, numbers = measure.fresh(threads or os.cpu_count(), suite.run, nx, ny, thermal, steps)
     columns = {"what": "{}", "calls": "{:.1f}", "ms": "{:.2f}", "limit_ms": "{:.2f}", "MB": "{:.1f}"}
     _table("stages, per step (a stage may hold others)", stages, columns)
     _table("kernels, per step", kernels, columns)

@@ -46,7 +46,7 @@ def run(
     force: bool = typer.Option(False, "--force", help="replace an existing store"),
     arch: str = typer.Option("cpu", help="cpu"),
     threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
-    precision: Optional[str] = typer.Option(None, help="of the linear solves: f32 or f64 (default: f32 for thick films); the "
+    precision: Optional[str] = typer.Option(None, help="of the linear solves: f32, f64 or auto (f32 for thick films); the "
                                             "state and its residual are always double"),
     as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout, everything else on stderr"),
     quiet: bool = typer.Option(False, "--quiet", help="no progress"),
@@ -58,11 +58,10 @@ def run(
     started = time.perf_counter()
     from tehl_taichi.io.found import find
     from tehl_taichi.io.store import check_free
-    from tehl_taichi.precision import suited
 
     changes = {"srr": srr, "load": load, "hertz_pressure": hertz_pressure, "speed": speed, "temperature": temperature,
                "height": height, "width": width, "kappa": kappa, "endurance": endurance, "thermal.on": thermal,
-               "fatigue.on": fatigue, "numerics.estimate_error": estimate_error,
+               "fatigue.on": fatigue, "numerics.estimate_error": estimate_error, "numerics.precision": precision,
                "time.steps": steps, "time.steady_only": True if steady else None}
     changes = {key: value for key, value in changes.items() if value is not None}
     changes.update(_grid(grid))
@@ -75,7 +74,7 @@ def run(
     if not (force and _is_store(path)):
         check_free(path)
     with _interruptible(path):
-        _start(arch, threads, precision or suited(description))
+        _start(arch, threads)
         _simulate(description, path, started, as_json, quiet, force)
 
 
@@ -97,14 +96,14 @@ def resume(
         return
     _check_threads(threads)
     with _interruptible(store):
-        _start("cpu", threads, json.loads(saved.attrs["runtime"])["precision"])
+        _start("cpu", threads)
         _go(saved, started, as_json, quiet, json.loads(saved.attrs["steady_error"]))
 
 
-def _start(arch, threads, precision):
+def _start(arch, threads):
     from tehl_taichi import runtime
 
-    return runtime.start(arch, threads, precision)
+    return runtime.start(arch, threads)
 
 
 def _simulate(description, path, started, as_json, quiet, force):
@@ -120,7 +119,7 @@ def _simulate(description, path, started, as_json, quiet, force):
     if path.exists() and force:
         shutil.rmtree(path)
     attrs = {"command": " ".join(sys.argv), "steady_error": json.dumps(first.error),
-             "warnings": json.dumps(description.warnings()), **_machine()}
+             "warnings": json.dumps(description.warnings()), **_machine(description)}
     saved = Store.create(path, description, first, total_steps(description) + 1, attrs)
     _go(saved, started, as_json, quiet, first.error)
 
@@ -269,13 +268,13 @@ def _fresh(name):
     return path
 
 
-def _machine():
+def _machine(description):
     import platform
 
-    from tehl_taichi import __version__, runtime
+    from tehl_taichi import __version__, precision, runtime
 
     return {"version": __version__, "machine": platform.platform(), "python": platform.python_version(),
-            "runtime": json.dumps(runtime.ensure())}
+            "precision": precision.of(description), "runtime": json.dumps(runtime.ensure())}
 
 
 def _plain(value):

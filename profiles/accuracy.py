@@ -4,10 +4,8 @@ import math
 import time
 
 import numpy as np
-from tehl_taichi.profiles import measure
 from tehl_taichi.profiles.speed import circular
 
-from tehl_taichi import runtime
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 
@@ -61,7 +59,7 @@ def settings(nx, names, say):
         say(f"settings: {name}")
         found.append((name, *timed(passage_values, base.replace(**(SETTINGS | {"reference": REFERENCE})[name]))))
     say(f"settings: {IN_DOUBLE}")
-    found.append((IN_DOUBLE, *measure.fresh(runtime.ensure()["threads"], timed, passage_values, base, precision="f64")))
+    found.append((IN_DOUBLE, *timed(passage_values, base.replace(**{"numerics.precision": "f64"}))))
     exact, rows = found[0][2], []
     for quantity in [key for key in QUANTITIES if key in exact]:
         own = [{"family": f"settings, {nx} columns", "columns": nx, "setting": name, "seconds": seconds, "quantity": quantity,
@@ -127,7 +125,7 @@ def marked(rows):
 
 def extrapolated(values):
     """(limit, observed order) of values on grids each twice as fine; order 1 where the differences show none."""
-    from tehl_taichi.solvers.steady import observed_order  # not above: the kernels are defined with the precision of the start
+    from tehl_taichi.solvers.steady import observed_order
 
     order = observed_order(values)
     used = min(max(order, 1.0), 2.0) if math.isfinite(order) else 1.0

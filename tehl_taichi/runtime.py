@@ -1,4 +1,4 @@
-"""The only place that starts Taichi: architecture, precision and threads, once per process."""
+"""The only place that starts Taichi: architecture and threads, once per process."""
 
 import os
 import sys
@@ -8,8 +8,6 @@ from tehl_taichi import __version__
 from tehl_taichi.errors import RuntimeUnavailable
 
 ARCHES = ("cpu",)  # that the kernels have been checked on
-PRECISIONS = ("f64", "f32")  # of the linear solves; the state and its residual are always f64
-_defined = None  # precision that the kernels were defined with
 _started = {}
 WORTH_THREADS = 2500
 
@@ -23,20 +21,18 @@ def cache_dir():
     return Path(os.environ.get("TEHL_CACHE") or os.path.join(root, "tehl_taichi")) / f"kernels-{__version__}"
 
 
-def start(arch="cpu", threads=None, precision=None):
+def start(arch="cpu", threads=None):
     """Start Taichi and say what was really started.
 
-    arch: "cpu" (others when their kernels are checked); threads: number of CPU threads or None for all;
-    precision: "f64" (default) or "f32", of the linear solves inside Newton's iteration (the state, its laws and its
-    residual are always f64: the answers differ by less than the solver's tolerance; see :mod:`tehl_taichi.precision`).
-    Returns a dict with arch, threads, precision, taichi (version) and cache (folder).
-    Raises RuntimeUnavailable when the arch or precision cannot be had or another start is already active.
+    arch: "cpu" (others when their kernels are checked); threads: number of CPU threads or None for all. Returns a dict with
+    arch, threads, taichi (version) and cache (folder).
+    Raises RuntimeUnavailable when the arch cannot be had or another start is already active.
     """
-    precision = precision or PRECISIONS[0]
-    _check(arch, precision)
+    if arch not in ARCHES:
+        raise RuntimeUnavailable(f"arch = {arch!r} is not available in this version: {', '.join(map(repr, ARCHES))} is")
     threads = int(threads or os.cpu_count() or 1)
     if _started:
-        return _same_start(arch, threads, precision)
+        return _same_start(arch, threads)
     import taichi as ti
 
     with _no_banner():
@@ -47,7 +43,7 @@ def start(arch="cpu", threads=None, precision=None):
                 make_cpu_multithreading_loop=False,
                 offline_cache=True, offline_cache_file_path=str(cache_dir()))
     _trace_without_positions()
-    _started.update(arch=arch, threads=threads, precision=precision, taichi=".".join(map(str, ti.__version__)),
+    _started.update(arch=arch, threads=threads, taichi=".".join(map(str, ti.__version__)),
                     cache=str(cache_dir()))
     return dict(_started)
 
@@ -66,16 +62,9 @@ def _trace_without_positions():
     ASTTransformerContext.get_pos_info = lambda context, node: ""
 
 
-def precision():
-    """Precision of the linear solves, "f64" or "f32", which the kernels are defined with once and for all."""
-    global _defined
-    _defined = _defined or _started.get("precision", PRECISIONS[0])
-    return _defined
-
-
-def ensure(precision=None):
-    """Start with the defaults, or with this precision, unless something is running already."""
-    return dict(_started) if _started else start(precision=precision)
+def ensure():
+    """Start with the defaults unless something is running already."""
+    return dict(_started) if _started else start()
 
 
 def alone(work):
@@ -86,17 +75,8 @@ def alone(work):
     return ensure()["threads"] == 1 or work < WORTH_THREADS
 
 
-def _check(arch, precision):
-    if arch not in ARCHES:
-        raise RuntimeUnavailable(f"arch = {arch!r} is not available in this version: {', '.join(map(repr, ARCHES))} is")
-    if precision not in PRECISIONS:
-        raise RuntimeUnavailable(f"precision = {precision!r} is not known: 'f64' and 'f32' are")
-    if _defined not in (None, precision):
-        raise RuntimeUnavailable(f"the kernels of this process are defined for precision = {_defined!r}; start a new one")
-
-
-def _same_start(arch, threads, precision):
-    wanted = dict(arch=arch, threads=threads, precision=precision)
+def _same_start(arch, threads):
+    wanted = dict(arch=arch, threads=threads)
     if any(_started[key] != value for key, value in wanted.items()):
         raise RuntimeUnavailable(f"this process already runs with {_started['arch']}, {_started['threads']} threads; "
                                  "start a new process for other settings")

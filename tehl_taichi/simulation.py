@@ -9,7 +9,7 @@ import time
 
 import numpy as np
 
-from tehl_taichi import runtime, snapshot
+from tehl_taichi import snapshot
 from tehl_taichi.errors import NotConverged
 from tehl_taichi.kernels import fields
 from tehl_taichi.physics.gap import feature_height
@@ -251,7 +251,7 @@ class Passage:
 
 def _reason(solver, heat, report, where):
     v, tolerance = solver.levels, solver.levels.scene.numerics.tolerance
-    double = "" if runtime.precision() == "f64" else ", --precision f64"
+    double = "" if v.precision == "f64" else ", --precision f64"
     if heat and report.residual < tolerance:
         return (f"{where} did not converge: the temperatures still change by {heat.report.change:.2g} K from round to round; "
                 f"try a finer grid (--grid), a smaller time.courant{double} or --isothermal")

@@ -1,5 +1,6 @@
 """The pressure problem in two tables, row = field, column = a block of W nodes, levels one after another: S (double
-precision) holds the state and what decides when it is solved, J (`lanes.LINEAR`) its linearisation and the linear solve.
+precision) holds the state and what decides when it is solved, J (of the precision of the scene) its linearisation and the
+linear solve.
 
 Column k of a level = OFF + s (NX + 1) + i: i along x (rolling), block s holds the nodes j = W s ... W s + W - 1 along y,
 one per lane. Capital letters are dimensionless (X = x/a, P = p/p_H, H = h R'/a^2). Lanes beyond the last row are ghosts:

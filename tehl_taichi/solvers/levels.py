@@ -3,9 +3,8 @@
 import math
 
 import numpy as np
-from taichi.lang.util import to_numpy_type
 
-from tehl_taichi import runtime, tables
+from tehl_taichi import precision, runtime, tables
 from tehl_taichi.kernels import fields, lanes, laws, measure, reynolds, transfer
 from tehl_taichi.launches import Carriers, bind
 from tehl_taichi.physics.gap import undeformed
@@ -16,7 +15,7 @@ from tehl_taichi.solvers.transforms import Deflection
 COARSEST_2D = 16  # cells along x below which no coarser grid is made
 COARSEST_1D = 32
 DENSE_LIMIT = 700  # nodes up to which the coarsest grid is solved directly
-LINEAR = np.dtype(to_numpy_type(lanes.LINEAR))  # of the linear solves
+DTYPES = {"f32": np.float32, "f64": np.float64}  # of the linear solves
 HEAVY = 4  # work of a column in the laws and in the linearisation, in units of a copy
 PAD = 4  # columns in front of the first and behind the last level that stencils may touch
 
@@ -28,11 +27,13 @@ class Levels:
     scene: the description; scales: its Hertz units; nx, ny: cells (ny = 0: one-dimensional); full: from -y_max instead of
     from the plane of symmetry (the lower edge of a line contact is then a mirror far away). The fields of the finest
     grid are read and written as arrays (ny+1, nx+1) with :meth:`get` and :meth:`put`. Vectors of the Krylov solver are
-    flat arrays of `n` numbers in the order of the table, ghosts included.
+    flat arrays of `n` numbers of type `linear` in the order of the table, ghosts included.
     """
 
     def __init__(self, scene, scales, nx, ny, full=False):
         self.scene, self.scales, self.line = scene, scales, scales.line
+        self.precision = precision.of(scene)
+        self.linear = np.dtype(DTYPES[self.precision])
         self.nx, self.ny, self.mirrored = nx, ny, scales.line or not full
         grid, y_max = scene.grid, scene.grid.y_max * scales.b / scales.a
         self.X = np.linspace(grid.x_min, grid.x_max, nx + 1)
@@ -49,7 +50,7 @@ class Levels:
         rows = fields.NROWS if scene.isothermal else fields.NROWS_THERMAL
         size = max(table_columns(nx, ny), _final_columns(scene))
         self.S = tables.lease(self, rows, lanes.W, size)
-        self.J = tables.lease(self, fields.NROWS_LINEAR, lanes.W, size, precision=runtime.precision())
+        self.J = tables.lease(self, fields.NROWS_LINEAR, lanes.W, size, precision=self.precision)
         self.deflection, self._carriers = self.deflection_of(0), Carriers()
         self._set_laws()
         self._bind()
@@ -178,11 +179,11 @@ class Levels:
 
     def vector(self, row):
         """Field `row` of the finest level as a new flat vector in table order."""
-        return self._carry(measure.save, row).ravel().copy()
+        return self._carry(measure.save, row).copy()
 
     def _carry(self, kernel, row, l=None, values=None):
         """Launch a kernel between a field of level l (or in table order) and an array. Returns the array."""
-        shape, place = (self.n // lanes.W, lanes.W), (row,)
+        shape, place = self.n, (row,)
         if l is not None:
             shape, place = (self.sizes[l][1] + 1, self.sizes[l][0] + 1), (l, row)
         return self._carriers.carry((kernel, row, l), shape,
