@@ -73,7 +73,7 @@ def _tractions(solver, heat):
     """Shear (4, ny+1, nx+1) in Pa on body a along x, y and on body b along x, y."""
     v, s, scene = solver.levels, solver.levels.scales, solver.levels.scene
     out = v.fill(traction.tractions, (4, v.ny + 1, v.nx + 1), scene.rheology, s.p_H, s.h, s.a, math.exp(v.ln_eta0),
-                 scene.operation.u_s, v.dx, v.dy)
+                 -scene.operation.u_s, v.dx, v.dy)
     if heat:
         wall, film = heat.shear(), (v.get(fields.P) > 0) & (v.get(fields.TOUCH) == 0)
         out = np.where(film, wall * np.array([1, 1, -1, -1])[:, None, None], out)

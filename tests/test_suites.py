@@ -42,7 +42,7 @@ def test_every_field_of_the_tables_has_its_bytes():
     from tehl_taichi.kernels import fields, slots
 
     assert sum(np.size(getattr(fields, name)) for name in traffic.IN_J) == fields.NROWS_LINEAR
-    assert len(traffic.IN_S) == fields.NROWS_THERMAL - 1 and len(traffic.IN_Z) == slots.KINDS
+    assert len(traffic.IN_S) == fields.NROWS_THERMAL and len(traffic.IN_Z) == slots.KINDS
     assert len(traffic.IN_Z_ONCE) == slots.SINGLES
 
 

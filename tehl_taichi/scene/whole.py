@@ -137,6 +137,11 @@ class Scene:
         return not self.thermal.on
 
     @property
+    def shear_law(self):
+        """The rheology that the flow of a film with one temperature obeys: Newtonian where no surface slips."""
+        return self.rheology if self.operation.u_s != 0 else dataclasses.replace(self.rheology, law="newtonian")
+
+    @property
     def thermal_stress_wanted(self):
         """Whether the heat of the surface counts in its stress."""
         wanted = self.fatigue.thermal_stress
@@ -159,7 +164,7 @@ class Scene:
         if not self.fatigue_wanted:
             out.append("stresses and fatigue (" + ("switched off" if not self.fatigue.on else "no passage") + ")")
         if self.operation.u_s == 0:
-            out.append("sliding friction (SRR = 0)")
+            out.append("sliding friction and the shear law of the film (SRR = 0)")
         return out
 
     def warnings(self):

@@ -47,7 +47,8 @@ class Levels:
         self.fine = self.sizes[0][1] // lanes.W + 1  # blocks of the finest grid
         self.G = self._level_table()
         self.n = columns(nx, ny) * lanes.W
-        rows = fields.NROWS if scene.isothermal else fields.NROWS_THERMAL
+        self.thins = scene.shear_law.law != "newtonian"
+        rows = (fields.NROWS_SHEARED if self.thins else fields.NROWS) if scene.isothermal else fields.NROWS_THERMAL
         size = max(table_columns(nx, ny), _final_columns(scene))
         self.S = tables.lease(self, rows, lanes.W, size)
         self.J = tables.lease(self, fields.NROWS_LINEAR, lanes.W, size, precision=self.precision)
@@ -63,7 +64,7 @@ class Levels:
             nx, ny, dx, dy = self.grid(l)
             rows = ny + 1 if self.line else ny
             near, floor = self.near_kernel(l)[0], self.scene.rheology.film_floor
-            G[l, : fields.ROW0] = off, nx, ny, rows, dx, dy, 0.0, 0.0, *near, floor, 1.0
+            G[l, : fields.ROW0] = off, nx, ny, rows, dx, dy, 0.0, 0.0, *near, floor, 1.0, 0.0
             G[l, fields.LINES] = l in self.lines
             off += columns(nx, ny)
         return G
@@ -104,13 +105,15 @@ class Levels:
         self.Gamma = scene.operation.temperature
         self.ln_eta0 = float(ln_eta(scene.oil, 0.0, self.Gamma))
         lam = 12 * math.exp(self.ln_eta0) * s.u_m * s.R**2 / (s.a**3 * s.p_H)
-        self.G[:, fields.ILAM] = self.inv_lambda = 1 / lam
+        self.inv_lambda, self.shear = 1 / lam, -scene.operation.u_s * math.exp(self.ln_eta0) / s.h
+        self.slow_down(1.0)
 
     def _bind(self):
         """Launches of the kernels that this table is used with, on the finest level and on the coarser ones."""
-        law = (self.S, self.G, self.scene.oil, self.scales.p_H, self.Gamma, self.ln_eta0)
+        law = (self.S, self.G, self.scene.oil, self.scene.shear_law, self.scales.p_H, self.Gamma, self.ln_eta0)
         self.laws, self._slopes = (self.launch(laws.laws, *law, with_slopes, work=HEAVY) for with_slopes in (0, 1))
-        self._bind_rows(fields.LAWS, fields.RHO, fields.QP, -1)
+        follow, thinning = ((*fields.LAWS, fields.DLH), fields.DLH) if self.thins else (fields.LAWS, -1)
+        self._bind_rows(follow, fields.RHO, fields.QP, thinning)
         d = self.deflection
         self._pressure_rows = self.launch(reynolds.pressure_rows, self.S, self.G, d.pressure.ravel(), d.pressure.shape[1])
         self._set_film = self.launch(reynolds.set_film, self.S, self.G, d.film.ravel(), d.edge, d.film.shape[1])
@@ -124,8 +127,8 @@ class Levels:
             for cut in ((0, self.fine), (self.fine, len(self.blocks))))
 
     def slow_down(self, factor):
-        """Take the speed of the film's balance to be that of the scene over `factor`."""
-        self.G[:, fields.ILAM] = factor * self.inv_lambda
+        """Take the speeds of the film's balance to be those of the scene over `factor`."""
+        self.G[:, fields.ILAM], self.G[:, fields.SHEAR] = factor * self.inv_lambda, self.shear / factor
 
     def use_film(self, values, slopes):
         """Take the laws from a film with temperatures."""
