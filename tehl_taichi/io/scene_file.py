@@ -7,6 +7,7 @@ import tomllib
 
 from tehl_taichi.scene import Scene, SceneError, scene
 from tehl_taichi.scene.oil import OILS
+from tehl_taichi.scene.route import ALL
 from tehl_taichi.scene.whole import SECTIONS
 
 HEADER = "# A tehl_taichi scene. SI units (m, s, N, Pa, kg), temperatures in deg C; [grid] and [time] in half-widths."
@@ -19,7 +20,8 @@ COMMENTS = {
     "thermal": "energy equation; on: true, false or \"auto\" (where the surfaces slip)",
     "fatigue": "Findley: kappa, endurance = sigma_eF in Pa",
     "grid": "cells of the half domain y >= 0; extent in half-widths of the contact",
-    "time": "path of the first feature in a (-inf, inf: from before to behind the contact); courant: cells per step",
+    "time": "path of the first feature in a (-inf, inf: from before to behind the contact); courant: cells per step; "
+            "steps: -1 for all",
     "numerics": "tolerances of the discrete equations", "output": "store every n-th step",
 }
 
@@ -40,6 +42,8 @@ def from_data(data, name):
     """Scene from a parsed file."""
     base = data.pop("base", None)
     data.setdefault("name", name)
+    if isinstance(data.get("time"), dict) and data["time"].get("steps") == 0:
+        data["time"]["steps"] = ALL  # as version 0.1 wrote it in every file; the steady start alone: steady_only
     if base is None:
         return Scene.from_dict({"feature": [], **data})
     return Scene.from_dict(merge(scene(base).to_dict(), data))

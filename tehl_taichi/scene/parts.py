@@ -232,20 +232,20 @@ class Grid:
 @dataclass(frozen=True)
 class Time:
     """Path of the first feature's centre from x_start to x_end (in a; -inf, inf: from before the contact until behind it,
-    whatever the size of the features), courant cells a step, at most `steps` (0: all)."""
+    whatever the size of the features), courant cells a step, at most `steps` (-1: all; 0: the steady start alone)."""
 
     steady_only: bool = False
     x_start: float = -math.inf
     x_end: float = math.inf
     courant: float = 1.0
-    steps: int = 0
+    steps: int = -1
 
     def __post_init__(self):
         flag("time.steady_only", self.steady_only)
         number("time.x_start", self.x_start, "a", high=20.0, infinite=True)
         number("time.x_end", self.x_end, "a", -20.0, infinite=True)
         number("time.courant", self.courant, "", 0.05, 4.0)
-        integer("time.steps", self.steps, 0, 10**7)
+        integer("time.steps", self.steps, -1, 10**7)
 
 
 @dataclass(frozen=True)
