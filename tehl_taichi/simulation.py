@@ -13,10 +13,11 @@ from tehl_taichi import snapshot
 from tehl_taichi.errors import NotConverged
 from tehl_taichi.kernels import fields
 from tehl_taichi.physics.gap import feature_height
+from tehl_taichi.scene.route import step_cells, total_steps
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.snapshot import Snapshot
 from tehl_taichi.solvers.guess import Guess, extrapolated
-from tehl_taichi.solvers.heat import FilmHeat, step_cells
+from tehl_taichi.solvers.heat import FilmHeat
 from tehl_taichi.solvers.levels import Levels
 from tehl_taichi.solvers.newton import PressureSolver
 from tehl_taichi.solvers.steady import solve_steady
@@ -28,16 +29,6 @@ ORDER, HEAT_ORDER = 3, 1  # of the extrapolation in time of pressure and tempera
 SLUGGISH = 0.2  # rounds of pressure and temperature that leave more of the last change are relaxed; usual is 0.01 to 0.1
 RETRY_KRYLOV = 3e-3  # a failed step is repeated from the old pressure with a Krylov solve ten times tighter,
 SMALLEST_PART = 1 / 16  # then in halves down to this part of it; after that parts at most double
-
-
-def total_steps(scene):
-    """Number of time steps after the steady start (0 for a steady scene)."""
-    if not scene.transient:
-        return 0
-    t, g, (start, end) = scene.time, scene.grid, scene.path
-    cell = (g.x_max - g.x_min) / g.nx
-    steps = math.ceil((end - start) / (step_cells(scene) * cell) - 1e-9)
-    return min(steps, t.steps) if t.steps else steps
 
 
 def march(scene, state=None):

@@ -10,6 +10,7 @@ from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.oil import OILS, Oil
 from tehl_taichi.scene.parts import Body
 from tehl_taichi.scene.quantity import kinds
+from tehl_taichi.scene.route import ALL
 from tehl_taichi.scene.whole import SECTIONS
 
 HEADER = "# A tehl_taichi scene. SI units (m, s, N, Pa, kg), temperatures in deg C; [grid] and [time] in half-widths."
@@ -33,6 +34,8 @@ def from_data(data, name):
     """Scene from a parsed file."""
     base = data.pop("base", None)
     data.setdefault("name", name)
+    if isinstance(data.get("time"), dict) and data["time"].get("steps") == 0:
+        data["time"]["steps"] = ALL  # as version 0.1 wrote it in every file; the steady start alone: steady_only
     if base is None:
         return Scene.from_dict({"feature": [], **data})
     return Scene.from_dict(merge(scene(base).to_dict(), data))

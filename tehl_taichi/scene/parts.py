@@ -181,7 +181,7 @@ class Time:
                               infinite=True)
     x_end: float = quantity(math.inf, "a", "position at the end; inf: behind the contact", -20.0, infinite=True)
     courant: float = quantity(1.0, "cells", "way of the feature in a step", 0.05, 4.0)
-    steps: int = count(0, "stop after this many steps; 0: all", 0, 10**7)
+    steps: int = count(-1, "stop after this many steps; -1: all, 0: the steady start alone", -1, 10**7)
 
     def __post_init__(self):
         check(self, "time")

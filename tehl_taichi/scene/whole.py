@@ -11,6 +11,7 @@ from tehl_taichi.scene.checks import build, nearest
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.parts import AUTO, Body, Contact, Fatigue, Grid, Numerics, Operation, Output, Rheology, Thermal, Time
+from tehl_taichi.scene.route import LATEST, cut_at
 
 SECTIONS = {"contact": Contact, "operation": Operation, "rheology": Rheology, "thermal": Thermal, "fatigue": Fatigue,
             "grid": Grid, "time": Time, "numerics": Numerics, "output": Output}
@@ -18,7 +19,7 @@ SHORT = {"srr": "operation.srr", "load": "contact.load", "hertz_pressure": "cont
          "speed": "operation.u_m", "temperature": "operation.temperature", "height": "feature.height",
          "width": "feature.width", "kappa": "fatigue.kappa", "endurance": "fatigue.endurance"}
 FIRST, LAST = -1.6, 1.4  # of the path of a small feature, in a
-CLEAR, LATEST = 1.3, 1.1  # distance in a of a feature's front from X = 0 at an automatic start; at any start at least
+CLEAR = 1.3  # distance in a of a feature's front from X = 0 at an automatic start
 BEYOND = 1.2  # half-widths, at least, from the centre to the edge of the grid
 AT_REST = 0.01  # of the mean speed
 MAX_HERTZ, MIN_HERTZ = 6e9, 1e7  # Pa: outside this range the laws say nothing
@@ -161,6 +162,8 @@ class Scene:
             out.append("half of the domain (symmetric in y)")
         if not self.transient:
             out.append("march in time (steady)" if self.features else "march in time (no feature)")
+        elif (end := cut_at(self)) is not None:
+            out.append(f"rest of the passage (cut at {end:.2f} a by time.steps or time.x_end; `tehl resume` goes on)")
         if not self.fatigue_wanted:
             out.append("stresses and fatigue (" + ("switched off" if not self.fatigue.on else "no passage") + ")")
         if self.operation.u_s == 0:
