@@ -65,12 +65,15 @@ def show(store: Path = typer.Argument(..., help="store of a finished, running or
 
 
 def plot(store: Path = typer.Argument(..., help="store of a run"),
-         out: Path = typer.Option(None, help="folder for the figures (default: beside the store)")):
-    """PNG figures: centreline pressure and film, maps, fatigue."""
+         out: Path = typer.Option(None, help="folder for the figures (default: beside the store)"),
+         dpi: int = typer.Option(160, help="dots per inch, 40 to 1200")):
+    """PNG figures: centreline pressure and film, maps, fatigue. Example: `tehl plot runs/gear-1.zarr --dpi 300`"""
     from tehl_taichi.io import figures
     from tehl_taichi.io.store import Store
+    from tehl_taichi.scene.checks import integer
 
-    for path in figures.write_all(Store.open(store), out or store.with_suffix("")):
+    integer("--dpi", dpi, 40, 1200)
+    for path in figures.write_all(Store.open(store), out or store.with_suffix(""), dpi):
         print(path)
 
 

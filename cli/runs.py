@@ -108,11 +108,15 @@ def _start(arch, threads):
 
 def _simulate(description, path, started, as_json, quiet, force):
     from tehl_taichi.io.store import Store
+    from tehl_taichi.scene.map_judge import preview
     from tehl_taichi.simulation import march, total_steps
 
     for line in description.left_out():
         if not quiet:
             say(f"left out: {line}")
+    for line in preview(description):
+        if not quiet:
+            say(line)
     for sentence in description.warnings():
         say(f"warning: {sentence}")
     first = next(march(description))

@@ -136,37 +136,6 @@ def test_long_features_start_earlier_and_end_later():
     assert long.path[0] + 0.5e-3 / Scales.of(long).a == pytest.approx(-1.3) and long.path[1] > 2.4
 
 
-def test_a_height_map_gives_the_feature_it_was_sampled_from(tmp_path):
-    import numpy as np
-
-    from tehl_taichi.physics.gap import feature_height
-    from tehl_taichi.scene.feature import Feature
-
-    bump = Feature(height=2e-6, width=100e-6)
-    x = np.arange(-60, 61) * 1e-6
-    np.save(tmp_path / "bump.npy", feature_height(bump, x[None, :], x[:, None]) * 1e6)
-    map_ = Feature(shape="map", file=str(tmp_path / "bump.npy"), height=1e-6, pixel=1e-6, level="none", taper=2e-6)
-    X, Y = np.meshgrid(np.linspace(-80e-6, 80e-6, 77), np.linspace(-80e-6, 80e-6, 53))
-    np.testing.assert_allclose(feature_height(map_, X, Y), feature_height(bump, X, Y), atol=2e-9)
-    assert map_.reach == pytest.approx(60e-6) and not map_.symmetric
-
-
-def test_a_tilted_map_is_levelled_and_a_broken_one_refused(tmp_path):
-    import numpy as np
-
-    from tehl_taichi.scene.height_map import read
-
-    y, x = np.mgrid[:20, :30]
-    np.savetxt(tmp_path / "tilt.csv", 3.0 + 0.2 * x - 0.1 * y, delimiter=",")
-    assert np.abs(read(str(tmp_path / "tilt.csv"), "plane")).max() < 1e-12
-    (tmp_path / "broken.csv").write_text("1,2\n3,nan\n")
-    with pytest.raises(SceneError, match="4 x 4"):
-        read(str(tmp_path / "broken.csv"))
-    with pytest.raises(SceneError, match="topography"):
-        (tmp_path / "scan.sur").write_text("x")
-        read(str(tmp_path / "scan.sur"))
-
-
 def test_rough_patch_has_its_rms_and_fades_out():
     import numpy as np
 

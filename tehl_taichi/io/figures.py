@@ -10,10 +10,12 @@ from tehl_taichi.io.fatigue_figures import whole
 from tehl_taichi.scene.scales import Scales
 
 POSITIONS = (-0.8, 0.0, 0.8)  # feature positions (in a) shown beside the steady state
+WINDOW = (-1.6, 1.4)  # x / a shown: the contact and what is close to it
+DPI = 160
 
 
-def write_all(store, folder):
-    """Write every figure the store has data for into `folder`; returns the paths. Raises StoreError."""
+def write_all(store, folder, dpi=DPI):
+    """Write every figure the store has data for into `folder`, `dpi` dots per inch; returns the paths. Raises StoreError."""
     plt = pyplot()
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
@@ -31,16 +33,16 @@ def write_all(store, folder):
         found = {name: store.map(name) for name in ("feature_frame_x", "feature_frame_y", "Fi")}
         figures |= fatigue_figures.all_figures(plt, store.scene.name, found, worst, store.summary["fatigue"],
                                                Scales.of(store.scene).a)
-    return [_save(plt, figure, folder / f"{name}.png") for name, figure in figures.items()]
+    return [_save(plt, figure, folder / f"{name}.png", dpi) for name, figure in figures.items()]
 
 
-def write_fatigue(result, title, a, folder):
+def write_fatigue(result, title, a, folder, dpi=DPI):
     """Write the figures of a FatigueResult into `folder`; returns the paths. Raises StoreError."""
     plt, folder = pyplot(), Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     found = {name: value[0] for name, value in result.maps.items()}
     figures = fatigue_figures.all_figures(plt, title, found, result.worst, result.summary, a)
-    return [_save(plt, figure, folder / f"{name}.png") for name, figure in figures.items()]
+    return [_save(plt, figure, folder / f"{name}.png", dpi) for name, figure in figures.items()]
 
 
 def pyplot():
@@ -55,8 +57,8 @@ def pyplot():
     return plt
 
 
-def _save(plt, figure, path):
-    figure.savefig(path, dpi=110)
+def _save(plt, figure, path, dpi):
+    figure.savefig(path, dpi=dpi)
     plt.close(figure)
     return path
 
@@ -73,7 +75,16 @@ def entries(store):
 
 def moment(store, n, a):
     """What entry n shows, in words."""
-    return "steady start" if n == 0 else f"feature at {store.feature_x(n) / a:+.2f} a"
+    if n == 0:
+        return "steady start" if store.scene.transient else "steady"
+    return f"feature at {store.feature_x(n) / a:+.2f} a"
+
+
+def colours(shown):
+    """{entry: colour}, the same in every figure: grey for the steady start, then one for each position of the feature."""
+    if len(shown) == 1:
+        return {shown[0]: "C0"}
+    return {n: "0.45" if n == 0 else f"C{k - 1}" for k, n in enumerate(shown)}
 
 
 def axis_row(store):
@@ -81,25 +92,45 @@ def axis_row(store):
     return int(np.argmin(np.abs(store.y)))
 
 
-def draw_map(figure, ax, store, a, values, label, **style):
-    """One field over x, y with its mirror image and a colour bar."""
+def window(store, a):
+    """(left, right) in a of what is shown along x."""
+    return max(WINDOW[0], store.x[0] / a), min(WINDOW[1], store.x[-1] / a)
+
+
+def panels(plt, store, a, count):
+    """(figure, axes) for `count` maps in their true proportions: below each other, or side by side where they are tall."""
+    left, right = window(store, a)
+    tall = np.ptp(store.y) * (1 if store.y[0] < 0 else 2) / a / (right - left)
+    if tall > 0.9:
+        size, grid = (3.9 * count, 2.8 * tall + 1.1), (1, count)
+    else:
+        size, grid = (6.4, (4.7 * tall + 0.4) * count + 0.9), (count, 1)
+    figure, axes = plt.subplots(*grid, figsize=size, layout="compressed", sharex=True, sharey=True)
+    for ax in axes[-1:] if grid[1] == 1 else axes:
+        ax.set_xlabel("x / a (flow to the right)")
+    for ax in axes if grid[1] == 1 else axes[:1]:
+        ax.set_ylabel("y / a")
+    return figure, axes
+
+
+def draw_map(ax, store, a, values, title, **style):
+    """One field over x, y with its mirror image; returns what a colour bar needs."""
     y, full = whole(store.y / a, values)
-    image = ax.pcolormesh(store.x / a, y, full.T, shading="gouraud", **style)
-    figure.colorbar(image, ax=ax, label=label)
-    ax.set(ylabel="y / a", aspect="equal", xlim=(-1.6, 1.4))
+    ax.set(aspect="equal", xlim=window(store, a), title=title)
+    return ax.pcolormesh(store.x / a, y, full.T, shading="gouraud", **style)
 
 
 def centreline(plt, store):
     """Pressure and film along y = 0 for several feature positions."""
     a, centre = Scales.of(store.scene).a, axis_row(store)
     figure, (top, low) = plt.subplots(2, 1, sharex=True, figsize=(8, 6.5), constrained_layout=True)
-    for n in entries(store):
+    for n, colour in colours(entries(store)).items():
         f = store.fields(n, ("pressure", "film"))
-        style = dict(label=moment(store, n, a), color="0.45" if n == 0 else None, ls="--" if n == 0 else "-", lw=1.5)
+        style = dict(label=moment(store, n, a), color=colour, ls="--" if colour == "0.45" else "-", lw=1.5)
         top.plot(store.x / a, f["pressure"][:, centre] / 1e9, **style)
         low.plot(store.x / a, f["film"][:, centre] * 1e6, **style)
     top.set(ylabel="pressure (GPa)", title=f"{store.scene.name}: centreline y = 0")
-    low.set(ylabel="film (µm)", xlabel="x / a (flow to the right)", ylim=(0, _film_top(store)), xlim=(-1.6, 1.4))
+    low.set(ylabel="film (µm)", xlabel="x / a (flow to the right)", ylim=(0, _film_top(store)), xlim=window(store, a))
     top.legend(frameon=False)
     for axes in (top, low):
         axes.grid(alpha=0.25)
@@ -121,15 +152,17 @@ SURFACES = (("temperature_mid", "mid-film", "-"), ("temperature_a", "surface a",
 
 
 def temperature(plt, store):
-    """Mid-film and both surfaces along y = 0 for several feature positions."""
+    """Mid-film and both surfaces along y = 0 for several feature positions: a colour each, a kind of line each."""
     a, centre = Scales.of(store.scene).a, axis_row(store)
     figure, ax = plt.subplots(figsize=(8, 4.8), constrained_layout=True)
-    for colour, n in enumerate(entries(store)):
+    for n, colour in colours(entries(store)).items():
         f = store.fields(n, [name for name, *_ in SURFACES])
-        for name, text, style in SURFACES:
-            ax.plot(store.x / a, f[name][:, centre], ls=style, color=f"C{colour}", lw=1.4,
-                    label=f"{moment(store, n, a)}: {text}" if colour == 0 or style == "-" else None)
-    ax.set(xlabel="x / a (flow to the right)", ylabel="temperature (°C)", xlim=(-1.6, 1.4),
+        for name, _, style in SURFACES:
+            ax.plot(store.x / a, f[name][:, centre], ls=style, color=colour, lw=1.4)
+        ax.plot([], [], color=colour, label=moment(store, n, a))
+    for _, text, style in SURFACES:
+        ax.plot([], [], ls=style, color="k", lw=1.4, label=text)
+    ax.set(xlabel="x / a (flow to the right)", ylabel="temperature (°C)", xlim=window(store, a),
            title=f"{store.scene.name}: temperatures along y = 0")
     ax.legend(frameon=False, fontsize=8)
     ax.grid(alpha=0.25)
@@ -137,15 +170,15 @@ def temperature(plt, store):
 
 
 def temperature_maps(plt, store):
-    """Mid-film and both surfaces over x, y with the feature nearest to the middle."""
+    """Mid-film and both surfaces over x, y with the feature nearest to the middle, in one scale of colours."""
     a, n = Scales.of(store.scene).a, middle_entry(store)
     f = store.fields(n, [name for name, *_ in SURFACES])
-    top = max(float(v.max()) for v in f.values())
-    figure, axes = plt.subplots(3, 1, figsize=(6.0, 9.5), constrained_layout=True, sharex=True)
+    low, top = min(float(v.min()) for v in f.values()), max(float(v.max()) for v in f.values())
+    figure, axes = panels(plt, store, a, 3)
     for ax, (name, text, _) in zip(axes, SURFACES):
-        draw_map(figure, ax, store, a, f[name], "°C", cmap="inferno", vmax=top)
-        ax.set_title(text)
-    axes[-1].set_xlabel("x / a (flow to the right)")
+        image = draw_map(ax, store, a, f[name], text, cmap="inferno", vmin=low, vmax=top)
+    figure.colorbar(image, ax=list(axes), label="temperature (°C)", aspect=30)
+    figure.suptitle(f"{store.scene.name}: {moment(store, n, a)}")
     return figure
 
 
@@ -157,7 +190,8 @@ def profiles(plt, store):
     figure, ax = plt.subplots(figsize=(6, 4.8), constrained_layout=True)
     for X in (-1.0, -0.5, 0.0, 0.5, 1.0):
         ax.plot(T[int(np.argmin(np.abs(store.x / a - X)))], zeta, "o-", ms=3, lw=1.2, label=f"x = {X:+.1f} a")
-    ax.set(xlabel="temperature (°C)", ylabel="z / h (0: surface a, 1: surface b)", title=f"{store.scene.name}: across the film")
+    ax.set(xlabel="temperature (°C)", ylabel="z / h (0: surface a, 1: surface b)",
+           title=f"{store.scene.name}: across the film, {moment(store, n, a)}")
     ax.legend(frameon=False)
     ax.grid(alpha=0.25)
     return figure
@@ -167,9 +201,10 @@ def maps(plt, store):
     """Pressure and film over x, y with the feature nearest to the middle."""
     a, n = Scales.of(store.scene).a, middle_entry(store)
     f = store.fields(n, ("pressure", "film"))
-    figure, axes = plt.subplots(2, 1, figsize=(6.5, 8), constrained_layout=True, sharex=True)
-    draw_map(figure, axes[0], store, a, f["pressure"] / 1e9, "pressure (GPa)", cmap="inferno")
-    draw_map(figure, axes[1], store, a, f["film"] * 1e6, "film (µm)", cmap="viridis", vmax=_film_top(store))
-    axes[0].set_title(f"{store.scene.name}: {moment(store, n, a)}")
-    axes[1].set_xlabel("x / a (flow to the right)")
+    figure, (left, right) = panels(plt, store, a, 2)
+    pressure = draw_map(left, store, a, f["pressure"] / 1e9, "pressure", cmap="inferno")
+    figure.colorbar(pressure, ax=left, label="GPa")
+    film = draw_map(right, store, a, f["film"] * 1e6, "film", cmap="viridis", vmax=_film_top(store))
+    figure.colorbar(film, ax=right, label="µm", extend="max")
+    figure.suptitle(f"{store.scene.name}: {moment(store, n, a)}")
     return figure

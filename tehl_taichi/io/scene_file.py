@@ -27,7 +27,16 @@ def load(path):
         raise SceneError(f"cannot read scene file {path}: {getattr(error, 'strerror', None) or error}") from None
     except tomllib.TOMLDecodeError as error:
         raise SceneError(f"{path} is not valid TOML: {error}") from None
-    return from_data(data, path.stem)
+    return from_data(_beside(data, path.absolute().parent), path.stem)
+
+
+def _beside(data, folder):
+    """The same with the paths of height maps starting at `folder`, whatever folder the command runs in."""
+    features = data.get("feature", [])
+    for feature in features if isinstance(features, list) else []:
+        if isinstance(feature, dict) and isinstance(feature.get("file"), str) and feature["file"]:
+            feature["file"] = str(folder / feature["file"])
+    return data
 
 
 def from_data(data, name):

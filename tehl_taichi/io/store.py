@@ -15,8 +15,7 @@ import zarr
 from numcodecs import zstd
 
 from tehl_taichi.errors import StoreError
-from tehl_taichi.io import scene_file
-from tehl_taichi.scene import Scene
+from tehl_taichi.io import maps, scene_file
 
 FIELDS = {
     "pressure": ("f4", "Pa", "film pressure"), "film": ("f4", "m", "film thickness"),
@@ -67,7 +66,7 @@ class Store:
         self.root = json.loads((self.path / "zarr.json").read_text())
         self.attrs = self.root["attributes"]
         self.steps = int(self.attrs["steps"])
-        self.scene = Scene.from_dict(json.loads(self.attrs["scene"]))
+        self.scene = maps.read_scene(self.path, self.attrs["scene"])
         self.group = zarr.open_group(str(self.path), mode="r+", use_consolidated=False)
         self.metadata = _metadata(self.path)
         self.stored = {name: kind[0] for name, kind in fields_of(self.scene).items()}
@@ -86,6 +85,7 @@ class Store:
         group = zarr.open_group(str(path), mode="w", zarr_format=3)
         _coordinates(group, snapshot)
         _series(group, capacity, scene, snapshot)
+        maps.write(group, scene)
         (path / CHECKPOINTS).mkdir()
         _publish(path, {"Conventions": "CF-1.10", "scene": json.dumps(scene.to_dict()),
                         "scene_toml": scene_file.dumps(scene), **(attrs or {}), "steps": 0, "finished": False}, _metadata(path))

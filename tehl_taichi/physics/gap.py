@@ -2,8 +2,6 @@
 
 import numpy as np
 
-from tehl_taichi.scene import height_map
-
 MODES = 12  # per direction of a rough patch
 
 
@@ -43,8 +41,8 @@ def rough(f, x, y):
 
 
 def measured(f, x, y):
-    """The measured map, linear between its pixels, within its patch; height = m per unit of the file."""
-    values = height_map.read(f.file, f.level)
+    """The measured map, levelled, linear between its points, within its patch."""
+    values = f.surface
     rows, columns = values.shape
     i = np.clip(x / f.pixel + (columns - 1) / 2, 0, columns - 1) + 0 * y
     j = np.clip(y / f.pixel + (rows - 1) / 2, 0, rows - 1) + 0 * x
@@ -52,7 +50,7 @@ def measured(f, x, y):
     u, v = i - i0, j - j0
     low = (1 - u) * values[j0, i0] + u * values[j0, i0 + 1]
     high = (1 - u) * values[j0 + 1, i0] + u * values[j0 + 1, i0 + 1]
-    return f.height * ((1 - v) * low + v * high) * _window(f, x, y)
+    return ((1 - v) * low + v * high) * _window(f, x, y)
 
 
 def _window(f, x, y):

@@ -37,7 +37,8 @@ def integer(where, value, low, high):
 def choice(where, value, allowed):
     """Refuse `value` unless it is one of `allowed`; names the nearest one."""
     if value not in allowed:
-        raise SceneError(f"{where} = {value!r} is not known; allowed: {', '.join(map(str, allowed))}{nearest(value, allowed)}")
+        words = ", ".join(filter(None, allowed))
+        raise SceneError(f"{where} = {value!r} is not known; allowed: {words}{nearest(value, allowed)}")
 
 
 def flag(where, value, other=""):

@@ -1,10 +1,12 @@
 """Surface features of body a: what they are and how far they reach."""
 
 import math
+import os
 from dataclasses import dataclass
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene.height_map import check_file, read
+from tehl_taichi.scene.height_map import MICRO, UNITS
+from tehl_taichi.scene.measured import Measured
 from tehl_taichi.scene.quantity import check, choice, count, quantity, text
 
 SHAPES = ("cosine", "ridge", "furrow", "waviness", "rough", "map")
@@ -13,7 +15,7 @@ LEVELS = ("none", "mean", "plane")
 
 
 @dataclass(frozen=True)
-class Feature:
+class Feature(Measured):
     """One feature of surface a; the other features stand x and y from the first.
 
     cosine: a bump or dent. ridge, furrow: transverse, the same for every y. waviness: amplitude `height`, wavelengths width
@@ -31,13 +33,21 @@ class Feature:
     extent_y: float = quantity(0.0, "m", "waviness, rough, map: its width; 0: without end, map: the whole map", 0.0, 0.1)
     taper: float = quantity(0.0, "m", "waviness, rough, map: distance over which the patch fades out at its rim", 0.0, 0.1)
     seed: int = count(1, "rough: of its random numbers", 0, 2**31)
-    file: str = text("", "map: CSV or NPY file (others with the `topography` extra), rows along y")
-    pixel: float = quantity(1e-6, "m", "map: distance of its points", 1e-9, 1e-2)
+    file: str = text("", "map: CSV or NPY file (others with the `topography` extra), rows along y; a path in a scene file "
+                     "starts at that file", compare=False)
+    unit: str = choice("", "map: of the heights in its file", ("", *UNITS))
+    scale: float = quantity(1.0, "", "map: its heights are multiplied with it; -1 turns them over, as for a replica", -1e3, 1e3)
+    pixel: float = quantity(0.0, "m", "map: distance of its points; 0: not given", 0.0, 1e-2)
     level: str = choice("plane", "map: what is taken off its heights", LEVELS)
+    sha256: str = text("", "map: of its heights, filled in when they are read; a file with other heights is refused then")
 
     def __post_init__(self):
+        if isinstance(self.file, os.PathLike):
+            object.__setattr__(self, "file", os.fspath(self.file))
+        if isinstance(self.unit, str):
+            object.__setattr__(self, "unit", self.unit.translate(MICRO))
         check(self, "feature")
-        self._check_shape()
+        self.take_map() if self.shape == "map" else self._check_shape()
 
     def _check_shape(self):
         if self.shape == "furrow" and self.height > 0:
@@ -45,10 +55,14 @@ class Feature:
         if self.shape in ("waviness", "rough") and self.extent_x <= 0:
             raise SceneError(f"feature.extent_x = {self.extent_x:g} m: {self.shape} needs the length of its patch, more "
                              "than 0 m")
-        if self.shape == "map":
-            check_file(self.file)
-        elif self.file:
-            raise SceneError(f"feature.file = {self.file!r} needs shape = 'map', not {self.shape!r}")
+        for key in ("file", "unit"):
+            if getattr(self, key):
+                raise SceneError(f"feature.{key} = {getattr(self, key)!r} needs shape = 'map', not {self.shape!r}")
+
+    @property
+    def top(self):
+        """Largest height (m)."""
+        return self.measures.high if self.shape == "map" else self.height
 
     @property
     def reach(self):
@@ -69,10 +83,8 @@ class Feature:
     @property
     def patch(self):
         """(length along x, along y) in m of the patch of a waviness, rough or map feature."""
-        if self.shape != "map":
-            return self.extent_x, self.extent_y or math.inf
-        rows, columns = read(self.file, self.level).shape
-        return self.extent_x or (columns - 1) * self.pixel, self.extent_y or (rows - 1) * self.pixel
+        length, width = self.size if self.shape == "map" else (0.0, math.inf)
+        return self.extent_x or length, self.extent_y or width
 
     @property
     def transverse(self):

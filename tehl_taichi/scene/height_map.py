@@ -1,41 +1,72 @@
-"""Measured height maps: reading and levelling. Rows run along y, columns along x."""
+"""Measured height maps: reading, levelling, measuring. Rows run along y, columns along x.
 
-from functools import lru_cache
+Heights are known by the sha256 of their numbers, not by the name of their file: a file that changes does not change a
+feature that was made from it, and a store that holds the heights needs no file.
+"""
+
+import hashlib
+import math
+import weakref
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from tehl_taichi.errors import SceneError
 
+UNITS = {"nm": 1e-9, "um": 1e-6, "mm": 1e-3, "m": 1.0}  # of the heights in a file, m
+MICRO = str.maketrans({"\u00b5": "u", "\u03bc": "u"})  # micro sign and Greek mu, as in µm
+_known = weakref.WeakValueDictionary()  # sha256 -> heights, as long as a feature holds them
 
-def check_file(file):
-    """Refuse a file that is not there; what is in it is checked when it is read."""
+
+def keep(values):
+    """(sha256, heights): heights known by their hash for as long as the caller holds them. values: (rows, columns)."""
+    values = np.array(values, "<f8", order="C")
+    values.setflags(write=False)
+    digest = hashlib.sha256(repr(values.shape).encode() + values.tobytes()).hexdigest()
+    return digest, _known.setdefault(digest, values)
+
+
+def fetch(file, sha256=""):
+    """(sha256, heights in the unit of the file) of the file, or of what is known under `sha256`.
+
+    Raises SceneError when there is no such file, it is no regular grid of at least 4 x 4 finite numbers, or its heights are
+    other than those of `sha256`.
+    """
+    known = _known.get(sha256)
+    if known is not None:
+        return sha256, known
+    found, values = keep(read(file))
+    if sha256 and found != sha256:
+        raise SceneError(f"feature.file = {file!r} holds other heights than when this scene was made (feature.sha256 = "
+                         f"{sha256[:12]}..., not {found[:12]}...); take feature.sha256 out to use the file as it is now")
+    return found, values
+
+
+def read(file):
+    """Heights (rows, columns) in the unit of the file. Raises SceneError."""
+    path = Path(file)
     if not file:
         raise SceneError("feature.file is missing: shape 'map' needs a CSV or NPY file of heights")
-    if not Path(file).is_file():
+    if not path.is_file():
         raise SceneError(f"feature.file = {str(file)!r} does not exist")
-
-
-@lru_cache(maxsize=8)
-def read(file, level="none"):
-    """Heights (rows, columns) in the unit of the file, levelled: nothing, the mean or a plane taken off.
-
-    Raises SceneError when the file is no regular grid of at least 4 x 4 finite numbers.
-    """
-    values = _load(Path(file))
+    values = _load(path)
     if values.ndim != 2 or min(values.shape) < 4 or not np.isfinite(values).all():
         raise SceneError(f"feature.file = {str(file)!r} must hold a grid of at least 4 x 4 finite heights, not one of shape "
                          f"{values.shape} with {int((~np.isfinite(values)).sum())} missing values")
-    return values - _trend(values, level)
+    return values
 
 
 def _load(path):
     try:
         if path.suffix == ".npy":
-            return np.asarray(np.load(path, allow_pickle=False), float)
+            values = np.load(path, allow_pickle=False)
+            if values.dtype.kind not in "fiu":
+                raise ValueError(f"it holds {values.dtype}, not numbers")
+            return values.astype(float)
         if path.suffix in (".csv", ".txt", ".asc"):
             return np.loadtxt(path, delimiter="," if path.suffix == ".csv" else None, ndmin=2)
-    except (ValueError, OSError) as error:
+    except (ValueError, OSError, EOFError) as error:
         raise SceneError(f"cannot read heights from {path}: {error}") from None
     return _surface_topography(path)
 
@@ -52,10 +83,59 @@ def _surface_topography(path):
         raise SceneError(f"cannot read heights from {path}: {error}") from None
 
 
-def _trend(values, level):
+def levelled(values, level):
+    """Heights with nothing ("none"), their mean or a plane (least squares) taken off."""
     if level == "none":
-        return 0.0
+        return values
+    centred = values - values.mean()
     if level == "mean":
-        return values.mean()
+        return centred
     y, x = (q - q.mean() for q in np.mgrid[: values.shape[0], : values.shape[1]].astype(float))
-    return values.mean() + x * (x * values).sum() / (x * x).sum() + y * (y * values).sum() / (y * y).sum()
+    return centred - x * (x * values).sum() / (x * x).sum() - y * (y * values).sum() / (y * y).sum()
+
+
+@dataclass(frozen=True)
+class Measures:
+    """Lowest and highest height, rms about their mean (m) and largest slope between neighbours (degrees)."""
+
+    low: float
+    high: float
+    rms: float
+    slope: float
+
+    @classmethod
+    def of(cls, heights, pixel):
+        """heights: (rows, columns) in m, points `pixel` m apart."""
+        along, across = np.diff(heights, axis=1)[:-1], np.diff(heights, axis=0)[:, :-1]
+        slope = math.degrees(math.atan(float(np.hypot(along, across).max()) / pixel))
+        return cls(float(heights.min()), float(heights.max()), float(heights.std()), slope)
+
+    @property
+    def range(self):
+        return self.high - self.low
+
+
+def missed(heights, along, across):
+    """Share of the rms of `heights` that is lost when only every `along`-th point along x and `across`-th along y (need not be
+    whole) is kept and the rest taken as linear between: what a grid of such cells does not see."""
+    rms = float(heights.std())
+    seen = _through(_through(heights, along).T, across).T
+    return float((heights - seen).std()) / rms if rms > 0 else 0.0
+
+
+def _through(values, step):
+    """Rows of `values` by way of points `step` apart; the last stretch, where there is none, as it is."""
+    count = int((values.shape[1] - 1) / step) if step > 1 else 0
+    if count == 0:
+        return values
+    whole = np.arange(int(count * step) + 1)
+    coarse = _linear(values, np.minimum(np.arange(count + 1) * step, values.shape[1] - 1))
+    out = values.copy()
+    out[:, whole] = _linear(coarse, np.minimum(whole / step, count))
+    return out
+
+
+def _linear(values, at):
+    """Rows of `values` at the positions `at` (in points), linear between."""
+    low = np.minimum(at.astype(int), values.shape[1] - 2)
+    return values[:, low] * (1 - (at - low)) + values[:, low + 1] * (at - low)

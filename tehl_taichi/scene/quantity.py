@@ -89,7 +89,7 @@ class Choice(Kind):
 
     @property
     def allowed(self):
-        return ", ".join(word or '""' for word in self.words)
+        return ", ".join(filter(None, self.words))
 
 
 @dataclass(frozen=True)
@@ -132,8 +132,8 @@ class Pairs(Kind):
                 checks.number(where, entry)
 
 
-def _declared(default, kind):
-    return dataclasses.field(default=default, metadata={"kind": kind})
+def _declared(default, kind, compare=True):
+    return dataclasses.field(default=default, compare=compare, metadata={"kind": kind})
 
 
 def quantity(default, unit, about, low=-math.inf, high=math.inf, strict=False, infinite=False):
@@ -161,9 +161,9 @@ def switch(default, about, auto=False):
     return _declared(default, Switch(about, auto))
 
 
-def text(default, about):
-    """Field: words."""
-    return _declared(default, Text(about))
+def text(default, about, compare=True):
+    """Field: words; compare: whether they make two scenes different."""
+    return _declared(default, Text(about), compare)
 
 
 def pairs(default, about):

@@ -75,7 +75,7 @@ class Scene:
         if self.contact.kind != "line" and self.grid.y_max < BEYOND:
             raise SceneError(f"grid.y_max = {self.grid.y_max:g} b: a {self.contact.kind} contact reaches to 1; allowed: at "
                              f"least {BEYOND:g} b")
-        highest, s = max((f.height for f in self.features if f.shape != "map"), default=0.0), scales.Scales.of(self)
+        highest, s = max((f.top for f in self.features), default=0.0), scales.Scales.of(self)
         need = math.sqrt(2 * max(highest, 0.0) / s.h)
         for key, end in (("x_min", self.grid.x_min), ("x_max", self.grid.x_max)):
             if self.transient and abs(end) < need:
@@ -264,6 +264,8 @@ def _assign(data, dotted, value):
         raise SceneError(f"unknown key {dotted}{nearest(last, target_keys)}; known: {', '.join(map(str, target_keys))}")
     if target is data.get("contact") and last in ("load", "hertz_pressure"):
         target.update(load=0.0, hertz_pressure=0.0, moes_M=0.0, moes_L=0.0)
+    if last == "file":
+        target["sha256"] = ""  # another file, other heights
     if dotted == "oil.name" and value in oils.OILS:
         data["oil"] = dataclasses.asdict(oils.OILS[value])
     else:

@@ -1,0 +1,51 @@
+"""The height maps of a scene inside its store: what a store needs to be shown, resumed and run again without their files."""
+
+import json
+
+import zarr
+
+from tehl_taichi.errors import StoreError
+from tehl_taichi.scene import Scene, height_map
+
+
+def write(group, scene):
+    """Store the heights of the scene's maps, as they were read, each once, under the hash that its feature names."""
+    for feature in scene.features:
+        if feature.shape == "map" and _name(feature.sha256) not in group:
+            name = _name(feature.sha256)
+            array = group.create_array(name, shape=feature.heights.shape, dtype="f8",
+                                       dimension_names=[f"{name}_y", f"{name}_x"])
+            array.attrs.update({"units": feature.unit, "long_name": "measured heights, not levelled", "sha256": feature.sha256,
+                                "pixel_m": feature.pixel, "file": feature.file})
+            array[...] = feature.heights
+
+
+def read_scene(path, text):
+    """The scene (JSON text) of the store at `path`; its maps come from the store, whatever has become of their files.
+
+    Raises StoreError when stored heights are not those of their hash. A store of version 0.1.0 has only the name of the file.
+    """
+    data = json.loads(text)
+    maps = [feature for feature in data["feature"] if feature["shape"] == "map"]
+    held = [_heights(path, feature["sha256"]) for feature in maps if "sha256" in feature]  # known until the scene has them
+    for feature in maps:
+        if "unit" not in feature:  # version 0.1.0: height is m per unit of the file
+            feature.update(unit="m", scale=feature.pop("height"))
+    scene = Scene.from_dict(data)
+    del held
+    return scene
+
+
+def _heights(path, sha256):
+    try:
+        found, values = height_map.keep(zarr.open_array(str(path / _name(sha256)), mode="r")[...])
+    except Exception as error:
+        raise StoreError(f"{path / _name(sha256)}: the stored height map cannot be read: {error}") from None
+    if found != sha256:
+        raise StoreError(f"{path / _name(sha256)}: the stored height map is damaged (its sha256 begins with {found[:12]}, not "
+                         f"{sha256[:12]})")
+    return values
+
+
+def _name(sha256):
+    return f"map_{sha256[:16]}"

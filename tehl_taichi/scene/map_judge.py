@@ -1,0 +1,93 @@
+"""What a measured height map is and whether unit, pixel and grid suit it: lines printed before a run, and doubts."""
+
+import os
+
+import numpy as np
+
+from tehl_taichi.scene.height_map import missed
+from tehl_taichi.scene.scales import Scales
+
+FLAT = 1e-9  # m rms: a tenth of a percent of the thinnest films of this kind (1 um), and less than one molecule
+STEEP = 10.0  # degrees: the film equation takes slopes for small (tan 10 deg = 0.18)
+SHARE = 0.1  # of the rms that a grid, or the map's own points, may miss: a wave of six cells
+RIM = 0.1  # of the rms: a step at the rim below that is roughness like the rest
+JUDGED = 1024  # points along each side, from the middle, that are judged
+
+
+def preview(scene):
+    """Two lines for each map of a scene: what was read, and what passes through the contact."""
+    return [line for feature in _maps(scene) for line in _lines(feature, cells(scene))]
+
+
+def doubts(scene):
+    """Sentences about maps that are flat or steep, finer or coarser than the grid, or end in a step."""
+    return [sentence for feature in _maps(scene) for check in (_size, _grid, _rim) for sentence in check(feature, scene)]
+
+
+def cells(scene):
+    """(along x, along y): size of a cell of the grid in m."""
+    s, g = Scales.of(scene), scene.grid
+    return (g.x_max - g.x_min) * s.a / g.nx, g.y_max * s.b / g.ny
+
+
+def _maps(scene):
+    return [feature for feature in scene.features if feature.shape == "map"]
+
+
+def _lines(f, cell):
+    (rows, columns), m, name = f.heights.shape, f.measures, f"map {os.path.basename(f.file)}"
+    heights = f"heights in {f.unit}" + (f" times {f.scale:g}" if f.scale != 1 else "")
+    off = {"none": "nothing", "mean": "mean", "plane": "plane"}[f.level]
+    yield (f"{name}: {columns} x {rows} points {_um(f.pixel)} um apart, {_um(f.patch[0])} x {_um(f.patch[1])} um of them used, "
+           f"{heights}, {off} taken off")
+    yield (f"{name}: {_um(m.low)} to {_um(m.high)} um (range {_um(m.range)} um), rms {_um(m.rms)} um, largest slope "
+           f"{m.slope:.2g} deg; a cell of the grid has {cell[0] / f.pixel:.3g} x {cell[1] / f.pixel:.3g} points")
+
+
+def _um(value):
+    return f"{value * 1e6:.3g}"
+
+
+def _size(f, scene):
+    m, told = f.measures, f"{_name(f)}: heights in {f.unit}"
+    if m.rms < FLAT:
+        yield f"{told} have an rms of {m.rms * 1e9:.2g} nm, nothing to a film; is feature.unit = {f.unit!r} right?"
+    if m.slope > STEEP:
+        yield (f"{told} have slopes up to {m.slope:.3g} deg; the film equation takes slopes for small (below {STEEP:g} deg): "
+               "spikes of the measurement?")
+
+
+def _name(f):
+    return f"feature.file = {os.path.basename(f.file)!r}"
+
+
+def _grid(f, scene):
+    steps, heights = [size / f.pixel for size in cells(scene)], _middle(f.used)
+    lost, own = missed(heights, *steps), missed(heights, 2, 2)
+    if lost > SHARE:
+        yield f"{_name(f)}: the grid misses {lost:.0%} of the map's rms ({_finer(heights, steps, scene.grid)})"
+    if min(steps) < 1 and own > SHARE:
+        yield (f"{_name(f)}: points {_um(f.pixel)} um apart are {1 / min(steps):.2g} cells and do not resolve their own "
+               f"roughness ({own:.0%} of the rms changes without every second one); heights are taken as linear between them")
+
+
+def _finer(heights, steps, grid):
+    """The grid that would see it, in words."""
+    factor = 2
+    while missed(heights, steps[0] / factor, steps[1] / factor) > SHARE:  # ends at the map's own points
+        factor *= 2
+    nx, ny = grid.nx * factor, grid.ny * factor
+    return f"--grid {nx}x{ny} sees it" if nx <= 8192 and ny <= 4096 else "so does every grid up to 8192 x 4096: filter the map"
+
+
+def _middle(heights):
+    """The middle of a large map."""
+    cut = [max(0, (n - JUDGED) // 2) for n in heights.shape]
+    return heights[cut[0]:heights.shape[0] - cut[0], cut[1]:heights.shape[1] - cut[1]]
+
+
+def _rim(f, scene):
+    used = f.used
+    step = max(float(np.abs(edge).max()) for edge in (used[0], used[-1], used[:, 0], used[:, -1]))
+    if f.taper == 0 and step > RIM * f.measures.rms:
+        yield f"{_name(f)} ends in a step of up to {_um(step)} um at its rim; feature.taper (m) lets it fade out"
