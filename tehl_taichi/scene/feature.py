@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene.checks import choice, integer, number
+from tehl_taichi.scene.checks import choice, integer, normalise, number, text
 from tehl_taichi.scene.height_map import check_file, read
 
 SHAPES = ("cosine", "ridge", "furrow", "waviness", "rough", "map")
@@ -39,6 +39,8 @@ class Feature:
     level: str = "plane"
 
     def __post_init__(self):
+        normalise(self)
+        text("feature.file", self.file, 4096)
         choice("feature.shape", self.shape, SHAPES)
         highest = 1e3 if self.shape == "map" else 1e-3
         number("feature.height", self.height, "m", -highest, highest)

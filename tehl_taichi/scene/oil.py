@@ -5,9 +5,25 @@ import math
 from dataclasses import dataclass
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene.checks import choice, nearest, number
+from tehl_taichi.scene.checks import build, choice, nearest, normalise, number, text
+from tehl_taichi.scene.plain import shown
 
-VISCOSITY_LAWS = ("roelands-temperature", "roelands", "barus", "houpert", "yasutomi", "table")
+# the numbers of each viscosity law: those that a new oil must bring, and those whose default is good for most oils
+LAW_NUMBERS = {"roelands-temperature": ("G0", "S0", "Dz", "Cz"), "roelands": ("eta0", "alpha", "Z"), "barus": ("eta0", "alpha"),
+               "houpert": ("eta0", "alpha", "S0", "Gamma0"), "table": ("table",),
+               "yasutomi": ("eta_g", "Tg0", "A1", "A2", "B1", "B2", "C1", "C2")}
+MORE_NUMBERS = {"roelands": ("p_r",), "houpert": ("p_r",), "barus": ("beta_eta", "Gamma0")}
+VISCOSITY_LAWS = tuple(LAW_NUMBERS)
+OF_LAWS = {key for numbers in (*LAW_NUMBERS.values(), *MORE_NUMBERS.values()) for key in numbers}
+RANGES = {"eta0": ("Pa s", 1e-6, 1e4), "alpha": ("1/Pa", 1e-10, 1e-6), "p_r": ("Pa", 1e6, 1e10), "Z": ("", 1e-3, 3.0),
+          "G0": ("", 0, 20), "S0": ("", 0, 10), "Dz": ("", -5, 5), "Cz": ("", -5, 5), "Gamma0": ("deg C", -100, 300),
+          "beta_eta": ("1/K", 0, 1), "eta_g": ("Pa s", 1, 1e20), "Tg0": ("deg C", -250, 200), "A1": ("K", 0, 1e4),
+          "A2": ("1/Pa", 0, 1e-6), "B1": ("", 0, 10), "B2": ("1/Pa", 0, 1e-6), "C1": ("", 0.1, 100), "C2": ("K", 0.1, 1e3),
+          "rho0": ("kg/m3", 100, 5000), "D1": ("1/Pa", 0, 1e-7), "D2": ("1/Pa", 0, 1e-7), "beta0": ("1/K", 0, 1e-2),
+          "beta_c": ("1/Pa", 0, 1e-7), "k0": ("W/mK", 1e-3, 10), "k1": ("1/Pa", 0, 1e-7), "k2": ("1/Pa", 0, 1e-7),
+          "c0": ("J/kgK", 100, 1e4), "c1": ("1/Pa", 0, 1e-7), "c2": ("1/Pa", 0, 1e-7), "b0": ("1/K", -1e-2, 1e-2),
+          "b1": ("1/Pa", -1e-7, 1e-7), "b2": ("1/Pa2", -1e-15, 1e-15)}
+MOST_PAIRS = 100  # of oil.table: each is a piece of the compiled law
 
 
 @dataclass(frozen=True)
@@ -58,22 +74,32 @@ class Oil:
     b2: float = -1.5e-18
 
     def __post_init__(self):
+        normalise(self)
+        text("oil.name", self.name, 100, empty=False)
+        text("oil.source", self.source, printable=False)
         choice("oil.viscosity", self.viscosity, VISCOSITY_LAWS)
         choice("oil.expansion", self.expansion, ("thermal", "always", "never"))
-        for key, unit, low, high in (("eta0", "Pa s", 1e-6, 1e4), ("alpha", "1/Pa", 1e-10, 1e-6),
-                                     ("p_r", "Pa", 1e6, 1e10), ("Z", "", 1e-3, 3.0), ("rho0", "kg/m3", 100, 5000),
-                                     ("D1", "1/Pa", 0, 1e-7), ("D2", "1/Pa", 0, 1e-7), ("beta0", "1/K", 0, 1e-2),
-                                     ("beta_c", "1/Pa", 0, 1e-7), ("k0", "W/mK", 1e-3, 10), ("c0", "J/kgK", 100, 1e4),
-                                     ("beta_eta", "1/K", 0, 1), ("G0", "", 0, 20), ("S0", "", 0, 10)):
+        for key, (unit, low, high) in RANGES.items():
             number(f"oil.{key}", getattr(self, key), unit, low, high)
-        if self.viscosity == "table":
-            self._check_table()
+        self._check_table()
 
     def _check_table(self):
         pairs = self.table
-        rising = all(len(q) == 2 for q in pairs) and all(a[0] < b[0] for a, b in zip(pairs, pairs[1:]))
-        if len(pairs) < 2 or not rising:
-            raise SceneError("oil.table needs at least two pairs [p in Pa, ln(eta/Pa s)] with rising p")
+        if not isinstance(pairs, tuple) or not all(isinstance(pair, tuple) and len(pair) == 2 for pair in pairs):
+            raise SceneError(f"oil.table = {shown(pairs)} must be a list of pairs [p in Pa, ln(eta/Pa s)]")
+        for p, ln_eta in pairs:
+            number("oil.table: a pressure", p, "Pa", 0.0, 1e11)
+            number("oil.table: ln(eta/Pa s)", ln_eta, "", -20.0, 200.0)
+        object.__setattr__(self, "table", tuple((float(p), float(ln_eta)) for p, ln_eta in pairs))
+        rising = all(a[0] < b[0] for a, b in zip(pairs, pairs[1:]))
+        if (pairs or self.viscosity == "table") and not (2 <= len(pairs) <= MOST_PAIRS and rising):
+            raise SceneError(f"oil.table has {len(pairs)} pairs [p in Pa, ln(eta/Pa s)]; allowed: 2 to {MOST_PAIRS}, with "
+                             "rising p")
+
+    @property
+    def law_numbers(self):
+        """Names of the numbers that its viscosity law takes."""
+        return (*LAW_NUMBERS[self.viscosity], *MORE_NUMBERS.get(self.viscosity, ()))
 
 
 OILS = {
@@ -98,8 +124,25 @@ def oil(name):
 
 
 def from_values(values):
-    """Oil from a table; `name` of a known oil gives the values that are not named."""
-    from tehl_taichi.scene.checks import build
+    """Oil from a table. The name of a known oil gives the values that are not named; a new name must bring the numbers of its
+    viscosity law (see :func:`check_new`), the others are those of the reference oil."""
+    if not isinstance(values, dict):
+        return build(Oil, values, "oil")
+    name = values.get("name", Oil.name)
+    if isinstance(name, str) and name in OILS:
+        return build(Oil, {**dataclasses.asdict(OILS[name]), **values}, "oil")
+    check_new(name, values)
+    return build(Oil, {"source": NO_SOURCE, **values}, "oil")
 
-    base = dataclasses.asdict(OILS[values["name"]]) if values.get("name") in OILS else {}
-    return build(Oil, {**base, **values}, "oil")
+
+NO_SOURCE = "not given"
+
+
+def check_new(name, given):
+    """Refuse a name that no known oil has unless its viscosity law and the numbers of that law are given with it."""
+    text("oil.name", name, 100, empty=False)
+    law = given.get("viscosity")
+    missing = [key for key in ("viscosity", *LAW_NUMBERS.get(law if isinstance(law, str) else None, ())) if key not in given]
+    if missing:
+        raise SceneError(f"oil.name = {name!r} is not known{nearest(name, OILS)}; known: {', '.join(OILS)}; a new oil brings "
+                         f"its viscosity law and its numbers: oil.{', oil.'.join(missing)} missing")

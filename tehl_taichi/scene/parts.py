@@ -5,7 +5,8 @@ from dataclasses import dataclass
 from typing import Union
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene.checks import choice, flag, integer, number
+from tehl_taichi.scene.checks import choice, flag, integer, normalise, number, text
+from tehl_taichi.scene.plain import shown
 
 
 @dataclass(frozen=True)
@@ -25,6 +26,7 @@ class Contact:
     moes_L: float = 0.0
 
     def __post_init__(self):
+        normalise(self)
         choice("contact.kind", self.kind, ("line", "point", "elliptic"))
         number("contact.radius_x", self.radius_x, "m", 1e-6, 1e3)
         number("contact.radius_y", self.radius_y, "m", 1e-6, infinite=True)
@@ -69,6 +71,7 @@ class Body:
     alpha: float = 12e-6
 
     def __post_init__(self):
+        normalise(self)
         number("bodies.alpha", self.alpha, "1/K", 0.0, 1e-3)
         number("bodies.E", self.E, "Pa", 1e6, 1e13)
         number("bodies.nu", self.nu, "", 0.0, 0.499)
@@ -86,6 +89,7 @@ class Operation:
     temperature: float = 90.0
 
     def __post_init__(self):
+        normalise(self)
         number("operation.u_m", self.u_m, "m/s", 0.0, 1e3)
         if self.u_m < 1e-6:
             raise SceneError(f"operation.u_m = {self.u_m:g} m/s: without entrainment there is no film and SRR "
@@ -124,6 +128,7 @@ class Rheology:
     film_floor: float = 5e-6
 
     def __post_init__(self):
+        normalise(self)
         choice("rheology.law", self.law, ("limiting", "newtonian", "eyring", "carreau"))
         number("rheology.tau_L0", self.tau_L0, "Pa", 1e3, 1e9)
         number("rheology.gamma", self.gamma, "", 0.0, 1.0)
@@ -138,8 +143,8 @@ AUTO = "auto"
 
 def auto_flag(where, value):
     """Refuse anything but true, false or "auto"."""
-    if value not in (True, False, AUTO):
-        raise SceneError(f"{where} = {value!r} must be true, false or {AUTO!r}")
+    if not isinstance(value, bool) and value != AUTO:
+        raise SceneError(f"{where} = {shown(value)} must be true, false or {AUTO!r}")
 
 
 @dataclass(frozen=True)
@@ -157,6 +162,7 @@ class Thermal:
     rounds: int = 8
 
     def __post_init__(self):
+        normalise(self)
         auto_flag("thermal.on", self.on)
         integer("thermal.nodes", self.nodes, 5, 33)
         number("thermal.tolerance", self.tolerance, "K", 1e-6, 10.0)
@@ -189,17 +195,20 @@ class Fatigue:
     to_x: float = math.inf
 
     def __post_init__(self):
+        normalise(self)
         flag("fatigue.on", self.on)
         choice("fatigue.criterion", self.criterion, ("findley", "findley-chord", "matake", "dang-van"))
         flag("fatigue.shear", self.shear)
         auto_flag("fatigue.thermal_stress", self.thermal_stress)
         for key in ("residual_xx", "residual_yy"):
             number(f"fatigue.{key}", getattr(self, key), "Pa", -1e10, 1e10)
+        text("fatigue.source", self.source, printable=False)
+        for key in ("from_x", "to_x"):
+            number(f"fatigue.{key}", getattr(self, key), "a", infinite=True)
         if not self.from_x < self.to_x:
-            raise SceneError(f"fatigue.from_x = {self.from_x!r} a must be less than to_x = {self.to_x!r} a")
-        if not isinstance(self.depths, (tuple, list)):
-            raise SceneError(f"fatigue.depths = {self.depths!r} must be a list of depths in m, as [50e-6, 100e-6]")
-        object.__setattr__(self, "depths", tuple(self.depths))
+            raise SceneError(f"fatigue.from_x = {self.from_x:g} a must be less than to_x = {self.to_x:g} a")
+        if not isinstance(self.depths, tuple):
+            raise SceneError(f"fatigue.depths = {shown(self.depths)} must be a list of depths in m, as [50e-6, 100e-6]")
         for depth in self.depths:
             number("fatigue.depths", depth, "m", 1e-7, 0.1)
         number("fatigue.kappa", self.kappa, "", 0.0, 5.0)
@@ -218,6 +227,7 @@ class Grid:
     y_max: float = 1.0
 
     def __post_init__(self):
+        normalise(self)
         integer("grid.nx", self.nx, 32, 8192)
         integer("grid.ny", self.ny, 8, 4096)
         for key, multiple in (("nx", 16), ("ny", 4)):
@@ -241,11 +251,14 @@ class Time:
     steps: int = 0
 
     def __post_init__(self):
+        normalise(self)
         flag("time.steady_only", self.steady_only)
         number("time.x_start", self.x_start, "a", high=20.0, infinite=True)
         number("time.x_end", self.x_end, "a", -20.0, infinite=True)
         number("time.courant", self.courant, "", 0.05, 4.0)
         integer("time.steps", self.steps, 0, 10**7)
+        if self.steady_only and self.steps:
+            raise SceneError(f"time.steady_only = true and time.steps = {self.steps} contradict each other: give one of them")
 
 
 @dataclass(frozen=True)
@@ -267,6 +280,7 @@ class Numerics:
     estimate_error: bool = False
 
     def __post_init__(self):
+        normalise(self)
         flag("numerics.estimate_error", self.estimate_error)
         number("numerics.tolerance", self.tolerance, "", 1e-11, 1e-3)
         number("numerics.mass_tolerance", self.mass_tolerance, "", 1e-9, 1.0)
@@ -283,5 +297,6 @@ class Output:
     profiles: bool = False
 
     def __post_init__(self):
+        normalise(self)
         flag("output.profiles", self.profiles)
         integer("output.every", self.every, 1, 10**6)
