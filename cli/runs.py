@@ -59,16 +59,15 @@ def run(
     from tehl_taichi.io.found import find
     from tehl_taichi.io.store import check_free
 
-    changes = {"srr": srr, "load": load, "hertz_pressure": hertz_pressure, "speed": speed, "temperature": temperature,
-               "height": height, "width": width, "kappa": kappa, "endurance": endurance, "thermal.on": thermal,
-               "fatigue.on": fatigue, "numerics.estimate_error": estimate_error, "numerics.precision": precision,
-               "time.steps": steps, "time.steady_only": True if steady else None}
-    changes = {key: value for key, value in changes.items() if value is not None}
-    changes.update(_grid(grid))
-    changes.update(_settings(set_ or []))
+    changes = _changes(
+        {"srr": srr, "load": load, "hertz_pressure": hertz_pressure, "speed": speed, "temperature": temperature,
+         "height": height, "width": width, "kappa": kappa, "endurance": endurance, "time.steps": steps, "thermal.on": thermal,
+         "fatigue.on": fatigue, "numerics.estimate_error": estimate_error, "numerics.precision": precision,
+          "time.steady_only": steady or None},
+        grid, set_ or [])
     description = find(scene)
     description = description.replace(**changes) if changes else description
-    description = _on_grid_for(target_error, grid, description)
+    description = _on_grid_for(target_error, changes, description)
     _check_threads(threads)
     path = out or _fresh(description.name)
     if not (force and _is_store(path)):
@@ -195,6 +194,23 @@ def _passage_error(saved, fatigue, quiet):
     return estimate.errors(saved.scene, passage_values(saved, fatigue), None if quiet else say)
 
 
+# options by another name than their key
+WORDS = {("thermal.on", True): "--thermal", ("thermal.on", False): "--isothermal", ("time.steady_only", True): "--steady",
+         ("fatigue.on", True): "--fatigue", ("fatigue.on", False): "--no-fatigue",
+         ("numerics.estimate_error", True): "--estimate-error", ("numerics.estimate_error", False): "--no-estimate-error"}
+
+
+def _changes(options, grid, settings):
+    """{full key: value} of the options that were used and of --set; SceneError where two of them contradict each other."""
+    from tehl_taichi.scene.given import settled
+
+    used = [(key, value) for key, value in options.items() if value is not None]
+    given = [(WORDS.get((key, value), f"--{key.replace('time.', '').replace('_', '-')} {value:g}"), key, value)
+             for key, value in used]
+    given += [(f"--grid {grid}", key, value) for key, value in _grid(grid).items()]
+    return settled([*given, *_settings(settings)])
+
+
 def _grid(text):
     if text is None:
         return {}
@@ -210,7 +226,7 @@ def _grid(text):
     return {"grid.nx": nx, "grid.ny": ny}
 
 
-def _on_grid_for(target, grid, description):
+def _on_grid_for(target, changes, description):
     """The scene on the grid that a target error needs."""
     if target is None:
         return description
@@ -218,8 +234,8 @@ def _on_grid_for(target, grid, description):
 
     from tehl_taichi.scene import SceneError
 
-    if grid is not None:
-        raise SceneError(f"--target-error {target} chooses the grid; leave out --grid {grid}")
+    if {"grid.nx", "grid.ny"} & changes.keys():
+        raise SceneError(f"--target-error {target} chooses the grid; leave out --grid")
     nx, ny = grid_for(description, _share(target))
     say(f"{nx} x {ny} cells for an error of {target}")
     return description.replace(**{"grid.nx": nx, "grid.ny": ny})
@@ -238,20 +254,26 @@ def _share(text):
 
 
 def _settings(pairs):
-    import tomllib
-
+    """(words, key, value) of every --set."""
     from tehl_taichi.scene import SceneError
 
-    out = {}
+    out = []
     for pair in pairs:
         key, equals, text = pair.partition("=")
         if not equals:
             raise SceneError(f"--set {pair!r} must look like dotted.key=value, as in feature.height=1e-6")
-        try:
-            out[key.strip()] = tomllib.loads(f"v = {text}")["v"]
-        except tomllib.TOMLDecodeError:
-            out[key.strip()] = text
+        out.append((f"--set {pair}", key.strip(), _value(text)))
     return out
+
+
+def _value(text):
+    """The value of a --set, as TOML reads it; what is no TOML value is text."""
+    import tomllib
+
+    try:
+        return tomllib.loads(f"v = {text}")["v"]
+    except (ValueError, RecursionError):
+        return text
 
 
 def _check_threads(threads):

@@ -4,7 +4,7 @@ import numpy as np
 
 from tehl_taichi import __version__
 from tehl_taichi.io import judge
-from tehl_taichi.physics.limits import GAMMA_MEASURED, P_MEASURED
+from tehl_taichi.scene.limits import GAMMA_MEASURED, P_MEASURED
 from tehl_taichi.scene.scales import Scales
 
 

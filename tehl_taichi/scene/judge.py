@@ -1,6 +1,6 @@
 """What is doubtful in a scene although it can be simulated, a sentence each: the warnings that are known before a run."""
 
-from tehl_taichi.scene import map_judge, route
+from tehl_taichi.scene import map_judge, oil_range, passing, route
 
 
 def warnings(scene):
@@ -16,4 +16,4 @@ def cut_passage(scene):
                f"{route.uncut(scene).path[1]:.2f} a; `tehl resume STORE` goes on")
 
 
-CHECKS = (cut_passage, map_judge.doubts)  # functions of a scene that give its sentences
+CHECKS = (passing.warnings, oil_range.warnings, cut_passage, map_judge.doubts)  # functions of a scene that give its sentences

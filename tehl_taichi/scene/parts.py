@@ -137,7 +137,7 @@ class Fatigue:
     on: bool = switch(True, "stresses and fatigue index of a passage")
     kappa: float = quantity(0.3, "", "sensitivity to normal stress", 0.0, 5.0)
     endurance: float = quantity(400e6, "Pa", "fatigue limit sigma_eF: Fi = 1", 1e3, 1e11)
-    source: str = text("example values, set your own", "where kappa and endurance come from")
+    source: str = text("example values, set your own", "where kappa and endurance come from", one_line=False)
     criterion: str = choice("findley", "fatigue criterion", ("findley", "findley-chord", "matake", "dang-van"))
     depths: tuple = quantities((), "m", "depths below the surface that are searched too, as [50e-6, 100e-6]", 1e-7, 0.1)
     shear: bool = switch(True, "whether the shear tractions count")
@@ -185,6 +185,8 @@ class Time:
 
     def __post_init__(self):
         check(self, "time")
+        if self.steady_only and self.steps > 0:
+            raise SceneError(f"time.steady_only = true and time.steps = {self.steps} contradict each other: give one of them")
 
 
 @dataclass(frozen=True)
