@@ -5,6 +5,7 @@ import math
 from dataclasses import dataclass
 
 from tehl_taichi.errors import SceneError
+from tehl_taichi.scene import checks
 from tehl_taichi.scene.checks import build, nearest
 from tehl_taichi.scene.quantity import check, choice, pairs, quantity, text
 
@@ -119,7 +120,7 @@ NO_SOURCE = "not given"
 
 def check_new(name, given):
     """Refuse a name that no known oil has unless its viscosity law and the numbers of that law are given with it."""
-    text("oil.name", name, 100, empty=False)
+    checks.text("oil.name", name, 100, empty=False)
     law = given.get("viscosity")
     missing = [key for key in ("viscosity", *LAW_NUMBERS.get(law if isinstance(law, str) else None, ())) if key not in given]
     if missing:
