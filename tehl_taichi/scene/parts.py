@@ -111,6 +111,9 @@ class Operation:
 class Rheology:
     """Shear law of the film and friction of solid contact.
 
+    The law acts wherever the surfaces slip, in flow, friction and heat, with and without temperatures; "newtonian" is the film
+    that isothermal film formulas and most published films are of (its friction under pressure is not that of any oil).
+
     law: limiting (tau_L = tau_L0 + gamma p, smooth), eyring (tau_0), carreau (tau_0, carreau_n) or newtonian;
     mu_boundary: friction where surfaces touch; film_floor: H at which they touch (Everitt 2018), in a^2/R'.
     """
