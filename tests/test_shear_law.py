@@ -154,3 +154,13 @@ def test_a_sheared_film_flows_more_easily():
     assert thin.scalars["h_c_m"] == pytest.approx(thick.scalars["h_c_m"], rel=1e-3)
     assert np.abs(thin.fields["pressure"] - thick.fields["pressure"]).max() > 1e-3 * thick.scalars["p_max_Pa"]
     assert thick.scalars["friction_coefficient"] > 5 and thin.scalars["friction_coefficient"] < 0.08  # no oil bears the former
+
+
+def test_a_start_with_much_slip_does_not_end_on_the_floor():
+    """SRR 1.7, 3.6 GPa, 117 deg C on 64 columns: sheared from the first guess on, all of the contact would touch."""
+    from tehl_taichi.simulation import march
+
+    shot = next(march(film(hertz_pressure=3.6e9, srr=1.7, speed=15.3, temperature=117.0, **{"grid.nx": 64})))
+    assert not shot.fields["contact"].any() and shot.scalars["newton"] < 10
+    newtonian = next(march(film("newtonian", hertz_pressure=3.6e9, srr=1.7, speed=15.3, temperature=117.0, **{"grid.nx": 64})))
+    assert shot.scalars["h_c_m"] == pytest.approx(newtonian.scalars["h_c_m"], rel=0.02)
