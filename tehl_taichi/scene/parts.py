@@ -94,7 +94,12 @@ class Operation:
 
 @dataclass(frozen=True)
 class Rheology:
-    """Shear law of the film and friction of solid contact (film_floor: Everitt 2018)."""
+    """Shear law of the film and friction of solid contact.
+
+    The law acts wherever the surfaces slip, in flow, friction and heat, with and without temperatures; "newtonian" is the film
+    that isothermal film formulas and most published films are of (its friction under pressure is not that of any oil).
+    film_floor: Everitt 2018.
+    """
 
     law: str = choice("limiting", "shear law of the film; limiting: smooth towards tau_L = tau_L0 + gamma p",
                       ("limiting", "newtonian", "eyring", "carreau"))

@@ -192,6 +192,8 @@ class Scene:
             out.append("stresses and fatigue (" + ("switched off" if not self.fatigue.on else "no passage") + ")")
         if self.operation.u_s == 0:
             out.append("sliding friction and the shear law of the film (SRR = 0)")
+        elif self.rheology.law == "newtonian":
+            out.append("shear law of the film (rheology.law = 'newtonian')")
         return out
 
     def warnings(self):

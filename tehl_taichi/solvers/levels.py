@@ -107,6 +107,7 @@ class Levels:
         lam = 12 * math.exp(self.ln_eta0) * s.u_m * s.R**2 / (s.a**3 * s.p_H)
         self.inv_lambda, self.shear = 1 / lam, -scene.operation.u_s * math.exp(self.ln_eta0) / s.h
         self.slow_down(1.0)
+        self.slip(1.0)
 
     def _bind(self):
         """Launches of the kernels that this table is used with, on the finest level and on the coarser ones."""
@@ -127,8 +128,12 @@ class Levels:
             for cut in ((0, self.fine), (self.fine, len(self.blocks))))
 
     def slow_down(self, factor):
-        """Take the speeds of the film's balance to be those of the scene over `factor`."""
-        self.G[:, fields.ILAM], self.G[:, fields.SHEAR] = factor * self.inv_lambda, self.shear / factor
+        """Take the speed of the film's balance to be that of the scene over `factor`."""
+        self.G[:, fields.ILAM] = factor * self.inv_lambda
+
+    def slip(self, part):
+        """Take the slip that the shear law acts by to be this part of that of the scene; 0: a Newtonian film."""
+        self.G[:, fields.SHEAR] = part * self.shear
 
     def use_film(self, values, slopes):
         """Take the laws from a film with temperatures."""

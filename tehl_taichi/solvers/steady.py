@@ -19,6 +19,7 @@ CLOSE = 0.03  # Krylov tolerance between blocks of temperatures: with 0.2 they m
 CAREFUL = 1e-2  # Krylov tolerance where that of the scene did not converge
 FIRST_FILM = 0.05  # central film of the first guess, Hertz units: thick enough to flow, thin enough to be near
 START_TRIES = (1.0, 0.3, 3.0)  # times FIRST_FILM
+SLIPS = (1.0,), (1e-3, 1e-2, 0.1, 1.0)  # parts of the slip that a start goes through, and again where it fails
 SAFETY = 1.25  # on an extrapolated error (Roache 1994, three grids)
 FINEST_THERMAL = 4  # temperatures on the grids up to four times as coarse as the finest: three grids for the error
 SLOWER = (300.0, 100.0, 30.0, 10.0, 3.0, 1.0)  # factors of the speed below that of the scene
@@ -97,6 +98,31 @@ def solve_steady(scene, scales, nx, ny):
 
 
 def _first(solver):
+    """From Hertz without slip, which then comes in parts where it does not at once. Sheared from the start, a film that Newton
+    makes too thin for a moment flows off like water: the surfaces touch all over, which may be a solution too."""
+    v = solver.levels
+    v.slip(0.0)
+    report = _without_slip(solver)
+    P, H0 = v.get(fields.P), solver.H0
+    for parts in SLIPS if v.thins and report.converged else ():
+        _put(solver, P, H0)
+        report = _through_slips(solver, parts)
+        if report.converged:
+            break
+    v.slip(1.0)
+    return report
+
+
+def _through_slips(solver, parts):
+    for part in parts:
+        solver.levels.slip(part)
+        report = _from_here(solver)
+        if not report.converged:
+            break
+    return report
+
+
+def _without_slip(solver):
     for factor in START_TRIES:
         for krylov_tolerance in (None, CAREFUL):
             _hertz(solver, FIRST_FILM * factor)
