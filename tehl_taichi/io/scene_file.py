@@ -1,9 +1,8 @@
 """Scene files (TOML): reading with a base scene, writing with every value, the commented template."""
 
 import math
-from pathlib import Path
-
 import tomllib
+from pathlib import Path
 
 from tehl_taichi.scene import Scene, SceneError, scene
 from tehl_taichi.scene.oil import OILS
