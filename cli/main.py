@@ -1,10 +1,12 @@
 """Entry point: the commands, and one place that turns errors into a sentence and an exit code."""
 
 import sys
+import warnings
 
 import typer
 import typer.core
 from tehl_cli import bench, fatigue, inspect, runs
+from tehl_cli.live import say
 
 from tehl_taichi.errors import FAILED, Interrupted
 
@@ -20,9 +22,29 @@ class Commands(typer.core.TyperGroup):
 
 
 app = typer.Typer(cls=Commands, no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False,
-                  rich_markup_mode="rich",
-                  help="Lubricated contacts with surface features: film, pressure, stresses, fatigue.\n\n"
-                       "Example: tehl run --srr -0.12")
+                  rich_markup_mode="rich")
+
+
+@app.callback()
+def options(version: bool = typer.Option(False, "--version", help="versions and commit, and nothing else",
+                                         callback=lambda wanted: wanted and _tell_version(), is_eager=True)):
+    """Lubricated contacts with surface features: film, pressure, stresses, fatigue.
+
+    Example: tehl run --srr -0.12
+    """
+
+
+def _tell_version():
+    from importlib.metadata import version
+    from platform import python_version
+
+    from tehl_taichi import __version__
+    from tehl_taichi.commit import commit
+
+    print(f"tehl_taichi {__version__}, commit {commit()}, Python {python_version()}, taichi {version('taichi')}")
+    raise typer.Exit()
+
+
 runs.register(app)
 inspect.register(app)
 fatigue.register(app)
@@ -34,6 +56,7 @@ def main():
     debug = "--debug" in sys.argv
     if debug:
         sys.argv.remove("--debug")
+    warnings.showwarning = lambda message, *_: say(f"warning: {message}")
     try:
         app()
     except Exception as error:  # noqa: BLE001  every failure ends in one sentence

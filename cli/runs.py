@@ -3,7 +3,6 @@
 import contextlib
 import json
 import shutil
-import sys
 import time
 from pathlib import Path
 from typing import List, Optional
@@ -106,6 +105,7 @@ def _start(arch, threads):
 
 
 def _simulate(description, path, started, as_json, quiet, force):
+    from tehl_taichi.io.provenance import provenance
     from tehl_taichi.io.store import Store
     from tehl_taichi.scene.map_judge import preview
     from tehl_taichi.simulation import march, total_steps
@@ -121,8 +121,8 @@ def _simulate(description, path, started, as_json, quiet, force):
     first = next(march(description))
     if path.exists() and force:
         shutil.rmtree(path)
-    attrs = {"command": " ".join(sys.argv), "steady_error": json.dumps(first.error),
-             "warnings": json.dumps(description.warnings()), **_machine(description)}
+    attrs = {"steady_error": json.dumps(first.error), "warnings": json.dumps(description.warnings()),
+             **provenance(description)}
     saved = Store.create(path, description, first, total_steps(description) + 1, attrs)
     _go(saved, started, as_json, quiet, first.error)
 
@@ -292,15 +292,6 @@ def _fresh(name):
     while (path := Path("runs") / f"{name}-{number}.zarr").exists():
         number += 1
     return path
-
-
-def _machine(description):
-    import platform
-
-    from tehl_taichi import __version__, precision, runtime
-
-    return {"version": __version__, "machine": platform.platform(), "python": platform.python_version(),
-            "precision": precision.of(description), "runtime": json.dumps(runtime.ensure())}
 
 
 def _plain(value):

@@ -6,6 +6,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from tehl_taichi.errors import StoreError
+from tehl_taichi.io.provenance import provenance
 from tehl_taichi.io.store import Store
 from tehl_taichi.simulation import march, total_steps
 
@@ -63,7 +64,7 @@ def record(scene, path, progress=None):
             raise StoreError(f"{path} holds a run of another scene; choose another folder or remove it")
     else:
         path.parent.mkdir(parents=True, exist_ok=True)
-        saved = Store.create(path, scene, next(march(scene)), total_steps(scene) + 1)
+        saved = Store.create(path, scene, next(march(scene)), total_steps(scene) + 1, provenance(scene))
     if not saved.finished:
         go_on(saved, saved.go_back(), progress and (lambda snapshot: progress(snapshot.step, total_steps(scene))))
         saved.finish({})

@@ -2,9 +2,8 @@
 
 import json
 import math
-from pathlib import Path
-
 import tomllib
+from pathlib import Path
 
 from tehl_taichi.scene import Scene, SceneError, scene
 from tehl_taichi.scene.checks import text
