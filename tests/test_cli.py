@@ -44,6 +44,7 @@ def test_json_summary_has_the_keys_of_the_interface(finished):
     assert {"scene", "version", "store", "converged", "wall_s", "compile_s", "steps", "grid", "hertz", "left_out", "steady",
             "transient", "fatigue", "work", "clamps"} <= summary.keys()
     assert summary["steps"] == 10 and summary["grid"] == {"nx": 65, "ny": 17, "nz": 1}
+    assert summary["cells"] == {"nx": 64, "ny": 16}
     assert set(summary["steady"]["error"]) == {"h_c_m", "h_min_m", "p_max_Pa"}
     assert {"Fi_max", "findley_stress_max_Pa", "x_m", "y_m", "plane_theta_deg", "plane_phi_deg", "surface_angle_deg",
             "sigma1_max_Pa", "kappa_F", "sigma_eF_Pa"} <= set(summary["fatigue"])
@@ -171,7 +172,9 @@ def test_an_existing_store_is_not_overwritten(finished):
 def test_new_scene_file_runs(tmp_path):
     assert tehl("new", "mine.toml", "--base", "smooth-line", cwd=tmp_path).returncode == 0
     done = tehl("run", "mine.toml", "--isothermal", "--json", "--threads", 2, cwd=tmp_path)
-    assert done.returncode == 0 and json.loads(done.stdout)["steady"]["h_c_m"] == pytest.approx(0.4390e-6, rel=1e-3)
+    summary = json.loads(done.stdout)
+    assert done.returncode == 0 and summary["steady"]["h_c_m"] == pytest.approx(0.4390e-6, rel=1e-3)
+    assert summary["grid"] == {"nx": 257, "ny": 1, "nz": 1} and summary["cells"] == {"nx": 256, "ny": 0}
     assert tehl("new", "mine.toml", cwd=tmp_path).returncode == 2
 
 

@@ -226,6 +226,14 @@ def test_a_moved_store_is_opened_by_xarray_plotted_and_run_again(moved, tmp_path
     assert again == description and again.replace(**{"time.steps": 1}).features[0].measures == description.features[0].measures
 
 
+def test_on_the_whole_domain_cells_are_still_those_of_the_scene(moved):
+    from tehl_taichi.io.store import Store
+    from tehl_taichi.io.summary import counts
+
+    found = counts(Store.open(moved[2]))
+    assert found == {"grid": {"nx": 65, "ny": 33, "nz": 1}, "cells": {"nx": 64, "ny": 16}}
+
+
 def test_another_file_of_the_same_name_does_not_change_a_store(moved):
     from pathlib import Path
 

@@ -15,7 +15,7 @@ def summarise(store, extra, fatigue=None):
     scales = Scales.of(scene)
     out = {"scene": scene.name, "version": __version__, "store": str(store.path), "converged": True,
            "wall_s": extra["wall_s"], "compile_s": extra["compile_s"], "steps": int(store.series["step"][len(store) - 1]),
-           "grid": {"nx": store.x.size, "ny": store.y.size, "nz": 1 if scene.isothermal else scene.thermal.nodes},
+           **counts(store),
            "hertz": {"a_m": scales.a, "p_Pa": scales.p_H}, "left_out": scene.left_out(),
            "steady": _steady(store, extra["steady_error"])}
     if len(store) > 1:
@@ -28,6 +28,14 @@ def summarise(store, extra, fatigue=None):
     out["clamps"] = _clamps(store)
     out["warnings"] = judge.warnings(store, out)
     return out
+
+
+def counts(store):
+    """grid: nodes that were computed, nz of them across the film; cells: as [grid] of the scene and --grid count them, ny of
+    the half domain y >= 0 (on the whole domain that is 2 ny + 1 nodes), 0 where nothing varies across (one row of nodes)."""
+    scene, grid = store.scene, store.scene.grid
+    return {"grid": {"nx": store.x.size, "ny": store.y.size, "nz": 1 if scene.isothermal else scene.thermal.nodes},
+            "cells": {"nx": grid.nx, "ny": 0 if scene.one_dimensional else grid.ny}}
 
 
 HEAT = ("film_max_C", "surface_a_max_C", "surface_b_max_C")
