@@ -91,8 +91,8 @@ def resume(
     Example: `tehl resume runs/gear-1.zarr`
     """
     started = time.perf_counter()
-    from tehl_taichi.io.recorder import continued
     from tehl_taichi.io.store import Store
+    from tehl_taichi.scene.route import continued
 
     saved = Store.open(store)
     rest = continued(saved.scene, saved.last_step, steps) if saved.finished or steps else saved.scene
@@ -104,10 +104,10 @@ def resume(
     _check_threads(threads)
     with _interruptible(store), Store.write(store) as saved:
         steady_error, precision = saved.needed("steady_error"), saved.needed("runtime")["precision"]
+        _start("cpu", threads, precision)
         state = saved.go_back()
         if rest and rest != saved.scene:
             saved.extend(rest)
-        _start("cpu", threads, precision)
         _go(saved, state, started, as_json, quiet, steady_error)
 
 
@@ -119,8 +119,8 @@ def _start(arch, threads, precision):
 
 def _simulate(description, place, started, as_json, quiet):
     from tehl_taichi.io.plain import plain
-    from tehl_taichi.io.recorder import room_for
     from tehl_taichi.io.store import Store
+    from tehl_taichi.scene.route import most_steps
     from tehl_taichi.simulation import march
 
     for line in description.left_out():
@@ -131,7 +131,7 @@ def _simulate(description, place, started, as_json, quiet):
     first = next(march(description))
     attrs = {"command": " ".join(sys.argv), "steady_error": json.dumps(plain(first.error)),
              "warnings": json.dumps(description.warnings()), **_machine()}
-    with Store.create(place, description, first, room_for(description), attrs) as saved:
+    with Store.create(place, description, first, most_steps(description) + 1, attrs) as saved:
         _go(saved, saved.go_back(), started, as_json, quiet, first.error)
 
 

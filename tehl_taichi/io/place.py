@@ -144,8 +144,9 @@ def _check_free(path):
     if path.is_symlink() and not path.exists():
         raise StoreError(f"{path} is a link that leads nowhere; remove it or choose another --out")
     if path.exists():
-        hint = "or --force to replace it" if intact.is_store(path) else "it is no store"
-        raise StoreError(f"{path} exists already; choose another --out, {hint}")
+        if intact.is_store(path):
+            raise StoreError(f"{path} exists already; choose another --out, or --force to replace it")
+        raise StoreError(f"{path} exists already and is no store; choose another --out")
     parent = path.absolute().parent
     while not os.path.lexists(parent):
         parent = parent.parent

@@ -9,7 +9,7 @@ from pathlib import Path
 from tehl_taichi.errors import StoreError
 from tehl_taichi.io.place import Place
 from tehl_taichi.io.store import OVER, Store
-from tehl_taichi.scene.route import total_steps, uncut
+from tehl_taichi.scene.route import most_steps, total_steps
 from tehl_taichi.simulation import march
 
 SWITCH = 1e-4  # s, interpreter switch interval while a thread writes
@@ -49,11 +49,6 @@ class Thinned:
         return dataclasses.replace(snapshot, scalars=scalars)
 
 
-def room_for(scene):
-    """Entries that a store of this scene may ever have, also when a cut passage goes on to its end."""
-    return total_steps(uncut(scene)) + 1
-
-
 def go_on(saved, state, tell=None):
     """March on from the last checkpoint of the store, whose state :meth:`Store.go_back` gave, to the end of its scene;
     tell(snapshot) after each step.
@@ -80,15 +75,6 @@ def go_on(saved, state, tell=None):
         sys.setswitchinterval(before)
 
 
-def continued(scene, done, more=None):
-    """The scene of a finished run of `done` steps with the rest of its passage, or `more` steps of it; None where none is left.
-    """
-    whole = uncut(scene)
-    if total_steps(whole) <= done:
-        return None
-    return whole if more is None or done + more >= total_steps(whole) else whole.replace(**{"time.steps": done + more})
-
-
 def record(scene, path, progress=None):
     """March `scene` into a store at `path`, without a terminal, from its last checkpoint if it exists. Returns the Store.
 
@@ -113,4 +99,4 @@ def record(scene, path, progress=None):
 
 def _begun(scene, path):
     with Place(path) as place:
-        return Store.create(place, scene, next(march(scene)), room_for(scene))
+        return Store.create(place, scene, next(march(scene)), most_steps(scene) + 1)

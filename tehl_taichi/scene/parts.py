@@ -277,7 +277,8 @@ class Numerics:
 
 @dataclass(frozen=True)
 class Output:
-    """every: store every n-th step; profiles: store the temperature at every node across the film too."""
+    """every: store every n-th step and the last (their numbers then tell of the steps between too); profiles: store the
+    temperature at every node across the film too."""
 
     every: int = 1
     profiles: bool = False
