@@ -117,7 +117,7 @@ class Place:
 
 def put_back(path):
     """Undo half a replacement: the old store gets its name back where the new one never came."""
-    if path.name and not os.path.lexists(path) and beside(path, OLD).is_dir():
+    if path.name and not os.path.lexists(path) and os.path.isdir(beside(path, OLD)):
         os.rename(beside(path, OLD), path)
 
 

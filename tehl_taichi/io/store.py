@@ -87,7 +87,7 @@ class Store:
         if "temperature" in self.metadata:
             self.stored["temperature"] = PROFILE[0]
         self.names = [*scalars_of(self.scene), "step", "time"]
-        self.steps = self.attrs["steps"]
+        self.steps = self.attrs.get("steps")
 
     @classmethod
     def create(cls, path, scene, snapshot, capacity, attrs=None):
@@ -283,7 +283,7 @@ class Store:
 
     def _commit(self, **attrs):
         self.attrs.update(attrs)
-        self.steps = self.attrs["steps"]
+        self.steps = self.attrs.get("steps")
         _publish(self.path, self.attrs, self.metadata)
 
     def go_back(self):
