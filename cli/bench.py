@@ -7,6 +7,7 @@ from typing import Optional
 
 import typer
 from tehl_cli.live import say
+from tehl_cli.out import print_json
 
 
 def register(app):
@@ -51,7 +52,7 @@ def stability(
             say(f"{name}: {found[-1].verdict} {found[-1].reason}")
     counts = {verdict: sum(o.verdict == verdict for o in found) for verdict in ("converged", "refused", "stopped", "failed")}
     if as_json:
-        print(json.dumps({**counts, "cases": [vars(o) for o in found]}))
+        print_json({**counts, "cases": [vars(o) for o in found]})
     else:
         rows = [{**vars(o), "case": o.name} for o in found]
         _table("stability" + (" with temperatures" if thermal else ""), rows,

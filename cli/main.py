@@ -1,14 +1,13 @@
-"""Entry point: the commands, and one place that turns errors into a sentence and an exit code."""
-
-import sys
-import warnings
+"""The commands."""
 
 import typer
 import typer.core
 from tehl_cli import bench, fatigue, inspect, runs
-from tehl_cli.live import say
+from tehl_cli.entry import main
 
-from tehl_taichi.errors import FAILED, Interrupted
+from tehl_taichi.errors import Interrupted
+
+__all__ = ["app", "main"]
 
 
 class Commands(typer.core.TyperGroup):
@@ -49,18 +48,3 @@ runs.register(app)
 inspect.register(app)
 fatigue.register(app)
 bench.register(app)
-
-
-def main():
-    """Run the command line; exit codes: 0 done, 2 bad input, 3 not converged, 4 interrupted, 1 anything else."""
-    debug = "--debug" in sys.argv
-    if debug:
-        sys.argv.remove("--debug")
-    warnings.showwarning = lambda message, *_: say(f"warning: {message}")
-    try:
-        app()
-    except Exception as error:  # noqa: BLE001  every failure ends in one sentence
-        if debug:
-            raise
-        print(f"tehl: {error or type(error).__name__}", file=sys.stderr)
-        sys.exit(getattr(error, "exit_code", FAILED))

@@ -2,13 +2,13 @@
 
 import contextlib
 import json
-import shutil
 import time
 from pathlib import Path
 from typing import List, Optional
 
 import typer
 from tehl_cli.live import Live, say
+from tehl_cli.out import print_json
 
 from tehl_taichi.errors import Interrupted
 
@@ -40,9 +40,10 @@ def run(
                                                   help="error of the passage's numbers, by companion runs"),
     kappa: Optional[float] = typer.Option(None, help="Findley's kappa_F"),
     endurance: Optional[float] = typer.Option(None, help="Findley's endurance limit sigma_eF, Pa"),
-    steps: Optional[int] = typer.Option(None, help="stop after this many time steps"),
+    steps: Optional[int] = typer.Option(None, help="stop after this many time steps (0: the steady start alone); `tehl "
+                                        "resume` goes on"),
     out: Optional[Path] = typer.Option(None, help="store to write (default: runs/SCENE-N.zarr)"),
-    force: bool = typer.Option(False, "--force", help="replace an existing store"),
+    force: bool = typer.Option(False, "--force", help="replace an existing store, as soon as the new one has its first entry"),
     arch: str = typer.Option("cpu", help="cpu"),
     threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
     precision: Optional[str] = typer.Option(None, help="of the linear solves: f32, f64 or auto (f32 for thick films); the "
@@ -56,7 +57,7 @@ def run(
     """
     started = time.perf_counter()
     from tehl_taichi.io.found import find
-    from tehl_taichi.io.store import check_free
+    from tehl_taichi.io.place import Place
 
     changes = _changes(
         {"srr": srr, "load": load, "hertz_pressure": hertz_pressure, "speed": speed, "temperature": temperature,
@@ -68,34 +69,43 @@ def run(
     description = description.replace(**changes) if changes else description
     description = _on_grid_for(target_error, changes, description)
     _check_threads(threads)
-    path = out or _fresh(description.name)
-    if not (force and _is_store(path)):
-        check_free(path)
-    with _interruptible(path):
+    place = Place(out, force) if out else Place.fresh(Path("runs"), description.name)
+    with place, _interruptible(place.path, place):
         _start(arch, threads)
-        _simulate(description, path, started, as_json, quiet, force)
+        _simulate(description, place, started, as_json, quiet)
 
 
 def resume(
-    store: Path = typer.Argument(..., help="store of an interrupted run"),
+    store: Path = typer.Argument(..., help="store of an interrupted run, or of a passage that was cut"),
+    steps: Optional[int] = typer.Option(None, min=1, help="so many more (default: to the end that the run was given; of a "
+                                        "finished run, to the end of its passage)"),
     threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
     as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout"),
     quiet: bool = typer.Option(False, "--quiet", help="no progress"),
 ):
-    """Go on, at most two seconds of work before the last stored step. Example: `tehl resume runs/gear-1.zarr`"""
+    """Go on, at most two seconds of work before the last stored step; a finished run to the end of its passage.
+
+    Example: `tehl resume runs/gear-1.zarr`
+    """
     started = time.perf_counter()
     from tehl_taichi.io.store import Store
+    from tehl_taichi.scene.route import continued
 
     saved = Store.open(store)
-    if saved.finished:
+    rest = continued(saved.scene, saved.last_step, steps) if saved.finished or steps else saved.scene
+    if saved.finished and rest is None:
         say(f"{store} is finished ({saved.steps} entries); `tehl show {store}` prints its summary")
         if as_json:
-            print(json.dumps(saved.summary))
+            print_json(saved.summary)
         return
     _check_threads(threads)
-    with _interruptible(store):
+    with _interruptible(store), Store.write(store) as saved:
+        steady_error = saved.needed("steady_error")
         _start("cpu", threads)
-        _go(saved, started, as_json, quiet, json.loads(saved.attrs["steady_error"]))
+        state = saved.go_back()
+        if rest and rest != saved.scene:
+            saved.extend(rest)
+        _go(saved, state, started, as_json, quiet, steady_error)
 
 
 def _start(arch, threads):
@@ -104,11 +114,13 @@ def _start(arch, threads):
     return runtime.start(arch, threads)
 
 
-def _simulate(description, path, started, as_json, quiet, force):
+def _simulate(description, place, started, as_json, quiet):
+    from tehl_taichi.io.plain import plain
     from tehl_taichi.io.provenance import provenance
     from tehl_taichi.io.store import Store
     from tehl_taichi.scene.map_judge import preview
-    from tehl_taichi.simulation import march, total_steps
+    from tehl_taichi.scene.route import most_steps
+    from tehl_taichi.simulation import march
 
     for line in description.left_out():
         if not quiet:
@@ -119,34 +131,34 @@ def _simulate(description, path, started, as_json, quiet, force):
     for sentence in description.warnings():
         say(f"warning: {sentence}")
     first = next(march(description))
-    if path.exists() and force:
-        shutil.rmtree(path)
-    attrs = {"steady_error": json.dumps(first.error), "warnings": json.dumps(description.warnings()),
+    attrs = {"steady_error": json.dumps(plain(first.error)), "warnings": json.dumps(description.warnings()),
              **provenance(description)}
-    saved = Store.create(path, description, first, total_steps(description) + 1, attrs)
-    _go(saved, started, as_json, quiet, first.error)
+    with Store.create(place, description, first, most_steps(description) + 1, attrs) as saved:
+        _go(saved, saved.go_back(), started, as_json, quiet, first.error)
 
 
-def _go(saved, started, as_json, quiet, steady_error):
+def _go(saved, state, started, as_json, quiet, steady_error):
     from tehl_taichi.io.summary import summarise
     from tehl_taichi.launches import binding_seconds
 
-    _march(saved, quiet)
+    _march(saved, state, quiet)
     fatigue, maps = _fatigue(saved, quiet)
     error = _passage_error(saved, fatigue, quiet)
     extra = {"wall_s": time.perf_counter() - started, "compile_s": binding_seconds(), "steady_error": steady_error,
              "passage_error": error}
     summary = summarise(saved, extra, fatigue)
     saved.finish(summary, maps)
-    print(json.dumps(_plain(summary))) if as_json else _print(summary)
+    print_json(summary) if as_json else _print(summary)
 
 
 @contextlib.contextmanager
-def _interruptible(path):
+def _interruptible(path, place=None):
     """Ctrl-C anywhere inside ends in a sentence that says what is stored at `path`, and exit code 4."""
     try:
         yield
     except KeyboardInterrupt:
+        if place and not place.published:
+            raise Interrupted("interrupted before anything was stored") from None
         raise Interrupted(_what_is_left(path)) from None
 
 
@@ -156,21 +168,18 @@ def _what_is_left(path):
 
     try:
         saved = Store.open(path)
-    except (StoreError, KeyError):
-        saved = None
-    if saved is None or saved.steps == 0:
-        return "interrupted before anything was stored"
+    except StoreError:
+        return f"interrupted; {path} cannot be read any more"
     if saved.finished:
         return f"interrupted; {path} is finished"
-    return f"interrupted after {saved.steps - 1} steps; go on with: tehl resume {path}"
+    return f"interrupted after {saved.last_step} steps; go on with: tehl resume {path}"
 
 
-def _march(saved, quiet):
+def _march(saved, state, quiet):
     from tehl_taichi.io.recorder import go_on
     from tehl_taichi.simulation import total_steps
 
-    state = saved.go_back()
-    with Live(total_steps(saved.scene), saved.steps - 1, quiet) as live:
+    with Live(total_steps(saved.scene), saved.last_step, quiet) as live:
         go_on(saved, state, live.step)
 
 
@@ -283,22 +292,6 @@ def _check_threads(threads):
         raise SceneError(f"--threads {threads} is out of range; allowed: 1 to 1024")
 
 
-def _is_store(path):
-    return (path / "zarr.json").exists()
-
-
-def _fresh(name):
-    number = 1
-    while (path := Path("runs") / f"{name}-{number}.zarr").exists():
-        number += 1
-    return path
-
-
-def _plain(value):
-    """JSON has no NaN: null instead."""
-    if isinstance(value, dict):
-        return {key: _plain(v) for key, v in value.items()}
-    return None if isinstance(value, float) and value != value else value
 
 
 def _print(summary):

@@ -1,5 +1,5 @@
 """`python -m tehl_taichi` is `tehl`."""
 
-from tehl_cli.main import main
+from tehl_cli.entry import main
 
 main()

@@ -266,9 +266,9 @@ def test_a_store_of_the_first_version_stays_readable(tmp_path):
     """There `height` was m per unit of the file, the heights were not kept and pixel was 1e-6 unless told."""
     import json
 
-    from tehl_taichi.io.maps import read_scene
+    from tehl_taichi.io.maps import scene_of
 
     data = with_map(wave(tmp_path)).to_dict()
     old = {key: value for key, value in data["feature"][0].items() if key not in ("unit", "scale", "sha256")}
-    found = read_scene(tmp_path, json.dumps({**data, "feature": [{**old, "height": 1e-6}]})).features[0]
+    found = scene_of(tmp_path, {**data, "feature": [{**old, "height": 1e-6}]}).features[0]
     np.testing.assert_allclose(found.surface, feature(tmp_path / "scan.npy").surface, rtol=1e-12)

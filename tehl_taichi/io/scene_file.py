@@ -11,7 +11,6 @@ from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.parts import Body
 from tehl_taichi.scene.quantity import kinds
-from tehl_taichi.scene.route import ALL
 from tehl_taichi.scene.whole import SECTIONS
 
 HEADER = "# A tehl_taichi scene. SI units (m, s, N, Pa, kg), temperatures in deg C; [grid] and [time] in half-widths."
@@ -46,8 +45,6 @@ def from_data(data, name):
     """Scene from a parsed file."""
     base = data.pop("base", None)
     data.setdefault("name", name)
-    if isinstance(data.get("time"), dict) and data["time"].get("steps") == 0:
-        data["time"]["steps"] = ALL  # as version 0.1 wrote it in every file; the steady start alone: steady_only
     if base is None:
         found = Scene.from_dict({"feature": [], **data})
     else:

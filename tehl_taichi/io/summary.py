@@ -88,10 +88,16 @@ def _transient(store):
     return {**heat, "p_max_Pa": largest("p_max_Pa"), "h_min_m": float(np.min(store.scalar("h_min_m")[1:])),
             "contact_load_fraction_max": largest("contact_load_fraction"), "load_error_max": largest("load_error"),
             "mass_error_max": largest("mass_error"), "residual_max": largest("residual"), "dt_s": largest("dt_s"),
-            "friction_coefficient_mean": float(np.mean(store.scalar("friction_coefficient")[1:]))}
+            "friction_coefficient_mean": float(np.average(store.scalar("friction_coefficient")[1:], weights=_steps_of(store)))}
+
+
+def _steps_of(store):
+    """Time steps that every entry after the first stands for."""
+    return np.diff(store.scalar("step"))
 
 
 def _work(store):
     cycles = store.scalar("cycles")
-    return {"pressure_cycles": int(cycles.sum()), "cycles_per_step_max": int(cycles[1:].max()) if len(store) > 1 else 0,
+    worst = int(np.ceil(np.max(cycles[1:] / _steps_of(store)))) if len(store) > 1 else 0  # with output.every: of their means
+    return {"pressure_cycles": int(cycles.sum()), "cycles_per_step_max": worst,
             "newton_steps": int(store.scalar("newton").sum()), "rejected_steps": int(store.scalar("rejected").sum())}

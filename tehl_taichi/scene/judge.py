@@ -16,4 +16,17 @@ def cut_passage(scene):
                f"{route.uncut(scene).path[1]:.2f} a; `tehl resume STORE` goes on")
 
 
-CHECKS = (passing.warnings, oil_range.warnings, cut_passage, map_judge.doubts)  # functions of a scene that give its sentences
+MISSED = 0.35  # of Fi, per a between moments: at most 2, 3.6 and 7 % at 0.06, 0.125 and 0.19 a (gear, every choice of moments)
+
+
+def thinned(scene):
+    """Moments that a fatigue search misses where not every step is stored."""
+    every, apart = scene.output.every, scene.output.every * route.step_length(scene)
+    if every > 1 and scene.fatigue_wanted:
+        yield (f"output.every = {every} leaves {apart:.3f} a between the moments that the fatigue search sees: its Fi can be "
+               f"{MISSED * apart:.0%} too small (it wants 0.01 a where the feature enters and leaves; every step has "
+               f"{apart / every:.3f} a)")
+
+
+# functions of a scene that give its sentences
+CHECKS = (passing.warnings, oil_range.warnings, cut_passage, thinned, map_judge.doubts)

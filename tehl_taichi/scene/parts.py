@@ -220,7 +220,7 @@ class Numerics:
 class Output:
     """What is stored."""
 
-    every: int = count(1, "store every n-th step", 1, 10**6)
+    every: int = count(1, "store every n-th step and the last; their numbers then tell of the steps between too", 1, 10**6)
     profiles: bool = switch(False, "store the temperature at every node across the film too")
 
     def __post_init__(self):

@@ -50,3 +50,16 @@ def uncut(scene):
     """The scene with its whole passage: every step, until the features are behind the contact."""
     end = {"time.x_end": math.inf} if scene.transient and scene.path[1] < clear(scene) else {}
     return scene.replace(**{"time.steps": ALL, **end})
+
+
+def most_steps(scene):
+    """Time steps that a run of this scene may ever have, also when a cut passage goes on to its end."""
+    return total_steps(uncut(scene))
+
+
+def continued(scene, done, more=None):
+    """The scene of a run of `done` steps with the rest of its passage, or with `more` steps of it; None where none is left."""
+    whole = uncut(scene)
+    if total_steps(whole) <= done:
+        return None
+    return whole if more is None or done + more >= total_steps(whole) else whole.replace(**{"time.steps": done + more})
