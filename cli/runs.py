@@ -38,7 +38,8 @@ def run(
     thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="energy equation on or off"),
     fatigue: Optional[bool] = typer.Option(None, "--fatigue/--no-fatigue", help="stresses and Findley index"),
     estimate_error: Optional[bool] = typer.Option(None, "--estimate-error/--no-estimate-error",
-                                                  help="error of the passage's numbers, by companion runs"),
+                                                  help="error of the passage's numbers, by companion runs (default: where "
+                                                       "a core is free for them)"),
     kappa: Optional[float] = typer.Option(None, help="Findley's kappa_F"),
     endurance: Optional[float] = typer.Option(None, help="Findley's endurance limit sigma_eF, Pa"),
     steps: Optional[int] = typer.Option(None, help="stop after this many time steps"),
@@ -98,7 +99,8 @@ def resume(
     _check_threads(threads)
     with _interruptible(store):
         _start("cpu", threads, json.loads(saved.attrs["runtime"])["precision"])
-        _go(saved, started, as_json, quiet, json.loads(saved.attrs["steady_error"]))
+        steady = {name: json.loads(saved.attrs.get(name, "{}")) for name in ("steady_error", "steady_unknown")}
+        _go(saved, started, as_json, quiet, steady)
 
 
 def _start(arch, threads, precision):
@@ -120,20 +122,22 @@ def _simulate(description, path, started, as_json, quiet, force):
     if path.exists() and force:
         shutil.rmtree(path)
     attrs = {"command": " ".join(sys.argv), "steady_error": json.dumps(first.error),
-             "warnings": json.dumps(description.warnings()), **_machine()}
+             "steady_unknown": json.dumps(first.unknown), "warnings": json.dumps(description.warnings()), **_machine()}
     saved = Store.create(path, description, first, total_steps(description) + 1, attrs)
-    _go(saved, started, as_json, quiet, first.error)
+    _go(saved, started, as_json, quiet, {"steady_error": first.error, "steady_unknown": first.unknown})
 
 
-def _go(saved, started, as_json, quiet, steady_error):
+def _go(saved, started, as_json, quiet, steady):
+    from tehl_taichi import companions
     from tehl_taichi.io.summary import summarise
     from tehl_taichi.launches import binding_seconds
+    from tehl_taichi.simulation import total_steps
 
-    _march(saved, quiet)
-    fatigue, maps = _fatigue(saved, quiet)
-    error = _passage_error(saved, fatigue, quiet)
-    extra = {"wall_s": time.perf_counter() - started, "compile_s": binding_seconds(), "steady_error": steady_error,
-             "passage_error": error}
+    with companions.beside(saved.scene, total_steps(saved.scene) + 1 - saved.steps) as others:
+        _march(saved, quiet)
+        fatigue, maps = _fatigue(saved, quiet)
+        passage = others.errors(saved, fatigue, time.perf_counter() - started)
+    extra = {"wall_s": time.perf_counter() - started, "compile_s": binding_seconds(), **steady, **passage}
     summary = summarise(saved, extra, fatigue)
     saved.finish(summary, maps)
     print(json.dumps(_plain(summary))) if as_json else _print(summary)
@@ -181,15 +185,6 @@ def _fatigue(saved, quiet):
         say("stresses and Findley search")
     result = fatigue.run(saved.scene, saved)
     return result.summary, result.maps
-
-
-def _passage_error(saved, fatigue, quiet):
-    if not saved.scene.numerics.estimate_error or saved.steps < 2:
-        return None
-    from tehl_taichi.io.summary import passage_values
-    from tehl_taichi.post import estimate
-
-    return estimate.errors(saved.scene, passage_values(saved, fatigue), None if quiet else say)
 
 
 def _grid(text):

@@ -18,8 +18,8 @@ class Snapshot:
     """One accepted state.
 
     step: 0 = steady start; time s; feature_x m, centre of the first feature (nan without one); x (nx+1,), y (ny+1,) m;
-    fields: (nx+1, ny+1) arrays in SI; scalars: numbers in SI; error: estimated discretisation error of h_c_m, h_min_m,
-    p_max_Pa (steady start only); make_state: called for :attr:`state`.
+    fields: (nx+1, ny+1) arrays in SI; scalars: numbers in SI; error: bars of the numbers of a
+    steady start (None where they are not known), unknown: why they are not; make_state: called for :attr:`state`.
     """
 
     step: int
@@ -31,6 +31,7 @@ class Snapshot:
     scalars: dict
     make_state: Callable[[], dict]
     error: dict = field(default_factory=dict)
+    unknown: dict = field(default_factory=dict)
 
     @functools.cached_property
     def state(self):

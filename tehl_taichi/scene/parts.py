@@ -255,8 +255,8 @@ class Numerics:
     tolerance 1e-6: rms of min(P, R/D, gap) plus load error; ten times less moves the film by under 0.1 % at 256 columns.
     mass_tolerance 1e-6: net mass defect over the Couette flux, the conservation that users check.
     krylov_tolerance 0.2: at most, inside Newton; from 0.03 to 0.3 a passage costs the same. newton_max, krylov_max: no
-    converging case came near them. estimate_error: companion runs on coarser grids tell the error of the passage's numbers
-    (an eighth more work).
+    converging case came near them. estimate_error: true, false or "auto" (where a core is free for them): companion runs on
+    coarser grids tell the error of the passage's numbers (see tehl_taichi/companions.py).
     """
 
     tolerance: float = 1e-6
@@ -264,10 +264,10 @@ class Numerics:
     krylov_tolerance: float = 0.2
     newton_max: int = 30
     krylov_max: int = 80
-    estimate_error: bool = False
+    estimate_error: Union[bool, str] = AUTO
 
     def __post_init__(self):
-        flag("numerics.estimate_error", self.estimate_error)
+        auto_flag("numerics.estimate_error", self.estimate_error)
         number("numerics.tolerance", self.tolerance, "", 1e-11, 1e-3)
         number("numerics.mass_tolerance", self.mass_tolerance, "", 1e-9, 1.0)
         number("numerics.krylov_tolerance", self.krylov_tolerance, "", 1e-6, 0.5)
