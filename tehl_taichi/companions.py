@@ -127,26 +127,25 @@ class Companions:
         waited for, others PATIENCE of it.
         """
         self.listener.join(None if self.scene.numerics.estimate_error is True else PATIENCE * seconds)
-        grids, reasons = self._answers()
-        own = passage_readings(self.scene, reader, reader.scalar, fatigue)
-        found, unknown = bars([*grids, own])
-        if reasons and not grids:
-            unknown = dict.fromkeys(unknown, "; ".join(reasons))
+        answers = [{"reason": reason} for reason in self.reasons] + [json.loads(line) for line in self.lines]
+        if len(self.lines) < len(self.scenes):
+            late = "were not ready when the run was (--estimate-error waits for them)"
+            answers.append({"reason": f"the companion runs {late if self.listener.is_alive() else 'ended without an answer'}"})
+        found, unknown = judged(answers, passage_readings(self.scene, reader, reader.scalar, fatigue))
         return {"passage_error": found, "passage_unknown": unknown}
 
-    def _answers(self):
-        """(readings of the grids, coarsest first, each half as fine as the next; why there are no more)."""
-        grids, reasons = [], list(self.reasons)
-        for line in self.lines:
-            answer = json.loads(line)
-            if "reason" in answer:  # too coarse a grid: neither it nor the coarser ones tell anything
-                grids, reasons = [], [*reasons, answer["reason"]]
-            else:
-                grids.append({name: Reading(**values) for name, values in answer["values"].items()})
-        if len(self.lines) == len(self.scenes):
-            return grids, reasons
-        late = "were not ready when the run was (--estimate-error waits for them)"
-        return [], [f"the companion runs {late if self.listener.is_alive() else 'ended without an answer'}"]
+
+def judged(answers, own):
+    """({name: error bar or None}, {name: why it is None}) of own {name: Reading}; answers: of the companions, coarsest first,
+    {"values": {name: a Reading's values}} or {"reason": why there are none}."""
+    grids, reasons = [], []
+    for answer in answers:
+        if "reason" in answer:  # too coarse a grid: neither it nor the coarser ones tell anything
+            grids, reasons = [], [*reasons, answer["reason"]]
+        else:
+            grids.append({name: Reading(**values) for name, values in answer["values"].items()})
+    found, unknown = bars([*grids, own])
+    return found, unknown if grids else dict.fromkeys(unknown, "; ".join(reasons) or "there are no coarser grids")
 
 
 def serve():
@@ -159,10 +158,11 @@ def serve():
 
     runtime.start(threads=1, precision=job["precision"])
     for one in job["scenes"]:
-        print(json.dumps(_answer(Scene.from_dict(one))), flush=True)
+        print(json.dumps(answer(Scene.from_dict(one))), flush=True)
 
 
-def _answer(scene):
+def answer(scene):
+    """What a companion tells, for :func:`judged`."""
     try:
         return {"values": {name: asdict(reading) for name, reading in values(scene).items()}}
     except Error as error:

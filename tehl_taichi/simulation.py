@@ -69,7 +69,7 @@ def _steady_snapshot(scene, scales):
     state = snapshot.state_of(result.solver, result.heat, 0)
     first = snapshot.take(result.solver, result.heat, 0, 0.0, math.nan, result.report, started, lambda: state)
     first.scalars["cycles"] = float(result.work)
-    first.error, first.unknown = bars(result.values)
+    first.grids, (first.error, first.unknown) = result.values, bars(result.values)
     return _spread(first, scene, scales), result.solver
 
 
