@@ -206,9 +206,8 @@ def _on_grid_for(target, grid, description):
     """The scene on the grid that a target error needs."""
     if target is None:
         return description
-    from tehl_taichi.profiles.target import grid_for
-
     from tehl_taichi.scene import SceneError
+    from tehl_taichi.scene.target import grid_for
 
     if grid is not None:
         raise SceneError(f"--target-error {target} chooses the grid; leave out --grid {grid}")
