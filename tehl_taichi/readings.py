@@ -1,10 +1,11 @@
 """What a grid tells of the numbers of a run, for their error bars: values, how far an extreme may lie between the nodes, and
 whether the grid resolves them at all."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from tehl_taichi.solvers.error_bars import RIVAL, Reading, beside, narrow_peak
-from tehl_taichi.solvers.heat import SETTLED
 
 HEAT = ("film_max_C", "surface_a_max_C", "surface_b_max_C")
 SPIKE = ("a pressure peak of {:.0%} of the largest is two cells wide at most; so narrow ones grow on finer grids, and the "
@@ -15,10 +16,9 @@ TOUCH = "the surfaces touch on this grid, which is too coarse for so thin a film
 def steady(shot):
     """{name: Reading} of a snapshot of a steady smooth contact."""
     out = {"h_c_m": Reading(shot.scalars["h_c_m"]), "h_min_m": lowest(shot), "p_max_Pa": highest(shot),
-           **{name: Reading(shot.scalars[name], SETTLED) for name in HEAT if name in shot.scalars},
-           "friction_coefficient": Reading(shot.scalars["friction_coefficient"])}
+           **{name: Reading(shot.scalars[name]) for name in (*HEAT, "friction_coefficient") if name in shot.scalars}}
     if shot.fields["contact"].any():  # nothing is known of a film that this grid does not have, nor of what it does
-        out = {name: Reading(r.value, r.blur, r.place, r.cell, r.doubt or TOUCH) for name, r in out.items()}
+        out = {name: replace(reading, doubt=TOUCH, lost=True) for name, reading in out.items()}
     return out
 
 

@@ -13,6 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 
 LEFT = (1.0, 1 / 6, 1 / 36)  # of the last difference, the one before ... is left as error, at most
+EXTREME = (2 / 3, 1 / 6, 1 / 36)  # the same of an extreme over nodes, of which its blur bounds the jumps
+ALONE = 1.5  # of the only difference there is
 HOPELESS = 0.5  # a number that changes by more than this part of itself from grid to grid is not resolved
 MOVED = 4.0  # cells of the coarser grid that the place of an extreme may move: more is another extreme
 NARROW = 0.75  # a peak with less than this part of its height two cells away, on the mean of both sides, is not resolved
@@ -21,25 +23,30 @@ RIVAL = 0.65  # of the largest pressure: a narrow spike that high may overtake i
 
 @dataclass(frozen=True)
 class Reading:
-    """A number on one grid. blur: how far the true extreme may lie from the one over nodes on this grid; place: where the
-    extreme is and cell: the spacing there (same unit); doubt: why this grid cannot know the number ("" where it can)."""
+    """A number on one grid.
+
+    blur: how far the true extreme may lie from the one over nodes on this grid; place: where that is and cell: the spacing
+    there (same unit), both nan for a number that is no extreme; doubt: why this grid cannot know the number ("" where it can);
+    lost: whether its value is not even a step towards that of the next grid.
+    """
 
     value: float
     blur: float = 0.0
     place: float = math.nan
     cell: float = math.nan
     doubt: str = ""
+    lost: bool = False
 
 
 def bar(readings):
     """(error bar of the last of `readings`, coarsest first, or None where it is not known; why it is not, or "").
 
-    Readings that a grid cannot know, and those before them, do not count.
+    Lost readings, and those before them, do not count.
     """
     last = readings[-1]
     if last.doubt:
         return None, last.doubt
-    known = readings[max((n + 1 for n, r in enumerate(readings) if r.doubt), default=0) :]
+    known = readings[max((n + 1 for n, r in enumerate(readings) if r.lost), default=0) :]
     if len(known) < 2:
         return None, "no coarser grid tells it"
     before = known[-2]
@@ -48,7 +55,8 @@ def bar(readings):
     steps = [abs(b.value - a.value) for a, b in zip(known[:-1], known[1:])][::-1]
     if steps[0] > HOPELESS * abs(last.value):
         return None, f"it still changes by {steps[0] / abs(last.value):.0%} from grid to grid"
-    return max(last.blur, *(left * step for left, step in zip(LEFT, steps)), 0.0), ""
+    left = (ALONE,) if len(steps) == 1 else LEFT if math.isnan(last.place) else EXTREME
+    return max(last.blur, *(part * step for part, step in zip(left, steps))), ""
 
 
 def bars(grids):
