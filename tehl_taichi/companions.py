@@ -67,7 +67,7 @@ def values(scene):
 
 
 def _moment(reader, n):
-    return SimpleNamespace(x=reader.x, fields=reader.fields(n, ("pressure", "film")))
+    return SimpleNamespace(x=reader.x, feature_x=reader.feature_x(n), fields=reader.fields(n, ("pressure", "film")))
 
 
 def beside(scene, steps):

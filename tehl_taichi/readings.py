@@ -27,7 +27,7 @@ def highest(shot):
     p = shot.fields["pressure"]
     i, j = np.unravel_index(p.argmax(), p.shape)
     spike = narrow_peak(p[:, j])
-    return Reading(float(p[i, j]), _between(p, i, j), float(shot.x[i]), float(shot.x[1] - shot.x[0]),
+    return Reading(float(p[i, j]), _between(p, i, j), _place(shot, i), float(shot.x[1] - shot.x[0]),
                    SPIKE.format(spike) if spike > RIVAL else "")
 
 
@@ -35,7 +35,13 @@ def lowest(shot):
     """Reading of the smallest film of a snapshot, m."""
     h = shot.fields["film"]
     i, j = np.unravel_index(h.argmin(), h.shape)
-    return Reading(float(h[i, j]), _between(h, i, j), float(shot.x[i]), float(shot.x[1] - shot.x[0]))
+    return Reading(float(h[i, j]), _between(h, i, j), _place(shot, i), float(shot.x[1] - shot.x[0]))
+
+
+def _place(shot, i):
+    """Position of a node in m, seen from the contact and from the feature, if there is one."""
+    seen = (shot.x[i], shot.x[i] - shot.feature_x)
+    return tuple(float(x) for x in seen if np.isfinite(x))
 
 
 def _between(values, i, j):

@@ -25,14 +25,14 @@ RIVAL = 0.65  # of the largest pressure: a narrow spike that high may overtake i
 class Reading:
     """A number on one grid.
 
-    blur: how far the true extreme may lie from the one over nodes on this grid; place: where that is and cell: the spacing
-    there (same unit), both nan for a number that is no extreme; doubt: why this grid cannot know the number ("" where it can);
+    blur: how far the true extreme may lie from the one over nodes on this grid; place: where that is, in each frame in which it
+    may rest, and cell: the spacing there (same unit), () and nan for a number that is no extreme; doubt: why this grid cannot know the number ("" where it can);
     lost: whether its value is not even a step towards that of the next grid.
     """
 
     value: float
     blur: float = 0.0
-    place: float = math.nan
+    place: tuple = ()
     cell: float = math.nan
     doubt: str = ""
     lost: bool = False
@@ -50,12 +50,12 @@ def bar(readings):
     if len(known) < 2:
         return None, "no coarser grid tells it"
     before = known[-2]
-    if abs(last.place - before.place) > MOVED * before.cell:
+    if last.place and all(abs(a - b) > MOVED * before.cell for a, b in zip(last.place, before.place)):
         return None, "its place differs from that on the next coarser grid"
     steps = [abs(b.value - a.value) for a, b in zip(known[:-1], known[1:])][::-1]
     if steps[0] > HOPELESS * abs(last.value):
         return None, f"it still changes by {steps[0] / abs(last.value):.0%} from grid to grid"
-    left = (ALONE,) if len(steps) == 1 else LEFT if math.isnan(last.place) else EXTREME
+    left = (ALONE,) if len(steps) == 1 else EXTREME if last.place else LEFT
     return max(last.blur, *(part * step for part, step in zip(left, steps))), ""
 
 
