@@ -1,6 +1,7 @@
 """tehl bench: the suites under profiles/."""
 
 import json
+import math
 import os
 from pathlib import Path
 from typing import Optional
@@ -86,7 +87,8 @@ def conclusions(
     (out / "conclusions.md").write_text(suite.page(rows, judged, base))
     (out / "conclusions.json").write_text(json.dumps([
         {"case": r.name, "reason": r.reason, "friction": r.friction, "findley_stress_Pa": {
-            "; ".join(key): [value, r.errors[key]] for key, value in r.values.items()}} for r in rows], indent=1))
+            "; ".join(key): [value, None if math.isnan(r.errors[key]) else r.errors[key]] for key, value in r.values.items()}}
+        for r in rows], indent=1))
     say(f"wrote {out}/conclusions.md and conclusions.json")
 
 

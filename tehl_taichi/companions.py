@@ -30,7 +30,8 @@ def scenes(scene):
     """([scenes with half and a quarter of the cells, coarsest first], [why others are left out]); steps grow with the cells."""
     out, refused = [], []
     for level in range(1, COMPANIONS + 1):
-        nx, ny, steps = (number // 2**level for number in (scene.grid.nx, scene.grid.ny, scene.time.steps))
+        nx, ny = scene.grid.nx // 2**level, scene.grid.ny // 2**level
+        steps = min(scene.time.steps, max(1, scene.time.steps // 2**level))  # 0 is all
         try:
             out.append(scene.replace(**{"grid.nx": nx, "grid.ny": ny, "time.steps": steps, "output.profiles": False}))
         except Error as error:

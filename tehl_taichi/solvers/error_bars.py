@@ -26,8 +26,8 @@ class Reading:
     """A number on one grid.
 
     blur: how far the true extreme may lie from the one over nodes on this grid; place: where that is, in each frame in which it
-    may rest, and cell: the spacing there (same unit), () and nan for a number that is no extreme; doubt: why this grid cannot know the number ("" where it can);
-    lost: whether its value is not even a step towards that of the next grid.
+    may rest, and cell: the spacing there, () and nan for a number that is no extreme; doubt: why this grid cannot know the
+    number ("" where it can); lost: whether its value is not even a step towards that of the next grid.
     """
 
     value: float
