@@ -37,7 +37,8 @@ def run(
     thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="energy equation on or off"),
     fatigue: Optional[bool] = typer.Option(None, "--fatigue/--no-fatigue", help="stresses and Findley index"),
     estimate_error: Optional[bool] = typer.Option(None, "--estimate-error/--no-estimate-error",
-                                                  help="error of the passage's numbers, by companion runs"),
+                                                  help="error of the passage's numbers, by companion runs (default: where "
+                                                       "a core is free for them)"),
     kappa: Optional[float] = typer.Option(None, help="Findley's kappa_F"),
     endurance: Optional[float] = typer.Option(None, help="Findley's endurance limit sigma_eF, Pa"),
     steps: Optional[int] = typer.Option(None, help="stop after this many time steps (0: the steady start alone); `tehl "
@@ -100,12 +101,12 @@ def resume(
         return
     _check_threads(threads)
     with _interruptible(store), Store.write(store) as saved:
-        steady_error = saved.needed("steady_error")
+        steady = {name: saved.needed(name) for name in ("steady_error", "steady_unknown")}
         _start("cpu", threads)
         state = saved.go_back()
         if rest and rest != saved.scene:
             saved.extend(rest)
-        _go(saved, state, started, as_json, quiet, steady_error)
+        _go(saved, state, started, as_json, quiet, steady)
 
 
 def _start(arch, threads):
@@ -131,21 +132,24 @@ def _simulate(description, place, started, as_json, quiet):
     for sentence in description.warnings():
         say(f"warning: {sentence}")
     first = next(march(description))
-    attrs = {"steady_error": json.dumps(plain(first.error)), "warnings": json.dumps(description.warnings()),
+    steady = {"steady_error": plain(first.error), "steady_unknown": first.unknown}
+    attrs = {"warnings": json.dumps(description.warnings()), **{name: json.dumps(value) for name, value in steady.items()},
              **provenance(description)}
     with Store.create(place, description, first, most_steps(description) + 1, attrs) as saved:
-        _go(saved, saved.go_back(), started, as_json, quiet, first.error)
+        _go(saved, saved.go_back(), started, as_json, quiet, steady)
 
 
-def _go(saved, state, started, as_json, quiet, steady_error):
+def _go(saved, state, started, as_json, quiet, steady):
+    from tehl_taichi import companions
     from tehl_taichi.io.summary import summarise
     from tehl_taichi.launches import binding_seconds
+    from tehl_taichi.simulation import total_steps
 
-    _march(saved, state, quiet)
-    fatigue, maps = _fatigue(saved, quiet)
-    error = _passage_error(saved, fatigue, quiet)
-    extra = {"wall_s": time.perf_counter() - started, "compile_s": binding_seconds(), "steady_error": steady_error,
-             "passage_error": error}
+    with companions.beside(saved.scene, total_steps(saved.scene) + 1 - saved.steps) as others:
+        _march(saved, state, quiet)
+        fatigue, maps = _fatigue(saved, quiet)
+        passage = others.errors(saved, fatigue, time.perf_counter() - started)
+    extra = {"wall_s": time.perf_counter() - started, "compile_s": binding_seconds(), **steady, **passage}
     summary = summarise(saved, extra, fatigue)
     saved.finish(summary, maps)
     print_json(summary) if as_json else _print(summary)
@@ -194,15 +198,6 @@ def _fatigue(saved, quiet):
     return result.summary, result.maps
 
 
-def _passage_error(saved, fatigue, quiet):
-    if not saved.scene.numerics.estimate_error or saved.steps < 2:
-        return None
-    from tehl_taichi.io.summary import passage_values
-    from tehl_taichi.post import estimate
-
-    return estimate.errors(saved.scene, passage_values(saved, fatigue), None if quiet else say)
-
-
 # options by another name than their key
 WORDS = {("thermal.on", True): "--thermal", ("thermal.on", False): "--isothermal", ("time.steady_only", True): "--steady",
          ("fatigue.on", True): "--fatigue", ("fatigue.on", False): "--no-fatigue",
@@ -239,9 +234,8 @@ def _on_grid_for(target, changes, description):
     """The scene on the grid that a target error needs."""
     if target is None:
         return description
-    from tehl_taichi.profiles.target import grid_for
-
     from tehl_taichi.scene import SceneError
+    from tehl_taichi.scene.target import grid_for
 
     if {"grid.nx", "grid.ny"} & changes.keys():
         raise SceneError(f"--target-error {target} chooses the grid; leave out --grid")

@@ -9,13 +9,14 @@ import time
 
 import numpy as np
 
-from tehl_taichi import snapshot
+from tehl_taichi import readings, snapshot
 from tehl_taichi.errors import NotConverged
 from tehl_taichi.kernels import fields
 from tehl_taichi.physics.gap import feature_height
 from tehl_taichi.scene.route import step_cells, total_steps
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.snapshot import Snapshot
+from tehl_taichi.solvers.error_bars import bars
 from tehl_taichi.solvers.guess import Guess, extrapolated
 from tehl_taichi.solvers.heat import FilmHeat
 from tehl_taichi.solvers.levels import Levels
@@ -49,14 +50,17 @@ def march(scene, state=None):
 
 def _steady_snapshot(scene, scales):
     started = time.perf_counter()
-    result = solve_steady(scene, scales, scene.grid.nx, 0 if scales.line else scene.grid.ny)
+
+    def look(solver, heat, report):
+        return readings.steady(snapshot.take(solver, heat, 0, 0.0, math.nan, report, started, None))
+
+    result = solve_steady(scene, scales, scene.grid.nx, 0 if scales.line else scene.grid.ny, look)
     if not result.report.converged:
         raise NotConverged(_reason(result.solver, result.heat, result.report, "the steady start"))
     state = snapshot.state_of(result.solver, result.heat, 0)
     first = snapshot.take(result.solver, result.heat, 0, 0.0, math.nan, result.report, started, lambda: state)
     first.scalars["cycles"] = float(result.work)
-    units = {"h_c": ("h_c_m", scales.h), "h_min": ("h_min_m", scales.h), "p_max": ("p_max_Pa", scales.p_H)}
-    first.error = {units[key][0]: value * units[key][1] for key, value in result.errors().items()}
+    first.grids, (first.error, first.unknown) = result.values, bars(result.values)
     return _spread(first, scene, scales), result.solver
 
 

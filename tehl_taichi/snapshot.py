@@ -18,8 +18,9 @@ class Snapshot:
     """One accepted state.
 
     step: 0 = steady start; time s; feature_x m, centre of the first feature (nan without one); x (nx+1,), y (ny+1,) m;
-    fields: (nx+1, ny+1) arrays in SI; scalars: numbers in SI; error: estimated discretisation error of h_c_m, h_min_m,
-    p_max_Pa (steady start only); make_state: called for :attr:`state`.
+    fields: (nx+1, ny+1) arrays in SI; scalars: numbers in SI; make_state: called for
+    :attr:`state`. Of a steady start, grids: {name: Reading} of every grid that it visited, error: bars of its numbers (None
+    where they are not known), unknown: why they are not.
     """
 
     step: int
@@ -30,7 +31,9 @@ class Snapshot:
     fields: dict
     scalars: dict
     make_state: Callable[[], dict]
+    grids: list = field(default_factory=list)
     error: dict = field(default_factory=dict)
+    unknown: dict = field(default_factory=dict)
 
     @functools.cached_property
     def state(self):

@@ -28,4 +28,13 @@ def held_temperatures(store, summary):
     return [f"temperatures were held inside the allowed range at {held} nodes"] if held else []
 
 
-CHECKS = (beyond_measured, held_temperatures)  # functions of (store, summary) that give their sentences
+def unknown_errors(store, summary):
+    """Numbers of which no error can be told, with the reason; one sentence for all that share it."""
+    for part, when in (("steady", "steady "), ("transient", "passage "), ("fatigue", "")):
+        reasons = {}
+        for name, why in summary.get(part, {}).get("unknown", {}).items():
+            reasons.setdefault(why, []).append(when + name)
+        yield from (f"the error of {', '.join(names)} is not known: {why}" for why, names in reasons.items())
+
+
+CHECKS = (beyond_measured, held_temperatures, unknown_errors)  # functions of (store, summary) that give their sentences

@@ -200,7 +200,7 @@ class Numerics:
 
     tolerance 1e-6: ten times less moves the film by under 0.1 % at 256 columns. mass_tolerance 1e-6: the conservation that
     users check. krylov_tolerance: from 0.03 to 0.3 a passage costs the same. newton_max, krylov_max: no converging case came
-    near them. estimate_error: an eighth more work.
+    near them. estimate_error: see tehl_taichi/companions.py.
     """
 
     tolerance: float = quantity(1e-6, "", "rms of min(P, R/D, gap) plus load error", 1e-11, 1e-3)
@@ -210,7 +210,8 @@ class Numerics:
     krylov_max: int = count(80, "Krylov iterations of a Newton step at most", 5, 500)
     precision: str = choice(AUTO, "of the linear solves inside Newton; auto: f32 where the film is thick enough for it (the "
                             "state and its residual are always double)", (AUTO, "f32", "f64"))
-    estimate_error: bool = switch(False, "error of the passage's numbers, by companion runs on coarser grids")
+    estimate_error: Union[bool, str] = switch(AUTO, "error of the passage's numbers, by companion runs on coarser grids; auto: "
+                                              "where a core is free for them", auto=True)
 
     def __post_init__(self):
         check(self, "numerics")
