@@ -103,7 +103,7 @@ def test_the_preview_tells_points_range_rms_slope_and_points_per_cell(tmp_path):
     first, second = preview(with_map(wave(tmp_path)))
     assert "121 x 61 points 1 um apart, 120 x 60 um" in first and "heights in um, plane taken off" in first
     f = with_map(wave(tmp_path)).features[0]
-    assert f"range {f.measures.range * 1e6:.3g} um" in second and f"rms {f.measures.rms * 1e6:.3g} um" in second
+    assert f"range {f.measures.range * 1e6:.4g} um" in second and f"rms {f.measures.rms * 1e6:.4g} um" in second
     assert f"slope {f.measures.slope:.2g} deg" in second and "a cell of the grid has 22.6 x 22.6 points" in second
 
 
@@ -270,3 +270,5 @@ def test_a_store_of_the_first_version_stays_readable(tmp_path):
     old = {key: value for key, value in data["feature"][0].items() if key not in ("unit", "scale", "sha256")}
     found = read_scene(tmp_path, json.dumps({**data, "feature": [{**old, "height": 1e-6}]})).features[0]
     np.testing.assert_allclose(found.surface, feature(tmp_path / "scan.npy").surface, rtol=1e-12)
+    bump = {key: value for key, value in scene("gear").to_dict()["feature"][0].items() if key in old}
+    assert read_scene(tmp_path, json.dumps({**scene("gear").to_dict(), "feature": [{**bump, "pixel": 1e-6}]})) == scene("gear")
