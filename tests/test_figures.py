@@ -105,3 +105,13 @@ def test_dots_per_inch_are_as_asked(tmp_path):
 
     write_all(Made(scene("smooth-line").replace(**{"thermal.on": False})), tmp_path, 50)
     assert matplotlib.image.imread(tmp_path / "centreline.png").shape[:2] == (325, 400)  # 8 x 6.5 inches
+
+
+def test_absurd_dots_per_inch_are_refused():
+    from tehl_cli.main import app
+    from typer.testing import CliRunner
+
+    from tehl_taichi.scene import SceneError
+
+    found = CliRunner().invoke(app, ["plot", "none.zarr", "--dpi", "5"]).exception
+    assert isinstance(found, SceneError) and "allowed: 40 to 1200" in str(found)

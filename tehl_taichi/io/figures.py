@@ -187,12 +187,12 @@ def profiles(plt, store):
     a, n = Scales.of(store.scene).a, middle_entry(store)
     T = store.fields(n, ["temperature"])["temperature"][:, axis_row(store)]
     zeta = store.map("zeta")
-    figure, ax = plt.subplots(figsize=(6, 4.8), constrained_layout=True)
+    figure, ax = plt.subplots(figsize=(6.8, 4.8), constrained_layout=True)
     for X in (-1.0, -0.5, 0.0, 0.5, 1.0):
         ax.plot(T[int(np.argmin(np.abs(store.x / a - X)))], zeta, "o-", ms=3, lw=1.2, label=f"x = {X:+.1f} a")
     ax.set(xlabel="temperature (°C)", ylabel="z / h (0: surface a, 1: surface b)",
            title=f"{store.scene.name}: across the film, {moment(store, n, a)}")
-    ax.legend(frameon=False)
+    figure.legend(frameon=False, loc="outside right upper")
     ax.grid(alpha=0.25)
     return figure
 

@@ -25,12 +25,20 @@ def scene_of(path, data):
     """
     maps = [feature for feature in data["feature"] if feature["shape"] == "map"]
     held = [_heights(path, feature["sha256"]) for feature in maps if "sha256" in feature]  # known until the scene has them
-    for feature in maps:
-        if "unit" not in feature:  # version 0.1.0: height is m per unit of the file
-            feature.update(unit="m", scale=feature.pop("height"))
+    for feature in data["feature"]:
+        if "unit" not in feature:
+            _upgrade(feature)
     scene = Scene.from_dict(data)
     del held
     return scene
+
+
+def _upgrade(feature):
+    """A feature of version 0.1.0, in place: there height was m per unit of a map's file, and every feature had a pixel."""
+    if feature["shape"] == "map":
+        feature.update(unit="m", scale=feature.pop("height"))
+    else:
+        feature.pop("pixel", None)
 
 
 def _heights(path, sha256):

@@ -90,8 +90,9 @@ def levelled(values, level):
     centred = values - values.mean()
     if level == "mean":
         return centred
-    y, x = (q - q.mean() for q in np.mgrid[: values.shape[0], : values.shape[1]].astype(float))
-    return centred - x * (x * values).sum() / (x * x).sum() - y * (y * values).sum() / (y * y).sum()
+    y, x = (np.arange(n) - (n - 1) / 2 for n in values.shape)
+    along, across = x * (x @ values.mean(axis=0)) / (x @ x), y * (y @ values.mean(axis=1)) / (y @ y)
+    return centred - along - across[:, None]
 
 
 @dataclass(frozen=True)

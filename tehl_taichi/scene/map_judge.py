@@ -45,7 +45,7 @@ def _lines(f, cell):
 
 
 def _um(value):
-    return f"{value * 1e6:.3g}"
+    return f"{value * 1e6:.4g}"
 
 
 def _size(f, scene):
