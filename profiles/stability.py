@@ -1,6 +1,7 @@
 """Stiff and extreme scenes, their fatigue included: each must converge, or stop with its reason; never NaN, a negative film
 or a hang."""
 
+import dataclasses
 import time
 from dataclasses import dataclass
 from typing import Optional
@@ -9,9 +10,13 @@ import numpy as np
 
 from tehl_taichi.io.scene_file import merge
 from tehl_taichi.scene import Scene, SceneError, scene
+from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.parts import AUTO
+from tehl_taichi.scene.passing import FEWEST
+from tehl_taichi.scene.scales import Scales
 
 LINE, POINT = {"grid.nx": 128, "grid.ny": 32}, {"grid.nx": 64, "grid.ny": 32}
+NARROW = {"grid.nx": 304, "grid.ny": 76}  # 20 um are four cells, the fewest that are taken
 MOST_STEPS = 600  # of a passage; with temperatures SRR -1.99 would need 25 536, the feature hardly moves in one
 RANDOM_LINE, RANDOM_POINT, RANDOM_STEPS = {"grid.nx": 64, "grid.ny": 16}, {"grid.nx": 64, "grid.ny": 16, "grid.y_max": 2.0}, 12
 
@@ -52,7 +57,8 @@ def cases(thermal=False):
         add(f"inlet {T:g} C", temperature=T)
     for height in (0.1e-6, 3e-6, -0.1e-6, -3e-6):
         for width in (20e-6, 400e-6):
-            add(f"cosine {height * 1e6:+g} um x {width * 1e6:g} um", height=height, width=width)
+            add(f"cosine {height * 1e6:+g} um x {width * 1e6:g} um", size=NARROW if width < 50e-6 else LINE, height=height,
+                width=width)
     for speed in (0.01, 0.1, 1.0, 50.0):
         add(f"u_m {speed:g} m/s", speed=speed)
     for law in ("newtonian", "eyring", "carreau"):
@@ -91,16 +97,26 @@ def _drawn(rng):
         return float(np.exp(rng.uniform(np.log(low), np.log(high))))
 
     point = rng.random() < 0.3
-    sign, law = rng.choice([-1.0, 1.0]), str(rng.choice(["limiting", "newtonian", "eyring", "carreau"]))
-    feature = {"height": sign * log_uniform(0.1e-6, 3e-6), "width": log_uniform(20e-6, 400e-6),
-               "shape": str(rng.choice(["cosine", "ridge"]))}
     contact = {"hertz_pressure": log_uniform(0.3e9, 2e9 if point else 4e9)}
     if point:
         contact |= {"kind": "elliptic", "radius_x": 12.7e-3, "radius_y": 12.7e-3 * log_uniform(1 / 8, 8)}
-    return edited("gear", {**(RANDOM_POINT if point else RANDOM_LINE), "srr": float(rng.uniform(-1.9, 2.0)),
-                           "temperature": float(rng.uniform(20, 150)), "speed": log_uniform(0.01, 50.0),
-                           "thermal.on": bool(rng.random() < 0.5), "rheology.law": law, "time.steps": RANDOM_STEPS,
-                           "bodies.b.E": 206e9 / log_uniform(1, 10), "contact": contact, "feature": [feature]})
+    law = str(rng.choice(["limiting", "newtonian", "eyring", "carreau"]))
+    size = RANDOM_POINT if point else RANDOM_LINE
+    smooth = edited("smooth-line", {**size, "srr": float(rng.uniform(-1.9, 2.0)), "temperature": float(rng.uniform(20, 150)),
+                                    "speed": log_uniform(0.01, 50.0), "thermal.on": bool(rng.random() < 0.5),
+                                    "rheology.law": law, "time.steps": RANDOM_STEPS, "contact": contact,
+                                    "bodies.b.E": 206e9 / log_uniform(1, 10)})
+    cell = max(_cells(smooth))
+    feature = Feature(height=float(rng.choice([-1.0, 1.0])) * log_uniform(0.1e-6, 3e-6),
+                      width=log_uniform(max(20e-6, 1.01 * FEWEST * cell), max(400e-6, 2 * FEWEST * cell)),
+                      shape=str(rng.choice(["cosine", "ridge"])))
+    return dataclasses.replace(smooth, features=(feature,))
+
+
+def _cells(description):
+    """Lengths of a cell along x and y, m."""
+    g, s = description.grid, Scales.of(description)
+    return (g.x_max - g.x_min) * s.a / g.nx, g.y_max * s.b / g.ny
 
 
 def edited(base, changes):

@@ -1,6 +1,7 @@
 """Whether the laws of an oil have values at the pressures and the temperature of a scene, and what they leave out."""
 
 import dataclasses
+import itertools
 import math
 
 from tehl_taichi.errors import SceneError
@@ -54,11 +55,11 @@ def _check_heat(oil, T, at):
     density = 1 - oil.beta0 * (T - 40)
     if oil.expansion != "never" and density < SPARE:
         raise SceneError(f"oil.beta0 = {oil.beta0:g} 1/K leaves {density:.3g} of the density {at}; allowed: at least {SPARE:g}")
-    for p in (P_MEASURED * n / 10 for n in range(11)):
-        rise = 1 + oil.b0 * (1 + oil.b1 * p + oil.b2 * p * p) * (min(T, GAMMA_MEASURED) - 22)
+    for p, Gamma in itertools.product((P_MEASURED * n / 10 for n in range(11)), (min(T, GAMMA_MEASURED), GAMMA_MEASURED)):
+        rise = 1 + oil.b0 * (1 + oil.b1 * p + oil.b2 * p * p) * (Gamma - 22)
         if rise < SPARE:
-            raise SceneError(f"oil.b0, b1, b2: the heat capacity falls to {rise:.3g} of its value at 22 deg C {at} and "
-                             f"{p:.3g} Pa; allowed: at least {SPARE:g}")
+            raise SceneError(f"oil.b0, b1, b2: the heat capacity falls to {rise:.3g} of its value at 22 deg C where the film "
+                             f"has {Gamma:g} deg C and {p:.3g} Pa; allowed: at least {SPARE:g}")
 
 
 def warnings(scene):

@@ -1,0 +1,85 @@
+"""What is doubtful although it can be simulated: a sentence each, known before or after the run."""
+
+import dataclasses
+import json
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from tehl_taichi.io import judge
+from tehl_taichi.scene import BUILT_INS, scene
+from tehl_taichi.scene.oil import OILS, Oil
+
+GEAR = scene("gear")
+NEW = {"oil.name": "mine", "oil.viscosity": "roelands", "oil.eta0": 0.1, "oil.alpha": 2e-8, "oil.Z": 0.6}
+YASUTOMI = Oil(name="glass", viscosity="yasutomi", rho0=900.0)
+TABLE = Oil(name="list", viscosity="table", table=((0.0, -3.0), (1e9, 10.0)), rho0=900.0)
+BARUS = Oil(name="thin", viscosity="barus", alpha=1e-8, beta_eta=0.03, rho0=900.0)
+
+
+def of_oil(oil, **changes):
+    return dataclasses.replace(GEAR.replace(**changes) if changes else GEAR, oil=oil).warnings()
+
+
+@pytest.mark.parametrize("warnings, words", [
+    (lambda: GEAR.replace(**{"oil.k0": 0.2}).warnings(), ("reference-pao", "other numbers", "(k0)")),
+    (lambda: scene("ball-on-disc").replace(**{"oil.alpha": 2e-8, "oil.eta0": 1.0}).warnings(), ("(eta0, alpha)",)),
+    (lambda: GEAR.replace(**NEW).warnings(), ("oil.name = mine", "density, conductivity and heat capacity", "reference-pao")),
+    (lambda: of_oil(Oil(name="typo")), ("oil.name = typo", "all its numbers", "reference-pao")),
+    (lambda: of_oil(BARUS), ("barus", "1.93 GPa", "0.5 GPa")),
+    (lambda: of_oil(TABLE), ("oil.table ends at 1 GPa", "1.93 GPa", "slope")),
+    (lambda: of_oil(YASUTOMI), ("yasutomi", "135 deg C", "inlet's 90")),
+    (lambda: GEAR.replace(**{"oil.name": "moes-test-fluid"}).warnings(), ("roelands", "temperature")),
+    (lambda: scene("ball-on-disc").replace(temperature=40.0).warnings(), ("roelands", "temperature of the inlet")),
+    (lambda: of_oil(dataclasses.replace(BARUS, beta_eta=0.0)), ("barus, beta_eta = 0", "temperature")),
+    (lambda: scene("smooth-line").replace(**{"contact.moes_M": 100.0, "contact.moes_L": 10.0}).warnings(),
+     ("contact.moes_L takes oil.eta0 and oil.alpha", "roelands-temperature")),
+])
+def test_doubts_about_the_oil(warnings, words):
+    found = warnings()
+    assert any(all(word in line for word in words) for line in found), found
+
+
+@pytest.mark.parametrize("name", BUILT_INS)
+def test_built_in_scenes_have_no_doubts_about_their_oils(name):
+    assert not [line for line in scene(name).warnings() if "oil" in line]
+
+
+def test_no_doubts_about_laws_within_their_range():
+    mild = {"hertz_pressure": 0.4e9, "height": 1e-8}
+    for oil in (BARUS, TABLE, dataclasses.replace(YASUTOMI, A1=20.0)):
+        assert not [line for line in of_oil(oil, **mild) if "range" in line or "slope" in line]
+    assert [oil.name for oil in OILS.values()] == list(OILS)
+
+
+def store(p, T, held=0, **changes):
+    """A store as far as judges look: the scene and three entries of its series."""
+    series = {"p_max_Pa": p, "film_max_C": T, "clamped": held}
+    return SimpleNamespace(scene=GEAR.replace(**changes) if changes else GEAR, steps=3,
+                           scalar=lambda name: np.array([1.0, 2.0, series[name]]))
+
+
+def test_films_beyond_what_was_measured():
+    said, = judge.beyond_measured(store(4.01e9, 202.0), {})
+    assert "4.01 GPa and 202 deg C" in said and "1.1 GPa and 107 deg C" in said
+    assert judge.beyond_measured(store(1.2e9, 20.0), {}) and judge.beyond_measured(store(1e9, 108.0), {})
+    assert judge.beyond_measured(store(1.09e9, 106.0), {}) == []
+    assert judge.beyond_measured(store(4e9, 300.0, **{"thermal.on": False}), {}) == []  # its laws of heat are not used
+    assert "at 8 nodes" in judge.held_temperatures(store(1e9, 50.0, held=5), {})[0]  # 1 + 2 + 5
+    assert {judge.beyond_measured, judge.held_temperatures} <= set(judge.CHECKS)
+
+
+def test_doubts_reach_the_store_and_its_summary(taichi_cpu, tmp_path):
+    """Of a steady start: the pressure and temperature of its warning are those of its summary."""
+    from tehl_taichi.io.store import Store
+    from tehl_taichi.io.summary import summarise
+    from tehl_taichi.simulation import march
+
+    description = scene("gear").replace(**{"thermal.on": True, "grid.nx": 64, "grid.ny": 16})
+    first = next(march(description))
+    saved = Store.create(tmp_path / "s.zarr", description, first, 1, {"warnings": json.dumps(description.warnings())})
+    summary = summarise(saved, {"wall_s": 0.0, "compile_s": 0.0, "steady_error": {}})
+    hot = f"{summary['steady']['p_max_Pa'] / 1e9:.2f} GPa and {summary['steady']['film_max_C']:.0f} deg C"
+    assert any(hot in line for line in summary["warnings"]) and any("8.8 cells" in line for line in summary["warnings"])
+    assert any("8.8 cells" in line for line in Store.open(tmp_path / "s.zarr").warnings)

@@ -1,0 +1,121 @@
+"""Features that the grid does not see or that pass beside the domain are refused, coarse ones carry a warning."""
+
+import dataclasses
+import re
+
+import pytest
+
+from tehl_taichi.scene import BUILT_INS, SceneError, scene
+from tehl_taichi.scene.feature import Feature
+from tehl_taichi.scene.scales import Scales
+
+GEAR = scene("gear").replace(**{"thermal.on": False})
+CELL = 4 * Scales.of(GEAR).a / 256  # along x; across it is the same
+
+
+def on(nx, ny, *features, **changes):
+    return dataclasses.replace(GEAR.replace(**{"grid.nx": nx, "grid.ny": ny, "time.steady_only": True, **changes}),
+                               features=features, time=GEAR.time)
+
+
+def sentence(call):
+    with pytest.raises(SceneError) as caught:
+        call()
+    return str(caught.value)
+
+
+PATCH = dict(height=1e-7, extent_x=300e-6, taper=20e-6)
+NARROW, WIDE = 3.9 * CELL, 4.1 * CELL
+COARSE = {
+    "bump": (dict(width=NARROW), "feature.width", "nx"), "ridge": (dict(shape="ridge", width=NARROW), "feature.width", "nx"),
+    "furrow": (dict(shape="furrow", height=-1e-6, width=NARROW), "feature.width", "nx"),
+    "long bump": (dict(width=NARROW, length=100 * CELL), "feature.width", "nx"),
+    "short bump": (dict(width=100 * CELL, length=NARROW), "feature.length", "ny"),
+    "waves": (dict(PATCH, shape="waviness", width=NARROW), "feature.width", "nx"),
+    "waves across": (dict(PATCH, shape="waviness", width=100e-6, length=NARROW), "feature.length", "ny"),
+    "short patch": (dict(PATCH, shape="waviness", width=100e-6, extent_x=NARROW), "feature.extent_x", "nx"),
+    "narrow patch": (dict(PATCH, shape="waviness", width=100e-6, extent_y=NARROW), "feature.extent_y", "ny"),
+    "roughness": (dict(PATCH, shape="rough", width=NARROW), "feature.width", "nx"),
+    "rough strip": (dict(PATCH, shape="rough", width=60e-6, extent_y=NARROW), "feature.extent_y", "ny"),
+}
+
+
+@pytest.mark.parametrize("values, key, count", COARSE.values(), ids=COARSE)
+def test_fewer_than_four_cells_are_refused(values, key, count):
+    said = sentence(lambda: on(256, 64, Feature(**values)))
+    assert f"{key} = " in said and f"is 3.9 cells of grid.{count} = " in said and "at least 4 cells" in said
+    nx, ny = map(int, re.search(r"--grid (\d+)x(\d+)", said).groups())  # the grid that the sentence names is taken
+    assert on(nx, ny, Feature(**values)).features and (nx, ny) != (256, 64)
+    wider = {name: WIDE if value == NARROW else value for name, value in values.items()}
+    assert any(f"{key} = " in line and "16" in line for line in on(256, 64, Feature(**wider)).warnings())
+
+
+def test_roughness_is_seen_along_both_axes():
+    f = Feature(**{**PATCH, "shape": "rough", "width": 10 * CELL})
+    assert "grid.ny = 24" in sentence(lambda: on(256, 24, f)) and "grid.nx = 96" in sentence(lambda: on(96, 64, f))
+
+
+def test_the_worst_of_several_features_is_named():
+    said = sentence(lambda: on(256, 64, Feature(), Feature(width=2e-6, x=-1e-4)))
+    assert "feature.1.width = 2e-06 m" in said
+
+
+def test_too_narrow_for_any_grid():
+    said = sentence(lambda: on(256, 64, Feature(width=1e-6), **{"grid.x_min": -20.0}))
+    assert "no grid has them" in said and "feature.width of 0.00012 m would do" in said
+
+
+def test_lines_and_steady_scenes_need_no_rows():
+    ridge = Feature(shape="ridge", width=WIDE, height=1e-7)
+    assert on(256, 8, ridge).one_dimensional
+    assert GEAR.replace(**{"time.steady_only": True, "width": 2e-6})
+
+
+def test_enough_cells_carry_no_warning():
+    assert GEAR.warnings() == []
+    assert on(112, 28, Feature(width=200e-6)).warnings()  # 15.5 cells
+    assert not on(128, 32, Feature(width=200e-6)).warnings()  # 17.7
+    said, = on(64, 16, Feature(width=200e-6)).warnings()
+    assert "8.8 cells" in said and "--grid 128x32" in said
+
+
+def test_which_built_in_scenes_are_coarse():
+    coarse = {name for name in BUILT_INS if any("cells of grid" in line for line in scene(name).warnings())}
+    assert coarse == {"rough"}  # 7.1 cells per shortest wave; 592 x 148 would be enough
+
+
+@pytest.mark.parametrize("feature, words", [
+    (dict(y=2e-3), ("feature.y = 0.002 m", "0.0001 m to each side", "-0.000457 to 0.000457 m", "grid.y_max (= 1 b")),
+    (dict(y=-4.6e-4), ("feature.y = -0.00046 m",)),
+    (dict(PATCH, shape="rough", width=60e-6, extent_y=200e-6, y=-1e-3), ("feature.y = -0.001 m",)),
+])
+def test_features_beside_the_domain(feature, words):
+    said = sentence(lambda: on(256, 64, Feature(**feature)))
+    assert all(word in said for word in ("no part", *words)), said
+
+
+def test_features_at_its_edge_are_cut():
+    assert on(256, 64, Feature(y=4.5e-4)).rows == 128
+    said, = on(256, 64, Feature(y=3e-4)).warnings()
+    assert "cut off" in said and "grid.y_max = 1.2 takes it in" in said
+    assert on(256, 64, Feature(y=3e-4), **{"grid.y_max": 1.2, "grid.ny": 80}).warnings() == []
+    assert on(256, 64, Feature(shape="ridge", y=1e-3, height=1e-7)).one_dimensional  # transverse: the same for every y
+
+
+def test_a_path_that_ends_before_the_domain():
+    said = sentence(lambda: GEAR.replace(**{"time.x_start": -8.0, "time.x_end": -3.5}))
+    assert "no part" in said and "x_end = -3.5 a" in said and "grid.x_min = -2.5 a" in said
+    assert GEAR.replace(**{"time.x_start": -8.0, "time.x_end": -2.5}).transient
+
+
+def test_features_beside_the_contact_of_a_ball():
+    bumps = scene("ridge-on-ball").replace(**{"feature.shape": "cosine", "grid.ny": 64, "grid.nx": 128})
+    far = bumps.replace(**{"feature.y": 1.5 * Scales.of(bumps).b})
+    assert any("beside the contact" in line for line in far.warnings())
+    assert not any("beside the contact" in line for line in bumps.warnings())
+
+
+def test_thousands_of_features_are_refused_at_once():
+    said = sentence(lambda: dataclasses.replace(GEAR, features=(Feature(),) * 3000))
+    assert "3000 features" in said and "256" in said and "map" in said
+    assert len(dataclasses.replace(GEAR, features=(Feature(),) * 256).features) == 256
