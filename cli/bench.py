@@ -1,12 +1,14 @@
 """tehl bench: the suites under profiles/."""
 
 import json
+import math
 import os
 from pathlib import Path
 from typing import Optional
 
 import typer
 from tehl_cli.live import say
+from tehl_cli.out import print_json
 
 
 def register(app):
@@ -34,24 +36,24 @@ def stability(
     quick: bool = typer.Option(False, "--quick", help="every sixth case and eight random scenes"),
     as_json: bool = typer.Option(False, "--json", help="one JSON object with the counts on stdout"),
     threads: Optional[int] = THREADS,
-    precision: str = typer.Option("f64", help="of the linear solves: f64 or f32"),
+    precision: str = typer.Option("auto", help="of the linear solves: f32, f64 or what suits each scene"),
 ):
     """Stiff and extreme scenes: converged, refused, stopped with the reason, or failed. Example: `tehl bench stability`"""
     from tehl_taichi.profiles.stability import cases, random_cases, run_case
 
     from tehl_taichi import runtime
 
-    runtime.start(threads=threads, precision=precision)
+    runtime.start(threads=threads)
     table = list(cases(thermal).items())
     chosen = [*table[:: 6 if quick else 1], *random_cases(min(random, 8) if quick else random, seed).items()]
     found = []
     for name, description in chosen:
         if match.lower() in name.lower():
-            found.append(run_case(name, description))
+            found.append(run_case(name, description, precision))
             say(f"{name}: {found[-1].verdict} {found[-1].reason}")
     counts = {verdict: sum(o.verdict == verdict for o in found) for verdict in ("converged", "refused", "stopped", "failed")}
     if as_json:
-        print(json.dumps({**counts, "cases": [vars(o) for o in found]}))
+        print_json({**counts, "cases": [vars(o) for o in found]})
     else:
         rows = [{**vars(o), "case": o.name} for o in found]
         _table("stability" + (" with temperatures" if thermal else ""), rows,
@@ -75,8 +77,8 @@ def conclusions(
     from tehl_taichi import runtime
     from tehl_taichi.scene import scene
 
-    runtime.start(threads=threads, precision="f32")
-    from tehl_taichi.profiles import conclusions as suite  # now: it defines kernels
+    runtime.start(threads=threads)
+    from tehl_taichi.profiles import conclusions as suite
 
     rows = suite.run(out, quick, say)
     base = scene("gear")
@@ -86,24 +88,71 @@ def conclusions(
     (out / "conclusions.md").write_text(suite.page(rows, judged, base))
     (out / "conclusions.json").write_text(json.dumps([
         {"case": r.name, "reason": r.reason, "friction": r.friction, "findley_stress_Pa": {
-            "; ".join(key): [value, r.errors[key]] for key, value in r.values.items()}} for r in rows], indent=1))
+            "; ".join(key): [value, None if math.isnan(r.errors[key]) else r.errors[key]] for key, value in r.values.items()}}
+        for r in rows], indent=1))
     say(f"wrote {out}/conclusions.md and conclusions.json")
 
 
-def accuracy(out: Path = OUT, quick: bool = QUICK, threads: Optional[int] = THREADS):
-    """Error against run time, and the grid that is enough for 5, 1 and 0.1 %. Example: `tehl bench accuracy --quick`"""
+def accuracy(
+    out: Path = OUT, quick: bool = QUICK, threads: Optional[int] = THREADS,
+    only: Optional[str] = typer.Option(None, help="errors (against run time) or coverage (of the error bars)"),
+    seed: int = typer.Option(3, help="of the random scenes that judge the error bars"),
+    judge: bool = typer.Option(False, "--judge", help="the coverage of the battery that `out` holds already"),
+    keep: bool = typer.Option(False, "--keep", help="write the errors into the package, for --target-error"),
+):
+    """Error against run time, the grid that is enough for 5, 1 and 0.1 %, and whether error bars hold on random scenes.
+
+    Examples: `tehl bench accuracy --quick` · `tehl bench accuracy --only coverage --threads 1`
+    """
+    from tehl_taichi import runtime
+    from tehl_taichi.scene.checks import choice
+
+    choice("--only", only, (None, "errors", "coverage"))
+    runtime.start(threads=threads)
+    if only != "coverage" and not judge:
+        _accuracy(out, quick, keep)
+    if only != "errors":
+        _coverage(out / "coverage.json", seed, quick, judge, threads or os.cpu_count())
+
+
+def _accuracy(out, quick, keep):
     from tehl_cli.tables import list_table
     from tehl_taichi.profiles import accuracy as suite
+    from tehl_taichi.profiles import measure
 
-    from tehl_taichi import runtime
-
-    runtime.start(threads=threads, precision="f32")
     rows = suite.run(quick, say)
     _errors(rows)
     list_table("columns that are enough", ("family", "quantity", "order", *(f"{target:g}" for target in suite.TARGETS)),
-               [(family, quantity, f"{order:.1f}", *(str(nx or "finer") for nx in grids))
+               [(family, quantity, "none" if order is None else f"{order:.1f}", *(str(nx or "finer") for nx in grids))
                 for family, quantity, order, grids in suite.enough(rows)])
     _write(out, "accuracy", rows, lambda plt: suite.chart(plt, rows))
+    if keep:
+        from tehl_taichi.scene import target
+
+        target.FILE.write_text(json.dumps({"machine": measure.machine(), "families": suite.grid_errors(rows)}, indent=1) + "\n")
+        say(f"wrote {target.FILE}")
+
+
+def _coverage(path, seed, quick, judge, threads):
+    from tehl_cli.tables import list_table
+    from tehl_taichi.profiles import coverage as suite
+    from tehl_taichi.profiles import measure
+
+    if not judge:
+        measure.fresh(threads, suite.run, path, seed, quick, say)
+    stored = json.loads(path.read_text())
+    list_table(f"error bars of random scenes (seed {stored['seed']}), judged on grids {suite.FINER} times as fine",
+               ("part", "quantity", "stated", "not known", "covered, %", "bar / error, median", "bar, median", "error, median"),
+               [(part, name, str(stated), str(unknown), *(_short(value, factor) for value, factor in
+                                                          zip(numbers, (100, 1, 1, 1))))
+                for part, name, stated, unknown, *numbers in suite.table(stored["rows"])])
+    for one in stored["rows"]:
+        if "reason" in one:
+            say(f"left out, {one['kind']}: {one['reason']}")
+
+
+def _short(value, factor):
+    return "" if value is None else f"{factor * value:.2g}" if factor == 1 else f"{factor * value:.1f}"
 
 
 def _errors(rows):
@@ -148,7 +197,7 @@ def profile(out: Path = OUT, quick: bool = QUICK, threads: Optional[int] = THREA
     from tehl_taichi.profiles import profile as suite
 
     nx, ny, steps = (128, 32, 8) if quick else (256, 64, 30)
-    stages, kernels, numbers = measure.fresh(threads or os.cpu_count(), suite.run, nx, ny, thermal, steps, precision="f32")
+    stages, kernels, numbers = measure.fresh(threads or os.cpu_count(), suite.run, nx, ny, thermal, steps)
     columns = {"what": "{}", "calls": "{:.1f}", "ms": "{:.2f}", "limit_ms": "{:.2f}", "MB": "{:.1f}"}
     _table("stages, per step (a stage may hold others)", stages, columns)
     _table("kernels, per step", kernels, columns)

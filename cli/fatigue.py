@@ -1,11 +1,11 @@
 """tehl fatigue: the fatigue pass over a store, again and with other constants."""
 
-import json
 from pathlib import Path
 from typing import Optional
 
 import typer
 from tehl_cli.live import say
+from tehl_cli.out import folder_for, print_json
 
 
 def register(app):
@@ -52,7 +52,7 @@ def fatigue(
     if figures:
         from tehl_taichi.io.figures import write_fatigue
 
-        for path in write_fatigue(result, scene.name, Scales.of(scene).a, figures):
+        for path in write_fatigue(result, scene.name, Scales.of(scene).a, folder_for(figures)):
             say(str(path))
 
 
@@ -84,6 +84,6 @@ def _show(result, as_json):
     from tehl_cli.tables import fatigue_rows, list_table
 
     if as_json:
-        print(json.dumps(result.summary))
+        print_json(result.summary)
     else:
         list_table("fatigue", ("quantity", "value"), fatigue_rows(result.summary))

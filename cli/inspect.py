@@ -4,6 +4,7 @@ from pathlib import Path
 
 import typer
 from tehl_cli.live import say
+from tehl_cli.out import folder_for
 
 
 def register(app):
@@ -54,14 +55,24 @@ def show(store: Path = typer.Argument(..., help="store of a finished, running or
     from tehl_taichi.io.store import Store
 
     saved = Store.open(store)
-    state = "finished" if saved.finished else f"not finished; go on with: tehl resume {store}"
-    print(f"{store}: scene {saved.scene.name}, {saved.steps} entries, {state}")
+    print(f"{store}: scene {saved.scene.name}, {saved.steps} entries, {_state(saved)}")
+    if other := saved.other_version:
+        print(f"{store} was {other}")
     if saved.summary:
         summary_table(saved.summary)
     else:
         warning_lines(saved.warnings)
     shown = sorted({*range(0, saved.steps, max(saved.steps // 20, 1)), saved.steps - 1})
     history_table(saved.scalar, shown)
+
+
+def _state(saved):
+    """How far a run is, and what to do about it."""
+    if saved.writer:
+        return f"still being written by {saved.writer}"
+    if not saved.finished:
+        return f"not finished; go on with: tehl resume {saved.path}"
+    return "finished" if saved.cut is None else f"finished, cut at {saved.cut:.2f} a; go on with: tehl resume {saved.path}"
 
 
 def plot(store: Path = typer.Argument(..., help="store of a run"),
@@ -73,7 +84,9 @@ def plot(store: Path = typer.Argument(..., help="store of a run"),
     from tehl_taichi.scene.checks import integer
 
     integer("--dpi", dpi, 40, 1200)
-    for path in figures.write_all(Store.open(store), out or store.with_suffix(""), dpi):
+    saved = Store.open(store)
+    beside = store.with_suffix("") if store.suffix else store.with_name(f"{store.name}-figures")
+    for path in figures.write_all(saved, folder_for(out or beside), dpi):
         print(path)
 
 

@@ -1,12 +1,14 @@
 """Progress on stderr: a live line in a terminal, a plain line now and then elsewhere."""
 
+import contextlib
 import sys
 import time
 
 
 def say(text):
-    """One line on stderr."""
-    print(text, file=sys.stderr, flush=True)
+    """One line on stderr; a run goes on where nobody reads it."""
+    with contextlib.suppress(BrokenPipeError):
+        print(text, file=sys.stderr, flush=True)
 
 
 class Live:

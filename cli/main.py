@@ -1,12 +1,13 @@
-"""Entry point: the commands, and one place that turns errors into a sentence and an exit code."""
-
-import sys
+"""The commands."""
 
 import typer
 import typer.core
 from tehl_cli import bench, fatigue, inspect, runs
+from tehl_cli.entry import main
 
-from tehl_taichi.errors import FAILED, Interrupted
+from tehl_taichi.errors import Interrupted
+
+__all__ = ["app", "main"]
 
 
 class Commands(typer.core.TyperGroup):
@@ -20,24 +21,30 @@ class Commands(typer.core.TyperGroup):
 
 
 app = typer.Typer(cls=Commands, no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False,
-                  rich_markup_mode="rich",
-                  help="Lubricated contacts with surface features: film, pressure, stresses, fatigue.\n\n"
-                       "Example: tehl run --srr -0.12")
+                  rich_markup_mode="rich")
+
+
+@app.callback()
+def options(version: bool = typer.Option(False, "--version", help="versions and commit, and nothing else",
+                                         callback=lambda wanted: wanted and _tell_version(), is_eager=True)):
+    """Lubricated contacts with surface features: film, pressure, stresses, fatigue.
+
+    Example: tehl run --srr -0.12
+    """
+
+
+def _tell_version():
+    from importlib.metadata import version
+    from platform import python_version
+
+    from tehl_taichi import __version__
+    from tehl_taichi.commit import commit
+
+    print(f"tehl_taichi {__version__}, commit {commit()}, Python {python_version()}, taichi {version('taichi')}")
+    raise typer.Exit()
+
+
 runs.register(app)
 inspect.register(app)
 fatigue.register(app)
 bench.register(app)
-
-
-def main():
-    """Run the command line; exit codes: 0 done, 2 bad input, 3 not converged, 4 interrupted, 1 anything else."""
-    debug = "--debug" in sys.argv
-    if debug:
-        sys.argv.remove("--debug")
-    try:
-        app()
-    except Exception as error:  # noqa: BLE001  every failure ends in one sentence
-        if debug:
-            raise
-        print(f"tehl: {error or type(error).__name__}", file=sys.stderr)
-        sys.exit(getattr(error, "exit_code", FAILED))

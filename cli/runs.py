@@ -2,14 +2,13 @@
 
 import contextlib
 import json
-import shutil
-import sys
 import time
 from pathlib import Path
 from typing import List, Optional
 
 import typer
 from tehl_cli.live import Live, say
+from tehl_cli.out import print_json
 
 from tehl_taichi.errors import Interrupted
 
@@ -38,15 +37,17 @@ def run(
     thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="energy equation on or off"),
     fatigue: Optional[bool] = typer.Option(None, "--fatigue/--no-fatigue", help="stresses and Findley index"),
     estimate_error: Optional[bool] = typer.Option(None, "--estimate-error/--no-estimate-error",
-                                                  help="error of the passage's numbers, by companion runs"),
+                                                  help="error of the passage's numbers, by companion runs (default: where "
+                                                       "a core is free for them)"),
     kappa: Optional[float] = typer.Option(None, help="Findley's kappa_F"),
     endurance: Optional[float] = typer.Option(None, help="Findley's endurance limit sigma_eF, Pa"),
-    steps: Optional[int] = typer.Option(None, help="stop after this many time steps"),
+    steps: Optional[int] = typer.Option(None, help="stop after this many time steps (0: the steady start alone); `tehl "
+                                        "resume` goes on"),
     out: Optional[Path] = typer.Option(None, help="store to write (default: runs/SCENE-N.zarr)"),
-    force: bool = typer.Option(False, "--force", help="replace an existing store"),
+    force: bool = typer.Option(False, "--force", help="replace an existing store, as soon as the new one has its first entry"),
     arch: str = typer.Option("cpu", help="cpu"),
     threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
-    precision: Optional[str] = typer.Option(None, help="of the linear solves: f32 or f64 (default: f32 for thick films); the "
+    precision: Optional[str] = typer.Option(None, help="of the linear solves: f32, f64 or auto (f32 for thick films); the "
                                             "state and its residual are always double"),
     as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout, everything else on stderr"),
     quiet: bool = typer.Option(False, "--quiet", help="no progress"),
@@ -57,60 +58,70 @@ def run(
     """
     started = time.perf_counter()
     from tehl_taichi.io.found import find
-    from tehl_taichi.io.store import check_free
-    from tehl_taichi.precision import suited
+    from tehl_taichi.io.place import Place
 
-    changes = {"srr": srr, "load": load, "hertz_pressure": hertz_pressure, "speed": speed, "temperature": temperature,
-               "height": height, "width": width, "kappa": kappa, "endurance": endurance, "thermal.on": thermal,
-               "fatigue.on": fatigue, "numerics.estimate_error": estimate_error,
-               "time.steps": steps, "time.steady_only": True if steady else None}
-    changes = {key: value for key, value in changes.items() if value is not None}
-    changes.update(_grid(grid))
-    changes.update(_settings(set_ or []))
+    changes = _changes(
+        {"srr": srr, "load": load, "hertz_pressure": hertz_pressure, "speed": speed, "temperature": temperature,
+         "height": height, "width": width, "kappa": kappa, "endurance": endurance, "time.steps": steps, "thermal.on": thermal,
+         "fatigue.on": fatigue, "numerics.estimate_error": estimate_error, "numerics.precision": precision,
+          "time.steady_only": steady or None},
+        grid, set_ or [])
     description = find(scene)
     description = description.replace(**changes) if changes else description
-    description = _on_grid_for(target_error, grid, description)
+    description = _on_grid_for(target_error, changes, description)
     _check_threads(threads)
-    path = out or _fresh(description.name)
-    if not (force and _is_store(path)):
-        check_free(path)
-    with _interruptible(path):
-        _start(arch, threads, precision or suited(description))
-        _simulate(description, path, started, as_json, quiet, force)
+    place = Place(out, force) if out else Place.fresh(Path("runs"), description.name)
+    with place, _interruptible(place.path, place):
+        _start(arch, threads)
+        _simulate(description, place, started, as_json, quiet)
 
 
 def resume(
-    store: Path = typer.Argument(..., help="store of an interrupted run"),
+    store: Path = typer.Argument(..., help="store of an interrupted run, or of a passage that was cut"),
+    steps: Optional[int] = typer.Option(None, min=1, help="so many more (default: to the end that the run was given; of a "
+                                        "finished run, to the end of its passage)"),
     threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
     as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout"),
     quiet: bool = typer.Option(False, "--quiet", help="no progress"),
 ):
-    """Go on, at most two seconds of work before the last stored step. Example: `tehl resume runs/gear-1.zarr`"""
+    """Go on, at most two seconds of work before the last stored step; a finished run to the end of its passage.
+
+    Example: `tehl resume runs/gear-1.zarr`
+    """
     started = time.perf_counter()
     from tehl_taichi.io.store import Store
+    from tehl_taichi.scene.route import continued
 
     saved = Store.open(store)
-    if saved.finished:
+    rest = continued(saved.scene, saved.last_step, steps) if saved.finished or steps else saved.scene
+    if saved.finished and rest is None:
         say(f"{store} is finished ({saved.steps} entries); `tehl show {store}` prints its summary")
         if as_json:
-            print(json.dumps(saved.summary))
+            print_json(saved.summary)
         return
     _check_threads(threads)
-    with _interruptible(store):
-        _start("cpu", threads, json.loads(saved.attrs["runtime"])["precision"])
-        _go(saved, started, as_json, quiet, json.loads(saved.attrs["steady_error"]))
+    with _interruptible(store), Store.write(store) as saved:
+        steady = {name: saved.needed(name) for name in ("steady_error", "steady_unknown")}
+        _start("cpu", threads)
+        state = saved.go_back()
+        if rest and rest != saved.scene:
+            saved.extend(rest)
+        _go(saved, state, started, as_json, quiet, steady)
 
 
-def _start(arch, threads, precision):
+def _start(arch, threads):
     from tehl_taichi import runtime
 
-    return runtime.start(arch, threads, precision)
+    return runtime.start(arch, threads)
 
 
-def _simulate(description, path, started, as_json, quiet, force):
+def _simulate(description, place, started, as_json, quiet):
+    from tehl_taichi.io.plain import plain
+    from tehl_taichi.io.provenance import provenance
     from tehl_taichi.io.store import Store
     from tehl_taichi.scene.map_judge import preview
-    from tehl_taichi.simulation import march, total_steps
+    from tehl_taichi.scene.route import most_steps
+    from tehl_taichi.simulation import march
 
     for line in description.left_out():
         if not quiet:
@@ -121,34 +132,37 @@ def _simulate(description, path, started, as_json, quiet, force):
     for sentence in description.warnings():
         say(f"warning: {sentence}")
     first = next(march(description))
-    if path.exists() and force:
-        shutil.rmtree(path)
-    attrs = {"command": " ".join(sys.argv), "steady_error": json.dumps(first.error),
-             "warnings": json.dumps(description.warnings()), **_machine()}
-    saved = Store.create(path, description, first, total_steps(description) + 1, attrs)
-    _go(saved, started, as_json, quiet, first.error)
+    steady = {"steady_error": plain(first.error), "steady_unknown": first.unknown}
+    attrs = {"warnings": json.dumps(description.warnings()), **{name: json.dumps(value) for name, value in steady.items()},
+             **provenance(description)}
+    with Store.create(place, description, first, most_steps(description) + 1, attrs) as saved:
+        _go(saved, saved.go_back(), started, as_json, quiet, steady)
 
 
-def _go(saved, started, as_json, quiet, steady_error):
+def _go(saved, state, started, as_json, quiet, steady):
+    from tehl_taichi import companions
     from tehl_taichi.io.summary import summarise
     from tehl_taichi.launches import binding_seconds
+    from tehl_taichi.simulation import total_steps
 
-    _march(saved, quiet)
-    fatigue, maps = _fatigue(saved, quiet)
-    error = _passage_error(saved, fatigue, quiet)
-    extra = {"wall_s": time.perf_counter() - started, "compile_s": binding_seconds(), "steady_error": steady_error,
-             "passage_error": error}
+    with companions.beside(saved.scene, total_steps(saved.scene) + 1 - saved.steps) as others:
+        _march(saved, state, quiet)
+        fatigue, maps = _fatigue(saved, quiet)
+        passage = others.errors(saved, fatigue, time.perf_counter() - started)
+    extra = {"wall_s": time.perf_counter() - started, "compile_s": binding_seconds(), **steady, **passage}
     summary = summarise(saved, extra, fatigue)
     saved.finish(summary, maps)
-    print(json.dumps(_plain(summary))) if as_json else _print(summary)
+    print_json(summary) if as_json else _print(summary)
 
 
 @contextlib.contextmanager
-def _interruptible(path):
+def _interruptible(path, place=None):
     """Ctrl-C anywhere inside ends in a sentence that says what is stored at `path`, and exit code 4."""
     try:
         yield
     except KeyboardInterrupt:
+        if place and not place.published:
+            raise Interrupted("interrupted before anything was stored") from None
         raise Interrupted(_what_is_left(path)) from None
 
 
@@ -158,21 +172,18 @@ def _what_is_left(path):
 
     try:
         saved = Store.open(path)
-    except (StoreError, KeyError):
-        saved = None
-    if saved is None or saved.steps == 0:
-        return "interrupted before anything was stored"
+    except StoreError:
+        return f"interrupted; {path} cannot be read any more"
     if saved.finished:
         return f"interrupted; {path} is finished"
-    return f"interrupted after {saved.steps - 1} steps; go on with: tehl resume {path}"
+    return f"interrupted after {saved.last_step} steps; go on with: tehl resume {path}"
 
 
-def _march(saved, quiet):
+def _march(saved, state, quiet):
     from tehl_taichi.io.recorder import go_on
     from tehl_taichi.simulation import total_steps
 
-    state = saved.go_back()
-    with Live(total_steps(saved.scene), saved.steps - 1, quiet) as live:
+    with Live(total_steps(saved.scene), saved.last_step, quiet) as live:
         go_on(saved, state, live.step)
 
 
@@ -187,13 +198,21 @@ def _fatigue(saved, quiet):
     return result.summary, result.maps
 
 
-def _passage_error(saved, fatigue, quiet):
-    if not saved.scene.numerics.estimate_error or saved.steps < 2:
-        return None
-    from tehl_taichi.io.summary import passage_values
-    from tehl_taichi.post import estimate
+# options by another name than their key
+WORDS = {("thermal.on", True): "--thermal", ("thermal.on", False): "--isothermal", ("time.steady_only", True): "--steady",
+         ("fatigue.on", True): "--fatigue", ("fatigue.on", False): "--no-fatigue",
+         ("numerics.estimate_error", True): "--estimate-error", ("numerics.estimate_error", False): "--no-estimate-error"}
 
-    return estimate.errors(saved.scene, passage_values(saved, fatigue), None if quiet else say)
+
+def _changes(options, grid, settings):
+    """{full key: value} of the options that were used and of --set; SceneError where two of them contradict each other."""
+    from tehl_taichi.scene.given import settled
+
+    used = [(key, value) for key, value in options.items() if value is not None]
+    given = [(WORDS.get((key, value), f"--{key.replace('time.', '').replace('_', '-')} {value:g}"), key, value)
+             for key, value in used]
+    given += [(f"--grid {grid}", key, value) for key, value in _grid(grid).items()]
+    return settled([*given, *_settings(settings)])
 
 
 def _grid(text):
@@ -211,16 +230,15 @@ def _grid(text):
     return {"grid.nx": nx, "grid.ny": ny}
 
 
-def _on_grid_for(target, grid, description):
+def _on_grid_for(target, changes, description):
     """The scene on the grid that a target error needs."""
     if target is None:
         return description
-    from tehl_taichi.profiles.target import grid_for
-
     from tehl_taichi.scene import SceneError
+    from tehl_taichi.scene.target import grid_for
 
-    if grid is not None:
-        raise SceneError(f"--target-error {target} chooses the grid; leave out --grid {grid}")
+    if {"grid.nx", "grid.ny"} & changes.keys():
+        raise SceneError(f"--target-error {target} chooses the grid; leave out --grid")
     nx, ny = grid_for(description, _share(target))
     say(f"{nx} x {ny} cells for an error of {target}")
     return description.replace(**{"grid.nx": nx, "grid.ny": ny})
@@ -239,20 +257,26 @@ def _share(text):
 
 
 def _settings(pairs):
-    import tomllib
-
+    """(words, key, value) of every --set."""
     from tehl_taichi.scene import SceneError
 
-    out = {}
+    out = []
     for pair in pairs:
         key, equals, text = pair.partition("=")
         if not equals:
             raise SceneError(f"--set {pair!r} must look like dotted.key=value, as in feature.height=1e-6")
-        try:
-            out[key.strip()] = tomllib.loads(f"v = {text}")["v"]
-        except tomllib.TOMLDecodeError:
-            out[key.strip()] = text
+        out.append((f"--set {pair}", key.strip(), _value(text)))
     return out
+
+
+def _value(text):
+    """The value of a --set, as TOML reads it; what is no TOML value is text."""
+    import tomllib
+
+    try:
+        return tomllib.loads(f"v = {text}")["v"]
+    except (ValueError, RecursionError):
+        return text
 
 
 def _check_threads(threads):
@@ -262,31 +286,6 @@ def _check_threads(threads):
         raise SceneError(f"--threads {threads} is out of range; allowed: 1 to 1024")
 
 
-def _is_store(path):
-    return (path / "zarr.json").exists()
-
-
-def _fresh(name):
-    number = 1
-    while (path := Path("runs") / f"{name}-{number}.zarr").exists():
-        number += 1
-    return path
-
-
-def _machine():
-    import platform
-
-    from tehl_taichi import __version__, runtime
-
-    return {"version": __version__, "machine": platform.platform(), "python": platform.python_version(),
-            "runtime": json.dumps(runtime.ensure())}
-
-
-def _plain(value):
-    """JSON has no NaN: null instead."""
-    if isinstance(value, dict):
-        return {key: _plain(v) for key, v in value.items()}
-    return None if isinstance(value, float) and value != value else value
 
 
 def _print(summary):

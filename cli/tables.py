@@ -21,7 +21,7 @@ def summary_table(summary):
     for key, name, factor, unit in (("h_c_m", "steady h_c", 1e6, "um"), ("h_min_m", "steady h_min", 1e6, "um"),
                                     ("p_max_Pa", "steady p_max", 1e-9, "GPa")):
         rows.append((name, f"{steady[key] * factor:.4f}{_plus(steady['error'].get(key), factor)} {unit}"))
-    rows.append(("steady friction coefficient", f"{steady['friction_coefficient']:.4f}"))
+    rows.append(("steady friction coefficient", _friction(steady, "friction_coefficient")))
     rows += _heat_rows("steady", steady)
     rows += _passage_rows(summary)
     rows.append(("run time", f"{summary['wall_s']:.1f} s (kernels {summary['compile_s']:.1f} s)"))
@@ -36,8 +36,8 @@ def warning_lines(sentences):
 
 
 def _plus(error, factor):
-    """' ± error', or nothing where it is not known."""
-    return f" ± {error * factor:.2g}" if error is not None and error == error else ""
+    """' ± error', or that it is not known."""
+    return " (error unknown)" if error is None else f" ± {error * factor:.2g}"
 
 
 def _heat_rows(when, values):
@@ -45,8 +45,13 @@ def _heat_rows(when, values):
         return []
     from tehl_taichi.io.summary import HEAT
 
-    largest = " / ".join(f"{values[key]:.1f}" for key in HEAT)
+    error = values.get("error", {})
+    largest = " / ".join(f"{values[key]:.1f}{_plus(error.get(key), 1)}" for key in HEAT)
     return [(f"{when} film / surface a / surface b, largest", f"{largest} °C")]
+
+
+def _friction(values, name):
+    return f"{values[name]:.4f}{_plus(values.get('error', {}).get(name), 1)}"
 
 
 def _passage_rows(summary):
@@ -57,6 +62,7 @@ def _passage_rows(summary):
         error = t.get("error", {})
         rows += [("passage p_max", f"{t['p_max_Pa'] / 1e9:.4f}{_plus(error.get('p_max_Pa'), 1e-9)} GPa"),
                  ("passage h_min", f"{t['h_min_m'] * 1e6:.4f}{_plus(error.get('h_min_m'), 1e6)} um"),
+                 ("passage friction coefficient, mean", _friction(t, "friction_coefficient_mean")),
                  ("load carried by solid contact", f"{t['contact_load_fraction_max']:.3%} at most"),
                  ("worst residual / load / mass error",
                   f"{t['residual_max']:.1e} / {t['load_error_max']:.1e} / {t['mass_error_max']:.1e}")]

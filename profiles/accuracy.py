@@ -4,12 +4,13 @@ import math
 import time
 
 import numpy as np
-from tehl_taichi.profiles import measure
 from tehl_taichi.profiles.speed import circular
 
-from tehl_taichi import runtime
+from tehl_taichi.launches import binding_seconds
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.scene.target import columns_per_width
+from tehl_taichi.solvers.error_bars import observed_order
 
 TARGETS = (0.05, 0.01, 0.001)
 COLUMNS = {"steady line": (64, 128, 256, 512, 1024), "steady circle": (64, 128, 256),
@@ -25,7 +26,7 @@ SETTINGS = {"as it is": {}, "half the time step": {"time.courant": 0.5}, "one la
             "tolerances 1e-8": {"numerics.tolerance": 1e-8, "numerics.mass_tolerance": 1e-8},
             "Krylov 0.3": {"numerics.krylov_tolerance": 0.3}, "Krylov 1e-3": {"numerics.krylov_tolerance": 1e-3},
             "5 nodes in z": {"thermal.nodes": 5}, "7 nodes in z": {"thermal.nodes": 7}, "13 nodes in z": {"thermal.nodes": 13}}
-AGAIN = 20.0  # s
+AGAIN, COMPILED = 20.0, 0.05  # s; part of the time
 IN_DOUBLE = "linear solves in f64"  # in a process of its own
 SETTINGS_COLUMNS, QUICK_SETTINGS = (128, 64), 4  # (in full, quick); so many of the settings
 
@@ -44,12 +45,14 @@ def run(quick=False, progress=None):
 
 
 def timed(function, *args):
-    """(seconds, result); of a second call where the first was short: much of that is compiling for a grid of a new size."""
+    """(seconds without tracing and compiling kernels, result); of a second call where the first was short or compiled much:
+    a kernel's first launch costs more than its binding says."""
     for _ in range(2):
-        started = time.perf_counter()
+        started, compiling = time.perf_counter(), binding_seconds()
         result = function(*args)
-        seconds = time.perf_counter() - started
-        if seconds >= AGAIN:
+        compiling = binding_seconds() - compiling
+        seconds = time.perf_counter() - started - compiling
+        if seconds >= AGAIN and compiling < COMPILED * seconds:
             break
     return seconds, result
 
@@ -61,7 +64,7 @@ def settings(nx, names, say):
         say(f"settings: {name}")
         found.append((name, *timed(passage_values, base.replace(**(SETTINGS | {"reference": REFERENCE})[name]))))
     say(f"settings: {IN_DOUBLE}")
-    found.append((IN_DOUBLE, *measure.fresh(runtime.ensure()["threads"], timed, passage_values, base, precision="f64")))
+    found.append((IN_DOUBLE, *timed(passage_values, base.replace(**{"numerics.precision": "f64"}))))
     exact, rows = found[0][2], []
     for quantity in [key for key in QUANTITIES if key in exact]:
         own = [{"family": f"settings, {nx} columns", "columns": nx, "setting": name, "seconds": seconds, "quantity": quantity,
@@ -126,12 +129,11 @@ def marked(rows):
 
 
 def extrapolated(values):
-    """(limit, observed order) of values on grids each twice as fine; order 1 where the differences show none."""
-    from tehl_taichi.solvers.steady import observed_order  # not above: the kernels are defined with the precision of the start
-
+    """(limit, observed order) of values on grids each twice as fine; where the differences show no order that is None, and 1 is
+    used."""
     order = observed_order(values)
     used = min(max(order, 1.0), 2.0) if math.isfinite(order) else 1.0
-    return values[-1] + (values[-1] - values[-2]) / (2**used - 1), order
+    return values[-1] + (values[-1] - values[-2]) / (2**used - 1), order if math.isfinite(order) else None
 
 
 def enough(rows):
@@ -154,7 +156,7 @@ def _coarsest(own, target):
 
 
 def chart(plt, rows):
-    """Error over run time, a panel per family; settings by their numbers."""
+    """Error over run time, a panel per family; points bear their columns or the setting that was changed."""
     families = list(dict.fromkeys(row["family"] for row in rows))
     figure, axes = plt.subplots(1, len(families), figsize=(3.6 * len(families), 3.8), constrained_layout=True, squeeze=False)
     for ax, family in zip(axes[0], families):
@@ -171,11 +173,21 @@ def chart(plt, rows):
 
 
 def _curve(ax, own, quantity):
-    """All points, joined along the front; grids by their columns, settings by their place in SETTINGS."""
+    """All points, joined along the front; each with its columns or its setting."""
     points = [(row["seconds"], max(row["error"], 1e-8)) for row in own]
     color = f"C{QUANTITIES.index(quantity)}"
     ax.plot(*zip(*(point for point, row in zip(points, own) if row["front"])), "-", lw=1, label=quantity, color=color)
     ax.plot(*zip(*points), "o", ms=4, color=color)
     for point, row in zip(points, own):
-        label = [*SETTINGS, IN_DOUBLE].index(row["setting"]) + 1 if "setting" in row else row["columns"]
-        ax.annotate(str(label), point, fontsize=6, xytext=(3, 2), textcoords="offset points")
+        ax.annotate(str(row.get("setting", row["columns"])), point, fontsize=6, xytext=(3, 2), textcoords="offset points")
+
+
+def grid_errors(rows):
+    """{family: ...} of rows of a full run, as :mod:`tehl_taichi.scene.target` reads them from its file."""
+    out = {}
+    for family in dict.fromkeys(row["family"] for row in rows if "setting" not in row):
+        own = [row for row in rows if row["family"] == family and row["quantity"] != "film_max_C"]
+        columns = dict.fromkeys(row["columns"] for row in own)
+        errors = {nx: max(row["error"] for row in own if row["columns"] == nx) for nx in columns}
+        out[family] = {"columns_per_width": columns_per_width(scene_of(family, 256)), "errors": errors}
+    return out

@@ -15,7 +15,7 @@ from tehl_taichi.post import findley
 from tehl_taichi.post.passage import Passage
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
-from tehl_taichi.solvers.steady import estimated_error
+from tehl_taichi.solvers.error_bars import estimated_error
 
 GRIDS, QUICK_GRIDS = ((64, 16), (128, 32), (256, 64)), ((64, 16), (128, 32))
 REFERENCE, FINER = "asperity 1.5 um", (512, 128)  # the case that decides runs on one grid more
@@ -142,7 +142,11 @@ def _compared(one, other):
 
 
 def _pair(one, other):
-    return " against ".join(f"{f / 1e6:.0f} ± {e / 1e6:.0f}" for f, e in (one, other)) + " MPa"
+    return " against ".join(_with_error(f, e) for f, e in (one, other)) + " MPa"
+
+
+def _with_error(f, error):
+    return f"{f / 1e6:.0f} ± {error / 1e6:.0f}" if np.isfinite(error) else f"{f / 1e6:.0f} (error unknown)"
 
 
 def _slug(name):
@@ -154,7 +158,7 @@ def cells(row, columns=tuple(("all", window) for window in WINDOWS)):
     """Text of a row's values with errors, MPa; the reason first where there are none."""
     if row.reason:
         return [row.reason] + [""] * (len(columns) - 1)
-    return [f"{row.values[key] / 1e6:.0f} ± {row.errors[key] / 1e6:.0f}" for key in columns]
+    return [_with_error(row.values[key], row.errors[key]) for key in columns]
 
 
 def page(rows, judged, scene_):

@@ -11,9 +11,6 @@ from pathlib import Path
 
 import numpy as np
 
-from tehl_taichi.precision import suited
-from tehl_taichi.scene import Scene
-
 
 @dataclass(frozen=True)
 class Timing:
@@ -27,19 +24,17 @@ class Timing:
     memory_mb: float
 
 
-def fresh(threads, function, *args, precision=None, arch="cpu"):
-    """function(*args) in a new process whose Taichi runs on `threads` threads (or on another `arch`) and solves linear systems
-    in `precision` (None: what suits the first scene among the arguments)."""
-    precision = precision or next((suited(arg) for arg in args if isinstance(arg, Scene)), None)
+def fresh(threads, function, *args):
+    """function(*args) in a new process whose Taichi runs on `threads` threads."""
     spawn = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(1, mp_context=spawn, initializer=_start, initargs=(threads, precision, arch)) as pool:
+    with ProcessPoolExecutor(1, mp_context=spawn, initializer=_start, initargs=(threads,)) as pool:
         return pool.submit(function, *args).result()
 
 
-def _start(threads, precision, arch):
+def _start(threads):
     from tehl_taichi import runtime
 
-    runtime.start(arch, threads, precision)
+    runtime.start(threads=threads)
 
 
 def passage(description, steps=None):

@@ -28,8 +28,9 @@ def run(nx, ny, thermal, steps):
 
     To be called in a process of its own (:func:`tehl_taichi.profiles.measure.fresh`): kernels must be bound while watched.
     """
-    from tehl_taichi import launches
+    from tehl_taichi import launches, precision
     from tehl_taichi.simulation import march
+    from tehl_taichi.solvers.levels import DTYPES
 
     watched = launches.watch_launches(bytes_of)
     description = scene("gear").replace(**{"grid.nx": nx, "grid.ny": ny, "thermal.on": thermal, "time.steps": steps + 1})
@@ -48,7 +49,7 @@ def run(nx, ny, thermal, steps):
                 "limit_ms": 1e3 * moved / rate / steps}
                for name, (count, seconds, moved) in sorted(watched.items(), key=lambda item: -item[1][1])]
     stages = _stages(profiler, steps)
-    for stage, alone in transforms_alone(nx, ny).items():
+    for stage, alone in transforms_alone(nx, ny, DTYPES[precision.of(description)]).items():
         row = next(row for row in stages if row["what"] == stage)
         row["limit_ms"] = 1e3 * alone * row["calls"]
     numbers = {"start_s": start, "compile_s": launches.binding_seconds(), "first_step_s": first, "step_s": step,
@@ -62,15 +63,15 @@ def copy_rate(size):
     return 2 * source.nbytes / measure.median(lambda: np.copyto(target, source), 100)
 
 
-def transforms_alone(nx, ny):
+def transforms_alone(nx, ny, dtype):
     """{stage: seconds of one call} where nothing else has used the caches."""
-    from tehl_taichi.solvers.levels import LINEAR, coarsen, solved_by
+    from tehl_taichi.solvers.levels import coarsen, solved_by
     from tehl_taichi.solvers.transforms import Deflection, Distribution
 
-    deflection = Deflection(nx, ny, 4 / nx, 2 / ny, 1.0, True, dtype=LINEAR)
+    deflection = Deflection(nx, ny, 4 / nx, 2 / ny, 1.0, True, dtype=dtype)
     sizes = coarsen(nx, ny)
     grids = [(*sizes[l], 4 / nx * 2**l, 2 / ny * 2**l) for l in solved_by(sizes)[1]]
-    distribution = Distribution(grids, 1.0, LINEAR)
+    distribution = Distribution(grids, 1.0, dtype)
     return {"pressure: deflection": measure.median(deflection.deflect, 50),
             "pressure: distribution": measure.median(distribution.distribute, 50)}
 

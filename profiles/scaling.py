@@ -2,11 +2,9 @@
 
 from tehl_taichi.profiles import measure
 
-from tehl_taichi import runtime
 from tehl_taichi.scene import scene
 
 COLUMNS, QUICK_COLUMNS = (64, 128, 256, 512, 1024, 2048), (64, 128)
-GPU = "cuda"
 LARGE, FEW = 1024, 4  # columns from which on so few steps are enough
 
 
@@ -18,29 +16,18 @@ def run(quick=False, threads=4, thermal=False, progress=None):
     middle = 128 if quick else 256
     jobs = [(nx, threads) for nx in columns] + [(middle, count) for count in counts if count < threads]
     jobs += [(middle // 2, threads // 4)] if threads >= 4 else []
-    rows = [row(nx, count, thermal, FEW if quick or nx >= LARGE else 12, progress) for nx, count in jobs]
-    return rows + on_gpu(columns, threads, thermal, progress)
+    return [row(nx, count, thermal, FEW if quick or nx >= LARGE else 12, progress) for nx, count in jobs]
 
 
-def on_gpu(columns, threads, thermal, progress=None):
-    """Rows of the same grids on a GPU where the kernels run on one, else none and a word about it."""
-    if GPU not in runtime.ARCHES:
-        if progress:
-            progress(f"no rows for a GPU: arch = {GPU!r} is not available in this version")
-        return []
-    return [row(nx, threads, thermal, FEW, progress, GPU) for nx in columns]
-
-
-def row(nx, threads, thermal, steps, progress=None, arch="cpu"):
+def row(nx, threads, thermal, steps, progress=None):
     """One measurement in a process of its own."""
     ny = nx // 4
     if progress:
-        progress(f"{nx} x {ny} cells, {threads} threads, {arch}")
+        progress(f"{nx} x {ny} cells, {threads} threads")
     description = scene("gear").replace(**{"grid.nx": nx, "grid.ny": ny, "thermal.on": thermal})
-    timing = measure.fresh(threads, measure.passage, description, steps, arch=arch)
+    timing = measure.fresh(threads, measure.passage, description, steps)
     nodes = (nx + 1) * (ny + 1) * (description.thermal.nodes if thermal else 1)
-    return {"nx": nx, "ny": ny, "threads": threads, "arch": arch,
-            "step_ms": 1e3 * timing.step_s, "node_ns": 1e9 * timing.step_s / nodes,
+    return {"nx": nx, "ny": ny, "threads": threads, "step_ms": 1e3 * timing.step_s, "node_ns": 1e9 * timing.step_s / nodes,
             "newton": timing.newton, "cycles": timing.cycles, "memory_mb": timing.memory_mb,
             "node_B": 1e6 * timing.memory_mb / nodes}
 

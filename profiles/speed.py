@@ -36,7 +36,7 @@ def run(quick=False, threads=4, progress=None):
     say("tehl run")
     rows += commands(nx, ny, threads, quick)
     rows.append(passage(f"isothermal passage {nx}x{ny}, 1 thread, linear solves in f64", 1,
-                        gear.replace(**{"thermal.on": False}), steps, precision="f64"))
+                        gear.replace(**{"thermal.on": False, "numerics.precision": "f64"}), steps))
     for columns, target in ((128, None), *(() if quick else ((256, 0.3), (512, 1.0)))):
         say(f"steady circular contact, {columns} columns, 1 thread")
         rows.append({"what": f"steady circular contact {columns} columns, 1 thread", "target": target,
@@ -49,10 +49,10 @@ def run(quick=False, threads=4, progress=None):
     return rows
 
 
-def passage(what, threads, description, steps, target=None, precision=None):
+def passage(what, threads, description, steps, target=None):
     """Row of a passage in a process of its own, after one that compiled its kernels."""
-    measure.fresh(threads, measure.passage, description, 1, precision=precision)
-    timing = measure.fresh(threads, measure.passage, description, steps, precision=precision)
+    measure.fresh(threads, measure.passage, description, 1)
+    timing = measure.fresh(threads, measure.passage, description, steps)
     return {"what": what, "seconds": timing.passage_s, "target": target, "step_ms": 1e3 * timing.step_s,
             "newton": timing.newton, "cycles": timing.cycles, "memory_mb": timing.memory_mb}
 

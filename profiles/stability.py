@@ -9,6 +9,7 @@ import numpy as np
 
 from tehl_taichi.io.scene_file import merge
 from tehl_taichi.scene import Scene, SceneError, scene
+from tehl_taichi.scene.parts import AUTO
 
 LINE, POINT = {"grid.nx": 128, "grid.ny": 32}, {"grid.nx": 64, "grid.ny": 32}
 MOST_STEPS = 600  # of a passage; with temperatures SRR -1.99 would need 25 536, the feature hardly moves in one
@@ -109,8 +110,8 @@ def edited(base, changes):
     return Scene.from_dict(merge(scene(base).replace(**plain).to_dict(), tables))
 
 
-def run_case(name, description):
-    """March one scene to its end, and search the fatigue of a passage. Returns an Outcome."""
+def run_case(name, description, precision=AUTO):
+    """March one scene to its end with linear solves in `precision`, and search the fatigue of a passage. Returns an Outcome."""
     from tehl_taichi.errors import NotConverged
     from tehl_taichi.post import fatigue
     from tehl_taichi.simulation import march, total_steps
@@ -119,6 +120,7 @@ def run_case(name, description):
     verdict, reason, index = "converged", "", None
     if isinstance(description, SceneError):
         return Outcome(name, "refused", str(description), 0, 0.0, 0.0, 0.0)
+    description = description.replace(**{"numerics.precision": precision})
     if total_steps(description) > MOST_STEPS:
         description = description.replace(**{"time.steps": MOST_STEPS})
     try:

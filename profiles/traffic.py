@@ -6,7 +6,6 @@ import numpy as np
 
 from tehl_taichi.kernels import fields, slots
 from tehl_taichi.kernels.lanes import W
-from tehl_taichi.solvers.levels import LINEAR
 
 # names in :mod:`tehl_taichi.kernels.fields`: of the linear problem (table J), and of the state (S)
 IN_J = ("A", "AU", "AD", "B", "BU", "BD", "EPS", "SCALE", "KIND", "RES", "SOL", "COR", "TRIAL", "FILM", "PRODUCT", "BAND")
@@ -30,9 +29,13 @@ def _per_node(given, names):
     nz = given.get("nz", 1)
     chosen = (1 if "row" in given else 0) + len(given.get("rows", ()) if isinstance(given.get("rows"), tuple) else ())
     total = 8 * (_rows(fields, IN_S, names) + chosen) if "S" in given else 0
-    total += LINEAR.itemsize * _rows(fields, IN_J, names) if "J" in given else 0
+    total += _bytes_of_a_number(given["J"]) * _rows(fields, IN_J, names) if "J" in given else 0
     total += 8 * given["count"] if "F" in given else 0  # the modes of one body
     return total + (8 * (nz * _rows(slots, IN_Z, names) + _rows(slots, IN_Z_ONCE, names)) if "Z" in given else 0)
+
+
+def _bytes_of_a_number(field):
+    return {"f32": 4, "f64": 8}[str(field.dtype)]
 
 
 def _rows(module, known, names):

@@ -1,21 +1,27 @@
-"""The only place that starts Taichi: architecture, precision and threads, once per process."""
+"""The only place that starts Taichi: architecture and threads, once per process."""
 
+import atexit
+import contextlib
+import functools
 import os
+import shutil
 import sys
+import tempfile
+import threading
+import warnings
 from pathlib import Path
 
 from tehl_taichi import __version__
 from tehl_taichi.errors import RuntimeUnavailable
 
 ARCHES = ("cpu",)  # that the kernels have been checked on
-PRECISIONS = ("f64", "f32")  # of the linear solves; the state and its residual are always f64
-_defined = None  # precision that the kernels were defined with
 _started = {}
+_home = None  # (process, thread) that Taichi was started in
 WORTH_THREADS = 2500
 
 
-def cache_dir():
-    """Folder of compiled kernels (`TEHL_CACHE`, else below `XDG_CACHE_HOME` or `~/.cache`).
+def wanted_cache():
+    """Folder of compiled kernels as it should be (`TEHL_CACHE`, else below `XDG_CACHE_HOME` or `~/.cache`).
 
     It is private to this project and version, because one start option below is not part of Taichi's cache key.
     """
@@ -23,20 +29,58 @@ def cache_dir():
     return Path(os.environ.get("TEHL_CACHE") or os.path.join(root, "tehl_taichi")) / f"kernels-{__version__}"
 
 
-def start(arch="cpu", threads=None, precision=None):
+@functools.lru_cache(maxsize=1)
+def cache_dir():
+    """Folder of compiled kernels that can be written to: the wanted one, or one for this process alone with what that holds
+    and a warning (Taichi itself dies at the end of the process when it cannot write its kernels)."""
+    wanted = wanted_cache()
+    try:
+        wanted.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=wanted):
+            return wanted
+    except OSError as error:
+        warnings.warn(f"compiled kernels cannot be kept in {wanted} ({error.strerror}): every run compiles what is not there; "
+                      "set TEHL_CACHE to a folder that can be written", RuntimeWarning, stacklevel=2)
+        return _borrowed(wanted)
+
+
+def _borrowed(wanted):
+    """A folder for this process alone with the kernels that can be read."""
+    folder = Path(tempfile.mkdtemp(prefix="tehl-"))
+    atexit.register(_give_up, folder)
+    with contextlib.suppress(OSError):
+        for file in wanted.iterdir():
+            shutil.copyfile(file, folder / file.name)  # without its mode
+    return folder
+
+
+def _give_up(folder):
+    import taichi as ti
+
+    ti.reset()  # it writes what it compiled
+    shutil.rmtree(folder, ignore_errors=True)
+
+
+def start(arch="cpu", threads=None):
     """Start Taichi and say what was really started.
 
-    arch: "cpu" (others when their kernels are checked); threads: number of CPU threads or None for all;
-    precision: "f64" (default) or "f32", of the linear solves inside Newton's iteration (the state, its laws and its
-    residual are always f64: the answers differ by less than the solver's tolerance; see :mod:`tehl_taichi.precision`).
-    Returns a dict with arch, threads, precision, taichi (version) and cache (folder).
-    Raises RuntimeUnavailable when the arch or precision cannot be had or another start is already active.
+    arch: "cpu" (others when their kernels are checked); threads: number of CPU threads or None for all. Returns a dict with
+    arch, threads, taichi (version) and cache (folder).
+    Raises RuntimeUnavailable when the arch cannot be had, another start is already active, or Taichi runs in another thread
+    or in the process that this one was forked from.
     """
-    precision = precision or PRECISIONS[0]
-    _check(arch, precision)
+    if arch not in ARCHES:
+        raise RuntimeUnavailable(f"arch = {arch!r} is not available in this version: {', '.join(map(repr, ARCHES))} is")
     threads = int(threads or os.cpu_count() or 1)
     if _started:
-        return _same_start(arch, threads, precision)
+        return _same_start(arch, threads)
+    _start(arch, threads)
+    return dict(_started)
+
+
+def _start(arch, threads):
+    global _home
+    cache = str(cache_dir())
     import taichi as ti
 
     with _no_banner():
@@ -45,11 +89,10 @@ def start(arch="cpu", threads=None, precision=None):
                 advanced_optimization=False,
                 # Taichi would run loops of up to 512 rows on one thread: our loops run over rows of that number
                 make_cpu_multithreading_loop=False,
-                offline_cache=True, offline_cache_file_path=str(cache_dir()))
+                offline_cache=True, offline_cache_file_path=cache)
     _trace_without_positions()
-    _started.update(arch=arch, threads=threads, precision=precision, taichi=".".join(map(str, ti.__version__)),
-                    cache=str(cache_dir()))
-    return dict(_started)
+    _started.update(arch=arch, threads=threads, taichi=".".join(map(str, ti.__version__)), cache=cache)
+    _home = os.getpid(), threading.get_ident()
 
 
 def _trace_without_positions():
@@ -66,16 +109,23 @@ def _trace_without_positions():
     ASTTransformerContext.get_pos_info = lambda context, node: ""
 
 
-def precision():
-    """Precision of the linear solves, "f64" or "f32", which the kernels are defined with once and for all."""
-    global _defined
-    _defined = _defined or _started.get("precision", PRECISIONS[0])
-    return _defined
+def ensure():
+    """Start with the defaults unless something is running already. Raises RuntimeUnavailable where that is out of reach."""
+    if not _started:
+        return start()
+    _check_home()
+    return dict(_started)
 
 
-def ensure(precision=None):
-    """Start with the defaults, or with this precision, unless something is running already."""
-    return dict(_started) if _started else start(precision=precision)
+def _check_home():
+    """Taichi adds to its program from the thread that started it only, and a forked process has none of its threads."""
+    process, thread = _home
+    if os.getpid() != process:
+        raise RuntimeUnavailable("Taichi was started before this process was forked and would wait for ever: use "
+                                 "multiprocessing.get_context('spawn')")
+    if threading.get_ident() != thread:
+        raise RuntimeUnavailable("Taichi belongs to the thread that started it: simulate in that thread, or in processes of "
+                                 "their own (multiprocessing.get_context('spawn'))")
 
 
 def alone(work):
@@ -86,17 +136,9 @@ def alone(work):
     return ensure()["threads"] == 1 or work < WORTH_THREADS
 
 
-def _check(arch, precision):
-    if arch not in ARCHES:
-        raise RuntimeUnavailable(f"arch = {arch!r} is not available in this version: {', '.join(map(repr, ARCHES))} is")
-    if precision not in PRECISIONS:
-        raise RuntimeUnavailable(f"precision = {precision!r} is not known: 'f64' and 'f32' are")
-    if _defined not in (None, precision):
-        raise RuntimeUnavailable(f"the kernels of this process are defined for precision = {_defined!r}; start a new one")
-
-
-def _same_start(arch, threads, precision):
-    wanted = dict(arch=arch, threads=threads, precision=precision)
+def _same_start(arch, threads):
+    _check_home()
+    wanted = dict(arch=arch, threads=threads)
     if any(_started[key] != value for key, value in wanted.items()):
         raise RuntimeUnavailable(f"this process already runs with {_started['arch']}, {_started['threads']} threads; "
                                  "start a new process for other settings")

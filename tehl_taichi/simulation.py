@@ -9,14 +9,16 @@ import time
 
 import numpy as np
 
-from tehl_taichi import runtime, snapshot
+from tehl_taichi import readings, snapshot
 from tehl_taichi.errors import NotConverged
 from tehl_taichi.kernels import fields
 from tehl_taichi.physics.gap import feature_height
+from tehl_taichi.scene.route import step_cells, total_steps
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.snapshot import Snapshot
+from tehl_taichi.solvers.error_bars import bars
 from tehl_taichi.solvers.guess import Guess, extrapolated
-from tehl_taichi.solvers.heat import FilmHeat, step_cells
+from tehl_taichi.solvers.heat import FilmHeat
 from tehl_taichi.solvers.levels import Levels
 from tehl_taichi.solvers.newton import PressureSolver
 from tehl_taichi.solvers.steady import solve_steady
@@ -28,16 +30,6 @@ ORDER, HEAT_ORDER = 3, 1  # of the extrapolation in time of pressure and tempera
 SLUGGISH = 0.2  # rounds of pressure and temperature that leave more of the last change are relaxed; usual is 0.01 to 0.1
 RETRY_KRYLOV = 3e-3  # a failed step is repeated from the old pressure with a Krylov solve ten times tighter,
 SMALLEST_PART = 1 / 16  # then in halves down to this part of it; after that parts at most double
-
-
-def total_steps(scene):
-    """Number of time steps after the steady start (0 for a steady scene)."""
-    if not scene.transient:
-        return 0
-    t, g, (start, end) = scene.time, scene.grid, scene.path
-    cell = (g.x_max - g.x_min) / g.nx
-    steps = math.ceil((end - start) / (step_cells(scene) * cell) - 1e-9)
-    return min(steps, t.steps) if t.steps else steps
 
 
 def march(scene, state=None):
@@ -58,14 +50,17 @@ def march(scene, state=None):
 
 def _steady_snapshot(scene, scales):
     started = time.perf_counter()
-    result = solve_steady(scene, scales, scene.grid.nx, 0 if scales.line else scene.grid.ny)
+
+    def look(solver, heat, report):
+        return readings.steady(snapshot.take(solver, heat, 0, 0.0, math.nan, report, started, None))
+
+    result = solve_steady(scene, scales, scene.grid.nx, 0 if scales.line else scene.grid.ny, look)
     if not result.report.converged:
         raise NotConverged(_reason(result.solver, result.heat, result.report, "the steady start"))
     state = snapshot.state_of(result.solver, result.heat, 0)
     first = snapshot.take(result.solver, result.heat, 0, 0.0, math.nan, result.report, started, lambda: state)
     first.scalars["cycles"] = float(result.work)
-    units = {"h_c": ("h_c_m", scales.h), "h_min": ("h_min_m", scales.h), "p_max": ("p_max_Pa", scales.p_H)}
-    first.error = {units[key][0]: value * units[key][1] for key, value in result.errors().items()}
+    first.grids, (first.error, first.unknown) = result.values, bars(result.values)
     return _spread(first, scene, scales), result.solver
 
 
@@ -251,7 +246,7 @@ class Passage:
 
 def _reason(solver, heat, report, where):
     v, tolerance = solver.levels, solver.levels.scene.numerics.tolerance
-    double = "" if runtime.precision() == "f64" else ", --precision f64"
+    double = "" if v.precision == "f64" else ", --precision f64"
     if heat and report.residual < tolerance:
         return (f"{where} did not converge: the temperatures still change by {heat.report.change:.2g} K from round to round; "
                 f"try a finer grid (--grid), a smaller time.courant{double} or --isothermal")

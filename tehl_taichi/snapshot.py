@@ -18,8 +18,9 @@ class Snapshot:
     """One accepted state.
 
     step: 0 = steady start; time s; feature_x m, centre of the first feature (nan without one); x (nx+1,), y (ny+1,) m;
-    fields: (nx+1, ny+1) arrays in SI; scalars: numbers in SI; error: estimated discretisation error of h_c_m, h_min_m,
-    p_max_Pa (steady start only); make_state: called for :attr:`state`.
+    fields: (nx+1, ny+1) arrays in SI; scalars: numbers in SI; make_state: called for
+    :attr:`state`. Of a steady start, grids: {name: Reading} of every grid that it visited, error: bars of its numbers (None
+    where they are not known), unknown: why they are not.
     """
 
     step: int
@@ -30,7 +31,9 @@ class Snapshot:
     fields: dict
     scalars: dict
     make_state: Callable[[], dict]
+    grids: list = field(default_factory=list)
     error: dict = field(default_factory=dict)
+    unknown: dict = field(default_factory=dict)
 
     @functools.cached_property
     def state(self):
@@ -73,7 +76,7 @@ def _tractions(solver, heat):
     """Shear (4, ny+1, nx+1) in Pa on body a along x, y and on body b along x, y."""
     v, s, scene = solver.levels, solver.levels.scales, solver.levels.scene
     out = v.fill(traction.tractions, (4, v.ny + 1, v.nx + 1), scene.rheology, s.p_H, s.h, s.a, math.exp(v.ln_eta0),
-                 scene.operation.u_s, v.dx, v.dy)
+                 -scene.operation.u_s, v.dx, v.dy)
     if heat:
         wall, film = heat.shear(), (v.get(fields.P) > 0) & (v.get(fields.TOUCH) == 0)
         out = np.where(film, wall * np.array([1, 1, -1, -1])[:, None, None], out)

@@ -3,6 +3,8 @@
 import gc
 import weakref
 
+from tehl_taichi import runtime
+
 _tables = []  # [field, weak reference to its owner]
 SMALLEST_TABLE = 5000  # columns; sizes grow by factors of 4, because every size of a field compiles its kernels anew
 
@@ -13,6 +15,7 @@ def lease(owner, rows, lanes, columns, slots=0, precision="f64"):
 
     That of a former owner is used again where there is one.
     """
+    runtime.ensure()
     wanted = (lanes, precision), (rows, columns, slots)
     entry = _free_table(*wanted)
     if entry is None:

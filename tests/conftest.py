@@ -7,3 +7,9 @@ def taichi_cpu():
     from tehl_taichi import runtime
 
     return runtime.start(threads=2)
+
+
+@pytest.fixture(params=("f32", "f64"))
+def linear(request):
+    """Changes of a scene for linear solves in single and in double precision."""
+    return {"numerics.precision": request.param}

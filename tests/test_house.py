@@ -9,7 +9,7 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "tehl_taichi"
-LAYERS = ["scene", "physics", "kernels", "solvers", "simulation", "post", "io", "cli"]
+LAYERS = ["scene", "physics", "kernels", "solvers", "simulation", "post", "companions", "io", "cli"]
 
 
 def layer_of(module):

@@ -1,4 +1,7 @@
-"""Passages: balances, the film under a feature, steps that fail, going on, symmetries, order in time."""
+"""Passages: balances, the film under a feature, steps that fail, going on, symmetries, order in time.
+
+Isothermal and, unless said, Newtonian: the limits of the film and the pressure under the asperity are those of such a film.
+"""
 
 import numpy as np
 import pytest
@@ -10,7 +13,7 @@ pytestmark = pytest.mark.usefixtures("taichi_cpu")
 
 
 def scene(name="gear"):
-    return built_in(name).replace(**{"thermal.on": False})
+    return built_in(name).replace(**{"thermal.on": False, "rheology.law": "newtonian"})
 
 
 def test_the_disturbance_of_a_furrow_travels_with_the_oil():
@@ -37,8 +40,9 @@ def passage(**changes):
     return list(march(scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16, **changes})))
 
 
-def test_coarse_passage_conserves_and_leaves_the_steady_state_behind():
-    steps = passage()
+@pytest.mark.parametrize("law", ["newtonian", "limiting"])
+def test_coarse_passage_conserves_and_leaves_the_steady_state_behind(law):
+    steps = passage(**{"rheology.law": law})
     assert min(s.scalars["h_min_m"] for s in steps) > 0
     for s in steps:
         assert s.scalars["load_error"] < 1e-6 and s.scalars["residual"] < 1e-6 and s.scalars["mass_error"] < 1e-6
@@ -161,7 +165,7 @@ def test_a_feature_beside_the_axis_of_a_line_contact():
 
 
 def test_mirror_symmetry_of_friction():
-    both = [passage(srr=srr, **{"time.steady_only": True})[0]
+    both = [passage(srr=srr, **{"time.steady_only": True, "rheology.law": "limiting"})[0]
             for srr in (-0.12, 0.12)]
     assert np.allclose(both[0].fields["traction_x_a"], both[1].fields["traction_x_b"], rtol=1e-12, atol=1e-3)
 

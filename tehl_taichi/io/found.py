@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from tehl_taichi.io import scene_file
+from tehl_taichi.io import intact, scene_file
 from tehl_taichi.scene import BUILT_INS, scene
 
 
@@ -12,9 +12,7 @@ def find(name):
         return scene(name)
     path = Path(name)
     if path.is_dir() and (path / "zarr.json").exists():
-        from tehl_taichi.io.store import Store  # imports zarr
-
-        return Store.open(path).scene
+        return intact.scene_of(path, intact.root_of(path)[0])
     if path.suffix == ".toml" or path.exists():
         return scene_file.load(path)
     return scene(name)

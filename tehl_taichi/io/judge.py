@@ -1,5 +1,9 @@
 """What is doubtful in the results of a run, a sentence each: the scene's own warnings and what its store shows."""
 
+import numpy as np
+
+from tehl_taichi.scene.limits import GAMMA_MEASURED, P_MEASURED
+
 
 def warnings(store, summary):
     """All warnings of a run, without repetition. store: of the run; summary: its numbers so far (see io.summary)."""
@@ -7,4 +11,30 @@ def warnings(store, summary):
     return list(dict.fromkeys(found))
 
 
-CHECKS = ()  # functions of (store, summary) that give their sentences
+def beyond_measured(store, summary):
+    """Pressures and temperatures of the film beyond those at which its conductivity and heat capacity were measured."""
+    if store.scene.isothermal:
+        return []
+    p, T = float(np.max(store.scalar("p_max_Pa"))), float(np.max(store.scalar("film_max_C")))
+    if p <= P_MEASURED and T <= GAMMA_MEASURED:
+        return []
+    return [f"the film reaches {p / 1e9:.2f} GPa and {T:.0f} deg C; conductivity and heat capacity were measured up to "
+            f"{P_MEASURED / 1e9:g} GPa and {GAMMA_MEASURED:g} deg C: beyond that they keep their last values"]
+
+
+def held_temperatures(store, summary):
+    """Temperatures that the solver had to hold inside the allowed range."""
+    held = 0 if store.scene.isothermal else int(np.nansum(store.scalar("clamped")))
+    return [f"temperatures were held inside the allowed range at {held} nodes"] if held else []
+
+
+def unknown_errors(store, summary):
+    """Numbers of which no error can be told, with the reason; one sentence for all that share it."""
+    for part, when in (("steady", "steady "), ("transient", "passage "), ("fatigue", "")):
+        reasons = {}
+        for name, why in summary.get(part, {}).get("unknown", {}).items():
+            reasons.setdefault(why, []).append(when + name)
+        yield from (f"the error of {', '.join(names)} is not known: {why}" for why, names in reasons.items())
+
+
+CHECKS = (beyond_measured, held_temperatures, unknown_errors)  # functions of (store, summary) that give their sentences

@@ -1,7 +1,5 @@
 """The height maps of a scene inside its store: what a store needs to be shown, resumed and run again without their files."""
 
-import json
-
 import zarr
 
 from tehl_taichi.errors import StoreError
@@ -20,12 +18,11 @@ def write(group, scene):
             array[...] = feature.heights
 
 
-def read_scene(path, text):
-    """The scene (JSON text) of the store at `path`; its maps come from the store, whatever has become of their files.
+def scene_of(path, data):
+    """The scene (nested dictionary) of the store at `path`; its maps come from the store, whatever has become of their files.
 
     Raises StoreError when stored heights are not those of their hash. A store of version 0.1.0 has only the name of the file.
     """
-    data = json.loads(text)
     maps = [feature for feature in data["feature"] if feature["shape"] == "map"]
     held = [_heights(path, feature["sha256"]) for feature in maps if "sha256" in feature]  # known until the scene has them
     for feature in data["feature"]:

@@ -1,13 +1,17 @@
 """A run into a store: resumable, finished ones are left as they are."""
 
+import dataclasses
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from tehl_taichi.errors import StoreError
-from tehl_taichi.io.store import Store
-from tehl_taichi.simulation import march, total_steps
+from tehl_taichi.io.place import Place
+from tehl_taichi.io.provenance import provenance
+from tehl_taichi.io.store import OVER, Store
+from tehl_taichi.scene.route import most_steps, total_steps
+from tehl_taichi.simulation import march
 
 SWITCH = 1e-4  # s, interpreter switch interval while a thread writes
 EVERY = 2.0  # s between the states that a run can go on from; a thermal one has 11 MB at 257x65x9, a tenth of a step's time
@@ -27,6 +31,25 @@ class Checkpoints:
         return snapshot.state
 
 
+class Thinned:
+    """Every n-th snapshot and the last (step `total`), with scalars that speak for the steps left out (see store.OVER)."""
+
+    METHODS = {"maximum": max, "minimum": min, "sum": sum, "mean": lambda values: sum(values) / len(values),
+               "point": lambda values: values[-1]}
+
+    def __init__(self, every, total):
+        self.every, self.total, self.waiting = every, total, []
+
+    def of(self, snapshot):
+        """The snapshot to store, or None while it is left out."""
+        self.waiting.append(snapshot.scalars)
+        if snapshot.step % self.every and snapshot.step < self.total:
+            return None
+        scalars = {name: self.METHODS[OVER[name]]([one[name] for one in self.waiting]) for name in snapshot.scalars}
+        self.waiting = []
+        return dataclasses.replace(snapshot, scalars=scalars)
+
+
 def go_on(saved, state, tell=None):
     """March on from the last checkpoint of the store, whose state :meth:`Store.go_back` gave, to the end of its scene;
     tell(snapshot) after each step.
@@ -34,15 +57,17 @@ def go_on(saved, state, tell=None):
     One step is written while the next one is computed. The solver gives up the interpreter's lock thousands of times a step: it
     must not wait 5 ms for the writer each time.
     """
-    before, states, pending = sys.getswitchinterval(), Checkpoints(total_steps(saved.scene)), None
+    before, total, pending = sys.getswitchinterval(), total_steps(saved.scene), None
+    states, thinned = Checkpoints(total), Thinned(saved.scene.output.every, total)
     sys.setswitchinterval(SWITCH)
     try:
         with ThreadPoolExecutor(1) as writer:  # leaving it waits for the last write
             for snapshot in march(saved.scene, state):
-                keep = states.of(snapshot)
-                if pending:
-                    pending.result()
-                pending = writer.submit(saved.append, snapshot, keep)
+                if (entry := thinned.of(snapshot)) is not None:
+                    keep = states.of(entry)
+                    if pending:
+                        pending.result()
+                    pending = writer.submit(saved.append, entry, keep)
                 if tell:
                     tell(snapshot)
             if pending:
@@ -54,17 +79,25 @@ def go_on(saved, state, tell=None):
 def record(scene, path, progress=None):
     """March `scene` into a store at `path`, without a terminal, from its last checkpoint if it exists. Returns the Store.
 
-    progress: called with (done, total) steps. Raises StoreError if the store there is of another scene, NotConverged.
+    progress: called with (done, total) steps. Raises StoreError if the store there is of another scene or somebody else
+    writes it, NotConverged.
     """
     path = Path(path)
     if (path / "zarr.json").exists():
         saved = Store.open(path)
         if saved.scene != scene:
             raise StoreError(f"{path} holds a run of another scene; choose another folder or remove it")
+        if saved.finished:
+            return saved
+        saved = Store.write(path)
     else:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        saved = Store.create(path, scene, next(march(scene)), total_steps(scene) + 1)
-    if not saved.finished:
+        saved = _begun(scene, path)
+    with saved:
         go_on(saved, saved.go_back(), progress and (lambda snapshot: progress(snapshot.step, total_steps(scene))))
         saved.finish({})
     return saved
+
+
+def _begun(scene, path):
+    with Place(path) as place:
+        return Store.create(place, scene, next(march(scene)), most_steps(scene) + 1, provenance(scene))

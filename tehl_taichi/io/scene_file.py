@@ -1,13 +1,14 @@
 """Scene files (TOML): reading with a base scene, writing with every value, the commented template."""
 
+import json
 import math
+import tomllib
 from pathlib import Path
 
-import tomllib
-
 from tehl_taichi.scene import Scene, SceneError, scene
+from tehl_taichi.scene.checks import text
 from tehl_taichi.scene.feature import Feature
-from tehl_taichi.scene.oil import OILS, Oil
+from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.parts import Body
 from tehl_taichi.scene.quantity import kinds
 from tehl_taichi.scene.whole import SECTIONS
@@ -21,10 +22,12 @@ def load(path):
     """Scene from a TOML file; `base = "gear"` fills what is not given. Raises SceneError (also for broken TOML)."""
     path = Path(path)
     try:
-        data = tomllib.loads(path.read_text())
+        data = tomllib.loads(path.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError) as error:
         raise SceneError(f"cannot read scene file {path}: {getattr(error, 'strerror', None) or error}") from None
-    except tomllib.TOMLDecodeError as error:
+    except RecursionError:
+        raise SceneError(f"{path} nests tables or lists too deeply; a scene needs two levels") from None
+    except ValueError as error:  # of TOML, and of Python for whole numbers of more than 4300 digits
         raise SceneError(f"{path} is not valid TOML: {error}") from None
     return from_data(_beside(data, path.absolute().parent), path.stem)
 
@@ -43,8 +46,20 @@ def from_data(data, name):
     base = data.pop("base", None)
     data.setdefault("name", name)
     if base is None:
-        return Scene.from_dict({"feature": [], **data})
-    return Scene.from_dict(merge(scene(base).to_dict(), data))
+        found = Scene.from_dict({"feature": [], **data})
+    else:
+        text("base", base)
+        found = Scene.from_dict(merge(scene(base).to_dict(), data))
+    _check_speed(found, data)
+    return found
+
+
+def _check_speed(found, data):
+    """Refuse a mean speed beside a Moes pair, unless it is the one that the pair gives (as files written by tehl have it)."""
+    given = data.get("operation", {}).get("u_m", found.operation.u_m)
+    if found.contact.moes_M > 0 and not math.isclose(given, found.operation.u_m, rel_tol=1e-6):
+        raise SceneError(f"operation.u_m = {given:g} m/s and contact.moes_L = {found.contact.moes_L:g} contradict each other: "
+                         f"the pair gives {found.operation.u_m:.4g} m/s; leave u_m out")
 
 
 def merge(base, data):
@@ -54,7 +69,7 @@ def merge(base, data):
             base[key] = _merge_contact(base[key], value)
         elif key == "operation" and isinstance(value, dict) and {"u_a", "u_b"} & value.keys():
             base[key] = {"temperature": base[key]["temperature"], **value}
-        elif key == "oil" and isinstance(value, dict) and value.get("name") in OILS:
+        elif key == "oil" and isinstance(value, dict) and "name" in value:
             base[key] = value  # a named oil brings its own numbers, not those of the base
         elif isinstance(value, dict) and isinstance(base.get(key), dict):
             base[key] = merge(base[key], value)
@@ -98,7 +113,7 @@ def _value(value):
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):
-        return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")  # JSON's escapes are TOML's
     if isinstance(value, (tuple, list)):
         return "[" + ", ".join(_value(v) for v in value) + "]"
     if isinstance(value, float) and math.isinf(value):

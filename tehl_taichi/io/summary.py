@@ -4,26 +4,27 @@ import numpy as np
 
 from tehl_taichi import __version__
 from tehl_taichi.io import judge
-from tehl_taichi.physics.limits import GAMMA_MEASURED, P_MEASURED
+from tehl_taichi.scene.limits import GAMMA_MEASURED, P_MEASURED
 from tehl_taichi.scene.scales import Scales
 
 
 def summarise(store, extra, fatigue=None):
-    """Summary dictionary. extra: wall_s, compile_s (kernels traced, compiled or loaded) and steady_error; fatigue: its own
-    dictionary or None."""
+    """Summary dictionary. extra: wall_s, compile_s (kernels traced, compiled or loaded), steady_error and steady_unknown (see
+    :class:`tehl_taichi.snapshot.Snapshot`), passage_error and passage_unknown alike; fatigue: its own dictionary or None."""
     scene = store.scene
     scales = Scales.of(scene)
     out = {"scene": scene.name, "version": __version__, "store": str(store.path), "converged": True,
            "wall_s": extra["wall_s"], "compile_s": extra["compile_s"], "steps": int(store.series["step"][len(store) - 1]),
            **counts(store),
            "hertz": {"a_m": scales.a, "p_Pa": scales.p_H}, "left_out": scene.left_out(),
-           "steady": _steady(store, extra["steady_error"])}
+           "steady": _steady(store, extra)}
     if len(store) > 1:
         out["transient"] = _transient(store)
     if fatigue:
         out["fatigue"] = fatigue
-    if extra.get("passage_error"):
-        _add_errors(out, extra["passage_error"])
+    for part, names in _parts(out).items():
+        out[part]["error"] = {name: extra.get("passage_error", {}).get(name) for name in names}
+        out[part]["unknown"] = {name: why for name, why in extra.get("passage_unknown", {}).items() if name in names}
     out["work"] = _work(store)
     out["clamps"] = _clamps(store)
     out["warnings"] = judge.warnings(store, out)
@@ -39,6 +40,7 @@ def counts(store):
 
 
 HEAT = ("film_max_C", "surface_a_max_C", "surface_b_max_C")
+PASSAGE = ("p_max_Pa", "h_min_m", *HEAT, "friction_coefficient_mean")
 
 
 def _clamps(store):
@@ -57,27 +59,18 @@ def _clamps(store):
     return out
 
 
-def _steady(store, error):
+def _steady(store, extra):
     names = ["h_c_m", "h_min_m", "p_max_Pa", "load_error", "mass_error", "friction_coefficient"]
     names += [] if store.scene.isothermal else HEAT
     out = {name: float(store.scalar(name)[0]) for name in names}
-    out["error"] = error
+    out["error"], out["unknown"] = extra["steady_error"], extra.get("steady_unknown", {})
     return out
 
 
-def passage_values(store, fatigue):
-    """The numbers of a stored passage whose errors companion runs can tell, as those give them."""
-    from tehl_taichi.post.estimate import PASSAGE
-
-    transient = _transient(store)
-    names = [name for name in PASSAGE if name in transient]
-    return {**{name: transient[name] for name in names}, **({"Fi_max": fatigue["Fi_max"]} if fatigue else {})}
-
-
-def _add_errors(out, errors):
-    out["transient"]["error"] = {name: value for name, value in errors.items() if name != "Fi_max"}
-    if "fatigue" in out:
-        out["fatigue"]["error"] = {"Fi_max": errors["Fi_max"]}
+def _parts(out):
+    """{part of the summary: its numbers that get an error bar} after the steady start."""
+    parts = {"transient": PASSAGE, "fatigue": ("Fi_max",)}
+    return {part: [name for name in names if name in out[part]] for part, names in parts.items() if part in out}
 
 
 def _transient(store):
@@ -88,10 +81,16 @@ def _transient(store):
     return {**heat, "p_max_Pa": largest("p_max_Pa"), "h_min_m": float(np.min(store.scalar("h_min_m")[1:])),
             "contact_load_fraction_max": largest("contact_load_fraction"), "load_error_max": largest("load_error"),
             "mass_error_max": largest("mass_error"), "residual_max": largest("residual"), "dt_s": largest("dt_s"),
-            "friction_coefficient_mean": float(np.mean(store.scalar("friction_coefficient")[1:]))}
+            "friction_coefficient_mean": float(np.average(store.scalar("friction_coefficient")[1:], weights=_steps_of(store)))}
+
+
+def _steps_of(store):
+    """Time steps that every entry after the first stands for."""
+    return np.diff(store.scalar("step"))
 
 
 def _work(store):
     cycles = store.scalar("cycles")
-    return {"pressure_cycles": int(cycles.sum()), "cycles_per_step_max": int(cycles[1:].max()) if len(store) > 1 else 0,
+    worst = int(np.ceil(np.max(cycles[1:] / _steps_of(store)))) if len(store) > 1 else 0  # with output.every: of their means
+    return {"pressure_cycles": int(cycles.sum()), "cycles_per_step_max": worst,
             "newton_steps": int(store.scalar("newton").sum()), "rejected_steps": int(store.scalar("rejected").sum())}

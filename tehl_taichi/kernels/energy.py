@@ -7,7 +7,7 @@ of the bodies) and the flow through the moving nodes in one Newton system per co
 import taichi as ti
 
 from tehl_taichi.kernels.fields import DX, DY, FLOOR, TOUCH, H, P
-from tehl_taichi.kernels.film import Coefficients, couette, gradients, node_laws, sensitivity
+from tehl_taichi.kernels.film import Coefficients, couette, gradients, node_laws
 from tehl_taichi.kernels.lanes import Flat, Table, V, W, cells, tile, tiles
 from tehl_taichi.kernels.slots import (
     AA,
@@ -34,7 +34,7 @@ from tehl_taichi.kernels.step import B_A, B_B, FAR, INV_X, INV_Y, ITERATIONS, NE
 from tehl_taichi.physics.density import expansivity
 from tehl_taichi.physics.elementary import log
 from tehl_taichi.physics.heat import conductivity, heat_capacity
-from tehl_taichi.physics.rheology import shear_limit
+from tehl_taichi.physics.rheology import sensitivity, shear_limit
 from tehl_taichi.physics.viscosity import ln_eta
 
 DT = 1e-2  # K, step of the difference quotient in temperature

@@ -1,5 +1,6 @@
 """The pressure problem in two tables, row = field, column = a block of W nodes, levels one after another: S (double
-precision) holds the state and what decides when it is solved, J (`lanes.LINEAR`) its linearisation and the linear solve.
+precision) holds the state and what decides when it is solved, J (of the precision of the scene) its linearisation and the
+linear solve.
 
 Column k of a level = OFF + s (NX + 1) + i: i along x (rolling), block s holds the nodes j = W s ... W s + W - 1 along y,
 one per lane. Capital letters are dimensionless (X = x/a, P = p/p_H, H = h R'/a^2). Lanes beyond the last row are ghosts:
@@ -23,7 +24,7 @@ QOLD = next(_row)  # dx * (what d(rho H)/dT in its moving frame takes from old l
 MASK = next(_row)  # 1 where P is unknown, 0 on the border and on ghosts
 WEIGHT = next(_row)  # weight of P in the load
 RHO = next(_row)  # density over rho_0
-LE = next(_row)  # ln(eta / eta(p=0))
+LE = next(_row)  # ln(eta / eta(p=0)) of what the shear law leaves of the viscosity
 IE = next(_row)  # exp(-LE)
 ROOT = next(_row)  # root of RHO / lambda: times that of a neighbour, in the mobility of the face between them
 GAP = next(_row)  # film thickness, at least the floor: what the mobility sees
@@ -35,13 +36,14 @@ D = next(_row)  # its diagonal
 DRY = next(_row)  # 1 where P = 0 is the equation (cavitated, or outside the unknowns)
 TOUCH = next(_row)  # 1 where H = H_floor is the equation (solid contact)
 NROWS = next(_row)
-RHOC = next(_row)  # thermal scenes only: density that the Couette flow carries, over rho_0 (isothermal: RHO)
+DLH = NROWS  # where a shear law acts: d LE / dH
+NROWS_SHEARED = next(_row)
+RHOC = NROWS_SHEARED  # with temperatures: density that the Couette flow carries, over rho_0 (isothermal: RHO)
 QCP = next(_row)  # d(RHOC H)/dP at fixed H (isothermal: QP)
-DLH = next(_row)  # d LE / dH by the shear law (isothermal: none)
 NROWS_THERMAL = next(_row)
 STATE = (P, H, DRY, TOUCH)  # carried to the coarser levels
 LAWS = (RHO, LE, IE, ROOT, GAP, DLE, DRP, QP)  # and these, which follow from them
-FILM_LAWS = (RHOC, QCP, DLH)  # of a film with temperatures
+FILM_LAWS = (DLH, RHOC, QCP)  # of a film with temperatures
 
 # J, the linear problem
 A = _rows(4)  # row of the Jacobian: pressure of the nodes i-2, i-1, i, i+1
@@ -75,6 +77,7 @@ K0 = next(_col)  # deflection of a node by its own unit pressure
 K1 = next(_col)  # and by that of its neighbour in x
 FLOOR = next(_col)  # film floor H_min
 ILAM = next(_col)  # 1/lambda; larger than that of the scene while a steady start is approached through slower ones
+SHEAR = next(_col)  # Newtonian stress (Pa) of oil at p = 0 in a film H = 1 by the slip u_b - u_a
 ROW0 = next(_col)  # of the rows that the transforms of K^-1 work on: the first number,
 PERIOD = next(_col)  # and the numbers from row to row
 LINES = next(_col)  # 1 where lines are solved, 0 where corrections only pass through

@@ -10,13 +10,12 @@ Integrals over zeta: w weights of the whole film, C[n] those up to node n, neste
 
 import taichi as ti
 
-from tehl_taichi.kernels.fields import DLE, DLH, DRP, DX, DY, FLOOR, GAP, IE, ILAM, LE, QCP, QP, RHO, RHOC, ROOT, H, P
+from tehl_taichi.kernels.fields import DX, DY, FLOOR, ILAM, QCP, RHOC, H, P
 from tehl_taichi.kernels.lanes import Flat, Table, V, W, above, below, cells, tile, tiles
-from tehl_taichi.kernels.laws import DP
+from tehl_taichi.kernels.laws import DP, sheared, store_laws, store_slopes, store_thinning
 from tehl_taichi.kernels.slots import KINDS, MS, MX, MY, NIE, NRHO, TAU, VY, XA, XB, YA, YB, T, U
 from tehl_taichi.physics.density import rho_film
 from tehl_taichi.physics.elementary import exp, log
-from tehl_taichi.physics.rheology import secant
 from tehl_taichi.physics.viscosity import ln_eta
 
 Coefficients = ti.types.ndarray(dtype=ti.f64, ndim=2)
@@ -39,8 +38,8 @@ def couette(Z: ti.template(), q, nz, w: ti.template(), zeta: ti.template(), rheo
         part = w[n] * Z[q, NIE * nz + n]
         e0 += part
         e1 += zeta[n] * part
-    newtonian = slip * eta0 / (h * e0)
-    return e0, e1 / e0, newtonian, secant(rheology, newtonian, p)
+    newtonian, b = sheared(rheology, p, h, e0, slip * eta0)
+    return e0, e1 / e0, newtonian, b
 
 
 @ti.func
@@ -57,27 +56,6 @@ def integrals(Z: ti.template(), q, nz, nested: ti.template(), w: ti.template(), 
         sheared += part
         turned += (centre - zeta[m]) * part
     return mean, (u_a * mean + slip * sheared / e0) / u_m, 12.0 * turned / (mean * b)
-
-
-@ti.func
-def sensitivity(rheology: ti.template(), newtonian, p, b):
-    """1 + d ln b/d ln(Newtonian stress): d tau/d newtonian over b."""
-    return (secant(rheology, newtonian * 1.001, p) * 1.001 - b) * 1000.0 / b
-
-
-@ti.func
-def store_laws(S: ti.template(), k, h, mean, carried, ie, inv_lambda):
-    S[RHO, k], S[RHOC, k], S[IE, k], S[LE, k] = mean, carried, ie, -log(ie)
-    S[ROOT, k], S[GAP, k] = ti.sqrt(mean * inv_lambda), h
-
-
-@ti.func
-def store_slopes(S: ti.template(), k, h, floor, mean, carried, ie, thinning, rate):
-    """From the values at P + DP; the film acts on the shear law too (DLH)."""
-    S[DLE, k] = (-log(ie) - S[LE, k]) * rate
-    S[QP, k], S[QCP, k] = (mean - S[RHO, k]) * rate * S[H, k], (carried - S[RHOC, k]) * rate * S[H, k]
-    S[DRP, k] = 0.5 * S[ROOT, k] * (mean / S[RHO, k] - 1.0) * rate
-    S[DLH, k] = ti.select(S[H, k] > floor, (1.0 - thinning) / h, V(0.0))
 
 
 @ti.kernel
@@ -98,9 +76,12 @@ def laws(S: ti.template(), Z: ti.template(), G: Table, nested: Coefficients, w: 
             e0, centre, stress, b = couette(Z, q, nz, w, zeta, rheology, p, h * h_scale, slip, eta0)
             mean, carried, ie = integrals(Z, q, nz, nested, w, zeta, e0, centre, b, u_a, slip, u_m)
             if ti.static(slopes):
-                store_slopes(S, k, h, floor, mean, carried, ie, sensitivity(rheology, stress, p, b), p_H / DP)
+                store_slopes(S, k, mean, -log(ie), p_H / DP)
+                store_thinning(S, k, h, floor, rheology, p, stress, b)
+                S[QCP, k] = (carried - S[RHOC, k]) * (p_H / DP) * S[H, k]
             else:
-                store_laws(S, k, h, mean, carried, ie, G[0, ILAM])
+                store_laws(S, k, h, mean, -log(ie), ie, G[0, ILAM])
+                S[RHOC, k] = carried
 
 
 @ti.func

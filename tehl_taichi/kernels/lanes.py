@@ -4,26 +4,30 @@ Measured on one core at 257x65 (scalar rows -> lanes): line solve 0.56 -> 0.13 m
 
 Loops over blocks run in parallel with ti.loop_config(block_dim=1): Taichi would give less than about 100 blocks to one
 thread. The argument `alone` of a kernel is True where its loops are too short for that (see :meth:`Levels.launch`).
+
+Kernels of the linear solve are written once for both precisions: their numbers are those of their table J, constants come from
+:func:`L`, and arrays without a type take that of what is handed over.
 """
 
 import taichi as ti
 
-from tehl_taichi import runtime
 from tehl_taichi.kernels.fields import JN, NX, NY, OFF
 
 W = 4
 V = ti.types.vector(W, ti.f64)
-LINEAR = getattr(ti, runtime.precision())  # of the linear solves
-L = ti.types.vector(W, LINEAR)
 TILE = 48  # columns of a tile: even a single row keeps several threads busy
 
 Table = ti.types.ndarray(dtype=ti.f64, ndim=2)
 Flat = ti.types.ndarray(dtype=ti.f64, ndim=1)
-Vector = ti.types.ndarray(dtype=V, ndim=1)  # a field of the finest level in table order, as (columns, W)
-LinearFlat = ti.types.ndarray(dtype=LINEAR, ndim=1)
-LinearTable = ti.types.ndarray(dtype=LINEAR, ndim=2)
-LinearVector = ti.types.ndarray(dtype=L, ndim=1)
+LinearFlat = ti.types.ndarray(ndim=1)  # of the linear solve, in its precision
+LinearTable = ti.types.ndarray(ndim=2)
 Blocks = ti.types.ndarray(dtype=ti.i32, ndim=2)  # (level, block) of every block, finest level first
+
+
+@ti.func
+def L(J: ti.template(), value):
+    """`value` in every lane, in the precision of the table J."""
+    return ti.Vector([ti.cast(value, J.dtype) for _ in ti.static(range(W))])
 
 
 @ti.func
@@ -92,9 +96,15 @@ def neighbour_masks(G: ti.template(), l, s):
 
 
 @ti.func
-def load(values: ti.template(), q):
-    """Lanes of a vector argument; lane by lane it costs half of values[q] (Taichi 1.7.4)."""
-    return ti.Vector([values[q][u] for u in ti.static(range(W))])
+def lanes_in(values: ti.template(), q):
+    """Lanes of column q of a flat array in the order of the table."""
+    return ti.Vector([values[q * W + u] for u in ti.static(range(W))])
+
+
+@ti.func
+def lanes_out(values: ti.template(), q, v):
+    for u in ti.static(range(W)):
+        values[q * W + u] = v[u]
 
 
 @ti.func

@@ -34,7 +34,6 @@ from tehl_taichi.kernels.fields import (
     B,
 )
 from tehl_taichi.kernels.lanes import (
-    LINEAR,
     Blocks,
     L,
     LinearFlat,
@@ -54,13 +53,12 @@ HALF = 3  # half bandwidth; 2 converges slower, 1 diverges, 4..6 gain nothing
 TINY_PIVOT = 1e-14
 REACH = HALF + 3  # distances at which a column of the band meets the stencil
 NEAR = 8  # distances in the tables of those
-Near = ti.types.vector(REACH, LINEAR)
 DRY_KIND, LOCAL, DISTRIBUTED = 0.0, 1.0, 2.0  # values of KIND
 
 
 @ti.func
 def is_kind(J: ti.template(), k, kind: ti.template()):
-    return J[KIND, k] == L(kind)
+    return J[KIND, k] == L(J, kind)
 
 
 @ti.func
@@ -71,11 +69,11 @@ def contact_rows(S: ti.template(), J: ti.template(), G: ti.template(), l, k, i):
         c = (1.0 - G[l, FRAME]) * w[t]
         if ti.static(t == 2):
             c += G[l, CT]
-        mass = ti.cast(c * S[RHO, k + t - 2] * S[TOUCH, k + t - 2], LINEAR)
-        J[A[t], k] = ti.select(touch, L(0.0), J[A[t], k])
+        mass = ti.cast(c * S[RHO, k + t - 2] * S[TOUCH, k + t - 2], J.dtype)
+        J[A[t], k] = ti.select(touch, L(J, 0.0), J[A[t], k])
         J[B[t], k] = ti.select(touch, mass, J[B[t], k])
     for row in ti.static((AU, AD, BU, BD)):
-        J[row, k] = ti.select(touch, L(0.0), J[row, k])
+        J[row, k] = ti.select(touch, L(J, 0.0), J[row, k])
 
 
 @ti.func
@@ -83,8 +81,8 @@ def dry_rows(J: ti.template(), k):
     """Rows of dry nodes: the identity."""
     dry = is_kind(J, k, DRY_KIND)
     for row in ti.static(STENCIL):
-        J[row, k] = ti.select(dry, L(0.0), J[row, k])
-    J[A[2], k] = ti.select(dry, L(1.0), J[A[2], k])
+        J[row, k] = ti.select(dry, L(J, 0.0), J[row, k])
+    J[A[2], k] = ti.select(dry, L(J, 1.0), J[A[2], k])
 
 
 @ti.func
@@ -94,9 +92,9 @@ def kind_of(S: ti.template(), J: ti.template(), G: ti.template(), l, k, n2, i, u
     if i == 1 or i == n2 - 2:
         bound = -1.0
     strong = ti.select(J[EPS, k] > bound, V(1.0), V(0.0)) + dry
-    kind = ti.select(strong > 0.0, L(LOCAL), L(DISTRIBUTED))
-    kind = ti.select(S[TOUCH, k] > 0.0, L(DISTRIBUTED), kind)
-    return ti.select(S[DRY, k] > 0.0, L(DRY_KIND), kind)
+    kind = ti.select(strong > 0.0, L(J, LOCAL), L(J, DISTRIBUTED))
+    kind = ti.select(S[TOUCH, k] > 0.0, L(J, DISTRIBUTED), kind)
+    return ti.select(S[DRY, k] > 0.0, L(J, DRY_KIND), kind)
 
 
 @ti.kernel
@@ -120,7 +118,7 @@ def classify(S: ti.template(), J: ti.template(), G: Table, blocks: Blocks, first
 @ti.func
 def gauss_seidel_entry(J: ti.template(), k, dk: ti.template(), near: ti.template(), rim: ti.template(), outer):
     """Row k, column k + dk: a unit pressure there and the film change it causes nearby."""
-    v = L(0.0)
+    v = L(J, 0.0)
     for t in ti.static(range(-2, 2)):
         v += J[B[t + 2], k] * (near[abs(t - dk)] + outer * rim[abs(t - dk)])
     if ti.static(-2 <= dk <= 1):
@@ -147,27 +145,24 @@ def fill_row(J: ti.template(), k, i, nx, near: ti.template(), rim: ti.template()
     for b in ti.static(range(2 * HALF + 1)):
         v = ti.select(is_kind(J, k + b - HALF, LOCAL), gauss_seidel_entry(J, k, b - HALF, near, rim, outer),
                       distributed_entry(J, k, b - HALF, inverse, beside))
-        v = ti.select(is_kind(J, k + b - HALF, DRY_KIND), L(0.0), v)
+        v = ti.select(is_kind(J, k + b - HALF, DRY_KIND), L(J, 0.0), v)
         if i + b - HALF <= 0 or i + b - HALF >= nx:
-            v = L(0.0)
+            v = L(J, 0.0)
         if ti.static(b == HALF):
-            J[BAND[b], k] = ti.select(dry, L(1.0), v)
+            J[BAND[b], k] = ti.select(dry, L(J, 1.0), v)
         else:
-            J[BAND[b], k] = ti.select(dry, L(0.0), v)
+            J[BAND[b], k] = ti.select(dry, L(J, 0.0), v)
 
 
 @ti.func
 def row_of(table: ti.template(), n):
     """The first REACH entries of a row of a table, as constants of a loop."""
-    v = Near(0.0)
-    for m in ti.static(range(REACH)):
-        v[m] = table[n, m]
-    return v
+    return ti.Vector([table[n, m] for m in ti.static(range(REACH))])
 
 
 @ti.func
-def reciprocal(pivot):
-    return L(1.0) / ti.select(ti.abs(pivot) < L(TINY_PIVOT), L(TINY_PIVOT), pivot)
+def reciprocal(J: ti.template(), pivot):
+    return L(J, 1.0) / ti.select(ti.abs(pivot) < L(J, TINY_PIVOT), L(J, TINY_PIVOT), pivot)
 
 
 @ti.func
@@ -177,14 +172,14 @@ def factorise(J: ti.template(), first, n2):
     The three rows above stay in registers (r = a, b, c: nearest first; their upper part and reciprocal pivot): with
     columns eliminated in the table instead it takes twelve times as long.
     """
-    a4, a5, a6, a_inv = L(0.0), L(0.0), L(0.0), L(0.0)
-    b4, b5, b6, b_inv = L(0.0), L(0.0), L(0.0), L(0.0)
-    c4, c5, c6, c_inv = L(0.0), L(0.0), L(0.0), L(0.0)
+    a4, a5, a6, a_inv = L(J, 0.0), L(J, 0.0), L(J, 0.0), L(J, 0.0)
+    b4, b5, b6, b_inv = L(J, 0.0), L(J, 0.0), L(J, 0.0), L(J, 0.0)
+    c4, c5, c6, c_inv = L(J, 0.0), L(J, 0.0), L(J, 0.0), L(J, 0.0)
     for k in range(first, first + n2):
         l3 = J[BAND[0], k] * c_inv
         l2 = (J[BAND[1], k] - l3 * c4) * b_inv
         l1 = (J[BAND[2], k] - l3 * c5 - l2 * b4) * a_inv
-        inv = reciprocal(J[BAND[3], k] - l3 * c6 - l2 * b5 - l1 * a4)
+        inv = reciprocal(J, J[BAND[3], k] - l3 * c6 - l2 * b5 - l1 * a4)
         u4 = J[BAND[4], k] - l2 * b6 - l1 * a5
         u5 = J[BAND[5], k] - l1 * a6
         u6 = J[BAND[6], k]
@@ -208,7 +203,7 @@ def build_lines(J: ti.template(), G: Table, blocks: Blocks, count: ti.i32, near:
         l, s = blocks[b, 0], blocks[b, 1]
         nx, ny, off = cells(G, l)
         first = off + s * (nx + 1)
-        outer = L(0.0)
+        outer = L(J, 0.0)
         for u in ti.static(range(W)):
             if s * W + u == ny and int(G[l, JN]) == ny + 1:
                 outer[u] = 1.0
@@ -222,13 +217,13 @@ def build_lines(J: ti.template(), G: Table, blocks: Blocks, count: ti.i32, near:
 @ti.func
 def substitute(J: ti.template(), first, n2):
     """SOL from RES of one block."""
-    y1, y2, y3 = L(0.0), L(0.0), L(0.0)
+    y1, y2, y3 = L(J, 0.0), L(J, 0.0), L(J, 0.0)
     for i in range(n2):
         k = first + i
         y = J[RES, k] - J[BAND[0], k] * y3 - J[BAND[1], k] * y2 - J[BAND[2], k] * y1
         J[SOL, k] = y
         y3, y2, y1 = y2, y1, y
-    y1, y2, y3 = L(0.0), L(0.0), L(0.0)
+    y1, y2, y3 = L(J, 0.0), L(J, 0.0), L(J, 0.0)
     for r in range(n2):
         k = first + n2 - 1 - r
         y = (J[SOL, k] - J[BAND[4], k] * y1 - J[BAND[5], k] * y2 - J[BAND[6], k] * y3) * J[BAND[HALF], k]
@@ -254,7 +249,7 @@ def solve_lines(J: ti.template(), G: Table, blocks: Blocks, count: ti.i32, sprea
         substitute(J, first, nx + 1)
         row, period = rows_of(G, l, s)
         for i in range(nx + 1):
-            rows_out(spread, row, period, i, ti.select(is_kind(J, first + i, DISTRIBUTED), J[SOL, first + i], L(0.0)))
+            rows_out(spread, row, period, i, ti.select(is_kind(J, first + i, DISTRIBUTED), J[SOL, first + i], L(J, 0.0)))
 
 
 @ti.func

@@ -3,7 +3,7 @@
 import taichi as ti
 
 from tehl_taichi.kernels.fields import DRY, FLOOR, K0, MASK, RHO, SCALE, TOUCH, WEIGHT, D, H, P, R
-from tehl_taichi.kernels.lanes import LINEAR, Flat, LinearVector, Table, V, Vector, W, cells, face_weights, load
+from tehl_taichi.kernels.lanes import Flat, LinearFlat, Table, V, W, cells, face_weights, lanes_in, lanes_out
 
 
 @ti.func
@@ -47,7 +47,7 @@ def sums(S: ti.template(), G: Table, middle: ti.i32, out: Table, alone: ti.templ
 
 
 @ti.kernel
-def choose_sets(S: ti.template(), J: ti.template(), G: Table, cap: ti.f64, b: LinearVector, mass_row: LinearVector,
+def choose_sets(S: ti.template(), J: ti.template(), G: Table, cap: ti.f64, b: LinearFlat, mass_row: LinearFlat,
                 touching: Table, alone: ti.template()):
     """DRY, TOUCH and the row scale; b = right-hand side of the scaled Newton equations (touching rows are the caller's);
     mass_row = weight of each scaled row in the net outflow; touching[block, 0] = touching nodes."""
@@ -63,29 +63,29 @@ def choose_sets(S: ti.template(), J: ti.template(), G: Table, cap: ti.f64, b: Li
             inside = S[MASK, k]
             touch, dry = sets(p, r, gap, inside)
             scale = ti.select(dry > 0.0, V(1.0), ti.min(S[D, k], cap))
-            S[TOUCH, k], S[DRY, k], J[SCALE, k] = touch, dry, ti.cast(scale, LINEAR)
-            b[k - off] = ti.cast(ti.select(dry > 0.0, -p * inside, -S[R, k] / scale * inside), LINEAR)
-            mass_row[k - off] = ti.cast(half * scale * (1.0 - dry) * (1.0 - touch), LINEAR)
+            S[TOUCH, k], S[DRY, k], J[SCALE, k] = touch, dry, ti.cast(scale, J.dtype)
+            lanes_out(b, k - off, ti.select(dry > 0.0, -p * inside, -S[R, k] / scale * inside))
+            lanes_out(mass_row, k - off, half * scale * (1.0 - dry) * (1.0 - touch))
             count += touch
         touching[s, 0] = count.sum()
 
 
 @ti.kernel
-def advance(S: ti.template(), G: Table, old: Vector, step: LinearVector, t: Flat, alone: ti.template()):
+def advance(S: ti.template(), G: Table, old: Flat, step: LinearFlat, t: Flat, alone: ti.template()):
     """P = max(old + t[0] step, 0) on the unknowns."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
         for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
-            p = load(old, q)
-            S[P, off + q] = ti.select(S[MASK, off + q] > 0.0, ti.max(p + t[0] * load(step, q), 0.0), p)
+            p = lanes_in(old, q)
+            S[P, off + q] = ti.select(S[MASK, off + q] > 0.0, ti.max(p + t[0] * lanes_in(step, q), 0.0), p)
 
 
 @ti.kernel
-def save(S: ti.template(), G: Table, row: ti.i32, out: Vector, alone: ti.template()):
+def save(S: ti.template(), G: Table, row: ti.i32, out: Flat, alone: ti.template()):
     """out = S[row] of the finest level, in block order."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
         for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
-            out[q] = S[row, off + q]
+            lanes_out(out, q, S[row, off + q])

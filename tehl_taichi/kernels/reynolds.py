@@ -37,11 +37,9 @@ from tehl_taichi.kernels.fields import (
     R,
 )
 from tehl_taichi.kernels.lanes import (
-    LINEAR,
     Blocks,
     Flat,
     LinearFlat,
-    LinearVector,
     Table,
     V,
     W,
@@ -49,7 +47,8 @@ from tehl_taichi.kernels.lanes import (
     below,
     cells,
     face_weights,
-    load,
+    lanes_in,
+    lanes_out,
     rows_in,
     rows_out,
 )
@@ -106,7 +105,7 @@ def stencil(S: ti.template(), k, row: ti.template(), density: ti.template(), fra
 @ti.func
 def store_rows(J: ti.template(), k, rows: ti.template(), c0, c1, c2, c3):
     for t, c in ti.static(enumerate((c0, c1, c2, c3))):
-        J[rows[t], k] = ti.cast(c, LINEAR)
+        J[rows[t], k] = ti.cast(c, J.dtype)
 
 
 @ti.kernel
@@ -143,7 +142,7 @@ def linearise(S: ti.template(), J: ti.template(), G: Table, blocks: Blocks, firs
                 store_rows(J, k, ti.static((AU, AD, BU, BD)), -u * u1, d * d0, -u * g1, d * f0)
             store_rows(J, k, ti.static(A), w[0] * q[0], w[1] * q[1] + left_p0 * inv, a2, w[3] * q[3] - p1 * inv)
             store_rows(J, k, ti.static(B), w[0] * c[0], w[1] * c[1] + left_h0 * inv, b2, w[3] * c[3] - h1 * inv)
-            J[EPS, k] = ti.cast(total, LINEAR)
+            J[EPS, k] = ti.cast(total, J.dtype)
             own = 0.5 * (q[2] + c[2] * K_0) + CT_l * (S[QP, k] + S[RHO, k] * K_0)
             S[D, k] = ti.max(own + (c[3] / 3 - c[1]) * K_1 + total, 0.5 * K_0)
             left_p0, left_p1, left_h0, left_h1, left_eps = p0, p1, h0, h1, eps
@@ -160,20 +159,20 @@ def reynolds_row(J: ti.template(), k, n2):
 
 
 @ti.kernel
-def place(J: ti.template(), G: Table, pressure: LinearVector, rows: LinearFlat, period: ti.i32, alone: ti.template()):
+def place(J: ti.template(), G: Table, pressure: LinearFlat, rows: LinearFlat, period: ti.i32, alone: ti.template()):
     """TRIAL of the finest level = pressure, and so the rows that its deflection is computed from."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
         for i in range(nx + 1):
             q = s * (nx + 1) + i
-            p = load(pressure, q)
+            p = lanes_in(pressure, q)
             J[TRIAL, off + q] = p
             rows_out(rows, s * W * period, period, i, p)
 
 
 @ti.kernel
-def jacobian(J: ti.template(), G: Table, film: LinearFlat, edge: LinearFlat, period: ti.i32, out: LinearVector,
+def jacobian(J: ti.template(), G: Table, film: LinearFlat, edge: LinearFlat, period: ti.i32, out: LinearFlat,
              alone: ti.template()):
     """out = J (TRIAL, film + edge) / SCALE on the finest level."""
     nx, ny, off = cells(G, 0)
@@ -187,7 +186,7 @@ def jacobian(J: ti.template(), G: Table, film: LinearFlat, edge: LinearFlat, per
         for k in range(off + s * n2, off + (s + 1) * n2):
             J[PRODUCT, k] = reynolds_row(J, k, n2) / J[SCALE, k]
         for q in range(s * n2, (s + 1) * n2):
-            out[q] = J[PRODUCT, off + q]
+            lanes_out(out, q, J[PRODUCT, off + q])
 
 
 @ti.kernel

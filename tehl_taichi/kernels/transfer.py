@@ -6,7 +6,7 @@ The transfers to and from the finest level run in parallel; the others are too s
 import taichi as ti
 
 from tehl_taichi.kernels.fields import COR, DRY, JN, KIND, LINES, RES, SCALE, TOUCH, H, P
-from tehl_taichi.kernels.lanes import LINEAR, Blocks, L, LinearFlat, LinearVector, Table, V, W, cells, load
+from tehl_taichi.kernels.lanes import Blocks, L, LinearFlat, Table, V, W, cells, lanes_in, lanes_out
 from tehl_taichi.kernels.lines import DRY_KIND, LOCAL, collect_block, is_kind
 
 HALF_W = W // 2
@@ -45,24 +45,24 @@ def inject(S: ti.template(), J: ti.template(), G: Table, levels: ti.i32, rows: t
                             if t * W + u > my:
                                 S[P, c][u] = 0.0
                                 S[H, c][u] = 1.0
-                    J[KIND, c] = ti.select(S[DRY, c] > 0.0, L(DRY_KIND), L(LOCAL))
+                    J[KIND, c] = ti.select(S[DRY, c] > 0.0, L(J, DRY_KIND), L(J, LOCAL))
 
 
 @ti.func
 def wet(J: ti.template(), k):
-    return ti.select(is_kind(J, k, DRY_KIND), L(0.0), J[RES, k])
+    return ti.select(is_kind(J, k, DRY_KIND), L(J, 0.0), J[RES, k])
 
 
 @ti.func
 def weighted_x(J: ti.template(), k):
-    return L(0.5) * wet(J, k) + L(0.25) * (wet(J, k - 1) + wet(J, k + 1))
+    return L(J, 0.5) * wet(J, k) + L(J, 0.25) * (wet(J, k - 1) + wet(J, k + 1))
 
 
 @ti.func
-def transfer_weights(G: ti.template(), l, t):
+def transfer_weights(J: ti.template(), G: ti.template(), l, t):
     """y weights of the fine rows 2 j - 1, 2 j, 2 j + 1 for the coarse rows of block t; mirrored at the borders."""
     my = cells(G, l + 1)[1]
-    lower, centre, upper = L(0.25), L(0.5), L(0.25)
+    lower, centre, upper = L(J, 0.25), L(J, 0.5), L(J, 0.25)
     for u in ti.static(range(W)):
         j = t * W + u
         if j == 0:
@@ -79,13 +79,13 @@ def restrict_block(J: ti.template(), G: ti.template(), l, t):
     nx, ny, off = cells(G, l)
     mx, my, coff = cells(G, l + 1)
     n2 = nx + 1
-    lower, centre, upper = transfer_weights(G, l, t)
+    lower, centre, upper = transfer_weights(J, G, l, t)
     for I in range(mx + 1):
         c, k = coff + t * (mx + 1) + I, off + 2 * t * n2 + 2 * I
-        a, b, before = weighted_x(J, k), weighted_x(J, k + n2), ti.cast(0.0, LINEAR)
+        a, b, before = weighted_x(J, k), weighted_x(J, k + n2), ti.cast(0.0, J.dtype)
         if t > 0:
             before = weighted_x(J, k - n2)[W - 1]
-        out = L(0.0)
+        out = L(J, 0.0)
         for u in ti.static(range(W)):
             if ti.static(2 * u < W):
                 down = before
@@ -97,25 +97,25 @@ def restrict_block(J: ti.template(), G: ti.template(), l, t):
                 if ti.static(2 * u > W):
                     down = b[2 * u - W - 1]
                 out[u] = lower[u] * down + centre[u] * b[2 * u - W] + upper[u] * b[2 * u - W + 1]
-        J[RES, c] = ti.select(is_kind(J, c, DRY_KIND), L(0.0), out + out)
+        J[RES, c] = ti.select(is_kind(J, c, DRY_KIND), L(J, 0.0), out + out)
 
 
 @ti.func
 def copy_out(J: ti.template(), G: ti.template(), l, row: ti.template(), values: ti.template()):
     nx, ny, off = cells(G, l)
     for q in range((ny // W + 1) * (nx + 1)):
-        values[q] = J[row, off + q]
+        lanes_out(values, q, J[row, off + q])
 
 
 @ti.kernel
-def descend(J: ti.template(), G: Table, levels: ti.i32, r: LinearVector, coarse: LinearVector, alone: ti.template()):
+def descend(J: ti.template(), G: Table, levels: ti.i32, r: LinearFlat, coarse: LinearFlat, alone: ti.template()):
     """RES of the finest level = r times the row scale, and of the coarser ones: twice the full weighting (rows carry
     dx), 0 at dry nodes of either level; `coarse` gets that of the coarsest."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
         for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
-            J[RES, off + q] = load(r, q) * J[SCALE, off + q]
+            J[RES, off + q] = lanes_in(r, q) * J[SCALE, off + q]
     ti.loop_config(block_dim=1, serialize=alone)
     for t in range(cells(G, ti.min(1, levels - 1))[1] // W + 1):
         if levels > 1:
@@ -132,7 +132,7 @@ def descend(J: ti.template(), G: Table, levels: ti.i32, r: LinearVector, coarse:
 def doubled(J: ti.template(), c, m2, upper_half):
     """Correction at the fine rows of a block from the coarse block at c: mean of rows j // 2 and (j + 1) // 2."""
     v, rim = J[COR, c], J[COR, c + m2][0]
-    out = L(0.0)
+    out = L(J, 0.0)
     for u in ti.static(range(W)):
         a, b = v[u // 2], v[(u + 1) // 2]
         if upper_half:
@@ -142,31 +142,32 @@ def doubled(J: ti.template(), c, m2, upper_half):
             else:
                 b = rim
         out[u] = a + b
-    return L(0.5) * out
+    return L(J, 0.5) * out
 
 
 @ti.func
 def add_where_wet(J: ti.template(), k, own, change):
-    J[COR, k] = own * J[COR, k] + ti.select(is_kind(J, k, DRY_KIND), L(0.0), change)
+    J[COR, k] = own * J[COR, k] + ti.select(is_kind(J, k, DRY_KIND), L(J, 0.0), change)
 
 
 @ti.func
 def prolong_block(J: ti.template(), G: ti.template(), l, s, damping):
     nx, ny, off = cells(G, l)
     mx, my, coff = cells(G, l + 1)
-    first, c, half, own = off + s * (nx + 1), coff + s // 2 * (mx + 1), s % 2, ti.cast(G[l, LINES], LINEAR)
+    first, c, half = off + s * (nx + 1), coff + s // 2 * (mx + 1), s % 2
+    own, share = ti.cast(G[l, LINES], J.dtype), ti.cast(damping, J.dtype)
     left = doubled(J, c, mx + 1, half)
     for I in range(mx):
         right = doubled(J, c + I + 1, mx + 1, half)
         k = first + 2 * I
-        add_where_wet(J, k, own, damping * left)
-        add_where_wet(J, k + 1, own, damping * (L(0.5) * (left + right)))
+        add_where_wet(J, k, own, share * left)
+        add_where_wet(J, k + 1, own, share * (L(J, 0.5) * (left + right)))
         left = right
 
 
 @ti.kernel
 def ascend(J: ti.template(), G: Table, blocks: Blocks, solved: ti.i32, levels: ti.i32, spread: LinearFlat,
-           coarse: LinearVector, damping: LINEAR, z: LinearVector, alone: ti.template()):
+           coarse: LinearFlat, damping: ti.f64, z: LinearFlat, alone: ti.template()):
     """COR of each level from its line solution (the first `solved` blocks) or from `coarse`, or nothing, plus damping times
     the bilinear interpolation of the next coarser one, from coarse to fine, where wet; z gets that of the finest."""
     nx, ny, off = cells(G, 0)
@@ -178,7 +179,7 @@ def ascend(J: ti.template(), G: Table, blocks: Blocks, solved: ti.i32, levels: t
         mx, my, last = cells(G, levels - 1)
         if blocks[solved - 1, 0] < levels - 1:
             for q in range((my // W + 1) * (mx + 1)):
-                J[COR, last + q] = load(coarse, q)
+                J[COR, last + q] = lanes_in(coarse, q)
         for step in range(levels - 2):
             l = levels - 2 - step
             for s in range(cells(G, l)[1] // W + 1):
@@ -188,4 +189,4 @@ def ascend(J: ti.template(), G: Table, blocks: Blocks, solved: ti.i32, levels: t
         if levels > 1:
             prolong_block(J, G, 0, s, damping)
         for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
-            z[q] = J[COR, off + q]
+            lanes_out(z, q, J[COR, off + q])

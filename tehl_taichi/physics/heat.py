@@ -2,7 +2,7 @@
 
 import taichi as ti
 
-from tehl_taichi.physics.limits import GAMMA_MEASURED, P_MEASURED
+from tehl_taichi.scene.limits import GAMMA_MEASURED, P_MEASURED
 
 
 @ti.pyfunc

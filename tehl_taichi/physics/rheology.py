@@ -4,6 +4,8 @@ import taichi as ti
 
 from tehl_taichi.physics.elementary import exp, log
 
+LARGEST = 1e100  # Pa: beyond any trial state, and its square is still a number
+
 
 @ti.pyfunc
 def shear_limit(rheology: ti.template(), p):
@@ -15,8 +17,14 @@ def shear_limit(rheology: ti.template(), p):
 def secant(rheology: ti.template(), newtonian, p):
     """shear_stress / newtonian: what is left of the viscosity, 1 without shear."""
     small = ti.abs(newtonian) < 1e-3
-    safe = ti.select(small, newtonian + 1.0, newtonian)
+    safe = ti.select(small, newtonian + 1.0, ti.min(ti.max(newtonian, -LARGEST), LARGEST))
     return ti.select(small, 0.0 * newtonian + 1.0, shear_stress(rheology, safe, p) / safe)
+
+
+@ti.pyfunc
+def sensitivity(rheology: ti.template(), newtonian, p, b):
+    """d shear_stress/d newtonian over the secant b: 1 + d ln b/d ln newtonian."""
+    return (secant(rheology, newtonian * 1.001, p) * 1.001 - b) * 1000.0 / b
 
 
 @ti.pyfunc

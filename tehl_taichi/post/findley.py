@@ -37,8 +37,10 @@ def search(history, kappa, prune=True, criterion="findley", degrees=GRID, decide
     Returns f (points,) Pa (may be negative: nowhere near fatigue) and unit normals (points, 3), n_z >= 0.
     Raises ValueError for a history with NaN or of another shape, KeyError for an unknown criterion.
     """
+    from tehl_taichi import runtime
     from tehl_taichi.kernels import findley
 
+    runtime.ensure()
     history = np.ascontiguousarray(history, float)
     if history.ndim != 3 or history.shape[2] != 6 or not np.isfinite(history).all():
         raise ValueError(f"a stress history must be finite and shaped (points, times, 6), not {history.shape}")
@@ -79,8 +81,10 @@ def shear_path(history, normal):
 
 def smallest_circle(u, v):
     """(centre u, centre v, radius) of the smallest circle around the points (u, v), each (times,)."""
+    from tehl_taichi import runtime
     from tehl_taichi.kernels import findley
 
+    runtime.ensure()
     out = np.zeros(3)
     findley.circle(u.size, np.array([u]), np.array([v]), out)
     return out

@@ -87,10 +87,10 @@ class Passage:
 
     def _thermal(self):
         r, ambient = self.reader, self.scene.operation.temperature
+        self.ticks, dt = equal_steps(np.asarray(r.time))
         rises = (np.asarray(r.fields(n, ("temperature_a",))["temperature_a"], float) - ambient for n in range(len(r)))
-        dt = float(r.time[-1] - r.time[0]) / (len(r) - 1)
-        return ThermalStress(self.scene.body_a, self.scene.operation.u_a, rises, dt, r.x, r.y, self.pad[0], self.grid_x.size,
-                             self.a, self.mirrored)
+        return ThermalStress(self.scene.body_a, self.scene.operation.u_a, between(rises, self.ticks), dt, r.x, r.y, self.pad[0],
+                             self.grid_x.size, self.a, self.mirrored)
 
     def row_blocks(self):
         """Slices of y rows whose histories fit into BLOCK_BYTES."""
@@ -132,9 +132,32 @@ class Passage:
             loads[1:] = [0 * load for load in loads[1:]]
         found = stress(*loads)
         if thermal:
-            for name, values in zip(("sxx", "syy", "sxy"), thermal(entry)):
+            for name, values in zip(("sxx", "syy", "sxy"), thermal(self.ticks[entry])):
                 found[name] = found[name] + values
         return np.stack([found[name][:, self.rows[rows]] for name in COMPONENTS], axis=-1)
+
+
+def equal_steps(times):
+    """(numbers of the times, step) on the coarsest series of equal steps that all of them lie on."""
+    gaps = np.diff(times)
+    step, rest = gaps[0], gaps[1:]
+    for gap in rest:  # Euclid's algorithm
+        while gap > 1e-6 * gaps[0]:
+            step, gap = gap, step % gap
+            gap = 0.0 if step - gap < 1e-6 * gaps[0] else gap
+    ticks = np.rint((times - times[0]) / step).astype(int)
+    return ticks, float(times[-1] - times[0]) / int(ticks[-1])
+
+
+def between(fields, ticks):
+    """The fields at every tick from the first to the last, linear in time where there is none."""
+    before = None
+    for at, field in zip(ticks, fields):
+        for n in range(before[0] + 1 if before else at, at):
+            part = (n - before[0]) / (at - before[0])
+            yield (1 - part) * before[1] + part * field
+        yield field
+        before = at, field
 
 
 def _shifted(fields, start, count):

@@ -4,13 +4,14 @@ from tehl_taichi.errors import SceneError
 from tehl_taichi.scene.checks import nearest
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.oil import OILS
-from tehl_taichi.scene.parts import Body, Contact, Grid, Operation, Thermal
+from tehl_taichi.scene.parts import Body, Contact, Grid, Operation, Rheology, Thermal
 from tehl_taichi.scene.whole import Scene
 
 # ball of steel on glass, R = 12.7 mm: E' = 117 GPa; oil with alpha = 2.2e-8 1/Pa (spec: the ridge of Venner & Lubrecht)
 GLASS = Body(E=75.06e9, nu=0.22, k=1.1, rho=2510.0, c=800.0)
-ISOTHERMAL = Thermal(on=False)
-BALL = dict(thermal=ISOTHERMAL, contact=Contact(kind="point", radius_x=12.7e-3, radius_y=12.7e-3, load=38.35), body_b=GLASS,
+# of the sources behind the ball and the furrow: their curves are of Newtonian oil (the law matters wherever surfaces slip)
+NEWTONIAN = dict(thermal=Thermal(on=False), rheology=Rheology(law="newtonian"))
+BALL = dict(**NEWTONIAN, contact=Contact(kind="point", radius_x=12.7e-3, radius_y=12.7e-3, load=38.35), body_b=GLASS,
             oil=OILS["ridge-test-fluid"], grid=Grid(nx=256, ny=128, x_min=-2.5, x_max=1.5, y_max=2.0))
 RIDGE = Feature(shape="ridge", height=0.2e-6, width=128.9e-6)
 FURROW = Feature(shape="furrow", height=-2e-6, width=500e-6)
@@ -26,13 +27,14 @@ BUILT_INS = {
                           "a 3 um asperity: the surfaces touch"),
     "rough": (Scene(name="rough", features=(ROUGH,)), "the gear contact with a patch of random roughness, rms 0.15 um"),
     "ball-on-disc": (Scene(name="ball-on-disc", features=(), operation=Operation(u_m=0.01075, srr=0.0), **BALL),
-                     "steel ball on glass, 0.54 GPa: steady circular contact"),
+                     "steel ball on glass, 0.54 GPa: steady circular contact, Newtonian oil"),
     "ridge-on-ball": (Scene(name="ridge-on-ball", features=(RIDGE,), operation=Operation(u_m=0.01075, srr=0.0), **BALL),
-                      "the ball with a transverse ridge of 0.2 um, pure rolling (--srr -1 or 1 slides)"),
-    "furrow-line": (Scene(name="furrow-line", contact=Contact(radius_x=14.1e-3, load=1.5708e6), thermal=ISOTHERMAL,
+                      "the ball with a transverse ridge of 0.2 um, pure rolling (--srr -1 or 1 slides), Newtonian oil"),
+    "furrow-line": (Scene(name="furrow-line", contact=Contact(radius_x=14.1e-3, load=1.5708e6), **NEWTONIAN,
                           operation=Operation(u_m=0.97, srr=-1.0), oil=OILS["moes-test-fluid"], features=(FURROW,),
                           grid=Grid(x_min=-3.5, x_max=2.0)),
-                    "a 2 um transverse furrow on the slower surface of a line contact (SRR -1), 2 GPa: 1-D"),
+                    "a 2 um transverse furrow on the slower surface of a line contact (SRR -1), 2 GPa: 1-D, Newtonian oil (its "
+                    "friction is not meant)"),
 }
 
 

@@ -1,21 +1,24 @@
 """Checks at the door: one sentence with the value, the unit and what is allowed."""
 
+import contextlib
 import dataclasses
 import difflib
 import math
 
 from tehl_taichi.errors import SceneError
+from tehl_taichi.scene.plain import plain, shown
 
+HUGE = 10**300  # whole numbers beyond it are no floats
 
 def number(where, value, unit="", low=-math.inf, high=math.inf, strict=False, infinite=False):
     """Refuse `value` unless it is a number within low..high (`strict`: low itself is refused too)."""
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or math.isnan(value):
-        raise SceneError(f"{where} = {value!r} is not a number{_allowed(unit, low, high, strict)}")
-    if math.isinf(value) and not infinite:
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or value != value:
+        raise SceneError(f"{where} = {shown(value)} is not a number{_allowed(unit, low, high, strict)}")
+    if abs(value) == math.inf and not infinite:
         raise SceneError(f"{where} = {value} must be finite{_allowed(unit, low, high, strict)}")
-    if value < low or value > high or (strict and value == low):
-        raise SceneError(f"{where} = {value:g}{' ' + unit if unit else ''} is out of range"
-                         f"{_allowed(unit, low, high, strict)}")
+    if value < low or value > high or (strict and value == low) or (isinstance(value, int) and abs(value) > HUGE):
+        text = f"{value:g}" if isinstance(value, float) else shown(value)
+        raise SceneError(f"{where} = {text}{' ' + unit if unit else ''} is out of range{_allowed(unit, low, high, strict)}")
 
 
 def _allowed(unit, low, high, strict):
@@ -29,50 +32,80 @@ def _allowed(unit, low, high, strict):
 def integer(where, value, low, high):
     """Refuse `value` unless it is a whole number within low..high."""
     if isinstance(value, bool) or not isinstance(value, int):
-        raise SceneError(f"{where} = {value!r} is not a whole number; allowed: {low} to {high}")
+        raise SceneError(f"{where} = {shown(value)} is not a whole number; allowed: {low} to {high}")
     if not low <= value <= high:
-        raise SceneError(f"{where} = {value} is out of range; allowed: {low} to {high}")
+        raise SceneError(f"{where} = {shown(value)} is out of range; allowed: {low} to {high}")
 
 
 def choice(where, value, allowed):
     """Refuse `value` unless it is one of `allowed`; names the nearest one."""
     if value not in allowed:
-        words = ", ".join(filter(None, allowed))
-        raise SceneError(f"{where} = {value!r} is not known; allowed: {words}{nearest(value, allowed)}")
+        raise SceneError(f"{where} = {shown(value)} is not known; allowed: "
+                         f"{', '.join(filter(None, allowed))}{nearest(value, allowed)}")
 
 
 def flag(where, value, other=""):
     """Refuse anything but true or false (`other`: a word that the caller allows too)."""
     if not isinstance(value, bool):
-        raise SceneError(f"{where} = {value!r} must be " + (f"true, false or {other!r}" if other else "true or false"))
+        raise SceneError(f"{where} = {shown(value)} must be " + (f"true, false or {other!r}" if other else "true or false"))
 
 
-def text(where, value):
-    """Refuse anything but words."""
-    if not isinstance(value, str):
-        raise SceneError(f"{where} = {value!r} must be words in quotes")
+def text(where, value, most=500, printable=True, empty=True):
+    """Refuse `value` unless it is text of at most `most` characters (`printable`: on one line, without control characters)."""
+    if not isinstance(value, str) or not (empty or value.strip()):
+        raise SceneError(f"{where} = {shown(value)} must be text")
+    if len(value) > most:
+        raise SceneError(f"{where} = {shown(value)} has {len(value)} characters; allowed: at most {most}")
+    if printable and not value.isprintable() or any("\ud800" <= c <= "\udfff" for c in value):
+        raise SceneError(f"{where} = {shown(value)} must be text on one line, without control characters")
+
+
+def file_name(where, value):
+    """Refuse `value` unless a folder can have this name: text without path separators, at most 100 characters."""
+    text(where, value, 100)
+    if not value.strip(" .") or value != value.strip() or len(value.encode()) > 200:
+        raise SceneError(f"{where} = {shown(value)} must be a name, as 'gear': not empty, without blanks at its ends")
+    if "/" in value or "\\" in value:
+        raise SceneError(f"{where} = {shown(value)} must be a name without path separators: stores are named after it")
 
 
 def nearest(word, allowed):
     """' (did you mean ...?)' for the closest known word, or nothing."""
-    close = difflib.get_close_matches(str(word), [str(a) for a in allowed], n=1, cutoff=0.5)
+    word = word[:100] if isinstance(word, str) else shown(word)
+    close = difflib.get_close_matches(word, [str(a) for a in allowed], n=1, cutoff=0.5)
     return f" (did you mean {close[0]!r}?)" if close else ""
 
 
-def build(cls, values, section):
-    """cls(**values) with unknown keys refused and whole numbers taken for floats where a float is meant."""
+def normalise(part):
+    """Give a frozen dataclass plain Python values (see :func:`plain`), whole numbers as floats where a float is meant."""
+    for field in dataclasses.fields(part):
+        value = plain(getattr(part, field.name))
+        if field.type is float and isinstance(value, int) and not isinstance(value, bool) and abs(value) <= HUGE:
+            value = float(value)
+        object.__setattr__(part, field.name, value)
+
+
+def build(cls, values, section, general=None):
+    """cls(**values) with unknown keys refused; its sentences speak of `section` where cls says `general`."""
     if not isinstance(values, dict):
-        raise SceneError(f"[{section}] must be a table of keys and values, not {values!r}")
-    known = {f.name: f for f in dataclasses.fields(cls)}
+        raise SceneError(f"[{section}] must be a table of keys and values, not {shown(values)}")
+    known = [f.name for f in dataclasses.fields(cls)]
     for key in values:
         if key not in known:
-            raise SceneError(f"unknown key {section}.{key}{nearest(key, known)}; known: {', '.join(known)}")
-    return cls(**{key: _convert(known[key], value) for key, value in values.items()})
+            raise SceneError(f"unknown key {section}.{key_shown(key)}{nearest(key, known)}; known: {', '.join(known)}")
+    with speaking_of(section, general or section):
+        return cls(**values)
 
 
-def _convert(field, value):
-    if field.type in (float, "float") and isinstance(value, int) and not isinstance(value, bool):
-        return float(value)
-    if isinstance(value, list):
-        return tuple(tuple(v) if isinstance(v, list) else v for v in value)
-    return value
+@contextlib.contextmanager
+def speaking_of(section, general):
+    """Refusals about `general`.key speak of `section`.key: which body, which feature."""
+    try:
+        yield
+    except SceneError as error:
+        raise SceneError(str(error).replace(f"{general}.", f"{section}.")) from None
+
+
+def key_shown(key):
+    """A key as it may stand in a sentence."""
+    return key if isinstance(key, str) and key.isprintable() and len(key) < 60 else shown(key)

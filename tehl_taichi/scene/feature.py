@@ -34,7 +34,7 @@ class Feature(Measured):
     taper: float = quantity(0.0, "m", "waviness, rough, map: distance over which the patch fades out at its rim", 0.0, 0.1)
     seed: int = count(1, "rough: of its random numbers", 0, 2**31)
     file: str = text("", "map: CSV or NPY file (others with the `topography` extra), rows along y; a path in a scene file "
-                     "starts at that file", compare=False)
+                     "starts at that file", most=4096, compare=False)
     unit: str = choice("", "map: of the heights in its file", ("", *UNITS))
     scale: float = quantity(1.0, "", "map: its heights are multiplied with it; -1 turns them over, as for a replica", -1e3, 1e3)
     pixel: float = quantity(0.0, "m", "map: distance of its points; 0: not given", 0.0, 1e-2)

@@ -1,6 +1,6 @@
 """What is doubtful in a scene although it can be simulated, a sentence each: the warnings that are known before a run."""
 
-from tehl_taichi.scene import map_judge
+from tehl_taichi.scene import map_judge, oil_range, passing, route
 
 
 def warnings(scene):
@@ -8,4 +8,25 @@ def warnings(scene):
     return [sentence for check in CHECKS for sentence in check(scene)]
 
 
-CHECKS = (map_judge.doubts,)  # functions of a scene that give its sentences
+def cut_passage(scene):
+    """A passage that ends although the feature still is in the contact."""
+    end = route.cut_at(scene)
+    if end is not None:
+        yield (f"passage cut at {end:.2f} a: its extremes and its fatigue are those of a part, a whole one ends at "
+               f"{route.uncut(scene).path[1]:.2f} a; `tehl resume STORE` goes on")
+
+
+MISSED = 0.35  # of Fi, per a between moments: at most 2, 3.6 and 7 % at 0.06, 0.125 and 0.19 a (gear, every choice of moments)
+
+
+def thinned(scene):
+    """Moments that a fatigue search misses where not every step is stored."""
+    every, apart = scene.output.every, scene.output.every * route.step_length(scene)
+    if every > 1 and scene.fatigue_wanted:
+        yield (f"output.every = {every} leaves {apart:.3f} a between the moments that the fatigue search sees: its Fi can be "
+               f"{MISSED * apart:.0%} too small (it wants 0.01 a where the feature enters and leaves; every step has "
+               f"{apart / every:.3f} a)")
+
+
+# functions of a scene that give its sentences
+CHECKS = (passing.warnings, oil_range.warnings, cut_passage, thinned, map_judge.doubts)

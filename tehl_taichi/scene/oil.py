@@ -5,10 +5,18 @@ import math
 from dataclasses import dataclass
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene.checks import nearest
+from tehl_taichi.scene import checks
+from tehl_taichi.scene.checks import build, nearest
 from tehl_taichi.scene.quantity import check, choice, pairs, quantity, text
 
-VISCOSITY_LAWS = ("roelands-temperature", "roelands", "barus", "houpert", "yasutomi", "table")
+# the numbers of each viscosity law: those that a new oil must bring, and those whose default is good for most oils
+LAW_NUMBERS = {"roelands-temperature": ("G0", "S0", "Dz", "Cz"), "roelands": ("eta0", "alpha", "Z"), "barus": ("eta0", "alpha"),
+               "houpert": ("eta0", "alpha", "S0", "Gamma0"), "table": ("table",),
+               "yasutomi": ("eta_g", "Tg0", "A1", "A2", "B1", "B2", "C1", "C2")}
+MORE_NUMBERS = {"roelands": ("p_r",), "houpert": ("p_r",), "barus": ("beta_eta", "Gamma0")}
+VISCOSITY_LAWS = tuple(LAW_NUMBERS)
+OF_LAWS = {key for numbers in (*LAW_NUMBERS.values(), *MORE_NUMBERS.values()) for key in numbers}
+MOST_PAIRS = 100  # of oil.table: each is a piece of the compiled law
 
 
 @dataclass(frozen=True)
@@ -19,7 +27,8 @@ class Oil:
     """
 
     name: str = text("reference-pao", "`tehl oils` lists the named ones")
-    source: str = text("PAO of Everitt, licentiate thesis 2018; density after Larsson et al. 2000", "origin of its numbers")
+    source: str = text("PAO of Everitt, licentiate thesis 2018; density after Larsson et al. 2000", "origin of its numbers",
+                       one_line=False)
     viscosity: str = choice("roelands-temperature", "law of the viscosity", VISCOSITY_LAWS)
     G0: float = quantity(4.57, "", "roelands-temperature: log10 eta0 = -4.2 + G0 (1 + Gamma/135)^-S0, eta0 in Pa s", 0, 20)
     S0: float = quantity(1.25, "", "roelands-temperature, houpert: exponent of the temperature", 0, 10)
@@ -59,13 +68,18 @@ class Oil:
 
     def __post_init__(self):
         check(self, "oil")
-        if self.viscosity == "table":
-            self._check_table()
+        self._check_table()
 
     def _check_table(self):
         rising = all(a[0] < b[0] for a, b in zip(self.table, self.table[1:]))
-        if len(self.table) < 2 or not rising:
-            raise SceneError("oil.table needs at least two pairs [p in Pa, ln(eta/Pa s)] with rising p")
+        if (self.table or self.viscosity == "table") and not (2 <= len(self.table) <= MOST_PAIRS and rising):
+            raise SceneError(f"oil.table has {len(self.table)} pairs [p in Pa, ln(eta/Pa s)]; allowed: 2 to {MOST_PAIRS}, with "
+                             "rising p")
+
+    @property
+    def law_numbers(self):
+        """Names of the numbers that its viscosity law takes."""
+        return (*LAW_NUMBERS[self.viscosity], *MORE_NUMBERS.get(self.viscosity, ()))
 
 
 OILS = {
@@ -90,8 +104,25 @@ def oil(name):
 
 
 def from_values(values):
-    """Oil from a table; `name` of a known oil gives the values that are not named."""
-    from tehl_taichi.scene.checks import build
+    """Oil from a table. The name of a known oil gives the values that are not named; a new name must bring the numbers of its
+    viscosity law (see :func:`check_new`), the others are those of the reference oil."""
+    if not isinstance(values, dict):
+        return build(Oil, values, "oil")
+    name = values.get("name", Oil.name)
+    if isinstance(name, str) and name in OILS:
+        return build(Oil, {**dataclasses.asdict(OILS[name]), **values}, "oil")
+    check_new(name, values)
+    return build(Oil, {"source": NO_SOURCE, **values}, "oil")
 
-    base = dataclasses.asdict(OILS[values["name"]]) if values.get("name") in OILS else {}
-    return build(Oil, {**base, **values}, "oil")
+
+NO_SOURCE = "not given"
+
+
+def check_new(name, given):
+    """Refuse a name that no known oil has unless its viscosity law and the numbers of that law are given with it."""
+    checks.text("oil.name", name, 100, empty=False)
+    law = given.get("viscosity")
+    missing = [key for key in ("viscosity", *LAW_NUMBERS.get(law if isinstance(law, str) else None, ())) if key not in given]
+    if missing:
+        raise SceneError(f"oil.name = {name!r} is not known{nearest(name, OILS)}; known: {', '.join(OILS)}; a new oil brings "
+                         f"its viscosity law and its numbers: oil.{', oil.'.join(missing)} missing")

@@ -94,7 +94,12 @@ class Operation:
 
 @dataclass(frozen=True)
 class Rheology:
-    """Shear law of the film and friction of solid contact (film_floor: Everitt 2018)."""
+    """Shear law of the film and friction of solid contact.
+
+    The law acts wherever the surfaces slip, in flow, friction and heat, with and without temperatures; "newtonian" is the film
+    that isothermal film formulas and most published films are of (its friction under pressure is not that of any oil).
+    film_floor: Everitt 2018.
+    """
 
     law: str = choice("limiting", "shear law of the film; limiting: smooth towards tau_L = tau_L0 + gamma p",
                       ("limiting", "newtonian", "eyring", "carreau"))
@@ -137,7 +142,7 @@ class Fatigue:
     on: bool = switch(True, "stresses and fatigue index of a passage")
     kappa: float = quantity(0.3, "", "sensitivity to normal stress", 0.0, 5.0)
     endurance: float = quantity(400e6, "Pa", "fatigue limit sigma_eF: Fi = 1", 1e3, 1e11)
-    source: str = text("example values, set your own", "where kappa and endurance come from")
+    source: str = text("example values, set your own", "where kappa and endurance come from", one_line=False)
     criterion: str = choice("findley", "fatigue criterion", ("findley", "findley-chord", "matake", "dang-van"))
     depths: tuple = quantities((), "m", "depths below the surface that are searched too, as [50e-6, 100e-6]", 1e-7, 0.1)
     shear: bool = switch(True, "whether the shear tractions count")
@@ -181,10 +186,12 @@ class Time:
                               infinite=True)
     x_end: float = quantity(math.inf, "a", "position at the end; inf: behind the contact", -20.0, infinite=True)
     courant: float = quantity(1.0, "cells", "way of the feature in a step", 0.05, 4.0)
-    steps: int = count(0, "stop after this many steps; 0: all", 0, 10**7)
+    steps: int = count(-1, "stop after this many steps; -1: all, 0: the steady start alone", -1, 10**7)
 
     def __post_init__(self):
         check(self, "time")
+        if self.steady_only and self.steps > 0:
+            raise SceneError(f"time.steady_only = true and time.steps = {self.steps} contradict each other: give one of them")
 
 
 @dataclass(frozen=True)
@@ -193,7 +200,7 @@ class Numerics:
 
     tolerance 1e-6: ten times less moves the film by under 0.1 % at 256 columns. mass_tolerance 1e-6: the conservation that
     users check. krylov_tolerance: from 0.03 to 0.3 a passage costs the same. newton_max, krylov_max: no converging case came
-    near them. estimate_error: an eighth more work.
+    near them. estimate_error: see tehl_taichi/companions.py.
     """
 
     tolerance: float = quantity(1e-6, "", "rms of min(P, R/D, gap) plus load error", 1e-11, 1e-3)
@@ -201,7 +208,10 @@ class Numerics:
     krylov_tolerance: float = quantity(0.2, "", "of the linear solves inside Newton, at most", 1e-6, 0.5)
     newton_max: int = count(30, "Newton steps of an attempt at most", 1, 1000)
     krylov_max: int = count(80, "Krylov iterations of a Newton step at most", 5, 500)
-    estimate_error: bool = switch(False, "error of the passage's numbers, by companion runs on coarser grids")
+    precision: str = choice(AUTO, "of the linear solves inside Newton; auto: f32 where the film is thick enough for it (the "
+                            "state and its residual are always double)", (AUTO, "f32", "f64"))
+    estimate_error: Union[bool, str] = switch(AUTO, "error of the passage's numbers, by companion runs on coarser grids; auto: "
+                                              "where a core is free for them", auto=True)
 
     def __post_init__(self):
         check(self, "numerics")
@@ -211,7 +221,7 @@ class Numerics:
 class Output:
     """What is stored."""
 
-    every: int = count(1, "store every n-th step", 1, 10**6)
+    every: int = count(1, "store every n-th step and the last; their numbers then tell of the steps between too", 1, 10**6)
     profiles: bool = switch(False, "store the temperature at every node across the film too")
 
     def __post_init__(self):

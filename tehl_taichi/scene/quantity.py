@@ -9,6 +9,7 @@ import math
 from dataclasses import dataclass
 
 from tehl_taichi.scene import checks
+from tehl_taichi.scene.plain import shown
 
 AUTO = "auto"
 
@@ -53,7 +54,7 @@ class Numbers(Number):
 
     def check(self, where, value):
         if not isinstance(value, (tuple, list)):
-            raise checks.SceneError(f"{where} = {value!r} must be a list of numbers in {self.unit}")
+            raise checks.SceneError(f"{where} = {shown(value)} must be a list of numbers in {self.unit}")
         for entry in value:
             super().check(where, entry)
 
@@ -110,12 +111,14 @@ class Switch(Kind):
 
 @dataclass(frozen=True)
 class Text(Kind):
-    """Any words."""
+    """Words, at most so many characters; one_line: without line breaks."""
 
     about: str
+    most: int = 500
+    one_line: bool = True
 
     def check(self, where, value):
-        checks.text(where, value)
+        checks.text(where, value, self.most, self.one_line)
 
 
 @dataclass(frozen=True)
@@ -126,7 +129,7 @@ class Pairs(Kind):
 
     def check(self, where, value):
         if not isinstance(value, (tuple, list)) or not all(isinstance(q, (tuple, list)) and len(q) == 2 for q in value):
-            raise checks.SceneError(f"{where} = {value!r} must be a list of pairs; {self.about}")
+            raise checks.SceneError(f"{where} = {shown(value)} must be a list of pairs; {self.about}")
         for pair in value:
             for entry in pair:
                 checks.number(where, entry)
@@ -161,9 +164,9 @@ def switch(default, about, auto=False):
     return _declared(default, Switch(about, auto))
 
 
-def text(default, about, compare=True):
+def text(default, about, most=500, one_line=True, compare=True):
     """Field: words; compare: whether they make two scenes different."""
-    return _declared(default, Text(about), compare)
+    return _declared(default, Text(about, most, one_line), compare)
 
 
 def pairs(default, about):
@@ -181,6 +184,7 @@ def check(part, section, **units):
 
     Raises SceneError: one sentence with the value, the unit and what is allowed.
     """
+    checks.normalise(part)
     for key, kind in kinds(type(part)).items():
         kind = dataclasses.replace(kind, unit=units[key]) if key in units else kind
         kind.check(f"{section}.{key}", getattr(part, key))

@@ -5,20 +5,19 @@ import math
 from dataclasses import dataclass, field
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene import judge, scales
+from tehl_taichi.scene import change, given, judge, oil_range, passing, scales
 from tehl_taichi.scene import oil as oils
-from tehl_taichi.scene.checks import build, nearest
+from tehl_taichi.scene.checks import build, file_name, nearest, number
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.parts import AUTO, Body, Contact, Fatigue, Grid, Numerics, Operation, Output, Rheology, Thermal, Time
+from tehl_taichi.scene.plain import plain, shown
+from tehl_taichi.scene.route import LATEST, cut_at
 
 SECTIONS = {"contact": Contact, "operation": Operation, "rheology": Rheology, "thermal": Thermal, "fatigue": Fatigue,
             "grid": Grid, "time": Time, "numerics": Numerics, "output": Output}
-SHORT = {"srr": "operation.srr", "load": "contact.load", "hertz_pressure": "contact.hertz_pressure",
-         "speed": "operation.u_m", "temperature": "operation.temperature", "height": "feature.height",
-         "width": "feature.width", "kappa": "fatigue.kappa", "endurance": "fatigue.endurance"}
 FIRST, LAST = -1.6, 1.4  # of the path of a small feature, in a
-CLEAR, LATEST = 1.3, 1.1  # distance in a of a feature's front from X = 0 at an automatic start; at any start at least
+CLEAR = 1.3  # distance in a of a feature's front from X = 0 at an automatic start
 BEYOND = 1.2  # half-widths, at least, from the centre to the edge of the grid
 AT_REST = 0.01  # of the mean speed
 MAX_HERTZ, MIN_HERTZ = 6e9, 1e7  # Pa: outside this range the laws say nothing
@@ -44,15 +43,34 @@ class Scene:
     output: Output = Output()
 
     def __post_init__(self):
+        file_name("name", self.name)
+        self._check_kinds()
         if self.contact.moes_M > 0:
-            speed = dataclasses.replace(self.operation, u_m=scales.moes_speed(self))
-            object.__setattr__(self, "operation", speed)
+            object.__setattr__(self, "operation", dataclasses.replace(self.operation, u_m=self._moes_speed()))
         if self.fatigue.thermal_stress is True and self.isothermal:
             raise SceneError("fatigue.thermal_stress = true needs temperatures: use --thermal, or \"auto\"")
         self._check_pressure()
         self._check_motion()
         self._check_path()
         self._check_room()
+        passing.check(self)
+        oil_range.check(self)
+
+    def _check_kinds(self):
+        """Each part of its own kind, the features a tuple."""
+        if isinstance(self.features, list):
+            object.__setattr__(self, "features", tuple(self.features))
+        kinds = {**SECTIONS, "body_a": Body, "body_b": Body, "oil": Oil}
+        for key, kind in kinds.items():
+            if not isinstance(getattr(self, key), kind):
+                raise SceneError(f"{key} = {shown(getattr(self, key))} must be of the class {kind.__name__}")
+        if not isinstance(self.features, tuple) or not all(isinstance(f, Feature) for f in self.features):
+            raise SceneError(f"features = {shown(self.features)} must be a list of the class Feature")
+
+    def _moes_speed(self):
+        u_m = scales.moes_speed(self)
+        number(f"contact.moes_L = {self.contact.moes_L:g}: the mean speed that gives it", u_m, "m/s", 1e-6, 1e3)
+        return u_m
 
     def _check_pressure(self):
         p_H = scales.Scales.of(self).p_H
@@ -78,10 +96,17 @@ class Scene:
         need = math.sqrt(2 * max(highest, 0.0) / s.h)
         for key, end in (("x_min", self.grid.x_min), ("x_max", self.grid.x_max)):
             if self.transient and abs(end) < need:
-                sign = "-" if end < 0 else ""
-                raise SceneError(f"grid.{key} = {end:g} a: the undeformed gap there, {0.5 * end**2 * s.h:.3g} m, is smaller "
-                                 f"than the height of a feature, {highest:.3g} m; allowed: {sign}{need * 1.05:.2g} a or "
-                                 "farther out")
+                gap = 0.5 * end**2 * s.h
+                raise SceneError(f"{self._load_words()} gives a half-width a of {s.a:.3g} m and so, at grid.{key} = {end:g} "
+                                 f"a, an undeformed gap of {gap:.3g} m, smaller than the height of a feature, {highest:.3g} "
+                                 f"m; allowed: a height of at most {gap:.2g} m, more load, or grid.{key} = "
+                                 f"{math.copysign(need * 1.05, end):.2g} a or farther out")
+
+    def _load_words(self):
+        """The load as it was given."""
+        key = next(key for key in ("load", "hertz_pressure", "moes_M") if getattr(self.contact, key) > 0)
+        unit = {"load": " N/m" if self.contact.kind == "line" else " N", "hertz_pressure": " Pa", "moes_M": ""}[key]
+        return f"contact.{key} = {getattr(self.contact, key):g}{unit}"
 
     def _check_motion(self):
         if self.transient and self.operation.u_a < 1e-3 * self.operation.u_m:
@@ -137,6 +162,11 @@ class Scene:
         return not self.thermal.on
 
     @property
+    def shear_law(self):
+        """The rheology that the flow of a film with one temperature obeys: Newtonian where no surface slips."""
+        return self.rheology if self.operation.u_s != 0 else dataclasses.replace(self.rheology, law="newtonian")
+
+    @property
     def thermal_stress_wanted(self):
         """Whether the heat of the surface counts in its stress."""
         wanted = self.fatigue.thermal_stress
@@ -156,10 +186,14 @@ class Scene:
             out.append("half of the domain (symmetric in y)")
         if not self.transient:
             out.append("march in time (steady)" if self.features else "march in time (no feature)")
+        elif (end := cut_at(self)) is not None:
+            out.append(f"rest of the passage (cut at {end:.2f} a by time.steps or time.x_end; `tehl resume` goes on)")
         if not self.fatigue_wanted:
             out.append("stresses and fatigue (" + ("switched off" if not self.fatigue.on else "no passage") + ")")
         if self.operation.u_s == 0:
-            out.append("sliding friction (SRR = 0)")
+            out.append("sliding friction and the shear law of the film (SRR = 0)")
+        elif self.rheology.law == "newtonian":
+            out.append("shear law of the film (rheology.law = 'newtonian')")
         return out
 
     def warnings(self):
@@ -175,10 +209,10 @@ class Scene:
         """A changed copy. Keys: srr, load, hertz_pressure, speed, temperature, height, width, kappa, endurance, name,
         or dotted ("grid.nx"; "feature.height" is the first feature, "feature.1.height" the second). Raises SceneError.
         """
-        data = self.to_dict()
-        for key, value in changes.items():
-            _assign(data, SHORT.get(key, key), value)
-        return Scene.from_dict(data)
+        changes = given.settled([(given.words(key, value), key, value) for key, value in changes.items()])
+        changed = Scene.from_dict(change.applied(self.to_dict(), changes))
+        change.check_effect(changed, changes)
+        return changed
 
     def to_dict(self):
         """Plain nested dictionary with every value, defaults included; the sections of a scene file."""
@@ -193,11 +227,12 @@ class Scene:
     @classmethod
     def from_dict(cls, data):
         """Scene from such a dictionary; missing values take their defaults, unknown keys are refused."""
-        data = dict(data)
         known = {"name", "bodies", "oil", "feature", *SECTIONS}
+        if not isinstance(data, dict):
+            raise SceneError(f"a scene is described by a table of sections, not by {shown(data)}")
         for key in data:
             if key not in known:
-                raise SceneError(f"unknown section or key {key!r}{nearest(key, known)}; known: {', '.join(sorted(known))}")
+                raise SceneError(f"unknown section or key {shown(key)}{nearest(key, known)}; known: {', '.join(sorted(known))}")
         parts = {key: build(kind, data[key], key) for key, kind in SECTIONS.items() if key in data and key != "operation"}
         if "operation" in data:
             parts["operation"] = build(Operation, _speeds(data["operation"]), "operation")
@@ -206,16 +241,20 @@ class Scene:
             parts["oil"] = oils.from_values(data["oil"])
         if "feature" in data:
             parts["features"] = _features(data["feature"])
-        return cls(name=str(data.get("name", "gear")), **parts)
+        return cls(name=data.get("name", "gear"), **parts)
 
 
 def _speeds(values):
     """u_a, u_b (m/s) in place of u_m and srr."""
+    if not isinstance(values, dict):
+        return values
     values = dict(values)
     if "u_a" in values or "u_b" in values:
         if not {"u_a", "u_b"} <= values.keys() or values.keys() & {"u_m", "srr"}:
             raise SceneError("operation takes u_a and u_b together, or u_m and srr")
-        u_a, u_b = float(values.pop("u_a")), float(values.pop("u_b"))
+        u_a, u_b = (plain(values.pop(key)) for key in ("u_a", "u_b"))
+        number("operation.u_a", u_a, "m/s", -1e4, 1e4)
+        number("operation.u_b", u_b, "m/s", -1e4, 1e4)
         u_m = 0.5 * (u_a + u_b)
         if not abs(u_m) > 0:
             raise SceneError(f"operation.u_a = {u_a:g} m/s and u_b = {u_b:g} m/s give no entrainment (mean speed 0): "
@@ -226,41 +265,12 @@ def _speeds(values):
 
 def _bodies(values):
     if not isinstance(values, dict) or set(values) - {"a", "b"}:
-        raise SceneError(f"[bodies] has the tables [bodies.a] and [bodies.b] only, not {', '.join(map(str, values))}")
-    return {f"body_{key}": build(Body, value, f"bodies.{key}") for key, value in values.items()}
+        raise SceneError(f"[bodies] has the tables [bodies.a] and [bodies.b] only, not {shown(values)}")
+    return {f"body_{key}": build(Body, value, f"bodies.{key}", "bodies") for key, value in values.items()}
 
 
 def _features(values):
     if not isinstance(values, (list, tuple)):
-        raise SceneError("features are written as [[feature]] tables")
-    return tuple(build(Feature, value, "feature") for value in values)
-
-
-def _assign(data, dotted, value):
-    """Set the dotted key in the nested dictionary; keys that exclude each other are cleared."""
-    *path, last = dotted.split(".")
-    target = data
-    if path and path[0] == "feature":
-        index = int(path[1]) if len(path) > 1 and path[1].isdigit() else 0
-        if index >= len(data["feature"]):
-            raise SceneError(f"{dotted}: scene {data['name']!r} has {len(data['feature'])} features")
-        target, path = data["feature"][index], []
-    for key in path:
-        if not isinstance(target, dict) or key not in target:
-            raise SceneError(f"unknown key {dotted}{nearest(key, target)}")
-        target = target[key]
-    if last not in target:
-        target_keys = list(target)
-        if not path and "." not in dotted:
-            target_keys += list(SHORT)
-        raise SceneError(f"unknown key {dotted}{nearest(last, target_keys)}; known: {', '.join(map(str, target_keys))}")
-    if target is data.get("contact") and last in ("load", "hertz_pressure"):
-        target.update(load=0.0, hertz_pressure=0.0, moes_M=0.0, moes_L=0.0)
-    if last == "file":
-        target["sha256"] = ""  # another file, other heights
-    if dotted == "oil.name" and value in oils.OILS:
-        data["oil"] = dataclasses.asdict(oils.OILS[value])
-    else:
-        target[last] = value
-
-
+        raise SceneError(f"features are written as [[feature]] tables, not {shown(values)}")
+    names = ["feature"] if len(values) == 1 else [f"feature.{n}" for n in range(len(values))]
+    return tuple(build(Feature, value, name, "feature") for name, value in zip(names, values))

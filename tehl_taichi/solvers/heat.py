@@ -14,6 +14,7 @@ from tehl_taichi.kernels import energy, fields, film, lanes, paths, slots
 from tehl_taichi.kernels import solids as solid_kernels
 from tehl_taichi.kernels.step import STEP_NUMBERS
 from tehl_taichi.launches import Carriers, bind
+from tehl_taichi.scene.route import step_cells
 from tehl_taichi.solvers import solids
 from tehl_taichi.solvers.storage import bdf
 
@@ -30,7 +31,6 @@ SETTLED = 0.05  # K
 BLOCKS = 40  # at most; 8 to 12 are usual
 LONGEST_RUN = 8  # blocks that are averaged
 LEAST_SHARE = 0.2  # of a round's change that is taken
-OIL_CELLS = 1.5  # a step of a passage moves the faster surface by at most so many cells
 
 
 @dataclass
@@ -56,15 +56,6 @@ def chebyshev(count):
     integral = np.stack([series.chebval(x, series.chebint(row, lbnd=-1)) for row in np.eye(count)], axis=1)
     C = 0.5 * integral @ np.linalg.inv(series.chebvander(x, count - 1))
     return 0.5 * (x + 1), C, 2 * D, 4 * D @ D
-
-
-def step_cells(scene):
-    """Cells that the feature moves in a time step: time.courant; with temperatures a whole fraction of it where the other
-    surface is much faster."""
-    if scene.isothermal:
-        return scene.time.courant
-    o = scene.operation
-    return scene.time.courant / max(1, math.ceil(scene.time.courant * o.u_b / o.u_a / OIL_CELLS - 1e-9))
 
 
 def time_step(scene, scales, dx):

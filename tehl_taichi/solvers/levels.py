@@ -3,9 +3,8 @@
 import math
 
 import numpy as np
-from taichi.lang.util import to_numpy_type
 
-from tehl_taichi import runtime, tables
+from tehl_taichi import precision, runtime, tables
 from tehl_taichi.kernels import fields, lanes, laws, measure, reynolds, transfer
 from tehl_taichi.launches import Carriers, bind
 from tehl_taichi.physics.gap import undeformed
@@ -16,7 +15,7 @@ from tehl_taichi.solvers.transforms import Deflection
 COARSEST_2D = 16  # cells along x below which no coarser grid is made
 COARSEST_1D = 32
 DENSE_LIMIT = 700  # nodes up to which the coarsest grid is solved directly
-LINEAR = np.dtype(to_numpy_type(lanes.LINEAR))  # of the linear solves
+DTYPES = {"f32": np.float32, "f64": np.float64}  # of the linear solves
 HEAVY = 4  # work of a column in the laws and in the linearisation, in units of a copy
 PAD = 4  # columns in front of the first and behind the last level that stencils may touch
 
@@ -28,11 +27,13 @@ class Levels:
     scene: the description; scales: its Hertz units; nx, ny: cells (ny = 0: one-dimensional); full: from -y_max instead of
     from the plane of symmetry (the lower edge of a line contact is then a mirror far away). The fields of the finest
     grid are read and written as arrays (ny+1, nx+1) with :meth:`get` and :meth:`put`. Vectors of the Krylov solver are
-    flat arrays of `n` numbers in the order of the table, ghosts included.
+    flat arrays of `n` numbers of type `linear` in the order of the table, ghosts included.
     """
 
     def __init__(self, scene, scales, nx, ny, full=False):
         self.scene, self.scales, self.line = scene, scales, scales.line
+        self.precision = precision.of(scene)
+        self.linear = np.dtype(DTYPES[self.precision])
         self.nx, self.ny, self.mirrored = nx, ny, scales.line or not full
         grid, y_max = scene.grid, scene.grid.y_max * scales.b / scales.a
         self.X = np.linspace(grid.x_min, grid.x_max, nx + 1)
@@ -46,10 +47,11 @@ class Levels:
         self.fine = self.sizes[0][1] // lanes.W + 1  # blocks of the finest grid
         self.G = self._level_table()
         self.n = columns(nx, ny) * lanes.W
-        rows = fields.NROWS if scene.isothermal else fields.NROWS_THERMAL
+        self.thins = scene.shear_law.law != "newtonian"
+        rows = (fields.NROWS_SHEARED if self.thins else fields.NROWS) if scene.isothermal else fields.NROWS_THERMAL
         size = max(table_columns(nx, ny), _final_columns(scene))
         self.S = tables.lease(self, rows, lanes.W, size)
-        self.J = tables.lease(self, fields.NROWS_LINEAR, lanes.W, size, precision=runtime.precision())
+        self.J = tables.lease(self, fields.NROWS_LINEAR, lanes.W, size, precision=self.precision)
         self.deflection, self._carriers = self.deflection_of(0), Carriers()
         self._set_laws()
         self._bind()
@@ -62,7 +64,7 @@ class Levels:
             nx, ny, dx, dy = self.grid(l)
             rows = ny + 1 if self.line else ny
             near, floor = self.near_kernel(l)[0], self.scene.rheology.film_floor
-            G[l, : fields.ROW0] = off, nx, ny, rows, dx, dy, 0.0, 0.0, *near, floor, 1.0
+            G[l, : fields.ROW0] = off, nx, ny, rows, dx, dy, 0.0, 0.0, *near, floor, 1.0, 0.0
             G[l, fields.LINES] = l in self.lines
             off += columns(nx, ny)
         return G
@@ -103,13 +105,16 @@ class Levels:
         self.Gamma = scene.operation.temperature
         self.ln_eta0 = float(ln_eta(scene.oil, 0.0, self.Gamma))
         lam = 12 * math.exp(self.ln_eta0) * s.u_m * s.R**2 / (s.a**3 * s.p_H)
-        self.G[:, fields.ILAM] = self.inv_lambda = 1 / lam
+        self.inv_lambda, self.shear = 1 / lam, -scene.operation.u_s * math.exp(self.ln_eta0) / s.h
+        self.slow_down(1.0)
+        self.slip(1.0)
 
     def _bind(self):
         """Launches of the kernels that this table is used with, on the finest level and on the coarser ones."""
-        law = (self.S, self.G, self.scene.oil, self.scales.p_H, self.Gamma, self.ln_eta0)
+        law = (self.S, self.G, self.scene.oil, self.scene.shear_law, self.scales.p_H, self.Gamma, self.ln_eta0)
         self.laws, self._slopes = (self.launch(laws.laws, *law, with_slopes, work=HEAVY) for with_slopes in (0, 1))
-        self._bind_rows(fields.LAWS, fields.RHO, fields.QP, -1)
+        follow, thinning = ((*fields.LAWS, fields.DLH), fields.DLH) if self.thins else (fields.LAWS, -1)
+        self._bind_rows(follow, fields.RHO, fields.QP, thinning)
         d = self.deflection
         self._pressure_rows = self.launch(reynolds.pressure_rows, self.S, self.G, d.pressure.ravel(), d.pressure.shape[1])
         self._set_film = self.launch(reynolds.set_film, self.S, self.G, d.film.ravel(), d.edge, d.film.shape[1])
@@ -125,6 +130,10 @@ class Levels:
     def slow_down(self, factor):
         """Take the speed of the film's balance to be that of the scene over `factor`."""
         self.G[:, fields.ILAM] = factor * self.inv_lambda
+
+    def slip(self, part):
+        """Take the slip that the shear law acts by to be this part of that of the scene; 0: a Newtonian film."""
+        self.G[:, fields.SHEAR] = part * self.shear
 
     def use_film(self, values, slopes):
         """Take the laws from a film with temperatures."""
@@ -178,11 +187,11 @@ class Levels:
 
     def vector(self, row):
         """Field `row` of the finest level as a new flat vector in table order."""
-        return self._carry(measure.save, row).ravel().copy()
+        return self._carry(measure.save, row).copy()
 
     def _carry(self, kernel, row, l=None, values=None):
         """Launch a kernel between a field of level l (or in table order) and an array. Returns the array."""
-        shape, place = (self.n // lanes.W, lanes.W), (row,)
+        shape, place = self.n, (row,)
         if l is not None:
             shape, place = (self.sizes[l][1] + 1, self.sizes[l][0] + 1), (l, row)
         return self._carriers.carry((kernel, row, l), shape,

@@ -11,9 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl_taichi.kernels import fields, measure, reynolds
-from tehl_taichi.kernels.lanes import W
 from tehl_taichi.solvers.krylov import Workspace, fgmres
-from tehl_taichi.solvers.levels import LINEAR
 from tehl_taichi.solvers.preconditioner import AdditiveLines
 
 SHORTEST_STEP = 0.05  # of a Newton step; below it a step is taken as it is and the next linearisation decides
@@ -69,19 +67,19 @@ class PressureSolver:
 
     def __init__(self, levels):
         self.levels = levels
-        self.work = Workspace(levels.n + 2, levels.scene.numerics.krylov_max, LINEAR)
+        self.work = Workspace(levels.n + 2, levels.scene.numerics.krylov_max, levels.linear)
         self.preconditioner = AdditiveLines(levels)
-        self.inside, self.weights = levels.inside.astype(LINEAR), levels.vector(fields.WEIGHT).astype(LINEAR)
+        self.inside, self.weights = (q.astype(levels.linear) for q in (levels.inside, levels.vector(fields.WEIGHT)))
         self.load = levels.scales.load
         self.H0 = 0.0
         self._bind()
 
     def _bind(self):
         v = self.levels
-        self.trial, self.product, self.b, self.mass_row = (np.zeros((v.n // W, W), LINEAR) for _ in range(4))
-        d = self.deflection = v.deflection if LINEAR == v.deflection.dtype else v.deflection_of(0, LINEAR)
+        self.trial, self.product, self.b, self.mass_row, self.step = (np.zeros(v.n, v.linear) for _ in range(5))
+        d = self.deflection = v.deflection if v.linear == v.deflection.dtype else v.deflection_of(0, v.linear)
         self.partial, self.touching = np.zeros((v.fine, 4)), np.zeros((v.fine, 1))
-        self.old, self.step, self.part = np.zeros((v.n // W, W)), np.zeros((v.n // W, W), LINEAR), np.ones(1)
+        self.old, self.part = np.zeros(v.n), np.ones(1)
         self._keep_pressure = v.launch(measure.save, v.S, v.G, fields.P, self.old)
         self._move_pressure = v.launch(measure.advance, v.S, v.G, self.old, self.step, self.part)
         self._place = v.launch(reynolds.place, v.J, v.G, self.trial, d.pressure.ravel(), d.pressure.shape[1])
@@ -168,14 +166,14 @@ class PressureSolver:
         touching = self.touching.sum() > 0
         self.preconditioner.build(touching, self.change > SMALL_CHANGE)
         v = self.levels
-        b = self.b.ravel()
+        b = self.b
         if touching:
             violation = v.get(fields.H) - v.G[0, fields.FLOOR]
             b = np.where(v.vector(fields.TOUCH) > 0, -self._film_rows(violation), b)
         if self.lift is None:
             self._border()
         self._scale_mass(b)
-        right = np.concatenate([b, [-self.load_error * self.load, self.mass_row.ravel() @ b]], dtype=LINEAR)
+        right = np.concatenate([b, [-self.load_error * self.load, self.mass_row @ b]], dtype=v.linear)
         step, used, _ = fgmres(self._apply, self._precondition, right, krylov_tolerance, self.work)
         step[:-1] *= self.inside
         return step, used
@@ -184,7 +182,7 @@ class PressureSolver:
         """Scale the mass component like the sum of all rows, but at most to the norm of the rows: above it, a solve would
         stop as soon as the mass is balanced, with the pressure hardly changed."""
         self.mass_row *= np.sqrt(self.levels.unknowns) / self.couette
-        defect = abs(float(self.mass_row.ravel() @ b))
+        defect = abs(float(self.mass_row @ b))
         if defect > 0:
             self.mass_row *= min(1.0, float(np.sqrt(b @ b)) / defect)
 
@@ -195,7 +193,7 @@ class PressureSolver:
         self._place()
         d.film[: v.ny + 1, : v.nx + 1] = change
         self._jacobian()
-        return self.product.ravel()
+        return self.product
 
     def _apply(self, z, out):
         """out = scaled Jacobian times (pressure change, H0 change), and its load and mass components.
@@ -204,17 +202,16 @@ class PressureSolver:
         scaled like the sum of all rows: row scales of 1e3 in the inlet would hide the defect, and it would cost three
         more Newton steps.
         """
-        np.copyto(self.trial.ravel(), z[:-1])
+        np.copyto(self.trial, z[:-1])
         self._place()
         self.deflection.deflect(z[-1])
         self._jacobian()
-        rows = self.product.ravel()
-        np.copyto(out[:-2], rows)
-        out[-2:] = self.weights @ z[:-1], self.mass_row.ravel() @ rows
+        np.copyto(out[:-2], self.product)
+        out[-2:] = self.weights @ z[:-1], self.mass_row @ self.product
 
     def _border(self):
         """Answer of the preconditioner to a change of H0, for the bordered system; kept for the whole step."""
-        wet = (1 - self.levels.vector(fields.DRY)).astype(LINEAR)
+        wet = (1 - self.levels.vector(fields.DRY)).astype(self.levels.linear)
         self.lift = self.preconditioner.apply(self._film_rows(1.0)) * wet
         self.lift_load = float(self.weights @ self.lift)
 
@@ -244,7 +241,7 @@ class PressureSolver:
     def _keep(self, step):
         """Remember the pressure and the step from it. Returns H0."""
         self._keep_pressure()
-        np.copyto(self.step.ravel(), step[:-1])
+        np.copyto(self.step, step[:-1])
         return self.H0
 
     def _move(self, old_H0, step, t):

@@ -39,7 +39,7 @@ def _measured(make, source, result):
 
 
 def _place():
-    return runtime.cache_dir() / "transforms.json"
+    return runtime.wanted_cache() / "transforms.json"
 
 
 @functools.lru_cache(maxsize=1)

@@ -10,7 +10,7 @@ import numpy as np
 
 from tehl_taichi.kernels import fields, lanes, lines, transfer
 from tehl_taichi.launches import bind
-from tehl_taichi.solvers.levels import HEAVY, LINEAR
+from tehl_taichi.solvers.levels import HEAVY
 from tehl_taichi.solvers.transforms import Deflection, Distribution
 
 COARSE_WEIGHT = 0.8  # of the coarser levels' sum: 30.1 Krylov iterations a step with 0.5, 22.9 with 0.8, 24.3 with 1 (256x64)
@@ -22,8 +22,8 @@ class AdditiveLines:
 
     def __init__(self, levels):
         self.levels = levels
-        self.distribution = Distribution([levels.grid(l) for l in levels.lines], levels.scales.compliance, LINEAR)
-        self.near, self.inverse = (np.zeros((2 * len(levels.sizes), lines.NEAR), LINEAR) for _ in range(2))
+        self.distribution = Distribution([levels.grid(l) for l in levels.lines], levels.scales.compliance, levels.linear)
+        self.near, self.inverse = (np.zeros((2 * len(levels.sizes), lines.NEAR), levels.linear) for _ in range(2))
         inverse = self.distribution.near(lines.NEAR)
         for n, (l, place) in enumerate(zip(levels.lines, self.distribution.places)):
             levels.G[l, [fields.ROW0, fields.PERIOD]] = place
@@ -31,7 +31,7 @@ class AdditiveLines:
             self.inverse[2 * l : 2 * l + 2] = inverse[2 * n : 2 * n + 2]
         self.count = sum(levels.sizes[l][1] // lanes.W + 1 for l in levels.lines)
         self.coarsest = Coarsest(levels) if levels.dense else None
-        self.r, self.z = (np.zeros((levels.n // lanes.W, lanes.W), LINEAR) for _ in range(2))
+        self.r, self.z = (np.zeros(levels.n, levels.linear) for _ in range(2))
         self._bind()
 
     def _bind(self):
@@ -58,14 +58,14 @@ class AdditiveLines:
 
     def apply(self, r):
         """Correction (n,) of the finest level for the right-hand side r (n,) of the scaled rows; a buffer."""
-        np.copyto(self.r.ravel(), r)
+        np.copyto(self.r, r)
         self._descend()
         self._solve_lines()
         self.distribution.distribute()
         if self.coarsest:
             self.coarsest.solve()
         self._ascend()
-        return self.z.ravel()
+        return self.z
 
 
 class Coarsest:
@@ -74,15 +74,15 @@ class Coarsest:
     def __init__(self, levels, dense=True):
         self.levels, self.l = levels, len(levels.sizes) - 1
         nx, ny = levels.sizes[-1]
-        size = (ny // lanes.W + 1) * (nx + 1)
-        self.right, self.solution = (np.zeros((size, lanes.W), LINEAR) for _ in range(2))
+        size = (ny // lanes.W + 1) * (nx + 1) * lanes.W
+        self.right, self.solution = (np.zeros(size, levels.linear) for _ in range(2))
         j, i = (q.ravel() for q in np.mgrid[: ny + 1, : nx + 1])
         self.place = (j // lanes.W * (nx + 1) + i) * lanes.W + j % lanes.W
         if dense:
             self.neighbours = self._neighbours(i, j, nx, ny)
             influence = dense_deflection(*levels.deflection_key(self.l))
             self.influence = np.stack([influence[q] for q in self.neighbours])
-            self.rows = np.zeros((len(fields.STENCIL), i.size), LINEAR)
+            self.rows = np.zeros((len(fields.STENCIL), i.size), levels.linear)
             self._export = bind(lines.export_rows, levels.J, levels.G, self.l, self.rows, True)
 
     def _neighbours(self, i, j, nx, ny):
@@ -96,10 +96,10 @@ class Coarsest:
         J = np.einsum("qn,qnm->nm", self.rows[half:], self.influence)
         for a, q in zip(self.rows[:half], self.neighbours):
             J[nodes, q] += a
-        self.inverse = np.linalg.inv(J).astype(LINEAR)
+        self.inverse = np.linalg.inv(J).astype(self.levels.linear)
 
     def solve(self):
-        self.solution.ravel()[self.place] = self.inverse @ self.right.ravel()[self.place]
+        self.solution[self.place] = self.inverse @ self.right[self.place]
 
 
 @functools.lru_cache(maxsize=4)  # the grids of a steady start end in the same one

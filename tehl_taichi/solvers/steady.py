@@ -1,9 +1,8 @@
 """Steady contact from nothing: Hertz pressure on a coarse grid, then every finer grid from the one before.
 
-The coarser solutions also give each scalar's discretisation error (Richardson with the observed order).
+What the coarser grids gave tells the error of the finest (error_bars).
 """
 
-import math
 from dataclasses import dataclass, field
 from typing import Optional
 
@@ -15,22 +14,23 @@ from tehl_taichi.solvers.levels import Levels
 from tehl_taichi.solvers.newton import PressureSolver, Report
 
 FIRST_CELLS = 64  # along x of the first grid: fine enough for a film from Hertz, cheap enough not to matter
+LEAST_CELLS = 32  # of the first grid where that makes one grid more, for the error of coarse runs
 CLOSE = 0.03  # Krylov tolerance between blocks of temperatures: with 0.2 they may never settle (4 GPa, 64 columns)
 CAREFUL = 1e-2  # Krylov tolerance where that of the scene did not converge
 FIRST_FILM = 0.05  # central film of the first guess, Hertz units: thick enough to flow, thin enough to be near
 START_TRIES = (1.0, 0.3, 3.0)  # times FIRST_FILM
-SAFETY = 1.25  # on an extrapolated error (Roache 1994, three grids)
+SLIPS = (1.0,), (1e-3, 1e-2, 0.1, 1.0)  # parts of the slip that a start goes through, and again where it fails
 FINEST_THERMAL = 4  # temperatures on the grids up to four times as coarse as the finest: three grids for the error
 SLOWER = (300.0, 100.0, 30.0, 10.0, 3.0, 1.0)  # factors of the speed below that of the scene
 # Steps of time towards a steady state that Newton does not reach at once, in cells that the oil moves: films of a thousandth
 # of a^2/R' on grids that hardly resolve them. Of 102 isothermal scenes (table and random) 8 did not start without, all do now
 SHORTEST_TIME, LONGEST_TIME, TIME_STEPS, ROUGHLY = 1e-2, 1e4, 60, 1e-4
-CREDIBLE_ORDER = (0.5, 4.0)  # observed orders outside are not believed
 
 
 @dataclass
 class SteadyResult:
-    """solver: holds the finest state; report: its last solve; values: scalars per grid; work: Krylov iterations."""
+    """solver: holds the finest state; report: its last solve; values: what `look` saw on each grid that counts for its error,
+    coarsest first; work: Krylov iterations."""
 
     solver: PressureSolver
     report: Report
@@ -38,47 +38,20 @@ class SteadyResult:
     work: int = 0
     heat: Optional[FilmHeat] = None
 
-    def errors(self):
-        """Estimated error of the finest h_c, h_min, p_max (dimensionless); see :func:`estimated_error`."""
-        last = self.values if self.heat is None else self.values[-3:]
-        return {key: estimated_error([v[key] for v in last]) for key in self.values[-1]}
 
-
-def estimated_error(values):
-    """Error of the last of `values` (each grid twice as fine as the one before), by Richardson's extrapolation.
-
-    With three grids the observed order is used when it is credible (and a margin of a quarter added), otherwise the last
-    difference stands as it is (order 1), which is the larger estimate; with one grid the error is unknown (nan).
-    """
-    if len(values) < 2:
-        return math.nan
-    last = values[-1] - values[-2]
-    order = observed_order(values)
-    if not CREDIBLE_ORDER[0] <= order <= CREDIBLE_ORDER[1]:
-        return abs(last)
-    return SAFETY * abs(last) / (2**min(order, 2.0) - 1)
-
-
-def observed_order(values):
-    """Order by which the last three of `values` (each grid twice as fine as the one before) approach their limit; nan with
-    fewer, or where they do not."""
-    if len(values) < 3 or values[-1] == values[-2]:
-        return math.nan
-    ratio = (values[-2] - values[-3]) / (values[-1] - values[-2])
-    return math.log2(ratio) if ratio > 0 else math.nan
-
-
-def grid_sequence(nx, ny, first=FIRST_CELLS):
-    """Sizes from the first grid up to (nx, ny), each twice as fine."""
-    sizes = [(nx, ny)]
+def grid_sequence(nx, ny):
+    """Sizes from the first grid up to (nx, ny), each twice as fine: three where FIRST_CELLS or more allow it."""
+    sizes, first = [(nx, ny)], min(FIRST_CELLS, max(nx // 4, LEAST_CELLS))
     while nx % 2 == 0 and nx // 2 >= first and ny % 2 == 0 and (ny == 0 or ny // 2 >= 4):
         nx, ny = nx // 2, ny // 2
         sizes.append((nx, ny))
     return sizes[::-1]
 
 
-def solve_steady(scene, scales, nx, ny):
-    """Steady smooth contact on nx x ny cells (ny = 0: line). Returns a SteadyResult; check `report.converged`."""
+def solve_steady(scene, scales, nx, ny, look=None):
+    """Steady smooth contact on nx x ny cells (ny = 0: line). look(solver, heat, report): what to keep of each grid, by default
+    its :func:`scalars`. Returns a SteadyResult; check `report.converged`."""
+    look = look or (lambda solver, heat, report: scalars(solver))
     P, H0, T, values, work = None, 0.0, None, [], 0
     for size in grid_sequence(nx, ny):
         solver = heat = None  # give their tables to the next grid
@@ -91,12 +64,40 @@ def solve_steady(scene, scales, nx, ny):
             T = np.stack([refine(layer) for layer in heat.T])
         # a grid too coarse for the outlet of this film is no start for the next one, nor a step of its error
         P, H0 = (solver.levels.get(fields.P), solver.H0) if report.converged else (None, 0.0)
-        values = [*values, scalars(solver)] if report.converged else [scalars(solver)]
+        if not report.converged:
+            values = []
+        if size[0] == nx or report.converged and (scene.isothermal or heat):
+            values.append(look(solver, heat, report))
         work += report.cycles
     return SteadyResult(solver, report, values, work, heat)
 
 
 def _first(solver):
+    """From Hertz without slip, which then comes in parts where it does not at once. Sheared from the start, a film that Newton
+    makes too thin for a moment flows off like water: the surfaces touch all over, which may be a solution too."""
+    v = solver.levels
+    v.slip(0.0)
+    report = _without_slip(solver)
+    P, H0 = v.get(fields.P), solver.H0
+    for parts in SLIPS if v.thins and report.converged else ():
+        _put(solver, P, H0)
+        report = _through_slips(solver, parts)
+        if report.converged:
+            break
+    v.slip(1.0)
+    return report
+
+
+def _through_slips(solver, parts):
+    for part in parts:
+        solver.levels.slip(part)
+        report = _from_here(solver)
+        if not report.converged:
+            break
+    return report
+
+
+def _without_slip(solver):
     for factor in START_TRIES:
         for krylov_tolerance in (None, CAREFUL):
             _hertz(solver, FIRST_FILM * factor)

@@ -1,20 +1,18 @@
 """The grid that a wanted error needs, from what `tehl bench accuracy` measured on the built-in scenes."""
 
+import functools
+import json
 import math
+from pathlib import Path
 
 import numpy as np
-from tehl_taichi.profiles.accuracy import scene_of
 
-from tehl_taichi.scene import SceneError
+from tehl_taichi.errors import SceneError
 from tehl_taichi.scene.scales import Scales
 
-# {columns: largest error of film, pressure and Findley index}; `tehl bench accuracy`, 2026-11-21 (docs/benchmarks.md)
-MEASURED = {
-    "steady line": {64: 0.028, 128: 0.010, 256: 0.0019, 512: 0.0011, 1024: 0.00055},
-    "steady circle": {64: 0.028, 128: 0.0015, 256: 0.0004},
-    "passage": {64: 0.22, 128: 0.041, 256: 0.011, 512: 0.0032},
-    "thermal passage": {64: 0.33, 128: 0.053, 256: 0.013},
-}
+# Written by `tehl bench accuracy --keep`: {"machine", "families": {name: {"columns_per_width": columns for one cell per
+# half-width or width of the feature, "errors": {columns: largest relative error of film, pressure and Findley index}}}}
+FILE = Path(__file__).with_name("grid_errors.json")
 MOST = 2048  # columns
 MULTIPLE = 32  # of columns: the coarser grids of the solver need halves of halves
 
@@ -25,14 +23,21 @@ def grid_for(description, target):
     The resolution counts: cells per contact half-width of a steady scene, per feature width of a passage. Beyond the finest
     measured grid the error is taken to fall in proportion to the cells. Raises SceneError where that needs too fine a grid.
     """
-    family = family_of(description)
-    needed = _columns(MEASURED[family], target) * _cells(description) / _cells(scene_of(family, 256))
+    measured = families()[family_of(description)]
+    errors = {int(nx): error for nx, error in measured["errors"].items()}
+    needed = _columns(errors, target) * columns_per_width(description) / measured["columns_per_width"]
     nx = math.ceil(needed / MULTIPLE - 1e-9) * MULTIPLE
     if nx > MOST:
         finest = target * nx / MOST
         raise SceneError(f"a target error of {100 * target:.3g} % would need {nx} columns; at most {MOST} are taken, good for "
                          f"{100 * finest:.2g} % of this scene (`tehl bench accuracy` shows what grids reach)")
     return nx, max(8, round(nx * description.grid.ny / description.grid.nx / 8) * 8)
+
+
+@functools.cache
+def families():
+    """What was measured, by family of scenes."""
+    return json.loads(FILE.read_text())["families"]
 
 
 def family_of(description):
@@ -42,7 +47,7 @@ def family_of(description):
     return "steady line" if description.contact.kind == "line" else "steady circle"
 
 
-def _cells(description):
+def columns_per_width(description):
     """Columns for one cell per contact half-width, or per feature width where features pass."""
     g, a = description.grid, Scales.of(description).a
     widths = [f.width for f in description.features if f.width] if description.transient else []

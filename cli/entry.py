@@ -1,0 +1,80 @@
+"""Where `tehl` starts: nothing heavy is imported before signals, pipes and encodings are seen to."""
+
+import codecs
+import contextlib
+import os
+import signal
+import sys
+import warnings
+
+FAILED, INTERRUPTED = 1, 4  # as in tehl_taichi.errors, which takes longer to import than a hasty Ctrl-C
+PLAIN = {"±": "+-", "µ": "u", "μ": "u", "°": "deg ", "σ": "sigma", "τ": "tau", "κ": "kappa", "η": "eta", "ζ": "zeta",
+         "₁": "1", "²": "^2", "³": "^3", "−": "-", "–": "-", "×": "x", "·": "-", "…": "...", "≤": "<=", "≥": ">=", "→": "->"}
+
+
+def main():
+    """Run the command line; exit codes: 0 done, 2 bad input, 3 not converged, 4 interrupted, 1 anything else."""
+    try:
+        _stop_as_ctrl_c_does()
+        _print_in_any_encoding()
+        code = _run()
+        sys.stdout.flush()
+    except KeyboardInterrupt:
+        print("tehl: interrupted; nothing that was stored is lost", file=sys.stderr)
+        code = INTERRUPTED
+    except BrokenPipeError:  # as in `tehl show STORE | head`: the reader has seen enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+        code = 0
+    sys.exit(code)
+
+
+def _run():
+    """The exit code of the command in sys.argv."""
+    debug = "--debug" in sys.argv
+    if debug:
+        sys.argv.remove("--debug")
+    warnings.showwarning = lambda message, *_: print(f"warning: {message}", file=sys.stderr)
+    try:
+        from tehl_cli.main import app
+
+        app()
+    except SystemExit as stop:
+        return _code(stop)
+    except BrokenPipeError:
+        raise
+    except Exception as error:  # noqa: BLE001  every failure ends in one sentence
+        if debug:
+            raise
+        print(f"tehl: {error or type(error).__name__}", file=sys.stderr)
+        return getattr(error, "exit_code", FAILED)
+    return 0
+
+
+def _code(stop):
+    """Exit code of a SystemExit; what the terminal libraries make of a pipe that broke and of Ctrl-C is taken back."""
+    if isinstance(stop.__context__, BrokenPipeError):
+        raise BrokenPipeError
+    if stop.code == 128 + signal.SIGINT:
+        raise KeyboardInterrupt
+    return stop.code or 0
+
+
+def _stop_as_ctrl_c_does():
+    """`kill` and a closed terminal stop a run as Ctrl-C does; what the caller ignores (nohup) stays ignored."""
+    for name in ("SIGTERM", "SIGHUP"):
+        number = getattr(signal, name, None)
+        with contextlib.suppress(ValueError):  # not the main thread
+            if number and signal.getsignal(number) == signal.SIG_DFL:
+                signal.signal(number, signal.default_int_handler)
+
+
+def _print_in_any_encoding():
+    """Letters that a terminal's encoding does not have are spelled."""
+    codecs.register_error("spelled", _spelled)
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="spelled")
+
+
+def _spelled(error):
+    return "".join(PLAIN.get(letter, "?") for letter in error.object[error.start : error.end]), error.end

@@ -1,0 +1,155 @@
+"""Do the error bars hold? Scenes drawn at random, their bars judged by the same scenes on grids four times as fine."""
+
+import contextlib
+import json
+from dataclasses import asdict
+from pathlib import Path
+
+import numpy as np
+
+from tehl_taichi import companions
+from tehl_taichi.errors import Error
+from tehl_taichi.scene import Scene, SceneError, scene
+from tehl_taichi.solvers.error_bars import Reading, bars
+
+FINER = 4
+# how many of each kind, by the columns that they are drawn for; temperatures on a point contact march in time for long
+STEADY = {"line, Moes": (10, (64, 128, 256)), "line": (14, (64, 128, 256)), "line, thermal": (12, (64, 128, 128, 256)),
+          "circle, Moes": (8, (64, 64, 128)), "circle": (4, (64, 64, 128)), "ellipse": (8, (64, 64, 128)),
+          "point, thermal": (4, (64,))}
+PASSAGES = {"ridge": 1, "ridge, thermal": 1, "asperity": 2, "asperity, thermal": 1, "ridge on ball": 1}
+QUICK, DRAWS = 6, 100  # every so many-th scene; draws until one is admissible
+RELATIVE_TO = {"C": 1.0}  # K: temperatures have no natural zero
+
+
+def battery(seed, quick=False):
+    """[(kind, scene)]: steady scenes and passages, the same for the same seed."""
+    rng = np.random.default_rng(seed)
+    kinds = [(kind, columns) for kind, (count, columns) in STEADY.items() for _ in range(count)]
+    kinds += [(kind, None) for kind, count in PASSAGES.items() for _ in range(count)]
+    drawn = [(kind, _admissible(rng, kind, columns)) for kind, columns in kinds]
+    return drawn[:: QUICK if quick else 1]
+
+
+def _admissible(rng, kind, columns):
+    """The first scene drawn that is not refused."""
+    for _ in range(DRAWS):
+        with contextlib.suppress(SceneError):
+            return _passage(rng, kind) if columns is None else _steady(rng, kind, int(rng.choice(columns)))
+    raise SceneError(f"none of {DRAWS} scenes drawn as {kind!r} is admissible")
+
+
+def _log_uniform(rng, low, high):
+    return float(np.exp(rng.uniform(np.log(low), np.log(high))))
+
+
+def _steady(rng, kind, nx):
+    line, grid = kind.startswith("line"), {"grid.nx": nx}
+    if not line:
+        grid |= {"grid.ny": nx // 2, "grid.x_min": -2.5, "grid.x_max": 1.5, "grid.y_max": 2.0}
+    if "Moes" in kind:
+        M = _log_uniform(rng, 10, 1000)
+        grid |= {"grid.x_min": -4.5 if M < 40 else -2.5} if line else {"grid.x_min": -3.0 if M > 100 else -4.5}
+        return scene("smooth-line" if line else "ball-on-disc").replace(**{
+            "contact.load": 0.0, "contact.moes_M": M, "contact.moes_L": float(rng.uniform(2, 20)),
+            "oil.name": "moes-test-fluid", **grid})
+    most = 2.5e9 if line else 2e9
+    changes = {"temperature": float(rng.uniform(50, 120)), "speed": _log_uniform(rng, 1, 20 if line else 10),
+               "srr": float(rng.uniform(-0.6, 0.6)), "thermal.on": "thermal" in kind}
+    base = scene("smooth-line").replace(**grid).to_dict()
+    pressure = _log_uniform(rng, 0.5e9, most)
+    if line:
+        base["contact"] = {"radius_x": 10.6e-3, "hertz_pressure": pressure}
+    else:
+        ratio = 1.0 if kind == "circle" else _log_uniform(rng, 0.3, 4)
+        base["contact"] = {"kind": "point" if ratio == 1 else "elliptic", "radius_x": 12.7e-3, "radius_y": 12.7e-3 * ratio,
+                           "hertz_pressure": pressure}
+    return Scene.from_dict(base).replace(**changes)
+
+
+def _passage(rng, kind):
+    sign = 1.0 if rng.random() < 0.6 else -1.0
+    if kind == "ridge on ball":
+        return scene("ridge-on-ball").replace(**{"height": sign * _log_uniform(rng, 0.1e-6, 0.3e-6),
+                                                 "srr": float(rng.choice([-0.5, 0.0, 0.5])), "grid.nx": 64, "grid.ny": 32})
+    ridge, thermal = kind.startswith("ridge"), "thermal" in kind
+    nx = int(rng.choice([128, 256])) if ridge else 64 if thermal else 128
+    return scene("gear").replace(**{
+        "feature.shape": "ridge" if ridge else "cosine", "height": sign * _log_uniform(rng, 0.3e-6, 1.5e-6),
+        "width": _log_uniform(rng, 200e-6, 400e-6), "srr": float(rng.uniform(-0.5, 0.5)), "thermal.on": thermal,
+        "hertz_pressure": _log_uniform(rng, 1e9, 2.2e9), "temperature": float(rng.uniform(60, 100)), "grid.nx": nx,
+        "grid.ny": nx // 4, "time.x_end": float("inf") if ridge else 0.0})
+
+
+def run(path, seed, quick=False, progress=None):
+    """Rows of all scenes of a battery (see :func:`row`), kept in the JSON file `path` as they come."""
+    rows, path = [], Path(path)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    for n, (kind, description) in enumerate(battery(seed, quick)):
+        if progress:
+            progress(f"{n + 1}: {kind}, {description.grid.nx} columns")
+        rows.append({"kind": kind, "columns": description.grid.nx, **row(description)})
+        path.write_text(json.dumps({"seed": seed, "rows": rows}))
+    return rows
+
+
+def row(description):
+    """{"own": readings per grid or of companions, "finer": {name: value}} of one scene, or the reason why it has none."""
+    g = description.grid
+    finer = description.replace(**{"grid.nx": FINER * g.nx, "grid.ny": FINER * g.ny})
+    try:
+        return _row_of_passage(description, finer) if description.transient else _row_of_start(description, finer)
+    except Error as error:
+        return {"reason": str(error)}
+
+
+def _row_of_start(description, finer):
+    from tehl_taichi.simulation import march
+
+    own = [{name: asdict(reading) for name, reading in grid.items()} for grid in next(march(description)).grids]
+    scalars = next(march(finer)).scalars
+    return {"own": own, "finer": {name: scalars[name] for name in own[-1]}}
+
+
+def _row_of_passage(description, finer):
+    coarser, refused = companions.scenes(description)
+    own = {name: asdict(reading) for name, reading in companions.values(description).items()}
+    answers = [{"reason": reason} for reason in refused] + [companions.answer(one) for one in coarser]
+    return {"own": own, "answers": answers, "finer": {name: r.value for name, r in companions.values(finer).items()}}
+
+
+def judged(rows):
+    """[(part, quantity, value, error bar or None, real error)] of rows of a battery."""
+    out = []
+    for one in rows:
+        if "reason" in one:
+            continue
+        part = "passage" if "answers" in one else "steady"
+        if part == "passage":
+            own = {name: Reading(**values) for name, values in one["own"].items()}
+            found, _ = companions.judged(one["answers"], own)
+        else:
+            grids = [{name: Reading(**values) for name, values in grid.items()} for grid in one["own"]]
+            own, (found, _) = grids[-1], bars(grids)
+        out += [(part, name, own[name].value, size, abs(one["finer"][name] - own[name].value)) for name, size in found.items()]
+    return out
+
+
+def table(rows):
+    """[(part, quantity, bars stated, not known, share covered, median of bar over real error, median bar, median real error)]
+    per quantity and over all; the medians in parts of the value, of a temperature in K."""
+    found = judged(rows)
+    names = list(dict.fromkeys((part, name) for part, name, *_ in found))
+    groups = [(part, name, [one for one in found if one[:2] == (part, name)]) for part, name in names]
+    groups += [(part, "all", [one for one in found if one[0] == part]) for part in dict.fromkeys(one[0] for one in found)]
+    return [(part, name, *_line(group)) for part, name, group in groups]
+
+
+def _line(group):
+    stated = [(size, real, RELATIVE_TO.get(name[-1], abs(value))) for _, name, value, size, real in group if size is not None]
+    if not stated:
+        return 0, len(group), *[None] * 4
+    size, real, unit = (np.array(column) for column in zip(*stated))
+    width = size / np.maximum(real, 1e-300)
+    return (len(stated), len(group) - len(stated), float(np.mean(real <= size)), float(np.median(width)),
+            float(np.median(size / unit)), float(np.median(real / unit)))

@@ -1,0 +1,47 @@
+"""The states that a run can go on from, one .npz each (whose members carry checksums), named by the entries before it."""
+
+import io
+import zipfile
+import zlib
+
+import numpy as np
+
+from tehl_taichi.errors import StoreError
+from tehl_taichi.io.atomic import replace
+
+NEEDED = {"step", "P", "H0"}
+
+
+def write(folder, number, state):
+    """Store the state behind entry `number`."""
+    content = io.BytesIO()
+    np.savez(content, **{key: value for key, value in state.items() if value is not None})
+    replace(folder / f"{number}.npz", content.getbuffer())
+
+
+def forget(folder, number):
+    """Remove all but that of entry `number`."""
+    for other in _numbers(folder):
+        if other != number:
+            (folder / f"{other}.npz").unlink(missing_ok=True)
+
+
+def last(store, folder, steps, shape):
+    """(entries before it, state) of the last one among the first `steps` entries; shape: that its pressure must have.
+    Raises StoreError."""
+    number = max((n for n in _numbers(folder) if n <= steps), default=None)
+    if number is None:
+        raise StoreError(f"{store} holds nothing to go on from; `tehl run {store} --out NEW` repeats its run")
+    try:
+        with np.load(folder / f"{number}.npz", allow_pickle=False) as saved:
+            state = {key: saved[key] for key in saved.files}
+    except (OSError, ValueError, KeyError, EOFError, AttributeError, NotImplementedError, zipfile.BadZipFile, zlib.error):
+        state = {}
+    if not NEEDED <= state.keys() or state["P"].shape != shape:
+        raise StoreError(f"the checkpoint {folder / f'{number}.npz'} is damaged or of another grid; what is stored can be "
+                         f"looked at, `tehl run {store} --out NEW` repeats the run")
+    return number, state
+
+
+def _numbers(folder):
+    return [int(file.stem) for file in folder.glob("*.npz") if file.stem.isdigit()]

@@ -1,0 +1,123 @@
+"""Whether what lies on the disk is a whole store of this program, and what is wrong with it, in a sentence."""
+
+import json
+from pathlib import Path
+
+from tehl_taichi import __version__
+from tehl_taichi.errors import SceneError, StoreError
+from tehl_taichi.io import maps
+from tehl_taichi.io.lock import LOCK
+from tehl_taichi.scene.whole import SECTIONS
+
+FORMAT = 2  # 1: version 0.1, without checksums
+CHECKPOINTS = ".checkpoints"
+ROOT = "zarr.json"
+OURS = {ROOT, f"{ROOT}.tmp", CHECKPOINTS, LOCK}
+
+
+def is_store(path):
+    """Whether a store of this program, whole or damaged, is at `path`."""
+    try:
+        return {"scene", "steps"} <= json.loads((Path(path) / ROOT).read_text())["attributes"].keys()
+    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        return False
+
+
+def strangers(path):
+    """Names in the folder of a store that are no part of it."""
+    return sorted(child.name for child in path.iterdir()
+                  if child.name not in OURS and (child.is_symlink() or not (child / ROOT).is_file()))
+
+
+def root_of(path):
+    """(attributes, {name: metadata of an array}) of the store at `path`. Raises StoreError."""
+    path = Path(path)
+    try:
+        root = json.loads((path / ROOT).read_text())
+        attrs = root["attributes"]
+        arrays = root["consolidated_metadata"]["metadata"]
+    except FileNotFoundError:
+        raise StoreError(f"{path} is not a store of tehl run: " +
+                         (f"it has no {ROOT}" if path.is_dir() else "there is no such folder")) from None
+    except OSError as error:
+        raise StoreError(f"{path} is not a store of tehl run: {error.strerror or error}") from None
+    except (ValueError, KeyError, TypeError):
+        raise StoreError(f"{path} is not a store of tehl run: its {ROOT} is none of a store") from None
+    if not isinstance(attrs, dict) or "scene" not in attrs or not isinstance(arrays, dict):
+        raise StoreError(f"{path} is not a store of tehl run: its {ROOT} describes no scene")
+    return attrs, arrays
+
+
+def scene_of(path, attrs):
+    """The scene that a store was run with. Raises StoreError."""
+    try:
+        data = json.loads(attrs["scene"])
+        if not isinstance(data, dict) or not SECTIONS.keys() <= data.keys():
+            raise ValueError("sections are missing")
+        if attrs.get("format", 1) == 1 and data["time"]["steps"] == 0:  # meant all in version 0.1
+            data["time"]["steps"] = -1
+        return maps.scene_of(path, data)
+    except (SceneError, ValueError, TypeError, KeyError, AttributeError) as error:
+        raise StoreError(f"{path} is damaged: the scene in its {ROOT} cannot be read ({error})") from None
+
+
+def check(path, attrs, arrays, scene, needed):
+    """Refuse attributes and arrays that do not belong together. needed: {name: dimensions behind the time} of
+    the arrays of every entry."""
+    steps = attrs.get("steps")
+    if not isinstance(steps, int) or isinstance(steps, bool) or steps < 1:
+        raise damaged(path, f"'steps', the number of its entries, is {steps!r}")
+    if not isinstance(attrs.get("finished"), bool):
+        raise damaged(path, f"'finished' is {attrs.get('finished')!r}, neither true nor false")
+    grid = {"x": scene.grid.nx + 1, "y": scene.rows + 1}
+    for name, dimensions in needed.items():
+        wanted = [steps] + [grid[key] for key in dimensions]
+        shape = _shape(arrays.get(name))
+        if shape is None:
+            raise damaged(path, f"it has no array {name!r}")
+        if shape[: len(wanted)] != wanted:
+            raise damaged(path, f"{name} has the shape {shape}, but its scene and entries need {wanted}")
+
+
+def _shape(metadata):
+    try:
+        return list(metadata["shape"])
+    except (TypeError, KeyError):
+        return None
+
+
+def attribute(path, attrs, name):
+    """A JSON attribute that going on needs. Raises StoreError."""
+    try:
+        return json.loads(attrs[name])
+    except (KeyError, TypeError, ValueError):
+        raise damaged(path, f"its attribute {name!r} is missing or unreadable") from None
+
+
+def optional(attrs, name, default):
+    """A JSON attribute that only readers miss; `default` where it is missing or no value of that kind."""
+    try:
+        value = json.loads(attrs[name])
+    except (KeyError, TypeError, ValueError):
+        return default
+    return value if isinstance(value, type(default)) else default
+
+
+def written_by(attrs):
+    """Version that wrote a store, in words, where it is another one, else None."""
+    version, layout = attrs.get("version", "unknown"), attrs.get("format", 1)
+    if version == __version__ and layout == FORMAT:
+        return None
+    return f"written by version {version} (layout {layout}), this is {__version__} (layout {FORMAT})"
+
+
+def check_version(path, attrs):
+    """Refuse to go on where another version began."""
+    if said := written_by(attrs):
+        raise StoreError(f"{path} was {said}: it can be looked at, but not gone on with; `tehl run {path} --out NEW` repeats "
+                         "its run")
+
+
+def damaged(path, what):
+    """The error that says so."""
+    return StoreError(f"{path} is damaged: {what}; `tehl run {path} --out NEW` repeats its run")

@@ -1,0 +1,137 @@
+"""One writer at a time: a lock file in the folder that is written, held by the kernel as long as its process lives.
+
+What the file says (process, host, since when) is for people, and for hosts that share the folder but not the kernel.
+"""
+
+import json
+import os
+import socket
+import time
+from pathlib import Path
+
+from tehl_taichi.errors import StoreError
+
+LOCK = ".lock"
+PROGRAM = "tehl_taichi"
+PATIENCE = 0.25  # s: whoever only looks whether a lock is held keeps it for microseconds
+
+
+class Busy(StoreError):
+    """Somebody else writes there, or may do so."""
+
+
+class Lock:
+    """The right to write below `folder`; taken over from dead processes of this host. Raises Busy, or OSError where the lock
+    file cannot be written."""
+
+    def __init__(self, folder, name=None):
+        self.path, self.name = Path(folder) / LOCK, name or folder
+        self.file = _taken(self.path, self.name)
+        try:
+            before = _read(self.file)
+            if before and before["host"] != socket.gethostname():
+                raise Busy(f"{self.name} was being written by process {before['pid']} on {before['host']}, which cannot be "
+                           f"asked from here; if that run has ended, remove {self.path}")
+            self.file.seek(0)
+            self.file.truncate()
+            json.dump({"program": PROGRAM, "pid": os.getpid(), "host": socket.gethostname(), "since": time.time()}, self.file)
+            self.file.flush()
+        except BaseException:
+            self.file.close()
+            raise
+
+    def moved(self, folder):
+        """The locked folder has another name now."""
+        self.path = Path(folder) / LOCK
+
+    def release(self):
+        """Remove the file, then let the kernel's lock go."""
+        if not self.file.closed:
+            if _same(self.file, self.path):
+                self.path.unlink(missing_ok=True)
+            self.file.close()
+
+
+def holder(folder):
+    """Who writes below `folder` at this moment, in words, or None."""
+    try:
+        with open(Path(folder) / LOCK) as file:
+            return _words(_read(file)) if not _lock(file, shared=True) else None
+    except OSError:
+        return None
+
+
+def abandoned(folder):
+    """Whether `folder` has a lock of this program that nobody on this host holds any more."""
+    try:
+        with open(Path(folder) / LOCK) as file:
+            said = _read(file)
+            return bool(said) and said["host"] == socket.gethostname() and _lock(file, shared=True)
+    except OSError:
+        return False
+
+
+def _taken(path, name):
+    """The lock file, opened and locked. Raises Busy."""
+    until = time.monotonic() + PATIENCE
+    while True:
+        file = open(path, "a+")
+        if _lock(file) and _same(file, path):
+            return file
+        said = _read(file)
+        file.close()
+        if time.monotonic() > until:
+            raise Busy(f"{name} is still being written by {_words(said)}; wait for it or stop it")
+        time.sleep(0.01)
+
+
+def _lock(file, shared=False):
+    """Whether the kernel's lock could be had; where there is none (some network folders), whether the process is gone."""
+    try:
+        import fcntl
+
+        fcntl.flock(file, (fcntl.LOCK_SH if shared else fcntl.LOCK_EX) | fcntl.LOCK_NB)
+        return True
+    except BlockingIOError:
+        return False
+    except (ImportError, OSError):
+        said = _read(file)
+        return not said or said["host"] != socket.gethostname() or not _alive(said["pid"])
+
+
+def _alive(pid):
+    if pid == os.getpid() or os.name != "posix":  # there a signal 0 is not a question
+        return True
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    except PermissionError:
+        pass
+    return True
+
+
+def _same(file, path):
+    """Whether the open file still is the one of that name: its last owner may have removed it meanwhile."""
+    try:
+        return os.path.samestat(os.fstat(file.fileno()), os.stat(path))
+    except OSError:
+        return False
+
+
+def _read(file):
+    """What a lock file says, {} where that is nothing of this program."""
+    try:
+        file.seek(0)
+        said = json.load(file)
+        known = said["program"] == PROGRAM and isinstance(said["pid"], int) and isinstance(said["host"], str)
+        return said if known else {}
+    except (ValueError, KeyError, TypeError, OSError):
+        return {}
+
+
+def _words(said):
+    if not said:
+        return "another process"
+    since = time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(said.get("since", 0)))
+    return f"process {said['pid']} on {said['host']} (since {since})"

@@ -1,0 +1,50 @@
+"""What a grid tells of the numbers of a run, for their error bars: values, how far an extreme may lie between the nodes, and
+whether the grid resolves them at all."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from tehl_taichi.solvers.error_bars import RIVAL, Reading, beside, narrow_peak
+
+HEAT = ("film_max_C", "surface_a_max_C", "surface_b_max_C")
+SPIKE = ("a pressure peak of {:.0%} of the largest is two cells wide at most; so narrow ones grow on finer grids, and the "
+         "true maximum may be there")
+TOUCH = "the surfaces touch on this grid, which is too coarse for so thin a film"
+
+
+def steady(shot):
+    """{name: Reading} of a snapshot of a steady smooth contact."""
+    out = {"h_c_m": Reading(shot.scalars["h_c_m"]), "h_min_m": lowest(shot), "p_max_Pa": highest(shot),
+           **{name: Reading(shot.scalars[name]) for name in (*HEAT, "friction_coefficient") if name in shot.scalars}}
+    if shot.fields["contact"].any():  # nothing is known of a film that this grid does not have, nor of what it does
+        out = {name: replace(reading, doubt=TOUCH, lost=True) for name, reading in out.items()}
+    return out
+
+
+def highest(shot):
+    """Reading of the largest pressure of a snapshot, Pa and m."""
+    p = shot.fields["pressure"]
+    i, j = np.unravel_index(p.argmax(), p.shape)
+    spike = narrow_peak(p[:, j])
+    return Reading(float(p[i, j]), _between(p, i, j), _place(shot, i), float(shot.x[1] - shot.x[0]),
+                   SPIKE.format(spike) if spike > RIVAL else "")
+
+
+def lowest(shot):
+    """Reading of the smallest film of a snapshot, m."""
+    h = shot.fields["film"]
+    i, j = np.unravel_index(h.argmin(), h.shape)
+    return Reading(float(h[i, j]), _between(h, i, j), _place(shot, i), float(shot.x[1] - shot.x[0]))
+
+
+def _place(shot, i):
+    """Position of a node in m, seen from the contact and from the feature, if there is one."""
+    seen = (shot.x[i], shot.x[i] - shot.feature_x)
+    return tuple(float(x) for x in seen if np.isfinite(x))
+
+
+def _between(values, i, j):
+    """How far the extreme of `values` between the nodes may be from that at the node (i, j); rows may end in a mirror."""
+    across = np.concatenate([values[i, 1:2], values[i]])
+    return beside(values[:, j], i) + beside(across, j + 1)

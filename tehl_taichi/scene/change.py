@@ -1,0 +1,78 @@
+"""Changes of a scene, on its description as a nested dictionary."""
+
+import dataclasses
+
+from tehl_taichi.errors import SceneError
+from tehl_taichi.scene import given
+from tehl_taichi.scene import oil as oils
+from tehl_taichi.scene.checks import key_shown, nearest
+from tehl_taichi.scene.route import ALL
+
+
+def applied(data, changes):
+    """`data` (a scene as nested dictionary) with changes {full key: value}; what they replace is cleared. Raises SceneError."""
+    _clear(data, changes)
+    _name_oil(data, changes)
+    for key in sorted(changes, key=lambda key: key.count(".")):  # whole tables before single values
+        _assign(data, key, changes[key])
+    return data
+
+
+def check_effect(scene, changes):
+    """Refuse changes that the rest of the scene overrules."""
+    speeds = [key for key in ("operation.u_m", *given.BY_SURFACE) if key in changes]
+    if speeds and scene.contact.moes_M > 0:
+        raise SceneError(f"{given.words(speeds[0], changes[speeds[0]])} has no effect: contact.moes_L = "
+                         f"{scene.contact.moes_L:g} sets the mean speed, {scene.operation.u_m:.4g} m/s")
+    taken = {*scene.oil.law_numbers, *(("eta0", "alpha") if scene.contact.moes_M > 0 else ())}
+    for key in oils.OF_LAWS - taken:
+        if f"oil.{key}" in changes:
+            raise SceneError(f"oil.{key} has no effect: the viscosity law of this oil ({scene.oil.viscosity}) takes "
+                             f"{', '.join(scene.oil.law_numbers)}")
+
+
+def _clear(data, changes):
+    """Clear what the changes replace: another description of the load or of the speeds, a number of steps."""
+    loads = [key for key in given.LOADS if changes.get(key)]
+    if loads:
+        pair = given.LOADS[2:]
+        kept = pair if loads[0] in pair else loads
+        data["contact"].update({key.partition(".")[2]: 0.0 for key in given.LOADS if key not in kept})
+    if any(key in changes for key in given.BY_SURFACE):
+        data["operation"] = {key: value for key, value in data["operation"].items() if key not in ("u_m", "srr")}
+    if changes.get("time.steady_only"):
+        data["time"]["steps"] = ALL
+
+
+def _name_oil(data, changes):
+    """A known name brings the numbers of its oil; a new one must come with numbers."""
+    name = changes.get("oil.name", data["oil"]["name"])
+    if isinstance(name, str) and name in oils.OILS and "oil.name" in changes:
+        data["oil"] = dataclasses.asdict(oils.OILS[name])
+    elif name != data["oil"]["name"]:
+        oils.check_new(name, {key.partition(".")[2]: value for key, value in changes.items() if key.startswith("oil.")})
+        data["oil"]["source"] = oils.NO_SOURCE
+
+
+def _assign(data, dotted, value):
+    """Set the dotted key in the nested dictionary."""
+    *path, last = dotted.split(".")
+    target = data
+    if len(path) > 1 and path[0] == "feature" and path[1].isdecimal():
+        features = data["feature"]
+        if not isinstance(features, list) or len(path[1]) > 6 or int(path[1]) >= len(features):
+            raise SceneError(f"{key_shown(dotted)}: scene {data['name']!r} has {len(features)} features")
+        target, path = features[int(path[1])], path[2:]
+    for key in path:
+        if not isinstance(target, dict) or key not in target:
+            raise SceneError(f"unknown key {key_shown(dotted)}{nearest(key, target if isinstance(target, dict) else ())}")
+        target = target[key]
+    known = list(target) if isinstance(target, dict) else []
+    if target is data.get("operation"):
+        known += ["u_a", "u_b", "u_m", "srr"]
+    if last not in known:
+        known += list(given.SHORT) if target is data else []
+        raise SceneError(f"unknown key {key_shown(dotted)}{nearest(last, known)}; known: {', '.join(map(str, known))}")
+    if last == "file":
+        target["sha256"] = ""  # another file, other heights
+    target[last] = value

@@ -1,0 +1,30 @@
+"""Values as plain Python ones, and as a sentence may show them."""
+
+import os
+import reprlib
+
+import numpy as np
+
+DEEPEST = 8  # lists inside lists: nothing in a scene needs more than two
+
+
+def plain(value, depth=0):
+    """`value` without numpy: its scalars as bool, int, float or str, arrays and lists as tuples, paths as text."""
+    if isinstance(value, (np.generic, np.ndarray)):
+        value = float(value) if isinstance(value, np.longdouble) else value.tolist()
+    if isinstance(value, (list, tuple)) and depth < DEEPEST:
+        return tuple(plain(item, depth + 1) for item in value)
+    return os.fspath(value) if isinstance(value, os.PathLike) else value
+
+
+def shown(value):
+    """repr of any value, in one line of bounded length."""
+    try:
+        return _short.repr(list(value) if isinstance(value, tuple) else value)
+    except ValueError:  # Python does not print numbers of more than 4300 digits
+        return "a number of thousands of digits"
+
+
+_short = reprlib.Repr()
+_short.maxstring = _short.maxother = 70
+_short.maxlevel = 3

@@ -1,0 +1,65 @@
+"""The way of the first feature through the contact: how far a time step goes, how many there are, where a cut one ends."""
+
+import math
+
+from tehl_taichi.scene.scales import Scales
+
+OIL_CELLS = 1.5  # a step of a passage moves the faster surface by at most so many cells
+LATEST = 1.1  # a, from X = 0 to the features where they are outside the contact
+ALL = -1  # as time.steps
+
+
+def step_cells(scene):
+    """Cells that the feature moves in a time step: time.courant; with temperatures a whole fraction of it where the other
+    surface is much faster."""
+    if scene.isothermal:
+        return scene.time.courant
+    o = scene.operation
+    return scene.time.courant / max(1, math.ceil(scene.time.courant * o.u_b / o.u_a / OIL_CELLS - 1e-9))
+
+
+def step_length(scene):
+    """Way of the feature in a time step, a."""
+    return step_cells(scene) * (scene.grid.x_max - scene.grid.x_min) / scene.grid.nx
+
+
+def total_steps(scene):
+    """Number of time steps after the steady start (0 for a steady scene)."""
+    if not scene.transient:
+        return 0
+    start, end = scene.path
+    steps = math.ceil((end - start) / step_length(scene) - 1e-9)
+    return steps if scene.time.steps == ALL else min(steps, scene.time.steps)
+
+
+def cut_at(scene):
+    """Position (a) at which the passage ends although its features still are in the contact, else None."""
+    if not scene.transient:
+        return None
+    end = scene.path[0] + total_steps(scene) * step_length(scene)
+    return end if end < clear(scene) - 1e-9 else None
+
+
+def clear(scene):
+    """Position of the first feature (a) from which on all of them are behind the contact."""
+    a = Scales.of(scene).a
+    return LATEST + max(f.reach - f.x for f in scene.features) / a
+
+
+def uncut(scene):
+    """The scene with its whole passage: every step, until the features are behind the contact."""
+    end = {"time.x_end": math.inf} if scene.transient and scene.path[1] < clear(scene) else {}
+    return scene.replace(**{"time.steps": ALL, **end})
+
+
+def most_steps(scene):
+    """Time steps that a run of this scene may ever have, also when a cut passage goes on to its end."""
+    return total_steps(uncut(scene))
+
+
+def continued(scene, done, more=None):
+    """The scene of a run of `done` steps with the rest of its passage, or with `more` steps of it; None where none is left."""
+    whole = uncut(scene)
+    if total_steps(whole) <= done:
+        return None
+    return whole if more is None or done + more >= total_steps(whole) else whole.replace(**{"time.steps": done + more})

@@ -1,0 +1,204 @@
+"""Error bars hold: on sequences made by hand, on scenes against grids four times as fine, and when companions fail."""
+
+import json
+import time
+
+import numpy as np
+import pytest
+from tehl_taichi.profiles import coverage
+
+from tehl_taichi import companions, readings
+from tehl_taichi.io import judge
+from tehl_taichi.post.fatigue import Snapshots
+from tehl_taichi.scene import scene
+from tehl_taichi.solvers.error_bars import Reading, bar, bars, beside, estimated_error, narrow_peak
+
+LIMIT = 2.0
+
+
+def grids(error, count=3):
+    """Values on grids of 16, 32, 64 ... cells whose error is error(1 / cells)."""
+    return [LIMIT + error(1 / cells) for cells in (16, 32, 64, 128)[:count]]
+
+
+@pytest.mark.parametrize("error", [
+    lambda h: 3 * h**2, lambda h: -h, lambda h: 0.4 * h**1.5, lambda h: (-1) ** round(np.log2(1 / h)) * h,  # even, oscillating
+    lambda h: 9 * h**2 - 200 * h**3,  # changes its sign on the way
+    lambda h: 3 * h**2 + 5000 * h**4], ids=("second", "first", "between", "oscillating", "accident", "thin"))
+@pytest.mark.parametrize("count", [3, 4])
+def test_a_bar_covers_the_error_and_little_more(error, count):
+    values = grids(error, count)
+    real = abs(values[-1] - LIMIT)
+    assert real <= estimated_error(values) < 14 * real
+
+
+def test_an_earlier_difference_counts_where_the_last_one_is_small_by_accident():
+    assert estimated_error([1.0, 1.36, 1.36]) == pytest.approx(0.06)  # a sixth of 0.36
+    assert estimated_error([1.0, 1.1]) == pytest.approx(0.15) and np.isnan(estimated_error([1.0]))
+
+
+def test_a_number_that_grids_do_not_resolve_has_no_bar():
+    def maximum(value, place, doubt=""):
+        return Reading(value, 0.0, (place,), 0.1, doubt)
+
+    assert bar([maximum(1.0, 0.0), maximum(1.01, 0.35)])[0] == pytest.approx(0.015)
+    assert bar([maximum(1.0, 0.0), maximum(1.01, 0.85)]) == (None, "its place differs from that on the next coarser grid")
+    both = [Reading(1.0, 0.0, (0.0, 0.0), 0.1), Reading(1.01, 0.0, (0.85, 0.1), 0.1)]
+    assert bar(both)[0] is not None  # it moved in the contact, but not under the feature
+    assert bar([maximum(1.0, 0.0), maximum(1.01, 0.0, "too narrow")]) == (None, "too narrow")
+    assert bar([maximum(1.0, 0.0, "too narrow"), maximum(1.01, 0.0)])[0] is not None
+    assert bar([Reading(0.4), Reading(1.0)]) == (None, "it still changes by 60% from grid to grid")
+    assert bar([Reading(5e-6, lost=True), Reading(1.0), Reading(1.1)])[0] == pytest.approx(0.15)
+    assert bar([Reading(1.0), Reading(5e-6, doubt="touches", lost=True)]) == (None, "touches")
+
+
+def test_extremes_between_nodes():
+    x = np.linspace(-1, 1, 21)
+    for at in (0.0, 0.03, 0.05):
+        P = 1 - (x - at) ** 2
+        i = int(P.argmax())
+        assert beside(P, i) == pytest.approx(1 - P[i], abs=1e-15)
+    assert beside(P, 0) == beside(P, 20) == 0.0 and beside(np.ones(5), 2) == 0.0
+
+
+def test_narrow_peaks_are_found():
+    x = np.linspace(-1, 1, 81)
+    smooth = np.sqrt(1 - x**2)
+    spike = 0.8 * np.exp(-np.abs(x - 0.8) / 0.02)
+    assert narrow_peak(smooth) == 0.0 and narrow_peak(np.maximum(smooth, spike)) == pytest.approx(0.8)
+    assert narrow_peak(np.maximum(smooth, 0.8 * np.exp(-(((x - 0.8) / 0.15) ** 2)))) == 0.0
+
+
+def moes(M, L, nx, x_min=-2.5):
+    return scene("smooth-line").replace(**{
+        "thermal.on": False, "contact.load": 0.0, "contact.moes_M": M, "contact.moes_L": L, "oil.name": "moes-test-fluid",
+        "grid.nx": nx, "grid.x_min": x_min})
+
+
+def start(description):
+    from tehl_taichi.simulation import march
+
+    return next(march(description))
+
+
+def test_the_bar_of_a_thin_film_holds(taichi_cpu):
+    """0.02 % was stated, 0.27 % real."""
+    own, finer = start(moes(202.7, 9.427, 256)), start(moes(202.7, 9.427, 1024))
+    for name, most in (("h_c_m", 5), ("h_min_m", 10), ("p_max_Pa", 5)):
+        real = abs(finer.scalars[name] - own.scalars[name])
+        assert real <= own.error[name] <= most * real, name
+
+
+def test_a_pressure_spike_as_narrow_as_the_grid_has_no_bar(taichi_cpu):
+    """Its height is 0.92, 0.94 of the largest on 256, 512 columns, 1.08 on 1024."""
+    shot = start(moes(10.0, 10.0, 256, -4.5))
+    assert shot.error["p_max_Pa"] is None and "93% of the largest is two cells wide" in shot.unknown["p_max_Pa"]
+    assert shot.error["h_c_m"] > 0 and "h_c_m" not in shot.unknown
+
+
+def test_a_film_that_the_grid_does_not_have_has_no_bar(taichi_cpu):
+    shot = start(moes(600.0, 6.0, 64))
+    assert shot.fields["contact"].any() and set(shot.error.values()) == {None}
+    assert set(shot.unknown.values()) == {readings.TOUCH}
+
+
+def test_random_scenes_are_covered(taichi_cpu):
+    drawn = [one for kind, one in coverage.battery(5) if kind in ("line, Moes", "line") and one.grid.nx <= 128][:8]
+    rows = [{"kind": "line", **coverage.row(one)} for one in drawn]
+    lines = {name: numbers for _, name, *numbers in coverage.table(rows)}
+    stated, unknown, covered, width, *_ = lines["all"]
+    assert stated + unknown == 4 * 8 and stated >= 20 and covered >= 0.9 and 1 < width < 8
+
+
+def test_the_table_of_a_battery_is_counted_right():
+    own = [{"film_max_C": vars(Reading(value)), "h_c_m": vars(Reading(5.0))} for value in (100.0, 104.0, 105.0)]
+    near, far = {"film_max_C": 105.5, "h_c_m": 5.0}, {"film_max_C": 107.0, "h_c_m": 5.0}
+    rows = [{"own": own, "finer": near}, {"own": own, "finer": far}, {"own": own[2:], "finer": near}, {"reason": "stopped"}]
+    temperature, film, everything = coverage.table(rows)
+    assert temperature == ("steady", "film_max_C", 2, 1, 0.5, pytest.approx(1.25), 1.0, pytest.approx(1.25))
+    assert film[:5] == ("steady", "h_c_m", 2, 1, 1.0) and everything[2:5] == (4, 2, 0.75)
+
+
+def short(**changes):
+    return scene("gear").replace(**{"thermal.on": False, "grid.nx": 64, "grid.ny": 16, "time.steps": 4,
+                                    "numerics.estimate_error": True, **changes})
+
+
+class Store(Snapshots):
+    """Snapshots as the store of a run."""
+
+    def scalar(self, name):
+        return np.array([shot.scalars[name] for shot in self.items])
+
+
+@pytest.fixture(scope="module")
+def passage(taichi_cpu):
+    from tehl_taichi.simulation import march
+
+    return Store(march(short()))
+
+
+def test_companions_give_the_bars_of_a_passage(passage):
+    with companions.beside(short(), 4) as others:
+        found = others.errors(passage, {"Fi_max": 0.5}, 1.0)
+    assert others.process.returncode is not None  # 16 columns are refused, 32 answered
+    assert found["passage_error"].keys() == {"p_max_Pa", "h_min_m", "friction_coefficient_mean", "Fi_max"}
+    assert all(size > 0 for size in found["passage_error"].values() if size is not None)
+    assert found["passage_error"]["friction_coefficient_mean"] is not None
+
+
+def test_companions_that_fail_leave_bars_unknown_and_say_why(passage):
+    hopeless = short(**{"grid.nx": 32, "grid.ny": 8, "numerics.newton_max": 1, "numerics.krylov_max": 5})
+    refused, one = companions.scenes(short(**{"grid.nx": 48}))[1], companions.answer(hopeless)
+    assert len(refused) == 2 and "24 x 8 cells is refused: grid.nx = 24" in refused[0]
+    assert "32 x 8 cells failed: " in one["reason"] and "did not converge" in one["reason"]
+    own = companions.passage_readings(short(), passage, passage.scalar)
+    found, unknown = companions.judged([{"reason": refused[0]}, one], own)
+    assert set(found.values()) == {None} and "did not converge" in unknown["p_max_Pa"]
+    summary = {"steady": {}, "transient": {"error": found, "unknown": unknown}}
+    said = list(judge.unknown_errors(None, summary))
+    assert len(said) == 1 and "passage p_max_Pa, passage h_min_m" in said[0] and refused[0] in said[0]
+
+
+def test_a_failed_companion_takes_coarser_ones_with_it(passage):
+    own = companions.passage_readings(short(), passage, passage.scalar)
+    coarser = {"values": {name: vars(reading) for name, reading in own.items()}}
+    assert set(companions.judged([coarser, {"reason": "no"}], own)[0].values()) == {None}
+    assert None not in companions.judged([{"reason": "no"}, coarser], own)[0].values()
+
+
+def test_companions_that_die_or_are_late_leave_bars_unknown(passage, monkeypatch):
+    late = short(**{"numerics.estimate_error": "auto"})
+    monkeypatch.setattr(companions, "WORTH", 0)
+    monkeypatch.setattr(companions, "cores", lambda: 2)
+    with companions.beside(late, 4) as others:
+        started = time.perf_counter()
+        found = others.errors(passage, None, 0.5)
+        assert time.perf_counter() - started < 1.0
+        assert "not ready" in found["passage_unknown"]["p_max_Pa"] and found["passage_error"]["p_max_Pa"] is None
+        others.process.kill()
+        others.listener.join(10)
+        assert "without an answer" in others.errors(passage, None, 0.5)["passage_unknown"]["p_max_Pa"]
+
+
+def test_companions_end_with_the_run(taichi_cpu):
+    with companions.beside(short(), 4) as others:
+        others.process.stdin.close()  # as a killed parent's
+        assert others.process.wait(30) != 0
+
+
+def test_who_gets_companions(monkeypatch):
+    auto = short(**{"numerics.estimate_error": "auto"})
+    monkeypatch.setattr(companions, "Companions", lambda description, precision: "some")
+    for description, cores, steps, expected in (
+            (auto, 1, 10**6, False), (auto, 2, 10**6, True), (auto, 2, 4, False), (short(), 1, 4, True), (short(), 2, 0, False),
+            (short(**{"numerics.estimate_error": False}), 2, 10**6, False), (short(**{"time.steady_only": True}), 2, 4, False)):
+        monkeypatch.setattr(companions, "cores", lambda cores=cores: cores)
+        assert (companions.beside(description, steps) == "some") == expected
+
+
+def test_a_summary_has_numbers_or_null():
+    from tehl_cli.tables import _plus
+
+    assert _plus(None, 1.0) == " (error unknown)" and _plus(2e-9, 1e6) == " ± 0.002"
+    json.dumps({"error": bars([{"a": Reading(1.0)}])}, allow_nan=False)

@@ -1,0 +1,95 @@
+"""Linear solves in single and in double precision: each scene in its own, the same answers in both."""
+
+import numpy as np
+import pytest
+
+import tehl_taichi as tehl
+from tehl_taichi.errors import SceneError
+from tehl_taichi.scene import scene
+
+pytestmark = pytest.mark.usefixtures("taichi_cpu")
+
+
+NEWTONIAN = {"thermal.on": False, "rheology.law": "newtonian"}
+
+
+def line(**changes):
+    return scene("smooth-line").replace(**{**NEWTONIAN, "grid.nx": 128, **changes})
+
+
+def gear(**changes):
+    return scene("gear").replace(**{**NEWTONIAN, "grid.nx": 64, "grid.ny": 16, "time.steps": 3, **changes})
+
+
+def solved(description):
+    """(levels, film in m) of the steady contact."""
+    from tehl_taichi.scene.scales import Scales
+    from tehl_taichi.solvers.steady import solve_steady
+
+    result = solve_steady(description, Scales.of(description), description.grid.nx, 0)
+    assert result.report.converged
+    return result.solver.levels, result.values[-1]["h_c"]
+
+
+def test_every_scene_runs_in_its_own_precision_in_any_order():
+    thick, thin = line(), line(speed=0.05)
+    found = [solved(description) for description in (thick, thin, thick, line(**{"numerics.precision": "f64"}))]
+    assert [levels.precision for levels, _ in found] == ["f32", "f64", "f32", "f64"]
+    assert [str(levels.J.dtype) for levels, _ in found] == ["f32", "f64", "f32", "f64"]
+    films = [film for _, film in found]
+    assert films[0] == films[2] != films[3] and films[0] == pytest.approx(films[3], rel=1e-6)
+
+
+def test_the_precision_can_be_asked_for():
+    single, double, own = (list(tehl.march(gear(), precision=p))[-1].fields for p in ("f32", "f64", None))
+    assert np.array_equal(own["film"], single["film"])
+    assert not np.array_equal(double["film"], single["film"])
+    np.testing.assert_allclose(double["film"], single["film"], rtol=1e-5)
+    with pytest.raises(SceneError, match="auto, f32, f64"):
+        tehl.march(gear(), precision="f16")
+    with pytest.raises(SceneError, match="numerics.precision"):
+        gear(**{"numerics.precision": 64})
+
+
+def test_a_store_and_its_companions_keep_the_precision():
+    from tehl_taichi.io import scene_file
+    from tehl_taichi.post.estimate import companions
+
+    asked = gear(**{"numerics.precision": "f64"})
+    assert {run.numerics.precision for run in companions(asked)} == {"f64"}
+    assert type(asked).from_dict(asked.to_dict()) == asked and 'precision = "f64"' in scene_file.dumps(asked)
+
+
+def effort(steps):
+    """Newton and Krylov per step of a passage."""
+    return [np.mean([s.scalars[key] for s in steps[1:]]) for key in ("newton", "cycles")]
+
+
+def balanced(steps):
+    return all(s.scalars[key] < 1e-6 for s in steps for key in ("residual", "load_error", "mass_error"))
+
+
+def test_steady_films(linear):
+    """A line and a circular contact, within what their grids are good for."""
+    shot = next(tehl.march(line(**linear)))
+    assert shot.scalars["h_c_m"] == pytest.approx(0.43898e-6, rel=1.1e-3) and balanced([shot])
+    ball = scene("ball-on-disc").replace(**{"grid.nx": 64, "grid.ny": 32, **NEWTONIAN, **linear})
+    shot = next(tehl.march(ball))
+    assert shot.scalars["h_c_m"] == pytest.approx(0.13556e-6, rel=1e-3) and balanced([shot])
+    assert shot.scalars["newton"] == 7 and shot.scalars["cycles"] < 42  # 38
+
+
+def test_a_passage_and_its_effort(linear):
+    """The asperity enters; steps take as long in single as in double precision."""
+    steps = list(tehl.march(gear(**linear, **{"time.steps": 12})))
+    newton, cycles = effort(steps)
+    assert balanced(steps) and newton < 3.5 and cycles < 21.7  # 3.17, 19.7
+    assert steps[12].scalars["p_max_Pa"] == pytest.approx(3.1028e9, rel=1e-3)
+    assert steps[12].scalars["h_min_m"] == pytest.approx(0.11873e-6, rel=1e-3)
+
+
+def test_thermal_steps(linear):
+    steps = list(tehl.march(gear(**linear, **{"thermal.on": True, "rheology.law": "limiting"})))
+    newton, cycles = effort(steps)
+    assert balanced(steps) and newton < 2.6 and cycles < 18.4  # 2.33, 16.7
+    assert steps[3].scalars["film_max_C"] == pytest.approx(141.93, abs=0.05)

@@ -1,0 +1,116 @@
+"""Where Taichi can run: threads, forks, caches that cannot be written."""
+
+import os
+import subprocess
+import sys
+import threading
+import time
+import warnings
+
+import numpy as np
+import pytest
+
+from tehl_taichi import runtime, scene
+from tehl_taichi.errors import RuntimeUnavailable
+
+SMALL = scene("smooth-line").replace(**{"thermal.on": False, "grid.nx": 64})
+USES_A_KERNEL = """
+import numpy as np
+from tehl_taichi.post.findley import smallest_circle
+print(*smallest_circle(np.array([0.0, 2.0]), np.array([0.0, 0.0])))
+"""
+
+
+def first_film():
+    from tehl_taichi.simulation import march
+
+    return next(march(SMALL)).scalars["h_c_m"]
+
+
+@pytest.fixture
+def no_cache_dir():
+    runtime.cache_dir.cache_clear()
+    yield
+    runtime.cache_dir.cache_clear()
+
+
+def test_a_second_thread_is_told_where_taichi_runs(taichi_cpu):
+    found = []
+
+    def work():
+        try:
+            found.append(first_film())
+        except RuntimeUnavailable as error:
+            found.append(str(error))
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    thread.join()
+    assert "belongs to the thread that started it" in found[0]
+
+
+def test_a_forked_process_is_told_instead_of_waiting_for_ever(taichi_cpu):
+    first_film()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)  # Python 3.12: fork with threads
+        child = os.fork()
+    if child == 0:
+        code = 1
+        try:
+            first_film()
+        except RuntimeUnavailable as error:
+            code = 0 if "get_context('spawn')" in str(error) else 2
+        finally:
+            os._exit(code)
+    assert wait_for(child, seconds=20) == 0
+
+
+def wait_for(child, seconds):
+    """Exit code of a child process, None if it had to be ended."""
+    for _ in range(int(10 * seconds)):
+        done, status = os.waitpid(child, os.WNOHANG)
+        if done:
+            return os.waitstatus_to_exitcode(status)
+        time.sleep(0.1)
+    os.kill(child, 9)
+    os.waitpid(child, 0)
+    return None
+
+
+def test_a_cache_that_cannot_be_written_costs_a_warning_only(tmp_path):
+    """Taichi dies with a segmentation fault at the end of such a process."""
+    (tmp_path / "file").touch()
+    environment = os.environ | {"TEHL_CACHE": str(tmp_path / "file"), "TMPDIR": str(tmp_path)}
+    done = subprocess.run([sys.executable, "-c", USES_A_KERNEL], env=environment, capture_output=True, text=True)
+    assert done.returncode == 0 and np.allclose([float(part) for part in done.stdout.split()], [1.0, 0.0, 1.0])
+    assert done.stderr.count("Warning") == 1 and "TEHL_CACHE" in done.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["file"]
+
+
+def test_kernels_that_can_be_read_are_used(no_cache_dir, monkeypatch, tmp_path):
+    monkeypatch.setenv("TEHL_CACHE", str(tmp_path))
+    wanted = runtime.cache_dir()
+    (wanted / "kernel").write_text("compiled")
+    assert wanted == runtime.wanted_cache()
+    runtime.cache_dir.cache_clear()
+
+    def refuse(**_):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(runtime.tempfile, "TemporaryFile", refuse)
+    monkeypatch.setattr(runtime.atexit, "register", lambda *_: None)
+    with pytest.warns(RuntimeWarning, match="cannot be kept in .*Permission denied"):
+        other = runtime.cache_dir()
+    assert other != wanted and (other / "kernel").read_text() == "compiled"
+    runtime.shutil.rmtree(other)
+
+
+def test_the_fatigue_search_starts_taichi_itself(monkeypatch):
+    from tehl_taichi.post import findley
+
+    started = []
+    monkeypatch.setattr(runtime, "ensure", lambda: started.append(True))
+    findley.smallest_circle(np.zeros(2), np.ones(2))
+    with pytest.raises(ValueError):
+        findley.search(np.zeros((1, 1)), 0.3)
+    assert len(started) == 2

@@ -1,0 +1,166 @@
+"""The shear law of films without temperatures: in the flow and in the friction, wherever the surfaces slip."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from tehl_taichi.scene import scene
+from tehl_taichi.scene.scales import Scales
+
+pytestmark = pytest.mark.usefixtures("taichi_cpu")
+
+LAWS = {"limiting": {}, "eyring": {"rheology.tau_0": 5e6}, "carreau": {"rheology.tau_0": 5e6, "rheology.carreau_n": 0.4}}
+
+
+def film(law="limiting", name="smooth-line", **changes):
+    return scene(name).replace(**{"thermal.on": False, "rheology.law": law, **LAWS.get(law, {}), **changes})
+
+
+def stress(rheology, newtonian, p):
+    """Of the laws, by numpy."""
+    if rheology.law == "limiting":
+        return newtonian / np.sqrt(1 + (newtonian / (rheology.tau_L0 + rheology.gamma * p)) ** 2)
+    if rheology.law == "eyring":
+        return rheology.tau_0 * np.arcsinh(newtonian / rheology.tau_0)
+    return newtonian * (1 + (newtonian / rheology.tau_0) ** 2) ** ((rheology.carreau_n - 1) / 2)
+
+
+def levels_of(description, nx, ny=0):
+    from tehl_taichi.solvers.levels import Levels
+
+    return Levels(description, Scales.of(description), nx, ny)
+
+
+def viscosity(levels, P, H):
+    """ln of eta/eta0 that a film of P and H should flow with."""
+    from tehl_taichi.physics.viscosity import ln_eta
+
+    s, p = levels.scales, P * levels.scales.p_H
+    eta = np.exp(np.array([float(ln_eta(levels.scene.oil, q, levels.Gamma)) for q in p.ravel()])).reshape(p.shape)
+    newtonian = eta * levels.scene.operation.u_s / (H * s.h)
+    return np.log(eta * stress(levels.scene.rheology, newtonian, p) / newtonian) - levels.ln_eta0
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_the_flow_feels_what_the_law_leaves_of_the_viscosity(law):
+    """ln eta, its slopes by P and H (against differences of the law by numpy), and what the coarser levels get of them."""
+    from tehl_taichi.kernels import fields
+
+    levels = levels_of(film(law, srr=-0.5), 64)
+    X = levels.X[None, :]
+    P, H = 0.02 + 0.5 * np.exp(-(X**2)), 0.02 + 0.05 * X**2
+    for row, values in ((fields.P, P), (fields.H, H)):
+        levels.put(row, values)
+    levels.laws()
+    levels.linearise()
+    expected = viscosity(levels, P, H)
+    np.testing.assert_allclose(levels.get(fields.LE), expected, atol=1e-10)
+    np.testing.assert_allclose(levels.get(fields.IE), np.exp(-expected), rtol=1e-10)
+    by_P = (viscosity(levels, P + 1e-5, H) - viscosity(levels, P - 1e-5, H)) / 2e-5
+    by_H = (viscosity(levels, P, H * 1.0001) - viscosity(levels, P, H * 0.9999)) / (2e-4 * H)
+    assert by_H.max() * H.min() > 0.5  # sheared hard somewhere, and nearly Newtonian elsewhere
+    np.testing.assert_allclose(levels.get(fields.DLE), by_P, rtol=2e-4, atol=1e-4)
+    np.testing.assert_allclose(levels.get(fields.DLH) * H, by_H * H, atol=1e-3)
+    levels.inject()
+    for row in (fields.LE, fields.DLH):
+        assert np.array_equal(levels.get(row, 1), levels.get(row)[:, ::2])
+
+
+def test_no_film_is_thinned_below_its_floor():
+    """Where surfaces touch the film stays at the floor, and the viscosity with it."""
+    from tehl_taichi.kernels import fields
+
+    levels = levels_of(film(srr=-0.5), 64)
+    floor = levels.scene.rheology.film_floor
+    levels.put(fields.P, 0.5)
+    levels.put(fields.H, 0.3 * floor)
+    levels.laws()
+    levels.linearise()
+    assert levels.get(fields.LE)[0, 20] == pytest.approx(float(viscosity(levels, np.array(0.5), floor)), abs=1e-10)
+    assert not levels.get(fields.DLH).any()
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_friction_is_that_of_the_law(law):
+    """Mean of the shear on both surfaces against the law by numpy, from the stored pressure and film alone."""
+    from tehl_taichi.physics.viscosity import ln_eta
+    from tehl_taichi.simulation import march
+
+    description = film(law, srr=-0.5, **{"grid.nx": 64})
+    shot = next(march(description))
+    p, h = shot.fields["pressure"][:, 0], shot.fields["film"][:, 0]
+    eta = np.exp([float(ln_eta(description.oil, q, 90.0)) for q in p])
+    expected = stress(description.rheology, -eta * description.operation.u_s / h, p) * (p > 0)
+    found = 0.5 * (shot.fields["traction_x_a"] - shot.fields["traction_x_b"])[:, 0]
+    np.testing.assert_allclose(found, expected, rtol=1e-6, atol=1.0)
+    assert expected.max() > 5e6 and found[p > 1e9].min() > 0  # b is the faster surface: it drags a along
+    cell = (shot.x[-1] - shot.x[0]) / 64
+    assert shot.scalars["friction_coefficient"] == pytest.approx(expected.sum() * cell / description.load, rel=1e-4)
+
+
+def cold(description):
+    """The scene with temperatures that stay where they are: film and bodies conduct 1e5 times better than any."""
+    oil = dataclasses.replace(description.oil)
+    object.__setattr__(oil, "k0", 1e5)
+    body = dataclasses.replace(description.body_a, k=1e4, rho=1e5, c=1e5)
+    hot = dataclasses.replace(description, oil=oil, body_a=body, body_b=body)
+    return dataclasses.replace(hot, thermal=dataclasses.replace(hot.thermal, on=True))
+
+
+@pytest.mark.parametrize("law", ["limiting", *(pytest.param(law, marks=pytest.mark.slow) for law in ("eyring", "carreau"))])
+def test_a_film_that_stays_cold_is_an_isothermal_one(law):
+    """Steady and 12 steps into a passage, against the solver with temperatures; it warms by 0.1 K (carreau 0.6 K)."""
+    from tehl_taichi.simulation import march
+
+    description = film(law, "gear", **{"grid.nx": 64, "grid.ny": 16, "time.steps": 12, "oil.expansion": "never"})
+    for one, other in zip(march(description), march(cold(description))):
+        if one.step not in (0, 12):
+            continue
+        assert other.scalars["film_max_C"] < 90.7
+        for name, most in (("pressure", 3e-4), ("film", 3e-4)):
+            a, b = one.fields[name], other.fields[name]
+            assert np.abs(a - b).max() < most * (a.max() if name == "pressure" else np.median(a)), name
+        rel = 1e-3 if law != "carreau" else 6e-3
+        assert one.scalars["friction_coefficient"] == pytest.approx(other.scalars["friction_coefficient"], rel=rel)
+        assert one.scalars["h_c_m"] == pytest.approx(other.scalars["h_c_m"], rel=1e-4)
+
+
+@pytest.mark.parametrize("changes, thins", [({"srr": 0.0}, False), ({"law": "newtonian", "srr": -0.5}, False),
+                                            ({"srr": -0.5}, True)])
+def test_nothing_is_held_for_a_law_that_does_not_act(changes, thins):
+    from tehl_taichi.kernels import fields
+
+    levels = levels_of(film(**changes), 64)
+    assert levels.thins is thins
+    assert levels.S.shape[0] == (fields.NROWS_SHEARED if thins else fields.NROWS)
+    law = [text for text in levels.scene.left_out() if "shear law" in text]
+    assert bool(law) is not thins
+
+
+def test_in_pure_rolling_every_law_is_the_newtonian_film():
+    from tehl_taichi.simulation import march
+
+    shots = [next(march(film(law, srr=0.0, **{"grid.nx": 64}))) for law in ("newtonian", "limiting")]
+    assert np.array_equal(shots[0].fields["pressure"], shots[1].fields["pressure"])
+    assert shots[0].scalars["friction_coefficient"] == shots[1].scalars["friction_coefficient"] == 0.0
+
+
+def test_a_sheared_film_flows_more_easily():
+    """Newtonian and limiting pressures differ where the film slips; its thickness hardly: that is made in the inlet."""
+    from tehl_taichi.simulation import march
+
+    thick, thin = (next(march(film(law, srr=-0.5, **{"grid.nx": 64}))) for law in ("newtonian", "limiting"))
+    assert thin.scalars["h_c_m"] == pytest.approx(thick.scalars["h_c_m"], rel=1e-3)
+    assert np.abs(thin.fields["pressure"] - thick.fields["pressure"]).max() > 1e-3 * thick.scalars["p_max_Pa"]
+    assert thick.scalars["friction_coefficient"] > 5 and thin.scalars["friction_coefficient"] < 0.08  # no oil bears the former
+
+
+def test_a_start_with_much_slip_does_not_end_on_the_floor():
+    """SRR 1.7, 3.6 GPa, 117 deg C on 64 columns: sheared from the first guess on, all of the contact would touch."""
+    from tehl_taichi.simulation import march
+
+    shot = next(march(film(hertz_pressure=3.6e9, srr=1.7, speed=15.3, temperature=117.0, **{"grid.nx": 64})))
+    assert not shot.fields["contact"].any() and shot.scalars["newton"] < 10
+    newtonian = next(march(film("newtonian", hertz_pressure=3.6e9, srr=1.7, speed=15.3, temperature=117.0, **{"grid.nx": 64})))
+    assert shot.scalars["h_c_m"] == pytest.approx(newtonian.scalars["h_c_m"], rel=0.02)
