@@ -129,7 +129,7 @@ class Pairs(Kind):
 
     def check(self, where, value):
         if not isinstance(value, (tuple, list)) or not all(isinstance(q, (tuple, list)) and len(q) == 2 for q in value):
-            raise checks.SceneError(f"{where} = {shown(value)} must be a list of pairs, {self.about}")
+            raise checks.SceneError(f"{where} = {shown(value)} must be a list of pairs; {self.about}")
         for pair in value:
             for entry in pair:
                 checks.number(where, entry)
