@@ -45,8 +45,8 @@ def test_ridge_and_furrow():
 def test_waviness_along_and_across():
     """cos(2 pi x/60) cos(2 pi y/90): half of a wave turns the sign, a sixth leaves a half; both together multiply."""
     waves = Feature(shape="waviness", height=0.3 * UM, width=60 * UM, length=90 * UM, extent_x=600 * UM, extent_y=600 * UM)
-    for x, y, share in ((0, 0, 1), (30, 0, -1), (0, 45, -1), (30, 45, 1), (10, 0, 0.5), (0, 15, 0.5), (10, 15, 0.25), (0, 30, -0.5),
-                        (20, 0, -0.5), (0, 301, 0), (301, 0, 0)):
+    for x, y, share in ((0, 0, 1), (30, 0, -1), (0, 45, -1), (30, 45, 1), (10, 0, 0.5), (0, 15, 0.5), (10, 15, 0.25),
+                        (0, 30, -0.5), (20, 0, -0.5), (0, 301, 0), (301, 0, 0)):
         assert height(waves, x, y) == pytest.approx(0.3 * share, abs=1e-12)
     transverse = Feature(shape="waviness", height=0.3 * UM, width=60 * UM, extent_x=600 * UM)
     assert height(transverse, 10, 1e4) == pytest.approx(0.15) and transverse.transverse and not waves.transverse
@@ -56,8 +56,8 @@ def test_patches_fade_out_over_their_taper():
     """Rim at 300 um, 100 um of half a cosine inside it: half at 250, (1 - cos 45 deg)/2 at 275, whole at 200."""
     waves = Feature(shape="waviness", height=1 * UM, width=1e4 * UM, extent_x=600 * UM, extent_y=400 * UM, taper=100 * UM)
     quarter = 0.5 * (1 - math.sqrt(0.5))
-    for x, y, share in ((200, 0, 1), (250, 0, 0.5), (-275, 0, quarter), (300, 0, 0), (0, 100, 1), (0, -150, 0.5), (0, 175, quarter),
-                        (250, 150, 0.25)):
+    for x, y, share in ((200, 0, 1), (250, 0, 0.5), (-275, 0, quarter), (300, 0, 0), (0, 100, 1), (0, -150, 0.5),
+                        (0, 175, quarter), (250, 150, 0.25)):
         assert height(waves, x, y) == pytest.approx(share * math.cos(2 * math.pi * x / 1e4), abs=1e-9)
 
 
