@@ -149,32 +149,45 @@ UNITS = {"mm": 1e-3, "um": 1e-6, "GPa": 1e9, "MPa": 1e6, "°C": 1.0, "s": 1.0, "
 
 def printed(text, unit):
     """The numbers of a table row in SI, without its error; the row must say this unit."""
-    text = text.split(" (")[0]
+    text = text.split(" (")[0].removesuffix(" at most")
     assert unit == "" or text.endswith(unit), text
     numbers = re.findall(r"-?\d+\.?\d*(?:e[-+]\d+)?", re.sub(r"±\s*\S+", "", text))
     return [float(number) * UNITS[unit] for number in numbers]
 
 
-def test_printed_numbers_have_the_units_that_they_say(gear):
-    """Each row against the fields of the store or Hertz, to the digits printed."""
-    f, rows, fatigue = gear.fields, gear.rows, gear.summary["fatigue"]
-    heat = [[np.max(values[cut]) for values in (gear.store.scalar("film_max_C"), f["temperature_a"], f["temperature_b"])]
-            for cut in (slice(0, 1), slice(1, None))]
-    expected = {
-        "Hertz half-width a": ([A], "mm"), "Hertz pressure p_H": ([P_HERTZ], "GPa"),
-        "steady h_c": ([np.interp(0.0, gear.store.x, f["film"][0, :, -1])], "um"), "steady h_min": ([f["film"][0].min()], "um"),
-        "steady p_max": ([f["pressure"][0].max()], "GPa"), "passage p_max": ([f["pressure"][1:].max()], "GPa"),
-        "passage h_min": ([f["film"][1:].min()], "um"),
-        "steady film / surface a / surface b, largest": (heat[0], "°C"),
-        "passage film / surface a / surface b, largest": (heat[1], "°C"),
-        "findley stress": ([gear.store.map("findley_stress").max()], "MPa"),
-        "at x, y of the feature": ([fatigue["x_m"], fatigue["y_m"]], "um"),
-        "shear amplitude, largest normal stress": ([fatigue["tau_amp_Pa"], fatigue["sigma_n_max_Pa"]], "MPa"),
-        "critical plane to the surface": ([fatigue["surface_angle_deg"]], "deg"),
-        "Fi_max": ([gear.store.map("findley_stress").max() / 400e6], ""),
-    }
-    for name, (values, unit) in expected.items():
-        assert printed(rows[name], unit) == pytest.approx(values, rel=2e-3, abs=0.06 * UNITS[unit]), name
+def heat(gear, cut):
+    """Largest temperatures of film, surface a and surface b over some entries."""
+    f = gear.fields
+    return [np.max(values[cut]) for values in (gear.store.scalar("film_max_C"), f["temperature_a"], f["temperature_b"])]
+
+
+# row of the table: its unit, and its numbers from the fields of the store or Hertz
+ROWS = {
+    "Hertz half-width a": ("mm", lambda gear: [A]), "Hertz pressure p_H": ("GPa", lambda gear: [P_HERTZ]),
+    "steady h_c": ("um", lambda gear: [np.interp(0.0, gear.store.x, gear.fields["film"][0, :, -1])]),
+    "steady h_min": ("um", lambda gear: [gear.fields["film"][0].min()]),
+    "steady p_max": ("GPa", lambda gear: [gear.fields["pressure"][0].max()]),
+    "steady friction coefficient": ("", lambda gear: [0.0515]),
+    "steady film / surface a / surface b, largest": ("°C", lambda gear: heat(gear, slice(0, 1))),
+    "passage film / surface a / surface b, largest": ("°C", lambda gear: heat(gear, slice(1, None))),
+    "passage p_max": ("GPa", lambda gear: [gear.fields["pressure"][1:].max()]),
+    "passage h_min": ("um", lambda gear: [gear.fields["film"][1:].min()]),
+    "Fi_max": ("", lambda gear: [gear.store.map("findley_stress").max() / 400e6]),
+    "findley stress": ("MPa", lambda gear: [gear.store.map("findley_stress").max()]),
+    "at x, y of the feature": ("um", lambda gear: [gear.summary["fatigue"][key] for key in ("x_m", "y_m")]),
+    "critical plane to the surface": ("deg", lambda gear: [gear.summary["fatigue"]["surface_angle_deg"]]),
+    "shear amplitude, largest normal stress":
+        ("MPa", lambda gear: [gear.summary["fatigue"][key] for key in ("tau_amp_Pa", "sigma_n_max_Pa")]),
+    "load carried by solid contact":
+        ("%", lambda gear: [per_width(gear, gear.fields["contact"] * gear.fields["pressure"]).max() / LOAD]),
+}
+
+
+@pytest.mark.parametrize("row", ROWS)
+def test_printed_numbers_have_the_unit_that_they_say(gear, row):
+    """To the digits printed: four, of um in the feature's frame and deg one behind the point."""
+    unit, numbers = ROWS[row]
+    assert printed(gear.rows[row], unit) == pytest.approx(numbers(gear), rel=2e-3, abs=0.06 * UNITS[unit] * (unit != ""))
 
 
 def test_the_history_has_the_units_of_its_columns(gear):
