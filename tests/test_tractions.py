@@ -17,7 +17,7 @@ def touching(**changes):
     from tehl_taichi.simulation import march
 
     description = scene("touching-asperity").replace(**{"thermal.on": False, "rheology.law": "newtonian", "grid.nx": 64,
-                                                        "grid.ny": 16, "time.steps": 9, **changes})
+                                                        "grid.ny": 16, "grid.y_max": 1.25, "time.steps": 9, **changes})
     shots = [SimpleNamespace(x=s.x, y=s.y, fields=s.fields, scalars=s.scalars) for s in march(description)]
     return SimpleNamespace(scene=description, shots=shots)
 
