@@ -287,6 +287,7 @@ def test_heat_balance():
 
     description = thermal(srr=-0.1176, **{"grid.nx": 256, "grid.x_min": -2.0})
     result = solve_steady(description, Scales.of(description), 256, 0)
+    assert result.report.converged and result.heat.report.failed == 0
     levels = result.solver.levels
     wet = levels.get(fields.P)[0] > 0
     cell = levels.dx * levels.scales.a
