@@ -170,9 +170,10 @@ class Fatigue:
     """Fatigue index: kappa (normal stress sensitivity) and endurance (sigma_eF, Pa).
 
     Both are example values to be replaced by those of the material at hand; no source is claimed for them.
-    criterion: findley, findley-chord, matake or dang-van; depths: m below the surface, searched too; shear: whether the shear
-    tractions count; thermal_stress: true, false or "auto" (where the scene has temperatures); residual_xx, residual_yy:
-    constant residual stress, Pa; from_x, to_x: positions of the feature (a) between which moments count.
+    criterion: findley, findley-chord, matake or dang-van; depths: "auto" (the worst depth under the feature is looked for), or
+    a list of depths in m at which all points are searched, [] for the surface alone; shear: whether the shear tractions count;
+    thermal_stress: true, false or "auto" (where the scene has temperatures); residual_xx, residual_yy: constant residual stress,
+    Pa; from_x, to_x: positions of the feature (a) between which moments count.
     """
 
     on: bool = True
@@ -180,7 +181,7 @@ class Fatigue:
     endurance: float = 400e6
     source: str = "example values, set your own"
     criterion: str = "findley"
-    depths: tuple = ()
+    depths: Union[tuple, str] = AUTO
     shear: bool = True
     thermal_stress: Union[bool, str] = AUTO
     residual_xx: float = 0.0
@@ -197,13 +198,18 @@ class Fatigue:
             number(f"fatigue.{key}", getattr(self, key), "Pa", -1e10, 1e10)
         if not self.from_x < self.to_x:
             raise SceneError(f"fatigue.from_x = {self.from_x!r} a must be less than to_x = {self.to_x!r} a")
+        self._check_depths()
+        number("fatigue.kappa", self.kappa, "", 0.0, 5.0)
+        number("fatigue.endurance", self.endurance, "Pa", 1e3, 1e11)
+
+    def _check_depths(self):
+        if self.depths == AUTO:
+            return
         if not isinstance(self.depths, (tuple, list)):
-            raise SceneError(f"fatigue.depths = {self.depths!r} must be a list of depths in m, as [50e-6, 100e-6]")
+            raise SceneError(f"fatigue.depths = {self.depths!r} must be \"auto\" or a list of depths in m, as [50e-6, 100e-6]")
         object.__setattr__(self, "depths", tuple(self.depths))
         for depth in self.depths:
             number("fatigue.depths", depth, "m", 1e-7, 0.1)
-        number("fatigue.kappa", self.kappa, "", 0.0, 5.0)
-        number("fatigue.endurance", self.endurance, "Pa", 1e3, 1e11)
 
 
 @dataclass(frozen=True)
