@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import tehl_taichi as tehl
-from tehl_taichi.post import fatigue, findley
+from tehl_taichi.post import fatigue, findley, worst_point
 from tehl_taichi.scene import SceneError
 
 S = 100.0
@@ -91,7 +91,7 @@ def test_the_path_on_a_plane(taichi_cpu):
     u, v, radius = findley.smallest_circle(dip, strike)
     np.testing.assert_allclose(np.hypot(dip, strike), S, rtol=1e-12)
     assert radius == pytest.approx(S, rel=1e-9) and np.hypot(u, v) < 1e-6 * S and normal.max() == pytest.approx(0, abs=1e-9)
-    assert fatigue.on_circle(dip, strike, (0.0, 0.0, S)).size == T.size
+    assert worst_point.on_circle(dip, strike, (0.0, 0.0, S)).size == T.size
 
 
 def test_planes_of_the_ten_degree_grid():
@@ -222,7 +222,7 @@ def test_passage_in_the_frame_of_the_feature(taichi_cpu):
     scene = tehl.scene("gear").replace(**{"thermal.on": False})
     reader = Moving(scene)
     result = fatigue.run(scene, reader)
-    assert set(result.summary) == {"Fi_max", "findley_stress_max_Pa", "x_m", "y_m", "plane_theta_deg", "plane_phi_deg",
+    assert set(result.summary) == {"Fi_max", "sigma1_worst_Pa", "below", "findley_stress_max_Pa", "x_m", "y_m", "plane_theta_deg", "plane_phi_deg",
                                    "surface_angle_deg", "sigma1_max_Pa", "kappa_F", "sigma_eF_Pa", "tau_amp_Pa",
                                    "sigma_n_max_Pa", "criterion", "thermal_stress", "pit_angles_deg",
                                    "feature_x_at_normal_max_m", "feature_x_at_first_shear_extreme_m",
@@ -290,7 +290,8 @@ def test_residual_stress_and_depths(taichi_cpu):
     levels = [layer["findley_stress_max_Pa"] for layer in free.summary["by_depth"]]
     assert free.maps["findley_stress_at_depth"][0].shape[0] == 3 and len(set(levels)) == 3
     assert all(b["findley_stress_max_Pa"] < a for a, b in zip(levels, pressed.summary["by_depth"]))
-    assert free.summary["findley_stress_max_Pa"] == max(levels)
+    assert free.summary["findley_stress_max_Pa"] == levels[0] and free.summary["below"]["findley_stress_max_Pa"] == max(levels[1:])
+    assert free.summary["below"]["depth_m"] == (20e-6, 200e-6)[int(np.argmax(levels[1:]))]
 
 
 class Heated(Moving):

@@ -7,4 +7,18 @@ def warnings(store, summary):
     return list(dict.fromkeys(found))
 
 
-CHECKS = ()  # functions of (store, summary) that give their sentences
+def worst_below(store, summary):
+    """The surface is not where the body is worst loaded."""
+    fatigue = summary.get("fatigue", {})
+    deep = fatigue.get("below")
+    if not deep or deep["Fi_max"] <= fatigue["Fi_max"]:
+        return []
+    said = (f"the worst point lies below the surface: Fi {deep['Fi_max']:.2f} at {deep['depth_m'] * 1e6:.0f} um, "
+            f"{fatigue['Fi_max']:.2f} at the surface")
+    alone = deep.get("contact_alone")
+    if alone and alone["Fi_max"] > fatigue["Fi_max"]:
+        said += f"; the contact without its feature has {alone['Fi_max']:.2f} at {alone['depth_m'] * 1e6:.0f} um"
+    return [said]
+
+
+CHECKS = (worst_below,)  # functions of (store, summary) that give their sentences

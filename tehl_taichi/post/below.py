@@ -11,6 +11,7 @@ import numpy as np
 from tehl_taichi.post import findley
 from tehl_taichi.post.row_stress import RowStress
 from tehl_taichi.post.thermal_depth import ThermalBelow
+from tehl_taichi.post.worst_point import Point
 
 RATIO = 1.5      # of neighbouring depths
 SHALLOWEST = 0.5  # cells: nearer to the surface the rectangles of the loads are seen
@@ -22,17 +23,12 @@ BLOCK = 32       # entries whose stresses are found at once
 
 @dataclass(frozen=True)
 class Profile:
-    """Findley stress (Pa) by depth (m): f (depths, x') on the row `y` (m); the worst point: depth, x (m), f, its stress
-    history (times, 6) and the normal of its critical plane."""
+    """Findley stress f (depths, x') Pa at depths (m) and the worst point of all depths; alone: of the contact alone."""
 
     depths: np.ndarray
-    y: float
     f: np.ndarray
-    depth: float
-    x: float
-    worst: float
-    stress: np.ndarray
-    normal: np.ndarray
+    worst: Point
+    alone: bool
 
 
 def ladder(passage):
@@ -52,14 +48,11 @@ def profiles(passage, rows, alone=False):
     found = []
     for (row, single), histories in zip(kinds, _histories(passage, depths, kinds)):
         points = slice(passage.x.size // 2, passage.x.size // 2 + 1) if single else slice(None)
-        found.append(_profile(passage, depths, float(y[row]), passage.x[points], histories[:, points]))
+        histories = histories[:, points]
+        f = np.array([findley.search(history, *_rule(passage))[0] for history in histories])
+        depth, point, *rest = _refined(passage, np.log(depths), histories, f)
+        found.append(Profile(depths, f, Point(depth, float(passage.x[points][point]), float(y[row]), *rest), single))
     return found
-
-
-def _profile(passage, depths, y, x, histories):
-    f = np.array([findley.search(history, *_rule(passage))[0] for history in histories])
-    depth, point, worst, stress, normal = _refined(passage, np.log(depths), histories, f)
-    return Profile(depths, y, f, depth, float(x[point]), worst, stress, normal)
 
 
 def _rule(passage):

@@ -32,7 +32,7 @@ def values(scene):
     out = {name: pick(shot.scalars[name] for shot in shots[1:]) for name, pick in PASSAGE.items()
            if name in shots[0].scalars}
     if scene.fatigue_wanted:
-        out["Fi_max"] = fatigue.run(scene, shots).summary["Fi_max"]
+        out["Fi_max"] = fatigue.run(scene.replace(**{"fatigue.depths": []}), shots).summary["Fi_max"]
     return out
 
 

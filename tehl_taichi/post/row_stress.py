@@ -56,14 +56,14 @@ class RowStress:
 
     def _rectangles(self, lags, depth, row, mirrored):
         """(waves, 3 loads of every row, 6): from unit loads on one rectangle of each row and its mirror image."""
-        halves = spacing(self.x) / 2, spacing(self.y) / 2
-        out = np.zeros((lags.size, self.y.size, 3, 6))
+        sides = spacing(self.x) / 2, spacing(self.y) / 2, self.nu
+        lags, far = lags[:, None], self.y[row] - self.y
+        image = self.y[row] + self.y[1:] - 2 * self.y[0]
+        out = np.zeros((6, lags.size, self.y.size, 3))
         for n, (load, sign) in enumerate(zip(LOADS, SIGNS)):
-            def unit(far):
-                return np.moveaxis(load(lags[:, None], far, depth, *halves, self.nu), 0, -1)
-
-            out[:, :, n] = unit(self.y[row] - self.y)
+            out[..., n] = load(lags, far, depth, *sides)
             if mirrored:
-                out[:, 1:, n] += sign * unit(self.y[row] + self.y[1:] - 2 * self.y[0])
-                out[:, 0, n] *= sign > 0  # an odd load vanishes on the mirror's row
-        return np.fft.rfft(out, self.size, axis=0).reshape(self.size // 2 + 1, -1, 6)
+                out[:, :, 1:, n] += sign * np.array(load(lags, image, depth, *sides))
+                out[:, :, 0, n] *= sign > 0  # an odd load vanishes on the mirror's row
+        spectra = np.fft.rfft(out, self.size, axis=1)
+        return np.ascontiguousarray(np.moveaxis(spectra, 0, -1)).reshape(self.size // 2 + 1, -1, 6)

@@ -172,8 +172,8 @@ class Fatigue:
     Both are example values to be replaced by those of the material at hand; no source is claimed for them.
     criterion: findley, findley-chord, matake or dang-van; depths: "auto" (the worst depth under the feature is looked for), or
     a list of depths in m at which all points are searched, [] for the surface alone; shear: whether the shear tractions count;
-    thermal_stress: true, false or "auto" (where the scene has temperatures); residual_xx, residual_yy: constant residual stress,
-    Pa; from_x, to_x: positions of the feature (a) between which moments count.
+    thermal_stress: true, false or "auto" (where the scene has temperatures); residual_xx, residual_yy: constant residual
+    stress, Pa; from_x, to_x: positions of the feature (a) between which moments count.
     """
 
     on: bool = True
