@@ -157,7 +157,7 @@ def test_the_angle_to_the_surface_is_that_of_the_plane(found):
     degrees to the surface; alike along x and y (the same but for a pressure): 53.3 degrees. In a passage n . z = cos of it."""
     from tehl_taichi.post import findley
 
-    S, wave = np.zeros((2, 40, 6)), 1e8 * np.cos(np.linspace(0, 2 * np.pi, 40))
+    S, wave = np.zeros((2, 41, 6)), 1e8 * np.cos(np.linspace(0, 2 * np.pi, 41))
     S[0, :, 2] = S[1, :, 0] = S[1, :, 1] = wave
     half = np.degrees(np.arctan(1 / 0.3)) / 2
     theta, _ = findley.angles(findley.search(S, 0.3)[1])
