@@ -20,11 +20,12 @@ def fatigue(
     bending_limit: Optional[float] = typer.Option(None, help="fatigue limit in reversed bending, Pa (with --torsion-limit)"),
     torsion_limit: Optional[float] = typer.Option(None, help="the same in torsion: both give kappa, sigma_eF"),
     criterion: Optional[str] = typer.Option(None, help="findley, findley-chord, matake or dang-van"),
-    depths: Optional[str] = typer.Option(None, help="depths to search too, m, as 50e-6,100e-6"),
+    depths: Optional[str] = typer.Option(None, help="auto (the worst depth under the feature), none, or depths at which "
+                                         "all points are searched, m, as 50e-6,100e-6"),
     from_x: Optional[float] = typer.Option(None, help="only moments with the feature beyond this position, a"),
     to_x: Optional[float] = typer.Option(None, help="only moments with the feature before this position, a"),
     thermal_stress: Optional[bool] = typer.Option(None, "--thermal-stress/--no-thermal-stress",
-                                                  help="stress of the heat at the surface (default: where there is heat)"),
+                                                  help="stress of the heat (default: where there is heat)"),
     residual_xx: Optional[float] = typer.Option(None, help="constant residual stress along x, Pa"),
     residual_yy: Optional[float] = typer.Option(None, help="the same along y, Pa"),
     figures: Optional[Path] = typer.Option(None, help="folder for PNG figures"),
@@ -35,11 +36,14 @@ def fatigue(
 
     Example: `tehl fatigue runs/gear-1.zarr --kappa 0.25 --endurance 450e6 --to-x 0.5`
     """
+    from tehl_cli.runs import _check_threads
+
     from tehl_taichi import runtime
     from tehl_taichi.io.store import Store
     from tehl_taichi.post import fatigue as pass_
     from tehl_taichi.scene.scales import Scales
 
+    _check_threads(threads)
     saved = Store.open(store)
     changes = {"kappa": kappa, "endurance": endurance, "criterion": criterion, "depths": _depths(depths), "from_x": from_x,
                "to_x": to_x, "thermal_stress": thermal_stress, "residual_xx": residual_xx, "residual_yy": residual_yy,
@@ -59,10 +63,12 @@ def fatigue(
 def _depths(text):
     from tehl_taichi.scene import SceneError
 
+    if text in (None, "auto", "none"):
+        return [] if text == "none" else text
     try:
-        return None if text is None else [float(part) for part in text.split(",")]
+        return [float(part) for part in text.split(",")]
     except ValueError:
-        raise SceneError(f"--depths {text!r} must be numbers in m with commas between, as 50e-6,100e-6") from None
+        raise SceneError(f"--depths {text!r} must be auto, none or numbers in m with commas between, as 50e-6,1e-4") from None
 
 
 def _limits(bending, torsion, kappa, endurance):

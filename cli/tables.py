@@ -72,19 +72,45 @@ def _passage_rows(summary):
 
 
 def fatigue_rows(f):
-    """(quantity, value) of a fatigue summary."""
-    at = f"{f['x_m'] * 1e6:.1f}, {f['y_m'] * 1e6:.1f} um"
-    low, high = f["pit_angles_deg"]
-    rows = [("Fi_max", f"{f['Fi_max']:.4f}{_plus(f.get('error', {}).get('Fi_max'), 1)}"),
-            (f"{f['criterion']} stress", f"{f['findley_stress_max_Pa'] / 1e6:.1f} MPa"),
-            ("at x, y of the feature", at + (f", {f['depth_m'] * 1e6:.0f} um deep" if f.get("depth_m") else "")),
-            ("critical plane to the surface", f"{f['surface_angle_deg']:.1f} deg (pits begin at {low:g} to {high:g})"),
-            ("shear amplitude, largest normal stress", f"{f['tau_amp_Pa'] / 1e6:.1f}, {f['sigma_n_max_Pa'] / 1e6:.1f} MPa"),
-            ("largest principal stress", f"{f['sigma1_max_Pa'] / 1e6:.1f} MPa"),
+    """(quantity, value) of a fatigue summary: the worst point of the surface, then of what lies below."""
+    rows = [("Fi_max at the surface", f"{f['Fi_max']:.4f}{_plus(f.get('error', {}).get('Fi_max'), 1)}"),
+            (f"{f['criterion']} stress", _stress(f["findley_stress_max_Pa"])), *_point_rows(f),
+            ("largest principal stress on the surface", _stress(f["sigma1_max_Pa"])),
             ("with kappa, sigma_eF", f"{f['kappa_F']:g}, {f['sigma_eF_Pa'] / 1e6:g} MPa"),
-            ("thermal stress", "counted at the surface" if f["thermal_stress"] else "left out")]
-    return rows + [(f"largest at {layer['depth_m'] * 1e6:.0f} um", f"{layer['findley_stress_max_Pa'] / 1e6:.1f} MPa")
-                   for layer in f.get("by_depth", [])]
+            ("thermal stress", "counted" if f["thermal_stress"] else "left out")]
+    rows += [(f"largest at {_depth(layer)}", _stress(layer["findley_stress_max_Pa"])) for layer in f.get("by_depth", [])]
+    return rows + _below_rows(f)
+
+
+def _point_rows(f):
+    """The worst point of the surface or below it."""
+    low, high = f.get("pit_angles_deg", (None, None))
+    pits = "" if low is None else f" (pits begin at {low:g} to {high:g})"
+    rows = [("at x, y of the feature", f"{f['x_m'] * 1e6:.1f}, {f['y_m'] * 1e6:.1f} um"),
+            ("critical plane to the surface", f"{f['surface_angle_deg']:.1f} deg{pits}"),
+            ("shear amplitude, largest normal stress", f"{f['tau_amp_Pa'] / 1e6:.1f}, {f['sigma_n_max_Pa'] / 1e6:.1f} MPa")]
+    own = f.get("sigma1_worst_Pa")  # not in stores before 0.2
+    return rows + ([("largest principal stress there", _stress(own))] if own is not None else [])
+
+
+def _below_rows(f):
+    if "below" not in f:
+        return []
+    deep = f["below"]
+    rows = [(f"Fi_max below it, at {_depth(deep)}", f"{deep['Fi_max']:.4f}"),
+            (f"{f['criterion']} stress", _stress(deep["findley_stress_max_Pa"])), *_point_rows(deep)]
+    if "contact_alone" in deep:
+        alone = deep["contact_alone"]
+        rows.append((f"Fi of the contact alone, at {_depth(alone)}", f"{alone['Fi_max']:.4f}"))
+    return rows
+
+
+def _stress(value):
+    return f"{value / 1e6:.1f} MPa"
+
+
+def _depth(values):
+    return f"{values['depth_m'] * 1e6:.0f} um"
 
 
 def list_table(title, columns, rows):

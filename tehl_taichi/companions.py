@@ -35,7 +35,8 @@ def scenes(scene):
         nx, ny = scene.grid.nx // 2**level, scene.grid.ny // 2**level
         steps = min(scene.time.steps, max(1, scene.time.steps // 2**level))  # -1 is all
         try:
-            out.append(scene.replace(**{"grid.nx": nx, "grid.ny": ny, "time.steps": steps, "output.profiles": False}))
+            out.append(scene.replace(**{"grid.nx": nx, "grid.ny": ny, "time.steps": steps, "output.profiles": False,
+                                        "fatigue.depths": []}))
         except Error as error:
             refused.append(f"a companion run on {nx} x {ny} cells is refused: {error}")
     return out[::-1], refused

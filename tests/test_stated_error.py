@@ -28,6 +28,7 @@ def test_two_grids_state_their_difference_and_one_nothing():
 
 def test_companions_go_the_same_way_on_half_and_quarter_the_cells():
     from tehl_taichi.post.estimate import companions
+
     from tehl_taichi.simulation import total_steps
 
     own = scene("gear").replace(**{"grid.nx": 128, "grid.ny": 32, "time.steps": 24})

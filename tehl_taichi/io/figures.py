@@ -29,11 +29,18 @@ def write_all(store, folder, dpi=DPI):
     if "temperature" in store.stored:
         figures["profiles"] = profiles(plt, store)
     if store.map("worst_stress") is not None:
-        worst = {name: store.map(f"worst_{name}") for name in ("x_a", "stress", "normal", "circle")}
-        found = {name: store.map(name) for name in ("feature_frame_x", "feature_frame_y", "Fi")}
-        figures |= fatigue_figures.all_figures(plt, store.scene.name, found, worst, store.summary["fatigue"],
+        found = {name: values for name in fatigue_figures.MAPS if (values := store.map(name)) is not None}
+        points = {"surface": _history(store, "worst"), "below": _history(store, "worst_below")}
+        figures |= fatigue_figures.all_figures(plt, store.scene.name, found, points, store.summary["fatigue"],
                                                Scales.of(store.scene).a)
     return [_save(plt, figure, folder / f"{name}.png", dpi) for name, figure in figures.items()]
+
+
+def _history(store, name):
+    """History of a worst point as the store keeps it, or None."""
+    if store.map(f"{name}_stress") is None:
+        return None
+    return {part: store.map(f"{name}_{part}") for part in ("x_a", "stress", "normal", "circle")}
 
 
 def write_fatigue(result, title, a, folder, dpi=DPI):
@@ -41,7 +48,8 @@ def write_fatigue(result, title, a, folder, dpi=DPI):
     plt, folder = pyplot(), Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     found = {name: value[0] for name, value in result.maps.items()}
-    figures = fatigue_figures.all_figures(plt, title, found, result.worst, result.summary, a)
+    points = {"surface": result.worst, "below": result.worst_below}
+    figures = fatigue_figures.all_figures(plt, title, found, points, result.summary, a)
     return [_save(plt, figure, folder / f"{name}.png", dpi) for name, figure in figures.items()]
 
 

@@ -37,4 +37,19 @@ def unknown_errors(store, summary):
         yield from (f"the error of {', '.join(names)} is not known: {why}" for why, names in reasons.items())
 
 
-CHECKS = (beyond_measured, held_temperatures, unknown_errors)  # functions of (store, summary) that give their sentences
+def worst_below(store, summary):
+    """The surface is not where the body is worst loaded."""
+    fatigue = summary.get("fatigue", {})
+    deep = fatigue.get("below")
+    if not deep or deep["Fi_max"] <= fatigue["Fi_max"]:
+        return []
+    said = (f"the worst point lies below the surface: Fi {deep['Fi_max']:.2f} at {deep['depth_m'] * 1e6:.0f} um, "
+            f"{fatigue['Fi_max']:.2f} at the surface")
+    alone = deep.get("contact_alone")
+    if alone and alone["Fi_max"] > fatigue["Fi_max"]:
+        said += f"; the contact without its feature has {alone['Fi_max']:.2f} at {alone['depth_m'] * 1e6:.0f} um"
+    return [said]
+
+
+# functions of (store, summary) that give their sentences
+CHECKS = (worst_below, beyond_measured, held_temperatures, unknown_errors)

@@ -25,10 +25,10 @@ class Stress:
         self.x, self.y, self.nu, self.line = np.asarray(x, float), np.asarray(y, float), float(nu), line
         if self.y.size == 1 and not line:
             raise ValueError("one row of y describes a line contact only (line=True)")
-        self.depth, dx = depth, _spacing(self.x)
+        self.depth, dx = depth, spacing(self.x)
         self.strips = self._strips(np.arange(-self.x.size + 1, self.x.size) * dx, dx / 2)
         if self.y.size > 1:
-            self.convolution = _Convolution(self.x.size, self.y.size, dx, _spacing(self.y), self.nu, mirrored, depth)
+            self.convolution = _Convolution(self.x.size, self.y.size, dx, spacing(self.y), self.nu, mirrored, depth)
 
     def __call__(self, p, qx, qy):
         """{component: (nx+1, ny+1) Pa} for p, qx, qy (nx+1, ny+1) Pa: sxx, syy, szz, sxy, sxz, syz."""
@@ -74,7 +74,7 @@ class _Convolution:
 
     def __init__(self, nx, ny, dx, dy, nu, mirrored, depth):
         self.nx, self.ny, self.mirrored, self.depth = nx, ny, mirrored, depth
-        self.shape = _even_fast(2 * nx - 1), _even_fast(3 * ny - 2)
+        self.shape = even_fast(2 * nx - 1), even_fast(3 * ny - 2)
         self._plan()
         self.spectra = self._spectra(dx, dy, nu)
 
@@ -131,14 +131,14 @@ def _lags(n, negative=None):
     return np.where(k <= n - (negative or n // 2), k, k - n)
 
 
-def _even_fast(n):
+def even_fast(n):
     n = pyfftw.next_fast_len(n)
     while n % 2:
         n = pyfftw.next_fast_len(n + 1)
     return n
 
 
-def _spacing(v):
+def spacing(v):
     steps = np.diff(v)
     if v.size < 2 or not np.allclose(steps, steps.mean(), rtol=1e-6):
         raise ValueError("surface stresses need a uniform grid of at least two nodes")

@@ -10,6 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from tehl_taichi.post.half_space import COMPONENTS, Stress
+from tehl_taichi.post.thermal_depth import ThermalBelow
 from tehl_taichi.post.thermal_stress import WORKERS, ThermalStress
 from tehl_taichi.scene.scales import Scales
 
@@ -18,6 +19,7 @@ MARGIN = 0.3       # (in a) searched beyond the rim of larger features
 LOADED = 1.5       # material points are followed while within this distance (in a) of the centre of the contact
 BLOCK_BYTES = 4e8  # histories held at once; more points than fit are done in blocks of y rows
 LOADS = ("pressure", "traction_x_a", "traction_y_a")
+HELD = ("sxx", "syy", "sxy")  # what heat does at the surface; below it does all six
 
 
 class Passage:
@@ -80,17 +82,20 @@ class Passage:
         self.centres, self.entries = self.centres[counts], self.entries[counts]
 
     def stresses(self, depth):
-        """Stress operator for a depth in m; at the surface with thermal stress where the scene wants it."""
-        y = self.reader.y
+        """Stress operator for a depth in m, and the thermal stress where the scene wants it (else None)."""
+        y, thermal = self.reader.y, None
         operator = Stress(self.grid_x, y - y[0], self.scene.body_a.nu, self.line, self.mirrored, depth)
-        return operator, self._thermal() if depth == 0 and self.scene.thermal_stress_wanted else None
+        if self.scene.thermal_stress_wanted:
+            thermal = self.heat(ThermalBelow, depth).at(depth) if depth else self.heat(ThermalStress)
+        return operator, thermal
 
-    def _thermal(self):
+    def heat(self, kind, *more):
+        """ThermalStress, or ThermalBelow (and its shallowest depth), of this passage."""
         r, ambient = self.reader, self.scene.operation.temperature
         self.ticks, dt = equal_steps(np.asarray(r.time))
         rises = (np.asarray(r.fields(n, ("temperature_a",))["temperature_a"], float) - ambient for n in range(len(r)))
-        return ThermalStress(self.scene.body_a, self.scene.operation.u_a, between(rises, self.ticks), dt, r.x, r.y, self.pad[0],
-                             self.grid_x.size, self.a, self.mirrored)
+        return kind(self.scene.body_a, self.scene.operation.u_a, between(rises, self.ticks), dt, r.x, r.y, self.pad[0],
+                    self.grid_x.size, self.a, self.mirrored, *more)
 
     def row_blocks(self):
         """Slices of y rows whose histories fit into BLOCK_BYTES."""
@@ -113,26 +118,37 @@ class Passage:
                 task.result()
                 if progress:
                     progress(next(done), len(tasks))
-        out[..., 0] += self.scene.fatigue.residual_xx
-        out[..., 1] += self.scene.fatigue.residual_yy
-        return out.reshape(-1, *out.shape[2:])
+        return self.resting(out).reshape(-1, *out.shape[2:])
+
+    def resting(self, stress):
+        """The same stress (..., 6) with the constant residual one."""
+        stress[..., 0] += self.scene.fatigue.residual_xx
+        stress[..., 1] += self.scene.fatigue.residual_yy
+        return stress
 
     def _fill(self, out, entries, rows, stress, thermal):
         """The moments that belong to these entries of the reader."""
         for entry in entries:
-            fields = self._stress_field(int(entry), rows, stress, thermal)
-            for t in np.flatnonzero(self.entries == entry):
-                start = (self.centres[t] + self.x[0] - self.grid_x[0]) / self.dx
-                out[:, :, t] = _shifted(fields, start, self.x.size)
+            self.follow(out, int(entry), self._stress_field(int(entry), rows, stress, thermal))
 
-    def _stress_field(self, entry, rows, stress, thermal):
+    def follow(self, out, entry, fields):
+        """Stress fields (x, ..., 6) of an entry, at all its moments, into the histories `out` (x', ..., moments, 6)."""
+        for t in np.flatnonzero(self.entries == entry):
+            start = (self.centres[t] + self.x[0] - self.grid_x[0]) / self.dx
+            out[..., t, :] = _shifted(fields, start, self.x.size)
+
+    def loads(self, entry):
+        """p, q_x and q_y (x, y) Pa of an entry; the shear is zero where it is not to count."""
         loads = self.reader.fields(entry, LOADS)
         loads = [np.pad(np.asarray(loads[name], float), (self.pad, (0, 0))) for name in LOADS]
         if not self.scene.fatigue.shear:
             loads[1:] = [0 * load for load in loads[1:]]
-        found = stress(*loads)
+        return loads
+
+    def _stress_field(self, entry, rows, stress, thermal):
+        found = stress(*self.loads(entry))
         if thermal:
-            for name, values in zip(("sxx", "syy", "sxy"), thermal(self.ticks[entry])):
+            for name, values in zip(COMPONENTS if stress.depth else HELD, thermal(self.ticks[entry])):
                 found[name] = found[name] + values
         return np.stack([found[name][:, self.rows[rows]] for name in COMPONENTS], axis=-1)
 
@@ -161,7 +177,7 @@ def between(fields, ticks):
 
 
 def _shifted(fields, start, count):
-    """`count` columns of fields (x, y, 6) from column `start`; exact for whole numbers, else linear in x."""
+    """`count` columns of fields (x, ..., 6) from column `start`; exact for whole numbers, else linear in x."""
     whole = int(np.round(start))
     if abs(start - whole) < 1e-6:
         return fields[whole: whole + count]

@@ -74,30 +74,26 @@ class Waves:
             spectrum = np.concatenate([spectrum, sign * spectrum[:, -2:0:-1]], axis=1)
         return np.fft.irfft(np.fft.ifft(spectrum, axis=1), self.nx, axis=0)[: self.columns, : self.rows]
 
+    def row_weights(self, row, odd=False):
+        """(modes of y,): their sum with a spectrum is its row `row`, still a spectrum along x."""
+        turn = np.exp(2j * np.pi * np.arange(self.ny) * row / self.ny) / self.ny
+        if not self.mirrored or self.rows == 1:
+            return turn
+        back = np.concatenate([[0.0], turn[1 : self.rows - 1].conj() * (-1 if odd else 1), [0.0]])
+        return (turn[: self.rows] + back) * (1 - odd * np.isin(np.arange(self.rows), (0, self.rows - 1)))
 
-class ThermalStress:
-    """sigma_xx, sigma_yy, sigma_xy (Pa) at the surface of `body`, which moves at `speed` (m/s), at every entry of a passage.
 
-    rises: entries of the temperature above ambient, (nx+1, ny+1) K, an iterable; entry 0 is the steady state in which the
-    contact has been for ever, the others follow at distances dt (s). columns: of the grid that stresses are wanted on, the
-    rises standing `front` columns behind its first. Holds one complex number of single precision per entry and wave number.
-    """
+class Heated:
+    """A body and the temperatures that pass over its surface; arguments: see :class:`ThermalStress`."""
 
-    def __init__(self, body, speed, rises, dt, x, y, front, columns, a, mirrored):
+    def __init__(self, body, rises, x, y, front, columns, a, mirrored):
         self.stiffness, self.nu, self.front = body.E * body.alpha / (1 - body.nu), body.nu, front
         self.dx, rows = x[1] - x[0], y.size
         self.taper = math.ceil(TAPER * a / self.dx)
         self.columns = columns
         whole = max(columns, front + x.size + self.taper)
         self.waves = Waves(whole, rows, self.dx, y[1] - y[0] if rows > 1 else 1.0, mirrored)
-        diffusivity = body.k / (body.rho * body.c)
         self.rises = [self._extended(rise).astype(np.float32) for rise in rises]
-        w = self.waves
-        steady = w.spectrum(self.rises[0])
-        self.first = steady * steady_depth(w.kx, w.k, diffusivity, speed)
-        with ThreadPoolExecutor(WORKERS) as pool:
-            changes = np.stack(list(pool.map(lambda rise: w.spectrum(rise - self.rises[0]).astype(np.complex64), self.rises)))
-        self.thetas = _convolved(changes, w, diffusivity, speed, dt)
 
     def _extended(self, rise):
         """The rise on the wide grid, fading out behind its last column."""
@@ -107,6 +103,25 @@ class ThermalStress:
         fade = 0.5 * (1 + np.cos(np.pi * np.arange(1, self.taper + 1) / self.taper))
         out[end : end + self.taper] = rise[-1] * fade[: out.shape[0] - end, None]
         return out
+
+
+class ThermalStress(Heated):
+    """sigma_xx, sigma_yy, sigma_xy (Pa) at the surface of `body`, which moves at `speed` (m/s), at every entry of a passage.
+
+    rises: entries of the temperature above ambient, (nx+1, ny+1) K, an iterable; entry 0 is the steady state in which the
+    contact has been for ever, the others follow at distances dt (s). columns: of the grid that stresses are wanted on, the
+    rises standing `front` columns behind its first. Holds one complex number of single precision per entry and wave number.
+    """
+
+    def __init__(self, body, speed, rises, dt, x, y, front, columns, a, mirrored):
+        super().__init__(body, rises, x, y, front, columns, a, mirrored)
+        diffusivity = body.k / (body.rho * body.c)
+        w = self.waves
+        steady = w.spectrum(self.rises[0])
+        self.first = steady * steady_depth(w.kx, w.k, diffusivity, speed)
+        with ThreadPoolExecutor(WORKERS) as pool:
+            changes = np.stack(list(pool.map(lambda rise: w.spectrum(rise - self.rises[0]).astype(np.complex64), self.rises)))
+        self.thetas = _convolved(changes, w, diffusivity, speed, dt)
 
     def __call__(self, entry):
         """(sxx, syy, sxy), each (columns, ny+1)."""

@@ -136,7 +136,7 @@ class Thermal:
 class Fatigue:
     """Fatigue index; kappa and endurance are example values: set those of your material.
 
-    No source is claimed for them.
+    No source is claimed for them. depths = []: the surface alone.
     """
 
     on: bool = switch(True, "stresses and fatigue index of a passage")
@@ -144,7 +144,8 @@ class Fatigue:
     endurance: float = quantity(400e6, "Pa", "fatigue limit sigma_eF: Fi = 1", 1e3, 1e11)
     source: str = text("example values, set your own", "where kappa and endurance come from", one_line=False)
     criterion: str = choice("findley", "fatigue criterion", ("findley", "findley-chord", "matake", "dang-van"))
-    depths: tuple = quantities((), "m", "depths below the surface that are searched too, as [50e-6, 100e-6]", 1e-7, 0.1)
+    depths: Union[tuple, str] = quantities(AUTO, "m", "searched below the surface; auto: the worst depth under the feature is "
+                                           "looked for; or all points at these, as [50e-6, 100e-6]", 1e-7, 0.1, auto=True)
     shear: bool = switch(True, "whether the shear tractions count")
     thermal_stress: Union[bool, str] = switch(AUTO, "whether the stress of the heat counts; auto: where there are temperatures",
                                               auto=True)
@@ -157,7 +158,8 @@ class Fatigue:
         check(self, "fatigue")
         if not self.from_x < self.to_x:
             raise SceneError(f"fatigue.from_x = {self.from_x!r} a must be less than to_x = {self.to_x!r} a")
-        object.__setattr__(self, "depths", tuple(self.depths))
+        if self.depths != AUTO:
+            object.__setattr__(self, "depths", tuple(self.depths))
 
 
 @dataclass(frozen=True)

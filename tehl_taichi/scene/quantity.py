@@ -50,11 +50,16 @@ class Number(Kind):
 
 @dataclass(frozen=True)
 class Numbers(Number):
-    """A list of such numbers."""
+    """A list of such numbers; with `auto`: the scene itself decides unless told."""
+
+    auto: bool = False
 
     def check(self, where, value):
+        if self.auto and isinstance(value, str) and value == AUTO:
+            return
         if not isinstance(value, (tuple, list)):
-            raise checks.SceneError(f"{where} = {shown(value)} must be a list of numbers in {self.unit}")
+            either = f"{AUTO!r} or " if self.auto else ""
+            raise checks.SceneError(f"{where} = {shown(value)} must be {either}a list of numbers in {self.unit}")
         for entry in value:
             super().check(where, entry)
 
@@ -144,9 +149,9 @@ def quantity(default, unit, about, low=-math.inf, high=math.inf, strict=False, i
     return _declared(default, Number(about, unit or "-", low, high, strict, infinite))
 
 
-def quantities(default, unit, about, low=-math.inf, high=math.inf):
+def quantities(default, unit, about, low=-math.inf, high=math.inf, auto=False):
     """Field: a list of such numbers."""
-    return _declared(default, Numbers(about, unit, low, high))
+    return _declared(default, Numbers(about, unit, low, high, auto=auto))
 
 
 def count(default, about, low, high, multiple=1):
