@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-LEFT = (1.0, 1 / 5, 1 / 25)  # of the last difference, the one before ... is left as error, at most
+LEFT = (1.0, 1 / 6, 1 / 36)  # of the last difference, the one before ... is left as error, at most
 LEAST = 2 / 3  # of the last difference that counts where part of it may be a jump from node to node, which the blur bounds
 ALONE = 1.5  # of the only difference there is
 HOPELESS = 0.5  # a number that changes by more than this part of itself from grid to grid is not resolved
