@@ -131,7 +131,8 @@ def judged(rows):
         else:
             grids = [{name: Reading(**values) for name, values in grid.items()} for grid in one["own"]]
             own, (found, _) = grids[-1], bars(grids)
-        out += [(part, name, own[name].value, size, abs(one["finer"][name] - own[name].value)) for name, size in found.items()]
+        out += [(part, name, own[name].value, size, abs(one["finer"][name] - own[name].value)) for name, size in found.items()
+                if own[name].value != 0]  # friction without slip
     return out
 
 

@@ -5,11 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from tehl_taichi.solvers.error_bars import RIVAL, Reading, beside, narrow_peak
+from tehl_taichi.solvers.error_bars import Reading, beside, unresolved_peak
 
 HEAT = ("film_max_C", "surface_a_max_C", "surface_b_max_C")
-SPIKE = ("a pressure peak of {:.0%} of the largest is two cells wide at most; so narrow ones grow on finer grids, and the "
-         "true maximum may be there")
+SPIKE = "a pressure peak of {:.0%} of the largest is a few cells wide; it may be higher on finer grids, and the largest"
 TOUCH = "the surfaces touch on this grid, which is too coarse for so thin a film"
 
 
@@ -17,6 +16,8 @@ def steady(shot):
     """{name: Reading} of a snapshot of a steady smooth contact."""
     out = {"h_c_m": Reading(shot.scalars["h_c_m"]), "h_min_m": lowest(shot), "p_max_Pa": highest(shot),
            **{name: Reading(shot.scalars[name]) for name in (*HEAT, "friction_coefficient") if name in shot.scalars}}
+    if "film_max_C" in out:  # a narrow peak of pressure may be the hottest place
+        out["film_max_C"] = replace(out["film_max_C"], doubt=out["p_max_Pa"].doubt)
     if shot.fields["contact"].any():  # nothing is known of a film that this grid does not have, nor of what it does
         out = {name: replace(reading, doubt=TOUCH, lost=True) for name, reading in out.items()}
     return out
@@ -26,9 +27,9 @@ def highest(shot):
     """Reading of the largest pressure of a snapshot, Pa and m."""
     p = shot.fields["pressure"]
     i, j = np.unravel_index(p.argmax(), p.shape)
-    spike = narrow_peak(p[:, j])
+    spike = unresolved_peak(p[:, j])
     return Reading(float(p[i, j]), _between(p, i, j), _place(shot, i), float(shot.x[1] - shot.x[0]),
-                   SPIKE.format(spike) if spike > RIVAL else "")
+                   SPIKE.format(spike) if spike else "")
 
 
 def lowest(shot):

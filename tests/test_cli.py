@@ -45,7 +45,8 @@ def test_json_summary_has_the_keys_of_the_interface(finished):
             "transient", "fatigue", "work", "clamps"} <= summary.keys()
     assert summary["steps"] == 10 and summary["grid"] == {"nx": 65, "ny": 17, "nz": 1}
     assert summary["cells"] == {"nx": 64, "ny": 16}
-    assert set(summary["steady"]["error"]) == {"h_c_m", "h_min_m", "p_max_Pa"}
+    assert set(summary["steady"]["error"]) == {"h_c_m", "h_min_m", "p_max_Pa", "friction_coefficient"}
+    assert set(summary["transient"]["error"].values()) == {None}  # so short a run has no companions, and nobody asked for them
     assert {"Fi_max", "findley_stress_max_Pa", "x_m", "y_m", "plane_theta_deg", "plane_phi_deg", "surface_angle_deg",
             "sigma1_max_Pa", "kappa_F", "sigma_eF_Pa"} <= set(summary["fatigue"])
     assert summary["transient"]["load_error_max"] < 1e-6 and summary["transient"]["mass_error_max"] < 1e-6
@@ -68,14 +69,22 @@ def test_a_thermal_run_tells_its_temperatures_and_resumes(tmp_path):
 
 
 def test_companion_runs_tell_the_error_of_a_passage(tmp_path):
-    done = tehl("run", "gear", "--isothermal", "--grid", "128x32", "--threads", 2, "--steps", 12, "--estimate-error",
-                "--out", "e.zarr",
-                "--json", cwd=tmp_path)
+    done = tehl("run", "gear", *TINY, "--steps", 8, "--estimate-error", "--out", "e.zarr", "--json", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     summary = json.loads(done.stdout)
-    assert set(summary["transient"]["error"]) == {"p_max_Pa", "h_min_m"} and summary["fatigue"]["error"]["Fi_max"] >= 0
-    assert 0 < summary["transient"]["error"]["h_min_m"] < summary["transient"]["h_min_m"]
-    assert "companion run" in done.stderr and "±" in tehl("show", "e.zarr", cwd=tmp_path).stdout
+    error = summary["transient"]["error"]
+    assert set(error) == {"p_max_Pa", "h_min_m", "friction_coefficient_mean"} and summary["fatigue"]["error"]["Fi_max"] > 0
+    assert 0 < error["friction_coefficient_mean"] < summary["transient"]["friction_coefficient_mean"]
+    assert "±" in tehl("show", "e.zarr", cwd=tmp_path).stdout
+
+
+def test_companions_that_are_refused_leave_the_run_as_it_is(tmp_path):
+    done = tehl("run", "gear", "--isothermal", "--grid", "48x16", "--steps", 4, "--estimate-error", "--json", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    summary = json.loads(done.stdout)
+    assert summary["converged"] and set(summary["transient"]["error"].values()) == {None}
+    assert any("not known: a companion run on 12 x 4 cells is refused" in said or
+               "not known: a companion run on 24 x 8 cells is refused" in said for said in summary["warnings"])
 
 
 def test_xarray_opens_the_store_as_it_is(finished):
