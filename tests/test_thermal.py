@@ -23,7 +23,9 @@ def film(description, nx):
     from tehl_taichi.solvers.levels import Levels
 
     levels = Levels(description, Scales.of(description), nx, 0)
-    return FilmHeat(levels, time_step(description, levels.scales, levels.dx)), levels
+    heat = FilmHeat(levels, time_step(description, levels.scales, levels.dx))
+    levels.use_film(*heat.laws)
+    return heat, levels
 
 
 def test_chebyshev_matrices_are_exact_for_polynomials():
