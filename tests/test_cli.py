@@ -44,6 +44,7 @@ def test_json_summary_has_the_keys_of_the_interface(finished):
     assert {"scene", "version", "store", "converged", "wall_s", "compile_s", "steps", "grid", "hertz", "left_out", "steady",
             "transient", "fatigue", "work", "clamps"} <= summary.keys()
     assert summary["steps"] == 10 and summary["grid"] == {"nx": 65, "ny": 17, "nz": 1}
+    assert summary["steady"]["film_formula_m"] == pytest.approx(summary["steady"]["h_c_m"], rel=0.2)
     assert set(summary["steady"]["error"]) == {"h_c_m", "h_min_m", "p_max_Pa"}
     assert {"Fi_max", "findley_stress_max_Pa", "x_m", "y_m", "plane_theta_deg", "plane_phi_deg", "surface_angle_deg",
             "sigma1_max_Pa", "kappa_F", "sigma_eF_Pa"} <= set(summary["fatigue"])
