@@ -21,6 +21,8 @@ def summary_table(summary):
     for key, name, factor, unit in (("h_c_m", "steady h_c", 1e6, "um"), ("h_min_m", "steady h_min", 1e6, "um"),
                                     ("p_max_Pa", "steady p_max", 1e-9, "GPa")):
         rows.append((name, f"{steady[key] * factor:.4f}{_plus(steady['error'].get(key), factor)} {unit}"))
+    if "film_formula_m" in steady:
+        rows.append(("h_c by formula (Moes / Nijenbanning)", f"{steady['film_formula_m'] * 1e6:.4f} um"))
     rows.append(("steady friction coefficient", _friction(steady, "friction_coefficient")))
     rows += _heat_rows("steady", steady)
     rows += _passage_rows(summary)

@@ -17,7 +17,7 @@ def commit():
 def _written():
     """What is in the file, if somebody filled it in."""
     text = FILE.read_text().strip() if FILE.is_file() else "$"
-    return None if text.startswith("$") or text == UNKNOWN else text
+    return None if text.startswith("$") or text == UNKNOWN else text[:LENGTH] + CHANGED * text.endswith(CHANGED)
 
 
 def _of_checkout(root):

@@ -104,6 +104,7 @@ class Passage:
 
     def _heat(self, state):
         heat = FilmHeat(self.levels, self.dT * self.scales.t)
+        self.levels.use_film(*heat.laws)
         self.levels.put(fields.P, self.P)
         heat.restore(state)
         self.heat_guess = Guess(HEAT_ORDER, heat.T, self._moved(self.step), state, "T")

@@ -47,6 +47,7 @@ def test_json_summary_has_the_keys_of_the_interface(finished):
     assert summary["cells"] == {"nx": 64, "ny": 16}
     assert set(summary["steady"]["error"]) == {"h_c_m", "h_min_m", "p_max_Pa", "friction_coefficient"}
     assert set(summary["transient"]["error"].values()) == {None}  # so short a run has no companions, and nobody asked for them
+    assert summary["steady"]["film_formula_m"] == pytest.approx(summary["steady"]["h_c_m"], rel=0.2)
     assert {"Fi_max", "findley_stress_max_Pa", "x_m", "y_m", "plane_theta_deg", "plane_phi_deg", "surface_angle_deg",
             "sigma1_max_Pa", "kappa_F", "sigma_eF_Pa"} <= set(summary["fatigue"])
     assert summary["transient"]["load_error_max"] < 1e-6 and summary["transient"]["mass_error_max"] < 1e-6

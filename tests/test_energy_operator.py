@@ -103,6 +103,7 @@ def solved(cells, courant=0.8):
     s, G = levels.scales, levels.G
     dt = courant * levels.dx
     heat = FilmHeat(levels, dt * s.a / s.u_m)
+    levels.use_film(*heat.laws)
     exact = Exact(heat, levels, levels.X, levels.Y)
     heat.start()
     for past, (T, p, below) in ((1, (slots.TN, slots.PN, slots.MSN)), (2, (slots.TNN, slots.PNN, slots.MSNN))):

@@ -9,20 +9,29 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "tehl_taichi"
-LAYERS = ["scene", "physics", "kernels", "solvers", "simulation", "post", "companions", "io", "cli"]
+# every module and folder of the package, each imports from those before it only
+LAYERS = ["errors", "commit", "scene", "runtime", "launches", "tables", "physics", "precision", "kernels", "solvers",
+          "snapshot", "readings", "simulation", "post", "companions", "io", "profiles", "cli"]
+ENTRIES = {"__init__", "__main__"}  # of the package: they may lead anywhere, lazily
+FOLDERS = {ROOT / "cli": "tehl_cli", ROOT / "profiles": "tehl_taichi.profiles", PACKAGE: "tehl_taichi"}
 
 
 def layer_of(module):
-    parts = module.split(".")
-    if parts[0] == "tehl_cli":
+    """Of a dotted name; None for what is not ours, and for the package itself."""
+    top, *parts = module.split(".")
+    if top == "tehl_cli":
         return "cli"
-    return parts[1] if parts[0] == "tehl_taichi" and len(parts) > 1 and parts[1] in LAYERS else None
+    return parts[0] if top == "tehl_taichi" and parts and parts[0] in modules_on_top() else None
+
+
+def modules_on_top():
+    """Names directly below the package, as they are on the disk (a public function may be imported from it, too)."""
+    return {path.stem for path in PACKAGE.iterdir() if path.suffix in ("", ".py")} - ENTRIES | {"profiles"}
 
 
 def module_of(path):
-    top = "tehl_cli" if path.is_relative_to(ROOT / "cli") else "tehl_taichi"
-    base = ROOT / "cli" if top == "tehl_cli" else PACKAGE
-    return ".".join((top, *path.relative_to(base).with_suffix("").parts))
+    base = next(folder for folder in FOLDERS if path.is_relative_to(folder))
+    return ".".join((FOLDERS[base], *path.relative_to(base).with_suffix("").parts))
 
 
 def imports(path):
@@ -34,13 +43,18 @@ def imports(path):
             yield from (alias.name for alias in node.names)
 
 
-SOURCES = sorted([*PACKAGE.rglob("*.py"), *(ROOT / "cli").rglob("*.py")])
+SOURCES = sorted(path for folder in FOLDERS for path in folder.rglob("*.py"))
+
+
+def test_every_module_has_its_layer():
+    assert modules_on_top() - {"__pycache__"} == set(LAYERS) - {"cli"}
 
 
 @pytest.mark.parametrize("path", SOURCES, ids=lambda p: str(p.relative_to(ROOT)))
 def test_imports_only_from_layers_above(path):
     own = layer_of(module_of(path))
     if own is None:
+        assert path.parent == PACKAGE and path.stem in ENTRIES
         return
     for name in imports(path):
         other = layer_of(name)

@@ -30,7 +30,7 @@ def test_companions_go_the_same_way_on_half_and_quarter_the_cells():
     from tehl_taichi.companions import scenes
     from tehl_taichi.scene.route import total_steps
 
-    own = scene("gear").replace(**{"grid.nx": 128, "grid.ny": 64, "time.steps": 24, "fatigue.depths": [], "feature.width": 4e-4})
+    own = scene("gear").replace(width=4e-4, **{"grid.nx": 128, "grid.ny": 64, "time.steps": 24, "fatigue.depths": []})
     (quarter, half), refused = scenes(own)
     assert not refused
     for companion, part in ((half, 2), (quarter, 4)):

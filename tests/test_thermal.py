@@ -23,7 +23,21 @@ def film(description, nx):
     from tehl_taichi.solvers.levels import Levels
 
     levels = Levels(description, Scales.of(description), nx, 0)
-    return FilmHeat(levels, time_step(description, levels.scales, levels.dx)), levels
+    heat = FilmHeat(levels, time_step(description, levels.scales, levels.dx))
+    levels.use_film(*heat.laws)
+    return heat, levels
+
+
+def test_the_heat_enters_the_pressure_problem_only_where_it_is_told_to():
+    from tehl_taichi.solvers.heat import FilmHeat
+    from tehl_taichi.solvers.levels import Levels
+
+    levels = Levels(thermal(), Scales.of(thermal()), 64, 0)
+    before = levels.laws, levels.evaluate_residual
+    heat = FilmHeat(levels, 1e-6)
+    assert (levels.laws, levels.evaluate_residual) == before
+    levels.use_film(*heat.laws)
+    assert levels.laws is heat.laws[0] and levels.evaluate_residual is not before[1]
 
 
 def test_chebyshev_matrices_are_exact_for_polynomials():

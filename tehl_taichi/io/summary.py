@@ -4,6 +4,7 @@ import numpy as np
 
 from tehl_taichi import __version__
 from tehl_taichi.io import judge
+from tehl_taichi.physics.formula import central_film
 from tehl_taichi.scene.limits import GAMMA_MEASURED, P_MEASURED
 from tehl_taichi.scene.scales import Scales
 
@@ -63,6 +64,7 @@ def _steady(store, extra):
     names = ["h_c_m", "h_min_m", "p_max_Pa", "load_error", "mass_error", "friction_coefficient"]
     names += [] if store.scene.isothermal else HEAT
     out = {name: float(store.scalar(name)[0]) for name in names}
+    out["film_formula_m"] = central_film(store.scene)
     out["error"], out["unknown"] = extra["steady_error"], extra.get("steady_unknown", {})
     return out
 

@@ -30,7 +30,24 @@ from tehl_taichi.kernels.slots import (
     U,
     slots_around,
 )
-from tehl_taichi.kernels.step import B_A, B_B, FAR, INV_X, INV_Y, ITERATIONS, NEAR, RATE, TOLERANCE
+from tehl_taichi.kernels.step import (
+    A_HERTZ,
+    B_A,
+    B_B,
+    CENTRE,
+    FAR,
+    H_HERTZ,
+    INLET,
+    INV_X,
+    INV_Y,
+    ITERATIONS,
+    LN_ETA0,
+    NEAR,
+    P_HERTZ,
+    RATE,
+    SLIP,
+    TOLERANCE,
+)
 from tehl_taichi.physics.density import expansivity
 from tehl_taichi.physics.elementary import log
 from tehl_taichi.physics.heat import conductivity, heat_capacity
@@ -195,15 +212,13 @@ def energy(S: ti.template(), Z: ti.template(), X: ti.template(), G: Table, w: Fl
            D2: Coefficients, nz: ti.i32, oil: ti.template(), rheology: ti.template(), scale: Coefficients, step: Coefficients,
            out: Table):
     """One implicit step of every column, by Newton, after velocities and departures; out[tile] = (largest change of T against
-    the last iterate, columns that did not converge, nodes held in range).
-
-    scale[0] = p_H, h, a, ln eta0, slip, inlet temperature, column of X = 0.
-    """
+    the last iterate, columns that did not converge, nodes held in range)."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for c in range(tiles(nx, ny)):
         s, first, last = tile(c, nx)
-        p_H, h_scale, a, ln_eta0, slip = scale[0, 0], scale[0, 1], scale[0, 2], scale[0, 3], scale[0, 4]
+        p_H, h_scale, a = scale[0, P_HERTZ], scale[0, H_HERTZ], scale[0, A_HERTZ]
+        ln_eta0, slip = scale[0, LN_ETA0], scale[0, SLIP]
         floor, dx, dy, eta0 = G[0, FLOOR], G[0, DX], G[0, DY], ti.exp(ln_eta0)
         largest, failed, clamped = 0.0, 0.0, 0.0
         for i in range(first, last):
@@ -212,7 +227,7 @@ def energy(S: ti.template(), Z: ti.template(), X: ti.template(), G: Table, w: Fl
             p, h = S[P, k] * p_H, ti.max(S[H, k], floor) * h_scale
             px, py = gradients(S, k, i, nx, s, ny, nx + 1, dx, dy)
             fade = V(1.0)
-            if i > scale[0, 6]:
+            if i > scale[0, CENTRE]:
                 fade = S[P, k] / (S[P, k] + FADE)
             mu_stress, transfer = ti.min(rheology.mu_boundary * p, shear_limit(rheology, p)), conductivity(oil, p) / h
             prepare(Z, q, s, i, nx, ny, nz, oil, p, ln_eta0, step)
@@ -226,7 +241,7 @@ def energy(S: ti.template(), Z: ti.template(), X: ti.template(), G: Table, w: Fl
                 assemble_walls(Z, X, q, c, nz, D1, transfer, step[0, B_A], step[0, B_B])
                 eliminate(X, c, nz)
                 previous = moved
-                moved, held = update(Z, X, q, c, s, ny, nz, scale[0, 5] - WARM)
+                moved, held = update(Z, X, q, c, s, ny, nz, scale[0, INLET] - WARM)
                 clamped += held
                 # of the next step: quadratic at first, then as the last two; saves the step that would only confirm
                 expected = QUADRATIC * moved * moved if count == 1 else moved * ti.min(moved / previous, 1.0)

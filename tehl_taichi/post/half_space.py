@@ -7,6 +7,7 @@ import numpy as np
 import pyfftw
 
 from tehl_taichi.post import rectangle
+from tehl_taichi.solvers.transforms import even_fast_length
 
 COMPONENTS = ("sxx", "syy", "szz", "sxy", "sxz", "syz")
 
@@ -74,7 +75,7 @@ class _Convolution:
 
     def __init__(self, nx, ny, dx, dy, nu, mirrored, depth):
         self.nx, self.ny, self.mirrored, self.depth = nx, ny, mirrored, depth
-        self.shape = even_fast(2 * nx - 1), even_fast(3 * ny - 2)
+        self.shape = even_fast_length(2 * nx - 1), even_fast_length(3 * ny - 2)
         self._plan()
         self.spectra = self._spectra(dx, dy, nu)
 
@@ -129,13 +130,6 @@ def _lags(n, negative=None):
     """Lags in cells in wrapped order, -negative+1 ... n-negative (default: half of them negative)."""
     k = np.arange(n)
     return np.where(k <= n - (negative or n // 2), k, k - n)
-
-
-def even_fast(n):
-    n = pyfftw.next_fast_len(n)
-    while n % 2:
-        n = pyfftw.next_fast_len(n + 1)
-    return n
 
 
 def spacing(v):

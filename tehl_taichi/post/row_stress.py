@@ -7,7 +7,8 @@ fiftieth of the work on 64 rows, since only transforms along x are left and each
 import numpy as np
 
 from tehl_taichi.post import rectangle
-from tehl_taichi.post.half_space import even_fast, spacing
+from tehl_taichi.post.half_space import spacing
+from tehl_taichi.solvers.transforms import even_fast_length
 
 LOADS = (rectangle.pressure_at_depth, rectangle.shear_x_at_depth, rectangle.shear_y_at_depth)
 SIGNS = (1, 1, -1)  # of p, q_x and q_y in the mirror image about the first row
@@ -21,7 +22,7 @@ class RowStress:
 
     def __init__(self, x, y, nu, line, mirrored, depths, row):
         self.x, self.y, self.nu, self.line = np.asarray(x, float), np.asarray(y, float), float(nu), line
-        self.size = even_fast(2 * self.x.size - 1)
+        self.size = even_fast_length(2 * self.x.size - 1)
         lags = np.arange(-self.x.size + 1, self.x.size) * spacing(self.x)
         self.strips = np.stack([self._strips(lags, z) for z in depths], axis=1) if line else None
         self.rows = None

@@ -2,8 +2,6 @@
 
 import math
 
-import numpy as np
-
 
 def hertz_line(load, R, E):
     """(half-width a, maximum pressure p_H) for load per length f (N/m), E' as in 2/E' = sum (1-nu^2)/E [Eq 1.6]."""
@@ -65,21 +63,6 @@ def hertz_ellipse(load, R_x, R_y, E):
 def hertz_ellipse_load(p_H, R_x, R_y, E):
     """Load (N) that gives the maximum pressure p_H: it grows with its cube."""
     return (p_H / hertz_ellipse(1.0, R_x, R_y, E)[2]) ** 3
-
-
-def hertz_pressure_point(r, a, p_H):
-    """Pressure at radius r of a circular Hertz contact."""
-    return p_H * np.sqrt(np.maximum(1 - (r / a) ** 2, 0.0))
-
-
-def dowson_higginson(G, U, W):
-    """H_c = h_c/R' of a line contact, 2.65 G^0.54 U^0.7 W^-0.13 [Eq 1.7]; U with eta0 u_m/(E' R')."""
-    return 2.65 * G**0.54 * U**0.7 * W**-0.13
-
-
-def hamrock_dowson(G, U, W, k=1.0):
-    """H_c = h_c/R_x of an elliptic contact, 2.69 U^0.67 G^0.53 W^-0.067 (1 - 0.61 exp(-0.73 k)) (1977)."""
-    return 2.69 * U**0.67 * G**0.53 * W**-0.067 * (1 - 0.61 * math.exp(-0.73 * k))
 
 
 def nijenbanning(M, L):

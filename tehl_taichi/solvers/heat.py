@@ -10,9 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl_taichi import tables
-from tehl_taichi.kernels import energy, fields, film, lanes, paths, slots
+from tehl_taichi.kernels import energy, fields, film, lanes, paths, slots, step
 from tehl_taichi.kernels import solids as solid_kernels
-from tehl_taichi.kernels.step import STEP_NUMBERS
 from tehl_taichi.launches import Carriers, bind
 from tehl_taichi.scene.route import step_cells
 from tehl_taichi.solvers import solids
@@ -119,10 +118,16 @@ def _march(heat, steps, dt):
     return total / steps
 
 
-class FilmHeat:
-    """Temperatures on the finest grid of `levels`, whose laws it takes over.
+def _fill(table, numbers):
+    """Set the entries of a table of one row by {name: number}."""
+    table[0, list(numbers)] = list(numbers.values())
 
-    dt_s: the time step (s) that the memory of the bodies is made for; shorter ones may be taken too.
+
+class FilmHeat:
+    """Temperatures on the finest grid of `levels`.
+
+    laws: launches of its density and viscosity and of their slopes, for :meth:`Levels.use_film`. dt_s: the time step (s) that
+    the memory of the bodies is made for; shorter ones may be taken too.
     """
 
     # of the state, (..., ny+1, nx+1)
@@ -158,12 +163,13 @@ class FilmHeat:
         table, laws = (v.S, self.Z, v.G), (self.nz, scene.oil, scene.rheology)
         nested = np.ascontiguousarray(self.weights[:, None] * self.C)
         args = (*table, nested, self.weights, self.zeta, *laws, s.p_H, s.h, v.ln_eta0, o.u_a, -o.u_s, o.u_m)
-        v.use_film(bind(film.laws, *args, 0), bind(film.laws, *args, 1))
+        self.laws = bind(film.laws, *args, 0), bind(film.laws, *args, 1)
         self._velocities = bind(film.velocities, *table, self.C, self.weights, self.zeta, *laws, s.p_H, s.h, s.a, v.ln_eta0,
                                 o.u_a, -o.u_s)
-        centre = float(np.searchsorted(v.X, 0.0))
-        self.scale = np.array([[s.p_H, s.h, s.a, v.ln_eta0, -o.u_s, self.inlet, centre]])
-        self.step_numbers, self.partial = np.zeros((1, STEP_NUMBERS)), np.zeros((self.tiles, 3))
+        self.scale, self.step_numbers = np.zeros((1, step.SCENE_NUMBERS)), np.zeros((1, step.STEP_NUMBERS))
+        _fill(self.scale, {step.P_HERTZ: s.p_H, step.H_HERTZ: s.h, step.A_HERTZ: s.a, step.LN_ETA0: v.ln_eta0,
+                           step.SLIP: -o.u_s, step.INLET: self.inlet, step.CENTRE: np.searchsorted(v.X, 0.0)})
+        self.partial = np.zeros((self.tiles, 3))
         self._energy = bind(energy.energy, v.S, self.Z, self.X, v.G, self.weights, self.zeta, self.D1, self.D2, *laws,
                             self.scale, self.step_numbers, self.partial)
         self._departures = bind(paths.departures, v.S, self.Z, v.G, self.nz, s.p_H, self.inlet, self.step_numbers)
@@ -186,7 +192,7 @@ class FilmHeat:
         v.laws()
         self._velocities()
         self._accept()
-        self.T = self.T_before = self.temperature()
+        self.T = self.temperature()
 
     def begin(self, dt):
         """Prepare a step of dt s: what the bodies remember, A and B of both surfaces."""
@@ -202,8 +208,10 @@ class FilmHeat:
                 B[body] += last + float((weight * decay) @ solids.steady_modes(self.dt, depth))
             self._surface[body]()
         rate, (near, *far) = bdf([dt, self.dt_before] if self.dt_before else [dt])
-        self.step_numbers[0] = [rate, 1 / (v.dx * a), 1 / (v.dy * a), *B, COLUMN_TOLERANCE * v.scene.thermal.tolerance,
-                                COLUMN_ITERATIONS, dt, dt + self.dt_before, near, sum(far)]
+        _fill(self.step_numbers, {
+            step.RATE: rate, step.INV_X: 1 / (v.dx * a), step.INV_Y: 1 / (v.dy * a), step.B_A: B[0], step.B_B: B[1],
+            step.TOLERANCE: COLUMN_TOLERANCE * v.scene.thermal.tolerance, step.ITERATIONS: COLUMN_ITERATIONS,
+            step.BACK: dt, step.BACK_2: dt + self.dt_before, step.NEAR: near, step.FAR: sum(far)})
 
     def _position(self, body):
         """Whole cells that the grid overtakes material strips of the body by in this step, and where they lie then."""
@@ -240,7 +248,7 @@ class FilmHeat:
         self.offset, self.dt_before = self.until, self.dt_now
         self._velocities()
         self._accept()
-        self.T_before, self.T = self.T, self.temperature()
+        self.T = self.temperature()
 
     def warm_resting(self):
         """Give the bodies whose surfaces rest the memory of a long time with the present heat."""
@@ -254,7 +262,7 @@ class FilmHeat:
 
     def state(self):
         """All that is needed to go on, as arrays."""
-        return {"heat_T": self.T, "heat_T_before": self.T_before,
+        return {"heat_T": self.T, "heat_T_before": self.slots(slots.TNN * self.nz, self.nz),
                 "heat_below": self.slots(slots.MSN * self.nz, self.nz),
                 "heat_below_before": self.slots(slots.MSNN * self.nz, self.nz),
                 "heat_p_before": self.slots(self.single + slots.PNN, 1), "heat_memory": self.memory(),
@@ -270,7 +278,7 @@ class FilmHeat:
         slots.put_slots(self.Z, G, self.single + slots.PN, 1, v.get(fields.P)[None] * v.scales.p_H)
         slots.put_slots(self.Z, G, self.single + slots.PNN, 1, np.ascontiguousarray(state["heat_p_before"]))
         slots.put_slots(self.F, G, 0, KEPT, np.ascontiguousarray(state["heat_memory"]))
-        self.offset, self.T, self.T_before = (np.array(state[key]) for key in ("heat_offset", "heat_T", "heat_T_before"))
+        self.offset, self.T = np.array(state["heat_offset"]), np.array(state["heat_T"])
         self.dt_before = float(state["heat_dt_before"])
 
     def memory(self):

@@ -63,9 +63,11 @@ class Levels:
         for l in range(len(self.sizes)):
             nx, ny, dx, dy = self.grid(l)
             rows = ny + 1 if self.line else ny
-            near, floor = self.near_kernel(l)[0], self.scene.rheology.film_floor
-            G[l, : fields.ROW0] = off, nx, ny, rows, dx, dy, 0.0, 0.0, *near, floor, 1.0, 0.0
-            G[l, fields.LINES] = l in self.lines
+            near = self.near_kernel(l)[0]
+            numbers = {fields.OFF: off, fields.NX: nx, fields.NY: ny, fields.JN: rows, fields.DX: dx, fields.DY: dy,
+                       fields.K0: near[0], fields.K1: near[1], fields.FLOOR: self.scene.rheology.film_floor,
+                       fields.LINES: l in self.lines}
+            G[l, list(numbers)] = list(numbers.values())
             off += columns(nx, ny)
         return G
 

@@ -60,6 +60,7 @@ def solve_steady(scene, scales, nx, ny, look=None):
         report = _first(solver) if P is None else _next(solver, P, H0)
         if report.converged and not scene.isothermal and nx // size[0] <= FINEST_THERMAL:
             heat = FilmHeat(solver.levels, time_step(scene, scales, solver.levels.dx))
+            solver.levels.use_film(*heat.laws)
             report = settle(solver.levels, heat, lambda solver=solver: _again(solver), T)
             T = np.stack([refine(layer) for layer in heat.T])
         # a grid too coarse for the outlet of this film is no start for the next one, nor a step of its error
