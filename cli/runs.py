@@ -209,10 +209,15 @@ def _changes(options, grid, settings):
     from tehl_taichi.scene.given import settled
 
     used = [(key, value) for key, value in options.items() if value is not None]
-    given = [(WORDS.get((key, value), f"--{key.replace('time.', '').replace('_', '-')} {value:g}"), key, value)
-             for key, value in used]
+    given = [(_typed(key, value), key, value) for key, value in used]
     given += [(f"--grid {grid}", key, value) for key, value in _grid(grid).items()]
     return settled([*given, *_settings(settings)])
+
+
+def _typed(key, value):
+    """An option as it was typed."""
+    shown = value if isinstance(value, str) else f"{value:g}"
+    return WORDS.get((key, value), f"--{key.rpartition('.')[2].replace('_', '-')} {shown}")
 
 
 def _grid(text):

@@ -294,7 +294,6 @@ def test_damaged_heights_in_a_store_are_refused(moved, tmp_path):
 
 def test_a_store_of_the_first_version_stays_readable(tmp_path):
     """There `height` was m per unit of the file, the heights were not kept and pixel was 1e-6 unless told."""
-
     from tehl_taichi.io.maps import scene_of
 
     data = with_map(wave(tmp_path)).to_dict()
