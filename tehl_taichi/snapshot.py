@@ -10,6 +10,7 @@ import numpy as np
 
 from tehl_taichi.kernels import fields, traction
 from tehl_taichi.solvers.levels import load_weights
+from tehl_taichi.solvers.profile import largest
 from tehl_taichi.solvers.steady import scalars
 
 
@@ -53,7 +54,7 @@ def take(solver, heat, step, time_s, feature_x, report, started, make_state):
     numbers = _scalars(solver, report, stress)
     if heat:
         si.update(_temperatures(heat, solver.levels.scene.output.profiles))
-        numbers.update(film_max_C=float(heat.T.max()), surface_a_max_C=float(si["temperature_a"].max()),
+        numbers.update(film_max_C=largest(heat.T), surface_a_max_C=float(si["temperature_a"].max()),
                        surface_b_max_C=float(si["temperature_b"].max()), temperature_change_K=heat.report.change,
                        clamped=float(heat.report.clamped))
     numbers["wall_s"] = time.perf_counter() - started

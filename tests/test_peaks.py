@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tehl_taichi.physics.peaks import peak, unresolved_peak
+from tehl_taichi.physics.peaks import peak, ripple, unresolved_peak
 
 X = np.linspace(-1.5, 1.5, 97)[:, None]
 Y = np.linspace(0, 1, 17)[None, :]
@@ -37,3 +37,16 @@ def test_smooth_pressures_are_resolved():
     assert not unresolved_peak(hertz()) and not unresolved_peak(hertz()[:, :1])
     bump = 2 * np.exp(-((X - 0.3) ** 2 + Y**2) / 0.05**2)  # half of it 0.042 away: 1.3 cells
     assert unresolved_peak(hertz() + bump) and not unresolved_peak(hertz() + bump.clip(0, 0.8))
+
+
+def test_a_ripple_is_told_from_spikes_and_edges():
+    """A wave of 1 % over ten nodes is seen with its amplitude; kinks, a spike, a jump and the edge of Hertz are none."""
+    wave = np.zeros_like(hertz())
+    wave[40:54, 2:5] = (0.01 * (-1.0) ** np.arange(14))[:, None]
+    assert ripple(hertz() + wave) == pytest.approx(0.01, rel=0.05)
+    assert ripple(-hertz() - wave) == pytest.approx(0.01, rel=0.05)
+    spike, jump, kink = (np.zeros_like(hertz()) for _ in range(3))
+    spike[60, 3], jump[60:, 3], kink[:, :] = 1.0, 0.5, np.abs(X - 0.2)
+    for quiet in (0 * hertz(), spike, jump, kink):
+        assert ripple(hertz() + quiet) < 1e-4
+    assert ripple(wave[:9]) == 0.0  # too few nodes to tell

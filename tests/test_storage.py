@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tehl_taichi.solvers.storage import Storage, bdf, carried, third_order
+from tehl_taichi.solvers.storage import Storage, bdf, carried, followed, third_order
 
 
 @pytest.mark.parametrize("lengths", [[0.3], [0.3, 0.2], [0.3, 0.2, 0.5]])
@@ -18,6 +18,17 @@ def test_backward_differences_are_exact_for_polynomials(lengths):
 def test_backward_differences_of_equal_steps():
     assert bdf([0.5])[0] == 2 and bdf([0.5, 0.5])[0] == pytest.approx(3)
     assert bdf([1, 1, 1])[1] == pytest.approx([18 / 11, -9 / 11, 2 / 11])
+
+
+@pytest.mark.parametrize("cells", [1.0, 2.0])
+def test_whole_cells_take_out_half_of_the_shortest_wave(cells):
+    """And nothing of a polynomial of degree 7; parts of a cell are interpolated as they are."""
+    i, inner = np.arange(40), slice(8, -8)
+    wave = (-1.0) ** i
+    assert followed(wave, cells)[inner] == pytest.approx(0.5 * carried(wave, cells)[inner], abs=1e-12)
+    smooth = ((i - 20) / 20.0) ** 7
+    assert followed(smooth, cells)[inner] == pytest.approx(carried(smooth, cells)[inner], abs=1e-12)
+    assert np.array_equal(followed(wave, 0.37), carried(wave, 0.37))
 
 
 @pytest.mark.parametrize("cells", [0.0, 1.0, 0.37, 1.064, 3.5])

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from tehl_taichi.io import film_judge
 from tehl_taichi.scene.limits import GAMMA_MEASURED, P_MEASURED
 
 
@@ -52,4 +53,4 @@ def worst_below(store, summary):
 
 
 # functions of (store, summary) that give their sentences
-CHECKS = (worst_below, beyond_measured, held_temperatures, unknown_errors)
+CHECKS = (worst_below, *film_judge.CHECKS, beyond_measured, held_temperatures, unknown_errors)

@@ -1,0 +1,62 @@
+"""What is doubtful in the film and the pressure of a stored run: friction, peaks and ripples; functions of (store, summary)
+that give their sentences."""
+
+import numpy as np
+
+from tehl_taichi.physics.peaks import peak, ripple, unresolved_peak
+from tehl_taichi.scene.scales import Scales
+
+MOST_FRICTION = 0.2  # of a film: no oil is known to bear more than about 0.12 of the pressure, traction fluids included
+MOST_RIPPLE = 0.005  # of the largest pressure: a tenth of what a passing feature changes, ten times what resolved passages show
+MOMENTS = 24  # of a passage that are looked at
+
+
+def friction(store, summary):
+    """Of the film alone: solid contact has the coefficient that the scene gives it."""
+    rheology, steady = store.scene.rheology, slice(0, 1)
+    film = store.scalar("friction_coefficient") - rheology.mu_boundary * store.scalar("contact_load_fraction")
+    found = [f"{when} {film[part].max():.3g}" for when, part in (("steady", steady), ("in the passage up to", slice(1, None)))
+             if film[part].size and film[part].max() > MOST_FRICTION]
+    if found:
+        law = ("a Newtonian film (rheology.law = newtonian) has no limit; its flow holds, its friction does not"
+               if rheology.law == "newtonian" else f"the constants of the law {rheology.law!r} allow it")
+        yield f"the friction coefficient ({', '.join(found)}) is more than {MOST_FRICTION:g}, which no oil bears: {law}"
+
+
+def unresolved(store, summary):
+    """Of the steady state, and of the moment with the largest pressure of the passage."""
+    for n in dict.fromkeys((0, int(np.argmax(store.scalar("p_max_Pa"))))):
+        p = store.fields(n, ("pressure",))["pressure"]
+        if unresolved_peak(p):
+            yield f"{_where(store, n, p)} is one to two cells wide{_because(store, p)}"
+
+
+def _where(store, n, p):
+    a = Scales.of(store.scene).a
+    when = f"of the passage (feature at {store.feature_x(n) / a:.2f} a)" if n else "of the steady state"
+    return f"p_max {p.max() / 1e9:.2f} GPa {when}, at X = {store.x[peak(p)[0]] / a:.2f},"
+
+
+def _because(store, p):
+    """At the outlet the frozen film ends in a free edge: an inverse square root, which only a shear limit makes finite."""
+    scene, at_outlet = store.scene, store.x[peak(p)[0]] > 0
+    if not at_outlet or scene.shear_law.law != "newtonian":
+        return ": not resolved; take a finer grid"
+    advice = ("without slip no shear limit acts, and there is no finite value" if scene.operation.u_s == 0 else
+              "oil without a shear limit has no finite value there; take a limiting law (rheology.law)")
+    return f" and grows like 1/sqrt(cell): not resolved; {advice}"
+
+
+def ripples(store, summary):
+    """From node to node along x, at some moments."""
+    worst, at, largest = 0.0, 0, float(store.scalar("p_max_Pa").max())
+    for n in np.unique(np.linspace(0, len(store) - 1, MOMENTS).astype(int)):
+        size = ripple(store.fields(int(n), ("pressure",))["pressure"])
+        worst, at = max((worst, at), (size, int(n)))
+    if worst > MOST_RIPPLE * largest:
+        where = f" (feature at {store.feature_x(at) / Scales.of(store.scene).a:.2f} a)" if at else ""
+        yield (f"the pressure ripples from node to node along x by up to {worst / 1e9:.3f} GPa{where}: the "
+               "grid's shortest wave, not a result; try another time.courant or a finer grid")
+
+
+CHECKS = (friction, unresolved, ripples)

@@ -1,0 +1,101 @@
+"""What the judge of results says about friction, peaks and ripples, on made-up stores."""
+
+import numpy as np
+import pytest
+
+from tehl_taichi.io import film_judge
+from tehl_taichi.io import judge as judge_of_results
+from tehl_taichi.scene import scene
+from tehl_taichi.scene.scales import Scales
+
+
+class Made:
+    """A store of two entries on 97 x 9 nodes."""
+
+    def __init__(self, description, friction=(0.05, 0.06), contact=(0.0, 0.0), pressure=None):
+        self.scene, a = description, Scales.of(description).a
+        self.x, self.at = np.linspace(-2.5, 1.5, 97) * a, np.array([-1.6, 0.3]) * a
+        smooth = 1.9e9 * np.sqrt(np.maximum(1 - (self.x / a) ** 2, 0))[:, None] * np.ones(9)
+        self.pressure = [smooth, smooth * 1.2 if pressure is None else pressure(self.x / a, smooth)]
+        self.series = {"friction_coefficient": np.array(friction), "contact_load_fraction": np.array(contact),
+                       "p_max_Pa": np.array([p.max() for p in self.pressure])}
+
+    def __len__(self):
+        return 2
+
+    def scalar(self, name):
+        return self.series[name]
+
+    def feature_x(self, n):
+        return self.at[n]
+
+    def fields(self, n, names):
+        assert names == ("pressure",)
+        return {"pressure": self.pressure[n]}
+
+
+def said(store):
+    return judge_of_results.warnings(store, {})
+
+
+def gear(**changes):
+    return scene("gear").replace(**{"thermal.on": False, **changes})
+
+
+def test_a_plausible_run_has_no_warnings_of_its_film():
+    assert [text for check in film_judge.CHECKS for text in check(Made(gear()), {})] == []
+
+
+def test_friction_that_no_oil_bears():
+    store = Made(gear(**{"rheology.law": "newtonian"}), friction=(1.8, 33.3))
+    text, = (text for text in said(store) if "friction" in text)
+    assert "steady 1.8" in text and "33.3" in text and "more than 0.2" in text and "newtonian" in text
+    text, = (text for text in said(Made(gear(), friction=(0.05, 0.21))) if "friction" in text)
+    assert "steady" not in text and "'limiting'" in text
+    assert not any("friction" in text for text in said(Made(gear(), friction=(0.05, 0.19))))
+
+
+def test_friction_of_solid_contact_is_not_the_films():
+    """A third of the load on touching surfaces with 0.6: their part is 0.2."""
+    description = gear(**{"rheology.mu_boundary": 0.6})
+    assert not any("friction" in text for text in said(Made(description, friction=(0.05, 0.25), contact=(0.0, 1 / 3))))
+    assert any("friction" in text for text in said(Made(description, friction=(0.05, 0.45), contact=(0.0, 1 / 3))))
+
+
+def front(X, smooth):
+    """A plateau with a free edge at X = 0.8."""
+    out = smooth.copy()
+    out[(X > 0.4) & (X < 0.8), 4] = 4e9
+    return out
+
+
+@pytest.mark.parametrize("changes, advice", [
+    ({"rheology.law": "newtonian"}, "1/sqrt(cell): not resolved; oil without a shear limit has no finite value"),
+    ({"srr": 0.0}, "1/sqrt(cell): not resolved; without slip no shear limit acts"), ({}, "not resolved; take a finer grid")])
+def test_a_peak_at_a_free_edge(changes, advice):
+    def tip(X, smooth):
+        out = front(X, smooth)
+        out[np.flatnonzero(X < 0.8)[-1], 4] = 5e9
+        return out
+
+    text, = (text for text in said(Made(gear(**changes), pressure=tip)) if "p_max" in text)
+    assert "5.00 GPa of the passage (feature at 0.30 a), at X = 0.79" in text and advice in text
+
+
+def test_an_unresolved_peak_inside_wants_a_finer_grid():
+    def needle(X, smooth):
+        out = smooth.copy()
+        out[30, 4] = 5e9
+        return out
+
+    text, = (text for text in said(Made(gear(srr=0.0), pressure=needle)) if "p_max" in text)
+    assert "at X = -1.25" in text and "finer grid" in text and "sqrt" not in text
+
+
+def test_a_ripple_of_the_pressure():
+    def wavy(size):
+        return lambda X, smooth: smooth * 1.2 + size * ((-1.0) ** np.arange(97) * (abs(X) < 0.5))[:, None]
+
+    text, = (text for text in said(Made(gear(), pressure=wavy(30e6))) if "ripples" in text)
+    assert "by up to 0.030 GPa (feature at 0.30 a)" in text
+    assert not any("ripples" in text for text in said(Made(gear(), pressure=wavy(8e6))))
