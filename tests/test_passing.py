@@ -112,7 +112,8 @@ def test_features_beside_the_contact_of_a_ball():
     bumps = scene("ridge-on-ball").replace(**{"feature.shape": "cosine", "grid.ny": 64, "grid.nx": 128})
     far = bumps.replace(**{"feature.y": 1.5 * Scales.of(bumps).b})
     assert any("beside the contact" in line for line in far.warnings())
-    assert not any("beside the contact" in line for line in bumps.warnings())
+    half = bumps.replace(**{"feature.y": 1.1 * Scales.of(bumps).b})  # reaches 0.7 of its width into it
+    assert not any("beside the contact" in line for s in (bumps, half) for line in s.warnings())
 
 
 def test_thousands_of_features_are_refused_at_once():

@@ -6,6 +6,7 @@ from tehl_taichi.errors import SceneError
 from tehl_taichi.scene import given
 from tehl_taichi.scene import oil as oils
 from tehl_taichi.scene.checks import key_shown, nearest
+from tehl_taichi.scene.feature import SHAPES, USED_BY
 from tehl_taichi.scene.route import ALL
 
 
@@ -19,16 +20,28 @@ def applied(data, changes):
 
 
 def check_effect(scene, changes):
-    """Refuse changes that the rest of the scene overrules."""
-    speeds = [key for key in ("operation.u_m", *given.BY_SURFACE) if key in changes]
-    if speeds and scene.contact.moes_M > 0:
-        raise SceneError(f"{given.words(speeds[0], changes[speeds[0]])} has no effect: contact.moes_L = "
-                         f"{scene.contact.moes_L:g} sets the mean speed, {scene.operation.u_m:.4g} m/s")
-    taken = {*scene.oil.law_numbers, *(("eta0", "alpha") if scene.contact.moes_M > 0 else ())}
-    for key in oils.OF_LAWS - taken:
-        if f"oil.{key}" in changes:
-            raise SceneError(f"oil.{key} has no effect: the viscosity law of this oil ({scene.oil.viscosity}) takes "
+    """Refuse changes that the rest of the changed scene overrules or does not look at. Raises SceneError."""
+    for key in changes:
+        section, _, name = key.partition(".")
+        if key in SPEEDS and scene.contact.moes_M > 0:
+            raise SceneError(f"{given.words(key, changes[key])} has no effect: contact.moes_L = {scene.contact.moes_L:g} sets "
+                             f"the mean speed, {scene.operation.u_m:.4g} m/s")
+        if section == "oil" and name in oils.OF_LAWS - _looked_at(scene):
+            raise SceneError(f"{key} has no effect: the viscosity law of this oil ({scene.oil.viscosity}) takes "
                              f"{', '.join(scene.oil.law_numbers)}")
+        if section == "feature" and name:
+            number, _, name = name.partition(".")
+            shape = scene.features[int(number)].shape
+            if shape not in USED_BY.get(name, SHAPES):
+                raise SceneError(f"feature.{name} has no effect on shape {shape!r}; it is of {', '.join(USED_BY[name])}")
+
+
+SPEEDS = ("operation.u_m", *given.BY_SURFACE)
+
+
+def _looked_at(scene):
+    """Numbers of the oil that its viscosity law or a Moes pair uses."""
+    return {*scene.oil.law_numbers, *(("eta0", "alpha") if scene.contact.moes_M > 0 else ())}
 
 
 def _clear(data, changes):

@@ -12,6 +12,9 @@ from tehl_taichi.scene.quantity import check, choice, count, quantity, text
 SHAPES = ("cosine", "ridge", "furrow", "waviness", "rough", "map")
 RIDGE_REACH = 0.7  # of its width: 10^(-10 0.7^2) is 1e-5 of the height
 LEVELS = ("none", "mean", "plane")
+PATCHES = ("waviness", "rough", "map")
+USED_BY = {"width": SHAPES[:-1], "length": ("cosine", "waviness"), "extent_x": PATCHES, "extent_y": PATCHES, "taper": PATCHES,
+           "seed": ("rough",), "pixel": ("map",), "level": ("map",)}  # keys that not every shape has; the others ignore them
 
 
 @dataclass(frozen=True)

@@ -19,6 +19,7 @@ SECTIONS = {"contact": Contact, "operation": Operation, "rheology": Rheology, "t
 FIRST, LAST = -1.6, 1.4  # of the path of a small feature, in a
 CLEAR = 1.3  # distance in a of a feature's front from X = 0 at an automatic start
 BEYOND = 1.2  # half-widths, at least, from the centre to the edge of the grid
+FARTHEST = 9.5  # half-widths to which a grid may well reach on both sides
 AT_REST = 0.01  # of the mean speed
 MAX_HERTZ, MIN_HERTZ = 6e9, 1e7  # Pa: outside this range the laws say nothing
 
@@ -97,10 +98,11 @@ class Scene:
         for key, end in (("x_min", self.grid.x_min), ("x_max", self.grid.x_max)):
             if self.transient and abs(end) < need:
                 gap = 0.5 * end**2 * s.h
+                farther = f", or grid.{key} = {math.copysign(need * 1.05, end):.2g} a or farther out" if need < FARTHEST else ""
                 raise SceneError(f"{self._load_words()} gives a half-width a of {s.a:.3g} m and so, at grid.{key} = {end:g} "
-                                 f"a, an undeformed gap of {gap:.3g} m, smaller than the height of a feature, {highest:.3g} "
-                                 f"m; allowed: a height of at most {gap:.2g} m, more load, or grid.{key} = "
-                                 f"{math.copysign(need * 1.05, end):.2g} a or farther out")
+                                 "a, an "
+                                 f"undeformed gap of {gap:.3g} m, smaller than the height of a feature, {highest:.3g} m; "
+                                 f"allowed: a height of at most {gap:.2g} m, more load{farther}")
 
     def _load_words(self):
         """The load as it was given."""
