@@ -224,6 +224,23 @@ def test_a_disk_that_is_full_at_the_end(path, monkeypatch):
     assert Store.open(path).map("Fi") == 2.0
 
 
+def test_a_disk_that_is_full_when_a_run_goes_on(path, monkeypatch):
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    with Store.write(path) as saved:
+        saved.append(shot(3))
+        monkeypatch.setattr("tehl_taichi.io.store.replace", full)
+        for change in (saved.go_back, lambda: saved.extend(SMALL)):
+            with pytest.raises(Interrupted, match="No space left on device; then: tehl resume"):
+                change()
+    monkeypatch.undo()
+    assert len(Store.open(path)) == 4
+    monkeypatch.setattr("tehl_taichi.io.lock.json.dump", full)
+    with pytest.raises(StoreError, match="cannot write to .*No space left on device"):
+        Store.write(path)
+
+
 def test_a_file_that_cannot_be_replaced_stays(tmp_path, monkeypatch):
     file = tmp_path / "f"
     atomic.replace(file, b"before")

@@ -151,7 +151,7 @@ def _check_free(path):
     while not os.path.lexists(parent):
         parent = parent.parent
     if not parent.is_dir() or not os.access(parent, os.W_OK):
-        raise StoreError(f"cannot write to {parent}: no permission, or not a folder")
+        raise StoreError(f"cannot write to {parent}: no permission, read-only or not a folder")
     _check_room(parent)
 
 
