@@ -17,7 +17,7 @@ def companions(scene):
     out = []
     for level in range(1, COMPANIONS + 1):
         nx, ny = scene.grid.nx / 2**level, scene.grid.ny / 2**level
-        if nx != int(nx) or ny != int(ny):
+        if nx != int(nx) or ny != int(ny) or 0 <= scene.time.steps < 2**level:
             break
         try:
             out.append(scene.replace(**{"grid.nx": int(nx), "grid.ny": int(ny), "time.steps": scene.time.steps // 2**level}))
