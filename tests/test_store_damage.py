@@ -75,14 +75,18 @@ def test_a_series_is_checked_before_it_is_shown(path, name):
 
 
 def test_a_field_is_checked_too(path):
-    file = path / "film" / "c" / "1" / "0" / "0"
+    noisy = shot(3)
+    noisy.fields["film"] = np.random.default_rng(2).random((33, 9))  # does not compress: a flipped bit is another number
+    with Store.write(path) as saved:
+        saved.append(noisy)
+    file = path / "film" / "c" / "3" / "0" / "0"
     whole = bytearray(file.read_bytes())
     whole[len(whole) // 2] ^= 4
     file.write_bytes(whole)
     saved = Store.open(path)
     assert saved.fields(0)["film"][0, 0] == 1.5
-    with pytest.raises(StoreError, match="film/c/1/0/0 is damaged"):
-        saved.fields(1)
+    with pytest.raises(StoreError, match="film/c/3/0/0 is damaged"):
+        saved.fields(3)
     (path / "x" / "c" / "0").write_bytes(b"nonsense")
     with pytest.raises(StoreError, match="x is damaged"):
         saved.x  # noqa: B018
@@ -222,6 +226,23 @@ def test_a_disk_that_is_full_at_the_end(path, monkeypatch):
     with Store.write(path) as saved:
         saved.finish({"steps": 2}, {"Fi": ([[2.0]], ["i", "j"], "1", "index")})
     assert Store.open(path).map("Fi") == 2.0
+
+
+def test_a_disk_that_is_full_when_a_run_goes_on(path, monkeypatch):
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    with Store.write(path) as saved:
+        saved.append(shot(3))
+        monkeypatch.setattr("tehl_taichi.io.store.replace", full)
+        for change in (saved.go_back, lambda: saved.extend(SMALL)):
+            with pytest.raises(Interrupted, match="No space left on device; then: tehl resume"):
+                change()
+    monkeypatch.undo()
+    assert len(Store.open(path)) == 4
+    monkeypatch.setattr("tehl_taichi.io.lock.json.dump", full)
+    with pytest.raises(StoreError, match="cannot write to .*No space left on device"):
+        Store.write(path)
 
 
 def test_a_file_that_cannot_be_replaced_stays(tmp_path, monkeypatch):

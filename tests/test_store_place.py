@@ -162,25 +162,62 @@ def test_a_stranger_in_a_store_is_not_deleted(tmp_path):
         Place(path, replace=True)
 
 
-def test_a_kill_between_the_two_renames_loses_nothing(tmp_path, monkeypatch):
-    path = store(tmp_path / "a.zarr", entries=3).path
+class Killed(BaseException):
+    pass
+
+
+@pytest.fixture
+def killed_before(monkeypatch):
+    """Lets os.rename end the process, so to say, at a folder of that ending."""
     rename = os.rename
 
-    class Killed(BaseException):
-        pass
+    def prepare(ending):
+        def at(source, target):
+            if Path(source).name.endswith(ending):
+                raise Killed
+            rename(source, target)
 
-    def second(source, target):
-        if Path(source).name.endswith(".part"):
-            raise Killed
-        rename(source, target)
+        monkeypatch.setattr(places.os, "rename", at)
 
-    monkeypatch.setattr(places.os, "rename", second)
-    monkeypatch.setattr(Place, "give_up", lambda self: None)
+    return prepare
+
+
+def replace_until_killed(path):
     with pytest.raises(Killed):
         Store.create(Place(path, replace=True), SMALL, shot(0), 5)
+
+
+def test_a_kill_between_the_two_renames_loses_nothing(tmp_path, monkeypatch, killed_before):
+    path = store(tmp_path / "a.zarr", entries=3).path
+    with monkeypatch.context() as inside:
+        inside.setattr(Place, "give_up", lambda self: None)
+        killed_before(".part")
+        replace_until_killed(path)
     monkeypatch.undo()
     assert names(tmp_path) == [".a.zarr.old", ".a.zarr.part"]
     assert len(Store.open(path)) == 3 and names(tmp_path) == [".a.zarr.part", "a.zarr"]
+
+
+def test_ctrl_c_between_the_two_renames_loses_nothing(tmp_path, killed_before):
+    path = store(tmp_path / "a.zarr", entries=3).path
+    killed_before(".part")
+    replace_until_killed(path)
+    assert names(tmp_path) == ["a.zarr"] and len(Store.open(path)) == 3
+
+
+def test_a_kill_after_the_two_renames_leaves_the_new_store(tmp_path, monkeypatch, killed_before):
+    path = store(tmp_path / "a.zarr", entries=3).path
+    killed_before(".old")
+    replace_until_killed(path)
+    monkeypatch.undo()
+    assert names(tmp_path) == [".a.zarr.old", "a.zarr"] and len(Store.open(path)) == 1
+    killed_holder(tmp_path / ".a.zarr.old")
+    (tmp_path / "a.zarr").rename(tmp_path / "c.zarr")
+    clean(tmp_path)
+    assert names(tmp_path) == [".a.zarr.old", "c.zarr"]  # the only one of its name stays
+    (tmp_path / "c.zarr").rename(path)
+    clean(tmp_path)
+    assert names(tmp_path) == ["a.zarr"] and len(Store.open(path)) == 1
 
 
 def test_half_removed_stores_are_cleaned_not_put_back(tmp_path):

@@ -106,6 +106,7 @@ class Place:
         """Remove what was made so far, unless it is published; what stood at the name before stays."""
         if self.published:
             return
+        put_back(self.path)  # Ctrl-C came between the renames
         if self.lock:
             _remove_store(self.folder, self.lock)
         for folder in self.made:
@@ -118,14 +119,16 @@ class Place:
 def put_back(path):
     """Undo half a replacement: the old store gets its name back where the new one never came."""
     if path.name and not os.path.lexists(path) and os.path.isdir(beside(path, OLD)):
-        os.rename(beside(path, OLD), path)
+        with contextlib.suppress(OSError):  # a read-only folder, or another process was faster
+            os.rename(beside(path, OLD), path)
 
 
 def clean(folder):
-    """Remove what killed processes of this host left unfinished in `folder`."""
-    for what in (PART, GONE):
+    """Remove what killed processes of this host left unfinished in `folder`; an old store only where a new one stands."""
+    for what in (PART, GONE, OLD):
         for leftover in folder.glob(f".*.{what}"):
-            if abandoned(leftover):
+            replaced = intact.is_store(folder / leftover.name[1 : -len(what) - 1])
+            if abandoned(leftover) and (replaced or what != OLD):
                 with contextlib.suppress(Busy, OSError):  # somebody takes it over, or cleans too
                     _remove_store(leftover, Lock(leftover))
 
@@ -151,7 +154,7 @@ def _check_free(path):
     while not os.path.lexists(parent):
         parent = parent.parent
     if not parent.is_dir() or not os.access(parent, os.W_OK):
-        raise StoreError(f"cannot write to {parent}: no permission, or not a folder")
+        raise StoreError(f"cannot write to {parent}: no permission, read-only or not a folder")
     _check_room(parent)
 
 

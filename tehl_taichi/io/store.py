@@ -295,7 +295,8 @@ class Store:
         if int(state["step"]) != self.series["step"][number - 1]:
             raise intact.damaged(self.path, "its checkpoint is of another step")
         if number < self.steps:
-            self._commit(steps=number)
+            with _told(self.path, f"then: tehl resume {self.path}"):
+                self._commit(steps=number)
         return state
 
     def extend(self, scene):
@@ -304,8 +305,9 @@ class Store:
             self.metadata.pop(name, None)
         self.scene = scene
         self.attrs.pop("summary", None)
-        self._commit(scene=json.dumps(scene.to_dict()), scene_toml=scene_file.dumps(scene), results="[]", finished=False,
-                     warnings=json.dumps(scene.warnings()))
+        with _told(self.path, f"then: tehl resume {self.path}"):
+            self._commit(scene=json.dumps(scene.to_dict()), scene_toml=scene_file.dumps(scene), results="[]", finished=False,
+                         warnings=json.dumps(scene.warnings()))
 
     def finish(self, summary, maps=None):
         """Store the summary (and maps {name: (values, dims, units, text)}) and mark the run as finished."""
