@@ -22,6 +22,7 @@ LEAD = 4.0  # a: the contact stands at its first state for this way of the body,
 REACH = 9.0  # waves with k z beyond this do not reach the depth z (exp(-9) = 1e-4)
 WEAK = 1e-4  # waves below this share of the strongest are left out
 CHUNK = 256  # waves convolved at once
+PARTS = np.array([0, 1 / 64, 1 / 16, 1 / 4, 1])  # of the newest step: near the surface the answer to it is quick
 
 
 def step_stresses(k, z, diffusivity, nu, t):
@@ -64,30 +65,41 @@ class ThermalBelow(Heated):
         self.ix, self.iy = np.nonzero((strength > WEAK * strength.max()) & (self.waves.k * shallowest < REACH))
         self.kx, self.ky = self.waves.kx[self.ix, 0], self.waves.ky[0, self.iy]
         self.k = np.hypot(self.kx, self.ky)
-        self.steps = self._steps(spectra[:, self.ix, self.iy].T)
+        self.passed = self._passed(spectra[:, self.ix, self.iy].T)
 
-    def _steps(self, waves):
-        """Transform in time of what every step adds, in the frame of the body: temperatures linear over a step in the frame of
-        the contact, which moves on meanwhile."""
+    def _passed(self, waves):
+        """Transform in time of the temperatures in the frame of the body, before which the contact moves on."""
         n = np.concatenate([np.zeros(self.lead, int), np.arange(self.entries)])
-        angle = self.kx[:, None] * self.speed * self.dt
-        first, second = _ramps(angle)
-        moved = np.exp(1j * angle * np.arange(n.size - 1)).astype(np.complex64)
-        added = np.zeros((self.k.size, n.size), np.complex64)
-        added[:, 1:] = (first * waves[:, n[:-1]] + second * waves[:, n[1:]]) * moved
-        return np.fft.fft(added, self.size, axis=1)
+        turn = np.exp(1j * np.outer(self._angle, np.arange(n.size))).astype(np.complex64)
+        return np.fft.fft(waves[:, n] * turn, self.size, axis=1)
+
+    @property
+    def _angle(self):
+        """How far each wave moves over the body in a step, rad."""
+        return self.kx * self.speed * self.dt
 
     def _responses(self, depth):
         """(cut, (4, waves, size)): transforms in time of ss, tt, zz and sz of some waves (without their way back)."""
-        times = np.arange(self.lead + self.entries) * self.dt
         reached = np.flatnonzero(self.k * depth < REACH)
         for start in range(0, reached.size, CHUNK):
             cut = reached[start : start + CHUNK]
-            k = self.k[cut, None]
-            stress = step_stresses(k, depth, self.diffusivity, self.nu, times)
-            stress[3] *= k
-            reach = np.diff(stress, axis=2, append=stress[:, :, -1:]).astype(np.float32)
-            yield cut, np.fft.fft(reach, self.size, axis=2) * self.steps[cut]
+            yield cut, self._kernels(self.k[cut, None], self._angle[cut, None], depth) * self.passed[cut]
+
+    def _kernels(self, k, angle, depth):
+        """(4, waves, size): what temperatures, linear over a step in the frame of the contact, do from then on; within the
+        newest step the parts PARTS of it count by their age."""
+        count, later = self.lead + self.entries, np.exp(-2j * np.pi * np.arange(self.size) / self.size)
+        stress = step_stresses(k, depth, self.diffusivity, self.nu, np.append(np.arange(count), PARTS) * self.dt)
+        stress[3] *= k
+        reach = np.diff(stress[..., :count], axis=2, append=stress[..., count - 1 : count])
+        reach[..., 0] = 0.0
+        before, now = _means(angle, 0.0, 1.0)
+        out = np.fft.fft(reach.astype(np.float32), self.size, axis=2) * (before * later + now).astype(np.complex64)
+        newest = np.diff(stress[..., count:], axis=2)
+        for n in range(PARTS.size - 1):
+            before, now = _means(angle, PARTS[n], PARTS[n + 1])
+            out += newest[..., [n]].astype(np.float32) * (before * later + now).astype(np.complex64)
+        return out
 
     def _turned(self, parts, cut):
         """xx, yy, zz, xy, xz, yz from ss, tt, zz, sz of waves (4, waves, ...)."""
@@ -135,14 +147,13 @@ class ThermalBelow(Heated):
 ODD = (False, False, False, True, False, True)  # about the first row of a mirrored domain: xy and yz
 
 
-def _ramps(angle):
-    """int_0^1 (1 - s) exp(i angle s) ds and int_0^1 s exp(i angle s) ds."""
-    small = np.abs(angle) < 1e-3
-    a = np.where(small, 1.0, angle)
-    turn = np.exp(1j * a)
-    second = np.where(small, 0.5 + 1j * angle / 3, (turn * (1 - 1j * a) - 1) / (a * a))
-    whole = np.where(small, 1 + 0.5j * angle, (turn - 1) / (1j * a))
-    return (whole - second).astype(np.complex64), second.astype(np.complex64)
+def _means(angle, low, high):
+    """Means over the ages from low to high (of a step) of what is left of the temperature before the step, and of the one at
+    its end, in the phase of its end: (waves, 1)."""
+    nodes, weights = np.polynomial.legendre.leggauss(3)
+    age = low + (high - low) * (nodes + 1) / 2
+    turn = np.exp(-1j * angle * age) * weights / 2
+    return (age * turn).sum(axis=1, keepdims=True) * np.exp(1j * angle), ((1 - age) * turn).sum(axis=1, keepdims=True)
 
 
 def _fast(n):

@@ -1,0 +1,208 @@
+"""Below the surface: rows against whole planes, the depth that is found, what the run, the table and the figures say of it."""
+
+import numpy as np
+import pytest
+from tehl_cli import tables
+
+import tehl_taichi as tehl
+from tehl_taichi.io import figures, judge
+from tehl_taichi.post import below, fatigue, half_space
+from tehl_taichi.post.passage import Passage
+from tehl_taichi.post.row_stress import RowStress
+from tehl_taichi.scene import SceneError
+from tehl_taichi.scene.scales import Scales
+
+NU = 0.3
+DEPTHS = [2e-6, 15e-6, 80e-6]
+
+
+@pytest.mark.parametrize("line,mirrored,row", [(True, True, 0), (True, True, 3), (False, True, 2), (False, False, 5)])
+def test_a_row_is_that_of_the_whole_plane(line, mirrored, row):
+    x, y = np.arange(24) * 11e-6, np.arange(9) * 7e-6
+    loads = np.random.default_rng(3).standard_normal((3, 2, 24, 9)) * 1e9
+    found = RowStress(x, y, NU, line, mirrored, DEPTHS, row)(*loads)
+    for n, depth in enumerate(DEPTHS):
+        whole = half_space.Stress(x, y, NU, line, mirrored, depth)(*loads[:, 1])
+        for component, values in enumerate(whole.values()):
+            np.testing.assert_allclose(found[1, n, :, component], values[:, row], atol=1e-3)  # of 1e9 Pa
+
+
+def test_one_row_alone_is_plane_strain():
+    x, p = np.arange(24) * 11e-6, np.random.default_rng(4).standard_normal((3, 1, 24, 1)) * 1e9
+    found = RowStress(x, np.zeros(1), NU, True, True, DEPTHS, 0)(*p)
+    whole = half_space.Stress(x, np.zeros(1), NU, depth=15e-6)(*p[:, 0])
+    np.testing.assert_allclose(found[0, 1], np.stack(list(whole.values()), axis=-1)[:, 0], atol=1e-3)
+
+
+class Rolling:
+    """Reader of a Hertz line, shear 0.05 p along x, over which a bump of pressure and of heat passes."""
+
+    def __init__(self, scene, cells=12, rows=9):
+        self.s = Scales.of(scene)
+        self.x, self.y = (np.linspace(*ends) * self.s.a for ends in ((-2, 2, 4 * cells + 1), (0, 1, rows)))
+        self.centres = (np.arange(3 * cells) / cells - 1.5) * self.s.a
+        self.time = self.centres / 8.0
+
+    def __len__(self):
+        return self.centres.size
+
+    def feature_x(self, n):
+        return self.centres[n]
+
+    def fields(self, n, names):
+        x, y = self.x[:, None] / self.s.a, self.y[None, :] / self.s.a
+        hertz = np.sqrt(np.maximum(1 - x**2, 0)) + 0 * y
+        bump = np.exp(-((x - self.centres[n] / self.s.a) ** 2 + y**2) / 0.04) if n else 0 * hertz
+        p = self.s.p_H * hertz * (1 + bump)
+        found = {"pressure": p, "traction_x_a": 0.05 * p, "traction_y_a": 0 * p, "temperature_a": 90 + 40 * hertz * (1 + bump)}
+        return {name: found[name] for name in names}
+
+
+def result(heat=False, **changes):
+    scene = tehl.scene("gear").replace(**{"thermal.on": heat, **changes})
+    return scene, fatigue.run(scene, Rolling(scene))
+
+
+@pytest.fixture(scope="module")
+def found(taichi_cpu):
+    """Without heat, depths "auto"."""
+    return result()[1]
+
+
+@pytest.mark.parametrize("heat", [False, True])
+def test_the_depth_found_is_the_worst_of_all(taichi_cpu, heat):
+    """Searched at all points at the depth found and at a finer ladder of depths around it."""
+    _, found = result(heat)
+    deep = found.summary["below"]
+    near = [float(deep["depth_m"] * ratio) for ratio in (0.8, 1.0, 1.25)]
+    _, layers = result(heat, **{"fatigue.depths": near})
+    by_depth = [layer["findley_stress_max_Pa"] for layer in layers.summary["by_depth"]]
+    assert deep["Fi_max"] > found.summary["Fi_max"]
+    assert deep["findley_stress_max_Pa"] == pytest.approx(max(by_depth[1:]), rel=2e-3)
+    assert by_depth[2] >= max(by_depth[1:]) * (1 - 1e-3)
+    assert layers.summary["below"]["y_m"] == deep["y_m"] == 0.0
+
+
+def test_it_is_searched_under_the_surface_s_worst_row_too(taichi_cpu):
+    """A feature beside the row of the bump: both rows are looked at."""
+    _, found = result(**{"feature.y": 0.25e-3})
+    assert found.summary["below"]["y_m"] == found.summary["y_m"] < 0.1e-3
+
+
+def test_the_surface_answers_as_it_did(found):
+    _, alone = result(**{"fatigue.depths": []})
+    assert "below" not in alone.summary and alone.worst_below is None
+    assert {**alone.summary, "below": 0} == {**found.summary, "below": 0}
+    for name, (values, *_) in alone.maps.items():
+        np.testing.assert_array_equal(values, found.maps[name][0])
+
+
+def test_the_contact_alone_is_worst_where_a_line_contact_is(taichi_cpu):
+    """Hertz line without shear: the shear along the surface goes from -p_H/4 to p_H/4 at 0.5 a (Johnson, section 4.2)."""
+    scene, found = result(**{"fatigue.shear": False, "fatigue.kappa": 0.0})
+    alone, scales = found.summary["below"]["contact_alone"], Scales.of(scene)
+    assert alone["findley_stress_max_Pa"] == pytest.approx(0.25 * scales.p_H, rel=0.01)
+    assert alone["depth_m"] == pytest.approx(0.5 * scales.a, rel=0.06)
+
+
+def test_of_a_row_alone_the_profile_is_that_of_the_row(taichi_cpu):
+    scene = tehl.scene("furrow-line").replace(**{"thermal.on": False})
+    found = fatigue.run(scene, Rolling(scene, 12, 1))
+    assert "contact_alone" not in found.summary["below"]
+    under = found.maps["findley_stress_under_row"][0]
+    np.testing.assert_array_equal(under[0], found.maps["findley_stress"][0][:, 0])
+    assert found.summary["below"]["findley_stress_max_Pa"] >= under[1:].max() * (1 - 1e-9)
+
+
+def test_depths_beyond_the_rungs_are_interpolated_well(taichi_cpu):
+    """Histories between two rungs against those computed there: 0.5 % of the largest stress."""
+    scene = tehl.scene("gear").replace(**{"thermal.on": False})
+    passage = Passage(scene, reader := Rolling(scene, 12, 9), reader.centres)
+    rungs = below.ladder(passage)
+    assert rungs[0] == pytest.approx(passage.dx / 2) and rungs[-1] == pytest.approx(0.9 * passage.a)
+    depths = np.sort(np.append(rungs, between := np.sqrt(rungs[3] * rungs[4])))
+    histories = below._histories(passage, depths, [(0, False)])[0]
+    kept = depths != between
+    found = below._between(np.log(rungs), histories[kept], np.log(between))
+    np.testing.assert_allclose(found, histories[~kept][0], atol=5e-3 * np.abs(histories[~kept]).max())
+
+
+def test_a_worst_point_below_is_said():
+    fatigue_ = {"Fi_max": 1.008, "below": {"Fi_max": 1.39, "depth_m": 24.8e-6,
+                                           "contact_alone": {"Fi_max": 1.195, "depth_m": 183e-6}}}
+    said, = judge.worst_below(None, {"fatigue": fatigue_})
+    assert "Fi 1.39 at 25 um, 1.01 at the surface" in said and "1.20 at 183 um" in said
+    assert judge.worst_below in judge.CHECKS
+    assert judge.worst_below(None, {"fatigue": {**fatigue_, "Fi_max": 1.5}}) == []
+    assert judge.worst_below(None, {"fatigue": {"Fi_max": 1.0}}) == judge.worst_below(None, {}) == []
+
+
+def test_the_table_names_the_worst_point_s_own_tension(found):
+    """sigma1_max_Pa is the largest anywhere on the surface, sigma1_worst_Pa that of the worst point."""
+    f = found.summary
+    i, j = (int(np.argmin(np.abs(found.maps[name][0] - f[key])))
+            for name, key in (("feature_frame_x", "x_m"), ("feature_frame_y", "y_m")))
+    tension = found.maps["sigma1_max"][0]
+    assert f["sigma1_worst_Pa"] == pytest.approx(tension[i, j]) and f["sigma1_max_Pa"] == tension.max() > 1.02 * tension[i, j]
+    rows = tables.fatigue_rows(f)
+    values = dict(rows[:9])
+    assert values["largest principal stress there"] == f"{f['sigma1_worst_Pa'] / 1e6:.1f} MPa"
+    assert values["largest principal stress on the surface"] == f"{f['sigma1_max_Pa'] / 1e6:.1f} MPa"
+    deep = f["below"]
+    assert (f"Fi_max below it, at {deep['depth_m'] * 1e6:.0f} um", f"{deep['Fi_max']:.4f}") in rows
+
+
+def test_the_angle_to_the_surface_is_that_of_the_plane(found):
+    """Pulled and pressed along z, kappa 0.3: the normal at half arctan(1/kappa) = 36.7 degrees from z, so the plane lies 36.7
+    degrees to the surface; alike along x and y (the same but for a pressure): 53.3 degrees. In a passage n . z = cos of it."""
+    from tehl_taichi.post import findley
+
+    S, wave = np.zeros((2, 41, 6)), 1e8 * np.cos(np.linspace(0, 2 * np.pi, 41))
+    S[0, :, 2] = S[1, :, 0] = S[1, :, 1] = wave
+    half = np.degrees(np.arctan(1 / 0.3)) / 2
+    theta, _ = findley.angles(findley.search(S, 0.3)[1])
+    np.testing.assert_allclose(theta, (half, 90 - half), atol=0.01)
+    normal, f = found.worst["normal"], found.summary
+    assert np.cos(np.radians(f["surface_angle_deg"])) == pytest.approx(normal[2], abs=1e-9)
+    assert np.tan(np.radians(f["plane_phi_deg"])) == pytest.approx(normal[1] / normal[0], rel=1e-6)
+
+
+def drawn(monkeypatch, found, tmp_path):
+    """{name: figure} that write_fatigue would have saved."""
+    kept = {}
+    monkeypatch.setattr(figures, "_save", lambda plt, figure, path: kept.setdefault(path.stem, figure))
+    figures.write_fatigue(found, "test", 0.36e-3, tmp_path)
+    return kept
+
+
+def lines(ax):
+    return [line.get_xydata() for line in ax.lines]
+
+
+def test_figures_show_what_was_searched(found, monkeypatch, tmp_path):
+    """Depths: the worst one beside the surface; the profile has every depth; one row: lines, not an empty map."""
+    _, layers = result(**{"fatigue.depths": [20e-6, 60e-6]})
+    maps = [ax for ax in drawn(monkeypatch, layers, tmp_path)["fatigue"].axes if ax.get_xlabel()]
+    index = [ax.collections[0].get_array().max() for ax in maps]
+    assert index == pytest.approx([layers.summary["Fi_max"], layers.summary["below"]["Fi_max"]])
+    profile = lines(drawn(monkeypatch, found, tmp_path)["fatigue_depth"].axes[1])[0]
+    assert profile[:, 0].max() == pytest.approx(found.maps["findley_stress_under_row"][0].max() / 400e6)
+    scene = tehl.scene("furrow-line").replace(**{"thermal.on": False})
+    row = fatigue.run(scene, Rolling(scene, 12, 1))
+    curve = lines(drawn(monkeypatch, row, tmp_path)["fatigue"].axes[0])[0]
+    np.testing.assert_allclose(curve[:, 1], row.maps["Fi"][0][:, 0])
+
+
+@pytest.mark.parametrize("value,said", [("deep", "auto"), (3.0, "auto"), ([0.5], "0.1"), ([-1e-6], "1e-07")])
+def test_depths_are_checked(value, said):
+    with pytest.raises(SceneError, match="fatigue.depths") as error:
+        tehl.scene("gear").replace(**{"fatigue.depths": value})
+    assert said in str(error.value)
+
+
+@pytest.mark.parametrize("threads", [0, -3])
+def test_threads_of_the_fatigue_command_are_checked(threads):
+    from tehl_cli.fatigue import fatigue as command
+
+    with pytest.raises(SceneError, match=f"--threads {threads} is out of range"):
+        command("none.zarr", threads=threads)
