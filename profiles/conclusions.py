@@ -11,7 +11,7 @@ import numpy as np
 
 from tehl_taichi.errors import NotConverged
 from tehl_taichi.io.recorder import record
-from tehl_taichi.post import findley
+from tehl_taichi.post import below, findley
 from tehl_taichi.post.passage import Passage
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
@@ -26,12 +26,15 @@ WINDOWS = {"entry": (-np.inf, -0.5), "inside": (-0.5, 0.5), "exit": (0.5, np.inf
 LOADS = {"pressure": {"fatigue.shear": False, "fatigue.thermal_stress": False},
          "no thermal stress": {"fatigue.thermal_stress": False}, "all": {}}
 NEAR_ONE = 0.9
+# the worst below the surface under the feature's row, and of the contact without it; with all loads over the whole passage
+DEEP, ALONE = ("below", "whole"), ("contact alone", "whole")
+DEPTHS = {DEEP: ("depth", "whole"), ALONE: ("depth alone", "whole")}
 
 
 @dataclass(frozen=True)
 class Row:
-    """One case: Findley stress in Pa by (loads, window) and its error; friction over load on the footprint at x_a = -0.5 and
-    0.5 a; reason: why it has no values."""
+    """One case: Findley stress in Pa by (loads, window) and its error, DEEP and ALONE (Pa) and their depths (m) among them;
+    friction over load on the footprint at x_a = -0.5 and 0.5 a; reason: why it has no values."""
 
     name: str
     srr: float
@@ -89,7 +92,15 @@ def stresses(saved):
             if loads == "all" or window == "whole":
                 inside = np.append((passage.centres >= low * passage.a) & (passage.centres <= high * passage.a), True)
                 out[loads, window] = float(findley.search(history[:, inside], saved.scene.fatigue.kappa)[0].max())
-    return out
+    return out | deep_stresses(Passage(saved.scene, saved, saved.scalar("feature_x")))
+
+
+def deep_stresses(passage):
+    """DEEP, ALONE and their depths."""
+    row = int(np.argmin(np.abs(passage.reader.y - passage.scene.features[0].y)))
+    worst = [profile.worst for profile in below.profiles(passage, [row], alone=True)]
+    return {key: value for (stress, depth), point in zip(DEPTHS.items(), worst)
+            for key, value in ((stress, point.f), (depth, point.depth))}
 
 
 def footprint_friction(saved, at):
@@ -122,6 +133,11 @@ def verdicts(rows, limit):
             if kind.startswith("asperity") and (kind == "asperity 1.5 um" or loads == "all"):
                 one, other = (get(kind, srr, (loads, window)) for srr in (-0.12, 0.12))
                 out.append((f"Fi(SRR -0.12) > Fi(SRR +0.12): {kind}; {loads}; {window}", *_compared(one, other)))
+    for name in by_name:
+        if name.startswith("asperity 1.5 um"):
+            f, e = by_name[name].values, by_name[name].errors
+            one, other = ((f[key], e[key]) for key in (DEEP, ("all", "whole")))
+            out.append((f"the worst point lies below the surface: {name}", *_compared(one, other)))
     r = by_name.get("asperity 1.5 um, SRR -0.12")
     if r:
         out.append(("friction on the asperity is larger near the inlet than near the outlet",
@@ -158,12 +174,16 @@ def cells(row, columns=tuple(("all", window) for window in WINDOWS)):
     """Text of a row's values with errors, MPa; the reason first where there are none."""
     if row.reason:
         return [row.reason] + [""] * (len(columns) - 1)
-    return [_with_error(row.values[key], row.errors[key]) for key in columns]
+    return [_with_error(row.values[key], row.errors[key]) + _at_depth(row, key) for key in columns]
+
+
+def _at_depth(row, key):
+    return f" at {row.values[DEPTHS[key]] * 1e6:.0f} um" if key in DEPTHS else ""
 
 
 def page(rows, judged, scene_):
     """Markdown of the table and the verdicts."""
-    columns = [("all", window) for window in WINDOWS] + [("no thermal stress", "whole"), ("pressure", "whole")]
+    columns = [("all", window) for window in WINDOWS] + [("no thermal stress", "whole"), ("pressure", "whole"), DEEP, ALONE]
     lines = ["| case | " + " | ".join(window if loads == "all" else f"{loads}" for loads, window in columns) + " |",
              "|---" * (len(columns) + 1) + "|"]
     for r in rows:

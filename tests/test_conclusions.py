@@ -15,7 +15,9 @@ def test_verdicts_need_more_than_the_error():
 
 def make(name, f, error):
     keys = [("all", window) for window in conclusions.WINDOWS] + [("no thermal stress", "whole"), ("pressure", "whole")]
-    return conclusions.Row(name, 0.0, {key: f for key in keys}, {key: error for key in keys}, (0.06, 0.05))
+    deep = {conclusions.DEEP: 1.4 * f, conclusions.ALONE: 1.2 * f}
+    values = {key: f for key in keys} | deep | {depth: 25e-6 for depth in conclusions.DEPTHS.values()}
+    return conclusions.Row(name, 0.0, values, {key: error for key in [*keys, *deep]}, (0.06, 0.05))
 
 
 def test_the_statements_follow_from_the_rows():
@@ -28,7 +30,8 @@ def test_the_statements_follow_from_the_rows():
     assert judged["a dent gives less than an asperity of the same size (SRR -0.12)"] == "follows"
     assert [verdict for statement, verdict in judged.items() if "without slip" in statement] == ["follows"]
     text = conclusions.page(rows, conclusions.verdicts(rows, 400e6), scene("gear"))
-    assert "400 ± 5" in text and "**follows**" in text
+    assert "400 ± 5" in text and "560 ± 5 at 25 um" in text and "**follows**" in text
+    assert judged["the worst point lies below the surface: asperity 1.5 um, SRR -0.12"] == "follows"
 
 
 def test_every_case_has_its_own_store():
@@ -41,6 +44,7 @@ def test_a_row_is_computed_once_and_kept(taichi_cpu, tmp_path):
     lines = []
     one = conclusions.row("short", short, tmp_path, ((64, 16), (96, 16)), lines.append)
     assert len(lines) == 2 and one.values["all", "whole"] > 1e8 and one.errors["all", "whole"] > 0
+    assert one.values[conclusions.DEEP] > 1e8 and 1e-6 < one.values[conclusions.DEPTHS[conclusions.DEEP]] < 0.3e-3
     before = {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*") if path.is_file()}
     assert conclusions.row("short", short, tmp_path, ((64, 16), (96, 16))) == one
     assert before == {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*") if path.is_file()}

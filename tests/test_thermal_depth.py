@@ -130,3 +130,13 @@ def test_a_long_wait_adds_nothing(monkeypatch):
         monkeypatch.setattr(td, "LEAD", lead)
         found.append(passing(td.ThermalBelow, 10e-6).rows(10e-6, [0])[0])
     assert np.abs(found[1] - found[0])[:, :50].max() < 0.02 * np.abs(found[0]).max()
+
+
+def test_a_standing_temperature_moves_over_the_body_within_a_step():
+    """Seen from the body a wave that stands turns by its angle in a step: the mean over a step is (1 - exp(-i angle))/(i angle)."""
+    angle = np.array([[0.0], [0.3], [1.3]])
+    before, now = td._means(angle, 0.0, 1.0)
+    exact = [1.0, *((1 - np.exp(-1j * a)) / (1j * a) for a in angle[1:, 0])]
+    np.testing.assert_allclose((before * np.exp(-1j * angle) + now)[:, 0], exact, atol=1e-5)
+    before, now = td._means(0 * angle, 0.25, 0.5)  # a part of the step: what is left of the old is its mean age
+    np.testing.assert_allclose((before[0, 0], now[0, 0]), (0.375, 0.625), atol=1e-12)
