@@ -11,7 +11,7 @@ def mismatch(description, warm=None):
     pressure in a few long and short waves and of the rigid approach; with a time derivative in a moving frame."""
     from tehl_taichi.kernels import fields
     from tehl_taichi.solvers.heat import FilmHeat
-    from tehl_taichi.solvers.levels import Levels
+    from tehl_taichi.solvers.levels import LINEAR, Levels
     from tehl_taichi.solvers.newton import ROW_CAP, PressureSolver
 
     levels = Levels(description, Scales.of(description), 64, 16)
@@ -41,8 +41,8 @@ def mismatch(description, warm=None):
         solver.measure()
         solver._choose_sets()
         levels.put(fields.P, change)  # in the order of the table
-        z, out = np.append(levels.vector(fields.P) * inside, approach), np.zeros(levels.n + 2)
-        solver._apply(z.astype(solver.product.dtype), out := out.astype(solver.product.dtype))
+        z, out = np.append(levels.vector(fields.P) * inside, approach).astype(LINEAR), np.zeros(levels.n + 2, LINEAR)
+        solver._apply(z, out)
         product = out[:-2] * np.minimum(levels.vector(fields.D), ROW_CAP)
         worst = max(worst, float(np.abs(product - exact)[inside].max() / np.abs(exact)[inside].max()))
     return worst
