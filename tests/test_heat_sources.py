@@ -130,9 +130,10 @@ def test_bodies_remember_a_growing_heat():
     assert worst < 1e-4
 
 
-@pytest.mark.parametrize("sliding", [0.0, -0.3])
-def test_moving_half_space_under_a_growing_flux(sliding):
-    """q = g x behind an edge on steel: material points see g u t, so T = (4/3) g x^1.5/sqrt(pi k rho c u) on both bodies."""
+@pytest.mark.parametrize("sliding, within", [(0.0, 1e-4), (-0.3, 2e-3)])
+def test_moving_half_space_under_a_growing_flux(sliding, within):
+    """q = g x behind an edge on steel: material points see g u t, so T = (4/3) g x^1.5/sqrt(pi k rho c u) on both bodies;
+    where a body moves by broken cells in a step, the edge is interpolated."""
     from tehl_taichi.kernels import slots, step
 
     heat, levels = film(srr=sliding)
@@ -148,11 +149,11 @@ def test_moving_half_space_under_a_growing_flux(sliding):
         heat._adopt()
         heat.offset = heat.until
     heat.begin(heat.dt)
-    far = x > 0.3e-3
+    far = x > 3.5 * levels.dx * levels.scales.a
     for slot, u, B in ((slots.AA, heat.speeds[0], step.B_A), (slots.AB, heat.speeds[1], step.B_B)):
         rise = heat.single_slot(slot)[0] - 90.0 + heat.step_numbers[0, B] * flux[0, 0]
         exact = 4 / 3 * 60e6 / 0.5e-3 * x**1.5 / np.sqrt(math.pi * 47 * 7850 * 450 * u)
-        np.testing.assert_allclose(rise[far], exact[far], rtol=2e-3)
+        np.testing.assert_allclose(rise[far], exact[far], rtol=within)
 
 
 def test_the_share_of_each_body_follows_its_effusivity():

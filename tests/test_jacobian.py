@@ -1,0 +1,66 @@
+"""The Jacobian of the pressure equations against differences of their residual: all that Newton's steps live on."""
+
+import numpy as np
+
+from tehl_taichi.scene import scene
+from tehl_taichi.scene.scales import Scales
+
+
+def mismatch(description, warm=None):
+    """Largest difference of Jacobian times change and difference of residuals, over the largest of these, for changes of the
+    pressure in a few long and short waves and of the rigid approach; with a time derivative in a moving frame."""
+    from tehl_taichi.kernels import fields
+    from tehl_taichi.solvers.heat import FilmHeat
+    from tehl_taichi.solvers.levels import LINEAR, Levels
+    from tehl_taichi.solvers.newton import ROW_CAP, PressureSolver
+
+    levels = Levels(description, Scales.of(description), 64, 16)
+    solver, X, Y = PressureSolver(levels), levels.X[None, :], levels.Y[:, None]
+    ends = (levels.X[-1] - X) * (X - levels.X[0]) / 4
+    P = 0.12 * ends * (1 + 0.1 * np.cos(3 * X) * np.cos(np.pi * Y))
+    levels.put(fields.GAP0, levels.smooth_gap() + 0.3 + 0.02 * np.sin(2 * X) * np.cos(np.pi * Y))
+    levels.set_rate(11.0, 0.7)
+    if warm is not None:
+        heat = FilmHeat(levels, 1e-6)
+        heat.start(warm(heat.zeta[:, None, None], X, Y))
+
+    def residual(pressure, H0):
+        levels.put(fields.P, pressure)
+        solver.H0 = H0
+        solver.residual()
+        return levels.vector(fields.R)
+
+    inside = levels.vector(fields.MASK) > 0
+    worst = 0.0
+    for kx, ky, approach in ((1.0, 0.0, 0.0), (9.0, np.pi, 0.1), (25.0, 8 * np.pi, -0.3), (0.0, 0.0, 1.0)):
+        change, step = ends * np.cos(kx * X + 0.3) * np.cos(ky * Y) * (kx > 0), 1e-5
+        found = [residual(P + sign * step * change, sign * step * approach) for sign in (1, -1)]
+        exact = (found[0] - found[1]) / (2 * step)
+        residual(P, 0.0)
+        levels.linearise()
+        solver.measure()
+        solver._choose_sets()
+        levels.put(fields.P, change)  # in the order of the table
+        z, out = np.append(levels.vector(fields.P) * inside, approach).astype(LINEAR), np.zeros(levels.n + 2, LINEAR)
+        solver._apply(z, out)
+        product = out[:-2] * np.minimum(levels.vector(fields.D), ROW_CAP)
+        worst = max(worst, float(np.abs(product - exact)[inside].max() / np.abs(exact)[inside].max()))
+    return worst
+
+
+def thick(name, **changes):
+    """A scene whose film, a third of a^2/R', carries with all terms of about one size."""
+    return scene(name).replace(**{"grid.nx": 64, "grid.ny": 16, "grid.y_max": 1.25, "contact.hertz_pressure": 0.4e9,
+                                  "height": 0.1e-6, **changes})
+
+
+def test_isothermal(taichi_cpu):
+    assert mismatch(thick("gear", **{"thermal.on": False, "rheology.law": "newtonian", "speed": 3.0})) < 1e-5
+
+
+def test_with_temperatures_and_a_shear_limit(taichi_cpu):
+    """The viscosity felt depends on the film by the shear law, too."""
+    def warm(z, X, Y):
+        return 90 + 30 * z + 20 * z * (1 - z) * (1 + 0.2 * np.cos(X) * np.cos(np.pi * Y))
+
+    assert mismatch(thick("gear", **{"thermal.on": True, "srr": -1.9}), warm) < 1e-4
