@@ -99,11 +99,12 @@ def doctor():
     from tehl_cli.tables import list_table
 
     from tehl_taichi import __version__, runtime
+    from tehl_taichi.commit import commit
     from tehl_taichi.scene import scene
 
     info = runtime.start()
     names = ("numpy", "pyfftw", "zarr", "rich", "typer")
-    rows = [("tehl_taichi", __version__), *((name, importlib.metadata.version(name)) for name in names)]
+    rows = [("tehl_taichi", __version__), ("commit", commit()), *((name, importlib.metadata.version(name)) for name in names)]
     rows += [(key, str(value)) for key, value in info.items()] + [("cores", str(os.cpu_count()))]
     list_table("this installation", ("what", "value"), rows)
     from tehl_taichi.simulation import march
