@@ -142,8 +142,8 @@ def _coverage(path, seed, quick, judge, threads):
         measure.fresh(threads, suite.run, path, seed, quick, say)
     stored = json.loads(path.read_text())
     list_table(f"error bars of random scenes (seed {stored['seed']}), judged on grids {suite.FINER} times as fine",
-               ("part", "quantity", "stated", "not known", "covered, %", "bar / error, median", "bar, median", "error, median"),
-               [(part, name, str(stated), str(unknown), *(_short(value, factor) for value, factor in
+               ("quantity", "stated", "unknown", "covered, %", "bar/error", "bar", "error (medians)"),
+               [(f"{part} {name}", str(stated), str(unknown), *(_short(value, factor) for value, factor in
                                                           zip(numbers, (100, 1, 1, 1))))
                 for part, name, stated, unknown, *numbers in suite.table(stored["rows"])])
     for one in stored["rows"]:

@@ -14,9 +14,9 @@ from tehl_taichi.solvers.error_bars import Reading, bars
 
 FINER = 4
 # how many of each kind, by the columns that they are drawn for; temperatures on a point contact march in time for long
-STEADY = {"line, Moes": (10, (64, 128, 256)), "line": (14, (64, 128, 256)), "line, thermal": (12, (64, 128, 128, 256)),
+STEADY = {"line, Moes": (10, (64, 128, 256)), "line": (14, (64, 128, 256)), "line, thermal": (14, (64, 128, 128, 256)),
           "circle, Moes": (8, (64, 64, 128)), "circle": (4, (64, 64, 128)), "ellipse": (8, (64, 64, 128)),
-          "point, thermal": (4, (64,))}
+          "point, thermal": (2, (64,))}
 PASSAGES = {"ridge": 1, "ridge, thermal": 1, "asperity": 2, "asperity, thermal": 1, "ridge on ball": 1}
 QUICK, DRAWS = 6, 100  # every so many-th scene; draws until one is admissible
 RELATIVE_TO = {"C": 1.0}  # K: temperatures have no natural zero

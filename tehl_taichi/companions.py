@@ -12,12 +12,12 @@ import pickle
 import subprocess
 import sys
 import threading
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from types import SimpleNamespace
 
 import numpy as np
 
-from tehl_taichi import runtime
+from tehl_taichi import readings, runtime
 from tehl_taichi.errors import Error
 from tehl_taichi.solvers.error_bars import Reading, bars
 
@@ -25,7 +25,6 @@ COMPANIONS = 2  # with the run itself three grids; 1/8 and 1/64 of its cells and
 WORTH = 3e5  # nodes times steps of a run: below, a companion's process takes longer to start than the run takes
 PATIENCE = 0.2  # of the time of a run, to wait for companions that nobody asked for
 LOWEST = 19  # priority of their process: they take what the run leaves
-HEAT = ("film_max_C", "surface_a_max_C", "surface_b_max_C")
 
 
 def scenes(scene):
@@ -48,15 +47,17 @@ def passage_readings(scene, reader, scalar, fatigue=None):
     reader: entries as :class:`tehl_taichi.post.passage.Passage` takes them, the steady start first; scalar(name): array of
     the entries' values; fatigue: summary of its search or None.
     """
-    from tehl_taichi import readings
-
     p, h = (scalar(name)[1:] for name in ("p_max_Pa", "h_min_m"))
+    heat = () if scene.isothermal else readings.HEAT
     out = {"p_max_Pa": readings.highest(_moment(reader, int(np.argmax(p)) + 1)),
            "h_min_m": readings.lowest(_moment(reader, int(np.argmin(h)) + 1)),
+           **{name: Reading(float(np.max(scalar(name)[1:]))) for name in heat},
            "friction_coefficient_mean": Reading(float(np.mean(scalar("friction_coefficient")[1:])))}
-    if not scene.isothermal:
-        out |= {name: Reading(float(np.max(scalar(name)[1:]))) for name in HEAT}
-    return out | ({"Fi_max": Reading(float(fatigue["Fi_max"]))} if fatigue else {})
+    out |= {"Fi_max": Reading(float(fatigue["Fi_max"]))} if fatigue else {}
+    # a peak that the grid does not resolve at some moment: neither its pressure is known nor what it does to oil and steel
+    spike = max(readings.sharpest(reader.fields(n, ("pressure",))["pressure"], p.max()) for n in range(1, len(p) + 1))
+    doubted = [name for name in ("p_max_Pa", "film_max_C", "Fi_max") if spike and name in out]
+    return out | {name: replace(out[name], doubt=readings.SPIKE.format(spike)) for name in doubted}
 
 
 def values(scene):

@@ -8,7 +8,7 @@ import numpy as np
 from tehl_taichi.solvers.error_bars import Reading, beside, unresolved_peak
 
 HEAT = ("film_max_C", "surface_a_max_C", "surface_b_max_C")
-SPIKE = "a pressure peak of {:.0%} of the largest is a few cells wide; it may be higher on finer grids, and the largest"
+SPIKE = "a pressure peak of {:.0%} of the largest is only a few cells wide and may grow on finer grids"
 TOUCH = "the surfaces touch on this grid, which is too coarse for so thin a film"
 
 
@@ -27,9 +27,14 @@ def highest(shot):
     """Reading of the largest pressure of a snapshot, Pa and m."""
     p = shot.fields["pressure"]
     i, j = np.unravel_index(p.argmax(), p.shape)
-    spike = unresolved_peak(p[:, j])
+    spike = sharpest(p)
     return Reading(float(p[i, j]), _between(p, i, j), _place(shot, i), float(shot.x[1] - shot.x[0]),
                    SPIKE.format(spike) if spike else "")
+
+
+def sharpest(p, largest=None):
+    """The :func:`unresolved_peak` of a pressure (nx+1, ny+1), on the row through its maximum."""
+    return unresolved_peak(p[:, np.unravel_index(p.argmax(), p.shape)[1]], largest)
 
 
 def lowest(shot):

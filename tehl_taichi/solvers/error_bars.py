@@ -20,7 +20,7 @@ MOVED = 4.0  # cells of the coarser grid that the place of an extreme may move: 
 NARROW = 0.75  # a largest pressure of which less is left two cells away, on the mean of both sides, is not resolved
 # A lower peak grows on finer grids by up to this part of what it loses in two cells: on grids four times as fine 0.86 of the
 # largest with 0.59 of it left there became 1.06, 0.92 with 0.60 1.08, 0.99 with 0.81 1.01; 0.76 with 0.69 stayed
-GROWS = 0.5
+GROWS, SHARP = 0.5, 0.85
 
 
 @dataclass(frozen=True)
@@ -91,10 +91,15 @@ def beside(profile, i):
     return (right - left) ** 2 / (8 * abs(bend)) if bend else 0.0
 
 
-def unresolved_peak(P):
+def unresolved_peak(P, largest=None):
     """Height over the largest of the highest peak of P (n,) that leaves the largest unknown, 0 without one: the largest itself
-    where it is narrow, a lower one so sharp that it may overtake it on finer grids."""
+    where it is narrow, a lower one so sharp that it may overtake it on finer grids.
+
+    largest: that of more moments than this one, whose lower peaks then count where they are narrow (else the largest a moment
+    ago would be its own rival).
+    """
+    sharp, largest = (SHARP, P.max()) if largest is None else (NARROW, largest)
     top = np.flatnonzero((P[2:-2] > P[1:-3]) & (P[2:-2] >= P[3:-1])) + 2
-    height, left = P[top] / P.max(), 0.5 * (P[top - 2] + P[top + 2]) / P[top]
-    unknown = np.where(height == 1.0, left < NARROW, height * (1 + GROWS * (1 - left)) > 1)
+    height, left = P[top] / largest, 0.5 * (P[top - 2] + P[top + 2]) / P[top]
+    unknown = np.where(height >= 1.0, left < NARROW, (left < sharp) & (height * (1 + GROWS * (1 - left)) > 1))
     return float(max(height[unknown], default=0.0))
