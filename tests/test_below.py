@@ -170,7 +170,7 @@ def test_the_angle_to_the_surface_is_that_of_the_plane(found):
 def drawn(monkeypatch, found, tmp_path):
     """{name: figure} that write_fatigue would have saved."""
     kept = {}
-    monkeypatch.setattr(figures, "_save", lambda plt, figure, path: kept.setdefault(path.stem, figure))
+    monkeypatch.setattr(figures, "_save", lambda plt, figure, path, dpi: kept.setdefault(path.stem, figure))
     figures.write_fatigue(found, "test", 0.36e-3, tmp_path)
     return kept
 
