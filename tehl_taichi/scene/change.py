@@ -7,6 +7,7 @@ from tehl_taichi.scene import given
 from tehl_taichi.scene import oil as oils
 from tehl_taichi.scene.checks import key_shown, nearest
 from tehl_taichi.scene.feature import SHAPES, USED_BY
+from tehl_taichi.scene.parts import Time
 
 
 def applied(data, changes):
@@ -53,7 +54,7 @@ def _clear(data, changes):
     if any(key in changes for key in given.BY_SURFACE):
         data["operation"] = {key: value for key, value in data["operation"].items() if key not in ("u_m", "srr")}
     if changes.get("time.steady_only"):
-        data["time"]["steps"] = 0
+        data["time"]["steps"] = Time.steps  # its default: none wished
 
 
 def _name_oil(data, changes):

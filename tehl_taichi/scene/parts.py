@@ -257,7 +257,7 @@ class Time:
         number("time.x_end", self.x_end, "a", -20.0, infinite=True)
         number("time.courant", self.courant, "", 0.05, 4.0)
         integer("time.steps", self.steps, 0, 10**7)
-        if self.steady_only and self.steps:
+        if self.steady_only and self.steps > 0:
             raise SceneError(f"time.steady_only = true and time.steps = {self.steps} contradict each other: give one of them")
 
 
