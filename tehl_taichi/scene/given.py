@@ -2,7 +2,6 @@
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene.plain import plain, shown
-from tehl_taichi.scene.route import ALL
 
 SHORT = {"srr": "operation.srr", "load": "contact.load", "hertz_pressure": "contact.hertz_pressure",
          "speed": "operation.u_m", "temperature": "operation.temperature", "height": "feature.height",
@@ -44,8 +43,10 @@ def words(key, value):
 
 
 def _speaks(key, value):
-    """A load of 0 is none given, time.steps = -1 are all, steady_only = false is no wish; a speed or slip of 0 is one."""
-    return value != ALL if key == "time.steps" else key.startswith("operation.") or bool(value)
+    """A load of 0 is none given, no positive number of steps and steady_only = false are no wish; a speed or slip of 0 is one."""
+    if key == "time.steps":
+        return not isinstance(value, int) or value > 0
+    return key.startswith("operation.") or bool(value)
 
 
 def _contradict(one, other):
