@@ -103,7 +103,7 @@ def resume(
         return
     _check_threads(threads)
     with _interruptible(store), Store.write(store) as saved:
-        steady_error, precision = saved.needed("steady_error"), saved.needed("runtime")["precision"]
+        steady_error, precision = saved.needed("steady_error"), saved.precision
         _start("cpu", threads, precision)
         state = saved.go_back()
         if rest and rest != saved.scene:

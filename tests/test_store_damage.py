@@ -161,6 +161,10 @@ def test_what_going_on_needs_is_asked_for_in_a_sentence(path):
         with pytest.raises(StoreError, match=f"attribute '{name}'.*--out NEW"):
             saved.needed(name)
     assert saved.warnings == [] and saved.summary == {}
+    for runtime in ("[]", "{}", '{"precision": "f16"}'):
+        edit(path, runtime=runtime)
+        with pytest.raises(StoreError, match="attribute 'runtime'"):
+            Store.open(path).precision  # noqa: B018
 
 
 def test_a_moved_store_is_found_at_its_new_place(path, tmp_path):

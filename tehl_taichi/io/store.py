@@ -204,8 +204,16 @@ class Store:
         """What is doubtful, a sentence each: of the whole run where it is finished, else of its scene."""
         return intact.optional(self.attrs, "warnings", [])
 
+    @property
+    def precision(self):
+        """Of the linear solves that it was begun with. Raises StoreError."""
+        found = self.needed("runtime").get("precision")
+        if found not in ("f64", "f32"):
+            raise intact.damaged(self.path, f"its attribute 'runtime' names the precision {found!r}")
+        return found
+
     def needed(self, name):
-        """The JSON attribute of that name, which going on needs. Raises StoreError."""
+        """The table among the attributes of that name, which going on needs. Raises StoreError."""
         return intact.attribute(self.path, self.attrs, name)
 
     @property
