@@ -51,12 +51,11 @@ def test_the_precision_can_be_asked_for():
 
 
 def test_a_store_and_its_companions_keep_the_precision():
-    from tehl_taichi.post.estimate import companions
-
+    from tehl_taichi.companions import scenes
     from tehl_taichi.io import scene_file
 
     asked = gear(**{"numerics.precision": "f64"})
-    assert {run.numerics.precision for run in companions(asked)} == {"f64"}
+    assert {run.numerics.precision for run in scenes(asked)[0]} == {"f64"}
     assert type(asked).from_dict(asked.to_dict()) == asked and 'precision = "f64"' in scene_file.dumps(asked)
 
 

@@ -87,11 +87,11 @@ def _shape(metadata):
 
 
 def attribute(path, attrs, name):
-    """A JSON attribute that going on needs. Raises StoreError."""
-    try:
-        return json.loads(attrs[name])
-    except (KeyError, TypeError, ValueError):
-        raise damaged(path, f"its attribute {name!r} is missing or unreadable") from None
+    """A table (as JSON) among the attributes that going on needs. Raises StoreError."""
+    value = optional(attrs, name, {})
+    if not value and attrs.get(name) != "{}":
+        raise damaged(path, f"its attribute {name!r} is missing or unreadable")
+    return value
 
 
 def optional(attrs, name, default):

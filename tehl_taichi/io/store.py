@@ -206,7 +206,7 @@ class Store:
         return intact.optional(self.attrs, "warnings", [])
 
     def needed(self, name):
-        """The JSON attribute of that name, which going on needs. Raises StoreError."""
+        """The table among the attributes of that name, which going on needs. Raises StoreError."""
         return intact.attribute(self.path, self.attrs, name)
 
     @property

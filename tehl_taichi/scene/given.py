@@ -43,7 +43,7 @@ def words(key, value):
 
 
 def _speaks(key, value):
-    """A load of 0 is none given, no positive number of steps and steady_only = false are no wish; a speed or slip of 0 is one."""
+    """A load of 0 is none given, no positive number of steps, steady_only = false are no wishes; a speed or slip of 0 is."""
     if key == "time.steps":
         return not isinstance(value, int) or value > 0
     return key.startswith("operation.") or bool(value)
