@@ -133,7 +133,7 @@ def test_a_long_wait_adds_nothing(monkeypatch):
 
 
 def test_a_standing_temperature_moves_over_the_body_within_a_step():
-    """Seen from the body a wave that stands turns by its angle in a step: the mean over a step is (1 - exp(-i angle))/(i angle)."""
+    """Seen from the body a standing wave turns by its angle in a step: its mean there is (1 - exp(-i angle))/(i angle)."""
     angle = np.array([[0.0], [0.3], [1.3]])
     before, now = td._means(angle, 0.0, 1.0)
     exact = [1.0, *((1 - np.exp(-1j * a)) / (1j * a) for a in angle[1:, 0])]
