@@ -132,7 +132,9 @@ def test_a_worst_point_below_is_said():
                                            "contact_alone": {"Fi_max": 1.195, "depth_m": 183e-6}}}
     said, = judge.worst_below(None, {"fatigue": fatigue_})
     assert "Fi 1.39 at 25 um, 1.01 at the surface" in said and "1.20 at 183 um" in said
-    assert judge.worst_below in judge.CHECKS
+    assert judge.worst_below in judge.CHECKS and "finer" not in said
+    first = {**fatigue_["below"], "searched_m": [24.8e-6, 1e-3]}
+    assert "take a finer one" in judge.worst_below(None, {"fatigue": {**fatigue_, "below": first}})[0]
     assert judge.worst_below(None, {"fatigue": {**fatigue_, "Fi_max": 1.5}}) == []
     assert judge.worst_below(None, {"fatigue": {"Fi_max": 1.0}}) == judge.worst_below(None, {}) == []
 

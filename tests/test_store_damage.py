@@ -144,14 +144,12 @@ def test_a_store_of_another_version_is_shown_but_not_gone_on_with(path, changes)
         assert "written by version" in Store.open(path).other_version
 
 
-def test_zero_steps_meant_all_in_version_0_1(path, tmp_path):
-    from tehl_taichi.io import intact, scene_file
+def test_zero_steps_meant_all_in_stores_of_version_0_1(path):
+    from tehl_taichi.io import intact
 
     old = json.dumps(SMALL.replace(**{"time.steps": 0}).to_dict())
     assert intact.scene_of(path, {"scene": old}).time.steps == -1
     assert intact.scene_of(path, {"scene": old, "format": 2}).time.steps == 0
-    (tmp_path / "old.toml").write_text('base = "gear"\n[time]\nsteps = 0\n')
-    assert scene_file.load(tmp_path / "old.toml").time.steps == -1
 
 
 def test_what_going_on_needs_is_asked_for_in_a_sentence(path):

@@ -49,6 +49,8 @@ def worst_below(store, summary):
     alone = deep.get("contact_alone")
     if alone and alone["Fi_max"] > fatigue["Fi_max"]:
         said += f"; the contact without its feature has {alone['Fi_max']:.2f} at {alone['depth_m'] * 1e6:.0f} um"
+    if deep["depth_m"] <= 1.001 * deep.get("searched_m", [0.0])[0]:
+        said += "; nearer to the surface (half a cell) this grid resolves nothing: take a finer one"
     return [said]
 
 

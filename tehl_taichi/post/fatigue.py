@@ -125,7 +125,8 @@ def _result(scene, passage, layers, profiles):
         summary["below"], deep = {"depth_m": point.depth, **point.summary(limit)}, point.history(centres)
         maps |= _history_maps(deep, "worst_below", "the worst point below it")
     if profiles:
-        summary["below"] |= _alone(profiles, limit)
+        depths = profiles[0].depths
+        summary["below"] |= {"searched_m": [float(depths[0]), float(depths[-1])], **_alone(profiles, limit)}
         maps |= _profile_maps(surface, passage, profiles)
     if len(layers) > 1:
         summary["by_depth"] = [{"depth_m": layer.depth, "findley_stress_max_Pa": float(layer.f.max()),
