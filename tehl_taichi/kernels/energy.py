@@ -7,7 +7,8 @@ of the bodies) and the flow through the moving nodes in one Newton system per co
 import taichi as ti
 
 from tehl_taichi.kernels.fields import DX, DY, FLOOR, TOUCH, H, P
-from tehl_taichi.kernels.film import Coefficients, couette, gradients, node_laws
+from tehl_taichi.kernels.film import Coefficients, couette, node_laws
+from tehl_taichi.kernels.gradient import limited_gradient
 from tehl_taichi.kernels.lanes import Flat, Table, V, W, cells, tile, tiles
 from tehl_taichi.kernels.slots import (
     AA,
@@ -51,7 +52,7 @@ from tehl_taichi.kernels.step import (
 from tehl_taichi.physics.density import expansivity
 from tehl_taichi.physics.elementary import log
 from tehl_taichi.physics.heat import conductivity, heat_capacity
-from tehl_taichi.physics.rheology import sensitivity, shear_limit
+from tehl_taichi.physics.rheology import boundary_stress, sensitivity
 from tehl_taichi.physics.viscosity import ln_eta
 
 DT = 1e-2  # K, step of the difference quotient in temperature
@@ -225,11 +226,11 @@ def energy(S: ti.template(), Z: ti.template(), X: ti.template(), G: Table, w: Fl
             q = s * (nx + 1) + i
             k = off + q
             p, h = S[P, k] * p_H, ti.max(S[H, k], floor) * h_scale
-            px, py = gradients(S, k, i, nx, s, ny, nx + 1, dx, dy)
+            px, py = limited_gradient(S, k, i, nx, s, ny, nx + 1, dx, dy)
             fade = V(1.0)
             if i > scale[0, CENTRE]:
                 fade = S[P, k] / (S[P, k] + FADE)
-            mu_stress, transfer = ti.min(rheology.mu_boundary * p, shear_limit(rheology, p)), conductivity(oil, p) / h
+            mu_stress, transfer = boundary_stress(rheology, p), conductivity(oil, p) / h
             prepare(Z, q, s, i, nx, ny, nz, oil, p, ln_eta0, step)
             moved, expected, count = 1e300, 1e300, 0
             while expected > step[0, TOLERANCE] and count < int(step[0, ITERATIONS]):

@@ -11,10 +11,12 @@ from tehl_taichi.kernels.lanes import V, above, below
 
 @ti.func
 def log_mean(l0, l1, e0, e1):
-    """Logarithmic mean of 1/eta between two nodes, l = ln eta, e = exp(-l)."""
+    """Logarithmic mean of 1/eta between two nodes, l = ln eta, e = exp(-l), and minus its derivatives by l0 and l1."""
     d = l1 - l0
     near = ti.abs(d) < 1e-3
-    return ti.select(near, e0 * (1 - d / 2 + d * d / 6), (e0 - e1) / ti.select(near, V(1.0), d))
+    safe = ti.select(near, V(1.0), d)
+    mean = ti.select(near, e0 * (1 - d / 2 + d * d / 6), (e0 - e1) / safe)
+    return mean, ti.select(near, 0.5 * e0, (e0 - mean) / safe), ti.select(near, 0.5 * e1, (mean - e1) / safe)
 
 
 @ti.func
@@ -54,7 +56,7 @@ def node(S: ti.template(), k, n2, up: ti.template()):
 @ti.func
 def flux(p0, l0, e0, r0, h0, p1, l1, e1, r1, h1):
     """Poiseuille flux between two nodes, times the distance."""
-    return r0 * r1 * cube(h0, h1)[0] * log_mean(l0, l1, e0, e1) * (p1 - p0)
+    return r0 * r1 * cube(h0, h1)[0] * log_mean(l0, l1, e0, e1)[0] * (p1 - p0)
 
 
 @ti.func
@@ -71,11 +73,7 @@ def net_flux_y(S: ti.template(), k, n2, up, down):
 @ti.func
 def linear_face(p0, l0, e0, r0, h0, dl0, dr0, f0, p1, l1, e1, r1, h1, dl1, dr1, f1):
     """Linearised flux between two nodes: derivatives in P0, P1, H0, H1 and the frozen mobility, times the distance."""
-    d = l1 - l0
-    near = ti.abs(d) < 1e-3
-    safe = ti.select(near, V(1.0), d)
-    mean = ti.select(near, e0 * (1 - d / 2 + d * d / 6), (e0 - e1) / safe)
-    mean_0, mean_1 = ti.select(near, 0.5 * e0, (e0 - mean) / safe), ti.select(near, 0.5 * e1, (mean - e1) / safe)
+    mean, mean_0, mean_1 = log_mean(l0, l1, e0, e1)
     c, c0, c1 = cube(h0, h1)
     g, r, m = p1 - p0, r0 * r1, r0 * r1 * c
     eps = m * mean

@@ -11,7 +11,8 @@ Integrals over zeta: w weights of the whole film, C[n] those up to node n, neste
 import taichi as ti
 
 from tehl_taichi.kernels.fields import DX, DY, FLOOR, ILAM, QCP, RHOC, H, P
-from tehl_taichi.kernels.lanes import Flat, Table, V, W, above, below, cells, tile, tiles
+from tehl_taichi.kernels.gradient import limited_gradient
+from tehl_taichi.kernels.lanes import Flat, Table, V, cells, tile, tiles
 from tehl_taichi.kernels.laws import DP, sheared, store_laws, store_slopes, store_thinning
 from tehl_taichi.kernels.slots import KINDS, MS, MX, MY, NIE, NRHO, TAU, VY, XA, XB, YA, YB, T, U
 from tehl_taichi.physics.density import rho_film
@@ -85,29 +86,6 @@ def laws(S: ti.template(), Z: ti.template(), G: Table, nested: Coefficients, w: 
 
 
 @ti.func
-def limited(a, b):
-    """Central difference of two one-sided ones, at most twice the smaller, 0 where they differ in sign (van Leer 1977). His
-    harmonic mean would be wrong by a quarter beside every plane of symmetry."""
-    size = ti.min(2.0 * ti.min(ti.abs(a), ti.abs(b)), 0.5 * ti.abs(a + b))
-    return ti.select(a * b > 0.0, ti.select(a > 0.0, size, -size), V(0.0))
-
-
-@ti.func
-def gradients(S: ti.template(), k, i, nx, s, ny, n2, dx, dy):
-    """dP/dX and dP/dY for velocities and heat, limited: central differences at the cavitation edge heat by hundreds of K."""
-    x, y, here = V(0.0), V(0.0), S[P, k]
-    if i > 0 and i < nx:
-        x = limited(S[P, k + 1] - here, here - S[P, k - 1]) / dx
-    if ny > 0:
-        y = limited(above(S, P, k, n2) - here, here - below(S, P, k, n2)) / dy
-        for u in ti.static(range(W)):
-            if s * W + u == 0 or s * W + u >= ny:
-                y[u] = 0.0
-    wet = here > 0.0
-    return ti.select(wet, x, V(0.0)), ti.select(wet, y, V(0.0))
-
-
-@ti.func
 def shear_integrals(Z: ti.template(), q, nz, n, C: ti.template(), zeta: ti.template(), centre):
     """int_0^zeta of 1/eta and of (zeta - zeta_c)/eta up to node n."""
     turn, flow = V(0.0), V(0.0)
@@ -133,7 +111,7 @@ def velocities(S: ti.template(), Z: ti.template(), G: Table, C: Coefficients, w:
             q = s * (nx + 1) + i
             k = off + q
             p, h = S[P, k] * p_H, ti.max(S[H, k], floor) * h_scale
-            px, py = gradients(S, k, i, nx, s, ny, nx + 1, dx, dy)
+            px, py = limited_gradient(S, k, i, nx, s, ny, nx + 1, dx, dy)
             px, py = px * (p_H / a), py * (p_H / a)
             node_laws(Z, q, nz, oil, p, ln_eta0)
             e0, centre, newtonian, b = couette(Z, q, nz, w, zeta, rheology, p, h, slip, eta0)

@@ -3,32 +3,18 @@
 import taichi as ti
 
 from tehl_taichi.kernels.fields import GAP, IE, TOUCH, H, P
-from tehl_taichi.kernels.lanes import Table, V, W, above, below, cells
-from tehl_taichi.physics.rheology import shear_limit
+from tehl_taichi.kernels.gradient import central_gradient
+from tehl_taichi.kernels.lanes import Table, V, W, cells
+from tehl_taichi.physics.rheology import boundary_stress
 
 Stack = ti.types.ndarray(dtype=ti.f64, ndim=3)
-
-
-@ti.func
-def gradient(S: ti.template(), k, i, nx, s, ny, n2, dx, dy):
-    """dP/dX, dP/dY from the neighbours that exist; the latter 0 on the plane of symmetry."""
-    left, right = ti.min(i, 1), ti.min(nx - i, 1)
-    x = (S[P, k + right] - S[P, k - left]) / (dx * (left + right))
-    y, here, upper, lower = V(0.0), S[P, k], above(S, P, k, n2), below(S, P, k, n2)
-    for u in ti.static(range(W)):
-        j = s * W + u
-        if j > 0 and j < ny:
-            y[u] = (upper[u] - lower[u]) / (2 * dy)
-        elif j > 0 and j == ny:
-            y[u] = (here[u] - lower[u]) / dy
-    return x, y
 
 
 @ti.func
 def shear(rheology: ti.template(), p, h, eta, touch, slip):
     """Mean shear stress on body a: the film's (eta as the shear law leaves it), or friction where the surfaces touch."""
     towards = 1.0 if slip > 0 else (-1.0 if slip < 0 else 0.0)
-    friction = towards * ti.min(rheology.mu_boundary * p, shear_limit(rheology, p))
+    friction = towards * boundary_stress(rheology, p)
     film = ti.select(p > 0, eta * slip / h, V(0.0))
     return ti.select(touch > 0, friction, film)
 
@@ -46,7 +32,7 @@ def tractions(S: ti.template(), G: Table, rheology: ti.template(), p_H: ti.f64, 
     for s in range(ny // W + 1):
         for i in range(nx + 1):
             k = off + s * (nx + 1) + i
-            px, py = gradient(S, k, i, nx, s, ny, nx + 1, dx, dy)
+            px, py = central_gradient(S, k, i, nx, s, ny, nx + 1, dx, dy)
             half = 0.5 * S[H, k] * h_scale * p_H / a
             mean = shear(rheology, S[P, k] * p_H, S[GAP, k] * h_scale, eta0 / S[IE, k], S[TOUCH, k], slip)
             a_x, b_x, y = mean - half * px, -mean - half * px, -half * py

@@ -18,12 +18,18 @@ def expansion(oil: ti.template(), p, Gamma):
 
 
 @ti.pyfunc
-def rho_film(oil: ti.template(), p, Gamma):
-    """rho / rho_0 of a film with temperatures; the thermal factor acts unless `oil.expansion` is "never"."""
+def density(oil: ti.template(), p, Gamma, expands: ti.template()):
+    """rho / rho_0, with or without the thermal factor."""
     out = compression(oil, p)
-    if ti.static(oil.expansion != "never"):
+    if ti.static(expands):
         out = out * expansion(oil, p, Gamma)
     return out
+
+
+@ti.pyfunc
+def rho_film(oil: ti.template(), p, Gamma):
+    """Of a film with temperatures; the thermal factor acts unless `oil.expansion` is "never"."""
+    return density(oil, p, Gamma, oil.expansion != "never")
 
 
 @ti.pyfunc
@@ -37,8 +43,5 @@ def expansivity(oil: ti.template(), p, Gamma):
 
 @ti.pyfunc
 def rho_ratio(oil: ti.template(), p, Gamma):
-    """rho / rho_0; the thermal factor acts when `oil.expansion` is "always"."""
-    out = compression(oil, p)
-    if ti.static(oil.expansion == "always"):
-        out = out * expansion(oil, p, Gamma)
-    return out
+    """Of a film with one temperature; the thermal factor acts when `oil.expansion` is "always"."""
+    return density(oil, p, Gamma, oil.expansion == "always")

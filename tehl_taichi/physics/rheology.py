@@ -14,6 +14,12 @@ def shear_limit(rheology: ti.template(), p):
 
 
 @ti.pyfunc
+def boundary_stress(rheology: ti.template(), p):
+    """Friction where the surfaces touch: mu_boundary p, at most the shear limit of what is left between them."""
+    return ti.min(rheology.mu_boundary * p, shear_limit(rheology, p))
+
+
+@ti.pyfunc
 def secant(rheology: ti.template(), newtonian, p):
     """shear_stress / newtonian: what is left of the viscosity, 1 without shear."""
     small = ti.abs(newtonian) < 1e-3
