@@ -96,7 +96,7 @@ def conclusions(
 def accuracy(
     out: Path = OUT, quick: bool = QUICK, threads: Optional[int] = THREADS,
     only: Optional[str] = typer.Option(None, help="errors (against run time) or coverage (of the error bars)"),
-    seed: int = typer.Option(3, help="of the random scenes that judge the error bars"),
+    seed: int = typer.Option(4, help="of the random scenes that judge the error bars"),
     judge: bool = typer.Option(False, "--judge", help="the coverage of the battery that `out` holds already"),
     keep: bool = typer.Option(False, "--keep", help="write the errors into the package, for --target-error"),
 ):
