@@ -11,7 +11,7 @@ def mismatch(description, warm=None):
     pressure in a few long and short waves and of the rigid approach; with a time derivative in a moving frame."""
     from tehl_taichi.kernels import fields
     from tehl_taichi.solvers.heat import FilmHeat
-    from tehl_taichi.solvers.levels import LINEAR, Levels
+    from tehl_taichi.solvers.levels import Levels
     from tehl_taichi.solvers.newton import ROW_CAP, PressureSolver
 
     levels = Levels(description, Scales.of(description), 64, 16)
@@ -22,6 +22,7 @@ def mismatch(description, warm=None):
     levels.set_rate(11.0, 0.7)
     if warm is not None:
         heat = FilmHeat(levels, 1e-6)
+        levels.use_film(*heat.laws)
         heat.start(warm(heat.zeta[:, None, None], X, Y))
 
     def residual(pressure, H0):
@@ -41,7 +42,7 @@ def mismatch(description, warm=None):
         solver.measure()
         solver._choose_sets()
         levels.put(fields.P, change)  # in the order of the table
-        z, out = np.append(levels.vector(fields.P) * inside, approach).astype(LINEAR), np.zeros(levels.n + 2, LINEAR)
+        z, out = np.append(levels.vector(fields.P) * inside, approach).astype(levels.linear), np.zeros(levels.n + 2, levels.linear)
         solver._apply(z, out)
         scale = np.where(levels.vector(fields.DRY) > 0, 1.0, np.minimum(levels.vector(fields.D), ROW_CAP))
         product = out[:-2] * scale
@@ -57,6 +58,11 @@ def thick(name, **changes):
 
 def test_isothermal(taichi_cpu):
     assert mismatch(thick("gear", **{"thermal.on": False, "rheology.law": "newtonian", "speed": 3.0})) < 1e-5
+
+
+def test_isothermal_with_a_shear_limit(taichi_cpu):
+    """The viscosity felt depends on pressure and film by the shear law."""
+    assert mismatch(thick("gear", **{"thermal.on": False, "srr": -1.9, "temperature": 40.0})) < 1e-4
 
 
 def test_with_temperatures_and_a_shear_limit(taichi_cpu):
