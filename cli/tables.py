@@ -20,10 +20,10 @@ def summary_table(summary):
     steady = summary["steady"]
     for key, name, factor, unit in (("h_c_m", "steady h_c", 1e6, "um"), ("h_min_m", "steady h_min", 1e6, "um"),
                                     ("p_max_Pa", "steady p_max", 1e-9, "GPa")):
-        rows.append((name, f"{steady[key] * factor:.4f}{_plus(steady['error'].get(key), factor)} {unit}"))
+        rows.append((name, _quantity(steady, key, factor, unit)))
     if "film_formula_m" in steady:
         rows.append(("h_c by formula (Moes / Nijenbanning)", f"{steady['film_formula_m'] * 1e6:.4f} um"))
-    rows.append(("steady friction coefficient", _friction(steady, "friction_coefficient")))
+    rows.append(("steady friction coefficient", _quantity(steady, "friction_coefficient")))
     rows += _heat_rows("steady", steady)
     rows += _passage_rows(summary)
     rows.append(("run time", f"{summary['wall_s']:.1f} s (kernels {summary['compile_s']:.1f} s)"))
@@ -37,9 +37,10 @@ def warning_lines(sentences):
         print(f"warning: {sentence}")
 
 
-def _plus(error, factor):
-    """' ± error', or that it is not known."""
-    return " (error unknown)" if error is None else f" ± {error * factor:.2g}"
+def _quantity(values, name, factor=1, unit=""):
+    """'value ± error unit' of one of the values, or that its error is not known."""
+    text, error = f"{values[name] * factor:.4f}", values.get("error", {}).get(name)
+    return f"{text} {unit}".rstrip() + " (error unknown)" if error is None else f"{text} ± {error * factor:.2g} {unit}".rstrip()
 
 
 def _heat_rows(when, values):
@@ -47,13 +48,11 @@ def _heat_rows(when, values):
         return []
     from tehl_taichi.io.summary import HEAT
 
-    error = values.get("error", {})
-    largest = " / ".join(f"{values[key]:.1f}{_plus(error.get(key), 1)}" for key in HEAT)
-    return [(f"{when} film / surface a / surface b, largest", f"{largest} °C")]
-
-
-def _friction(values, name):
-    return f"{values[name]:.4f}{_plus(values.get('error', {}).get(name), 1)}"
+    errors = [values.get("error", {}).get(key) for key in HEAT]
+    largest = " / ".join(f"{values[key]:.1f}" + (f" ± {error:.2g}" if error is not None else "")
+                         for key, error in zip(HEAT, errors))
+    unknown = " (errors unknown)" if errors == [None] * len(HEAT) else ""
+    return [(f"{when} film / surface a / surface b, largest", f"{largest} °C{unknown}")]
 
 
 def _passage_rows(summary):
@@ -61,10 +60,9 @@ def _passage_rows(summary):
     if "transient" in summary:
         t = summary["transient"]
         rows += _heat_rows("passage", t)
-        error = t.get("error", {})
-        rows += [("passage p_max", f"{t['p_max_Pa'] / 1e9:.4f}{_plus(error.get('p_max_Pa'), 1e-9)} GPa"),
-                 ("passage h_min", f"{t['h_min_m'] * 1e6:.4f}{_plus(error.get('h_min_m'), 1e6)} um"),
-                 ("passage friction coefficient, mean", _friction(t, "friction_coefficient_mean")),
+        rows += [("passage p_max", _quantity(t, "p_max_Pa", 1e-9, "GPa")),
+                 ("passage h_min", _quantity(t, "h_min_m", 1e6, "um")),
+                 ("passage friction coefficient, mean", _quantity(t, "friction_coefficient_mean")),
                  ("load carried by solid contact", f"{t['contact_load_fraction_max']:.3%} at most"),
                  ("worst residual / load / mass error",
                   f"{t['residual_max']:.1e} / {t['load_error_max']:.1e} / {t['mass_error_max']:.1e}")]
@@ -75,7 +73,7 @@ def _passage_rows(summary):
 
 def fatigue_rows(f):
     """(quantity, value) of a fatigue summary: the worst point of the surface, then of what lies below."""
-    rows = [("Fi_max at the surface", f"{f['Fi_max']:.4f}{_plus(f.get('error', {}).get('Fi_max'), 1)}"),
+    rows = [("Fi_max at the surface", _quantity(f, "Fi_max")),
             (f"{f['criterion']} stress", _stress(f["findley_stress_max_Pa"])), *_point_rows(f),
             ("largest principal stress on the surface", _stress(f["sigma1_max_Pa"])),
             ("with kappa, sigma_eF", f"{f['kappa_F']:g}, {f['sigma_eF_Pa'] / 1e6:g} MPa"),

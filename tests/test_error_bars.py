@@ -197,7 +197,8 @@ def test_who_gets_companions(monkeypatch):
     monkeypatch.setattr(companions, "Companions", lambda description: "some")
     for description, cores, steps, expected in (
             (auto, 1, 10**6, False), (auto, 2, 10**6, True), (auto, 2, 4, False), (short(), 1, 4, True), (short(), 2, 0, False),
-            (short(**{"numerics.estimate_error": False}), 2, 10**6, False), (short(**{"time.steps": -1, "time.steady_only": True}), 2, 4, False)):
+            (short(**{"numerics.estimate_error": False}), 2, 10**6, False),
+            (short(**{"time.steps": -1, "time.steady_only": True}), 2, 4, False)):
         monkeypatch.setattr(companions, "cores", lambda cores=cores: cores)
         assert (companions.beside(description, steps) == "some") == expected
 

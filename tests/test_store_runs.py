@@ -70,11 +70,11 @@ def test_a_cut_passage_says_so_and_goes_on_to_the_same_result(tehl, unbroken):
     code, out, said = tehl(*RIDGE, "--steps", 5, "--out", "cut.zarr", "--json")
     summary = json.loads(out)
     assert code == 0 and summary["steps"] == 5 and "warning: passage cut at -1.37 a" in said
-    assert summary["warnings"][0].startswith("passage cut at -1.37 a")
+    assert any(sentence.startswith("passage cut at -1.37 a") for sentence in summary["warnings"])
     assert any(line.startswith("rest of the passage") for line in summary["left_out"])
     assert "cut at -1.37 a; go on with: tehl resume cut.zarr" in tehl("show", "cut.zarr")[1]
     code, out, _ = tehl("resume", "cut.zarr", "--steps", 7, "--threads", 2, "--json")
-    assert code == 0 and json.loads(out)["steps"] == 12 and "-0.94 a" in json.loads(out)["warnings"][0]
+    assert code == 0 and json.loads(out)["steps"] == 12 and "passage cut at -0.94 a" in out
     code, out, _ = tehl("resume", "cut.zarr", "--threads", 2, "--json")
     summary = json.loads(out)
     assert code == 0 and summary["steps"] == 51 and summary["warnings"] == unbroken.warnings
@@ -88,7 +88,7 @@ def test_a_cut_passage_says_so_and_goes_on_to_the_same_result(tehl, unbroken):
 
 def test_an_end_inside_the_contact_is_a_cut_too(tehl, unbroken):
     code, out, _ = tehl(*RIDGE, "--set", "time.x_end=0.0", "--no-fatigue", "--out", "half.zarr", "--json")
-    assert code == 0 and "passage cut at 0.00 a" in json.loads(out)["warnings"][0]
+    assert code == 0 and "passage cut at 0.00 a" in " ".join(json.loads(out)["warnings"])
     assert tehl("resume", "half.zarr", "--threads", 2, "--quiet")[0] == 0
     assert_same(Store.open("half.zarr"), unbroken, range(52))
 
@@ -110,7 +110,8 @@ def test_every_third_step_is_stored_and_all_of_them_count(tehl, unbroken):
     assert thin.scalar("step").tolist() == stored  # 20: where it was stopped
     assert_same(thin, unbroken, stored)
     for name, value in thin.summary["transient"].items():
-        assert value == pytest.approx(t[name], rel=1e-10), name
+        if name not in ("error", "unknown"):
+            assert value == pytest.approx(t[name], rel=1e-10), name
     for name in ("pressure_cycles", "newton_steps", "rejected_steps"):
         assert thin.summary["work"][name] == unbroken.summary["work"][name]
     assert thin.summary["fatigue"]["Fi_max"] == pytest.approx(unbroken.summary["fatigue"]["Fi_max"], rel=0.07)
@@ -122,6 +123,7 @@ def test_thermal_stress_of_thinned_entries():
 
     from tehl_taichi.post.fatigue import Snapshots
     from tehl_taichi.post.passage import Passage
+    from tehl_taichi.post.thermal_stress import ThermalStress
     from tehl_taichi.scene import scene
     from tehl_taichi.scene.scales import Scales
 
@@ -138,7 +140,7 @@ def test_thermal_stress_of_thinned_entries():
     def heat(steps):
         reader = Snapshots([shot(step) for step in steps])
         passage = Passage(description, reader, np.array([reader.feature_x(n) for n in range(len(reader))]))
-        stress = passage._thermal()
+        stress = passage.heat(ThermalStress)
         return np.stack([stress(passage.ticks[n])[0] for n in range(len(reader))])
 
     kept = [*range(0, 31, 2), 31]
@@ -179,7 +181,7 @@ def test_a_full_disk_in_the_middle_of_a_run(tehl, unbroken, monkeypatch):
     for module in ("store", "checkpoint"):
         monkeypatch.setattr(f"tehl_taichi.io.{module}.replace", filling)
     code, _, said = tehl(*RIDGE, "--out", "full.zarr")
-    assert code == 4 and said.count("\n") == 1
+    assert code == 4 and len([line for line in said.splitlines() if not line.startswith("warning: ")]) == 1
     assert "cannot write to full.zarr: No space left on device" in said and "then: tehl resume full.zarr" in said
     left[0] = 10**9
     assert 1 < len(Store.open("full.zarr")) < 52
