@@ -17,7 +17,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 # its banner would go to stdout, which belongs to `--json`
 os.environ.setdefault("ENABLE_TAICHI_HEADER_PRINT", "0")
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 __all__ = ["Error", "__version__", "march", "scene", "simulate"]
 
 
