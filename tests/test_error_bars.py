@@ -204,9 +204,11 @@ def test_who_gets_companions(monkeypatch):
 
 
 def test_a_summary_has_numbers_or_null():
-    from tehl_cli.tables import _plus
+    from tehl_cli.tables import _quantity
 
-    assert _plus(None, 1.0) == " (error unknown)" and _plus(2e-9, 1e6) == " ± 0.002"
+    values = {"film": 1.5e-6, "error": {"film": None}}
+    assert _quantity(values, "film", 1e6, "um") == "1.5000 um (error unknown)"
+    assert _quantity({**values, "error": {"film": 2e-9}}, "film", 1e6, "um") == "1.5000 ± 0.002 um"
     json.dumps({"error": bars([{"a": Reading(1.0)}])}, allow_nan=False)
 
 
