@@ -13,11 +13,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-EVENLY, STEEPEST = 2.0, 3.0  # differences that fall by less from grid to grid show no order, by more no higher one
+EVENLY, STEEPEST = 1.5, 3.0  # differences that fall by less from grid to grid show no order, by more no higher one
 # of the error by Richardson's extrapolation, and of the last difference where there is none; the blur of an extreme adds to it
-SAFETY, UNEVEN = {False: 1.9, True: 1.3}, {False: 2.1, True: 1.3}
+SAFETY, UNEVEN = {False: 2.0, True: 1.75}, {False: 1.75, True: 1.25}
 EARLIER = (0.1, 0.01)  # of the difference before the last, and the one before that: left as error, at most
-ALONE = {False: 1.75, True: 2.0}  # of the only difference there is
+ALONE = 1.5  # of the only difference there is
 BLURRED = 1.5  # of the distance between an extreme over nodes and that of the parabola through them
 HOPELESS = 0.5  # a number that changes by more than this part of itself from grid to grid is not resolved
 MOVED = 4.0  # cells of the coarser grid that the place of an extreme may move: more is another extreme
@@ -68,7 +68,7 @@ def _left(steps, extreme):
     """What may be left as error after the differences between grids, the newest first; extreme: of an extreme over nodes."""
     last, *earlier = (abs(step) for step in steps)
     if not earlier:
-        return ALONE[extreme] * last
+        return ALONE * last
     even = steps[0] * steps[1] > 0 and earlier[0] >= EVENLY * last
     part = SAFETY[extreme] / (min(earlier[0] / last, STEEPEST) - 1) if even else UNEVEN[extreme]
     return max(part * last, *(share * step for share, step in zip(EARLIER, earlier)))
