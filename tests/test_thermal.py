@@ -223,12 +223,12 @@ def test_coarse_thermal_passage():
 
 @pytest.mark.slow
 def test_order_in_time():
-    """Temperatures with steps of 1/2, 1/4 and 1/8 cell while the asperity enters: 1.7 mid-film (2.1 from
-    1/4 to 1/16), 1.8 on its own surface (1.1 and 1.5 from 1 to 1/4)."""
+    """Temperatures with steps of 1/2, 1/4 and 1/8 cell while the asperity enters: 2.48 mid-film, 1.98 on its own surface; not
+    of the first columns, where oil that turns back in front of the contact keeps what earlier steps left."""
     ends = [passage(**{"time.courant": courant, "time.x_end": -0.6, "numerics.tolerance": 1e-8,
                        "thermal.tolerance": 1e-4})[-1] for courant in (0.5, 0.25, 0.125)]
-    for name, order in (("temperature_mid", 1.7), ("temperature_a", 1.7)):
-        change = [np.sqrt(np.mean((a.fields[name] - b.fields[name]) ** 2)) for a, b in zip(ends, ends[1:])]
+    for name, order in (("temperature_mid", 1.9), ("temperature_a", 1.9)):
+        change = [np.sqrt(np.mean((a.fields[name] - b.fields[name])[4:] ** 2)) for a, b in zip(ends, ends[1:])]
         assert np.log2(change[0] / change[1]) > order
 
 
