@@ -34,6 +34,7 @@ def test_a_bar_covers_the_error_and_little_more(error, count):
 
 def test_an_earlier_difference_counts_where_the_last_one_is_small_by_accident():
     assert estimated_error([1.0, 1.36, 1.36]) == pytest.approx(0.036)  # a tenth of 0.36
+    assert estimated_error([1.0, 1.0]) == pytest.approx(1e-3)  # two grids may agree by accident
     assert estimated_error([1.0, 1.1]) == pytest.approx(0.15) and np.isnan(estimated_error([1.0]))
 
 
