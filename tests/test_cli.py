@@ -111,6 +111,7 @@ def test_a_target_error_chooses_the_grid_of_the_run(tmp_path):
     assert json.loads(done.stdout)["grid"]["nx"] > 200 and "error of 0.2%" in done.stderr
 
 
+@pytest.mark.slow  # in processes of their own; test_precision asks the same of one process
 def test_linear_solves_in_single_and_in_double_give_the_same_answer(finished, tmp_path):
     from tehl_taichi.io.store import FIELDS, Store
 
@@ -141,7 +142,7 @@ def test_ctrl_c_in_a_suite_ends_in_a_sentence(tmp_path):
     assert run.wait() == 4 and "tehl: interrupted; nothing that was stored is lost" in run.stderr.read()
 
 
-@pytest.mark.parametrize("stop", [signal.SIGKILL, signal.SIGINT])
+@pytest.mark.parametrize("stop", [signal.SIGKILL, pytest.param(signal.SIGINT, marks=pytest.mark.slow)])
 def test_a_broken_run_opens_and_resumes_to_the_same_result(finished, tmp_path, stop):
     from tehl_taichi.io.store import Store
 
@@ -205,7 +206,7 @@ def test_fatigue_again_with_other_constants(tmp_path):
                                                                               "fatigue_point.png"}
     part = json.loads(tehl("fatigue", "run.zarr", "--to-x", "-0.5", "--depths", "30e-6", "--json", cwd=tmp_path).stdout)
     assert part["by_depth"][0]["findley_stress_max_Pa"] < first["findley_stress_max_Pa"]
-    limits = tehl("fatigue", "run.zarr", "--bending-limit", 500e6, "--torsion-limit", 320e6, cwd=tmp_path)
+    limits = tehl("fatigue", "run.zarr", "--depths", "none", "--bending-limit", 500e6, "--torsion-limit", 320e6, cwd=tmp_path)
     assert limits.returncode == 0 and "0.2916" in limits.stdout
     for words, what in ((("--criterion", "finley"), "findley"), (("--bending-limit", "5e8"), "together"),
                         (("--from-x", "9"), "no stored moment"), (("--depths", "a"), "50e-6"), (("--kappa", "-1"), "kappa")):
