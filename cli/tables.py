@@ -46,7 +46,7 @@ def _quantity(values, name, factor=1, unit=""):
 def _heat_rows(when, values):
     if "film_max_C" not in values:
         return []
-    from tehl_taichi.io.summary import HEAT
+    from tehl_taichi.readings import HEAT
 
     errors = [values.get("error", {}).get(key) for key in HEAT]
     largest = " / ".join(f"{values[key]:.1f}" + (f" ± {error:.2g}" if error is not None else "")

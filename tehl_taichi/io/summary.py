@@ -5,6 +5,7 @@ import numpy as np
 from tehl_taichi import __version__
 from tehl_taichi.io import judge
 from tehl_taichi.physics.formula import central_film
+from tehl_taichi.readings import HEAT
 from tehl_taichi.scene.limits import GAMMA_MEASURED, P_MEASURED
 from tehl_taichi.scene.scales import Scales
 
@@ -40,7 +41,6 @@ def counts(store):
             "cells": {"nx": grid.nx, "ny": 0 if scene.one_dimensional else grid.ny}}
 
 
-HEAT = ("film_max_C", "surface_a_max_C", "surface_b_max_C")
 PASSAGE = ("p_max_Pa", "h_min_m", *HEAT, "friction_coefficient_mean")
 
 
