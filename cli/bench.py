@@ -41,7 +41,7 @@ def stability(
     """Stiff and extreme scenes: converged, refused, stopped with the reason, or failed. Example: `tehl bench stability`"""
     from tehl_taichi.profiles.stability import cases, random_cases, run_case
 
-    from tehl_taichi import runtime
+    from tehl_taichi.engine import runtime
 
     runtime.start(threads=threads)
     table = list(cases(thermal).items())
@@ -72,9 +72,9 @@ def conclusions(
 
     Example: `tehl bench conclusions --quick`
     """
-    from tehl_cli.tables import list_table
+    from tehl_cli.listing import list_table
 
-    from tehl_taichi import runtime
+    from tehl_taichi.engine import runtime
     from tehl_taichi.scene import scene
 
     runtime.start(threads=threads)
@@ -104,7 +104,7 @@ def accuracy(
 
     Examples: `tehl bench accuracy --quick` · `tehl bench accuracy --only coverage --threads 1`
     """
-    from tehl_taichi import runtime
+    from tehl_taichi.engine import runtime
     from tehl_taichi.scene.checks import choice
 
     choice("--only", only, (None, "errors", "coverage"))
@@ -116,7 +116,7 @@ def accuracy(
 
 
 def _accuracy(out, quick, keep):
-    from tehl_cli.tables import list_table
+    from tehl_cli.listing import list_table
     from tehl_taichi.profiles import accuracy as suite
     from tehl_taichi.profiles import measure
 
@@ -134,7 +134,7 @@ def _accuracy(out, quick, keep):
 
 
 def _coverage(path, seed, quick, judge, threads):
-    from tehl_cli.tables import list_table
+    from tehl_cli.listing import list_table
     from tehl_taichi.profiles import coverage as suite
     from tehl_taichi.profiles import measure
 
@@ -157,7 +157,7 @@ def _short(value, factor):
 
 def _errors(rows):
     """A line per run, its error in each quantity; * where no faster run of the family has a smaller one."""
-    from tehl_cli.tables import list_table
+    from tehl_cli.listing import list_table
 
     quantities, runs = list(dict.fromkeys(row["quantity"] for row in rows)), {}
     for row in rows:
@@ -208,7 +208,7 @@ def profile(out: Path = OUT, quick: bool = QUICK, threads: Optional[int] = THREA
 
 
 def _table(title, rows, columns):
-    from tehl_cli.tables import list_table
+    from tehl_cli.listing import list_table
 
     list_table(title, columns, [[form.format(row[key]) if row.get(key) is not None else "" for key, form in columns.items()]
                                 for row in rows])

@@ -38,9 +38,9 @@ def fatigue(
     """
     from tehl_cli.runs import _check_threads
 
-    from tehl_taichi import runtime
+    from tehl_taichi.engine import runtime
+    from tehl_taichi.fatigue import assessment as pass_
     from tehl_taichi.io.store import Store
-    from tehl_taichi.post import fatigue as pass_
     from tehl_taichi.scene.scales import Scales
 
     _check_threads(threads)
@@ -72,7 +72,7 @@ def _depths(text):
 
 
 def _limits(bending, torsion, kappa, endurance):
-    from tehl_taichi.post.findley import from_limits
+    from tehl_taichi.fatigue.findley import from_limits
     from tehl_taichi.scene import SceneError
 
     if bending is None and torsion is None:
@@ -87,7 +87,7 @@ def _limits(bending, torsion, kappa, endurance):
 
 
 def _show(result, as_json):
-    from tehl_cli.tables import fatigue_rows, list_table
+    from tehl_cli.listing import fatigue_rows, list_table
 
     if as_json:
         print_json(result.summary)

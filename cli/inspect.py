@@ -15,7 +15,7 @@ def register(app):
 
 def scenes():
     """List the built-in scenes."""
-    from tehl_cli.tables import list_table
+    from tehl_cli.listing import list_table
 
     from tehl_taichi.scene import BUILT_INS
 
@@ -24,7 +24,7 @@ def scenes():
 
 def oils():
     """List the named oils with their sources."""
-    from tehl_cli.tables import list_table
+    from tehl_cli.listing import list_table
 
     from tehl_taichi.scene.oil import OILS
 
@@ -50,7 +50,7 @@ def new(
 
 def show(store: Path = typer.Argument(..., help="store of a finished, running or broken run")):
     """Summary and residual history of a run."""
-    from tehl_cli.tables import history_table, summary_table, warning_lines
+    from tehl_cli.listing import history_table, summary_table, warning_lines
 
     from tehl_taichi.io.store import Store
 
@@ -96,10 +96,11 @@ def doctor():
     import os
     import time
 
-    from tehl_cli.tables import list_table
+    from tehl_cli.listing import list_table
 
-    from tehl_taichi import __version__, runtime
+    from tehl_taichi import __version__
     from tehl_taichi.commit import commit
+    from tehl_taichi.engine import runtime
     from tehl_taichi.scene import scene
 
     info = runtime.start()
@@ -107,7 +108,7 @@ def doctor():
     rows = [("tehl_taichi", __version__), ("commit", commit()), *((name, importlib.metadata.version(name)) for name in names)]
     rows += [(key, str(value)) for key, value in info.items()] + [("cores", str(os.cpu_count()))]
     list_table("this installation", ("what", "value"), rows)
-    from tehl_taichi.simulation import march
+    from tehl_taichi.march.passage import march
 
     started = time.perf_counter()
     film = next(march(scene("smooth-line").replace(**{"grid.nx": 128, "thermal.on": False}))).scalars["h_c_m"]

@@ -110,18 +110,18 @@ def resume(
 
 
 def _start(arch, threads):
-    from tehl_taichi import runtime
+    from tehl_taichi.engine import runtime
 
     return runtime.start(arch, threads)
 
 
 def _simulate(description, place, started, as_json, quiet):
-    from tehl_taichi.io.plain import plain
+    from tehl_taichi.io.json_values import plain
     from tehl_taichi.io.provenance import provenance
     from tehl_taichi.io.store import Store
+    from tehl_taichi.march.passage import march
     from tehl_taichi.scene.map_judge import preview
     from tehl_taichi.scene.route import most_steps
-    from tehl_taichi.simulation import march
 
     for line in description.left_out():
         if not quiet:
@@ -140,10 +140,10 @@ def _simulate(description, place, started, as_json, quiet):
 
 
 def _go(saved, state, started, as_json, quiet, steady):
-    from tehl_taichi import companions
+    from tehl_taichi.engine.launches import binding_seconds
     from tehl_taichi.io.summary import summarise
-    from tehl_taichi.launches import binding_seconds
-    from tehl_taichi.simulation import total_steps
+    from tehl_taichi.march import companions
+    from tehl_taichi.march.passage import total_steps
 
     with companions.beside(saved.scene, total_steps(saved.scene) + 1 - saved.steps) as others:
         _march(saved, state, quiet)
@@ -181,7 +181,7 @@ def _what_is_left(path):
 
 def _march(saved, state, quiet):
     from tehl_taichi.io.recorder import go_on
-    from tehl_taichi.simulation import total_steps
+    from tehl_taichi.march.passage import total_steps
 
     with Live(total_steps(saved.scene), saved.last_step, quiet) as live:
         go_on(saved, state, live.step)
@@ -190,11 +190,11 @@ def _march(saved, state, quiet):
 def _fatigue(saved, quiet):
     if not saved.scene.fatigue_wanted or saved.steps < 3:
         return None, None
-    from tehl_taichi.post import fatigue
+    from tehl_taichi.fatigue import assessment
 
     if not quiet:
         say("stresses and Findley search")
-    result = fatigue.run(saved.scene, saved)
+    result = assessment.run(saved.scene, saved)
     return result.summary, result.maps
 
 
@@ -294,6 +294,6 @@ def _check_threads(threads):
 
 
 def _print(summary):
-    from tehl_cli.tables import summary_table
+    from tehl_cli.listing import summary_table
 
     summary_table(summary)

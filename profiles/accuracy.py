@@ -6,11 +6,11 @@ import time
 import numpy as np
 from tehl_taichi.profiles.speed import circular
 
-from tehl_taichi.launches import binding_seconds
+from tehl_taichi.engine.launches import binding_seconds
+from tehl_taichi.march.error_bars import observed_order
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.target import columns_per_width
-from tehl_taichi.solvers.error_bars import observed_order
 
 TARGETS = (0.05, 0.01, 0.001)
 COLUMNS = {"steady line": (64, 128, 256, 512, 1024), "steady circle": (64, 128, 256),
@@ -91,18 +91,18 @@ def solve(family, nx):
 
 def passage_values(description):
     """{quantity: value} with the feature at x = 0, Fi over the whole passage."""
-    from tehl_taichi.post import fatigue
-    from tehl_taichi.simulation import march
+    from tehl_taichi.fatigue import assessment
+    from tehl_taichi.march.passage import march
 
     shots = list(march(description))
     at = np.array([shot.feature_x for shot in shots[1:]]) / Scales.of(description).a
     middle = {key: float(np.interp(0.0, at, [shot.scalars[key] for shot in shots[1:]]))
               for key in ("h_min_m", "p_max_Pa", "film_max_C") if key in shots[0].scalars}
-    return {**middle, "Fi_max": fatigue.run(description, shots).summary["Fi_max"]}
+    return {**middle, "Fi_max": assessment.run(description, shots).summary["Fi_max"]}
 
 
 def _numbers(description):
-    from tehl_taichi.simulation import march
+    from tehl_taichi.march.passage import march
 
     scalars = next(march(description)).scalars
     return {key: scalars[key] for key in ("h_c_m", "h_min_m", "p_max_Pa")}

@@ -10,12 +10,12 @@ from pathlib import Path
 import numpy as np
 
 from tehl_taichi.errors import NotConverged
+from tehl_taichi.fatigue import below, findley
+from tehl_taichi.fatigue.histories import Passage
 from tehl_taichi.io.recorder import record
-from tehl_taichi.post import below, findley
-from tehl_taichi.post.passage import Passage
+from tehl_taichi.march.error_bars import estimated_error
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
-from tehl_taichi.solvers.error_bars import estimated_error
 
 GRIDS, QUICK_GRIDS = ((64, 16), (128, 32), (256, 64)), ((64, 16), (128, 32))
 REFERENCE, FINER = "asperity 1.5 um", (512, 128)  # the case that decides runs on one grid more

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import numpy as np
 
-from tehl_taichi import companions
 from tehl_taichi.errors import Error
+from tehl_taichi.march import companions
+from tehl_taichi.march.error_bars import Reading, bars
 from tehl_taichi.scene import Scene, SceneError, scene
-from tehl_taichi.solvers.error_bars import Reading, bars
 
 FINER = 4
 # how many of each kind, by the columns that they are drawn for; temperatures on a point contact march in time for long
@@ -104,7 +104,7 @@ def row(description):
 
 
 def _row_of_start(description, finer):
-    from tehl_taichi.simulation import march
+    from tehl_taichi.march.passage import march
 
     own = [{name: asdict(reading) for name, reading in grid.items()} for grid in next(march(description)).grids]
     scalars = next(march(finer)).scalars

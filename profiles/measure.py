@@ -32,14 +32,14 @@ def fresh(threads, function, *args):
 
 
 def _start(threads):
-    from tehl_taichi import runtime
+    from tehl_taichi.engine import runtime
 
     runtime.start(threads=threads)
 
 
 def passage(description, steps=None):
     """Timing of `steps` steps after two for warming up, the others taken to be like them; of all steps without a number."""
-    from tehl_taichi.simulation import march, total_steps
+    from tehl_taichi.march.passage import march, total_steps
 
     whole = total_steps(description)
     run = march(description.replace(**{"time.steps": steps + 2}) if steps else description)
@@ -58,7 +58,7 @@ def passage(description, steps=None):
 
 def steady(description, repeats):
     """Median time (s) of the steady solution after one for warming up."""
-    from tehl_taichi.simulation import march
+    from tehl_taichi.march.passage import march
 
     return median(lambda: next(march(description.replace(**{"time.steady_only": True}))), repeats)
 

@@ -16,10 +16,10 @@ from tehl_taichi.scene import scene
 
 # (file, function) -> stage; a stage may contain others
 STAGES = {("newton.py", "solve"): "pressure: Newton", ("krylov.py", "fgmres"): "pressure: Krylov",
-          ("transforms.py", "deflect"): "pressure: deflection", ("transforms.py", "distribute"): "pressure: distribution",
+          ("deflection.py", "deflect"): "pressure: deflection", ("deflection.py", "distribute"): "pressure: distribution",
           ("preconditioner.py", "apply"): "pressure: preconditioner", ("preconditioner.py", "build"): "pressure: build",
-          ("heat.py", "solve"): "temperatures", ("heat.py", "accept"): "temperatures: accept",
-          ("simulation.py", "_predict"): "guess", ("snapshot.py", "take"): "snapshot"}
+          ("temperatures.py", "solve"): "temperatures", ("temperatures.py", "accept"): "temperatures: accept",
+          ("passage.py", "_predict"): "guess", ("snapshot.py", "take"): "snapshot"}
 
 
 def run(nx, ny, thermal, steps):
@@ -28,9 +28,10 @@ def run(nx, ny, thermal, steps):
 
     To be called in a process of its own (:func:`tehl_taichi.profiles.measure.fresh`): kernels must be bound while watched.
     """
-    from tehl_taichi import launches, precision
-    from tehl_taichi.simulation import march
-    from tehl_taichi.solvers.levels import DTYPES
+    from tehl_taichi.engine import launches
+    from tehl_taichi.march.passage import march
+    from tehl_taichi.pressure import precision
+    from tehl_taichi.pressure.levels import DTYPES
 
     watched = launches.watch_launches(bytes_of)
     description = scene("gear").replace(**{"grid.nx": nx, "grid.ny": ny, "thermal.on": thermal, "time.steps": steps + 1})
@@ -65,8 +66,8 @@ def copy_rate(size):
 
 def transforms_alone(nx, ny, dtype):
     """{stage: seconds of one call} where nothing else has used the caches."""
-    from tehl_taichi.solvers.levels import coarsen, solved_by
-    from tehl_taichi.solvers.transforms import Deflection, Distribution
+    from tehl_taichi.pressure.deflection import Deflection, Distribution
+    from tehl_taichi.pressure.levels import coarsen, solved_by
 
     deflection = Deflection(nx, ny, 4 / nx, 2 / ny, 1.0, True, dtype=dtype)
     sizes = coarsen(nx, ny)

@@ -99,7 +99,7 @@ def references(nx, ny):
 
 def search(points, moments):
     """Median time of the Findley search of passing load histories, and points x planes decided x moments in a second."""
-    from tehl_taichi.post import findley
+    from tehl_taichi.fatigue import findley
 
     rng, t = np.random.default_rng(1), np.linspace(-2, 2, moments)
     centre, width = rng.uniform(-0.3, 0.3, (points, 1)), rng.uniform(0.5, 1.0, (points, 1))

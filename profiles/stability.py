@@ -129,8 +129,8 @@ def edited(base, changes):
 def run_case(name, description, precision=AUTO):
     """March one scene to its end with linear solves in `precision`, and search the fatigue of a passage. Returns an Outcome."""
     from tehl_taichi.errors import NotConverged
-    from tehl_taichi.post import fatigue
-    from tehl_taichi.simulation import march, total_steps
+    from tehl_taichi.fatigue import assessment
+    from tehl_taichi.march.passage import march, total_steps
 
     started, shots, newton, cycles = time.perf_counter(), [], 0.0, 0.0
     verdict, reason, index = "converged", "", None
@@ -147,7 +147,7 @@ def run_case(name, description, precision=AUTO):
                 verdict, reason = "failed", f"NaN or negative film at step {shot.step}"
                 break
         if verdict == "converged" and description.fatigue_wanted and len(shots) > 2:
-            index = fatigue.run(description, shots).summary["Fi_max"]
+            index = assessment.run(description, shots).summary["Fi_max"]
             if not 0 <= index < np.inf:
                 verdict, reason = "failed", f"fatigue index {index}"
     except NotConverged as error:

@@ -4,10 +4,11 @@ import inspect
 
 import numpy as np
 
-from tehl_taichi.kernels import fields, slots
-from tehl_taichi.kernels.lanes import W
+from tehl_taichi.engine.lanes import W
+from tehl_taichi.heat import slots
+from tehl_taichi.pressure import fields
 
-# names in :mod:`tehl_taichi.kernels.fields`: of the linear problem (table J), and of the state (S)
+# names in :mod:`tehl_taichi.pressure.fields`: of the linear problem (table J), and of the state (S)
 IN_J = ("A", "AU", "AD", "B", "BU", "BD", "EPS", "SCALE", "KIND", "RES", "SOL", "COR", "TRIAL", "FILM", "PRODUCT", "BAND")
 IN_S = ("P", "H", "GAP0", "QOLD", "MASK", "WEIGHT", "RHO", "LE", "IE", "ROOT", "GAP", "DLE", "DRP", "QP", "R", "D", "DRY",
         "TOUCH", "RHOC", "QCP", "DLH")

@@ -21,21 +21,10 @@ __version__ = "0.2.0"
 __all__ = ["Error", "__version__", "march", "scene", "simulate"]
 
 
-def march(scene, state=None, precision=None):
-    """Generator of snapshots of `scene`: the steady start, then one per time step (for loops of one's own).
-
-    state: of the snapshot to go on from; precision: "f32" or "f64", of the linear solves, instead of the scene's own
-    (`numerics.precision`). Every scene runs in its own, in any order.
-    """
-    from tehl_taichi.simulation import march as run
-
-    return run(scene if precision is None else scene.replace(**{"numerics.precision": precision}), state)
-
-
 def simulate(scene, precision=None):
     """All snapshots of `scene` as a list; long runs are better streamed with :func:`march` or `tehl run`."""
     return list(march(scene, precision=precision))
 
 
-from tehl_taichi import scene  # noqa: E402  callable: scene("gear"); after the settings above, which numpy reads
+from tehl_taichi import march, scene  # noqa: E402  callable: scene("gear"); after the settings above, which numpy reads
 from tehl_taichi.errors import Error  # noqa: E402

@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
-from tehl_cli import tables
+from tehl_cli import listing
 
 import tehl_taichi as tehl
-from tehl_taichi.io import figures, judge
-from tehl_taichi.post import below, fatigue, half_space
-from tehl_taichi.post.passage import Passage
-from tehl_taichi.post.row_stress import RowStress
+from tehl_taichi.fatigue import assessment, below, half_space
+from tehl_taichi.fatigue.histories import Passage
+from tehl_taichi.fatigue.row_stress import RowStress
+from tehl_taichi.io import figures, result_judge
 from tehl_taichi.scene import SceneError
 from tehl_taichi.scene.scales import Scales
 
@@ -60,7 +60,7 @@ class Rolling:
 
 def result(heat=False, **changes):
     scene = tehl.scene("gear").replace(**{"thermal.on": heat, **changes})
-    return scene, fatigue.run(scene, Rolling(scene))
+    return scene, assessment.run(scene, Rolling(scene))
 
 
 @pytest.fixture(scope="module")
@@ -107,7 +107,7 @@ def test_the_contact_alone_is_worst_where_a_line_contact_is(taichi_cpu):
 
 def test_of_a_row_alone_the_profile_is_that_of_the_row(taichi_cpu):
     scene = tehl.scene("furrow-line").replace(**{"thermal.on": False})
-    found = fatigue.run(scene, Rolling(scene, 12, 1))
+    found = assessment.run(scene, Rolling(scene, 12, 1))
     assert "contact_alone" not in found.summary["below"]
     under = found.maps["findley_stress_under_row"][0]
     np.testing.assert_array_equal(under[0], found.maps["findley_stress"][0][:, 0])
@@ -130,13 +130,13 @@ def test_depths_beyond_the_rungs_are_interpolated_well(taichi_cpu):
 def test_a_worst_point_below_is_said():
     fatigue_ = {"Fi_max": 1.008, "below": {"Fi_max": 1.39, "depth_m": 24.8e-6,
                                            "contact_alone": {"Fi_max": 1.195, "depth_m": 183e-6}}}
-    said, = judge.worst_below(None, {"fatigue": fatigue_})
+    said, = result_judge.worst_below(None, {"fatigue": fatigue_})
     assert "Fi 1.39 at 25 um, 1.01 at the surface" in said and "1.20 at 183 um" in said
-    assert judge.worst_below in judge.CHECKS and "finer" not in said
+    assert result_judge.worst_below in result_judge.CHECKS and "finer" not in said
     first = {**fatigue_["below"], "searched_m": [24.8e-6, 1e-3]}
-    assert "take a finer one" in judge.worst_below(None, {"fatigue": {**fatigue_, "below": first}})[0]
-    assert judge.worst_below(None, {"fatigue": {**fatigue_, "Fi_max": 1.5}}) == []
-    assert judge.worst_below(None, {"fatigue": {"Fi_max": 1.0}}) == judge.worst_below(None, {}) == []
+    assert "take a finer one" in result_judge.worst_below(None, {"fatigue": {**fatigue_, "below": first}})[0]
+    assert result_judge.worst_below(None, {"fatigue": {**fatigue_, "Fi_max": 1.5}}) == []
+    assert result_judge.worst_below(None, {"fatigue": {"Fi_max": 1.0}}) == result_judge.worst_below(None, {}) == []
 
 
 def test_the_table_names_the_worst_point_s_own_tension(found):
@@ -146,7 +146,7 @@ def test_the_table_names_the_worst_point_s_own_tension(found):
             for name, key in (("feature_frame_x", "x_m"), ("feature_frame_y", "y_m")))
     tension = found.maps["sigma1_max"][0]
     assert f["sigma1_worst_Pa"] == pytest.approx(tension[i, j]) and f["sigma1_max_Pa"] == tension.max() > 1.02 * tension[i, j]
-    rows = tables.fatigue_rows(f)
+    rows = listing.fatigue_rows(f)
     values = dict(rows[:9])
     assert values["largest principal stress there"] == f"{f['sigma1_worst_Pa'] / 1e6:.1f} MPa"
     assert values["largest principal stress on the surface"] == f"{f['sigma1_max_Pa'] / 1e6:.1f} MPa"
@@ -157,7 +157,7 @@ def test_the_table_names_the_worst_point_s_own_tension(found):
 def test_the_angle_to_the_surface_is_that_of_the_plane(found):
     """Pulled and pressed along z, kappa 0.3: the normal at half arctan(1/kappa) = 36.7 degrees from z, so the plane lies 36.7
     degrees to the surface; alike along x and y (the same but for a pressure): 53.3 degrees. In a passage n . z = cos of it."""
-    from tehl_taichi.post import findley
+    from tehl_taichi.fatigue import findley
 
     S, wave = np.zeros((2, 41, 6)), 1e8 * np.cos(np.linspace(0, 2 * np.pi, 41))
     S[0, :, 2] = S[1, :, 0] = S[1, :, 1] = wave
@@ -190,7 +190,7 @@ def test_figures_show_what_was_searched(found, monkeypatch, tmp_path):
     profile = lines(drawn(monkeypatch, found, tmp_path)["fatigue_depth"].axes[1])[0]
     assert profile[:, 0].max() == pytest.approx(found.maps["findley_stress_under_row"][0].max() / 400e6)
     scene = tehl.scene("furrow-line").replace(**{"thermal.on": False})
-    row = fatigue.run(scene, Rolling(scene, 12, 1))
+    row = assessment.run(scene, Rolling(scene, 12, 1))
     curve = lines(drawn(monkeypatch, row, tmp_path)["fatigue"].axes[0])[0]
     np.testing.assert_allclose(curve[:, 1], row.maps["Fi"][0][:, 0])
 

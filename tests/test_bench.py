@@ -26,7 +26,7 @@ def test_a_case_that_converges_and_one_that_stops():
 
 
 def test_a_negative_film_is_a_failure():
-    from tehl_taichi.simulation import march
+    from tehl_taichi.march.passage import march
 
     shot = next(march(scene("smooth-line").replace(**{"thermal.on": False, "grid.nx": 64})))
     assert stability.sound(shot)
@@ -51,5 +51,5 @@ def test_an_error_is_a_failure(monkeypatch):
         raise ZeroDivisionError("1/0")
         yield
 
-    monkeypatch.setattr("tehl_taichi.simulation.march", broken)
+    monkeypatch.setattr("tehl_taichi.march.passage.march", broken)
     assert stability.run_case("broken", scene("gear")).verdict == "failed"

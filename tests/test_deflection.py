@@ -10,7 +10,7 @@ pytestmark = pytest.mark.usefixtures("taichi_cpu")
 
 
 def test_influence_coefficients_against_quadrature():
-    from tehl_taichi.solvers import influence
+    from tehl_taichi.pressure import influence
 
     nodes, weights = np.polynomial.legendre.leggauss(40)
     dx, dy = 0.1, 0.07
@@ -26,7 +26,7 @@ COMPLIANCE = {"line": 1 / (2 * np.pi), "point": 2 / np.pi**2}
 
 def deflection(P, dx, dy, kind="line", mirrored=True):
     """Deflection of P (ny+1, nx+1) by the transforms; the pressure vanishes where it enters."""
-    from tehl_taichi.solvers.transforms import Deflection
+    from tehl_taichi.pressure.deflection import Deflection
 
     P[:, 0] = 0.0
     if not mirrored:
@@ -36,7 +36,7 @@ def deflection(P, dx, dy, kind="line", mirrored=True):
 
 @pytest.mark.parametrize("kind", ["line", "point"])
 def test_fft_deflection_is_the_direct_sum(kind):
-    from tehl_taichi.solvers import influence
+    from tehl_taichi.pressure import influence
 
     nx, ny, dx, dy = 16, 8, 0.2, 0.15
     p = np.random.default_rng(1).random((9, 17))
@@ -65,7 +65,7 @@ def test_hertz_pressure_deflects_to_a_parabola():
 
 
 def test_plain_deflection_is_the_direct_sum():
-    from tehl_taichi.solvers import influence
+    from tehl_taichi.pressure import influence
 
     nx, ny, dx, dy = 16, 8, 0.2, 0.15
     p = np.random.default_rng(2).random((9, 17))
@@ -84,7 +84,7 @@ def test_elliptic_hertz_pressure_deflects_to_a_parabola():
     Y = np.linspace(0, 1.5, 129) * s.b / s.a
     r2 = X[None, :] ** 2 + (Y[:, None] * s.a / s.b) ** 2
     P = np.sqrt(np.maximum(1 - r2, 0))
-    from tehl_taichi.solvers.transforms import Deflection
+    from tehl_taichi.pressure.deflection import Deflection
 
     out = Deflection(n, Y.size - 1, X[1] - X[0], Y[1], s.compliance, False).apply(P)
     gap = out + 0.5 * X**2 + 0.5 * s.curvature * Y[:, None] ** 2

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from tehl_taichi.io import judge
+from tehl_taichi.io import result_judge
 from tehl_taichi.scene import BUILT_INS, scene
 from tehl_taichi.scene.oil import OILS, Oil
 
@@ -61,20 +61,20 @@ def store(p, T, held=0, **changes):
 
 
 def test_films_beyond_what_was_measured():
-    said, = judge.beyond_measured(store(4.01e9, 202.0), {})
+    said, = result_judge.beyond_measured(store(4.01e9, 202.0), {})
     assert "4.01 GPa and 202 deg C" in said and "1.1 GPa and 107 deg C" in said
-    assert judge.beyond_measured(store(1.2e9, 20.0), {}) and judge.beyond_measured(store(1e9, 108.0), {})
-    assert judge.beyond_measured(store(1.09e9, 106.0), {}) == []
-    assert judge.beyond_measured(store(4e9, 300.0, **{"thermal.on": False}), {}) == []  # its laws of heat are not used
-    assert "at 8 nodes" in judge.held_temperatures(store(1e9, 50.0, held=5), {})[0]  # 1 + 2 + 5
-    assert {judge.beyond_measured, judge.held_temperatures} <= set(judge.CHECKS)
+    assert result_judge.beyond_measured(store(1.2e9, 20.0), {}) and result_judge.beyond_measured(store(1e9, 108.0), {})
+    assert result_judge.beyond_measured(store(1.09e9, 106.0), {}) == []
+    assert result_judge.beyond_measured(store(4e9, 300.0, **{"thermal.on": False}), {}) == []  # its laws of heat are not used
+    assert "at 8 nodes" in result_judge.held_temperatures(store(1e9, 50.0, held=5), {})[0]  # 1 + 2 + 5
+    assert {result_judge.beyond_measured, result_judge.held_temperatures} <= set(result_judge.CHECKS)
 
 
 def test_doubts_reach_the_store_and_its_summary(taichi_cpu, tmp_path):
     """Of a steady start: the pressure and temperature of its warning are those of its summary."""
     from tehl_taichi.io.store import Store
     from tehl_taichi.io.summary import summarise
-    from tehl_taichi.simulation import march
+    from tehl_taichi.march.passage import march
 
     description = scene("gear").replace(**{"thermal.on": True, "grid.nx": 64, "grid.ny": 16})
     first = next(march(description))

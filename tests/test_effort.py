@@ -33,7 +33,7 @@ SCENES = {
 
 @pytest.mark.parametrize("name", COUNTS)
 def test_work_is_what_it_was(taichi_cpu, name):
-    from tehl_taichi.simulation import march
+    from tehl_taichi.march.passage import march
 
     start, *steps = [[s.scalars[key] for key in ("newton", "cycles", "residual", "mass_error")] for s in march(SCENES[name])]
     assert max(s[2] for s in (start, *steps)) < 1e-6 and max(s[3] for s in (start, *steps)) < 1e-6

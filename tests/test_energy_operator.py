@@ -69,8 +69,8 @@ class Exact:
 
     def source(self):
         """What must be added to the energy equation, W/m3, (nz, ny+1, nx+1)."""
+        from tehl_taichi.physics.conduction import conductivity, heat_capacity
         from tehl_taichi.physics.density import expansivity
-        from tehl_taichi.physics.heat import conductivity, heat_capacity
 
         oil, a, X, Y = self.scene.oil, self.s.a, self.X, self.Y
         u, v, rho, ie, fluxes, tau, centre, slope = self.column(X, Y, 0.0)
@@ -92,10 +92,11 @@ class Exact:
 
 def solved(cells, courant=0.8):
     """Largest error (K) of one step from exact earlier states, with the exact walls."""
-    from tehl_taichi.kernels import fields, slots
-    from tehl_taichi.kernels.step import B_A, B_B, RATE, TOLERANCE
-    from tehl_taichi.solvers.heat import FilmHeat
-    from tehl_taichi.solvers.levels import Levels
+    from tehl_taichi.heat import slots
+    from tehl_taichi.heat.step import B_A, B_B, RATE, TOLERANCE
+    from tehl_taichi.heat.temperatures import FilmHeat
+    from tehl_taichi.pressure import fields
+    from tehl_taichi.pressure.levels import Levels
 
     base = scene("smooth-line").replace(**{"contact.hertz_pressure": 0.5e9, "speed": 2.0, "srr": -0.3, "grid.y_max": 1.0})
     description = dataclasses.replace(base, rheology=Rheology(law="newtonian"), thermal=Thermal(on=True))

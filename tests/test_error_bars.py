@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from tehl_taichi.profiles import coverage
 
-from tehl_taichi import companions, readings
-from tehl_taichi.io import judge
-from tehl_taichi.post.fatigue import Snapshots
+from tehl_taichi.fatigue.assessment import Snapshots
+from tehl_taichi.io import result_judge
+from tehl_taichi.march import companions, readings
+from tehl_taichi.march.error_bars import Reading, bar, bars, beside, estimated_error, unresolved_peak
 from tehl_taichi.scene import scene
-from tehl_taichi.solvers.error_bars import Reading, bar, bars, beside, estimated_error, unresolved_peak
 
 LIMIT = 2.0
 
@@ -82,7 +82,7 @@ def moes(M, L, nx, x_min=-2.5):
 
 
 def start(description):
-    from tehl_taichi.simulation import march
+    from tehl_taichi.march.passage import march
 
     return next(march(description))
 
@@ -139,7 +139,7 @@ class Store(Snapshots):
 
 @pytest.fixture(scope="module")
 def passage(taichi_cpu):
-    from tehl_taichi.simulation import march
+    from tehl_taichi.march.passage import march
 
     return Store(march(short()))
 
@@ -162,7 +162,7 @@ def test_companions_that_fail_leave_bars_unknown_and_say_why(passage):
     found, unknown = companions.judged([{"reason": refused[0]}, one], own)
     assert set(found.values()) == {None} and "did not converge" in unknown["p_max_Pa"]
     summary = {"steady": {}, "transient": {"error": found, "unknown": unknown}}
-    said = list(judge.unknown_errors(None, summary))
+    said = list(result_judge.unknown_errors(None, summary))
     assert len(said) == 1 and "passage p_max_Pa, passage h_min_m" in said[0] and refused[0] in said[0]
 
 
@@ -205,7 +205,7 @@ def test_who_gets_companions(monkeypatch):
 
 
 def test_a_summary_has_numbers_or_null():
-    from tehl_cli.tables import _quantity
+    from tehl_cli.listing import _quantity
 
     values = {"film": 1.5e-6, "error": {"film": None}}
     assert _quantity(values, "film", 1e6, "um") == "1.5000 um (error unknown)"

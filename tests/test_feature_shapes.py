@@ -82,7 +82,7 @@ def test_the_undeformed_gap():
 @pytest.fixture(scope="module")
 def two_ridges(taichi_cpu):
     """Three steps of two ridges, the second 150 um ahead and twice as high; pure rolling, nothing across."""
-    from tehl_taichi.simulation import march
+    from tehl_taichi.march.passage import march
 
     base = scene("gear").replace(**{"thermal.on": False, "rheology.law": "newtonian", "srr": -0.4, "grid.nx": 128,
                                     "grid.x_min": -3.5, "time.steps": 3, "time.x_start": -2.6})

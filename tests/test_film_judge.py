@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tehl_taichi.io import film_judge
-from tehl_taichi.io import judge as judge_of_results
+from tehl_taichi.io import result_judge as judge_of_results
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 

@@ -17,7 +17,7 @@ def scene(name="gear"):
 
 
 def steady(description):
-    from tehl_taichi.simulation import march
+    from tehl_taichi.march.passage import march
 
     return next(march(description))
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import tehl_taichi as tehl
-from tehl_taichi.post import fatigue, findley, worst_point
+from tehl_taichi.fatigue import assessment, findley, worst_point
 from tehl_taichi.scene import SceneError
 
 S = 100.0
@@ -224,7 +224,7 @@ class Moving:
 def test_passage_in_the_frame_of_the_feature(taichi_cpu):
     scene = tehl.scene("gear").replace(**{"thermal.on": False})
     reader = Moving(scene)
-    result = fatigue.run(scene, reader)
+    result = assessment.run(scene, reader)
     assert set(result.summary) == {"Fi_max", "findley_stress_max_Pa", "x_m", "y_m", "plane_theta_deg", "plane_phi_deg",
                                    "surface_angle_deg", "sigma1_max_Pa", "sigma1_worst_Pa", "kappa_F", "sigma_eF_Pa",
                                    "tau_amp_Pa", "sigma_n_max_Pa", "criterion", "thermal_stress", "pit_angles_deg", "below",
@@ -241,7 +241,7 @@ def test_passage_in_the_frame_of_the_feature(taichi_cpu):
 def test_history_of_whole_cells_is_exact_and_begins_and_ends_unloaded(taichi_cpu):
     scene = tehl.scene("gear").replace(**SURFACE)
     reader = Moving(scene)
-    passage = fatigue.Passage(scene, reader, reader.centres)
+    passage = assessment.Passage(scene, reader, reader.centres)
     h = passage.history(slice(0, 1), passage.stresses(0.0))
     n = int(np.argmin(np.abs(reader.centres)))
     t = int(np.flatnonzero(passage.entries == n)[0])
@@ -254,7 +254,7 @@ def test_history_of_whole_cells_is_exact_and_begins_and_ends_unloaded(taichi_cpu
 def test_the_first_planes_are_close_enough(taichi_cpu):
     """Histories of a passage: four times as many planes to begin with find the same to 1e-6."""
     scene = tehl.scene("gear").replace(**SURFACE)
-    passage = fatigue.Passage(scene, reader := Moving(scene, 16, 9), reader.centres)
+    passage = assessment.Passage(scene, reader := Moving(scene, 16, 9), reader.centres)
     h = passage.history(slice(0, passage.y.size), passage.stresses(0.0))
     np.testing.assert_allclose(findley.search(h, 0.3)[0], findley.search(h, 0.3, degrees=5.0)[0], rtol=1e-6)
 
@@ -262,14 +262,14 @@ def test_the_first_planes_are_close_enough(taichi_cpu):
 def test_blocks_of_rows_change_nothing(taichi_cpu, monkeypatch):
     scene = tehl.scene("gear").replace(**SURFACE)
     reader = Moving(scene, cells=8, rows=5)
-    whole = fatigue.run(scene, reader)
-    monkeypatch.setattr("tehl_taichi.post.passage.BLOCK_BYTES", 1.0)
-    assert fatigue.run(scene, reader).summary == whole.summary
+    whole = assessment.run(scene, reader)
+    monkeypatch.setattr("tehl_taichi.fatigue.histories.BLOCK_BYTES", 1.0)
+    assert assessment.run(scene, reader).summary == whole.summary
 
 
 def test_broken_shifts_are_interpolated(taichi_cpu):
     scene = tehl.scene("gear").replace(**SURFACE)
-    one, other = (fatigue.run(scene, Moving(scene, 32, 17, stride)).summary["findley_stress_max_Pa"]
+    one, other = (assessment.run(scene, Moving(scene, 32, 17, stride)).summary["findley_stress_max_Pa"]
                   for stride in (1.0, 0.7))
     assert other == pytest.approx(one, rel=0.02)
 
@@ -277,19 +277,19 @@ def test_broken_shifts_are_interpolated(taichi_cpu):
 def test_a_window_of_positions_counts_only_its_moments(taichi_cpu):
     scene = tehl.scene("gear").replace(**SURFACE)
     reader = Moving(scene)
-    entry, rest = (fatigue.run(scene.replace(**{f"fatigue.{key}": 0.0}), reader).summary["findley_stress_max_Pa"]
+    entry, rest = (assessment.run(scene.replace(**{f"fatigue.{key}": 0.0}), reader).summary["findley_stress_max_Pa"]
                    for key in ("to_x", "from_x"))
-    whole = fatigue.run(scene, reader).summary["findley_stress_max_Pa"]
+    whole = assessment.run(scene, reader).summary["findley_stress_max_Pa"]
     assert max(entry, rest) <= whole * (1 + 1e-9) and entry != rest
     with pytest.raises(SceneError, match="no stored moment"):
-        fatigue.run(scene.replace(**{"fatigue.from_x": 7.0}), reader)
+        assessment.run(scene.replace(**{"fatigue.from_x": 7.0}), reader)
 
 
 def test_residual_stress_and_depths(taichi_cpu):
     scene = tehl.scene("gear").replace(**{"thermal.on": False, "fatigue.depths": [20e-6, 200e-6]})
     reader = Moving(scene, cells=8, rows=5)
-    free = fatigue.run(scene, reader)
-    pressed = fatigue.run(scene.replace(**{"fatigue.residual_xx": -3e8, "fatigue.residual_yy": -3e8}), reader)
+    free = assessment.run(scene, reader)
+    pressed = assessment.run(scene.replace(**{"fatigue.residual_xx": -3e8, "fatigue.residual_yy": -3e8}), reader)
     levels = [layer["findley_stress_max_Pa"] for layer in free.summary["by_depth"]]
     assert free.maps["findley_stress_at_depth"][0].shape[0] == 3 and len(set(levels)) == 3
     assert all(b["findley_stress_max_Pa"] < a for a, b in zip(levels, pressed.summary["by_depth"]))
@@ -310,7 +310,7 @@ class Heated(Moving):
 def test_thermal_stress_counts_where_there_is_heat(taichi_cpu):
     scene = tehl.scene("gear").replace(**{"fatigue.depths": []})
     reader = Heated(scene)
-    hot, cold = (fatigue.run(scene.replace(**{"fatigue.thermal_stress": on}), reader) for on in ("auto", False))
+    hot, cold = (assessment.run(scene.replace(**{"fatigue.thermal_stress": on}), reader) for on in ("auto", False))
     assert hot.summary["thermal_stress"] and not cold.summary["thermal_stress"]
     assert abs(hot.summary["findley_stress_max_Pa"] / cold.summary["findley_stress_max_Pa"] - 1) > 0.02
     with pytest.raises(SceneError, match="temperatures"):
@@ -329,4 +329,4 @@ class Still:
 
 def test_no_feature_is_refused():
     with pytest.raises(SceneError, match="passage of a feature"):
-        fatigue.run(tehl.scene("smooth-line"), Still())
+        assessment.run(tehl.scene("smooth-line"), Still())

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tehl_taichi.solvers.guess import Guess, extrapolated
+from tehl_taichi.march.guess import Guess, extrapolated
 
 X = np.arange(120.0)
 ROWS = np.linspace(1.0, 0.0, 5)[:, None]

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from tehl_taichi.post import half_space as hs
-from tehl_taichi.post import rectangle
+from tehl_taichi.fatigue import half_space as hs
+from tehl_taichi.fatigue import rectangle
 
 NU = 0.3
 

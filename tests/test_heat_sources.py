@@ -13,8 +13,9 @@ pytestmark = pytest.mark.usefixtures("taichi_cpu")
 
 def film(**changes):
     """A FilmHeat on 64 cells of a line contact, at the inlet temperature, and its levels."""
-    from tehl_taichi.solvers.heat import FilmHeat, time_step
-    from tehl_taichi.solvers.levels import Levels
+    from tehl_taichi.heat.temperatures import FilmHeat
+    from tehl_taichi.march.settle import time_step
+    from tehl_taichi.pressure.levels import Levels
 
     description = scene("smooth-line").replace(**{"thermal.on": True, "grid.nx": 64, **changes})
     levels = Levels(description, Scales.of(description), 64, 0)
@@ -26,8 +27,9 @@ def film(**changes):
 def step_between_walls(heat, levels, P, h, touch, rate=1e-6):
     """Temperatures of a film of P and h (m) between walls held at 90 deg C; rate: 1/s of the time derivative. Returns the heat
     into both bodies (2, nx+1) W/m2."""
-    from tehl_taichi.kernels import fields, slots
-    from tehl_taichi.kernels.step import B_A, B_B, FAR, INV_X, ITERATIONS, NEAR, RATE, TOLERANCE
+    from tehl_taichi.heat import slots
+    from tehl_taichi.heat.step import B_A, B_B, FAR, INV_X, ITERATIONS, NEAR, RATE, TOLERANCE
+    from tehl_taichi.pressure import fields
 
     for row, values in ((fields.P, P), (fields.H, h / levels.scales.h), (fields.TOUCH, touch)):
         levels.put(row, values)
@@ -60,7 +62,7 @@ def test_friction_heats_where_surfaces_touch():
 
 def test_a_film_that_shears_heats_by_stress_times_slip():
     """Couette flow without pressure gradient: tau |u_s| with the stress that the film itself tells, into both walls."""
-    from tehl_taichi.kernels import slots
+    from tehl_taichi.heat import slots
 
     heat, levels = film(srr=-0.2)
     nodes = np.ones(levels.X.size)
@@ -78,7 +80,7 @@ def test_oil_that_is_compressed_warms():
     At 0.2 GPa and 90 deg C beta = 6.8e-4 e^-0.3/(1 - 6.8e-4 e^-0.3 50) = 5.1676e-4 1/K and rho c = 853 * 2080 (1 + 0.082/1.21)
     (1 + 6.5e-4 (1 + 0.54 - 0.06) 68) = 2.0184 MJ/m3K, so dT = 363.15 * 5.1676e-4 * 20/2.0184 = 1.860 K.
     """
-    from tehl_taichi.kernels import fields
+    from tehl_taichi.pressure import fields
 
     heat, levels = film(srr=-0.002)
     nodes = np.ones(levels.X.size)
@@ -92,7 +94,7 @@ def test_oil_that_is_compressed_warms():
 
 def test_relaxed_rounds_of_a_linear_exchange_end_at_once():
     """Rounds that overshoot, x -> x* + g (x - x*): Aitken's second relaxation lands on x* for any g between -4 and 0."""
-    from tehl_taichi.kernels import slots
+    from tehl_taichi.heat import slots
 
     heat, levels = film()
     X = levels.X[None, None, :]
@@ -117,11 +119,11 @@ def test_relaxed_rounds_of_a_linear_exchange_end_at_once():
 
 def test_bodies_remember_a_growing_heat():
     """Flux q = t: T = (4/3) t^1.5/(sqrt(pi) e) at every step: new and last flux count each for itself."""
-    from tehl_taichi.solvers import solids
+    from tehl_taichi.heat import modes
 
     dt, e = 1e-6, 13000.0
-    (weight, decay, gain, gain_last), B, B_last = solids.memory(dt, e, dt)
-    memory, worst = np.zeros(solids.MODES), 0.0
+    (weight, decay, gain, gain_last), B, B_last = modes.memory(dt, e, dt)
+    memory, worst = np.zeros(modes.MODES), 0.0
     for n in range(1, 500):
         q, last = n * dt, (n - 1) * dt
         warm = (weight * decay * memory).sum() + B * q + B_last * last
@@ -134,7 +136,7 @@ def test_bodies_remember_a_growing_heat():
 def test_moving_half_space_under_a_growing_flux(sliding, within):
     """q = g x behind an edge on steel: material points see g u t, so T = (4/3) g x^1.5/sqrt(pi k rho c u) on both bodies;
     where a body moves by broken cells in a step, the edge is interpolated."""
-    from tehl_taichi.kernels import slots, step
+    from tehl_taichi.heat import slots, step
 
     heat, levels = film(srr=sliding)
     edge, steps = 16, 160
@@ -162,7 +164,7 @@ def test_the_share_of_each_body_follows_its_effusivity():
     heat, _ = film(**{"bodies.b.k": 1.1, "bodies.b.rho": 2510.0, "bodies.b.c": 800.0})
     assert heat.effusivities == pytest.approx([math.sqrt(47 * 7850 * 450), math.sqrt(1.1 * 2510 * 800)])
     heat.begin(heat.dt)
-    from tehl_taichi.kernels.step import B_A, B_B
+    from tehl_taichi.heat.step import B_A, B_B
 
     steel, glass = heat.step_numbers[0, [B_A, B_B]]
     assert glass / steel == pytest.approx(12885.2 / 1486.2, rel=1e-3)

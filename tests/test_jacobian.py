@@ -9,10 +9,10 @@ from tehl_taichi.scene.scales import Scales
 def mismatch(description, warm=None):
     """Largest difference of Jacobian times change and difference of residuals, over the largest of these, for changes of the
     pressure in a few long and short waves and of the rigid approach; with a time derivative in a moving frame."""
-    from tehl_taichi.kernels import fields
-    from tehl_taichi.solvers.heat import FilmHeat
-    from tehl_taichi.solvers.levels import Levels
-    from tehl_taichi.solvers.newton import ROW_CAP, PressureSolver
+    from tehl_taichi.heat.temperatures import FilmHeat
+    from tehl_taichi.pressure import fields
+    from tehl_taichi.pressure.levels import Levels
+    from tehl_taichi.pressure.newton import ROW_CAP, PressureSolver
 
     levels = Levels(description, Scales.of(description), 64, 16)
     solver, X, Y = PressureSolver(levels), levels.X[None, :], levels.Y[:, None]

@@ -112,7 +112,7 @@ def test_expansivity_is_the_slope_of_the_density(p, Gamma):
 
 def test_conductivity_and_where_it_was_measured_up_to():
     """0.154 (1 + 1.4/1.34) at 1 GPa; from 1.1 GPa on 0.154 (1 + 1.54/1.374)."""
-    from tehl_taichi.physics.heat import conductivity
+    from tehl_taichi.physics.conduction import conductivity
 
     at = [float(conductivity(PAO, p)) for p in (0.0, 1e9, 1.1e9, 3e9)]
     assert at == near([0.154, 0.31489552, 0.32660553, 0.32660553], 1e-6)
@@ -127,7 +127,7 @@ HEAT_CAPACITY = {(0.0, 22.0): 1.0, (0.0, 72.0): 1 + 6.5e-4 * 50, (1.0, 72.0): 1.
 
 @pytest.mark.parametrize("p, Gamma", HEAT_CAPACITY)
 def test_heat_capacity_and_where_it_was_measured_up_to(p, Gamma):
-    from tehl_taichi.physics.heat import heat_capacity
+    from tehl_taichi.physics.conduction import heat_capacity
 
     assert float(heat_capacity(PAO, p * 1e9, Gamma)) == near(853 * 2080 * HEAT_CAPACITY[p, Gamma], 1e-7)
 
@@ -179,8 +179,8 @@ def test_exp_and_log_of_lanes(taichi_cpu):
     """The laws' own exp and log of four rows at once against numpy's, over the whole range of the laws."""
     import taichi as ti
 
-    from tehl_taichi.kernels.lanes import V
-    from tehl_taichi.physics.elementary import exp, log
+    from tehl_taichi.engine.elementary import exp, log
+    from tehl_taichi.engine.lanes import V
 
     @ti.kernel
     def both(x: ti.types.ndarray(dtype=ti.f64, ndim=1), out: ti.types.ndarray(dtype=ti.f64, ndim=2)):

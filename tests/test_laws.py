@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from tehl_taichi.scene import closed_form
+from tehl_taichi.physics import film_formula
+from tehl_taichi.scene import hertz
 from tehl_taichi.scene.oil import OILS, Oil
 from tehl_taichi.scene.parts import Rheology
 
@@ -77,12 +78,12 @@ def test_shear_limit_is_reached_and_never_passed():
 
 
 def test_hertz_closed_forms():
-    a, p = closed_form.hertz_line(1.1e6, 10.6e-3, 206e9 / 0.91)
+    a, p = hertz.line(1.1e6, 10.6e-3, 206e9 / 0.91)
     assert p * np.pi * a / 2 == pytest.approx(1.1e6)
-    assert closed_form.hertz_line_load(p, 10.6e-3, 206e9 / 0.91) == pytest.approx(1.1e6)
-    a, p = closed_form.hertz_point(38.35, 12.7e-3, 117e9)
+    assert hertz.line_load(p, 10.6e-3, 206e9 / 0.91) == pytest.approx(1.1e6)
+    a, p = hertz.point(38.35, 12.7e-3, 117e9)
     assert 2 / 3 * np.pi * a**2 * p == pytest.approx(38.35)
-    assert closed_form.hertz_ellipse_load(p, 12.7e-3, 12.7e-3, 117e9) == pytest.approx(38.35)
+    assert hertz.ellipse_load(p, 12.7e-3, 12.7e-3, 117e9) == pytest.approx(38.35)
 
 
 def test_film_formulas_lie_near_the_converged_films():
@@ -92,6 +93,6 @@ def test_film_formulas_lie_near_the_converged_films():
         return (5.9e8 + 1.34 * p) / (5.9e8 + p)
 
     for M, film in ((20, 4.359), (50, 3.793), (100, 3.428), (200, 3.095)):
-        assert closed_form.moes_line(M, 10.0) == pytest.approx(film * density(10 * np.sqrt(M / 2 / np.pi)), rel=0.05)
+        assert film_formula.moes_line(M, 10.0) == pytest.approx(film * density(10 * np.sqrt(M / 2 / np.pi)), rel=0.05)
     for M, film in ((20, 4.1706), (200, 3.658)):  # a fit, good to some 10 %
-        assert closed_form.nijenbanning(M, 10.0) == pytest.approx(film, rel=0.12)
+        assert film_formula.nijenbanning(M, 10.0) == pytest.approx(film, rel=0.12)

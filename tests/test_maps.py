@@ -121,7 +121,7 @@ def test_tehl_run_shows_the_map_before_it_computes_anything(taichi_cpu, tmp_path
 
     wave(tmp_path)
     (tmp_path / "my.toml").write_text(TOML)
-    monkeypatch.setattr("tehl_taichi.simulation.march", stop)
+    monkeypatch.setattr("tehl_taichi.march.passage.march", stop)
     monkeypatch.chdir("/")
     words = ["run", str(tmp_path / "my.toml"), "--threads", "2", "--precision", "f64", "--out", str(tmp_path / "o.zarr")]
     done = CliRunner().invoke(app, words)
@@ -209,7 +209,7 @@ def moved(taichi_cpu, tmp_path_factory):
     """(scene, store of its first three steps, store of all four): one broken off, then moved and its map file removed."""
     from tehl_taichi.io.recorder import record
     from tehl_taichi.io.store import Store
-    from tehl_taichi.simulation import march
+    from tehl_taichi.march.passage import march
 
     home = tmp_path_factory.mktemp("home")
     description = with_map(wave(home, length=60.0), **{"time.steps": 4})

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import tehl_taichi as tehl
-from tehl_taichi.post import fatigue, findley
-from tehl_taichi.post import thermal_stress as ts
+from tehl_taichi.fatigue import assessment, findley
+from tehl_taichi.fatigue import thermal_stress as ts
 from tehl_taichi.scene.parts import Body
 from tehl_taichi.scene.scales import Scales
 
@@ -58,7 +58,7 @@ def gear(**changes):
 @pytest.fixture(scope="module", params=[AHEAD, BEHIND], ids=["ahead", "behind"])
 def found(taichi_cpu, request):
     reader = Formula(gear(), place=request.param)
-    return reader, fatigue.run(gear(), reader)
+    return reader, assessment.run(gear(), reader)
 
 
 def entry_at(reader, centre):
@@ -82,7 +82,7 @@ def test_points_pass_the_steady_contact_before_and_after_the_stored_moments(foun
 
 def test_the_last_moment_is_unloaded_but_for_residual_stress(taichi_cpu):
     scene = gear(**{"fatigue.residual_xx": -120e6, "fatigue.residual_yy": 70e6})
-    result = fatigue.run(scene, Formula(scene))
+    result = assessment.run(scene, Formula(scene))
     sxx, syy, szz = result.worst["stress"][:, :3].T
     np.testing.assert_allclose(result.worst["stress"][-1], (-120e6, 70e6, 0, 0, 0, 0), atol=1e-3)
     np.testing.assert_allclose((syy - 70e6) - 0.3 * (sxx + 120e6 + szz), 0, atol=1e-6 * np.abs(sxx).max())  # plane strain
@@ -91,8 +91,8 @@ def test_the_last_moment_is_unloaded_but_for_residual_stress(taichi_cpu):
 def test_tension_across_alone_raises_the_findley_stress(taichi_cpu):
     """So does none along x: the two are not exchanged."""
     scene = gear()
-    across = fatigue.run(gear(**{"fatigue.residual_yy": 600e6}), Formula(scene))
-    along = fatigue.run(gear(**{"fatigue.residual_xx": 600e6}), Formula(scene))
+    across = assessment.run(gear(**{"fatigue.residual_yy": 600e6}), Formula(scene))
+    along = assessment.run(gear(**{"fatigue.residual_xx": 600e6}), Formula(scene))
     n_across, n_along = (abs(r.worst["normal"]) for r in (across, along))
     assert n_across[1] > n_across[0] and n_along[0] > n_along[1]
 
@@ -101,7 +101,7 @@ def test_an_endless_row_is_plane_strain_and_its_heat_presses_along_y(taichi_cpu)
     """Nothing varies along y, so syy = nu (sxx + szz) - E alpha (T - 90) at every moment, whatever the rest does."""
     scene = tehl.scene("gear")
     reader = Formula(scene, warmth=1.0)
-    result = fatigue.run(scene, reader)
+    result = assessment.run(scene, reader)
     sxx, syy, szz = result.worst["stress"][:-1, :3].T
     T = np.array([reader.temperature(entry_at(reader, at), at + result.summary["x_m"]) for at in result.worst["x_a"][:-1]])
     inside = np.abs(result.worst["x_a"][:-1] + result.summary["x_m"]) < 1.9 * reader.a
@@ -174,11 +174,11 @@ def test_the_angle_of_the_critical_plane_to_the_surface(found):
 
 def test_pressure_alone_and_a_part_of_the_passage(taichi_cpu):
     scene = gear(**{"fatigue.shear": False})
-    alone = fatigue.run(scene, Formula(scene))
+    alone = assessment.run(scene, Formula(scene))
     assert np.abs(alone.worst["stress"][:, 4]).max() == 0.0
     part = gear(**{"fatigue.from_x": -0.75, "fatigue.to_x": -0.25})
     reader = Formula(part)
-    at = fatigue.run(part, reader).worst["x_a"][:-1] / reader.a
+    at = assessment.run(part, reader).worst["x_a"][:-1] / reader.a
     assert at == pytest.approx(np.arange(-12, -3) / CELLS, abs=1e-9)
 
 

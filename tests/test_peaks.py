@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tehl_taichi.physics.peaks import peak, ripple, unresolved_peak
+from tehl_taichi.march.peaks import peak, ripple, unresolved_peak
 
 X = np.linspace(-1.5, 1.5, 97)[:, None]
 Y = np.linspace(0, 1, 17)[None, :]

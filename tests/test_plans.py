@@ -4,7 +4,7 @@ import numpy as np
 import pyfftw
 import pytest
 
-from tehl_taichi.solvers import plans
+from tehl_taichi.engine import plans
 
 ROWS, PERIOD = 64, 256  # large enough to be measured
 

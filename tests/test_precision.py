@@ -23,8 +23,8 @@ def gear(**changes):
 
 def solved(description):
     """(precision of the levels, that of their linear table, film) of the steady contact; the next one takes over its tables."""
+    from tehl_taichi.march.steady import solve_steady
     from tehl_taichi.scene.scales import Scales
-    from tehl_taichi.solvers.steady import solve_steady
 
     result = solve_steady(description, Scales.of(description), description.grid.nx, 0)
     assert result.report.converged
@@ -51,8 +51,8 @@ def test_the_precision_can_be_asked_for():
 
 
 def test_a_store_and_its_companions_keep_the_precision():
-    from tehl_taichi.companions import scenes
     from tehl_taichi.io import scene_file
+    from tehl_taichi.march.companions import scenes
 
     asked = gear(**{"numerics.precision": "f64"})
     assert {run.numerics.precision for run in scenes(asked)[0]} == {"f64"}

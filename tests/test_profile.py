@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from tehl_taichi.solvers.heat import chebyshev
-from tehl_taichi.solvers.profile import largest
+from tehl_taichi.heat.across import chebyshev, largest
 
 
 def nodes(count):
@@ -34,8 +33,8 @@ def test_a_cold_film_is_as_warm_as_it_is():
 @pytest.mark.usefixtures("taichi_cpu")
 def test_nine_nodes_tell_what_seventeen_do():
     """Gear, SRR -0.75: at the nodes 209.6 and 211.5 degC on 256 columns."""
+    from tehl_taichi.march.passage import march
     from tehl_taichi.scene import scene
-    from tehl_taichi.simulation import march
 
     found = []
     for count in (9, 17):

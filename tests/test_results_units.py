@@ -28,7 +28,7 @@ def tehl(*words):
 
 def run(folder, *words):
     """A finished run: its JSON summary, its store and its table."""
-    from tehl_taichi import runtime
+    from tehl_taichi.engine import runtime
     from tehl_taichi.io.store import Store
 
     path, now = folder / "run.zarr", runtime.ensure()

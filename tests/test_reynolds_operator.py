@@ -52,8 +52,8 @@ def reynolds_operator(levels, X, Y, rate):
 
 def test_manufactured_solution_of_the_reynolds_operator():
     """Of the inner rows: the outermost one stands for all beyond, where nothing changes along y any more."""
-    from tehl_taichi.kernels import fields
-    from tehl_taichi.solvers.levels import Levels
+    from tehl_taichi.pressure import fields
+    from tehl_taichi.pressure.levels import Levels
 
     description = scene("smooth-line").replace(**{"contact.hertz_pressure": 0.2e9, "speed": 0.5})
     errors = []

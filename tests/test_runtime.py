@@ -10,19 +10,20 @@ import warnings
 import numpy as np
 import pytest
 
-from tehl_taichi import runtime, scene
+from tehl_taichi import scene
+from tehl_taichi.engine import runtime
 from tehl_taichi.errors import RuntimeUnavailable
 
 SMALL = scene("smooth-line").replace(**{"thermal.on": False, "grid.nx": 64})
 USES_A_KERNEL = """
 import numpy as np
-from tehl_taichi.post.findley import smallest_circle
+from tehl_taichi.fatigue.findley import smallest_circle
 print(*smallest_circle(np.array([0.0, 2.0]), np.array([0.0, 0.0])))
 """
 
 
 def first_film():
-    from tehl_taichi.simulation import march
+    from tehl_taichi.march.passage import march
 
     return next(march(SMALL)).scalars["h_c_m"]
 
@@ -106,7 +107,7 @@ def test_kernels_that_can_be_read_are_used(no_cache_dir, monkeypatch, tmp_path):
 
 
 def test_the_fatigue_search_starts_taichi_itself(monkeypatch):
-    from tehl_taichi.post import findley
+    from tehl_taichi.fatigue import findley
 
     started = []
     monkeypatch.setattr(runtime, "ensure", lambda: started.append(True))

@@ -36,7 +36,7 @@ def test_hertz_pressure_gives_back_its_load():
 
 @pytest.mark.parametrize("M, L", [(20.0, 10.0), (200.0, 10.0)])
 def test_moes_pair_comes_out(M, L):
-    from tehl_taichi.scene.closed_form import moes_numbers
+    from tehl_taichi.physics.film_formula import moes_numbers
 
     s = moes(M, L)
     units = Scales.of(s)
@@ -109,21 +109,21 @@ def test_left_out_says_why():
 
 
 def test_hertz_ellipse_is_the_circle_and_keeps_the_load():
-    from tehl_taichi.scene import closed_form as hertz
+    from tehl_taichi.scene import hertz
 
-    a, b, p = hertz.hertz_ellipse(50.0, 0.01, 0.01 * (1 + 1e-5), 2e11)
-    circle = hertz.hertz_point(50.0, 0.01, 2e11)
+    a, b, p = hertz.ellipse(50.0, 0.01, 0.01 * (1 + 1e-5), 2e11)
+    circle = hertz.point(50.0, 0.01, 2e11)
     assert (a, b, p) == pytest.approx((circle[0], circle[0], circle[1]), rel=1e-5)
-    a, b, p = hertz.hertz_ellipse(50.0, 0.01, 0.06, 2e11)
+    a, b, p = hertz.ellipse(50.0, 0.01, 0.06, 2e11)
     assert b > a and 2 * math.pi / 3 * p * a * b == pytest.approx(50.0)
-    assert hertz.hertz_ellipse(50.0, 0.06, 0.01, 2e11) == pytest.approx((b, a, p))
-    assert hertz.hertz_ellipse_load(p, 0.01, 0.06, 2e11) == pytest.approx(50.0)
+    assert hertz.ellipse(50.0, 0.06, 0.01, 2e11) == pytest.approx((b, a, p))
+    assert hertz.ellipse_load(p, 0.01, 0.06, 2e11) == pytest.approx(50.0)
 
 
 def test_elliptic_integrals_against_quadrature():
     import numpy as np
 
-    from tehl_taichi.scene.closed_form import elliptic_integrals
+    from tehl_taichi.scene.hertz import elliptic_integrals
 
     t, w = np.polynomial.legendre.leggauss(60)
     root = np.sqrt(1 - 0.9 * np.sin((t + 1) * math.pi / 4) ** 2)
@@ -155,8 +155,8 @@ def test_a_point_contact_must_fit_into_the_grid():
 
 
 def test_thick_films_are_solved_in_single_precision():
-    from tehl_taichi.physics.formula import central_film
-    from tehl_taichi.precision import suited
+    from tehl_taichi.physics.film_formula import central_film
+    from tehl_taichi.pressure.precision import suited
 
     gear = scene("gear")
     assert central_film(gear) == pytest.approx(0.44e-6, rel=0.12)  # computed: 0.44 um isothermal

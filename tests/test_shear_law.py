@@ -27,7 +27,7 @@ def stress(rheology, newtonian, p):
 
 
 def levels_of(description, nx, ny=0):
-    from tehl_taichi.solvers.levels import Levels
+    from tehl_taichi.pressure.levels import Levels
 
     return Levels(description, Scales.of(description), nx, ny)
 
@@ -45,7 +45,7 @@ def viscosity(levels, P, H):
 @pytest.mark.parametrize("law", LAWS)
 def test_the_flow_feels_what_the_law_leaves_of_the_viscosity(law):
     """ln eta, its slopes by P and H (against differences of the law by numpy), and what the coarser levels get of them."""
-    from tehl_taichi.kernels import fields
+    from tehl_taichi.pressure import fields
 
     levels = levels_of(film(law, srr=-0.5), 64)
     X = levels.X[None, :]
@@ -69,7 +69,7 @@ def test_the_flow_feels_what_the_law_leaves_of_the_viscosity(law):
 
 def test_no_film_is_thinned_below_its_floor():
     """Where surfaces touch the film stays at the floor, and the viscosity with it."""
-    from tehl_taichi.kernels import fields
+    from tehl_taichi.pressure import fields
 
     levels = levels_of(film(srr=-0.5), 64)
     floor = levels.scene.rheology.film_floor
@@ -84,8 +84,8 @@ def test_no_film_is_thinned_below_its_floor():
 @pytest.mark.parametrize("law", LAWS)
 def test_friction_is_that_of_the_law(law):
     """Mean of the shear on both surfaces against the law by numpy, from the stored pressure and film alone."""
+    from tehl_taichi.march.passage import march
     from tehl_taichi.physics.viscosity import ln_eta
-    from tehl_taichi.simulation import march
 
     description = film(law, srr=-0.5, **{"grid.nx": 64})
     shot = next(march(description))
@@ -111,7 +111,7 @@ def cold(description):
 @pytest.mark.parametrize("law", ["limiting", *(pytest.param(law, marks=pytest.mark.slow) for law in ("eyring", "carreau"))])
 def test_a_film_that_stays_cold_is_an_isothermal_one(law):
     """Steady and 12 steps into a passage, against the solver with temperatures; it warms by 0.1 K (carreau 0.6 K)."""
-    from tehl_taichi.simulation import march
+    from tehl_taichi.march.passage import march
 
     description = film(law, "gear", **{"grid.nx": 64, "grid.ny": 16, "time.steps": 12, "oil.expansion": "never"})
     for one, other in zip(march(description), march(cold(description))):
@@ -129,7 +129,7 @@ def test_a_film_that_stays_cold_is_an_isothermal_one(law):
 @pytest.mark.parametrize("changes, thins", [({"srr": 0.0}, False), ({"law": "newtonian", "srr": -0.5}, False),
                                             ({"srr": -0.5}, True)])
 def test_nothing_is_held_for_a_law_that_does_not_act(changes, thins):
-    from tehl_taichi.kernels import fields
+    from tehl_taichi.pressure import fields
 
     levels = levels_of(film(**changes), 64)
     assert levels.thins is thins
@@ -139,7 +139,7 @@ def test_nothing_is_held_for_a_law_that_does_not_act(changes, thins):
 
 
 def test_in_pure_rolling_every_law_is_the_newtonian_film():
-    from tehl_taichi.simulation import march
+    from tehl_taichi.march.passage import march
 
     shots = [next(march(film(law, srr=0.0, **{"grid.nx": 64}))) for law in ("newtonian", "limiting")]
     assert np.array_equal(shots[0].fields["pressure"], shots[1].fields["pressure"])
@@ -148,7 +148,7 @@ def test_in_pure_rolling_every_law_is_the_newtonian_film():
 
 def test_a_sheared_film_flows_more_easily():
     """Newtonian and limiting pressures differ where the film slips; its thickness hardly: that is made in the inlet."""
-    from tehl_taichi.simulation import march
+    from tehl_taichi.march.passage import march
 
     thick, thin = (next(march(film(law, srr=-0.5, **{"grid.nx": 64}))) for law in ("newtonian", "limiting"))
     assert thin.scalars["h_c_m"] == pytest.approx(thick.scalars["h_c_m"], rel=1e-3)
@@ -158,7 +158,7 @@ def test_a_sheared_film_flows_more_easily():
 
 def test_a_start_with_much_slip_does_not_end_on_the_floor():
     """SRR 1.7, 3.6 GPa, 117 deg C on 64 columns: sheared from the first guess on, all of the contact would touch."""
-    from tehl_taichi.simulation import march
+    from tehl_taichi.march.passage import march
 
     shot = next(march(film(hertz_pressure=3.6e9, srr=1.7, speed=15.3, temperature=117.0, **{"grid.nx": 64})))
     assert not shot.fields["contact"].any() and shot.scalars["newton"] < 15  # 13

@@ -11,7 +11,7 @@ from tehl_taichi.scene import scene
 @pytest.mark.parametrize("size", [0.03, -0.03])
 def test_the_stated_error_covers_the_real_one_and_not_much_more(order, size):
     """v = 1 + c h^order on three grids: the finest is off by |c| h^order, the last difference is 2^order - 1 times that."""
-    from tehl_taichi.solvers.error_bars import estimated_error, observed_order
+    from tehl_taichi.march.error_bars import estimated_error, observed_order
 
     values = [1 + size * 2.0 ** (-order * level) for level in range(3)]
     assert observed_order(values) == pytest.approx(order)
@@ -20,14 +20,14 @@ def test_the_stated_error_covers_the_real_one_and_not_much_more(order, size):
 
 def test_two_grids_state_more_than_their_difference_and_one_nothing():
     """The only difference may be the whole error of order 1, and more; back and forth more than the last one."""
-    from tehl_taichi.solvers.error_bars import estimated_error
+    from tehl_taichi.march.error_bars import estimated_error
 
     assert estimated_error([1.4, 1.1]) == pytest.approx(0.45) and math.isnan(estimated_error([1.0]))
     assert estimated_error([1.0, 1.2, 1.1]) == pytest.approx(0.175)
 
 
 def test_companions_go_the_same_way_on_half_and_quarter_the_cells():
-    from tehl_taichi.companions import scenes
+    from tehl_taichi.march.companions import scenes
     from tehl_taichi.scene.route import total_steps
 
     own = scene("gear").replace(width=4e-4, **{"grid.nx": 128, "grid.ny": 64, "time.steps": 24, "fatigue.depths": []})

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tehl_taichi.solvers.storage import Storage, bdf, carried, followed, third_order
+from tehl_taichi.pressure.storage import Storage, bdf, carried, followed, third_order
 
 
 @pytest.mark.parametrize("lengths", [[0.3], [0.3, 0.2], [0.3, 0.2, 0.5]])
@@ -53,10 +53,10 @@ def test_third_order_difference():
 @pytest.mark.parametrize("courant", [1.0, 0.5, 3.0])
 def test_a_film_carried_by_the_oil_stores_nothing(courant):
     """rho H that moves with the oil, and rho H at rest: the storage term with the Couette flow is 0 and d(rho H)/dX."""
-    from tehl_taichi.kernels import fields
+    from tehl_taichi.pressure import fields
+    from tehl_taichi.pressure.levels import Levels
     from tehl_taichi.scene import scene
     from tehl_taichi.scene.scales import Scales
-    from tehl_taichi.solvers.levels import Levels
 
     description = scene("smooth-line").replace(**{"thermal.on": False})
     levels = Levels(description, Scales.of(description), 128, 0)

@@ -7,7 +7,7 @@ from tehl_taichi.scene import scene
 
 def test_entries_after_the_last_checkpoint_come_again_the_same(taichi_cpu, tmp_path):
     from tehl_taichi.io.store import Store
-    from tehl_taichi.simulation import march
+    from tehl_taichi.march.passage import march
 
     description = scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16, "thermal.on": False, "time.steps": 5})
     run = march(description)

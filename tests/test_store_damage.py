@@ -276,7 +276,7 @@ def test_thinned_entries_speak_for_the_steps_between():
     from types import SimpleNamespace
 
     from tehl_taichi.io.recorder import Thinned
-    from tehl_taichi.snapshot import Snapshot
+    from tehl_taichi.march.snapshot import Snapshot
 
     def of(step, value):
         scalars = {name: value for name in SCALARS}
@@ -303,7 +303,7 @@ def test_methods_are_named_in_the_store(tmp_path):
 
 
 def test_json_has_no_nan():
-    from tehl_taichi.io.plain import plain
+    from tehl_taichi.io.json_values import plain
 
     value = {"a": [np.float64("nan"), 1.5, (np.inf, np.int64(3))], "b": {"c": np.array([1.0, np.nan])}, "d": None, "e": "nan"}
     assert json.loads(json.dumps(plain(value), allow_nan=False)) == {

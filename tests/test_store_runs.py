@@ -121,9 +121,9 @@ def test_thermal_stress_of_thinned_entries():
     """Of a hot spot that moves with the surface, entries two steps apart and the last one: nearly that of every step."""
     from types import SimpleNamespace
 
-    from tehl_taichi.post.fatigue import Snapshots
-    from tehl_taichi.post.passage import Passage
-    from tehl_taichi.post.thermal_stress import ThermalStress
+    from tehl_taichi.fatigue.assessment import Snapshots
+    from tehl_taichi.fatigue.histories import Passage
+    from tehl_taichi.fatigue.thermal_stress import ThermalStress
     from tehl_taichi.scene import scene
     from tehl_taichi.scene.scales import Scales
 

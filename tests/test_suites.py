@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import pytest
 from tehl_taichi.profiles import accuracy, measure, profile, scaling, speed
 
-from tehl_taichi import runtime
+from tehl_taichi.engine import runtime
 from tehl_taichi.scene import SceneError, scene, target
 
 
@@ -42,7 +42,8 @@ def test_every_field_of_the_tables_has_its_bytes():
     import numpy as np
     from tehl_taichi.profiles import traffic
 
-    from tehl_taichi.kernels import fields, slots
+    from tehl_taichi.heat import slots
+    from tehl_taichi.pressure import fields
 
     assert sum(np.size(getattr(fields, name)) for name in traffic.IN_J) == fields.NROWS_LINEAR
     assert len(traffic.IN_S) == fields.NROWS_THERMAL and len(traffic.IN_Z) == slots.KINDS
@@ -53,8 +54,8 @@ def test_bytes_of_a_kernel():
     import numpy as np
     from tehl_taichi.profiles import traffic
 
-    from tehl_taichi.kernels import fields, reynolds
-    from tehl_taichi.kernels.lanes import W
+    from tehl_taichi.engine.lanes import W
+    from tehl_taichi.pressure import fields, reynolds
 
     G = np.zeros((1, fields.NCOLS))
     G[0, [fields.NX, fields.NY]] = 16, 8

@@ -19,8 +19,9 @@ def thermal(name="smooth-line", **changes):
 
 def film(description, nx):
     """A FilmHeat on a one-dimensional grid, with its levels."""
-    from tehl_taichi.solvers.heat import FilmHeat, time_step
-    from tehl_taichi.solvers.levels import Levels
+    from tehl_taichi.heat.temperatures import FilmHeat
+    from tehl_taichi.march.settle import time_step
+    from tehl_taichi.pressure.levels import Levels
 
     levels = Levels(description, Scales.of(description), nx, 0)
     heat = FilmHeat(levels, time_step(description, levels.scales, levels.dx))
@@ -29,8 +30,8 @@ def film(description, nx):
 
 
 def test_the_heat_enters_the_pressure_problem_only_where_it_is_told_to():
-    from tehl_taichi.solvers.heat import FilmHeat
-    from tehl_taichi.solvers.levels import Levels
+    from tehl_taichi.heat.temperatures import FilmHeat
+    from tehl_taichi.pressure.levels import Levels
 
     levels = Levels(thermal(), Scales.of(thermal()), 64, 0)
     before = levels.laws, levels.evaluate_residual
@@ -41,7 +42,7 @@ def test_the_heat_enters_the_pressure_problem_only_where_it_is_told_to():
 
 
 def test_chebyshev_matrices_are_exact_for_polynomials():
-    from tehl_taichi.solvers.heat import chebyshev
+    from tehl_taichi.heat.across import chebyshev
 
     z, C, D, D2 = chebyshev(9)
     f, integral = z**6 - 2 * z**3, z**7 / 7 - z**4 / 2
@@ -51,11 +52,11 @@ def test_chebyshev_matrices_are_exact_for_polynomials():
 
 def test_bodies_remember_their_heat():
     """Steady flux on a half-space: T = 2 q sqrt(t/(pi k rho c)), at every step; also with steps of half the length."""
-    from tehl_taichi.solvers import solids
+    from tehl_taichi.heat import modes
 
     for part in (1.0, 0.5):
-        (weight, decay, gain, gain_last), B, B_last = solids.memory(part * 1e-6, 13000.0, 1e-6)
-        memory, worst = np.zeros(solids.MODES), 0.0
+        (weight, decay, gain, gain_last), B, B_last = modes.memory(part * 1e-6, 13000.0, 1e-6)
+        memory, worst = np.zeros(modes.MODES), 0.0
         for n in range(1, 2000):
             warm = (weight * decay * memory).sum() + B + B_last
             worst = max(worst, abs(warm / (2 * math.sqrt(n * part * 1e-6 / math.pi) / 13000.0) - 1))
@@ -65,11 +66,11 @@ def test_bodies_remember_their_heat():
 
 def test_a_slab_remembers_its_heat():
     """Steady flux on a slab 100 diffusion lengths of a step deep: its series solution, and depth/k after a long time."""
-    from tehl_taichi.solvers import solids
+    from tehl_taichi.heat import modes
 
     depth = 100.0
-    (weight, decay, gain, gain_last), B, B_last = solids.memory(1.0, 1.0, 1.0, depth)
-    memory, times = np.zeros(solids.MODES), np.arange(1, 30001)
+    (weight, decay, gain, gain_last), B, B_last = modes.memory(1.0, 1.0, 1.0, depth)
+    memory, times = np.zeros(modes.MODES), np.arange(1, 30001)
     warm = np.zeros(times.size)
     for n in range(times.size):
         warm[n] = (weight * decay * memory).sum() + B + B_last
@@ -77,14 +78,14 @@ def test_a_slab_remembers_its_heat():
     odd = 2 * np.arange(400) + 1.0
     exact = depth * (1 - 8 / math.pi**2 * np.sum(np.exp(-(odd * math.pi / 2 / depth) ** 2 * times[:, None]) / odd**2, axis=1))
     assert np.abs(warm / exact - 1).max() < 1e-3
-    assert (weight * decay) @ solids.steady_modes(1.0, depth) + B + B_last == pytest.approx(depth, rel=1e-3)
+    assert (weight * decay) @ modes.steady_modes(1.0, depth) + B + B_last == pytest.approx(depth, rel=1e-3)
 
 
 @pytest.mark.parametrize("speed, sliding", [(8.5, 0.0), (8.5, -0.3)])
 def test_moving_half_space_under_a_uniform_flux(speed, sliding):
     """60 MW/m2 on steel: 40.30 K half a millimetre behind the edge at 8.5 m/s, 2 q sqrt(x/(pi k rho c u)) anywhere."""
-    from tehl_taichi.kernels import slots as kernels
-    from tehl_taichi.kernels import step
+    from tehl_taichi.heat import slots as kernels
+    from tehl_taichi.heat import step
 
     heat, levels = film(thermal(speed=speed, srr=sliding), 256)
     heat.start()
@@ -117,8 +118,8 @@ COUETTE = {0.1: (0.0124225200, 0.9917491170), 1.0: (0.1177830357, 0.9241962407),
 @pytest.mark.parametrize("Na", COUETTE)
 def test_thermal_couette_flow(Na):
     """eta = eta0 exp(-b (T - T_w)) between walls at T_w: b dT_max = ln(1 + Na/8), tau h/(eta0 U) (closed form)."""
-    from tehl_taichi.kernels import fields
-    from tehl_taichi.kernels import slots as kernels
+    from tehl_taichi.heat import slots as kernels
+    from tehl_taichi.pressure import fields
 
     b, h = 0.05, 1e-6
     oil = dataclasses.replace(scene().oil, name="reynolds", viscosity="barus", alpha=1e-9, beta_eta=b, Gamma0=90.0, eta0=0.02,
@@ -143,7 +144,7 @@ def test_thermal_couette_flow(Na):
 
 
 def steady(**changes):
-    from tehl_taichi.simulation import march
+    from tehl_taichi.march.passage import march
 
     return next(march(thermal(**changes)))
 
@@ -187,8 +188,9 @@ def test_strong_sliding_settles(srr):
 @pytest.mark.parametrize("srr", [-2.0, 2.0])
 def test_simple_sliding(srr):
     """A surface at rest conducts through 3 a of its body: T - T_0 = q 3 a/k at every point."""
-    from tehl_taichi.kernels import fields, slots
-    from tehl_taichi.solvers.steady import solve_steady
+    from tehl_taichi.heat import slots
+    from tehl_taichi.march.steady import solve_steady
+    from tehl_taichi.pressure import fields
 
     description = thermal(srr=srr, **{"grid.nx": 64})
     result = solve_steady(description, Scales.of(description), 64, 0)
@@ -202,7 +204,7 @@ def test_simple_sliding(srr):
 
 
 def passage(**changes):
-    from tehl_taichi.simulation import march
+    from tehl_taichi.march.passage import march
 
     return list(march(thermal("gear", **{"grid.nx": 64, "grid.ny": 16, **changes})))
 
@@ -233,7 +235,7 @@ def test_order_in_time():
 
 
 def test_going_on_from_a_thermal_state_repeats_the_run():
-    from tehl_taichi.simulation import march
+    from tehl_taichi.march.passage import march
 
     description = thermal("gear", **{"grid.nx": 64, "grid.ny": 16, "time.steps": 10})
     run = march(description)
@@ -246,8 +248,8 @@ def test_going_on_from_a_thermal_state_repeats_the_run():
 
 
 def test_isothermal_scenes_hold_nothing_of_it():
-    from tehl_taichi.kernels import fields
-    from tehl_taichi.simulation import march
+    from tehl_taichi.march.passage import march
+    from tehl_taichi.pressure import fields
 
     s = next(march(scene("smooth-line").replace(**{"thermal.on": False, "grid.nx": 64})))
     assert not any("temperature" in name for name in s.fields) and "film_max_C" not in s.scalars
@@ -258,7 +260,7 @@ def test_a_point_contact_heats_up():
     data = thermal("ball-on-disc", **{"grid.nx": 64, "grid.ny": 32, "srr": -0.5, "rheology.law": "limiting"}).to_dict()
     data["contact"].update(hertz_pressure=1.0e9, load=0.0)
     data["operation"].update(u_m=0.5)
-    from tehl_taichi.simulation import march
+    from tehl_taichi.march.passage import march
 
     s = next(march(Scene.from_dict(data)))
     assert s.scalars["residual"] < 1e-6 and s.scalars["film_max_C"] > data["operation"]["temperature"] + 1
@@ -268,10 +270,11 @@ def test_a_point_contact_heats_up():
 
 def sources_and_sinks(heat, levels):
     """Per column, W/m2: dissipation, compression heat, heat into the bodies, heat that the oil takes along (steady, 1-D)."""
-    from tehl_taichi.kernels import fields, step
-    from tehl_taichi.kernels import slots as kernels
+    from tehl_taichi.heat import slots as kernels
+    from tehl_taichi.heat import step
+    from tehl_taichi.physics.conduction import heat_capacity
     from tehl_taichi.physics.density import expansivity
-    from tehl_taichi.physics.heat import heat_capacity
+    from tehl_taichi.pressure import fields
 
     S, oil, nz, w = levels.scales, levels.scene.oil, heat.nz, heat.C[-1][:, None]
     P, H = levels.get(fields.P)[0] * S.p_H, levels.get(fields.H)[0] * S.h
@@ -296,8 +299,8 @@ def sources_and_sinks(heat, levels):
 
 def test_heat_balance():
     """Heat into the bodies and the oil = friction and compression, to 1e-3 of the friction; 58.2 kW/m go into the bodies."""
-    from tehl_taichi.kernels import fields
-    from tehl_taichi.solvers.steady import solve_steady
+    from tehl_taichi.march.steady import solve_steady
+    from tehl_taichi.pressure import fields
 
     description = thermal(srr=-0.1176, **{"grid.nx": 256, "grid.x_min": -2.0})
     result = solve_steady(description, Scales.of(description), 256, 0)

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from tehl_taichi.post import thermal_depth as td
-from tehl_taichi.post.thermal_stress import ThermalStress
+from tehl_taichi.fatigue import thermal_depth as td
+from tehl_taichi.fatigue.thermal_stress import ThermalStress
 from tehl_taichi.scene.parts import Body
 
 STEEL = Body()

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from tehl_taichi.post import half_space
-from tehl_taichi.post import thermal_stress as ts
+from tehl_taichi.fatigue import half_space
+from tehl_taichi.fatigue import thermal_stress as ts
 from tehl_taichi.scene.parts import Body
 
 STEEL = Body()

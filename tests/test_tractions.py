@@ -14,7 +14,7 @@ NAMES = ("traction_x_a", "traction_y_a", "traction_x_b", "traction_y_b")
 
 def touching(**changes):
     """The passage of a high asperity until it touches; what is kept of it holds no tables."""
-    from tehl_taichi.simulation import march
+    from tehl_taichi.march.passage import march
 
     description = scene("touching-asperity").replace(**{"thermal.on": False, "rheology.law": "newtonian", "grid.nx": 64,
                                                         "grid.ny": 16, "grid.y_max": 1.25, "time.steps": 9, **changes})
@@ -144,10 +144,10 @@ def test_load_carried_by_solid_contact(slower):
 def warm_film(srr, upside_down=False):
     """A pressure hill, a gap and a temperature profile, made, with solid contact at some nodes of high and of low pressure, on
     64 x 8 cells, and the tractions (4, ny+1, nx+1) of it."""
-    from tehl_taichi import snapshot
-    from tehl_taichi.kernels import fields
-    from tehl_taichi.solvers.heat import FilmHeat
-    from tehl_taichi.solvers.levels import Levels
+    from tehl_taichi.heat.temperatures import FilmHeat
+    from tehl_taichi.march import snapshot
+    from tehl_taichi.pressure import fields
+    from tehl_taichi.pressure.levels import Levels
 
     description = scene("gear").replace(**{"thermal.on": True, "srr": srr, "grid.nx": 64, "grid.ny": 8})
     s = Scales.of(description)

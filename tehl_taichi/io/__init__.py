@@ -1,1 +1,4 @@
-"""Scene files, stores, summaries and figures."""
+"""Files: scene files, stores and what keeps them whole, summaries, warnings about stored results, figures.
+
+May import every room but the commands. Nothing here computes a film.
+"""

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from tehl_taichi.post.findley import largest_principal, shear_path
-from tehl_taichi.post.worst_point import on_circle
+from tehl_taichi.fatigue.findley import largest_principal, shear_path
+from tehl_taichi.fatigue.worst_point import on_circle
 
 MAPS = ("feature_frame_x", "feature_frame_y", "Fi", "fatigue_depth", "findley_stress_at_depth", "findley_stress_under_row",
         "findley_stress_contact_alone")  # what the figures show where it was found

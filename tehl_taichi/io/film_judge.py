@@ -3,7 +3,7 @@ that give their sentences."""
 
 import numpy as np
 
-from tehl_taichi.physics.peaks import peak, ripple, unresolved_peak
+from tehl_taichi.march.peaks import peak, ripple, unresolved_peak
 from tehl_taichi.scene.scales import Scales
 
 MOST_FRICTION = 0.2  # of a film: no oil is known to bear more than about 0.12 of the pressure, traction fluids included

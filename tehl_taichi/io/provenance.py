@@ -9,8 +9,10 @@ import sys
 from datetime import datetime, timezone
 from pathlib import Path
 
-from tehl_taichi import __version__, precision, runtime
+from tehl_taichi import __version__
 from tehl_taichi.commit import commit
+from tehl_taichi.engine import runtime
+from tehl_taichi.pressure import precision
 
 LIBRARIES = ("numpy", "pyfftw", "zarr")
 

@@ -10,8 +10,8 @@ from tehl_taichi.errors import StoreError
 from tehl_taichi.io.place import Place
 from tehl_taichi.io.provenance import provenance
 from tehl_taichi.io.store import OVER, Store
+from tehl_taichi.march.passage import march
 from tehl_taichi.scene.route import most_steps, total_steps
-from tehl_taichi.simulation import march
 
 SWITCH = 1e-4  # s, interpreter switch interval while a thread writes
 EVERY = 2.0  # s between the states that a run can go on from; a thermal one has 11 MB at 257x65x9, a tenth of a step's time

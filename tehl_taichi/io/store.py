@@ -20,9 +20,9 @@ from tehl_taichi.errors import Error, Interrupted, StoreError
 from tehl_taichi.io import checkpoint, intact, maps, scene_file
 from tehl_taichi.io.atomic import replace
 from tehl_taichi.io.intact import CHECKPOINTS, FORMAT, ROOT
+from tehl_taichi.io.json_values import plain
 from tehl_taichi.io.lock import Busy, Lock, holder
 from tehl_taichi.io.place import Place, put_back, reason, unmade
-from tehl_taichi.io.plain import plain
 from tehl_taichi.scene.route import cut_at
 
 FIELDS = {
@@ -288,7 +288,7 @@ class Store:
         _publish(self.path, self.attrs, self.metadata)
 
     def go_back(self):
-        """The state of the last checkpoint, for :func:`tehl_taichi.simulation.march`. Entries after it are taken back: they
+        """The state of the last checkpoint, for :func:`tehl_taichi.march.passage.march`. Entries after it are taken back: they
         come again, the same. Raises StoreError where there is none."""
         shape = self.scene.rows + 1, self.scene.grid.nx + 1
         number, state = checkpoint.last(self.path, self.path / CHECKPOINTS, self.steps, shape)
@@ -388,7 +388,7 @@ def _coordinates(group, snapshot):
         array = _array(group, name, values.shape, values.shape, "f8", [name], "m", text, 0.0)
         array[:] = values
     if "temperature" in snapshot.fields:
-        from tehl_taichi.solvers.heat import chebyshev
+        from tehl_taichi.heat.across import chebyshev
 
         zeta = chebyshev(snapshot.fields["temperature"].shape[2])[0]
         array = _array(group, "zeta", zeta.shape, zeta.shape, "f8", ["zeta"], "1", "z/h from surface a to surface b", 0.0)

@@ -3,16 +3,17 @@
 import numpy as np
 
 from tehl_taichi import __version__
-from tehl_taichi.io import judge
-from tehl_taichi.physics.formula import central_film
-from tehl_taichi.readings import HEAT
+from tehl_taichi.io import result_judge
+from tehl_taichi.march.readings import HEAT
+from tehl_taichi.physics.film_formula import central_film
 from tehl_taichi.scene.limits import GAMMA_MEASURED, P_MEASURED
 from tehl_taichi.scene.scales import Scales
 
 
 def summarise(store, extra, fatigue=None):
     """Summary dictionary. extra: wall_s, compile_s (kernels traced, compiled or loaded), steady_error and steady_unknown (see
-    :class:`tehl_taichi.snapshot.Snapshot`), passage_error and passage_unknown alike; fatigue: its own dictionary or None."""
+    :class:`tehl_taichi.march.snapshot.Snapshot`), passage_error and passage_unknown alike; fatigue: its own dictionary or
+    None."""
     scene = store.scene
     scales = Scales.of(scene)
     out = {"scene": scene.name, "version": __version__, "store": str(store.path), "converged": True,
@@ -29,7 +30,7 @@ def summarise(store, extra, fatigue=None):
         out[part]["unknown"] = {name: why for name, why in extra.get("passage_unknown", {}).items() if name in names}
     out["work"] = _work(store)
     out["clamps"] = _clamps(store)
-    out["warnings"] = judge.warnings(store, out)
+    out["warnings"] = result_judge.warnings(store, out)
     return out
 
 

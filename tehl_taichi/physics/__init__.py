@@ -1,1 +1,5 @@
-"""Laws of the lubricant and of the contact: pointwise functions, scalars in, scalar out (arrays work too)."""
+"""Laws of the lubricant: pointwise functions that work in kernels, for numbers and for arrays, and the film formulas.
+
+Viscosity, density, shear laws, conductivity, boundary friction; each stands once, with its source. May import `scene` (what an
+oil is) and `engine` (exp and log of lanes).
+"""

@@ -2,7 +2,7 @@
 
 import taichi as ti
 
-from tehl_taichi.physics.elementary import exp
+from tehl_taichi.engine.elementary import exp
 
 
 @ti.pyfunc

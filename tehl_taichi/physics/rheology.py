@@ -2,7 +2,7 @@
 
 import taichi as ti
 
-from tehl_taichi.physics.elementary import exp, log
+from tehl_taichi.engine.elementary import exp, log
 
 LARGEST = 1e100  # Pa: beyond any trial state, and its square is still a number
 

@@ -5,7 +5,7 @@
 
 import taichi as ti
 
-from tehl_taichi.physics.elementary import exp, log
+from tehl_taichi.engine.elementary import exp, log
 
 LN10 = 2.302585092994046
 PER_LN10 = 1 / LN10

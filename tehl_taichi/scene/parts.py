@@ -203,7 +203,7 @@ class Numerics:
 
     tolerance 1e-6: ten times less moves the film by under 0.1 % at 256 columns. mass_tolerance 1e-6: the conservation that
     users check. krylov_tolerance: from 0.03 to 0.3 a passage costs the same. newton_max, krylov_max: no converging case came
-    near them. estimate_error: see tehl_taichi/companions.py.
+    near them. estimate_error: see tehl_taichi/march/companions.py.
     """
 
     tolerance: float = quantity(1e-6, "", "rms of min(P, R/D, gap) plus load error", 1e-11, 1e-3)

@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 
-from tehl_taichi.scene import closed_form
+from tehl_taichi.scene import hertz
 
 
 @dataclass(frozen=True)
@@ -49,9 +49,9 @@ class Scales:
         contact, E = scene.contact, reduced_modulus(scene)
         R, R_y, u_m = contact.radius_x, contact.radius_y, scene.operation.u_m
         if contact.kind == "line":
-            a, p_H = closed_form.hertz_line(scene.load, R, E)
+            a, p_H = hertz.line(scene.load, R, E)
             return cls("line", R, E, a, a, p_H, u_m, 0.0)
-        a, b, p_H = closed_form.hertz_ellipse(scene.load, R, R_y, E)
+        a, b, p_H = hertz.ellipse(scene.load, R, R_y, E)
         return cls("point", R, E, a, b, p_H, u_m, R / R_y)
 
 
@@ -68,8 +68,8 @@ def load_of(scene):
         return contact.load
     if contact.hertz_pressure > 0:
         if contact.kind == "line":
-            return closed_form.hertz_line_load(contact.hertz_pressure, R, E)
-        return closed_form.hertz_ellipse_load(contact.hertz_pressure, R, contact.radius_y, E)
+            return hertz.line_load(contact.hertz_pressure, R, E)
+        return hertz.ellipse_load(contact.hertz_pressure, R, contact.radius_y, E)
     U = moes_speed(scene) * 2 * scene.oil.eta0 / (E * R)
     return contact.moes_M * (E * R * math.sqrt(U) if contact.kind == "line" else E * R**2 * U**0.75)
 

@@ -1,0 +1,47 @@
+"""Fields that are handed from one owner to the next: Taichi never frees them, and a new one compiles its kernels anew."""
+
+import gc
+import weakref
+
+from tehl_taichi.engine import runtime
+
+_tables = []  # [field, weak reference to its owner]
+SMALLEST_TABLE = 5000  # columns; sizes grow by factors of 4, because every size of a field compiles its kernels anew
+
+
+def lease(owner, rows, lanes, columns, slots=0, precision="f64"):
+    """A vector field of `rows` x at least `columns` columns of `lanes` numbers, zero, for `owner` alone while it lives; with
+    `slots` (and rows 0) of at least `columns` columns x `slots`.
+
+    That of a former owner is used again where there is one.
+    """
+    runtime.ensure()
+    wanted = (lanes, precision), (rows, columns, slots)
+    entry = _free_table(*wanted)
+    if entry is None:
+        gc.collect()  # 28 ms; an owner that is only held by a reference cycle is gone then
+        entry = _free_table(*wanted)
+    if entry is not None:
+        field, entry[1] = entry[0], weakref.ref(owner)
+        field.fill(0.0)
+        return field
+    import taichi as ti
+
+    capacity = SMALLEST_TABLE
+    while capacity < columns:
+        capacity *= 4
+    field = ti.Vector.field(lanes, getattr(ti, precision), shape=(capacity, slots) if slots else (rows, capacity))
+    _tables.append([field, weakref.ref(owner)])
+    return field
+
+
+def _free_table(kind, size):
+    for entry in _tables:
+        field, holder = entry
+        if holder() is None and (field.n, str(field.dtype)) == kind and _fits(field.shape, *size):
+            return entry
+    return None
+
+
+def _fits(shape, rows, columns, slots):
+    return shape[0] >= columns and shape[1] == slots if slots else shape[0] == rows and shape[1] >= columns

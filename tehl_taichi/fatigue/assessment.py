@@ -1,0 +1,187 @@
+"""Fatigue of the material around a feature: stress histories, critical planes, the index."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl_taichi.fatigue import below, findley
+from tehl_taichi.fatigue.histories import Passage
+from tehl_taichi.fatigue.worst_point import Point
+from tehl_taichi.scene import SceneError
+
+PIT_ANGLES = (18.0, 50.0)  # degrees to the surface at which pits begin (Everitt 2018)
+
+
+@dataclass(frozen=True)
+class FatigueResult:
+    """summary: numbers in SI, of the surface, and of what lies below it in its "below"; maps: name -> (values, dimensions,
+    units, text), in the frame of the feature; worst: history of the worst point of the surface: x_a (m), stress (times, 6) Pa
+    (the last one unloaded), normal (3,), circle around the shear path (centre along dip and strike, radius; Pa); worst_below:
+    the same of the worst point below, or None where only the surface was searched."""
+
+    summary: dict
+    maps: dict
+    worst: dict
+    worst_below: dict
+
+
+class Snapshots:
+    """A list of snapshots (all of one grid) as the reader that :func:`run` wants."""
+
+    def __init__(self, snapshots):
+        self.items = list(snapshots)
+        self.x, self.y = self.items[0].x, self.items[0].y
+        self.time = np.array([s.time for s in self.items])
+
+    def __len__(self):
+        return len(self.items)
+
+    def feature_x(self, n):
+        """Centre of the feature (m) at entry n."""
+        return self.items[n].feature_x
+
+    def fields(self, n, names):
+        """{name: (nx+1, ny+1) array} of entry n."""
+        return {name: self.items[n].fields[name] for name in names}
+
+
+def run(scene, reader, progress=None):
+    """Fatigue index of the points of body a within 0.6 a of the first feature (0.3 a beyond larger ones), over its passage.
+
+    At all points of the surface and below it: with scene.fatigue.depths "auto" under the row through the feature (and the
+    surface's worst row), the depth looked for (:mod:`tehl_taichi.fatigue.below`); with a list at all points at these depths.
+    Between its from_x and to_x, by its criterion. reader: see
+    :class:`tehl_taichi.fatigue.histories.Passage`; or a list of snapshots. progress: called with (done, total) parts of a pass.
+    On the rows of the reader (where they begin with y = 0, the others are its mirror). Memory: one block of histories
+    (400 MB at most), with thermal stress 8 bytes more per entry and wave number (4 nodes of the grid).
+    Raises SceneError when no feature passes.
+    """
+    reader = Snapshots(reader) if isinstance(reader, (list, tuple)) else reader
+    centres = np.array([reader.feature_x(n) for n in range(len(reader))])
+    if len(reader) < 2 or not np.isfinite(centres).all():
+        raise SceneError("fatigue needs the passage of a feature: a scene with a feature and at least one time step")
+    passage = Passage(scene, reader, centres)
+    if passage.centres.size < 2:
+        f = scene.fatigue
+        raise SceneError(f"the feature is at no stored moment between fatigue.from_x = {f.from_x:g} a and to_x = {f.to_x:g} a; "
+                         f"it goes from {centres[0] / passage.a:.2f} to {centres[-1] / passage.a:.2f} a")
+    surface = _layer(scene, passage, 0.0, progress)
+    if scene.fatigue.depths == "auto":
+        return _result(scene, passage, [surface], _profiles(scene, passage, surface))
+    return _result(scene, passage, [surface, *(_layer(scene, passage, depth, progress) for depth in scene.fatigue.depths)], [])
+
+
+@dataclass(frozen=True)
+class Layer:
+    """What was found at one depth: maps (nx, rows) and the worst point."""
+
+    depth: float
+    f: np.ndarray
+    theta: np.ndarray
+    phi: np.ndarray
+    sigma1: np.ndarray
+    worst: Point
+
+
+def _layer(scene, passage, depth, progress):
+    operators, parts, worst = passage.stresses(depth), [], None
+    for rows in passage.row_blocks():
+        history = passage.history(rows, operators, progress)
+        f, normals = findley.search(history, scene.fatigue.kappa, criterion=scene.fatigue.criterion)
+        shape = passage.x.size, rows.stop - rows.start
+        sigma1 = np.array([findley.largest_principal(part).max() for part in history])
+        parts.append([v.reshape(shape) for v in (f, *findley.angles(normals), sigma1)])
+        top = int(np.argmax(f))
+        if worst is None or f[top] > worst.f:
+            i, j = np.unravel_index(top, shape)
+            worst = Point(depth, passage.x[i], passage.y[j + rows.start], f[top], history[top].copy(), normals[top])
+    return Layer(depth, *(np.concatenate(part, axis=1) for part in zip(*parts)), worst)
+
+
+def _profiles(scene, passage, surface):
+    """What lies below the feature's row, below the surface's worst row if that is another one, and below the contact alone."""
+    y = passage.reader.y
+    rows = [int(np.argmin(np.abs(y - at))) for at in (scene.features[0].y, surface.worst.y)]
+    return below.profiles(passage, list(dict.fromkeys(rows)), _has_far_row(scene, y))
+
+
+def _has_far_row(scene, y):
+    """Whether the last row of a line contact is beyond all features."""
+    beyond = all(0 < f.reach_y and abs(f.y) + f.reach_y < y[-1] for f in scene.features)
+    return scene.contact.kind == "line" and y.size > 1 and beyond
+
+
+def _result(scene, passage, layers, profiles):
+    surface, limit, centres = layers[0], scene.fatigue.endurance, passage.centres
+    summary = {**surface.worst.summary(limit), "sigma1_max_Pa": float(surface.sigma1.max()),
+               "kappa_F": float(scene.fatigue.kappa), "sigma_eF_Pa": float(limit), **surface.worst.moments(centres),
+               "criterion": scene.fatigue.criterion, "thermal_stress": scene.thermal_stress_wanted,
+               "pit_angles_deg": list(PIT_ANGLES)}
+    maps, worst, deep = _maps(surface, passage, limit), surface.worst.history(centres), None
+    maps |= _history_maps(worst, "worst", "the worst point of the surface")
+    points = [layer.worst for layer in layers[1:]] + [profile.worst for profile in profiles if not profile.alone]
+    if points:
+        point = max(points, key=lambda point: point.f)
+        summary["below"], deep = {"depth_m": point.depth, **point.summary(limit)}, point.history(centres)
+        maps |= _history_maps(deep, "worst_below", "the worst point below it")
+    if profiles:
+        depths = profiles[0].depths
+        summary["below"] |= {"searched_m": [float(depths[0]), float(depths[-1])], **_alone(profiles, limit)}
+        maps |= _profile_maps(surface, passage, profiles)
+    if len(layers) > 1:
+        summary["by_depth"] = [{"depth_m": layer.depth, "findley_stress_max_Pa": float(layer.f.max()),
+                                "sigma1_max_Pa": float(layer.sigma1.max())} for layer in layers]
+        maps |= _layer_maps(layers)
+    return FatigueResult(summary, maps, worst, deep)
+
+
+def _alone(profiles, limit):
+    """What the contact has below it without its feature, where that was looked for."""
+    for profile in profiles:
+        if profile.alone:
+            f = profile.worst.f
+            return {"contact_alone": {"Fi_max": f / limit, "findley_stress_max_Pa": f, "depth_m": profile.worst.depth}}
+    return {}
+
+
+def _history_maps(history, name, of):
+    """The history of a worst point as a store keeps it."""
+    return {f"{name}_x_a": (history["x_a"], ["moment"], "m", "centre of the feature; the last moment is unloaded"),
+            f"{name}_stress": (history["stress"], ["moment", "component"], "Pa", f"xx, yy, zz, xy, xz, yz at {of}"),
+            f"{name}_normal": (history["normal"], ["direction"], "1", "unit normal of its critical plane"),
+            f"{name}_circle": (history["circle"], ["of_circle"], "Pa",
+                               "around its shear path: centre along dip, strike; radius")}
+
+
+BOTH = ["feature_frame_x", "feature_frame_y"]
+
+
+def _maps(surface, passage, limit):
+    """Of the surface."""
+    return {BOTH[0]: (passage.x, BOTH[:1], "m", "along rolling, from the centre of the feature"),
+            BOTH[1]: (passage.y, BOTH[1:], "m", "across, from the centre of the contact"),
+            "findley_stress": (surface.f, BOTH, "Pa", "Findley stress"), "Fi": (surface.f / limit, BOTH, "1", "Findley index"),
+            "sigma1_max": (surface.sigma1, BOTH, "Pa", "largest principal stress of the passage"),
+            "plane_theta": (surface.theta, BOTH, "degree", "angle of the critical plane's normal from the surface normal"),
+            "plane_phi": (surface.phi, BOTH, "degree", "direction of the critical plane's normal in the surface, from x")}
+
+
+def _layer_maps(layers):
+    """Of all points at every depth asked for."""
+    return {"fatigue_depth": (np.array([layer.depth for layer in layers]), ["fatigue_depth"], "m", "below the surface"),
+            "findley_stress_at_depth": (np.stack([layer.f for layer in layers]), ["fatigue_depth", *BOTH], "Pa",
+                                        "Findley stress")}
+
+
+def _profile_maps(surface, passage, profiles):
+    """Over depth, the surface first: under the row with the worst point, and of the contact alone."""
+    under = max((profile for profile in profiles if not profile.alone), key=lambda profile: profile.worst.f)
+    row = surface.f[:, [int(np.argmin(np.abs(passage.y - under.worst.y)))]].T
+    out = {"fatigue_depth": (np.append(0.0, under.depths), ["fatigue_depth"], "m", "below the surface"),
+           "findley_stress_under_row": (np.concatenate([row, under.f]), ["fatigue_depth", BOTH[0]], "Pa",
+                                        "Findley stress under the row of the worst point below the surface")}
+    for profile in profiles:
+        if profile.alone:
+            out["findley_stress_contact_alone"] = (np.append(np.nan, profile.f.max(axis=1)), ["fatigue_depth"], "Pa",
+                                                   "Findley stress of the contact without its feature")
+    return out

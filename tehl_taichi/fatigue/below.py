@@ -1,0 +1,118 @@
+"""The worst depth below the surface: under one row of material points, from a ladder of depths and between its rungs.
+
+Stresses change smoothly with the logarithm of the depth, so those between the rungs are interpolated (four rungs, cubic) and
+the depth is refined without going back to the loads.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl_taichi.fatigue import findley
+from tehl_taichi.fatigue.row_stress import RowStress
+from tehl_taichi.fatigue.thermal_depth import ThermalBelow
+from tehl_taichi.fatigue.worst_point import Point
+
+RATIO = 1.5      # of neighbouring depths
+SHALLOWEST = 0.5  # cells: nearer to the surface the rectangles of the loads are seen
+DEEPEST = 0.9    # a: the contact alone is worst at about a half
+HALVINGS = 6     # of the step in log depth, from a rung: 1.5^(1/64), 0.6 %
+CLOSE = 0.9      # points within this of the worst of a rung are followed between the rungs
+BLOCK = 32       # entries whose stresses are found at once
+
+
+@dataclass(frozen=True)
+class Profile:
+    """Findley stress f (depths, x') Pa at depths (m) and the worst point of all depths; alone: of the contact alone."""
+
+    depths: np.ndarray
+    f: np.ndarray
+    worst: Point
+    alone: bool
+
+
+def ladder(passage):
+    """Depths (m) searched, from half a cell to 0.9 a."""
+    first, last = SHALLOWEST * passage.dx, DEEPEST * passage.a
+    count = max(5, int(np.ceil(np.log(last / first) / np.log(RATIO))) + 1)
+    return np.geomspace(first, last, count)
+
+
+def profiles(passage, rows, alone=False):
+    """:class:`Profile` of a passage under every one of these rows of its reader.
+
+    alone=True: and under one point of the last row with the loads there as an endless line: the contact without its feature.
+    """
+    depths, y = ladder(passage), passage.reader.y
+    kinds = [(row, False) for row in rows] + [(y.size - 1, True)] * alone
+    found = []
+    for (row, single), histories in zip(kinds, _histories(passage, depths, kinds)):
+        points = slice(passage.x.size // 2, passage.x.size // 2 + 1) if single else slice(None)
+        histories = histories[:, points]
+        f = np.array([findley.search(history, *_rule(passage))[0] for history in histories])
+        depth, point, *rest = _refined(passage, np.log(depths), histories, f)
+        found.append(Profile(depths, f, Point(depth, float(passage.x[points][point]), float(y[row]), *rest), single))
+    return found
+
+
+def _rule(passage):
+    fatigue = passage.scene.fatigue
+    return fatigue.kappa, True, fatigue.criterion
+
+
+def _histories(passage, depths, kinds):
+    """A list of (depths, x', moments, 6) Pa, one for each kind: (row, whether its loads go on as an endless line)."""
+    operators = [_operator(passage, depths, *kind) for kind in kinds]
+    out = np.zeros((len(kinds), passage.x.size, depths.size, passage.centres.size + 1, 6))
+    entries = np.unique(passage.entries)
+    for block in np.array_split(entries, -(-entries.size // BLOCK)):
+        loads = np.stack([passage.loads(int(entry)) for entry in block], axis=1)
+        for histories, operator, (row, endless) in zip(out, operators, kinds):
+            for entry, stress in zip(block, operator(*(loads[..., [row]] if endless else loads))):
+                passage.follow(histories, entry, stress.swapaxes(0, 1))
+    if passage.scene.thermal_stress_wanted:
+        _heat(passage, depths, [row for row, _ in kinds], entries, out)
+    return passage.resting(out).swapaxes(1, 2)
+
+
+def _operator(passage, depths, row, endless):
+    y = np.zeros(1) if endless else passage.reader.y - passage.reader.y[0]
+    return RowStress(passage.grid_x, y, passage.scene.body_a.nu, passage.line, passage.mirrored, depths, 0 if endless else row)
+
+
+def _heat(passage, depths, rows, entries, out):
+    """Thermal stress added to the histories `out` (kinds, x', depths, moments, 6)."""
+    thermal, part = passage.heat(ThermalBelow, depths[0]), np.zeros_like(out[0, :, 0])
+    for n, depth in enumerate(depths):
+        for histories, stresses in zip(out, thermal.rows(depth, rows)):
+            for entry in entries:
+                passage.follow(part, entry, stresses[passage.ticks[entry]])
+            histories[:, n] += part
+
+
+def _refined(passage, logs, histories, f):
+    """(depth, point, f, stress, normal) of the worst point, between the rungs too: the step halved around the best."""
+    best = int(np.argmax(f.max(axis=1)))
+    follow = np.flatnonzero(f[best] >= CLOSE * f[best].max())
+
+    def at(log):
+        stress = _between(logs, histories[:, follow], log)
+        values, normals = findley.search(stress, *_rule(passage))
+        top = int(np.argmax(values))
+        return float(values[top]), log, int(follow[top]), stress[top], normals[top]
+
+    top, step = at(logs[best]), logs[1] - logs[0]
+    for _ in range(HALVINGS):
+        step *= 0.5
+        sides = [at(log) for log in (top[1] - step, top[1] + step) if logs[0] <= log <= logs[-1]]
+        top = max([top, *sides], key=lambda found: found[0])
+    worst, log, point, stress, normal = top
+    return float(np.exp(log)), point, worst, stress, normal
+
+
+def _between(logs, histories, log):
+    """Histories (points, moments, 6) at the depth exp(log): the cubic through the four nearest rungs."""
+    first = int(np.clip(np.searchsorted(logs, log) - 2, 0, logs.size - 4))
+    near = logs[first : first + 4]
+    weights = [np.prod([(log - other) / (one - other) for other in near if other != one]) for one in near]
+    return np.tensordot(weights, histories[first : first + 4], axes=1)

@@ -1,0 +1,125 @@
+"""Findley stress of stress histories: f = max over planes of tau_amp + kappa * sigma_n,max (Findley 1959)."""
+
+import math
+
+import numpy as np
+
+GRID = 10.0  # degrees between the planes the search begins with
+# halvings of the step: 5 degrees -> 2e-5 rad, error of a smooth maximum about 1e-9; Matake's sum is not largest on its
+# plane, so it errs by as much as the plane's angle
+SHRINKS, MATAKE_SHRINKS = 12, 18
+
+
+def planes(degrees=GRID):
+    """Unit normals (m, 3) about evenly spread on the upper hemisphere: 211 at 10 degrees."""
+    rows = []
+    count = round(90 / degrees)
+    for i in range(count + 1):
+        theta = math.pi / 2 * i / count
+        m = max(1, math.ceil(4 * count * math.sin(theta) * (0.5 if i == count else 1) - 1e-9))
+        phi = (math.pi if i == count else 2 * math.pi) * np.arange(m) / m
+        rows.append(np.stack([math.sin(theta) * np.cos(phi), math.sin(theta) * np.sin(phi),
+                              np.full(m, math.cos(theta))], axis=1))
+    return np.concatenate(rows)
+
+
+RULES = {"findley": "CIRCLE", "findley-chord": "CHORD", "matake": "CIRCLE", "dang-van": "DANG_VAN"}  # of critical_planes.py
+
+
+def search(history, kappa, prune=True, criterion="findley", degrees=GRID, decided=None):
+    """Largest value of a criterion over all planes, and its plane, of every point.
+
+    history (points, times, 6) Pa: xx, yy, zz, xy, xz, yz. kappa >= 0. criterion: "findley", tau_amp + kappa sigma_n,max, with
+    the radius of the smallest circle around the shear path; "findley-chord", with half its longest chord; "matake", Findley's
+    sum on the plane of the largest tau_amp (Matake 1977); "dang-van", largest (shear from the circle's centre + kappa mean
+    stress) of a moment (Dang Van 1989). prune=False evaluates every plane (for tests); degrees: between the first planes;
+    decided (points,), if given, takes the number of planes bounded or evaluated at each point.
+    Returns f (points,) Pa (may be negative: nowhere near fatigue) and unit normals (points, 3), n_z >= 0.
+    Raises ValueError for a history with NaN or of another shape, KeyError for an unknown criterion.
+    """
+    from tehl_taichi.engine import runtime
+    from tehl_taichi.fatigue import critical_planes
+
+    runtime.ensure()
+    history = np.ascontiguousarray(history, float)
+    if history.ndim != 3 or history.shape[2] != 6 or not np.isfinite(history).all():
+        raise ValueError(f"a stress history must be finite and shaped (points, times, 6), not {history.shape}")
+    points, steps, _ = history.shape
+    out = np.zeros((points, 5))
+    a, b = np.zeros((2, points, steps))
+    grid = planes(degrees)
+    values, peaks = np.zeros((points, len(grid))), np.zeros((points, critical_planes.STARTS, critical_planes.PEAK))
+    slope, shrinks = (0.0, MATAKE_SHRINKS) if criterion == "matake" else (kappa, SHRINKS)
+    rule = getattr(critical_planes, RULES[criterion])
+    critical_planes.search(points, steps, slope, rule, math.radians(degrees / 2), shrinks, int(prune), history, grid, values,
+                           a, b, peaks, out)
+    if decided is not None:
+        decided[:] = out[:, 4]
+    n = out[:, 1:4]
+    if criterion == "matake":
+        out[:, 0] += kappa * normal_stress(history, n).max(axis=1)
+    return out[:, 0], np.where(n[:, 2:] < 0, -n, n)
+
+
+def normal_stress(history, normals):
+    """(points, times) Pa on the planes with these normals (points, 3)."""
+    x, y, z = normals.T
+    weights = np.stack([x * x, y * y, z * z, 2 * x * y, 2 * x * z, 2 * y * z], axis=-1)
+    return np.einsum("ptc,pc->pt", history, weights)
+
+
+def shear_path(history, normal):
+    """On one plane of one point: shear along dip and along strike and normal stress, each (times,); history (times, 6) Pa,
+    normal (3,) with n_z >= 0."""
+    xx, yy, zz, xy, xz, yz = history.T
+    tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    vector = np.einsum("ijt,j->it", tensor, normal)
+    strike = np.cross([0.0, 0.0, 1.0], normal)
+    strike = strike / np.linalg.norm(strike) if np.linalg.norm(strike) > 1e-9 else np.array([0.0, 1.0, 0.0])
+    return np.cross(strike, normal) @ vector, strike @ vector, normal @ vector
+
+
+def smallest_circle(u, v):
+    """(centre u, centre v, radius) of the smallest circle around the points (u, v), each (times,)."""
+    from tehl_taichi.engine import runtime
+    from tehl_taichi.fatigue import critical_planes
+
+    runtime.ensure()
+    out = np.zeros(3)
+    critical_planes.circle(u.size, np.array([u]), np.array([v]), out)
+    return out
+
+
+def from_limits(bending, torsion):
+    """(kappa, sigma_eF) from the fatigue limits in fully reversed bending and torsion (Pa), at which f = sigma_eF.
+
+    f = (b/2)(kappa + sqrt(1 + kappa^2)) in bending, t sqrt(1 + kappa^2) in torsion. Raises ValueError unless
+    b/2 < t < b: Findley's criterion fits no other materials.
+    """
+    excess = 2 * torsion / bending - 1
+    if not 0 < excess < 1:
+        raise ValueError(f"fatigue limits in bending {bending:g} Pa and torsion {torsion:g} Pa: Findley's criterion needs a "
+                         f"ratio torsion/bending between 0.5 and 1, not {torsion / bending:.3g}")
+    kappa = excess / math.sqrt(1 - excess**2)
+    return kappa, torsion * math.sqrt(1 + kappa**2)
+
+
+def angles(normals):
+    """(theta, phi) in degrees: angle of the normal from z (into the body), and its direction in the surface from x.
+
+    theta is also the angle between the critical plane and the surface.
+    """
+    theta = np.degrees(np.arccos(np.clip(normals[:, 2], 0.0, 1.0)))
+    return theta, np.degrees(np.arctan2(normals[:, 1], normals[:, 0]))
+
+
+def largest_principal(S):
+    """Largest principal stress of S (..., 6): xx, yy, zz, xy, xz, yz (trigonometric form of the cubic's root)."""
+    xx, yy, zz, xy, xz, yz = np.moveaxis(S, -1, 0)
+    mean = (xx + yy + zz) / 3
+    dx, dy, dz = xx - mean, yy - mean, zz - mean
+    j2 = 0.5 * (dx * dx + dy * dy + dz * dz) + xy * xy + xz * xz + yz * yz
+    j3 = dx * (dy * dz - yz * yz) - xy * (xy * dz - yz * xz) + xz * (xy * yz - dy * xz)
+    radius = np.sqrt(j2 / 3)
+    ratio = np.divide(j3, 2 * radius**3, out=np.ones_like(j3), where=radius > 0)
+    return mean + 2 * radius * np.cos(np.arccos(np.clip(ratio, -1, 1)) / 3)

@@ -1,0 +1,162 @@
+"""Thermal stress below the surface: all six components at any depth of a body that heats from its surface.
+
+Each wave exp(i k s) of the surface temperature (s along the wave, t across) goes down as T(z). With phi'' - k^2 phi = T,
+phi = 0 at the surface (Goodier's potential) and the shear that it leaves there taken away (Airy's function -Theta z exp(-k z),
+Theta = int T exp(-k z) dz; Timoshenko & Goodier, sections 17 and 151), in units of E alpha/(1 - nu):
+
+    ss = -k^2 phi - T + (2 k - k^2 z) e Theta,   tt = -T + 2 nu k e Theta,   e = exp(-k z),
+    zz = k^2 phi + k^2 z e Theta,                sz = i k (phi' + (1 - k z) e Theta).
+
+After a sudden surface temperature T(z, t) = (A + B)/2 with A, B = exp(-+k z) erfc(z/(2 r) -+ k r), r = sqrt(D t) (Carslaw &
+Jaeger, appendix V); phi follows from its integral over time. A passage is a sum of such steps, in the frame of the body.
+"""
+
+import math
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+
+from tehl_taichi.fatigue.thermal_stress import WORKERS, Heated, depth_after, erfcx
+
+LEAD = 4.0  # a: the contact stands at its first state for this way of the body, which is cold before
+REACH = 9.0  # waves with k z beyond this do not reach the depth z (exp(-9) = 1e-4)
+WEAK = 1e-4  # waves below this share of the strongest are left out
+CHUNK = 256  # waves convolved at once
+PARTS = np.array([0, 1 / 64, 1 / 16, 1 / 4, 1])  # of the newest step: near the surface the answer to it is quick
+
+
+def step_stresses(k, z, diffusivity, nu, t):
+    """(ss, tt, zz, sz/(i k)) over E alpha T/(1 - nu) at depth z (m) a time t (s) after a sudden surface temperature
+    T exp(i k s); k (1/m) and t broadcast; zero at t = 0."""
+    late, k0 = np.where(t > 0, t, 1.0), np.where(k > 0, k, 1.0)
+    r2 = diffusivity * late
+    r, e = np.sqrt(r2), np.exp(-k * z)
+    eta, kappa = z / (2 * r), k * r
+    g = np.exp(-eta * eta - kappa * kappa)
+    B, near = g * erfcx(eta + kappa), g * erfcx(np.abs(eta - kappa))
+    A = np.where(eta > kappa, near, 2 * e - near)
+    rest = np.where(eta > kappa, near - 2 * e, -near)  # A - 2 e without the loss of digits
+    T, Theta = 0.5 * (A + B), depth_after(k, diffusivity, late)
+    phi = 0.5 * (r2 * (rest + B) - z / (2 * k0) * (A - B))
+    slope = 0.5 * ((B - A) / (2 * k0) + k * r2 * (B - rest) + 0.5 * z * (A + B) - 2 * r / math.sqrt(math.pi) * g)
+    turn = e * Theta
+    found = (-k * k * phi - T + (2 - k * z) * k * turn, -T + 2 * nu * k * turn, k * k * (phi + z * turn),
+             slope + (1 - k * z) * turn)
+    return np.stack([np.where(t > 0, part, 0.0) for part in found])
+
+
+class ThermalBelow(Heated):
+    """The six stresses (Pa) at depths of a body, at every entry of a passage: :meth:`rows` on some rows, :meth:`at` on all.
+
+    Arguments as for :class:`tehl_taichi.fatigue.thermal_stress.ThermalStress`; shallowest: depth (m) of the first layer wanted,
+    waves that do not reach it are left out. The body was cold until the contact had come LEAD a near, and has had the state
+    of entry 0 since. Holds one complex number of single precision per entry (with the way before) and wave number.
+    """
+
+    def __init__(self, body, speed, rises, dt, x, y, front, columns, a, mirrored, shallowest):
+        super().__init__(body, rises, x, y, front, columns, a, mirrored)
+        self.diffusivity, self.speed, self.dt = body.k / (body.rho * body.c), speed, dt
+        self.lead, self.entries = math.ceil(LEAD * a / (speed * dt)), len(self.rises)
+        self.size = _fast(2 * self.entries + self.lead)
+        with ThreadPoolExecutor(WORKERS) as pool:
+            spectra = np.stack(list(pool.map(lambda rise: self.waves.spectrum(rise).astype(np.complex64), self.rises)))
+        self.rises = None
+        strength = np.abs(spectra).max(axis=0) * np.exp(-self.waves.k * shallowest)
+        self.ix, self.iy = np.nonzero((strength > WEAK * strength.max()) & (self.waves.k * shallowest < REACH))
+        self.kx, self.ky = self.waves.kx[self.ix, 0], self.waves.ky[0, self.iy]
+        self.k = np.hypot(self.kx, self.ky)
+        self.passed = self._passed(spectra[:, self.ix, self.iy].T)
+
+    def _passed(self, waves):
+        """Transform in time of the temperatures in the frame of the body, before which the contact moves on."""
+        n = np.concatenate([np.zeros(self.lead, int), np.arange(self.entries)])
+        turn = np.exp(1j * np.outer(self._angle, np.arange(n.size))).astype(np.complex64)
+        return np.fft.fft(waves[:, n] * turn, self.size, axis=1)
+
+    @property
+    def _angle(self):
+        """How far each wave moves over the body in a step, rad."""
+        return self.kx * self.speed * self.dt
+
+    def _responses(self, depth):
+        """(cut, (4, waves, size)): transforms in time of ss, tt, zz and sz of some waves (without their way back)."""
+        reached = np.flatnonzero(self.k * depth < REACH)
+        for start in range(0, reached.size, CHUNK):
+            cut = reached[start : start + CHUNK]
+            yield cut, self._kernels(self.k[cut, None], self._angle[cut, None], depth) * self.passed[cut]
+
+    def _kernels(self, k, angle, depth):
+        """(4, waves, size): what temperatures, linear over a step in the frame of the contact, do from then on; within the
+        newest step the parts PARTS of it count by their age."""
+        count, later = self.lead + self.entries, np.exp(-2j * np.pi * np.arange(self.size) / self.size)
+        stress = step_stresses(k, depth, self.diffusivity, self.nu, np.append(np.arange(count), PARTS) * self.dt)
+        stress[3] *= k
+        reach = np.diff(stress[..., :count], axis=2, append=stress[..., count - 1 : count])
+        reach[..., 0] = 0.0
+        before, now = _means(angle, 0.0, 1.0)
+        out = np.fft.fft(reach.astype(np.float32), self.size, axis=2) * (before * later + now).astype(np.complex64)
+        newest = np.diff(stress[..., count:], axis=2)
+        for n in range(PARTS.size - 1):
+            before, now = _means(angle, PARTS[n], PARTS[n + 1])
+            out += newest[..., [n]].astype(np.float32) * (before * later + now).astype(np.complex64)
+        return out
+
+    def _turned(self, parts, cut):
+        """xx, yy, zz, xy, xz, yz from ss, tt, zz, sz of waves (4, waves, ...)."""
+        cos, sin = (np.where(self.k[cut] > 0, v[cut] / np.where(self.k[cut] > 0, self.k[cut], 1.0), one)[:, None]
+                    .astype(np.float32) for v, one in ((self.kx, 1.0), (self.ky, 0.0)))
+        ss, tt, zz, sz = parts
+        return (cos**2 * ss + sin**2 * tt, sin**2 * ss + cos**2 * tt, zz, cos * sin * (ss - tt), 1j * cos * sz, 1j * sin * sz)
+
+    def _back(self, spectra, kx):
+        """Entries of transforms in time (..., waves or kx, size), in the frame of the contact again."""
+        back = np.exp(-1j * np.outer(kx * self.speed * self.dt, np.arange(self.lead, self.lead + self.entries)))
+        return np.fft.ifft(spectra, axis=-1)[..., self.lead : self.lead + self.entries] * back
+
+    def rows(self, depth, rows):
+        """(rows, entries, columns, 6) Pa at `depth` on some rows."""
+        w, columns = self.waves, int(self.ix.max()) + 1
+        out = np.zeros((len(rows), 6, columns, self.size), np.complex64)
+        weights = [[w.row_weights(row, odd)[self.iy, None].astype(np.complex64) for odd in (False, True)] for row in rows]
+        for cut, parts in self._responses(depth):
+            starts = np.flatnonzero(np.diff(self.ix[cut], prepend=-1))
+            for n, part in enumerate(self._turned(parts, cut)):
+                for found, weight in zip(out, weights):
+                    found[n, self.ix[cut][starts]] += np.add.reduceat(part * weight[ODD[n]][cut], starts, axis=0)
+        spectra = np.zeros((len(rows), 6, w.kx.size, self.entries), np.complex64)
+        spectra[:, :, :columns] = self._back(out, w.kx[:columns, 0])
+        return self.stiffness * np.fft.irfft(spectra, w.nx, axis=2)[:, :, : self.columns].transpose(0, 3, 2, 1)
+
+    def at(self, depth):
+        """Function of the entry that gives sxx, syy, szz, sxy, sxz, syz, each (columns, ny+1), at `depth`."""
+        w, held = self.waves, np.zeros((6, self.k.size, self.entries), np.complex64)
+        for cut, parts in self._responses(depth):
+            held[:, cut] = self._back(np.stack(self._turned(parts, cut)), self.kx[cut])
+
+        def fields(entry):
+            out = []
+            for n in range(6):
+                spectrum = np.zeros(w.k.shape, complex)
+                spectrum[self.ix, self.iy] = held[n, :, entry]
+                out.append(self.stiffness * w.values(spectrum, ODD[n])[: self.columns])
+            return out
+
+        return fields
+
+
+ODD = (False, False, False, True, False, True)  # about the first row of a mirrored domain: xy and yz
+
+
+def _means(angle, low, high):
+    """Means over the ages from low to high (of a step) of what is left of the temperature before the step, and of the one at
+    its end, in the phase of its end: (waves, 1)."""
+    nodes, weights = np.polynomial.legendre.leggauss(3)
+    age = low + (high - low) * (nodes + 1) / 2
+    turn = np.exp(-1j * angle * age) * weights / 2
+    return (age * turn).sum(axis=1, keepdims=True) * np.exp(1j * angle), ((1 - age) * turn).sum(axis=1, keepdims=True)
+
+
+def _fast(n):
+    import pyfftw
+
+    return pyfftw.next_fast_len(n)

@@ -1,0 +1,67 @@
+"""The table of a film with temperatures, Z[column, slot].
+
+A column is a block of W rows at one x, as on the finest level of the state table; a slot is one quantity at one node of zeta,
+or one of the column.
+"""
+
+import taichi as ti
+
+from tehl_taichi.engine.lanes import Table, V, W, cells
+
+# nz numbers each from T on, then the single ones
+# temperature, that of the last step and the one before; velocities; h int_0 rho (u, v, 1), the last one of the last two
+# steps too; 1/eta, rho; temperature and pressure change at the departure points; temperature of the last round
+T, TN, TNN, U, VY, MX, MY, MS, MSN, MSNN, NIE, NRHO, TS, PS, LAST = range(15)
+KINDS = 15
+# pressure of the last step and the one before (Pa); heat into the bodies; A of T_s = A + B q; stress of the Couette part;
+# shear on the walls z = 0 and z = h
+PN, PNN, QA, QB, AA, AB, TAU, XA, YA, XB, YB = range(11)
+SINGLES = 11
+
+
+@ti.func
+def slots_around(Z: ti.template(), q, slot, n2, s, ny):
+    """Slot at j - 1 and j + 1; where there is no such row, at j."""
+    here = Z[q, slot]
+    lower, upper = here, here
+    for u in ti.static(range(W)):
+        j = s * W + u
+        if j > 0:
+            if ti.static(u > 0):
+                lower[u] = here[u - 1]
+            else:
+                lower[u] = Z[q - n2, slot][W - 1]
+        if j < ny:
+            if ti.static(u < W - 1):
+                upper[u] = here[u + 1]
+            else:
+                upper[u] = Z[q + n2, slot][0]
+    return lower, upper
+
+
+@ti.kernel
+def get_slots(Z: ti.template(), G: Table, first: ti.i32, count: ti.i32, out: ti.types.ndarray(dtype=ti.f64, ndim=3)):
+    """out (count, ny+1, nx+1) = the slots from `first` on."""
+    nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1)
+    for s in range(ny // W + 1):
+        for i in range(nx + 1):
+            for n in range(count):
+                v = Z[s * (nx + 1) + i, first + n]
+                for u in ti.static(range(W)):
+                    if s * W + u <= ny:
+                        out[n, s * W + u, i] = v[u]
+
+
+@ti.kernel
+def put_slots(Z: ti.template(), G: Table, first: ti.i32, count: ti.i32, values: ti.types.ndarray(dtype=ti.f64, ndim=3)):
+    """The slots from `first` on = values (count, ny+1, nx+1); ghosts repeat the last row."""
+    nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1)
+    for s in range(ny // W + 1):
+        for i in range(nx + 1):
+            for n in range(count):
+                v = V(0.0)
+                for u in ti.static(range(W)):
+                    v[u] = values[n, ti.min(s * W + u, ny), i]
+                Z[s * (nx + 1) + i, first + n] = v

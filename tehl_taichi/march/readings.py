@@ -1,0 +1,56 @@
+"""What a grid tells of the numbers of a run, for their error bars: values, how far an extreme may lie between the nodes, and
+whether the grid resolves them at all."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from tehl_taichi.march.error_bars import Reading, beside, unresolved_peak
+
+HEAT = ("film_max_C", "surface_a_max_C", "surface_b_max_C")
+SPIKE = "a pressure peak of {:.0%} of the largest is only a few cells wide and may grow on finer grids"
+TOUCH = "the surfaces touch on this grid, which is too coarse for so thin a film"
+
+
+def steady(shot):
+    """{name: Reading} of a snapshot of a steady smooth contact."""
+    out = {"h_c_m": Reading(shot.scalars["h_c_m"]), "h_min_m": lowest(shot), "p_max_Pa": highest(shot),
+           **{name: Reading(shot.scalars[name]) for name in (*HEAT, "friction_coefficient") if name in shot.scalars}}
+    if "film_max_C" in out:  # a narrow peak of pressure may be the hottest place
+        out["film_max_C"] = replace(out["film_max_C"], doubt=out["p_max_Pa"].doubt)
+    if shot.fields["contact"].any():  # nothing is known of a film that this grid does not have, nor of what it does
+        out = {name: replace(reading, doubt=TOUCH, lost=True) for name, reading in out.items()}
+    return out
+
+
+def highest(shot):
+    """Reading of the largest pressure of a snapshot, Pa and m."""
+    p = shot.fields["pressure"]
+    i, j = np.unravel_index(p.argmax(), p.shape)
+    spike = sharpest(p)
+    return Reading(float(p[i, j]), _between(p, i, j), _place(shot, i), float(shot.x[1] - shot.x[0]),
+                   SPIKE.format(spike) if spike else "")
+
+
+def sharpest(p, largest=None):
+    """The :func:`unresolved_peak` of a pressure (nx+1, ny+1), on the row through its maximum."""
+    return unresolved_peak(p[:, np.unravel_index(p.argmax(), p.shape)[1]], largest)
+
+
+def lowest(shot):
+    """Reading of the smallest film of a snapshot, m."""
+    h = shot.fields["film"]
+    i, j = np.unravel_index(h.argmin(), h.shape)
+    return Reading(float(h[i, j]), _between(h, i, j), _place(shot, i), float(shot.x[1] - shot.x[0]))
+
+
+def _place(shot, i):
+    """Position of a node in m, seen from the contact and from the feature, if there is one."""
+    seen = (shot.x[i], shot.x[i] - shot.feature_x)
+    return tuple(float(x) for x in seen if np.isfinite(x))
+
+
+def _between(values, i, j):
+    """How far the extreme of `values` between the nodes may be from that at the node (i, j); rows may end in a mirror."""
+    across = np.concatenate([values[i, 1:2], values[i]])
+    return beside(values[:, j], i) + beside(across, j + 1)

@@ -1,1 +1,0 @@
-"""What reads snapshots only: surface stresses and fatigue."""

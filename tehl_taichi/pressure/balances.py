@@ -1,0 +1,91 @@
+"""Complementarity, sets and balances of the present state: partial sums per block, added up in a fixed order."""
+
+import taichi as ti
+
+from tehl_taichi.engine.lanes import Flat, LinearFlat, Table, V, W, cells, face_weights, lanes_in, lanes_out
+from tehl_taichi.pressure.fields import DRY, FLOOR, K0, MASK, RHO, SCALE, TOUCH, WEIGHT, D, H, P, R
+
+
+@ti.func
+def parts(S: ti.template(), k, floor, inv):
+    """The three sides of the complementarity: P, R/D, (H - H_floor)/K_00; inv = 1/K_00."""
+    return S[P, k], S[R, k] / S[D, k], (S[H, k] - floor) * inv
+
+
+@ti.func
+def sets(p, r, gap, inside):
+    """(touch, dry) of a node, 1 or 0: the side of the complementarity that is smallest; the rest is full film."""
+    touch = ti.select(gap < ti.min(p, r), inside, V(0.0))
+    return touch, ti.max(ti.select(p - r <= 0.0, 1.0 - touch, V(0.0)), 1.0 - inside)
+
+
+@ti.kernel
+def sums(S: ti.template(), G: Table, middle: ti.i32, out: Table, alone: ti.template()):
+    """out[block] = phi^2, net outflow of the full-film region, Couette flux through the column `middle`."""
+    nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1, serialize=alone)
+    for s in range(ny // W + 1):
+        floor, inv = G[0, FLOOR], 1 / G[0, K0]
+        down = face_weights(s, ny)[1]
+        half = 0.5 + 0.5 * down  # the row y = 0 stands for half a cell
+        phi2, load_sum, mass = V(0.0), V(0.0), V(0.0)
+        for i in range(nx + 1):
+            k = off + s * (nx + 1) + i
+            a, b, c = parts(S, k, floor, inv)
+            phi = ti.min(ti.min(a, b), c) * S[MASK, k]
+            phi2 += phi * phi
+            load_sum += S[WEIGHT, k] * S[P, k]
+            # not P > 0: a pressure of 1e-12 left on a ruptured node would count its whole residual
+            touch, dry = sets(a, b, c, S[MASK, k])
+            mass += half * S[R, k] * (1.0 - touch) * (1.0 - dry)
+        m = off + s * (nx + 1) + middle
+        couette = half * S[RHO, m] * S[H, m]
+        for u in ti.static(range(W)):
+            if s * W + u > ny:
+                couette[u] = 0.0
+        out[s, 0], out[s, 1], out[s, 2], out[s, 3] = phi2.sum(), load_sum.sum(), mass.sum(), couette.sum()
+
+
+@ti.kernel
+def choose_sets(S: ti.template(), J: ti.template(), G: Table, cap: ti.f64, b: LinearFlat, mass_row: LinearFlat,
+                touching: Table, alone: ti.template()):
+    """DRY, TOUCH and the row scale; b = right-hand side of the scaled Newton equations (touching rows are the caller's);
+    mass_row = weight of each scaled row in the net outflow; touching[block, 0] = touching nodes."""
+    nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1, serialize=alone)
+    for s in range(ny // W + 1):
+        floor, inv = G[0, FLOOR], 1 / G[0, K0]
+        half = 0.5 + 0.5 * face_weights(s, ny)[1]
+        count = V(0.0)
+        for i in range(nx + 1):
+            k = off + s * (nx + 1) + i
+            p, r, gap = parts(S, k, floor, inv)
+            inside = S[MASK, k]
+            touch, dry = sets(p, r, gap, inside)
+            scale = ti.select(dry > 0.0, V(1.0), ti.min(S[D, k], cap))
+            S[TOUCH, k], S[DRY, k], J[SCALE, k] = touch, dry, ti.cast(scale, J.dtype)
+            lanes_out(b, k - off, ti.select(dry > 0.0, -p * inside, -S[R, k] / scale * inside))
+            lanes_out(mass_row, k - off, half * scale * (1.0 - dry) * (1.0 - touch))
+            count += touch
+        touching[s, 0] = count.sum()
+
+
+@ti.kernel
+def advance(S: ti.template(), G: Table, old: Flat, step: LinearFlat, t: Flat, alone: ti.template()):
+    """P = max(old + t[0] step, 0) on the unknowns."""
+    nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1, serialize=alone)
+    for s in range(ny // W + 1):
+        for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
+            p = lanes_in(old, q)
+            S[P, off + q] = ti.select(S[MASK, off + q] > 0.0, ti.max(p + t[0] * lanes_in(step, q), 0.0), p)
+
+
+@ti.kernel
+def save(S: ti.template(), G: Table, row: ti.i32, out: Flat, alone: ti.template()):
+    """out = S[row] of the finest level, in block order."""
+    nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1, serialize=alone)
+    for s in range(ny // W + 1):
+        for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
+            lanes_out(out, q, S[row, off + q])

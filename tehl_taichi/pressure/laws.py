@@ -1,0 +1,67 @@
+"""Density, viscosity and mobility of a film that has one temperature.
+
+Generalised Reynolds equation (Yang & Wen 1990) without an energy equation: oil of one viscosity across the film flows as if it
+had what the shear law leaves of that viscosity at the stress of the Couette part.
+"""
+
+import taichi as ti
+
+from tehl_taichi.engine.elementary import exp, log
+from tehl_taichi.engine.lanes import Table, V, W, cells
+from tehl_taichi.physics.density import rho_ratio
+from tehl_taichi.physics.rheology import secant, sensitivity
+from tehl_taichi.physics.viscosity import ln_eta
+from tehl_taichi.pressure.fields import DLE, DLH, DRP, FLOOR, GAP, IE, ILAM, LE, QP, RHO, ROOT, SHEAR, H, P
+
+DP = 1e3  # Pa, step of the difference quotients of the laws: their scale is 1e8 Pa, so the quotient is good to 1e-5
+
+
+@ti.func
+def sheared(rheology: ti.template(), p, h, ie, shear):
+    """Newtonian stress of the Couette part in a film of 1/viscosity `ie`, and what the shear law leaves of it; shear: that
+    stress for h = ie = 1."""
+    newtonian = shear / (h * ie)
+    return newtonian, secant(rheology, newtonian, p)
+
+
+@ti.func
+def store_laws(S: ti.template(), k, h, rho, le, ie, inv_lambda):
+    S[RHO, k], S[LE, k], S[IE, k] = rho, le, ie
+    S[ROOT, k], S[GAP, k] = ti.sqrt(rho * inv_lambda), h
+
+
+@ti.func
+def store_slopes(S: ti.template(), k, rho, le, rate):
+    """By P at fixed H, from the values at P + DP; rate: 1/DP, times p_H."""
+    S[DLE, k] = (le - S[LE, k]) * rate
+    S[QP, k] = (rho - S[RHO, k]) * rate * S[H, k]
+    S[DRP, k] = 0.5 * S[ROOT, k] * (rho / S[RHO, k] - 1.0) * rate
+
+
+@ti.func
+def store_thinning(S: ti.template(), k, h, floor, rheology: ti.template(), p, newtonian, b):
+    """d LE/dH: a thicker film is sheared less."""
+    S[DLH, k] = ti.select(S[H, k] > floor, (1.0 - sensitivity(rheology, newtonian, p, b)) / h, V(0.0))
+
+
+@ti.kernel
+def laws(S: ti.template(), G: Table, oil: ti.template(), rheology: ti.template(), p_H: ti.f64, Gamma: ti.f64, ln_eta0: ti.f64,
+         slopes: ti.template(), alone: ti.template()):
+    """Density, viscosity and mobility on the finest level; with slopes = 1 their derivatives, which need the values."""
+    nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1, serialize=alone)
+    for s in range(ny // W + 1):
+        floor, shear = G[0, FLOOR], G[0, SHEAR]
+        for k in range(off + s * (nx + 1), off + (s + 1) * (nx + 1)):
+            p, h = S[P, k] * p_H + slopes * DP, ti.max(S[H, k], floor)
+            rho, le = rho_ratio(oil, p, Gamma), ln_eta(oil, p, Gamma) - ln_eta0
+            ie = exp(-le)
+            if ti.static(rheology.law != "newtonian"):
+                newtonian, b = sheared(rheology, p, h, ie, shear)
+                le, ie = le + log(b), ie / b
+                if ti.static(slopes):
+                    store_thinning(S, k, h, floor, rheology, p, newtonian, b)
+            if ti.static(slopes):
+                store_slopes(S, k, rho, le, p_H / DP)
+            else:
+                store_laws(S, k, h, rho, le, ie, G[0, ILAM])

@@ -1,0 +1,251 @@
+"""Semismooth Newton for pressure and rigid approach: film, cavitation and solid contact as one complementarity.
+
+At every unknown node  phi = min(P, R/D, (H - H_floor)/K_00) = 0:  P > 0 and the Reynolds equation holds (R = 0), or the
+film has ruptured (P = 0, R >= 0), or the surfaces touch (H = H_floor, R >= 0). One more equation, the load, fixes H0.
+Converged = rms of phi plus the load error below the tolerance: a residual of the discrete equations, never a step size.
+"""
+
+import functools
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl_taichi.pressure import balances, fields, reynolds
+from tehl_taichi.pressure.krylov import Workspace, fgmres
+from tehl_taichi.pressure.preconditioner import AdditiveLines
+
+SHORTEST_STEP = 0.05  # of a Newton step; below it a step is taken as it is and the next linearisation decides
+SMALL_CHANGE = 0.05  # in P/p_H: near the solution full steps are taken although the merit may rise for a moment
+SMALL_MERIT = 1e-2
+# Largest row scale in the Krylov norm: the diagonal is about 0.02 in the contact but 1e3 in the inlet. Newton / Krylov per
+# step over the inlet (256x64, to a mass error of 1e-6): no cap 4.2/32, at most 10/111; cap 1 3.7/38, at most 4/50; without
+# the mass component of the norm and cap 0.03 3.7/58. A cap in the merit too does not converge from Hertz.
+ROW_CAP = 1.0
+# Share of what convergence still needs that a linear solve is asked for: Newton / Krylov per step over the passage 3.98/24.2
+# without, 3.45/24.3 with 0.3, 3.39/22.7 with 0.6 (the latter two with the mass component never above the rows' norm).
+FORCING = 0.6
+# And of what a Newton step is likely to gain: its nonlinear rest is about NONLINEAR times the square of the merit; later in a
+# solve, gains repeat themselves (Eisenstat & Walker 1996, choice 2). At most numerics.krylov_tolerance. Newton / Krylov, the
+# passage (with the guesses of :mod:`guess`) and a steady circular contact of 512 columns: always 0.03 2.51/18.5 and, with 0.1,
+# 7/66; at first 100 times the merit, later 0.03 2.24/19.3; both, at most 0.1 2.31/18.8 and 7/63, at most 0.2 2.36/18.6 and
+# 6/52, at most 0.3 2.38/18.4 and 7/47
+NONLINEAR = 30.0
+GAIN, GAIN_POWER = 0.9, 1.618
+# A linear solve reduces the mass error some ten times as much as the norm of the rows: asked for less, Newton / Krylov per step
+# are 2.31/16.2 (2.31/18.2 without, 2.47/15.7 with 30), with temperatures 2.97/19.6 (2.91/24.6, 3.13/18.9)
+MASS_GAIN = 10.0
+FIRST_ROUND = 0.1  # of :meth:`PressureSolver.improve`: 0.2 and 0.05 cost 3 % more
+
+
+@dataclass
+class Report:
+    """What a solve did: residual reached, load and mass errors, Newton steps, Krylov iterations, converged."""
+
+    residual: float
+    load_error: float
+    mass_error: float
+    newton: int
+    cycles: int
+    converged: bool
+
+
+def or_lost(solve):
+    """A solve that reports no convergence from a state so far off that its linearisation has no inverse."""
+
+    @functools.wraps(solve)
+    def guarded(*args, **options):
+        try:
+            return solve(*args, **options)
+        except np.linalg.LinAlgError:
+            return Report(np.nan, np.nan, np.nan, 0, 0, False)
+
+    return guarded
+
+
+class PressureSolver:
+    """Solves one step on `levels` (see :class:`Levels`); owns the Krylov memory and the preconditioner."""
+
+    def __init__(self, levels):
+        self.levels = levels
+        self.work = Workspace(levels.n + 2, levels.scene.numerics.krylov_max, levels.linear)
+        self.preconditioner = AdditiveLines(levels)
+        self.inside, self.weights = (q.astype(levels.linear) for q in (levels.inside, levels.vector(fields.WEIGHT)))
+        self.load = levels.scales.load
+        self.H0 = 0.0
+        self._bind()
+
+    def _bind(self):
+        v = self.levels
+        self.trial, self.product, self.b, self.mass_row, self.step = (np.zeros(v.n, v.linear) for _ in range(5))
+        d = self.deflection = v.deflection if v.linear == v.deflection.dtype else v.deflection_of(0, v.linear)
+        self.partial, self.touching = np.zeros((v.fine, 4)), np.zeros((v.fine, 1))
+        self.old, self.part = np.zeros(v.n), np.ones(1)
+        self._keep_pressure = v.launch(balances.save, v.S, v.G, fields.P, self.old)
+        self._move_pressure = v.launch(balances.advance, v.S, v.G, self.old, self.step, self.part)
+        self._place = v.launch(reynolds.place, v.J, v.G, self.trial, d.pressure.ravel(), d.pressure.shape[1])
+        self._jacobian = v.launch(reynolds.jacobian, v.J, v.G, d.film.ravel(), d.edge, d.film.shape[1], self.product)
+        self._sums = v.launch(balances.sums, v.S, v.G, int(np.argmin(np.abs(v.X))), self.partial)
+        self._choose_sets = v.launch(balances.choose_sets, v.S, v.J, v.G, ROW_CAP, self.b, self.mass_row, self.touching)
+
+    def residual(self):
+        """H, laws and R of the state in the table."""
+        self.levels.set_film(self.H0)
+        self.levels.laws()
+        self.levels.evaluate_residual()
+
+    def measure(self):
+        """Merit (rms of phi plus load error), load error and mass error; needs the diagonal.
+
+        Mass error: net outflow of the full-film region plus its storage, relative to the Couette flux through X = 0.
+        """
+        self._sums()
+        phi2, load, mass, self.couette = self.partial.sum(axis=0)
+        self.load_error = load / self.load - 1
+        self.mass_error = abs(mass / self.couette)
+        return float(np.sqrt(phi2 / self.levels.unknowns)) + abs(self.load_error)
+
+    @or_lost
+    def solve(self, krylov_tolerance=None, tolerance=None, newton_max=None):
+        """Newton iteration from the pressure in the table and H0; leaves the solution there. Returns a Report."""
+        numerics = self.levels.scene.numerics
+        tolerance = tolerance or numerics.tolerance
+        merit, cycles = self._begin(), 0
+        # at least one Newton step: the residual does not see pressure errors where eps is 0, a prediction adds them up
+        last = newton_max or numerics.newton_max
+        for newton in range(1, last + 1):
+            step, used = self._direction(self._forcing(krylov_tolerance or numerics.krylov_tolerance, merit, tolerance))
+            cycles += used
+            merit = self._advance(step, merit, newton == 1, tolerance)
+            if newton == last or self._converged(merit, tolerance) or not np.isfinite(merit):
+                break
+            self.levels.linearise()
+            merit = self.measure()
+        return Report(merit, self.load_error, self.mass_error, newton, cycles, self._converged(merit, tolerance))
+
+    @or_lost
+    def improve(self):
+        """One Newton step from a good guess, not checked where it is small: what follows checks. Returns a Report."""
+        numerics, merit = self.levels.scene.numerics, self._begin()
+        step, cycles = self._direction(FIRST_ROUND)
+        if np.abs(step[:-1]).max() < SMALL_CHANGE:
+            self._move(self._keep(step), step, 1.0)
+            self.levels.set_film(self.H0)
+        else:
+            merit = self._advance(step, merit, True, numerics.tolerance)
+        return Report(merit, self.load_error, self.mass_error, 1, cycles, False)
+
+    def _begin(self):
+        """Linearise about the state in the table. Returns its merit."""
+        self.residual()
+        self.levels.linearise()
+        self.lift, self.before, self.change = None, None, np.inf
+        return self.measure()
+
+    def _forcing(self, krylov_tolerance, merit, tolerance):
+        """Relative accuracy of the linear solve: what the Newton step is likely to gain, not much more than convergence
+        still needs."""
+        mass = MASS_GAIN * self.levels.scene.numerics.mass_tolerance / max(self.mass_error, 1e-300)
+        needed = FORCING * min(tolerance / merit, mass)
+        likely = NONLINEAR * merit if self.before is None else GAIN * (merit / self.before) ** GAIN_POWER
+        self.before = merit
+        return min(max(min(likely, krylov_tolerance), needed), 0.5)
+
+    def _converged(self, merit, tolerance):
+        return bool(merit < tolerance and self.mass_error < self.levels.scene.numerics.mass_tolerance)
+
+    def worst(self):
+        """Column along x and row along y of the largest residual."""
+        v = self.levels
+        gap = (v.get(fields.H) - v.G[0, fields.FLOOR]) / v.G[0, fields.K0]
+        phi = np.minimum(np.minimum(v.get(fields.P), v.get(fields.R) / v.get(fields.D)), gap) * v.get(fields.MASK)
+        j, i = np.unravel_index(int(np.argmax(np.abs(phi))), phi.shape)
+        return int(i), int(j)
+
+    def _direction(self, krylov_tolerance):
+        self._choose_sets()
+        touching = self.touching.sum() > 0
+        self.preconditioner.build(touching, self.change > SMALL_CHANGE)
+        v = self.levels
+        b = self.b
+        if touching:
+            violation = v.get(fields.H) - v.G[0, fields.FLOOR]
+            b = np.where(v.vector(fields.TOUCH) > 0, -self._film_rows(violation), b)
+        if self.lift is None:
+            self._border()
+        self._scale_mass(b)
+        right = np.concatenate([b, [-self.load_error * self.load, self.mass_row @ b]], dtype=v.linear)
+        step, used, _ = fgmres(self._apply, self._precondition, right, krylov_tolerance, self.work)
+        step[:-1] *= self.inside
+        return step, used
+
+    def _scale_mass(self, b):
+        """Scale the mass component like the sum of all rows, but at most to the norm of the rows: above it, a solve would
+        stop as soon as the mass is balanced, with the pressure hardly changed."""
+        self.mass_row *= np.sqrt(self.levels.unknowns) / self.couette
+        defect = abs(float(self.mass_row @ b))
+        if defect > 0:
+            self.mass_row *= min(1.0, float(np.sqrt(b @ b)) / defect)
+
+    def _film_rows(self, change):
+        """Scaled Jacobian rows for a change of the film (ny+1, nx+1) alone; a buffer."""
+        v, d = self.levels, self.deflection
+        self.trial[:], d.edge[:], d.film[:] = 0.0, 0.0, 0.0
+        self._place()
+        d.film[: v.ny + 1, : v.nx + 1] = change
+        self._jacobian()
+        return self.product
+
+    def _apply(self, z, out):
+        """out = scaled Jacobian times (pressure change, H0 change), and its load and mass components.
+
+        The net mass defect is a redundant component of the Krylov vectors, that is, the norm gets one more term, itself
+        scaled like the sum of all rows: row scales of 1e3 in the inlet would hide the defect, and it would cost three
+        more Newton steps.
+        """
+        np.copyto(self.trial, z[:-1])
+        self._place()
+        self.deflection.deflect(z[-1])
+        self._jacobian()
+        np.copyto(out[:-2], self.product)
+        out[-2:] = self.weights @ z[:-1], self.mass_row @ self.product
+
+    def _border(self):
+        """Answer of the preconditioner to a change of H0, for the bordered system; kept for the whole step."""
+        wet = (1 - self.levels.vector(fields.DRY)).astype(self.levels.linear)
+        self.lift = self.preconditioner.apply(self._film_rows(1.0)) * wet
+        self.lift_load = float(self.weights @ self.lift)
+
+    def _precondition(self, r, out):
+        """out = (pressure change, H0 change) of the bordered preconditioner for the rows r."""
+        pressure = self.preconditioner.apply(r[:-2])
+        out[-1] = (self.weights @ pressure - r[-2]) / self.lift_load
+        np.multiply(self.lift, -out[-1], out=out[:-1])
+        out[:-1] += pressure
+
+    def _advance(self, step, merit, first, tolerance):
+        """Damped update: halve until the merit falls (or the change is small and the merit stays small). Returns the merit, by
+        the row scales of the last linearisation."""
+        old_H0, t = self._keep(step), 1.0
+        largest = float(np.abs(step[:-1]).max())
+        while True:
+            self._move(old_H0, step, t)
+            self.residual()
+            new = self.measure()
+            falls = new < (1 - 1e-4 * t) * merit or (first and new < 2 * merit)
+            settled = t * largest < SMALL_CHANGE and new < SMALL_MERIT
+            if falls or settled or new < tolerance or t < SHORTEST_STEP:
+                self.change = t * largest
+                return new
+            t *= 0.5
+
+    def _keep(self, step):
+        """Remember the pressure and the step from it. Returns H0."""
+        self._keep_pressure()
+        np.copyto(self.step, step[:-1])
+        return self.H0
+
+    def _move(self, old_H0, step, t):
+        """Pressure and H0: the old ones plus t times the step, no pressure below 0."""
+        self.part[0] = t
+        self._move_pressure()
+        self.H0 = old_H0 + t * float(step[-1])

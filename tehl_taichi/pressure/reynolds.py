@@ -1,0 +1,210 @@
+"""The discrete Reynolds equation, its linearisation and its Jacobian product.
+
+Conservative five-point Poiseuille part; Couette part third-order upwind-biased, q_{i+1/2} = (2 q_{i+1} + 5 q_i - q_{i-1})/6;
+time derivative of the newest level, in a frame that may move with the oil. Everything is multiplied by dx.
+"""
+
+import taichi as ti
+
+from tehl_taichi.engine.lanes import (
+    Blocks,
+    Flat,
+    LinearFlat,
+    Table,
+    V,
+    W,
+    above,
+    below,
+    cells,
+    face_weights,
+    lanes_in,
+    lanes_out,
+    rows_in,
+    rows_out,
+)
+from tehl_taichi.pressure.couette import couette_weights
+from tehl_taichi.pressure.faces import face_above, face_below, face_x, flux_x, net_flux_y
+from tehl_taichi.pressure.fields import (
+    AD,
+    AU,
+    BD,
+    BU,
+    CT,
+    DX,
+    DY,
+    EPS,
+    FILM,
+    FRAME,
+    GAP0,
+    K0,
+    K1,
+    MASK,
+    PRODUCT,
+    QOLD,
+    QP,
+    RHO,
+    SCALE,
+    TRIAL,
+    A,
+    B,
+    D,
+    H,
+    P,
+    R,
+)
+
+
+@ti.func
+def carried(S: ti.template(), row: ti.template(), density: ti.template(), k, frame):
+    """What the Couette flow of node k carries (`row`) in a frame that moves with `frame` u_m and takes `density` along."""
+    out = S[row, k] - frame * S[density, k]
+    if ti.static(row == density):
+        out = (1.0 - frame) * S[row, k]
+    return out
+
+
+@ti.func
+def transport(S: ti.template(), k, i, couette: ti.template(), frame):
+    """dx d(rho H)/dX at node k; couette: row of the density."""
+    w, out = couette_weights(i), V(0.0)
+    for t in ti.static(range(4)):
+        out += w[t] * carried(S, couette, RHO, k + t - 2, frame) * S[H, k + t - 2]
+    return out
+
+
+@ti.kernel
+def residual(S: ti.template(), G: Table, couette: ti.template(), alone: ti.template()):
+    """R = dx [ d(rho H)/dX + d(rho H)/dT - div(eps grad P) ] on the unknowns of the finest level, 0 elsewhere; with d/dT in a
+    frame that moves, only the rest of the Couette flow is in d/dX."""
+    nx, ny, off = cells(G, 0)
+    n2 = nx + 1
+    ti.loop_config(block_dim=1, serialize=alone)
+    for s in range(ny // W + 1):
+        up, down = face_weights(s, ny)
+        inv, metric, CT_0, frame = 1 / G[0, DX], G[0, DX] / G[0, DY] ** 2, G[0, CT], G[0, FRAME]
+        first = off + s * n2
+        left = flux_x(S, first)
+        S[R, first], S[R, first + nx] = V(0.0), V(0.0)
+        for i in range(1, nx):
+            k = first + i
+            right = flux_x(S, k)
+            r = transport(S, k, i, couette, frame) + CT_0 * S[RHO, k] * S[H, k] + S[QOLD, k] - (right - left) * inv
+            if ny > 0:
+                r -= net_flux_y(S, k, n2, up, down) * metric
+            S[R, k] = r * S[MASK, k]
+            left = right
+
+
+@ti.func
+def stencil(S: ti.template(), k, row: ti.template(), density: ti.template(), frame):
+    """`carried` at the nodes i-2 ... i+1."""
+    return (carried(S, row, density, k - 2, frame), carried(S, row, density, k - 1, frame),
+            carried(S, row, density, k, frame), carried(S, row, density, k + 1, frame))
+
+
+@ti.func
+def store_rows(J: ti.template(), k, rows: ti.template(), c0, c1, c2, c3):
+    for t, c in ti.static(enumerate((c0, c1, c2, c3))):
+        J[rows[t], k] = ti.cast(c, J.dtype)
+
+
+@ti.kernel
+def linearise(S: ti.template(), J: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: ti.i32,
+              couette: ti.template(), slope: ti.template(), thinning: ti.template(), alone: ti.template()):
+    """Jacobian rows, EPS and the diagonal in the blocks first..last-1; needs `laws` and `slopes`.
+
+    couette: row of the density in the Couette flow, slope: row of its derivative, thinning: row of d LE/dH or -1.
+    """
+    ti.loop_config(block_dim=1, serialize=alone)
+    for b in range(first, last):
+        l, s = blocks[b, 0], blocks[b, 1]
+        nx, ny, off = cells(G, l)
+        n2 = nx + 1
+        up, down = face_weights(s, ny)
+        metric, inv, CT_l, K_0, K_1 = G[l, DX] / G[l, DY] ** 2, 1 / G[l, DX], G[l, CT], G[l, K0], G[l, K1]
+        frame = G[l, FRAME]
+        left_p0, left_p1, left_h0, left_h1, left_eps = face_x(S, off + s * n2, thinning)
+        for i in range(1, nx):
+            k = off + s * n2 + i
+            w = couette_weights(i)
+            q, c = stencil(S, k, slope, QP, frame), stencil(S, k, couette, RHO, frame)
+            p0, p1, h0, h1, eps = face_x(S, k, thinning)
+            a2 = w[2] * q[2] + CT_l * S[QP, k] + (left_p1 - p0) * inv
+            b2 = w[2] * c[2] + CT_l * S[RHO, k] + (left_h1 - h0) * inv
+            total = (left_eps + eps) * inv
+            if ny > 0:
+                u, d = up * metric, down * metric
+                u0, u1, g0, g1, eps_up = face_above(S, k, n2, thinning)
+                d0, d1, f0, f1, eps_down = face_below(S, k, n2, thinning)
+                a2 += d * d1 - u * u0
+                b2 += d * f1 - u * g0
+                total += u * eps_up + d * eps_down
+                store_rows(J, k, ti.static((AU, AD, BU, BD)), -u * u1, d * d0, -u * g1, d * f0)
+            store_rows(J, k, ti.static(A), w[0] * q[0], w[1] * q[1] + left_p0 * inv, a2, w[3] * q[3] - p1 * inv)
+            store_rows(J, k, ti.static(B), w[0] * c[0], w[1] * c[1] + left_h0 * inv, b2, w[3] * c[3] - h1 * inv)
+            J[EPS, k] = ti.cast(total, J.dtype)
+            own = 0.5 * (q[2] + c[2] * K_0) + CT_l * (S[QP, k] + S[RHO, k] * K_0)
+            S[D, k] = ti.max(own + (c[3] / 3 - c[1]) * K_1 + total, 0.5 * K_0)
+            left_p0, left_p1, left_h0, left_h1, left_eps = p0, p1, h0, h1, eps
+
+
+@ti.func
+def reynolds_row(J: ti.template(), k, n2):
+    """Row k of the Jacobian times the changes of pressure (TRIAL) and film (FILM)."""
+    out = J[AU, k] * above(J, TRIAL, k, n2) + J[AD, k] * below(J, TRIAL, k, n2)
+    out += J[BU, k] * above(J, FILM, k, n2) + J[BD, k] * below(J, FILM, k, n2)
+    for t in ti.static(range(4)):
+        out += J[A[t], k] * J[TRIAL, k + t - 2] + J[B[t], k] * J[FILM, k + t - 2]
+    return out
+
+
+@ti.kernel
+def place(J: ti.template(), G: Table, pressure: LinearFlat, rows: LinearFlat, period: ti.i32, alone: ti.template()):
+    """TRIAL of the finest level = pressure, and so the rows that its deflection is computed from."""
+    nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1, serialize=alone)
+    for s in range(ny // W + 1):
+        for i in range(nx + 1):
+            q = s * (nx + 1) + i
+            p = lanes_in(pressure, q)
+            J[TRIAL, off + q] = p
+            rows_out(rows, s * W * period, period, i, p)
+
+
+@ti.kernel
+def jacobian(J: ti.template(), G: Table, film: LinearFlat, edge: LinearFlat, period: ti.i32, out: LinearFlat,
+             alone: ti.template()):
+    """out = J (TRIAL, film + edge) / SCALE on the finest level."""
+    nx, ny, off = cells(G, 0)
+    n2 = nx + 1
+    ti.loop_config(block_dim=1, serialize=alone)
+    for s in range(ny // W + 1):
+        for i in range(n2):
+            J[FILM, off + s * n2 + i] = rows_in(film, s * W * period, period, i) + edge[i]
+    ti.loop_config(block_dim=1, serialize=alone)
+    for s in range(ny // W + 1):
+        for k in range(off + s * n2, off + (s + 1) * n2):
+            J[PRODUCT, k] = reynolds_row(J, k, n2) / J[SCALE, k]
+        for q in range(s * n2, (s + 1) * n2):
+            lanes_out(out, q, J[PRODUCT, off + q])
+
+
+@ti.kernel
+def pressure_rows(S: ti.template(), G: Table, rows: Flat, period: ti.i32, alone: ti.template()):
+    """The rows that the deflection is computed from = P of the finest level."""
+    nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1, serialize=alone)
+    for s in range(ny // W + 1):
+        for i in range(nx + 1):
+            rows_out(rows, s * W * period, period, i, S[P, off + s * (nx + 1) + i])
+
+
+@ti.kernel
+def set_film(S: ti.template(), G: Table, film: Flat, edge: Flat, period: ti.i32, alone: ti.template()):
+    """H = undeformed gap + film + edge (deflection and rigid approach)."""
+    nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1, serialize=alone)
+    for s in range(ny // W + 1):
+        for i in range(nx + 1):
+            k = off + s * (nx + 1) + i
+            S[H, k] = S[GAP0, k] + rows_in(film, s * W * period, period, i) + edge[i]

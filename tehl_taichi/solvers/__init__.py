@@ -1,1 +1,0 @@
-"""Iterate kernels to a tolerance and return a report; nothing here prints."""
