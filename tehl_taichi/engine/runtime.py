@@ -12,6 +12,7 @@ import warnings
 from pathlib import Path
 
 from tehl_taichi import __version__
+from tehl_taichi.engine import cores
 from tehl_taichi.errors import RuntimeUnavailable
 
 ARCHES = ("cpu",)  # that the kernels have been checked on
@@ -64,14 +65,14 @@ def _give_up(folder):
 def start(arch="cpu", threads=None):
     """Start Taichi and say what was really started.
 
-    arch: "cpu" (others when their kernels are checked); threads: number of CPU threads or None for all. Returns a dict with
-    arch, threads, taichi (version) and cache (folder).
+    arch: "cpu" (others when their kernels are checked); threads: number of CPU threads, or None for all cores that
+    this process may use. Returns a dict with arch, threads, taichi (version) and cache (folder).
     Raises RuntimeUnavailable when the arch cannot be had, another start is already active, or Taichi runs in another thread
     or in the process that this one was forked from.
     """
     if arch not in ARCHES:
         raise RuntimeUnavailable(f"arch = {arch!r} is not available in this version: {', '.join(map(repr, ARCHES))} is")
-    threads = int(threads or os.cpu_count() or 1)
+    threads = int(threads or cores.available())
     if _started:
         return _same_start(arch, threads)
     _start(arch, threads)
@@ -83,7 +84,7 @@ def _start(arch, threads):
     cache = str(cache_dir())
     import taichi as ti
 
-    with _no_banner():
+    with _no_banner(), cores.pinned(threads):
         ti.init(arch=ti.cpu, default_fp=ti.f64, fast_math=False, cpu_max_num_threads=threads, log_level=ti.ERROR,
                 # its own optimisation passes take 40 s for the Findley search (2 s without) and gain nothing over LLVM's
                 advanced_optimization=False,
