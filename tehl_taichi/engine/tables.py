@@ -12,11 +12,11 @@ SMALLEST_TABLE = 5000  # columns; sizes grow by factors of 4, because every size
 SKEW = 13
 
 
-def lease(owner, rows, lanes, columns, slots=0, precision="f64"):
+def lease(owner, rows, lanes, columns, slots=0, precision="f64", clean=True):
     """A vector field of `rows` x at least `columns` columns of `lanes` numbers, zero, for `owner` alone while it lives; with
     `slots` (and rows 0) of at least `columns` columns x `slots`.
 
-    That of a former owner is used again where there is one.
+    That of a former owner is used again where there is one; with clean = False as he left it.
     """
     runtime.ensure()
     wanted = (lanes, precision), (rows, columns, slots)
@@ -26,7 +26,8 @@ def lease(owner, rows, lanes, columns, slots=0, precision="f64"):
         entry = _free_table(*wanted)
     if entry is not None:
         field, entry[1] = entry[0], weakref.ref(owner)
-        field.fill(0.0)
+        if clean:
+            field.fill(0.0)
         return field
     import taichi as ti
 

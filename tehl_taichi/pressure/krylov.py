@@ -1,81 +1,144 @@
-"""Flexible GMRES (Saad 1993) with classical Gram-Schmidt, repeated where it cancels (Daniel et al. 1976).
+"""The linear solve of a Newton step as one kernel: its memory, and the loop of its workers."""
 
-The basis products are plain BLAS on one thread: faster than kernel launches at these sizes, and reproducible.
-"""
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+import taichi as ti
 
-CANCELLED = 0.5  # fraction of the norm below which the projection is repeated
+from tehl_taichi.engine import lanes, runtime, tables, workers
+from tehl_taichi.engine.fft import Passes
+from tehl_taichi.engine.lanes import LinearFlat, LinearTable, Table
+from tehl_taichi.engine.launches import bind
+from tehl_taichi.pressure import convolution, decisions, fields, phases
+from tehl_taichi.pressure.decisions import SCALARS
+from tehl_taichi.pressure.levels import coarsen, columns, solved_by
+from tehl_taichi.pressure.program import DECISION, FIRST_JOB, JOBS, Program
+
+Numbers = ti.types.ndarray(dtype=ti.i32, ndim=2)
 
 
-class Workspace:
-    """Basis V and preconditioned basis Z for vectors of length n."""
+@dataclass(frozen=True)
+class Memory:
+    """Fields of the solve: J (see :mod:`fields`), V (vectors, see :mod:`phases`); of the convolutions X (inverse of the coarsest
+    level, rows of the workers), Y (groups of waves), T (twiddle factors)."""
 
-    def __init__(self, n, iterations, dtype=float):
-        self.iterations = iterations
-        self.V, self.Z = np.zeros((iterations + 1, n), dtype), np.zeros((iterations, n - 1), dtype)
+    J: Any
+    V: Any
+    X: Any
+    Y: Any
+    T: Any
 
 
-def fgmres(apply, precondition, b, tolerance, work):
-    """x with |b - A x| <= tolerance |b| as far as work.iterations allow.
+@ti.kernel
+def fill(field: ti.template(), row: ti.i32, first: ti.i32, values: LinearTable):
+    """field[row, first ...] = values (entries, lanes)."""
+    for n in range(values.shape[0]):
+        for u in ti.static(range(field.n)):
+            field[row, first + n][u] = values[n, u]
 
-    apply(z, out): out = A z; precondition(v, out): out = M^-1 v. Returns (x, iterations, reduction).
+
+@ti.kernel
+def linear_solve(F: ti.template(), G: Table, C: Numbers, Q: Passes, todo: Numbers, jobs: Numbers, N: Table, partial: Table,
+                 sync: workers.Sync, most: ti.i32, right: LinearFlat, outflow: LinearFlat, out: LinearFlat,
+                 alone: ti.template()):
+    """All phases from the one that `sync` stands at, by as many workers as it says."""
+    ti.loop_config(block_dim=1, serialize=alone)
+    for w in range(ti.cast(sync[workers.COUNT], ti.i32)):
+        ticket, stays = workers.take(sync), True
+        while stays and workers.phase_of(ticket) != workers.NO_PHASE:
+            n, j = workers.phase_of(ticket), workers.job_of(ticket)
+            if j < todo[n, JOBS]:
+                q = todo[n, FIRST_JOB] + j
+                phases.work(F, G, C, Q, N, partial, jobs[q, 0], jobs[q, 1], jobs[q, 2], w, most, right, outflow, out)
+                if workers.last_one(sync, todo[n, JOBS]):
+                    workers.publish(sync, ticket, decisions.decide(N, partial, todo, n, todo[n, DECISION], most))
+            else:
+                stays = workers.waited(sync, ticket)
+            if stays:
+                ticket = workers.take(sync)
+
+
+class Krylov:
+    """FGMRES for the linearised problem in the tables of `levels` (see :class:`Levels`).
+
+    right, outflow, out: vectors of `levels.n` numbers: scaled rows of the right-hand side, weights of the scaled rows in the
+    net outflow, result; `symbols`: of its convolutions, the deflection first.
     """
-    beta = float(np.sqrt(np.sum(b * b)))
-    if beta == 0.0:
-        return np.zeros_like(work.Z[0]), 0, 0.0
-    rotated = Rotations(work.iterations, beta)
-    work.V[0] = b / beta
-    for k in range(work.iterations):
-        precondition(work.V[k], work.Z[k])
-        apply(work.Z[k], work.V[k + 1])
-        left = rotated.add(_extend(k, work))
-        if left <= tolerance * beta or not np.isfinite(left):
-            break
-    return rotated.solution().astype(work.Z.dtype) @ work.Z[: k + 1], k + 1, left / beta
+
+    def __init__(self, levels):
+        self.levels, self.most = levels, levels.scene.numerics.krylov_max
+        shapes = convolution.shapes(levels.sizes, levels.lines)
+        self.team = workers.Team(levels.fine)
+        self.symbols = [convolution.deflection(shapes[0], levels), *(convolution.distribution(c, levels) for c in shapes[1:])]
+        self.right, self.outflow, self.out = (np.zeros(levels.n, levels.linear) for _ in range(3))
+        self.numbers = np.zeros((decisions.TRIANGLE + self.most, self.most + 16))
+        self._allocate(convolution.Layout(shapes, dense_entries(levels.sizes, levels.dense), self.team.size))
+        self.program = Program(levels, shapes)
+        self._bind()
+
+    def _allocate(self, layout):
+        v, largest = self.levels, self._largest()
+        self.layout = layout
+        size = [max(getattr(q, name) for q in (layout, largest)) for name in "xyt"]
+        V = tables.lease(self, phases.BASIS + 2 * self.most + 1 + phases.AT_ONCE, lanes.W, v.J.shape[1] - tables.SKEW,
+                         precision=v.precision, clean=False)
+        kinds = zip((lanes.W, convolution.GROUP, 2), size)
+        self.memory = Memory(v.J, V, *(tables.lease(self, 1, n, count, precision=v.precision) for n, count in kinds))
+        fill(self.memory.T, 0, 0, layout.lengths.twiddles().astype(v.linear))
+        for row, symbols in zip(layout.table, self.symbols):
+            row[[convolution.HALF_FIRST, convolution.HALF_LAST, convolution.ENDLESS]] = *symbols.mirrors, symbols.endless
+            fill(self.memory.Y, 0, int(row[convolution.SYMBOL]), symbols.entries().astype(v.linear))
+        weights = v.vector(fields.WEIGHT).astype(v.linear).reshape(-1, lanes.W)
+        fill(V, phases.LOADING, 0, weights)
+
+    def _largest(self):
+        """Layout of the finest grid of the scene: the smaller ones of a start use the same memory, so that one compiled kernel
+        serves all."""
+        scene = self.levels.scene
+        sizes = coarsen(scene.grid.nx, scene.rows)
+        dense, lines = solved_by(sizes)
+        return convolution.Layout(convolution.shapes(sizes, lines), dense_entries(sizes, dense), self.team.size)
+
+    def _bind(self):
+        v, p = self.levels, self.program
+        self.partial = np.zeros((v.fine, decisions.DOT_SUM + self.most + phases.AT_ONCE))
+        self._launch = bind(linear_solve, self.memory, v.G, self.layout.table, self.layout.lengths.table(), p.phases, p.jobs,
+                            self.numbers, self.partial, self.team.sync, self.most, self.right, self.outflow, self.out,
+                            runtime.ensure()["threads"] == 1)
+
+    def set_dense(self, inverse, place):
+        """Inverse (nodes, nodes) of the coarsest level, of which node n is number place[n] in the order of the table."""
+        size = len(self.levels.dense) and columns(*self.levels.sizes[-1]) * lanes.W
+        whole = np.zeros((size, size), self.levels.linear)
+        whole[np.ix_(place, place)] = inverse
+        # [column, lane, from] -> [column, from, lane]
+        entries = whole.reshape(-1, lanes.W, size).transpose(0, 2, 1).reshape(-1, lanes.W)
+        fill(self.memory.X, 0, 0, np.ascontiguousarray(entries))
+
+    def lift(self):
+        """Take the answer of the preconditioner to a change of H0, for the bordered system."""
+        self._run(self.program.lift)
+
+    def solve(self, load, mass, tolerance):
+        """Solve for `right` and the components `load`, `mass` to a residual of `tolerance` times theirs, or as far as iterations
+        go, into `out`. Returns the change of H0, the iterations and the reduction reached."""
+        self.numbers[SCALARS, [decisions.LOAD, decisions.MASS, decisions.TOLERANCE]] = load, mass, tolerance
+        self._run(self.program.solve)
+        count, beta, left, rise = self.numbers[SCALARS, [decisions.COUNT, decisions.BETA, decisions.LEFT, decisions.RISE]]
+        return float(rise), int(count), float(left / beta) if beta > 0 else 0.0
+
+    def apply(self, z, rise):
+        """Scaled Jacobian rows times the change z of the pressure (in the order of the table) and `rise` of H0; a buffer."""
+        np.copyto(self.right, z)
+        self.numbers[SCALARS, [decisions.COUNT, decisions.RISE]] = -1, rise
+        self._run(self.program.apply)
+        return self.out
+
+    def _run(self, phase):
+        self.team.run(self._launch, phase)
 
 
-def _extend(k, work):
-    """Orthogonalise the newest vector against the basis; returns its column of the Hessenberg matrix (k + 2,)."""
-    V, w, column = work.V[: k + 1], work.V[k + 1], np.zeros(k + 2)
-    norm = np.sqrt(w @ w)
-    for _ in range(2):
-        before = norm
-        h = V @ w
-        column[:-1] += h
-        w -= h @ V
-        norm = np.sqrt(w @ w)
-        if norm > CANCELLED * before:
-            break
-    column[-1] = norm
-    w *= w.dtype.type(1 / norm if norm > 0 else 0.0)
-    return column
-
-
-class Rotations:
-    """The least-squares problem |beta e_1 - H y|, triangular by Givens rotations as columns of H come in."""
-
-    def __init__(self, size, beta):
-        self.R, self.turns, self.right = np.zeros((size, size)), [], np.zeros(size + 1)
-        self.right[0] = beta
-
-    def add(self, column):
-        """Take one more column; returns the remaining residual."""
-        k = len(self.turns)
-        for i, (c, s) in enumerate(self.turns):
-            column[i], column[i + 1] = c * column[i] + s * column[i + 1], c * column[i + 1] - s * column[i]
-        length = np.hypot(column[k], column[k + 1])
-        c, s = (column[k] / length, column[k + 1] / length) if length > 0 else (1.0, 0.0)
-        self.turns.append((c, s))
-        self.R[:k, k], self.R[k, k] = column[:k], length
-        self.right[k], self.right[k + 1] = c * self.right[k], -s * self.right[k]
-        return abs(self.right[k + 1])
-
-    def solution(self):
-        """y for the columns so far (a zero column gets no weight)."""
-        k = len(self.turns)
-        y = np.zeros(k)
-        for i in range(k - 1, -1, -1):
-            if self.R[i, i] > 0:
-                y[i] = (self.right[i] - self.R[i, i + 1 : k] @ y[i + 1 :]) / self.R[i, i]
-        return y
+def dense_entries(sizes, dense):
+    """Vectors that the inverse of the coarsest level takes."""
+    return sum(columns(*sizes[l]) ** 2 * lanes.W for l in dense)

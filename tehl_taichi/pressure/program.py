@@ -1,0 +1,98 @@
+"""What the linear solve does in which order: phases of jobs, as tables that the kernel of :mod:`krylov` reads.
+
+A job is (operation, level or convolution, block or group of waves); a phase is a number of jobs that may be done at once, and
+what is decided when all are done.
+"""
+
+import itertools
+
+import numpy as np
+
+from tehl_taichi.engine.lanes import W
+
+# operations, see :mod:`phases`
+(START, RESTRICT, LINES, ACROSS, DENSE, COLLECT, PROLONG, FINEST, FORWARD, BACK, ROWS, DOTS, UPDATE, FINISH, ONES, LIFT, GIVEN,
+ COPY) = range(18)
+# decisions, see :mod:`decisions`
+ON, BEGIN, BORDER, PROJECT, EXTEND, EXTEND_AGAIN, LIFTED, END = range(8)
+FIRST_JOB, JOBS, DECISION, LOOP, LEAVE = range(5)  # columns of a phase; LOOP, LEAVE: the phases of a next iteration, of the end
+
+
+class Program:
+    """`phases` and `jobs`; `solve`, `lift`, `apply`: first phases of the three things that can be done.
+
+    levels: see :class:`Levels`; shapes: of its convolutions, the deflection first.
+    """
+
+    def __init__(self, levels, shapes):
+        self.levels, self.shapes, self._jobs, self._phases = levels, shapes, [], []
+        self.solve = self._solve()
+        self.lift = self._lift()
+        self.apply = self._apply()
+        self.jobs, self.phases = np.array(self._jobs, np.int32), np.array(self._phases, np.int32)
+
+    def _phase(self, jobs, decision=ON):
+        """Number of a new phase."""
+        first = len(self._jobs)
+        self._jobs.extend(jobs)
+        self._phases.append([first, len(self._jobs) - first, decision, 0, 0])
+        return len(self._phases) - 1
+
+    def _fine(self, operation, decision=ON):
+        return self._phase(self._blocks(operation, 0), decision)
+
+    def _blocks(self, operation, l, name=None):
+        """A job for every block of level l, called by that or by `name`."""
+        return [(operation, l if name is None else name, s) for s in range(self.levels.sizes[l][1] // W + 1)]
+
+    def _groups(self, c):
+        return [(ACROSS, c, g) for g in range(self.shapes[c].groups)]
+
+    def _lines(self, operation):
+        return [job for c, shape in enumerate(self.shapes) if c for job in self._blocks(operation, shape.level, c)]
+
+    def _solve(self):
+        """FGMRES; the projection is repeated where it cancels."""
+        first = self._fine(START, BEGIN)
+        loop = self._precondition(BORDER)
+        self._deflected(FORWARD, PROJECT)
+        again = [self._fine(UPDATE, EXTEND), self._fine(DOTS, PROJECT), self._fine(UPDATE, EXTEND_AGAIN)]
+        leave = self._fine(FINISH, END)
+        for n in again:
+            self._phases[n][LOOP:] = loop, leave
+        return first
+
+    def _lift(self):
+        """Answer of the preconditioner to a change of H0."""
+        first = self._fine(ONES)
+        self._precondition(ON)
+        self._fine(LIFT, LIFTED)
+        return first
+
+    def _apply(self):
+        """Jacobian times a change of the pressure."""
+        first = self._deflected(GIVEN, ON)
+        self._fine(COPY, END)
+        return first
+
+    def _precondition(self, decision):
+        """RES of the finest level -> COR. Returns the first phase."""
+        first, sizes = len(self._phases), self.levels.sizes
+        for l in range(len(sizes) - 1):
+            self._phase([(RESTRICT, l, s) for _, _, s in self._blocks(RESTRICT, l + 1)])
+        self._phase(self._lines(LINES))
+        across = itertools.chain.from_iterable(self._groups(c) for c in range(1, len(self.shapes)))
+        self._phase([job for l in self.levels.dense for job in self._blocks(DENSE, l)] + list(across))
+        self._phase(self._lines(COLLECT))
+        for l in range(len(sizes) - 2, 0, -1):
+            self._phase(self._blocks(PROLONG, l))
+        self._phase(self._blocks(FINEST, 0, len(sizes) - 1), decision)
+        return first
+
+    def _deflected(self, source, decision):
+        """Change of the pressure -> rows of the Jacobian. Returns the first phase."""
+        first = self._fine(source)
+        self._phase(self._groups(0))
+        self._fine(BACK)
+        self._fine(ROWS, decision)
+        return first
