@@ -74,7 +74,7 @@ class Team:
         self.alone, self.pause, self.left = 0, FIRST_PAUSE, 0
 
     def run(self, launch, phase=0):
-        """Launch from `phase` on. After a launch that a worker has left, the next ones have one worker, each time more of them."""
+        """Launch from `phase` on. After a launch that a worker has left, the next ones have one worker: each time more."""
         self.sync[[TICKET, DONE, LEFT]] = phase << JOB_BITS, 0, 0
         self.sync[COUNT] = 1 if self.alone else self.size
         launch()

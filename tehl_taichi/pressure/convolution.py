@@ -45,7 +45,7 @@ def shapes(sizes, lines):
 
 
 class Layout:
-    """Table of convolutions and places in the fields: of rows X, of groups Y, of twiddle factors T; `x`, `y`, `t` are their sizes.
+    """Table of convolutions and places in the fields (of rows X, of groups Y, of twiddle factors T); `x`, `y`, `t`: their sizes.
 
     shapes: see :func:`shapes`; before: entries of X that something else takes; workers: how many need buffers.
     """
@@ -76,7 +76,7 @@ class Symbols:
         self.shape, self.A, self.B, self.strip, self.mirrors, self.endless = shape, A, B, strip, mirrors, endless
 
     def entries(self):
-        """Entries (., GROUP): A, Re B, Im B of group after group, then the strip; with the factors 1/M, 1/N of the transforms."""
+        """Entries (., GROUP): A, Re B, Im B of group after group, then the strip; with the transforms' factors 1/M, 1/N."""
         c = self.shape
         parts = np.zeros((3, c.N // 2 + 1, c.groups * GROUP))
         parts[:, :, : c.M + 1] = np.stack([self.A, self.B.real, self.B.imag]) / (c.M * c.N)
@@ -213,7 +213,7 @@ def along_x(X: ti.template(), Y: ti.template(), T: ti.template(), Q: ti.template
 
 @ti.func
 def load_waves(Y: ti.template(), C: ti.template(), c, e, a):
-    """Group of waves from entry e of the spectra to the buffer at a, less the outermost row where that is endless, zero behind."""
+    """Group of waves from entry e of the spectra to the buffer at a, less an endless outermost row, zero behind."""
     ny, step = C[c, NY], C[c, STEP]
     rest = ti.cast(C[c, ENDLESS], Y.dtype)
     lr, li = rest * Y[0, e + ny * step], rest * Y[0, e + ny * step + 1]

@@ -9,17 +9,7 @@ import itertools
 
 import taichi as ti
 
-from tehl_taichi.pressure.program import (
-    BEGIN,
-    BORDER,
-    END,
-    EXTEND,
-    EXTEND_AGAIN,
-    LEAVE,
-    LIFTED,
-    LOOP,
-    PROJECT,
-)
+from tehl_taichi.pressure.program import BEGIN, BORDER, END, EXTEND, EXTEND_AGAIN, LEAVE, LIFTED, LOOP, PROJECT
 
 CANCELLED = 0.5  # fraction of the norm below which the projection is repeated
 _row = itertools.count()

@@ -5,15 +5,7 @@ import functools
 import numpy as np
 import pyfftw
 
-from tehl_taichi.engine.transforms import (
-    ALIGNED,
-    EvenConvolution,
-    PlainConvolution,
-    block_rows,
-    even_fast_length,
-    padded_rows,
-    wrapped,
-)
+from tehl_taichi.engine.transforms import EvenConvolution, PlainConvolution, block_rows, even_fast_length, wrapped
 from tehl_taichi.pressure import influence
 
 
@@ -75,39 +67,3 @@ def _plane_symbol(nx, ny, dx, dy, compliance, kind, rows, period):
     if kind is PlainConvolution:
         coefficients = wrapped(coefficients[: ny + 1].T, rows).T
     return kind.spectrum(wrapped(coefficients, period))
-
-
-class Distribution:
-    """K^-1 by its symbol on several grids, unpadded (mirrored in y): pressures that give wanted film changes.
-
-    grids: (nx, ny, dx, dy) of each; `source` and `result` are flat: rows of all grids one after another; `places[n]` = (first
-    number, period) of grid n.
-    """
-
-    def __init__(self, grids, compliance, dtype=float):
-        periods = [even_fast_length(nx + 1) for nx, *_ in grids]
-        lengths = [-(-padded_rows(ny) * period // ALIGNED) * ALIGNED for (_, ny, *_), period in zip(grids, periods)]
-        self.source, self.result = (pyfftw.zeros_aligned(sum(lengths), dtype) for _ in range(2))
-        self.places, self.grids = list(zip(np.cumsum([0, *lengths[:-1]]).tolist(), periods)), []
-        for (_, ny, dx, dy), (start, period) in zip(grids, self.places):
-            source, result = (flat[start : start + padded_rows(ny) * period].reshape(-1, period)
-                              for flat in (self.source, self.result))
-            convolution = EvenConvolution(source, result, ny, ny + 1)
-            convolution.set_symbol(1 / influence.symbol(period, ny, dx, dy, compliance))
-            self.grids.append(convolution)
-
-    def distribute(self):
-        """result = K^-1 source on every grid."""
-        for convolution in self.grids:
-            convolution.convolve()
-
-    def near(self, length):
-        """Pressure of a unit film change at distances 0..length-1 in its own row and the next: (2 grids, length)."""
-        out = np.zeros((2 * len(self.grids), length), self.source.dtype)
-        for n, convolution in enumerate(self.grids):
-            convolution.source[0, 0] = 1.0
-            convolution.convolve()
-            convolution.source[0, 0] = 0.0
-            rows = convolution.result[:2, :length]
-            out[2 * n : 2 * n + rows.shape[0]] = rows
-        return out

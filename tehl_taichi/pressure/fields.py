@@ -61,7 +61,6 @@ SOL = next(_linear)  # solution of the line solves
 COR = next(_linear)  # correction of this level
 TRIAL = next(_linear)  # pressure change that the Jacobian is applied to
 FILM = next(_linear)  # film change that goes with it
-PRODUCT = next(_linear)  # what comes out
 BAND = _rows(7)  # factorised line systems
 NROWS_LINEAR = next(_linear)
 
@@ -76,7 +75,5 @@ K1 = next(_col)  # and by that of its neighbour in x
 FLOOR = next(_col)  # film floor H_min
 ILAM = next(_col)  # 1/lambda; larger than that of the scene while a steady start is approached through slower ones
 SHEAR = next(_col)  # Newtonian stress (Pa) of oil at p = 0 in a film H = 1 by the slip u_b - u_a
-ROW0 = next(_col)  # of the rows that the transforms of K^-1 work on: the first number,
-PERIOD = next(_col)  # and the numbers from row to row
 LINES = next(_col)  # 1 where lines are solved, 0 where corrections only pass through
 NCOLS = next(_col)

@@ -20,8 +20,8 @@ Numbers = ti.types.ndarray(dtype=ti.i32, ndim=2)
 
 @dataclass(frozen=True)
 class Memory:
-    """Fields of the solve: J (see :mod:`fields`), V (vectors, see :mod:`phases`); of the convolutions X (inverse of the coarsest
-    level, rows of the workers), Y (groups of waves), T (twiddle factors)."""
+    """Fields of the solve: J (see :mod:`fields`), V (vectors, see :mod:`phases`); of the convolutions X (inverse of the
+    coarsest level, rows of the workers), Y (groups of waves), T (twiddle factors)."""
 
     J: Any
     V: Any
@@ -121,8 +121,8 @@ class Krylov:
         self._run(self.program.lift)
 
     def solve(self, load, mass, tolerance):
-        """Solve for `right` and the components `load`, `mass` to a residual of `tolerance` times theirs, or as far as iterations
-        go, into `out`. Returns the change of H0, the iterations and the reduction reached."""
+        """Solve for `right` and the components `load`, `mass` to a residual of `tolerance` times theirs, or as far as
+        iterations go, into `out`. Returns the change of H0, the iterations and the reduction reached."""
         self.numbers[SCALARS, [decisions.LOAD, decisions.MASS, decisions.TOLERANCE]] = load, mass, tolerance
         self._run(self.program.solve)
         count, beta, left, rise = self.numbers[SCALARS, [decisions.COUNT, decisions.BETA, decisions.LEFT, decisions.RISE]]

@@ -8,21 +8,7 @@ a unit at one node and the rows become banded transport.
 
 import taichi as ti
 
-from tehl_taichi.engine.lanes import (
-    Blocks,
-    L,
-    LinearFlat,
-    LinearTable,
-    Table,
-    V,
-    W,
-    above,
-    below,
-    cells,
-    neighbour_masks,
-    rows_in,
-    rows_out,
-)
+from tehl_taichi.engine.lanes import Blocks, L, LinearTable, Table, V, W, above, below, cells, neighbour_masks
 from tehl_taichi.pressure.couette import couette_weights
 from tehl_taichi.pressure.fields import (
     AD,
@@ -30,7 +16,6 @@ from tehl_taichi.pressure.fields import (
     BAND,
     BD,
     BU,
-    COR,
     CT,
     DRY,
     EPS,
@@ -38,10 +23,8 @@ from tehl_taichi.pressure.fields import (
     JN,
     K0,
     KIND,
-    PERIOD,
     RES,
     RHO,
-    ROW0,
     SOL,
     STENCIL,
     TOUCH,
@@ -229,38 +212,6 @@ def substitute(J: ti.template(), first, n2):
         y = (J[SOL, k] - J[BAND[4], k] * y1 - J[BAND[5], k] * y2 - J[BAND[6], k] * y3) * J[BAND[HALF], k]
         J[SOL, k] = y
         y3, y2, y1 = y2, y1, y
-
-
-@ti.func
-def rows_of(G: ti.template(), l, s):
-    """Place of the first row of block s among the rows of all levels, and the numbers from row to row."""
-    period = int(G[l, PERIOD])
-    return int(G[l, ROW0]) + s * W * period, period
-
-
-@ti.kernel
-def solve_lines(J: ti.template(), G: Table, blocks: Blocks, count: ti.i32, spread: LinearFlat, alone: ti.template()):
-    """SOL = line solutions of RES in the first `count` blocks; `spread` gets the part that K^-1 must distribute, by rows."""
-    ti.loop_config(block_dim=1, serialize=alone)
-    for b in range(count):
-        l, s = blocks[b, 0], blocks[b, 1]
-        nx, ny, off = cells(G, l)
-        first = off + s * (nx + 1)
-        substitute(J, first, nx + 1)
-        row, period = rows_of(G, l, s)
-        for i in range(nx + 1):
-            rows_out(spread, row, period, i, ti.select(is_kind(J, first + i, DISTRIBUTED), J[SOL, first + i], L(J, 0.0)))
-
-
-@ti.func
-def collect_block(J: ti.template(), G: ti.template(), l, s, spread: ti.template()):
-    """COR of one block: K^-1 of the distributed part, the line solution elsewhere, RES where dry."""
-    nx, ny, off = cells(G, l)
-    row, period = rows_of(G, l, s)
-    for i in range(nx + 1):
-        k = off + s * (nx + 1) + i
-        z = ti.select(is_kind(J, k, LOCAL), J[SOL, k], rows_in(spread, row, period, i))
-        J[COR, k] = ti.select(is_kind(J, k, DRY_KIND), J[RES, k], z)
 
 
 @ti.kernel

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl_taichi.pressure import balances, fields, reynolds
-from tehl_taichi.pressure.krylov import Workspace, fgmres
+from tehl_taichi.pressure.krylov import Krylov
 from tehl_taichi.pressure.preconditioner import AdditiveLines
 
 SHORTEST_STEP = 0.05  # of a Newton step; below it a step is taken as it is and the next linearisation decides
@@ -67,23 +67,21 @@ class PressureSolver:
 
     def __init__(self, levels):
         self.levels = levels
-        self.work = Workspace(levels.n + 2, levels.scene.numerics.krylov_max, levels.linear)
-        self.preconditioner = AdditiveLines(levels)
-        self.inside, self.weights = (q.astype(levels.linear) for q in (levels.inside, levels.vector(fields.WEIGHT)))
+        self.krylov = Krylov(levels)
+        self.preconditioner = AdditiveLines(levels, self.krylov)
+        self.inside = levels.inside.astype(levels.linear)
         self.load = levels.scales.load
         self.H0 = 0.0
         self._bind()
 
     def _bind(self):
         v = self.levels
-        self.trial, self.product, self.b, self.mass_row, self.step = (np.zeros(v.n, v.linear) for _ in range(5))
-        d = self.deflection = v.deflection if v.linear == v.deflection.dtype else v.deflection_of(0, v.linear)
+        self.b, self.mass_row, self.step = self.krylov.right, self.krylov.outflow, np.zeros(v.n, v.linear)
         self.partial, self.touching = np.zeros((v.fine, 4)), np.zeros((v.fine, 1))
         self.old, self.part = np.zeros(v.n), np.ones(1)
         self._keep_pressure = v.launch(balances.save, v.S, v.G, fields.P, self.old)
         self._move_pressure = v.launch(balances.advance, v.S, v.G, self.old, self.step, self.part)
-        self._place = v.launch(reynolds.place, v.J, v.G, self.trial, d.pressure.ravel(), d.pressure.shape[1])
-        self._jacobian = v.launch(reynolds.jacobian, v.J, v.G, d.film.ravel(), d.edge, d.film.shape[1], self.product)
+        self._contact = v.launch(reynolds.contact_right, v.S, v.J, v.G, self.b)
         self._sums = v.launch(balances.sums, v.S, v.G, int(np.argmin(np.abs(v.X))), self.partial)
         self._choose_sets = v.launch(balances.choose_sets, v.S, v.J, v.G, ROW_CAP, self.b, self.mass_row, self.touching)
 
@@ -138,7 +136,7 @@ class PressureSolver:
         """Linearise about the state in the table. Returns its merit."""
         self.residual()
         self.levels.linearise()
-        self.lift, self.before, self.change = None, None, np.inf
+        self.lifted, self.before, self.change = False, None, np.inf
         return self.measure()
 
     def _forcing(self, krylov_tolerance, merit, tolerance):
@@ -165,18 +163,15 @@ class PressureSolver:
         self._choose_sets()
         touching = self.touching.sum() > 0
         self.preconditioner.build(touching, self.change > SMALL_CHANGE)
-        v = self.levels
-        b = self.b
         if touching:
-            violation = v.get(fields.H) - v.G[0, fields.FLOOR]
-            b = np.where(v.vector(fields.TOUCH) > 0, -self._film_rows(violation), b)
-        if self.lift is None:
-            self._border()
-        self._scale_mass(b)
-        right = np.concatenate([b, [-self.load_error * self.load, self.mass_row @ b]], dtype=v.linear)
-        step, used, _ = fgmres(self._apply, self._precondition, right, krylov_tolerance, self.work)
-        step[:-1] *= self.inside
-        return step, used
+            self._contact()
+        if not self.lifted:  # kept for the whole step
+            self.krylov.lift()
+            self.lifted = True
+        self._scale_mass(self.b)
+        mass = float(self.mass_row @ self.b)
+        rise, used, _ = self.krylov.solve(-self.load_error * self.load, mass, krylov_tolerance)
+        return np.append(self.krylov.out * self.inside, self.levels.linear.type(rise)), used
 
     def _scale_mass(self, b):
         """Scale the mass component like the sum of all rows, but at most to the norm of the rows: above it, a solve would
@@ -185,42 +180,6 @@ class PressureSolver:
         defect = abs(float(self.mass_row @ b))
         if defect > 0:
             self.mass_row *= min(1.0, float(np.sqrt(b @ b)) / defect)
-
-    def _film_rows(self, change):
-        """Scaled Jacobian rows for a change of the film (ny+1, nx+1) alone; a buffer."""
-        v, d = self.levels, self.deflection
-        self.trial[:], d.edge[:], d.film[:] = 0.0, 0.0, 0.0
-        self._place()
-        d.film[: v.ny + 1, : v.nx + 1] = change
-        self._jacobian()
-        return self.product
-
-    def _apply(self, z, out):
-        """out = scaled Jacobian times (pressure change, H0 change), and its load and mass components.
-
-        The net mass defect is a redundant component of the Krylov vectors, that is, the norm gets one more term, itself
-        scaled like the sum of all rows: row scales of 1e3 in the inlet would hide the defect, and it would cost three
-        more Newton steps.
-        """
-        np.copyto(self.trial, z[:-1])
-        self._place()
-        self.deflection.deflect(z[-1])
-        self._jacobian()
-        np.copyto(out[:-2], self.product)
-        out[-2:] = self.weights @ z[:-1], self.mass_row @ self.product
-
-    def _border(self):
-        """Answer of the preconditioner to a change of H0, for the bordered system; kept for the whole step."""
-        wet = (1 - self.levels.vector(fields.DRY)).astype(self.levels.linear)
-        self.lift = self.preconditioner.apply(self._film_rows(1.0)) * wet
-        self.lift_load = float(self.weights @ self.lift)
-
-    def _precondition(self, r, out):
-        """out = (pressure change, H0 change) of the bordered preconditioner for the rows r."""
-        pressure = self.preconditioner.apply(r[:-2])
-        out[-1] = (self.weights @ pressure - r[-2]) / self.lift_load
-        np.multiply(self.lift, -out[-1], out=out[:-1])
-        out[:-1] += pressure
 
     def _advance(self, step, merit, first, tolerance):
         """Damped update: halve until the merit falls (or the change is small and the merit stays small). Returns the merit, by

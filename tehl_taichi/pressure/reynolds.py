@@ -9,6 +9,7 @@ import taichi as ti
 from tehl_taichi.engine.lanes import (
     Blocks,
     Flat,
+    L,
     LinearFlat,
     Table,
     V,
@@ -34,16 +35,17 @@ from tehl_taichi.pressure.fields import (
     DY,
     EPS,
     FILM,
+    FLOOR,
     FRAME,
     GAP0,
     K0,
     K1,
     MASK,
-    PRODUCT,
     QOLD,
     QP,
     RHO,
     SCALE,
+    TOUCH,
     TRIAL,
     A,
     B,
@@ -159,34 +161,20 @@ def reynolds_row(J: ti.template(), k, n2):
 
 
 @ti.kernel
-def place(J: ti.template(), G: Table, pressure: LinearFlat, rows: LinearFlat, period: ti.i32, alone: ti.template()):
-    """TRIAL of the finest level = pressure, and so the rows that its deflection is computed from."""
-    nx, ny, off = cells(G, 0)
-    ti.loop_config(block_dim=1, serialize=alone)
-    for s in range(ny // W + 1):
-        for i in range(nx + 1):
-            q = s * (nx + 1) + i
-            p = lanes_in(pressure, q)
-            J[TRIAL, off + q] = p
-            rows_out(rows, s * W * period, period, i, p)
-
-
-@ti.kernel
-def jacobian(J: ti.template(), G: Table, film: LinearFlat, edge: LinearFlat, period: ti.i32, out: LinearFlat,
-             alone: ti.template()):
-    """out = J (TRIAL, film + edge) / SCALE on the finest level."""
+def contact_right(S: ti.template(), J: ti.template(), G: Table, right: LinearFlat, alone: ti.template()):
+    """right of touching nodes = minus the scaled rows times what the film violates its floor by."""
     nx, ny, off = cells(G, 0)
     n2 = nx + 1
     ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
-        for i in range(n2):
-            J[FILM, off + s * n2 + i] = rows_in(film, s * W * period, period, i) + edge[i]
+        for k in range(off + s * n2, off + (s + 1) * n2):
+            J[TRIAL, k], J[FILM, k] = L(J, 0.0), ti.cast(S[H, k] - G[0, FLOOR], J.dtype)
     ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
-        for k in range(off + s * n2, off + (s + 1) * n2):
-            J[PRODUCT, k] = reynolds_row(J, k, n2) / J[SCALE, k]
         for q in range(s * n2, (s + 1) * n2):
-            lanes_out(out, q, J[PRODUCT, off + q])
+            k = off + q
+            change = ti.select(S[TOUCH, k] > 0.0, -reynolds_row(J, k, n2) / J[SCALE, k], lanes_in(right, q))
+            lanes_out(right, q, change)
 
 
 @ti.kernel

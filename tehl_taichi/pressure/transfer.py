@@ -1,13 +1,10 @@
-"""Grid transfers between each level and the next coarser one (every second node), all levels in one launch.
-
-The transfers to and from the finest level run in parallel; the others are too small for that and run in one thread.
-"""
+"""Grid transfers between each level and the next coarser one (every second node), block by block."""
 
 import taichi as ti
 
-from tehl_taichi.engine.lanes import Blocks, L, LinearFlat, Table, V, W, cells, lanes_in, lanes_out
-from tehl_taichi.pressure.fields import COR, DRY, JN, KIND, LINES, RES, SCALE, TOUCH, H, P
-from tehl_taichi.pressure.lines import DRY_KIND, LOCAL, collect_block, is_kind
+from tehl_taichi.engine.lanes import L, Table, V, W, cells
+from tehl_taichi.pressure.fields import COR, DRY, JN, KIND, LINES, RES, TOUCH, H, P
+from tehl_taichi.pressure.lines import DRY_KIND, LOCAL, is_kind
 
 HALF_W = W // 2
 
@@ -101,34 +98,6 @@ def restrict_block(J: ti.template(), G: ti.template(), l, t):
 
 
 @ti.func
-def copy_out(J: ti.template(), G: ti.template(), l, row: ti.template(), values: ti.template()):
-    nx, ny, off = cells(G, l)
-    for q in range((ny // W + 1) * (nx + 1)):
-        lanes_out(values, q, J[row, off + q])
-
-
-@ti.kernel
-def descend(J: ti.template(), G: Table, levels: ti.i32, r: LinearFlat, coarse: LinearFlat, alone: ti.template()):
-    """RES of the finest level = r times the row scale, and of the coarser ones: twice the full weighting (rows carry
-    dx), 0 at dry nodes of either level; `coarse` gets that of the coarsest."""
-    nx, ny, off = cells(G, 0)
-    ti.loop_config(block_dim=1, serialize=alone)
-    for s in range(ny // W + 1):
-        for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
-            J[RES, off + q] = lanes_in(r, q) * J[SCALE, off + q]
-    ti.loop_config(block_dim=1, serialize=alone)
-    for t in range(cells(G, ti.min(1, levels - 1))[1] // W + 1):
-        if levels > 1:
-            restrict_block(J, G, 0, t)
-    ti.loop_config(serialize=True)
-    for _ in range(1):
-        for l in range(1, levels - 1):
-            for t in range(cells(G, l + 1)[1] // W + 1):
-                restrict_block(J, G, l, t)
-        copy_out(J, G, levels - 1, RES, coarse)
-
-
-@ti.func
 def doubled(J: ti.template(), c, m2, upper_half):
     """Correction at the fine rows of a block from the coarse block at c: mean of rows j // 2 and (j + 1) // 2."""
     v, rim = J[COR, c], J[COR, c + m2][0]
@@ -163,30 +132,3 @@ def prolong_block(J: ti.template(), G: ti.template(), l, s, damping):
         add_where_wet(J, k, own, share * left)
         add_where_wet(J, k + 1, own, share * (L(J, 0.5) * (left + right)))
         left = right
-
-
-@ti.kernel
-def ascend(J: ti.template(), G: Table, blocks: Blocks, solved: ti.i32, levels: ti.i32, spread: LinearFlat,
-           coarse: LinearFlat, damping: ti.f64, z: LinearFlat, alone: ti.template()):
-    """COR of each level from its line solution (the first `solved` blocks) or from `coarse`, or nothing, plus damping times
-    the bilinear interpolation of the next coarser one, from coarse to fine, where wet; z gets that of the finest."""
-    nx, ny, off = cells(G, 0)
-    ti.loop_config(block_dim=1, serialize=alone)
-    for b in range(solved):
-        collect_block(J, G, blocks[b, 0], blocks[b, 1], spread)
-    ti.loop_config(serialize=True)
-    for _ in range(1):
-        mx, my, last = cells(G, levels - 1)
-        if blocks[solved - 1, 0] < levels - 1:
-            for q in range((my // W + 1) * (mx + 1)):
-                J[COR, last + q] = lanes_in(coarse, q)
-        for step in range(levels - 2):
-            l = levels - 2 - step
-            for s in range(cells(G, l)[1] // W + 1):
-                prolong_block(J, G, l, s, damping)
-    ti.loop_config(block_dim=1, serialize=alone)
-    for s in range(ny // W + 1):
-        if levels > 1:
-            prolong_block(J, G, 0, s, damping)
-        for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
-            lanes_out(z, q, J[COR, off + q])
