@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene.height_map import MICRO, UNITS
 from tehl_taichi.scene.measured import Measured
-from tehl_taichi.scene.quantity import check, choice, count, quantity, text
+from tehl_taichi.values.quantity import check, choice, count, quantity, text
 
 SHAPES = ("cosine", "ridge", "furrow", "waviness", "rough", "map")
 RIDGE_REACH = 0.7  # of its width: 10^(-10 0.7^2) is 1e-5 of the height

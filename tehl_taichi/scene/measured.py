@@ -5,8 +5,8 @@ from functools import cached_property
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene import height_map
-from tehl_taichi.scene.checks import number
 from tehl_taichi.scene.height_map import UNITS, Measures
+from tehl_taichi.values.checks import number
 
 MAX_RANGE, MAX_SLOPE = 1e-4, 45.0  # m, degrees, of a map: beyond them no film, or a wrong unit or pixel
 
