@@ -1,4 +1,4 @@
-"""Commands that look: scenes, oils, new, show, plot, doctor."""
+"""Commands that look: scenes, oils, laws, new, show, plot, doctor."""
 
 from pathlib import Path
 
@@ -9,7 +9,7 @@ from tehl_cli.out import folder_for
 
 def register(app):
     """Add the commands to the app."""
-    for command in (scenes, oils, new, show, plot, doctor):
+    for command in (scenes, oils, laws, new, show, plot, doctor):
         app.command()(command)
 
 
@@ -30,6 +30,17 @@ def oils():
 
     list_table("named oils (--set oil.name=NAME)", ("name", "viscosity law", "source"),
                [(oil.name, oil.viscosity, oil.source) for oil in OILS.values()])
+
+
+def laws():
+    """List the laws of the oil and of friction, with their numbers and sources."""
+    from tehl_cli.listing import list_table
+
+    from tehl_taichi.physics.choices import ALONE, CHOICES
+
+    for key, registry in {**CHOICES, "": ALONE}.items():
+        list_table(f"--set {key}=NAME" if key else "not to be chosen", ("name", "law", "numbers", "source"),
+                   [(law.name, law.says, ", ".join(law.numbers), law.source) for law in registry.values()])
 
 
 def new(

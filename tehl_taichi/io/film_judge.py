@@ -12,7 +12,7 @@ MOMENTS = 24  # of a passage that are looked at
 
 
 def friction(store, summary):
-    """Of the film alone: solid contact has the coefficient that the scene gives it."""
+    """Of the film alone, at least: solid contact has at most the coefficient that the scene gives it."""
     rheology, steady = store.scene.rheology, slice(0, 1)
     film = store.scalar("friction_coefficient") - rheology.mu_boundary * store.scalar("contact_load_fraction")
     found = [f"{when} {film[part].max():.3g}" for when, part in (("steady", steady), ("in the passage up to", slice(1, None)))

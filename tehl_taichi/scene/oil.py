@@ -15,8 +15,9 @@ _OIL = section(
     "_OIL", name=text("reference-pao", "`tehl oils` lists the named ones"),
     source=text("PAO of Everitt, licentiate thesis 2018; density after Larsson et al. 2000", "origin of its numbers",
                 one_line=False),
-    viscosity=choice("roelands-temperature", "law of the viscosity", tuple(viscosity.LAWS)), **declared(viscosity.LAWS),
-    density=choice("dowson-higginson", "law of the density", tuple(density.LAWS)),
+    viscosity=choice("roelands-temperature", "law of the viscosity (`tehl laws`)", tuple(viscosity.LAWS)),
+    **declared(viscosity.LAWS),
+    density=choice("dowson-higginson", "law of the density (`tehl laws`)", tuple(density.LAWS)),
     expansion=choice("thermal", "where the thermal factor of the density acts; thermal: only with the energy equation",
                      ("thermal", "always", "never")),
     **declared({**density.LAWS, **conduction.LAWS}))
@@ -44,6 +45,11 @@ class Oil(_OIL):
     def laws(self):
         """All laws that it obeys."""
         return viscosity.LAWS[self.viscosity], density.LAWS[self.density], *conduction.LAWS.values()
+
+    @property
+    def expands(self):
+        """Whether heat takes something of its density, where `expansion` lets it."""
+        return density.LAWS[self.density].expansivity(self, 0.0, 40.0) > 0
 
     @property
     def unused(self):

@@ -95,7 +95,7 @@ class Operation:
         return self.u_m * (1 - self.srr / 2)
 
 
-_RHEOLOGY = section("_RHEOLOGY", law=choice("limiting", "shear law of the film", tuple(rheology.LAWS)),
+_RHEOLOGY = section("_RHEOLOGY", law=choice("limiting", "shear law of the film (`tehl laws`)", tuple(rheology.LAWS)),
                     **declared({**rheology.LAWS, BOUNDARY.name: BOUNDARY}))
 
 

@@ -181,7 +181,7 @@ class Scene:
         if self.isothermal:
             why = "isothermal film" if self.thermal.on is False else "no slip" if self.operation.srr == 0 else "a Moes pair"
             out.append(f"energy equation and temperatures ({why}; --thermal has them)")
-        if self.isothermal and self.oil.expansion == "thermal" and self.oil.beta0 > 0:
+        if self.isothermal and self.oil.expansion == "thermal" and self.oil.expands:
             out.append("thermal expansion of the oil (isothermal film; oil.expansion = 'always' keeps it)")
         if self.one_dimensional:
             out.append("y direction (nothing varies across this line contact)")

@@ -18,7 +18,7 @@ def stress(rheology, newtonian, p):
 
 CARREAU = ShearLaw(
     name="carreau", says="s (1 + (s/tau_0)^2)^((carreau_n - 1)/2), s = eta * (shear rate)",
-    source="Carreau 1972; Bair 2007 for lubricants", stress=stress,
+    source="Carreau 1972", stress=stress,
     numbers={"tau_0": TAU_0, "carreau_n": quantity(0.8, "", "exponent (1: newtonian)", 0.1, 1.0)},
     checked=(Checked("by hand: (s/tau_0)^2 = 3 and n = 0.6 leave 2^-0.4", sqrt(3) * 6e6 * 2**-0.4,
                      lambda: stress(CARREAU.having(tau_0=6e6, carreau_n=0.6), sqrt(3) * 6e6, 1e9)),))
