@@ -120,7 +120,7 @@ def _simulate(description, place, started, as_json, quiet):
     from tehl_taichi.io.provenance import provenance
     from tehl_taichi.io.store import Store
     from tehl_taichi.march.passage import march
-    from tehl_taichi.scene.map_judge import preview
+    from tehl_taichi.scene.judge import preview
     from tehl_taichi.scene.route import most_steps
 
     for line in description.left_out():
