@@ -85,7 +85,7 @@ def plot(store: Path = typer.Argument(..., help="store of a run"),
     """PNG figures: centreline pressure and film, maps, fatigue. Example: `tehl plot runs/gear-1.zarr --dpi 300`"""
     from tehl_taichi.io import figures
     from tehl_taichi.io.store import Store
-    from tehl_taichi.scene.checks import integer
+    from tehl_taichi.values.checks import integer
 
     integer("--dpi", dpi, 40, 1200)
     saved = Store.open(store)

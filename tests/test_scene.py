@@ -36,7 +36,7 @@ def test_hertz_pressure_gives_back_its_load():
 
 @pytest.mark.parametrize("M, L", [(20.0, 10.0), (200.0, 10.0)])
 def test_moes_pair_comes_out(M, L):
-    from tehl_taichi.physics.film_formula import moes_numbers
+    from tehl_taichi.scene.film_formula import moes_numbers
 
     s = moes(M, L)
     units = Scales.of(s)
@@ -153,8 +153,8 @@ def test_a_point_contact_must_fit_into_the_grid():
 
 
 def test_thick_films_are_solved_in_single_precision():
-    from tehl_taichi.physics.film_formula import central_film
     from tehl_taichi.pressure.precision import suited
+    from tehl_taichi.scene.film_formula import central_film
 
     gear = scene("gear")
     assert central_film(gear) == pytest.approx(0.44e-6, rel=0.12)  # computed: 0.44 um isothermal

@@ -10,7 +10,7 @@ from test_registry import hold
 
 from tehl_taichi.scene import Scene, SceneError, scene
 from tehl_taichi.scene.feature import OWN, SHAPES, USED_BY, Feature
-from tehl_taichi.scene.quantity import kinds
+from tehl_taichi.values.quantity import kinds
 
 ROOT = Path(__file__).parents[1]
 

@@ -28,9 +28,10 @@ from tehl_taichi.heat.step import (
     SLIP,
     TOLERANCE,
 )
+from tehl_taichi.physics.boundary import boundary_stress
 from tehl_taichi.physics.conduction import conductivity, heat_capacity
 from tehl_taichi.physics.density import expansivity
-from tehl_taichi.physics.rheology import boundary_stress, sensitivity
+from tehl_taichi.physics.rheology import sensitivity
 from tehl_taichi.physics.viscosity import ln_eta
 from tehl_taichi.pressure.fields import DX, DY, FLOOR, TOUCH, H, P
 from tehl_taichi.pressure.gradient import limited_gradient

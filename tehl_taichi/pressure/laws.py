@@ -56,7 +56,7 @@ def laws(S: ti.template(), G: Table, oil: ti.template(), rheology: ti.template()
             p, h = S[P, k] * p_H + slopes * DP, ti.max(S[H, k], floor)
             rho, le = rho_ratio(oil, p, Gamma), ln_eta(oil, p, Gamma) - ln_eta0
             ie = exp(-le)
-            if ti.static(rheology.law != "newtonian"):
+            if ti.static(rheology.thins):
                 newtonian, b = sheared(rheology, p, h, ie, shear)
                 le, ie = le + log(b), ie / b
                 if ti.static(slopes):

@@ -3,7 +3,7 @@
 import taichi as ti
 
 from tehl_taichi.engine.lanes import Table, V, W, cells
-from tehl_taichi.physics.rheology import boundary_stress
+from tehl_taichi.physics.boundary import boundary_stress
 from tehl_taichi.pressure.fields import GAP, IE, TOUCH, H, P
 from tehl_taichi.pressure.gradient import central_gradient
 

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from tehl_taichi.errors import SceneError
 from tehl_taichi.registry import collect
 from tehl_taichi.scene import features
-from tehl_taichi.scene.quantity import Choice, Text, check, choice, kinds, quantity
 from tehl_taichi.scene.shape import Shape, told
+from tehl_taichi.values.quantity import Choice, Text, check, choice, kinds, quantity
 
 SHAPES = collect(features, Shape)
 OWN = tuple(shape.keys for shape in SHAPES.values() if shape.keys)

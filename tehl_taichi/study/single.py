@@ -52,7 +52,7 @@ def resume(path: str | PathLike, *, steps: int | None = None, threads: int | Non
     """
     began = time.perf_counter()
     from tehl_taichi.engine import runtime
-    from tehl_taichi.scene.checks import integer
+    from tehl_taichi.values.checks import integer
 
     if steps is not None:
         integer("steps", steps, 1, 10**7)

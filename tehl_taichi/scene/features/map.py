@@ -8,11 +8,11 @@ import numpy as np
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene import height_map, map_judge
-from tehl_taichi.scene.checks import number
 from tehl_taichi.scene.features.patch import Patch
 from tehl_taichi.scene.height_map import MICRO, UNITS, Measures
-from tehl_taichi.scene.quantity import choice, quantity, text
 from tehl_taichi.scene.shape import share
+from tehl_taichi.values.checks import number
+from tehl_taichi.values.quantity import choice, quantity, text
 
 MAX_RANGE, MAX_SLOPE = 1e-4, 45.0  # m, degrees, of a map: beyond them no film, or a wrong unit or pixel
 LEVELS = ("none", "mean", "plane")

@@ -7,8 +7,8 @@ import numpy as np
 
 from tehl_taichi.registry import Checked
 from tehl_taichi.scene.features.patch import Patch
-from tehl_taichi.scene.quantity import count
 from tehl_taichi.scene.shape import needs_patch
+from tehl_taichi.values.quantity import count
 
 MODES = 12  # per direction
 
