@@ -30,10 +30,10 @@ def oils():
     """List the named oils with their sources."""
     from tehl_cli.listing import list_table
 
-    from tehl_taichi.scene.oil import OILS
+    from tehl_taichi.scene.named_oils import NAMED
 
-    list_table("named oils (--set oil.name=NAME)", ("name", "viscosity law", "source"),
-               [(oil.name, oil.viscosity, oil.source) for oil in OILS.values()])
+    list_table("named oils (--set oil.name=NAME)", ("name", "what", "viscosity law", "source"),
+               [(entry.name, entry.says, entry.oil.viscosity, entry.source) for entry in NAMED.values()])
 
 
 def new(
