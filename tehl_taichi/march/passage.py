@@ -17,7 +17,6 @@ from tehl_taichi.march.guess import Guess, extrapolated
 from tehl_taichi.march.snapshot import Snapshot
 from tehl_taichi.march.solved import Solved
 from tehl_taichi.march.steady import solve_steady
-from tehl_taichi.physics.gap import feature_height
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.pressure.newton import PressureSolver
@@ -203,7 +202,7 @@ class Passage:
             under = np.abs(x) <= feature.reach
             if feature.transverse:  # cheap, and a ridge does not quite end
                 under, y = slice(None), y[:1]
-            gap[:, under] -= feature_height(feature, x[under], y) / s.h
+            gap[:, under] -= feature.height_at(x[under], y) / s.h
         v.put(fields.GAP0, gap)
 
     def _predict(self, at):
