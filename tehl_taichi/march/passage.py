@@ -20,6 +20,7 @@ from tehl_taichi.physics.gap import feature_height
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.pressure.newton import PressureSolver
+from tehl_taichi.pressure.one_temperature import OneTemperature
 from tehl_taichi.pressure.storage import Storage
 from tehl_taichi.scene.route import step_cells, total_steps
 from tehl_taichi.scene.scales import Scales
@@ -90,25 +91,25 @@ class Passage:
 
     def __init__(self, scene, scales, state):
         self.scene, self.scales = scene, scales
-        self.solver = PressureSolver(Levels(scene, scales, scene.grid.nx, scene.rows, full=not scene.symmetric))
-        self.levels = self.solver.levels
+        self.levels = Levels(scene, scales, scene.grid.nx, scene.rows, full=not scene.symmetric)
         self.smooth = self.levels.smooth_gap()
         self.step_x = step_cells(scene) * self.levels.dx
         self.dT = self.step_x * scene.operation.u_m / scene.operation.u_a
+        self.heat = None if scene.isothermal else FilmHeat(self.levels, self.dT * scales.t)
+        # what density and viscosity follow: the temperatures, where there are any
+        self.solver = PressureSolver(self.levels, self.heat or OneTemperature(self.levels))
         self.step, self.P, self.solver.H0 = int(state["step"]), np.array(state["P"]), float(state["H0"])
         self.part = float(state.get("part", 1.0))
         self.guess = Guess(ORDER, self.P, self._moved(self.step), state, "P")
         self.heights = list(state.get("H0_history", [self.solver.H0]))  # at the positions of the guess
         self.storage = Storage(self.levels, state) if "mass" in state else None
-        self.heat = None if scene.isothermal else self._heat(state)
+        if self.heat:
+            self._restore_heat(state)
 
-    def _heat(self, state):
-        heat = FilmHeat(self.levels, self.dT * self.scales.t)
-        self.levels.use_film(*heat.laws)
+    def _restore_heat(self, state):
         self.levels.put(fields.P, self.P)
-        heat.restore(state)
-        self.heat_guess = Guess(HEAT_ORDER, heat.T, self._moved(self.step), state, "T")
-        return heat
+        self.heat.restore(state)
+        self.heat_guess = Guess(HEAT_ORDER, self.heat.T, self._moved(self.step), state, "T")
 
     def steps(self):
         """Generator of the snapshots that follow."""
@@ -190,7 +191,7 @@ class Passage:
         self._move_feature(0)
         self.levels.put(fields.P, self.P)
         self.levels.set_film(self.solver.H0)
-        self.levels.laws()
+        self.solver.equations.film.values()
         self.storage = Storage(self.levels)
 
     def _move_feature(self, step):

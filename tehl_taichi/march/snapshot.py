@@ -1,7 +1,6 @@
 """A snapshot: one accepted state of a run in SI units; while it is the newest, all that is needed to go on from it."""
 
 import functools
-import math
 import time
 from dataclasses import dataclass, field
 from typing import Callable
@@ -75,9 +74,8 @@ def _temperatures(heat, profiles):
 
 def _tractions(solver, heat):
     """Shear (4, ny+1, nx+1) in Pa on body a along x, y and on body b along x, y."""
-    v, s, scene = solver.levels, solver.levels.scales, solver.levels.scene
-    out = v.fill(tractions.tractions, (4, v.ny + 1, v.nx + 1), scene.rheology, s.p_H, s.h, s.a, math.exp(v.ln_eta0),
-                 -scene.operation.u_s, v.dx, v.dy)
+    v = solver.levels
+    out = v.fill(tractions.tractions, (4, v.ny + 1, v.nx + 1), v.scene.rheology, v.conditions.values)
     if heat:
         wall, film = heat.shear(), (v.get(fields.P) > 0) & (v.get(fields.TOUCH) == 0)
         out = np.where(film, wall * np.array([1, 1, -1, -1])[:, None, None], out)
