@@ -16,6 +16,7 @@ from tehl_taichi.march import snapshot
 from tehl_taichi.march.failure import not_converged
 from tehl_taichi.march.prediction import Prediction
 from tehl_taichi.march.snapshot import Snapshot
+from tehl_taichi.march.solved import Solved
 from tehl_taichi.march.start import steady_snapshot
 from tehl_taichi.physics.gap import feature_height
 from tehl_taichi.pressure import fields
@@ -186,10 +187,9 @@ class Passage:
 
     def _describe(self, report, started):
         time_s = self.step * self.dT * self.scales.t
-        shot = snapshot.take(self.solver, self.heat, self.step, time_s, self.position(self.step) * self.scales.a, report,
-                             started, functools.partial(self._state, self.step))
-        shot.scalars.update(rejected=float(self.rejected), dt_s=self.dT * self.scales.t)
-        return shot
+        solved = Solved(self.solver, self.heat, report, started, self.rejected, self.dT * self.scales.t)
+        return snapshot.take(solved, self.step, time_s, self.position(self.step) * self.scales.a,
+                             functools.partial(self._state, self.step))
 
     def _state(self, step):
         if step != self.step:

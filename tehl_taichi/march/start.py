@@ -9,6 +9,7 @@ from tehl_taichi.heat.temperatures import FilmHeat
 from tehl_taichi.march import readings, snapshot
 from tehl_taichi.march.error_bars import bars
 from tehl_taichi.march.failure import not_converged
+from tehl_taichi.march.solved import Solved
 from tehl_taichi.march.steady import solve_steady
 
 
@@ -17,13 +18,15 @@ def steady_snapshot(scene, scales):
     started = time.perf_counter()
 
     def look(solver, heat, report):
-        return readings.steady(snapshot.take(solver, heat, 0, 0.0, math.nan, report, started, None))
+        solved = Solved(solver, heat, report, started)
+        return readings.steady(snapshot.take(solved, 0, 0.0, math.nan, None)) if report.converged else None
 
     result = solve_steady(scene, scales, scene.grid.nx, 0 if scales.line else scene.grid.ny, look)
     if not result.report.converged:
         raise not_converged(result.solver, result.heat, result.report, "the steady start")
     state = snapshot.state_of(result.solver, result.heat, 0)
-    first = snapshot.take(result.solver, result.heat, 0, 0.0, math.nan, result.report, started, lambda: state)
+    solved = Solved(result.solver, result.heat, result.report, started)
+    first = snapshot.take(solved, 0, 0.0, math.nan, lambda: state)
     first.scalars["cycles"] = float(result.work)
     first.grids, (first.error, first.unknown) = result.values, bars(result.values)
     return _spread(first, scene, scales)
