@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl_taichi.pressure import balances, fields, reynolds
+from tehl_taichi.pressure.equations import Equations
 from tehl_taichi.pressure.krylov import Krylov
 from tehl_taichi.pressure.preconditioner import AdditiveLines
 
@@ -63,10 +64,12 @@ def or_lost(solve):
 
 
 class PressureSolver:
-    """Solves one step on `levels` (see :class:`Levels`); owns the Krylov memory and the preconditioner."""
+    """Solves one step of `film` on `levels` (see :class:`Levels`, :class:`Equations`); owns the Krylov memory and the
+    preconditioner."""
 
-    def __init__(self, levels):
+    def __init__(self, levels, film):
         self.levels = levels
+        self.take(film)
         self.krylov = Krylov(levels)
         self.preconditioner = AdditiveLines(levels, self.krylov)
         self.inside = levels.inside.astype(levels.linear)
@@ -77,7 +80,7 @@ class PressureSolver:
     def _bind(self):
         v = self.levels
         self.b, self.mass_row, self.step = self.krylov.right, self.krylov.outflow, np.zeros(v.n, v.linear)
-        self.partial, self.touching = np.zeros((v.fine, 4)), np.zeros((v.fine, 1))
+        self.partial, self.touching = np.zeros((v.fine, balances.SUMS)), np.zeros((v.fine, 1))
         self.old, self.part = np.zeros(v.n), np.ones(1)
         self._keep_pressure = v.launch(balances.save, v.S, v.G, fields.P, self.old)
         self._move_pressure = v.launch(balances.advance, v.S, v.G, self.old, self.step, self.part)
@@ -85,11 +88,13 @@ class PressureSolver:
         self._sums = v.launch(balances.sums, v.S, v.G, int(np.argmin(np.abs(v.X))), self.partial)
         self._choose_sets = v.launch(balances.choose_sets, v.S, v.J, v.G, ROW_CAP, self.b, self.mass_row, self.touching)
 
+    def take(self, film):
+        """Density and viscosity are those of this film from now on."""
+        self.equations = Equations(self.levels, film)
+
     def residual(self):
         """H, laws and R of the state in the table."""
-        self.levels.set_film(self.H0)
-        self.levels.laws()
-        self.levels.evaluate_residual()
+        self.equations.residual(self.H0)
 
     def measure(self):
         """Merit (rms of phi plus load error), load error and mass error; needs the diagonal.
@@ -97,10 +102,11 @@ class PressureSolver:
         Mass error: net outflow of the full-film region plus its storage, relative to the Couette flux through X = 0.
         """
         self._sums()
-        phi2, load, mass, self.couette = self.partial.sum(axis=0)
-        self.load_error = load / self.load - 1
-        self.mass_error = abs(mass / self.couette)
-        return float(np.sqrt(phi2 / self.levels.unknowns)) + abs(self.load_error)
+        sums = self.partial.sum(axis=0)
+        self.couette = sums[balances.COUETTE]
+        self.load_error = sums[balances.LOAD] / self.load - 1
+        self.mass_error = abs(sums[balances.OUTFLOW] / self.couette)
+        return float(np.sqrt(sums[balances.PHI2] / self.levels.unknowns)) + abs(self.load_error)
 
     @or_lost
     def solve(self, krylov_tolerance=None, tolerance=None, newton_max=None):
@@ -116,7 +122,7 @@ class PressureSolver:
             merit = self._advance(step, merit, newton == 1, tolerance)
             if newton == last or self._converged(merit, tolerance) or not np.isfinite(merit):
                 break
-            self.levels.linearise()
+            self.equations.linearise()
             merit = self.measure()
         return Report(merit, self.load_error, self.mass_error, newton, cycles, self._converged(merit, tolerance))
 
@@ -135,7 +141,7 @@ class PressureSolver:
     def _begin(self):
         """Linearise about the state in the table. Returns its merit."""
         self.residual()
-        self.levels.linearise()
+        self.equations.linearise()
         self.lifted, self.before, self.change = False, None, np.inf
         return self.measure()
 
@@ -162,6 +168,7 @@ class PressureSolver:
     def _direction(self, krylov_tolerance):
         self._choose_sets()
         touching = self.touching.sum() > 0
+        self.equations.linearise_coarse()
         self.preconditioner.build(touching, self.change > SMALL_CHANGE)
         if touching:
             self._contact()

@@ -39,9 +39,8 @@ class AdditiveLines:
         self._build_lines = v.launch(lines.build_lines, v.J, v.G, v.blocks, self.count, self.near, self.inverse, work=HEAVY)
 
     def build(self, touching, anew=True):
-        """Linearise the coarser levels about the injected state and factorise every level; with anew = False the coarsest one
-        stays what it was, for small changes."""
-        self.levels.linearise_coarse()
+        """Factorise every level, which must be linearised; with anew = False the coarsest one stays what it was, for small
+        changes."""
         fine, coarse = self._classify[2:] if touching else self._classify[:2]
         fine()
         coarse()
