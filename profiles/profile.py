@@ -15,9 +15,8 @@ from tehl_taichi.profiles.traffic import IN_S, bytes_of
 from tehl_taichi.scene import scene
 
 # (file, function) -> stage; a stage may contain others
-STAGES = {("newton.py", "solve"): "pressure: Newton", ("krylov.py", "fgmres"): "pressure: Krylov",
-          ("deflection.py", "deflect"): "pressure: deflection", ("deflection.py", "distribute"): "pressure: distribution",
-          ("preconditioner.py", "apply"): "pressure: preconditioner", ("preconditioner.py", "build"): "pressure: build",
+STAGES = {("newton.py", "solve"): "pressure: Newton", ("krylov.py", "solve"): "pressure: Krylov",
+          ("deflection.py", "deflect"): "pressure: deflection", ("preconditioner.py", "build"): "pressure: build",
           ("temperatures.py", "solve"): "temperatures", ("temperatures.py", "accept"): "temperatures: accept",
           ("passage.py", "_predict"): "guess", ("snapshot.py", "take"): "snapshot"}
 
@@ -30,8 +29,6 @@ def run(nx, ny, thermal, steps):
     """
     from tehl_taichi.engine import launches
     from tehl_taichi.march.passage import march
-    from tehl_taichi.pressure import precision
-    from tehl_taichi.pressure.levels import DTYPES
 
     watched = launches.watch_launches(bytes_of)
     description = scene("gear").replace(**{"grid.nx": nx, "grid.ny": ny, "thermal.on": thermal, "time.steps": steps + 1})
@@ -50,7 +47,7 @@ def run(nx, ny, thermal, steps):
                 "limit_ms": 1e3 * moved / rate / steps}
                for name, (count, seconds, moved) in sorted(watched.items(), key=lambda item: -item[1][1])]
     stages = _stages(profiler, steps)
-    for stage, alone in transforms_alone(nx, ny, DTYPES[precision.of(description)]).items():
+    for stage, alone in transforms_alone(nx, ny).items():
         row = next(row for row in stages if row["what"] == stage)
         row["limit_ms"] = 1e3 * alone * row["calls"]
     numbers = {"start_s": start, "compile_s": launches.binding_seconds(), "first_step_s": first, "step_s": step,
@@ -64,17 +61,12 @@ def copy_rate(size):
     return 2 * source.nbytes / measure.median(lambda: np.copyto(target, source), 100)
 
 
-def transforms_alone(nx, ny, dtype):
+def transforms_alone(nx, ny):
     """{stage: seconds of one call} where nothing else has used the caches."""
-    from tehl_taichi.pressure.deflection import Deflection, Distribution
-    from tehl_taichi.pressure.levels import coarsen, solved_by
+    from tehl_taichi.pressure.deflection import Deflection
 
-    deflection = Deflection(nx, ny, 4 / nx, 2 / ny, 1.0, True, dtype=dtype)
-    sizes = coarsen(nx, ny)
-    grids = [(*sizes[l], 4 / nx * 2**l, 2 / ny * 2**l) for l in solved_by(sizes)[1]]
-    distribution = Distribution(grids, 1.0, dtype)
-    return {"pressure: deflection": measure.median(deflection.deflect, 50),
-            "pressure: distribution": measure.median(distribution.distribute, 50)}
+    deflection = Deflection(nx, ny, 4 / nx, 2 / ny, 1.0, True)
+    return {"pressure: deflection": measure.median(deflection.deflect, 50)}
 
 
 def gaps(stages, kernels, count=5):

@@ -9,7 +9,8 @@ from tehl_taichi.scene.scales import Scales
 ACCURACY = {"f32": 1e-6, "f64": 1e-14}  # of the largest value; transforms by FFTW in single precision: 3e-7
 # scene, cells, whole domain; 112 and 28 have a factor 7 and need longer transforms
 CASES = {"line": ("gear", 64, 16, False), "line, odd lengths": ("gear", 112, 28, False),
-         "profile": ("smooth-line", 96, 0, False), "circle": ("ball-on-disc", 48, 24, False), "whole circle": ("ball-on-disc", 32, 40, True),
+         "profile": ("smooth-line", 96, 0, False), "circle": ("ball-on-disc", 48, 24, False),
+         "whole circle": ("ball-on-disc", 32, 40, True),
          "ellipse": ("", 112, 28, False), "whole ellipse": ("", 48, 20, True)}
 
 
@@ -18,8 +19,9 @@ def levels_of(name, precision):
 
     builtin, nx, ny, full = CASES[name]
     ellipse = {"contact.kind": "elliptic", "contact.radius_y": 40e-3} if "ellipse" in name else {}
+    cells = {"grid.nx": nx, "grid.ny": ny} if ny else {"grid.nx": nx}
     description = scene("ball-on-disc" if ellipse else builtin).replace(
-        **{**ellipse, "thermal.on": False, "grid.nx": nx, "grid.ny": ny, "numerics.precision": precision})
+        **{**ellipse, **cells, "thermal.on": False, "numerics.precision": precision})
     return Levels(description, Scales.of(description), nx, ny, full)
 
 

@@ -1,8 +1,8 @@
 """The deflection K and the distribution K^-1 as convolutions inside kernels: for a block of rows, or a group of their waves.
 
 Along x a real transform of period 2 M >= twice the cells (K; of the cells for K^-1, which is periodic), done as a complex one
-of half the length on a block of W rows in lanes. Along y Toeplitz plus Hankel matrices, for the rows are mirrored at y = 0:
-    Y(k) = A(k) X(k) + B(k) X(-k)
+of half the length on a block of W rows in lanes. Along y Toeplitz plus Hankel matrices, rows are mirrored at y = 0:
+Y(k) = A(k) X(k) + B(k) X(-k),
 with complex transforms of length N >= 2 ny over the waves along x, GROUP of them in lanes; A is the transform of the even kernel
 t(0), t(1), ..., B that of t(0 ... 2 ny - 1) for the mirror images (0 for a whole domain, A where the other end is a mirror,
 too), the rows on a mirror count half. A line contact continues its outermost row for ever: that is subtracted, and what the
@@ -45,7 +45,7 @@ def shapes(sizes, lines):
 
 
 class Layout:
-    """Table of convolutions and places in the fields (of rows X, of groups Y, of twiddle factors T); `x`, `y`, `t`: their sizes.
+    """Table of convolutions and places in the fields (of rows X, groups Y, twiddle factors T); `x`, `y`, `t`: their sizes.
 
     shapes: see :func:`shapes`; before: entries of X that something else takes; workers: how many need buffers.
     """
@@ -107,7 +107,7 @@ def _deflection_symbols(nx, ny, dx, dy, compliance, mirrored, period, N):
         return (np.zeros((N // 2 + 1, period // 2 + 1)),) * 2
     t = waves(influence.rectangle(nx, 2 * ny, dx, dy, compliance).T, period)
     even, later = np.zeros((2, N, period // 2 + 1))
-    even[: ny + 1], even[N - ny + 1 :] = t[: ny + 1], t[ny - 1 : 0 : -1]
+    even[: ny + 1], even[N - ny :] = t[: ny + 1], t[ny:0:-1]
     later[: 2 * ny] = mirrored * t[: 2 * ny]
     return np.fft.fft(even, axis=0)[: N // 2 + 1].real, np.fft.fft(later, axis=0)[: N // 2 + 1]
 

@@ -1,8 +1,9 @@
 """Between the phases of a linear solve: sums over the blocks, the border, Gram-Schmidt, Givens rotations, when to stop.
 
 Flexible GMRES (Saad 1993) with classical Gram-Schmidt, repeated where it cancels (Daniel et al. 1976). A Krylov vector has two
-components besides the rows: the load, and the net outflow (see :meth:`PressureSolver.solve`). The basis is stored without
-its norms; a number of columns says where the factors are.
+components besides the rows: the load, and the net outflow. The latter is redundant: the norm gets one more term, scaled like
+the sum of all rows, as row scales of 1e3 in the inlet would hide the defect, and it would cost three more Newton steps. The
+basis is stored without being divided by its norms; INVERSE holds these factors.
 """
 
 import itertools

@@ -81,8 +81,8 @@ class Krylov:
         v, largest = self.levels, self._largest()
         self.layout = layout
         size = [max(getattr(q, name) for q in (layout, largest)) for name in "xyt"]
-        V = tables.lease(self, phases.BASIS + 2 * self.most + 1 + phases.AT_ONCE, lanes.W, v.J.shape[1] - tables.SKEW,
-                         precision=v.precision, clean=False)
+        V = tables.lease(self, phases.BASIS + 2 * self.most + 1 + phases.AT_ONCE, lanes.W,
+                         max(columns(v.nx, v.ny), columns(v.scene.grid.nx, v.scene.rows)), precision=v.precision, clean=False)
         kinds = zip((lanes.W, convolution.GROUP, 2), size)
         self.memory = Memory(v.J, V, *(tables.lease(self, 1, n, count, precision=v.precision) for n, count in kinds))
         fill(self.memory.T, 0, 0, layout.lengths.twiddles().astype(v.linear))

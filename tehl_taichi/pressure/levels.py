@@ -50,7 +50,7 @@ class Levels:
         self.S = tables.lease(self, rows, lanes.W, size)
         self.J = tables.lease(self, fields.NROWS_LINEAR, lanes.W, size, precision=self.precision)
         self.conditions = conditions(scene, scales, self.X)
-        self.deflection, self._carriers = self.deflection_of(0), Carriers()
+        self.deflection, self._carriers = Deflection(*self.deflection_key(0)), Carriers()
         self._set_laws()
         self._bind()
         self._set_masks()
@@ -91,10 +91,6 @@ class Levels:
         inner = influence.rectangle(length, 1, dx, dy, self.scales.compliance)[:length, 0]
         # the outermost row of a line contact goes on to infinity on one side only
         return np.vstack([inner, 0.5 * (inner + strip) if self.line else inner])
-
-    def deflection_of(self, l, dtype=float):
-        """Deflection operator of level l."""
-        return Deflection(*self.deflection_key(l), dtype)
 
     def deflection_key(self, l):
         """What the deflection of level l depends on: cells, spacings, compliance, line, mirrored."""

@@ -116,7 +116,8 @@ def doubled(J: ti.template(), c, m2, upper_half):
 
 @ti.func
 def add_where_wet(J: ti.template(), k, own, change):
-    J[COR, k] = own * J[COR, k] + ti.select(is_kind(J, k, DRY_KIND), L(J, 0.0), change)
+    before = ti.select(own, J[COR, k], L(J, 0.0))
+    J[COR, k] = before + ti.select(is_kind(J, k, DRY_KIND), L(J, 0.0), change)
 
 
 @ti.func
@@ -124,7 +125,7 @@ def prolong_block(J: ti.template(), G: ti.template(), l, s, damping):
     nx, ny, off = cells(G, l)
     mx, my, coff = cells(G, l + 1)
     first, c, half = off + s * (nx + 1), coff + s // 2 * (mx + 1), s % 2
-    own, share = ti.cast(G[l, LINES], J.dtype), ti.cast(damping, J.dtype)
+    own, share = G[l, LINES] > 0.0, ti.cast(damping, J.dtype)
     left = doubled(J, c, mx + 1, half)
     for I in range(mx):
         right = doubled(J, c + I + 1, mx + 1, half)

@@ -1,0 +1,82 @@
+"""The linear solve as one kernel: the same bits by any number of workers, solutions of its equations, odd right-hand sides."""
+
+import numpy as np
+import pytest
+
+from tehl_taichi.scene import scene
+from tehl_taichi.scene.scales import Scales
+
+LOAD = 0.03
+
+
+@pytest.fixture(scope="module", params=("f32", "f64"))
+def problem(request, taichi_cpu):
+    """A linear problem of a steady contact pressed together a little: (its solver, right-hand side)."""
+    from tehl_taichi.march.steady import solve_steady
+
+    description = scene("gear").replace(**{"thermal.on": False, "rheology.law": "newtonian", "grid.nx": 64, "grid.ny": 16,
+                                           "numerics.precision": request.param})
+    solver = solve_steady(description, Scales.of(description), 64, 16).solver
+    solver.H0 -= 0.003
+    solver._begin()
+    solver._direction(0.1)
+    return solver.krylov, solver.krylov.right.copy()
+
+
+def outflow(problem):
+    """Of the right-hand side: a component that follows from the others."""
+    return float(problem[0].outflow @ problem[1])
+
+
+def solved(problem, tolerance):
+    krylov, right = problem
+    krylov.right[:] = right
+    rise, count, left = krylov.solve(LOAD, outflow(problem), tolerance)
+    return krylov.out.copy(), rise, count, left
+
+
+@pytest.mark.parametrize("size, patience", ((2, 10**6), (2, 0), (3, 50), (7, 10**4)))
+def test_the_same_bits_by_any_number_of_workers(problem, size, patience):
+    """Also by those who leave in the middle, and by more than there are threads."""
+    from tehl_taichi.engine.workers import PATIENCE
+
+    team, results = problem[0].team, []
+    before = team.size, team.sync[PATIENCE]
+    for team.size, team.sync[PATIENCE] in ((1, 10**6), (size, patience)):
+        team.alone = 0
+        results.append(solved(problem, 1e-3))
+    team.size, team.sync[PATIENCE] = before
+    (x, *rest), (y, *others) = results
+    assert x.tobytes() == y.tobytes() and rest == others and rest[1] > 5
+
+
+def test_the_solution_has_the_residual_that_it_is_said_to_have(problem):
+    """Rows, load and net outflow, computed from the solution."""
+    from tehl_taichi.pressure import fields
+
+    (krylov, b), tolerance = problem, {"f32": 1e-4, "f64": 1e-10}[problem[0].levels.precision]
+    x, rise, count, left = solved(problem, tolerance)
+    assert 5 < count < krylov.most and left <= tolerance
+    rows = krylov.apply(x, rise).astype(float)
+    outflows = outflow(problem) - krylov.outflow.astype(float) @ rows
+    rest = np.append(b - rows, [LOAD - krylov.levels.vector(fields.WEIGHT) @ x, outflows])
+    norm = np.sqrt(b.astype(float) @ b + LOAD**2 + outflow(problem) ** 2)
+    assert np.sqrt(rest @ rest) == pytest.approx(left * norm, rel=0.2)
+
+
+def test_no_right_hand_side_no_step(problem):
+    krylov = problem[0]
+    krylov.right[:] = 0.0
+    rise, count, left = krylov.solve(0.0, 0.0, 0.1)
+    assert rise == left == 0.0 and not krylov.out.any() and count == 1
+
+
+def test_not_a_number_ends_a_solve(problem):
+    krylov = problem[0]
+    krylov.right[:] = np.nan
+    assert krylov.solve(0.0, 0.0, 0.1)[1] == 1
+
+
+def test_iterations_end_at_their_most(problem):
+    x, rise, count, left = solved(problem, 1e-30)
+    assert count == problem[0].most and 0 < left < 1e-4 and np.isfinite(x).all()
