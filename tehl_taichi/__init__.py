@@ -16,9 +16,12 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 # its banner would go to stdout, which belongs to `--json`
 os.environ.setdefault("ENABLE_TAICHI_HEADER_PRINT", "0")
+# in a notebook every launch would look for what its kernel printed: ours print nothing
+os.environ.setdefault("TI_ENABLE_PYBUF", "0")
 
 __version__ = "0.2.0"
-__all__ = ["Error", "Lines", "Progress", "Run", "Scene", "__version__", "march", "open", "resume", "run", "scene", "simulate"]
+__all__ = ["Error", "Interrupted", "Lines", "NotConverged", "Progress", "Run", "RuntimeUnavailable", "Scene", "SceneError",
+           "StoreError", "__version__", "fatigue", "march", "open", "resume", "run", "scene", "simulate"]
 
 
 def simulate(scene, precision=None):
@@ -26,7 +29,8 @@ def simulate(scene, precision=None):
     return list(march(scene, precision=precision))
 
 
-from tehl_taichi import march, scene  # noqa: E402  callable: scene("gear"); after the settings above, which numpy reads
-from tehl_taichi.errors import Error  # noqa: E402
+# after the settings above, which numpy reads; fatigue, march and scene are folders that can be called
+from tehl_taichi import fatigue, march, scene  # noqa: E402
+from tehl_taichi.errors import Error, Interrupted, NotConverged, RuntimeUnavailable, SceneError, StoreError  # noqa: E402
 from tehl_taichi.scene import Scene  # noqa: E402
 from tehl_taichi.study import Lines, Progress, Run, open, resume, run  # noqa: E402

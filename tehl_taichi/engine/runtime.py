@@ -91,7 +91,7 @@ def _start(arch, threads):
     cache = str(cache_dir())
     import taichi as ti
 
-    with _no_banner():
+    with _no_banner(), contextlib.redirect_stdout(None):  # in notebooks, where prints do not go to file 1
         ti.init(arch=ti.cpu, default_fp=ti.f64, fast_math=False, cpu_max_num_threads=threads, log_level=ti.ERROR,
                 # its own optimisation passes take 40 s for the Findley search (2 s without) and gain nothing over LLVM's
                 advanced_optimization=False,

@@ -37,6 +37,12 @@ class Run:
         """What is doubtful, a sentence each; of a run that is not finished: in its scene."""
         return self.store.warnings
 
+    def fatigue(self, **constants):
+        """Its fatigue again, with other constants: :func:`tehl_taichi.fatigue` of it."""
+        from tehl_taichi.fatigue import fatigue
+
+        return fatigue(self, **constants)
+
     def rest(self, steps=None):
         """The scene with which :func:`tehl_taichi.resume` goes on: with `steps` more, or to the end that the run was given, of
         a finished run to the end of its passage. None where nothing is left."""
