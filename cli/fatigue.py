@@ -5,7 +5,7 @@ from typing import Optional
 
 import typer
 from tehl_cli.live import say
-from tehl_cli.out import folder_for, print_json
+from tehl_cli.out import print_json
 
 
 def register(app):
@@ -47,7 +47,7 @@ def fatigue(
     if figures:
         from tehl_taichi.io.figures import write_fatigue
 
-        for path in write_fatigue(result, run.scene.name, Scales.of(run.scene).a, folder_for(figures)):
+        for path in write_fatigue(result, run.scene.name, Scales.of(run.scene).a, figures):
             say(str(path))
 
 
@@ -63,7 +63,9 @@ def _depths(text):
 
 
 def _show(result, as_json):
-    from tehl_cli.listing import fatigue_rows, list_table
+    from tehl_cli.listing import list_table
+
+    from tehl_taichi.io.summary_rows import fatigue_rows
 
     if as_json:
         print_json(result.summary)

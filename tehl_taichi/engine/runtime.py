@@ -3,6 +3,7 @@
 import atexit
 import contextlib
 import functools
+import numbers
 import os
 import shutil
 import sys
@@ -66,8 +67,8 @@ def check(arch="cpu", threads=None):
     """Refuse what no process of this machine can have, without starting anything. Raises RuntimeUnavailable."""
     if arch not in ARCHES:
         raise RuntimeUnavailable(f"arch = {arch!r} is not available in this version: {', '.join(map(repr, ARCHES))} is")
-    if threads is not None and not 1 <= threads <= MOST_THREADS:
-        raise RuntimeUnavailable(f"threads = {threads} is out of range; allowed: 1 to {MOST_THREADS}")
+    if threads is not None and not (isinstance(threads, numbers.Integral) and 1 <= threads <= MOST_THREADS):
+        raise RuntimeUnavailable(f"threads = {threads!r} is out of range; allowed: 1 to {MOST_THREADS}")
 
 
 def start(arch="cpu", threads=None):

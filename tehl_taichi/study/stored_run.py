@@ -1,6 +1,10 @@
 """A run on disk, as Python sees it."""
 
+import html
+from os import PathLike
 from pathlib import Path
+
+from tehl_taichi.errors import StoreError
 
 
 class Run:
@@ -43,6 +47,26 @@ class Run:
 
         return fatigue(self, **constants)
 
+    def to_xarray(self):
+        """Every array of the store as an `xarray.Dataset` that is read when it is looked at: dimensions time, x and y, unit and
+        meaning on each. Raises StoreError without xarray (the `xarray` extra)."""
+        try:
+            import xarray
+        except ImportError:
+            raise StoreError("a dataset needs xarray: pip install 'tehl_taichi[xarray]'") from None
+        return xarray.open_zarr(self.path)
+
+    def plot(self, folder: str | PathLike | None = None, dpi: int = 160) -> list:
+        """Write the PNG figures of `tehl plot` into `folder` (default: beside the store), `dpi` dots per inch, 40 to 1200.
+
+        Returns their paths. Raises SceneError, or StoreError without matplotlib (the `plot` extra) or where it cannot write.
+        """
+        from tehl_taichi.io import figures
+        from tehl_taichi.scene.checks import integer
+
+        integer("dpi", dpi, 40, 1200)
+        return figures.write_all(self.store, folder or figures.beside(self.path), dpi)
+
     def rest(self, steps=None):
         """The scene with which :func:`tehl_taichi.resume` goes on: with `steps` more, or to the end that the run was given, of
         a finished run to the end of its passage. None where nothing is left."""
@@ -56,3 +80,14 @@ class Run:
     def __repr__(self):
         state = "finished" if self.finished else "not finished"
         return f"<tehl.Run {self.scene.name}: {self.store.last_step} steps, {state}, {self.path}>"
+
+    def _repr_html_(self):
+        """Its summary as a small table, for notebooks."""
+        from tehl_taichi.io.summary_rows import summary_rows, title
+
+        if not self.summary:
+            return f"<p>{html.escape(repr(self))}</p>"
+        rows = "".join(f"<tr><td>{html.escape(what)}</td><td>{html.escape(value)}</td></tr>"
+                       for what, value in summary_rows(self.summary))
+        doubts = "".join(f"<li>{html.escape(sentence)}</li>" for sentence in self.warnings)
+        return f"<table><caption>{html.escape(title(self.summary))}</caption>{rows}</table><ul>{doubts}</ul>"
