@@ -8,6 +8,7 @@ True
 """
 
 import os
+from typing import TYPE_CHECKING
 
 # Waiting FFT or BLAS threads must sleep, not spin: a spinning pool stalls every other pool on a busy machine.
 os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
@@ -23,14 +24,19 @@ __version__ = "0.2.0"
 __all__ = ["Error", "Interrupted", "Lines", "NotConverged", "Progress", "Run", "RuntimeUnavailable", "Scene", "SceneError",
            "StoreError", "__version__", "fatigue", "march", "open", "resume", "run", "scene", "simulate"]
 
-
-def simulate(scene, precision=None):
-    """All snapshots of `scene` as a list; long runs are better streamed with :func:`march` or `tehl run`."""
-    return list(march(scene, precision=precision))
-
-
-# after the settings above, which numpy reads; fatigue, march and scene are folders that can be called
-from tehl_taichi import fatigue, march, scene  # noqa: E402
+# after the settings above, which numpy reads
+from tehl_taichi import study  # noqa: E402
+from tehl_taichi.called import callable_room  # noqa: E402
 from tehl_taichi.errors import Error, Interrupted, NotConverged, RuntimeUnavailable, SceneError, StoreError  # noqa: E402
+from tehl_taichi.march import simulate  # noqa: E402
 from tehl_taichi.scene import Scene  # noqa: E402
 from tehl_taichi.study import Lines, Progress, Run, open, resume, run  # noqa: E402
+
+if TYPE_CHECKING:  # functions to those who check types, folders that can be called to Python
+    from tehl_taichi.fatigue import fatigue
+    from tehl_taichi.march import march
+    from tehl_taichi.study import scene
+else:
+    from tehl_taichi import fatigue, march, scene
+
+callable_room("tehl_taichi.scene", study.scene)  # of files too, of which the folder itself knows nothing

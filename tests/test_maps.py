@@ -9,6 +9,7 @@ import weakref
 import numpy as np
 import pytest
 
+import tehl_taichi as tehl
 from tehl_taichi.io import scene_file
 from tehl_taichi.scene import SceneError, scene
 from tehl_taichi.scene.feature import Feature
@@ -242,7 +243,6 @@ def test_a_moved_store_goes_on_without_the_map_file(moved, elsewhere):
 
 def test_a_moved_store_is_opened_by_xarray_plotted_and_run_again(moved, elsewhere, tmp_path):
     from tehl_taichi.io.figures import write_all
-    from tehl_taichi.io.found import find
     from tehl_taichi.io.store import Store
 
     xarray = pytest.importorskip("xarray")
@@ -252,7 +252,7 @@ def test_a_moved_store_is_opened_by_xarray_plotted_and_run_again(moved, elsewher
     assert data[name].attrs["units"] == "um" and data[name].attrs["sha256"] == description.features[0].sha256
     np.testing.assert_array_equal(data[name], description.features[0].heights)
     assert {path.name for path in write_all(Store.open(whole), tmp_path, 40)} >= {"maps.png", "centreline.png"}
-    again = find(str(whole))
+    again = tehl.scene(str(whole))
     assert again == description and again.replace(**{"time.steps": 1}).features[0].measures == description.features[0].measures
 
 

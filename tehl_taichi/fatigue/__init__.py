@@ -6,12 +6,20 @@ from elsewhere, `constants` what can be changed of them. Rests on `scene` and `e
 function.
 """
 
+from typing import TYPE_CHECKING, Any
+
 from tehl_taichi.called import callable_room
+
+if TYPE_CHECKING:
+    from tehl_taichi.fatigue.assessment import FatigueResult
+    from tehl_taichi.fatigue.points import Points
+    from tehl_taichi.scene import Scene
 
 __all__ = ["fatigue"]
 
 
-def fatigue(of, scene=None, *, progress=None, threads=None, **constants):
+def fatigue(of: Any, scene: "Scene | None" = None, *, progress: Any = None, threads: int | None = None,
+            **constants: Any) -> "FatigueResult | Points":
     """Fatigue of a run again, of snapshots, or of stress histories from elsewhere; what it is of stays as it is.
 
     of: a :class:`tehl_taichi.Run`; or snapshots of `scene` (as :func:`tehl_taichi.march` yields them); or stresses (points,
