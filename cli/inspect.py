@@ -87,20 +87,19 @@ def plot(store: Path = typer.Argument(..., help="store of a run"),
 def doctor():
     """Versions, threads, cache and a short self-test."""
     import importlib.metadata
-    import os
     import time
 
     from tehl_cli.listing import list_table
 
     from tehl_taichi import __version__
     from tehl_taichi.commit import commit
-    from tehl_taichi.engine import runtime
+    from tehl_taichi.engine import cores, runtime
     from tehl_taichi.scene import scene
 
     info = runtime.start()
     names = ("numpy", "pyfftw", "zarr", "rich", "typer")
     rows = [("tehl_taichi", __version__), ("commit", commit()), *((name, importlib.metadata.version(name)) for name in names)]
-    rows += [(key, str(value)) for key, value in info.items()] + [("cores", str(os.cpu_count()))]
+    rows += [(key, str(value)) for key, value in info.items()] + [("cores", str(cores.available()))]
     list_table("this installation", ("what", "value"), rows)
     from tehl_taichi.march.passage import march
 

@@ -176,7 +176,7 @@ def test_a_failed_companion_takes_coarser_ones_with_it(passage):
 def test_companions_that_die_or_are_late_leave_bars_unknown(passage, monkeypatch):
     late = short(**{"numerics.estimate_error": "auto"})
     monkeypatch.setattr(companions, "WORTH", 0)
-    monkeypatch.setattr(companions, "cores", lambda: 2)
+    monkeypatch.setattr(companions.cores, "available", lambda: 2)
     with companions.beside(late, 4) as others:
         started = time.perf_counter()
         found = others.errors(passage, None, 0.5)
@@ -200,7 +200,7 @@ def test_who_gets_companions(monkeypatch):
             (auto, 1, 10**6, False), (auto, 2, 10**6, True), (auto, 2, 4, False), (short(), 1, 4, True), (short(), 2, 0, False),
             (short(**{"numerics.estimate_error": False}), 2, 10**6, False),
             (short(**{"time.steps": -1, "time.steady_only": True}), 2, 4, False)):
-        monkeypatch.setattr(companions, "cores", lambda cores=cores: cores)
+        monkeypatch.setattr(companions.cores, "available", lambda cores=cores: cores)
         assert (companions.beside(description, steps) == "some") == expected
 
 

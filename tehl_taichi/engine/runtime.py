@@ -13,6 +13,7 @@ import warnings
 from pathlib import Path
 
 from tehl_taichi import __version__
+from tehl_taichi.engine import cores
 from tehl_taichi.errors import RuntimeUnavailable
 
 ARCHES = ("cpu",)  # that the kernels have been checked on
@@ -74,13 +75,13 @@ def check(arch="cpu", threads=None):
 def start(arch="cpu", threads=None):
     """Start Taichi and say what was really started.
 
-    arch: "cpu" (others when their kernels are checked); threads: number of CPU threads or None for all. Returns a dict with
-    arch, threads, taichi (version) and cache (folder).
+    arch: "cpu" (others when their kernels are checked); threads: number of CPU threads, or None for all cores that
+    this process may use. Returns a dict with arch, threads, taichi (version) and cache (folder).
     Raises RuntimeUnavailable when arch or threads cannot be had, another start is already active, or Taichi runs in another
     thread or in the process that this one was forked from.
     """
     check(arch, threads)
-    threads = int(threads or os.cpu_count() or 1)
+    threads = int(threads or cores.available())
     if _started:
         return _same_start(arch, threads)
     _start(arch, threads)
@@ -92,7 +93,7 @@ def _start(arch, threads):
     cache = str(cache_dir())
     import taichi as ti
 
-    with _no_banner(), contextlib.redirect_stdout(None):  # in notebooks, where prints do not go to file 1
+    with _no_banner(), contextlib.redirect_stdout(None), cores.pinned(threads):  # in a notebook prints do not go to file 1
         ti.init(arch=ti.cpu, default_fp=ti.f64, fast_math=False, cpu_max_num_threads=threads, log_level=ti.ERROR,
                 # its own optimisation passes take 40 s for the Findley search (2 s without) and gain nothing over LLVM's
                 advanced_optimization=False,
