@@ -25,9 +25,9 @@ __all__ = ["Error", "Interrupted", "Lines", "NotConverged", "Progress", "Run", "
            "StoreError", "__version__", "fatigue", "march", "open", "resume", "run", "scene", "simulate"]
 
 # after the settings above, which numpy reads
-from tehl_taichi import study  # noqa: E402
 from tehl_taichi.called import callable_room  # noqa: E402
 from tehl_taichi.errors import Error, Interrupted, NotConverged, RuntimeUnavailable, SceneError, StoreError  # noqa: E402
+from tehl_taichi.io.found import find  # noqa: E402
 from tehl_taichi.march import simulate  # noqa: E402
 from tehl_taichi.scene import Scene  # noqa: E402
 from tehl_taichi.study import Lines, Progress, Run, open, resume, run  # noqa: E402
@@ -35,8 +35,8 @@ from tehl_taichi.study import Lines, Progress, Run, open, resume, run  # noqa: E
 if TYPE_CHECKING:  # functions to those who check types, folders that can be called to Python
     from tehl_taichi.fatigue import fatigue
     from tehl_taichi.march import march
-    from tehl_taichi.study import scene
+    scene = find
 else:
     from tehl_taichi import fatigue, march, scene
 
-callable_room("tehl_taichi.scene", study.scene)  # of files too, of which the folder itself knows nothing
+callable_room("tehl_taichi.scene", find)  # in files too, of which the folder itself knows nothing

@@ -16,7 +16,7 @@ DPI = 160
 
 def write_all(store, folder, dpi=DPI):
     """Write every figure the store has data for into `folder`, `dpi` dots per inch; returns the paths. Raises StoreError."""
-    plt, folder = pyplot(), _made(folder)
+    plt, folder = pyplot(), made(folder)
     figures = {"centreline": centreline(plt, store)}
     if store.y.size > 1:
         figures["maps"] = maps(plt, store)
@@ -39,7 +39,8 @@ def beside(path):
     return path.with_suffix("") if path.suffix else path.with_name(f"{path.name}-figures")
 
 
-def _made(folder):
+def made(folder):
+    """The folder of that name, made if need be. Raises StoreError."""
     try:
         Path(folder).mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -56,7 +57,7 @@ def _history(store, name):
 
 def write_fatigue(result, title, a, folder, dpi=DPI):
     """Write the figures of a FatigueResult into `folder`; returns the paths. Raises StoreError."""
-    plt, folder = pyplot(), _made(folder)
+    plt, folder = pyplot(), made(folder)
     found = {name: value[0] for name, value in result.maps.items()}
     points = {"surface": result.worst, "below": result.worst_below}
     figures = fatigue_figures.all_figures(plt, title, found, points, result.summary, a)

@@ -6,8 +6,8 @@ import time
 from os import PathLike
 from pathlib import Path
 
+from tehl_taichi.io.found import find
 from tehl_taichi.scene import Scene
-from tehl_taichi.study import found
 from tehl_taichi.study.progress import ERRORS, FATIGUE, PASSAGE, STEADY, Progress
 from tehl_taichi.study.stored_run import Run
 
@@ -35,7 +35,7 @@ def run(scene: Scene | str | PathLike, path: str | PathLike | None = None, *, fo
     from tehl_taichi.engine import runtime
     from tehl_taichi.io.place import Place
 
-    scene, progress = found.scene(scene), progress or Progress()
+    scene, progress = find(scene), progress or Progress()
     runtime.check(arch, threads)
     place = Place(path, force) if path is not None else Place.fresh(Path("runs"), scene.name)
     with place, _stoppable(place.path, place):

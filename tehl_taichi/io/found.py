@@ -1,4 +1,4 @@
-"""A scene by whatever names it: on the command line and in Python."""
+"""A scene by whatever names it, on the command line and in Python: `tehl_taichi.scene` is this. Importing it costs nothing."""
 
 import os
 from pathlib import Path
@@ -8,7 +8,7 @@ from tehl_taichi.scene.builtin import scene as built_in
 from tehl_taichi.scene.plain import shown
 
 
-def scene(name: str | os.PathLike | Scene = "gear") -> Scene:
+def find(name: str | os.PathLike | Scene = "gear") -> Scene:
     """Scene by the name of a built-in one (`tehl scenes` lists them), from a TOML file, or of the run in a store.
 
     A Scene is itself. Raises SceneError with the nearest name, or with what is wrong in the file; StoreError for a damaged
