@@ -208,15 +208,15 @@ def test_a_scene_carries_its_heights_to_another_process(tmp_path):
 @pytest.fixture(scope="module")
 def moved(taichi_cpu, tmp_path_factory):
     """(scene, store of its first three steps, store of all four): one broken off, then moved and its map file removed."""
-    from tehl_taichi.io.recorder import record
     from tehl_taichi.io.store import Store
     from tehl_taichi.march.passage import march
+    from tehl_taichi.study.single import completed
 
     home = tmp_path_factory.mktemp("home")
     description = with_map(wave(home, length=60.0), **{"time.steps": 4})
-    whole = record(description, home / "whole.zarr")
+    whole = completed(description, home / "whole.zarr")
     run = march(description)
-    broken = Store.create(home / "broken.zarr", description, next(run), 5)
+    broken = Store.create(home / "broken.zarr", description, next(run), 5, {"steady_error": "{}", "steady_unknown": "{}"})
     for _ in range(2):
         shot = next(run)
         broken.append(shot, shot.state)
@@ -232,12 +232,12 @@ def elsewhere(monkeypatch):
 
 
 def test_a_moved_store_goes_on_without_the_map_file(moved, elsewhere):
-    from tehl_taichi.io.recorder import record
     from tehl_taichi.io.store import Store
+    from tehl_taichi.study.single import completed
 
     description, broken, whole = moved
     assert Store.open(broken).scene == description
-    a, b = record(description, broken), Store.open(whole)  # resumes
+    a, b = completed(description, broken).store, Store.open(whole)  # resumes
     assert len(a) == len(b) == 5 and np.array_equal(a.fields(4)["film"], b.fields(4)["film"])
 
 

@@ -162,3 +162,17 @@ def test_bad_input_is_one_error_and_writes_nothing(tmp_path, monkeypatch, words,
     assert error.value.exit_code == 2 and list(tmp_path.iterdir()) == []
     with pytest.raises(tehl.Error, match="whole number"):
         tehl.resume("a", steps=0.5)
+
+
+def test_a_completed_run_is_kept_gone_on_with_or_made(done, tmp_path):
+    from tehl_taichi.study.single import completed
+
+    run, _ = done
+    heard = Heard()
+    assert completed(RIDGE, run.path, progress=heard).summary == run.summary and heard.stages == []
+    with pytest.raises(tehl.StoreError, match="another scene"):
+        completed(RIDGE.replace(srr=0.1), run.path)
+    with pytest.raises(KeyboardInterrupt):
+        completed(RIDGE, tmp_path / "c.zarr", progress=Heard(stop=3))
+    assert completed(RIDGE, tmp_path / "c.zarr", progress=heard).finished and heard.steps[-1] == 4
+    assert "steady start" not in [name for name, *_ in heard.stages]  # that it had

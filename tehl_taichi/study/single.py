@@ -6,6 +6,7 @@ import time
 from os import PathLike
 from pathlib import Path
 
+from tehl_taichi.errors import StoreError
 from tehl_taichi.io.found import find
 from tehl_taichi.scene import Scene
 from tehl_taichi.study.progress import ERRORS, FATIGUE, PASSAGE, STEADY, Progress
@@ -87,6 +88,21 @@ def resume(path: str | PathLike, *, steps: int | None = None, threads: int | Non
     return _continue(Path(path), rest, threads, began, progress)
 
 
+def completed(scene: Scene, path: str | PathLike, *, threads: int | None = None, progress: Progress | None = None) -> Run:
+    """The finished run of `scene` in the store at `path`: as it lies there, gone on with, or run now.
+
+    Raises StoreError where the store there is of another scene, and what :func:`run` and :func:`resume` raise.
+    """
+    from tehl_taichi.io.intact import is_store
+
+    if not is_store(path):
+        return run(scene, path, threads=threads, progress=progress)
+    there = open(path)
+    if there.scene != scene:
+        raise StoreError(f"{path} holds a run of another scene; choose another folder or remove it")
+    return there if there.finished else resume(path, threads=threads, progress=progress)
+
+
 def _continue(path, scene, threads, began, progress):
     """Go on with the store at `path` to the end of `scene`."""
     from tehl_taichi.engine import runtime
@@ -158,8 +174,8 @@ class _Clock:
 
 
 def _march(saved, state, progress):
-    from tehl_taichi.io.recorder import go_on
     from tehl_taichi.scene.route import total_steps
+    from tehl_taichi.study.recorder import go_on
 
     total = total_steps(saved.scene)
 
@@ -194,8 +210,6 @@ def _stoppable(path, place=None):
 
 
 def _what_is_left(path):
-    from tehl_taichi.errors import StoreError
-
     try:
         left = open(path)
     except StoreError:
