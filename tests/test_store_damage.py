@@ -270,7 +270,7 @@ def test_going_on_behind_the_end_takes_the_results_back(path):
 
 
 def test_every_scalar_says_how_it_tells_of_steps_left_out():
-    from tehl_taichi.io.recorder import Thinned
+    from tehl_taichi.study.recorder import Thinned
 
     assert {scalar.over for scalar in entries(Scalar).values()} == Thinned.METHODS.keys()
 
@@ -278,8 +278,8 @@ def test_every_scalar_says_how_it_tells_of_steps_left_out():
 def test_thinned_entries_speak_for_the_steps_between():
     from types import SimpleNamespace
 
-    from tehl_taichi.io.recorder import Thinned
     from tehl_taichi.march.snapshot import Snapshot
+    from tehl_taichi.study.recorder import Thinned
 
     def of(step, value):
         scalars = {name: value for name in entries(Scalar)}
