@@ -11,7 +11,7 @@ import numpy as np
 from tehl_taichi.io.scene_file import merge
 from tehl_taichi.physics import rheology
 from tehl_taichi.scene import Scene, SceneError, scene
-from tehl_taichi.scene.feature import Feature
+from tehl_taichi.scene.feature import SHAPES, Feature
 from tehl_taichi.scene.parts import AUTO, Rheology
 from tehl_taichi.scene.passing import FEWEST
 from tehl_taichi.scene.scales import Scales
@@ -69,6 +69,8 @@ def cases(thermal=False):
     add("one body ten times softer", bodies__b__E=20.6e9)
     add("one body of glass", bodies__b__E=75e9, bodies__b__nu=0.22, bodies__b__k=1.0)
     add("two features", feature=[{}, {"x": 150e-6, "height": -1e-6}])
+    for name, shape in SHAPES.items():
+        add(f"shape {name}", feature=[dict(shape.example)])
     add("waviness at the grid limit", feature=[{"shape": "waviness", "height": 0.1e-6, "width": 50e-6, "extent_x": 400e-6,
                                                 "extent_y": 400e-6, "taper": 50e-6}])
     for M, L in ((5, 1), (5, 25), (50, 10), (1000, 10), (5000, 5)):
@@ -112,7 +114,7 @@ def _drawn(rng):
     cell = max(_cells(smooth))
     feature = Feature(height=float(rng.choice([-1.0, 1.0])) * log_uniform(0.1e-6, 3e-6),
                       width=log_uniform(max(20e-6, 1.01 * FEWEST * cell), max(400e-6, 2 * FEWEST * cell)),
-                      shape=str(rng.choice(["cosine", "ridge"])))
+                      shape=str(rng.choice([name for name, shape in SHAPES.items() if shape.drawn])))
     return dataclasses.replace(smooth, features=(feature,))
 
 

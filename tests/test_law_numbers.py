@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from tehl_taichi.physics.rheology import LAWS
-from tehl_taichi.scene.oil import OILS, Oil
+from tehl_taichi.scene.named_oils import OILS
+from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.parts import Rheology
 
 PAO, TEST_FLUID = Oil(), OILS["moes-test-fluid"]

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from tehl_taichi.scene import film_formula, hertz
-from tehl_taichi.scene.oil import OILS, Oil
+from tehl_taichi.scene.named_oils import OILS
+from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.parts import Rheology
 
 

@@ -139,11 +139,9 @@ def test_long_features_start_earlier_and_end_later():
 def test_rough_patch_has_its_rms_and_fades_out():
     import numpy as np
 
-    from tehl_taichi.physics.gap import feature_height
-
     f = scene("rough").features[0]
     x = np.linspace(-f.extent_x / 2, f.extent_x / 2, 301)
-    s = feature_height(f, x[None, :], x[:, None])
+    s = f.height_at(x[None, :], x[:, None])
     inner = np.abs(x) < f.extent_x / 2 - f.taper
     assert s[np.ix_(inner, inner)].std() == pytest.approx(f.height, rel=0.3)
     assert np.abs(s[[0, -1]]).max() < 1e-12 and np.allclose(s, s[::-1])

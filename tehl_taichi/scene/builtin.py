@@ -2,7 +2,7 @@
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene.feature import Feature
-from tehl_taichi.scene.oil import OILS
+from tehl_taichi.scene.named_oils import OILS
 from tehl_taichi.scene.parts import Body, Contact, Grid, Operation, Rheology, Thermal
 from tehl_taichi.scene.whole import Scene
 from tehl_taichi.values.checks import nearest

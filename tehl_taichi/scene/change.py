@@ -4,7 +4,7 @@ import dataclasses
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene import given
-from tehl_taichi.scene import oil as oils
+from tehl_taichi.scene import named_oils as oils
 from tehl_taichi.scene.feature import SHAPES, USED_BY
 from tehl_taichi.scene.route import ALL
 from tehl_taichi.values.checks import key_shown, nearest

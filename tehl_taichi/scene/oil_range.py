@@ -5,7 +5,7 @@ import dataclasses
 from tehl_taichi.errors import SceneError
 from tehl_taichi.physics import viscosity
 from tehl_taichi.physics.law import declared
-from tehl_taichi.scene.oil import OILS
+from tehl_taichi.scene.named_oils import OILS
 from tehl_taichi.scene.scales import Scales
 
 NOT_HEAT = ("name", "source", "viscosity", "expansion", *declared(viscosity.LAWS))

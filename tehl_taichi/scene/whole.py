@@ -6,8 +6,7 @@ from dataclasses import dataclass, field
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.physics.shear.newtonian import NEWTONIAN
-from tehl_taichi.scene import change, given, judge, oil_range, passing, scales
-from tehl_taichi.scene import oil as oils
+from tehl_taichi.scene import change, given, judge, named_oils, oil_range, passing, scales
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.parts import AUTO, Body, Contact, Fatigue, Grid, Numerics, Operation, Output, Rheology, Thermal, Time
@@ -241,7 +240,7 @@ class Scene:
             parts["operation"] = build(Operation, _speeds(data["operation"]), "operation")
         parts.update(_bodies(data.get("bodies", {})))
         if "oil" in data:
-            parts["oil"] = oils.from_values(data["oil"])
+            parts["oil"] = named_oils.from_values(data["oil"])
         if "feature" in data:
             parts["features"] = _features(data["feature"])
         return cls(name=data.get("name", "gear"), **parts)

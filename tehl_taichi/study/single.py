@@ -98,7 +98,7 @@ def _begin(scene, place, clock, progress):
 
 
 def _announce(scene, progress):
-    from tehl_taichi.scene.map_judge import preview
+    from tehl_taichi.scene.judge import preview
 
     for said in (*(f"left out: {what}" for what in scene.left_out()), *preview(scene)):
         progress.say(said)
