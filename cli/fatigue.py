@@ -7,6 +7,8 @@ import typer
 from tehl_cli.live import say
 from tehl_cli.out import folder_for, print_json
 
+from tehl_taichi.criteria import CRITERIA
+
 
 def register(app):
     """Add the command to the app."""
@@ -19,7 +21,7 @@ def fatigue(
     endurance: Optional[float] = typer.Option(None, help="sigma_eF, Pa"),
     bending_limit: Optional[float] = typer.Option(None, help="fatigue limit in reversed bending, Pa (with --torsion-limit)"),
     torsion_limit: Optional[float] = typer.Option(None, help="the same in torsion: both give kappa, sigma_eF"),
-    criterion: Optional[str] = typer.Option(None, help="findley, findley-chord, matake or dang-van"),
+    criterion: Optional[str] = typer.Option(None, help=", ".join(CRITERIA)),
     depths: Optional[str] = typer.Option(None, help="auto (the worst depth under the feature), none, or depths at which "
                                          "all points are searched, m, as 50e-6,100e-6"),
     from_x: Optional[float] = typer.Option(None, help="only moments with the feature beyond this position, a"),
@@ -44,10 +46,9 @@ def fatigue(
     runtime.check(threads=threads)
     saved = Store.open(store)
     changes = {"kappa": kappa, "endurance": endurance, "criterion": criterion, "depths": _depths(depths), "from_x": from_x,
-               "to_x": to_x, "thermal_stress": thermal_stress, "residual_xx": residual_xx, "residual_yy": residual_yy,
-               **_limits(bending_limit, torsion_limit, kappa, endurance)}
-    changes = {f"fatigue.{key}": value for key, value in changes.items() if value is not None}
-    scene = saved.scene.replace(**changes) if changes else saved.scene
+               "to_x": to_x, "thermal_stress": thermal_stress, "residual_xx": residual_xx, "residual_yy": residual_yy}
+    scene = _changed(saved.scene, changes)
+    scene = _changed(scene, _limits(scene.fatigue.criterion, bending_limit, torsion_limit, kappa, endurance))
     runtime.start(threads=threads)
     result = pass_.run(scene, saved)
     _show(result, as_json)
@@ -69,19 +70,19 @@ def _depths(text):
         raise SceneError(f"--depths {text!r} must be auto, none or numbers in m with commas between, as 50e-6,1e-4") from None
 
 
-def _limits(bending, torsion, kappa, endurance):
-    from tehl_taichi.fatigue.findley import from_limits
+def _changed(scene, changes):
+    changes = {f"fatigue.{key}": value for key, value in changes.items() if value is not None}
+    return scene.replace(**changes) if changes else scene
+
+
+def _limits(criterion, bending, torsion, kappa, endurance):
     from tehl_taichi.scene import SceneError
 
     if bending is None and torsion is None:
-        return {"kappa": kappa, "endurance": endurance}
+        return {}
     if bending is None or torsion is None or kappa is not None or endurance is not None:
         raise SceneError("give --bending-limit and --torsion-limit together, and neither --kappa nor --endurance with them")
-    try:
-        found = from_limits(bending, torsion)
-    except ValueError as error:
-        raise SceneError(str(error)) from None
-    return dict(zip(("kappa", "endurance"), found))
+    return dict(zip(("kappa", "endurance"), CRITERIA[criterion].from_limits(bending, torsion)))
 
 
 def _show(result, as_json):
