@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass
 from typing import Union
 
+from tehl_taichi.criteria import CRITERIA, sensitivities
 from tehl_taichi.errors import SceneError
 from tehl_taichi.physics import rheology
 from tehl_taichi.physics.boundary import BOUNDARY
@@ -144,10 +145,10 @@ class Fatigue:
     """
 
     on: bool = switch(True, "stresses and fatigue index of a passage")
-    kappa: float = quantity(0.3, "", "sensitivity to normal stress", 0.0, 5.0)
+    kappa: float = quantity(0.3, "", f"sensitivity to stress, {sensitivities()}", 0.0, 5.0)
     endurance: float = quantity(400e6, "Pa", "fatigue limit sigma_eF: Fi = 1", 1e3, 1e11)
     source: str = text("example values, set your own", "where kappa and endurance come from", one_line=False)
-    criterion: str = choice("findley", "fatigue criterion", ("findley", "findley-chord", "matake", "dang-van"))
+    criterion: str = choice("findley", "fatigue criterion", tuple(CRITERIA))
     depths: Union[tuple, str] = quantities(AUTO, "m", "searched below the surface; auto: the worst depth under the feature is "
                                            "looked for; or all points at these, as [50e-6, 100e-6]", 1e-7, 0.1, auto=True)
     shear: bool = switch(True, "whether the shear tractions count")
