@@ -18,7 +18,6 @@ from tehl_taichi.march.prediction import Prediction
 from tehl_taichi.march.snapshot import Snapshot
 from tehl_taichi.march.solved import Solved
 from tehl_taichi.march.start import steady_snapshot
-from tehl_taichi.physics.gap import feature_height
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.pressure.newton import PressureSolver
@@ -118,7 +117,7 @@ class Passage:
             under = np.abs(x) <= feature.reach
             if feature.transverse:  # cheap, and a ridge does not quite end
                 under, y = slice(None), y[:1]
-            gap[:, under] -= feature_height(feature, x[under], y) / s.h
+            gap[:, under] -= feature.height_at(x[under], y) / s.h
         v.put(fields.GAP0, gap)
 
     def _predict(self, at):

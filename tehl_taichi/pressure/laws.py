@@ -58,7 +58,7 @@ def laws(S: ti.template(), G: Table, oil: ti.template(), rheology: ti.template()
             p, h = S[P, k] * scene.p_H + slopes * DP, ti.max(S[H, k], floor)
             rho, le = rho_ratio(oil, p, scene.inlet), ln_eta(oil, p, scene.inlet) - scene.ln_eta0
             ie = exp(-le)
-            if ti.static(rheology.law != "newtonian"):
+            if ti.static(rheology.thins):
                 newtonian, b = sheared(rheology, p, h, ie, shear)
                 le, ie = le + log(b), ie / b
                 if ti.static(slopes):

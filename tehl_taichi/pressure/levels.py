@@ -44,7 +44,7 @@ class Levels:
         self.fine = self.sizes[0][1] // lanes.W + 1  # blocks of the finest grid
         self.G = self._level_table()
         self.n = columns(nx, ny) * lanes.W
-        self.thins = scene.shear_law.law != "newtonian"
+        self.thins = scene.shear_law.thins
         rows = (fields.NROWS_SHEARED if self.thins else fields.NROWS) if scene.isothermal else fields.NROWS_THERMAL
         size = max(table_columns(nx, ny), _final_columns(scene))
         self.S = tables.lease(self, rows, lanes.W, size)

@@ -4,7 +4,7 @@ import taichi as ti
 
 from tehl_taichi.engine.lanes import Flat, Table, V, W, cells, place, tile, tiles
 from tehl_taichi.engine.records import read
-from tehl_taichi.physics.rheology import boundary_stress
+from tehl_taichi.physics.boundary import boundary_stress
 from tehl_taichi.pressure.conditions import Conditions
 from tehl_taichi.pressure.fields import GAP, IE, TOUCH, H, P
 from tehl_taichi.pressure.gradient import central_gradient
