@@ -2,9 +2,9 @@
 
 from tehl_taichi.fatigue.findley import from_limits
 from tehl_taichi.scene import SceneError
-from tehl_taichi.scene.checks import build, number
 from tehl_taichi.scene.parts import Fatigue
-from tehl_taichi.scene.plain import plain
+from tehl_taichi.values.checks import build, number
+from tehl_taichi.values.plain import plain
 
 OF_POINTS = {"kappa", "endurance", "criterion"}  # the others belong to a passage
 

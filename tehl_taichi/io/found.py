@@ -5,7 +5,7 @@ from pathlib import Path
 
 from tehl_taichi.scene import BUILT_INS, Scene, SceneError
 from tehl_taichi.scene.builtin import scene as built_in
-from tehl_taichi.scene.plain import shown
+from tehl_taichi.values.plain import shown
 
 
 def find(name: str | os.PathLike | Scene = "gear") -> Scene:

@@ -1,6 +1,7 @@
 """Which precision of the linear solves suits a scene."""
 
 from tehl_taichi.errors import SceneError
+from tehl_taichi.scene.film_formula import central_film
 from tehl_taichi.scene.parts import AUTO
 from tehl_taichi.scene.scales import Scales
 
@@ -14,7 +15,7 @@ def of(scene):
     """"f32" or "f64": what the scene asks for, or what suits it. Raises SceneError for f32 and a film too thin for it."""
     wanted = scene.numerics.precision
     if wanted == "f32" and suited(scene) != "f32":
-        h = _central_film(scene)
+        h = central_film(scene)
         raise SceneError(f"numerics.precision = 'f32': a film of about {h:.2g} m ({h / Scales.of(scene).h:.2g} a^2/R') is too "
                          f"thin for linear solves in single precision, which need {THICK:g} a^2/R'; allowed: auto, f64")
     return suited(scene) if wanted == AUTO else wanted
@@ -22,11 +23,4 @@ def of(scene):
 
 def suited(scene):
     """"f32" for thick films, else "f64"; the state and its residual are in double precision either way."""
-    return "f32" if _central_film(scene) > THICK * Scales.of(scene).h else "f64"
-
-
-def _central_film(scene):
-    """By the formulas, m."""
-    from tehl_taichi.physics.film_formula import central_film  # imports taichi
-
-    return central_film(scene)
+    return "f32" if central_film(scene) > THICK * Scales.of(scene).h else "f64"

@@ -70,7 +70,7 @@ class Run:
         Returns their paths. Raises SceneError, or StoreError without matplotlib (the `plot` extra) or where it cannot write.
         """
         from tehl_taichi.io import figures
-        from tehl_taichi.scene.checks import integer
+        from tehl_taichi.values.checks import integer
 
         integer("dpi", dpi, 40, 1200)
         return figures.write_all(self.store, folder or figures.beside(self.path), dpi)
