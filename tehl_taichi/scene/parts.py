@@ -215,8 +215,8 @@ class Numerics:
     krylov_tolerance: float = quantity(0.2, "", "of the linear solves inside Newton, at most", 1e-6, 0.5)
     newton_max: int = count(30, "Newton steps of an attempt at most", 1, 1000)
     krylov_max: int = count(80, "Krylov iterations of a Newton step at most", 5, 500)
-    precision: str = choice(AUTO, "of the linear solves inside Newton; auto: f32 where the film is thick enough for it (the "
-                            "state and its residual are always double)", (AUTO, "f32", "f64"))
+    precision: str = choice(AUTO, "of the linear solves inside Newton; auto: f32 where the film is thick enough for it "
+                            "(elsewhere it is refused); the state and its residual are always double", (AUTO, "f32", "f64"))
     estimate_error: Union[bool, str] = switch(AUTO, "error of the passage's numbers, by companion runs on coarser grids; auto: "
                                               "where a core is free for them", auto=True)
 
