@@ -18,7 +18,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 os.environ.setdefault("ENABLE_TAICHI_HEADER_PRINT", "0")
 
 __version__ = "0.2.0"
-__all__ = ["Error", "__version__", "march", "scene", "simulate"]
+__all__ = ["Error", "__version__", "crack", "march", "scene", "simulate"]
 
 
 def simulate(scene, precision=None):
@@ -26,5 +26,5 @@ def simulate(scene, precision=None):
     return list(march(scene, precision=precision))
 
 
-from tehl_taichi import march, scene  # noqa: E402  callable: scene("gear"); after the settings above, which numpy reads
+from tehl_taichi import crack, march, scene  # noqa: E402  callable: scene("gear"); after the settings above, which numpy reads
 from tehl_taichi.errors import Error  # noqa: E402

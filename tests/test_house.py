@@ -10,8 +10,8 @@ import pytest
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "tehl_taichi"
 # every module and folder of the package, each imports from those before it only
-LAYERS = ["errors", "commit", "called", "registry", "scene", "engine", "physics", "pressure", "heat", "fatigue", "march", "io",
-          "profiles", "cli"]
+LAYERS = ["errors", "commit", "called", "registry", "scene", "engine", "physics", "pressure", "heat", "fatigue", "crack",
+          "march", "io", "profiles", "cli"]
 ENTRIES = {"__init__", "__main__"}  # of the package: they may lead anywhere, lazily
 FOLDERS = {ROOT / "cli": "tehl_cli", ROOT / "profiles": "tehl_taichi.profiles", PACKAGE: "tehl_taichi"}
 
