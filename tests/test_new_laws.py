@@ -103,6 +103,15 @@ def test_laws_need_no_taichi_for_numbers():
     assert subprocess.run([sys.executable, "-c", code], cwd=ROOT).returncode == 0
 
 
+def test_the_command_lists_all_laws(capsys):
+    from tehl_cli.inspect import laws
+
+    laws()
+    printed = capsys.readouterr().out
+    for key, law in LAWS:
+        assert f" {law.name} " in printed and key in printed
+
+
 def shown(title):
     """The file below `### title` in CONTRIBUTING.md: its path and its text."""
     text = (ROOT / "CONTRIBUTING.md").read_text().split(f"### {title}\n")[1]
