@@ -146,7 +146,7 @@ def expansivity(oil, p, Gamma):
 
 
 LAW = DensityLaw(
-    name="tait", says="1/(1 - ln(1 + (1 + K1) p/K)/(1 + K1))", source="Tait 1888",
+    name="tait", says="1/(1 - ln(1 + (1 + K1) p/K)/(1 + K1))", source="after Tait 1888",
     compression=compression, expansion=expansion, expansivity=expansivity,
     numbers={"rho0": RHO0, "tait_K": quantity(1.4e9, "Pa", "bulk modulus at p = 0", 1e8, 1e11),
              "tait_K1": quantity(10.0, "", "its rise with pressure", 1, 30)},
