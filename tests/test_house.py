@@ -95,7 +95,8 @@ def test_readme_names_both_lines():
     assert len(lines) == 2 and "tehl run --srr -0.12" in lines[0] and lines[1].endswith("pytest")
 
 
-def test_readme_python_example_runs(taichi_cpu, capsys):
+def test_readme_python_example_runs(taichi_cpu, capsys, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
     text = (ROOT / "README.md").read_text()
     exec(compile(text.split("```python\n")[1].split("```")[0], "README.md", "exec"), {})
-    assert len(capsys.readouterr().out.splitlines()) == 4
+    assert len(capsys.readouterr().out.splitlines()) == 5

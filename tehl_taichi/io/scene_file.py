@@ -32,6 +32,16 @@ def load(path):
     return from_data(_beside(data, path.absolute().parent), path.stem)
 
 
+def new(path, base):
+    """Write the built-in scene `base` with every value, under the name of the file. Raises SceneError where it cannot."""
+    path = Path(path)
+    if path.exists():
+        raise SceneError(f"{path} exists already; choose another name")
+    if not path.absolute().parent.is_dir():
+        raise SceneError(f"{path.absolute().parent} is not a folder")
+    path.write_text(dumps(scene(base).replace(name=path.stem)), encoding="utf-8")
+
+
 def _beside(data, folder):
     """The same with the paths of height maps starting at `folder`, whatever folder the command runs in."""
     features = data.get("feature", [])

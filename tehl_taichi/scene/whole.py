@@ -3,6 +3,7 @@
 import dataclasses
 import math
 from dataclasses import dataclass, field
+from typing import Any
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.physics.shear.newtonian import NEWTONIAN
@@ -213,7 +214,7 @@ class Scene:
         """Fatigue needs a passage: the stress history of material points."""
         return self.fatigue.on and self.transient
 
-    def replace(self, **changes):
+    def replace(self, **changes: Any) -> "Scene":
         """A changed copy. Keys: srr, load, hertz_pressure, speed, temperature, height, width, kappa, endurance, name,
         or dotted ("grid.nx"; "feature.height" is the first feature, "feature.1.height" the second). Raises SceneError.
         """
