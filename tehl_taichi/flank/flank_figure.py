@@ -1,0 +1,83 @@
+"""Film, pressure, temperature and fatigue over the flank: dedendum left of the pitch line, addendum right of it."""
+
+import numpy as np
+
+from tehl_taichi.io.figures import pyplot
+
+DEDENDUM = "0.93"  # grey
+# panel: label, factor, {legend: what of a summary (part, key)}; "p_H" is the Hertz pressure
+PANELS = (("film (µm)", 1e6, {"steady, centre": ("steady", "h_c_m"), "steady, least": ("steady", "h_min_m"),
+                              "least while the feature passes": ("transient", "h_min_m")}),
+          ("largest pressure (GPa)", 1e-9, {"Hertz": "p_H", "steady": ("steady", "p_max_Pa"),
+                                            "while the feature passes": ("transient", "p_max_Pa")}),
+          ("temperature (°C)", 1, {"film, steady": ("steady", "film_max_C"),
+                                   "film, feature passes": ("transient", "film_max_C"),
+                                   "surface a, feature passes": ("transient", "surface_a_max_C")}),
+          ("Fi", 1, {"at the surface": ("fatigue", "Fi_max")}),
+          ("friction coefficient", 1, {"steady": ("steady", "friction_coefficient"),
+                                       "mean while the feature passes": ("transient", "friction_coefficient_mean")}),
+          ("SRR", 1, {"(u_a − u_b)/u_m": "srr"}))
+LAST = 5  # panels: friction and slip fill up what a steady or isothermal flank leaves free
+
+
+def write(flank, path, dpi):
+    """Write the figure of a Flank; returns the path."""
+    plt = pyplot()
+    shown = [panel for panel in PANELS if any(_series(flank, what) for what in panel[2].values())][:LAST]
+    figure, axes = plt.subplots(len(shown), 1, sharex=True, figsize=(8, 2.2 * len(shown) + 0.8), constrained_layout=True)
+    for ax, (label, factor, lines) in zip(np.atleast_1d(axes), shown):
+        _panel(ax, flank, label, factor, lines)
+    _marks(np.atleast_1d(axes), flank)
+    np.atleast_1d(axes)[-1].set_xlabel("x_pl, along the line of action from the pitch point (mm)")
+    np.atleast_1d(axes)[0].set_title(_title(flank))
+    figure.savefig(path, dpi=dpi)
+    plt.close(figure)
+    return path
+
+
+def _title(flank):
+    pair = flank.description.pair
+    if not pair:
+        return f"{flank.name}: flank of body a"
+    return f"{flank.name}: flank of the {flank.on}, {pair.torque:g} N m, {pair.n1:g} 1/min"
+
+
+def _panel(ax, flank, label, factor, lines):
+    for n, (name, what) in enumerate(lines.items()):
+        if series := _series(flank, what):
+            x, y = np.array(series).T
+            ax.plot(x * 1e3, y * factor, ".-", color=f"C{n}", ms=5, lw=1.3, label=name)
+    ax.set_ylabel(label)
+    ax.grid(alpha=0.25)
+    ax.legend(frameon=False, fontsize=8)
+
+
+def _series(flank, what):
+    """[(x_pl, value)] of the positions that have it; nan between the two sides of a jump, where the line breaks."""
+    out = []
+    for at, p_H, summary in flank.rows:
+        value = p_H if what == "p_H" else at.srr if what == "srr" else (summary or {}).get(what[0], {}).get(what[1])
+        if value is None:
+            continue
+        if out and out[-1][0] == at.x_pl:
+            out.append((at.x_pl, np.nan))
+        out.append((at.x_pl, value))
+    return out
+
+
+def _marks(axes, flank):
+    """A to E, and the dedendum shaded."""
+    left = min(at.x_pl for at in flank.positions) * 1e3
+    points = flank.points or {at.point: at.x_pl for at in flank.positions if at.point}
+    for ax in axes:
+        low, high = ax.get_xlim()
+        if left < 0:
+            ax.axvspan(low, 0, color=DEDENDUM, zorder=-2)
+        ax.set_xlim(low, high)
+        for x in points.values():
+            ax.axvline(x * 1e3, color="0.6", lw=0.8, ls=":", zorder=-1)
+    for name, x in points.items():
+        axes[0].annotate(name, (x * 1e3, 1), xycoords=("data", "axes fraction"), xytext=(2, -11), textcoords="offset points",
+                         fontsize=9, color="0.3")
+    axes[-1].annotate("dedendum ", (0, 0), xycoords=("data", "axes fraction"), ha="right", va="bottom", fontsize=8, color="0.4")
+    axes[-1].annotate(" addendum", (0, 0), xycoords=("data", "axes fraction"), ha="left", va="bottom", fontsize=8, color="0.4")
