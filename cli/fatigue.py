@@ -36,14 +36,12 @@ def fatigue(
 
     Example: `tehl fatigue runs/gear-1.zarr --kappa 0.25 --endurance 450e6 --to-x 0.5`
     """
-    from tehl_cli.runs import _check_threads
-
     from tehl_taichi.engine import runtime
     from tehl_taichi.fatigue import assessment as pass_
     from tehl_taichi.io.store import Store
     from tehl_taichi.scene.scales import Scales
 
-    _check_threads(threads)
+    runtime.check(threads=threads)
     saved = Store.open(store)
     changes = {"kappa": kappa, "endurance": endurance, "criterion": criterion, "depths": _depths(depths), "from_x": from_x,
                "to_x": to_x, "thermal_stress": thermal_stress, "residual_xx": residual_xx, "residual_yy": residual_yy,

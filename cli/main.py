@@ -16,8 +16,8 @@ class Commands(typer.core.TyperGroup):
     def invoke(self, ctx):
         try:
             return super().invoke(ctx)
-        except KeyboardInterrupt:
-            raise Interrupted("interrupted; nothing that was stored is lost") from None
+        except KeyboardInterrupt as stop:
+            raise Interrupted(str(stop) or "interrupted; nothing that was stored is lost") from None
 
 
 app = typer.Typer(cls=Commands, no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False,

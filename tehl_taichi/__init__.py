@@ -18,7 +18,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 os.environ.setdefault("ENABLE_TAICHI_HEADER_PRINT", "0")
 
 __version__ = "0.2.0"
-__all__ = ["Error", "__version__", "march", "scene", "simulate"]
+__all__ = ["Error", "Lines", "Progress", "Run", "Scene", "__version__", "march", "open", "resume", "run", "scene", "simulate"]
 
 
 def simulate(scene, precision=None):
@@ -28,3 +28,5 @@ def simulate(scene, precision=None):
 
 from tehl_taichi import march, scene  # noqa: E402  callable: scene("gear"); after the settings above, which numpy reads
 from tehl_taichi.errors import Error  # noqa: E402
+from tehl_taichi.scene import Scene  # noqa: E402
+from tehl_taichi.study import Lines, Progress, Run, open, resume, run  # noqa: E402
