@@ -18,7 +18,8 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 os.environ.setdefault("ENABLE_TAICHI_HEADER_PRINT", "0")
 
 __version__ = "0.2.0"
-__all__ = ["Error", "Lines", "Progress", "Run", "Scene", "__version__", "march", "open", "resume", "run", "scene", "simulate"]
+__all__ = ["Error", "Lines", "Progress", "Run", "Scene", "__version__", "compare", "flank", "march", "open",
+           "resume", "run", "scene", "simulate"]
 
 
 def simulate(scene, precision=None):
@@ -26,7 +27,7 @@ def simulate(scene, precision=None):
     return list(march(scene, precision=precision))
 
 
-from tehl_taichi import march, scene  # noqa: E402  callable: scene("gear"); after the settings above, which numpy reads
+from tehl_taichi import flank, march, scene  # noqa: E402  callable: scene("gear"); after the settings above, which numpy reads
 from tehl_taichi.errors import Error  # noqa: E402
 from tehl_taichi.scene import Scene  # noqa: E402
-from tehl_taichi.study import Lines, Progress, Run, open, resume, run  # noqa: E402
+from tehl_taichi.study import Lines, Progress, Run, compare, open, resume, run  # noqa: E402

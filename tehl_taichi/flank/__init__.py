@@ -1,7 +1,7 @@
 """A gear's whole flank: where its teeth touch, with which radii, speeds and load, and a run at each position.
 
 `mesh` and `positions` are the geometry, `load_table` the table of a loaded tooth contact analysis, `described` what names a
-flank, `contacts` its scenes, `runs` runs them; `whole_flank` is all of it, `columns` and `flank_figure` what is shown. May
+flank, `contacts` its scenes, `outcomes` runs them; `whole_flank` is all of it, `columns` and `flank_figure` what is shown. May
 import every room but the commands; importing it imports no taichi.
 """
 

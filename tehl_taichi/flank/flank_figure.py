@@ -2,10 +2,11 @@
 
 import numpy as np
 
+from tehl_taichi.flank.columns import dig
 from tehl_taichi.io.figures import pyplot
 
 DEDENDUM = "0.93"  # grey
-# panel: label, factor, {legend: what of a summary (part, key)}; "p_H" is the Hertz pressure
+# panel: label, factor, {legend: keys in the summary}; "p_H" is the Hertz pressure
 PANELS = (("film (µm)", 1e6, {"steady, centre": ("steady", "h_c_m"), "steady, least": ("steady", "h_min_m"),
                               "least while the feature passes": ("transient", "h_min_m")}),
           ("largest pressure (GPa)", 1e-9, {"Hertz": "p_H", "steady": ("steady", "p_max_Pa"),
@@ -13,7 +14,7 @@ PANELS = (("film (µm)", 1e6, {"steady, centre": ("steady", "h_c_m"), "steady, l
           ("temperature (°C)", 1, {"film, steady": ("steady", "film_max_C"),
                                    "film, feature passes": ("transient", "film_max_C"),
                                    "surface a, feature passes": ("transient", "surface_a_max_C")}),
-          ("Fi", 1, {"at the surface": ("fatigue", "Fi_max")}),
+          ("Fi", 1, {"at the surface": ("fatigue", "Fi_max"), "largest below it": ("fatigue", "below", "Fi_max")}),
           ("friction coefficient", 1, {"steady": ("steady", "friction_coefficient"),
                                        "mean while the feature passes": ("transient", "friction_coefficient_mean")}),
           ("SRR", 1, {"(u_a − u_b)/u_m": "srr"}))
@@ -29,17 +30,10 @@ def write(flank, path, dpi):
         _panel(ax, flank, label, factor, lines)
     _marks(np.atleast_1d(axes), flank)
     np.atleast_1d(axes)[-1].set_xlabel("x_pl, along the line of action from the pitch point (mm)")
-    np.atleast_1d(axes)[0].set_title(_title(flank))
+    np.atleast_1d(axes)[0].set_title(flank.title)
     figure.savefig(path, dpi=dpi)
     plt.close(figure)
     return path
-
-
-def _title(flank):
-    pair = flank.description.pair
-    if not pair:
-        return f"{flank.name}: flank of body a"
-    return f"{flank.name}: flank of the {flank.on}, {pair.torque:g} N m, {pair.n1:g} 1/min"
 
 
 def _panel(ax, flank, label, factor, lines):
@@ -56,7 +50,7 @@ def _series(flank, what):
     """[(x_pl, value)] of the positions that have it; nan between the two sides of a jump, where the line breaks."""
     out = []
     for at, p_H, summary in flank.rows:
-        value = p_H if what == "p_H" else at.srr if what == "srr" else (summary or {}).get(what[0], {}).get(what[1])
+        value = p_H if what == "p_H" else at.srr if what == "srr" else dig(summary, *what)
         if value is None:
             continue
         if out and out[-1][0] == at.x_pl:

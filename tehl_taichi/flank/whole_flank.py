@@ -6,10 +6,11 @@ import math
 from dataclasses import dataclass
 from pathlib import Path
 
-from tehl_taichi.flank import columns, runs
+from tehl_taichi.flank import columns
 from tehl_taichi.flank.contacts import scene_at
 from tehl_taichi.flank.described import described
 from tehl_taichi.flank.mesh import Mesh
+from tehl_taichi.flank.outcomes import summaries
 from tehl_taichi.scene.scales import Scales
 
 ASSUMPTION = ("each position is a contact of its own with constant load and speeds while the feature passes: a passage takes "
@@ -52,6 +53,14 @@ class Flank:
             return {}
         sign = -1 if self.on == "gear" else 1
         return {name: sign * x + 0.0 for name, x in Mesh(self.description.pair).points.items()}
+
+    @property
+    def title(self):
+        """The flank in a line."""
+        pair = self.description.pair
+        if not pair:
+            return f"{self.name}: flank of body a"
+        return f"{self.name}: flank of the {self.on}, {pair.torque:g} N m and {pair.n1:g} 1/min at the pinion"
 
     @property
     def sharing(self):
@@ -120,7 +129,7 @@ def flank(gear="fzg-c", *, torque=None, speed=None, on=None, positions=None, at=
     places = found.positions(on, positions, at)
     scenes = [scene_at(base, found.name, n, place, steady) for n, place in enumerate(places, 1)]
     folder = Path(folder) if folder else fresh(found.name)
-    outcomes = runs.summaries(scenes, folder, threads, progress)
+    outcomes = summaries(scenes, folder, threads, progress)
     whole = Flank(found.name, folder, (on or "pinion") if found.pair else "", found, places, scenes, outcomes)
     whole.write()
     return whole

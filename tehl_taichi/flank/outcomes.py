@@ -29,6 +29,7 @@ def summaries(scenes, folder, threads=None, progress=None):
         _check_same(scene, path)
     for n, (scene, path) in enumerate(places):
         progress.stage(STAGE, n, len(scenes))
+        progress.say(f"{n + 1} of {len(scenes)}: {scene.name}")
         found.append(_outcome(scene, path, threads, _Named(progress, scene.name)))
     progress.stage(STAGE, len(scenes), len(scenes))
     return found
@@ -55,7 +56,7 @@ def _outcome(scene, path, threads, progress):
 
 
 class _Named(Progress):
-    """Passes on what one of many runs tells that concerns all: its steps, and its warnings with its name."""
+    """Passes on what one of many runs tells: its stages and steps, and its warnings with its name."""
 
     def __init__(self, listener, name):
         self.listener, self.name = listener, name
@@ -67,4 +68,4 @@ class _Named(Progress):
         self.listener.step(snapshot)
 
     def stage(self, name, done, total):
-        self.listener.stage(f"{self.name}, {name}", done, total)
+        self.listener.stage(name, done, total)
