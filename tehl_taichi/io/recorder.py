@@ -9,7 +9,8 @@ from pathlib import Path
 from tehl_taichi.errors import StoreError
 from tehl_taichi.io.place import Place
 from tehl_taichi.io.provenance import provenance
-from tehl_taichi.io.store import OVER, Store
+from tehl_taichi.io.store import Store
+from tehl_taichi.march.output import Scalar, entries
 from tehl_taichi.march.passage import march
 from tehl_taichi.scene.route import most_steps, total_steps
 
@@ -32,7 +33,7 @@ class Checkpoints:
 
 
 class Thinned:
-    """Every n-th snapshot and the last (step `total`), with scalars that speak for the steps left out (see store.OVER)."""
+    """Every n-th snapshot and the last (step `total`), with scalars that speak for the steps left out (see :class:`Scalar`)."""
 
     METHODS = {"maximum": max, "minimum": min, "sum": sum, "mean": lambda values: sum(values) / len(values),
                "point": lambda values: values[-1]}
@@ -45,7 +46,8 @@ class Thinned:
         self.waiting.append(snapshot.scalars)
         if snapshot.step % self.every and snapshot.step < self.total:
             return None
-        scalars = {name: self.METHODS[OVER[name]]([one[name] for one in self.waiting]) for name in snapshot.scalars}
+        over = {name: self.METHODS[scalar.over] for name, scalar in entries(Scalar).items()}
+        scalars = {name: over[name]([one[name] for one in self.waiting]) for name in snapshot.scalars}
         self.waiting = []
         return dataclasses.replace(snapshot, scalars=scalars)
 

@@ -23,54 +23,12 @@ from tehl_taichi.io.intact import CHECKPOINTS, FORMAT, ROOT
 from tehl_taichi.io.json_values import plain
 from tehl_taichi.io.lock import Busy, Lock, holder
 from tehl_taichi.io.place import Place, put_back, reason, unmade
+from tehl_taichi.march.output import fields_of, names, scalars_of
 from tehl_taichi.scene.route import cut_at
 
-FIELDS = {
-    "pressure": ("f4", "Pa", "film pressure"), "film": ("f4", "m", "film thickness"),
-    "contact": ("u1", "1", "solid contact (1 where the surfaces touch)"),
-    "traction_x_a": ("f4", "Pa", "shear traction on body a along x"),
-    "traction_y_a": ("f4", "Pa", "shear traction on body a along y"),
-    "traction_x_b": ("f4", "Pa", "shear traction on body b along x"),
-    "traction_y_b": ("f4", "Pa", "shear traction on body b along y"),
-}
-THERMAL_FIELDS = {
-    "temperature_mid": ("f4", "degC", "mid-film temperature"),
-    "temperature_a": ("f4", "degC", "temperature of surface a"),
-    "temperature_b": ("f4", "degC", "temperature of surface b"),
-}
-PROFILE = ("f4", "degC", "temperature across the film")  # with output.profiles
-SCALARS = {
-    "feature_x": ("m", "centre of the first feature"), "h0_m": ("m", "rigid approach"),
-    "p_max_Pa": ("Pa", "largest pressure"), "h_min_m": ("m", "smallest film"), "h_c_m": ("m", "film at x = 0, far edge"),
-    "load_error": ("1", "relative load error"), "mass_error": ("1", "net mass defect over the Couette flux"),
-    "residual": ("1", "rms residual of the discrete equations"), "newton": ("1", "Newton steps"),
-    "cycles": ("1", "Krylov iterations"), "rejected": ("1", "rejected attempts"), "dt_s": ("s", "time step"),
-    "wall_s": ("s", "run time of the step"), "contact_load_fraction": ("1", "load carried by solid contact"),
-    "friction_coefficient": ("1", "friction coefficient"),
-}
-THERMAL_SCALARS = {
-    "film_max_C": ("degC", "largest film temperature"), "surface_a_max_C": ("degC", "largest temperature of surface a"),
-    "surface_b_max_C": ("degC", "largest temperature of surface b"),
-    "temperature_change_K": ("K", "largest change of temperature that another round of the step would make"),
-    "clamped": ("1", "nodes held inside the allowed range of temperature"),
-}
-
-# with output.every > 1 an entry stands for the steps since the one before: what its scalars tell of them (CF's cell methods)
-OVER = {"p_max_Pa": "maximum", "h_min_m": "minimum", "load_error": "maximum", "mass_error": "maximum", "residual": "maximum",
-        "newton": "sum", "cycles": "sum", "rejected": "sum", "wall_s": "sum", "contact_load_fraction": "maximum",
-        "friction_coefficient": "mean", "film_max_C": "maximum", "surface_a_max_C": "maximum", "surface_b_max_C": "maximum",
-        "temperature_change_K": "maximum", "clamped": "sum",
-        "feature_x": "point", "h0_m": "point", "h_c_m": "point", "dt_s": "point"}
-
-
-def fields_of(scene):
-    """{name: (dtype, units, text)} of what a run of this scene stores per step on x, y."""
-    return FIELDS if scene.isothermal else {**FIELDS, **THERMAL_FIELDS}
-
-
-def scalars_of(scene):
-    """{name: (units, text)} of its scalar series."""
-    return SCALARS if scene.isothermal else {**SCALARS, **THERMAL_SCALARS}
+# series of the snapshot itself: (dtype, units, text, what is not written yet, how they tell of several steps)
+OWN = {"step": ("i8", "1", "step number", -1, ""), "time": ("f8", "s", "time since the steady start", float("nan"), ""),
+       "feature_x": ("f8", "m", "centre of the first feature", float("nan"), "point")}
 
 
 class Store:
@@ -83,10 +41,9 @@ class Store:
         self.path, self.lock = Path(path), lock
         self.attrs, self.metadata = intact.root_of(self.path)
         self.scene = intact.scene_of(self.path, self.attrs)
-        self.stored = {name: kind[0] for name, kind in fields_of(self.scene).items()}
-        if "temperature" in self.metadata:
-            self.stored["temperature"] = PROFILE[0]
-        self.names = [*scalars_of(self.scene), "step", "time"]
+        known = intact.optional(self.attrs, "outputs", names())  # to the program that began it
+        self.stored = {name: field.dtype for name, field in fields_of(self.scene).items() if name in known}
+        self.names = [*(name for name in scalars_of(self.scene) if name in known), *OWN]
         self.steps = self.attrs.get("steps")
 
     @classmethod
@@ -117,7 +74,8 @@ class Store:
         (place.folder / CHECKPOINTS).mkdir()
         _publish(place.folder, {"Conventions": "CF-1.10", "format": FORMAT, "version": __version__,
                                 "scene": json.dumps(scene.to_dict()), "scene_toml": scene_file.dumps(scene), **attrs,
-                                "steps": 0, "finished": False}, _metadata(place.folder))
+                                "outputs": json.dumps(names()), "steps": 0,
+                                "finished": False}, _metadata(place.folder))
         store = cls(place.folder, place.lock)
         store.series = {name: np.full(capacity, -1) if name == "step" else np.full(capacity, np.nan) for name in store.names}
         return store
@@ -222,16 +180,16 @@ class Store:
         return self.series["time"][: self.steps]
 
     def scalar(self, name):
-        """Values of one scalar series, one per stored entry (with output.every: see OVER)."""
+        """Values of one scalar series, one per stored entry (with output.every: see `cell_methods`)."""
         return self.series[name][: self.steps]
 
     def feature_x(self, n):
         """Centre of the first feature (m) at entry n."""
         return float(self.series["feature_x"][n])
 
-    def fields(self, n, names=tuple(FIELDS)):
-        """{name: (nx+1, ny+1) array} of entry n."""
-        return {name: self._values(name, n) for name in names}
+    def fields(self, n, names=None):
+        """{name: (nx+1, ny+1) array} of entry n, by default of every field that is stored."""
+        return {name: self._values(name, n) for name in (self.stored if names is None else names)}
 
     def _values(self, name, n):
         """One chunk, read as it was written: a tenth of the time of the general way, which a fatigue search feels."""
@@ -272,7 +230,7 @@ class Store:
         n = self.steps
         for name, dtype in self.stored.items():
             _write_file(self.path / name, self._key(name, n), snapshot.fields[name], "<" + dtype)
-        values = {**snapshot.scalars, "feature_x": snapshot.feature_x, "step": snapshot.step, "time": snapshot.time}
+        values = {**snapshot.scalars, **{name: getattr(snapshot, name) for name in OWN}}
         for name, series in self.series.items():
             series[n] = values[name]
             _write_file(self.path / name, ["c", "0"], series, "<" + series.dtype.str[1:])
@@ -396,16 +354,11 @@ def _coordinates(group, snapshot):
 
 
 def _series(group, capacity, scene, snapshot):
-    nx, ny = snapshot.x.size, snapshot.y.size
-    for name, (dtype, units, text) in fields_of(scene).items():
-        fill = 0 if dtype == "u1" else float("nan")
-        _array(group, name, (capacity, nx, ny), (1, nx, ny), dtype, ["time", "x", "y"], units, text, fill)
-    if "temperature" in snapshot.fields:
-        shape, (dtype, units, text) = snapshot.fields["temperature"].shape, PROFILE
-        _array(group, "temperature", (capacity, *shape), (1, *shape), dtype, ["time", "x", "y", "zeta"], units, text,
-               float("nan"))
-    for name, (units, text) in scalars_of(scene).items():
-        folded = {"cell_methods": f"time: {OVER[name]}"} if scene.output.every > 1 else {}
-        _array(group, name, (capacity,), (capacity,), "f8", ["time"], units, text, float("nan"), **folded)
-    _array(group, "step", (capacity,), (capacity,), "i8", ["time"], "1", "step number", -1)
-    _array(group, "time", (capacity,), (capacity,), "f8", ["time"], "s", "time since the steady start", float("nan"))
+    """Arrays of every output of the scene, and of the snapshot's own."""
+    for name, field in fields_of(scene).items():
+        shape, fill = snapshot.fields[name].shape, 0 if field.dtype == "u1" else float("nan")
+        _array(group, name, (capacity, *shape), (1, *shape), field.dtype, ["time", *field.dims], field.unit, field.says, fill)
+    numbers = {name: ("f8", scalar.unit, scalar.says, float("nan"), scalar.over) for name, scalar in scalars_of(scene).items()}
+    for name, (dtype, units, text, fill, over) in {**numbers, **OWN}.items():
+        folded = {"cell_methods": f"time: {over}"} if over and scene.output.every > 1 else {}
+        _array(group, name, (capacity,), (capacity,), dtype, ["time"], units, text, fill, **folded)

@@ -15,6 +15,7 @@ from tehl_taichi.march import readings, snapshot
 from tehl_taichi.march.error_bars import bars
 from tehl_taichi.march.guess import Guess, extrapolated
 from tehl_taichi.march.snapshot import Snapshot
+from tehl_taichi.march.solved import Solved
 from tehl_taichi.march.steady import solve_steady
 from tehl_taichi.physics.gap import feature_height
 from tehl_taichi.pressure import fields
@@ -52,13 +53,15 @@ def _steady_snapshot(scene, scales):
     started = time.perf_counter()
 
     def look(solver, heat, report):
-        return readings.steady(snapshot.take(solver, heat, 0, 0.0, math.nan, report, started, None))
+        solved = Solved(solver, heat, report, started)
+        return readings.steady(snapshot.take(solved, 0, 0.0, math.nan, None)) if report.converged else None
 
     result = solve_steady(scene, scales, scene.grid.nx, 0 if scales.line else scene.grid.ny, look)
     if not result.report.converged:
         raise NotConverged(_reason(result.solver, result.heat, result.report, "the steady start"))
     state = snapshot.state_of(result.solver, result.heat, 0)
-    first = snapshot.take(result.solver, result.heat, 0, 0.0, math.nan, result.report, started, lambda: state)
+    solved = Solved(result.solver, result.heat, result.report, started)
+    first = snapshot.take(solved, 0, 0.0, math.nan, lambda: state)
     first.scalars["cycles"] = float(result.work)
     first.grids, (first.error, first.unknown) = result.values, bars(result.values)
     return _spread(first, scene, scales), result.solver
@@ -233,10 +236,9 @@ class Passage:
 
     def _describe(self, report, started):
         time_s = self.step * self.dT * self.scales.t
-        shot = snapshot.take(self.solver, self.heat, self.step, time_s, self.position(self.step) * self.scales.a, report,
-                             started, functools.partial(self._state, self.step))
-        shot.scalars.update(rejected=float(self.rejected), dt_s=self.dT * self.scales.t)
-        return shot
+        solved = Solved(self.solver, self.heat, report, started, self.rejected, self.dT * self.scales.t)
+        return snapshot.take(solved, self.step, time_s, self.position(self.step) * self.scales.a,
+                             functools.partial(self._state, self.step))
 
     def _state(self, step):
         if step != self.step:
