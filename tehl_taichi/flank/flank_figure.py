@@ -60,18 +60,19 @@ def _series(flank, what):
 
 
 def _marks(axes, flank):
-    """A to E, and the dedendum shaded."""
-    left = min(at.x_pl for at in flank.positions) * 1e3
+    """A to E as far as they are shown, and the dedendum shaded."""
+    low, high = axes[0].get_xlim()
     points = flank.points or {at.point: at.x_pl for at in flank.positions if at.point}
+    shown = {name: x * 1e3 for name, x in points.items() if low <= x * 1e3 <= high}
     for ax in axes:
-        low, high = ax.get_xlim()
-        if left < 0:
-            ax.axvspan(low, 0, color=DEDENDUM, zorder=-2)
+        if low < 0:
+            ax.axvspan(low, min(0.0, high), color=DEDENDUM, zorder=-2)
+        for x in shown.values():
+            ax.axvline(x, color="0.6", lw=0.8, ls=":", zorder=-1)
         ax.set_xlim(low, high)
-        for x in points.values():
-            ax.axvline(x * 1e3, color="0.6", lw=0.8, ls=":", zorder=-1)
-    for name, x in points.items():
-        axes[0].annotate(name, (x * 1e3, 1), xycoords=("data", "axes fraction"), xytext=(2, -11), textcoords="offset points",
-                         fontsize=9, color="0.3")
-    axes[-1].annotate("dedendum ", (0, 0), xycoords=("data", "axes fraction"), ha="right", va="bottom", fontsize=8, color="0.4")
-    axes[-1].annotate(" addendum", (0, 0), xycoords=("data", "axes fraction"), ha="left", va="bottom", fontsize=8, color="0.4")
+    small = dict(fontsize=8, color="0.4", xycoords=("data", "axes fraction"), textcoords="offset points")
+    for name, x in shown.items():
+        axes[0].annotate(name, (x, 1), xytext=(3, -11), **small)
+    if low < 0 < high:
+        axes[-1].annotate("dedendum", (0, 0), xytext=(-4, 3), ha="right", **small)
+        axes[-1].annotate("addendum", (0, 0), xytext=(4, 3), **small)

@@ -93,6 +93,7 @@ class Flank:
         """flank.json and flank.csv into the folder; returns their paths."""
         from tehl_taichi.io.json_values import plain
 
+        self.folder.mkdir(parents=True, exist_ok=True)  # where no position converged there are no stores
         paths = self.folder / "flank.json", self.folder / "flank.csv"
         paths[0].write_text(json.dumps(plain(self.to_dict()), indent=1, allow_nan=False))
         columns.write_csv(paths[1], self.rows)
@@ -125,9 +126,9 @@ def flank(gear="fzg-c", *, torque=None, speed=None, on=None, positions=None, at=
     tehl_taichi.errors.SceneError: gear.torque = 0 N m is out of range; allowed: more than 0 N m and at most 1e+08 N m
     """
     found = described(gear).changed(torque, speed)
-    base = (scene or found.scene).replace(**(changes or {}))
+    changes = {**(changes or {}), **({"time.steady_only": True} if steady else {})}
     places = found.positions(on, positions, at)
-    scenes = [scene_at(base, found.name, n, place, steady) for n, place in enumerate(places, 1)]
+    scenes = [scene_at(scene or found.scene, changes, found.name, n, place) for n, place in enumerate(places, 1)]
     folder = Path(folder) if folder else fresh(found.name)
     outcomes = summaries(scenes, folder, threads, progress)
     whole = Flank(found.name, folder, (on or "pinion") if found.pair else "", found, places, scenes, outcomes)
