@@ -104,7 +104,7 @@ def accuracy(
     Examples: `tehl bench accuracy --quick` · `tehl bench accuracy --only coverage --threads 1`
     """
     from tehl_taichi.engine import runtime
-    from tehl_taichi.scene.checks import choice
+    from tehl_taichi.values.checks import choice
 
     choice("--only", only, (None, "errors", "coverage"))
     runtime.start(threads=threads)

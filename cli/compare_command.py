@@ -24,8 +24,8 @@ def compare(
 
     Example: `tehl compare runs/gear-1.zarr runs/gear-2.zarr`
     """
-    from tehl_taichi.scene.checks import integer, number
     from tehl_taichi.study.compare import compare as side_by_side
+    from tehl_taichi.values.checks import integer, number
 
     integer("--dpi", dpi, 40, 1200)
     number("--at", at, "a", -20.0, 20.0)

@@ -1,4 +1,4 @@
-"""Commands that look: scenes, oils, new, show, plot, doctor."""
+"""Commands that look: scenes, oils, laws, new, show, plot, doctor."""
 
 from pathlib import Path
 
@@ -9,27 +9,42 @@ from tehl_cli.out import folder_for
 
 def register(app):
     """Add the commands to the app."""
-    for command in (scenes, oils, new, show, plot, doctor):
+    for command in (scenes, oils, laws, new, show, plot, doctor):
         app.command()(command)
 
 
 def scenes():
-    """List the built-in scenes."""
+    """List the built-in scenes, and the shapes of features."""
     from tehl_cli.listing import list_table
 
     from tehl_taichi.scene import BUILT_INS
+    from tehl_taichi.scene.feature import SHAPES, USED_BY
 
     list_table("built-in scenes (tehl run NAME)", ("name", "what"), [(name, text) for name, (_, text) in BUILT_INS.items()])
+    list_table("shapes of features (--set feature.shape=NAME)", ("name", "what", "keys", "source"),
+               [(shape.name, shape.says, ", ".join(key for key, users in USED_BY.items() if shape.name in users), shape.source)
+                for shape in SHAPES.values()])
 
 
 def oils():
     """List the named oils with their sources."""
     from tehl_cli.listing import list_table
 
-    from tehl_taichi.scene.oil import OILS
+    from tehl_taichi.scene.named_oils import NAMED
 
-    list_table("named oils (--set oil.name=NAME)", ("name", "viscosity law", "source"),
-               [(oil.name, oil.viscosity, oil.source) for oil in OILS.values()])
+    list_table("named oils (--set oil.name=NAME)", ("name", "what", "viscosity law", "source"),
+               [(entry.name, entry.says, entry.oil.viscosity, entry.source) for entry in NAMED.values()])
+
+
+def laws():
+    """List the laws of the oil and of friction, with their numbers and sources."""
+    from tehl_cli.listing import list_table
+
+    from tehl_taichi.physics.choices import ALONE, CHOICES
+
+    for key, registry in {**CHOICES, "": ALONE}.items():
+        list_table(f"--set {key}=NAME" if key else "not to be chosen", ("name", "law", "numbers", "source"),
+                   [(law.name, law.says, ", ".join(law.numbers), law.source) for law in registry.values()])
 
 
 def new(
@@ -81,7 +96,7 @@ def plot(store: Path = typer.Argument(..., help="store of a run"),
     """PNG figures: centreline pressure and film, maps, fatigue. Example: `tehl plot runs/gear-1.zarr --dpi 300`"""
     from tehl_taichi.io import figures
     from tehl_taichi.io.store import Store
-    from tehl_taichi.scene.checks import integer
+    from tehl_taichi.values.checks import integer
 
     integer("--dpi", dpi, 40, 1200)
     saved = Store.open(store)

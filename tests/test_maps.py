@@ -12,7 +12,8 @@ import pytest
 from tehl_taichi.io import scene_file
 from tehl_taichi.scene import SceneError, scene
 from tehl_taichi.scene.feature import Feature
-from tehl_taichi.scene.map_judge import doubts, preview
+from tehl_taichi.scene.judge import doubtful_features as doubts
+from tehl_taichi.scene.judge import preview
 
 TOML = 'base = "gear"\n[[feature]]\nshape = "map"\nfile = "scan.npy"\nunit = "um"\npixel = 1e-6\n'
 SMALL = {"grid.nx": 64, "grid.ny": 16, "thermal.on": False}
@@ -46,14 +47,12 @@ def test_the_same_surface_in_another_unit_is_the_same_surface(tmp_path):
 
 
 def test_a_map_gives_the_feature_it_was_sampled_from(tmp_path):
-    from tehl_taichi.physics.gap import feature_height
-
     bump = Feature(height=2e-6, width=100e-6)
     x = np.arange(-60, 61) * 1e-6
-    np.save(tmp_path / "bump.npy", feature_height(bump, x[None, :], x[:, None]) * 1e6)
+    np.save(tmp_path / "bump.npy", bump.height_at(x[None, :], x[:, None]) * 1e6)
     map_ = feature(tmp_path / "bump.npy", level="none", taper=2e-6)
     X, Y = np.meshgrid(np.linspace(-80e-6, 80e-6, 77), np.linspace(-80e-6, 80e-6, 53))
-    np.testing.assert_allclose(feature_height(map_, X, Y), feature_height(bump, X, Y), atol=2e-9)
+    np.testing.assert_allclose(map_.height_at(X, Y), bump.height_at(X, Y), atol=2e-9)
     assert map_.reach == pytest.approx(60e-6) and map_.top == pytest.approx(2e-6) and not map_.symmetric
 
 

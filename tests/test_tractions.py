@@ -156,7 +156,7 @@ def warm_film(srr, upside_down=False):
     P, h = np.maximum(0.25 - 0.08 * (X + 0.3) ** 2 - 0.06 * Y**2, 0.0), 0.3e-6 * (1 + 0.2 * X**2 + 0.1 * Y**2)
     touch = ((np.abs(X) < 0.1) & (Y < 0.3)) | ((P > 0) & (P < 0.01))
     heat = FilmHeat(levels, 1e-6)
-    z = heat.zeta[:, None, None]
+    z = heat.across.zeta[:, None, None]
     T = 90 + 60 * z**2 + 10 * z * (1 - z) * X
     for row, values in ((fields.P, P), (fields.H, h / s.h), (fields.TOUCH, touch.astype(float))):
         levels.put(row, values)

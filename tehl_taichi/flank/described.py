@@ -9,10 +9,10 @@ from tehl_taichi.errors import SceneError
 from tehl_taichi.flank import load_table, positions
 from tehl_taichi.flank.mesh import Mesh
 from tehl_taichi.scene import scene
-from tehl_taichi.scene.checks import build, file_name, nearest
 from tehl_taichi.scene.gear_pair import PAIRS, GearPair, gear_pair
-from tehl_taichi.scene.plain import shown
 from tehl_taichi.scene.whole import Scene
+from tehl_taichi.values.checks import build, file_name, nearest
+from tehl_taichi.values.plain import shown
 
 KEYS = ("name", "base", "gear", "table", "scene")
 SCENE = "gear"  # built-in scene that gives oil, bodies, feature and numerics where none is named

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.flank.positions import Position
-from tehl_taichi.scene.checks import nearest, number
+from tehl_taichi.values.checks import nearest, number
 
 # column: (factor to SI, unit, smallest and largest value allowed)
 NEEDED = {"x_pl_mm": (1e-3, "mm", -1e3, 1e3), "load_N_per_mm": (1e3, "N/mm", 1e-3, 1e7), "R_a_mm": (1e-3, "mm", 1e-3, 1e6),

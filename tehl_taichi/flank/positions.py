@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene.checks import integer, nearest, number
+from tehl_taichi.values.checks import integer, nearest, number
 
 ONS = ("pinion", "gear")
 JUMPED = 1e-12  # m: nearer than this, a position asked for is at a jump of the load

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from tehl_taichi.io import intact, scene_file
 from tehl_taichi.scene import BUILT_INS, Scene, SceneError, scene
-from tehl_taichi.scene.plain import shown
+from tehl_taichi.values.plain import shown
 
 
 def find(name):

@@ -6,12 +6,12 @@ import tomllib
 from pathlib import Path
 
 from tehl_taichi.scene import Scene, SceneError, scene
-from tehl_taichi.scene.checks import text
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.parts import Body
-from tehl_taichi.scene.quantity import kinds
 from tehl_taichi.scene.whole import SECTIONS
+from tehl_taichi.values.checks import text
+from tehl_taichi.values.quantity import kinds
 
 HEADER = "# A tehl_taichi scene. SI units (m, s, N, Pa, kg), temperatures in deg C; [grid] and [time] in half-widths."
 CARRIES = {"bodies.a": "Surface a carries the feature. ", "bodies.b": "The other surface. "}
@@ -101,7 +101,7 @@ def dumps(description):
 
 
 def _table(head, values, kind, first=""):
-    """The lines of a section, commented from its declarations (see tehl_taichi.scene.quantity)."""
+    """The lines of a section, commented from its declarations (see tehl_taichi.values.quantity)."""
     lines, comments = [head], [first + (kind.__doc__ or "").partition("\n")[0]]
     for key, declared in kinds(kind).items():
         lines.append(f"{key} = {_value(values[key])}")

@@ -1,7 +1,6 @@
 """What the solver holds after a step, as the entries of `march/outputs/` see it: each value is taken from its table once."""
 
 import functools
-import math
 import time
 from dataclasses import dataclass
 from typing import Optional
@@ -84,9 +83,8 @@ class Solved:
     @functools.cached_property
     def stress(self):
         """Shear (4, ny+1, nx+1) in Pa on body a along x, y and on body b along x, y."""
-        v, s = self.solver.levels, self.scales
-        out = v.fill(tractions.tractions, (4, v.ny + 1, v.nx + 1), self.scene.rheology, s.p_H, s.h, s.a, math.exp(v.ln_eta0),
-                     -self.scene.operation.u_s, v.dx, v.dy)
+        v = self.solver.levels
+        out = v.fill(tractions.tractions, (4, v.ny + 1, v.nx + 1), self.scene.rheology, v.conditions.values)
         if self.heat:
             wall, film = self.heat.shear(), (self.P > 0) & (self.touch == 0)
             out = np.where(film, wall * np.array([1, 1, -1, -1])[:, None, None], out)

@@ -13,6 +13,7 @@ from tehl_taichi.march.settle import settle, time_step
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.pressure.newton import PressureSolver, Report
+from tehl_taichi.pressure.one_temperature import OneTemperature
 
 FIRST_CELLS = 64  # along x of the first grid: fine enough for a film from Hertz, cheap enough not to matter
 LEAST_CELLS = 32  # of the first grid where that makes one grid more, for the error of coarse runs
@@ -55,14 +56,15 @@ def solve_steady(scene, scales, nx, ny, look=None):
     look = look or (lambda solver, heat, report: scalars(solver))
     P, H0, T, values, work = None, 0.0, None, [], 0
     for size in grid_sequence(nx, ny):
-        solver = heat = None  # give their tables to the next grid
-        solver = PressureSolver(Levels(scene, scales, *size))
+        solver = heat = levels = None  # give their tables to the next grid
+        levels = Levels(scene, scales, *size)
+        solver = PressureSolver(levels, OneTemperature(levels))
         solver.levels.put(fields.GAP0, solver.levels.smooth_gap())
         report = _first(solver) if P is None else _next(solver, P, H0)
         if report.converged and not scene.isothermal and nx // size[0] <= FINEST_THERMAL:
-            heat = FilmHeat(solver.levels, time_step(scene, scales, solver.levels.dx))
-            solver.levels.use_film(*heat.laws)
-            report = settle(solver.levels, heat, lambda solver=solver: _again(solver), T)
+            heat = FilmHeat(levels, time_step(scene, scales, levels.dx))
+            solver.take(heat)  # density and viscosity follow the temperatures now
+            report = settle(levels, heat, lambda solver=solver: _again(solver), T)
             T = np.stack([refine(layer) for layer in heat.T])
         # a grid too coarse for the outlet of this film is no start for the next one, nor a step of its error
         P, H0 = (solver.levels.get(fields.P), solver.H0) if report.converged else (None, 0.0)

@@ -1,14 +1,12 @@
 """The grids of one contact problem and their state table."""
 
-import math
-
 import numpy as np
 
 from tehl_taichi.engine import lanes, runtime, tables
 from tehl_taichi.engine.launches import Carriers, bind
 from tehl_taichi.physics.gap import undeformed
-from tehl_taichi.physics.viscosity import ln_eta
-from tehl_taichi.pressure import balances, fields, influence, laws, precision, reynolds, transfer
+from tehl_taichi.pressure import balances, fields, influence, precision, reynolds
+from tehl_taichi.pressure.conditions import conditions
 from tehl_taichi.pressure.deflection import Deflection
 
 COARSEST_2D = 16  # cells along x below which no coarser grid is made
@@ -46,11 +44,12 @@ class Levels:
         self.fine = self.sizes[0][1] // lanes.W + 1  # blocks of the finest grid
         self.G = self._level_table()
         self.n = columns(nx, ny) * lanes.W
-        self.thins = scene.shear_law.law != "newtonian"
+        self.thins = scene.shear_law.thins
         rows = (fields.NROWS_SHEARED if self.thins else fields.NROWS) if scene.isothermal else fields.NROWS_THERMAL
         size = max(table_columns(nx, ny), _final_columns(scene))
         self.S = tables.lease(self, rows, lanes.W, size)
         self.J = tables.lease(self, fields.NROWS_LINEAR, lanes.W, size, precision=self.precision)
+        self.conditions = conditions(scene, scales, self.X)
         self.deflection, self._carriers = self.deflection_of(0), Carriers()
         self._set_laws()
         self._bind()
@@ -102,31 +101,17 @@ class Levels:
         return (*self.grid(l), self.scales.compliance, self.line, self.mirrored)
 
     def _set_laws(self):
-        scene, s = self.scene, self.scales
-        self.Gamma = scene.operation.temperature
-        self.ln_eta0 = float(ln_eta(scene.oil, 0.0, self.Gamma))
-        lam = 12 * math.exp(self.ln_eta0) * s.u_m * s.R**2 / (s.a**3 * s.p_H)
-        self.inv_lambda, self.shear = 1 / lam, -scene.operation.u_s * math.exp(self.ln_eta0) / s.h
+        s, now = self.scales, self.conditions
+        self.inv_lambda = 1 / (12 * now["eta0"] * s.u_m * s.R**2 / (s.a**3 * s.p_H))
+        self.shear = -now["u_s"] * now["eta0"] / s.h
         self.slow_down(1.0)
         self.slip(1.0)
 
     def _bind(self):
-        """Launches of the kernels that this table is used with, on the finest level and on the coarser ones."""
-        law = (self.S, self.G, self.scene.oil, self.scene.shear_law, self.scales.p_H, self.Gamma, self.ln_eta0)
-        self.laws, self._slopes = (self.launch(laws.laws, *law, with_slopes, work=HEAVY) for with_slopes in (0, 1))
-        follow, thinning = ((*fields.LAWS, fields.DLH), fields.DLH) if self.thins else (fields.LAWS, -1)
-        self._bind_rows(follow, fields.RHO, fields.QP, thinning)
+        """Launches of the kernels that this table is used with."""
         d = self.deflection
         self._pressure_rows = self.launch(reynolds.pressure_rows, self.S, self.G, d.pressure.ravel(), d.pressure.shape[1])
         self._set_film = self.launch(reynolds.set_film, self.S, self.G, d.film.ravel(), d.edge, d.film.shape[1])
-
-    def _bind_rows(self, follow, couette, slope, thinning):
-        """Launches of what makes equations of the laws; follow: their rows, the others: see :func:`reynolds.linearise`."""
-        self.evaluate_residual = self.launch(reynolds.residual, self.S, self.G, couette)
-        self.inject = bind(transfer.inject, self.S, self.J, self.G, len(self.sizes), fields.STATE + follow)
-        self._rows, self._rows_coarse = (
-            self.launch(reynolds.linearise, self.S, self.J, self.G, self.blocks, *cut, couette, slope, thinning, work=HEAVY)
-            for cut in ((0, self.fine), (self.fine, len(self.blocks))))
 
     def slow_down(self, factor):
         """Take the speed of the film's balance to be that of the scene over `factor`."""
@@ -135,13 +120,6 @@ class Levels:
     def slip(self, part):
         """Take the slip that the shear law acts by to be this part of that of the scene; 0: a Newtonian film."""
         self.G[:, fields.SHEAR] = part * self.shear
-
-    def use_film(self, values, slopes):
-        """Take the laws from a film with temperatures."""
-        self.laws, self._slopes = values, slopes
-        self._bind_rows(fields.LAWS + fields.FILM_LAWS, fields.RHOC, fields.QCP, fields.DLH)
-        for l, (nx, ny) in enumerate(self.sizes):
-            self.put(fields.RHOC, np.ones((ny + 1, nx + 1)), l)
 
     def _set_masks(self):
         inside = np.zeros((self.ny + 1, self.nx + 1))
@@ -159,7 +137,8 @@ class Levels:
         """Everything dry with a film of 1 and the diagonal 1, so that ghosts and borders stay finite."""
         nx, ny = self.sizes[l]
         ones = np.ones((ny + 1, nx + 1))
-        for row in (fields.DRY, fields.H, fields.GAP, fields.RHO, fields.D):
+        carried = () if self.scene.isothermal else (fields.RHOC,)
+        for row in (fields.DRY, fields.H, fields.GAP, fields.RHO, fields.D, *carried):
             self.put(row, ones, l)
 
     def _clear_ghosts(self, *rows):
@@ -167,16 +146,6 @@ class Levels:
         first, last = lanes.W * (self.fine - 1), self.ny
         for row in rows:
             lanes.clear_ghosts(self.S, self.G, row, last - first)
-
-    def linearise(self):
-        """Slopes of the laws, Jacobian rows and the diagonal of the finest level."""
-        self._slopes()
-        self._rows()
-
-    def linearise_coarse(self):
-        """The same on the coarser levels that solve, about the injected state and with its laws."""
-        self.inject()
-        self._rows_coarse()
 
     def get(self, row, l=0):
         """Field `row` of level l as a new array (ny+1, nx+1)."""

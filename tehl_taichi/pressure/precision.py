@@ -1,5 +1,6 @@
 """Which precision of the linear solves suits a scene."""
 
+from tehl_taichi.scene.film_formula import central_film
 from tehl_taichi.scene.parts import AUTO
 from tehl_taichi.scene.scales import Scales
 
@@ -17,6 +18,4 @@ def of(scene):
 
 def suited(scene):
     """"f32" for thick films, else "f64"; the state and its residual are in double precision either way."""
-    from tehl_taichi.physics.film_formula import central_film  # imports taichi
-
     return "f32" if central_film(scene) > THICK * Scales.of(scene).h else "f64"

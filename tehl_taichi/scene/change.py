@@ -4,10 +4,10 @@ import dataclasses
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene import given
-from tehl_taichi.scene import oil as oils
-from tehl_taichi.scene.checks import key_shown, nearest
+from tehl_taichi.scene import named_oils as oils
 from tehl_taichi.scene.feature import SHAPES, USED_BY
 from tehl_taichi.scene.route import ALL
+from tehl_taichi.values.checks import key_shown, nearest
 
 
 def applied(data, changes):
@@ -26,9 +26,8 @@ def check_effect(scene, changes):
         if key in SPEEDS and scene.contact.moes_M > 0:
             raise SceneError(f"{given.words(key, changes[key])} has no effect: contact.moes_L = {scene.contact.moes_L:g} sets "
                              f"the mean speed, {scene.operation.u_m:.4g} m/s")
-        if section == "oil" and name in oils.OF_LAWS - _looked_at(scene):
-            raise SceneError(f"{key} has no effect: the viscosity law of this oil ({scene.oil.viscosity}) takes "
-                             f"{', '.join(scene.oil.law_numbers)}")
+        if section == "oil" and name in scene.oil.unused - set(MOES if scene.contact.moes_M > 0 else ()):
+            raise SceneError(f"{key} has no effect: the laws of this oil ({_laws_of(scene.oil)}) do not take it")
         if section == "feature" and name:
             number, _, name = name.partition(".")
             shape = scene.features[int(number)].shape
@@ -39,9 +38,12 @@ def check_effect(scene, changes):
 SPEEDS = ("operation.u_m", *given.BY_SURFACE)
 
 
-def _looked_at(scene):
-    """Numbers of the oil that its viscosity law or a Moes pair uses."""
-    return {*scene.oil.law_numbers, *(("eta0", "alpha") if scene.contact.moes_M > 0 else ())}
+MOES = ("eta0", "alpha")  # numbers of the oil that a Moes pair uses
+
+
+def _laws_of(oil):
+    """The laws that it chose, with their numbers."""
+    return "; ".join(f"{law.name}: {', '.join(law.numbers)}" for law in oil.laws[:2])
 
 
 def _clear(data, changes):

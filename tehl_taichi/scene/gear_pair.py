@@ -4,8 +4,8 @@ import math
 from dataclasses import dataclass
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene.checks import nearest
-from tehl_taichi.scene.quantity import check, count, pairs, quantity
+from tehl_taichi.values.checks import nearest
+from tehl_taichi.values.quantity import check, count, pairs, quantity
 
 LOOSE, TIGHT = 0.1, 0.001  # m_n by which a given centre distance may exceed that of the shifts (backlash), or fall short of it
 

@@ -5,7 +5,10 @@ from dataclasses import dataclass
 from typing import Union
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene.quantity import AUTO, check, choice, count, quantities, quantity, switch, text
+from tehl_taichi.physics import rheology
+from tehl_taichi.physics.boundary import BOUNDARY
+from tehl_taichi.physics.law import declared, section
+from tehl_taichi.values.quantity import AUTO, check, choice, count, quantities, quantity, switch, text
 
 
 @dataclass(frozen=True)
@@ -24,7 +27,7 @@ class Contact:
     moes_L: float = quantity(0.0, "", "Moes' lubricant number, with moes_M; 0: not given", 0.0, 1e3)
 
     def __post_init__(self):
-        check(self, "contact", load="N/m" if self.kind == "line" else "N")
+        check(self, "contact", load="N/m" if isinstance(self.kind, str) and self.kind == "line" else "N")
         self._check_combination()
 
     def _check_combination(self):
@@ -92,26 +95,26 @@ class Operation:
         return self.u_m * (1 - self.srr / 2)
 
 
+_RHEOLOGY = section("_RHEOLOGY", law=choice("limiting", "shear law of the film (`tehl laws`)", tuple(rheology.LAWS)),
+                    **declared({**rheology.LAWS, BOUNDARY.name: BOUNDARY}))
+
+
 @dataclass(frozen=True)
-class Rheology:
+class Rheology(_RHEOLOGY):
     """Shear law of the film and friction of solid contact.
 
-    The law acts wherever the surfaces slip, in flow, friction and heat, with and without temperatures; "newtonian" is the film
-    that isothermal film formulas and most published films are of (its friction under pressure is not that of any oil).
-    film_floor: Everitt 2018.
+    The law acts wherever the surfaces slip, in flow, friction and heat, with and without temperatures; a law that does not thin
+    is the film that isothermal film formulas and most published films are of (its friction under pressure is not that of any
+    oil). The laws and their numbers stand in tehl_taichi/physics/shear.
     """
-
-    law: str = choice("limiting", "shear law of the film; limiting: smooth towards tau_L = tau_L0 + gamma p",
-                      ("limiting", "newtonian", "eyring", "carreau"))
-    tau_L0: float = quantity(10e6, "Pa", "limiting: limiting shear stress at p = 0", 1e3, 1e9)
-    gamma: float = quantity(0.075, "", "limiting: its rise with pressure", 0.0, 1.0)
-    tau_0: float = quantity(10e6, "Pa", "eyring, carreau: stress where the oil begins to thin", 1e3, 1e10)
-    carreau_n: float = quantity(0.8, "", "carreau: exponent (1: newtonian)", 0.1, 1.0)
-    mu_boundary: float = quantity(0.3, "", "friction coefficient where the surfaces touch", 0.0, 2.0)
-    film_floor: float = quantity(5e-6, "a^2/R'", "film at which the surfaces touch", 1e-9, 0.1)
 
     def __post_init__(self):
         check(self, "rheology")
+
+    @property
+    def thins(self):
+        """Whether shear takes something of the viscosity."""
+        return rheology.LAWS[self.law].thins
 
 
 @dataclass(frozen=True)

@@ -5,14 +5,14 @@ import math
 from dataclasses import dataclass, field
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene import change, given, judge, oil_range, passing, scales
-from tehl_taichi.scene import oil as oils
-from tehl_taichi.scene.checks import build, file_name, nearest, number
+from tehl_taichi.physics.shear.newtonian import NEWTONIAN
+from tehl_taichi.scene import change, given, judge, named_oils, oil_range, passing, scales
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.parts import AUTO, Body, Contact, Fatigue, Grid, Numerics, Operation, Output, Rheology, Thermal, Time
-from tehl_taichi.scene.plain import plain, shown
 from tehl_taichi.scene.route import LATEST, cut_at
+from tehl_taichi.values.checks import build, file_name, nearest, number
+from tehl_taichi.values.plain import plain, shown
 
 SECTIONS = {"contact": Contact, "operation": Operation, "rheology": Rheology, "thermal": Thermal, "fatigue": Fatigue,
             "grid": Grid, "time": Time, "numerics": Numerics, "output": Output}
@@ -166,7 +166,7 @@ class Scene:
     @property
     def shear_law(self):
         """The rheology that the flow of a film with one temperature obeys: Newtonian where no surface slips."""
-        return self.rheology if self.operation.u_s != 0 else dataclasses.replace(self.rheology, law="newtonian")
+        return self.rheology if self.operation.u_s != 0 else dataclasses.replace(self.rheology, law=NEWTONIAN.name)
 
     @property
     def thermal_stress_wanted(self):
@@ -180,7 +180,7 @@ class Scene:
         if self.isothermal:
             why = "isothermal film" if self.thermal.on is False else "no slip" if self.operation.srr == 0 else "a Moes pair"
             out.append(f"energy equation and temperatures ({why}; --thermal has them)")
-        if self.isothermal and self.oil.expansion == "thermal" and self.oil.beta0 > 0:
+        if self.isothermal and self.oil.expansion == "thermal" and self.oil.expands:
             out.append("thermal expansion of the oil (isothermal film; oil.expansion = 'always' keeps it)")
         if self.one_dimensional:
             out.append("y direction (nothing varies across this line contact)")
@@ -194,8 +194,8 @@ class Scene:
             out.append("stresses and fatigue (" + ("switched off" if not self.fatigue.on else "no passage") + ")")
         if self.operation.u_s == 0:
             out.append("sliding friction and the shear law of the film (SRR = 0)")
-        elif self.rheology.law == "newtonian":
-            out.append("shear law of the film (rheology.law = 'newtonian')")
+        elif not self.rheology.thins:
+            out.append(f"shear law of the film (rheology.law = {self.rheology.law!r})")
         return out
 
     def warnings(self):
@@ -240,7 +240,7 @@ class Scene:
             parts["operation"] = build(Operation, _speeds(data["operation"]), "operation")
         parts.update(_bodies(data.get("bodies", {})))
         if "oil" in data:
-            parts["oil"] = oils.from_values(data["oil"])
+            parts["oil"] = named_oils.from_values(data["oil"])
         if "feature" in data:
             parts["features"] = _features(data["feature"])
         return cls(name=data.get("name", "gear"), **parts)

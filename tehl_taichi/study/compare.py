@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tehl_taichi.errors import SceneError, StoreError
-from tehl_taichi.scene.plain import plain
+from tehl_taichi.values.plain import plain
 
 MOST = 8  # stores: more lines than that nobody tells apart
 OWN = ("store", "version", "scene", "left_out", "warnings", "unknown")  # of a summary: words, or what every run has of its own

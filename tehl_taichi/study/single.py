@@ -52,7 +52,7 @@ def resume(path: str | PathLike, *, steps: int | None = None, threads: int | Non
     """
     began = time.perf_counter()
     from tehl_taichi.engine import runtime
-    from tehl_taichi.scene.checks import integer
+    from tehl_taichi.values.checks import integer
 
     if steps is not None:
         integer("steps", steps, 1, 10**7)
@@ -98,7 +98,7 @@ def _begin(scene, place, clock, progress):
 
 
 def _announce(scene, progress):
-    from tehl_taichi.scene.map_judge import preview
+    from tehl_taichi.scene.judge import preview
 
     for said in (*(f"left out: {what}" for what in scene.left_out()), *preview(scene)):
         progress.say(said)

@@ -6,7 +6,7 @@ import difflib
 import math
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene.plain import plain, shown
+from tehl_taichi.values.plain import plain, shown
 
 HUGE = 10**300  # whole numbers beyond it are no floats
 

@@ -1,0 +1,28 @@
+"""The registry of named oils."""
+
+import pytest
+from test_registry import hold
+
+from tehl_taichi.scene import SceneError, scene
+from tehl_taichi.scene.named_oils import NAMED, OILS, from_values
+from tehl_taichi.scene.oil import Oil
+
+
+@pytest.mark.parametrize("name", NAMED)
+def test_every_named_oil_holds(name):
+    hold(NAMED[name])
+    oil = OILS[name]
+    assert oil.name == name and oil.source == NAMED[name].source
+    assert scene("gear").replace(**{"oil.name": name}).oil == from_values({"name": name}) == oil
+    assert NAMED[name].numbers.keys() <= {*oil.law_numbers, "viscosity", "D1", "D2", "beta0", "expansion"}
+
+
+def test_the_reference_oil_is_that_of_scenes():
+    assert OILS["reference-pao"] == Oil()
+    by_hand = 10**-1.7867  # 4.57 (5/3)^-1.25 - 4.2
+    assert NAMED["reference-pao"].viscosity(0.0, 90.0) == pytest.approx(by_hand, rel=1e-4)
+
+
+def test_an_unknown_name_is_refused_with_those_that_are_known():
+    with pytest.raises(SceneError, match=", ".join(NAMED)):
+        scene("gear").replace(**{"oil.name": "nujol"})
