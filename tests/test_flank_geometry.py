@@ -149,7 +149,8 @@ def test_helical_gears_by_the_transverse_section():
     ({"a_w": 0.093, "x1": 0.1817, "x2": 0.1715}, "contradict each other: without backlash they give 0.0915"),
     ({"x1": -2.0, "x2": -2.0}, "gear.x1 . x2 = -4 leaves no centre distance"),
     ({"beta": 20.0, "load_share": ((-1, 1), (1, 1))}, "gear.load_share is of spur gears"),
-    ({"load_share": ((1, 0.5), (-1, 0.5))}, "with rising way"),
+    ({"load_share": ((1, 0.5), (-1, 0.5))}, "gear.load_share has 2 pairs; allowed: 2 to 1000 pairs, .*rising, or the same twice"),
+    ({"load_share": ((-1, 0.5), (0, 0.5), (0, 0.6), (0, 0.7))}, "gear.load_share has 4 pairs"),
     ({"load_share": ((-1, 0.5), (1, 1.5))}, "a share of 1.5 is out of range; allowed: more than 0 and at most 1"),
 ])
 def test_pairs_that_cannot_be_are_refused(values, why):
