@@ -4,7 +4,6 @@ from pathlib import Path
 
 import typer
 from tehl_cli.live import say
-from tehl_cli.out import folder_for
 
 
 def register(app):
@@ -67,9 +66,9 @@ def show(store: Path = typer.Argument(..., help="store of a finished, running or
     """Summary and residual history of a run."""
     from tehl_cli.listing import history_table, summary_table, warning_lines
 
-    from tehl_taichi.io.store import Store
+    import tehl_taichi as tehl
 
-    saved = Store.open(store)
+    saved = tehl.open(store).store
     print(f"{store}: scene {saved.scene.name}, {saved.steps} entries, {_state(saved)}")
     if other := saved.other_version:
         print(f"{store} was {other}")
@@ -94,14 +93,9 @@ def plot(store: Path = typer.Argument(..., help="store of a run"),
          out: Path = typer.Option(None, help="folder for the figures (default: beside the store)"),
          dpi: int = typer.Option(160, help="dots per inch, 40 to 1200")):
     """PNG figures: centreline pressure and film, maps, fatigue. Example: `tehl plot runs/gear-1.zarr --dpi 300`"""
-    from tehl_taichi.io import figures
-    from tehl_taichi.io.store import Store
-    from tehl_taichi.values.checks import integer
+    import tehl_taichi as tehl
 
-    integer("--dpi", dpi, 40, 1200)
-    saved = Store.open(store)
-    beside = store.with_suffix("") if store.suffix else store.with_name(f"{store.name}-figures")
-    for path in figures.write_all(saved, folder_for(out or beside), dpi):
+    for path in tehl.open(store).plot(out, dpi):
         print(path)
 
 

@@ -51,7 +51,6 @@ def run(
     Examples: `tehl run --srr -0.12` · `tehl run dent --grid coarse` · `tehl run my.toml --set feature.height=1e-6`
     """
     import tehl_taichi as tehl
-    from tehl_taichi.io.found import find
 
     changes = given_by(
         {"srr": srr, "load": load, "hertz_pressure": hertz_pressure, "speed": speed, "temperature": temperature,
@@ -59,7 +58,7 @@ def run(
          "fatigue.on": fatigue, "numerics.estimate_error": estimate_error, "numerics.precision": precision,
           "time.steady_only": steady or None},
         grid, set_ or [])
-    description = find(scene)
+    description = tehl.scene(scene)
     description = description.replace(**changes) if changes else description
     description = _on_grid_for(target_error, changes, description)
     with Live(quiet) as live:

@@ -157,6 +157,8 @@ def run_case(name, description, precision=AUTO):
                 verdict, reason = "failed", f"fatigue index {index}"
     except NotConverged as error:
         verdict, reason = "stopped", str(error)
+    except SceneError as error:  # single precision for a film too thin for it
+        verdict, reason = "failed" if shots else "refused", str(error)
     except Exception as error:  # noqa: BLE001  anything else is what the suite looks for
         verdict, reason = "failed", repr(error)
     steps = max(len(shots) - 1, 0)

@@ -18,9 +18,9 @@ def test_every_named_oil_holds(name):
 
 
 def test_the_reference_oil_is_that_of_scenes():
+    """At 90 deg C log10 eta = 4.57 (5/3)^-1.25 - 4.2 = -1.7867."""
     assert OILS["reference-pao"] == Oil()
-    by_hand = 10**-1.7867  # 4.57 (5/3)^-1.25 - 4.2
-    assert NAMED["reference-pao"].viscosity(0.0, 90.0) == pytest.approx(by_hand, rel=1e-4)
+    assert NAMED["reference-pao"].viscosity(0.0, 90.0) == pytest.approx(10**-1.7867, rel=1e-4)
 
 
 def test_an_unknown_name_is_refused_with_those_that_are_known():

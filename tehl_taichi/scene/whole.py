@@ -27,7 +27,13 @@ MAX_HERTZ, MIN_HERTZ = 6e9, 1e7  # Pa: outside this range the laws say nothing
 
 @dataclass(frozen=True)
 class Scene:
-    """One contact, its bodies, oil and motion, and how it is computed. Raises SceneError when the parts do not fit."""
+    """One contact, its bodies, oil and motion, and how it is computed; SI units. Raises SceneError when the parts do not fit.
+
+    >>> from tehl_taichi.scene.parts import Contact, Grid
+    >>> scene = Scene(contact=Contact(load=1.1e6), grid=Grid(nx=128, ny=32))
+    >>> scene.replace(hertz_pressure=1.5e9, **{"feature.height": -1e-6}).features[0].height
+    -1e-06
+    """
 
     name: str = "gear"
     contact: Contact = field(default_factory=lambda: Contact(load=1.1e6))
