@@ -55,13 +55,8 @@ def new(
 ):
     """Write a commented scene file with every value. Example: `tehl new my.toml`"""
     from tehl_taichi.io import scene_file
-    from tehl_taichi.scene import SceneError, scene
 
-    if file.exists():
-        raise SceneError(f"{file} exists already; choose another name")
-    if not file.absolute().parent.is_dir():
-        raise SceneError(f"{file.absolute().parent} is not a folder")
-    file.write_text(scene_file.dumps(scene(base).replace(name=file.stem)))
+    scene_file.new(file, base)
     print(f"wrote {file}; run it with: tehl run {file}")
 
 
@@ -104,26 +99,12 @@ def plot(store: Path = typer.Argument(..., help="store of a run"),
 
 def doctor():
     """Versions, threads, cache and a short self-test."""
-    import importlib.metadata
-    import time
-
     from tehl_cli.listing import list_table
 
-    from tehl_taichi import __version__
-    from tehl_taichi.commit import commit
-    from tehl_taichi.engine import cores, runtime
-    from tehl_taichi.scene import scene
+    from tehl_taichi.study import checkup
 
-    info = runtime.start()
-    names = ("numpy", "pyfftw", "zarr", "rich", "typer")
-    rows = [("tehl_taichi", __version__), ("commit", commit()), *((name, importlib.metadata.version(name)) for name in names)]
-    rows += [(key, str(value)) for key, value in info.items()] + [("cores", str(cores.available()))]
-    list_table("this installation", ("what", "value"), rows)
-    from tehl_taichi.march.passage import march
-
-    started = time.perf_counter()
-    film = next(march(scene("smooth-line").replace(**{"grid.nx": 128, "thermal.on": False}))).scalars["h_c_m"]
-    good = 0.42e-6 < film < 0.45e-6
-    say(f"self-test: steady film of smooth-line {film * 1e6:.4f} um in {time.perf_counter() - started:.1f} s: "
+    list_table("this installation", ("what", "value"), checkup.installation().items())
+    film, good, seconds = checkup.self_test()
+    say(f"self-test: steady film of smooth-line {film * 1e6:.4f} um in {seconds:.1f} s: "
         f"{'good' if good else 'WRONG, expected 0.43 um'}")
     raise typer.Exit(0 if good else 1)

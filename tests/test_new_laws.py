@@ -103,6 +103,15 @@ def test_laws_need_no_taichi_for_numbers():
     assert subprocess.run([sys.executable, "-c", code], cwd=ROOT).returncode == 0
 
 
+def test_the_command_lists_all_laws(capsys):
+    from tehl_cli.inspect import laws
+
+    laws()
+    printed = capsys.readouterr().out
+    for key, law in LAWS:
+        assert f" {law.name} " in printed and key in printed
+
+
 def shown(title):
     """The file below `### title` in CONTRIBUTING.md: its path and its text."""
     text = (ROOT / "CONTRIBUTING.md").read_text().split(f"### {title}\n")[1]
@@ -137,7 +146,7 @@ def expansivity(oil, p, Gamma):
 
 
 LAW = DensityLaw(
-    name="tait", says="1/(1 - ln(1 + (1 + K1) p/K)/(1 + K1))", source="Tait 1888",
+    name="tait", says="1/(1 - ln(1 + (1 + K1) p/K)/(1 + K1))", source="after Tait 1888",
     compression=compression, expansion=expansion, expansivity=expansivity,
     numbers={"rho0": RHO0, "tait_K": quantity(1.4e9, "Pa", "bulk modulus at p = 0", 1e8, 1e11),
              "tait_K1": quantity(10.0, "", "its rise with pressure", 1, 30)},

@@ -26,3 +26,16 @@ def test_the_reference_oil_is_that_of_scenes():
 def test_an_unknown_name_is_refused_with_those_that_are_known():
     with pytest.raises(SceneError, match=", ".join(NAMED)):
         scene("gear").replace(**{"oil.name": "nujol"})
+
+
+@pytest.mark.parametrize("name, grade", [("mineral-vg68", 68), ("mineral-vg100", 100), ("mineral-vg150", 150),
+                                         ("mineral-vg460", 460), ("mineral-vg100-steep", 100)])
+def test_a_grade_in_a_name_is_that_of_iso_3448(name, grade):
+    """Within 10 % of the grade in mm2/s at 40 deg C, for any density that such an oil can have."""
+    for density in (850.0, 880.0):
+        assert NAMED[name].viscosity(0.0, 40.0) / density * 1e6 == pytest.approx(grade, rel=0.1)
+
+
+def test_the_steep_oil_thins_faster_with_temperature():
+    even, steep = (NAMED[name] for name in ("mineral-vg100", "mineral-vg100-steep"))
+    assert steep.viscosity(0.0, 100.0) < 0.8 * even.viscosity(0.0, 100.0)

@@ -9,6 +9,7 @@ from tehl_taichi.errors import SceneError
 from tehl_taichi.physics import rheology
 from tehl_taichi.physics.boundary import BOUNDARY
 from tehl_taichi.physics.law import declared, section
+from tehl_taichi.scene.named_steels import STEELS
 from tehl_taichi.values.quantity import AUTO, check, choice, count, quantities, quantity, switch, text
 
 
@@ -54,9 +55,11 @@ class Contact:
 class Body:
     """An elastic half-space; default: steel (Everitt 2018).
 
-    Its alpha is the usual handbook value of bearing and gear steels.
+    Its alpha is the usual handbook value of bearing and gear steels. The name of a steel (`tehl steels`) gives the numbers that
+    a scene file or a change does not name; in Python: Body(**STEELS["100Cr6"].numbers, material="100Cr6").
     """
 
+    material: str = choice("", "a named steel; empty: none, the numbers are one's own", ("", *STEELS))
     E: float = quantity(206e9, "Pa", "Young's modulus", 1e6, 1e13)
     nu: float = quantity(0.3, "", "Poisson's ratio", 0.0, 0.499)
     k: float = quantity(47.0, "W/mK", "thermal conductivity", 0.01, 1e4)
