@@ -7,6 +7,8 @@ import typer
 from tehl_cli.live import say
 from tehl_cli.out import print_json
 
+from tehl_taichi.criteria import CRITERIA
+
 
 def register(app):
     """Add the command to the app."""
@@ -19,7 +21,7 @@ def fatigue(
     endurance: Optional[float] = typer.Option(None, help="sigma_eF, Pa"),
     bending_limit: Optional[float] = typer.Option(None, help="fatigue limit in reversed bending, Pa (with --torsion-limit)"),
     torsion_limit: Optional[float] = typer.Option(None, help="the same in torsion: both give kappa, sigma_eF"),
-    criterion: Optional[str] = typer.Option(None, help="findley, findley-chord, matake or dang-van"),
+    criterion: Optional[str] = typer.Option(None, help=", ".join(CRITERIA)),
     depths: Optional[str] = typer.Option(None, help="auto (the worst depth under the feature), none, or depths at which "
                                          "all points are searched, m, as 50e-6,100e-6"),
     from_x: Optional[float] = typer.Option(None, help="only moments with the feature beyond this position, a"),

@@ -36,14 +36,17 @@ def oils():
 
 
 def laws():
-    """List the laws of the oil and of friction, with their numbers and sources."""
+    """List the laws of the oil and of friction and the criteria of fatigue, with their numbers and sources."""
     from tehl_cli.listing import list_table
 
+    from tehl_taichi.criteria import CRITERIA
     from tehl_taichi.physics.choices import ALONE, CHOICES
 
     for key, registry in {**CHOICES, "": ALONE}.items():
         list_table(f"--set {key}=NAME" if key else "not to be chosen", ("name", "law", "numbers", "source"),
                    [(law.name, law.says, ", ".join(law.numbers), law.source) for law in registry.values()])
+    list_table("--set fatigue.criterion=NAME", ("name", "criterion", "kappa: sensitivity to", "source"),
+               [(rule.name, rule.says, rule.sensitivity, rule.source) for rule in CRITERIA.values()])
 
 
 def new(

@@ -33,8 +33,8 @@ def list_table(title, columns, rows):
     from rich.table import Table
 
     table = Table(title=title, title_justify="left")
-    for column in columns:
-        table.add_column(column)
+    for n, column in enumerate(columns):
+        table.add_column(column, no_wrap=n == 0, overflow="fold")
     for row in rows:
         table.add_row(*row)
     Console().print(table)

@@ -81,6 +81,8 @@ def merge(base, data):
             base[key] = {"temperature": base[key]["temperature"], **value}
         elif key == "oil" and isinstance(value, dict) and "name" in value:
             base[key] = value  # a named oil brings its own numbers, not those of the base
+        elif isinstance(value, dict) and isinstance(value.get("material"), str) and value["material"]:
+            base[key] = value  # so does a body of a named steel
         elif isinstance(value, dict) and isinstance(base.get(key), dict):
             base[key] = merge(base[key], value)
         else:

@@ -80,7 +80,7 @@ def _first(solver):
     """From Hertz without slip, which then comes in parts where it does not at once. Sheared from the start, a film that Newton
     makes too thin for a moment flows off like water: the surfaces touch all over, which may be a solution too."""
     v = solver.levels
-    v.slip(0.0)
+    v.numbers.slip(0.0)
     report = _without_slip(solver)
     P, H0 = v.get(fields.P), solver.H0
     for parts in SLIPS if v.thins and report.converged else ():
@@ -88,13 +88,13 @@ def _first(solver):
         report = _through_slips(solver, parts)
         if report.converged:
             break
-    v.slip(1.0)
+    v.numbers.slip(1.0)
     return report
 
 
 def _through_slips(solver, parts):
     for part in parts:
-        solver.levels.slip(part)
+        solver.levels.numbers.slip(part)
         report = _from_here(solver)
         if not report.converged:
             break
@@ -136,14 +136,14 @@ def _through_slower_ones(solver):
     """From Hertz at a low speed, where it is near, up to the speed of the scene; in time where a speed does not converge."""
     _hertz(solver, FIRST_FILM * START_TRIES[-1] / SLOWER[0] ** 0.7)
     for factor in SLOWER:
-        solver.levels.slow_down(factor)
+        solver.levels.numbers.slow_down(factor)
         P, H0 = solver.levels.get(fields.P), solver.H0
         report = solver.solve(CAREFUL)
         if not report.converged:
             report = _in_time(solver, P, H0)
         if not report.converged:
             break
-    solver.levels.slow_down(1.0)
+    solver.levels.numbers.slow_down(1.0)
     return report
 
 
@@ -155,14 +155,14 @@ def _in_time(solver, P, H0):
         solver.residual()
         if not SHORTEST_TIME < step < LONGEST_TIME:
             break
-        v.set_rate(1 / (step * v.dx))
+        v.numbers.set_rate(1 / (step * v.dx))
         v.put(fields.QOLD, -v.get(fields.RHO) * v.get(fields.H) / step)
         report = solver.solve(CAREFUL, ROUGHLY)
         if report.residual < ROUGHLY:
             P, H0, step = v.get(fields.P), solver.H0, 2 * step
         else:
             step *= 0.3
-    v.set_rate(0.0)
+    v.numbers.set_rate(0.0)
     v.put(fields.QOLD, 0.0)
     return solver.solve(CAREFUL)
 

@@ -9,6 +9,7 @@ from tehl_taichi.errors import SceneError
 from tehl_taichi.physics.shear.newtonian import NEWTONIAN
 from tehl_taichi.scene import change, given, judge, named_oils, oil_range, passing, scales
 from tehl_taichi.scene.feature import Feature
+from tehl_taichi.scene.named_steels import completed
 from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.parts import AUTO, Body, Contact, Fatigue, Grid, Numerics, Operation, Output, Rheology, Thermal, Time
 from tehl_taichi.scene.route import LATEST, cut_at
@@ -275,7 +276,7 @@ def _speeds(values):
 def _bodies(values):
     if not isinstance(values, dict) or set(values) - {"a", "b"}:
         raise SceneError(f"[bodies] has the tables [bodies.a] and [bodies.b] only, not {shown(values)}")
-    return {f"body_{key}": build(Body, value, f"bodies.{key}", "bodies") for key, value in values.items()}
+    return {f"body_{key}": build(Body, completed(value), f"bodies.{key}", "bodies") for key, value in values.items()}
 
 
 def _features(values):
