@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tehl_taichi.crack import closure, rubbing
+from tehl_taichi.crack import bounds, closure, rubbing
 from tehl_taichi.crack.dislocations import stresses
 from tehl_taichi.crack.elements import Elements
 from tehl_taichi.crack.faces import Faces
@@ -154,14 +154,33 @@ def test_faces_touch_where_they_would_pass_through_each_other(degrees):
     np.testing.assert_allclose(*found, atol=0.01 * np.abs(found[1]).max())
 
 
-def test_contact_is_found_from_any_first_guess():
+def test_bounded_forces_are_found_from_any_first_guess():
+    """Within their bounds, with displacements that press against them; hard matrices, thirty times."""
     rng = np.random.default_rng(5)
     for _ in range(30):
         M = rng.standard_normal((18, 18))
         M, gap = M @ M.T + 0.02 * np.eye(18), rng.standard_normal(18)
-        q, active = closure.complement(M, gap, rng.random(18) < 0.5)
-        assert q.min() >= 0 and (gap + M @ q).min() > -1e-8 and abs(q @ (gap + M @ q)) < 1e-8
-        np.testing.assert_array_equal(closure.complement(M, gap, ~active)[1], active)
+        low, high = -rng.random(18), np.where(rng.random(18) < 0.5, np.inf, rng.random(18))
+        found = [bounds.bounded(M, gap, low, high, np.full(18, at)) for at in (bounds.LOW, bounds.FREE)]
+        for r, at in found:
+            w = gap + M @ r
+            assert (r >= low).all() and (r <= high).all()
+            np.testing.assert_allclose(w[at == bounds.FREE], 0, atol=1e-9)
+            assert (w[r == low] > -1e-9).all() and (w[r == high] < 1e-9).all()
+        np.testing.assert_allclose(found[0][0], found[1][0], atol=1e-9)
+
+
+def test_friction_settles_where_exchanging_states_goes_round(monkeypatch):
+    """All moments by bounds alone give what exchanged states give; a crack at 45 degrees pressed, sheared to and fro."""
+    faces, turns = Faces(slanted(45), 1.0, 24), np.linspace(0, 4 * np.pi, 40)
+    depth = faces.points.imag
+    load = np.concatenate([forces(faces, xx=-1 - np.cos(3 * turn) * depth, xz=np.sin(turn)) for turn in turns], axis=1)
+    values, held, missed = rubbing.rubbed(faces.compliance, load, 0.4)
+    monkeypatch.setattr(rubbing, "TRIES", 1)
+    other, held_too, missed_too = rubbing.rubbed(faces.compliance, load, 0.4)
+    assert missed == missed_too == 0
+    np.testing.assert_allclose(values, other, atol=1e-5 * np.abs(values).max())
+    np.testing.assert_allclose(held, held_too, atol=1e-5 * held.max())
 
 
 def test_pressure_inside_opens_as_much_as_the_same_pull():

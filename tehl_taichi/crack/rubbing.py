@@ -1,13 +1,17 @@
 """Closed faces with Coulomb friction, moment after moment: they stick, or slide against a force of mu times the contact force.
 
-Slip has a history, so the passage is gone through :data:`PASSES` times and the last one counts.
+Slip has a history, so the passage is gone through :data:`PASSES` times and the last one counts. In a moment whole sets of
+states are exchanged; where that goes round in circles, the friction is bounded by mu times the contact force of the round
+before (a positive problem with one answer) until both agree (Haslinger 1983).
 """
 
 import numpy as np
 
+from tehl_taichi.crack.bounds import FREE, HIGH, LOW, bounded
+
 PASSES = 2
-WHOLE = 12  # exchanges of whole sets, then one node at a time
-TRIES = 60  # exchanges of states in a moment; then it counts as not settled
+TRIES, ROUNDS = 6, 60  # exchanges of states, rounds of bounds in a moment; then it counts as not settled
+SAME = 1e-8            # of the largest contact force: two rounds agree
 OPEN, STUCK, UP, DOWN = 0, 1, 2, 3  # UP: the slip grows
 ROUND = 1e-7  # of the largest opening, slip or force: less decides nothing
 
@@ -28,16 +32,27 @@ def rubbed(compliance, forces, mu):
 
 def _moment(C, free, mu, state, slip):
     """(state, values, contact forces, whether they settled) at one moment; slip: before it."""
-    for tried in range(TRIES):
+    for _ in range(TRIES):
         values, q, f = _forces(C, free, mu, state, slip)
         new = _next(state, values, q, f, mu, slip)
-        wrong = np.flatnonzero(new != state)
-        if wrong.size == 0:
+        if (new == state).all():
             return state, values, q, True
-        wrong = wrong if tried < WHOLE else wrong[-1:]
-        state = state.copy()
-        state[wrong] = new[wrong]
-    return state, values, np.maximum(q, 0.0), False
+        state = new
+    return _by_bounds(C, free, mu, slip, np.maximum(q, 0.0))
+
+
+def _by_bounds(C, free, mu, slip, q):
+    """As :func:`_moment`, from contact forces q (nodes,) on."""
+    nodes, at = slip.size, np.where(np.tile(q > 0, 2), FREE, LOW)
+    gap = free - np.concatenate([np.zeros(nodes), slip])
+    for _ in range(ROUNDS):
+        low, high = np.concatenate([0 * q, -mu * q]), np.concatenate([0 * q + np.inf, mu * q])
+        r, at = bounded(C, gap, low, high, at)
+        change, q = np.abs(r[:nodes] - q).max(), r[:nodes]
+        if change <= SAME * q.max():
+            break
+    state = np.select([q <= 0, at[nodes:] == LOW, at[nodes:] == HIGH], [OPEN, UP, DOWN], STUCK)
+    return state, free + C @ r, q, bool(change <= SAME * q.max())
 
 
 def _forces(C, free, mu, state, slip):
