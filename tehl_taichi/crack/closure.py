@@ -1,6 +1,6 @@
-"""Faces that may touch but not pass through each other: opening >= 0, contact force >= 0, one of them zero at every node.
+"""Faces that may touch but not pass through each other: opening >= 0, contact force >= 0, one of them zero at every contact.
 
-A tip whose node is closed has K_I = 0.
+A tip that touches has K_I = 0.
 """
 
 import numpy as np
@@ -8,25 +8,29 @@ import numpy as np
 from tehl_taichi.crack.bounds import FREE, LOW, ROUND, bounded
 
 
-def opened(compliance, forces):
-    """(values, contact forces), (2 nodes, moments) and (nodes, moments): without friction."""
-    nodes = len(forces) // 2
-    free, held = compliance @ forces, np.zeros((nodes, forces.shape[1]))
-    gap, M, at = free[:nodes], compliance[:nodes, :nodes], np.full(nodes, LOW)
+def opened(faces, forces):
+    """(nodal values (2 nodes, moments), contact forces (contacts, moments)) of faces without friction, by nodal forces."""
+    rows = faces.contact[: len(faces.contact) - faces.rough]
+    free, held = faces.compliance @ forces, np.zeros((len(rows), forces.shape[1]))
+    gap, M, at = rows @ free, rows @ faces.compliance @ rows.T, np.full(len(rows), LOW)
     left = np.flatnonzero((gap < 0).any(axis=0))
     while left.size:
-        at = bounded(M, gap[:, left[0]], np.zeros(nodes), np.full(nodes, np.inf), at)[1]
+        at = bounded(M, gap[:, left[0]], np.zeros(len(rows)), np.full(len(rows), np.inf), at)[1]
         q, fits = _tried(M, gap[:, left], at == FREE)
-        fits[0] = True  # many other moments have the same closed nodes
+        fits[0] = True  # many other moments have the same closed contacts
         held[:, left[fits]] = q[:, fits]
         left = left[~fits]
-    values = free + compliance[:, :nodes] @ held
-    values[:nodes][held > 0] = 0.0
-    return values, held
+    return shut(faces, free + faces.compliance @ (rows.T @ held), held), held
+
+
+def shut(faces, values, held):
+    """The same nodal values without what rounding leaves open at a closed tip."""
+    values[faces.nodes - 1][held[faces.rough - 1] > 0] = 0.0
+    return values
 
 
 def _tried(M, gap, closed):
-    """(q (nodes, moments), at which moments it fits) when just these nodes touch."""
+    """(q (contacts, moments), at which moments it fits) when just these contacts touch."""
     q = np.zeros_like(gap)
     q[closed] = np.linalg.solve(M[np.ix_(closed, closed)], -gap[closed])
     wrong = np.where(closed[:, None], q < 0, gap + M @ q < -ROUND * np.abs(gap).max(axis=0))
