@@ -1,9 +1,9 @@
-"""What pyproject.toml cannot say: a wheel and a source archive know their commit."""
+"""What pyproject.toml cannot say: every folder is a package; a wheel and a source archive know their commit."""
 
 import runpy
 from pathlib import Path
 
-from setuptools import setup
+from setuptools import find_packages, setup
 from setuptools.command.build_py import build_py
 from setuptools.command.sdist import sdist
 
@@ -30,4 +30,6 @@ class SourceArchive(sdist):
         write(base_dir)
 
 
-setup(cmdclass={"build_py": BuildModules, "sdist": SourceArchive})
+PACKAGES = [*find_packages(include=["tehl_taichi", "tehl_taichi.*"]), "tehl_taichi.profiles", "tehl_cli"]
+
+setup(packages=PACKAGES, cmdclass={"build_py": BuildModules, "sdist": SourceArchive})

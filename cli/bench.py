@@ -2,7 +2,6 @@
 
 import json
 import math
-import os
 from pathlib import Path
 from typing import Optional
 
@@ -125,14 +124,14 @@ def accuracy(
     Examples: `tehl bench accuracy --quick` · `tehl bench accuracy --only coverage --threads 1`
     """
     from tehl_taichi.engine import runtime
-    from tehl_taichi.scene.checks import choice
+    from tehl_taichi.values.checks import choice
 
     choice("--only", only, (None, "errors", "coverage"))
     runtime.start(threads=threads)
     if only != "coverage" and not judge:
         _accuracy(out, quick, keep)
     if only != "errors":
-        _coverage(out / "coverage.json", seed, quick, judge, threads or os.cpu_count())
+        _coverage(out / "coverage.json", seed, quick, judge, threads or _cores())
 
 
 def _accuracy(out, quick, keep):
@@ -191,7 +190,7 @@ def speed(out: Path = OUT, quick: bool = QUICK, threads: Optional[int] = THREADS
     """Times against the project's targets, and reference loops to compare machines by. Example: `tehl bench speed --quick`"""
     from tehl_taichi.profiles import speed as suite
 
-    rows = suite.run(quick, threads or os.cpu_count(), say)
+    rows = suite.run(quick, threads or _cores(), say)
     details = {"step_ms": "step {:.1f} ms", "convolutions": "{:.0f} convolutions", "cycles": "{:.1f} Krylov",
                "memory_mb": "{:.0f} MB", "planes_per_s_core": "{:.2g} planes/s core"}
     _table("speed", [{**row, "detail": ", ".join(form.format(row[key]) for key, form in details.items() if key in row)}
@@ -204,7 +203,7 @@ def scaling(out: Path = OUT, quick: bool = QUICK, threads: Optional[int] = THREA
     """Time and memory against grid and threads. Example: `tehl bench scaling --quick`"""
     from tehl_taichi.profiles import scaling as suite
 
-    rows = suite.run(quick, threads or os.cpu_count(), thermal, say)
+    rows = suite.run(quick, threads or _cores(), thermal, say)
     _table("scaling", rows, {"nx": "{}", "ny": "{}", "threads": "{}", "step_ms": "{:.1f}", "node_ns": "{:.0f}",
                              "newton": "{:.1f}", "cycles": "{:.1f}", "memory_mb": "{:.0f}", "node_B": "{:.0f}"})
     _write(out, "scaling", rows, lambda plt: suite.chart(plt, rows))
@@ -217,7 +216,7 @@ def profile(out: Path = OUT, quick: bool = QUICK, threads: Optional[int] = THREA
     from tehl_taichi.profiles import profile as suite
 
     nx, ny, steps = (128, 32, 8) if quick else (256, 64, 30)
-    stages, kernels, numbers = measure.fresh(threads or os.cpu_count(), suite.run, nx, ny, thermal, steps)
+    stages, kernels, numbers = measure.fresh(threads or _cores(), suite.run, nx, ny, thermal, steps)
     columns = {"what": "{}", "calls": "{:.1f}", "ms": "{:.2f}", "limit_ms": "{:.2f}", "MB": "{:.1f}"}
     _table("stages, per step (a stage may hold others)", stages, columns)
     _table("kernels, per step", kernels, columns)
@@ -242,3 +241,9 @@ def _write(folder, name, rows, chart):
     if chart and plt:
         chart(plt).savefig(folder / f"{name}.png", dpi=110)
         say(f"wrote {folder / name}.png")
+
+
+def _cores():
+    from tehl_taichi.engine.cores import available
+
+    return available()

@@ -2,7 +2,7 @@
 
 import typer
 import typer.core
-from tehl_cli import bench, crack_command, fatigue, inspect, runs
+from tehl_cli import bench, compare_command, crack_command, fatigue, flank_command, inspect, materials, runs
 from tehl_cli.entry import main
 
 from tehl_taichi.errors import Interrupted
@@ -16,8 +16,8 @@ class Commands(typer.core.TyperGroup):
     def invoke(self, ctx):
         try:
             return super().invoke(ctx)
-        except KeyboardInterrupt:
-            raise Interrupted("interrupted; nothing that was stored is lost") from None
+        except KeyboardInterrupt as stop:
+            raise Interrupted(str(stop) or "interrupted; nothing that was stored is lost") from None
 
 
 app = typer.Typer(cls=Commands, no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False,
@@ -46,6 +46,9 @@ def _tell_version():
 
 runs.register(app)
 inspect.register(app)
+materials.register(app)
 fatigue.register(app)
 crack_command.register(app)
+flank_command.register(app)
+compare_command.register(app)
 bench.register(app)

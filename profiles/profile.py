@@ -67,7 +67,7 @@ def copy_rate(size):
 def transforms_alone(nx, ny, dtype):
     """{stage: seconds of one call} where nothing else has used the caches."""
     from tehl_taichi.pressure.deflection import Deflection, Distribution
-    from tehl_taichi.pressure.levels import coarsen, solved_by
+    from tehl_taichi.pressure.grids import coarsen, solved_by
 
     deflection = Deflection(nx, ny, 4 / nx, 2 / ny, 1.0, True, dtype=dtype)
     sizes = coarsen(nx, ny)

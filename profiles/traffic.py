@@ -27,7 +27,7 @@ def bytes_of(kernel, args):
 
 def _per_node(given, names):
     """Bytes of the tables' fields at one node; a field that is chosen by the arguments `row` or `rows` counts too."""
-    nz = given.get("nz", 1)
+    nz = given["N"].shape[1] if "N" in given else given.get("nz", 1)
     chosen = (1 if "row" in given else 0) + len(given.get("rows", ()) if isinstance(given.get("rows"), tuple) else ())
     total = 8 * (_rows(fields, IN_S, names) + chosen) if "S" in given else 0
     total += _bytes_of_a_number(given["J"]) * _rows(fields, IN_J, names) if "J" in given else 0

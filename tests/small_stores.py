@@ -11,12 +11,13 @@ SMALL = scene("gear").replace(**{"grid.nx": 32, "grid.ny": 8, "thermal.on": Fals
 
 def shot(step, description=SMALL):
     """A snapshot whose every number tells its step."""
-    from tehl_taichi.io.store import FIELDS, SCALARS
+    from tehl_taichi.march.output import fields_of, scalars_of
 
     shape = description.grid.nx + 1, description.rows + 1
-    fields = {name: np.full(shape, step + 1.5) for name in FIELDS}
+    fields = {name: np.full(shape, step + 1.5) for name in fields_of(description)}
+    scalars = {name: step + 0.25 for name in scalars_of(description)}
     return SimpleNamespace(step=step, time=1e-6 * step, feature_x=1e-5 * step, x=np.arange(shape[0]) * 1e-5,
-                           y=np.arange(shape[1]) * 1e-5, fields=fields, scalars={name: step + 0.25 for name in SCALARS},
+                           y=np.arange(shape[1]) * 1e-5, fields=fields, scalars=scalars,
                            state={"step": step, "P": np.zeros(shape[::-1]), "H0": 0.0})
 
 

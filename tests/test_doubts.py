@@ -9,7 +9,8 @@ import pytest
 
 from tehl_taichi.io import result_judge
 from tehl_taichi.scene import BUILT_INS, scene
-from tehl_taichi.scene.oil import OILS, Oil
+from tehl_taichi.scene.named_oils import OILS
+from tehl_taichi.scene.oil import Oil
 
 GEAR = scene("gear")
 NEW = {"oil.name": "mine", "oil.viscosity": "roelands", "oil.eta0": 0.1, "oil.alpha": 2e-8, "oil.Z": 0.6}

@@ -35,7 +35,7 @@ class Exact:
 
     def __init__(self, heat, levels, X, Y):
         self.heat, self.levels, self.scene, self.s = heat, levels, levels.scene, levels.scales
-        self.X, self.Y, self.zeta = X[None, None, :], Y[None, :, None], heat.zeta[:, None, None]
+        self.X, self.Y, self.zeta = X[None, None, :], Y[None, :, None], heat.across.zeta[:, None, None]
         self.time = self.s.a / self.s.u_m
 
     def derivative(self, f, axis, step=2e-3):
@@ -52,7 +52,7 @@ class Exact:
         from tehl_taichi.physics.density import rho_film
         from tehl_taichi.physics.viscosity import ln_eta
 
-        oil, o, s, C = self.scene.oil, self.scene.operation, self.s, self.heat.C
+        oil, o, s, C = self.scene.oil, self.scene.operation, self.s, self.heat.across.C
         p, h, T = pressure(X, Y, t) * s.p_H, thickness(X, Y, t), warmth(X, Y, self.zeta, t)
         slope = [s.p_H / s.a * d for d in (0.05 * np.cos(0.5 * X - 0.2 * t), -0.02 * np.pi * np.sin(np.pi * Y))]
         ie, rho = np.exp(-ln_eta(oil, p, T)), rho_film(oil, p, T)
@@ -81,7 +81,7 @@ class Exact:
         p_x, p_y, p_t = (self.derivative(lambda X, Y, t: pressure(X, Y, t) * self.s.p_H, q) * scale[q] for q in range(3))
         leaving = -sum(self.derivative(lambda X, Y, t, q=q: self.column(X, Y, t)[4][q], q) * scale[q] for q in range(3))
         through = leaving - fluxes[2] / fluxes[2][-1] * leaving[-1]
-        up, curved = np.tensordot(self.heat.D1, T, axes=1), np.tensordot(self.heat.D2, T, axes=1)
+        up, curved = np.tensordot(self.heat.across.D1, T, axes=1), np.tensordot(self.heat.across.D2, T, axes=1)
         lever = (self.zeta - centre) * h
         dissipated = ((tau + lever * slope[0]) ** 2 + (lever * slope[1]) ** 2) * ie
         squeezed = expansivity(oil, P * self.s.p_H, T) * (T + 273.15) * (p_t + u * p_x + v * p_y)
@@ -93,7 +93,6 @@ class Exact:
 def solved(cells, courant=0.8):
     """Largest error (K) of one step from exact earlier states, with the exact walls."""
     from tehl_taichi.heat import slots
-    from tehl_taichi.heat.step import B_A, B_B, RATE, TOLERANCE
     from tehl_taichi.heat.temperatures import FilmHeat
     from tehl_taichi.pressure import fields
     from tehl_taichi.pressure.levels import Levels
@@ -101,31 +100,29 @@ def solved(cells, courant=0.8):
     base = scene("smooth-line").replace(**{"contact.hertz_pressure": 0.5e9, "speed": 2.0, "srr": -0.3, "grid.y_max": 1.0})
     description = dataclasses.replace(base, rheology=Rheology(law="newtonian"), thermal=Thermal(on=True))
     levels = Levels(description, Scales.of(description), 4 * cells, cells)
-    s, G = levels.scales, levels.G
+    s = levels.scales
     dt = courant * levels.dx
     heat = FilmHeat(levels, dt * s.a / s.u_m)
-    levels.use_film(*heat.laws)
     exact = Exact(heat, levels, levels.X, levels.Y)
     heat.start()
     for past, (T, p, below) in ((1, (slots.TN, slots.PN, slots.MSN)), (2, (slots.TNN, slots.PNN, slots.MSNN))):
         t = -past * dt
-        slots.put_slots(heat.Z, G, T * heat.nz, heat.nz, warmth(exact.X, exact.Y, exact.zeta, t))
-        slots.put_slots(heat.Z, G, heat.single + p, 1, pressure(exact.X, exact.Y, t) * s.p_H)
-        slots.put_slots(heat.Z, G, below * heat.nz, heat.nz, np.ascontiguousarray(exact.column(exact.X, exact.Y, t)[4][2]))
+        heat.columns.put_nodes(T, warmth(exact.X, exact.Y, exact.zeta, t))
+        heat.columns.put_single(p, pressure(exact.X, exact.Y, t)[0] * s.p_H)
+        heat.columns.put_nodes(below, exact.column(exact.X, exact.Y, t)[4][2])
     levels.put(fields.P, pressure(exact.X, exact.Y, 0.0)[0])
     levels.put(fields.H, thickness(exact.X, exact.Y, 0.0)[0] / s.h)
     truth = warmth(exact.X, exact.Y, exact.zeta, 0.0)
     heat.set_temperature(truth)
     heat.dt_before = heat.dt
     heat.begin(heat.dt)
-    heat.step_numbers[0, [B_A, B_B]], heat.step_numbers[0, TOLERANCE] = 0.0, 1e-9
+    heat.step.set(B_a=0.0, B_b=0.0, tolerance=1e-9)
     for slot, wall in ((slots.AA, 0), (slots.AB, -1)):
-        slots.put_slots(heat.Z, G, heat.single + slot, 1, np.ascontiguousarray(truth[wall][None]))
+        heat.columns.put_single(slot, truth[wall])
     heat._velocities()
     heat._departures()
     source, rc = exact.source()
-    slots.put_slots(heat.Z, G, slots.TS * heat.nz, heat.nz,
-                    heat.slots(slots.TS * heat.nz, heat.nz) + source / (rc * heat.step_numbers[0, RATE]))
+    heat.columns.put_nodes(slots.TS, heat.columns.nodes(slots.TS) + source / (rc * heat.step["rate"]))
     heat._energy()
     error = (heat.temperature() - truth)[:, :-2, 8:-8]
     return float(np.sqrt(np.mean(error**2)))

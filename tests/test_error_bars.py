@@ -176,7 +176,7 @@ def test_a_failed_companion_takes_coarser_ones_with_it(passage):
 def test_companions_that_die_or_are_late_leave_bars_unknown(passage, monkeypatch):
     late = short(**{"numerics.estimate_error": "auto"})
     monkeypatch.setattr(companions, "WORTH", 0)
-    monkeypatch.setattr(companions, "cores", lambda: 2)
+    monkeypatch.setattr(companions.cores, "available", lambda: 2)
     with companions.beside(late, 4) as others:
         started = time.perf_counter()
         found = others.errors(passage, None, 0.5)
@@ -200,16 +200,16 @@ def test_who_gets_companions(monkeypatch):
             (auto, 1, 10**6, False), (auto, 2, 10**6, True), (auto, 2, 4, False), (short(), 1, 4, True), (short(), 2, 0, False),
             (short(**{"numerics.estimate_error": False}), 2, 10**6, False),
             (short(**{"time.steps": -1, "time.steady_only": True}), 2, 4, False)):
-        monkeypatch.setattr(companions, "cores", lambda cores=cores: cores)
+        monkeypatch.setattr(companions.cores, "available", lambda cores=cores: cores)
         assert (companions.beside(description, steps) == "some") == expected
 
 
 def test_a_summary_has_numbers_or_null():
-    from tehl_cli.listing import _quantity
+    from tehl_taichi.io.summary_rows import quantity
 
     values = {"film": 1.5e-6, "error": {"film": None}}
-    assert _quantity(values, "film", 1e6, "um") == "1.5000 um (error unknown)"
-    assert _quantity({**values, "error": {"film": 2e-9}}, "film", 1e6, "um") == "1.5000 ± 0.002 um"
+    assert quantity(values, "film", 1e6, "um") == "1.5000 um (error unknown)"
+    assert quantity({**values, "error": {"film": 2e-9}}, "film", 1e6, "um") == "1.5000 ± 0.002 um"
     json.dumps({"error": bars([{"a": Reading(1.0)}])}, allow_nan=False)
 
 

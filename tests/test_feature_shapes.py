@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from tehl_taichi.physics.gap import feature_height, undeformed
+from tehl_taichi.physics.gap import undeformed
 from tehl_taichi.scene import Scene, scene
 from tehl_taichi.scene.feature import Feature
 
@@ -14,7 +14,7 @@ UM = 1e-6
 
 def height(feature, x, y):
     """um, at x, y in um."""
-    return float(feature_height(feature, np.array([x * UM]), np.array([y * UM]))[0]) / UM
+    return float(feature.height_at(np.array([x * UM]), np.array([y * UM]))[0]) / UM
 
 
 def test_round_cosine():
@@ -67,7 +67,7 @@ def test_rough_patches_have_their_rms_on_average():
     squares = []
     for seed in range(60):
         patch = Feature(shape="rough", height=0.2 * UM, width=40 * UM, extent_x=500 * UM, extent_y=500 * UM, seed=seed)
-        z = feature_height(patch, x, y)
+        z = patch.height_at(x, y)
         squares.append(np.mean(z**2))
         assert np.allclose(z, z[::-1])
     assert math.sqrt(np.mean(squares)) == pytest.approx(0.2 * UM, rel=0.1)

@@ -28,19 +28,17 @@ def step_between_walls(heat, levels, P, h, touch, rate=1e-6):
     """Temperatures of a film of P and h (m) between walls held at 90 deg C; rate: 1/s of the time derivative. Returns the heat
     into both bodies (2, nx+1) W/m2."""
     from tehl_taichi.heat import slots
-    from tehl_taichi.heat.step import B_A, B_B, FAR, INV_X, ITERATIONS, NEAR, RATE, TOLERANCE
     from tehl_taichi.pressure import fields
 
     for row, values in ((fields.P, P), (fields.H, h / levels.scales.h), (fields.TOUCH, touch)):
         levels.put(row, values)
     for slot in (slots.AA, slots.AB):
-        slots.put_slots(heat.Z, levels.G, heat.single + slot, 1, np.full((1, 1, levels.nx + 1), 90.0))
-    numbers = heat.step_numbers[0]
-    numbers[:] = 0.0
-    numbers[[RATE, INV_X, B_A, B_B, TOLERANCE, ITERATIONS, NEAR, FAR]] = rate, 1e-12, 0.0, 0.0, 1e-9, 40, 1.0, 0.0
+        heat.columns.put_single(slot, np.full((1, levels.nx + 1), 90.0))
+    heat.step.values[:] = 0.0
+    heat.step.set(rate=rate, inv_x=1e-12, tolerance=1e-9, iterations=40, near=1.0)
     for _ in range(3):
         heat.solve()
-    return np.stack([heat.single_slot(slots.QA)[0], heat.single_slot(slots.QB)[0]])
+    return np.stack([heat.columns.single(name)[0] for name in (slots.QA, slots.QB)])
 
 
 def test_friction_heats_where_surfaces_touch():
@@ -68,7 +66,7 @@ def test_a_film_that_shears_heats_by_stress_times_slip():
     nodes = np.ones(levels.X.size)
     flux = step_between_walls(heat, levels, 0.1 * nodes, 0.2e-6 * nodes, 0 * nodes)
     heat._velocities()
-    tau = heat.single_slot(slots.TAU)[0]
+    tau = heat.columns.single(slots.TAU)[0]
     inner = slice(2, int(np.searchsorted(levels.X, 0.0)))  # behind X = 0 the sources fade with the pressure
     np.testing.assert_allclose(flux.sum(axis=0)[inner], (tau * 1.7)[inner], rtol=1e-5)
     assert tau[10] > 1e6  # on body a, towards the faster body b
@@ -98,13 +96,13 @@ def test_relaxed_rounds_of_a_linear_exchange_end_at_once():
 
     heat, levels = film()
     X = levels.X[None, None, :]
-    goal, start = 100 + 5 * heat.zeta[:, None, None] * np.cos(X), 100 + heat.zeta[:, None, None] + 0 * X
+    goal, start = 100 + 5 * heat.across.zeta[:, None, None] * np.cos(X), 100 + heat.across.zeta[:, None, None] + 0 * X
 
     def rounds(g):
         x = start
         heat.begin(heat.dt)
         for _ in range(2):
-            slots.put_slots(heat.Z, levels.G, slots.LAST * heat.nz, heat.nz, np.ascontiguousarray(x))
+            heat.columns.put_nodes(slots.LAST, x)
             heat.set_temperature(goal + g * (x - goal))
             heat.relax()
             x = heat.temperature()
@@ -122,7 +120,7 @@ def test_bodies_remember_a_growing_heat():
     from tehl_taichi.heat import modes
 
     dt, e = 1e-6, 13000.0
-    (weight, decay, gain, gain_last), B, B_last = modes.memory(dt, e, dt)
+    weight, decay, gain, gain_last, B, B_last = modes.memory(dt, e, dt)
     memory, worst = np.zeros(modes.MODES), 0.0
     for n in range(1, 500):
         q, last = n * dt, (n - 1) * dt
@@ -136,25 +134,23 @@ def test_bodies_remember_a_growing_heat():
 def test_moving_half_space_under_a_growing_flux(sliding, within):
     """q = g x behind an edge on steel: material points see g u t, so T = (4/3) g x^1.5/sqrt(pi k rho c u) on both bodies;
     where a body moves by broken cells in a step, the edge is interpolated."""
-    from tehl_taichi.heat import slots, step
+    from tehl_taichi.heat import slots
 
     heat, levels = film(srr=sliding)
     edge, steps = 16, 160
     x = np.maximum((levels.X - levels.X[edge]) * levels.scales.a, 0.0)
-    flux = (60e6 * x / 0.5e-3)[None, None, :]
+    flux = (60e6 * x / 0.5e-3)[None, :]
     for _ in range(steps):
         heat.begin(heat.dt)
         for slot in (slots.QA, slots.QB):
-            slots.put_slots(heat.Z, levels.G, heat.single + slot, 1, flux)
-        for remember in heat._remember:
-            remember()
-        heat._adopt()
-        heat.offset = heat.until
+            heat.columns.put_single(slot, flux)
+        heat.bodies.steady = False
+        heat.bodies.accept()
     heat.begin(heat.dt)
     far = x > 3.5 * levels.dx * levels.scales.a
-    for slot, u, B in ((slots.AA, heat.speeds[0], step.B_A), (slots.AB, heat.speeds[1], step.B_B)):
-        rise = heat.single_slot(slot)[0] - 90.0 + heat.step_numbers[0, B] * flux[0, 0]
-        exact = 4 / 3 * 60e6 / 0.5e-3 * x**1.5 / np.sqrt(math.pi * 47 * 7850 * 450 * u)
+    for slot, body, B in zip((slots.AA, slots.AB), heat.bodies.each, ("B_a", "B_b")):
+        rise = heat.columns.single(slot)[0] - 90.0 + heat.step[B] * flux[0]
+        exact = 4 / 3 * 60e6 / 0.5e-3 * x**1.5 / np.sqrt(math.pi * 47 * 7850 * 450 * body.speed)
         np.testing.assert_allclose(rise[far], exact[far], rtol=within)
 
 
@@ -162,10 +158,9 @@ def test_the_share_of_each_body_follows_its_effusivity():
     """The same flux into steel and glass: temperatures as 1/sqrt(k rho c), 1/12885 and 1/1486; (4/3) sqrt(dt/pi) q of a flux
     that grows from nothing."""
     heat, _ = film(**{"bodies.b.k": 1.1, "bodies.b.rho": 2510.0, "bodies.b.c": 800.0})
-    assert heat.effusivities == pytest.approx([math.sqrt(47 * 7850 * 450), math.sqrt(1.1 * 2510 * 800)])
+    effusivities = [body.effusivity for body in heat.bodies.each]
+    assert effusivities == pytest.approx([math.sqrt(47 * 7850 * 450), math.sqrt(1.1 * 2510 * 800)])
     heat.begin(heat.dt)
-    from tehl_taichi.heat.step import B_A, B_B
-
-    steel, glass = heat.step_numbers[0, [B_A, B_B]]
+    steel, glass = heat.step["B_a"], heat.step["B_b"]
     assert glass / steel == pytest.approx(12885.2 / 1486.2, rel=1e-3)
     assert steel == pytest.approx(4 / 3 * math.sqrt(heat.dt / math.pi) / 12885.2, rel=1e-4)

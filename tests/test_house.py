@@ -10,8 +10,13 @@ import pytest
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "tehl_taichi"
 # every module and folder of the package, each imports from those before it only
-LAYERS = ["errors", "commit", "called", "registry", "scene", "engine", "physics", "pressure", "heat", "fatigue", "crack",
-          "march", "io", "profiles", "cli"]
+LAYERS = ["errors", "commit", "called", "registry", "engine", "values", "physics", "criteria", "scene", "pressure", "heat",
+          "fatigue", "crack", "march", "io", "study", "flank", "profiles", "cli"]
+TOP = {"errors", "commit", "called", "registry"}  # single files that everybody may use
+# rooms that may use less than all before them
+RESTS_ON = {"engine": set(), "values": set(), "physics": {"engine", "values"},
+            "criteria": {"engine", "values"}, "scene": {"values", "physics", "criteria"},
+            "fatigue": {"scene", "criteria", "engine", "values"}}
 ENTRIES = {"__init__", "__main__"}  # of the package: they may lead anywhere, lazily
 FOLDERS = {ROOT / "cli": "tehl_cli", ROOT / "profiles": "tehl_taichi.profiles", PACKAGE: "tehl_taichi"}
 
@@ -60,6 +65,18 @@ def test_imports_only_from_layers_above(path):
         other = layer_of(name)
         if other is not None:
             assert LAYERS.index(other) <= LAYERS.index(own), f"{path} imports {name}"
+            assert own not in RESTS_ON or other in RESTS_ON[own] | TOP | {own}, f"{path} imports {name}"
+
+
+def test_no_file_name_twice():
+    names = [path.name for path in SOURCES if path.name != "__init__.py"]
+    assert sorted(names) == sorted(set(names))
+
+
+@pytest.mark.parametrize("room", sorted(path.parent.name for path in PACKAGE.glob("*/__init__.py")))
+def test_a_room_says_what_lives_there(room):
+    lines = ast.get_docstring(ast.parse((PACKAGE / room / "__init__.py").read_text())).splitlines()
+    assert 3 <= len(lines) <= 8, room
 
 
 @pytest.mark.parametrize("path", SOURCES, ids=lambda p: str(p.relative_to(ROOT)))
@@ -78,7 +95,8 @@ def test_readme_names_both_lines():
     assert len(lines) == 2 and "tehl run --srr -0.12" in lines[0] and lines[1].endswith("pytest")
 
 
-def test_readme_python_example_runs(taichi_cpu, capsys):
+def test_readme_python_example_runs(taichi_cpu, capsys, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
     text = (ROOT / "README.md").read_text()
     exec(compile(text.split("```python\n")[1].split("```")[0], "README.md", "exec"), {})
-    assert len(capsys.readouterr().out.splitlines()) == 4
+    assert len(capsys.readouterr().out.splitlines()) == 5

@@ -13,17 +13,17 @@ def mismatch(description, warm=None):
     from tehl_taichi.pressure import fields
     from tehl_taichi.pressure.levels import Levels
     from tehl_taichi.pressure.newton import ROW_CAP, PressureSolver
+    from tehl_taichi.pressure.one_temperature import OneTemperature
 
     levels = Levels(description, Scales.of(description), 64, 16)
-    solver, X, Y = PressureSolver(levels), levels.X[None, :], levels.Y[:, None]
+    film = OneTemperature(levels) if warm is None else FilmHeat(levels, 1e-6)
+    solver, X, Y = PressureSolver(levels, film), levels.X[None, :], levels.Y[:, None]
     ends = (levels.X[-1] - X) * (X - levels.X[0]) / 4
     P = 0.12 * ends * (1 + 0.1 * np.cos(3 * X) * np.cos(np.pi * Y))
     levels.put(fields.GAP0, levels.smooth_gap() + 0.3 + 0.02 * np.sin(2 * X) * np.cos(np.pi * Y))
-    levels.set_rate(11.0, 0.7)
+    levels.numbers.set_rate(11.0, 0.7)
     if warm is not None:
-        heat = FilmHeat(levels, 1e-6)
-        levels.use_film(*heat.laws)
-        heat.start(warm(heat.zeta[:, None, None], X, Y))
+        film.start(warm(film.across.zeta[:, None, None], X, Y))
 
     def residual(pressure, H0):
         levels.put(fields.P, pressure)
@@ -38,7 +38,7 @@ def mismatch(description, warm=None):
         found = [residual(P + sign * step * change, sign * step * approach) for sign in (1, -1)]
         exact = (found[0] - found[1]) / (2 * step)
         residual(P, 0.0)
-        levels.linearise()
+        solver.equations.linearise()
         solver.measure()
         solver._choose_sets()
         levels.put(fields.P, change)  # in the order of the table

@@ -9,10 +9,12 @@ import weakref
 import numpy as np
 import pytest
 
+import tehl_taichi as tehl
 from tehl_taichi.io import scene_file
 from tehl_taichi.scene import SceneError, scene
 from tehl_taichi.scene.feature import Feature
-from tehl_taichi.scene.map_judge import doubts, preview
+from tehl_taichi.scene.judge import doubtful_features as doubts
+from tehl_taichi.scene.judge import preview
 
 TOML = 'base = "gear"\n[[feature]]\nshape = "map"\nfile = "scan.npy"\nunit = "um"\npixel = 1e-6\n'
 SMALL = {"grid.nx": 64, "grid.ny": 16, "thermal.on": False}
@@ -46,14 +48,12 @@ def test_the_same_surface_in_another_unit_is_the_same_surface(tmp_path):
 
 
 def test_a_map_gives_the_feature_it_was_sampled_from(tmp_path):
-    from tehl_taichi.physics.gap import feature_height
-
     bump = Feature(height=2e-6, width=100e-6)
     x = np.arange(-60, 61) * 1e-6
-    np.save(tmp_path / "bump.npy", feature_height(bump, x[None, :], x[:, None]) * 1e6)
+    np.save(tmp_path / "bump.npy", bump.height_at(x[None, :], x[:, None]) * 1e6)
     map_ = feature(tmp_path / "bump.npy", level="none", taper=2e-6)
     X, Y = np.meshgrid(np.linspace(-80e-6, 80e-6, 77), np.linspace(-80e-6, 80e-6, 53))
-    np.testing.assert_allclose(feature_height(map_, X, Y), feature_height(bump, X, Y), atol=2e-9)
+    np.testing.assert_allclose(map_.height_at(X, Y), bump.height_at(X, Y), atol=2e-9)
     assert map_.reach == pytest.approx(60e-6) and map_.top == pytest.approx(2e-6) and not map_.symmetric
 
 
@@ -207,15 +207,15 @@ def test_a_scene_carries_its_heights_to_another_process(tmp_path):
 @pytest.fixture(scope="module")
 def moved(taichi_cpu, tmp_path_factory):
     """(scene, store of its first three steps, store of all four): one broken off, then moved and its map file removed."""
-    from tehl_taichi.io.recorder import record
     from tehl_taichi.io.store import Store
     from tehl_taichi.march.passage import march
+    from tehl_taichi.study.single import completed
 
     home = tmp_path_factory.mktemp("home")
     description = with_map(wave(home, length=60.0), **{"time.steps": 4})
-    whole = record(description, home / "whole.zarr")
+    whole = completed(description, home / "whole.zarr")
     run = march(description)
-    broken = Store.create(home / "broken.zarr", description, next(run), 5)
+    broken = Store.create(home / "broken.zarr", description, next(run), 5, {"steady_error": "{}", "steady_unknown": "{}"})
     for _ in range(2):
         shot = next(run)
         broken.append(shot, shot.state)
@@ -231,18 +231,17 @@ def elsewhere(monkeypatch):
 
 
 def test_a_moved_store_goes_on_without_the_map_file(moved, elsewhere):
-    from tehl_taichi.io.recorder import record
     from tehl_taichi.io.store import Store
+    from tehl_taichi.study.single import completed
 
     description, broken, whole = moved
     assert Store.open(broken).scene == description
-    a, b = record(description, broken), Store.open(whole)  # resumes
+    a, b = completed(description, broken).store, Store.open(whole)  # resumes
     assert len(a) == len(b) == 5 and np.array_equal(a.fields(4)["film"], b.fields(4)["film"])
 
 
 def test_a_moved_store_is_opened_by_xarray_plotted_and_run_again(moved, elsewhere, tmp_path):
     from tehl_taichi.io.figures import write_all
-    from tehl_taichi.io.found import find
     from tehl_taichi.io.store import Store
 
     xarray = pytest.importorskip("xarray")
@@ -252,7 +251,7 @@ def test_a_moved_store_is_opened_by_xarray_plotted_and_run_again(moved, elsewher
     assert data[name].attrs["units"] == "um" and data[name].attrs["sha256"] == description.features[0].sha256
     np.testing.assert_array_equal(data[name], description.features[0].heights)
     assert {path.name for path in write_all(Store.open(whole), tmp_path, 40)} >= {"maps.png", "centreline.png"}
-    again = find(str(whole))
+    again = tehl.scene(str(whole))
     assert again == description and again.replace(**{"time.steps": 1}).features[0].measures == description.features[0].measures
 
 

@@ -9,8 +9,8 @@ from tehl_taichi.scene import SceneError, scene
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.parts import Body, Contact
-from tehl_taichi.scene.quantity import Choice, Count, Number, Numbers, Switch, check, kinds, quantity
 from tehl_taichi.scene.whole import SECTIONS
+from tehl_taichi.values.quantity import Choice, Count, Number, Numbers, Switch, check, kinds, quantity
 
 PARTS = {**SECTIONS, "bodies": Body, "oil": Oil, "feature": Feature}
 KEYS = [(section, key) for section, kind in PARTS.items() for key in kinds(kind)]

@@ -35,8 +35,7 @@ def run(folder, *words):
     said = tehl("run", *words, "--threads", now["threads"], "--out", path, "--json", "--quiet")
     store, shown = Store.open(path), tehl("show", path)
     rows = dict(re.findall(r"^│ (.+?) +│ +(.+?) │$", shown, re.M)[::-1])  # of two rows the first: that of the surface
-    names = [*store.fields(0), *(name for name in store.stored if name.startswith("temperature"))]
-    fields = {name: np.stack([store.fields(n, [name])[name] for n in range(len(store))]).astype(float) for name in names}
+    fields = {name: np.stack([store.fields(n, [name])[name] for n in range(len(store))]).astype(float) for name in store.stored}
     return SimpleNamespace(summary=json.loads(said), store=store, rows=rows, shown=shown, fields=fields)
 
 

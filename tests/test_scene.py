@@ -36,7 +36,7 @@ def test_hertz_pressure_gives_back_its_load():
 
 @pytest.mark.parametrize("M, L", [(20.0, 10.0), (200.0, 10.0)])
 def test_moes_pair_comes_out(M, L):
-    from tehl_taichi.physics.film_formula import moes_numbers
+    from tehl_taichi.scene.film_formula import moes_numbers
 
     s = moes(M, L)
     units = Scales.of(s)
@@ -139,11 +139,9 @@ def test_long_features_start_earlier_and_end_later():
 def test_rough_patch_has_its_rms_and_fades_out():
     import numpy as np
 
-    from tehl_taichi.physics.gap import feature_height
-
     f = scene("rough").features[0]
     x = np.linspace(-f.extent_x / 2, f.extent_x / 2, 301)
-    s = feature_height(f, x[None, :], x[:, None])
+    s = f.height_at(x[None, :], x[:, None])
     inner = np.abs(x) < f.extent_x / 2 - f.taper
     assert s[np.ix_(inner, inner)].std() == pytest.approx(f.height, rel=0.3)
     assert np.abs(s[[0, -1]]).max() < 1e-12 and np.allclose(s, s[::-1])
@@ -155,8 +153,8 @@ def test_a_point_contact_must_fit_into_the_grid():
 
 
 def test_thick_films_are_solved_in_single_precision():
-    from tehl_taichi.physics.film_formula import central_film
     from tehl_taichi.pressure.precision import suited
+    from tehl_taichi.scene.film_formula import central_film
 
     gear = scene("gear")
     assert central_film(gear) == pytest.approx(0.44e-6, rel=0.12)  # computed: 0.44 um isothermal

@@ -26,10 +26,14 @@ def stress(rheology, newtonian, p):
     return newtonian * (1 + (newtonian / rheology.tau_0) ** 2) ** ((rheology.carreau_n - 1) / 2)
 
 
-def levels_of(description, nx, ny=0):
+def equations_of(description, nx, ny=0):
+    """The equations of an isothermal film, and their levels."""
+    from tehl_taichi.pressure.equations import Equations
     from tehl_taichi.pressure.levels import Levels
+    from tehl_taichi.pressure.one_temperature import OneTemperature
 
-    return Levels(description, Scales.of(description), nx, ny)
+    levels = Levels(description, Scales.of(description), nx, ny)
+    return Equations(levels, OneTemperature(levels)), levels
 
 
 def viscosity(levels, P, H):
@@ -37,9 +41,9 @@ def viscosity(levels, P, H):
     from tehl_taichi.physics.viscosity import ln_eta
 
     s, p = levels.scales, P * levels.scales.p_H
-    eta = np.exp(np.array([float(ln_eta(levels.scene.oil, q, levels.Gamma)) for q in p.ravel()])).reshape(p.shape)
+    eta = np.exp(np.array([float(ln_eta(levels.scene.oil, q, levels.conditions["inlet"])) for q in p.ravel()])).reshape(p.shape)
     newtonian = eta * levels.scene.operation.u_s / (H * s.h)
-    return np.log(eta * stress(levels.scene.rheology, newtonian, p) / newtonian) - levels.ln_eta0
+    return np.log(eta * stress(levels.scene.rheology, newtonian, p) / newtonian) - levels.conditions["ln_eta0"]
 
 
 @pytest.mark.parametrize("law", LAWS)
@@ -47,13 +51,13 @@ def test_the_flow_feels_what_the_law_leaves_of_the_viscosity(law):
     """ln eta, its slopes by P and H (against differences of the law by numpy), and what the coarser levels get of them."""
     from tehl_taichi.pressure import fields
 
-    levels = levels_of(film(law, srr=-0.5), 64)
+    equations, levels = equations_of(film(law, srr=-0.5), 64)
     X = levels.X[None, :]
     P, H = 0.02 + 0.5 * np.exp(-(X**2)), 0.02 + 0.05 * X**2
     for row, values in ((fields.P, P), (fields.H, H)):
         levels.put(row, values)
-    levels.laws()
-    levels.linearise()
+    equations.film.values()
+    equations.linearise()
     expected = viscosity(levels, P, H)
     np.testing.assert_allclose(levels.get(fields.LE), expected, atol=1e-10)
     np.testing.assert_allclose(levels.get(fields.IE), np.exp(-expected), rtol=1e-10)
@@ -62,7 +66,7 @@ def test_the_flow_feels_what_the_law_leaves_of_the_viscosity(law):
     assert by_H.max() * H.min() > 0.5  # sheared hard somewhere, and nearly Newtonian elsewhere
     np.testing.assert_allclose(levels.get(fields.DLE), by_P, rtol=2e-4, atol=1e-4)
     np.testing.assert_allclose(levels.get(fields.DLH) * H, by_H * H, atol=1e-3)
-    levels.inject()
+    equations.inject()
     for row in (fields.LE, fields.DLH):
         assert np.array_equal(levels.get(row, 1), levels.get(row)[:, ::2])
 
@@ -71,12 +75,12 @@ def test_no_film_is_thinned_below_its_floor():
     """Where surfaces touch the film stays at the floor, and the viscosity with it."""
     from tehl_taichi.pressure import fields
 
-    levels = levels_of(film(srr=-0.5), 64)
+    equations, levels = equations_of(film(srr=-0.5), 64)
     floor = levels.scene.rheology.film_floor
     levels.put(fields.P, 0.5)
     levels.put(fields.H, 0.3 * floor)
-    levels.laws()
-    levels.linearise()
+    equations.film.values()
+    equations.linearise()
     assert levels.get(fields.LE)[0, 20] == pytest.approx(float(viscosity(levels, np.array(0.5), floor)), abs=1e-10)
     assert not levels.get(fields.DLH).any()
 
@@ -131,7 +135,7 @@ def test_a_film_that_stays_cold_is_an_isothermal_one(law):
 def test_nothing_is_held_for_a_law_that_does_not_act(changes, thins):
     from tehl_taichi.pressure import fields
 
-    levels = levels_of(film(**changes), 64)
+    _, levels = equations_of(film(**changes), 64)
     assert levels.thins is thins
     assert levels.S.shape[0] == (fields.NROWS_SHEARED if thins else fields.NROWS)
     law = [text for text in levels.scene.left_out() if "shear law" in text]

@@ -54,25 +54,28 @@ def test_third_order_difference():
 def test_a_film_carried_by_the_oil_stores_nothing(courant):
     """rho H that moves with the oil, and rho H at rest: the storage term with the Couette flow is 0 and d(rho H)/dX."""
     from tehl_taichi.pressure import fields
+    from tehl_taichi.pressure.equations import Equations
     from tehl_taichi.pressure.levels import Levels
+    from tehl_taichi.pressure.one_temperature import OneTemperature
     from tehl_taichi.scene import scene
     from tehl_taichi.scene.scales import Scales
 
     description = scene("smooth-line").replace(**{"thermal.on": False})
     levels = Levels(description, Scales.of(description), 128, 0)
+    equations = Equations(levels, OneTemperature(levels))
     X, dT = levels.X[None], courant * levels.dx
 
     def film(step):
         levels.put(fields.P, 0.0)  # no Poiseuille flow, density 1
         levels.put(fields.H, 1 + 0.1 * X + 0.1 * np.exp(-(((X + 0.5 - step * dT) / 0.4) ** 2)) * (step > 0))
-        levels.laws()
+        equations.film.values()
 
     film(0)
     storage = Storage(levels)
     for step in range(1, 6):
         film(step)
         storage.begin(dT)
-        levels.evaluate_residual()
+        equations.evaluate()
         storage.accept(dT)
     found = levels.get(fields.R)[0, 2:-2] / levels.dx
     assert np.abs(found - 0.1).max() < (2e-3 if courant <= 1 else 0.02)

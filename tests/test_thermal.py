@@ -25,20 +25,28 @@ def film(description, nx):
 
     levels = Levels(description, Scales.of(description), nx, 0)
     heat = FilmHeat(levels, time_step(description, levels.scales, levels.dx))
-    levels.use_film(*heat.laws)
     return heat, levels
 
 
-def test_the_heat_enters_the_pressure_problem_only_where_it_is_told_to():
-    from tehl_taichi.heat.temperatures import FilmHeat
-    from tehl_taichi.pressure.levels import Levels
+def test_a_solver_takes_density_and_viscosity_from_its_film():
+    """Of hot oil where it is handed a film with temperatures, of oil at the inlet's temperature before and without."""
+    from tehl_taichi.pressure import fields
+    from tehl_taichi.pressure.newton import PressureSolver
+    from tehl_taichi.pressure.one_temperature import OneTemperature
 
-    levels = Levels(thermal(), Scales.of(thermal()), 64, 0)
-    before = levels.laws, levels.evaluate_residual
-    heat = FilmHeat(levels, 1e-6)
-    assert (levels.laws, levels.evaluate_residual) == before
-    levels.use_film(*heat.laws)
-    assert levels.laws is heat.laws[0] and levels.evaluate_residual is not before[1]
+    heat, levels = film(thermal(), 64)
+    solver = PressureSolver(levels, OneTemperature(levels))
+    levels.put(fields.P, 0.1)
+    found = []
+    for temperature in (None, 90.0, 190.0):
+        if temperature:
+            solver.take(heat)
+            heat.set_temperature(np.full((heat.nz, 1, 65), temperature))
+        solver.residual()
+        found.append([levels.get(row)[0, 20] for row in (fields.LE, fields.RHO)])
+    cold, same, hot = np.array(found)
+    np.testing.assert_allclose(same[0], cold[0], rtol=1e-6)
+    assert hot[0] < cold[0] - 1 and 0.9 < hot[1] / same[1] < 0.97
 
 
 def test_chebyshev_matrices_are_exact_for_polynomials():
@@ -55,7 +63,7 @@ def test_bodies_remember_their_heat():
     from tehl_taichi.heat import modes
 
     for part in (1.0, 0.5):
-        (weight, decay, gain, gain_last), B, B_last = modes.memory(part * 1e-6, 13000.0, 1e-6)
+        weight, decay, gain, gain_last, B, B_last = modes.memory(part * 1e-6, 13000.0, 1e-6)
         memory, worst = np.zeros(modes.MODES), 0.0
         for n in range(1, 2000):
             warm = (weight * decay * memory).sum() + B + B_last
@@ -69,7 +77,7 @@ def test_a_slab_remembers_its_heat():
     from tehl_taichi.heat import modes
 
     depth = 100.0
-    (weight, decay, gain, gain_last), B, B_last = modes.memory(1.0, 1.0, 1.0, depth)
+    weight, decay, gain, gain_last, B, B_last = modes.memory(1.0, 1.0, 1.0, depth)
     memory, times = np.zeros(modes.MODES), np.arange(1, 30001)
     warm = np.zeros(times.size)
     for n in range(times.size):
@@ -85,26 +93,23 @@ def test_a_slab_remembers_its_heat():
 def test_moving_half_space_under_a_uniform_flux(speed, sliding):
     """60 MW/m2 on steel: 40.30 K half a millimetre behind the edge at 8.5 m/s, 2 q sqrt(x/(pi k rho c u)) anywhere."""
     from tehl_taichi.heat import slots as kernels
-    from tehl_taichi.heat import step
 
     heat, levels = film(thermal(speed=speed, srr=sliding), 256)
     heat.start()
     S, edge = levels.scales, 32
-    flux = np.zeros((1, 1, levels.nx + 1))
+    flux = np.zeros((1, levels.nx + 1))
     flux[..., edge:] = 60e6
     for _ in range(2 * levels.nx):
         heat.begin(heat.dt)
         for slot in (kernels.QA, kernels.QB):
-            kernels.put_slots(heat.Z, levels.G, heat.single + slot, 1, flux)
-        for remember in heat._remember:
-            remember()
-        heat._adopt()
-        heat.offset = heat.until
+            heat.columns.put_single(slot, flux)
+        heat.bodies.steady = False
+        heat.bodies.accept()
     heat.begin(heat.dt)
     x = (levels.X - levels.X[edge] + 0.5 * levels.dx) * S.a
-    for slot, u, B in ((kernels.AA, heat.speeds[0], step.B_A), (kernels.AB, heat.speeds[1], step.B_B)):
-        rise = heat.single_slot(slot)[0] - heat.inlet + heat.step_numbers[0, B] * flux[0, 0]
-        exact = 2 * 60e6 * np.sqrt(np.maximum(x, 0) / (math.pi * 47 * 7850 * 450 * u))
+    for slot, body, B in zip((kernels.AA, kernels.AB), heat.bodies.each, ("B_a", "B_b")):
+        rise = heat.columns.single(slot)[0] - levels.conditions["inlet"] + heat.step[B] * flux[0]
+        exact = 2 * 60e6 * np.sqrt(np.maximum(x, 0) / (math.pi * 47 * 7850 * 450 * body.speed))
         far = x > 0.4e-3
         assert np.abs(rise / exact - 1)[far].max() < 5e-3
         if sliding == 0.0:
@@ -132,12 +137,13 @@ def test_thermal_couette_flow(Na):
     levels.put(fields.P, 0.0)
     levels.put(fields.H, h / levels.scales.h)
     for slot in (kernels.AA, kernels.AB):
-        kernels.put_slots(heat.Z, levels.G, heat.single + slot, 1, np.full((1, 1, levels.nx + 1), 90.0))
-    heat.step_numbers[0] = [1e-6, 1.0, 1.0, 0.0, 0.0, 1e-9, 40, 1.0, 1.0, 1.0, 0.0]  # no time derivative: the walls decide
+        heat.columns.put_single(slot, np.full((1, levels.nx + 1), 90.0))
+    heat.step.set(rate=1e-6, inv_x=1.0, inv_y=1.0, tolerance=1e-9, iterations=40, back=1.0, back_2=1.0,
+                  near=1.0)  # no time derivative: the walls decide
     for _ in range(3):
         heat.solve()
     heat._velocities()
-    T, tau = heat.temperature()[:, 0, 10], heat.single_slot(kernels.TAU)[0, 10]
+    T, tau = heat.temperature()[:, 0, 10], heat.columns.single(kernels.TAU)[0, 10]
     theta, stress = COUETTE[Na]
     assert b * (T.max() - 90.0) == pytest.approx(theta, rel=3e-4)
     assert abs(tau) * h / (oil.eta0 * slip) == pytest.approx(stress, rel=3e-4)
@@ -196,11 +202,11 @@ def test_simple_sliding(srr):
     result = solve_steady(description, Scales.of(description), 64, 0)
     assert result.report.converged
     heat, rest = result.heat, 0 if srr < 0 else 1
-    flux = heat.single_slot((slots.QA, slots.QB)[rest])[0]
-    rise, expected = heat.T[-rest, 0] - heat.inlet, flux * 3 * result.solver.levels.scales.a / description.body_a.k
+    flux = heat.columns.single((slots.QA, slots.QB)[rest])[0]
+    rise, expected = heat.T[-rest, 0] - 90.0, flux * 3 * result.solver.levels.scales.a / description.body_a.k
     loaded = result.solver.levels.get(fields.P)[0] > 1e-3
     np.testing.assert_allclose(rise[loaded], expected[loaded], rtol=2e-3, atol=0.05)
-    assert rise.max() > 1.5 * (heat.T[rest - 1, 0] - heat.inlet).max()
+    assert rise.max() > 1.5 * (heat.T[rest - 1, 0] - 90.0).max()
 
 
 def passage(**changes):
@@ -271,30 +277,29 @@ def test_a_point_contact_heats_up():
 def sources_and_sinks(heat, levels):
     """Per column, W/m2: dissipation, compression heat, heat into the bodies, heat that the oil takes along (steady, 1-D)."""
     from tehl_taichi.heat import slots as kernels
-    from tehl_taichi.heat import step
     from tehl_taichi.physics.conduction import heat_capacity
     from tehl_taichi.physics.density import expansivity
     from tehl_taichi.pressure import fields
 
-    S, oil, nz, w = levels.scales, levels.scene.oil, heat.nz, heat.C[-1][:, None]
+    S, oil, w, zeta = levels.scales, levels.scene.oil, heat.across.weights[:, None], heat.across.zeta[:, None]
     P, H = levels.get(fields.P)[0] * S.p_H, levels.get(fields.H)[0] * S.h
-    T, TS, ie, rho, MX, MS, dp = (heat.slots(kind * nz, nz)[:, 0] for kind in (
+    T, TS, ie, rho, MX, MS, dp = (heat.columns.nodes(kind)[:, 0] for kind in (
         kernels.T, kernels.TS, kernels.NIE, kernels.NRHO, kernels.MX, kernels.MS, kernels.PS))
-    shear, tau = heat.shear()[:, 0], heat.single_slot(kernels.TAU)[0]
-    e0, eta0 = (w * ie).sum(0), math.exp(levels.ln_eta0)
-    centre = (w * heat.zeta[:, None] * ie).sum(0) / e0
+    shear, tau = heat.shear()[:, 0], heat.columns.single(kernels.TAU)[0]
+    e0, eta0 = (w * ie).sum(0), levels.conditions["eta0"]
+    centre = (w * zeta * ie).sum(0) / e0
     left = tau * H * e0 / (-levels.scene.operation.u_s * eta0)  # of the viscosity by the shear law
-    stress = tau + (heat.zeta[:, None] - centre) * (shear[2] - shear[0])
+    stress = tau + (zeta - centre) * (shear[2] - shear[0])
     fade = np.where(levels.X > levels.X[np.searchsorted(levels.X, 0.0)], P / (P + 1e-4 * S.p_H), 1.0)
     rc = np.array([[float(heat_capacity(oil, p, t)) for p, t in zip(P, row)] for row in T])
     swell = np.array([[float(expansivity(oil, p, t)) for p, t in zip(P, row)] for row in T])
     drift = -np.gradient(MX, levels.dx * S.a, axis=1)
     drift = drift - MS / MS[-1] * drift[-1]
-    rate = heat.step_numbers[0, step.RATE]
-    carried = H * (w * rc * (T - TS)).sum(0) * rate + (w * rc / rho * drift * (heat.D1 @ T)).sum(0)
+    rate = heat.step["rate"]
+    carried = H * (w * rc * (T - TS)).sum(0) * rate + (w * rc / rho * drift * (heat.across.D1 @ T)).sum(0)
     dissipated = H * (w * stress**2 * ie).sum(0) / (left * eta0) * fade
     squeezed = H * (w * swell * (T + 273.15) * dp).sum(0) * rate * fade
-    return dissipated, squeezed, (heat.single_slot(kernels.QA) + heat.single_slot(kernels.QB))[0], carried
+    return dissipated, squeezed, (heat.columns.single(kernels.QA) + heat.columns.single(kernels.QB))[0], carried
 
 
 def test_heat_balance():

@@ -53,6 +53,27 @@ def tile(c, nx):
     return c // per, first, ti.min(first + TILE, nx + 1)
 
 
+@ti.dataclass
+class Place:
+    """A block of rows at one x of the finest level."""
+
+    k: ti.i32  # column in the tables of all levels
+    q: ti.i32  # column in those of the finest level alone
+    c: ti.i32  # number of its tile
+    i: ti.i32  # along x
+    s: ti.i32  # number of the block along y
+    nx: ti.i32  # cells of the level
+    ny: ti.i32
+
+
+@ti.func
+def place(G: ti.template(), c, i):
+    """The Place at i along x in tile c."""
+    nx, ny, off = cells(G, 0)
+    s = tile(c, nx)[0]
+    return Place(k=off + s * (nx + 1) + i, q=s * (nx + 1) + i, c=c, i=i, s=s, nx=nx, ny=ny)
+
+
 @ti.func
 def above(S: ti.template(), row, k, n2):
     """Field at j + 1."""

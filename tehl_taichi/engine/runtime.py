@@ -3,6 +3,7 @@
 import atexit
 import contextlib
 import functools
+import numbers
 import os
 import shutil
 import sys
@@ -12,9 +13,11 @@ import warnings
 from pathlib import Path
 
 from tehl_taichi import __version__
+from tehl_taichi.engine import cores
 from tehl_taichi.errors import RuntimeUnavailable
 
 ARCHES = ("cpu",)  # that the kernels have been checked on
+MOST_THREADS = 1024
 _started = {}
 _home = None  # (process, thread) that Taichi was started in
 WORTH_THREADS = 2500
@@ -61,17 +64,24 @@ def _give_up(folder):
     shutil.rmtree(folder, ignore_errors=True)
 
 
+def check(arch="cpu", threads=None):
+    """Refuse what no process of this machine can have, without starting anything. Raises RuntimeUnavailable."""
+    if arch not in ARCHES:
+        raise RuntimeUnavailable(f"arch = {arch!r} is not available in this version: {', '.join(map(repr, ARCHES))} is")
+    if threads is not None and not (isinstance(threads, numbers.Integral) and 1 <= threads <= MOST_THREADS):
+        raise RuntimeUnavailable(f"threads = {threads!r} is out of range; allowed: 1 to {MOST_THREADS}")
+
+
 def start(arch="cpu", threads=None):
     """Start Taichi and say what was really started.
 
-    arch: "cpu" (others when their kernels are checked); threads: number of CPU threads or None for all. Returns a dict with
-    arch, threads, taichi (version) and cache (folder).
-    Raises RuntimeUnavailable when the arch cannot be had, another start is already active, or Taichi runs in another thread
-    or in the process that this one was forked from.
+    arch: "cpu" (others when their kernels are checked); threads: number of CPU threads, or None for all cores that
+    this process may use. Returns a dict with arch, threads, taichi (version) and cache (folder).
+    Raises RuntimeUnavailable when arch or threads cannot be had, another start is already active, or Taichi runs in another
+    thread or in the process that this one was forked from.
     """
-    if arch not in ARCHES:
-        raise RuntimeUnavailable(f"arch = {arch!r} is not available in this version: {', '.join(map(repr, ARCHES))} is")
-    threads = int(threads or os.cpu_count() or 1)
+    check(arch, threads)
+    threads = int(threads or cores.available())
     if _started:
         return _same_start(arch, threads)
     _start(arch, threads)
@@ -83,7 +93,7 @@ def _start(arch, threads):
     cache = str(cache_dir())
     import taichi as ti
 
-    with _no_banner():
+    with _no_banner(), contextlib.redirect_stdout(None), cores.pinned(threads):  # in a notebook prints do not go to file 1
         ti.init(arch=ti.cpu, default_fp=ti.f64, fast_math=False, cpu_max_num_threads=threads, log_level=ti.ERROR,
                 # its own optimisation passes take 40 s for the Findley search (2 s without) and gain nothing over LLVM's
                 advanced_optimization=False,
@@ -115,6 +125,11 @@ def ensure():
         return start()
     _check_home()
     return dict(_started)
+
+
+def start_or_join(arch="cpu", threads=None):
+    """As :func:`start`; threads = None: those of a start before, if there was one."""
+    return start(arch, threads if threads is not None or not _started else _started["threads"])
 
 
 def _check_home():

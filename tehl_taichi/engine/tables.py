@@ -7,6 +7,9 @@ from tehl_taichi.engine import runtime
 
 _tables = []  # [field, weak reference to its owner]
 SMALLEST_TABLE = 5000  # columns; sizes grow by factors of 4, because every size of a field compiles its kernels anew
+# columns more, so that rows do not lie a multiple of 4096 bytes apart: all that a loop reads would share a few cache sets then.
+# Isothermal step on 512x128, ms on one thread: 176, 152 without, 142, 112 with them
+SKEW = 13
 
 
 def lease(owner, rows, lanes, columns, slots=0, precision="f64"):
@@ -28,8 +31,9 @@ def lease(owner, rows, lanes, columns, slots=0, precision="f64"):
     import taichi as ti
 
     capacity = SMALLEST_TABLE
-    while capacity < columns:
+    while capacity + SKEW < columns:
         capacity *= 4
+    capacity += SKEW
     field = ti.Vector.field(lanes, getattr(ti, precision), shape=(capacity, slots) if slots else (rows, capacity))
     _tables.append([field, weakref.ref(owner)])
     return field

@@ -9,15 +9,16 @@ too): Theta = T sqrt(D)/(sqrt(s + D k^2) + |k| sqrt(D)) in Laplace space, D the 
 """
 
 import math
-import os
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
+from tehl_taichi.engine import cores
+
 SERIES = 32  # terms of Weideman's rational series
 TAPER = 1.0  # a: behind the grid its last temperatures fade over this length
 CHUNK = 1000  # wave numbers convolved at once
-WORKERS = min(4, os.cpu_count() or 1)  # threads of a fatigue pass (transforms run outside the interpreter's lock)
+WORKERS = min(4, cores.available())  # threads of a fatigue pass (transforms run outside the interpreter's lock)
 
 
 def erfcx(x):

@@ -8,6 +8,26 @@ from numpy.polynomial import chebyshev as series
 NEAR = 0.05  # of the rise: between nodes a profile is higher than at them by far less
 FINE = 33  # places that tell which profile is the highest; its own maximum is exact
 
+# rows of the table of nodes, and the matrices (a row per node each) that follow them
+ZETA, WEIGHT, MATRICES = range(3)
+INTEGRAL, SLOPE, SECOND, BEYOND = range(4)
+
+
+class Across:
+    """`count` nodes across a film: zeta (n,) their places on [0, 1]; C (n, n) integrals from 0 to each node, D1 and D2 (n, n)
+    first and second derivatives; weights (n,) of the integral over the whole film; table: all of it for kernels."""
+
+    def __init__(self, count):
+        self.zeta, self.C, self.D1, self.D2 = chebyshev(count)
+        self.weights = self.C[-1]
+        self.table = np.zeros((MATRICES + 4 * count, count))
+        self.table[ZETA], self.table[WEIGHT] = self.zeta, self.weights
+        # beyond node m: sum_n w[n] C[n, m] f[n], the integral over zeta of what lies below each place, turned round
+        matrices = {INTEGRAL: self.C, SLOPE: self.D1, SECOND: self.D2, BEYOND: self.weights[:, None] * self.C}
+        for place, matrix in matrices.items():
+            first = MATRICES + place * count
+            self.table[first : first + count] = matrix
+
 
 def chebyshev(count):
     """(nodes on [0, 1], integrals from 0 to each node (n, n), first and second derivative matrices) of Chebyshev-Lobatto

@@ -1,75 +1,102 @@
-"""Surface temperatures of the bodies: heat that went in earlier, remembered in the bodies' own frames.
+"""Surface temperatures of both bodies, T_s = A + B q: A from the heat of earlier steps, B q from that of the running one."""
 
-F[column, slot]: the memory modes of body a and of body b (`count` each) and the flux of the last step into both; all that
-again for the new step; one scratch slot. A column belongs to a material strip, which the grid of the contact overtakes by
-whole cells (shift) and a rest.
-"""
+import math
 
-import taichi as ti
+import numpy as np
 
-from tehl_taichi.engine.lanes import Table, V, W, cells
-from tehl_taichi.heat.paths import cubic
-
-# rows: weight, decay over the step, gain of the new flux and of the last one (linear in between); shift, rest, B of the last
-Modes = ti.types.ndarray(dtype=ti.f64, ndim=2)
-WEIGHT, DECAY, GAIN, GAIN_LAST, NUMBERS = range(5)
+from tehl_taichi.engine.launches import bind
+from tehl_taichi.engine.records import Record
+from tehl_taichi.heat import modes, slots, strips
+from tehl_taichi.heat.step import Drift
 
 
-@ti.func
-def interpolate(F: ti.template(), first, i, nx, slot, rest):
-    """Value at i + rest, cubic, the ends continued."""
-    w, out = cubic(rest), V(0.0)
-    for t in ti.static(range(4)):
-        out += w[t] * F[first + ti.min(ti.max(i + t - 1, 0), nx), slot]
-    return out
+class Body:
+    """One body: what it is made of, how its surface moves, and what it remembers in a step."""
+
+    def __init__(self, material, speed, rests, dt, a):
+        """material: a scene's Body; speed of its surface, m/s; rests: whether it has none; dt: of the step that the memory is
+        made for, s; a: Hertz half-width, m."""
+        self.rests, self.speed, self.dt = rests, 0.0 if rests else speed, dt
+        self.effusivity = math.sqrt(material.k * material.rho * material.c)
+        diffusivity = material.k / (material.rho * material.c)
+        self.depth = modes.REST * a / math.sqrt(diffusivity * dt) if rests else math.inf
+        self.modes, self.drift = np.zeros((4, modes.MODES)), Record(Drift)
+
+    def begin(self, dt, before, after, settled):
+        """Prepare a step of dt s in which the grid passes from `before` to `after`, in cells; settled: whether it has a memory
+        of a long time with the flux of the step itself. Returns B."""
+        known = modes.memory(dt, self.effusivity, self.dt, self.depth)
+        for row, values in ((strips.WEIGHT, known.weight), (strips.DECAY, known.decay), (strips.GAIN, known.gain),
+                            (strips.GAIN_LAST, known.gain_last)):
+            self.modes[row] = values
+        whole, now = math.floor(before + 1e-9), math.floor(after + 1e-9)
+        self.drift.set(shift=now - whole, rest=max(after - now, 0.0), B_last=known.B_last)
+        if not settled:
+            return known.B
+        return known.B + (known.B_last + float((known.weight * known.decay) @ self.settled()))
+
+    def settled(self):
+        """What its modes hold after a long time, per flux."""
+        return modes.steady_modes(self.dt, self.depth)
 
 
-@ti.kernel
-def surface(F: ti.template(), Z: ti.template(), G: Table, modes: Modes, count: ti.i32, body: ti.i32, ambient: ti.f64,
-            slot: ti.i32):
-    """Z[slot] = A of T_s = A + B q at the nodes of the contact; material strip i lies at x_i + rest dx."""
-    nx, ny, off = cells(G, 0)
-    ti.loop_config(block_dim=1)
-    for s in range(ny // W + 1):
-        first, scratch = s * (nx + 1), 4 * count + 4
-        shift, rest, last = int(modes[NUMBERS, 0]), modes[NUMBERS, 1], modes[NUMBERS, 2]
-        for i in range(nx + 1):
-            total = V(ambient)
-            if i - shift >= 0:
-                total += last * F[first + i - shift, 2 * count + body]
-                for m in range(count):
-                    total += modes[WEIGHT, m] * modes[DECAY, m] * F[first + i - shift, body * count + m]
-            F[first + i, scratch] = total
-        for i in range(nx + 1):
-            Z[first + i, slot] = interpolate(F, first, i - 1, nx, scratch, 1.0 - rest)
+class Bodies:
+    """Both bodies under the columns of a film; dt: time step (s) that their memory is made for, shorter ones may be taken too.
 
+    steady: surfaces at rest conduct as after a long time, until :meth:`warm_resting`.
+    """
 
-@ti.kernel
-def remember(F: ti.template(), Z: ti.template(), G: Table, modes: Modes, count: ti.i32, body: ti.i32, slot: ti.i32):
-    """The new memory of a body from the flux Z[slot] of this step and that of the last."""
-    nx, ny, off = cells(G, 0)
-    ti.loop_config(block_dim=1)
-    for s in range(ny // W + 1):
-        first, shift, rest = s * (nx + 1), int(modes[NUMBERS, 0]), modes[NUMBERS, 1]
-        new = 2 * count + 2
-        for i in range(nx + 1):
-            q, last = interpolate(Z, first, i, nx, slot, rest), V(0.0)
-            if i - shift >= 0:
-                last = F[first + i - shift, 2 * count + body]
-            for m in range(count):
-                old = V(0.0)
-                if i - shift >= 0:
-                    old = F[first + i - shift, body * count + m]
-                F[first + i, new + body * count + m] = modes[DECAY, m] * old + modes[GAIN, m] * q + modes[GAIN_LAST, m] * last
-            F[first + i, new + 2 * count + body] = q
+    def __init__(self, levels, columns, dt):
+        scene, a = levels.scene, levels.scales.a
+        self.levels, self.columns, self.steady = levels, columns, False
+        speeds = scene.operation.u_a, scene.operation.u_b
+        self.each = [Body(*one, dt, a) for one in zip((scene.body_a, scene.body_b), speeds, scene.at_rest)]
+        size, self.kept = strips.slots_of(modes.MODES)
+        self.table = slots.SlotTable(levels, size)
+        self.offset = self.until = np.zeros(2)  # cells that each body has moved since the start, and will have
+        self._bind(scene.operation.temperature)
 
+    def _bind(self, inlet):
+        F, Z, G, count = self.table.field, self.columns.field, self.levels.G, modes.MODES
+        known, flux = ([self.columns.place(name) for name in pair] for pair in ((slots.AA, slots.AB), (slots.QA, slots.QB)))
+        self._surface = [bind(strips.surface, F, Z, G, body.modes, body.drift.values, count, n, inlet, known[n])
+                         for n, body in enumerate(self.each)]
+        self._remember = [bind(strips.remember, F, Z, G, body.modes, body.drift.values, count, n, flux[n])
+                          for n, body in enumerate(self.each)]
+        self._adopt = bind(strips.adopt, F, G, count)
 
-@ti.kernel
-def adopt(F: ti.template(), G: Table, count: ti.i32):
-    """The new memory of both bodies becomes the present one."""
-    nx, ny, off = cells(G, 0)
-    ti.loop_config(block_dim=1)
-    for s in range(ny // W + 1):
-        for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
-            for m in range(2 * count + 2):
-                F[q, m] = F[q, 2 * count + 2 + m]
+    def begin(self, dt):
+        """A of both surfaces after a step of dt s, into the columns. Returns B of both."""
+        v = self.levels
+        self.until = self.offset + np.array([body.speed for body in self.each]) * dt / (v.dx * v.scales.a)
+        B = [body.begin(dt, *way, self.steady and body.rests) for body, *way in zip(self.each, self.offset, self.until)]
+        for surface in self._surface:
+            surface()
+        return B
+
+    def accept(self):
+        """Remember the flux of this step, which becomes the last one."""
+        for body, remember in zip(self.each, self._remember):
+            if not (body.rests and self.steady):
+                remember()
+        self._adopt()
+        self.offset = self.until
+
+    def warm_resting(self):
+        """Give the bodies whose surfaces rest the memory of a long time with the present heat."""
+        self.steady, memory = False, self.memory()
+        for n, (body, flux) in enumerate(zip(self.each, (slots.QA, slots.QB))):
+            if body.rests:
+                present = self.columns.single(flux)
+                memory[strips.flux_slot(modes.MODES, n)] = present
+                memory[strips.mode_slots(modes.MODES, n)] = body.settled()[:, None, None] * present
+        self.restore(memory, self.offset)
+
+    def memory(self):
+        """Modes of both bodies and the last flux into them, (slots, ny+1, nx+1)."""
+        return self.table.get(0, self.kept)
+
+    def restore(self, memory, offset):
+        """Go on from :meth:`memory` and the cells that each body has moved since the start."""
+        self.table.put(0, memory)
+        self.offset = np.array(offset)

@@ -3,23 +3,52 @@
 In the table of :mod:`tehl_taichi.heat.slots`. Source: generalised Reynolds equation, Yang & Wen 1990. In SI but for
 viscosities, which are over eta0, and densities, over rho_0.
 
-With the stress of the Couette part tau = (u_b - u_a)/(h E0) b, E0 = int dzeta/eta, zeta_c = int zeta dzeta/eta / E0 and b what
-the shear law leaves of the viscosity: u = u_a + (u_b - u_a) int_0 dzeta/eta / E0 + h^2 p_x int_0 (zeta - zeta_c)/eta dzeta / b.
-Integrals over zeta: w weights of the whole film, C[n] those up to node n, nested[n, m] = w[n] C[n, m].
+With the stress of the Couette part tau = -u_s/(h E0) b, u_s = u_a - u_b, E0 = int dzeta/eta, zeta_c = int zeta dzeta/eta / E0
+and b what the shear law leaves of the viscosity: u = u_a - u_s int_0 dzeta/eta / E0 + h^2 p_x int_0 (zeta - zeta_c)/eta dzeta
+/ b. Integrals over zeta: N, see :mod:`tehl_taichi.heat.nodes`.
 """
 
 import taichi as ti
 
 from tehl_taichi.engine.elementary import exp, log
-from tehl_taichi.engine.lanes import Flat, Table, V, cells, tile, tiles
+from tehl_taichi.engine.lanes import Flat, Table, V, cells, place, tile, tiles
+from tehl_taichi.engine.records import read
+from tehl_taichi.heat.nodes import Nodes, beyond, integral, weight, zeta
 from tehl_taichi.heat.slots import KINDS, MS, MX, MY, NIE, NRHO, TAU, VY, XA, XB, YA, YB, T, U
 from tehl_taichi.physics.density import rho_film
 from tehl_taichi.physics.viscosity import ln_eta
-from tehl_taichi.pressure.fields import DX, DY, FLOOR, ILAM, QCP, RHOC, H, P
+from tehl_taichi.pressure.conditions import Conditions
+from tehl_taichi.pressure.fields import FLOOR, ILAM, QCP, RHOC, H, P
 from tehl_taichi.pressure.gradient import limited_gradient
 from tehl_taichi.pressure.laws import DP, sheared, store_laws, store_slopes, store_thinning
 
-Coefficients = ti.types.ndarray(dtype=ti.f64, ndim=2)
+
+@ti.dataclass
+class Column:
+    """What the nodes of a column share."""
+
+    p: V  # Pa
+    h: V  # m, at least the floor
+    px: V  # Pa/m
+    py: V  # Pa/m
+
+
+@ti.dataclass
+class Couette:
+    """The Couette part of a column."""
+
+    e0: V  # int dzeta/eta over 1/eta0
+    centre: V  # zeta_c
+    newtonian: V  # Pa, stress on body a without a shear law
+    left: V  # b, what the law leaves of it
+
+
+@ti.func
+def column(S: ti.template(), G: ti.template(), at: ti.template(), scene: ti.template()):
+    """The Column of a place, from pressure and film."""
+    px, py = limited_gradient(S, G, at)
+    slope = scene.p_H / scene.a
+    return Column(p=S[P, at.k] * scene.p_H, h=ti.max(S[H, at.k], G[0, FLOOR]) * scene.h, px=px * slope, py=py * slope)
 
 
 @ti.func
@@ -32,103 +61,109 @@ def node_laws(Z: ti.template(), q, nz, oil: ti.template(), p, ln_eta0):
 
 
 @ti.func
-def couette(Z: ti.template(), q, nz, w: ti.template(), zeta: ti.template(), rheology: ti.template(), p, h, slip, eta0):
-    """E0 eta0, zeta_c, Newtonian stress and what the shear law leaves of it."""
-    e0, e1 = V(0.0), V(0.0)
+def couette(Z: ti.template(), N: ti.template(), q, rheology: ti.template(), p, h, scene: ti.template()):
+    """The Couette part of column q under the pressure p (Pa) in a film h (m)."""
+    nz, e0, e1 = N.shape[1], V(0.0), V(0.0)
     for n in range(nz):
-        part = w[n] * Z[q, NIE * nz + n]
+        part = weight(N, n) * Z[q, NIE * nz + n]
         e0 += part
-        e1 += zeta[n] * part
-    newtonian, b = sheared(rheology, p, h, e0, slip * eta0)
-    return e0, e1 / e0, newtonian, b
+        e1 += zeta(N, n) * part
+    newtonian, left = sheared(rheology, p, h, e0, -scene.u_s * scene.eta0)
+    return Couette(e0=e0, centre=e1 / e0, newtonian=newtonian, left=left)
 
 
 @ti.func
-def integrals(Z: ti.template(), q, nz, nested: ti.template(), w: ti.template(), zeta: ti.template(), e0, centre, b, u_a, slip,
-              u_m):
-    """Mean density, density carried by the Couette flow, and 1/eta that the Poiseuille flow feels."""
-    mean, sheared, turned = V(0.0), V(0.0), V(0.0)
+def felt(Z: ti.template(), N: ti.template(), q, flow: ti.template(), scene: ti.template()):
+    """What the Reynolds equation feels of a column: mean density, density carried by the Couette flow, 1/eta that the
+    Poiseuille flow feels."""
+    nz, mean, carried, turned = N.shape[1], V(0.0), V(0.0), V(0.0)
     for m in range(nz):
         above_m = V(0.0)  # of the density beyond node m, which its shear carries along
         for n in range(nz):
-            above_m += nested[n, m] * Z[q, NRHO * nz + n]
+            above_m += beyond(N, m, n) * Z[q, NRHO * nz + n]
         part = above_m * Z[q, NIE * nz + m]
-        mean += w[m] * Z[q, NRHO * nz + m]
-        sheared += part
-        turned += (centre - zeta[m]) * part
-    return mean, (u_a * mean + slip * sheared / e0) / u_m, 12.0 * turned / (mean * b)
+        mean += weight(N, m) * Z[q, NRHO * nz + m]
+        carried += part
+        turned += (flow.centre - zeta(N, m)) * part
+    return mean, (scene.u_a * mean - scene.u_s * carried / flow.e0) / scene.u_m, 12.0 * turned / (mean * flow.left)
 
 
 @ti.kernel
-def laws(S: ti.template(), Z: ti.template(), G: Table, nested: Coefficients, w: Flat, zeta: Flat,
-         nz: ti.i32, oil: ti.template(), rheology: ti.template(), p_H: ti.f64, h_scale: ti.f64, ln_eta0: ti.f64,
-         u_a: ti.f64, slip: ti.f64, u_m: ti.f64, slopes: ti.template()):
-    """RHO, RHOC, LE, IE, ROOT, GAP of the finest level from pressure, film and the temperatures; slip = u_b - u_a. With
-    slopes = 1 their derivatives, which need the values."""
+def laws(S: ti.template(), Z: ti.template(), G: Table, N: Nodes, oil: ti.template(), rheology: ti.template(),
+         conditions: Flat, slopes: ti.template()):
+    """RHO, RHOC, LE, IE, ROOT, GAP of the finest level from pressure, film and the temperatures. With slopes = 1 their
+    derivatives, which need the values."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for c in range(tiles(nx, ny)):
         s, first, last = tile(c, nx)
-        floor, eta0 = G[0, FLOOR], ti.exp(ln_eta0)
+        scene, floor, nz = read(Conditions, conditions), G[0, FLOOR], N.shape[1]
         for q in range(s * (nx + 1) + first, s * (nx + 1) + last):
             k = off + q
-            p, h = S[P, k] * p_H + slopes * DP, ti.max(S[H, k], floor)
-            node_laws(Z, q, nz, oil, p, ln_eta0)
-            e0, centre, stress, b = couette(Z, q, nz, w, zeta, rheology, p, h * h_scale, slip, eta0)
-            mean, carried, ie = integrals(Z, q, nz, nested, w, zeta, e0, centre, b, u_a, slip, u_m)
+            p, h = S[P, k] * scene.p_H + slopes * DP, ti.max(S[H, k], floor)
+            node_laws(Z, q, nz, oil, p, scene.ln_eta0)
+            flow = couette(Z, N, q, rheology, p, h * scene.h, scene)
+            mean, carried, ie = felt(Z, N, q, flow, scene)
             if ti.static(slopes):
-                store_slopes(S, k, mean, -log(ie), p_H / DP)
-                store_thinning(S, k, h, floor, rheology, p, stress, b)
-                S[QCP, k] = (carried - S[RHOC, k]) * (p_H / DP) * S[H, k]
+                store_slopes(S, k, mean, -log(ie), scene.p_H / DP)
+                store_thinning(S, k, h, floor, rheology, p, flow.newtonian, flow.left)
+                S[QCP, k] = (carried - S[RHOC, k]) * (scene.p_H / DP) * S[H, k]
             else:
                 store_laws(S, k, h, mean, -log(ie), ie, G[0, ILAM])
                 S[RHOC, k] = carried
 
 
 @ti.func
-def shear_integrals(Z: ti.template(), q, nz, n, C: ti.template(), zeta: ti.template(), centre):
-    """int_0^zeta of 1/eta and of (zeta - zeta_c)/eta up to node n."""
-    turn, flow = V(0.0), V(0.0)
-    for m in range(nz):
-        ie = C[n, m] * Z[q, NIE * nz + m]
-        turn += ie
-        flow += (zeta[m] - centre) * ie
-    return turn, flow
+def store_velocities(Z: ti.template(), N: ti.template(), q, col: ti.template(), flow: ti.template(), scene: ti.template()):
+    """u and v at the nodes; needs their 1/eta."""
+    nz, poiseuille = N.shape[1], col.h * col.h / (flow.left * scene.eta0)
+    for n in range(nz):
+        turn, driven = V(0.0), V(0.0)  # int_0^zeta of 1/eta, and of (zeta - zeta_c)/eta
+        for m in range(nz):
+            ie = integral(N, n, m) * Z[q, NIE * nz + m]
+            turn += ie
+            driven += (zeta(N, m) - flow.centre) * ie
+        Z[q, U * nz + n] = scene.u_a - scene.u_s * turn / flow.e0 + poiseuille * col.px * driven
+        Z[q, VY * nz + n] = poiseuille * col.py * driven
+
+
+@ti.func
+def store_fluxes(Z: ti.template(), N: ti.template(), q, h):
+    """Mass and mass fluxes below each node; needs rho and the velocities."""
+    nz = N.shape[1]
+    for n in range(nz):
+        mass, along, across = V(0.0), V(0.0), V(0.0)
+        for m in range(nz):
+            rho = integral(N, n, m) * Z[q, NRHO * nz + m]
+            mass += rho
+            along += rho * Z[q, U * nz + m]
+            across += rho * Z[q, VY * nz + m]
+        Z[q, MS * nz + n], Z[q, MX * nz + n], Z[q, MY * nz + n] = h * mass, h * along, h * across
+
+
+@ti.func
+def store_shear(Z: ti.template(), q, nz, col: ti.template(), flow: ti.template()):
+    """Stress of the Couette part, and tau on both walls."""
+    base, tau, above = KINDS * nz, flow.left * flow.newtonian, 1.0 - flow.centre
+    Z[q, base + TAU] = tau
+    Z[q, base + XA], Z[q, base + YA] = tau - flow.centre * col.h * col.px, -flow.centre * col.h * col.py
+    Z[q, base + XB], Z[q, base + YB] = tau + above * col.h * col.px, above * col.h * col.py
 
 
 @ti.kernel
-def velocities(S: ti.template(), Z: ti.template(), G: Table, C: Coefficients, w: Flat, zeta: Flat,
-               nz: ti.i32, oil: ti.template(), rheology: ti.template(), p_H: ti.f64, h_scale: ti.f64, a: ti.f64,
-               ln_eta0: ti.f64, u_a: ti.f64, slip: ti.f64):
+def velocities(S: ti.template(), Z: ti.template(), G: Table, N: Nodes, oil: ti.template(), rheology: ti.template(),
+               conditions: Flat):
     """Velocities, mass fluxes below each node, and the shear on both walls."""
     nx, ny, off = cells(G, 0)
-    base = KINDS * nz
     ti.loop_config(block_dim=1)
     for c in range(tiles(nx, ny)):
         s, first, last = tile(c, nx)
-        floor, eta0, dx, dy = G[0, FLOOR], ti.exp(ln_eta0), G[0, DX], G[0, DY]
+        scene, nz = read(Conditions, conditions), N.shape[1]
         for i in range(first, last):
-            q = s * (nx + 1) + i
-            k = off + q
-            p, h = S[P, k] * p_H, ti.max(S[H, k], floor) * h_scale
-            px, py = limited_gradient(S, k, i, nx, s, ny, nx + 1, dx, dy)
-            px, py = px * (p_H / a), py * (p_H / a)
-            node_laws(Z, q, nz, oil, p, ln_eta0)
-            e0, centre, newtonian, b = couette(Z, q, nz, w, zeta, rheology, p, h, slip, eta0)
-            flow = h * h / (b * eta0)
-            for n in range(nz):
-                turn, poiseuille = shear_integrals(Z, q, nz, n, C, zeta, centre)
-                Z[q, U * nz + n] = u_a + slip * turn / e0 + flow * px * poiseuille
-                Z[q, VY * nz + n] = flow * py * poiseuille
-            for n in range(nz):
-                mass, along, across = V(0.0), V(0.0), V(0.0)
-                for m in range(nz):
-                    rho = C[n, m] * Z[q, NRHO * nz + m]
-                    mass += rho
-                    along += rho * Z[q, U * nz + m]
-                    across += rho * Z[q, VY * nz + m]
-                Z[q, MS * nz + n], Z[q, MX * nz + n], Z[q, MY * nz + n] = h * mass, h * along, h * across
-            tau = b * newtonian
-            Z[q, base + TAU] = tau
-            Z[q, base + XA], Z[q, base + YA] = tau - centre * h * px, -centre * h * py
-            Z[q, base + XB], Z[q, base + YB] = tau + (1.0 - centre) * h * px, (1.0 - centre) * h * py
+            at = place(G, c, i)
+            col = column(S, G, at, scene)
+            node_laws(Z, at.q, nz, oil, col.p, scene.ln_eta0)
+            flow = couette(Z, N, at.q, rheology, col.p, col.h, scene)
+            store_velocities(Z, N, at.q, col, flow, scene)
+            store_fluxes(Z, N, at.q, col.h)
+            store_shear(Z, at.q, nz, col, flow)

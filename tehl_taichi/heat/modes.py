@@ -11,6 +11,7 @@ resistance of which, depth/k, is about that of a strip of width 2a on a body som
 
 import math
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
@@ -20,9 +21,20 @@ SHORTEST = 1 / 16  # part of a step that is ever taken
 REST = 3.0  # a
 
 
+class Memory(NamedTuple):
+    """Of a body in a step: of each mode (MODES,) its weight, its decay over the step, what it gains by the new flux and by the
+    last one; B of T_s = A + B q, and the same of the last flux, which is in A."""
+
+    weight: np.ndarray
+    decay: np.ndarray
+    gain: np.ndarray
+    gain_last: np.ndarray
+    B: float
+    B_last: float
+
+
 def memory(dt, effusivity, base_dt, depth=math.inf):
-    """(rows of MODES numbers: weight, decay over dt, gain of the new flux and of the last; B of the new flux, of the last)
-    for a step of dt s with a flux linear in time, fitted for steps of base_dt s.
+    """The Memory for a step of dt s with a flux linear in time, fitted for steps of base_dt s.
 
     effusivity: sqrt(k rho c) of the body, SI; depth: that of a slab over sqrt(diffusivity base_dt), infinite for a half-space.
     """
@@ -30,7 +42,8 @@ def memory(dt, effusivity, base_dt, depth=math.inf):
     rates, weights = rates / base_dt, weights / (effusivity * math.sqrt(base_dt))
     mean = -np.expm1(-rates * dt) / (rates * dt)
     B = 2 * math.sqrt(dt / math.pi) / effusivity
-    return np.array([weights, np.exp(-rates * dt), (1 - mean) / rates, (mean - np.exp(-rates * dt)) / rates]), 2 * B / 3, B / 3
+    decay = np.exp(-rates * dt)
+    return Memory(weights, decay, (1 - mean) / rates, (mean - decay) / rates, 2 * B / 3, B / 3)
 
 
 def steady_modes(base_dt, depth):

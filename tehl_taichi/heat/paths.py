@@ -2,10 +2,11 @@
 
 import taichi as ti
 
-from tehl_taichi.engine.lanes import Table, V, W, cells, tile, tiles
-from tehl_taichi.heat.film import Coefficients
+from tehl_taichi.engine.lanes import Flat, Table, V, W, cells, place, tile, tiles
+from tehl_taichi.engine.records import read
 from tehl_taichi.heat.slots import KINDS, MS, MSN, MSNN, PN, PNN, PS, TN, TNN, TS, VY, T, U, slots_around
-from tehl_taichi.heat.step import BACK, BACK_2, FAR, INV_X, INV_Y, NEAR
+from tehl_taichi.heat.step import Step
+from tehl_taichi.pressure.conditions import Conditions
 from tehl_taichi.pressure.fields import P
 
 
@@ -21,34 +22,45 @@ def within(value, a, b):
     return ti.min(ti.max(value, ti.min(a, b)), ti.max(a, b))
 
 
+@ti.dataclass
+class Past:
+    """The state of a node some time ago: its slots of temperature and pressure, and how long ago."""
+
+    warm: ti.i32
+    press: ti.i32
+    seconds: ti.f64
+
+
 @ti.func
-def along_x(Z: ti.template(), first, nx, warm, press, at, inflow):
-    """Slots `warm` and `press` of a block at x = at (in cells): cubic, within the two nearest values; from the left comes oil
-    of temperature `inflow` and pressure 0. Rows that come from one cell, as nearly all neighbours do, are taken together."""
-    i0 = int(ti.floor(at[0]))
+def along_x(Z: ti.template(), at: ti.template(), past: ti.template(), x, inflow):
+    """Temperature and pressure of the past in a block of rows at x (in cells): cubic, within the two nearest values; from the
+    left comes oil of temperature `inflow` and pressure 0. Rows that come from one cell, as nearly all neighbours do, are taken
+    together."""
+    i0 = int(ti.floor(x[0]))
     together = 1
     for u in ti.static(range(1, W)):
-        if int(ti.floor(at[u])) != i0:
+        if int(ti.floor(x[u])) != i0:
             together = 0
     T0, p0 = V(0.0), V(0.0)
     if together == 1:
-        T0, p0 = from_cell(Z, first, nx, warm, press, i0, at - i0, inflow)
+        T0, p0 = from_cell(Z, at, past, i0, x - i0, inflow)
     else:
         for u in ti.static(range(W)):
-            i = int(ti.floor(at[u]))
-            T, p = from_cell(Z, first, nx, warm, press, i, at - i, inflow)
+            i = int(ti.floor(x[u]))
+            T, p = from_cell(Z, at, past, i, x - i, inflow)
             T0[u], p0[u] = T[u], p[u]
     return T0, p0
 
 
 @ti.func
-def from_cell(Z: ti.template(), first, nx, warm, press, i0, f, inflow):
+def from_cell(Z: ti.template(), at: ti.template(), past: ti.template(), i0, f, inflow):
     """The same for all rows from the cell behind column i0, at the fractions f of it."""
     T4, p4 = [V(inflow) for _ in range(4)], [V(0.0) for _ in range(4)]
+    first = at.q - at.i
     for t in ti.static(range(4)):
         if i0 - 1 + t >= 0:
-            q = first + ti.min(i0 - 1 + t, nx)
-            T4[t], p4[t] = Z[q, warm], Z[q, press]
+            q = first + ti.min(i0 - 1 + t, at.nx)
+            T4[t], p4[t] = Z[q, past.warm], Z[q, past.press]
     w = cubic(f)
     T, p = V(0.0), V(0.0)
     for t in ti.static(range(4)):
@@ -58,52 +70,51 @@ def from_cell(Z: ti.template(), first, nx, warm, press, i0, f, inflow):
 
 
 @ti.func
-def along_y(Z: ti.template(), q, slot, n2, s, ny, moved):
-    """Change of a slot by flow along y, moved = v dt/dy: quadratic, within the two nearest values."""
+def along_y(Z: ti.template(), at: ti.template(), q, slot, moved):
+    """Change of a slot of column q by flow along y, moved = v dt/dy: quadratic, within the two nearest values."""
     here = Z[q, slot]
-    lower, upper = slots_around(Z, q, slot, n2, s, ny)
+    lower, upper = slots_around(Z, at, q, slot)
     value = here + 0.5 * moved * (lower - upper + moved * (upper - 2.0 * here + lower))
     return within(value, here, ti.select(moved > 0.0, lower, upper)) - here
 
 
 @ti.func
-def origin(Z: ti.template(), q, s, i, nx, ny, nz, n, warm, press, step: ti.template(), back_by, inflow):
-    """Two slots (temperature, pressure) at the place where the oil of node n was step[0, back_by] seconds ago."""
-    n2, back = nx + 1, step[0, back_by]
-    at = i - Z[q, U * nz + n] * (back * step[0, INV_X])
-    T0, p0 = along_x(Z, s * n2, nx, warm, press, at, inflow)
-    if ny > 0:
-        moved = ti.min(ti.max(Z[q, VY * nz + n] * (back * step[0, INV_Y]), -1.0), 1.0)
+def origin(Z: ti.template(), at: ti.template(), past: ti.template(), u, v, step: ti.template(), inflow):
+    """Temperature and pressure of the past at the place where the oil of a node, of the velocities u and v, was then."""
+    x = at.i - u * (past.seconds * step.inv_x)
+    T0, p0 = along_x(Z, at, past, x, inflow)
+    if at.ny > 0:
+        moved = ti.min(ti.max(v * (past.seconds * step.inv_y), -1.0), 1.0)
         # between the two columns next to the first row's origin: taken at i, the step would be of first order in x y
-        i0 = ti.min(ti.max(int(ti.floor(at[0])), 0), nx - 1)
-        f, q0 = ti.min(ti.max(at - i0, -1.0), 2.0), s * n2 + i0
-        T0 += (1.0 - f) * along_y(Z, q0, warm, n2, s, ny, moved) + f * along_y(Z, q0 + 1, warm, n2, s, ny, moved)
-        p0 += (1.0 - f) * along_y(Z, q0, press, n2, s, ny, moved) + f * along_y(Z, q0 + 1, press, n2, s, ny, moved)
+        i0 = ti.min(ti.max(int(ti.floor(x[0])), 0), at.nx - 1)
+        f, q0 = ti.min(ti.max(x - i0, -1.0), 2.0), at.q - at.i + i0
+        T0 += (1.0 - f) * along_y(Z, at, q0, past.warm, moved) + f * along_y(Z, at, q0 + 1, past.warm, moved)
+        p0 += (1.0 - f) * along_y(Z, at, q0, past.press, moved) + f * along_y(Z, at, q0 + 1, past.press, moved)
     return T0, p0
 
 
 @ti.kernel
-def departures(S: ti.template(), Z: ti.template(), G: Table, nz: ti.i32, p_H: ti.f64, inflow: ti.f64, step: Coefficients):
+def departures(S: ti.template(), Z: ti.template(), G: Table, nz: ti.i32, conditions: Flat, numbers: Flat):
     """Temperature and pressure where the oil of each node was one and two steps ago (BDF2 along its path): cubic along x,
-    quadratic along y.
-
-    inflow: temperature of what comes in from the left.
-    """
+    quadratic along y."""
     nx, ny, off = cells(G, 0)
     base = KINDS * nz
     ti.loop_config(block_dim=1)
     for c in range(tiles(nx, ny)):
         s, first, last = tile(c, nx)
-        near, far = step[0, NEAR], step[0, FAR]
+        scene, step = read(Conditions, conditions), read(Step, numbers)
         for i in range(first, last):
-            q = s * (nx + 1) + i
+            at = place(G, c, i)
             for n in range(nz):
-                warm, press = origin(Z, q, s, i, nx, ny, nz, n, TN * nz + n, base + PN, step, BACK, inflow)
-                if far != 0.0:
-                    warm_2, press_2 = origin(Z, q, s, i, nx, ny, nz, n, TNN * nz + n, base + PNN, step, BACK_2, inflow)
-                    warm, press = near * warm + far * warm_2, near * press + far * press_2
-                Z[q, TS * nz + n] = warm
-                Z[q, PS * nz + n] = S[P, off + q] * p_H - press
+                u, v = Z[at.q, U * nz + n], Z[at.q, VY * nz + n]
+                past = Past(warm=TN * nz + n, press=base + PN, seconds=step.back)
+                warm, press = origin(Z, at, past, u, v, step, scene.inlet)
+                if step.far != 0.0:
+                    before = Past(warm=TNN * nz + n, press=base + PNN, seconds=step.back_2)
+                    warm_2, press_2 = origin(Z, at, before, u, v, step, scene.inlet)
+                    warm, press = step.near * warm + step.far * warm_2, step.near * press + step.far * press_2
+                Z[at.q, TS * nz + n] = warm
+                Z[at.q, PS * nz + n] = S[P, at.k] * scene.p_H - press
 
 
 @ti.kernel

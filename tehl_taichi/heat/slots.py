@@ -4,9 +4,12 @@ A column is a block of W rows at one x, as on the finest level of the state tabl
 or one of the column.
 """
 
+import numpy as np
 import taichi as ti
 
+from tehl_taichi.engine import tables
 from tehl_taichi.engine.lanes import Table, V, W, cells
+from tehl_taichi.engine.launches import Carriers, bind
 
 # nz numbers each from T on, then the single ones
 # temperature, that of the last step and the one before; velocities; h int_0 rho (u, v, 1), the last one of the last two
@@ -17,21 +20,22 @@ KINDS = 15
 # shear on the walls z = 0 and z = h
 PN, PNN, QA, QB, AA, AB, TAU, XA, YA, XB, YB = range(11)
 SINGLES = 11
+SHEARS = 4  # from XA on
 
 
 @ti.func
-def slots_around(Z: ti.template(), q, slot, n2, s, ny):
-    """Slot at j - 1 and j + 1; where there is no such row, at j."""
-    here = Z[q, slot]
+def slots_around(Z: ti.template(), at: ti.template(), q, slot):
+    """Slot of column q, in the block of rows of the place `at`, at j - 1 and j + 1; where there is no such row, at j."""
+    here, n2 = Z[q, slot], at.nx + 1
     lower, upper = here, here
     for u in ti.static(range(W)):
-        j = s * W + u
+        j = at.s * W + u
         if j > 0:
             if ti.static(u > 0):
                 lower[u] = here[u - 1]
             else:
                 lower[u] = Z[q - n2, slot][W - 1]
-        if j < ny:
+        if j < at.ny:
             if ti.static(u < W - 1):
                 upper[u] = here[u + 1]
             else:
@@ -65,3 +69,48 @@ def put_slots(Z: ti.template(), G: Table, first: ti.i32, count: ti.i32, values: 
                 for u in ti.static(range(W)):
                     v[u] = values[n, ti.min(s * W + u, ny), i]
                 Z[s * (nx + 1) + i, first + n] = v
+
+
+class SlotTable:
+    """A table of `slots` slots on the finest grid of `levels`; read and written as arrays (slots, ny+1, nx+1)."""
+
+    def __init__(self, levels, slots):
+        self.levels, self.carriers = levels, Carriers()
+        self.field = tables.lease(self, 0, W, levels.fine * (levels.nx + 1), slots)
+
+    def get(self, first, count=1):
+        """`count` slots from `first` on as a new array."""
+        return self._carry(get_slots, first, count).copy()
+
+    def put(self, first, values):
+        """Set the slots from `first` on."""
+        self._carry(put_slots, first, len(values), values)
+
+    def _carry(self, kernel, first, count, values=None):
+        v = self.levels
+        return self.carriers.carry((kernel, first, count), (count, v.ny + 1, v.nx + 1),
+                                   lambda array: bind(kernel, self.field, v.G, first, count, array), values)
+
+
+class Columns(SlotTable):
+    """The table Z of a film with nz nodes across: quantities at the nodes (nz, ny+1, nx+1), others (ny+1, nx+1), by name."""
+
+    def __init__(self, levels, nz):
+        super().__init__(levels, KINDS * nz + SINGLES)
+        self.nz = nz
+
+    def place(self, single):
+        """Slot of one of the single quantities."""
+        return KINDS * self.nz + single
+
+    def nodes(self, kind):
+        return self.get(kind * self.nz, self.nz)
+
+    def put_nodes(self, kind, values):
+        self.put(kind * self.nz, values)
+
+    def single(self, name):
+        return self.get(self.place(name))[0]
+
+    def put_single(self, name, values):
+        self.put(self.place(name), np.asarray(values)[None])

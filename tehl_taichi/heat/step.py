@@ -1,12 +1,29 @@
-"""Numbers that the kernels of the energy equation take, by name.
+"""Numbers of a time step that the kernels of the energy equation take (see :mod:`tehl_taichi.engine.records`)."""
 
-Of a time step, step[0, ...]: rate = weight of the new state in d/dt (1/s); 1/dx, 1/dy (1/m); B of both bodies; tolerance (K)
-and iterations of a column; dt, dt with the step before (s); weights of these two states (adding up to 1).
-Of a scene, scale[0, ...]: p_H (Pa), h and a (m) of the Hertz units; ln of the inlet viscosity; u_b - u_a (m/s); inlet
-temperature (deg C); column of X = 0.
-"""
+import taichi as ti
 
-RATE, INV_X, INV_Y, B_A, B_B, TOLERANCE, ITERATIONS, BACK, BACK_2, NEAR, FAR = range(11)
-STEP_NUMBERS = 11
-P_HERTZ, H_HERTZ, A_HERTZ, LN_ETA0, SLIP, INLET, CENTRE = range(7)
-SCENE_NUMBERS = 7
+
+@ti.dataclass
+class Step:
+    """Of a time step."""
+
+    rate: ti.f64  # 1/s, weight of the new state in d/dt
+    inv_x: ti.f64  # 1/m, 1/dx
+    inv_y: ti.f64  # 1/m, 1/dy
+    B_a: ti.f64  # K m2/W, B of T_s = A + B q, of body a
+    B_b: ti.f64  # and of body b
+    tolerance: ti.f64  # K, of the Newton steps of a column
+    iterations: ti.f64  # of these at most
+    back: ti.f64  # s, dt
+    back_2: ti.f64  # s, dt and that of the step before
+    near: ti.f64  # weight of the state dt ago in d/dt,
+    far: ti.f64  # and of that back_2 ago: together 1
+
+
+@ti.dataclass
+class Drift:
+    """Of a body in a time step: where its material strips lie."""
+
+    shift: ti.f64  # whole cells that the grid overtakes the strips by
+    rest: ti.f64  # cells that strip i lies ahead of column i afterwards
+    B_last: ti.f64  # K m2/W, of the flux of the last step

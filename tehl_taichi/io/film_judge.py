@@ -12,14 +12,14 @@ MOMENTS = 24  # of a passage that are looked at
 
 
 def friction(store, summary):
-    """Of the film alone: solid contact has the coefficient that the scene gives it."""
+    """Of the film alone, at least: solid contact has at most the coefficient that the scene gives it."""
     rheology, steady = store.scene.rheology, slice(0, 1)
     film = store.scalar("friction_coefficient") - rheology.mu_boundary * store.scalar("contact_load_fraction")
     found = [f"{when} {film[part].max():.3g}" for when, part in (("steady", steady), ("in the passage up to", slice(1, None)))
              if film[part].size and film[part].max() > MOST_FRICTION]
     if found:
-        law = ("a Newtonian film (rheology.law = newtonian) has no limit; its flow holds, its friction does not"
-               if rheology.law == "newtonian" else f"the constants of the law {rheology.law!r} allow it")
+        law = (f"a Newtonian film (rheology.law = {rheology.law}) has no limit; its flow holds, its friction does not"
+               if not rheology.thins else f"the constants of the law {rheology.law!r} allow it")
         yield f"the friction coefficient ({', '.join(found)}) is more than {MOST_FRICTION:g}, which no oil bears: {law}"
 
 
@@ -40,7 +40,7 @@ def _where(store, n, p):
 def _because(store, p):
     """At the outlet the frozen film ends in a free edge: an inverse square root, which only a shear limit makes finite."""
     scene, at_outlet = store.scene, store.x[peak(p)[0]] > 0
-    if not at_outlet or scene.shear_law.law != "newtonian":
+    if not at_outlet or scene.shear_law.thins:
         return ": not resolved; take a finer grid"
     advice = ("without slip no shear limit acts, and there is no finite value" if scene.operation.u_s == 0 else
               "oil without a shear limit has no finite value there; take a limiting law (rheology.law)")

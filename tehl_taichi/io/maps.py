@@ -4,12 +4,13 @@ import zarr
 
 from tehl_taichi.errors import StoreError
 from tehl_taichi.scene import Scene, height_map
+from tehl_taichi.scene.feature import SHAPES
 
 
 def write(group, scene):
     """Store the heights of the scene's maps, as they were read, each once, under the hash that its feature names."""
     for feature in scene.features:
-        if feature.shape == "map" and _name(feature.sha256) not in group:
+        if feature.kind.measured and _name(feature.sha256) not in group:
             name = _name(feature.sha256)
             array = group.create_array(name, shape=feature.heights.shape, dtype="f8",
                                        dimension_names=[f"{name}_y", f"{name}_x"])
@@ -23,7 +24,7 @@ def scene_of(path, data):
 
     Raises StoreError when stored heights are not those of their hash. A store of version 0.1.0 has only the name of the file.
     """
-    maps = [feature for feature in data["feature"] if feature["shape"] == "map"]
+    maps = [feature for feature in data["feature"] if SHAPES[feature["shape"]].measured]
     held = [_heights(path, feature["sha256"]) for feature in maps if "sha256" in feature]  # known until the scene has them
     for feature in data["feature"]:
         if "unit" not in feature:
@@ -35,7 +36,7 @@ def scene_of(path, data):
 
 def _upgrade(feature):
     """A feature of version 0.1.0, in place: there height was m per unit of a map's file, and every feature had a pixel."""
-    if feature["shape"] == "map":
+    if SHAPES[feature["shape"]].measured:
         feature.update(unit="m", scale=feature.pop("height"))
     else:
         feature.pop("pixel", None)

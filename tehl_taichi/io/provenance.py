@@ -2,7 +2,6 @@
 
 import importlib.metadata
 import json
-import os
 import platform
 import shlex
 import sys
@@ -11,7 +10,7 @@ from pathlib import Path
 
 from tehl_taichi import __version__
 from tehl_taichi.commit import commit
-from tehl_taichi.engine import runtime
+from tehl_taichi.engine import cores, runtime
 from tehl_taichi.pressure import precision
 
 LIBRARIES = ("numpy", "pyfftw", "zarr")
@@ -20,7 +19,7 @@ LIBRARIES = ("numpy", "pyfftw", "zarr")
 def provenance(scene):
     """Attributes of a store of `scene` that is written by this process: version, commit, versions of Python and the libraries,
     machine, cores, command, date (UTC), precision of the linear solves, runtime (JSON: arch, threads, taichi, cache)."""
-    return {"version": __version__, "commit": commit(), **versions(), "machine": machine(), "cores": os.cpu_count(),
+    return {"version": __version__, "commit": commit(), **versions(), "machine": machine(), "cores": cores.available(),
             "command": shlex.join(sys.argv), "date": datetime.now(timezone.utc).isoformat(timespec="seconds"),
             "precision": precision.of(scene), "runtime": json.dumps(runtime.ensure())}
 

@@ -3,7 +3,8 @@
 import numpy as np
 
 from tehl_taichi.io import film_judge
-from tehl_taichi.scene.limits import GAMMA_MEASURED, P_MEASURED
+from tehl_taichi.physics import conduction
+from tehl_taichi.physics.law import beyond
 
 
 def warnings(store, summary):
@@ -12,15 +13,19 @@ def warnings(store, summary):
     return list(dict.fromkeys(found))
 
 
+def reached(store):
+    """Largest pressure (Pa) and film temperature (deg C) of a run with temperatures."""
+    return tuple(float(np.max(store.scalar(name))) for name in ("p_max_Pa", "film_max_C"))
+
+
 def beyond_measured(store, summary):
     """Pressures and temperatures of the film beyond those at which its conductivity and heat capacity were measured."""
-    if store.scene.isothermal:
+    if store.scene.isothermal or not beyond(conduction.LAWS, *reached(store)):
         return []
-    p, T = float(np.max(store.scalar("p_max_Pa"))), float(np.max(store.scalar("film_max_C")))
-    if p <= P_MEASURED and T <= GAMMA_MEASURED:
-        return []
-    return [f"the film reaches {p / 1e9:.2f} GPa and {T:.0f} deg C; conductivity and heat capacity were measured up to "
-            f"{P_MEASURED / 1e9:g} GPa and {GAMMA_MEASURED:g} deg C: beyond that they keep their last values"]
+    p, T = reached(store)
+    return [f"the film reaches {p / 1e9:.2f} GPa and {T:.0f} deg C; {' and '.join(conduction.LAWS)} were measured up to "
+            f"{conduction.P_MEASURED / 1e9:g} GPa and {conduction.GAMMA_MEASURED:g} deg C: beyond that they keep their last "
+            "values"]
 
 
 def held_temperatures(store, summary):

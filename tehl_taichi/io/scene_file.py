@@ -6,12 +6,12 @@ import tomllib
 from pathlib import Path
 
 from tehl_taichi.scene import Scene, SceneError, scene
-from tehl_taichi.scene.checks import text
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.parts import Body
-from tehl_taichi.scene.quantity import kinds
 from tehl_taichi.scene.whole import SECTIONS
+from tehl_taichi.values.checks import text
+from tehl_taichi.values.quantity import kinds
 
 HEADER = "# A tehl_taichi scene. SI units (m, s, N, Pa, kg), temperatures in deg C; [grid] and [time] in half-widths."
 CARRIES = {"bodies.a": "Surface a carries the feature. ", "bodies.b": "The other surface. "}
@@ -30,6 +30,16 @@ def load(path):
     except ValueError as error:  # of TOML, and of Python for whole numbers of more than 4300 digits
         raise SceneError(f"{path} is not valid TOML: {error}") from None
     return from_data(_beside(data, path.absolute().parent), path.stem)
+
+
+def new(path, base):
+    """Write the built-in scene `base` with every value, under the name of the file. Raises SceneError where it cannot."""
+    path = Path(path)
+    if path.exists():
+        raise SceneError(f"{path} exists already; choose another name")
+    if not path.absolute().parent.is_dir():
+        raise SceneError(f"{path.absolute().parent} is not a folder")
+    path.write_text(dumps(scene(base).replace(name=path.stem)), encoding="utf-8")
 
 
 def _beside(data, folder):
@@ -71,6 +81,8 @@ def merge(base, data):
             base[key] = {"temperature": base[key]["temperature"], **value}
         elif key == "oil" and isinstance(value, dict) and "name" in value:
             base[key] = value  # a named oil brings its own numbers, not those of the base
+        elif isinstance(value, dict) and isinstance(value.get("material"), str) and value["material"]:
+            base[key] = value  # so does a body of a named steel
         elif isinstance(value, dict) and isinstance(base.get(key), dict):
             base[key] = merge(base[key], value)
         else:
@@ -101,7 +113,7 @@ def dumps(description):
 
 
 def _table(head, values, kind, first=""):
-    """The lines of a section, commented from its declarations (see tehl_taichi.scene.quantity)."""
+    """The lines of a section, commented from its declarations (see tehl_taichi.values.quantity)."""
     lines, comments = [head], [first + (kind.__doc__ or "").partition("\n")[0]]
     for key, declared in kinds(kind).items():
         lines.append(f"{key} = {_value(values[key])}")

@@ -5,8 +5,9 @@ import numpy as np
 from tehl_taichi import __version__
 from tehl_taichi.io import result_judge
 from tehl_taichi.march.readings import HEAT
-from tehl_taichi.physics.film_formula import central_film
-from tehl_taichi.scene.limits import GAMMA_MEASURED, P_MEASURED
+from tehl_taichi.physics import conduction
+from tehl_taichi.physics.law import beyond
+from tehl_taichi.scene.film_formula import central_film
 from tehl_taichi.scene.scales import Scales
 
 
@@ -47,18 +48,11 @@ PASSAGE = ("p_max_Pa", "h_min_m", *HEAT, "friction_coefficient_mean")
 
 def _clamps(store):
     """Where laws left their measured range or values were held: {what: count or largest value}."""
-    scene, out = store.scene, {}
-    if scene.isothermal:
-        return out
-    p, T = float(np.max(store.scalar("p_max_Pa"))), float(np.max(store.scalar("film_max_C")))
-    if p > P_MEASURED:
-        out["conductivity and heat capacity measured up to Pa"] = P_MEASURED
-    if T > GAMMA_MEASURED:
-        out["heat capacity measured up to degC"] = GAMMA_MEASURED
+    if store.scene.isothermal:
+        return {}
     held = int(np.nansum(store.scalar("clamped")))
-    if held:
-        out["temperatures held inside the allowed range"] = held
-    return out
+    return {**beyond(conduction.LAWS, *result_judge.reached(store)),
+            **({"temperatures held inside the allowed range": held} if held else {})}
 
 
 def _steady(store, extra):

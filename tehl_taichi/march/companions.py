@@ -17,7 +17,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from tehl_taichi.engine import runtime
+from tehl_taichi.engine import cores, runtime
 from tehl_taichi.errors import Error
 from tehl_taichi.march import readings
 from tehl_taichi.march.error_bars import Reading, bars
@@ -80,14 +80,8 @@ def beside(scene, steps):
     """The companions of a run of `steps` time steps as a context, or one in which nothing happens: those that nobody asked for
     need a core beside the run, and a run that is worth it."""
     asked, nodes = scene.numerics.estimate_error, (scene.grid.nx + 1) * (scene.rows + 1)
-    if asked is False or not scene.transient or steps < 1 or (asked is not True and (cores() < 2 or nodes * steps < WORTH)):
-        return Nobody()
-    return Companions(scene)
-
-
-def cores():
-    """Cores that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    free = cores.available() > 1 and nodes * steps >= WORTH
+    return Companions(scene) if scene.transient and steps >= 1 and (asked is True or asked is not False and free) else Nobody()
 
 
 class Nobody(contextlib.nullcontext):

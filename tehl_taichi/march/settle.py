@@ -34,10 +34,11 @@ def settle(levels, heat, solve, T=None):
     False if that is not reached.
     """
     heat.start(T)
-    moving = [speed for speed in heat.speeds if speed]
+    speeds = [body.speed for body in heat.bodies.each]
+    moving = [speed for speed in speeds if speed]
     ratio = max(moving) / min(moving)
     first, later = (STRIDE, 1) if ratio < SLOW else (SLOW_STRIDE, SLOW_STRIDE // 2)
-    cell = max(heat.dt, levels.dx * levels.scales.a / max(heat.speeds))  # s; shorter steps would settle for less
+    cell = max(heat.dt, levels.dx * levels.scales.a / max(speeds))  # s; shorter steps would settle for less
     steps, dt = math.ceil(TRANSITS * levels.nx * ratio / first), first * cell
     means = [heat.T]
     for _ in range(BLOCKS):
@@ -49,7 +50,7 @@ def settle(levels, heat, solve, T=None):
             break
     else:
         report.converged, heat.report.change = False, change
-    heat.warm_resting()
+    heat.bodies.warm_resting()
     return report
 
 

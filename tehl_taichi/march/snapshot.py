@@ -1,17 +1,13 @@
 """A snapshot: one accepted state of a run in SI units; while it is the newest, all that is needed to go on from it."""
 
 import functools
-import math
-import time
 from dataclasses import dataclass, field
 from typing import Callable
 
 import numpy as np
 
-from tehl_taichi.heat.across import largest
-from tehl_taichi.march.steady import scalars
-from tehl_taichi.pressure import fields, tractions
-from tehl_taichi.pressure.levels import load_weights
+from tehl_taichi.march.output import fields_of, scalars_of
+from tehl_taichi.pressure import fields
 
 
 @dataclass
@@ -42,55 +38,15 @@ class Snapshot:
         return self.make_state()
 
 
-def take(solver, heat, step, time_s, feature_x, report, started, make_state):
-    """Snapshot of what is in the solver's table; heat: its FilmHeat or None; feature_x in m, started: time.perf_counter()
-    when the step began; make_state: see :class:`Snapshot`."""
-    v, s = solver.levels, solver.levels.scales
-    P, H, touch = (v.get(row) for row in (fields.P, fields.H, fields.TOUCH))
-    stress = _tractions(solver, heat)
-    si = {"pressure": P * s.p_H, "film": H * s.h, "contact": touch.astype(np.uint8)}
-    names = ("traction_x_a", "traction_y_a", "traction_x_b", "traction_y_b")
-    si.update(zip(names, stress))
-    numbers = _scalars(solver, report, stress)
-    if heat:
-        si.update(_temperatures(heat, solver.levels.scene.output.profiles))
-        numbers.update(film_max_C=largest(heat.T), surface_a_max_C=float(si["temperature_a"].max()),
-                       surface_b_max_C=float(si["temperature_b"].max()), temperature_change_K=heat.report.change,
-                       clamped=float(heat.report.clamped))
-    numbers["wall_s"] = time.perf_counter() - started
-    return Snapshot(step, time_s, feature_x, v.X * s.a, v.Y * s.a,
-                    {key: np.ascontiguousarray(value.swapaxes(0, 1)) for key, value in si.items()}, numbers, make_state)
+def take(solved, step, time_s, feature_x, make_state):
+    """Snapshot of a :class:`tehl_taichi.march.solved.Solved`: every output that its scene has (`march/outputs/`); feature_x in
+    m; make_state: see :class:`Snapshot`."""
+    v, a = solved.solver.levels, solved.scales.a
+    nodes = {name: np.ascontiguousarray(field.of(solved).swapaxes(0, 1)) for name, field in fields_of(solved.scene).items()}
+    numbers = {name: float(scalar.of(solved)) for name, scalar in scalars_of(solved.scene).items()}
+    return Snapshot(step, time_s, feature_x, v.X * a, v.Y * a, nodes, numbers, make_state)
 
 
 def state_of(solver, heat, step):
     """What is in the solver's table, as arrays to go on from."""
     return {"step": step, "P": solver.levels.get(fields.P), "H0": solver.H0, **(heat.state() if heat else {})}
-
-
-def _temperatures(heat, profiles):
-    T = heat.T
-    out = {"temperature_mid": T[len(T) // 2], "temperature_a": T[0], "temperature_b": T[-1]}
-    return {**out, "temperature": T.transpose(1, 2, 0)} if profiles else out
-
-
-def _tractions(solver, heat):
-    """Shear (4, ny+1, nx+1) in Pa on body a along x, y and on body b along x, y."""
-    v, s, scene = solver.levels, solver.levels.scales, solver.levels.scene
-    out = v.fill(tractions.tractions, (4, v.ny + 1, v.nx + 1), scene.rheology, s.p_H, s.h, s.a, math.exp(v.ln_eta0),
-                 -scene.operation.u_s, v.dx, v.dy)
-    if heat:
-        wall, film = heat.shear(), (v.get(fields.P) > 0) & (v.get(fields.TOUCH) == 0)
-        out = np.where(film, wall * np.array([1, 1, -1, -1])[:, None, None], out)
-    return out
-
-
-def _scalars(solver, report, stress):
-    v, s, w = solver.levels, solver.levels.scales, load_weights(solver.levels)
-    values = scalars(solver)
-    P, touch = v.get(fields.P), v.get(fields.TOUCH)
-    drag = 0.5 * abs(float(np.sum(w * (stress[0] - stress[2]))))
-    return {"h0_m": solver.H0 * s.h, "p_max_Pa": values["p_max"] * s.p_H, "h_min_m": values["h_min"] * s.h,
-            "h_c_m": values["h_c"] * s.h, "load_error": abs(report.load_error), "mass_error": report.mass_error,
-            "residual": report.residual, "newton": float(report.newton), "cycles": float(report.cycles),
-            "rejected": 0.0, "dt_s": 0.0, "contact_load_fraction": float(np.sum(w * P * touch)) / solver.load,
-            "friction_coefficient": drag / s.p_H / solver.load}

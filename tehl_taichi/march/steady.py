@@ -13,6 +13,7 @@ from tehl_taichi.march.settle import settle, time_step
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.pressure.newton import PressureSolver, Report
+from tehl_taichi.pressure.one_temperature import OneTemperature
 
 FIRST_CELLS = 64  # along x of the first grid: fine enough for a film from Hertz, cheap enough not to matter
 LEAST_CELLS = 32  # of the first grid where that makes one grid more, for the error of coarse runs
@@ -55,14 +56,15 @@ def solve_steady(scene, scales, nx, ny, look=None):
     look = look or (lambda solver, heat, report: scalars(solver))
     P, H0, T, values, work = None, 0.0, None, [], 0
     for size in grid_sequence(nx, ny):
-        solver = heat = None  # give their tables to the next grid
-        solver = PressureSolver(Levels(scene, scales, *size))
+        solver = heat = levels = None  # give their tables to the next grid
+        levels = Levels(scene, scales, *size)
+        solver = PressureSolver(levels, OneTemperature(levels))
         solver.levels.put(fields.GAP0, solver.levels.smooth_gap())
         report = _first(solver) if P is None else _next(solver, P, H0)
         if report.converged and not scene.isothermal and nx // size[0] <= FINEST_THERMAL:
-            heat = FilmHeat(solver.levels, time_step(scene, scales, solver.levels.dx))
-            solver.levels.use_film(*heat.laws)
-            report = settle(solver.levels, heat, lambda solver=solver: _again(solver), T)
+            heat = FilmHeat(levels, time_step(scene, scales, levels.dx))
+            solver.take(heat)  # density and viscosity follow the temperatures now
+            report = settle(levels, heat, lambda solver=solver: _again(solver), T)
             T = np.stack([refine(layer) for layer in heat.T])
         # a grid too coarse for the outlet of this film is no start for the next one, nor a step of its error
         P, H0 = (solver.levels.get(fields.P), solver.H0) if report.converged else (None, 0.0)
@@ -78,7 +80,7 @@ def _first(solver):
     """From Hertz without slip, which then comes in parts where it does not at once. Sheared from the start, a film that Newton
     makes too thin for a moment flows off like water: the surfaces touch all over, which may be a solution too."""
     v = solver.levels
-    v.slip(0.0)
+    v.numbers.slip(0.0)
     report = _without_slip(solver)
     P, H0 = v.get(fields.P), solver.H0
     for parts in SLIPS if v.thins and report.converged else ():
@@ -86,13 +88,13 @@ def _first(solver):
         report = _through_slips(solver, parts)
         if report.converged:
             break
-    v.slip(1.0)
+    v.numbers.slip(1.0)
     return report
 
 
 def _through_slips(solver, parts):
     for part in parts:
-        solver.levels.slip(part)
+        solver.levels.numbers.slip(part)
         report = _from_here(solver)
         if not report.converged:
             break
@@ -134,14 +136,14 @@ def _through_slower_ones(solver):
     """From Hertz at a low speed, where it is near, up to the speed of the scene; in time where a speed does not converge."""
     _hertz(solver, FIRST_FILM * START_TRIES[-1] / SLOWER[0] ** 0.7)
     for factor in SLOWER:
-        solver.levels.slow_down(factor)
+        solver.levels.numbers.slow_down(factor)
         P, H0 = solver.levels.get(fields.P), solver.H0
         report = solver.solve(CAREFUL)
         if not report.converged:
             report = _in_time(solver, P, H0)
         if not report.converged:
             break
-    solver.levels.slow_down(1.0)
+    solver.levels.numbers.slow_down(1.0)
     return report
 
 
@@ -153,14 +155,14 @@ def _in_time(solver, P, H0):
         solver.residual()
         if not SHORTEST_TIME < step < LONGEST_TIME:
             break
-        v.set_rate(1 / (step * v.dx))
+        v.numbers.set_rate(1 / (step * v.dx))
         v.put(fields.QOLD, -v.get(fields.RHO) * v.get(fields.H) / step)
         report = solver.solve(CAREFUL, ROUGHLY)
         if report.residual < ROUGHLY:
             P, H0, step = v.get(fields.P), solver.H0, 2 * step
         else:
             step *= 0.3
-    v.set_rate(0.0)
+    v.numbers.set_rate(0.0)
     v.put(fields.QOLD, 0.0)
     return solver.solve(CAREFUL)
 

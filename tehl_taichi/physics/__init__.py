@@ -1,5 +1,6 @@
-"""Laws of the lubricant: pointwise functions that work in kernels, for numbers and for arrays, and the film formulas.
+"""Laws of the lubricant: pointwise functions that work in kernels, for numbers and for arrays.
 
-Viscosity, density, shear laws, conductivity, boundary friction; each stands once, with its source. May import `scene` (what an
-oil is) and `engine` (exp and log of lanes).
+A law is one file in `shear`, `viscosities` or `densities`: its function, its numbers, its source and its range (see `law`).
+`rheology`, `viscosity`, `density` ask the law that a scene chose; `conduction`, `boundary` have one; `choices` has them all.
+May import `values` and `engine.pointwise`; knows nothing of scenes, needs no taichi before a kernel asks.
 """

@@ -5,6 +5,9 @@ import taichi as ti
 from tehl_taichi.engine.lanes import Flat, LinearFlat, Table, V, W, cells, face_weights, lanes_in, lanes_out
 from tehl_taichi.pressure.fields import DRY, FLOOR, K0, MASK, RHO, SCALE, TOUCH, WEIGHT, D, H, P, R
 
+PHI2, LOAD, OUTFLOW, COUETTE = range(4)  # columns of what `sums` tells of each block
+SUMS = 4
+
 
 @ti.func
 def parts(S: ti.template(), k, floor, inv):
@@ -21,7 +24,8 @@ def sets(p, r, gap, inside):
 
 @ti.kernel
 def sums(S: ti.template(), G: Table, middle: ti.i32, out: Table, alone: ti.template()):
-    """out[block] = phi^2, net outflow of the full-film region, Couette flux through the column `middle`."""
+    """out[block, ...]: PHI2, of the complementarity, LOAD, OUTFLOW, net, of the full-film region, COUETTE, flux through the
+    column `middle`."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
@@ -43,7 +47,7 @@ def sums(S: ti.template(), G: Table, middle: ti.i32, out: Table, alone: ti.templ
         for u in ti.static(range(W)):
             if s * W + u > ny:
                 couette[u] = 0.0
-        out[s, 0], out[s, 1], out[s, 2], out[s, 3] = phi2.sum(), load_sum.sum(), mass.sum(), couette.sum()
+        out[s, PHI2], out[s, LOAD], out[s, OUTFLOW], out[s, COUETTE] = phi2.sum(), load_sum.sum(), mass.sum(), couette.sum()
 
 
 @ti.kernel

@@ -8,6 +8,7 @@ MASK 0, dry for ever.
 """
 
 import itertools
+from dataclasses import dataclass
 
 from tehl_taichi.engine.lanes import JN, NX, NY, OFF  # noqa: F401  columns of the level table too
 
@@ -47,6 +48,25 @@ STATE = (P, H, DRY, TOUCH)  # carried to the coarser levels
 LAWS = (RHO, LE, IE, ROOT, GAP, DLE, DRP, QP)  # and these, which follow from them
 FILM_LAWS = (DLH, RHOC, QCP)  # of a film with temperatures
 
+
+@dataclass(frozen=True)
+class LawRows:
+    """Where the laws of a film are, for its equations.
+
+    couette: density that the Couette flow carries, slope: its derivative by P, thinning: d LE/dH or -1 where the viscosity does
+    not depend on the film; follow: all that the coarser levels take over.
+    """
+
+    couette: int
+    slope: int
+    thinning: int
+    follow: tuple
+
+
+NEWTONIAN = LawRows(couette=RHO, slope=QP, thinning=-1, follow=LAWS)
+SHEARED = LawRows(couette=RHO, slope=QP, thinning=DLH, follow=(*LAWS, DLH))
+THERMAL = LawRows(couette=RHOC, slope=QCP, thinning=DLH, follow=LAWS + FILM_LAWS)
+
 # J, the linear problem
 A = _rows(4)  # row of the Jacobian: pressure of the nodes i-2, i-1, i, i+1
 AU, AD = _rows(2)  # and of j+1, j-1
@@ -75,7 +95,7 @@ K0 = next(_col)  # deflection of a node by its own unit pressure
 K1 = next(_col)  # and by that of its neighbour in x
 FLOOR = next(_col)  # film floor H_min
 ILAM = next(_col)  # 1/lambda; larger than that of the scene while a steady start is approached through slower ones
-SHEAR = next(_col)  # Newtonian stress (Pa) of oil at p = 0 in a film H = 1 by the slip u_b - u_a
+SHEAR = next(_col)  # Newtonian stress (Pa) on body a of oil at p = 0 in a film H = 1, by the slip
 ROW0 = next(_col)  # of the rows that the transforms of K^-1 work on: the first number,
 PERIOD = next(_col)  # and the numbers from row to row
 LINES = next(_col)  # 1 where lines are solved, 0 where corrections only pass through

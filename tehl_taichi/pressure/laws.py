@@ -7,10 +7,12 @@ had what the shear law leaves of that viscosity at the stress of the Couette par
 import taichi as ti
 
 from tehl_taichi.engine.elementary import exp, log
-from tehl_taichi.engine.lanes import Table, V, W, cells
+from tehl_taichi.engine.lanes import Flat, Table, V, W, cells
+from tehl_taichi.engine.records import read
 from tehl_taichi.physics.density import rho_ratio
 from tehl_taichi.physics.rheology import secant, sensitivity
 from tehl_taichi.physics.viscosity import ln_eta
+from tehl_taichi.pressure.conditions import Conditions
 from tehl_taichi.pressure.fields import DLE, DLH, DRP, FLOOR, GAP, IE, ILAM, LE, QP, RHO, ROOT, SHEAR, H, P
 
 DP = 1e3  # Pa, step of the difference quotients of the laws: their scale is 1e8 Pa, so the quotient is good to 1e-5
@@ -45,23 +47,23 @@ def store_thinning(S: ti.template(), k, h, floor, rheology: ti.template(), p, ne
 
 
 @ti.kernel
-def laws(S: ti.template(), G: Table, oil: ti.template(), rheology: ti.template(), p_H: ti.f64, Gamma: ti.f64, ln_eta0: ti.f64,
-         slopes: ti.template(), alone: ti.template()):
+def laws(S: ti.template(), G: Table, oil: ti.template(), rheology: ti.template(), conditions: Flat, slopes: ti.template(),
+         alone: ti.template()):
     """Density, viscosity and mobility on the finest level; with slopes = 1 their derivatives, which need the values."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
-        floor, shear = G[0, FLOOR], G[0, SHEAR]
+        floor, shear, scene = G[0, FLOOR], G[0, SHEAR], read(Conditions, conditions)
         for k in range(off + s * (nx + 1), off + (s + 1) * (nx + 1)):
-            p, h = S[P, k] * p_H + slopes * DP, ti.max(S[H, k], floor)
-            rho, le = rho_ratio(oil, p, Gamma), ln_eta(oil, p, Gamma) - ln_eta0
+            p, h = S[P, k] * scene.p_H + slopes * DP, ti.max(S[H, k], floor)
+            rho, le = rho_ratio(oil, p, scene.inlet), ln_eta(oil, p, scene.inlet) - scene.ln_eta0
             ie = exp(-le)
-            if ti.static(rheology.law != "newtonian"):
+            if ti.static(rheology.thins):
                 newtonian, b = sheared(rheology, p, h, ie, shear)
                 le, ie = le + log(b), ie / b
                 if ti.static(slopes):
                     store_thinning(S, k, h, floor, rheology, p, newtonian, b)
             if ti.static(slopes):
-                store_slopes(S, k, rho, le, p_H / DP)
+                store_slopes(S, k, rho, le, scene.p_H / DP)
             else:
                 store_laws(S, k, h, rho, le, ie, G[0, ILAM])

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl_taichi.pressure import balances, fields, reynolds
+from tehl_taichi.pressure.equations import Equations
 from tehl_taichi.pressure.krylov import Workspace, fgmres
 from tehl_taichi.pressure.preconditioner import AdditiveLines
 
@@ -63,10 +64,12 @@ def or_lost(solve):
 
 
 class PressureSolver:
-    """Solves one step on `levels` (see :class:`Levels`); owns the Krylov memory and the preconditioner."""
+    """Solves one step of `film` on `levels` (see :class:`Levels`, :class:`Equations`); owns the Krylov memory and the
+    preconditioner."""
 
-    def __init__(self, levels):
+    def __init__(self, levels, film):
         self.levels = levels
+        self.take(film)
         self.work = Workspace(levels.n + 2, levels.scene.numerics.krylov_max, levels.linear)
         self.preconditioner = AdditiveLines(levels)
         self.inside, self.weights = (q.astype(levels.linear) for q in (levels.inside, levels.vector(fields.WEIGHT)))
@@ -78,7 +81,7 @@ class PressureSolver:
         v = self.levels
         self.trial, self.product, self.b, self.mass_row, self.step = (np.zeros(v.n, v.linear) for _ in range(5))
         d = self.deflection = v.deflection if v.linear == v.deflection.dtype else v.deflection_of(0, v.linear)
-        self.partial, self.touching = np.zeros((v.fine, 4)), np.zeros((v.fine, 1))
+        self.partial, self.touching = np.zeros((v.fine, balances.SUMS)), np.zeros((v.fine, 1))
         self.old, self.part = np.zeros(v.n), np.ones(1)
         self._keep_pressure = v.launch(balances.save, v.S, v.G, fields.P, self.old)
         self._move_pressure = v.launch(balances.advance, v.S, v.G, self.old, self.step, self.part)
@@ -87,11 +90,13 @@ class PressureSolver:
         self._sums = v.launch(balances.sums, v.S, v.G, int(np.argmin(np.abs(v.X))), self.partial)
         self._choose_sets = v.launch(balances.choose_sets, v.S, v.J, v.G, ROW_CAP, self.b, self.mass_row, self.touching)
 
+    def take(self, film):
+        """Density and viscosity are those of this film from now on."""
+        self.equations = Equations(self.levels, film)
+
     def residual(self):
         """H, laws and R of the state in the table."""
-        self.levels.set_film(self.H0)
-        self.levels.laws()
-        self.levels.evaluate_residual()
+        self.equations.residual(self.H0)
 
     def measure(self):
         """Merit (rms of phi plus load error), load error and mass error; needs the diagonal.
@@ -99,10 +104,11 @@ class PressureSolver:
         Mass error: net outflow of the full-film region plus its storage, relative to the Couette flux through X = 0.
         """
         self._sums()
-        phi2, load, mass, self.couette = self.partial.sum(axis=0)
-        self.load_error = load / self.load - 1
-        self.mass_error = abs(mass / self.couette)
-        return float(np.sqrt(phi2 / self.levels.unknowns)) + abs(self.load_error)
+        sums = self.partial.sum(axis=0)
+        self.couette = sums[balances.COUETTE]
+        self.load_error = sums[balances.LOAD] / self.load - 1
+        self.mass_error = abs(sums[balances.OUTFLOW] / self.couette)
+        return float(np.sqrt(sums[balances.PHI2] / self.levels.unknowns)) + abs(self.load_error)
 
     @or_lost
     def solve(self, krylov_tolerance=None, tolerance=None, newton_max=None):
@@ -118,7 +124,7 @@ class PressureSolver:
             merit = self._advance(step, merit, newton == 1, tolerance)
             if newton == last or self._converged(merit, tolerance) or not np.isfinite(merit):
                 break
-            self.levels.linearise()
+            self.equations.linearise()
             merit = self.measure()
         return Report(merit, self.load_error, self.mass_error, newton, cycles, self._converged(merit, tolerance))
 
@@ -137,7 +143,7 @@ class PressureSolver:
     def _begin(self):
         """Linearise about the state in the table. Returns its merit."""
         self.residual()
-        self.levels.linearise()
+        self.equations.linearise()
         self.lift, self.before, self.change = None, None, np.inf
         return self.measure()
 
@@ -164,6 +170,7 @@ class PressureSolver:
     def _direction(self, krylov_tolerance):
         self._choose_sets()
         touching = self.touching.sum() > 0
+        self.equations.linearise_coarse()
         self.preconditioner.build(touching, self.change > SMALL_CHANGE)
         v = self.levels
         b = self.b

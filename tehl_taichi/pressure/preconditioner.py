@@ -27,7 +27,7 @@ class AdditiveLines:
         self.near, self.inverse = (np.zeros((2 * len(levels.sizes), lines.NEAR), levels.linear) for _ in range(2))
         inverse = self.distribution.near(lines.NEAR)
         for n, (l, place) in enumerate(zip(levels.lines, self.distribution.places)):
-            levels.G[l, [fields.ROW0, fields.PERIOD]] = place
+            levels.numbers.set_rows(l, *place)
             self.near[2 * l : 2 * l + 2] = levels.near_kernel(l, lines.NEAR)
             self.inverse[2 * l : 2 * l + 2] = inverse[2 * n : 2 * n + 2]
         self.count = sum(levels.sizes[l][1] // lanes.W + 1 for l in levels.lines)
@@ -47,9 +47,8 @@ class AdditiveLines:
                                 COARSE_WEIGHT, self.z)
 
     def build(self, touching, anew=True):
-        """Linearise the coarser levels about the injected state and factorise every level; with anew = False the coarsest one
-        stays what it was, for small changes."""
-        self.levels.linearise_coarse()
+        """Factorise every level, which must be linearised; with anew = False the coarsest one stays what it was, for small
+        changes."""
         fine, coarse = self._classify[2:] if touching else self._classify[:2]
         fine()
         coarse()

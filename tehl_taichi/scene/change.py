@@ -4,16 +4,18 @@ import dataclasses
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene import given
-from tehl_taichi.scene import oil as oils
-from tehl_taichi.scene.checks import key_shown, nearest
+from tehl_taichi.scene import named_oils as oils
 from tehl_taichi.scene.feature import SHAPES, USED_BY
+from tehl_taichi.scene.named_steels import STEELS
 from tehl_taichi.scene.route import ALL
+from tehl_taichi.values.checks import key_shown, nearest
 
 
 def applied(data, changes):
     """`data` (a scene as nested dictionary) with changes {full key: value}; what they replace is cleared. Raises SceneError."""
     _clear(data, changes)
     _name_oil(data, changes)
+    _name_steels(data, changes)
     for key in sorted(changes, key=lambda key: key.count(".")):  # whole tables before single values
         _assign(data, key, changes[key])
     return data
@@ -26,9 +28,8 @@ def check_effect(scene, changes):
         if key in SPEEDS and scene.contact.moes_M > 0:
             raise SceneError(f"{given.words(key, changes[key])} has no effect: contact.moes_L = {scene.contact.moes_L:g} sets "
                              f"the mean speed, {scene.operation.u_m:.4g} m/s")
-        if section == "oil" and name in oils.OF_LAWS - _looked_at(scene):
-            raise SceneError(f"{key} has no effect: the viscosity law of this oil ({scene.oil.viscosity}) takes "
-                             f"{', '.join(scene.oil.law_numbers)}")
+        if section == "oil" and name in scene.oil.unused - set(MOES if scene.contact.moes_M > 0 else ()):
+            raise SceneError(f"{key} has no effect: the laws of this oil ({_laws_of(scene.oil)}) do not take it")
         if section == "feature" and name:
             number, _, name = name.partition(".")
             shape = scene.features[int(number)].shape
@@ -39,9 +40,12 @@ def check_effect(scene, changes):
 SPEEDS = ("operation.u_m", *given.BY_SURFACE)
 
 
-def _looked_at(scene):
-    """Numbers of the oil that its viscosity law or a Moes pair uses."""
-    return {*scene.oil.law_numbers, *(("eta0", "alpha") if scene.contact.moes_M > 0 else ())}
+MOES = ("eta0", "alpha")  # numbers of the oil that a Moes pair uses
+
+
+def _laws_of(oil):
+    """The laws that it chose, with their numbers."""
+    return "; ".join(f"{law.name}: {', '.join(law.numbers)}" for law in oil.laws[:2])
 
 
 def _clear(data, changes):
@@ -65,6 +69,14 @@ def _name_oil(data, changes):
     elif name != data["oil"]["name"]:
         oils.check_new(name, {key.partition(".")[2]: value for key, value in changes.items() if key.startswith("oil.")})
         data["oil"]["source"] = oils.NO_SOURCE
+
+
+def _name_steels(data, changes):
+    """A known name brings the numbers of its steel."""
+    for which, body in data["bodies"].items():
+        name = changes.get(f"bodies.{which}.material")
+        if isinstance(name, str) and name in STEELS:
+            body.update(STEELS[name].numbers)
 
 
 def _assign(data, dotted, value):

@@ -1,7 +1,7 @@
 """What is given together for a change of a scene: keys by their full names, and which of them contradict each other."""
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene.plain import plain, shown
+from tehl_taichi.values.plain import plain, shown
 
 SHORT = {"srr": "operation.srr", "load": "contact.load", "hertz_pressure": "contact.hertz_pressure",
          "speed": "operation.u_m", "temperature": "operation.temperature", "height": "feature.height",

@@ -1,11 +1,21 @@
 """What is doubtful in a scene although it can be simulated, a sentence each: the warnings that are known before a run."""
 
-from tehl_taichi.scene import map_judge, oil_range, passing, route
+from tehl_taichi.scene import named_steels, oil_range, passing, route
 
 
 def warnings(scene):
     """Sentences with the value, the unit and what would be better; [] for a scene without doubts."""
     return [sentence for check in CHECKS for sentence in check(scene)]
+
+
+def preview(scene):
+    """Lines about its features, printed before a run."""
+    return [line for feature in scene.features for line in feature.kind.preview(feature, scene)]
+
+
+def doubtful_features(scene):
+    """What their shapes doubt."""
+    return [sentence for feature in scene.features for sentence in feature.kind.doubts(feature, scene)]
 
 
 def cut_passage(scene):
@@ -29,4 +39,4 @@ def thinned(scene):
 
 
 # functions of a scene that give its sentences
-CHECKS = (passing.warnings, oil_range.warnings, cut_passage, thinned, map_judge.doubts)
+CHECKS = (passing.warnings, oil_range.warnings, named_steels.doubts, cut_passage, thinned, doubtful_features)

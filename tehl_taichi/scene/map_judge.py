@@ -14,14 +14,9 @@ RIM = 0.1  # of the rms: a step at the rim below that is roughness like the rest
 JUDGED = 1024  # points along each side, from the middle, that are judged
 
 
-def preview(scene):
-    """Two lines for each map of a scene: what was read, and what passes through the contact."""
-    return [line for feature in _maps(scene) for line in _lines(feature, cells(scene))]
-
-
-def doubts(scene):
-    """Sentences about maps that are flat or steep, finer or coarser than the grid, or end in a step."""
-    return [sentence for feature in _maps(scene) for check in (_size, _grid, _rim) for sentence in check(feature, scene)]
+def doubts(f, scene):
+    """Sentences about a map that is flat or steep, finer or coarser than the grid, or ends in a step."""
+    return [sentence for check in (_size, _grid, _rim) for sentence in check(f, scene)]
 
 
 def cells(scene):
@@ -30,11 +25,9 @@ def cells(scene):
     return (g.x_max - g.x_min) * s.a / g.nx, g.y_max * s.b / g.ny
 
 
-def _maps(scene):
-    return [feature for feature in scene.features if feature.shape == "map"]
-
-
-def _lines(f, cell):
+def lines(f, scene):
+    """Two lines: what was read, and what passes through the contact."""
+    cell = cells(scene)
     (rows, columns), m, name = f.heights.shape, f.measures, f"map {os.path.basename(f.file)}"
     heights = f"heights in {f.unit}" + (f" times {f.scale:g}" if f.scale != 1 else "")
     off = {"none": "nothing", "mean": "mean", "plane": "plane"}[f.level]

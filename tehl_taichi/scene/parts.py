@@ -4,8 +4,13 @@ import math
 from dataclasses import dataclass
 from typing import Union
 
+from tehl_taichi.criteria import CRITERIA, sensitivities
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene.quantity import AUTO, check, choice, count, quantities, quantity, switch, text
+from tehl_taichi.physics import rheology
+from tehl_taichi.physics.boundary import BOUNDARY
+from tehl_taichi.physics.law import declared, section
+from tehl_taichi.scene.named_steels import STEELS
+from tehl_taichi.values.quantity import AUTO, check, choice, count, quantities, quantity, switch, text
 
 
 @dataclass(frozen=True)
@@ -24,7 +29,7 @@ class Contact:
     moes_L: float = quantity(0.0, "", "Moes' lubricant number, with moes_M; 0: not given", 0.0, 1e3)
 
     def __post_init__(self):
-        check(self, "contact", load="N/m" if self.kind == "line" else "N")
+        check(self, "contact", load="N/m" if isinstance(self.kind, str) and self.kind == "line" else "N")
         self._check_combination()
 
     def _check_combination(self):
@@ -50,9 +55,11 @@ class Contact:
 class Body:
     """An elastic half-space; default: steel (Everitt 2018).
 
-    Its alpha is the usual handbook value of bearing and gear steels.
+    Its alpha is the usual handbook value of bearing and gear steels. The name of a steel (`tehl steels`) gives the numbers that
+    a scene file or a change does not name; in Python: Body(**STEELS["100Cr6"].numbers, material="100Cr6").
     """
 
+    material: str = choice("", "a named steel; empty: none, the numbers are one's own", ("", *STEELS))
     E: float = quantity(206e9, "Pa", "Young's modulus", 1e6, 1e13)
     nu: float = quantity(0.3, "", "Poisson's ratio", 0.0, 0.499)
     k: float = quantity(47.0, "W/mK", "thermal conductivity", 0.01, 1e4)
@@ -92,26 +99,26 @@ class Operation:
         return self.u_m * (1 - self.srr / 2)
 
 
+_RHEOLOGY = section("_RHEOLOGY", law=choice("limiting", "shear law of the film (`tehl laws`)", tuple(rheology.LAWS)),
+                    **declared({**rheology.LAWS, BOUNDARY.name: BOUNDARY}))
+
+
 @dataclass(frozen=True)
-class Rheology:
+class Rheology(_RHEOLOGY):
     """Shear law of the film and friction of solid contact.
 
-    The law acts wherever the surfaces slip, in flow, friction and heat, with and without temperatures; "newtonian" is the film
-    that isothermal film formulas and most published films are of (its friction under pressure is not that of any oil).
-    film_floor: Everitt 2018.
+    The law acts wherever the surfaces slip, in flow, friction and heat, with and without temperatures; a law that does not thin
+    is the film that isothermal film formulas and most published films are of (its friction under pressure is not that of any
+    oil). The laws and their numbers stand in tehl_taichi/physics/shear.
     """
-
-    law: str = choice("limiting", "shear law of the film; limiting: smooth towards tau_L = tau_L0 + gamma p",
-                      ("limiting", "newtonian", "eyring", "carreau"))
-    tau_L0: float = quantity(10e6, "Pa", "limiting: limiting shear stress at p = 0", 1e3, 1e9)
-    gamma: float = quantity(0.075, "", "limiting: its rise with pressure", 0.0, 1.0)
-    tau_0: float = quantity(10e6, "Pa", "eyring, carreau: stress where the oil begins to thin", 1e3, 1e10)
-    carreau_n: float = quantity(0.8, "", "carreau: exponent (1: newtonian)", 0.1, 1.0)
-    mu_boundary: float = quantity(0.3, "", "friction coefficient where the surfaces touch", 0.0, 2.0)
-    film_floor: float = quantity(5e-6, "a^2/R'", "film at which the surfaces touch", 1e-9, 0.1)
 
     def __post_init__(self):
         check(self, "rheology")
+
+    @property
+    def thins(self):
+        """Whether shear takes something of the viscosity."""
+        return rheology.LAWS[self.law].thins
 
 
 @dataclass(frozen=True)
@@ -141,10 +148,10 @@ class Fatigue:
     """
 
     on: bool = switch(True, "stresses and fatigue index of a passage")
-    kappa: float = quantity(0.3, "", "sensitivity to normal stress", 0.0, 5.0)
+    kappa: float = quantity(0.3, "", f"sensitivity to stress, {sensitivities()}", 0.0, 5.0)
     endurance: float = quantity(400e6, "Pa", "fatigue limit sigma_eF: Fi = 1", 1e3, 1e11)
     source: str = text("example values, set your own", "where kappa and endurance come from", one_line=False)
-    criterion: str = choice("findley", "fatigue criterion", ("findley", "findley-chord", "matake", "dang-van"))
+    criterion: str = choice("findley", "fatigue criterion", tuple(CRITERIA))
     depths: Union[tuple, str] = quantities(AUTO, "m", "searched below the surface; auto: the worst depth under the feature is "
                                            "looked for; or all points at these, as [50e-6, 100e-6]", 1e-7, 0.1, auto=True)
     shear: bool = switch(True, "whether the shear tractions count")
@@ -211,8 +218,8 @@ class Numerics:
     krylov_tolerance: float = quantity(0.2, "", "of the linear solves inside Newton, at most", 1e-6, 0.5)
     newton_max: int = count(30, "Newton steps of an attempt at most", 1, 1000)
     krylov_max: int = count(80, "Krylov iterations of a Newton step at most", 5, 500)
-    precision: str = choice(AUTO, "of the linear solves inside Newton; auto: f32 where the film is thick enough for it (the "
-                            "state and its residual are always double)", (AUTO, "f32", "f64"))
+    precision: str = choice(AUTO, "of the linear solves inside Newton; auto: f32 where the film is thick enough for it "
+                            "(elsewhere it is refused); the state and its residual are always double", (AUTO, "f32", "f64"))
     estimate_error: Union[bool, str] = switch(AUTO, "error of the passage's numbers, by companion runs on coarser grids; auto: "
                                               "where a core is free for them", auto=True)
 

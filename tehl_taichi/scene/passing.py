@@ -72,34 +72,18 @@ def _check_y(scene, scales, name, feature):
 
 
 def sights(scene):
-    """A Sight for each feature and axis along which it has a size; none for a map, whose pixels tell."""
+    """A Sight for each feature and axis along which it has a size; none where its shape names none."""
     g, s = scene.grid, Scales.of(scene)
     cell = {"nx": (g.x_max - g.x_min) * s.a / g.nx, "ny": g.y_max * s.b / g.ny}
     out = []
     for n, f in enumerate(scene.features):
-        sizes = {"nx": _along(f)} | ({} if scene.one_dimensional else {"ny": _across(f)})
-        for count, lengths in sizes.items():
+        along, across = f.kind.sizes(f)
+        for count, lengths in (("nx", along), ("ny", {} if scene.one_dimensional else across)):
             if lengths:
                 key = min(lengths, key=lengths.get)
                 name, length = f"{label(scene, n)}.{key}", lengths[key]
                 out.append(Sight(name, length, count, length / cell[count], getattr(g, count)))
     return out
-
-
-def _along(f):
-    if f.shape == "map":
-        return {}
-    return {"width": f.width} | ({"extent_x": f.extent_x} if f.shape in ("waviness", "rough") else {})
-
-
-def _across(f):
-    """Lengths along y by their keys: of one hump, and of the patch it lies in."""
-    patch = {"extent_y": f.extent_y} if f.extent_y > 0 else {}
-    if f.shape == "cosine":
-        return {"length": f.length} if f.length else {"width": f.width}
-    if f.shape == "rough":
-        return {"width": f.width} | patch
-    return patch | ({"length": f.length} if f.length else {}) if f.shape == "waviness" else {}
 
 
 def _remedy(scene, cells, worst):

@@ -3,16 +3,18 @@
 import dataclasses
 import math
 from dataclasses import dataclass, field
+from typing import Any
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene import change, given, judge, oil_range, passing, scales
-from tehl_taichi.scene import oil as oils
-from tehl_taichi.scene.checks import build, file_name, nearest, number
+from tehl_taichi.physics.shear.newtonian import NEWTONIAN
+from tehl_taichi.scene import change, given, judge, named_oils, oil_range, passing, scales
 from tehl_taichi.scene.feature import Feature
+from tehl_taichi.scene.named_steels import completed
 from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.parts import AUTO, Body, Contact, Fatigue, Grid, Numerics, Operation, Output, Rheology, Thermal, Time
-from tehl_taichi.scene.plain import plain, shown
 from tehl_taichi.scene.route import LATEST, cut_at
+from tehl_taichi.values.checks import build, file_name, nearest, number
+from tehl_taichi.values.plain import plain, shown
 
 SECTIONS = {"contact": Contact, "operation": Operation, "rheology": Rheology, "thermal": Thermal, "fatigue": Fatigue,
             "grid": Grid, "time": Time, "numerics": Numerics, "output": Output}
@@ -26,7 +28,13 @@ MAX_HERTZ, MIN_HERTZ = 6e9, 1e7  # Pa: outside this range the laws say nothing
 
 @dataclass(frozen=True)
 class Scene:
-    """One contact, its bodies, oil and motion, and how it is computed. Raises SceneError when the parts do not fit."""
+    """One contact, its bodies, oil and motion, and how it is computed; SI units. Raises SceneError when the parts do not fit.
+
+    >>> from tehl_taichi.scene.parts import Contact, Grid
+    >>> scene = Scene(contact=Contact(load=1.1e6), grid=Grid(nx=128, ny=32))
+    >>> scene.replace(hertz_pressure=1.5e9, **{"feature.height": -1e-6}).features[0].height
+    -1e-06
+    """
 
     name: str = "gear"
     contact: Contact = field(default_factory=lambda: Contact(load=1.1e6))
@@ -166,7 +174,7 @@ class Scene:
     @property
     def shear_law(self):
         """The rheology that the flow of a film with one temperature obeys: Newtonian where no surface slips."""
-        return self.rheology if self.operation.u_s != 0 else dataclasses.replace(self.rheology, law="newtonian")
+        return self.rheology if self.operation.u_s != 0 else dataclasses.replace(self.rheology, law=NEWTONIAN.name)
 
     @property
     def thermal_stress_wanted(self):
@@ -180,7 +188,7 @@ class Scene:
         if self.isothermal:
             why = "isothermal film" if self.thermal.on is False else "no slip" if self.operation.srr == 0 else "a Moes pair"
             out.append(f"energy equation and temperatures ({why}; --thermal has them)")
-        if self.isothermal and self.oil.expansion == "thermal" and self.oil.beta0 > 0:
+        if self.isothermal and self.oil.expansion == "thermal" and self.oil.expands:
             out.append("thermal expansion of the oil (isothermal film; oil.expansion = 'always' keeps it)")
         if self.one_dimensional:
             out.append("y direction (nothing varies across this line contact)")
@@ -194,8 +202,8 @@ class Scene:
             out.append("stresses and fatigue (" + ("switched off" if not self.fatigue.on else "no passage") + ")")
         if self.operation.u_s == 0:
             out.append("sliding friction and the shear law of the film (SRR = 0)")
-        elif self.rheology.law == "newtonian":
-            out.append("shear law of the film (rheology.law = 'newtonian')")
+        elif not self.rheology.thins:
+            out.append(f"shear law of the film (rheology.law = {self.rheology.law!r})")
         return out
 
     def warnings(self):
@@ -207,7 +215,7 @@ class Scene:
         """Fatigue needs a passage: the stress history of material points."""
         return self.fatigue.on and self.transient
 
-    def replace(self, **changes):
+    def replace(self, **changes: Any) -> "Scene":
         """A changed copy. Keys: srr, load, hertz_pressure, speed, temperature, height, width, kappa, endurance, name,
         or dotted ("grid.nx"; "feature.height" is the first feature, "feature.1.height" the second). Raises SceneError.
         """
@@ -240,7 +248,7 @@ class Scene:
             parts["operation"] = build(Operation, _speeds(data["operation"]), "operation")
         parts.update(_bodies(data.get("bodies", {})))
         if "oil" in data:
-            parts["oil"] = oils.from_values(data["oil"])
+            parts["oil"] = named_oils.from_values(data["oil"])
         if "feature" in data:
             parts["features"] = _features(data["feature"])
         return cls(name=data.get("name", "gear"), **parts)
@@ -268,7 +276,7 @@ def _speeds(values):
 def _bodies(values):
     if not isinstance(values, dict) or set(values) - {"a", "b"}:
         raise SceneError(f"[bodies] has the tables [bodies.a] and [bodies.b] only, not {shown(values)}")
-    return {f"body_{key}": build(Body, value, f"bodies.{key}", "bodies") for key, value in values.items()}
+    return {f"body_{key}": build(Body, completed(value), f"bodies.{key}", "bodies") for key, value in values.items()}
 
 
 def _features(values):

@@ -6,7 +6,7 @@ import difflib
 import math
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene.plain import plain, shown
+from tehl_taichi.values.plain import plain, shown
 
 HUGE = 10**300  # whole numbers beyond it are no floats
 
@@ -31,6 +31,7 @@ def _allowed(unit, low, high, strict):
 
 def integer(where, value, low, high):
     """Refuse `value` unless it is a whole number within low..high."""
+    value = plain(value)
     if isinstance(value, bool) or not isinstance(value, int):
         raise SceneError(f"{where} = {shown(value)} is not a whole number; allowed: {low} to {high}")
     if not low <= value <= high:

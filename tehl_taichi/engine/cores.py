@@ -1,0 +1,68 @@
+"""Cores that this process may use, and Taichi's threads on cores of their own."""
+
+import contextlib
+import math
+import os
+from pathlib import Path
+
+GROUPS = Path("/sys/fs/cgroup")
+TASKS = Path("/proc/self/task")
+
+
+def available(groups=GROUPS, own=Path("/proc/self/cgroup")):
+    """Number of cores that this process may use: by its affinity, and by the quota of its control group (containers, batch
+    systems), at least 1."""
+    return max(1, math.floor(min(len(allowed()), quota(groups, own))))
+
+
+def allowed():
+    """The cores of its affinity, in order."""
+    if hasattr(os, "sched_getaffinity"):
+        return sorted(os.sched_getaffinity(0))
+    return list(range(os.cpu_count() or 1))
+
+
+def quota(groups=GROUPS, own=Path("/proc/self/cgroup")):
+    """Cores that the control groups of this process grant it; infinite where they set no limit, or are out of sight."""
+    return min(map(_granted, _groups(groups, own)), default=math.inf)
+
+
+def _groups(groups, own):
+    """Folders of its control groups and of those that these lie in, of both versions."""
+    with contextlib.suppress(OSError):
+        for line in own.read_text().splitlines():
+            _, controllers, path = line.split(":", 2)
+            if controllers in ("", "cpu", "cpu,cpuacct"):
+                top = groups / controllers
+                inner = top / path.lstrip("/")
+                yield from {top, inner, *(folder for folder in inner.parents if folder.is_relative_to(top))}
+
+
+def _granted(folder):
+    with contextlib.suppress(OSError, ValueError, ZeroDivisionError):
+        share, period = (folder / "cpu.max").read_text().split()
+        return math.inf if share == "max" else int(share) / int(period)
+    with contextlib.suppress(OSError, ValueError, ZeroDivisionError):
+        share, period = (int((folder / f"cpu.cfs_{what}_us").read_text()) for what in ("quota", "period"))
+        return math.inf if share <= 0 else share / period
+    return math.inf
+
+
+@contextlib.contextmanager
+def pinned(threads):
+    """Give each of the last `threads` threads that start inside (Taichi's pool; those before them compile) a core of its own,
+    where they take all cores of this process: left alone, one often wakes on the core of another and waits for it. With
+    fewer threads than cores they stay free, so that several runs side by side spread."""
+    cores, before = allowed(), _running()
+    yield
+    new = sorted(_running() - before)[-threads:]
+    if threads > 1 and threads == len(cores) == len(new):
+        for thread, core in zip(new, cores):
+            with contextlib.suppress(OSError):
+                os.sched_setaffinity(thread, {core})
+
+
+def _running():
+    with contextlib.suppress(OSError):
+        return {int(task.name) for task in TASKS.iterdir()}
+    return set()

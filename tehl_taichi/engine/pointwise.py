@@ -1,0 +1,64 @@
+"""Functions of one point that work for numbers, for arrays and in kernels, on lanes too; without taichi until a kernel asks.
+
+Laws are written with the functions below, which have numpy's names, and with :func:`pointwise` or :func:`unrolled`.
+"""
+
+import functools
+import importlib
+import inspect
+import sys
+
+import numpy as np
+
+
+def in_kernel():
+    """Whether Taichi traces a kernel now."""
+    impl = sys.modules.get("taichi.lang.impl")
+    return impl is not None and impl.inside_kernel()
+
+
+class Pointwise:
+    """function(*arguments) outside of kernels; inside them what traced() gives, asked for once."""
+
+    _is_taichi_function = False  # that it is there at all tells Taichi that it may be called in kernels
+
+    def __init__(self, function, traced):
+        functools.update_wrapper(self, function)
+        self.function, self.traced = function, functools.cache(traced)
+
+    def __call__(self, *arguments):
+        return (self.traced() if in_kernel() else self.function)(*arguments)
+
+
+def pointwise(function):
+    """Decorator: what Taichi compiles; plain arithmetic, the functions below and other laws, no loops and no choices.
+
+    The first argument carries the numbers of the law: they become constants of the kernel.
+    """
+    return Pointwise(function, lambda: _compiled(function))
+
+
+def unrolled(function):
+    """Decorator: what Python runs while a kernel is traced, for loops over constants and for choices between laws."""
+    return Pointwise(function, lambda: function)
+
+
+def _compiled(function):
+    import taichi as ti
+
+    first = next(iter(inspect.signature(function).parameters))
+    function.__annotations__[first] = ti.template()
+    return ti.func(function)
+
+
+def _elementary(by_numpy, name, module="taichi"):
+    return Pointwise(by_numpy, lambda: getattr(importlib.import_module(module), name))
+
+
+exp = _elementary(np.exp, "exp", "tehl_taichi.engine.elementary")
+log = _elementary(np.log, "log", "tehl_taichi.engine.elementary")
+sqrt = _elementary(np.sqrt, "sqrt")
+absolute = _elementary(np.absolute, "abs")
+minimum = _elementary(np.minimum, "min")
+maximum = _elementary(np.maximum, "max")
+where = _elementary(np.where, "select")

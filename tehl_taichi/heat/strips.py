@@ -1,0 +1,111 @@
+"""Material strips of both bodies: heat that went in earlier, remembered in the bodies' own frames.
+
+F[column, slot]: the modes of body a and of body b (`count` each) and the flux of the last step into both; all that again for
+the new step; one scratch slot. A column belongs to a material strip, which the grid of the contact overtakes by whole cells and
+a rest (Drift).
+"""
+
+import taichi as ti
+
+from tehl_taichi.engine.lanes import Flat, Table, V, W, cells
+from tehl_taichi.engine.records import read
+from tehl_taichi.heat.paths import cubic
+from tehl_taichi.heat.step import Drift
+
+# rows: weight, decay over the step, gain of the new flux and of the last one (linear in between)
+Modes = ti.types.ndarray(dtype=ti.f64, ndim=2)
+WEIGHT, DECAY, GAIN, GAIN_LAST = range(4)
+
+
+def slots_of(count):
+    """Slots of the table F with so many modes of a body, and how many of them go on to the next step."""
+    kept = 2 * count + 2
+    return 2 * kept + 1, kept
+
+
+def mode_slots(count, body):
+    """Of the modes of a body."""
+    return slice(body * count, (body + 1) * count)
+
+
+def flux_slot(count, body):
+    """Of the last flux into it."""
+    return 2 * count + body
+
+
+@ti.func
+def memory(count, body):
+    """Slots of the first mode of a body and of the last flux into it."""
+    return body * count, 2 * count + body
+
+
+@ti.func
+def new_memory(count, body):
+    """The same for the new step."""
+    kept = 2 * count + 2
+    return kept + body * count, kept + 2 * count + body
+
+
+@ti.func
+def interpolate(F: ti.template(), first, i, nx, slot, rest):
+    """Value at i + rest, cubic, the ends continued."""
+    w, out = cubic(rest), V(0.0)
+    for t in ti.static(range(4)):
+        out += w[t] * F[first + ti.min(ti.max(i + t - 1, 0), nx), slot]
+    return out
+
+
+@ti.kernel
+def surface(F: ti.template(), Z: ti.template(), G: Table, modes: Modes, drift: Flat, count: ti.i32, body: ti.i32,
+            ambient: ti.f64, slot: ti.i32):
+    """Z[slot] = A of T_s = A + B q at the nodes of the contact; material strip i lies at x_i + rest dx."""
+    nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1)
+    for s in range(ny // W + 1):
+        first, scratch = s * (nx + 1), 4 * count + 4
+        lies = read(Drift, drift)
+        shift = int(lies.shift)
+        modes_at, flux_at = memory(count, body)
+        for i in range(nx + 1):
+            total = V(ambient)
+            if i - shift >= 0:
+                total += lies.B_last * F[first + i - shift, flux_at]
+                for m in range(count):
+                    total += modes[WEIGHT, m] * modes[DECAY, m] * F[first + i - shift, modes_at + m]
+            F[first + i, scratch] = total
+        for i in range(nx + 1):
+            Z[first + i, slot] = interpolate(F, first, i - 1, nx, scratch, 1.0 - lies.rest)
+
+
+@ti.kernel
+def remember(F: ti.template(), Z: ti.template(), G: Table, modes: Modes, drift: Flat, count: ti.i32, body: ti.i32,
+             slot: ti.i32):
+    """The new memory of a body from the flux Z[slot] of this step and that of the last."""
+    nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1)
+    for s in range(ny // W + 1):
+        first, lies = s * (nx + 1), read(Drift, drift)
+        shift = int(lies.shift)
+        modes_at, flux_at = memory(count, body)
+        new_modes, new_flux = new_memory(count, body)
+        for i in range(nx + 1):
+            q, last = interpolate(Z, first, i, nx, slot, lies.rest), V(0.0)
+            if i - shift >= 0:
+                last = F[first + i - shift, flux_at]
+            for m in range(count):
+                old = V(0.0)
+                if i - shift >= 0:
+                    old = F[first + i - shift, modes_at + m]
+                F[first + i, new_modes + m] = modes[DECAY, m] * old + modes[GAIN, m] * q + modes[GAIN_LAST, m] * last
+            F[first + i, new_flux] = q
+
+
+@ti.kernel
+def adopt(F: ti.template(), G: Table, count: ti.i32):
+    """The new memory of both bodies becomes the present one."""
+    nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1)
+    for s in range(ny // W + 1):
+        for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
+            for m in range(2 * count + 2):
+                F[q, m] = F[q, 2 * count + 2 + m]

@@ -1,0 +1,42 @@
+"""Start values of the next state: pressure, rigid approach and temperatures, extrapolated in time."""
+
+import numpy as np
+
+from tehl_taichi.march.guess import Guess, extrapolated
+from tehl_taichi.pressure import fields
+
+ORDER, HEAT_ORDER = 3, 1  # of the extrapolation in time of pressure and temperatures
+HOTTER = 20.0  # K, that a film is guessed to become than it was
+
+
+class Prediction:
+    """Of the state in the tables of `solver` and `heat` (or None), with the features moved by `at` cells; state: that a run
+    goes on from, with what :meth:`state` gave in it, or of a start."""
+
+    def __init__(self, solver, heat, at, state):
+        self.solver, self.heat = solver, heat
+        self.pressure = Guess(ORDER, np.array(state["P"]), at, state, "P")
+        self.heights = list(state.get("H0_history", [float(state["H0"])]))  # at the positions of the pressure
+        self.temperature = Guess(HEAT_ORDER, heat.T, at, state, "T") if heat else None
+
+    def put(self, at):
+        """The guess for the state with the features at `at` into the tables."""
+        P = np.maximum(self.pressure.next(at), 0.0)
+        P[:, [0, -1]] = 0.0
+        self.solver.levels.put(fields.P, P)
+        self.solver.H0 = extrapolated(self.heights[: ORDER + 1], self.pressure.at, at)
+        if self.heat:
+            T = self.temperature.next(at)
+            self.heat.set_temperature(np.clip(T, self.heat.T.min(), self.heat.T.max() + HOTTER))
+
+    def accept(self, P, at):
+        """The state with the pressure P and the features at `at` is the newest."""
+        self.pressure.accept(P, at)
+        self.heights = [self.solver.H0, *self.heights[:ORDER]]
+        if self.heat:
+            self.temperature.accept(self.heat.T, at)
+
+    def state(self):
+        """Arrays to go on from."""
+        return {**self.pressure.state(), "H0_history": np.array(self.heights),
+                **(self.temperature.state() if self.heat else {})}

@@ -1,0 +1,55 @@
+"""The first snapshot of a run: the steady smooth contact, on the rows of the passage."""
+
+import math
+import time
+
+import numpy as np
+
+from tehl_taichi.heat.temperatures import FilmHeat
+from tehl_taichi.march import readings, snapshot
+from tehl_taichi.march.error_bars import bars
+from tehl_taichi.march.failure import not_converged
+from tehl_taichi.march.solved import Solved
+from tehl_taichi.march.steady import solve_steady
+
+
+def steady_snapshot(scene, scales):
+    """Snapshot 0 with the error bars of its numbers. Raises NotConverged."""
+    started = time.perf_counter()
+
+    def look(solver, heat, report):
+        solved = Solved(solver, heat, report, started)
+        return readings.steady(snapshot.take(solved, 0, 0.0, math.nan, None)) if report.converged else None
+
+    result = solve_steady(scene, scales, scene.grid.nx, 0 if scales.line else scene.grid.ny, look)
+    if not result.report.converged:
+        raise not_converged(result.solver, result.heat, result.report, "the steady start")
+    state = snapshot.state_of(result.solver, result.heat, 0)
+    solved = Solved(result.solver, result.heat, result.report, started)
+    first = snapshot.take(solved, 0, 0.0, math.nan, lambda: state)
+    first.scalars["cycles"] = float(result.work)
+    first.grids, (first.error, first.unknown) = result.values, bars(result.values)
+    return _spread(first, scene, scales)
+
+
+def _spread(first, scene, scales):
+    """The smooth start on the rows of the passage: a line copied to every row, a half mirrored to the whole."""
+    if scene.transient:
+        first.feature_x = scene.path[0] * scales.a
+    rows = scene.rows + 1 if scene.transient else first.y.size
+    if first.y.size == rows:
+        return first
+    first.y, across = _rows(first.y, rows, scene, scales)
+    first.fields = {key: np.ascontiguousarray(value[:, across]) for key, value in first.fields.items()}
+    for key, value in first.state.items():
+        if key == "P" or key in FilmHeat.FIELDS:
+            first.state[key] = np.ascontiguousarray(value[..., across, :])
+    return first
+
+
+def _rows(y, rows, scene, scales):
+    """(places (m) of so many rows, the row of `y` that each is like)."""
+    if y.size > 1:
+        return np.concatenate([-y[:0:-1], y]), np.abs(np.arange(rows) - scene.grid.ny)
+    extent = scene.grid.y_max * scales.b
+    return np.linspace(0.0 if scene.symmetric else -extent, extent, rows), np.zeros(rows, int)

@@ -1,0 +1,17 @@
+"""The oil without a shear law."""
+
+from tehl_taichi.engine.pointwise import pointwise
+from tehl_taichi.physics.law import ShearLaw
+from tehl_taichi.registry import Checked
+
+
+@pointwise
+def stress(rheology, newtonian, p):
+    """As it is."""
+    return newtonian
+
+
+NEWTONIAN = ShearLaw(
+    name="newtonian", says="stress = eta * (shear rate), as isothermal film formulas have it; no oil bears its friction",
+    source="Newton", numbers={}, stress=stress, thins=False,
+    checked=(Checked("by definition: 3 MPa of 3 MPa", 3e6, lambda: stress(NEWTONIAN.having(), 3e6, 1e9)),))

@@ -1,0 +1,39 @@
+"""The discrete equations of a film: its laws, the residual of the Reynolds equation and the Jacobian, on all levels."""
+
+from tehl_taichi.engine.launches import bind
+from tehl_taichi.pressure import fields, reynolds, transfer
+from tehl_taichi.pressure.levels import HEAVY
+
+
+class Equations:
+    """The equations of `film` on `levels`.
+
+    film: whose density and viscosity they hold for. Its values() are taken from pressure and film in the table, its slopes()
+    from the values; rows: a LawRows, where both are. :class:`tehl_taichi.pressure.one_temperature.OneTemperature`, or a film
+    with temperatures.
+    """
+
+    def __init__(self, levels, film):
+        v, rows = levels, film.rows
+        self.levels, self.film = levels, film
+        self.evaluate = v.launch(reynolds.residual, v.S, v.G, rows.couette)
+        self.inject = bind(transfer.inject, v.S, v.J, v.G, len(v.sizes), fields.STATE + rows.follow)
+        self._rows, self._rows_coarse = (
+            v.launch(reynolds.linearise, v.S, v.J, v.G, v.blocks, *cut, rows.couette, rows.slope, rows.thinning, work=HEAVY)
+            for cut in ((0, v.fine), (v.fine, len(v.blocks))))
+
+    def residual(self, H0):
+        """H, laws and R of the pressure in the table with the rigid approach H0."""
+        self.levels.set_film(H0)
+        self.film.values()
+        self.evaluate()
+
+    def linearise(self):
+        """Slopes of the laws, Jacobian rows and the diagonal of the finest level; needs :meth:`residual`."""
+        self.film.slopes()
+        self._rows()
+
+    def linearise_coarse(self):
+        """The same on the coarser levels that solve, about the injected state and with its laws."""
+        self.inject()
+        self._rows_coarse()

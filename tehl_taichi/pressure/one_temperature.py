@@ -1,0 +1,17 @@
+"""A film of one temperature, that of the inlet."""
+
+from tehl_taichi.pressure import fields, laws
+from tehl_taichi.pressure.levels import HEAVY
+
+
+class OneTemperature:
+    """The film of an isothermal problem on `levels`, see :class:`tehl_taichi.pressure.equations.Equations`.
+
+    values(), slopes(): density and viscosity of the film in the table, and their derivatives, into the table; rows: which.
+    """
+
+    def __init__(self, levels):
+        scene = levels.scene
+        self.rows = fields.SHEARED if levels.thins else fields.NEWTONIAN
+        known = levels.S, levels.G, scene.oil, scene.shear_law, levels.conditions.values
+        self.values, self.slopes = (levels.launch(laws.laws, *known, slopes, work=HEAVY) for slopes in (0, 1))

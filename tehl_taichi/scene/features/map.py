@@ -1,0 +1,156 @@
+"""Heights measured on a grid."""
+
+import os
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from tehl_taichi.errors import SceneError
+from tehl_taichi.scene import height_map, map_judge
+from tehl_taichi.scene.features.patch import Patch
+from tehl_taichi.scene.height_map import MICRO, UNITS, Measures
+from tehl_taichi.scene.shape import share
+from tehl_taichi.values.checks import number
+from tehl_taichi.values.quantity import choice, quantity, text
+
+MAX_RANGE, MAX_SLOPE = 1e-4, 45.0  # m, degrees, of a map: beyond them no film, or a wrong unit or pixel
+LEVELS = ("none", "mean", "plane")
+
+
+@dataclass(frozen=True)
+class Measured:
+    """Keys of a map, and what follows from them."""
+
+    file: str = text("", "map: CSV or NPY file (others with the `topography` extra), rows along y; a path in a scene file "
+                     "starts at that file", most=4096, compare=False)
+    unit: str = choice("", "map: of the heights in its file", ("", *UNITS))
+    scale: float = quantity(1.0, "", "map: its heights are multiplied with it; -1 turns them over, as for a replica", -1e3, 1e3)
+    pixel: float = quantity(0.0, "m", "map: distance of its points; 0: not given", 0.0, 1e-2)
+    level: str = choice("plane", "map: what is taken off its heights", LEVELS)
+    sha256: str = text("", "map: of its heights, filled in when they are read; a file with other heights is refused then")
+
+    def __setstate__(self, state):
+        """A copy in another process brings its heights along."""
+        self.__dict__.update(state)
+        if "heights" in state:
+            self.__dict__["heights"] = height_map.keep(self.heights)[1]
+
+    @cached_property
+    def heights(self):
+        """Heights (rows, columns) of a map in the unit of its file, as they were when the feature was made."""
+        return height_map.fetch(self.file, self.sha256)[1]
+
+    @cached_property
+    def surface(self):
+        """Heights (rows, columns) of a map in m, levelled and scaled: what passes through the contact."""
+        return height_map.levelled(self.heights, self.level) * (UNITS[self.unit] * self.scale)
+
+    @property
+    def size(self):
+        """(length, width) of the whole map in m."""
+        rows, columns = self.heights.shape
+        return (columns - 1) * self.pixel, (rows - 1) * self.pixel
+
+    @property
+    def patch(self):
+        """(length along x, along y) in m of the part of a map that is used."""
+        length, width = self.size
+        return self.extent_x or length, self.extent_y or width
+
+    @property
+    def used(self):
+        """The part of `surface` inside the patch."""
+        rows, columns = self.surface.shape
+        cut = [int((n - 1 - round(size / self.pixel)) // 2) for n, size in zip((columns, rows), self.patch)]
+        return self.surface[cut[1]:rows - cut[1], cut[0]:columns - cut[0]]
+
+    @cached_property
+    def measures(self):
+        """Range, rms and largest slope of the part of a map that is used."""
+        return Measures.of(self.used, self.pixel)
+
+
+class Map(Patch):
+    measured = True
+
+    def height(self, f, x, y):
+        """Levelled, linear between its points, within its patch."""
+        values = f.surface
+        rows, columns = values.shape
+        i = np.clip(x / f.pixel + (columns - 1) / 2, 0, columns - 1) + 0 * y
+        j = np.clip(y / f.pixel + (rows - 1) / 2, 0, rows - 1) + 0 * x
+        i0, j0 = np.minimum(i.astype(int), columns - 2), np.minimum(j.astype(int), rows - 2)
+        u, v = i - i0, j - j0
+        low = (1 - u) * values[j0, i0] + u * values[j0, i0 + 1]
+        high = (1 - u) * values[j0 + 1, i0] + u * values[j0 + 1, i0 + 1]
+        return ((1 - v) * low + v * high) * self.window(f, x, y)
+
+    def patch(self, f):
+        return f.patch
+
+    def symmetric(self, f):
+        return False
+
+    def top(self, f):
+        return f.measures.high
+
+    def sizes(self, f):
+        return {}, {}  # its own points tell
+
+    def tidy(self, f):
+        if isinstance(f.file, os.PathLike):
+            object.__setattr__(f, "file", os.fspath(f.file))
+        if isinstance(f.unit, str):
+            object.__setattr__(f, "unit", f.unit.translate(MICRO))
+
+    def check(self, f):
+        """Read the heights, or find those of the sha256; the file's place is kept whole."""
+        if f.file:
+            object.__setattr__(f, "file", os.path.abspath(f.file))
+        sha256, heights = height_map.fetch(f.file, f.sha256)
+        object.__setattr__(f, "sha256", sha256)
+        f.__dict__["heights"] = heights
+        _check_keys(f)
+        _check_heights(f)
+
+    def preview(self, f, scene):
+        return map_judge.lines(f, scene)
+
+    def doubts(self, f, scene):
+        return map_judge.doubts(f, scene)
+
+
+def _check_keys(f):
+    if not f.unit:
+        raise SceneError(f"feature.unit is missing: shape 'map' needs the unit of the heights in its file; allowed: "
+                         f"{', '.join(UNITS)} (feature.height, m per unit of the file in version 0.1.0, is not used)")
+    if f.pixel == 0:
+        raise SceneError("feature.pixel is missing: shape 'map' needs the distance of its points in m, as pixel = 1e-6")
+    if f.height not in (0, type(f).height):
+        raise SceneError(f"feature.height = {f.height:g} m says nothing about a map, whose heights are those of its "
+                         "file in feature.unit; allowed: 0 or not given (feature.scale multiplies the heights)")
+    object.__setattr__(f, "height", 0.0)
+    for key, size, extent in zip(("extent_x", "extent_y"), f.size, f.patch):
+        number(f"feature.{key}", extent, "m", 3 * f.pixel, size * (1 + 1e-9))
+
+
+def _check_heights(f):
+    found, where = f.measures, f"feature.file = {f.file!r}, in {f.unit} with level = {f.level!r},"
+    if found.range > MAX_RANGE:
+        raise SceneError(f"{where} ranges over {found.range:.3g} m; allowed: at most {MAX_RANGE:g} m. Is feature.unit = "
+                         f"{f.unit!r} right?")
+    if found.slope > MAX_SLOPE:
+        raise SceneError(f"{where} has slopes of {found.slope:.1f} deg; allowed: at most {MAX_SLOPE:g} deg. Are "
+                         f"feature.unit = {f.unit!r} and feature.pixel = {f.pixel:g} m right?")
+
+
+TENT = 1 - np.abs(np.arange(33) - 16) / 16
+HILL = height_map.keep(0.3 * TENT[:, None] * TENT)  # held here, so that it is known by its sha256
+EXAMPLE = {"shape": "map", "sha256": HILL[0], "unit": "um", "pixel": 10e-6, "level": "none"}
+MAP = Map(
+    name="map", says="heights measured on a grid (CSV, NPY), rows along y, that fade out at the rim of their patch",
+    source="the file", keys=Measured,
+    uses={"height": "0 or not given", "extent_x": "0: the whole map", "extent_y": "0: the whole map", "taper": ""},
+    example=EXAMPLE, checked=(share("by hand, (1 - 8.5/16)(1 - 4/16) of a hill with straight sides", 0.3515625, 85e-6, 40e-6,
+                                    **EXAMPLE),))

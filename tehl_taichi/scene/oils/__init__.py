@@ -1,0 +1,38 @@
+"""The named oils, one file each: a new file here is a new name for `oil.name`.
+
+Numbers that a source gives stand there with that source, no others. May import what `scene.oil` may.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from tehl_taichi.physics.viscosity import ln_eta
+from tehl_taichi.registry import Checked, Entry
+from tehl_taichi.scene.oil import Oil
+
+
+@dataclass(frozen=True, kw_only=True)
+class NamedOil(Entry):
+    """An oil with a name. numbers: {key of :class:`tehl_taichi.scene.oil.Oil`: value} that are not those of the reference oil.
+
+    known: (p in Pa, Gamma in deg C, viscosity in Pa s, relative error, who knows it) of at least one state.
+    """
+
+    known: tuple[tuple[float, float, float, float, str], ...]
+    numbers: Mapping = field(default_factory=dict)
+    checked: tuple[Checked, ...] = ()
+
+    def __post_init__(self):
+        states = tuple(Checked(where, eta, lambda p=p, Gamma=Gamma: self.viscosity(p, Gamma), rel)
+                       for p, Gamma, eta, rel, where in self.known)
+        object.__setattr__(self, "checked", (*states, *self.checked))
+
+    @property
+    def oil(self):
+        """The Oil of that name."""
+        return Oil(**{"name": self.name, "source": self.source, **self.numbers})
+
+    def viscosity(self, p, Gamma):
+        """Pa s at p (Pa) and Gamma (deg C)."""
+        return math.exp(ln_eta(self.oil, p, Gamma))

@@ -1,0 +1,69 @@
+"""What a run tells while it works: the protocol, silent as it stands, and one that prints lines."""
+
+import contextlib
+import sys
+import time
+
+STEADY, PASSAGE, FATIGUE, ERRORS = STAGES = ("steady start", "passage", "stresses and fatigue", "companion runs")
+
+
+class Progress:
+    """Listens to a run and does nothing; derive from it and override what you want to hear.
+
+    Every method is called in the thread that runs; an exception in one of them ends the run like Ctrl-C.
+
+    >>> class Bar(Progress):
+    ...     def stage(self, name, done, total):
+    ...         print(f"{name} {done}/{total}")
+    >>> Bar().stage("passage", 3, 192)
+    passage 3/192
+    """
+
+    def say(self, text):
+        """A sentence about what is done: what the scene leaves out, what was read, what comes next."""
+
+    def warn(self, sentence):
+        """What is doubtful in the scene, known before the run (those of its results are in :attr:`Run.warnings`)."""
+
+    def stage(self, name, done, total):
+        """`done` of `total` parts of a stage (one of STAGES) are through; it begins with done = 0, a resumed passage with the
+        steps that are stored."""
+
+    def step(self, snapshot):
+        """An accepted time step, a :class:`tehl_taichi.march.snapshot.Snapshot`, right after its stage."""
+
+
+class Lines(Progress):
+    """Prints lines: sentences at once, steps every few seconds. stream: where to (default: stderr).
+
+    >>> Lines(sys.stdout).warn("passage cut at -1.37 a")
+    warning: passage cut at -1.37 a
+    """
+
+    EVERY = 5.0  # seconds between the lines of steps
+
+    def __init__(self, stream=None):
+        self.stream, self.total, self.last = stream, 0, time.perf_counter()
+
+    def say(self, text):
+        with contextlib.suppress(BrokenPipeError):  # a run goes on where nobody reads it
+            print(text, file=self.stream or sys.stderr, flush=True)
+
+    def warn(self, sentence):
+        self.say(f"warning: {sentence}")
+
+    def stage(self, name, done, total):
+        if name == PASSAGE:
+            self.total = total
+
+    def step(self, snapshot):
+        if time.perf_counter() - self.last > self.EVERY:
+            self.last = time.perf_counter()
+            self.say(f"step {snapshot.step}/{self.total}  {line(snapshot)}")
+
+
+def line(snapshot):
+    """The numbers of a step that are worth a line."""
+    s = snapshot.scalars
+    return (f"p_max {s['p_max_Pa'] / 1e9:.3f} GPa  h_min {s['h_min_m'] * 1e6:.4f} um  residual {s['residual']:.0e}  "
+            f"cycles {s['cycles']:.0f}" + (f"  film {s['film_max_C']:.0f} °C" if "film_max_C" in s else ""))

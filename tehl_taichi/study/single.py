@@ -1,0 +1,219 @@
+"""One whole run: steady start, passage, stresses and fatigue, error bars, summary, all into a store; and going on with one."""
+
+import contextlib
+import json
+import time
+from os import PathLike
+from pathlib import Path
+
+from tehl_taichi.errors import StoreError
+from tehl_taichi.io.found import find
+from tehl_taichi.scene import Scene
+from tehl_taichi.study.progress import ERRORS, FATIGUE, PASSAGE, STEADY, Progress
+from tehl_taichi.study.stored_run import Run
+
+
+def run(scene: Scene | str | PathLike, path: str | PathLike | None = None, *, force: bool = False, threads: int | None = None,
+        arch: str = "cpu", progress: Progress | None = None) -> Run:
+    """Run a scene into a new store, as `tehl run` does: steady start, passage, stresses, fatigue, errors, summary.
+
+    scene: a Scene, or what names one (see :func:`tehl_taichi.scene`); path: of the store (default: runs/NAME-N.zarr with the
+    first free N); force: replace the store there, as soon as the new one has its first entry; threads: of the CPU (default:
+    those of a start before, else all); progress: who listens (default: nobody).
+    Raises SceneError and StoreError for bad input (nothing is written then), RuntimeUnavailable for other threads than
+    those that the process already uses, NotConverged (earlier steps are stored), Interrupted where the disk takes no more;
+    Ctrl-C is a KeyboardInterrupt that says what is stored.
+
+    >>> import tehl_taichi as tehl
+    >>> scene = tehl.scene("smooth-line").replace(**{"grid.nx": 32, "thermal.on": False})
+    >>> tehl.run(scene, "line.zarr")
+    <tehl.Run smooth-line: 0 steps, finished, line.zarr>
+    >>> run = tehl.run(scene, "line.zarr", force=True)
+    >>> f"{run.summary['steady']['h_c_m'] * 1e6:.2f} um"
+    '0.43 um'
+    """
+    began = time.perf_counter()
+    from tehl_taichi.engine import runtime
+    from tehl_taichi.io.place import Place
+
+    scene, progress = find(scene), progress or Progress()
+    runtime.check(arch, threads)
+    place = Place(path, force) if path is not None else Place.fresh(Path("runs"), scene.name)
+    with place, _stoppable(place.path, place):
+        runtime.start_or_join(arch, threads)
+        return _begin(scene, place, _Clock(began), progress)
+
+
+def open(path: str | PathLike) -> Run:
+    """The run in the store at `path`: finished, running or broken off. Raises StoreError where there is none, or a damaged
+    one.
+
+    >>> import tehl_taichi as tehl
+    >>> made = tehl.run(tehl.scene("smooth-line").replace(**{"grid.nx": 32, "thermal.on": False}), "made.zarr")
+    >>> run = tehl.open("made.zarr")
+    >>> run.finished, run.scene.name, run.store.fields(0)["pressure"].shape
+    (True, 'smooth-line', (33, 1))
+    """
+    from tehl_taichi.io.store import Store
+
+    return Run(Store.open(path))
+
+
+def resume(path: str | PathLike, *, steps: int | None = None, threads: int | None = None,
+           progress: Progress | None = None) -> Run:
+    """Go on with the run in the store at `path`, at most two seconds of work before its last stored step, as `tehl resume`.
+
+    steps: so many more (default: to the end that the run was given; of a finished run, to the end of its passage). Where
+    nothing is left it comes back as it is. threads, progress and errors: as :func:`run`; StoreError also where another
+    version wrote the store, or somebody writes it now.
+
+    >>> import tehl_taichi as tehl
+    >>> scene = tehl.scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16, "thermal.on": False, "time.steps": 1})
+    >>> tehl.run(scene, "begun.zarr")
+    <tehl.Run gear: 1 steps, finished, begun.zarr>
+    >>> tehl.resume("begun.zarr", steps=1)
+    <tehl.Run gear: 2 steps, finished, begun.zarr>
+    """
+    began = time.perf_counter()
+    from tehl_taichi.engine import runtime
+    from tehl_taichi.values.checks import integer
+
+    if steps is not None:
+        integer("steps", steps, 1, 10**7)
+    before, progress = open(path), progress or Progress()
+    rest = before.rest(steps)
+    if rest is None:
+        return before
+    runtime.check(threads=threads)
+    return _continue(Path(path), rest, threads, began, progress)
+
+
+def completed(scene: Scene, path: str | PathLike, *, threads: int | None = None, progress: Progress | None = None) -> Run:
+    """The finished run of `scene` in the store at `path`: as it lies there, gone on with, or run now.
+
+    Raises StoreError where the store there is of another scene, and what :func:`run` and :func:`resume` raise.
+    """
+    from tehl_taichi.io.intact import is_store
+
+    if not is_store(path):
+        return run(scene, path, threads=threads, progress=progress)
+    there = open(path)
+    if there.scene != scene:
+        raise StoreError(f"{path} holds a run of another scene; choose another folder or remove it")
+    return there if there.finished else resume(path, threads=threads, progress=progress)
+
+
+def _continue(path, scene, threads, began, progress):
+    """Go on with the store at `path` to the end of `scene`."""
+    from tehl_taichi.engine import runtime
+    from tehl_taichi.io.store import Store
+
+    with _stoppable(path), Store.write(path) as saved:
+        steady = {name: saved.needed(name) for name in ("steady_error", "steady_unknown")}
+        runtime.start_or_join(threads=threads)
+        state = saved.go_back()
+        if scene != saved.scene:
+            saved.extend(scene)
+        return _finish(saved, state, steady, _Clock(began), progress)
+
+
+def _begin(scene, place, clock, progress):
+    """The steady start into a new store, and all that follows."""
+    from tehl_taichi.io.json_values import plain
+    from tehl_taichi.io.provenance import provenance
+    from tehl_taichi.io.store import Store
+    from tehl_taichi.march.passage import march
+    from tehl_taichi.scene.route import most_steps
+
+    _announce(scene, progress)
+    progress.stage(STEADY, 0, 1)
+    first = next(march(scene))
+    progress.stage(STEADY, 1, 1)
+    steady = {"steady_error": plain(first.error), "steady_unknown": first.unknown}
+    attrs = {"warnings": json.dumps(scene.warnings()), **{name: json.dumps(value) for name, value in steady.items()},
+             **provenance(scene)}
+    with Store.create(place, scene, first, most_steps(scene) + 1, attrs) as saved:
+        return _finish(saved, saved.go_back(), steady, clock, progress)
+
+
+def _announce(scene, progress):
+    from tehl_taichi.scene.judge import preview
+
+    for said in (*(f"left out: {what}" for what in scene.left_out()), *preview(scene)):
+        progress.say(said)
+    for sentence in scene.warnings():
+        progress.warn(sentence)
+
+
+def _finish(saved, state, steady, clock, progress):
+    """From a state of the store to its summary."""
+    from tehl_taichi.io.summary import summarise
+    from tehl_taichi.march import companions
+    from tehl_taichi.scene.route import total_steps
+
+    with companions.beside(saved.scene, total_steps(saved.scene) + 1 - saved.steps) as others:
+        _march(saved, state, progress)
+        fatigue, maps = _fatigue(saved, progress)
+        progress.stage(ERRORS, 0, 1)
+        passage = others.errors(saved, fatigue, clock.times()["wall_s"])
+        progress.stage(ERRORS, 1, 1)
+    saved.finish(summarise(saved, {**clock.times(), **steady, **passage}, fatigue), maps)
+    return Run(saved)
+
+
+class _Clock:
+    """Time since a run began (s), and what of it went into kernels; made when Taichi runs."""
+
+    def __init__(self, began):
+        from tehl_taichi.engine.launches import binding_seconds
+
+        self.bound, self.began, self.before = binding_seconds, began, binding_seconds()
+
+    def times(self):
+        return {"wall_s": time.perf_counter() - self.began, "compile_s": self.bound() - self.before}
+
+
+def _march(saved, state, progress):
+    from tehl_taichi.scene.route import total_steps
+    from tehl_taichi.study.recorder import go_on
+
+    total = total_steps(saved.scene)
+
+    def tell(snapshot):
+        progress.stage(PASSAGE, snapshot.step, total)
+        progress.step(snapshot)
+
+    progress.stage(PASSAGE, saved.last_step, total)
+    go_on(saved, state, tell)
+
+
+def _fatigue(saved, progress):
+    """(summary, maps) of the fatigue search, None twice where there is none."""
+    if not saved.scene.fatigue_wanted or saved.steps < 3:
+        return None, None
+    from tehl_taichi.fatigue import assessment
+
+    progress.say("stresses and Findley search")
+    result = assessment.run(saved.scene, saved, lambda done, total: progress.stage(FATIGUE, done, total))
+    return result.summary, result.maps
+
+
+@contextlib.contextmanager
+def _stoppable(path, place=None):
+    """Ctrl-C anywhere inside says what is stored at `path`."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        if place and not place.published:
+            raise KeyboardInterrupt("interrupted before anything was stored") from None
+        raise KeyboardInterrupt(_what_is_left(path)) from None
+
+
+def _what_is_left(path):
+    try:
+        left = open(path)
+    except StoreError:
+        return f"interrupted; {path} cannot be read any more"
+    if left.finished:
+        return f"interrupted; {path} is finished"
+    return f"interrupted after {left.store.last_step} steps; go on with: tehl resume {path}"
