@@ -1,8 +1,8 @@
 """Where a crack goes under the loads of a passage: trajectories of the largest tension, and a crack whose faces may touch.
 
 `plane` holds the stresses below the feature, `trajectory` follows them; `dislocations`, `elements`, `stiffness` and `faces` are
-an elastic crack, `closure` and `rubbing` the contact of its faces, `growth` lets it grow, `answer` is the whole. May import
-`fatigue` and what that may; nothing here knows of films or files but a table of residual stress.
+an elastic crack, `bounds`, `closure` and `rubbing` the contact of its faces, `growth` lets it grow, `answer` is the whole. May
+import `fatigue` and what that may; nothing here knows of films or files but a table of residual stress.
 """
 
 from typing import TYPE_CHECKING, Any
