@@ -5,12 +5,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from tehl_taichi.io.recorder import record
 
 from tehl_taichi.crack.answer import follow
 from tehl_taichi.crack.plane import plane_of
 from tehl_taichi.crack.wanted import Wanted
 from tehl_taichi.errors import NotConverged
-from tehl_taichi.io.recorder import record
 from tehl_taichi.scene import scene
 
 GRIDS, QUICK_GRIDS = ((128, 32), (256, 64)), ((64, 16), (128, 32))

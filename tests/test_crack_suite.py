@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 from rolling import Rolling
+from tehl_taichi.io.recorder import record
 from tehl_taichi.profiles import cracks
 
 from tehl_taichi.crack import growth
 from tehl_taichi.crack.answer import follow
 from tehl_taichi.crack.plane import plane_of
 from tehl_taichi.crack.wanted import Wanted
-from tehl_taichi.io.recorder import record
 from tehl_taichi.scene import scene
 
 
