@@ -5,7 +5,9 @@ from typing import Optional
 
 import typer
 from tehl_cli.live import say
-from tehl_cli.out import folder_for, print_json
+from tehl_cli.out import print_json
+
+from tehl_taichi.criteria import CRITERIA
 
 
 def register(app):
@@ -19,7 +21,7 @@ def fatigue(
     endurance: Optional[float] = typer.Option(None, help="sigma_eF, Pa"),
     bending_limit: Optional[float] = typer.Option(None, help="fatigue limit in reversed bending, Pa (with --torsion-limit)"),
     torsion_limit: Optional[float] = typer.Option(None, help="the same in torsion: both give kappa, sigma_eF"),
-    criterion: Optional[str] = typer.Option(None, help="findley, findley-chord, matake or dang-van"),
+    criterion: Optional[str] = typer.Option(None, help=", ".join(CRITERIA)),
     depths: Optional[str] = typer.Option(None, help="auto (the worst depth under the feature), none, or depths at which "
                                          "all points are searched, m, as 50e-6,100e-6"),
     from_x: Optional[float] = typer.Option(None, help="only moments with the feature beyond this position, a"),
@@ -36,25 +38,18 @@ def fatigue(
 
     Example: `tehl fatigue runs/gear-1.zarr --kappa 0.25 --endurance 450e6 --to-x 0.5`
     """
-    from tehl_taichi.engine import runtime
-    from tehl_taichi.fatigue import assessment as pass_
-    from tehl_taichi.io.store import Store
+    import tehl_taichi as tehl
     from tehl_taichi.scene.scales import Scales
 
-    runtime.check(threads=threads)
-    saved = Store.open(store)
-    changes = {"kappa": kappa, "endurance": endurance, "criterion": criterion, "depths": _depths(depths), "from_x": from_x,
-               "to_x": to_x, "thermal_stress": thermal_stress, "residual_xx": residual_xx, "residual_yy": residual_yy,
-               **_limits(bending_limit, torsion_limit, kappa, endurance)}
-    changes = {f"fatigue.{key}": value for key, value in changes.items() if value is not None}
-    scene = saved.scene.replace(**changes) if changes else saved.scene
-    runtime.start(threads=threads)
-    result = pass_.run(scene, saved)
+    run = tehl.open(store)
+    result = run.fatigue(kappa=kappa, endurance=endurance, bending_limit=bending_limit, torsion_limit=torsion_limit,
+                         criterion=criterion, depths=_depths(depths), from_x=from_x, to_x=to_x, thermal_stress=thermal_stress,
+                         residual_xx=residual_xx, residual_yy=residual_yy, threads=threads)
     _show(result, as_json)
     if figures:
         from tehl_taichi.io.figures import write_fatigue
 
-        for path in write_fatigue(result, scene.name, Scales.of(scene).a, folder_for(figures)):
+        for path in write_fatigue(result, run.scene.name, Scales.of(run.scene).a, figures):
             say(str(path))
 
 
@@ -69,23 +64,10 @@ def _depths(text):
         raise SceneError(f"--depths {text!r} must be auto, none or numbers in m with commas between, as 50e-6,1e-4") from None
 
 
-def _limits(bending, torsion, kappa, endurance):
-    from tehl_taichi.fatigue.findley import from_limits
-    from tehl_taichi.scene import SceneError
-
-    if bending is None and torsion is None:
-        return {"kappa": kappa, "endurance": endurance}
-    if bending is None or torsion is None or kappa is not None or endurance is not None:
-        raise SceneError("give --bending-limit and --torsion-limit together, and neither --kappa nor --endurance with them")
-    try:
-        found = from_limits(bending, torsion)
-    except ValueError as error:
-        raise SceneError(str(error)) from None
-    return dict(zip(("kappa", "endurance"), found))
-
-
 def _show(result, as_json):
-    from tehl_cli.listing import fatigue_rows, list_table
+    from tehl_cli.listing import list_table
+
+    from tehl_taichi.io.summary_rows import fatigue_rows
 
     if as_json:
         print_json(result.summary)

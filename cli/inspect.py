@@ -4,7 +4,6 @@ from pathlib import Path
 
 import typer
 from tehl_cli.live import say
-from tehl_cli.out import folder_for
 
 
 def register(app):
@@ -37,14 +36,17 @@ def oils():
 
 
 def laws():
-    """List the laws of the oil and of friction, with their numbers and sources."""
+    """List the laws of the oil and of friction and the criteria of fatigue, with their numbers and sources."""
     from tehl_cli.listing import list_table
 
+    from tehl_taichi.criteria import CRITERIA
     from tehl_taichi.physics.choices import ALONE, CHOICES
 
     for key, registry in {**CHOICES, "": ALONE}.items():
         list_table(f"--set {key}=NAME" if key else "not to be chosen", ("name", "law", "numbers", "source"),
                    [(law.name, law.says, ", ".join(law.numbers), law.source) for law in registry.values()])
+    list_table("--set fatigue.criterion=NAME", ("name", "criterion", "kappa: sensitivity to", "source"),
+               [(rule.name, rule.says, rule.sensitivity, rule.source) for rule in CRITERIA.values()])
 
 
 def new(
@@ -53,13 +55,8 @@ def new(
 ):
     """Write a commented scene file with every value. Example: `tehl new my.toml`"""
     from tehl_taichi.io import scene_file
-    from tehl_taichi.scene import SceneError, scene
 
-    if file.exists():
-        raise SceneError(f"{file} exists already; choose another name")
-    if not file.absolute().parent.is_dir():
-        raise SceneError(f"{file.absolute().parent} is not a folder")
-    file.write_text(scene_file.dumps(scene(base).replace(name=file.stem)))
+    scene_file.new(file, base)
     print(f"wrote {file}; run it with: tehl run {file}")
 
 
@@ -67,9 +64,9 @@ def show(store: Path = typer.Argument(..., help="store of a finished, running or
     """Summary and residual history of a run."""
     from tehl_cli.listing import history_table, summary_table, warning_lines
 
-    from tehl_taichi.io.store import Store
+    import tehl_taichi as tehl
 
-    saved = Store.open(store)
+    saved = tehl.open(store).store
     print(f"{store}: scene {saved.scene.name}, {saved.steps} entries, {_state(saved)}")
     if other := saved.other_version:
         print(f"{store} was {other}")
@@ -94,39 +91,20 @@ def plot(store: Path = typer.Argument(..., help="store of a run"),
          out: Path = typer.Option(None, help="folder for the figures (default: beside the store)"),
          dpi: int = typer.Option(160, help="dots per inch, 40 to 1200")):
     """PNG figures: centreline pressure and film, maps, fatigue. Example: `tehl plot runs/gear-1.zarr --dpi 300`"""
-    from tehl_taichi.io import figures
-    from tehl_taichi.io.store import Store
-    from tehl_taichi.values.checks import integer
+    import tehl_taichi as tehl
 
-    integer("--dpi", dpi, 40, 1200)
-    saved = Store.open(store)
-    beside = store.with_suffix("") if store.suffix else store.with_name(f"{store.name}-figures")
-    for path in figures.write_all(saved, folder_for(out or beside), dpi):
+    for path in tehl.open(store).plot(out, dpi):
         print(path)
 
 
 def doctor():
     """Versions, threads, cache and a short self-test."""
-    import importlib.metadata
-    import time
-
     from tehl_cli.listing import list_table
 
-    from tehl_taichi import __version__
-    from tehl_taichi.commit import commit
-    from tehl_taichi.engine import cores, runtime
-    from tehl_taichi.scene import scene
+    from tehl_taichi.study import checkup
 
-    info = runtime.start()
-    names = ("numpy", "pyfftw", "zarr", "rich", "typer")
-    rows = [("tehl_taichi", __version__), ("commit", commit()), *((name, importlib.metadata.version(name)) for name in names)]
-    rows += [(key, str(value)) for key, value in info.items()] + [("cores", str(cores.available()))]
-    list_table("this installation", ("what", "value"), rows)
-    from tehl_taichi.march.passage import march
-
-    started = time.perf_counter()
-    film = next(march(scene("smooth-line").replace(**{"grid.nx": 128, "thermal.on": False}))).scalars["h_c_m"]
-    good = 0.42e-6 < film < 0.45e-6
-    say(f"self-test: steady film of smooth-line {film * 1e6:.4f} um in {time.perf_counter() - started:.1f} s: "
+    list_table("this installation", ("what", "value"), checkup.installation().items())
+    film, good, seconds = checkup.self_test()
+    say(f"self-test: steady film of smooth-line {film * 1e6:.4f} um in {seconds:.1f} s: "
         f"{'good' if good else 'WRONG, expected 0.43 um'}")
     raise typer.Exit(0 if good else 1)

@@ -2,7 +2,7 @@
 
 import typer
 import typer.core
-from tehl_cli import bench, fatigue, inspect, runs
+from tehl_cli import bench, compare_command, crack_command, fatigue, flank_command, inspect, materials, runs
 from tehl_cli.entry import main
 
 from tehl_taichi.errors import Interrupted
@@ -46,5 +46,9 @@ def _tell_version():
 
 runs.register(app)
 inspect.register(app)
+materials.register(app)
 fatigue.register(app)
+crack_command.register(app)
+flank_command.register(app)
+compare_command.register(app)
 bench.register(app)

@@ -1,7 +1,6 @@
 """What goes to stdout and into folders of figures."""
 
 import json
-from pathlib import Path
 
 
 def print_json(value):
@@ -13,10 +12,6 @@ def print_json(value):
 
 def folder_for(figures):
     """The folder of that name, made. Raises StoreError."""
-    from tehl_taichi.errors import StoreError
+    from tehl_taichi.io.figures import made
 
-    try:
-        Path(figures).mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise StoreError(f"cannot put figures into {figures}: {error.strerror or error}; --out takes a folder") from None
-    return figures
+    return made(figures)

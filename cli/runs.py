@@ -4,10 +4,9 @@ from pathlib import Path
 from typing import List, Optional
 
 import typer
+from tehl_cli.changes import given_by
 from tehl_cli.live import Live, say
 from tehl_cli.out import print_json
-
-GRIDS = {"coarse": (128, 32), "medium": (256, 64), "fine": (512, 128)}
 
 
 def register(app):
@@ -52,15 +51,14 @@ def run(
     Examples: `tehl run --srr -0.12` · `tehl run dent --grid coarse` · `tehl run my.toml --set feature.height=1e-6`
     """
     import tehl_taichi as tehl
-    from tehl_taichi.io.found import find
 
-    changes = _changes(
+    changes = given_by(
         {"srr": srr, "load": load, "hertz_pressure": hertz_pressure, "speed": speed, "temperature": temperature,
          "height": height, "width": width, "kappa": kappa, "endurance": endurance, "time.steps": steps, "thermal.on": thermal,
          "fatigue.on": fatigue, "numerics.estimate_error": estimate_error, "numerics.precision": precision,
           "time.steady_only": steady or None},
         grid, set_ or [])
-    description = find(scene)
+    description = tehl.scene(scene)
     description = description.replace(**changes) if changes else description
     description = _on_grid_for(target_error, changes, description)
     with Live(quiet) as live:
@@ -99,43 +97,6 @@ def _print(run, as_json):
     print_json(run.summary) if as_json else summary_table(run.summary)
 
 
-# options by another name than their key
-WORDS = {("thermal.on", True): "--thermal", ("thermal.on", False): "--isothermal", ("time.steady_only", True): "--steady",
-         ("fatigue.on", True): "--fatigue", ("fatigue.on", False): "--no-fatigue",
-         ("numerics.estimate_error", True): "--estimate-error", ("numerics.estimate_error", False): "--no-estimate-error"}
-
-
-def _changes(options, grid, settings):
-    """{full key: value} of the options that were used and of --set; SceneError where two of them contradict each other."""
-    from tehl_taichi.scene.given import settled
-
-    used = [(key, value) for key, value in options.items() if value is not None]
-    given = [(_typed(key, value), key, value) for key, value in used]
-    given += [(f"--grid {grid}", key, value) for key, value in _grid(grid).items()]
-    return settled([*given, *_settings(settings)])
-
-
-def _typed(key, value):
-    """An option as it was typed."""
-    shown = value if isinstance(value, str) else f"{value:g}"
-    return WORDS.get((key, value), f"--{key.rpartition('.')[2].replace('_', '-')} {shown}")
-
-
-def _grid(text):
-    if text is None:
-        return {}
-    from tehl_taichi.scene import SceneError
-
-    if text in GRIDS:
-        nx, ny = GRIDS[text]
-    else:
-        try:
-            nx, ny = (int(part) // 2 * 2 for part in text.lower().split("x"))
-        except ValueError:
-            raise SceneError(f"--grid {text!r} is not known; allowed: {', '.join(GRIDS)} or NXxNY, as in 256x64") from None
-    return {"grid.nx": nx, "grid.ny": ny}
-
-
 def _on_grid_for(target, changes, description):
     """The scene on the grid that a target error needs."""
     if target is None:
@@ -160,26 +121,3 @@ def _share(text):
     if not 1e-4 <= value <= 0.5:
         raise SceneError(f"--target-error {text!r} must be a relative error from 0.01% to 50%, as in 1% or 0.01")
     return value
-
-
-def _settings(pairs):
-    """(words, key, value) of every --set."""
-    from tehl_taichi.scene import SceneError
-
-    out = []
-    for pair in pairs:
-        key, equals, text = pair.partition("=")
-        if not equals:
-            raise SceneError(f"--set {pair!r} must look like dotted.key=value, as in feature.height=1e-6")
-        out.append((f"--set {pair}", key.strip(), _value(text)))
-    return out
-
-
-def _value(text):
-    """The value of a --set, as TOML reads it; what is no TOML value is text."""
-    import tomllib
-
-    try:
-        return tomllib.loads(f"v = {text}")["v"]
-    except (ValueError, RecursionError):
-        return text

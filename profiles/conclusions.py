@@ -12,10 +12,10 @@ import numpy as np
 from tehl_taichi.errors import NotConverged
 from tehl_taichi.fatigue import below, findley
 from tehl_taichi.fatigue.histories import Passage
-from tehl_taichi.io.recorder import record
 from tehl_taichi.march.error_bars import estimated_error
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.study.single import completed
 
 GRIDS, QUICK_GRIDS = ((64, 16), (128, 32), (256, 64)), ((64, 16), (128, 32))
 REFERENCE, FINER = "asperity 1.5 um", (512, 128)  # the case that decides runs on one grid more
@@ -28,6 +28,7 @@ LOADS = {"pressure": {"fatigue.shear": False, "fatigue.thermal_stress": False},
 NEAR_ONE = 0.9
 # the worst below the surface under the feature's row, and of the contact without it; with all loads over the whole passage
 DEEP, ALONE = ("below", "whole"), ("contact alone", "whole")
+BARE = {"fatigue.on": False, "numerics.estimate_error": False}  # both are worked out here, for all grids and loads together
 DEPTHS = {DEEP: ("depth", "whole"), ALONE: ("depth alone", "whole")}
 
 
@@ -68,9 +69,9 @@ def row(name, description, folder, grids, progress=None):
     for nx, ny in grids:
         if progress:
             progress(f"{name}: {nx} x {ny} cells")
-        sized = description.replace(**{"grid.nx": nx, "grid.ny": ny})
+        sized = description.replace(**{"grid.nx": nx, "grid.ny": ny, **BARE})
         try:
-            saved = record(sized, folder / f"{_slug(name)}-{nx}.zarr")
+            saved = completed(sized, folder / f"{_slug(name)}-{nx}.zarr").store
         except NotConverged as error:
             found, reason = [], f"{nx} x {ny} cells: {error}"
             continue

@@ -8,10 +8,12 @@ from typing import Optional
 
 import numpy as np
 
+from tehl_taichi.criteria import CRITERIA
 from tehl_taichi.io.scene_file import merge
 from tehl_taichi.physics import rheology
 from tehl_taichi.scene import Scene, SceneError, scene
 from tehl_taichi.scene.feature import SHAPES, Feature
+from tehl_taichi.scene.named_oils import OILS
 from tehl_taichi.scene.parts import AUTO, Rheology
 from tehl_taichi.scene.passing import FEWEST
 from tehl_taichi.scene.scales import Scales
@@ -71,6 +73,10 @@ def cases(thermal=False):
     add("two features", feature=[{}, {"x": 150e-6, "height": -1e-6}])
     for name, shape in SHAPES.items():
         add(f"shape {name}", feature=[dict(shape.example)])
+    for name in OILS:
+        add(f"oil {name}", oil__name=name)
+    for name in CRITERIA:
+        add(f"criterion {name}", fatigue__criterion=name)
     add("waviness at the grid limit", feature=[{"shape": "waviness", "height": 0.1e-6, "width": 50e-6, "extent_x": 400e-6,
                                                 "extent_y": 400e-6, "taper": 50e-6}])
     for M, L in ((5, 1), (5, 25), (50, 10), (1000, 10), (5000, 5)):
@@ -157,6 +163,8 @@ def run_case(name, description, precision=AUTO):
                 verdict, reason = "failed", f"fatigue index {index}"
     except NotConverged as error:
         verdict, reason = "stopped", str(error)
+    except SceneError as error:  # single precision for a film too thin for it
+        verdict, reason = "failed" if shots else "refused", str(error)
     except Exception as error:  # noqa: BLE001  anything else is what the suite looks for
         verdict, reason = "failed", repr(error)
     steps = max(len(shots) - 1, 0)

@@ -8,6 +8,7 @@ True
 """
 
 import os
+from typing import TYPE_CHECKING
 
 # Waiting FFT or BLAS threads must sleep, not spin: a spinning pool stalls every other pool on a busy machine.
 os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
@@ -16,17 +17,29 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 # its banner would go to stdout, which belongs to `--json`
 os.environ.setdefault("ENABLE_TAICHI_HEADER_PRINT", "0")
+# in a notebook every launch would look for what its kernel printed: ours print nothing
+os.environ.setdefault("TI_ENABLE_PYBUF", "0")
 
 __version__ = "0.2.0"
-__all__ = ["Error", "Lines", "Progress", "Run", "Scene", "__version__", "march", "open", "resume", "run", "scene", "simulate"]
+__all__ = ["Error", "Interrupted", "Lines", "NotConverged", "Progress", "Run", "RuntimeUnavailable", "Scene", "SceneError",
+           "StoreError", "__version__", "compare", "crack", "fatigue", "flank", "march", "open", "resume", "run", "scene",
+           "simulate"]
 
-
-def simulate(scene, precision=None):
-    """All snapshots of `scene` as a list; long runs are better streamed with :func:`march` or `tehl run`."""
-    return list(march(scene, precision=precision))
-
-
-from tehl_taichi import march, scene  # noqa: E402  callable: scene("gear"); after the settings above, which numpy reads
-from tehl_taichi.errors import Error  # noqa: E402
+# after the settings above, which numpy reads
+from tehl_taichi.called import callable_room  # noqa: E402
+from tehl_taichi.errors import Error, Interrupted, NotConverged, RuntimeUnavailable, SceneError, StoreError  # noqa: E402
+from tehl_taichi.io.found import find  # noqa: E402
+from tehl_taichi.march import simulate  # noqa: E402
 from tehl_taichi.scene import Scene  # noqa: E402
-from tehl_taichi.study import Lines, Progress, Run, open, resume, run  # noqa: E402
+from tehl_taichi.study import Lines, Progress, Run, compare, open, resume, run  # noqa: E402
+
+if TYPE_CHECKING:  # functions to those who check types, folders that can be called to Python
+    from tehl_taichi.crack import crack
+    from tehl_taichi.fatigue import fatigue
+    from tehl_taichi.flank import flank
+    from tehl_taichi.march import march
+    scene = find
+else:
+    from tehl_taichi import crack, fatigue, flank, march, scene
+
+callable_room("tehl_taichi.scene", find)  # in files too, of which the folder itself knows nothing

@@ -3,6 +3,7 @@
 Importing a folder sets its name in the package, where it would replace a mere function of that name.
 """
 
+import inspect
 import sys
 from types import ModuleType
 
@@ -15,4 +16,4 @@ class _Room(ModuleType):
 def callable_room(name, function):
     """Let the folder `name` (its `__name__`) be called as `function`."""
     room = sys.modules[name]
-    room.__class__, room.called = _Room, function
+    room.__class__, room.called, room.__signature__ = _Room, function, inspect.signature(function)

@@ -4,7 +4,17 @@ FAILED, BAD_INPUT, NOT_CONVERGED, INTERRUPTED = 1, 2, 3, 4
 
 
 class Error(Exception):
-    """Base of all errors raised on purpose; the message is for people."""
+    """Base of all errors raised on purpose; the message is for people, exit_code for the command line.
+
+    >>> import tehl_taichi as tehl
+    >>> for wrong in (lambda: tehl.scene("gear").replace(load=-5), lambda: tehl.open("nothing.zarr")):
+    ...     try:
+    ...         wrong()
+    ...     except tehl.Error as error:
+    ...         print(type(error).__name__, error.exit_code)
+    SceneError 2
+    StoreError 2
+    """
 
     exit_code = FAILED
 

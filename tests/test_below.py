@@ -2,18 +2,20 @@
 
 import numpy as np
 import pytest
+from rolling import Rolling
 from tehl_cli import listing
 
 import tehl_taichi as tehl
 from tehl_taichi.fatigue import assessment, below, half_space
 from tehl_taichi.fatigue.histories import Passage
 from tehl_taichi.fatigue.row_stress import RowStress
+from tehl_taichi.fatigue.under_row import histories_of
 from tehl_taichi.io import figures, result_judge
 from tehl_taichi.scene import SceneError
 from tehl_taichi.scene.scales import Scales
 
 NU = 0.3
-DEPTHS = [2e-6, 15e-6, 80e-6]
+DEPTHS = [2e-6, 15e-6, 80e-6, 0.0]
 
 
 @pytest.mark.parametrize("line,mirrored,row", [(True, True, 0), (True, True, 3), (False, True, 2), (False, False, 5)])
@@ -22,6 +24,7 @@ def test_a_row_is_that_of_the_whole_plane(line, mirrored, row):
     loads = np.random.default_rng(3).standard_normal((3, 2, 24, 9)) * 1e9
     found = RowStress(x, y, NU, line, mirrored, DEPTHS, row)(*loads)
     for n, depth in enumerate(DEPTHS):
+        loads[2, ..., 0] *= depth > 0 or not mirrored  # odd: nothing on the axis, whatever is stored there
         whole = half_space.Stress(x, y, NU, line, mirrored, depth)(*loads[:, 1])
         for component, values in enumerate(whole.values()):
             np.testing.assert_allclose(found[1, n, :, component], values[:, row], atol=1e-3)  # of 1e9 Pa
@@ -32,30 +35,6 @@ def test_one_row_alone_is_plane_strain():
     found = RowStress(x, np.zeros(1), NU, True, True, DEPTHS, 0)(*p)
     whole = half_space.Stress(x, np.zeros(1), NU, depth=15e-6)(*p[:, 0])
     np.testing.assert_allclose(found[0, 1], np.stack(list(whole.values()), axis=-1)[:, 0], atol=1e-3)
-
-
-class Rolling:
-    """Reader of a Hertz line, shear 0.05 p along x, over which a bump of pressure and of heat passes."""
-
-    def __init__(self, scene, cells=12, rows=9):
-        self.s = Scales.of(scene)
-        self.x, self.y = (np.linspace(*ends) * self.s.a for ends in ((-2, 2, 4 * cells + 1), (0, 1, rows)))
-        self.centres = (np.arange(3 * cells) / cells - 1.5) * self.s.a
-        self.time = self.centres / 8.0
-
-    def __len__(self):
-        return self.centres.size
-
-    def feature_x(self, n):
-        return self.centres[n]
-
-    def fields(self, n, names):
-        x, y = self.x[:, None] / self.s.a, self.y[None, :] / self.s.a
-        hertz = np.sqrt(np.maximum(1 - x**2, 0)) + 0 * y
-        bump = np.exp(-((x - self.centres[n] / self.s.a) ** 2 + y**2) / 0.04) if n else 0 * hertz
-        p = self.s.p_H * hertz * (1 + bump)
-        found = {"pressure": p, "traction_x_a": 0.05 * p, "traction_y_a": 0 * p, "temperature_a": 90 + 40 * hertz * (1 + bump)}
-        return {name: found[name] for name in names}
 
 
 def result(heat=False, **changes):
@@ -114,6 +93,16 @@ def test_of_a_row_alone_the_profile_is_that_of_the_row(taichi_cpu):
     assert found.summary["below"]["findley_stress_max_Pa"] >= under[1:].max() * (1 - 1e-9)
 
 
+@pytest.mark.parametrize("heat", [False, True])
+def test_a_row_s_histories_at_the_surface_are_those_of_all_points(taichi_cpu, heat):
+    scene = tehl.scene("gear").replace(**{"thermal.on": heat, "fatigue.residual_xx": 3e6})
+    passage = Passage(scene, reader := Rolling(scene), reader.centres)
+    found = histories_of(passage, [0.0, 40e-6], [(0, False)])[0]
+    for n, depth in enumerate((0.0, 40e-6)):
+        points = passage.history(slice(0, 1), passage.stresses(depth))
+        np.testing.assert_allclose(found[n], points, atol=1e-4 * np.abs(points).max())
+
+
 def test_depths_beyond_the_rungs_are_interpolated_well(taichi_cpu):
     """Histories between two rungs against those computed there: 0.5 % of the largest stress."""
     scene = tehl.scene("gear").replace(**{"thermal.on": False})
@@ -121,7 +110,7 @@ def test_depths_beyond_the_rungs_are_interpolated_well(taichi_cpu):
     rungs = below.ladder(passage)
     assert rungs[0] == pytest.approx(passage.dx / 2) and rungs[-1] == pytest.approx(0.9 * passage.a)
     depths = np.sort(np.append(rungs, between := np.sqrt(rungs[3] * rungs[4])))
-    histories = below._histories(passage, depths, [(0, False)])[0]
+    histories = histories_of(passage, depths, [(0, False)])[0]
     kept = depths != between
     found = below._between(np.log(rungs), histories[kept], np.log(between))
     np.testing.assert_allclose(found, histories[~kept][0], atol=5e-3 * np.abs(histories[~kept]).max())

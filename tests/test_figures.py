@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from small_stores import store
 
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
@@ -107,11 +108,11 @@ def test_dots_per_inch_are_as_asked(tmp_path):
     assert matplotlib.image.imread(tmp_path / "centreline.png").shape[:2] == (325, 400)  # 8 x 6.5 inches
 
 
-def test_absurd_dots_per_inch_are_refused():
+def test_absurd_dots_per_inch_are_refused(tmp_path):
     from tehl_cli.main import app
     from typer.testing import CliRunner
 
     from tehl_taichi.scene import SceneError
 
-    found = CliRunner().invoke(app, ["plot", "none.zarr", "--dpi", "5"]).exception
+    found = CliRunner().invoke(app, ["plot", str(store(tmp_path / "a.zarr").path), "--dpi", "5"]).exception
     assert isinstance(found, SceneError) and "allowed: 40 to 1200" in str(found)

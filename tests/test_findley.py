@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import tehl_taichi as tehl
+from tehl_taichi.criteria import CRITERIA
 from tehl_taichi.fatigue import assessment, findley, worst_point
 from tehl_taichi.scene import SceneError
 
@@ -77,12 +78,12 @@ def test_dang_van_of_torsion_on_pressure(taichi_cpu):
 
 
 def test_limits_of_bending_and_torsion_give_the_constants(taichi_cpu):
-    kappa, limit = findley.from_limits(500e6, 320e6)
+    kappa, limit = CRITERIA["findley"].from_limits(500e6, 320e6)
     assert 500e6 / 2 * (kappa + np.sqrt(1 + kappa**2)) == pytest.approx(limit, rel=1e-12)
     assert 320e6 * np.sqrt(1 + kappa**2) == pytest.approx(limit, rel=1e-12)
-    assert findley.from_limits(1.0, 0.643674)[0] == pytest.approx(0.3, rel=1e-4)
-    with pytest.raises(ValueError, match="between 0.5 and 1"):
-        findley.from_limits(500e6, 200e6)
+    assert CRITERIA["findley"].from_limits(1.0, 0.643674)[0] == pytest.approx(0.3, rel=1e-4)
+    with pytest.raises(SceneError, match="between 0.5 and 1"):
+        CRITERIA["findley"].from_limits(500e6, 200e6)
 
 
 def test_the_path_on_a_plane(taichi_cpu):

@@ -10,12 +10,13 @@ import pytest
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "tehl_taichi"
 # every module and folder of the package, each imports from those before it only
-LAYERS = ["errors", "commit", "called", "registry", "engine", "values", "physics", "scene", "pressure", "heat", "fatigue",
-          "march", "io", "study", "profiles", "cli"]
+LAYERS = ["errors", "commit", "called", "registry", "engine", "values", "physics", "criteria", "scene", "pressure", "heat",
+          "fatigue", "crack", "march", "io", "study", "flank", "profiles", "cli"]
 TOP = {"errors", "commit", "called", "registry"}  # single files that everybody may use
 # rooms that may use less than all before them
-RESTS_ON = {"engine": set(), "values": set(), "physics": {"engine", "values"}, "scene": {"values", "physics"},
-            "fatigue": {"scene", "engine", "values"}}
+RESTS_ON = {"engine": set(), "values": set(), "physics": {"engine", "values"},
+            "criteria": {"engine", "values"}, "scene": {"values", "physics", "criteria"},
+            "fatigue": {"scene", "criteria", "engine", "values"}}
 ENTRIES = {"__init__", "__main__"}  # of the package: they may lead anywhere, lazily
 FOLDERS = {ROOT / "cli": "tehl_cli", ROOT / "profiles": "tehl_taichi.profiles", PACKAGE: "tehl_taichi"}
 
@@ -78,6 +79,26 @@ def test_a_room_says_what_lives_there(room):
     assert 3 <= len(lines) <= 8, room
 
 
+def names_in(path):
+    """All names that a module defines or imports somewhere."""
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+            yield node.name
+        elif isinstance(node, ast.alias):
+            yield node.asname or node.name
+        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            yield node.id
+
+
+def test_every_import_of_ours_finds_its_name():
+    """Those inside functions too, which fail only when they are called."""
+    ours = {module_of(path).removesuffix(".__init__"): path for path in SOURCES}
+    known = set(ours) | {f"{module}.{name}" for module, path in ours.items() for name in names_in(path)}
+    for path in [*SOURCES, *(ROOT / "tests").glob("*.py")]:
+        unknown = {name for name in imports(path) if name.startswith(("tehl_taichi", "tehl_cli"))} - known
+        assert not unknown, f"{path} imports {unknown}"
+
+
 @pytest.mark.parametrize("path", SOURCES, ids=lambda p: str(p.relative_to(ROOT)))
 def test_no_future_annotations(path):
     assert "__future__.annotations" not in set(imports(path))
@@ -94,7 +115,8 @@ def test_readme_names_both_lines():
     assert len(lines) == 2 and "tehl run --srr -0.12" in lines[0] and lines[1].endswith("pytest")
 
 
-def test_readme_python_example_runs(taichi_cpu, capsys):
+def test_readme_python_example_runs(taichi_cpu, capsys, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
     text = (ROOT / "README.md").read_text()
     exec(compile(text.split("```python\n")[1].split("```")[0], "README.md", "exec"), {})
-    assert len(capsys.readouterr().out.splitlines()) == 4
+    assert len(capsys.readouterr().out.splitlines()) == 5

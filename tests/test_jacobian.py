@@ -21,7 +21,7 @@ def mismatch(description, warm=None):
     ends = (levels.X[-1] - X) * (X - levels.X[0]) / 4
     P = 0.12 * ends * (1 + 0.1 * np.cos(3 * X) * np.cos(np.pi * Y))
     levels.put(fields.GAP0, levels.smooth_gap() + 0.3 + 0.02 * np.sin(2 * X) * np.cos(np.pi * Y))
-    levels.set_rate(11.0, 0.7)
+    levels.numbers.set_rate(11.0, 0.7)
     if warm is not None:
         film.start(warm(film.across.zeta[:, None, None], X, Y))
 

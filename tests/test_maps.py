@@ -9,6 +9,7 @@ import weakref
 import numpy as np
 import pytest
 
+import tehl_taichi as tehl
 from tehl_taichi.io import scene_file
 from tehl_taichi.scene import SceneError, scene
 from tehl_taichi.scene.feature import Feature
@@ -206,15 +207,15 @@ def test_a_scene_carries_its_heights_to_another_process(tmp_path):
 @pytest.fixture(scope="module")
 def moved(taichi_cpu, tmp_path_factory):
     """(scene, store of its first three steps, store of all four): one broken off, then moved and its map file removed."""
-    from tehl_taichi.io.recorder import record
     from tehl_taichi.io.store import Store
     from tehl_taichi.march.passage import march
+    from tehl_taichi.study.single import completed
 
     home = tmp_path_factory.mktemp("home")
     description = with_map(wave(home, length=60.0), **{"time.steps": 4})
-    whole = record(description, home / "whole.zarr")
+    whole = completed(description, home / "whole.zarr")
     run = march(description)
-    broken = Store.create(home / "broken.zarr", description, next(run), 5)
+    broken = Store.create(home / "broken.zarr", description, next(run), 5, {"steady_error": "{}", "steady_unknown": "{}"})
     for _ in range(2):
         shot = next(run)
         broken.append(shot, shot.state)
@@ -230,18 +231,17 @@ def elsewhere(monkeypatch):
 
 
 def test_a_moved_store_goes_on_without_the_map_file(moved, elsewhere):
-    from tehl_taichi.io.recorder import record
     from tehl_taichi.io.store import Store
+    from tehl_taichi.study.single import completed
 
     description, broken, whole = moved
     assert Store.open(broken).scene == description
-    a, b = record(description, broken), Store.open(whole)  # resumes
+    a, b = completed(description, broken).store, Store.open(whole)  # resumes
     assert len(a) == len(b) == 5 and np.array_equal(a.fields(4)["film"], b.fields(4)["film"])
 
 
 def test_a_moved_store_is_opened_by_xarray_plotted_and_run_again(moved, elsewhere, tmp_path):
     from tehl_taichi.io.figures import write_all
-    from tehl_taichi.io.found import find
     from tehl_taichi.io.store import Store
 
     xarray = pytest.importorskip("xarray")
@@ -251,7 +251,7 @@ def test_a_moved_store_is_opened_by_xarray_plotted_and_run_again(moved, elsewher
     assert data[name].attrs["units"] == "um" and data[name].attrs["sha256"] == description.features[0].sha256
     np.testing.assert_array_equal(data[name], description.features[0].heights)
     assert {path.name for path in write_all(Store.open(whole), tmp_path, 40)} >= {"maps.png", "centreline.png"}
-    again = find(str(whole))
+    again = tehl.scene(str(whole))
     assert again == description and again.replace(**{"time.steps": 1}).features[0].measures == description.features[0].measures
 
 

@@ -31,6 +31,45 @@ def test_laws_hold_what_they_promise(key, law):
         kind.check(name, one.default)
 
 
+def of(key):
+    return pytest.mark.parametrize("law", CHOICES[key].values(), ids=lambda law: law.name)
+
+
+@of("rheology.law")
+def test_shear_laws_are_odd_and_newtonian_where_the_stress_is_small(law):
+    rheology = law.having()
+    for s in (1.0, 1e5, 1e7, 1e9, 1e12):
+        tau = law.stress(rheology, s, 1e9)
+        assert law.stress(rheology, -s, 1e9) == pytest.approx(-tau) and 0 < tau <= s * (1 + 1e-9)
+    assert law.stress(rheology, 1e3, 1e9) == pytest.approx(1e3, rel=1e-6)
+    assert (law.stress(rheology, 1e9, 1e9) < 0.99e9) == law.thins
+
+
+@of("oil.viscosity")
+def test_viscosity_laws_know_what_the_temperature_does(law):
+    """The numbers that they name are those without which it does nothing; all rise with pressure."""
+    def fall(**numbers):
+        oil = law.having(**{"table": ((0.0, -4.0), (1e9, 6.0)), **numbers})
+        assert law.ln_eta(oil, 2e8, 40.0) > law.ln_eta(oil, 1e8, 40.0)
+        return law.ln_eta(oil, 1e8, 40.0) - law.ln_eta(oil, 1e8, 60.0)
+
+    if law.thinned_by:
+        assert fall(**dict.fromkeys(law.thinned_by, 0.03)) > 0
+    assert (fall(**dict.fromkeys(law.thinned_by or (), 0.0)) == 0) == (law.thinned_by is not None)
+    assert set(law.usual) | set(law.thinned_by or ()) <= set(law.numbers)
+
+
+@of("oil.density")
+def test_density_laws_agree_with_themselves(law):
+    """1 at p = 0 and 40 deg C; expansivity is the slope of the logarithm."""
+    oil = law.having()
+    assert law.compression(oil, 0.0) == 1 and law.compression(oil, 1e9) > 1.05
+    for p in (0.0, 1e9):
+        low, high = (law.expansion(oil, p, Gamma) for Gamma in (89.9, 90.1))
+        assert law.expansion(oil, p, 40.0) == 1
+        assert law.expansivity(oil, p, 90.0) == pytest.approx(math.log(low / high) / 0.2, rel=1e-6)
+
+
 @pytest.mark.parametrize("key", CHOICES)
 def test_scenes_read_the_registries(key):
     section, choice = key.split(".")
@@ -62,6 +101,15 @@ def test_laws_need_no_taichi_for_numbers():
     code = ("import sys, tehl_taichi as tehl; from tehl_taichi.scene.film_formula import central_film; "
             "assert 3e-7 < central_film(tehl.scene('gear')) < 6e-7; sys.exit('taichi' in sys.modules)")
     assert subprocess.run([sys.executable, "-c", code], cwd=ROOT).returncode == 0
+
+
+def test_the_command_lists_all_laws(capsys):
+    from tehl_cli.inspect import laws
+
+    laws()
+    printed = capsys.readouterr().out
+    for key, law in LAWS:
+        assert f" {law.name} " in printed and key in printed
 
 
 def shown(title):
@@ -98,7 +146,7 @@ def expansivity(oil, p, Gamma):
 
 
 LAW = DensityLaw(
-    name="tait", says="1/(1 - ln(1 + (1 + K1) p/K)/(1 + K1))", source="Tait 1888",
+    name="tait", says="1/(1 - ln(1 + (1 + K1) p/K)/(1 + K1))", source="after Tait 1888",
     compression=compression, expansion=expansion, expansivity=expansivity,
     numbers={"rho0": RHO0, "tait_K": quantity(1.4e9, "Pa", "bulk modulus at p = 0", 1e8, 1e11),
              "tait_K1": quantity(10.0, "", "its rise with pressure", 1, 30)},

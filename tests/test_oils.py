@@ -18,11 +18,24 @@ def test_every_named_oil_holds(name):
 
 
 def test_the_reference_oil_is_that_of_scenes():
+    """At 90 deg C log10 eta = 4.57 (5/3)^-1.25 - 4.2 = -1.7867."""
     assert OILS["reference-pao"] == Oil()
-    by_hand = 10**-1.7867  # 4.57 (5/3)^-1.25 - 4.2
-    assert NAMED["reference-pao"].viscosity(0.0, 90.0) == pytest.approx(by_hand, rel=1e-4)
+    assert NAMED["reference-pao"].viscosity(0.0, 90.0) == pytest.approx(10**-1.7867, rel=1e-4)
 
 
 def test_an_unknown_name_is_refused_with_those_that_are_known():
     with pytest.raises(SceneError, match=", ".join(NAMED)):
         scene("gear").replace(**{"oil.name": "nujol"})
+
+
+@pytest.mark.parametrize("name, grade", [("mineral-vg68", 68), ("mineral-vg100", 100), ("mineral-vg150", 150),
+                                         ("mineral-vg460", 460), ("mineral-vg100-steep", 100)])
+def test_a_grade_in_a_name_is_that_of_iso_3448(name, grade):
+    """Within 10 % of the grade in mm2/s at 40 deg C, for any density that such an oil can have."""
+    for density in (850.0, 880.0):
+        assert NAMED[name].viscosity(0.0, 40.0) / density * 1e6 == pytest.approx(grade, rel=0.1)
+
+
+def test_the_steep_oil_thins_faster_with_temperature():
+    even, steep = (NAMED[name] for name in ("mineral-vg100", "mineral-vg100-steep"))
+    assert steep.viscosity(0.0, 100.0) < 0.8 * even.viscosity(0.0, 100.0)

@@ -1,5 +1,8 @@
 """Linear solves in single and in double precision: each scene in its own, the same answers in both."""
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -48,6 +51,45 @@ def test_the_precision_can_be_asked_for():
         tehl.march(gear(), precision="f16")
     with pytest.raises(SceneError, match="numerics.precision"):
         gear(**{"numerics.precision": 64})
+
+
+def test_thin_films_are_always_solved_in_double():
+    """Asked for or not, before anything is computed; a run leaves nothing behind."""
+    thin = line(**{"grid.nx": 64}, speed=0.6)
+    assert solved(thin.replace(**{"numerics.precision": "f64"}))[1] == "f64"
+    with pytest.raises(SceneError, match=r"'f32': a film of about .* m \(0.00.* is too thin .* allowed: auto, f64"):
+        next(tehl.march(thin, precision="f32"))
+
+
+def test_a_run_of_a_thin_film_in_single_writes_nothing(tmp_path):
+    thin = line(**{"grid.nx": 64, "numerics.precision": "f32"}, speed=0.6)
+    with pytest.raises(SceneError, match="too thin"):
+        tehl.run(thin, tmp_path / "a.zarr")
+    assert list(tmp_path.iterdir()) == []
+
+
+SCRAMBLED = """
+import importlib, pkgutil, random
+import tehl_taichi as tehl
+names = [m.name for m in pkgutil.walk_packages(tehl.__path__, "tehl_taichi.") if not m.name.endswith("__main__")]
+random.Random(5).shuffle(names)
+for name in names:
+    importlib.import_module(name)
+line = tehl.scene("smooth-line").replace(**{"thermal.on": False, "rheology.law": "newtonian", "grid.nx": 32})
+for precision in ("f64", "f32"):
+    print(next(tehl.march(line, precision=precision)).scalars["h_c_m"].hex())
+"""
+
+
+@pytest.mark.slow  # a process of its own that imports everything; the order of scenes is asked for above
+def test_neither_imports_nor_their_order_fix_a_precision():
+    """All modules imported in any order before Taichi starts, then double before single: the numbers of this process."""
+    done = subprocess.run([sys.executable, "-c", SCRAMBLED], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    double, single = (float.fromhex(text) for text in done.stdout.split())
+    coarse = line(**{"grid.nx": 32})
+    own = [next(tehl.march(coarse, precision=p)).scalars["h_c_m"] for p in ("f32", "f64")]
+    assert own == [pytest.approx(single, rel=1e-10), pytest.approx(double, rel=1e-10)] and single != double
 
 
 def test_a_store_and_its_companions_keep_the_precision():

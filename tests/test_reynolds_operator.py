@@ -34,7 +34,7 @@ def reynolds_operator(levels, X, Y, rate):
 
     def mobility(x, y):
         P, H = manufactured(x, y)
-        return mass(x, y) * H**2 * levels.inv_lambda * np.exp(ln_eta0 - ln_eta(oil, P * p_H, inlet))
+        return mass(x, y) * H**2 * levels.numbers.inv_lambda * np.exp(ln_eta0 - ln_eta(oil, P * p_H, inlet))
 
     def central(f, step):
         return ((f(X + step, Y) - f(X - step, Y)) / (2 * step))
@@ -63,7 +63,7 @@ def test_manufactured_solution_of_the_reynolds_operator():
     for cells in (32, 64, 128):
         levels = Levels(description, Scales.of(description), 2 * cells, cells)
         X, Y = levels.X[None, :], levels.Y[:, None]
-        levels.set_rate(0.7)
+        levels.numbers.set_rate(0.7)
         for row, values in zip((fields.P, fields.H), manufactured(X, Y)):
             levels.put(row, values)
         equations = Equations(levels, OneTemperature(levels))

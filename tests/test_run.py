@@ -85,8 +85,74 @@ def test_a_finished_run_goes_on_behind_its_end(tmp_path, monkeypatch):
     assert whole.rest() is None and tehl.resume("s.zarr", progress=heard).summary == whole.summary and len(heard.steps) == 2
 
 
+def test_a_run_shows_itself_as_a_table_and_in_figures(done, tmp_path):
+    run, _ = done
+    shown = run._repr_html_()
+    assert f"<td>{run.summary['transient']['p_max_Pa'] / 1e9:.4f} GPa (error unknown)</td>" in shown
+    assert "<li>passage cut" in shown and "gear: 4 steps" in shown
+    data = run.to_xarray()
+    assert data.pressure.dims == ("time", "x", "y") and float(data.p_max_Pa[4]) == run.store.scalar("p_max_Pa")[4]
+    figures = run.plot(tmp_path / "figures", dpi=np.int64(40))
+    assert {path.name for path in figures} >= {"centreline.png", "fatigue.png"} and all(path.exists() for path in figures)
+    for folder, dpi in ((tmp_path, 5), (figures[0], 40)):
+        with pytest.raises(tehl.Error, match="dpi = 5|cannot put figures"):
+            run.plot(folder, dpi)
+
+
+def test_the_fatigue_of_a_run_again(done):
+    run, _ = done
+    first = run.summary["fatigue"]
+    again = tehl.fatigue(run, endurance=np.float64(2e8), kappa=None)
+    assert again.summary["findley_stress_max_Pa"] == first["findley_stress_max_Pa"]
+    assert again.summary["Fi_max"] == pytest.approx(2 * first["Fi_max"], rel=1e-12)
+    assert run.fatigue(endurance=2e8).summary == again.summary and tehl.open(run.path).summary["fatigue"] == first
+    part = run.fatigue(depths=[], to_x=-1.48).summary
+    assert part["findley_stress_max_Pa"] < first["findley_stress_max_Pa"] and "below" not in part
+    heard = Heard()
+    limits = run.fatigue(bending_limit=500e6, torsion_limit=320e6, depths=[], progress=heard).summary
+    assert limits["kappa_F"] == pytest.approx(0.2916, abs=1e-4) and heard.stages[-1][0] == "stresses and fatigue"
+
+
+def test_the_fatigue_of_snapshots_is_that_of_their_run(done):
+    shots = tehl.march(RIDGE)
+    found = tehl.fatigue(shots, RIDGE).summary["findley_stress_max_Pa"]
+    assert found == pytest.approx(done[0].summary["fatigue"]["findley_stress_max_Pa"], rel=1e-6)  # stored in single precision
+
+
+def bending(amplitude=100e6):
+    stress = np.zeros((5, 6))
+    stress[:, 0] = amplitude * np.array([0, 1, 0, -1, 0])
+    return stress
+
+
+def test_the_fatigue_of_stresses_from_elsewhere():
+    """Reversed bending and torsion at the limits of their material have the index 1; twice the stress, twice the index."""
+    torsion = np.zeros((5, 6))
+    torsion[:, 3] = 320e6 * np.array([0, 1, 0, -1, 0])
+    limits = {"bending_limit": 500e6, "torsion_limit": 320e6}
+    found = tehl.fatigue(np.stack([bending(500e6), torsion, 2 * torsion]), **limits)
+    np.testing.assert_allclose(found.Fi, [1, 1, 2], rtol=1e-8)
+    assert found.worst == 2
+    angle = np.degrees(np.arccos(np.abs(found.normals[0, 0])))
+    assert np.tan(np.radians(2 * angle)) == pytest.approx(1 / 0.2916, rel=1e-3)  # Findley: tan 2 theta = 1/kappa
+    assert tehl.fatigue(bending(500e6).tolist(), **limits).Fi == pytest.approx(1)  # one point, as a list
+
+
+@pytest.mark.parametrize("of, constants, said", [
+    (bending(), {"kapa": 1}, "kappa"), (bending(), {"to_x": 1.0}, "to_x has no meaning"), (bending(), {"kappa": -1}, "kappa"),
+    (bending(), {"criterion": "finley"}, "findley"), (bending()[:, :5], {}, "shaped"), (bending() * np.nan, {}, "finite"),
+    (bending(), {"bending_limit": 5e8}, "together"),
+    (bending(), {"bending_limit": 5e8, "torsion_limit": 2e8}, "between 0.5 and"),
+    (bending(), {"bending_limit": 0.0, "torsion_limit": 2e8}, "bending_limit"), ([["a"]], {}, "given stresses"),
+    ([], {}, "snapshots do not know")])
+def test_bad_stresses_and_constants_are_one_error(of, constants, said):
+    with pytest.raises(tehl.SceneError, match=said):
+        tehl.fatigue(of, **constants)
+
+
 @pytest.mark.parametrize("words, said", [
     (("geer",), "gear"), (("no.toml",), "cannot read"), ((5,), "5 is no scene"), ((RIDGE, "a", {"threads": 0}), "1 to 1024"),
+    ((RIDGE, "a", {"threads": "two"}), "threads = 'two'"),
     ((RIDGE, "a", {"threads": 1}), "already runs"), ((RIDGE, "a", {"arch": "cuda"}), "cpu")])
 def test_bad_input_is_one_error_and_writes_nothing(tmp_path, monkeypatch, words, said):
     monkeypatch.chdir(tmp_path)
@@ -96,3 +162,17 @@ def test_bad_input_is_one_error_and_writes_nothing(tmp_path, monkeypatch, words,
     assert error.value.exit_code == 2 and list(tmp_path.iterdir()) == []
     with pytest.raises(tehl.Error, match="whole number"):
         tehl.resume("a", steps=0.5)
+
+
+def test_a_completed_run_is_kept_gone_on_with_or_made(done, tmp_path):
+    from tehl_taichi.study.single import completed
+
+    run, _ = done
+    heard = Heard()
+    assert completed(RIDGE, run.path, progress=heard).summary == run.summary and heard.stages == []
+    with pytest.raises(tehl.StoreError, match="another scene"):
+        completed(RIDGE.replace(srr=0.1), run.path)
+    with pytest.raises(KeyboardInterrupt):
+        completed(RIDGE, tmp_path / "c.zarr", progress=Heard(stop=3))
+    assert completed(RIDGE, tmp_path / "c.zarr", progress=heard).finished and heard.steps[-1] == 4
+    assert "steady start" not in [name for name, *_ in heard.stages]  # that it had

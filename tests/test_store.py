@@ -23,7 +23,7 @@ def test_entries_after_the_last_checkpoint_come_again_the_same(taichi_cpu, tmp_p
 
 
 def test_one_state_in_a_while_and_the_last_one(monkeypatch):
-    from tehl_taichi.io import recorder
+    from tehl_taichi.study import recorder
 
     class Shot:
         def __init__(self, step):

@@ -199,8 +199,7 @@ def test_a_disk_that_fills_up_loses_no_entry(path, monkeypatch, fails):
             raise OSError(28, "No space left on device")
         written(target, content)
 
-    for module in ("tehl_taichi.io.store", "tehl_taichi.io.checkpoint"):
-        monkeypatch.setattr(f"{module}.replace", full)
+    monkeypatch.setattr("tehl_taichi.io.atomic.replace", full)
     with Store.write(path) as saved:
         with pytest.raises(Interrupted, match="No space left on device; 3 entries are safe; then: tehl resume") as told:
             saved.append(shot(3), shot(3).state)
@@ -216,7 +215,7 @@ def test_a_disk_that_is_full_at_the_end(path, monkeypatch):
     def full(*_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("tehl_taichi.io.store.replace", full)
+    monkeypatch.setattr("tehl_taichi.io.atomic.replace", full)
     with Store.write(path) as saved, pytest.raises(Interrupted, match="every step is stored; then: tehl resume"):
         saved.finish({"steps": 2}, {"Fi": ([[1.0]], ["i", "j"], "1", "index")})
     monkeypatch.undo()
@@ -233,7 +232,7 @@ def test_a_disk_that_is_full_when_a_run_goes_on(path, monkeypatch):
 
     with Store.write(path) as saved:
         saved.append(shot(3))
-        monkeypatch.setattr("tehl_taichi.io.store.replace", full)
+        monkeypatch.setattr("tehl_taichi.io.atomic.replace", full)
         for change in (saved.go_back, lambda: saved.extend(SMALL)):
             with pytest.raises(Interrupted, match="No space left on device; then: tehl resume"):
                 change()
@@ -270,7 +269,7 @@ def test_going_on_behind_the_end_takes_the_results_back(path):
 
 
 def test_every_scalar_says_how_it_tells_of_steps_left_out():
-    from tehl_taichi.io.recorder import Thinned
+    from tehl_taichi.study.recorder import Thinned
 
     assert {scalar.over for scalar in entries(Scalar).values()} == Thinned.METHODS.keys()
 
@@ -278,8 +277,8 @@ def test_every_scalar_says_how_it_tells_of_steps_left_out():
 def test_thinned_entries_speak_for_the_steps_between():
     from types import SimpleNamespace
 
-    from tehl_taichi.io.recorder import Thinned
     from tehl_taichi.march.snapshot import Snapshot
+    from tehl_taichi.study.recorder import Thinned
 
     def of(step, value):
         scalars = {name: value for name in entries(Scalar)}

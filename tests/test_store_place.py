@@ -98,7 +98,7 @@ def test_a_failed_first_entry_leaves_nothing(tmp_path, monkeypatch):
     def full(*_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("tehl_taichi.io.store.replace", full)
+    monkeypatch.setattr("tehl_taichi.io.atomic.replace", full)
     with pytest.raises(Error, match="No space left on device; nothing is stored"):
         store(tmp_path / "runs" / "a.zarr")
     assert names(tmp_path) == []

@@ -145,7 +145,7 @@ def warm_film(srr, upside_down=False):
     """A pressure hill, a gap and a temperature profile, made, with solid contact at some nodes of high and of low pressure, on
     64 x 8 cells, and the tractions (4, ny+1, nx+1) of it."""
     from tehl_taichi.heat.temperatures import FilmHeat
-    from tehl_taichi.march import snapshot
+    from tehl_taichi.march.solved import Solved
     from tehl_taichi.pressure import fields
     from tehl_taichi.pressure.levels import Levels
 
@@ -161,7 +161,7 @@ def warm_film(srr, upside_down=False):
     for row, values in ((fields.P, P), (fields.H, h / s.h), (fields.TOUCH, touch.astype(float))):
         levels.put(row, values)
     heat.start(np.ascontiguousarray(T[::-1] if upside_down else T))
-    stress = snapshot._tractions(SimpleNamespace(levels=levels), heat)
+    stress = Solved(SimpleNamespace(levels=levels), heat, None, 0.0).stress
     wet, unit = P > 0, s.p_H / s.a
     return SimpleNamespace(scene=description, p=P * s.p_H, h=h, z=z, T=T, touch=touch, stress=stress,
                            slope=(-0.16 * (X + 0.3) * unit * wet, -0.12 * Y * unit * wet))

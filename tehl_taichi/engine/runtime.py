@@ -3,6 +3,7 @@
 import atexit
 import contextlib
 import functools
+import numbers
 import os
 import shutil
 import sys
@@ -67,8 +68,8 @@ def check(arch="cpu", threads=None):
     """Refuse what no process of this machine can have, without starting anything. Raises RuntimeUnavailable."""
     if arch not in ARCHES:
         raise RuntimeUnavailable(f"arch = {arch!r} is not available in this version: {', '.join(map(repr, ARCHES))} is")
-    if threads is not None and not 1 <= threads <= MOST_THREADS:
-        raise RuntimeUnavailable(f"threads = {threads} is out of range; allowed: 1 to {MOST_THREADS}")
+    if threads is not None and not (isinstance(threads, numbers.Integral) and 1 <= threads <= MOST_THREADS):
+        raise RuntimeUnavailable(f"threads = {threads!r} is out of range; allowed: 1 to {MOST_THREADS}")
 
 
 def start(arch="cpu", threads=None):
@@ -92,7 +93,7 @@ def _start(arch, threads):
     cache = str(cache_dir())
     import taichi as ti
 
-    with _no_banner(), cores.pinned(threads):
+    with _no_banner(), contextlib.redirect_stdout(None), cores.pinned(threads):  # in a notebook prints do not go to file 1
         ti.init(arch=ti.cpu, default_fp=ti.f64, fast_math=False, cpu_max_num_threads=threads, log_level=ti.ERROR,
                 # its own optimisation passes take 40 s for the Findley search (2 s without) and gain nothing over LLVM's
                 advanced_optimization=False,

@@ -1,6 +1,59 @@
 """What the passage does to the material: stresses at and below the surface, critical planes, the fatigue index.
 
 `half_space`, `rectangle`, `row_stress` (elastic), `thermal_stress`, `thermal_depth`; `histories` of material points; `findley`
-and its kernels in `critical_planes` and `circle`; `assessment` is the whole. Usable for other people's stress histories: it
-rests on `scene` and `engine` alone.
+searches by one of `criteria`, its kernels are in `critical_planes`, `circle`; `assessment` is the whole of a passage, `points`
+that of stress histories from elsewhere, `constants` what can be changed of them. Rests on `criteria`, `scene` and `engine`
+alone. `tehl_taichi.fatigue(run)` is the function.
 """
+
+from typing import TYPE_CHECKING, Any
+
+from tehl_taichi.called import callable_room
+
+if TYPE_CHECKING:
+    from tehl_taichi.fatigue.assessment import FatigueResult
+    from tehl_taichi.fatigue.points import Points
+    from tehl_taichi.scene import Scene
+
+__all__ = ["fatigue"]
+
+
+def fatigue(of: Any, scene: "Scene | None" = None, *, progress: Any = None, threads: int | None = None,
+            **constants: Any) -> "FatigueResult | Points":
+    """Fatigue of a run again, of snapshots, or of stress histories from elsewhere; what it is of stays as it is.
+
+    of: a :class:`tehl_taichi.Run`; or snapshots of `scene` (as :func:`tehl_taichi.march` yields them); or stresses (points,
+    times, 6) in Pa: xx, yy, zz, xy, xz, yz with z into or out of the surface, one point also as (times, 6).
+    constants: any of the scene's section [fatigue] (kappa, endurance in Pa, criterion, depths in m, from_x and to_x in a,
+    thermal_stress, residual_xx ...; None: as it is), or in place of kappa and endurance the limits in reversed bending and
+    torsion (bending_limit, torsion_limit, Pa). progress: see :class:`tehl_taichi.Progress`; threads: as of
+    :func:`tehl_taichi.run`.
+    Returns a :class:`tehl_taichi.fatigue.assessment.FatigueResult`, of stresses :class:`tehl_taichi.fatigue.points.Points`.
+    Raises SceneError for constants out of range, without a passage, or for stresses of another shape. Source: Findley 1959
+    (the other criteria: see :func:`tehl_taichi.fatigue.findley.search`).
+
+    Reversed bending of 100 MPa along x: f = (sigma/2)(kappa + sqrt(1 + kappa^2)).
+
+    >>> import numpy as np
+    >>> bending = np.zeros((3, 6))
+    >>> bending[:, 0] = 100e6, -100e6, 0.0
+    >>> found = fatigue(bending, kappa=0.3, endurance=400e6)
+    >>> print(f"{found.f[0] / 1e6:.2f} MPa, Fi {found.Fi[0]:.3f}")
+    67.20 MPa, Fi 0.168
+    """
+    from tehl_taichi.engine import runtime
+    from tehl_taichi.fatigue import assessment, points
+    from tehl_taichi.fatigue import constants as given
+
+    if points.are_stresses(of):
+        limits = given.of_points(constants)
+        runtime.start_or_join(threads=threads)
+        return points.search(of, limits)
+    reader = getattr(of, "store", of)
+    reader = reader if hasattr(reader, "fields") else list(reader)
+    scene = given.changed(scene or getattr(reader, "scene", None), constants)
+    runtime.start_or_join(threads=threads)
+    return assessment.run(scene, reader, progress and (lambda done, total: progress.stage("stresses and fatigue", done, total)))
+
+
+callable_room(__name__, fatigue)

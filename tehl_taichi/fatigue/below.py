@@ -9,8 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl_taichi.fatigue import findley
-from tehl_taichi.fatigue.row_stress import RowStress
-from tehl_taichi.fatigue.thermal_depth import ThermalBelow
+from tehl_taichi.fatigue.under_row import histories_of
 from tehl_taichi.fatigue.worst_point import Point
 
 RATIO = 1.5      # of neighbouring depths
@@ -18,7 +17,6 @@ SHALLOWEST = 0.5  # cells: nearer to the surface the rectangles of the loads are
 DEEPEST = 0.9    # a: the contact alone is worst at about a half
 HALVINGS = 6     # of the step in log depth, from a rung: 1.5^(1/64), 0.6 %
 CLOSE = 0.9      # points within this of the worst of a rung are followed between the rungs
-BLOCK = 32       # entries whose stresses are found at once
 
 
 @dataclass(frozen=True)
@@ -46,7 +44,7 @@ def profiles(passage, rows, alone=False):
     depths, y = ladder(passage), passage.reader.y
     kinds = [(row, False) for row in rows] + [(y.size - 1, True)] * alone
     found = []
-    for (row, single), histories in zip(kinds, _histories(passage, depths, kinds)):
+    for (row, single), histories in zip(kinds, histories_of(passage, depths, kinds)):
         points = slice(passage.x.size // 2, passage.x.size // 2 + 1) if single else slice(None)
         histories = histories[:, points]
         f = np.array([findley.search(history, *_rule(passage))[0] for history in histories])
@@ -58,36 +56,6 @@ def profiles(passage, rows, alone=False):
 def _rule(passage):
     fatigue = passage.scene.fatigue
     return fatigue.kappa, True, fatigue.criterion
-
-
-def _histories(passage, depths, kinds):
-    """A list of (depths, x', moments, 6) Pa, one for each kind: (row, whether its loads go on as an endless line)."""
-    operators = [_operator(passage, depths, *kind) for kind in kinds]
-    out = np.zeros((len(kinds), passage.x.size, depths.size, passage.centres.size + 1, 6))
-    entries = np.unique(passage.entries)
-    for block in np.array_split(entries, -(-entries.size // BLOCK)):
-        loads = np.stack([passage.loads(int(entry)) for entry in block], axis=1)
-        for histories, operator, (row, endless) in zip(out, operators, kinds):
-            for entry, stress in zip(block, operator(*(loads[..., [row]] if endless else loads))):
-                passage.follow(histories, entry, stress.swapaxes(0, 1))
-    if passage.scene.thermal_stress_wanted:
-        _heat(passage, depths, [row for row, _ in kinds], entries, out)
-    return passage.resting(out).swapaxes(1, 2)
-
-
-def _operator(passage, depths, row, endless):
-    y = np.zeros(1) if endless else passage.reader.y - passage.reader.y[0]
-    return RowStress(passage.grid_x, y, passage.scene.body_a.nu, passage.line, passage.mirrored, depths, 0 if endless else row)
-
-
-def _heat(passage, depths, rows, entries, out):
-    """Thermal stress added to the histories `out` (kinds, x', depths, moments, 6)."""
-    thermal, part = passage.heat(ThermalBelow, depths[0]), np.zeros_like(out[0, :, 0])
-    for n, depth in enumerate(depths):
-        for histories, stresses in zip(out, thermal.rows(depth, rows)):
-            for entry in entries:
-                passage.follow(part, entry, stresses[passage.ticks[entry]])
-            histories[:, n] += part
 
 
 def _refined(passage, logs, histories, f):

@@ -1,4 +1,4 @@
-"""Critical planes for many points at once: Findley's max over planes of tau_amp + kappa * sigma_n,max, and its relatives.
+"""Critical planes for many points at once: max over planes of a criterion, as Findley's tau_amp + kappa * sigma_n,max.
 
 tau_amp is the radius of the smallest circle around the path of the shear vector on the plane (circle.py).
 One point per parallel iteration, everything inside serial, so results do not depend on the number of threads.
@@ -23,10 +23,6 @@ STARTS = 5      # peaks refined at most: 4 and 20 agree to 2e-7 at every point o
 NEAR = 0.975   # cosine of the angle (13 degrees) below which planes of the grid belong to one peak
 SAME = 0.9998  # the same (1 degree) for peaks after the first halvings
 SLACK = 1e-11  # relative rounding of a bound
-
-# of a plane: tau_amp + kappa sigma_n,max with the radius of the smallest circle around the shear path or half its longest
-# chord; largest distance from the circle's centre plus kappa times the mean stress of the same moment
-CIRCLE, CHORD, DANG_VAN = range(3)
 
 vec6 = ti.types.vector(6, ti.f64)
 LANES = 8     # planes bounded at once: the ring of a pattern search
@@ -77,31 +73,37 @@ def mean_stress(S: ti.template(), row, t):
 
 
 @ti.func
+def value_of(rule: ti.template(), tau, normal, mean, kappa):
+    """What the criterion says of them; with `sheared` the shear alone, which chooses the plane."""
+    out = tau
+    if ti.static(not rule.sheared):
+        out = rule.value(tau, normal, mean, kappa)
+    return out
+
+
+@ti.func
 def bounds(S: ti.template(), row, steps, x, y, z, middle, kappa, rule: ti.template()):
     """Upper bounds of the values on several planes (x, y, z): the circle about the shear of the stress `middle`."""
     ca, cb, cc, cn = traction(middle, x, y, z)
-    top, far = lanes(-1e300), lanes(0.0)
+    top, far, mean = lanes(-1e300), lanes(0.0), -1e300
     for t in range(steps):
         a, b, c, normal = traction(stress(S, row, t), x, y, z)
         n = normal - cn
         da, db, dc = a - ca - n * x, b - cb - n * y, c - cc - n * z
         far = ti.max(far, da * da + db * db + dc * dc)
-        if ti.static(rule == DANG_VAN):
-            top = ti.max(top, lanes(mean_stress(S, row, t)))
-        else:
-            top = ti.max(top, normal)
-    return ti.sqrt(far) * (1 + SLACK) + kappa * top + SLACK * kappa * ti.abs(top)
+        top, mean = ti.max(top, normal), ti.max(mean, mean_stress(S, row, t))
+    return value_of(rule, ti.sqrt(far) * (1 + SLACK), top + SLACK * ti.abs(top), mean + SLACK * ti.abs(mean), kappa)
 
 
 @ti.func
 def plane_value(S: ti.template(), a: ti.template(), b: ti.template(), row, steps, n, kappa, rule: ti.template()):
     """What the rule gives for the plane n, and the mean stress whose shear is the centre of its circle."""
     e1, e2 = plane_frame(n)
-    top, la, ha, lb, hb = -1e300, 1e300, -1e300, 1e300, -1e300
+    top, mean, la, ha, lb, hb = -1e300, -1e300, 1e300, -1e300, 1e300, -1e300
     ia, ja, ib, jb = 0, 0, 0, 0
     for t in range(steps):
         u, v = project(S, row, t, e1, n), project(S, row, t, e2, n)
-        top = ti.max(top, project(S, row, t, n, n))
+        top, mean = ti.max(top, project(S, row, t, n, n)), ti.max(mean, mean_stress(S, row, t))
         a[row, t], b[row, t] = u, v
         if u < la:
             la, ia = u, t
@@ -117,14 +119,16 @@ def plane_value(S: ti.template(), a: ti.template(), b: ti.template(), row, steps
     middle = vec6(0.0)
     for k in ti.static(range(3)):
         middle += weight[k] * stress(S, row, index[k])
-    value = radius + kappa * top
-    if ti.static(rule == CHORD):
-        value = half_chord(a, b, row, steps) + kappa * top
-    elif ti.static(rule == DANG_VAN):
+    tau = radius
+    if ti.static(rule.chord):
+        tau = half_chord(a, b, row, steps)
+    value = value_of(rule, tau, top, mean, kappa)
+    if ti.static(rule.momentary):
         cu, cv = shear_of(middle, e1, n), shear_of(middle, e2, n)
         value = -1e300
         for t in range(steps):
-            value = ti.max(value, ti.sqrt((a[row, t] - cu) ** 2 + (b[row, t] - cv) ** 2) + kappa * mean_stress(S, row, t))
+            away = ti.sqrt((a[row, t] - cu) ** 2 + (b[row, t] - cv) ** 2)
+            value = ti.max(value, value_of(rule, away, project(S, row, t, n, n), mean_stress(S, row, t), kappa))
     return value, middle
 
 
@@ -308,9 +312,9 @@ def search(points: ti.i32, steps: ti.i32, kappa: ti.f64, rule: ti.template(), st
            out: ti.types.ndarray(dtype=ti.f64, ndim=2)):
     """out[point] = (f, n_x, n_y, n_z, planes decided) from S[point, time, (xx, yy, zz, xy, xz, yz)].
 
-    rule: CIRCLE, CHORD or DANG_VAN; planes (m, 3): unit normals of the grid; step0: first step, rad, halved
-    `shrinks` times; scratch: values
-    (points, m), a, b (points, steps), peaks (points, STARTS, PEAK).
+    rule: a :class:`tehl_taichi.criteria.criterion.Criterion` whose value may be traced; planes (m, 3): unit normals of the
+    grid; step0: first step, rad, halved `shrinks` times; scratch: values (points, m), a, b (points, steps), peaks (points,
+    STARTS, PEAK).
     """
     ti.loop_config(block_dim=8)
     for row in range(points):

@@ -1,13 +1,18 @@
-"""Findley stress of stress histories: f = max over planes of tau_amp + kappa * sigma_n,max (Findley 1959)."""
+"""Largest value of a criterion over all planes of stress histories, as Findley's f = tau_amp + kappa * sigma_n,max."""
 
+import dataclasses
+import functools
 import math
 
 import numpy as np
 
+from tehl_taichi.criteria import CRITERIA
+from tehl_taichi.engine.pointwise import unrolled
+
 GRID = 10.0  # degrees between the planes the search begins with
-# halvings of the step: 5 degrees -> 2e-5 rad, error of a smooth maximum about 1e-9; Matake's sum is not largest on its
-# plane, so it errs by as much as the plane's angle
-SHRINKS, MATAKE_SHRINKS = 12, 18
+# halvings of the step: 5 degrees -> 2e-5 rad, error of a smooth maximum about 1e-9; a sum on the plane of the largest shear
+# is not largest there, so it errs by as much as the plane's angle
+SHRINKS, SHEARED_SHRINKS = 12, 18
 
 
 def planes(degrees=GRID):
@@ -23,17 +28,18 @@ def planes(degrees=GRID):
     return np.concatenate(rows)
 
 
-RULES = {"findley": "CIRCLE", "findley-chord": "CHORD", "matake": "CIRCLE", "dang-van": "DANG_VAN"}  # of critical_planes.py
+@functools.cache
+def traced(criterion):
+    """The criterion as kernels take it."""
+    return dataclasses.replace(criterion, value=unrolled(criterion.value))
 
 
 def search(history, kappa, prune=True, criterion="findley", degrees=GRID, decided=None):
     """Largest value of a criterion over all planes, and its plane, of every point.
 
-    history (points, times, 6) Pa: xx, yy, zz, xy, xz, yz. kappa >= 0. criterion: "findley", tau_amp + kappa sigma_n,max, with
-    the radius of the smallest circle around the shear path; "findley-chord", with half its longest chord; "matake", Findley's
-    sum on the plane of the largest tau_amp (Matake 1977); "dang-van", largest (shear from the circle's centre + kappa mean
-    stress) of a moment (Dang Van 1989). prune=False evaluates every plane (for tests); degrees: between the first planes;
-    decided (points,), if given, takes the number of planes bounded or evaluated at each point.
+    history (points, times, 6) Pa: xx, yy, zz, xy, xz, yz. kappa >= 0. criterion: one of `tehl_taichi.criteria`. prune=False
+    evaluates every plane (for tests); degrees: between the first planes; decided (points,), if given, takes the number of
+    planes bounded or evaluated at each point.
     Returns f (points,) Pa (may be negative: nowhere near fatigue) and unit normals (points, 3), n_z >= 0.
     Raises ValueError for a history with NaN or of another shape, KeyError for an unknown criterion.
     """
@@ -49,15 +55,15 @@ def search(history, kappa, prune=True, criterion="findley", degrees=GRID, decide
     a, b = np.zeros((2, points, steps))
     grid = planes(degrees)
     values, peaks = np.zeros((points, len(grid))), np.zeros((points, critical_planes.STARTS, critical_planes.PEAK))
-    slope, shrinks = (0.0, MATAKE_SHRINKS) if criterion == "matake" else (kappa, SHRINKS)
-    rule = getattr(critical_planes, RULES[criterion])
-    critical_planes.search(points, steps, slope, rule, math.radians(degrees / 2), shrinks, int(prune), history, grid, values,
-                           a, b, peaks, out)
+    rule = CRITERIA[criterion]
+    critical_planes.search(points, steps, kappa, traced(rule), math.radians(degrees / 2),
+                           SHEARED_SHRINKS if rule.sheared else SHRINKS, int(prune), history, grid, values, a, b, peaks, out)
     if decided is not None:
         decided[:] = out[:, 4]
     n = out[:, 1:4]
-    if criterion == "matake":
-        out[:, 0] += kappa * normal_stress(history, n).max(axis=1)
+    if rule.sheared:
+        mean = history[:, :, :3].mean(axis=2).max(axis=1)
+        out[:, 0] = rule.value(out[:, 0], normal_stress(history, n).max(axis=1), mean, kappa)
     return out[:, 0], np.where(n[:, 2:] < 0, -n, n)
 
 
@@ -88,20 +94,6 @@ def smallest_circle(u, v):
     out = np.zeros(3)
     critical_planes.circle(u.size, np.array([u]), np.array([v]), out)
     return out
-
-
-def from_limits(bending, torsion):
-    """(kappa, sigma_eF) from the fatigue limits in fully reversed bending and torsion (Pa), at which f = sigma_eF.
-
-    f = (b/2)(kappa + sqrt(1 + kappa^2)) in bending, t sqrt(1 + kappa^2) in torsion. Raises ValueError unless
-    b/2 < t < b: Findley's criterion fits no other materials.
-    """
-    excess = 2 * torsion / bending - 1
-    if not 0 < excess < 1:
-        raise ValueError(f"fatigue limits in bending {bending:g} Pa and torsion {torsion:g} Pa: Findley's criterion needs a "
-                         f"ratio torsion/bending between 0.5 and 1, not {torsion / bending:.3g}")
-    kappa = excess / math.sqrt(1 - excess**2)
-    return kappa, torsion * math.sqrt(1 + kappa**2)
 
 
 def angles(normals):

@@ -27,7 +27,7 @@ class Stress:
         if self.y.size == 1 and not line:
             raise ValueError("one row of y describes a line contact only (line=True)")
         self.depth, dx = depth, spacing(self.x)
-        self.strips = self._strips(np.arange(-self.x.size + 1, self.x.size) * dx, dx / 2)
+        self.strips = rectangle.strip(np.arange(-self.x.size + 1, self.x.size) * dx, depth, dx / 2)
         if self.y.size > 1:
             self.convolution = _Convolution(self.x.size, self.y.size, dx, spacing(self.y), self.nu, mirrored, depth)
 
@@ -53,13 +53,6 @@ class Stress:
             other.convolution = copy.copy(self.convolution)
             other.convolution._plan()
         return other
-
-    def _strips(self, lags, half):
-        """(sxx, szz, sxz) at the lags from unit pressure and from unit q_x on one strip."""
-        if self.depth:
-            return rectangle.strip_at_depth(lags, self.depth, half)
-        here, none = 1.0 * (lags == 0), np.zeros(lags.size)
-        return (-here, -here, none), (rectangle.strip_coefficient(lags, half), none, -here)
 
     def _plane_strain(self, p, q):
         """Six components (nx+1,) of loads that do not change along y."""

@@ -26,11 +26,11 @@ class Passage:
     """The window of material points and where they are at every moment that counts (fatigue.from_x to to_x).
 
     reader: x, y (m), time (s), len, feature_x(n) (m), fields(n, names) in SI; entry 0 is the steady start; centres (m): the
-    feature's at every entry.
+    feature's at every entry; window: half width (in a) of the part around one small feature.
     """
 
-    def __init__(self, scene, reader, centres):
-        self.scene, self.reader = scene, reader
+    def __init__(self, scene, reader, centres, window=WINDOW):
+        self.scene, self.reader, self.window = scene, reader, window
         self.a = Scales.of(scene).a
         self.dx = float(reader.x[-1] - reader.x[0]) / (reader.x.size - 1)
         low, high = (max(1, int(side / self.dx + 1e-9)) for side in self._window("x"))
@@ -51,7 +51,7 @@ class Passage:
         """Distances (m) searched on the negative and the positive side of the first feature's centre."""
         reach = [(getattr(f, axis), f.reach if axis == "x" else f.reach_y) for f in self.scene.features]
         sides = (max(sign * at + r for at, r in reach) + MARGIN * self.a for sign in (-1, 1))
-        return [max(WINDOW * self.a, side) for side in sides]
+        return [max(self.window * self.a, side) for side in sides]
 
     def _lead_in(self, first):
         if first > -self.a:

@@ -81,6 +81,14 @@ def strip_coefficient(x, a):
     return -2 / np.pi * np.log(np.abs((x + a) / (x - a)))
 
 
+def strip(x, z, a):
+    """As :func:`strip_at_depth`, at the surface (z = 0) too."""
+    if z:
+        return strip_at_depth(x, z, a)
+    here, none = 1.0 * (np.abs(x) < a), np.zeros(x.shape)
+    return (-here, -here, none), (strip_coefficient(x, a), none, -here)
+
+
 def strip_at_depth(x, z, a):
     """((sxx, szz, sxz) from unit pressure, the same from unit q_x) at (x, z > 0) from the endless strip |x| <= a."""
     one, two = np.arctan2(z, x - a), np.arctan2(z, x + a)

@@ -11,11 +11,13 @@ from tehl_taichi.fatigue import rectangle
 from tehl_taichi.fatigue.half_space import spacing
 
 LOADS = (rectangle.pressure_at_depth, rectangle.shear_x_at_depth, rectangle.shear_y_at_depth)
+SURFACE = (rectangle.pressure_coefficients, rectangle.shear_x_coefficients, rectangle.shear_y_coefficients)
+CARRIED = (2, 4, 5)  # zz, xz, yz: at the surface the loads p, q_x and q_y themselves
 SIGNS = (1, 1, -1)  # of p, q_x and q_y in the mirror image about the first row
 
 
 class RowStress:
-    """Six components at `depths` (all > 0, m) under row `row` of a grid, from p, q_x and q_y on all its rows.
+    """Six components at `depths` (m, 0: the surface) under row `row` of a grid, from p, q_x and q_y on all its rows.
 
     x, y, nu, line, mirrored: as for :class:`tehl_taichi.fatigue.half_space.Stress`.
     """
@@ -50,7 +52,7 @@ class RowStress:
     def _strips(self, lags, depth):
         """(2, waves, 6): plane strain from unit pressure and unit q_x on one strip."""
         out = np.zeros((2, lags.size, 6))
-        for load, parts in enumerate(rectangle.strip_at_depth(lags, depth, spacing(self.x) / 2)):
+        for load, parts in enumerate(rectangle.strip(lags, depth, spacing(self.x) / 2)):
             out[load][:, [0, 2, 4]] = np.transpose(parts)
         out[..., 1] = self.nu * (out[..., 0] + out[..., 2])
         return np.fft.rfft(out, self.size, axis=1)
@@ -61,10 +63,20 @@ class RowStress:
         lags, far = lags[:, None], self.y[row] - self.y
         image = self.y[row] + self.y[1:] - 2 * self.y[0]
         out = np.zeros((6, lags.size, self.y.size, 3))
-        for n, (load, sign) in enumerate(zip(LOADS, SIGNS)):
-            out[..., n] = load(lags, far, depth, *sides)
+        for n, sign in enumerate(SIGNS):
+            out[..., n] = _unit_load(n, lags, far, depth, sides)
             if mirrored:
-                out[:, :, 1:, n] += sign * np.array(load(lags, image, depth, *sides))
+                out[:, :, 1:, n] += sign * _unit_load(n, lags, image, depth, sides)
                 out[:, :, 0, n] *= sign > 0  # an odd load vanishes on the mirror's row
         spectra = np.fft.rfft(out, self.size, axis=1)
         return np.ascontiguousarray(np.moveaxis(spectra, 0, -1)).reshape(self.size // 2 + 1, -1, 6)
+
+
+def _unit_load(n, x, y, depth, sides):
+    """(6, lags, rows): stresses at (x, y, depth) from unit p, q_x or q_y (n = 0, 1, 2) on one rectangle."""
+    if depth:
+        return np.array(LOADS[n](x, y, depth, *sides))
+    out = np.zeros((6, *np.broadcast_shapes(x.shape, y.shape)))
+    out[[0, 1, 3]] = SURFACE[n](x, y, *sides)
+    out[CARRIED[n]] = -1.0 * ((np.abs(x) < sides[0]) & (np.abs(y) < sides[1]))
+    return out

@@ -7,7 +7,7 @@ import zlib
 import numpy as np
 
 from tehl_taichi.errors import StoreError
-from tehl_taichi.io.atomic import replace
+from tehl_taichi.io import atomic
 
 NEEDED = {"step", "P", "H0"}
 
@@ -16,7 +16,7 @@ def write(folder, number, state):
     """Store the state behind entry `number`."""
     content = io.BytesIO()
     np.savez(content, **{key: value for key, value in state.items() if value is not None})
-    replace(folder / f"{number}.npz", content.getbuffer())
+    atomic.replace(folder / f"{number}.npz", content.getbuffer())
 
 
 def forget(folder, number):

@@ -16,9 +16,7 @@ DPI = 160
 
 def write_all(store, folder, dpi=DPI):
     """Write every figure the store has data for into `folder`, `dpi` dots per inch; returns the paths. Raises StoreError."""
-    plt = pyplot()
-    folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
+    plt, folder = pyplot(), made(folder)
     figures = {"centreline": centreline(plt, store)}
     if store.y.size > 1:
         figures["maps"] = maps(plt, store)
@@ -36,6 +34,20 @@ def write_all(store, folder, dpi=DPI):
     return [_save(plt, figure, folder / f"{name}.png", dpi) for name, figure in figures.items()]
 
 
+def beside(path):
+    """The folder of the figures of the store at `path` where no other is wanted."""
+    return path.with_suffix("") if path.suffix else path.with_name(f"{path.name}-figures")
+
+
+def made(folder):
+    """The folder of that name, made if need be. Raises StoreError."""
+    try:
+        Path(folder).mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise StoreError(f"cannot put figures into {folder}: {error.strerror or error}; --out takes a folder") from None
+    return Path(folder)
+
+
 def _history(store, name):
     """History of a worst point as the store keeps it, or None."""
     if store.map(f"{name}_stress") is None:
@@ -45,8 +57,7 @@ def _history(store, name):
 
 def write_fatigue(result, title, a, folder, dpi=DPI):
     """Write the figures of a FatigueResult into `folder`; returns the paths. Raises StoreError."""
-    plt, folder = pyplot(), Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
+    plt, folder = pyplot(), made(folder)
     found = {name: value[0] for name, value in result.maps.items()}
     points = {"surface": result.worst, "below": result.worst_below}
     figures = fatigue_figures.all_figures(plt, title, found, points, result.summary, a)

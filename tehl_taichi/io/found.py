@@ -1,24 +1,37 @@
-"""A scene by whatever names it on the command line."""
+"""A scene by whatever names it, on the command line and in Python: `tehl_taichi.scene` is this. Importing it costs nothing."""
 
 import os
 from pathlib import Path
 
-from tehl_taichi.io import intact, scene_file
-from tehl_taichi.scene import BUILT_INS, Scene, SceneError, scene
+from tehl_taichi.scene import BUILT_INS, Scene, SceneError
+from tehl_taichi.scene.builtin import scene as built_in
 from tehl_taichi.values.plain import shown
 
 
-def find(name):
-    """Scene by built-in name, TOML path, or store (the scene of that run); a Scene is itself. Raises SceneError, StoreError."""
+def find(name: str | os.PathLike | Scene = "gear") -> Scene:
+    """Scene by the name of a built-in one (`tehl scenes` lists them), from a TOML file, or of the run in a store.
+
+    A Scene is itself. Raises SceneError with the nearest name, or with what is wrong in the file; StoreError for a damaged
+    store.
+
+    >>> import tehl_taichi as tehl
+    >>> fast = tehl.scene("gear").replace(srr=-0.12, **{"grid.nx": 128})
+    >>> f"{fast.operation.u_a:.2f} m/s, {fast.grid.nx} cells"
+    '7.99 m/s, 128 cells'
+    """
     if isinstance(name, Scene):
         return name
     if not isinstance(name, (str, os.PathLike)):
         raise SceneError(f"{shown(name)} is no scene; allowed: a Scene, the name of a built-in one, a TOML file or a store")
-    if name in BUILT_INS:
-        return scene(str(name))
-    path = Path(name)
+    return built_in(name) if name in BUILT_INS else _from_file(Path(name))
+
+
+def _from_file(path):
+    """Scene of a store or a TOML file; what is neither was meant as a name."""
+    from tehl_taichi.io import intact, scene_file
+
     if path.is_dir() and (path / "zarr.json").exists():
         return intact.scene_of(path, intact.root_of(path)[0])
     if path.suffix == ".toml" or path.exists():
         return scene_file.load(path)
-    return scene(str(name))
+    return built_in(str(path))

@@ -32,6 +32,16 @@ def load(path):
     return from_data(_beside(data, path.absolute().parent), path.stem)
 
 
+def new(path, base):
+    """Write the built-in scene `base` with every value, under the name of the file. Raises SceneError where it cannot."""
+    path = Path(path)
+    if path.exists():
+        raise SceneError(f"{path} exists already; choose another name")
+    if not path.absolute().parent.is_dir():
+        raise SceneError(f"{path.absolute().parent} is not a folder")
+    path.write_text(dumps(scene(base).replace(name=path.stem)), encoding="utf-8")
+
+
 def _beside(data, folder):
     """The same with the paths of height maps starting at `folder`, whatever folder the command runs in."""
     features = data.get("feature", [])
@@ -71,6 +81,8 @@ def merge(base, data):
             base[key] = {"temperature": base[key]["temperature"], **value}
         elif key == "oil" and isinstance(value, dict) and "name" in value:
             base[key] = value  # a named oil brings its own numbers, not those of the base
+        elif isinstance(value, dict) and isinstance(value.get("material"), str) and value["material"]:
+            base[key] = value  # so does a body of a named steel
         elif isinstance(value, dict) and isinstance(base.get(key), dict):
             base[key] = merge(base[key], value)
         else:

@@ -10,7 +10,7 @@ import numpy as np
 from tehl_taichi.heat.temperatures import FilmHeat
 from tehl_taichi.march.steady import scalars
 from tehl_taichi.pressure import fields, tractions
-from tehl_taichi.pressure.levels import load_weights
+from tehl_taichi.pressure.grids import load_weights
 from tehl_taichi.pressure.newton import PressureSolver, Report
 
 

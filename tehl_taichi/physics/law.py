@@ -105,4 +105,8 @@ def _told(one, names):
 
 def section(name, /, **fields):
     """A frozen dataclass of these declarations, to derive a section of a scene from."""
-    return dataclasses.make_dataclass(name, [(key, type(one.default), one) for key, one in fields.items()], frozen=True)
+    return dataclasses.make_dataclass(name, [(key, _type(one.default), one) for key, one in fields.items()], frozen=True)
+
+
+def _type(default):
+    return float if type(default) is int else type(default)

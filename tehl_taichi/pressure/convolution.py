@@ -1,12 +1,12 @@
 """The deflection K and the distribution K^-1 as convolutions inside kernels: for a block of rows, or a group of their waves.
 
 Along x a real transform of period 2 M >= twice the cells (K; of the cells for K^-1, which is periodic), done as a complex one
-of half the length on a block of W rows in lanes. Along y Toeplitz plus Hankel matrices, rows are mirrored at y = 0:
-Y(k) = A(k) X(k) + B(k) X(-k),
-with complex transforms of length N >= 2 ny over the waves along x, GROUP of them in lanes; A is the transform of the even kernel
-t(0), t(1), ..., B that of t(0 ... 2 ny - 1) for the mirror images (0 for a whole domain, A where the other end is a mirror,
-too), the rows on a mirror count half. A line contact continues its outermost row for ever: that is subtracted, and what the
-strip answers is added. Cosine transforms from running sums would lose digits: 1e-5 in single precision for 512 rows.
+of half the length on a block of W rows in lanes. Along y Toeplitz plus Hankel matrices, rows being mirrored at y = 0:
+Y(k) = A(k) X(k) + B(k) X(-k), by complex transforms of length N >= 2 ny over the waves along x, GROUP of them in lanes. A is
+the transform of the even kernel t(0), t(1), ..., B that of t(0 ... 2 ny - 1) for the mirror images (0 for a whole domain, A
+where the other end is a mirror, too), the rows on a mirror count half. A line contact continues its outermost row for ever:
+that is subtracted, and what the strip answers is added. Cosine transforms from running sums would lose digits: 1e-5 in single
+precision for 512 rows.
 """
 
 import functools

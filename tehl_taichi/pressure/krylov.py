@@ -12,7 +12,7 @@ from tehl_taichi.engine.lanes import LinearFlat, LinearTable, Table
 from tehl_taichi.engine.launches import bind
 from tehl_taichi.pressure import convolution, decisions, fields, phases
 from tehl_taichi.pressure.decisions import SCALARS
-from tehl_taichi.pressure.levels import coarsen, columns, solved_by
+from tehl_taichi.pressure.grids import coarsen, columns, solved_by
 from tehl_taichi.pressure.program import DECISION, FIRST_JOB, JOBS, Program
 
 Numbers = ti.types.ndarray(dtype=ti.i32, ndim=2)

@@ -106,7 +106,7 @@ class Storage:
         rate, weights = bdf(lengths)
         paths = frame * np.cumsum(lengths) / v.dx
         old = self.start + sum(w * followed(q - self.start, path) for w, q, path in zip(weights, self.old, paths))
-        v.set_rate(rate, frame)
+        v.numbers.set_rate(rate, frame)
         v.put(fields.QOLD, frame * self.couette - rate * v.dx * old)
 
     def _order(self, dT, at_rest):

@@ -6,6 +6,7 @@ from tehl_taichi.errors import SceneError
 from tehl_taichi.scene import given
 from tehl_taichi.scene import named_oils as oils
 from tehl_taichi.scene.feature import SHAPES, USED_BY
+from tehl_taichi.scene.named_steels import STEELS
 from tehl_taichi.scene.route import ALL
 from tehl_taichi.values.checks import key_shown, nearest
 
@@ -14,6 +15,7 @@ def applied(data, changes):
     """`data` (a scene as nested dictionary) with changes {full key: value}; what they replace is cleared. Raises SceneError."""
     _clear(data, changes)
     _name_oil(data, changes)
+    _name_steels(data, changes)
     for key in sorted(changes, key=lambda key: key.count(".")):  # whole tables before single values
         _assign(data, key, changes[key])
     return data
@@ -67,6 +69,14 @@ def _name_oil(data, changes):
     elif name != data["oil"]["name"]:
         oils.check_new(name, {key.partition(".")[2]: value for key, value in changes.items() if key.startswith("oil.")})
         data["oil"]["source"] = oils.NO_SOURCE
+
+
+def _name_steels(data, changes):
+    """A known name brings the numbers of its steel."""
+    for which, body in data["bodies"].items():
+        name = changes.get(f"bodies.{which}.material")
+        if isinstance(name, str) and name in STEELS:
+            body.update(STEELS[name].numbers)
 
 
 def _assign(data, dotted, value):

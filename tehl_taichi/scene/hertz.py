@@ -14,6 +14,12 @@ def line_load(p_H, R, E):
     return 2 * math.pi * R * p_H**2 / E
 
 
+def line_gap(X):
+    """Gap beside a dry line contact, in a^2/R', at |X| >= 1 half-widths from its centre (Johnson, section 4.2(c))."""
+    root = math.sqrt(X * X - 1)
+    return (X * root - math.log(X + root)) / 2
+
+
 def point(load, R, E):
     """(radius a, maximum pressure p_H) of a circular contact, load in N (Johnson, section 4.2)."""
     a = (3 * load * R / (2 * E)) ** (1 / 3)

@@ -4,10 +4,12 @@ import math
 from dataclasses import dataclass
 from typing import Union
 
+from tehl_taichi.criteria import CRITERIA, sensitivities
 from tehl_taichi.errors import SceneError
 from tehl_taichi.physics import rheology
 from tehl_taichi.physics.boundary import BOUNDARY
 from tehl_taichi.physics.law import declared, section
+from tehl_taichi.scene.named_steels import STEELS
 from tehl_taichi.values.quantity import AUTO, check, choice, count, quantities, quantity, switch, text
 
 
@@ -53,9 +55,11 @@ class Contact:
 class Body:
     """An elastic half-space; default: steel (Everitt 2018).
 
-    Its alpha is the usual handbook value of bearing and gear steels.
+    Its alpha is the usual handbook value of bearing and gear steels. The name of a steel (`tehl steels`) gives the numbers that
+    a scene file or a change does not name; in Python: Body(**STEELS["100Cr6"].numbers, material="100Cr6").
     """
 
+    material: str = choice("", "a named steel; empty: none, the numbers are one's own", ("", *STEELS))
     E: float = quantity(206e9, "Pa", "Young's modulus", 1e6, 1e13)
     nu: float = quantity(0.3, "", "Poisson's ratio", 0.0, 0.499)
     k: float = quantity(47.0, "W/mK", "thermal conductivity", 0.01, 1e4)
@@ -144,10 +148,10 @@ class Fatigue:
     """
 
     on: bool = switch(True, "stresses and fatigue index of a passage")
-    kappa: float = quantity(0.3, "", "sensitivity to normal stress", 0.0, 5.0)
+    kappa: float = quantity(0.3, "", f"sensitivity to stress, {sensitivities()}", 0.0, 5.0)
     endurance: float = quantity(400e6, "Pa", "fatigue limit sigma_eF: Fi = 1", 1e3, 1e11)
     source: str = text("example values, set your own", "where kappa and endurance come from", one_line=False)
-    criterion: str = choice("findley", "fatigue criterion", ("findley", "findley-chord", "matake", "dang-van"))
+    criterion: str = choice("findley", "fatigue criterion", tuple(CRITERIA))
     depths: Union[tuple, str] = quantities(AUTO, "m", "searched below the surface; auto: the worst depth under the feature is "
                                            "looked for; or all points at these, as [50e-6, 100e-6]", 1e-7, 0.1, auto=True)
     shear: bool = switch(True, "whether the shear tractions count")
@@ -214,8 +218,8 @@ class Numerics:
     krylov_tolerance: float = quantity(0.2, "", "of the linear solves inside Newton, at most", 1e-6, 0.5)
     newton_max: int = count(30, "Newton steps of an attempt at most", 1, 1000)
     krylov_max: int = count(80, "Krylov iterations of a Newton step at most", 5, 500)
-    precision: str = choice(AUTO, "of the linear solves inside Newton; auto: f32 where the film is thick enough for it (the "
-                            "state and its residual are always double)", (AUTO, "f32", "f64"))
+    precision: str = choice(AUTO, "of the linear solves inside Newton; auto: f32 where the film is thick enough for it "
+                            "(elsewhere it is refused); the state and its residual are always double", (AUTO, "f32", "f64"))
     estimate_error: Union[bool, str] = switch(AUTO, "error of the passage's numbers, by companion runs on coarser grids; auto: "
                                               "where a core is free for them", auto=True)
 

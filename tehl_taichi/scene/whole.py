@@ -3,11 +3,13 @@
 import dataclasses
 import math
 from dataclasses import dataclass, field
+from typing import Any
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.physics.shear.newtonian import NEWTONIAN
 from tehl_taichi.scene import change, given, judge, named_oils, oil_range, passing, scales
 from tehl_taichi.scene.feature import Feature
+from tehl_taichi.scene.named_steels import completed
 from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.parts import AUTO, Body, Contact, Fatigue, Grid, Numerics, Operation, Output, Rheology, Thermal, Time
 from tehl_taichi.scene.route import LATEST, cut_at
@@ -26,7 +28,13 @@ MAX_HERTZ, MIN_HERTZ = 6e9, 1e7  # Pa: outside this range the laws say nothing
 
 @dataclass(frozen=True)
 class Scene:
-    """One contact, its bodies, oil and motion, and how it is computed. Raises SceneError when the parts do not fit."""
+    """One contact, its bodies, oil and motion, and how it is computed; SI units. Raises SceneError when the parts do not fit.
+
+    >>> from tehl_taichi.scene.parts import Contact, Grid
+    >>> scene = Scene(contact=Contact(load=1.1e6), grid=Grid(nx=128, ny=32))
+    >>> scene.replace(hertz_pressure=1.5e9, **{"feature.height": -1e-6}).features[0].height
+    -1e-06
+    """
 
     name: str = "gear"
     contact: Contact = field(default_factory=lambda: Contact(load=1.1e6))
@@ -207,7 +215,7 @@ class Scene:
         """Fatigue needs a passage: the stress history of material points."""
         return self.fatigue.on and self.transient
 
-    def replace(self, **changes):
+    def replace(self, **changes: Any) -> "Scene":
         """A changed copy. Keys: srr, load, hertz_pressure, speed, temperature, height, width, kappa, endurance, name,
         or dotted ("grid.nx"; "feature.height" is the first feature, "feature.1.height" the second). Raises SceneError.
         """
@@ -268,7 +276,7 @@ def _speeds(values):
 def _bodies(values):
     if not isinstance(values, dict) or set(values) - {"a", "b"}:
         raise SceneError(f"[bodies] has the tables [bodies.a] and [bodies.b] only, not {shown(values)}")
-    return {f"body_{key}": build(Body, value, f"bodies.{key}", "bodies") for key, value in values.items()}
+    return {f"body_{key}": build(Body, completed(value), f"bodies.{key}", "bodies") for key, value in values.items()}
 
 
 def _features(values):

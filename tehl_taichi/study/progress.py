@@ -34,7 +34,11 @@ class Progress:
 
 
 class Lines(Progress):
-    """Prints lines: sentences at once, steps every few seconds. stream: where to (default: stderr)."""
+    """Prints lines: sentences at once, steps every few seconds. stream: where to (default: stderr).
+
+    >>> Lines(sys.stdout).warn("passage cut at -1.37 a")
+    warning: passage cut at -1.37 a
+    """
 
     EVERY = 5.0  # seconds between the lines of steps
 

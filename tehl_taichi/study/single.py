@@ -6,6 +6,8 @@ import time
 from os import PathLike
 from pathlib import Path
 
+from tehl_taichi.errors import StoreError
+from tehl_taichi.io.found import find
 from tehl_taichi.scene import Scene
 from tehl_taichi.study.progress import ERRORS, FATIGUE, PASSAGE, STEADY, Progress
 from tehl_taichi.study.stored_run import Run
@@ -21,10 +23,17 @@ def run(scene: Scene | str | PathLike, path: str | PathLike | None = None, *, fo
     Raises SceneError and StoreError for bad input (nothing is written then), RuntimeUnavailable for other threads than
     those that the process already uses, NotConverged (earlier steps are stored), Interrupted where the disk takes no more;
     Ctrl-C is a KeyboardInterrupt that says what is stored.
+
+    >>> import tehl_taichi as tehl
+    >>> scene = tehl.scene("smooth-line").replace(**{"grid.nx": 32, "thermal.on": False})
+    >>> tehl.run(scene, "line.zarr")
+    <tehl.Run smooth-line: 0 steps, finished, line.zarr>
+    >>> run = tehl.run(scene, "line.zarr", force=True)
+    >>> f"{run.summary['steady']['h_c_m'] * 1e6:.2f} um"
+    '0.43 um'
     """
     began = time.perf_counter()
     from tehl_taichi.engine import runtime
-    from tehl_taichi.io.found import find
     from tehl_taichi.io.place import Place
 
     scene, progress = find(scene), progress or Progress()
@@ -36,7 +45,15 @@ def run(scene: Scene | str | PathLike, path: str | PathLike | None = None, *, fo
 
 
 def open(path: str | PathLike) -> Run:
-    """The run in the store at `path`: finished, running or broken off. StoreError where there is none or a damaged one."""
+    """The run in the store at `path`: finished, running or broken off. Raises StoreError where there is none, or a damaged
+    one.
+
+    >>> import tehl_taichi as tehl
+    >>> made = tehl.run(tehl.scene("smooth-line").replace(**{"grid.nx": 32, "thermal.on": False}), "made.zarr")
+    >>> run = tehl.open("made.zarr")
+    >>> run.finished, run.scene.name, run.store.fields(0)["pressure"].shape
+    (True, 'smooth-line', (33, 1))
+    """
     from tehl_taichi.io.store import Store
 
     return Run(Store.open(path))
@@ -49,6 +66,13 @@ def resume(path: str | PathLike, *, steps: int | None = None, threads: int | Non
     steps: so many more (default: to the end that the run was given; of a finished run, to the end of its passage). Where
     nothing is left it comes back as it is. threads, progress and errors: as :func:`run`; StoreError also where another
     version wrote the store, or somebody writes it now.
+
+    >>> import tehl_taichi as tehl
+    >>> scene = tehl.scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16, "thermal.on": False, "time.steps": 1})
+    >>> tehl.run(scene, "begun.zarr")
+    <tehl.Run gear: 1 steps, finished, begun.zarr>
+    >>> tehl.resume("begun.zarr", steps=1)
+    <tehl.Run gear: 2 steps, finished, begun.zarr>
     """
     began = time.perf_counter()
     from tehl_taichi.engine import runtime
@@ -62,6 +86,21 @@ def resume(path: str | PathLike, *, steps: int | None = None, threads: int | Non
         return before
     runtime.check(threads=threads)
     return _continue(Path(path), rest, threads, began, progress)
+
+
+def completed(scene: Scene, path: str | PathLike, *, threads: int | None = None, progress: Progress | None = None) -> Run:
+    """The finished run of `scene` in the store at `path`: as it lies there, gone on with, or run now.
+
+    Raises StoreError where the store there is of another scene, and what :func:`run` and :func:`resume` raise.
+    """
+    from tehl_taichi.io.intact import is_store
+
+    if not is_store(path):
+        return run(scene, path, threads=threads, progress=progress)
+    there = open(path)
+    if there.scene != scene:
+        raise StoreError(f"{path} holds a run of another scene; choose another folder or remove it")
+    return there if there.finished else resume(path, threads=threads, progress=progress)
 
 
 def _continue(path, scene, threads, began, progress):
@@ -135,8 +174,8 @@ class _Clock:
 
 
 def _march(saved, state, progress):
-    from tehl_taichi.io.recorder import go_on
     from tehl_taichi.scene.route import total_steps
+    from tehl_taichi.study.recorder import go_on
 
     total = total_steps(saved.scene)
 
@@ -171,8 +210,6 @@ def _stoppable(path, place=None):
 
 
 def _what_is_left(path):
-    from tehl_taichi.errors import StoreError
-
     try:
         left = open(path)
     except StoreError:

@@ -1,12 +1,24 @@
 """A run on disk, as Python sees it."""
 
+import html
+from os import PathLike
 from pathlib import Path
+from typing import Any
+
+from tehl_taichi.errors import StoreError
+from tehl_taichi.scene import Scene
 
 
 class Run:
     """A run and its store: what :func:`tehl_taichi.run`, :func:`tehl_taichi.open` and :func:`tehl_taichi.resume` give.
 
     store: the :class:`tehl_taichi.io.store.Store` behind it, whose `fields(n)` are the (nx+1, ny+1) arrays in SI of entry n.
+
+    >>> import tehl_taichi as tehl
+    >>> scene = tehl.scene("smooth-line").replace(**{"grid.nx": 32, "thermal.on": False})
+    >>> run = tehl.run(scene, "shown.zarr")
+    >>> run.path.name, run.finished, run.scene == scene, sorted(run.summary["steady"]["error"])[:2], run.rest()
+    ('shown.zarr', True, True, ['friction_coefficient', 'h_c_m'], None)
     """
 
     def __init__(self, store):
@@ -18,7 +30,7 @@ class Run:
         return self.store.path
 
     @property
-    def scene(self):
+    def scene(self) -> Scene:
         """The :class:`tehl_taichi.Scene` that it is of."""
         return self.store.scene
 
@@ -37,7 +49,33 @@ class Run:
         """What is doubtful, a sentence each; of a run that is not finished: in its scene."""
         return self.store.warnings
 
-    def rest(self, steps=None):
+    def fatigue(self, **constants: Any) -> Any:
+        """Its fatigue again, with other constants: :func:`tehl_taichi.fatigue` of it."""
+        from tehl_taichi.fatigue import fatigue
+
+        return fatigue(self, **constants)
+
+    def to_xarray(self) -> Any:
+        """Every array of the store as an `xarray.Dataset` that is read when it is looked at: dimensions time, x and y, unit and
+        meaning on each. Raises StoreError without xarray (the `xarray` extra)."""
+        try:
+            import xarray
+        except ImportError:
+            raise StoreError("a dataset needs xarray: pip install 'tehl_taichi[xarray]'") from None
+        return xarray.open_zarr(self.path)
+
+    def plot(self, folder: str | PathLike | None = None, dpi: int = 160) -> list:
+        """Write the PNG figures of `tehl plot` into `folder` (default: beside the store), `dpi` dots per inch, 40 to 1200.
+
+        Returns their paths. Raises SceneError, or StoreError without matplotlib (the `plot` extra) or where it cannot write.
+        """
+        from tehl_taichi.io import figures
+        from tehl_taichi.values.checks import integer
+
+        integer("dpi", dpi, 40, 1200)
+        return figures.write_all(self.store, folder or figures.beside(self.path), dpi)
+
+    def rest(self, steps: int | None = None) -> Scene | None:
         """The scene with which :func:`tehl_taichi.resume` goes on: with `steps` more, or to the end that the run was given, of
         a finished run to the end of its passage. None where nothing is left."""
         from tehl_taichi.scene.route import continued
@@ -50,3 +88,14 @@ class Run:
     def __repr__(self):
         state = "finished" if self.finished else "not finished"
         return f"<tehl.Run {self.scene.name}: {self.store.last_step} steps, {state}, {self.path}>"
+
+    def _repr_html_(self):
+        """Its summary as a small table, for notebooks."""
+        from tehl_taichi.io.summary_rows import summary_rows, title
+
+        if not self.summary:
+            return f"<p>{html.escape(repr(self))}</p>"
+        rows = "".join(f"<tr><td>{html.escape(what)}</td><td>{html.escape(value)}</td></tr>"
+                       for what, value in summary_rows(self.summary))
+        doubts = "".join(f"<li>{html.escape(sentence)}</li>" for sentence in self.warnings)
+        return f"<table><caption>{html.escape(title(self.summary))}</caption>{rows}</table><ul>{doubts}</ul>"

@@ -31,6 +31,7 @@ def _allowed(unit, low, high, strict):
 
 def integer(where, value, low, high):
     """Refuse `value` unless it is a whole number within low..high."""
+    value = plain(value)
     if isinstance(value, bool) or not isinstance(value, int):
         raise SceneError(f"{where} = {shown(value)} is not a whole number; allowed: {low} to {high}")
     if not low <= value <= high:

@@ -128,11 +128,12 @@ class Text(Kind):
 
 @dataclass(frozen=True)
 class Pairs(Kind):
-    """A list of pairs of numbers, the first of each rising: none, or from `fewest` to `most`."""
+    """A list of pairs of numbers, the first of each rising: none, or from `fewest` to `most`; jumps: it may stand twice."""
 
     about: str
     fewest: int
     most: int
+    jumps: bool = False
 
     def check(self, where, value):
         if not isinstance(value, (tuple, list)) or not all(isinstance(q, (tuple, list)) and len(q) == 2 for q in value):
@@ -140,8 +141,13 @@ class Pairs(Kind):
         for pair in value:
             for entry in pair:
                 checks.number(where, entry)
-        if value and not (self.fewest <= len(value) <= self.most and all(a[0] < b[0] for a, b in zip(value, value[1:]))):
+        if value and not (self.fewest <= len(value) <= self.most and self._rises([pair[0] for pair in value])):
             raise self.refusal(where, value)
+
+    def _rises(self, firsts):
+        """Whether each of these is more than the one before (with `jumps`: than the one before that)."""
+        apart = 2 if self.jumps else 1
+        return firsts == sorted(firsts) and all(a < b for a, b in zip(firsts, firsts[apart:]))
 
     def refusal(self, where, value):
         """What to say of the wrong number of pairs, and of none where some are needed."""
@@ -149,7 +155,7 @@ class Pairs(Kind):
 
     @property
     def allowed(self):
-        return f"{self.fewest} to {self.most} pairs, the first numbers rising"
+        return f"{self.fewest} to {self.most} pairs, the first numbers rising" + ", or the same twice" * self.jumps
 
 
 def _declared(default, kind, compare=True):
@@ -186,9 +192,9 @@ def text(default, about, most=500, one_line=True, compare=True):
     return _declared(default, Text(about, most, one_line), compare)
 
 
-def pairs(default, about, fewest, most):
+def pairs(default, about, fewest, most, jumps=False):
     """Field: a list of pairs of numbers, or none."""
-    return _declared(default, Pairs(about, fewest, most))
+    return _declared(default, Pairs(about, fewest, most, jumps))
 
 
 def kinds(cls):

@@ -1,18 +1,13 @@
-"""A run into a store: resumable, finished ones are left as they are."""
+"""The steps of a run into its store: one is written while the next one is computed, not every one with its state."""
 
 import dataclasses
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 
-from tehl_taichi.errors import StoreError
-from tehl_taichi.io.place import Place
-from tehl_taichi.io.provenance import provenance
-from tehl_taichi.io.store import Store
 from tehl_taichi.march.output import Scalar, entries
 from tehl_taichi.march.passage import march
-from tehl_taichi.scene.route import most_steps, total_steps
+from tehl_taichi.scene.route import total_steps
 
 SWITCH = 1e-4  # s, interpreter switch interval while a thread writes
 EVERY = 2.0  # s between the states that a run can go on from; a thermal one has 11 MB at 257x65x9, a tenth of a step's time
@@ -76,30 +71,3 @@ def go_on(saved, state, tell=None):
                 pending.result()
     finally:
         sys.setswitchinterval(before)
-
-
-def record(scene, path, progress=None):
-    """March `scene` into a store at `path`, without a terminal, from its last checkpoint if it exists. Returns the Store.
-
-    progress: called with (done, total) steps. Raises StoreError if the store there is of another scene or somebody else
-    writes it, NotConverged.
-    """
-    path = Path(path)
-    if (path / "zarr.json").exists():
-        saved = Store.open(path)
-        if saved.scene != scene:
-            raise StoreError(f"{path} holds a run of another scene; choose another folder or remove it")
-        if saved.finished:
-            return saved
-        saved = Store.write(path)
-    else:
-        saved = _begun(scene, path)
-    with saved:
-        go_on(saved, saved.go_back(), progress and (lambda snapshot: progress(snapshot.step, total_steps(scene))))
-        saved.finish({})
-    return saved
-
-
-def _begun(scene, path):
-    with Place(path) as place:
-        return Store.create(place, scene, next(march(scene)), most_steps(scene) + 1, provenance(scene))

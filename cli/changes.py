@@ -1,0 +1,62 @@
+"""Changes of a scene as the options of commands and `--set` give them."""
+
+GRIDS = {"coarse": (128, 32), "medium": (256, 64), "fine": (512, 128)}
+
+# options by another name than their key
+WORDS = {("thermal.on", True): "--thermal", ("thermal.on", False): "--isothermal", ("time.steady_only", True): "--steady",
+         ("fatigue.on", True): "--fatigue", ("fatigue.on", False): "--no-fatigue",
+         ("numerics.estimate_error", True): "--estimate-error", ("numerics.estimate_error", False): "--no-estimate-error"}
+
+
+def given_by(options, grid, settings):
+    """{full key: value} of the options that were used and of --set; SceneError where two of them contradict each other."""
+    from tehl_taichi.scene.given import settled
+
+    used = [(key, value) for key, value in options.items() if value is not None]
+    given = [(_typed(key, value), key, value) for key, value in used]
+    given += [(f"--grid {grid}", key, value) for key, value in _grid(grid).items()]
+    return settled([*given, *_settings(settings)])
+
+
+def _typed(key, value):
+    """An option as it was typed."""
+    shown = value if isinstance(value, str) else f"{value:g}"
+    return WORDS.get((key, value), f"--{key.rpartition('.')[2].replace('_', '-')} {shown}")
+
+
+def _grid(text):
+    if text is None:
+        return {}
+    from tehl_taichi.scene import SceneError
+
+    if text in GRIDS:
+        nx, ny = GRIDS[text]
+    else:
+        try:
+            nx, ny = (int(part) // 2 * 2 for part in text.lower().split("x"))
+        except ValueError:
+            raise SceneError(f"--grid {text!r} is not known; allowed: {', '.join(GRIDS)} or NXxNY, as in 256x64") from None
+    return {"grid.nx": nx, "grid.ny": ny}
+
+
+def _settings(pairs):
+    """(words, key, value) of every --set."""
+    from tehl_taichi.scene import SceneError
+
+    out = []
+    for pair in pairs:
+        key, equals, text = pair.partition("=")
+        if not equals:
+            raise SceneError(f"--set {pair!r} must look like dotted.key=value, as in feature.height=1e-6")
+        out.append((f"--set {pair}", key.strip(), _value(text)))
+    return out
+
+
+def _value(text):
+    """The value of a --set, as TOML reads it; what is no TOML value is text."""
+    import tomllib
+
+    try:
+        return tomllib.loads(f"v = {text}")["v"]
+    except (ValueError, RecursionError):
+        return text

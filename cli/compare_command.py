@@ -1,0 +1,55 @@
+"""tehl compare: runs side by side."""
+
+from pathlib import Path
+from typing import List, Optional
+
+import typer
+from tehl_cli.live import say
+from tehl_cli.out import print_json
+
+
+def register(app):
+    """Add the command to the app."""
+    app.command()(compare)
+
+
+def compare(
+    stores: List[Path] = typer.Argument(..., help="stores of two runs or more, finished or not"),
+    at: float = typer.Option(0.0, help="position of the feature in the figure's centrelines, half-widths"),
+    out: Optional[Path] = typer.Option(None, help="figure to write (default: compare.png beside the first store)"),
+    dpi: int = typer.Option(160, help="dots per inch, 40 to 1200"),
+    as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout"),
+):
+    """What differs of the scenes, the summaries side by side, one figure of centrelines, histories and Fi.
+
+    Example: `tehl compare runs/gear-1.zarr runs/gear-2.zarr`
+    """
+    from tehl_taichi.study.compare import compare as side_by_side
+    from tehl_taichi.values.checks import integer, number
+
+    integer("--dpi", dpi, 40, 1200)
+    number("--at", at, "a", -20.0, 20.0)
+    found = side_by_side(*stores)
+    figure = found.plot(out or stores[0].parent / "compare.png", at, dpi)
+    if as_json:
+        print_json({**found.to_dict(), "figure": str(figure)})
+        return
+    _tables(found)
+    say(str(figure))
+
+
+def _tables(found):
+    from tehl_cli.listing import list_table
+
+    names = found.names
+    list_table("what differs of the scenes", ("key", *names), _rows(found.differs))
+    list_table("summaries", ("quantity", *names), _rows({key: values for key, values in found.summaries.items()
+                                                         if "error" not in key.split(".")}))
+
+
+def _rows(table):
+    return [(key, *(_shown(value) for value in values)) for key, values in table.items()]
+
+
+def _shown(value):
+    return "-" if value is None else f"{value:.5g}" if isinstance(value, float) else str(value)

@@ -1,0 +1,101 @@
+"""tehl crack: where a crack goes under the loads of a stored passage."""
+
+from pathlib import Path
+from typing import Optional
+
+import typer
+from tehl_cli.live import say
+from tehl_cli.out import folder_for, print_json
+
+
+def register(app):
+    """Add the command to the app."""
+    app.command()(crack)
+
+
+def crack(
+    store: Path = typer.Argument(..., help="store of a run with a feature on y = 0, finished or not"),
+    side: str = typer.Option("both", help="of the feature: entry, exit or both"),
+    start: Optional[float] = typer.Option(None, help="x' of the crack's mouth, m (default: where the surface is pulled most)"),
+    angle: float = typer.Option(90.0, help="of its first piece, degrees: 90 straight down, more: leaning with rolling"),
+    first: float = typer.Option(5e-6, help="length of its first piece, m"),
+    step: float = typer.Option(5e-6, help="length of the others, m"),
+    length: float = typer.Option(100e-6, help="of the crack at which to stop, m"),
+    distance: float = typer.Option(3e-6, help="ahead of the tip, m, at which the largest tension gives the direction"),
+    threshold: Optional[float] = typer.Option(None, help="of K_I, Pa sqrt(m): stops below it (default: none)"),
+    residual: Optional[str] = typer.Option(None, help="residual stress along x: Pa, or a CSV file of depth (m), stress (Pa)"),
+    face_friction: float = typer.Option(0.0, help="coefficient of the closed faces"),
+    oil: float = typer.Option(0.0, help="share of the film's pressure at the mouth that acts on both faces: an upper bound"),
+    thermal_stress: Optional[bool] = typer.Option(None, "--thermal-stress/--no-thermal-stress",
+                                                  help="stress of the heat (default: as in the run)"),
+    elements: int = typer.Option(12, help="on a straight crack, 6 to 200"),
+    figures: Optional[Path] = typer.Option(None, help="folder for the PNG figure"),
+    threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
+    as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout"),
+):
+    """Crack paths from both sides of the feature in the plane of symmetry; the store stays as it is.
+
+    Example: `tehl crack runs/gear-1.zarr --residual -100e6 --figures runs/crack`
+    """
+    import tehl_taichi as tehl
+    from tehl_taichi.crack.residual import read
+    from tehl_taichi.engine import runtime
+    from tehl_taichi.io.store import Store
+
+    runtime.check(threads=threads)
+    saved = Store.open(store)
+    if thermal_stress is not None:
+        saved.scene = saved.scene.replace(**{"fatigue.thermal_stress": thermal_stress})
+    runtime.start(threads=threads)
+    result = tehl.crack(saved, side=side, start=start, angle=angle, first=first, step=step, length=length, distance=distance,
+                        threshold=threshold, residual=None if residual is None else read(residual),
+                        face_friction=face_friction, oil=oil, elements=elements)
+    _show(result.summary, as_json)
+    if figures:
+        from tehl_taichi.io.crack_figures import write_crack
+
+        say(str(write_crack(result, saved.scene.name, folder_for(figures))))
+
+
+def _show(summary, as_json):
+    from tehl_cli.listing import list_table
+
+    if as_json:
+        print_json(summary)
+        return
+    for side, found in summary["sides"].items():
+        list_table(f"crack on the {side} side", ("quantity", "value"), _rows(found, summary["pit_angles_deg"]))
+        for doubt in found.get("doubts", []):
+            print(f"warning: {doubt}")
+
+
+def _rows(found, pits):
+    """(quantity, value) of one side."""
+    if not found["opens"]:
+        return [("no crack", found["why"])]
+    rows = [("largest tension of the surface", f"{found['sigma1_surface_Pa'] / 1e6:.0f} MPa"),
+            ("at x' (the feature then at)", f"{found['start_x_m'] * 1e6:.1f} um ({found['moment_x_m'] * 1e6:.0f} um)"),
+            ("pulled down to", f"{found['tension_depth_m'] * 1e6:.1f} um")]
+    for name in ("trajectory", "path"):
+        rows += [(f"{name} leans", found[name]["lean"]),
+                 (f"{name}: chord at 10, 20, 40 um (pits {pits[0]:g} to {pits[1]:g})", _chords(found[name]))]
+    return rows + _growth(found)
+
+
+def _chords(shape):
+    return ", ".join("-" if chord is None else f"{chord:.0f}" for chord in shape["chord_deg_at_um"].values()) + " deg"
+
+
+def _growth(found):
+    """How K goes with the length."""
+    rows = [(f"K_I up to, range of K_II at {step['length_m'] * 1e6:.1f} um",
+             f"{step['K_I_max'] / 1e6:.3f}, {step['K_II_range'] / 1e6:.2f} MPa sqrt(m)") for step in _some(found["K"])]
+    error = found.get("error_at_last_length")
+    if error:
+        rows.append(("their errors at the last length", f"{error['K_I_max'] / 1e6:.1g}, {error['K_II_range'] / 1e6:.1g}"))
+    return rows + [("it stops because", found["why"])]
+
+
+def _some(steps):
+    """The first, the last and a few steps between."""
+    return [steps[n] for n in sorted({0, *range(0, len(steps), max(len(steps) // 4, 1)), len(steps) - 1})] if steps else []

@@ -1,0 +1,81 @@
+"""tehl flank: contact, film and fatigue along a gear flank."""
+
+from pathlib import Path
+from typing import List, Optional
+
+import typer
+from tehl_cli.changes import given_by
+from tehl_cli.live import Live, say
+from tehl_cli.out import print_json
+
+
+def register(app):
+    """Add the command to the app."""
+    app.command()(flank)
+
+
+def flank(
+    gear: str = typer.Argument("fzg-c", help="fzg-c, fzg-a, a TOML file, or a table of positions (CSV)"),
+    torque: Optional[float] = typer.Option(None, help="of the pinion, N m"),
+    speed: Optional[float] = typer.Option(None, help="of the pinion, 1/min"),
+    on: Optional[str] = typer.Option(None, help="whose flank carries the feature: pinion (default) or gear"),
+    positions: Optional[int] = typer.Option(None, help="how many, A to E among them (default: 9)"),
+    at: Optional[List[str]] = typer.Option(None, help="in their place: a point (C, B-) or way past C in m; repeatable"),
+    scene: Optional[str] = typer.Option(None, help="oil, bodies, feature, numerics: built-in name, TOML file or store"),
+    steady: bool = typer.Option(False, "--steady", help="no feature passes"),
+    temperature: Optional[float] = typer.Option(None, help="inlet temperature, deg C"),
+    height: Optional[float] = typer.Option(None, help="feature height, m (negative: dent)"),
+    width: Optional[float] = typer.Option(None, help="feature width, m"),
+    thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="energy equation on or off"),
+    set_: Optional[List[str]] = typer.Option(None, "--set", help="dotted.key=value of the scene, repeatable"),
+    grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY"),
+    out: Optional[Path] = typer.Option(None, help="folder (default: runs/NAME-N); one that is there is gone on with"),
+    figure: bool = typer.Option(True, "--figure/--no-figure", help="flank.png in that folder"),
+    threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
+    as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout, everything else on stderr"),
+    quiet: bool = typer.Option(False, "--quiet", help="no progress"),
+):
+    """Film, pressure, temperature, friction and fatigue along a gear flank: a run at every position, one table, one figure.
+
+    Examples: `tehl flank fzg-c --torque 265.1` · `tehl flank my_gears.toml --on gear --steady` · `tehl flank table.csv`
+    """
+    import tehl_taichi as tehl
+    from tehl_taichi.io.found import find
+
+    changes = given_by({"temperature": temperature, "height": height, "width": width, "thermal.on": thermal}, grid, set_ or [])
+    with Live(quiet) as live:
+        found = tehl.flank(gear, torque=torque, speed=speed, on=on, positions=positions, at=[_place(text) for text in at or ()],
+                           scene=find(scene) if scene else None, changes=changes, steady=steady, folder=out, threads=threads,
+                           progress=live)
+    if figure:
+        say(str(found.plot()))
+    print_json(found.to_dict()) if as_json else _print(found)
+    if found.failed:
+        from tehl_taichi.errors import NotConverged
+
+        raise NotConverged(f"{len(found.failed)} of {len(found.positions)} positions did not converge; the others are in "
+                           f"{found.folder}, and --grid, --set ... with another --out may help")
+
+
+def _place(text):
+    """A way in m, or the name of a point."""
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def _print(found):
+    from tehl_cli.listing import list_table
+
+    from tehl_taichi.flank.columns import tables
+    from tehl_taichi.flank.whole_flank import ASSUMPTION
+
+    print(found.title)
+    for title, (heads, lines) in tables(found.rows).items():
+        list_table(title, heads, lines)
+    print(f"assumed: {ASSUMPTION}")
+    print(f"load: {found.sharing}")
+    for at, reason in found.failed:
+        print(f"not converged: {at.point} (x_pl = {at.x_pl * 1e3:.3f} mm): {reason}")
+    print(f"stores, flank.csv, flank.json: {found.folder}")

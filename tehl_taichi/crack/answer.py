@@ -1,0 +1,131 @@
+"""The whole answer: on both sides of the feature the trajectory, the crack's path and what drives it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl_taichi.crack.growth import WHY, Path, grow, loaded
+from tehl_taichi.crack.plane import Plane, plane_of
+from tehl_taichi.crack.trajectory import Start, start, trajectory
+from tehl_taichi.errors import SceneError
+from tehl_taichi.fatigue.assessment import PIT_ANGLES, Snapshots
+
+DEPTHS = (10e-6, 20e-6, 40e-6)  # m, at which the chord from the mouth is measured
+FAR = 2.0                       # lengths of the crack that its trajectory is followed
+CLEAR = 0.05                    # a larger difference between the grids of a crack is said
+
+
+@dataclass(frozen=True)
+class Side:
+    """One side: its :class:`Start`, the trajectory (m, complex) with the tension (Pa) along it, and the crack's path."""
+
+    begun: Start
+    trajectory: np.ndarray
+    tension: np.ndarray
+    path: Path
+
+
+@dataclass(frozen=True)
+class CrackResult:
+    """summary: numbers in SI; sides: {"entry" or "exit": :class:`Side`}, without those that are nowhere pulled; plane: the
+    stresses below the feature; wanted: what was asked."""
+
+    summary: dict
+    sides: dict
+    plane: Plane
+    wanted: object
+
+
+def run(passage, wanted):
+    """:class:`CrackResult` of an opened store or of (scene, list of snapshots). Raises SceneError, see :func:`plane_of`."""
+    scene, reader = passage if isinstance(passage, tuple) else (passage.scene, passage)
+    reader = Snapshots(reader) if isinstance(reader, list) else reader
+    plane = plane_of(scene, reader, wanted.residual)
+    return follow(plane, scene, wanted)
+
+
+def follow(plane, scene, wanted):
+    """:class:`CrackResult` in a given plane of stresses."""
+    _check_places(plane, wanted)
+    E_star, sides, told = scene.body_a.E / (1 - scene.body_a.nu**2), {}, {}
+    for name in wanted.sides:
+        begun = start(plane, name, wanted.start)
+        told[name] = {"opens": begun is not None}
+        if begun:
+            sides[name] = Side(begun, *trajectory(plane, begun, FAR * wanted.length), grow(plane, begun, wanted, E_star))
+            told[name] |= _summary(plane, sides[name], wanted, E_star)
+        else:
+            told[name]["why"] = "nothing pulls the surface on this side, so a crack would never open"
+    return CrackResult({"sides": told, **_common(scene, wanted)}, sides, plane, wanted)
+
+
+def _check_places(plane, wanted):
+    x = plane.x[0] if wanted.start is None else wanted.start
+    if not plane.x[0] <= x <= plane.x[-1]:
+        raise SceneError(f"start = {x:g} m is outside the stresses that are known; allowed: {plane.x[0]:.3g} to "
+                         f"{plane.x[-1]:.3g} m")
+    tip = x + wanted.first * np.exp(1j * np.radians(wanted.angle))
+    if wanted.start is not None and not plane.holds(tip):
+        raise SceneError(f"first = {wanted.first:g} m from start = {x:g} m leads out of the stresses that are known (to "
+                         f"{plane.x[-1]:.3g} m along x, {plane.depths[-1]:.3g} m deep)")
+
+
+def _common(scene, wanted):
+    return {"srr": scene.operation.srr, "thermal_stress": scene.thermal_stress_wanted, "face_friction": wanted.face_friction,
+            "oil": wanted.oil, "oil_is": "an upper bound: one pressure in the whole crack" if wanted.oil else "none",
+            "threshold": wanted.threshold, "distance_m": wanted.distance, "pit_angles_deg": list(PIT_ANGLES)}
+
+
+def _summary(plane, side, wanted, E_star):
+    begun, path = side.begun, side.path
+    out = {"start_x_m": begun.x, "start_angle_deg": wanted.angle, "sigma1_surface_Pa": begun.sigma1,
+           "moment_x_m": float(plane.centres[begun.moment]), "trajectory": _shape(side.trajectory),
+           "tension_depth_m": _pulled(side.trajectory, side.tension), "path": _shape(path.points),
+           "K": path.steps, "K_I_max": max((step["K_I_max"] for step in path.steps), default=0.0),
+           "stopped": path.why, "why": WHY[path.why]}
+    if path.last:
+        out["length_m"] = path.steps[-1]["length_m"]
+        out |= _doubts(plane, path, wanted, E_star)
+    return out
+
+
+def _shape(points):
+    """Lean and chord angles (degrees to the surface) of a path."""
+    mouth, tip = points[0], points[-1]
+    chords = {f"{depth * 1e6:g}": _chord(points, depth) for depth in DEPTHS}
+    return {"lean": "with rolling" if tip.real < mouth.real else "against rolling", "deepest_m": float(points.imag.max()),
+            "chord_deg_at_um": chords}
+
+
+def _chord(points, depth):
+    """Angle to the surface of the line from the mouth to where the path first reaches the depth; None where it does not."""
+    below = np.flatnonzero(points.imag >= depth)
+    if below.size == 0:
+        return None
+    after = points[below[0]]
+    before = points[max(below[0] - 1, 0)]
+    part = (depth - before.imag) / max(after.imag - before.imag, 1e-30)
+    across = (before + part * (after - before)).real - points[0].real
+    return float(np.degrees(np.arctan2(depth, abs(across))))
+
+
+def _pulled(points, tension):
+    """Depth (m) down to which the trajectory is pulled at its moment."""
+    pressed = np.flatnonzero(tension <= 0)
+    return float(points[pressed[0] if pressed.size else -1].imag)
+
+
+def _doubts(plane, path, wanted, E_star):
+    """What twice as many elements say of K_I, and sentences about what is doubtful."""
+    fine = loaded(plane, path.points, wanted, E_star, 2 * wanted.elements)
+    K, finer = path.last.K, fine.K
+    largest = max(np.abs(finer).max(), 1e-30)
+    error = {"K_I_max": float(abs(K[0].max() - finer[0].max())), "K_II_range": float(abs(np.ptp(K[1]) - np.ptp(finer[1])))}
+    doubts, missed = [], sum(step["unsettled"] for step in path.steps)
+    if max(error.values()) > CLEAR * largest:
+        doubts.append(f"twice as many elements change the stress intensities by {max(error.values()) / largest:.0%}")
+    if missed > CLEAR * len(path.steps) * K.shape[1]:
+        doubts.append(f"{missed} moments did not settle between sticking and sliding")
+    if path.points.size > 2 and path.points[2:].imag.min() < 2 * wanted.distance:
+        doubts.append("the crack is nearer to the surface than twice the distance at which its direction is looked for")
+    return {"error_at_last_length": error, "unsettled": missed, "doubts": doubts}

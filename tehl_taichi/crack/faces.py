@@ -1,0 +1,74 @@
+"""The faces of one crack: what they open and slide under given stresses, and the stress intensities that come with it.
+
+Normal n on the left of the way from the mouth to the tip; opening and slip are those of the left face against the right one.
+Openings are sqrt(distance to the tip) times nodal values (sqrt(m)). At a kink the faces may touch on both sides of it: two
+contacts, whose own friction is left out (a point); the nodal normal there halves the angle.
+"""
+
+import numpy as np
+
+from tehl_taichi.crack.dislocations import stresses
+from tehl_taichi.crack.elements import Elements
+from tehl_taichi.crack.stiffness import stiffness
+
+
+class Faces:
+    """A crack along `path` (complex points, m, from the mouth to the tip) with about `count` elements.
+
+    E_star: E/(1 - nu^2), Pa. compliance: (2 nodes, 2 nodes) nodal values (normal ones, then tangential ones, from the mouth to
+    the tip) by nodal forces; points: (p,) where :meth:`forces` wants the stresses. contact: (contacts + rough, 2 nodes) opening
+    of every contact by nodal values, then slip of the first `rough` ones, which rub; the last of these is the tip.
+    """
+
+    def __init__(self, path, E_star, count):
+        elements = Elements(path, count)
+        self.E_star, self.a, self.nodes = E_star, elements.a, elements.s.size
+        self.points, self.direction, self.jump, self.load = elements.points()
+        normal = _normals(elements.direction)
+        self.turn = _turn(normal)
+        self.contact, self.rough = _contacts(elements.direction, normal)
+        self.compliance = np.linalg.inv(self.turn.T @ stiffness(elements, E_star) @ self.turn)
+
+    def forces(self, stress):
+        """(2 nodes, moments) from stresses (p, moments, 3) xx, zz, xz of the body without the crack."""
+        n = 1j * self.direction[:, None]
+        x = stress[..., 0] * n.real + stress[..., 2] * n.imag
+        z = stress[..., 2] * n.real + stress[..., 1] * n.imag
+        return self.turn.T @ np.concatenate([self.load.T @ x, self.load.T @ z])
+
+    def pushed(self):
+        """(2 nodes,) nodal forces of unit pressure on both faces."""
+        n = 1j * self.direction
+        return self.turn.T @ np.concatenate([self.load.T @ n.real, self.load.T @ n.imag])
+
+    def intensities(self, values):
+        """(2, ...) K_I and K_II, Pa sqrt(m), from nodal values (2 nodes, ...)."""
+        return self.E_star / 8 * np.sqrt(2 * np.pi) * values[[self.nodes - 1, -1]]
+
+    def around(self, points):
+        """(3, points, 2 nodes) xx, zz, xz in the body by nodal values; a jump is an opening that ends, hence the sign."""
+        z, z0 = np.asarray(points)[:, None], self.points
+        by_x, by_z = ([part @ self.jump for part in stresses(z, z0, -unit, self.E_star)] for unit in (1.0, 1j))
+        return np.concatenate([by_x, by_z], axis=2) @ self.turn
+
+
+def _normals(direction):
+    """(nodes,) unit complex numbers."""
+    both = np.concatenate([direction[:1], direction]) + np.concatenate([direction, direction[-1:]])
+    return 1j * both / np.abs(both)
+
+
+def _contacts(direction, normal):
+    """(rows, number of those that rub): see :class:`Faces`."""
+    nodes, eye = normal.size, np.eye(2 * normal.size)
+    kinks = 1 + np.flatnonzero(direction[1:] != direction[:-1])
+    plain = np.setdiff1d(np.arange(nodes), kinks)
+    before, after = ((1j * direction[kinks - side] / normal[kinks])[:, None] for side in (1, 0))
+    both = [n.real * eye[kinks] - n.imag * eye[nodes + kinks] for n in (before, after)]
+    return np.concatenate([eye[plain], *both, eye[nodes + plain]]), plain.size
+
+
+def _turn(normal):
+    """(2 nodes, 2 nodes): x and z of nodal values from their normal and tangential parts."""
+    tangent = -1j * normal
+    return np.block([[np.diag(normal.real), np.diag(tangent.real)], [np.diag(normal.imag), np.diag(tangent.imag)]])

@@ -1,0 +1,123 @@
+"""A crack that grows: piece by piece where the tension around its tip is largest, over all directions and the whole passage.
+
+Largest sigma_theta at a distance ahead of the tip, of the body with the crack in it (Erdogan & Sih 1963, at a finite distance):
+a short crack follows the trajectory, a long one the stress intensities. The largest k_1 of a vanishing kink is not asked: a
+closed crack under pressure has none that would stay open.
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from tehl_taichi.crack.closure import opened
+from tehl_taichi.crack.faces import Faces
+from tehl_taichi.crack.rubbing import rubbed
+
+WIDEST, FAN = np.radians(75.0), 51  # directions looked at: up to there on both sides
+SHALLOW = 1e-9  # m: higher is out of the surface
+WHY = {"length": "it has the length that was asked for", "threshold": "K_I stays below the threshold",
+       "closed": "its tip never opens", "window": "it leaves the part of the body whose stresses are known",
+       "surface": "it comes up to the surface"}
+
+
+@dataclass
+class Loaded:
+    """A crack through the passage: its faces, nodal values and K (2, moments) in Pa sqrt(m), share of its length that touches
+    (moments,), moments that did not settle, and the pressure inside (moments,) Pa."""
+
+    faces: Faces
+    values: np.ndarray
+    K: np.ndarray
+    touching: np.ndarray
+    missed: int
+    pressure: np.ndarray
+
+
+@dataclass
+class Path:
+    """points: (m, complex); steps: one dict per length with K_I_max, K_II_range (Pa sqrt(m)) and when; why it stopped (a key of
+    WHY); first, last: :class:`Loaded` at the first length and at the last one."""
+
+    points: np.ndarray
+    steps: list = field(default_factory=list)
+    why: str = "length"
+    first: Loaded = None
+    last: Loaded = None
+
+
+def loaded(plane, points, wanted, E_star, elements=None):
+    """The :class:`Loaded` crack along `points`, all of them within the plane."""
+    faces = Faces(points, E_star, elements or wanted.elements)
+    pressure = wanted.oil * np.maximum(0.0, -plane.at(points[:1])[0, :, 1])
+    forces = faces.forces(plane.at(faces.points)) + faces.pushed()[:, None] * pressure
+    values, held, missed = _contact(faces, forces, wanted.face_friction)
+    return Loaded(faces, values, faces.intensities(values), (held > 0).mean(axis=0), missed, pressure)
+
+
+def _contact(faces, forces, friction):
+    if friction > 0:
+        return rubbed(faces, forces, friction)
+    return *opened(faces, forces), 0
+
+
+def grow(plane, begun, wanted, E_star):
+    """The :class:`Path` from a :class:`tehl_taichi.crack.trajectory.Start`."""
+    first = wanted.first * np.exp(1j * np.radians(wanted.angle))
+    path = Path(np.array([begun.x, begun.x + first]))
+    while not _stopped(plane, path, wanted, E_star):
+        z, tip = path.points, path.points[-1]
+        da = min(wanted.step, wanted.length - path.steps[-1]["length_m"])
+        path.points = np.append(z, tip + da * _ahead(plane, path.last, tip, tip - z[-2], wanted))
+    return path
+
+
+def _stopped(plane, path, wanted, E_star):
+    """Loads the newest length; True, with the reason, where the crack goes no farther."""
+    tip = path.points[-1]
+    if tip.imag <= SHALLOW or not plane.holds(tip):
+        path.why, path.points = "surface" if tip.imag <= SHALLOW else "window", path.points[:-1]
+        return True
+    path.last = loaded(plane, path.points, wanted, E_star)
+    path.first = path.first or path.last
+    path.steps.append(_told(plane, path.last))
+    step = path.steps[-1]
+    reasons = {"closed": step["K_I_max"] == 0, "threshold": step["K_I_max"] < (wanted.threshold or 0.0),
+               "length": step["length_m"] >= wanted.length * (1 - 1e-9)}
+    path.why = next((why for why, so in reasons.items() if so), path.why)
+    return any(reasons.values())
+
+
+def _told(plane, crack):
+    K_I, K_II = crack.K
+    top = int(np.argmax(K_I))
+    return {"length_m": float(crack.faces.a), "K_I_max": float(K_I[top]), "K_II_there": float(K_II[top]),
+            "K_II_range": float(np.ptp(K_II)), "feature_x_m": float(plane.centres[top]), "unsettled": int(crack.missed)}
+
+
+def _ahead(plane, crack, tip, last, wanted):
+    """Unit direction of the largest tension at wanted.distance from the tip, over the passage."""
+    turns = np.linspace(-WIDEST, WIDEST, FAN)
+    directions = last / abs(last) * np.exp(1j * turns)
+    at = tip + wanted.distance * directions
+    inside = plane.holds(at)
+    tension = np.full((FAN, crack.K.shape[1]), -np.inf)
+    tension[inside] = _hoop(plane, crack, at[inside], directions[inside])
+    n, moment = np.unravel_index(int(np.argmax(tension)), tension.shape)
+    turn = turns[n] + _top(tension[:, moment], n) * (turns[1] - turns[0])
+    return last / abs(last) * np.exp(1j * turn)
+
+
+def _hoop(plane, crack, at, directions):
+    """(points, moments) tension across the directions, of the body with the crack, and the pressure that would follow."""
+    own = np.einsum("cpk,km->pmc", crack.faces.around(at), crack.values)
+    xx, zz, xz = np.moveaxis(plane.at(at) + own, -1, 0)
+    n = 1j * directions[:, None]
+    return xx * n.real**2 + zz * n.imag**2 + 2 * xz * n.real * n.imag + crack.pressure
+
+
+def _top(values, n):
+    """Where between n - 1/2 and n + 1/2 the parabola through the three values around the largest one is highest."""
+    if not 0 < n < values.size - 1 or not np.isfinite(values[n - 1 : n + 2]).all():
+        return 0.0
+    bend = values[n - 1] - 2 * values[n] + values[n + 1]
+    return 0.5 * (values[n - 1] - values[n + 1]) / bend if bend < 0 else 0.0

@@ -1,0 +1,58 @@
+"""Where a crack would go that is everywhere normal to the largest principal stress of the body without it, at one moment.
+
+After Hannes & Alfredsson 2011 (Eng. Fract. Mech. 78, 2848), who followed it in the plane of symmetry below an asperity.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl_taichi.crack.plane import principal
+
+STEP = 5e-3     # of the length
+NOTHING = 1e-3  # of the largest stress: less tension is within its error
+NEAR = 1.5      # half widths of the feature: tension farther from its centre is not its own
+
+
+@dataclass(frozen=True)
+class Start:
+    """x (m) of the largest tension of the surface on one side, that tension (Pa), and the number of its moment."""
+
+    x: float
+    sigma1: float
+    moment: int
+
+
+def start(plane, side, x=None):
+    """The :class:`Start` on the "entry" side (x' < 0, while the feature is before the middle of the contact) or on the "exit"
+    side, or at x (m) in that part of the passage; None where the surface is nowhere pulled then."""
+    sign = -1 if side == "entry" else 1
+    places = plane.x[(sign * plane.x > 0) & (np.abs(plane.x) < NEAR * plane.reach)] if x is None else np.array([x])
+    moments = np.flatnonzero(sign * plane.centres > 0)  # not the unloaded one
+    tension = principal(plane.at(places + 0j, moments))[0]
+    at, moment = np.unravel_index(int(np.argmax(tension)), tension.shape)
+    largest = float(tension[at, moment])
+    return Start(float(places[at]), largest, int(moments[moment])) if largest > NOTHING * plane.scale else None
+
+
+def trajectory(plane, begun, length):
+    """(points (m, complex), largest principal stress (Pa) at them) from the mouth on, by midpoint steps."""
+    da, z, way, points, tension = STEP * length, complex(begun.x, 0.0), 1j, [], []
+    while len(points) * da <= length and plane.holds(z):
+        value, direction = _across(plane, z, begun.moment, way)
+        points.append(z)
+        tension.append(value)
+        middle = z + da / 2 * direction
+        if not plane.holds(middle):
+            break
+        way = _across(plane, middle, begun.moment, direction)[1]
+        z = z + da * way
+    return np.array(points), np.array(tension)
+
+
+def _across(plane, z, moment, way):
+    """(largest principal stress, unit direction normal to its own) at z, the one of both that goes on along `way`."""
+    stress = plane.at(np.array([z]), slice(moment, moment + 1))[0, 0]
+    value, angle = principal(stress)
+    direction = 1j * np.exp(1j * angle)
+    return float(value), direction if (direction * np.conj(way)).real >= 0 else -direction

@@ -1,0 +1,57 @@
+"""Fatigue of stress histories that come from elsewhere: a finite element model, a strain gauge, another contact program."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl_taichi.fatigue import findley
+from tehl_taichi.scene import SceneError
+
+
+@dataclass(frozen=True)
+class Points:
+    """What was found at every point: f (points,) Pa, unit normals (points, 3) of the critical planes (n_z >= 0), and the limit
+    (Pa) at which the index is 1."""
+
+    f: np.ndarray
+    normals: np.ndarray
+    limit: float
+
+    @property
+    def Fi(self):
+        """Index (points,)."""
+        return self.f / self.limit
+
+    @property
+    def theta(self):
+        """Degrees (points,) between the critical plane and the surface (the plane z = 0)."""
+        return findley.angles(self.normals)[0]
+
+    @property
+    def phi(self):
+        """Degrees (points,) from x to the direction in the surface of the critical plane's normal."""
+        return findley.angles(self.normals)[1]
+
+    @property
+    def worst(self):
+        """Number of the point with the largest f."""
+        return int(np.argmax(self.f))
+
+
+def are_stresses(of):
+    """Whether `of` is an array, or what numpy takes for one (not a run, a reader or snapshots)."""
+    if isinstance(of, (list, tuple)):
+        return bool(of) and not hasattr(of[0], "fields")
+    return hasattr(of, "__array__")
+
+
+def search(stresses, constants):
+    """:class:`Points` of stresses (points, times, 6) or (times, 6) Pa; constants: a scene's
+    :class:`tehl_taichi.scene.parts.Fatigue`. Raises SceneError for another shape, or for what is no number."""
+    try:
+        stresses = np.asarray(stresses, float)
+        f, normals = findley.search(stresses[None] if stresses.ndim == 2 else stresses, constants.kappa,
+                                    criterion=constants.criterion)
+    except (ValueError, TypeError) as error:
+        raise SceneError(f"given stresses: {error}") from None
+    return Points(f, normals, constants.endurance)

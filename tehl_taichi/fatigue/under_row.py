@@ -1,0 +1,54 @@
+"""Stress histories under rows of material points at many depths, the surface (0) among them if wanted."""
+
+import numpy as np
+
+from tehl_taichi.fatigue.row_stress import RowStress
+from tehl_taichi.fatigue.thermal_depth import ThermalBelow
+from tehl_taichi.fatigue.thermal_stress import ThermalStress
+
+BLOCK = 32  # entries whose stresses are found at once
+HELD = (0, 1, 3)  # components of the heat at the surface
+
+
+def histories_of(passage, depths, kinds):
+    """A list of (depths, x', moments, 6) Pa, one for each kind: (row, whether its loads go on as an endless line).
+
+    passage: a :class:`tehl_taichi.fatigue.histories.Passage`; depths: m, increasing. The last moment is the unloaded state.
+    """
+    operators = [_operator(passage, depths, *kind) for kind in kinds]
+    out = np.zeros((len(kinds), passage.x.size, len(depths), passage.centres.size + 1, 6))
+    entries = np.unique(passage.entries)
+    for block in np.array_split(entries, -(-entries.size // BLOCK)):
+        loads = np.stack([passage.loads(int(entry)) for entry in block], axis=1)
+        for histories, operator, (row, endless) in zip(out, operators, kinds):
+            for entry, stress in zip(block, operator(*(loads[..., [row]] if endless else loads))):
+                passage.follow(histories, entry, stress.swapaxes(0, 1))
+    if passage.scene.thermal_stress_wanted:
+        _heat(passage, depths, [row for row, _ in kinds], entries, out)
+    return passage.resting(out).swapaxes(1, 2)
+
+
+def _operator(passage, depths, row, endless):
+    y = np.zeros(1) if endless else passage.reader.y - passage.reader.y[0]
+    return RowStress(passage.grid_x, y, passage.scene.body_a.nu, passage.line, passage.mirrored, depths, 0 if endless else row)
+
+
+def _heat(passage, depths, rows, entries, out):
+    """Thermal stress added to the histories `out` (kinds, x', depths, moments, 6)."""
+    thermal, part = passage.heat(ThermalBelow, min(depth for depth in depths if depth)), np.zeros_like(out[0, :, 0])
+    for n, depth in enumerate(depths):
+        found = thermal.rows(depth, rows) if depth else _at_the_surface(passage, rows)
+        for histories, stresses in zip(out, found):
+            for entry in entries:
+                passage.follow(part, entry, stresses[passage.ticks[entry]])
+            histories[:, n] += part
+
+
+def _at_the_surface(passage, rows):
+    """(rows, entries, columns, 6) Pa."""
+    thermal = passage.heat(ThermalStress)
+    out = np.zeros((len(rows), len(thermal.rises), thermal.columns, 6))
+    for entry in range(len(thermal.rises)):
+        held = np.stack(thermal(entry), axis=-1)
+        out[:, entry][..., HELD] = held[:, rows].swapaxes(0, 1)
+    return out

@@ -1,0 +1,78 @@
+"""Film, pressure, temperature and fatigue over the flank: dedendum left of the pitch line, addendum right of it."""
+
+import numpy as np
+
+from tehl_taichi.flank.columns import dig
+from tehl_taichi.io.figures import pyplot
+
+DEDENDUM = "0.93"  # grey
+# panel: label, factor, {legend: keys in the summary}; "p_H" is the Hertz pressure
+PANELS = (("film (µm)", 1e6, {"steady, centre": ("steady", "h_c_m"), "steady, least": ("steady", "h_min_m"),
+                              "least while the feature passes": ("transient", "h_min_m")}),
+          ("largest pressure (GPa)", 1e-9, {"Hertz": "p_H", "steady": ("steady", "p_max_Pa"),
+                                            "while the feature passes": ("transient", "p_max_Pa")}),
+          ("temperature (°C)", 1, {"film, steady": ("steady", "film_max_C"),
+                                   "film, feature passes": ("transient", "film_max_C"),
+                                   "surface a, feature passes": ("transient", "surface_a_max_C")}),
+          ("Fi", 1, {"at the surface": ("fatigue", "Fi_max"), "largest below it": ("fatigue", "below", "Fi_max")}),
+          ("friction coefficient", 1, {"steady": ("steady", "friction_coefficient"),
+                                       "mean while the feature passes": ("transient", "friction_coefficient_mean")}),
+          ("SRR", 1, {"(u_a − u_b)/u_m": "srr"}))
+LAST = 5  # panels: friction and slip fill up what a steady or isothermal flank leaves free
+
+
+def write(flank, path, dpi):
+    """Write the figure of a Flank; returns the path."""
+    plt = pyplot()
+    shown = [panel for panel in PANELS if any(_series(flank, what) for what in panel[2].values())][:LAST]
+    figure, axes = plt.subplots(len(shown), 1, sharex=True, figsize=(8, 2.2 * len(shown) + 0.8), constrained_layout=True)
+    for ax, (label, factor, lines) in zip(np.atleast_1d(axes), shown):
+        _panel(ax, flank, label, factor, lines)
+    _marks(np.atleast_1d(axes), flank)
+    np.atleast_1d(axes)[-1].set_xlabel("x_pl, along the line of action from the pitch point (mm)")
+    np.atleast_1d(axes)[0].set_title(flank.title)
+    figure.savefig(path, dpi=dpi)
+    plt.close(figure)
+    return path
+
+
+def _panel(ax, flank, label, factor, lines):
+    for n, (name, what) in enumerate(lines.items()):
+        if series := _series(flank, what):
+            x, y = np.array(series).T
+            ax.plot(x * 1e3, y * factor, ".-", color=f"C{n}", ms=5, lw=1.3, label=name)
+    ax.set_ylabel(label)
+    ax.grid(alpha=0.25)
+    ax.legend(frameon=False, fontsize=8)
+
+
+def _series(flank, what):
+    """[(x_pl, value)] of the positions that have it; nan between the two sides of a jump, where the line breaks."""
+    out = []
+    for at, p_H, summary in flank.rows:
+        value = p_H if what == "p_H" else at.srr if what == "srr" else dig(summary, *what)
+        if value is None:
+            continue
+        if out and out[-1][0] == at.x_pl:
+            out.append((at.x_pl, np.nan))
+        out.append((at.x_pl, value))
+    return out
+
+
+def _marks(axes, flank):
+    """A to E as far as they are shown, and the dedendum shaded."""
+    low, high = axes[0].get_xlim()
+    points = flank.points or {at.point: at.x_pl for at in flank.positions if at.point}
+    shown = {name: x * 1e3 for name, x in points.items() if low <= x * 1e3 <= high}
+    for ax in axes:
+        if low < 0:
+            ax.axvspan(low, min(0.0, high), color=DEDENDUM, zorder=-2)
+        for x in shown.values():
+            ax.axvline(x, color="0.6", lw=0.8, ls=":", zorder=-1)
+        ax.set_xlim(low, high)
+    small = dict(fontsize=8, color="0.4", xycoords=("data", "axes fraction"), textcoords="offset points")
+    for name, x in shown.items():
+        axes[0].annotate(name, (x, 1), xytext=(3, -11), **small)
+    if low < 0 < high:
+        axes[-1].annotate("dedendum", (0, 0), xytext=(-4, 3), ha="right", **small)
+        axes[-1].annotate("addendum", (0, 0), xytext=(4, 3), **small)

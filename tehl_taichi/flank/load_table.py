@@ -1,0 +1,60 @@
+"""Positions from the table of a loaded tooth contact analysis (CSV)."""
+
+import csv
+import math
+from pathlib import Path
+
+from tehl_taichi.errors import SceneError
+from tehl_taichi.flank.positions import Position
+from tehl_taichi.values.checks import nearest, number
+
+# column: (factor to SI, unit, smallest and largest value allowed)
+NEEDED = {"x_pl_mm": (1e-3, "mm", -1e3, 1e3), "load_N_per_mm": (1e3, "N/mm", 1e-3, 1e7), "R_a_mm": (1e-3, "mm", 1e-3, 1e6),
+          "R_b_mm": (1e-3, "mm", 1e-3, 1e6), "u_a_m_s": (1.0, "m/s", 0.0, 1e3), "u_b_m_s": (1.0, "m/s", 0.0, 1e3)}
+POINT = "point"  # column with A to E, where there is one
+MOST = 1000  # rows
+
+
+def load(path):
+    """Positions of a CSV file with the columns of NEEDED, dedendum of body a (x_pl < 0) first; other columns are kept in
+    `more`, a column `point` names positions. Raises SceneError."""
+    path = Path(path)
+    try:
+        with path.open(newline="", encoding="utf-8-sig") as file:
+            rows = csv.DictReader(file, skipinitialspace=True)
+            found = [_position(path, n, row) for n, row in enumerate(_complete(path, rows), 2)]
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise SceneError(f"cannot read table {path}: {getattr(error, 'strerror', None) or error}") from None
+    if not 1 <= len(found) <= MOST:
+        raise SceneError(f"table {path} has {len(found)} rows; allowed: 1 to {MOST}")
+    return sorted(found, key=lambda p: p.x_pl)
+
+
+def _complete(path, rows):
+    """The rows, once their header is seen to have every needed column."""
+    names = [name.strip() for name in rows.fieldnames or ()]
+    missing = [name for name in NEEDED if name not in names]
+    if missing:
+        told = ", ".join(f"{name}{nearest(name, [n for n in names if n not in NEEDED])}" for name in missing)
+        raise SceneError(f"table {path} has no column {told}; needed: {', '.join(NEEDED)}")
+    rows.fieldnames = names
+    return rows
+
+
+def _position(path, n, row):
+    SI = {name: _value(f"table {path}, row {n}: {name}", row[name], *limits) for name, limits in NEEDED.items()}
+    if SI["u_a_m_s"] + SI["u_b_m_s"] == 0:
+        raise SceneError(f"table {path}, row {n}: u_a_m_s and u_b_m_s are both 0 m/s: without entrainment there is no film")
+    more = {name: value for name, value in row.items() if name and name not in (*NEEDED, POINT)}
+    return Position(x_pl=SI["x_pl_mm"], rho_a=SI["R_a_mm"], rho_b=SI["R_b_mm"], u_a=SI["u_a_m_s"], u_b=SI["u_b_m_s"],
+                    load=SI["load_N_per_mm"], slip=SI["u_a_m_s"] - SI["u_b_m_s"], point=(row.get(POINT) or "").strip(),
+                    more=more)
+
+
+def _value(where, text, factor, unit, low, high):
+    try:
+        value = float(text)
+    except (TypeError, ValueError):
+        raise SceneError(f"{where} = {text!r} is not a number; allowed: {low:g} to {high:g} {unit}") from None
+    number(where, value if math.isfinite(value) else math.nan, unit, low, high)
+    return value * factor

@@ -1,0 +1,48 @@
+"""What the kernels know of each level: one table of numbers, its columns by name in :mod:`tehl_taichi.pressure.fields`."""
+
+import numpy as np
+
+from tehl_taichi.pressure import fields
+from tehl_taichi.pressure.grids import PAD, columns
+
+
+class LevelNumbers:
+    """G[level, column] of `grids`: places and spacings, deflection nearby, film floor, all fixed; and what a solve may
+    change: the balance of the film (:meth:`slow_down`), its slip (:meth:`slip`) and d/dT (:meth:`set_rate`). `conditions`:
+    Record of the scene; floor: of the film, dimensionless.
+    """
+
+    def __init__(self, grids, conditions, floor):
+        self.G, off = np.zeros((len(grids.sizes), fields.NCOLS)), PAD + grids.nx + 1
+        for l in range(len(grids.sizes)):
+            nx, ny, dx, dy = grids.grid(l)
+            own, beside = grids.near_kernel(l)[0]
+            self._set(l, {fields.OFF: off, fields.NX: nx, fields.NY: ny, fields.JN: ny + 1 if grids.line else ny,
+                          fields.DX: dx, fields.DY: dy, fields.K0: own, fields.K1: beside, fields.FLOOR: floor,
+                          fields.LINES: l in grids.lines})
+            off += columns(nx, ny)
+        s = grids.scales
+        self.inv_lambda = 1 / (12 * conditions["eta0"] * s.u_m * s.R**2 / (s.a**3 * s.p_H))
+        self.shear = -conditions["u_s"] * conditions["eta0"] / s.h
+        self.slow_down(1.0)
+        self.slip(1.0)
+        self.set_rate(0.0)
+
+    def _set(self, l, numbers):
+        """Numbers of level l, by {column: number}."""
+        for column, number in numbers.items():
+            self.G[l, column] = number
+
+    def slow_down(self, factor):
+        """Take the speed of the film's balance to be that of the scene over `factor`."""
+        self.G[:, fields.ILAM] = factor * self.inv_lambda
+
+    def slip(self, part):
+        """Take the slip that the shear law acts by to be this part of that of the scene; 0: a Newtonian film."""
+        self.G[:, fields.SHEAR] = part * self.shear
+
+    def set_rate(self, weight, frame=0.0):
+        """Weight of the newest level in d/dT, 1/T units (0: steady), scaled with dx on every level; frame: speed over u_m of
+        the frame in which it is taken."""
+        self.G[:, fields.CT] = weight * self.G[:, fields.DX]
+        self.G[:, fields.FRAME] = frame

@@ -1,0 +1,21 @@
+"""What the name of a steel means for a body of a scene."""
+
+from tehl_taichi.registry import collect
+from tehl_taichi.scene import steels
+
+STEELS = collect(steels, steels.Steel)
+
+
+def completed(values):
+    """The table of a body with the numbers of its steel where it names one and does not give them itself."""
+    name = values.get("material") if isinstance(values, dict) else None
+    return {**STEELS[name].numbers, **values} if isinstance(name, str) and name in STEELS else values
+
+
+def doubts(scene):
+    """Sentences about bodies that have another number than the steel that they name."""
+    for which, body in (("a", scene.body_a), ("b", scene.body_b)):
+        numbers = STEELS[body.material].numbers if body.material else {}
+        if other := [key for key, value in numbers.items() if getattr(body, key) != value]:
+            yield (f"bodies.{which}.material = {body.material} with other numbers than that steel ({', '.join(other)}): leave "
+                   "the name out, or the numbers")

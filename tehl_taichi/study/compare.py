@@ -1,0 +1,119 @@
+"""Runs side by side: what differs of their scenes, their summaries, one figure of all."""
+
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+
+from tehl_taichi.errors import SceneError, StoreError
+from tehl_taichi.study.stored_run import Run
+from tehl_taichi.values.plain import plain
+
+MOST = 8  # stores: more lines than that nobody tells apart
+OWN = ("store", "version", "scene", "left_out", "warnings", "unknown")  # of a summary: words, or what every run has of its own
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """stores: the :class:`tehl_taichi.io.store.Store` of each run, in the order they were given."""
+
+    stores: tuple
+
+    @property
+    def names(self):
+        """Folder names, with as much of the path before as tells them apart."""
+        paths = [Path(store.path).absolute() for store in self.stores]
+        for parts in range(1, 20):
+            names = ["/".join(path.parts[-parts:]) for path in paths]
+            if len(set(names)) == len(names):
+                break
+        return [name.removesuffix(".zarr") for name in names]
+
+    @property
+    def differs(self):
+        """{dotted key of the scene: its value in every run} of the keys that are not the same in all; None where a scene does
+        not have it."""
+        scenes = [flat(store.scene.to_dict()) for store in self.stores]
+        return _side_by_side(scenes, lambda key, values: len(set(map(repr, values))) > 1 and not _of_no_matter(key))
+
+    @property
+    def summaries(self):
+        """{dotted name, as in the JSON summary: its number in every run}; None where a run does not have it (yet)."""
+        return _side_by_side([flat(store.summary) for store in self.stores], lambda key, values: _told(key, values))
+
+    def labels(self):
+        """A name for each run that says what is special about it: up to two values that differ, or its folder."""
+        differs = list(self.differs.items())
+        if not 1 <= len(differs) <= 2:
+            return self.names
+        return [", ".join(f"{key.rpartition('.')[2]} = {_short(values[n])}" for key, values in differs)
+                for n in range(len(self.stores))]
+
+    def to_dict(self):
+        """The JSON object of `tehl compare --json`."""
+        return {"stores": [str(store.path) for store in self.stores], "finished": [store.finished for store in self.stores],
+                "differs": self.differs, "summaries": self.summaries}
+
+    def plot(self, path, at=0.0, dpi=160):
+        """The figure, with the feature at `at` half-widths where runs have one; returns its path. Raises StoreError."""
+        from tehl_taichi.study import compare_figure
+
+        return compare_figure.write(self, Path(path), at, dpi)
+
+
+def compare(*paths: Run | str | PathLike) -> Comparison:
+    """A :class:`Comparison` of two runs or more, by their stores or as :class:`tehl_taichi.study.stored_run.Run`.
+
+    Raises SceneError for fewer or too many, StoreError where a path is no store.
+
+    >>> import tehl_taichi as tehl
+    >>> line = tehl.scene("smooth-line").replace(**{"grid.nx": 32, "thermal.on": False})
+    >>> found = tehl.compare(*(tehl.run(line.replace(load=load), f"{n}.zarr") for n, load in enumerate((1e6, 1.1e6))))
+    >>> found.differs, len(found.summaries["steady.h_c_m"])
+    ({'contact.load': [1000000.0, 1100000.0]}, 2)
+    """
+    from tehl_taichi.io.store import Store
+
+    if not 2 <= len(paths) <= MOST:
+        raise SceneError(f"{len(paths)} stores to compare; allowed: 2 to {MOST}")
+    stores = tuple(Store.open(getattr(path, "path", path)) for path in paths)
+    if len({store.path.resolve() for store in stores}) < len(stores):
+        raise StoreError(f"{_twice([store.path for store in stores])} is given twice; a run is compared with others")
+    return Comparison(stores)
+
+
+def _twice(paths):
+    return next(path for n, path in enumerate(paths) if path.resolve() in [other.resolve() for other in paths[:n]])
+
+
+def flat(nested, above=""):
+    """{dotted key: value} of tables in tables; the tables of a list are numbered, other lists are values."""
+    out = {}
+    for key, value in nested.items():
+        if isinstance(value, list) and value and isinstance(value[0], dict):
+            value = {str(n): item for n, item in enumerate(value)}
+        if isinstance(value, dict):
+            out |= flat(value, f"{above}{key}.")
+        else:
+            out[above + key] = plain(value)
+    return out
+
+
+def _side_by_side(rows, wanted):
+    keys = dict.fromkeys(key for row in rows for key in row)
+    found = {key: [row.get(key) for row in rows] for key in keys}
+    return {key: values for key, values in found.items() if wanted(key, values)}
+
+
+def _of_no_matter(key):
+    """Names, and files whose heights are told by their sum."""
+    return key == "name" or key.endswith(".file")
+
+
+def _told(key, values):
+    parts = key.split(".")
+    numbers = [v for v in values if isinstance(v, (int, float)) and not isinstance(v, bool)]
+    return bool(numbers) and not set(parts) & set(OWN) and " " not in key
+
+
+def _short(value):
+    return f"{value:g}" if isinstance(value, float) else str(value)

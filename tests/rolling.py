@@ -1,0 +1,29 @@
+"""A passage made of formulas, as a reader of stores."""
+
+import numpy as np
+
+from tehl_taichi.scene.scales import Scales
+
+
+class Rolling:
+    """Reader of a Hertz line, shear 0.05 p along x, over which a bump of pressure and of heat passes."""
+
+    def __init__(self, scene, cells=12, rows=9):
+        self.s = Scales.of(scene)
+        self.x, self.y = (np.linspace(*ends) * self.s.a for ends in ((-2, 2, 4 * cells + 1), (0, 1, rows)))
+        self.centres = (np.arange(3 * cells) / cells - 1.5) * self.s.a
+        self.time = self.centres / 8.0
+
+    def __len__(self):
+        return self.centres.size
+
+    def feature_x(self, n):
+        return self.centres[n]
+
+    def fields(self, n, names):
+        x, y = self.x[:, None] / self.s.a, self.y[None, :] / self.s.a
+        hertz = np.sqrt(np.maximum(1 - x**2, 0)) + 0 * y
+        bump = np.exp(-((x - self.centres[n] / self.s.a) ** 2 + y**2) / 0.04) if n else 0 * hertz
+        p = self.s.p_H * hertz * (1 + bump)
+        found = {"pressure": p, "traction_x_a": 0.05 * p, "traction_y_a": 0 * p, "temperature_a": 90 + 40 * hertz * (1 + bump)}
+        return {name: found[name] for name in names}

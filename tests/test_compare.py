@@ -1,0 +1,94 @@
+"""Runs side by side: what differs, which numbers, one figure."""
+
+import json
+
+import pytest
+from small_stores import SMALL, store
+from tehl_cli.main import app
+from typer.testing import CliRunner
+
+import tehl_taichi as tehl
+from tehl_taichi.study import compare_figure
+from tehl_taichi.study.compare import flat
+
+OTHER = SMALL.replace(srr=0.12, height=1e-6)
+
+
+@pytest.fixture
+def two(tmp_path):
+    """Two stores that are not finished, of scenes that differ in two values, and are named alike in two folders."""
+    for folder, description in (("a", SMALL), ("b", OTHER)):
+        (tmp_path / folder).mkdir()
+        store(tmp_path / folder / "run.zarr", 4, description)
+    return tmp_path / "a" / "run.zarr", tmp_path / "b" / "run.zarr"
+
+
+@pytest.fixture(scope="module")
+def runs(taichi_cpu, tmp_path_factory):
+    """Two finished short passages: the same asperity at two slips."""
+    folder = tmp_path_factory.mktemp("runs")
+    base = tehl.scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16, "thermal.on": False, "numerics.estimate_error": False,
+                                         "time.x_start": -1.4, "time.steps": 8})
+    return [tehl.run(base.replace(srr=srr), folder / f"{name}.zarr") for name, srr in (("slow", -0.12), ("fast", 0.12))]
+
+
+def test_only_what_differs_of_the_scenes_is_told(two):
+    found = tehl.compare(*two)
+    assert found.differs == {"operation.srr": [-0.12, 0.12], "feature.0.height": [1.5e-6, 1e-6]}
+    assert found.names == ["a/run", "b/run"]
+    assert found.labels() == ["srr = -0.12, height = 1.5e-06", "srr = 0.12, height = 1e-06"]
+    assert found.summaries == {}  # neither is finished
+
+
+def test_a_third_difference_leaves_the_names_as_labels(two, tmp_path):
+    store(tmp_path / "third.zarr", 3, SMALL.replace(load=1.2e6))
+    assert tehl.compare(*two, tmp_path / "third.zarr").labels() == ["a/run", "b/run", tmp_path.name + "/third"]
+
+
+def test_summaries_stand_side_by_side(runs):
+    found = tehl.compare(*runs)
+    summaries = [run.summary for run in runs]
+    for part, key in (("steady", "h_c_m"), ("transient", "p_max_Pa"), ("fatigue", "Fi_max")):
+        assert found.summaries[f"{part}.{key}"] == [summary[part][key] for summary in summaries]
+    assert not any(key.startswith(("store", "warnings", "left_out")) for key in found.summaries)
+
+
+def test_a_run_that_is_not_finished_has_no_numbers(runs, tmp_path):
+    store(tmp_path / "broken.zarr", 3)
+    found = tehl.compare(runs[0], tmp_path / "broken.zarr")
+    assert found.summaries["steady.h_c_m"] == [runs[0].summary["steady"]["h_c_m"], None]
+    assert found.to_dict()["finished"] == [True, False]
+
+
+def test_the_figure_shows_all_runs_at_one_position(runs, tmp_path, monkeypatch):
+    shown = []
+    monkeypatch.setattr(compare_figure, "_legend", lambda figure, curves: shown.append((figure, curves)))
+    path = tehl.compare(*runs).plot(tmp_path / "both.png", at=-1.15)
+    (figure, curves), = shown
+    assert path.stat().st_size > 20_000 and len(figure.axes) == 6
+    for curve, run in zip(curves, runs):
+        at = run.store.scalar("feature_x")[curve.entry] / curve.a
+        assert abs(at + 1.15) < 0.5 * 4 / 64 + 1e-9  # half a step: nothing stored is nearer
+    for line, curve in zip(figure.axes[0].lines, curves):
+        assert line.get_ydata().max() == pytest.approx(curve.store.fields(curve.entry)["pressure"][:, 0].max() / 1e9)
+    assert [len(ax.lines) for ax in figure.axes] == [2, 2, 2, 2, 0, 4]  # nothing thermal; Fi with its worst points
+
+
+def test_the_command_prints_and_writes(two, tmp_path):
+    done = CliRunner().invoke(app, ["compare", *map(str, two), "--out", str(tmp_path / "c.png")])
+    assert done.exit_code == 0 and "operation.srr" in done.stdout and (tmp_path / "c.png").exists()
+    told = json.loads(CliRunner().invoke(app, ["compare", *map(str, two), "--json"]).stdout)
+    assert told["differs"]["operation.srr"] == [-0.12, 0.12] and told["figure"] == str(two[0].parent / "compare.png")
+
+
+@pytest.mark.parametrize("pick, why", [((0,), "1 stores to compare; allowed: 2 to 8"), ((0, 1, 0), "run.zarr is given twice")])
+def test_nothing_to_compare_is_refused(two, pick, why):
+    with pytest.raises(tehl.Error, match=why):
+        tehl.compare(*(two[n] for n in pick))
+    with pytest.raises(tehl.Error, match="there is no such folder"):
+        tehl.compare(two[0], two[0].parent / "none.zarr")
+
+
+def test_tables_in_tables_become_dotted_keys():
+    nested = {"a": {"b": 1, "c": [1, 2]}, "f": [{"x": 1}, {"x": 2}], "e": []}
+    assert flat(nested) == {"a.b": 1, "a.c": (1, 2), "f.0.x": 1, "f.1.x": 2, "e": ()}
