@@ -15,6 +15,8 @@ from tehl_taichi.pressure.decisions import SCALARS
 from tehl_taichi.pressure.grids import coarsen, columns, solved_by
 from tehl_taichi.pressure.program import DECISION, FIRST_JOB, JOBS, Program
 
+SMALLEST = 10_000  # entries of the fields X and Y: all grids up to 256x64 share one compiled kernel
+
 Numbers = ti.types.ndarray(dtype=ti.i32, ndim=2)
 
 
@@ -80,7 +82,7 @@ class Krylov:
     def _allocate(self, layout):
         v, largest = self.levels, self._largest()
         self.layout = layout
-        size = [max(getattr(q, name) for q in (layout, largest)) for name in "xyt"]
+        size = [max(layout.x, largest.x, SMALLEST), max(layout.y, largest.y, SMALLEST), max(layout.t, largest.t)]
         V = tables.lease(self, phases.BASIS + 2 * self.most + 1 + phases.AT_ONCE, lanes.W,
                          max(columns(v.nx, v.ny), columns(v.scene.grid.nx, v.scene.rows)), precision=v.precision, clean=False)
         kinds = zip((lanes.W, convolution.GROUP, 2), size)
