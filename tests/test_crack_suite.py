@@ -9,8 +9,8 @@ from tehl_taichi.crack import growth
 from tehl_taichi.crack.answer import follow
 from tehl_taichi.crack.plane import plane_of
 from tehl_taichi.crack.wanted import Wanted
-from tehl_taichi.io.recorder import record
 from tehl_taichi.scene import scene
+from tehl_taichi.study.single import completed
 
 
 class Stored(Rolling):
@@ -48,8 +48,8 @@ ROWS = {  # side: tension (Pa) and its tolerance, place (m), moment (a), lean, c
 def stored(request, taichi_cpu, tmp_path_factory):
     """(slip, store) of the reference scene without thermal stress, as the rows are."""
     srr, nx = request.param
-    description = scene("gear").replace(srr=srr, **{"grid.nx": nx, "grid.ny": nx // 4, "fatigue.thermal_stress": False})
-    return srr, record(description, tmp_path_factory.mktemp("crack") / "gear.zarr")
+    grid = {"grid.nx": nx, "grid.ny": nx // 4, "fatigue.thermal_stress": False, **cracks.BARE}
+    return srr, completed(scene("gear").replace(srr=srr, **grid), tmp_path_factory.mktemp("crack") / "gear.zarr").store
 
 
 @pytest.mark.slow
