@@ -21,7 +21,7 @@ class Stored(Rolling):
 
 def test_rows_have_the_errors_of_two_grids(taichi_cpu):
     bare = scene("gear").replace(**{"thermal.on": False})
-    entry, exit_ = cracks.rows_of("rolling", [Stored(bare, cells) for cells in (8, 12)], {"length": 20e-6})
+    entry, exit_ = cracks.rows_of("rolling", [Stored(bare, cells) for cells in (8, 12)], {"": {"length": 20e-6}})
     value, error = entry.numbers["sigma1"]
     found = [follow(plane_of(bare, Stored(bare, cells)), bare, Wanted(length=20e-6, side="entry")).sides["entry"].begun.sigma1
              for cells in (8, 12)]
@@ -29,7 +29,8 @@ def test_rows_have_the_errors_of_two_grids(taichi_cpu):
     assert exit_.numbers == {} and "nothing pulls" in exit_.why
     text = cracks.page([entry, exit_])
     assert f"{value / 1e6:.0f} ± {error / 1e6:.0f}" in text and len({line.count("|") for line in text.splitlines()}) == 1
-    alone = cracks.rows_of("rolling", [Stored(bare, 8)], {"length": 20e-6})[0]
+    alone = cracks.rows_of("rolling", [Stored(bare, 8)], {"short": {"length": 20e-6}})[0]
+    assert alone.case == "rolling, short"
     assert np.isnan(alone.numbers["K_first"][1]) and "(one grid)" in cracks.page([alone])
 
 
