@@ -26,6 +26,12 @@ def crack(of: Any, scene: "Scene | None" = None, *, thermal_stress: bool | None 
     :class:`tehl_taichi.crack.wanted.Wanted` (side, start, angle, length, threshold, residual, face_friction, oil ...).
     Raises SceneError where nothing passes, y = 0 is no plane of symmetry, or a value is out of range. Sources: Hannes &
     Alfredsson 2011 (trajectories), Hills, Kelly, Dai & Korsunsky 1996 (cracks as dislocations), Erdogan & Sih 1963 (growth).
+
+    >>> import tehl_taichi as tehl
+    >>> tehl.crack([], tehl.scene("gear"), side="left")
+    Traceback (most recent call last):
+    ...
+    tehl_taichi.errors.SceneError: side = 'left' is not known; allowed: entry, exit, both (did you mean 'exit'?)
     """
     from tehl_taichi.crack.answer import run
     from tehl_taichi.crack.wanted import Wanted
