@@ -37,14 +37,12 @@ def crack(
 
     Example: `tehl crack runs/gear-1.zarr --residual -100e6 --figures runs/crack`
     """
-    from tehl_cli.runs import _check_threads
-
     import tehl_taichi as tehl
     from tehl_taichi.crack.residual import read
     from tehl_taichi.engine import runtime
     from tehl_taichi.io.store import Store
 
-    _check_threads(threads)
+    runtime.check(threads=threads)
     saved = Store.open(store)
     if thermal_stress is not None:
         saved.scene = saved.scene.replace(**{"fatigue.thermal_stress": thermal_stress})

@@ -32,6 +32,16 @@ def test_kernels_find_what_a_scan_of_planes_finds(taichi_cpu, name):
         assert f[0] == pytest.approx(exact(S, KAPPA), rel=1e-6)  # of the plane of the largest shear: its angle, 1e-7
 
 
+def test_dang_van_adds_shear_and_mean_stress_of_one_moment(taichi_cpu):
+    """Shear S sin t on a mean stress p cos t: sqrt(S^2 + (kappa p)^2) at the worst moment; on Matake's plane S + kappa p."""
+    p, both = 150.0, history(3)
+    both[0, :, 3] = S * np.sin(TURN)
+    both[0, :, :3] = p * np.cos(TURN)[:, None]
+    found = {name: findley.search(both, KAPPA, criterion=name)[0][0] for name in ("dang-van", "matake")}
+    assert found["dang-van"] == pytest.approx(np.hypot(S, KAPPA * p), rel=1e-3)  # the moments are 4 degrees apart
+    assert found["matake"] == pytest.approx(S + KAPPA * p, rel=1e-3)
+
+
 @pytest.mark.parametrize("name", CRITERIA)
 def test_fatigue_limits_give_constants_that_give_the_limits(name):
     bending, torsion = 500e6, 320e6

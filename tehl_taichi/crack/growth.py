@@ -56,8 +56,8 @@ def loaded(plane, points, wanted, E_star, elements=None):
 
 def _contact(faces, forces, friction):
     if friction > 0:
-        return rubbed(faces.compliance, forces, friction)
-    return *opened(faces.compliance, forces), 0
+        return rubbed(faces, forces, friction)
+    return *opened(faces, forces), 0
 
 
 def grow(plane, begun, wanted, E_star):

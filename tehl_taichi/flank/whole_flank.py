@@ -3,8 +3,11 @@
 import dataclasses
 import json
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from os import PathLike
 from pathlib import Path
+from typing import Any
 
 from tehl_taichi.flank import columns
 from tehl_taichi.flank.contacts import scene_at
@@ -12,6 +15,7 @@ from tehl_taichi.flank.described import described
 from tehl_taichi.flank.mesh import Mesh
 from tehl_taichi.flank.outcomes import summaries
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.study.progress import Progress
 
 ASSUMPTION = ("each position is a contact of its own with constant load and speeds while the feature passes: a passage takes "
               "some 0.1 ms, a mesh some ms")
@@ -109,8 +113,9 @@ class Flank:
         return f"<tehl.Flank {self.name}: {len(self.positions)} positions, {len(self.failed)} failed, {self.folder}>"
 
 
-def flank(gear="fzg-c", *, torque=None, speed=None, on=None, positions=None, at=(), scene=None, changes=None, steady=False,
-          folder=None, threads=None, progress=None):
+def flank(gear: Any = "fzg-c", *, torque: float | None = None, speed: float | None = None, on: str | None = None,
+          positions: int | None = None, at: Sequence = (), scene: Any = None, changes: dict | None = None, steady: bool = False,
+          folder: str | PathLike | None = None, threads: int | None = None, progress: Progress | None = None) -> "Flank":
     """Film, pressure, temperatures and fatigue along a gear flank, a run per position: a :class:`Flank`.
 
     gear: "fzg-c", "fzg-a", a TOML or CSV file, or a GearPair; torque (N m) and speed (1/min) of the pinion, instead of its

@@ -1,9 +1,11 @@
 """Runs side by side: what differs of their scenes, their summaries, one figure of all."""
 
 from dataclasses import dataclass
+from os import PathLike
 from pathlib import Path
 
 from tehl_taichi.errors import SceneError, StoreError
+from tehl_taichi.study.stored_run import Run
 from tehl_taichi.values.plain import plain
 
 MOST = 8  # stores: more lines than that nobody tells apart
@@ -58,10 +60,16 @@ class Comparison:
         return compare_figure.write(self, Path(path), at, dpi)
 
 
-def compare(*paths):
+def compare(*paths: Run | str | PathLike) -> Comparison:
     """A :class:`Comparison` of two runs or more, by their stores or as :class:`tehl_taichi.study.stored_run.Run`.
 
     Raises SceneError for fewer or too many, StoreError where a path is no store.
+
+    >>> import tehl_taichi as tehl
+    >>> line = tehl.scene("smooth-line").replace(**{"grid.nx": 32, "thermal.on": False})
+    >>> found = tehl.compare(*(tehl.run(line.replace(load=load), f"{n}.zarr") for n, load in enumerate((1e6, 1.1e6))))
+    >>> found.differs, len(found.summaries["steady.h_c_m"])
+    ({'contact.load': [1000000.0, 1100000.0]}, 2)
     """
     from tehl_taichi.io.store import Store
 
