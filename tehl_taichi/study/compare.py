@@ -60,16 +60,21 @@ class Comparison:
         return compare_figure.write(self, Path(path), at, dpi)
 
 
-def compare(*paths: Run | str | PathLike) -> Comparison:
-    """A :class:`Comparison` of two runs or more, by their stores or as :class:`tehl_taichi.study.stored_run.Run`.
+def compare(*paths: str | PathLike | Run) -> Comparison:
+    """Two runs or more side by side: what differs of their scenes, their summaries, one figure.
 
-    Raises SceneError for fewer or too many, StoreError where a path is no store.
+    paths: their stores, or the runs themselves, finished or not. Raises SceneError for fewer or too many, StoreError where a
+    path is no store.
 
     >>> import tehl_taichi as tehl
-    >>> line = tehl.scene("smooth-line").replace(**{"grid.nx": 32, "thermal.on": False})
-    >>> found = tehl.compare(*(tehl.run(line.replace(load=load), f"{n}.zarr") for n, load in enumerate((1e6, 1.1e6))))
-    >>> found.differs, len(found.summaries["steady.h_c_m"])
-    ({'contact.load': [1000000.0, 1100000.0]}, 2)
+    >>> scene = tehl.scene("smooth-line").replace(**{"grid.nx": 64, "thermal.on": False})
+    >>> slow, fast = (tehl.run(scene.replace(speed=u), f"{u:g}.zarr") for u in (5, 10))
+    >>> found = tehl.compare(slow, fast)
+    >>> found.differs
+    {'operation.u_m': [5.0, 10.0]}
+    >>> thin, thick = found.summaries["steady.h_c_m"]
+    >>> thin < thick
+    True
     """
     from tehl_taichi.io.store import Store
 
