@@ -42,10 +42,10 @@ class Comparison:
 
     def labels(self):
         """A name for each run that says what is special about it: up to two values that differ, or its folder."""
-        differs = list(self.differs.items())
+        differs = [(key, values) for key, values in self.differs.items() if not _follows(key, self.differs)]
         if not 1 <= len(differs) <= 2:
             return self.names
-        return [", ".join(f"{key.rpartition('.')[2]} = {_short(values[n])}" for key, values in differs)
+        return [", ".join(f"{key.removesuffix('.name').rpartition('.')[2]} = {_short(values[n])}" for key, values in differs)
                 for n in range(len(self.stores))]
 
     def to_dict(self):
@@ -109,6 +109,12 @@ def _side_by_side(rows, wanted):
     return {key: values for key, values in found.items() if wanted(key, values)}
 
 
+def _follows(key, differs):
+    """Numbers of oils and steels that their names bring."""
+    named = f"{key.rpartition('.')[0]}.name", f"{key.rpartition('.')[0]}.material"
+    return key not in named and any(name in differs for name in named)
+
+
 def _of_no_matter(key):
     """Names, and files whose heights are told by their sum."""
     return key == "name" or key.endswith(".file")
@@ -121,4 +127,4 @@ def _told(key, values):
 
 
 def _short(value):
-    return f"{value:g}" if isinstance(value, float) else str(value)
+    return f"{value:g}" if isinstance(value, float) else str(value) or "none"
