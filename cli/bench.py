@@ -15,6 +15,7 @@ def register(app):
     bench = typer.Typer(no_args_is_help=True, help="Benchmark suites; each prints a table, none asserts.")
     bench.command()(stability)
     bench.command()(conclusions)
+    bench.command()(cracks)
     bench.command()(accuracy)
     bench.command()(speed)
     bench.command()(scaling)
@@ -90,6 +91,25 @@ def conclusions(
             "; ".join(key): [value, None if math.isnan(r.errors[key]) else r.errors[key]] for key, value in r.values.items()}}
         for r in rows], indent=1))
     say(f"wrote {out}/conclusions.md and conclusions.json")
+
+
+def cracks(
+    out: Path = typer.Option(Path("runs/cracks"), help="folder of the stores (used again) and of the results"),
+    quick: bool = typer.Option(False, "--quick", help="the reference asperity on coarse grids"),
+    threads: Optional[int] = THREADS,
+):
+    """Crack paths from the loads of a passage, with errors. Example: `tehl bench cracks --quick`"""
+    from tehl_cli.listing import list_table
+    from tehl_taichi.profiles import cracks as suite
+
+    from tehl_taichi.engine import runtime
+
+    runtime.start(threads=threads)
+    rows = suite.run(out, quick, say)
+    list_table("crack paths", suite.COLUMNS, [(row.case, *suite.cells(row)) for row in rows])
+    (out / "cracks.md").write_text(suite.page(rows))
+    (out / "cracks.json").write_text(json.dumps([vars(row) for row in rows], indent=1))
+    say(f"wrote {out}/cracks.md and cracks.json")
 
 
 def accuracy(

@@ -11,7 +11,7 @@ import tehl_taichi as tehl
 from tehl_taichi.study import compare_figure
 from tehl_taichi.study.compare import flat
 
-OTHER = SMALL.replace(srr=0.12, height=1e-6)
+OTHER = SMALL.replace(name="other", srr=0.12, height=1e-6)
 
 
 @pytest.fixture

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from tehl_taichi.crack import closure, rubbing
+from tehl_taichi.crack import bounds, closure, rubbing
+from tehl_taichi.crack.compliance import Faces
 from tehl_taichi.crack.dislocations import stresses
 from tehl_taichi.crack.elements import Elements
-from tehl_taichi.crack.faces import Faces
 from tehl_taichi.crack.stiffness import stiffness
 
 UNIT = np.sqrt(np.pi)  # K of a crack of length 1 under stress 1 is F times this
@@ -120,7 +120,7 @@ def test_the_energy_is_symmetric_and_positive():
 def test_closed_faces_rub(shear, expected):
     """Pressed with 1: F_II = 1.1215 (tau - mu sigma) where they slide, nothing where they stick."""
     faces = Faces(slanted(90), 1.0, 40)
-    values, held, missed = rubbing.rubbed(faces.compliance, forces(faces, xx=-1.0, xz=shear), 0.3)
+    values, held, missed = rubbing.rubbed(faces, forces(faces, xx=-1.0, xz=shear), 0.3)
     K_I, K_II = np.abs(faces.intensities(values)[:, 0]) / UNIT
     assert K_I == 0 and K_II == pytest.approx(expected, rel=3e-3, abs=1e-9) and missed == 0 and (held > 0).all()
 
@@ -129,10 +129,10 @@ def test_slip_that_was_stays_when_the_shear_goes():
     """Sheared with 1 and let go under a pressure whose friction holds it: the slip is locked; without friction it goes back."""
     faces = Faces(slanted(90), 1.0, 12)
     steps = np.concatenate([forces(faces, xx=-1.0, xz=shear) for shear in (0.0, 1.0, 0.8)], axis=1)
-    values, _, _ = rubbing.rubbed(faces.compliance, steps, 0.3)
+    values, _, _ = rubbing.rubbed(faces, steps, 0.3)
     K_II = faces.intensities(values)[1]
     assert K_II[2] == pytest.approx(K_II[1], rel=1e-9)
-    assert faces.intensities(closure.opened(faces.compliance, steps)[0])[1][2] == pytest.approx(0.8 / 0.7 * K_II[1], rel=1e-6)
+    assert faces.intensities(closure.opened(faces, steps)[0])[1][2] == pytest.approx(0.8 / 0.7 * K_II[1], rel=1e-6)
 
 
 @pytest.mark.parametrize("degrees", [90, 45, 15])
@@ -145,23 +145,60 @@ def test_faces_touch_where_they_would_pass_through_each_other(degrees):
         deep = faces.points.imag / faces.points.imag.max()
         load = np.concatenate([forces(faces, xx=a + b * deep, xz=0.2) for a, b in
                                ((1, 0), (-1, 3), (-1, 1.5), (1, -3), (0.5, -3), (-1, 0), (0.1, -1))], axis=1)
-        values, held = closure.opened(faces.compliance, load)
+        values, held = closure.opened(faces, load)
         opening = values[: faces.nodes]
         assert opening.min() > -1e-9 * np.abs(values).max() and held.min() >= 0
-        assert (held * opening).max() == 0 and (held > 0).any() and (opening > 0).any()
+        assert np.abs(held * opening).max() < 1e-9 * held.max() * opening.max() and (held > 0).any() and opening.max() > 0
         found.append(faces.intensities(values))
         assert (found[-1][0] >= 0).all() and found[-1][0][5] == 0
     np.testing.assert_allclose(*found, atol=0.01 * np.abs(found[1]).max())
 
 
-def test_contact_is_found_from_any_first_guess():
+@pytest.mark.parametrize("mu,error", [(0.0, 0.01), (0.3, 0.04)])
+def test_closed_kinks_need_few_elements(mu, error):
+    """A zigzag pressed and sheared to and fro, twelve elements against forty-eight, of the largest K_II: 1 %, with friction
+    (none at the kinks themselves) 4 %; faces do not pass through each other on either side of a kink."""
+    found = []
+    for count in (12, 48):
+        faces = Faces(np.cumsum([0, 1j, 0.5 * np.exp(2.3j), 0.5j]), 1.0, count)
+        depth = faces.points.imag
+        load = np.concatenate([forces(faces, xx=a + b * depth, zz=-0.5, xz=c) for a, b, c in
+                               ((-1, 0, 1), (-1, 0, -1), (0.3, -1, 0.5), (-0.5, 0.8, 1), (-2, 1, -0.6))], axis=1)
+        values, held = closure.opened(faces, load) if mu == 0 else rubbing.rubbed(faces, load, mu)[:2]
+        opening = (faces.contact @ values)[: len(held)]
+        assert len(held) == faces.nodes + 2 and opening.min() > -1e-9 * np.abs(values).max()
+        assert held.min() >= 0 and np.abs(held * opening).max() < 1e-9 * held.max() * np.abs(values).max()
+        found.append(faces.intensities(values))
+    np.testing.assert_allclose(*found, atol=error * np.abs(found[1][1]).max())
+
+
+def test_bounded_forces_are_found_from_any_first_guess():
+    """Within their bounds, with displacements that press against them; hard matrices, thirty times."""
     rng = np.random.default_rng(5)
     for _ in range(30):
         M = rng.standard_normal((18, 18))
         M, gap = M @ M.T + 0.02 * np.eye(18), rng.standard_normal(18)
-        q, active = closure.complement(M, gap, rng.random(18) < 0.5)
-        assert q.min() >= 0 and (gap + M @ q).min() > -1e-8 and abs(q @ (gap + M @ q)) < 1e-8
-        np.testing.assert_array_equal(closure.complement(M, gap, ~active)[1], active)
+        low, high = -rng.random(18), np.where(rng.random(18) < 0.5, np.inf, rng.random(18))
+        found = [bounds.bounded(M, gap, low, high, np.full(18, at)) for at in (bounds.LOW, bounds.FREE)]
+        for r, at in found:
+            w = gap + M @ r
+            assert (r >= low).all() and (r <= high).all()
+            np.testing.assert_allclose(w[at == bounds.FREE], 0, atol=1e-9)
+            assert (w[r == low] > -1e-9).all() and (w[r == high] < 1e-9).all()
+        np.testing.assert_allclose(found[0][0], found[1][0], atol=1e-9)
+
+
+def test_friction_settles_where_exchanging_states_goes_round(monkeypatch):
+    """All moments by bounds alone give what exchanged states give; a crack at 45 degrees pressed, sheared to and fro."""
+    faces, turns = Faces(slanted(45), 1.0, 24), np.linspace(0, 4 * np.pi, 40)
+    depth = faces.points.imag
+    load = np.concatenate([forces(faces, xx=-1 - np.cos(3 * turn) * depth, xz=np.sin(turn)) for turn in turns], axis=1)
+    values, held, missed = rubbing.rubbed(faces, load, 0.4)
+    monkeypatch.setattr(rubbing, "TRIES", 1)
+    other, held_too, missed_too = rubbing.rubbed(faces, load, 0.4)
+    assert missed == missed_too == 0
+    np.testing.assert_allclose(values, other, atol=1e-5 * np.abs(values).max())
+    np.testing.assert_allclose(held, held_too, atol=1e-5 * held.max())
 
 
 def test_pressure_inside_opens_as_much_as_the_same_pull():

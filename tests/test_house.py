@@ -16,7 +16,7 @@ TOP = {"errors", "commit", "called", "registry"}  # single files that everybody 
 # rooms that may use less than all before them
 RESTS_ON = {"engine": set(), "values": set(), "physics": {"engine", "values"},
             "criteria": {"engine", "values"}, "scene": {"values", "physics", "criteria"},
-            "fatigue": {"scene", "criteria", "engine", "values"}}
+            "fatigue": {"scene", "criteria", "engine", "values"}, "crack": {"scene", "engine", "values", "fatigue"}}
 ENTRIES = {"__init__", "__main__"}  # of the package: they may lead anywhere, lazily
 FOLDERS = {ROOT / "cli": "tehl_cli", ROOT / "profiles": "tehl_taichi.profiles", PACKAGE: "tehl_taichi"}
 
@@ -77,6 +77,26 @@ def test_no_file_name_twice():
 def test_a_room_says_what_lives_there(room):
     lines = ast.get_docstring(ast.parse((PACKAGE / room / "__init__.py").read_text())).splitlines()
     assert 3 <= len(lines) <= 8, room
+
+
+def names_in(path):
+    """All names that a module defines or imports somewhere."""
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+            yield node.name
+        elif isinstance(node, ast.alias):
+            yield node.asname or node.name
+        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            yield node.id
+
+
+def test_every_import_of_ours_finds_its_name():
+    """Those inside functions too, which fail only when they are called."""
+    ours = {module_of(path).removesuffix(".__init__"): path for path in SOURCES}
+    known = set(ours) | {f"{module}.{name}" for module, path in ours.items() for name in names_in(path)}
+    for path in [*SOURCES, *(ROOT / "tests").glob("*.py")]:
+        unknown = {name for name in imports(path) if name.startswith(("tehl_taichi", "tehl_cli"))} - known
+        assert not unknown, f"{path} imports {unknown}"
 
 
 @pytest.mark.parametrize("path", SOURCES, ids=lambda p: str(p.relative_to(ROOT)))

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from tehl_taichi.crack.closure import opened
-from tehl_taichi.crack.faces import Faces
+from tehl_taichi.crack.compliance import Faces
 from tehl_taichi.crack.rubbing import rubbed
 
 WIDEST, FAN = np.radians(75.0), 51  # directions looked at: up to there on both sides
@@ -56,8 +56,8 @@ def loaded(plane, points, wanted, E_star, elements=None):
 
 def _contact(faces, forces, friction):
     if friction > 0:
-        return rubbed(faces.compliance, forces, friction)
-    return *opened(faces.compliance, forces), 0
+        return rubbed(faces, forces, friction)
+    return *opened(faces, forces), 0
 
 
 def grow(plane, begun, wanted, E_star):

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene.checks import number
+from tehl_taichi.values.checks import number
 
 LARGEST = 5e9  # Pa
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Union
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene.checks import choice, integer, normalise, number
+from tehl_taichi.values.checks import choice, integer, normalise, number
 
 SIDES = ("entry", "exit")
 FLATTEST = 15.0  # degrees to the surface: flatter cracks have not been compared with anything

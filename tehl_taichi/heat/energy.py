@@ -50,10 +50,9 @@ class Heated:
 class Node:
     """A node of a column."""
 
-    t: V  # deg C
     ie: V  # 1/(Pa s), 1/eta
     lever: V  # m, z - z_c
-    swell: V  # 1/s, expansivity times dp/dt along the path
+    swell: V  # W/m3K, expansivity times dp/dt along the path
 
 
 @ti.dataclass
@@ -132,8 +131,9 @@ def assemble(Z: ti.template(), X: ti.template(), N: ti.template(), at: ti.templa
         t = Z[q, T * nz + n]
         storing = heat_capacity(oil, col.p, t)
         swept = storing / Z[q, NRHO * nz + n] * Z[q, THROUGH * nz + n] / col.h  # fluxes and rho are both over rho_0
-        made = sources(Node(t=t, ie=Z[q, NIE * nz + n] / scene.eta0, lever=(zeta(N, n) - flow.centre) * col.h,
-                            swell=expansivity(oil, col.p, t) * Z[q, PS * nz + n] * step.rate), col, flow, bend)
+        node = Node(ie=Z[q, NIE * nz + n] / scene.eta0, lever=(zeta(N, n) - flow.centre) * col.h,
+                    swell=expansivity(oil, col.p, t) * Z[q, PS * nz + n] * step.rate)
+        made = sources(node, col, flow, bend)
         balance = storing * step.rate * (t - Z[q, TS * nz + n]) - made.heat - made.squeeze * (t + 273.15)
         for m in range(nz):
             link = swept * slope(N, n, m) - conduction * second(N, n, m)

@@ -22,8 +22,8 @@ from tehl_taichi.engine.lanes import (
     rows_in,
     rows_out,
 )
+from tehl_taichi.pressure.cell_faces import face_above, face_below, face_x, flux_x, net_flux_y
 from tehl_taichi.pressure.couette import couette_weights
-from tehl_taichi.pressure.faces import face_above, face_below, face_x, flux_x, net_flux_y
 from tehl_taichi.pressure.fields import (
     AD,
     AU,
@@ -123,29 +123,28 @@ def linearise(S: ti.template(), J: ti.template(), G: Table, blocks: Blocks, firs
         up, down = face_weights(s, ny)
         metric, inv, CT_l, K_0, K_1 = G[l, DX] / G[l, DY] ** 2, 1 / G[l, DX], G[l, CT], G[l, K0], G[l, K1]
         frame = G[l, FRAME]
-        left_p0, left_p1, left_h0, left_h1, left_eps = face_x(S, off + s * n2, thinning)
+        left = face_x(S, off + s * n2, thinning)
         for i in range(1, nx):
             k = off + s * n2 + i
             w = couette_weights(i)
             q, c = stencil(S, k, slope, QP, frame), stencil(S, k, couette, RHO, frame)
-            p0, p1, h0, h1, eps = face_x(S, k, thinning)
-            a2 = w[2] * q[2] + CT_l * S[QP, k] + (left_p1 - p0) * inv
-            b2 = w[2] * c[2] + CT_l * S[RHO, k] + (left_h1 - h0) * inv
-            total = (left_eps + eps) * inv
+            right = face_x(S, k, thinning)
+            a2 = w[2] * q[2] + CT_l * S[QP, k] + (left.p1 - right.p0) * inv
+            b2 = w[2] * c[2] + CT_l * S[RHO, k] + (left.h1 - right.h0) * inv
+            total = (left.eps + right.eps) * inv
             if ny > 0:
                 u, d = up * metric, down * metric
-                u0, u1, g0, g1, eps_up = face_above(S, k, n2, thinning)
-                d0, d1, f0, f1, eps_down = face_below(S, k, n2, thinning)
-                a2 += d * d1 - u * u0
-                b2 += d * f1 - u * g0
-                total += u * eps_up + d * eps_down
-                store_rows(J, k, ti.static((AU, AD, BU, BD)), -u * u1, d * d0, -u * g1, d * f0)
-            store_rows(J, k, ti.static(A), w[0] * q[0], w[1] * q[1] + left_p0 * inv, a2, w[3] * q[3] - p1 * inv)
-            store_rows(J, k, ti.static(B), w[0] * c[0], w[1] * c[1] + left_h0 * inv, b2, w[3] * c[3] - h1 * inv)
+                upper, lower = face_above(S, k, n2, thinning), face_below(S, k, n2, thinning)
+                a2 += d * lower.p1 - u * upper.p0
+                b2 += d * lower.h1 - u * upper.h0
+                total += u * upper.eps + d * lower.eps
+                store_rows(J, k, ti.static((AU, AD, BU, BD)), -u * upper.p1, d * lower.p0, -u * upper.h1, d * lower.h0)
+            store_rows(J, k, ti.static(A), w[0] * q[0], w[1] * q[1] + left.p0 * inv, a2, w[3] * q[3] - right.p1 * inv)
+            store_rows(J, k, ti.static(B), w[0] * c[0], w[1] * c[1] + left.h0 * inv, b2, w[3] * c[3] - right.h1 * inv)
             J[EPS, k] = ti.cast(total, J.dtype)
             own = 0.5 * (q[2] + c[2] * K_0) + CT_l * (S[QP, k] + S[RHO, k] * K_0)
             S[D, k] = ti.max(own + (c[3] / 3 - c[1]) * K_1 + total, 0.5 * K_0)
-            left_p0, left_p1, left_h0, left_h1, left_eps = p0, p1, h0, h1, eps
+            left = right
 
 
 @ti.func

@@ -1,8 +1,8 @@
 """Whole runs: one from its scene to its summary, as `tehl run` does it, and many of them.
 
-`single` runs, resumes and opens, with `recorder`, the march into a store; `stored_run` is what comes back, `progress` what a
-run tells while it works, `checkup` a self-test; `compare` puts runs side by side. May import every room but the commands;
-importing it costs nothing: what computes and what reads files is imported when it is called.
+`single` runs, resumes and opens, with `recorder`, the march into a store; `stored_run` is what comes back, `progress` what it
+tells while it runs, `checkup` a self-test; `compare` puts runs side by side. May import every room but the commands; importing
+it costs nothing: what computes and what reads files is imported when it is called.
 """
 
 from tehl_taichi.study.compare import compare

@@ -1,9 +1,11 @@
 """Runs side by side: what differs of their scenes, their summaries, one figure of all."""
 
 from dataclasses import dataclass
+from os import PathLike
 from pathlib import Path
 
 from tehl_taichi.errors import SceneError, StoreError
+from tehl_taichi.study.stored_run import Run
 from tehl_taichi.values.plain import plain
 
 MOST = 8  # stores: more lines than that nobody tells apart
@@ -58,10 +60,21 @@ class Comparison:
         return compare_figure.write(self, Path(path), at, dpi)
 
 
-def compare(*paths):
-    """A :class:`Comparison` of two runs or more, by their stores or as :class:`tehl_taichi.study.stored_run.Run`.
+def compare(*paths: str | PathLike | Run) -> Comparison:
+    """Two runs or more side by side: what differs of their scenes, their summaries, one figure.
 
-    Raises SceneError for fewer or too many, StoreError where a path is no store.
+    paths: their stores, or the runs themselves, finished or not. Raises SceneError for fewer or too many, StoreError where a
+    path is no store.
+
+    >>> import tehl_taichi as tehl
+    >>> scene = tehl.scene("smooth-line").replace(**{"grid.nx": 64, "thermal.on": False})
+    >>> slow, fast = (tehl.run(scene.replace(speed=u), f"{u:g}.zarr") for u in (5, 10))
+    >>> found = tehl.compare(slow, fast)
+    >>> found.differs
+    {'operation.u_m': [5.0, 10.0]}
+    >>> thin, thick = found.summaries["steady.h_c_m"]
+    >>> thin < thick
+    True
     """
     from tehl_taichi.io.store import Store
 

@@ -1,7 +1,8 @@
 """The faces of one crack: what they open and slide under given stresses, and the stress intensities that come with it.
 
 Normal n on the left of the way from the mouth to the tip; opening and slip are those of the left face against the right one.
-At a kink the normal halves the angle. Openings are sqrt(distance to the tip) times nodal values (sqrt(m)).
+Openings are sqrt(distance to the tip) times nodal values (sqrt(m)). At a kink the faces may touch on both sides of it: two
+contacts, whose own friction is left out (a point); the nodal normal there halves the angle.
 """
 
 import numpy as np
@@ -15,15 +16,17 @@ class Faces:
     """A crack along `path` (complex points, m, from the mouth to the tip) with about `count` elements.
 
     E_star: E/(1 - nu^2), Pa. compliance: (2 nodes, 2 nodes) nodal values (normal ones, then tangential ones, from the mouth to
-    the tip) by nodal forces; points: (p,) where :meth:`forces` wants the stresses.
+    the tip) by nodal forces; points: (p,) where :meth:`forces` wants the stresses. contact: (contacts + rough, 2 nodes) opening
+    of every contact by nodal values, then slip of the first `rough` ones, which rub; the last of these is the tip.
     """
 
     def __init__(self, path, E_star, count):
         elements = Elements(path, count)
         self.E_star, self.a, self.nodes = E_star, elements.a, elements.s.size
         self.points, self.direction, self.jump, self.load = elements.points()
-        self.normal = _normals(elements.direction)
-        self.turn = _turn(self.normal)
+        normal = _normals(elements.direction)
+        self.turn = _turn(normal)
+        self.contact, self.rough = _contacts(elements.direction, normal)
         self.compliance = np.linalg.inv(self.turn.T @ stiffness(elements, E_star) @ self.turn)
 
     def forces(self, stress):
@@ -53,6 +56,16 @@ def _normals(direction):
     """(nodes,) unit complex numbers."""
     both = np.concatenate([direction[:1], direction]) + np.concatenate([direction, direction[-1:]])
     return 1j * both / np.abs(both)
+
+
+def _contacts(direction, normal):
+    """(rows, number of those that rub): see :class:`Faces`."""
+    nodes, eye = normal.size, np.eye(2 * normal.size)
+    kinks = 1 + np.flatnonzero(direction[1:] != direction[:-1])
+    plain = np.setdiff1d(np.arange(nodes), kinks)
+    before, after = ((1j * direction[kinks - side] / normal[kinks])[:, None] for side in (1, 0))
+    both = [n.real * eye[kinks] - n.imag * eye[nodes + kinks] for n in (before, after)]
+    return np.concatenate([eye[plain], *both, eye[nodes + plain]]), plain.size
 
 
 def _turn(normal):

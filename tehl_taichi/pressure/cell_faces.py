@@ -9,6 +9,37 @@ from tehl_taichi.engine.lanes import V, above, below
 from tehl_taichi.pressure.fields import DLE, DRP, GAP, IE, LE, ROOT, P
 
 
+@ti.dataclass
+class Node:
+    """What the flow feels at a node."""
+
+    p: V  # pressure
+    le: V  # ln eta
+    ie: V  # exp(-le)
+    root: V  # root of rho / lambda
+    gap: V  # film, at least the floor
+
+
+@ti.dataclass
+class Slopes:
+    """Derivatives at a node."""
+
+    le: V  # d le/dP
+    root: V  # d root/dP
+    le_h: V  # d le/dH
+
+
+@ti.dataclass
+class Face:
+    """The linearised flux between two nodes, times the distance."""
+
+    p0: V  # its derivatives by the pressure of both,
+    p1: V
+    h0: V  # and by the film of both
+    h1: V
+    eps: V  # the mobility
+
+
 @ti.func
 def log_mean(l0, l1, e0, e1):
     """Logarithmic mean of 1/eta between two nodes, l = ln eta, e = exp(-l), and minus its derivatives by l0 and l1."""
@@ -48,60 +79,59 @@ def beside(S: ti.template(), row: ti.template(), k, n2, up: ti.template()):
 
 @ti.func
 def node(S: ti.template(), k, n2, up: ti.template()):
-    """P, ln eta, 1/eta, root of rho, film at row j + up."""
-    return (beside(S, P, k, n2, up), beside(S, LE, k, n2, up), beside(S, IE, k, n2, up), beside(S, ROOT, k, n2, up),
-            beside(S, GAP, k, n2, up))
+    """The Node at row j + up."""
+    return Node(p=beside(S, P, k, n2, up), le=beside(S, LE, k, n2, up), ie=beside(S, IE, k, n2, up),
+                root=beside(S, ROOT, k, n2, up), gap=beside(S, GAP, k, n2, up))
 
 
 @ti.func
-def flux(p0, l0, e0, r0, h0, p1, l1, e1, r1, h1):
-    """Poiseuille flux between two nodes, times the distance."""
-    return r0 * r1 * cube(h0, h1)[0] * log_mean(l0, l1, e0, e1)[0] * (p1 - p0)
+def flux(a, b):
+    """Poiseuille flux between the Nodes a and b, times the distance."""
+    return a.root * b.root * cube(a.gap, b.gap)[0] * log_mean(a.le, b.le, a.ie, b.ie)[0] * (b.p - a.p)
 
 
 @ti.func
 def flux_x(S: ti.template(), k):
-    return flux(*node(S, k, 0, 0), *node(S, k + 1, 0, 0))
+    return flux(node(S, k, 0, 0), node(S, k + 1, 0, 0))
 
 
 @ti.func
 def net_flux_y(S: ti.template(), k, n2, up, down):
     here = node(S, k, n2, 0)
-    return up * flux(*here, *node(S, k, n2, 1)) - down * flux(*node(S, k, n2, -1), *here)
+    return up * flux(here, node(S, k, n2, 1)) - down * flux(node(S, k, n2, -1), here)
 
 
 @ti.func
-def linear_face(p0, l0, e0, r0, h0, dl0, dr0, f0, p1, l1, e1, r1, h1, dl1, dr1, f1):
-    """Linearised flux between two nodes: derivatives in P0, P1, H0, H1 and the frozen mobility, times the distance."""
-    mean, mean_0, mean_1 = log_mean(l0, l1, e0, e1)
-    c, c0, c1 = cube(h0, h1)
-    g, r, m = p1 - p0, r0 * r1, r0 * r1 * c
+def linear_face(a, da, b, db):
+    """The Face between the Nodes a and b with their Slopes."""
+    mean, mean_0, mean_1 = log_mean(a.le, b.le, a.ie, b.ie)
+    c, c0, c1 = cube(a.gap, b.gap)
+    g, r, m = b.p - a.p, a.root * b.root, a.root * b.root * c
     eps = m * mean
-    by_p0, by_p1 = g * (c * r1 * dr0 * mean - m * mean_0 * dl0) - eps, g * (c * r0 * dr1 * mean - m * mean_1 * dl1) + eps
-    by_h0, by_h1 = g * (r * c0 * mean - m * mean_0 * f0), g * (r * c1 * mean - m * mean_1 * f1)
-    return by_p0, by_p1, by_h0, by_h1, eps
+    return Face(p0=g * (c * b.root * da.root * mean - m * mean_0 * da.le) - eps,
+                p1=g * (c * a.root * db.root * mean - m * mean_1 * db.le) + eps,
+                h0=g * (r * c0 * mean - m * mean_0 * da.le_h), h1=g * (r * c1 * mean - m * mean_1 * db.le_h), eps=eps)
 
 
 @ti.func
-def linear_node(S: ti.template(), k, n2, up: ti.template(), thinning: ti.template()):
-    """:func:`node` and the derivatives of ln eta and of the root of rho by P, and of ln eta by H (row `thinning`, or none)."""
+def slopes(S: ti.template(), k, n2, up: ti.template(), thinning: ti.template()):
+    """The Slopes at row j + up; thinning: row of d LE/dH, or -1."""
     f = V(0.0)
     if ti.static(thinning >= 0):
         f = beside(S, thinning, k, n2, up)
-    p, l, e, r, h = node(S, k, n2, up)
-    return p, l, e, r, h, beside(S, DLE, k, n2, up), beside(S, DRP, k, n2, up), f
+    return Slopes(le=beside(S, DLE, k, n2, up), root=beside(S, DRP, k, n2, up), le_h=f)
 
 
 @ti.func
 def face_x(S: ti.template(), k, thinning: ti.template()):
-    return linear_face(*linear_node(S, k, 0, 0, thinning), *linear_node(S, k + 1, 0, 0, thinning))
+    return linear_face(node(S, k, 0, 0), slopes(S, k, 0, 0, thinning), node(S, k + 1, 0, 0), slopes(S, k + 1, 0, 0, thinning))
 
 
 @ti.func
 def face_above(S: ti.template(), k, n2, thinning: ti.template()):
-    return linear_face(*linear_node(S, k, n2, 0, thinning), *linear_node(S, k, n2, 1, thinning))
+    return linear_face(node(S, k, n2, 0), slopes(S, k, n2, 0, thinning), node(S, k, n2, 1), slopes(S, k, n2, 1, thinning))
 
 
 @ti.func
 def face_below(S: ti.template(), k, n2, thinning: ti.template()):
-    return linear_face(*linear_node(S, k, n2, -1, thinning), *linear_node(S, k, n2, 0, thinning))
+    return linear_face(node(S, k, n2, -1), slopes(S, k, n2, -1, thinning), node(S, k, n2, 0), slopes(S, k, n2, 0, thinning))

@@ -1,0 +1,125 @@
+"""Crack paths from the loads of a passage: dedendum, pitch line, addendum; asperity and dent; widths; residual stress, friction
+of the faces, oil inside. Errors from two grids of the film and from two discretisations of the crack."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from tehl_taichi.crack.answer import follow
+from tehl_taichi.crack.plane import plane_of
+from tehl_taichi.crack.wanted import SIDES, Wanted
+from tehl_taichi.errors import NotConverged
+from tehl_taichi.scene import scene
+from tehl_taichi.study.single import completed
+
+GRIDS, QUICK_GRIDS = ((128, 32), (256, 64)), ((64, 16), (128, 32))
+BARE = {"fatigue.on": False, "numerics.estimate_error": False}  # errors of cracks are worked out here
+SLIPS = {"dedendum": -0.12, "pitch line": 0.0, "addendum": 0.12}
+REFERENCE = "asperity 1.5 um, 200 um wide"
+FEATURES = {REFERENCE: {}, "dent 1.5 um, 200 um wide": {"height": -1.5e-6}, "asperity, 100 um wide": {"width": 100e-6},
+            "asperity, 400 um wide": {"width": 400e-6}}
+# what else acts on the reference's cracks
+CONDITIONS = {"": {}, "residual -200 MPa": {"residual": -200e6}, "residual +200 MPa": {"residual": 200e6},
+              "face friction 0.3": {"face_friction": 0.3}, "oil 0.3 (upper bound)": {"oil": 0.3}}
+NUMBERS = {"sigma1": ("largest tension, MPa", 1e6, "{:.0f}"), "depth": ("pulled to, um", 1e-6, "{:.1f}"),
+           "chord": ("trajectory at 20 um, deg", 1, "{:.0f}"), "K_first": ("K_I at 5 um", 1e6, "{:.2f}"),
+           "K_largest": ("largest K_I", 1e6, "{:.2f}"), "K_II": ("range of K_II at 20 um", 1e6, "{:.1f}"),
+           "path": ("path at 20 um, deg", 1, "{:.0f}")}
+
+
+@dataclass(frozen=True)
+class Row:
+    """One side of one case: {number: (value, error or nan)} of NUMBERS; lean of the trajectory; why the crack stopped."""
+
+    case: str
+    side: str
+    numbers: dict
+    lean: str
+    why: str
+
+
+def cases(quick=False):
+    """{name: scene}."""
+    features = {REFERENCE: {}} if quick else FEATURES
+    base = scene("gear").replace(**{"thermal.on": True})  # pure rolling has its heat of compression
+    return {f"{kind}, {where}": base.replace(srr=srr, **changes)
+            for kind, changes in features.items() for where, srr in SLIPS.items()}
+
+
+def run(folder, quick=False, progress=print):
+    """Rows of all cases; their stores lie in `folder` and are used again. progress: called with a line of text."""
+    rows = []
+    for name, description in cases(quick).items():
+        stores = _stores(name, description, Path(folder), QUICK_GRIDS if quick else GRIDS, progress)
+        rows += rows_of(name, stores, CONDITIONS if name.startswith(REFERENCE) else {"": {}}) if stores else []
+    return rows
+
+
+def _stores(name, description, folder, grids, progress):
+    """Those that converge, the finest last."""
+    found = []
+    for nx, ny in grids:
+        progress(f"{name}: {nx} x {ny} cells")
+        try:
+            path = folder / f"{name.replace(',', '').replace(' ', '-')}-{nx}.zarr"
+            found.append(completed(description.replace(**{"grid.nx": nx, "grid.ny": ny, **BARE}), path).store)
+        except NotConverged as error:
+            progress(f"{name}, {nx} x {ny} cells: {error}")
+            found = []
+    return found
+
+
+def rows_of(name, stores, conditions):
+    """The rows of a case from its stores, the finest last: two sides under every condition."""
+    planes, rows = [plane_of(one.scene, one) for one in stores], []
+    for condition, wanted in conditions.items():
+        found = [follow(plane.having(wanted.get("residual")), one.scene, Wanted(**wanted)).summary["sides"]
+                 for plane, one in zip(planes, stores)]
+        rows += [_row(", ".join(filter(None, (name, condition))), side, [one[side] for one in found]) for side in SIDES]
+    return rows
+
+
+def _row(name, side, grids):
+    finest = grids[-1]
+    if not finest["opens"]:
+        return Row(name, side, {}, "", finest["why"])
+    numbers = [_numbers(one) if one["opens"] else {} for one in grids]
+    errors = {key: abs(numbers[-1][key] - numbers[0].get(key, np.nan)) if len(grids) > 1 else np.nan for key in NUMBERS}
+    return Row(name, side, {key: (value, errors[key]) for key, value in numbers[-1].items()},
+               finest["trajectory"]["lean"], finest["why"])
+
+
+def _numbers(side):
+    K = side["K"]
+    at = min(K, key=lambda step: abs(step["length_m"] - 20e-6))
+    return {"sigma1": side["sigma1_surface_Pa"], "depth": side["tension_depth_m"], "K_first": K[0]["K_I_max"],
+            "K_largest": side["K_I_max"], "K_II": at["K_II_range"], "chord": _degrees(side["trajectory"]),
+            "path": _degrees(side["path"])}
+
+
+def _degrees(shape):
+    found = shape["chord_deg_at_um"]["20"]
+    return np.nan if found is None else found
+
+
+def cells(row):
+    """Text of a row: numbers with their errors, how the trajectory leans, why the crack stopped."""
+    if not row.numbers:
+        return [row.side, *[""] * len(NUMBERS), "", row.why]
+    return [row.side, *(_text(*row.numbers[key], *form[1:]) for key, form in NUMBERS.items()), row.lean, row.why]
+
+
+def _text(value, error, unit, form):
+    if np.isnan(value):
+        return "-"
+    return form.format(value / unit) + (f" ± {form.format(error / unit)}" if np.isfinite(error) else " (one grid)")
+
+
+COLUMNS = ("case", "side", *(title for title, *_ in NUMBERS.values()), "trajectory leans", "the crack stops because")
+
+
+def page(rows):
+    """Markdown of the table."""
+    lines = ["| " + " | ".join(COLUMNS) + " |", "|---" * len(COLUMNS) + "|"]
+    return "\n".join(lines + [f"| {row.case} | " + " | ".join(cells(row)) + " |" for row in rows]) + "\n"

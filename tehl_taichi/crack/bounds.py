@@ -1,0 +1,49 @@
+"""Forces between bounds whose displacements are zero, or press them against a bound (a mixed linear complementarity problem).
+
+The matrix is symmetric and positive, so there is one answer and exchanging whole sets of unknowns finds it, one unknown at a
+time where that does not get on (Judice & Pires 1994; Murty 1974).
+"""
+
+import numpy as np
+
+LOW, FREE, HIGH = -1, 0, 1
+TRIES = 8      # exchanges of whole sets without fewer wrong unknowns
+ROUND = 1e-11  # of the largest displacement: less is rounding
+
+
+def bounded(M, gap, low, high, at):
+    """(r, where r stands: LOW, FREE or HIGH): low <= r <= high, w = gap + M r >= 0 at LOW, 0 where FREE, <= 0 at HIGH.
+
+    at: first guess.
+    """
+    fewest, left, small = gap.size + 1, TRIES, ROUND * np.abs(gap).max()
+    while True:
+        r = _forces(M, gap, low, high, at)
+        new = _next(r, gap + M @ r, low, high, at, small)
+        wrong = np.flatnonzero(new != at)
+        if wrong.size == 0:
+            return r, at
+        if wrong.size < fewest:
+            fewest, left = wrong.size, TRIES
+        elif left > 0:
+            left -= 1
+        else:  # one at a time: finite for a positive matrix
+            wrong = wrong[-1:]
+        at = at.copy()
+        at[wrong] = new[wrong]
+
+
+def _forces(M, gap, low, high, at):
+    """r with no displacement where FREE."""
+    r, free = np.where(at == LOW, low, np.where(at == HIGH, high, 0.0)), at == FREE
+    r[free] = np.linalg.solve(M[np.ix_(free, free)], -(gap + M @ r)[free])
+    return r
+
+
+def _next(r, w, low, high, at, small):
+    """Where r should rather stand."""
+    new = at.copy()
+    free = at == FREE
+    new[free & (r < low)], new[free & (r > high)] = LOW, HIGH
+    new[((at == LOW) & (w < -small)) | ((at == HIGH) & (w > small))] = FREE
+    return new

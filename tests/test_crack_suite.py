@@ -1,0 +1,92 @@
+"""`tehl bench cracks`, and the rows of the reference scene that a crack's loads are held to."""
+
+import numpy as np
+import pytest
+from rolling import Rolling
+from tehl_taichi.profiles import cracks
+
+from tehl_taichi.crack import growth
+from tehl_taichi.crack.answer import follow
+from tehl_taichi.crack.plane import plane_of
+from tehl_taichi.crack.wanted import Wanted
+from tehl_taichi.scene import scene
+from tehl_taichi.study.single import completed
+
+
+class Stored(Rolling):
+    def __init__(self, description, cells):
+        super().__init__(description, cells)
+        self.scene = description
+
+
+def test_rows_have_the_errors_of_two_grids(taichi_cpu):
+    bare = scene("gear").replace(**{"thermal.on": False})
+    entry, exit_ = cracks.rows_of("rolling", [Stored(bare, cells) for cells in (8, 12)], {"": {"length": 20e-6}})
+    value, error = entry.numbers["sigma1"]
+    found = [follow(plane_of(bare, Stored(bare, cells)), bare, Wanted(length=20e-6, side="entry")).sides["entry"].begun.sigma1
+             for cells in (8, 12)]
+    assert value == found[1] and error == pytest.approx(abs(found[1] - found[0])) and error > 0
+    assert exit_.numbers == {} and "nothing pulls" in exit_.why
+    text = cracks.page([entry, exit_])
+    assert f"{value / 1e6:.0f} ± {error / 1e6:.0f}" in text and len({line.count("|") for line in text.splitlines()}) == 1
+    alone = cracks.rows_of("rolling", [Stored(bare, 8)], {"short": {"length": 20e-6}})[0]
+    assert alone.case == "rolling, short"
+    assert np.isnan(alone.numbers["K_first"][1]) and "(one grid)" in cracks.page([alone])
+
+
+def test_cases_and_their_conditions():
+    assert len(cracks.cases()) == 12 and len(cracks.cases(quick=True)) == 3
+    for wanted in cracks.CONDITIONS.values():
+        Wanted(**wanted)
+
+
+ROWS = {  # side: tension (Pa) and its tolerance, place (m), moment (a), lean, chords, K_I at 5 um
+    -0.12: ("entry", 365e6, 0.05, -37e-6, -0.98, "with rolling", {"10": 60, "20": 43, "40": 30}, 0.68e6),
+    0.12: ("exit", 495e6, 0.10, 36e-6, 0.96, "against rolling", {"10": 42, "20": 30, "40": 22}, 0.71e6)}
+
+
+@pytest.fixture(scope="module", params=[(-0.12, 128), (0.12, 128), (-0.12, 256)], ids=str)
+def stored(request, taichi_cpu, tmp_path_factory):
+    """(slip, store) of the reference scene without thermal stress, as the rows are."""
+    srr, nx = request.param
+    grid = {"grid.nx": nx, "grid.ny": nx // 4, "fatigue.thermal_stress": False, **cracks.BARE}
+    return srr, completed(scene("gear").replace(srr=srr, **grid), tmp_path_factory.mktemp("crack") / "gear.zarr").store
+
+
+@pytest.mark.slow
+def test_the_reference_scene(stored):
+    srr, saved = stored
+    name, tension, rel, place, moment, lean, chords, K_I = ROWS[srr]
+    plane = plane_of(saved.scene, saved)
+    side = follow(plane, saved.scene, Wanted(side=name)).summary["sides"][name]
+    cell = plane.x[1] - plane.x[0]
+    assert side["sigma1_surface_Pa"] == pytest.approx(tension, rel=rel)
+    assert side["start_x_m"] == pytest.approx(place, abs=cell)
+    assert side["moment_x_m"] / plane.a == pytest.approx(moment, abs=0.05)
+    assert side["trajectory"]["lean"] == lean
+    assert side["trajectory"]["chord_deg_at_um"] == pytest.approx(chords, abs=3)
+    assert side["K"][0]["K_I_max"] == pytest.approx(K_I, rel=0.06) and side["unsettled"] == 0
+
+
+@pytest.mark.slow
+def test_straight_cracks_of_the_reference_scene_hardly_depend_on_their_elements(stored):
+    """24 against 48 elements, at 15 to 165 degrees, 20 um: 1 % of K_I and of the range of K_II; all moments settle."""
+    _, saved = stored
+    plane, E_star = plane_of(saved.scene, saved), saved.scene.body_a.E / (1 - saved.scene.body_a.nu**2)
+    for degrees in (15, 30, 45, 90, 135, 165):
+        path = -37e-6 + np.array([0, 20e-6 * np.exp(1j * np.radians(degrees))])
+        coarse, fine = (growth.loaded(plane, path, Wanted(), E_star, count) for count in (24, 48))
+        assert coarse.missed == fine.missed == 0
+        np.testing.assert_allclose(coarse.K[0].max(), fine.K[0].max(), rtol=0.01)
+        np.testing.assert_allclose(np.ptp(coarse.K[1]), np.ptp(fine.K[1]), rtol=0.01)
+
+
+@pytest.mark.slow
+def test_residual_stress_shuts_the_reference_crack(stored):
+    """A vertical crack of 5 um under -200 MPa has no K_I at any moment."""
+    srr, saved = stored
+    plane = plane_of(saved.scene, saved, -200e6)
+    x = ROWS[srr][3]
+    crack = growth.loaded(plane, x + np.array([0, 5e-6j]), Wanted(), 206e9 / 0.91)
+    assert (crack.K[0] == 0).all()
+    assert (crack.touching > 0).any()
