@@ -5,7 +5,7 @@ from typing import Optional
 
 import typer
 from tehl_cli.live import say
-from tehl_cli.out import folder_for, print_json
+from tehl_cli.out import print_json
 
 
 def register(app):
@@ -39,22 +39,16 @@ def crack(
     """
     import tehl_taichi as tehl
     from tehl_taichi.crack.residual import read
-    from tehl_taichi.engine import runtime
-    from tehl_taichi.io.store import Store
 
-    runtime.check(threads=threads)
-    saved = Store.open(store)
-    if thermal_stress is not None:
-        saved.scene = saved.scene.replace(**{"fatigue.thermal_stress": thermal_stress})
-    runtime.start(threads=threads)
-    result = tehl.crack(saved, side=side, start=start, angle=angle, first=first, step=step, length=length, distance=distance,
-                        threshold=threshold, residual=None if residual is None else read(residual),
-                        face_friction=face_friction, oil=oil, elements=elements)
+    run = tehl.open(store)
+    result = run.crack(side=side, start=start, angle=angle, first=first, step=step, length=length, distance=distance,
+                       threshold=threshold, residual=None if residual is None else read(residual), face_friction=face_friction,
+                       oil=oil, elements=elements, thermal_stress=thermal_stress, threads=threads)
     _show(result.summary, as_json)
     if figures:
         from tehl_taichi.io.crack_figures import write_crack
 
-        say(str(write_crack(result, saved.scene.name, folder_for(figures))))
+        say(str(write_crack(result, run.scene.name, figures)))
 
 
 def _show(summary, as_json):

@@ -192,7 +192,7 @@ def test_what_has_no_plane_of_symmetry_is_refused(taichi_cpu, reader, changes, s
 def rolled(taichi_cpu):
     """Of a Hertz line over which a bump of pressure passes."""
     scene = SCENE.replace(**{"thermal.on": False})
-    return run((scene, Rolling(scene)), Wanted(length=30 * MICRO))
+    return run(scene, Rolling(scene), Wanted(length=30 * MICRO))
 
 
 def test_the_answer(rolled):
@@ -222,18 +222,18 @@ def test_shallow_closed_cracks_settle_and_hardly_depend_on_the_elements(rolled):
 
 def test_pressed_together_it_stays_closed(taichi_cpu):
     scene = SCENE.replace(**{"thermal.on": False})
-    result = run((scene, Rolling(scene)), Wanted(residual=-2e9, start=-60 * MICRO))
+    result = run(scene, Rolling(scene), Wanted(residual=-2e9, start=-60 * MICRO))
     assert result.summary["sides"]["entry"]["opens"] is False
-    result = run((scene, Rolling(scene)), Wanted(residual=[(0.0, 0.0), (1 * MICRO, -2e9)], length=30 * MICRO, side="entry"))
+    result = run(scene, Rolling(scene), Wanted(residual=[(0.0, 0.0), (1 * MICRO, -2e9)], length=30 * MICRO, side="entry"))
     entry = result.summary["sides"]["entry"]
     assert entry["K_I_max"] == 0.0 and entry["stopped"] == "closed" and len(entry["K"]) == 1
 
 
 def test_residual_stress_of_the_scene_counts(taichi_cpu, rolled):
     scene = SCENE.replace(**{"thermal.on": False, "fatigue.residual_xx": 1e8})
-    given = run((scene, Rolling(scene)), Wanted(length=5 * MICRO, side="entry")).summary["sides"]["entry"]
+    given = run(scene, Rolling(scene), Wanted(length=5 * MICRO, side="entry")).summary["sides"]["entry"]
     bare = SCENE.replace(**{"thermal.on": False})
-    asked = run((bare, Rolling(bare)), Wanted(length=5 * MICRO, residual=1e8, side="entry")).summary["sides"]["entry"]
+    asked = run(bare, Rolling(bare), Wanted(length=5 * MICRO, residual=1e8, side="entry")).summary["sides"]["entry"]
     assert given["K_I_max"] == pytest.approx(asked["K_I_max"], rel=1e-6)
     assert given["K_I_max"] > 1.2 * rolled.summary["sides"]["entry"]["K"][0]["K_I_max"]
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from tehl_taichi.crack import bounds, closure, rubbing
+from tehl_taichi.crack.compliance import Faces
 from tehl_taichi.crack.dislocations import stresses
 from tehl_taichi.crack.elements import Elements
-from tehl_taichi.crack.faces import Faces
 from tehl_taichi.crack.stiffness import stiffness
 
 UNIT = np.sqrt(np.pi)  # K of a crack of length 1 under stress 1 is F times this

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from rolling import Rolling
-from tehl_taichi.io.recorder import record
 from tehl_taichi.profiles import cracks
 
 from tehl_taichi.crack import growth
@@ -11,6 +10,7 @@ from tehl_taichi.crack.answer import follow
 from tehl_taichi.crack.plane import plane_of
 from tehl_taichi.crack.wanted import Wanted
 from tehl_taichi.scene import scene
+from tehl_taichi.study.single import completed
 
 
 class Stored(Rolling):
@@ -21,7 +21,7 @@ class Stored(Rolling):
 
 def test_rows_have_the_errors_of_two_grids(taichi_cpu):
     bare = scene("gear").replace(**{"thermal.on": False})
-    entry, exit_ = cracks.rows_of("rolling", [Stored(bare, cells) for cells in (8, 12)], {"length": 20e-6})
+    entry, exit_ = cracks.rows_of("rolling", [Stored(bare, cells) for cells in (8, 12)], {"": {"length": 20e-6}})
     value, error = entry.numbers["sigma1"]
     found = [follow(plane_of(bare, Stored(bare, cells)), bare, Wanted(length=20e-6, side="entry")).sides["entry"].begun.sigma1
              for cells in (8, 12)]
@@ -29,7 +29,8 @@ def test_rows_have_the_errors_of_two_grids(taichi_cpu):
     assert exit_.numbers == {} and "nothing pulls" in exit_.why
     text = cracks.page([entry, exit_])
     assert f"{value / 1e6:.0f} ± {error / 1e6:.0f}" in text and len({line.count("|") for line in text.splitlines()}) == 1
-    alone = cracks.rows_of("rolling", [Stored(bare, 8)], {"length": 20e-6})[0]
+    alone = cracks.rows_of("rolling", [Stored(bare, 8)], {"short": {"length": 20e-6}})[0]
+    assert alone.case == "rolling, short"
     assert np.isnan(alone.numbers["K_first"][1]) and "(one grid)" in cracks.page([alone])
 
 
@@ -48,8 +49,8 @@ ROWS = {  # side: tension (Pa) and its tolerance, place (m), moment (a), lean, c
 def stored(request, taichi_cpu, tmp_path_factory):
     """(slip, store) of the reference scene without thermal stress, as the rows are."""
     srr, nx = request.param
-    description = scene("gear").replace(srr=srr, **{"grid.nx": nx, "grid.ny": nx // 4, "fatigue.thermal_stress": False})
-    return srr, record(description, tmp_path_factory.mktemp("crack") / "gear.zarr")
+    grid = {"grid.nx": nx, "grid.ny": nx // 4, "fatigue.thermal_stress": False, **cracks.BARE}
+    return srr, completed(scene("gear").replace(srr=srr, **grid), tmp_path_factory.mktemp("crack") / "gear.zarr").store
 
 
 @pytest.mark.slow

@@ -1,8 +1,9 @@
 """Where a crack goes under the loads of a passage: trajectories of the largest tension, and a crack whose faces may touch.
 
-`plane` holds the stresses below the feature, `trajectory` follows them; `dislocations`, `elements`, `stiffness` and `faces` are
-an elastic crack, `bounds`, `closure` and `rubbing` the contact of its faces, `growth` lets it grow, `answer` is the whole. May
-import `fatigue` and what that may; nothing here knows of films or files but a table of residual stress.
+`plane` holds the stresses below the feature, `trajectory` follows them; `dislocations`, `elements`, `stiffness`, `compliance`
+are an elastic crack, `bounds`, `closure` and `rubbing` the contact of its faces, `growth` lets it grow, `answer` is the whole.
+May import `fatigue` and what that may; nothing here knows of films, or of files but a table of residual stress.
+`tehl_taichi.crack(run)` is the function.
 """
 
 from typing import TYPE_CHECKING, Any
@@ -16,23 +17,32 @@ if TYPE_CHECKING:
 __all__ = ["crack"]
 
 
-def crack(run: Any, scene: "Scene | None" = None, **wanted: Any) -> "CrackResult":
-    """Crack paths from both sides of the feature of a stored run: a :class:`tehl_taichi.crack.answer.CrackResult`.
+def crack(of: Any, scene: "Scene | None" = None, *, thermal_stress: bool | None = None, threads: int | None = None,
+          **wanted: Any) -> "CrackResult":
+    """Crack paths from both sides of the feature, under the loads of its passage; what they are of stays as it is.
 
-    run: a :class:`tehl_taichi.Run`, an opened store, or a list of snapshots with their `scene`; wanted: see
-    :class:`tehl_taichi.crack.wanted.Wanted`. Raises SceneError where there is no passage, no plane of symmetry, or a value out
-    of range.
+    of: a :class:`tehl_taichi.Run`, or snapshots of `scene` (as :func:`tehl_taichi.march` yields them). thermal_stress: as of
+    :func:`tehl_taichi.fatigue`; threads: as of :func:`tehl_taichi.run`; wanted: see
+    :class:`tehl_taichi.crack.wanted.Wanted` (side, start, angle, length, threshold, residual, face_friction, oil ...).
+    Raises SceneError where nothing passes, y = 0 is no plane of symmetry, or a value is out of range. Sources: Hannes &
+    Alfredsson 2011 (trajectories), Hills, Kelly, Dai & Korsunsky 1996 (cracks as dislocations), Erdogan & Sih 1963 (growth).
 
     >>> import tehl_taichi as tehl
-    >>> tehl.crack("gear-1.zarr", side="left")
+    >>> tehl.crack([], tehl.scene("gear"), side="left")
     Traceback (most recent call last):
     ...
     tehl_taichi.errors.SceneError: side = 'left' is not known; allowed: entry, exit, both (did you mean 'exit'?)
     """
-    from tehl_taichi.crack.answer import run as follow
+    from tehl_taichi.crack.answer import run
     from tehl_taichi.crack.wanted import Wanted
+    from tehl_taichi.engine import runtime
+    from tehl_taichi.fatigue.constants import changed
 
-    return follow(getattr(run, "store", run) if scene is None else (scene, run), Wanted(**wanted))
+    asked, reader = Wanted(**wanted), getattr(of, "store", of)
+    reader = reader if hasattr(reader, "fields") else list(reader)
+    scene = changed(scene or getattr(reader, "scene", None), {"thermal_stress": thermal_stress})
+    runtime.start_or_join(threads=threads)
+    return run(scene, reader, asked)
 
 
 callable_room(__name__, crack)

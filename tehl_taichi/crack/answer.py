@@ -36,9 +36,8 @@ class CrackResult:
     wanted: object
 
 
-def run(passage, wanted):
-    """:class:`CrackResult` of an opened store or of (scene, list of snapshots). Raises SceneError, see :func:`plane_of`."""
-    scene, reader = passage if isinstance(passage, tuple) else (passage.scene, passage)
+def run(scene, reader, wanted):
+    """:class:`CrackResult` of a passage of `scene`; reader: see :func:`plane_of`, or a list of snapshots. Raises SceneError."""
     reader = Snapshots(reader) if isinstance(reader, list) else reader
     plane = plane_of(scene, reader, wanted.residual)
     return follow(plane, scene, wanted)

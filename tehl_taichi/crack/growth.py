@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from tehl_taichi.crack.closure import opened
-from tehl_taichi.crack.faces import Faces
+from tehl_taichi.crack.compliance import Faces
 from tehl_taichi.crack.rubbing import rubbed
 
 WIDEST, FAN = np.radians(75.0), 51  # directions looked at: up to there on both sides

@@ -1,5 +1,7 @@
 """Stresses in the plane of symmetry below the feature, over the whole passage: a table over x', depth and moments."""
 
+import copy
+
 import numpy as np
 
 from tehl_taichi.crack.residual import Residual
@@ -22,6 +24,14 @@ class Plane:
         self.x, self.skin, self.stress, self.centres, self.a, self.reach = x, skin, stress, centres, a, reach
         self.depths = skin * (GROWTH ** np.arange(stress.shape[1]) - 1)
         self.residual, self.scale = residual, float(np.abs(stress).max())
+
+    def having(self, residual):
+        """The same loads with a residual stress (Pa, or rows of depth and Pa; None: as it is)."""
+        if residual is None:
+            return self
+        other = copy.copy(self)
+        other.residual = Residual(residual)
+        return other
 
     def holds(self, points):
         """(points,) whether the table has x + i depth (m)."""
@@ -75,8 +85,8 @@ def plane_of(scene, reader, residual=None):
     stress = histories_of(passage, depths, [(0, False)])[0][..., KEPT].swapaxes(0, 1)
     if not np.isfinite(stress).all():
         raise SceneError("the stored tractions are no numbers somewhere, so the stresses below are none either")
-    return Plane(passage.x, skin, np.ascontiguousarray(stress), np.append(passage.centres, np.nan), passage.a, feature.reach,
-                 None if residual is None else Residual(residual))
+    centres = np.append(passage.centres, np.nan)
+    return Plane(passage.x, skin, np.ascontiguousarray(stress), centres, passage.a, feature.reach).having(residual)
 
 
 def _checked(scene, reader):

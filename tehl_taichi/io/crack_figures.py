@@ -1,10 +1,8 @@
 """Figure of a crack: paths and trajectories in the section below the feature, and K through the passage."""
 
-from pathlib import Path
-
 import numpy as np
 
-from tehl_taichi.io.figures import DPI, pyplot
+from tehl_taichi.io.figures import DPI, made, pyplot
 
 COLOURS = {"entry": "C0", "exit": "C3"}
 SHOWN = 150e6  # Pa: more tension has the same colour
@@ -14,7 +12,7 @@ BAND = 60e-6   # m: length of the pits' band along the surface
 
 def write_crack(result, title, folder, dpi=DPI):
     """Write crack.png of a :class:`tehl_taichi.crack.answer.CrackResult` into `folder`; returns its path. Raises StoreError."""
-    plt, path = pyplot(), Path(folder) / "crack.png"
+    plt, path = pyplot(), made(folder) / "crack.png"
     figure = crack_figure(plt, result, title)
     figure.savefig(path, dpi=dpi)
     plt.close(figure)

@@ -55,6 +55,12 @@ class Run:
 
         return fatigue(self, **constants)
 
+    def crack(self, **wanted: Any) -> Any:
+        """Where a crack goes under its loads: :func:`tehl_taichi.crack` of it."""
+        from tehl_taichi.crack import crack
+
+        return crack(self, **wanted)
+
     def to_xarray(self) -> Any:
         """Every array of the store as an `xarray.Dataset` that is read when it is looked at: dimensions time, x and y, unit and
         meaning on each. Raises StoreError without xarray (the `xarray` extra)."""
