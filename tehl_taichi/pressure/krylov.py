@@ -41,8 +41,8 @@ def fill(field: ti.template(), row: ti.i32, first: ti.i32, values: LinearTable):
 
 
 @ti.kernel
-def linear_solve(F: ti.template(), G: Table, C: Numbers, Q: Passes, todo: Numbers, jobs: Numbers, N: Table, partial: Table,
-                 sync: workers.Sync, most: ti.i32, right: LinearFlat, outflow: LinearFlat, out: LinearFlat,
+def linear_solve(memory: ti.template(), G: Table, C: Numbers, Q: Passes, todo: Numbers, jobs: Numbers, N: Table,
+                 partial: Table, sync: workers.Sync, most: ti.i32, right: LinearFlat, outflow: LinearFlat, out: LinearFlat,
                  alone: ti.template()):
     """All phases from the one that `sync` stands at, by as many workers as it says."""
     ti.loop_config(block_dim=1, serialize=alone)
@@ -52,7 +52,7 @@ def linear_solve(F: ti.template(), G: Table, C: Numbers, Q: Passes, todo: Number
             n, j = workers.phase_of(ticket), workers.job_of(ticket)
             if j < todo[n, JOBS]:
                 q = todo[n, FIRST_JOB] + j
-                phases.work(F, G, C, Q, N, partial, jobs[q, 0], jobs[q, 1], jobs[q, 2], w, most, right, outflow, out)
+                phases.work(memory, G, C, Q, N, partial, jobs[q, 0], jobs[q, 1], jobs[q, 2], w, most, right, outflow, out)
                 if workers.last_one(sync, todo[n, JOBS]):
                     workers.publish(sync, ticket, decisions.decide(N, partial, todo, n, todo[n, DECISION], most))
             else:
@@ -67,6 +67,8 @@ class Krylov:
     right, outflow, out: vectors of `levels.n` numbers: scaled rows of the right-hand side, weights of the scaled rows in the
     net outflow, result; `symbols`: of its convolutions, the deflection first.
     """
+
+    USUAL = 80  # iterations that the memory has room for at least, so that scenes with fewer share one compiled kernel
 
     def __init__(self, levels):
         self.levels, self.most = levels, levels.scene.numerics.krylov_max
@@ -83,7 +85,8 @@ class Krylov:
         v, largest = self.levels, self._largest()
         self.layout = layout
         size = [max(layout.x, largest.x, SMALLEST), max(layout.y, largest.y, SMALLEST), max(layout.t, largest.t)]
-        V = tables.lease(self, phases.BASIS + 2 * self.most + 1 + phases.AT_ONCE, lanes.W,
+        rows = phases.BASIS + 2 * max(self.most, self.USUAL) + 1 + phases.AT_ONCE
+        V = tables.lease(self, rows, lanes.W,
                          max(columns(v.nx, v.ny), columns(v.scene.grid.nx, v.scene.rows)), precision=v.precision, clean=False)
         kinds = zip((lanes.W, convolution.GROUP, 2), size)
         self.memory = Memory(v.J, V, *(tables.lease(self, 1, n, count, precision=v.precision) for n, count in kinds))
