@@ -40,8 +40,8 @@ class Shape:
 
 
 def shapes(sizes, lines):
-    """Of the deflection on the finest grid and of the distributions on those of `lines`."""
-    return [Shape(0, *sizes[0], 2 * sizes[0][0]), *(Shape(l, *sizes[l], sizes[l][0]) for l in lines)]
+    """Of the deflection on the finest grid and the distributions on `lines` (profiles: both ends apart, fewer Newton steps)."""
+    return [Shape(0, *sizes[0], 2 * sizes[0][0]), *(Shape(l, *sizes[l], sizes[l][0] + (sizes[l][1] == 0)) for l in lines)]
 
 
 class Layout:
