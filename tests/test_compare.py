@@ -11,7 +11,7 @@ import tehl_taichi as tehl
 from tehl_taichi.study import compare_figure
 from tehl_taichi.study.compare import flat
 
-OTHER = SMALL.replace(srr=0.12, height=1e-6)
+OTHER = SMALL.replace(name="other", srr=0.12, height=1e-6)
 
 
 @pytest.fixture
@@ -43,6 +43,13 @@ def test_only_what_differs_of_the_scenes_is_told(two):
 def test_a_third_difference_leaves_the_names_as_labels(two, tmp_path):
     store(tmp_path / "third.zarr", 3, SMALL.replace(load=1.2e6))
     assert tehl.compare(*two, tmp_path / "third.zarr").labels() == ["a/run", "b/run", tmp_path.name + "/third"]
+
+
+def test_a_named_oil_is_one_difference(two, tmp_path):
+    store(tmp_path / "oil.zarr", 3, SMALL.replace(**{"oil.name": "mineral-vg100", "bodies.a.material": "100Cr6"}))
+    found = tehl.compare(two[0], tmp_path / "oil.zarr")
+    assert found.labels() == ["material = none, oil = reference-pao", "material = 100Cr6, oil = mineral-vg100"]
+    assert found.differs["oil.G0"] == [4.57, 4.365]  # the table tells the numbers, too
 
 
 def test_summaries_stand_side_by_side(runs):

@@ -1,7 +1,9 @@
 """The registry of named steels, and what a name means for a body."""
 
 import pytest
+from tehl_cli.main import app
 from test_registry import hold
+from typer.testing import CliRunner
 
 from tehl_taichi.io import scene_file
 from tehl_taichi.scene import SceneError, scene
@@ -42,3 +44,8 @@ def test_unknown_steels_are_refused_with_the_nearest(tmp_path):
     (tmp_path / "bad.toml").write_text('base = "gear"\n[bodies.a]\nmaterial = "18MnCr5"\n')
     with pytest.raises(SceneError, match="bodies.a.material = '18MnCr5' is not known"):
         scene_file.load(tmp_path / "bad.toml")
+
+
+def test_the_command_lists_numbers_and_sources():
+    told = CliRunner().invoke(app, ["steels"]).stdout
+    assert all(name in told and steel.source in told for name, steel in STEELS.items()) and "208" in told

@@ -7,13 +7,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import Any
 
 from tehl_taichi.flank import columns
 from tehl_taichi.flank.contacts import scene_at
 from tehl_taichi.flank.described import described
 from tehl_taichi.flank.mesh import Mesh
 from tehl_taichi.flank.outcomes import summaries
+from tehl_taichi.scene import Scene
+from tehl_taichi.scene.gear_pair import GearPair
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.study.progress import Progress
 
@@ -110,21 +111,29 @@ class Flank:
         return flank_figure.write(self, Path(path or self.folder / "flank.png"), dpi)
 
     def __repr__(self):
-        return f"<tehl.Flank {self.name}: {len(self.positions)} positions, {len(self.failed)} failed, {self.folder}>"
+        done = len(self.positions) - len(self.failed)
+        return f"<tehl.Flank {self.name}: {done} of {len(self.positions)} positions, {self.folder}>"
 
 
-def flank(gear: Any = "fzg-c", *, torque: float | None = None, speed: float | None = None, on: str | None = None,
-          positions: int | None = None, at: Sequence = (), scene: Any = None, changes: dict | None = None, steady: bool = False,
-          folder: str | PathLike | None = None, threads: int | None = None, progress: Progress | None = None) -> "Flank":
+def flank(gear: str | PathLike | GearPair = "fzg-c", *, torque: float | None = None, speed: float | None = None,
+          on: str | None = None, positions: int | None = None, at: Sequence[str | float] = (), scene: Scene | None = None,
+          changes: dict | None = None, steady: bool = False, folder: str | PathLike | None = None, threads: int | None = None,
+          progress: Progress | None = None) -> Flank:
     """Film, pressure, temperatures and fatigue along a gear flank, a run per position: a :class:`Flank`.
 
     gear: "fzg-c", "fzg-a", a TOML or CSV file, or a GearPair; torque (N m) and speed (1/min) of the pinion, instead of its
     own; on: "pinion" or "gear", whose flank carries the feature; positions: how many; at: points ("C", "B-") or x_pl in m in
     their place; scene: everything but contact and speeds (default: what the file names, or "gear"); changes: of that scene, as
     Scene.replace takes them; steady: no feature passes; folder: of the stores and results (default: runs/NAME-N; one that is
-    there is gone on with); progress: a :class:`tehl_taichi.study.Progress`. Raises SceneError, StoreError before anything runs.
+    there is gone on with); threads, progress: as :func:`tehl_taichi.run`. Raises SceneError and StoreError before anything
+    runs; a position that does not converge is in :attr:`Flank.failed`.
 
     >>> import tehl_taichi as tehl
+    >>> pitch = tehl.flank("fzg-c", at=["C"], steady=True, changes={"grid.nx": 64, "thermal.on": False}, folder="pitch")
+    >>> pitch
+    <tehl.Flank fzg-c: 1 of 1 positions, pitch>
+    >>> pitch.positions[0].srr, round(pitch.positions[0].R * 1e3, 2)
+    (0.0, 8.38)
     >>> tehl.flank("fzg-c", torque=0)
     Traceback (most recent call last):
     ...

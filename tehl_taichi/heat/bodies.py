@@ -51,8 +51,7 @@ class Bodies:
         self.levels, self.columns, self.steady = levels, columns, False
         speeds = scene.operation.u_a, scene.operation.u_b
         self.each = [Body(*one, dt, a) for one in zip((scene.body_a, scene.body_b), speeds, scene.at_rest)]
-        size, self.kept = strips.slots_of(modes.MODES)
-        self.table = slots.SlotTable(levels, size)
+        self.table = slots.SlotTable(levels, strips.width(modes.MODES))
         self.offset = self.until = np.zeros(2)  # cells that each body has moved since the start, and will have
         self._bind(scene.operation.temperature)
 
@@ -88,13 +87,14 @@ class Bodies:
         for n, (body, flux) in enumerate(zip(self.each, (slots.QA, slots.QB))):
             if body.rests:
                 present = self.columns.single(flux)
-                memory[strips.flux_slot(modes.MODES, n)] = present
-                memory[strips.mode_slots(modes.MODES, n)] = body.settled()[:, None, None] * present
+                first, last_flux = strips.memory(modes.MODES, n)
+                memory[first : first + modes.MODES] = body.settled()[:, None, None] * present
+                memory[last_flux] = present
         self.restore(memory, self.offset)
 
     def memory(self):
         """Modes of both bodies and the last flux into them, (slots, ny+1, nx+1)."""
-        return self.table.get(0, self.kept)
+        return self.table.get(0, strips.kept(modes.MODES))
 
     def restore(self, memory, offset):
         """Go on from :meth:`memory` and the cells that each body has moved since the start."""

@@ -52,7 +52,7 @@ class Node:
 
     ie: V  # 1/(Pa s), 1/eta
     lever: V  # m, z - z_c
-    swell: V  # 1/s, expansivity times dp/dt along the path
+    swell: V  # W/m3K, expansivity times dp/dt along the path
 
 
 @ti.dataclass

@@ -17,33 +17,21 @@ Modes = ti.types.ndarray(dtype=ti.f64, ndim=2)
 WEIGHT, DECAY, GAIN, GAIN_LAST = range(4)
 
 
-def slots_of(count):
-    """Slots of the table F with so many modes of a body, and how many of them go on to the next step."""
-    kept = 2 * count + 2
-    return 2 * kept + 1, kept
+@ti.pyfunc
+def kept(count):
+    """Slots that go on to the next step."""
+    return 2 * count + 2
 
 
-def mode_slots(count, body):
-    """Of the modes of a body."""
-    return slice(body * count, (body + 1) * count)
-
-
-def flux_slot(count, body):
-    """Of the last flux into it."""
-    return 2 * count + body
-
-
-@ti.func
+@ti.pyfunc
 def memory(count, body):
-    """Slots of the first mode of a body and of the last flux into it."""
+    """Slots of the first mode of a body and of the last flux into it; those of the new step lie `kept` further on."""
     return body * count, 2 * count + body
 
 
-@ti.func
-def new_memory(count, body):
-    """The same for the new step."""
-    kept = 2 * count + 2
-    return kept + body * count, kept + 2 * count + body
+def width(count):
+    """Slots in all."""
+    return 2 * kept(count) + 1
 
 
 @ti.func
@@ -62,7 +50,7 @@ def surface(F: ti.template(), Z: ti.template(), G: Table, modes: Modes, drift: F
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
-        first, scratch = s * (nx + 1), 4 * count + 4
+        first, scratch = s * (nx + 1), 2 * kept(count)
         lies = read(Drift, drift)
         shift = int(lies.shift)
         modes_at, flux_at = memory(count, body)
@@ -87,7 +75,7 @@ def remember(F: ti.template(), Z: ti.template(), G: Table, modes: Modes, drift: 
         first, lies = s * (nx + 1), read(Drift, drift)
         shift = int(lies.shift)
         modes_at, flux_at = memory(count, body)
-        new_modes, new_flux = new_memory(count, body)
+        new = kept(count)
         for i in range(nx + 1):
             q, last = interpolate(Z, first, i, nx, slot, lies.rest), V(0.0)
             if i - shift >= 0:
@@ -96,8 +84,8 @@ def remember(F: ti.template(), Z: ti.template(), G: Table, modes: Modes, drift: 
                 old = V(0.0)
                 if i - shift >= 0:
                     old = F[first + i - shift, modes_at + m]
-                F[first + i, new_modes + m] = modes[DECAY, m] * old + modes[GAIN, m] * q + modes[GAIN_LAST, m] * last
-            F[first + i, new_flux] = q
+                F[first + i, new + modes_at + m] = modes[DECAY, m] * old + modes[GAIN, m] * q + modes[GAIN_LAST, m] * last
+            F[first + i, new + flux_at] = q
 
 
 @ti.kernel
@@ -107,5 +95,5 @@ def adopt(F: ti.template(), G: Table, count: ti.i32):
     ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
         for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
-            for m in range(2 * count + 2):
-                F[q, m] = F[q, 2 * count + 2 + m]
+            for m in range(kept(count)):
+                F[q, m] = F[q, kept(count) + m]

@@ -1,7 +1,7 @@
 """The pressure of a film of given temperatures: Reynolds equation, elastic deflection, cavitation, solid contact, load.
 
-`fields` names the rows of the tables, `conditions` the numbers of a scene; `faces`, `couette`, `reynolds`, `laws`, `balances`
-are the discrete `equations`, `one_temperature` a film that they are solved for, `deflection` the bodies; `newton` solves with
-`krylov`, `preconditioner`, `lines`, `transfer` on the grids of `levels`; `storage` is d/dt, `tractions` the shear on both
-surfaces. May import `physics`, `engine`, `scene`; nothing here knows of heat.
+`fields` names the rows of the tables, `conditions` the numbers of a scene; `cell_faces`, `couette`, `reynolds`, `laws` and
+`balances` are the discrete `equations`, `one_temperature` a film that they are solved for, `deflection` the bodies; `newton`
+solves with `krylov`, `preconditioner`, `lines`, `transfer` on the `levels` of `grids`, whose numbers are `level_numbers`;
+`storage` is d/dt, `tractions` the shear on both surfaces. May import `physics`, `engine`, `scene`; nothing here knows of heat.
 """

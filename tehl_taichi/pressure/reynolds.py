@@ -22,8 +22,8 @@ from tehl_taichi.engine.lanes import (
     rows_in,
     rows_out,
 )
+from tehl_taichi.pressure.cell_faces import face_above, face_below, face_x, flux_x, net_flux_y
 from tehl_taichi.pressure.couette import couette_weights
-from tehl_taichi.pressure.faces import face_above, face_below, face_x, flux_x, net_flux_y
 from tehl_taichi.pressure.fields import (
     AD,
     AU,

@@ -1,7 +1,8 @@
 """What the user describes: frozen dataclasses in SI units, checked when they are made.
 
-Bodies, oil, features, operation, grid, and what follows from them alone: Hertz units, film formulas, routes, doubts. May import
-`values` and `physics` (which laws there are); needs no taichi. `tehl_taichi.scene("gear")` is the built-in scene of that name.
+Bodies, oil, features, operation, grid, and what follows from them alone: Hertz units, film formulas, routes, doubts. Shapes of
+`features`, named `oils`: a file each. May import `values`, `physics` and `criteria` (which laws there are); needs no taichi.
+`tehl_taichi.scene("gear")` is the built-in scene of that name.
 """
 
 from tehl_taichi.called import callable_room

@@ -40,13 +40,12 @@ def _name(oil):
             yield (f"oil.name = {oil.name} with other numbers than that oil ({', '.join(other)}): it is another oil; give it "
                    "a name of its own")
         return
-    for known in OILS.values():
-        if all(values[key] == getattr(known, key) for key in values if key not in NOT_HEAT):
-            numbers = (*oil.law_numbers, "viscosity")
-            same = "all its numbers" if all(values[key] == getattr(known, key) for key in numbers) else (
-                "its density, conductivity and heat capacity")
-            yield f"oil.name = {oil.name}: {same} are those of {known.name}"
-            return
+    of_heat, of_law = [key for key in values if key not in NOT_HEAT], (*oil.law_numbers, "viscosity")
+    heat = [known for known in OILS.values() if all(values[key] == getattr(known, key) for key in of_heat)]
+    whole = [known for known in heat if all(values[key] == getattr(known, key) for key in of_law)]
+    if heat:
+        same = "all its numbers" if whole else "its density, conductivity and heat capacity"
+        yield f"oil.name = {oil.name}: {same} are those of {', '.join(known.name for known in whole or heat)}"
 
 
 def _without_temperature(scene):

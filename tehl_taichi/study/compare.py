@@ -42,10 +42,10 @@ class Comparison:
 
     def labels(self):
         """A name for each run that says what is special about it: up to two values that differ, or its folder."""
-        differs = list(self.differs.items())
+        differs = [(key, values) for key, values in self.differs.items() if not _follows(key, self.differs)]
         if not 1 <= len(differs) <= 2:
             return self.names
-        return [", ".join(f"{key.rpartition('.')[2]} = {_short(values[n])}" for key, values in differs)
+        return [", ".join(f"{key.removesuffix('.name').rpartition('.')[2]} = {_short(values[n])}" for key, values in differs)
                 for n in range(len(self.stores))]
 
     def to_dict(self):
@@ -60,16 +60,21 @@ class Comparison:
         return compare_figure.write(self, Path(path), at, dpi)
 
 
-def compare(*paths: Run | str | PathLike) -> Comparison:
-    """A :class:`Comparison` of two runs or more, by their stores or as :class:`tehl_taichi.study.stored_run.Run`.
+def compare(*paths: str | PathLike | Run) -> Comparison:
+    """Two runs or more side by side: what differs of their scenes, their summaries, one figure.
 
-    Raises SceneError for fewer or too many, StoreError where a path is no store.
+    paths: their stores, or the runs themselves, finished or not. Raises SceneError for fewer or too many, StoreError where a
+    path is no store.
 
     >>> import tehl_taichi as tehl
-    >>> line = tehl.scene("smooth-line").replace(**{"grid.nx": 32, "thermal.on": False})
-    >>> found = tehl.compare(*(tehl.run(line.replace(load=load), f"{n}.zarr") for n, load in enumerate((1e6, 1.1e6))))
-    >>> found.differs, len(found.summaries["steady.h_c_m"])
-    ({'contact.load': [1000000.0, 1100000.0]}, 2)
+    >>> scene = tehl.scene("smooth-line").replace(**{"grid.nx": 64, "thermal.on": False})
+    >>> slow, fast = (tehl.run(scene.replace(speed=u), f"{u:g}.zarr") for u in (5, 10))
+    >>> found = tehl.compare(slow, fast)
+    >>> found.differs
+    {'operation.u_m': [5.0, 10.0]}
+    >>> thin, thick = found.summaries["steady.h_c_m"]
+    >>> thin < thick
+    True
     """
     from tehl_taichi.io.store import Store
 
@@ -104,6 +109,12 @@ def _side_by_side(rows, wanted):
     return {key: values for key, values in found.items() if wanted(key, values)}
 
 
+def _follows(key, differs):
+    """Numbers of oils and steels that their names bring."""
+    named = f"{key.rpartition('.')[0]}.name", f"{key.rpartition('.')[0]}.material"
+    return key not in named and any(name in differs for name in named)
+
+
 def _of_no_matter(key):
     """Names, and files whose heights are told by their sum."""
     return key == "name" or key.endswith(".file")
@@ -116,4 +127,4 @@ def _told(key, values):
 
 
 def _short(value):
-    return f"{value:g}" if isinstance(value, float) else str(value)
+    return f"{value:g}" if isinstance(value, float) else str(value) or "none"
