@@ -19,6 +19,7 @@ def register(app):
     bench.command()(accuracy)
     bench.command()(speed)
     bench.command()(scaling)
+    bench.command()(sweep)
     bench.command()(profile)
     app.add_typer(bench, name="bench")
 
@@ -26,6 +27,7 @@ def register(app):
 OUT = typer.Option(Path("runs/bench"), help="folder for the JSON and PNG")
 QUICK = typer.Option(False, "--quick", help="small grids, a few steps")
 THREADS = typer.Option(None, help="CPU threads (default: all)")
+WORKERS = typer.Option(1, help="processes side by side, which share the cores (more than 1 needs the extra `sweep`)")
 
 
 def stability(
@@ -36,21 +38,20 @@ def stability(
     quick: bool = typer.Option(False, "--quick", help="every sixth case and eight random scenes"),
     as_json: bool = typer.Option(False, "--json", help="one JSON object with the counts on stdout"),
     threads: Optional[int] = THREADS,
+    workers: int = WORKERS,
     precision: str = typer.Option("auto", help="of the linear solves: f32, f64 or what suits each scene"),
 ):
     """Stiff and extreme scenes: converged, refused, stopped with the reason, or failed. Example: `tehl bench stability`"""
-    from tehl_taichi.profiles.stability import cases, random_cases, run_case
+    from tehl_taichi.profiles.stability import cases, random_cases, run
 
-    from tehl_taichi.engine import runtime
-
-    runtime.start(threads=threads)
     table = list(cases(thermal).items())
     chosen = [*table[:: 6 if quick else 1], *random_cases(min(random, 8) if quick else random, seed).items()]
+    chosen = {name: description for name, description in chosen if match.lower() in name.lower()}
     found = []
-    for name, description in chosen:
-        if match.lower() in name.lower():
-            found.append(run_case(name, description, precision))
-            say(f"{name}: {found[-1].verdict} {found[-1].reason}")
+    for outcome in run(chosen.items(), precision, workers, threads):
+        found.append(outcome)
+        say(f"{outcome.name}: {outcome.verdict} {outcome.reason}")
+    found.sort(key=lambda outcome: list(chosen).index(outcome.name))
     counts = {verdict: sum(o.verdict == verdict for o in found) for verdict in ("converged", "refused", "stopped", "failed")}
     if as_json:
         print_json({**counts, "cases": [vars(o) for o in found]})
@@ -67,20 +68,18 @@ def conclusions(
     out: Path = typer.Option(Path("runs/conclusions"), help="folder of the stores (used again) and of the results"),
     quick: bool = typer.Option(False, "--quick", help="the reference asperity and dent on coarse grids"),
     threads: Optional[int] = THREADS,
+    workers: int = WORKERS,
 ):
     """What the thesis concludes, with errors: Findley stress by slip, feature, pressure, part of the passage.
 
     Example: `tehl bench conclusions --quick`
     """
     from tehl_cli.listing import list_table
-
-    from tehl_taichi.engine import runtime
-    from tehl_taichi.scene import scene
-
-    runtime.start(threads=threads)
     from tehl_taichi.profiles import conclusions as suite
 
-    rows = suite.run(out, quick, say)
+    from tehl_taichi.scene import scene
+
+    rows = suite.run(out, quick, say, workers, threads)
     base = scene("gear")
     judged = suite.verdicts(rows, base.fatigue.endurance)
     list_table("Findley stress, MPa", ("case", *suite.WINDOWS), [(r.name, *suite.cells(r)) for r in rows])
@@ -207,6 +206,16 @@ def scaling(out: Path = OUT, quick: bool = QUICK, threads: Optional[int] = THREA
     _table("scaling", rows, {"nx": "{}", "ny": "{}", "threads": "{}", "step_ms": "{:.1f}", "node_ns": "{:.0f}",
                              "newton": "{:.1f}", "cycles": "{:.1f}", "memory_mb": "{:.0f}", "node_B": "{:.0f}"})
     _write(out, "scaling", rows, lambda plt: suite.chart(plt, rows))
+
+
+def sweep(out: Path = OUT, quick: bool = QUICK,
+          workers: Optional[int] = typer.Option(None, min=1, help="the most (default: one for each core)")):
+    """Speed-up of a sweep of 16 cases on 1, 2, 4 ... workers of one thread. Example: `tehl bench sweep --workers 2`"""
+    from tehl_taichi.profiles import side_by_side as suite
+
+    rows = suite.run(quick, workers, say)
+    _table("16 cases side by side", rows, {"workers": "{}", "seconds": "{:.1f}", "cases_s": "{:.1f}", "speed_up": "{:.2f}"})
+    _write(out, "sweep", rows, None)
 
 
 def profile(out: Path = OUT, quick: bool = QUICK, threads: Optional[int] = THREADS,

@@ -60,8 +60,14 @@ def new(
     print(f"wrote {file}; run it with: tehl run {file}")
 
 
-def show(store: Path = typer.Argument(..., help="store of a finished, running or broken run")):
-    """Summary and residual history of a run."""
+def show(store: Path = typer.Argument(..., help="store of a finished, running or broken run, or a study")):
+    """Summary and residual history of a run; table of a study."""
+    from tehl_taichi.study.table import Study, is_study
+
+    if is_study(store):
+        from tehl_cli.sweep_live import print_study
+
+        return print_study(Study.open(store))
     from tehl_cli.listing import history_table, summary_table, warning_lines
 
     import tehl_taichi as tehl
@@ -87,14 +93,30 @@ def _state(saved):
     return "finished" if saved.cut is None else f"finished, cut at {saved.cut:.2f} a; go on with: tehl resume {saved.path}"
 
 
-def plot(store: Path = typer.Argument(..., help="store of a run"),
+def plot(store: Path = typer.Argument(..., help="store of a run, or a study"),
          out: Path = typer.Option(None, help="folder for the figures (default: beside the store)"),
+         quantity: str = typer.Option(None, help="of a study: the column of its table to draw, as fatigue_Fi_max"),
          dpi: int = typer.Option(160, help="dots per inch, 40 to 1200")):
-    """PNG figures: centreline pressure and film, maps, fatigue. Example: `tehl plot runs/gear-1.zarr --dpi 300`"""
-    import tehl_taichi as tehl
+    """PNG figures: centreline pressure and film, maps, fatigue; of a study its results over the swept keys.
 
-    for path in tehl.open(store).plot(out, dpi):
+    Examples: `tehl plot runs/gear-1.zarr --dpi 300` · `tehl plot runs/gear-sweep-0a1b2c.zarr --quantity steady_h_c_m`
+    """
+    for path in _draw(store, out, quantity, dpi):
         print(path)
+
+
+def _draw(store, out, quantity, dpi):
+    """Paths of the figures of a run or of a study."""
+    import tehl_taichi as tehl
+    from tehl_taichi.errors import SceneError
+    from tehl_taichi.study.table import Study, is_study
+
+    if is_study(store):
+        return Study.open(store).plot(out, quantity, dpi)
+    if quantity:
+        raise SceneError(f"--quantity {quantity} is of the table of a study, and {store} is none")
+    return tehl.open(store).plot(out, dpi)
+
 
 
 def doctor():

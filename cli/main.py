@@ -2,7 +2,7 @@
 
 import typer
 import typer.core
-from tehl_cli import bench, compare_command, crack_command, fatigue, flank_command, inspect, materials, runs
+from tehl_cli import bench, compare_command, crack_command, fatigue, flank_command, inspect, materials, runs, sweeps
 from tehl_cli.entry import main
 
 from tehl_taichi.errors import Interrupted
@@ -45,6 +45,7 @@ def _tell_version():
 
 
 runs.register(app)
+sweeps.register(app)
 inspect.register(app)
 materials.register(app)
 fatigue.register(app)

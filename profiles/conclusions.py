@@ -9,12 +9,14 @@ from pathlib import Path
 
 import numpy as np
 
+from tehl_taichi.engine import runtime
 from tehl_taichi.errors import NotConverged
 from tehl_taichi.fatigue import below, findley
 from tehl_taichi.fatigue.histories import Passage
 from tehl_taichi.march.error_bars import estimated_error
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.study import pool
 from tehl_taichi.study.single import completed
 
 GRIDS, QUICK_GRIDS = ((64, 16), (128, 32), (256, 64)), ((64, 16), (128, 32))
@@ -56,11 +58,30 @@ def cases(quick=False):
     return {f"{kind}, SRR {srr:+g}": base.replace(srr=srr, **changes) for kind, changes in kinds.items() for srr in SLIPS}
 
 
-def run(folder, quick=False, progress=None):
-    """Rows of all cases; their stores lie in `folder` and are used again. progress: called with a line of text."""
-    grids = QUICK_GRIDS if quick else GRIDS
-    return [row(name, description, Path(folder), grids + (FINER,) * (name.startswith(REFERENCE) and not quick), progress)
+def run(folder, quick=False, progress=None, workers=1, threads=None):
+    """Rows of all cases; their stores lie in `folder` and are used again. progress: called with a line of text; workers:
+    processes side by side, each on `threads` threads (None: all that are left)."""
+    grids, folder = QUICK_GRIDS if quick else GRIDS, Path(folder).absolute()
+    workers, threads = pool.sizes(workers, threads)
+    tell = progress if workers == 1 else None  # other processes have nobody to tell
+    jobs = [(name, description, folder, grids + (FINER,) * (name.startswith(REFERENCE) and not quick), tell, threads)
             for name, description in cases(quick).items()]
+    jobs.sort(key=lambda job: len(job[3]), reverse=True)  # the longest first, so that they do not end alone
+    found = {}
+    for number, answer in pool.results(work, jobs, workers=workers):
+        name, description = jobs[number][:2]
+        lost = isinstance(answer, pool.Lost)
+        found[name] = Row(name, description.operation.srr, {}, {}, (np.nan, np.nan), answer.reason) if lost else answer
+        if progress:
+            progress(f"{name}: {found[name].reason or 'done'}")
+    return [found[name] for name in cases(quick)]
+
+
+def work(job):
+    """The Row of one job of :func:`run`."""
+    *job, threads = job
+    runtime.start_or_join(threads=threads)
+    return row(*job)
 
 
 def row(name, description, folder, grids, progress=None):

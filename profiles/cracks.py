@@ -24,7 +24,7 @@ CONDITIONS = {"": {}, "residual -200 MPa": {"residual": -200e6}, "residual +200 
               "face friction 0.3": {"face_friction": 0.3}, "oil 0.3 (upper bound)": {"oil": 0.3}}
 NUMBERS = {"sigma1": ("largest tension, MPa", 1e6, "{:.0f}"), "depth": ("pulled to, um", 1e-6, "{:.1f}"),
            "chord": ("trajectory at 20 um, deg", 1, "{:.0f}"), "K_first": ("K_I at 5 um", 1e6, "{:.2f}"),
-           "K_largest": ("largest K_I", 1e6, "{:.2f}"), "K_II": ("range of K_II at 20 um", 1e6, "{:.1f}"),
+           "K_later": ("K_I at 20 um", 1e6, "{:.2f}"), "K_II": ("range of K_II at 20 um", 1e6, "{:.1f}"),
            "path": ("path at 20 um, deg", 1, "{:.0f}")}
 
 
@@ -94,7 +94,7 @@ def _numbers(side):
     K = side["K"]
     at = min(K, key=lambda step: abs(step["length_m"] - 20e-6))
     return {"sigma1": side["sigma1_surface_Pa"], "depth": side["tension_depth_m"], "K_first": K[0]["K_I_max"],
-            "K_largest": side["K_I_max"], "K_II": at["K_II_range"], "chord": _degrees(side["trajectory"]),
+            "K_later": at["K_I_max"], "K_II": at["K_II_range"], "chord": _degrees(side["trajectory"]),
             "path": _degrees(side["path"])}
 
 

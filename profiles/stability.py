@@ -9,6 +9,7 @@ from typing import Optional
 import numpy as np
 
 from tehl_taichi.criteria import CRITERIA
+from tehl_taichi.engine import runtime
 from tehl_taichi.io.scene_file import merge
 from tehl_taichi.physics import rheology
 from tehl_taichi.scene import Scene, SceneError, scene
@@ -17,6 +18,7 @@ from tehl_taichi.scene.named_oils import OILS
 from tehl_taichi.scene.parts import AUTO, Rheology
 from tehl_taichi.scene.passing import FEWEST
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.study import pool
 
 LINE, POINT = {"grid.nx": 128, "grid.ny": 32}, {"grid.nx": 64, "grid.ny": 32}
 NARROW = {"grid.nx": 304, "grid.ny": 76}  # 20 um are four cells, the fewest that are taken
@@ -135,6 +137,25 @@ def edited(base, changes):
     tables = {key: value for key, value in changes.items() if isinstance(value, (dict, list))}
     plain = {key: value for key, value in changes.items() if key not in tables}
     return Scene.from_dict(merge(scene(base).replace(**plain).to_dict(), tables))
+
+
+def run(chosen, precision=AUTO, workers=1, threads=None):
+    """Generator of an Outcome for each of `chosen` (pairs of a name and a scene or SceneError), in the order in which they end.
+
+    workers: processes side by side, each on `threads` threads (None: all that are left).
+    """
+    workers, threads = pool.sizes(workers, threads)
+    jobs = [(name, description, precision, threads) for name, description in chosen]
+    for number, found in pool.results(work, jobs, workers=workers):
+        lost = isinstance(found, pool.Lost)
+        yield Outcome(jobs[number][0], "failed", found.reason, 0, 0.0, 0.0, 0.0) if lost else found
+
+
+def work(job):
+    """The Outcome of one job of :func:`run`."""
+    name, description, precision, threads = job
+    runtime.start_or_join(threads=threads)
+    return run_case(name, description, precision)
 
 
 def run_case(name, description, precision=AUTO):

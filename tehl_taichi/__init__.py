@@ -23,7 +23,7 @@ os.environ.setdefault("TI_ENABLE_PYBUF", "0")
 __version__ = "0.2.0"
 __all__ = ["Error", "Interrupted", "Lines", "NotConverged", "Progress", "Run", "RuntimeUnavailable", "Scene", "SceneError",
            "StoreError", "__version__", "compare", "crack", "fatigue", "flank", "march", "open", "resume", "run", "scene",
-           "simulate"]
+           "simulate", "sweep"]
 
 # after the settings above, which numpy reads
 from tehl_taichi.called import callable_room  # noqa: E402
@@ -31,7 +31,7 @@ from tehl_taichi.errors import Error, Interrupted, NotConverged, RuntimeUnavaila
 from tehl_taichi.io.found import find  # noqa: E402
 from tehl_taichi.march import simulate  # noqa: E402
 from tehl_taichi.scene import Scene  # noqa: E402
-from tehl_taichi.study import Lines, Progress, Run, compare, open, resume, run  # noqa: E402
+from tehl_taichi.study import Lines, Progress, Run, compare, open, resume, run, sweep  # noqa: E402
 
 if TYPE_CHECKING:  # functions to those who check types, folders that can be called to Python
     from tehl_taichi.crack import crack

@@ -97,10 +97,11 @@ def test_of_a_row_alone_the_profile_is_that_of_the_row(taichi_cpu):
 def test_a_row_s_histories_at_the_surface_are_those_of_all_points(taichi_cpu, heat):
     scene = tehl.scene("gear").replace(**{"thermal.on": heat, "fatigue.residual_xx": 3e6})
     passage = Passage(scene, reader := Rolling(scene), reader.centres)
-    found = histories_of(passage, [0.0, 40e-6], [(0, False)])[0]
+    found = histories_of(passage, [0.0, 40e-6], [(0, False), (3, False)])
     for n, depth in enumerate((0.0, 40e-6)):
-        points = passage.history(slice(0, 1), passage.stresses(depth))
-        np.testing.assert_allclose(found[n], points, atol=1e-4 * np.abs(points).max())
+        for histories, row in zip(found, (0, 3)):
+            points = passage.history(slice(row, row + 1), passage.stresses(depth))
+            np.testing.assert_allclose(histories[n], points, atol=1e-4 * np.abs(points).max())
 
 
 def test_depths_beyond_the_rungs_are_interpolated_well(taichi_cpu):

@@ -53,3 +53,18 @@ def test_an_error_is_a_failure(monkeypatch):
 
     monkeypatch.setattr("tehl_taichi.march.passage.march", broken)
     assert stability.run_case("broken", scene("gear")).verdict == "failed"
+
+
+def test_scenes_of_the_suite_run_through_the_pool(taichi_cpu):
+    short = scene("smooth-line").replace(**{"thermal.on": False, "grid.nx": 64})
+    found = list(stability.run([("short", short), ("refused", SceneError("no"))]))
+    assert [(one.name, one.verdict) for one in found] == [("short", "converged"), ("refused", "refused")]
+
+
+@pytest.mark.slow
+def test_scenes_of_the_suite_run_side_by_side():
+    pytest.importorskip("distributed")
+    short = scene("smooth-line").replace(**{"thermal.on": False, "grid.nx": 64})
+    chosen = [(f"srr {srr}", short.replace(srr=srr)) for srr in (0.0, 0.1, 0.2)]
+    found = {one.name: one.cycles for one in stability.run(chosen, workers=2)}
+    assert found == {one.name: one.cycles for one in stability.run(chosen)}

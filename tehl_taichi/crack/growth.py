@@ -14,7 +14,6 @@ from tehl_taichi.crack.compliance import Faces
 from tehl_taichi.crack.rubbing import rubbed
 
 WIDEST, FAN = np.radians(75.0), 51  # directions looked at: up to there on both sides
-SHALLOW = 1e-9  # m: higher is out of the surface
 WHY = {"length": "it has the length that was asked for", "threshold": "K_I stays below the threshold",
        "closed": "its tip never opens", "window": "it leaves the part of the body whose stresses are known",
        "surface": "it comes up to the surface"}
@@ -73,9 +72,10 @@ def grow(plane, begun, wanted, E_star):
 
 def _stopped(plane, path, wanted, E_star):
     """Loads the newest length; True, with the reason, where the crack goes no farther."""
-    tip = path.points[-1]
-    if tip.imag <= SHALLOW or not plane.holds(tip):
-        path.why, path.points = "surface" if tip.imag <= SHALLOW else "window", path.points[:-1]
+    tip, before = path.points[-1], path.points[-2]
+    rising = tip.imag < before.imag and tip.imag <= wanted.distance  # what is left above it is a flake that breaks off
+    if rising or not plane.holds(tip):
+        path.why, path.points = "surface" if rising else "window", path.points[:-1]
         return True
     path.last = loaded(plane, path.points, wanted, E_star)
     path.first = path.first or path.last

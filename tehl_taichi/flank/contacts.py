@@ -52,19 +52,10 @@ def _room(plain, position):
     if not plain.features:
         return {}
     a, _ = hertz.line(position.load, position.R, reduced_modulus(plain))
-    end = _gap_reaches(SPARE * max(f.top for f in plain.features) * position.R / a**2)
+    end = hertz.gap_reaches(SPARE * max(f.top for f in plain.features) * position.R / a**2)
     reach, grid = max(abs(f.y) + f.reach_y for f in plain.features), plain.grid
     across = {"grid.y_max": max(grid.y_max, min(AROUND * reach / a, 20.0))} if math.isfinite(reach) else {}
     return {"grid.x_min": min(grid.x_min, -end), "grid.x_max": max(grid.x_max, end), **across}
-
-
-def _gap_reaches(H):
-    """Distance from the centre, in a, where the gap beside the dry contact is H a^2/R' (10 at most, as grids)."""
-    low, high = 1.0, 10.0
-    for _ in range(40):
-        X = 0.5 * (low + high)
-        low, high = (X, high) if hertz.line_gap(X) < H else (low, X)
-    return high
 
 
 def store_name(name, n, position):

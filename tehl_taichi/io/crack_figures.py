@@ -75,6 +75,7 @@ def _history(ax, result, name):
     ax.set_title(f"{name} side", fontsize="medium")
     if name not in result.sides or result.sides[name].path.last is None:
         ax.text(0.5, 0.5, "no crack", ha="center", transform=ax.transAxes)
+        ax.set_axis_off()
         return
     path, at = result.sides[name].path, plane.centres[:-1] / plane.a
     cracks = [path.last] if path.first is path.last else [path.first, path.last]

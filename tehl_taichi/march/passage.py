@@ -13,7 +13,7 @@ import numpy as np
 from tehl_taichi.errors import NotConverged
 from tehl_taichi.heat.temperatures import FilmHeat
 from tehl_taichi.march import snapshot
-from tehl_taichi.march.failure import not_converged
+from tehl_taichi.march.failure import crossed, not_converged
 from tehl_taichi.march.prediction import Prediction
 from tehl_taichi.march.snapshot import Snapshot
 from tehl_taichi.march.solved import Solved
@@ -54,7 +54,7 @@ class Passage:
     def __init__(self, scene, scales, state):
         self.scene, self.scales = scene, scales
         self.levels = Levels(scene, scales, scene.grid.nx, scene.rows, full=not scene.symmetric)
-        self.smooth = self.levels.smooth_gap()
+        self.smooth, self.border = self.levels.smooth_gap(), self.levels.get(fields.MASK).T == 0
         self.step_x = step_cells(scene) * self.levels.dx
         self.dT = self.step_x * scene.operation.u_m / scene.operation.u_a
         self.heat = None if scene.isothermal else FilmHeat(self.levels, self.dT * scales.t)
@@ -95,7 +95,7 @@ class Passage:
             else:
                 part = self._shorter(report, part)
         self.step += 1
-        return self._describe(report, started)
+        return self._sound(self._describe(report, started))
 
     def _try(self, until, part):
         """The state at `until` steps from here, `part` of a step after the last accepted one; accepted if it converged."""
@@ -183,6 +183,12 @@ class Passage:
     def _moved(self, step):
         """Cells that the features have moved after so many steps."""
         return float(step * self.step_x / self.levels.dx)
+
+    def _sound(self, shot):
+        """The snapshot, unless the surfaces cross at the border of the grid: there the pressure is given, not the gap."""
+        if shot.fields["film"][self.border].min() < 0:
+            raise crossed(shot, self.scales.a, self.border)
+        return shot
 
     def _describe(self, report, started):
         time_s = self.step * self.dT * self.scales.t

@@ -20,6 +20,20 @@ def line_gap(X):
     return (X * root - math.log(X + root)) / 2
 
 
+def point_gap(X):
+    """The same beside a circular contact (Johnson, section 3.4, Eq 3.42)."""
+    return X * X / 2 - 1 + ((2 - X * X) * math.asin(1 / X) + math.sqrt(X * X - 1)) / math.pi
+
+
+def gap_reaches(H, gap=line_gap, farthest=10.0):
+    """Distance from the centre, in a, where the gap beside the dry contact is H a^2/R' (`farthest` at most)."""
+    low, high = 1.0, farthest
+    for _ in range(40):
+        X = 0.5 * (low + high)
+        low, high = (X, high) if gap(X) < H else (low, X)
+    return high
+
+
 def point(load, R, E):
     """(radius a, maximum pressure p_H) of a circular contact, load in N (Johnson, section 4.2)."""
     a = (3 * load * R / (2 * E)) ** (1 / 3)

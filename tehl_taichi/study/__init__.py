@@ -1,13 +1,16 @@
 """Whole runs: one from its scene to its summary, as `tehl run` does it, and many of them.
 
 `single` runs, resumes and opens, with `recorder`, the march into a store; `stored_run` is what comes back, `progress` what it
-tells while it runs, `checkup` a self-test; `compare` puts runs side by side. May import every room but the commands; importing
-it costs nothing: what computes and what reads files is imported when it is called.
+tells while it runs, `checkup` a self-test; `compare` puts runs side by side.
+Many: `plan` is what a sweep varies (`typed`, `sampling`, `study_file` read it), `table` the study on disk, `many` runs each
+`case` over `pool`, here or on a `cluster`. May import every room but the commands; importing it costs nothing: what computes
+and what reads files is imported when it is called.
 """
 
 from tehl_taichi.study.compare import compare
+from tehl_taichi.study.many import sweep
 from tehl_taichi.study.progress import Lines, Progress
 from tehl_taichi.study.single import open, resume, run
 from tehl_taichi.study.stored_run import Run
 
-__all__ = ["Lines", "Progress", "Run", "compare", "open", "resume", "run"]
+__all__ = ["Lines", "Progress", "Run", "compare", "open", "resume", "run", "sweep"]

@@ -1,0 +1,113 @@
+"""`tehl sweep`: many runs of one scene, side by side."""
+
+from pathlib import Path
+from typing import List, Optional
+
+import typer
+from tehl_cli.changes import given_by
+from tehl_cli.live import say
+from tehl_cli.out import print_json
+
+MANY = 1000  # cases that nobody starts by mistake
+
+
+def register(app):
+    """Add the command to the app."""
+    app.command()(sweep)
+
+
+def sweep(
+    scene: str = typer.Argument(..., help="built-in name, TOML scene, TOML study file, or a study to go on with"),
+    over: Optional[List[str]] = typer.Option(None, "--over", help="key=values, repeatable: a,b,c or low:high:N or "
+                                             "low:high:N:log; 'key=values key=values' change together"),
+    samples: Optional[int] = typer.Option(None, help="so many cases of a Latin hypercube; --over key=low:high[:log] or a,b,c"),
+    seed: int = typer.Option(0, help="of the samples"),
+    set_: Optional[List[str]] = typer.Option(None, "--set", help="dotted.key=value in all cases, repeatable"),
+    grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY (cells or nodes)"),
+    steady: bool = typer.Option(False, "--steady", help="no march in time"),
+    thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="energy equation on or off"),
+    fatigue: Optional[bool] = typer.Option(None, "--fatigue/--no-fatigue", help="stresses and Findley index"),
+    steps: Optional[int] = typer.Option(None, help="stop every case after this many time steps"),
+    workers: Optional[int] = typer.Option(None, help="processes on this machine (default: one for each core)"),
+    threads_per_worker: Optional[int] = typer.Option(None, help="CPU threads of a case (default: 1, or what --workers leaves)"),
+    scheduler: Optional[str] = typer.Option(None, help="address of a running Dask scheduler, as in tcp://10.0.0.1:8786"),
+    keep: str = typer.Option("stores", help="stores (one for each case) or summary (the table alone)"),
+    out: Optional[Path] = typer.Option(None, help="study to write or to go on with (default: runs/NAME.zarr, the same for the "
+                                       "same sweep)"),
+    yes: bool = typer.Option(False, "--yes", help=f"start more than {MANY} cases without asking"),
+    dry_run: bool = typer.Option(False, "--dry-run", help="tell what would run, and stop"),
+    as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout, everything else on stderr"),
+    quiet: bool = typer.Option(False, "--quiet", help="no progress"),
+):
+    """All combinations of changes of a scene, into one table; the same command again goes on where it stopped.
+
+    Examples: `tehl sweep gear --over srr=-0.3:0.3:7 --over feature.height=0.5e-6,1e-6` · `tehl sweep study.toml` ·
+    `tehl sweep gear --samples 40 --over srr=-0.3:0.3 --over speed=1:20:log` · then `tehl plot runs/NAME.zarr`
+    """
+    from tehl_cli.sweep_live import SweepLive
+
+    from tehl_taichi.errors import Interrupted
+    from tehl_taichi.study import many
+
+    options = {"time.steps": steps, "thermal.on": thermal, "fatigue.on": fatigue, "time.steady_only": steady or None}
+    changes = given_by(options, grid, set_ or [])
+    plan, out = _planned(scene, over or [], samples, seed, changes, out)
+    out = out or many.default_path(plan)
+    if dry_run:
+        return _tell(plan, out)
+    _check_count(plan, yes)
+    with SweepLive(quiet) as live:
+        try:
+            study = many.run(plan, out, workers=workers, threads_per_worker=threads_per_worker, scheduler=scheduler, keep=keep,
+                             progress=live, told=say)
+        except KeyboardInterrupt:
+            raise Interrupted(live.interrupted()) from None
+    _print(study, as_json)
+    raise typer.Exit(0 if study.counts["converged"] == len(study) else 3)
+
+
+def _planned(name, over, samples, seed, changes, out):
+    """(plan, where its study goes or None) of a scene with --over, of a study file, or of a study."""
+    from tehl_taichi.io.found import find
+    from tehl_taichi.scene import SceneError
+    from tehl_taichi.study import study_file
+    from tehl_taichi.study.plan import plan
+    from tehl_taichi.study.table import Study, is_study
+    from tehl_taichi.study.typed import over_of
+
+    whole = study_file.is_study_file(name) or is_study(name)
+    if whole and (over or changes or samples is not None or seed):
+        raise SceneError(f"{name} says what is swept: leave out --over, --samples, --set and the like")
+    if whole:
+        return (study_file.load(name), out) if study_file.is_study_file(name) else (Study.open(name).plan, out or Path(name))
+    scene = find(name)
+    return plan(scene.replace(**changes) if changes else scene, over_of(over, samples is not None), samples, seed), out
+
+
+def _check_count(plan, yes):
+    from tehl_taichi.scene import SceneError
+
+    if plan.count > MANY and not yes:
+        raise SceneError(f"{plan.count} cases are more than {MANY}: --yes starts them all the same, --dry-run tells of them")
+
+
+def _tell(plan, out):
+    """What would run."""
+    refused = plan.refused()
+    shape = f" ({' x '.join(map(str, plan.shape))})" if len(plan.shape) > 1 else ""
+    print(f"{plan.count} cases{shape} of {plan.scene.name} into {out}")
+    for key in plan.keys:
+        values = [str(value) for value in plan.coordinate(key)[1]]
+        print(f"{key} = {', '.join(values[:12])}{' ...' if len(values) > 12 else ''}")
+    for number, reason in refused.items():
+        print(f"case {number} is refused: {reason}")
+
+
+def _print(study, as_json):
+    from tehl_cli.sweep_live import print_study
+
+    if not as_json:
+        return print_study(study)
+    results, counts = study.results(), study.counts
+    print_json({"cases": len(study), "converged": counts["converged"], "failed": len(study) - counts["converged"],
+                "study": str(study.path), "table": str(study.table), "results": results})

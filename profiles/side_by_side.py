@@ -1,0 +1,36 @@
+"""What several workers gain: the same sweep on 1, 2, 4 ... of them, one thread each."""
+
+import tempfile
+import time
+from pathlib import Path
+
+from tehl_taichi.engine import cores
+from tehl_taichi.scene import scene
+from tehl_taichi.study import many, warm
+from tehl_taichi.study.plan import plan
+
+OVER = {"srr": "-0.3:0.3:8", "feature.height": "0.5e-6,1e-6"}  # 16 cases
+
+
+def run(quick=False, most=None, progress=None):
+    """Rows {"workers", "seconds", "cases_s", "speed_up"} of the sweep on 1, 2, 4 ... `most` workers (default: one a core):
+    wall time with the start of the workers, the sum of the times of the cases, and how much faster than one worker."""
+    nx, ny, steps = (64, 16, 10) if quick else (128, 32, -1)
+    small = scene("gear").replace(**{"thermal.on": False, "grid.nx": nx, "grid.ny": ny, "time.steps": steps})
+    warm.once(small)  # kernels are compiled and kept before the first measurement
+    rows, workers = [], 1
+    while workers <= (most or cores.available()):
+        rows.append(_timed(plan(small, OVER), workers))
+        rows[-1]["speed_up"] = rows[0]["seconds"] / rows[-1]["seconds"]
+        if progress:
+            progress(f"{workers} workers: {rows[-1]['seconds']:.1f} s, {rows[-1]['speed_up']:.2f} times as fast as one")
+        workers *= 2
+    return rows
+
+
+def _timed(cases, workers):
+    with tempfile.TemporaryDirectory() as folder:
+        began = time.perf_counter()
+        study = many.run(cases, Path(folder) / "study.zarr", workers=workers, threads_per_worker=1)
+        seconds = time.perf_counter() - began
+        return {"workers": workers, "seconds": seconds, "cases_s": sum(one["seconds"] for one in study.results())}

@@ -1,0 +1,66 @@
+"""One case of a sweep, as a worker runs it: into its store, from where an earlier attempt stopped, to a record."""
+
+import contextlib
+import json
+import socket
+import tempfile
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from tehl_taichi.errors import Error, NotConverged
+from tehl_taichi.scene import Scene
+
+
+@dataclass(frozen=True)
+class Job:
+    """scene: of the case; store: path of its store, None to keep its summary alone; threads: of the engine (None: as it runs,
+    else all); shared: whether other workers of this machine want the same kernels."""
+
+    scene: Scene
+    store: str | None
+    threads: int | None = None
+    shared: bool = False
+
+
+def work(job):
+    """{"status", "reason", "summary", "seconds"} of a case; what the disk or the machine refuses is a failed one."""
+    began = time.perf_counter()
+    status, reason, summary = "converged", "", None
+    try:
+        summary = _summary(job)
+    except NotConverged as error:
+        status, reason = "not converged", str(error)
+    except Exception as error:  # noqa: BLE001  whatever it is, the other cases go on
+        status, reason = "failed", str(error) if isinstance(error, Error) else f"{type(error).__name__}: {error}"
+    return {"status": status, "reason": reason, "summary": summary, "seconds": time.perf_counter() - began}
+
+
+def _summary(job):
+    from tehl_taichi.study import warm
+
+    if job.shared:
+        warm.once(job.scene)
+    if job.store is None:
+        with tempfile.TemporaryDirectory(prefix="tehl-") as folder:
+            return {**_run(job, Path(folder) / "case.zarr"), "store": None}
+    return _run(job, Path(job.store))
+
+
+def _run(job, path):
+    """Summary of the run in the store at `path`: begun, gone on with, or done before."""
+    from tehl_taichi.study import single
+
+    _free(path)
+    return single.completed(job.scene, path, threads=job.threads).summary
+
+
+def _free(path):
+    """Take over what a worker of another machine left locked: it is gone, else the case were still its own."""
+    from tehl_taichi.io.lock import LOCK
+    from tehl_taichi.io.place import PART, beside
+
+    for folder in (path, beside(path, PART)):
+        with contextlib.suppress(OSError, ValueError, KeyError, TypeError):
+            if json.loads((folder / LOCK).read_text())["host"] != socket.gethostname():
+                (folder / LOCK).unlink()

@@ -1,0 +1,25 @@
+"""A summary as one row of a table: its numbers by one name each, with their units."""
+
+import math
+
+# what a case has of its own, or what is no number of its result
+LEFT_OUT = {"store", "scene", "version", "left_out", "warnings", "converged", "unknown", "clamps", "grid", "cells"}
+UNITS = {"m": "m", "Pa": "Pa", "C": "degC", "K": "K", "s": "s", "deg": "degree", "J": "J", "W": "W", "N": "N", "kg": "kg"}
+
+
+def numbers(summary, above=""):
+    """{name: number} of a nested summary: "fatigue_Fi_max" is summary["fatigue"]["Fi_max"]; lists and words are left out."""
+    out = {}
+    for key, value in summary.items():
+        if key in LEFT_OUT or " " in key:
+            continue
+        if isinstance(value, dict):
+            out |= numbers(value, f"{above}{key}_")
+        elif isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value):
+            out[above + key] = float(value)
+    return out
+
+
+def unit_of(name):
+    """Unit of a number by the end of its name, as summaries have it: h_min_m is in m, load_error in nothing."""
+    return UNITS.get(name.rpartition("_")[2], "1")

@@ -1,0 +1,110 @@
+"""Many runs of one scene with changes: case by case into a study, side by side, again from where it stopped."""
+
+from collections.abc import Callable, Mapping
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from tehl_taichi.scene import Scene
+
+if TYPE_CHECKING:
+    from tehl_taichi.study.table import Study
+
+KEEP = ("stores", "summary")
+COMPANIONS = "numerics.estimate_error"
+
+
+def sweep(scene: Scene | str | PathLike, over: Mapping, path: str | PathLike | None = None, *, samples: int | None = None,
+          seed: int = 0, workers: int | None = None, threads_per_worker: int | None = None, scheduler: Any = None,
+          keep: str = "stores", progress: Callable | None = None) -> "Study":
+    """Run `scene` with all combinations of changes; returns the :class:`tehl_taichi.study.table.Study`.
+
+    scene: a Scene, or what names one; over: {key: values}, values as a list, an array or a range "low:high:n", a tuple of keys
+    with rows of values for keys that change together; samples: so many of a Latin hypercube instead, values as "low:high" or a
+    list to choose from; path: of the study (default: runs/NAME.zarr, the same for the same sweep).
+    workers: processes (default: one for each core), 1 is this one; threads_per_worker: of each case (default: 1, or the cores
+    that `workers` leave); scheduler: address of a Dask scheduler, or a distributed.Client, instead; keep: "summary" leaves the
+    stores of the cases out; progress(study, record or None): called at the start and after each case.
+
+    A case that does not converge, is refused or loses its worker is in the study with its reason, the others go on. The same
+    call again goes on where it stopped and leaves alone what is done. Raises SceneError for what no case can run with,
+    StoreError, RuntimeUnavailable where Dask is wanted and not installed. Workers import the script that calls this: its own
+    calls stand under `if __name__ == "__main__":`.
+
+    >>> import tehl_taichi as tehl
+    >>> line = tehl.scene("smooth-line").replace(**{"grid.nx": 32, "thermal.on": False})
+    >>> tehl.sweep(line, {"srr": [0.0, 0.2], "speed": "5:15:2"}, "study.zarr", workers=1)
+    <Study study.zarr: 4 cases, 4 converged>
+    >>> study = tehl.sweep(line, {"srr": [0.0, 0.2], "speed": "5:15:2"}, "study.zarr", workers=1)  # nothing is left to do
+    >>> study.values["steady_h_c_m"].shape, study.results()[3]["changes"]
+    ((4,), {'srr': 0.2, 'speed': 15})
+    """
+    from tehl_taichi.io.found import find
+    from tehl_taichi.study.plan import plan
+
+    return run(plan(find(scene), over, samples, seed), path, workers=workers, threads_per_worker=threads_per_worker,
+               scheduler=scheduler, keep=keep, progress=progress)
+
+
+def run(plan, path=None, *, workers=None, threads_per_worker=None, scheduler=None, keep="stores", progress=None, told=None,
+        work=None):
+    """The cases of `plan` that its study at `path` has no result of; as :func:`sweep`. work: what runs a
+    :class:`tehl_taichi.study.case.Job` (default: :func:`tehl_taichi.study.case.work`)."""
+    from tehl_taichi.study import case, pool
+    from tehl_taichi.study.table import Study
+    from tehl_taichi.values.checks import choice
+
+    choice("--keep", keep, KEEP)
+    workers, threads = pool.sizes(workers, threads_per_worker, scheduler)
+    refused = plan.refused()
+    pool.check(workers, scheduler)
+    path = Path(path) if path is not None else default_path(plan)
+    with Study.write(path, plan) as study:
+        _tell_refused(study, refused)
+        todo = study.open_cases
+        workers = workers and min(workers, max(1, len(todo)))
+        if progress:
+            progress(study, None)
+        jobs = (_job(study, number, keep, threads, shared=workers != 1) for number in todo)
+        found = pool.results(work or case.work, jobs, workers=workers, scheduler=scheduler, told=told)
+        for place, answer in found if todo else ():
+            _keep(study, todo[place], answer, keep, progress)
+    return study
+
+
+def default_path(plan):
+    """The same for the same sweep, so that the same command goes on with it."""
+    return Path("runs") / f"{plan.name}.zarr"
+
+
+def _job(study, number, keep, threads, shared):
+    from tehl_taichi.study.case import Job
+
+    scene = study.plan.case(number)
+    if scene.numerics.estimate_error == "auto":  # cores are busy with other cases, and none is free for a companion
+        scene = scene.replace(**{COMPANIONS: False})
+    store = str(study.store_of(number).absolute()) if keep == "stores" else None
+    return Job(scene, store, threads, shared)
+
+
+def _tell_refused(study, refused):
+    done = set(study.open_cases)
+    for number, reason in refused.items():
+        if number in done:
+            study.add({"case": number, "changes": study.plan.changes(number), "status": "refused", "reason": reason,
+                       "store": None, "seconds": 0.0, "summary": None})
+
+
+def _keep(study, number, answer, keep, progress):
+    from tehl_taichi.study.pool import Lost
+
+    if isinstance(answer, Lost):
+        answer = {"status": "failed", "reason": answer.reason, "summary": None, "seconds": 0.0}
+    store = study.store_of(number)
+    there = keep == "stores" and store.exists()
+    record = {"case": number, "changes": study.plan.changes(number), **answer,
+              "store": str(store.relative_to(study.path)) if there else None}
+    study.add(record)
+    if progress:
+        progress(study, record)
+

@@ -1,0 +1,74 @@
+"""Jobs side by side: a list of jobs goes in, what became of each comes out as soon as it is known.
+
+One worker is this process. More of them, or a scheduler somewhere else, are Dask's (:mod:`tehl_taichi.study.cluster`).
+"""
+
+import threading
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+from tehl_taichi.errors import SceneError
+from tehl_taichi.values.checks import integer
+from tehl_taichi.values.plain import plain
+
+MOST = 1024  # processes, and threads of one
+
+
+@dataclass(frozen=True)
+class Lost:
+    """Instead of an answer: the job raised, or its worker died twice over it. reason: which of them, a sentence."""
+
+    reason: str
+
+
+def results(work, jobs, *, workers=1, scheduler=None, told=None):
+    """Generator of (number of the job, work(job) or Lost), in the order in which they end.
+
+    work: a function that other processes can import; it starts the engine itself; jobs: an iterable, drawn from as workers
+    come free; workers: processes, 1 is this one, None those of the scheduler: its address, or a distributed.Client; told:
+    called with sentences. Raises RuntimeUnavailable where Dask is wanted and not installed, StoreError where no scheduler
+    answers.
+    """
+    if workers == 1:
+        yield from ((number, work(job)) for number, job in enumerate(jobs))
+        return
+    from tehl_taichi.study import cluster
+
+    yield from cluster.results(work, jobs, workers, scheduler, told or (lambda sentence: None))
+
+
+def sizes(workers=None, threads=None, scheduler=None):
+    """(processes, threads of each): one thread on every core, or what the given number leaves of the cores; (1, None) is this
+    process as it is started; (None, threads) a scheduler that runs already. Raises SceneError."""
+    from tehl_taichi.engine import cores
+
+    if workers is not None and scheduler is not None:
+        raise SceneError(f"--workers {workers} and --scheduler contradict each other: a running cluster has its own workers")
+    for name, number in (("--workers", workers), ("--threads-per-worker", threads)):
+        if number is not None:
+            integer(name, plain(number), 1, MOST)
+    if scheduler is not None:
+        return None, threads or 1
+    if workers is None:
+        workers = max(1, cores.available() // (threads or 1))
+        return workers, threads or (1 if workers > 1 else None)
+    return workers, threads or (max(1, cores.available() // workers) if workers > 1 else None)
+
+
+def check(workers, scheduler=None):
+    """Raise what :func:`results` would raise before its first job."""
+    if workers != 1:
+        from tehl_taichi.study import cluster
+
+        cluster.check(scheduler)
+
+
+_lane, _guard = [], threading.Lock()
+
+
+def in_one_thread(work, job):
+    """work(job) in the one thread of this process that Taichi belongs to, whichever thread asks."""
+    with _guard:
+        if not _lane:
+            _lane.append(ThreadPoolExecutor(1, thread_name_prefix="tehl"))
+    return _lane[0].submit(work, job).result()

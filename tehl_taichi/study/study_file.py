@@ -1,0 +1,79 @@
+"""Study files (TOML): a scene, what is changed in all its cases, and what is swept."""
+
+import tomllib
+from pathlib import Path
+
+from tehl_taichi.errors import SceneError
+from tehl_taichi.io.found import find
+from tehl_taichi.scene import BUILT_INS
+from tehl_taichi.study.plan import plan
+from tehl_taichi.values.checks import nearest
+from tehl_taichi.values.plain import shown
+
+KNOWN = ("scene", "set", "over", "together", "samples", "seed")
+
+
+def is_study_file(path):
+    """Whether it is TOML that sweeps: a scene file has no table [over] or [[together]]."""
+    path = Path(path)
+    if path.suffix != ".toml" or not path.is_file():
+        return False
+    try:
+        return bool({"over", "together"} & tomllib.loads(path.read_text(encoding="utf-8")).keys())
+    except (OSError, ValueError, RecursionError):
+        return False
+
+
+def load(path):
+    """Plan of a study file. Raises SceneError (also where the scene is refused).
+
+    [over] has a line key = values for each key, [[together]] tables of keys that change together, [set] what all cases have;
+    keys with dots may be quoted or not. scene: a built-in, or a scene file beside this one.
+    """
+    path = Path(path)
+    try:
+        data = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise SceneError(f"cannot read study file {path}: {error}") from None
+    for key in data:
+        if key not in KNOWN:
+            raise SceneError(f"unknown key {shown(key)} in {path}{nearest(key, KNOWN)}; known: {', '.join(KNOWN)}")
+    over = {key: _listed(key, values) for key, values in _flat(_table(data, "over")).items()}
+    for group in data.get("together", []):
+        columns = {key: _listed(key, values) for key, values in _flat(group).items()}
+        over[tuple(columns)] = _rows(columns)
+    scene = find(_scene_name(data.get("scene", "gear"), path.parent))
+    changes = _flat(_table(data, "set"))
+    return plan(scene.replace(**changes) if changes else scene, over, data.get("samples"), data.get("seed", 0))
+
+
+def _table(data, key):
+    if not isinstance(data.get(key, {}), dict):
+        raise SceneError(f"[{key}] must be a table of keys and values, not {shown(data[key])}")
+    return data.get(key, {})
+
+
+def _flat(table, above=""):
+    """{dotted key: value} of nested tables: TOML reads feature.height = 1 as one."""
+    out = {}
+    for key, value in table.items():
+        out |= _flat(value, f"{above}{key}.") if isinstance(value, dict) else {above + key: value}
+    return out
+
+
+def _listed(key, values):
+    if not isinstance(values, (list, str)):
+        raise SceneError(f"{key} = {shown(values)} must be a list of values or a range, as in \"-0.3:0.3:7\"")
+    return values
+
+
+def _rows(columns):
+    from tehl_taichi.study import typed
+
+    return [list(row) for row in typed.axis(list(columns), [typed.column(found) for found in columns.values()]).rows]
+
+
+def _scene_name(name, folder):
+    if not isinstance(name, str):
+        raise SceneError(f"scene = {shown(name)} must be the name of a built-in scene or of a scene file")
+    return name if name in BUILT_INS else str(folder / name) if name.endswith(".toml") else name

@@ -1,0 +1,33 @@
+"""Case functions without a solver, importable by workers."""
+
+from pathlib import Path
+
+
+def formula(job):
+    """A made-up result whose numbers tell its changes; high features at SRR 0 do not converge."""
+    height, srr = job.scene.features[0].height, job.scene.operation.srr
+    if srr == 0 and height > 1.2e-6:
+        return {"status": "not converged", "reason": "made up", "summary": None, "seconds": 0.1}
+    return {"status": "converged", "reason": "", "seconds": 0.1, "summary": {
+        "wall_s": 1.0, "steady": {"h_c_m": 4e-7, "error": {"h_c_m": None}},
+        "transient": {"h_min_m": 3e-7 - 0.1 * height, "p_max_Pa": 2e9 + 1e15 * height},
+        "fatigue": {"Fi_max": 0.5 + 3e5 * height - srr}, "left_out": ["words"]}}
+
+
+def square(job):
+    """Its square; a job below 0 is an error."""
+    if job < 0:
+        raise ValueError(f"{job} has no place here")
+    return job**2
+
+
+def cubed(job):
+    """The cube of (number, folder); the process dies over 13 as often as `folder` has room for: twice."""
+    import os
+
+    number, folder = job
+    deaths = len(list(Path(folder).iterdir()))
+    if number == 13 and deaths < 2:
+        (Path(folder) / str(deaths)).touch()
+        os._exit(1)
+    return number**3
