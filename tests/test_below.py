@@ -3,14 +3,13 @@
 import numpy as np
 import pytest
 from rolling import Rolling
-from tehl_cli import listing
 
 import tehl_taichi as tehl
 from tehl_taichi.fatigue import assessment, below, half_space
 from tehl_taichi.fatigue.histories import Passage
 from tehl_taichi.fatigue.row_stress import RowStress
 from tehl_taichi.fatigue.under_row import histories_of
-from tehl_taichi.io import figures, result_judge
+from tehl_taichi.io import figures, result_judge, summary_rows
 from tehl_taichi.scene import SceneError
 from tehl_taichi.scene.scales import Scales
 
@@ -136,7 +135,7 @@ def test_the_table_names_the_worst_point_s_own_tension(found):
             for name, key in (("feature_frame_x", "x_m"), ("feature_frame_y", "y_m")))
     tension = found.maps["sigma1_max"][0]
     assert f["sigma1_worst_Pa"] == pytest.approx(tension[i, j]) and f["sigma1_max_Pa"] == tension.max() > 1.02 * tension[i, j]
-    rows = listing.fatigue_rows(f)
+    rows = summary_rows.fatigue_rows(f)
     values = dict(rows[:9])
     assert values["largest principal stress there"] == f"{f['sigma1_worst_Pa'] / 1e6:.1f} MPa"
     assert values["largest principal stress on the surface"] == f"{f['sigma1_max_Pa'] / 1e6:.1f} MPa"
@@ -196,5 +195,5 @@ def test_depths_are_checked(value, said):
 def test_threads_of_the_fatigue_command_are_checked(threads):
     from tehl_cli.fatigue import fatigue as command
 
-    with pytest.raises(SceneError, match=f"--threads {threads} is out of range"):
+    with pytest.raises(SceneError, match=f"threads = {threads} is out of range"):
         command("none.zarr", threads=threads)
