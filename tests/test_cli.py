@@ -54,6 +54,7 @@ def test_json_summary_has_the_keys_of_the_interface(finished):
     assert summary["transient"]["load_error_max"] < 1e-6 and summary["transient"]["mass_error_max"] < 1e-6
 
 
+@pytest.mark.slow
 def test_a_thermal_run_tells_its_temperatures_and_resumes(tmp_path):
     from tehl_taichi.io.store import Store
 
@@ -70,6 +71,7 @@ def test_a_thermal_run_tells_its_temperatures_and_resumes(tmp_path):
     assert drawn.returncode == 0 and (tmp_path / "figures" / "temperature_maps.png").exists(), drawn.stderr
 
 
+@pytest.mark.slow
 def test_companion_runs_tell_the_error_of_a_passage(tmp_path):
     done = tehl("run", "gear", *TINY, "--steps", 8, "--estimate-error", "--out", "e.zarr", "--json", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
@@ -80,6 +82,7 @@ def test_companion_runs_tell_the_error_of_a_passage(tmp_path):
     assert "±" in tehl("show", "e.zarr", cwd=tmp_path).stdout
 
 
+@pytest.mark.slow
 def test_companions_that_are_refused_leave_the_run_as_it_is(tmp_path):
     done = tehl("run", "gear", "--isothermal", "--grid", "48x16", "--steps", 4, "--estimate-error", "--json", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
@@ -135,6 +138,7 @@ def test_an_interrupt_before_the_first_step_says_so(tmp_path):
     assert not (tmp_path / "none.zarr").exists()
 
 
+@pytest.mark.slow
 def test_ctrl_c_in_a_suite_ends_in_a_sentence(tmp_path):
     run = subprocess.Popen([*CALL, "bench", "stability", "--random", "0", "--threads", "2"], text=True, cwd=tmp_path,
                            stderr=subprocess.PIPE, stdout=subprocess.DEVNULL)
