@@ -5,6 +5,7 @@ import pytest
 from rolling import Rolling
 
 import tehl_taichi as tehl
+from tehl_taichi.errors import RuntimeUnavailable
 from tehl_taichi.fatigue import assessment, below, half_space
 from tehl_taichi.fatigue.histories import Passage
 from tehl_taichi.fatigue.row_stress import RowStress
@@ -195,5 +196,6 @@ def test_depths_are_checked(value, said):
 def test_threads_of_the_fatigue_command_are_checked(threads):
     from tehl_cli.fatigue import fatigue as command
 
-    with pytest.raises(SceneError, match=f"threads = {threads} is out of range"):
+    with pytest.raises(RuntimeUnavailable, match=f"threads = {threads} is out of range") as refused:
         command("none.zarr", threads=threads)
+    assert refused.value.exit_code == 2

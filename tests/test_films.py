@@ -37,7 +37,8 @@ def test_steady_gear_film(inlet, film):
 
 
 @pytest.mark.parametrize("M, nx, inlet, h_c, h_min", [(20, 512, -4.5, 4.359, 3.774), (50, 1024, -2.5, 3.793, 3.365),
-                                                      (100, 1024, -2.5, 3.428, 3.087), pytest.param(200, 2048, -2.5, 3.095, 2.821, marks=pytest.mark.slow)])
+                                                      (100, 1024, -2.5, 3.428, 3.087),
+                                                      pytest.param(200, 2048, -2.5, 3.095, 2.821, marks=pytest.mark.slow)])
 def test_moes_line_films(M, nx, inlet, h_c, h_min):
     description = moes(float(M), nx, inlet)
     s, units = steady(description), Scales.of(description)
