@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from tehl_taichi.profiles import conclusions
 
-from tehl_taichi.io.store import StoreError
+from tehl_taichi.errors import StoreError
 from tehl_taichi.scene import scene
 
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from rolling import Rolling
 
 import tehl_taichi as tehl
 from tehl_taichi.criteria import CRITERIA
@@ -195,36 +196,13 @@ def test_angles():
 SURFACE = {"thermal.on": False, "fatigue.depths": []}
 
 
-class Moving:
-    """Reader of a Hertz line with a pressure bump that rides on it; shear 0.05 p along x."""
-
-    def __init__(self, scene, cells=16, rows=9, stride=1.0):
-        from tehl_taichi.scene.scales import Scales
-
-        self.s = Scales.of(scene)
-        self.x = np.linspace(-2, 2, 4 * cells + 1) * self.s.a
-        self.y = np.linspace(0, 1, rows) * self.s.a
-        dx = stride * self.s.a / cells
-        self.centres = -1.6 * self.s.a + dx * np.arange(int(3.0 * self.s.a / dx) + 1)
-        self.time = self.centres - self.centres[0]
-
-    def __len__(self):
-        return self.centres.size
-
-    def feature_x(self, n):
-        return self.centres[n]
-
-    def fields(self, n, names):
-        x, y = self.x[:, None] / self.s.a, self.y[None, :] / self.s.a
-        hertz = np.sqrt(np.maximum(1 - x**2, 0))
-        bump = np.exp(-((x - self.centres[n] / self.s.a) ** 2 + y**2) / 0.04) if n else 0
-        p = self.s.p_H * hertz * (1 + bump + 0 * y)
-        return {"pressure": p, "traction_x_a": 0.05 * p, "traction_y_a": 0 * p}
+def moving(scene, cells=16, rows=9, stride=1.0):
+    return Rolling(scene, cells, rows, stride, begin=-1.6)
 
 
 def test_passage_in_the_frame_of_the_feature(taichi_cpu):
     scene = tehl.scene("gear").replace(**{"thermal.on": False})
-    reader = Moving(scene)
+    reader = moving(scene)
     result = assessment.run(scene, reader)
     assert set(result.summary) == {"Fi_max", "findley_stress_max_Pa", "x_m", "y_m", "plane_theta_deg", "plane_phi_deg",
                                    "surface_angle_deg", "sigma1_max_Pa", "sigma1_worst_Pa", "kappa_F", "sigma_eF_Pa",
@@ -241,28 +219,28 @@ def test_passage_in_the_frame_of_the_feature(taichi_cpu):
 
 def test_history_of_whole_cells_is_exact_and_begins_and_ends_unloaded(taichi_cpu):
     scene = tehl.scene("gear").replace(**SURFACE)
-    reader = Moving(scene)
+    reader = moving(scene)
     passage = assessment.Passage(scene, reader, reader.centres)
     h = passage.history(slice(0, 1), passage.stresses(0.0))
     n = int(np.argmin(np.abs(reader.centres)))
     t = int(np.flatnonzero(passage.entries == n)[0])
     point = passage.x.size // 2 + 3
     column = int(round((passage.centres[t] + passage.x[point] - reader.x[0]) / passage.dx))
-    assert -h[point, t, 2] == reader.fields(n, ())["pressure"][column, 0] > 0
+    assert -h[point, t, 2] == reader.fields(n, ("pressure",))["pressure"][column, 0] > 0
     assert np.abs(h[:, 0, 2]).max() == np.abs(h[:, -2, 2]).max() == np.abs(h[:, -1]).max() == 0.0
 
 
 def test_the_first_planes_are_close_enough(taichi_cpu):
     """Histories of a passage: four times as many planes to begin with find the same to 1e-6."""
     scene = tehl.scene("gear").replace(**SURFACE)
-    passage = assessment.Passage(scene, reader := Moving(scene, 16, 9), reader.centres)
+    passage = assessment.Passage(scene, reader := moving(scene, 16, 9), reader.centres)
     h = passage.history(slice(0, passage.y.size), passage.stresses(0.0))
     np.testing.assert_allclose(findley.search(h, 0.3)[0], findley.search(h, 0.3, degrees=5.0)[0], rtol=1e-6)
 
 
 def test_blocks_of_rows_change_nothing(taichi_cpu, monkeypatch):
     scene = tehl.scene("gear").replace(**SURFACE)
-    reader = Moving(scene, cells=8, rows=5)
+    reader = moving(scene, cells=8, rows=5)
     whole = assessment.run(scene, reader)
     monkeypatch.setattr("tehl_taichi.fatigue.histories.BLOCK_BYTES", 1.0)
     assert assessment.run(scene, reader).summary == whole.summary
@@ -270,14 +248,14 @@ def test_blocks_of_rows_change_nothing(taichi_cpu, monkeypatch):
 
 def test_broken_shifts_are_interpolated(taichi_cpu):
     scene = tehl.scene("gear").replace(**SURFACE)
-    one, other = (assessment.run(scene, Moving(scene, 32, 17, stride)).summary["findley_stress_max_Pa"]
+    one, other = (assessment.run(scene, moving(scene, 32, 17, stride)).summary["findley_stress_max_Pa"]
                   for stride in (1.0, 0.7))
     assert other == pytest.approx(one, rel=0.02)
 
 
 def test_a_window_of_positions_counts_only_its_moments(taichi_cpu):
     scene = tehl.scene("gear").replace(**SURFACE)
-    reader = Moving(scene)
+    reader = moving(scene)
     entry, rest = (assessment.run(scene.replace(**{f"fatigue.{key}": 0.0}), reader).summary["findley_stress_max_Pa"]
                    for key in ("to_x", "from_x"))
     whole = assessment.run(scene, reader).summary["findley_stress_max_Pa"]
@@ -288,7 +266,7 @@ def test_a_window_of_positions_counts_only_its_moments(taichi_cpu):
 
 def test_residual_stress_and_depths(taichi_cpu):
     scene = tehl.scene("gear").replace(**{"thermal.on": False, "fatigue.depths": [20e-6, 200e-6]})
-    reader = Moving(scene, cells=8, rows=5)
+    reader = moving(scene, cells=8, rows=5)
     free = assessment.run(scene, reader)
     pressed = assessment.run(scene.replace(**{"fatigue.residual_xx": -3e8, "fatigue.residual_yy": -3e8}), reader)
     levels = [layer["findley_stress_max_Pa"] for layer in free.summary["by_depth"]]
@@ -299,7 +277,7 @@ def test_residual_stress_and_depths(taichi_cpu):
     assert deep["depth_m"] == (20e-6, 200e-6)[int(np.argmax(levels[1:]))]
 
 
-class Heated(Moving):
+class Heated(Rolling):
     """The same with a warm spot under the bump."""
 
     def fields(self, n, names):

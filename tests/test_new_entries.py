@@ -1,13 +1,10 @@
 """A new shape, criterion, oil and output field are one file each: those of CONTRIBUTING.md, in a copy of the package."""
 
 import json
-import shutil
-import subprocess
-import sys
 
 import numpy as np
 import pytest
-from test_new_laws import ROOT, shown
+from test_new_laws import extended, shown
 
 RUN = '''
 import json, tomllib
@@ -50,14 +47,9 @@ json.dump(out, open("out.json", "w"))
 
 @pytest.fixture(scope="module")
 def new(tmp_path_factory):
-    """The folder with a copy of the package, four files more, and what :data:`RUN` says in it."""
+    """The folder with a copy of the package and four files more in which :data:`RUN` ran."""
     copy = tmp_path_factory.mktemp("package")
-    for source, target in (("tehl_taichi", "tehl_taichi"), ("profiles", "tehl_taichi/profiles")):
-        shutil.copytree(ROOT / source, copy / target)
-    for path, text in map(shown, ("A feature shape", "A fatigue criterion", "An oil", "An output field")):
-        assert not (copy / path).exists()
-        (copy / path).write_text(text)
-    subprocess.run([sys.executable, "-c", RUN], cwd=copy, check=True)
+    extended(copy, map(shown, ("A feature shape", "A fatigue criterion", "An oil", "An output field")), RUN)
     return copy
 
 

@@ -118,6 +118,17 @@ def shown(title):
     return text.split("`")[1], text.split("```python\n")[1].split("```")[0]
 
 
+def extended(copy, files, script):
+    """What `script` leaves in out.json, run in the folder `copy` with a copy of the package and `files` (path, text) more."""
+    for source, target in (("tehl_taichi", "tehl_taichi"), ("profiles", "tehl_taichi/profiles")):
+        shutil.copytree(ROOT / source, copy / target)
+    for path, text in files:
+        assert not (copy / path).exists()
+        (copy / path).write_text(text)
+    subprocess.run([sys.executable, "-c", script], cwd=copy, check=True)
+    return json.loads((copy / "out.json").read_text())
+
+
 TAIT = '''"""Density of Tait's form, at one temperature."""
 
 import math
@@ -191,14 +202,8 @@ json.dump(out, open("out.json", "w"))
 @pytest.fixture(scope="module")
 def with_new_laws(tmp_path_factory):
     """What :data:`RUN` says in a copy of the package with three files more."""
-    copy = tmp_path_factory.mktemp("package")
-    for source, target in (("tehl_taichi", "tehl_taichi"), ("profiles", "tehl_taichi/profiles")):
-        shutil.copytree(ROOT / source, copy / target)
-    for path, text in (*map(shown, ("A shear law", "A viscosity law")), ("tehl_taichi/physics/densities/tait.py", TAIT)):
-        assert not (copy / path).exists()
-        (copy / path).write_text(text)
-    subprocess.run([sys.executable, "-c", RUN], cwd=copy, check=True)
-    return json.loads((copy / "out.json").read_text())
+    files = (*map(shown, ("A shear law", "A viscosity law")), ("tehl_taichi/physics/densities/tait.py", TAIT))
+    return extended(tmp_path_factory.mktemp("package"), files, RUN)
 
 
 def test_a_file_is_a_shear_law(with_new_laws):

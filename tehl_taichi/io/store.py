@@ -15,18 +15,18 @@ import numpy as np
 import zarr
 
 from tehl_taichi import __version__
-from tehl_taichi.errors import Error, Interrupted, StoreError
+from tehl_taichi.errors import Error, Interrupted
 from tehl_taichi.io import checkpoint, chunks, intact, layout, maps, scene_file
+from tehl_taichi.io.held import Held, held
 from tehl_taichi.io.intact import CHECKPOINTS, FORMAT
 from tehl_taichi.io.json_values import plain
 from tehl_taichi.io.layout import OWN
-from tehl_taichi.io.lock import Lock
 from tehl_taichi.io.place import Place, reason
 from tehl_taichi.io.reader import Reader
 from tehl_taichi.march.output import names
 
 
-class Store(Reader):
+class Store(Held, Reader):
     """One run on disk: :meth:`create` and :meth:`write` give one that may be written, :meth:`open` one to read.
 
     A writer holds the lock of its folder until :meth:`close` (or the end of a `with`).
@@ -70,28 +70,13 @@ class Store(Reader):
         somebody else writes."""
         path = Path(path)
         cls.open(path)  # nothing is locked that is no store
-        try:
-            lock = Lock(path)
-        except OSError as error:
-            raise StoreError(f"cannot write to {path}: {reason(error)}") from None
-        try:
-            store = cls._opened(path, lock)
-            intact.check_version(path, store.attrs)
-        except BaseException:
-            lock.release()
-            raise
+        return held(path, lambda lock: cls._to_go_on(path, lock))
+
+    @classmethod
+    def _to_go_on(cls, path, lock):
+        store = cls._opened(path, lock)
+        intact.check_version(path, store.attrs)
         return store
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self.close()
-
-    def close(self):
-        """Let others write; what is stored can still be read."""
-        if self.lock:
-            self.lock.release()
 
     def append(self, snapshot, state=None):
         """Write one snapshot, and its `state` as the checkpoint to go on from, then make it visible. Raises Interrupted where

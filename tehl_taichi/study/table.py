@@ -20,8 +20,8 @@ from tehl_taichi import __version__
 from tehl_taichi.commit import commit
 from tehl_taichi.errors import StoreError
 from tehl_taichi.io.atomic import replace
+from tehl_taichi.io.held import Held, held
 from tehl_taichi.io.intact import ROOT
-from tehl_taichi.io.lock import Lock
 from tehl_taichi.io.place import reason
 from tehl_taichi.study import case_records as records
 from tehl_taichi.study import flat
@@ -32,7 +32,7 @@ SHARE = 0.05  # of the time, at most, goes into writing table and arrays
 EVERY = 1.0  # s between two writes, at least
 
 
-class Study:
+class Study(Held):
     """A study to read (:meth:`open`) or to go on with (:meth:`write`, which holds its lock until :meth:`close`).
 
     plan: the :class:`tehl_taichi.study.plan.Plan`; status: array over the cases of numbers of `case_records.STATUS`; values:
@@ -70,14 +70,9 @@ class Study:
             raise StoreError(f"{path} holds another study; choose another --out or remove it")
         try:
             path.mkdir(parents=True, exist_ok=True)
-            lock = Lock(path)
         except OSError as error:
             raise StoreError(f"cannot write to {path}: {reason(error)}") from None
-        try:
-            return cls._locked(path, plan, lock)
-        except BaseException:
-            lock.release()
-            raise
+        return held(path, lambda lock: cls._locked(path, plan, lock))
 
     @classmethod
     def _locked(cls, path, plan, lock):
@@ -87,20 +82,13 @@ class Study:
         study.flush()
         return study
 
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self.close()
-
     def close(self):
         """Write what is not written yet, and let others write."""
-        if self.lock:
-            try:
+        try:
+            if self.lock:
                 self.flush()
-            finally:
-                self.lock.release()
-                self.lock = None
+        finally:
+            super().close()
 
     def __len__(self):
         return self.plan.count
