@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 
 from tehl_taichi.errors import StoreError
-from tehl_taichi.io.figures import made, pyplot
+from tehl_taichi.figures.run_figures import made, pyplot
 from tehl_taichi.study.flat import unit_of
 from tehl_taichi.study.plan import unit
 from tehl_taichi.study.table import all_numbers, word

@@ -223,7 +223,7 @@ class Study(Held):
         Returns their paths. Raises SceneError, or StoreError without matplotlib, for an unknown column, or where it cannot
         write.
         """
-        from tehl_taichi.io.figures import beside
+        from tehl_taichi.figures.run_figures import beside
         from tehl_taichi.study import study_figures
         from tehl_taichi.values.checks import integer
 
