@@ -12,7 +12,7 @@ CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shuti
 FLAGS = ("--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
          "--disable-component-update", "--disable-sync", "--disable-dev-shm-usage", "--remote-debugging-pipe")
 PATIENCE = 60.0  # s
-KEYS = {"ArrowRight": 39, "Home": 36}
+KEYS = {"ArrowLeft": 37, "ArrowRight": 39}
 
 
 class Browser:

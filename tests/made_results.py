@@ -53,8 +53,8 @@ def smooth(step, scene):
     return made
 
 
-def run(path, scene=THERMAL, entries=5, search=None, errors=EXTRA["passage_error"]):
-    """A finished store; search: the summary of its fatigue, or None; errors: of the numbers of its passage."""
+def run(path, scene=THERMAL, entries=5, search=None):
+    """A finished store; search: the summary of its fatigue, or None."""
     from tehl_taichi.io.store import Store
     from tehl_taichi.io.summary import summarise
 
@@ -62,7 +62,7 @@ def run(path, scene=THERMAL, entries=5, search=None, errors=EXTRA["passage_error
     with Store.create(path, scene, smooth(0, scene), 50, attrs) as made:
         for step in range(1, entries):
             made.append(smooth(step, scene), shot(step, scene).state)
-        summary = summarise(made, {**EXTRA, "passage_error": errors}, search)
+        summary = summarise(made, EXTRA, search)
         made.finish({**summary, "warnings": ["something is doubtful"]}, maps() if search else None)
     return path
 

@@ -1,7 +1,5 @@
 """The page of a flank: where along it a crack would start, from what its folder keeps."""
 
-import math
-
 from tehl_taichi.figures.palette import GREY
 from tehl_taichi.flank.columns import dig, tables
 from tehl_taichi.flank.flank_figure import PANELS
@@ -10,8 +8,10 @@ from tehl_taichi.report import verdict
 from tehl_taichi.report.page import Answer, Page, Section, drawn, facts, sentences, table
 from tehl_taichi.report.plots import colour, line, stacked
 from tehl_taichi.report.rounded import told
+from tehl_taichi.scene.gear_pair import GearPair
+from tehl_taichi.values.quantity import kinds
 
-ALONG = "x_pl, along the line of action from the pitch point (mm)"
+ALONG = "x_pl from the pitch point (mm)"
 
 
 def of(folder):
@@ -21,11 +21,10 @@ def of(folder):
     whose = f", flank of the {geometry['on']}, {geometry['torque']:g} N m and {geometry['n1']:g} 1/min at the pinion" \
         if "torque" in geometry else ""
     return Page(f"{name}: report", f"{name}: a flank of {len(flank.rows)} positions{whose}", _answer(flank), (
-        Section("Along the flank", (drawn(figure(flank)),)),
+        Section("Along the flank", (drawn(*figures(flank)),)),
         Section("Positions", tuple(table(heads, lines, title) for title, (heads, lines) in tables(flank.rows).items())),
         Section("Not converged", (sentences([f"{_where(at)}: {reason}" for at, reason in flank.failed]),)),
-        Section("Gears and load", (facts(_gears(flank)), sentences([f"Assumed: {flank.told['assumption']}.",
-                                                                    f"Load: {flank.told['load_sharing']}."]))),
+        Section("Gears and load", (facts(_gears(flank)), sentences([f"Load: {flank.told['load_sharing']}."]))),
         Section("Warnings", (sentences(warnings(flank)),)),
         Section("Provenance", (facts(_provenance(flank)),))))
 
@@ -37,7 +36,7 @@ def _where(at):
 
 def worst(flank):
     """[(Fi, where in words, its error or None)] of every position, the largest first."""
-    found = [(Fi, f"{layer} of {_where(at)}", error) for at, _, summary in flank.rows if dig(summary, "fatigue")
+    found = [(Fi, f"{layer} at {_where(at)}", error) for at, _, summary in flank.rows if dig(summary, "fatigue")
              for layer, Fi, error in verdict.layers(summary["fatigue"])]
     return sorted(found, key=lambda entry: -entry[0])
 
@@ -45,7 +44,8 @@ def worst(flank):
 def _answer(flank):
     found = worst(flank)
     left = f"{len(flank.failed)} of {len(flank.rows)} positions did not converge and are not in this answer."
-    doubts = (*[left] * bool(flank.failed), f"Assumed: {flank.told['assumption']}.")
+    said = f"Warnings of the positions, listed below: {len(warnings(flank))}."
+    doubts = (*[left] * bool(flank.failed), f"Assumed: {flank.told['assumption']}.", *[said] * bool(warnings(flank)))
     if not found:
         return _of_films(flank, doubts)
     Fi, where, error = found[0]
@@ -67,18 +67,21 @@ def _of_films(flank, doubts):
                   ("No feature passes: there is no index of fatigue.",), doubts)
 
 
-def figure(flank):
-    """Film, pressure, temperature, index, friction and slip over the flank; None where nothing converged."""
-    panels = []
-    for title, factor, lines in PANELS:
-        if any(_series(flank, what)[0] for what in lines.values()):
-            panels.append((title, _lines(flank, lines, factor, len(panels) + 1), {}))
-    made = stacked("flank", _caption(flank), ALONG, panels)
-    if made:
-        made.layout["shapes"] = [_mark(x * 1e3) for x in flank.points.values()]
-        made.layout["annotations"] = [{"text": name, "x": x * 1e3, "xref": "x", "yref": "paper", "y": 1, "yanchor": "bottom",
-                                       "showarrow": False} for name, x in flank.points.items()]
-        made.layout["legend"]["y"] = 1.03
+def figures(flank):
+    """Film, pressure, temperature, index, friction and slip over the flank, as far as there are any."""
+    found = ((title, _lines(flank, lines, factor)) for title, factor, lines in PANELS)
+    return [_figure(flank, n, title, lines) for n, (title, lines) in enumerate(found) if lines]
+
+
+def _figure(flank, n, title, lines):
+    """One of them, with the points A to E."""
+    letters = ", dotted: the points of the path of contact" if flank.points else ""
+    made = stacked(f"flank-{n}", f"{title[0].upper()}{title[1:]}; dedendum left of the pitch point{letters}.", ALONG,
+                   [(title, lines, {})], height=330)
+    made.layout["shapes"] = [_mark(x * 1e3) for x in flank.points.values()]
+    made.layout["annotations"] = [{"text": name, "x": x * 1e3, "xref": "x", "yref": "paper", "y": 1, "yanchor": "bottom",
+                                   "showarrow": False} for name, x in flank.points.items()]
+    made.layout["legend"]["y"] = 1.08
     return made
 
 
@@ -87,14 +90,14 @@ def _mark(x):
             "line": {"color": GREY, "width": 1, "dash": "dot"}}
 
 
-def _lines(flank, lines, factor, panel):
+def _lines(flank, lines, factor):
     """Those of a panel that have values."""
     out = []
     for n, (name, what) in enumerate(lines.items()):
         x, y = _series(flank, what)
         if x:
             y = [value if value is None else value * factor for value in y]
-            out.append(line([value * 1e3 for value in x], y, name, colour(n), panel, mode="lines+markers"))
+            out.append(line([value * 1e3 for value in x], y, name, colour(n), mode="lines+markers"))
     return out
 
 
@@ -110,15 +113,16 @@ def _series(flank, what):
     return x, y
 
 
-def _caption(flank):
-    letters = " Dotted: the points A to E of the path of contact." if flank.points else ""
-    return f"Dedendum left of the pitch point, addendum right of it.{letters}"
-
-
 def _gears(flank):
-    """What its geometry says in numbers."""
-    return [(key, f"{value:.6g}" if isinstance(value, float) else str(value)) for key, value in flank.told["geometry"].items()
-            if isinstance(value, (int, float, str)) and not (isinstance(value, float) and not math.isfinite(value))]
+    """What its geometry says: of a pair each value with its meaning."""
+    return [_value(key, value, kinds(GearPair).get(key)) for key, value in flank.told["geometry"].items()
+            if isinstance(value, (int, float, str))]
+
+
+def _value(key, value, declared):
+    """(what, number with its unit); declared: what the scene says of it, if it is one of its values."""
+    text = f"{value:.6g}" if isinstance(value, float) else str(value)
+    return (f"{key}: {declared.about}", f"{text} {declared.unit}".rstrip(" -")) if declared else (key, text)
 
 
 def warnings(flank):

@@ -3,6 +3,7 @@
 import base64
 import functools
 import gzip
+import importlib
 import json
 
 import numpy as np
@@ -10,21 +11,26 @@ import numpy as np
 from tehl_taichi.errors import StoreError
 from tehl_taichi.io.json_values import plain
 
-MISSING = "a report needs jinja2 and plotly: pip install 'tehl_taichi[report]'"
-
 
 def packed(text):
     """`text` (str) for a <script> that the page unpacks: a fifth to a half of its size."""
     return base64.b64encode(gzip.compress(text.encode(), 9, mtime=0)).decode()
 
 
+def check_installed():
+    """Raise StoreError without what a page is made with."""
+    for name in ("jinja2", "plotly"):
+        try:
+            importlib.import_module(name)
+        except ImportError:
+            raise StoreError(f"a report needs {name}: pip install 'tehl_taichi[report]'") from None
+
+
 @functools.cache
 def library():
-    """plotly.js as its Python package brings it, packed. Raises StoreError without it."""
-    try:
-        from plotly.offline import get_plotlyjs
-    except ImportError:
-        raise StoreError(MISSING) from None
+    """plotly.js as its Python package brings it, packed."""
+    from plotly.offline import get_plotlyjs
+
     return packed(get_plotlyjs())
 
 

@@ -3,8 +3,7 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from tehl_taichi.errors import StoreError
-from tehl_taichi.report.packed import MISSING, as_json, library, packed
+from tehl_taichi.report.packed import as_json, library, packed
 
 TEMPLATES = Path(__file__).parent / "templates"
 
@@ -93,11 +92,9 @@ def drawn(*figures):
 
 
 def rendered(page):
-    """HTML of a :class:`Page`. Raises StoreError without jinja2 or plotly."""
-    try:
-        import jinja2
-    except ImportError:
-        raise StoreError(MISSING) from None
+    """HTML of a :class:`Page`."""
+    import jinja2
+
     world = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, lstrip_blocks=True,
                                undefined=jinja2.StrictUndefined)
     figures = {name: figure.spec for name, figure in page.figures.items()}

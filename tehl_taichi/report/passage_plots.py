@@ -42,12 +42,10 @@ def centreline(store):
     """Pressure, film and temperatures along y = 0; with several entries a slider moves through them."""
     shown, where = moments(store), columns(store)
     lines = _lines(store, shown, where)
-    first = int(np.searchsorted(shown, worst_entry(store)))
     X, panels = store.x[where] / Scales.of(store.scene).a, []
     for title, _, names in FIELDS:
         if found := {name: text for name, text in names.items() if name in lines}:
-            traces = [trace for name, text in found.items()
-                      for trace in _traces(X, lines[name], name, text, len(panels) + 1, first)]
+            traces = [trace for name, text in found.items() for trace in _traces(X, lines[name], name, text, len(panels) + 1)]
             panels.append((title, traces, {"range": _range(store, lines, found)}))
     return stacked("centreline", _caption(store, shown), "x / a (flow to the right)", panels, {"range": _ends(X)},
                    _slides(store, shown, lines, panels) if len(shown) > 1 else {})
@@ -64,11 +62,11 @@ def _lines(store, shown, where):
     return out
 
 
-def _traces(X, values, name, text, panel, first):
-    """The steady start in grey, and the moment of the slider."""
+def _traces(X, values, name, text, panel):
+    """The steady start in grey, and a line that the slider moves."""
     several = len(values) > 1
     hue, dash = (colour(1 + list(DASHES).index(name)), DASHES[name]) if text else (colour(0), "solid")
-    now = line(X, values[first], text or "this moment", hue, panel, dash, told=bool(text) or panel == 1 and several)
+    now = line(X, values[0], text or "this moment", hue, panel, dash, told=bool(text) or panel == 1 and several)
     if not several:
         return [now]
     return [line(X, values[0], "steady start", GREY, panel, dash, told=panel == 1 and name == "pressure"), now]

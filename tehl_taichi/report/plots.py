@@ -2,9 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from tehl_taichi.errors import StoreError
 from tehl_taichi.figures.palette import BLACK, LINES
-from tehl_taichi.report.packed import MISSING
 
 PANEL, AROUND = 165, 110  # px: height of a panel of lines; of legend, title and axis around them
 
@@ -71,11 +69,9 @@ def _frame(legend=True):
 
 
 def colours(scale):
-    """The colours of a map by the name that the palette has for them. Raises StoreError without plotly."""
-    try:
-        from plotly.colors import get_colorscale
-    except ImportError:
-        raise StoreError(MISSING) from None
+    """The colours of a map by the name that the palette has for them: plotly.js does not know them all."""
+    from plotly.colors import get_colorscale
+
     return get_colorscale(scale)
 
 

@@ -14,7 +14,7 @@ def of(store):
     summary = store.summary
     if not summary:
         return _none_yet(store)
-    found = _of_fatigue(summary["fatigue"]) if "fatigue" in summary else _of_film(summary)
+    found = of_fatigue(summary["fatigue"]) if "fatigue" in summary else _of_film(summary)
     question, headline, tone, tells = found
     doubts = (*_cut(store), *_constants(store, summary), *_version(store))
     return Answer(question, headline, tone, (*tells, *_read_first(store.warnings)), doubts, tuple(store.warnings))
@@ -40,8 +40,8 @@ def layers(fatigue):
     return [(where, part["Fi_max"], part.get("error", {}).get("Fi_max")) for where, part in found]
 
 
-def _of_fatigue(fatigue):
-    """(question, headline, tone, sentences)."""
+def of_fatigue(fatigue):
+    """(question, headline, tone, sentences) of the summary of a search."""
     found = [(where, Fi, error, judged(Fi, error)) for where, Fi, error in layers(fatigue)]
     tells = [_told(*layer) for layer in found]
     worst = max(said for *_, said in found)

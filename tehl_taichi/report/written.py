@@ -5,8 +5,6 @@ from pathlib import Path
 from typing import Any
 
 from tehl_taichi.errors import StoreError
-from tehl_taichi.io import atomic
-from tehl_taichi.io.place import reason
 
 
 def report(of: str | PathLike | Any, out: str | PathLike | None = None, *, force: bool = False) -> Path:
@@ -21,18 +19,26 @@ def report(of: str | PathLike | Any, out: str | PathLike | None = None, *, force
     >>> tehl.report(tehl.run(scene, "told.zarr")).name
     'told.html'
     """
+    from tehl_taichi.report import packed, page
+
     folder = Path(getattr(of, "path", getattr(of, "folder", of)))
     out = Path(out) if out else beside(folder)
     _check_free(out, force)
-    from tehl_taichi.report import page
+    packed.check_installed()
+    _write(out, page.rendered(page_of(folder)))
+    return out
 
-    text = page.rendered(page_of(folder))
+
+def _write(out, text):
+    """Put the file there as a whole. Raises StoreError."""
+    from tehl_taichi.io import atomic
+    from tehl_taichi.io.place import reason
+
     try:
         out.parent.mkdir(parents=True, exist_ok=True)
         atomic.replace(out, text.encode())
     except OSError as error:
         raise StoreError(f"cannot write {out}: {reason(error)}") from None
-    return out
 
 
 def beside(folder):
