@@ -242,6 +242,14 @@ def test_a_file_that_is_there_stays_unless_forced(thermal, tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["mine.html"]
 
 
+def test_open_shows_the_file_that_was_written(thermal, tmp_path, monkeypatch):
+    shown = []
+    monkeypatch.setattr("typer.launch", shown.append)
+    for words in ([], ["--open"]):
+        CliRunner().invoke(app, ["report", str(thermal), "--out", str(tmp_path / f"{len(words)}.html"), *words])
+    assert shown == [(tmp_path / "1.html").as_uri()]
+
+
 def test_what_is_no_result_is_refused_and_nothing_written(tmp_path):
     (tmp_path / "empty").mkdir()
     with pytest.raises(StoreError, match="is not a store"):

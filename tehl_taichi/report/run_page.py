@@ -38,7 +38,7 @@ def _fatigue(store):
         return ()
     return (Section("Fatigue", (drawn(*fatigue_plots.index(store), *fatigue_plots.depth(store)),
                                 run_tables.worst_points(store.summary["fatigue"]))),
-            Section("Stresses of the worst points", (drawn(*fatigue_plots.worst_points(store)),)))
+            Section("Stresses of the worst points", tuple(drawn(*pair) for pair in fatigue_plots.worst_points(store))))
 
 
 def _made(store):

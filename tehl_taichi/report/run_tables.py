@@ -20,7 +20,7 @@ def errors(summary):
 
 def _with_errors(values):
     for name, error in values.get("error", {}).items():
-        if name not in values:
+        if values.get(name) is None:
             continue
         says, unit = _meaning(name)
         value, shown, scale = apart(values[name], error, unit)
