@@ -2,6 +2,7 @@
 
 import base64
 import json
+import socket
 import struct
 import sys
 import zlib
@@ -187,6 +188,16 @@ def test_half_an_export_is_left_nowhere(stored, tmp_path, monkeypatch, stop):
         with pytest.raises((tehl.StoreError, KeyboardInterrupt), match="No space left|^$"):
             tehl.export(stored, "csv", path, force=True)
     assert list(tmp_path.iterdir()) == [made] and {file.name: file.read_bytes() for file in made.iterdir()} == before
+
+
+def test_what_a_killed_export_left_is_cleaned_up_by_the_next(stored, tmp_path):
+    for name in ("out", "other"):
+        (tmp_path / f".{name}.part" / "made").mkdir(parents=True)
+        (tmp_path / f".{name}.part" / "made" / "series.csv").write_text("half")
+        dead = {"program": "tehl_taichi", "pid": 2**22 + 1, "host": socket.gethostname(), "since": 0.0}
+        (tmp_path / f".{name}.part" / ".lock").write_text(json.dumps(dead))
+    made = tehl.export(stored, "csv", tmp_path / "out")
+    assert list(tmp_path.iterdir()) == [made] and "half" not in (made / "series.csv").read_text()
 
 
 def test_what_a_run_does_not_have_is_refused(stored, tmp_path):
