@@ -204,8 +204,8 @@ def test_what_a_run_does_not_have_is_refused(stored, tmp_path):
     out = tmp_path / "out"
     for options, said in (({"at": 2.0}, "at = 2 a: the feature goes from -0.03 to 0.03 a"), ({"at": "0"}, "is not a number"),
                           ({"point": (1.0, 1.0)}, "y of a point = 1 m is out of range; allowed: at least 0 m and"),
-                          ({"point": (0.5, 0.0)}, "never is on the grid"), ({"point": 1.0}, "must be two numbers"),
-                          ({"format": "vtk", "at": 0.0}, "at and point choose tables of csv"),
+                          ({"point": (0.5, 0.0)}, "never is on the grid"), ({"point": 0.0}, "point = 0.0 must be two numbers"),
+                          ({"format": "vtk", "at": np.zeros(1)}, "at and point choose tables of csv"),
                           ({"format": "hdf"}, "format = 'hdf' is not known; allowed: csv, netcdf, vtk")):
         with pytest.raises(tehl.SceneError, match=said.replace("(", r"\(")):
             tehl.export(stored, path=out, **options)

@@ -25,10 +25,11 @@ class Places:
         """Checked against what the store has. Raises SceneError."""
         at, point = plain(at), plain(point)
         at = at if isinstance(at, tuple) else (at,)
-        point = (point,) if point and not isinstance(point, tuple) or point and not isinstance(point[0], tuple) else point
+        several = isinstance(point, tuple) and all(isinstance(one, tuple) for one in point)
+        points = point if several else (point,)
         if not at and len(reader) > 1:
             at = (min(max(0.0, _passed(reader)[0]), _passed(reader)[-1]),)
-        return cls({position: _entry(reader, position) for position in at}, tuple(_point(reader, one) for one in point))
+        return cls({position: _entry(reader, position) for position in at}, tuple(_point(reader, one) for one in points))
 
 
 def _passed(reader):
