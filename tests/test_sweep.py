@@ -211,6 +211,8 @@ def test_the_command_line_of_a_sweep(taichi_cpu, tmp_path, monkeypatch):
     again = invoked(tmp_path, monkeypatch, "sweep", found["study"], "--workers", 1)
     assert again.exit_code == 0 and "4 of them done before" in again.stderr and "ok" in again.stdout
     assert again.stdout in invoked(tmp_path, monkeypatch, "show", found["study"]).stdout
+    assert json.loads(invoked(tmp_path, monkeypatch, "show", found["study"], "--json").stdout) == found
+    assert f"its table is {found['table']}" in str(invoked(tmp_path, monkeypatch, "export", found["study"]).exception)
 
 
 @pytest.mark.parametrize("words, said", [

@@ -208,6 +208,12 @@ class Study(Held):
             out.writerow({key: "" if value != value else value for key, value in row.items()})
         return text.getvalue()
 
+    def to_dict(self):
+        """The JSON object of `tehl sweep --json`."""
+        converged = self.counts["converged"]
+        return {"cases": len(self), "converged": converged, "failed": len(self) - converged, "study": str(self.path),
+                "table": str(self.table), "results": self.results()}
+
     def to_xarray(self):
         """The table as an xarray.Dataset over the swept keys. Raises StoreError where xarray is not installed."""
         try:
