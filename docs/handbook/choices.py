@@ -4,7 +4,6 @@ each entry is checked against."""
 import math
 
 from handbook.tables import code, plain, table
-
 from tehl_taichi.criteria import CRITERIA
 from tehl_taichi.physics.choices import ALONE, CHOICES
 from tehl_taichi.scene.feature import SHAPES, USED_BY

@@ -3,8 +3,9 @@
 import textwrap
 
 import typer.main
-from handbook.tables import code, plain, table
 from tehl_cli.main import app
+
+from handbook.tables import code, plain, table
 
 
 def text():

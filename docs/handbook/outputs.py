@@ -1,7 +1,6 @@
 """What a store holds of every step, from the entries of `march/outputs`."""
 
 from handbook.tables import code, plain, table
-
 from tehl_taichi.march.output import Field, Scalar, always, entries
 
 

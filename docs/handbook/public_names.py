@@ -3,9 +3,8 @@
 import inspect
 import re
 
-from handbook.tables import plain
-
 import tehl_taichi as tehl
+from handbook.tables import plain
 
 ROLE = re.compile(r":(?:class|func|meth|attr|data|mod):(?=`)")
 

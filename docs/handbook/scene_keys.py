@@ -4,7 +4,6 @@ import dataclasses
 import inspect
 
 from handbook.tables import code, plain, table
-
 from tehl_taichi.io.scene_file import toml_value
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.given import EXCLUSIVE, SHORT

@@ -1,7 +1,6 @@
 """What each built-in scene is, from the scene itself."""
 
 from handbook.tables import code, plain, sentence
-
 from tehl_taichi.scene import BUILT_INS
 from tehl_taichi.scene.scales import Scales
 

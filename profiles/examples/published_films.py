@@ -66,8 +66,8 @@ def main():
     parser.add_argument("--columns", type=int, default=256, help="of the circles; lines take twice as many")
     parser.add_argument("--out", type=Path)
     given = parser.parse_args()
-    print("| contact | M | central: published | computed | off by | smallest: published | computed | off by |", "|---" * 8 + "|",
-          sep="\n")
+    print("| contact | M | central: published | computed | off by | smallest: published | computed | off by |")
+    print("|---" * 8 + "|")
     found = {}
     for (kind, M), known in KNOWN.items():
         found[kind, M] = films(contact(kind, M, given.columns))
