@@ -46,7 +46,7 @@ def crack(
                        oil=oil, elements=elements, thermal_stress=thermal_stress, threads=threads)
     _show(result.summary, as_json)
     if figures:
-        from tehl_taichi.io.crack_figures import write_crack
+        from tehl_taichi.figures.crack_figures import write_crack
 
         say(str(write_crack(result, run.scene.name, figures)))
 

@@ -49,7 +49,7 @@ def fatigue(
                          residual_xx=residual_xx, residual_yy=residual_yy, threads=threads)
     _show(result, as_json)
     if figures:
-        from tehl_taichi.io.figures import write_fatigue
+        from tehl_taichi.figures.run_figures import write_fatigue
 
         for path in write_fatigue(result, run.scene.name, Scales.of(run.scene).a, figures):
             say(str(path))

@@ -11,6 +11,7 @@ from tehl_cli import (
     flank_command,
     inspect,
     materials,
+    report_command,
     runs,
     sweeps,
 )
@@ -64,4 +65,5 @@ crack_command.register(app)
 flank_command.register(app)
 compare_command.register(app)
 export_command.register(app)
+report_command.register(app)
 bench.register(app)

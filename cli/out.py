@@ -12,6 +12,6 @@ def print_json(value):
 
 def folder_for(figures):
     """The folder of that name, made. Raises StoreError."""
-    from tehl_taichi.io.figures import made
+    from tehl_taichi.figures.run_figures import made
 
     return made(figures)

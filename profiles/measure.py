@@ -98,7 +98,7 @@ def save(folder, name, rows):
 def pyplot():
     """matplotlib's pyplot without a screen, or None where it is not installed."""
     from tehl_taichi.errors import StoreError
-    from tehl_taichi.io import figures
+    from tehl_taichi.figures import run_figures as figures
 
     try:
         return figures.pyplot()

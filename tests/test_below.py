@@ -10,7 +10,8 @@ from tehl_taichi.fatigue import assessment, below, half_space
 from tehl_taichi.fatigue.histories import Passage
 from tehl_taichi.fatigue.row_stress import RowStress
 from tehl_taichi.fatigue.under_row import histories_of
-from tehl_taichi.io import figures, result_judge, summary_rows
+from tehl_taichi.figures import run_figures as figures
+from tehl_taichi.io import result_judge, summary_rows
 from tehl_taichi.scene import SceneError
 from tehl_taichi.scene.scales import Scales
 

@@ -242,7 +242,7 @@ def test_residual_stress_of_the_scene_counts(taichi_cpu, rolled):
 
 
 def test_figure(rolled, tmp_path):
-    from tehl_taichi.io import crack_figures
+    from tehl_taichi.figures import crack_figures
 
     plt = pytest.importorskip("matplotlib.pyplot")
     figure = crack_figures.crack_figure(plt, rolled, "rolling")

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from small_stores import store
 
+from tehl_taichi.figures import palette
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 
@@ -44,7 +45,7 @@ def made(name="gear"):
 
 
 def drawn(name, store):
-    from tehl_taichi.io import figures
+    from tehl_taichi.figures import run_figures as figures
 
     return getattr(figures, name)(figures.pyplot(), store)
 
@@ -95,14 +96,14 @@ def test_one_moment_has_one_colour_in_every_figure():
         return {line.get_label(): line.get_color() for line in lines if line.get_color() != "k"}
 
     first, second = (colour_of(drawn(name, made())) for name in ("centreline", "temperature"))
-    assert first == second and len(set(first.values())) == 4 and first["steady start"] == "0.45"
+    assert first == second and len(set(first.values())) == 4 and first["steady start"] == palette.GREY
     plt.close("all")
 
 
 def test_dots_per_inch_are_as_asked(tmp_path):
     import matplotlib.image
 
-    from tehl_taichi.io.figures import write_all
+    from tehl_taichi.figures.run_figures import write_all
 
     write_all(Made(scene("smooth-line").replace(**{"thermal.on": False})), tmp_path, 50)
     assert matplotlib.image.imread(tmp_path / "centreline.png").shape[:2] == (325, 400)  # 8 x 6.5 inches

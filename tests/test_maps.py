@@ -241,7 +241,7 @@ def test_a_moved_store_goes_on_without_the_map_file(moved, elsewhere):
 
 
 def test_a_moved_store_is_opened_by_xarray_plotted_and_run_again(moved, elsewhere, tmp_path):
-    from tehl_taichi.io.figures import write_all
+    from tehl_taichi.figures.run_figures import write_all
     from tehl_taichi.io.store import Store
 
     xarray = pytest.importorskip("xarray")

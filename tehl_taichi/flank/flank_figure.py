@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from tehl_taichi.figures.run_figures import pyplot
 from tehl_taichi.flank.columns import dig
-from tehl_taichi.io.figures import pyplot
 
 DEDENDUM = "0.93"  # grey
 # panel: label, factor, {legend: keys in the summary}; "p_H" is the Hertz pressure

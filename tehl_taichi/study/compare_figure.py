@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl_taichi.io.figures import WINDOW, axis_row, pyplot
+from tehl_taichi.figures.run_figures import WINDOW, axis_row, pyplot
 from tehl_taichi.scene.scales import Scales
 
 SAME = 1e-9  # relative: half-widths that differ less are one

@@ -75,7 +75,7 @@ class Run:
 
         Returns their paths. Raises SceneError, or StoreError without matplotlib (the `plot` extra) or where it cannot write.
         """
-        from tehl_taichi.io import figures
+        from tehl_taichi.figures import run_figures as figures
         from tehl_taichi.values.checks import integer
 
         integer("dpi", dpi, 40, 1200)

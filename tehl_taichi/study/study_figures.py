@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 
 from tehl_taichi.errors import StoreError
-from tehl_taichi.io.figures import made, pyplot
+from tehl_taichi.figures.run_figures import made, pyplot
 from tehl_taichi.study.flat import unit_of
 from tehl_taichi.study.plan import unit
 from tehl_taichi.study.table import all_numbers, word
@@ -23,7 +23,7 @@ DPI = 160
 def write_all(study, folder, quantity=None, dpi=DPI):
     """Write the figures of a study into `folder`, of one quantity (a column of its table) or of the usual ones; returns the
     paths. Raises StoreError where there is no such column, or nothing to draw."""
-    chosen = [_known(study, quantity)] if quantity else _usual(study)
+    chosen = [_known(study, quantity)] if quantity else usual(study)
     if not chosen:
         raise StoreError(f"{study.path} has no result to draw yet")
     plt, folder, paths = pyplot(), made(folder), []
@@ -47,7 +47,7 @@ def _figures(plt, study, chosen):
         yield "Fi_over_h_min", index_over_film(plt, study)
 
 
-def _usual(study):
+def usual(study):
     found = (next((name for name in names if name in study.values), None) for names in USUAL)
     return [name for name in found if name]
 
@@ -61,24 +61,24 @@ def _known(study, quantity):
 
 def lines(plt, study, name):
     """The quantity over the first key, a line for each value of the second."""
-    values, label = _scaled(study.values[name], unit_of(name), name)
+    values, label = scaled(study.values[name], unit_of(name), name)
     values = values.reshape(study.plan.shape)
     figure, ax = plt.subplots(figsize=(7.2, 4.8), layout="constrained")
-    x, x_label, ticks = _along(study, study.plan.keys[0])
-    second = _along(study, study.plan.keys[1]) if len(study.plan.keys) > 1 else None
+    x, x_label, ticks = along(study, study.plan.keys[0])
+    second = along(study, study.plan.keys[1]) if len(study.plan.keys) > 1 else None
     colours = plt.get_cmap("viridis")(np.linspace(0.0, 0.9, values.reshape(len(x), -1).shape[1]))
     for n, row in enumerate(values.reshape(len(x), -1).T):
         ax.plot(x, row, "o-", ms=4, color=colours[n], label=second and second[2][n])
     if second:
         figure.legend(title=second[1], frameon=False, loc="outside right upper", fontsize=8)
-    _dress(ax, study, name, x_label, x, ticks, _numeric(study, study.plan.keys[0]))
+    _dress(ax, study, name, x_label, x, ticks, numeric(study, study.plan.keys[0]))
     ax.set_ylabel(label)
     return figure
 
 
 def heat_map(plt, study, name):
     """The quantity over two keys, a cell a case; cases without a result are hatched."""
-    values, label = _scaled(study.values[name], unit_of(name), name)
+    values, label = scaled(study.values[name], unit_of(name), name)
     values = values.reshape(study.plan.shape).T
     figure, ax = plt.subplots(figsize=(7.2, 5.2), layout="constrained")
     ax.set_facecolor("0.93")
@@ -86,7 +86,7 @@ def heat_map(plt, study, name):
     image = ax.imshow(values, origin="lower", aspect="auto", cmap="viridis")
     figure.colorbar(image, label=label)
     for axis, key, at in zip("xy", study.plan.keys, (ax.xaxis, ax.yaxis)):
-        _, key_label, ticks = _along(study, key)
+        _, key_label, ticks = along(study, key)
         shown = range(0, len(ticks), -(-len(ticks) // TICKS))
         at.set_ticks(list(shown), [ticks[n] for n in shown])
         ax.set(**{f"{axis}label": key_label})
@@ -106,7 +106,7 @@ def _tell(ax, values):
 
 def points(plt, study, name):
     """The quantity of all cases against each key."""
-    values, label = _scaled(study.values[name], unit_of(name), name)
+    values, label = scaled(study.values[name], unit_of(name), name)
     keys = study.plan.keys
     rows, columns = -(-len(keys) // 3), min(3, len(keys))
     figure, axes = plt.subplots(rows, columns, figsize=(3.6 * columns + 0.6, 3.4 * rows + 0.4), sharey=True, squeeze=False,
@@ -115,9 +115,9 @@ def points(plt, study, name):
         if key is None:
             ax.set_visible(False)
             continue
-        x, x_label, ticks = _along(study, key, per_case=True)
+        x, x_label, ticks = along(study, key, per_case=True)
         ax.plot(x, values, "o", ms=4, alpha=0.7)
-        _dress(ax, study, "", x_label, x, ticks, _numeric(study, key))
+        _dress(ax, study, "", x_label, x, ticks, numeric(study, key))
     for ax in axes[:, 0]:
         ax.set_ylabel(label)
     figure.suptitle(f"{study.plan.scene.name}: {name}")
@@ -126,13 +126,13 @@ def points(plt, study, name):
 
 def index_over_film(plt, study):
     """Fi of every case against the thinnest film of its passage, coloured by the first key."""
-    film, film_label = _scaled(study.values[FILM], "m", "smallest film of the passage")
+    film, film_label = scaled(study.values[FILM], "m", "smallest film of the passage")
     key = study.plan.keys[0]
-    colour, colour_label, ticks = _along(study, key, per_case=True)
+    colour, colour_label, ticks = along(study, key, per_case=True)
     figure, ax = plt.subplots(figsize=(7.2, 4.8), layout="constrained")
     drawn = ax.scatter(film, study.values[INDEX], c=colour, cmap="viridis", s=28)
     bar = figure.colorbar(drawn, label=colour_label)
-    if not _numeric(study, key):
+    if not numeric(study, key):
         places = dict(zip(colour.tolist(), ticks))
         bar.set_ticks(list(places), labels=list(places.values()))
     ax.axhline(1.0, color="0.5", lw=1, ls="--")
@@ -155,22 +155,22 @@ def _dress(ax, study, name, x_label, x, ticks, numeric):
         ax.set_xscale("log")
 
 
-def _numeric(study, key):
+def numeric(study, key):
     return all_numbers(study.plan.coordinate(key)[1])
 
 
-def _along(study, key, per_case=False):
+def along(study, key, per_case=False):
     """(numbers along a key, its label with unit, the numbers in words); words stand at 0, 1, 2 ..."""
     values = [study.plan.changes(n)[key] for n in range(len(study))] if per_case else study.plan.coordinate(key)[1]
-    if not _numeric(study, key):
+    if not numeric(study, key):
         known = list(dict.fromkeys(map(word, study.plan.coordinate(key)[1])))
         words = [word(value) for value in values]
         return np.array([known.index(one) for one in words], float), key, words
-    scaled, label = _scaled(np.array(values, float), unit(study.plan.scene, key), key)
-    return scaled, label, [f"{value:.4g}" for value in scaled]
+    found, label = scaled(np.array(values, float), unit(study.plan.scene, key), key)
+    return found, label, [f"{value:.4g}" for value in found]
 
 
-def _scaled(values, unit_, text):
+def scaled(values, unit_, text):
     """(values in a unit that people read, label)."""
     text = text.removesuffix(f"_{unit_}")  # h_min_m (µm)
     top = np.nanmax(np.abs(values)) if np.isfinite(values).any() else 0.0

@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 
 from tehl_taichi.errors import StoreError
-from tehl_taichi.io import fatigue_figures
-from tehl_taichi.io.fatigue_figures import whole
+from tehl_taichi.figures import fatigue_figures, palette
+from tehl_taichi.figures.fatigue_figures import whole
 from tehl_taichi.scene.scales import Scales
 
 POSITIONS = (-0.8, 0.0, 0.8)  # feature positions (in a) shown beside the steady state
@@ -102,8 +102,8 @@ def moment(store, n, a):
 def colours(shown):
     """{entry: colour}, the same in every figure: grey for the steady start, then one for each position of the feature."""
     if len(shown) == 1:
-        return {shown[0]: "C0"}
-    return {n: "0.45" if n == 0 else f"C{k - 1}" for k, n in enumerate(shown)}
+        return {shown[0]: palette.LINES[0]}
+    return {n: palette.GREY if n == 0 else palette.LINES[k - 1] for k, n in enumerate(shown)}
 
 
 def axis_row(store):
@@ -145,7 +145,7 @@ def centreline(plt, store):
     figure, (top, low) = plt.subplots(2, 1, sharex=True, figsize=(8, 6.5), constrained_layout=True)
     for n, colour in colours(entries(store)).items():
         f = store.fields(n, ("pressure", "film"))
-        style = dict(label=moment(store, n, a), color=colour, ls="--" if colour == "0.45" else "-", lw=1.5)
+        style = dict(label=moment(store, n, a), color=colour, ls="--" if colour == palette.GREY else "-", lw=1.5)
         top.plot(store.x / a, f["pressure"][:, centre] / 1e9, **style)
         low.plot(store.x / a, f["film"][:, centre] * 1e6, **style)
     top.set(ylabel="pressure (GPa)", title=f"{store.scene.name}: centreline y = 0")
@@ -195,7 +195,7 @@ def temperature_maps(plt, store):
     low, top = min(float(v.min()) for v in f.values()), max(float(v.max()) for v in f.values())
     figure, axes = panels(plt, store, a, 3)
     for ax, (name, text, _) in zip(axes, SURFACES):
-        image = draw_map(ax, store, a, f[name], text, cmap="inferno", vmin=low, vmax=top)
+        image = draw_map(ax, store, a, f[name], text, cmap=palette.TEMPERATURE, vmin=low, vmax=top)
     figure.colorbar(image, ax=list(axes), label="temperature (°C)", aspect=30)
     figure.suptitle(f"{store.scene.name}: {moment(store, n, a)}")
     return figure
@@ -207,8 +207,9 @@ def profiles(plt, store):
     T = store.fields(n, ["temperature"])["temperature"][:, axis_row(store)]
     zeta = store.map("zeta")
     figure, ax = plt.subplots(figsize=(6.8, 4.8), constrained_layout=True)
-    for X in (-1.0, -0.5, 0.0, 0.5, 1.0):
-        ax.plot(T[int(np.argmin(np.abs(store.x / a - X)))], zeta, "o-", ms=3, lw=1.2, label=f"x = {X:+.1f} a")
+    for colour, X in zip(palette.LINES, (-1.0, -0.5, 0.0, 0.5, 1.0)):
+        ax.plot(T[int(np.argmin(np.abs(store.x / a - X)))], zeta, "o-", ms=3, lw=1.2, color=colour,
+                label=f"x = {X:+.1f} a")
     ax.set(xlabel="temperature (°C)", ylabel="z / h (0: surface a, 1: surface b)",
            title=f"{store.scene.name}: across the film, {moment(store, n, a)}")
     figure.legend(frameon=False, loc="outside right upper")
@@ -221,9 +222,9 @@ def maps(plt, store):
     a, n = Scales.of(store.scene).a, middle_entry(store)
     f = store.fields(n, ("pressure", "film"))
     figure, (left, right) = panels(plt, store, a, 2)
-    pressure = draw_map(left, store, a, f["pressure"] / 1e9, "pressure", cmap="inferno")
+    pressure = draw_map(left, store, a, f["pressure"] / 1e9, "pressure", cmap=palette.PRESSURE)
     figure.colorbar(pressure, ax=left, label="GPa")
-    film = draw_map(right, store, a, f["film"] * 1e6, "film", cmap="viridis", vmax=_film_top(store))
+    film = draw_map(right, store, a, f["film"] * 1e6, "film", cmap=palette.FILM, vmax=_film_top(store))
     figure.colorbar(film, ax=right, label="µm", extend="max")
     figure.suptitle(f"{store.scene.name}: {moment(store, n, a)}")
     return figure

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tehl_taichi.io.figures import DPI, made, pyplot
+from tehl_taichi.figures.run_figures import DPI, made, pyplot
 
 COLOURS = {"entry": "C0", "exit": "C3"}
 SHOWN = 150e6  # Pa: more tension has the same colour

@@ -4,6 +4,7 @@ import numpy as np
 
 from tehl_taichi.fatigue.findley import largest_principal, shear_path
 from tehl_taichi.fatigue.worst_point import on_circle
+from tehl_taichi.figures import palette
 
 MAPS = ("feature_frame_x", "feature_frame_y", "Fi", "fatigue_depth", "findley_stress_at_depth", "findley_stress_under_row",
         "findley_stress_contact_alone")  # what the figures show where it was found
@@ -64,14 +65,14 @@ def index_map(figure, ax, maps, where, Fi, found, normal):
     """Index of one layer; at its worst point the trace of the critical plane in the layer and its dip."""
     x = maps["feature_frame_x"]
     ys, full = whole(maps["feature_frame_y"] * 1e6, Fi)
-    image = ax.pcolormesh(x * 1e6, ys, full.T, cmap="magma", shading="gouraud")
+    image = ax.pcolormesh(x * 1e6, ys, full.T, cmap=palette.INDEX, shading="gouraud")
     figure.colorbar(image, ax=ax, label=f"Fi, {where}")
     at = np.array([found["x_m"], found["y_m"]]) * 1e6
-    ax.plot(*at, "c+", ms=12, mew=2, label=f"worst point, Fi = {found['Fi_max']:.3f}")
+    ax.plot(*at, "+", color=palette.MARK, ms=12, mew=2, label=f"worst point, Fi = {found['Fi_max']:.3f}")
     flat = np.hypot(normal[0], normal[1])
     if flat > 1e-6:
         trace = np.array([-normal[1], normal[0]]) / flat * 0.12 * np.ptp(x) * 1e6
-        ax.plot(*np.stack([at - trace, at + trace]).T, "c-", lw=2,
+        ax.plot(*np.stack([at - trace, at + trace]).T, "-", color=palette.MARK, lw=2,
                 label=f"critical plane, {found['surface_angle_deg']:.0f}° to the surface")
     ax.set(xlabel="x from the feature's centre (µm), flow to the right", ylabel="y (µm)", aspect="equal")
     ax.legend(loc="upper right")
@@ -85,17 +86,19 @@ def depth_figure(plt, title, maps, summary):
     figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.8), constrained_layout=True, sharey=True, width_ratios=(3, 2))
     even = np.linspace(0, depth[-1], EVEN)
     section = np.stack([np.interp(even, depth, column) for column in Fi.T], axis=1)
-    image = left.pcolormesh(x, even, section, cmap="magma", shading="gouraud")
+    image = left.pcolormesh(x, even, section, cmap=palette.INDEX, shading="gouraud")
     figure.colorbar(image, ax=left, label=f"Fi at y = {deep['y_m'] * 1e6:.0f} µm")
-    left.plot(deep["x_m"] * 1e6, deep["depth_m"] * 1e6, "c+", ms=12, mew=2)
+    left.plot(deep["x_m"] * 1e6, deep["depth_m"] * 1e6, "+", color=palette.MARK, ms=12, mew=2)
     left.set(xlabel="x from the feature's centre (µm), flow to the right", ylabel="below the surface (µm)",
              title=f"{title}: {summary['criterion']}, κ = {summary['kappa_F']:g}, σ_eF = {limit / 1e6:g} MPa")
     line, = right.plot(Fi.max(axis=1), depth, ".-", label="under the feature")
     right.plot(deep["Fi_max"], deep["depth_m"] * 1e6, "+", color=line.get_color(), ms=12, mew=2,
                label=f"worst, Fi = {deep['Fi_max']:.3f} at {deep['depth_m'] * 1e6:.0f} µm")
     if "findley_stress_contact_alone" in maps:
-        right.plot(maps["findley_stress_contact_alone"] / limit, depth, "--", color="0.4", label="contact without its feature")
-    right.plot(summary["Fi_max"], 0.0, "o", color="tab:red", clip_on=False, label=f"surface, Fi = {summary['Fi_max']:.3f}")
+        right.plot(maps["findley_stress_contact_alone"] / limit, depth, "--", color=palette.GREY,
+                   label="contact without its feature")
+    right.plot(summary["Fi_max"], 0.0, "o", color=palette.VERMILLION, clip_on=False,
+               label=f"surface, Fi = {summary['Fi_max']:.3f}")
     right.set(xlabel="largest Fi", title="over depth")
     right.invert_yaxis()
     right.set_ylim(depth[-1], 0)
@@ -124,11 +127,11 @@ def worst_point(plt, left, right, title, worst, a):
     ends = on_circle(dip, strike, worst["circle"])
     left.plot(position, normal[:-1] / 1e6, label="normal to the critical plane")
     left.set(xlabel="feature position x_a / a", ylabel="stress (MPa)", title=title)
-    left.axhline(0, color="0.8", lw=0.8, zorder=0)
+    left.axhline(0, color=palette.RULE, lw=0.8, zorder=0)
     left.legend()
     right.plot(dip / 1e6, strike / 1e6, ".-", ms=3, lw=0.8)
-    right.add_patch(plt.Circle((u / 1e6, v / 1e6), radius / 1e6, fill=False, color="tab:red"))
-    right.plot(dip[ends] / 1e6, strike[ends] / 1e6, "o", color="tab:red", ms=5)
+    right.add_patch(plt.Circle((u / 1e6, v / 1e6), radius / 1e6, fill=False, color=palette.VERMILLION))
+    right.plot(dip[ends] / 1e6, strike[ends] / 1e6, "o", color=palette.VERMILLION, ms=5)
     right.set(xlabel="shear along dip (MPa)", ylabel="shear along strike (MPa)", aspect="equal",
               title=f"critical plane: τ_amp = {radius / 1e6:.0f} MPa, σ_n,max = {normal.max() / 1e6:.0f} MPa")
     right.margins(0.15)

@@ -1,0 +1,5 @@
+"""Pictures of a run and of what is found from it: figures for papers, animations; `palette` is everybody's colours.
+
+May import every room but `study`, `flank` and the commands. Drawing libraries (the `plot` extra) are imported where a
+picture is made: `palette` and the checks of `page` work without.
+"""
