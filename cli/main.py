@@ -6,6 +6,7 @@ from tehl_cli import (
     bench,
     compare_command,
     crack_command,
+    export_command,
     fatigue,
     flank_command,
     inspect,
@@ -63,5 +64,6 @@ fatigue.register(app)
 crack_command.register(app)
 flank_command.register(app)
 compare_command.register(app)
+export_command.register(app)
 report_command.register(app)
 bench.register(app)
