@@ -4,7 +4,7 @@ import numpy as np
 
 from tehl_taichi.fatigue.findley import largest_principal, shear_path
 from tehl_taichi.fatigue.worst_point import on_circle
-from tehl_taichi.figures.fatigue_figures import whole
+from tehl_taichi.figures.field_maps import whole
 from tehl_taichi.figures.palette import GREY, INDEX, MARK
 from tehl_taichi.report.passage_plots import POSITION
 from tehl_taichi.report.plots import colour, field_map, line, marks, stacked
