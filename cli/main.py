@@ -2,7 +2,19 @@
 
 import typer
 import typer.core
-from tehl_cli import bench, compare_command, crack_command, fatigue, flank_command, inspect, materials, runs, sweeps
+from tehl_cli import (
+    bench,
+    compare_command,
+    crack_command,
+    export_command,
+    fatigue,
+    flank_command,
+    inspect,
+    materials,
+    report_command,
+    runs,
+    sweeps,
+)
 from tehl_cli.entry import main
 
 from tehl_taichi.errors import Interrupted
@@ -52,4 +64,6 @@ fatigue.register(app)
 crack_command.register(app)
 flank_command.register(app)
 compare_command.register(app)
+export_command.register(app)
+report_command.register(app)
 bench.register(app)

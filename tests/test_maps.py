@@ -256,7 +256,8 @@ def test_a_moved_store_goes_on_without_the_map_file(moved, elsewhere):
 
 
 def test_a_moved_store_is_opened_by_xarray_plotted_and_run_again(moved, elsewhere, tmp_path):
-    from tehl_taichi.io.figures import write_all
+    from tehl_taichi.figures.page import Page
+    from tehl_taichi.figures.run_figures import write_all
     from tehl_taichi.io.store import Store
 
     xarray = pytest.importorskip("xarray")
@@ -265,7 +266,7 @@ def test_a_moved_store_is_opened_by_xarray_plotted_and_run_again(moved, elsewher
     (name,) = (name for name in data if name.startswith("map_"))
     assert data[name].attrs["units"] == "um" and data[name].attrs["sha256"] == description.features[0].sha256
     np.testing.assert_array_equal(data[name], description.features[0].heights)
-    assert {path.name for path in write_all(Store.open(whole), tmp_path, 40)} >= {"maps.png", "centreline.png"}
+    assert {path.name for path in write_all(Store.open(whole), tmp_path, Page(dpi=40))} >= {"maps.png", "centreline.png"}
     again = tehl.scene(str(whole))
     assert again == description and again.replace(**{"time.steps": 1}).features[0].measures == description.features[0].measures
 
