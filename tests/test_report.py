@@ -5,6 +5,7 @@ import gzip
 import html.parser
 import json
 import re
+import subprocess
 import sys
 
 import made_results
@@ -240,6 +241,19 @@ def test_a_file_that_is_there_stays_unless_forced(thermal, tmp_path):
     assert CliRunner().invoke(app, [*words, "--force"]).output.strip() == str(tmp_path / "mine.html")
     assert (tmp_path / "mine.html").read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["mine.html"]
+
+
+def test_it_needs_no_matplotlib(thermal, tmp_path):
+    code = f"import sys; sys.modules['matplotlib'] = None; import tehl_taichi as tehl; tehl.report({str(thermal)!r}, 'a.html')"
+    assert subprocess.run([sys.executable, "-c", code], cwd=tmp_path).returncode == 0 and (tmp_path / "a.html").exists()
+
+
+def test_open_shows_the_file_that_was_written(thermal, tmp_path, monkeypatch):
+    shown = []
+    monkeypatch.setattr("typer.launch", shown.append)
+    for words in ([], ["--open"]):
+        CliRunner().invoke(app, ["report", str(thermal), "--out", str(tmp_path / f"{len(words)}.html"), *words])
+    assert shown == [(tmp_path / "1.html").as_uri()]
 
 
 def test_what_is_no_result_is_refused_and_nothing_written(tmp_path):

@@ -4,7 +4,7 @@ import numpy as np
 
 from tehl_taichi.fatigue.findley import largest_principal, shear_path
 from tehl_taichi.fatigue.worst_point import on_circle
-from tehl_taichi.figures.fatigue_figures import whole
+from tehl_taichi.figures.field_maps import whole
 from tehl_taichi.figures.palette import GREY, INDEX, MARK
 from tehl_taichi.report.passage_plots import POSITION
 from tehl_taichi.report.plots import colour, field_map, line, marks, stacked
@@ -85,12 +85,12 @@ def _over_depth(store, f, deep, z, Fi):
 
 
 def worst_points(store):
-    """Of the worst point of the surface and below it: its stresses over the passage, and the shear path on its plane."""
+    """[(stresses over the passage, shear path on the critical plane)] of the worst point of the surface and of that below."""
     out = []
     for which, (name, text) in POINTS.items():
         if store.map(f"{name}_stress") is not None:
             history = {part: store.map(f"{name}_{part}") for part in ("x_a", "stress", "normal", "circle")}
-            out += [_stresses(which, text, history, Scales.of(store.scene).a), _path(which, text, history)]
+            out.append((_stresses(which, text, history, Scales.of(store.scene).a), _path(which, text, history)))
     return out
 
 

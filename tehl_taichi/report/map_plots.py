@@ -1,9 +1,10 @@
 """Fields over the contact at the worst moment of the passage."""
 
-from tehl_taichi.figures.fatigue_figures import whole
+from tehl_taichi.figures.field_maps import whole
+from tehl_taichi.figures.line_figures import ALONG, SURFACES
+from tehl_taichi.figures.moments import Moments
 from tehl_taichi.figures.palette import FILM, PRESSURE, TEMPERATURE
-from tehl_taichi.figures.run_figures import SURFACES, moment
-from tehl_taichi.report.passage_plots import columns, thinned, worst_entry
+from tehl_taichi.report.passage_plots import columns, film_top, thinned, worst_entry
 from tehl_taichi.report.plots import field_map
 from tehl_taichi.scene.scales import Scales
 
@@ -20,14 +21,14 @@ def maps(store):
     for name, values in store.fields(n, list(styles)).items():
         text, scale, unit, factor, keys = styles[name]
         y, full = whole(store.y[rows] / a, values[where][:, rows] * factor)
-        out.append(field_map(f"map-{name}", f"{text}: {moment(store, n, a)}.", store.x[where] / a, y, full, scale, unit,
-                             "x / a (flow to the right)", "y / a", **keys))
+        out.append(field_map(f"map-{name}", f"{text}: {Moments(store).says(n)}.", store.x[where] / a, y, full, scale, unit,
+                             ALONG, "y / a", **keys))
     return _alike(out)
 
 
 def _styles(store):
     """{field: (title, colours, unit, factor, ends of the colours)}."""
-    top = 2.5e6 * float(store.scalar("h_c_m")[0])
+    top = film_top(store) * 1e6
     heat = {name: (f"Temperature, {text}", TEMPERATURE, "°C", 1.0, {}) for name, text, _ in SURFACES if name in store.stored}
     film = f"Film, thicker than {top:.2g} µm in the last colour", FILM, "µm", 1e6, {"zmin": 0.0, "zmax": top}
     return {"pressure": ("Pressure", PRESSURE, "GPa", 1e-9, {}), "film": film, **heat}

@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from tehl_taichi.figures.line_figures import ALONG, SURFACES
+from tehl_taichi.figures.moments import WINDOW, Moments
 from tehl_taichi.figures.palette import GREY
-from tehl_taichi.figures.run_figures import SURFACES, WINDOW, axis_row, moment
 from tehl_taichi.report.plots import colour, line, stacked
 from tehl_taichi.scene.scales import Scales
 
@@ -47,7 +48,7 @@ def centreline(store):
         if found := {name: text for name, text in names.items() if name in lines}:
             traces = [trace for name, text in found.items() for trace in _traces(X, lines[name], name, text, len(panels) + 1)]
             panels.append((title, traces, {"range": _range(store, lines, found)}))
-    return stacked("centreline", _caption(store, shown), "x / a (flow to the right)", panels, {"range": _ends(X)},
+    return stacked("centreline", _caption(store, shown), ALONG, panels, {"range": _ends(X)},
                    _slides(store, shown, lines, panels) if len(shown) > 1 else {})
 
 
@@ -55,7 +56,7 @@ def _lines(store, shown, where):
     """{field: (moments, columns)} along y = 0, in the units that are shown."""
     names = [name for *_, group in FIELDS for name in group if name in store.stored]
     factors = {name: factor for _, factor, group in FIELDS for name in group}
-    row, out = axis_row(store), {name: np.empty((len(shown), len(where)), "f4") for name in names}
+    row, out = Moments(store).row, {name: np.empty((len(shown), len(where)), "f4") for name in names}
     for k, n in enumerate(shown):
         for name, values in store.fields(int(n), names).items():
             out[name][k] = values[where, row] * factors[name]
@@ -75,9 +76,15 @@ def _traces(X, values, name, text, panel):
 def _range(store, lines, names):
     """Ends of an axis that hold all moments; of the film: what the figures of `tehl plot` show."""
     if "film" in names:
-        return [0.0, 2.5e6 * float(store.scalar("h_c_m")[0])]
+        return [0.0, film_top(store) * 1e6]
     low, high = min(lines[name].min() for name in names), max(lines[name].max() for name in names)
     return [float(low - 0.03 * (high - low)), float(high + 0.05 * (high - low))]
+
+
+def film_top(store):
+    """Largest film shown, m: as in the figures of `tehl plot`, at the worst moment too."""
+    found = Moments(store)
+    return found.film_top({*found.several(), worst_entry(store)})
 
 
 def _ends(X):
@@ -97,7 +104,7 @@ def _slides(store, shown, lines, panels):
 def _label(store, n):
     """A moment in words."""
     p, h = store.scalar("p_max_Pa")[n] / 1e9, store.scalar("h_min_m")[n] * 1e6
-    return f"{moment(store, n, Scales.of(store.scene).a)}: p_max {p:.3f} GPa, h_min {h:.3f} µm"
+    return f"{Moments(store).says(n)}: p_max {p:.3f} GPa, h_min {h:.3f} µm"
 
 
 def _caption(store, shown):

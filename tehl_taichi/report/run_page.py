@@ -2,11 +2,11 @@
 
 from tehl_taichi.io.reader import Reader
 from tehl_taichi.report import fatigue_plots, map_plots, passage_plots, run_tables, scene_words, verdict
-from tehl_taichi.report.page import Page, Part, Section, drawn, facts, sentences
+from tehl_taichi.report.document import Page, Part, Section, drawn, facts, sentences
 
 
 def of(folder):
-    """The :class:`tehl_taichi.report.page.Page` of the store in `folder`. Raises StoreError."""
+    """The :class:`tehl_taichi.report.document.Page` of the store in `folder`. Raises StoreError."""
     store = Reader.open(folder)
     about = f"{store.scene.name}: a run of tehl_taichi {store.attrs.get('version', '')}"
     return Page(f"{store.scene.name}: report", about, verdict.of(store), (
@@ -38,7 +38,7 @@ def _fatigue(store):
         return ()
     return (Section("Fatigue", (drawn(*fatigue_plots.index(store), *fatigue_plots.depth(store)),
                                 run_tables.worst_points(store.summary["fatigue"]))),
-            Section("Stresses of the worst points", (drawn(*fatigue_plots.worst_points(store)),)))
+            Section("Stresses of the worst points", tuple(drawn(*pair) for pair in fatigue_plots.worst_points(store))))
 
 
 def _made(store):

@@ -4,7 +4,7 @@ import json
 
 from tehl_taichi.io import intact
 from tehl_taichi.march.output import Scalar, entries
-from tehl_taichi.report.page import facts, table
+from tehl_taichi.report.document import facts, table
 from tehl_taichi.report.rounded import apart, share, told
 
 PARTS = (("steady", "steady start"), ("transient", "passage"), ("fatigue", "fatigue"))
@@ -20,7 +20,7 @@ def errors(summary):
 
 def _with_errors(values):
     for name, error in values.get("error", {}).items():
-        if name not in values:
+        if values.get(name) is None:
             continue
         says, unit = _meaning(name)
         value, shown, scale = apart(values[name], error, unit)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tehl_taichi.report.page import Answer, Page, Section, drawn, facts, sentences, table
+from tehl_taichi.report.document import Answer, Page, Section, drawn, facts, sentences, table
 from tehl_taichi.report.rounded import told
 from tehl_taichi.report.run_page import scene_section
 from tehl_taichi.report.study_plots import column, figures
@@ -14,7 +14,7 @@ ERROR, BELOW = "fatigue_error_Fi_max", "fatigue_below_Fi_max"
 
 
 def of(folder):
-    """The :class:`tehl_taichi.report.page.Page` of the study in `folder`. Raises StoreError."""
+    """The :class:`tehl_taichi.report.document.Page` of the study in `folder`. Raises StoreError."""
     study = Study.open(folder)
     scene, keys = study.plan.scene, ", ".join(study.plan.keys)
     return Page(f"{scene.name}: report of a study", f"{scene.name}: {len(study)} cases over {keys}", _answer(study), (

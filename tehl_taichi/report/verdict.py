@@ -1,6 +1,6 @@
 """The answer of a run, in a sentence, and what it rests on."""
 
-from tehl_taichi.report.page import Answer
+from tehl_taichi.report.document import Answer
 from tehl_taichi.report.rounded import told
 from tehl_taichi.scene.route import total_steps
 
@@ -10,7 +10,7 @@ FATIGUE, FILM = "Does a fatigue crack start here?", "How thick is the film, and 
 
 
 def of(store):
-    """The :class:`tehl_taichi.report.page.Answer` of a run's store."""
+    """The :class:`tehl_taichi.report.document.Answer` of a run's store."""
     summary = store.summary
     if not summary:
         return _none_yet(store)

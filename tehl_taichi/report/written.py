@@ -19,13 +19,13 @@ def report(of: str | PathLike | Any, out: str | PathLike | None = None, *, force
     >>> tehl.report(tehl.run(scene, "told.zarr")).name
     'told.html'
     """
-    from tehl_taichi.report import packed, page
+    from tehl_taichi.report import document, packed
 
     folder = Path(getattr(of, "path", getattr(of, "folder", of)))
     out = Path(out) if out else beside(folder)
     _check_free(out, force)
     packed.check_installed()
-    _write(out, page.rendered(page_of(folder)))
+    _write(out, document.rendered(page_of(folder)))
     return out
 
 
@@ -56,7 +56,7 @@ def _check_free(out, force):
 
 
 def page_of(folder):
-    """The :class:`tehl_taichi.report.page.Page` of whatever lies in `folder`. Raises StoreError."""
+    """The :class:`tehl_taichi.report.document.Page` of whatever lies in `folder`. Raises StoreError."""
     from tehl_taichi.flank.stored_flank import is_flank
     from tehl_taichi.report import flank_page, run_page, study_page
     from tehl_taichi.study.table import is_study
