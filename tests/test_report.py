@@ -149,6 +149,8 @@ def test_the_slider_has_every_moment_and_the_worst_first(thermal, tmp_path):
     shown = (reader.x >= -1.6 * 3.6217e-4) & (reader.x <= 1.4 * 3.6217e-4)
     assert table == pytest.approx(whole[:, shown], rel=1e-6)
     assert len(slides["lines"]) == len(slides["traces"]) == 5  # p, h, three temperatures
+    film = np.frombuffer(base64.b64decode(slides["lines"][1]["bdata"]), "<f4").reshape(len(reader), -1)
+    assert film[:, np.abs(reader.x[shown]) < 0.9 * 3.6217e-4].max() < seen.figures["centreline"]["layout"]["yaxis2"]["range"][1]
     traces = seen.figures["centreline"]["data"]
     assert [traces[n]["name"] for n in slides["traces"]] == ["this moment", "this moment", "mid-film", "surface a", "surface b"]
 
