@@ -2,7 +2,18 @@
 
 import typer
 import typer.core
-from tehl_cli import bench, compare_command, crack_command, fatigue, flank_command, inspect, materials, runs, sweeps
+from tehl_cli import (
+    animate_command,
+    bench,
+    compare_command,
+    crack_command,
+    fatigue,
+    flank_command,
+    inspect,
+    materials,
+    runs,
+    sweeps,
+)
 from tehl_cli.entry import main
 
 from tehl_taichi.errors import Interrupted
@@ -47,6 +58,7 @@ def _tell_version():
 runs.register(app)
 sweeps.register(app)
 inspect.register(app)
+animate_command.register(app)
 materials.register(app)
 fatigue.register(app)
 crack_command.register(app)

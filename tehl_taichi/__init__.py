@@ -22,12 +22,13 @@ os.environ.setdefault("TI_ENABLE_PYBUF", "0")
 
 __version__ = "0.3.0"
 __all__ = ["Error", "Interrupted", "Lines", "NotConverged", "Progress", "Run", "RuntimeUnavailable", "Scene", "SceneError",
-           "StoreError", "__version__", "compare", "crack", "fatigue", "flank", "march", "open", "resume", "run", "scene",
-           "simulate", "sweep"]
+           "StoreError", "__version__", "animate", "compare", "crack", "fatigue", "flank", "march", "open", "resume", "run",
+           "scene", "simulate", "sweep"]
 
 # after the settings above, which numpy reads
 from tehl_taichi.called import callable_room  # noqa: E402
 from tehl_taichi.errors import Error, Interrupted, NotConverged, RuntimeUnavailable, SceneError, StoreError  # noqa: E402
+from tehl_taichi.figures import animate  # noqa: E402
 from tehl_taichi.io.found import find  # noqa: E402
 from tehl_taichi.march import simulate  # noqa: E402
 from tehl_taichi.scene import Scene  # noqa: E402

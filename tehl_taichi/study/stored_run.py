@@ -84,6 +84,12 @@ class Run:
 
         return write_all(self.store, folder or beside(self.path), Page(format, dpi, width), at, depth)
 
+    def animate(self, out: str | PathLike | None = None, **options: Any) -> Path:
+        """Write a film of its passage: :func:`tehl_taichi.animate` of it."""
+        from tehl_taichi.figures import animate
+
+        return animate(self, out, **options)
+
     def rest(self, steps: int | None = None) -> Scene | None:
         """The scene with which :func:`tehl_taichi.resume` goes on: with `steps` more, or to the end that the run was given, of
         a finished run to the end of its passage. None where nothing is left."""
