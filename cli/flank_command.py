@@ -38,6 +38,7 @@ def flank(
     threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
     as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout, everything else on stderr"),
     quiet: bool = typer.Option(False, "--quiet", help="no progress"),
+    curves: bool = typer.Option(True, "--live/--no-live", help="p, h and T along y = 0 while it runs, in a terminal"),
 ):
     """Film, pressure, temperature, friction and fatigue along a gear flank: a run at every position, one table, one figure.
 
@@ -49,7 +50,7 @@ def flank(
 
     page = Page(format, dpi, figure_width)
     changes = given_by({"temperature": temperature, "height": height, "width": width, "thermal.on": thermal}, grid, set_ or [])
-    with Live(quiet) as live:
+    with Live(quiet, curves) as live:
         found = tehl.flank(gear, torque=torque, speed=speed, on=on, positions=positions, at=[_place(text) for text in at or ()],
                            scene=find(scene) if scene else None, changes=changes, steady=steady, folder=out, threads=threads,
                            progress=live)

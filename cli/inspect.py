@@ -62,19 +62,36 @@ def new(
     print(f"wrote {file}; run it with: tehl run {file}")
 
 
-def show(store: Path = typer.Argument(..., help="store of a finished, running or broken run, or a study")):
-    """Summary and residual history of a run; table of a study."""
+def show(
+    store: Path = typer.Argument(..., help="store of a finished, running or broken run, or a study"),
+    as_json: bool = typer.Option(False, "--json", help="the summary as one JSON object, as `tehl run --json` gives it"),
+):
+    """Summary and residual history of a run; table of a study. Example: `tehl show runs/gear-1.zarr --json | jq .fatigue`"""
+    import tehl_taichi as tehl
     from tehl_taichi.study.table import Study, is_study
 
     if is_study(store):
-        from tehl_cli.sweep_live import print_study
+        _show_study(Study.open(store), as_json)
+    else:
+        _show_run(tehl.open(store).store, as_json)
 
-        return print_study(Study.open(store))
+
+def _show_study(study, as_json):
+    from tehl_cli.out import print_json
+    from tehl_cli.sweep_live import print_study
+
+    print_json(study.to_dict()) if as_json else print_study(study)
+
+
+def _show_run(saved, as_json):
     from tehl_cli.listing import history_table, summary_table, warning_lines
+    from tehl_cli.out import print_json
 
-    import tehl_taichi as tehl
+    from tehl_taichi.io.summary import so_far
 
-    saved = tehl.open(store).store
+    if as_json:
+        return print_json(saved.summary or so_far(saved))
+    store = saved.path
     print(f"{store}: scene {saved.scene.name}, {saved.steps} entries, {_state(saved)}")
     if other := saved.other_version:
         print(f"{store} was {other}")

@@ -7,10 +7,12 @@ from tehl_cli import (
     bench,
     compare_command,
     crack_command,
+    export_command,
     fatigue,
     flank_command,
     inspect,
     materials,
+    report_command,
     runs,
     sweeps,
 )
@@ -64,4 +66,6 @@ fatigue.register(app)
 crack_command.register(app)
 flank_command.register(app)
 compare_command.register(app)
+export_command.register(app)
+report_command.register(app)
 bench.register(app)

@@ -22,8 +22,8 @@ os.environ.setdefault("TI_ENABLE_PYBUF", "0")
 
 __version__ = "0.3.0"
 __all__ = ["Error", "Interrupted", "Lines", "NotConverged", "Progress", "Run", "RuntimeUnavailable", "Scene", "SceneError",
-           "StoreError", "__version__", "animate", "compare", "crack", "fatigue", "flank", "march", "open", "resume", "run",
-           "scene", "simulate", "sweep"]
+           "StoreError", "__version__", "animate", "compare", "crack", "export", "fatigue", "flank", "march", "open", "report",
+           "resume", "run", "scene", "simulate", "sweep"]
 
 # after the settings above, which numpy reads
 from tehl_taichi.called import callable_room  # noqa: E402
@@ -36,11 +36,13 @@ from tehl_taichi.study import Lines, Progress, Run, compare, open, resume, run, 
 
 if TYPE_CHECKING:  # functions to those who check types, folders that can be called to Python
     from tehl_taichi.crack import crack
+    from tehl_taichi.export import export
     from tehl_taichi.fatigue import fatigue
     from tehl_taichi.flank import flank
     from tehl_taichi.march import march
+    from tehl_taichi.report import report
     scene = find
 else:
-    from tehl_taichi import crack, fatigue, flank, march, scene
+    from tehl_taichi import crack, export, fatigue, flank, march, report, scene
 
 callable_room("tehl_taichi.scene", find)  # in files too, of which the folder itself knows nothing

@@ -35,6 +35,13 @@ def summarise(store, extra, fatigue=None):
     return out
 
 
+def so_far(store):
+    """What is known of a run without a summary, as JSON has it: it is not finished, or being written at this moment."""
+    return {"scene": store.scene.name, "version": store.attrs["version"], "store": str(store.path), "finished": False,
+            "written_by": store.writer, "steps": store.last_step, **counts(store), "left_out": store.scene.left_out(),
+            "warnings": store.warnings}
+
+
 def counts(store):
     """grid: nodes that were computed, nz of them across the film; cells: as [grid] of the scene and --grid count them, ny of
     the half domain y >= 0 (on the whole domain that is 2 ny + 1 nodes), 0 where nothing varies across (one row of nodes)."""

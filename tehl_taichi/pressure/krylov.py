@@ -4,18 +4,18 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import taichi as ti
 
 from tehl_taichi.engine import lanes, runtime, tables, workers
 from tehl_taichi.engine.fft import Passes
 from tehl_taichi.engine.lanes import LinearFlat, LinearTable, Table
+from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.launches import bind
 from tehl_taichi.pressure import convolution, decisions, fields, phases
 from tehl_taichi.pressure.decisions import SCALARS
 from tehl_taichi.pressure.grids import coarsen, columns, solved_by
 from tehl_taichi.pressure.program import DECISION, FIRST_JOB, JOBS, Program
 
-SMALLEST = 10_000  # entries of the fields X and Y: all grids up to 256x64 share one compiled kernel
+SMALLEST = 80_000  # entries of the fields X and Y: all grids up to 256x64, and their starts, share one compiled kernel
 
 Numbers = ti.types.ndarray(dtype=ti.i32, ndim=2)
 

@@ -90,6 +90,12 @@ class Run:
 
         return animate(self, out, **options)
 
+    def export(self, format: str = "csv", path: str | PathLike | None = None, **options: Any) -> Path:
+        """Write it for other tools (csv, netcdf, vtk): :func:`tehl_taichi.export` of it; returns what was made."""
+        from tehl_taichi.export import export
+
+        return export(self, format, path, **options)
+
     def rest(self, steps: int | None = None) -> Scene | None:
         """The scene with which :func:`tehl_taichi.resume` goes on: with `steps` more, or to the end that the run was given, of
         a finished run to the end of its passage. None where nothing is left."""

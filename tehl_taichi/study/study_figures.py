@@ -26,7 +26,7 @@ HIGH = 1.7  # rows of lines: height of a figure with one panel
 def write_all(study, folder, quantity=None, page=None):
     """Write the figures of a study into `folder`, of one quantity (a column of its table) or of the usual ones, as the
     :class:`Page` wants them; returns the paths. Raises StoreError where there is no such column, or nothing to draw."""
-    chosen = [_known(study, quantity)] if quantity else _usual(study)
+    chosen = [_known(study, quantity)] if quantity else usual(study)
     if not chosen:
         raise StoreError(f"{study.path} has no result to draw yet")
     page = page or Page()
@@ -46,7 +46,7 @@ def _figures(study, chosen):
         yield "Fi_over_h_min", index_over_film
 
 
-def _usual(study):
+def usual(study):
     found = (next((name for name in names if name in study.values), None) for names in USUAL)
     return [name for name in found if name]
 
@@ -60,17 +60,17 @@ def _known(study, quantity):
 
 def lines(page, study, name):
     """The quantity over the first key, a line for each value of the second."""
-    values, label = _scaled(study.values[name], unit_of(name), name)
+    values, label = scaled(study.values[name], unit_of(name), name)
     values = values.reshape(study.plan.shape)
     figure, ((ax,),) = page.figure(height=HIGH * page.row())
-    x, x_label, ticks = _along(study, study.plan.keys[0])
-    second = _along(study, study.plan.keys[1]) if len(study.plan.keys) > 1 else None
+    x, x_label, ticks = along(study, study.plan.keys[0])
+    second = along(study, study.plan.keys[1]) if len(study.plan.keys) > 1 else None
     colours = drawing().colormaps[palette.RESULT](np.linspace(0.0, 0.9, values.reshape(len(x), -1).shape[1]))
     for n, row in enumerate(values.reshape(len(x), -1).T):
         ax.plot(x, row, "o-", color=colours[n], label=second and second[2][n])
     if second:
         page.legend(figure, title=second[1])
-    _dress(ax, x_label, x, ticks, _numeric(study, study.plan.keys[0]))
+    _dress(ax, x_label, x, ticks, numeric(study, study.plan.keys[0]))
     ax.set_ylabel(label)
     page.title(figure, f"{study.plan.scene.name}: {name}")
     return figure
@@ -78,7 +78,7 @@ def lines(page, study, name):
 
 def heat_map(page, study, name):
     """The quantity over two keys, a cell a case; cases without a result are hatched."""
-    values, label = _scaled(study.values[name], unit_of(name), name)
+    values, label = scaled(study.values[name], unit_of(name), name)
     values = values.reshape(study.plan.shape).T
     figure, ((ax,),) = page.figure(height=HIGH * page.row())
     ax.set_facecolor(palette.SHADE)
@@ -86,7 +86,7 @@ def heat_map(page, study, name):
     image = ax.imshow(values, origin="lower", aspect="auto", cmap=palette.RESULT)
     bar(figure, image, ax, label)
     for axis, key, at in zip("xy", study.plan.keys, (ax.xaxis, ax.yaxis)):
-        _, key_label, ticks = _along(study, key)
+        _, key_label, ticks = along(study, key)
         shown = range(0, len(ticks), -(-len(ticks) // (TICKS // 2 if page.narrow else TICKS)))
         at.set_ticks(list(shown), [ticks[n] for n in shown])
         ax.set(**{f"{axis}label": key_label})
@@ -107,7 +107,7 @@ def _tell(ax, values):
 
 def points(page, study, name):
     """The quantity of all cases against each key."""
-    values, label = _scaled(study.values[name], unit_of(name), name)
+    values, label = scaled(study.values[name], unit_of(name), name)
     keys = study.plan.keys
     most = 1 if page.narrow else 3
     rows, columns = -(-len(keys) // most), min(most, len(keys))
@@ -116,10 +116,10 @@ def points(page, study, name):
         if key is None:
             ax.set_visible(False)
             continue
-        x, x_label, ticks = _along(study, key, per_case=True)
+        x, x_label, ticks = along(study, key, per_case=True)
         ax.plot(x, values, "o", alpha=0.7)
-        _dress(ax, x_label, x, ticks, _numeric(study, key))
-        if ax.get_xscale() == "linear" and _numeric(study, key):
+        _dress(ax, x_label, x, ticks, numeric(study, key))
+        if ax.get_xscale() == "linear" and numeric(study, key):
             ax.locator_params(axis="x", nbins=5)
     for ax in axes[:, 0]:
         ax.set_ylabel(label)
@@ -129,13 +129,13 @@ def points(page, study, name):
 
 def index_over_film(page, study):
     """Fi of every case against the thinnest film of its passage, coloured by the first key."""
-    film, film_label = _scaled(study.values[FILM], "m", "smallest film of the passage")
+    film, film_label = scaled(study.values[FILM], "m", "smallest film of the passage")
     key = study.plan.keys[0]
-    colour, colour_label, ticks = _along(study, key, per_case=True)
+    colour, colour_label, ticks = along(study, key, per_case=True)
     figure, ((ax,),) = page.figure(height=HIGH * page.row())
     drawn = ax.scatter(film, study.values[INDEX], c=colour, cmap=palette.RESULT, s=0.3 * page.text**2)
     scale = bar(figure, drawn, ax, colour_label)
-    if not _numeric(study, key):
+    if not numeric(study, key):
         places = dict(zip(colour.tolist(), ticks))
         scale.set_ticks(list(places), labels=list(places.values()))
     ax.axhline(1.0, color=palette.GREY, ls="--")
@@ -149,32 +149,32 @@ def _count(study):
     return f"{int(np.isfinite(study.values[INDEX]).sum())} of {len(study)} cases"
 
 
-def _dress(ax, x_label, x, ticks, numeric):
+def _dress(ax, x_label, x, ticks, in_numbers):
     ax.set(xlabel=x_label)
     ax.grid()
-    if not numeric:
+    if not in_numbers:
         places = dict(zip(x.tolist(), ticks))
         ax.set_xticks(list(places), list(places.values()))
     elif len(x) > 2 and (x > 0).all() and x.max() > 30 * x.min():
         ax.set_xscale("log")
 
 
-def _numeric(study, key):
+def numeric(study, key):
     return all_numbers(study.plan.coordinate(key)[1])
 
 
-def _along(study, key, per_case=False):
+def along(study, key, per_case=False):
     """(numbers along a key, its label with unit, the numbers in words); words stand at 0, 1, 2 ..."""
     values = [study.plan.changes(n)[key] for n in range(len(study))] if per_case else study.plan.coordinate(key)[1]
-    if not _numeric(study, key):
+    if not numeric(study, key):
         known = list(dict.fromkeys(map(word, study.plan.coordinate(key)[1])))
         words = [word(value) for value in values]
         return np.array([known.index(one) for one in words], float), key, words
-    scaled, label = _scaled(np.array(values, float), unit(study.plan.scene, key), key)
-    return scaled, label, [f"{value:.4g}" for value in scaled]
+    found, label = scaled(np.array(values, float), unit(study.plan.scene, key), key)
+    return found, label, [f"{value:.4g}" for value in found]
 
 
-def _scaled(values, unit_, text):
+def scaled(values, unit_, text):
     """(values in a unit that people read, label)."""
     text = text.removesuffix(f"_{unit_}")  # h_min_m (µm)
     top = np.nanmax(np.abs(values)) if np.isfinite(values).any() else 0.0

@@ -50,7 +50,7 @@ class Study(Held):
     @classmethod
     def open(cls, path):
         """An existing study, to read. Raises StoreError."""
-        attrs = _attributes(path)
+        attrs = attributes(path)
         if attrs is None:
             raise StoreError(f"{path} is not a study of tehl sweep")
         try:
@@ -63,7 +63,7 @@ class Study(Held):
         """The study of `plan` at `path`, made where there is none. Raises StoreError where something else is there, Busy where
         another sweep writes it."""
         path = Path(path)
-        attrs = _attributes(path)
+        attrs = attributes(path)
         if attrs is None and (path.is_file() or path.is_dir() and any(path.iterdir())):
             raise StoreError(f"{path} exists already and is no study; choose another --out")
         if attrs is not None and attrs[PLAN] != plan.text:
@@ -208,6 +208,12 @@ class Study(Held):
             out.writerow({key: "" if value != value else value for key, value in row.items()})
         return text.getvalue()
 
+    def to_dict(self):
+        """The JSON object of `tehl sweep --json`."""
+        converged = self.counts["converged"]
+        return {"cases": len(self), "converged": converged, "failed": len(self) - converged, "study": str(self.path),
+                "table": str(self.table), "results": self.results()}
+
     def to_xarray(self):
         """The table as an xarray.Dataset over the swept keys. Raises StoreError where xarray is not installed."""
         try:
@@ -230,10 +236,10 @@ class Study(Held):
 
 def is_study(path):
     """Whether a study lies at `path`."""
-    return _attributes(path) is not None
+    return attributes(path) is not None
 
 
-def _attributes(path):
+def attributes(path):
     """Attributes of the study at `path`, or None."""
     try:
         attrs = json.loads((Path(path) / ROOT).read_text())["attributes"]
