@@ -3,6 +3,7 @@
 import typer
 import typer.core
 from tehl_cli import (
+    animate_command,
     bench,
     compare_command,
     crack_command,
@@ -59,6 +60,7 @@ def _tell_version():
 runs.register(app)
 sweeps.register(app)
 inspect.register(app)
+animate_command.register(app)
 materials.register(app)
 fatigue.register(app)
 crack_command.register(app)

@@ -22,8 +22,8 @@ os.environ.setdefault("TI_ENABLE_PYBUF", "0")
 
 __version__ = "0.3.0"
 __all__ = ["Error", "Interrupted", "Lines", "NotConverged", "Progress", "Run", "RuntimeUnavailable", "Scene", "SceneError",
-           "StoreError", "__version__", "compare", "crack", "export", "fatigue", "flank", "march", "open", "report", "resume",
-           "run", "scene", "simulate", "sweep"]
+           "StoreError", "__version__", "animate", "compare", "crack", "export", "fatigue", "flank", "march", "open", "report",
+           "resume", "run", "scene", "simulate", "sweep"]
 
 # after the settings above, which numpy reads
 from tehl_taichi.called import offered  # noqa: E402
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from tehl_taichi.crack import crack
     from tehl_taichi.export import export
     from tehl_taichi.fatigue import fatigue
+    from tehl_taichi.figures import animate
     from tehl_taichi.flank import flank
     from tehl_taichi.io.found import find as scene
     from tehl_taichi.march import march, simulate
@@ -45,6 +46,6 @@ if TYPE_CHECKING:
     from tehl_taichi.study.stored_run import Run
 else:  # the command line asks for a few of them only: 0.3 s of its start
     __getattr__ = offered(__name__, {
-        "simulate": "march", "Scene": "scene", "compare": "study.compare", "sweep": "study.many", "Lines": "study.progress",
-        "Progress": "study.progress", "open": "study.single", "resume": "study.single", "run": "study.single",
-        "Run": "study.stored_run"}, ("crack", "export", "fatigue", "flank", "march", "report", "scene"))
+        "animate": "figures", "simulate": "march", "Scene": "scene", "compare": "study.compare", "sweep": "study.many",
+        "Lines": "study.progress", "Progress": "study.progress", "open": "study.single", "resume": "study.single",
+        "run": "study.single", "Run": "study.stored_run"}, ("crack", "export", "fatigue", "flank", "march", "report", "scene"))

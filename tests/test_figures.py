@@ -46,12 +46,12 @@ def made(name="gear"):
     return Made(scene(name).replace(**{"thermal.on": True}))
 
 
-def searched(one_row=False, **depth):
+def searched(one_row=False, y_worst=0.0, **depth):
     """What a search of the surface and of two depths found: a hill of Fi at each, highest at 60 um."""
     x, y = np.linspace(-1e-4, 1e-4, 21), np.zeros(1) if one_row else np.linspace(-1e-4, 1e-4, 11)
     hill = np.exp(-((x[:, None] - 2e-5) ** 2 + y**2) / 1e-9) * 4e8
     layers = np.stack([hill, 0.5 * hill, 1.5 * hill])
-    numbers = {"x_m": 2e-5, "y_m": 0.0, "surface_angle_deg": 50.0}
+    numbers = {"x_m": 2e-5, "y_m": y_worst, "surface_angle_deg": 50.0}
     summary = {**numbers, "Fi_max": 1.0, "sigma_eF_Pa": 4e8, "kappa_F": 0.3, "criterion": "findley",
                "below": {**numbers, "Fi_max": 1.5, "depth_m": 6e-5}}
     turn = np.linspace(0, 2 * np.pi, 30)
@@ -196,6 +196,11 @@ def test_fatigue_is_shown_at_the_depth_that_is_wanted():
     assert layers(depth=25.0)[1] == (pytest.approx(0.5), "Fi, 20 µm below", "worst, Fi = 0.5")
     line = fatigue_figures.all_figures(Page(), searched(True, depth=60.0))["fatigue"]().axes[0].lines
     assert [one.get_ydata().max() for one in line] == pytest.approx([1.0, 1.0, 1.5, 1.5])
+
+
+def test_a_worst_point_at_the_rim_leaves_no_white_around_the_map():
+    maps = [ax for ax in fatigue_figures.all_figures(Page(), searched(y_worst=1e-4))["fatigue"]().axes if ax.get_title()]
+    assert {ax.get_ylim() for ax in maps} == {(-100.0, 100.0)} == {ax.get_xlim() for ax in maps}
 
 
 @pytest.mark.parametrize("depth", [70.0, -1.0])

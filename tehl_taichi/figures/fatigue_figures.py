@@ -137,8 +137,8 @@ def index_lines(page, found, layers):
 
 def index_map(figure, ax, maps, layer, beside):
     """Index of one layer; at its worst point the trace of the critical plane in the layer and its dip."""
-    x = maps["feature_frame_x"]
-    image = shade(ax, x * 1e6, *whole(maps["feature_frame_y"] * 1e6, layer.Fi), cmap=palette.INDEX)
+    x, (y, Fi) = maps["feature_frame_x"], whole(maps["feature_frame_y"] * 1e6, layer.Fi)
+    image = shade(ax, x * 1e6, y, Fi, cmap=palette.INDEX)
     bar(figure, image, ax, f"Fi, {layer.where}", beside)
     at = np.array(layer.at) * 1e6
     _mark(ax, *at)
@@ -146,14 +146,14 @@ def index_map(figure, ax, maps, layer, beside):
     if flat > 1e-6:
         trace = np.array([-layer.normal[1], layer.normal[0]]) / flat * 0.12 * np.ptp(x) * 1e6
         ax.plot(*np.stack([at - trace, at + trace]).T, "-", color=palette.MARK)
-    ax.set(aspect="equal", title=layer.said)
+    ax.set(aspect="equal", title=layer.said, xlim=(x[0] * 1e6, x[-1] * 1e6), ylim=(y[0], y[-1]))
 
 
 def _mark(ax, x, y):
     import matplotlib
 
     text = matplotlib.rcParams["font.size"]
-    ax.plot(x, y, "+", color=palette.MARK, ms=text, mew=0.2 * text)
+    ax.plot(x, y, "+", color=palette.MARK, ms=text, mew=0.2 * text, clip_on=False)  # whole at the rim, too
 
 
 def depth_figure(page, found):

@@ -84,6 +84,12 @@ class Run:
 
         return write_all(self.store, folder or beside(self.path), Page(format, dpi, width), at, depth)
 
+    def animate(self, out: str | PathLike | None = None, **options: Any) -> Path:
+        """Write a film of its passage: :func:`tehl_taichi.animate` of it."""
+        from tehl_taichi.figures import animate
+
+        return animate(self, out, **options)
+
     def export(self, format: str = "csv", path: str | PathLike | None = None, **options: Any) -> Path:
         """Write it for other tools (csv, netcdf, vtk): :func:`tehl_taichi.export` of it; returns what was made."""
         from tehl_taichi.export import export
