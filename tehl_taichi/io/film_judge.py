@@ -3,7 +3,8 @@ that give their sentences."""
 
 import numpy as np
 
-from tehl_taichi.march.peaks import peak, ripple, unresolved_peak
+from tehl_taichi.march import readings
+from tehl_taichi.march.peaks import ripple, sharpest
 from tehl_taichi.scene.scales import Scales
 
 MOST_FRICTION = 0.2  # of a film: no oil is known to bear more than about 0.12 of the pressure, traction fluids included
@@ -27,24 +28,25 @@ def unresolved(store, summary):
     """Of the steady state, and of the moment with the largest pressure of the passage."""
     for n in dict.fromkeys((0, int(np.argmax(store.scalar("p_max_Pa"))))):
         p = store.fields(n, ("pressure",))["pressure"]
-        if unresolved_peak(p):
-            yield f"{_where(store, n, p)} is one to two cells wide{_because(store, p)}"
+        height, i = sharpest(p)
+        if height >= 1.0:  # of lower peaks the bars tell, which they leave unknown
+            yield (readings.EXIT if store.x[i] > 0 else "") + _where(store, n, p, i) + _because(store, i)
 
 
-def _where(store, n, p):
+def _where(store, n, p, i):
     a = Scales.of(store.scene).a
     when = f"of the passage (feature at {store.feature_x(n) / a:.2f} a)" if n else "of the steady state"
-    return f"p_max {p.max() / 1e9:.2f} GPa {when}, at X = {store.x[peak(p)[0]] / a:.2f},"
+    return f"p_max {p.max() / 1e9:.2f} GPa {when}, at X = {store.x[i] / a:.2f}, is one to a few cells wide"
 
 
-def _because(store, p):
+def _because(store, i):
     """At the outlet the frozen film ends in a free edge: an inverse square root, which only a shear limit makes finite."""
-    scene, at_outlet = store.scene, store.x[peak(p)[0]] > 0
-    if not at_outlet or scene.shear_law.thins:
-        return ": not resolved; take a finer grid"
+    scene = store.scene
+    if store.x[i] <= 0 or scene.shear_law.thins or not scene.isothermal:
+        return "; take a finer grid"
     advice = ("without slip no shear limit acts, and there is no finite value" if scene.operation.u_s == 0 else
-              "oil without a shear limit has no finite value there; take a limiting law (rheology.law)")
-    return f" and grows like 1/sqrt(cell): not resolved; {advice}"
+              "oil without a shear limit has no finite value here; take temperatures or a limiting law (rheology.law)")
+    return f" and grows like 1/sqrt(cell); {advice}"
 
 
 def ripples(store, summary):
