@@ -99,5 +99,15 @@ def test_a_ripple_of_the_pressure():
         return lambda X, smooth: smooth * 1.2 + size * ((-1.0) ** np.arange(97) * (abs(X) < 0.5))[:, None]
 
     text, = (text for text in said(Made(gear(), pressure=wavy(30e6))) if "ripples" in text)
-    assert "by up to 0.030 GPa (feature at 0.30 a)" in text
+    assert "by up to 0.030 GPa (feature at 0.30 a, X = -0." in text and "time.courant" in text
     assert not any("ripples" in text for text in said(Made(gear(), pressure=wavy(8e6))))
+
+
+@pytest.mark.parametrize("changes, advice", [({"rheology.law": "newtonian"}, "oil without a shear"), ({}, "time.courant")])
+def test_a_ripple_at_the_exit_of_oil_without_a_limit(changes, advice):
+    """Where the frozen film ends in a free edge it is the singular peak that shakes the nodes beside it."""
+    def mound(X, smooth):
+        return smooth * 1.2 + 30e6 * ((-1.0) ** np.arange(97) * (abs(X - 0.9) < 0.35))[:, None]
+
+    text, = film_judge.ripples(Made(gear(**changes), pressure=mound), {})
+    assert text.startswith("exit not resolved: ") is bool(changes) and advice in text

@@ -9,7 +9,6 @@ from tehl_taichi.scene.scales import Scales
 
 MOST_FRICTION = 0.2  # of a film: no oil is known to bear more than about 0.12 of the pressure, traction fluids included
 MOST_RIPPLE = 0.005  # of the largest pressure: a tenth of what a passing feature changes, ten times what resolved passages show
-MOMENTS = 24  # of a passage that are looked at
 
 
 def friction(store, summary):
@@ -41,24 +40,34 @@ def _where(store, n, p, i):
 
 def _because(store, i):
     """At the outlet the frozen film ends in a free edge: an inverse square root, which only a shear limit makes finite."""
-    scene = store.scene
-    if store.x[i] <= 0 or scene.shear_law.thins or not scene.isothermal:
-        return "; take a finer grid"
-    advice = ("without slip no shear limit acts, and there is no finite value" if scene.operation.u_s == 0 else
-              "oil without a shear limit has no finite value here; take temperatures or a limiting law (rheology.law)")
-    return f" and grows like 1/sqrt(cell); {advice}"
+    return f" and grows like 1/sqrt(cell); {_no_value(store.scene)}" if store.x[i] > 0 and _endless(store.scene) else (
+        "; take a finer grid")
+
+
+def _endless(scene):
+    """Whether nothing bounds the pressure at a free edge of frozen oil."""
+    return scene.isothermal and not scene.shear_law.thins
+
+
+def _no_value(scene):
+    return ("without slip no shear limit acts, and there is no finite value" if scene.operation.u_s == 0 else
+            "oil without a shear limit has no finite value here; take temperatures or a limiting law (rheology.law)")
+
+
+def worst_ripple(store, entries):
+    """((Pa, node), entry) of the largest :func:`tehl_taichi.march.peaks.ripple` of the pressure among these entries."""
+    return max((ripple(store.fields(n, ("pressure",))["pressure"]), n) for n in entries)
 
 
 def ripples(store, summary):
-    """From node to node along x, at some moments."""
-    worst, at, largest = 0.0, 0, float(store.scalar("p_max_Pa").max())
-    for n in np.unique(np.linspace(0, len(store) - 1, MOMENTS).astype(int)):
-        size = ripple(store.fields(int(n), ("pressure",))["pressure"])
-        worst, at = max((worst, at), (size, int(n)))
-    if worst > MOST_RIPPLE * largest:
-        where = f" (feature at {store.feature_x(at) / Scales.of(store.scene).a:.2f} a)" if at else ""
-        yield (f"the pressure ripples from node to node along x by up to {worst / 1e9:.3f} GPa{where}: the "
-               "grid's shortest wave, not a result; try another time.courant or a finer grid")
+    """From node to node along x, at any moment."""
+    (size, i), n = worst_ripple(store, range(len(store)))
+    if size > MOST_RIPPLE * float(store.scalar("p_max_Pa").max()):
+        a, at_edge = Scales.of(store.scene).a, store.x[i] > 0 and _endless(store.scene)
+        when = f"feature at {store.feature_x(n) / a:.2f} a, " if n else ""
+        yield ((readings.EXIT if at_edge else "") + "the pressure ripples from node to node along x by up to "
+               f"{size / 1e9:.3f} GPa ({when}X = {store.x[i] / a:.2f}): the grid's shortest wave, not a result; "
+               + (_no_value(store.scene) if at_edge else "try another time.courant or a finer grid"))
 
 
 CHECKS = (friction, unresolved, ripples)

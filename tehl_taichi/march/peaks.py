@@ -35,17 +35,19 @@ def sharpest(p, largest=None):
 
 
 def ripple(field):
-    """Largest amplitude of an alternation from node to node along the first axis that lasts for WAVE nodes.
+    """(amplitude, first node) of the largest alternation from node to node along the first axis that lasts for WAVE nodes.
 
     A sixteenth of the fourth difference is the amplitude of such a wave; that of a smooth field is far smaller, and that of a
     kink or a spike changes its sign within WAVE nodes.
     """
     p = np.asarray(field, float)
     if len(p) < WAVE + 4:
-        return 0.0
+        return 0.0, 0
     wave = (p[:-4] - 4 * p[1:-3] + 6 * p[2:-2] - 4 * p[3:-1] + p[4:]) / 16
     wave[1::2] *= -1
-    low, high = wave, -wave
-    for step in (1, 2, 4):  # smallest of WAVE neighbours
-        low, high = np.minimum(low[:-step], low[step:]), np.minimum(high[:-step], high[step:])
-    return float(max(low.max(), high.max(), 0.0))
+    least, most = wave, wave
+    for step in (1, 2, 4):  # of WAVE neighbours
+        least, most = np.minimum(least[:-step], least[step:]), np.maximum(most[:-step], most[step:])
+    lasting = np.maximum(np.maximum(least, -most), 0.0)
+    at = peak(lasting)
+    return float(lasting[at]), int(at[0]) + 2
