@@ -4,6 +4,7 @@ import numpy as np
 
 from tehl_taichi import __version__
 from tehl_taichi.io import result_judge
+from tehl_taichi.io.film_judge import worst_ripple
 from tehl_taichi.march.readings import HEAT
 from tehl_taichi.physics import conduction
 from tehl_taichi.physics.law import beyond
@@ -66,7 +67,7 @@ def _steady(store, extra):
     names = ["h_c_m", "h_min_m", "p_max_Pa", "load_error", "mass_error", "friction_coefficient"]
     names += [] if store.scene.isothermal else HEAT
     out = {name: float(store.scalar(name)[0]) for name in names}
-    out["film_formula_m"] = central_film(store.scene)
+    out["film_formula_m"], out["ripple_Pa"] = central_film(store.scene), worst_ripple(store, [0])[0][0]
     out["error"], out["unknown"] = extra["steady_error"], extra.get("steady_unknown", {})
     return out
 
@@ -83,6 +84,7 @@ def _transient(store):
 
     heat = {} if store.scene.isothermal else {name: largest(name) for name in (*HEAT, "temperature_change_K")}
     return {**heat, "p_max_Pa": largest("p_max_Pa"), "h_min_m": float(np.min(store.scalar("h_min_m")[1:])),
+            "ripple_max_Pa": worst_ripple(store, range(1, len(store)))[0][0],
             "contact_load_fraction_max": largest("contact_load_fraction"), "load_error_max": largest("load_error"),
             "mass_error_max": largest("mass_error"), "residual_max": largest("residual"), "dt_s": largest("dt_s"),
             "friction_coefficient_mean": float(np.average(store.scalar("friction_coefficient")[1:], weights=_steps_of(store)))}
