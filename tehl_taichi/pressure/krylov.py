@@ -15,6 +15,9 @@ from tehl_taichi.pressure.decisions import SCALARS
 from tehl_taichi.pressure.grids import coarsen, columns, solved_by
 from tehl_taichi.pressure.program import DECISION, FIRST_JOB, JOBS, Program
 
+# vectors of lanes that the iterations of one launch go through, each some 0.25 us on one core: while a kernel runs nobody hears
+# Ctrl-C, nor do other threads of Python get on
+PORTION = 500_000
 SMALLEST = 10_000  # entries of the fields X and Y: all grids up to 256x64 share one compiled kernel
 
 Numbers = ti.types.ndarray(dtype=ti.i32, ndim=2)
@@ -77,6 +80,7 @@ class Krylov:
         self.symbols = [convolution.deflection(shapes[0], levels), *(convolution.distribution(c, levels) for c in shapes[1:])]
         self.right, self.outflow, self.out = (np.zeros(levels.n, levels.linear) for _ in range(3))
         self.numbers = np.zeros((decisions.TRIANGLE + self.most, self.most + 16))
+        self.numbers[SCALARS, decisions.PORTION] = max(1, PORTION // columns(levels.nx, levels.ny))
         self._allocate(convolution.Layout(shapes, dense_entries(levels.sizes, levels.dense), self.team.size))
         self.program = Program(levels, shapes)
         self._bind()
@@ -141,7 +145,12 @@ class Krylov:
         return self.out
 
     def _run(self, phase):
-        self.team.run(self._launch, phase)
+        """Launch from `phase` on, as often as it takes."""
+        goes_on = self.numbers[SCALARS]
+        while phase >= 0:
+            goes_on[decisions.NEXT] = -1
+            self.team.run(self._launch, phase)
+            phase = int(goes_on[decisions.NEXT])
 
 
 def dense_entries(sizes, dense):
