@@ -10,6 +10,8 @@ import time
 
 import numpy as np
 import pytest
+from commands import CALL, here
+from commands import process as tehl
 from fake_cases import cubed, formula, square
 
 from tehl_taichi.errors import RuntimeUnavailable, StoreError
@@ -21,12 +23,6 @@ from tehl_taichi.study.table import Study
 
 GEAR = scene("gear").replace(**{"thermal.on": False, "grid.nx": 64, "grid.ny": 16})
 OVER = {"srr": "-0.1:0.1:3", "feature.height": [0.5e-6, 1e-6, 1.5e-6]}
-CALL = (sys.executable, "-c", "from tehl_cli.main import main; main()")
-
-
-def tehl(*words, cwd=None):
-    return subprocess.run([*CALL, *map(str, words)], capture_output=True, text=True, cwd=cwd)
-
 
 def invoked(folder, monkeypatch, *words):
     """The same in this process."""
@@ -254,7 +250,7 @@ def test_a_sweep_survives_the_death_of_a_worker_and_its_own(tmp_path):
     done = tehl(*words, "--workers", 2, "--json", cwd=tmp_path)
     assert done.returncode == 0 and json.loads(done.stdout)["converged"] == 4, done.stderr
     assert _lines(tmp_path)[: len(before)] == before
-    whole = tehl("run", "gear", *small, "--srr", -0.1, "--height", 1e-6, "--no-estimate-error", "--json", cwd=tmp_path)
+    whole = here("run", "gear", *small, "--srr", -0.1, "--height", 1e-6, "--no-estimate-error", "--json", cwd=tmp_path)
     of_the_killed = json.loads(done.stdout)["results"][1]["summary"]
     assert of_the_killed["fatigue"]["Fi_max"] == pytest.approx(json.loads(whole.stdout)["fatigue"]["Fi_max"], rel=1e-10)
 

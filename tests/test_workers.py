@@ -9,9 +9,8 @@ JOBS, PHASES = 13, 400
 @pytest.fixture(scope="module")
 def tally(taichi_cpu):
     """A launch in which job j of phase n adds to row j what the neighbours held after phase n - 1."""
-    import taichi as ti
-
     from tehl_taichi.engine import workers
+    from tehl_taichi.engine.language import ti
 
     @ti.kernel
     def count(sync: workers.Sync, held: ti.types.ndarray(dtype=ti.f64, ndim=2)):

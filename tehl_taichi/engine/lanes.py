@@ -9,7 +9,7 @@ Kernels of the linear solve are written once for both precisions: their numbers 
 :func:`L`, and arrays without a type take that of what is handed over.
 """
 
-import taichi as ti
+from tehl_taichi.engine.language import ti
 
 # first columns of a table of grids, which loops over a grid read; further ones belong to who makes the table
 OFF = 0  # first column of the grid in the tables

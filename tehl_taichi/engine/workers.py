@@ -8,9 +8,9 @@ sums are added in their order: the bits are the same for any number of workers.
 """
 
 import numpy as np
-import taichi as ti
 
 from tehl_taichi.engine import cores, runtime
+from tehl_taichi.engine.language import ti
 
 JOB_BITS, PHASE_BITS = 20, 10  # of a ticket
 NO_PHASE = (1 << PHASE_BITS) - 1  # behind the last phase: everybody leaves

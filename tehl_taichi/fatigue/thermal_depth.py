@@ -157,6 +157,6 @@ def _means(angle, low, high):
 
 
 def _fast(n):
-    import pyfftw
+    from tehl_taichi.engine.fftw import pyfftw
 
     return pyfftw.next_fast_len(n)

@@ -13,10 +13,10 @@ import functools
 import itertools
 
 import numpy as np
-import taichi as ti
 
 from tehl_taichi.engine.fft import Lengths, fast_length, transform
 from tehl_taichi.engine.lanes import W
+from tehl_taichi.engine.language import ti
 from tehl_taichi.pressure import influence
 
 GROUP = 8  # waves along x that go along y side by side

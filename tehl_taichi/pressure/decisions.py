@@ -8,8 +8,7 @@ basis is stored without being divided by its norms; INVERSE holds these factors.
 
 import itertools
 
-import taichi as ti
-
+from tehl_taichi.engine.language import ti
 from tehl_taichi.pressure.program import BEGIN, BORDER, END, EXTEND, EXTEND_AGAIN, LEAVE, LIFTED, LOOP, PROJECT
 
 CANCELLED = 0.5  # fraction of the norm below which the projection is repeated

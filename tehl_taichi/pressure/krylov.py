@@ -4,11 +4,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import taichi as ti
 
 from tehl_taichi.engine import lanes, runtime, tables, workers
 from tehl_taichi.engine.fft import Passes
 from tehl_taichi.engine.lanes import LinearFlat, LinearTable, Table
+from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.launches import bind
 from tehl_taichi.pressure import convolution, decisions, fields, phases
 from tehl_taichi.pressure.decisions import SCALARS

@@ -1,8 +1,8 @@
 """Grid transfers between each level and the next coarser one (every second node), block by block."""
 
-import taichi as ti
 
 from tehl_taichi.engine.lanes import L, Table, V, W, cells
+from tehl_taichi.engine.language import ti
 from tehl_taichi.pressure.fields import COR, DRY, JN, KIND, LINES, RES, TOUCH, H, P
 from tehl_taichi.pressure.lines import DRY_KIND, LOCAL, is_kind
 
