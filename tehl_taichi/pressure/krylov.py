@@ -7,7 +7,7 @@ import numpy as np
 
 from tehl_taichi.engine import lanes, runtime, tables, workers
 from tehl_taichi.engine.fft import Passes
-from tehl_taichi.engine.lanes import LinearFlat, LinearTable, Table
+from tehl_taichi.engine.lanes import LinearFlat, Table
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.launches import bind
 from tehl_taichi.pressure import convolution, decisions, fields, phases
@@ -33,14 +33,6 @@ class Memory:
     X: Any
     Y: Any
     T: Any
-
-
-@ti.kernel
-def fill(field: ti.template(), row: ti.i32, first: ti.i32, values: LinearTable):
-    """field[row, first ...] = values (entries, lanes)."""
-    for n in range(values.shape[0]):
-        for u in ti.static(range(field.n)):
-            field[row, first + n][u] = values[n, u]
 
 
 @ti.kernel
@@ -94,12 +86,9 @@ class Krylov:
                          max(columns(v.nx, v.ny), columns(v.scene.grid.nx, v.scene.rows)), precision=v.precision, clean=False)
         kinds = zip((lanes.W, convolution.GROUP, 2), size)
         self.memory = Memory(v.J, V, *(tables.lease(self, 1, n, count, precision=v.precision) for n, count in kinds))
-        fill(self.memory.T, 0, 0, layout.lengths.twiddles().astype(v.linear))
-        for row, symbols in zip(layout.table, self.symbols):
-            row[[convolution.HALF_FIRST, convolution.HALF_LAST, convolution.ENDLESS]] = *symbols.mirrors, symbols.endless
-            fill(self.memory.Y, 0, int(row[convolution.SYMBOL]), symbols.entries().astype(v.linear))
+        convolution.prepare(layout.table, self.symbols, self.memory.Y, self.memory.T, layout.lengths, v.linear)
         weights = v.vector(fields.WEIGHT).astype(v.linear).reshape(-1, lanes.W)
-        fill(V, phases.LOADING, 0, weights)
+        lanes.fill(V, phases.LOADING, 0, weights)
 
     def _largest(self):
         """Layout of the finest grid of the scene: the smaller ones of a start use the same memory, so that one compiled kernel
@@ -123,7 +112,7 @@ class Krylov:
         whole[np.ix_(place, place)] = inverse
         # [column, lane, from] -> [column, from, lane]
         entries = whole.reshape(-1, lanes.W, size).transpose(0, 2, 1).reshape(-1, lanes.W)
-        fill(self.memory.X, 0, 0, np.ascontiguousarray(entries))
+        lanes.fill(self.memory.X, 0, 0, np.ascontiguousarray(entries))
 
     def lift(self):
         """Take the answer of the preconditioner to a change of H0, for the bordered system."""
