@@ -13,7 +13,9 @@ import typer.main
 from handbook import equations, lists, makers, scene_keys
 from tehl_cli.main import app
 
+from tehl_taichi.criteria import CRITERIA
 from tehl_taichi.io import scene_file
+from tehl_taichi.physics.choices import CHOICES
 from tehl_taichi.scene import scene
 
 ROOT = Path(__file__).parents[1]
@@ -78,6 +80,12 @@ def test_every_message_of_the_troubleshooting_page_is_one_of_the_code():
     messages = re.findall(r"^### `(.*)`$", page, re.M)
     assert len(messages) > 40
     assert [message for message in messages if not any(says(text, message) for text in texts)] == []
+
+
+def test_every_law_and_criterion_stands_in_the_theory():
+    theory = (ROOT / "docs" / "theory.md").read_text(encoding="utf-8")
+    names = [name for registry in (*CHOICES.values(), CRITERIA) for name in registry]
+    assert [name for name in names if f"`{name}`" not in theory] == []
 
 
 def commands(found, words="tehl"):
