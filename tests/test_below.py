@@ -6,7 +6,7 @@ from rolling import Rolling
 
 import tehl_taichi as tehl
 from tehl_taichi.errors import RuntimeUnavailable
-from tehl_taichi.fatigue import assessment, below, half_space
+from tehl_taichi.fatigue import assessment, below, half_space, row_stress
 from tehl_taichi.fatigue.histories import Passage
 from tehl_taichi.fatigue.row_stress import RowStress
 from tehl_taichi.fatigue.under_row import histories_of
@@ -30,6 +30,14 @@ def test_a_row_is_that_of_the_whole_plane(line, mirrored, row):
         whole = half_space.Stress(x, y, NU, line, mirrored, depth)(*loads[:, 1])
         for component, values in enumerate(whole.values()):
             np.testing.assert_allclose(found[1, n, :, component], values[:, row], atol=1e-3)  # of 1e9 Pa
+
+
+def test_a_row_by_any_number_of_threads(monkeypatch):
+    x, y, found = np.arange(24) * 11e-6, np.arange(9) * 7e-6, []
+    for count in (1, 3):
+        monkeypatch.setattr(row_stress, "WORKERS", count)
+        found.append(RowStress(x, y, NU, True, True, DEPTHS, 3).rows.tobytes())
+    assert found[0] == found[1]
 
 
 def test_one_row_alone_is_plane_strain():

@@ -12,6 +12,8 @@ import pytest
 from commands import CALL, process
 from commands import here as tehl
 
+from tehl_taichi.engine import cores
+
 TINY = ("--grid", "64x16", "--threads", "2", "--isothermal")
 
 
@@ -42,6 +44,7 @@ def test_json_summary_has_the_keys_of_the_interface(finished):
             "transient", "fatigue", "work", "clamps"} <= summary.keys()
     assert summary["steps"] == 10 and summary["grid"] == {"nx": 65, "ny": 17, "nz": 1}
     assert summary["cells"] == {"nx": 64, "ny": 16}
+    assert (summary["crowding"][0] > 0) == (cores.available() > 1)  # two threads, five blocks of rows
     assert set(summary["steady"]["error"]) == {"h_c_m", "h_min_m", "p_max_Pa", "friction_coefficient"}
     assert set(summary["transient"]["error"].values()) == {None}  # so short a run has no companions, and nobody asked for them
     assert summary["steady"]["film_formula_m"] == pytest.approx(summary["steady"]["h_c_m"], rel=0.2)

@@ -109,6 +109,11 @@ def test_pages_name_only_what_is_made():
         makers.filled("<!-- made: nothing -->")
 
 
+def test_every_page_stands_in_the_navigation():
+    named = re.findall(r": (\w+\.md)$", (ROOT / "mkdocs.yml").read_text(encoding="utf-8"), re.M)
+    assert sorted(named) == [page.name for page in PAGES]
+
+
 @pytest.mark.parametrize("text", ["some words\n* a list", "some words\n| a | b |", "words\n1. first"])
 def test_lists_and_tables_that_stay_text_are_refused(text):
     with pytest.raises(ValueError, match="no empty line before"):
@@ -129,7 +134,7 @@ def test_the_pages_build_without_a_warning_and_load_nothing_from_elsewhere(tmp_p
     for name in ("mkdocs", "material", "latex2mathml"):
         if not importlib.util.find_spec(name):
             pytest.skip(f"{name} is not installed: pip install 'tehl_taichi[docs]'")
-    built = subprocess.run([sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "--site-dir", tmp_path], cwd=ROOT,
+    built = subprocess.run([sys.executable, "-m", "mkdocs", "build", "--strict", "--site-dir", tmp_path], cwd=ROOT,
                            capture_output=True, text=True)
     assert built.returncode == 0, built.stderr
     for page in tmp_path.glob("*.html"):

@@ -87,16 +87,19 @@ def study(tmp_path_factory):
     return many.run(plan(gear, over), tmp_path_factory.mktemp("report") / "many.zarr", workers=1, work=formula)
 
 
-@pytest.fixture(scope="module", params=["thermal", "steady line", "unfinished", "no fatigue", "study", "flank"])
-def any_page(request, tmp_path_factory):
+@pytest.fixture(scope="module")
+def pages(thermal, study, tmp_path_factory):
     """A page of each kind of result."""
     folder = tmp_path_factory.mktemp("kinds")
-    made = {"steady line": lambda: made_results.run(folder / "a.zarr", STEADY, 1),
-            "unfinished": lambda: store(folder / "a.zarr").path,
-            "no fatigue": lambda: made_results.run(folder / "a.zarr", SMALL),
-            "flank": lambda: made_results.flank(folder / "flank")}
-    of = made[request.param]() if request.param in made else request.getfixturevalue(request.param)
-    return page(of, folder)
+    results = {"thermal": thermal, "steady line": made_results.run(folder / "line.zarr", STEADY, 1),
+               "unfinished": store(folder / "begun.zarr").path, "no fatigue": made_results.run(folder / "bare.zarr", SMALL),
+               "study": study.path, "flank": made_results.flank(folder / "flank")}
+    return {name: page(of, folder) for name, of in results.items()}
+
+
+@pytest.fixture(params=["thermal", "steady line", "unfinished", "no fatigue", "study", "flank"])
+def any_page(request, pages):
+    return pages[request.param]
 
 
 def numbers(trace):
@@ -127,8 +130,8 @@ def test_no_section_is_empty(any_page):
     assert any_page.headings and "None" not in any_page.text and "nan" not in any_page.text.split()
 
 
-def test_the_numbers_are_those_of_the_summary(thermal, tmp_path):
-    seen, summary = page(thermal, tmp_path), tehl.open(thermal).summary
+def test_the_numbers_are_those_of_the_summary(thermal, pages):
+    seen, summary = pages["thermal"], tehl.open(thermal).summary
     f, steady = summary["fatigue"], summary["steady"]
     assert f"At the surface: Fi = {f['Fi_max']:.3f} ± 0.023, 1 lies within the error." in seen.text
     assert f"Fi = {f['below']['Fi_max']:.4g} (error not known), above 1." in seen.text
@@ -140,8 +143,8 @@ def test_the_numbers_are_those_of_the_summary(thermal, tmp_path):
     assert seen.headings[0] == "How sure" and seen.text.index("Probably yes") < seen.text.index("Scene")
 
 
-def test_the_slider_has_every_moment_and_the_worst_first(thermal, tmp_path):
-    seen, reader = page(thermal, tmp_path), tehl.open(thermal).store
+def test_the_slider_has_every_moment_and_the_worst_first(thermal, pages):
+    seen, reader = pages["thermal"], tehl.open(thermal).store
     slides = seen.figures["centreline"]["slides"]
     assert len(slides["labels"]) == len(reader) and slides["first"] == int(np.argmax(reader.scalar("p_max_Pa")))
     table = np.frombuffer(base64.b64decode(slides["lines"][0]["bdata"]), "<f4").reshape(len(reader), -1)
@@ -149,6 +152,8 @@ def test_the_slider_has_every_moment_and_the_worst_first(thermal, tmp_path):
     shown = (reader.x >= -1.6 * 3.6217e-4) & (reader.x <= 1.4 * 3.6217e-4)
     assert table == pytest.approx(whole[:, shown], rel=1e-6)
     assert len(slides["lines"]) == len(slides["traces"]) == 5  # p, h, three temperatures
+    film = np.frombuffer(base64.b64decode(slides["lines"][1]["bdata"]), "<f4").reshape(len(reader), -1)
+    assert film[:, np.abs(reader.x[shown]) < 0.9 * 3.6217e-4].max() < seen.figures["centreline"]["layout"]["yaxis2"]["range"][1]
     traces = seen.figures["centreline"]["data"]
     assert [traces[n]["name"] for n in slides["traces"]] == ["this moment", "this moment", "mid-film", "surface a", "surface b"]
 
@@ -163,16 +168,14 @@ def test_long_passages_are_thinned_but_keep_their_extremes(tmp_path, monkeypatch
     assert slides["labels"][slides["first"]].startswith("feature at")
 
 
-def test_what_a_run_does_not_have_is_left_out(tmp_path, thermal):
-    line = page(made_results.run(tmp_path / "line.zarr", STEADY, 1), tmp_path)
+def test_what_a_run_does_not_have_is_left_out(pages):
+    line, begun, whole = pages["steady line"], pages["unfinished"], pages["thermal"]
     assert line.places == ["centreline"] and "Histories" not in line.headings
     assert not [one for one in line.attributes if one[1:] == ("type", "range")]
     assert "temperature (°C)" not in str(line.figures)
-    begun = page(store(tmp_path / "begun.zarr").path, tmp_path)
     assert "No answer yet: the run is not finished." in begun.text and "Numbers and their errors" not in begun.headings
     assert "Fatigue" not in begun.headings and "tehl resume begun.zarr" in begun.text
     assert f"2 of {total_steps(SMALL)} time steps" in begun.text
-    whole = page(thermal, tmp_path)
     assert {"index-surface", "section", "over-depth", "path-below", "map-temperature_mid"} <= set(whole.places)
 
 
@@ -211,8 +214,8 @@ def test_a_scene_in_words():
     assert "without slip" in " ".join(scene_words.words(scene("gear").replace(srr=0.0)))
 
 
-def test_a_study_shows_its_results_and_what_failed(study, tmp_path):
-    seen = page(study.path, tmp_path)
+def test_a_study_shows_its_results_and_what_failed(pages):
+    seen = pages["study"]
     assert "is above 1 in 1 of 8 cases with a result" in seen.text and "Without a result: 1 of 9 cases" in seen.text
     assert "The largest is Fi = 1.05: srr -0.1, feature.height (µm) 1.5." in seen.text
     assert "Case 5 (srr 0, feature.height (µm) 1.5): not converged: made up" in seen.text
@@ -221,8 +224,8 @@ def test_a_study_shows_its_results_and_what_failed(study, tmp_path):
     assert len(seen.figures["fatigue_Fi_max-lines"]["data"]) == 3
 
 
-def test_a_flank_says_where(tmp_path):
-    seen = page(made_results.flank(tmp_path / "flank"), tmp_path)
+def test_a_flank_says_where(pages):
+    seen = pages["flank"]
     assert "exceeded at the surface at A, x_pl = -" in seen.text and "It is above 1 at 1 of 3 positions." in seen.text
     assert "step 7 failed" in seen.text and "A, C: same everywhere" in seen.text
     assert "Warnings of the positions, listed below: 1." in seen.text and "module" in seen.text
@@ -243,6 +246,7 @@ def test_a_file_that_is_there_stays_unless_forced(thermal, tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["mine.html"]
 
 
+@pytest.mark.slow
 def test_it_needs_no_matplotlib(thermal, tmp_path):
     code = f"import sys; sys.modules['matplotlib'] = None; import tehl_taichi as tehl; tehl.report({str(thermal)!r}, 'a.html')"
     assert subprocess.run([sys.executable, "-c", code], cwd=tmp_path).returncode == 0 and (tmp_path / "a.html").exists()

@@ -33,9 +33,10 @@ def browser(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def line(tmp_path_factory):
-    """The page of a line with few figures."""
-    return tehl.report(made_results.run(tmp_path_factory.mktemp("line") / "a.zarr", LINE, 4))
+def line(browser, tmp_path_factory):
+    """The browser with the page of a line, which has few figures."""
+    browser.open(tehl.report(made_results.run(tmp_path_factory.mktemp("line") / "a.zarr", LINE, 4)))
+    return browser
 
 
 @pytest.fixture(scope="module")
@@ -53,27 +54,35 @@ def others(tmp_path_factory):
     return tehl.report(study), tehl.report(made_results.flank(folder / "flank"))
 
 
-def test_the_slider_moves_the_lines_and_nothing_complains(browser, line):
-    browser.open(line)
-    assert browser.run("document.getElementById('slide').value") == "3"
-    last, said = browser.run(SHOWN), browser.run("document.querySelector('output').value")
-    browser.run("document.getElementById('slide').focus()")
-    browser.press("ArrowLeft")
-    assert browser.run("document.getElementById('slide').value") == "2"
-    one_before = browser.run(SHOWN)
+def test_the_slider_moves_the_lines_and_nothing_complains(line):
+    assert line.run("document.getElementById('slide').value") == "3"
+    last, said = line.run(SHOWN), line.run("document.querySelector('output').value")
+    line.run("document.getElementById('slide').focus()")
+    line.press("ArrowLeft")
+    assert line.run("document.getElementById('slide').value") == "2"
+    one_before = line.run(SHOWN)
     assert max(one_before) == pytest.approx(max(last) - 0.1 * 2.0034, rel=1e-3)
-    now = browser.run("document.querySelector('output').value")
+    now = line.run("document.querySelector('output').value")
     assert said.startswith("feature at +0.00 a") and now.startswith("feature at -0.50")
     shape = "document.querySelector('[data-figure=centreline]').layout.shapes[0].x0"
-    assert browser.run(shape) == pytest.approx(-0.5)
-    assert browser.complaints() == []
+    assert line.run(shape) == pytest.approx(-0.5)
+    assert line.complaints() == []
 
 
-def test_no_button_sends_data_away(browser, line):
-    browser.open(line)
-    buttons = browser.run("[...document.querySelectorAll('.modebar-btn')].map(button => button.dataset.title)")
+def test_a_rectangle_zooms(line):
+    place = "document.querySelector('[data-figure=centreline] .nsewdrag')"
+    line.run(f"{place}.scrollIntoView({{block: 'center'}})")
+    left, top, width, height = line.run(f"(box => [box.x, box.y, box.width, box.height])({place}.getBoundingClientRect())")
+    before = line.run("document.querySelector('[data-figure=centreline]').layout.xaxis.range")
+    line.drag((left + 0.25 * width, top + 0.2 * height), (left + 0.75 * width, top + 0.8 * height))
+    after = line.run("document.querySelector('[data-figure=centreline]').layout.xaxis.range")
+    assert after[1] - after[0] == pytest.approx(0.5 * (before[1] - before[0]), rel=0.02)
+
+
+def test_no_button_sends_data_away(line):
+    buttons = line.run("[...document.querySelectorAll('.modebar-btn')].map(button => button.dataset.title)")
     assert set(buttons) == {"Download plot as a PNG", "Zoom", "Pan", "Zoom in", "Zoom out", "Reset axes"}
-    assert browser.run(REFUSED) == "https://example.org/"
+    assert line.run(REFUSED) == "https://example.org/"
 
 
 @pytest.mark.slow
