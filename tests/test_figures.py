@@ -268,3 +268,22 @@ def test_options_of_the_command_are_checked(tmp_path):
         assert isinstance(found, SceneError) and said in str(found)
     done = CliRunner().invoke(app, ["plot", path, "--format", "svg", "--width", "8.5", "--out", str(tmp_path / "f")])
     assert done.exit_code == 0 and {p.name for p in (tmp_path / "f").iterdir()} == {"centreline.svg", "maps.svg"}
+
+
+def test_comparisons_are_drawn_as_asked(tmp_path):
+    from tehl_cli.main import app
+    from typer.testing import CliRunner
+
+    pair = [str(store(tmp_path / name).path) for name in ("a.zarr", "b.zarr")]
+    assert CliRunner().invoke(app, ["compare", *pair, "--format", "svg", "--width", "8.5"]).exit_code == 0
+    size = re.search(r'width="([\d.]+)pt"', (tmp_path / "compare.svg").read_text())
+    assert float(size[1]) == pytest.approx(8.5 / INCH * 72, abs=0.01)
+
+
+@pytest.mark.parametrize("command", ["fatigue", "crack", "flank"])
+def test_pages_are_refused_before_anything_is_searched(command):
+    from tehl_cli.main import app
+    from typer.testing import CliRunner
+
+    found = CliRunner().invoke(app, [command, "nothing.zarr", "--dpi", "5"]).exception
+    assert isinstance(found, SceneError) and "dpi = 5 is out of range" in str(found)

@@ -9,6 +9,7 @@ from tehl_taichi.figures.page import Page
 COLOURS = {"entry": palette.BLUE, "exit": palette.BLACK}  # both stand out on the tension
 SHOWN = 150e6  # Pa: more tension has the same colour
 DEEP = 1.3     # of the deepest line, shown
+BELOW = dict(loc="upper center", bbox_to_anchor=(0.5, 0.0), borderaxespad=4.0)  # legends: under the axis, in sizes of text
 BAND = 60e-6   # m: length of the pits' band along the surface
 
 
@@ -51,14 +52,14 @@ def _section(page, figure, ax, result):
     image = shade(ax, plane.x * 1e6, even * 1e6, np.array([np.interp(even, plane.depths, row) for row in tension]) / 1e6,
                   cmap=palette.TENSION, vmin=0, vmax=SHOWN / 1e6)
     bar(figure, image, ax, "largest tension (MPa)")
-    ax.plot(np.array([-1, 1]) * plane.reach * 1e6, [-2, -2], color=palette.BLACK, lw=0.4 * page.text, clip_on=False)
+    ax.plot(np.array([-1, 1]) * plane.reach * 1e6, [-2, -2], color=palette.BLACK, lw=0.3 * page.text, clip_on=False)
     for name, side in result.sides.items():
         _lines(ax, name, side, result.summary["pit_angles_deg"])
     width = 1.3 * max([plane.reach, *(float(np.abs(side.path.points.real).max()) for side in result.sides.values())])
     ax.set(xlabel="x' from the feature's centre (µm), rolling to the left", ylabel="below the surface (µm)",
            xlim=(-width * 1e6, width * 1e6), ylim=(even[-1] * 1e6, -3.5))
     if result.sides:
-        page.legend(figure, ax.get_legend_handles_labels()[0])
+        ax.legend(**BELOW)
 
 
 def _lines(ax, name, side, pits):
@@ -85,4 +86,4 @@ def _history(ax, result, name):
             ax.plot(at, K[:-1] / 1e6, style, color=COLOURS[name], lw=width, label=f"${kind}$ at {crack.faces.a * 1e6:.0f} µm")
     ax.set(xlabel="position of the feature, $x_a/a$", ylabel=f"{name} side: K (MPa √m)")
     ax.grid()
-    ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)
+    ax.legend(**BELOW, ncols=2)
