@@ -42,6 +42,7 @@ def test_a_frame_shows_its_entry_on_axes_with_room_for_all():
     assert film.axes["pressure"].get_ylim() == pytest.approx((0.0, 1.05 * largest))
 
 
+@pytest.mark.slow
 def test_a_line_has_no_map_and_a_tall_map_stands_beside_the_lines():
     assert set(frames("furrow-line", None).axes) == {"pressure", "film", "temperature"}
     low, tall = ({name: ax.get_position() for name, ax in frames(built_in, "film").axes.items()}
@@ -54,15 +55,14 @@ def test_a_gif_has_as_many_frames_as_asked_for_evenly_over_the_passage(tmp_path)
     from PIL import Image
 
     told = []
-    nine = store(tmp_path / "a.zarr", 9).path
-    path = tehl.animate(nine, frames=3, fps=10, progress=lambda *done: told.append(done), **SMALL)
+    five = store(tmp_path / "a.zarr", 5).path
+    path = tehl.animate(five, frames=3, fps=10, progress=lambda *done: told.append(done), **SMALL)
     assert path == tmp_path / "a.gif" and told == [(0, 3), (1, 3), (2, 3), (3, 3)]
     with Image.open(path) as film:
         assert film.n_frames == 3 and film.info["duration"] == 100 and film.info["loop"] == 0
         assert film.size[0] == int(8.5 / INCH * 40) and film.convert("RGB").getpixel((0, 0)) == (255, 255, 255)
-    assert tehl.open(nine).animate(tmp_path / "all", **SMALL).name == "all.gif"
-    with Image.open(tmp_path / "all.gif") as film:
-        assert film.n_frames == 9
+    with pytest.raises(StoreError, match="a.gif exists already"):
+        tehl.open(five).animate(tmp_path / "a.gif")
 
 
 def test_what_cannot_be_animated_is_refused_in_a_sentence(tmp_path):
@@ -90,9 +90,8 @@ def test_a_film_is_replaced_only_when_asked_and_never_left_half(tmp_path):
 
     with pytest.raises(StoreError, match="a.gif exists already; choose another --out, or --force"):
         tehl.animate(path, **SMALL)
-    for name in ("a.gif", "new.gif"):
-        with pytest.raises(KeyboardInterrupt):
-            tehl.animate(path, tmp_path / name, force=True, progress=stop, **SMALL)
+    with pytest.raises(KeyboardInterrupt):
+        tehl.animate(path, force=True, progress=stop, **SMALL)
     assert {p.name for p in tmp_path.iterdir()} == {"a.zarr", "a.gif"} and (tmp_path / "a.gif").read_bytes() == b"other"
     assert tehl.animate(path, force=True, **SMALL).read_bytes()[:6] == b"GIF89a"
 
