@@ -62,7 +62,7 @@ def test_every_job_is_done_once_in_the_order_of_the_phases(tally, size, patience
 def test_after_a_worker_has_left_fewer_are_asked(taichi_cpu):
     from tehl_taichi.engine import workers
 
-    team, asked = workers.Team(2), []
+    team, asked, before = workers.Team(2), [], workers.crowding()
     team.size = 2
 
     def launch():
@@ -71,4 +71,5 @@ def test_after_a_worker_has_left_fewer_are_asked(taichi_cpu):
 
     for _ in range(18):
         team.run(launch)
-    assert asked == [2, 1, 1, 1, 1, 2] + [1] * 8 + [2, 2, 2, 2] and team.left == 2
+    assert asked == [2, 1, 1, 1, 1, 2] + [1] * 8 + [2, 2, 2, 2]
+    assert (workers.crowding() - before).tolist() == [18, 14]

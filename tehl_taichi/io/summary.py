@@ -13,7 +13,8 @@ from tehl_taichi.scene.scales import Scales
 
 
 def summarise(store, extra, fatigue=None):
-    """Summary dictionary. extra: wall_s, compile_s (kernels traced, compiled or loaded), steady_error and steady_unknown (see
+    """Summary dictionary. extra: wall_s, compile_s (kernels traced, compiled or loaded), crowding (see
+    :func:`tehl_taichi.engine.workers.crowding`, here of this run; optional), steady_error and steady_unknown (see
     :class:`tehl_taichi.march.snapshot.Snapshot`), passage_error and passage_unknown alike; fatigue: its own dictionary or
     None."""
     scene = store.scene
@@ -31,9 +32,17 @@ def summarise(store, extra, fatigue=None):
         out[part]["error"] = {name: extra.get("passage_error", {}).get(name) for name in names}
         out[part]["unknown"] = {name: why for name, why in extra.get("passage_unknown", {}).items() if name in names}
     out["work"] = _work(store)
+    out["crowding"] = extra.get("crowding", [0, 0])
     out["clamps"] = _clamps(store)
     out["warnings"] = result_judge.warnings(store, out)
     return out
+
+
+def so_far(store):
+    """What is known of a run without a summary, as JSON has it: it is not finished, or being written at this moment."""
+    return {"scene": store.scene.name, "version": store.attrs["version"], "store": str(store.path), "finished": False,
+            "written_by": store.writer, "steps": store.last_step, **counts(store), "left_out": store.scene.left_out(),
+            "warnings": store.warnings}
 
 
 def counts(store):
