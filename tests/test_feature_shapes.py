@@ -33,6 +33,15 @@ def test_elliptic_cosine():
     assert bump.reach == pytest.approx(100 * UM) and bump.reach_y == pytest.approx(200 * UM)
 
 
+def test_a_cosine_without_end_is_transverse():
+    """Half of it at a quarter of its width for every y: the scene is 1-D."""
+    bump = Feature(height=-2 * UM, width=200 * UM, length=math.inf)
+    for y in (0, 80, 1e6):
+        assert height(bump, 50, y) == pytest.approx(-1.0, abs=1e-12) and height(bump, 100, y) == 0
+    assert bump.transverse and bump.symmetric and bump.reach_y == 0
+    assert scene("gear").replace(**{"feature.length": math.inf}).one_dimensional
+
+
 def test_ridge_and_furrow():
     """10^(-10 xi^2) cos(2 pi xi): xi = 0.1: 10^-0.1 cos 36 deg = 0.642626; 0.25: 0; 0.5: -10^-2.5; the same for every y."""
     for shape, size in (("ridge", 0.2), ("furrow", -2.0)):

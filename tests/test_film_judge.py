@@ -111,3 +111,5 @@ def test_a_ripple_at_the_exit_of_oil_without_a_limit(changes, advice):
 
     text, = film_judge.ripples(Made(gear(**changes), pressure=mound), {})
     assert text.startswith("exit not resolved: ") is bool(changes) and advice in text
+    inside, = film_judge.ripples(Made(gear(**changes), pressure=lambda X, smooth: mound(X, smooth)[::-1]), {})
+    assert inside.startswith("the pressure ripples") and "X = -" in inside and "time.courant" in inside

@@ -146,6 +146,8 @@ def test_a_named_oil_comes_before_its_changes():
     ({"contact.moes_M": 100.0, "contact.moes_L": 10.0, "speed": 3.0}, ("contact.moes_M = 100.0 and speed = 3.0 contradict",)),
     ({"time.steady_only": True, "time.steps": 3}, ("time.steady_only = True and time.steps = 3 contradict",)),
     ({"oil.alpha": 1e-8}, ("oil.alpha has no effect", "G0, S0, Dz, Cz")),
+    ({"feature.length": math.inf, "feature.extent_x": 5e-4, "feature.shape": "waviness"},
+     ("feature.length = inf m", "length = 0")),
     ({"feature.length": 1e-4, "feature.shape": "ridge"}, ("feature.length has no effect on shape 'ridge'", "cosine, waviness")),
     ({"feature.extent_x": 1e-4}, ("feature.extent_x has no effect on shape 'cosine'",)),
     ({"srr": 0.0, "operation.u_a": 1.0, "operation.u_b": 2.0}, ("operation.u_a = 1.0 and srr = 0.0 contradict",)),

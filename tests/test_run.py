@@ -60,6 +60,11 @@ def test_a_run_is_what_is_stored(done):
     shots = list(tehl.march(RIDGE))
     assert again.warnings == run.warnings == run.summary["warnings"]
     assert run.summary["transient"]["p_max_Pa"] == max(shot.scalars["p_max_Pa"] for shot in shots[1:])
+    from tehl_taichi.march.peaks import ripple
+
+    ripples = [ripple(shot.fields["pressure"].astype("f4"))[0] for shot in shots]  # as they are stored
+    found = run.summary["steady"]["ripple_Pa"], run.summary["transient"]["ripple_max_Pa"]
+    assert found == (ripples[0], max(ripples[1:])) and found[1] > 0
     np.testing.assert_array_equal(run.store.fields(4)["film"], shots[4].fields["film"].astype("f4"))
     assert repr(run) == f"<tehl.Run gear: 4 steps, finished, {run.path}>"
 

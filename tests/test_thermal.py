@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -316,3 +317,22 @@ def test_heat_balance():
     made, squeezed, bodies, carried = (float(q[wet].sum()) * cell for q in sources_and_sinks(result.heat, levels))
     assert abs(bodies + carried - made - squeezed) < 1e-3 * made
     assert bodies == pytest.approx(58.52e3, rel=0.01)
+
+
+@pytest.mark.parametrize("rejected, rounds, most", [(0, 8, 8), (1, 8, 32), (2, 1, 1)])
+def test_a_step_that_failed_gets_more_rounds(rejected, rounds, most):
+    """Not where one lagged round is wanted."""
+    from tehl_taichi.march.passage import Passage
+
+    step = SimpleNamespace(rejected=rejected, scene=SimpleNamespace(thermal=Thermal(rounds=rounds)))
+    assert Passage._rounds(step) == most
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("srr", [-0.12, 0.12])
+def test_a_narrow_asperity_leaves_on_128_columns(srr):
+    """100 um wide, nine cells: its temperatures at the outlet take more rounds; it stopped at 1.06 and 1.15 a."""
+    from tehl_taichi.march.passage import march
+
+    *_, last = march(scene("gear").replace(srr=srr, width=100e-6, **{"grid.nx": 128, "grid.ny": 32}))
+    assert last.feature_x > 1.39 * Scales.of(scene("gear")).a and last.scalars["film_max_C"] < 250

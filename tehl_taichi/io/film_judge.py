@@ -35,7 +35,7 @@ def unresolved(store, summary):
 def _where(store, n, p, i):
     a = Scales.of(store.scene).a
     when = f"of the passage (feature at {store.feature_x(n) / a:.2f} a)" if n else "of the steady state"
-    return f"p_max {p.max() / 1e9:.2f} GPa {when}, at X = {store.x[i] / a:.2f}, is one to a few cells wide"
+    return f"p_max {p.max() / 1e9:.2f} GPa {when}, at X = {store.x[i] / a:.2f}, is a few cells wide"
 
 
 def _because(store, i):

@@ -1,7 +1,10 @@
 """Waves along x, or along x and y."""
 
+import math
+
 import numpy as np
 
+from tehl_taichi.errors import SceneError
 from tehl_taichi.scene.features.patch import Patch
 from tehl_taichi.scene.shape import needs_patch, share
 
@@ -17,6 +20,8 @@ class Waviness(Patch):
 
     def check(self, f):
         needs_patch(f)
+        if math.isinf(f.length):
+            raise SceneError("feature.length = inf m: waves that are the same for every y have length = 0")
 
     def sizes(self, f):
         across = {"extent_y": f.extent_y, "length": f.length}
