@@ -10,7 +10,9 @@ from tehl_taichi.fatigue import assessment, below, half_space, row_stress
 from tehl_taichi.fatigue.histories import Passage
 from tehl_taichi.fatigue.row_stress import RowStress
 from tehl_taichi.fatigue.under_row import histories_of
-from tehl_taichi.io import figures, result_judge, summary_rows
+from tehl_taichi.figures.page import Page
+from tehl_taichi.figures.run_figures import write_fatigue
+from tehl_taichi.io import result_judge, summary_rows
 from tehl_taichi.scene import SceneError
 from tehl_taichi.scene.scales import Scales
 
@@ -170,8 +172,8 @@ def test_the_angle_to_the_surface_is_that_of_the_plane(found):
 def drawn(monkeypatch, found, tmp_path):
     """{name: figure} that write_fatigue would have saved."""
     kept = {}
-    monkeypatch.setattr(figures, "_save", lambda plt, figure, path, dpi: kept.setdefault(path.stem, figure))
-    figures.write_fatigue(found, "test", 0.36e-3, tmp_path)
+    monkeypatch.setattr(Page, "save", lambda page, draw, path: kept.setdefault(path.stem, draw()))
+    write_fatigue(found, "test", 0.36e-3, tmp_path)
     return kept
 
 
@@ -182,7 +184,7 @@ def lines(ax):
 def test_figures_show_what_was_searched(found, monkeypatch, tmp_path):
     """Depths: the worst one beside the surface; the profile has every depth; one row: lines, not an empty map."""
     _, layers = result(**{"fatigue.depths": [20e-6, 60e-6]})
-    maps = [ax for ax in drawn(monkeypatch, layers, tmp_path)["fatigue"].axes if ax.get_xlabel()]
+    maps = [ax for ax in drawn(monkeypatch, layers, tmp_path)["fatigue"].axes if ax.get_title()]
     index = [ax.collections[0].get_array().max() for ax in maps]
     assert index == pytest.approx([layers.summary["Fi_max"], layers.summary["below"]["Fi_max"]])
     profile = lines(drawn(monkeypatch, found, tmp_path)["fatigue_depth"].axes[1])[0]

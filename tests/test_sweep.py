@@ -156,14 +156,14 @@ def test_pictures_of_a_study(study, tmp_path):
 
 
 def test_the_heat_map_shows_each_case_where_it_belongs(study):
-    plt = pytest.importorskip("matplotlib.pyplot")
+    pytest.importorskip("matplotlib")
+    from tehl_taichi.figures.page import Page
     from tehl_taichi.study import study_figures
 
-    ax = study_figures.heat_map(plt, study, "fatigue_Fi_max").axes[0]
+    ax = study_figures.heat_map(Page(), study, "fatigue_Fi_max").axes[0]
     shown = ax.images[0].get_array()
     assert shown[1, 2] == pytest.approx(0.7) and np.ma.getmaskarray(np.ma.masked_invalid(shown))[2].tolist() == [0, 1, 0]
     assert [text.get_text() for text in ax.get_yticklabels()] == ["0.5", "1", "1.5"] and "µm" in ax.get_ylabel()
-    plt.close("all")
 
 
 def test_a_sweep_runs_its_cases(taichi_cpu, tmp_path):
@@ -211,6 +211,8 @@ def test_the_command_line_of_a_sweep(taichi_cpu, tmp_path, monkeypatch):
     again = invoked(tmp_path, monkeypatch, "sweep", found["study"], "--workers", 1)
     assert again.exit_code == 0 and "4 of them done before" in again.stderr and "ok" in again.stdout
     assert again.stdout in invoked(tmp_path, monkeypatch, "show", found["study"]).stdout
+    assert json.loads(invoked(tmp_path, monkeypatch, "show", found["study"], "--json").stdout) == found
+    assert f"its table is {found['table']}" in str(invoked(tmp_path, monkeypatch, "export", found["study"]).exception)
 
 
 @pytest.mark.parametrize("words, said", [

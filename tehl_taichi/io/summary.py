@@ -4,6 +4,7 @@ import numpy as np
 
 from tehl_taichi import __version__
 from tehl_taichi.io import result_judge
+from tehl_taichi.io.film_judge import worst_ripple
 from tehl_taichi.march.readings import HEAT
 from tehl_taichi.physics import conduction
 from tehl_taichi.physics.law import beyond
@@ -37,6 +38,13 @@ def summarise(store, extra, fatigue=None):
     return out
 
 
+def so_far(store):
+    """What is known of a run without a summary, as JSON has it: it is not finished, or being written at this moment."""
+    return {"scene": store.scene.name, "version": store.attrs["version"], "store": str(store.path), "finished": False,
+            "written_by": store.writer, "steps": store.last_step, **counts(store), "left_out": store.scene.left_out(),
+            "warnings": store.warnings}
+
+
 def counts(store):
     """grid: nodes that were computed, nz of them across the film; cells: as [grid] of the scene and --grid count them, ny of
     the half domain y >= 0 (on the whole domain that is 2 ny + 1 nodes), 0 where nothing varies across (one row of nodes)."""
@@ -61,7 +69,7 @@ def _steady(store, extra):
     names = ["h_c_m", "h_min_m", "p_max_Pa", "load_error", "mass_error", "friction_coefficient"]
     names += [] if store.scene.isothermal else HEAT
     out = {name: float(store.scalar(name)[0]) for name in names}
-    out["film_formula_m"] = central_film(store.scene)
+    out["film_formula_m"], out["ripple_Pa"] = central_film(store.scene), worst_ripple(store, [0])[0][0]
     out["error"], out["unknown"] = extra["steady_error"], extra.get("steady_unknown", {})
     return out
 
@@ -78,6 +86,7 @@ def _transient(store):
 
     heat = {} if store.scene.isothermal else {name: largest(name) for name in (*HEAT, "temperature_change_K")}
     return {**heat, "p_max_Pa": largest("p_max_Pa"), "h_min_m": float(np.min(store.scalar("h_min_m")[1:])),
+            "ripple_max_Pa": worst_ripple(store, range(1, len(store)))[0][0],
             "contact_load_fraction_max": largest("contact_load_fraction"), "load_error_max": largest("load_error"),
             "mass_error_max": largest("mass_error"), "residual_max": largest("residual"), "dt_s": largest("dt_s"),
             "friction_coefficient_mean": float(np.average(store.scalar("friction_coefficient")[1:], weights=_steps_of(store)))}

@@ -18,7 +18,7 @@ from tehl_taichi.pressure.program import DECISION, FIRST_JOB, JOBS, Program
 # vectors of lanes that the iterations of one launch go through, each some 0.25 us on one core: while a kernel runs nobody hears
 # Ctrl-C, nor do other threads of Python get on
 PORTION = 500_000
-SMALLEST = 10_000  # entries of the fields X and Y: all grids up to 256x64 share one compiled kernel
+SMALLEST = 80_000  # entries of the fields X and Y: all grids up to 256x64, and their starts, share one compiled kernel
 
 Numbers = ti.types.ndarray(dtype=ti.i32, ndim=2)
 
