@@ -43,15 +43,20 @@ class Guess:
         newest = self.fields[0]
         if len(self.fields) == 1:
             return newest
+        trusts, out = self._trusts(), np.zeros_like(newest)
+        total = sum(trusts)
+        for layer in range(len(newest)) if newest.ndim > 2 else [...]:  # one after the other they stay in the cache
+            known = [field[layer] for field in self.fields[:-1]]
+            for trust, guess in zip(trusts, _extrapolations(known, self.at[:-1], at)):
+                out[layer] += trust * guess
+            out[layer] /= total
+        return out
+
+    def _trusts(self):
+        """Weight of each extrapolation at each node (ny+1, nx+1): one over the square of what it would have missed."""
         judged, *known = (_judged(field) for field in self.fields)
         past = _extrapolations(known, self.at[1:], self.at[0])
-        coming = _extrapolations(self.fields[:-1], self.at[:-1], at)
-        out, total = np.zeros_like(newest), np.zeros(newest.shape[-2:], newest.dtype)
-        for before, guess in zip(past, coming):
-            trust = 1 / (_nearby(before - judged) + NOTHING)
-            out += trust * guess
-            total += trust
-        return out / total
+        return [1 / (_nearby(before - judged) + NOTHING) for before in past]
 
 
 def _judged(field):

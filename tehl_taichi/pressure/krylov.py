@@ -100,6 +100,8 @@ class Krylov:
 
     def _bind(self):
         v, p = self.levels, self.program
+        self.dense = np.zeros((dense_entries(v.sizes, v.dense), lanes.W), v.linear)
+        self._fill_dense = bind(lanes.fill, self.memory.X, 0, 0, self.dense)
         self.partial = np.zeros((v.fine, decisions.DOT_SUM + self.most + phases.AT_ONCE))
         self._launch = bind(linear_solve, self.memory, v.G, self.layout.table, self.layout.lengths.table(), p.phases, p.jobs,
                             self.numbers, self.partial, self.team.sync, self.most, self.right, self.outflow, self.out,
@@ -107,12 +109,12 @@ class Krylov:
 
     def set_dense(self, inverse, place):
         """Inverse (nodes, nodes) of the coarsest level, of which node n is number place[n] in the order of the table."""
-        size = len(self.levels.dense) and columns(*self.levels.sizes[-1]) * lanes.W
+        size = columns(*self.levels.sizes[-1]) * lanes.W
         whole = np.zeros((size, size), self.levels.linear)
         whole[np.ix_(place, place)] = inverse
         # [column, lane, from] -> [column, from, lane]
-        entries = whole.reshape(-1, lanes.W, size).transpose(0, 2, 1).reshape(-1, lanes.W)
-        lanes.fill(self.memory.X, 0, 0, np.ascontiguousarray(entries))
+        self.dense[:] = whole.reshape(-1, lanes.W, size).transpose(0, 2, 1).reshape(-1, lanes.W)
+        self._fill_dense()
 
     def lift(self):
         """Take the answer of the preconditioner to a change of H0, for the bordered system."""
