@@ -36,23 +36,25 @@ def stability(
     random: int = typer.Option(200, help="random scenes after the table"),
     seed: int = typer.Option(0, help="of the random scenes"),
     quick: bool = typer.Option(False, "--quick", help="every sixth case and eight random scenes"),
+    only_starts: bool = typer.Option(False, "--starts", help="scenes with temperatures alone, their start and one step"),
     as_json: bool = typer.Option(False, "--json", help="one JSON object with the counts on stdout"),
     threads: Optional[int] = THREADS,
     workers: int = WORKERS,
     precision: str = typer.Option("auto", help="of the linear solves: f32, f64 or what suits each scene"),
 ):
     """Stiff and extreme scenes: converged, refused, stopped with the reason, or failed. Example: `tehl bench stability`"""
-    from tehl_taichi.profiles.stability import cases, random_cases, run
+    from tehl_taichi.profiles.stability import cases, random_cases, run, starts
 
     table = list(cases(thermal).items())
     chosen = [*table[:: 6 if quick else 1], *random_cases(min(random, 8) if quick else random, seed).items()]
     chosen = {name: description for name, description in chosen if match.lower() in name.lower()}
-    found = []
+    chosen, found = starts(chosen) if only_starts else chosen, []
     for outcome in run(chosen.items(), precision, workers, threads):
         found.append(outcome)
         say(f"{outcome.name}: {outcome.verdict} {outcome.reason}")
     found.sort(key=lambda outcome: list(chosen).index(outcome.name))
     counts = {verdict: sum(o.verdict == verdict for o in found) for verdict in ("converged", "refused", "stopped", "failed")}
+    counts["unsettled"] = sum(o.unsettled for o in found)
     if as_json:
         print_json({**counts, "cases": [vars(o) for o in found]})
     else:
@@ -60,7 +62,7 @@ def stability(
         _table("stability" + (" with temperatures" if thermal else ""), rows,
                {"case": "{}", "verdict": "{}", "steps": "{}", "newton": "{:.1f}", "cycles": "{:.0f}", "seconds": "{:.1f}",
                 "Fi_max": "{:.3f}"})
-        say(", ".join(f"{verdict} {count}" for verdict, count in counts.items()))
+        say(", ".join(f"{verdict} {count}" for verdict, count in counts.items()) + " (from a start that did not settle)")
     raise typer.Exit(1 if counts["failed"] else 0)
 
 

@@ -32,7 +32,7 @@ SHEAR_LAWS = [Rheology.law, *sorted(set(rheology.LAWS) - {Rheology.law}, reverse
 class Outcome:
     """verdict: converged, refused (at the door), stopped (not converged, with a reason) or failed (NaN, negative film).
 
-    Fi_max: fatigue index of a passage that converged, else None.
+    Fi_max: fatigue index of a passage that converged, else None; unsettled: whether it began from a state in time.
     """
 
     name: str
@@ -43,6 +43,7 @@ class Outcome:
     cycles: float
     seconds: float
     Fi_max: Optional[float] = None
+    unsettled: bool = False
 
 
 def cases(thermal=False):
@@ -139,6 +140,12 @@ def edited(base, changes):
     return Scene.from_dict(merge(scene(base).replace(**plain).to_dict(), tables))
 
 
+def starts(chosen):
+    """Of {name: scene or SceneError} those with temperatures, each to be run for a step after its start."""
+    return {name: description.replace(**{"time.steps": 1} if description.transient else {})
+            for name, description in chosen.items() if isinstance(description, Scene) and not description.isothermal}
+
+
 def run(chosen, precision=AUTO, workers=1, threads=None):
     """Generator of an Outcome for each of `chosen` (pairs of a name and a scene or SceneError), in the order in which they end.
 
@@ -190,7 +197,8 @@ def run_case(name, description, precision=AUTO):
         verdict, reason = "failed", repr(error)
     steps = max(len(shots) - 1, 0)
     count, seconds = max(steps, 1), time.perf_counter() - started
-    return Outcome(name, verdict, reason, steps, newton / count, cycles / count, seconds, index)
+    unsettled = shots[0].unsettled if shots else ""
+    return Outcome(name, verdict, reason or unsettled, steps, newton / count, cycles / count, seconds, index, bool(unsettled))
 
 
 def sound(shot):

@@ -1,6 +1,7 @@
 """The suites: their cases are scenes, their verdicts tell good from bad."""
 
 import dataclasses
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -44,6 +45,16 @@ def test_random_scenes_repeat_and_cover_the_range():
     scenes = [case for case in found.values() if isinstance(case, Scene)]
     assert len(scenes) > 25 and {s.contact.kind for s in scenes} == {"line", "elliptic"}
     assert {s.isothermal for s in scenes} == {True, False} and len({s.rheology.law for s in scenes}) == 4
+
+
+def test_starts_are_scenes_with_temperatures(monkeypatch):
+    drawn = stability.starts(stability.random_cases(20, 3))
+    assert len(drawn) > 4 and all(not s.isothermal and s.time.steps == 1 for s in drawn.values())
+    shot = SimpleNamespace(scalars={"newton": 1.0, "cycles": 2.0}, unsettled="it moves")
+    monkeypatch.setattr("tehl_taichi.march.passage.march", lambda description: iter([shot, shot]))
+    monkeypatch.setattr(stability, "sound", lambda shot: True)
+    found = stability.run_case("moving", scene("gear"))
+    assert found.unsettled and (found.verdict, found.reason, found.steps) == ("converged", "it moves", 1)
 
 
 def test_an_error_is_a_failure(monkeypatch):

@@ -92,6 +92,17 @@ class FilmHeat:
         self.report = HeatReport(float(change.max()), int(failed.sum()), int(held.sum()))
         return self.report
 
+    @property
+    def held(self):
+        """Nodes of the newest state at a limit of the allowed range: no temperatures, but where the solver stopped."""
+        coldest = self.levels.scene.operation.temperature - energy.WARM
+        return int(((self.T >= energy.HOT) | (self.T <= coldest)).sum())
+
+    @property
+    def sound(self):
+        """Whether every column of the last step converged, inside the allowed range."""
+        return not (self.report.failed or self.held)
+
     def relax(self):
         """Take less of what the last round changed, where rounds overshoot each other."""
         self.set_temperature(self.rounds.relaxed(self.columns.nodes(slots.LAST), self.temperature()))

@@ -3,6 +3,10 @@
 import numpy as np
 
 from tehl_taichi.errors import NotConverged
+from tehl_taichi.heat.energy import HOT
+from tehl_taichi.pressure import fields
+
+AT_FLOOR = 1e-3  # relative, that a film on its floor may lie above
 
 
 def not_converged(solver, heat, report, where):
@@ -20,11 +24,44 @@ def crossed(shot, a, border):
 
 
 def _reason(solver, heat, report):
-    v, tolerance = solver.levels, solver.levels.scene.numerics.tolerance
-    double = "" if v.precision == "f64" else ", --precision f64"
-    if heat and report.residual < tolerance:
-        return (f"the temperatures still change by {heat.report.change:.2g} K from round to round; "
-                f"try a finer grid (--grid), a smaller time.courant{double} or --isothermal")
+    double = "" if solver.levels.precision == "f64" else ", --precision f64"
+    return (f"{_what_failed(solver, heat, report)}; "
+            f"{_on_its_floor(solver) or f'try a finer grid (--grid), a smaller time.courant{double}'}")
+
+
+def _what_failed(solver, heat, report):
+    """The first that is not as it must be: pressure, mass, temperatures."""
+    numerics = solver.levels.scene.numerics
+    if not report.residual < numerics.tolerance:
+        return (f"residual {report.residual:.1e} (tolerance {numerics.tolerance:.0e}), largest at {_worst(solver)}"
+                f"{_heated(heat)}")
+    if not report.mass_error < numerics.mass_tolerance:
+        return f"mass error {report.mass_error:.1e} (tolerance {numerics.mass_tolerance:.0e}){_heated(heat)}"
+    if heat and not heat.sound:
+        return _heated(heat)[2:]
+    if not np.isfinite(heat.report.change):
+        return "no step of a march in time converges any more"
+    return f"the temperatures still change by {heat.report.change:.2g} K"
+
+
+def _worst(solver):
     i, j = solver.worst()
-    return (f"residual {report.residual:.1e} (tolerance {tolerance:.0e}), largest at X = {v.X[i]:.2f}, Y = {v.Y[j]:.2f}; "
-            f"try a finer grid (--grid){double} or a smaller time.courant")
+    return f"X = {solver.levels.X[i]:.2f}, Y = {solver.levels.Y[j]:.2f}"
+
+
+def _heated(heat):
+    """What is wrong with the temperatures themselves, "" where nothing is."""
+    if not heat or heat.sound:
+        return ""
+    return (f", temperatures held in their range (up to {HOT:g} deg C) at {heat.held} nodes and without a solution in "
+            f"{heat.report.failed} columns")
+
+
+def _on_its_floor(solver):
+    """What to do where the film is as thin as the equations have it, "" elsewhere."""
+    v = solver.levels
+    floor, nodes = v.G[0, fields.FLOOR], int((v.get(fields.H) < (1 + AT_FLOOR) * v.G[0, fields.FLOOR]).sum())
+    if not nodes:
+        return ""
+    return (f"the film is on its floor ({floor * v.scales.h:.1e} m, rheology.film_floor) at {nodes} nodes: too thin for this "
+            f"grid, take a finer one (--grid {2 * v.scene.grid.nx}x{2 * v.scene.grid.ny})")

@@ -5,7 +5,6 @@ accept. All of it is in :class:`Passage`; a step that does not converge is taken
 """
 
 import functools
-import math
 import time
 
 import numpy as np
@@ -15,6 +14,7 @@ from tehl_taichi.heat.temperatures import FilmHeat
 from tehl_taichi.march import snapshot
 from tehl_taichi.march.failure import crossed, not_converged
 from tehl_taichi.march.prediction import Prediction
+from tehl_taichi.march.rounds import exchange
 from tehl_taichi.march.snapshot import Snapshot
 from tehl_taichi.march.solved import Solved
 from tehl_taichi.march.start import steady_snapshot
@@ -28,7 +28,6 @@ from tehl_taichi.scene.scales import Scales
 
 __all__ = ["NotConverged", "Passage", "Snapshot", "march", "total_steps"]
 
-SLUGGISH = 0.2  # rounds of pressure and temperature that leave more of the last change are relaxed; usual is 0.01 to 0.1
 RETRY_KRYLOV = 3e-3  # a failed step is repeated from the old pressure with a Krylov solve ten times tighter,
 # and with temperatures in so many times the rounds: at the outlet edge of a hot film a shorter step changes as much from round
 # to round (asperity of 100 um on 128 columns, SRR -0.12 and 0.12: by 100 K and more; with 8 rounds neither passes 1.15 a)
@@ -128,31 +127,9 @@ class Passage:
         self.prediction.put(at)
 
     def _exchange(self, part):
-        """Pressure and temperature by turns until another round would change the temperature by less than thermal.tolerance.
-
-        The first round takes one Newton step only: its pressure belongs to guessed temperatures anyway.
-        """
-        thermal, newton, cycles, change = self.scene.thermal, 0, 0, math.inf
+        """Pressure and temperatures of a part of a step."""
         self.heat.begin(part * self.dT * self.scales.t)
-        for turn in range(self._rounds()):
-            first = turn == 0 and thermal.rounds > 1
-            report = self.solver.improve() if first else self._solve()
-            newton, cycles = newton + report.newton, cycles + report.cycles
-            if not (first or report.converged):
-                break
-            heat, before = self.heat.solve(), change
-            change = heat.change
-            if thermal.rounds > 1:  # they contract: the next one changes about as much less as this one did
-                heat.change *= min(change / before, 1.0)
-            settled = heat.change < thermal.tolerance and not heat.failed
-            if not first and (settled or thermal.rounds == 1):
-                break
-            if change > SLUGGISH * before:
-                self.heat.relax()
-        else:
-            report.converged = False
-        report.newton, report.cycles = newton, cycles
-        return report
+        return exchange(self.solver, self.heat, self._solve, self._rounds())
 
     def _rounds(self):
         """Of pressure and temperature, at most: more for a step that failed, but for a user who wants one lagged round."""

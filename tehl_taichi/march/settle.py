@@ -12,7 +12,10 @@ SLOW, SLOW_STRIDE = 4, 8  # ratio of the speeds from which on the slower surface
 BLOCK = 6  # later blocks: this fraction of the columns
 LOADED = 1e-3  # of p_H: the eddy in front of the contact fills with warm oil for ever, and matters little
 SETTLED = 0.05  # K
-BLOCKS = 40  # at most; 8 to 12 are usual
+# K, that a single block may lie off the mean of its run. Blocks of scenes that settle flutter by up to 0.6 K; without a limit
+# an oscillation passes: 603 deg C while blocks differed by 30 K, where a march in time gives 255
+FLUTTER = 0.7
+BLOCKS, USUAL = 40, 16  # at most; 8 to 12 are usual
 LONGEST_RUN = 8  # blocks that are averaged
 
 
@@ -30,8 +33,9 @@ def settle(levels, heat, solve, T=None):
 
     Settled when the mean temperatures under load of two blocks, or of two runs of 2, 4 or 8 blocks, differ by less than SETTLED
     (material strips lie between nodes now and on them then: single moments differ by 0.2 K on 64 columns, blocks by up to
-    0.6 K where the surfaces slip fast, back and forth about the same mean). Returns the pressure's Report with converged =
-    False if that is not reached.
+    0.6 K where the surfaces slip fast, back and forth about the same mean). A state with columns that did not converge, or
+    temperatures held in their range, is none. Returns the pressure's Report, with converged = False if that is not reached, and
+    whether it took more than USUAL blocks.
     """
     heat.start(T)
     speeds = [body.speed for body in heat.bodies.each]
@@ -40,26 +44,33 @@ def settle(levels, heat, solve, T=None):
     first, later = (STRIDE, 1) if ratio < SLOW else (SLOW_STRIDE, SLOW_STRIDE // 2)
     cell = max(heat.dt, levels.dx * levels.scales.a / max(speeds))  # s; shorter steps would settle for less
     steps, dt = math.ceil(TRANSITS * levels.nx * ratio / first), first * cell
-    means = [heat.T]
+    means, blocks = [heat.T], 0
     for _ in range(BLOCKS):
         means = [_march(heat, steps, dt), *means[: 2 * LONGEST_RUN - 1]]
         change = _unsettled(means, levels.get(fields.P) > LOADED)
-        report = solve()
+        report, blocks = solve(), blocks + 1
         steps, dt = _whole_cells(levels.nx / BLOCK * (1 if ratio < SLOW else ratio) / later, later / ratio), later * cell
-        if not report.converged or change < SETTLED:
+        if not report.converged or change < SETTLED and heat.sound:
             break
     else:
         report.converged, heat.report.change = False, change
     heat.bodies.warm_resting()
-    return report
+    return report, blocks > USUAL
 
 
 def _unsettled(means, loaded):
     """Smallest difference (K) between the last run of blocks and the one before, over runs of 1, 2, 4 ... blocks; means: newest
-    first."""
+    first. Of runs with a block that lies more than FLUTTER off their mean, what it lies off."""
     runs = [2**k for k in range(LONGEST_RUN.bit_length()) if 2 ** (k + 1) <= len(means)]
-    return min(float(np.abs(np.mean(means[:n], axis=0) - np.mean(means[n : 2 * n], axis=0)).max(axis=0)[loaded].max())
-               for n in runs)
+    return min(_difference([T[:, loaded] for T in means[: 2 * n]]) for n in runs)
+
+
+def _difference(blocks):
+    """Largest between the means of the newer and the older half of `blocks`; or how far one lies off the newer, where far."""
+    half = len(blocks) // 2
+    mean = np.mean(blocks[:half], axis=0)
+    flutter = max(float(np.abs(T - mean).max()) for T in blocks) if half > 1 else 0.0
+    return flutter if flutter > FLUTTER else float(np.abs(mean - np.mean(blocks[half:], axis=0)).max())
 
 
 def _whole_cells(steps, cells):

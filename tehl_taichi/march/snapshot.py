@@ -17,7 +17,7 @@ class Snapshot:
     step: 0 = steady start; time s; feature_x m, centre of the first feature (nan without one); x (nx+1,), y (ny+1,) m;
     fields: (nx+1, ny+1) arrays in SI; scalars: numbers in SI; make_state: called for
     :attr:`state`. Of a steady start, grids: {name: Reading} of every grid that it visited, error: bars of its numbers (None
-    where they are not known), unknown: why they are not.
+    where they are not known), unknown: why they are not; unsettled: why it is none, but a state in time ("": it is one).
     """
 
     step: int
@@ -31,6 +31,7 @@ class Snapshot:
     grids: list = field(default_factory=list)
     error: dict = field(default_factory=dict)
     unknown: dict = field(default_factory=dict)
+    unsettled: str = ""
 
     @functools.cached_property
     def state(self):

@@ -14,7 +14,8 @@ from tehl_taichi.march.steady import solve_steady
 
 
 def steady_snapshot(scene, scales):
-    """Snapshot 0 with the error bars of its numbers. Raises NotConverged."""
+    """Snapshot 0 with the error bars of its numbers; of a passage whose temperatures do not settle, a state in time, with the
+    reason why none of its numbers is known. Raises NotConverged where there is neither."""
     started = time.perf_counter()
 
     def look(solver, heat, report):
@@ -22,14 +23,23 @@ def steady_snapshot(scene, scales):
         return readings.steady(snapshot.take(solved, 0, 0.0, math.nan, None)) if report.converged else None
 
     result = solve_steady(scene, scales, scene.grid.nx, 0 if scales.line else scene.grid.ny, look)
+    unsettled = ""
     if not result.report.converged:
-        raise not_converged(result.solver, result.heat, result.report, "the steady start")
+        failure = not_converged(result.solver, result.heat, result.report, "the steady start")
+        if not (result.moving and scene.transient):
+            raise failure
+        unsettled = str(failure)
     state = snapshot.state_of(result.solver, result.heat, 0)
     solved = Solved(result.solver, result.heat, result.report, started)
     first = snapshot.take(solved, 0, 0.0, math.nan, lambda: state)
-    first.scalars["cycles"] = float(result.work)
-    first.grids, (first.error, first.unknown) = result.values, bars(result.values)
+    first.scalars["cycles"], first.unsettled = float(result.work), unsettled
+    first.grids, (first.error, first.unknown) = result.values, _unknown(first) if unsettled else bars(result.values)
     return _spread(first, scene, scales)
+
+
+def _unknown(first):
+    """Bars of a state in time: none, and why."""
+    return tuple(dict.fromkeys(readings.steady(first), said) for said in (None, f"not settled: {first.unsettled}"))
 
 
 def _spread(first, scene, scales):

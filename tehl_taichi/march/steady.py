@@ -3,6 +3,7 @@
 What the coarser grids gave tells the error of the finest (error_bars).
 """
 
+import math
 from dataclasses import dataclass, field
 from typing import Optional
 
@@ -11,6 +12,7 @@ import numpy as np
 from tehl_taichi.heat.temperatures import FilmHeat
 from tehl_taichi.march.first_film import again, from_here, from_nothing, put
 from tehl_taichi.march.settle import settle, time_step
+from tehl_taichi.march.together import check, march_to_rest
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.pressure.newton import PressureSolver, Report
@@ -24,13 +26,14 @@ FINEST_THERMAL = 4  # temperatures on the grids up to four times as coarse as th
 @dataclass
 class SteadyResult:
     """solver: holds the finest state; report: its last solve; values: what `look` saw on each grid that counts for its error,
-    coarsest first; work: Krylov iterations."""
+    coarsest first; work: Krylov iterations; moving: whether what did not converge is a state in time."""
 
     solver: PressureSolver
     report: Report
     values: list = field(default_factory=list)
     work: int = 0
     heat: Optional[FilmHeat] = None
+    moving: bool = False
 
 
 def grid_sequence(nx, ny):
@@ -46,7 +49,7 @@ def solve_steady(scene, scales, nx, ny, look=None):
     """Steady smooth contact on nx x ny cells (ny = 0: line). look(solver, heat, report): what to keep of each grid, by default
     its :func:`scalars`. Returns a SteadyResult; check `report.converged`."""
     look = look or (lambda solver, heat, report: scalars(solver.levels, *map(solver.levels.get, (fields.P, fields.H))))
-    P, H0, T, values, work = None, 0.0, None, [], 0
+    P, H0, T, values, work, moving = None, 0.0, None, [], 0, False
     for size in grid_sequence(nx, ny):
         solver = heat = levels = None  # give their tables to the next grid
         levels = Levels(scene, scales, *size)
@@ -56,7 +59,7 @@ def solve_steady(scene, scales, nx, ny, look=None):
         if report.converged and not scene.isothermal and nx // size[0] <= FINEST_THERMAL:
             heat = FilmHeat(levels, time_step(scene, scales, levels.dx))
             solver.take(heat)  # density and viscosity follow the temperatures from here on
-            report = settle(levels, heat, lambda solver=solver: again(solver), T)
+            report, moving = _with_temperatures(solver, heat, T, size[0] == nx)
             T = np.stack([refine(layer) for layer in heat.T])
         # a grid too coarse for the outlet of this film is no start for the next one, nor a step of its error
         P, H0 = (levels.get(fields.P), solver.H0) if report.converged else (None, 0.0)
@@ -65,7 +68,24 @@ def solve_steady(scene, scales, nx, ny, look=None):
         if size[0] == nx or report.converged and (scene.isothermal or heat):
             values.append(look(solver, heat, report))
         work += report.cycles
-    return SteadyResult(solver, report, values, work, heat)
+    return SteadyResult(solver, report, values, work, heat, moving)
+
+
+def _with_temperatures(solver, heat, T, finest):
+    """By turns, from the temperatures T of a coarser grid; on the finest grid in time, where that fails. Returns the Report,
+    and whether what did not settle is a state in time."""
+    P, H0, resolved = solver.levels.get(fields.P), solver.H0, finest and not _touches(solver)
+    report, trouble = settle(solver.levels, heat, lambda: again(solver), T)
+    if report.converged and trouble and resolved:
+        report = check(solver, heat)
+    if report.converged or not resolved:  # surfaces that touch flip from step to step: no time makes up for the grid
+        return report, False
+    report = march_to_rest(solver, heat, P, H0)
+    return report, not (report.converged or heat.held) and math.isfinite(heat.report.change)
+
+
+def _touches(solver):
+    return solver.levels.get(fields.TOUCH).any()
 
 
 def _from_coarser(solver, P, H0):

@@ -97,6 +97,11 @@ class Storage:
         self.lengths = [] if state is None else list(state["lengths"])
         self.couette = third_order(self.start)
 
+    def centre(self):
+        """What counts as resting is the newest state from here on: one that does not change any more is then steady."""
+        self.start = self.old[0]
+        self.couette = third_order(self.start)
+
     def state(self):
         """Arrays to go on from: mass (start, newest, ...), lengths of the steps between the latter."""
         return {"mass": np.stack([self.start, *self.old]), "lengths": np.array(self.lengths)}

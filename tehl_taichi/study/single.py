@@ -129,6 +129,8 @@ def _begin(scene, place, clock, progress):
     progress.stage(STEADY, 0, 1)
     first = next(march(scene))
     progress.stage(STEADY, 1, 1)
+    if first.unsettled:
+        progress.warn(f"{first.unsettled}; the passage starts from a state in time")
     steady = {"steady_error": plain(first.error), "steady_unknown": first.unknown}
     attrs = {"warnings": json.dumps(scene.warnings()), **{name: json.dumps(value) for name, value in steady.items()},
              **provenance(scene)}

@@ -1,0 +1,34 @@
+"""Pressure and temperatures of one time step: rounds of both, until another one would not move the temperatures."""
+
+import math
+
+SLUGGISH = 0.2  # rounds that leave more of the last change are relaxed; usual is 0.01 to 0.1
+
+
+def exchange(solver, heat, solve, most=None):
+    """Rounds until another one would change the temperatures by less than thermal.tolerance; solve() -> Report of the pressure;
+    at most `most` of them (thermal.rounds).
+    Storage and heat have begun the step. Returns a Report with the work of all rounds, converged = False without success.
+
+    The first round takes one Newton step only: its pressure belongs to guessed temperatures anyway.
+    """
+    thermal, newton, cycles, change = solver.levels.scene.thermal, 0, 0, math.inf
+    for turn in range(most or thermal.rounds):
+        first = turn == 0 and thermal.rounds > 1
+        report = solver.improve() if first else solve()
+        newton, cycles = newton + report.newton, cycles + report.cycles
+        if not (first or report.converged):
+            break
+        told, before = heat.solve(), change
+        change = told.change
+        if thermal.rounds > 1:  # they contract: the next one changes about as much less as this one did
+            told.change *= min(change / before, 1.0)
+        settled = told.change < thermal.tolerance and not told.failed
+        if not first and (settled or thermal.rounds == 1):
+            break
+        if change > SLUGGISH * before:
+            heat.relax()
+    else:
+        report.converged = False
+    report.newton, report.cycles = newton, cycles
+    return report

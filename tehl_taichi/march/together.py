@@ -1,0 +1,159 @@
+"""Where pressure and temperatures by turns find no steady state: both together in time, as a passage has them.
+
+By turns, oil and bodies warm for a sixth of the domain under a film that does not answer: a thick one with a cold inlet
+overshoots, 30 to 80 K back and forth, or collapses. In time it answers within a step. Stages, see :func:`march_to_rest`: the
+slip grows (all at once, it would heat cold oil by 200 K in a step), blocks of steps until the temperatures rest, and the steady
+equations from there.
+"""
+
+import math
+
+import numpy as np
+
+from tehl_taichi.march.first_film import again, put
+from tehl_taichi.march.rounds import exchange
+from tehl_taichi.pressure import fields
+from tehl_taichi.pressure.storage import Storage
+
+ONSET, BLOCK = 0.5, 0.25  # transits of the domain by the slower surface: of the growing slip; of a block
+BLOCKS, MOST_STEPS = 24, 4000  # at most; scenes that rest do so after 4 to 18 blocks
+RESTS = 0.05  # K, between two blocks
+MOVES = 0.7  # K, that a block may move what settled by turns: single moments and blocks flutter (:mod:`settle`)
+LOADED = 1e-3  # of p_H, where temperatures are judged
+RETRY_KRYLOV = 3e-3  # of a step that did not converge
+SMALLEST_PART = 1 / 64  # of a step, that it is taken in
+
+
+def march_to_rest(solver, heat, P, H0):
+    """From the isothermal P and H0 and a cold film. Returns the Report of the steady pressure; converged = False where the
+    temperatures do not rest: then the newest state in time is left, and heat.report.change (K) is what its last two blocks
+    differ by, inf where there are none."""
+    put(solver, P, H0)
+    heat.start()
+    together = Together(solver, heat)
+    together.slip_in()
+    change = together.rest()
+    if change < RESTS and not together.lost:
+        change = together.checked()
+    return _judged(together, change, RESTS)
+
+
+def check(solver, heat):
+    """A block from what counts as settled. Returns the Report of the steady pressure; converged = False where the block moves
+    the temperatures by more than MOVES."""
+    heat.bodies.steady = True
+    together = Together(solver, heat)
+    together.mean = heat.T
+    return _judged(together, together.checked(), MOVES)
+
+
+def _judged(together, change, most):
+    heat, report = together.heat, together.report
+    if not (change < most and heat.sound):
+        report.converged, heat.report.change = False, change
+    heat.bodies.warm_resting()
+    return report
+
+
+class Together:
+    """A smooth contact in time, from the pressure in the solver's table and the state of `heat`.
+
+    report: of the last solve; lost: whether a step failed for good; mean: temperatures of the last block.
+    """
+
+    def __init__(self, solver, heat):
+        self.solver, self.heat, self.levels = solver, heat, solver.levels
+        self.part, self.lost, self.P = 1.0, False, solver.levels.get(fields.P)
+        speeds = [body.speed for body in heat.bodies.each if body.speed]
+        self.dt = self.levels.dx * self.levels.scales.a / max(speeds)  # s: a cell of the faster surface
+        self.transit = self.levels.nx * max(speeds) / min(speeds)  # steps
+        self.levels.set_film(solver.H0)
+        heat.values()
+        self.storage = Storage(self.levels)
+
+    def slip_in(self):
+        """The slip grows from nothing."""
+        whole, steps = self.levels.conditions["u_s"], min(math.ceil(ONSET * self.transit), MOST_STEPS // 4)
+        for n in range(steps):
+            self._slip(whole, (n + 1) / steps)
+            self._step()
+        self._slip(whole, 1.0)
+        self.storage.centre()
+
+    def _slip(self, whole, part):
+        self.levels.conditions.set(u_s=part * whole)
+        self.levels.numbers.slip(part)
+
+    def rest(self):
+        """Blocks of steps until two differ by less than RESTS, or there were enough. Returns what the last two differ by, K."""
+        self.mean, change = self.heat.T, math.inf
+        for _ in range(min(BLOCKS, MOST_STEPS // self._block_steps)):
+            moved = self.block()
+            if self.lost:  # what it reached before is a state in time
+                break
+            change = moved
+            if change < RESTS and self.heat.sound:
+                break
+        return change
+
+    def checked(self):
+        """The steady pressure from here, a block of steps, the steady pressure again. Returns what the block changed, K."""
+        self.at_rest()
+        change = self.block() if self.report.converged else math.inf
+        if not self.lost:
+            self.at_rest()
+        return change
+
+    @property
+    def _block_steps(self):
+        return math.ceil(BLOCK * self.transit)
+
+    def block(self):
+        """So many steps. Returns by how much their mean temperatures differ from those of the last block under load, K; inf
+        where a step failed for good."""
+        before, total = self.mean, 0.0
+        for _ in range(self._block_steps):
+            self._step()
+            total = total + self.heat.T
+        self.storage.centre()
+        self.mean = total / self._block_steps
+        return math.inf if self.lost else float(np.abs(self.mean - before).max(axis=0)[self.P > LOADED].max())
+
+    def at_rest(self):
+        """The steady equations, at the temperatures of the film."""
+        self.levels.numbers.set_rate(0.0)
+        self.levels.put(fields.QOLD, 0.0)
+        self.report = again(self.solver)
+
+    def _step(self):
+        """A step, in parts where it does not converge."""
+        done, part = 0.0, min(1.0, 2 * self.part)
+        while done < 1.0 and not self.lost:
+            if self._try(part * self.dt):
+                done, self.part = done + part, part
+                part = min(1.0 - done, 2 * part)
+            else:
+                part /= 2
+                self.lost = part < SMALLEST_PART
+
+    def _try(self, dt):
+        """Accept the state dt s later, or leave the last one; whether it converged."""
+        v, dT, H0 = self.levels, dt / self.levels.scales.t, self.solver.H0
+        self.storage.begin(dT)
+        self.heat.begin(dt)
+        self.report = exchange(self.solver, self.heat, self._solve)
+        if self.report.converged:
+            self.storage.accept(dT)
+            self.heat.accept()
+            self.P = v.get(fields.P)
+        else:
+            put(self.solver, self.P, H0)
+            self.heat.set_temperature(self.heat.T)
+        return self.report.converged
+
+    def _solve(self):
+        H0, report = self.solver.H0, self.solver.solve()
+        if not report.converged:
+            put(self.solver, self.P, H0)
+            report = self.solver.solve(RETRY_KRYLOV, newton_max=2 * self.levels.scene.numerics.newton_max)
+        return report

@@ -1,0 +1,143 @@
+"""Thermal starts: what counts as settled, what is refused, and what the reasons say."""
+
+import numpy as np
+import pytest
+
+pytestmark = pytest.mark.usefixtures("taichi_cpu")
+
+
+def blocks(*levels):
+    """Mean temperatures of blocks, newest first: a film of three nodes in two columns, the second without load."""
+    return [np.array([[[level, 1e3 * n]]] * 3, float) for n, level in enumerate(levels)]
+
+
+LOADED = np.array([[True, False]])
+
+
+def test_an_oscillation_is_not_settled():
+    from tehl_taichi.march.settle import FLUTTER, SETTLED, _unsettled
+
+    swing = [100.0 + 15 * (-1) ** n for n in range(16)]
+    assert _unsettled(blocks(*swing), LOADED) > FLUTTER
+    flutter = [100.0 + 0.3 * (-1) ** n for n in range(16)]
+    assert _unsettled(blocks(*flutter), LOADED) < SETTLED < _unsettled(blocks(*flutter[:2]), LOADED)
+    assert _unsettled(blocks(100.01, 100.0, 90.0), LOADED) == pytest.approx(0.01)
+    assert _unsettled(blocks(100.0, 102.0, 104.0, 106.0), LOADED) > 1.0  # it drifts
+
+
+def film(**changes):
+    from test_thermal import film, thermal
+
+    return film(thermal(**changes), 64)
+
+
+def test_held_temperatures_and_failed_columns_are_no_state():
+    from tehl_taichi.heat.energy import HOT
+
+    heat, _ = film()
+    heat.start()
+    assert heat.sound
+    heat.T[2, 0, 30] = HOT
+    assert heat.held == 1 and not heat.sound
+    heat.T[2, 0, 30] = 100.0
+    heat.report.failed = 2
+    assert not heat.sound
+
+
+
+def test_the_reason_names_what_failed():
+    from tehl_taichi.march.failure import not_converged
+    from tehl_taichi.pressure import fields
+    from tehl_taichi.pressure.newton import PressureSolver, Report
+
+    heat, levels = film()
+    solver = PressureSolver(levels, heat)
+    heat.start()
+    levels.put(fields.H, 1.0)
+
+    def said(residual=1e-9, mass=1e-9):
+        return str(not_converged(solver, heat, Report(residual, 0.0, mass, 3, 9, False), "the start"))
+
+    assert "residual 1.0e-02 (tolerance 1e-06), largest at X = " in said(residual=1e-2)
+    assert "mass error 1.0e-03 (tolerance 1e-06); try a finer grid" in said(mass=1e-3)
+    heat.report.change = 3.0
+    assert "temperatures still change by 3 K" in said() and "floor" not in said()
+    heat.report.failed = 2
+    assert "without a solution in 2 columns" in said()
+    levels.put(fields.H, levels.G[0, fields.FLOOR])
+    assert "on its floor" in said() and f"--grid {2 * levels.scene.grid.nx}x" in said()
+
+
+def forced_in_time(monkeypatch):
+    """By turns, nothing settles any more."""
+    from tehl_taichi.march import steady
+
+    by_turns = steady.settle
+
+    def failing(*args):
+        report, _ = by_turns(*args)
+        report.converged = False
+        return report, True
+
+    monkeypatch.setattr(steady, "settle", failing)
+
+
+def first(name="smooth-line", **changes):
+    from test_thermal import thermal
+
+    from tehl_taichi.march.passage import march
+
+    return next(march(thermal(name, **{"grid.nx": 64, "grid.ny": 16, "srr": -0.2, **changes})))
+
+
+def test_in_time_the_same_state_as_by_turns(monkeypatch):
+    by_turns = first()
+    forced_in_time(monkeypatch)
+    in_time = first()
+    assert not in_time.unsettled and in_time.scalars["residual"] < 1e-6 and in_time.scalars["mass_error"] < 1e-6
+    for name, unit in (("h_c_m", 1e-3 * by_turns.scalars["h_c_m"]), ("film_max_C", 0.3), ("surface_a_max_C", 0.3)):
+        assert in_time.scalars[name] == pytest.approx(by_turns.scalars[name], abs=unit), name
+
+
+def test_what_moves_in_time_is_not_settled(monkeypatch):
+    """The passage starts from the moving state and says so, a steady scene stops."""
+    from test_thermal import thermal
+
+    from tehl_taichi.errors import NotConverged
+    from tehl_taichi.march import together
+    from tehl_taichi.march.passage import march
+
+    forced_in_time(monkeypatch)
+    monkeypatch.setattr(together, "BLOCKS", 2)
+    description = thermal("gear", **{"grid.nx": 64, "grid.ny": 16, "srr": -0.2, "time.steps": 2})
+    start, *steps = march(description)
+    assert "temperatures still change by" in start.unsettled
+    assert set(start.error.values()) == {None} and start.unknown["h_c_m"] == f"not settled: {start.unsettled}"
+    assert len(steps) == 2 and all(shot.scalars["residual"] < 1e-6 for shot in steps)
+    with pytest.raises(NotConverged, match="temperatures still change by") as caught:
+        first()
+    assert caught.value.exit_code == 3
+
+
+def test_a_march_that_is_lost_is_no_state(monkeypatch):
+    from tehl_taichi.errors import NotConverged
+    from tehl_taichi.march import together
+    from tehl_taichi.pressure.newton import Report
+
+    forced_in_time(monkeypatch)
+    monkeypatch.setattr(together, "exchange", lambda *_: Report(1e-9, 0.0, 1e-9, 3, 9, False))
+    with pytest.raises(NotConverged, match="no step of a march in time converges"):
+        first("gear")
+
+
+def test_what_took_long_by_turns_is_checked_in_time(monkeypatch):
+    from tehl_taichi.march import settle, steady
+
+    checks, check = [], steady.check
+    monkeypatch.setattr(steady, "check", lambda *args: checks.append(check(*args)) or checks[-1])
+    quick = first()
+    assert not checks
+    monkeypatch.setattr(settle, "USUAL", 1)
+    checked = first()
+    assert len(checks) == 1 and checks[0].converged
+    assert checked.scalars["film_max_C"] == pytest.approx(quick.scalars["film_max_C"], abs=0.5)
