@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import List, Optional
 
 import typer
+from tehl_cli.figure_options import Dpi, Format, Width
 from tehl_cli.live import say
 from tehl_cli.out import print_json
 
@@ -16,8 +17,11 @@ def register(app):
 def compare(
     stores: List[Path] = typer.Argument(..., help="stores of two runs or more, finished or not"),
     at: float = typer.Option(0.0, help="position of the feature in the figure's centrelines, half-widths"),
-    out: Optional[Path] = typer.Option(None, help="figure to write (default: compare.png beside the first store)"),
-    dpi: int = typer.Option(160, help="dots per inch, 40 to 1200"),
+    out: Optional[Path] = typer.Option(None, help="figure to write; .pdf or .svg as well (default: compare.png beside the "
+                                       "first store)"),
+    format: Format = "png",
+    dpi: Dpi = 160,
+    width: Width = 17.0,
     as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout"),
 ):
     """What differs of the scenes, the summaries side by side, one figure of centrelines, histories and Fi.
@@ -25,12 +29,11 @@ def compare(
     Example: `tehl compare runs/gear-1.zarr runs/gear-2.zarr`
     """
     from tehl_taichi.study.compare import compare as side_by_side
-    from tehl_taichi.values.checks import integer, number
+    from tehl_taichi.values.checks import number
 
-    integer("--dpi", dpi, 40, 1200)
     number("--at", at, "a", -20.0, 20.0)
     found = side_by_side(*stores)
-    figure = found.plot(out or stores[0].parent / "compare.png", at, dpi)
+    figure = found.plot(out or stores[0].parent / "compare", at, dpi, format, width)
     if as_json:
         print_json({**found.to_dict(), "figure": str(figure)})
         return

@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Optional
 
 import typer
+from tehl_cli.figure_options import Dpi, Format, Width
 from tehl_cli.live import say
 from tehl_cli.out import print_json
 
@@ -29,7 +30,10 @@ def crack(
     thermal_stress: Optional[bool] = typer.Option(None, "--thermal-stress/--no-thermal-stress",
                                                   help="stress of the heat (default: as in the run)"),
     elements: int = typer.Option(12, help="on a straight crack, 6 to 200"),
-    figures: Optional[Path] = typer.Option(None, help="folder for the PNG figure"),
+    figures: Optional[Path] = typer.Option(None, help="folder for the figure"),
+    format: Format = "png",
+    dpi: Dpi = 160,
+    width: Width = 17.0,
     threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
     as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout"),
 ):
@@ -39,16 +43,18 @@ def crack(
     """
     import tehl_taichi as tehl
     from tehl_taichi.crack.residual import read
+    from tehl_taichi.figures.page import Page
 
+    page = Page(format, dpi, width)
     run = tehl.open(store)
     result = run.crack(side=side, start=start, angle=angle, first=first, step=step, length=length, distance=distance,
                        threshold=threshold, residual=None if residual is None else read(residual), face_friction=face_friction,
                        oil=oil, elements=elements, thermal_stress=thermal_stress, threads=threads)
     _show(result.summary, as_json)
     if figures:
-        from tehl_taichi.io.crack_figures import write_crack
+        from tehl_taichi.figures.crack_figures import write_crack
 
-        say(str(write_crack(result, run.scene.name, figures)))
+        say(str(write_crack(result, run.scene.name, figures, page)))
 
 
 def _show(summary, as_json):

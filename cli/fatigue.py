@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Optional
 
 import typer
+from tehl_cli.figure_options import Dpi, Format, Width
 from tehl_cli.live import say
 from tehl_cli.out import print_json
 
@@ -30,7 +31,10 @@ def fatigue(
                                                   help="stress of the heat (default: where there is heat)"),
     residual_xx: Optional[float] = typer.Option(None, help="constant residual stress along x, Pa"),
     residual_yy: Optional[float] = typer.Option(None, help="the same along y, Pa"),
-    figures: Optional[Path] = typer.Option(None, help="folder for PNG figures"),
+    figures: Optional[Path] = typer.Option(None, help="folder for figures"),
+    format: Format = "png",
+    dpi: Dpi = 160,
+    width: Width = 17.0,
     threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
     as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout"),
 ):
@@ -40,18 +44,20 @@ def fatigue(
     """
     import tehl_taichi as tehl
     from tehl_taichi.engine import runtime
+    from tehl_taichi.figures.page import Page
     from tehl_taichi.scene.scales import Scales
 
     runtime.check(threads=threads)
+    page = Page(format, dpi, width)
     run = tehl.open(store)
     result = run.fatigue(kappa=kappa, endurance=endurance, bending_limit=bending_limit, torsion_limit=torsion_limit,
                          criterion=criterion, depths=_depths(depths), from_x=from_x, to_x=to_x, thermal_stress=thermal_stress,
                          residual_xx=residual_xx, residual_yy=residual_yy, threads=threads)
     _show(result, as_json)
     if figures:
-        from tehl_taichi.io.figures import write_fatigue
+        from tehl_taichi.figures.run_figures import write_fatigue
 
-        for path in write_fatigue(result, run.scene.name, Scales.of(run.scene).a, figures):
+        for path in write_fatigue(result, run.scene.name, Scales.of(run.scene).a, figures, page):
             say(str(path))
 
 

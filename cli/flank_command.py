@@ -5,6 +5,7 @@ from typing import List, Optional
 
 import typer
 from tehl_cli.changes import given_by
+from tehl_cli.figure_options import Dpi, FigureWidth, Format
 from tehl_cli.live import Live, say
 from tehl_cli.out import print_json
 
@@ -30,25 +31,31 @@ def flank(
     set_: Optional[List[str]] = typer.Option(None, "--set", help="dotted.key=value of the scene, repeatable"),
     grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY"),
     out: Optional[Path] = typer.Option(None, help="folder (default: runs/NAME-N); one that is there is gone on with"),
-    figure: bool = typer.Option(True, "--figure/--no-figure", help="flank.png in that folder"),
+    figure: bool = typer.Option(True, "--figure/--no-figure", help="flank.png (.pdf, .svg) in that folder"),
+    format: Format = "png",
+    dpi: Dpi = 160,
+    figure_width: FigureWidth = 17.0,
     threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
     as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout, everything else on stderr"),
     quiet: bool = typer.Option(False, "--quiet", help="no progress"),
+    curves: bool = typer.Option(True, "--live/--no-live", help="p, h and T along y = 0 while it runs, in a terminal"),
 ):
     """Film, pressure, temperature, friction and fatigue along a gear flank: a run at every position, one table, one figure.
 
     Examples: `tehl flank fzg-c --torque 265.1` · `tehl flank my_gears.toml --on gear --steady` · `tehl flank table.csv`
     """
     import tehl_taichi as tehl
+    from tehl_taichi.figures.page import Page
     from tehl_taichi.io.found import find
 
+    page = Page(format, dpi, figure_width)
     changes = given_by({"temperature": temperature, "height": height, "width": width, "thermal.on": thermal}, grid, set_ or [])
-    with Live(quiet) as live:
+    with Live(quiet, curves) as live:
         found = tehl.flank(gear, torque=torque, speed=speed, on=on, positions=positions, at=[_place(text) for text in at or ()],
                            scene=find(scene) if scene else None, changes=changes, steady=steady, folder=out, threads=threads,
                            progress=live)
     if figure:
-        say(str(found.plot()))
+        say(str(found.plot(**vars(page))))
     print_json(found.to_dict()) if as_json else _print(found)
     if found.failed:
         from tehl_taichi.errors import NotConverged

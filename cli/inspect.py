@@ -1,8 +1,10 @@
 """Commands that look: scenes, oils, laws, new, show, plot, doctor."""
 
 from pathlib import Path
+from typing import Optional
 
 import typer
+from tehl_cli.figure_options import Dpi, Format, Width
 from tehl_cli.live import say
 
 
@@ -60,19 +62,36 @@ def new(
     print(f"wrote {file}; run it with: tehl run {file}")
 
 
-def show(store: Path = typer.Argument(..., help="store of a finished, running or broken run, or a study")):
-    """Summary and residual history of a run; table of a study."""
+def show(
+    store: Path = typer.Argument(..., help="store of a finished, running or broken run, or a study"),
+    as_json: bool = typer.Option(False, "--json", help="the summary as one JSON object, as `tehl run --json` gives it"),
+):
+    """Summary and residual history of a run; table of a study. Example: `tehl show runs/gear-1.zarr --json | jq .fatigue`"""
+    import tehl_taichi as tehl
     from tehl_taichi.study.table import Study, is_study
 
     if is_study(store):
-        from tehl_cli.sweep_live import print_study
+        _show_study(Study.open(store), as_json)
+    else:
+        _show_run(tehl.open(store).store, as_json)
 
-        return print_study(Study.open(store))
+
+def _show_study(study, as_json):
+    from tehl_cli.out import print_json
+    from tehl_cli.sweep_live import print_study
+
+    print_json(study.to_dict()) if as_json else print_study(study)
+
+
+def _show_run(saved, as_json):
     from tehl_cli.listing import history_table, summary_table, warning_lines
+    from tehl_cli.out import print_json
 
-    import tehl_taichi as tehl
+    from tehl_taichi.io.summary import so_far
 
-    saved = tehl.open(store).store
+    if as_json:
+        return print_json(saved.summary or so_far(saved))
+    store = saved.path
     print(f"{store}: scene {saved.scene.name}, {saved.steps} entries, {_state(saved)}")
     if other := saved.other_version:
         print(f"{store} was {other}")
@@ -96,26 +115,34 @@ def _state(saved):
 def plot(store: Path = typer.Argument(..., help="store of a run, or a study"),
          out: Path = typer.Option(None, help="folder for the figures (default: beside the store)"),
          quantity: str = typer.Option(None, help="of a study: the column of its table to draw, as fatigue_Fi_max"),
-         dpi: int = typer.Option(160, help="dots per inch, 40 to 1200")):
-    """PNG figures: centreline pressure and film, maps, fatigue; of a study its results over the swept keys.
+         format: Format = "png", dpi: Dpi = 160, width: Width = 17.0,
+         at: Optional[float] = typer.Option(None, help="of a run: the moment with the (first) feature nearest to this place, "
+                                            "in half-widths a of the contact (default: -0.8, 0, 0.8 in lines, 0 in maps)"),
+         depth: Optional[float] = typer.Option(None, help="of a run: µm below the surface, where fatigue is shown beside "
+                                               "the surface's, of those searched (default: the worst)")):
+    """Figures of a run: pressure and film along the centreline, maps, fatigue; of a study its results over the swept keys.
 
-    Examples: `tehl plot runs/gear-1.zarr --dpi 300` · `tehl plot runs/gear-sweep-0a1b2c.zarr --quantity steady_h_c_m`
+    Examples: `tehl plot runs/gear-1.zarr --format pdf --width 8.5 --at 0.5` · `tehl plot runs/gear-1.zarr --dpi 300` ·
+    `tehl plot runs/gear-sweep-0a1b2c.zarr --quantity steady_h_c_m`
     """
-    for path in _draw(store, out, quantity, dpi):
+    page = dict(dpi=dpi, format=format, width=width)
+    for path in _draw(store, {"quantity": quantity}, {"at": at, "depth": depth}, dict(folder=out, **page)):
         print(path)
 
 
-def _draw(store, out, quantity, dpi):
-    """Paths of the figures of a run or of a study."""
+def _draw(store, of_study, of_run, page):
+    """Paths of the figures of a run or of a study; of_study, of_run: what only such a one can show, None where not wanted."""
     import tehl_taichi as tehl
     from tehl_taichi.errors import SceneError
     from tehl_taichi.study.table import Study, is_study
 
-    if is_study(store):
-        return Study.open(store).plot(out, quantity, dpi)
-    if quantity:
-        raise SceneError(f"--quantity {quantity} is of the table of a study, and {store} is none")
-    return tehl.open(store).plot(out, dpi)
+    studied = is_study(store)
+    mine, others = (of_study, of_run) if studied else (of_run, of_study)
+    for name, value in others.items():
+        if value is not None:
+            what = ("a run", "a study") if studied else ("the table of a study", "none")
+            raise SceneError(f"--{name} {value} is of {what[0]}, and {store} is {what[1]}")
+    return (Study if studied else tehl).open(store).plot(**mine, **page)
 
 
 

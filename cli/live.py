@@ -1,7 +1,8 @@
-"""Progress on stderr: a live line in a terminal, a plain line now and then elsewhere."""
+"""Progress on stderr: a bar and curves in a terminal, a plain line now and then elsewhere."""
 
 import contextlib
 import sys
+import time
 
 from tehl_taichi.study.progress import PASSAGE, Lines, line
 
@@ -13,17 +14,23 @@ def say(text):
 
 
 class Live(Lines):
-    """What the command line shows of a run, warnings alone if `quiet`; a context manager that ends the live line."""
+    """What the command line shows of a run, warnings alone if `quiet`, a bar without curves if not `curves`; a context manager
+    that ends them."""
 
-    def __init__(self, quiet=False):
+    DRAWN = 0.5  # s at least between two pictures
+    SHARE = 0.005  # of the time at most for drawing
+
+    def __init__(self, quiet=False, curves=True):
         super().__init__()
-        self.quiet, self.bar = quiet, None
+        self.quiet, self.bar, self.curves, self.due = quiet, None, None, 0.0
+        self.wanted = curves and not quiet and sys.stdout.isatty() and sys.stderr.isatty()
 
     def __enter__(self):
         return self
 
     def __exit__(self, *_):
         if self.bar:
+            self.curves.clear()
             self.bar.stop()
             self.bar = None
 
@@ -42,16 +49,21 @@ class Live(Lines):
             self._start_bar(done)
 
     def _start_bar(self, done):
-        from rich.console import Console
-        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+        from tehl_cli.curves import Bar, Curves
 
-        self.bar = Progress(TextColumn("step"), MofNCompleteColumn(), BarColumn(), TimeRemainingColumn(),
-                            TextColumn("{task.description}"), console=Console(stderr=True))
-        self.task = self.bar.add_task("", total=self.total, completed=done)
+        self.curves = Curves()
+        self.bar = Bar(self.curves, self.total, done)
         self.bar.start()
 
     def step(self, snapshot):
-        if self.bar:
-            self.bar.update(self.task, completed=snapshot.step, description=line(snapshot))
-        else:
-            super().step(snapshot)
+        if not self.bar:
+            return super().step(snapshot)
+        if (began := time.perf_counter()) >= self.due or snapshot.step == self.total:
+            self._draw(snapshot)
+            done = time.perf_counter()
+            self.due = done + max(self.DRAWN, (done - began) / self.SHARE)
+
+    def _draw(self, snapshot):
+        if self.wanted:
+            self.curves.take(snapshot)
+        self.bar.show(snapshot.step, line(snapshot))

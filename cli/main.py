@@ -2,7 +2,20 @@
 
 import typer
 import typer.core
-from tehl_cli import bench, compare_command, crack_command, fatigue, flank_command, inspect, materials, runs, sweeps
+from tehl_cli import (
+    animate_command,
+    bench,
+    compare_command,
+    crack_command,
+    export_command,
+    fatigue,
+    flank_command,
+    inspect,
+    materials,
+    report_command,
+    runs,
+    sweeps,
+)
 from tehl_cli.entry import main
 
 from tehl_taichi.errors import Interrupted
@@ -47,9 +60,12 @@ def _tell_version():
 runs.register(app)
 sweeps.register(app)
 inspect.register(app)
+animate_command.register(app)
 materials.register(app)
 fatigue.register(app)
 crack_command.register(app)
 flank_command.register(app)
 compare_command.register(app)
+export_command.register(app)
+report_command.register(app)
 bench.register(app)

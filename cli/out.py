@@ -1,4 +1,4 @@
-"""What goes to stdout and into folders of figures."""
+"""What goes to stdout."""
 
 import json
 
@@ -8,10 +8,3 @@ def print_json(value):
     from tehl_taichi.io.json_values import plain
 
     print(json.dumps(plain(value), allow_nan=False))
-
-
-def folder_for(figures):
-    """The folder of that name, made. Raises StoreError."""
-    from tehl_taichi.io.figures import made
-
-    return made(figures)

@@ -45,6 +45,7 @@ def run(
                                             "state and its residual are always double"),
     as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout, everything else on stderr"),
     quiet: bool = typer.Option(False, "--quiet", help="no progress"),
+    curves: bool = typer.Option(True, "--live/--no-live", help="p, h and T along y = 0 while it runs, in a terminal"),
 ):
     """Steady start, the feature passes, stresses, fatigue; streamed to a store.
 
@@ -61,7 +62,7 @@ def run(
     description = tehl.scene(scene)
     description = description.replace(**changes) if changes else description
     description = _on_grid_for(target_error, changes, description)
-    with Live(quiet) as live:
+    with Live(quiet, curves) as live:
         done = tehl.run(description, out, force=force, threads=threads, arch=arch, progress=live)
     _print(done, as_json)
 
@@ -73,6 +74,7 @@ def resume(
     threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
     as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout"),
     quiet: bool = typer.Option(False, "--quiet", help="no progress"),
+    curves: bool = typer.Option(True, "--live/--no-live", help="p, h and T along y = 0 while it runs, in a terminal"),
 ):
     """Go on, at most two seconds of work before the last stored step; a finished run to the end of its passage.
 
@@ -86,7 +88,7 @@ def resume(
         if as_json:
             print_json(before.summary)
         return
-    with Live(quiet) as live:
+    with Live(quiet, curves) as live:
         done = tehl.resume(store, steps=steps, threads=threads, progress=live)
     _print(done, as_json)
 

@@ -106,8 +106,4 @@ def _tell(plan, out):
 def _print(study, as_json):
     from tehl_cli.sweep_live import print_study
 
-    if not as_json:
-        return print_study(study)
-    results, counts = study.results(), study.counts
-    print_json({"cases": len(study), "converged": counts["converged"], "failed": len(study) - counts["converged"],
-                "study": str(study.path), "table": str(study.table), "results": results})
+    print_json(study.to_dict()) if as_json else print_study(study)

@@ -96,11 +96,17 @@ def save(folder, name, rows):
 
 
 def pyplot():
-    """matplotlib's pyplot without a screen, or None where it is not installed."""
-    from tehl_taichi.errors import StoreError
-    from tehl_taichi.io import figures
-
+    """matplotlib's pyplot without a screen, in the colours of all figures, or None where it is not installed."""
     try:
-        return figures.pyplot()
-    except StoreError:
+        import matplotlib
+    except ImportError:
         return None
+    from cycler import cycler
+
+    from tehl_taichi.figures import palette
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    plt.rc("axes", prop_cycle=cycler(color=palette.LINES))
+    return plt

@@ -16,7 +16,7 @@ from tehl_taichi.scene import scene
 
 # (file, function) -> stage; a stage may contain others
 STAGES = {("newton.py", "solve"): "pressure: Newton", ("krylov.py", "solve"): "pressure: Krylov",
-          ("deflection.py", "deflect"): "pressure: deflection", ("preconditioner.py", "build"): "pressure: build",
+          ("bending.py", "bend"): "pressure: deflection", ("preconditioner.py", "build"): "pressure: build",
           ("temperatures.py", "solve"): "temperatures", ("temperatures.py", "accept"): "temperatures: accept",
           ("passage.py", "_predict"): "guess", ("snapshot.py", "take"): "snapshot"}
 

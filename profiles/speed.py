@@ -9,6 +9,7 @@ import time
 import numpy as np
 from tehl_taichi.profiles import measure
 
+from tehl_taichi.figures import palette
 from tehl_taichi.scene import scene
 
 GRID, QUICK_GRID = (256, 64), (128, 32)
@@ -117,8 +118,8 @@ def chart(plt, rows):
     shown = [row for row in rows if row.get("target")]
     figure, ax = plt.subplots(figsize=(8, 0.6 * len(shown) + 1.2), constrained_layout=True)
     ratios = [row["seconds"] / row["target"] for row in shown]
-    ax.barh([row["what"] for row in shown], ratios, color=["tab:green" if r <= 1 else "tab:orange" for r in ratios])
-    ax.axvline(1, color="k", lw=0.8)
+    ax.barh([row["what"] for row in shown], ratios, color=[palette.GREEN if r <= 1 else palette.ORANGE for r in ratios])
+    ax.axvline(1, color=palette.BLACK, lw=0.8)
     ax.set(xlabel="time / target", xscale="log", title=measure.machine())
     ax.invert_yaxis()
     return figure

@@ -22,24 +22,30 @@ os.environ.setdefault("TI_ENABLE_PYBUF", "0")
 
 __version__ = "0.3.0"
 __all__ = ["Error", "Interrupted", "Lines", "NotConverged", "Progress", "Run", "RuntimeUnavailable", "Scene", "SceneError",
-           "StoreError", "__version__", "compare", "crack", "fatigue", "flank", "march", "open", "resume", "run", "scene",
-           "simulate", "sweep"]
+           "StoreError", "__version__", "animate", "compare", "crack", "export", "fatigue", "flank", "march", "open", "report",
+           "resume", "run", "scene", "simulate", "sweep"]
 
 # after the settings above, which numpy reads
-from tehl_taichi.called import callable_room  # noqa: E402
+from tehl_taichi.called import offered  # noqa: E402
 from tehl_taichi.errors import Error, Interrupted, NotConverged, RuntimeUnavailable, SceneError, StoreError  # noqa: E402
-from tehl_taichi.io.found import find  # noqa: E402
-from tehl_taichi.march import simulate  # noqa: E402
-from tehl_taichi.scene import Scene  # noqa: E402
-from tehl_taichi.study import Lines, Progress, Run, compare, open, resume, run, sweep  # noqa: E402
 
-if TYPE_CHECKING:  # functions to those who check types, folders that can be called to Python
+if TYPE_CHECKING:
     from tehl_taichi.crack import crack
+    from tehl_taichi.export import export
     from tehl_taichi.fatigue import fatigue
+    from tehl_taichi.figures import animate
     from tehl_taichi.flank import flank
-    from tehl_taichi.march import march
-    scene = find
-else:
-    from tehl_taichi import crack, fatigue, flank, march, scene
-
-callable_room("tehl_taichi.scene", find)  # in files too, of which the folder itself knows nothing
+    from tehl_taichi.io.found import find as scene
+    from tehl_taichi.march import march, simulate
+    from tehl_taichi.report import report
+    from tehl_taichi.scene import Scene
+    from tehl_taichi.study.compare import compare
+    from tehl_taichi.study.many import sweep
+    from tehl_taichi.study.progress import Lines, Progress
+    from tehl_taichi.study.single import open, resume, run
+    from tehl_taichi.study.stored_run import Run
+else:  # the command line asks for a few of them only: 0.3 s of its start
+    __getattr__ = offered(__name__, {
+        "animate": "figures", "simulate": "march", "Scene": "scene", "compare": "study.compare", "sweep": "study.many",
+        "Lines": "study.progress", "Progress": "study.progress", "open": "study.single", "resume": "study.single",
+        "run": "study.single", "Run": "study.stored_run"}, ("crack", "export", "fatigue", "flank", "march", "report", "scene"))

@@ -6,11 +6,13 @@ from rolling import Rolling
 
 import tehl_taichi as tehl
 from tehl_taichi.errors import RuntimeUnavailable
-from tehl_taichi.fatigue import assessment, below, half_space
+from tehl_taichi.fatigue import assessment, below, half_space, row_stress
 from tehl_taichi.fatigue.histories import Passage
 from tehl_taichi.fatigue.row_stress import RowStress
 from tehl_taichi.fatigue.under_row import histories_of
-from tehl_taichi.io import figures, result_judge, summary_rows
+from tehl_taichi.figures.page import Page
+from tehl_taichi.figures.run_figures import write_fatigue
+from tehl_taichi.io import result_judge, summary_rows
 from tehl_taichi.scene import SceneError
 from tehl_taichi.scene.scales import Scales
 
@@ -28,6 +30,14 @@ def test_a_row_is_that_of_the_whole_plane(line, mirrored, row):
         whole = half_space.Stress(x, y, NU, line, mirrored, depth)(*loads[:, 1])
         for component, values in enumerate(whole.values()):
             np.testing.assert_allclose(found[1, n, :, component], values[:, row], atol=1e-3)  # of 1e9 Pa
+
+
+def test_a_row_by_any_number_of_threads(monkeypatch):
+    x, y, found = np.arange(24) * 11e-6, np.arange(9) * 7e-6, []
+    for count in (1, 3):
+        monkeypatch.setattr(row_stress, "WORKERS", count)
+        found.append(RowStress(x, y, NU, True, True, DEPTHS, 3).rows.tobytes())
+    assert found[0] == found[1]
 
 
 def test_one_row_alone_is_plane_strain():
@@ -162,8 +172,8 @@ def test_the_angle_to_the_surface_is_that_of_the_plane(found):
 def drawn(monkeypatch, found, tmp_path):
     """{name: figure} that write_fatigue would have saved."""
     kept = {}
-    monkeypatch.setattr(figures, "_save", lambda plt, figure, path, dpi: kept.setdefault(path.stem, figure))
-    figures.write_fatigue(found, "test", 0.36e-3, tmp_path)
+    monkeypatch.setattr(Page, "save", lambda page, draw, path: kept.setdefault(path.stem, draw()))
+    write_fatigue(found, "test", 0.36e-3, tmp_path)
     return kept
 
 
@@ -174,7 +184,7 @@ def lines(ax):
 def test_figures_show_what_was_searched(found, monkeypatch, tmp_path):
     """Depths: the worst one beside the surface; the profile has every depth; one row: lines, not an empty map."""
     _, layers = result(**{"fatigue.depths": [20e-6, 60e-6]})
-    maps = [ax for ax in drawn(monkeypatch, layers, tmp_path)["fatigue"].axes if ax.get_xlabel()]
+    maps = [ax for ax in drawn(monkeypatch, layers, tmp_path)["fatigue"].axes if ax.get_title()]
     index = [ax.collections[0].get_array().max() for ax in maps]
     assert index == pytest.approx([layers.summary["Fi_max"], layers.summary["below"]["Fi_max"]])
     profile = lines(drawn(monkeypatch, found, tmp_path)["fatigue_depth"].axes[1])[0]

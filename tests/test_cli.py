@@ -1,22 +1,20 @@
-"""The command line and the store, end to end in processes of their own."""
+"""The command line and the store, end to end."""
 
 import json
 import os
 import random
 import signal
 import subprocess
-import sys
 import time
 
 import numpy as np
 import pytest
+from commands import CALL, process
+from commands import here as tehl
+
+from tehl_taichi.engine import cores
 
 TINY = ("--grid", "64x16", "--threads", "2", "--isothermal")
-CALL = (sys.executable, "-c", "from tehl_cli.main import main; main()")
-
-
-def tehl(*words, cwd=None):
-    return subprocess.run([*CALL, *map(str, words)], capture_output=True, text=True, cwd=cwd)
 
 
 def assert_same(one, other):
@@ -46,6 +44,7 @@ def test_json_summary_has_the_keys_of_the_interface(finished):
             "transient", "fatigue", "work", "clamps"} <= summary.keys()
     assert summary["steps"] == 10 and summary["grid"] == {"nx": 65, "ny": 17, "nz": 1}
     assert summary["cells"] == {"nx": 64, "ny": 16}
+    assert (summary["crowding"][0] > 0) == (cores.available() > 1)  # two threads, five blocks of rows
     assert set(summary["steady"]["error"]) == {"h_c_m", "h_min_m", "p_max_Pa", "friction_coefficient"}
     assert set(summary["transient"]["error"].values()) == {None}  # so short a run has no companions, and nobody asked for them
     assert summary["steady"]["film_formula_m"] == pytest.approx(summary["steady"]["h_c_m"], rel=0.2)
@@ -104,7 +103,7 @@ def test_show_plot_and_repeat(finished, tmp_path):
     assert "finished" in tehl("show", finished[0]).stdout
     drawn = tehl("plot", finished[0], "--out", tmp_path / "figures")
     assert drawn.returncode == 0 and (tmp_path / "figures" / "fatigue.png").stat().st_size > 5000
-    again = tehl("run", finished[0], "--out", tmp_path / "again.zarr", "--threads", 1, "--quiet")
+    again = process("run", finished[0], "--out", tmp_path / "again.zarr", "--threads", 1, "--quiet")
     assert again.returncode == 0, again.stderr
     assert_same(finished[0], tmp_path / "again.zarr")  # one thread instead of two: the same numbers
 

@@ -69,7 +69,7 @@ def test_a_run_that_is_not_finished_has_no_numbers(runs, tmp_path):
 
 def test_the_figure_shows_all_runs_at_one_position(runs, tmp_path, monkeypatch):
     shown = []
-    monkeypatch.setattr(compare_figure, "_legend", lambda figure, curves: shown.append((figure, curves)))
+    monkeypatch.setattr(compare_figure, "_legend", lambda page, figure, curves: shown.append((figure, curves)))
     path = tehl.compare(*runs).plot(tmp_path / "both.png", at=-1.15)
     (figure, curves), = shown
     assert path.stat().st_size > 20_000 and len(figure.axes) == 6

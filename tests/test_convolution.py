@@ -39,8 +39,9 @@ def of_table(levels, table, row, l=0):
 @pytest.mark.parametrize("precision", ACCURACY)
 @pytest.mark.parametrize("name", CASES)
 def test_deflection(taichi_cpu, name, precision):
-    """And a rise of H0 on top of it."""
+    """And a rise of H0 on top of it: of a linear solve in its precision, and of the film in double precision."""
     from tehl_taichi.pressure import fields
+    from tehl_taichi.pressure.deflection import Deflection
     from tehl_taichi.pressure.krylov import Krylov
 
     levels = levels_of(name, precision)
@@ -48,8 +49,27 @@ def test_deflection(taichi_cpu, name, precision):
     levels.put(fields.P, np.random.default_rng(3).random((levels.ny + 1, levels.nx + 1)))
     levels.put(fields.P, levels.get(fields.P) * levels.get(fields.MASK))
     krylov.apply(levels.vector(fields.P), 0.25)
-    exact = levels.deflection.apply(levels.get(fields.P)) + 0.25
+    exact = Deflection(*levels.deflection_key(0)).apply(levels.get(fields.P)) + 0.25
     assert np.abs(of_table(levels, levels.J, fields.FILM) - exact).max() < ACCURACY[precision] * np.abs(exact).max()
+    gap = np.random.default_rng(5).random(exact.shape)
+    levels.put(fields.GAP0, gap)
+    levels.set_film(0.25)
+    assert np.abs(levels.get(fields.H) - gap - exact).max() < ACCURACY["f64"] * np.abs(exact).max()
+
+
+@pytest.mark.parametrize("size, patience", ((2, 10**6), (2, 0), (7, 10**4)))
+def test_the_same_film_by_any_number_of_workers(taichi_cpu, size, patience):
+    from tehl_taichi.engine.workers import PATIENCE
+    from tehl_taichi.pressure import fields
+
+    levels, films = levels_of("whole circle", "f64"), []
+    levels.put(fields.P, np.random.default_rng(6).random((levels.ny + 1, levels.nx + 1)))
+    team = levels.bending.team
+    for team.size, team.sync[PATIENCE] in ((1, 10**6), (size, patience)):
+        team.alone = 0
+        levels.set_film(0.5)
+        films.append(levels.get(fields.H).tobytes())
+    assert films[0] == films[1]
 
 
 def waves(levels, shape):

@@ -71,6 +71,16 @@ def test_films_beyond_what_was_measured():
     assert {result_judge.beyond_measured, result_judge.held_temperatures} <= set(result_judge.CHECKS)
 
 
+def test_a_crowded_machine_is_told():
+    """Where more than a tenth of the launches lost a worker; old summaries have no such count."""
+    from tehl_taichi.io import result_judge
+
+    assert result_judge.crowded(None, {}) == [] == result_judge.crowded(None, {"crowding": [0, 0]})
+    assert result_judge.crowded(None, {"crowding": [30, 3]}) == []
+    said, = result_judge.crowded(None, {"crowding": [30, 4]})
+    assert "4 of 30 launches" in said and result_judge.crowded in result_judge.CHECKS
+
+
 def test_doubts_reach_the_store_and_its_summary(taichi_cpu, tmp_path):
     """Of a steady start: the pressure and temperature of its warning are those of its summary."""
     from tehl_taichi.io.store import Store
@@ -80,7 +90,8 @@ def test_doubts_reach_the_store_and_its_summary(taichi_cpu, tmp_path):
     description = scene("gear").replace(**{"thermal.on": True, "grid.nx": 64, "grid.ny": 16})
     first = next(march(description))
     saved = Store.create(tmp_path / "s.zarr", description, first, 1, {"warnings": json.dumps(description.warnings())})
-    summary = summarise(saved, {"wall_s": 0.0, "compile_s": 0.0, "steady_error": {}})
+    summary = summarise(saved, {"wall_s": 0.0, "compile_s": 0.0, "steady_error": {}, "crowding": [7, 5]})
     hot = f"{summary['steady']['p_max_Pa'] / 1e9:.2f} GPa and {summary['steady']['film_max_C']:.0f} deg C"
     assert any(hot in line for line in summary["warnings"]) and any("8.8 cells" in line for line in summary["warnings"])
+    assert any("5 of 7 launches" in line for line in summary["warnings"]) and summary["crowding"] == [7, 5]
     assert any("8.8 cells" in line for line in Store.open(tmp_path / "s.zarr").warnings)

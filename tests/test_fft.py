@@ -10,9 +10,8 @@ ACCURACY = {"f32": 1e-6, "f64": 1e-15}
 @pytest.fixture(scope="module", params=("f32", "f64"))
 def transformed(request, taichi_cpu):
     """(length, numbers) -> their transform: a function (length, backward, x) -> complex (length, 4), and its accuracy."""
-    import taichi as ti
-
     from tehl_taichi.engine import fft
+    from tehl_taichi.engine.language import ti
     from tehl_taichi.engine.tables import lease
 
     lengths, owner = fft.Lengths(), type("owner", (), {})()

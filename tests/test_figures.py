@@ -1,13 +1,19 @@
 """Figures of a store: what they name, how they are laid out and coloured. The store is made up: nothing is solved."""
 
+import re
+
 import numpy as np
 import pytest
 from small_stores import store
 
+from tehl_taichi.errors import SceneError, StoreError
+from tehl_taichi.figures import fatigue_figures, palette
+from tehl_taichi.figures.moments import Moments
+from tehl_taichi.figures.page import INCH, Page
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 
-plt = pytest.importorskip("matplotlib.pyplot")
+matplotlib = pytest.importorskip("matplotlib")
 
 
 class Made:
@@ -15,9 +21,9 @@ class Made:
 
     def __init__(self, description):
         a = Scales.of(description).a
-        self.scene, self.stored = description, {}
+        self.scene, self.stored, self.path = description, {}, "made.zarr"
         self.x = np.linspace(description.grid.x_min, description.grid.x_max, 33) * a
-        self.y = np.linspace(0, description.grid.y_max, 13) * a
+        self.y = np.linspace(0, description.grid.y_max, 13) * a if description.rows else np.zeros(1)
         self.at = np.array([-1.6, -0.8, 0.0, 0.8] if description.transient else [np.nan]) * a
         self.steps = len(self.at)
 
@@ -27,11 +33,8 @@ class Made:
     def scalar(self, name):
         return self.at if name == "feature_x" else np.full(self.steps, 0.4e-6)
 
-    def feature_x(self, n):
-        return float(self.at[n])
-
     def fields(self, n, names):
-        X, Y = np.meshgrid(self.x / self.x[-1], self.y / self.y[-1], indexing="ij")
+        X, Y = np.meshgrid(self.x / self.x[-1], self.y / (self.y[-1] or 1), indexing="ij")
         size = {"pressure": 1e9, "film": 0.2e-6}
         return {name: (n + 2 + X**2 + Y**2) * size.get(name, 40.0 + len(name)) for name in names}
 
@@ -43,76 +46,242 @@ def made(name="gear"):
     return Made(scene(name).replace(**{"thermal.on": True}))
 
 
-def drawn(name, store):
-    from tehl_taichi.io import figures
+def searched(one_row=False, y_worst=0.0, **depth):
+    """What a search of the surface and of two depths found: a hill of Fi at each, highest at 60 um."""
+    x, y = np.linspace(-1e-4, 1e-4, 21), np.zeros(1) if one_row else np.linspace(-1e-4, 1e-4, 11)
+    hill = np.exp(-((x[:, None] - 2e-5) ** 2 + y**2) / 1e-9) * 4e8
+    layers = np.stack([hill, 0.5 * hill, 1.5 * hill])
+    numbers = {"x_m": 2e-5, "y_m": y_worst, "surface_angle_deg": 50.0}
+    summary = {**numbers, "Fi_max": 1.0, "sigma_eF_Pa": 4e8, "kappa_F": 0.3, "criterion": "findley",
+               "below": {**numbers, "Fi_max": 1.5, "depth_m": 6e-5}}
+    turn = np.linspace(0, 2 * np.pi, 30)
+    history = {"x_a": np.linspace(-5e-4, 5e-4, 30), "normal": np.array([0.6, 0.0, 0.8]), "circle": (0.0, 0.0, 1e8),
+               "stress": np.outer(np.sin(turn), [1e8, 0, 2e8, 0, 5e7, 0])}
+    maps = {"feature_frame_x": x, "feature_frame_y": y, "Fi": hill / 4e8, "fatigue_depth": np.array([0.0, 2e-5, 6e-5])}
+    maps |= {"findley_stress_under_row": layers[:, :, 0]} if one_row else {"findley_stress_at_depth": layers}
+    return fatigue_figures.Found("made up", maps, {"surface": history, "below": history}, summary, 3.6e-4, **depth)
 
-    return getattr(figures, name)(figures.pyplot(), store)
+
+def drawn(name, store, page=None, at=None):
+    """One of the figures of a run."""
+    from tehl_taichi.figures import field_maps, line_figures
+
+    draw = getattr(field_maps, name, None) or getattr(line_figures, name)
+    return draw(page or Page(), Moments(store, at))
 
 
-def texts(figure):
-    """Every title, axis label and legend entry."""
-    out = [figure.get_suptitle()] + [ax.get_title() for ax in figure.axes]
-    return out + [t.get_text() for ax in figure.axes if ax.get_legend() for t in ax.get_legend().get_texts()]
+def all_drawn(page, built_in):
+    """Every figure of a run and of a search."""
+    flat = scene(built_in).rows == 0
+    names = ("centreline", "temperature") + (() if flat else ("maps", "temperature_maps"))
+    with page.style():
+        for name in names:
+            yield page.fitted(drawn(name, made(built_in), page))
+        for draw in fatigue_figures.all_figures(page, searched(flat)).values():
+            yield page.fitted(draw())
 
 
-@pytest.mark.parametrize("name", ["maps", "temperature_maps"])
-@pytest.mark.parametrize("built_in", ["ball-on-disc", "gear"])
-def test_maps_leave_no_part_of_the_page_empty(tmp_path, name, built_in):
+def titles(figure):
+    return [figure.get_suptitle()] + [ax.get_title() for ax in figure.axes]
+
+
+def legend(figure):
+    """{label: line} of all legends."""
+    found = figure.legends + [ax.get_legend() for ax in figure.axes if ax.get_legend()]
+    return {line.get_label(): line for one in found for line in one.get_lines()}
+
+
+@pytest.mark.parametrize("built_in, name, width", [("ball-on-disc", "maps", 17.0), ("ball-on-disc", "temperature_maps", 8.5),
+                                                   ("gear", "temperature_maps", 17.0)])
+def test_maps_leave_no_part_of_the_page_empty(tmp_path, name, built_in, width):
     import matplotlib.image
 
-    figure = drawn(name, made(built_in))
-    figure.savefig(tmp_path / "map.png", dpi=60)
-    plt.close(figure)
-    page = matplotlib.image.imread(tmp_path / "map.png")[..., :3].min(axis=2)
-    for direction, most in ((0, 0.09), (1, 0.09)):
-        used = np.flatnonzero(page.min(axis=direction) < 0.95)
-        gaps = np.diff(np.concatenate([[0], used, [page.shape[1 - direction] - 1]]))
-        assert gaps.max() <= most * page.shape[1 - direction], (direction, gaps.max(), page.shape)
+    page = Page(dpi=60, width=width)
+    path = page.save(lambda: drawn(name, made(built_in), page), tmp_path / "map.png")
+    shown = matplotlib.image.imread(path)[..., :3].min(axis=2)
+    assert shown.shape[1] == int(width / INCH * 60)
+    for direction, most in ((0, 0.13), (1, 0.09)):
+        used = np.flatnonzero(shown.min(axis=direction) < 0.95)
+        gaps = np.diff(np.concatenate([[0], used, [shown.shape[1 - direction] - 1]]))
+        assert gaps.max() <= most * shown.shape[1 - direction], (direction, gaps.max(), shown.shape)
 
 
-def test_a_steady_run_is_no_start_and_maps_name_scene_and_moment():
-    for name in ("maps", "temperature_maps"):
-        assert drawn(name, made("ball-on-disc")).get_suptitle() == "ball-on-disc: steady"
-        assert drawn(name, made()).get_suptitle() == "gear: feature at +0.00 a"
-    assert "steady" in texts(drawn("centreline", made("ball-on-disc")))
-    assert "steady start" in texts(drawn("centreline", made()))
-    plt.close("all")
+@pytest.mark.parametrize("built_in, width", [("gear", 8.5), pytest.param("gear", 17.0, marks=pytest.mark.slow),
+                                             pytest.param("furrow-line", 8.5, marks=pytest.mark.slow)])
+def test_text_can_be_read_and_stays_on_the_page(built_in, width):
+    for figure in all_drawn(Page(width=width), built_in):
+        figure.get_layout_engine().execute(figure)
+        for text in figure.findobj(matplotlib.text.Text):
+            if text.get_visible() and text.get_text():
+                assert 6 <= text.get_fontsize() <= 10
+        inside = figure.get_tightbbox()
+        assert inside.x0 > -0.05 and inside.x1 < width / INCH + 0.05, figure.get_suptitle()
+        assert inside.y0 > -0.05 and inside.y1 < figure.get_size_inches()[1] + 0.05, figure.get_suptitle()
+
+
+def test_a_steady_run_is_no_start_and_figures_name_scene_and_moment():
+    for name, what in (("maps", "pressure and film"), ("temperature_maps", "temperatures")):
+        assert drawn(name, made("ball-on-disc")).get_suptitle() == f"ball-on-disc: {what}, steady"
+        assert drawn(name, made()).get_suptitle() == f"gear: {what}, feature at +0.00 a"
+        assert drawn(name, made(), at=0.7).get_suptitle() == f"gear: {what}, feature at +0.80 a"
+    assert drawn("centreline", made("ball-on-disc")).get_suptitle() == "ball-on-disc: along y = 0, steady"
+    assert drawn("centreline", made("smooth-line")).get_suptitle() == "smooth-line: along x, steady"
+    begun = made()
+    begun.steps = 1
+    assert "steady start" not in drawn("maps", begun).get_suptitle()
+
+
+def test_one_moment_is_shown_where_it_is_wanted():
+    for name in ("centreline", "temperature"):
+        found = [text for text in legend(drawn(name, made(), at=-0.7)) if "surface" not in text and "film" not in text]
+        assert found == ["steady start", "feature at -0.80 a"]
+    top = drawn("centreline", made(), at=0.8).axes[0].lines
+    assert top[1].get_ydata().min() == pytest.approx(made().fields(3, ["pressure"])["pressure"][:, 0].min() / 1e9)
 
 
 def test_the_film_colours_that_are_cut_end_in_an_arrow():
     images = [ax.collections[0] for ax in drawn("maps", made()).axes if ax.get_title()]
     assert [image.colorbar.extend for image in images] == ["neither", "max"]
     film = images[1]
-    assert film.get_clim()[1] == pytest.approx(1.0) and film.get_array().max() > 1.0  # 2.5 times the central film
+    assert film.get_clim()[1] < film.get_array().max() and film.get_clim()[1] == pytest.approx(1.1 * 0.2 * 4.81, rel=0.1)
     temperature = [ax.collections[0] for ax in drawn("temperature_maps", made()).axes if ax.get_title()]
     assert len({image.get_clim() for image in temperature}) == 1 == len({image.cmap.name for image in temperature})
-    plt.close("all")
 
 
 def test_one_moment_has_one_colour_in_every_figure():
     def colour_of(figure):
-        lines = figure.axes[0].get_legend().get_lines()
-        return {line.get_label(): line.get_color() for line in lines if line.get_color() != "k"}
+        return {name: line.get_color() for name, line in legend(figure).items() if line.get_color() != palette.BLACK}
 
     first, second = (colour_of(drawn(name, made())) for name in ("centreline", "temperature"))
-    assert first == second and len(set(first.values())) == 4 and first["steady start"] == "0.45"
-    plt.close("all")
+    assert first == second and len(set(first.values())) == 4 and first["steady start"] == palette.GREY
 
 
-def test_dots_per_inch_are_as_asked(tmp_path):
-    import matplotlib.image
-
-    from tehl_taichi.io.figures import write_all
-
-    write_all(Made(scene("smooth-line").replace(**{"thermal.on": False})), tmp_path, 50)
-    assert matplotlib.image.imread(tmp_path / "centreline.png").shape[:2] == (325, 400)  # 8 x 6.5 inches
+# Machado, Oliveira & Fernandes 2009: linear RGB as seen with deuteranopia and with protanopia
+BLIND = ([[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]],
+         [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]])
 
 
-def test_absurd_dots_per_inch_are_refused(tmp_path):
+def lab(rgb, seen=None):
+    """CIE L*a*b* of colours, (..., 3), as somebody sees them."""
+    linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
+    linear = linear if seen is None else np.clip(linear @ np.transpose(seen), 0, 1)
+    to_xyz = [[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]]
+    t = linear @ np.transpose(to_xyz) / [0.9505, 1.0, 1.089]
+    f = np.where(t > 0.008856, np.cbrt(t), 7.787 * t + 16 / 116)
+    return np.stack([116 * f[..., 1] - 16, 500 * (f[..., 0] - f[..., 1]), 200 * (f[..., 1] - f[..., 2])], axis=-1)
+
+
+def test_colour_blind_readers_tell_the_lines_apart_and_everybody_reads_the_maps_in_grey():
+    from matplotlib.colors import to_rgb
+
+    lines = np.array([to_rgb(colour) for colour in palette.LINES])
+    for seen in (None, *BLIND):
+        apart = np.linalg.norm(lab(lines, seen)[:, None] - lab(lines, seen)[None], axis=2)
+        assert apart[~np.eye(len(lines), dtype=bool)].min() > 10
+    for name in (palette.PRESSURE, palette.FILM, palette.TEMPERATURE, palette.INDEX, palette.RESULT, palette.TENSION):
+        light = np.diff(lab(matplotlib.colormaps[name](np.linspace(0, 1, 64))[:, :3])[:, 0])
+        assert (light > 0).all() or (light < 0).all(), name
+
+
+def test_fatigue_is_shown_at_the_depth_that_is_wanted():
+    def layers(**depth):
+        page = Page(dpi=40)
+        figure = fatigue_figures.all_figures(page, searched(**depth))["fatigue"]()
+        images = [ax.collections[0] for ax in figure.axes if ax.get_title()]
+        return [(image.get_array().max(), image.colorbar.ax.get_xlabel(), image.axes.get_title()) for image in images]
+
+    top, worst = layers()
+    assert top[0] == pytest.approx(1.0) and worst[0] == pytest.approx(1.5)
+    assert worst[1:] == ("Fi, 60 µm below", "worst, Fi = 1.5, plane at 50° to the surface")
+    assert layers(depth=25.0)[1] == (pytest.approx(0.5), "Fi, 20 µm below", "worst, Fi = 0.5")
+    line = fatigue_figures.all_figures(Page(), searched(True, depth=60.0))["fatigue"]().axes[0].lines
+    assert [one.get_ydata().max() for one in line] == pytest.approx([1.0, 1.0, 1.5, 1.5])
+
+
+def test_a_worst_point_at_the_rim_leaves_no_white_around_the_map():
+    maps = [ax for ax in fatigue_figures.all_figures(Page(), searched(y_worst=1e-4))["fatigue"]().axes if ax.get_title()]
+    assert {ax.get_ylim() for ax in maps} == {(-100.0, 100.0)} == {ax.get_xlim() for ax in maps}
+
+
+@pytest.mark.parametrize("depth", [70.0, -1.0])
+def test_a_depth_that_was_not_searched_is_refused(depth):
+    with pytest.raises(SceneError, match=f"depth = {depth:g} µm is out of range; allowed: at least 0 µm and at most 60 µm"):
+        fatigue_figures.all_figures(Page(), searched(depth=depth))
+    found = searched(depth=20.0)
+    del found.maps["findley_stress_at_depth"]
+    with pytest.raises(SceneError, match="tehl fatigue STORE --depths 2e-05"):
+        fatigue_figures.all_figures(Page(), found)
+
+
+@pytest.mark.parametrize("wrong, said", [(dict(format="jpg"), "format = 'jpg'.*allowed: png, pdf, svg"),
+                                         (dict(dpi=5), "dpi = 5 is out of range; allowed: 40 to 1200"),
+                                         (dict(width=3), "width = 3 cm is out of range; allowed: at least 5 cm and at most 60"),
+                                         (dict(width=50, dpi=1200), "width = 50 cm with dpi = 1200 is 23622 dots")])
+def test_pages_that_nobody_can_print_are_refused(wrong, said):
+    with pytest.raises(SceneError, match=said):
+        Page(**wrong)
+
+
+@pytest.mark.parametrize("built_in, at, said", [("gear", 1.2, "at = 1.2 a is out of range; allowed: at least -0.85 a"),
+                                                ("ball-on-disc", 0.0, "made.zarr has a steady state only")])
+def test_moments_that_never_were_are_refused(built_in, at, said):
+    with pytest.raises(SceneError, match=said):
+        Moments(made(built_in), at)
+
+
+def test_files_are_of_the_format_and_size_as_asked_and_the_same_each_time(tmp_path):
+    from tehl_taichi.figures.run_figures import write_all
+
+    line = Made(scene("smooth-line").replace(**{"thermal.on": False}))
+    first, again = ({path.name: path.read_bytes() for format in ("pdf", "svg")
+                     for path in write_all(line, tmp_path / name, Page(format, 50, 10.0))} for name in "ab")
+    assert first == again and set(first) == {"centreline.pdf", "centreline.svg"}
+    box = re.search(rb"MediaBox \[ 0 0 ([\d.]+)", first["centreline.pdf"])
+    assert float(box[1]) == pytest.approx(10 / INCH * 72, abs=0.01)
+    assert first["centreline.pdf"].startswith(b"%PDF") and b"<svg" in first["centreline.svg"]
+
+
+def test_the_suffix_of_a_file_tells_its_format(tmp_path):
+    assert Page("pdf").of_file("a.svg") == (Page("svg"), tmp_path.__class__("a.svg"))
+    assert Page("pdf").of_file("a")[1].name == "a.pdf"
+    with pytest.raises(SceneError, match="format of a.doc = 'doc'"):
+        Page().of_file("a.doc")
+    with pytest.raises(StoreError, match="cannot write"):
+        Page().save(lambda: drawn("centreline", made()), tmp_path / "none" / "a.png")
+
+
+def test_drawing_leaves_the_settings_of_others_alone(tmp_path):
+    before = dict(matplotlib.rcParams), matplotlib.get_backend()
+    Page().save(lambda: drawn("centreline", made()), tmp_path / "a.png")
+    assert (dict(matplotlib.rcParams), matplotlib.get_backend()) == before
+
+
+def test_options_of_the_command_are_checked(tmp_path):
     from tehl_cli.main import app
     from typer.testing import CliRunner
 
-    from tehl_taichi.scene import SceneError
+    path = str(store(tmp_path / "a.zarr").path)
+    for option, value, said in (("dpi", "5", "allowed: 40 to 1200"), ("quantity", "x", "--quantity x is of the table"),
+                                ("at", "9", "at = 9 a is out of range"), ("depth", "20", "depth = 20 µm is of a fatigue"),
+                                ("format", "gif", "format = 'gif'"), ("width", "1", "width = 1")):
+        found = CliRunner().invoke(app, ["plot", path, f"--{option}", value]).exception
+        assert isinstance(found, SceneError) and said in str(found)
 
-    found = CliRunner().invoke(app, ["plot", str(store(tmp_path / "a.zarr").path), "--dpi", "5"]).exception
-    assert isinstance(found, SceneError) and "allowed: 40 to 1200" in str(found)
+
+def test_comparisons_are_drawn_as_asked(tmp_path):
+    from tehl_cli.main import app
+    from typer.testing import CliRunner
+
+    pair = [str(store(tmp_path / name).path) for name in ("a.zarr", "b.zarr")]
+    assert CliRunner().invoke(app, ["compare", *pair, "--format", "svg", "--width", "8.5"]).exit_code == 0
+    size = re.search(r'width="([\d.]+)pt"', (tmp_path / "compare.svg").read_text())
+    assert float(size[1]) == pytest.approx(8.5 / INCH * 72, abs=0.01)
+
+
+@pytest.mark.parametrize("command", ["fatigue", "crack", "flank"])
+def test_pages_are_refused_before_anything_is_searched(command):
+    from tehl_cli.main import app
+    from typer.testing import CliRunner
+
+    found = CliRunner().invoke(app, [command, "nothing.zarr", "--dpi", "5"]).exception
+    assert isinstance(found, SceneError) and "dpi = 5 is out of range" in str(found)

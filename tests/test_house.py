@@ -11,7 +11,7 @@ ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "tehl_taichi"
 # every module and folder of the package, each imports from those before it only
 LAYERS = ["errors", "commit", "called", "registry", "engine", "values", "physics", "criteria", "scene", "pressure", "heat",
-          "fatigue", "crack", "march", "io", "study", "flank", "profiles", "cli"]
+          "fatigue", "crack", "march", "io", "export", "figures", "study", "flank", "report", "profiles", "cli"]
 TOP = {"errors", "commit", "called", "registry"}  # single files that everybody may use
 # rooms that may use less than all before them
 RESTS_ON = {"engine": set(), "values": set(), "physics": {"engine", "values"},
@@ -104,6 +104,13 @@ def test_no_future_annotations(path):
     assert "__future__.annotations" not in set(imports(path))
 
 
+@pytest.mark.parametrize("path", SOURCES, ids=lambda p: str(p.relative_to(ROOT)))
+def test_one_folder_knows_taichi(path):
+    """The engine; others take the language, and FFTW, from it."""
+    taichi = {name for name in imports(path) if name.split(".")[0] in ("taichi", "pyfftw")}
+    assert not taichi or path.parent == PACKAGE / "engine"
+
+
 def test_package_and_scene_do_not_import_taichi():
     code = "import sys, tehl_taichi, tehl_taichi.scene, tehl_cli.main; sys.exit('taichi' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0
@@ -113,6 +120,12 @@ def test_readme_names_both_lines():
     text = (ROOT / "README.md").read_text()
     lines = [line for line in text.splitlines() if line.startswith("python3 -m venv")]
     assert len(lines) == 2 and "tehl run --srr -0.12" in lines[0] and lines[1].endswith("pytest")
+
+
+def test_solvers_import_neither_dask_nor_pandas():
+    """FFTW's package would, where they are installed."""
+    code = "import sys; from tehl_taichi.march import passage; sys.exit(bool({'dask', 'pandas', 'scipy'} & set(sys.modules)))"
+    assert subprocess.run([sys.executable, "-c", code]).returncode == 0
 
 
 def test_readme_python_example_runs(taichi_cpu, capsys, monkeypatch, tmp_path):

@@ -1,8 +1,12 @@
 """The linear solve as one kernel: the same bits by any number of workers, solutions of its equations, odd right-hand sides."""
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
+from tehl_taichi.engine import cores
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 
@@ -48,6 +52,35 @@ def test_the_same_bits_by_any_number_of_workers(problem, size, patience):
     team.size, team.sync[PATIENCE] = before
     (x, *rest), (y, *others) = results
     assert x.tobytes() == y.tobytes() and rest == others and rest[1] > 5
+
+
+def test_the_same_bits_beside_others_on_all_cores(problem):
+    """And workers that come back, after a while, where they had fallen back to one."""
+    whole = solved(problem, 1e-3)
+    hogs = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(2 * len(cores.allowed()))]
+    try:
+        beside = [solved(problem, 1e-3) for _ in range(20)]
+    finally:
+        for hog in hogs:
+            hog.kill()
+            hog.wait()
+    for x, *rest in beside:
+        assert x.tobytes() == whole[0].tobytes() and tuple(rest) == whole[1:]
+
+
+@pytest.mark.parametrize("portion", (1, 4))
+def test_the_same_bits_in_portions(problem, monkeypatch, portion):
+    """A solve that is cut into several launches, between which Ctrl-C is heard."""
+    from tehl_taichi.pressure.decisions import PORTION, SCALARS
+
+    krylov, ran = problem[0], []
+    whole, usual, run = solved(problem, 1e-3), krylov.numbers[SCALARS, PORTION], krylov.team.run
+    monkeypatch.setattr(krylov.team, "run", lambda *args: (ran.append(1), run(*args)))
+    krylov.numbers[SCALARS, PORTION] = portion
+    cut = solved(problem, 1e-3)
+    krylov.numbers[SCALARS, PORTION] = usual
+    assert cut[0].tobytes() == whole[0].tobytes() and cut[1:] == whole[1:]
+    assert len(ran) == -(-whole[2] // portion) > 1
 
 
 def test_the_solution_has_the_residual_that_it_is_said_to_have(problem):

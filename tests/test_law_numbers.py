@@ -180,10 +180,9 @@ def test_what_the_law_leaves_of_the_viscosity(law):
 
 def test_exp_and_log_of_lanes(taichi_cpu):
     """The laws' own exp and log of four rows at once against numpy's, over the whole range of the laws."""
-    import taichi as ti
-
     from tehl_taichi.engine.elementary import exp, log
     from tehl_taichi.engine.lanes import V
+    from tehl_taichi.engine.language import ti
 
     @ti.kernel
     def both(x: ti.types.ndarray(dtype=ti.f64, ndim=1), out: ti.types.ndarray(dtype=ti.f64, ndim=2)):

@@ -42,8 +42,7 @@ def test_table_interpolates_and_continues():
 
 
 def test_laws_take_arrays_and_kernels(taichi_cpu):
-    import taichi as ti
-
+    from tehl_taichi.engine.language import ti
     from tehl_taichi.physics.density import rho_ratio
     from tehl_taichi.physics.viscosity import ln_eta
 

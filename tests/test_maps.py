@@ -11,7 +11,7 @@ import pytest
 
 import tehl_taichi as tehl
 from tehl_taichi.io import scene_file
-from tehl_taichi.scene import SceneError, scene
+from tehl_taichi.scene import SceneError, height_map, scene
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.judge import doubtful_features as doubts
 from tehl_taichi.scene.judge import preview
@@ -68,6 +68,21 @@ def test_a_tilted_map_is_levelled_and_a_broken_one_refused(tmp_path):
     (tmp_path / "scan.sur").write_text("x")
     with pytest.raises(SceneError, match="topography"):
         feature(tmp_path / "scan.sur")
+
+
+@pytest.mark.parametrize("name, row", [("a.csv", "1.5, 2,3, 4e1"), ("b.csv", "1,5;2;3;4e1;"), ("c.csv", "1,5\t2\t3\t4e1\t"),
+                                       ("d.txt", "# x; y, nm\n1.5 2   3 4e1 "), ("e.asc", "\ufeff1.5,2,3,4e1\r")])
+def test_tables_are_read_as_instruments_write_them(tmp_path, name, row):
+    (tmp_path / name).write_text("\n".join([row, *[row.lstrip("\ufeff")] * 3]), encoding="utf-8")
+    assert height_map.read(tmp_path / name).tolist() == [[1.5, 2.0, 3.0, 40.0]] * 4
+
+
+@pytest.mark.filterwarnings("error")  # the sentence says it all
+@pytest.mark.parametrize("told", ["height in nm\n" + 4 * "1,2,3,4\n", "1;2;3;4\n1;2;3\n" * 4, "", "1,2,3\n4,five,6\n"])
+def test_tables_with_something_else_in_them_are_refused(tmp_path, told):
+    (tmp_path / "scan.csv").write_text(told, encoding="utf-8")
+    with pytest.raises(SceneError, match="cannot read heights from .*scan.csv|at least 4 x 4 finite heights"):
+        feature(tmp_path / "scan.csv")
 
 
 def test_the_largest_slope_is_that_of_the_ramp(tmp_path):
@@ -241,7 +256,8 @@ def test_a_moved_store_goes_on_without_the_map_file(moved, elsewhere):
 
 
 def test_a_moved_store_is_opened_by_xarray_plotted_and_run_again(moved, elsewhere, tmp_path):
-    from tehl_taichi.io.figures import write_all
+    from tehl_taichi.figures.page import Page
+    from tehl_taichi.figures.run_figures import write_all
     from tehl_taichi.io.store import Store
 
     xarray = pytest.importorskip("xarray")
@@ -250,7 +266,7 @@ def test_a_moved_store_is_opened_by_xarray_plotted_and_run_again(moved, elsewher
     (name,) = (name for name in data if name.startswith("map_"))
     assert data[name].attrs["units"] == "um" and data[name].attrs["sha256"] == description.features[0].sha256
     np.testing.assert_array_equal(data[name], description.features[0].heights)
-    assert {path.name for path in write_all(Store.open(whole), tmp_path, 40)} >= {"maps.png", "centreline.png"}
+    assert {path.name for path in write_all(Store.open(whole), tmp_path, Page(dpi=40))} >= {"maps.png", "centreline.png"}
     again = tehl.scene(str(whole))
     assert again == description and again.replace(**{"time.steps": 1}).features[0].measures == description.features[0].measures
 

@@ -143,7 +143,7 @@ from tehl_taichi.values.quantity import quantity
 @pointwise
 def compression(oil, p):
     """1/(1 - ln(1 + (1 + K1) p/K)/(1 + K1))."""
-    return 1 / (1 - log(1 + (1 + oil.tait_K1) * p / oil.tait_K) / (1 + oil.tait_K1))
+    return 1 / (1 - log(1 + (1 + oil.cold_K1) * p / oil.cold_K) / (1 + oil.cold_K1))
 
 
 @pointwise
@@ -157,11 +157,11 @@ def expansivity(oil, p, Gamma):
 
 
 LAW = DensityLaw(
-    name="tait", says="1/(1 - ln(1 + (1 + K1) p/K)/(1 + K1))", source="after Tait 1888",
+    name="cold-tait", says="1/(1 - ln(1 + (1 + K1) p/K)/(1 + K1))", source="after Tait 1888",
     compression=compression, expansion=expansion, expansivity=expansivity,
-    numbers={"rho0": RHO0, "tait_K": quantity(1.4e9, "Pa", "bulk modulus at p = 0", 1e8, 1e11),
-             "tait_K1": quantity(10.0, "", "its rise with pressure", 1, 30)},
-    checked=(Checked("by hand", 1 / (1 - math.log(2) / 11), lambda: compression(LAW.having(tait_K=11e9), 1e9)),))
+    numbers={"rho0": RHO0, "cold_K": quantity(1.4e9, "Pa", "bulk modulus at p = 0", 1e8, 1e11),
+             "cold_K1": quantity(10.0, "", "its rise with pressure", 1, 30)},
+    checked=(Checked("by hand", 1 / (1 - math.log(2) / 11), lambda: compression(LAW.having(cold_K=11e9), 1e9)),))
 '''
 
 RUN = '''
@@ -177,7 +177,7 @@ from tehl_taichi.physics.viscosity import ln_eta
 from tehl_taichi.profiles import stability
 
 base = tehl.scene("smooth-line").replace(**{"grid.nx": 32, "thermal.on": False})
-film = {"oil.name": "mine", "oil.viscosity": "cameron", "oil.eta0": 0.02, "oil.alpha": 1e-8, "oil.density": "tait",
+film = {"oil.name": "mine", "oil.viscosity": "cameron", "oil.eta0": 0.02, "oil.alpha": 1e-8, "oil.density": "cold-tait",
         "oil.cameron_n": 4.0, "temperature": 60.0}
 scenes = {"limiting": base, "rounded": base.replace(**{"rheology.law": "rounded"}),
           "sharp": base.replace(**{"rheology.law": "rounded", "rheology.limit_n": 4.0}), "film": base.replace(**film)}
@@ -202,7 +202,7 @@ json.dump(out, open("out.json", "w"))
 @pytest.fixture(scope="module")
 def with_new_laws(tmp_path_factory):
     """What :data:`RUN` says in a copy of the package with three files more."""
-    files = (*map(shown, ("A shear law", "A viscosity law")), ("tehl_taichi/physics/densities/tait.py", TAIT))
+    files = (*map(shown, ("A shear law", "A viscosity law")), ("tehl_taichi/physics/densities/cold_tait.py", TAIT))
     return extended(tmp_path_factory.mktemp("package"), files, RUN)
 
 
@@ -222,8 +222,8 @@ def test_a_file_is_a_shear_law(with_new_laws):
 def test_a_file_is_a_law_of_viscosity_or_density(with_new_laws):
     """The film formula takes the new viscosity, too, and the film of the kernels is near it."""
     out = with_new_laws
-    assert out["checked"]["cameron"] == pytest.approx([1.0]) and out["checked"]["tait"] == pytest.approx([1.0])
-    assert out["back"] and "cameron" in out["template"] and "tait: bulk modulus" in out["template"]
+    assert out["checked"]["cameron"] == pytest.approx([1.0]) and out["checked"]["cold-tait"] == pytest.approx([1.0])
+    assert out["back"] and "cameron" in out["template"] and "cold-tait: bulk modulus" in out["template"]
     assert out["ln_eta"] == pytest.approx(math.log(0.02) + 4 * math.log(1 + 10 / 4))
     assert out["rho"] == pytest.approx(1 / (1 - math.log(1 + 11 / 1.4) / 11))
     film = out["film"]["steady"]

@@ -1,10 +1,10 @@
 """FFTW plans that are measured once a machine."""
 
 import numpy as np
-import pyfftw
 import pytest
 
 from tehl_taichi.engine import plans
+from tehl_taichi.engine.fftw import pyfftw
 
 ROWS, PERIOD = 64, 256  # large enough to be measured
 

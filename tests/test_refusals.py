@@ -110,6 +110,7 @@ def test_viscosity_tables(table):
     (dict(viscosity="yasutomi", C2=5.0), ("Yasutomi", "C2 + (T - Tg) F", "1.93e+09 Pa")),
     (dict(viscosity="yasutomi", B1=2.0), ("Yasutomi", "F = 1 - B1 ln(1 + B2 p)")),
     (dict(b0=-1e-2, b1=0.0, b2=0.0), ("heat capacity",)),
+    (dict(density="tait", tait_K00=1e9, tait_K1=4.0), ("oil.tait_K00", "of the volume at 9.67e+09 Pa", "at least 0.3")),
 ])
 def test_laws_without_a_value_in_this_contact(oil, words):
     refused(lambda: dataclasses.replace(scene("gear"), oil=Oil(**oil)), *words)

@@ -56,6 +56,7 @@ def test_a_run_is_what_is_stored(done):
     again = tehl.open(str(run.path))
     assert run.finished and again.summary == run.summary and again.scene == run.scene == RIDGE
     assert run.summary["steps"] == 4 and run.summary["fatigue"]["Fi_max"] > 0 and run.summary["store"] == str(run.path)
+    assert run.summary["crowding"] == [0, 0]  # one block of rows: nothing to share
     shots = list(tehl.march(RIDGE))
     assert again.warnings == run.warnings == run.summary["warnings"]
     assert run.summary["transient"]["p_max_Pa"] == max(shot.scalars["p_max_Pa"] for shot in shots[1:])

@@ -20,12 +20,12 @@ def test_backward_differences_of_equal_steps():
     assert bdf([1, 1, 1])[1] == pytest.approx([18 / 11, -9 / 11, 2 / 11])
 
 
-@pytest.mark.parametrize("cells", [1.0, 2.0])
-def test_whole_cells_take_out_half_of_the_shortest_wave(cells):
+@pytest.mark.parametrize("cells, left", [(0.0, 1.0), (1.0, 0.5), (2.0, 0.25), (3.0, 0.125)])
+def test_each_whole_cell_takes_out_half_of_the_shortest_wave(cells, left):
     """And nothing of a polynomial of degree 7; parts of a cell are interpolated as they are."""
     i, inner = np.arange(40), slice(8, -8)
     wave = (-1.0) ** i
-    assert followed(wave, cells)[inner] == pytest.approx(0.5 * carried(wave, cells)[inner], abs=1e-12)
+    assert followed(wave, cells)[inner] == pytest.approx(left * carried(wave, cells)[inner], abs=1e-12)
     smooth = ((i - 20) / 20.0) ** 7
     assert followed(smooth, cells)[inner] == pytest.approx(carried(smooth, cells)[inner], abs=1e-12)
     assert np.array_equal(followed(wave, 0.37), carried(wave, 0.37))

@@ -9,28 +9,25 @@ import sys
 
 import numpy as np
 import pytest
+from commands import CALL, here
 from small_stores import store
 
 from tehl_taichi.io import atomic
 from tehl_taichi.io.store import Store
 
-CALL = (sys.executable, "-c", "from tehl_cli.entry import main; main()")
 # a ridge: one dimension, 51 steps in a second
 RIDGE = ("run", "gear", "--set", "feature.shape=ridge", "--grid", "64x8", "--isothermal", "--quiet", "--threads", "2",
          "--precision", "f64")
 
 
 @pytest.fixture
-def tehl(taichi_cpu, capsys, monkeypatch, tmp_path):
+def tehl(tmp_path, monkeypatch):
     """The command line in this process: its exit code, stdout and stderr."""
-    from tehl_cli import entry
-
     monkeypatch.chdir(tmp_path)
 
     def call(*words):
-        monkeypatch.setattr(sys, "argv", ["tehl", *map(str, words)])
-        capsys.readouterr()
-        return entry._run(), *capsys.readouterr()
+        done = here(*words)
+        return done.returncode, done.stdout, done.stderr
 
     return call
 

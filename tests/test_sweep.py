@@ -10,6 +10,8 @@ import time
 
 import numpy as np
 import pytest
+from commands import CALL, here
+from commands import process as tehl
 from fake_cases import cubed, formula, square
 
 from tehl_taichi.errors import RuntimeUnavailable, StoreError
@@ -21,12 +23,6 @@ from tehl_taichi.study.table import Study
 
 GEAR = scene("gear").replace(**{"thermal.on": False, "grid.nx": 64, "grid.ny": 16})
 OVER = {"srr": "-0.1:0.1:3", "feature.height": [0.5e-6, 1e-6, 1.5e-6]}
-CALL = (sys.executable, "-c", "from tehl_cli.main import main; main()")
-
-
-def tehl(*words, cwd=None):
-    return subprocess.run([*CALL, *map(str, words)], capture_output=True, text=True, cwd=cwd)
-
 
 def invoked(folder, monkeypatch, *words):
     """The same in this process."""
@@ -160,14 +156,14 @@ def test_pictures_of_a_study(study, tmp_path):
 
 
 def test_the_heat_map_shows_each_case_where_it_belongs(study):
-    plt = pytest.importorskip("matplotlib.pyplot")
+    pytest.importorskip("matplotlib")
+    from tehl_taichi.figures.page import Page
     from tehl_taichi.study import study_figures
 
-    ax = study_figures.heat_map(plt, study, "fatigue_Fi_max").axes[0]
+    ax = study_figures.heat_map(Page(), study, "fatigue_Fi_max").axes[0]
     shown = ax.images[0].get_array()
     assert shown[1, 2] == pytest.approx(0.7) and np.ma.getmaskarray(np.ma.masked_invalid(shown))[2].tolist() == [0, 1, 0]
     assert [text.get_text() for text in ax.get_yticklabels()] == ["0.5", "1", "1.5"] and "µm" in ax.get_ylabel()
-    plt.close("all")
 
 
 def test_a_sweep_runs_its_cases(taichi_cpu, tmp_path):
@@ -215,6 +211,8 @@ def test_the_command_line_of_a_sweep(taichi_cpu, tmp_path, monkeypatch):
     again = invoked(tmp_path, monkeypatch, "sweep", found["study"], "--workers", 1)
     assert again.exit_code == 0 and "4 of them done before" in again.stderr and "ok" in again.stdout
     assert again.stdout in invoked(tmp_path, monkeypatch, "show", found["study"]).stdout
+    assert json.loads(invoked(tmp_path, monkeypatch, "show", found["study"], "--json").stdout) == found
+    assert f"its table is {found['table']}" in str(invoked(tmp_path, monkeypatch, "export", found["study"]).exception)
 
 
 @pytest.mark.parametrize("words, said", [
@@ -254,7 +252,7 @@ def test_a_sweep_survives_the_death_of_a_worker_and_its_own(tmp_path):
     done = tehl(*words, "--workers", 2, "--json", cwd=tmp_path)
     assert done.returncode == 0 and json.loads(done.stdout)["converged"] == 4, done.stderr
     assert _lines(tmp_path)[: len(before)] == before
-    whole = tehl("run", "gear", *small, "--srr", -0.1, "--height", 1e-6, "--no-estimate-error", "--json", cwd=tmp_path)
+    whole = here("run", "gear", *small, "--srr", -0.1, "--height", 1e-6, "--no-estimate-error", "--json", cwd=tmp_path)
     of_the_killed = json.loads(done.stdout)["results"][1]["summary"]
     assert of_the_killed["fatigue"]["Fi_max"] == pytest.approx(json.loads(whole.stdout)["fatigue"]["Fi_max"], rel=1e-10)
 

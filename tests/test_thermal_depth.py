@@ -117,6 +117,23 @@ def test_rows_are_rows_of_the_whole(mirrored, row):
     assert row == 0 or min(np.abs(rows[:, n]).max() for n in (3, 5)) > 0.1 * HELD
 
 
+def test_any_number_of_threads_gives_the_same_bits(monkeypatch):
+    """And works on no more chunks of waves than there are threads before they are taken."""
+    found, kernels, made = [], td.ThermalBelow._kernels, []
+    monkeypatch.setattr(td.ThermalBelow, "_kernels", lambda *given: (made.append(1), kernels(*given))[1])
+    monkeypatch.setattr(td, "CHUNK", 20)
+    for count in (1, 3):
+        monkeypatch.setattr(td, "WORKERS", count)
+        thermal = passing(td.ThermalBelow, 10e-6)
+        found.append(thermal.rows(10e-6, [0, 4]).tobytes())
+    assert found[0] == found[1] and len(made) > 12
+    made.clear()
+    parts = thermal._responses(10e-6)
+    next(parts)
+    assert len(made) <= 3
+    parts.close()
+
+
 def test_a_whole_domain_gives_what_half_of_it_does():
     half, all_ = (passing(td.ThermalBelow, 10e-6, mirrored=m, width=40e-6, rows=25).at(10e-6)(9) for m in (True, False))
     for one, other in zip(half, all_):

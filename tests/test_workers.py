@@ -9,9 +9,8 @@ JOBS, PHASES = 13, 400
 @pytest.fixture(scope="module")
 def tally(taichi_cpu):
     """A launch in which job j of phase n adds to row j what the neighbours held after phase n - 1."""
-    import taichi as ti
-
     from tehl_taichi.engine import workers
+    from tehl_taichi.engine.language import ti
 
     @ti.kernel
     def count(sync: workers.Sync, held: ti.types.ndarray(dtype=ti.f64, ndim=2)):
@@ -63,7 +62,7 @@ def test_every_job_is_done_once_in_the_order_of_the_phases(tally, size, patience
 def test_after_a_worker_has_left_fewer_are_asked(taichi_cpu):
     from tehl_taichi.engine import workers
 
-    team, asked = workers.Team(2), []
+    team, asked, before = workers.Team(2), [], workers.crowding()
     team.size = 2
 
     def launch():
@@ -72,4 +71,5 @@ def test_after_a_worker_has_left_fewer_are_asked(taichi_cpu):
 
     for _ in range(18):
         team.run(launch)
-    assert asked == [2, 1, 1, 1, 1, 2] + [1] * 8 + [2, 2, 2, 2] and team.left == 2
+    assert asked == [2, 1, 1, 1, 1, 2] + [1] * 8 + [2, 2, 2, 2]
+    assert (workers.crowding() - before).tolist() == [18, 14]

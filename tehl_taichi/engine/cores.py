@@ -6,10 +6,11 @@ import os
 from pathlib import Path
 
 GROUPS = Path("/sys/fs/cgroup")
+OWN = Path("/proc/self/cgroup")
 TASKS = Path("/proc/self/task")
 
 
-def available(groups=GROUPS, own=Path("/proc/self/cgroup")):
+def available(groups=None, own=None):
     """Number of cores that this process may use: by its affinity, and by the quota of its control group (containers, batch
     systems), at least 1."""
     return max(1, math.floor(min(len(allowed()), quota(groups, own))))
@@ -22,9 +23,9 @@ def allowed():
     return list(range(os.cpu_count() or 1))
 
 
-def quota(groups=GROUPS, own=Path("/proc/self/cgroup")):
+def quota(groups=None, own=None):
     """Cores that the control groups of this process grant it; infinite where they set no limit, or are out of sight."""
-    return min(map(_granted, _groups(groups, own)), default=math.inf)
+    return min(map(_granted, _groups(groups or GROUPS, own or OWN)), default=math.inf)
 
 
 def _groups(groups, own):

@@ -5,7 +5,7 @@ rows at once: range reduction by powers of two, then a polynomial (Hart, Compute
 by Estrin's scheme: Horner's is one long chain, which the loops over nodes would wait for (laws of a film 1.5 times slower).
 """
 
-import taichi as ti
+from tehl_taichi.engine.language import ti
 
 LOG2E = 1.4426950408889634
 LN2_HIGH, LN2_LOW = 0.693147180369123816490, 1.90821492927058770002e-10

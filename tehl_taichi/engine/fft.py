@@ -9,7 +9,8 @@ ms for 65 rows of 512).
 import math
 
 import numpy as np
-import taichi as ti
+
+from tehl_taichi.engine.language import ti
 
 ODD = (3, 5)
 LAST = 8  # code of a pass of radix 4 without twiddle factors, the last one

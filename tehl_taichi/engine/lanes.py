@@ -9,7 +9,7 @@ Kernels of the linear solve are written once for both precisions: their numbers 
 :func:`L`, and arrays without a type take that of what is handed over.
 """
 
-import taichi as ti
+from tehl_taichi.engine.language import ti
 
 # first columns of a table of grids, which loops over a grid read; further ones belong to who makes the table
 OFF = 0  # first column of the grid in the tables
@@ -132,18 +132,6 @@ def lanes_out(values: ti.template(), q, v):
         values[q * W + u] = v[u]
 
 
-@ti.func
-def rows_in(values: ti.template(), first, step, i):
-    """Column i of W rows of a flat array, `step` numbers apart from `first` on."""
-    return ti.Vector([values[first + u * step + i] for u in ti.static(range(W))])
-
-
-@ti.func
-def rows_out(values: ti.template(), first, step, i, v):
-    for u in ti.static(range(W)):
-        values[first + u * step + i] = v[u]
-
-
 @ti.kernel
 def put(S: ti.template(), G: Table, l: ti.i32, row: ti.i32, values: Table, alone: ti.template()):
     """S[row] of level l from values (ny+1, nx+1); ghosts repeat the last row."""
@@ -168,6 +156,14 @@ def get(S: ti.template(), G: Table, l: ti.i32, row: ti.i32, values: Table, alone
             for u in ti.static(range(W)):
                 if s * W + u <= ny:
                     values[s * W + u, i] = v[u]
+
+
+@ti.kernel
+def fill(field: ti.template(), row: ti.i32, first: ti.i32, values: LinearTable):
+    """field[row, first ...] = values (entries, lanes)."""
+    for n in range(values.shape[0]):
+        for u in ti.static(range(field.n)):
+            field[row, first + n][u] = values[n, u]
 
 
 @ti.kernel

@@ -11,9 +11,8 @@ import json
 import os
 import tempfile
 
-import pyfftw
-
 from tehl_taichi.engine import runtime
+from tehl_taichi.engine.fftw import pyfftw
 
 WORTH_MEASURING = 16000  # numbers; 65 x 512 of them take 0.2 s
 

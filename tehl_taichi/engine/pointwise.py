@@ -44,7 +44,7 @@ def unrolled(function):
 
 
 def _compiled(function):
-    import taichi as ti
+    from tehl_taichi.engine.language import ti
 
     first = next(iter(inspect.signature(function).parameters))
     function.__annotations__[first] = ti.template()

@@ -4,7 +4,8 @@ Bound launches hold arrays by address, so that numbers may change from step to s
 """
 
 import numpy as np
-import taichi as ti
+
+from tehl_taichi.engine.language import ti
 
 
 class Record:

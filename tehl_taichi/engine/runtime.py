@@ -58,7 +58,7 @@ def _borrowed(wanted):
 
 
 def _give_up(folder):
-    import taichi as ti
+    from tehl_taichi.engine.language import ti
 
     ti.reset()  # it writes what it compiled
     shutil.rmtree(folder, ignore_errors=True)
@@ -91,7 +91,7 @@ def start(arch="cpu", threads=None):
 def _start(arch, threads):
     global _home
     cache = str(cache_dir())
-    import taichi as ti
+    from tehl_taichi.engine.language import ti
 
     with _no_banner(), contextlib.redirect_stdout(None), cores.pinned(threads):  # in a notebook prints do not go to file 1
         ti.init(arch=ti.cpu, default_fp=ti.f64, fast_math=False, cpu_max_num_threads=threads, log_level=ti.ERROR,
@@ -100,23 +100,8 @@ def _start(arch, threads):
                 # Taichi would run loops of up to 512 rows on one thread: our loops run over rows of that number
                 make_cpu_multithreading_loop=False,
                 offline_cache=True, offline_cache_file_path=cache)
-    _trace_without_positions()
     _started.update(arch=arch, threads=threads, taichi=".".join(map(str, ti.__version__)), cache=cache)
     _home = os.getpid(), threading.get_ident()
-
-
-def _trace_without_positions():
-    """Taichi notes the source line of every node it traces, half of the start of a large kernel (Findley search 2.9 s ->
-    1.2 s), for messages that only developers see: TEHL_DEBUG=1 keeps them."""
-    if os.environ.get("TEHL_DEBUG"):
-        return
-    try:
-        from taichi.lang.ast.ast_transformer_utils import ASTTransformerContext
-
-        assert callable(ASTTransformerContext.get_pos_info)
-    except (ImportError, AttributeError):
-        return
-    ASTTransformerContext.get_pos_info = lambda context, node: ""
 
 
 def ensure():

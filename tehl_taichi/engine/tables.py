@@ -30,7 +30,7 @@ def lease(owner, rows, lanes, columns, slots=0, precision="f64", clean=True):
         if clean:
             field.fill(0.0)
         return field
-    import taichi as ti
+    from tehl_taichi.engine.language import ti
 
     capacity = SMALLEST_TABLE
     while capacity + SKEW < columns:

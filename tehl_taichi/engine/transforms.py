@@ -2,8 +2,8 @@
 
 
 import numpy as np
-import pyfftw
 
+from tehl_taichi.engine.fftw import pyfftw
 from tehl_taichi.engine.lanes import W
 from tehl_taichi.engine.plans import plan
 

@@ -8,9 +8,9 @@ sums are added in their order: the bits are the same for any number of workers.
 """
 
 import numpy as np
-import taichi as ti
 
 from tehl_taichi.engine import cores, runtime
+from tehl_taichi.engine.language import ti
 
 JOB_BITS, PHASE_BITS = 20, 10  # of a ticket
 NO_PHASE = (1 << PHASE_BITS) - 1  # behind the last phase: everybody leaves
@@ -62,6 +62,15 @@ def waited(sync: ti.template(), ticket):
     return polls < patience
 
 
+_launches = np.zeros(2, int)  # of teams of several, and those of them that fewer finished
+
+
+def crowding():
+    """Launches by several workers in this process so far, and how many of them fewer finished, or were asked to, because one
+    had lost its core to somebody else: an array of two."""
+    return _launches.copy()
+
+
 class Team:
     """Number of workers from launch to launch, at most `largest` and the threads of the engine; `sync` is what kernels take."""
 
@@ -71,17 +80,18 @@ class Team:
         shift = -memory.ctypes.data // 8 % 8  # cache lines have 64 bytes
         self.sync = memory[shift : shift + 64]
         self.sync[PATIENCE] = patience
-        self.alone, self.pause, self.left = 0, FIRST_PAUSE, 0
+        self.alone, self.pause = 0, FIRST_PAUSE
 
     def run(self, launch, phase=0):
         """Launch from `phase` on. After a launch that a worker has left, the next ones have one worker: each time more."""
         self.sync[[TICKET, DONE, LEFT]] = phase << JOB_BITS, 0, 0
         self.sync[COUNT] = 1 if self.alone else self.size
         launch()
+        if self.size > 1:
+            _launches[:] += 1, self.alone > 0 or self.sync[LEFT] > 0
         if self.alone:
             self.alone -= 1
         elif self.sync[LEFT]:
-            self.left += 1
             self.alone, self.pause = self.pause, min(2 * self.pause, LONGEST_PAUSE)
         else:
             self.pause = FIRST_PAUSE

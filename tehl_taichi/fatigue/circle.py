@@ -1,6 +1,6 @@
 """Smallest circle around a path of points in a plane, exact, by pivoting (Gaertner 1999)."""
 
-import taichi as ti
+from tehl_taichi.engine.language import ti
 
 PIVOTS = 60   # farthest points added to a circle at most (about 4 are usual)
 INSIDE = 1e-12

@@ -8,8 +8,8 @@ drawn about any centre. About the centre that belongs to the best plane so far (
 bound is nearly the value itself, and only planes that are really better are evaluated exactly.
 """
 
-import taichi as ti
 
+from tehl_taichi.engine.language import ti
 from tehl_taichi.fatigue.circle import enclose, vec3
 
 FIRST = 4     # halvings of the step done for every peak; the others only for peaks within CLOSE of the best by then

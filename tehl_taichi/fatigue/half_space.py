@@ -4,8 +4,8 @@
 import copy
 
 import numpy as np
-import pyfftw
 
+from tehl_taichi.engine.fftw import pyfftw
 from tehl_taichi.engine.transforms import even_fast_length
 from tehl_taichi.fatigue import rectangle
 

@@ -4,11 +4,14 @@ The same rectangles and strips as :mod:`tehl_taichi.fatigue.half_space`, so the 
 fiftieth of the work on 64 rows, since only transforms along x are left and each wave is a product of matrices.
 """
 
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 
 from tehl_taichi.engine.transforms import even_fast_length
 from tehl_taichi.fatigue import rectangle
 from tehl_taichi.fatigue.half_space import spacing
+from tehl_taichi.fatigue.thermal_stress import WORKERS
 
 LOADS = (rectangle.pressure_at_depth, rectangle.shear_x_at_depth, rectangle.shear_y_at_depth)
 SURFACE = (rectangle.pressure_coefficients, rectangle.shear_x_coefficients, rectangle.shear_y_coefficients)
@@ -29,7 +32,8 @@ class RowStress:
         self.strips = np.stack([self._strips(lags, z) for z in depths], axis=1) if line else None
         self.rows = None
         if self.y.size > 1:
-            self.rows = np.concatenate([self._rectangles(lags, z, row, mirrored) for z in depths], axis=2)
+            with ThreadPoolExecutor(WORKERS) as pool:
+                self.rows = np.concatenate(list(pool.map(lambda z: self._rectangles(lags, z, row, mirrored), depths)), axis=2)
 
     def __call__(self, p, qx, qy):
         """(entries, depths, nx+1, 6) Pa from loads (entries, nx+1, ny+1) Pa."""

@@ -81,9 +81,14 @@ class ThermalBelow(Heated):
     def _responses(self, depth):
         """(cut, (4, waves, size)): transforms in time of ss, tt, zz and sz of some waves (without their way back)."""
         reached = np.flatnonzero(self.k * depth < REACH)
-        for start in range(0, reached.size, CHUNK):
-            cut = reached[start : start + CHUNK]
-            yield cut, self._kernels(self.k[cut, None], self._angle[cut, None], depth) * self.passed[cut]
+        cuts = [reached[start : start + CHUNK] for start in range(0, reached.size, CHUNK)]
+        with ThreadPoolExecutor(WORKERS) as pool:
+            for first in range(0, len(cuts), WORKERS):  # not more of them at once: there may be 100, of 8 MB each
+                some = cuts[first : first + WORKERS]
+                yield from zip(some, pool.map(lambda cut: self._response(cut, depth), some))
+
+    def _response(self, cut, depth):
+        return self._kernels(self.k[cut, None], self._angle[cut, None], depth) * self.passed[cut]
 
     def _kernels(self, k, angle, depth):
         """(4, waves, size): what temperatures, linear over a step in the frame of the contact, do from then on; within the
@@ -157,6 +162,6 @@ def _means(angle, low, high):
 
 
 def _fast(n):
-    import pyfftw
+    from tehl_taichi.engine.fftw import pyfftw
 
     return pyfftw.next_fast_len(n)

@@ -50,7 +50,7 @@ class Waves:
     """Wave numbers of fields on `columns` x `rows` nodes, even about the first row (mirrored) or padded with zeros."""
 
     def __init__(self, columns, rows, dx, dy, mirrored):
-        import pyfftw
+        from tehl_taichi.engine.fftw import pyfftw
 
         self.columns, self.rows, self.mirrored = columns, rows, mirrored
         self.nx = pyfftw.next_fast_len(2 * columns)

@@ -2,10 +2,9 @@
 
 import numpy as np
 
+from tehl_taichi.figures import palette
 from tehl_taichi.flank.columns import dig
-from tehl_taichi.io.figures import pyplot
 
-DEDENDUM = "0.93"  # grey
 # panel: label, factor, {legend: keys in the summary}; "p_H" is the Hertz pressure
 PANELS = (("film (µm)", 1e6, {"steady, centre": ("steady", "h_c_m"), "steady, least": ("steady", "h_min_m"),
                               "least while the feature passes": ("transient", "h_min_m")}),
@@ -21,29 +20,31 @@ PANELS = (("film (µm)", 1e6, {"steady, centre": ("steady", "h_c_m"), "steady, l
 LAST = 5  # panels: friction and slip fill up what a steady or isothermal flank leaves free
 
 
-def write(flank, path, dpi):
-    """Write the figure of a Flank; returns the path."""
-    plt = pyplot()
+def write(flank, path, page):
+    """Write the figure of a Flank, as the :class:`Page` wants it; returns the path."""
+    page, path = page.of_file(path)
+    return page.save(lambda: _drawn(page, flank), path)
+
+
+def _drawn(page, flank):
     shown = [panel for panel in PANELS if any(_series(flank, what) for what in panel[2].values())][:LAST]
-    figure, axes = plt.subplots(len(shown), 1, sharex=True, figsize=(8, 2.2 * len(shown) + 0.8), constrained_layout=True)
-    for ax, (label, factor, lines) in zip(np.atleast_1d(axes), shown):
+    figure, axes = page.figure(len(shown), sharex=True)
+    for ax, (label, factor, lines) in zip(axes[:, 0], shown):
         _panel(ax, flank, label, factor, lines)
-    _marks(np.atleast_1d(axes), flank)
-    np.atleast_1d(axes)[-1].set_xlabel("x_pl, along the line of action from the pitch point (mm)")
-    np.atleast_1d(axes)[0].set_title(flank.title)
-    figure.savefig(path, dpi=dpi)
-    plt.close(figure)
-    return path
+    _marks(axes[:, 0], flank)
+    axes[-1, 0].set_xlabel("x_pl, along the line of action from the pitch point (mm)")
+    page.title(figure, flank.title)
+    return figure
 
 
 def _panel(ax, flank, label, factor, lines):
     for n, (name, what) in enumerate(lines.items()):
         if series := _series(flank, what):
             x, y = np.array(series).T
-            ax.plot(x * 1e3, y * factor, ".-", color=f"C{n}", ms=5, lw=1.3, label=name)
+            ax.plot(x * 1e3, y * factor, ".-", color=palette.LINES[n], label=name)
     ax.set_ylabel(label)
-    ax.grid(alpha=0.25)
-    ax.legend(frameon=False, fontsize=8)
+    ax.grid()
+    ax.legend()
 
 
 def _series(flank, what):
@@ -66,11 +67,11 @@ def _marks(axes, flank):
     shown = {name: x * 1e3 for name, x in points.items() if low <= x * 1e3 <= high}
     for ax in axes:
         if low < 0:
-            ax.axvspan(low, min(0.0, high), color=DEDENDUM, zorder=-2)
+            ax.axvspan(low, min(0.0, high), color=palette.SHADE, zorder=-2)
         for x in shown.values():
-            ax.axvline(x, color="0.6", lw=0.8, ls=":", zorder=-1)
+            ax.axvline(x, color=palette.GREY, lw=0.8, ls=":", zorder=-1)
         ax.set_xlim(low, high)
-    small = dict(fontsize=8, color="0.4", xycoords=("data", "axes fraction"), textcoords="offset points")
+    small = dict(fontsize="small", color=palette.GREY, xycoords=("data", "axes fraction"), textcoords="offset points")
     for name, x in shown.items():
         axes[0].annotate(name, (x, 1), xytext=(3, -11), **small)
     if low < 0 < high:

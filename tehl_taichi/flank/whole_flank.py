@@ -104,11 +104,16 @@ class Flank:
         columns.write_csv(paths[1], self.rows)
         return list(paths)
 
-    def plot(self, path=None, dpi=160):
-        """The figure (default: flank.png in the folder); returns its path. Raises StoreError without matplotlib."""
+    def plot(self, path: str | PathLike | None = None, dpi: int = 160, format: str = "png", width: float = 17.0) -> Path:
+        """The figure (default: flank.png in the folder, or flank.pdf, flank.svg); returns its path.
+
+        dpi, format (where the path has no suffix that tells it), width: as :meth:`Run.plot`. Raises SceneError, or StoreError
+        without matplotlib.
+        """
+        from tehl_taichi.figures.page import Page
         from tehl_taichi.flank import flank_figure
 
-        return flank_figure.write(self, Path(path or self.folder / "flank.png"), dpi)
+        return flank_figure.write(self, path or self.folder / "flank", Page(format, dpi, width))
 
     def __repr__(self):
         done = len(self.positions) - len(self.failed)

@@ -1,6 +1,6 @@
 """A small full system of equations for each lane of a column: X[c, n nz + m] the matrix, X[c, nz nz + n] the right side."""
 
-import taichi as ti
+from tehl_taichi.engine.language import ti
 
 
 @ti.func

@@ -4,10 +4,10 @@ In time along the paths of the oil (BDF2); through the film implicit, conduction
 of the bodies) and the flow through the moving nodes in one Newton system per column.
 """
 
-import taichi as ti
 
 from tehl_taichi.engine.elementary import log
 from tehl_taichi.engine.lanes import Flat, Table, V, W, cells, place, tile, tiles
+from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
 from tehl_taichi.heat.elimination import eliminate
 from tehl_taichi.heat.film import column, couette, node_laws

@@ -8,10 +8,10 @@ and b what the shear law leaves of the viscosity: u = u_a - u_s int_0 dzeta/eta 
 / b. Integrals over zeta: N, see :mod:`tehl_taichi.heat.nodes`.
 """
 
-import taichi as ti
 
 from tehl_taichi.engine.elementary import exp, log
 from tehl_taichi.engine.lanes import Flat, Table, V, cells, place, tile, tiles
+from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
 from tehl_taichi.heat.nodes import Nodes, beyond, integral, weight, zeta
 from tehl_taichi.heat.slots import KINDS, MS, MX, MY, NIE, NRHO, TAU, VY, XA, XB, YA, YB, T, U

@@ -1,7 +1,7 @@
 """What kernels read of the nodes across the film: the table of :class:`tehl_taichi.heat.across.Across`, N."""
 
-import taichi as ti
 
+from tehl_taichi.engine.language import ti
 from tehl_taichi.heat.across import BEYOND, INTEGRAL, MATRICES, SECOND, SLOPE, WEIGHT, ZETA
 
 Nodes = ti.types.ndarray(dtype=ti.f64, ndim=2)

@@ -1,8 +1,8 @@
 """Where the oil of a film came from: values one and two steps ago at the departure points of its nodes."""
 
-import taichi as ti
 
 from tehl_taichi.engine.lanes import Flat, Table, V, W, cells, place, tile, tiles
+from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
 from tehl_taichi.heat.slots import KINDS, MS, MSN, MSNN, PN, PNN, PS, TN, TNN, TS, VY, T, U, slots_around
 from tehl_taichi.heat.step import Step

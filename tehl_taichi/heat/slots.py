@@ -5,10 +5,10 @@ or one of the column.
 """
 
 import numpy as np
-import taichi as ti
 
 from tehl_taichi.engine import tables
 from tehl_taichi.engine.lanes import Table, V, W, cells
+from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.launches import Carriers, bind
 
 # nz numbers each from T on, then the single ones

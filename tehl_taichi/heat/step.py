@@ -1,6 +1,6 @@
 """Numbers of a time step that the kernels of the energy equation take (see :mod:`tehl_taichi.engine.records`)."""
 
-import taichi as ti
+from tehl_taichi.engine.language import ti
 
 
 @ti.dataclass

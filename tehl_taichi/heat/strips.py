@@ -5,9 +5,9 @@ the new step; one scratch slot. A column belongs to a material strip, which the 
 a rest (Drift).
 """
 
-import taichi as ti
 
 from tehl_taichi.engine.lanes import Flat, Table, V, W, cells
+from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
 from tehl_taichi.heat.paths import cubic
 from tehl_taichi.heat.step import Drift

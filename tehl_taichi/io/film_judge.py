@@ -3,12 +3,12 @@ that give their sentences."""
 
 import numpy as np
 
-from tehl_taichi.march.peaks import peak, ripple, unresolved_peak
+from tehl_taichi.march import readings
+from tehl_taichi.march.peaks import ripple, sharpest
 from tehl_taichi.scene.scales import Scales
 
 MOST_FRICTION = 0.2  # of a film: no oil is known to bear more than about 0.12 of the pressure, traction fluids included
 MOST_RIPPLE = 0.005  # of the largest pressure: a tenth of what a passing feature changes, ten times what resolved passages show
-MOMENTS = 24  # of a passage that are looked at
 
 
 def friction(store, summary):
@@ -27,36 +27,47 @@ def unresolved(store, summary):
     """Of the steady state, and of the moment with the largest pressure of the passage."""
     for n in dict.fromkeys((0, int(np.argmax(store.scalar("p_max_Pa"))))):
         p = store.fields(n, ("pressure",))["pressure"]
-        if unresolved_peak(p):
-            yield f"{_where(store, n, p)} is one to two cells wide{_because(store, p)}"
+        height, i = sharpest(p)
+        if height >= 1.0:  # of lower peaks the bars tell, which they leave unknown
+            yield (readings.EXIT if store.x[i] > 0 else "") + _where(store, n, p, i) + _because(store, i)
 
 
-def _where(store, n, p):
+def _where(store, n, p, i):
     a = Scales.of(store.scene).a
     when = f"of the passage (feature at {store.feature_x(n) / a:.2f} a)" if n else "of the steady state"
-    return f"p_max {p.max() / 1e9:.2f} GPa {when}, at X = {store.x[peak(p)[0]] / a:.2f},"
+    return f"p_max {p.max() / 1e9:.2f} GPa {when}, at X = {store.x[i] / a:.2f}, is one to a few cells wide"
 
 
-def _because(store, p):
+def _because(store, i):
     """At the outlet the frozen film ends in a free edge: an inverse square root, which only a shear limit makes finite."""
-    scene, at_outlet = store.scene, store.x[peak(p)[0]] > 0
-    if not at_outlet or scene.shear_law.thins:
-        return ": not resolved; take a finer grid"
-    advice = ("without slip no shear limit acts, and there is no finite value" if scene.operation.u_s == 0 else
-              "oil without a shear limit has no finite value there; take a limiting law (rheology.law)")
-    return f" and grows like 1/sqrt(cell): not resolved; {advice}"
+    return f" and grows like 1/sqrt(cell); {_no_value(store.scene)}" if store.x[i] > 0 and _endless(store.scene) else (
+        "; take a finer grid")
+
+
+def _endless(scene):
+    """Whether nothing bounds the pressure at a free edge of frozen oil."""
+    return scene.isothermal and not scene.shear_law.thins
+
+
+def _no_value(scene):
+    return ("without slip no shear limit acts, and there is no finite value" if scene.operation.u_s == 0 else
+            "oil without a shear limit has no finite value here; take temperatures or a limiting law (rheology.law)")
+
+
+def worst_ripple(store, entries):
+    """((Pa, node), entry) of the largest :func:`tehl_taichi.march.peaks.ripple` of the pressure among these entries."""
+    return max((ripple(store.fields(n, ("pressure",))["pressure"]), n) for n in entries)
 
 
 def ripples(store, summary):
-    """From node to node along x, at some moments."""
-    worst, at, largest = 0.0, 0, float(store.scalar("p_max_Pa").max())
-    for n in np.unique(np.linspace(0, len(store) - 1, MOMENTS).astype(int)):
-        size = ripple(store.fields(int(n), ("pressure",))["pressure"])
-        worst, at = max((worst, at), (size, int(n)))
-    if worst > MOST_RIPPLE * largest:
-        where = f" (feature at {store.feature_x(at) / Scales.of(store.scene).a:.2f} a)" if at else ""
-        yield (f"the pressure ripples from node to node along x by up to {worst / 1e9:.3f} GPa{where}: the "
-               "grid's shortest wave, not a result; try another time.courant or a finer grid")
+    """From node to node along x, at any moment."""
+    (size, i), n = worst_ripple(store, range(len(store)))
+    if size > MOST_RIPPLE * float(store.scalar("p_max_Pa").max()):
+        a, at_edge = Scales.of(store.scene).a, store.x[i] > 0 and _endless(store.scene)
+        when = f"feature at {store.feature_x(n) / a:.2f} a, " if n else ""
+        yield ((readings.EXIT if at_edge else "") + "the pressure ripples from node to node along x by up to "
+               f"{size / 1e9:.3f} GPa ({when}X = {store.x[i] / a:.2f}): the grid's shortest wave, not a result; "
+               + (_no_value(store.scene) if at_edge else "try another time.courant or a finer grid"))
 
 
 CHECKS = (friction, unresolved, ripples)

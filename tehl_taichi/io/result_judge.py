@@ -6,6 +6,8 @@ from tehl_taichi.io import film_judge
 from tehl_taichi.physics import conduction
 from tehl_taichi.physics.law import beyond
 
+CROWDED = 0.1  # of the launches; a machine of one's own loses a core for a moment now and then, which costs nothing to speak of
+
 
 def warnings(store, summary):
     """All warnings of a run, without repetition. store: of the run; summary: its numbers so far (see io.summary)."""
@@ -34,6 +36,15 @@ def held_temperatures(store, summary):
     return [f"temperatures were held inside the allowed range at {held} nodes"] if held else []
 
 
+def crowded(store, summary):
+    """Linear solves that fell back to one worker because others used the cores of the run."""
+    done, fewer = summary.get("crowding", (0, 0))
+    if fewer <= CROWDED * done:
+        return []
+    return [f"something else used the cores of this run: {fewer} of {done} launches of linear solves went on with one worker, "
+            "to the same results, but later; fewer threads leave the others their cores"]
+
+
 def unknown_errors(store, summary):
     """Numbers of which no error can be told, with the reason; one sentence for all that share it."""
     for part, when in (("steady", "steady "), ("transient", "passage "), ("fatigue", "")):
@@ -60,4 +71,4 @@ def worst_below(store, summary):
 
 
 # functions of (store, summary) that give their sentences
-CHECKS = (worst_below, *film_judge.CHECKS, beyond_measured, held_temperatures, unknown_errors)
+CHECKS = (worst_below, *film_judge.CHECKS, beyond_measured, held_temperatures, unknown_errors, crowded)

@@ -100,7 +100,7 @@ def _merge_contact(base, given):
 def dumps(description):
     """TOML text of a scene, every value written out with unit, range and meaning; reading it back gives an equal scene."""
     data = description.to_dict()
-    lines = [HEADER, f"name = {_value(data['name'])}", ""]
+    lines = [HEADER, f"name = {toml_value(data['name'])}", ""]
     for key in ("contact", "bodies.a", "bodies.b", "operation", "oil", "rheology"):
         table, kind = (data["bodies"][key[-1]], Body) if key in CARRIES else (data[key], {**SECTIONS, "oil": Oil}[key])
         lines += _table(f"[{key}]", table, kind, CARRIES.get(key, ""))
@@ -116,18 +116,19 @@ def _table(head, values, kind, first=""):
     """The lines of a section, commented from its declarations (see tehl_taichi.values.quantity)."""
     lines, comments = [head], [first + (kind.__doc__ or "").partition("\n")[0]]
     for key, declared in kinds(kind).items():
-        lines.append(f"{key} = {_value(values[key])}")
+        lines.append(f"{key} = {toml_value(values[key])}")
         comments.append(declared.sentence)
     return [f"{line:<{COLUMN}}  # {comment}" for line, comment in zip(lines, comments)] + [""]
 
 
-def _value(value):
+def toml_value(value):
+    """A value of a scene as TOML has it."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")  # JSON's escapes are TOML's
     if isinstance(value, (tuple, list)):
-        return "[" + ", ".join(_value(v) for v in value) + "]"
+        return "[" + ", ".join(toml_value(v) for v in value) + "]"
     if isinstance(value, float) and math.isinf(value):
         return "inf" if value > 0 else "-inf"
     if isinstance(value, float) and float(f"{value:g}") == value:

@@ -4,6 +4,7 @@ import numpy as np
 
 from tehl_taichi import __version__
 from tehl_taichi.io import result_judge
+from tehl_taichi.io.film_judge import worst_ripple
 from tehl_taichi.march.readings import HEAT
 from tehl_taichi.physics import conduction
 from tehl_taichi.physics.law import beyond
@@ -12,7 +13,8 @@ from tehl_taichi.scene.scales import Scales
 
 
 def summarise(store, extra, fatigue=None):
-    """Summary dictionary. extra: wall_s, compile_s (kernels traced, compiled or loaded), steady_error and steady_unknown (see
+    """Summary dictionary. extra: wall_s, compile_s (kernels traced, compiled or loaded), crowding (see
+    :func:`tehl_taichi.engine.workers.crowding`, here of this run; optional), steady_error and steady_unknown (see
     :class:`tehl_taichi.march.snapshot.Snapshot`), passage_error and passage_unknown alike; fatigue: its own dictionary or
     None."""
     scene = store.scene
@@ -30,9 +32,17 @@ def summarise(store, extra, fatigue=None):
         out[part]["error"] = {name: extra.get("passage_error", {}).get(name) for name in names}
         out[part]["unknown"] = {name: why for name, why in extra.get("passage_unknown", {}).items() if name in names}
     out["work"] = _work(store)
+    out["crowding"] = extra.get("crowding", [0, 0])
     out["clamps"] = _clamps(store)
     out["warnings"] = result_judge.warnings(store, out)
     return out
+
+
+def so_far(store):
+    """What is known of a run without a summary, as JSON has it: it is not finished, or being written at this moment."""
+    return {"scene": store.scene.name, "version": store.attrs["version"], "store": str(store.path), "finished": False,
+            "written_by": store.writer, "steps": store.last_step, **counts(store), "left_out": store.scene.left_out(),
+            "warnings": store.warnings}
 
 
 def counts(store):
@@ -59,7 +69,7 @@ def _steady(store, extra):
     names = ["h_c_m", "h_min_m", "p_max_Pa", "load_error", "mass_error", "friction_coefficient"]
     names += [] if store.scene.isothermal else HEAT
     out = {name: float(store.scalar(name)[0]) for name in names}
-    out["film_formula_m"] = central_film(store.scene)
+    out["film_formula_m"], out["ripple_Pa"] = central_film(store.scene), worst_ripple(store, [0])[0][0]
     out["error"], out["unknown"] = extra["steady_error"], extra.get("steady_unknown", {})
     return out
 
@@ -76,6 +86,7 @@ def _transient(store):
 
     heat = {} if store.scene.isothermal else {name: largest(name) for name in (*HEAT, "temperature_change_K")}
     return {**heat, "p_max_Pa": largest("p_max_Pa"), "h_min_m": float(np.min(store.scalar("h_min_m")[1:])),
+            "ripple_max_Pa": worst_ripple(store, range(1, len(store)))[0][0],
             "contact_load_fraction_max": largest("contact_load_fraction"), "load_error_max": largest("load_error"),
             "mass_error_max": largest("mass_error"), "residual_max": largest("residual"), "dt_s": largest("dt_s"),
             "friction_coefficient_mean": float(np.average(store.scalar("friction_coefficient")[1:], weights=_steps_of(store)))}

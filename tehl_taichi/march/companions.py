@@ -21,6 +21,7 @@ from tehl_taichi.engine import cores, runtime
 from tehl_taichi.errors import Error
 from tehl_taichi.march import readings
 from tehl_taichi.march.error_bars import Reading, bars
+from tehl_taichi.march.peaks import sharpest
 
 COMPANIONS = 2  # with the run itself three grids; 1/8 and 1/64 of its cells and steps
 WORTH = 3e5  # nodes times steps of a run: below, a companion's process takes longer to start than the run takes
@@ -56,9 +57,9 @@ def passage_readings(scene, reader, scalar, fatigue=None):
            "friction_coefficient_mean": Reading(float(np.mean(scalar("friction_coefficient")[1:])))}
     out |= {"Fi_max": Reading(float(fatigue["Fi_max"]))} if fatigue else {}
     # a peak that the grid does not resolve at some moment: neither its pressure is known nor what it does to oil and steel
-    spike = max(readings.sharpest(reader.fields(n, ("pressure",))["pressure"], p.max()) for n in range(1, len(p) + 1))
-    doubted = [name for name in ("p_max_Pa", "film_max_C", "Fi_max") if spike and name in out]
-    return out | {name: replace(out[name], doubt=readings.SPIKE.format(spike)) for name in doubted}
+    spike = max(sharpest(reader.fields(n, ("pressure",))["pressure"], p.max()) for n in range(1, len(p) + 1))
+    why = readings.doubt(reader.x, *spike)
+    return out | {name: replace(out[name], doubt=why) for name in ("p_max_Pa", "film_max_C", "Fi_max") if why and name in out}
 
 
 def values(scene):
@@ -81,17 +82,25 @@ def beside(scene, steps):
     need a core beside the run, and a run that is worth it."""
     asked, nodes = scene.numerics.estimate_error, (scene.grid.nx + 1) * (scene.rows + 1)
     free = cores.available() > 1 and nodes * steps >= WORTH
-    return Companions(scene) if scene.transient and steps >= 1 and (asked is True or asked is not False and free) else Nobody()
+    wanted = scene.transient and steps >= 1 and (asked is True or asked is not False and free)
+    return Companions(scene) if wanted else Nobody(scene)
 
 
 class Nobody(contextlib.nullcontext):
-    """No companions: no error is known, and nobody asked."""
+    """No companions: no error is known, and nobody asked; but what the grid of the run itself does not resolve is said."""
+
+    def __init__(self, scene):
+        self.scene = scene
 
     def __enter__(self):
         return self
 
     def errors(self, reader, fatigue, seconds):
-        return {}
+        """As those of :class:`Companions`: doubts alone, of passages."""
+        if len(reader) < 2:
+            return {}
+        own = passage_readings(self.scene, reader, reader.scalar, fatigue)
+        return {"passage_unknown": {name: reading.doubt for name, reading in own.items() if reading.doubt}}
 
 
 class Companions:

@@ -11,8 +11,6 @@ docs/benchmarks.md.
 import math
 from dataclasses import dataclass
 
-import numpy as np
-
 EVENLY, STEEPEST = 1.5, 3.0  # differences that fall by less from grid to grid show no order, by more no higher one
 # of the error by Richardson's extrapolation, and of the last difference where there is none; the blur of an extreme adds to it
 SAFETY, UNEVEN = {False: 2.0, True: 1.75}, {False: 1.75, True: 1.25}
@@ -22,10 +20,6 @@ ACCIDENT = 1e-3  # of a number, no extreme: two grids may agree by accident
 BLURRED = 1.5  # of the distance between an extreme over nodes and that of the parabola through them
 HOPELESS = 0.5  # a number that changes by more than this part of itself from grid to grid is not resolved
 MOVED = 4.0  # cells of the coarser grid that the place of an extreme may move: more is another extreme
-NARROW = 0.75  # a largest pressure of which less is left two cells away, on the mean of both sides, is not resolved
-# A lower peak grows on finer grids by up to this part of what it loses in two cells: on grids four times as fine 0.86 of the
-# largest with 0.59 of it left there became 1.06, 0.92 with 0.60 1.08, 0.99 with 0.81 1.01; 0.76 with 0.69 stayed
-GROWS, SHARP = 0.5, 0.85
 
 
 @dataclass(frozen=True)
@@ -104,17 +98,3 @@ def beside(profile, i):
     left, middle, right = (float(v) for v in profile[i - 1 : i + 2])
     bend = left - 2 * middle + right
     return (right - left) ** 2 / (8 * abs(bend)) if bend else 0.0
-
-
-def unresolved_peak(P, largest=None):
-    """Height over the largest of the highest peak of P (n,) that leaves the largest unknown, 0 without one: the largest itself
-    where it is narrow, a lower one so sharp that it may overtake it on finer grids.
-
-    largest: that of more moments than this one, whose lower peaks then count where they are narrow (else the largest a moment
-    ago would be its own rival).
-    """
-    sharp, largest = (SHARP, P.max()) if largest is None else (NARROW, largest)
-    top = np.flatnonzero((P[2:-2] > P[1:-3]) & (P[2:-2] >= P[3:-1])) + 2
-    height, left = P[top] / largest, 0.5 * (P[top - 2] + P[top + 2]) / P[top]
-    unknown = np.where(height >= 1.0, left < NARROW, (left < sharp) & (height * (1 + GROWS * (1 - left)) > 1))
-    return float(max(height[unknown], default=0.0))

@@ -5,10 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from tehl_taichi.march.error_bars import Reading, beside, unresolved_peak
+from tehl_taichi.march.error_bars import Reading, beside
+from tehl_taichi.march.peaks import peak, sharpest
 
 HEAT = ("film_max_C", "surface_a_max_C", "surface_b_max_C")
 SPIKE = "a pressure peak of {:.0%} of the largest is only a few cells wide and may grow on finer grids"
+EXIT = "exit not resolved: "  # where the feature, or the oil that it let in, leaves the film
 TOUCH = "the surfaces touch on this grid, which is too coarse for so thin a film"
 
 
@@ -26,15 +28,14 @@ def steady(shot):
 def highest(shot):
     """Reading of the largest pressure of a snapshot, Pa and m."""
     p = shot.fields["pressure"]
-    i, j = np.unravel_index(p.argmax(), p.shape)
-    spike = sharpest(p)
-    return Reading(float(p[i, j]), _between(p, i, j), _place(shot, i), float(shot.x[1] - shot.x[0]),
-                   SPIKE.format(spike) if spike else "")
+    i, j = peak(p)
+    cell, why = float(shot.x[1] - shot.x[0]), doubt(shot.x, *sharpest(p))
+    return Reading(float(p[i, j]), _between(p, i, j), _place(shot, i), cell, why)
 
 
-def sharpest(p, largest=None):
-    """The :func:`unresolved_peak` of a pressure (nx+1, ny+1), on the row through its maximum."""
-    return unresolved_peak(p[:, np.unravel_index(p.argmax(), p.shape)[1]], largest)
+def doubt(x, height, i):
+    """Why a grid with nodes at x cannot know the largest pressure, from :func:`tehl_taichi.march.peaks.sharpest`; or ""."""
+    return (EXIT if x[i] > 0 else "") + SPIKE.format(height) if height else ""
 
 
 def lowest(shot):

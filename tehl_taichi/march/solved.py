@@ -63,7 +63,7 @@ class Solved:
     @functools.cached_property
     def extremes(self):
         """h_c, h_min, p_max."""
-        return scalars(self.solver)
+        return scalars(self.solver.levels, self.P, self.H)
 
     @property
     def H0(self):

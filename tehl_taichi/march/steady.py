@@ -48,7 +48,7 @@ def grid_sequence(nx, ny):
 def solve_steady(scene, scales, nx, ny, look=None):
     """Steady smooth contact on nx x ny cells (ny = 0: line). look(solver, heat, report): what to keep of each grid, by default
     its :func:`scalars`. Returns a SteadyResult; check `report.converged`."""
-    look = look or (lambda solver, heat, report: scalars(solver))
+    look = look or (lambda solver, heat, report: scalars(solver.levels, *map(solver.levels.get, (fields.P, fields.H))))
     P, H0, T, values, work, moving = None, 0.0, None, [], 0, False
     for size in grid_sequence(nx, ny):
         solver = heat = levels = None  # give their tables to the next grid
@@ -103,8 +103,6 @@ def refine(P):
     return out
 
 
-def scalars(solver):
-    """h_c (X = 0, interpolated), h_min and p_max of the state in the table, dimensionless."""
-    v = solver.levels
-    H, P = v.get(fields.H), v.get(fields.P)
-    return {"h_c": float(np.interp(0.0, v.X, H[v.middle])), "h_min": float(H.min()), "p_max": float(P.max())}
+def scalars(levels, P, H):
+    """h_c (X = 0, interpolated), h_min and p_max of pressure and film (ny+1, nx+1) on `levels`, dimensionless."""
+    return {"h_c": float(np.interp(0.0, levels.X, H[levels.middle])), "h_min": float(H.min()), "p_max": float(P.max())}

@@ -3,9 +3,9 @@
 Mobility of the face: log-mean of 1/eta, geometric mean of rho, and of H^3 the :func:`cube`.
 """
 
-import taichi as ti
 
 from tehl_taichi.engine.lanes import V, above, below
+from tehl_taichi.engine.language import ti
 from tehl_taichi.pressure.fields import DLE, DRP, GAP, IE, LE, ROOT, P
 
 

@@ -3,8 +3,8 @@
 import math
 
 import numpy as np
-import taichi as ti
 
+from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import Record
 from tehl_taichi.physics.viscosity import ln_eta
 

@@ -13,10 +13,11 @@ import functools
 import itertools
 
 import numpy as np
-import taichi as ti
 
+from tehl_taichi.engine import lanes
 from tehl_taichi.engine.fft import Lengths, fast_length, transform
 from tehl_taichi.engine.lanes import W
+from tehl_taichi.engine.language import ti
 from tehl_taichi.pressure import influence
 
 GROUP = 8  # waves along x that go along y side by side
@@ -119,6 +120,14 @@ def distribution(shape, levels):
     if ny == 0:
         return Symbols(shape, np.zeros((2, shape.M + 1)), np.zeros((2, shape.M + 1)), A[0], (False, False), False)
     return Symbols(shape, A, A, np.zeros(shape.M + 1), (True, ny == shape.further), False)
+
+
+def prepare(table, symbols, Y, T, lengths, dtype):
+    """Put what the convolutions of a :class:`Layout` need into its `table` and the fields Y and T. symbols: of each."""
+    lanes.fill(T, 0, 0, lengths.twiddles().astype(dtype))
+    for row, one in zip(table, symbols):
+        row[[HALF_FIRST, HALF_LAST, ENDLESS]] = *one.mirrors, one.endless
+        lanes.fill(Y, 0, int(row[SYMBOL]), one.entries().astype(dtype))
 
 
 def waves(coefficients, period):

@@ -8,8 +8,7 @@ basis is stored without being divided by its norms; INVERSE holds these factors.
 
 import itertools
 
-import taichi as ti
-
+from tehl_taichi.engine.language import ti
 from tehl_taichi.pressure.program import BEGIN, BORDER, END, EXTEND, EXTEND_AGAIN, LEAVE, LIFTED, LOOP, PROJECT
 
 CANCELLED = 0.5  # fraction of the norm below which the projection is repeated
@@ -18,6 +17,7 @@ INVERSE, LOADS, MASSES, RISES = (next(_row) for _ in range(4))  # of each vector
 RIGHT, COSINE, SINE, WEIGHTS, COLUMN, SCALARS, TRIANGLE = (next(_row) for _ in range(7))  # TRIANGLE: the first of its rows
 _entry = itertools.count()  # of SCALARS
 COUNT, LOAD, MASS, NORM, BETA, TOLERANCE, LIFT_LOAD, RISE, LEFT = (next(_entry) for _ in range(9))
+PORTION, NEXT = (next(_entry) for _ in range(2))  # iterations of a launch; the phase that the next launch goes on with, or -1
 SQUARE_SUM, MASS_SUM, LOAD_SUM, DOT_SUM = range(4)  # columns of the partial sums; DOT_SUM: the first of those with the basis
 
 
@@ -122,7 +122,8 @@ def extend(N: ti.template(), partial: ti.template(), k, most, once):
 
 @ti.func
 def decide(N: ti.template(), partial: ti.template(), phases: ti.template(), phase, decision, most):
-    """What follows when all jobs of `phase` are done: the next phase, or -1. most: iterations."""
+    """What follows when all jobs of `phase` are done: the next phase, or -1, where NEXT says whether another launch goes on.
+    most: iterations."""
     k, out = ti.cast(N[SCALARS, COUNT], ti.i32), phase + 1
     if decision == BEGIN:
         begin(N, partial)
@@ -135,6 +136,8 @@ def decide(N: ti.template(), partial: ti.template(), phases: ti.template(), phas
         enough = extend(N, partial, k, most, decision == EXTEND)
         if enough >= 0:
             out = phases[phase, LOOP] if enough == 0 else phases[phase, LEAVE]
+            if enough == 0 and (k + 1) % ti.cast(N[SCALARS, PORTION], ti.i32) == 0:
+                N[SCALARS, NEXT], out = out, -1
     elif decision == LIFTED:
         N[SCALARS, LIFT_LOAD] = total(partial, LOAD_SUM)
         out = -1

@@ -3,8 +3,8 @@
 import functools
 
 import numpy as np
-import pyfftw
 
+from tehl_taichi.engine.fftw import pyfftw
 from tehl_taichi.engine.transforms import EvenConvolution, PlainConvolution, block_rows, even_fast_length, wrapped
 from tehl_taichi.pressure import influence
 

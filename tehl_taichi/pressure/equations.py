@@ -1,6 +1,6 @@
 """The discrete equations of a film: its laws, the residual of the Reynolds equation and the Jacobian, on all levels."""
 
-from tehl_taichi.engine.launches import bind
+from tehl_taichi.engine.lanes import W
 from tehl_taichi.pressure import fields, reynolds, transfer
 from tehl_taichi.pressure.levels import HEAVY
 
@@ -17,7 +17,8 @@ class Equations:
         v, rows = levels, film.rows
         self.levels, self.film = levels, film
         self.evaluate = v.launch(reynolds.residual, v.S, v.G, rows.couette)
-        self.inject = bind(transfer.inject, v.S, v.J, v.G, len(v.sizes), fields.STATE + rows.follow)
+        blocks = v.sizes[1][1] // W + 1 if len(v.sizes) > 1 else 0
+        self.inject = v.launch(transfer.inject, v.S, v.J, v.G, len(v.sizes), blocks, fields.STATE + rows.follow, work=HEAVY)
         self._rows, self._rows_coarse = (
             v.launch(reynolds.linearise, v.S, v.J, v.G, v.blocks, *cut, rows.couette, rows.slope, rows.thinning, work=HEAVY)
             for cut in ((0, v.fine), (v.fine, len(v.blocks))))

@@ -4,18 +4,21 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import taichi as ti
 
 from tehl_taichi.engine import lanes, runtime, tables, workers
 from tehl_taichi.engine.fft import Passes
-from tehl_taichi.engine.lanes import LinearFlat, LinearTable, Table
+from tehl_taichi.engine.lanes import LinearFlat, Table
+from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.launches import bind
 from tehl_taichi.pressure import convolution, decisions, fields, phases
 from tehl_taichi.pressure.decisions import SCALARS
 from tehl_taichi.pressure.grids import coarsen, columns, solved_by
 from tehl_taichi.pressure.program import DECISION, FIRST_JOB, JOBS, Program
 
-SMALLEST = 10_000  # entries of the fields X and Y: all grids up to 256x64 share one compiled kernel
+# vectors of lanes that the iterations of one launch go through, each some 0.25 us on one core: while a kernel runs nobody hears
+# Ctrl-C, nor do other threads of Python get on
+PORTION = 500_000
+SMALLEST = 80_000  # entries of the fields X and Y: all grids up to 256x64, and their starts, share one compiled kernel
 
 Numbers = ti.types.ndarray(dtype=ti.i32, ndim=2)
 
@@ -30,14 +33,6 @@ class Memory:
     X: Any
     Y: Any
     T: Any
-
-
-@ti.kernel
-def fill(field: ti.template(), row: ti.i32, first: ti.i32, values: LinearTable):
-    """field[row, first ...] = values (entries, lanes)."""
-    for n in range(values.shape[0]):
-        for u in ti.static(range(field.n)):
-            field[row, first + n][u] = values[n, u]
 
 
 @ti.kernel
@@ -77,6 +72,7 @@ class Krylov:
         self.symbols = [convolution.deflection(shapes[0], levels), *(convolution.distribution(c, levels) for c in shapes[1:])]
         self.right, self.outflow, self.out = (np.zeros(levels.n, levels.linear) for _ in range(3))
         self.numbers = np.zeros((decisions.TRIANGLE + self.most, self.most + 16))
+        self.numbers[SCALARS, decisions.PORTION] = max(1, PORTION // columns(levels.nx, levels.ny))
         self._allocate(convolution.Layout(shapes, dense_entries(levels.sizes, levels.dense), self.team.size))
         self.program = Program(levels, shapes)
         self._bind()
@@ -90,12 +86,9 @@ class Krylov:
                          max(columns(v.nx, v.ny), columns(v.scene.grid.nx, v.scene.rows)), precision=v.precision, clean=False)
         kinds = zip((lanes.W, convolution.GROUP, 2), size)
         self.memory = Memory(v.J, V, *(tables.lease(self, 1, n, count, precision=v.precision) for n, count in kinds))
-        fill(self.memory.T, 0, 0, layout.lengths.twiddles().astype(v.linear))
-        for row, symbols in zip(layout.table, self.symbols):
-            row[[convolution.HALF_FIRST, convolution.HALF_LAST, convolution.ENDLESS]] = *symbols.mirrors, symbols.endless
-            fill(self.memory.Y, 0, int(row[convolution.SYMBOL]), symbols.entries().astype(v.linear))
+        convolution.prepare(layout.table, self.symbols, self.memory.Y, self.memory.T, layout.lengths, v.linear)
         weights = v.vector(fields.WEIGHT).astype(v.linear).reshape(-1, lanes.W)
-        fill(V, phases.LOADING, 0, weights)
+        lanes.fill(V, phases.LOADING, 0, weights)
 
     def _largest(self):
         """Layout of the finest grid of the scene: the smaller ones of a start use the same memory, so that one compiled kernel
@@ -119,7 +112,7 @@ class Krylov:
         whole[np.ix_(place, place)] = inverse
         # [column, lane, from] -> [column, from, lane]
         entries = whole.reshape(-1, lanes.W, size).transpose(0, 2, 1).reshape(-1, lanes.W)
-        fill(self.memory.X, 0, 0, np.ascontiguousarray(entries))
+        lanes.fill(self.memory.X, 0, 0, np.ascontiguousarray(entries))
 
     def lift(self):
         """Take the answer of the preconditioner to a change of H0, for the bordered system."""
@@ -141,7 +134,12 @@ class Krylov:
         return self.out
 
     def _run(self, phase):
-        self.team.run(self._launch, phase)
+        """Launch from `phase` on, as often as it takes."""
+        goes_on = self.numbers[SCALARS]
+        while phase >= 0:
+            goes_on[decisions.NEXT] = -1
+            self.team.run(self._launch, phase)
+            phase = int(goes_on[decisions.NEXT])
 
 
 def dense_entries(sizes, dense):

@@ -4,10 +4,10 @@ Generalised Reynolds equation (Yang & Wen 1990) without an energy equation: oil 
 had what the shear law leaves of that viscosity at the stress of the Couette part.
 """
 
-import taichi as ti
 
 from tehl_taichi.engine.elementary import exp, log
 from tehl_taichi.engine.lanes import Flat, Table, V, W, cells
+from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
 from tehl_taichi.physics.density import rho_ratio
 from tehl_taichi.physics.rheology import secant, sensitivity

@@ -4,9 +4,9 @@ import numpy as np
 
 from tehl_taichi.engine import lanes, runtime, tables
 from tehl_taichi.engine.launches import Carriers, bind
-from tehl_taichi.pressure import balances, fields, precision, reynolds
+from tehl_taichi.pressure import balances, fields, precision
+from tehl_taichi.pressure.bending import Bending
 from tehl_taichi.pressure.conditions import conditions
-from tehl_taichi.pressure.deflection import Deflection
 from tehl_taichi.pressure.grids import Grids, columns, load_weights, table_columns
 from tehl_taichi.pressure.level_numbers import LevelNumbers
 
@@ -29,8 +29,7 @@ class Levels(Grids):
         self.numbers = LevelNumbers(self, self.conditions, scene.rheology.film_floor)
         self.G, self.n = self.numbers.G, columns(nx, ny) * lanes.W
         self._lease_tables()
-        self.deflection, self._carriers = Deflection(*self.deflection_key(0)), Carriers()
-        self._bind()
+        self.bending, self._carriers = Bending(self), Carriers()
         self._set_masks()
 
     def _lease_tables(self):
@@ -40,12 +39,6 @@ class Levels(Grids):
         size = max(table_columns(self.nx, self.ny), _final_columns(self.scene))
         self.S = tables.lease(self, rows, lanes.W, size)
         self.J = tables.lease(self, fields.NROWS_LINEAR, lanes.W, size, precision=self.precision)
-
-    def _bind(self):
-        """Launches of the kernels that this table is used with."""
-        d = self.deflection
-        self._pressure_rows = self.launch(reynolds.pressure_rows, self.S, self.G, d.pressure.ravel(), d.pressure.shape[1])
-        self._set_film = self.launch(reynolds.set_film, self.S, self.G, d.film.ravel(), d.edge, d.film.shape[1])
 
     def _set_masks(self):
         inside = np.zeros((self.ny + 1, self.nx + 1))
@@ -107,9 +100,7 @@ class Levels(Grids):
 
     def set_film(self, H0):
         """H from the pressure in the table and the rigid approach H0."""
-        self._pressure_rows()
-        self.deflection.deflect(H0)
-        self._set_film()
+        self.bending.bend(H0)
 
 
 def _final_columns(scene):

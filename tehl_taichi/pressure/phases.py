@@ -2,9 +2,8 @@
 
 import itertools
 
-import taichi as ti
-
 from tehl_taichi.engine.lanes import L, W, cells, lanes_in, lanes_out
+from tehl_taichi.engine.language import ti
 from tehl_taichi.pressure.convolution import LEVEL, M, along_x, along_y, rows_of_worker
 from tehl_taichi.pressure.decisions import COUNT, DOT_SUM, INVERSE, LOAD_SUM, MASS_SUM, RISE, SCALARS, SQUARE_SUM, WEIGHTS
 from tehl_taichi.pressure.fields import BD, BU, COR, FILM, RES, SCALE, SOL, TRIAL, B

@@ -4,25 +4,9 @@ Conservative five-point Poiseuille part; Couette part third-order upwind-biased,
 time derivative of the newest level, in a frame that may move with the oil. Everything is multiplied by dx.
 """
 
-import taichi as ti
 
-from tehl_taichi.engine.lanes import (
-    Blocks,
-    Flat,
-    L,
-    LinearFlat,
-    Table,
-    V,
-    W,
-    above,
-    below,
-    cells,
-    face_weights,
-    lanes_in,
-    lanes_out,
-    rows_in,
-    rows_out,
-)
+from tehl_taichi.engine.lanes import Blocks, L, LinearFlat, Table, V, W, above, below, cells, face_weights, lanes_in, lanes_out
+from tehl_taichi.engine.language import ti
 from tehl_taichi.pressure.cell_faces import face_above, face_below, face_x, flux_x, net_flux_y
 from tehl_taichi.pressure.couette import couette_weights
 from tehl_taichi.pressure.fields import (
@@ -37,7 +21,6 @@ from tehl_taichi.pressure.fields import (
     FILM,
     FLOOR,
     FRAME,
-    GAP0,
     K0,
     K1,
     MASK,
@@ -51,7 +34,6 @@ from tehl_taichi.pressure.fields import (
     B,
     D,
     H,
-    P,
     R,
 )
 
@@ -174,24 +156,3 @@ def contact_right(S: ti.template(), J: ti.template(), G: Table, right: LinearFla
             k = off + q
             change = ti.select(S[TOUCH, k] > 0.0, -reynolds_row(J, k, n2) / J[SCALE, k], lanes_in(right, q))
             lanes_out(right, q, change)
-
-
-@ti.kernel
-def pressure_rows(S: ti.template(), G: Table, rows: Flat, period: ti.i32, alone: ti.template()):
-    """The rows that the deflection is computed from = P of the finest level."""
-    nx, ny, off = cells(G, 0)
-    ti.loop_config(block_dim=1, serialize=alone)
-    for s in range(ny // W + 1):
-        for i in range(nx + 1):
-            rows_out(rows, s * W * period, period, i, S[P, off + s * (nx + 1) + i])
-
-
-@ti.kernel
-def set_film(S: ti.template(), G: Table, film: Flat, edge: Flat, period: ti.i32, alone: ti.template()):
-    """H = undeformed gap + film + edge (deflection and rigid approach)."""
-    nx, ny, off = cells(G, 0)
-    ti.loop_config(block_dim=1, serialize=alone)
-    for s in range(ny // W + 1):
-        for i in range(nx + 1):
-            k = off + s * (nx + 1) + i
-            S[H, k] = S[GAP0, k] + rows_in(film, s * W * period, period, i) + edge[i]

@@ -1,8 +1,8 @@
 """Shear tractions on both surfaces from the film (isothermal: one viscosity across it) and from solid contact."""
 
-import taichi as ti
 
 from tehl_taichi.engine.lanes import Flat, Table, V, W, cells, place, tile, tiles
+from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
 from tehl_taichi.physics.boundary import boundary_stress
 from tehl_taichi.pressure.conditions import Conditions

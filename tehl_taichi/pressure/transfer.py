@@ -1,8 +1,8 @@
 """Grid transfers between each level and the next coarser one (every second node), block by block."""
 
-import taichi as ti
 
 from tehl_taichi.engine.lanes import L, Table, V, W, cells
+from tehl_taichi.engine.language import ti
 from tehl_taichi.pressure.fields import COR, DRY, JN, KIND, LINES, RES, TOUCH, H, P
 from tehl_taichi.pressure.lines import DRY_KIND, LOCAL, is_kind
 
@@ -21,28 +21,39 @@ def every_second(S: ti.template(), row, k, n2):
     return out
 
 
+@ti.func
+def inject_block(S: ti.template(), J: ti.template(), G: ti.template(), l, t, rows: ti.template()):
+    """The fields `rows` of block t of level l + 1 from level l."""
+    nx, ny, off = cells(G, l)
+    mx, my, coff = cells(G, l + 1)
+    for I in range(mx + 1):
+        c, k = coff + t * (mx + 1) + I, off + 2 * t * (nx + 1) + 2 * I
+        for row in ti.static(rows):
+            S[row, c] = every_second(S, row, k, nx + 1)
+        for u in ti.static(range(W)):
+            if t * W + u >= int(G[l + 1, JN]):
+                S[DRY, c][u] = 1.0
+                S[TOUCH, c][u] = 0.0
+                if t * W + u > my:
+                    S[P, c][u] = 0.0
+                    S[H, c][u] = 1.0
+        J[KIND, c] = ti.select(S[DRY, c] > 0.0, L(J, DRY_KIND), L(J, LOCAL))
+
+
 @ti.kernel
-def inject(S: ti.template(), J: ti.template(), G: Table, levels: ti.i32, rows: ti.template()):
+def inject(S: ti.template(), J: ti.template(), G: Table, levels: ti.i32, blocks: ti.i32, rows: ti.template(),
+           alone: ti.template()):
     """The fields `rows` (state, sets, laws) of every coarser level from the coinciding nodes of the finest; ghosts stay dry.
-    KIND: what is dry, for levels that corrections only pass through."""
+    KIND: what is dry, for levels that corrections only pass through. blocks: of the first coarser level, three quarters of all.
+    """
+    ti.loop_config(block_dim=1, serialize=alone)
+    for t in range(blocks):
+        inject_block(S, J, G, 0, t, rows)
     ti.loop_config(serialize=True)
     for _ in range(1):
-        for l in range(levels - 1):
-            nx, ny, off = cells(G, l)
-            mx, my, coff = cells(G, l + 1)
-            for t in range(my // W + 1):
-                for I in range(mx + 1):
-                    c, k = coff + t * (mx + 1) + I, off + 2 * t * (nx + 1) + 2 * I
-                    for row in ti.static(rows):
-                        S[row, c] = every_second(S, row, k, nx + 1)
-                    for u in ti.static(range(W)):
-                        if t * W + u >= int(G[l + 1, JN]):
-                            S[DRY, c][u] = 1.0
-                            S[TOUCH, c][u] = 0.0
-                            if t * W + u > my:
-                                S[P, c][u] = 0.0
-                                S[H, c][u] = 1.0
-                    J[KIND, c] = ti.select(S[DRY, c] > 0.0, L(J, DRY_KIND), L(J, LOCAL))
+        for l in range(1, levels - 1):
+            for t in range(cells(G, l + 1)[1] // W + 1):
+                inject_block(S, J, G, l, t, rows)
 
 
 @ti.func

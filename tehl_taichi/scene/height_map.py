@@ -5,6 +5,7 @@ feature that was made from it, and a store that holds the heights needs no file.
 """
 
 import hashlib
+import itertools
 import math
 import weakref
 from dataclasses import dataclass
@@ -65,10 +66,23 @@ def _load(path):
                 raise ValueError(f"it holds {values.dtype}, not numbers")
             return values.astype(float)
         if path.suffix in (".csv", ".txt", ".asc"):
-            return np.loadtxt(path, delimiter="," if path.suffix == ".csv" else None, ndmin=2)
+            return _table(path)
     except (ValueError, OSError, EOFError) as error:
         raise SceneError(f"cannot read heights from {path}: {error}") from None
     return _surface_topography(path)
+
+
+def _table(path):
+    """Heights of a text file as instruments export them: columns between semicolons or tabs (numbers may have decimal commas
+    then), commas or blanks, whichever its first line without # has. Raises ValueError."""
+    with path.open(encoding="utf-8-sig") as file:
+        told = (line for line in file if not line.startswith("#"))
+        first = next(told, "")
+        if not first.strip():
+            raise ValueError("it begins with an empty line")
+        mark = next((mark for mark in ";\t," if mark in first), None)
+        lines = (line if mark in (",", None) else line.replace(",", ".") for line in itertools.chain([first], told))
+        return np.loadtxt((line.rstrip(f"\n {mark or ''}") for line in lines), delimiter=mark, ndmin=2)
 
 
 def _surface_topography(path):

@@ -6,11 +6,3 @@ Many: `plan` is what a sweep varies (`typed`, `sampling`, `study_file` read it),
 `case` over `pool`, here or on a `cluster`. May import every room but the commands; importing it costs nothing: what computes
 and what reads files is imported when it is called.
 """
-
-from tehl_taichi.study.compare import compare
-from tehl_taichi.study.many import sweep
-from tehl_taichi.study.progress import Lines, Progress
-from tehl_taichi.study.single import open, resume, run
-from tehl_taichi.study.stored_run import Run
-
-__all__ = ["Lines", "Progress", "Run", "compare", "open", "resume", "run", "sweep"]

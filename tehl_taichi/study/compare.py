@@ -53,11 +53,15 @@ class Comparison:
         return {"stores": [str(store.path) for store in self.stores], "finished": [store.finished for store in self.stores],
                 "differs": self.differs, "summaries": self.summaries}
 
-    def plot(self, path, at=0.0, dpi=160):
-        """The figure, with the feature at `at` half-widths where runs have one; returns its path. Raises StoreError."""
+    def plot(self, path: str | PathLike, at: float = 0.0, dpi: int = 160, format: str = "png", width: float = 17.0) -> Path:
+        """The figure, with the feature at `at` half-widths where runs have one; returns its path.
+
+        dpi, format (where the path has no suffix that tells it), width: as :meth:`Run.plot`. Raises SceneError, StoreError.
+        """
+        from tehl_taichi.figures.page import Page
         from tehl_taichi.study import compare_figure
 
-        return compare_figure.write(self, Path(path), at, dpi)
+        return compare_figure.write(self, path, at, Page(format, dpi, width))
 
 
 def compare(*paths: str | PathLike | Run) -> Comparison:

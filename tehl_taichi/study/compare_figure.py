@@ -4,82 +4,82 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl_taichi.io.figures import WINDOW, axis_row, pyplot
-from tehl_taichi.scene.scales import Scales
+from tehl_taichi.figures import palette
+from tehl_taichi.figures.moments import ROOM, WINDOW, Moments
 
 SAME = 1e-9  # relative: half-widths that differ less are one
-WIDE = 2.5  # times the largest central film: upper end of the film's axis
-FILM_ROOM = (-0.05, WIDE)
+FILM_ROOM = (-0.05, ROOM)  # of the largest central film
 
 
 @dataclass(frozen=True)
 class Curve:
-    """One run: its store, label and colour; a m; entry: the one that the centrelines show."""
+    """One run: its moments, label and colour; entry: the one that the centrelines show."""
 
-    store: object
+    moments: Moments
     label: str
     colour: str
-    a: float
     entry: int
+
+    @property
+    def store(self):
+        return self.moments.store
+
+    @property
+    def a(self):
+        return self.moments.a
 
     def has(self, name):
         return name in self.store.stored
 
     def centreline(self, name):
         """A field along y = 0."""
-        return self.store.fields(self.entry, [name])[name][:, axis_row(self.store)]
+        return self.store.fields(self.entry, [name])[name][:, self.moments.row]
 
     @property
     def passes(self):
         return len(self.store) > 1
 
-    @property
-    def moved(self):
-        """Centre of the feature over a, at every entry after the steady start."""
-        return self.store.scalar("feature_x")[1:] / self.a
+
+def write(comparison, path, at, page):
+    """Write the figure, as the :class:`Page` wants it; returns the path. at: position of the features, a."""
+    page, path = page.of_file(path)
+    moments = [Moments(store) for store in comparison.stores]
+    curves = [Curve(one, label, colour, one.nearest(at))
+              for one, label, colour in zip(moments, comparison.labels(), palette.LINES)]
+    return page.save(lambda: _drawn(page, curves, at), path)
 
 
-def write(comparison, path, at, dpi):
-    """Write the figure; returns the path. at: position of the features, a."""
-    plt = pyplot()
-    curves = [Curve(store, label, f"C{n}", Scales.of(store.scene).a, _entry(store, at))
-              for n, (store, label) in enumerate(zip(comparison.stores, comparison.labels()))]
+def _drawn(page, curves, at):
     columns = [column for column in (_lines(curves), _histories(curves)) if column]
+    beside = len(columns) > 1 and not page.narrow
+    if not beside:
+        columns = [sum(columns, [])]
     rows = max(map(len, columns))
-    figure, axes = plt.subplots(rows, len(columns), figsize=(6.6 * len(columns), 2.7 * rows + 0.6), squeeze=False,
-                                constrained_layout=True)
+    figure, axes = page.figure(rows, len(columns), page.row(len(columns)) * rows * (1.0 if beside else 0.8))
     for panels, column in zip(axes.T, columns):
         for ax, draw in zip(panels, column):
             draw(ax, curves)
-            ax.grid(alpha=0.25)
+            ax.grid()
         for ax in panels[len(column):]:
             ax.set_visible(False)
-    _legend(figure, curves)
-    beside = " (left), and while it passes (right)" if len(columns) > 1 else ""
-    figure.suptitle(f"along y = 0, {_moment(curves, at)}{beside}", fontsize="medium")
-    figure.savefig(path, dpi=dpi)
-    plt.close(figure)
-    return path
-
-
-def _entry(store, at):
-    """Entry with the feature nearest to `at`; the steady state of a run without passage."""
-    return 1 + int(np.argmin(np.abs(store.scalar("feature_x")[1:] / Scales.of(store.scene).a - at))) if len(store) > 1 else 0
+    _legend(page, figure, curves)
+    names = ", ".join(dict.fromkeys(c.store.scene.name for c in curves))
+    page.title(figure, f"{names}: along y = 0, {_moment(curves, at)}{' (left), and while it passes (right)' if beside else ''}")
+    return figure
 
 
 def _moment(curves, at):
     if not any(c.passes for c in curves):
         return "steady"
-    off = max(abs(c.moved[c.entry - 1] - at) for c in curves if c.passes)
+    off = max(abs(c.moments.moved[c.entry - 1] - at) for c in curves if c.passes)
     told = f"feature at {at:+.2f} a" + (f" (up to {off:.2f} a off)" if off > 0.05 else "")
     return told + ("" if all(c.passes for c in curves) else ", steady where none passes")
 
 
-def _legend(figure, curves):
+def _legend(page, figure, curves):
     from matplotlib.lines import Line2D
 
-    figure.legend(handles=[Line2D([], [], color=c.colour, label=c.label) for c in curves], frameon=False,
-                  loc="outside lower center", ncols=min(len(curves), 3))
+    page.legend(figure, [Line2D([], [], color=c.colour, label=c.label) for c in curves])
 
 
 def _lines(curves):
@@ -100,7 +100,7 @@ def _along(ax, curves, name, factor, **style):
     one = max(widths) - min(widths) <= SAME * max(widths)
     for c in curves:
         if c.has(name):
-            ax.plot(c.store.x / c.a if one else c.store.x * 1e3, c.centreline(name) * factor, color=c.colour, lw=1.3, **style)
+            ax.plot(c.store.x / c.a if one else c.store.x * 1e3, c.centreline(name) * factor, color=c.colour, **style)
     left, right = (edge if one else edge * max(widths) * 1e3 for edge in WINDOW)
     ax.set(xlabel="x / a (flow to the right)" if one else "x (mm), flow to the right", xlim=(left, right))
 
@@ -119,24 +119,24 @@ def _film(ax, curves):
 def _temperature(ax, curves):
     _along(ax, curves, "temperature_mid", 1)
     _along(ax, curves, "temperature_a", 1, ls="--")
-    ax.set_ylabel("mid-film, surface a -- (°C)")
+    ax.set_ylabel("mid-film, a -- (°C)")
 
 
 def _over_passage(ax, curves, name, factor):
     for c in curves:
         if c.passes:
-            ax.plot(c.moved, c.store.scalar(name)[1:] * factor, color=c.colour, lw=1.3)
+            ax.plot(c.moments.moved, c.store.scalar(name)[1:] * factor, color=c.colour)
     ax.set_xlabel("feature position x_a / a")
 
 
 def _largest_pressure(ax, curves):
     _over_passage(ax, curves, "p_max_Pa", 1e-9)
-    ax.set_ylabel("largest pressure (GPa)")
+    ax.set_ylabel("p_max (GPa)")
 
 
 def _least_film(ax, curves):
     _over_passage(ax, curves, "h_min_m", 1e6)
-    ax.set(ylabel="least film (µm)")
+    ax.set(ylabel="h_min (µm)")
     ax.set_ylim(bottom=0)
 
 
@@ -148,6 +148,6 @@ def _index(ax, curves):
             continue
         x = c.store.map("feature_frame_x") * 1e6
         i, j = np.unravel_index(int(np.argmax(Fi)), Fi.shape)
-        ax.plot(x, Fi[:, j], color=c.colour, lw=1.3)
-        ax.plot(x[i], Fi[i, j], "+", color=c.colour, ms=11, mew=2)
-    ax.set(xlabel="x from the feature's centre (µm)", ylabel="Fi, through the worst point")
+        ax.plot(x, Fi[:, j], color=c.colour)
+        ax.plot(x[i], Fi[i, j], "+", color=c.colour, ms=ax.xaxis.label.get_size(), mew=0.2 * ax.xaxis.label.get_size())
+    ax.set(xlabel="x from the feature's centre (µm)", ylabel="Fi, worst row")

@@ -164,15 +164,19 @@ def _finish(saved, state, steady, clock, progress):
 
 
 class _Clock:
-    """Time since a run began (s), and what of it went into kernels; made when Taichi runs."""
+    """Time since a run began (s), what of it went into kernels, launches that lost a worker; made when Taichi runs."""
 
     def __init__(self, began):
         from tehl_taichi.engine.launches import binding_seconds
+        from tehl_taichi.engine.workers import crowding
 
-        self.bound, self.began, self.before = binding_seconds, began, binding_seconds()
+        self.began, self.bound, self.crowding = began, binding_seconds, crowding
+        self.before = binding_seconds(), crowding()
 
     def times(self):
-        return {"wall_s": time.perf_counter() - self.began, "compile_s": self.bound() - self.before}
+        bound, crowded = self.before
+        return {"wall_s": time.perf_counter() - self.began, "compile_s": self.bound() - bound,
+                "crowding": (self.crowding() - crowded).tolist()}
 
 
 def _march(saved, state, progress):

@@ -70,16 +70,31 @@ class Run:
             raise StoreError("a dataset needs xarray: pip install 'tehl_taichi[xarray]'") from None
         return xarray.open_zarr(self.path)
 
-    def plot(self, folder: str | PathLike | None = None, dpi: int = 160) -> list:
-        """Write the PNG figures of `tehl plot` into `folder` (default: beside the store), `dpi` dots per inch, 40 to 1200.
+    def plot(self, folder: str | PathLike | None = None, dpi: int = 160, format: str = "png", width: float = 17.0,
+             at: float | None = None, depth: float | None = None) -> list:
+        """Write the figures of `tehl plot` into `folder` (default: beside the store); returns their paths.
 
-        Returns their paths. Raises SceneError, or StoreError without matplotlib (the `plot` extra) or where it cannot write.
+        dpi: dots per inch, 40 to 1200; format: png, pdf or svg; width: cm, 5 to 60; at: position of the feature to show, in
+        half-widths a (default: some, see :mod:`tehl_taichi.figures.moments`); depth: µm, of the fatigue to show beside that of
+        the surface (default: the worst). Raises SceneError, or StoreError without matplotlib (the `plot` extra) or where it
+        cannot write.
         """
-        from tehl_taichi.io import figures
-        from tehl_taichi.values.checks import integer
+        from tehl_taichi.figures.page import Page, beside
+        from tehl_taichi.figures.run_figures import write_all
 
-        integer("dpi", dpi, 40, 1200)
-        return figures.write_all(self.store, folder or figures.beside(self.path), dpi)
+        return write_all(self.store, folder or beside(self.path), Page(format, dpi, width), at, depth)
+
+    def animate(self, out: str | PathLike | None = None, **options: Any) -> Path:
+        """Write a film of its passage: :func:`tehl_taichi.animate` of it."""
+        from tehl_taichi.figures import animate
+
+        return animate(self, out, **options)
+
+    def export(self, format: str = "csv", path: str | PathLike | None = None, **options: Any) -> Path:
+        """Write it for other tools (csv, netcdf, vtk): :func:`tehl_taichi.export` of it; returns what was made."""
+        from tehl_taichi.export import export
+
+        return export(self, format, path, **options)
 
     def rest(self, steps: int | None = None) -> Scene | None:
         """The scene with which :func:`tehl_taichi.resume` goes on: with `steps` more, or to the end that the run was given, of

@@ -50,7 +50,7 @@ class Study(Held):
     @classmethod
     def open(cls, path):
         """An existing study, to read. Raises StoreError."""
-        attrs = _attributes(path)
+        attrs = attributes(path)
         if attrs is None:
             raise StoreError(f"{path} is not a study of tehl sweep")
         try:
@@ -63,7 +63,7 @@ class Study(Held):
         """The study of `plan` at `path`, made where there is none. Raises StoreError where something else is there, Busy where
         another sweep writes it."""
         path = Path(path)
-        attrs = _attributes(path)
+        attrs = attributes(path)
         if attrs is None and (path.is_file() or path.is_dir() and any(path.iterdir())):
             raise StoreError(f"{path} exists already and is no study; choose another --out")
         if attrs is not None and attrs[PLAN] != plan.text:
@@ -208,6 +208,12 @@ class Study(Held):
             out.writerow({key: "" if value != value else value for key, value in row.items()})
         return text.getvalue()
 
+    def to_dict(self):
+        """The JSON object of `tehl sweep --json`."""
+        converged = self.counts["converged"]
+        return {"cases": len(self), "converged": converged, "failed": len(self) - converged, "study": str(self.path),
+                "table": str(self.table), "results": self.results()}
+
     def to_xarray(self):
         """The table as an xarray.Dataset over the swept keys. Raises StoreError where xarray is not installed."""
         try:
@@ -216,27 +222,24 @@ class Study(Held):
             raise StoreError("xarray is not installed: pip install 'tehl_taichi[xarray]'") from None
         return xarray.open_zarr(self.path).load()
 
-    def plot(self, folder=None, quantity=None, dpi=160):
-        """Write its figures into `folder` (default: beside the study), `dpi` dots per inch, 40 to 1200: of one column of the
-        table or of the usual ones.
+    def plot(self, folder=None, quantity=None, dpi=160, format="png", width=17.0):
+        """Write its figures into `folder` (default: beside the study): of one column of the table or of the usual ones.
 
-        Returns their paths. Raises SceneError, or StoreError without matplotlib, for an unknown column, or where it cannot
-        write.
+        dpi, format, width: as :meth:`Run.plot`. Returns their paths. Raises SceneError, or StoreError without matplotlib, for
+        an unknown column, or where it cannot write.
         """
-        from tehl_taichi.io.figures import beside
+        from tehl_taichi.figures.page import Page, beside
         from tehl_taichi.study import study_figures
-        from tehl_taichi.values.checks import integer
 
-        integer("dpi", dpi, 40, 1200)
-        return study_figures.write_all(self, folder or beside(self.path), quantity, dpi)
+        return study_figures.write_all(self, folder or beside(self.path), quantity, Page(format, dpi, width))
 
 
 def is_study(path):
     """Whether a study lies at `path`."""
-    return _attributes(path) is not None
+    return attributes(path) is not None
 
 
-def _attributes(path):
+def attributes(path):
     """Attributes of the study at `path`, or None."""
     try:
         attrs = json.loads((Path(path) / ROOT).read_text())["attributes"]

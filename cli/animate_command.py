@@ -1,0 +1,73 @@
+"""tehl animate: a run as a film."""
+
+import sys
+from pathlib import Path
+from typing import Optional
+
+import typer
+from tehl_cli.figure_options import Dpi, Width
+from tehl_cli.live import say
+
+
+def register(app):
+    """Add the command to the app."""
+    app.command()(animate)
+
+
+def animate(
+    store: Path = typer.Argument(..., help="store of a run with a feature, finished or not"),
+    out: Optional[Path] = typer.Option(None, help="file to write (default: beside the store)"),
+    format: Optional[str] = typer.Option(None, help="gif, or mp4 where there is ffmpeg (default: as --out says, else gif)"),
+    frames: int = typer.Option(120, help="at most so many, evenly over the passage, 2 to 2000"),
+    fps: int = typer.Option(15, help="frames a second, 1 to 50"),
+    shown: str = typer.Option("film", "--map", help="below the lines: film, pressure or temperature"),
+    dpi: Dpi = 110,
+    width: Width = 17.0,
+    force: bool = typer.Option(False, "--force", help="replace the file"),
+    quiet: bool = typer.Option(False, "--quiet", help="no progress"),
+):
+    """GIF or MP4 of the passage: pressure, film and temperatures along the centreline, a map below.
+
+    Examples: `tehl animate runs/gear-1.zarr` · `tehl animate runs/gear-1.zarr --out film.mp4 --map pressure --fps 25`
+    """
+    import tehl_taichi as tehl
+
+    with Bar(quiet) as bar:
+        path = tehl.animate(store, out, format=format, frames=frames, fps=fps, dpi=dpi, width=width, shown=shown, force=force,
+                            progress=bar.show)
+    print(path)
+
+
+class Bar:
+    """Progress on stderr: a bar in a terminal, a line for every quarter elsewhere."""
+
+    def __init__(self, quiet):
+        self.quiet, self.bar = quiet, None
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if self.bar:
+            self.bar.stop()
+
+    def show(self, done, total):
+        """Of `total` frames so many are drawn."""
+        if self.quiet:
+            return
+        if not sys.stderr.isatty():
+            if done * 4 // total > (done - 1) * 4 // total and done:
+                say(f"frame {done} of {total}")
+            return
+        self.bar = self.bar or self._started(total)
+        self.bar.update(self.task, completed=done)
+
+    def _started(self, total):
+        from rich.console import Console
+        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+        bar = Progress(TextColumn("frame"), MofNCompleteColumn(), BarColumn(), TimeRemainingColumn(),
+                       console=Console(stderr=True))
+        self.task = bar.add_task("", total=total)
+        bar.start()
+        return bar

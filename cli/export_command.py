@@ -1,0 +1,45 @@
+"""tehl export: a stored run for other tools."""
+
+from pathlib import Path
+from typing import List, Optional
+
+import typer
+
+
+def register(app):
+    """Add the command to the app."""
+    app.command()(export)
+
+
+def export(
+    store: Path = typer.Argument(..., help="store of a run, finished or not"),
+    format: str = typer.Option("csv", "--format", help="csv (tables), netcdf (one file) or vtk (a time series for ParaView)"),
+    at: Optional[List[float]] = typer.Option(None, help="csv: centreline with the feature there, half-widths (default: 0); "
+                                             "repeatable"),
+    point: Optional[List[str]] = typer.Option(None, help="csv: history of the point X,Y of surface a, m, X from the feature's "
+                                              "centre (as x_m, y_m of the fatigue summary); repeatable"),
+    out: Optional[Path] = typer.Option(None, help="file or folder to make (default: beside the store)"),
+    force: bool = typer.Option(False, "--force", help="replace what an export made there before"),
+):
+    """Tables, NetCDF or VTK of a stored run; prints what was made.
+
+    Examples: `tehl export runs/gear-1.zarr --at -0.5 --at 0.5 --point=-37e-6,0` · `tehl export runs/gear-1.zarr --format vtk`
+    """
+    import tehl_taichi as tehl
+    from tehl_taichi.errors import StoreError
+    from tehl_taichi.study.table import Study, is_study
+
+    if is_study(store):
+        study = Study.open(store)
+        raise StoreError(f"{store} is a study: its table is {study.table}; tehl export takes the store of one of its cases")
+    print(tehl.export(store, format, out, at=at or (), point=[_point(text) for text in point or ()] or (), force=force))
+
+
+def _point(text):
+    from tehl_taichi.errors import SceneError
+
+    try:
+        x, y = map(float, text.split(","))
+    except ValueError:
+        raise SceneError(f"--point {text!r} must be two numbers in m with a comma between, as -37e-6,0") from None
+    return x, y

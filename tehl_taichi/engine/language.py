@@ -1,0 +1,69 @@
+"""Taichi, as every module takes it: `from tehl_taichi.engine.language import ti`. Another engine of the same language is named
+here and in :mod:`launches`, nowhere else.
+
+Taichi asks Python again and again for what does not change, a third of the start of a run; here it asks once. Measured with
+kernels that are cached, CPU s of a coarse run (64x16): the class that a function stands in, looked for in the source at every
+decorator, 1.3 -> 0; the source of a function, read and cut into lines at every call in a kernel, 0.6 -> 0.1; the position of
+every node (Findley search alone 2.9 -> 1.2), for messages that only developers see: TEHL_DEBUG=1 keeps it.
+"""
+
+import contextlib
+import functools
+import inspect
+import linecache
+import os
+import sys
+from types import SimpleNamespace
+
+
+@contextlib.contextmanager
+def _line_only():
+    """The line of a frame is all that a decorator wants to know; the whole source of its module is looked for."""
+    known = inspect.getframeinfo
+    inspect.getframeinfo = lambda f, context=1: (f.f_code.co_filename, f.f_lineno, f.f_code.co_name,
+                                                 [linecache.getline(f.f_code.co_filename, f.f_lineno)], 0)
+    try:
+        yield
+    finally:
+        inspect.getframeinfo = known
+
+
+with _line_only():  # decorators of its own
+    import taichi as ti
+
+__all__ = ["ti"]
+
+
+def _in_class(level_of_class_stackframe):
+    """Whether the decorated function stands in a class; the level is that of the frame around it."""
+    return "__qualname__" in sys._getframe(level_of_class_stackframe - 1).f_locals
+
+
+def _ask_once():
+    """Raises AttributeError or ImportError where Taichi looks otherwise than expected: then nothing is changed."""
+    from taichi.lang import kernel_impl
+
+    lines, file, cut = kernel_impl.getsourcelines, kernel_impl.getsourcefile, kernel_impl.textwrap
+    kept = SimpleNamespace(fill=functools.cache(cut.fill), dedent=cut.dedent)
+    assert callable(kernel_impl._inside_class)
+    kernel_impl.getsourcelines, kernel_impl.getsourcefile = functools.cache(lines), functools.cache(file)
+    kernel_impl._inside_class, kernel_impl.textwrap = _in_class, kept
+
+
+def _without_positions():
+    from taichi.lang.ast.ast_transformer_utils import ASTTransformerContext
+
+    assert callable(ASTTransformerContext.get_pos_info)
+    ASTTransformerContext.get_pos_info = lambda context, node: ""
+
+
+def _try(change):
+    try:
+        change()
+    except (ImportError, AttributeError, AssertionError):  # another Taichi: slower, not broken
+        pass
+
+
+_try(_ask_once)
+if not os.environ.get("TEHL_DEBUG"):
+    _try(_without_positions)

@@ -1,0 +1,226 @@
+"""Figures of a fatigue result: index of the surface and over depth, stress of the worst points, paths on their planes."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from tehl_taichi.errors import SceneError
+from tehl_taichi.fatigue.findley import largest_principal, shear_path
+from tehl_taichi.fatigue.worst_point import on_circle
+from tehl_taichi.figures import palette
+from tehl_taichi.figures.field_maps import bar, shade, whole
+from tehl_taichi.values.checks import number
+from tehl_taichi.values.plain import plain
+
+MAPS = ("feature_frame_x", "feature_frame_y", "Fi", "fatigue_depth", "findley_stress_at_depth", "findley_stress_under_row",
+        "findley_stress_contact_alone")  # what the figures show where it was found
+EVEN = 200  # depths drawn of a section
+FROM_CENTRE = "x from the feature's centre (µm), flow to the right"
+LEAST = 8.0  # cm that a map needs to stand beside another
+
+
+@dataclass(frozen=True)
+class Found:
+    """title: the scene's name; maps: {name of MAPS: array} found; points: {"surface": history, "below": the same or None};
+    summary: of a FatigueResult; a: m; depth: µm, of the layer that is wanted beside the surface, or None (the worst one)."""
+
+    title: str
+    maps: dict
+    points: dict
+    summary: dict
+    a: float
+    depth: float | None = None
+
+    @property
+    def constants(self):
+        """Scene, criterion and its numbers, in words."""
+        f = self.summary
+        return f"{self.title}: {f['criterion']}, κ = {f['kappa_F']:g}, σ_eF = {f['sigma_eF_Pa'] / 1e6:g} MPa"
+
+    @property
+    def one_row(self):
+        return self.maps["feature_frame_y"].size == 1
+
+
+@dataclass(frozen=True)
+class Layer:
+    """where: in words; Fi: (x, y); at: its worst point, m; angle: of the critical plane there to the surface, deg, with
+    normal: where they are known."""
+
+    where: str
+    Fi: Any
+    at: tuple
+    angle: float | None = None
+    normal: Any = None
+
+    @property
+    def said(self):
+        plane = "" if self.angle is None else f", plane at {self.angle:.0f}° to the surface"
+        return f"worst, Fi = {self.Fi.max():.4g}{plane}"
+
+
+def all_figures(page, found):
+    """{name: function that draws it}. Raises SceneError where the depth that is wanted was not searched."""
+    layers = _layers(found)
+    figures = {"fatigue": lambda: index_figure(page, found, layers)}
+    if "findley_stress_under_row" in found.maps:
+        figures["fatigue_depth"] = lambda: depth_figure(page, found)
+    figures["fatigue_point"] = lambda: worst_points(page, found)
+    return figures
+
+
+def _layers(found):
+    """The surface, and the layer below it that is wanted, or the worst where all its points were searched."""
+    top = _worst("surface", found.maps["Fi"], found.summary, found.points["surface"])
+    below = _searched(found)
+    if below is None or (found.depth is None and "findley_stress_at_depth" not in found.maps):
+        return [top]
+    depths, deep = found.maps["fatigue_depth"], found.summary["below"]
+    wanted = deep["depth_m"] if found.depth is None else found.depth * 1e-6
+    n = int(np.argmin(np.abs(depths - wanted)))
+    where, Fi = f"{depths[n] * 1e6:.3g} µm below", below[n] / found.summary["sigma_eF_Pa"]
+    if np.isclose(depths[n], deep["depth_m"]):
+        return [top, _worst(where, Fi, deep, found.points["below"])]
+    i, j = np.unravel_index(int(np.argmax(Fi)), Fi.shape)
+    return [top, Layer(where, Fi, (found.maps["feature_frame_x"][i], found.maps["feature_frame_y"][j]))]
+
+
+def _worst(where, Fi, summary, history):
+    return Layer(where, Fi, (summary["x_m"], summary["y_m"]), summary["surface_angle_deg"], history["normal"])
+
+
+def _searched(found):
+    """Findley stress (depth, x, y) of whole layers, or None. Raises SceneError where one is wanted that is not there."""
+    layers, row = (found.maps.get(f"findley_stress_{name}") for name in ("at_depth", "under_row"))
+    if layers is None and found.one_row and row is not None:
+        layers = row[:, :, None]
+    if layers is None and found.depth is not None:
+        raise SceneError(f"depth = {found.depth:g} µm: no depth was searched at all its points; tehl fatigue STORE --depths "
+                         f"{found.depth * 1e-6:g} --figures FOLDER does it")
+    if found.depth is not None:
+        depths = found.maps["fatigue_depth"] * 1e6
+        number("depth", plain(found.depth), "µm", float(depths[0]), float(depths[-1]))
+    return layers
+
+
+def index_figure(page, found, layers):
+    """Index around the feature in every layer; lines over x where there is one row only."""
+    if found.one_row:
+        return index_lines(page, found, layers)
+    beside = page.width / len(layers) >= LEAST
+    rows, columns = (1, len(layers)) if beside else (len(layers), 1)
+    height = 1.3 * page.inches / columns * rows  # more than enough
+    figure, axes = page.figure(rows, columns, height, True, sharey=beside, sharex=not beside)
+    for ax, layer in zip(axes.ravel(), layers):
+        index_map(figure, ax, found.maps, layer, beside and len(layers) > 1)
+    for ax in axes[-1]:
+        ax.set_xlabel(FROM_CENTRE if columns == 1 else FROM_CENTRE.partition(",")[0])
+    for ax in axes[:, 0]:
+        ax.set_ylabel("y (µm)")
+    page.title(figure, found.constants)
+    return figure
+
+
+def index_lines(page, found, layers):
+    """Index over x, a line for each layer with its worst point."""
+    figure, ((ax,),) = page.figure(height=1.6 * page.row())
+    for layer, colour in zip(layers, palette.LINES):
+        ax.plot(found.maps["feature_frame_x"] * 1e6, layer.Fi[:, 0], color=colour, label=layer.where)
+        ax.plot(layer.at[0] * 1e6, layer.Fi.max(), "+", color=colour, ms=page.text, mew=0.2 * page.text, label=layer.said)
+    ax.set(xlabel=FROM_CENTRE, ylabel="Fi")
+    ax.grid()
+    page.legend(figure)
+    page.title(figure, found.constants)
+    return figure
+
+
+def index_map(figure, ax, maps, layer, beside):
+    """Index of one layer; at its worst point the trace of the critical plane in the layer and its dip."""
+    x, (y, Fi) = maps["feature_frame_x"], whole(maps["feature_frame_y"] * 1e6, layer.Fi)
+    image = shade(ax, x * 1e6, y, Fi, cmap=palette.INDEX)
+    bar(figure, image, ax, f"Fi, {layer.where}", beside)
+    at = np.array(layer.at) * 1e6
+    _mark(ax, *at)
+    flat = 0.0 if layer.normal is None else np.hypot(layer.normal[0], layer.normal[1])
+    if flat > 1e-6:
+        trace = np.array([-layer.normal[1], layer.normal[0]]) / flat * 0.12 * np.ptp(x) * 1e6
+        ax.plot(*np.stack([at - trace, at + trace]).T, "-", color=palette.MARK)
+    ax.set(aspect="equal", title=layer.said, xlim=(x[0] * 1e6, x[-1] * 1e6), ylim=(y[0], y[-1]))
+
+
+def _mark(ax, x, y):
+    import matplotlib
+
+    text = matplotlib.rcParams["font.size"]
+    ax.plot(x, y, "+", color=palette.MARK, ms=text, mew=0.2 * text, clip_on=False)  # whole at the rim, too
+
+
+def depth_figure(page, found):
+    """Index in the section under the row of the worst point below the surface, and its largest value over depth."""
+    maps, deep = found.maps, found.summary["below"]
+    depth, Fi = maps["fatigue_depth"] * 1e6, maps["findley_stress_under_row"] / found.summary["sigma_eF_Pa"]
+    sizes = dict(height_ratios=(1, 1)) if page.narrow else dict(width_ratios=(3, 2), sharey=True)
+    panels, height = ((2, 1), 3.0 * page.row()) if page.narrow else ((1, 2), 2.0 * page.row(2))
+    figure, axes = page.figure(*panels, height=height, **sizes)
+    section, over = axes.ravel()
+    even = np.linspace(0, depth[-1], EVEN)
+    image = shade(section, maps["feature_frame_x"] * 1e6, even, np.stack([np.interp(even, depth, c) for c in Fi.T]),
+                  cmap=palette.INDEX)
+    bar(figure, image, section, f"Fi at y = {deep['y_m'] * 1e6:.0f} µm")
+    _mark(section, deep["x_m"] * 1e6, deep["depth_m"] * 1e6)
+    section.set(xlabel=FROM_CENTRE, ylabel="below the surface (µm)", ylim=(depth[-1], 0))
+    _over_depth(over, found, Fi, depth)
+    over.set(xlabel="largest Fi", ylim=(depth[-1], 0), ylabel="below the surface (µm)" if page.narrow else "")
+    page.legend(figure, over.get_legend_handles_labels()[0])
+    page.title(figure, found.constants)
+    return figure
+
+
+def _over_depth(ax, found, Fi, depth):
+    deep, limit = found.summary["below"], found.summary["sigma_eF_Pa"]
+    line, = ax.plot(Fi.max(axis=1), depth, ".-", label="under the feature")
+    ax.plot(deep["Fi_max"], deep["depth_m"] * 1e6, "+", color=line.get_color(), ms=2.5 * line.get_markersize(),
+            mew=line.get_linewidth(), label=f"worst, Fi = {deep['Fi_max']:.4g} at {deep['depth_m'] * 1e6:.0f} µm")
+    if "findley_stress_contact_alone" in found.maps:
+        ax.plot(found.maps["findley_stress_contact_alone"] / limit, depth, "--", color=palette.GREY,
+                label="contact without its feature")
+    ax.plot(found.summary["Fi_max"], 0.0, "o", color=palette.VERMILLION, clip_on=False,
+            label=f"surface, Fi = {found.summary['Fi_max']:.4g}")
+    ax.grid()
+
+
+def worst_points(page, found):
+    """Of the worst point of the surface and of the one below it: see :func:`worst_point`."""
+    shown = [("worst point of the surface", found.points["surface"])]
+    if found.points.get("below"):
+        shown.append((f"worst point below, {found.summary['below']['depth_m'] * 1e6:.0f} µm", found.points["below"]))
+    columns = 1 if page.narrow else 2
+    height = 1.6 * page.row(columns) * len(shown) * (2 / columns)
+    figure, axes = page.figure(len(shown) * 2 // columns, columns, height)
+    for (left, right), (name, history) in zip(axes.reshape(-1, 2), shown):
+        worst_point(left, right, name, history, found.a)
+    page.legend(figure)
+    page.title(figure, found.constants)
+    return figure
+
+
+def worst_point(left, right, title, worst, a):
+    """Largest principal stress over the feature's position, and the shear path on the critical plane with its circle."""
+    from matplotlib.patches import Circle
+
+    position, stress = worst["x_a"][:-1] / a, worst["stress"]
+    dip, strike, normal = shear_path(stress, worst["normal"])
+    u, v, radius = worst["circle"]
+    ends = on_circle(dip, strike, worst["circle"])
+    left.axhline(0, color=palette.RULE, lw=0.8, zorder=0)
+    left.plot(position, largest_principal(stress)[:-1] / 1e6, label="largest principal stress σ₁")
+    left.plot(position, normal[:-1] / 1e6, label="stress normal to the critical plane")
+    left.set(xlabel="feature position x_a / a", ylabel="stress (MPa)", title=title)
+    right.plot(dip / 1e6, strike / 1e6, ".-", ms=0.2 * left.xaxis.label.get_size(), lw=0.8)
+    right.add_patch(Circle((u / 1e6, v / 1e6), radius / 1e6, fill=False, color=palette.VERMILLION))
+    right.plot(dip[ends] / 1e6, strike[ends] / 1e6, "o", color=palette.VERMILLION)
+    right.set(xlabel="critical plane: shear along dip (MPa)", ylabel="along strike (MPa)", aspect="equal",
+              title=f"τ_amp = {radius / 1e6:.3g}, σ_n,max = {normal.max() / 1e6:.3g} MPa")
+    right.margins(0.15)
+    right.autoscale_view()

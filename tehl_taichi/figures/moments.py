@@ -1,0 +1,92 @@
+"""Which moments of a run figures show, and what they are called."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from tehl_taichi.errors import SceneError
+from tehl_taichi.figures import palette
+from tehl_taichi.scene.scales import Scales
+from tehl_taichi.values.checks import number
+from tehl_taichi.values.plain import plain
+
+POSITIONS = (-0.8, 0.0, 0.8)  # of the feature, a: shown where nobody chooses
+BEYOND = 0.05                 # a: as far beyond the stored positions a moment may be asked for
+WINDOW = (-1.6, 1.4)          # x / a shown: the contact and what is close to it
+INSIDE = 0.9                  # a: there the film's axis shows all of the film
+ROOM = 2.5                    # of the central film: upper end of the film's axis, below the gap outside
+
+
+@dataclass(frozen=True)
+class Moments:
+    """Of the run in `store`; at: the only position of the feature that is wanted, in a, or None.
+
+    Raises SceneError where the feature was never there.
+    """
+
+    store: object
+    at: float | None = None
+
+    def __post_init__(self):
+        if self.at is None:
+            return
+        if self.store.steps < 2:
+            raise SceneError(f"at = {self.at} a is a position of the feature, and {self.store.path} has a steady state only")
+        low, high = self.moved.min(), self.moved.max()
+        number("at", plain(self.at), "a", round(low - BEYOND, 2), round(high + BEYOND, 2))
+
+    @cached_property
+    def a(self):
+        """Half-width of the contact, m."""
+        return Scales.of(self.store.scene).a
+
+    @cached_property
+    def moved(self):
+        """Centre of the feature over a, at every entry after the steady start."""
+        return self.store.scalar("feature_x")[1 : self.store.steps] / self.a
+
+    @cached_property
+    def x(self):
+        """x / a."""
+        return self.store.x / self.a
+
+    @property
+    def row(self):
+        """Row of y = 0."""
+        return int(np.argmin(np.abs(self.store.y)))
+
+    @property
+    def window(self):
+        """(left, right) in a of what is shown along x, the feature among it."""
+        at = 0.0 if self.at is None else self.at
+        return max(min(WINDOW[0], at - 0.4), self.x[0]), min(max(WINDOW[1], at + 0.4), self.x[-1])
+
+    def nearest(self, position):
+        """Entry with the feature nearest to `position` (a); the steady one where nothing passes."""
+        return 1 + int(np.argmin(np.abs(self.moved - position))) if self.store.steps > 1 else 0
+
+    def several(self):
+        """{entry: colour} for lines: the steady start in grey, then the positions; the same in every figure."""
+        if self.store.steps < 2:
+            return {0: palette.LINES[0]}
+        wanted = POSITIONS if self.at is None else (self.at,)
+        low, high = self.moved.min() - BEYOND, self.moved.max() + BEYOND
+        entries = dict.fromkeys(self.nearest(position) for position in wanted if low <= position <= high)
+        return {0: palette.GREY} | dict(zip(entries, palette.LINES))
+
+    def one(self):
+        """The entry of maps: that with the feature nearest to the middle, or where it is wanted."""
+        return self.nearest(0.0 if self.at is None else self.at)
+
+    def says(self, n):
+        """What entry n shows, in words."""
+        if n == 0:
+            return "steady start" if self.store.steps > 1 else "steady"
+        return f"feature at {self.moved[n - 1] + 0.0:+.2f} a".replace("-0.00", "+0.00")
+
+    def film_top(self, entries):
+        """Upper end (m) of the film's axis: well above the film of the contact, and above what a feature leaves inside."""
+        inside = np.abs(self.x) < INSIDE
+        deepest = max(float(self.store.fields(n, ["film"])["film"][inside, self.row].max()) for n in entries)
+        return max(ROOM * float(self.store.scalar("h_c_m")[0]), 1.1 * deepest)

@@ -1,0 +1,18 @@
+"""One palette: the colours of every figure, animation and report, told apart by colour-blind readers too.
+
+Lines: Okabe & Ito 2008, Color Universal Design. Maps: of one direction of lightness, so that they are read in grey as well;
+matplotlib and plotly both know them by these names.
+"""
+
+BLUE, VERMILLION, GREEN, PURPLE = "#0072b2", "#d55e00", "#009e73", "#cc79a7"
+ORANGE, SKY, BLACK, YELLOW = "#e69f00", "#56b4e9", "#000000", "#f0e442"
+LINES = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY, BLACK, YELLOW)  # in the order in which they are used
+
+GREY = "#707070"   # what others are compared with: a steady start, a contact without its feature
+RULE = "#c8c8c8"   # lines that only guide the eye
+SHADE = "#ededed"  # a part of the page that is marked off, or has no value
+MARK = SKY         # a place on a dark map
+
+PRESSURE = TEMPERATURE = INDEX = "inferno"
+FILM = RESULT = "viridis"  # RESULT: of a study
+TENSION = "Oranges"        # light where there is none: lines are drawn on it

@@ -1,0 +1,55 @@
+"""The figures of a stored run, and those of a fatigue result (matplotlib, the `plot` extra)."""
+
+from functools import partial
+
+from tehl_taichi.errors import SceneError
+from tehl_taichi.figures import fatigue_figures, field_maps, line_figures
+from tehl_taichi.figures.moments import Moments
+from tehl_taichi.figures.page import Page
+from tehl_taichi.scene.scales import Scales
+
+
+def write_all(store, folder, page=None, at=None, depth=None):
+    """Write every figure the store has data for into `folder`; returns the paths.
+
+    page: a :class:`Page`; at: position of the feature to show, a (default: some); depth: µm, of the fatigue to show beside
+    that of the surface (default: the worst). Raises SceneError for a moment or a depth that the store has not, StoreError.
+    """
+    page = page or Page()
+    figures = {name: partial(draw, page, Moments(store, at)) for name, draw in _of_the_film(store).items()}
+    if store.map("worst_stress") is not None:
+        figures |= fatigue_figures.all_figures(page, _fatigue(store, depth))
+    elif depth is not None:
+        raise SceneError(f"depth = {depth:g} µm is of a fatigue search, and {store.path} has none")
+    return page.write(folder, figures)
+
+
+def _of_the_film(store):
+    """{name: function} of what the store has."""
+    wide, warm = store.y.size > 1, not store.scene.isothermal
+    has = {"centreline": (line_figures.centreline, True), "maps": (field_maps.maps, wide),
+           "temperature": (line_figures.temperature, warm), "temperature_maps": (field_maps.temperature_maps, warm and wide),
+           "profiles": (line_figures.profiles, "temperature" in store.stored)}
+    return {name: draw for name, (draw, there) in has.items() if there}
+
+
+def _fatigue(store, depth):
+    maps = {name: values for name in fatigue_figures.MAPS if (values := store.map(name)) is not None}
+    points = {"surface": _history(store, "worst"), "below": _history(store, "worst_below")}
+    return fatigue_figures.Found(store.scene.name, maps, points, store.summary["fatigue"], Scales.of(store.scene).a, depth)
+
+
+def _history(store, name):
+    """History of a worst point as the store keeps it, or None."""
+    if store.map(f"{name}_stress") is None:
+        return None
+    return {part: store.map(f"{name}_{part}") for part in ("x_a", "stress", "normal", "circle")}
+
+
+def write_fatigue(result, title, a, folder, page=None, depth=None):
+    """Write the figures of a FatigueResult into `folder`; returns the paths. Raises SceneError, StoreError."""
+    page = page or Page()
+    maps = {name: value[0] for name, value in result.maps.items()}
+    points = {"surface": result.worst, "below": result.worst_below}
+    found = fatigue_figures.Found(title, maps, points, result.summary, a, depth)
+    return page.write(folder, fatigue_figures.all_figures(page, found))

@@ -1,0 +1,102 @@
+"""What a page is made of, and its HTML."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from tehl_taichi.report.packed import as_json, library, packed
+
+TEMPLATES = Path(__file__).parent / "templates"
+
+
+@dataclass(frozen=True)
+class Part:
+    """kind: its template, templates/parts/KIND.html; data: what that shows."""
+
+    kind: str
+    data: dict
+
+    @property
+    def figures(self):
+        """The :class:`tehl_taichi.report.plots.Figure` of it."""
+        return self.data.get("figures", ())
+
+
+@dataclass(frozen=True)
+class Section:
+    """A heading and its parts, None among them where there is nothing to show; without any it is left out."""
+
+    title: str
+    parts: tuple
+
+    @property
+    def shown(self):
+        return [part for part in self.parts if part]
+
+    @property
+    def anchor(self):
+        """Its name in links."""
+        return self.title.lower().replace(" ", "-")
+
+
+@dataclass(frozen=True)
+class Answer:
+    """question; headline: the answer in a sentence; tone: yes, no, open or none, which gives its colour; sentences: why;
+    doubts: what makes it less sure; warnings: those of the run."""
+
+    question: str
+    headline: str
+    tone: str
+    sentences: tuple = ()
+    doubts: tuple = ()
+    warnings: tuple = ()
+
+
+@dataclass(frozen=True)
+class Page:
+    """title; about: what it is a page of, a line; answer; sections."""
+
+    title: str
+    about: str
+    answer: Answer
+    sections: tuple = field(default_factory=tuple)
+
+    @property
+    def shown(self):
+        return [section for section in self.sections if section.shown]
+
+    @property
+    def figures(self):
+        """{name: figure} of all sections."""
+        return {figure.name: figure for section in self.shown for part in section.shown for figure in part.figures}
+
+
+def table(head, rows, caption="", words=1):
+    """A table whose first columns are words; None without rows."""
+    return Part("table", {"head": head, "rows": rows, "caption": caption, "words": words}) if rows else None
+
+
+def facts(rows):
+    """Pairs of (what, value); None without any."""
+    return Part("facts", {"rows": rows}) if rows else None
+
+
+def sentences(items, title=""):
+    """A list of sentences; None without any."""
+    return Part("sentences", {"items": items, "title": title}) if items else None
+
+
+def drawn(*figures):
+    """Figures beside each other where there is room; None without any."""
+    found = [figure for figure in figures if figure]
+    return Part("figures", {"figures": found}) if found else None
+
+
+def rendered(page):
+    """HTML of a :class:`Page`."""
+    import jinja2
+
+    world = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, lstrip_blocks=True,
+                               undefined=jinja2.StrictUndefined)
+    figures = {name: figure.spec for name, figure in page.figures.items()}
+    return world.get_template("page.html").render(page=page, library=library() if figures else "",
+                                                  figures=packed(as_json(figures)))

@@ -1,0 +1,117 @@
+"""The index around the feature and below it, and the stresses of the worst points."""
+
+import numpy as np
+
+from tehl_taichi.fatigue.findley import largest_principal, shear_path
+from tehl_taichi.fatigue.worst_point import on_circle
+from tehl_taichi.figures.field_maps import whole
+from tehl_taichi.figures.palette import GREY, INDEX, MARK
+from tehl_taichi.report.passage_plots import POSITION
+from tehl_taichi.report.plots import colour, field_map, line, marks, stacked
+from tehl_taichi.report.rounded import told
+from tehl_taichi.scene.scales import Scales
+
+FROM_CENTRE = "x from the feature's centre (µm)"
+EVEN = 100  # depths drawn of a section
+POINTS = {"surface": ("worst", "worst point of the surface"), "below": ("worst_below", "worst point below the surface")}
+
+
+def index(store):
+    """Fi of the surface and of the worst depth, with the worst points; lines over x where there is one row only."""
+    f, Fi = store.summary["fatigue"], store.map("Fi")
+    if Fi is None:
+        return []
+    if Fi.shape[1] == 1:
+        return [_over_x(store, f, Fi)]
+    found = [_map(store, "surface", "at the surface", Fi, f)]
+    deep = store.map("findley_stress_at_depth")
+    if deep is not None and "below" in f:
+        n = int(np.argmin(np.abs(store.map("fatigue_depth") - f["below"]["depth_m"])))
+        found.append(_map(store, "below", _depth(f["below"]), deep[n] / f["sigma_eF_Pa"], f["below"]))
+    return found
+
+
+def _depth(found):
+    return f"{found['depth_m'] * 1e6:.0f} µm below the surface"
+
+
+def _map(store, which, where, Fi, found):
+    """One layer; its worst point and the trace of the critical plane in it."""
+    x, (y, full) = store.map("feature_frame_x") * 1e6, whole(store.map("feature_frame_y") * 1e6, Fi)
+    at = np.array([found["x_m"], found["y_m"]]) * 1e6
+    marked = [marks([at[0]], [at[1]], f"worst point, Fi = {told(found['Fi_max'])}", MARK)]
+    normal = store.map(f"{POINTS[which][0]}_normal")
+    if normal is not None and (flat := np.hypot(*normal[:2])) > 1e-6:
+        trace = np.array([-normal[1], normal[0]]) / flat * 0.12 * np.ptp(x)
+        ends = np.stack([at - trace, at + trace])
+        marked.append(line(ends[:, 0], ends[:, 1], f"critical plane, {found['surface_angle_deg']:.0f}° to the surface", MARK))
+    return field_map(f"index-{which}", f"Index Fi {where}, over the whole passage.", x, y, full, INDEX, "Fi", FROM_CENTRE,
+                     "y (µm)", marked, height=440)
+
+
+def _over_x(store, f, Fi):
+    x = store.map("feature_frame_x") * 1e6
+    worst = marks([f["x_m"] * 1e6], [f["Fi_max"]], f"worst, plane {f['surface_angle_deg']:.0f}° to the surface", colour(1))
+    return stacked("index", "Index Fi of the surface, over the whole passage.", FROM_CENTRE,
+                   [("Fi", [line(x, Fi[:, 0], "at the surface", colour(0)), worst], {})], height=440)
+
+
+def depth(store):
+    """[section under the feature, largest index over depth]; [] where nothing was searched below."""
+    f, under = store.summary["fatigue"], store.map("findley_stress_under_row")
+    if under is None or "below" not in f:
+        return []
+    deep, Fi = f["below"], under / f["sigma_eF_Pa"]
+    x, z = store.map("feature_frame_x") * 1e6, store.map("fatigue_depth") * 1e6
+    even = np.linspace(0, z[-1], EVEN)
+    section = np.stack([np.interp(even, z, column) for column in Fi.T])
+    worst = marks([deep["x_m"] * 1e6], [deep["depth_m"] * 1e6], f"worst point, Fi = {told(deep['Fi_max'])}", MARK)
+    caption = f"Index Fi in the section y = {deep['y_m'] * 1e6:.0f} µm under the feature."
+    figure = field_map("section", caption, x, even, section, INDEX, "Fi", FROM_CENTRE, "below the surface (µm)", [worst],
+                       true=False, height=440)
+    figure.layout["yaxis"]["autorange"] = "reversed"
+    return [figure, _over_depth(store, f, deep, z, Fi)]
+
+
+def _over_depth(store, f, deep, z, Fi):
+    traces = [line(Fi.max(axis=1), z, "under the feature", colour(0)),
+              marks([deep["Fi_max"]], [deep["depth_m"] * 1e6], "worst below", colour(0)),
+              marks([f["Fi_max"]], [0.0], "surface", colour(1), symbol="circle")]
+    alone = store.map("findley_stress_contact_alone")
+    if alone is not None:
+        traces.append(line(alone / f["sigma_eF_Pa"], z, "contact without its feature", GREY, dash="dash"))
+    return stacked("over-depth", "Largest index Fi at each depth.", "largest Fi",
+                   [("below the surface (µm)", traces, {"autorange": "reversed"})], height=440)
+
+
+def worst_points(store):
+    """[(stresses over the passage, shear path on the critical plane)] of the worst point of the surface and of that below."""
+    out = []
+    for which, (name, text) in POINTS.items():
+        if store.map(f"{name}_stress") is not None:
+            history = {part: store.map(f"{name}_{part}") for part in ("x_a", "stress", "normal", "circle")}
+            out.append((_stresses(which, text, history, Scales.of(store.scene).a), _path(which, text, history)))
+    return out
+
+
+def _stresses(which, text, history, a):
+    x, stress = history["x_a"][:-1] / a, history["stress"]
+    normal = shear_path(stress, history["normal"])[2]
+    traces = [line(x, largest_principal(stress)[:-1] / 1e6, "largest principal stress σ₁", colour(0)),
+              line(x, normal[:-1] / 1e6, "normal to the critical plane", colour(1))]
+    return stacked(f"stress-{which}", f"Stresses of the {text} while the feature passes.", POSITION, [("MPa", traces, {})],
+                   height=400)
+
+
+def _path(which, text, history):
+    dip, strike, normal = shear_path(history["stress"], history["normal"])
+    u, v, radius = history["circle"] / 1e6
+    ends, angle = on_circle(dip, strike, history["circle"]), np.linspace(0, 2 * np.pi, 90)
+    traces = [line(dip / 1e6, strike / 1e6, "path", colour(0)),
+              line(u + radius * np.cos(angle), v + radius * np.sin(angle), "smallest circle", colour(1)),
+              marks(dip[ends] / 1e6, strike[ends] / 1e6, "touches it", colour(1), symbol="circle")]
+    caption = (f"Shear path of the {text} on its critical plane: amplitude {told(radius * 1e6, unit='Pa')}, "
+               f"largest normal stress {told(normal.max(), unit='Pa')}.")
+    return stacked(f"path-{which}", caption, "shear along dip (MPa)",
+                   [("shear along strike (MPa)", traces, {"scaleanchor": "x", "constrain": "domain"})], {"constrain": "domain"},
+                   height=400)

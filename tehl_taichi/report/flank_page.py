@@ -1,0 +1,141 @@
+"""The page of a flank: where along it a crack would start, from what its folder keeps."""
+
+from tehl_taichi.figures.palette import GREY
+from tehl_taichi.flank.columns import dig, tables
+from tehl_taichi.flank.flank_figure import PANELS
+from tehl_taichi.flank.stored_flank import open_flank
+from tehl_taichi.report import verdict
+from tehl_taichi.report.document import Answer, Page, Section, drawn, facts, sentences, table
+from tehl_taichi.report.plots import colour, line, stacked
+from tehl_taichi.report.rounded import told
+from tehl_taichi.scene.gear_pair import GearPair
+from tehl_taichi.values.quantity import kinds
+
+ALONG = "x_pl from the pitch point (mm)"
+
+
+def of(folder):
+    """The :class:`tehl_taichi.report.document.Page` of the flank in `folder`. Raises StoreError."""
+    flank = open_flank(folder)
+    name, geometry = flank.told["name"], flank.told["geometry"]
+    whose = f", flank of the {geometry['on']}, {geometry['torque']:g} N m and {geometry['n1']:g} 1/min at the pinion" \
+        if "torque" in geometry else ""
+    return Page(f"{name}: report", f"{name}: a flank of {len(flank.rows)} positions{whose}", _answer(flank), (
+        Section("Along the flank", (drawn(*figures(flank)),)),
+        Section("Positions", tuple(table(heads, lines, title) for title, (heads, lines) in tables(flank.rows).items())),
+        Section("Not converged", (sentences([f"{_where(at)}: {reason}" for at, reason in flank.failed]),)),
+        Section("Gears and load", (facts(_gears(flank)), sentences([f"Load: {flank.told['load_sharing']}."]))),
+        Section("Warnings", (sentences(warnings(flank)),)),
+        Section("Provenance", (facts(_provenance(flank)),))))
+
+
+def _where(at):
+    """A position in words."""
+    return f"{at.point}{', ' * bool(at.point)}x_pl = {at.x_pl * 1e3:.3f} mm"
+
+
+def worst(flank):
+    """[(Fi, where in words, its error or None)] of every position, the largest first."""
+    found = [(Fi, f"{layer} at {_where(at)}", error) for at, _, summary in flank.rows if dig(summary, "fatigue")
+             for layer, Fi, error in verdict.layers(summary["fatigue"])]
+    return sorted(found, key=lambda entry: -entry[0])
+
+
+def _answer(flank):
+    found = worst(flank)
+    left = f"{len(flank.failed)} of {len(flank.rows)} positions did not converge and are not in this answer."
+    said = f"Warnings of the positions, listed below: {len(warnings(flank))}."
+    doubts = (*[left] * bool(flank.failed), f"Assumed: {flank.told['assumption']}.", *[said] * bool(warnings(flank)))
+    if not found:
+        return _of_films(flank, doubts)
+    Fi, where, error = found[0]
+    headline, tone = verdict.headline(verdict.judged(Fi, error), where, error is not None)
+    above = [summary for *_, summary in flank.rows if dig(summary, "fatigue")
+             and max(value for _, value, _ in verdict.layers(summary["fatigue"])) > 1]
+    return Answer("Where along the flank does a fatigue crack start?", headline, tone, (
+        f"The largest index is Fi = {told(Fi, error)}, {where}.",
+        f"It is above 1 at {len(above)} of {len(flank.rows)} positions."), doubts)
+
+
+def _of_films(flank, doubts):
+    films = [(summary["steady"]["h_min_m"], at) for at, _, summary in flank.rows if summary]
+    question = "How thick is the film along the flank?"
+    if not films:
+        return Answer(question, "No answer: no position converged.", "none", (), doubts)
+    h, at = min(films, key=lambda entry: entry[0])
+    return Answer(question, f"The smallest film is {told(h, unit='m')}, at {_where(at)}.", "none",
+                  ("No feature passes: there is no index of fatigue.",), doubts)
+
+
+def figures(flank):
+    """Film, pressure, temperature, index, friction and slip over the flank, as far as there are any."""
+    found = ((title, _lines(flank, lines, factor)) for title, factor, lines in PANELS)
+    return [_figure(flank, n, title, lines) for n, (title, lines) in enumerate(found) if lines]
+
+
+def _figure(flank, n, title, lines):
+    """One of them, with the points A to E."""
+    letters = ", dotted: the points of the path of contact" if flank.points else ""
+    made = stacked(f"flank-{n}", f"{title[0].upper()}{title[1:]}; dedendum left of the pitch point{letters}.", ALONG,
+                   [(title, lines, {})], height=330)
+    made.layout["shapes"] = [_mark(x * 1e3) for x in flank.points.values()]
+    made.layout["annotations"] = [{"text": name, "x": x * 1e3, "xref": "x", "yref": "paper", "y": 1, "yanchor": "bottom",
+                                   "showarrow": False} for name, x in flank.points.items()]
+    made.layout["legend"]["y"] = 1.08
+    return made
+
+
+def _mark(x):
+    return {"type": "line", "xref": "x", "yref": "paper", "x0": x, "x1": x, "y0": 0, "y1": 1,
+            "line": {"color": GREY, "width": 1, "dash": "dot"}}
+
+
+def _lines(flank, lines, factor):
+    """Those of a panel that have values."""
+    out = []
+    for n, (name, what) in enumerate(lines.items()):
+        x, y = _series(flank, what)
+        if x:
+            y = [value if value is None else value * factor for value in y]
+            out.append(line([value * 1e3 for value in x], y, name, colour(n), mode="lines+markers"))
+    return out
+
+
+def _series(flank, what):
+    """(x_pl, values) of the positions that have it; None where the load jumps: the line breaks there."""
+    x, y = [], []
+    for at, p_H, summary in flank.rows:
+        value = p_H if what == "p_H" else at.srr if what == "srr" else dig(summary, *what)
+        if value is not None and x and x[-1] == at.x_pl:
+            x, y = [*x, at.x_pl], [*y, None]
+        if value is not None:
+            x, y = [*x, at.x_pl], [*y, value]
+    return x, y
+
+
+def _gears(flank):
+    """What its geometry says: of a pair each value with its meaning."""
+    return [_value(key, value, kinds(GearPair).get(key)) for key, value in flank.told["geometry"].items()
+            if isinstance(value, (int, float, str))]
+
+
+def _value(key, value, declared):
+    """(what, number with its unit); declared: what the scene says of it, if it is one of its values."""
+    text = f"{value:.6g}" if isinstance(value, float) else str(value)
+    return (f"{key}: {declared.about}", f"{text} {declared.unit}".rstrip(" -")) if declared else (key, text)
+
+
+def warnings(flank):
+    """Those of all positions, each once with where it was said."""
+    said = {}
+    for at, _, summary in flank.rows:
+        for sentence in (summary or {}).get("warnings", []):
+            said.setdefault(sentence, []).append(at.point or f"{at.x_pl * 1e3:.3g} mm")
+    return [f"{', '.join(places)}: {sentence}" for sentence, places in said.items()]
+
+
+def _provenance(flank):
+    """Versions that the summaries tell."""
+    versions = sorted({summary["version"] for *_, summary in flank.rows if summary})
+    seconds = sum(summary["wall_s"] for *_, summary in flank.rows if summary)
+    return [("folder", flank.folder.name), ("version", ", ".join(versions)), ("run time of all positions", f"{seconds:.0f} s")]

@@ -1,0 +1,42 @@
+"""Fields over the contact at the worst moment of the passage."""
+
+from tehl_taichi.figures.field_maps import whole
+from tehl_taichi.figures.line_figures import ALONG, SURFACES
+from tehl_taichi.figures.moments import Moments
+from tehl_taichi.figures.palette import FILM, PRESSURE, TEMPERATURE
+from tehl_taichi.report.passage_plots import columns, film_top, thinned, worst_entry
+from tehl_taichi.report.plots import field_map
+from tehl_taichi.scene.scales import Scales
+
+ROWS = 101  # of a half domain, at most
+
+
+def maps(store):
+    """Pressure, film and temperatures over x, y; none where nothing varies across."""
+    if store.y.size == 1:
+        return []
+    n, a, where = worst_entry(store), Scales.of(store.scene).a, columns(store)
+    rows = thinned(store.y.size, ROWS if store.y[0] >= 0 else 2 * ROWS)
+    styles, out = _styles(store), []
+    for name, values in store.fields(n, list(styles)).items():
+        text, scale, unit, factor, keys = styles[name]
+        y, full = whole(store.y[rows] / a, values[where][:, rows] * factor)
+        out.append(field_map(f"map-{name}", f"{text}: {Moments(store).says(n)}.", store.x[where] / a, y, full, scale, unit,
+                             ALONG, "y / a", **keys))
+    return _alike(out)
+
+
+def _styles(store):
+    """{field: (title, colours, unit, factor, ends of the colours)}."""
+    top = film_top(store) * 1e6
+    heat = {name: (f"Temperature, {text}", TEMPERATURE, "°C", 1.0, {}) for name, text, _ in SURFACES if name in store.stored}
+    film = f"Film, thicker than {top:.2g} µm in the last colour", FILM, "µm", 1e6, {"zmin": 0.0, "zmax": top}
+    return {"pressure": ("Pressure", PRESSURE, "GPa", 1e-9, {}), "film": film, **heat}
+
+
+def _alike(figures):
+    """Temperatures in one scale of colours."""
+    heat = [figure.traces[0] for figure in figures if "temperature" in figure.name]
+    for trace in heat:
+        trace |= {"zmin": min(float(one["z"].min()) for one in heat), "zmax": max(float(one["z"].max()) for one in heat)}
+    return figures

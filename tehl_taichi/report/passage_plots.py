@@ -1,0 +1,150 @@
+"""The passage of the feature: the centreline at each moment, with a slider, and what changes over the feature's position."""
+
+import numpy as np
+
+from tehl_taichi.figures.line_figures import ALONG, SURFACES
+from tehl_taichi.figures.moments import WINDOW, Moments
+from tehl_taichi.figures.palette import GREY
+from tehl_taichi.report.plots import colour, line, stacked
+from tehl_taichi.scene.scales import Scales
+
+MOMENTS, COLUMNS = 200, 400  # kept, at most: what a screen shows
+POSITION = "position of the feature x / a"
+DASHES = dict(zip((name for name, *_ in SURFACES), ("solid", "dash", "dot")))
+FIELDS = (("pressure (GPa)", 1e-9, {"pressure": ""}), ("film (µm)", 1e6, {"film": ""}),
+          ("temperature (°C)", 1.0, {name: text for name, text, _ in SURFACES}))
+
+
+def thinned(count, most):
+    """At most so many of the numbers 0 to count - 1, even, the first and the last among them."""
+    return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))
+
+
+def worst_entry(store):
+    """Entry with the largest pressure: of the passage, where there is one."""
+    p = store.scalar("p_max_Pa")
+    return int(np.argmax(p[1:])) + 1 if len(p) > 1 else 0
+
+
+def moments(store):
+    """Entries that the slider stops at: even ones, and those of the largest pressure and the smallest film."""
+    extremes = [worst_entry(store), int(np.argmin(store.scalar("h_min_m")))]
+    return np.union1d(thinned(store.steps, MOMENTS), extremes)
+
+
+def columns(store):
+    """Columns of the grid that are shown: the contact and what is close to it."""
+    X = store.x / Scales.of(store.scene).a
+    near = np.flatnonzero((X >= WINDOW[0]) & (X <= WINDOW[1]))
+    return near[thinned(len(near), COLUMNS)]
+
+
+def centreline(store):
+    """Pressure, film and temperatures along y = 0; with several entries a slider moves through them."""
+    shown, where = moments(store), columns(store)
+    lines = _lines(store, shown, where)
+    X, panels = store.x[where] / Scales.of(store.scene).a, []
+    for title, _, names in FIELDS:
+        if found := {name: text for name, text in names.items() if name in lines}:
+            traces = [trace for name, text in found.items() for trace in _traces(X, lines[name], name, text, len(panels) + 1)]
+            panels.append((title, traces, {"range": _range(store, lines, found)}))
+    return stacked("centreline", _caption(store, shown), ALONG, panels, {"range": _ends(X)},
+                   _slides(store, shown, lines, panels) if len(shown) > 1 else {})
+
+
+def _lines(store, shown, where):
+    """{field: (moments, columns)} along y = 0, in the units that are shown."""
+    names = [name for *_, group in FIELDS for name in group if name in store.stored]
+    factors = {name: factor for _, factor, group in FIELDS for name in group}
+    row, out = Moments(store).row, {name: np.empty((len(shown), len(where)), "f4") for name in names}
+    for k, n in enumerate(shown):
+        for name, values in store.fields(int(n), names).items():
+            out[name][k] = values[where, row] * factors[name]
+    return out
+
+
+def _traces(X, values, name, text, panel):
+    """The steady start in grey, and a line that the slider moves."""
+    several = len(values) > 1
+    hue, dash = (colour(1 + list(DASHES).index(name)), DASHES[name]) if text else (colour(0), "solid")
+    now = line(X, values[0], text or "this moment", hue, panel, dash, told=bool(text) or panel == 1 and several)
+    if not several:
+        return [now]
+    return [line(X, values[0], "steady start", GREY, panel, dash, told=panel == 1 and name == "pressure"), now]
+
+
+def _range(store, lines, names):
+    """Ends of an axis that hold all moments; of the film: what the figures of `tehl plot` show."""
+    if "film" in names:
+        return [0.0, film_top(store) * 1e6]
+    low, high = min(lines[name].min() for name in names), max(lines[name].max() for name in names)
+    return [float(low - 0.03 * (high - low)), float(high + 0.05 * (high - low))]
+
+
+def film_top(store):
+    """Largest film shown, m: as in the figures of `tehl plot`, at the worst moment too."""
+    found = Moments(store)
+    return found.film_top({*found.several(), worst_entry(store)})
+
+
+def _ends(X):
+    return [float(X[0]), float(X[-1])]
+
+
+def _slides(store, shown, lines, panels):
+    """What the slider needs: the lines of every moment, which traces they are, the positions of the feature, words."""
+    traces = [trace for _, found, _ in panels for trace in found]
+    at = store.scalar("feature_x")[shown] / Scales.of(store.scene).a
+    return {"slides": {"lines": list(lines.values()), "traces": [n for n in range(len(traces)) if n % 2],
+                       "at": [None if n == 0 else float(x) for n, x in zip(shown, at)],
+                       "first": int(np.searchsorted(shown, worst_entry(store))),
+                       "labels": [_label(store, int(n)) for n in shown]}}
+
+
+def _label(store, n):
+    """A moment in words."""
+    p, h = store.scalar("p_max_Pa")[n] / 1e9, store.scalar("h_min_m")[n] * 1e6
+    return f"{Moments(store).says(n)}: p_max {p:.3f} GPa, h_min {h:.3f} µm"
+
+
+def _caption(store, shown):
+    said = "Along the centreline y = 0." if store.y.size > 1 else "Along the contact."
+    if len(shown) > 1:
+        said += " Grey: the steady start; dotted: the centre of the feature."
+    left = [f"{len(shown)} of {store.steps} stored moments"] * (len(shown) < store.steps)
+    return said + (f" {left[0]} are kept in this page." if left else "")
+
+
+HISTORIES = (("largest pressure (GPa)", 1e-9, {"p_max_Pa": ""}), ("smallest film (µm)", 1e6, {"h_min_m": ""}),
+             ("friction coefficient", 1.0, {"friction_coefficient": ""}),
+             ("largest temperature (°C)", 1.0,
+              {"film_max_C": "film", "surface_a_max_C": "surface a", "surface_b_max_C": "surface b"}),
+             ("load on solid contact", 1.0, {"contact_load_fraction": ""}))
+
+
+def histories(store):
+    """Extremes and friction over the position of the feature; None without a passage."""
+    if store.steps < 3:
+        return None
+    x, panels = store.scalar("feature_x")[1:] / Scales.of(store.scene).a, []
+    for title, factor, names in HISTORIES:
+        found = {name: text for name, text in names.items() if name in store.series and np.ptp(store.scalar(name)[1:]) > 0}
+        lines = [line(x, store.scalar(name)[1:] * factor, text, colour(n + bool(text)), len(panels) + 1, told=bool(text))
+                 for n, (name, text) in enumerate(found.items())]
+        if lines:
+            panels.append((title, lines, {}))
+    return stacked("histories", "Of each time step; the contact lies between −1 and 1.", POSITION, panels)
+
+
+LEFT_OVER = {"residual": "residual", "load_error": "load", "mass_error": "mass"}
+
+
+def left_over(store):
+    """What the discrete equations leave over at every step; None without a passage."""
+    if store.steps < 3:
+        return None
+    x = store.scalar("step")
+    traces = [line(x, np.maximum(store.scalar(name), 1e-16), text, colour(n))
+              for n, (name, text) in enumerate(LEFT_OVER.items())]
+    return stacked("left-over", "Residual of the discrete equations, error of the load and of the mass at each step.", "step",
+                   [("relative", traces, {"type": "log", "exponentformat": "power"})])

@@ -1,0 +1,92 @@
+"""Figures as plotly.js takes them: plain dictionaries of traces and layout. Colours of the page are added in the browser."""
+
+from dataclasses import dataclass, field
+
+from tehl_taichi.figures.palette import BLACK, LINES
+
+PANEL, AROUND = 165, 110  # px: height of a panel of lines; of legend, title and axis around them
+
+
+@dataclass(frozen=True)
+class Figure:
+    """name: of it on the page; caption: a sentence or two; traces, layout: plotly's; height: px; more: what scripts read."""
+
+    name: str
+    caption: str
+    traces: list
+    layout: dict
+    height: int
+    more: dict = field(default_factory=dict)
+
+    @property
+    def spec(self):
+        return {"data": self.traces, "layout": self.layout, **self.more}
+
+
+def axis(title, **more):
+    """An axis with its title."""
+    return {"title": {"text": title, "standoff": 6}, **more}
+
+
+def line(x, y, name, colour, panel=1, dash="solid", told=True, **more):
+    """A line in one of the panels; told: whether it stands in the legend."""
+    return {"type": "scatter", "mode": "lines", "x": x, "y": y, "name": name, "showlegend": told, "legendgroup": name,
+            "line": {"color": colour, "dash": dash, "width": 1.8}, **_in(panel), **more}
+
+
+def marks(x, y, name, colour, panel=1, symbol="cross-thin", **more):
+    """Single points."""
+    return {"type": "scatter", "mode": "markers", "x": x, "y": y, "name": name, "showlegend": True,
+            "marker": {"symbol": symbol, "size": 13, "color": colour, "line": {"width": 3, "color": colour}}, **_in(panel),
+            **more}
+
+
+def _in(panel):
+    return {} if panel == 1 else {"yaxis": f"y{panel}"}
+
+
+def stacked(name, caption, x_title, panels, x=None, more=None, height=0):
+    """Panels of lines below each other over one x: panels of (title of y, traces with their panel's number, keys of its axis);
+    None without any; x: keys of the axis they share; height: px, if not that of its panels."""
+    if not panels:
+        return None
+    traces = [trace for _, found, _ in panels for trace in found]
+    legend = any(trace["showlegend"] for trace in traces)
+    rows, layout = len(panels), {"xaxis": axis(x_title, **(x or {})), **_frame(legend)}
+    gap = 0.06
+    size = (1 - gap * (rows - 1)) / rows
+    for n, (title, _, keys) in enumerate(panels):
+        top = 1 - n * (size + gap)
+        layout[f"yaxis{n + 1 if n else ''}"] = axis(title, domain=[max(top - size, 0.0), top], **keys)
+    layout["xaxis"]["anchor"] = f"y{rows}" if rows > 1 else "y"
+    return Figure(name, caption, traces, layout, height or PANEL * rows + AROUND, more or {})
+
+
+def _frame(legend=True):
+    """Room around a plot, and the legend above it."""
+    return {"margin": {"l": 10, "r": 14, "t": 40 if legend else 8, "b": 10}, "hovermode": "closest",
+            "legend": {"orientation": "h", "x": 0, "y": 1.01, "yanchor": "bottom"}}
+
+
+def colours(scale):
+    """The colours of a map by the name that the palette has for them: plotly.js does not know them all."""
+    from plotly.colors import get_colorscale
+
+    return get_colorscale(scale)
+
+
+def field_map(name, caption, x, y, values, scale, unit, x_title, y_title, marked=(), true=True, height=330, **keys):
+    """A field (x, y) in colours; marked: traces on it; true: one length along both axes; keys: of plotly's heatmap."""
+    heat = {"type": "heatmap", "x": x, "y": y, "z": values.T, "colorscale": colours(scale), "zsmooth": "best",
+            "colorbar": {"title": {"text": unit, "side": "top"}, "orientation": "h", "thickness": 12, "y": -0.22,
+                         "yanchor": "top", "lenmode": "fraction", "len": 0.9}, **keys}
+    layout = {"xaxis": axis(x_title, constrain="domain"), "yaxis": axis(y_title, constrain="domain"), **_frame(bool(marked))}
+    if true:
+        layout["yaxis"]["scaleanchor"] = "x"
+    return Figure(name, caption, [heat, *marked], layout, height)
+
+
+def colour(n):
+    """The n-th colour of lines that is seen on light and on dark pages: black is left to neither."""
+    seen = [one for one in LINES if one != BLACK]
+    return seen[n % len(seen)]

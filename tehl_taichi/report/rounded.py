@@ -1,0 +1,39 @@
+"""Numbers as people read them: in a unit that suits them, with as many digits as their error leaves."""
+
+import math
+
+from tehl_taichi.study.study_figures import SCALES
+
+UNITS = {"degC": "°C", "1": ""}  # of stores: as they are written
+
+
+def fitting(unit, size):
+    """(factor, unit) for numbers of about `size` in the SI unit `unit`: 2e9 Pa are read in GPa."""
+    for below, factor, shown in SCALES.get(unit, ()):
+        if abs(size) < below:
+            return factor, shown
+    return 1.0, UNITS.get(unit, unit)
+
+
+def told(value, error=None, unit="1"):
+    """'1.008 ± 0.023 µm' of a value and its error in SI; error None: not known."""
+    text, rest, scale = apart(value, error, unit)
+    return f"{text} ± {rest} {scale}".rstrip() if rest else f"{text} {scale}".rstrip()
+
+
+def apart(value, error, unit):
+    """(value, error, unit) in words: two digits of the error say how many of the value are told; four of it, and '' for the
+    error, where that is not known."""
+    factor, scale = fitting(unit, value)
+    if error is None or not math.isfinite(error):
+        return f"{value * factor:.4g}", "", scale
+    value, error = value * factor, error * factor
+    digits = 1 - math.floor(math.log10(error)) if error > 0 else 99
+    if not 0 <= digits <= 9:
+        return f"{value:.4g}", f"{error:.2g}", scale
+    return f"{value:.{digits}f}", f"{error:.{digits}f}", scale
+
+
+def share(part, whole):
+    """'1.2 %' of a whole, '' where there is none."""
+    return f"{abs(part / whole) * 100:.2g} %" if whole else ""

@@ -1,0 +1,48 @@
+"""The page of one run, finished or not."""
+
+from tehl_taichi.io.reader import Reader
+from tehl_taichi.report import fatigue_plots, map_plots, passage_plots, run_tables, scene_words, verdict
+from tehl_taichi.report.document import Page, Part, Section, drawn, facts, sentences
+
+
+def of(folder):
+    """The :class:`tehl_taichi.report.document.Page` of the store in `folder`. Raises StoreError."""
+    store = Reader.open(folder)
+    about = f"{store.scene.name}: a run of tehl_taichi {store.attrs.get('version', '')}"
+    return Page(f"{store.scene.name}: report", about, verdict.of(store), (
+        scene_section(store.scene, store.attrs.get("scene_toml", "")), *_film(store), *_fatigue(store), *_made(store)))
+
+
+def scene_section(scene, source):
+    """A scene in words and numbers, and all of its values."""
+    left_out = sentences(scene.left_out(), "Left out, because the scene does not need it")
+    whole = Part("source", {"title": "every value, as a scene file", "text": source}) if source else None
+    return Section("Scene", (Part("text", {"sentences": scene_words.words(scene)}), facts(scene_words.numbers(scene)), left_out,
+                             whole))
+
+
+def _film(store):
+    """Pressure, film and temperatures."""
+    line, histories = passage_plots.centreline(store), passage_plots.histories(store)
+    moved, maps = line.more.get("slides"), drawn(*map_plots.maps(store))
+    if not moved:
+        return Section("Film and pressure", (drawn(line), maps)),
+    slider = Part("slider", {"figures": [line], "first": moved["first"], "last": len(moved["at"]) - 1})
+    return (Section("Passage", (slider,)), Section("Histories", (drawn(histories),)),
+            Section("Moment of the largest pressure", (maps,)))
+
+
+def _fatigue(store):
+    """The index and the worst points."""
+    if "fatigue" not in store.summary:
+        return ()
+    return (Section("Fatigue", (drawn(*fatigue_plots.index(store), *fatigue_plots.depth(store)),
+                                run_tables.worst_points(store.summary["fatigue"]))),
+            Section("Stresses of the worst points", tuple(drawn(*pair) for pair in fatigue_plots.worst_points(store))))
+
+
+def _made(store):
+    """How good the numbers are and where they come from."""
+    return (Section("Numbers and their errors", tuple(run_tables.errors(store.summary))),
+            Section("Numerics", (run_tables.numerics(store), drawn(passage_plots.left_over(store)))),
+            Section("Provenance", (run_tables.provenance(store),)))

@@ -1,0 +1,93 @@
+"""Tables of a run: numbers with their errors, the worst points, how it was computed, where it comes from."""
+
+import json
+
+from tehl_taichi.io import intact
+from tehl_taichi.march.output import Scalar, entries
+from tehl_taichi.report.document import facts, table
+from tehl_taichi.report.rounded import apart, share, told
+
+PARTS = (("steady", "steady start"), ("transient", "passage"), ("fatigue", "fatigue"))
+ENDS = {"_mean": ", mean", "_max": ", largest"}
+OWN = {"Fi_max": ("index of fatigue Fi of the surface, largest", "1")}
+
+
+def errors(summary):
+    """Tables of the numbers that have an error or a reason why it is not known."""
+    head = ("what", "value", "error", "relative")
+    return [table(head, list(_with_errors(summary.get(part, {}))), when) for part, when in PARTS]
+
+
+def _with_errors(values):
+    for name, error in values.get("error", {}).items():
+        if values.get(name) is None:
+            continue
+        says, unit = _meaning(name)
+        value, shown, scale = apart(values[name], error, unit)
+        why = values.get("unknown", {}).get(name, "not estimated")
+        yield (says, f"{value} {scale}".strip(), why if error is None else f"{shown} {scale}".strip(),
+               "" if error is None else share(error, values[name]))
+
+
+def _meaning(name):
+    """(long name, unit) of a number of the summary, as outputs declare them."""
+    known = {key: (entry.says, entry.unit) for key, entry in entries(Scalar).items()} | OWN
+    if name in known:
+        return known[name]
+    for end, text in ENDS.items():
+        if (key := name.removesuffix(end)) in known and key != name:
+            return known[key][0] + text, known[key][1]
+    return name, "1"
+
+
+POINT = (("index Fi", "Fi_max", "1"), ("stress of the criterion", "findley_stress_max_Pa", "Pa"), ("depth", "depth_m", "m"),
+         ("x of the feature", "x_m", "m"), ("y of the feature", "y_m", "m"), ("shear amplitude", "tau_amp_Pa", "Pa"),
+         ("largest normal stress", "sigma_n_max_Pa", "Pa"), ("largest principal stress", "sigma1_worst_Pa", "Pa"),
+         ("critical plane to the surface", "surface_angle_deg", "°"))
+
+
+def worst_points(fatigue):
+    """The worst point of the surface beside the one below it."""
+    points = [("surface", {"depth_m": 0.0, **fatigue}), *([("below it", fatigue["below"])] if "below" in fatigue else [])]
+    rows = [(text, *(told(point[key], unit=unit) if key in point else "" for _, point in points)) for text, key, unit in POINT]
+    return table(("worst point", *(where for where, _ in points)), rows)
+
+
+def numerics(store):
+    """Grid, tolerances, what was left over and what it took."""
+    summary, scene = store.summary, store.scene
+    steps = store.scalar("dt_s")[1:]
+    across = "" if scene.isothermal else f" × {scene.thermal.nodes} across the film"
+    rows = [("nodes", f"{store.x.size} × {store.y.size}{across}"),
+            ("grid along x", f"{scene.grid.x_min:g} to {scene.grid.x_max:g} a"),
+            ("entries stored", str(store.steps)), ("time steps", str(store.last_step)),
+            *([("time step", f"{steps.max() * 1e6:.4g} µs")] if len(steps) else []),
+            ("tolerance of the residual", f"{scene.numerics.tolerance:g}"),
+            *((f"largest error of {name}", f"{store.scalar(key).max():.1e}") for name, key in
+              (("residual", "residual"), ("load", "load_error"), ("mass", "mass_error")))]
+    return facts(rows + (_work(summary) if summary else []))
+
+
+def _work(summary):
+    work = summary["work"]
+    rows = [("Newton steps", str(work["newton_steps"])), ("Krylov iterations", str(work["pressure_cycles"])),
+            ("most in a step", str(work["cycles_per_step_max"])), ("attempts rejected", str(work["rejected_steps"])),
+            ("run time", f"{summary['wall_s']:.1f} s, of it kernels {summary['compile_s']:.1f} s")]
+    return rows + [(what, f"{value:g}") for what, value in summary.get("clamps", {}).items()]
+
+
+FROM = ("command", "date", "version", "commit", "python", "numpy", "pyfftw", "zarr", "machine", "cores", "precision")
+
+
+def provenance(store):
+    """Who computed it: what its attributes tell, and the runtime's own."""
+    runtime = intact.optional(store.attrs, "runtime", {})
+    rows = [(key, str(store.attrs[key])) for key in FROM if key in store.attrs]
+    return facts([("store", store.path.name), *rows, *((key, _word(runtime[key])) for key in ("taichi", "arch", "threads")
+                                                       if key in runtime)])
+
+
+def _word(value):
+    return value if isinstance(value, str) else json.dumps(value)
+
+

@@ -1,0 +1,89 @@
+"""A scene in words and in numbers."""
+
+from tehl_taichi.physics.rheology import LAWS
+from tehl_taichi.report.rounded import told
+from tehl_taichi.scene.scales import Scales
+from tehl_taichi.values.quantity import Number, Text, kinds
+
+LONG = 60  # letters of a word that is shown
+
+
+def words(scene):
+    """Sentences: contact, motion, oil, heat, features."""
+    return [_contact(scene), _motion(scene), _oil(scene), _heat(scene), *_features(scene)]
+
+
+def _contact(scene):
+    c, s = scene.contact, Scales.of(scene)
+    side = "" if c.kind != "elliptic" else f" along x and {told(c.radius_y, unit='m')} across"
+    return (f"A {c.kind} contact of reduced radius {told(c.radius_x, unit='m')}{side} carries {_load(scene)}: Hertz pressure "
+            f"{told(s.p_H, unit='Pa')}, half-width {told(s.a, unit='m')}. {_bodies(scene)}")
+
+
+def _load(scene):
+    return f"{scene.load / 1e3:.4g} N/mm" if scene.contact.kind == "line" else f"{scene.load:.4g} N"
+
+
+def _bodies(scene):
+    a, b = (body.material or f"E = {body.E / 1e9:.4g} GPa, ν = {body.nu:g}" for body in (scene.body_a, scene.body_b))
+    return f"Both bodies: {a}." if a == b else f"Body a: {a}; body b: {b}."
+
+
+def _motion(scene):
+    o = scene.operation
+    if o.srr == 0:
+        return f"The surfaces roll at {o.u_m:.4g} m/s without slip."
+    kind = "slower" if o.u_a < o.u_b else "faster"
+    carries = f"; the feature is on the {kind} one" if scene.features else ""
+    return (f"The surfaces move at {o.u_a:.4g} m/s (a) and {o.u_b:.4g} m/s (b): mean {o.u_m:.4g} m/s, slide-to-roll ratio "
+            f"{o.srr:+.3g}{carries}.")
+
+
+def _oil(scene):
+    law = LAWS[scene.rheology.law]
+    return (f"The oil is {scene.oil.name} ({scene.oil.source}) and comes in at {scene.operation.temperature:g} °C; its shear "
+            f"law is {law.name}: {law.says}.")
+
+
+def _heat(scene):
+    if scene.isothermal:
+        return "The film keeps the temperature of the inlet."
+    return "The temperatures of the film and of both surfaces are computed."
+
+
+def _features(scene):
+    if not scene.transient:
+        return ["No feature passes: the steady contact of smooth surfaces." if scene.features else "The surfaces are smooth."]
+    return [f"Surface a carries a feature of the shape {f.shape} ({f.kind.says}): {', '.join(_sizes(f))}."
+            for f in scene.features]
+
+
+def _sizes(f):
+    """What its shape looks at, where it says something."""
+    own = kinds(type(f))
+    alone = kinds(f.kind.keys) if f.kind.keys else {}
+    keys = [key for key in own if key in f.kind.uses or key in alone] + ["x", "y"]
+    for key in dict.fromkeys(keys):
+        value, kind = getattr(f, key), own[key]
+        if isinstance(kind, Number) and isinstance(value, (int, float)) and value:
+            yield f"{key} {told(value, unit=kind.unit.replace('-', '1'))}"
+        elif isinstance(kind, Text) and value and len(value) < LONG:
+            yield f"{key} {value}"
+
+
+def numbers(scene):
+    """(what, value) of what a reader compares first."""
+    s, oil = Scales.of(scene), scene.oil
+    rows = [("Hertz pressure p_H", told(s.p_H, unit="Pa")), ("half-width a", told(s.a, unit="m")), ("load", _load(scene)),
+            ("reduced radius R'", told(s.R, unit="m")), ("reduced modulus E'", told(s.E, unit="Pa")),
+            ("mean speed u_m", f"{scene.operation.u_m:.4g} m/s"), ("slide-to-roll ratio", f"{scene.operation.srr:g}"),
+            ("inlet temperature", f"{scene.operation.temperature:g} °C"), ("viscosity law", oil.viscosity),
+            *_of_oil(oil)]
+    return rows
+
+
+def _of_oil(oil):
+    """The numbers of its viscosity law, with their meaning."""
+    declared = kinds(type(oil))
+    return [(f"{key}, {declared[key].about}", f"{getattr(oil, key):.6g} {declared[key].unit}".rstrip(" -"))
+            for key in oil.law_numbers if isinstance(declared[key], Number)]

@@ -1,0 +1,85 @@
+"""The page of a study: its results over the swept keys, the table, what failed."""
+
+import numpy as np
+
+from tehl_taichi.report.document import Answer, Page, Section, drawn, facts, sentences, table
+from tehl_taichi.report.rounded import told
+from tehl_taichi.report.run_page import scene_section
+from tehl_taichi.report.study_plots import column, figures
+from tehl_taichi.study import study_figures
+from tehl_taichi.study.table import Study, attributes
+
+MOST_ROWS = 500
+ERROR, BELOW = "fatigue_error_Fi_max", "fatigue_below_Fi_max"
+
+
+def of(folder):
+    """The :class:`tehl_taichi.report.document.Page` of the study in `folder`. Raises StoreError."""
+    study = Study.open(folder)
+    scene, keys = study.plan.scene, ", ".join(study.plan.keys)
+    return Page(f"{scene.name}: report of a study", f"{scene.name}: {len(study)} cases over {keys}", _answer(study), (
+        Section("Results", (drawn(*figures(study)),)), Section("Cases", (_table(study), _rest(study))),
+        Section("Without a result", (sentences(_failed(study)),)), scene_section(scene, ""),
+        Section("Provenance", (facts(_provenance(study)),))))
+
+
+def _column(study, name):
+    return study.values.get(name, np.full(len(study), np.nan))
+
+
+def _answer(study):
+    Fi, waiting = np.fmax(_column(study, study_figures.INDEX), _column(study, BELOW)), study.counts["waiting"]
+    known, bad = np.isfinite(Fi), len(study) - waiting - study.counts["converged"]
+    doubts = [f"Without a result: {bad} of {len(study)} cases; the list below says why."] * bool(bad)
+    doubts += [f"Not run yet: {waiting} of {len(study)} cases."] * bool(waiting)
+    if not known.any():
+        headline = f"{study.counts['converged']} of {len(study)} cases have a result."
+        return Answer("What does the study say?", headline, "none", (), tuple(doubts))
+    above, of_all = int((Fi[known] >= 1).sum()), int(known.sum())
+    headline = f"The index, at the surface or below it, is above 1 in {above} of {of_all} cases with a result."
+    tone = "yes" if above == of_all else "open" if above else "no"
+    return Answer("In which cases does a fatigue crack start?", headline, tone,
+                  (_extreme(study, Fi, "largest", np.nanargmax), _extreme(study, Fi, "smallest", np.nanargmin)),
+                  (*doubts, *_errors(study)))
+
+
+def _extreme(study, Fi, text, which):
+    n = int(which(Fi))
+    return f"The {text} is Fi = {told(Fi[n])}: {_changes(study, n)}."
+
+
+def _errors(study):
+    """In how many cases 1 is nearer to the index of the surface than its error, and in how many that is not known."""
+    Fi, error = _column(study, study_figures.INDEX), _column(study, ERROR)
+    within, unknown = int((np.abs(Fi - 1) <= error).sum()), int((np.isfinite(Fi) & ~np.isfinite(error)).sum())
+    return ([f"1 lies within the error of the index of the surface: {within} of {len(study)} cases."] * bool(within)
+            + [f"The error of the index is not known: {unknown} of {len(study)} cases."] * bool(unknown))
+
+
+def _changes(study, n):
+    keys = (study_figures.along(study, key, per_case=True) for key in study.plan.keys)
+    return ", ".join(f"{label} {words[n]}" for _, label, words in keys)
+
+
+def _table(study):
+    keys = [study_figures.along(study, key, per_case=True) for key in study.plan.keys]
+    columns = [column(study, name) for name in study_figures.usual(study)]
+    rows = [[str(n), *(words[n] for *_, words in keys), row["status"],
+             *(f"{values[n]:.4g}" if np.isfinite(values[n]) else "" for values, _ in columns)]
+            for n, row in zip(range(MOST_ROWS), study.rows())]
+    return table(("case", *(label for _, label, _ in keys), "status", *(label for _, label in columns)), rows)
+
+
+def _rest(study):
+    return sentences([f"{len(study) - MOST_ROWS} more stand in {study.table.name}."]) if len(study) > MOST_ROWS else None
+
+
+def _failed(study):
+    return [f"Case {record['case']} ({_changes(study, record['case'])}): {record['status']}: {record['reason']}"
+            for record in study.results() if not record["converged"]]
+
+
+def _provenance(study):
+    attrs, seconds = attributes(study.path), sum(record.get("seconds") or 0.0 for record in study.results())
+    return [("study", study.path.name), *((key, str(attrs[key])) for key in ("version", "commit") if key in attrs),
+            ("run time of all cases", f"{seconds:.0f} s"), *((key, str(value)) for key, value in study.plan.drawn.items())]

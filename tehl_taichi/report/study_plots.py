@@ -1,0 +1,73 @@
+"""Results of a study over what was swept."""
+
+import numpy as np
+
+from tehl_taichi.figures.palette import RESULT
+from tehl_taichi.report.plots import colour, field_map, line, marks, stacked
+from tehl_taichi.study.flat import unit_of
+from tehl_taichi.study.study_figures import along, numeric, scaled, usual
+
+MOST_LINES = 12
+
+
+def figures(study):
+    """Of each usual result: lines over the first key and a map over two, or points where the cases lie anywhere."""
+    out = []
+    for name in usual(study):
+        if study.plan.gridded and len(study.plan.dims) <= 2:
+            out += [_lines(study, name), *([_map(study, name)] if len(study.plan.dims) == 2 else [])]
+        else:
+            out += [_points(study, name, key) for key in study.plan.keys]
+    return out
+
+
+def column(study, name):
+    """(values in a unit that people read, label) of a column of the table."""
+    return scaled(study.values[name], unit_of(name), name)
+
+
+def _lines(study, name):
+    """Over the first key, a line for each value of the second (some of many)."""
+    values, label = column(study, name)
+    x, x_label, words = along(study, study.plan.keys[0])
+    rows, seconds = values.reshape(len(x), -1).T, _seconds(study, label)
+    shown = np.unique(np.linspace(0, len(rows) - 1, min(len(rows), MOST_LINES)).astype(int))
+    traces = [line(x, rows[n], seconds[n], colour(k), told=len(rows) > 1, mode="lines+markers") for k, n in enumerate(shown)]
+    return stacked(f"{name}-lines", f"{label} over {x_label}.", x_label, [(label, traces, {})],
+                   _ticks(x, words, numeric(study, study.plan.keys[0])), height=400)
+
+
+def _seconds(study, label):
+    """Names of the lines."""
+    if len(study.plan.keys) == 1:
+        return [label]
+    _, second, words = along(study, study.plan.keys[1])
+    return [f"{second} {word}" for word in words]
+
+
+def _map(study, name):
+    """Over two keys, a cell a case."""
+    values, label = column(study, name)
+    (x, x_label, x_words), (y, y_label, y_words) = (along(study, key) for key in study.plan.keys)
+    places = np.arange(len(x), dtype=float), np.arange(len(y), dtype=float)
+    made = field_map(f"{name}-map", f"{label}: a cell a case, empty without a result.", *places,
+                     values.reshape(study.plan.shape), RESULT, label, x_label, y_label, true=False, height=400, zsmooth=False)
+    made.layout["xaxis"] |= _ticks(places[0], x_words, False)
+    made.layout["yaxis"] |= _ticks(places[1], y_words, False)
+    return made
+
+
+def _points(study, name, key):
+    """All cases against one key."""
+    values, label = column(study, name)
+    x, x_label, words = along(study, key, per_case=True)
+    dots = marks(x, values, label, colour(0), symbol="circle", showlegend=False)
+    dots["marker"] |= {"size": 6, "line": {"width": 0}}
+    return stacked(f"{name}-{key}", f"{label} of all cases against {x_label}.", x_label, [(label, [dots], {})],
+                   _ticks(x, words, numeric(study, key)), height=330)
+
+
+def _ticks(x, words, numbers):
+    """An axis of words has them as its ticks."""
+    places = dict(zip(np.asarray(x).tolist(), words))
+    return {} if numbers else {"tickvals": list(places), "ticktext": list(places.values())}

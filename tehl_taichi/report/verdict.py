@@ -1,0 +1,121 @@
+"""The answer of a run, in a sentence, and what it rests on."""
+
+from tehl_taichi.report.document import Answer
+from tehl_taichi.report.rounded import told
+from tehl_taichi.scene.route import total_steps
+
+ABOVE, WITHIN, BELOW = 1, 0, -1
+SAID = {ABOVE: "above 1", WITHIN: "1 lies within the error", BELOW: "below 1"}
+FATIGUE, FILM = "Does a fatigue crack start here?", "How thick is the film, and how large is the pressure?"
+
+
+def of(store):
+    """The :class:`tehl_taichi.report.document.Answer` of a run's store."""
+    summary = store.summary
+    if not summary:
+        return _none_yet(store)
+    found = of_fatigue(summary["fatigue"]) if "fatigue" in summary else _of_film(summary)
+    question, headline, tone, tells = found
+    doubts = (*_cut(store), *_constants(store, summary), *_version(store))
+    return Answer(question, headline, tone, (*tells, *_read_first(store.warnings)), doubts, tuple(store.warnings))
+
+
+def _read_first(warnings):
+    what = "warning" if len(warnings) == 1 else f"{len(warnings)} warnings"
+    return (f"Read the {what} below first.",) if warnings else ()
+
+
+def judged(Fi, error=None):
+    """Whether an index is above 1, below it, or 1 within its error (None: not known)."""
+    if abs(Fi - 1) <= (error or 0.0):
+        return WITHIN
+    return ABOVE if Fi > 1 else BELOW
+
+
+def layers(fatigue):
+    """[(where in words, Fi, its error or None)] of the surface and of what lies below it."""
+    found = [("at the surface", fatigue)]
+    if "below" in fatigue:
+        found.append((f"{fatigue['below']['depth_m'] * 1e6:.0f} µm below the surface", fatigue["below"]))
+    return [(where, part["Fi_max"], part.get("error", {}).get("Fi_max")) for where, part in found]
+
+
+def of_fatigue(fatigue):
+    """(question, headline, tone, sentences) of the summary of a search."""
+    found = [(where, Fi, error, judged(Fi, error)) for where, Fi, error in layers(fatigue)]
+    tells = [_told(*layer) for layer in found]
+    worst = max(said for *_, said in found)
+    places = " and ".join(where for where, _, _, said in found if said == worst)
+    known = all(error is not None for _, _, error, said in found if said == worst)
+    return FATIGUE, *headline(worst, places, known), (*tells, *_alone(fatigue), *_plane(fatigue))
+
+
+def _told(where, Fi, error, said):
+    unknown = "" if error is not None else " (error not known)"
+    return f"{where[0].upper()}{where[1:]}: Fi = {told(Fi, error)}{unknown}, {SAID[said]}."
+
+
+def headline(worst, places, known):
+    """(headline, tone); known: whether the error of the numbers behind it is."""
+    if worst == WITHIN:
+        return f"Not decided: the index is 1 within its error {places}.", "open"
+    yes, no, more = ("Yes", "No", "") if known else ("Probably yes", "Probably not", "; the error of that is not known")
+    if worst == ABOVE:
+        return f"{yes}: the fatigue limit is exceeded {places}{more}.", "yes"
+    return f"{no}: the index stays below 1{more}.", "no"
+
+
+def _alone(fatigue):
+    alone = fatigue.get("below", {}).get("contact_alone")
+    if not alone:
+        return ()
+    more = ": the material is overloaded there without the feature too" if alone["Fi_max"] > 1 else ""
+    return (f"The contact without its feature has Fi = {told(alone['Fi_max'])} at {alone['depth_m'] * 1e6:.0f} µm{more}.",)
+
+
+def _plane(fatigue):
+    pits = fatigue.get("pit_angles_deg")
+    known = f"; pits begin at {pits[0]:g} to {pits[1]:g}°" if pits else ""
+    return (f"The critical plane at the surface stands at {fatigue['surface_angle_deg']:.0f}° to it{known}.",)
+
+
+def _of_film(summary):
+    part, when = (summary["transient"], "least") if "transient" in summary else (summary["steady"], "smallest")
+    film, pressure = (_with_error(part, key, unit) for key, unit in (("h_min_m", "m"), ("p_max_Pa", "Pa")))
+    centre = _with_error(summary["steady"], "h_c_m", "m")
+    why = next((f"No index of fatigue: {text}." for text in summary["left_out"] if text.startswith("stresses and fatigue")), "")
+    return FILM, f"The {when} film is {film}, the largest pressure {pressure}.", "none", tuple(filter(None, (
+        f"The film in the middle of the steady contact is {centre}.", why)))
+
+
+def _with_error(part, key, unit):
+    return told(part[key], part.get("error", {}).get(key), unit)
+
+
+def _none_yet(store):
+    total, writer = total_steps(store.scene), store.writer
+    state = (f"It is still being written by {writer}." if writer else
+             f"It was stopped, or a step did not converge; `tehl resume {store.path.name}` goes on.")
+    question = FATIGUE if store.scene.fatigue_wanted else FILM
+    return Answer(question, "No answer yet: the run is not finished.", "none", (
+        f"{store.last_step} of {total} time steps are stored. {state}",), _version(store), tuple(store.warnings))
+
+
+def _cut(store):
+    if store.cut is None:
+        return ()
+    return (f"The passage ends at {store.cut:.2f} a, inside the contact: what comes later is not in these numbers.",)
+
+
+def _constants(store, summary):
+    if "fatigue" not in summary:
+        return ()
+    f = summary["fatigue"]
+    said = (f"Fi = 1 is the fatigue limit σ_eF = {f['sigma_eF_Pa'] / 1e6:g} MPa with κ = {f['kappa_F']:g} "
+            f"({f['criterion']}): {store.scene.fatigue.source}.")
+    stress = "counts" if f["thermal_stress"] else "does not count"
+    return said, f"The stress of the heat {stress} in it."
+
+
+def _version(store):
+    return (f"The store was {store.other_version}.",) if store.other_version else ()

@@ -1,0 +1,66 @@
+"""From a folder to its page on the disk."""
+
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+from tehl_taichi.errors import StoreError
+
+
+def report(of: str | PathLike | Any, out: str | PathLike | None = None, *, force: bool = False) -> Path:
+    """Write the page of a run's store (finished or not), of a study or of a flank; returns its path.
+
+    of: the folder, or the Run, Study or Flank itself; out: the file (default: beside the folder, with .html); force: replace a
+    file that is there. The page needs no other file and no network. Raises StoreError where `of` is nothing of ours, jinja2 or
+    plotly are missing (the `report` extra), or the file is there already or cannot be written.
+
+    >>> import tehl_taichi as tehl
+    >>> scene = tehl.scene("smooth-line").replace(**{"grid.nx": 32, "thermal.on": False})
+    >>> tehl.report(tehl.run(scene, "told.zarr")).name
+    'told.html'
+    """
+    from tehl_taichi.report import document, packed
+
+    folder = Path(getattr(of, "path", getattr(of, "folder", of)))
+    out = Path(out) if out else beside(folder)
+    _check_free(out, force)
+    packed.check_installed()
+    _write(out, document.rendered(page_of(folder)))
+    return out
+
+
+def _write(out, text):
+    """Put the file there as a whole. Raises StoreError."""
+    from tehl_taichi.io import atomic
+    from tehl_taichi.io.place import reason
+
+    try:
+        out.parent.mkdir(parents=True, exist_ok=True)
+        atomic.replace(out, text.encode())
+    except OSError as error:
+        raise StoreError(f"cannot write {out}: {reason(error)}") from None
+
+
+def beside(folder):
+    """The file of the page of `folder` where no other is wanted."""
+    folder = folder.absolute() if not folder.name else folder
+    return folder.with_suffix(".html") if folder.suffix else folder.with_name(f"{folder.name}.html")
+
+
+def _check_free(out, force):
+    """Refuse before anything is read. Raises StoreError."""
+    if out.is_dir():
+        raise StoreError(f"{out} is a folder; --out takes the name of a file, as in {out / 'report.html'}")
+    if out.exists() and not force:
+        raise StoreError(f"{out} exists already; choose another --out, or --force to replace it")
+
+
+def page_of(folder):
+    """The :class:`tehl_taichi.report.document.Page` of whatever lies in `folder`. Raises StoreError."""
+    from tehl_taichi.flank.stored_flank import is_flank
+    from tehl_taichi.report import flank_page, run_page, study_page
+    from tehl_taichi.study.table import is_study
+
+    if is_study(folder):
+        return study_page.of(folder)
+    return flank_page.of(folder) if is_flank(folder) else run_page.of(folder)

@@ -1,0 +1,152 @@
+"""The documentation says what the code says: keys, messages, commands; what Markdown and LaTeX would swallow is refused."""
+
+import ast
+import importlib.util
+import re
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+import typer.main
+from handbook import equations, lists, makers, scene_keys
+from tehl_cli.main import app
+
+from tehl_taichi.criteria import CRITERIA
+from tehl_taichi.io import scene_file
+from tehl_taichi.physics.choices import CHOICES
+from tehl_taichi.scene import scene
+
+ROOT = Path(__file__).parents[1]
+PAGES = sorted((ROOT / "docs").glob("*.md"))
+SOURCES = [path for folder in ("tehl_taichi", "cli") for path in (ROOT / folder).rglob("*.py")]
+SPOKEN = "…"  # in messages of the page: what differs from case to case
+
+
+def keys_of(data, before=""):
+    """Dotted keys of a parsed scene file."""
+    for key, value in data.items():
+        inner = value[0] if isinstance(value, list) and value and isinstance(value[0], dict) else value
+        yield from keys_of(inner, f"{before}{key}.") if isinstance(inner, dict) else [before + key]
+
+
+def test_every_key_of_a_new_scene_file_stands_in_the_reference():
+    reference = scene_keys.text()
+    keys = [key for key in keys_of(tomllib.loads(scene_file.dumps(scene("gear")))) if key != "name"]
+    assert len(keys) > 100
+    missing = [key for key in keys if f"{{ #{key} }}" not in reference and not key.startswith("bodies.b.")]
+    assert not missing
+
+
+def test_the_reference_has_the_words_of_new_scene_files():
+    """Unit, meaning and range, as they stand behind each value there."""
+    unescaped = re.sub(r"\\(.)", r"\1", scene_keys.text())
+    rows = dict(re.findall(r"^\| `\w+`\{ #([\w.]+) \} \| (.*) \|$", unescaped, re.M))
+    template, section = scene_file.dumps(scene("gear")), ""
+    for line in template.splitlines()[3:]:
+        words, _, comment = line.partition("  # ")
+        if words.startswith("["):
+            section = words.strip().strip("[]")
+        elif comment and section != "bodies.b":
+            _, unit, meaning, allowed = rows[f"{section}.{words.split(' = ')[0]}"].split(" | ")
+            said = meaning + (f" [{allowed}]" if allowed.strip() else "")
+            assert comment in ([f"{unit}: {said}"] if unit else [f"-: {said}", said]), line
+
+
+def texts_of(path):
+    """Every text of a source file, with … for what is filled in."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.JoinedStr):
+            yield "".join(part.value if isinstance(part, ast.Constant) else SPOKEN for part in node.values)
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+            yield node.value
+
+
+def says(text, message):
+    """Whether a text of the code has the parts of a message in their order."""
+    at = 0
+    for part in message.strip(SPOKEN + " ").split(SPOKEN):
+        at = text.find(part, at)
+        if at < 0:
+            return False
+        at += len(part)
+    return True
+
+
+def test_every_message_of_the_troubleshooting_page_is_one_of_the_code():
+    texts = {text for path in SOURCES for text in texts_of(path) if " " in text}
+    page = (ROOT / "docs" / "troubleshooting.md").read_text(encoding="utf-8")
+    messages = re.findall(r"^### `(.*)`$", page, re.M)
+    assert len(messages) > 40
+    assert [message for message in messages if not any(says(text, message) for text in texts)] == []
+
+
+def test_every_law_and_criterion_stands_in_the_theory():
+    theory = (ROOT / "docs" / "theory.md").read_text(encoding="utf-8")
+    names = [name for registry in (*CHOICES.values(), CRITERIA) for name in registry]
+    assert [name for name in names if f"`{name}`" not in theory] == []
+
+
+def commands(found, words="tehl"):
+    """{words that are typed: names of its options} of a command and of those below it."""
+    inner = getattr(found, "commands", {})
+    out = {words: {name for parameter in found.params for name in (*parameter.opts, *parameter.secondary_opts)}}
+    for name, each in inner.items():
+        out |= commands(each, f"{words} {name}")
+    return out
+
+
+@pytest.mark.parametrize("page", [*PAGES, ROOT / "README.md"], ids=lambda path: path.name)
+def test_commands_in_the_pages_are_those_of_the_command_line(page):
+    known = commands(typer.main.get_command(app))
+    everywhere = {"--help", "--debug", "--version"}
+    for line in re.findall(r"(?:`|^)(tehl [^`\n]*)", page.read_text(encoding="utf-8"), re.M):
+        words = [word for word in line.split() if re.fullmatch(r"[a-z]+", word)]
+        name = " ".join(words[:3] if words[:2] == ["tehl", "bench"] else words[:2])
+        options = set(re.findall(r"(?<!\S)--[a-z][a-z-]*", line))
+        assert options <= everywhere if name == "tehl" else name in known or words[:2] == ["tehl", "bench"], line
+        assert options - everywhere <= known.get(name, set()), line
+
+
+def test_pages_name_only_what_is_made():
+    for page in PAGES:
+        filled = makers.filled(page.read_text(encoding="utf-8"))
+        assert "<!-- made:" not in filled and "<!-- file:" not in filled
+    with pytest.raises(KeyError, match="nothing"):
+        makers.filled("<!-- made: nothing -->")
+
+
+def test_every_page_stands_in_the_navigation():
+    named = re.findall(r": (\w+\.md)$", (ROOT / "mkdocs.yml").read_text(encoding="utf-8"), re.M)
+    assert sorted(named) == [page.name for page in PAGES]
+
+
+@pytest.mark.parametrize("text", ["some words\n* a list", "some words\n| a | b |", "words\n1. first"])
+def test_lists_and_tables_that_stay_text_are_refused(text):
+    with pytest.raises(ValueError, match="no empty line before"):
+        lists.checked(f"<p>{text}</p>")
+    assert lists.checked("<p>a * b\nc - d</p><ul>\n<li>x</li>\n</ul>")
+
+
+def test_equations_become_mathml_or_are_refused():
+    pytest.importorskip("latex2mathml", reason="needs the docs extra: pip install 'tehl_taichi[docs]'")
+    drawn = equations.drawn('<p><span class="arithmatex">\\(a &lt; \\frac{1}{2}\\)</span></p>')
+    assert "<mfrac>" in drawn and "&#x0003C;" in drawn and "arithmatex" not in drawn
+    with pytest.raises(ValueError, match="nosuchword is not known"):
+        equations.drawn('<div class="arithmatex">\\[\\nosuchword x\\]</div>')
+
+
+@pytest.mark.slow
+def test_the_pages_build_without_a_warning_and_load_nothing_from_elsewhere(tmp_path):
+    for name in ("mkdocs", "material", "latex2mathml"):
+        if not importlib.util.find_spec(name):
+            pytest.skip(f"{name} is not installed: pip install 'tehl_taichi[docs]'")
+    built = subprocess.run([sys.executable, "-m", "mkdocs", "build", "--strict", "--site-dir", tmp_path], cwd=ROOT,
+                           capture_output=True, text=True)
+    assert built.returncode == 0, built.stderr
+    for page in tmp_path.glob("*.html"):
+        text = page.read_text(encoding="utf-8")
+        assert not re.findall(r'<(?:script|link|img|iframe)[^>]*(?:src|href)="(?:https?:)?//[^"]*"', text), page.name
+        assert "arithmatex" not in text, page.name
+    assert "<math" in (tmp_path / "theory.html").read_text(encoding="utf-8")
