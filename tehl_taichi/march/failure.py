@@ -37,7 +37,9 @@ def _what_failed(solver, heat, report):
                 f"{_heated(heat)}")
     if not report.mass_error < numerics.mass_tolerance:
         return f"mass error {report.mass_error:.1e} (tolerance {numerics.mass_tolerance:.0e}){_heated(heat)}"
-    if heat and not heat.sound:
+    if not heat:
+        return f"residual {report.residual:.1e}"
+    if not heat.sound:
         return _heated(heat)[2:]
     if not np.isfinite(heat.report.change):
         return "no step of a march in time converges any more"
