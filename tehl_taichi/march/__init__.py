@@ -1,8 +1,9 @@
 """A run of a scene in memory: the steady start, then the passage step by step, and how good its numbers are.
 
-`passage` marches; `start` begins (`steady`, `first_film`, `settle`); `prediction` and `guess` look ahead, `failure` says what
-went wrong; `snapshot` is what comes out, an entry of `outputs/` for each field and number; `readings`, `error_bars` and
-`companions` are its error bars. May import all rooms of physics; nothing here knows of files, but a companion's own process.
+`passage` marches in `rounds`; `start` begins (`steady`, `first_film`, `settle`, `together`); `prediction` and `guess` look
+ahead, `failure` says what went wrong; `snapshot` is what comes out, an entry of `outputs/` for each field and number;
+`readings`, `error_bars` and `companions` are its error bars. May import all rooms of physics; nothing here knows of files, but
+a companion's own process.
 """
 
 from collections.abc import Iterator

@@ -38,7 +38,7 @@ def _what_failed(solver, heat, report):
     if not report.mass_error < numerics.mass_tolerance:
         return f"mass error {report.mass_error:.1e} (tolerance {numerics.mass_tolerance:.0e}){_heated(heat)}"
     if not heat:
-        return "the load or the contact of the surfaces is not settled"
+        return f"residual {report.residual:.1e}"
     if not heat.sound:
         return _heated(heat)[2:]
     if not np.isfinite(heat.report.change):
