@@ -101,7 +101,7 @@ def pyplot():
         import matplotlib
     except ImportError:
         return None
-    from cycler import cycler
+    from matplotlib import cycler
 
     from tehl_taichi.figures import palette
 

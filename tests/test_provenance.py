@@ -89,8 +89,9 @@ def test_what_is_imported_is_declared():
     nodes = [node for path in sources for node in ast.walk(ast.parse(path.read_text()))]
     imported = {node.module for node in nodes if isinstance(node, ast.ImportFrom)}
     imported |= {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
-    ours = {"tehl_taichi", "tehl_cli"}
-    assert {name.partition(".")[0] for name in imported} - ours - sys.stdlib_module_names <= declared
+    ours = {"tehl_taichi", "tehl_cli", *(path.stem for path in (ROOT / "profiles" / "examples").glob("*.py"))}
+    packages = {{"PIL": "pillow"}.get(name, name) for name in (name.partition(".")[0] for name in imported)}
+    assert packages - ours - sys.stdlib_module_names <= declared
 
 
 def test_pythons_that_are_supported():

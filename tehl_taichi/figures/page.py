@@ -126,7 +126,7 @@ class Page:
 
 
 def _cycle():
-    from cycler import cycler
+    from matplotlib import cycler
 
     return cycler(color=palette.LINES)
 

@@ -41,13 +41,13 @@ def inject_block(S: ti.template(), J: ti.template(), G: ti.template(), l, t, row
 
 
 @ti.kernel
-def inject(S: ti.template(), J: ti.template(), G: Table, levels: ti.i32, blocks: ti.i32, rows: ti.template(),
+def inject(S: ti.template(), J: ti.template(), G: Table, levels: ti.i32, shared: ti.i32, rows: ti.template(),
            alone: ti.template()):
     """The fields `rows` (state, sets, laws) of every coarser level from the coinciding nodes of the finest; ghosts stay dry.
-    KIND: what is dry, for levels that corrections only pass through. blocks: of the first coarser level, three quarters of all.
+    KIND: what is dry, for levels that corrections only pass through. shared: blocks of the first one (3/4 of all).
     """
     ti.loop_config(block_dim=1, serialize=alone)
-    for t in range(blocks):
+    for t in range(shared):
         inject_block(S, J, G, 0, t, rows)
     ti.loop_config(serialize=True)
     for _ in range(1):
