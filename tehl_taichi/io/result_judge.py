@@ -37,9 +37,10 @@ def held_temperatures(store, summary):
 
 
 def crowded(store, summary):
-    """Linear solves that fell back to one worker because others used the cores of the run."""
+    """Linear solves that fell back to one worker because others used the cores of the run, other than its own companions."""
     done, fewer = summary.get("crowding", (0, 0))
-    if fewer <= CROWDED * done:
+    companions = any(error is not None for error in summary.get("transient", {}).get("error", {}).values())
+    if fewer <= CROWDED * done or companions:
         return []
     return [f"something else used the cores of this run: {fewer} of {done} launches of linear solves went on with one worker, "
             "to the same results, but later; fewer threads leave the others their cores"]
