@@ -1,6 +1,5 @@
 """FFT operators on pyfftw's own buffers, which the kernels read and write directly (no copies)."""
 
-
 import numpy as np
 
 from tehl_taichi.engine.fftw import pyfftw

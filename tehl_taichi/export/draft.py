@@ -8,7 +8,7 @@ from pathlib import Path
 
 from tehl_taichi.errors import StoreError
 from tehl_taichi.io.lock import Lock
-from tehl_taichi.io.place import PART, beside, clean, reason
+from tehl_taichi.io.place import PART, beside, clean, exists, reason
 
 
 def default(store, format):
@@ -76,7 +76,7 @@ def _check_free(path, format, force):
     if path.is_symlink() or not fits:  # devices are no files
         raise StoreError(f"{path} is there and is no {wanted}, which {format.name} needs; choose another --out")
     if not force:
-        raise StoreError(f"{path} exists already; choose another --out, or --force to replace it")
+        raise StoreError(exists(path))
     for part in sorted(path.iterdir()) if format.parts else ():
         if not re.fullmatch(format.parts, part.name):
             raise StoreError(f"{path} holds {part.name}, which is no part of an export; move it away, or choose another --out")

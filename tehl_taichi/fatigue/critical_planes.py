@@ -8,7 +8,6 @@ drawn about any centre. About the centre that belongs to the best plane so far (
 bound is nearly the value itself, and only planes that are really better are evaluated exactly.
 """
 
-
 from tehl_taichi.engine.language import ti
 from tehl_taichi.fatigue.circle import enclose, vec3
 

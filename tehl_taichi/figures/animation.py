@@ -14,6 +14,7 @@ from tehl_taichi.figures.frames import SHOWN, Frames
 from tehl_taichi.figures.moments import Moments
 from tehl_taichi.figures.page import Page, drawing, made
 from tehl_taichi.io import atomic
+from tehl_taichi.io.place import exists, reason
 from tehl_taichi.values.checks import choice, integer
 
 FORMATS = ("gif", "mp4")
@@ -55,7 +56,7 @@ def animate(source: str | PathLike | Any, out: str | PathLike | None = None, *, 
             write(temporary, Frames(page, Moments(store), entries, shown if store.y.size > 1 else None), fps,
                   progress or (lambda done, total: None), tool)
     except OSError as error:
-        raise StoreError(f"cannot write {path}: {error.strerror or error}") from None
+        raise StoreError(f"cannot write {path}: {reason(error)}") from None
     return path
 
 
@@ -71,7 +72,7 @@ def _file(store, out, format, force):
         raise SceneError(f"out = {path} is no {format}; leave out --format, or choose another --out")
     path = path if told == format else path.with_name(f"{path.name}.{format}")
     if path.exists() and not force:
-        raise StoreError(f"{path} exists already; choose another --out, or --force to replace it")
+        raise StoreError(exists(path))
     made(path.parent)
     return path, format
 

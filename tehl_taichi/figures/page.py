@@ -9,6 +9,7 @@ import numpy as np
 from tehl_taichi.errors import SceneError, StoreError
 from tehl_taichi.figures import palette
 from tehl_taichi.io import atomic
+from tehl_taichi.io.place import reason
 from tehl_taichi.values.checks import choice, integer, number
 from tehl_taichi.values.plain import plain
 
@@ -106,7 +107,7 @@ class Page:
                 with atomic.aside(path) as temporary:
                     figure.savefig(temporary, format=self.format, dpi=self.dpi, metadata=UNDATED[self.format])
             except OSError as error:
-                raise StoreError(f"cannot write {path}: {error.strerror or error}") from None
+                raise StoreError(f"cannot write {path}: {reason(error)}") from None
         return path
 
     def fitted(self, figure):
@@ -150,5 +151,5 @@ def made(folder):
     try:
         Path(folder).mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise StoreError(f"cannot put figures into {folder}: {error.strerror or error}; --out takes a folder") from None
+        raise StoreError(f"cannot put figures into {folder}: {reason(error)}; --out takes a folder") from None
     return Path(folder)

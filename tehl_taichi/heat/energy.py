@@ -4,7 +4,6 @@ In time along the paths of the oil (BDF2); through the film implicit, conduction
 of the bodies) and the flow through the moving nodes in one Newton system per column.
 """
 
-
 from tehl_taichi.engine.elementary import log
 from tehl_taichi.engine.lanes import Flat, Table, V, W, cells, place, tile, tiles
 from tehl_taichi.engine.language import ti

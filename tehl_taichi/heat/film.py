@@ -8,7 +8,6 @@ and b what the shear law leaves of the viscosity: u = u_a - u_s int_0 dzeta/eta 
 / b. Integrals over zeta: N, see :mod:`tehl_taichi.heat.nodes`.
 """
 
-
 from tehl_taichi.engine.elementary import exp, log
 from tehl_taichi.engine.lanes import Flat, Table, V, cells, place, tile, tiles
 from tehl_taichi.engine.language import ti

@@ -1,6 +1,5 @@
 """What kernels read of the nodes across the film: the table of :class:`tehl_taichi.heat.across.Across`, N."""
 
-
 from tehl_taichi.engine.language import ti
 from tehl_taichi.heat.across import BEYOND, INTEGRAL, MATRICES, SECOND, SLOPE, WEIGHT, ZETA
 

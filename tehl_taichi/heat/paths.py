@@ -1,6 +1,5 @@
 """Where the oil of a film came from: values one and two steps ago at the departure points of its nodes."""
 
-
 from tehl_taichi.engine.lanes import Flat, Table, V, W, cells, place, tile, tiles
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read

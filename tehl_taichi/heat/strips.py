@@ -5,7 +5,6 @@ the new step; one scratch slot. A column belongs to a material strip, which the 
 a rest (Drift).
 """
 
-
 from tehl_taichi.engine.lanes import Flat, Table, V, W, cells
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read

@@ -75,7 +75,7 @@ class Place:
             if leftover.name != LOCK:
                 _remove(leftover)
         if os.path.lexists(self.path) and not self.old:  # it came while we looked
-            raise Busy(f"{self.path} exists already; choose another --out, or --force to replace it")
+            raise Busy(exists(self.path))
 
     def _locked(self):
         while True:
@@ -148,7 +148,7 @@ def _check_free(path):
         raise StoreError(f"{path} is a link that leads nowhere; remove it or choose another --out")
     if path.exists():
         if intact.is_store(path):
-            raise StoreError(f"{path} exists already; choose another --out, or --force to replace it")
+            raise StoreError(exists(path))
         raise StoreError(f"{path} exists already and is no store; choose another --out")
     parent = path.absolute().parent
     while not os.path.lexists(parent):
@@ -207,3 +207,8 @@ def _remove(path):
 def reason(error):
     """An OSError in words."""
     return error.strerror or str(error)
+
+
+def exists(path):
+    """That something stands at `path`, in words."""
+    return f"{path} exists already; choose another --out, or --force to replace it"

@@ -14,7 +14,7 @@ from tehl_taichi.heat.temperatures import FilmHeat
 from tehl_taichi.march import snapshot
 from tehl_taichi.march.failure import crossed, not_converged
 from tehl_taichi.march.prediction import Prediction
-from tehl_taichi.march.rounds import exchange
+from tehl_taichi.march.rounds import carefully, exchange
 from tehl_taichi.march.snapshot import Snapshot
 from tehl_taichi.march.solved import Solved
 from tehl_taichi.march.start import steady_snapshot
@@ -28,9 +28,9 @@ from tehl_taichi.scene.scales import Scales
 
 __all__ = ["NotConverged", "Passage", "Snapshot", "march", "total_steps"]
 
-RETRY_KRYLOV = 3e-3  # a failed step is repeated from the old pressure with a Krylov solve ten times tighter,
-# and with temperatures in so many times the rounds: at the outlet edge of a hot film a shorter step changes as much from round
-# to round (asperity of 100 um on 128 columns, SRR -0.12 and 0.12: by 100 K and more; with 8 rounds neither passes 1.15 a)
+# A failed step is repeated, with temperatures in so many times the rounds: at the outlet edge of a hot film a shorter step
+# changes as much from round to round (asperity of 100 um on 128 columns, SRR -0.12 and 0.12: by 100 K and more; with 8 rounds
+# neither passes 1.15 a)
 MORE_ROUNDS = 4
 SMALLEST_PART = 1 / 16  # then in halves down to this part of it; after that parts at most double
 
@@ -138,13 +138,7 @@ class Passage:
 
     def _solve(self):
         """The pressure, and with it film, cavitation, solid contact and load; carefully where it does not converge at once."""
-        H0 = self.solver.H0
-        report = self.solver.solve()
-        if not report.converged:
-            self.levels.put(fields.P, self.P)
-            self.solver.H0 = H0
-            report = self.solver.solve(RETRY_KRYLOV, newton_max=2 * self.scene.numerics.newton_max)
-        return report
+        return carefully(self.solver, self.P)
 
     def _accept(self, at, part):
         """What is in the tables is the newest state."""

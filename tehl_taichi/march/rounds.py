@@ -2,6 +2,9 @@
 
 import math
 
+from tehl_taichi.march.first_film import put
+
+RETRY_KRYLOV = 3e-3  # of a solve that failed: ten times tighter
 SLUGGISH = 0.2  # rounds that leave more of the last change are relaxed; usual is 0.01 to 0.1
 
 
@@ -31,4 +34,13 @@ def exchange(solver, heat, solve, most=None):
     else:
         report.converged = False
     report.newton, report.cycles = newton, cycles
+    return report
+
+
+def carefully(solver, P):
+    """The pressure of a step; where it does not converge at once, again from P, the last one accepted, with more care."""
+    H0, report = solver.H0, solver.solve()
+    if not report.converged:
+        put(solver, P, H0)
+        report = solver.solve(RETRY_KRYLOV, newton_max=2 * solver.levels.scene.numerics.newton_max)
     return report

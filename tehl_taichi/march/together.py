@@ -11,16 +11,13 @@ import math
 import numpy as np
 
 from tehl_taichi.march.first_film import again, put
-from tehl_taichi.march.rounds import exchange
+from tehl_taichi.march.rounds import carefully, exchange
+from tehl_taichi.march.settle import FLUTTER, LOADED, SETTLED
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.storage import Storage
 
 ONSET, BLOCK = 0.5, 0.25  # transits of the domain by the slower surface: of the growing slip; of a block
 BLOCKS, MOST_STEPS = 24, 4000  # at most; scenes that rest do so after 4 to 18 blocks
-RESTS = 0.05  # K, between two blocks
-MOVES = 0.7  # K, that a block may move what settled by turns: single moments and blocks flutter (:mod:`settle`)
-LOADED = 1e-3  # of p_H, where temperatures are judged
-RETRY_KRYLOV = 3e-3  # of a step that did not converge
 SMALLEST_PART = 1 / 64  # of a step, that it is taken in
 
 
@@ -33,18 +30,18 @@ def march_to_rest(solver, heat, P, H0):
     together = Together(solver, heat)
     together.slip_in()
     change = together.rest()
-    if change < RESTS and not together.lost:
+    if change < SETTLED and not together.lost:
         change = together.checked()
-    return _judged(together, change, RESTS)
+    return _judged(together, change, SETTLED)
 
 
 def check(solver, heat):
     """A block from what counts as settled. Returns the Report of the steady pressure; converged = False where the block moves
-    the temperatures by more than MOVES."""
+    the temperatures by more than FLUTTER."""
     heat.bodies.steady = True
     together = Together(solver, heat)
     together.mean = heat.T
-    return _judged(together, together.checked(), MOVES)
+    return _judged(together, together.checked(), FLUTTER)
 
 
 def _judged(together, change, most):
@@ -85,14 +82,14 @@ class Together:
         self.levels.numbers.slip(part)
 
     def rest(self):
-        """Blocks of steps until two differ by less than RESTS, or there were enough. Returns what the last two differ by, K."""
+        """Blocks of steps until two differ by less than SETTLED, or there were enough. Returns the last difference, K."""
         self.mean, change = self.heat.T, math.inf
         for _ in range(min(BLOCKS, MOST_STEPS // self._block_steps)):
             moved = self.block()
             if self.lost:  # what it reached before is a state in time
                 break
             change = moved
-            if change < RESTS and self.heat.sound:
+            if change < SETTLED and self.heat.sound:
                 break
         return change
 
@@ -141,7 +138,7 @@ class Together:
         v, dT, H0 = self.levels, dt / self.levels.scales.t, self.solver.H0
         self.storage.begin(dT)
         self.heat.begin(dt)
-        self.report = exchange(self.solver, self.heat, self._solve)
+        self.report = exchange(self.solver, self.heat, lambda: carefully(self.solver, self.P))
         if self.report.converged:
             self.storage.accept(dT)
             self.heat.accept()
@@ -150,10 +147,3 @@ class Together:
             put(self.solver, self.P, H0)
             self.heat.set_temperature(self.heat.T)
         return self.report.converged
-
-    def _solve(self):
-        H0, report = self.solver.H0, self.solver.solve()
-        if not report.converged:
-            put(self.solver, self.P, H0)
-            report = self.solver.solve(RETRY_KRYLOV, newton_max=2 * self.levels.scene.numerics.newton_max)
-        return report

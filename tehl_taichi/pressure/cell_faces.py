@@ -3,7 +3,6 @@
 Mobility of the face: log-mean of 1/eta, geometric mean of rho, and of H^3 the :func:`cube`.
 """
 
-
 from tehl_taichi.engine.lanes import V, above, below
 from tehl_taichi.engine.language import ti
 from tehl_taichi.pressure.fields import DLE, DRP, GAP, IE, LE, ROOT, P

@@ -1,6 +1,5 @@
 """dP/dX and dP/dY at the nodes, from the differences to both neighbours."""
 
-
 from tehl_taichi.engine.lanes import V, W, above, below
 from tehl_taichi.engine.language import ti
 from tehl_taichi.pressure.fields import DX, DY, P

@@ -4,7 +4,6 @@ Generalised Reynolds equation (Yang & Wen 1990) without an energy equation: oil 
 had what the shear law leaves of that viscosity at the stress of the Couette part.
 """
 
-
 from tehl_taichi.engine.elementary import exp, log
 from tehl_taichi.engine.lanes import Flat, Table, V, W, cells
 from tehl_taichi.engine.language import ti

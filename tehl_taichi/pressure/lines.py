@@ -6,7 +6,6 @@ transport of rho H: there the unknown is distributed with K^-1 (symbol |k|, one 
 a unit at one node and the rows become banded transport.
 """
 
-
 from tehl_taichi.engine.lanes import Blocks, L, LinearTable, Table, V, W, above, below, cells, neighbour_masks
 from tehl_taichi.engine.language import ti
 from tehl_taichi.pressure.couette import couette_weights

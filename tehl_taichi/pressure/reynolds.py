@@ -4,7 +4,6 @@ Conservative five-point Poiseuille part; Couette part third-order upwind-biased,
 time derivative of the newest level, in a frame that may move with the oil. Everything is multiplied by dx.
 """
 
-
 from tehl_taichi.engine.lanes import Blocks, L, LinearFlat, Table, V, W, above, below, cells, face_weights, lanes_in, lanes_out
 from tehl_taichi.engine.language import ti
 from tehl_taichi.pressure.cell_faces import face_above, face_below, face_x, flux_x, net_flux_y

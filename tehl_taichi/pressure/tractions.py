@@ -1,6 +1,5 @@
 """Shear tractions on both surfaces from the film (isothermal: one viscosity across it) and from solid contact."""
 
-
 from tehl_taichi.engine.lanes import Flat, Table, V, W, cells, place, tile, tiles
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read

@@ -1,6 +1,5 @@
 """Grid transfers between each level and the next coarser one (every second node), block by block."""
 
-
 from tehl_taichi.engine.lanes import L, Table, V, W, cells
 from tehl_taichi.engine.language import ti
 from tehl_taichi.pressure.fields import COR, DRY, JN, KIND, LINES, RES, TOUCH, H, P

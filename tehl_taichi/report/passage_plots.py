@@ -93,18 +93,19 @@ def _ends(X):
 
 def _slides(store, shown, lines, panels):
     """What the slider needs: the lines of every moment, which traces they are, the positions of the feature, words."""
-    traces = [trace for _, found, _ in panels for trace in found]
-    at = store.scalar("feature_x")[shown] / Scales.of(store.scene).a
+    traces, found = [trace for _, group, _ in panels for trace in group], Moments(store)
+    at = store.scalar("feature_x")[shown] / found.a
     return {"slides": {"lines": list(lines.values()), "traces": [n for n in range(len(traces)) if n % 2],
                        "at": [None if n == 0 else float(x) for n, x in zip(shown, at)],
                        "first": int(np.searchsorted(shown, worst_entry(store))),
-                       "labels": [_label(store, int(n)) for n in shown]}}
+                       "labels": [_label(found, int(n)) for n in shown]}}
 
 
-def _label(store, n):
+def _label(moments, n):
     """A moment in words."""
+    store = moments.store
     p, h = store.scalar("p_max_Pa")[n] / 1e9, store.scalar("h_min_m")[n] * 1e6
-    return f"{Moments(store).says(n)}: p_max {p:.3f} GPa, h_min {h:.3f} µm"
+    return f"{moments.says(n)}: p_max {p:.3f} GPa, h_min {h:.3f} µm"
 
 
 def _caption(store, shown):

@@ -51,8 +51,10 @@ def _check_free(out, force):
     """Refuse before anything is read. Raises StoreError."""
     if out.is_dir():
         raise StoreError(f"{out} is a folder; --out takes the name of a file, as in {out / 'report.html'}")
+    from tehl_taichi.io.place import exists
+
     if out.exists() and not force:
-        raise StoreError(f"{out} exists already; choose another --out, or --force to replace it")
+        raise StoreError(exists(out))
 
 
 def page_of(folder):
