@@ -31,8 +31,8 @@ def run(
     thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="energy equation on or off"),
     fatigue: Optional[bool] = typer.Option(None, "--fatigue/--no-fatigue", help="stresses and Findley index"),
     estimate_error: Optional[bool] = typer.Option(None, "--estimate-error/--no-estimate-error",
-                                                  help="error of the passage's numbers, by companion runs (default: where "
-                                                       "a core is free for them)"),
+                                                  help="error of the passage's numbers, by companion runs (default: of all but "
+                                                       "very short passages)"),
     kappa: Optional[float] = typer.Option(None, help="Findley's kappa_F"),
     endurance: Optional[float] = typer.Option(None, help="Findley's endurance limit sigma_eF, Pa"),
     steps: Optional[int] = typer.Option(None, help="stop after this many time steps (0: the steady start alone); `tehl "

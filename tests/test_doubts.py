@@ -77,8 +77,7 @@ def test_a_crowded_machine_is_told():
 
     assert result_judge.crowded(None, {}) == [] == result_judge.crowded(None, {"crowding": [0, 0]})
     assert result_judge.crowded(None, {"crowding": [30, 3]}) == []
-    assert result_judge.crowded(None, {"crowding": [30, 4], "transient": {"error": {"h_min_m": 1e-9}}}) == []  # by companions
-    said, = result_judge.crowded(None, {"crowding": [30, 4], "transient": {"error": {"h_min_m": None}}})
+    said, = result_judge.crowded(None, {"crowding": [30, 4]})
     assert "4 of 30 launches" in said and result_judge.crowded in result_judge.CHECKS
 
 

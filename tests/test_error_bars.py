@@ -1,7 +1,6 @@
 """Error bars hold: on sequences made by hand, on scenes against grids four times as fine, and when companions fail."""
 
 import json
-import time
 
 import numpy as np
 import pytest
@@ -133,12 +132,29 @@ def passage(taichi_cpu):
 
 
 def test_companions_give_the_bars_of_a_passage(passage):
-    with companions.beside(short(), 4) as others:
-        found = others.errors(passage, {"Fi_max": 0.5}, 1.0)
-    assert others.process.returncode is not None  # 16 columns are refused, 32 answered
+    told = []
+    found = companions.errors(short(), passage, {"Fi_max": 0.5}, lambda *part: told.append(part))
     assert found["passage_error"].keys() == {"p_max_Pa", "h_min_m", "friction_coefficient_mean", "Fi_max"}
     assert all(size > 0 for size in found["passage_error"].values() if size is not None)
     assert found["passage_error"]["friction_coefficient_mean"] is not None
+    assert told == [(0, 3), (1, 3), (2, 3), (3, 3)]  # 16 columns are refused, 32 have a start and two steps
+
+
+def test_companions_use_the_tables_of_the_run(passage):
+    """Others would compile all kernels anew."""
+    from tehl_taichi.engine import tables
+
+    ready = companions.scenes(short(**{"grid.nx": 128, "grid.ny": 32}))[0]
+    companions.answers(short(**{"grid.nx": 128, "grid.ny": 32}))
+    before = len(tables._tables)
+    assert [one.grid.nx for one in ready] == [32, 64] and all("values" in companions.answer(one) for one in ready)
+    assert len(tables._tables) == before
+
+
+def test_a_companion_that_fails_spares_the_coarser_ones(monkeypatch):
+    tried = []
+    monkeypatch.setattr(companions, "answer", lambda one, tell: tried.append(one.grid.nx) or {"reason": "no"})
+    assert companions.answers(short(**{"grid.nx": 128, "grid.ny": 32})) == [{"reason": "no"}] and tried == [64]
 
 
 def test_companions_that_fail_leave_bars_unknown_and_say_why(passage):
@@ -161,35 +177,17 @@ def test_a_failed_companion_takes_coarser_ones_with_it(passage):
     assert companions.judged([{"reason": "no"}, coarser], own)[0]["h_min_m"] is not None
 
 
-def test_companions_that_die_or_are_late_leave_bars_unknown(passage, monkeypatch):
-    late = short(**{"numerics.estimate_error": "auto"})
-    monkeypatch.setattr(companions, "WORTH", 0)
-    monkeypatch.setattr(companions.cores, "available", lambda: 2)
-    with companions.beside(late, 4) as others:
-        started = time.perf_counter()
-        found = others.errors(passage, None, 0.5)
-        assert time.perf_counter() - started < 1.0
-        assert "not ready" in found["passage_unknown"]["p_max_Pa"] and found["passage_error"]["p_max_Pa"] is None
-        others.process.kill()
-        others.listener.join(10)
-        assert "without an answer" in others.errors(passage, None, 0.5)["passage_unknown"]["p_max_Pa"]
-
-
-def test_companions_end_with_the_run(taichi_cpu):
-    with companions.beside(short(), 4) as others:
-        others.process.stdin.close()  # as a killed parent's
-        assert others.process.wait(30) != 0
-
-
-def test_who_gets_companions(monkeypatch):
+def test_who_gets_companions():
     auto = short(**{"numerics.estimate_error": "auto"})
-    monkeypatch.setattr(companions, "Companions", lambda description: "some")
-    for description, cores, steps, expected in (
-            (auto, 1, 10**6, False), (auto, 2, 10**6, True), (auto, 2, 4, False), (short(), 1, 4, True), (short(), 2, 0, False),
-            (short(**{"numerics.estimate_error": False}), 2, 10**6, False),
-            (short(**{"time.steps": -1, "time.steady_only": True}), 2, 4, False)):
-        monkeypatch.setattr(companions.cores, "available", lambda cores=cores: cores)
-        assert (companions.beside(description, steps) == "some") == expected
+    for description, expected in (
+            (auto, False), (auto.replace(**{"grid.nx": 256, "grid.ny": 64, "time.steps": 40}), True), (short(), True),
+            (auto.replace(**{"grid.nx": 256, "grid.ny": 64, "time.steps": 40, "numerics.estimate_error": False}), False)):
+        assert companions.wanted(description) == expected
+
+
+def test_a_run_without_a_passage_or_companions_has_no_bars(passage):
+    assert companions.errors(short(), passage.items[:1], None) == {}
+    assert companions.errors(short(**{"numerics.estimate_error": False}), passage, None) == {"passage_unknown": {}}
 
 
 def test_a_summary_has_numbers_or_null():
@@ -213,7 +211,8 @@ def test_a_narrow_peak_at_any_moment_leaves_pressure_and_fatigue_unknown(passage
         passage.items[2].fields["pressure"][i] = 0.9 * passage.scalar("p_max_Pa")[1:].max()
         passage.items[2].fields["pressure"][i + 1 :] = 0.0
         after = companions.passage_readings(short(), passage, passage.scalar, {"Fi_max": 0.5})
-        alone = companions.Nobody(short()).errors(passage, {"Fi_max": 0.5}, 1.0)["passage_unknown"]
+        nobody = short(**{"numerics.estimate_error": False})
+        alone = companions.errors(nobody, passage, {"Fi_max": 0.5})["passage_unknown"]
     finally:
         for shot, field in zip(passage.items, kept):
             shot.fields["pressure"][...] = field

@@ -42,8 +42,7 @@ def _own(plain, name, n, position):
     """What a position says of its scene."""
     return {"name": store_name(name, n, position), "contact.kind": "line", "contact.radius_y": math.inf,
             "contact.radius_x": position.R, "contact.load": position.load, "operation.u_m": position.u_m,
-            "operation.srr": position.srr, "thermal.on": plain.thermal.on is not False,
-            "numerics.estimate_error": plain.numerics.estimate_error is True}
+            "operation.srr": position.srr, "thermal.on": plain.thermal.on is not False}
 
 
 def _room(plain, position):

@@ -37,10 +37,9 @@ def held_temperatures(store, summary):
 
 
 def crowded(store, summary):
-    """Linear solves that fell back to one worker because others used the cores of the run, other than its own companions."""
+    """Linear solves that fell back to one worker because others used the cores of the run."""
     done, fewer = summary.get("crowding", (0, 0))
-    companions = any(error is not None for error in summary.get("transient", {}).get("error", {}).values())
-    if fewer <= CROWDED * done or companions:
+    if fewer <= CROWDED * done:
         return []
     return [f"something else used the cores of this run: {fewer} of {done} launches of linear solves went on with one worker, "
             "to the same results, but later; fewer threads leave the others their cores"]

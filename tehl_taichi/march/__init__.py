@@ -2,8 +2,7 @@
 
 `passage` marches in `rounds`; `start` begins (`steady`, `first_film`, `settle`, `together`); `prediction` and `guess` look
 ahead, `failure` says what went wrong; `snapshot` is what comes out, an entry of `outputs/` for each field and number;
-`readings`, `error_bars` and `companions` are its error bars. May import all rooms of physics; nothing here knows of files, but
-a companion's own process.
+`readings`, `error_bars` and `companions` are its error bars. May import all rooms of physics; nothing here knows of files.
 """
 
 from collections.abc import Iterator

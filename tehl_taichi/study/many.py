@@ -11,7 +11,6 @@ if TYPE_CHECKING:
     from tehl_taichi.study.table import Study
 
 KEEP = ("stores", "summary")
-COMPANIONS = "numerics.estimate_error"
 
 
 def sweep(scene: Scene | str | PathLike, over: Mapping, path: str | PathLike | None = None, *, samples: int | None = None,
@@ -80,11 +79,8 @@ def default_path(plan):
 def _job(study, number, keep, threads, shared):
     from tehl_taichi.study.case import Job
 
-    scene = study.plan.case(number)
-    if scene.numerics.estimate_error == "auto":  # cores are busy with other cases, and none is free for a companion
-        scene = scene.replace(**{COMPANIONS: False})
     store = str(study.store_of(number).absolute()) if keep == "stores" else None
-    return Job(scene, store, threads, shared)
+    return Job(study.plan.case(number), store, threads, shared)
 
 
 def _tell_refused(study, refused):

@@ -151,14 +151,10 @@ def _finish(saved, state, steady, clock, progress):
     """From a state of the store to its summary."""
     from tehl_taichi.io.summary import summarise
     from tehl_taichi.march import companions
-    from tehl_taichi.scene.route import total_steps
 
-    with companions.beside(saved.scene, total_steps(saved.scene) + 1 - saved.steps) as others:
-        _march(saved, state, progress)
-        fatigue, maps = _fatigue(saved, progress)
-        progress.stage(ERRORS, 0, 1)
-        passage = others.errors(saved, fatigue, clock.times()["wall_s"])
-        progress.stage(ERRORS, 1, 1)
+    _march(saved, state, progress)
+    fatigue, maps = _fatigue(saved, progress)
+    passage = companions.errors(saved.scene, saved, fatigue, lambda done, total: progress.stage(ERRORS, done, total))
     saved.finish(summarise(saved, {**clock.times(), **steady, **passage}, fatigue), maps)
     return Run(saved)
 
