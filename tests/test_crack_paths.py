@@ -17,6 +17,7 @@ from tehl_taichi.crack.plane import GROWTH, Plane, plane_of, principal
 from tehl_taichi.crack.residual import Residual, read
 from tehl_taichi.crack.trajectory import start, trajectory
 from tehl_taichi.crack.wanted import Wanted
+from tehl_taichi.physics.viscosity import ln_eta
 from tehl_taichi.scene import SceneError
 
 MICRO, E_STAR, SCENE = 1e-6, 206e9 / 0.91, tehl.scene("gear")
@@ -150,6 +151,7 @@ def test_oil_inside_adds_its_pressure_to_the_faces():
     ({"side": "left"}, "entry"), ({"angle": 14.0}, "15 degrees"), ({"angle": 166.0}, "165"), ({"step": 0.0}, "more than|1e-08"),
     ({"step": 2e-4}, "longer than"), ({"first": 2e-4}, "longer than"), ({"threshold": -1.0}, "at least 0"),
     ({"face_friction": -0.1}, "at least 0"), ({"oil": 1.5}, "at most 1"), ({"oil": float("nan")}, "not a number"),
+    ({"oil": "flwo"}, "did you mean 'flow'"), ({"oil": "much"}, "dry, film, flow, sealed, a share"),
     ({"elements": 3}, "6 to 200"), ({"distance": -1e-6}, "1e-08"), ({"length": "long"}, "not a number")])
 def test_what_is_out_of_range_is_refused(wanted, said):
     with pytest.raises(SceneError, match=said):
@@ -209,6 +211,17 @@ def test_the_answer(rolled):
     across = np.interp(20 * MICRO, line.imag, line.real) - line[0].real
     assert chords["20"] == pytest.approx(np.degrees(np.arctan2(20 * MICRO, -across)), abs=1e-6)
     assert not found["exit"]["opens"] and "nothing pulls" in found["exit"]["why"] and "exit" not in rolled.sides
+
+
+def test_oil_flows_with_the_oil_and_the_speed_of_the_scene(rolled):
+    """Between nothing and the film's pressure; and times and viscosity that it goes with."""
+    plane, u_a = rolled.plane, SCENE.operation.u_a
+    np.testing.assert_allclose(np.diff(plane.times[:-1]) * u_a, np.diff(plane.centres[:-1]), rtol=1e-9)
+    assert np.log(plane.fluid.viscosity(1e8)) == pytest.approx(ln_eta(SCENE.oil, 1e8, SCENE.operation.temperature))
+    path = rolled.sides["entry"].begun.x + np.array([0, 20 * MICRO * np.exp(0.8j)])
+    dry, flow, film = (growth.loaded(plane, path, Wanted(oil=oil), E_STAR) for oil in ("dry", "flow", "film"))
+    assert flow.missed == 0 and 0 < flow.pressure.max() < film.pressure.max()
+    assert dry.K[0].max() <= flow.K[0].max() < film.K[0].max()
 
 
 def test_shallow_closed_cracks_settle_and_hardly_depend_on_the_elements(rolled):
@@ -279,7 +292,7 @@ def test_the_command(taichi_cpu, tmp_path, capsys):
     rolling_store(tmp_path / "r.zarr")
     (tmp_path / "depths.csv").write_text("0, 0\n50e-6, -1e8\n")
     options = dict(side="entry", start=None, angle=90.0, first=5e-6, step=5e-6, length=15e-6, distance=3e-6, threshold=None,
-                   residual=str(tmp_path / "depths.csv"), face_friction=0.1, oil=0.0, thermal_stress=None, elements=12,
+                   residual=str(tmp_path / "depths.csv"), face_friction=0.1, oil="0", thermal_stress=None, elements=12,
                    threads=None)
     crack(tmp_path / "r.zarr", **options, figures=tmp_path / "figures", as_json=True)
     summary = json.loads(capsys.readouterr().out)

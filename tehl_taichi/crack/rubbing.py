@@ -66,7 +66,7 @@ def _passage(S, free, mu, state, slip, before=None):
     moments = free.shape[1]
     gone, now = Gone.none(state.size, slip.size, moments), 0
     while now < moments:
-        *done, then = _some(S, free[:, now : now + AHEAD], mu, state, slip)
+        *done, then = some(S, free[:, now : now + AHEAD], mu, state, slip)
         gone.put(slice(now, now + done[0].shape[1]), *done)
         now, state = now + done[0].shape[1], then
         slip = gone.slip[:, now - 1]
@@ -76,7 +76,7 @@ def _passage(S, free, mu, state, slip, before=None):
     return gone
 
 
-def _some(S, free, mu, state, slip):
+def some(S, free, mu, state, slip):
     """(forces (contacts + rough, n), their one state, slip (rough, n), settled, a guess of the next state) of the first n
     moments of `free`, at least one."""
     contacts, r = state.size, None
