@@ -31,6 +31,7 @@ def crack(
     thermal_stress: Optional[bool] = typer.Option(None, "--thermal-stress/--no-thermal-stress",
                                                   help="stress of the heat (default: as in the run)"),
     elements: int = typer.Option(12, help="on a straight crack, 6 to 200"),
+    keep: bool = typer.Option(False, "--keep", help="keep the answer beside the store, for `tehl report`"),
     figures: Optional[Path] = typer.Option(None, help="folder for the figure"),
     format: Format = "png",
     dpi: Dpi = 160,
@@ -52,6 +53,10 @@ def crack(
                        threshold=threshold, residual=None if residual is None else read(residual), face_friction=face_friction,
                        oil=_share(oil), elements=elements, thermal_stress=thermal_stress, threads=threads)
     _show(result.summary, as_json)
+    if keep:
+        from tehl_taichi.io.kept_crack import keep as kept
+
+        say(str(kept(result, run.store)))
     if figures:
         from tehl_taichi.figures.crack_figures import write_crack
 
