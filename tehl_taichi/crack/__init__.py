@@ -2,7 +2,8 @@
 
 `plane` holds the stresses below the feature, `trajectory` follows them; `dislocations`, `elements`, `stiffness`, `compliance`
 are an elastic crack, `bounds`, `closure` and `rubbing` the contact of its faces, `wet` and `fillings` what is inside, `growth`
-lets it grow, `answer` is the whole. May import `fatigue` and what that may; nothing here knows of films, or of files but a table of residual stress.
+lets it grow, `answer` is the whole. May import `fatigue`, `physics` and what they may; nothing here knows of films, or of files
+but a table of residual stress.
 `tehl_taichi.crack(run)` is the function.
 """
 
