@@ -4,6 +4,7 @@ each entry is checked against."""
 import math
 
 from handbook.tables import code, plain, table
+from tehl_taichi.crack.fillings import FILLINGS
 from tehl_taichi.criteria import CRITERIA
 from tehl_taichi.physics.choices import ALONE, CHOICES
 from tehl_taichi.scene.feature import SHAPES, USED_BY
@@ -14,7 +15,7 @@ from tehl_taichi.scene.named_steels import STEELS
 def text():
     """All registries, one after the other."""
     return "\n\n".join([*(laws(f"Choices of {code(key)}", registry) for key, registry in CHOICES.items()),
-                        laws("Laws without a choice", ALONE), shapes(), criteria(), oils(), steels()])
+                        laws("Laws without a choice", ALONE), shapes(), criteria(), fillings(), oils(), steels()])
 
 
 def laws(title, registry):
@@ -46,6 +47,12 @@ def criteria():
             for rule in CRITERIA.values())
     return "## Criteria: `fatigue.criterion`\n\n" + table(("name", "criterion", "kappa: sensitivity to", "source",
                                                            "checked against"), rows)
+
+
+def fillings():
+    """What fills a crack, a row each."""
+    rows = ((code(one.name), plain(one.says), plain(one.source), _checked(one)) for one in FILLINGS.values())
+    return "## Inside a crack: `tehl crack --oil`\n\n" + table(("name", "what", "source", "checked against"), rows)
 
 
 def oils():
