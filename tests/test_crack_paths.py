@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from rolling import Rolling
 from small_stores import SMALL, shot
-from test_report import Seen, numbers
+from test_report import Seen, go, numbers
 
 import tehl_taichi as tehl
 from tehl_taichi.crack import growth
@@ -315,6 +315,8 @@ def _in_the_report(store, summary):
     assert "Cracks" in page.headings and "friction of closed faces\n0.1\n" in page.text and "None" not in page.text
     assert f"pulled by {entry['sigma1_surface_Pa'] / 1e6:.4g} MPa" in page.text and entry["why"] in page.text
     assert max(numbers(K[0])) == pytest.approx(entry["K"][0]["K_I_max"] / 1e6, rel=1e-3) and len(K) == 4
+    for name in ("cracks", "K-entry"):
+        go.Figure({key: page.figures[name][key] for key in ("data", "layout")})  # refuses what plotly does not know
     path = next(trace for trace in page.figures["cracks"]["data"] if trace.get("name") == "entry: crack")
     assert numbers(path)[-1] == pytest.approx(entry["path"]["deepest_m"] * 1e6, rel=1e-3)
     kept = store.with_name("r.crack.json")

@@ -46,7 +46,8 @@ def _drawn(result):
     """What figures need: m, Pa; the tension of the section on even depths, every line as rows (x', depth)."""
     plane, lines = result.plane, [line for side in result.sides.values() for line in (side.trajectory, side.path.points)]
     even = np.linspace(0.0, min(1.3 * max([40e-6, *(line.imag.max() for line in lines)]), plane.depths[-1]), DEPTHS)
-    near = np.abs(plane.x) <= 1.3 * max([plane.reach, *(np.abs(line.real).max() for line in lines)])
+    wide = max([plane.reach, *(np.abs(side.path.points.real).max() for side in result.sides.values())])
+    near = np.abs(plane.x) <= 1.3 * wide  # trajectories may lead out of it
     tension = [np.interp(even, plane.depths, row) for row in np.maximum(plane.sigma1()[near], 0.0)]
     sides = {name: _side(side) for name, side in result.sides.items()}
     return {"x": plane.x[near], "depth": even, "tension": np.round(tension, -4), "position": plane.centres[:-1] / plane.a,

@@ -21,7 +21,7 @@ def section(store):
     summary, shown = found["summary"], found["drawn"]
     doubts = [doubt for side in summary["sides"].values() for doubt in side.get("doubts", [])]
     return (Section("Cracks", (Part("text", {"sentences": verdict(summary)}), facts(_asked(summary)),
-                               sentences(doubts, "Doubtful"), drawn(_map(summary, shown), *_histories(shown)))),)
+                               sentences(doubts, "Doubtful"), drawn(_map(summary, shown)), drawn(*_histories(shown)))),)
 
 
 def verdict(summary):
@@ -63,7 +63,7 @@ def _map(summary, shown):
     figure = field_map("cracks", "Section below the feature: largest tension of the passage, σ₁ trajectories (dashed), crack "
                        "paths; grey: the pits of the thesis.", x * 1e6, depth * 1e6, tension / 1e6, TENSION, "MPa", OF,
                        "below the surface (µm)", marked, height=440, zmin=0.0, zmax=SHOWN)
-    figure.layout["yaxis"]["autorange"] = "reversed"
+    figure.layout["yaxis"]["range"], figure.layout["xaxis"]["range"] = [1e6 * depth[-1], 0.0], [1e6 * x[0], 1e6 * x[-1]]
     return figure
 
 
