@@ -116,6 +116,11 @@ def test_package_and_scene_do_not_import_taichi():
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0
 
 
+def test_help_waits_for_nothing_heavy():
+    code = "import sys, tehl_cli.main; sys.exit(bool({'numpy', 'zarr', 'taichi'} & set(sys.modules)))"
+    assert subprocess.run([sys.executable, "-c", code]).returncode == 0
+
+
 def test_readme_names_both_lines():
     text = (ROOT / "README.md").read_text()
     lines = [line for line in text.splitlines() if line.startswith("python3 -m venv")]
