@@ -9,12 +9,13 @@ from tehl_cli.main import app
 from typer.testing import CliRunner
 
 import tehl_taichi as tehl
-from tehl_taichi.flank import columns, outcomes
+from tehl_taichi.flank import columns
 from tehl_taichi.flank.contacts import scene_at
 from tehl_taichi.flank.described import described
 from tehl_taichi.scene import SceneError, hertz
 from tehl_taichi.scene.gear_pair import gear_pair
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.study import case
 
 SMALL = {"grid.nx": 64, "grid.ny": 16}
 NAMES = {"x_pl_m", "rho_a_m", "rho_b_m", "R_m", "u_a_m_s", "u_b_m_s", "srr", "load_N_m", "p_Hertz_Pa", "summary"}
@@ -28,14 +29,15 @@ TABLE = """x_pl_mm, load_N_per_mm, R_a_mm, R_b_mm, u_a_m_s, u_b_m_s, point, note
 def steady(taichi_cpu, tmp_path_factory):
     """The steady films of A and C, with temperatures."""
     folder = tmp_path_factory.mktemp("flank") / "pinion"
-    return tehl.flank("fzg-c", at=("A", "C"), steady=True, changes=SMALL, folder=folder)
+    return tehl.flank("fzg-c", at=("A", "C"), steady=True, changes=SMALL, folder=folder, workers=1)
 
 
 def test_every_position_has_the_contact_of_the_geometry(steady):
     told = steady.to_dict()
     assert [one["point"] for one in told["positions"]] == ["A", "C"]
     assert all(NAMES <= one.keys() for one in told["positions"])
-    for one, scene in zip(told["positions"], steady.scenes):
+    for one in told["positions"]:
+        scene = tehl.open(one["store"]).scene
         assert one["converged"] and one["summary"]["hertz"]["p_Pa"] == pytest.approx(one["p_Hertz_Pa"])
         assert scene.contact.radius_x == pytest.approx(one["R_m"]) and scene.operation.u_a == pytest.approx(one["u_a_m_s"])
         assert scene.operation.u_b == pytest.approx(one["u_b_m_s"]) and scene.load == one["load_N_m"]
@@ -53,7 +55,7 @@ def test_the_pitch_point_rolls_cool_and_the_root_slides_hot(steady):
 
 
 def test_a_finished_flank_is_read_not_run(steady, monkeypatch):
-    monkeypatch.setattr(outcomes.single, "run", lambda *_, **__: pytest.fail("it ran again"))
+    monkeypatch.setattr(case, "work", lambda *_, **__: pytest.fail("it ran again"))
     again = tehl.flank("fzg-c", at=("A", "C"), steady=True, changes=SMALL, folder=steady.folder)
     assert again.to_dict() == steady.to_dict()
 
@@ -65,21 +67,21 @@ def test_a_folder_of_another_flank_is_refused_before_anything_runs(steady):
 
 def test_files_and_figure_tell_the_same(steady):
     told = json.loads((steady.folder / "flank.json").read_text())
-    assert told["positions"][0]["summary"]["steady"] == steady.outcomes[0].summary["steady"]
+    assert told["positions"][0]["summary"]["steady"] == steady.rows[0][2]["steady"]
     with (steady.folder / "flank.csv").open() as file:
         rows = list(csv.DictReader(file))
     assert [float(row["x_pl_m"]) for row in rows] == [at.x_pl for at in steady.positions]
-    assert float(rows[0]["steady_h_c_m"]) == steady.outcomes[0].summary["steady"]["h_c_m"] and "Fi_max" not in rows[0]
+    assert float(rows[0]["steady_h_c_m"]) == steady.rows[0][2]["steady"]["h_c_m"] and "Fi_max" not in rows[0]
     assert steady.plot().stat().st_size > 20_000
 
 
 def test_a_feature_passes_at_every_position(taichi_cpu, tmp_path):
     whole = tehl.flank("fzg-c", at=("B+",), on="gear", folder=tmp_path / "gear", changes={**SMALL, "thermal.on": False})
-    found, = whole.outcomes
-    assert found.summary["transient"]["h_min_m"] < found.summary["steady"]["h_min_m"] and found.summary["fatigue"]["Fi_max"] > 0
+    (_, _, summary), = whole.rows
+    assert summary["transient"]["h_min_m"] < summary["steady"]["h_min_m"] and summary["fatigue"]["Fi_max"] > 0
     assert whole.positions[0].srr > 0 < whole.positions[0].x_pl
     (column,) = [c for c in columns.COLUMNS if c.name == "Fi_max"]
-    assert column.shown(*whole.rows[0]) == f"{found.summary['fatigue']['Fi_max']:.3f}"
+    assert column.shown(*whole.rows[0]) == f"{summary['fatigue']['Fi_max']:.3f}"
 
 
 @pytest.mark.slow
@@ -87,9 +89,10 @@ def test_dedendum_and_addendum_of_type_c_at_stage_10(taichi_cpu, tmp_path):
     """The whole flank with temperatures and the asperity: every position converges, films stay films."""
     whole = tehl.flank("fzg-c", torque=265.1, positions=7, folder=tmp_path / "c", changes=SMALL)
     assert not whole.failed and [at.point for at in whole.positions] == ["A", "B-", "B+", "C", "D-", "D+", "E"]
-    for scene, found in zip(whole.scenes, whole.outcomes):
-        assert found.summary["transient"]["h_min_m"] > 0.9 * scene.rheology.film_floor * Scales.of(scene).h
-        assert 0.3 < found.summary["fatigue"]["Fi_max"] < 1.5
+    for one in whole.told["positions"]:
+        scene, summary = tehl.open(one["store"]).scene, one["summary"]
+        assert summary["transient"]["h_min_m"] > 0.9 * scene.rheology.film_floor * Scales.of(scene).h
+        assert 0.3 < summary["fatigue"]["Fi_max"] < 1.5
     assert whole.plot().exists()
 
 
@@ -116,7 +119,7 @@ def test_a_position_that_does_not_converge_leaves_the_others(taichi_cpu, tmp_pat
     folder = tmp_path / "short"
     done = CliRunner().invoke(app, ["flank", "fzg-c", "--at", "C", "--steady", "--isothermal", "--set", "numerics.newton_max=1",
                                     "--grid", "64x16", "--out", str(folder), "--quiet", "--no-figure"])
-    assert done.exception.exit_code == 3 and "1 of 1 positions did not converge" in str(done.exception)
+    assert done.exception.exit_code == 3 and "1 of 1 positions have no result" in str(done.exception)
     told, = json.loads((folder / "flank.json").read_text())["positions"]
     assert not told["converged"] and told["summary"] is None and "did not converge" in told["reason"]
 

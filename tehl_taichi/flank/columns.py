@@ -1,6 +1,7 @@
 """What is told of a position, a column each: for the table on the screen, the CSV file and the figure."""
 
 import csv
+import io
 from dataclasses import dataclass
 from typing import Callable
 
@@ -73,10 +74,11 @@ def tables(rows):
     return out
 
 
-def write_csv(path, rows):
-    """A CSV file in SI units, and after that what a table of positions brought along."""
+def csv_text(rows):
+    """The table as CSV in SI units, and after that what a table of positions brought along."""
     columns, more = used(rows), list(dict.fromkeys(key for at, *_ in rows for key in at.more))
-    with path.open("w", newline="", encoding="utf-8") as file:
-        out = csv.writer(file)
-        out.writerow([*(column.name for column in columns), *more])
-        out.writerows([*(column.value(*row) for column in columns), *(row[0].more.get(key) for key in more)] for row in rows)
+    text = io.StringIO()
+    out = csv.writer(text)
+    out.writerow([*(column.name for column in columns), *more])
+    out.writerows([*(column.value(*row) for column in columns), *(row[0].more.get(key) for key in more)] for row in rows)
+    return text.getvalue()
