@@ -1,10 +1,12 @@
 """A whole flank: its scenes, their runs and stores, tables, files and figure."""
 
+import contextlib
 import csv
 import json
 import math
 
 import pytest
+from fake_cases import position
 from tehl_cli.main import app
 from typer.testing import CliRunner
 
@@ -15,7 +17,7 @@ from tehl_taichi.flank.described import described
 from tehl_taichi.scene import SceneError, hertz
 from tehl_taichi.scene.gear_pair import gear_pair
 from tehl_taichi.scene.scales import Scales
-from tehl_taichi.study import case
+from tehl_taichi.study import case, cluster
 
 SMALL = {"grid.nx": 64, "grid.ny": 16}
 NAMES = {"x_pl_m", "rho_a_m", "rho_b_m", "R_m", "u_a_m_s", "u_b_m_s", "srr", "load_N_m", "p_Hertz_Pa", "summary"}
@@ -82,6 +84,52 @@ def test_a_feature_passes_at_every_position(taichi_cpu, tmp_path):
     assert whole.positions[0].srr > 0 < whole.positions[0].x_pl
     (column,) = [c for c in columns.COLUMNS if c.name == "Fi_max"]
     assert column.shown(*whole.rows[0]) == f"{summary['fatigue']['Fi_max']:.3f}"
+
+
+class Heard(tehl.Progress):
+    def __init__(self):
+        self.lines = []
+
+    def say(self, text):
+        self.lines.append(text)
+
+
+def test_positions_run_side_by_side_and_those_without_a_result_are_listed(tmp_path, monkeypatch):
+    """Through Dask, in this process and without a solver."""
+    distributed, heard = pytest.importorskip("distributed"), Heard()
+    monkeypatch.setattr(case, "work", position)
+    with distributed.Client(processes=False, n_workers=2, threads_per_worker=1, dashboard_address=None) as client:
+        monkeypatch.setattr(cluster, "_client", lambda *_: contextlib.nullcontext(client))
+        found = tehl.flank("fzg-c", positions=7, steady=True, folder=tmp_path / "f", workers=2, progress=heard)
+    assert [at.point for at in found.positions] == ["A", "B-", "B+", "C", "D-", "D+", "E"]
+    assert [summary and summary["steady"]["h_c_m"] for *_, summary in found.rows] == \
+        [None, *(pytest.approx(at.R) for at in found.positions[1:6]), None]
+    assert [(at.point, reason) for at, reason in found.failed] == [("A", "made up"), ("E", "MemoryError: no room")]
+    assert heard.lines[0] == "7 positions on 2 workers" and heard.lines[7].startswith("7 of 7: fzg-c-")
+    assert any(line.endswith("of 7: fzg-c-01-A: made up") for line in heard.lines)
+    assert tehl.open(found.folder).told == found.told
+
+
+def test_an_interrupted_flank_says_how_far_it_is(tmp_path, monkeypatch):
+    def until_c(job, progress):
+        if job.scene.name.endswith("-C"):
+            raise KeyboardInterrupt
+        return position(job)
+
+    monkeypatch.setattr(case, "work", until_c)
+    with pytest.raises(KeyboardInterrupt, match="interrupted after 3 of 7 positions; the same .* --out .*/f goes on"):
+        tehl.flank("fzg-c", positions=7, steady=True, folder=tmp_path / "f", workers=1)
+    waiting = [(at.point, reason) for at, reason in tehl.open(tmp_path / "f").failed]
+    assert [point for point, _ in waiting] == ["A", "C", "D-", "D+", "E"] and "has not run yet" in waiting[1][1]
+
+
+@pytest.mark.slow
+def test_two_workers_compute_the_same_bits_as_one(taichi_cpu, tmp_path):
+    small = dict(at=("A", "B+"), changes={**SMALL, "thermal.on": False, "time.steps": 3})
+    one, two = (tehl.flank("fzg-c", folder=tmp_path / str(n), workers=n, threads=1, **small) for n in (1, 2))
+    for (*_, here), (*_, there) in zip(one.rows, two.rows):
+        assert [here[part] for part in ("steady", "transient", "fatigue")] == [there[part] for part in
+                                                                              ("steady", "transient", "fatigue")]
 
 
 @pytest.mark.slow

@@ -3,6 +3,7 @@
 import numpy as np
 
 from tehl_taichi.figures import palette
+from tehl_taichi.figures.page import made
 from tehl_taichi.flank.columns import dig
 
 # panel: label, factor, {legend: keys in the summary}; "p_H" is the Hertz pressure
@@ -23,6 +24,7 @@ LAST = 5  # panels: friction and slip fill up what a steady or isothermal flank 
 def write(flank, path, page):
     """Write the figure of a Flank, as the :class:`Page` wants it; returns the path."""
     page, path = page.of_file(path)
+    made(path.parent)
     return page.save(lambda: _drawn(page, flank), path)
 
 
