@@ -81,7 +81,7 @@ def print_flank(found):
 
     print(found.title)
     for title, (heads, lines) in tables(found.rows).items():
-        list_table(title, heads, lines)
+        list_table(title, heads, lines, whole=True)
     print(f"assumed: {found.told['assumption']}")
     print(f"load: {found.told['load_sharing']}")
     for at, reason in found.failed:

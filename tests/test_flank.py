@@ -11,7 +11,8 @@ from tehl_cli.main import app
 from typer.testing import CliRunner
 
 import tehl_taichi as tehl
-from tehl_taichi.flank import columns
+from tehl_taichi.figures.page import Page
+from tehl_taichi.flank import columns, flank_figure
 from tehl_taichi.flank.contacts import scene_at
 from tehl_taichi.flank.described import described
 from tehl_taichi.scene import SceneError, hertz
@@ -74,7 +75,17 @@ def test_files_and_figure_tell_the_same(steady):
         rows = list(csv.DictReader(file))
     assert [float(row["x_pl_m"]) for row in rows] == [at.x_pl for at in steady.positions]
     assert float(rows[0]["steady_h_c_m"]) == steady.rows[0][2]["steady"]["h_c_m"] and "Fi_max" not in rows[0]
+    assert float(rows[0]["error_steady_h_c_m"]) == steady.rows[0][2]["steady"]["error"]["h_c_m"] > 0
     assert steady.plot().stat().st_size > 20_000
+
+
+def test_table_and_figure_carry_the_errors(steady):
+    pytest.importorskip("matplotlib")
+    (column,) = [c for c in columns.COLUMNS if c.name == "steady_h_c_m"]
+    film = steady.rows[0][2]["steady"]
+    assert column.shown(*steady.rows[0]) == f"{film['h_c_m'] * 1e6:.3f} ± {film['error']['h_c_m'] * 1e6:.2g}"
+    bars = flank_figure._drawn(Page(), steady).axes[0].containers[0].lines[2][0].get_segments()
+    assert bars[0][1, 1] - bars[0][0, 1] == pytest.approx(2e6 * film["error"]["h_c_m"])
 
 
 def test_a_feature_passes_at_every_position(taichi_cpu, tmp_path):
