@@ -11,7 +11,7 @@ ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "tehl_taichi"
 # every module and folder of the package, each imports from those before it only
 LAYERS = ["errors", "commit", "called", "registry", "engine", "values", "physics", "criteria", "scene", "pressure", "heat",
-          "fatigue", "crack", "march", "io", "export", "figures", "study", "flank", "report", "profiles", "cli"]
+          "fatigue", "crack", "march", "io", "export", "figures", "study", "flank", "results", "report", "profiles", "cli"]
 TOP = {"errors", "commit", "called", "registry"}  # single files that everybody may use
 # rooms that may use less than all before them
 RESTS_ON = {"engine": set(), "values": set(), "physics": {"engine", "values"},
