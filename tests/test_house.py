@@ -16,7 +16,7 @@ TOP = {"errors", "commit", "called", "registry"}  # single files that everybody 
 # rooms that may use less than all before them
 RESTS_ON = {"engine": set(), "values": set(), "physics": {"engine", "values"},
             "criteria": {"engine", "values"}, "scene": {"values", "physics", "criteria"},
-            "fatigue": {"scene", "criteria", "engine", "values"}, "crack": {"scene", "engine", "values", "fatigue"}}
+            "fatigue": {"scene", "criteria", "engine", "values"}, "crack": {"scene", "physics", "engine", "values", "fatigue"}}
 ENTRIES = {"__init__", "__main__"}  # of the package: they may lead anywhere, lazily
 FOLDERS = {ROOT / "cli": "tehl_cli", ROOT / "profiles": "tehl_taichi.profiles", PACKAGE: "tehl_taichi"}
 
