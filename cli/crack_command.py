@@ -43,12 +43,12 @@ def crack(
 
     Example: `tehl crack runs/gear-1.zarr --residual -100e6 --figures runs/crack`
     """
-    import tehl_taichi as tehl
     from tehl_taichi.crack.residual import read
     from tehl_taichi.figures.page import Page
+    from tehl_taichi.results.opened import open_run
 
     page = Page(format, dpi, width)
-    run = tehl.open(store)
+    run = open_run(store)
     result = run.crack(side=side, start=start, angle=angle, first=first, step=step, length=length, distance=distance,
                        threshold=threshold, residual=None if residual is None else read(residual), face_friction=face_friction,
                        oil=_share(oil), elements=elements, thermal_stress=thermal_stress, threads=threads)
