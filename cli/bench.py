@@ -37,18 +37,20 @@ def stability(
     seed: int = typer.Option(0, help="of the random scenes"),
     quick: bool = typer.Option(False, "--quick", help="every sixth case and eight random scenes"),
     only_starts: bool = typer.Option(False, "--starts", help="scenes with temperatures alone, their start and one step"),
+    by_film: bool = typer.Option(False, "--grid-by-film", help="as many columns as the film formula asks for"),
     as_json: bool = typer.Option(False, "--json", help="one JSON object with the counts on stdout"),
     threads: Optional[int] = THREADS,
     workers: int = WORKERS,
     precision: str = typer.Option("auto", help="of the linear solves: f32, f64 or what suits each scene"),
 ):
     """Stiff and extreme scenes: converged, refused, stopped with the reason, or failed. Example: `tehl bench stability`"""
-    from tehl_taichi.profiles.stability import cases, random_cases, run, starts
+    from tehl_taichi.profiles.stability import carried, cases, random_cases, run, starts
 
     table = list(cases(thermal).items())
     chosen = [*table[:: 6 if quick else 1], *random_cases(min(random, 8) if quick else random, seed).items()]
     chosen = {name: description for name, description in chosen if match.lower() in name.lower()}
-    chosen, found = starts(chosen) if only_starts else chosen, []
+    chosen = starts(chosen) if only_starts else chosen
+    chosen, found = carried(chosen) if by_film else chosen, []
     for outcome in run(chosen.items(), precision, workers, threads):
         found.append(outcome)
         say(f"{outcome.name}: {outcome.verdict} {outcome.reason}")

@@ -12,7 +12,7 @@ from tehl_taichi.criteria import CRITERIA
 from tehl_taichi.engine import runtime
 from tehl_taichi.io.scene_file import merge
 from tehl_taichi.physics import rheology
-from tehl_taichi.scene import Scene, SceneError, scene
+from tehl_taichi.scene import Scene, SceneError, scene, thin_film
 from tehl_taichi.scene.feature import SHAPES, Feature
 from tehl_taichi.scene.named_oils import OILS
 from tehl_taichi.scene.parts import AUTO, Rheology
@@ -23,6 +23,7 @@ from tehl_taichi.study import pool
 LINE, POINT = {"grid.nx": 128, "grid.ny": 32}, {"grid.nx": 64, "grid.ny": 32}
 NARROW = {"grid.nx": 304, "grid.ny": 76}  # 20 um are four cells, the fewest that are taken
 MOST_STEPS = 600  # of a passage; with temperatures SRR -1.99 would need 25 536, the feature hardly moves in one
+FINEST = {"line": 1024, "point": 256}  # columns, of scenes on the grid that their film asks for
 RANDOM_LINE, RANDOM_POINT, RANDOM_STEPS = {"grid.nx": 64, "grid.ny": 16}, {"grid.nx": 64, "grid.ny": 16, "grid.y_max": 2.0}, 12
 # the default first, then in the order that the published figures were drawn in
 SHEAR_LAWS = [Rheology.law, *sorted(set(rheology.LAWS) - {Rheology.law}, reverse=True)]
@@ -138,6 +139,20 @@ def edited(base, changes):
     tables = {key: value for key, value in changes.items() if isinstance(value, (dict, list))}
     plain = {key: value for key, value in changes.items() if key not in tables}
     return Scene.from_dict(merge(scene(base).replace(**plain).to_dict(), tables))
+
+
+def carried(chosen):
+    """`chosen`, {name: scene or SceneError}, with as many columns as the warning of a film too thin for the grid asks for (of
+    lines the rows stay), at most FINEST."""
+    return {name: description if isinstance(description, SceneError) else _carried(description)
+            for name, description in chosen.items()}
+
+
+def _carried(description):
+    g, line = description.grid, Scales.of(description).line
+    most = max(g.nx, FINEST["line" if line else "point"])
+    nx, ny = thin_film.needed(description, most) or (most, g.ny * most // g.nx)
+    return description.replace(**{"grid.nx": nx, "grid.ny": g.ny if line else ny})
 
 
 def starts(chosen):

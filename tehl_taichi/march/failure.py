@@ -5,6 +5,7 @@ import numpy as np
 from tehl_taichi.errors import NotConverged
 from tehl_taichi.heat.energy import HOT
 from tehl_taichi.pressure import fields
+from tehl_taichi.scene import thin_film
 
 AT_FLOOR = 1e-3  # relative, that a film on its floor may lie above
 
@@ -66,4 +67,11 @@ def _on_its_floor(solver):
     if not nodes:
         return ""
     return (f"the film is on its floor ({floor * v.scales.h:.1e} m, rheology.film_floor) at {nodes} nodes: too thin for this "
-            f"grid, take a finer one (--grid {2 * v.scene.grid.nx}x{2 * v.scene.grid.ny})")
+            f"grid, {_finer(v.scene)}")
+
+
+def _finer(scene):
+    """The next grid, or the one that the film formula asks for."""
+    if thin_film.carried(scene) < 1:
+        return thin_film.remedy(scene)
+    return f"take a finer one (--grid {2 * scene.grid.nx}x{2 * scene.grid.ny})"

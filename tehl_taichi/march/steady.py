@@ -52,20 +52,23 @@ def solve_steady(scene, scales, nx, ny, look=None):
     P, H0, T, values, work, moving = None, 0.0, None, [], 0, False
     for size in grid_sequence(nx, ny):
         solver = heat = levels = None  # give their tables to the next grid
-        levels = Levels(scene, scales, *size)
+        finest, levels = size[0] == nx, Levels(scene, scales, *size)
         levels.put(fields.GAP0, levels.smooth_gap())
         solver = PressureSolver(levels, OneTemperature(levels))
         report = from_nothing(solver) if P is None else _from_coarser(solver, P, H0)
-        if report.converged and not scene.isothermal and nx // size[0] <= FINEST_THERMAL:
-            heat = FilmHeat(levels, time_step(scene, scales, levels.dx))
-            solver.take(heat)  # density and viscosity follow the temperatures from here on
-            report, moving = _with_temperatures(solver, heat, T, size[0] == nx)
-            T = np.stack([refine(layer) for layer in heat.T])
         # a grid too coarse for the outlet of this film is no start for the next one, nor a step of its error
         P, H0 = (levels.get(fields.P), solver.H0) if report.converged else (None, 0.0)
+        if report.converged and not scene.isothermal and (finest or nx // size[0] <= FINEST_THERMAL and not _touches(solver)):
+            heat = FilmHeat(levels, time_step(scene, scales, levels.dx))
+            solver.take(heat)  # density and viscosity follow the temperatures from here on
+            report, moving = _with_temperatures(solver, heat, T, finest)
+            if finest or report.converged and not _touches(solver):
+                P, H0, T = levels.get(fields.P), solver.H0, np.stack([refine(layer) for layer in heat.T])
+            else:
+                T = None
         if not report.converged:
             values = []
-        if size[0] == nx or report.converged and (scene.isothermal or heat):
+        if finest or report.converged and (scene.isothermal or heat):
             values.append(look(solver, heat, report))
         work += report.cycles
     return SteadyResult(solver, report, values, work, heat, moving)

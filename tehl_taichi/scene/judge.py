@@ -1,6 +1,6 @@
 """What is doubtful in a scene although it can be simulated, a sentence each: the warnings that are known before a run."""
 
-from tehl_taichi.scene import named_steels, oil_range, passing, room, route
+from tehl_taichi.scene import named_steels, oil_range, passing, room, route, thin_film
 
 
 def warnings(scene):
@@ -39,4 +39,5 @@ def thinned(scene):
 
 
 # functions of a scene that give its sentences
-CHECKS = (passing.warnings, room.warnings, oil_range.warnings, named_steels.doubts, cut_passage, thinned, doubtful_features)
+CHECKS = (passing.warnings, room.warnings, thin_film.warnings, oil_range.warnings, named_steels.doubts, cut_passage, thinned,
+          doubtful_features)

@@ -1,0 +1,46 @@
+"""Whether a grid can carry a film as thin as the film formula has it, and which grid can."""
+
+from tehl_taichi.scene import hertz
+from tehl_taichi.scene.film_formula import heated_film
+from tehl_taichi.scene.scales import Scales
+
+# Of the gap of the dry contact one cell before its edge, that a film must have: what flows in is found between these two
+# nodes. 61 random thermal lines on 64 columns: with 0.45 and more of it all films lie above their floor, with 0.30 one touches
+# at a node, with less than 0.2 all touch over the whole contact; finer grids lift them
+CARRIED = 0.4
+FINEST = 2048  # columns, that are worth naming
+SMOOTHEST = 10e-9  # m, rms height of polished balls and discs: under thinner films surfaces touch that no grid has
+
+
+def carried(scene):
+    """The film over the thinnest that the grid carries; below 1 the surfaces touch that should not."""
+    g, s = scene.grid, Scales.of(scene)
+    gap = hertz.line_gap if s.line else hertz.point_gap
+    return heated_film(scene) / (CARRIED * gap(1 + (g.x_max - g.x_min) / g.nx) * s.h)
+
+
+def needed(scene, most=FINEST):
+    """(nx, ny) of the grid with twice, four times, ... the cells that carries the film, or None beyond `most` columns."""
+    while carried(scene) < 1:
+        nx, ny = 2 * scene.grid.nx, 2 * scene.grid.ny
+        if nx > most:
+            return None
+        scene = scene.replace(**{"grid.nx": nx, "grid.ny": ny})
+    return scene.grid.nx, scene.grid.ny
+
+
+def warnings(scene):
+    """A film too thin for the grid, or for any surface."""
+    film, part = heated_film(scene), carried(scene)
+    if film < SMOOTHEST:
+        yield (f"the film formula has {film * 1e9:.2g} nm at the centre, less than the roughness of polished steel "
+               f"({SMOOTHEST * 1e9:g} nm): real surfaces touch there, these are smooth")
+    if part < 1:
+        yield (f"the film formula has {film:.2g} m at the centre, {part:.2g} of what {scene.grid.nx} columns carry: the "
+               f"surfaces would touch on this grid and the start may not settle; {remedy(scene)}")
+
+
+def remedy(scene):
+    """The grid that carries the film, in words."""
+    size = needed(scene)
+    return f"--grid {size[0]}x{size[1]} carries it" if size else f"no grid up to {FINEST} columns carries it"
