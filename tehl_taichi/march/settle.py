@@ -4,13 +4,13 @@ import math
 
 import numpy as np
 
+from tehl_taichi.heat.energy import LIGHT
 from tehl_taichi.pressure import fields
 from tehl_taichi.scene.route import step_cells
 
 TRANSITS, STRIDE = 1.2, 3  # of the domain by the slower surface in the first steps towards the steady state; their length
 SLOW, SLOW_STRIDE = 4, 8  # ratio of the speeds from which on the slower surface needs longer steps, and those
 BLOCK = 6  # later blocks: this fraction of the columns
-LOADED = 1e-3  # of p_H: the eddy in front of the contact fills with warm oil for ever, and matters little
 SETTLED = 0.05  # K
 # K, that a single block may lie off the mean of its run. Blocks of scenes that settle flutter by up to 0.6 K; without a limit
 # an oscillation passes: 603 deg C while blocks differed by 30 K, where a march in time gives 255
@@ -47,7 +47,7 @@ def settle(levels, heat, solve, T=None):
     means, blocks = [heat.T], 0
     for _ in range(BLOCKS):
         means = [_march(heat, steps, dt), *means[: 2 * LONGEST_RUN - 1]]
-        change = _unsettled(means, levels.get(fields.P) > LOADED)
+        change = unsettled(means, levels.get(fields.P) > LIGHT)
         report, blocks = solve(), blocks + 1
         steps, dt = _whole_cells(levels.nx / BLOCK * (1 if ratio < SLOW else ratio) / later, later / ratio), later * cell
         if not report.converged or change < SETTLED and heat.sound:
@@ -58,7 +58,7 @@ def settle(levels, heat, solve, T=None):
     return report, blocks > USUAL
 
 
-def _unsettled(means, loaded):
+def unsettled(means, loaded):
     """Smallest difference (K) between the last run of blocks and the one before, over runs of 1, 2, 4 ... blocks; means: newest
     first. Of runs with a block that lies more than FLUTTER off their mean, what it lies off."""
     runs = [2**k for k in range(LONGEST_RUN.bit_length()) if 2 ** (k + 1) <= len(means)]

@@ -10,9 +10,10 @@ import math
 
 import numpy as np
 
+from tehl_taichi.heat.energy import LIGHT
 from tehl_taichi.march.first_film import again, put
 from tehl_taichi.march.rounds import carefully, exchange
-from tehl_taichi.march.settle import FLUTTER, LOADED, SETTLED
+from tehl_taichi.march.settle import FLUTTER, LONGEST_RUN, SETTLED, unsettled
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.storage import Storage
 
@@ -31,8 +32,8 @@ def march_to_rest(solver, heat, P, H0):
     together.slip_in()
     change = together.rest()
     if change < SETTLED and not together.lost:
-        change = together.checked()
-    return _judged(together, change, SETTLED)
+        return _judged(together, together.checked(), FLUTTER)
+    return _judged(together, change, 0.0)
 
 
 def check(solver, heat):
@@ -82,13 +83,16 @@ class Together:
         self.levels.numbers.slip(part)
 
     def rest(self):
-        """Blocks of steps until two differ by less than SETTLED, or there were enough. Returns the last difference, K."""
+        """Blocks of steps until runs of them differ by less than SETTLED, or there were enough. Returns the last difference, K,
+        as :func:`tehl_taichi.march.settle.unsettled` measures it."""
         self.mean, change = self.heat.T, math.inf
+        means = [self.mean]
         for _ in range(min(BLOCKS, MOST_STEPS // self._block_steps)):
-            moved = self.block()
+            self.block()
             if self.lost:  # what it reached before is a state in time
                 break
-            change = moved
+            means = [self.mean, *means[: 2 * LONGEST_RUN - 1]]
+            change = unsettled(means, self.P > LIGHT)
             if change < SETTLED and self.heat.sound:
                 break
         return change
@@ -114,7 +118,7 @@ class Together:
             total = total + self.heat.T
         self.storage.centre()
         self.mean = total / self._block_steps
-        return math.inf if self.lost else float(np.abs(self.mean - before).max(axis=0)[self.P > LOADED].max())
+        return math.inf if self.lost else float(np.abs(self.mean - before).max(axis=0)[self.P > LIGHT].max())
 
     def at_rest(self):
         """The steady equations, at the temperatures of the film."""
