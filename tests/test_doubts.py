@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tehl_taichi.io import result_judge
-from tehl_taichi.scene import BUILT_INS, scene
+from tehl_taichi.scene import BUILT_INS, scene, thin_film
 from tehl_taichi.scene.named_oils import OILS
 from tehl_taichi.scene.oil import Oil
 
@@ -45,6 +45,20 @@ def test_doubts_about_the_oil(warnings, words):
 @pytest.mark.parametrize("name", BUILT_INS)
 def test_built_in_scenes_have_no_doubts_about_their_oils(name):
     assert not [line for line in scene(name).warnings() if "oil" in line]
+
+
+def test_a_film_too_thin_for_the_grid_is_doubted_before_the_run():
+    """Thinner than 0.4 of the gap one cell before the edge; the heat of the inlet counts."""
+    line = scene("smooth-line").replace(**{"grid.nx": 64, "grid.ny": 16})
+    assert not line.warnings()
+    said, = line.replace(**{"speed": 0.3, "thermal.on": False}).warnings()
+    assert "4.6e-08 m at the centre, 0.63 of what 64 columns carry" in said and "--grid 128x32 carries it" in said
+    said, = line.replace(speed=0.002).warnings()
+    assert "1.5 nm" in said and "polished steel (10 nm)" in said
+    said, = line.replace(**{"contact.hertz_pressure": 4e9, "contact.radius_x": 0.3, "speed": 0.02}).warnings()
+    assert "no grid up to 2048 columns" in said
+    hot, cold = (line.replace(**{"speed": 50.0, "thermal.on": on}) for on in (True, False))
+    assert thin_film.carried(hot) < 0.5 * thin_film.carried(cold)
 
 
 def test_no_doubts_about_laws_within_their_range():

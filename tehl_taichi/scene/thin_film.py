@@ -35,7 +35,7 @@ def warnings(scene):
     if film < SMOOTHEST:
         yield (f"the film formula has {film * 1e9:.2g} nm at the centre, less than the roughness of polished steel "
                f"({SMOOTHEST * 1e9:g} nm): real surfaces touch there, these are smooth")
-    if part < 1:
+    elif part < 1:
         yield (f"the film formula has {film:.2g} m at the centre, {part:.2g} of what {scene.grid.nx} columns carry: the "
                f"surfaces would touch on this grid and the start may not settle; {remedy(scene)}")
 
