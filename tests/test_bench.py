@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from tehl_taichi.profiles import stability
 
-from tehl_taichi.scene import Scene, SceneError, scene
+from tehl_taichi.scene import Scene, SceneError, scene, thin_film
+from tehl_taichi.scene.scales import Scales
 
 pytestmark = pytest.mark.usefixtures("taichi_cpu")
 
@@ -55,6 +56,21 @@ def test_starts_are_scenes_with_temperatures(monkeypatch):
     monkeypatch.setattr(stability, "sound", lambda shot: True)
     found = stability.run_case("moving", scene("gear"))
     assert found.unsettled and (found.verdict, found.reason, found.steps) == ("converged", "it moves", 1)
+
+
+def test_random_scenes_on_the_grids_that_their_films_ask_for():
+    drawn = stability.random_cases(40, 1)
+    fine, finer = stability.carried(drawn), 0
+    for name, description in drawn.items():
+        if isinstance(description, SceneError):
+            assert fine[name] is description
+            continue
+        most, nx = stability.FINEST[Scales.of(description).kind], fine[name].grid.nx
+        finer += nx > description.grid.nx
+        assert thin_film.carried(fine[name]) >= 1 or nx == most
+        assert (nx > description.grid.nx) == (thin_film.carried(description) < 1)
+        assert fine[name].grid.ny == 16 * (nx // 64 if most == 256 else 1)
+    assert 8 < finer < 30
 
 
 def test_an_error_is_a_failure(monkeypatch):
