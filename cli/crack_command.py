@@ -26,10 +26,12 @@ def crack(
     threshold: Optional[float] = typer.Option(None, help="of K_I, Pa sqrt(m): stops below it (default: none)"),
     residual: Optional[str] = typer.Option(None, help="residual stress along x: Pa, or a CSV file of depth (m), stress (Pa)"),
     face_friction: float = typer.Option(0.0, help="coefficient of the closed faces"),
-    oil: float = typer.Option(0.0, help="share of the film's pressure at the mouth that acts on both faces: an upper bound"),
+    oil: str = typer.Option("dry", help="inside: dry, film (its pressure above the mouth, or a share of it, as 0.3: an upper "
+                                        "bound), sealed (shut in when the mouth shuts) or flow (along the crack)"),
     thermal_stress: Optional[bool] = typer.Option(None, "--thermal-stress/--no-thermal-stress",
                                                   help="stress of the heat (default: as in the run)"),
     elements: int = typer.Option(12, help="on a straight crack, 6 to 200"),
+    keep: bool = typer.Option(False, "--keep", help="keep the answer beside the store, for `tehl report`"),
     figures: Optional[Path] = typer.Option(None, help="folder for the figure"),
     format: Format = "png",
     dpi: Dpi = 160,
@@ -41,20 +43,32 @@ def crack(
 
     Example: `tehl crack runs/gear-1.zarr --residual -100e6 --figures runs/crack`
     """
-    import tehl_taichi as tehl
     from tehl_taichi.crack.residual import read
     from tehl_taichi.figures.page import Page
+    from tehl_taichi.results.opened import open_run
 
     page = Page(format, dpi, width)
-    run = tehl.open(store)
+    run = open_run(store)
     result = run.crack(side=side, start=start, angle=angle, first=first, step=step, length=length, distance=distance,
                        threshold=threshold, residual=None if residual is None else read(residual), face_friction=face_friction,
-                       oil=oil, elements=elements, thermal_stress=thermal_stress, threads=threads)
+                       oil=_share(oil), elements=elements, thermal_stress=thermal_stress, threads=threads)
     _show(result.summary, as_json)
+    if keep:
+        from tehl_taichi.io.kept_crack import keep as kept
+
+        say(str(kept(result, run.store)))
     if figures:
         from tehl_taichi.figures.crack_figures import write_crack
 
         say(str(write_crack(result, run.scene.name, figures, page)))
+
+
+def _share(oil):
+    """A number as such, anything else as the name of what is inside."""
+    try:
+        return float(oil)
+    except ValueError:
+        return oil
 
 
 def _show(summary, as_json):

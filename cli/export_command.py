@@ -26,13 +26,10 @@ def export(
     Examples: `tehl export runs/gear-1.zarr --at -0.5 --at 0.5 --point=-37e-6,0` · `tehl export runs/gear-1.zarr --format vtk`
     """
     import tehl_taichi as tehl
-    from tehl_taichi.errors import StoreError
-    from tehl_taichi.study.table import Study, is_study
+    from tehl_taichi.results.opened import open_run
 
-    if is_study(store):
-        study = Study.open(store)
-        raise StoreError(f"{store} is a study: its table is {study.table}; tehl export takes the store of one of its cases")
-    print(tehl.export(store, format, out, at=at or (), point=[_point(text) for text in point or ()] or (), force=force))
+    points = [_point(text) for text in point or ()] or ()
+    print(tehl.export(open_run(store), format, out, at=at or (), point=points, force=force))
 
 
 def _point(text):

@@ -42,14 +42,14 @@ def fatigue(
 
     Example: `tehl fatigue runs/gear-1.zarr --kappa 0.25 --endurance 450e6 --to-x 0.5`
     """
-    import tehl_taichi as tehl
     from tehl_taichi.engine import runtime
     from tehl_taichi.figures.page import Page
+    from tehl_taichi.results.opened import open_run
     from tehl_taichi.scene.scales import Scales
 
     runtime.check(threads=threads)
     page = Page(format, dpi, width)
-    run = tehl.open(store)
+    run = open_run(store)
     result = run.fatigue(kappa=kappa, endurance=endurance, bending_limit=bending_limit, torsion_limit=torsion_limit,
                          criterion=criterion, depths=_depths(depths), from_x=from_x, to_x=to_x, thermal_stress=thermal_stress,
                          residual_xx=residual_xx, residual_yy=residual_yy, threads=threads)

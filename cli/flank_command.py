@@ -35,10 +35,11 @@ def flank(
     format: Format = "png",
     dpi: Dpi = 160,
     figure_width: FigureWidth = 17.0,
-    threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
+    workers: Optional[int] = typer.Option(None, help="positions side by side, a process each (default: one for each core)"),
+    threads: Optional[int] = typer.Option(None, help="CPU threads of each (default: what --workers leaves, or 1)"),
     as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout, everything else on stderr"),
     quiet: bool = typer.Option(False, "--quiet", help="no progress"),
-    curves: bool = typer.Option(True, "--live/--no-live", help="p, h and T along y = 0 while it runs, in a terminal"),
+    curves: bool = typer.Option(True, "--live/--no-live", help="p, h and T along y = 0, in a terminal with --workers 1"),
 ):
     """Film, pressure, temperature, friction and fatigue along a gear flank: a run at every position, one table, one figure.
 
@@ -52,15 +53,15 @@ def flank(
     changes = given_by({"temperature": temperature, "height": height, "width": width, "thermal.on": thermal}, grid, set_ or [])
     with Live(quiet, curves) as live:
         found = tehl.flank(gear, torque=torque, speed=speed, on=on, positions=positions, at=[_place(text) for text in at or ()],
-                           scene=find(scene) if scene else None, changes=changes, steady=steady, folder=out, threads=threads,
-                           progress=live)
+                           scene=find(scene) if scene else None, changes=changes, steady=steady, folder=out, workers=workers,
+                           threads=threads, progress=live)
     if figure:
         say(str(found.plot(**vars(page))))
-    print_json(found.to_dict()) if as_json else _print(found)
+    print_json(found.to_dict()) if as_json else print_flank(found)
     if found.failed:
         from tehl_taichi.errors import NotConverged
 
-        raise NotConverged(f"{len(found.failed)} of {len(found.positions)} positions did not converge; the others are in "
+        raise NotConverged(f"{len(found.failed)} of {len(found.positions)} positions have no result; the others are in "
                            f"{found.folder}, and --grid, --set ... with another --out may help")
 
 
@@ -72,17 +73,17 @@ def _place(text):
         return text
 
 
-def _print(found):
+def print_flank(found):
+    """Print the tables of a flank, the reasons of what has no result, and where it lies."""
     from tehl_cli.listing import list_table
 
     from tehl_taichi.flank.columns import tables
-    from tehl_taichi.flank.whole_flank import ASSUMPTION
 
     print(found.title)
     for title, (heads, lines) in tables(found.rows).items():
-        list_table(title, heads, lines)
-    print(f"assumed: {ASSUMPTION}")
-    print(f"load: {found.sharing}")
+        list_table(title, heads, lines, whole=True)
+    print(f"assumed: {found.told['assumption']}")
+    print(f"load: {found.told['load_sharing']}")
     for at, reason in found.failed:
-        print(f"not converged: {at.point} (x_pl = {at.x_pl * 1e3:.3f} mm): {reason}")
+        print(f"no result: {at.point} (x_pl = {at.x_pl * 1e3:.3f} mm): {reason}")
     print(f"stores, flank.csv, flank.json: {found.folder}")

@@ -63,24 +63,30 @@ def new(
 
 
 def show(
-    store: Path = typer.Argument(..., help="store of a finished, running or broken run, or a study"),
+    store: Path = typer.Argument(..., help="store of a finished, running or broken run, a study, or the folder of a flank"),
     as_json: bool = typer.Option(False, "--json", help="the summary as one JSON object, as `tehl run --json` gives it"),
 ):
-    """Summary and residual history of a run; table of a study. Example: `tehl show runs/gear-1.zarr --json | jq .fatigue`"""
+    """Summary and residual history of a run; table of a study or a flank.
+
+    Example: `tehl show runs/gear-1.zarr --json | jq .fatigue`
+    """
     import tehl_taichi as tehl
-    from tehl_taichi.study.table import Study, is_study
+    from tehl_taichi.results.opened import RUN, kind
 
-    if is_study(store):
-        _show_study(Study.open(store), as_json)
-    else:
-        _show_run(tehl.open(store).store, as_json)
+    found = tehl.open(store)
+    _show_run(found.store, as_json) if kind(store) == RUN else _show_table(found, as_json)
 
 
-def _show_study(study, as_json):
+def _show_table(found, as_json):
+    from tehl_cli.flank_command import print_flank
     from tehl_cli.out import print_json
     from tehl_cli.sweep_live import print_study
 
-    print_json(study.to_dict()) if as_json else print_study(study)
+    from tehl_taichi.flank import Flank
+
+    if as_json:
+        return print_json(found.to_dict())
+    print_flank(found) if isinstance(found, Flank) else print_study(found)
 
 
 def _show_run(saved, as_json):
@@ -112,38 +118,41 @@ def _state(saved):
     return "finished" if saved.cut is None else f"finished, cut at {saved.cut:.2f} a; go on with: tehl resume {saved.path}"
 
 
-def plot(store: Path = typer.Argument(..., help="store of a run, or a study"),
-         out: Path = typer.Option(None, help="folder for the figures (default: beside the store)"),
+def plot(store: Path = typer.Argument(..., help="store of a run, a study, or the folder of a flank"),
+         out: Path = typer.Option(None, help="folder for the figures (default: beside the store; of a flank: in it)"),
          quantity: str = typer.Option(None, help="of a study: the column of its table to draw, as fatigue_Fi_max"),
          format: Format = "png", dpi: Dpi = 160, width: Width = 17.0,
          at: Optional[float] = typer.Option(None, help="of a run: the moment with the (first) feature nearest to this place, "
                                             "in half-widths a of the contact (default: -0.8, 0, 0.8 in lines, 0 in maps)"),
          depth: Optional[float] = typer.Option(None, help="of a run: µm below the surface, where fatigue is shown beside "
                                                "the surface's, of those searched (default: the worst)")):
-    """Figures of a run: pressure and film along the centreline, maps, fatigue; of a study its results over the swept keys.
+    """Figures of a run: pressure and film along the centreline, maps, fatigue; of a study its results over the swept keys; of a
+    flank its results along it.
 
     Examples: `tehl plot runs/gear-1.zarr --format pdf --width 8.5 --at 0.5` · `tehl plot runs/gear-1.zarr --dpi 300` ·
     `tehl plot runs/gear-sweep-0a1b2c.zarr --quantity steady_h_c_m`
     """
     page = dict(dpi=dpi, format=format, width=width)
-    for path in _draw(store, {"quantity": quantity}, {"at": at, "depth": depth}, dict(folder=out, **page)):
+    for path in _draw(store, out, {"quantity": quantity, "at": at, "depth": depth}, page):
         print(path)
 
 
-def _draw(store, of_study, of_run, page):
-    """Paths of the figures of a run or of a study; of_study, of_run: what only such a one can show, None where not wanted."""
+OPTIONS = {"run": ("at", "depth"), "study": ("quantity",), "flank": ()}  # of tehl plot: what only such a one can show
+
+
+def _draw(store, out, wanted, page):
+    """Paths of the figures of whatever lies at `store`; wanted: {option: value} of OPTIONS, None where not wanted."""
     import tehl_taichi as tehl
     from tehl_taichi.errors import SceneError
-    from tehl_taichi.study.table import Study, is_study
+    from tehl_taichi.results.opened import FLANK, kind
 
-    studied = is_study(store)
-    mine, others = (of_study, of_run) if studied else (of_run, of_study)
-    for name, value in others.items():
-        if value is not None:
-            what = ("a run", "a study") if studied else ("the table of a study", "none")
-            raise SceneError(f"--{name} {value} is of {what[0]}, and {store} is {what[1]}")
-    return (Study if studied else tehl).open(store).plot(**mine, **page)
-
+    which = kind(store)
+    for name, value in wanted.items():
+        if value is not None and name not in OPTIONS[which]:
+            whose = next(other for other, options in OPTIONS.items() if name in options)
+            raise SceneError(f"--{name} {value} is of a {whose}, and {store} is a {which}")
+    found, mine = tehl.open(store), {name: wanted[name] for name in OPTIONS[which]}
+    return [found.plot(out and out / "flank", **page)] if which == FLANK else found.plot(out, **mine, **page)
 
 
 def doctor():

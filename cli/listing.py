@@ -1,5 +1,9 @@
 """Tables for people."""
 
+import os
+
+MOST = 240  # columns of a table in a file
+
 
 def _table(title, rows):
     from rich.console import Console
@@ -27,8 +31,8 @@ def warning_lines(sentences):
         print(f"warning: {sentence}")
 
 
-def list_table(title, columns, rows):
-    """Print rows under column names."""
+def list_table(title, columns, rows, whole=False):
+    """Print rows under column names; whole: as wide as they are, where there is no terminal whose width counts."""
     from rich.console import Console
     from rich.table import Table
 
@@ -37,7 +41,10 @@ def list_table(title, columns, rows):
         table.add_column(column, no_wrap=n == 0, overflow="fold")
     for row in rows:
         table.add_row(*row)
-    Console().print(table)
+    console = Console()
+    if whole and not console.is_terminal and "COLUMNS" not in os.environ:
+        console = Console(width=max(console.width, Console(width=MOST).measure(table).maximum))
+    console.print(table)
 
 
 # scalar in the store -> column, factor, format

@@ -81,8 +81,9 @@ def resume(
     Example: `tehl resume runs/gear-1.zarr`
     """
     import tehl_taichi as tehl
+    from tehl_taichi.results.opened import open_run
 
-    before = tehl.open(store)
+    before = open_run(store)
     if before.rest(steps) is None:
         say(f"{store} is finished ({len(before.store)} entries); `tehl show {store}` prints its summary")
         if as_json:

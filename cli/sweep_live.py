@@ -1,14 +1,17 @@
 """What a terminal shows of a sweep: a bar with the time left and the last cases, plain lines elsewhere; its table."""
 
 import itertools
+import math
 import sys
 import time
 from collections import deque
 
 from tehl_cli.live import say
 
-SHOWN = (("fatigue_Fi_max", "Fi", 1, ".4f"), ("transient_h_min_m", "h_min um", 1e6, ".4f"),
-         ("transient_p_max_Pa", "p_max GPa", 1e-9, ".4f"), ("steady_h_c_m", "steady h_c um", 1e6, ".4f"))
+from tehl_taichi.study.flat import error_of
+
+SHOWN = (("fatigue_Fi_max", "Fi", 1), ("transient_h_min_m", "h_min um", 1e6), ("transient_p_max_Pa", "p_max GPa", 1e-9),
+         ("steady_h_c_m", "steady h_c um", 1e6))
 LAST, MOST_ROWS = 8, 60
 
 
@@ -113,7 +116,7 @@ def print_study(study):
 
     columns = [entry for entry in SHOWN if entry[0] in study.values]
     rows = [_cells(study, row, columns) for row in itertools.islice(study.rows(), MOST_ROWS)]
-    list_table(f"{study.path}", ("case", *study.plan.keys, "status", *(title for _, title, _, _ in columns)), rows)
+    list_table(f"{study.path}", ("case", *study.plan.keys, "status", *(title for _, title, _ in columns)), rows, whole=True)
     if len(study) > MOST_ROWS:
         print(f"and {len(study) - MOST_ROWS} more in {study.table}")
     for record in study.results():
@@ -122,7 +125,14 @@ def print_study(study):
     print(f"table: {study.table}; pictures: tehl plot {study.path}")
 
 
+def _number(value, error):
+    """With its error where that is known, nothing where there is no value."""
+    from tehl_taichi.report.rounded import told
+
+    return "" if math.isnan(value) else told(value, error)
+
+
 def _cells(study, row, columns):
     keys = (f"{row[key]:g}" if isinstance(row[key], float) else str(row[key]) for key in study.plan.keys)
-    numbers = (format(row[name] * factor, form) if row[name] == row[name] else "" for name, _, factor, form in columns)
+    numbers = (_number(row[name] * factor, row.get(error_of(name), math.nan) * factor) for name, _, factor in columns)
     return [str(row["case"]), *keys, "ok" if row["status"] == "converged" else row["status"], *numbers]

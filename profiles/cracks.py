@@ -21,7 +21,8 @@ FEATURES = {REFERENCE: {}, "dent 1.5 um, 200 um wide": {"height": -1.5e-6}, "asp
             "asperity, 400 um wide": {"width": 400e-6}}
 # what else acts on the reference's cracks
 CONDITIONS = {"": {}, "residual -200 MPa": {"residual": -200e6}, "residual +200 MPa": {"residual": 200e6},
-              "face friction 0.3": {"face_friction": 0.3}, "oil 0.3 (upper bound)": {"oil": 0.3}}
+              "face friction 0.3": {"face_friction": 0.3}, "oil 0.3 (upper bound)": {"oil": 0.3},
+              "oil sealed in": {"oil": "sealed"}, "oil that flows": {"oil": "flow"}}
 NUMBERS = {"sigma1": ("largest tension, MPa", 1e6, "{:.0f}"), "depth": ("pulled to, um", 1e-6, "{:.1f}"),
            "chord": ("trajectory at 20 um, deg", 1, "{:.0f}"), "K_first": ("K_I at 5 um", 1e6, "{:.2f}"),
            "K_later": ("K_I at 20 um", 1e6, "{:.2f}"), "K_II": ("range of K_II at 20 um", 1e6, "{:.1f}"),

@@ -38,14 +38,15 @@ if TYPE_CHECKING:
     from tehl_taichi.io.found import find as scene
     from tehl_taichi.march import march, simulate
     from tehl_taichi.report import report
+    from tehl_taichi.results.opened import open
     from tehl_taichi.scene import Scene
     from tehl_taichi.study.compare import compare
     from tehl_taichi.study.many import sweep
     from tehl_taichi.study.progress import Lines, Progress
-    from tehl_taichi.study.single import open, resume, run
+    from tehl_taichi.study.single import resume, run
     from tehl_taichi.study.stored_run import Run
 else:  # the command line asks for a few of them only: 0.3 s of its start
     __getattr__ = offered(__name__, {
         "animate": "figures", "simulate": "march", "Scene": "scene", "compare": "study.compare", "sweep": "study.many",
-        "Lines": "study.progress", "Progress": "study.progress", "open": "study.single", "resume": "study.single",
+        "Lines": "study.progress", "Progress": "study.progress", "open": "results.opened", "resume": "study.single",
         "run": "study.single", "Run": "study.stored_run"}, ("crack", "export", "fatigue", "flank", "march", "report", "scene"))

@@ -72,7 +72,8 @@ def flank(folder):
     from tehl_taichi.flank.contacts import scene_at
     from tehl_taichi.flank.described import described
     from tehl_taichi.flank.outcomes import Outcome
-    from tehl_taichi.flank.whole_flank import Flank
+    from tehl_taichi.flank.stored_flank import Flank
+    from tehl_taichi.flank.whole_flank import about, told
 
     found = described("fzg-c")
     places = found.positions("pinion", None, ("A", "C", "E"))
@@ -81,5 +82,5 @@ def flank(folder):
                   "wall_s": 1.0, "warnings": ["same everywhere"]} for h, Fi in ((1e-7, 1.4), (4e-7, 0.7))]
     outcomes = [Outcome(folder / "1.zarr", summaries[0]), Outcome(folder / "2.zarr", summaries[1]),
                 Outcome(folder / "3.zarr", reason="step 7 failed")]
-    Flank(found.name, folder, "pinion", found, places, scenes, outcomes).write()
+    Flank(folder, told(about(found, folder, "pinion"), places, scenes, outcomes)).write()
     return folder

@@ -114,20 +114,6 @@ def test_a_target_error_chooses_the_grid_of_the_run(tmp_path):
     assert json.loads(done.stdout)["grid"]["nx"] > 200 and "error of 0.2%" in done.stderr
 
 
-@pytest.mark.slow  # in processes of their own; test_precision asks the same of one process
-def test_linear_solves_in_single_and_in_double_give_the_same_answer(finished, tmp_path):
-    from tehl_taichi.io.store import Store
-
-    path = tmp_path / "double.zarr"
-    done = tehl("run", "gear", *TINY, "--steps", 10, "--out", path, "--precision", "f64", "--json")
-    assert done.returncode == 0, done.stderr
-    single, double = Store.open(finished[0]), Store.open(path)
-    assert [s.attrs["precision"] for s in (single, double)] == ["f32", "f64"]
-    for name, a in single.fields(10).items():
-        b = double.fields(10)[name]
-        assert np.abs(a - b).max() <= 1e-6 * np.abs(b).max(), name  # 7e-8: they are stored in single
-
-
 def test_an_interrupt_before_the_first_step_says_so(tmp_path):
     run = subprocess.Popen([*CALL, "run", "gear", "--threads", "2", "--out", str(tmp_path / "none.zarr")], text=True,
                            stderr=subprocess.PIPE)

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from rolling import Rolling
 from small_stores import SMALL, shot
+from test_report import Seen, numbers
 
 import tehl_taichi as tehl
 from tehl_taichi.crack import growth
@@ -17,6 +18,8 @@ from tehl_taichi.crack.plane import GROWTH, Plane, plane_of, principal
 from tehl_taichi.crack.residual import Residual, read
 from tehl_taichi.crack.trajectory import start, trajectory
 from tehl_taichi.crack.wanted import Wanted
+from tehl_taichi.errors import StoreError
+from tehl_taichi.physics.viscosity import ln_eta
 from tehl_taichi.scene import SceneError
 
 MICRO, E_STAR, SCENE = 1e-6, 206e9 / 0.91, tehl.scene("gear")
@@ -150,6 +153,7 @@ def test_oil_inside_adds_its_pressure_to_the_faces():
     ({"side": "left"}, "entry"), ({"angle": 14.0}, "15 degrees"), ({"angle": 166.0}, "165"), ({"step": 0.0}, "more than|1e-08"),
     ({"step": 2e-4}, "longer than"), ({"first": 2e-4}, "longer than"), ({"threshold": -1.0}, "at least 0"),
     ({"face_friction": -0.1}, "at least 0"), ({"oil": 1.5}, "at most 1"), ({"oil": float("nan")}, "not a number"),
+    ({"oil": "flwo"}, "did you mean 'flow'"), ({"oil": "much"}, "dry, film, flow, sealed, a share"),
     ({"elements": 3}, "6 to 200"), ({"distance": -1e-6}, "1e-08"), ({"length": "long"}, "not a number")])
 def test_what_is_out_of_range_is_refused(wanted, said):
     with pytest.raises(SceneError, match=said):
@@ -211,6 +215,17 @@ def test_the_answer(rolled):
     assert not found["exit"]["opens"] and "nothing pulls" in found["exit"]["why"] and "exit" not in rolled.sides
 
 
+def test_oil_flows_with_the_oil_and_the_speed_of_the_scene(rolled):
+    """Between nothing and the film's pressure; and times and viscosity that it goes with."""
+    plane, u_a = rolled.plane, SCENE.operation.u_a
+    np.testing.assert_allclose(np.diff(plane.times[:-1]) * u_a, np.diff(plane.centres[:-1]), rtol=1e-9)
+    assert np.log(plane.fluid.viscosity(1e8)) == pytest.approx(ln_eta(SCENE.oil, 1e8, SCENE.operation.temperature))
+    path = rolled.sides["entry"].begun.x + np.array([0, 20 * MICRO * np.exp(0.8j)])
+    dry, flow, film = (growth.loaded(plane, path, Wanted(oil=oil), E_STAR) for oil in ("dry", "flow", "film"))
+    assert flow.missed == 0 and 0 < flow.pressure.max() < film.pressure.max()
+    assert dry.K[0].max() * (1 - 1e-9) <= flow.K[0].max() < film.K[0].max()
+
+
 def test_shallow_closed_cracks_settle_and_hardly_depend_on_the_elements(rolled):
     """Largest K_I and range of K_II through the passage with 12 against 48 elements: 1 %."""
     x = rolled.sides["entry"].begun.x
@@ -267,7 +282,8 @@ def rolling_store(path):
         found = reader.fields(n, ("pressure", "traction_x_a", "traction_y_a"))
         one.fields = {name: found.get(name, np.zeros_like(found["pressure"])) for name in one.fields}
         one.state["P"] = np.zeros((reader.y.size, reader.x.size))
-    with Store.create(path, SMALL, shots[0], len(shots), {"runtime": '{"precision": "f64"}', "steady_error": "{}"}) as made:
+    attrs = {"runtime": '{"precision": "f64"}', "steady_error": "{}", "date": "2026-01-31"}
+    with Store.create(path, SMALL, shots[0], len(shots), attrs) as made:
         for one in shots[1:]:
             made.append(one, one.state)
     return made
@@ -279,15 +295,34 @@ def test_the_command(taichi_cpu, tmp_path, capsys):
     rolling_store(tmp_path / "r.zarr")
     (tmp_path / "depths.csv").write_text("0, 0\n50e-6, -1e8\n")
     options = dict(side="entry", start=None, angle=90.0, first=5e-6, step=5e-6, length=15e-6, distance=3e-6, threshold=None,
-                   residual=str(tmp_path / "depths.csv"), face_friction=0.1, oil=0.0, thermal_stress=None, elements=12,
+                   residual=str(tmp_path / "depths.csv"), face_friction=0.1, oil="0", thermal_stress=None, elements=12,
                    threads=None)
-    crack(tmp_path / "r.zarr", **options, figures=tmp_path / "figures", as_json=True)
+    crack(tmp_path / "r.zarr", **options, figures=tmp_path / "figures", as_json=True, keep=False)
+    assert not (tmp_path / "r.crack.json").exists()
     summary = json.loads(capsys.readouterr().out)
     assert summary["sides"]["entry"]["opens"] and summary["face_friction"] == 0.1
     assert (tmp_path / "figures" / "crack.png").stat().st_size > 10000
-    crack(tmp_path / "r.zarr", **options, figures=None, as_json=False)
+    crack(tmp_path / "r.zarr", **options, figures=None, as_json=False, keep=True)
     shown = capsys.readouterr().out
     assert "with rolling" in shown and "MPa sqrt(m)" in shown
+    _in_the_report(tmp_path / "r.zarr", summary)
+
+
+def _in_the_report(store, summary):
+    """What was kept stands there, and its path is drawn; not with another run in that place, nor if it is damaged."""
+    page = Seen(tehl.report(store).read_text(encoding="utf-8"))
+    entry, K = summary["sides"]["entry"], page.figures["K-entry"]["data"]
+    assert "Cracks" in page.headings and "friction of closed faces\n0.1\n" in page.text and "None" not in page.text
+    assert f"pulled by {entry['sigma1_surface_Pa'] / 1e6:.4g} MPa" in page.text and entry["why"] in page.text
+    assert max(numbers(K[0])) == pytest.approx(entry["K"][0]["K_I_max"] / 1e6, rel=1e-3) and len(K) == 4
+    path = next(trace for trace in page.figures["cracks"]["data"] if trace.get("name") == "entry: crack")
+    assert numbers(path)[-1] == pytest.approx(entry["path"]["deepest_m"] * 1e6, rel=1e-3)
+    kept = store.with_name("r.crack.json")
+    kept.write_text(kept.read_text().replace('"run": "', '"run": "another'))
+    assert "Cracks" not in Seen(tehl.report(store, force=True).read_text(encoding="utf-8")).headings
+    kept.write_text("{")
+    with pytest.raises(StoreError, match="crack.json is damaged"):
+        tehl.report(store, force=True)
 
 
 def test_the_command_refuses_in_a_sentence(tmp_path):

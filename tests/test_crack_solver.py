@@ -201,6 +201,24 @@ def test_friction_settles_where_exchanging_states_goes_round(monkeypatch):
     np.testing.assert_allclose(held, held_too, atol=1e-5 * held.max())
 
 
+def test_moments_at_once_and_one_by_one_rub_alike(monkeypatch):
+    """Eight moments of one state at a time, and a second passage that ends where it meets the first, against each by itself;
+    half of the solves at least are saved."""
+    faces, turns, solves = Faces(slanted(45), 1.0, 24), np.linspace(0, 4 * np.pi, 80), []
+    depth = faces.points.imag
+    load = np.concatenate([forces(faces, xx=-1 - np.cos(3 * turn) * depth, xz=np.sin(turn)) for turn in turns], axis=1)
+    plain = rubbing._forces
+    monkeypatch.setattr(rubbing, "_forces", lambda *given: solves.append(1) or plain(*given))
+    values, held, _ = rubbing.rubbed(faces, load, 0.4)
+    few = len(solves)
+    monkeypatch.setattr(rubbing, "AHEAD", 1)
+    monkeypatch.setattr(rubbing, "FORGOT", -1.0)
+    other, held_too, _ = rubbing.rubbed(faces, load, 0.4)
+    assert few < 0.5 * (len(solves) - few)
+    np.testing.assert_allclose(values, other, atol=1e-9 * np.abs(values).max())
+    np.testing.assert_allclose(held, held_too, atol=1e-9 * held.max())
+
+
 def test_pressure_inside_opens_as_much_as_the_same_pull():
     faces = Faces(slanted(60), 1.0, 12)
     n = 1j * np.exp(1j * np.radians(60))

@@ -7,7 +7,7 @@ import pytest
 from tehl_taichi.profiles import coverage
 
 from tehl_taichi.fatigue.assessment import Snapshots
-from tehl_taichi.io import result_judge
+from tehl_taichi.io import result_judge, summary
 from tehl_taichi.march import companions, readings
 from tehl_taichi.march.error_bars import Reading, bar, bars, beside, estimated_error
 from tehl_taichi.scene import scene
@@ -138,6 +138,18 @@ def test_companions_give_the_bars_of_a_passage(passage):
     assert all(size > 0 for size in found["passage_error"].values() if size is not None)
     assert found["passage_error"]["friction_coefficient_mean"] is not None
     assert told == [(0, 3), (1, 3), (2, 3), (3, 3)]  # 16 columns are refused, 32 have a start and two steps
+
+
+def test_the_index_below_the_surface_has_a_bar_of_its_own():
+    deep = short(**{"grid.nx": 128, "grid.ny": 32, "time.steps": 8, "fatigue.depths": "auto"})
+    known = companions.values(companions.scenes(deep)[0][-1])
+    assert known[companions.BELOW].value > 0 and known[companions.BELOW] != known["Fi_max"]
+    out = {"transient": {"p_max_Pa": 2e9}, "fatigue": {"Fi_max": 0.5, "below": {"Fi_max": 0.7}}}
+    (_, _), (surface, of_surface), (below, of_below) = summary._parts(out)
+    assert surface is out["fatigue"] and of_surface == {"Fi_max": "Fi_max"}
+    assert below is out["fatigue"]["below"] and of_below == {"Fi_max": companions.BELOW}
+    said, = result_judge.unknown_errors(None, {"fatigue": {"below": {"unknown": {"Fi_max": "it still changes"}}}})
+    assert said == "the error of Fi_max below the surface is not known: it still changes"
 
 
 def test_companions_use_the_tables_of_the_run(passage):

@@ -1,20 +1,24 @@
 """A whole flank: its scenes, their runs and stores, tables, files and figure."""
 
+import contextlib
 import csv
 import json
 import math
 
 import pytest
+from fake_cases import position
 from tehl_cli.main import app
 from typer.testing import CliRunner
 
 import tehl_taichi as tehl
-from tehl_taichi.flank import columns, outcomes
+from tehl_taichi.figures.page import Page
+from tehl_taichi.flank import columns, flank_figure
 from tehl_taichi.flank.contacts import scene_at
 from tehl_taichi.flank.described import described
 from tehl_taichi.scene import SceneError, hertz
 from tehl_taichi.scene.gear_pair import gear_pair
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.study import case, cluster
 
 SMALL = {"grid.nx": 64, "grid.ny": 16}
 NAMES = {"x_pl_m", "rho_a_m", "rho_b_m", "R_m", "u_a_m_s", "u_b_m_s", "srr", "load_N_m", "p_Hertz_Pa", "summary"}
@@ -28,14 +32,15 @@ TABLE = """x_pl_mm, load_N_per_mm, R_a_mm, R_b_mm, u_a_m_s, u_b_m_s, point, note
 def steady(taichi_cpu, tmp_path_factory):
     """The steady films of A and C, with temperatures."""
     folder = tmp_path_factory.mktemp("flank") / "pinion"
-    return tehl.flank("fzg-c", at=("A", "C"), steady=True, changes=SMALL, folder=folder)
+    return tehl.flank("fzg-c", at=("A", "C"), steady=True, changes=SMALL, folder=folder, workers=1)
 
 
 def test_every_position_has_the_contact_of_the_geometry(steady):
     told = steady.to_dict()
     assert [one["point"] for one in told["positions"]] == ["A", "C"]
     assert all(NAMES <= one.keys() for one in told["positions"])
-    for one, scene in zip(told["positions"], steady.scenes):
+    for one in told["positions"]:
+        scene = tehl.open(one["store"]).scene
         assert one["converged"] and one["summary"]["hertz"]["p_Pa"] == pytest.approx(one["p_Hertz_Pa"])
         assert scene.contact.radius_x == pytest.approx(one["R_m"]) and scene.operation.u_a == pytest.approx(one["u_a_m_s"])
         assert scene.operation.u_b == pytest.approx(one["u_b_m_s"]) and scene.load == one["load_N_m"]
@@ -53,7 +58,7 @@ def test_the_pitch_point_rolls_cool_and_the_root_slides_hot(steady):
 
 
 def test_a_finished_flank_is_read_not_run(steady, monkeypatch):
-    monkeypatch.setattr(outcomes.single, "run", lambda *_, **__: pytest.fail("it ran again"))
+    monkeypatch.setattr(case, "work", lambda *_, **__: pytest.fail("it ran again"))
     again = tehl.flank("fzg-c", at=("A", "C"), steady=True, changes=SMALL, folder=steady.folder)
     assert again.to_dict() == steady.to_dict()
 
@@ -65,21 +70,77 @@ def test_a_folder_of_another_flank_is_refused_before_anything_runs(steady):
 
 def test_files_and_figure_tell_the_same(steady):
     told = json.loads((steady.folder / "flank.json").read_text())
-    assert told["positions"][0]["summary"]["steady"] == steady.outcomes[0].summary["steady"]
+    assert told["positions"][0]["summary"]["steady"] == steady.rows[0][2]["steady"]
     with (steady.folder / "flank.csv").open() as file:
         rows = list(csv.DictReader(file))
     assert [float(row["x_pl_m"]) for row in rows] == [at.x_pl for at in steady.positions]
-    assert float(rows[0]["steady_h_c_m"]) == steady.outcomes[0].summary["steady"]["h_c_m"] and "Fi_max" not in rows[0]
+    assert float(rows[0]["steady_h_c_m"]) == steady.rows[0][2]["steady"]["h_c_m"] and "Fi_max" not in rows[0]
+    assert float(rows[0]["error_steady_h_c_m"]) == steady.rows[0][2]["steady"]["error"]["h_c_m"] > 0
     assert steady.plot().stat().st_size > 20_000
+
+
+def test_table_and_figure_carry_the_errors(steady):
+    pytest.importorskip("matplotlib")
+    (column,) = [c for c in columns.COLUMNS if c.name == "steady_h_c_m"]
+    film = steady.rows[0][2]["steady"]
+    assert column.shown(*steady.rows[0]) == f"{film['h_c_m'] * 1e6:.3f} ± {film['error']['h_c_m'] * 1e6:.2g}"
+    bars = flank_figure._drawn(Page(), steady).axes[0].containers[0].lines[2][0].get_segments()
+    assert bars[0][1, 1] - bars[0][0, 1] == pytest.approx(2e6 * film["error"]["h_c_m"])
 
 
 def test_a_feature_passes_at_every_position(taichi_cpu, tmp_path):
     whole = tehl.flank("fzg-c", at=("B+",), on="gear", folder=tmp_path / "gear", changes={**SMALL, "thermal.on": False})
-    found, = whole.outcomes
-    assert found.summary["transient"]["h_min_m"] < found.summary["steady"]["h_min_m"] and found.summary["fatigue"]["Fi_max"] > 0
+    (_, _, summary), = whole.rows
+    assert summary["transient"]["h_min_m"] < summary["steady"]["h_min_m"] and summary["fatigue"]["Fi_max"] > 0
     assert whole.positions[0].srr > 0 < whole.positions[0].x_pl
     (column,) = [c for c in columns.COLUMNS if c.name == "Fi_max"]
-    assert column.shown(*whole.rows[0]) == f"{found.summary['fatigue']['Fi_max']:.3f}"
+    assert column.shown(*whole.rows[0]) == f"{summary['fatigue']['Fi_max']:.3f}"
+
+
+class Heard(tehl.Progress):
+    def __init__(self):
+        self.lines = []
+
+    def say(self, text):
+        self.lines.append(text)
+
+
+def test_positions_run_side_by_side_and_those_without_a_result_are_listed(tmp_path, monkeypatch):
+    """Through Dask, in this process and without a solver."""
+    distributed, heard = pytest.importorskip("distributed"), Heard()
+    monkeypatch.setattr(case, "work", position)
+    with distributed.Client(processes=False, n_workers=2, threads_per_worker=1, dashboard_address=None) as client:
+        monkeypatch.setattr(cluster, "_client", lambda *_: contextlib.nullcontext(client))
+        found = tehl.flank("fzg-c", positions=7, steady=True, folder=tmp_path / "f", workers=2, progress=heard)
+    assert [at.point for at in found.positions] == ["A", "B-", "B+", "C", "D-", "D+", "E"]
+    assert [summary and summary["steady"]["h_c_m"] for *_, summary in found.rows] == \
+        [None, *(pytest.approx(at.R) for at in found.positions[1:6]), None]
+    assert [(at.point, reason) for at, reason in found.failed] == [("A", "made up"), ("E", "MemoryError: no room")]
+    assert heard.lines[0] == "7 positions on 2 workers" and heard.lines[7].startswith("7 of 7: fzg-c-")
+    assert any(line.endswith("of 7: fzg-c-01-A: made up") for line in heard.lines)
+    assert tehl.open(found.folder).told == found.told
+
+
+def test_an_interrupted_flank_says_how_far_it_is(tmp_path, monkeypatch):
+    def until_c(job, progress):
+        if job.scene.name.endswith("-C"):
+            raise KeyboardInterrupt
+        return position(job)
+
+    monkeypatch.setattr(case, "work", until_c)
+    with pytest.raises(KeyboardInterrupt, match="interrupted after 3 of 7 positions; the same .* --out .*/f goes on"):
+        tehl.flank("fzg-c", positions=7, steady=True, folder=tmp_path / "f", workers=1)
+    waiting = [(at.point, reason) for at, reason in tehl.open(tmp_path / "f").failed]
+    assert [point for point, _ in waiting] == ["A", "C", "D-", "D+", "E"] and "has not run yet" in waiting[1][1]
+
+
+@pytest.mark.slow
+def test_two_workers_compute_the_same_bits_as_one(taichi_cpu, tmp_path):
+    small = dict(at=("A", "B+"), changes={**SMALL, "thermal.on": False, "time.steps": 3})
+    one, two = (tehl.flank("fzg-c", folder=tmp_path / str(n), workers=n, threads=1, **small) for n in (1, 2))
+    for (*_, here), (*_, there) in zip(one.rows, two.rows):
+        assert [here[part] for part in ("steady", "transient", "fatigue")] == [there[part] for part in
+                                                                              ("steady", "transient", "fatigue")]
 
 
 @pytest.mark.slow
@@ -87,9 +148,10 @@ def test_dedendum_and_addendum_of_type_c_at_stage_10(taichi_cpu, tmp_path):
     """The whole flank with temperatures and the asperity: every position converges, films stay films."""
     whole = tehl.flank("fzg-c", torque=265.1, positions=7, folder=tmp_path / "c", changes=SMALL)
     assert not whole.failed and [at.point for at in whole.positions] == ["A", "B-", "B+", "C", "D-", "D+", "E"]
-    for scene, found in zip(whole.scenes, whole.outcomes):
-        assert found.summary["transient"]["h_min_m"] > 0.9 * scene.rheology.film_floor * Scales.of(scene).h
-        assert 0.3 < found.summary["fatigue"]["Fi_max"] < 1.5
+    for one in whole.told["positions"]:
+        scene, summary = tehl.open(one["store"]).scene, one["summary"]
+        assert summary["transient"]["h_min_m"] > 0.9 * scene.rheology.film_floor * Scales.of(scene).h
+        assert 0.3 < summary["fatigue"]["Fi_max"] < 1.5
     assert whole.plot().exists()
 
 
@@ -116,7 +178,7 @@ def test_a_position_that_does_not_converge_leaves_the_others(taichi_cpu, tmp_pat
     folder = tmp_path / "short"
     done = CliRunner().invoke(app, ["flank", "fzg-c", "--at", "C", "--steady", "--isothermal", "--set", "numerics.newton_max=1",
                                     "--grid", "64x16", "--out", str(folder), "--quiet", "--no-figure"])
-    assert done.exception.exit_code == 3 and "1 of 1 positions did not converge" in str(done.exception)
+    assert done.exception.exit_code == 3 and "1 of 1 positions have no result" in str(done.exception)
     told, = json.loads((folder / "flank.json").read_text())["positions"]
     assert not told["converged"] and told["summary"] is None and "did not converge" in told["reason"]
 

@@ -62,8 +62,8 @@ def test_a_tilted_map_is_levelled_and_a_broken_one_refused(tmp_path):
     np.savetxt(tmp_path / "tilt.csv", 3.0 + 0.2 * x - 0.1 * y, delimiter=",")
     assert np.abs(feature(tmp_path / "tilt.csv").surface).max() < 1e-18
     assert feature(tmp_path / "tilt.csv", level="mean").measures.low == pytest.approx(-(0.2 * 14.5 + 0.1 * 9.5) * 1e-6)
-    (tmp_path / "broken.csv").write_text("1,2\n3,nan\n")
-    with pytest.raises(SceneError, match=r"4 x 4 finite heights, not one of shape \(2, 2\) with 1 missing"):
+    (tmp_path / "broken.csv").write_text("1,2\n3,4\n")
+    with pytest.raises(SceneError, match=r"4 x 4 heights, not one of shape \(2, 2\)"):
         feature(tmp_path / "broken.csv")
     (tmp_path / "scan.sur").write_text("x")
     with pytest.raises(SceneError, match="topography"):
@@ -77,11 +77,43 @@ def test_tables_are_read_as_instruments_write_them(tmp_path, name, row):
     assert height_map.read(tmp_path / name).tolist() == [[1.5, 2.0, 3.0, 40.0]] * 4
 
 
+@pytest.mark.parametrize("mark, end", [(",", ""), (";", ";"), ("\t", "")])
+def test_nothing_between_two_marks_was_not_measured(tmp_path, mark, end):
+    rows = [["1", "2", "3", "4"]] * 30 + [["", "2", " ", "nan"]]
+    (tmp_path / "scan.csv").write_text("".join(mark.join(row) + end + "\n" for row in rows))
+    values = height_map.read(tmp_path / "scan.csv")
+    assert values.shape == (31, 4) and np.isnan(values[30]).tolist() == [True, False, True, True]
+    np.testing.assert_array_equal(values[:30], [[1, 2, 3, 4]] * 30)
+
+
+def test_small_holes_are_filled_from_their_neighbours_and_told_of(tmp_path):
+    y, x = np.mgrid[:40, :50]
+    heights = 0.3 * x - 0.1 * y
+    np.save(tmp_path / "whole.npy", heights)
+    heights[3:10, 20:27] = heights[30, 5:9] = np.nan
+    np.save(tmp_path / "holes.npy", heights)
+    whole, holed = (feature(tmp_path / f"{name}.npy", unit="nm", level="none", taper=5e-6) for name in ("whole", "holes"))
+    np.testing.assert_allclose(holed.surface, whole.surface, atol=1e-6 * 20e-9)  # a plane solves Laplace's equation
+    said = [one for one in with_map(tmp_path / "holes.npy").warnings() if "not measured" in one]
+    assert len(said) == 1 and "53 of its 2000 points" in said[0]
+    assert height_map.fetch("", holed.sha256)[0] == holed.sha256 != whole.sha256
+
+
+@pytest.mark.parametrize("hole, words", [
+    (np.s_[:, :4], "lacks 0.08 of its 2000"), (np.s_[:9, :9], "holes of up to 18 points"), (np.s_[:], "lacks 1 of its 2000")])
+def test_heights_are_not_invented(tmp_path, hole, words):
+    heights = np.ones((40, 50))
+    heights[hole] = np.nan
+    np.save(tmp_path / "scan.npy", heights)
+    with pytest.raises(SceneError, match=f"{words}.*allowed: 0.05, holes of 16.*filled from their neighbours"):
+        feature(tmp_path / "scan.npy")
+
+
 @pytest.mark.filterwarnings("error")  # the sentence says it all
 @pytest.mark.parametrize("told", ["height in nm\n" + 4 * "1,2,3,4\n", "1;2;3;4\n1;2;3\n" * 4, "", "1,2,3\n4,five,6\n"])
 def test_tables_with_something_else_in_them_are_refused(tmp_path, told):
     (tmp_path / "scan.csv").write_text(told, encoding="utf-8")
-    with pytest.raises(SceneError, match="cannot read heights from .*scan.csv|at least 4 x 4 finite heights"):
+    with pytest.raises(SceneError, match="cannot read heights from .*scan.csv|at least 4 x 4 heights"):
         feature(tmp_path / "scan.csv")
 
 

@@ -51,6 +51,7 @@ def test_a_study_is_a_table_over_the_swept_keys(study):
     with open(study.table) as file:
         rows = list(csv.DictReader(file))
     assert len(rows) == 9 and float(rows[7]["fatigue_Fi_max"]) == pytest.approx(found) and rows[5]["fatigue_Fi_max"] == ""
+    assert float(rows[0]["fatigue_error_Fi_max"]) == 0.04 and rows[1]["fatigue_error_Fi_max"] == ""
     assert "left_out" not in rows[0] and float(rows[7]["feature.height"]) == 1e-6
 
 
@@ -105,6 +106,7 @@ def test_another_study_is_not_touched(study, tmp_path):
 def test_numbers_of_workers():
     assert pool.sizes(workers=3, threads=2) == (3, 2) and pool.sizes(scheduler="tcp://x:1") == (None, 1)
     assert pool.sizes(workers=1) == (1, None) and pool.sizes(workers=100) == (100, 1)
+    assert pool.sizes(jobs=1) == (1, None) and pool.sizes(workers=5, jobs=2)[0] == 2
     for wrong in ({"workers": 0}, {"threads": 0}, {"workers": 2, "scheduler": "tcp://x:1"}, {"workers": 1.5}):
         with pytest.raises(SceneError, match="--workers|--threads-per-worker"):
             pool.sizes(**wrong)
@@ -115,7 +117,7 @@ def test_without_dask_one_worker_runs_and_several_say_what_is_missing(tmp_path, 
     with pytest.raises(RuntimeUnavailable, match=r"pip install 'tehl_taichi\[sweep\]'"):
         many.run(plan(GEAR, OVER), tmp_path / "s.zarr", workers=2, work=formula)
     assert list(tmp_path.iterdir()) == []
-    assert many.run(plan(GEAR, OVER), tmp_path / "s.zarr", workers=1, work=formula).counts["waiting"] == 0
+    assert many.run(plan(GEAR, OVER), tmp_path / "s.zarr", work=formula).counts["waiting"] == 0
 
 
 @pytest.fixture(scope="module")
@@ -153,6 +155,24 @@ def test_pictures_of_a_study(study, tmp_path):
     drawn = plan(GEAR, {"srr": "-0.1:0.1", "height": "1e-7:1e-6:log", "rheology.law": ["eyring", "newtonian"]}, samples=6)
     sampled = many.run(drawn, tmp_path / "s.zarr", workers=1, work=formula)
     assert sampled.plot(tmp_path / "p", "fatigue_Fi_max")[0].name == "fatigue_Fi_max_points.png"
+
+
+def test_lines_carry_the_errors_that_are_known(study):
+    pytest.importorskip("matplotlib")
+    from tehl_taichi.figures.page import Page
+    from tehl_taichi.study import study_figures
+
+    (ax,) = study_figures.lines(Page(), study, "fatigue_Fi_max").axes
+    bars = [container.lines[2][0].get_segments() for container in ax.containers]
+    drawn = [[float(np.ptp(bar[:, 1])) for bar in of_line if len(bar) and np.isfinite(bar).all()] for of_line in bars]
+    assert drawn == [pytest.approx([0.08] * 3), [], []]
+    hollow = [line.get_xdata().tolist() for line in ax.lines if str(line.get_color()) == "white"]
+    assert [len(x) for x in hollow] == [0, 3, 3] and "hollow: its error is not known" in ax.figure.get_suptitle()
+
+
+def test_the_table_shows_errors_that_are_known(study):
+    shown = here("show", study.path).stdout
+    assert "0.750 ± 0.040" in shown and "0.9 " in shown and shown.count("±") == 3
 
 
 def test_the_heat_map_shows_each_case_where_it_belongs(study):

@@ -1,8 +1,9 @@
 """Where a crack goes under the loads of a passage: trajectories of the largest tension, and a crack whose faces may touch.
 
 `plane` holds the stresses below the feature, `trajectory` follows them; `dislocations`, `elements`, `stiffness`, `compliance`
-are an elastic crack, `bounds`, `closure` and `rubbing` the contact of its faces, `growth` lets it grow, `answer` is the whole.
-May import `fatigue` and what that may; nothing here knows of films, or of files but a table of residual stress.
+are an elastic crack, `bounds`, `closure` and `rubbing` the contact of its faces, `wet` and `fillings` what is inside, `growth`
+lets it grow, `answer` is the whole. May import `fatigue`, `physics` and what they may; nothing here knows of films, or of files
+but a table of residual stress.
 `tehl_taichi.crack(run)` is the function.
 """
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tehl_taichi.crack.fillings import FILLINGS
 from tehl_taichi.crack.growth import WHY, Path, grow, loaded
 from tehl_taichi.crack.plane import Plane, plane_of
 from tehl_taichi.crack.trajectory import Start, start, trajectory
@@ -71,8 +72,9 @@ def _check_places(plane, wanted):
 
 def _common(scene, wanted):
     return {"srr": scene.operation.srr, "thermal_stress": scene.thermal_stress_wanted, "face_friction": wanted.face_friction,
-            "oil": wanted.oil, "oil_is": "an upper bound: one pressure in the whole crack" if wanted.oil else "none",
-            "threshold": wanted.threshold, "distance_m": wanted.distance, "pit_angles_deg": list(PIT_ANGLES)}
+            "oil": wanted.filling, "oil_is": FILLINGS[wanted.filling].says,
+            "oil_share": wanted.oil_share if wanted.filling == "film" else None, "threshold": wanted.threshold,
+            "distance_m": wanted.distance, "pit_angles_deg": list(PIT_ANGLES)}
 
 
 def _summary(plane, side, wanted, E_star):

@@ -23,7 +23,7 @@ class Faces:
     def __init__(self, path, E_star, count):
         elements = Elements(path, count)
         self.E_star, self.a, self.nodes = E_star, elements.a, elements.s.size
-        self.points, self.direction, self.jump, self.load = elements.points()
+        self.points, self.direction, self.length, self.jump, self.load = elements.points()
         normal = _normals(elements.direction)
         self.turn = _turn(normal)
         self.contact, self.rough = _contacts(elements.direction, normal)
@@ -36,10 +36,18 @@ class Faces:
         z = stress[..., 2] * n.real + stress[..., 1] * n.imag
         return self.turn.T @ np.concatenate([self.load.T @ x, self.load.T @ z])
 
+    def opening(self):
+        """(points, 2 nodes) opening at the points, m, by nodal values."""
+        n = 1j * self.direction[:, None] / self.length[:, None]
+        return np.concatenate([self.load * n.real, self.load * n.imag], axis=1) @ self.turn
+
     def pushed(self):
-        """(2 nodes,) nodal forces of unit pressure on both faces."""
-        n = 1j * self.direction
-        return self.turn.T @ np.concatenate([self.load.T @ n.real, self.load.T @ n.imag])
+        """(2 nodes,) nodal forces of unit pressure on both faces: the volume of the crack by nodal values, too."""
+        return self.length @ self.opening()
+
+    def parts(self, count):
+        """(points,) which of so many parts of the crack, from the mouth on, a point is in."""
+        return np.arange(self.points.size) * count // self.points.size
 
     def intensities(self, values):
         """(2, ...) K_I and K_II, Pa sqrt(m), from nodal values (2 nodes, ...)."""

@@ -54,8 +54,8 @@ class Elements:
         return u, z, (1 - second, second), ((1 - second + bend) * turn, (second - bend) * turn)
 
     def points(self):
-        """z and direction at the Gauss points of all elements; weighted jump and weighted opening there by nodal values, each
-        (points, nodes)."""
+        """z and direction at the Gauss points of all elements, the length each stands for; weighted jump and weighted opening
+        there by nodal values, each (points, nodes)."""
         xi, w = gauss(GAUSS)
         k = np.arange(self.lengths.size)[:, None]
         u, z, shapes, slopes = self.at(k, xi)
@@ -65,7 +65,7 @@ class Elements:
         for side in (0, 1):
             jump[rows, first + side] = (slopes[side] * w).ravel()
             load[rows, first + side] = (u * shapes[side] * length).ravel()
-        return z.ravel(), np.repeat(self.direction, GAUSS), jump, load
+        return z.ravel(), np.repeat(self.direction, GAUSS), length.ravel(), jump, load
 
 
 def _graded(count):

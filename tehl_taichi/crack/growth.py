@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from tehl_taichi.crack.closure import opened
 from tehl_taichi.crack.compliance import Faces
-from tehl_taichi.crack.rubbing import rubbed
+from tehl_taichi.crack.fillings import FILLINGS
+from tehl_taichi.crack.wet import Wet
 
 WIDEST, FAN = np.radians(75.0), 51  # directions looked at: up to there on both sides
 WHY = {"length": "it has the length that was asked for", "threshold": "K_I stays below the threshold",
@@ -22,7 +22,7 @@ WHY = {"length": "it has the length that was asked for", "threshold": "K_I stays
 @dataclass
 class Loaded:
     """A crack through the passage: its faces, nodal values and K (2, moments) in Pa sqrt(m), share of its length that touches
-    (moments,), moments that did not settle, and the pressure inside (moments,) Pa."""
+    (moments,), moments that did not settle, the pressure of the oil at the tip (moments,) Pa, and above the mouth."""
 
     faces: Faces
     values: np.ndarray
@@ -30,6 +30,7 @@ class Loaded:
     touching: np.ndarray
     missed: int
     pressure: np.ndarray
+    mouth: np.ndarray
 
 
 @dataclass
@@ -46,17 +47,14 @@ class Path:
 
 def loaded(plane, points, wanted, E_star, elements=None):
     """The :class:`Loaded` crack along `points`, all of them within the plane."""
-    faces = Faces(points, E_star, elements or wanted.elements)
-    pressure = wanted.oil * np.maximum(0.0, -plane.at(points[:1])[0, :, 1])
-    forces = faces.forces(plane.at(faces.points)) + faces.pushed()[:, None] * pressure
-    values, held, missed = _contact(faces, forces, wanted.face_friction)
-    return Loaded(faces, values, faces.intensities(values), (held > 0).mean(axis=0), missed, pressure)
-
-
-def _contact(faces, forces, friction):
-    if friction > 0:
-        return rubbed(faces, forces, friction)
-    return *opened(faces, forces), 0
+    elements = elements or wanted.elements
+    faces = Faces(points, E_star, elements)
+    mouth = np.maximum(0.0, -plane.at(points[:1])[0, :, 1])
+    wet = Wet(faces, faces.forces(plane.at(faces.points)), mouth, wanted.oil_share, plane.times, wanted.face_friction,
+              plane.fluid, elements)
+    inside = FILLINGS[wanted.filling].inside(wet)
+    touching, K = (inside.held > 0).mean(axis=0), faces.intensities(inside.values)
+    return Loaded(faces, inside.values, K, touching, inside.missed, inside.pressure, mouth)
 
 
 def grow(plane, begun, wanted, E_star):
@@ -91,7 +89,8 @@ def _told(plane, crack):
     K_I, K_II = crack.K
     top = int(np.argmax(K_I))
     return {"length_m": float(crack.faces.a), "K_I_max": float(K_I[top]), "K_II_there": float(K_II[top]),
-            "K_II_range": float(np.ptp(K_II)), "feature_x_m": float(plane.centres[top]), "unsettled": int(crack.missed)}
+            "K_II_range": float(np.ptp(K_II)), "feature_x_m": float(plane.centres[top]),
+            "oil_at_tip_Pa": float(crack.pressure.max()), "unsettled": int(crack.missed)}
 
 
 def _ahead(plane, crack, tip, last, wanted):

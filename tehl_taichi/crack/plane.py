@@ -4,6 +4,7 @@ import copy
 
 import numpy as np
 
+from tehl_taichi.crack.filling import Fluid
 from tehl_taichi.crack.residual import Residual
 from tehl_taichi.errors import SceneError
 from tehl_taichi.fatigue.histories import Passage
@@ -18,12 +19,13 @@ KEPT = (0, 2, 4)  # xx, zz, xz
 
 class Plane:
     """x: (x',) m, even; depths: skin (GROWTH^n - 1) m; centres: the feature's (m) at every moment, the last one (unloaded) nan;
-    stress: (x', depths, moments, 3) Pa: xx, zz, xz, residual stress counted; a: m; reach: the feature's half width, m."""
+    stress: (x', depths, moments, 3) Pa: xx, zz, xz, residual stress counted; a: m; reach: the feature's half width, m; times:
+    of the moments, s; fluid: :class:`tehl_taichi.crack.filling.Fluid` (both for oil that flows)."""
 
-    def __init__(self, x, skin, stress, centres, a, reach, residual=None):
+    def __init__(self, x, skin, stress, centres, a, reach, residual=None, times=None, fluid=None):
         self.x, self.skin, self.stress, self.centres, self.a, self.reach = x, skin, stress, centres, a, reach
         self.depths = skin * (GROWTH ** np.arange(stress.shape[1]) - 1)
-        self.residual, self.scale = residual, float(np.abs(stress).max())
+        self.residual, self.scale, self.times, self.fluid = residual, float(np.abs(stress).max()), times, fluid
 
     def having(self, residual):
         """The same loads with a residual stress (Pa, or rows of depth and Pa; None: as it is)."""
@@ -85,8 +87,10 @@ def plane_of(scene, reader, residual=None):
     stress = histories_of(passage, depths, [(0, False)])[0][..., KEPT].swapaxes(0, 1)
     if not np.isfinite(stress).all():
         raise SceneError("the stored tractions are no numbers somewhere, so the stresses below are none either")
-    centres = np.append(passage.centres, np.nan)
-    return Plane(passage.x, skin, np.ascontiguousarray(stress), centres, passage.a, feature.reach).having(residual)
+    times, centres = passage.centres / scene.operation.u_a, np.append(passage.centres, np.nan)
+    times = np.append(times, 2 * times[-1] - times[0])  # unloaded as long after
+    return Plane(passage.x, skin, np.ascontiguousarray(stress), centres, passage.a, feature.reach, None, times,
+                 Fluid.of(scene)).having(residual)
 
 
 def _checked(scene, reader):

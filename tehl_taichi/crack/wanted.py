@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import Union
 
+from tehl_taichi.crack.fillings import FILLINGS
 from tehl_taichi.errors import SceneError
 from tehl_taichi.values.checks import choice, integer, normalise, number
 
@@ -17,8 +18,8 @@ class Wanted:
     leaning with rolling); first: its length, step: of the others, length: of the whole, m. distance: ahead of the tip, m, at
     which the largest tension around it is looked for. threshold: of K_I, Pa sqrt(m), below which it stops (None: it has
     none). residual: stress along x, Pa or rows (depth, Pa); None: fatigue.residual_xx of the scene. face_friction: of closed
-    faces. oil: share of the film's pressure at the mouth that acts on both faces (an upper bound). elements: of a straight
-    crack. Raises SceneError for values out of range.
+    faces. oil: a name of :data:`tehl_taichi.crack.fillings.FILLINGS`, or the share of the film's pressure at the mouth that
+    acts on both faces (an upper bound). elements: of a straight crack. Raises SceneError for values out of range.
     """
 
     side: str = "both"
@@ -31,7 +32,7 @@ class Wanted:
     threshold: Union[float, None] = None
     residual: object = None
     face_friction: float = 0.0
-    oil: float = 0.0
+    oil: Union[float, str] = "dry"
     elements: int = 12
 
     def __post_init__(self):
@@ -41,7 +42,10 @@ class Wanted:
             number(key, getattr(self, key), "m", 1e-8, 0.1)
         number("angle", self.angle, "degrees", FLATTEST, 180 - FLATTEST)
         number("face_friction", self.face_friction, "", 0.0, 1.0)
-        number("oil", self.oil, "", 0.0, 1.0)
+        if isinstance(self.oil, str):
+            choice("oil", self.oil, (*FILLINGS, "a share of the film's pressure from 0 to 1"))
+        else:
+            number("oil", self.oil, "", 0.0, 1.0)
         integer("elements", self.elements, 6, 200)
         for key, unit, low, high in (("start", "m", -0.1, 0.1), ("threshold", "Pa sqrt(m)", 0.0, 1e9)):
             if getattr(self, key) is not None:
@@ -49,6 +53,18 @@ class Wanted:
         for key in ("first", "step"):
             if getattr(self, key) > self.length * (1 + 1e-9):
                 raise SceneError(f"{key} = {getattr(self, key):g} m is longer than length = {self.length:g} m")
+
+    @property
+    def filling(self):
+        """Name of what is inside."""
+        if isinstance(self.oil, str):
+            return self.oil
+        return "film" if self.oil else "dry"
+
+    @property
+    def oil_share(self):
+        """Of the film's pressure at the mouth, where all of the crack has it."""
+        return 1.0 if isinstance(self.oil, str) else self.oil
 
     @property
     def sides(self):

@@ -4,12 +4,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Optional
 
-import numpy as np
-
 from tehl_taichi.errors import SceneError
 from tehl_taichi.registry import Entry
 
-ANGLES = np.linspace(0.0, np.pi / 2, 20001)  # of planes; the largest of a smooth function is right to 2e-9
+ANGLES = 20001  # of planes; the largest of a smooth function is right to 2e-9
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,12 +47,21 @@ class Criterion(Entry):
 
     def in_bending(self, S, kappa):
         """Its stress (Pa) in uniaxial tension and pressure of amplitude S, over planes that turn away from the pull."""
-        return self._worst(0.5 * S * np.sin(2 * ANGLES), S * np.cos(ANGLES) ** 2, S / 3, kappa)
+        np, angles = _planes()
+        return self._worst(0.5 * S * np.sin(2 * angles), S * np.cos(angles) ** 2, S / 3, kappa)
 
     def in_torsion(self, S, kappa):
         """The same in pure shear of amplitude S, over planes that turn away from its direction."""
-        return self._worst(S * np.abs(np.cos(2 * ANGLES)), S * np.sin(2 * ANGLES), 0.0, kappa)
+        np, angles = _planes()
+        return self._worst(S * np.abs(np.cos(2 * angles)), S * np.sin(2 * angles), 0.0, kappa)
 
     def _worst(self, tau, normal, mean, kappa):
         values = self.value(tau, normal, mean, kappa) + 0 * tau
-        return float(values[np.argmax(tau)] if self.sheared else values.max())
+        return float(values[tau.argmax()] if self.sheared else values.max())
+
+
+def _planes():
+    """numpy (only here: `tehl --help` names the criteria), and the angles of the planes."""
+    import numpy as np
+
+    return np, np.linspace(0.0, np.pi / 2, ANGLES)

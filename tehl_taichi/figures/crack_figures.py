@@ -10,6 +10,7 @@ COLOURS = {"entry": palette.BLUE, "exit": palette.BLACK}  # both stand out on th
 SHOWN = 150e6  # Pa: more tension has the same colour
 DEEP = 1.3     # of the deepest line, shown
 BELOW = dict(loc="upper center", bbox_to_anchor=(0.5, 0.0), borderaxespad=4.0)  # legends: under the axis, in sizes of text
+OILS = {"film": "{}the film's pressure inside (an upper bound)", "flow": "oil flows along it", "sealed": "oil sealed in"}
 BAND = 60e-6   # m: length of the pits' band along the surface
 
 
@@ -39,7 +40,8 @@ def crack_figure(page, result, title):
 
 def _conditions(summary):
     parts = [f"face friction {summary['face_friction']:g}"] * (summary["face_friction"] > 0)
-    parts += [f"{summary['oil']:g} of the film's pressure inside (an upper bound)"] * (summary["oil"] > 0)
+    share = "" if summary["oil_share"] in (None, 1) else f"{summary['oil_share']:g} of "
+    parts += [OILS.get(summary["oil"], f"oil: {summary['oil']}").format(share)] * (summary["oil"] != "dry")
     return "".join(f", {part}" for part in parts)
 
 

@@ -1,14 +1,15 @@
 """What is told of a position, a column each: for the table on the screen, the CSV file and the figure."""
 
 import csv
+import io
 from dataclasses import dataclass
 from typing import Callable
 
 
 @dataclass(frozen=True)
 class Column:
-    """name: with its SI unit, of the CSV file; head, factor, form: of the printed table `table`; value: of (position, p_H,
-    summary), None where there is none."""
+    """name: with its SI unit, of the CSV file; head, factor, form: of the printed table `table`; value, error: of (position,
+    p_H, summary), None where there is none."""
 
     name: str
     head: str
@@ -17,9 +18,14 @@ class Column:
     value: Callable
     table: str
 
+    def error(self, *row):
+        return self.value.error(*row) if isinstance(self.value, _Of) else None
+
     def shown(self, *row):
-        value = self.value(*row)
-        return "" if value is None else value if isinstance(value, str) else format(value * self.factor, self.form)
+        value, error = self.value(*row), self.error(*row)
+        if value is None or isinstance(value, str):
+            return value or ""
+        return format(value * self.factor, self.form) + (f" ± {error * self.factor:.2g}" if error is not None else "")
 
 
 def dig(summary, *keys):
@@ -29,8 +35,22 @@ def dig(summary, *keys):
     return summary
 
 
-def _of(*keys):
-    return lambda position, p_H, summary: dig(summary, *keys)
+def error_of(summary, *keys):
+    """The error bar of a value deep in a summary, None where there is none."""
+    return dig(summary, *keys[:-1], "error", keys[-1])
+
+
+class _Of:
+    """A number of the summary, with its error bar."""
+
+    def __init__(self, *keys):
+        self.keys = keys
+
+    def __call__(self, position, p_H, summary):
+        return dig(summary, *self.keys)
+
+    def error(self, position, p_H, summary):
+        return error_of(summary, *self.keys)
 
 
 CONTACT, STEADY, PASSAGE = TABLES = ("contact", "steady film", "while the feature passes")
@@ -43,16 +63,16 @@ COLUMNS = (
     Column("srr", "SRR", 1, ".3f", lambda at, *_: at.srr, CONTACT),
     Column("load_N_m", "N/mm", 1e-3, ".1f", lambda at, *_: at.load, CONTACT),
     Column("p_Hertz_Pa", "p_H GPa", 1e-9, ".3f", lambda at, p_H, _: p_H, CONTACT),
-    Column("steady_h_c_m", "h_c um", 1e6, ".3f", _of("steady", "h_c_m"), STEADY),
-    Column("steady_h_min_m", "h_min um", 1e6, ".3f", _of("steady", "h_min_m"), STEADY),
-    Column("steady_p_max_Pa", "p_max GPa", 1e-9, ".3f", _of("steady", "p_max_Pa"), STEADY),
-    Column("steady_friction", "friction", 1, ".4f", _of("steady", "friction_coefficient"), STEADY),
-    Column("steady_film_max_C", "film deg C", 1, ".1f", _of("steady", "film_max_C"), STEADY),
-    Column("passage_h_min_m", "h_min um", 1e6, ".3f", _of("transient", "h_min_m"), PASSAGE),
-    Column("passage_p_max_Pa", "p_max GPa", 1e-9, ".3f", _of("transient", "p_max_Pa"), PASSAGE),
-    Column("passage_film_max_C", "film deg C", 1, ".1f", _of("transient", "film_max_C"), PASSAGE),
-    Column("Fi_max", "Fi", 1, ".3f", _of("fatigue", "Fi_max"), PASSAGE),
-    Column("Fi_max_below", "Fi below", 1, ".3f", _of("fatigue", "below", "Fi_max"), PASSAGE),
+    Column("steady_h_c_m", "h_c um", 1e6, ".3f", _Of("steady", "h_c_m"), STEADY),
+    Column("steady_h_min_m", "h_min um", 1e6, ".3f", _Of("steady", "h_min_m"), STEADY),
+    Column("steady_p_max_Pa", "p_max GPa", 1e-9, ".3f", _Of("steady", "p_max_Pa"), STEADY),
+    Column("steady_friction", "friction", 1, ".4f", _Of("steady", "friction_coefficient"), STEADY),
+    Column("steady_film_max_C", "film deg C", 1, ".1f", _Of("steady", "film_max_C"), STEADY),
+    Column("passage_h_min_m", "h_min um", 1e6, ".3f", _Of("transient", "h_min_m"), PASSAGE),
+    Column("passage_p_max_Pa", "p_max GPa", 1e-9, ".3f", _Of("transient", "p_max_Pa"), PASSAGE),
+    Column("passage_film_max_C", "film deg C", 1, ".1f", _Of("transient", "film_max_C"), PASSAGE),
+    Column("Fi_max", "Fi", 1, ".3f", _Of("fatigue", "Fi_max"), PASSAGE),
+    Column("Fi_max_below", "Fi below", 1, ".3f", _Of("fatigue", "below", "Fi_max"), PASSAGE),
 )
 
 
@@ -73,10 +93,13 @@ def tables(rows):
     return out
 
 
-def write_csv(path, rows):
-    """A CSV file in SI units, and after that what a table of positions brought along."""
+def csv_text(rows):
+    """The table as CSV in SI units; after that the error bars, and what a table of positions brought along."""
     columns, more = used(rows), list(dict.fromkeys(key for at, *_ in rows for key in at.more))
-    with path.open("w", newline="", encoding="utf-8") as file:
-        out = csv.writer(file)
-        out.writerow([*(column.name for column in columns), *more])
-        out.writerows([*(column.value(*row) for column in columns), *(row[0].more.get(key) for key in more)] for row in rows)
+    known = [column for column in columns if any(column.error(*row) is not None for row in rows)]
+    text = io.StringIO()
+    out = csv.writer(text)
+    out.writerow([*(column.name for column in columns), *(f"error_{column.name}" for column in known), *more])
+    out.writerows([*(column.value(*row) for column in columns), *(column.error(*row) for column in known),
+                   *(row[0].more.get(key) for key in more)] for row in rows)
+    return text.getvalue()

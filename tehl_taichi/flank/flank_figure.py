@@ -3,7 +3,8 @@
 import numpy as np
 
 from tehl_taichi.figures import palette
-from tehl_taichi.flank.columns import dig
+from tehl_taichi.figures.page import made
+from tehl_taichi.flank.columns import dig, error_of
 
 # panel: label, factor, {legend: keys in the summary}; "p_H" is the Hertz pressure
 PANELS = (("film (µm)", 1e6, {"steady, centre": ("steady", "h_c_m"), "steady, least": ("steady", "h_min_m"),
@@ -17,12 +18,14 @@ PANELS = (("film (µm)", 1e6, {"steady, centre": ("steady", "h_c_m"), "steady, l
           ("friction coefficient", 1, {"steady": ("steady", "friction_coefficient"),
                                        "mean while the feature passes": ("transient", "friction_coefficient_mean")}),
           ("SRR", 1, {"(u_a − u_b)/u_m": "srr"}))
+BARS = {"capsize": 2, "elinewidth": 0.8}
 LAST = 5  # panels: friction and slip fill up what a steady or isothermal flank leaves free
 
 
 def write(flank, path, page):
     """Write the figure of a Flank, as the :class:`Page` wants it; returns the path."""
     page, path = page.of_file(path)
+    made(path.parent)
     return page.save(lambda: _drawn(page, flank), path)
 
 
@@ -40,23 +43,25 @@ def _drawn(page, flank):
 def _panel(ax, flank, label, factor, lines):
     for n, (name, what) in enumerate(lines.items()):
         if series := _series(flank, what):
-            x, y = np.array(series).T
-            ax.plot(x * 1e3, y * factor, ".-", color=palette.LINES[n], label=name)
+            x, y, error = np.array(series, float).T
+            error = error * factor if np.isfinite(error).any() else None
+            ax.errorbar(x * 1e3, y * factor, error, fmt=".-", color=palette.LINES[n], label=name, **BARS)
     ax.set_ylabel(label)
     ax.grid()
     ax.legend()
 
 
 def _series(flank, what):
-    """[(x_pl, value)] of the positions that have it; nan between the two sides of a jump, where the line breaks."""
+    """[(x_pl, value, its error bar or None)] of the positions that have it; nan between the two sides of a jump, where the line
+    breaks."""
     out = []
     for at, p_H, summary in flank.rows:
         value = p_H if what == "p_H" else at.srr if what == "srr" else dig(summary, *what)
         if value is None:
             continue
         if out and out[-1][0] == at.x_pl:
-            out.append((at.x_pl, np.nan))
-        out.append((at.x_pl, value))
+            out.append((at.x_pl, np.nan, np.nan))
+        out.append((at.x_pl, value, error_of(summary, *what) if isinstance(what, tuple) else None))
     return out
 
 

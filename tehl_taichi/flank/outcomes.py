@@ -1,58 +1,92 @@
-"""The scenes of a flank, run one after another in this process; what stands in stores of them already is taken from there."""
+"""The scenes of a flank as jobs of the pool, side by side or here; what their stores hold already is taken from there."""
 
 from dataclasses import dataclass
 from pathlib import Path
 
-from tehl_taichi.errors import NotConverged, StoreError
-from tehl_taichi.study import single
+from tehl_taichi.errors import StoreError
+from tehl_taichi.study import case, pool, single
 from tehl_taichi.study.progress import Progress
+
+STAGE = "positions"
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """summary: as `tehl run --json`, None where the scene did not converge; reason: why not; store: its path."""
+    """summary: as `tehl run --json`, None where there is none; reason: why not; store: its path."""
 
     store: Path
     summary: dict | None = None
     reason: str = ""
 
 
-def summaries(scenes, folder, threads=None, progress=None):
-    """Outcomes of scenes, in their order, each with a store NAME.zarr in `folder`.
+def summaries(scenes, folder, workers=None, threads=None, progress=None):
+    """Generator of (number of the scene, its Outcome) as they end, each with a store NAME.zarr in `folder`.
 
-    A scene that does not converge does not stop the others. A store that is there already is gone on with. Raises StoreError
-    where it is of another scene; KeyboardInterrupt leaves what is stored.
+    A scene that does not converge, or loses its worker twice, does not stop the others. A store that is there already is gone
+    on with. workers, threads: as :func:`tehl_taichi.study.pool.sizes`. Raises StoreError where a store is of another scene,
+    RuntimeUnavailable where several workers are wanted without Dask; KeyboardInterrupt leaves what is stored.
     """
-    folder, progress, found = Path(folder), progress or Progress(), []
-    places = [(scene, folder / f"{scene.name}.zarr") for scene in scenes]
-    for scene, path in places:
-        _check_same(scene, path)
-    for n, (scene, path) in enumerate(places):
-        progress.stage(STAGE, n, len(scenes))
-        progress.say(f"{n + 1} of {len(scenes)}: {scene.name}")
-        found.append(_outcome(scene, path, threads, _Named(progress, scene.name)))
-    progress.stage(STAGE, len(scenes), len(scenes))
-    return found
+    places = [(scene, Path(folder) / f"{scene.name}.zarr") for scene in scenes]
+    done = {n: outcome for n, place in enumerate(places) if (outcome := _before(*place))}
+    todo = [n for n in range(len(places)) if n not in done]
+    workers, threads = pool.sizes(workers, threads, jobs=len(todo))
+    pool.check(workers)
+    yield from done.items()
+    progress = progress or Progress()
+    yield from _run(places, todo, workers, threads, progress)
+    progress.stage(STAGE, len(places), len(places))
 
 
-STAGE = "positions"
-
-
-def _check_same(scene, path):
-    if path.exists() and (stored := single.open(path)).scene != scene:
+def _before(scene, path):
+    """The Outcome that a finished store has, None where the scene has to run. Raises StoreError."""
+    if not path.exists():
+        return None
+    stored = single.open(path)
+    if stored.scene != scene:
         raise StoreError(f"{path} is of another scene ({stored.scene.name} with other values); choose another folder")
+    return Outcome(path, stored.summary) if stored.finished else None
 
 
-def _outcome(scene, path, threads, progress):
-    try:
-        if not path.exists():
-            run = single.run(scene, path, threads=threads, progress=progress)
-        else:
-            run = single.open(path)
-            run = run if run.finished else single.resume(path, threads=threads, progress=progress)
-    except NotConverged as error:
-        return Outcome(path, reason=str(error))
-    return Outcome(path, run.summary)
+def _run(places, todo, workers, threads, progress):
+    """Generator of what :func:`summaries` yields of the scenes that have to run."""
+    alone, count = workers == 1, len(places)
+    jobs = (case.Job(places[n][0], str(places[n][1].absolute()), threads, shared=not alone) for n in todo)
+    work = _Here(progress, len(todo)) if alone else case.work
+    if not alone:
+        progress.say(f"{len(todo)} positions on {workers} workers")
+    for ended, (place, answer) in enumerate(pool.results(work, jobs, workers=workers), count - len(todo)):
+        n = todo[place]
+        scene, path = places[n]
+        outcome = _outcome(path, answer)
+        if not alone:
+            _tell(progress, scene, outcome, f"{ended + 1} of {count}")
+        progress.stage(STAGE, ended + 1, count)
+        yield n, outcome
+
+
+def _outcome(path, answer):
+    if isinstance(answer, pool.Lost):
+        return Outcome(path, reason=answer.reason)
+    return Outcome(path, answer["summary"], answer["reason"])
+
+
+def _tell(progress, scene, outcome, which):
+    """What another process could tell nobody."""
+    progress.say(f"{which}: {scene.name}: {outcome.reason or 'done'}")
+    for sentence in scene.warnings():
+        progress.warn(f"{scene.name}: {sentence}")
+
+
+class _Here:
+    """Works in this process and lets the listener hear of each run."""
+
+    def __init__(self, progress, count):
+        self.progress, self.count, self.n = progress, count, 0
+
+    def __call__(self, job):
+        self.n += 1
+        self.progress.say(f"{self.n} of {self.count}: {job.scene.name}")
+        return case.work(job, _Named(self.progress, job.scene.name))
 
 
 class _Named(Progress):

@@ -1,36 +1,110 @@
-"""A flank as its folder keeps it, read again from flank.json: nothing is run, nothing is checked against the gears."""
+"""A flank as its folder keeps it: the positions with their summaries, the table, the figure."""
 
 import json
 from dataclasses import dataclass
+from os import PathLike
 from pathlib import Path
 
 from tehl_taichi.errors import StoreError
+from tehl_taichi.flank import columns
 from tehl_taichi.flank.positions import Position
 
-FILE = "flank.json"
+FILE, TABLE = "flank.json", "flank.csv"
+# of a position in flank.json; what else stands there came with a table of positions
+KEYS = {"point", "x_pl_m", "arc_m", "rho_a_m", "rho_b_m", "R_m", "u_a_m_s", "u_b_m_s", "srr", "load_N_m", "p_Hertz_Pa", "store",
+        "converged", "reason", "summary"}
 
 
 @dataclass(frozen=True)
-class StoredFlank:
-    """folder: where it lies; told: the JSON object of `tehl flank --json`."""
+class Flank:
+    """A flank: what :func:`tehl_taichi.flank` and :func:`tehl_taichi.open` give.
+
+    folder: where it lies; told: the JSON object of `tehl flank --json`.
+    """
 
     folder: Path
     told: dict
 
+    @classmethod
+    def open(cls, folder):
+        """The flank in a folder. Raises StoreError."""
+        file = Path(folder) / FILE
+        try:
+            told = json.loads(file.read_text(encoding="utf-8"))
+            found = cls(Path(folder), {**told, "name": str(told["name"]), "geometry": dict(told["geometry"])})
+            found.rows  # noqa: B018  whatever is missing is missing now
+            return found
+        except OSError as error:
+            raise StoreError(f"cannot read {file}: {error.strerror or error}") from None
+        except (ValueError, KeyError, TypeError) as error:
+            raise StoreError(f"{file} is damaged ({type(error).__name__}: {error}); the same tehl flank writes it again") \
+                from None
+
     @property
-    def rows(self):
-        """(position, Hertz pressure in Pa, summary or None) of every position, as :attr:`whole_flank.Flank.rows`."""
+    def name(self) -> str:
+        return self.told["name"]
+
+    @property
+    def positions(self) -> list:
+        """The :class:`tehl_taichi.flank.positions.Position` of each."""
+        return [_position(one) for one in self.told["positions"]]
+
+    @property
+    def rows(self) -> list:
+        """(position, Hertz pressure in Pa, summary or None) of every position."""
         return [(_position(one), one["p_Hertz_Pa"], one["summary"]) for one in self.told["positions"]]
 
     @property
-    def failed(self):
-        """(position, reason) of those that did not converge."""
+    def failed(self) -> list:
+        """(position, reason) of those without a result."""
         return [(_position(one), one["reason"]) for one in self.told["positions"] if one["summary"] is None]
 
     @property
-    def points(self):
-        """{letter A to E: x_pl in m}; {} of a table."""
+    def points(self) -> dict:
+        """{letter A to E: x_pl in m} on this flank; {} of a table."""
         return self.told["geometry"].get("points_x_pl_m", {})
+
+    @property
+    def title(self) -> str:
+        """The flank in a line."""
+        pair = self.told["geometry"]
+        if "torque" not in pair:
+            return f"{self.name}: flank of body a"
+        return f"{self.name}: flank of the {pair['on']}, {pair['torque']:g} N m and {pair['n1']:g} 1/min at the pinion"
+
+    def to_dict(self) -> dict:
+        """The JSON object of `tehl flank --json`, in SI units."""
+        return self.told
+
+    def write(self) -> list:
+        """flank.json and flank.csv into the folder; returns their paths. Raises StoreError."""
+        from tehl_taichi.io import atomic
+        from tehl_taichi.io.place import reason
+
+        paths = self.folder / FILE, self.folder / TABLE
+        texts = json.dumps(self.told, indent=1, allow_nan=False), columns.csv_text(self.rows)
+        try:
+            self.folder.mkdir(parents=True, exist_ok=True)  # where no position converged there are no stores
+            for path, text in zip(paths, texts):
+                atomic.replace(path, text.encode())
+        except OSError as error:
+            raise StoreError(f"cannot write to {self.folder}: {reason(error)}") from None
+        return list(paths)
+
+    def plot(self, path: str | PathLike | None = None, dpi: int = 160, format: str = "png", width: float = 17.0) -> Path:
+        """The figure (default: flank.png in the folder, or flank.pdf, flank.svg); returns its path.
+
+        dpi, format (where the path has no suffix that tells it), width: as :meth:`Run.plot`. Raises SceneError, or StoreError
+        without matplotlib.
+        """
+        from tehl_taichi.figures.page import Page
+        from tehl_taichi.flank import flank_figure
+
+        return flank_figure.write(self, path or self.folder / "flank", Page(format, dpi, width))
+
+    def __repr__(self):
+        done = len(self.told["positions"]) - len(self.failed)
+        return f"<tehl.Flank {self.name}: {done} of {len(self.told['positions'])} positions, {self.folder}>"
 
 
 def is_flank(path):
@@ -38,21 +112,8 @@ def is_flank(path):
     return (Path(path) / FILE).is_file()
 
 
-def open_flank(path):
-    """The :class:`StoredFlank` in the folder `path`. Raises StoreError."""
-    file = Path(path) / FILE
-    try:
-        told = json.loads(file.read_text(encoding="utf-8"))
-        found = StoredFlank(Path(path), {**told, "name": str(told["name"]), "geometry": dict(told["geometry"])})
-        found.rows  # noqa: B018  whatever is missing is missing now
-        return found
-    except OSError as error:
-        raise StoreError(f"cannot read {file}: {error.strerror or error}") from None
-    except (ValueError, KeyError, TypeError) as error:
-        raise StoreError(f"{file} is damaged ({type(error).__name__}: {error}); the same tehl flank writes it again") from None
-
-
 def _position(one):
     u_m = 0.5 * (one["u_a_m_s"] + one["u_b_m_s"])
+    more = {key: value for key, value in one.items() if key not in KEYS}
     return Position(one["x_pl_m"], one["rho_a_m"], one["rho_b_m"], one["u_a_m_s"], one["u_b_m_s"], one["load_N_m"],
-                    one["srr"] * u_m, one["arc_m"], one["point"])
+                    one["srr"] * u_m, one["arc_m"], one["point"], more)

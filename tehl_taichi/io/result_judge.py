@@ -47,10 +47,12 @@ def crowded(store, summary):
 
 def unknown_errors(store, summary):
     """Numbers of which no error can be told, with the reason; one sentence for all that share it."""
-    for part, when in (("steady", "steady "), ("transient", "passage "), ("fatigue", "")):
+    below = summary.get("fatigue", {}).get("below", {})
+    for part, when, behind in ((summary.get("steady", {}), "steady ", ""), (summary.get("transient", {}), "passage ", ""),
+                               (summary.get("fatigue", {}), "", ""), (below, "", " below the surface")):
         reasons = {}
-        for name, why in summary.get(part, {}).get("unknown", {}).items():
-            reasons.setdefault(why, []).append(when + name)
+        for name, why in part.get("unknown", {}).items():
+            reasons.setdefault(why, []).append(f"{when}{name}{behind}")
         yield from (f"the error of {', '.join(names)} is not known: {why}" for why, names in reasons.items())
 
 

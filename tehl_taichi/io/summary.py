@@ -5,6 +5,7 @@ import numpy as np
 from tehl_taichi import __version__
 from tehl_taichi.io import result_judge
 from tehl_taichi.io.film_judge import worst_ripple
+from tehl_taichi.march.companions import BELOW
 from tehl_taichi.march.readings import HEAT
 from tehl_taichi.physics import conduction
 from tehl_taichi.physics.law import beyond
@@ -28,9 +29,10 @@ def summarise(store, extra, fatigue=None):
         out["transient"] = _transient(store)
     if fatigue:
         out["fatigue"] = fatigue
-    for part, names in _parts(out).items():
-        out[part]["error"] = {name: extra.get("passage_error", {}).get(name) for name in names}
-        out[part]["unknown"] = {name: why for name, why in extra.get("passage_unknown", {}).items() if name in names}
+    for part, names in _parts(out):
+        known, unknown = extra.get("passage_error", {}), extra.get("passage_unknown", {})
+        part["error"] = {name: known.get(told) for name, told in names.items()}
+        part["unknown"] = {name: unknown[told] for name, told in names.items() if told in unknown}
     out["work"] = _work(store)
     out["crowding"] = extra.get("crowding", [0, 0])
     out["clamps"] = _clamps(store)
@@ -75,9 +77,11 @@ def _steady(store, extra):
 
 
 def _parts(out):
-    """{part of the summary: its numbers that get an error bar} after the steady start."""
-    parts = {"transient": PASSAGE, "fatigue": ("Fi_max",)}
-    return {part: [name for name in names if name in out[part]] for part, names in parts.items() if part in out}
+    """[(part of the summary after the start, {its number that has an error bar: that number's name among the errors})]."""
+    fatigue = out.get("fatigue", {})
+    parts = ((out.get("transient"), {name: name for name in PASSAGE}), (fatigue, {"Fi_max": "Fi_max"}),
+             (fatigue.get("below"), {"Fi_max": BELOW}))
+    return [(part, {name: told for name, told in names.items() if name in part}) for part, names in parts if part]
 
 
 def _transient(store):

@@ -83,7 +83,7 @@ def _below_rows(f):
     if "below" not in f:
         return []
     deep = f["below"]
-    rows = [(f"Fi_max below it, at {_depth(deep)}", f"{deep['Fi_max']:.4f}"),
+    rows = [(f"Fi_max below it, at {_depth(deep)}", quantity(deep, "Fi_max")),
             (f"{f['criterion']} stress", _stress(deep["findley_stress_max_Pa"])), *_point_rows(deep)]
     if "contact_alone" in deep:
         alone = deep["contact_alone"]

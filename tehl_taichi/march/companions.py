@@ -17,6 +17,8 @@ from tehl_taichi.march.peaks import sharpest
 from tehl_taichi.scene.route import total_steps
 
 COMPANIONS = 2  # with the run itself three grids; 1/8 and 1/64 of its cells and steps
+BELOW = "below_Fi_max"  # name of the largest index below the surface
+SHARP = ("p_max_Pa", "film_max_C", "Fi_max", BELOW)  # what a peak that is not resolved leaves unknown
 WORTH = 3e5  # nodes times steps of a run: below, it is a try, on a grid whose companions tell little
 
 
@@ -27,8 +29,7 @@ def scenes(scene):
         nx, ny = scene.grid.nx // 2**level, scene.grid.ny // 2**level
         steps = min(scene.time.steps, max(1, scene.time.steps // 2**level))  # -1 is all
         try:
-            out.append(scene.replace(**{"grid.nx": nx, "grid.ny": ny, "time.steps": steps, "output.profiles": False,
-                                        "fatigue.depths": []}))
+            out.append(scene.replace(**{"grid.nx": nx, "grid.ny": ny, "time.steps": steps, "output.profiles": False}))
         except Error as error:
             refused.append(f"a companion run on {nx} x {ny} cells is refused: {error}")
     return out[::-1], refused
@@ -47,10 +48,11 @@ def passage_readings(scene, reader, scalar, fatigue=None):
            **{name: Reading(float(np.max(scalar(name)[1:]))) for name in heat},
            "friction_coefficient_mean": Reading(float(np.mean(scalar("friction_coefficient")[1:])))}
     out |= {"Fi_max": Reading(float(fatigue["Fi_max"]))} if fatigue else {}
+    out |= {BELOW: Reading(float(fatigue["below"]["Fi_max"]))} if fatigue and "below" in fatigue else {}
     # a peak that the grid does not resolve at some moment: neither its pressure is known nor what it does to oil and steel
     spike = max(sharpest(reader.fields(n, ("pressure",))["pressure"], p.max()) for n in range(1, len(p) + 1))
     why = readings.doubt(reader.x, *spike)
-    return out | {name: replace(out[name], doubt=why) for name in ("p_max_Pa", "film_max_C", "Fi_max") if why and name in out}
+    return out | {name: replace(out[name], doubt=why) for name in SHARP if why and name in out}
 
 
 def values(scene, tell=lambda: None):

@@ -3,7 +3,7 @@
 from tehl_taichi.figures.palette import GREY
 from tehl_taichi.flank.columns import dig, tables
 from tehl_taichi.flank.flank_figure import PANELS
-from tehl_taichi.flank.stored_flank import open_flank
+from tehl_taichi.flank.stored_flank import Flank
 from tehl_taichi.report import verdict
 from tehl_taichi.report.document import Answer, Page, Section, drawn, facts, sentences, table
 from tehl_taichi.report.plots import colour, line, stacked
@@ -16,7 +16,7 @@ ALONG = "x_pl from the pitch point (mm)"
 
 def of(folder):
     """The :class:`tehl_taichi.report.document.Page` of the flank in `folder`. Raises StoreError."""
-    flank = open_flank(folder)
+    flank = Flank.open(folder)
     name, geometry = flank.told["name"], flank.told["geometry"]
     whose = f", flank of the {geometry['on']}, {geometry['torque']:g} N m and {geometry['n1']:g} 1/min at the pinion" \
         if "torque" in geometry else ""

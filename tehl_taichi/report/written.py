@@ -59,10 +59,7 @@ def _check_free(out, force):
 
 def page_of(folder):
     """The :class:`tehl_taichi.report.document.Page` of whatever lies in `folder`. Raises StoreError."""
-    from tehl_taichi.flank.stored_flank import is_flank
     from tehl_taichi.report import flank_page, run_page, study_page
-    from tehl_taichi.study.table import is_study
+    from tehl_taichi.results.opened import FLANK, RUN, STUDY, kind
 
-    if is_study(folder):
-        return study_page.of(folder)
-    return flank_page.of(folder) if is_flank(folder) else run_page.of(folder)
+    return {RUN: run_page, STUDY: study_page, FLANK: flank_page}[kind(folder)].of(folder)

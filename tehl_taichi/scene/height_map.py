@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from tehl_taichi.errors import SceneError
+from tehl_taichi.scene import map_holes
 
 UNITS = {"nm": 1e-9, "um": 1e-6, "mm": 1e-3, "m": 1.0}  # of the heights in a file, m
 MICRO = str.maketrans({"\u00b5": "u", "\u03bc": "u"})  # micro sign and Greek mu, as in µm
@@ -31,8 +32,8 @@ def keep(values):
 def fetch(file, sha256=""):
     """(sha256, heights in the unit of the file) of the file, or of what is known under `sha256`.
 
-    Raises SceneError when there is no such file, it is no regular grid of at least 4 x 4 finite numbers, or its heights are
-    other than those of `sha256`.
+    Raises SceneError when there is no such file, it is no regular grid of at least 4 x 4 numbers or lacks too many, or its
+    heights are other than those of `sha256`.
     """
     known = _known.get(sha256)
     if known is not None:
@@ -45,17 +46,27 @@ def fetch(file, sha256=""):
 
 
 def read(file):
-    """Heights (rows, columns) in the unit of the file. Raises SceneError."""
+    """Heights (rows, columns) in the unit of the file; nan where nothing was measured. Raises SceneError."""
     path = Path(file)
     if not file:
         raise SceneError("feature.file is missing: shape 'map' needs a CSV or NPY file of heights")
     if not path.is_file():
         raise SceneError(f"feature.file = {str(file)!r} does not exist")
     values = _load(path)
-    if values.ndim != 2 or min(values.shape) < 4 or not np.isfinite(values).all():
-        raise SceneError(f"feature.file = {str(file)!r} must hold a grid of at least 4 x 4 finite heights, not one of shape "
-                         f"{values.shape} with {int((~np.isfinite(values)).sum())} missing values")
+    if values.ndim != 2 or min(values.shape) < 4:
+        raise SceneError(f"feature.file = {str(file)!r} must hold a grid of at least 4 x 4 heights, not one of shape "
+                         f"{values.shape}")
+    _check_holes(file, values)
     return values
+
+
+def _check_holes(file, values):
+    holes = map_holes.missing(values)
+    share, deep = holes.mean(), map_holes.depth(holes)
+    if share > map_holes.MOST or deep > map_holes.DEEPEST:
+        raise SceneError(f"feature.file = {str(file)!r} lacks {share:.2g} of its {values.size} heights, in holes of up to "
+                         f"{2 * deep} points across; allowed: {map_holes.MOST:g}, holes of {2 * map_holes.DEEPEST} (they are "
+                         "filled from their neighbours); cut out a better part, or fill them where you measured")
 
 
 def _load(path):
@@ -77,12 +88,19 @@ def _table(path):
     then), commas or blanks, whichever its first line without # has. Raises ValueError."""
     with path.open(encoding="utf-8-sig") as file:
         told = (line for line in file if not line.startswith("#"))
-        first = next(told, "")
+        first = next(told, "").rstrip("\r\n ")
         if not first.strip():
             raise ValueError("it begins with an empty line")
         mark = next((mark for mark in ";\t," if mark in first), None)
-        lines = (line if mark in (",", None) else line.replace(",", ".") for line in itertools.chain([first], told))
-        return np.loadtxt((line.rstrip(f"\n {mark or ''}") for line in lines), delimiter=mark, ndmin=2)
+        closed = mark if mark and first.endswith(mark) else ""  # behind every number, the last one too
+        lines = (line.rstrip("\r\n ").removesuffix(closed) for line in itertools.chain([first], told))
+        lines = lines if mark in (",", None) else (line.replace(",", ".") for line in lines)
+        return np.loadtxt(lines, delimiter=mark, ndmin=2, converters=_height if mark else None)
+
+
+def _height(word):
+    """A number; nothing between two marks is a point that was not measured."""
+    return float(word) if word.strip() else math.nan
 
 
 def _surface_topography(path):
@@ -92,7 +110,7 @@ def _surface_topography(path):
         raise SceneError(f"{path.name} is neither .csv nor .npy; other formats need: pip install "
                          "'tehl_taichi[topography]'") from None
     try:
-        return np.asarray(SurfaceTopography.read_topography(str(path)).heights(), float).T
+        return np.ma.filled(np.ma.asarray(SurfaceTopography.read_topography(str(path)).heights(), float), math.nan).T
     except Exception as error:
         raise SceneError(f"cannot read heights from {path}: {error}") from None
 

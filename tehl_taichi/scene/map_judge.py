@@ -4,6 +4,7 @@ import os
 
 import numpy as np
 
+from tehl_taichi.scene import map_holes
 from tehl_taichi.scene.height_map import missed
 from tehl_taichi.scene.scales import Scales
 
@@ -15,8 +16,8 @@ JUDGED = 1024  # points along each side, from the middle, that are judged
 
 
 def doubts(f, scene):
-    """Sentences about a map that is flat or steep, finer or coarser than the grid, or ends in a step."""
-    return [sentence for check in (_size, _grid, _rim) for sentence in check(f, scene)]
+    """Sentences about a map that has holes, is flat or steep, finer or coarser than the grid, or ends in a step."""
+    return [sentence for check in (_holes, _size, _grid, _rim) for sentence in check(f, scene)]
 
 
 def cells(scene):
@@ -39,6 +40,13 @@ def lines(f, scene):
 
 def _um(value):
     return f"{value * 1e6:.4g}"
+
+
+def _holes(f, scene):
+    count = int(map_holes.missing(f.heights).sum())
+    if count:
+        yield (f"{_name(f)}: {count} of its {f.heights.size} points were not measured; they are filled smoothly from their "
+               "neighbours, so nothing that passes there is known")
 
 
 def _size(f, scene):

@@ -23,12 +23,14 @@ class Job:
     shared: bool = False
 
 
-def work(job):
-    """{"status", "reason", "summary", "seconds"} of a case; what the disk or the machine refuses is a failed one."""
+def work(job, progress=None):
+    """{"status", "reason", "summary", "seconds"} of a case; what the disk or the machine refuses is a failed one.
+
+    progress: who listens to the run, a :class:`tehl_taichi.study.progress.Progress`."""
     began = time.perf_counter()
     status, reason, summary = "converged", "", None
     try:
-        summary = _summary(job)
+        summary = _summary(job, progress)
     except NotConverged as error:
         status, reason = "not converged", str(error)
     except Exception as error:  # noqa: BLE001  whatever it is, the other cases go on
@@ -36,23 +38,23 @@ def work(job):
     return {"status": status, "reason": reason, "summary": summary, "seconds": time.perf_counter() - began}
 
 
-def _summary(job):
+def _summary(job, progress):
     from tehl_taichi.study import warm
 
     if job.shared:
         warm.once(job.scene)
     if job.store is None:
         with tempfile.TemporaryDirectory(prefix="tehl-") as folder:
-            return {**_run(job, Path(folder) / "case.zarr"), "store": None}
-    return _run(job, Path(job.store))
+            return {**_run(job, Path(folder) / "case.zarr", progress), "store": None}
+    return _run(job, Path(job.store), progress)
 
 
-def _run(job, path):
+def _run(job, path, progress):
     """Summary of the run in the store at `path`: begun, gone on with, or done before."""
     from tehl_taichi.study import single
 
     _free(path)
-    return single.completed(job.scene, path, threads=job.threads).summary
+    return single.completed(job.scene, path, threads=job.threads, progress=progress).summary
 
 
 def _free(path):

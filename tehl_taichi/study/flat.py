@@ -20,6 +20,12 @@ def numbers(summary, above=""):
     return out
 
 
+def error_of(name):
+    """Name of the error bar of a number: "fatigue_error_Fi_max" is that of "fatigue_Fi_max"."""
+    part, _, rest = name.partition("_")
+    return f"{part}_error_{rest}"
+
+
 def unit_of(name):
     """Unit of a number by the end of its name, as summaries have it: h_min_m is in m, load_error in nothing."""
     return UNITS.get(name.rpartition("_")[2], "1")

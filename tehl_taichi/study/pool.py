@@ -6,6 +6,7 @@ One worker is this process. More of them, or a scheduler somewhere else, are Das
 import threading
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from importlib.util import find_spec
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.values.checks import integer
@@ -37,9 +38,10 @@ def results(work, jobs, *, workers=1, scheduler=None, told=None):
     yield from cluster.results(work, jobs, workers, scheduler, told or (lambda sentence: None))
 
 
-def sizes(workers=None, threads=None, scheduler=None):
+def sizes(workers=None, threads=None, scheduler=None, jobs=MOST):
     """(processes, threads of each): one thread on every core, or what the given number leaves of the cores; (1, None) is this
-    process as it is started; (None, threads) a scheduler that runs already. Raises SceneError."""
+    process as it is started; (None, threads) a scheduler that runs already. No more processes than jobs, and without Dask one
+    unless more are asked for. Raises SceneError."""
     from tehl_taichi.engine import cores
 
     if workers is not None and scheduler is not None:
@@ -50,8 +52,9 @@ def sizes(workers=None, threads=None, scheduler=None):
     if scheduler is not None:
         return None, threads or 1
     if workers is None:
-        workers = max(1, cores.available() // (threads or 1))
+        workers = max(1, min(jobs, cores.available() // (threads or 1))) if find_spec("distributed") else 1
         return workers, threads or (1 if workers > 1 else None)
+    workers = min(workers, max(1, jobs))
     return workers, threads or (max(1, cores.available() // workers) if workers > 1 else None)
 
 

@@ -46,14 +46,7 @@ def run(scene: Scene | str | PathLike, path: str | PathLike | None = None, *, fo
 
 def open(path: str | PathLike) -> Run:
     """The run in the store at `path`: finished, running or broken off. Raises StoreError where there is none, or a damaged
-    one.
-
-    >>> import tehl_taichi as tehl
-    >>> made = tehl.run(tehl.scene("smooth-line").replace(**{"grid.nx": 32, "thermal.on": False}), "made.zarr")
-    >>> run = tehl.open("made.zarr")
-    >>> run.finished, run.scene.name, run.store.fields(0)["pressure"].shape
-    (True, 'smooth-line', (33, 1))
-    """
+    one."""
     from tehl_taichi.io.store import Store
 
     return Run(Store.open(path))

@@ -9,7 +9,7 @@ from tehl_taichi.errors import StoreError
 from tehl_taichi.figures import palette
 from tehl_taichi.figures.field_maps import bar
 from tehl_taichi.figures.page import Page, drawing
-from tehl_taichi.study.flat import unit_of
+from tehl_taichi.study.flat import error_of, unit_of
 from tehl_taichi.study.plan import unit
 from tehl_taichi.study.table import all_numbers, word
 from tehl_taichi.values.checks import nearest
@@ -20,6 +20,7 @@ INDEX, FILM = "fatigue_Fi_max", "transient_h_min_m"
 SCALES = {"m": ((1e-3, 1e6, "µm"), (1.0, 1e3, "mm")), "Pa": ((1e9, 1e-6, "MPa"), (np.inf, 1e-9, "GPa"))}
 TOLD = 120  # cells of a map with their values in them
 TICKS = 12
+BARS = {"capsize": 2, "elinewidth": 0.8}
 HIGH = 1.7  # rows of lines: height of a figure with one panel
 
 
@@ -59,20 +60,22 @@ def _known(study, quantity):
 
 
 def lines(page, study, name):
-    """The quantity over the first key, a line for each value of the second."""
-    values, label = scaled(study.values[name], unit_of(name), name)
-    values = values.reshape(study.plan.shape)
+    """The quantity with its error over the first key, a line for each value of the second."""
+    values, errors, label = with_errors(study, name)
+    shape = study.plan.shape[0], -1
+    values, errors = values.reshape(shape).T, errors.reshape(shape).T
     figure, ((ax,),) = page.figure(height=HIGH * page.row())
     x, x_label, ticks = along(study, study.plan.keys[0])
     second = along(study, study.plan.keys[1]) if len(study.plan.keys) > 1 else None
-    colours = drawing().colormaps[palette.RESULT](np.linspace(0.0, 0.9, values.reshape(len(x), -1).shape[1]))
-    for n, row in enumerate(values.reshape(len(x), -1).T):
-        ax.plot(x, row, "o-", color=colours[n], label=second and second[2][n])
+    colours = drawing().colormaps[palette.RESULT](np.linspace(0.0, 0.9, len(values)))
+    for n, (row, bars) in enumerate(zip(values, errors)):
+        ax.errorbar(x, row, bars, fmt="o-", color=colours[n], label=second and second[2][n], **BARS)
+        _hollow(ax, x, row, bars)
     if second:
         page.legend(figure, title=second[1])
     _dress(ax, x_label, x, ticks, numeric(study, study.plan.keys[0]))
     ax.set_ylabel(label)
-    page.title(figure, f"{study.plan.scene.name}: {name}")
+    page.title(figure, f"{study.plan.scene.name}: {name}{_unknown(values, errors)}")
     return figure
 
 
@@ -106,8 +109,8 @@ def _tell(ax, values):
 
 
 def points(page, study, name):
-    """The quantity of all cases against each key."""
-    values, label = scaled(study.values[name], unit_of(name), name)
+    """The quantity of all cases with its error against each key."""
+    values, errors, label = with_errors(study, name)
     keys = study.plan.keys
     most = 1 if page.narrow else 3
     rows, columns = -(-len(keys) // most), min(most, len(keys))
@@ -117,23 +120,27 @@ def points(page, study, name):
             ax.set_visible(False)
             continue
         x, x_label, ticks = along(study, key, per_case=True)
-        ax.plot(x, values, "o", alpha=0.7)
+        ax.errorbar(x, values, errors, fmt="o", alpha=0.7, **BARS)
+        _hollow(ax, x, values, errors)
         _dress(ax, x_label, x, ticks, numeric(study, key))
         if ax.get_xscale() == "linear" and numeric(study, key):
             ax.locator_params(axis="x", nbins=5)
     for ax in axes[:, 0]:
         ax.set_ylabel(label)
-    page.title(figure, f"{study.plan.scene.name}: {name}")
+    page.title(figure, f"{study.plan.scene.name}: {name}{_unknown(values, errors)}")
     return figure
 
 
 def index_over_film(page, study):
-    """Fi of every case against the thinnest film of its passage, coloured by the first key."""
-    film, film_label = scaled(study.values[FILM], "m", "smallest film of the passage")
+    """Fi of every case against the thinnest film of its passage, both with their errors, coloured by the first key."""
+    film, film_error, film_label = with_errors(study, FILM, "smallest film of the passage")
+    Fi, Fi_error, _ = with_errors(study, INDEX)
     key = study.plan.keys[0]
     colour, colour_label, ticks = along(study, key, per_case=True)
     figure, ((ax,),) = page.figure(height=HIGH * page.row())
-    drawn = ax.scatter(film, study.values[INDEX], c=colour, cmap=palette.RESULT, s=0.3 * page.text**2)
+    ax.errorbar(film, Fi, Fi_error, film_error, fmt="none", ecolor=palette.GREY, **BARS)
+    drawn = ax.scatter(film, Fi, c=colour, cmap=palette.RESULT, s=0.3 * page.text**2, zorder=3)
+    _hollow(ax, film, Fi, Fi_error)
     scale = bar(figure, drawn, ax, colour_label)
     if not numeric(study, key):
         places = dict(zip(colour.tolist(), ticks))
@@ -141,8 +148,18 @@ def index_over_film(page, study):
     ax.axhline(1.0, color=palette.GREY, ls="--")
     ax.set(xlabel=film_label, ylabel="fatigue index Fi")
     ax.grid()
-    page.title(figure, f"{study.plan.scene.name}: Fi over the least film, {_count(study)}")
+    page.title(figure, f"{study.plan.scene.name}: Fi over the least film, {_count(study)}{_unknown(Fi, Fi_error)}")
     return figure
+
+
+def _hollow(ax, x, y, errors):
+    """Points whose error is not known: not to be taken for exact ones."""
+    unknown = ~np.isfinite(errors)
+    ax.plot(x[unknown], y[unknown], ".", color="white", markersize=3, zorder=4)
+
+
+def _unknown(values, errors):
+    return " (hollow: its error is not known)" if (np.isfinite(values) & ~np.isfinite(errors)).any() else ""
 
 
 def _count(study):
@@ -174,11 +191,25 @@ def along(study, key, per_case=False):
     return found, label, [f"{value:.4g}" for value in found]
 
 
+def with_errors(study, name, text=None):
+    """(values of a column, their error bars, both in a unit that people read, label); a bar is nan where it is not known."""
+    values, errors = study.values[name], study.values.get(error_of(name), np.full(len(study), np.nan))
+    factor, shown = _scale(values, unit_of(name))
+    return values * factor, errors * factor, _label(text or name, unit_of(name), shown)
+
+
 def scaled(values, unit_, text):
     """(values in a unit that people read, label)."""
-    text = text.removesuffix(f"_{unit_}")  # h_min_m (µm)
+    factor, shown = _scale(values, unit_)
+    return values * factor, _label(text, unit_, shown)
+
+
+def _scale(values, unit_):
+    """(factor, its unit) for what people read."""
     top = np.nanmax(np.abs(values)) if np.isfinite(values).any() else 0.0
-    for below, factor, shown in SCALES.get(unit_, ()):
-        if top < below:
-            return values * factor, f"{text} ({shown})"
-    return values, text if unit_ == "1" else f"{text} ({unit_})"
+    return next(((factor, shown) for below, factor, shown in SCALES.get(unit_, ()) if top < below), (1.0, unit_))
+
+
+def _label(text, unit_, shown):
+    text = text.removesuffix(f"_{unit_}")  # h_min_m (µm)
+    return text if shown == "1" else f"{text} ({shown})"

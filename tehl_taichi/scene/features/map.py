@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene import height_map, map_judge
+from tehl_taichi.scene import height_map, map_holes, map_judge
 from tehl_taichi.scene.features.patch import Patch
 from tehl_taichi.scene.height_map import MICRO, UNITS, Measures
 from tehl_taichi.scene.shape import share
@@ -38,13 +38,13 @@ class Measured:
 
     @cached_property
     def heights(self):
-        """Heights (rows, columns) of a map in the unit of its file, as they were when the feature was made."""
+        """Heights (rows, columns) of a map in the unit of its file, as when the feature was made; nan in its holes."""
         return height_map.fetch(self.file, self.sha256)[1]
 
     @cached_property
     def surface(self):
-        """Heights (rows, columns) of a map in m, levelled and scaled: what passes through the contact."""
-        return height_map.levelled(self.heights, self.level) * (UNITS[self.unit] * self.scale)
+        """Heights (rows, columns) of a map in m, its holes filled, levelled and scaled: what passes through the contact."""
+        return height_map.levelled(map_holes.filled(self.heights), self.level) * (UNITS[self.unit] * self.scale)
 
     @property
     def size(self):

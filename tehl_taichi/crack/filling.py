@@ -1,0 +1,39 @@
+"""What a filling of a crack is, and what it knows of the oil."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl_taichi.physics.density import rho_ratio
+from tehl_taichi.physics.viscosity import ln_eta
+from tehl_taichi.registry import Entry
+
+GAP = 20e-9  # m: left between faces that touch (their roughness), in which oil creeps on
+
+
+@dataclass(frozen=True, kw_only=True)
+class Filling(Entry):
+    """inside(wet): the :class:`tehl_taichi.crack.wet.Inside` of a :class:`tehl_taichi.crack.wet.Wet` crack."""
+
+    inside: Callable
+
+
+@dataclass(frozen=True)
+class Fluid:
+    """compression(p): density over that at p = 0; viscosity(p): Pa s; p in Pa, numbers or arrays. gap: m, see :data:`GAP`."""
+
+    compression: Callable
+    viscosity: Callable
+    gap: float = GAP
+
+    @classmethod
+    def of(cls, scene):
+        """The scene's oil at the temperature of the bodies, Newtonian."""
+        oil, Gamma = scene.oil, scene.operation.temperature
+        return cls(lambda p: rho_ratio(oil, p, Gamma) / rho_ratio(oil, 0.0, Gamma), lambda p: np.exp(ln_eta(oil, p, Gamma)))
+
+    def compressibility(self, p):
+        """k (1/Pa) with 1 - k p = 1/compression(p)."""
+        p = np.maximum(p, 1e5)
+        return (1 - 1 / self.compression(p)) / p

@@ -1,0 +1,65 @@
+"""The answer of `tehl crack` kept beside the store of its run, for the report: STORE with .crack.json."""
+
+import json
+
+import numpy as np
+
+from tehl_taichi.errors import StoreError
+from tehl_taichi.io import atomic
+from tehl_taichi.io.json_values import plain
+from tehl_taichi.io.place import reason
+
+DEPTHS = 60  # of the section that is kept
+
+
+def place(store):
+    """Where the answer of the run in the store at this path is kept."""
+    path = store.absolute()
+    return path.with_name(f"{path.stem if path.suffix == '.zarr' else path.name}.crack.json")
+
+
+def keep(result, store):
+    """Write a :class:`tehl_taichi.crack.answer.CrackResult` beside the store it is of, in place of an earlier one; returns the
+    path. Raises StoreError."""
+    path = place(store.path)
+    content = {"run": store.attrs["date"], "summary": result.summary, "drawn": _drawn(result)}
+    try:
+        atomic.replace(path, json.dumps(plain(content)).encode())
+    except OSError as error:
+        raise StoreError(f"cannot write {path}: {reason(error)}") from None
+    return path
+
+
+def kept(store):
+    """{"summary", "drawn"} of what is kept of this run, or None. Raises StoreError where it is damaged."""
+    path = place(store.path)
+    if not path.is_file():
+        return None
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+        return content if content["run"] == store.attrs["date"] else None  # else of a run that was here before
+    except (ValueError, KeyError, TypeError, OSError) as error:
+        raise StoreError(f"{path} is damaged ({error}): remove it, or make it anew with tehl crack --keep") from None
+
+
+def _drawn(result):
+    """What figures need: m, Pa; the tension of the section on even depths, every line as rows (x', depth)."""
+    plane, lines = result.plane, [line for side in result.sides.values() for line in (side.trajectory, side.path.points)]
+    even = np.linspace(0.0, min(1.3 * max([40e-6, *(line.imag.max() for line in lines)]), plane.depths[-1]), DEPTHS)
+    near = np.abs(plane.x) <= 1.3 * max([plane.reach, *(np.abs(line.real).max() for line in lines)])
+    tension = [np.interp(even, plane.depths, row) for row in np.maximum(plane.sigma1()[near], 0.0)]
+    sides = {name: _side(side) for name, side in result.sides.items()}
+    return {"x": plane.x[near], "depth": even, "tension": np.round(tension, -4), "position": plane.centres[:-1] / plane.a,
+            "sides": sides}
+
+
+def _side(side):
+    path = side.path
+    cracks = [] if path.last is None else [path.last] if path.first is path.last else [path.first, path.last]
+    K = [{"length": crack.faces.a, "K_I": crack.K[0, :-1], "K_II": crack.K[1, :-1], "oil": crack.pressure[:-1]}
+         for crack in cracks]
+    return {"trajectory": _rows(side.trajectory), "path": _rows(path.points), "K": K}
+
+
+def _rows(points):
+    return np.stack([points.real, points.imag], axis=1)

@@ -1,0 +1,94 @@
+"""Cracks of a run, if `tehl crack --keep` was asked for them: the answer, the section below the feature, K in the passage."""
+
+import numpy as np
+
+from tehl_taichi.figures.palette import GREY, TENSION
+from tehl_taichi.io.kept_crack import kept
+from tehl_taichi.report.document import Part, Section, drawn, facts, sentences
+from tehl_taichi.report.passage_plots import POSITION
+from tehl_taichi.report.plots import colour, field_map, line, stacked
+from tehl_taichi.report.rounded import told
+
+SHOWN, BAND = 150.0, 60.0  # MPa: more tension has the same colour; um: length of the pits' band along the surface
+OF = "x' from the feature's centre (µm), rolling to the left"
+
+
+def section(store):
+    """(:class:`Section`,), or () where nothing is kept of this run. Raises StoreError."""
+    found = kept(store)
+    if not found:
+        return ()
+    summary, shown = found["summary"], found["drawn"]
+    doubts = [doubt for side in summary["sides"].values() for doubt in side.get("doubts", [])]
+    return (Section("Cracks", (Part("text", {"sentences": verdict(summary)}), facts(_asked(summary)),
+                               sentences(doubts, "Doubtful"), drawn(_map(summary, shown), *_histories(shown)))),)
+
+
+def verdict(summary):
+    """A sentence for each side: what pulls, where the crack goes, what drives it, why it stops."""
+    return [_said(name, side, summary["pit_angles_deg"]) for name, side in summary["sides"].items()]
+
+
+def _said(name, side, pits):
+    if not side["opens"]:
+        return f"On the {name} side there is no crack: {side['why']}."
+    error = side.get("error_at_last_length", {}).get("K_I_max")
+    begins = f"On the {name} side the surface is pulled by {told(side['sigma1_surface_Pa'], unit='Pa')}"
+    drives = f"K_I reaches {side['K_I_max'] / 1e6:.2g} MPa√m" + (
+        f" (at its last length ± {error / 1e6:.1g}, by twice as many elements)" if error is not None else "")
+    where = _angles(side["path"], pits) if "length_m" in side else ""
+    return f"{begins}; {drives}{where}; the crack stops because {side['why']}."
+
+
+def _angles(path, pits):
+    """How it leans, and the angle at the largest depth that has one."""
+    chords = [(depth, angle) for depth, angle in path["chord_deg_at_um"].items() if angle is not None]
+    at = f" at {chords[-1][1]:.0f}° to the surface at {chords[-1][0]} µm depth" if chords else ""
+    return f"; the crack leans {path['lean']}{at} (pits: with rolling, {pits[0]:g} to {pits[1]:g}°)"
+
+
+def _asked(summary):
+    """What acts on the cracks."""
+    oil = summary["oil_is"] + (f", {summary['oil_share']:g} of it" if summary["oil_share"] not in (None, 1) else "")
+    threshold = "none" if summary["threshold"] is None else f"{summary['threshold'] / 1e6:g} MPa√m"
+    return [("inside", oil), ("friction of closed faces", f"{summary['face_friction']:g}"), ("threshold of K_I", threshold),
+            ("thermal stress", "counts" if summary["thermal_stress"] else "does not count")]
+
+
+def _map(summary, shown):
+    """Largest tension of the passage, trajectories, cracks and the band of the pits."""
+    x, depth, tension = (np.array(shown[key]) for key in ("x", "depth", "tension"))
+    marked = [one for n, (name, side) in enumerate(shown["sides"].items())
+              for one in (*_band(name, side, summary["pit_angles_deg"], n == 0), *_lines(name, side, n))]
+    figure = field_map("cracks", "Section below the feature: largest tension of the passage, σ₁ trajectories (dashed), crack "
+                       "paths; grey: the pits of the thesis.", x * 1e6, depth * 1e6, tension / 1e6, TENSION, "MPa", OF,
+                       "below the surface (µm)", marked, height=440, zmin=0.0, zmax=SHOWN)
+    figure.layout["yaxis"]["autorange"] = "reversed"
+    return figure
+
+
+def _band(name, side, pits, told_):
+    """Pits lean with rolling from the mouth on, wherever that is."""
+    mouth = 1e6 * side["path"][0][0]
+    ends = BAND * np.tan(np.radians(pits))
+    return [line([mouth, mouth - BAND, mouth - BAND, mouth], [0, *ends, 0], f"pits, {pits[0]:g} to {pits[1]:g}°", GREY,
+                 told=told_, fill="toself", opacity=0.4)]
+
+
+def _lines(name, side, n):
+    along, path = (1e6 * np.array(side[key]).T for key in ("trajectory", "path"))
+    return (line(*along, f"{name}: normal to the largest tension", colour(n), dash="dash"),
+            line(*path, f"{name}: crack", colour(n)))
+
+
+def _histories(shown):
+    """K of the first and of the last length over the feature's position, a figure for each side that has a crack."""
+    return [_history(name, side["K"], shown["position"]) for name, side in shown["sides"].items() if side["K"]]
+
+
+def _history(name, cracks, position):
+    panels = [(f"{kind} (MPa√m)", [line(position, 1e-6 * np.array(crack[key]), f"at {1e6 * crack['length']:.0f} µm", colour(n),
+                                        panel, told=panel == 1) for n, crack in enumerate(cracks)], {})
+              for panel, (kind, key) in enumerate((("K_I", "K_I"), ("K_II", "K_II")), 1)]
+    caption = f"Stress intensities of the crack on the {name} side while the feature passes."
+    return stacked(f"K-{name}", caption, POSITION, panels, height=440)

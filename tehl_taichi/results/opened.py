@@ -1,0 +1,65 @@
+"""One word that opens everything: a run's store, a study, a flank."""
+
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from tehl_taichi.errors import StoreError
+
+if TYPE_CHECKING:
+    from tehl_taichi.flank.stored_flank import Flank
+    from tehl_taichi.study.stored_run import Run
+    from tehl_taichi.study.table import Study
+
+RUN, STUDY, FLANK = "run", "study", "flank"
+INSIDE = {STUDY: ("table.csv", "cases/NUMBER.zarr"), FLANK: ("flank.csv", "POSITION.zarr")}  # table, stores of its runs
+
+
+def kind(path: str | PathLike) -> str:
+    """What lies at `path`: "study", "flank", or else "run", whether it is a good one or none at all."""
+    from tehl_taichi.flank.stored_flank import is_flank
+    from tehl_taichi.study.table import is_study
+
+    return STUDY if is_study(path) else FLANK if is_flank(path) else RUN
+
+
+def open(path: str | PathLike) -> "Run | Study | Flank":
+    """What lies at `path`, finished, being written or broken off: a run's store gives a :class:`tehl_taichi.Run`, the folder of
+    a sweep a :class:`tehl_taichi.study.table.Study`, that of a flank a :class:`tehl_taichi.flank.Flank`.
+
+    Raises StoreError where there is none of them, or a damaged one.
+
+    >>> import tehl_taichi as tehl
+    >>> line = tehl.scene("smooth-line").replace(**{"grid.nx": 32, "thermal.on": False})
+    >>> made = tehl.run(line, "made.zarr"), tehl.sweep(line, {"srr": [0.0]}, "swept.zarr", workers=1)
+    >>> run, study = tehl.open("made.zarr"), tehl.open("swept.zarr")
+    >>> run.finished, run.scene.name, run.store.fields(0)["pressure"].shape
+    (True, 'smooth-line', (33, 1))
+    >>> study
+    <Study swept.zarr: 1 cases, 1 converged>
+    """
+    from tehl_taichi.flank.stored_flank import Flank
+    from tehl_taichi.study.table import Study
+
+    found = kind(path)
+    return Study.open(path) if found == STUDY else Flank.open(path) if found == FLANK else _run(path)
+
+
+def open_run(path: str | PathLike) -> "Run":
+    """The run in the store at `path`. Raises StoreError, which says of a study or a flank where its runs lie."""
+    if (found := kind(path)) == RUN:
+        return _run(path)
+    table, store = (Path(path) / part for part in INSIDE[found])
+    raise StoreError(f"{path} is a {found}: its table is {table}; this takes the store of one of its runs, {store}")
+
+
+def _run(path):
+    from tehl_taichi.io.intact import ROOT
+    from tehl_taichi.study import single
+
+    try:
+        return single.open(path)
+    except StoreError:
+        if Path(path).is_dir() and not (Path(path) / ROOT).exists():
+            raise StoreError(f"{path} is no run, study or flank: it has neither {ROOT} nor flank.json") from None
+        raise

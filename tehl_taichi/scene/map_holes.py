@@ -1,0 +1,51 @@
+"""Points of a height map that were not measured: filled smoothly from their neighbours, where the holes are few and small."""
+
+import numpy as np
+
+MOST, DEEPEST = 0.05, 8  # share of the points; points from the rim of a hole to its middle: beyond, heights would be invented
+SWEEPS = 20  # per point of depth: what is left of a hole's heights then is under 1e-6 of its rim's range
+
+
+def missing(values):
+    """Where nothing was measured (nan, or infinite)."""
+    return ~np.isfinite(values)
+
+
+def depth(holes):
+    """Points from the rim of the largest hole to its middle; the edge of the map is no rim."""
+    inside, layers = holes, 0
+    while inside.any():
+        if inside.all():
+            return holes.size
+        inside, layers = inside & ~_beside(~inside), layers + 1
+    return layers
+
+
+def filled(values):
+    """`values` with its holes filled: every point there is the mean of its neighbours (Laplace's equation)."""
+    holes = missing(values)
+    if not holes.any():
+        return values
+    out, known = np.where(holes, 0.0, values), ~holes
+    while not known.all():  # a first guess, from the rim inwards
+        rim = _beside(known) & ~known
+        out[rim], known = (_sum(np.where(known, out, 0.0)) / np.maximum(_sum(known * 1.0), 1.0))[rim], known | rim
+    neighbours = _sum(np.ones_like(out))
+    for _ in range(SWEEPS * depth(holes) ** 2):
+        out[holes] = (_sum(out) / neighbours)[holes]
+    return out
+
+
+def _sum(values):
+    """Of the values at the four neighbours; there are none beyond the edge."""
+    out = np.zeros(values.shape)
+    out[1:] += values[:-1]
+    out[:-1] += values[1:]
+    out[:, 1:] += values[:, :-1]
+    out[:, :-1] += values[:, 1:]
+    return out
+
+
+def _beside(points):
+    """Points with a neighbour among `points`."""
+    return _sum(points * 1.0) > 0
