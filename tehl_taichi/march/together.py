@@ -18,7 +18,7 @@ from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.storage import Storage
 
 ONSET, BLOCK = 0.5, 0.25  # transits of the domain by the slower surface: of the growing slip; of a block
-BLOCKS, MOST_STEPS = 24, 4000  # at most; scenes that rest do so after 4 to 18 blocks
+BLOCKS, MOST_STEPS = 40, 4000  # at most; scenes that rest do so after 4 to 18 blocks, the gear at 50 m/s after more than 24
 SMALLEST_PART = 1 / 64  # of a step, that it is taken in
 
 
