@@ -50,6 +50,18 @@ def test_a_second_thread_is_told_where_taichi_runs(taichi_cpu):
     assert "belongs to the thread that started it" in found[0]
 
 
+def test_other_threads_than_those_that_run_are_refused_before_anything_begins(taichi_cpu, tmp_path):
+    import tehl_taichi as tehl
+
+    steady = tehl.scene("smooth-line").replace(**{"grid.nx": 32, "thermal.on": False})
+    for begin in (lambda: tehl.run(steady, tmp_path / "run.zarr", threads=1),
+                  lambda: tehl.sweep(steady, {"speed": [5.0]}, tmp_path / "sweep.zarr", workers=1, threads_per_worker=1),
+                  lambda: tehl.flank("fzg-c", torque=265.1, folder=tmp_path / "flank", workers=1, threads=1)):
+        with pytest.raises(RuntimeUnavailable, match="already runs with cpu, 2 threads"):
+            begin()
+    assert not list(tmp_path.iterdir())
+
+
 def test_a_forked_process_is_told_instead_of_waiting_for_ever(taichi_cpu):
     first_film()
     with warnings.catch_warnings():

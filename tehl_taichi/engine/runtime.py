@@ -65,11 +65,14 @@ def _give_up(folder):
 
 
 def check(arch="cpu", threads=None):
-    """Refuse what no process of this machine can have, without starting anything. Raises RuntimeUnavailable."""
+    """Refuse what no process of this machine can have, or this one no more, without starting anything. Raises
+    RuntimeUnavailable."""
     if arch not in ARCHES:
         raise RuntimeUnavailable(f"arch = {arch!r} is not available in this version: {', '.join(map(repr, ARCHES))} is")
     if threads is not None and not (isinstance(threads, numbers.Integral) and 1 <= threads <= MOST_THREADS):
         raise RuntimeUnavailable(f"threads = {threads!r} is out of range; allowed: 1 to {MOST_THREADS}")
+    if _started and threads is not None:
+        _same_start(arch, int(threads))
 
 
 def start(arch="cpu", threads=None):

@@ -30,7 +30,7 @@ def summaries(scenes, folder, workers=None, threads=None, progress=None):
     done = {n: outcome for n, place in enumerate(places) if (outcome := _before(*place))}
     todo = [n for n in range(len(places)) if n not in done]
     workers, threads = pool.sizes(workers, threads, jobs=len(todo))
-    pool.check(workers)
+    pool.check(workers, threads)
     yield from done.items()
     progress = progress or Progress()
     yield from _run(places, todo, workers, threads, progress)

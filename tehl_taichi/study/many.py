@@ -56,7 +56,7 @@ def run(plan, path=None, *, workers=None, threads_per_worker=None, scheduler=Non
     choice("--keep", keep, KEEP)
     workers, threads = pool.sizes(workers, threads_per_worker, scheduler)
     refused = plan.refused()
-    pool.check(workers, scheduler)
+    pool.check(workers, threads, scheduler)
     path = Path(path) if path is not None else default_path(plan)
     with Study.write(path, plan) as study:
         _tell_refused(study, refused)

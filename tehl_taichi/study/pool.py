@@ -58,12 +58,16 @@ def sizes(workers=None, threads=None, scheduler=None, jobs=MOST):
     return workers, threads or (max(1, cores.available() // workers) if workers > 1 else None)
 
 
-def check(workers, scheduler=None):
-    """Raise what :func:`results` would raise before its first job."""
+def check(workers, threads, scheduler=None):
+    """Raise what :func:`results` would raise before its first job, and what this process would at each where it does them."""
     if workers != 1:
         from tehl_taichi.study import cluster
 
         cluster.check(scheduler)
+    else:
+        from tehl_taichi.engine import runtime
+
+        runtime.check(threads=threads)
 
 
 _lane, _guard = [], threading.Lock()
