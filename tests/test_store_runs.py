@@ -6,6 +6,7 @@ import random
 import signal
 import subprocess
 import sys
+import time
 
 import numpy as np
 import pytest
@@ -254,13 +255,15 @@ def test_a_termination_is_a_ctrl_c(tmp_path):
 def test_forty_kills_and_as_many_resumes(tmp_path):
     """Runs killed at random moments, resumed and killed again until they are through: nothing is lost, nobody is stuck."""
     draw, small = random.Random(3), ("--grid", "64x16", "--isothermal", "--threads", "1", "--steps", "24")
+    began = time.monotonic()
     done = process("run", "gear", *small, "--out", "whole.zarr", cwd=tmp_path, stdout=subprocess.DEVNULL)
     assert done.wait() == 0
+    longest = 1.5 * (time.monotonic() - began)
     kills, stores, path = 0, 0, tmp_path / "k.zarr"
     while kills < 40:
         words = ("resume", path, "--threads", "1") if path.exists() else ("run", "gear", *small, "--out", path)
         run = process(*words, cwd=tmp_path, stdout=subprocess.DEVNULL)
-        moment = draw.uniform(0.0, 8.0)
+        moment = draw.uniform(0.0, longest)
         try:
             run.wait(moment)
             assert run.returncode == 0, run.stderr.read()

@@ -11,6 +11,7 @@ from tehl_taichi.study.pool import Lost, in_one_thread
 
 AHEAD, LEAST = 3, 16  # jobs that the scheduler knows, for each worker and at least: memory stays bounded, nobody waits
 PATIENCE = 30  # s to find a scheduler
+AGAIN = ("pending", "lost")  # its worker died with the answer that nobody had fetched yet: another one works it out again
 # of our own cluster. A job whose worker died is given to another one, once; a worker has one job at a time, none waits with it.
 # What grows is stopped at 95 % of its share of the memory; a pause before that would last for ever.
 SETTINGS = {"distributed.scheduler.allowed-failures": 1, "distributed.scheduler.worker-saturation": 1.0,
@@ -37,6 +38,9 @@ def results(work, jobs, workers, scheduler, told):
 
         submit()
         for future in ended:
+            if future.status in AGAIN:
+                ended.add(future)
+                continue
             answer = _answer(future)
             number = running.pop(future)
             future.release()
