@@ -270,7 +270,8 @@ def test_forty_kills_and_as_many_resumes(tmp_path):
         except subprocess.TimeoutExpired:
             polite = [signal.SIGTERM, signal.SIGINT] if moment > 1.0 else []  # before, the interpreter itself is starting
             os.kill(run.pid, draw.choice([signal.SIGKILL, *polite]))
-            assert run.wait() in (-signal.SIGKILL, 4, 0)
+            code = run.wait()  # as Python itself ends: all is stored, its own handlers are gone
+            assert code in (-signal.SIGKILL, 4, 0) or path.exists() and Store.open(path).finished
             kills += 1
         if path.exists():
             saved = Store.open(path)
