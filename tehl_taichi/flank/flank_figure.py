@@ -18,7 +18,6 @@ PANELS = (("film (µm)", 1e6, {"steady, centre": ("steady", "h_c_m"), "steady, l
           ("friction coefficient", 1, {"steady": ("steady", "friction_coefficient"),
                                        "mean while the feature passes": ("transient", "friction_coefficient_mean")}),
           ("SRR", 1, {"(u_a − u_b)/u_m": "srr"}))
-BARS = {"capsize": 2, "elinewidth": 0.8}
 LAST = 5  # panels: friction and slip fill up what a steady or isothermal flank leaves free
 
 
@@ -45,7 +44,7 @@ def _panel(ax, flank, label, factor, lines):
         if series := _series(flank, what):
             x, y, error = np.array(series, float).T
             error = error * factor if np.isfinite(error).any() else None
-            ax.errorbar(x * 1e3, y * factor, error, fmt=".-", color=palette.LINES[n], label=name, **BARS)
+            ax.errorbar(x * 1e3, y * factor, error, fmt=".-", color=palette.LINES[n], label=name, **palette.BARS)
     ax.set_ylabel(label)
     ax.grid()
     ax.legend()

@@ -29,8 +29,8 @@ def summarise(store, extra, fatigue=None):
         out["transient"] = _transient(store)
     if fatigue:
         out["fatigue"] = fatigue
+    known, unknown = extra.get("passage_error", {}), extra.get("passage_unknown", {})
     for part, names in _parts(out):
-        known, unknown = extra.get("passage_error", {}), extra.get("passage_unknown", {})
         part["error"] = {name: known.get(told) for name, told in names.items()}
         part["unknown"] = {name: unknown[told] for name, told in names.items() if told in unknown}
     out["work"] = _work(store)

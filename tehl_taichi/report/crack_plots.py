@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from tehl_taichi.figures.crack_figures import BAND, SHOWN
 from tehl_taichi.figures.palette import GREY, TENSION
 from tehl_taichi.io.kept_crack import kept
 from tehl_taichi.report.document import Part, Section, drawn, facts, sentences
@@ -9,7 +10,6 @@ from tehl_taichi.report.passage_plots import POSITION
 from tehl_taichi.report.plots import colour, field_map, line, stacked
 from tehl_taichi.report.rounded import told
 
-SHOWN, BAND = 150.0, 60.0  # MPa: more tension has the same colour; um: length of the pits' band along the surface
 OF = "x' from the feature's centre (µm), rolling to the left"
 
 
@@ -62,16 +62,16 @@ def _map(summary, shown):
               for one in (*_band(name, side, summary["pit_angles_deg"], n == 0), *_lines(name, side, n))]
     figure = field_map("cracks", "Section below the feature: largest tension of the passage, σ₁ trajectories (dashed), crack "
                        "paths; grey: the pits of the thesis.", x * 1e6, depth * 1e6, tension / 1e6, TENSION, "MPa", OF,
-                       "below the surface (µm)", marked, height=440, zmin=0.0, zmax=SHOWN)
+                       "below the surface (µm)", marked, height=440, zmin=0.0, zmax=SHOWN / 1e6)
     figure.layout["yaxis"]["range"], figure.layout["xaxis"]["range"] = [1e6 * depth[-1], 0.0], [1e6 * x[0], 1e6 * x[-1]]
     return figure
 
 
 def _band(name, side, pits, told_):
     """Pits lean with rolling from the mouth on, wherever that is."""
-    mouth = 1e6 * side["path"][0][0]
-    ends = BAND * np.tan(np.radians(pits))
-    return [line([mouth, mouth - BAND, mouth - BAND, mouth], [0, *ends, 0], f"pits, {pits[0]:g} to {pits[1]:g}°", GREY,
+    mouth, band = 1e6 * side["path"][0][0], 1e6 * BAND
+    ends = band * np.tan(np.radians(pits))
+    return [line([mouth, mouth - band, mouth - band, mouth], [0, *ends, 0], f"pits, {pits[0]:g} to {pits[1]:g}°", GREY,
                  told=told_, fill="toself", opacity=0.4)]
 
 

@@ -49,10 +49,10 @@ def beside(folder):
 
 def _check_free(out, force):
     """Refuse before anything is read. Raises StoreError."""
-    if out.is_dir():
-        raise StoreError(f"{out} is a folder; --out takes the name of a file, as in {out / 'report.html'}")
     from tehl_taichi.io.place import exists
 
+    if out.is_dir():
+        raise StoreError(f"{out} is a folder; --out takes the name of a file, as in {out / 'report.html'}")
     if out.exists() and not force:
         raise StoreError(exists(out))
 

@@ -20,7 +20,6 @@ INDEX, FILM = "fatigue_Fi_max", "transient_h_min_m"
 SCALES = {"m": ((1e-3, 1e6, "µm"), (1.0, 1e3, "mm")), "Pa": ((1e9, 1e-6, "MPa"), (np.inf, 1e-9, "GPa"))}
 TOLD = 120  # cells of a map with their values in them
 TICKS = 12
-BARS = {"capsize": 2, "elinewidth": 0.8}
 HIGH = 1.7  # rows of lines: height of a figure with one panel
 
 
@@ -69,7 +68,7 @@ def lines(page, study, name):
     second = along(study, study.plan.keys[1]) if len(study.plan.keys) > 1 else None
     colours = drawing().colormaps[palette.RESULT](np.linspace(0.0, 0.9, len(values)))
     for n, (row, bars) in enumerate(zip(values, errors)):
-        ax.errorbar(x, row, bars, fmt="o-", color=colours[n], label=second and second[2][n], **BARS)
+        ax.errorbar(x, row, bars, fmt="o-", color=colours[n], label=second and second[2][n], **palette.BARS)
         _hollow(ax, x, row, bars)
     if second:
         page.legend(figure, title=second[1])
@@ -120,7 +119,7 @@ def points(page, study, name):
             ax.set_visible(False)
             continue
         x, x_label, ticks = along(study, key, per_case=True)
-        ax.errorbar(x, values, errors, fmt="o", alpha=0.7, **BARS)
+        ax.errorbar(x, values, errors, fmt="o", alpha=0.7, **palette.BARS)
         _hollow(ax, x, values, errors)
         _dress(ax, x_label, x, ticks, numeric(study, key))
         if ax.get_xscale() == "linear" and numeric(study, key):
@@ -138,7 +137,7 @@ def index_over_film(page, study):
     key = study.plan.keys[0]
     colour, colour_label, ticks = along(study, key, per_case=True)
     figure, ((ax,),) = page.figure(height=HIGH * page.row())
-    ax.errorbar(film, Fi, Fi_error, film_error, fmt="none", ecolor=palette.GREY, **BARS)
+    ax.errorbar(film, Fi, Fi_error, film_error, fmt="none", ecolor=palette.GREY, **palette.BARS)
     drawn = ax.scatter(film, Fi, c=colour, cmap=palette.RESULT, s=0.3 * page.text**2, zorder=3)
     _hollow(ax, film, Fi, Fi_error)
     scale = bar(figure, drawn, ax, colour_label)
