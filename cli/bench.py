@@ -100,15 +100,13 @@ def cracks(
     out: Path = typer.Option(Path("runs/cracks"), help="folder of the stores (used again) and of the results"),
     quick: bool = typer.Option(False, "--quick", help="the reference asperity on coarse grids"),
     threads: Optional[int] = THREADS,
+    workers: int = WORKERS,
 ):
     """Crack paths from the loads of a passage, with errors. Example: `tehl bench cracks --quick`"""
     from tehl_cli.listing import list_table
     from tehl_taichi.profiles import cracks as suite
 
-    from tehl_taichi.engine import runtime
-
-    runtime.start(threads=threads)
-    rows = suite.run(out, quick, say)
+    rows = suite.run(out, quick, say, workers, threads)
     list_table("crack paths", suite.COLUMNS, [(row.case, *suite.cells(row)) for row in rows])
     (out / "cracks.md").write_text(suite.page(rows))
     (out / "cracks.json").write_text(json.dumps([vars(row) for row in rows], indent=1))
