@@ -205,8 +205,9 @@ def scaling(out: Path = OUT, quick: bool = QUICK, threads: Optional[int] = THREA
     from tehl_taichi.profiles import scaling as suite
 
     rows = suite.run(quick, threads or _cores(), thermal, say)
-    _table("scaling", rows, {"nx": "{}", "ny": "{}", "threads": "{}", "step_ms": "{:.1f}", "node_ns": "{:.0f}",
-                             "newton": "{:.1f}", "cycles": "{:.1f}", "memory_mb": "{:.0f}", "node_B": "{:.0f}"})
+    _table("scaling", rows, {"nx": "{}", "ny": "{}", "threads": "{}", "step_ms": "{:.1f}", "speed_up": "{:.2f}",
+                             "node_ns": "{:.0f}", "newton": "{:.1f}", "cycles": "{:.1f}", "memory_mb": "{:.0f}",
+                             "node_B": "{:.0f}"})
     _write(out, "scaling", rows, lambda plt: suite.chart(plt, rows))
 
 

@@ -1,22 +1,27 @@
-"""Scaling: time and memory per node and step against grid and threads."""
+"""Scaling: time and memory per node and step against grid and threads, and what more threads would gain."""
+
+from math import ceil
 
 from tehl_taichi.profiles import measure
 
+from tehl_taichi.engine.lanes import W
 from tehl_taichi.scene import scene
 
 COLUMNS, QUICK_COLUMNS = (64, 128, 256, 512, 1024, 2048), (64, 128)
 LARGE, FEW = 1024, 4  # columns from which on so few steps are enough
+ALONE = 1024  # columns up to which one thread is timed, too
+CORES = (1, 2, 4, 8, 16, 32, 64)  # of the model
 
 
 def run(quick=False, threads=4, thermal=False, progress=None):
-    """Rows: grid, threads, ms a step, ns per node and step, Krylov a step, MB; grids on all threads, then (strong scaling) the
-    default grid on 1, 2, ... threads and (weak scaling) half its columns on a quarter of the threads."""
+    """Rows: grid, threads, ms a step, ns per node and step, speed-up over one thread, Krylov a step, MB; every grid on 1, 2,
+    4 ... `threads` (strong scaling; four times the nodes on four times the threads is weak scaling), the finest on all."""
     columns = QUICK_COLUMNS if quick else COLUMNS
-    counts = [1 << n for n in range(threads.bit_length()) if 1 << n <= threads]
-    middle = 128 if quick else 256
-    jobs = [(nx, threads) for nx in columns] + [(middle, count) for count in counts if count < threads]
-    jobs += [(middle // 2, threads // 4)] if threads >= 4 else []
-    return [row(nx, count, thermal, FEW if quick or nx >= LARGE else 12, progress) for nx, count in jobs]
+    counts = sorted({threads, *(1 << n for n in range(threads.bit_length()) if 1 << n <= threads)})
+    rows = [row(nx, count, thermal, FEW if quick or nx >= LARGE else 12, progress)
+            for nx in columns for count in (counts if nx <= ALONE else [threads])]
+    alone = {row["nx"]: row["step_ms"] for row in rows if row["threads"] == 1}
+    return [{**row, "speed_up": alone[row["nx"]] / row["step_ms"] if row["nx"] in alone else None} for row in rows]
 
 
 def row(nx, threads, thermal, steps, progress=None):
@@ -32,15 +37,38 @@ def row(nx, threads, thermal, steps, progress=None):
             "node_B": 1e6 * timing.memory_mb / nodes}
 
 
+def modelled(speed_up, at, jobs, cores):
+    """Speed-up on `cores` of a step of equal jobs and a serial part, which `speed_up` on `at` cores tells (0 < it <= at).
+
+    Bound by the jobs of a phase, blocks of :data:`W` rows, and by what is serial; not by memory, which cores share.
+    """
+    share = ceil(jobs / at) / jobs
+    serial = min(1.0, max(0.0, (1 / speed_up - share) / (1 - share))) if share < 1 else 1.0
+    return 1 / (serial + (1 - serial) * ceil(jobs / cores) / jobs)
+
+
 def chart(plt, rows):
-    """ns per node and step over the grid, ms a step over the threads."""
+    """ns per node and step over the grid; speed-up over the threads, measured and beyond them by the model."""
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.8), constrained_layout=True)
     most = max(row["threads"] for row in rows)
-    grids = [row for row in rows if row["threads"] == most]
-    left.loglog([row["nx"] for row in grids], [row["node_ns"] for row in grids], "o-")
-    left.set(xlabel="columns", ylabel="ns per node and step", title=f"{most} threads")
-    size = max(row["nx"] for row in rows if row["threads"] < most) if len(rows) > len(grids) else grids[-1]["nx"]
-    same = sorted((row for row in rows if row["nx"] == size), key=lambda row: row["threads"])
-    right.plot([row["threads"] for row in same], [row["step_ms"] for row in same], "o-")
-    right.set(xlabel="threads", ylabel="ms a step", title=f"{size} columns", ylim=(0, None))
+    for count in sorted({row["threads"] for row in rows}):
+        grids = [row for row in rows if row["threads"] == count]
+        left.loglog([row["nx"] for row in grids], [row["node_ns"] for row in grids], "o-", label=f"{count} threads")
+    left.set(xlabel="columns", ylabel="ns per node and step")
+    left.legend()
+    for nx in sorted({row["nx"] for row in rows if row["speed_up"]}):
+        _speed_up(right, most, [row for row in rows if row["nx"] == nx])
+    right.plot(CORES, CORES, ":", color="0.5", lw=0.8)
+    right.set(xlabel="threads (lines: model)", ylabel="speed-up over one thread", xscale="log", yscale="log", xticks=CORES,
+              xticklabels=CORES, yticks=CORES, yticklabels=CORES, ylim=(0.7, CORES[-1]))
+    right.minorticks_off()
+    right.legend(title="columns")
     return figure
+
+
+def _speed_up(ax, most, rows):
+    """Measured points of one grid, and the model's line through the last of them."""
+    points = ax.plot([row["threads"] for row in rows], [row["speed_up"] for row in rows], "o", label=str(rows[0]["nx"]))
+    last, jobs = max(rows, key=lambda row: row["threads"]), rows[0]["ny"] // W + 1
+    if most > 1:
+        ax.plot(CORES, [modelled(last["speed_up"], most, jobs, cores) for cores in CORES], lw=0.9, color=points[0].get_color())

@@ -69,11 +69,20 @@ def test_bytes_of_a_kernel():
 def test_charts_and_files(tmp_path):
     plt = pytest.importorskip("matplotlib.pyplot")
     rows = [{"nx": nx, "ny": nx // 4, "threads": count, "step_ms": 1.0, "node_ns": 2.0, "newton": 2.0, "cycles": 9.0,
-             "memory_mb": 100.0} for nx, count in ((64, 4), (128, 4), (128, 1))]
+             "memory_mb": 100.0, "speed_up": speed_up}
+            for nx, count, speed_up in ((64, 4, None), (128, 1, 1.0), (128, 4, 2.5))]
     scaling.chart(plt, rows).savefig(tmp_path / "scaling.png")
     speed.chart(plt, [{"what": "a", "seconds": 2.0, "target": 1.0}]).savefig(tmp_path / "speed.png")
     path = measure.save(tmp_path, "scaling", rows)
     assert "machine" in path.read_text() and (tmp_path / "scaling.png").stat().st_size > 1000
+
+
+def test_more_cores_gain_what_jobs_and_the_serial_part_allow():
+    assert scaling.modelled(2.0, 2, 64, 64) == pytest.approx(64)  # nothing serial, a job for every core
+    assert scaling.modelled(2.0, 2, 64, 48) == pytest.approx(32)  # some cores have two jobs
+    assert scaling.modelled(1.0, 2, 64, 64) == 1.0 and scaling.modelled(1.0, 2, 1, 8) == 1.0
+    half = scaling.modelled(1 / 0.75, 2, 1000, 1000)  # half of it is serial
+    assert half == pytest.approx(1 / 0.5005, rel=1e-3) and scaling.modelled(1.4, 2, 17, 2) == pytest.approx(1.4)
 
 
 def test_orders_and_limits():
