@@ -84,51 +84,52 @@ class Lengths:
 
 
 @ti.func
-def turned(re, im, w):
-    return re * w[0] - im * w[1], re * w[1] + im * w[0]
+def turned(re, im, c, s):
+    return re * c - im * s, re * s + im * c
 
 
 @ti.func
-def pass_2(B: ti.template(), a, b, T: ti.template(), t, parts, stride, c):
-    d = 2 * parts * stride
+def pass_2(B: ti.template(), a, b, T: ti.template(), t, parts, stride, sense):
+    d, e = 2 * parts * stride, 2 * stride
     for p in range(parts):
         w = T[0, t + p]
+        s = sense * w[1]
         for q in range(stride):
             i, o = a + 2 * (q + stride * p), b + 2 * (q + 2 * stride * p)
-            xr, xi, yr, yi = B[0, i + c], B[0, i + 1 - c], B[0, i + d + c], B[0, i + d + 1 - c]
-            zr, zi = turned(xr - yr, xi - yi, w)
-            B[0, o + c], B[0, o + 1 - c] = xr + yr, xi + yi
-            B[0, o + 2 * stride + c], B[0, o + 2 * stride + 1 - c] = zr, zi
+            xr, xi, yr, yi = B[0, i], B[0, i + 1], B[0, i + d], B[0, i + d + 1]
+            zr, zi = turned(xr - yr, xi - yi, w[0], s)
+            B[0, o], B[0, o + 1] = xr + yr, xi + yi
+            B[0, o + e], B[0, o + e + 1] = zr, zi
 
 
 @ti.func
-def pass_4(B: ti.template(), a, b, T: ti.template(), t, parts, stride, c, last: ti.template()):
+def pass_4(B: ti.template(), a, b, T: ti.template(), t, parts, stride, sense, last: ti.template()):
     d, e = 2 * parts * stride, 2 * stride
     for p in range(parts):
         w1, w2, w3 = T[0, t + 3 * p], T[0, t + 3 * p + 1], T[0, t + 3 * p + 2]
+        s1, s2, s3 = sense * w1[1], sense * w2[1], sense * w3[1]
         for q in range(stride):
             i, o = a + 2 * (q + stride * p), b + 2 * (q + 4 * stride * p)
-            x0r, x0i, x1r, x1i = B[0, i + c], B[0, i + 1 - c], B[0, i + d + c], B[0, i + d + 1 - c]
-            x2r, x2i = B[0, i + 2 * d + c], B[0, i + 2 * d + 1 - c]
-            x3r, x3i = B[0, i + 3 * d + c], B[0, i + 3 * d + 1 - c]
+            x0r, x0i, x1r, x1i = B[0, i], B[0, i + 1], B[0, i + d], B[0, i + d + 1]
+            x2r, x2i, x3r, x3i = B[0, i + 2 * d], B[0, i + 2 * d + 1], B[0, i + 3 * d], B[0, i + 3 * d + 1]
             ar, ai, br, bi = x0r + x2r, x0i + x2i, x0r - x2r, x0i - x2i
-            cr, ci, dr, di = x1r + x3r, x1i + x3i, x1i - x3i, x3r - x1r
+            cr, ci, dr, di = x1r + x3r, x1i + x3i, sense * (x1i - x3i), sense * (x3r - x1r)
             y1r, y1i, y2r, y2i, y3r, y3i = br + dr, bi + di, ar - cr, ai - ci, br - dr, bi - di
             if ti.static(not last):
-                y1r, y1i = turned(y1r, y1i, w1)
-                y2r, y2i = turned(y2r, y2i, w2)
-                y3r, y3i = turned(y3r, y3i, w3)
-            B[0, o + c], B[0, o + 1 - c] = ar + cr, ai + ci
-            B[0, o + e + c], B[0, o + e + 1 - c] = y1r, y1i
-            B[0, o + 2 * e + c], B[0, o + 2 * e + 1 - c] = y2r, y2i
-            B[0, o + 3 * e + c], B[0, o + 3 * e + 1 - c] = y3r, y3i
+                y1r, y1i = turned(y1r, y1i, w1[0], s1)
+                y2r, y2i = turned(y2r, y2i, w2[0], s2)
+                y3r, y3i = turned(y3r, y3i, w3[0], s3)
+            B[0, o], B[0, o + 1] = ar + cr, ai + ci
+            B[0, o + e], B[0, o + e + 1] = y1r, y1i
+            B[0, o + 2 * e], B[0, o + 2 * e + 1] = y2r, y2i
+            B[0, o + 3 * e], B[0, o + 3 * e + 1] = y3r, y3i
 
 
 @ti.func
-def part(B: ti.template(), i, c, d, radix: ti.template(), r: ti.template()):
+def part(B: ti.template(), i, d, radix: ti.template(), r: ti.template()):
     """Sums and differences of the inputs r and radix - r of an odd radix: (re, im) of both."""
     m = ti.static(radix - r)
-    xr, xi, yr, yi = B[0, i + r * d + c], B[0, i + r * d + 1 - c], B[0, i + m * d + c], B[0, i + m * d + 1 - c]
+    xr, xi, yr, yi = B[0, i + r * d], B[0, i + r * d + 1], B[0, i + m * d], B[0, i + m * d + 1]
     return xr + yr, xi + yi, xr - yr, xi - yi
 
 
@@ -143,49 +144,49 @@ def sine(B: ti.template(), radix: ti.template(), n: ti.template()):
 
 
 @ti.func
-def pass_odd(B: ti.template(), a, b, T: ti.template(), t, parts, stride, c, radix: ti.template()):
+def pass_odd(B: ti.template(), a, b, T: ti.template(), t, parts, stride, sense, radix: ti.template()):
     """Radix 3 or 5: results r and radix - r from the same sums (with 3 the second pair of inputs has no weight)."""
     d, e = 2 * parts * stride, 2 * stride
     for p in range(parts):
         for q in range(stride):
             i, o = a + 2 * (q + stride * p), b + 2 * (q + radix * stride * p)
-            zr, zi = B[0, i + c], B[0, i + 1 - c]
-            s1r, s1i, d1r, d1i = part(B, i, c, d, radix, 1)
-            s2r, s2i, d2r, d2i = part(B, i, c, d, radix, ti.static(radix // 2))
+            zr, zi = B[0, i], B[0, i + 1]
+            s1r, s1i, d1r, d1i = part(B, i, d, radix, 1)
+            s2r, s2i, d2r, d2i = part(B, i, d, radix, ti.static(radix // 2))
             for r in ti.static(range(1, radix // 2 + 1)):
                 fr, fi = zr + cosine(B, radix, r) * s1r, zi + cosine(B, radix, r) * s1i
                 gr, gi = sine(B, radix, r) * d1i, -sine(B, radix, r) * d1r
                 if ti.static(radix == 5):
                     fr, fi = fr + cosine(B, radix, 2 * r) * s2r, fi + cosine(B, radix, 2 * r) * s2i
                     gr, gi = gr + sine(B, radix, 2 * r) * d2i, gi - sine(B, radix, 2 * r) * d2r
-                ur, ui = turned(fr + gr, fi + gi, T[0, t + ti.static(radix - 1) * p + r - 1])
-                vr, vi = turned(fr - gr, fi - gi, T[0, t + ti.static(radix - 1) * p + ti.static(radix - r) - 1])
-                B[0, o + r * e + c], B[0, o + r * e + 1 - c] = ur, ui
-                B[0, o + ti.static(radix - r) * e + c], B[0, o + ti.static(radix - r) * e + 1 - c] = vr, vi
+                gr, gi = sense * gr, sense * gi
+                v, w = T[0, t + ti.static(radix - 1) * p + r - 1], T[0, t + ti.static(radix - 1) * p + ti.static(radix - r) - 1]
+                B[0, o + r * e], B[0, o + r * e + 1] = turned(fr + gr, fi + gi, v[0], sense * v[1])
+                B[0, o + ti.static(radix - r) * e], B[0, o + ti.static(radix - r) * e + 1] = turned(fr - gr, fi - gi, w[0],
+                                                                                                   sense * w[1])
             if ti.static(radix == 5):
                 zr, zi = zr + s2r, zi + s2i
-            B[0, o + c], B[0, o + 1 - c] = zr + s1r, zi + s1i
+            B[0, o], B[0, o + 1] = zr + s1r, zi + s1i
 
 
 @ti.func
 def transform(B: ti.template(), first, second, T: ti.template(), Q: ti.template(), row, rows, backward):
     """Transform of the numbers from entry `first` of B[0, :], with `second` as the other buffer; Q[row ...] are its passes.
 
-    backward: 1 for exp(+i ...), which is the forward transform with real and imaginary parts exchanged; no factor 1/n either
-    way. Returns the first entry of the result: `first` or `second`.
+    backward: 1 for exp(+i ...); no factor 1/n either way. Returns the first entry of the result: `first` or `second`.
     """
-    a, b = first, second
+    a, b, sense = first, second, ti.cast(1 - 2 * backward, B.dtype)
     for n in range(row, row + rows):
         code, parts, stride, t = Q[n, RADIX], Q[n, PARTS], Q[n, STRIDE], Q[n, FACTORS]
         if code == LAST:
-            pass_4(B, a, b, T, t, parts, stride, backward, True)
+            pass_4(B, a, b, T, t, parts, stride, sense, True)
         elif code == 4:
-            pass_4(B, a, b, T, t, parts, stride, backward, False)
+            pass_4(B, a, b, T, t, parts, stride, sense, False)
         elif code == 2:
-            pass_2(B, a, b, T, t, parts, stride, backward)
+            pass_2(B, a, b, T, t, parts, stride, sense)
         elif code == 3:
-            pass_odd(B, a, b, T, t, parts, stride, backward, 3)
+            pass_odd(B, a, b, T, t, parts, stride, sense, 3)
         else:
-            pass_odd(B, a, b, T, t, parts, stride, backward, 5)
+            pass_odd(B, a, b, T, t, parts, stride, sense, 5)
         a, b = b, a
     return a

@@ -149,12 +149,12 @@ def other(a, start, size):
 def split(X: ti.template(), z, o, T: ti.template(), C: ti.template(), c):
     """Real transforms at o, waves 0 .. M, from the complex ones at z of which even numbers are the real part, odd ones the
     imaginary."""
-    half, m = ti.cast(0.5, X.dtype), C[c, M]
+    half, m, turns = ti.cast(0.5, X.dtype), C[c, M], C[c, SPLIT]
     for k in range(m // 2 + 1):
         k1, k2 = m - k, (m - k) % m
         ar, ai, br, bi = X[0, z + 2 * k], X[0, z + 2 * k + 1], X[0, z + 2 * k2], X[0, z + 2 * k2 + 1]
         er, ei, dr, di = half * (ar + br), half * (ai - bi), half * (ai + bi), half * (br - ar)
-        w = T[0, C[c, SPLIT] + k]
+        w = T[0, turns + k]
         tr, tj = dr * w[0] - di * w[1], dr * w[1] + di * w[0]
         X[0, o + 2 * k1], X[0, o + 2 * k1 + 1] = er - tr, tj - ei
         X[0, o + 2 * k], X[0, o + 2 * k + 1] = er + tr, ei + tj
@@ -163,12 +163,12 @@ def split(X: ti.template(), z, o, T: ti.template(), C: ti.template(), c):
 @ti.func
 def merge(X: ti.template(), o, z, T: ti.template(), C: ti.template(), c):
     """The inverse of :func:`split`."""
-    half, m = ti.cast(0.5, X.dtype), C[c, M]
+    half, m, turns = ti.cast(0.5, X.dtype), C[c, M], C[c, SPLIT]
     for k in range(m // 2 + 1):
         k1, k2 = m - k, (m - k) % m
         pr, pi, qr, qi = X[0, o + 2 * k], X[0, o + 2 * k + 1], X[0, o + 2 * k1], X[0, o + 2 * k1 + 1]
         er, ei, dr, di = half * (pr + qr), half * (pi - qi), half * (pr - qr), half * (pi + qi)
-        w = T[0, C[c, SPLIT] + k]
+        w = T[0, turns + k]
         tr, tj = dr * w[0] + di * w[1], di * w[0] - dr * w[1]
         X[0, z + 2 * k2], X[0, z + 2 * k2 + 1] = er + tj, tr - ei
         X[0, z + 2 * k], X[0, z + 2 * k + 1] = er - tj, ei + tr
@@ -177,23 +177,27 @@ def merge(X: ti.template(), o, z, T: ti.template(), C: ti.template(), c):
 @ti.func
 def scatter(X: ti.template(), o, Y: ti.template(), C: ti.template(), c, s):
     """Spectra of block s, lanes of rows, to lanes of waves."""
+    step = C[c, STEP]
+    first = C[c, SPECTRA] + s * W * step
     for g in range(C[c, GROUPS]):
-        q = o + 2 * g * GROUP
-        to = C[c, SPECTRA] + s * W * C[c, STEP] + 2 * g
+        q, to = o + 2 * g * GROUP, first + 2 * g
         for p in ti.static(range(2)):
+            rows = [X[0, q + 2 * t + p] for t in ti.static(range(GROUP))]
             for u in ti.static(range(W)):
-                Y[0, to + p + u * C[c, STEP]] = ti.Vector([X[0, q + 2 * t + p][u] for t in ti.static(range(GROUP))])
+                Y[0, to + p + u * step] = ti.Vector([rows[t][u] for t in ti.static(range(GROUP))])
 
 
 @ti.func
 def gather(Y: ti.template(), X: ti.template(), o, C: ti.template(), c, s):
     """And back."""
+    step = C[c, STEP]
+    first = C[c, SPECTRA] + s * W * step
     for g in range(C[c, GROUPS]):
-        q = o + 2 * g * GROUP
-        source = C[c, SPECTRA] + s * W * C[c, STEP] + 2 * g
+        q, source = o + 2 * g * GROUP, first + 2 * g
         for p in ti.static(range(2)):
+            rows = [Y[0, source + p + u * step] for u in ti.static(range(W))]
             for t in ti.static(range(GROUP)):
-                X[0, q + 2 * t + p] = ti.Vector([Y[0, source + p + u * C[c, STEP]][t] for u in ti.static(range(W))])
+                X[0, q + 2 * t + p] = ti.Vector([rows[u][t] for u in ti.static(range(W))])
 
 
 @ti.func
@@ -242,8 +246,9 @@ def load_waves(Y: ti.template(), C: ti.template(), c, e, a):
 def multiply(Y: ti.template(), z, C: ti.template(), c, g):
     """Y(k) = A(k) X(k) + B(k) X(-k), in place."""
     n = C[c, N]
+    first = C[c, SYMBOL] + g * (n // 2 + 1) * 3
     for k in range(n // 2 + 1):
-        k1, k2, q = z + 2 * k, z + 2 * ((n - k) % n), C[c, SYMBOL] + (g * (n // 2 + 1) + k) * 3
+        k1, k2, q = z + 2 * k, z + 2 * ((n - k) % n), first + 3 * k
         pr, pi, qr, qi = Y[0, k1], Y[0, k1 + 1], Y[0, k2], Y[0, k2 + 1]
         A, Br, Bi = Y[0, q], Y[0, q + 1], Y[0, q + 2]
         Y[0, k2], Y[0, k2 + 1] = A * qr + Br * pr + Bi * pi, A * qi + Br * pi - Bi * pr
