@@ -27,19 +27,14 @@ SHEARS = 4  # from XA on
 def slots_around(Z: ti.template(), at: ti.template(), q, slot):
     """Slot of column q, in the block of rows of the place `at`, at j - 1 and j + 1; where there is no such row, at j."""
     here, n2 = Z[q, slot], at.nx + 1
+    before, behind = Z[q - (n2 if at.s > 0 else 0), slot][W - 1], Z[q + (n2 if at.s < at.ny // W else 0), slot][0]
     lower, upper = here, here
-    for u in ti.static(range(W)):
+    for u in ti.static(range(W - 1)):
+        lower[u + 1], upper[u] = here[u], here[u + 1]
+    lower[0], upper[W - 1] = before, behind
+    for u in ti.static(range(W)):  # chosen, not branched: that would keep what follows from vector instructions
         j = at.s * W + u
-        if j > 0:
-            if ti.static(u > 0):
-                lower[u] = here[u - 1]
-            else:
-                lower[u] = Z[q - n2, slot][W - 1]
-        if j < at.ny:
-            if ti.static(u < W - 1):
-                upper[u] = here[u + 1]
-            else:
-                upper[u] = Z[q + n2, slot][0]
+        lower[u], upper[u] = ti.select(j > 0, lower[u], here[u]), ti.select(j < at.ny, upper[u], here[u])
     return lower, upper
 
 
