@@ -24,13 +24,23 @@ __all__ = ["app", "main"]
 
 
 class Commands(typer.core.TyperGroup):
-    """The commands; Ctrl-C in any of them is one more error that ends in a sentence (typer's own end is "Aborted!")."""
+    """The commands; Ctrl-C in any of them is one more error that ends in a sentence (typer's own end is "Aborted!"), and a value
+    that is refused is named."""
 
     def invoke(self, ctx):
         try:
             return super().invoke(ctx)
+        except typer.BadParameter as error:
+            error.message = _with_value(error)
+            raise
         except KeyboardInterrupt as stop:
             raise Interrupted(str(stop) or "interrupted; nothing that was stored is lost") from None
+
+
+def _with_value(error):
+    """The message of a BadParameter with the value, which typer's own checks (pydantic's) leave out."""
+    found = getattr(error.__cause__, "errors", list)()
+    return f"{found[0]['input']!r}; {error.message[0].lower()}{error.message[1:]}" if found else error.message
 
 
 app = typer.Typer(cls=Commands, no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False,

@@ -157,6 +157,7 @@ def test_a_broken_run_opens_and_resumes_to_the_same_result(finished, tmp_path, s
     (("run", "--arch", "cuda"), "cpu"), (("run", "--precision", "f16"), "f64"), (("run", "--threads", "0"), "1 to"),
     (("run", "--speed", "0"), "entrainment"), (("run", "--srr", "-2"), "never passes"), (("run", "--sr", "1"), "srr"),
     (("run", "--target-error", "fast"), "0.01% to 50%"), (("run", "--target-error", "1%", "--grid", "coarse"), "leave out"),
+    (("run", "--srr", "fast"), "'fast'"), (("bench", "sweep", "--workers", "-3"), "'-3'"),
     (("show", "nothing.zarr"), "not a store"), (("resume", "nothing.zarr"), "not a store"),
 ])
 def test_bad_input_is_a_sentence_and_writes_nothing(words, said, tmp_path):
