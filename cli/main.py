@@ -24,8 +24,8 @@ __all__ = ["app", "main"]
 
 
 class Commands(typer.core.TyperGroup):
-    """The commands; Ctrl-C in any of them is one more error that ends in a sentence (typer's own end is "Aborted!"), and a value
-    that is refused is named."""
+    """The commands; Ctrl-C in any of them is one more error that ends in a sentence (typer's own end is "Aborted!"), and a
+    refused value is named."""
 
     def invoke(self, ctx):
         try:

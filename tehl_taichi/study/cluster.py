@@ -7,7 +7,7 @@ import threading
 import uuid
 
 from tehl_taichi.errors import RuntimeUnavailable, StoreError
-from tehl_taichi.study.pool import Lost, in_one_thread
+from tehl_taichi.study.job import Lost, in_one_thread
 
 AHEAD, LEAST = 3, 16  # jobs that the scheduler knows, for each worker and at least: memory stays bounded, nobody waits
 PATIENCE = 30  # s to find a scheduler

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tehl_taichi.scene import Scene
+from tehl_taichi.study.job import Lost
 
 if TYPE_CHECKING:
     from tehl_taichi.study.table import Study
@@ -92,8 +93,6 @@ def _tell_refused(study, refused):
 
 
 def _keep(study, number, answer, keep, progress):
-    from tehl_taichi.study.pool import Lost
-
     if isinstance(answer, Lost):
         answer = {"status": "failed", "reason": answer.reason, "summary": None, "seconds": 0.0}
     store = study.store_of(number)

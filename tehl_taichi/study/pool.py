@@ -3,23 +3,15 @@
 One worker is this process. More of them, or a scheduler somewhere else, are Dask's (:mod:`tehl_taichi.study.cluster`).
 """
 
-import threading
-from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
 from importlib.util import find_spec
 
 from tehl_taichi.errors import SceneError
+from tehl_taichi.study.job import Lost
 from tehl_taichi.values.checks import integer
 from tehl_taichi.values.plain import plain
 
+__all__ = ["Lost", "check", "results", "sizes"]
 MOST = 1024  # processes, and threads of one
-
-
-@dataclass(frozen=True)
-class Lost:
-    """Instead of an answer: the job raised, or its worker died twice over it. reason: which of them, a sentence."""
-
-    reason: str
 
 
 def results(work, jobs, *, workers=1, scheduler=None, told=None):
@@ -68,14 +60,3 @@ def check(workers, threads, scheduler=None):
         from tehl_taichi.engine import runtime
 
         runtime.check(threads=threads)
-
-
-_lane, _guard = [], threading.Lock()
-
-
-def in_one_thread(work, job):
-    """work(job) in the one thread of this process that Taichi belongs to, whichever thread asks."""
-    with _guard:
-        if not _lane:
-            _lane.append(ThreadPoolExecutor(1, thread_name_prefix="tehl"))
-    return _lane[0].submit(work, job).result()

@@ -11,7 +11,7 @@ from tehl_taichi.figures.field_maps import bar
 from tehl_taichi.figures.page import Page, drawing
 from tehl_taichi.study.flat import error_of, unit_of
 from tehl_taichi.study.plan import unit
-from tehl_taichi.study.table import all_numbers, word
+from tehl_taichi.study.typed import all_numbers, word
 from tehl_taichi.values.checks import nearest
 
 # drawn where nobody chooses: the first of each line that the study has

@@ -9,7 +9,6 @@
 import csv
 import io
 import json
-import os
 import time
 from pathlib import Path
 
@@ -26,6 +25,7 @@ from tehl_taichi.io.place import reason
 from tehl_taichi.study import case_records as records
 from tehl_taichi.study import flat
 from tehl_taichi.study.plan import ONE, Plan, unit
+from tehl_taichi.study.typed import all_numbers, word
 
 TABLE, CASES, PLAN = "table.csv", "cases", "study"  # PLAN: the attribute that makes a group a study
 SHARE = 0.05  # of the time, at most, goes into writing table and arrays
@@ -246,13 +246,3 @@ def attributes(path):
         return attrs if PLAN in attrs else None
     except (OSError, ValueError, KeyError, TypeError):
         return None
-
-
-def all_numbers(values):
-    """Whether a key's values are numbers, not words or switches."""
-    return all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in values)
-
-
-def word(value):
-    """A value as text."""
-    return value if isinstance(value, str) else os.fspath(value) if isinstance(value, os.PathLike) else json.dumps(value)

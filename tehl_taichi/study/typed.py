@@ -1,6 +1,8 @@
 """What `--over` says: keys and their values, as lists, ranges and spans, and keys that change together."""
 
+import json
 import math
+import os
 import re
 import tomllib
 from dataclasses import dataclass
@@ -168,3 +170,13 @@ def over_of(texts, sampled=False):
             raise SceneError(f"{keys} is swept twice: give all its values in one --over")
         out[keys] = values
     return out
+
+
+def all_numbers(values):
+    """Whether a key's values are numbers, not words or switches."""
+    return all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in values)
+
+
+def word(value):
+    """A value as text."""
+    return value if isinstance(value, str) else os.fspath(value) if isinstance(value, os.PathLike) else json.dumps(value)
