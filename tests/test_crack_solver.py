@@ -224,3 +224,10 @@ def test_pressure_inside_opens_as_much_as_the_same_pull():
     n = 1j * np.exp(1j * np.radians(60))
     pull = forces(faces, xx=n.real**2, zz=n.imag**2, xz=n.real * n.imag)[:, 0]  # sigma . n = n
     np.testing.assert_allclose(faces.pushed(), pull, atol=1e-12)
+
+
+def test_a_matrix_that_is_positive_only_to_rounding_ends():
+    """Next to no oil, shut in: its pressure comes out below zero, and without it the faces lack 1e-21 m."""
+    M, gap = np.array([[1.0, 1.0], [1.0, 1.0 - 2.0**-53]]), np.array([0.0, -1e-21])
+    r, _ = bounds.bounded(M, gap, np.zeros(2), np.full(2, np.inf), np.array([bounds.FREE, bounds.LOW]))
+    assert (r >= 0).all() and abs(gap + M @ r).max() <= 1e-20

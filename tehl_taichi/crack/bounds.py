@@ -16,19 +16,22 @@ def bounded(M, gap, low, high, at):
 
     at: first guess.
     """
-    fewest, left, small = gap.size + 1, TRIES, ROUND * np.abs(gap).max()
+    fewest, left, small, seen = gap.size + 1, TRIES, ROUND * np.abs(gap).max(), set()
     while True:
         r = _forces(M, gap, low, high, at)
         new = _next(r, gap + M @ r, low, high, at, small)
         wrong = np.flatnonzero(new != at)
         if wrong.size == 0:
             return r, at
+        if at.tobytes() in seen:
+            return np.clip(r, low, high), at
         if wrong.size < fewest:
             fewest, left = wrong.size, TRIES
         elif left > 0:
             left -= 1
-        else:  # one at a time: finite for a positive matrix
+        else:  # one at a time: finite for a positive matrix, but for rounding
             wrong = wrong[-1:]
+            seen.add(at.tobytes())
         at = at.copy()
         at[wrong] = new[wrong]
 
