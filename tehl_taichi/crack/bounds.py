@@ -16,7 +16,7 @@ def bounded(M, gap, low, high, at):
 
     at: first guess.
     """
-    fewest, left, small, seen = gap.size + 1, TRIES, ROUND * np.abs(gap).max(), set()
+    fewest, left, small, seen = gap.size + 1, TRIES, ROUND * np.abs(gap).max(), {}
     while True:
         r = _forces(M, gap, low, high, at)
         new = _next(r, gap + M @ r, low, high, at, small)
@@ -24,16 +24,22 @@ def bounded(M, gap, low, high, at):
         if wrong.size == 0:
             return r, at
         if at.tobytes() in seen:
-            return np.clip(r, low, high), at
+            return _least(seen, at.tobytes())
         if wrong.size < fewest:
             fewest, left = wrong.size, TRIES
         elif left > 0:
             left -= 1
         else:  # one at a time: finite for a positive matrix, but for rounding
             wrong = wrong[-1:]
-            seen.add(at.tobytes())
+            seen[at.tobytes()] = np.clip(r, low, high), at
         at = at.copy()
         at[wrong] = new[wrong]
+
+
+def _least(seen, again):
+    """Of the states that follow each other for ever from `again` on, all wrong by rounding, the one with the least forces."""
+    states = list(seen)
+    return min((seen[state] for state in states[states.index(again) :]), key=lambda found: np.abs(found[0]).max())
 
 
 def _forces(M, gap, low, high, at):
