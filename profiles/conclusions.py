@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from tehl_taichi.profiles import measure
 
-from tehl_taichi.engine import runtime
 from tehl_taichi.errors import NotConverged
 from tehl_taichi.fatigue import below, findley
 from tehl_taichi.fatigue.histories import Passage
@@ -62,26 +62,18 @@ def run(folder, quick=False, progress=None, workers=1, threads=None):
     """Rows of all cases; their stores lie in `folder` and are used again. progress: called with a line of text; workers:
     processes side by side, each on `threads` threads (None: all that are left)."""
     grids, folder = QUICK_GRIDS if quick else GRIDS, Path(folder).absolute()
-    workers, threads = pool.sizes(workers, threads)
     tell = progress if workers == 1 else None  # other processes have nobody to tell
-    jobs = [(name, description, folder, grids + (FINER,) * (name.startswith(REFERENCE) and not quick), tell, threads)
+    jobs = [(name, description, folder, grids + (FINER,) * (name.startswith(REFERENCE) and not quick), tell)
             for name, description in cases(quick).items()]
     jobs.sort(key=lambda job: len(job[3]), reverse=True)  # the longest first, so that they do not end alone
     found = {}
-    for number, answer in pool.results(work, jobs, workers=workers):
+    for number, answer in measure.side_by_side(row, jobs, workers, threads):
         name, description = jobs[number][:2]
         lost = isinstance(answer, pool.Lost)
         found[name] = Row(name, description.operation.srr, {}, {}, (np.nan, np.nan), answer.reason) if lost else answer
         if progress:
             progress(f"{name}: {found[name].reason or 'done'}")
     return [found[name] for name in cases(quick)]
-
-
-def work(job):
-    """The Row of one job of :func:`run`."""
-    *job, threads = job
-    runtime.start_or_join(threads=threads)
-    return row(*job)
 
 
 def row(name, description, folder, grids, progress=None):

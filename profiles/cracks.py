@@ -5,11 +5,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from tehl_taichi.profiles import measure
 
 from tehl_taichi.crack.answer import follow
 from tehl_taichi.crack.plane import plane_of
 from tehl_taichi.crack.wanted import SIDES, Wanted
-from tehl_taichi.engine import runtime
 from tehl_taichi.errors import NotConverged
 from tehl_taichi.scene import scene
 from tehl_taichi.study import pool
@@ -53,12 +53,11 @@ def cases(quick=False):
 def run(folder, quick=False, progress=None, workers=1, threads=None):
     """Rows of all cases; their stores lie in `folder` and are used again. progress: called with a line of text; workers:
     processes side by side, each on `threads` threads (None: all that are left)."""
-    workers, threads = pool.sizes(workers, threads)
     tell = progress if workers == 1 else None  # other processes have nobody to tell
-    jobs = [(name, description, Path(folder).absolute(), QUICK_GRIDS if quick else GRIDS, tell, threads)
+    jobs = [(name, description, Path(folder).absolute(), QUICK_GRIDS if quick else GRIDS, tell)
             for name, description in cases(quick).items()]
     found = {}
-    for number, rows in pool.results(work, jobs, workers=workers):
+    for number, rows in measure.side_by_side(case, jobs, workers, threads):
         name = jobs[number][0]
         found[name] = [Row(name, "", {}, "", rows.reason)] if isinstance(rows, pool.Lost) else rows
         if progress:
@@ -66,10 +65,8 @@ def run(folder, quick=False, progress=None, workers=1, threads=None):
     return [row for job in jobs for row in found[job[0]]]
 
 
-def work(job):
-    """The rows of one job of :func:`run`."""
-    name, description, folder, grids, progress, threads = job
-    runtime.start_or_join(threads=threads)
+def case(name, description, folder, grids, progress=None):
+    """The rows of one case from runs on `grids`."""
     stores = _stores(name, description, folder, grids, progress or (lambda line: None))
     return rows_of(name, stores, CONDITIONS if name.startswith(REFERENCE) else {"": {}}) if stores else []
 

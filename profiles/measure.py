@@ -11,6 +11,9 @@ from pathlib import Path
 
 import numpy as np
 
+from tehl_taichi.engine import runtime
+from tehl_taichi.study import pool
+
 
 @dataclass(frozen=True)
 class Timing:
@@ -27,13 +30,11 @@ class Timing:
 def fresh(threads, function, *args):
     """function(*args) in a new process whose Taichi runs on `threads` threads."""
     spawn = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(1, mp_context=spawn, initializer=_start, initargs=(threads,)) as pool:
-        return pool.submit(function, *args).result()
+    with ProcessPoolExecutor(1, mp_context=spawn, initializer=_start, initargs=(threads,)) as process:
+        return process.submit(function, *args).result()
 
 
 def _start(threads):
-    from tehl_taichi.engine import runtime
-
     runtime.start(threads=threads)
 
 
@@ -54,6 +55,19 @@ def passage(description, steps=None):
     newton, cycles = (float(np.mean([shot[key] for shot in shots[2:]])) for key in ("newton", "cycles"))
     memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     return Timing(start_s, step, start_s + (whole * step if steps else sum(seconds)), newton, cycles, memory)
+
+
+def side_by_side(work, jobs, workers=1, threads=None):
+    """Generator of (number of the job, work(*job) or :class:`tehl_taichi.study.pool.Lost`), in the order in which they end;
+    workers: processes, each on `threads` threads (None: all that are left)."""
+    workers, threads = pool.sizes(workers, threads)
+    return pool.results(_worked, [(work, threads, job) for job in jobs], workers=workers)
+
+
+def _worked(job):
+    work, threads, job = job
+    runtime.start_or_join(threads=threads)
+    return work(*job)
 
 
 def steady(description, repeats):

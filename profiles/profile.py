@@ -90,9 +90,11 @@ def _timed(stages):
             owner = getattr(owner, part)
         before.append((owner, name, getattr(owner, name)))
         setattr(owner, name, _counted(getattr(owner, name), spent[stage]))
-    yield spent
-    for owner, name, function in before:
-        setattr(owner, name, function)
+    try:
+        yield spent
+    finally:
+        for owner, name, function in before:
+            setattr(owner, name, function)
 
 
 def _counted(function, spent):

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import Optional
 
 import numpy as np
+from tehl_taichi.profiles import measure
 
 from tehl_taichi.criteria import CRITERIA
-from tehl_taichi.engine import runtime
 from tehl_taichi.io.scene_file import merge
 from tehl_taichi.physics import rheology
 from tehl_taichi.scene import Scene, SceneError, scene, thin_film
@@ -166,18 +166,10 @@ def run(chosen, precision=AUTO, workers=1, threads=None):
 
     workers: processes side by side, each on `threads` threads (None: all that are left).
     """
-    workers, threads = pool.sizes(workers, threads)
-    jobs = [(name, description, precision, threads) for name, description in chosen]
-    for number, found in pool.results(work, jobs, workers=workers):
+    jobs = [(name, description, precision) for name, description in chosen]
+    for number, found in measure.side_by_side(run_case, jobs, workers, threads):
         lost = isinstance(found, pool.Lost)
         yield Outcome(jobs[number][0], "failed", found.reason, 0, 0.0, 0.0, 0.0) if lost else found
-
-
-def work(job):
-    """The Outcome of one job of :func:`run`."""
-    name, description, precision, threads = job
-    runtime.start_or_join(threads=threads)
-    return run_case(name, description, precision)
 
 
 def run_case(name, description, precision=AUTO):

@@ -135,6 +135,15 @@ def test_an_interrupted_flank_says_how_far_it_is(tmp_path, monkeypatch):
 
 
 @pytest.mark.slow
+def test_two_workers_of_one_thread_compute_the_same_bits_as_this_process_on_two(taichi_cpu, tmp_path):
+    small = dict(at=("A", "B+"), changes={**SMALL, "thermal.on": False, "time.steps": 3})
+    one, two = (tehl.flank("fzg-c", folder=tmp_path / str(n), workers=n, threads=3 - n, **small) for n in (1, 2))
+    for (*_, here), (*_, there) in zip(one.rows, two.rows):
+        assert [here[part] for part in ("steady", "transient", "fatigue")] == [there[part] for part in
+                                                                              ("steady", "transient", "fatigue")]
+
+
+@pytest.mark.slow
 def test_dedendum_and_addendum_of_type_c_at_stage_10(taichi_cpu, tmp_path):
     """The whole flank with temperatures and the asperity: every position converges, films stay films."""
     whole = tehl.flank("fzg-c", torque=265.1, positions=7, folder=tmp_path / "c", changes=SMALL)
