@@ -1,7 +1,6 @@
 """tehl bench: the suites under profiles/."""
 
 import json
-import math
 from pathlib import Path
 from typing import Optional
 
@@ -24,7 +23,7 @@ def register(app):
     app.add_typer(bench, name="bench")
 
 
-OUT = typer.Option(Path("runs/bench"), help="folder for the JSON and PNG")
+OUT = typer.Option(Path("runs/bench"), file_okay=False, writable=True, help="folder for the JSON and PNG")
 QUICK = typer.Option(False, "--quick", help="small grids, a few steps")
 THREADS = typer.Option(None, help="CPU threads (default: all)")
 WORKERS = typer.Option(1, help="processes side by side, which share the cores (more than 1 needs the extra `sweep`)")
@@ -69,7 +68,8 @@ def stability(
 
 
 def conclusions(
-    out: Path = typer.Option(Path("runs/conclusions"), help="folder of the stores (used again) and of the results"),
+    out: Path = typer.Option(Path("runs/conclusions"), file_okay=False, writable=True,
+                            help="folder of the stores (used again) and of the results"),
     quick: bool = typer.Option(False, "--quick", help="the reference asperity and dent on coarse grids"),
     threads: Optional[int] = THREADS,
     workers: int = WORKERS,
@@ -81,6 +81,7 @@ def conclusions(
     from tehl_cli.listing import list_table
     from tehl_taichi.profiles import conclusions as suite
 
+    from tehl_taichi.io.json_values import plain
     from tehl_taichi.scene import scene
 
     rows = suite.run(out, quick, say, workers, threads)
@@ -89,15 +90,15 @@ def conclusions(
     list_table("Findley stress, MPa", ("case", *suite.WINDOWS), [(r.name, *suite.cells(r)) for r in rows])
     list_table("the thesis' conclusions", ("statement", "verdict", "figures"), judged)
     (out / "conclusions.md").write_text(suite.page(rows, judged, base))
-    (out / "conclusions.json").write_text(json.dumps([
+    (out / "conclusions.json").write_text(json.dumps(plain([
         {"case": r.name, "reason": r.reason, "friction": r.friction, "findley_stress_Pa": {
-            "; ".join(key): [value, None if math.isnan(r.errors[key]) else r.errors[key]] for key, value in r.values.items()}}
-        for r in rows], indent=1))
+            "; ".join(key): (value, r.errors[key]) for key, value in r.values.items()}} for r in rows]), indent=1))
     say(f"wrote {out}/conclusions.md and conclusions.json")
 
 
 def cracks(
-    out: Path = typer.Option(Path("runs/cracks"), help="folder of the stores (used again) and of the results"),
+    out: Path = typer.Option(Path("runs/cracks"), file_okay=False, writable=True,
+                            help="folder of the stores (used again) and of the results"),
     quick: bool = typer.Option(False, "--quick", help="the reference asperity on coarse grids"),
     threads: Optional[int] = THREADS,
     workers: int = WORKERS,
@@ -106,10 +107,12 @@ def cracks(
     from tehl_cli.listing import list_table
     from tehl_taichi.profiles import cracks as suite
 
-    rows = suite.run(out, quick, say, workers, threads)
+    from tehl_taichi.io.json_values import plain
+
+    for rows in suite.run(out, quick, say, workers, threads):  # those so far are kept, whatever comes
+        (out / "cracks.md").write_text(suite.page(rows))
+        (out / "cracks.json").write_text(json.dumps(plain([vars(row) for row in rows]), indent=1))
     list_table("crack paths", suite.COLUMNS, [(row.case, *suite.cells(row)) for row in rows])
-    (out / "cracks.md").write_text(suite.page(rows))
-    (out / "cracks.json").write_text(json.dumps([vars(row) for row in rows], indent=1))
     say(f"wrote {out}/cracks.md and cracks.json")
 
 

@@ -1,7 +1,7 @@
 """Crack paths from the loads of a passage: dedendum, pitch line, addendum; asperity and dent; widths; residual stress, friction
 of the faces, oil inside. Errors from two grids of the film and from two discretisations of the crack."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -33,7 +33,8 @@ NUMBERS = {"sigma1": ("largest tension, MPa", 1e6, "{:.0f}"), "depth": ("pulled 
 
 @dataclass(frozen=True)
 class Row:
-    """One side of one case: {number: (value, error or nan)} of NUMBERS; lean of the trajectory; why the crack stopped."""
+    """One side of one case: {number: (value, what the coarser grid, what half the elements change or nan)} of NUMBERS; lean of
+    the trajectory; why the crack stopped."""
 
     case: str
     side: str
@@ -51,8 +52,8 @@ def cases(quick=False):
 
 
 def run(folder, quick=False, progress=None, workers=1, threads=None):
-    """Rows of all cases; their stores lie in `folder` and are used again. progress: called with a line of text; workers:
-    processes side by side, each on `threads` threads (None: all that are left)."""
+    """Generator of all rows so far, after every case; stores lie in `folder` and are used again. progress: called with a line
+    of text; workers: processes side by side, each on `threads` threads (None: all that are left)."""
     tell = progress if workers == 1 else None  # other processes have nobody to tell
     jobs = [(name, description, Path(folder).absolute(), QUICK_GRIDS if quick else GRIDS, tell)
             for name, description in cases(quick).items()]
@@ -62,7 +63,7 @@ def run(folder, quick=False, progress=None, workers=1, threads=None):
         found[name] = [Row(name, "", {}, "", rows.reason)] if isinstance(rows, pool.Lost) else rows
         if progress:
             progress(f"{name}: done")
-    return [row for job in jobs for row in found[job[0]]]
+        yield [row for job in jobs for row in found.get(job[0], [])]
 
 
 def case(name, description, folder, grids, progress=None):
@@ -89,20 +90,26 @@ def rows_of(name, stores, conditions):
     """The rows of a case from its stores, the finest last: two sides under every condition."""
     planes, rows = [plane_of(one.scene, one) for one in stores], []
     for condition, wanted in conditions.items():
-        found = [follow(plane.having(wanted.get("residual")), one.scene, Wanted(**wanted)).summary["sides"]
-                 for plane, one in zip(planes, stores)]
-        rows += [_row(", ".join(filter(None, (name, condition))), side, [one[side] for one in found]) for side in SIDES]
+        asked = Wanted(**wanted)
+        half = replace(asked, elements=asked.elements // 2)
+        found = [_sides(plane, store, wanted) for plane, store, wanted in
+                 ((planes[-1], stores[-1], half), *((plane, store, asked) for plane, store in zip(planes, stores)))]
+        rows += [_row(", ".join(filter(None, (name, condition))), side, *(one[side] for one in found)) for side in SIDES]
     return rows
 
 
-def _row(name, side, grids):
+def _sides(plane, store, wanted):
+    return follow(plane.having(wanted.residual), store.scene, wanted).summary["sides"]
+
+
+def _row(name, side, half, *grids):
     finest = grids[-1]
     if not finest["opens"]:
         return Row(name, side, {}, "", finest["why"])
-    numbers = [_numbers(one) if one["opens"] else {} for one in grids]
-    errors = {key: abs(numbers[-1][key] - numbers[0].get(key, np.nan)) if len(grids) > 1 else np.nan for key in NUMBERS}
-    return Row(name, side, {key: (value, errors[key]) for key, value in numbers[-1].items()},
-               finest["trajectory"]["lean"], finest["why"])
+    numbers = _numbers(finest)
+    coarser = [_numbers(grids[0]) if len(grids) > 1 and grids[0]["opens"] else {}, _numbers(half)]
+    return Row(name, side, {key: (value, *(abs(value - other.get(key, np.nan)) for other in coarser))
+                            for key, value in numbers.items()}, finest["trajectory"]["lean"], finest["why"])
 
 
 def _numbers(side):
@@ -125,10 +132,12 @@ def cells(row):
     return [row.side, *(_text(*row.numbers[key], *form[1:]) for key, form in NUMBERS.items()), row.lean, row.why]
 
 
-def _text(value, error, unit, form):
+def _text(value, grid, elements, unit, form):
+    """Value ± change by the grid, by the elements; what a crack's elements do not touch has no second one."""
     if np.isnan(value):
         return "-"
-    return form.format(value / unit) + (f" ± {form.format(error / unit)}" if np.isfinite(error) else " (one grid)")
+    changes = [form.format(one / unit) if np.isfinite(one) else "?" for one in (grid, elements)]
+    return f"{form.format(value / unit)} ± " + ", ".join(changes[: 1 + (elements != 0)])
 
 
 COLUMNS = ("case", "side", *(title for title, *_ in NUMBERS.values()), "trajectory leans", "the crack stops because")

@@ -19,19 +19,31 @@ class Stored(Rolling):
         self.scene = description
 
 
-def test_rows_have_the_errors_of_two_grids(taichi_cpu):
-    bare = scene("gear").replace(**{"thermal.on": False})
-    entry, exit_ = cracks.rows_of("rolling", [Stored(bare, cells) for cells in (8, 12)], {"": {"length": 20e-6}})
-    value, error = entry.numbers["sigma1"]
-    found = [follow(plane_of(bare, Stored(bare, cells)), bare, Wanted(length=20e-6, side="entry")).sides["entry"].begun.sigma1
-             for cells in (8, 12)]
-    assert value == found[1] and error == pytest.approx(abs(found[1] - found[0])) and error > 0
+def test_rows_have_the_errors_of_two_grids_and_of_two_discretisations(taichi_cpu):
+    bare, wanted = scene("gear").replace(**{"thermal.on": False}), {"length": 20e-6}
+    entry, exit_ = cracks.rows_of("rolling", [Stored(bare, cells) for cells in (8, 12)], {"": wanted})
+    coarse, fine, half = (follow(plane_of(bare, Stored(bare, cells)), bare, Wanted(**wanted, side="entry", elements=elements))
+                          .sides["entry"] for cells, elements in ((8, 12), (12, 12), (12, 6)))
+    value, grid, elements = entry.numbers["sigma1"]
+    assert value == fine.begun.sigma1 and grid == pytest.approx(abs(value - coarse.begun.sigma1)) and grid > 0 == elements
+    value, grid, elements = entry.numbers["K_first"]
+    assert [value, grid, elements] == pytest.approx([fine.path.steps[0]["K_I_max"], *(
+        abs(fine.path.steps[0]["K_I_max"] - other.path.steps[0]["K_I_max"]) for other in (coarse, half))])
+    assert 0 < elements < 0.1 * value
     assert exit_.numbers == {} and "nothing pulls" in exit_.why
     text = cracks.page([entry, exit_])
-    assert f"{value / 1e6:.0f} ± {error / 1e6:.0f}" in text and len({line.count("|") for line in text.splitlines()}) == 1
-    alone = cracks.rows_of("rolling", [Stored(bare, 8)], {"short": {"length": 20e-6}})[0]
-    assert alone.case == "rolling, short"
-    assert np.isnan(alone.numbers["K_first"][1]) and "(one grid)" in cracks.page([alone])
+    assert f"| {value / 1e6:.2f} ± {grid / 1e6:.2f}, {elements / 1e6:.2f} |" in text
+    assert len({line.count("|") for line in text.splitlines()}) == 1
+    alone = cracks.rows_of("rolling", [Stored(bare, 8)], {"short": wanted})[0]
+    assert alone.case == "rolling, short" and np.isnan(alone.numbers["K_first"][1])
+    assert " ± ?, 0.0" in cracks.page([alone])
+
+
+def test_rows_are_kept_after_every_case(tmp_path, monkeypatch):
+    monkeypatch.setattr(cracks, "_stores", lambda *job: ["store"])
+    monkeypatch.setattr(cracks, "rows_of", lambda name, *more: [cracks.Row(name, "entry", {}, "", "closed")])
+    so_far = [[row.case for row in rows] for rows in cracks.run(tmp_path, quick=True)]
+    assert so_far == [list(cracks.cases(quick=True))[:count] for count in (1, 2, 3)]
 
 
 def test_cases_and_their_conditions():
