@@ -231,3 +231,16 @@ def test_a_matrix_that_is_positive_only_to_rounding_ends():
     M, gap = np.array([[1.0, 1.0], [1.0, 1.0 - 2.0**-53]]), np.array([0.0, -1e-21])
     r, _ = bounds.bounded(M, gap, np.zeros(2), np.full(2, np.inf), np.array([bounds.FREE, bounds.LOW]))
     assert (r >= 0).all() and abs(gap + M @ r).max() <= 1e-20
+
+
+def test_forces_that_mean_the_same_share_the_load():
+    """Faces that touch and the oil shut in between them: a singular matrix is no end."""
+    M, gap = np.ones((2, 2)), np.array([-1.0, -1.0])
+    with pytest.raises(np.linalg.LinAlgError):
+        np.linalg.solve(M, -gap)
+    r, at = bounds.bounded(M, gap, np.zeros(2), np.full(2, np.inf), np.full(2, bounds.FREE))
+    assert r == pytest.approx([0.5, 0.5], rel=1e-3) and (at == bounds.FREE).all()
+    against = bounds.solved(M, np.array([1.0, 2.0]))  # no forces do that: large ones, apart
+    assert against[1] > 1e9 and against[0] < -1e9
+    faces = rubbing._forces(M, gap[:, None], 0.0, np.full(2, rubbing.UP), np.zeros(0))
+    assert faces[:, 0] == pytest.approx([0.5, 0.5], rel=1e-3)

@@ -9,6 +9,7 @@ import numpy as np
 LOW, FREE, HIGH = -1, 0, 1
 TRIES = 8      # exchanges of whole sets without fewer wrong unknowns
 ROUND = 1e-11  # of the largest displacement: less is rounding
+YIELD = 1e-12  # of the largest displacement by a unit force: what each unknown gets besides where several mean the same
 
 
 def bounded(M, gap, low, high, at):
@@ -45,8 +46,17 @@ def _least(seen, again):
 def _forces(M, gap, low, high, at):
     """r with no displacement where FREE."""
     r, free = np.where(at == LOW, low, np.where(at == HIGH, high, 0.0)), at == FREE
-    r[free] = np.linalg.solve(M[np.ix_(free, free)], -(gap + M @ r)[free])
+    r[free] = solved(M[np.ix_(free, free)], -(gap + M @ r)[free])
     return r
+
+
+def solved(M, wanted):
+    """Forces for the displacements `wanted`. Those of faces that touch and of the oil between them may mean the same: each gives
+    way a little then, which shares the force out, or makes it large where displacements contradict each other."""
+    try:
+        return np.linalg.solve(M, wanted)
+    except np.linalg.LinAlgError:
+        return np.linalg.solve(M + YIELD * np.abs(M).max() * np.eye(len(M)), wanted)
 
 
 def _next(r, w, low, high, at, small):

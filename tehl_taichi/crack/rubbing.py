@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl_taichi.crack.bounds import FREE, HIGH, LOW, bounded
+from tehl_taichi.crack.bounds import FREE, HIGH, LOW, bounded, solved
 from tehl_taichi.crack.closure import shut
 
 TRIES, ROUNDS = 6, 60  # exchanges of states, rounds of bounds in a moment; then it counts as not settled
@@ -124,7 +124,7 @@ def _forces(S, free, mu, state, slip):
     columns[:, np.searchsorted(touching, sliding)] += S[:, contacts + sliding] * rub[sliding]
     wanted = -free[rows]
     wanted[touching.size :] += slip[stuck, None]
-    found = np.linalg.solve(columns[rows], wanted)
+    found = solved(columns[rows], wanted)
     r[touching] = found[: touching.size]
     r[contacts:] = rub[:, None] * r[:rough]
     r[contacts + stuck] = found[touching.size :]
