@@ -1,10 +1,10 @@
-"""The deflection K and the distribution K^-1 as convolutions inside kernels: for a block of rows, or a group of their waves.
+"""The deflection K and the distribution K^-1 as convolutions inside kernels: for a pair of blocks, or a group of their waves.
 
 Along x a real transform of period 2 M >= twice the cells (K; of the cells for K^-1, which is periodic), done as a complex one
-of half the length on a block of W rows in lanes. Along y Toeplitz plus Hankel matrices, rows being mirrored at y = 0:
-Y(k) = A(k) X(k) + B(k) X(-k), by complex transforms of length N >= 2 ny over the waves along x, GROUP of them in lanes. A is
-the transform of the even kernel t(0), t(1), ..., B that of t(0 ... 2 ny - 1) for the mirror images (0 for a whole domain, A
-where the other end is a mirror, too), the rows on a mirror count half. A line contact continues its outermost row for ever:
+of half the length on two blocks of W rows side by side in lanes. Along y Toeplitz plus Hankel matrices, rows being mirrored
+at y = 0: Y(k) = A(k) X(k) + B(k) X(-k), by complex transforms of length N >= 2 ny over the waves along x, as many in lanes. A
+is the transform of the even kernel t(0), t(1), ..., B that of t(0 ... 2 ny - 1) for the mirror images (0 for a whole domain,
+A where the other end is a mirror, too), the rows on a mirror count half. A line contact continues its outermost row for ever:
 that is subtracted, and what the strip answers is added. Cosine transforms from running sums would lose digits: 1e-5 in single
 precision for 512 rows.
 """
@@ -16,17 +16,18 @@ import numpy as np
 
 from tehl_taichi.engine import lanes
 from tehl_taichi.engine.fft import Lengths, fast_length, transform
-from tehl_taichi.engine.lanes import W
+from tehl_taichi.engine.lanes import W, cells
 from tehl_taichi.engine.language import ti
 from tehl_taichi.pressure import influence
 
-GROUP = 8  # waves along x that go along y side by side
+GROUP = 2 * W  # rows that go along x side by side, and waves along x that go along y: one transform in the code serves both
+THERE, ACROSS, BACK = range(3)  # ways of transforms: along x to the waves, along y to the symbol and back, back along x
 _column = itertools.count()
 LEVEL, M, N, NY, GROUPS, STEP = (next(_column) for _ in range(6))  # STEP: entries from row to row of the spectra
-SPECTRA, SYMBOL, STRIP, SPLIT = (next(_column) for _ in range(4))  # first entries: in the field of groups; twiddle factors
+SPECTRA, SYMBOL, STRIP, SPLIT = (next(_column) for _ in range(4))  # first entries: in the field Y; of the twiddle factors
 X_ROW, X_ROWS, Y_ROW, Y_ROWS = (next(_column) for _ in range(4))  # passes of both transforms
 HALF_FIRST, HALF_LAST, ENDLESS = (next(_column) for _ in range(3))  # rows on a mirror; an outermost row that goes on
-WORK_X, SIZE_X, WORK_Y, SIZE_Y = (next(_column) for _ in range(4))  # first entry and size of the buffers, two of each worker
+WORK, SIZE = (next(_column) for _ in range(2))  # first entry and size of the buffers, two of each worker
 COLUMNS = next(_column)
 
 
@@ -36,7 +37,7 @@ class Shape:
     def __init__(self, level, nx, ny, least):
         self.level, self.nx, self.ny = level, nx, ny
         self.M, self.further = fast_length(-(-least // 2)), fast_length(max(ny, 1))
-        self.N, self.groups, self.rows = 2 * self.further, -(-(self.M + 1) // GROUP), (ny // W + 1) * W
+        self.N, self.groups, self.pairs = 2 * self.further, -(-(self.M + 1) // GROUP), ny // GROUP + 1
         self.step = 2 * self.groups
 
 
@@ -46,23 +47,23 @@ def shapes(sizes, lines):
 
 
 class Layout:
-    """Table of convolutions and places in the fields (of rows X, groups Y, twiddle factors T); `x`, `y`, `t`: their sizes.
+    """Table of convolutions and places in the fields (Y: spectra, symbols, buffers; T: twiddle factors); `y`, `t`: their sizes.
 
-    shapes: see :func:`shapes`; before: entries of X that something else takes; workers: how many need buffers.
+    shapes: see :func:`shapes`; workers: how many need buffers.
     """
 
-    def __init__(self, shapes, before, workers):
+    def __init__(self, shapes, workers):
         self.lengths, self.table = Lengths(), np.zeros((len(shapes), COLUMNS), np.int32)
-        entries = itertools.accumulate((n for c in shapes for n in (c.rows * c.step, self.symbols(c), c.groups)), initial=0)
+        sizes = (n for c in shapes for n in (c.pairs * GROUP * c.step, self.symbols(c), c.groups))
+        entries = itertools.accumulate(sizes, initial=0)
         for row, c in zip(self.table, shapes):
             places = next(entries), next(entries), next(entries)
             split = self.lengths.turns(np.arange(c.M // 2 + 1), 2 * c.M)
-            row[: WORK_X] = (c.level, c.M, c.N, c.ny, c.groups, c.step, *places, split, *self.lengths.place(c.M),
-                             *self.lengths.place(c.N), 0, 0, 0)
-        size_x, size_y = max(2 * c.groups * GROUP for c in shapes) + 2, max(2 * c.N for c in shapes) + 2
-        self.table[:, WORK_X:] = before, size_x, next(entries), size_y
-        self.x, self.y = before + 2 * workers * size_x, int(self.table[0, WORK_Y]) + 2 * workers * size_y
-        self.t = len(self.lengths.twiddles())
+            row[: WORK] = (c.level, c.M, c.N, c.ny, c.groups, c.step, *places, split, *self.lengths.place(c.M),
+                           *self.lengths.place(c.N), 0, 0, 0)
+        size = max(2 * max(c.groups * GROUP, c.N) for c in shapes) + 2
+        self.table[:, WORK:] = next(entries), size
+        self.y, self.t = int(self.table[0, WORK]) + 2 * workers * size, len(self.lengths.twiddles())
 
     @staticmethod
     def symbols(c):
@@ -146,82 +147,84 @@ def other(a, start, size):
 
 
 @ti.func
-def split(X: ti.template(), z, o, T: ti.template(), C: ti.template(), c):
+def pair(G: ti.template(), l, j):
+    """Both blocks of pair j of level l: their first columns in the table of all levels, and how many they have. The last pair
+    may be one block twice: then what is done for the first counts, and is done last."""
+    nx, ny, off = cells(G, l)
+    return off + 2 * j * (nx + 1), off + ti.min(2 * j + 1, ny // W) * (nx + 1), nx + 1
+
+
+@ti.func
+def side_by_side(a, b):
+    """Lanes of two blocks as those of their pair."""
+    return ti.Vector([a[u] for u in ti.static(range(W))] + [b[u] for u in ti.static(range(W))])
+
+
+@ti.func
+def first_of(pair):
+    return ti.Vector([pair[u] for u in ti.static(range(W))])
+
+
+@ti.func
+def second_of(pair):
+    return ti.Vector([pair[W + u] for u in ti.static(range(W))])
+
+
+@ti.func
+def clear(Y: ti.template(), first, end):
+    """Zero in the entries from `first` to before `end`."""
+    for i in range(first, end):
+        Y[0, i] = ti.Vector([ti.cast(0.0, Y.dtype) for _ in ti.static(range(GROUP))])
+
+
+@ti.func
+def split(Y: ti.template(), z, o, T: ti.template(), C: ti.template(), c):
     """Real transforms at o, waves 0 .. M, from the complex ones at z of which even numbers are the real part, odd ones the
     imaginary."""
-    half, m, turns = ti.cast(0.5, X.dtype), C[c, M], C[c, SPLIT]
+    half, m, turns = ti.cast(0.5, Y.dtype), C[c, M], C[c, SPLIT]
     for k in range(m // 2 + 1):
         k1, k2 = m - k, (m - k) % m
-        ar, ai, br, bi = X[0, z + 2 * k], X[0, z + 2 * k + 1], X[0, z + 2 * k2], X[0, z + 2 * k2 + 1]
+        ar, ai, br, bi = Y[0, z + 2 * k], Y[0, z + 2 * k + 1], Y[0, z + 2 * k2], Y[0, z + 2 * k2 + 1]
         er, ei, dr, di = half * (ar + br), half * (ai - bi), half * (ai + bi), half * (br - ar)
         w = T[0, turns + k]
         tr, tj = dr * w[0] - di * w[1], dr * w[1] + di * w[0]
-        X[0, o + 2 * k1], X[0, o + 2 * k1 + 1] = er - tr, tj - ei
-        X[0, o + 2 * k], X[0, o + 2 * k + 1] = er + tr, ei + tj
+        Y[0, o + 2 * k1], Y[0, o + 2 * k1 + 1] = er - tr, tj - ei
+        Y[0, o + 2 * k], Y[0, o + 2 * k + 1] = er + tr, ei + tj
 
 
 @ti.func
-def merge(X: ti.template(), o, z, T: ti.template(), C: ti.template(), c):
+def merge(Y: ti.template(), o, z, T: ti.template(), C: ti.template(), c):
     """The inverse of :func:`split`."""
-    half, m, turns = ti.cast(0.5, X.dtype), C[c, M], C[c, SPLIT]
+    half, m, turns = ti.cast(0.5, Y.dtype), C[c, M], C[c, SPLIT]
     for k in range(m // 2 + 1):
         k1, k2 = m - k, (m - k) % m
-        pr, pi, qr, qi = X[0, o + 2 * k], X[0, o + 2 * k + 1], X[0, o + 2 * k1], X[0, o + 2 * k1 + 1]
+        pr, pi, qr, qi = Y[0, o + 2 * k], Y[0, o + 2 * k + 1], Y[0, o + 2 * k1], Y[0, o + 2 * k1 + 1]
         er, ei, dr, di = half * (pr + qr), half * (pi - qi), half * (pr - qr), half * (pi + qi)
         w = T[0, turns + k]
         tr, tj = dr * w[0] + di * w[1], di * w[0] - dr * w[1]
-        X[0, z + 2 * k2], X[0, z + 2 * k2 + 1] = er + tj, tr - ei
-        X[0, z + 2 * k], X[0, z + 2 * k + 1] = er - tj, ei + tr
+        Y[0, z + 2 * k2], Y[0, z + 2 * k2 + 1] = er + tj, tr - ei
+        Y[0, z + 2 * k], Y[0, z + 2 * k + 1] = er - tj, ei + tr
 
 
 @ti.func
-def scatter(X: ti.template(), o, Y: ti.template(), C: ti.template(), c, s):
-    """Spectra of block s, lanes of rows, to lanes of waves."""
+def exchange(Y: ti.template(), o, C: ti.template(), c, j, way):
+    """Between the waves of pair j at o, rows in lanes, and the spectra, waves in lanes: GROUP vectors become as many others."""
     step = C[c, STEP]
-    first = C[c, SPECTRA] + s * W * step
-    for g in range(C[c, GROUPS]):
-        q, to = o + 2 * g * GROUP, first + 2 * g
-        for p in ti.static(range(2)):
-            rows = [X[0, q + 2 * t + p] for t in ti.static(range(GROUP))]
-            for u in ti.static(range(W)):
-                Y[0, to + p + u * step] = ti.Vector([rows[t][u] for t in ti.static(range(GROUP))])
+    first = C[c, SPECTRA] + j * GROUP * step
+    for n in range(step):
+        waves, spectra = o + 2 * GROUP * (n >> 1) + (n & 1), first + n
+        source, by, target, to = waves, 2, spectra, step
+        if way == BACK:
+            source, by, target, to = spectra, step, waves, 2
+        given = [Y[0, source + t * by] for t in ti.static(range(GROUP))]
+        for u in ti.static(range(GROUP)):
+            Y[0, target + u * to] = ti.Vector([given[t][u] for t in ti.static(range(GROUP))])
 
 
 @ti.func
-def gather(Y: ti.template(), X: ti.template(), o, C: ti.template(), c, s):
-    """And back."""
-    step = C[c, STEP]
-    first = C[c, SPECTRA] + s * W * step
-    for g in range(C[c, GROUPS]):
-        q, source = o + 2 * g * GROUP, first + 2 * g
-        for p in ti.static(range(2)):
-            rows = [Y[0, source + p + u * step] for u in ti.static(range(W))]
-            for t in ti.static(range(GROUP)):
-                X[0, q + 2 * t + p] = ti.Vector([rows[u][t] for u in ti.static(range(W))])
-
-
-@ti.func
-def rows_of_worker(C: ti.template(), w):
+def buffer(C: ti.template(), w):
     """First entry of the rows that worker w transforms."""
-    return C[0, WORK_X] + 2 * w * C[0, SIZE_X]
-
-
-@ti.func
-def along_x(X: ti.template(), Y: ti.template(), T: ti.template(), Q: ti.template(), C: ti.template(), c, s, w, back):
-    """Transform of block s, whose rows worker w has in X: to the spectra, or from them with back = 1. Returns the first entry
-    of the rows then."""
-    a, size = rows_of_worker(C, w), C[c, SIZE_X]
-    z = a
-    if back == 1:
-        gather(Y, X, a, C, c, s)
-        z = a + size
-        merge(X, a, z, T, C, c)
-    z = transform(X, z, other(z, a, size), T, Q, C[c, X_ROW], C[c, X_ROWS], back)
-    if back == 0:
-        o = other(z, a, size)
-        split(X, z, o, T, C, c)
-        scatter(X, o, Y, C, c, s)
-    return z
+    return C[0, WORK] + 2 * w * C[0, SIZE]
 
 
 @ti.func
@@ -232,9 +235,7 @@ def load_waves(Y: ti.template(), C: ti.template(), c, e, a):
     lr, li = rest * Y[0, e + ny * step], rest * Y[0, e + ny * step + 1]
     for j in range(ny + 1):
         Y[0, a + 2 * j], Y[0, a + 2 * j + 1] = Y[0, e + j * step] - lr, Y[0, e + j * step + 1] - li
-    zero = ti.Vector([ti.cast(0.0, Y.dtype) for _ in ti.static(range(GROUP))])
-    for j in range(ny + 1, C[c, N]):
-        Y[0, a + 2 * j], Y[0, a + 2 * j + 1] = zero, zero
+    clear(Y, a + 2 * (ny + 1), a + 2 * C[c, N])
     half = ti.cast(0.5, Y.dtype)
     if C[c, HALF_FIRST] == 1:
         Y[0, a], Y[0, a + 1] = half * Y[0, a], half * Y[0, a + 1]
@@ -265,18 +266,26 @@ def store_waves(Y: ti.template(), z, C: ti.template(), c, e, g):
 
 
 @ti.func
-def along_y(Y: ti.template(), T: ti.template(), Q: ti.template(), C: ti.template(), c, g, w):
-    """Multiply group g of waves by the symbol, with the buffers of worker w."""
-    e, size = C[c, SPECTRA] + 2 * g, C[c, SIZE_Y]
-    start = C[c, WORK_Y] + 2 * w * size
-    if C[c, NY] == 0:
-        strip = Y[0, C[c, STRIP] + g]
-        Y[0, e], Y[0, e + 1] = strip * Y[0, e], strip * Y[0, e + 1]
-    else:
-        load_waves(Y, C, c, e, start)
-        z = start
-        for back in range(2):
-            z = transform(Y, z, other(z, start, size), T, Q, C[c, Y_ROW], C[c, Y_ROWS], back)
-            if back == 0:
-                multiply(Y, z, C, c, g)
-        store_waves(Y, z, C, c, e, g)
+def transformed(Y: ti.template(), T: ti.template(), Q: ti.template(), C: ti.template(), c, j, w, way):
+    """Pair j of blocks, whose rows are in the buffer of worker w, to the spectra; group j of waves times the symbol; or pair j
+    from the spectra. Returns the first entry of its rows then."""
+    a, size, row, rows = buffer(C, w), C[c, SIZE], C[c, X_ROW], C[c, X_ROWS]
+    z, e = a, C[c, SPECTRA] + 2 * j
+    if way == ACROSS:
+        row, rows = C[c, Y_ROW], C[c, Y_ROWS]
+        load_waves(Y, C, c, e, a)
+    elif way == BACK:
+        z = a + size
+        exchange(Y, a, C, c, j, way)
+        merge(Y, a, z, T, C, c)
+    for turn in range(2 if way == ACROSS else 1):
+        z = transform(Y, z, other(z, a, size), T, Q, row, rows, turn + way // BACK)
+        if way == ACROSS and turn == 0:
+            multiply(Y, z, C, c, j)
+    if way == ACROSS:
+        store_waves(Y, z, C, c, e, j)
+    elif way == THERE:
+        o = other(z, a, size)
+        split(Y, z, o, T, C, c)
+        exchange(Y, o, C, c, j, way)
+    return z

@@ -18,19 +18,19 @@ from tehl_taichi.pressure.program import DECISION, FIRST_JOB, JOBS, Program
 # vectors of lanes that the iterations of one launch go through, each some 0.25 us on one core: while a kernel runs nobody hears
 # Ctrl-C, nor do other threads of Python get on
 PORTION = 500_000
-SMALLEST = 80_000  # entries of the fields X and Y: all grids up to 256x64, and their starts, share one compiled kernel
+SMALLEST = 80_000  # entries of the fields D and Y: all grids up to 256x64, and their starts, share one compiled kernel
 
 Numbers = ti.types.ndarray(dtype=ti.i32, ndim=2)
 
 
 @dataclass(frozen=True)
 class Memory:
-    """Fields of the solve: J (see :mod:`fields`), V (vectors, see :mod:`phases`); of the convolutions X (inverse of the
-    coarsest level, rows of the workers), Y (groups of waves), T (twiddle factors)."""
+    """Fields of the solve: J (see :mod:`fields`), V (vectors, see :mod:`phases`), D (inverse of the coarsest level); of the
+    convolutions Y (spectra, symbols, buffers of the workers), T (twiddle factors)."""
 
     J: Any
     V: Any
-    X: Any
+    D: Any
     Y: Any
     T: Any
 
@@ -73,14 +73,15 @@ class Krylov:
         self.right, self.outflow, self.out = (np.zeros(levels.n, levels.linear) for _ in range(3))
         self.numbers = np.zeros((decisions.TRIANGLE + self.most, self.most + 16))
         self.numbers[SCALARS, decisions.PORTION] = max(1, PORTION // columns(levels.nx, levels.ny))
-        self._allocate(convolution.Layout(shapes, dense_entries(levels.sizes, levels.dense), self.team.size))
+        self._allocate(convolution.Layout(shapes, self.team.size))
         self.program = Program(levels, shapes)
         self._bind()
 
     def _allocate(self, layout):
-        v, largest = self.levels, self._largest()
+        v, (dense, largest) = self.levels, self._largest()
         self.layout = layout
-        size = [max(layout.x, largest.x, SMALLEST), max(layout.y, largest.y, SMALLEST), max(layout.t, largest.t)]
+        size = [max(dense_entries(v.sizes, v.dense), dense, SMALLEST), max(layout.y, largest.y, SMALLEST),
+                max(layout.t, largest.t)]
         rows = phases.BASIS + 2 * max(self.most, self.USUAL) + 1 + phases.AT_ONCE
         V = tables.lease(self, rows, lanes.W,
                          max(columns(v.nx, v.ny), columns(v.scene.grid.nx, v.scene.rows)), precision=v.precision, clean=False)
@@ -91,17 +92,17 @@ class Krylov:
         lanes.fill(V, phases.LOADING, 0, weights)
 
     def _largest(self):
-        """Layout of the finest grid of the scene: the smaller ones of a start use the same memory, so that one compiled kernel
-        serves all."""
+        """Entries of the inverse, and layout, of the finest grid of the scene: the smaller ones of a start use the same memory,
+        so that one compiled kernel serves all."""
         scene = self.levels.scene
         sizes = coarsen(scene.grid.nx, scene.rows)
         dense, lines = solved_by(sizes)
-        return convolution.Layout(convolution.shapes(sizes, lines), dense_entries(sizes, dense), self.team.size)
+        return dense_entries(sizes, dense), convolution.Layout(convolution.shapes(sizes, lines), self.team.size)
 
     def _bind(self):
         v, p = self.levels, self.program
         self.dense = np.zeros((dense_entries(v.sizes, v.dense), lanes.W), v.linear)
-        self._fill_dense = bind(lanes.fill, self.memory.X, 0, 0, self.dense)
+        self._fill_dense = bind(lanes.fill, self.memory.D, 0, 0, self.dense)
         self.partial = np.zeros((v.fine, decisions.DOT_SUM + self.most + phases.AT_ONCE))
         self._launch = bind(linear_solve, self.memory, v.G, self.layout.table, self.layout.lengths.table(), p.phases, p.jobs,
                             self.numbers, self.partial, self.team.sync, self.most, self.right, self.outflow, self.out,

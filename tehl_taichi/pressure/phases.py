@@ -4,7 +4,8 @@ import itertools
 
 from tehl_taichi.engine.lanes import L, W, cells, lanes_in, lanes_out
 from tehl_taichi.engine.language import ti
-from tehl_taichi.pressure.convolution import LEVEL, M, along_x, along_y, rows_of_worker
+from tehl_taichi.pressure import convolution
+from tehl_taichi.pressure.convolution import LEVEL, M, buffer, clear, first_of, pair, second_of, side_by_side
 from tehl_taichi.pressure.decisions import COUNT, DOT_SUM, INVERSE, LOAD_SUM, MASS_SUM, RISE, SCALARS, SQUARE_SUM, WEIGHTS
 from tehl_taichi.pressure.fields import BD, BU, COR, FILM, RES, SCALE, SOL, TRIAL, B
 from tehl_taichi.pressure.lines import DISTRIBUTED, DRY_KIND, LOCAL, is_kind, substitute
@@ -80,7 +81,7 @@ def ones(F: ti.template(), G: ti.template(), s):
 
 @ti.func
 def dense(F: ti.template(), G: ti.template(), l, s):
-    """COR of block s of the coarsest level: rows of its inverse, at the start of the field X, times RES."""
+    """COR of block s of the coarsest level: rows of its inverse, in the field D, times RES."""
     nx, ny, off = cells(G, l)
     columns = (ny // W + 1) * (nx + 1)
     for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
@@ -88,7 +89,7 @@ def dense(F: ti.template(), G: ti.template(), l, s):
         for p in range(columns):
             r = F.J[RES, off + p]
             for u in ti.static(range(W)):
-                parts[u] += F.X[0, (q * columns + p) * W + u] * r[u]
+                parts[u] += F.D[0, (q * columns + p) * W + u] * r[u]
         F.J[COR, off + q] = (parts[0] + parts[1]) + (parts[2] + parts[3])
 
 
@@ -117,59 +118,79 @@ def lift(F: ti.template(), G: ti.template(), partial: ti.template(), s):
 
 
 @ti.func
-def distributed(F: ti.template(), C: ti.template(), G: ti.template(), c, s, w):
-    """Line solution of a block; the rows of its distributed part."""
-    nx, ny, off = cells(G, C[c, LEVEL])
-    first, a = off + s * (nx + 1), rows_of_worker(C, w)
-    substitute(F.J, first, nx + 1)
-    for i in range(ti.min(nx + 1, 2 * C[c, M])):
-        F.X[0, a + i] = ti.select(is_kind(F.J, first + i, DISTRIBUTED), F.J[SOL, first + i], L(F.J, 0.0))
-    for i in range(nx + 1, 2 * C[c, M]):
-        F.X[0, a + i] = L(F.J, 0.0)
+def distributed_part(F: ti.template(), k):
+    return ti.select(is_kind(F.J, k, DISTRIBUTED), F.J[SOL, k], L(F.J, 0.0))
 
 
 @ti.func
-def changes(F: ti.template(), C: ti.template(), G: ti.template(), N: ti.template(), s, w, most):
-    """Newest direction: bordered correction of the finest level; its rows."""
-    first, end, off = block(G, s)
-    k, a = ti.cast(N[SCALARS, COUNT], ti.i32), rows_of_worker(C, w)
+def distributed(F: ti.template(), C: ti.template(), G: ti.template(), c, j, w):
+    """Line solutions of a pair; the rows of their distributed part."""
+    first, second, n2 = pair(G, C[c, LEVEL], j)
+    a, period = buffer(C, w), 2 * C[c, M]
+    for h in range(2 if second > first else 1):
+        substitute(F.J, first + h * n2, n2)
+    for i in range(ti.min(n2, period)):
+        F.Y[0, a + i] = side_by_side(distributed_part(F, first + i), distributed_part(F, second + i))
+    clear(F.Y, a + n2, a + period)
+
+
+@ti.func
+def change(F: ti.template(), off, k, n, scale, rise):
+    """Vector k of the newest direction, which is number n among those before: bordered correction of the finest level."""
+    z = F.J[COR, k] * scale - rise * F.V[LIFTED, k - off]
+    F.V[n, k - off], F.J[TRIAL, k] = z, z
+    return z
+
+
+@ti.func
+def changes(F: ti.template(), C: ti.template(), G: ti.template(), N: ti.template(), j, w, most):
+    """Newest direction; its rows."""
+    first, second, n2 = pair(G, 0, j)
+    off = cells(G, 0)[2]
+    k, a = ti.cast(N[SCALARS, COUNT], ti.i32), buffer(C, w)
     scale, rise = number(F, N[INVERSE, k]), number(F, N[SCALARS, RISE])
-    for q in range(first, end):
-        z = F.J[COR, off + q] * scale - rise * F.V[LIFTED, q]
-        F.V[BASIS + most + 1 + k, q], F.J[TRIAL, off + q], F.X[0, a + q - first] = z, z, z
-    for i in range(end - first, 2 * C[0, M]):
-        F.X[0, a + i] = L(F.J, 0.0)
+    for i in range(n2):
+        z = change(F, off, second + i, BASIS + most + 1 + k, scale, rise)
+        F.Y[0, a + i] = side_by_side(change(F, off, first + i, BASIS + most + 1 + k, scale, rise), z)
+    clear(F.Y, a + n2, a + 2 * C[0, M])
 
 
 @ti.func
-def given(F: ti.template(), C: ti.template(), G: ti.template(), s, w, right: ti.template()):
+def given(F: ti.template(), C: ti.template(), G: ti.template(), j, w, right: ti.template()):
     """A direction that somebody else chose."""
-    first, end, off = block(G, s)
-    a = rows_of_worker(C, w)
-    for q in range(first, end):
-        z = lanes_in(right, q)
-        F.J[TRIAL, off + q], F.X[0, a + q - first] = z, z
-    for i in range(end - first, 2 * C[0, M]):
-        F.X[0, a + i] = L(F.J, 0.0)
+    first, second, n2 = pair(G, 0, j)
+    a, off = buffer(C, w), cells(G, 0)[2]
+    for i in range(n2):
+        y, z = lanes_in(right, first + i - off), lanes_in(right, second + i - off)
+        F.J[TRIAL, second + i], F.J[TRIAL, first + i], F.Y[0, a + i] = z, y, side_by_side(y, z)
+    clear(F.Y, a + n2, a + 2 * C[0, M])
 
 
 @ti.func
-def collect(F: ti.template(), C: ti.template(), G: ti.template(), c, s, x):
-    """COR of a block from the rows at x: K^-1 of the distributed part, the line solution elsewhere, RES where dry."""
-    nx, ny, off = cells(G, C[c, LEVEL])
-    for i in range(nx + 1):
-        k = off + s * (nx + 1) + i
-        far = F.X[0, x + (i if i < 2 * C[c, M] else i - 2 * C[c, M])]
-        z = ti.select(is_kind(F.J, k, LOCAL), F.J[SOL, k], far)
-        F.J[COR, k] = ti.select(is_kind(F.J, k, DRY_KIND), F.J[RES, k], z)
+def corrected(F: ti.template(), k, far):
+    """COR: K^-1 of the distributed part, the line solution elsewhere, RES where dry."""
+    z = ti.select(is_kind(F.J, k, LOCAL), F.J[SOL, k], far)
+    F.J[COR, k] = ti.select(is_kind(F.J, k, DRY_KIND), F.J[RES, k], z)
 
 
 @ti.func
-def film(F: ti.template(), G: ti.template(), N: ti.template(), s, x):
-    first, end, off = block(G, s)
+def collect(F: ti.template(), C: ti.template(), G: ti.template(), c, j, x):
+    """COR of a pair from the rows at x."""
+    first, second, n2 = pair(G, C[c, LEVEL], j)
+    for i in range(n2):
+        far = F.Y[0, x + (i if i < 2 * C[c, M] else i - 2 * C[c, M])]
+        corrected(F, second + i, second_of(far))
+        corrected(F, first + i, first_of(far))
+
+
+@ti.func
+def film(F: ti.template(), G: ti.template(), N: ti.template(), j, x):
+    first, second, n2 = pair(G, 0, j)
     rise = L(F.J, N[SCALARS, RISE])
-    for q in range(first, end):
-        F.J[FILM, off + q] = F.X[0, x + q - first] + rise
+    for i in range(n2):
+        bent = F.Y[0, x + i]
+        F.J[FILM, second + i] = second_of(bent) + rise
+        F.J[FILM, first + i] = first_of(bent) + rise
 
 
 @ti.func
@@ -249,21 +270,25 @@ def copy(F: ti.template(), G: ti.template(), N: ti.template(), s, out: ti.templa
 
 
 @ti.func
-def transformed(F: ti.template(), G: ti.template(), C: ti.template(), Q: ti.template(), N: ti.template(), operation, c, s, w,
+def transformed(F: ti.template(), G: ti.template(), C: ti.template(), Q: ti.template(), N: ti.template(), operation, c, j, w,
                 most, right: ti.template()):
-    """What is transformed along x, there or back: one transform in the code serves all of them."""
-    back = 1 if operation == COLLECT or operation == BACK else 0
-    if operation == LINES:
-        distributed(F, C, G, c, s, w)
+    """What is transformed, with what comes before and after."""
+    way = convolution.THERE
+    if operation == ACROSS:
+        way = convolution.ACROSS
+    elif operation == COLLECT or operation == BACK:
+        way = convolution.BACK
+    elif operation == LINES:
+        distributed(F, C, G, c, j, w)
     elif operation == FORWARD:
-        changes(F, C, G, N, s, w, most)
+        changes(F, C, G, N, j, w, most)
     elif operation == GIVEN:
-        given(F, C, G, s, w, right)
-    x = along_x(F.X, F.Y, F.T, Q, C, c, s, w, back)
+        given(F, C, G, j, w, right)
+    x = convolution.transformed(F.Y, F.T, Q, C, c, j, w, way)
     if operation == COLLECT:
-        collect(F, C, G, c, s, x)
+        collect(F, C, G, c, j, x)
     elif operation == BACK:
-        film(F, G, N, s, x)
+        film(F, G, N, j, x)
 
 
 @ti.func
@@ -300,9 +325,8 @@ def work(F: ti.template(), G: ti.template(), C: ti.template(), Q: ti.template(),
         prolong_block(F.J, G, a, s, COARSE_WEIGHT)
     elif operation == DENSE:
         dense(F, G, a, s)
-    elif operation == ACROSS:
-        along_y(F.Y, F.T, Q, C, a, s, w)
-    elif operation == LINES or operation == COLLECT or operation == FORWARD or operation == BACK or operation == GIVEN:
+    elif (operation == LINES or operation == ACROSS or operation == COLLECT or operation == FORWARD or operation == BACK
+          or operation == GIVEN):
         transformed(F, G, C, Q, N, operation, a, s, w, most, right)
     else:
         vectors(F, G, N, partial, operation, a, s, most, right, outflow, out)

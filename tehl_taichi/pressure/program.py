@@ -1,10 +1,8 @@
 """What the linear solve does in which order: phases of jobs, as tables that the kernel of :mod:`krylov` reads.
 
-A job is (operation, level or convolution, block or group of waves); a phase is a number of jobs that may be done at once, and
-what is decided when all are done.
+A job is (operation, level or convolution, block, pair of blocks or group of waves); a phase is a number of jobs that may be
+done at once, and what is decided when all are done.
 """
-
-import itertools
 
 import numpy as np
 
@@ -45,11 +43,12 @@ class Program:
         """A job for every block of level l, called by that or by `name`."""
         return [(operation, l if name is None else name, s) for s in range(self.levels.sizes[l][1] // W + 1)]
 
-    def _groups(self, c):
-        return [(ACROSS, c, g) for g in range(self.shapes[c].groups)]
+    def _pairs(self, operation, *convolutions):
+        """A job for every pair of blocks of the convolutions."""
+        return [(operation, c, j) for c in convolutions for j in range(self.shapes[c].pairs)]
 
-    def _lines(self, operation):
-        return [job for c, shape in enumerate(self.shapes) if c for job in self._blocks(operation, shape.level, c)]
+    def _groups(self, *convolutions):
+        return [(ACROSS, c, g) for c in convolutions for g in range(self.shapes[c].groups)]
 
     def _solve(self):
         """FGMRES; the projection is repeated where it cancels."""
@@ -80,10 +79,10 @@ class Program:
         first, sizes = len(self._phases), self.levels.sizes
         for l in range(len(sizes) - 1):
             self._phase([(RESTRICT, l, s) for _, _, s in self._blocks(RESTRICT, l + 1)])
-        self._phase(self._lines(LINES))
-        across = itertools.chain.from_iterable(self._groups(c) for c in range(1, len(self.shapes)))
-        self._phase([job for l in self.levels.dense for job in self._blocks(DENSE, l)] + list(across))
-        self._phase(self._lines(COLLECT))
+        lines = range(1, len(self.shapes))
+        self._phase(self._pairs(LINES, *lines))
+        self._phase([job for l in self.levels.dense for job in self._blocks(DENSE, l)] + self._groups(*lines))
+        self._phase(self._pairs(COLLECT, *lines))
         for l in range(len(sizes) - 2, 0, -1):
             self._phase(self._blocks(PROLONG, l))
         self._phase(self._blocks(FINEST, 0, len(sizes) - 1), decision)
@@ -91,8 +90,8 @@ class Program:
 
     def _deflected(self, source, decision):
         """Change of the pressure -> rows of the Jacobian. Returns the first phase."""
-        first = self._fine(source)
+        first = self._phase(self._pairs(source, 0))
         self._phase(self._groups(0))
-        self._fine(BACK)
+        self._phase(self._pairs(BACK, 0))
         self._fine(ROWS, decision)
         return first
