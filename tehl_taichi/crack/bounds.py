@@ -51,8 +51,8 @@ def _forces(M, gap, low, high, at):
 
 
 def solved(M, wanted):
-    """Forces for the displacements `wanted`. Those of faces that touch and of the oil between them may mean the same: each gives
-    way a little then, which shares the force out, or makes it large where displacements contradict each other."""
+    """Forces for the displacements `wanted`. Those of faces that touch and of the oil between them may mean the same: each
+    gives way a little then, which shares the force out, or makes it large where displacements contradict each other."""
     try:
         return np.linalg.solve(M, wanted)
     except np.linalg.LinAlgError:
