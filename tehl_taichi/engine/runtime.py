@@ -103,8 +103,16 @@ def _start(arch, threads):
                 # Taichi would run loops of up to 512 rows on one thread: our loops run over rows of that number
                 make_cpu_multithreading_loop=False,
                 offline_cache=True, offline_cache_file_path=cache)
+        _rolled()
     _started.update(arch=arch, threads=threads, taichi=".".join(map(str, ti.__version__)), cache=cache)
     _home = os.getpid(), threading.get_ident()
+
+
+def _rolled():
+    from tehl_taichi.engine import loops
+
+    with contextlib.suppress(ImportError, AttributeError, AssertionError):  # another Taichi: slower to start, not broken
+        loops.keep_rolled()
 
 
 def ensure():
