@@ -4,7 +4,7 @@ from math import ceil
 
 from tehl_taichi.profiles import measure
 
-from tehl_taichi.engine.lanes import W
+from tehl_taichi.pressure.convolution import GROUP
 from tehl_taichi.scene import scene
 
 COLUMNS, QUICK_COLUMNS = (64, 128, 256, 512, 1024, 2048), (64, 128)
@@ -12,6 +12,7 @@ LARGE, FEW = 1024, 4  # columns from which on so few steps are enough
 ALONE = 1024  # columns up to which one thread is timed, too
 ROUNDS = 2  # of all counts of threads, the faster counts: machines that others use, too, have slow minutes
 CORES = (1, 2, 4, 8, 16, 32, 64)  # of the model
+MARKS = [125 * 2**n for n in range(12)]  # ns, on the axis
 
 
 def run(quick=False, threads=4, thermal=False, progress=None):
@@ -47,7 +48,7 @@ def row(nx, threads, thermal, steps, progress=None):
 def modelled(speed_up, at, jobs, cores):
     """Speed-up on `cores` of a step of equal jobs and a serial part, which `speed_up` on `at` cores tells (0 < it <= at).
 
-    Bound by the jobs of a phase, blocks of :data:`W` rows, and by what is serial; not by memory, which cores share.
+    Bound by the jobs of a phase, pairs of blocks (:data:`GROUP` rows), and by what is serial; not by memory, which cores share.
     """
     share = ceil(jobs / at) / jobs
     serial = min(1.0, max(0.0, (1 / speed_up - share) / (1 - share))) if share < 1 else 1.0
@@ -64,6 +65,8 @@ def chart(plt, rows):
         left.loglog([row["nx"] for row in grids], [row["node_ns"] for row in grids], "o-", label=name)
     columns = sorted({row["nx"] for row in rows})
     left.set(xlabel="columns", ylabel="ns per node and step", xticks=columns, xticklabels=columns)
+    shown = [mark for mark in MARKS if left.get_ylim()[0] <= mark <= left.get_ylim()[1]]
+    left.set(yticks=shown, yticklabels=shown)
     left.minorticks_off()
     left.legend()
     for nx in sorted({row["nx"] for row in rows if row["speed_up"]}):
@@ -79,6 +82,6 @@ def chart(plt, rows):
 def _speed_up(ax, most, rows):
     """Measured points of one grid, and the model's line through the last of them."""
     points = ax.plot([row["threads"] for row in rows], [row["speed_up"] for row in rows], "o", label=str(rows[0]["nx"]))
-    last, jobs = max(rows, key=lambda row: row["threads"]), rows[0]["ny"] // W + 1
+    last, jobs = max(rows, key=lambda row: row["threads"]), rows[0]["ny"] // GROUP + 1
     if most > 1:
         ax.plot(CORES, [modelled(last["speed_up"], most, jobs, cores) for cores in CORES], lw=0.9, color=points[0].get_color())
