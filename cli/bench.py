@@ -23,7 +23,12 @@ def register(app):
     app.add_typer(bench, name="bench")
 
 
-OUT = typer.Option(Path("runs/bench"), file_okay=False, writable=True, help="folder for the JSON and PNG")
+def _folder(usual, says):
+    """Option of a folder; one that is a file or cannot be written is refused before the work."""
+    return typer.Option(Path(usual), file_okay=False, writable=True, help=says)
+
+
+OUT = _folder("runs/bench", "folder for the JSON and PNG")
 QUICK = typer.Option(False, "--quick", help="small grids, a few steps")
 THREADS = typer.Option(None, help="CPU threads (default: all)")
 WORKERS = typer.Option(1, help="processes side by side, which share the cores (more than 1 needs the extra `sweep`)")
@@ -68,8 +73,7 @@ def stability(
 
 
 def conclusions(
-    out: Path = typer.Option(Path("runs/conclusions"), file_okay=False, writable=True,
-                            help="folder of the stores (used again) and of the results"),
+    out: Path = _folder("runs/conclusions", "folder of the stores (used again) and of the results"),
     quick: bool = typer.Option(False, "--quick", help="the reference asperity and dent on coarse grids"),
     threads: Optional[int] = THREADS,
     workers: int = WORKERS,
@@ -97,8 +101,7 @@ def conclusions(
 
 
 def cracks(
-    out: Path = typer.Option(Path("runs/cracks"), file_okay=False, writable=True,
-                            help="folder of the stores (used again) and of the results"),
+    out: Path = _folder("runs/cracks", "folder of the stores (used again) and of the results"),
     quick: bool = typer.Option(False, "--quick", help="the reference asperity on coarse grids"),
     threads: Optional[int] = THREADS,
     workers: int = WORKERS,

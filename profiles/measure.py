@@ -30,12 +30,8 @@ class Timing:
 def fresh(threads, function, *args):
     """function(*args) in a new process whose Taichi runs on `threads` threads."""
     spawn = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(1, mp_context=spawn, initializer=_start, initargs=(threads,)) as process:
+    with ProcessPoolExecutor(1, mp_context=spawn, initializer=runtime.start, initargs=("cpu", threads)) as process:
         return process.submit(function, *args).result()
-
-
-def _start(threads):
-    runtime.start(threads=threads)
 
 
 def passage(description, steps=None):

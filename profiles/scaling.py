@@ -4,7 +4,7 @@ from math import ceil
 
 from tehl_taichi.profiles import measure
 
-from tehl_taichi.pressure.convolution import GROUP
+from tehl_taichi.pressure import convolution
 from tehl_taichi.scene import scene
 
 COLUMNS, QUICK_COLUMNS = (64, 128, 256, 512, 1024, 2048), (64, 128)
@@ -48,7 +48,7 @@ def row(nx, threads, thermal, steps, progress=None):
 def modelled(speed_up, at, jobs, cores):
     """Speed-up on `cores` of a step of equal jobs and a serial part, which `speed_up` on `at` cores tells (0 < it <= at).
 
-    Bound by the jobs of a phase, pairs of blocks (:data:`GROUP` rows), and by what is serial; not by memory, which cores share.
+    Bound by the jobs of a phase, pairs of blocks of rows, and by what is serial; not by memory, which cores share.
     """
     share = ceil(jobs / at) / jobs
     serial = min(1.0, max(0.0, (1 / speed_up - share) / (1 - share))) if share < 1 else 1.0
@@ -79,9 +79,14 @@ def chart(plt, rows):
     return figure
 
 
+def _pairs(row):
+    """Jobs that the deflection of a row's grid has along x."""
+    return convolution.shapes([(row["nx"], row["ny"])], [])[0].pairs
+
+
 def _speed_up(ax, most, rows):
     """Measured points of one grid, and the model's line through the last of them."""
     points = ax.plot([row["threads"] for row in rows], [row["speed_up"] for row in rows], "o", label=str(rows[0]["nx"]))
-    last, jobs = max(rows, key=lambda row: row["threads"]), rows[0]["ny"] // GROUP + 1
+    last, jobs = max(rows, key=lambda row: row["threads"]), _pairs(rows[0])
     if most > 1:
         ax.plot(CORES, [modelled(last["speed_up"], most, jobs, cores) for cores in CORES], lw=0.9, color=points[0].get_color())

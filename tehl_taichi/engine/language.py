@@ -31,7 +31,7 @@ def _line_only():
 with _line_only():  # decorators of its own
     import taichi as ti
 
-__all__ = ["ti"]
+__all__ = ["attempt", "ti"]
 
 
 def _in_class(level_of_class_stackframe):
@@ -57,13 +57,14 @@ def _without_positions():
     ASTTransformerContext.get_pos_info = lambda context, node: ""
 
 
-def _try(change):
+def attempt(change):
+    """change(), which leaves everything as it is where it raises what an unexpected Taichi gives rise to."""
     try:
         change()
     except (ImportError, AttributeError, AssertionError):  # another Taichi: slower, not broken
         pass
 
 
-_try(_ask_once)
+attempt(_ask_once)
 if not os.environ.get("TEHL_DEBUG"):
-    _try(_without_positions)
+    attempt(_without_positions)

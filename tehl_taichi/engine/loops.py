@@ -11,17 +11,20 @@ from contextlib import contextmanager
 
 from tehl_taichi.engine.language import ti
 
+USED = ("begin_frontend_while", "begin_frontend_if_true", "begin_frontend_if_false", "insert_break_stmt", "pop_scope",
+        "expr_assign")  # of Taichi's builder
 _depth = 0  # loops that are open now in the kernel that is traced; the outermost is Taichi's own, which runs on all threads
 
 
 def keep_rolled():
     """From now on, for kernels of the program that was just started. Raises AttributeError, ImportError or AssertionError where
     Taichi looks otherwise than expected: then nothing is changed."""
+    from taichi.lang import impl
     from taichi.lang.ast.ast_transformer import ASTTransformer
 
+    assert callable(impl.begin_frontend_if) and all(hasattr(impl._ti_core.ASTBuilder, name) for name in USED)
     nothing = ti.field(ti.i32, shape=())
     own = getattr(ASTTransformer.build_range_for, "own", ASTTransformer.build_range_for)
-    assert callable(own) and callable(ASTTransformer.build_While)
 
     def build_range_for(ctx, node):
         constant = all(isinstance(argument, ast.Constant) for argument in node.iter.args)  # a few: LLVM may have them

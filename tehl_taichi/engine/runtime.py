@@ -94,7 +94,8 @@ def start(arch="cpu", threads=None):
 def _start(arch, threads):
     global _home
     cache = str(cache_dir())
-    from tehl_taichi.engine.language import ti
+    from tehl_taichi.engine import loops
+    from tehl_taichi.engine.language import attempt, ti
 
     with _no_banner(), contextlib.redirect_stdout(None), cores.pinned(threads):  # in a notebook prints do not go to file 1
         ti.init(arch=ti.cpu, default_fp=ti.f64, fast_math=False, cpu_max_num_threads=threads, log_level=ti.ERROR,
@@ -103,16 +104,9 @@ def _start(arch, threads):
                 # Taichi would run loops of up to 512 rows on one thread: our loops run over rows of that number
                 make_cpu_multithreading_loop=False,
                 offline_cache=True, offline_cache_file_path=cache)
-        _rolled()
+        attempt(loops.keep_rolled)
     _started.update(arch=arch, threads=threads, taichi=".".join(map(str, ti.__version__)), cache=cache)
     _home = os.getpid(), threading.get_ident()
-
-
-def _rolled():
-    from tehl_taichi.engine import loops
-
-    with contextlib.suppress(ImportError, AttributeError, AssertionError):  # another Taichi: slower to start, not broken
-        loops.keep_rolled()
 
 
 def ensure():

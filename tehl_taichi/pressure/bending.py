@@ -16,6 +16,7 @@ from tehl_taichi.pressure.convolution import (
     BACK,
     GROUP,
     GROUPS,
+    PAIRS,
     THERE,
     M,
     buffer,
@@ -82,7 +83,7 @@ def bend(S: ti.template(), Y: ti.template(), T: ti.template(), G: Table, C: Numb
         ticket, stays = workers.take(sync), True
         while stays and workers.phase_of(ticket) != workers.NO_PHASE:
             phase, j = workers.phase_of(ticket), workers.job_of(ticket)
-            jobs = C[0, GROUPS] if phase == ACROSS else cells(G, 0)[1] // GROUP + 1
+            jobs = C[0, GROUPS] if phase == ACROSS else C[0, PAIRS]
             if j < jobs:
                 work(S, Y, T, G, C, Q, phase, j, w, H0[0])
                 if workers.last_one(sync, jobs):

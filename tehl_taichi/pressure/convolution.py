@@ -23,7 +23,7 @@ from tehl_taichi.pressure import influence
 GROUP = 2 * W  # rows that go along x side by side, and waves along x that go along y: one transform in the code serves both
 THERE, ACROSS, BACK = range(3)  # ways of transforms: along x to the waves, along y to the symbol and back, back along x
 _column = itertools.count()
-LEVEL, M, N, NY, GROUPS, STEP = (next(_column) for _ in range(6))  # STEP: entries from row to row of the spectra
+LEVEL, M, N, NY, PAIRS, GROUPS, STEP = (next(_column) for _ in range(7))  # STEP: entries from row to row of the spectra
 SPECTRA, SYMBOL, STRIP, SPLIT = (next(_column) for _ in range(4))  # first entries: in the field Y; of the twiddle factors
 X_ROW, X_ROWS, Y_ROW, Y_ROWS = (next(_column) for _ in range(4))  # passes of both transforms
 HALF_FIRST, HALF_LAST, ENDLESS = (next(_column) for _ in range(3))  # rows on a mirror; an outermost row that goes on
@@ -59,7 +59,7 @@ class Layout:
         for row, c in zip(self.table, shapes):
             places = next(entries), next(entries), next(entries)
             split = self.lengths.turns(np.arange(c.M // 2 + 1), 2 * c.M)
-            row[: WORK] = (c.level, c.M, c.N, c.ny, c.groups, c.step, *places, split, *self.lengths.place(c.M),
+            row[: WORK] = (c.level, c.M, c.N, c.ny, c.pairs, c.groups, c.step, *places, split, *self.lengths.place(c.M),
                            *self.lengths.place(c.N), 0, 0, 0)
         size = max(2 * max(c.groups * GROUP, c.N) for c in shapes) + 2
         self.table[:, WORK:] = next(entries), size
