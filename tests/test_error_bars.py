@@ -133,7 +133,8 @@ def passage(taichi_cpu):
 
 def test_companions_give_the_bars_of_a_passage(passage):
     told = []
-    found = companions.errors(short(), passage, {"Fi_max": 0.5}, lambda *part: told.append(part))
+    found = companions.errors(short(), passage, {"Fi_max": 0.5},
+                              lambda: companions.answers(short(), lambda *part: told.append(part)))
     assert found["passage_error"].keys() == {"p_max_Pa", "h_min_m", "friction_coefficient_mean", "Fi_max"}
     assert all(size > 0 for size in found["passage_error"].values() if size is not None)
     assert found["passage_error"]["friction_coefficient_mean"] is not None
@@ -198,8 +199,8 @@ def test_who_gets_companions():
 
 
 def test_a_run_without_a_passage_or_companions_has_no_bars(passage):
-    assert companions.errors(short(), passage.items[:1], None) == {}
-    assert companions.errors(short(**{"numerics.estimate_error": False}), passage, None) == {"passage_unknown": {}}
+    assert companions.errors(short(), passage.items[:1], None, None) == {}
+    assert companions.errors(short(**{"numerics.estimate_error": False}), passage, None, None) == {"passage_unknown": {}}
 
 
 def test_a_summary_has_numbers_or_null():
@@ -224,7 +225,7 @@ def test_a_narrow_peak_at_any_moment_leaves_pressure_and_fatigue_unknown(passage
         passage.items[2].fields["pressure"][i + 1 :] = 0.0
         after = companions.passage_readings(short(), passage, passage.scalar, {"Fi_max": 0.5})
         nobody = short(**{"numerics.estimate_error": False})
-        alone = companions.errors(nobody, passage, {"Fi_max": 0.5})["passage_unknown"]
+        alone = companions.errors(nobody, passage, {"Fi_max": 0.5}, None)["passage_unknown"]
     finally:
         for shot, field in zip(passage.items, kept):
             shot.fields["pressure"][...] = field

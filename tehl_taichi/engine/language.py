@@ -3,11 +3,13 @@ here and in :mod:`launches`, nowhere else.
 
 Taichi asks Python again and again for what does not change, a third of the start of a run; here it asks once. Measured with
 kernels that are cached, CPU s of a coarse run (64x16): the class that a function stands in, looked for in the source at every
-decorator, 1.3 -> 0; the source of a function, read and cut into lines at every call in a kernel, 0.6 -> 0.1; the position of
-every node (Findley search alone 2.9 -> 1.2), for messages that only developers see: TEHL_DEBUG=1 keeps it.
+decorator, 1.3 -> 0; the source of a function, read and cut into lines at every call in a kernel, 0.6 -> 0.1, parsed, 0.3 -> 0;
+the position of every node (Findley search alone 2.9 -> 1.2), for messages that only developers see: TEHL_DEBUG=1 keeps it.
 """
 
+import ast
 import contextlib
+import copy
 import functools
 import inspect
 import linecache
@@ -39,15 +41,26 @@ def _in_class(level_of_class_stackframe):
     return "__qualname__" in sys._getframe(level_of_class_stackframe - 1).f_locals
 
 
+_parse = functools.cache(ast.parse)
+
+
+def _parsed(source):
+    """The tree of a function, its body shared with those parsed before; Taichi empties its head."""
+    function, = _parse(source).body
+    head = ast.FunctionDef(**{**vars(function), "args": copy.copy(function.args)})
+    return ast.Module(body=[head], type_ignores=[])
+
+
 def _ask_once():
     """Raises AttributeError or ImportError where Taichi looks otherwise than expected: then nothing is changed."""
     from taichi.lang import kernel_impl
 
     lines, file, cut = kernel_impl.getsourcelines, kernel_impl.getsourcefile, kernel_impl.textwrap
-    kept = SimpleNamespace(fill=functools.cache(cut.fill), dedent=cut.dedent)
-    assert callable(kernel_impl._inside_class)
+    kept = SimpleNamespace(fill=functools.cache(cut.fill), dedent=functools.cache(cut.dedent))
+    assert callable(kernel_impl._inside_class) and kernel_impl.ast is ast
     kernel_impl.getsourcelines, kernel_impl.getsourcefile = functools.cache(lines), functools.cache(file)
     kernel_impl._inside_class, kernel_impl.textwrap = _in_class, kept
+    kernel_impl.ast = SimpleNamespace(**{**vars(ast), "parse": _parsed})
 
 
 def _without_positions():

@@ -21,11 +21,10 @@ def lease(owner, rows, lanes, columns, slots=0, precision="f64", clean=True):
     """
     runtime.ensure()
     wanted = (lanes, precision), (rows, columns, slots)
-    entry = _free_table(*wanted)
-    if entry is None:
+    fitting = [entry for entry in _tables if _fits(entry[0], *wanted)]
+    if fitting and not _free(fitting):
         gc.collect()  # 28 ms; an owner that is only held by a reference cycle is gone then
-        entry = _free_table(*wanted)
-    if entry is not None:
+    if entry := _free(fitting):
         field, entry[1] = entry[0], weakref.ref(owner)
         if clean:
             field.fill(0.0)
@@ -41,13 +40,12 @@ def lease(owner, rows, lanes, columns, slots=0, precision="f64", clean=True):
     return field
 
 
-def _free_table(kind, size):
-    for entry in _tables:
-        field, holder = entry
-        if holder() is None and (field.n, str(field.dtype)) == kind and _fits(field.shape, *size):
-            return entry
-    return None
+def _free(entries):
+    """The first one whose owner is gone, or None."""
+    return next((entry for entry in entries if entry[1]() is None), None)
 
 
-def _fits(shape, rows, columns, slots):
-    return shape[0] >= columns and shape[1] == slots if slots else shape[0] == rows and shape[1] >= columns
+def _fits(field, kind, size):
+    (rows, columns, slots), shape = size, field.shape
+    large = shape[0] >= columns and shape[1] == slots if slots else shape[0] == rows and shape[1] >= columns
+    return (field.n, str(field.dtype)) == kind and large

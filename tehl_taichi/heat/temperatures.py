@@ -56,7 +56,8 @@ class FilmHeat:
     def _bind(self, scene):
         v, conditions = self.levels, self.levels.conditions.values
         tiles = v.fine * (v.nx // lanes.TILE + 1)
-        self.X, self.told = tables.lease(self, 0, lanes.W, tiles, self.nz * (self.nz + 2)), np.zeros((tiles, energy.TOLD))
+        self.X = tables.lease(self, 0, lanes.W, tiles, self.nz * (self.nz + 2), clean=False)
+        self.told = np.zeros((tiles, energy.TOLD))
         state = v.S, self.columns.field
         known = v.G, self.across.table, scene.oil, scene.rheology, conditions
         self.values, self.slopes = (bind(film.laws, *state, *known, slopes) for slopes in (0, 1))

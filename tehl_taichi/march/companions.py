@@ -1,7 +1,8 @@
 """Companions of a run: the same passage on grids with a half and a quarter of the cells, whose numbers tell its errors.
 
-They run after it, in its tables and by its compiled kernels, in about a seventh of its time. What happens to them never hurts
-the run: a companion that is refused or does not converge means that a bar is not known, and why.
+They take about a seventh of its time, after it, in its tables and by its compiled kernels, or beside it where a core is idle
+(:mod:`tehl_taichi.study.beside`). What happens to them never hurts the run: a companion that is refused or does not converge
+means that a bar is not known, and why.
 """
 
 import itertools
@@ -73,18 +74,18 @@ def _moment(reader, n):
     return SimpleNamespace(x=reader.x, feature_x=reader.feature_x(n), fields=reader.fields(n, ("pressure", "film")))
 
 
-def errors(scene, reader, fatigue, tell=lambda done, total: None):
+def errors(scene, reader, fatigue, told):
     """{"passage_error": {name: error bar or None}, "passage_unknown": {name: why it is None}} of the numbers of a run; {} of
     one without a passage, doubts alone where there are no companions.
 
-    reader: its store; fatigue: summary of its search or None; tell(done, total): steps of the companions.
+    reader: its store; fatigue: summary of its search or None; told(): what :func:`answers` gives of the scene.
     """
     if len(reader) < 2:
         return {}
     own = passage_readings(scene, reader, reader.scalar, fatigue)
     if not wanted(scene):
         return {"passage_unknown": {name: reading.doubt for name, reading in own.items() if reading.doubt}}
-    found, unknown = judged(answers(scene, tell), own)
+    found, unknown = judged(told(), own)
     return {"passage_error": found, "passage_unknown": unknown}
 
 

@@ -102,7 +102,7 @@ class Bending:
         shape, layout = self._layout(levels.nx, levels.ny)
         largest = self._layout(grid.nx, levels.scene.rows)[1]  # smaller grids of a start use its memory, and its kernel
         sizes = max(layout.y, largest.y, SMALLEST), max(layout.t, largest.t)
-        Y, T = (tables.lease(self, 1, n, size) for n, size in zip((GROUP, 2), sizes))
+        Y, T = (tables.lease(self, 1, n, size, clean=False) for n, size in zip((GROUP, 2), sizes))
         self.table, self.passes = layout.table, layout.lengths.table()
         convolution.prepare(self.table, [convolution.deflection(shape, levels)], Y, T, layout.lengths, np.dtype(float))
         self.launch = bind(bend, levels.S, Y, T, levels.G, self.table, self.passes, self.H0, self.team.sync,

@@ -86,7 +86,8 @@ class Krylov:
         V = tables.lease(self, rows, lanes.W,
                          max(columns(v.nx, v.ny), columns(v.scene.grid.nx, v.scene.rows)), precision=v.precision, clean=False)
         kinds = zip((lanes.W, convolution.GROUP, 2), size)
-        self.memory = Memory(v.J, V, *(tables.lease(self, 1, n, count, precision=v.precision) for n, count in kinds))
+        self.memory = Memory(v.J, V, *(tables.lease(self, 1, n, count, precision=v.precision, clean=False)
+                                  for n, count in kinds))
         convolution.prepare(layout.table, self.symbols, self.memory.Y, self.memory.T, layout.lengths, v.linear)
         weights = v.vector(fields.WEIGHT).astype(v.linear).reshape(-1, lanes.W)
         lanes.fill(V, phases.LOADING, 0, weights)

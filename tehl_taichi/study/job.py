@@ -15,6 +15,11 @@ class Lost:
 _lane, _guard = [], threading.Lock()
 
 
+def working():
+    """Whether this process is a worker of a study."""
+    return bool(_lane)
+
+
 def in_one_thread(work, job):
     """work(job) in the one thread of this process that Taichi belongs to, whichever thread asks."""
     with _guard:

@@ -1,6 +1,7 @@
 """One whole run: steady start, passage, stresses and fatigue, error bars, summary, all into a store; and going on with one."""
 
 import contextlib
+import functools
 import json
 import time
 from os import PathLike
@@ -144,10 +145,12 @@ def _finish(saved, state, steady, clock, progress):
     """From a state of the store to its summary."""
     from tehl_taichi.io.summary import summarise
     from tehl_taichi.march import companions
+    from tehl_taichi.study import beside
 
-    _march(saved, state, progress)
-    fatigue, maps = _fatigue(saved, progress)
-    passage = companions.errors(saved.scene, saved, fatigue, lambda done, total: progress.stage(ERRORS, done, total))
+    with beside.told(saved.scene) as told:
+        _march(saved, state, progress)
+        fatigue, maps = _fatigue(saved, progress)
+        passage = companions.errors(saved.scene, saved, fatigue, lambda: told(functools.partial(progress.stage, ERRORS)))
     saved.finish(summarise(saved, {**clock.times(), **steady, **passage}, fatigue), maps)
     return Run(saved)
 

@@ -1,0 +1,75 @@
+"""Companions beside their run: in a process of their own, on a core that the run leaves idle; else after it, in its process.
+
+Default gear on one of two cores, s, medians of three in turn: 45.5 without bars, 49.2 with them after it, 43.1 beside it; on
+both cores a process beside the run takes more than they do after it (67.5 against 59.7).
+"""
+
+import base64
+import contextlib
+import functools
+import json
+import os
+import pickle
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+
+from tehl_taichi.engine import cores, runtime
+from tehl_taichi.march import companions
+from tehl_taichi.study import job
+
+WATCH = 0.5  # s between looks at whether the run is still there
+
+
+def idle():
+    """Cores that nobody has given work: none in a worker of a study, beside which others work."""
+    return 0 if job.working() else cores.available() - runtime.ensure()["threads"]
+
+
+@contextlib.contextmanager
+def told(scene):
+    """The function of tell(done, total) that waits for what :func:`tehl_taichi.march.companions.answers` gives of a scene. They
+    begin now where a core is idle, and end with the context."""
+    if not (companions.wanted(scene) and idle() > 0):
+        yield functools.partial(companions.answers, scene)
+        return
+    with _started(scene) as process:
+        try:
+            yield functools.partial(_ready, process, scene)
+        finally:
+            process.kill()
+
+
+def _started(scene):
+    with tempfile.TemporaryFile() as scenes:
+        scenes.write(base64.b64encode(pickle.dumps((os.getpid(), scene))))
+        scenes.seek(0)
+        # a session of its own: Ctrl-C is for the run, which ends it
+        return subprocess.Popen([sys.executable, "-c", "from tehl_taichi.study.beside import serve; serve()"], stdin=scenes,
+                                stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, start_new_session=True)
+
+
+def _ready(process, scene, tell=lambda done, total: None):
+    """Their answers; where their process died, worked out here."""
+    tell(0, 1)
+    text, _ = process.communicate()
+    if process.returncode:
+        return companions.answers(scene, tell)
+    tell(1, 1)
+    return json.loads(text)
+
+
+def serve():
+    """The process: the number of the run's process and its scene come by stdin, the answers go to stdout."""
+    run, scene = pickle.loads(base64.b64decode(sys.stdin.read()))
+    threading.Thread(target=_end_with, args=(run,), daemon=True).start()
+    runtime.start(threads=1)
+    print(json.dumps(companions.answers(scene)), flush=True)
+
+
+def _end_with(run):
+    while os.getppid() == run:
+        time.sleep(WATCH)
+    os._exit(1)

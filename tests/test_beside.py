@@ -1,0 +1,109 @@
+"""Companions beside their run: where a core is idle, the same answers, and nothing left behind."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+from tehl_taichi.march import companions
+from tehl_taichi.scene import scene
+from tehl_taichi.study import beside, job
+
+SHORT = scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16, "thermal.on": False, "time.steps": 4, "fatigue.depths": (),
+                                 "numerics.estimate_error": True})
+
+
+@pytest.fixture
+def idle_core(taichi_cpu, monkeypatch):
+    monkeypatch.setattr(beside.cores, "available", lambda: beside.runtime.ensure()["threads"] + 1)
+
+
+@pytest.fixture
+def nowhere(monkeypatch):
+    """No companions in this process."""
+    def refused(*_):
+        raise AssertionError("worked out here")
+
+    monkeypatch.setattr(companions, "answers", refused)
+
+
+def test_they_tell_what_they_tell_after_the_run(idle_core, monkeypatch):
+    here, parts = companions.answers(SHORT), []
+    monkeypatch.setattr(companions, "answers", None)
+    with beside.told(SHORT) as told:
+        there = told(lambda *part: parts.append(part))
+    assert [one.keys() for one in there] == [one.keys() for one in here] and parts == [(0, 1), (1, 1)]
+    values, expected = there[-1]["values"], here[-1]["values"]
+    assert values.keys() == expected.keys() and {n: one["value"] for n, one in values.items()} == {
+        n: one["value"] for n, one in expected.items()}
+    own = {name: companions.Reading(**one) for name, one in expected.items()}
+    assert companions.judged(there, own) == companions.judged(here, own)
+
+
+def test_only_an_idle_core_has_them_beside(taichi_cpu, monkeypatch):
+    threads = beside.runtime.ensure()["threads"]
+    for cores, working, expected in ((threads, [], 0), (threads + 1, [], 1), (threads + 1, ["a lane"], 0)):
+        monkeypatch.setattr(beside.cores, "available", lambda cores=cores: cores)
+        monkeypatch.setattr(job, "_lane", working)
+        assert max(0, beside.idle()) == expected
+        monkeypatch.setattr(beside, "_started", sleeper if expected else no_process)
+        with beside.told(SHORT) as told:
+            assert (told.func is companions.answers) == (not expected)
+
+
+def no_process(_):
+    pytest.fail("a process")
+
+
+def sleeper(_):
+    return subprocess.Popen([sys.executable, "-c", "import time; time.sleep(60)"], stdout=subprocess.PIPE)
+
+
+def test_who_wants_none_has_no_process(idle_core, monkeypatch):
+    monkeypatch.setattr(beside, "_started", no_process)
+    with beside.told(SHORT.replace(**{"numerics.estimate_error": False})) as told:
+        assert told.func is companions.answers
+
+
+def test_they_end_with_their_run(idle_core, nowhere, monkeypatch):
+    processes, started = [], beside._started
+    monkeypatch.setattr(beside, "_started", lambda one: processes.append(started(one)) or processes[0])
+    with pytest.raises(KeyboardInterrupt), beside.told(SHORT):
+        raise KeyboardInterrupt
+    assert processes[0].returncode == -signal.SIGKILL
+
+
+def test_where_they_die_they_are_worked_out_here(idle_core, monkeypatch):
+    monkeypatch.setattr(beside, "_started", lambda one: subprocess.Popen(
+        [sys.executable, "-c", "print('[half an ans'); raise SystemExit(1)"], stdout=subprocess.PIPE))
+    monkeypatch.setattr(companions, "answers", lambda one, tell: [one.name])
+    with beside.told(SHORT) as told:
+        assert told() == ["gear"]
+
+
+LONG = ("import sys, time; from tehl_taichi.engine import runtime; from tehl_taichi.study import beside; "
+        "from tehl_taichi.scene import scene; runtime.start(threads=1); beside.cores.available = lambda: 2; "
+        "one = scene('gear').replace(**{'grid.nx': 512, 'grid.ny': 128, 'numerics.estimate_error': True}); "
+        "found = beside._started(one); print(found.pid, flush=True); time.sleep(100)")
+
+
+def test_they_end_where_their_run_is_killed(taichi_cpu):
+    with subprocess.Popen([sys.executable, "-c", LONG], stdout=subprocess.PIPE, text=True) as run:
+        found = int(run.stdout.readline())
+        assert alive(found)
+        run.kill()
+    deadline = time.monotonic() + 30
+    while alive(found) and time.monotonic() < deadline:
+        time.sleep(0.1)
+    assert not alive(found)
+
+
+def alive(process):
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    return open(f"/proc/{process}/stat").read().rsplit(")", 1)[1].split()[0] != "Z" if os.path.exists("/proc") else True
