@@ -64,10 +64,25 @@ def _ask_once():
 
 
 def _without_positions():
-    from taichi.lang.ast.ast_transformer_utils import ASTTransformerContext
+    from taichi.lang.ast.ast_transformer_utils import ASTTransformerContext, Builder
+    from taichi.lang.impl import PyTaichi
 
-    assert callable(ASTTransformerContext.get_pos_info)
+    assert callable(ASTTransformerContext.get_pos_info) and callable(PyTaichi.get_current_src_info)
+    own = Builder.__call__
+
+    def call(builder, context, node):
+        build = getattr(builder, _name(node.__class__), None)
+        return build(context, node) if build and not context.raised else own(builder, context, node)
+
     ASTTransformerContext.get_pos_info = lambda context, node: ""
+    PyTaichi.get_current_src_info = lambda runtime: ""
+    Builder.__call__ = call
+
+
+@functools.cache
+def _name(kind):
+    """The method of Taichi's that builds nodes of this kind."""
+    return "build_" + kind.__name__
 
 
 def attempt(change):
