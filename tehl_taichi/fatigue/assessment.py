@@ -86,7 +86,7 @@ class Layer:
 def _layer(scene, passage, depth, progress):
     operators, parts, worst = passage.stresses(depth), [], None
     for rows in passage.row_blocks():
-        history = passage.history(rows, operators, progress)
+        history = passage.history(rows, operators, progress, lambda: findley.prepare(scene.fatigue.criterion))
         f, normals = findley.search(history, scene.fatigue.kappa, criterion=scene.fatigue.criterion)
         shape = passage.x.size, rows.stop - rows.start
         sigma1 = np.array([findley.largest_principal(part).max() for part in history])

@@ -67,6 +67,11 @@ def search(history, kappa, prune=True, criterion="findley", degrees=GRID, decide
     return out[:, 0], np.where(n[:, 2:] < 0, -n, n)
 
 
+def prepare(criterion):
+    """See that the kernel of the search is there, which takes a second at its first call."""
+    search(np.zeros((1, 2, 6)), 0.0, criterion=criterion)
+
+
 def normal_stress(history, normals):
     """(points, times) Pa on the planes with these normals (points, 3)."""
     x, y, z = normals.T

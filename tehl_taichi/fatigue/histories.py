@@ -103,10 +103,11 @@ class Passage:
         rows = max(1, int(BLOCK_BYTES / row_bytes))
         return [slice(j, min(j + rows, self.y.size)) for j in range(0, self.y.size, rows)]
 
-    def history(self, rows, operators, progress=None):
+    def history(self, rows, operators, progress=None, meanwhile=lambda: None):
         """(points, times + 1, 6) Pa; points run over x', then rows; the last moment is the unloaded state.
 
-        operators: of :meth:`stresses`; progress: called with (done, total) parts.
+        operators: of :meth:`stresses`; progress: called with (done, total) parts; meanwhile: what this thread does while others
+        find the stresses.
         """
         shape = self.x.size, rows.stop - rows.start
         out = np.zeros((*shape, self.centres.size + 1, len(COMPONENTS)))
@@ -114,6 +115,7 @@ class Passage:
         parts = np.array_split(entries, max(1, min(WORKERS, entries.size)))
         with ThreadPoolExecutor(WORKERS) as pool:
             tasks = [pool.submit(self._fill, out, part, rows, operators[0].twin(), operators[1]) for part in parts]
+            meanwhile()
             for task in tasks:
                 task.result()
                 if progress:

@@ -78,14 +78,14 @@ class ThermalBelow(Heated):
         """How far each wave moves over the body in a step, rad."""
         return self.kx * self.speed * self.dt
 
-    def _responses(self, depth):
-        """(cut, (4, waves, size)): transforms in time of ss, tt, zz and sz of some waves (without their way back)."""
+    def _responses(self, depth, each=map):
+        """(cut, (4, waves, size)): transforms in time of ss, tt, zz and sz of some waves (without their way back); each: applies
+        a function to the items of a list."""
         reached = np.flatnonzero(self.k * depth < REACH)
         cuts = [reached[start : start + CHUNK] for start in range(0, reached.size, CHUNK)]
-        with ThreadPoolExecutor(WORKERS) as pool:
-            for first in range(0, len(cuts), WORKERS):  # not more of them at once: there may be 100, of 8 MB each
-                some = cuts[first : first + WORKERS]
-                yield from zip(some, pool.map(lambda cut: self._response(cut, depth), some))
+        for first in range(0, len(cuts), WORKERS):  # not more of them at once: there may be 100, of 8 MB each
+            some = cuts[first : first + WORKERS]
+            yield from zip(some, each(lambda cut: self._response(cut, depth), some))
 
     def _response(self, cut, depth):
         return self._kernels(self.k[cut, None], self._angle[cut, None], depth) * self.passed[cut]
@@ -135,8 +135,9 @@ class ThermalBelow(Heated):
     def at(self, depth):
         """Function of the entry that gives sxx, syy, szz, sxy, sxz, syz, each (columns, ny+1), at `depth`."""
         w, held = self.waves, np.zeros((6, self.k.size, self.entries), np.complex64)
-        for cut, parts in self._responses(depth):
-            held[:, cut] = self._back(np.stack(self._turned(parts, cut)), self.kx[cut])
+        with ThreadPoolExecutor(WORKERS) as pool:
+            for cut, parts in self._responses(depth, pool.map):
+                held[:, cut] = self._back(np.stack(self._turned(parts, cut)), self.kx[cut])
 
         def fields(entry):
             out = []

@@ -1,10 +1,12 @@
 """Stress histories under rows of material points at many depths, the surface (0) among them if wanted."""
 
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 
 from tehl_taichi.fatigue.row_stress import RowStress
 from tehl_taichi.fatigue.thermal_depth import ThermalBelow
-from tehl_taichi.fatigue.thermal_stress import ThermalStress
+from tehl_taichi.fatigue.thermal_stress import WORKERS, ThermalStress
 
 BLOCK = 32  # entries whose stresses are found at once
 HELD = (0, 1, 3)  # components of the heat at the surface
@@ -18,11 +20,15 @@ def histories_of(passage, depths, kinds):
     operators = [_operator(passage, depths, *kind) for kind in kinds]
     out = np.zeros((len(kinds), passage.x.size, len(depths), passage.centres.size + 1, 6))
     entries = np.unique(passage.entries)
-    for block in np.array_split(entries, -(-entries.size // BLOCK)):
+
+    def fill(block):
         loads = np.stack([passage.loads(int(entry)) for entry in block], axis=1)
         for histories, operator, (row, endless) in zip(out, operators, kinds):
             for entry, stress in zip(block, operator(*(loads[..., [row]] if endless else loads))):
                 passage.follow(histories, entry, stress.swapaxes(0, 1))
+
+    with ThreadPoolExecutor(WORKERS) as pool:
+        list(pool.map(fill, np.array_split(entries, -(-entries.size // BLOCK))))
     if passage.scene.thermal_stress_wanted:
         _heat(passage, depths, [row for row, _ in kinds], entries, out)
     return passage.resting(out).swapaxes(1, 2)
@@ -36,12 +42,16 @@ def _operator(passage, depths, row, endless):
 def _heat(passage, depths, rows, entries, out):
     """Thermal stress added to the histories `out` (kinds, x', depths, moments, 6)."""
     thermal, part = passage.heat(ThermalBelow, min(depth for depth in depths if depth)), np.zeros_like(out[0, :, 0])
-    for n, depth in enumerate(depths):
-        found = thermal.rows(depth, rows) if depth else _at_the_surface(passage, rows)
-        for histories, stresses in zip(out, found):
-            for entry in entries:
-                passage.follow(part, entry, stresses[passage.ticks[entry]])
-            histories[:, n] += part
+
+    def at(depth):
+        return thermal.rows(depth, rows) if depth else _at_the_surface(passage, rows)
+
+    with ThreadPoolExecutor(WORKERS) as pool:
+        for n, found in enumerate(pool.map(at, depths)):
+            for histories, stresses in zip(out, found):
+                for entry in entries:
+                    passage.follow(part, entry, stresses[passage.ticks[entry]])
+                histories[:, n] += part
 
 
 def _at_the_surface(passage, rows):
