@@ -1,8 +1,11 @@
-"""exp and log for numbers and for lanes.
+"""exp, log, minimum and maximum for numbers and for lanes.
 
 On lanes (a vector of rows) the library calls one row at a time and takes most of the time of the laws; these work on all
 rows at once: range reduction by powers of two, then a polynomial (Hart, Computer Approximations, 1968), to 4e-16, summed
 by Estrin's scheme: Horner's is one long chain, which the loops over nodes would wait for (laws of a film 1.5 times slower).
+
+Taichi's min and max see to it that a number wins over NaN: three instructions in the chain of each exp. A choice between two is
+one (laws of a film 2.9 -> 2.2 ms a call, 256x64x9); where one of both is NaN it is the second.
 """
 
 from tehl_taichi.engine.language import ti
@@ -16,9 +19,19 @@ LOG_TERMS = tuple(2.0 / n for n in (1, 3, 5, 7, 9, 11, 13, 15, 17, 19, 21))
 MANTISSA, ONE, TWO52 = 0x000FFFFFFFFFFFFF, 0x3FF0000000000000, 0x4330000000000000
 
 
+@ti.pyfunc
+def minimum(a, b):
+    return ti.select(a < b, a, b)
+
+
+@ti.pyfunc
+def maximum(a, b):
+    return ti.select(a > b, a, b)
+
+
 @ti.func
 def exp_lanes(x):
-    x = ti.min(ti.max(x, -700.0), 700.0)
+    x = minimum(maximum(x, -700.0), 700.0)
     shifted = x * LOG2E + SHIFT
     n = shifted - SHIFT
     r = (x - n * LN2_HIGH) - n * LN2_LOW

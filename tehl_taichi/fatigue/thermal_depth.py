@@ -79,7 +79,7 @@ class ThermalBelow(Heated):
         return self.kx * self.speed * self.dt
 
     def _responses(self, depth, each=map):
-        """(cut, (4, waves, size)): transforms in time of ss, tt, zz and sz of some waves (without their way back); each: applies
+        """(cut, (4, waves, size)): transforms in time of ss, tt, zz, sz of some waves (without their way back); each: applies
         a function to the items of a list."""
         reached = np.flatnonzero(self.k * depth < REACH)
         cuts = [reached[start : start + CHUNK] for start in range(0, reached.size, CHUNK)]

@@ -4,7 +4,7 @@ In time along the paths of the oil (BDF2); through the film implicit, conduction
 of the bodies) and the flow through the moving nodes in one Newton system per column.
 """
 
-from tehl_taichi.engine.elementary import log
+from tehl_taichi.engine.elementary import log, maximum, minimum
 from tehl_taichi.engine.lanes import Flat, Table, V, W, cells, place, tile, tiles
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
@@ -184,10 +184,10 @@ def update(Z: ti.template(), X: ti.template(), at: ti.template(), nz, coldest, p
     were held in range."""
     moved, held = V(0.0), V(0.0)
     for n in range(nz):
-        change = ti.min(ti.max(X[at.c, nz * nz + n], -LONGEST), LONGEST)
+        change = minimum(maximum(X[at.c, nz * nz + n], -LONGEST), LONGEST)
         t = Z[at.q, T * nz + n] + part * change
-        Z[at.q, T * nz + n] = ti.min(ti.max(t, coldest), HOT)
-        moved = ti.max(moved, ti.abs(change))
+        Z[at.q, T * nz + n] = minimum(maximum(t, coldest), HOT)
+        moved = maximum(moved, ti.abs(change))
         held += ti.select(t > HOT, V(1.0), ti.select(t < coldest, V(1.0), V(0.0)))
     return largest_row(moved, at), sum_of_rows(held, at)
 
@@ -216,7 +216,7 @@ def change_of_column(Z: ti.template(), at: ti.template(), nz):
     """Largest change against the last iterate, K."""
     change = V(0.0)
     for n in range(nz):
-        change = ti.max(change, ti.abs(Z[at.q, T * nz + n] - Z[at.q, LAST * nz + n]))
+        change = maximum(change, ti.abs(Z[at.q, T * nz + n] - Z[at.q, LAST * nz + n]))
     return largest_row(change, at)
 
 

@@ -8,7 +8,7 @@ and b what the shear law leaves of the viscosity: u = u_a - u_s int_0 dzeta/eta 
 / b. Integrals over zeta: N, see :mod:`tehl_taichi.heat.nodes`.
 """
 
-from tehl_taichi.engine.elementary import exp, log
+from tehl_taichi.engine.elementary import exp, log, maximum
 from tehl_taichi.engine.lanes import Flat, Table, V, cells, place, tile, tiles
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
@@ -47,7 +47,7 @@ def column(S: ti.template(), G: ti.template(), at: ti.template(), scene: ti.temp
     """The Column of a place, from pressure and film."""
     px, py = limited_gradient(S, G, at)
     slope = scene.p_H / scene.a
-    return Column(p=S[P, at.k] * scene.p_H, h=ti.max(S[H, at.k], G[0, FLOOR]) * scene.h, px=px * slope, py=py * slope)
+    return Column(p=S[P, at.k] * scene.p_H, h=maximum(S[H, at.k], G[0, FLOOR]) * scene.h, px=px * slope, py=py * slope)
 
 
 @ti.func
@@ -99,7 +99,7 @@ def laws(S: ti.template(), Z: ti.template(), G: Table, N: Nodes, oil: ti.templat
         scene, floor, nz = read(Conditions, conditions), G[0, FLOOR], N.shape[1]
         for q in range(s * (nx + 1) + first, s * (nx + 1) + last):
             k = off + q
-            p, h = S[P, k] * scene.p_H + slopes * DP, ti.max(S[H, k], floor)
+            p, h = S[P, k] * scene.p_H + slopes * DP, maximum(S[H, k], floor)
             node_laws(Z, q, nz, oil, p, scene.ln_eta0)
             flow = couette(Z, N, q, rheology, p, h * scene.h, scene)
             mean, carried, ie = felt(Z, N, q, flow, scene)

@@ -1,5 +1,6 @@
 """Where the oil of a film came from: values one and two steps ago at the departure points of its nodes."""
 
+from tehl_taichi.engine.elementary import maximum, minimum
 from tehl_taichi.engine.lanes import Flat, Table, V, W, cells, place, tile, tiles
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
@@ -18,7 +19,7 @@ def cubic(f):
 
 @ti.func
 def within(value, a, b):
-    return ti.min(ti.max(value, ti.min(a, b)), ti.max(a, b))
+    return minimum(maximum(value, minimum(a, b)), maximum(a, b))
 
 
 @ti.dataclass
@@ -83,10 +84,10 @@ def origin(Z: ti.template(), at: ti.template(), past: ti.template(), u, v, step:
     x = at.i - u * (past.seconds * step.inv_x)
     T0, p0 = along_x(Z, at, past, x, inflow)
     if at.ny > 0:
-        moved = ti.min(ti.max(v * (past.seconds * step.inv_y), -1.0), 1.0)
+        moved = minimum(maximum(v * (past.seconds * step.inv_y), -1.0), 1.0)
         # between the two columns next to the first row's origin: taken at i, the step would be of first order in x y
         i0 = ti.min(ti.max(int(ti.floor(x[0])), 0), at.nx - 1)
-        f, q0 = ti.min(ti.max(x - i0, -1.0), 2.0), at.q - at.i + i0
+        f, q0 = minimum(maximum(x - i0, -1.0), 2.0), at.q - at.i + i0
         T0 += (1.0 - f) * along_y(Z, at, q0, past.warm, moved) + f * along_y(Z, at, q0 + 1, past.warm, moved)
         p0 += (1.0 - f) * along_y(Z, at, q0, past.press, moved) + f * along_y(Z, at, q0 + 1, past.press, moved)
     return T0, p0

@@ -4,7 +4,7 @@ Generalised Reynolds equation (Yang & Wen 1990) without an energy equation: oil 
 had what the shear law leaves of that viscosity at the stress of the Couette part.
 """
 
-from tehl_taichi.engine.elementary import exp, log
+from tehl_taichi.engine.elementary import exp, log, maximum
 from tehl_taichi.engine.lanes import Flat, Table, V, W, cells
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
@@ -54,7 +54,7 @@ def laws(S: ti.template(), G: Table, oil: ti.template(), rheology: ti.template()
     for s in range(ny // W + 1):
         floor, shear, scene = G[0, FLOOR], G[0, SHEAR], read(Conditions, conditions)
         for k in range(off + s * (nx + 1), off + (s + 1) * (nx + 1)):
-            p, h = S[P, k] * scene.p_H + slopes * DP, ti.max(S[H, k], floor)
+            p, h = S[P, k] * scene.p_H + slopes * DP, maximum(S[H, k], floor)
             rho, le = rho_ratio(oil, p, scene.inlet), ln_eta(oil, p, scene.inlet) - scene.ln_eta0
             ie = exp(-le)
             if ti.static(rheology.thins):
