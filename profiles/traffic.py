@@ -13,7 +13,7 @@ IN_J = ("A", "AU", "AD", "B", "BU", "BD", "EPS", "SCALE", "KIND", "RES", "SOL", 
 IN_S = ("P", "H", "GAP0", "QOLD", "MASK", "WEIGHT", "RHO", "LE", "IE", "ROOT", "GAP", "DLE", "DRP", "QP", "R", "D", "DRY",
         "TOUCH", "RHOC", "QCP", "DLH")
 IN_Z = ("T", "TN", "TNN", "U", "VY", "MX", "MY", "MS", "MSN", "MSNN", "NIE", "NRHO", "TS", "PS", "LAST")  # per node of zeta
-IN_Z_ONCE = ("PN", "PNN", "QA", "QB", "AA", "AB", "TAU", "XA", "YA", "XB", "YB")
+IN_C = ("PN", "PNN", "QA", "QB", "AA", "AB", "TAU", "XA", "YA", "XB", "YB")
 CONSTANT = ("G", "blocks")  # arguments too small to count
 
 
@@ -31,8 +31,9 @@ def _per_node(given, names):
     chosen = (1 if "row" in given else 0) + len(given.get("rows", ()) if isinstance(given.get("rows"), tuple) else ())
     total = 8 * (_rows(fields, IN_S, names) + chosen) if "S" in given else 0
     total += _bytes_of_a_number(given["J"]) * _rows(fields, IN_J, names) if "J" in given else 0
-    total += 8 * given["count"] if "F" in given else 0  # the modes of one body
-    return total + (8 * (nz * _rows(slots, IN_Z, names) + _rows(slots, IN_Z_ONCE, names)) if "Z" in given else 0)
+    total += 8 * given.get("count", 0) if "F" in given else 0  # the modes of one body
+    total += 8 * _rows(slots, IN_C, names) if "C" in given else 0
+    return total + (8 * nz * _rows(slots, IN_Z, names) if "Z" in given else 0)
 
 
 def _bytes_of_a_number(field):

@@ -47,7 +47,7 @@ def test_every_field_of_the_tables_has_its_bytes():
 
     assert sum(np.size(getattr(fields, name)) for name in traffic.IN_J) == fields.NROWS_LINEAR
     assert len(traffic.IN_S) == fields.NROWS_THERMAL and len(traffic.IN_Z) == slots.KINDS
-    assert len(traffic.IN_Z_ONCE) == slots.SINGLES
+    assert len(traffic.IN_C) == slots.SINGLES
 
 
 def test_bytes_of_a_kernel():

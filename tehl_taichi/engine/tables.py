@@ -13,14 +13,14 @@ SMALLEST_TABLE = 5000  # columns; sizes grow by factors of 4, because every size
 SKEW = 12
 
 
-def lease(owner, rows, lanes, columns, slots=0, precision="f64", clean=True):
-    """A vector field of `rows` x at least `columns` columns of `lanes` numbers, zero, for `owner` alone while it lives; with
-    `slots` (and rows 0) of at least `columns` columns x `slots`.
+def lease(owner, rows, lanes, columns, slots=0, each=1, precision="f64", clean=True):
+    """A vector field of `rows` x at least `columns` columns of `each` times `lanes` numbers, zero, for `owner` alone while it
+    lives; with `slots` (and rows 0) of at least `columns` columns x `slots`.
 
     That of a former owner is used again where there is one; with clean = False as he left it.
     """
     runtime.ensure()
-    wanted = (lanes, precision), (rows, columns, slots)
+    wanted = (lanes, precision), (rows, columns * each, slots)
     fitting = [entry for entry in _tables if _fits(entry[0], *wanted)]
     if fitting and not _free(fitting):
         gc.collect()  # 28 ms; an owner that is only held by a reference cycle is gone then
@@ -35,7 +35,7 @@ def lease(owner, rows, lanes, columns, slots=0, precision="f64", clean=True):
     while capacity + SKEW < columns:
         capacity *= 4
     capacity += SKEW
-    field = ti.Vector.field(lanes, getattr(ti, precision), shape=(capacity, slots) if slots else (rows, capacity))
+    field = ti.Vector.field(lanes, getattr(ti, precision), shape=(capacity, slots) if slots else (rows, capacity * each))
     _tables.append([field, weakref.ref(owner)])
     return field
 

@@ -56,11 +56,11 @@ class Bodies:
         self._bind(scene.operation.temperature)
 
     def _bind(self, inlet):
-        F, Z, G, count = self.table.field, self.columns.field, self.levels.G, modes.MODES
-        known, flux = ([self.columns.place(name) for name in pair] for pair in ((slots.AA, slots.AB), (slots.QA, slots.QB)))
-        self._surface = [bind(strips.surface, F, Z, G, body.modes, body.drift.values, count, n, inlet, known[n])
+        F, C, G, count = self.table.field, self.columns.singles.field, self.levels.G, modes.MODES
+        known, flux = (slots.AA, slots.AB), (slots.QA, slots.QB)
+        self._surface = [bind(strips.surface, F, C, G, body.modes, body.drift.values, count, n, inlet, known[n])
                          for n, body in enumerate(self.each)]
-        self._remember = [bind(strips.remember, F, Z, G, body.modes, body.drift.values, count, n, flux[n])
+        self._remember = [bind(strips.remember, F, C, G, body.modes, body.drift.values, count, n, flux[n])
                           for n, body in enumerate(self.each)]
         self._adopt = bind(strips.adopt, F, G, count)
 

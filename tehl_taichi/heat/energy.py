@@ -11,7 +11,7 @@ from tehl_taichi.engine.records import read
 from tehl_taichi.heat.elimination import eliminate
 from tehl_taichi.heat.film import column, couette, node_laws
 from tehl_taichi.heat.nodes import Nodes, second, slope, weight, zeta
-from tehl_taichi.heat.slots import AA, AB, KINDS, LAST, MS, MSN, MSNN, MX, MY, NIE, NRHO, PS, QA, QB, TS, VY, T, U, slots_around
+from tehl_taichi.heat.slots import AA, AB, LAST, MS, MSN, MSNN, MX, MY, NIE, NRHO, PS, QA, QB, TS, VY, T, U, nodes_around
 from tehl_taichi.heat.step import Step
 from tehl_taichi.physics.conduction import conductivity, heat_capacity
 from tehl_taichi.physics.density import expansivity
@@ -73,10 +73,10 @@ class Sources:
 def outflow(Z: ti.template(), at: ti.template(), nz, n, step: ti.template()):
     """rho w minus what the moving nodes take along: -(d/dt, d/dx, d/dy) of the mass (flux) below node n."""
     q, left, right = at.q, ti.min(at.i, 1), ti.min(at.nx - at.i, 1)
-    out = (Z[q, MS * nz + n] - step.near * Z[q, MSN * nz + n] - step.far * Z[q, MSNN * nz + n]) * step.rate
-    out += (Z[q + right, MX * nz + n] - Z[q - left, MX * nz + n]) * (step.inv_x / (left + right))
+    out = (Z[MS, q * nz + n] - step.near * Z[MSN, q * nz + n] - step.far * Z[MSNN, q * nz + n]) * step.rate
+    out += (Z[MX, (q + right) * nz + n] - Z[MX, (q - left) * nz + n]) * (step.inv_x / (left + right))
     if at.ny > 0:
-        lower, upper = slots_around(Z, at, at.q, MY * nz + n)
+        lower, upper = nodes_around(Z, at, MY, nz, n)
         for u in ti.static(range(W)):
             j = at.s * W + u
             if j == 0:
@@ -92,16 +92,16 @@ def prepare(Z: ti.template(), at: ti.template(), nz, oil: ti.template(), p, ln_e
     q, total = at.q, outflow(Z, at, nz, nz - 1, step)
     thinning(Z, q, nz, oil, p, ln_eta0)
     for n in range(nz):
-        share = Z[q, MS * nz + n] / Z[q, MS * nz + nz - 1]
-        Z[q, THROUGH * nz + n] = outflow(Z, at, nz, n, step) - share * total
-        Z[q, LAST * nz + n] = Z[q, T * nz + n]
+        share = Z[MS, q * nz + n] / Z[MS, q * nz + nz - 1]
+        Z[THROUGH, q * nz + n] = outflow(Z, at, nz, n, step) - share * total
+        Z[LAST, q * nz + n] = Z[T, q * nz + n]
 
 
 @ti.func
 def thinning(Z: ti.template(), q, nz, oil: ti.template(), p, ln_eta0):
     """-d ln eta/d Gamma at the nodes of a column."""
     for n in range(nz):
-        Z[q, BETA * nz + n] = (ln_eta0 - log(Z[q, NIE * nz + n]) - ln_eta(oil, p, Z[q, T * nz + n] + DT)) / DT
+        Z[BETA, q * nz + n] = (ln_eta0 - log(Z[NIE, q * nz + n]) - ln_eta(oil, p, Z[T, q * nz + n] + DT)) / DT
 
 
 @ti.func
@@ -136,20 +136,20 @@ def assemble(Z: ti.template(), X: ti.template(), N: ti.template(), at: ti.templa
     bend = flow.left * sensitivity(rheology, flow.newtonian, col.p, flow.left)
     conduction, by_node = col.k / (col.h * col.h), nz * (nz + 1)
     for m in range(nz):  # how the heat of every node depends on the temperature of node m, through the stress: times gain
-        X[c, by_node + m] = weight(N, m) * Z[q, NIE * nz + m] * Z[q, BETA * nz + m]
+        X[c, by_node + m] = weight(N, m) * Z[NIE, q * nz + m] * Z[BETA, q * nz + m]
     for n in range(1, nz - 1):
-        t = Z[q, T * nz + n]
+        t = Z[T, q * nz + n]
         storing = heat_capacity(oil, col.p, t)
-        swept = storing / Z[q, NRHO * nz + n] * Z[q, THROUGH * nz + n] / col.h  # fluxes and rho are both over rho_0
-        node = Node(ie=Z[q, NIE * nz + n] / scene.eta0, lever=(zeta(N, n) - flow.centre) * col.h,
-                    swell=expansivity(oil, col.p, t) * Z[q, PS * nz + n] * step.rate)
+        swept = storing / Z[NRHO, q * nz + n] * Z[THROUGH, q * nz + n] / col.h  # fluxes and rho are both over rho_0
+        node = Node(ie=Z[NIE, q * nz + n] / scene.eta0, lever=(zeta(N, n) - flow.centre) * col.h,
+                    swell=expansivity(oil, col.p, t) * Z[PS, q * nz + n] * step.rate)
         made = sources(node, col, flow, bend)
-        balance = storing * step.rate * (t - Z[q, TS * nz + n]) - made.heat - made.squeeze * (t + 273.15)
+        balance = storing * step.rate * (t - Z[TS, q * nz + n]) - made.heat - made.squeeze * (t + 273.15)
         for m in range(nz):
             link = swept * slope(N, n, m) - conduction * second(N, n, m)
-            balance += link * Z[q, T * nz + m]
+            balance += link * Z[T, q * nz + m]
             X[c, n * nz + m] = link + made.gain * X[c, by_node + m]
-        X[c, n * nz + n] = X[c, n * nz + n] + storing * step.rate - made.squeeze - made.viscous * Z[q, BETA * nz + n]
+        X[c, n * nz + n] = X[c, n * nz + n] + storing * step.rate - made.squeeze - made.viscous * Z[BETA, q * nz + n]
         X[c, nz * nz + n] = -balance
 
 
@@ -158,24 +158,25 @@ def wall_slopes(Z: ti.template(), N: ti.template(), q):
     """dT/dzeta at both walls."""
     nz, at_a, at_b = N.shape[1], V(0.0), V(0.0)
     for m in range(nz):
-        at_a += slope(N, 0, m) * Z[q, T * nz + m]
-        at_b += slope(N, nz - 1, m) * Z[q, T * nz + m]
+        at_a += slope(N, 0, m) * Z[T, q * nz + m]
+        at_b += slope(N, nz - 1, m) * Z[T, q * nz + m]
     return at_a, at_b
 
 
 @ti.func
-def assemble_walls(Z: ti.template(), X: ti.template(), N: ti.template(), at: ti.template(), transfer, step: ti.template()):
+def assemble_walls(Z: ti.template(), C: ti.template(), X: ti.template(), N: ti.template(), at: ti.template(), transfer,
+                   step: ti.template()):
     """Equations of both walls, T_s = A + B q; transfer: conductivity over film thickness."""
     q, c, nz = at.q, at.c, N.shape[1]
-    base, last = KINDS * nz, nz - 1
+    last = nz - 1
     flux_a, flux_b = wall_slopes(Z, N, q)
     for m in range(nz):
         X[c, m] = -step.B_a * transfer * slope(N, 0, m)
         X[c, last * nz + m] = step.B_b * transfer * slope(N, last, m)
     X[c, 0] = X[c, 0] + 1.0
     X[c, last * nz + last] = X[c, last * nz + last] + 1.0
-    X[c, nz * nz] = Z[q, base + AA] + step.B_a * transfer * flux_a - Z[q, T * nz]
-    X[c, nz * nz + last] = Z[q, base + AB] - step.B_b * transfer * flux_b - Z[q, T * nz + last]
+    X[c, nz * nz] = C[q, AA] + step.B_a * transfer * flux_a - Z[T, q * nz]
+    X[c, nz * nz + last] = C[q, AB] - step.B_b * transfer * flux_b - Z[T, q * nz + last]
 
 
 @ti.func
@@ -185,8 +186,8 @@ def update(Z: ti.template(), X: ti.template(), at: ti.template(), nz, coldest, p
     moved, held = V(0.0), V(0.0)
     for n in range(nz):
         change = minimum(maximum(X[at.c, nz * nz + n], -LONGEST), LONGEST)
-        t = Z[at.q, T * nz + n] + part * change
-        Z[at.q, T * nz + n] = minimum(maximum(t, coldest), HOT)
+        t = Z[T, at.q * nz + n] + part * change
+        Z[T, at.q * nz + n] = minimum(maximum(t, coldest), HOT)
         moved = maximum(moved, ti.abs(change))
         held += ti.select(t > HOT, V(1.0), ti.select(t < coldest, V(1.0), V(0.0)))
     return largest_row(moved, at), sum_of_rows(held, at)
@@ -216,13 +217,13 @@ def change_of_column(Z: ti.template(), at: ti.template(), nz):
     """Largest change against the last iterate, K."""
     change = V(0.0)
     for n in range(nz):
-        change = maximum(change, ti.abs(Z[at.q, T * nz + n] - Z[at.q, LAST * nz + n]))
+        change = maximum(change, ti.abs(Z[T, at.q * nz + n] - Z[LAST, at.q * nz + n]))
     return largest_row(change, at)
 
 
 @ti.func
-def solve_column(Z: ti.template(), X: ti.template(), N: ti.template(), at: ti.template(), col: ti.template(),
-                 oil: ti.template(), rheology: ti.template(), scene: ti.template(), step: ti.template()):
+def solve_column(Z: ti.template(), C: ti.template(), X: ti.template(), N: ti.template(), at: ti.template(),
+                 col: ti.template(), oil: ti.template(), rheology: ti.template(), scene: ti.template(), step: ti.template()):
     """Temperatures of a column by Newton. Returns 1.0 if they did not converge under load and how many nodes were held in
     range."""
     nz = N.shape[1]
@@ -234,7 +235,7 @@ def solve_column(Z: ti.template(), X: ti.template(), N: ti.template(), at: ti.te
             thinning(Z, at.q, nz, oil, col.p, scene.ln_eta0)
         count += 1
         assemble(Z, X, N, at, col, oil, rheology, scene, step)
-        assemble_walls(Z, X, N, at, col.k / col.h, step)
+        assemble_walls(Z, C, X, N, at, col.k / col.h, step)
         eliminate(X, at.c, nz)
         previous = moved
         moved, held = update(Z, X, at, nz, scene.inlet - WARM, part)
@@ -249,7 +250,7 @@ def solve_column(Z: ti.template(), X: ti.template(), N: ti.template(), at: ti.te
 
 
 @ti.kernel
-def energy(S: ti.template(), Z: ti.template(), X: ti.template(), G: Table, N: Nodes, oil: ti.template(),
+def energy(S: ti.template(), Z: ti.template(), C: ti.template(), X: ti.template(), G: Table, N: Nodes, oil: ti.template(),
            rheology: ti.template(), conditions: Flat, numbers: Flat, told: Table):
     """One implicit step of every column, by Newton, after velocities and departures. told[tile, ...]: CHANGE, largest change of
     T against the last iterate, FAILED, columns that did not converge, HELD, nodes held in range."""
@@ -263,10 +264,10 @@ def energy(S: ti.template(), Z: ti.template(), X: ti.template(), G: Table, N: No
             at = place(G, c, i)
             col = heated(S, G, at, oil, rheology, scene)
             prepare(Z, at, nz, oil, col.p, scene.ln_eta0, step)
-            lost, held = solve_column(Z, X, N, at, col, oil, rheology, scene, step)
+            lost, held = solve_column(Z, C, X, N, at, col, oil, rheology, scene, step)
             failed, clamped = failed + lost, clamped + held
             change = ti.max(change, change_of_column(Z, at, nz))
             transfer = col.k / col.h
             flux_a, flux_b = wall_slopes(Z, N, at.q)
-            Z[at.q, KINDS * nz + QA], Z[at.q, KINDS * nz + QB] = transfer * flux_a, -transfer * flux_b
+            C[at.q, QA], C[at.q, QB] = transfer * flux_a, -transfer * flux_b
         told[c, CHANGE], told[c, FAILED], told[c, HELD] = change, failed, clamped

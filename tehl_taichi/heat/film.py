@@ -13,7 +13,7 @@ from tehl_taichi.engine.lanes import Flat, Table, V, cells, place, tile, tiles
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
 from tehl_taichi.heat.nodes import Nodes, beyond, integral, weight, zeta
-from tehl_taichi.heat.slots import KINDS, MS, MX, MY, NIE, NRHO, TAU, VY, XA, XB, YA, YB, T, U
+from tehl_taichi.heat.slots import MS, MX, MY, NIE, NRHO, TAU, VY, XA, XB, YA, YB, T, U
 from tehl_taichi.physics.density import rho_film
 from tehl_taichi.physics.viscosity import ln_eta
 from tehl_taichi.pressure.conditions import Conditions
@@ -54,9 +54,9 @@ def column(S: ti.template(), G: ti.template(), at: ti.template(), scene: ti.temp
 def node_laws(Z: ti.template(), q, nz, oil: ti.template(), p, ln_eta0):
     """1/eta and rho at the nodes of a column."""
     for n in range(nz):
-        t = Z[q, T * nz + n]
-        Z[q, NIE * nz + n] = exp(ln_eta0 - ln_eta(oil, p, t))
-        Z[q, NRHO * nz + n] = rho_film(oil, p, t)
+        t = Z[T, q * nz + n]
+        Z[NIE, q * nz + n] = exp(ln_eta0 - ln_eta(oil, p, t))
+        Z[NRHO, q * nz + n] = rho_film(oil, p, t)
 
 
 @ti.func
@@ -64,7 +64,7 @@ def couette(Z: ti.template(), N: ti.template(), q, rheology: ti.template(), p, h
     """The Couette part of column q under the pressure p (Pa) in a film h (m)."""
     nz, e0, e1 = N.shape[1], V(0.0), V(0.0)
     for n in range(nz):
-        part = weight(N, n) * Z[q, NIE * nz + n]
+        part = weight(N, n) * Z[NIE, q * nz + n]
         e0 += part
         e1 += zeta(N, n) * part
     newtonian, left = sheared(rheology, p, h, e0, -scene.u_s * scene.eta0)
@@ -79,9 +79,9 @@ def felt(Z: ti.template(), N: ti.template(), q, flow: ti.template(), scene: ti.t
     for m in range(nz):
         above_m = V(0.0)  # of the density beyond node m, which its shear carries along
         for n in range(nz):
-            above_m += beyond(N, m, n) * Z[q, NRHO * nz + n]
-        part = above_m * Z[q, NIE * nz + m]
-        mean += weight(N, m) * Z[q, NRHO * nz + m]
+            above_m += beyond(N, m, n) * Z[NRHO, q * nz + n]
+        part = above_m * Z[NIE, q * nz + m]
+        mean += weight(N, m) * Z[NRHO, q * nz + m]
         carried += part
         turned += (flow.centre - zeta(N, m)) * part
     return mean, (scene.u_a * mean - scene.u_s * carried / flow.e0) / scene.u_m, 12.0 * turned / (mean * flow.left)
@@ -119,11 +119,11 @@ def store_velocities(Z: ti.template(), N: ti.template(), q, col: ti.template(), 
     for n in range(nz):
         turn, driven = V(0.0), V(0.0)  # int_0^zeta of 1/eta, and of (zeta - zeta_c)/eta
         for m in range(nz):
-            ie = integral(N, n, m) * Z[q, NIE * nz + m]
+            ie = integral(N, n, m) * Z[NIE, q * nz + m]
             turn += ie
             driven += (zeta(N, m) - flow.centre) * ie
-        Z[q, U * nz + n] = scene.u_a - scene.u_s * turn / flow.e0 + poiseuille * col.px * driven
-        Z[q, VY * nz + n] = poiseuille * col.py * driven
+        Z[U, q * nz + n] = scene.u_a - scene.u_s * turn / flow.e0 + poiseuille * col.px * driven
+        Z[VY, q * nz + n] = poiseuille * col.py * driven
 
 
 @ti.func
@@ -133,25 +133,25 @@ def store_fluxes(Z: ti.template(), N: ti.template(), q, h):
     for n in range(nz):
         mass, along, across = V(0.0), V(0.0), V(0.0)
         for m in range(nz):
-            rho = integral(N, n, m) * Z[q, NRHO * nz + m]
+            rho = integral(N, n, m) * Z[NRHO, q * nz + m]
             mass += rho
-            along += rho * Z[q, U * nz + m]
-            across += rho * Z[q, VY * nz + m]
-        Z[q, MS * nz + n], Z[q, MX * nz + n], Z[q, MY * nz + n] = h * mass, h * along, h * across
+            along += rho * Z[U, q * nz + m]
+            across += rho * Z[VY, q * nz + m]
+        Z[MS, q * nz + n], Z[MX, q * nz + n], Z[MY, q * nz + n] = h * mass, h * along, h * across
 
 
 @ti.func
-def store_shear(Z: ti.template(), q, nz, col: ti.template(), flow: ti.template()):
+def store_shear(C: ti.template(), q, col: ti.template(), flow: ti.template()):
     """Stress of the Couette part, and tau on both walls."""
-    base, tau, above = KINDS * nz, flow.left * flow.newtonian, 1.0 - flow.centre
-    Z[q, base + TAU] = tau
-    Z[q, base + XA], Z[q, base + YA] = tau - flow.centre * col.h * col.px, -flow.centre * col.h * col.py
-    Z[q, base + XB], Z[q, base + YB] = tau + above * col.h * col.px, above * col.h * col.py
+    tau, above = flow.left * flow.newtonian, 1.0 - flow.centre
+    C[q, TAU] = tau
+    C[q, XA], C[q, YA] = tau - flow.centre * col.h * col.px, -flow.centre * col.h * col.py
+    C[q, XB], C[q, YB] = tau + above * col.h * col.px, above * col.h * col.py
 
 
 @ti.kernel
-def velocities(S: ti.template(), Z: ti.template(), G: Table, N: Nodes, oil: ti.template(), rheology: ti.template(),
-               conditions: Flat):
+def velocities(S: ti.template(), Z: ti.template(), C: ti.template(), G: Table, N: Nodes, oil: ti.template(),
+               rheology: ti.template(), conditions: Flat):
     """Velocities, mass fluxes below each node, and the shear on both walls."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
@@ -165,4 +165,4 @@ def velocities(S: ti.template(), Z: ti.template(), G: Table, N: Nodes, oil: ti.t
             flow = couette(Z, N, at.q, rheology, col.p, col.h, scene)
             store_velocities(Z, N, at.q, col, flow, scene)
             store_fluxes(Z, N, at.q, col.h)
-            store_shear(Z, at.q, nz, col, flow)
+            store_shear(C, at.q, col, flow)

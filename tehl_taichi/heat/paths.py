@@ -4,7 +4,7 @@ from tehl_taichi.engine.elementary import maximum, minimum
 from tehl_taichi.engine.lanes import Flat, Table, V, W, cells, place, tile, tiles
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
-from tehl_taichi.heat.slots import KINDS, MS, MSN, MSNN, PN, PNN, PS, TN, TNN, TS, VY, T, U, slots_around
+from tehl_taichi.heat.slots import MS, MSN, MSNN, PN, PNN, PS, TN, TNN, TS, VY, T, U, columns_around, rows_around
 from tehl_taichi.heat.step import Step
 from tehl_taichi.pressure.conditions import Conditions
 from tehl_taichi.pressure.fields import P
@@ -24,15 +24,16 @@ def within(value, a, b):
 
 @ti.dataclass
 class Past:
-    """The state of a node some time ago: its slots of temperature and pressure, and how long ago."""
+    """The state of a node some time ago: kind of its temperature, its number, pressure of its column, and how long ago."""
 
     warm: ti.i32
+    node: ti.i32
     press: ti.i32
     seconds: ti.f64
 
 
 @ti.func
-def along_x(Z: ti.template(), at: ti.template(), past: ti.template(), x, inflow):
+def along_x(Z: ti.template(), C: ti.template(), nz, at: ti.template(), past: ti.template(), x, inflow):
     """Temperature and pressure of the past in a block of rows at x (in cells): cubic, within the two nearest values; from the
     left comes oil of temperature `inflow` and pressure 0. Rows that come from one cell, as nearly all neighbours do, are taken
     together."""
@@ -43,24 +44,24 @@ def along_x(Z: ti.template(), at: ti.template(), past: ti.template(), x, inflow)
             together = 0
     T0, p0 = V(0.0), V(0.0)
     if together == 1:
-        T0, p0 = from_cell(Z, at, past, i0, x - i0, inflow)
+        T0, p0 = from_cell(Z, C, nz, at, past, i0, x - i0, inflow)
     else:
         for u in ti.static(range(W)):
             i = int(ti.floor(x[u]))
-            T, p = from_cell(Z, at, past, i, x - i, inflow)
+            T, p = from_cell(Z, C, nz, at, past, i, x - i, inflow)
             T0[u], p0[u] = T[u], p[u]
     return T0, p0
 
 
 @ti.func
-def from_cell(Z: ti.template(), at: ti.template(), past: ti.template(), i0, f, inflow):
+def from_cell(Z: ti.template(), C: ti.template(), nz, at: ti.template(), past: ti.template(), i0, f, inflow):
     """The same for all rows from the cell behind column i0, at the fractions f of it."""
     T4, p4 = [V(inflow) for _ in range(4)], [V(0.0) for _ in range(4)]
     first = at.q - at.i
     for t in ti.static(range(4)):
         if i0 - 1 + t >= 0:
             q = first + ti.min(i0 - 1 + t, at.nx)
-            T4[t], p4[t] = Z[q, past.warm], Z[q, past.press]
+            T4[t], p4[t] = Z[past.warm, q * nz + past.node], C[q, past.press]
     w = cubic(f)
     T, p = V(0.0), V(0.0)
     for t in ti.static(range(4)):
@@ -70,35 +71,43 @@ def from_cell(Z: ti.template(), at: ti.template(), past: ti.template(), i0, f, i
 
 
 @ti.func
-def along_y(Z: ti.template(), at: ti.template(), q, slot, moved):
-    """Change of a slot of column q by flow along y, moved = v dt/dy: quadratic, within the two nearest values."""
-    here = Z[q, slot]
-    lower, upper = slots_around(Z, at, q, slot)
+def across(Z: ti.template(), C: ti.template(), nz, at: ti.template(), past: ti.template(), q, moved):
+    """What flow along y changes of temperature and pressure in column q, moved = v dt/dy."""
+    m = past.node
+    before, behind = columns_around(at, q)
+    T = along_y(at, Z[past.warm, q * nz + m], Z[past.warm, before * nz + m], Z[past.warm, behind * nz + m], moved)
+    return T, along_y(at, C[q, past.press], C[before, past.press], C[behind, past.press], moved)
+
+
+@ti.func
+def along_y(at: ti.template(), here, before, behind, moved):
+    """Change of a value by flow along y: quadratic, within the two nearest; before, behind: in the blocks beside."""
+    lower, upper = rows_around(at, here, before, behind)
     value = here + 0.5 * moved * (lower - upper + moved * (upper - 2.0 * here + lower))
     return within(value, here, ti.select(moved > 0.0, lower, upper)) - here
 
 
 @ti.func
-def origin(Z: ti.template(), at: ti.template(), past: ti.template(), u, v, step: ti.template(), inflow):
+def origin(Z: ti.template(), C: ti.template(), nz, at: ti.template(), past: ti.template(), u, v, step: ti.template(), inflow):
     """Temperature and pressure of the past at the place where the oil of a node, of the velocities u and v, was then."""
     x = at.i - u * (past.seconds * step.inv_x)
-    T0, p0 = along_x(Z, at, past, x, inflow)
+    T0, p0 = along_x(Z, C, nz, at, past, x, inflow)
     if at.ny > 0:
         moved = minimum(maximum(v * (past.seconds * step.inv_y), -1.0), 1.0)
         # between the two columns next to the first row's origin: taken at i, the step would be of first order in x y
         i0 = ti.min(ti.max(int(ti.floor(x[0])), 0), at.nx - 1)
         f, q0 = minimum(maximum(x - i0, -1.0), 2.0), at.q - at.i + i0
-        T0 += (1.0 - f) * along_y(Z, at, q0, past.warm, moved) + f * along_y(Z, at, q0 + 1, past.warm, moved)
-        p0 += (1.0 - f) * along_y(Z, at, q0, past.press, moved) + f * along_y(Z, at, q0 + 1, past.press, moved)
+        T1, p1 = across(Z, C, nz, at, past, q0, moved)
+        T2, p2 = across(Z, C, nz, at, past, q0 + 1, moved)
+        T0, p0 = T0 + ((1.0 - f) * T1 + f * T2), p0 + ((1.0 - f) * p1 + f * p2)
     return T0, p0
 
 
 @ti.kernel
-def departures(S: ti.template(), Z: ti.template(), G: Table, nz: ti.i32, conditions: Flat, numbers: Flat):
+def departures(S: ti.template(), Z: ti.template(), C: ti.template(), G: Table, nz: ti.i32, conditions: Flat, numbers: Flat):
     """Temperature and pressure where the oil of each node was one and two steps ago (BDF2 along its path): cubic along x,
     quadratic along y."""
     nx, ny, off = cells(G, 0)
-    base = KINDS * nz
     ti.loop_config(block_dim=1)
     for c in range(tiles(nx, ny)):
         s, first, last = tile(c, nx)
@@ -106,19 +115,19 @@ def departures(S: ti.template(), Z: ti.template(), G: Table, nz: ti.i32, conditi
         for i in range(first, last):
             at = place(G, c, i)
             for n in range(nz):
-                u, v = Z[at.q, U * nz + n], Z[at.q, VY * nz + n]
-                past = Past(warm=TN * nz + n, press=base + PN, seconds=step.back)
-                warm, press = origin(Z, at, past, u, v, step, scene.inlet)
+                u, v = Z[U, at.q * nz + n], Z[VY, at.q * nz + n]
+                past = Past(warm=TN, node=n, press=PN, seconds=step.back)
+                warm, press = origin(Z, C, nz, at, past, u, v, step, scene.inlet)
                 if step.far != 0.0:
-                    before = Past(warm=TNN * nz + n, press=base + PNN, seconds=step.back_2)
-                    warm_2, press_2 = origin(Z, at, before, u, v, step, scene.inlet)
+                    before = Past(warm=TNN, node=n, press=PNN, seconds=step.back_2)
+                    warm_2, press_2 = origin(Z, C, nz, at, before, u, v, step, scene.inlet)
                     warm, press = step.near * warm + step.far * warm_2, step.near * press + step.far * press_2
-                Z[at.q, TS * nz + n] = warm
-                Z[at.q, PS * nz + n] = S[P, at.k] * scene.p_H - press
+                Z[TS, at.q * nz + n] = warm
+                Z[PS, at.q * nz + n] = S[P, at.k] * scene.p_H - press
 
 
 @ti.kernel
-def accept(S: ti.template(), Z: ti.template(), G: Table, nz: ti.i32, p_H: ti.f64):
+def accept(S: ti.template(), Z: ti.template(), C: ti.template(), G: Table, nz: ti.i32, p_H: ti.f64):
     """The present state becomes that of the last step."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
@@ -126,6 +135,6 @@ def accept(S: ti.template(), Z: ti.template(), G: Table, nz: ti.i32, p_H: ti.f64
         s, first, last = tile(c, nx)
         for q in range(s * (nx + 1) + first, s * (nx + 1) + last):
             for n in range(nz):
-                Z[q, TNN * nz + n], Z[q, TN * nz + n] = Z[q, TN * nz + n], Z[q, T * nz + n]
-                Z[q, MSNN * nz + n], Z[q, MSN * nz + n] = Z[q, MSN * nz + n], Z[q, MS * nz + n]
-            Z[q, KINDS * nz + PNN], Z[q, KINDS * nz + PN] = Z[q, KINDS * nz + PN], S[P, off + q] * p_H
+                Z[TNN, q * nz + n], Z[TN, q * nz + n] = Z[TN, q * nz + n], Z[T, q * nz + n]
+                Z[MSNN, q * nz + n], Z[MSN, q * nz + n] = Z[MSN, q * nz + n], Z[MS, q * nz + n]
+            C[q, PNN], C[q, PN] = C[q, PN], S[P, off + q] * p_H

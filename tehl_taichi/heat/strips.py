@@ -43,9 +43,9 @@ def interpolate(F: ti.template(), first, i, nx, slot, rest):
 
 
 @ti.kernel
-def surface(F: ti.template(), Z: ti.template(), G: Table, modes: Modes, drift: Flat, count: ti.i32, body: ti.i32,
+def surface(F: ti.template(), C: ti.template(), G: Table, modes: Modes, drift: Flat, count: ti.i32, body: ti.i32,
             ambient: ti.f64, slot: ti.i32):
-    """Z[slot] = A of T_s = A + B q at the nodes of the contact; material strip i lies at x_i + rest dx."""
+    """C[slot] = A of T_s = A + B q at the nodes of the contact; material strip i lies at x_i + rest dx."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
@@ -61,13 +61,13 @@ def surface(F: ti.template(), Z: ti.template(), G: Table, modes: Modes, drift: F
                     total += modes[WEIGHT, m] * modes[DECAY, m] * F[first + i - shift, modes_at + m]
             F[first + i, scratch] = total
         for i in range(nx + 1):
-            Z[first + i, slot] = interpolate(F, first, i - 1, nx, scratch, 1.0 - lies.rest)
+            C[first + i, slot] = interpolate(F, first, i - 1, nx, scratch, 1.0 - lies.rest)
 
 
 @ti.kernel
-def remember(F: ti.template(), Z: ti.template(), G: Table, modes: Modes, drift: Flat, count: ti.i32, body: ti.i32,
+def remember(F: ti.template(), C: ti.template(), G: Table, modes: Modes, drift: Flat, count: ti.i32, body: ti.i32,
              slot: ti.i32):
-    """The new memory of a body from the flux Z[slot] of this step and that of the last."""
+    """The new memory of a body from the flux C[slot] of this step and that of the last."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
@@ -76,7 +76,7 @@ def remember(F: ti.template(), Z: ti.template(), G: Table, modes: Modes, drift: 
         modes_at, flux_at = memory(count, body)
         new = kept(count)
         for i in range(nx + 1):
-            q, last = interpolate(Z, first, i, nx, slot, lies.rest), V(0.0)
+            q, last = interpolate(C, first, i, nx, slot, lies.rest), V(0.0)
             if i - shift >= 0:
                 last = F[first + i - shift, flux_at]
             for m in range(count):

@@ -58,9 +58,10 @@ class FilmHeat:
         tiles = v.fine * (v.nx // lanes.TILE + 1)
         self.X = tables.lease(self, 0, lanes.W, tiles, self.nz * (self.nz + 2), clean=False)
         self.told = np.zeros((tiles, energy.TOLD))
-        state = v.S, self.columns.field
+        film_state = v.S, self.columns.field
+        state = *film_state, self.columns.singles.field
         known = v.G, self.across.table, scene.oil, scene.rheology, conditions
-        self.values, self.slopes = (bind(film.laws, *state, *known, slopes) for slopes in (0, 1))
+        self.values, self.slopes = (bind(film.laws, *film_state, *known, slopes) for slopes in (0, 1))
         self._velocities = bind(film.velocities, *state, *known)
         self._departures = bind(paths.departures, *state, v.G, self.nz, conditions, self.step.values)
         self._energy = bind(energy.energy, *state, self.X, *known, self.step.values, self.told)
@@ -149,4 +150,4 @@ class FilmHeat:
 
     def shear(self):
         """Shear stress (Pa) at z = 0 along x, y and at z = h along x, y: (4, ny+1, nx+1)."""
-        return self.columns.get(self.columns.place(slots.XA), slots.SHEARS)
+        return self.columns.singles.get(slots.XA, slots.SHEARS)
