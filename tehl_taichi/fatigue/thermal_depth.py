@@ -16,7 +16,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
-from tehl_taichi.fatigue.thermal_stress import WORKERS, Heated, depth_after, erfcx
+from tehl_taichi.fatigue.thermal_stress import WORKERS, Heated, depth_after, erfcx, fast_length
 
 LEAD = 4.0  # a: the contact stands at its first state for this way of the body, which is cold before
 REACH = 9.0  # waves with k z beyond this do not reach the depth z (exp(-9) = 1e-4)
@@ -57,7 +57,7 @@ class ThermalBelow(Heated):
         super().__init__(body, rises, x, y, front, columns, a, mirrored)
         self.diffusivity, self.speed, self.dt = body.k / (body.rho * body.c), speed, dt
         self.lead, self.entries = math.ceil(LEAD * a / (speed * dt)), len(self.rises)
-        self.size = _fast(2 * self.entries + self.lead)
+        self.size = fast_length(2 * self.entries + self.lead)
         with ThreadPoolExecutor(WORKERS) as pool:
             spectra = np.stack(list(pool.map(lambda rise: self.waves.spectrum(rise).astype(np.complex64), self.rises)))
         self.rises = None
@@ -160,9 +160,3 @@ def _means(angle, low, high):
     age = low + (high - low) * (nodes + 1) / 2
     turn = np.exp(-1j * angle * age) * weights / 2
     return (age * turn).sum(axis=1, keepdims=True) * np.exp(1j * angle), ((1 - age) * turn).sum(axis=1, keepdims=True)
-
-
-def _fast(n):
-    from tehl_taichi.engine.fftw import pyfftw
-
-    return pyfftw.next_fast_len(n)

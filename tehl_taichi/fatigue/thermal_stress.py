@@ -46,15 +46,20 @@ def steady_depth(kx, k, diffusivity, speed):
     return np.where(k > 0, math.sqrt(diffusivity) / np.where(k > 0, root, 1.0), 0.0)
 
 
+def fast_length(n):
+    """The next length of which a transform is quick."""
+    from tehl_taichi.engine.fftw import pyfftw
+
+    return pyfftw.next_fast_len(n)
+
+
 class Waves:
     """Wave numbers of fields on `columns` x `rows` nodes, even about the first row (mirrored) or padded with zeros."""
 
     def __init__(self, columns, rows, dx, dy, mirrored):
-        from tehl_taichi.engine.fftw import pyfftw
-
         self.columns, self.rows, self.mirrored = columns, rows, mirrored
-        self.nx = pyfftw.next_fast_len(2 * columns)
-        self.ny = 1 if rows == 1 else 2 * (rows - 1) if mirrored else pyfftw.next_fast_len(2 * rows)
+        self.nx = fast_length(2 * columns)
+        self.ny = 1 if rows == 1 else 2 * (rows - 1) if mirrored else fast_length(2 * rows)
         kx = 2 * np.pi * np.fft.rfftfreq(self.nx, dx)
         ky = 2 * np.pi * np.fft.fftfreq(self.ny, dy if rows > 1 else 1.0)
         self.kx, self.ky = kx[:, None], ky[None, : rows if mirrored else None]
@@ -140,7 +145,7 @@ def _convolved(changes, waves, diffusivity, speed, dt):
     time between the entries (their mean over a step)."""
     entries, shape = changes.shape[0], waves.k.shape
     k, kx = waves.k.ravel(), np.broadcast_to(waves.kx, shape).ravel()
-    flat, times = changes.reshape(entries, -1), np.arange(entries) * dt
+    flat, times, size = changes.reshape(entries, -1), np.arange(entries) * dt, fast_length(2 * entries)
 
     def convolve(start):
         cut = slice(start, start + CHUNK)
@@ -150,7 +155,6 @@ def _convolved(changes, waves, diffusivity, speed, dt):
         moving[0] = 0.0
         reach = np.diff(depth_after(k[cut], diffusivity, times[:, None]), axis=0, append=0.0)
         reach[-1] = 0.0
-        size = 2 * entries
         theta = np.fft.ifft(np.fft.fft(moving, size, axis=0) * np.fft.fft(reach, size, axis=0), axis=0)[:entries]
         flat[:, cut] = theta / turn
 
