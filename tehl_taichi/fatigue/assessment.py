@@ -53,7 +53,7 @@ def run(scene, reader, progress=None):
     Between its from_x and to_x, by its criterion. reader: see
     :class:`tehl_taichi.fatigue.histories.Passage`; or a list of snapshots. progress: called with (done, total) parts of a pass.
     On the rows of the reader (where they begin with y = 0, the others are its mirror). Memory: one block of histories
-    (400 MB at most), with thermal stress 8 bytes more per entry and wave number (4 nodes of the grid).
+    (1 GB at most), with thermal stress 8 bytes more per entry and wave number (4 nodes of the grid).
     Raises SceneError when no feature passes.
     """
     reader = Snapshots(reader) if isinstance(reader, (list, tuple)) else reader

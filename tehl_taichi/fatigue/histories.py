@@ -17,7 +17,7 @@ from tehl_taichi.scene.scales import Scales
 WINDOW = 0.6       # half width (in a) of the part searched around one small feature: farther out its stress has died out
 MARGIN = 0.3       # (in a) searched beyond the rim of larger features
 LOADED = 1.5       # material points are followed while within this distance (in a) of the centre of the contact
-BLOCK_BYTES = 4e8  # histories held at once; more points than fit are done in blocks of y rows
+BLOCK_BYTES = 1e9  # histories held at once; more points than fit are done in blocks of y rows, each from the loads again
 LOADS = ("pressure", "traction_x_a", "traction_y_a")
 HELD = ("sxx", "syy", "sxy")  # what heat does at the surface; below it does all six
 

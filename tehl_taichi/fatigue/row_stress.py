@@ -2,6 +2,9 @@
 
 The same rectangles and strips as :mod:`tehl_taichi.fatigue.half_space`, so the same numbers to rounding; per row and depth a
 fiftieth of the work on 64 rows, since only transforms along x are left and each wave is a product of matrices.
+
+Along x the stress of a rectangle is even or odd, its transform real or imaginary, and with i q_x in place of q_x all loads go
+with real numbers into a component, and i times them into sxy and sxz: half the work of complex matrices.
 """
 
 from concurrent.futures import ThreadPoolExecutor
@@ -17,6 +20,7 @@ LOADS = (rectangle.pressure_at_depth, rectangle.shear_x_at_depth, rectangle.shea
 SURFACE = (rectangle.pressure_coefficients, rectangle.shear_x_coefficients, rectangle.shear_y_coefficients)
 CARRIED = (2, 4, 5)  # zz, xz, yz: at the surface the loads p, q_x and q_y themselves
 SIGNS = (1, 1, -1)  # of p, q_x and q_y in the mirror image about the first row
+TURNED = (3, 4)  # xy, xz: i times what the loads p, i q_x and q_y give
 
 
 class RowStress:
@@ -27,7 +31,7 @@ class RowStress:
 
     def __init__(self, x, y, nu, line, mirrored, depths, row):
         self.x, self.y, self.nu, self.line = np.asarray(x, float), np.asarray(y, float), float(nu), line
-        self.size = even_fast_length(2 * self.x.size - 1)
+        self.n, self.size = self.x.size, even_fast_length(2 * self.x.size - 1)
         lags = np.arange(-self.x.size + 1, self.x.size) * spacing(self.x)
         self.strips = np.stack([self._strips(lags, z) for z in depths], axis=1) if line else None
         self.rows = None
@@ -42,16 +46,22 @@ class RowStress:
         found = 0.0
         if self.rows is not None:
             loads[..., :2] -= far
-            spectra = self._spectra(loads.reshape(*loads.shape[:2], -1))
-            found = (spectra @ self.rows).reshape(self.size // 2 + 1, len(p), -1, 6)
+            found = self._carried(np.fft.rfft(loads.reshape(*loads.shape[:2], -1), self.size, axis=1))
         if self.line:
-            found = found + np.einsum("wel,ldwc->wedc", self._spectra(far[:, :, 0]), self.strips)
-        out = np.fft.irfft(found, self.size, axis=0)[self.x.size - 1 : 2 * self.x.size - 1]
-        return np.moveaxis(out, 0, 2)
+            found = found + np.einsum("ewl,ldwc->wedc", np.fft.rfft(far[:, :, 0], self.size, axis=1), self.strips)
+        return np.moveaxis(np.fft.irfft(found, self.size, axis=0)[: self.n], 0, 2)
 
-    def _spectra(self, loads):
-        """(waves, entries, loads) of loads (entries, nx+1, loads)."""
-        return np.ascontiguousarray(np.moveaxis(np.fft.rfft(loads, self.size, axis=1), 1, 0))
+    def _carried(self, spectra):
+        """(waves, entries, depths, 6) from the loads of all rows (entries, waves, loads)."""
+        spectra[..., 1::3] *= 1j
+        entries, waves, loads = spectra.shape
+        parts = np.empty((waves, 2, entries, loads))
+        parts[:, 0], parts[:, 1] = spectra.real.swapaxes(0, 1), spectra.imag.swapaxes(0, 1)
+        parts = (parts.reshape(waves, -1, loads) @ self.rows).reshape(waves, 2, entries, -1, 6)
+        found = np.empty((waves, entries, *parts.shape[3:]), complex)
+        found.real, found.imag = parts[:, 0], parts[:, 1]
+        found[..., TURNED] *= 1j
+        return found
 
     def _strips(self, lags, depth):
         """(2, waves, 6): plane strain from unit pressure and unit q_x on one strip."""
@@ -59,10 +69,16 @@ class RowStress:
         for load, parts in enumerate(rectangle.strip(lags, depth, spacing(self.x) / 2)):
             out[load][:, [0, 2, 4]] = np.transpose(parts)
         out[..., 1] = self.nu * (out[..., 0] + out[..., 2])
-        return np.fft.rfft(out, self.size, axis=1)
+        return np.fft.rfft(self._wrapped(out), axis=1)
+
+    def _wrapped(self, values):
+        """Values (., lags, ...) as one period, lag 0 first."""
+        out = np.zeros((values.shape[0], self.size, *values.shape[2:]))
+        out[:, : self.n], out[:, self.size - self.n + 1 :] = values[:, self.n - 1 :], values[:, : self.n - 1]
+        return out
 
     def _rectangles(self, lags, depth, row, mirrored):
-        """(waves, 3 loads of every row, 6): from unit loads on one rectangle of each row and its mirror image."""
+        """(waves, 3 loads of every row, 6), real: from unit loads on one rectangle of each row and its mirror image."""
         sides = spacing(self.x) / 2, spacing(self.y) / 2, self.nu
         lags, far = lags[:, None], self.y[row] - self.y
         image = self.y[row] + self.y[1:] - 2 * self.y[0]
@@ -72,8 +88,17 @@ class RowStress:
             if mirrored:
                 out[:, :, 1:, n] += sign * _unit_load(n, lags, image, depth, sides)
                 out[:, :, 0, n] *= sign > 0  # an odd load vanishes on the mirror's row
-        spectra = np.fft.rfft(out, self.size, axis=1)
-        return np.ascontiguousarray(np.moveaxis(spectra, 0, -1)).reshape(self.size // 2 + 1, -1, 6)
+        spectra = np.fft.rfft(self._wrapped(out), axis=1)
+        return np.ascontiguousarray(np.moveaxis(_real(spectra), 0, -1)).reshape(self.size // 2 + 1, -1, 6)
+
+
+def _real(spectra):
+    """What spectra (6, waves, rows, 3), real or imaginary, do with p, i q_x and q_y."""
+    out = np.empty(spectra.shape)
+    for n in range(6):
+        plain, crossed = (spectra[n].imag, -spectra[n].real) if n in TURNED else (spectra[n].real, spectra[n].imag)
+        out[n], out[n, ..., 1] = plain, crossed[..., 1]
+    return out
 
 
 def _unit_load(n, x, y, depth, sides):

@@ -8,7 +8,7 @@ from tehl_taichi.fatigue.row_stress import RowStress
 from tehl_taichi.fatigue.thermal_depth import ThermalBelow
 from tehl_taichi.fatigue.thermal_stress import WORKERS, ThermalStress
 
-BLOCK = 32  # entries whose stresses are found at once
+BLOCK = 16  # entries whose stresses are found at once
 HELD = (0, 1, 3)  # components of the heat at the surface
 
 
