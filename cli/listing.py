@@ -3,6 +3,7 @@
 import os
 
 MOST = 240  # columns of a table in a file
+NAME = 40  # characters of a first column that is not broken; sentences are
 
 
 def _table(title, rows):
@@ -37,8 +38,9 @@ def list_table(title, columns, rows, whole=False):
     from rich.table import Table
 
     table = Table(title=title, title_justify="left")
+    names = all(len(row[0]) <= NAME for row in rows)
     for n, column in enumerate(columns):
-        table.add_column(column, no_wrap=n == 0, overflow="fold")
+        table.add_column(column, no_wrap=n == 0 and names, overflow="fold")
     for row in rows:
         table.add_row(*row)
     console = Console()

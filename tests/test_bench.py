@@ -95,3 +95,15 @@ def test_scenes_of_the_suite_run_side_by_side():
     chosen = [(f"srr {srr}", short.replace(srr=srr)) for srr in (0.0, 0.1, 0.2)]
     found = {one.name: one.cycles for one in stability.run(chosen, workers=2)}
     assert found == {one.name: one.cycles for one in stability.run(chosen)}
+
+
+def test_a_table_of_sentences_is_readable_on_80_columns(capsys, monkeypatch):
+    from tehl_cli.listing import list_table
+
+    monkeypatch.setenv("COLUMNS", "80")
+    sentence = "a thermal passage with stresses and fatigue on 256x64 cells by two threads"
+    list_table("speed", ("what", "seconds", "detail"), [(sentence, "61.904", "step 149.5 ms, 21.7 Krylov, 652 MB")])
+    list_table("grids", ("name", "detail"), [("not-to-be-broken-anywhere", "much to tell " * 9)])
+    shown = capsys.readouterr().out
+    assert max(map(len, shown.splitlines())) <= 80
+    assert "61.904" in shown and "Krylov" in shown and "not-to-be-broken-anywhere" in shown
