@@ -19,6 +19,7 @@ SHORT = scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16, "thermal.on": Fal
 @pytest.fixture
 def idle_core(taichi_cpu, monkeypatch):
     monkeypatch.setattr(beside.cores, "available", lambda: beside.runtime.ensure()["threads"] + 1)
+    monkeypatch.setattr(beside, "LONG", 0.0)
 
 
 @pytest.fixture
@@ -45,6 +46,7 @@ def test_they_tell_what_they_tell_after_the_run(idle_core, monkeypatch):
 
 def test_only_an_idle_core_has_them_beside(taichi_cpu, monkeypatch):
     threads = beside.runtime.ensure()["threads"]
+    monkeypatch.setattr(beside, "LONG", 0.0)
     for cores, working, expected in ((threads, [], 0), (threads + 1, [], 1), (threads + 1, ["a lane"], 0)):
         monkeypatch.setattr(beside.cores, "available", lambda cores=cores: cores)
         monkeypatch.setattr(job, "_lane", working)
@@ -60,6 +62,12 @@ def no_process(_):
 
 def sleeper(_):
     return subprocess.Popen([sys.executable, "-c", "import time; time.sleep(60)"], stdout=subprocess.PIPE)
+
+
+def test_only_long_runs_have_them_beside():
+    gear = scene("gear")
+    assert beside.lasts(gear) and not beside.lasts(gear.replace(**{"thermal.on": False}))
+    assert beside.lasts(gear.replace(**{"thermal.on": False, "grid.nx": 512, "grid.ny": 128})) and not beside.lasts(SHORT)
 
 
 def test_who_wants_none_has_no_process(idle_core, monkeypatch):

@@ -91,8 +91,13 @@ def errors(scene, reader, fatigue, told):
 
 def wanted(scene):
     """Whether a run has companions: where they are asked for, and where nobody says and the run is worth it."""
-    asked, nodes = scene.numerics.estimate_error, (scene.grid.nx + 1) * (scene.rows + 1)
-    return asked is True or asked is not False and nodes * total_steps(scene) >= WORTH
+    asked = scene.numerics.estimate_error
+    return asked is True or asked is not False and work(scene) >= WORTH
+
+
+def work(scene):
+    """Nodes times steps of a run."""
+    return (scene.grid.nx + 1) * (scene.rows + 1) * total_steps(scene)
 
 
 def answers(scene, tell=lambda done, total: None):

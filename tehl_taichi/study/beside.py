@@ -1,4 +1,4 @@
-"""Companions beside their run: in a process of their own, on a core that the run leaves idle; else after it, in its process.
+"""Companions beside their run: in a process of their own, on a core that a long run leaves idle; else after it, in its process.
 
 Default gear on one of two cores, s, medians of three in turn: 45.5 without bars, 49.2 with them after it, 43.1 beside it; on
 both cores a process beside the run takes more than they do after it (67.5 against 59.7).
@@ -21,6 +21,9 @@ from tehl_taichi.march import companions
 from tehl_taichi.study import job
 
 WATCH = 0.5  # s between looks at whether the run is still there
+# nodes times steps from which on a run is long: the process loads its kernels first, some 4 s. A coarse case of a sweep in a
+# warm process takes 5.0 s with a process beside it, and 3.8 s with companions after it, by kernels that are there
+LONG, HEAVIER = 5e6, 5.0  # with temperatures a step takes so many times as long
 
 
 def idle():
@@ -28,11 +31,16 @@ def idle():
     return 0 if job.working() else cores.available() - runtime.ensure()["threads"]
 
 
+def lasts(scene):
+    """Whether a run is long."""
+    return companions.work(scene) * (1.0 if scene.isothermal else HEAVIER) >= LONG
+
+
 @contextlib.contextmanager
 def told(scene):
     """The function of tell(done, total) that waits for what :func:`tehl_taichi.march.companions.answers` gives of a scene. They
-    begin now where a core is idle, and end with the context."""
-    if not (companions.wanted(scene) and idle() > 0):
+    begin now where the run is long and a core idle, and end with the context."""
+    if not (companions.wanted(scene) and lasts(scene) and idle() > 0):
         yield functools.partial(companions.answers, scene)
         return
     with _started(scene) as process:
