@@ -89,16 +89,9 @@ class RowStress:
                 out[:, :, 1:, n] += sign * _unit_load(n, lags, image, depth, sides)
                 out[:, :, 0, n] *= sign > 0  # an odd load vanishes on the mirror's row
         spectra = np.fft.rfft(self._wrapped(out), axis=1)
-        return np.ascontiguousarray(np.moveaxis(_real(spectra), 0, -1)).reshape(self.size // 2 + 1, -1, 6)
-
-
-def _real(spectra):
-    """What spectra (6, waves, rows, 3), real or imaginary, do with p, i q_x and q_y."""
-    out = np.empty(spectra.shape)
-    for n in range(6):
-        plain, crossed = (spectra[n].imag, -spectra[n].real) if n in TURNED else (spectra[n].real, spectra[n].imag)
-        out[n], out[n, ..., 1] = plain, crossed[..., 1]
-    return out
+        spectra[..., 1] *= -1j  # it goes with i q_x
+        spectra[TURNED, ...] *= -1j
+        return np.ascontiguousarray(np.moveaxis(spectra.real, 0, -1)).reshape(self.size // 2 + 1, -1, 6)
 
 
 def _unit_load(n, x, y, depth, sides):

@@ -53,69 +53,49 @@ def nodes_around(Z: ti.template(), at: ti.template(), kind: ti.template(), nz, n
     return rows_around(at, Z[kind, at.q * nz + n], Z[kind, before * nz + n], Z[kind, behind * nz + n])
 
 
+@ti.func
+def address(by_kind: ti.template(), place, count, q, n):
+    """Row and column of the n-th of `count` numbers of column q: of the kind `place`, or of the slots from `place` on."""
+    row, column = q, place + n
+    if ti.static(by_kind):
+        row, column = place, q * count + n
+    return row, column
+
+
 @ti.kernel
-def get_nodes(Z: ti.template(), G: Table, kind: ti.i32, out: Fields):
-    """out (nz, ny+1, nx+1) = a kind."""
+def get(F: ti.template(), G: Table, by_kind: ti.template(), place: ti.i32, out: Fields):
+    """out (count, ny+1, nx+1) = the numbers at `place`."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
         for i in range(nx + 1):
             for n in range(out.shape[0]):
-                take(out, n, s, i, ny, Z[kind, (s * (nx + 1) + i) * out.shape[0] + n])
+                row, column = address(by_kind, place, out.shape[0], s * (nx + 1) + i, n)
+                v = F[row, column]
+                for u in ti.static(range(W)):
+                    if s * W + u <= ny:
+                        out[n, s * W + u, i] = v[u]
 
 
 @ti.kernel
-def put_nodes(Z: ti.template(), G: Table, kind: ti.i32, values: Fields):
-    """A kind = values (nz, ny+1, nx+1); ghosts repeat the last row."""
+def put(F: ti.template(), G: Table, by_kind: ti.template(), place: ti.i32, values: Fields):
+    """The numbers at `place` = values (count, ny+1, nx+1); ghosts repeat the last row."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
         for i in range(nx + 1):
             for n in range(values.shape[0]):
-                Z[kind, (s * (nx + 1) + i) * values.shape[0] + n] = block(values, n, s, i, ny)
-
-
-@ti.func
-def take(out: ti.template(), n, s, i, ny, v):
-    """The rows of a block into an array."""
-    for u in ti.static(range(W)):
-        if s * W + u <= ny:
-            out[n, s * W + u, i] = v[u]
-
-
-@ti.func
-def block(values: ti.template(), n, s, i, ny):
-    """The rows of a block from an array."""
-    v = V(0.0)
-    for u in ti.static(range(W)):
-        v[u] = values[n, ti.min(s * W + u, ny), i]
-    return v
-
-
-@ti.kernel
-def get_slots(F: ti.template(), G: Table, first: ti.i32, out: Fields):
-    """out (count, ny+1, nx+1) = the slots from `first` on."""
-    nx, ny, off = cells(G, 0)
-    ti.loop_config(block_dim=1)
-    for s in range(ny // W + 1):
-        for i in range(nx + 1):
-            for n in range(out.shape[0]):
-                take(out, n, s, i, ny, F[s * (nx + 1) + i, first + n])
-
-
-@ti.kernel
-def put_slots(F: ti.template(), G: Table, first: ti.i32, values: Fields):
-    """The slots from `first` on = values (count, ny+1, nx+1); ghosts repeat the last row."""
-    nx, ny, off = cells(G, 0)
-    ti.loop_config(block_dim=1)
-    for s in range(ny // W + 1):
-        for i in range(nx + 1):
-            for n in range(values.shape[0]):
-                F[s * (nx + 1) + i, first + n] = block(values, n, s, i, ny)
+                v = V(0.0)
+                for u in ti.static(range(W)):
+                    v[u] = values[n, ti.min(s * W + u, ny), i]
+                row, column = address(by_kind, place, values.shape[0], s * (nx + 1) + i, n)
+                F[row, column] = v
 
 
 class SlotTable:
     """A table F[column, slot] of so many slots on the finest grid of `levels`; its arrays are (slots, ny+1, nx+1)."""
+
+    by_kind = False  # how it lies in its field, see :func:`address`
 
     def __init__(self, levels, slots):
         self.levels, self.carriers = levels, Carriers()
@@ -123,21 +103,23 @@ class SlotTable:
 
     def get(self, first, count=1):
         """`count` slots from `first` on as a new array."""
-        return self._carry(get_slots, first, count).copy()
+        return self._carry(get, first, count).copy()
 
     def put(self, first, values):
         """Set the slots from `first` on."""
-        self._carry(put_slots, first, len(values), values)
+        self._carry(put, first, len(values), values)
 
     def _carry(self, kernel, place, count, values=None):
         v = self.levels
         return self.carriers.carry((kernel, place, count), (count, v.ny + 1, v.nx + 1),
-                                   lambda array: bind(kernel, self.field, v.G, place, array), values)
+                                   lambda array: bind(kernel, self.field, v.G, self.by_kind, place, array), values)
 
 
 class Columns(SlotTable):
     """The tables Z (field) and C (singles) of a film with nz nodes across: quantities at the nodes (nz, ny+1, nx+1), others
     (ny+1, nx+1), by name."""
+
+    by_kind = True
 
     def __init__(self, levels, nz):
         self.levels, self.carriers, self.nz = levels, Carriers(), nz
@@ -145,10 +127,10 @@ class Columns(SlotTable):
         self.singles = SlotTable(levels, SINGLES)
 
     def nodes(self, kind):
-        return self._carry(get_nodes, kind, self.nz).copy()
+        return self.get(kind, self.nz)
 
     def put_nodes(self, kind, values):
-        self._carry(put_nodes, kind, self.nz, values)
+        self.put(kind, values)
 
     def single(self, name):
         return self.singles.get(name)[0]

@@ -4,7 +4,6 @@ Default gear on one of two cores, s, medians of three in turn: 45.5 without bars
 both cores a process beside the run takes more than they do after it (67.5 against 59.7).
 """
 
-import base64
 import contextlib
 import functools
 import json
@@ -52,7 +51,7 @@ def told(scene):
 
 def _started(scene):
     with tempfile.TemporaryFile() as scenes:
-        scenes.write(base64.b64encode(pickle.dumps((os.getpid(), scene))))
+        pickle.dump((os.getpid(), scene), scenes)
         scenes.seek(0)
         # a session of its own: Ctrl-C is for the run, which ends it
         return subprocess.Popen([sys.executable, "-c", "from tehl_taichi.study.beside import serve; serve()"], stdin=scenes,
@@ -71,7 +70,7 @@ def _ready(process, scene, tell=lambda done, total: None):
 
 def serve():
     """The process: the number of the run's process and its scene come by stdin, the answers go to stdout."""
-    run, scene = pickle.loads(base64.b64decode(sys.stdin.read()))
+    run, scene = pickle.load(sys.stdin.buffer)
     threading.Thread(target=_end_with, args=(run,), daemon=True).start()
     runtime.start(threads=1)
     print(json.dumps(companions.answers(scene)), flush=True)

@@ -4,7 +4,6 @@ Taichi keeps compiled kernels when its process ends properly, which workers rare
 its own, once for a kind of scene, version and machine (more exactly: folder of kernels).
 """
 
-import base64
 import contextlib
 import hashlib
 import json
@@ -51,8 +50,7 @@ def _wait_for(lock):
 
 def _compile(scene):
     """Run a few steps of the scene in a process that ends properly, whatever comes out."""
-    job = base64.b64encode(pickle.dumps(scene)).decode()
-    subprocess.run([sys.executable, "-c", "from tehl_taichi.study.warm import serve; serve()"], input=job, text=True,
+    subprocess.run([sys.executable, "-c", "from tehl_taichi.study.warm import serve; serve()"], input=pickle.dumps(scene),
                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env={**os.environ, "OMP_NUM_THREADS": "1"})
 
 
@@ -62,7 +60,7 @@ def serve():
     from tehl_taichi.fatigue import assessment
     from tehl_taichi.march.passage import march
 
-    scene = pickle.loads(base64.b64decode(sys.stdin.read()))
+    scene = pickle.load(sys.stdin.buffer)
     runtime.start(threads=1)
     with contextlib.suppress(Error):
         short = scene.replace(**{"time.steps": STEPS}) if scene.transient else scene
