@@ -46,9 +46,10 @@ def store_thinning(S: ti.template(), k, h, floor, rheology: ti.template(), p, ne
 
 
 @ti.kernel
-def laws(S: ti.template(), G: Table, oil: ti.template(), rheology: ti.template(), conditions: Flat, slopes: ti.template(),
-         alone: ti.template()):
-    """Density, viscosity and mobility on the finest level; with slopes = 1 their derivatives, which need the values."""
+def laws(S: ti.template(), G: Table, oil: ti.template(), rheology: ti.template(), conditions: Flat, rows: ti.template(),
+         slopes: ti.template(), alone: ti.template()):
+    """Density, viscosity and mobility on the finest level; with slopes = 1 their derivatives, which need the values. rows: the
+    LawRows that the equations read."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
@@ -62,7 +63,13 @@ def laws(S: ti.template(), G: Table, oil: ti.template(), rheology: ti.template()
                 le, ie = le + log(b), ie / b
                 if ti.static(slopes):
                     store_thinning(S, k, h, floor, rheology, p, newtonian, b)
+            elif ti.static(slopes and rows.thinning == DLH):
+                S[DLH, k] = V(0.0)
             if ti.static(slopes):
                 store_slopes(S, k, rho, le, scene.p_H / DP)
+                if ti.static(rows.slope != QP):
+                    S[rows.slope, k] = S[QP, k]
             else:
                 store_laws(S, k, h, rho, le, ie, G[0, ILAM])
+                if ti.static(rows.couette != RHO):
+                    S[rows.couette, k] = rho

@@ -8,10 +8,11 @@ class OneTemperature:
     """The film of an isothermal problem on `levels`, see :class:`tehl_taichi.pressure.equations.Equations`.
 
     values(), slopes(): density and viscosity of the film in the table, and their derivatives, into the table; rows: which.
+    Where temperatures follow, the rows are theirs: equations of either film are then the same kernels, traced and loaded once.
     """
 
     def __init__(self, levels):
         scene = levels.scene
-        self.rows = fields.SHEARED if levels.thins else fields.NEWTONIAN
-        known = levels.S, levels.G, scene.oil, scene.shear_law, levels.conditions.values
+        self.rows = (fields.SHEARED if levels.thins else fields.NEWTONIAN) if scene.isothermal else fields.THERMAL
+        known = levels.S, levels.G, scene.oil, scene.shear_law, levels.conditions.values, self.rows
         self.values, self.slopes = (levels.launch(laws.laws, *known, slopes, work=HEAVY) for slopes in (0, 1))
