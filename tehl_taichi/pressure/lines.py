@@ -70,7 +70,7 @@ def dry_rows(J: ti.template(), k):
 @ti.func
 def kind_of(S: ti.template(), J: ti.template(), G: ti.template(), l, k, n2, i, up, down, theta):
     dry = S[DRY, k - 1] + S[DRY, k + 1] + up * above(S, DRY, k, n2) + down * below(S, DRY, k, n2)
-    bound = theta * G[l, K0] * (0.5 * (1.0 - G[l, FRAME]) + G[l, CT])
+    bound = G[l, K0] * (0.5 * (1.0 - G[l, FRAME]) + theta * G[l, CT])
     if i == 1 or i == n2 - 2:
         bound = -1.0
     strong = ti.select(J[EPS, k] > bound, V(1.0), V(0.0)) + dry

@@ -14,7 +14,11 @@ from tehl_taichi.pressure import fields, lines
 from tehl_taichi.pressure.deflection import Deflection
 from tehl_taichi.pressure.levels import HEAVY
 
-THETA = 1.0  # switch between the two kinds of columns; flat from 0.3 to 3
+# Switch between the two kinds of columns where time passes. Krylov iterations a step with 1 / 10 / 30 / 1000, gear at SRR
+# -0.12: whole passages on 128 columns 15.8 / 15.1 / 14.9 / 16.0, on 256 15.0 / 14.2 / 14.0 / 15.2 (with temperatures 18.1 and,
+# with 30, 15.8); the feature coming in, on 512 15.1 and 12.6, 1024 29.5 / 17.0 / 16.6 / 17.1, 2048 some 41 / 30 / 20.5 / 21.1.
+# At rest 1: with 3 the steady start on 2048 columns does not converge
+THETA = 30.0
 
 
 class AdditiveLines:
