@@ -50,7 +50,8 @@ def test_work_does_not_grow_with_the_grid(taichi_cpu):
     from tehl_taichi.march.passage import march
 
     def cycles(nx, steps):
-        incoming = {"thermal.on": False, "srr": -0.12, "time.x_start": -1.4, "grid.nx": nx, "grid.ny": nx // 4, "time.steps": steps}
+        incoming = {"thermal.on": False, "srr": -0.12, "time.x_start": -1.4, "grid.nx": nx, "grid.ny": nx // 4,
+                    "time.steps": steps}
         return [shot.scalars["cycles"] for shot in march(scene("gear").replace(**incoming))][1:]
 
     coarse, fine = np.mean(cycles(256, 60)), np.mean(cycles(1024, 24)[16:])

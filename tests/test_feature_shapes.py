@@ -57,6 +57,7 @@ def test_waviness_along_and_across():
     for x, y, share in ((0, 0, 1), (30, 0, -1), (0, 45, -1), (30, 45, 1), (10, 0, 0.5), (0, 15, 0.5), (10, 15, 0.25),
                         (0, 30, -0.5), (20, 0, -0.5), (0, 301, 0), (301, 0, 0)):
         assert height(waves, x, y) == pytest.approx(0.3 * share, abs=1e-12)
+    assert (waves.reach, waves.reach_y) == pytest.approx((300 * UM, 300 * UM))
     transverse = Feature(shape="waviness", height=0.3 * UM, width=60 * UM, extent_x=600 * UM)
     assert height(transverse, 10, 1e4) == pytest.approx(0.15) and transverse.transverse and not waves.transverse
 

@@ -143,12 +143,23 @@ def test_the_fatigue_of_stresses_from_elsewhere():
     assert tehl.fatigue(bending(500e6).tolist(), **limits).Fi == pytest.approx(1)  # one point, as a list
 
 
+def test_the_critical_plane_is_told_by_two_angles():
+    """Reversed tension along x (y), half of it along y (x), none along z: the normal leans from z by 90 - 36.65 degrees, with
+    tan(2 36.65) = 1/0.3, towards x (y)."""
+    along_x, along_y = bending(), np.zeros((5, 6))
+    along_y[:, 1], along_y[:, 0], along_x[:, 1] = along_x[:, 0], along_x[:, 0] / 2, along_x[:, 0] / 2
+    found = tehl.fatigue(np.stack([along_x, along_y]), kappa=0.3)
+    np.testing.assert_allclose(found.theta, 90 - 36.65, atol=0.05)
+    np.testing.assert_allclose(np.abs(found.phi) % 180, [0, 90], atol=0.05)
+
+
 @pytest.mark.parametrize("of, constants, said", [
     (bending(), {"kapa": 1}, "kappa"), (bending(), {"to_x": 1.0}, "to_x has no meaning"), (bending(), {"kappa": -1}, "kappa"),
     (bending(), {"criterion": "finley"}, "findley"), (bending()[:, :5], {}, "shaped"), (bending() * np.nan, {}, "finite"),
     (bending(), {"bending_limit": 5e8}, "together"),
     (bending(), {"bending_limit": 5e8, "torsion_limit": 2e8}, "between 0.5 and"),
     (bending(), {"bending_limit": 0.0, "torsion_limit": 2e8}, "bending_limit"), ([["a"]], {}, "given stresses"),
+    (bending(), {"bending_limit": 5e8, "torsion_limit": 1.1e11}, "torsion_limit.*1e\\+11"),
     ([], {}, "snapshots do not know")])
 def test_bad_stresses_and_constants_are_one_error(of, constants, said):
     with pytest.raises(tehl.SceneError, match=said):

@@ -26,7 +26,7 @@ TURNED = (3, 4)  # xy, xz: i times what the loads p, i q_x and q_y give
 class RowStress:
     """Six components at `depths` (m, 0: the surface) under row `row` of a grid, from p, q_x and q_y on all its rows.
 
-    x, y, nu, line, mirrored: as for :class:`tehl_taichi.fatigue.half_space.Stress`.
+    x, y, nu, line, mirrored: as for :class:`tehl_taichi.fatigue.half_space.Stress`; mirrored rows begin at y = 0.
     """
 
     def __init__(self, x, y, nu, line, mirrored, depths, row):
@@ -81,7 +81,7 @@ class RowStress:
         """(waves, 3 loads of every row, 6), real: from unit loads on one rectangle of each row and its mirror image."""
         sides = spacing(self.x) / 2, spacing(self.y) / 2, self.nu
         lags, far = lags[:, None], self.y[row] - self.y
-        image = self.y[row] + self.y[1:] - 2 * self.y[0]
+        image = self.y[row] + self.y[1:]
         out = np.zeros((6, lags.size, self.y.size, 3))
         for n, sign in enumerate(SIGNS):
             out[..., n] = _unit_load(n, lags, far, depth, sides)

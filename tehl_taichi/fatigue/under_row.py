@@ -35,7 +35,7 @@ def histories_of(passage, depths, kinds):
 
 
 def _operator(passage, depths, row, endless):
-    y = np.zeros(1) if endless else passage.reader.y - passage.reader.y[0]
+    y = np.zeros(1) if endless else passage.reader.y
     return RowStress(passage.grid_x, y, passage.scene.body_a.nu, passage.line, passage.mirrored, depths, 0 if endless else row)
 
 
