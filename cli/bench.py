@@ -1,5 +1,6 @@
 """tehl bench: the suites under profiles/."""
 
+import itertools
 import json
 from pathlib import Path
 from typing import Optional
@@ -167,11 +168,12 @@ def _coverage(path, seed, quick, judge, threads):
     if not judge:
         measure.fresh(threads, suite.run, path, seed, quick, say)
     stored = json.loads(path.read_text())
-    list_table(f"error bars of random scenes (seed {stored['seed']}), judged on grids {suite.FINER} times as fine",
-               ("quantity", "stated", "unknown", "covered, %", "bar/error", "bar", "error (medians)"),
-               [(f"{part} {name}", str(stated), str(unknown), *(_short(value, factor) for value, factor in
-                                                          zip(numbers, (100, 1, 1, 1))))
-                for part, name, stated, unknown, *numbers in suite.table(stored["rows"])])
+    for part, rows in itertools.groupby(suite.table(stored["rows"]), lambda row: row[0]):
+        list_table(f"{part}: error bars of random scenes (seed {stored['seed']}), judged on grids {suite.FINER} times as "
+                   "fine;\nmedians of bar over real error, bar, real error, in parts of the value or in K",
+                   ("quantity", "bars", "null", "hold, %", "ratio", "bar", "error"),
+                   [(name, str(known), str(unknown), *(_short(value, factor) for value, factor in zip(numbers, (100, 1, 1, 1))))
+                    for _, name, known, unknown, *numbers in rows])
     for one in stored["rows"]:
         if "reason" in one:
             say(f"left out, {one['kind']}: {one['reason']}")

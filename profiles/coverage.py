@@ -139,11 +139,11 @@ def judged(rows):
 def table(rows):
     """[(part, quantity, bars stated, not known, share covered, median of bar over real error, median bar, median real error)]
     per quantity and over all; the medians in parts of the value, of a temperature in K."""
-    found = judged(rows)
-    names = list(dict.fromkeys((part, name) for part, name, *_ in found))
-    groups = [(part, name, [one for one in found if one[:2] == (part, name)]) for part, name in names]
-    groups += [(part, "all", [one for one in found if one[0] == part]) for part in dict.fromkeys(one[0] for one in found)]
-    return [(part, name, *_line(group)) for part, name, group in groups]
+    parts = {}
+    for one in judged(rows):
+        for name in (one[1], "all"):
+            parts.setdefault(one[0], {}).setdefault(name, []).append(one)
+    return [(part, name, *_line(names[name])) for part, names in parts.items() for name in sorted(names, key="all".__eq__)]
 
 
 def _line(group):

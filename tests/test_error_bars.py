@@ -37,6 +37,14 @@ def test_an_earlier_difference_counts_where_the_last_one_is_small_by_accident():
     assert estimated_error([1.0, 1.1]) == pytest.approx(0.15) and np.isnan(estimated_error([1.0]))
 
 
+def test_no_bar_is_narrower_than_what_the_iterations_may_have_left():
+    """Grids that agree to 0.1 mK while rounds end at 50 mK."""
+    assert bar([Reading(100.0001), Reading(100.0, settled=0.005)])[0] == pytest.approx(0.1)  # two grids alone: a thousandth
+    same = [Reading(100.0002), Reading(100.0001), Reading(100.0, settled=0.005)]
+    assert bar(same)[0] == 0.005 and bar(same[:2] + [Reading(100.0)])[0] < 3e-4
+    assert readings.hottest(120.0, scene("gear")) == Reading(120.0, settled=0.1 * scene("gear").thermal.tolerance)
+
+
 def test_a_number_that_grids_do_not_resolve_has_no_bar():
     def maximum(value, place, doubt=""):
         return Reading(value, 0.0, (place,), 0.1, doubt)

@@ -46,7 +46,7 @@ def passage_readings(scene, reader, scalar, fatigue=None):
     heat = () if scene.isothermal else readings.HEAT
     out = {"p_max_Pa": readings.highest(_moment(reader, int(np.argmax(p)) + 1)),
            "h_min_m": readings.lowest(_moment(reader, int(np.argmin(h)) + 1)),
-           **{name: Reading(float(np.max(scalar(name)[1:]))) for name in heat},
+           **{name: readings.hottest(np.max(scalar(name)[1:]), scene) for name in heat},
            "friction_coefficient_mean": Reading(float(np.mean(scalar("friction_coefficient")[1:])))}
     out |= {"Fi_max": Reading(float(fatigue["Fi_max"]))} if fatigue else {}
     out |= {BELOW: Reading(float(fatigue["below"]["Fi_max"]))} if fatigue and "below" in fatigue else {}

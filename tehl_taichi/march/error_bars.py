@@ -28,7 +28,8 @@ class Reading:
 
     blur: how far the true extreme may lie from the one over nodes on this grid; place: where that is, in each frame in which it
     may rest, and cell: the spacing there, () and nan for a number that is no extreme; doubt: why this grid cannot know the
-    number ("" where it can); lost: whether its value is not even a step towards that of the next grid.
+    number ("" where it can); lost: whether its value is not even a step towards that of the next grid; settled: how far the
+    iterations may have left it from the solution of this grid.
     """
 
     value: float
@@ -37,6 +38,7 @@ class Reading:
     cell: float = math.nan
     doubt: str = ""
     lost: bool = False
+    settled: float = 0.0
 
 
 def bar(readings):
@@ -57,7 +59,7 @@ def bar(readings):
     if abs(steps[0]) > HOPELESS * abs(last.value):
         return None, f"it still changes by {abs(steps[0] / last.value):.0%} from grid to grid"
     accident = ACCIDENT * abs(last.value) if len(steps) == 1 and not last.place else 0.0
-    return max(accident, BLURRED * last.blur, _left(steps, bool(last.place))), ""
+    return max(accident, last.settled, BLURRED * last.blur, _left(steps, bool(last.place))), ""
 
 
 def _left(steps, extreme):

@@ -9,20 +9,27 @@ from tehl_taichi.march.error_bars import Reading, beside
 from tehl_taichi.march.peaks import peak, sharpest
 
 HEAT = ("film_max_C", "surface_a_max_C", "surface_b_max_C")
+SETTLED = 0.1  # of thermal.tolerance: rounds end when another one would move temperatures by less; usual are 0.01 to 0.1 of it
 SPIKE = "a pressure peak of {:.0%} of the largest is only a few cells wide and may grow on finer grids"
 EXIT = "exit not resolved: "  # where the feature, or the oil that it let in, leaves the film
 TOUCH = "the surfaces touch on this grid, which is too coarse for so thin a film"
 
 
-def steady(shot):
+def steady(shot, scene):
     """{name: Reading} of a snapshot of a steady smooth contact."""
     out = {"h_c_m": Reading(shot.scalars["h_c_m"]), "h_min_m": lowest(shot), "p_max_Pa": highest(shot),
-           **{name: Reading(shot.scalars[name]) for name in (*HEAT, "friction_coefficient") if name in shot.scalars}}
+           "friction_coefficient": Reading(shot.scalars["friction_coefficient"]),
+           **{name: hottest(shot.scalars[name], scene) for name in HEAT if name in shot.scalars}}
     if "film_max_C" in out:  # a narrow peak of pressure may be the hottest place
         out["film_max_C"] = replace(out["film_max_C"], doubt=out["p_max_Pa"].doubt)
     if shot.fields["contact"].any():  # nothing is known of a film that this grid does not have, nor of what it does
         out = {name: replace(reading, doubt=TOUCH, lost=True) for name, reading in out.items()}
     return out
+
+
+def hottest(value, scene):
+    """Reading of a temperature (deg C)."""
+    return Reading(float(value), settled=SETTLED * scene.thermal.tolerance)
 
 
 def highest(shot):

@@ -20,7 +20,7 @@ def steady_snapshot(scene, scales):
 
     def look(solver, heat, report):
         solved = Solved(solver, heat, report, started)
-        return readings.steady(snapshot.take(solved, 0, 0.0, math.nan, None)) if report.converged else None
+        return readings.steady(snapshot.take(solved, 0, 0.0, math.nan, None), scene) if report.converged else None
 
     result = solve_steady(scene, scales, scene.grid.nx, 0 if scales.line else scene.grid.ny, look)
     unsettled = ""
@@ -33,13 +33,13 @@ def steady_snapshot(scene, scales):
     solved = Solved(result.solver, result.heat, result.report, started)
     first = snapshot.take(solved, 0, 0.0, math.nan, lambda: state)
     first.scalars["cycles"], first.unsettled = float(result.work), unsettled
-    first.grids, (first.error, first.unknown) = result.values, _unknown(first) if unsettled else bars(result.values)
+    first.grids, (first.error, first.unknown) = result.values, _unknown(first, scene) if unsettled else bars(result.values)
     return _spread(first, scene, scales)
 
 
-def _unknown(first):
+def _unknown(first, scene):
     """Bars of a state in time: none, and why."""
-    return tuple(dict.fromkeys(readings.steady(first), said) for said in (None, f"not settled: {first.unsettled}"))
+    return tuple(dict.fromkeys(readings.steady(first, scene), said) for said in (None, f"not settled: {first.unsettled}"))
 
 
 def _spread(first, scene, scales):
