@@ -92,6 +92,10 @@ class Bodies:
                 memory[last_flux] = present
         self.restore(memory, self.offset)
 
+    def cool(self):
+        """Forget all heat."""
+        self.restore(np.zeros_like(self.memory()), np.zeros(2))
+
     def memory(self):
         """Modes of both bodies and the last flux into them, (slots, ny+1, nx+1)."""
         return self.table.get(0, strips.kept(modes.MODES))

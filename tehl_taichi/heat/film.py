@@ -13,7 +13,7 @@ from tehl_taichi.engine.lanes import Flat, Table, V, cells, place, tile, tiles
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
 from tehl_taichi.heat.nodes import Nodes, beyond, integral, weight, zeta
-from tehl_taichi.heat.slots import MS, MX, MY, NIE, NRHO, TAU, VY, XA, XB, YA, YB, T, U
+from tehl_taichi.heat.slots import MS, MX, MY, NIE, NRHO, PX, PY, TAU, VY, XA, XB, YA, YB, T, U
 from tehl_taichi.physics.density import rho_film
 from tehl_taichi.physics.viscosity import ln_eta
 from tehl_taichi.pressure.conditions import Conditions
@@ -142,9 +142,9 @@ def store_fluxes(Z: ti.template(), N: ti.template(), q, h):
 
 @ti.func
 def store_shear(C: ti.template(), q, col: ti.template(), flow: ti.template()):
-    """Stress of the Couette part, and tau on both walls."""
+    """Stress of the Couette part, gradient of the pressure, and tau on both walls."""
     tau, above = flow.left * flow.newtonian, 1.0 - flow.centre
-    C[q, TAU] = tau
+    C[q, TAU], C[q, PX], C[q, PY] = tau, col.px, col.py
     C[q, XA], C[q, YA] = tau - flow.centre * col.h * col.px, -flow.centre * col.h * col.py
     C[q, XB], C[q, YB] = tau + above * col.h * col.px, above * col.h * col.py
 

@@ -19,9 +19,9 @@ Fields = ti.types.ndarray(dtype=ti.f64, ndim=3)
 T, TN, TNN, U, VY, MX, MY, MS, MSN, MSNN, NIE, NRHO, TS, PS, LAST = range(15)
 KINDS = 15
 # pressure of the last step and the one before (Pa); heat into the bodies; A of T_s = A + B q; stress of the Couette part;
-# shear on the walls z = 0 and z = h
-PN, PNN, QA, QB, AA, AB, TAU, XA, YA, XB, YB = range(11)
-SINGLES = 11
+# gradient of the pressure (Pa/m); shear on the walls z = 0 and z = h
+PN, PNN, QA, QB, AA, AB, TAU, PX, PY, XA, YA, XB, YB = range(13)
+SINGLES = 13
 SHEARS = 4  # from XA on
 
 

@@ -23,10 +23,11 @@ SMALLEST_PART = 1 / 64  # of a step, that it is taken in
 
 
 def march_to_rest(solver, heat, P, H0):
-    """From the isothermal P and H0 and a cold film. Returns the Report of the steady pressure; converged = False where the
-    temperatures do not rest: then the newest state in time is left, and heat.report.change (K) is what its last two blocks
-    differ by, inf where there are none."""
+    """From the isothermal P and H0, a cold film and cold bodies. Returns the Report of the steady pressure; converged = False
+    where the temperatures do not rest: then the newest state in time is left, and heat.report.change (K) is what its last two
+    blocks differ by, inf where there are none."""
     put(solver, P, H0)
+    heat.bodies.cool()
     heat.start()
     together = Together(solver, heat)
     together.slip_in()

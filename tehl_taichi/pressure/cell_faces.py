@@ -84,6 +84,12 @@ def node(S: ti.template(), k, n2, up: ti.template()):
 
 
 @ti.func
+def mobility(a):
+    """Of the oil at the Node a."""
+    return a.root * a.root * a.gap * a.gap * a.gap * a.ie
+
+
+@ti.func
 def flux(a, b):
     """Poiseuille flux between the Nodes a and b, times the distance."""
     return a.root * b.root * cube(a.gap, b.gap)[0] * log_mean(a.le, b.le, a.ie, b.ie)[0] * (b.p - a.p)
