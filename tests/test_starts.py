@@ -206,3 +206,52 @@ def test_a_march_that_flutters_about_one_state_is_at_rest():
     assert march.rest() < 0.05
     march.swing, march.n = 15.0, 0
     assert march.rest() > 0.7
+
+
+def settled(**changes):
+    from tehl_taichi.march.passage import march
+
+    gear = {"time.steady_only": True, "grid.ny": 16, "thermal.on": True}
+    return next(march(scene("gear").replace(**{**gear, **changes}))).scalars
+
+
+def test_oil_of_40_degrees_between_surfaces_that_slip_settles():
+    """Its hot band meets cold oil at the outlet, where the pressure falls by 1 GPa within a cell: until 0.5.3 columns without a
+    solution, on 64 to 256 columns. Finer grids: 1.350 um (128), 192.0 deg C."""
+    found = settled(**{"temperature": 40.0, "srr": -0.5, "grid.nx": 64})
+    assert found["h_c_m"] == pytest.approx(1.350e-6, rel=0.015) and found["film_max_C"] == pytest.approx(192.0, abs=1.0)
+
+
+@pytest.mark.slow  # two minutes
+@pytest.mark.parametrize("temperature, srr", [(20.0, -0.12), (30.0, -0.3)])
+def test_cold_inlets_settle_on_two_grids(temperature, srr):
+    coarse, fine = (settled(temperature=temperature, srr=srr, **{"grid.nx": nx}) for nx in (64, 128))
+    assert fine["h_c_m"] == pytest.approx(coarse["h_c_m"], rel=0.01)
+    assert fine["film_max_C"] == pytest.approx(coarse["film_max_C"], abs=4.0)
+
+
+def test_a_march_from_nothing_forgets_what_the_bodies_remember(monkeypatch):
+    """It begins with cold bodies and without an older step, whatever went before."""
+    from tehl_taichi.march import together
+    from tehl_taichi.march.first_film import from_nothing
+    from tehl_taichi.pressure import fields
+    from tehl_taichi.pressure.newton import PressureSolver, Report
+    from tehl_taichi.pressure.one_temperature import OneTemperature
+
+    def told():
+        return float(np.abs(heat.bodies.memory()).max()), heat.dt_before, float(np.abs(heat.T - inlet).max())
+
+    heat, levels = film(srr=-0.3)
+    solver, inlet, seen = PressureSolver(levels, OneTemperature(levels)), levels.scene.operation.temperature, []
+    from_nothing(solver)
+    solver.take(heat)
+    heat.start()
+    heat.begin(heat.dt)
+    heat.solve()
+    heat.accept()
+    assert min(told()) > 0
+    monkeypatch.setattr(together.Together, "slip_in", lambda march: seen.append(told()))
+    monkeypatch.setattr(together.Together, "rest", lambda march: np.inf)
+    monkeypatch.setattr(together.Together, "report", Report(1e-9, 0.0, 1e-9, 3, 9, True), raising=False)
+    together.march_to_rest(solver, heat, levels.get(fields.P), solver.H0)
+    assert seen == [(0.0, 0.0, 0.0)]
