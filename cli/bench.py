@@ -43,6 +43,8 @@ def stability(
     quick: bool = typer.Option(False, "--quick", help="every sixth case and eight random scenes"),
     only_starts: bool = typer.Option(False, "--starts", help="scenes with temperatures alone, their start and one step"),
     by_film: bool = typer.Option(False, "--grid-by-film", help="as many columns as the film formula asks for"),
+    confirm: bool = typer.Option(False, "--confirm", help="what half the time step and twice the columns change of starts with "
+                                 "temperatures, instead"),
     as_json: bool = typer.Option(False, "--json", help="one JSON object with the counts on stdout"),
     threads: Optional[int] = THREADS,
     workers: int = WORKERS,
@@ -54,14 +56,18 @@ def stability(
     table = list(cases(thermal).items())
     chosen = [*table[:: 6 if quick else 1], *random_cases(min(random, 8) if quick else random, seed).items()]
     chosen = {name: description for name, description in chosen if match.lower() in name.lower()}
-    chosen = starts(chosen) if only_starts else chosen
+    chosen = starts(chosen) if only_starts or confirm else chosen
     chosen, found = carried(chosen) if by_film else chosen, []
+    if confirm:
+        return _confirm(chosen, as_json, workers, threads)
     for outcome in run(chosen.items(), precision, workers, threads):
         found.append(outcome)
         say(f"{outcome.name}: {outcome.verdict} {outcome.reason}")
     found.sort(key=lambda outcome: list(chosen).index(outcome.name))
     counts = {verdict: sum(o.verdict == verdict for o in found) for verdict in ("converged", "refused", "stopped", "failed")}
     counts["unsettled"] = sum(o.unsettled for o in found)
+    counts["carried"] = sum(o.carried for o in found)
+    counts["carried_converged"] = sum(o.carried and o.verdict == "converged" for o in found)
     if as_json:
         print_json({**counts, "cases": [vars(o) for o in found]})
     else:
@@ -69,8 +75,23 @@ def stability(
         _table("stability" + (" with temperatures" if thermal else ""), rows,
                {"case": "{}", "verdict": "{}", "steps": "{}", "newton": "{:.1f}", "cycles": "{:.0f}", "seconds": "{:.1f}",
                 "Fi_max": "{:.3f}"})
-        say(", ".join(f"{verdict} {count}" for verdict, count in counts.items()) + " (from a start that did not settle)")
+        say("{converged} converged ({unsettled} of them from a start that did not settle), {refused} refused, {stopped} "
+            "stopped, {failed} failed; {carried_converged} of {carried} whose film the grid carries converged".format(**counts))
     raise typer.Exit(1 if counts["failed"] else 0)
+
+
+def _confirm(chosen, as_json, workers, threads):
+    from tehl_taichi.profiles.stability import confirm
+
+    found = []
+    for one in confirm(chosen, workers, threads):
+        found.append(vars(one))
+        say(f"{one.name}: " + ", ".join(f"{key} {value:.2g}" for key, value in vars(one).items() if isinstance(value, float)))
+    if as_json:
+        return print_json({"cases": found})
+    rows = [{**one, **{key: 100 * one[key] for key in ("half_film", "finer_film") if one[key] is not None}} for one in found]
+    _table("what half the time step and twice the columns change: h_c in %, temperature in K", rows,
+           {"name": "{}", "columns": "{}", **dict.fromkeys(("half_film", "half_K", "finer_film", "finer_K"), "{:.2f}")})
 
 
 def conclusions(

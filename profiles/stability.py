@@ -33,7 +33,8 @@ SHEAR_LAWS = [Rheology.law, *sorted(set(rheology.LAWS) - {Rheology.law}, reverse
 class Outcome:
     """verdict: converged, refused (at the door), stopped (not converged, with a reason) or failed (NaN, negative film).
 
-    Fi_max: fatigue index of a passage that converged, else None; unsettled: whether it began from a state in time.
+    Fi_max: fatigue index of a passage that converged, else None; unsettled: whether it began from a state in time; carried:
+    whether the grid carries its film, by the film formula.
     """
 
     name: str
@@ -45,6 +46,20 @@ class Outcome:
     seconds: float
     Fi_max: Optional[float] = None
     unsettled: bool = False
+    carried: bool = False
+
+
+@dataclass(frozen=True)
+class Confirmed:
+    """What half the time step and twice the columns change of a start: central film (part of it), largest temperature (K);
+    None where that start stops."""
+
+    name: str
+    columns: int
+    half_film: Optional[float]
+    half_K: Optional[float]
+    finer_film: Optional[float]
+    finer_K: Optional[float]
 
 
 def cases(thermal=False):
@@ -205,7 +220,40 @@ def run_case(name, description, precision=AUTO):
     steps = max(len(shots) - 1, 0)
     count, seconds = max(steps, 1), time.perf_counter() - started
     unsettled = shots[0].unsettled if shots else ""
-    return Outcome(name, verdict, reason or unsettled, steps, newton / count, cycles / count, seconds, index, bool(unsettled))
+    return Outcome(name, verdict, reason or unsettled, steps, newton / count, cycles / count, seconds, index, bool(unsettled),
+                   thin_film.carried(description) >= 1)
+
+
+def confirm(chosen, workers=1, threads=None):
+    """Generator of a Confirmed for each of `chosen`, {name: scene}, in the order in which they end."""
+    for _, found in measure.side_by_side(confirmed, list(chosen.items()), workers, threads):
+        if not isinstance(found, pool.Lost):
+            yield found
+
+
+def confirmed(name, description):
+    """The start of a scene three times: as it is, with half the time step, on twice the columns. Returns a Confirmed."""
+    g, line = description.grid, Scales.of(description).line
+    own, half, finer = (_start(description, changes) for changes in (
+        {}, {"time.courant": 0.5 * description.time.courant},
+        {"grid.nx": 2 * g.nx, "grid.ny": g.ny if line else 2 * g.ny}))
+
+    def change(other):
+        return (abs(other[0] / own[0] - 1), abs(other[1] - own[1])) if own and other else (None, None)
+
+    return Confirmed(name, g.nx, *change(half), *change(finer))
+
+
+def _start(description, changes):
+    """(central film, m, largest temperature, deg C) of a start, or None where it does not settle."""
+    from tehl_taichi.errors import NotConverged
+    from tehl_taichi.march.passage import march
+
+    try:
+        shot = next(march(description.replace(**changes)))
+    except (NotConverged, SceneError):
+        return None
+    return None if shot.unsettled else (shot.scalars["h_c_m"], shot.scalars["film_max_C"])
 
 
 def sound(shot):

@@ -13,7 +13,7 @@ IN_J = ("A", "AU", "AD", "B", "BU", "BD", "EPS", "SCALE", "KIND", "RES", "SOL", 
 IN_S = ("P", "H", "GAP0", "QOLD", "MASK", "WEIGHT", "RHO", "LE", "IE", "ROOT", "GAP", "DLE", "DRP", "QP", "R", "D", "DRY",
         "TOUCH", "RHOC", "QCP", "DLH")
 IN_Z = ("T", "TN", "TNN", "U", "VY", "MX", "MY", "MS", "MSN", "MSNN", "NIE", "NRHO", "TS", "PS", "LAST")  # per node of zeta
-IN_C = ("PN", "PNN", "QA", "QB", "AA", "AB", "TAU", "XA", "YA", "XB", "YB")
+IN_C = ("PN", "PNN", "QA", "QB", "AA", "AB", "TAU", "PX", "PY", "XA", "YA", "XB", "YB")
 CONSTANT = ("G", "blocks")  # arguments too small to count
 
 

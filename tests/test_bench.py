@@ -107,3 +107,20 @@ def test_a_table_of_sentences_is_readable_on_80_columns(capsys, monkeypatch):
     shown = capsys.readouterr().out
     assert max(map(len, shown.splitlines())) <= 80
     assert "61.904" in shown and "Krylov" in shown and "not-to-be-broken-anywhere" in shown
+
+
+def test_starts_are_confirmed_by_half_a_step_and_twice_the_columns(monkeypatch):
+    """Films of 1 um + 0.01 um a column and 100 deg C + 1 K for half a step; one that stops on finer grids."""
+    from tehl_taichi.errors import NotConverged
+
+    def march(description):
+        if description.grid.nx > 200:
+            raise NotConverged("too fine")
+        film = (1.0 + 0.01 * description.grid.nx) * 1e-6
+        yield SimpleNamespace(scalars={"h_c_m": film, "film_max_C": 100.0 + (description.time.courant < 1)}, unsettled="")
+
+    monkeypatch.setattr("tehl_taichi.march.passage.march", march)
+    coarse, fine = (scene("gear").replace(**{"grid.nx": nx, "grid.ny": 32}) for nx in (64, 128))
+    found, stopped = stability.confirm({"coarse": coarse, "fine": fine})
+    assert found == stability.Confirmed("coarse", 64, 0.0, 1.0, pytest.approx(2.28 / 1.64 - 1), 0.0)
+    assert (stopped.half_film, stopped.half_K, stopped.finer_film, stopped.finer_K) == (0.0, 1.0, None, None)
