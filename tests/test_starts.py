@@ -222,6 +222,20 @@ def test_oil_of_40_degrees_between_surfaces_that_slip_settles():
     assert found["h_c_m"] == pytest.approx(1.350e-6, rel=0.015) and found["film_max_C"] == pytest.approx(192.0, abs=1.0)
 
 
+def test_a_thin_film_comes_down_from_a_high_speed():
+    """15 nm at 3.7 GPa on 512 columns, which carry it: from Hertz at its own speed Newton does not find it, and up from low
+    speeds the surfaces touch over the contact (until 0.5.3)."""
+    from tehl_taichi.profiles import stability
+
+    from tehl_taichi.march.passage import march
+
+    drawn = stability.carried(stability.starts(stability.random_cases(6, 2)))["random 2-5"]
+    assert drawn.grid.nx == 512 and thin_film.carried(drawn) > 1
+    shot = next(march(drawn.replace(**{"thermal.on": False})))
+    assert shot.scalars["residual"] < 1e-6 and shot.scalars["mass_error"] < 1e-6 and not shot.fields["contact"].any()
+    assert shot.scalars["h_c_m"] == pytest.approx(15.4e-9, rel=0.02)
+
+
 @pytest.mark.slow  # two minutes
 @pytest.mark.parametrize("temperature, srr", [(20.0, -0.12), (30.0, -0.3)])
 def test_cold_inlets_settle_on_two_grids(temperature, srr):

@@ -12,6 +12,11 @@ CAREFUL = 1e-2  # Krylov tolerance where that of the scene did not converge
 FIRST_FILM = 0.05  # central film of the first guess, Hertz units: thick enough to flow, thin enough to be near
 START_TRIES = (1.0, 0.3, 3.0)  # times FIRST_FILM
 SLIPS = (1.0,), (1e-3, 1e-2, 0.1, 1.0)  # parts of the slip that a start goes through, and again where it fails
+# Times the speed of the scene, that a start comes down from: its films are thick, and thin ones are near to those of three
+# times their speed. Up from low speeds a film touches on its grid, and may go on touching: lines of 15 and 50 nm on 512 and 1024
+# columns, which carry them
+FASTER = (10.0, 100.0, 1000.0)
+LARGEST_FALL, SMALLEST_FALL = 3.0, 1.05
 SLOWER = (300.0, 100.0, 30.0, 10.0, 3.0, 1.0)  # factors of the speed below that of the scene
 # Steps of time towards a steady state that Newton does not reach at once, in cells that the oil moves: films of a thousandth
 # of a^2/R' on grids that hardly resolve them. Of 102 isothermal scenes (table and random) 8 did not start without, all do now
@@ -50,7 +55,8 @@ def _without_slip(solver):
             report = solver.solve(krylov_tolerance)
             if report.converged:
                 return report
-    return _through_slower_ones(solver)
+    report = _through_faster_ones(solver)
+    return report if report.converged else _through_slower_ones(solver)
 
 
 def again(solver):
@@ -73,6 +79,37 @@ def put(solver, P, H0):
     """Go on from this pressure and rigid approach."""
     solver.levels.put(fields.P, P)
     solver.H0 = H0
+
+
+def _through_faster_ones(solver):
+    """From Hertz at a high speed, where films are thick, down to the speed of the scene."""
+    for speed in FASTER:
+        _hertz(solver, FIRST_FILM)
+        report = _down_from(solver, speed)
+        if report.converged:
+            break
+    solver.levels.numbers.slow_down(1.0)
+    return report
+
+
+def _down_from(solver, speed):
+    """From the state in the table at `speed` times that of the scene down to it, in smaller steps where one fails; surfaces
+    that touch on the way would go on touching."""
+    v, step, known = solver.levels, LARGEST_FALL, None  # known: speed, P and H0 of the last film
+    while True:
+        v.numbers.slow_down(1 / speed)
+        report = solver.solve(CAREFUL)
+        if known and not report.converged:
+            report = _in_time(solver, *known[1:])
+        report.converged = report.converged and not v.get(fields.TOUCH).any()
+        if report.converged:
+            known = speed, v.get(fields.P), solver.H0
+        elif known:
+            put(solver, *known[1:])
+            step = np.sqrt(step)
+        if speed == 1.0 and report.converged or not known or step < SMALLEST_FALL:
+            return report
+        speed = max(known[0] / step, 1.0)
 
 
 def _through_slower_ones(solver):
