@@ -13,8 +13,8 @@ FIRST_FILM = 0.05  # central film of the first guess, Hertz units: thick enough 
 START_TRIES = (1.0, 0.3, 3.0)  # times FIRST_FILM
 SLIPS = (1.0,), (1e-3, 1e-2, 0.1, 1.0)  # parts of the slip that a start goes through, and again where it fails
 # Times the speed of the scene, that a start comes down from: its films are thick, and thin ones are near to those of three
-# times their speed. Up from low speeds a film touches on its grid, and may go on touching: lines of 15 and 50 nm on 512 and 1024
-# columns, which carry them
+# times their speed. Up from low speeds a film touches on its grid, and may go on touching: lines of 15 and 50 nm on 512 and
+# 1024 columns, which carry them
 FASTER = (10.0, 100.0, 1000.0)
 LARGEST_FALL, SMALLEST_FALL = 3.0, 1.05
 SLOWER = (300.0, 100.0, 30.0, 10.0, 3.0, 1.0)  # factors of the speed below that of the scene
