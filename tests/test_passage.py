@@ -132,7 +132,7 @@ def test_a_step_that_never_converges_stops_with_the_reason(monkeypatch):
         return report
 
     monkeypatch.setattr(Passage, "_solve", failing)
-    with pytest.raises(NotConverged, match=r"step 4 .* down to 0.0625"):
+    with pytest.raises(NotConverged, match=r"step 4 .* down to 0.015625"):
         passage()
 
 
