@@ -66,6 +66,12 @@ def log_lanes(x):
     return out * f + (e * LN2_HIGH + e * LN2_LOW)
 
 
+@ti.func
+def within(value, a, b):
+    """`value`, or what of a and b is nearer to it."""
+    return minimum(maximum(value, minimum(a, b)), maximum(a, b))
+
+
 def _lanes(x):
     return hasattr(x, "is_tensor") and x.is_tensor()
 

@@ -94,7 +94,8 @@ class Bodies:
 
     def cool(self):
         """Forget all heat."""
-        self.restore(np.zeros_like(self.memory()), np.zeros(2))
+        v = self.levels
+        self.restore(np.zeros((strips.kept(modes.MODES), v.ny + 1, v.nx + 1)), np.zeros(2))
 
     def memory(self):
         """Modes of both bodies and the last flux into them, (slots, ny+1, nx+1)."""

@@ -9,7 +9,7 @@ from tehl_taichi.engine.lanes import Flat, Table, V, W, cells, place, tile, tile
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
 from tehl_taichi.heat.elimination import eliminate
-from tehl_taichi.heat.film import couette, node_laws
+from tehl_taichi.heat.film import couette, node_laws, pressure_and_film
 from tehl_taichi.heat.nodes import Nodes, second, slope, weight, zeta
 from tehl_taichi.heat.slots import (
     AA,
@@ -39,7 +39,7 @@ from tehl_taichi.physics.density import expansivity
 from tehl_taichi.physics.rheology import sensitivity
 from tehl_taichi.physics.viscosity import ln_eta
 from tehl_taichi.pressure.conditions import Conditions
-from tehl_taichi.pressure.fields import FLOOR, TOUCH, H, P
+from tehl_taichi.pressure.fields import TOUCH, P
 from tehl_taichi.pressure.tractions import solid_friction
 
 DT = 1e-2  # K, step of the difference quotient in temperature
@@ -129,7 +129,8 @@ def thinning(Z: ti.template(), q, nz, oil: ti.template(), p, ln_eta0):
 def heated(S: ti.template(), C: ti.template(), G: ti.template(), at: ti.template(), oil: ti.template(),
            rheology: ti.template(), scene: ti.template()):
     """The Heated of a place."""
-    p, h, fade = S[P, at.k] * scene.p_H, maximum(S[H, at.k], G[0, FLOOR]) * scene.h, V(1.0)
+    p, h = pressure_and_film(S, G, at.k, scene)
+    fade = V(1.0)
     if at.i > scene.centre:
         fade = S[P, at.k] / (S[P, at.k] + FADE)
     friction = -scene.u_s * solid_friction(rheology, p, scene.u_s) / h

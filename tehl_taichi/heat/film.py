@@ -43,11 +43,18 @@ class Couette:
 
 
 @ti.func
+def pressure_and_film(S: ti.template(), G: ti.template(), k, scene: ti.template()):
+    """Pa, and m, at least the floor."""
+    return S[P, k] * scene.p_H, maximum(S[H, k], G[0, FLOOR]) * scene.h
+
+
+@ti.func
 def column(S: ti.template(), G: ti.template(), at: ti.template(), scene: ti.template()):
     """The Column of a place, from pressure and film."""
     px, py = limited_gradient(S, G, at)
+    p, h = pressure_and_film(S, G, at.k, scene)
     slope = scene.p_H / scene.a
-    return Column(p=S[P, at.k] * scene.p_H, h=maximum(S[H, at.k], G[0, FLOOR]) * scene.h, px=px * slope, py=py * slope)
+    return Column(p=p, h=h, px=px * slope, py=py * slope)
 
 
 @ti.func

@@ -1,6 +1,6 @@
 """Where the oil of a film came from: values one and two steps ago at the departure points of its nodes."""
 
-from tehl_taichi.engine.elementary import maximum, minimum
+from tehl_taichi.engine.elementary import maximum, minimum, within
 from tehl_taichi.engine.lanes import Flat, Table, V, W, cells, place, tile, tiles
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
@@ -15,11 +15,6 @@ def cubic(f):
     """Lagrange weights of the nodes -1, 0, 1, 2 at f."""
     return (-f * (f - 1.0) * (f - 2.0) / 6.0, (f + 1.0) * (f - 1.0) * (f - 2.0) / 2.0, -(f + 1.0) * f * (f - 2.0) / 2.0,
             (f + 1.0) * f * (f - 1.0) / 6.0)
-
-
-@ti.func
-def within(value, a, b):
-    return minimum(maximum(value, minimum(a, b)), maximum(a, b))
 
 
 @ti.dataclass

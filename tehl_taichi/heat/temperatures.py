@@ -68,10 +68,11 @@ class FilmHeat:
         self._accept = bind(paths.accept, *state, v.G, self.nz, v.scales.p_H)
 
     def start(self, T=None):
-        """Everything at the inlet temperature, or the film at T; the pressure and film in the table count as those of the last
-        step. Until :meth:`Bodies.warm_resting`, surfaces at rest conduct as after a long time."""
+        """Everything at the inlet temperature, or the film at T and cold bodies; the pressure and film in the table count as
+        those of the last step. Until :meth:`Bodies.warm_resting`, surfaces at rest conduct as after a long time."""
         v, self.bodies.steady, self.dt_before = self.levels, True, 0.0
         inlet = v.scene.operation.temperature
+        self.bodies.cool()
         self.set_temperature(np.full((self.nz, v.ny + 1, v.nx + 1), inlet) if T is None else T)
         self.values()
         self._keep()

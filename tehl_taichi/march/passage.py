@@ -14,7 +14,7 @@ from tehl_taichi.heat.temperatures import FilmHeat
 from tehl_taichi.march import snapshot
 from tehl_taichi.march.failure import crossed, not_converged
 from tehl_taichi.march.prediction import Prediction
-from tehl_taichi.march.rounds import carefully, exchange
+from tehl_taichi.march.rounds import SMALLEST_PART, carefully, exchange
 from tehl_taichi.march.snapshot import Snapshot
 from tehl_taichi.march.solved import Solved
 from tehl_taichi.march.start import steady_snapshot
@@ -32,9 +32,6 @@ __all__ = ["NotConverged", "Passage", "Snapshot", "march", "total_steps"]
 # changes as much from round to round (asperity of 100 um on 128 columns, SRR -0.12 and 0.12: by 100 K and more; with 8 rounds
 # neither passes 1.15 a)
 MORE_ROUNDS = 4
-# Then in halves down to this part of it; after that parts at most double. With 1/16 the asperity of 100 um stops at 1.12 a on
-# 128 columns, where it touches
-SMALLEST_PART = 1 / 64
 
 
 def march(scene, state=None):

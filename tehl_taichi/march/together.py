@@ -12,14 +12,13 @@ import numpy as np
 
 from tehl_taichi.heat.energy import LIGHT
 from tehl_taichi.march.first_film import again, put
-from tehl_taichi.march.rounds import carefully, exchange
+from tehl_taichi.march.rounds import SMALLEST_PART, carefully, exchange
 from tehl_taichi.march.settle import FLUTTER, LONGEST_RUN, SETTLED, unsettled
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.storage import Storage
 
 ONSET, BLOCK = 0.5, 0.25  # transits of the domain by the slower surface: of the growing slip; of a block
 BLOCKS, MOST_STEPS = 40, 4000  # at most; scenes that rest do so after 4 to 18 blocks, the gear at 50 m/s after more than 24
-SMALLEST_PART = 1 / 64  # of a step, that it is taken in
 
 
 def march_to_rest(solver, heat, P, H0):
@@ -27,7 +26,6 @@ def march_to_rest(solver, heat, P, H0):
     where the temperatures do not rest: then the newest state in time is left, and heat.report.change (K) is what its last two
     blocks differ by, inf where there are none."""
     put(solver, P, H0)
-    heat.bodies.cool()
     heat.start()
     together = Together(solver, heat)
     together.slip_in()

@@ -1,6 +1,6 @@
 """dP/dX and dP/dY at the nodes, from the differences to both neighbours."""
 
-from tehl_taichi.engine.elementary import maximum, minimum
+from tehl_taichi.engine.elementary import within
 from tehl_taichi.engine.lanes import V, W, above, below
 from tehl_taichi.engine.language import ti
 from tehl_taichi.pressure.cell_faces import flux, flux_x, mobility, node
@@ -44,15 +44,12 @@ def limited_gradient(S: ti.template(), G: ti.template(), at: ti.template()):
     columns: with this bound 0.3819, 0.3827, 0.3829, 0.3829 um, without 0.3808, 0.3823, 0.3827, 0.3827; with twice the bound
     0.3810, 0.3824, 0.3828, 0.3829, and the gear at 20 deg C does not start.
     """
-    x, y, wet = bounded(limited(*along_x(S, at)), driving_x(S, at)) / G[0, DX], V(0.0), S[P, at.k] > 0.0
+    y, wet, driving = V(0.0), S[P, at.k] > 0.0, driving_x(S, at)
+    x = within(limited(*along_x(S, at)), -driving, driving) / G[0, DX]
     if at.ny > 0:
-        y = bounded(limited(*along_y(S, at)), driving_y(S, at)) / G[0, DY]
+        driving = driving_y(S, at)
+        y = within(limited(*along_y(S, at)), -driving, driving) / G[0, DY]
     return ti.select(wet, x, V(0.0)), ti.select(wet, y, V(0.0))
-
-
-@ti.func
-def bounded(value, size):
-    return minimum(maximum(value, -ti.abs(size)), ti.abs(size))
 
 
 @ti.func
