@@ -12,12 +12,11 @@ CAREFUL = 1e-2  # Krylov tolerance where that of the scene did not converge
 FIRST_FILM = 0.05  # central film of the first guess, Hertz units: thick enough to flow, thin enough to be near
 START_TRIES = (1.0, 0.3, 3.0)  # times FIRST_FILM
 SLIPS = (1.0,), (1e-3, 1e-2, 0.1, 1.0)  # parts of the slip that a start goes through, and again where it fails
-# Times the speed of the scene, that a start comes down from: its films are thick, and thin ones are near to those of three
-# times their speed. Up from low speeds a film touches on its grid, and may go on touching: lines of 15 and 50 nm on 512 and
-# 1024 columns, which carry them
-FASTER = (10.0, 100.0, 1000.0)
-LARGEST_FALL, SMALLEST_FALL = 3.0, 1.05
-SLOWER = (300.0, 100.0, 30.0, 10.0, 3.0, 1.0)  # factors of the speed below that of the scene
+# Times the speed of the scene, that a start comes from. Down from high ones, where films are thick: thin ones are near to those
+# of three times their speed. Up from a low one a film touches on its grid, and may go on touching (lines of 15 and 50 nm on 512
+# and 1024 columns, which carry them): for grids that do not carry it
+SPEEDS = 10.0, 100.0, 1000.0, 1 / 300
+LARGEST_STEP, SMALLEST_STEP = 3.0, 1.05  # ratio of two speeds on the way
 # Steps of time towards a steady state that Newton does not reach at once, in cells that the oil moves: films of a thousandth
 # of a^2/R' on grids that hardly resolve them. Of 102 isothermal scenes (table and random) 8 did not start without, all do now
 SHORTEST_TIME, LONGEST_TIME, TIME_STEPS, ROUGHLY = 1e-2, 1e4, 60, 1e-4
@@ -55,14 +54,13 @@ def _without_slip(solver):
             report = solver.solve(krylov_tolerance)
             if report.converged:
                 return report
-    report = _through_faster_ones(solver)
-    return report if report.converged else _through_slower_ones(solver)
+    return _through_speeds(solver)
 
 
 def again(solver):
     """The pressure for other temperatures, which must not see what is left of earlier linear solves."""
     report = from_here(solver, CLOSE)
-    return report if report.converged else _through_slower_ones(solver)
+    return report if report.converged else _through_speeds(solver)
 
 
 def from_here(solver, krylov_tolerance=None):
@@ -81,50 +79,41 @@ def put(solver, P, H0):
     solver.H0 = H0
 
 
-def _through_faster_ones(solver):
-    """From Hertz at a high speed, where films are thick, down to the speed of the scene."""
-    for speed in FASTER:
-        _hertz(solver, FIRST_FILM)
-        report = _down_from(solver, speed)
+def _through_speeds(solver):
+    """From Hertz at another speed to the speed of the scene, from the first of SPEEDS from which it gets there."""
+    for speed in SPEEDS:
+        _hertz(solver, FIRST_FILM * min(1.0, START_TRIES[-1] * speed**0.7))
+        report = _from_speed(solver, speed)
         if report.converged:
             break
     solver.levels.numbers.slow_down(1.0)
     return report
 
 
-def _down_from(solver, speed):
-    """From the state in the table at `speed` times that of the scene down to it, in smaller steps where one fails; surfaces
-    that touch on the way would go on touching."""
-    v, step, known = solver.levels, LARGEST_FALL, None  # known: speed, P and H0 of the last film
+def _from_speed(solver, speed):
+    """From the state in the table at `speed` times that of the scene to it, in smaller steps where one fails. Surfaces that touch
+    on the way down would go on touching."""
+    v, step, down, known = solver.levels, LARGEST_STEP, speed > 1.0, None  # known: speed of the last film
+    state = v.get(fields.P), solver.H0
     while True:
-        v.numbers.slow_down(1 / speed)
-        report = solver.solve(CAREFUL)
-        if known and not report.converged:
-            report = _in_time(solver, *known[1:])
-        report.converged = report.converged and not v.get(fields.TOUCH).any()
+        report = _at_speed(solver, speed, *state)
+        if down and v.get(fields.TOUCH).any():
+            report.converged = False
         if report.converged:
-            known = speed, v.get(fields.P), solver.H0
-        elif known:
-            put(solver, *known[1:])
+            known, state = speed, (v.get(fields.P), solver.H0)
+        else:
+            put(solver, *state)
             step = np.sqrt(step)
-        if speed == 1.0 and report.converged or not known or step < SMALLEST_FALL:
+        if known is None or speed == known == 1.0 or step < SMALLEST_STEP:
             return report
-        speed = max(known[0] / step, 1.0)
+        speed = max(known / step, 1.0) if down else min(known * step, 1.0)
 
 
-def _through_slower_ones(solver):
-    """From Hertz at a low speed, where it is near, up to the speed of the scene; in time where a speed does not converge."""
-    _hertz(solver, FIRST_FILM * START_TRIES[-1] / SLOWER[0] ** 0.7)
-    for factor in SLOWER:
-        solver.levels.numbers.slow_down(factor)
-        P, H0 = solver.levels.get(fields.P), solver.H0
-        report = solver.solve(CAREFUL)
-        if not report.converged:
-            report = _in_time(solver, P, H0)
-        if not report.converged:
-            break
-    solver.levels.numbers.slow_down(1.0)
-    return report
+def _at_speed(solver, speed, P, H0):
+    """From P and H0 at `speed` times that of the scene; in time where that does not converge."""
+    solver.levels.numbers.slow_down(1 / speed)
+    report = solver.solve(CAREFUL)
+    return report if report.converged else _in_time(solver, P, H0)
 
 
 def _in_time(solver, P, H0):
