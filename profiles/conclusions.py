@@ -4,7 +4,7 @@ Every case runs on three grids, each twice as fine (time steps shrink with the c
 with the observed order where it is credible.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +13,7 @@ from tehl_taichi.profiles import measure
 from tehl_taichi.errors import NotConverged
 from tehl_taichi.fatigue import below, findley
 from tehl_taichi.fatigue.histories import Passage
+from tehl_taichi.march import readings
 from tehl_taichi.march.error_bars import estimated_error
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
@@ -37,13 +38,15 @@ DEPTHS = {DEEP: ("depth", "whole"), ALONE: ("depth alone", "whole")}
 @dataclass(frozen=True)
 class Row:
     """One case: Findley stress in Pa by (loads, window) and its error, DEEP and ALONE (Pa) and their depths (m) among them;
-    friction over load on the footprint at x_a = -0.5 and 0.5 a; reason: why it has no values."""
+    friction over load on the footprint at x_a = -0.5 and 0.5 a; doubts: why errors that are NaN are not known; reason: why it
+    has no values."""
 
     name: str
     srr: float
     values: dict
     errors: dict
     friction: tuple
+    doubts: dict = field(default_factory=dict)
     reason: str = ""
 
 
@@ -70,7 +73,7 @@ def run(folder, quick=False, progress=None, workers=1, threads=None):
     for number, answer in measure.side_by_side(row, jobs, workers, threads):
         name, description = jobs[number][:2]
         lost = isinstance(answer, pool.Lost)
-        found[name] = Row(name, description.operation.srr, {}, {}, (np.nan, np.nan), answer.reason) if lost else answer
+        found[name] = Row(name, description.operation.srr, {}, {}, (np.nan, np.nan), reason=answer.reason) if lost else answer
         if progress:
             progress(f"{name}: {found[name].reason or 'done'}")
     return [found[name] for name in cases(quick)]
@@ -91,9 +94,19 @@ def row(name, description, folder, grids, progress=None):
         found.append(stresses(saved))
         friction = tuple(footprint_friction(saved, at) for at in (-0.5, 0.5))
     if not found:
-        return Row(name, description.operation.srr, {}, {}, friction, reason)
-    errors = {key: estimated_error([one[key] for one in found]) for key in found[-1]}
-    return Row(name, description.operation.srr, found[-1], errors, friction)
+        return Row(name, description.operation.srr, {}, {}, friction, reason=reason)
+    doubts = unresolved(saved)
+    errors = {key: np.nan if key in doubts else estimated_error([one[key] for one in found]) for key in found[-1]}
+    return Row(name, description.operation.srr, found[-1], errors, friction, doubts)
+
+
+def unresolved(saved):
+    """{(loads, window): why the grid does not know it}, of windows with a pressure peak that it does not resolve."""
+    at, p = saved.scalar("feature_x")[1:] / Scales.of(saved.scene).a, saved.scalar("p_max_Pa")[1:]
+    entries = {window: 1 + np.flatnonzero((at >= low) & (at <= high)) for window, (low, high) in WINDOWS.items()}
+    doubts = {window: readings.unresolved(saved, those, p[those - 1].max()) for window, those in entries.items() if those.size}
+    keys = [(loads, window) for loads in LOADS for window in WINDOWS] + [DEEP]
+    return {key: doubts[key[1]] for key in keys if doubts.get(key[1])}
 
 
 def stresses(saved):
@@ -175,8 +188,11 @@ def _pair(one, other):
     return " against ".join(_with_error(f, e) for f, e in (one, other)) + " MPa"
 
 
-def _with_error(f, error):
-    return f"{f / 1e6:.0f} ± {error / 1e6:.0f}" if np.isfinite(error) else f"{f / 1e6:.0f} (error unknown)"
+def _with_error(f, error, doubt=""):
+    if np.isfinite(error):
+        return f"{f / 1e6:.0f} ± {error / 1e6:.0f}"
+    exits = doubt.startswith(readings.EXIT)
+    return f"{f / 1e6:.0f} ({'exit not resolved' if exits else 'peak not resolved' if doubt else 'error unknown'})"
 
 
 def _slug(name):
@@ -188,7 +204,7 @@ def cells(row, columns=tuple(("all", window) for window in WINDOWS)):
     """Text of a row's values with errors, MPa; the reason first where there are none."""
     if row.reason:
         return [row.reason] + [""] * (len(columns) - 1)
-    return [_with_error(row.values[key], row.errors[key]) + _at_depth(row, key) for key in columns]
+    return [_with_error(row.values[key], row.errors[key], row.doubts.get(key, "")) + _at_depth(row, key) for key in columns]
 
 
 def _at_depth(row, key):

@@ -6,6 +6,7 @@ from tehl_taichi.profiles import conclusions
 
 from tehl_taichi.errors import StoreError
 from tehl_taichi.scene import scene
+from tehl_taichi.scene.scales import Scales
 
 
 def test_verdicts_need_more_than_the_error():
@@ -32,6 +33,39 @@ def test_the_statements_follow_from_the_rows():
     text = conclusions.page(rows, conclusions.verdicts(rows, 400e6), scene("gear"))
     assert "400 ± 5" in text and "560 ± 5 at 25 um" in text and "**follows**" in text
     assert judged["the worst point lies below the surface: asperity 1.5 um, SRR -0.12"] == "follows"
+
+
+class Spiked:
+    """A store of a feature that passes from -1.5 to 1.2 a under Hertz' pressure, with one node of the outlet at 3 GPa while it is
+    behind `since` a."""
+
+    def __init__(self, since):
+        self.scene, self.since = scene("gear"), since
+        self.a = Scales.of(self.scene).a
+        self.x = np.linspace(-2.5, 1.5, 65) * self.a
+        self.at = np.linspace(-1.5, 1.2, 28)
+
+    def fields(self, n, names):
+        p = 2e9 * np.sqrt(np.maximum(1 - (self.x / self.a) ** 2, 0.0))
+        if n and self.at[n - 1] > self.since:
+            p[np.searchsorted(self.x, 0.9 * self.a)] = 3e9
+        return {"pressure": np.stack([p, p], axis=1)}
+
+    def scalar(self, name):
+        if name == "feature_x":
+            return np.append(np.nan, self.at * self.a)
+        return np.array([self.fields(n, ())["pressure"].max() for n in range(len(self.at) + 1)])
+
+
+def test_an_exit_that_is_not_resolved_has_no_error():
+    """What is found before the peak is known."""
+    assert conclusions.unresolved(Spiked(np.inf)) == {}
+    late, early = conclusions.unresolved(Spiked(0.7)), conclusions.unresolved(Spiked(-0.7))
+    assert set(late) == {(loads, window) for loads in conclusions.LOADS for window in ("exit", "whole")} | {conclusions.DEEP}
+    assert ("all", "entry") in early and all(why.startswith("exit not resolved") for why in late.values())
+    row = make("asperity", 400e6, np.nan)
+    row.doubts["all", "whole"] = late["all", "whole"]
+    assert "400 (exit not resolved)" in conclusions.cells(row) and "400 (error unknown)" in conclusions.cells(row)
 
 
 def test_every_case_has_its_own_store():

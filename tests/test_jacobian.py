@@ -1,12 +1,13 @@
 """The Jacobian of the pressure equations against differences of their residual: all that Newton's steps live on."""
 
 import numpy as np
+import pytest
 
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 
 
-def mismatch(description, warm=None):
+def mismatch(description, warm=None, step=1e-5):
     """Largest difference of Jacobian times change and difference of residuals, over the largest of these, for changes of the
     pressure in a few long and short waves and of the rigid approach; with a time derivative in a moving frame."""
     from tehl_taichi.heat.temperatures import FilmHeat
@@ -34,7 +35,7 @@ def mismatch(description, warm=None):
     inside = levels.vector(fields.MASK) > 0
     worst = 0.0
     for kx, ky, approach in ((1.0, 0.0, 0.0), (9.0, np.pi, 0.1), (25.0, 8 * np.pi, -0.3), (0.0, 0.0, 1.0)):
-        change, step = ends * np.cos(kx * X + 0.3) * np.cos(ky * Y) * (kx > 0), 1e-5
+        change = ends * np.cos(kx * X + 0.3) * np.cos(ky * Y) * (kx > 0)
         found = [residual(P + sign * step * change, sign * step * approach) for sign in (1, -1)]
         exact = (found[0] - found[1]) / (2 * step)
         residual(P, 0.0)
@@ -70,3 +71,11 @@ def test_with_temperatures_and_a_shear_limit(taichi_cpu):
         return 40 + 30 * z + 20 * z * (1 - z) * (1 + 0.2 * np.cos(X) * np.cos(np.pi * Y))
 
     assert mismatch(thick("gear", **{"thermal.on": True, "srr": -1.9, "temperature": 40.0}), warm) < 1e-4
+
+
+@pytest.mark.parametrize("law", [{"law": "limiting", "tau_L0": 1e5, "gamma": 5e-4}, {"law": "eyring", "tau_0": 3e4},
+                                 {"law": "carreau", "tau_0": 3e4, "carreau_n": 0.5}], ids=lambda law: law["law"])
+def test_walls_that_yield_to_the_pressure(taichi_cpu, law):
+    """In pure rolling, where the law acts by the gradient of the pressure alone; far more than rounding of its slopes."""
+    weak = {f"rheology.{key}": value for key, value in law.items()}
+    assert mismatch(thick("gear", **{"thermal.on": False, "srr": 0.0, "speed": 3.0, **weak}), step=1e-6) < 1e-4

@@ -45,6 +45,14 @@ def test_shear_laws_are_odd_and_newtonian_where_the_stress_is_small(law):
     assert (law.stress(rheology, 1e9, 1e9) < 0.99e9) == law.thins
 
 
+@of("rheology.law")
+def test_pressure_drives_more_through_oil_that_thins_the_more_it_strains_the_walls(law):
+    rheology = law.having()
+    driven = [float(law.poiseuille(rheology, wall, 1e9)) for wall in (0.0, 1e3, 1e7, 1e8, 2e8, 4e8)]
+    assert driven[0] == 1.0 and driven[1] == pytest.approx(1.0, rel=1e-8)
+    assert all((more > less) == law.thins for less, more in zip(driven[1:], driven[2:]))
+
+
 @of("oil.viscosity")
 def test_viscosity_laws_know_what_the_temperature_does(law):
     """The numbers that they name are those without which it does nothing; all rise with pressure."""

@@ -9,6 +9,7 @@ from tehl_taichi.scene.scales import Scales
 
 MOST_FRICTION = 0.2  # of a film: no oil is known to bear more than about 0.12 of the pressure, traction fluids included
 MOST_RIPPLE = 0.005  # of the largest pressure: a tenth of what a passing feature changes, ten times what resolved passages show
+NO_VALUE = "oil without a shear limit has no finite value here; take temperatures or a limiting law (rheology.law)"
 
 
 def friction(store, summary):
@@ -40,18 +41,13 @@ def _where(store, n, p, i):
 
 def _because(store, i):
     """At the outlet the frozen film ends in a free edge: an inverse square root, which only a shear limit makes finite."""
-    return f" and grows like 1/sqrt(cell); {_no_value(store.scene)}" if store.x[i] > 0 and _endless(store.scene) else (
+    return f" and grows like 1/sqrt(cell); {NO_VALUE}" if store.x[i] > 0 and _endless(store.scene) else (
         "; take a finer grid")
 
 
 def _endless(scene):
     """Whether nothing bounds the pressure at a free edge of frozen oil."""
-    return scene.isothermal and not scene.shear_law.thins
-
-
-def _no_value(scene):
-    return ("without slip no shear limit acts, and there is no finite value" if scene.operation.u_s == 0 else
-            "oil without a shear limit has no finite value here; take temperatures or a limiting law (rheology.law)")
+    return scene.isothermal and not scene.rheology.thins
 
 
 def worst_ripple(store, entries):
@@ -67,7 +63,7 @@ def ripples(store, summary):
         when = f"feature at {store.feature_x(n) / a:.2f} a, " if n else ""
         yield ((readings.EXIT if at_edge else "") + "the pressure ripples from node to node along x by up to "
                f"{size / 1e9:.3f} GPa ({when}X = {store.x[i] / a:.2f}): the grid's shortest wave, not a result; "
-               + (_no_value(store.scene) if at_edge else "try another time.courant or a finer grid"))
+               + (NO_VALUE if at_edge else "try another time.courant or a finer grid"))
 
 
 CHECKS = (friction, unresolved, ripples)

@@ -14,7 +14,6 @@ import numpy as np
 from tehl_taichi.errors import Error
 from tehl_taichi.march import readings
 from tehl_taichi.march.error_bars import Reading, bars
-from tehl_taichi.march.peaks import sharpest
 from tehl_taichi.scene.route import total_steps
 
 COMPANIONS = 2  # with the run itself three grids; 1/8 and 1/64 of its cells and steps
@@ -51,8 +50,7 @@ def passage_readings(scene, reader, scalar, fatigue=None):
     out |= {"Fi_max": Reading(float(fatigue["Fi_max"]))} if fatigue else {}
     out |= {BELOW: Reading(float(fatigue["below"]["Fi_max"]))} if fatigue and "below" in fatigue else {}
     # a peak that the grid does not resolve at some moment: neither its pressure is known nor what it does to oil and steel
-    spike = max(sharpest(reader.fields(n, ("pressure",))["pressure"], p.max()) for n in range(1, len(p) + 1))
-    why = readings.doubt(reader.x, *spike)
+    why = readings.unresolved(reader, range(1, len(p) + 1), p.max())
     return out | {name: replace(out[name], doubt=why) for name in SHARP if why and name in out}
 
 

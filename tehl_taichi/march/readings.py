@@ -45,6 +45,11 @@ def doubt(x, height, i):
     return (EXIT if x[i] > 0 else "") + SPIKE.format(height) if height else ""
 
 
+def unresolved(reader, entries, largest):
+    """The :func:`doubt` about these entries, by the worst peak of all; largest: pressure of them, Pa."""
+    return doubt(reader.x, *max(sharpest(reader.fields(n, ("pressure",))["pressure"], largest) for n in entries))
+
+
 def lowest(shot):
     """Reading of the smallest film of a snapshot, m."""
     h = shot.fields["film"]

@@ -15,6 +15,11 @@ def _nothing(oil, Gamma, p):
     return ""
 
 
+def _newtonian(rheology, wall, p):
+    """As Newtonian oil."""
+    return 1.0 + 0.0 * wall
+
+
 @dataclass(frozen=True, kw_only=True)
 class Law(Entry):
     """numbers: {key: declaration} of what the law takes from a scene (see :mod:`tehl_taichi.values.quantity`); most_p (Pa),
@@ -38,9 +43,14 @@ class Law(Entry):
 @dataclass(frozen=True, kw_only=True)
 class ShearLaw(Law):
     """stress(rheology, newtonian, p): the stress (Pa) that a film bears for the Newtonian stress eta * (shear rate); odd in it,
-    and equal to it where it is small. thins: whether it ever is another one."""
+    and equal to it where it is small. thins: whether it ever is another one.
+
+    poiseuille(rheology, wall, p): what a gradient of the pressure drives through the film without slip, over what it drives
+    through Newtonian oil; wall = h |grad p|/2: the stress (Pa) that it puts on both walls.
+    """
 
     stress: Callable
+    poiseuille: Callable = _newtonian
     thins: bool = True
 
 

@@ -7,12 +7,26 @@ from tehl_taichi.registry import collect
 
 LAWS = collect(shear, ShearLaw)  # choices of rheology.law
 LARGEST = 1e100  # Pa: beyond any trial state, and its square is still a number
+RISE, STEP = 1e-6, 1e3  # of a wall stress; Pa: for difference quotients
 
 
 @unrolled
 def shear_stress(rheology, newtonian, p):
     """Stress that a film bears for a given Newtonian stress eta * (shear rate)."""
     return LAWS[rheology.law].stress(rheology, newtonian, p)
+
+
+@unrolled
+def poiseuille(rheology, wall, p):
+    """Poiseuille flow under a stress h |grad p|/2 of the walls over that of Newtonian oil."""
+    return LAWS[rheology.law].poiseuille(rheology, wall, p)
+
+
+@pointwise
+def poiseuille_slopes(rheology, wall, p, value):
+    """wall d/dwall and d/dp (1/Pa) of :func:`poiseuille`, by differences."""
+    return ((poiseuille(rheology, wall * (1.0 + RISE), p) - value) / RISE,
+            (poiseuille(rheology, wall, p + STEP) - value) / STEP)
 
 
 @pointwise

@@ -1,11 +1,13 @@
 """Poiseuille flow between two neighbouring nodes and its derivatives.
 
-Mobility of the face: log-mean of 1/eta, geometric mean of rho, and of H^3 the :func:`cube`.
+Mobility of the face: log-mean of 1/eta, geometric mean of rho, and of H^3 the :func:`cube`; times what the shear law makes of it
+under the stress that the gradient along the face puts on the walls (that of each direction by itself).
 """
 
 from tehl_taichi.engine.lanes import V, above, below
 from tehl_taichi.engine.language import ti
-from tehl_taichi.pressure.fields import DLE, DRP, GAP, IE, LE, ROOT, P
+from tehl_taichi.physics.rheology import poiseuille, poiseuille_slopes
+from tehl_taichi.pressure.fields import DLE, DRP, DX, DY, GAP, IE, LE, P_H, ROOT, WALL, P
 
 
 @ti.dataclass
@@ -26,6 +28,15 @@ class Slopes:
     le: V  # d le/dP
     root: V  # d root/dP
     le_h: V  # d le/dH
+
+
+@ti.dataclass
+class Walls:
+    """Of a level: Pa on both walls of a film H = 1 by a difference of P of 1 along x and along y, and Pa of P = 1."""
+
+    x: ti.f64
+    y: ti.f64
+    p_H: ti.f64
 
 
 @ti.dataclass
@@ -96,26 +107,60 @@ def flux(a, b):
 
 
 @ti.func
+def walls(G: ti.template(), l):
+    """The Walls of level l."""
+    return Walls(x=G[l, WALL], y=G[l, WALL] * G[l, DX] / G[l, DY], p_H=G[l, P_H])
+
+
+@ti.func
+def strain(a, b, wall, p_H):
+    """Stress on the walls and pressure at the face, Pa."""
+    return wall * 0.5 * (a.gap + b.gap) * ti.abs(b.p - a.p), 0.5 * p_H * (a.p + b.p)
+
+
+@ti.func
+def driven(a, b, rheology: ti.template(), wall, p_H):
+    """The :func:`flux` of oil with a shear law."""
+    out = flux(a, b)
+    if ti.static(rheology.thins):
+        out *= poiseuille(rheology, *strain(a, b, wall, p_H))
+    return out
+
+
+@ti.func
 def flux_x(S: ti.template(), k):
     return flux(node(S, k, 0, 0), node(S, k + 1, 0, 0))
 
 
 @ti.func
-def net_flux_y(S: ti.template(), k, n2, up, down):
-    here = node(S, k, n2, 0)
-    return up * flux(here, node(S, k, n2, 1)) - down * flux(node(S, k, n2, -1), here)
+def driven_x(S: ti.template(), k, rheology: ti.template(), at: ti.template()):
+    return driven(node(S, k, 0, 0), node(S, k + 1, 0, 0), rheology, at.x, at.p_H)
 
 
 @ti.func
-def linear_face(a, da, b, db):
+def net_driven_y(S: ti.template(), k, n2, up, down, rheology: ti.template(), at: ti.template()):
+    here = node(S, k, n2, 0)
+    above_it, below_it = node(S, k, n2, 1), node(S, k, n2, -1)
+    return up * driven(here, above_it, rheology, at.y, at.p_H) - down * driven(below_it, here, rheology, at.y, at.p_H)
+
+
+@ti.func
+def linear_face(a, da, b, db, rheology: ti.template(), wall, p_H):
     """The Face between the Nodes a and b with their Slopes."""
     mean, mean_0, mean_1 = log_mean(a.le, b.le, a.ie, b.ie)
     c, c0, c1 = cube(a.gap, b.gap)
     g, r, m = b.p - a.p, a.root * b.root, a.root * b.root * c
-    eps = m * mean
-    return Face(p0=g * (c * b.root * da.root * mean - m * mean_0 * da.le) - eps,
-                p1=g * (c * a.root * db.root * mean - m * mean_1 * db.le) + eps,
-                h0=g * (r * c0 * mean - m * mean_0 * da.le_h), h1=g * (r * c1 * mean - m * mean_1 * db.le_h), eps=eps)
+    eps, along, by_p, by_h = m * mean, g, V(0.0), V(0.0)
+    if ti.static(rheology.thins):  # along: g times what the law makes of the flow
+        stress, p = strain(a, b, wall, p_H)
+        law = poiseuille(rheology, stress, p)
+        rise, slope = poiseuille_slopes(rheology, stress, p, law)
+        along, by_p, by_h = g * law, eps * g * slope * 0.5 * p_H, eps * g * rise / (a.gap + b.gap)
+        eps *= law + rise
+    return Face(p0=along * (c * b.root * da.root * mean - m * mean_0 * da.le) - eps + by_p,
+                p1=along * (c * a.root * db.root * mean - m * mean_1 * db.le) + eps + by_p,
+                h0=along * (r * c0 * mean - m * mean_0 * da.le_h) + by_h,
+                h1=along * (r * c1 * mean - m * mean_1 * db.le_h) + by_h, eps=eps)
 
 
 @ti.func
@@ -128,15 +173,18 @@ def slopes(S: ti.template(), k, n2, up: ti.template(), thinning: ti.template()):
 
 
 @ti.func
-def face_x(S: ti.template(), k, thinning: ti.template()):
-    return linear_face(node(S, k, 0, 0), slopes(S, k, 0, 0, thinning), node(S, k + 1, 0, 0), slopes(S, k + 1, 0, 0, thinning))
+def face_x(S: ti.template(), k, thinning: ti.template(), rheology: ti.template(), at: ti.template()):
+    return linear_face(node(S, k, 0, 0), slopes(S, k, 0, 0, thinning), node(S, k + 1, 0, 0), slopes(S, k + 1, 0, 0, thinning),
+                       rheology, at.x, at.p_H)
 
 
 @ti.func
-def face_above(S: ti.template(), k, n2, thinning: ti.template()):
-    return linear_face(node(S, k, n2, 0), slopes(S, k, n2, 0, thinning), node(S, k, n2, 1), slopes(S, k, n2, 1, thinning))
+def face_above(S: ti.template(), k, n2, thinning: ti.template(), rheology: ti.template(), at: ti.template()):
+    return linear_face(node(S, k, n2, 0), slopes(S, k, n2, 0, thinning), node(S, k, n2, 1), slopes(S, k, n2, 1, thinning),
+                       rheology, at.y, at.p_H)
 
 
 @ti.func
-def face_below(S: ti.template(), k, n2, thinning: ti.template()):
-    return linear_face(node(S, k, n2, -1), slopes(S, k, n2, -1, thinning), node(S, k, n2, 0), slopes(S, k, n2, 0, thinning))
+def face_below(S: ti.template(), k, n2, thinning: ti.template(), rheology: ti.template(), at: ti.template()):
+    return linear_face(node(S, k, n2, -1), slopes(S, k, n2, -1, thinning), node(S, k, n2, 0), slopes(S, k, n2, 0, thinning),
+                       rheology, at.y, at.p_H)

@@ -14,13 +14,14 @@ class Equations:
     """
 
     def __init__(self, levels, film):
-        v, rows = levels, film.rows
+        v, rows, rheology = levels, film.rows, levels.scene.rheology
         self.levels, self.film = levels, film
-        self.evaluate = v.launch(reynolds.residual, v.S, v.G, rows.couette)
+        self.evaluate = v.launch(reynolds.residual, v.S, v.G, rows.couette, rheology)
         blocks = v.sizes[1][1] // W + 1 if len(v.sizes) > 1 else 0
         self.inject = v.launch(transfer.inject, v.S, v.J, v.G, len(v.sizes), blocks, fields.STATE + rows.follow, work=HEAVY)
         self._rows, self._rows_coarse = (
-            v.launch(reynolds.linearise, v.S, v.J, v.G, v.blocks, *cut, rows.couette, rows.slope, rows.thinning, work=HEAVY)
+            v.launch(reynolds.linearise, v.S, v.J, v.G, v.blocks, *cut, rows.couette, rows.slope, rows.thinning, rheology,
+                     work=HEAVY)
             for cut in ((0, v.fine), (v.fine, len(v.blocks))))
 
     def residual(self, H0):

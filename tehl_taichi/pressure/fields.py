@@ -94,6 +94,8 @@ K0 = next(_col)  # deflection of a node by its own unit pressure
 K1 = next(_col)  # and by that of its neighbour in x
 FLOOR = next(_col)  # film floor H_min
 ILAM = next(_col)  # 1/lambda; larger than that of the scene while a steady start is approached through slower ones
+WALL = next(_col)  # Pa on both walls of a film H = 1 by a difference of P of 1 along x
+P_H = next(_col)  # Pa of P = 1
 SHEAR = next(_col)  # Newtonian stress (Pa) on body a of oil at p = 0 in a film H = 1, by the slip
 LINES = next(_col)  # 1 where lines are solved, 0 where corrections only pass through
 NCOLS = next(_col)

@@ -13,15 +13,14 @@ class LevelNumbers:
     """
 
     def __init__(self, grids, conditions, floor):
-        self.G, off = np.zeros((len(grids.sizes), fields.NCOLS)), PAD + grids.nx + 1
+        self.G, off, s = np.zeros((len(grids.sizes), fields.NCOLS)), PAD + grids.nx + 1, grids.scales
         for l in range(len(grids.sizes)):
             nx, ny, dx, dy = grids.grid(l)
             own, beside = grids.near_kernel(l)[0]
             self._set(l, {fields.OFF: off, fields.NX: nx, fields.NY: ny, fields.JN: ny + 1 if grids.line else ny,
                           fields.DX: dx, fields.DY: dy, fields.K0: own, fields.K1: beside, fields.FLOOR: floor,
-                          fields.LINES: l in grids.lines})
+                          fields.LINES: l in grids.lines, fields.P_H: s.p_H, fields.WALL: s.p_H * s.h / (2 * s.a * dx)})
             off += columns(nx, ny)
-        s = grids.scales
         self.inv_lambda = 1 / (12 * conditions["eta0"] * s.u_m * s.R**2 / (s.a**3 * s.p_H))
         self.shear = -conditions["u_s"] * conditions["eta0"] / s.h
         self.slow_down(1.0)

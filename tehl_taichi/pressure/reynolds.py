@@ -6,7 +6,7 @@ time derivative of the newest level, in a frame that may move with the oil. Ever
 
 from tehl_taichi.engine.lanes import Blocks, L, LinearFlat, Table, V, W, above, below, cells, face_weights, lanes_in, lanes_out
 from tehl_taichi.engine.language import ti
-from tehl_taichi.pressure.cell_faces import face_above, face_below, face_x, flux_x, net_flux_y
+from tehl_taichi.pressure.cell_faces import driven_x, face_above, face_below, face_x, net_driven_y, walls
 from tehl_taichi.pressure.couette import couette_weights
 from tehl_taichi.pressure.fields import (
     AD,
@@ -56,7 +56,7 @@ def transport(S: ti.template(), k, i, couette: ti.template(), frame):
 
 
 @ti.kernel
-def residual(S: ti.template(), G: Table, couette: ti.template(), alone: ti.template()):
+def residual(S: ti.template(), G: Table, couette: ti.template(), rheology: ti.template(), alone: ti.template()):
     """R = dx [ d(rho H)/dX + d(rho H)/dT - div(eps grad P) ] on the unknowns of the finest level, 0 elsewhere; with d/dT in a
     frame that moves, only the rest of the Couette flow is in d/dX."""
     nx, ny, off = cells(G, 0)
@@ -65,15 +65,15 @@ def residual(S: ti.template(), G: Table, couette: ti.template(), alone: ti.templ
     for s in range(ny // W + 1):
         up, down = face_weights(s, ny)
         inv, metric, CT_0, frame = 1 / G[0, DX], G[0, DX] / G[0, DY] ** 2, G[0, CT], G[0, FRAME]
-        first = off + s * n2
-        left = flux_x(S, first)
+        first, at = off + s * n2, walls(G, 0)
+        left = driven_x(S, first, rheology, at)
         S[R, first], S[R, first + nx] = V(0.0), V(0.0)
         for i in range(1, nx):
             k = first + i
-            right = flux_x(S, k)
+            right = driven_x(S, k, rheology, at)
             r = transport(S, k, i, couette, frame) + CT_0 * S[RHO, k] * S[H, k] + S[QOLD, k] - (right - left) * inv
             if ny > 0:
-                r -= net_flux_y(S, k, n2, up, down) * metric
+                r -= net_driven_y(S, k, n2, up, down, rheology, at) * metric
             S[R, k] = r * S[MASK, k]
             left = right
 
@@ -93,7 +93,8 @@ def store_rows(J: ti.template(), k, rows: ti.template(), c0, c1, c2, c3):
 
 @ti.kernel
 def linearise(S: ti.template(), J: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: ti.i32,
-              couette: ti.template(), slope: ti.template(), thinning: ti.template(), alone: ti.template()):
+              couette: ti.template(), slope: ti.template(), thinning: ti.template(), rheology: ti.template(),
+              alone: ti.template()):
     """Jacobian rows, EPS and the diagonal in the blocks first..last-1; needs `laws` and `slopes`.
 
     couette: row of the density in the Couette flow, slope: row of its derivative, thinning: row of d LE/dH or -1.
@@ -105,19 +106,20 @@ def linearise(S: ti.template(), J: ti.template(), G: Table, blocks: Blocks, firs
         n2 = nx + 1
         up, down = face_weights(s, ny)
         metric, inv, CT_l, K_0, K_1 = G[l, DX] / G[l, DY] ** 2, 1 / G[l, DX], G[l, CT], G[l, K0], G[l, K1]
-        frame = G[l, FRAME]
-        left = face_x(S, off + s * n2, thinning)
+        frame, at = G[l, FRAME], walls(G, l)
+        left = face_x(S, off + s * n2, thinning, rheology, at)
         for i in range(1, nx):
             k = off + s * n2 + i
             w = couette_weights(i)
             q, c = stencil(S, k, slope, QP, frame), stencil(S, k, couette, RHO, frame)
-            right = face_x(S, k, thinning)
+            right = face_x(S, k, thinning, rheology, at)
             a2 = w[2] * q[2] + CT_l * S[QP, k] + (left.p1 - right.p0) * inv
             b2 = w[2] * c[2] + CT_l * S[RHO, k] + (left.h1 - right.h0) * inv
             total = (left.eps + right.eps) * inv
             if ny > 0:
                 u, d = up * metric, down * metric
-                upper, lower = face_above(S, k, n2, thinning), face_below(S, k, n2, thinning)
+                upper = face_above(S, k, n2, thinning, rheology, at)
+                lower = face_below(S, k, n2, thinning, rheology, at)
                 a2 += d * lower.p1 - u * upper.p0
                 b2 += d * lower.h1 - u * upper.h0
                 total += u * upper.eps + d * lower.eps
