@@ -36,8 +36,8 @@ def test_the_statements_follow_from_the_rows():
 
 
 class Spiked:
-    """A store of a feature that passes from -1.5 to 1.2 a under Hertz' pressure, with one node of the outlet at 3 GPa while it is
-    behind `since` a."""
+    """A store of a feature that passes from -1.5 to 1.2 a under Hertz' pressure, with one node of the outlet at 3 GPa while it
+    is behind `since` a."""
 
     def __init__(self, since):
         self.scene, self.since = scene("gear"), since

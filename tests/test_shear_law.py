@@ -188,8 +188,8 @@ def test_walls_bear_no_more_than_the_shear_limit():
 
 
 def test_the_exit_of_a_dent_in_rolling_is_held_by_the_walls():
-    """1-D, 512 columns: without the bound a frozen front has 3.63 GPa here, and a third more on twice the columns; with it 3.26,
-    and 3.57, 3.70 on 1024 and 2048."""
+    """1-D, 512 columns: without the bound a frozen front has 3.63 GPa here, and a third more on twice the columns; with it
+    3.26, and 3.57, 3.70 on 1024 and 2048."""
     from tehl_taichi.march.passage import march
 
     description = scene("gear").replace(**{"thermal.on": False, "srr": 0.0, "height": -1.5e-6, "feature.length": np.inf,

@@ -91,8 +91,8 @@ def _through_speeds(solver):
 
 
 def _from_speed(solver, speed):
-    """From the state in the table at `speed` times that of the scene to it, in smaller steps where one fails. Surfaces that touch
-    on the way down would go on touching."""
+    """From the state in the table at `speed` times that of the scene to it, in smaller steps where one fails. Surfaces that
+    touch on the way down would go on touching."""
     v, step, down, known = solver.levels, LARGEST_STEP, speed > 1.0, None  # known: speed of the last film
     state = v.get(fields.P), solver.H0
     while True:

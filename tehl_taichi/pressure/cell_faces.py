@@ -1,7 +1,7 @@
 """Poiseuille flow between two neighbouring nodes and its derivatives.
 
-Mobility of the face: log-mean of 1/eta, geometric mean of rho, and of H^3 the :func:`cube`; times what the shear law makes of it
-under the stress that the gradient along the face puts on the walls (that of each direction by itself).
+Mobility of the face: log-mean of 1/eta, geometric mean of rho, and of H^3 the :func:`cube`; times what the shear law makes of
+it under the stress that the gradient along the face puts on the walls (that of each direction by itself).
 """
 
 from tehl_taichi.engine.lanes import V, above, below

@@ -108,8 +108,8 @@ class Rheology(_RHEOLOGY):
     """Shear law of the film and friction of solid contact.
 
     The law acts wherever the surfaces slip, in flow, friction and heat, and in the flow wherever a gradient of the pressure
-    strains the walls, with and without temperatures; a law that does not thin is the film that isothermal film formulas and most
-    published films are of (its friction under pressure is not that of any oil). The laws and their numbers stand in
+    strains the walls, with and without temperatures; a law that does not thin is the film that isothermal film formulas and
+    most published films are of (its friction under pressure is not that of any oil). The laws and their numbers stand in
     tehl_taichi/physics/shear.
     """
 

@@ -8,7 +8,6 @@ from tehl_taichi.physics.shear import TAU_0
 from tehl_taichi.registry import Checked
 from tehl_taichi.values.quantity import quantity
 
-
 TINY = 1e-12  # for n = 1, where c is 1
 
 
