@@ -48,7 +48,7 @@ def test_shear_laws_are_odd_and_newtonian_where_the_stress_is_small(law):
 @of("rheology.law")
 def test_pressure_drives_more_through_oil_that_thins_the_more_it_strains_the_walls(law):
     rheology = law.having()
-    driven = [float(law.poiseuille(rheology, wall, 1e9)) for wall in (0.0, 1e3, 1e7, 8e7, 1e8, 1.3e8)]
+    driven = [float(law.poiseuille(rheology, wall, 1e9)) for wall in (0.0, 1e3, 5e7, 7e7, 9e7, 1.3e8)]
     assert driven[0] == 1.0 and driven[1] == pytest.approx(1.0, rel=1e-8)
     assert all((more > less) == law.thins for less, more in zip(driven[1:], driven[2:]))
 
