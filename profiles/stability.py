@@ -52,7 +52,7 @@ class Outcome:
 @dataclass(frozen=True)
 class Confirmed:
     """What half the time step and twice the columns change of a start: central film (part of it), largest temperature (K);
-    None where that start stops."""
+    None where that start stops. reason: why a case is lost altogether."""
 
     name: str
     columns: int
@@ -60,6 +60,7 @@ class Confirmed:
     half_K: Optional[float]
     finer_film: Optional[float]
     finer_K: Optional[float]
+    reason: str = ""
 
 
 def cases(thermal=False):
@@ -226,31 +227,37 @@ def run_case(name, description, precision=AUTO):
 
 def confirm(chosen, workers=1, threads=None):
     """Generator of a Confirmed for each of `chosen`, {name: scene}, in the order in which they end."""
-    for _, found in measure.side_by_side(confirmed, list(chosen.items()), workers, threads):
-        if not isinstance(found, pool.Lost):
-            yield found
+    jobs = list(chosen.items())
+    for number, found in measure.side_by_side(confirmed, jobs, workers, threads):
+        lost = isinstance(found, pool.Lost)
+        name, description = jobs[number]
+        yield Confirmed(name, description.grid.nx, None, None, None, None, found.reason) if lost else found
 
 
 def confirmed(name, description):
     """The start of a scene three times: as it is, with half the time step, on twice the columns. Returns a Confirmed."""
-    g, line = description.grid, Scales.of(description).line
-    own, half, finer = (_start(description, changes) for changes in (
-        {}, {"time.courant": 0.5 * description.time.courant},
-        {"grid.nx": 2 * g.nx, "grid.ny": g.ny if line else 2 * g.ny}))
+    own, half, finer = (_start(one) for one in (
+        description, description.replace(**{"time.courant": 0.5 * description.time.courant}), doubled(description)))
 
     def change(other):
         return (abs(other[0] / own[0] - 1), abs(other[1] - own[1])) if own and other else (None, None)
 
-    return Confirmed(name, g.nx, *change(half), *change(finer))
+    return Confirmed(name, description.grid.nx, *change(half), *change(finer))
 
 
-def _start(description, changes):
+def doubled(description, times=1):
+    """The scene on a grid doubled so many times; of lines, whose starts have one row, the rows stay."""
+    g, line = description.grid, Scales.of(description).line
+    return description.replace(**{"grid.nx": g.nx << times, "grid.ny": g.ny << (0 if line else times)})
+
+
+def _start(description):
     """(central film, m, largest temperature, deg C) of a start, or None where it does not settle."""
     from tehl_taichi.errors import NotConverged
     from tehl_taichi.march.passage import march
 
     try:
-        shot = next(march(description.replace(**changes)))
+        shot = next(march(description))
     except (NotConverged, SceneError):
         return None
     return None if shot.unsettled else (shot.scalars["h_c_m"], shot.scalars["film_max_C"])

@@ -124,3 +124,17 @@ def test_starts_are_confirmed_by_half_a_step_and_twice_the_columns(monkeypatch):
     found, stopped = stability.confirm({"coarse": coarse, "fine": fine})
     assert found == stability.Confirmed("coarse", 64, 0.0, 1.0, pytest.approx(2.28 / 1.64 - 1), 0.0)
     assert (stopped.half_film, stopped.half_K, stopped.finer_film, stopped.finer_K) == (0.0, 1.0, None, None)
+    ball = scene("ridge-on-ball")
+    finest = stability.doubled(ball, 2).grid
+    assert (finest.nx, finest.ny) == (4 * ball.grid.nx, 4 * ball.grid.ny)
+    assert (stability.doubled(coarse).grid.nx, stability.doubled(coarse).grid.ny) == (128, 32)
+
+
+def test_a_start_that_is_lost_is_told(monkeypatch):
+    from tehl_taichi.profiles import measure
+
+    from tehl_taichi.study.pool import Lost
+
+    monkeypatch.setattr(measure, "side_by_side", lambda *args: iter([(0, Lost("its worker died"))]))
+    lost, = stability.confirm({"case": scene("gear")})
+    assert (lost.name, lost.columns, lost.finer_K, lost.reason) == ("case", scene("gear").grid.nx, None, "its worker died")
