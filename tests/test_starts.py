@@ -117,6 +117,27 @@ def test_in_time_the_same_state_as_by_turns(monkeypatch):
         assert in_time.scalars[name] == pytest.approx(by_turns.scalars[name], abs=unit), name
 
 
+def test_walls_yield_in_the_steady_equations_but_not_on_the_way(monkeypatch):
+    """Heaps of oil of a march at 20 deg C would fall by GPa a cell, and stop it; its end has the walls of the scene."""
+    from tehl_taichi.march import together
+    from tehl_taichi.pressure import fields
+
+    forced_in_time(monkeypatch)
+    seen = {"exchange": set(), "again": set()}
+    for name, walls in seen.items():
+        def looked(solver, *rest, name=name, walls=walls, real=getattr(together, name)):
+            walls.add(bool(solver.levels.G[0, fields.WALL]))
+            return real(solver, *rest)
+
+        monkeypatch.setattr(together, name, looked)
+    levels = []
+    judged = together._judged
+    monkeypatch.setattr(together, "_judged", lambda march, *rest: (judged(march, *rest), levels.append(march.levels))[0])
+    first()
+    assert seen == {"exchange": {False}, "again": {True}}
+    assert levels and all(one.G[0, fields.WALL] > 0 for one in levels)
+
+
 def test_what_moves_in_time_is_not_settled(monkeypatch):
     """The passage starts from the moving state and says so, a steady scene stops."""
     from test_thermal import thermal

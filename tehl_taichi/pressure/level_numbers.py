@@ -8,8 +8,8 @@ from tehl_taichi.pressure.grids import PAD, columns
 
 class LevelNumbers:
     """G[level, column] of `grids`: places and spacings, deflection nearby, film floor, all fixed; and what a solve may
-    change: the balance of the film (:meth:`slow_down`), its slip (:meth:`slip`) and d/dT (:meth:`set_rate`). `conditions`:
-    Record of the scene; floor: of the film, dimensionless.
+    change: the balance of the film (:meth:`slow_down`), its slip (:meth:`slip`), what strains its walls (:meth:`strain`) and
+    d/dT (:meth:`set_rate`). `conditions`: Record of the scene; floor: of the film, dimensionless.
     """
 
     def __init__(self, grids, conditions, floor):
@@ -19,12 +19,14 @@ class LevelNumbers:
             own, beside = grids.near_kernel(l)[0]
             self._set(l, {fields.OFF: off, fields.NX: nx, fields.NY: ny, fields.JN: ny + 1 if grids.line else ny,
                           fields.DX: dx, fields.DY: dy, fields.K0: own, fields.K1: beside, fields.FLOOR: floor,
-                          fields.LINES: l in grids.lines, fields.P_H: s.p_H, fields.WALL: s.p_H * s.h / (2 * s.a * dx)})
+                          fields.LINES: l in grids.lines, fields.P_H: s.p_H})
             off += columns(nx, ny)
         self.inv_lambda = 1 / (12 * conditions["eta0"] * s.u_m * s.R**2 / (s.a**3 * s.p_H))
         self.shear = -conditions["u_s"] * conditions["eta0"] / s.h
+        self.wall = s.p_H * s.h / (2 * s.a)
         self.slow_down(1.0)
         self.slip(1.0)
+        self.strain(1.0)
         self.set_rate(0.0)
 
     def _set(self, l, numbers):
@@ -39,6 +41,10 @@ class LevelNumbers:
     def slip(self, part):
         """Take the slip that the shear law acts by to be this part of that of the scene; 0: a Newtonian film."""
         self.G[:, fields.SHEAR] = part * self.shear
+
+    def strain(self, part):
+        """Take the stress that the pressure puts on the walls to be this part of it; 0: walls that bear all."""
+        self.G[:, fields.WALL] = part * self.wall / self.G[:, fields.DX]
 
     def set_rate(self, weight, frame=0.0):
         """Weight of the newest level in d/dT, 1/T units (0: steady), scaled with dx on every level; frame: speed over u_m of
