@@ -149,12 +149,14 @@ def verdicts(rows, limit):
         r = by_name.get(f"{kind}, SRR {srr:+g}")
         return (r.values[key], r.errors[key]) if r else (np.nan, np.nan)
 
-    f, e = get("asperity 1.5 um", 0.0)
-    out.append((f"an asperity brings Fi near or over 1 (>= {NEAR_ONE:g}) at about 2 GPa without slip",
-                decide(f - NEAR_ONE * limit, e), _pair((f, e), (NEAR_ONE * limit, 0.0))))
-    for srr in SLIPS:
-        one, other = get("asperity 1.5 um", srr), get("dent 1.5 um", srr)
-        out.append((f"a dent gives less than an asperity of the same size (SRR {srr:+g})", *_compared(one, other)))
+    for window in ("to 0.5 a", "whole"):
+        f, e = get("asperity 1.5 um", 0.0, ("all", window))
+        out.append((f"an asperity brings Fi near or over 1 (>= {NEAR_ONE:g}) at about 2 GPa without slip; {window}",
+                    decide(f - NEAR_ONE * limit, e), _pair((f, e), (NEAR_ONE * limit, 0.0))))
+        for srr in SLIPS:
+            one, other = (get(kind, srr, ("all", window)) for kind in ("asperity 1.5 um", "dent 1.5 um"))
+            out.append((f"a dent gives less than an asperity of the same size (SRR {srr:+g}); {window}",
+                        *_compared(one, other)))
     for loads, window in (("all", "to 0.5 a"), ("all", "whole"), ("no thermal stress", "whole"), ("pressure", "whole")):
         for kind in dict.fromkeys(r.name.rsplit(", SRR", 1)[0] for r in rows):
             if kind.startswith("asperity") and (kind == "asperity 1.5 um" or loads == "all"):
