@@ -24,12 +24,15 @@ SHORTEST_TIME, LONGEST_TIME, TIME_STEPS, ROUGHLY = 1e-2, 1e4, 60, 1e-4
 
 def from_nothing(solver):
     """From Hertz without slip, which then comes in parts where it does not at once. Sheared from the start, a film that Newton
-    makes too thin for a moment flows off like water: the surfaces touch all over, which may be a solution too."""
+    makes too thin for a moment flows off like water: the surfaces touch all over, which may be a solution too. So it does
+    where the pressure of a first guess strains the walls: that comes with the slip."""
     v = solver.levels
     v.numbers.slip(0.0)
+    v.numbers.strain(0.0)
     report = _without_slip(solver)
     P, H0 = v.get(fields.P), solver.H0
-    for parts in SLIPS if v.thins and report.converged else ():
+    v.numbers.strain(1.0)
+    for parts in SLIPS if v.scene.rheology.thins and report.converged else ():
         put(solver, P, H0)
         report = _through_slips(solver, parts)
         if report.converged:
