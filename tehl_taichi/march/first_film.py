@@ -32,7 +32,7 @@ def from_nothing(solver):
     report = _without_slip(solver)
     P, H0 = v.get(fields.P), solver.H0
     v.numbers.strain(1.0)
-    for parts in SLIPS if v.scene.rheology.thins and report.converged else ():
+    for parts in SLIPS if report.converged and (v.thins or not solver.holds()) else ():
         put(solver, P, H0)
         report = _through_slips(solver, parts)
         if report.converged:

@@ -138,6 +138,10 @@ class PressureSolver:
             merit = self._advance(step, merit, True, numerics.tolerance)
         return Report(merit, self.load_error, self.mass_error, 1, cycles, False)
 
+    def holds(self):
+        """Whether the state in the table solves the equations as they are now."""
+        return self._converged(self._begin(), self.levels.scene.numerics.tolerance)
+
     def _begin(self):
         """Linearise about the state in the table. Returns its merit."""
         self.residual()
