@@ -25,10 +25,20 @@ SHORTEST_TIME, LONGEST_TIME, TIME_STEPS, ROUGHLY = 1e-2, 1e4, 60, 1e-4
 def from_nothing(solver):
     """From Hertz without slip, which then comes in parts where it does not at once. Sheared from the start, a film that Newton
     makes too thin for a moment flows off like water: the surfaces touch all over, which may be a solution too. So it does
-    where the pressure of a first guess strains the walls: that comes with the slip."""
+    where the pressure of a first guess strains the walls: that comes with the slip, or before it where it does not come then
+    (thick films of cold oil)."""
+    for walls in (0.0, 1.0):
+        report = _with_slip(solver, walls)
+        if report.converged:
+            break
+    return report
+
+
+def _with_slip(solver, walls):
+    """walls: part of their strain before the slip."""
     v = solver.levels
     v.numbers.slip(0.0)
-    v.numbers.strain(0.0)
+    v.numbers.strain(walls)
     report = _without_slip(solver)
     P, H0 = v.get(fields.P), solver.H0
     v.numbers.strain(1.0)
