@@ -27,7 +27,7 @@ def from_nothing(solver):
     makes too thin for a moment flows off like water: the surfaces touch all over, which may be a solution too. So it does
     where the pressure of a first guess strains the walls: that comes with the slip, or before it where it does not come then
     (thick films of cold oil)."""
-    for walls in (0.0, 1.0):
+    for walls in (0.0, 1.0) if solver.levels.scene.rheology.thins else (1.0,):
         report = _with_slip(solver, walls)
         if report.converged:
             break
@@ -42,7 +42,7 @@ def _with_slip(solver, walls):
     report = _without_slip(solver)
     P, H0 = v.get(fields.P), solver.H0
     v.numbers.strain(1.0)
-    for parts in SLIPS if report.converged and (v.thins or not solver.holds()) else ():
+    for parts in SLIPS if report.converged and (v.thins or walls < 1.0 and not solver.holds()) else ():
         put(solver, P, H0)
         report = _through_slips(solver, parts)
         if report.converged:
