@@ -29,10 +29,10 @@ WINDOWS = {"entry": (-np.inf, -0.5), "inside": (-0.5, 0.5), "exit": (0.5, np.inf
 LOADS = {"pressure": {"fatigue.shear": False, "fatigue.thermal_stress": False},
          "no thermal stress": {"fatigue.thermal_stress": False}, "all": {}}
 NEAR_ONE = 0.9
-# the worst below the surface under the feature's row, and of the contact without it; with all loads over the whole passage
-DEEP, ALONE = ("below", "whole"), ("contact alone", "whole")
+# the worst below the surface under the feature's row, up to 0.5 a and over the whole passage, and of the contact without it
+DEEP, ALONE = {window: ("below", window) for window in ("to 0.5 a", "whole")}, ("contact alone", "whole")
 BARE = {"fatigue.on": False, "numerics.estimate_error": False}  # both are worked out here, for all grids and loads together
-DEPTHS = {DEEP: ("depth", "whole"), ALONE: ("depth alone", "whole")}
+DEPTHS = {**{key: ("depth", window) for window, key in DEEP.items()}, ALONE: ("depth alone", "whole")}
 
 
 @dataclass(frozen=True)
@@ -105,7 +105,7 @@ def unresolved(saved):
     at, p = saved.scalar("feature_x")[1:] / Scales.of(saved.scene).a, saved.scalar("p_max_Pa")[1:]
     entries = {window: 1 + np.flatnonzero((at >= low) & (at <= high)) for window, (low, high) in WINDOWS.items()}
     doubts = {window: readings.unresolved(saved, those, p[those - 1].max()) for window, those in entries.items() if those.size}
-    keys = [(loads, window) for loads in LOADS for window in WINDOWS] + [DEEP]
+    keys = [(loads, window) for loads in LOADS for window in WINDOWS] + [*DEEP.values()]
     return {key: doubts[key[1]] for key in keys if doubts.get(key[1])}
 
 
@@ -117,17 +117,24 @@ def stresses(saved):
         history = passage.history(slice(0, passage.y.size), passage.stresses(0.0))
         for window, (low, high) in WINDOWS.items():
             if loads == "all" or window == "whole":
-                inside = np.append((passage.centres >= low * passage.a) & (passage.centres <= high * passage.a), True)
+                inside = _moments(passage, low, high)
                 out[loads, window] = float(findley.search(history[:, inside], saved.scene.fatigue.kappa)[0].max())
     return out | deep_stresses(Passage(saved.scene, saved, saved.scalar("feature_x")))
 
 
+def _moments(passage, low, high):
+    """Those of a history with the feature between `low` and `high` (in a), and the one without load."""
+    return np.append((passage.centres >= low * passage.a) & (passage.centres <= high * passage.a), True)
+
+
 def deep_stresses(passage):
     """DEEP, ALONE and their depths."""
-    row = int(np.argmin(np.abs(passage.reader.y - passage.scene.features[0].y)))
-    worst = [profile.worst for profile in below.profiles(passage, [row], alone=True)]
-    return {key: value for (stress, depth), point in zip(DEPTHS.items(), worst)
-            for key, value in ((stress, point.f), (depth, point.depth))}
+    row, found = int(np.argmin(np.abs(passage.reader.y - passage.scene.features[0].y))), {}
+    for window, key in DEEP.items():
+        moments = _moments(passage, *WINDOWS[window])
+        found[key], found[ALONE] = below.profiles(passage, [row], alone=True, moments=moments)
+    return {key: value for stress, profile in found.items()
+            for key, value in ((stress, profile.worst.f), (DEPTHS[stress], profile.worst.depth))}
 
 
 def footprint_friction(saved, at):
@@ -165,8 +172,9 @@ def verdicts(rows, limit):
     for name in by_name:
         if name.startswith("asperity 1.5 um"):
             f, e = by_name[name].values, by_name[name].errors
-            one, other = ((f[key], e[key]) for key in (DEEP, ("all", "whole")))
-            out.append((f"the worst point lies below the surface: {name}", *_compared(one, other)))
+            for window, key in DEEP.items():
+                one, other = ((f[each], e[each]) for each in (key, ("all", window)))
+                out.append((f"the worst point lies below the surface: {name}; {window}", *_compared(one, other)))
     r = by_name.get("asperity 1.5 um, SRR -0.12")
     if r:
         out.append(("friction on the asperity is larger near the inlet than near the outlet",
@@ -213,10 +221,15 @@ def _at_depth(row, key):
     return f" at {row.values[DEPTHS[key]] * 1e6:.0f} um" if key in DEPTHS else ""
 
 
+def _title(loads, window):
+    return window if loads == "all" else f"{loads}, {window}" if (loads, window) in DEEP.values() else loads
+
+
 def page(rows, judged, scene_):
     """Markdown of the table and the verdicts."""
-    columns = [("all", window) for window in WINDOWS] + [("no thermal stress", "whole"), ("pressure", "whole"), DEEP, ALONE]
-    lines = ["| case | " + " | ".join(window if loads == "all" else f"{loads}" for loads, window in columns) + " |",
+    columns = [("all", window) for window in WINDOWS] + [("no thermal stress", "whole"), ("pressure", "whole")]
+    columns += [*DEEP.values(), ALONE]
+    lines = ["| case | " + " | ".join(_title(*column) for column in columns) + " |",
              "|---" * (len(columns) + 1) + "|"]
     for r in rows:
         lines.append(f"| {r.name} | " + " | ".join(cells(r, columns)) + " |")

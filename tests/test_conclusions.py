@@ -16,7 +16,7 @@ def test_verdicts_need_more_than_the_error():
 
 def make(name, f, error):
     keys = [("all", window) for window in conclusions.WINDOWS] + [("no thermal stress", "whole"), ("pressure", "whole")]
-    deep = {conclusions.DEEP: 1.4 * f, conclusions.ALONE: 1.2 * f}
+    deep = {key: 1.4 * f for key in conclusions.DEEP.values()} | {conclusions.ALONE: 1.2 * f}
     values = {key: f for key in keys} | deep | {depth: 25e-6 for depth in conclusions.DEPTHS.values()}
     return conclusions.Row(name, 0.0, values, {key: error for key in [*keys, *deep]}, (0.06, 0.05))
 
@@ -32,7 +32,8 @@ def test_the_statements_follow_from_the_rows():
     assert [verdict for statement, verdict in judged.items() if "without slip" in statement] == ["follows"] * 2
     text = conclusions.page(rows, conclusions.verdicts(rows, 400e6), scene("gear"))
     assert "400 ± 5" in text and "560 ± 5 at 25 um" in text and "**follows**" in text
-    assert judged["the worst point lies below the surface: asperity 1.5 um, SRR -0.12"] == "follows"
+    for window in conclusions.DEEP:
+        assert judged[f"the worst point lies below the surface: asperity 1.5 um, SRR -0.12; {window}"] == "follows"
 
 
 class Spiked:
@@ -61,7 +62,8 @@ def test_an_exit_that_is_not_resolved_has_no_error():
     """What is found before the peak is known."""
     assert conclusions.unresolved(Spiked(np.inf)) == {}
     late, early = conclusions.unresolved(Spiked(0.7)), conclusions.unresolved(Spiked(-0.7))
-    assert set(late) == {(loads, window) for loads in conclusions.LOADS for window in ("exit", "whole")} | {conclusions.DEEP}
+    exits = {(loads, window) for loads in conclusions.LOADS for window in ("exit", "whole")}
+    assert set(late) == exits | {conclusions.DEEP["whole"]}
     assert ("all", "entry") in early and all(why.startswith("exit not resolved") for why in late.values())
     row = make("asperity", 400e6, np.nan)
     row.doubts["all", "whole"] = late["all", "whole"]
@@ -76,9 +78,9 @@ def test_every_case_has_its_own_store():
 def test_a_row_is_computed_once_and_kept(taichi_cpu, tmp_path):
     short = scene("gear").replace(**{"thermal.on": False, "time.steps": 8})
     lines = []
-    one = conclusions.row("short", short, tmp_path, ((64, 16), (96, 16)), lines.append)
+    one, deep = conclusions.row("short", short, tmp_path, ((64, 16), (96, 16)), lines.append), conclusions.DEEP["whole"]
     assert len(lines) == 2 and one.values["all", "whole"] > 1e8 and one.errors["all", "whole"] > 0
-    assert one.values[conclusions.DEEP] > 1e8 and 1e-6 < one.values[conclusions.DEPTHS[conclusions.DEEP]] < 0.3e-3
+    assert one.values[deep] > 1e8 and 1e-6 < one.values[conclusions.DEPTHS[deep]] < 0.3e-3
     before = {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*") if path.is_file()}
     assert conclusions.row("short", short, tmp_path, ((64, 16), (96, 16))) == one
     assert before == {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*") if path.is_file()}

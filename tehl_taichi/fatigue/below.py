@@ -36,8 +36,8 @@ def ladder(passage):
     return np.geomspace(first, last, count)
 
 
-def profiles(passage, rows, alone=False):
-    """:class:`Profile` of a passage under every one of these rows of its reader.
+def profiles(passage, rows, alone=False, moments=slice(None)):
+    """:class:`Profile` of a passage under every one of these rows of its reader; moments: those of its histories that count.
 
     alone=True: and under one point of the last row with the loads there as an endless line: the contact without its feature.
     """
@@ -46,7 +46,7 @@ def profiles(passage, rows, alone=False):
     found = []
     for (row, single), histories in zip(kinds, histories_of(passage, depths, kinds)):
         points = slice(passage.x.size // 2, passage.x.size // 2 + 1) if single else slice(None)
-        histories = histories[:, points]
+        histories = histories[:, points, moments]
         f = np.array([findley.search(history, *_rule(passage))[0] for history in histories])
         depth, point, *rest = _refined(passage, np.log(depths), histories, f)
         found.append(Profile(depths, f, Point(depth, float(passage.x[points][point]), float(y[row]), *rest), single))

@@ -41,9 +41,11 @@ def exchange(solver, heat, solve, most=None):
 
 
 def carefully(solver, P):
-    """The pressure of a step; where it does not converge at once, again from P, the last one accepted, with more care."""
+    """The pressure of a step; where it does not converge at once, again from P, the last one accepted, with more care.
+    Returns a Report with the work of both."""
     H0, report = solver.H0, solver.solve()
     if not report.converged:
         put(solver, P, H0)
-        report = solver.solve(RETRY_KRYLOV, newton_max=2 * solver.levels.scene.numerics.newton_max)
+        failed, report = report, solver.solve(RETRY_KRYLOV, newton_max=2 * solver.levels.scene.numerics.newton_max)
+        report.newton, report.cycles = report.newton + failed.newton, report.cycles + failed.cycles
     return report

@@ -46,11 +46,13 @@ class ShearLaw(Law):
     and equal to it where it is small. thins: whether it ever is another one.
 
     poiseuille(rheology, wall, p): what a gradient of the pressure drives through the film without slip, over what it drives
-    through Newtonian oil; wall = h |grad p|/2: the stress (Pa) that it puts on both walls.
+    through Newtonian oil; wall = h |grad p|/2: the stress (Pa) that it puts on both walls. power: of that stress that what it
+    drives beyond Newtonian oil grows with, where that is too steep for Newton's method; 1: it is not.
     """
 
     stress: Callable
     poiseuille: Callable = _newtonian
+    power: float = 1.0
     thins: bool = True
 
 

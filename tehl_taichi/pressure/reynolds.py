@@ -6,7 +6,7 @@ time derivative of the newest level, in a frame that may move with the oil. Ever
 
 from tehl_taichi.engine.lanes import Blocks, L, LinearFlat, Table, V, W, above, below, cells, face_weights, lanes_in, lanes_out
 from tehl_taichi.engine.language import ti
-from tehl_taichi.pressure.cell_faces import driven_x, face_above, face_below, face_x, net_driven_y, walls
+from tehl_taichi.pressure.cell_faces import driven_x, face_above, face_below, face_x, net_driven_y, wall_x, wall_y
 from tehl_taichi.pressure.couette import couette_weights
 from tehl_taichi.pressure.fields import (
     AD,
@@ -65,15 +65,15 @@ def residual(S: ti.template(), G: Table, couette: ti.template(), rheology: ti.te
     for s in range(ny // W + 1):
         up, down = face_weights(s, ny)
         inv, metric, CT_0, frame = 1 / G[0, DX], G[0, DX] / G[0, DY] ** 2, G[0, CT], G[0, FRAME]
-        first, at = off + s * n2, walls(G, 0)
-        left = driven_x(S, first, rheology, at)
+        first, along, across = off + s * n2, wall_x(G, 0), wall_y(G, 0)
+        left = driven_x(S, first, rheology, along)
         S[R, first], S[R, first + nx] = V(0.0), V(0.0)
         for i in range(1, nx):
             k = first + i
-            right = driven_x(S, k, rheology, at)
+            right = driven_x(S, k, rheology, along)
             r = transport(S, k, i, couette, frame) + CT_0 * S[RHO, k] * S[H, k] + S[QOLD, k] - (right - left) * inv
             if ny > 0:
-                r -= net_driven_y(S, k, n2, up, down, rheology, at) * metric
+                r -= net_driven_y(S, k, n2, up, down, rheology, across) * metric
             S[R, k] = r * S[MASK, k]
             left = right
 
@@ -106,20 +106,20 @@ def linearise(S: ti.template(), J: ti.template(), G: Table, blocks: Blocks, firs
         n2 = nx + 1
         up, down = face_weights(s, ny)
         metric, inv, CT_l, K_0, K_1 = G[l, DX] / G[l, DY] ** 2, 1 / G[l, DX], G[l, CT], G[l, K0], G[l, K1]
-        frame, at = G[l, FRAME], walls(G, l)
-        left = face_x(S, off + s * n2, thinning, rheology, at)
+        frame, along, across = G[l, FRAME], wall_x(G, l), wall_y(G, l)
+        left = face_x(S, off + s * n2, thinning, rheology, along)
         for i in range(1, nx):
             k = off + s * n2 + i
             w = couette_weights(i)
             q, c = stencil(S, k, slope, QP, frame), stencil(S, k, couette, RHO, frame)
-            right = face_x(S, k, thinning, rheology, at)
+            right = face_x(S, k, thinning, rheology, along)
             a2 = w[2] * q[2] + CT_l * S[QP, k] + (left.p1 - right.p0) * inv
             b2 = w[2] * c[2] + CT_l * S[RHO, k] + (left.h1 - right.h0) * inv
             total = (left.eps + right.eps) * inv
             if ny > 0:
                 u, d = up * metric, down * metric
-                upper = face_above(S, k, n2, thinning, rheology, at)
-                lower = face_below(S, k, n2, thinning, rheology, at)
+                upper = face_above(S, k, n2, thinning, rheology, across)
+                lower = face_below(S, k, n2, thinning, rheology, across)
                 a2 += d * lower.p1 - u * upper.p0
                 b2 += d * lower.h1 - u * upper.h0
                 total += u * upper.eps + d * lower.eps

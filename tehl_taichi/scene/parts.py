@@ -121,6 +121,11 @@ class Rheology(_RHEOLOGY):
         """Whether shear takes something of the viscosity."""
         return rheology.LAWS[self.law].thins
 
+    @property
+    def power(self):
+        """Of the stress on the walls, that what a gradient of the pressure drives beyond Newtonian oil grows with, at most."""
+        return rheology.LAWS[self.law].power
+
 
 @dataclass(frozen=True)
 class Thermal:

@@ -31,7 +31,7 @@ def poiseuille(rheology, wall, p):
 
 EYRING = ShearLaw(
     name="eyring", says="tau_0 asinh(eta * (shear rate)/tau_0)", source="Eyring 1936", numbers={"tau_0": TAU_0}, stress=stress,
-    poiseuille=poiseuille,
+    poiseuille=poiseuille, power=LARGEST,
     checked=(Checked("3/S times the integral of s sinh(S s) from 0 to 1, summed at two million places, S = 4", 3.841078788137,
                      lambda: poiseuille(EYRING.having(tau_0=5e6), 20e6, 0.0)),
              Checked("its inverse, eta * (shear rate) = tau_0 sinh(tau/tau_0)", -20e6,
