@@ -15,11 +15,12 @@ from tehl_taichi.engine.records import read
 from tehl_taichi.heat.nodes import Nodes, beyond, integral, weight, zeta
 from tehl_taichi.heat.slots import MS, MX, MY, NIE, NRHO, PX, PY, TAU, VY, XA, XB, YA, YB, T, U
 from tehl_taichi.physics.density import rho_film
+from tehl_taichi.physics.rheology import DP
 from tehl_taichi.physics.viscosity import ln_eta
 from tehl_taichi.pressure.conditions import Conditions
 from tehl_taichi.pressure.fields import FLOOR, ILAM, QCP, RHOC, H, P
 from tehl_taichi.pressure.gradient import limited_gradient
-from tehl_taichi.pressure.laws import DP, sheared, store_laws, store_slopes, store_thinning
+from tehl_taichi.pressure.laws import sheared, store_laws, store_slopes, store_thinning
 
 
 @ti.dataclass

@@ -7,7 +7,8 @@ from tehl_taichi.registry import collect
 
 LAWS = collect(shear, ShearLaw)  # choices of rheology.law
 LARGEST = 1e100  # Pa: beyond any trial state, and its square is still a number
-RISE, STEP = 1e-6, 1e3  # of a wall stress; Pa: for difference quotients
+DP = 1e3  # Pa, step of the difference quotients of laws: their scale is 1e8 Pa, so a quotient is good to 1e-5
+RISE = 1e-6  # and of those by a wall stress, of it
 
 
 @unrolled
@@ -26,7 +27,7 @@ def poiseuille(rheology, wall, p):
 def poiseuille_slopes(rheology, wall, p, value):
     """wall d/dwall and d/dp (1/Pa) of :func:`poiseuille`, by differences."""
     return ((poiseuille(rheology, wall * (1.0 + RISE), p) - value) / RISE,
-            (poiseuille(rheology, wall, p + STEP) - value) / STEP)
+            (poiseuille(rheology, wall, p + DP) - value) / DP)
 
 
 @pointwise

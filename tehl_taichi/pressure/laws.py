@@ -9,12 +9,10 @@ from tehl_taichi.engine.lanes import Flat, Table, V, W, cells
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
 from tehl_taichi.physics.density import rho_ratio
-from tehl_taichi.physics.rheology import secant, sensitivity
+from tehl_taichi.physics.rheology import DP, secant, sensitivity
 from tehl_taichi.physics.viscosity import ln_eta
 from tehl_taichi.pressure.conditions import Conditions
 from tehl_taichi.pressure.fields import DLE, DLH, DRP, FLOOR, GAP, IE, ILAM, LE, QP, RHO, ROOT, SHEAR, H, P
-
-DP = 1e3  # Pa, step of the difference quotients of the laws: their scale is 1e8 Pa, so the quotient is good to 1e-5
 
 
 @ti.func

@@ -202,7 +202,7 @@ class Scene:
             out.append("stresses and fatigue (" + ("switched off" if not self.fatigue.on else "no passage") + ")")
         if self.operation.u_s == 0:
             out.append("sliding friction (SRR = 0)")
-        elif not self.rheology.thins:
+        if not self.rheology.thins:
             out.append(f"shear law of the film (rheology.law = {self.rheology.law!r})")
         return out
 
