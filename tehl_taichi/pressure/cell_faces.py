@@ -11,8 +11,8 @@ from tehl_taichi.pressure.fields import DLE, DRP, DX, DY, GAP, IE, LE, P_H, ROOT
 
 NEGLIGIBLE = 1e-9  # more flow by a shear law, nearly everywhere: its slopes are not worth finding (6 % of a step)
 # What a film carries by pressure, over what its walls carry at the mean speed, up to which walls yield by their law (`eased`).
-# Krylov iterations a step, asperity and dent of the gear at SRR 0.12 on 512x128: by the law alone 37 and 46, here 16 and 16;
-# with 4 18, with 0.5 16. Largest pressures change by 1e-4 at most
+# Krylov iterations a step, asperity of the gear at SRR 0.12 and -0.12 on 512x128: by the law alone 37 and 23, here 16 and 16;
+# with 4 18 and 19, with 0.5 16 and 16. Largest pressures change by 1e-4 at most
 CARRIED = 1.0
 
 
