@@ -75,3 +75,25 @@ def test_work_does_not_grow_over_a_whole_passage(taichi_cpu):
     coarse, fine = cycles(256), cycles(512)
     print(f"now: {coarse:.1f} on 256 columns, {fine:.1f} on 512")
     assert fine < 1.3 * coarse
+
+
+def test_a_step_counts_the_work_of_attempts_that_failed(monkeypatch):
+    """From the guess without success, then from the last pressure: the Newton steps and Krylov iterations of both."""
+    from types import SimpleNamespace
+
+    from tehl_taichi.march import rounds
+    from tehl_taichi.pressure.newton import Report
+
+    asked, put = [], []
+    reports = [Report(1e-3, 0.0, 0.0, 30, 90, False), Report(1e-7, 0.0, 0.0, 8, 60, True)]
+
+    def solve(*args, **options):
+        asked.append((args, options))
+        return reports[len(asked) - 1]
+
+    numerics = SimpleNamespace(newton_max=30)
+    solver = SimpleNamespace(H0=-0.25, solve=solve, levels=SimpleNamespace(scene=SimpleNamespace(numerics=numerics)))
+    monkeypatch.setattr(rounds, "put", lambda *state: put.append(state))
+    report = rounds.carefully(solver, "last pressure")
+    assert (report.newton, report.cycles, report.converged) == (38, 150, True)
+    assert put == [(solver, "last pressure", -0.25)] and asked == [((), {}), ((rounds.RETRY_KRYLOV,), {"newton_max": 60})]
