@@ -129,11 +129,9 @@ def _moments(passage, low, high):
 
 def deep_stresses(passage):
     """DEEP, ALONE and their depths."""
-    row, found = int(np.argmin(np.abs(passage.reader.y - passage.scene.features[0].y))), {}
-    for window, key in DEEP.items():
-        moments = _moments(passage, *WINDOWS[window])
-        found[key], found[ALONE] = below.profiles(passage, [row], alone=True, moments=moments)
-    return {key: value for stress, profile in found.items()
+    row = int(np.argmin(np.abs(passage.reader.y - passage.scene.features[0].y)))
+    *deep, _, alone = below.profiles(passage, [row], True, [_moments(passage, *WINDOWS[window]) for window in DEEP])
+    return {key: value for stress, profile in zip(DEPTHS, (*deep, alone))
             for key, value in ((stress, profile.worst.f), (DEPTHS[stress], profile.worst.depth))}
 
 
@@ -222,7 +220,8 @@ def _at_depth(row, key):
 
 
 def _title(loads, window):
-    return window if loads == "all" else f"{loads}, {window}" if (loads, window) in DEEP.values() else loads
+    both = f"{loads}, {window}" if (loads, window) in DEEP.values() else loads
+    return window if loads == "all" else both
 
 
 def page(rows, judged, scene_):

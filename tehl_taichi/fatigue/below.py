@@ -36,21 +36,24 @@ def ladder(passage):
     return np.geomspace(first, last, count)
 
 
-def profiles(passage, rows, alone=False, moments=slice(None)):
-    """:class:`Profile` of a passage under every one of these rows of its reader; moments: those of its histories that count.
+def profiles(passage, rows, alone=False, windows=(slice(None),)):
+    """:class:`Profile` of a passage under every one of these rows of its reader, for each of `windows`: moments that count.
 
     alone=True: and under one point of the last row with the loads there as an endless line: the contact without its feature.
     """
-    depths, y = ladder(passage), passage.reader.y
-    kinds = [(row, False) for row in rows] + [(y.size - 1, True)] * alone
+    depths, middle = ladder(passage), passage.x.size // 2
+    kinds = [(row, False) for row in rows] + [(passage.reader.y.size - 1, True)] * alone
     found = []
-    for (row, single), histories in zip(kinds, histories_of(passage, depths, kinds)):
-        points = slice(passage.x.size // 2, passage.x.size // 2 + 1) if single else slice(None)
-        histories = histories[:, points, moments]
-        f = np.array([findley.search(history, *_rule(passage))[0] for history in histories])
-        depth, point, *rest = _refined(passage, np.log(depths), histories, f)
-        found.append(Profile(depths, f, Point(depth, float(passage.x[points][point]), float(y[row]), *rest), single))
+    for kind, histories in zip(kinds, histories_of(passage, depths, kinds)):
+        points = slice(middle, middle + 1) if kind[1] else slice(None)
+        found += [_profile(passage, depths, histories[:, points, moments], passage.x[points], *kind) for moments in windows]
     return found
+
+
+def _profile(passage, depths, histories, x, row, single):
+    f = np.array([findley.search(history, *_rule(passage))[0] for history in histories])
+    depth, point, *rest = _refined(passage, np.log(depths), histories, f)
+    return Profile(depths, f, Point(depth, float(x[point]), float(passage.reader.y[row]), *rest), single)
 
 
 def _rule(passage):

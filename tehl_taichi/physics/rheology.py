@@ -8,7 +8,7 @@ from tehl_taichi.registry import collect
 LAWS = collect(shear, ShearLaw)  # choices of rheology.law
 LARGEST = 1e100  # Pa: beyond any trial state, and its square is still a number
 DP = 1e3  # Pa, step of the difference quotients of laws: their scale is 1e8 Pa, so a quotient is good to 1e-5
-RISE = 1e-6  # and of those by a wall stress, of it
+RISE = 1e-6  # and of those by a wall stress, as a part of it
 
 
 @unrolled

@@ -35,7 +35,8 @@ def poiseuille(rheology, wall, p):
 LIMITING = ShearLaw(
     name="limiting", says="smooth towards tau_L = tau_L0 + gamma p: shear rate = (tau/eta) (1 - (tau/tau_L)^2)^(-1/2)",
     source="Lee & Hamrock 1990 (circular model); numbers: Everitt 2018", stress=stress,
-    poiseuille=poiseuille, power=41.0, numbers={"tau_L0": TAU_L0, "gamma": GAMMA},
+    poiseuille=poiseuille, power=41.0,  # the gradient itself, times its fortieth power
+    numbers={"tau_L0": TAU_L0, "gamma": GAMMA},
     checked=(Checked("by hand: 1.5 tau_L = 127.5 MPa on the walls drive 1 + 1.5^40 times as much", 1 + 1.5**40,
                      lambda: poiseuille(LIMITING.having(), 127.5e6, 1e9)),
              Checked("by hand: tau_L = 10 + 0.075 * 1000 = 85 MPa; 0.6 of it takes 51/0.8 MPa of a Newtonian oil", 51e6,
