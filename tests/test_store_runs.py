@@ -169,7 +169,7 @@ def test_a_finished_steady_run_gives_valid_json(tehl):
 
 
 def test_a_full_disk_in_the_middle_of_a_run(tehl, unbroken, monkeypatch):
-    left, written = [400], atomic.replace
+    left, written = [400], atomic.write
 
     def filling(path, content):
         left[0] -= 1
@@ -177,7 +177,8 @@ def test_a_full_disk_in_the_middle_of_a_run(tehl, unbroken, monkeypatch):
             raise OSError(28, "No space left on device")
         written(path, content)
 
-    monkeypatch.setattr("tehl_taichi.io.atomic.replace", filling)
+    monkeypatch.setattr("tehl_taichi.io.atomic.write", filling)
+    monkeypatch.setattr("tehl_taichi.study.recorder.SHOWN", 0.0)
     code, _, said = tehl(*RIDGE, "--out", "full.zarr")
     assert code == 4 and len([line for line in said.splitlines() if not line.startswith("warning: ")]) == 1
     assert "cannot write to full.zarr: No space left on device" in said and "then: tehl resume full.zarr" in said

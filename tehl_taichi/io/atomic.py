@@ -7,7 +7,13 @@ import os
 def replace(path, content):
     """Write bytes to `path` under another name first. Raises OSError, and then leaves no half of it."""
     with aside(path) as temporary:
-        temporary.write_bytes(content)
+        write(temporary, content)
+
+
+def write(path, content):
+    """Write bytes to a path that nobody reads yet. Raises OSError, and then may leave half of them."""
+    with open(path, "wb") as file:
+        file.write(content)
 
 
 @contextlib.contextmanager

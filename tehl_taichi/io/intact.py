@@ -9,7 +9,7 @@ from tehl_taichi.io import maps
 from tehl_taichi.io.lock import LOCK
 from tehl_taichi.scene.whole import SECTIONS
 
-FORMAT = 2  # 1: version 0.1, without checksums
+FORMAT = 3  # 1: version 0.1, without checksums; 2: to 0.6.1, every entry of a field in folders of its own
 CHECKPOINTS = ".checkpoints"
 ROOT = "zarr.json"
 OURS = {ROOT, f"{ROOT}.tmp", CHECKPOINTS, LOCK}

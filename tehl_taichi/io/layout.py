@@ -34,10 +34,10 @@ def publish(path, attrs, arrays):
     atomic.replace(path / ROOT, json.dumps(root).encode())
 
 
-def array(group, name, shape, chunk, dtype, dims, units, long_name, fill, **attrs):
-    """A new array of the group."""
+def array(group, name, shape, chunk, dtype, dims, units, long_name, fill, between="/", **attrs):
+    """A new array of the group; between: the numbers of a chunk, in the name of its file."""
     made = group.create_array(name, shape=shape, chunks=chunk, dtype=dtype, dimension_names=dims, fill_value=fill,
-                              compressors=chunks.codecs())
+                              compressors=chunks.codecs(), chunk_key_encoding={"name": "default", "separator": between})
     made.attrs.update({"units": units, "long_name": long_name, **attrs})
     return made
 
@@ -57,7 +57,9 @@ def _coordinates(group, snapshot):
 def _fields(group, capacity, scene, snapshot):
     for name, field in fields_of(scene).items():
         shape, fill = snapshot.fields[name].shape, 0 if field.dtype == "u1" else float("nan")
-        array(group, name, (capacity, *shape), (1, *shape), field.dtype, ["time", *field.dims], field.unit, field.says, fill)
+        # files without folders: three a field would be made at every step
+        array(group, name, (capacity, *shape), (1, *shape), field.dtype, ["time", *field.dims], field.unit, field.says, fill,
+              between=".")
 
 
 def _series(group, capacity, scene):

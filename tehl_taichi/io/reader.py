@@ -110,12 +110,14 @@ class Reader:
 
     def _values(self, name, n):
         """One chunk, read as it was written: a tenth of the time of the general way, which a fatigue search feels."""
-        values = chunks.read(self.path.joinpath(name, *self._key(name, n)), "<" + self.stored[name])
+        values = chunks.read(self._file(name, n), "<" + self.stored[name])
         return values.reshape(self.metadata[name]["shape"][1:])
 
-    def _key(self, name, n):
-        """Where entry n of a field lies in its array's folder."""
-        return ["c", str(n)] + ["0"] * (len(self.metadata[name]["shape"]) - 1)
+    def _file(self, name, n):
+        """Where entry n of a field lies; before layout 3 each in folders of its own."""
+        array = self.metadata[name]
+        between = array["chunk_key_encoding"].get("configuration", {}).get("separator", "/")
+        return self.path / name / between.join(["c", str(n)] + ["0"] * (len(array["shape"]) - 1))
 
     def _read_series(self, name):
         """A scalar series with the room behind its last entry."""

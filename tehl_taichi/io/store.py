@@ -1,8 +1,8 @@
 """The result store: one zarr v3 group that xarray opens as it is, written step by step.
 
 Arrays are laid out for the whole run at once; what a reader sees is the consolidated metadata in the group's own
-`zarr.json`, whose shapes end at the last complete step. That one file is replaced atomically after all chunks of a step
-and its checkpoint are written, so a step becomes visible as a whole, and a killed run leaves a store that opens.
+`zarr.json`, whose shapes end at the last complete step that was shown. That one file is replaced atomically after all chunks of
+these steps and a checkpoint are written, so steps become visible as a whole, and a killed run leaves a store that opens.
 The store itself appears with its first entry (:mod:`tehl_taichi.io.place`) and has one writer at a time
 (:mod:`tehl_taichi.io.lock`); every chunk and checkpoint carries a checksum.
 """
@@ -16,7 +16,7 @@ import zarr
 
 from tehl_taichi import __version__
 from tehl_taichi.errors import Error, Interrupted
-from tehl_taichi.io import checkpoint, chunks, intact, layout, maps, scene_file
+from tehl_taichi.io import atomic, checkpoint, chunks, intact, layout, maps, scene_file
 from tehl_taichi.io.held import Held, held
 from tehl_taichi.io.intact import CHECKPOINTS, FORMAT
 from tehl_taichi.io.json_values import plain
@@ -62,6 +62,8 @@ class Store(Held, Reader):
         layout.publish(place.folder, attrs, layout.metadata(place.folder))
         store = cls(place.folder, place.lock)
         store.series = {name: np.full(capacity, -1) if name == "step" else np.full(capacity, np.nan) for name in store.names}
+        for name in store.series:
+            (place.folder / name / "c").mkdir()
         return store
 
     @classmethod
@@ -78,30 +80,46 @@ class Store(Held, Reader):
         intact.check_version(path, store.attrs)
         return store
 
-    def append(self, snapshot, state=None):
-        """Write one snapshot, and its `state` as the checkpoint to go on from, then make it visible. Raises Interrupted where
-        the disk does not take it: what was stored before stays."""
-        with _told(self.path, f"{self.steps} entries are safe; then: tehl resume {self.path}"):
-            self._append(snapshot, state)
+    def append(self, snapshot, state=None, shown=True):
+        """Write one snapshot, and its `state` as the checkpoint to go on from, then make it visible; shown = False: not yet,
+        unless it has a state. Raises Interrupted where the disk does not take it: what was shown before stays."""
+        with self._safe():
+            self._append(snapshot, state, shown)
 
-    def _append(self, snapshot, state):
+    def show(self):
+        """Make visible what was appended. Raises as :meth:`append`."""
+        with self._safe():
+            if self.steps > self.attrs["steps"]:
+                self._show()
+
+    def _append(self, snapshot, state, shown=True):
         n = self.steps
-        for name, dtype in self.stored.items():
-            chunks.write(self.path / name, self._key(name, n), snapshot.fields[name], "<" + dtype)
+        for name, dtype in self.stored.items():  # what nobody sees yet needs no care
+            atomic.write(self._file(name, n), chunks.packed(snapshot.fields[name], "<" + dtype))
         values = {**snapshot.scalars, **{name: getattr(snapshot, name) for name in OWN}}
         for name, series in self.series.items():
             series[n] = values[name]
-            chunks.write(self.path / name, ["c", "0"], series, "<" + series.dtype.str[1:])
+        self.steps = n + 1
         if state:
             checkpoint.write(self.path / CHECKPOINTS, n + 1, state)
-        self._commit(steps=n + 1)
+        if state or shown:
+            self._show()
         if state:
             checkpoint.forget(self.path / CHECKPOINTS, n + 1)
 
+    def _show(self):
+        for name, series in self.series.items():
+            atomic.replace(self.path / name / "c" / "0", chunks.packed(series, "<" + series.dtype.str[1:]))
+        self._commit(steps=self.steps)
+
+    def _safe(self):
+        """What a disk refuses while a passage is written."""
+        return _told(self.path, f"{self.attrs['steps']} entries are safe; then: tehl resume {self.path}")
+
     def _commit(self, **attrs):
-        self.attrs.update(attrs)
-        self.steps = self.attrs.get("steps")
-        layout.publish(self.path, self.attrs, self.metadata)
+        attrs = {**self.attrs, **attrs}
+        layout.publish(self.path, attrs, self.metadata)
+        self.attrs, self.steps = attrs, attrs["steps"]
 
     def go_back(self):
         """The state of the last checkpoint, for :func:`tehl_taichi.march.passage.march`. Entries after it are taken back: they
