@@ -16,6 +16,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
+from tehl_taichi.engine.fftw import single, single_back, single_real
 from tehl_taichi.fatigue.thermal_stress import WORKERS, Heated, depth_after, erfcx, fast_length
 
 LEAD = 4.0  # a: the contact stands at its first state for this way of the body, which is cold before
@@ -71,7 +72,7 @@ class ThermalBelow(Heated):
         """Transform in time of the temperatures in the frame of the body, before which the contact moves on."""
         n = np.concatenate([np.zeros(self.lead, int), np.arange(self.entries)])
         turn = np.exp(1j * np.outer(self._angle, np.arange(n.size))).astype(np.complex64)
-        return np.fft.fft(waves[:, n] * turn, self.size, axis=1)
+        return single(waves[:, n] * turn, self.size)
 
     @property
     def _angle(self):
@@ -93,17 +94,18 @@ class ThermalBelow(Heated):
     def _kernels(self, k, angle, depth):
         """(4, waves, size): what temperatures, linear over a step in the frame of the contact, do from then on; within the
         newest step the parts PARTS of it count by their age."""
-        count, later = self.lead + self.entries, np.exp(-2j * np.pi * np.arange(self.size) / self.size)
+        count, later = self.lead + self.entries, np.exp(-2j * np.pi * np.arange(self.size) / self.size).astype(np.complex64)
         stress = step_stresses(k, depth, self.diffusivity, self.nu, np.append(np.arange(count), PARTS) * self.dt)
         stress[3] *= k
         reach = np.diff(stress[..., :count], axis=2, append=stress[..., count - 1 : count])
         reach[..., 0] = 0.0
         before, now = _means(angle, 0.0, 1.0)
-        out = np.fft.fft(reach.astype(np.float32), self.size, axis=2) * (before * later + now).astype(np.complex64)
+        out = single(reach, self.size)
+        out *= before * later + now
         newest = np.diff(stress[..., count:], axis=2)
         for n in range(PARTS.size - 1):
             before, now = _means(angle, PARTS[n], PARTS[n + 1])
-            out += newest[..., [n]].astype(np.float32) * (before * later + now).astype(np.complex64)
+            out += newest[..., [n]].astype(np.float32) * (before * later + now)
         return out
 
     def _turned(self, parts, cut):
@@ -116,7 +118,7 @@ class ThermalBelow(Heated):
     def _back(self, spectra, kx):
         """Entries of transforms in time (..., waves or kx, size), in the frame of the contact again."""
         back = np.exp(-1j * np.outer(kx * self.speed * self.dt, np.arange(self.lead, self.lead + self.entries)))
-        return np.fft.ifft(spectra, axis=-1)[..., self.lead : self.lead + self.entries] * back
+        return single_back(spectra)[..., self.lead : self.lead + self.entries] * back.astype(np.complex64)
 
     def rows(self, depth, rows):
         """(rows, entries, columns, 6) Pa at `depth` on some rows."""
@@ -130,7 +132,7 @@ class ThermalBelow(Heated):
                     found[n, self.ix[cut][starts]] += np.add.reduceat(part * weight[ODD[n]][cut], starts, axis=0)
         spectra = np.zeros((len(rows), 6, w.kx.size, self.entries), np.complex64)
         spectra[:, :, :columns] = self._back(out, w.kx[:columns, 0])
-        return self.stiffness * np.fft.irfft(spectra, w.nx, axis=2)[:, :, : self.columns].transpose(0, 3, 2, 1)
+        return self.stiffness * single_real(spectra, w.nx, 2)[:, :, : self.columns].transpose(0, 3, 2, 1)
 
     def at(self, depth):
         """Function of the entry that gives sxx, syy, szz, sxy, sxz, syz, each (columns, ny+1), at `depth`."""
@@ -159,4 +161,5 @@ def _means(angle, low, high):
     nodes, weights = np.polynomial.legendre.leggauss(3)
     age = low + (high - low) * (nodes + 1) / 2
     turn = np.exp(-1j * angle * age) * weights / 2
-    return (age * turn).sum(axis=1, keepdims=True) * np.exp(1j * angle), ((1 - age) * turn).sum(axis=1, keepdims=True)
+    found = (age * turn).sum(axis=1, keepdims=True) * np.exp(1j * angle), ((1 - age) * turn).sum(axis=1, keepdims=True)
+    return [means.astype(np.complex64) for means in found]

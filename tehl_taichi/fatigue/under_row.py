@@ -17,15 +17,16 @@ def histories_of(passage, depths, kinds):
 
     passage: a :class:`tehl_taichi.fatigue.histories.Passage`; depths: m, increasing. The last moment is the unloaded state.
     """
-    operators = [_operator(passage, depths, *kind) for kind in kinds]
+    operators = _operators(passage, depths, kinds)
     out = np.zeros((len(kinds), passage.x.size, len(depths), passage.centres.size + 1, 6))
     entries = np.unique(passage.entries)
 
     def fill(block):
         loads = np.stack([passage.loads(int(entry)) for entry in block], axis=1)
-        for histories, operator, (row, endless) in zip(out, operators, kinds):
-            for entry, stress in zip(block, operator(*(loads[..., [row]] if endless else loads))):
-                passage.follow(histories, entry, stress.swapaxes(0, 1))
+        for operator, rows, those in operators:
+            for n, stresses in zip(those, operator(*loads[..., rows])):
+                for entry, stress in zip(block, stresses):
+                    passage.follow(out[n], entry, stress.swapaxes(0, 1))
 
     with ThreadPoolExecutor(WORKERS) as pool:
         list(pool.map(fill, np.array_split(entries, -(-entries.size // BLOCK))))
@@ -34,9 +35,15 @@ def histories_of(passage, depths, kinds):
     return passage.resting(out).swapaxes(1, 2)
 
 
-def _operator(passage, depths, row, endless):
-    y = np.zeros(1) if endless else passage.reader.y
-    return RowStress(passage.grid_x, y, passage.scene.body_a.nu, passage.line, passage.mirrored, depths, 0 if endless else row)
+def _operators(passage, depths, kinds):
+    """(RowStress, rows of loads that it takes, which of the kinds it gives): one of all loads for all rows, one of each row whose
+    loads go on."""
+    def made(y, rows):
+        return RowStress(passage.grid_x, y, passage.scene.body_a.nu, passage.line, passage.mirrored, depths, rows)
+
+    plain = [n for n, (_, endless) in enumerate(kinds) if not endless]
+    out = [(made(passage.reader.y, [kinds[n][0] for n in plain]), slice(None), plain)] if plain else []
+    return out + [(made(np.zeros(1), [0]), [row], [n]) for n, (row, endless) in enumerate(kinds) if endless]
 
 
 def _heat(passage, depths, rows, entries, out):
