@@ -12,7 +12,8 @@ from tehl_taichi.pressure import fields
 IN_J = ("A", "AU", "AD", "B", "BU", "BD", "EPS", "SCALE", "KIND", "RES", "SOL", "COR", "TRIAL", "FILM", "BAND")
 IN_S = ("P", "H", "GAP0", "QOLD", "MASK", "WEIGHT", "RHO", "LE", "IE", "ROOT", "GAP", "DLE", "DRP", "QP", "R", "D", "DRY",
         "TOUCH", "RHOC", "QCP", "DLH")
-IN_Z = ("T", "TN", "TNN", "U", "VY", "MX", "MY", "MS", "MSN", "MSNN", "NIE", "NRHO", "TS", "PS", "LAST")  # per node of zeta
+IN_Z = ("T", "TN", "TNN", "U", "VY", "MX", "MY", "MS", "MSN", "MSNN", "NIE", "NRHO", "TS", "PS", "LAST",
+        "KEPT")  # per node of zeta; the last one stands for those of the viscosity
 IN_C = ("PN", "PNN", "QA", "QB", "AA", "AB", "TAU", "PX", "PY", "XA", "YA", "XB", "YB")
 CONSTANT = ("G", "blocks")  # arguments too small to count
 

@@ -90,6 +90,32 @@ def test_oil_that_is_compressed_warms():
     np.testing.assert_allclose(warmer, 1.860, rtol=0.008)  # a little more: it is 1.9 K warmer while it is compressed
 
 
+def test_the_viscosity_follows_every_change_of_the_temperatures():
+    """What of it depends on the temperature alone is kept: it must not be of older temperatures, whoever changed them."""
+    from tehl_taichi.pressure import fields
+
+    heat, levels = film(srr=-0.002)
+    nodes = np.ones(levels.X.size)
+    for row, value in ((fields.P, 0.18e9 / levels.scales.p_H), (fields.H, 1e-3 / levels.scales.h)):
+        levels.put(row, value * nodes)
+    heat.start()
+    cold = heat.state()
+    step_between_walls(heat, levels, 0.2e9 / levels.scales.p_H * nodes, 1e-3 * nodes, 0 * nodes, rate=1e6)
+
+    def viscosity():
+        heat.values()
+        return levels.get(fields.LE)
+
+    solved = viscosity()
+    heat.set_temperature(heat.temperature())
+    np.testing.assert_array_equal(viscosity(), solved)
+    heat.restore(cold)
+    restored = viscosity()
+    heat.set_temperature(cold["heat_T"])
+    np.testing.assert_array_equal(viscosity(), restored)
+    assert np.abs(solved - restored).max() > 0.01
+
+
 def test_relaxed_rounds_of_a_linear_exchange_end_at_once():
     """Rounds that overshoot, x -> x* + g (x - x*): Aitken's second relaxation lands on x* for any g between -4 and 0."""
     from tehl_taichi.heat import slots

@@ -34,6 +34,16 @@ def test_houpert_is_roelands_at_its_own_temperature():
     assert float(houpert(oil, 1e9, 90.0)) < float(houpert(oil, 1e9, 60.0))
 
 
+@pytest.mark.parametrize("name", ["roelands-temperature", "houpert"])
+def test_parts_that_a_film_keeps_give_the_law(name):
+    from tehl_taichi.physics.viscosity import LAWS, ln_eta, ln_eta_of, part, parts
+
+    oil = Oil(viscosity=name)
+    assert parts(oil) == len(LAWS[name].parts) > 0
+    for p, Gamma in ((0.0, 20.0), (1e9, 90.0), (3e9, 250.0)):
+        assert ln_eta_of(oil, p, Gamma, [part(oil, Gamma, n) for n in range(parts(oil))]) == ln_eta(oil, p, Gamma)
+
+
 def test_table_interpolates_and_continues():
     from tehl_taichi.physics.viscosity import ln_eta
 

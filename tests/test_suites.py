@@ -46,7 +46,7 @@ def test_every_field_of_the_tables_has_its_bytes():
     from tehl_taichi.pressure import fields
 
     assert sum(np.size(getattr(fields, name)) for name in traffic.IN_J) == fields.NROWS_LINEAR
-    assert len(traffic.IN_S) == fields.NROWS_THERMAL and len(traffic.IN_Z) == slots.KINDS
+    assert len(traffic.IN_S) == fields.NROWS_THERMAL and len(traffic.IN_Z) == slots.KEPT + 1
     assert len(traffic.IN_C) == slots.SINGLES
 
 

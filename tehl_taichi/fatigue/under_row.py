@@ -36,8 +36,8 @@ def histories_of(passage, depths, kinds):
 
 
 def _operators(passage, depths, kinds):
-    """(RowStress, rows of loads that it takes, which of the kinds it gives): one of all loads for all rows, one of each row whose
-    loads go on."""
+    """(RowStress, rows of loads that it takes, which of the kinds it gives): one of all loads for all rows, one of each row
+    whose loads go on."""
     def made(y, rows):
         return RowStress(passage.grid_x, y, passage.scene.body_a.nu, passage.line, passage.mirrored, depths, rows)
 

@@ -9,7 +9,7 @@ from tehl_taichi.engine.lanes import Flat, Table, V, W, cells, place, tile, tile
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
 from tehl_taichi.heat.elimination import eliminate
-from tehl_taichi.heat.film import couette, node_laws, pressure_and_film
+from tehl_taichi.heat.film import couette, keep_parts, node_laws, pressure_and_film
 from tehl_taichi.heat.nodes import Nodes, second, slope, weight, zeta
 from tehl_taichi.heat.slots import (
     AA,
@@ -280,6 +280,7 @@ def solve_column(Z: ti.template(), C: ti.template(), X: ti.template(), N: ti.tem
         eliminate(X, at.c, nz)
         previous = moved
         moved, held = update(Z, X, at, nz, scene.inlet - WARM, part)
+        keep_parts(Z, at.q, nz, oil)
         clamped += held
         if SLUGGISH * previous < moved and previous < LONGEST:
             part = ti.max(0.5 * part, LEAST)

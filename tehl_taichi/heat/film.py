@@ -13,10 +13,10 @@ from tehl_taichi.engine.lanes import Flat, Table, V, cells, place, tile, tiles
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
 from tehl_taichi.heat.nodes import Nodes, beyond, integral, weight, zeta
-from tehl_taichi.heat.slots import MS, MX, MY, NIE, NRHO, PX, PY, TAU, VY, XA, XB, YA, YB, T, U
+from tehl_taichi.heat.slots import KEPT, MS, MX, MY, NIE, NRHO, PX, PY, TAU, VY, XA, XB, YA, YB, T, U
 from tehl_taichi.physics.density import rho_film
 from tehl_taichi.physics.rheology import DP
-from tehl_taichi.physics.viscosity import ln_eta
+from tehl_taichi.physics.viscosity import ln_eta_of, part, parts
 from tehl_taichi.pressure.conditions import Conditions
 from tehl_taichi.pressure.fields import FLOOR, ILAM, QCP, RHOC, H, P
 from tehl_taichi.pressure.gradient import limited_gradient
@@ -60,11 +60,31 @@ def column(S: ti.template(), G: ti.template(), at: ti.template(), scene: ti.temp
 
 @ti.func
 def node_laws(Z: ti.template(), q, nz, oil: ti.template(), p, ln_eta0):
-    """1/eta and rho at the nodes of a column."""
+    """1/eta and rho at the nodes of a column, after :func:`keep_parts`."""
     for n in range(nz):
-        t = Z[T, q * nz + n]
-        Z[NIE, q * nz + n] = exp(ln_eta0 - ln_eta(oil, p, t))
-        Z[NRHO, q * nz + n] = rho_film(oil, p, t)
+        at = q * nz + n
+        known = [Z[KEPT + m, at] for m in ti.static(range(parts(oil)))]
+        Z[NIE, at] = exp(ln_eta0 - ln_eta_of(oil, p, Z[T, at], known))
+        Z[NRHO, at] = rho_film(oil, p, Z[T, at])
+
+
+@ti.func
+def keep_parts(Z: ti.template(), q, nz, oil: ti.template()):
+    """What of the viscosity depends on the temperature alone, at the nodes of a column: when that has changed."""
+    for n in range(nz):
+        for m in ti.static(range(parts(oil))):
+            Z[KEPT + m, q * nz + n] = part(oil, Z[T, q * nz + n], m)
+
+
+@ti.kernel
+def keep(Z: ti.template(), G: Table, nz: ti.i32, oil: ti.template()):
+    """:func:`keep_parts` of all columns."""
+    nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1)
+    for c in range(tiles(nx, ny)):
+        s, first, last = tile(c, nx)
+        for q in range(s * (nx + 1) + first, s * (nx + 1) + last):
+            keep_parts(Z, q, nz, oil)
 
 
 @ti.func

@@ -11,13 +11,14 @@ from tehl_taichi.engine import tables
 from tehl_taichi.engine.lanes import Table, V, W, cells
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.launches import Carriers, bind
+from tehl_taichi.physics.viscosity import parts
 
 Fields = ti.types.ndarray(dtype=ti.f64, ndim=3)
 
 # temperature, that of the last step and the one before; velocities; h int_0 rho (u, v, 1), the last one of the last two
 # steps too; 1/eta, rho; temperature and pressure change at the departure points; temperature of the last round
 T, TN, TNN, U, VY, MX, MY, MS, MSN, MSNN, NIE, NRHO, TS, PS, LAST = range(15)
-KINDS = 15
+KEPT = 15  # and from here on what of the viscosity depends on the temperature alone, where its law has such parts
 # pressure of the last step and the one before (Pa); heat into the bodies; A of T_s = A + B q; stress of the Couette part;
 # gradient of the pressure (Pa/m); shear on the walls z = 0 and z = h
 PN, PNN, QA, QB, AA, AB, TAU, PX, PY, XA, YA, XB, YB = range(13)
@@ -123,7 +124,7 @@ class Columns(SlotTable):
 
     def __init__(self, levels, nz):
         self.levels, self.carriers, self.nz = levels, Carriers(), nz
-        self.field = tables.lease(self, KINDS, W, levels.fine * (levels.nx + 1), each=nz)
+        self.field = tables.lease(self, KEPT + parts(levels.scene.oil), W, levels.fine * (levels.nx + 1), each=nz)
         self.singles = SlotTable(levels, SINGLES)
 
     def nodes(self, kind):

@@ -17,6 +17,7 @@ from tehl_taichi.heat.across import Across
 from tehl_taichi.heat.bodies import Bodies
 from tehl_taichi.heat.relaxation import Relaxation
 from tehl_taichi.heat.step import Step
+from tehl_taichi.physics.viscosity import parts
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.storage import bdf
 
@@ -62,6 +63,7 @@ class FilmHeat:
         state = *film_state, self.columns.singles.field
         known = v.G, self.across.table, scene.oil, scene.rheology, conditions
         self.values, self.slopes = (bind(film.laws, *film_state, *known, slopes) for slopes in (0, 1))
+        self._keep_parts = bind(film.keep, self.columns.field, v.G, self.nz, scene.oil) if parts(scene.oil) else lambda: None
         self._velocities = bind(film.velocities, *state, *known)
         self._departures = bind(paths.departures, *state, v.G, self.nz, conditions, self.step.values)
         self._energy = bind(energy.energy, *state, self.X, *known, self.step.values, self.told)
@@ -136,6 +138,7 @@ class FilmHeat:
         for kind, name in ((slots.T, "heat_T"), (slots.TN, "heat_T"), (slots.TNN, "heat_T_before"), (slots.MSN, "heat_below"),
                            (slots.MSNN, "heat_below_before")):
             self.columns.put_nodes(kind, state[name])
+        self._keep_parts()
         self.columns.put_single(slots.PN, v.get(fields.P) * v.scales.p_H)
         self.columns.put_single(slots.PNN, state["heat_p_before"][0])
         self.bodies.restore(state["heat_memory"], state["heat_offset"])
@@ -148,6 +151,7 @@ class FilmHeat:
     def set_temperature(self, values):
         """Start value of the next solve, (nz, ny+1, nx+1)."""
         self.columns.put_nodes(slots.T, values)
+        self._keep_parts()
 
     def shear(self):
         """Shear stress (Pa) at z = 0 along x, y and at z = h along x, y: (4, ny+1, nx+1)."""

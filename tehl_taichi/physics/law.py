@@ -60,11 +60,16 @@ class ShearLaw(Law):
 class ViscosityLaw(Law):
     """ln_eta(oil, p, Gamma): ln of the viscosity (Pa s) at p (Pa) and Gamma (deg C).
 
+    Where it takes long to find what of it depends on the temperature alone: parts, functions (oil, Gamma) of these, and
+    of_parts(oil, p, *values) with the law from them; a film keeps them while its pressure changes.
+
     usual: numbers whose default is good for most oils; a new oil must bring the others. thinned_by: numbers without which (all
     0) the temperature does nothing, () where it never does, None where it always does.
     """
 
     ln_eta: Callable
+    parts: tuple = ()
+    of_parts: Callable | None = None
     usual: tuple = ()
     thinned_by: tuple | None = None
 

@@ -9,12 +9,23 @@ from tehl_taichi.registry import Checked
 
 
 @pointwise
-def ln_eta(oil, p, Gamma):
-    """Roelands with Houpert's temperature factor ((Gamma + 135)/(Gamma_0 + 135))^-S_0."""
+def warmth(oil, Gamma):
+    """Houpert's factor ((Gamma + 135)/(Gamma_0 + 135))^-S_0."""
+    return exp(-oil.S0 * log((Gamma + 135) / (oil.Gamma0 + 135)))
+
+
+@pointwise
+def warmed(oil, p, factor):
+    """Roelands with that factor."""
     ln0 = log(oil.eta0) + 9.67
     Z = oil.alpha * oil.p_r / ln0
-    temperature = exp(-oil.S0 * log((Gamma + 135) / (oil.Gamma0 + 135)))
-    return -9.67 + ln0 * exp(Z * log(1 + p / oil.p_r)) * temperature
+    return -9.67 + ln0 * exp(Z * log(1 + p / oil.p_r)) * factor
+
+
+@pointwise
+def ln_eta(oil, p, Gamma):
+    """Both."""
+    return warmed(oil, p, warmth(oil, Gamma))
 
 
 def refused(oil, Gamma, p):
@@ -31,7 +42,7 @@ def _by_hand(S0=1.0):
 
 HOUPERT = ViscosityLaw(
     name="houpert", says="Roelands, ln(eta) + 9.67 falling as ((Gamma + 135)/(Gamma0 + 135))^-S0", source="Houpert 1985",
-    ln_eta=ln_eta, usual=("p_r",), thinned_by=("S0",), refused=refused,
+    ln_eta=ln_eta, parts=(warmth,), of_parts=warmed, usual=("p_r",), thinned_by=("S0",), refused=refused,
     numbers={"eta0": ETA0, "alpha": ALPHA, "S0": S0, "Gamma0": GAMMA0, "p_r": P_R},
     checked=(Checked("by hand at p_r and (Gamma + 135)/(Gamma0 + 135) = 262.5/175 = 1.5, S0 = 1", _by_hand(),
                      lambda: ln_eta(HOUPERT.having(S0=1.0), 1.96e8, 127.5)),

@@ -24,11 +24,15 @@ def exponent(oil, Gamma):
 
 
 @pointwise
-def ln_eta(oil, p, Gamma):
-    """Roelands' rise from there (Eq 1.1)."""
-    ln0 = ln_eta0(oil, Gamma)
-    Z = exponent(oil, Gamma)
+def risen(oil, p, ln0, Z):
+    """Roelands' rise from ln0, the viscosity at p = 0 (Eq 1.1)."""
     return ln0 + (ln0 + 9.67) * (exp(Z * log(1 + P_ROELANDS * p)) - 1)
+
+
+@pointwise
+def ln_eta(oil, p, Gamma):
+    """Eq 1.1 to 1.3."""
+    return risen(oil, p, ln_eta0(oil, Gamma), exponent(oil, Gamma))
 
 
 def refused(oil, Gamma, p):
@@ -41,7 +45,8 @@ def refused(oil, Gamma, p):
 
 ROELANDS_TEMPERATURE = ViscosityLaw(
     name="roelands-temperature", says="Roelands, its viscosity at p = 0 and its pressure exponent falling with temperature",
-    source="Roelands 1966; Everitt 2018, Eq 1.1-1.3", ln_eta=ln_eta, refused=refused,
+    source="Roelands 1966; Everitt 2018, Eq 1.1-1.3", ln_eta=ln_eta, parts=(ln_eta0, exponent), of_parts=risen,
+    refused=refused,
     numbers={"G0": quantity(4.57, "", "log10 eta0 = -4.2 + G0 (1 + Gamma/135)^-S0, eta0 in Pa s", 0, 20), "S0": S0,
              "Dz": quantity(0.5, "", "pressure exponent Z = Dz + Cz log10(1 + Gamma/135)", -5, 5),
              "Cz": quantity(-0.071, "", "see Dz", -5, 5)},
