@@ -127,3 +127,20 @@ def test_the_fatigue_search_starts_taichi_itself(monkeypatch):
     with pytest.raises(ValueError):
         findley.search(np.zeros((1, 1)), 0.3)
     assert len(started) == 2
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="of the C library there")
+def test_memory_that_comes_and_goes_stays_with_the_process():
+    """Eight arrays of a megabyte, again and again: 40 000 pages from the system as it was."""
+    told = """
+import resource, numpy as np
+from tehl_taichi.engine import runtime
+runtime.start()
+def pages(): return resource.getrusage(resource.RUSAGE_SELF).ru_minflt
+def work(): return [np.ones(1 << 17) for _ in range(8)] and None
+work()
+before = pages()
+for _ in range(20): work()
+print(pages() - before)
+"""
+    assert int(subprocess.run([sys.executable, "-c", told], capture_output=True, text=True, check=True).stdout) < 500

@@ -13,7 +13,7 @@ import warnings
 from pathlib import Path
 
 from tehl_taichi import __version__
-from tehl_taichi.engine import cores
+from tehl_taichi.engine import cores, memory
 from tehl_taichi.errors import RuntimeUnavailable
 
 ARCHES = ("cpu",)  # that the kernels have been checked on
@@ -94,6 +94,7 @@ def start(arch="cpu", threads=None):
 def _start(arch, threads):
     global _home
     cache = str(cache_dir())
+    memory.keep_freed()
     from tehl_taichi.engine import loops
     from tehl_taichi.engine.language import attempt, ti
 

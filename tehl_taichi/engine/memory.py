@@ -1,0 +1,22 @@
+"""Memory of arrays that come and go: a run makes and drops some of megabytes at every step and at every wave of a fatigue search.
+
+The C library gives such back to the system at once and gets them again empty, page by page: 380 000 pages in an isothermal
+passage, 80 000 with this (11.3 -> 10.7 s, 256x64 with its fatigue, medians of three in turn).
+"""
+
+import ctypes
+import sys
+
+TRIM_THRESHOLD, MMAP_THRESHOLD = -1, -3  # of mallopt(3)
+KEPT = 1 << 25  # bytes: the most that glibc takes from what it keeps
+FREE = (1 << 31) - 1  # bytes of it that may lie idle at its end
+
+
+def keep_freed():
+    """Let the C library of this process keep what is freed. Other C libraries stay as they are."""
+    if not sys.platform.startswith("linux"):
+        return
+    mallopt = getattr(ctypes.CDLL(None), "mallopt", None)
+    if mallopt is not None:
+        mallopt(MMAP_THRESHOLD, KEPT)
+        mallopt(TRIM_THRESHOLD, FREE)
