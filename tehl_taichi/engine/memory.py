@@ -1,4 +1,4 @@
-"""Memory of arrays that come and go: a run makes and drops some of megabytes at every step and at every wave of a fatigue search.
+"""Memory of arrays that come and go: a run makes and drops some of megabytes at every step, and at every wave of a search.
 
 The C library gives such back to the system at once and gets them again empty, page by page: 380 000 pages in an isothermal
 passage, 80 000 with this (11.3 -> 10.7 s, 256x64 with its fatigue, medians of three in turn).
