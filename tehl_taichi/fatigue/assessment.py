@@ -1,15 +1,18 @@
 """Fatigue of the material around a feature: stress histories, critical planes, the index."""
 
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
 
 from tehl_taichi.fatigue import below, findley
 from tehl_taichi.fatigue.histories import Passage
+from tehl_taichi.fatigue.thermal_stress import WORKERS
 from tehl_taichi.fatigue.worst_point import Point
 from tehl_taichi.scene import SceneError
 
 PIT_ANGLES = (18.0, 50.0)  # degrees to the surface at which pits begin (Everitt 2018)
+POINTS = 16  # whose largest principal stresses are found at once
 
 
 @dataclass(frozen=True)
@@ -89,13 +92,21 @@ def _layer(scene, passage, depth, progress):
         history = passage.history(rows, operators, progress, lambda: findley.prepare(scene.fatigue.criterion))
         f, normals = findley.search(history, scene.fatigue.kappa, criterion=scene.fatigue.criterion)
         shape = passage.x.size, rows.stop - rows.start
-        sigma1 = np.array([findley.largest_principal(part).max() for part in history])
-        parts.append([v.reshape(shape) for v in (f, *findley.angles(normals), sigma1)])
+        parts.append([v.reshape(shape) for v in (f, *findley.angles(normals), _tension(history))])
         top = int(np.argmax(f))
         if worst is None or f[top] > worst.f:
             i, j = np.unravel_index(top, shape)
             worst = Point(depth, passage.x[i], passage.y[j + rows.start], f[top], history[top].copy(), normals[top])
     return Layer(depth, *(np.concatenate(part, axis=1) for part in zip(*parts)), worst)
+
+
+def _tension(history):
+    """Largest principal stress of every point (points,), Pa, over its history."""
+    def of(points):
+        return findley.largest_principal(points).max(axis=1)
+
+    with ThreadPoolExecutor(WORKERS) as pool:
+        return np.concatenate(list(pool.map(of, np.array_split(history, -(-len(history) // POINTS)))))
 
 
 def _profiles(scene, passage, surface):
