@@ -15,7 +15,7 @@ def write(group, scene):
             array = group.create_array(name, shape=feature.heights.shape, dtype="f8",
                                        dimension_names=[f"{name}_y", f"{name}_x"])
             array.attrs.update({"units": feature.unit, "long_name": "measured heights, not levelled", "sha256": feature.sha256,
-                                "pixel_m": feature.pixel, "file": feature.file})
+                                "pixel_m": list(feature.steps), "file": feature.file})
             array[...] = feature.heights
 
 

@@ -115,8 +115,11 @@ def _surface_topography(path):
         raise SceneError(f"cannot read heights from {path}: {error}") from None
 
 
+LEVELS = {"none": "nothing", "mean": "mean", "plane": "plane", "form": "plane and curvature"}  # level: what it takes off
+
+
 def levelled(values, level):
-    """Heights with nothing ("none"), their mean or a plane (least squares) taken off."""
+    """Heights less what a level of LEVELS says, by least squares; form: all second-order terms."""
     if level == "none":
         return values
     centred = values - values.mean()
@@ -124,7 +127,16 @@ def levelled(values, level):
         return centred
     y, x = (np.arange(n) - (n - 1) / 2 for n in values.shape)
     along, across = x * (x @ values.mean(axis=0)) / (x @ x), y * (y @ values.mean(axis=1)) / (y @ y)
-    return centred - along - across[:, None]
+    flat = centred - along - across[:, None]
+    return flat if level == "plane" else flat - _curved(flat, x, y)
+
+
+def _curved(values, x, y):
+    """Part that is x^2, y^2 or x y of heights (rows, columns) without a plane; none has any of the others."""
+    bent_x, bent_y = x * x - (x * x).mean(), y * y - (y * y).mean()
+    twist = (y @ values @ x) / ((x @ x) * (y @ y))
+    return (bent_x * (bent_x @ values.mean(axis=0)) / (bent_x @ bent_x)
+            + (bent_y * (bent_y @ values.mean(axis=1)) / (bent_y @ bent_y))[:, None] + twist * np.outer(y, x))
 
 
 @dataclass(frozen=True)
@@ -137,10 +149,10 @@ class Measures:
     slope: float
 
     @classmethod
-    def of(cls, heights, pixel):
-        """heights: (rows, columns) in m, points `pixel` m apart."""
-        along, across = np.diff(heights, axis=1)[:-1], np.diff(heights, axis=0)[:, :-1]
-        slope = math.degrees(math.atan(float(np.hypot(along, across).max()) / pixel))
+    def of(cls, heights, steps):
+        """heights: (rows, columns) in m, points so far apart along x and along y (m)."""
+        along, across = np.diff(heights, axis=1)[:-1] / steps[0], np.diff(heights, axis=0)[:, :-1] / steps[1]
+        slope = math.degrees(math.atan(float(np.hypot(along, across).max())))
         return cls(float(heights.min()), float(heights.max()), float(heights.std()), slope)
 
     @property

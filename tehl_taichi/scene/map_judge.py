@@ -5,19 +5,21 @@ import os
 import numpy as np
 
 from tehl_taichi.scene import map_holes
-from tehl_taichi.scene.height_map import missed
+from tehl_taichi.scene.height_map import LEVELS, levelled, missed
 from tehl_taichi.scene.scales import Scales
 
 FLAT = 1e-9  # m rms: a tenth of a percent of the thinnest films of this kind (1 um), and less than one molecule
 STEEP = 10.0  # degrees: the film equation takes slopes for small (tan 10 deg = 0.18)
 SHARE = 0.1  # of the rms that a grid, or the map's own points, may miss: a wave of six cells
+CURVED = 0.25  # of the rms, left without the curvature: less is taken for the form of a body (a ridge as wide leaves 0.28)
 RIM = 0.1  # of the rms: a step at the rim below that is roughness like the rest
 JUDGED = 1024  # points along each side, from the middle, that are judged
 
 
 def doubts(f, scene):
-    """Sentences about a map that has holes, is flat or steep, finer or coarser than the grid, or ends in a step."""
-    return [sentence for check in (_holes, _size, _grid, _rim) for sentence in check(f, scene)]
+    """Sentences about a map that has holes, has the form of its body, is flat or steep, finer or coarser than the grid, or ends
+    in a step."""
+    return [sentence for check in (_holes, _form, _size, _grid, _rim) for sentence in check(f, scene)]
 
 
 def cells(scene):
@@ -31,11 +33,15 @@ def lines(f, scene):
     cell = cells(scene)
     (rows, columns), m, name = f.heights.shape, f.measures, f"map {os.path.basename(f.file)}"
     heights = f"heights in {f.unit}" + (f" times {f.scale:g}" if f.scale != 1 else "")
-    off = {"none": "nothing", "mean": "mean", "plane": "plane"}[f.level]
-    yield (f"{name}: {columns} x {rows} points {_um(f.pixel)} um apart, {_um(f.patch[0])} x {_um(f.patch[1])} um of them used, "
-           f"{heights}, {off} taken off")
+    yield (f"{name}: {columns} x {rows} points {_apart(f)} um apart, {_um(f.patch[0])} x {_um(f.patch[1])} um of them used, "
+           f"{heights}, {LEVELS[f.level]} taken off")
     yield (f"{name}: {_um(m.low)} to {_um(m.high)} um (range {_um(m.range)} um), rms {_um(m.rms)} um, largest slope "
-           f"{m.slope:.2g} deg; a cell of the grid has {cell[0] / f.pixel:.3g} x {cell[1] / f.pixel:.3g} points")
+           f"{m.slope:.2g} deg; a cell of the grid has {cell[0] / f.steps[0]:.3g} x {cell[1] / f.steps[1]:.3g} points")
+
+
+def _apart(f):
+    """Distances of its points, in um: one number where they are one."""
+    return " x ".join(dict.fromkeys(map(_um, f.steps)))
 
 
 def _um(value):
@@ -47,6 +53,13 @@ def _holes(f, scene):
     if count:
         yield (f"{_name(f)}: {count} of its {f.heights.size} points were not measured; they are filled smoothly from their "
                "neighbours, so nothing that passes there is known")
+
+
+def _form(f, scene):
+    flat, left = (levelled(f.surface, level).std() for level in ("plane", "form"))
+    if f.level != "form" and flat >= FLAT and left < CURVED * flat:
+        yield (f"{_name(f)}: all but {_um(left)} um of its rms of {_um(flat)} um are one curvature. If it is that of the body, "
+               "whose radius the scene has already, feature.level = 'form' takes it off")
 
 
 def _size(f, scene):
@@ -63,12 +76,12 @@ def _name(f):
 
 
 def _grid(f, scene):
-    steps, heights = [size / f.pixel for size in cells(scene)], _middle(f.used)
+    steps, heights = [size / step for size, step in zip(cells(scene), f.steps)], _middle(f.used)
     lost, own = missed(heights, *steps), missed(heights, 2, 2)
     if lost > SHARE:
         yield f"{_name(f)}: the grid misses {lost:.0%} of the map's rms ({_finer(heights, steps, scene.grid)})"
     if min(steps) < 1 and own > SHARE:
-        yield (f"{_name(f)}: points {_um(f.pixel)} um apart are {1 / min(steps):.2g} cells and do not resolve their own "
+        yield (f"{_name(f)}: points {_apart(f)} um apart are {1 / min(steps):.2g} cells and do not resolve their own "
                f"roughness ({own:.0%} of the rms changes without every second one); heights are taken as linear between them")
 
 

@@ -9,13 +9,12 @@ import numpy as np
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene import height_map, map_holes, map_judge
 from tehl_taichi.scene.features.patch import Patch
-from tehl_taichi.scene.height_map import MICRO, UNITS, Measures
+from tehl_taichi.scene.height_map import LEVELS, MICRO, UNITS, Measures
 from tehl_taichi.scene.shape import share
 from tehl_taichi.values.checks import number
 from tehl_taichi.values.quantity import choice, quantity, text
 
 MAX_RANGE, MAX_SLOPE = 1e-4, 45.0  # m, degrees, of a map: beyond them no film, or a wrong unit or pixel
-LEVELS = ("none", "mean", "plane")
 
 
 @dataclass(frozen=True)
@@ -27,7 +26,8 @@ class Measured:
     unit: str = choice("", "map: of the heights in its file", ("", *UNITS))
     scale: float = quantity(1.0, "", "map: its heights are multiplied with it; -1 turns them over, as for a replica", -1e3, 1e3)
     pixel: float = quantity(0.0, "m", "map: distance of its points; 0: not given", 0.0, 1e-2)
-    level: str = choice("plane", "map: what is taken off its heights", LEVELS)
+    pixel_y: float = quantity(0.0, "m", "map: distance of its rows, across, where it is another one; 0: pixel", 0.0, 1e-2)
+    level: str = choice("plane", "map: what is taken off its heights; form: plane and curvature", tuple(LEVELS))
     sha256: str = text("", "map: of its heights, filled in when they are read; a file with other heights is refused then")
 
     def __setstate__(self, state):
@@ -47,10 +47,15 @@ class Measured:
         return height_map.levelled(map_holes.filled(self.heights), self.level) * (UNITS[self.unit] * self.scale)
 
     @property
+    def steps(self):
+        """(along x, along y): distances of its points in m."""
+        return self.pixel, self.pixel_y or self.pixel
+
+    @property
     def size(self):
         """(length, width) of the whole map in m."""
         rows, columns = self.heights.shape
-        return (columns - 1) * self.pixel, (rows - 1) * self.pixel
+        return (columns - 1) * self.steps[0], (rows - 1) * self.steps[1]
 
     @property
     def patch(self):
@@ -62,13 +67,13 @@ class Measured:
     def used(self):
         """The part of `surface` inside the patch."""
         rows, columns = self.surface.shape
-        cut = [int((n - 1 - round(size / self.pixel)) // 2) for n, size in zip((columns, rows), self.patch)]
+        cut = [int((n - 1 - round(size / step)) // 2) for n, size, step in zip((columns, rows), self.patch, self.steps)]
         return self.surface[cut[1]:rows - cut[1], cut[0]:columns - cut[0]]
 
     @cached_property
     def measures(self):
         """Range, rms and largest slope of the part of a map that is used."""
-        return Measures.of(self.used, self.pixel)
+        return Measures.of(self.used, self.steps)
 
 
 class Map(Patch):
@@ -78,8 +83,8 @@ class Map(Patch):
         """Levelled, linear between its points, within its patch."""
         values = f.surface
         rows, columns = values.shape
-        i = np.clip(x / f.pixel + (columns - 1) / 2, 0, columns - 1) + 0 * y
-        j = np.clip(y / f.pixel + (rows - 1) / 2, 0, rows - 1) + 0 * x
+        i = np.clip(x / f.steps[0] + (columns - 1) / 2, 0, columns - 1) + 0 * y
+        j = np.clip(y / f.steps[1] + (rows - 1) / 2, 0, rows - 1) + 0 * x
         i0, j0 = np.minimum(i.astype(int), columns - 2), np.minimum(j.astype(int), rows - 2)
         u, v = i - i0, j - j0
         low = (1 - u) * values[j0, i0] + u * values[j0, i0 + 1]
@@ -131,8 +136,8 @@ def _check_keys(f):
         raise SceneError(f"feature.height = {f.height:g} m says nothing about a map, whose heights are those of its "
                          "file in feature.unit; allowed: 0 or not given (feature.scale multiplies the heights)")
     object.__setattr__(f, "height", 0.0)
-    for key, size, extent in zip(("extent_x", "extent_y"), f.size, f.patch):
-        number(f"feature.{key}", extent, "m", 3 * f.pixel, size * (1 + 1e-9))
+    for key, size, extent, step in zip(("extent_x", "extent_y"), f.size, f.patch, f.steps):
+        number(f"feature.{key}", extent, "m", 3 * step, size * (1 + 1e-9))
 
 
 def _check_heights(f):
@@ -142,7 +147,8 @@ def _check_heights(f):
                          f"{f.unit!r} right?")
     if found.slope > MAX_SLOPE:
         raise SceneError(f"{where} has slopes of {found.slope:.1f} deg; allowed: at most {MAX_SLOPE:g} deg. Are "
-                         f"feature.unit = {f.unit!r} and feature.pixel = {f.pixel:g} m right?")
+                         f"feature.unit = {f.unit!r} and feature.pixel = {f.pixel:g} m"
+                         f"{f', feature.pixel_y = {f.pixel_y:g} m' if f.pixel_y else ''} right?")
 
 
 TENT = 1 - np.abs(np.arange(33) - 16) / 16
