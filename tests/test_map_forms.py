@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+import tehl_taichi as tehl
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene import height_map, scene
+from tehl_taichi.scene import height_map, scene, target
 from tehl_taichi.scene.feature import Feature
 
 
@@ -62,3 +63,41 @@ def test_bumps_are_no_form(tmp_path):
     for name, bump in (("round", np.cos(np.pi * np.minimum(np.hypot(x, y), 1))), ("ridge", np.cos(np.pi * x))):
         np.save(tmp_path / f"{name}.npy", 0.5 * bump)
         assert doubts(feature(tmp_path / f"{name}.npy")) == []
+
+
+def test_a_scan_that_is_upside_down_is_asked_about(tmp_path):
+    """Of a flank of 12 mm the rim is low; here it is high, as in `flank`."""
+    hollow = flank(tmp_path)
+    for level in ("plane", "form"):
+        said, = (text for text in feature(hollow, pixel=5e-6, level=level).kind.doubts(
+            feature(hollow, pixel=5e-6, level=level), scene("gear")) if "radius of" in text)
+        assert "concave with a radius of 12 mm along x" in said and "feature.scale = -1 turns it over" in said
+        right = feature(hollow, pixel=5e-6, level=level, scale=-1.0)
+        assert "upside" not in "".join(right.kind.doubts(right, scene("gear")))
+    first, _ = right.kind.preview(right, scene("gear"))
+    assert first.endswith("plane and curvature taken off (convex with a radius of 12 mm along x)")
+
+
+def test_curvatures_are_those_of_a_paraboloid():
+    y, x = np.mgrid[:31, :40] * np.array([3e-6, 2e-6])[:, None, None]
+    along, across = height_map.curvature(1e-6 + 0.02 * x - 0.5 * x * x / 0.012 + 0.5 * y * y / 0.4, (2e-6, 3e-6))
+    assert (along, across) == (pytest.approx(1 / 0.012), pytest.approx(-1 / 0.4))
+
+
+def test_a_rim_that_is_the_form_s_asks_for_no_taper(tmp_path):
+    """A step at the rim because of the curvature: fading it out would hide the cause."""
+    formed, flat = (feature(flank(tmp_path), pixel=5e-6, taper=0.0, level=level) for level in ("plane", "form"))
+    assert not any("taper" in said for said in formed.kind.doubts(formed, scene("gear")))
+    assert any("taper" in said for said in flat.kind.doubts(flat, scene("gear")))
+
+
+def test_a_target_error_sees_the_map(tmp_path):
+    """Waves of 24 um along x, which 128 columns (11.3 um a cell) miss."""
+    waves = 0.1 * np.sin(2 * np.pi * np.arange(101) * 2.0 / 24.0) * np.ones((41, 1))
+    np.save(tmp_path / "waves.npy", waves)
+    keys = {"shape": "map", "file": str(tmp_path / "waves.npy"), "unit": "um", "pixel": 2e-6, "taper": 20e-6}
+    rough = tehl.Scene.from_dict({**scene("gear").to_dict(), "feature": [keys]})
+    nx, ny = target.grid_for(rough, 0.2)
+    smooth = target.grid_for(scene("gear"), 0.2)
+    assert nx == 8 * smooth[0] and ny == 8 * smooth[1]
+    assert not any("the grid misses" in said for said in rough.replace(**{"grid.nx": nx, "grid.ny": ny}).warnings())

@@ -81,9 +81,18 @@ def test_the_reason_names_what_failed():
     heat.report.change = 3.0
     assert "temperatures still change by 3 K" in said() and "floor" not in said()
     heat.report.failed = 2
-    assert "without a solution in 2 columns" in said()
+    assert ": temperatures without a solution in 2 columns" in said() and "held" not in said()
     levels.put(fields.H, levels.G[0, fields.FLOOR])
     assert "on its floor" in said() and f"--grid {2 * levels.scene.grid.nx}x" in said()
+
+
+@pytest.mark.parametrize("height, names", [(2e-6, False), (8e-6, True)])
+def test_a_feature_that_no_film_carries_is_named_where_surfaces_touch(height, names):
+    from tehl_taichi.march.failure import _too_high
+
+    said = _too_high(scene("gear").replace(**{"height": height, "width": 1e-3}))
+    assert bool(said) == names and ("a feature rises 8e-06 m where the film formula has 4.4e-07 m" in said) == names
+    assert _too_high(scene("smooth-line")) == ""
 
 
 def forced_in_time(monkeypatch):

@@ -8,7 +8,7 @@ import numpy as np
 from tehl_taichi.fatigue import below, findley
 from tehl_taichi.fatigue.histories import Passage
 from tehl_taichi.fatigue.thermal_stress import WORKERS
-from tehl_taichi.fatigue.worst_point import Point
+from tehl_taichi.fatigue.worst_point import Point, worse, worst_of
 from tehl_taichi.scene import SceneError
 
 PIT_ANGLES = (18.0, 50.0)  # degrees to the surface at which pits begin (Everitt 2018)
@@ -48,13 +48,14 @@ class Snapshots:
         return {name: self.items[n].fields[name] for name in names}
 
 
-def run(scene, reader, progress=None):
+def run(scene, reader, progress=None, until=None):
     """Fatigue index of the points of body a within 0.6 a of the first feature (0.3 a beyond larger ones), over its passage.
 
     At all points of the surface and below it: with scene.fatigue.depths "auto" under the row through the feature (and the
     surface's worst row), the depth looked for (:mod:`tehl_taichi.fatigue.below`); with a list at all points at these depths.
-    Between its from_x and to_x, by its criterion. reader: see
-    :class:`tehl_taichi.fatigue.histories.Passage`; or a list of snapshots. progress: called with (done, total) parts of a pass.
+    Between its from_x and to_x, by its criterion. reader: see :class:`tehl_taichi.fatigue.histories.Passage`; or a list of
+    snapshots. progress: called with (done, total) parts of a pass. until: position (a) of the feature; the worst points of the
+    moments up to there are told, too ("before_exit" of the summary).
     On the rows of the reader (where they begin with y = 0, the others are its mirror). Memory: one block of histories
     (1 GB at most), with thermal stress 8 bytes more per entry and wave number (4 nodes of the grid).
     Raises SceneError when no feature passes.
@@ -68,15 +69,34 @@ def run(scene, reader, progress=None):
         f = scene.fatigue
         raise SceneError(f"the feature is at no stored moment between fatigue.from_x = {f.from_x:g} a and to_x = {f.to_x:g} a; "
                          f"it goes from {centres[0] / passage.a:.2f} to {centres[-1] / passage.a:.2f} a")
-    surface = _layer(scene, passage, 0.0, progress)
-    if scene.fatigue.depths == "auto":
-        return _result(scene, passage, [surface], _profiles(scene, passage, surface))
-    return _result(scene, passage, [surface, *(_layer(scene, passage, depth, progress) for depth in scene.fatigue.depths)], [])
+    early, auto = _early(passage, until), scene.fatigue.depths == "auto"
+    layers = [_layer(scene, passage, depth, progress, early) for depth in (0.0, *(() if auto else scene.fatigue.depths))]
+    whole, before = _profiles(scene, passage, layers[0], early) if auto else ([], [])
+    result = _result(scene, passage, layers, whole)
+    if early is not None:
+        deep = [layer.early for layer in layers[1:]] + _under(before)
+        result.summary["before_exit"] = _before_exit(until, layers[0].early, deep, scene.fatigue.endurance)
+    return result
+
+
+def _early(passage, until):
+    """Moments with the feature up to `until` (a) and the unloaded one; None where nobody asks, or these are all or none."""
+    if until is None:
+        return None
+    first = np.flatnonzero(passage.centres <= until * passage.a)
+    return np.append(first, passage.centres.size) if 1 < first.size < passage.centres.size else None
+
+
+def _before_exit(until, top, deep, limit):
+    """Summary of the worst points (of the surface, of those below) of the moments up to `until`."""
+    out = {"to_x_a": float(until), **top.summary(limit)}
+    worst = max(deep, key=lambda point: point.f, default=None)
+    return out if worst is None else out | {"below": {"depth_m": worst.depth, **worst.summary(limit)}}
 
 
 @dataclass(frozen=True)
 class Layer:
-    """What was found at one depth: maps (nx, rows) and the worst point."""
+    """What was found at one depth: maps (nx, rows), the worst point, and that of the early moments where they are wanted."""
 
     depth: float
     f: np.ndarray
@@ -84,20 +104,21 @@ class Layer:
     phi: np.ndarray
     sigma1: np.ndarray
     worst: Point
+    early: Point | None
 
 
-def _layer(scene, passage, depth, progress):
-    operators, parts, worst = passage.stresses(depth), [], None
+def _layer(scene, passage, depth, progress, early):
+    operators, parts, worst, before = passage.stresses(depth), [], None, None
     for rows in passage.row_blocks():
         history = passage.history(rows, operators, progress, lambda: findley.prepare(scene.fatigue.criterion))
         f, normals = findley.search(history, scene.fatigue.kappa, criterion=scene.fatigue.criterion)
         shape = passage.x.size, rows.stop - rows.start
         parts.append([v.reshape(shape) for v in (f, *findley.angles(normals), _tension(history))])
-        top = int(np.argmax(f))
-        if worst is None or f[top] > worst.f:
-            i, j = np.unravel_index(top, shape)
-            worst = Point(depth, passage.x[i], passage.y[j + rows.start], f[top], history[top].copy(), normals[top])
-    return Layer(depth, *(np.concatenate(part, axis=1) for part in zip(*parts)), worst)
+        places = passage.places(depth, rows)
+        worst = worse(worst, places, history, f, normals)
+        if early is not None:
+            before = worst_of(history, early, scene.fatigue, f, places, before)
+    return Layer(depth, *(np.concatenate(part, axis=1) for part in zip(*parts)), worst, before)
 
 
 def _tension(history):
@@ -109,11 +130,19 @@ def _tension(history):
         return np.concatenate(list(pool.map(of, np.array_split(history, -(-len(history) // POINTS)))))
 
 
-def _profiles(scene, passage, surface):
-    """What lies below the feature's row, below the surface's worst row if that is another one, and below the contact alone."""
-    y = passage.reader.y
-    rows = [int(np.argmin(np.abs(y - at))) for at in (scene.features[0].y, surface.worst.y)]
-    return below.profiles(passage, list(dict.fromkeys(rows)), _has_far_row(scene, y))
+def _profiles(scene, passage, surface, early):
+    """What lies below the feature's row, below the surface's worst rows if those are others, and below the contact alone:
+    ([of the whole passage], [of its early moments])."""
+    y, ways = passage.reader.y, (scene.features[0].y, surface.worst.y, *([surface.early.y] if surface.early else []))
+    rows = [int(np.argmin(np.abs(y - at))) for at in ways]
+    windows = [slice(None)] + [early] * (early is not None)
+    found = below.profiles(passage, list(dict.fromkeys(rows)), _has_far_row(scene, y), windows)
+    return found[:: len(windows)], found[1 :: 2] if len(windows) > 1 else []
+
+
+def _under(profiles):
+    """Worst points of those that lie under the feature."""
+    return [profile.worst for profile in profiles if not profile.alone]
 
 
 def _has_far_row(scene, y):
@@ -130,7 +159,7 @@ def _result(scene, passage, layers, profiles):
                "pit_angles_deg": list(PIT_ANGLES)}
     maps, worst, deep = _maps(surface, passage, limit), surface.worst.history(centres), None
     maps |= _history_maps(worst, "worst", "the worst point of the surface")
-    points = [layer.worst for layer in layers[1:]] + [profile.worst for profile in profiles if not profile.alone]
+    points = [layer.worst for layer in layers[1:]] + _under(profiles)
     if points:
         point = max(points, key=lambda point: point.f)
         summary["below"], deep = {"depth_m": point.depth, **point.summary(limit)}, point.history(centres)

@@ -81,6 +81,14 @@ class Passage:
         counts = (self.centres >= fatigue.from_x * self.a) & (self.centres <= fatigue.to_x * self.a)
         self.centres, self.entries = self.centres[counts], self.entries[counts]
 
+    def places(self, depth, rows):
+        """Function of a point's number among those of some rows that gives its depth, x and y (m)."""
+        def place(n):
+            i, j = divmod(int(n), rows.stop - rows.start)
+            return depth, self.x[i], self.y[j + rows.start]
+
+        return place
+
     def stresses(self, depth):
         """Stress operator for a depth in m, and the thermal stress where the scene wants it (else None)."""
         y, thermal = self.reader.y, None

@@ -6,6 +6,8 @@ import numpy as np
 
 from tehl_taichi.fatigue import findley
 
+AT_ONCE = 512  # points of which some moments are searched
+
 
 @dataclass(frozen=True)
 class Point:
@@ -48,6 +50,27 @@ class Point:
     def history(self, centres):
         """What figures and the store keep of it: x_a (m), stress, normal, circle."""
         return {"x_a": np.append(centres, np.nan), "stress": self.stress, "normal": self.normal, "circle": self.circle}
+
+
+def worse(worst, places, history, f, normals):
+    """The worst of these points, or the one so far (or None); places(n): depth, x and y (m) of one of them."""
+    top = int(np.argmax(f))
+    if worst is not None and f[top] <= worst.f:
+        return worst
+    return Point(*places(top), f[top], history[top].copy(), normals[top])
+
+
+def worst_of(history, moments, fatigue, bound, places, worst=None):
+    """The worst point of some of the moments, or the one so far. bound: the stress of every point over all moments, which it
+    does not exceed over some: the most promising come first, and most are never looked at."""
+    order = np.argsort(-bound)
+    for points in np.array_split(order, max(1, order.size // AT_ONCE)):
+        if worst is not None and bound[points[0]] <= worst.f:
+            break
+        part = history[points][:, moments]
+        f, normals = findley.search(part, fatigue.kappa, criterion=fatigue.criterion)
+        worst = worse(worst, lambda n, points=points: places(points[n]), part, f, normals)
+    return worst
 
 
 def on_circle(u, v, circle):

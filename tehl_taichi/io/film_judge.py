@@ -5,6 +5,7 @@ import numpy as np
 
 from tehl_taichi.march import readings
 from tehl_taichi.march.peaks import ripple, sharpest
+from tehl_taichi.scene import finer
 from tehl_taichi.scene.scales import Scales
 
 MOST_FRICTION = 0.2  # of a film: no oil is known to bear more than about 0.12 of the pressure, traction fluids included
@@ -41,8 +42,9 @@ def _where(store, n, p, i):
 
 def _because(store, i):
     """At the outlet the frozen film ends in a free edge: an inverse square root, which only a shear limit makes finite."""
-    return f" and grows like 1/sqrt(cell); {NO_VALUE}" if store.x[i] > 0 and _endless(store.scene) else (
-        "; take a finer grid")
+    if store.x[i] > 0 and _endless(store.scene):
+        return f" and grows like 1/sqrt(cell); {NO_VALUE}"
+    return f"; a finer grid may resolve it: {finer.told(store.scene)}"
 
 
 def _endless(scene):
@@ -63,7 +65,7 @@ def ripples(store, summary):
         when = f"feature at {store.feature_x(n) / a:.2f} a, " if n else ""
         yield ((readings.EXIT if at_edge else "") + "the pressure ripples from node to node along x by up to "
                f"{size / 1e9:.3f} GPa ({when}X = {store.x[i] / a:.2f}): the grid's shortest wave, not a result; "
-               + (NO_VALUE if at_edge else "try another time.courant or a finer grid"))
+               + (NO_VALUE if at_edge else f"try another time.courant or {finer.told(store.scene)}"))
 
 
 CHECKS = (friction, unresolved, ripples)

@@ -6,6 +6,7 @@ from tehl_taichi.io import film_judge
 from tehl_taichi.physics import conduction
 from tehl_taichi.physics.law import beyond
 
+YIELDS = 4e9  # Pa: under it hardened bearing steel keeps a dent of 1e-4 of a roller's diameter (ISO 76; balls: 4.2 GPa)
 CROWDED = 0.1  # of the launches; a machine of one's own loses a core for a moment now and then, which costs nothing to speak of
 
 
@@ -47,13 +48,24 @@ def crowded(store, summary):
 
 def unknown_errors(store, summary):
     """Numbers of which no error can be told, with the reason; one sentence for all that share it."""
-    below = summary.get("fatigue", {}).get("below", {})
+    fatigue, deep = summary.get("fatigue", {}), " below the surface"
+    before = fatigue.get("before_exit", {})
+    reasons = {}
     for part, when, behind in ((summary.get("steady", {}), "steady ", ""), (summary.get("transient", {}), "passage ", ""),
-                               (summary.get("fatigue", {}), "", ""), (below, "", " below the surface")):
-        reasons = {}
+                               (fatigue, "", ""), (fatigue.get("below", {}), "", deep), (before, "", " before the exit"),
+                               (before.get("below", {}), "", f"{deep} before the exit")):
         for name, why in part.get("unknown", {}).items():
             reasons.setdefault(why, []).append(f"{when}{name}{behind}")
-        yield from (f"the error of {', '.join(names)} is not known: {why}" for why, names in reasons.items())
+    return [f"the error of {', '.join(names)} is not known: {why}" for why, names in reasons.items()]
+
+
+def yielding(store, summary):
+    """Pressures that no steel bears without yielding, while the bodies here stay elastic."""
+    p = max(summary.get(part, {}).get("p_max_Pa", 0.0) for part in ("steady", "transient"))
+    if p > YIELDS:
+        yield (f"p_max {p / 1e9:.2f} GPa: hardened steel yields from about {YIELDS / 1e9:g} GPa on (static limit of roller "
+               "bearings, ISO 76), others earlier; both bodies are elastic here, in the first passages such a peak would be "
+               "pressed flatter")
 
 
 def worst_below(store, summary):
@@ -73,4 +85,4 @@ def worst_below(store, summary):
 
 
 # functions of (store, summary) that give their sentences
-CHECKS = (worst_below, *film_judge.CHECKS, beyond_measured, held_temperatures, unknown_errors, crowded)
+CHECKS = (worst_below, yielding, *film_judge.CHECKS, beyond_measured, held_temperatures, unknown_errors, crowded)

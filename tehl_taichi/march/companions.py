@@ -6,6 +6,7 @@ means that a bar is not known, and why.
 """
 
 import itertools
+import math
 from dataclasses import asdict, replace
 from types import SimpleNamespace
 
@@ -14,11 +15,13 @@ import numpy as np
 from tehl_taichi.errors import Error
 from tehl_taichi.march import readings
 from tehl_taichi.march.error_bars import Reading, bars
-from tehl_taichi.scene.route import total_steps
+from tehl_taichi.scene.route import leaving, total_steps
+from tehl_taichi.scene.scales import Scales
 
 COMPANIONS = 2  # with the run itself three grids; 1/8 and 1/64 of its cells and steps
-BELOW = "below_Fi_max"  # name of the largest index below the surface
-SHARP = ("p_max_Pa", "film_max_C", "Fi_max", BELOW)  # what a peak that is not resolved leaves unknown
+FI, BELOW = "Fi_max", "below_Fi_max"  # names of the largest index of the surface, and below it
+EARLY, EARLY_BELOW = "before_exit_Fi_max", "before_exit_below_Fi_max"  # of both before the feature leaves
+SHARP = ("p_max_Pa", "film_max_C", FI, BELOW)  # what a peak that is not resolved leaves unknown
 WORTH = 3e5  # nodes times steps of a run: below, it is a try, on a grid whose companions tell little
 
 
@@ -47,11 +50,27 @@ def passage_readings(scene, reader, scalar, fatigue=None):
            "h_min_m": readings.lowest(_moment(reader, int(np.argmin(h)) + 1)),
            **{name: readings.hottest(np.max(scalar(name)[1:]), scene) for name in heat},
            "friction_coefficient_mean": Reading(float(np.mean(scalar("friction_coefficient")[1:])))}
-    out |= {"Fi_max": Reading(float(fatigue["Fi_max"]))} if fatigue else {}
-    out |= {BELOW: Reading(float(fatigue["below"]["Fi_max"]))} if fatigue and "below" in fatigue else {}
+    before = (fatigue or {}).get("before_exit", {})
+    out |= {name: Reading(float(part["Fi_max"])) for name, part in
+            ((FI, fatigue), (BELOW, (fatigue or {}).get("below")), (EARLY, before), (EARLY_BELOW, before.get("below"))) if part}
     # a peak that the grid does not resolve at some moment: neither its pressure is known nor what it does to oil and steel
-    why = readings.unresolved(reader, range(1, len(p) + 1), p.max())
-    return out | {name: replace(out[name], doubt=why) for name in SHARP if why and name in out}
+    for names, to in ((SHARP, math.inf), ((EARLY, EARLY_BELOW), before.get("to_x_a"))):
+        why = to is not None and _unresolved(scene, reader, p, to)
+        out |= {name: replace(out[name], doubt=why) for name in names if why and name in out}
+    return out
+
+
+def exit_begins(scene, reader, scalar):
+    """Position (a) of the feature at which it begins to leave, where the grid does not resolve that; else None."""
+    unresolved = _unresolved(scene, reader, scalar("p_max_Pa")[1:])
+    return leaving(scene) if unresolved.startswith(readings.EXIT) else None
+
+
+def _unresolved(scene, reader, p, to=math.inf):
+    """:func:`tehl_taichi.march.readings.unresolved` of the moments with the feature up to `to` (a); p: largest pressures."""
+    a = Scales.of(scene).a
+    entries = [n for n in range(1, len(p) + 1) if reader.feature_x(n) <= to * a]
+    return readings.unresolved(reader, entries, p[np.array(entries) - 1].max())
 
 
 def values(scene, tell=lambda: None):
@@ -63,9 +82,13 @@ def values(scene, tell=lambda: None):
     for shot in march(scene):
         shots.append(replace(shot, make_state=None))  # it holds the tables, which the next companion needs
         tell()
-    found = assessment.run(scene, shots).summary if scene.fatigue_wanted and len(shots) > 2 else None
-    return passage_readings(scene, assessment.Snapshots(shots),
-                            lambda name: np.array([shot.scalars[name] for shot in shots]), found)
+    def scalar(name):
+        return np.array([shot.scalars[name] for shot in shots])
+
+    reader, found = assessment.Snapshots(shots), None
+    if scene.fatigue_wanted and len(shots) > 2:
+        found = assessment.run(scene, reader, until=exit_begins(scene, reader, scalar)).summary
+    return passage_readings(scene, reader, scalar, found)
 
 
 def _moment(reader, n):

@@ -5,9 +5,11 @@ import numpy as np
 from tehl_taichi.errors import NotConverged
 from tehl_taichi.heat.energy import HOT
 from tehl_taichi.pressure import fields
-from tehl_taichi.scene import thin_film
+from tehl_taichi.scene import finer, thin_film
+from tehl_taichi.scene.film_formula import heated_film
 
 AT_FLOOR = 1e-3  # relative, that a film on its floor may lie above
+HIGH = 5.0  # central films, more than a usual asperity (1.5 um over 0.4): features that rise so far are named where surfaces touch
 
 
 def not_converged(solver, heat, report, where):
@@ -56,8 +58,9 @@ def _heated(heat):
     """What is wrong with the temperatures themselves, "" where nothing is."""
     if not heat or heat.sound:
         return ""
-    return (f", temperatures held in their range (up to {HOT:g} deg C) at {heat.held} nodes and without a solution in "
-            f"{heat.report.failed} columns")
+    found = [f"held in their range (up to {HOT:g} deg C) at {heat.held} nodes"] * bool(heat.held)
+    found += [f"without a solution in {heat.report.failed} columns"] * bool(heat.report.failed)
+    return f", temperatures {' and '.join(found)}" if found else ""
 
 
 def _on_its_floor(solver):
@@ -66,12 +69,20 @@ def _on_its_floor(solver):
     floor, nodes = v.G[0, fields.FLOOR], int((v.get(fields.H) < (1 + AT_FLOOR) * v.G[0, fields.FLOOR]).sum())
     if not nodes:
         return ""
-    return (f"the film is on its floor ({floor * v.scales.h:.1e} m, rheology.film_floor) at {nodes} nodes: too thin for this "
-            f"grid, {_finer(v.scene)}")
+    return (f"the film is on its floor ({floor * v.scales.h:.1e} m, rheology.film_floor) at {nodes} nodes: "
+            f"{_too_high(v.scene) or f'too thin for this grid, {_finer(v.scene)}'}")
+
+
+def _too_high(scene):
+    """Features that no film carries, "" where there are none; a map may hold the form of its body, or another unit."""
+    if not scene.transient or (top := max(f.top for f in scene.features)) <= HIGH * (film := heated_film(scene)):
+        return ""
+    measured = any(f.kind.measured for f in scene.features)
+    asked = " (is that its roughness without its form, feature.level, in the right feature.unit?)" if measured else ""
+    return (f"a feature rises {top:.2g} m{asked} where the film formula has {film:.2g} m; a lower one passes, or "
+            f"{finer.told(scene)} may")
 
 
 def _finer(scene):
     """The next grid, or the one that the film formula asks for."""
-    if thin_film.carried(scene) < 1:
-        return thin_film.remedy(scene)
-    return f"take a finer one (--grid {2 * scene.grid.nx}x{2 * scene.grid.ny})"
+    return thin_film.remedy(scene) if thin_film.carried(scene) < 1 else f"take a finer one, {finer.told(scene)}"

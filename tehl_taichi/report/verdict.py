@@ -33,7 +33,7 @@ def judged(Fi, error=None):
 
 
 def layers(fatigue):
-    """[(where in words, Fi, its error or None)] of the surface and of what lies below it."""
+    """[(where in words, Fi, its error or None)] of the surface and of what lies below it; of a search or of its part."""
     found = [("at the surface", fatigue)]
     if "below" in fatigue:
         found.append((f"{fatigue['below']['depth_m'] * 1e6:.0f} µm below the surface", fatigue["below"]))
@@ -42,12 +42,34 @@ def layers(fatigue):
 
 def of_fatigue(fatigue):
     """(question, headline, tone, sentences) of the summary of a search."""
+    worst, places, known, tells = _judged(fatigue)
+    said, tells = headline(worst, places, known), [*tells, *_alone(fatigue), *_plane(fatigue)]
+    if "before_exit" in fatigue:
+        said, tells = _by_what_is_known(fatigue["before_exit"], worst, tells)
+    return FATIGUE, *said, tuple(tells)
+
+
+def _judged(fatigue):
+    """(the worst of what is judged, where, whether the errors behind it are known, sentences)."""
     found = [(where, Fi, error, judged(Fi, error)) for where, Fi, error in layers(fatigue)]
-    tells = [_told(*layer) for layer in found]
     worst = max(said for *_, said in found)
     places = " and ".join(where for where, _, _, said in found if said == worst)
     known = all(error is not None for _, _, error, said in found if said == worst)
-    return FATIGUE, *headline(worst, places, known), (*tells, *_alone(fatigue), *_plane(fatigue))
+    return worst, places, known, [_told(*layer) for layer in found]
+
+
+def _by_what_is_known(before, whole, tells):
+    """(headline and tone, sentences) where the exit is not resolved: by what happens before the feature leaves, to which the
+    exit can only add. whole: the worst of what is judged of the whole passage."""
+    worst, places, known, early = _judged(before)
+    tells = [f"Before the feature leaves (its centre up to {before['to_x_a']:.2f} a):", *early,
+             "With the exit, which this grid does not resolve:", *tells]
+    if worst != BELOW:
+        return headline(worst, places, known, ", before the feature leaves already"), tells
+    if whole == BELOW:
+        return headline(worst, places, False, ", as far as this grid resolves the exit"), tells
+    return ("Not decided: the index stays below 1 until the feature leaves, and exceeds it at the exit, which this grid does "
+            "not resolve.", "open"), tells
 
 
 def _told(where, Fi, error, said):
@@ -55,14 +77,14 @@ def _told(where, Fi, error, said):
     return f"{where[0].upper()}{where[1:]}: Fi = {told(Fi, error)}{unknown}, {SAID[said]}."
 
 
-def headline(worst, places, known):
-    """(headline, tone); known: whether the error of the numbers behind it is."""
+def headline(worst, places, known, when=""):
+    """(headline, tone); known: whether the error of the numbers behind it is; when: a part of the passage, in words."""
     if worst == WITHIN:
-        return f"Not decided: the index is 1 within its error {places}.", "open"
+        return f"Not decided: the index is 1 within its error {places}{when}.", "open"
     yes, no, more = ("Yes", "No", "") if known else ("Probably yes", "Probably not", "; the error of that is not known")
     if worst == ABOVE:
-        return f"{yes}: the fatigue limit is exceeded {places}{more}.", "yes"
-    return f"{no}: the index stays below 1{more}.", "no"
+        return f"{yes}: the fatigue limit is exceeded {places}{when}{more}.", "yes"
+    return f"{no}: the index stays below 1{when}{more}.", "no"
 
 
 def _alone(fatigue):

@@ -133,10 +133,22 @@ def levelled(values, level):
 
 def _curved(values, x, y):
     """Part that is x^2, y^2 or x y of heights (rows, columns) without a plane; none has any of the others."""
-    bent_x, bent_y = x * x - (x * x).mean(), y * y - (y * y).mean()
     twist = (y @ values @ x) / ((x @ x) * (y @ y))
-    return (bent_x * (bent_x @ values.mean(axis=0)) / (bent_x @ bent_x)
-            + (bent_y * (bent_y @ values.mean(axis=1)) / (bent_y @ bent_y))[:, None] + twist * np.outer(y, x))
+    return _bent(values.mean(axis=0), x)[0] + _bent(values.mean(axis=1), y)[0][:, None] + twist * np.outer(y, x)
+
+
+def _bent(profile, x):
+    """(parabola of a profile without a slope, its second derivative)."""
+    bent = x * x - (x * x).mean()
+    share = (bent @ profile) / (bent @ bent)
+    return share * bent, 2 * share
+
+
+def curvature(values, steps):
+    """(along x, along y) of heights (rows, columns) in m, points so far apart (m): 1/m, positive where the middle is high."""
+    flat = levelled(values, "plane")
+    return tuple(-_bent(flat.mean(axis=axis), np.arange(n) - (n - 1) / 2)[1] / step**2
+                 for axis, n, step in zip((0, 1), values.shape[::-1], steps))
 
 
 @dataclass(frozen=True)

@@ -5,13 +5,13 @@ import os
 import numpy as np
 
 from tehl_taichi.scene import map_holes
-from tehl_taichi.scene.height_map import LEVELS, levelled, missed
+from tehl_taichi.scene.height_map import LEVELS, missed
+from tehl_taichi.scene.map_form import FLAT, Form
 from tehl_taichi.scene.scales import Scales
 
-FLAT = 1e-9  # m rms: a tenth of a percent of the thinnest films of this kind (1 um), and less than one molecule
 STEEP = 10.0  # degrees: the film equation takes slopes for small (tan 10 deg = 0.18)
 SHARE = 0.1  # of the rms that a grid, or the map's own points, may miss: a wave of six cells
-CURVED = 0.25  # of the rms, left without the curvature: less is taken for the form of a body (a ridge as wide leaves 0.28)
+TURNED = "Heights count out of the metal and most bodies are convex: is it upside down? feature.scale = -1 turns it over"
 RIM = 0.1  # of the rms: a step at the rim below that is roughness like the rest
 JUDGED = 1024  # points along each side, from the middle, that are judged
 
@@ -33,8 +33,9 @@ def lines(f, scene):
     cell = cells(scene)
     (rows, columns), m, name = f.heights.shape, f.measures, f"map {os.path.basename(f.file)}"
     heights = f"heights in {f.unit}" + (f" times {f.scale:g}" if f.scale != 1 else "")
+    off = f"{LEVELS[f.level]} taken off" + (f" ({Form.of(f).says})" if f.level == "form" else "")
     yield (f"{name}: {columns} x {rows} points {_apart(f)} um apart, {_um(f.patch[0])} x {_um(f.patch[1])} um of them used, "
-           f"{heights}, {LEVELS[f.level]} taken off")
+           f"{heights}, {off}")
     yield (f"{name}: {_um(m.low)} to {_um(m.high)} um (range {_um(m.range)} um), rms {_um(m.rms)} um, largest slope "
            f"{m.slope:.2g} deg; a cell of the grid has {cell[0] / f.steps[0]:.3g} x {cell[1] / f.steps[1]:.3g} points")
 
@@ -56,10 +57,15 @@ def _holes(f, scene):
 
 
 def _form(f, scene):
-    flat, left = (levelled(f.surface, level).std() for level in ("plane", "form"))
-    if f.level != "form" and flat >= FLAT and left < CURVED * flat:
-        yield (f"{_name(f)}: all but {_um(left)} um of its rms of {_um(flat)} um are one curvature. If it is that of the body, "
-               "whose radius the scene has already, feature.level = 'form' takes it off")
+    form = Form.of(f)
+    if not form.dominant:
+        return
+    turned = "" if form.convex else f". {TURNED}"
+    if f.level != "form":
+        yield (f"{_name(f)}: all but {_um(form.left)} um of its rms of {_um(form.flat)} um are one curvature, {form.says}. If "
+               f"it is that of the body, whose radius the scene has already, feature.level = 'form' takes it off{turned}")
+    elif turned:
+        yield f"{_name(f)}: the form taken off is {form.says}{turned}"
 
 
 def _size(f, scene):
@@ -76,13 +82,24 @@ def _name(f):
 
 
 def _grid(f, scene):
-    steps, heights = [size / step for size, step in zip(cells(scene), f.steps)], _middle(f.used)
-    lost, own = missed(heights, *steps), missed(heights, 2, 2)
+    steps, heights, lost = _seen(f, scene)
+    own = missed(heights, 2, 2)
     if lost > SHARE:
         yield f"{_name(f)}: the grid misses {lost:.0%} of the map's rms ({_finer(heights, steps, scene.grid)})"
     if min(steps) < 1 and own > SHARE:
         yield (f"{_name(f)}: points {_apart(f)} um apart are {1 / min(steps):.2g} cells and do not resolve their own "
                f"roughness ({own:.0%} of the rms changes without every second one); heights are taken as linear between them")
+
+
+def _seen(f, scene):
+    """(points in a cell along x and y, heights that are judged, share of their rms that the grid misses)."""
+    steps, heights = [size / step for size, step in zip(cells(scene), f.steps)], _middle(f.used)
+    return steps, heights, missed(heights, *steps)
+
+
+def carried(scene):
+    """Whether the grid sees every map of the scene."""
+    return all(_seen(f, scene)[-1] <= SHARE for f in scene.features if f.kind.measured)
 
 
 def _finer(heights, steps, grid):
@@ -103,5 +120,6 @@ def _middle(heights):
 def _rim(f, scene):
     used = f.used
     step = max(float(np.abs(edge).max()) for edge in (used[0], used[-1], used[:, 0], used[:, -1]))
-    if f.taper == 0 and step > RIM * f.measures.rms:
+    formed = f.level != "form" and Form.of(f).dominant  # the step is the form's, of which _form tells
+    if f.taper == 0 and step > RIM * f.measures.rms and not formed:
         yield f"{_name(f)} ends in a step of up to {_um(step)} um at its rim; feature.taper (m) lets it fade out"

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from tehl_taichi.errors import SceneError
+from tehl_taichi.scene import map_judge
 from tehl_taichi.scene.scales import Scales
 
 # Written by `tehl bench accuracy --keep`: {"machine", "families": {name: {"columns_per_width": columns for one cell per
@@ -20,7 +21,8 @@ MULTIPLE = 32  # of columns: the coarser grids of the solver need halves of halv
 def grid_for(description, target):
     """(nx, ny) cells with which the largest error of film, pressure and Findley index is about `target` (relative).
 
-    The resolution counts: cells per contact half-width of a steady scene, per feature width of a passage. Beyond the finest
+    The resolution counts: cells per contact half-width of a steady scene, per feature width of a passage; measured maps must be
+    seen, too (:mod:`tehl_taichi.scene.map_judge`). Beyond the finest
     measured grid the error is taken to fall in proportion to the cells. Raises SceneError where that needs too fine a grid.
     """
     measured = families()[family_of(description)]
@@ -31,7 +33,18 @@ def grid_for(description, target):
         finest = target * nx / MOST
         raise SceneError(f"a target error of {100 * target:.3g} % would need {nx} columns; at most {MOST} are taken, good for "
                          f"{100 * finest:.2g} % of this scene (`tehl bench accuracy` shows what grids reach)")
-    return nx, max(8, round(nx * description.grid.ny / description.grid.nx / 8) * 8)
+    return _seeing_maps(description, nx, max(8, round(nx * description.grid.ny / description.grid.nx / 8) * 8))
+
+
+def _seeing_maps(description, nx, ny):
+    """This grid, or the first of twice its columns and rows, four times ... that sees the measured maps; where none of up to
+    MOST columns does, this one: the scene's warnings tell."""
+    found = nx, ny
+    while found[0] <= MOST:
+        if map_judge.carried(description.replace(**dict(zip(("grid.nx", "grid.ny"), found)))):
+            return found
+        found = 2 * found[0], 2 * found[1]
+    return nx, ny
 
 
 @functools.cache

@@ -1,6 +1,6 @@
 """Whether a grid can carry a film as thin as the film formula has it, and which grid can."""
 
-from tehl_taichi.scene import hertz
+from tehl_taichi.scene import finer, hertz
 from tehl_taichi.scene.film_formula import heated_film, thinnest_film
 from tehl_taichi.scene.scales import Scales
 
@@ -23,10 +23,9 @@ def carried(scene):
 def needed(scene, most=FINEST):
     """(nx, ny) of the grid with twice, four times, ... the cells that carries the film, or None beyond `most` columns."""
     while carried(scene) < 1:
-        nx, ny = 2 * scene.grid.nx, 2 * scene.grid.ny
-        if nx > most:
+        if 2 * scene.grid.nx > most:
             return None
-        scene = scene.replace(**{"grid.nx": nx, "grid.ny": ny})
+        scene = finer.on_doubled(scene)
     return scene.grid.nx, scene.grid.ny
 
 

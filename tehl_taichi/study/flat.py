@@ -6,6 +6,9 @@ import math
 LEFT_OUT = {"store", "scene", "version", "left_out", "warnings", "converged", "unknown", "clamps", "grid", "cells"}
 UNITS = {"m": "m", "Pa": "Pa", "C": "degC", "K": "K", "s": "s", "deg": "degree", "J": "J", "W": "W", "N": "N", "kg": "kg"}
 
+# of a summary, inside others
+PARTS = ("fatigue_before_exit_below", "fatigue_before_exit", "fatigue_below")
+
 
 def numbers(summary, above=""):
     """{name: number} of a nested summary: "fatigue_Fi_max" is summary["fatigue"]["Fi_max"]; lists and words are left out."""
@@ -22,8 +25,8 @@ def numbers(summary, above=""):
 
 def error_of(name):
     """Name of the error bar of a number: "fatigue_error_Fi_max" is that of "fatigue_Fi_max"."""
-    part, _, rest = name.partition("_")
-    return f"{part}_error_{rest}"
+    part = next((part for part in PARTS if name.startswith(f"{part}_")), name.partition("_")[0])
+    return f"{part}_error_{name.removeprefix(part)[1:]}"
 
 
 def unit_of(name):

@@ -190,9 +190,11 @@ def _fatigue(saved, progress):
     if not saved.scene.fatigue_wanted or saved.steps < 3:
         return None, None
     from tehl_taichi.fatigue import assessment
+    from tehl_taichi.march.companions import exit_begins
 
     progress.say("stresses and Findley search")
-    result = assessment.run(saved.scene, saved, lambda done, total: progress.stage(FATIGUE, done, total))
+    until = exit_begins(saved.scene, saved, saved.scalar)
+    result = assessment.run(saved.scene, saved, lambda done, total: progress.stage(FATIGUE, done, total), until)
     return result.summary, result.maps
 
 

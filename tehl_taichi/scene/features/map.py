@@ -41,10 +41,15 @@ class Measured:
         """Heights (rows, columns) of a map in the unit of its file, as when the feature was made; nan in its holes."""
         return height_map.fetch(self.file, self.sha256)[1]
 
+    @property
+    def raw(self):
+        """Heights (rows, columns) of a map in m, its holes filled, scaled, with the form that they were measured with."""
+        return map_holes.filled(self.heights) * (UNITS[self.unit] * self.scale)
+
     @cached_property
     def surface(self):
-        """Heights (rows, columns) of a map in m, its holes filled, levelled and scaled: what passes through the contact."""
-        return height_map.levelled(map_holes.filled(self.heights), self.level) * (UNITS[self.unit] * self.scale)
+        """The same levelled: what passes through the contact."""
+        return height_map.levelled(self.raw, self.level)
 
     @property
     def steps(self):
