@@ -9,7 +9,7 @@ from tehl_taichi.scene import finer, thin_film
 from tehl_taichi.scene.film_formula import heated_film
 
 AT_FLOOR = 1e-3  # relative, that a film on its floor may lie above
-HIGH = 5.0  # central films, more than a usual asperity (1.5 um over 0.4): features that rise so far are named where surfaces touch
+HIGH = 5.0  # central films, more than a usual asperity (1.5 um over 0.4): features that rise so far are named
 
 
 def not_converged(solver, heat, report, where):
