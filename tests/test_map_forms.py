@@ -2,15 +2,11 @@
 
 import numpy as np
 import pytest
+from map_feature import feature
 
 import tehl_taichi as tehl
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene import height_map, scene, target
-from tehl_taichi.scene.feature import Feature
-
-
-def feature(file, **changes):
-    return Feature(**{"shape": "map", "file": str(file), "unit": "um", "pixel": 1e-6, "taper": 10e-6, **changes})
 
 
 def test_rows_may_lie_farther_apart_than_the_points_of_a_row(tmp_path):

@@ -8,6 +8,7 @@ import weakref
 
 import numpy as np
 import pytest
+from map_feature import feature
 
 import tehl_taichi as tehl
 from tehl_taichi.io import scene_file
@@ -26,10 +27,6 @@ def wave(tmp_path, height=0.2, length=100.0, name="scan.npy", points=(61, 121)):
     values = height * np.cos(2 * np.pi * x / length) * np.cos(np.pi * y / length) + 0.003 * x - 0.001 * y + 5
     np.save(tmp_path / name, values)
     return tmp_path / name
-
-
-def feature(file, **changes):
-    return Feature(**{"shape": "map", "file": str(file), "unit": "um", "pixel": 1e-6, "taper": 10e-6, **changes})
 
 
 def with_map(file, **changes):

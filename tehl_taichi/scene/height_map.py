@@ -17,6 +17,7 @@ from tehl_taichi.errors import SceneError
 from tehl_taichi.scene import map_holes
 
 UNITS = {"nm": 1e-9, "um": 1e-6, "mm": 1e-3, "m": 1.0}  # of the heights in a file, m
+LEVELS = {"none": "nothing", "mean": "mean", "plane": "plane", "form": "plane and curvature"}  # level: what it takes off
 MICRO = str.maketrans({"\u00b5": "u", "\u03bc": "u"})  # micro sign and Greek mu, as in µm
 _known = weakref.WeakValueDictionary()  # sha256 -> heights, as long as a feature holds them
 
@@ -113,9 +114,6 @@ def _surface_topography(path):
         return np.ma.filled(np.ma.asarray(SurfaceTopography.read_topography(str(path)).heights(), float), math.nan).T
     except Exception as error:
         raise SceneError(f"cannot read heights from {path}: {error}") from None
-
-
-LEVELS = {"none": "nothing", "mean": "mean", "plane": "plane", "form": "plane and curvature"}  # level: what it takes off
 
 
 def levelled(values, level):
