@@ -2,12 +2,14 @@
 
 import json
 import pickle
+import re
 import shutil
 
 import numpy as np
 import pytest
 from small_stores import SMALL, shot, store
 
+from tehl_taichi import __version__
 from tehl_taichi.errors import INTERRUPTED, Interrupted, StoreError
 from tehl_taichi.io import atomic
 from tehl_taichi.io.store import Store
@@ -143,6 +145,20 @@ def test_a_store_of_another_version_is_shown_but_not_gone_on_with(path, changes)
     assert not (path / ".lock").exists()
     if "format" not in changes:  # without it the series are read as version 0.1 wrote them
         assert "written by version" in Store.open(path).other_version
+
+
+@pytest.mark.parametrize("version, newer", [("999.1", True), ("999.1.dev3+g0", True), (__version__, False), ("0.0.9", False),
+                                            (f"{__version__}.0", False), (None, False), (7, False)])
+def test_what_a_newer_version_wrote_is_not_called_damaged(path, version, newer):
+    unknown = SMALL.to_dict()
+    unknown["grid"]["knots"] = 3
+    said = f"a.zarr was written by version {re.escape(str(version))}, this is {__version__}: install .* or newer$"
+    for changes in ({"scene": json.dumps(unknown)}, {"scene": json.dumps(SMALL.to_dict()), "steps": "many"}):
+        edit(path, version=version, **changes)
+        with pytest.raises(StoreError, match=said if newer else "damaged"):
+            Store.open(path)
+    edit(path, steps=3)
+    assert len(Store.open(path)) == 3  # what this one can read is read
 
 
 def test_zero_steps_meant_all_in_stores_of_version_0_1(path):

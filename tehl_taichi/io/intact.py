@@ -1,6 +1,8 @@
 """Whether what lies on the disk is a whole store of this program, and what is wrong with it, in a sentence."""
 
+import contextlib
 import json
+import re
 from pathlib import Path
 
 from tehl_taichi import __version__
@@ -109,6 +111,28 @@ def written_by(attrs):
     if version == __version__ and layout == FORMAT:
         return None
     return f"written by version {version} (layout {layout}), this is {__version__} (layout {FORMAT})"
+
+
+@contextlib.contextmanager
+def blamed_on_newer(path, attrs):
+    """What this version cannot read of a store that a newer one wrote is no damage: the StoreError says which to install."""
+    try:
+        yield
+    except StoreError:
+        version = attrs.get("version")
+        if release(version) <= release(__version__):
+            raise
+        raise StoreError(f"{path} was written by version {version}, this is {__version__}: install {version} or newer"
+                         ) from None
+
+
+def release(version):
+    """The numbers of a version (without what a developer's build adds, nor zeros at the end), () of what is none."""
+    found = re.match(r"\d+(\.\d+)*", version if isinstance(version, str) else "")
+    numbers = [int(part) for part in found[0].split(".")] if found else []
+    while numbers and not numbers[-1]:
+        numbers.pop()
+    return tuple(numbers)
 
 
 def check_version(path, attrs):

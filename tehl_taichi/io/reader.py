@@ -20,7 +20,8 @@ class Reader:
     def __init__(self, path, lock=None):
         self.path, self.lock = Path(path), lock
         self.attrs, self.metadata = intact.root_of(self.path)
-        self.scene = intact.scene_of(self.path, self.attrs)
+        with intact.blamed_on_newer(self.path, self.attrs):
+            self.scene = intact.scene_of(self.path, self.attrs)
         known = intact.optional(self.attrs, "outputs", names())  # to the program that began it
         self.stored = {name: field.dtype for name, field in fields_of(self.scene).items() if name in known}
         self.names = [*(name for name in scalars_of(self.scene) if name in known), *OWN]
@@ -38,8 +39,9 @@ class Reader:
             raise (Busy if "still" in said else StoreError)(said)
         store = cls(path, lock)
         needed = {name: ["x", "y"] for name in store.stored} | {name: [] for name in store.names}
-        intact.check(path, store.attrs, store.metadata, store.scene, needed)
-        store.series = {name: store._read_series(name) for name in store.names}
+        with intact.blamed_on_newer(path, store.attrs):
+            intact.check(path, store.attrs, store.metadata, store.scene, needed)
+            store.series = {name: store._read_series(name) for name in store.names}
         return store
 
     def __len__(self):
