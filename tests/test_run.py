@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import tehl_taichi as tehl
+from tehl_taichi.io.store import Store
 
 pytestmark = pytest.mark.usefixtures("taichi_cpu")
 # a ridge: one dimension
@@ -77,6 +78,19 @@ def test_ctrl_c_says_what_is_stored_and_is_no_error_of_ours(done, tmp_path):
     assert tehl.resume(path).finished
     for n in range(5):
         np.testing.assert_array_equal(half.store.fields(n)["film"], done[0].store.fields(n)["film"])
+
+
+def test_the_time_of_a_resumed_run_is_that_of_all_its_pieces(tmp_path):
+    path = tmp_path / "slow.zarr"
+    with pytest.raises(KeyboardInterrupt):
+        tehl.run(RIDGE, path, progress=Heard(stop=2))
+    with Store.write(path) as saved:  # as if each of its steps had taken a quarter of an hour
+        saved.series["wall_s"][: saved.steps] = 900.0
+        saved._show()
+    assert 900.0 < tehl.resume(path).summary["wall_s"] < 1800.0  # of the steady start, the only one with a state
+    with Store.write(path) as saved:  # as if its search had taken hours
+        saved.finish({**saved.summary, "wall_s": 9e3})
+    assert 9e3 < tehl.resume(path, steps=1).summary["wall_s"] < 9.9e3
 
 
 def test_a_finished_run_goes_on_behind_its_end(tmp_path, monkeypatch):

@@ -106,9 +106,15 @@ def _continue(path, scene, threads, began, progress):
         steady = {name: saved.needed(name) for name in ("steady_error", "steady_unknown")}
         runtime.start_or_join(threads=threads)
         state = saved.go_back()
+        clock = _Clock(began, _spent(saved))
         if scene != saved.scene:
             saved.extend(scene)
-        return _finish(saved, state, steady, _Clock(began), progress)
+        return _finish(saved, state, steady, clock, progress)
+
+
+def _spent(saved):
+    """Seconds that a store took so far: as its run's end told them, else the steps that it keeps, with the steady start."""
+    return saved.summary.get("wall_s", float(saved.scalar("wall_s").sum()))
 
 
 def _begin(scene, place, clock, progress):
@@ -156,13 +162,14 @@ def _finish(saved, state, steady, clock, progress):
 
 
 class _Clock:
-    """Time since a run began (s), what of it went into kernels, launches that lost a worker; made when Taichi runs."""
+    """Time since a run began (s), with what earlier pieces of it took (`spent`), what of it went into kernels, launches that
+    lost a worker; made when Taichi runs."""
 
-    def __init__(self, began):
+    def __init__(self, began, spent=0.0):
         from tehl_taichi.engine.launches import binding_seconds
         from tehl_taichi.engine.workers import crowding
 
-        self.began, self.bound, self.crowding = began, binding_seconds, crowding
+        self.began, self.bound, self.crowding = began - spent, binding_seconds, crowding
         self.before = binding_seconds(), crowding()
 
     def times(self):
