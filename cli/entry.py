@@ -19,8 +19,9 @@ def main():
         _print_in_any_encoding()
         code = _run()
         sys.stdout.flush()
-    except KeyboardInterrupt:
-        print("tehl: interrupted; nothing that was stored is lost", file=sys.stderr)
+    except KeyboardInterrupt as stop:
+        by = f"stopped by {stop}" if str(stop) else "interrupted"
+        print(f"tehl: {by}; nothing that was stored is lost", file=sys.stderr)
         code = INTERRUPTED
     except BrokenPipeError:  # as in `tehl show STORE | head`: the reader has seen enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
@@ -55,17 +56,21 @@ def _code(stop):
     if isinstance(stop.__context__, BrokenPipeError):
         raise BrokenPipeError
     if stop.code == 128 + signal.SIGINT:
-        raise KeyboardInterrupt
+        raise KeyboardInterrupt(*getattr(stop.__context__, "args", ()))  # the name of its signal
     return stop.code or 0
 
 
 def _stop_as_ctrl_c_does():
-    """`kill` and a closed terminal stop a run as Ctrl-C does; what the caller ignores (nohup) stays ignored."""
+    """`kill` and a closed terminal stop a run as Ctrl-C does, but are named; what the caller ignores (nohup) stays ignored."""
     for name in ("SIGTERM", "SIGHUP"):
         number = getattr(signal, name, None)
         with contextlib.suppress(ValueError):  # not the main thread
             if number and signal.getsignal(number) == signal.SIG_DFL:
-                signal.signal(number, signal.default_int_handler)
+                signal.signal(number, _stop)
+
+
+def _stop(number, _):
+    raise KeyboardInterrupt(signal.Signals(number).name)
 
 
 def _print_in_any_encoding():

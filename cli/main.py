@@ -18,7 +18,7 @@ from tehl_cli import (
 )
 from tehl_cli.entry import main
 
-from tehl_taichi.errors import Interrupted
+from tehl_taichi.errors import Interrupted, stopped
 
 __all__ = ["app", "main"]
 
@@ -34,7 +34,12 @@ class Commands(typer.core.TyperGroup):
             error.message = _with_value(error)
             raise
         except KeyboardInterrupt as stop:
-            raise Interrupted(str(stop) or "interrupted; nothing that was stored is lost") from None
+            raise Interrupted(_sentence(stop)) from None
+
+
+def _sentence(stop):
+    """What a KeyboardInterrupt says; where it names a signal at most, what is stored."""
+    return str(stop) if " " in str(stop) else f"{stopped(stop)}; nothing that was stored is lost"
 
 
 def _with_value(error):

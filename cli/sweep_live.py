@@ -84,12 +84,12 @@ class SweepLive:
         foot.add_row(ProgressBar(total=len(self.study), completed=done, width=30), self._headline())
         return Group(table, foot)
 
-    def interrupted(self):
-        """What is left of a sweep that was stopped, a sentence."""
+    def left(self):
+        """What is left of a sweep that was stopped, the end of a sentence."""
         if self.study is None:
-            return "interrupted before anything was stored"
+            return "before anything was stored"
         done = len(self.study) - len(self.study.open_cases)
-        return f"interrupted after {done} of {len(self.study)} cases; go on with: tehl sweep {self.study.path}"
+        return f"after {done} of {len(self.study)} cases; go on with: tehl sweep {self.study.path}"
 
 
 def changes_words(record):

@@ -46,7 +46,7 @@ def sweep(
     """
     from tehl_cli.sweep_live import SweepLive
 
-    from tehl_taichi.errors import Interrupted
+    from tehl_taichi.errors import Interrupted, stopped
     from tehl_taichi.study import many
 
     options = {"time.steps": steps, "thermal.on": thermal, "fatigue.on": fatigue, "time.steady_only": steady or None}
@@ -60,8 +60,8 @@ def sweep(
         try:
             study = many.run(plan, out, workers=workers, threads_per_worker=threads_per_worker, scheduler=scheduler, keep=keep,
                              progress=live, told=say)
-        except KeyboardInterrupt:
-            raise Interrupted(live.interrupted()) from None
+        except KeyboardInterrupt as stop:
+            raise Interrupted(f"{stopped(stop)} {live.left()}") from None
     _print(study, as_json)
     raise typer.Exit(0 if study.counts["converged"] == len(study) else 3)
 

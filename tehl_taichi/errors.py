@@ -1,5 +1,7 @@
 """Everything that tehl_taichi refuses or gives up is an Error: one or two sentences, and the exit code of the command line."""
 
+import re
+
 FAILED, BAD_INPUT, NOT_CONVERGED, INTERRUPTED = 1, 2, 3, 4
 
 
@@ -47,3 +49,14 @@ class Interrupted(Error):
     """Stopped from outside in the middle of a run; the store can be resumed."""
 
     exit_code = INTERRUPTED
+
+
+def stopped(stop):
+    """How a sentence about a KeyboardInterrupt begins: "interrupted" (Ctrl-C), or by which signal it was stopped, where that
+    is its text, as the command line has it, or begins it.
+
+    >>> [stopped(KeyboardInterrupt(text)) for text in ("", "SIGTERM", "stopped by SIGHUP after 2 steps")]
+    ['interrupted', 'stopped by SIGTERM', 'stopped by SIGHUP']
+    """
+    found = re.match(r"(?:stopped by )?(SIG[A-Z]+)\b", str(stop))
+    return f"stopped by {found[1]}" if found else "interrupted"

@@ -121,14 +121,15 @@ def test_positions_run_side_by_side_and_those_without_a_result_are_listed(tmp_pa
     assert tehl.open(found.folder).told == found.told
 
 
-def test_an_interrupted_flank_says_how_far_it_is(tmp_path, monkeypatch):
+@pytest.mark.parametrize("said, by", [("", "interrupted"), ("stopped by SIGTERM after 2 steps", "stopped by SIGTERM")])
+def test_an_interrupted_flank_says_how_far_it_is(tmp_path, monkeypatch, said, by):
     def until_c(job, progress):
         if job.scene.name.endswith("-C"):
-            raise KeyboardInterrupt
+            raise KeyboardInterrupt(said)
         return position(job)
 
     monkeypatch.setattr(case, "work", until_c)
-    with pytest.raises(KeyboardInterrupt, match="interrupted after 3 of 7 positions; the same .* --out .*/f goes on"):
+    with pytest.raises(KeyboardInterrupt, match=f"{by} after 3 of 7 positions; the same .* --out .*/f goes on"):
         tehl.flank("fzg-c", positions=7, steady=True, folder=tmp_path / "f", workers=1)
     waiting = [(at.point, reason) for at, reason in tehl.open(tmp_path / "f").failed]
     assert [point for point, _ in waiting] == ["A", "C", "D-", "D+", "E"] and "has not run yet" in waiting[1][1]

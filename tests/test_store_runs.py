@@ -3,6 +3,7 @@
 import json
 import os
 import random
+import re
 import signal
 import subprocess
 import sys
@@ -232,24 +233,38 @@ def test_a_reader_that_has_seen_enough(tmp_path):
         assert (run.wait(), run.stderr.read()) == (0, "")
 
 
-def test_a_hasty_ctrl_c_meets_no_import():
+@pytest.mark.parametrize("name, by", [("SIGINT", "interrupted"), ("SIGTERM", "stopped by SIGTERM"),
+                                      ("SIGHUP", "stopped by SIGHUP")])
+@pytest.mark.parametrize("late", ["typer", "tehl_taichi.results.opened"])
+def test_a_hasty_stop_meets_no_import(name, by, late):
+    """While the first module is loaded, and inside of a command."""
     code = ("import sys; from tehl_cli import entry; heavy = {'typer', 'numpy', 'rich', 'tehl_taichi'} & sys.modules.keys(); "
             "assert not heavy, heavy\n"
             "class Late:\n"
             "    def find_spec(self, name, *_):\n"
-            "        if name == 'typer': import os, signal; os.kill(os.getpid(), signal.SIGINT)\n"
-            "sys.meta_path.insert(0, Late()); entry.main()")
+            f"        if name == '{late}': import os, signal; os.kill(os.getpid(), signal.{name})\n"
+            "sys.meta_path.insert(0, Late()); sys.argv = ['tehl', 'resume', 'no.zarr']; entry.main()")
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
-    assert (done.returncode, done.stderr) == (4, "tehl: interrupted; nothing that was stored is lost\n")
+    assert (done.returncode, done.stderr) == (4, f"tehl: {by}; nothing that was stored is lost\n")
 
 
-def test_a_termination_is_a_ctrl_c(tmp_path):
+@pytest.mark.parametrize("stop", [signal.SIGTERM, signal.SIGHUP])
+def test_a_kill_and_a_closed_terminal_are_named(tmp_path, stop):
     run = process("run", "gear", "--threads", "2", cwd=tmp_path)
     run.stderr.readline()  # the scene is read, its name reserved; the steady start takes seconds
     assert [path.name for path in (tmp_path / "runs").iterdir()] == [".gear-1.zarr.part"]
-    os.kill(run.pid, signal.SIGTERM)
-    assert run.wait() == 4 and "interrupted before anything was stored" in run.stderr.read()
+    os.kill(run.pid, stop)
+    assert run.wait() == 4 and f"stopped by {stop.name} before anything was stored" in run.stderr.read()
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_stopped_run_says_by_what_and_how_it_goes_on(tmp_path):
+    run = process("run", "gear", "--threads", "1", "--grid", "64x16", "--isothermal", "--out", "a.zarr", cwd=tmp_path)
+    while not (tmp_path / "a.zarr").exists():
+        time.sleep(0.01)
+    os.kill(run.pid, signal.SIGTERM)
+    assert run.wait() == 4
+    assert re.search(r"^tehl: stopped by SIGTERM after \d+ steps; go on with: tehl resume a.zarr$", run.stderr.read(), re.M)
 
 
 @pytest.mark.slow

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from os import PathLike
 from pathlib import Path
 
+from tehl_taichi.errors import stopped
 from tehl_taichi.flank.contacts import scene_at
 from tehl_taichi.flank.described import described
 from tehl_taichi.flank.mesh import Mesh
@@ -64,10 +65,10 @@ def flank(gear: str | PathLike | GearPair = "fzg-c", *, torque: float | None = N
             outcomes[n] = outcome
             whole = Flank(folder, told(subject, places, scenes, outcomes))
             whole.write()
-    except KeyboardInterrupt:
+    except KeyboardInterrupt as stop:
         done = sum(outcome.reason != WAITING for outcome in outcomes)
-        raise KeyboardInterrupt(f"interrupted after {done} of {len(scenes)} positions; the same tehl flank with --out {folder} "
-                                "goes on") from None
+        raise KeyboardInterrupt(f"{stopped(stop)} after {done} of {len(scenes)} positions; the same tehl flank with --out "
+                                f"{folder} goes on") from None
     return whole
 
 

@@ -7,7 +7,7 @@ import time
 from os import PathLike
 from pathlib import Path
 
-from tehl_taichi.errors import StoreError
+from tehl_taichi.errors import StoreError, stopped
 from tehl_taichi.io.found import find
 from tehl_taichi.scene import Scene
 from tehl_taichi.study.progress import ERRORS, FATIGUE, PASSAGE, STEADY, Progress
@@ -207,20 +207,20 @@ def _fatigue(saved, progress):
 
 @contextlib.contextmanager
 def _stoppable(path, place=None):
-    """Ctrl-C anywhere inside says what is stored at `path`."""
+    """Ctrl-C (or the signal that its text names) anywhere inside says what is stored at `path`."""
     try:
         yield
-    except KeyboardInterrupt:
+    except KeyboardInterrupt as stop:
         if place and not place.published:
-            raise KeyboardInterrupt("interrupted before anything was stored") from None
-        raise KeyboardInterrupt(_what_is_left(path)) from None
+            raise KeyboardInterrupt(f"{stopped(stop)} before anything was stored") from None
+        raise KeyboardInterrupt(stopped(stop) + _what_is_left(path)) from None
 
 
 def _what_is_left(path):
     try:
         left = open(path)
     except StoreError:
-        return f"interrupted; {path} cannot be read any more"
+        return f"; {path} cannot be read any more"
     if left.finished:
-        return f"interrupted; {path} is finished"
-    return f"interrupted after {left.store.last_step} steps; go on with: tehl resume {path}"
+        return f"; {path} is finished"
+    return f" after {left.store.last_step} steps; go on with: tehl resume {path}"
