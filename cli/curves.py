@@ -70,20 +70,22 @@ class Curves:
 
 
 class Bar:
-    """The curves above a bar of the steps on stderr, drawn by :meth:`show` alone: no thread asks for it meanwhile."""
+    """The curves above a bar of the steps, or of the parts of another stage, on stderr; drawn by :meth:`show` alone: no thread
+    asks for it meanwhile. of: what it counts; the time left is shown of steps alone, which take about the same."""
 
-    def __init__(self, curves, total, done):
+    def __init__(self, curves, total, done, of="step"):
         from rich.console import Console, Group
         from rich.live import Live
-        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
-        self.steps = Progress(TextColumn("step"), MofNCompleteColumn(), BarColumn(), TimeRemainingColumn(),
-                              TextColumn("{task.description}"), auto_refresh=False)
+        clock = TimeRemainingColumn() if of == "step" else TimeElapsedColumn()
+        self.steps = Progress(TextColumn(of), MofNCompleteColumn(), BarColumn(), clock, TextColumn("{task.description}"),
+                              auto_refresh=False)
         self.task = self.steps.add_task("", total=total, completed=done)
         self.live = Live(Group(curves, self.steps), console=Console(stderr=True), auto_refresh=False)
         self.start, self.stop = self.live.start, self.live.stop
 
-    def show(self, step, text):
+    def show(self, step, text=""):
         """Draw it with so many steps done."""
         self.steps.update(self.task, completed=step, description=text)
         self.live.refresh()

@@ -5,7 +5,7 @@ from typing import Optional
 
 import typer
 from tehl_cli.figure_options import Dpi, Format, Width
-from tehl_cli.live import say
+from tehl_cli.live import Live, say
 from tehl_cli.out import print_json
 
 from tehl_taichi.criteria import CRITERIA
@@ -50,9 +50,11 @@ def fatigue(
     runtime.check(threads=threads)
     page = Page(format, dpi, width)
     run = open_run(store)
-    result = run.fatigue(kappa=kappa, endurance=endurance, bending_limit=bending_limit, torsion_limit=torsion_limit,
-                         criterion=criterion, depths=_depths(depths), from_x=from_x, to_x=to_x, thermal_stress=thermal_stress,
-                         residual_xx=residual_xx, residual_yy=residual_yy, threads=threads)
+    with Live() as live:
+        result = run.fatigue(kappa=kappa, endurance=endurance, bending_limit=bending_limit, torsion_limit=torsion_limit,
+                             criterion=criterion, depths=_depths(depths), from_x=from_x, to_x=to_x,
+                             thermal_stress=thermal_stress, residual_xx=residual_xx, residual_yy=residual_yy, threads=threads,
+                             progress=live)
     _show(result, as_json)
     if figures:
         from tehl_taichi.figures.run_figures import write_fatigue

@@ -4,7 +4,7 @@ import contextlib
 import sys
 import time
 
-from tehl_taichi.study.progress import PASSAGE, Lines, line
+from tehl_taichi.study.progress import LATE, PASSAGE, Lines, line
 
 
 def say(text):
@@ -22,7 +22,7 @@ class Live(Lines):
 
     def __init__(self, quiet=False, curves=True):
         super().__init__()
-        self.quiet, self.bar, self.curves, self.due = quiet, None, None, 0.0
+        self.quiet, self.bar, self.curves, self.due, self.shown = quiet, None, None, 0.0, ""
         self.wanted = curves and not quiet and sys.stdout.isatty() and sys.stderr.isatty()
 
     def __enter__(self):
@@ -42,24 +42,32 @@ class Live(Lines):
         say(f"warning: {sentence}")
 
     def stage(self, name, done, total):
-        super().stage(name, done, total)
-        if name != PASSAGE:
+        if name != self.shown:
             self.__exit__()
-        elif not self.bar and done < total and not self.quiet and sys.stderr.isatty():
-            self._start_bar(done)
+            self.shown = name
+        if not self.bar and done < total and name in (PASSAGE, *LATE) and not self.quiet and sys.stderr.isatty():
+            self._start_bar(name, done, total)
+        if name == PASSAGE or not self.bar:
+            super().stage(name, done, total)
+        else:
+            self._when_due(lambda: self.bar.show(done), done == total)
 
-    def _start_bar(self, done):
+    def _start_bar(self, name, done, total):
         from tehl_cli.curves import Bar, Curves
 
-        self.curves = Curves()
-        self.bar = Bar(self.curves, self.total, done)
+        self.curves, self.due = Curves(), 0.0
+        self.bar = Bar(self.curves, total, done, "step" if name == PASSAGE else name)
         self.bar.start()
 
     def step(self, snapshot):
         if not self.bar:
             return super().step(snapshot)
-        if (began := time.perf_counter()) >= self.due or snapshot.step == self.total:
-            self._draw(snapshot)
+        self._when_due(lambda: self._draw(snapshot), snapshot.step == self.total)
+
+    def _when_due(self, draw, last):
+        """Draw, unless the picture before was just now; the last one in any case."""
+        if (began := time.perf_counter()) >= self.due or last:
+            draw()
             done = time.perf_counter()
             self.due = done + max(self.DRAWN, (done - began) / self.SHARE)
 

@@ -53,10 +53,6 @@ class Interrupted(Error):
 
 def stopped(stop):
     """How a sentence about a KeyboardInterrupt begins: "interrupted" (Ctrl-C), or by which signal it was stopped, where that
-    is its text, as the command line has it, or begins it.
-
-    >>> [stopped(KeyboardInterrupt(text)) for text in ("", "SIGTERM", "stopped by SIGHUP after 2 steps")]
-    ['interrupted', 'stopped by SIGTERM', 'stopped by SIGHUP']
-    """
+    is its text (as the command line has it: "SIGTERM") or begins it ("stopped by SIGTERM after 2 steps")."""
     found = re.match(r"(?:stopped by )?(SIG[A-Z]+)\b", str(stop))
     return f"stopped by {found[1]}" if found else "interrupted"

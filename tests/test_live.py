@@ -1,6 +1,7 @@
 """What a terminal shows of a run: curves of braille letters, how often they are drawn, and where they are not."""
 
 import io
+import re
 import sys
 from types import SimpleNamespace
 
@@ -10,7 +11,7 @@ from rich.console import Console
 from tehl_cli import live
 from tehl_cli.curves import ROWS, Curves, braille
 
-from tehl_taichi.study.progress import PASSAGE
+from tehl_taichi.study.progress import ERRORS, FATIGUE, PASSAGE, STEADY
 
 
 def dots(lines):
@@ -147,6 +148,40 @@ def test_a_bar_alone_without_curves_and_lines_without_a_terminal(terminal, monke
     text = passed(terminal(stderr=io.StringIO()), 2)[0]
     assert text.splitlines()[0].startswith("step 1/1000  p_max 2.000 GPa") and "\x1b" not in text
     assert passed(terminal(), quiet=True) == ("", "")
+
+
+@pytest.mark.parametrize("name", [FATIGUE, ERRORS])
+def test_what_comes_after_the_passage_has_a_bar_too(terminal, monkeypatch, name):
+    stderr, ends = terminal(), []
+    with live.Live() as shows:
+        shows.stage(PASSAGE, 999, 1000)
+        shows.stage(PASSAGE, 1000, 1000)
+        shows.step(snapshot(1000))
+        steps = shows.bar
+        monkeypatch.setattr(steps, "stop", lambda: ends.append(name))
+        before = len(stderr.getvalue())
+        for done in range(401):
+            shows.stage(name, done, 400)
+        assert ends == [name] and shows.bar not in (None, steps)
+    text = re.sub(r"\x1b\[[0-9;]*m", "", stderr.getvalue()[before:])
+    assert f"{name}   0/400" in text and f"{name} 400/400" in text and "pressure" not in text
+    assert text.count("/400") <= 4 and shows.bar is None  # not a picture of every part
+
+
+def test_what_comes_after_the_passage_has_lines_without_a_terminal(terminal, monkeypatch):
+    """Every five seconds; a part takes one, the companions tell nothing but that they are waited for."""
+    now = [0.0]
+    monkeypatch.setattr(live.time, "perf_counter", lambda: now[0])
+    for quiet, expected in ((False, [f"{FATIGUE} 5/14", f"{FATIGUE} 11/14", f"{ERRORS} 0/1"]), (True, [])):
+        stderr = terminal(stderr=io.StringIO())
+        with live.Live(quiet) as shows:
+            for part in (*((FATIGUE, n, 14) for n in range(15)), *[(ERRORS, 0, 1)] * 3):
+                now[0] += 1.0
+                shows.stage(*part)
+        assert stderr.getvalue().splitlines() == expected
+    with live.Live() as shows:
+        shows.stage(STEADY, 0, 1)
+        assert shows.bar is None
 
 
 def test_commands_that_run_can_do_without_curves(monkeypatch, tmp_path):

@@ -51,6 +51,27 @@ def test_a_run_tells_its_stages_and_steps(done):
     assert all(last.values())
 
 
+def test_the_fatigue_search_tells_how_far_it_is_below_the_surface_too(done):
+    """From 0 to one total, never back; the halves of its passes are those of the surface and of what lies below."""
+    for run, passes, changes in ((done[0], 4, {}), (done[0], 6, {"depths": [20e-6, 50e-6]})):
+        heard = Heard()
+        run.fatigue(progress=heard, **changes)
+        parts = [n for _, n, _ in heard.stages]
+        assert parts == sorted(parts) and {total for *_, total in heard.stages} == {100 * passes}
+        assert {100 * n for n in range(passes + 1)} <= set(parts)
+
+
+def test_a_slice_of_points_after_another_is_the_same_search(monkeypatch, taichi_cpu):
+    from tehl_taichi.fatigue import findley
+
+    history, told = 1e8 * np.random.default_rng(0).normal(size=(7, 12, 6)), []
+    whole = findley.search(history, 0.3)
+    monkeypatch.setattr(findley, "SLICE", 3)
+    for one, other in zip(findley.search(history, 0.3, tell=lambda *part: told.append(part)), whole):
+        np.testing.assert_array_equal(one, other)
+    assert told == [(3, 7), (6, 7), (7, 7)]
+
+
 def test_a_run_is_what_is_stored(done):
     run, _ = done
     again = tehl.open(str(run.path))

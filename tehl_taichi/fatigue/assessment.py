@@ -8,6 +8,7 @@ import numpy as np
 from tehl_taichi.fatigue import below, findley
 from tehl_taichi.fatigue.histories import Passage
 from tehl_taichi.fatigue.thermal_stress import WORKERS
+from tehl_taichi.fatigue.told import Told
 from tehl_taichi.fatigue.worst_point import Point, worse, worst_of
 from tehl_taichi.scene import SceneError
 
@@ -54,8 +55,8 @@ def run(scene, reader, progress=None, until=None):
     At all points of the surface and below it: with scene.fatigue.depths "auto" under the row through the feature (and the
     surface's worst row), the depth looked for (:mod:`tehl_taichi.fatigue.below`); with a list at all points at these depths.
     Between its from_x and to_x, by its criterion. reader: see :class:`tehl_taichi.fatigue.histories.Passage`; or a list of
-    snapshots. progress: called with (done, total) parts of a pass. until: position (a) of the feature; the worst points of the
-    moments up to there are told, too ("before_exit" of the summary).
+    snapshots. progress: called with (done, total) parts. until: position (a) of the feature; the worst points of the moments up
+    to there are told, too ("before_exit" of the summary).
     On the rows of the reader (where they begin with y = 0, the others are its mirror). Memory: one block of histories
     (1 GB at most), with thermal stress 8 bytes more per entry and wave number (4 nodes of the grid).
     Raises SceneError when no feature passes.
@@ -69,9 +70,9 @@ def run(scene, reader, progress=None, until=None):
         f = scene.fatigue
         raise SceneError(f"the feature is at no stored moment between fatigue.from_x = {f.from_x:g} a and to_x = {f.to_x:g} a; "
                          f"it goes from {centres[0] / passage.a:.2f} to {centres[-1] / passage.a:.2f} a")
-    early, auto = _early(passage, until), scene.fatigue.depths == "auto"
+    progress, early, auto = Told.of(progress, scene, passage), _early(passage, until), scene.fatigue.depths == "auto"
     layers = [_layer(scene, passage, depth, progress, early) for depth in (0.0, *(() if auto else scene.fatigue.depths))]
-    whole, before = _profiles(scene, passage, layers[0], early) if auto else ([], [])
+    whole, before = _profiles(scene, passage, layers[0], early, progress) if auto else ([], [])
     result = _result(scene, passage, layers, whole)
     if early is not None:
         deep = [layer.early for layer in layers[1:]] + _under(before)
@@ -111,7 +112,7 @@ def _layer(scene, passage, depth, progress, early):
     operators, parts, worst, before = passage.stresses(depth), [], None, None
     for rows in passage.row_blocks():
         history = passage.history(rows, operators, progress, lambda: findley.prepare(scene.fatigue.criterion))
-        f, normals = findley.search(history, scene.fatigue.kappa, criterion=scene.fatigue.criterion)
+        f, normals = findley.search(history, scene.fatigue.kappa, criterion=scene.fatigue.criterion, tell=progress)
         shape = passage.x.size, rows.stop - rows.start
         parts.append([v.reshape(shape) for v in (f, *findley.angles(normals), _tension(history))])
         places = passage.places(depth, rows)
@@ -130,13 +131,13 @@ def _tension(history):
         return np.concatenate(list(pool.map(of, np.array_split(history, -(-len(history) // POINTS)))))
 
 
-def _profiles(scene, passage, surface, early):
+def _profiles(scene, passage, surface, early, progress):
     """What lies below the feature's row, below the surface's worst rows if those are others, and below the contact alone:
     ([of the whole passage], [of its early moments])."""
     y, ways = passage.reader.y, (scene.features[0].y, surface.worst.y, *([surface.early.y] if surface.early else []))
     rows = [int(np.argmin(np.abs(y - at))) for at in ways]
     windows = [slice(None)] + [early] * (early is not None)
-    found = below.profiles(passage, list(dict.fromkeys(rows)), _has_far_row(scene, y), windows)
+    found = below.profiles(passage, list(dict.fromkeys(rows)), _has_far_row(scene, y), windows, progress)
     return found[:: len(windows)], found[1 :: 2] if len(windows) > 1 else []
 
 

@@ -36,17 +36,19 @@ def ladder(passage):
     return np.geomspace(first, last, count)
 
 
-def profiles(passage, rows, alone=False, windows=(slice(None),)):
+def profiles(passage, rows, alone=False, windows=(slice(None),), tell=lambda done, total: None):
     """:class:`Profile` of a passage under every one of these rows of its reader, for each of `windows`: moments that count.
 
     alone=True: and under one point of the last row with the loads there as an endless line: the contact without its feature.
+    tell: called with (done, total) parts of the stresses, then of the searches.
     """
     depths, middle = ladder(passage), passage.x.size // 2
     kinds = [(row, False) for row in rows] + [(passage.reader.y.size - 1, True)] * alone
     found = []
-    for kind, histories in zip(kinds, histories_of(passage, depths, kinds)):
+    for n, (kind, histories) in enumerate(zip(kinds, histories_of(passage, depths, kinds, tell)), 1):
         points = slice(middle, middle + 1) if kind[1] else slice(None)
         found += [_profile(passage, depths, histories[:, points, moments], passage.x[points], *kind) for moments in windows]
+        tell(n, len(kinds))
     return found
 
 

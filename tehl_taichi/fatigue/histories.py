@@ -4,8 +4,7 @@ Material points keep their place in the frame of the feature, x' = x - x_a(t). B
 snapshot (feature outside the contact) they move through the steady field, so every history begins and ends unloaded.
 """
 
-import itertools
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor, wait
 
 import numpy as np
 
@@ -18,6 +17,7 @@ WINDOW = 0.6       # half width (in a) of the part searched around one small fea
 MARGIN = 0.3       # (in a) searched beyond the rim of larger features
 LOADED = 1.5       # material points are followed while within this distance (in a) of the centre of the contact
 BLOCK_BYTES = 1e9  # histories held at once; more points than fit are done in blocks of y rows, each from the loads again
+LOOK = 0.5         # s between looks at how many entries are done
 LOADS = ("pressure", "traction_x_a", "traction_y_a")
 HELD = ("sxx", "syy", "sxy")  # what heat does at the surface; below it does all six
 
@@ -114,20 +114,22 @@ class Passage:
     def history(self, rows, operators, progress=None, meanwhile=lambda: None):
         """(points, times + 1, 6) Pa; points run over x', then rows; the last moment is the unloaded state.
 
-        operators: of :meth:`stresses`; progress: called with (done, total) parts; meanwhile: what this thread does while others
-        find the stresses.
+        operators: of :meth:`stresses`; progress: called with (done, total) entries; meanwhile: what this thread does while
+        others find the stresses.
         """
         shape = self.x.size, rows.stop - rows.start
         out = np.zeros((*shape, self.centres.size + 1, len(COMPONENTS)))
-        done, entries = itertools.count(1), np.unique(self.entries)
+        done, entries = [], np.unique(self.entries)
         parts = np.array_split(entries, max(1, min(WORKERS, entries.size)))
         with ThreadPoolExecutor(WORKERS) as pool:
-            tasks = [pool.submit(self._fill, out, part, rows, operators[0].twin(), operators[1]) for part in parts]
+            tasks = [pool.submit(self._fill, out, part, rows, operators[0].twin(), operators[1], done) for part in parts]
             meanwhile()
+            while wait(tasks, LOOK).not_done and progress:
+                progress(min(len(done), entries.size - 1), entries.size)
             for task in tasks:
                 task.result()
-                if progress:
-                    progress(next(done), len(tasks))
+        if progress:
+            progress(entries.size, entries.size)
         return self.resting(out).reshape(-1, *out.shape[2:])
 
     def resting(self, stress):
@@ -136,10 +138,11 @@ class Passage:
         stress[..., 1] += self.scene.fatigue.residual_yy
         return stress
 
-    def _fill(self, out, entries, rows, stress, thermal):
-        """The moments that belong to these entries of the reader."""
+    def _fill(self, out, entries, rows, stress, thermal, done):
+        """The moments that belong to these entries of the reader; done: list that takes every entry that is."""
         for entry in entries:
             self.follow(out, int(entry), self._stress_field(int(entry), rows, stress, thermal))
+            done.append(entry)
 
     def follow(self, out, entry, fields):
         """Stress fields (x, ..., 6) of an entry, at all its moments, into the histories `out` (x', ..., moments, 6)."""

@@ -12,10 +12,11 @@ BLOCK = 16  # entries whose stresses are found at once
 HELD = (0, 1, 3)  # components of the heat at the surface
 
 
-def histories_of(passage, depths, kinds):
+def histories_of(passage, depths, kinds, tell=lambda done, total: None):
     """A list of (depths, x', moments, 6) Pa, one for each kind: (row, whether its loads go on as an endless line).
 
     passage: a :class:`tehl_taichi.fatigue.histories.Passage`; depths: m, increasing. The last moment is the unloaded state.
+    tell: called with (done, total): blocks of entries, and depths where there is heat.
     """
     operators = _operators(passage, depths, kinds)
     out = np.zeros((len(kinds), passage.x.size, len(depths), passage.centres.size + 1, 6))
@@ -28,10 +29,13 @@ def histories_of(passage, depths, kinds):
                 for entry, stress in zip(block, stresses):
                     passage.follow(out[n], entry, stress.swapaxes(0, 1))
 
+    blocks, hot = np.array_split(entries, -(-entries.size // BLOCK)), passage.scene.thermal_stress_wanted
+    total = len(blocks) + hot * len(depths)
     with ThreadPoolExecutor(WORKERS) as pool:
-        list(pool.map(fill, np.array_split(entries, -(-entries.size // BLOCK))))
-    if passage.scene.thermal_stress_wanted:
-        _heat(passage, depths, [row for row, _ in kinds], entries, out)
+        for done, _ in enumerate(pool.map(fill, blocks), 1):
+            tell(done, total)
+    if hot:
+        _heat(passage, depths, [row for row, _ in kinds], entries, out, lambda n: tell(len(blocks) + n, total))
     return passage.resting(out).swapaxes(1, 2)
 
 
@@ -46,8 +50,8 @@ def _operators(passage, depths, kinds):
     return out + [(made(np.zeros(1), [0]), [row], [n]) for n, (row, endless) in enumerate(kinds) if endless]
 
 
-def _heat(passage, depths, rows, entries, out):
-    """Thermal stress added to the histories `out` (kinds, x', depths, moments, 6)."""
+def _heat(passage, depths, rows, entries, out, tell):
+    """Thermal stress added to the histories `out` (kinds, x', depths, moments, 6); tell: called with the depths done."""
     thermal, part = passage.heat(ThermalBelow, min(depth for depth in depths if depth)), np.zeros_like(out[0, :, 0])
 
     def at(depth):
@@ -59,6 +63,7 @@ def _heat(passage, depths, rows, entries, out):
                 for entry in entries:
                     passage.follow(part, entry, stresses[passage.ticks[entry]])
                 histories[:, n] += part
+            tell(n + 1)
 
 
 def _at_the_surface(passage, rows):

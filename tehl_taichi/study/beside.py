@@ -20,6 +20,7 @@ from tehl_taichi.march import companions
 from tehl_taichi.study import job
 
 WATCH = 0.5  # s between looks at whether the run is still there
+TELL = 1.0  # s between two words that the run waits for it
 # nodes times steps from which on a run is long: the process loads its kernels first, some 4 s. A coarse case of a sweep in a
 # warm process takes 5.0 s with a process beside it, and 3.8 s with companions after it, by kernels that are there
 LONG, HEAVIER = 5e6, 5.0  # with temperatures a step takes so many times as long
@@ -61,11 +62,20 @@ def _started(scene):
 def _ready(process, scene, tell=lambda done, total: None):
     """Their answers; where their process died, worked out here."""
     tell(0, 1)
-    text, _ = process.communicate()
+    while (text := _said(process)) is None:
+        tell(0, 1)
     if process.returncode:
         return companions.answers(scene, tell)
     tell(1, 1)
     return json.loads(text)
+
+
+def _said(process):
+    """What a process wrote, once it is over; None while it is not."""
+    try:
+        return process.communicate(timeout=TELL)[0]
+    except subprocess.TimeoutExpired:  # nothing is lost: the next call goes on
+        return None
 
 
 def serve():

@@ -5,6 +5,7 @@ import sys
 import time
 
 STEADY, PASSAGE, FATIGUE, ERRORS = STAGES = ("steady start", "passage", "stresses and fatigue", "companion runs")
+LATE = FATIGUE, ERRORS  # stages after the last step, of minutes on fine grids
 
 
 class Progress:
@@ -34,13 +35,13 @@ class Progress:
 
 
 class Lines(Progress):
-    """Prints lines: sentences at once, steps every few seconds. stream: where to (default: stderr).
+    """Prints lines: sentences at once, steps and parts of later stages every few seconds. stream: where to (default: stderr).
 
     >>> Lines(sys.stdout).warn("passage cut at -1.37 a")
     warning: passage cut at -1.37 a
     """
 
-    EVERY = 5.0  # seconds between the lines of steps
+    EVERY = 5.0  # seconds between the lines of steps and parts
 
     def __init__(self, stream=None):
         self.stream, self.total, self.last = stream, 0, time.perf_counter()
@@ -55,11 +56,16 @@ class Lines(Progress):
     def stage(self, name, done, total):
         if name == PASSAGE:
             self.total = total
+        elif name in LATE:
+            self._say_now_and_then(f"{name} {done}/{total}")
 
     def step(self, snapshot):
+        self._say_now_and_then(f"step {snapshot.step}/{self.total}  {line(snapshot)}")
+
+    def _say_now_and_then(self, text):
         if time.perf_counter() - self.last > self.EVERY:
             self.last = time.perf_counter()
-            self.say(f"step {snapshot.step}/{self.total}  {line(snapshot)}")
+            self.say(text)
 
 
 def line(snapshot):

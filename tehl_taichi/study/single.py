@@ -57,6 +57,8 @@ def resume(path: str | PathLike, *, steps: int | None = None, threads: int | Non
            progress: Progress | None = None) -> Run:
     """Go on with the run in the store at `path`, at most two seconds of work before its last stored step, as `tehl resume`.
 
+    What comes after the passage, the stresses, the search for the critical planes and the companion runs, begins anew: nothing
+    of it is stored before its end.
     steps: so many more (default: to the end that the run was given; of a finished run, to the end of its passage). Where
     nothing is left it comes back as it is. threads, progress and errors: as :func:`run`; StoreError also where another
     version wrote the store, or somebody writes it now.

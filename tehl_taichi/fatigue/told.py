@@ -1,0 +1,28 @@
+"""How far a fatigue search is: its passes follow each other, and are told of as one count."""
+
+
+class Told:
+    """Called with (done, total) parts of one of `passes` passes after another; tells progress(done, total) of all of them: in
+    hundredths of a pass, from 0 to the same total, never less than before. progress: or None."""
+
+    EACH = 100
+
+    def __init__(self, progress, passes):
+        self.progress, self.total, self.through = progress, self.EACH * passes, 0
+        self._tell(0)
+
+    @classmethod
+    def of(cls, progress, scene, passage):
+        """Of a :func:`tehl_taichi.fatigue.assessment.run`: stresses and search of every block of rows at every depth, then
+        those under rows where the worst depth is looked for."""
+        ladder = scene.fatigue.depths == "auto"
+        layers = 1 if ladder else 1 + len(scene.fatigue.depths)
+        return cls(progress, 2 * layers * len(passage.row_blocks()) + 2 * ladder)
+
+    def __call__(self, done, total):
+        self._tell(self.through + self.EACH * done // total)
+        self.through += self.EACH * (done == total)
+
+    def _tell(self, done):
+        if self.progress:
+            self.progress(done, self.total)
