@@ -17,7 +17,7 @@ def summary_rows(summary):
                                     ("p_max_Pa", "steady p_max", 1e-9, "GPa")):
         rows.append((name, quantity(steady, key, factor, unit)))
     if "film_formula_m" in steady:
-        rows.append(("h_c by formula (Moes / Nijenbanning)", f"{steady['film_formula_m'] * 1e6:.4f} um"))
+        rows.append(("h_c by formula (isothermal, Newtonian)", f"{steady['film_formula_m'] * 1e6:.4f} um"))
     rows.append(("steady friction coefficient", quantity(steady, "friction_coefficient")))
     rows += _heat_rows("steady", steady)
     rows += _passage_rows(summary)
