@@ -76,8 +76,9 @@ def resume(
     quiet: bool = typer.Option(False, "--quiet", help="no progress"),
     curves: bool = typer.Option(True, "--live/--no-live", help="p, h and T along y = 0 while it runs, in a terminal"),
 ):
-    """Go on, at most two seconds of work before the last stored step; a finished run to the end of its passage. The search of
-    stresses and fatigue after the passage, and the companion runs, begin anew.
+    """Go on, at most two seconds of work before the last stored step; a finished run to the end of its passage.
+
+    The stresses and the fatigue search after the passage, and the companion runs, begin anew.
 
     Example: `tehl resume runs/gear-1.zarr`
     """
