@@ -5,7 +5,7 @@ from mkdocs.exceptions import PluginError
 
 
 def on_page_markdown(markdown, page, **_):
-    """Each `<!-- made: NAME -->` becomes what the code says."""
+    """Each line with `<!-- made: NAME -->` becomes what the code says, one with `<!-- file: PATH -->` the file."""
     try:
         return makers.filled(markdown)
     except (KeyError, OSError, ValueError) as error:

@@ -117,6 +117,22 @@ def test_pages_name_only_what_is_made():
         makers.filled("<!-- made: nothing -->")
 
 
+MARKED = re.compile(r"^(.*)<!-- (made|file): (\S+) -->$", re.M)
+
+
+@pytest.mark.parametrize("page", [page for page in PAGES if "<!-- " in page.read_text(encoding="utf-8")],
+                         ids=lambda path: path.name)
+def test_what_is_made_for_a_page_is_pointed_to_where_the_page_lies(page):
+    """A checkout shows no more than that line, a built page what it stands for, and not both."""
+    text = page.read_text(encoding="utf-8")
+    filled, found = makers.filled(text), MARKED.findall(text)
+    assert len(found) == text.count("<!-- ")
+    for before, kind, name in found:
+        links = re.findall(r"\[([^]]+)\]\(\.\./([^)#]+)[^)]*\)", before)
+        assert links == [(name, name)] if kind == "file" else links or re.search(r"`[^`]+`", before), before
+        assert all((ROOT / path).exists() for _, path in links) and before.strip() not in filled
+
+
 def test_every_page_stands_in_the_navigation():
     named = re.findall(r": (\w+\.md)$", (ROOT / "mkdocs.yml").read_text(encoding="utf-8"), re.M)
     assert sorted(named) == [page.name for page in PAGES]

@@ -1,4 +1,5 @@
-"""Pages name what is made for them, `<!-- made: NAME -->`, and files that they show, `<!-- file: PATH -->`."""
+"""Pages name what is made for them, `<!-- made: NAME -->`, and files that they show, `<!-- file: PATH -->`, at the end of a
+line: what stands before it is for those who read the page as it lies there, and gives way with it."""
 
 import re
 from pathlib import Path
@@ -8,7 +9,7 @@ from handbook import choices, commands, extending, outputs, public_names, scene_
 ROOT = Path(__file__).parents[2]
 MAKERS = {module.__name__.rpartition(".")[2]: module.text
           for module in (choices, commands, extending, outputs, public_names, scene_keys, scenes)}
-MADE, SHOWN = re.compile(r"<!-- made: (\S+) -->"), re.compile(r"<!-- file: (\S+) -->")
+MADE, SHOWN = (re.compile(rf"^.*<!-- {kind}: (\S+) -->$", re.MULTILINE) for kind in ("made", "file"))
 LANGUAGES = {".py": "python", ".toml": "toml"}
 
 
