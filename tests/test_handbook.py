@@ -133,6 +133,13 @@ def test_what_is_made_for_a_page_is_pointed_to_where_the_page_lies(page):
         assert all((ROOT / path).exists() for _, path in links) and before.strip() not in filled
 
 
+@pytest.mark.parametrize("page", PAGES, ids=lambda path: path.name)
+def test_lines_of_text_are_not_longer_than_132_letters(page):
+    """Rows of tables cannot be broken, nor what a page is marked with."""
+    lines = page.read_text(encoding="utf-8").splitlines()
+    assert [line for line in lines if len(line) > 132 and not line.startswith("|") and not MARKED.match(line)] == []
+
+
 def test_every_page_stands_in_the_navigation():
     named = re.findall(r": (\w+\.md)$", (ROOT / "mkdocs.yml").read_text(encoding="utf-8"), re.M)
     assert sorted(named) == [page.name for page in PAGES]
