@@ -21,7 +21,7 @@ def main():
         sys.stdout.flush()
     except KeyboardInterrupt as stop:
         by = f"stopped by {stop}" if str(stop) else "interrupted"
-        print(f"tehl: {by}; nothing that was stored is lost", file=sys.stderr)
+        _tell(f"{by}; nothing that was stored is lost")
         code = INTERRUPTED
     except BrokenPipeError:  # as in `tehl show STORE | head`: the reader has seen enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
@@ -46,9 +46,15 @@ def _run():
     except Exception as error:  # noqa: BLE001  every failure ends in one sentence
         if debug:
             raise
-        print(f"tehl: {error or type(error).__name__}", file=sys.stderr)
+        _tell(error or type(error).__name__)
         return getattr(error, "exit_code", FAILED)
     return 0
+
+
+def _tell(sentence):
+    """The last word; a closed terminal does not take it, which changes no exit code."""
+    with contextlib.suppress(OSError):
+        print(f"tehl: {sentence}", file=sys.stderr)
 
 
 def _code(stop):

@@ -31,7 +31,8 @@ class Live(Lines):
     def __exit__(self, *_):
         if self.bar:
             self.curves.clear()
-            self.bar.stop()
+            with contextlib.suppress(OSError):  # a terminal that was closed: what ended the run is still to be told
+                self.bar.stop()
             self.bar = None
 
     def say(self, text):

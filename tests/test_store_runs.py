@@ -267,6 +267,21 @@ def test_a_stopped_run_says_by_what_and_how_it_goes_on(tmp_path):
     assert re.search(r"^tehl: stopped by SIGTERM after \d+ steps; go on with: tehl resume a.zarr$", run.stderr.read(), re.M)
 
 
+def test_a_closed_terminal_takes_no_last_word_and_changes_no_exit_code(tmp_path):
+    """In the passage, with a bar in a terminal that is gone when the signal comes."""
+    ours, theirs = os.openpty()
+    words = ("run", "gear", "--threads", "1", "--grid", "128x32", "--no-live", "--out", "a.zarr")
+    run = subprocess.Popen([*CALL, *words], cwd=tmp_path, stdout=theirs, stderr=theirs,
+                           env={**os.environ, "TERM": "xterm", "COLUMNS": "120"})
+    os.close(theirs)
+    while not re.search(rb"\d/96", os.read(ours, 4096)):
+        pass
+    os.close(ours)
+    os.kill(run.pid, signal.SIGHUP)
+    assert run.wait() == 4
+    assert Store.open(tmp_path / "a.zarr").writer is None
+
+
 @pytest.mark.slow
 def test_forty_kills_and_as_many_resumes(tmp_path):
     """Runs killed at random moments, resumed and killed again until they are through: nothing is lost, nobody is stuck."""
