@@ -192,10 +192,25 @@ def test_fatigue_is_shown_at_the_depth_that_is_wanted():
 
     top, worst = layers()
     assert top[0] == pytest.approx(1.0) and worst[0] == pytest.approx(1.5)
-    assert worst[1:] == ("Fi, 60 µm below", "worst, Fi = 1.5, plane at 50° to the surface")
-    assert layers(depth=25.0)[1] == (pytest.approx(0.5), "Fi, 20 µm below", "worst, Fi = 0.5")
+    assert worst[1:] == ("Fi, 60 µm below", "worst, Fi = 1.50, plane at 50° to the surface")
+    assert layers(depth=25.0)[1] == (pytest.approx(0.5), "Fi, 20 µm below", "worst, Fi = 0.50")
     line = fatigue_figures.all_figures(Page(), searched(True, depth=60.0))["fatigue"]().axes[0].lines
     assert [one.get_ydata().max() for one in line] == pytest.approx([1.0, 1.0, 1.5, 1.5])
+
+
+def test_an_index_has_the_digits_that_its_error_leaves_and_stresses_have_no_exponent():
+    from tehl_taichi.figures.index_words import mpa, told_index
+
+    assert [told_index(1.64529, error) for error in (None, 0.023, 0.3, 40.0, float("nan"))] == ["1.65", "1.645", "1.65", "2",
+                                                                                             "1.65"]
+    assert [mpa(stress) for stress in (1.254e9, 31.96e6, -730.9e6, 0.0)] == ["1250", "32", "-731", "0"]
+    found = searched()
+    found.summary["error"] = {"Fi_max": 0.004}
+    figures = fatigue_figures.all_figures(Page(dpi=40), found)
+    assert "worst, Fi = 1.0000, plane at 50° to the surface" in titles(figures["fatigue"]())
+    found.maps["findley_stress_under_row"] = found.maps["findley_stress_at_depth"][:, :, 5]
+    depth = fatigue_figures.all_figures(Page(dpi=40), found)["fatigue_depth"]()
+    assert {"worst, Fi = 1.50 at 60 µm", "surface, Fi = 1.0000"} <= set(legend(depth))
 
 
 def test_a_worst_point_at_the_rim_leaves_no_white_around_the_map():

@@ -10,6 +10,7 @@ from tehl_taichi.fatigue.findley import largest_principal, shear_path
 from tehl_taichi.fatigue.worst_point import on_circle
 from tehl_taichi.figures import palette
 from tehl_taichi.figures.field_maps import bar, shade, whole
+from tehl_taichi.figures.index_words import error_of, largest, mpa, told_index
 from tehl_taichi.values.checks import number
 from tehl_taichi.values.plain import plain
 
@@ -46,18 +47,19 @@ class Found:
 @dataclass(frozen=True)
 class Layer:
     """where: in words; Fi: (x, y); at: its worst point, m; angle: of the critical plane there to the surface, deg, with
-    normal: where they are known."""
+    normal and error of the largest Fi: where they are known."""
 
     where: str
     Fi: Any
     at: tuple
     angle: float | None = None
     normal: Any = None
+    error: float | None = None
 
     @property
     def said(self):
         plane = "" if self.angle is None else f", plane at {self.angle:.0f}° to the surface"
-        return f"worst, Fi = {self.Fi.max():.4g}{plane}"
+        return f"worst, Fi = {told_index(self.Fi.max(), self.error)}{plane}"
 
 
 def all_figures(page, found):
@@ -87,7 +89,8 @@ def _layers(found):
 
 
 def _worst(where, Fi, summary, history):
-    return Layer(where, Fi, (summary["x_m"], summary["y_m"]), summary["surface_angle_deg"], history["normal"])
+    return Layer(where, Fi, (summary["x_m"], summary["y_m"]), summary["surface_angle_deg"], history["normal"],
+                 error_of(summary))
 
 
 def _searched(found):
@@ -181,12 +184,12 @@ def _over_depth(ax, found, Fi, depth):
     deep, limit = found.summary["below"], found.summary["sigma_eF_Pa"]
     line, = ax.plot(Fi.max(axis=1), depth, ".-", label="under the feature")
     ax.plot(deep["Fi_max"], deep["depth_m"] * 1e6, "+", color=line.get_color(), ms=2.5 * line.get_markersize(),
-            mew=line.get_linewidth(), label=f"worst, Fi = {deep['Fi_max']:.4g} at {deep['depth_m'] * 1e6:.0f} µm")
+            mew=line.get_linewidth(), label=f"worst, Fi = {largest(deep)} at {deep['depth_m'] * 1e6:.0f} µm")
     if "findley_stress_contact_alone" in found.maps:
         ax.plot(found.maps["findley_stress_contact_alone"] / limit, depth, "--", color=palette.GREY,
                 label="contact without its feature")
     ax.plot(found.summary["Fi_max"], 0.0, "o", color=palette.VERMILLION, clip_on=False,
-            label=f"surface, Fi = {found.summary['Fi_max']:.4g}")
+            label=f"surface, Fi = {largest(found.summary)}")
     ax.grid()
 
 
@@ -221,6 +224,6 @@ def worst_point(left, right, title, worst, a):
     right.add_patch(Circle((u / 1e6, v / 1e6), radius / 1e6, fill=False, color=palette.VERMILLION))
     right.plot(dip[ends] / 1e6, strike[ends] / 1e6, "o", color=palette.VERMILLION)
     right.set(xlabel="critical plane: shear along dip (MPa)", ylabel="along strike (MPa)", aspect="equal",
-              title=f"τ_amp = {radius / 1e6:.3g}, σ_n,max = {normal.max() / 1e6:.3g} MPa")
+              title=f"τ_amp = {mpa(radius)}, σ_n,max = {mpa(normal.max())} MPa")
     right.margins(0.15)
     right.autoscale_view()

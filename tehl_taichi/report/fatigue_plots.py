@@ -5,6 +5,7 @@ import numpy as np
 from tehl_taichi.fatigue.findley import largest_principal, shear_path
 from tehl_taichi.fatigue.worst_point import on_circle
 from tehl_taichi.figures.field_maps import whole
+from tehl_taichi.figures.index_words import largest
 from tehl_taichi.figures.palette import GREY, INDEX, MARK
 from tehl_taichi.report.passage_plots import POSITION
 from tehl_taichi.report.plots import colour, field_map, line, marks, stacked
@@ -39,7 +40,7 @@ def _map(store, which, where, Fi, found):
     """One layer; its worst point and the trace of the critical plane in it."""
     x, (y, full) = store.map("feature_frame_x") * 1e6, whole(store.map("feature_frame_y") * 1e6, Fi)
     at = np.array([found["x_m"], found["y_m"]]) * 1e6
-    marked = [marks([at[0]], [at[1]], f"worst point, Fi = {told(found['Fi_max'])}", MARK)]
+    marked = [marks([at[0]], [at[1]], f"worst point, Fi = {largest(found)}", MARK)]
     normal = store.map(f"{POINTS[which][0]}_normal")
     if normal is not None and (flat := np.hypot(*normal[:2])) > 1e-6:
         trace = np.array([-normal[1], normal[0]]) / flat * 0.12 * np.ptp(x)
@@ -65,7 +66,7 @@ def depth(store):
     x, z = store.map("feature_frame_x") * 1e6, store.map("fatigue_depth") * 1e6
     even = np.linspace(0, z[-1], EVEN)
     section = np.stack([np.interp(even, z, column) for column in Fi.T])
-    worst = marks([deep["x_m"] * 1e6], [deep["depth_m"] * 1e6], f"worst point, Fi = {told(deep['Fi_max'])}", MARK)
+    worst = marks([deep["x_m"] * 1e6], [deep["depth_m"] * 1e6], f"worst point, Fi = {largest(deep)}", MARK)
     caption = f"Index Fi in the section y = {deep['y_m'] * 1e6:.0f} µm under the feature."
     figure = field_map("section", caption, x, even, section, INDEX, "Fi", FROM_CENTRE, "below the surface (µm)", [worst],
                        true=False, height=440)

@@ -34,6 +34,12 @@ def apart(value, error, unit):
     return f"{value:.{digits}f}", f"{error:.{digits}f}", scale
 
 
+def roughly(value):
+    """Two digits of a number (of 1) whose error is not known, more only where they would hide on which side of 1 it lies."""
+    text = f"{value:.2g}"
+    return text if float(text) != 1 else f"{value:.4g}"
+
+
 def share(part, whole):
     """'1.2 %' of a whole, '' where there is none."""
     return f"{abs(part / whole) * 100:.2g} %" if whole else ""

@@ -1,0 +1,24 @@
+"""How figures tell an index of fatigue and a stress: with as many digits as are known, and without an exponent."""
+
+import math
+
+
+def told_index(Fi, error=None):
+    """'1.008': with two digits of the error, where that is known, else with two decimals."""
+    known = error is not None and math.isfinite(error) and error > 0
+    return f"{Fi:.{min(max(1 - math.floor(math.log10(error)), 0), 4) if known else 2}f}"
+
+
+def error_of(found):
+    """Error of the largest index in a summary of the surface or of what lies below, None where it is not known."""
+    return found.get("error", {}).get("Fi_max")
+
+
+def largest(found):
+    """The largest index of such a summary."""
+    return told_index(found["Fi_max"], error_of(found))
+
+
+def mpa(stress):
+    """Three digits of a stress (Pa) in MPa, and 1250, not 1.25e+03."""
+    return f"{float(f'{stress / 1e6:.3g}'):g}"
