@@ -53,8 +53,8 @@ def smooth(step, scene):
     return made
 
 
-def run(path, scene=THERMAL, entries=5, search=None):
-    """A finished store; search: the summary of its fatigue, or None."""
+def run(path, scene=THERMAL, entries=5, search=None, found=None):
+    """A finished store; search: the summary of its fatigue, or None; found: its maps (default: :func:`maps`)."""
     from tehl_taichi.io.store import Store
     from tehl_taichi.io.summary import summarise
 
@@ -63,7 +63,7 @@ def run(path, scene=THERMAL, entries=5, search=None):
         for step in range(1, entries):
             made.append(smooth(step, scene), shot(step, scene).state)
         summary = summarise(made, EXTRA, search)
-        made.finish({**summary, "warnings": ["something is doubtful"]}, maps() if search else None)
+        made.finish({**summary, "warnings": ["something is doubtful"]}, (found or maps()) if search else None)
     return path
 
 

@@ -213,6 +213,43 @@ def test_an_index_has_the_digits_that_its_error_leaves_and_stresses_have_no_expo
     assert {"worst, Fi = 1.50 at 60 µm", "surface, Fi = 1.0000"} <= set(legend(depth))
 
 
+def test_the_lines_on_maps_of_the_index_are_explained():
+    from matplotlib.colors import to_hex
+
+    def lines(Fi):
+        found = searched()
+        found.maps["Fi"] = Fi * found.maps["Fi"]
+        del found.maps["findley_stress_at_depth"]
+        figure = fatigue_figures.all_figures(Page(dpi=40), found)["fatigue"]()
+        return figure, [one for one in figure.axes[0].collections if isinstance(one, matplotlib.contour.ContourSet)]
+
+    below, none = lines(0.9)
+    said = "findley, κ = 0.3, σ_eF = 400 MPa; blue line: trace of the critical plane (at 0° it lies in the surface)"
+    assert not none and " ".join(below.get_suptitle().split()) == f"made up: {said}"
+    above, (limit,) = lines(3.0)
+    assert " ".join(above.get_suptitle().split()) == f"made up: {said}, white line: Fi = 1"
+    radius = np.hypot(*(limit.get_paths()[0].vertices - [20.0, 0.0]).T)  # hill: 3 exp(-r^2 / 1e-9)
+    assert radius == pytest.approx(1e6 * np.sqrt(1e-9 * np.log(3.0)), rel=0.08)
+    assert to_hex(limit.get_edgecolor()[0]) == palette.LIMIT
+
+
+@pytest.mark.parametrize("width", [8.5, 17.0])
+def test_both_panels_of_the_depth_have_numbers_at_their_axis(width):
+    found = searched()
+    found.maps["findley_stress_under_row"] = found.maps["findley_stress_at_depth"][:, :, 5]
+    page = Page(width=width)
+    with page.style():
+        figure = page.fitted(fatigue_figures.all_figures(page, found)["fatigue_depth"]())
+        figure.get_layout_engine().execute(figure)
+    for ax in figure.axes[:2]:
+        assert ax.get_ylabel() == "below the surface (µm)" and ax.get_ylim() == (60.0, 0.0)
+        assert any(label.get_text() and label.get_visible() for label in ax.get_yticklabels())
+    over, bar = figure.axes[1], figure.axes[0].collections[0].colorbar.ax
+    label = (bar.xaxis if width > 12 else bar.yaxis).label  # away from the other panel's axis
+    assert label.get_text() == "Fi at y = 0 µm" and not label.get_window_extent().overlaps(over.get_tightbbox())
+    assert "Fi = 1" in legend(figure)
+
+
 def test_a_worst_point_at_the_rim_leaves_no_white_around_the_map():
     maps = [ax for ax in fatigue_figures.all_figures(Page(), searched(y_worst=1e-4))["fatigue"]().axes if ax.get_title()]
     assert {ax.get_ylim() for ax in maps} == {(-100.0, 100.0)} == {ax.get_xlim() for ax in maps}

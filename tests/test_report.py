@@ -158,6 +158,22 @@ def test_the_slider_has_every_moment_and_the_worst_first(thermal, pages):
     assert [traces[n]["name"] for n in slides["traces"]] == ["this moment", "this moment", "mid-film", "surface a", "surface b"]
 
 
+def test_maps_of_the_index_have_a_line_where_it_is_one(pages, tmp_path):
+    seen = pages["thermal"]
+    levels = {name: [trace for trace in figure["data"] if trace["type"] == "contour"] for name, figure in seen.figures.items()}
+    assert [name for name, found in levels.items() if found] == []  # made up: its largest is 1
+    maps = made_results.maps()
+    maps["Fi"] = (1.3 * maps["Fi"][0], *maps["Fi"][1:])
+    made = made_results.run(tmp_path / "a.zarr", search=made_results.fatigue(1.3), found=maps)
+    seen = page(made, tmp_path)
+    rim, white = [trace for trace in seen.figures["index-surface"]["data"] if trace["type"] == "contour"]
+    assert white["contours"]["start"] == white["contours"]["end"] == 1 and white["line"]["width"] < rim["line"]["width"]
+    drawn = numbers(white).reshape([int(count) for count in white["z"]["shape"].split(", ")])
+    around = made_results.maps()["Fi"][0][2:7, :3].T[[2, 1, 0, 1, 2]]  # what is above 1, and one more on each side
+    assert drawn == pytest.approx(1.3 * around, rel=1e-6)
+    assert "blue line: trace of the critical plane (at 0° it lies in the surface), white line: Fi = 1." in seen.text
+
+
 def test_long_passages_are_thinned_but_keep_their_extremes(tmp_path, monkeypatch):
     from tehl_taichi.report import passage_plots
 

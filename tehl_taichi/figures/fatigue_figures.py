@@ -11,6 +11,7 @@ from tehl_taichi.fatigue.worst_point import on_circle
 from tehl_taichi.figures import palette
 from tehl_taichi.figures.field_maps import bar, shade, whole
 from tehl_taichi.figures.index_words import error_of, largest, mpa, told_index
+from tehl_taichi.figures.limit_line import crossed, explained, handle, limit_line
 from tehl_taichi.values.checks import number
 from tehl_taichi.values.plain import plain
 
@@ -55,6 +56,15 @@ class Layer:
     angle: float | None = None
     normal: Any = None
     error: float | None = None
+
+    @property
+    def flat(self):
+        """Part of the critical plane's normal in the layer: without any the plane has no trace in it."""
+        return 0.0 if self.normal is None else float(np.hypot(self.normal[0], self.normal[1]))
+
+    @property
+    def traced(self):
+        return self.flat > 1e-6
 
     @property
     def said(self):
@@ -121,7 +131,8 @@ def index_figure(page, found, layers):
         ax.set_xlabel(FROM_CENTRE if columns == 1 else FROM_CENTRE.partition(",")[0])
     for ax in axes[:, 0]:
         ax.set_ylabel("y (µm)")
-    page.title(figure, found.constants)
+    lines = explained(any(layer.traced for layer in layers), any(crossed(layer.Fi) for layer in layers))
+    page.title(figure, found.constants + lines)
     return figure
 
 
@@ -144,10 +155,10 @@ def index_map(figure, ax, maps, layer, beside):
     image = shade(ax, x * 1e6, y, Fi, cmap=palette.INDEX)
     bar(figure, image, ax, f"Fi, {layer.where}", beside)
     at = np.array(layer.at) * 1e6
+    limit_line(ax, x * 1e6, y, Fi)
     _mark(ax, *at)
-    flat = 0.0 if layer.normal is None else np.hypot(layer.normal[0], layer.normal[1])
-    if flat > 1e-6:
-        trace = np.array([-layer.normal[1], layer.normal[0]]) / flat * 0.12 * np.ptp(x) * 1e6
+    if layer.traced:
+        trace = np.array([-layer.normal[1], layer.normal[0]]) / layer.flat * 0.12 * np.ptp(x) * 1e6
         ax.plot(*np.stack([at - trace, at + trace]).T, "-", color=palette.MARK)
     ax.set(aspect="equal", title=layer.said, xlim=(x[0] * 1e6, x[-1] * 1e6), ylim=(y[0], y[-1]))
 
@@ -161,23 +172,28 @@ def _mark(ax, x, y):
 
 def depth_figure(page, found):
     """Index in the section under the row of the worst point below the surface, and its largest value over depth."""
-    maps, deep = found.maps, found.summary["below"]
-    depth, Fi = maps["fatigue_depth"] * 1e6, maps["findley_stress_under_row"] / found.summary["sigma_eF_Pa"]
-    sizes = dict(height_ratios=(1, 1)) if page.narrow else dict(width_ratios=(3, 2), sharey=True)
-    panels, height = ((2, 1), 3.0 * page.row()) if page.narrow else ((1, 2), 2.0 * page.row(2))
+    depth, Fi = found.maps["fatigue_depth"] * 1e6, found.maps["findley_stress_under_row"] / found.summary["sigma_eF_Pa"]
+    sizes = dict(height_ratios=(1, 1)) if page.narrow else dict(width_ratios=(3, 2))
+    panels, height = ((2, 1), 3.2 * page.row()) if page.narrow else ((1, 2), 2.3 * page.row(2))
     figure, axes = page.figure(*panels, height=height, **sizes)
     section, over = axes.ravel()
-    even = np.linspace(0, depth[-1], EVEN)
-    image = shade(section, maps["feature_frame_x"] * 1e6, even, np.stack([np.interp(even, depth, c) for c in Fi.T]),
-                  cmap=palette.INDEX)
-    bar(figure, image, section, f"Fi at y = {deep['y_m'] * 1e6:.0f} µm")
-    _mark(section, deep["x_m"] * 1e6, deep["depth_m"] * 1e6)
-    section.set(xlabel=FROM_CENTRE, ylabel="below the surface (µm)", ylim=(depth[-1], 0))
+    _section(page, figure, section, found, Fi, depth)
     _over_depth(over, found, Fi, depth)
-    over.set(xlabel="largest Fi", ylim=(depth[-1], 0), ylabel="below the surface (µm)" if page.narrow else "")
-    page.legend(figure, over.get_legend_handles_labels()[0])
+    for ax in (section, over):  # each with its own numbers
+        ax.set(ylabel="below the surface (µm)", ylim=(depth[-1], 0))
+    page.legend(figure, over.get_legend_handles_labels()[0] + ([handle()] if crossed(Fi) else []))
     page.title(figure, found.constants)
     return figure
+
+
+def _section(page, figure, ax, found, Fi, depth):
+    """Index (depth, x) on even depths, with its worst point."""
+    x, deep, even = found.maps["feature_frame_x"] * 1e6, found.summary["below"], np.linspace(0, depth[-1], EVEN)
+    shown = np.stack([np.interp(even, depth, column) for column in Fi.T])
+    bar(figure, shade(ax, x, even, shown, cmap=palette.INDEX), ax, f"Fi at y = {deep['y_m'] * 1e6:.0f} µm", not page.narrow)
+    limit_line(ax, x, even, shown)
+    _mark(ax, deep["x_m"] * 1e6, deep["depth_m"] * 1e6)
+    ax.set_xlabel(FROM_CENTRE if page.narrow else FROM_CENTRE.partition(",")[0])
 
 
 def _over_depth(ax, found, Fi, depth):
@@ -190,6 +206,7 @@ def _over_depth(ax, found, Fi, depth):
                 label="contact without its feature")
     ax.plot(found.summary["Fi_max"], 0.0, "o", color=palette.VERMILLION, clip_on=False,
             label=f"surface, Fi = {largest(found.summary)}")
+    ax.set_xlabel("largest Fi")
     ax.grid()
 
 

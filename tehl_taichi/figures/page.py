@@ -20,6 +20,7 @@ INCH = 2.54
 DOTS = 16000            # across: more take minutes and gigabytes
 SIZES = ((5.0, 8.5, 17.0, 60.0), (6.0, 7.0, 9.0, 32.0))  # widths, cm: text, points; wider than a page all grows alike
 LETTER = 0.5            # of the text's size: mean width of a letter
+WIDEST = 0.55           # the same, of a line of a title with many wide ones
 UNDATED = {"png": {}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}  # the same figure is the same file
 
 
@@ -73,7 +74,7 @@ class Page:
 
     def title(self, figure, text):
         """A title that is not wider than the page."""
-        figure.suptitle(textwrap.fill(text, int(self.inches * 72 / (1.1 * LETTER * self.text))))
+        figure.suptitle(textwrap.fill(text, int(self.inches * 72 / (1.1 * WIDEST * self.text))))
 
     def legend(self, figure, handles=None, **options):
         """Of lines (default: of the first panel), below the panels, where it covers nothing, as wide as there is room for."""

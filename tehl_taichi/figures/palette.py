@@ -12,6 +12,7 @@ GREY = "#707070"   # what others are compared with: a steady start, a contact wi
 RULE = "#c8c8c8"   # lines that only guide the eye
 SHADE = "#ededed"  # a part of the page that is marked off, or has no value
 MARK = SKY         # a place on a dark map
+LIMIT, RIM = "#ffffff", "#000000"  # a line on a map, and its rim: one of them is seen wherever it runs
 BARS = {"capsize": 2, "elinewidth": 0.8}  # of errors
 
 PRESSURE = TEMPERATURE = INDEX = "inferno"

@@ -6,9 +6,10 @@ from tehl_taichi.fatigue.findley import largest_principal, shear_path
 from tehl_taichi.fatigue.worst_point import on_circle
 from tehl_taichi.figures.field_maps import whole
 from tehl_taichi.figures.index_words import largest
+from tehl_taichi.figures.limit_line import crossed, explained
 from tehl_taichi.figures.palette import GREY, INDEX, MARK
 from tehl_taichi.report.passage_plots import POSITION
-from tehl_taichi.report.plots import colour, field_map, line, marks, stacked
+from tehl_taichi.report.plots import colour, field_map, level, line, marks, stacked
 from tehl_taichi.report.rounded import told
 from tehl_taichi.scene.scales import Scales
 
@@ -37,17 +38,36 @@ def _depth(found):
 
 
 def _map(store, which, where, Fi, found):
-    """One layer; its worst point and the trace of the critical plane in it."""
+    """One layer with the line of the fatigue limit, its worst point, and the trace of the critical plane in it."""
     x, (y, full) = store.map("feature_frame_x") * 1e6, whole(store.map("feature_frame_y") * 1e6, Fi)
-    at = np.array([found["x_m"], found["y_m"]]) * 1e6
-    marked = [marks([at[0]], [at[1]], f"worst point, Fi = {largest(found)}", MARK)]
+    at, trace = np.array([found["x_m"], found["y_m"]]) * 1e6, _trace(store, which, found, 0.12 * np.ptp(x))
+    marked = [*_limit(x, y, full), marks([at[0]], [at[1]], f"worst point, Fi = {largest(found)}", MARK), *trace]
+    caption = f"Index Fi {where}, over the whole passage{explained(bool(trace), crossed(full))}."
+    return field_map(f"index-{which}", caption, x, y, full, INDEX, "Fi", FROM_CENTRE, "y (µm)", marked, height=440)
+
+
+def _trace(store, which, found, length):
+    """[line] where the critical plane of the worst point cuts the layer, `length` µm to both sides; [] where it does not."""
     normal = store.map(f"{POINTS[which][0]}_normal")
-    if normal is not None and (flat := np.hypot(*normal[:2])) > 1e-6:
-        trace = np.array([-normal[1], normal[0]]) / flat * 0.12 * np.ptp(x)
-        ends = np.stack([at - trace, at + trace])
-        marked.append(line(ends[:, 0], ends[:, 1], f"critical plane, {found['surface_angle_deg']:.0f}° to the surface", MARK))
-    return field_map(f"index-{which}", f"Index Fi {where}, over the whole passage.", x, y, full, INDEX, "Fi", FROM_CENTRE,
-                     "y (µm)", marked, height=440)
+    if normal is None or (flat := np.hypot(*normal[:2])) <= 1e-6:
+        return []
+    at, along = np.array([found["x_m"], found["y_m"]]) * 1e6, np.array([-normal[1], normal[0]]) / flat * length
+    ends = np.stack([at - along, at + along])
+    return [line(ends[:, 0], ends[:, 1], f"critical plane, {found['surface_angle_deg']:.0f}° to the surface", MARK)]
+
+
+def _limit(x, y, Fi):
+    """The line Fi = 1, where the map crosses it; of what is above it no more than the line needs, which keeps pages small."""
+    if not crossed(Fi):
+        return []
+    i, j = (_around(np.any(Fi > 1, axis=axis)) for axis in (1, 0))
+    return level(x[i], y[j], Fi[i, j], 1.0)
+
+
+def _around(found):
+    """Slice of those that are True and one more at each end."""
+    at = np.flatnonzero(found)
+    return slice(max(at[0] - 1, 0), at[-1] + 2)
 
 
 def _over_x(store, f, Fi):
@@ -67,9 +87,9 @@ def depth(store):
     even = np.linspace(0, z[-1], EVEN)
     section = np.stack([np.interp(even, z, column) for column in Fi.T])
     worst = marks([deep["x_m"] * 1e6], [deep["depth_m"] * 1e6], f"worst point, Fi = {largest(deep)}", MARK)
-    caption = f"Index Fi in the section y = {deep['y_m'] * 1e6:.0f} µm under the feature."
-    figure = field_map("section", caption, x, even, section, INDEX, "Fi", FROM_CENTRE, "below the surface (µm)", [worst],
-                       true=False, height=440)
+    caption = f"Index Fi in the section y = {deep['y_m'] * 1e6:.0f} µm under the feature{explained(False, crossed(section))}."
+    figure = field_map("section", caption, x, even, section, INDEX, "Fi", FROM_CENTRE, "below the surface (µm)",
+                       [*_limit(x, even, section), worst], true=False, height=440)
     figure.layout["yaxis"]["autorange"] = "reversed"
     return [figure, _over_depth(store, f, deep, z, Fi)]
 

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from tehl_taichi.figures.palette import BLACK, LINES
+from tehl_taichi.figures.palette import BLACK, LIMIT, LINES, RIM
 
 PANEL, AROUND = 165, 110  # px: height of a panel of lines; of legend, title and axis around them
 
@@ -84,6 +84,14 @@ def field_map(name, caption, x, y, values, scale, unit, x_title, y_title, marked
     if true:
         layout["yaxis"]["scaleanchor"] = "x"
     return Figure(name, caption, [heat, *marked], layout, height)
+
+
+def level(x, y, values, at):
+    """The line values (x, y) = at on a map: white with a black rim, seen on every colour. Not in the legend: the page is
+    white, too."""
+    common = {"type": "contour", "x": x, "y": y, "z": values.T, "showscale": False, "showlegend": False, "hoverinfo": "skip",
+              "contours": {"start": at, "end": at, "size": 1, "coloring": "none"}}
+    return [{**common, "line": {"color": hue, "width": width}} for hue, width in ((RIM, 4.0), (LIMIT, 1.6))]
 
 
 def colour(n):
