@@ -39,9 +39,10 @@ def maps(columns=9, rows=5, moments=12):
 
 
 def smooth(step, scene):
-    """A snapshot whose fields vary along x and y."""
+    """A snapshot whose fields vary along x and y, largest at the corners."""
     made, s = shot(step, scene), Scales.of(scene)
-    made.x, made.y = (np.linspace(*ends, count) * s.a for ends, count in (((-2.5, 1.5), made.x.size), ((0, 1), made.y.size)))
+    sides = (-2.5, 1.5), (0 if scene.symmetric else -1, 1)
+    made.x, made.y = (np.linspace(*ends, count) * s.a for ends, count in zip(sides, (made.x.size, made.y.size)))
     X, Y = np.meshgrid(made.x / s.a, made.y / s.a, indexing="ij")
     at = -1.5 + 0.5 * step
     for name in made.fields:

@@ -6,7 +6,7 @@ import stat
 import numpy as np
 import pytest
 from small_stores import store
-from test_figures import made
+from test_figures import Made, made
 
 import tehl_taichi as tehl
 from tehl_taichi.errors import SceneError, StoreError
@@ -40,6 +40,17 @@ def test_a_frame_shows_its_entry_on_axes_with_room_for_all():
     largest = film.store.fields(3, ["pressure"])["pressure"].max() / 1e9  # of the last entry
     assert image.get_clim() == pytest.approx((2.0, largest))
     assert film.axes["pressure"].get_ylim() == pytest.approx((0.0, 1.05 * largest))
+
+
+def test_frames_of_a_whole_domain_say_which_row_their_lines_show():
+    from tehl_taichi.figures.frames import Frames
+
+    store = Made(made("gear").scene, whole=True)
+    with PAGE.style():
+        film = Frames(PAGE, Moments(store), [0, 2], "film")
+    film.picture(2)
+    np.testing.assert_allclose(film.lines[0][0].get_ydata(), store.fields(2, ["pressure"])["pressure"][:, 3] / 1e9)
+    assert film.axes["temperature"].get_xlabel().endswith(" µm, through the largest pressure")
 
 
 @pytest.mark.slow

@@ -17,13 +17,14 @@ matplotlib = pytest.importorskip("matplotlib")
 
 
 class Made:
-    """A store of made-up smooth fields, thermal: a steady start, and the feature at three places if the scene has one."""
+    """A store of made-up smooth fields, thermal: a steady start, and the feature at three places if the scene has one; on the
+    whole domain the pressure is largest at y = -a/2, where the feature is at 0."""
 
-    def __init__(self, description):
-        a = Scales.of(description).a
+    def __init__(self, description, whole=False):
+        a = self.a = Scales.of(description).a
         self.scene, self.stored, self.path = description, {}, "made.zarr"
         self.x = np.linspace(description.grid.x_min, description.grid.x_max, 33) * a
-        self.y = np.linspace(0, description.grid.y_max, 13) * a if description.rows else np.zeros(1)
+        self.y = np.linspace(-whole, 1, 13) * description.grid.y_max * a if description.rows else np.zeros(1)
         self.at = np.array([-1.6, -0.8, 0.0, 0.8] if description.transient else [np.nan]) * a
         self.steps = len(self.at)
 
@@ -31,12 +32,17 @@ class Made:
         return self.steps
 
     def scalar(self, name):
+        if name == "p_max_Pa":
+            return np.array([self.fields(n, ["pressure"])["pressure"].max() for n in range(self.steps)])
         return self.at if name == "feature_x" else np.full(self.steps, 0.4e-6)
 
     def fields(self, n, names):
         X, Y = np.meshgrid(self.x / self.x[-1], self.y / (self.y[-1] or 1), indexing="ij")
         size = {"pressure": 1e9, "film": 0.2e-6}
-        return {name: (n + 2 + X**2 + Y**2) * size.get(name, 40.0 + len(name)) for name in names}
+        values = n + 2 + X**2 + Y**2
+        if self.y[0] < 0:
+            values = values + 9 * (n == 2) * np.exp(-100 * (self.x[:, None] ** 2 + (self.y + self.a / 2) ** 2) / self.a**2)
+        return {name: values * size.get(name, 40.0 + len(name)) for name in names}
 
     def map(self, name):
         return None
@@ -121,14 +127,29 @@ def test_text_can_be_read_and_stays_on_the_page(built_in, width):
 
 def test_a_steady_run_is_no_start_and_figures_name_scene_and_moment():
     for name, what in (("maps", "pressure and film"), ("temperature_maps", "temperatures")):
-        assert drawn(name, made("ball-on-disc")).get_suptitle() == f"ball-on-disc: {what}, steady"
-        assert drawn(name, made()).get_suptitle() == f"gear: {what}, feature at +0.00 a"
-        assert drawn(name, made(), at=0.7).get_suptitle() == f"gear: {what}, feature at +0.80 a"
+        wide, (*_, middle, last) = Page(width=30), made().scalar("p_max_Pa") / 1e9  # in one line
+        assert drawn(name, made("ball-on-disc")).get_suptitle() == f"ball-on-disc: {what}, steady, p_max 5.78 GPa"
+        said = f"feature at +0.00 a, p_max {middle:.2f} GPa ({last:.2f} at +0.80 a)"
+        assert drawn(name, made(), wide).get_suptitle() == f"gear: {what}, {said}"
+        assert drawn(name, made(), wide, at=0.7).get_suptitle() == f"gear: {what}, feature at +0.80 a, p_max {last:.2f} GPa"
     assert drawn("centreline", made("ball-on-disc")).get_suptitle() == "ball-on-disc: along y = 0, steady"
     assert drawn("centreline", made("smooth-line")).get_suptitle() == "smooth-line: along x, steady"
     begun = made()
     begun.steps = 1
     assert "steady start" not in drawn("maps", begun).get_suptitle()
+
+
+def test_lines_on_the_whole_domain_go_through_the_largest_pressure():
+    store = Made(made().scene, whole=True)
+    n, row = 2, 3  # the feature at 0, y = -a/2
+    assert store.y[row] == pytest.approx(-store.a / 2) and Moments(store).worst == n and Moments(store).row == 6
+    figure, said = drawn("centreline", store), f"along y = {-store.a / 2 * 1e6:.0f} µm, through the largest pressure"
+    shown = figure.axes[0].lines[2].get_ydata()
+    assert " ".join(figure.get_suptitle().split()) == f"gear: {said}"
+    assert shown == pytest.approx(store.fields(n, ["pressure"])["pressure"][:, row] / 1e9) and shown.max() > 13
+    assert said in " ".join(drawn("temperature", store).get_suptitle().split())
+    store.steps = 1  # smooth surfaces: the middle
+    assert Moments(store).line == 6 and Moments(store).along == "along y = 0"
 
 
 def test_one_moment_is_shown_where_it_is_wanted():

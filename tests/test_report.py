@@ -174,6 +174,17 @@ def test_maps_of_the_index_have_a_line_where_it_is_one(pages, tmp_path):
     assert "blue line: trace of the critical plane (at 0° it lies in the surface), white line: Fi = 1." in seen.text
 
 
+def test_lines_and_maps_say_where_and_when(pages, tmp_path):
+    half, whole = pages["thermal"].text, made_results.run(tmp_path / "a.zarr", SMALL.replace(**{"feature.y": 2e-5}))
+    assert "Along y = 0. Grey: the steady start" in half
+    seen, reader = page(whole, tmp_path), tehl.open(whole).store
+    assert "Along y = -362 µm, through the largest pressure." in seen.text
+    p = reader.fields(4, ["pressure"])["pressure"] / 1e9
+    assert f"Pressure: the largest pressure of the passage, feature at +0.50 a, p_max {p.max():.2f} GPa." in seen.text
+    table = np.frombuffer(base64.b64decode(seen.figures["centreline"]["slides"]["lines"][0]["bdata"]), "<f4")
+    assert table.max() == pytest.approx(p[np.abs(reader.x / 3.6217e-4) < 1.61, 0].max(), rel=1e-6)
+
+
 def test_long_passages_are_thinned_but_keep_their_extremes(tmp_path, monkeypatch):
     from tehl_taichi.report import passage_plots
 

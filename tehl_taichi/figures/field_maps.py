@@ -3,7 +3,7 @@
 import numpy as np
 
 from tehl_taichi.figures import palette
-from tehl_taichi.figures.line_figures import ALONG, SURFACES, headed
+from tehl_taichi.figures.line_figures import ALONG, SURFACES
 
 LEAST, LEAST_TALL = 5.0, 3.4  # cm that a map needs to stand beside another
 TALL = 0.9                    # height over width, beyond it the second
@@ -65,7 +65,7 @@ def maps(page, moments):
     bar(figure, pressure, first, "GPa", beside)
     film = draw_map(second, moments, f["film"] * 1e6, "film", cmap=palette.FILM, vmax=moments.film_top([n]) * 1e6)
     bar(figure, film, second, "µm", beside)
-    headed(page, figure, moments, "pressure and film", [n])
+    page.title(figure, f"{moments.store.scene.name}: pressure and film, {moments.peak(n)}")
     return figure
 
 
@@ -78,5 +78,5 @@ def temperature_maps(page, moments):
     for ax, (name, text, _) in zip(axes, SURFACES):
         image = draw_map(ax, moments, f[name], text, cmap=palette.TEMPERATURE, vmin=low, vmax=top)
     bar(figure, image, list(axes), "temperature (°C)", beside)
-    headed(page, figure, moments, "temperatures", [n])
+    page.title(figure, f"{moments.store.scene.name}: temperatures, {moments.peak(n)}")
     return figure

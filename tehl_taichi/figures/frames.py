@@ -71,7 +71,7 @@ class Frames:
         if len(fields) > 1:
             ax.legend(loc="upper left", fontsize="small")
         if name == list(self.panels)[-1]:
-            ax.set_xlabel(ALONG)
+            ax.set_xlabel(ALONG if self.moments.half else f"{ALONG}, {self.moments.along}")
         return lines
 
     def _map(self):
@@ -109,7 +109,7 @@ class Frames:
         for place in self.places:
             self._draw(place, xdata=[self.store.scalar("feature_x")[n] / self.moments.a] * 2)
         for line, field, factor in self.lines:
-            self._draw(line, data=(self.moments.x, f[field][:, self.moments.row] * factor))
+            self._draw(line, data=(self.moments.x, f[field][:, self.moments.line] * factor))
         if self.map:
             image, field, factor = self.map
             self._draw(image, data=whole(self.store.y, f[field] * factor)[1].T)

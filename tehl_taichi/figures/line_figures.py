@@ -1,4 +1,4 @@
-"""Lines along y = 0: pressure and film, temperatures, and temperatures across the film."""
+"""Lines along x in the row :attr:`Moments.line`: pressure and film, temperatures, and temperatures across the film."""
 
 import numpy as np
 
@@ -9,11 +9,6 @@ SURFACES = (("temperature_mid", "mid-film", "-"), ("temperature_a", "surface a",
 ACROSS = (-1.0, -0.5, 0.0, 0.5, 1.0)  # x / a at which profiles are drawn
 
 
-def where(store):
-    """What lines along x show, in words."""
-    return "along y = 0" if store.y.size > 1 else "along x"
-
-
 def headed(page, figure, moments, what, shown):
     """Title with scene and, where there is one, the moment."""
     alone = f", {moments.says(shown[0])}" if len(shown) == 1 else ""
@@ -22,7 +17,7 @@ def headed(page, figure, moments, what, shown):
 
 def centreline(page, moments):
     """Pressure and film for several feature positions."""
-    store, row, shown = moments.store, moments.row, moments.several()
+    store, row, shown = moments.store, moments.line, moments.several()
     figure, ((top,), (low,)) = page.figure(2, sharex=True)
     for n, colour in shown.items():
         f = store.fields(n, ("pressure", "film"))
@@ -35,7 +30,7 @@ def centreline(page, moments):
         ax.grid()
     if len(shown) > 1:
         page.legend(figure)
-    headed(page, figure, moments, where(store), list(shown))
+    headed(page, figure, moments, moments.along, list(shown))
     return figure
 
 
@@ -43,7 +38,7 @@ def temperature(page, moments):
     """Mid-film and both surfaces for several feature positions: a colour each, a kind of line each."""
     from matplotlib.lines import Line2D
 
-    store, row, shown = moments.store, moments.row, moments.several()
+    store, row, shown = moments.store, moments.line, moments.several()
     figure, ((ax,),) = page.figure(height=1.6 * page.row())
     for n, colour in shown.items():
         f = store.fields(n, [name for name, *_ in SURFACES])
@@ -54,19 +49,19 @@ def temperature(page, moments):
     when = [Line2D([], [], color=colour, label=moments.says(n)) for n, colour in shown.items()]
     kinds = [Line2D([], [], color=palette.BLACK, ls=style, label=text) for _, text, style in SURFACES]
     page.legend(figure, (when if len(shown) > 1 else []) + kinds)
-    headed(page, figure, moments, f"temperatures {where(store)}", list(shown))
+    headed(page, figure, moments, f"temperatures {moments.along}", list(shown))
     return figure
 
 
 def profiles(page, moments):
     """Temperature across the film at several x."""
     store, n = moments.store, moments.one()
-    T = store.fields(n, ["temperature"])["temperature"][:, moments.row]
+    T = store.fields(n, ["temperature"])["temperature"][:, moments.line]
     figure, ((ax,),) = page.figure(height=1.6 * page.row())
     for X in ACROSS:
         ax.plot(T[int(np.argmin(np.abs(moments.x - X)))], store.map("zeta"), "o-", label=f"x = {X:+.1f} a")
     ax.set(xlabel="temperature (°C)", ylabel="z / h (0: surface a, 1: surface b)")
     ax.grid()
     page.legend(figure)
-    headed(page, figure, moments, "across the film", [n])
+    headed(page, figure, moments, "across the film" + ("" if moments.half else f" {moments.along}"), [n])
     return figure

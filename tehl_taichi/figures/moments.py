@@ -53,8 +53,37 @@ class Moments:
 
     @property
     def row(self):
-        """Row of y = 0."""
+        """Row of y = 0, in which runs are compared."""
         return int(np.argmin(np.abs(self.store.y)))
+
+    @property
+    def worst(self):
+        """Entry with the largest pressure: of the passage, where there is one."""
+        p = self.store.scalar("p_max_Pa")
+        return int(np.argmax(p[1:])) + 1 if len(p) > 1 else 0
+
+    @property
+    def half(self):
+        """Whether y = 0 says it all: in one dimension, on a half domain, and in a steady contact of smooth surfaces."""
+        return self.store.y[0] >= 0 or self.store.steps < 2
+
+    @cached_property
+    def line(self):
+        """Row of the lines along x: y = 0, but of a passage on the whole domain that of its largest pressure, which may lie
+        anywhere: along y = 0 a measured surface would often show its second-best peaks only."""
+        if self.half:
+            return self.row
+        return int(np.argmax(self.store.fields(self.worst, ["pressure"])["pressure"].max(axis=0)))
+
+    @property
+    def along(self):
+        """Where that is, in words."""
+        store = self.store
+        if store.y.size == 1:
+            return "along x"
+        if self.half:
+            return "along y = 0"
+        return f"along y = {round(float(store.y[self.line]) * 1e6)} µm, through the largest pressure"
 
     @property
     def window(self):
@@ -83,10 +112,19 @@ class Moments:
         """What entry n shows, in words."""
         if n == 0:
             return "steady start" if self.store.steps > 1 else "steady"
-        return f"feature at {self.moved[n - 1] + 0.0:+.2f} a".replace("-0.00", "+0.00")
+        return f"feature at {self._position(n)}"
+
+    def _position(self, n):
+        return f"{self.moved[n - 1]:+.2f} a".replace("-0.00", "+0.00")
+
+    def peak(self, n):
+        """What entry n shows, with its largest pressure and, where another moment has a larger one, that of the passage."""
+        p, worst = (float(self.store.fields(k, ["pressure"])["pressure"].max()) for k in (n, self.worst))
+        more = f" ({worst / 1e9:.2f} at {self._position(self.worst)})" if worst > p else ""
+        return f"{self.says(n)}, p_max {p / 1e9:.2f} GPa{more}"
 
     def film_top(self, entries):
         """Upper end (m) of the film's axis: well above the film of the contact, and above what a feature leaves inside."""
         inside = np.abs(self.x) < INSIDE
-        deepest = max(float(self.store.fields(n, ["film"])["film"][inside, self.row].max()) for n in entries)
+        deepest = max(float(self.store.fields(n, ["film"])["film"][inside, self.line].max()) for n in entries)
         return max(ROOM * float(self.store.scalar("h_c_m")[0]), 1.1 * deepest)

@@ -4,7 +4,7 @@ from tehl_taichi.figures.field_maps import whole
 from tehl_taichi.figures.line_figures import ALONG, SURFACES
 from tehl_taichi.figures.moments import Moments
 from tehl_taichi.figures.palette import FILM, PRESSURE, TEMPERATURE
-from tehl_taichi.report.passage_plots import columns, film_top, thinned, worst_entry
+from tehl_taichi.report.passage_plots import columns, film_top, thinned
 from tehl_taichi.report.plots import field_map
 from tehl_taichi.scene.scales import Scales
 
@@ -15,15 +15,22 @@ def maps(store):
     """Pressure, film and temperatures over x, y; none where nothing varies across."""
     if store.y.size == 1:
         return []
-    n, a, where = worst_entry(store), Scales.of(store.scene).a, columns(store)
+    moments, a, where = Moments(store), Scales.of(store.scene).a, columns(store)
+    n, when = moments.worst, _when(moments)
     rows = thinned(store.y.size, ROWS if store.y[0] >= 0 else 2 * ROWS)
     styles, out = _styles(store), []
     for name, values in store.fields(n, list(styles)).items():
         text, scale, unit, factor, keys = styles[name]
         y, full = whole(store.y[rows] / a, values[where][:, rows] * factor)
-        out.append(field_map(f"map-{name}", f"{text}: {Moments(store).says(n)}.", store.x[where] / a, y, full, scale, unit,
+        out.append(field_map(f"map-{name}", f"{text}: {when}.", store.x[where] / a, y, full, scale, unit,
                              ALONG, "y / a", **keys))
     return _alike(out)
+
+
+def _when(moments):
+    """The moment that is shown, in words."""
+    of = "the largest pressure of the passage, " if moments.store.steps > 1 else ""
+    return f"{of}{moments.peak(moments.worst)}"
 
 
 def _styles(store):

@@ -20,15 +20,9 @@ def thinned(count, most):
     return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))
 
 
-def worst_entry(store):
-    """Entry with the largest pressure: of the passage, where there is one."""
-    p = store.scalar("p_max_Pa")
-    return int(np.argmax(p[1:])) + 1 if len(p) > 1 else 0
-
-
 def moments(store):
     """Entries that the slider stops at: even ones, and those of the largest pressure and the smallest film."""
-    extremes = [worst_entry(store), int(np.argmin(store.scalar("h_min_m")))]
+    extremes = [Moments(store).worst, int(np.argmin(store.scalar("h_min_m")))]
     return np.union1d(thinned(store.steps, MOMENTS), extremes)
 
 
@@ -40,7 +34,7 @@ def columns(store):
 
 
 def centreline(store):
-    """Pressure, film and temperatures along y = 0; with several entries a slider moves through them."""
+    """Pressure, film and temperatures along x; with several entries a slider moves through them."""
     shown, where = moments(store), columns(store)
     lines = _lines(store, shown, where)
     X, panels = store.x[where] / Scales.of(store.scene).a, []
@@ -53,10 +47,10 @@ def centreline(store):
 
 
 def _lines(store, shown, where):
-    """{field: (moments, columns)} along y = 0, in the units that are shown."""
+    """{field: (moments, columns)} in the row of the lines, in the units that are shown."""
     names = [name for *_, group in FIELDS for name in group if name in store.stored]
     factors = {name: factor for _, factor, group in FIELDS for name in group}
-    row, out = Moments(store).row, {name: np.empty((len(shown), len(where)), "f4") for name in names}
+    row, out = Moments(store).line, {name: np.empty((len(shown), len(where)), "f4") for name in names}
     for k, n in enumerate(shown):
         for name, values in store.fields(int(n), names).items():
             out[name][k] = values[where, row] * factors[name]
@@ -84,7 +78,7 @@ def _range(store, lines, names):
 def film_top(store):
     """Largest film shown, m: as in the figures of `tehl plot`, at the worst moment too."""
     found = Moments(store)
-    return found.film_top({*found.several(), worst_entry(store)})
+    return found.film_top({*found.several(), found.worst})
 
 
 def _ends(X):
@@ -97,7 +91,7 @@ def _slides(store, shown, lines, panels):
     at = store.scalar("feature_x")[shown] / found.a
     return {"slides": {"lines": list(lines.values()), "traces": [n for n in range(len(traces)) if n % 2],
                        "at": [None if n == 0 else float(x) for n, x in zip(shown, at)],
-                       "first": int(np.searchsorted(shown, worst_entry(store))),
+                       "first": int(np.searchsorted(shown, found.worst)),
                        "labels": [_label(found, int(n)) for n in shown]}}
 
 
@@ -109,7 +103,8 @@ def _label(moments, n):
 
 
 def _caption(store, shown):
-    said = "Along the centreline y = 0." if store.y.size > 1 else "Along the contact."
+    along = Moments(store).along
+    said = f"{along[0].upper()}{along[1:]}."
     if len(shown) > 1:
         said += " Grey: the steady start; dotted: the centre of the feature."
     left = [f"{len(shown)} of {store.steps} stored moments"] * (len(shown) < store.steps)
