@@ -70,16 +70,16 @@ def searched(one_row=False, y_worst=0.0, **depth):
 
 def drawn(name, store, page=None, at=None):
     """One of the figures of a run."""
-    from tehl_taichi.figures import field_maps, line_figures
+    from tehl_taichi.figures import field_maps, line_figures, surface_figure
 
-    draw = getattr(field_maps, name, None) or getattr(line_figures, name)
+    draw = next(getattr(room, name) for room in (field_maps, line_figures, surface_figure) if hasattr(room, name))
     return draw(page or Page(), Moments(store, at))
 
 
 def all_drawn(page, built_in):
     """Every figure of a run and of a search."""
     flat = scene(built_in).rows == 0
-    names = ("centreline", "temperature") + (() if flat else ("maps", "temperature_maps"))
+    names = ("surface", "centreline", "temperature") + (() if flat else ("maps", "temperature_maps"))
     with page.style():
         for name in names:
             yield page.fitted(drawn(name, made(built_in), page))
@@ -199,7 +199,8 @@ def test_colour_blind_readers_tell_the_lines_apart_and_everybody_reads_the_maps_
     for seen in (None, *BLIND):
         apart = np.linalg.norm(lab(lines, seen)[:, None] - lab(lines, seen)[None], axis=2)
         assert apart[~np.eye(len(lines), dtype=bool)].min() > 10
-    for name in (palette.PRESSURE, palette.FILM, palette.TEMPERATURE, palette.INDEX, palette.RESULT, palette.TENSION):
+    for name in (palette.PRESSURE, palette.FILM, palette.TEMPERATURE, palette.INDEX, palette.RESULT, palette.TENSION,
+                 palette.HEIGHT):
         light = np.diff(lab(matplotlib.colormaps[name](np.linspace(0, 1, 64))[:, :3])[:, 0])
         assert (light > 0).all() or (light < 0).all(), name
 

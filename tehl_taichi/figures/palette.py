@@ -17,4 +17,5 @@ BARS = {"capsize": 2, "elinewidth": 0.8}  # of errors
 
 PRESSURE = TEMPERATURE = INDEX = "inferno"
 FILM = RESULT = "viridis"  # RESULT: of a study
+HEIGHT = "cividis"         # of a surface
 TENSION = "Oranges"        # light where there is none: lines are drawn on it

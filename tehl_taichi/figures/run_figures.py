@@ -3,7 +3,7 @@
 from functools import partial
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.figures import fatigue_figures, field_maps, line_figures
+from tehl_taichi.figures import fatigue_figures, field_maps, line_figures, surface_figure
 from tehl_taichi.figures.moments import Moments
 from tehl_taichi.figures.page import Page
 from tehl_taichi.scene.scales import Scales
@@ -27,7 +27,8 @@ def write_all(store, folder, page=None, at=None, depth=None):
 def _of_the_film(store):
     """{name: function} of what the store has."""
     wide, warm = store.y.size > 1, not store.scene.isothermal
-    has = {"centreline": (line_figures.centreline, True), "maps": (field_maps.maps, wide),
+    has = {"surface": (surface_figure.surface, store.scene.transient),
+           "centreline": (line_figures.centreline, True), "maps": (field_maps.maps, wide),
            "temperature": (line_figures.temperature, warm), "temperature_maps": (field_maps.temperature_maps, warm and wide),
            "profiles": (line_figures.profiles, "temperature" in store.stored)}
     return {name: draw for name, (draw, there) in has.items() if there}

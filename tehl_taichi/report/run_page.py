@@ -1,7 +1,16 @@
 """The page of one run, finished or not."""
 
 from tehl_taichi.io.reader import Reader
-from tehl_taichi.report import crack_plots, fatigue_plots, map_plots, passage_plots, run_tables, scene_words, verdict
+from tehl_taichi.report import (
+    crack_plots,
+    fatigue_plots,
+    map_plots,
+    passage_plots,
+    run_tables,
+    scene_words,
+    surface_plots,
+    verdict,
+)
 from tehl_taichi.report.document import Page, Part, Section, drawn, facts, sentences
 
 
@@ -9,8 +18,8 @@ def of(folder):
     """The :class:`tehl_taichi.report.document.Page` of the store in `folder`. Raises StoreError."""
     store = Reader.open(folder)
     about = f"{store.scene.name}: a run of tehl_taichi {store.attrs.get('version', '')}"
-    sections = (scene_section(store.scene, store.attrs.get("scene_toml", "")), *_film(store), *_fatigue(store),
-                *crack_plots.section(store), *_made(store))
+    sections = (scene_section(store.scene, store.attrs.get("scene_toml", "")), *surface_plots.section(store.scene),
+                *_film(store), *_fatigue(store), *crack_plots.section(store), *_made(store))
     return Page(f"{store.scene.name}: report", about, verdict.of(store), sections)
 
 

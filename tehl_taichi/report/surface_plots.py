@@ -1,0 +1,72 @@
+"""The surface that passes through the contact: its heights, and of a measured map what was read and what was made of it."""
+
+import math
+import os
+
+import numpy as np
+
+from tehl_taichi.figures.palette import HEIGHT
+from tehl_taichi.figures.passing_heights import heights
+from tehl_taichi.report.document import Section, drawn, facts
+from tehl_taichi.report.passage_plots import thinned
+from tehl_taichi.report.plots import colour, field_map, line, stacked
+from tehl_taichi.report.rounded import told
+from tehl_taichi.scene.height_map import LEVELS
+
+FROM_CENTRE = "x from the feature's centre (µm)"
+STEPS = 1000  # of heights, at least
+MOST = 400  # columns and rows kept: what a screen shows
+
+
+def section(scene):
+    """(:class:`Section`,), or () where nothing passes."""
+    if not scene.transient:
+        return ()
+    maps = [f for f in scene.features if f.kind.measured]
+    return (Section("The surface", (drawn(picture(scene)), *(facts(measured(f)) for f in maps))),)
+
+
+def picture(scene):
+    """Heights of all features together, over x, y or over x alone."""
+    found = heights(scene)
+    i, j = (thinned(at.size, MOST) for at in (found.x, found.y))
+    x, y, values = found.x[i] * 1e6, found.y[j] * 1e6, found.values[i][:, j] * 1e6
+    caption = "Heights of the features, all on surface a, that of body a."
+    if found.line:
+        drawn_line = line(x, values[:, 0], "height", colour(0), told=False)
+        return stacked("surface", caption, FROM_CENTRE, [("height (µm)", [drawn_line], {})], height=330)
+    caption += _kept(found, i, j)
+    return field_map("surface", caption, x, y, _stepped(values), HEIGHT, "µm", FROM_CENTRE, "y (µm)", true=found.true,
+                     height=440)
+
+
+def _stepped(values):
+    """The same in steps of less than a thousandth of their range, a power of two: a screen has fewer colours, and roughness in
+    all digits would be a megabyte of the page."""
+    size = float(np.ptp(values))
+    step = 2.0 ** math.floor(math.log2(size / STEPS)) if size > 0 else 1.0
+    return np.round(values / step) * step
+
+
+def _kept(found, i, j):
+    """Which of its points are drawn, in words."""
+    if (i.size, j.size) == found.values.shape:
+        return ""
+    return f" {i.size} × {j.size} of {found.x.size} × {found.y.size} points are kept in this page."
+
+
+def measured(f):
+    """(what, value) of a map: of its file, and of the heights that pass."""
+    (rows, columns), m, (length, width) = f.heights.shape, f.measures, f.patch
+    turned = f", times {f.scale:g}" if f.scale != 1 else ""
+    rim = f", fading out over {told(f.taper, unit='m')} at its rim" if f.taper else ""
+    return [("file", os.path.basename(f.file)), ("points", f"{columns} × {rows}"),
+            ("distance of its points", " × ".join(told(step, unit="m") for step in f.steps)),
+            ("unit of its heights", f"{f.unit.replace('um', 'µm')}{turned}"), ("taken off", LEVELS[f.level]),
+            ("patch used", f"{told(length, unit='m')} × {told(width, unit='m')}{rim}"),
+            ("range", f"{told(m.range, unit='m')}: {_signed(m.low)} to {_signed(m.high)}"), ("rms", told(m.rms, unit="m")),
+            ("largest slope", f"{m.slope:.2g}°")]
+
+
+def _signed(height):
+    return told(height, unit="m").replace("-", "−")
