@@ -87,6 +87,11 @@ def all_drawn(page, built_in):
             yield page.fitted(draw())
 
 
+def title(figure):
+    """That of the whole, in one line."""
+    return " ".join(figure.get_suptitle().split())
+
+
 def titles(figure):
     return [figure.get_suptitle()] + [ax.get_title() for ax in figure.axes]
 
@@ -127,11 +132,11 @@ def test_text_can_be_read_and_stays_on_the_page(built_in, width):
 
 def test_a_steady_run_is_no_start_and_figures_name_scene_and_moment():
     for name, what in (("maps", "pressure and film"), ("temperature_maps", "temperatures")):
-        wide, (*_, middle, last) = Page(width=30), made().scalar("p_max_Pa") / 1e9  # in one line
+        (*_, middle, last), whose = made().scalar("p_max_Pa") / 1e9, "; surface a carries the feature" * (name != "maps")
         assert drawn(name, made("ball-on-disc")).get_suptitle() == f"ball-on-disc: {what}, steady, p_max 5.78 GPa"
         said = f"feature at +0.00 a, p_max {middle:.2f} GPa ({last:.2f} at +0.80 a)"
-        assert drawn(name, made(), wide).get_suptitle() == f"gear: {what}, {said}"
-        assert drawn(name, made(), wide, at=0.7).get_suptitle() == f"gear: {what}, feature at +0.80 a, p_max {last:.2f} GPa"
+        assert title(drawn(name, made())) == f"gear: {what}, {said}{whose}"
+        assert title(drawn(name, made(), at=0.7)) == f"gear: {what}, feature at +0.80 a, p_max {last:.2f} GPa{whose}"
     assert drawn("centreline", made("ball-on-disc")).get_suptitle() == "ball-on-disc: along y = 0, steady"
     assert drawn("centreline", made("smooth-line")).get_suptitle() == "smooth-line: along x, steady"
     begun = made()
@@ -145,9 +150,9 @@ def test_lines_on_the_whole_domain_go_through_the_largest_pressure():
     assert store.y[row] == pytest.approx(-store.a / 2) and Moments(store).worst == n and Moments(store).row == 6
     figure, said = drawn("centreline", store), f"along y = {-store.a / 2 * 1e6:.0f} µm, through the largest pressure"
     shown = figure.axes[0].lines[2].get_ydata()
-    assert " ".join(figure.get_suptitle().split()) == f"gear: {said}"
+    assert title(figure) == f"gear: {said}"
     assert shown == pytest.approx(store.fields(n, ["pressure"])["pressure"][:, row] / 1e9) and shown.max() > 13
-    assert said in " ".join(drawn("temperature", store).get_suptitle().split())
+    assert title(drawn("temperature", store)) == f"gear: temperatures {said}; surface a carries the feature"
     store.steps = 1  # smooth surfaces: the middle
     assert Moments(store).line == 6 and Moments(store).along == "along y = 0"
 
@@ -247,9 +252,9 @@ def test_the_lines_on_maps_of_the_index_are_explained():
 
     below, none = lines(0.9)
     said = "findley, κ = 0.3, σ_eF = 400 MPa; blue line: trace of the critical plane (at 0° it lies in the surface)"
-    assert not none and " ".join(below.get_suptitle().split()) == f"made up: {said}"
+    assert not none and title(below) == f"made up: {said}"
     above, (limit,) = lines(3.0)
-    assert " ".join(above.get_suptitle().split()) == f"made up: {said}, white line: Fi = 1"
+    assert title(above) == f"made up: {said}, white line: Fi = 1"
     radius = np.hypot(*(limit.get_paths()[0].vertices - [20.0, 0.0]).T)  # hill: 3 exp(-r^2 / 1e-9)
     assert radius == pytest.approx(1e6 * np.sqrt(1e-9 * np.log(3.0)), rel=0.08)
     assert to_hex(limit.get_edgecolor()[0]) == palette.LIMIT

@@ -137,7 +137,7 @@ def test_the_numbers_are_those_of_the_summary(thermal, pages):
     assert "25 µm below the surface: Fi = 1.4 (error not known), above 1." in seen.text
     for text in (f"{steady['h_c_m'] * 1e6:.4f} µm", "0.0010 µm", "no coarser grid",
                  f"{summary['hertz']['p_Pa'] / 1e9:.4g} GPa", "12.5 s, of it kernels 2.5 s", "tehl run made-up", "abc123",
-                 "something is doubtful", "σ_eF = 400 MPa with κ = 0.3"):
+                 "something is doubtful", "σ_eF = 400 MPa with κ = 0.3 (findley): example values, to be replaced"):
         assert text in seen.text, text
     assert all(sentence in seen.text for sentence in tehl.open(thermal).scene.left_out())
     assert seen.headings[0] == "How sure" and seen.text.index("Probably yes") < seen.text.index("Scene")
@@ -176,13 +176,39 @@ def test_maps_of_the_index_have_a_line_where_it_is_one(pages, tmp_path):
 
 def test_lines_and_maps_say_where_and_when(pages, tmp_path):
     half, whole = pages["thermal"].text, made_results.run(tmp_path / "a.zarr", SMALL.replace(**{"feature.y": 2e-5}))
-    assert "Along y = 0. Grey: the steady start" in half
+    assert "Along y = 0. Surface a carries the feature. Grey: the steady start" in half
     seen, reader = page(whole, tmp_path), tehl.open(whole).store
     assert "Along y = -362 µm, through the largest pressure." in seen.text
     p = reader.fields(4, ["pressure"])["pressure"] / 1e9
     assert f"Pressure: the largest pressure of the passage, feature at +0.50 a, p_max {p.max():.2f} GPa." in seen.text
     table = np.frombuffer(base64.b64decode(seen.figures["centreline"]["slides"]["lines"][0]["bdata"]), "<f4")
     assert table.max() == pytest.approx(p[np.abs(reader.x / 3.6217e-4) < 1.61, 0].max(), rel=1e-6)
+
+
+def test_what_carries_the_feature_is_said_where_temperatures_are(pages):
+    seen = pages["thermal"].text
+    assert "Temperature, surface a, which carries the feature: " in seen and "Temperature, surface b: " in seen
+    assert "Surface a, that of body a, carries a feature of the shape cosine" in seen
+    assert "the contact lies between −1 and 1. Surface a carries the feature." in seen
+    assert "the contact lies between −1 and 1.\n" in pages["no fatigue"].text  # isothermal
+
+
+def test_tables_have_the_error_below_the_surface_and_what_no_figure_shows(pages, tmp_path, monkeypatch):
+    monkeypatch.setitem(made_results.EXTRA["passage_error"], "below_Fi_max", 0.041)
+    seen = page(made_results.run(tmp_path / "a.zarr", search=made_results.fatigue()), tmp_path).text
+    assert "index of fatigue Fi 25 µm below the surface, largest\n1.392\n0.041\n2.9 %" in seen
+    assert "index of fatigue Fi 25 µm below the surface, largest\n1.392\nnot estimated\n" in pages["thermal"].text
+    assert "largest principal stress on the surface\n300 MPa\n" in seen
+    assert "load carried by solid contact, at most\n" in seen and "load carried" not in pages["steady line"].text
+    assert "critical plane to the surface (0°: it lies in the surface)\n57 °" in seen
+
+
+@pytest.mark.parametrize("keys, said", [
+    ({}, "example values, to be replaced by those of the material itself"), ({"source": "Example."}, "example values, to be"),
+    ({"source": "DIN 50100, 42CrMo4"}, "DIN 50100, 42CrMo4"), ({"endurance": 450e6}, "no source is given")])
+def test_example_values_do_not_pass_for_those_of_a_material(keys, said):
+    changed = scene("gear").replace(**{f"fatigue.{key}": value for key, value in keys.items()})
+    assert scene_words.material(changed.fatigue).startswith(said)
 
 
 def test_long_passages_are_thinned_but_keep_their_extremes(tmp_path, monkeypatch):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from tehl_taichi.figures import palette
-from tehl_taichi.figures.line_figures import ALONG, SURFACES
+from tehl_taichi.figures.line_figures import ALONG, SURFACES, carrier
 
 LEAST, LEAST_TALL = 5.0, 3.4  # cm that a map needs to stand beside another
 TALL = 0.9                    # height over width, beyond it the second
@@ -78,5 +78,6 @@ def temperature_maps(page, moments):
     for ax, (name, text, _) in zip(axes, SURFACES):
         image = draw_map(ax, moments, f[name], text, cmap=palette.TEMPERATURE, vmin=low, vmax=top)
     bar(figure, image, list(axes), "temperature (°C)", beside)
-    page.title(figure, f"{moments.store.scene.name}: temperatures, {moments.peak(n)}")
+    scene = moments.store.scene
+    page.title(figure, f"{scene.name}: temperatures, {moments.peak(n)}{'; ' * scene.transient}{carrier(scene)}")
     return figure

@@ -9,10 +9,15 @@ SURFACES = (("temperature_mid", "mid-film", "-"), ("temperature_a", "surface a",
 ACROSS = (-1.0, -0.5, 0.0, 0.5, 1.0)  # x / a at which profiles are drawn
 
 
-def headed(page, figure, moments, what, shown):
-    """Title with scene and, where there is one, the moment."""
+def carrier(scene):
+    """Which of both surfaces has the feature, in words; nothing where none passes."""
+    return "surface a carries the feature" if scene.transient else ""
+
+
+def headed(page, figure, moments, what, shown, more=""):
+    """Title with scene and, where there is one, the moment; more: said last."""
     alone = f", {moments.says(shown[0])}" if len(shown) == 1 else ""
-    page.title(figure, f"{moments.store.scene.name}: {what}{alone}")
+    page.title(figure, f"{moments.store.scene.name}: {what}{alone}{'; ' * bool(more)}{more}")
 
 
 def centreline(page, moments):
@@ -49,7 +54,7 @@ def temperature(page, moments):
     when = [Line2D([], [], color=colour, label=moments.says(n)) for n, colour in shown.items()]
     kinds = [Line2D([], [], color=palette.BLACK, ls=style, label=text) for _, text, style in SURFACES]
     page.legend(figure, (when if len(shown) > 1 else []) + kinds)
-    headed(page, figure, moments, f"temperatures {moments.along}", list(shown))
+    headed(page, figure, moments, f"temperatures {moments.along}", list(shown), carrier(store.scene))
     return figure
 
 
@@ -63,5 +68,5 @@ def profiles(page, moments):
     ax.set(xlabel="temperature (°C)", ylabel="z / h (0: surface a, 1: surface b)")
     ax.grid()
     page.legend(figure)
-    headed(page, figure, moments, "across the film" + ("" if moments.half else f" {moments.along}"), [n])
+    headed(page, figure, moments, "across the film" + ("" if moments.half else f" {moments.along}"), [n], carrier(store.scene))
     return figure

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tehl_taichi.figures.line_figures import ALONG, SURFACES
+from tehl_taichi.figures.line_figures import ALONG, SURFACES, carrier
 from tehl_taichi.figures.moments import WINDOW, Moments
 from tehl_taichi.figures.palette import GREY
 from tehl_taichi.report.plots import colour, line, stacked
@@ -102,9 +102,14 @@ def _label(moments, n):
     return f"{moments.says(n)}: p_max {p:.3f} GPa, h_min {h:.3f} µm"
 
 
+def _carries(store):
+    """A sentence on the surfaces, where their temperatures are drawn."""
+    return "" if store.scene.isothermal or not store.scene.transient else f" {carrier(store.scene).capitalize()}."
+
+
 def _caption(store, shown):
     along = Moments(store).along
-    said = f"{along[0].upper()}{along[1:]}."
+    said = f"{along[0].upper()}{along[1:]}.{_carries(store)}"
     if len(shown) > 1:
         said += " Grey: the steady start; dotted: the centre of the feature."
     left = [f"{len(shown)} of {store.steps} stored moments"] * (len(shown) < store.steps)
@@ -129,7 +134,7 @@ def histories(store):
                  for n, (name, text) in enumerate(found.items())]
         if lines:
             panels.append((title, lines, {}))
-    return stacked("histories", "Of each time step; the contact lies between −1 and 1.", POSITION, panels)
+    return stacked("histories", f"Of each time step; the contact lies between −1 and 1.{_carries(store)}", POSITION, panels)
 
 
 LEFT_OVER = {"residual": "residual", "load_error": "load", "mass_error": "mass"}

@@ -38,7 +38,7 @@ def _film(store):
     if not moved:
         return Section("Film and pressure", (drawn(line), maps)),
     slider = Part("slider", {"figures": [line], "first": moved["first"], "last": len(moved["at"]) - 1})
-    return (Section("Passage", (slider,)), Section("Histories", (drawn(histories),)),
+    return (Section("Passage", (slider,)), Section("Histories", (drawn(histories), run_tables.solid_contact(store.summary))),
             Section("Moment of the largest pressure", (maps,)))
 
 
@@ -46,8 +46,9 @@ def _fatigue(store):
     """The index and the worst points."""
     if "fatigue" not in store.summary:
         return ()
-    return (Section("Fatigue", (drawn(*fatigue_plots.index(store), *fatigue_plots.depth(store)),
-                                run_tables.worst_points(store.summary["fatigue"]))),
+    found = store.summary["fatigue"]
+    return (Section("Fatigue", (drawn(*fatigue_plots.index(store), *fatigue_plots.depth(store)), run_tables.worst_points(found),
+                                run_tables.tension(found))),
             Section("Stresses of the worst points", tuple(drawn(*pair) for pair in fatigue_plots.worst_points(store))))
 
 

@@ -15,7 +15,14 @@ OWN = {"Fi_max": ("index of fatigue Fi of the surface, largest", "1")}
 def errors(summary):
     """Tables of the numbers that have an error or a reason why it is not known."""
     head = ("what", "value", "error", "relative")
-    return [table(head, list(_with_errors(summary.get(part, {}))), when) for part, when in PARTS]
+    return [table(head, [*_with_errors(found := summary.get(part, {})), *_of_below(found.get("below", {}))], when)
+            for part, when in PARTS]
+
+
+def _of_below(deep):
+    """The same of what lies below the surface."""
+    for says, *rest in _with_errors(deep):
+        yield says.replace("of the surface", f"{told(deep['depth_m'], unit='m')} below the surface"), *rest
 
 
 def _with_errors(values):
@@ -43,7 +50,7 @@ def _meaning(name):
 POINT = (("index Fi", "Fi_max", "1"), ("stress of the criterion", "findley_stress_max_Pa", "Pa"), ("depth", "depth_m", "m"),
          ("x of the feature", "x_m", "m"), ("y of the feature", "y_m", "m"), ("shear amplitude", "tau_amp_Pa", "Pa"),
          ("largest normal stress", "sigma_n_max_Pa", "Pa"), ("largest principal stress", "sigma1_worst_Pa", "Pa"),
-         ("critical plane to the surface", "surface_angle_deg", "°"))
+         ("critical plane to the surface (0°: it lies in the surface)", "surface_angle_deg", "°"))
 
 
 def worst_points(fatigue):
@@ -51,6 +58,18 @@ def worst_points(fatigue):
     points = [("surface", {"depth_m": 0.0, **fatigue}), *([("below it", fatigue["below"])] if "below" in fatigue else [])]
     rows = [(text, *(told(point[key], unit=unit) if key in point else "" for _, point in points)) for text, key, unit in POINT]
     return table(("worst point", *(where for where, _ in points)), rows)
+
+
+def tension(fatigue):
+    """What the worst point does not tell of the surface; None where it was not kept."""
+    most = fatigue.get("sigma1_max_Pa")
+    return facts([("largest principal stress on the surface", told(most, unit="Pa"))] if most is not None else [])
+
+
+def solid_contact(summary):
+    """The share of the load that the film did not carry; None without a finished passage."""
+    most = summary.get("transient", {}).get("contact_load_fraction_max")
+    return facts([("load carried by solid contact, at most", share(most, 1.0))] if most is not None else [])
 
 
 def numerics(store):

@@ -34,7 +34,7 @@ def _motion(scene):
     if o.srr == 0:
         return f"The surfaces roll at {o.u_m:.4g} m/s without slip."
     kind = "slower" if o.u_a < o.u_b else "faster"
-    carries = f"; the feature is on the {kind} one" if scene.features else ""
+    carries = f"; the feature is on the {kind} one, a" if scene.features else ""
     return (f"The surfaces move at {o.u_a:.4g} m/s (a) and {o.u_b:.4g} m/s (b): mean {o.u_m:.4g} m/s, slide-to-roll ratio "
             f"{o.srr:+.3g}{carries}.")
 
@@ -54,7 +54,7 @@ def _heat(scene):
 def _features(scene):
     if not scene.transient:
         return ["No feature passes: the steady contact of smooth surfaces." if scene.features else "The surfaces are smooth."]
-    return [f"Surface a carries a feature of the shape {f.shape} ({f.kind.says}): {', '.join(_sizes(f))}."
+    return [f"Surface a, that of body a, carries a feature of the shape {f.shape} ({f.kind.says}): {', '.join(_sizes(f))}."
             for f in scene.features]
 
 
@@ -69,6 +69,16 @@ def _sizes(f):
             yield f"{key} {told(value, unit=kind.unit.replace('-', '1'))}"
         elif isinstance(kind, Text) and value and len(value) < LONG:
             yield f"{key} {value}"
+
+
+def material(fatigue):
+    """Where kappa and the fatigue limit come from: examples must not pass for a material's numbers."""
+    default, said = type(fatigue)(), fatigue.source.strip().rstrip(".")
+    if said.lower() not in ("", "example", "examples", default.source):
+        return fatigue.source
+    if said == default.source and (fatigue.kappa, fatigue.endurance) != (default.kappa, default.endurance):
+        return "no source is given (fatigue.source)"
+    return "example values, to be replaced by those of the material itself and their source (fatigue.source)"
 
 
 def numbers(scene):

@@ -2,6 +2,7 @@
 
 from tehl_taichi.report.document import Answer
 from tehl_taichi.report.rounded import roughly, told
+from tehl_taichi.report.scene_words import material
 from tehl_taichi.scene.route import total_steps
 
 ABOVE, WITHIN, BELOW = 1, 0, -1
@@ -139,7 +140,7 @@ def _constants(store, summary):
         return ()
     f = summary["fatigue"]
     said = (f"Fi = 1 is the fatigue limit σ_eF = {f['sigma_eF_Pa'] / 1e6:g} MPa with κ = {f['kappa_F']:g} "
-            f"({f['criterion']}): {store.scene.fatigue.source}.")
+            f"({f['criterion']}): {material(store.scene.fatigue)}.")
     stress = "counts" if f["thermal_stress"] else "does not count"
     return said, f"The stress of the heat {stress} in it."
 
