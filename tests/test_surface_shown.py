@@ -101,6 +101,7 @@ def test_the_report_shows_the_map_and_what_was_read(tmp_path):
                  f"{f.measures.slope:.2g}°", "114 µm × 145 µm, fading out over 20 µm at its rim",
                  "all on surface a, that of body a"):
         assert text in seen.text, text
+    assert "file scan.npy, " in seen.text  # in words: without its folders
     trace, = seen.figures["surface"]["data"]
     shown = np.frombuffer(base64.b64decode(trace["z"]["bdata"]), "<f4").reshape(30, 20)
     assert shown == pytest.approx(heights(made).values.T * 1e6, abs=f.measures.range * 1e6 / 2000)

@@ -1,5 +1,7 @@
 """A scene in words and in numbers."""
 
+import os
+
 from tehl_taichi.physics.rheology import LAWS
 from tehl_taichi.report.rounded import told
 from tehl_taichi.scene.scales import Scales
@@ -67,8 +69,8 @@ def _sizes(f):
         value, kind = getattr(f, key), own[key]
         if isinstance(kind, Number) and isinstance(value, (int, float)) and value:
             yield f"{key} {told(value, unit=kind.unit.replace('-', '1'))}"
-        elif isinstance(kind, Text) and value and len(value) < LONG:
-            yield f"{key} {value}"
+        elif isinstance(kind, Text) and 0 < len(name := os.path.basename(value)) < LONG:  # a file without its folders
+            yield f"{key} {name}"
 
 
 def material(fatigue):
