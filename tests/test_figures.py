@@ -144,6 +144,14 @@ def test_a_steady_run_is_no_start_and_figures_name_scene_and_moment():
     assert "steady start" not in drawn("maps", begun).get_suptitle()
 
 
+def test_a_larger_pressure_elsewhere_is_told_where_it_reads_as_another():
+    store, nearly = made(), made()
+    assert Moments(store).peak(2).endswith(" at +0.80 a)")
+    grown = store.fields(2, ["pressure"])["pressure"]
+    nearly.fields = lambda n, names: {"pressure": grown * (1 + 1e-6 * (n == 3))}
+    assert Moments(nearly).worst == 3 and "(" not in Moments(nearly).peak(2)
+
+
 def test_lines_on_the_whole_domain_go_through_the_largest_pressure():
     store = Made(made().scene, whole=True)
     n, row = 2, 3  # the feature at 0, y = -a/2
@@ -230,6 +238,7 @@ def test_an_index_has_the_digits_that_its_error_leaves_and_stresses_have_no_expo
 
     assert [told_index(1.64529, error) for error in (None, 0.023, 0.3, 40.0, float("nan"))] == ["1.65", "1.645", "1.65", "2",
                                                                                              "1.65"]
+    assert told_index(2.4988e11) == "2.5e+11"  # of a Newtonian film
     assert [mpa(stress) for stress in (1.254e9, 31.96e6, -730.9e6, 0.0)] == ["1250", "32", "-731", "0"]
     found = searched()
     found.summary["error"] = {"Fi_max": 0.004}

@@ -2,9 +2,13 @@
 
 import math
 
+SENSE = 1000.0  # an index beyond is of no material: as of a Newtonian film that slips, whose shear has no limit
+
 
 def told_index(Fi, error=None):
-    """'1.008': with two digits of the error, where that is known, else with two decimals."""
+    """'1.008': with two digits of the error, where that is known, else with two decimals; not all of a number without sense."""
+    if Fi >= SENSE:
+        return f"{Fi:.3g}"
     known = error is not None and math.isfinite(error) and error > 0
     return f"{Fi:.{min(max(1 - math.floor(math.log10(error)), 0), 4) if known else 2}f}"
 

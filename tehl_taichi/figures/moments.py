@@ -119,9 +119,9 @@ class Moments:
 
     def peak(self, n):
         """What entry n shows, with its largest pressure and, where another moment has a larger one, that of the passage."""
-        p, worst = (float(self.store.fields(k, ["pressure"])["pressure"].max()) for k in (n, self.worst))
-        more = f" ({worst / 1e9:.2f} at {self._position(self.worst)})" if worst > p else ""
-        return f"{self.says(n)}, p_max {p / 1e9:.2f} GPa{more}"
+        p, worst = (round(float(self.store.fields(k, ["pressure"])["pressure"].max()) / 1e9, 2) for k in (n, self.worst))
+        more = f" ({worst:.2f} at {self._position(self.worst)})" if worst > p else ""
+        return f"{self.says(n)}, p_max {p:.2f} GPa{more}"
 
     def film_top(self, entries):
         """Upper end (m) of the film's axis: well above the film of the contact, and above what a feature leaves inside."""
