@@ -35,7 +35,7 @@ def test_they_tell_what_they_tell_after_the_run(idle_core, monkeypatch):
     here, parts = companions.answers(SHORT), []
     monkeypatch.setattr(companions, "answers", None)
     with beside.told(SHORT) as told:
-        there = told(lambda *part: parts.append(part))
+        there = told(None)(lambda *part: parts.append(part))
     assert [one.keys() for one in there] == [one.keys() for one in here]
     assert list(dict.fromkeys(parts)) == [(0, 1), (1, 1)] and parts[-1] == (1, 1)
     values, expected = there[-1]["values"], here[-1]["values"]
@@ -43,6 +43,14 @@ def test_they_tell_what_they_tell_after_the_run(idle_core, monkeypatch):
         n: one["value"] for n, one in expected.items()}
     own = {name: companions.Reading(**one) for name, one in expected.items()}
     assert companions.judged(there, own) == companions.judged(here, own)
+
+
+def test_they_hear_up_to_where_the_run_is_resolved(idle_core, nowhere):
+    passing = SHORT.replace(**{"time.steps": -1})
+    with beside.told(passing) as told:
+        there = told(-0.5)()
+    found = there[-1]["values"]
+    assert 0 < found[companions.RESOLVED]["value"] < found["Fi_max"]["value"]
 
 
 def test_only_an_idle_core_has_them_beside(taichi_cpu, monkeypatch):
@@ -54,14 +62,14 @@ def test_only_an_idle_core_has_them_beside(taichi_cpu, monkeypatch):
         assert max(0, beside.idle()) == expected
         monkeypatch.setattr(beside, "_started", sleeper if expected else no_process)
         with beside.told(SHORT) as told:
-            assert (told.func is companions.answers) == (not expected)
+            assert (told(None).func is companions.answers) == (not expected)
 
 
-def no_process(_):
+def no_process(*_):
     pytest.fail("a process")
 
 
-def sleeper(_):
+def sleeper(*_):
     return subprocess.Popen([sys.executable, "-c", "import time; time.sleep(60)"], stdout=subprocess.PIPE)
 
 
@@ -74,29 +82,29 @@ def test_only_long_runs_have_them_beside():
 def test_who_wants_none_has_no_process(idle_core, monkeypatch):
     monkeypatch.setattr(beside, "_started", no_process)
     with beside.told(SHORT.replace(**{"numerics.estimate_error": False})) as told:
-        assert told.func is companions.answers
+        assert told(None).func is companions.answers
 
 
 def test_they_end_with_their_run(idle_core, nowhere, monkeypatch):
     processes, started = [], beside._started
-    monkeypatch.setattr(beside, "_started", lambda one: processes.append(started(one)) or processes[0])
+    monkeypatch.setattr(beside, "_started", lambda *of: processes.append(started(*of)) or processes[0])
     with pytest.raises(KeyboardInterrupt), beside.told(SHORT):
         raise KeyboardInterrupt
     assert processes[0].returncode == -signal.SIGKILL
 
 
 def test_where_they_die_they_are_worked_out_here(idle_core, monkeypatch):
-    monkeypatch.setattr(beside, "_started", lambda one: subprocess.Popen(
+    monkeypatch.setattr(beside, "_started", lambda *_: subprocess.Popen(
         [sys.executable, "-c", "print('[half an ans'); raise SystemExit(1)"], stdout=subprocess.PIPE))
-    monkeypatch.setattr(companions, "answers", lambda one, tell: [one.name])
+    monkeypatch.setattr(companions, "answers", lambda one, tell, until: [one.name, until()])
     with beside.told(SHORT) as told:
-        assert told() == ["gear"]
+        assert told(0.25)() == ["gear", 0.25]
 
 
 LONG = ("import sys, time; from tehl_taichi.engine import runtime; from tehl_taichi.study import beside; "
         "from tehl_taichi.scene import scene; runtime.start(threads=1); beside.cores.available = lambda: 2; "
         "one = scene('gear').replace(**{'grid.nx': 512, 'grid.ny': 128, 'numerics.estimate_error': True}); "
-        "found = beside._started(one); print(found.pid, flush=True); time.sleep(100)")
+        "found = beside._started(one, 0); print(found.pid, flush=True); time.sleep(100)")
 
 
 def test_they_end_where_their_run_is_killed(taichi_cpu):

@@ -154,7 +154,7 @@ def test_the_index_below_the_surface_has_a_bar_of_its_own():
     known = companions.values(companions.scenes(deep)[0][-1])
     assert known[companions.BELOW].value > 0 and known[companions.BELOW] != known["Fi_max"]
     out = {"transient": {"p_max_Pa": 2e9}, "fatigue": {"Fi_max": 0.5, "below": {"Fi_max": 0.7}}}
-    (surface, of_surface), (below, of_below) = summary._parts(out)[1:3]
+    _, (surface, of_surface), (below, of_below) = summary._parts(out)
     assert surface is out["fatigue"] and of_surface == {"Fi_max": "Fi_max"}
     assert below is out["fatigue"]["below"] and of_below == {"Fi_max": companions.BELOW}
     said, = result_judge.unknown_errors(None, {"fatigue": {"below": {"unknown": {"Fi_max": "it still changes"}}}})
@@ -174,7 +174,7 @@ def test_companions_use_the_tables_of_the_run(passage):
 
 def test_a_companion_that_fails_spares_the_coarser_ones(monkeypatch):
     tried = []
-    monkeypatch.setattr(companions, "answer", lambda one, tell: tried.append(one.grid.nx) or {"reason": "no"})
+    monkeypatch.setattr(companions, "answer", lambda one, *_: tried.append(one.grid.nx) or {"reason": "no"})
     assert companions.answers(short(**{"grid.nx": 128, "grid.ny": 32})) == [{"reason": "no"}] and tried == [64]
 
 

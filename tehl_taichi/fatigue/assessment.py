@@ -56,7 +56,7 @@ def run(scene, reader, progress=None, until=None):
     surface's worst row), the depth looked for (:mod:`tehl_taichi.fatigue.below`); with a list at all points at these depths.
     Between its from_x and to_x, by its criterion. reader: see :class:`tehl_taichi.fatigue.histories.Passage`; or a list of
     snapshots. progress: called with (done, total) parts. until: position (a) of the feature; the worst points of the moments up
-    to there are told, too ("before_exit" of the summary).
+    to there are told, too ("resolved" of the summary).
     On the rows of the reader (where they begin with y = 0, the others are its mirror). Memory: one block of histories
     (1 GB at most), with thermal stress 8 bytes more per entry and wave number (4 nodes of the grid).
     Raises SceneError when no feature passes.
@@ -76,7 +76,7 @@ def run(scene, reader, progress=None, until=None):
     result = _result(scene, passage, layers, whole)
     if early is not None:
         deep = [layer.early for layer in layers[1:]] + _under(before)
-        result.summary["before_exit"] = _before_exit(until, layers[0].early, deep, scene.fatigue.endurance)
+        result.summary["resolved"] = _resolved(until, layers[0].early, deep, scene.fatigue.endurance)
     return result
 
 
@@ -84,11 +84,11 @@ def _early(passage, until):
     """Moments with the feature up to `until` (a) and the unloaded one; None where nobody asks, or these are all or none."""
     if until is None:
         return None
-    first = np.flatnonzero(passage.centres <= until * passage.a)
+    first = np.flatnonzero(passage.centres <= (until + 1e-9) * passage.a)
     return np.append(first, passage.centres.size) if 1 < first.size < passage.centres.size else None
 
 
-def _before_exit(until, top, deep, limit):
+def _resolved(until, top, deep, limit):
     """Summary of the worst points (of the surface, of those below) of the moments up to `until`."""
     out = {"to_x_a": float(until), **top.summary(limit)}
     worst = max(deep, key=lambda point: point.f, default=None)

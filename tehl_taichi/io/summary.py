@@ -5,7 +5,7 @@ import numpy as np
 from tehl_taichi import __version__
 from tehl_taichi.io import result_judge
 from tehl_taichi.io.film_judge import worst_ripple
-from tehl_taichi.march.companions import BELOW, EARLY, EARLY_BELOW, FI
+from tehl_taichi.march.companions import FI, indices
 from tehl_taichi.march.readings import HEAT
 from tehl_taichi.physics import conduction
 from tehl_taichi.physics.law import beyond
@@ -78,10 +78,8 @@ def _steady(store, extra):
 
 def _parts(out):
     """[(part of the summary after the start, {its number that has an error bar: that number's name among the errors})]."""
-    fatigue = out.get("fatigue", {})
-    before = fatigue.get("before_exit", {})
-    parts = ((out.get("transient"), {name: name for name in PASSAGE}), (fatigue, {FI: FI}), (fatigue.get("below"), {FI: BELOW}),
-             (before, {FI: EARLY}), (before.get("below"), {FI: EARLY_BELOW}))
+    parts = [(out.get("transient"), {name: name for name in PASSAGE}),
+             *((part, {FI: name}) for name, part in indices(out.get("fatigue", {})).items())]
     return [(part, {name: told for name, told in names.items() if name in part}) for part, names in parts if part]
 
 

@@ -65,18 +65,17 @@ def fatigue_rows(f):
             ("with kappa, sigma_eF", f"{f['kappa_F']:g}, {f['sigma_eF_Pa'] / 1e6:g} MPa"),
             ("thermal stress", "counted" if f["thermal_stress"] else "left out")]
     rows += [(f"largest at {_depth(layer)}", _stress(layer["findley_stress_max_Pa"])) for layer in f.get("by_depth", [])]
-    return rows + _below_rows(f) + _early_rows(f)
+    return rows + _below_rows(f) + _resolved_rows(f)
 
 
-def _early_rows(f):
-    """What is known before the feature leaves, where its exit is not resolved."""
-    if "before_exit" not in f:
+def _resolved_rows(f):
+    """What is known as long as the grid resolves the pressure, where it does not always do so."""
+    if "resolved" not in f:
         return []
-    part = f["before_exit"]
-    until = f"before the exit (feature up to {part['to_x_a']:.2f} a)"
-    rows = [(f"{until}: Fi_max at the surface", quantity(part, "Fi_max"))]
+    part = f["resolved"]
+    rows = [(f"Fi_max while resolved (to {part['to_x_a']:.2f} a)", quantity(part, "Fi_max"))]
     deep = part.get("below")
-    return rows + ([(f"{until}: below it, at {_depth(deep)}", quantity(deep, "Fi_max"))] if deep else [])
+    return rows + ([(f"below it while resolved, at {_depth(deep)}", quantity(deep, "Fi_max"))] if deep else [])
 
 
 def _point_rows(f):

@@ -6,7 +6,6 @@ means that a bar is not known, and why.
 """
 
 import itertools
-import math
 from dataclasses import asdict, replace
 from types import SimpleNamespace
 
@@ -15,12 +14,12 @@ import numpy as np
 from tehl_taichi.errors import Error
 from tehl_taichi.march import readings
 from tehl_taichi.march.error_bars import Reading, bars
-from tehl_taichi.scene.route import leaving, total_steps
+from tehl_taichi.scene.route import total_steps
 from tehl_taichi.scene.scales import Scales
 
 COMPANIONS = 2  # with the run itself three grids; 1/8 and 1/64 of its cells and steps
 FI, BELOW = "Fi_max", "below_Fi_max"  # names of the largest index of the surface, and below it
-EARLY, EARLY_BELOW = "before_exit_Fi_max", "before_exit_below_Fi_max"  # of both before the feature leaves
+RESOLVED, RESOLVED_BELOW = "resolved_Fi_max", "resolved_below_Fi_max"  # of both as long as the grid resolves the pressure
 SHARP = ("p_max_Pa", "film_max_C", FI, BELOW)  # what a peak that is not resolved leaves unknown
 WORTH = 3e5  # nodes times steps of a run: below, it is a try, on a grid whose companions tell little
 
@@ -50,31 +49,28 @@ def passage_readings(scene, reader, scalar, fatigue=None):
            "h_min_m": readings.lowest(_moment(reader, int(np.argmin(h)) + 1)),
            **{name: readings.hottest(np.max(scalar(name)[1:]), scene) for name in heat},
            "friction_coefficient_mean": Reading(float(np.mean(scalar("friction_coefficient")[1:])))}
-    before = (fatigue or {}).get("before_exit", {})
-    out |= {name: Reading(float(part["Fi_max"])) for name, part in
-            ((FI, fatigue), (BELOW, (fatigue or {}).get("below")), (EARLY, before), (EARLY_BELOW, before.get("below"))) if part}
+    out |= {name: Reading(float(part["Fi_max"])) for name, part in indices(fatigue or {}).items()}
     # a peak that the grid does not resolve at some moment: neither its pressure is known nor what it does to oil and steel
-    for names, to in ((SHARP, math.inf), ((EARLY, EARLY_BELOW), before.get("to_x_a"))):
-        why = to is not None and _unresolved(scene, reader, p, to)
-        out |= {name: replace(out[name], doubt=why) for name in names if why and name in out}
-    return out
+    why = readings.unresolved(reader, range(1, len(p) + 1), p.max())
+    return out | {name: replace(out[name], doubt=why) for name in SHARP if why and name in out}
 
 
-def exit_begins(scene, reader, scalar):
-    """Position (a) of the feature at which it begins to leave, where the grid does not resolve that; else None."""
-    unresolved = _unresolved(scene, reader, scalar("p_max_Pa")[1:])
-    return leaving(scene) if unresolved.startswith(readings.EXIT) else None
+def indices(fatigue):
+    """{name of its largest index among the readings: part of the summary of a search}, of the parts that there are."""
+    part = fatigue.get("resolved", {})
+    found = {FI: fatigue, BELOW: fatigue.get("below"), RESOLVED: part, RESOLVED_BELOW: part.get("below")}
+    return {name: part for name, part in found.items() if part}
 
 
-def _unresolved(scene, reader, p, to=math.inf):
-    """:func:`tehl_taichi.march.readings.unresolved` of the moments with the feature up to `to` (a); p: largest pressures."""
-    a = Scales.of(scene).a
-    entries = [n for n in range(1, len(p) + 1) if reader.feature_x(n) <= to * a]
-    return readings.unresolved(reader, entries, p[np.array(entries) - 1].max())
+def resolved(scene, reader, scalar):
+    """Position (a) of the feature up to which the grid resolves every peak of the pressure; None where it always does."""
+    p = scalar("p_max_Pa")[1:].max()
+    first = next((n for n in range(1, len(reader)) if readings.unresolved(reader, [n], p)), None)
+    return None if first is None else float(reader.feature_x(first - 1)) / Scales.of(scene).a
 
 
-def values(scene, tell=lambda: None):
-    """{name: Reading} of one companion; tell() after each step. Raises NotConverged."""
+def values(scene, tell=lambda: None, until=lambda: None):
+    """{name: Reading} of one companion; tell() after each step; until(): see :func:`answers`. Raises NotConverged."""
     from tehl_taichi.fatigue import assessment
     from tehl_taichi.march.passage import march
 
@@ -82,13 +78,10 @@ def values(scene, tell=lambda: None):
     for shot in march(scene):
         shots.append(replace(shot, make_state=None))  # it holds the tables, which the next companion needs
         tell()
-    def scalar(name):
-        return np.array([shot.scalars[name] for shot in shots])
-
-    reader, found = assessment.Snapshots(shots), None
-    if scene.fatigue_wanted and len(shots) > 2:
-        found = assessment.run(scene, reader, until=exit_begins(scene, reader, scalar)).summary
-    return passage_readings(scene, reader, scalar, found)
+    wanted = scene.fatigue_wanted and len(shots) > 2
+    found = assessment.run(scene, shots, until=until()).summary if wanted else None
+    return passage_readings(scene, assessment.Snapshots(shots),
+                            lambda name: np.array([shot.scalars[name] for shot in shots]), found)
 
 
 def _moment(reader, n):
@@ -121,13 +114,13 @@ def work(scene):
     return (scene.grid.nx + 1) * (scene.rows + 1) * total_steps(scene)
 
 
-def answers(scene, tell=lambda done, total: None):
+def answers(scene, tell=lambda done, total: None, until=lambda: None):
     """What the companions of a scene tell, coarsest first, for :func:`judged`. The finest runs first: where it fails, no
-    coarser one is of use."""
+    coarser one is of use. until(): what :func:`resolved` gives of the run itself, asked for when it is needed."""
     (coarser, reasons), out, done = scenes(scene), [], itertools.count()
     total = sum(total_steps(one) + 1 for one in coarser)  # with their starts
     for one in reversed(coarser):
-        out.insert(0, answer(one, lambda: tell(next(done), total)))
+        out.insert(0, answer(one, lambda: tell(next(done), total), until))
         if "reason" in out[0]:
             break
     tell(total, total)
@@ -147,9 +140,9 @@ def judged(told, own):
     return found, unknown if grids else dict.fromkeys(unknown, "; ".join(reasons) or "there are no coarser grids")
 
 
-def answer(scene, tell=lambda: None):
-    """What a companion tells, for :func:`judged`; tell() after each step."""
+def answer(scene, tell=lambda: None, until=lambda: None):
+    """What a companion tells, for :func:`judged`; tell() after each step; until(): see :func:`answers`."""
     try:
-        return {"values": {name: asdict(reading) for name, reading in values(scene, tell).items()}}
+        return {"values": {name: asdict(reading) for name, reading in values(scene, tell, until).items()}}
     except Error as error:
         return {"reason": f"a companion run on {scene.grid.nx} x {scene.grid.ny} cells failed: {error}"}

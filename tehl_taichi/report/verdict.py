@@ -45,8 +45,8 @@ def of_fatigue(fatigue):
     """(question, headline, tone, sentences) of the summary of a search."""
     worst, places, known, tells = _judged(fatigue)
     said, tells = headline(worst, places, known), [*tells, *_alone(fatigue), *_plane(fatigue)]
-    if "before_exit" in fatigue:
-        said, tells = _by_what_is_known(fatigue["before_exit"], worst, tells)
+    if "resolved" in fatigue:
+        said, tells = _by_what_is_known(fatigue["resolved"], worst, tells)
     return FATIGUE, *said, tuple(tells)
 
 
@@ -59,18 +59,18 @@ def _judged(fatigue):
     return worst, places, known, [_told(*layer) for layer in found]
 
 
-def _by_what_is_known(before, whole, tells):
-    """(headline and tone, sentences) where the exit is not resolved: by what happens before the feature leaves, to which the
-    exit can only add. whole: the worst of what is judged of the whole passage."""
-    worst, places, known, early = _judged(before)
-    tells = [f"Before the feature leaves (its centre up to {before['to_x_a']:.2f} a):", *early,
-             "With the exit, which this grid does not resolve:", *tells]
+def _by_what_is_known(part, whole, tells):
+    """(headline and tone, sentences) where the grid does not resolve every pressure: by the part of the passage before that, to
+    which the rest can only add. whole: the worst of what is judged of the whole passage."""
+    worst, places, known, early = _judged(part)
+    tells = [f"As long as the grid resolves the pressure (feature up to {part['to_x_a']:.2f} a):", *early,
+             "Over the whole passage, whose pressure it does not resolve:", *tells]
     if worst != BELOW:
-        return headline(worst, places, known, ", before the feature leaves already"), tells
+        even = "even " if worst == ABOVE else ""
+        return headline(worst, places, known, f", {even}without the pressures that this grid does not resolve"), tells
     if whole == BELOW:
-        return headline(worst, places, False, ", as far as this grid resolves the exit"), tells
-    return ("Not decided: the index stays below 1 until the feature leaves, and exceeds it at the exit, which this grid does "
-            "not resolve.", "open"), tells
+        return headline(worst, places, False, ", as far as the grid resolves the pressure"), tells
+    return ("Not decided: the index stays below 1 as long as the grid resolves the pressure, and exceeds it later.", "open"), tells
 
 
 def _told(where, Fi, error, said):

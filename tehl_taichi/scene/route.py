@@ -46,13 +46,6 @@ def clear(scene):
     return LATEST + max(f.reach - f.x for f in scene.features) / a
 
 
-def leaving(scene):
-    """Position of the first feature (a) at which the front of all features, or of the oil that they let in, which moves at the
-    mean speed, comes to the edge of the dry contact."""
-    front = max(f.x + f.reach for f in scene.features) / Scales.of(scene).a
-    return 2 * min(1.0, scene.operation.u_a / scene.operation.u_m) - 1 - front
-
-
 def uncut(scene):
     """The scene with its whole passage: every step, until the features are behind the contact."""
     end = {"time.x_end": math.inf} if scene.transient and scene.path[1] < clear(scene) else {}

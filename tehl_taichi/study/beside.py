@@ -38,34 +38,45 @@ def lasts(scene):
 
 @contextlib.contextmanager
 def told(scene):
-    """The function of tell(done, total) that waits for what :func:`tehl_taichi.march.companions.answers` gives of a scene. They
-    begin now where the run is long and a core idle, and end with the context."""
+    """A function of `until` (what :func:`tehl_taichi.march.companions.resolved` gives of the run, once it is known) for the
+    function of tell(done, total) that waits for what :func:`tehl_taichi.march.companions.answers` gives of a scene. They begin
+    now where the run is long and a core idle, and end with the context."""
     if not (companions.wanted(scene) and lasts(scene) and idle() > 0):
-        yield functools.partial(companions.answers, scene)
+        yield lambda until: functools.partial(companions.answers, scene, until=lambda: until)
         return
-    with _started(scene) as process:
+    read, write = os.pipe()
+    with open(write, "wb", 0) as word, _started(scene, read) as process:
+        os.close(read)
         try:
-            yield functools.partial(_ready, process, scene)
+            yield functools.partial(_begun, process, word, scene)
         finally:
             process.kill()
 
 
-def _started(scene):
+def _started(scene, read):
     with tempfile.TemporaryFile() as scenes:
-        pickle.dump((os.getpid(), scene), scenes)
+        pickle.dump((os.getpid(), read, scene), scenes)
         scenes.seek(0)
         # a session of its own: Ctrl-C is for the run, which ends it
         return subprocess.Popen([sys.executable, "-c", "from tehl_taichi.study.beside import serve; serve()"], stdin=scenes,
-                                stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, start_new_session=True)
+                                stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, start_new_session=True, pass_fds=(read,))
 
 
-def _ready(process, scene, tell=lambda done, total: None):
+def _begun(process, word, scene, until):
+    """What waits for their answers; they are told `until` now."""
+    with contextlib.suppress(OSError):  # they died
+        word.write(json.dumps(until).encode())
+    word.close()
+    return functools.partial(_ready, process, scene, until)
+
+
+def _ready(process, scene, until, tell=lambda done, total: None):
     """Their answers; where their process died, worked out here."""
     tell(0, 1)
     while (text := _said(process)) is None:
         tell(0, 1)
     if process.returncode:
-        return companions.answers(scene, tell)
+        return companions.answers(scene, tell, lambda: until)
     tell(1, 1)
     return json.loads(text)
 
@@ -79,11 +90,17 @@ def _said(process):
 
 
 def serve():
-    """The process: the number of the run's process and its scene come by stdin, the answers go to stdout."""
-    run, scene = pickle.load(sys.stdin.buffer)
+    """The process: the number of the run's process, that of the pipe by which `until` comes once it is known, and the scene
+    come by stdin, the answers go to stdout."""
+    run, pipe, scene = pickle.load(sys.stdin.buffer)
     threading.Thread(target=_end_with, args=(run,), daemon=True).start()
     runtime.start(threads=1)
-    print(json.dumps(companions.answers(scene)), flush=True)
+    print(json.dumps(companions.answers(scene, until=functools.cache(functools.partial(_heard, pipe)))), flush=True)
+
+
+def _heard(pipe):
+    with open(pipe, "rb") as words:
+        return json.loads(words.read())
 
 
 def _end_with(run):

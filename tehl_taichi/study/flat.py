@@ -7,7 +7,7 @@ LEFT_OUT = {"store", "scene", "version", "left_out", "warnings", "converged", "u
 UNITS = {"m": "m", "Pa": "Pa", "C": "degC", "K": "K", "s": "s", "deg": "degree", "J": "J", "W": "W", "N": "N", "kg": "kg"}
 
 # of a summary, inside others
-PARTS = ("fatigue_before_exit_below", "fatigue_before_exit", "fatigue_below")
+PARTS = ("fatigue_resolved_below", "fatigue_resolved", "fatigue_below")
 
 
 def numbers(summary, above=""):

@@ -155,9 +155,11 @@ def _finish(saved, state, steady, clock, progress):
     from tehl_taichi.march import companions
     from tehl_taichi.study import beside
 
-    with beside.told(saved.scene) as told:
+    with beside.told(saved.scene) as begun:
         _march(saved, state, progress)
-        fatigue, maps = _fatigue(saved, progress)
+        until = _resolved(saved)
+        told = begun(until)
+        fatigue, maps = _fatigue(saved, until, progress)
         passage = companions.errors(saved.scene, saved, fatigue, lambda: told(functools.partial(progress.stage, ERRORS)))
     saved.finish(summarise(saved, {**clock.times(), **steady, **passage}, fatigue), maps)
     return Run(saved)
@@ -194,15 +196,25 @@ def _march(saved, state, progress):
     go_on(saved, state, tell)
 
 
-def _fatigue(saved, progress):
+def _searched(saved):
+    """Whether there is a fatigue search."""
+    return saved.scene.fatigue_wanted and saved.steps >= 3
+
+
+def _resolved(saved):
+    """Up to where the index is told apart, for pressures that the grid does not resolve later; None: nowhere."""
+    from tehl_taichi.march import companions
+
+    return companions.resolved(saved.scene, saved, saved.scalar) if _searched(saved) else None
+
+
+def _fatigue(saved, until, progress):
     """(summary, maps) of the fatigue search, None twice where there is none."""
-    if not saved.scene.fatigue_wanted or saved.steps < 3:
+    if not _searched(saved):
         return None, None
     from tehl_taichi.fatigue import assessment
-    from tehl_taichi.march.companions import exit_begins
 
     progress.say("stresses and Findley search")
-    until = exit_begins(saved.scene, saved, saved.scalar)
     result = assessment.run(saved.scene, saved, lambda done, total: progress.stage(FATIGUE, done, total), until)
     return result.summary, result.maps
 
