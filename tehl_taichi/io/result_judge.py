@@ -49,11 +49,11 @@ def crowded(store, summary):
 def unknown_errors(store, summary):
     """Numbers of which no error can be told, with the reason; one sentence for all that share it."""
     fatigue, deep = summary.get("fatigue", {}), " below the surface"
-    part, early = fatigue.get("resolved", {}), " of the resolved part"
+    early, of_it = fatigue.get("resolved", {}), " of the resolved part"
     reasons = {}
     for part, when, behind in ((summary.get("steady", {}), "steady ", ""), (summary.get("transient", {}), "passage ", ""),
-                               (fatigue, "", ""), (fatigue.get("below", {}), "", deep), (part, "", early),
-                               (part.get("below", {}), "", deep + early)):
+                               (fatigue, "", ""), (fatigue.get("below", {}), "", deep), (early, "", of_it),
+                               (early.get("below", {}), "", deep + of_it)):
         for name, why in part.get("unknown", {}).items():
             reasons.setdefault(why, []).append(f"{when}{name}{behind}")
     return [f"the error of {', '.join(names)} is not known: {why}" for why, names in reasons.items()]

@@ -70,7 +70,8 @@ def _by_what_is_known(part, whole, tells):
         return headline(worst, places, known, f", {even}without the pressures that this grid does not resolve"), tells
     if whole == BELOW:
         return headline(worst, places, False, ", as far as the grid resolves the pressure"), tells
-    return ("Not decided: the index stays below 1 as long as the grid resolves the pressure, and exceeds it later.", "open"), tells
+    text = "Not decided: the index stays below 1 as long as the grid resolves the pressure, and exceeds it later."
+    return (text, "open"), tells
 
 
 def _told(where, Fi, error, said):
