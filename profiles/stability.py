@@ -112,14 +112,14 @@ def cases(thermal=False):
 
 def random_cases(count, seed=0):
     """{name: scene or SceneError}: `count` scenes drawn from the whole admissible range, on small grids, the first steps of
-    the passage (the feature enters: it starts just in front of the contact)."""
+    the passage (the feature enters: it starts just in front of the contact). Names of scenes tell line from point."""
     rng, out = np.random.default_rng(seed), {}
     for n in range(count):
-        name = f"random {seed}-{n}"
         try:
-            out[name] = _drawn(rng)
+            drawn = _drawn(rng)
+            out[f"random {seed}-{n} {'line' if Scales.of(drawn).line else 'point'}"] = drawn
         except SceneError as error:
-            out[name] = error
+            out[f"random {seed}-{n}"] = error
     return out
 
 

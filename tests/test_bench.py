@@ -45,6 +45,8 @@ def test_random_scenes_repeat_and_cover_the_range():
     assert found == drawn(3) != drawn(4)
     scenes = [case for case in found.values() if isinstance(case, Scene)]
     assert len(scenes) > 25 and {s.contact.kind for s in scenes} == {"line", "elliptic"}
+    lines = [case for name, case in found.items() if name.endswith(" line")]
+    assert lines == [case for case in scenes if case.contact.kind == "line"]
     assert {s.isothermal for s in scenes} == {True, False} and len({s.rheology.law for s in scenes}) == 4
 
 

@@ -275,7 +275,7 @@ def test_a_thin_film_comes_down_from_a_high_speed():
 
     from tehl_taichi.march.passage import march
 
-    drawn = stability.carried(stability.starts(stability.random_cases(6, 2)))["random 2-5"]
+    drawn = stability.carried(stability.starts(stability.random_cases(6, 2)))["random 2-5 line"]
     assert drawn.grid.nx == 512 and thin_film.carried(drawn) > 1
     shot = next(march(drawn.replace(**{"thermal.on": False})))
     assert shot.scalars["residual"] < 1e-6 and shot.scalars["mass_error"] < 1e-6 and not shot.fields["contact"].any()
