@@ -29,14 +29,24 @@ def _grid(text):
         return {}
     from tehl_taichi.scene import SceneError
 
-    if text in GRIDS:
-        nx, ny = GRIDS[text]
-    else:
-        try:
-            nx, ny = (int(part) // 2 * 2 for part in text.lower().split("x"))
-        except ValueError:
-            raise SceneError(f"--grid {text!r} is not known; allowed: {', '.join(GRIDS)} or NXxNY, as in 256x64") from None
-    return {"grid.nx": nx, "grid.ny": ny}
+    try:
+        counts = GRIDS.get(text) or [int(part) // 2 * 2 for part in text.lower().split("x", 1)]
+    except ValueError:
+        raise SceneError(f"--grid {text!r} is not known; allowed: {', '.join(GRIDS)} or NXxNY, as in 256x64 (NX alone where "
+                         "nothing varies across)") from None
+    return dict(zip(("grid.nx", "grid.ny"), counts))
+
+
+def check_rows(grid, changes, description):
+    """Refuse one number as --grid of a scene that varies across: the other would be that of another grid. grid: as it was
+    typed; changes: what :func:`given_by` made of all; description: a function that gives the changed scene. SceneError."""
+    if grid is None or "grid.ny" in _grid(grid) or description().one_dimensional:
+        return
+    from tehl_taichi.scene import SceneError
+
+    nx = changes["grid.nx"]
+    raise SceneError(f"--grid {grid} is of scenes in which nothing varies across; allowed here: {', '.join(GRIDS)} or NXxNY, "
+                     f"as in {nx}x{nx // 4}")
 
 
 def _settings(pairs):

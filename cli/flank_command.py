@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import List, Optional
 
 import typer
-from tehl_cli.changes import given_by
+from tehl_cli.changes import check_rows, given_by
 from tehl_cli.figure_options import Dpi, FigureWidth, Format
 from tehl_cli.live import Live, say
 from tehl_cli.out import print_json
@@ -29,7 +29,7 @@ def flank(
     width: Optional[float] = typer.Option(None, help="feature width, m"),
     thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="energy equation on or off"),
     set_: Optional[List[str]] = typer.Option(None, "--set", help="dotted.key=value of the scene, repeatable"),
-    grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY"),
+    grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY; NX where nothing varies across"),
     out: Optional[Path] = typer.Option(None, help="folder (default: runs/NAME-N); one that is there is gone on with"),
     figure: bool = typer.Option(True, "--figure/--no-figure", help="flank.png (.pdf, .svg) in that folder"),
     format: Format = "png",
@@ -51,9 +51,11 @@ def flank(
 
     page = Page(format, dpi, figure_width)
     changes = given_by({"temperature": temperature, "height": height, "width": width, "thermal.on": thermal}, grid, set_ or [])
+    base = find(scene) if scene else None
+    check_rows(grid, changes, lambda: _line(gear, base, changes, steady))
     with Live(quiet, curves) as live:
         found = tehl.flank(gear, torque=torque, speed=speed, on=on, positions=positions, at=[_place(text) for text in at or ()],
-                           scene=find(scene) if scene else None, changes=changes, steady=steady, folder=out, workers=workers,
+                           scene=base, changes=changes, steady=steady, folder=out, workers=workers,
                            threads=threads, progress=live)
     if figure:
         say(str(found.plot(**vars(page))))
@@ -63,6 +65,16 @@ def flank(
 
         raise NotConverged(f"{len(found.failed)} of {len(found.positions)} positions have no result; the others are in "
                            f"{found.folder}, and --grid, --set ... with another --out may help")
+
+
+def _line(gear, base, changes, steady):
+    """What the scenes of all positions have in common: a line contact."""
+    from math import inf
+
+    from tehl_taichi.flank.described import described
+
+    passes = {"time.steady_only": True} if steady else {}
+    return (base or described(gear).scene).replace(**{"contact.kind": "line", "contact.radius_y": inf, **changes, **passes})
 
 
 def _place(text):

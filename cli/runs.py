@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import List, Optional
 
 import typer
-from tehl_cli.changes import given_by
+from tehl_cli.changes import check_rows, given_by
 from tehl_cli.live import Live, say
 from tehl_cli.out import print_json
 
@@ -25,7 +25,8 @@ def run(
     height: Optional[float] = typer.Option(None, help="feature height, m (negative: dent)"),
     width: Optional[float] = typer.Option(None, help="feature width, m"),
     set_: Optional[List[str]] = typer.Option(None, "--set", help="dotted.key=value, repeatable"),
-    grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY (cells or nodes)"),
+    grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY (cells or nodes); NX where nothing varies "
+                                       "across"),
     target_error: Optional[str] = typer.Option(None, help="the grid for this error, as in 1% (see `tehl bench accuracy`)"),
     steady: bool = typer.Option(False, "--steady", help="no march in time"),
     thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="energy equation on or off"),
@@ -61,6 +62,7 @@ def run(
         grid, set_ or [])
     description = tehl.scene(scene)
     description = description.replace(**changes) if changes else description
+    check_rows(grid, changes, lambda: description)
     description = _on_grid_for(target_error, changes, description)
     with Live(quiet, curves) as live:
         done = tehl.run(description, out, force=force, threads=threads, arch=arch, progress=live)

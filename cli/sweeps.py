@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import List, Optional
 
 import typer
-from tehl_cli.changes import given_by
+from tehl_cli.changes import check_rows, given_by
 from tehl_cli.live import say
 from tehl_cli.out import print_json
 
@@ -23,7 +23,8 @@ def sweep(
     samples: Optional[int] = typer.Option(None, help="so many cases of a Latin hypercube; --over key=low:high[:log] or a,b,c"),
     seed: int = typer.Option(0, help="of the samples"),
     set_: Optional[List[str]] = typer.Option(None, "--set", help="dotted.key=value in all cases, repeatable"),
-    grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY (cells or nodes)"),
+    grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY (cells or nodes); NX where nothing varies "
+                                       "across"),
     steady: bool = typer.Option(False, "--steady", help="no march in time"),
     thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="energy equation on or off"),
     fatigue: Optional[bool] = typer.Option(None, "--fatigue/--no-fatigue", help="stresses and Findley index"),
@@ -51,7 +52,7 @@ def sweep(
 
     options = {"time.steps": steps, "thermal.on": thermal, "fatigue.on": fatigue, "time.steady_only": steady or None}
     changes = given_by(options, grid, set_ or [])
-    plan, out = _planned(scene, over or [], samples, seed, changes, out)
+    plan, out = _planned(scene, over or [], samples, seed, changes, grid, out)
     out = out or many.default_path(plan)
     if dry_run:
         return _tell(plan, out)
@@ -66,7 +67,7 @@ def sweep(
     raise typer.Exit(0 if study.counts["converged"] == len(study) else 3)
 
 
-def _planned(name, over, samples, seed, changes, out):
+def _planned(name, over, samples, seed, changes, grid, out):
     """(plan, where its study goes or None) of a scene with --over, of a study file, or of a study."""
     from tehl_taichi.io.found import find
     from tehl_taichi.scene import SceneError
@@ -80,8 +81,9 @@ def _planned(name, over, samples, seed, changes, out):
         raise SceneError(f"{name} says what is swept: leave out --over, --samples, --set and the like")
     if whole:
         return (study_file.load(name), out) if study_file.is_study_file(name) else (Study.open(name).plan, out or Path(name))
-    scene = find(name)
-    return plan(scene.replace(**changes) if changes else scene, over_of(over, samples is not None), samples, seed), out
+    scene = find(name).replace(**changes) if changes else find(name)
+    check_rows(grid, changes, lambda: scene)
+    return plan(scene, over_of(over, samples is not None), samples, seed), out
 
 
 def _check_count(plan, yes):

@@ -167,6 +167,35 @@ def test_bad_input_is_a_sentence_and_writes_nothing(words, said, tmp_path):
     assert "Traceback" not in done.stderr and list(tmp_path.iterdir()) == []
 
 
+def test_one_number_is_a_grid_where_nothing_varies_across(tmp_path):
+    done = tehl("run", "furrow-line", "--steady", "--isothermal", "--grid", 64, "--threads", 2, "--json", cwd=tmp_path)
+    assert done.returncode == 0 and json.loads(done.stdout)["cells"] == {"nx": 64, "ny": 0}, done.stderr
+    swept = tehl("sweep", "furrow-line", "--grid", 64, "--over", "srr=0.1,0.2", "--dry-run", cwd=tmp_path)
+    assert swept.returncode == 0, swept.stderr
+    for words in (("run", "gear"), ("sweep", "gear", "--over", "srr=0.1,0.2", "--dry-run"), ("flank", "fzg-c")):
+        refused = tehl(*words, "--grid", 64, cwd=tmp_path)
+        assert refused.returncode == 2 and "--grid 64 is of scenes in which nothing varies across" in refused.stderr
+        assert "NXxNY, as in 64x16" in refused.stderr and len(refused.stderr.splitlines()) == 1
+
+
+def test_a_flank_of_smooth_surfaces_has_one_row(tmp_path, monkeypatch):
+    from tehl_cli.main import app
+    from typer.testing import CliRunner
+
+    import tehl_taichi
+
+    class Asked(Exception):
+        pass
+
+    def flank(gear, changes, **others):
+        raise Asked(changes)
+
+    monkeypatch.setattr(tehl_taichi, "flank", flank, raising=False)
+    for words in (["fzg-c", "--steady"], ["fzg-c", "--scene", "furrow-line"]):
+        asked = CliRunner().invoke(app, ["flank", *words, "--grid", "64"]).exception
+        assert isinstance(asked, Asked) and asked.args == ({"grid.nx": 64},)
+
+
 def test_an_existing_store_is_not_overwritten(finished):
     before = (finished[0] / "zarr.json").read_bytes()
     done = tehl("run", "smooth-line", "--out", finished[0])
