@@ -55,6 +55,18 @@ def test_friction_that_no_oil_bears():
     assert not any("friction" in text for text in said(Made(gear(), friction=(0.05, 0.19))))
 
 
+def test_what_follows_from_a_friction_that_no_oil_bears_is_named():
+    def told(summary, **changes):
+        return next(film_judge.friction(Made(gear(**{"rheology.law": "newtonian"}, **changes), friction=(1.8, 33.3)), summary))
+
+    none = "no meaning either"
+    assert none not in told({})
+    assert told({"fatigue": {}}).endswith("; what follows from that shear has no meaning either: the index of fatigue")
+    assert told({}, **{"thermal.on": True}).endswith("meaning either: the temperatures")
+    both = told({"fatigue": {}}, **{"thermal.on": True})
+    assert both.endswith("meaning either: the index of fatigue and the temperatures")
+
+
 def test_friction_of_solid_contact_is_not_the_films():
     """A third of the load on touching surfaces with 0.6: their part is 0.2."""
     description = gear(**{"rheology.mu_boundary": 0.6})

@@ -22,7 +22,14 @@ def friction(store, summary):
     if found:
         law = (f"a Newtonian film (rheology.law = {rheology.law}) has no limit; its flow holds, its friction does not"
                if not rheology.thins else f"the constants of the law {rheology.law!r} allow it")
-        yield f"the friction coefficient ({', '.join(found)}) is more than {MOST_FRICTION:g}, which no oil bears: {law}"
+        yield (f"the friction coefficient ({', '.join(found)}) is more than {MOST_FRICTION:g}, which no oil bears: {law}"
+               + _follow(store.scene, summary))
+
+
+def _follow(scene, summary):
+    """What follows from such a shear, in words: it loads the surface, and heats the film."""
+    said = ["the index of fatigue"] * ("fatigue" in summary) + ["the temperatures"] * (not scene.isothermal)
+    return f"; what follows from that shear has no meaning either: {' and '.join(said)}" if said else ""
 
 
 def unresolved(store, summary):
