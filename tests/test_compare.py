@@ -2,6 +2,7 @@
 
 import json
 
+import made_results
 import pytest
 from small_stores import SMALL, store
 from tehl_cli.main import app
@@ -79,6 +80,38 @@ def test_the_figure_shows_all_runs_at_one_position(runs, tmp_path, monkeypatch):
     for line, curve in zip(figure.axes[0].lines, curves):
         assert line.get_ydata().max() == pytest.approx(curve.store.fields(curve.entry)["pressure"][:, 0].max() / 1e9)
     assert [len(ax.lines) for ax in figure.axes] == [2, 2, 2, 2, 0, 4]  # nothing thermal; Fi with its worst points
+
+
+def shown_of(folder, monkeypatch, *scenes):
+    """(figure, its curves, title in one line, labels) of a comparison of made-up passages of these scenes."""
+    shown = []
+    monkeypatch.setattr(compare_figure, "_legend", lambda page, figure, curves: shown.append((figure, curves)))
+    tehl.compare(*(made_results.run(folder / f"{n}.zarr", one) for n, one in enumerate(scenes))).plot(folder / "c.png", at=0.5)
+    figure, curves = shown[0]
+    return figure, curves, " ".join(figure.get_suptitle().split()), [curve.label for curve in curves]
+
+
+def test_whole_domains_are_compared_along_the_row_of_the_largest_pressure(tmp_path, monkeypatch):
+    """Of the made-up fields it is the first one."""
+    whole = SMALL.replace(**{"feature.y": 2e-5})
+    figure, curves, title, labels = shown_of(tmp_path, monkeypatch, whole, whole.replace(srr=0.12))
+    for line, curve in zip(figure.axes[0].lines, curves):
+        assert line.get_ydata() == pytest.approx(curve.store.fields(curve.entry, ["pressure"])["pressure"][:, 0] / 1e9)
+    assert "gear: along y = -362 µm, through the largest pressure, feature at +0.50 a" in title
+    assert labels == ["srr = -0.12", "srr = 0.12"]
+
+
+def test_rows_that_differ_are_said_in_the_legend(tmp_path, monkeypatch):
+    whole = SMALL.replace(**{"feature.y": 2e-5})
+    _, _, title, labels = shown_of(tmp_path, monkeypatch, whole, whole.replace(load=0.5e6))
+    assert "gear: along the rows of their largest pressures, feature at +0.50 a" in title
+    assert labels == ["load = 1.1e+06, along y = -362 µm", "load = 500000, along y = -244 µm"]
+
+
+def test_half_domains_are_compared_in_the_middle_also_with_whole_ones(tmp_path, monkeypatch):
+    _, curves, title, labels = shown_of(tmp_path, monkeypatch, SMALL, SMALL.replace(**{"feature.y": 2e-5}))
+    assert "gear: along y = 0, " in title and labels == ["y = 0", "y = 2e-05"]
+    assert [round(curve.store.y[curve.row] * 1e6) for curve in curves] == [0, 0]
 
 
 def test_the_command_prints_and_writes(two, tmp_path):

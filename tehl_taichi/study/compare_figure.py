@@ -13,12 +13,13 @@ FILM_ROOM = (-0.05, ROOM)  # of the largest central film
 
 @dataclass(frozen=True)
 class Curve:
-    """One run: its moments, label and colour; entry: the one that the centrelines show."""
+    """One run: its moments, label and colour; entry, row: what the lines along x show."""
 
     moments: Moments
     label: str
     colour: str
     entry: int
+    row: int
 
     @property
     def store(self):
@@ -31,9 +32,9 @@ class Curve:
     def has(self, name):
         return name in self.store.stored
 
-    def centreline(self, name):
-        """A field along y = 0."""
-        return self.store.fields(self.entry, [name])[name][:, self.moments.row]
+    def along(self, name):
+        """A field along x."""
+        return self.store.fields(self.entry, [name])[name][:, self.row]
 
     @property
     def passes(self):
@@ -44,12 +45,25 @@ def write(comparison, path, at, page):
     """Write the figure, as the :class:`Page` wants it; returns the path. at: position of the features, a."""
     page, path = page.of_file(path)
     moments = [Moments(store) for store in comparison.stores]
-    curves = [Curve(one, label, colour, one.nearest(at))
-              for one, label, colour in zip(moments, comparison.labels(), palette.LINES)]
-    return page.save(lambda: _drawn(page, curves, at), path)
+    rows, labels, where = _rows(moments, comparison.labels())
+    curves = [Curve(one, label, colour, one.nearest(at), row)
+              for one, label, colour, row in zip(moments, labels, palette.LINES, rows)]
+    return page.save(lambda: _drawn(page, curves, at, where), path)
 
 
-def _drawn(page, curves, at):
+def _rows(moments, labels):
+    """(rows, labels, where in words): the row of each one's largest pressure, said with the label where they differ; y = 0 as
+    soon as one of them has nothing beside it, which the others are compared with."""
+    if any(one.half for one in moments):
+        return [one.row for one in moments], labels, "along y = 0"
+    rows, places = [one.line for one in moments], [one.along for one in moments]
+    if len(set(places)) == 1:
+        return rows, labels, places[0]
+    at = [f"along y = {round(float(one.store.y[row]) * 1e6)} µm" for one, row in zip(moments, rows)]
+    return rows, [f"{label}, {place}" for label, place in zip(labels, at)], "along the rows of their largest pressures"
+
+
+def _drawn(page, curves, at, where):
     columns = [column for column in (_lines(curves), _histories(curves)) if column]
     beside = len(columns) > 1 and not page.narrow
     if not beside:
@@ -64,7 +78,7 @@ def _drawn(page, curves, at):
             ax.set_visible(False)
     _legend(page, figure, curves)
     names = ", ".join(dict.fromkeys(c.store.scene.name for c in curves))
-    page.title(figure, f"{names}: along y = 0, {_moment(curves, at)}{' (left), and while it passes (right)' if beside else ''}")
+    page.title(figure, f"{names}: {where}, {_moment(curves, at)}{' (left), and while it passes (right)' if beside else ''}")
     return figure
 
 
@@ -100,7 +114,7 @@ def _along(ax, curves, name, factor, **style):
     one = max(widths) - min(widths) <= SAME * max(widths)
     for c in curves:
         if c.has(name):
-            ax.plot(c.store.x / c.a if one else c.store.x * 1e3, c.centreline(name) * factor, color=c.colour, **style)
+            ax.plot(c.store.x / c.a if one else c.store.x * 1e3, c.along(name) * factor, color=c.colour, **style)
     left, right = (edge if one else edge * max(widths) * 1e3 for edge in WINDOW)
     ax.set(xlabel="x / a (flow to the right)" if one else "x (mm), flow to the right", xlim=(left, right))
 
