@@ -173,6 +173,25 @@ def test_one_moment_is_shown_where_it_is_wanted():
     assert top[1].get_ydata().min() == pytest.approx(made().fields(3, ["pressure"])["pressure"][:, 0].min() / 1e9)
 
 
+@pytest.mark.parametrize("at, p, added", [
+    (0.4, 1.01, True),    # between the positions
+    (0.75, 1.2, True),    # beside one of them, which has much less
+    (0.75, 1.02, False),  # the same peak
+    (0.8, 1.2, False)])   # one of them
+def test_the_moment_of_the_largest_pressure_is_never_missed(at, p, added):
+    store = made()
+    store.at, store.steps = np.array([-1.6, -0.8, 0.0, 0.8] + [at] * (at != 0.8)) * store.a, 4 + (at != 0.8)
+    plain = store.fields
+    most = plain(3, ["pressure"])["pressure"]
+    store.fields = lambda n, names: plain(min(n, 3), names) | ({"pressure": most * p} if n == store.steps - 1 else {})
+    for name in ("centreline", "temperature"):
+        lines = {text: line.get_color() for text, line in legend(drawn(name, store)).items()}
+        said = f"largest pressure: feature at {at:+.2f} a"
+        assert (said in lines) is added and "feature at +0.80 a" in lines
+        assert not added or lines[said] == palette.LINES[3]
+    assert not any("largest" in text for text in legend(drawn("centreline", store, at=0.8)))
+
+
 def test_the_film_colours_that_are_cut_end_in_an_arrow():
     images = [ax.collections[0] for ax in drawn("maps", made()).axes if ax.get_title()]
     assert [image.colorbar.extend for image in images] == ["neither", "max"]

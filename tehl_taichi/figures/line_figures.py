@@ -24,9 +24,9 @@ def centreline(page, moments):
     """Pressure and film for several feature positions."""
     store, row, shown = moments.store, moments.line, moments.several()
     figure, ((top,), (low,)) = page.figure(2, sharex=True)
-    for n, colour in shown.items():
+    for n, (colour, said) in shown.items():
         f = store.fields(n, ("pressure", "film"))
-        style = dict(label=moments.says(n), color=colour, ls="--" if colour == palette.GREY else "-")
+        style = dict(label=said, color=colour, ls="--" if colour == palette.GREY else "-")
         top.plot(moments.x, f["pressure"][:, row] / 1e9, **style)
         low.plot(moments.x, f["film"][:, row] * 1e6, **style)
     top.set(ylabel="pressure (GPa)")
@@ -45,13 +45,13 @@ def temperature(page, moments):
 
     store, row, shown = moments.store, moments.line, moments.several()
     figure, ((ax,),) = page.figure(height=1.6 * page.row())
-    for n, colour in shown.items():
+    for n, (colour, _) in shown.items():
         f = store.fields(n, [name for name, *_ in SURFACES])
         for name, _, style in SURFACES:
             ax.plot(moments.x, f[name][:, row], ls=style, color=colour)
     ax.set(xlabel=ALONG, ylabel="temperature (°C)", xlim=moments.window)
     ax.grid()
-    when = [Line2D([], [], color=colour, label=moments.says(n)) for n, colour in shown.items()]
+    when = [Line2D([], [], color=colour, label=said) for colour, said in shown.values()]
     kinds = [Line2D([], [], color=palette.BLACK, ls=style, label=text) for _, text, style in SURFACES]
     page.legend(figure, (when if len(shown) > 1 else []) + kinds)
     headed(page, figure, moments, f"temperatures {moments.along}", list(shown), carrier(store.scene))

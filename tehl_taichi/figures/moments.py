@@ -12,6 +12,7 @@ from tehl_taichi.values.checks import number
 from tehl_taichi.values.plain import plain
 
 POSITIONS = (-0.8, 0.0, 0.8)  # of the feature, a: shown where nobody chooses
+NEAR, ALIKE = 0.1, 0.95       # a, and of the largest pressure: a moment so close to it, with so much of it, shows it
 BEYOND = 0.05                 # a: as far beyond the stored positions a moment may be asked for
 WINDOW = (-1.6, 1.4)          # x / a shown: the contact and what is close to it
 INSIDE = 0.9                  # a: there the film's axis shows all of the film
@@ -95,14 +96,27 @@ class Moments:
         """Entry with the feature nearest to `position` (a); the steady one where nothing passes."""
         return 1 + int(np.argmin(np.abs(self.moved - position))) if self.store.steps > 1 else 0
 
-    def several(self):
-        """{entry: colour} for lines: the steady start in grey, then the positions; the same in every figure."""
-        if self.store.steps < 2:
-            return {0: palette.LINES[0]}
+    @cached_property
+    def placed(self):
+        """Entries with the feature at the positions."""
         wanted = POSITIONS if self.at is None else (self.at,)
         low, high = self.moved.min() - BEYOND, self.moved.max() + BEYOND
-        entries = dict.fromkeys(self.nearest(position) for position in wanted if low <= position <= high)
-        return {0: palette.GREY} | dict(zip(entries, palette.LINES))
+        return list(dict.fromkeys(self.nearest(position) for position in wanted if low <= position <= high))
+
+    @cached_property
+    def missed(self):
+        """The entry of the largest pressure where none of those shows its peak; none where somebody chose a position."""
+        p, at = self.store.scalar("p_max_Pa"), self.moved
+        shown = any(abs(at[n - 1] - at[self.worst - 1]) <= NEAR and p[n] >= ALIKE * p[self.worst] for n in self.placed)
+        return [] if shown or self.at is not None else [self.worst]
+
+    def several(self):
+        """{entry: (colour, what it shows in words)} for lines: the steady start in grey, then the positions and the largest
+        pressure; the same in every figure."""
+        if self.store.steps < 2:
+            return {0: (palette.LINES[0], self.says(0))}
+        colours = {0: palette.GREY, **dict(zip([*self.placed, *self.missed], palette.LINES))}
+        return {n: (colour, "largest pressure: " * (n in self.missed) + self.says(n)) for n, colour in colours.items()}
 
     def one(self):
         """The entry of maps: that with the feature nearest to the middle, or where it is wanted."""
