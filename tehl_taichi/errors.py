@@ -51,6 +51,11 @@ class Interrupted(Error):
     exit_code = INTERRUPTED
 
 
+def extra(name):
+    """How an optional part is installed, for the end of a sentence about what is missing."""
+    return f"pip install 'tehl_taichi[{name}]' (in a checkout: pip install -e '.[{name}]')"
+
+
 def stopped(stop):
     """How a sentence about a KeyboardInterrupt begins: "interrupted" (Ctrl-C), or by which signal it was stopped, where that
     is its text (as the command line has it: "SIGTERM") or begins it ("stopped by SIGTERM after 2 steps")."""

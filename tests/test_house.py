@@ -1,8 +1,10 @@
 """The house: layers, light imports, the README's commands."""
 
 import ast
+import re
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -119,6 +121,17 @@ def test_package_and_scene_do_not_import_taichi():
 def test_help_waits_for_nothing_heavy():
     code = "import sys, tehl_cli.main; sys.exit(bool({'numpy', 'zarr', 'taichi'} & set(sys.modules)))"
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0
+
+
+def test_how_to_get_an_extra_is_said_by_one_function():
+    from tehl_taichi.errors import extra
+
+    assert extra("plot") == "pip install 'tehl_taichi[plot]' (in a checkout: pip install -e '.[plot]')"
+    others = [path for path in SOURCES if path.name != "errors.py"]
+    assert [path.name for path in others if "pip install" in path.read_text(encoding="utf-8")] == []
+    asked = {name for path in others for name in re.findall(r"\bextra\([\"'](\w+)", path.read_text(encoding="utf-8"))}
+    known = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["optional-dependencies"]
+    assert len(asked) >= 5 and asked <= known.keys()
 
 
 def test_readme_names_both_lines():

@@ -1,6 +1,6 @@
 """A stored run as one NetCDF-4 file: every array with its dimensions, units and long name, every attribute of the store."""
 
-from tehl_taichi.errors import StoreError
+from tehl_taichi.errors import StoreError, extra
 from tehl_taichi.export.file_format import Format
 
 PACKED = {"zlib": True, "complevel": 1}
@@ -13,7 +13,7 @@ def write(reader, path, places):
         import h5py  # noqa: F401
         import xarray
     except ImportError as error:
-        raise StoreError(f"NetCDF needs {error.name}: pip install 'tehl_taichi[xarray]'") from None
+        raise StoreError(f"NetCDF needs {error.name}: {extra('xarray')}") from None
     with xarray.open_zarr(reader.path, chunks=None, decode_times=False) as data:
         for variable in data.variables.values():
             variable.encoding = {}  # zarr's codecs, which HDF5 has not

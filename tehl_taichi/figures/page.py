@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from tehl_taichi.errors import SceneError, StoreError
+from tehl_taichi.errors import SceneError, StoreError, extra
 from tehl_taichi.figures import palette
 from tehl_taichi.io import atomic
 from tehl_taichi.io.place import reason
@@ -138,7 +138,7 @@ def drawing():
     try:
         import matplotlib
     except ImportError:
-        raise StoreError("figures need matplotlib: pip install 'tehl_taichi[plot]'") from None
+        raise StoreError(f"figures need matplotlib: {extra('plot')}") from None
     return matplotlib
 
 

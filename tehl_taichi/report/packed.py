@@ -8,7 +8,7 @@ import json
 
 import numpy as np
 
-from tehl_taichi.errors import StoreError
+from tehl_taichi.errors import StoreError, extra
 from tehl_taichi.io.json_values import plain
 
 
@@ -23,7 +23,7 @@ def check_installed():
         try:
             importlib.import_module(name)
         except ImportError:
-            raise StoreError(f"a report needs {name}: pip install 'tehl_taichi[report]'") from None
+            raise StoreError(f"a report needs {name}: {extra('report')}") from None
 
 
 @functools.cache

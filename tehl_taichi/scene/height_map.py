@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from tehl_taichi.errors import SceneError
+from tehl_taichi.errors import SceneError, extra
 from tehl_taichi.scene import map_holes
 
 UNITS = {"nm": 1e-9, "um": 1e-6, "mm": 1e-3, "m": 1.0}  # of the heights in a file, m
@@ -108,8 +108,8 @@ def _surface_topography(path):
     try:
         import SurfaceTopography
     except ImportError:
-        raise SceneError(f"{path.name} is neither .csv nor .npy; other formats need: pip install "
-                         "'tehl_taichi[topography]'") from None
+        raise SceneError(f"{path.name} is neither .csv nor .npy; other formats need SurfaceTopography: "
+                         f"{extra('topography')}") from None
     try:
         return np.ma.filled(np.ma.asarray(SurfaceTopography.read_topography(str(path)).heights(), float), math.nan).T
     except Exception as error:

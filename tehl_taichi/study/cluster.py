@@ -6,7 +6,7 @@ import signal
 import threading
 import uuid
 
-from tehl_taichi.errors import RuntimeUnavailable, StoreError
+from tehl_taichi.errors import RuntimeUnavailable, StoreError, extra
 from tehl_taichi.study.job import Lost, in_one_thread
 
 AHEAD, LEAST = 3, 16  # jobs that the scheduler knows, for each worker and at least: memory stays bounded, nobody waits
@@ -104,6 +104,6 @@ def _distributed():
     try:
         import distributed
     except ImportError:
-        raise RuntimeUnavailable("several workers need Dask: pip install 'tehl_taichi[sweep]'; --workers 1 runs the cases one "
-                                 "after the other without it") from None
+        raise RuntimeUnavailable(f"several workers need Dask: {extra('sweep')}; --workers 1 runs the cases one after the "
+                                 "other without it") from None
     return distributed

@@ -5,7 +5,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from tehl_taichi.errors import StoreError
+from tehl_taichi.errors import StoreError, extra
 from tehl_taichi.scene import Scene
 
 
@@ -67,7 +67,7 @@ class Run:
         try:
             import xarray
         except ImportError:
-            raise StoreError("a dataset needs xarray: pip install 'tehl_taichi[xarray]'") from None
+            raise StoreError(f"a dataset needs xarray: {extra('xarray')}") from None
         return xarray.open_zarr(self.path)
 
     def plot(self, folder: str | PathLike | None = None, dpi: int = 160, format: str = "png", width: float = 17.0,

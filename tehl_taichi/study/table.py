@@ -17,7 +17,7 @@ import zarr
 
 from tehl_taichi import __version__
 from tehl_taichi.commit import commit
-from tehl_taichi.errors import StoreError
+from tehl_taichi.errors import StoreError, extra
 from tehl_taichi.io.atomic import replace
 from tehl_taichi.io.held import Held, held
 from tehl_taichi.io.intact import ROOT
@@ -219,7 +219,7 @@ class Study(Held):
         try:
             import xarray
         except ImportError:
-            raise StoreError("xarray is not installed: pip install 'tehl_taichi[xarray]'") from None
+            raise StoreError(f"xarray is not installed: {extra('xarray')}") from None
         return xarray.open_zarr(self.path).load()
 
     def plot(self, folder=None, quantity=None, dpi=160, format="png", width=17.0):
