@@ -54,8 +54,9 @@ def smooth(step, scene):
     return made
 
 
-def run(path, scene=THERMAL, entries=5, search=None, found=None):
-    """A finished store; search: the summary of its fatigue, or None; found: its maps (default: :func:`maps`)."""
+def run(path, scene=THERMAL, entries=5, search=None, found=None, said=("something is doubtful",)):
+    """A finished store; search: the summary of its fatigue, or None; found: its maps (default: :func:`maps`);
+    said: its warnings."""
     from tehl_taichi.io.store import Store
     from tehl_taichi.io.summary import summarise
 
@@ -64,7 +65,7 @@ def run(path, scene=THERMAL, entries=5, search=None, found=None):
         for step in range(1, entries):
             made.append(smooth(step, scene), shot(step, scene).state)
         summary = summarise(made, EXTRA, search)
-        made.finish({**summary, "warnings": ["something is doubtful"]}, (found or maps()) if search else None)
+        made.finish({**summary, "warnings": list(said)}, (found or maps()) if search else None)
     return path
 
 

@@ -232,6 +232,18 @@ def test_what_a_run_does_not_have_is_left_out(pages):
     assert {"index-surface", "section", "over-depth", "path-below", "map-temperature_mid"} <= set(whole.places)
 
 
+def test_warnings_of_the_result_stand_before_those_of_the_scene(pages, tmp_path):
+    cut = made_results.THERMAL.replace(**{"time.steps": 4})
+    known, found = cut.warnings(), ["the first of the result", "the second"]
+    assert known
+    made = made_results.run(tmp_path / "a.zarr", cut, 5, made_results.fatigue(), said=[*known, *found])
+    text = page(made, tmp_path).text
+    places = [text.index(sentence) for sentence in ("About the result", *found, "About the scene", *known)]
+    assert places == sorted(places) and text.count("Warning:") == len(known) + 2
+    assert "About the result" in pages["thermal"].text and "About the scene" not in pages["thermal"].text
+    assert tehl.open(made).store.warnings == [*known, *found]
+
+
 def test_a_cut_passage_says_so(tmp_path):
     cut = made_results.THERMAL.replace(**{"time.steps": 4})
     text = page(made_results.run(tmp_path / "a.zarr", cut, 5, made_results.fatigue()), tmp_path).text

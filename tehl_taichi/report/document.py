@@ -41,7 +41,7 @@ class Section:
 @dataclass(frozen=True)
 class Answer:
     """question; headline: the answer in a sentence; tone: yes, no, open or none, which gives its colour; sentences: why;
-    doubts: what makes it less sure; warnings: those of the run."""
+    doubts: what makes it less sure; warnings: those of the run; known_before: those that its scene gave before it ran."""
 
     question: str
     headline: str
@@ -49,6 +49,14 @@ class Answer:
     sentences: tuple = ()
     doubts: tuple = ()
     warnings: tuple = ()
+    known_before: tuple = ()
+
+    @property
+    def groups(self):
+        """[(heading, warnings)]: those of the result first, which the answer hangs on; none that is empty."""
+        found = [one for one in self.warnings if one not in self.known_before]
+        known = [one for one in self.warnings if one in self.known_before]
+        return [group for group in (("About the result", found), ("About the scene", known)) if group[1]]
 
 
 @dataclass(frozen=True)

@@ -1,5 +1,7 @@
 """The page of one run, finished or not."""
 
+import dataclasses
+
 from tehl_taichi.io.reader import Reader
 from tehl_taichi.report import (
     crack_plots,
@@ -20,7 +22,8 @@ def of(folder):
     about = f"{store.scene.name}: a run of tehl_taichi {store.attrs.get('version', '')}"
     sections = (scene_section(store.scene, store.attrs.get("scene_toml", "")), *surface_plots.section(store.scene),
                 *_film(store), *_fatigue(store), *crack_plots.section(store), *_made(store))
-    return Page(f"{store.scene.name}: report", about, verdict.of(store), sections)
+    answer = dataclasses.replace(verdict.of(store), known_before=tuple(store.scene.warnings()))
+    return Page(f"{store.scene.name}: report", about, answer, sections)
 
 
 def scene_section(scene, source):
