@@ -197,10 +197,26 @@ def test_tables_have_the_error_below_the_surface_and_what_no_figure_shows(pages,
     monkeypatch.setitem(made_results.EXTRA["passage_error"], "below_Fi_max", 0.041)
     seen = page(made_results.run(tmp_path / "a.zarr", search=made_results.fatigue()), tmp_path).text
     assert "index of fatigue Fi 25 µm below the surface, largest\n1.392\n0.041\n2.9 %" in seen
-    assert "index of fatigue Fi 25 µm below the surface, largest\n1.392\nnot estimated\n" in pages["thermal"].text
+    assert "index of fatigue Fi 25 µm below the surface, largest\n1.4\nnot estimated\n" in pages["thermal"].text
     assert "largest principal stress on the surface\n300 MPa\n" in seen
     assert "load carried by solid contact, at most\n" in seen and "load carried" not in pages["steady line"].text
     assert "critical plane to the surface (0°: it lies in the surface)\n57 °" in seen
+
+
+def test_what_has_no_known_error_is_told_with_few_digits(pages):
+    run, flank = pages["thermal"].text, pages["flank"].text
+    assert "\n0.3 µm\nno coarser grid\n" in run and "\nindex Fi\n1.008 ± 0.023\n1.4\n" in run
+    assert "The largest index is Fi = 1.4, at the surface at A" in flank
+    assert rounded.told(3.9443e-7, None, "m", digits=3) == "0.394 µm" and rounded.index(1.008, None) == "1.008"
+    assert [rounded.index(1.392, error) for error in (None, 0.041)] == ["1.4", "1.392 ± 0.041"]
+
+
+def test_a_scale_that_changes_nothing_is_not_told(tmp_path):
+    np.save(tmp_path / "m.npy", 1e-7 * np.sin(np.arange(20))[:, None] * np.ones(20))
+    of_map = scene("gear").replace(**{"feature.shape": "map", "feature.file": str(tmp_path / "m.npy"), "feature.unit": "m",
+                                      "feature.pixel": 1e-5})
+    assert "scale" not in scene_words.words(of_map)[-1] and "pixel 10 µm" in scene_words.words(of_map)[-1]
+    assert "scale -1" in scene_words.words(of_map.replace(**{"feature.scale": -1.0}))[-1]
 
 
 @pytest.mark.parametrize("keys, said", [

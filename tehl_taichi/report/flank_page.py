@@ -7,7 +7,7 @@ from tehl_taichi.flank.stored_flank import Flank
 from tehl_taichi.report import verdict
 from tehl_taichi.report.document import Answer, Page, Section, drawn, facts, sentences, table
 from tehl_taichi.report.plots import colour, line, stacked
-from tehl_taichi.report.rounded import told
+from tehl_taichi.report.rounded import FEW, index, told
 from tehl_taichi.scene.gear_pair import GearPair
 from tehl_taichi.values.quantity import kinds
 
@@ -53,7 +53,7 @@ def _answer(flank):
     above = [summary for *_, summary in flank.rows if dig(summary, "fatigue")
              and max(value for _, value, _ in verdict.layers(summary["fatigue"])) > 1]
     return Answer("Where along the flank does a fatigue crack start?", headline, tone, (
-        f"The largest index is Fi = {told(Fi, error)}, {where}.",
+        f"The largest index is Fi = {index(Fi, error)}, {where}.",
         f"It is above 1 at {len(above)} of {len(flank.rows)} positions."), doubts)
 
 
@@ -63,7 +63,7 @@ def _of_films(flank, doubts):
     if not films:
         return Answer(question, "No answer: no position converged.", "none", (), doubts)
     h, at = min(films, key=lambda entry: entry[0])
-    return Answer(question, f"The smallest film is {told(h, unit='m')}, at {_where(at)}.", "none",
+    return Answer(question, f"The smallest film is {told(h, unit='m', digits=FEW)}, at {_where(at)}.", "none",
                   ("No feature passes: there is no index of fatigue.",), doubts)
 
 

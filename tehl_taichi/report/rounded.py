@@ -15,18 +15,18 @@ def fitting(unit, size):
     return 1.0, UNITS.get(unit, unit)
 
 
-def told(value, error=None, unit="1"):
-    """'1.008 ± 0.023 µm' of a value and its error in SI; error None: not known."""
-    text, rest, scale = apart(value, error, unit)
+def told(value, error=None, unit="1", digits=4):
+    """'1.008 ± 0.023 µm' of a value and its error in SI; error None: not known, then so many digits of the value."""
+    text, rest, scale = apart(value, error, unit, digits)
     return f"{text} ± {rest} {scale}".rstrip() if rest else f"{text} {scale}".rstrip()
 
 
-def apart(value, error, unit):
-    """(value, error, unit) in words: two digits of the error say how many of the value are told; four of it, and '' for the
-    error, where that is not known."""
+def apart(value, error, unit, digits=4):
+    """(value, error, unit) in words: two digits of the error say how many of the value are told; `digits` of it, and '' for
+    the error, where that is not known."""
     factor, scale = fitting(unit, value)
     if error is None or not math.isfinite(error):
-        return f"{value * factor:.4g}", "", scale
+        return f"{value * factor:.{digits}g}", "", scale
     value, error = value * factor, error * factor
     digits = 1 - math.floor(math.log10(error)) if error > 0 else 99
     if not 0 <= digits <= 9:
@@ -34,10 +34,18 @@ def apart(value, error, unit):
     return f"{value:.{digits}f}", f"{error:.{digits}f}", scale
 
 
+FEW = 3  # digits of what was computed without a known error; numbers that were given have four
+
+
 def roughly(value):
     """Two digits of a number (of 1) whose error is not known, more only where they would hide on which side of 1 it lies."""
     text = f"{value:.2g}"
     return text if float(text) != 1 else f"{value:.4g}"
+
+
+def index(Fi, error=None):
+    """An index of fatigue with its error, roughly where that is not known."""
+    return roughly(Fi) if error is None else told(Fi, error)
 
 
 def share(part, whole):

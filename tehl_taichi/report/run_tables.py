@@ -5,7 +5,7 @@ import json
 from tehl_taichi.io import intact
 from tehl_taichi.march.output import Scalar, entries
 from tehl_taichi.report.document import facts, table
-from tehl_taichi.report.rounded import apart, share, told
+from tehl_taichi.report.rounded import FEW, apart, index, roughly, share, told
 
 PARTS = (("steady", "steady start"), ("transient", "passage"), ("fatigue", "fatigue"))
 ENDS = {"_mean": ", mean", "_max": ", largest"}
@@ -30,7 +30,8 @@ def _with_errors(values):
         if values.get(name) is None:
             continue
         says, unit = _meaning(name)
-        value, shown, scale = apart(values[name], error, unit)
+        value, shown, scale = apart(values[name], error, unit, FEW)
+        value = roughly(values[name]) if name == "Fi_max" and error is None else value
         why = values.get("unknown", {}).get(name, "not estimated")
         yield (says, f"{value} {scale}".strip(), why if error is None else f"{shown} {scale}".strip(),
                "" if error is None else share(error, values[name]))
@@ -56,8 +57,15 @@ POINT = (("index Fi", "Fi_max", "1"), ("stress of the criterion", "findley_stres
 def worst_points(fatigue):
     """The worst point of the surface beside the one below it."""
     points = [("surface", {"depth_m": 0.0, **fatigue}), *([("below it", fatigue["below"])] if "below" in fatigue else [])]
-    rows = [(text, *(told(point[key], unit=unit) if key in point else "" for _, point in points)) for text, key, unit in POINT]
+    rows = [(text, *(_of_point(point, key, unit) for _, point in points)) for text, key, unit in POINT]
     return table(("worst point", *(where for where, _ in points)), rows)
+
+
+def _of_point(point, key, unit):
+    """A number of a point, '' where it has none; the index as everywhere on the page."""
+    if key == "Fi_max":
+        return index(point[key], point.get("error", {}).get(key))
+    return told(point[key], unit=unit) if key in point else ""
 
 
 def tension(fatigue):

@@ -67,6 +67,8 @@ def _sizes(f):
     keys = [key for key in own if key in f.kind.uses or key in alone] + ["x", "y"]
     for key in dict.fromkeys(keys):
         value, kind = getattr(f, key), own[key]
+        if kind.unit == "-" and value == getattr(type(f), key):
+            continue  # a factor that changes nothing
         if isinstance(kind, Number) and isinstance(value, (int, float)) and value:
             yield f"{key} {told(value, unit=kind.unit.replace('-', '1'))}"
         elif isinstance(kind, Text) and 0 < len(name := os.path.basename(value)) < LONG:  # a file without its folders
