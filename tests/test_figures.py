@@ -192,6 +192,20 @@ def test_the_moment_of_the_largest_pressure_is_never_missed(at, p, added):
     assert not any("largest" in text for text in legend(drawn("centreline", store, at=0.8)))
 
 
+def test_a_long_legend_takes_no_height_from_the_panel():
+    from matplotlib.lines import Line2D
+
+    def panel(labels):
+        page = Page(width=8.5)
+        with page.style():
+            figure, ((ax,),) = page.figure()
+            page.legend(figure, [Line2D([], [], label=f"{'a long label' * 4} {n}") for n in range(labels)])
+            figure.get_layout_engine().execute(figure)
+        return ax.get_position().height * figure.get_figheight()
+
+    assert panel(8) == pytest.approx(panel(4), rel=0.05)
+
+
 def test_the_film_colours_that_are_cut_end_in_an_arrow():
     images = [ax.collections[0] for ax in drawn("maps", made()).axes if ax.get_title()]
     assert [image.colorbar.extend for image in images] == ["neither", "max"]

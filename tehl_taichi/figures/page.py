@@ -20,6 +20,7 @@ INCH = 2.54
 DOTS = 16000            # across: more take minutes and gigabytes
 SIZES = ((5.0, 8.5, 17.0, 60.0), (6.0, 7.0, 9.0, 32.0))  # widths, cm: text, points; wider than a page all grows alike
 LETTER = 0.5            # of the text's size: mean width of a letter
+ROWS, LINE = 4, 1.35    # of a legend: as many have room in a figure; height of another one, of the text's size
 WIDEST = 0.55           # the same, of a line of a title with many wide ones
 UNDATED = {"png": {}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}  # the same figure is the same file
 
@@ -77,11 +78,13 @@ class Page:
         figure.suptitle(textwrap.fill(text, int(self.inches * 72 / (1.1 * WIDEST * self.text))))
 
     def legend(self, figure, handles=None, **options):
-        """Of lines (default: of the first panel), below the panels, where it covers nothing, as wide as there is room for."""
+        """Of lines (default: of the first panel), below the panels, where it covers nothing, as wide as there is room for; a
+        long one makes the figure higher."""
         handles = handles or figure.axes[0].get_legend_handles_labels()[0]
         longest = max(len(handle.get_label()) for handle in handles) * LETTER + 4.5
         rows = -(-len(handles) // max(int(self.inches * 72 / (longest * self.text)), 1))
         figure.legend(handles=handles, loc="outside lower center", ncols=-(-len(handles) // rows), **options)
+        figure.set_figheight(figure.get_figheight() + max(rows - ROWS, 0) * LINE * self.text / 72)
 
     def style(self):
         """The context in which figures are drawn and saved. Raises StoreError where matplotlib is not installed."""
