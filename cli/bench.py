@@ -45,23 +45,23 @@ def stability(
     by_film: bool = typer.Option(False, "--grid-by-film", help="as many columns as the film formula asks for"),
     confirm: bool = typer.Option(False, "--confirm", help="what half the time step and twice the columns change of starts with "
                                  "temperatures, instead"),
-    finer: int = typer.Option(0, min=0, max=4, help="doublings of every grid before anything is run"),
+    finer: int = typer.Option(0, min=0, max=4, help="doublings of every grid before anything is run, up to 2048 columns "
+                              "(points: 512)"),
     as_json: bool = typer.Option(False, "--json", help="one JSON object with the counts on stdout"),
     threads: Optional[int] = THREADS,
     workers: int = WORKERS,
     precision: str = typer.Option("auto", help="of the linear solves: f32, f64 or what suits each scene"),
 ):
     """Stiff and extreme scenes: converged, refused, stopped with the reason, or failed. Example: `tehl bench stability`"""
-    from tehl_taichi.profiles.stability import carried, cases, doubled, random_cases, run, starts
-
-    from tehl_taichi.scene import Scene
+    from tehl_taichi.profiles import stability as suite
+    from tehl_taichi.profiles.stability import carried, cases, random_cases, run, starts
 
     table = list(cases(thermal).items())
     chosen = [*table[:: 6 if quick else 1], *random_cases(min(random, 8) if quick else random, seed).items()]
     chosen = {name: description for name, description in chosen if match.lower() in name.lower()}
     chosen = starts(chosen) if only_starts or confirm else chosen
     chosen, found = carried(chosen) if by_film else chosen, []
-    chosen = {name: doubled(one, finer) if isinstance(one, Scene) else one for name, one in chosen.items()}
+    chosen = suite.finer(chosen, finer)
     if confirm:
         return _confirm(chosen, as_json, workers, threads)
     for outcome in run(chosen.items(), precision, workers, threads):
@@ -89,14 +89,18 @@ def _confirm(chosen, as_json, workers, threads):
 
     found = []
     for one in confirm(chosen, workers, threads):
-        found.append(vars(one))
+        found.append({**vars(one), "holds": one.holds})
         changes = ", ".join(f"{key} {value:.2g}" for key, value in vars(one).items() if isinstance(value, float))
         say(f"{one.name}: {one.reason or changes or 'stops'}")
+    counts = {"starts": len(found), "holds": sum(one["holds"] for one in found),
+              "moving": sum(one["holds"] and one["moving"] for one in found)}
     if as_json:
-        return print_json({"cases": found})
+        return print_json({**counts, "cases": found})
     rows = [{**one, **{key: 100 * one[key] for key in ("half_film", "finer_film") if one[key] is not None}} for one in found]
     _table("what half the time step and twice the columns change: h_c in %, temperature in K", rows,
            {"name": "{}", "columns": "{}", **dict.fromkeys(("half_film", "half_K", "finer_film", "finer_K"), "{:.2f}")})
+    say("{holds} of {starts} starts hold: neither changes their film by more than 1 %, nor their temperature by more than 1 K "
+        "({moving} of them states in time)".format(**counts))
 
 
 def conclusions(

@@ -24,6 +24,8 @@ LINE, POINT = {"grid.nx": 128, "grid.ny": 32}, {"grid.nx": 64, "grid.ny": 32}
 NARROW = {"grid.nx": 304, "grid.ny": 76}  # 20 um are four cells, the fewest that are taken
 MOST_STEPS = 600  # of a passage; with temperatures SRR -1.99 would need 25 536, the feature hardly moves in one
 FINEST = {"line": 1024, "point": 256}  # columns, of scenes on the grid that their film asks for
+MOST = {True: 2048, False: 512}  # columns of lines, of points, that are made finer
+FILM_HOLDS, HOLDS_K = 0.01, 1.0  # what half a step and a finer grid may change of a start that they confirm
 RANDOM_LINE, RANDOM_POINT, RANDOM_STEPS = {"grid.nx": 64, "grid.ny": 16}, {"grid.nx": 64, "grid.ny": 16, "grid.y_max": 2.0}, 12
 # the default first, then in the order that the published figures were drawn in
 SHEAR_LAWS = [Rheology.law, *sorted(set(rheology.LAWS) - {Rheology.law}, reverse=True)]
@@ -52,7 +54,8 @@ class Outcome:
 @dataclass(frozen=True)
 class Confirmed:
     """What half the time step and twice the columns change of a start: central film (part of it), largest temperature (K);
-    None where that start stops. reason: why a case is lost altogether."""
+    None where that start stops. moving: whether one of the three is a state in time, none at rest; reason: why a case is lost
+    altogether."""
 
     name: str
     columns: int
@@ -60,7 +63,14 @@ class Confirmed:
     half_K: Optional[float]
     finer_film: Optional[float]
     finer_K: Optional[float]
+    moving: bool = False
     reason: str = ""
+
+    @property
+    def holds(self):
+        """Whether neither changes the film by more than 1 %, nor the temperature by more than 1 K."""
+        films, kelvins = (self.half_film, self.finer_film), (self.half_K, self.finer_K)
+        return None not in films and max(films) <= FILM_HOLDS and max(kelvins) <= HOLDS_K
 
 
 def cases(thermal=False):
@@ -231,7 +241,7 @@ def confirm(chosen, workers=1, threads=None):
     for number, found in measure.side_by_side(confirmed, jobs, workers, threads):
         lost = isinstance(found, pool.Lost)
         name, description = jobs[number]
-        yield Confirmed(name, description.grid.nx, None, None, None, None, found.reason) if lost else found
+        yield Confirmed(name, description.grid.nx, None, None, None, None, reason=found.reason) if lost else found
 
 
 def confirmed(name, description):
@@ -242,7 +252,8 @@ def confirmed(name, description):
     def change(other):
         return (abs(other[0] / own[0] - 1), abs(other[1] - own[1])) if own and other else (None, None)
 
-    return Confirmed(name, description.grid.nx, *change(half), *change(finer))
+    moving = any(state[2] for state in (own, half, finer) if state)
+    return Confirmed(name, description.grid.nx, *change(half), *change(finer), moving)
 
 
 def doubled(description, times=1):
@@ -251,8 +262,21 @@ def doubled(description, times=1):
     return description.replace(**{"grid.nx": g.nx << times, "grid.ny": g.ny << (0 if line else times)})
 
 
+def finer(chosen, times):
+    """`chosen`, {name: scene or SceneError}, on grids doubled so many times, as long as they have no more than MOST columns."""
+    return {name: _doubled_up_to(one, times, MOST[Scales.of(one).line]) if isinstance(one, Scene) else one
+            for name, one in chosen.items()}
+
+
+def _doubled_up_to(description, times, most):
+    for _ in range(times):
+        if 2 * description.grid.nx <= most:
+            description = doubled(description)
+    return description
+
+
 def _start(description):
-    """(central film, m, largest temperature, deg C) of a start, or None where it does not settle."""
+    """(central film, m, largest temperature, deg C, whether it is a state in time) of a start, or None where it stops."""
     from tehl_taichi.errors import NotConverged
     from tehl_taichi.march.passage import march
 
@@ -260,7 +284,7 @@ def _start(description):
         shot = next(march(description))
     except (NotConverged, SceneError):
         return None
-    return None if shot.unsettled else (shot.scalars["h_c_m"], shot.scalars["film_max_C"])
+    return shot.scalars["h_c_m"], shot.scalars["film_max_C"], bool(shot.unsettled)
 
 
 def sound(shot):

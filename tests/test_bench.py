@@ -119,17 +119,24 @@ def test_starts_are_confirmed_by_half_a_step_and_twice_the_columns(monkeypatch):
         if description.grid.nx > 200:
             raise NotConverged("too fine")
         film = (1.0 + 0.01 * description.grid.nx) * 1e-6
-        yield SimpleNamespace(scalars={"h_c_m": film, "film_max_C": 100.0 + (description.time.courant < 1)}, unsettled="")
+        hot = description.time.courant < 1
+        yield SimpleNamespace(scalars={"h_c_m": film, "film_max_C": 100.0 + hot}, unsettled="it moves" * (film > 2e-6))
 
     monkeypatch.setattr("tehl_taichi.march.passage.march", march)
     coarse, fine = (scene("gear").replace(**{"grid.nx": nx, "grid.ny": 32}) for nx in (64, 128))
     found, stopped = stability.confirm({"coarse": coarse, "fine": fine})
-    assert found == stability.Confirmed("coarse", 64, 0.0, 1.0, pytest.approx(2.28 / 1.64 - 1), 0.0)
+    assert found == stability.Confirmed("coarse", 64, 0.0, 1.0, pytest.approx(2.28 / 1.64 - 1), 0.0, True)
+    assert not found.holds
     assert (stopped.half_film, stopped.half_K, stopped.finer_film, stopped.finer_K) == (0.0, 1.0, None, None)
+    assert (found.moving, stopped.moving) == (True, True)  # 128 columns: 2.28 um
+    assert not stopped.holds and stability.Confirmed("near", 64, 0.0, 1.0, 0.01, 0.5, True).holds
     ball = scene("ridge-on-ball")
     finest = stability.doubled(ball, 2).grid
     assert (finest.nx, finest.ny) == (4 * ball.grid.nx, 4 * ball.grid.ny)
     assert (stability.doubled(coarse).grid.nx, stability.doubled(coarse).grid.ny) == (128, 32)
+    grids = stability.finer({"line": coarse, "ball": ball, "none": "refused"}, 6)
+    assert (grids["line"].grid.nx, grids["ball"].grid.nx, grids["none"]) == (2048, 512, "refused")
+    assert stability.finer({"line": coarse}, 2)["line"].grid.nx == 256
 
 
 def test_a_start_that_is_lost_is_told(monkeypatch):
