@@ -20,13 +20,18 @@ def headed(page, figure, moments, what, shown, more=""):
     page.title(figure, f"{moments.store.scene.name}: {what}{alone}{'; ' * bool(more)}{more}")
 
 
+def _start(colour):
+    """The steady start (grey) is dashed, and above the other moments: they cover it where nothing has changed."""
+    return dict(ls="--", zorder=3) if colour == palette.GREY else dict(ls="-", zorder=2)
+
+
 def centreline(page, moments):
     """Pressure and film for several feature positions."""
     store, row, shown = moments.store, moments.line, moments.several()
     figure, ((top,), (low,)) = page.figure(2, sharex=True)
     for n, (colour, said) in shown.items():
         f = store.fields(n, ("pressure", "film"))
-        style = dict(label=said, color=colour, ls="--" if colour == palette.GREY else "-")
+        style = dict(label=said, color=colour, **_start(colour))
         top.plot(moments.x, f["pressure"][:, row] / 1e9, **style)
         low.plot(moments.x, f["film"][:, row] * 1e6, **style)
     top.set(ylabel="pressure (GPa)")
@@ -48,7 +53,7 @@ def temperature(page, moments):
     for n, (colour, _) in shown.items():
         f = store.fields(n, [name for name, *_ in SURFACES])
         for name, _, style in SURFACES:
-            ax.plot(moments.x, f[name][:, row], ls=style, color=colour)
+            ax.plot(moments.x, f[name][:, row], ls=style, color=colour, zorder=_start(colour)["zorder"])
     ax.set(xlabel=ALONG, ylabel="temperature (°C)", xlim=moments.window)
     ax.grid()
     when = [Line2D([], [], color=colour, label=said) for colour, said in shown.values()]
