@@ -102,9 +102,11 @@ def row(name, description, folder, grids, progress=None):
 
 def unresolved(saved):
     """{(loads, window): why the grid does not know it}, of windows with a pressure peak that it does not resolve."""
-    at, p = saved.scalar("feature_x")[1:] / Scales.of(saved.scene).a, saved.scalar("p_max_Pa")[1:]
+    a = Scales.of(saved.scene).a
+    at, p = saved.scalar("feature_x")[1:] / a, saved.scalar("p_max_Pa")[1:]
     entries = {window: 1 + np.flatnonzero((at >= low) & (at <= high)) for window, (low, high) in WINDOWS.items()}
-    doubts = {window: readings.unresolved(saved, those, p[those - 1].max()) for window, those in entries.items() if those.size}
+    doubts = {window: readings.unresolved(saved, those, p[those - 1].max(), a) for window, those in entries.items()
+              if those.size}
     keys = [(loads, window) for loads in LOADS for window in WINDOWS] + [*DEEP.values()]
     return {key: doubts[key[1]] for key in keys if doubts.get(key[1])}
 

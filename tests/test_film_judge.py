@@ -98,6 +98,12 @@ def test_a_peak_at_a_free_edge(changes, advice):
     assert advice in text
 
 
+def test_what_is_an_exit():
+    from tehl_taichi.march import readings
+
+    assert [readings.exits(x, 0.4e-3) for x in (-0.3e-3, 0.1e-3, 0.3e-3)] == ["", "", readings.EXIT]
+
+
 def test_an_unresolved_peak_inside_wants_a_finer_grid():
     def needle(X, smooth):
         out = smooth.copy()

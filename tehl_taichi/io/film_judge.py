@@ -38,7 +38,7 @@ def unresolved(store, summary):
         p = store.fields(n, ("pressure",))["pressure"]
         height, i = sharpest(p)
         if height >= 1.0:  # of lower peaks the bars tell, which they leave unknown
-            yield (readings.EXIT if store.x[i] > 0 else "") + _where(store, n, p, i) + _because(store, i)
+            yield readings.exits(store.x[i], Scales.of(store.scene).a) + _where(store, n, p, i) + _because(store, i)
 
 
 def _where(store, n, p, i):

@@ -43,15 +43,15 @@ def passage_readings(scene, reader, scalar, fatigue=None):
     reader: entries as :class:`tehl_taichi.fatigue.histories.Passage` takes them, the steady start first; scalar(name): array of
     the entries' values; fatigue: summary of its search or None.
     """
-    p, h = (scalar(name)[1:] for name in ("p_max_Pa", "h_min_m"))
+    p, h, a = *(scalar(name)[1:] for name in ("p_max_Pa", "h_min_m")), Scales.of(scene).a
     heat = () if scene.isothermal else readings.HEAT
-    out = {"p_max_Pa": readings.highest(_moment(reader, int(np.argmax(p)) + 1)),
+    out = {"p_max_Pa": readings.highest(_moment(reader, int(np.argmax(p)) + 1), a),
            "h_min_m": readings.lowest(_moment(reader, int(np.argmin(h)) + 1)),
            **{name: readings.hottest(np.max(scalar(name)[1:]), scene) for name in heat},
            "friction_coefficient_mean": Reading(float(np.mean(scalar("friction_coefficient")[1:])))}
     out |= {name: Reading(float(part["Fi_max"])) for name, part in indices(fatigue or {}).items()}
     # a peak that the grid does not resolve at some moment: neither its pressure is known nor what it does to oil and steel
-    why = readings.unresolved(reader, range(1, len(p) + 1), p.max())
+    why = readings.unresolved(reader, range(1, len(p) + 1), p.max(), a)
     return out | {name: replace(out[name], doubt=why) for name in SHARP if why and name in out}
 
 
@@ -64,9 +64,9 @@ def indices(fatigue):
 
 def resolved(scene, reader, scalar):
     """Position (a) of the feature up to which the grid resolves every peak of the pressure; None where it always does."""
-    p = scalar("p_max_Pa")[1:].max()
-    first = next((n for n in range(1, len(reader)) if readings.unresolved(reader, [n], p)), None)
-    return None if first is None else float(reader.feature_x(first - 1)) / Scales.of(scene).a
+    p, a = scalar("p_max_Pa")[1:].max(), Scales.of(scene).a
+    first = next((n for n in range(1, len(reader)) if readings.unresolved(reader, [n], p, a)), None)
+    return None if first is None else float(reader.feature_x(first - 1)) / a
 
 
 def values(scene, tell=lambda: None, until=lambda: None):

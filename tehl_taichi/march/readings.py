@@ -7,17 +7,18 @@ import numpy as np
 
 from tehl_taichi.march.error_bars import Reading, beside
 from tehl_taichi.march.peaks import peak, sharpest
+from tehl_taichi.scene.scales import Scales
 
 HEAT = ("film_max_C", "surface_a_max_C", "surface_b_max_C")
 SETTLED = 0.1  # of thermal.tolerance: rounds end when another one would move temperatures by less; usual are 0.01 to 0.1 of it
 SPIKE = "a pressure peak of {:.0%} of the largest is only a few cells wide and may grow on finer grids"
-EXIT = "exit not resolved: "  # where the feature, or the oil that it let in, leaves the film
+EXIT, EXITS = "exit not resolved: ", 0.5  # where the feature, or the oil that it let in, leaves the film: beyond so many a
 TOUCH = "the surfaces touch on this grid, which is too coarse for so thin a film"
 
 
 def steady(shot, scene):
     """{name: Reading} of a snapshot of a steady smooth contact."""
-    out = {"h_c_m": Reading(shot.scalars["h_c_m"]), "h_min_m": lowest(shot), "p_max_Pa": highest(shot),
+    out = {"h_c_m": Reading(shot.scalars["h_c_m"]), "h_min_m": lowest(shot), "p_max_Pa": highest(shot, Scales.of(scene).a),
            "friction_coefficient": Reading(shot.scalars["friction_coefficient"]),
            **{name: hottest(shot.scalars[name], scene) for name in HEAT if name in shot.scalars}}
     if "film_max_C" in out:  # a narrow peak of pressure may be the hottest place
@@ -32,22 +33,27 @@ def hottest(value, scene):
     return Reading(float(value), settled=SETTLED * scene.thermal.tolerance)
 
 
-def highest(shot):
-    """Reading of the largest pressure of a snapshot, Pa and m."""
+def highest(shot, a):
+    """Reading of the largest pressure of a snapshot, Pa and m; a: half-width of the contact, m."""
     p = shot.fields["pressure"]
     i, j = peak(p)
-    cell, why = float(shot.x[1] - shot.x[0]), doubt(shot.x, *sharpest(p))
+    cell, why = float(shot.x[1] - shot.x[0]), doubt(shot.x, *sharpest(p), a)
     return Reading(float(p[i, j]), _between(p, i, j), _place(shot, i), cell, why)
 
 
-def doubt(x, height, i):
-    """Why a grid with nodes at x cannot know the largest pressure, from :func:`tehl_taichi.march.peaks.sharpest`; or ""."""
-    return (EXIT if x[i] > 0 else "") + SPIKE.format(height) if height else ""
+def doubt(x, height, i, a):
+    """Why a grid with nodes at x (m) cannot know the largest pressure, from :func:`tehl_taichi.march.peaks.sharpest`; or ""."""
+    return exits(x[i], a) + SPIKE.format(height) if height else ""
 
 
-def unresolved(reader, entries, largest):
+def exits(x, a):
+    """What is said first of a peak or ripple at x (m) of a contact of half-width a."""
+    return EXIT if x > EXITS * a else ""
+
+
+def unresolved(reader, entries, largest, a):
     """The :func:`doubt` about these entries, by the worst peak of all; largest: pressure of them, Pa."""
-    return doubt(reader.x, *max(sharpest(reader.fields(n, ("pressure",))["pressure"], largest) for n in entries))
+    return doubt(reader.x, *max(sharpest(reader.fields(n, ("pressure",))["pressure"], largest) for n in entries), a)
 
 
 def lowest(shot):
