@@ -215,8 +215,8 @@ def test_a_summary_has_numbers_or_null():
     from tehl_taichi.io.summary_rows import quantity
 
     values = {"film": 1.5e-6, "error": {"film": None}}
-    assert quantity(values, "film", 1e6, "um") == "1.5000 um (error unknown)"
-    assert quantity({**values, "error": {"film": 2e-9}}, "film", 1e6, "um") == "1.5000 ± 0.002 um"
+    assert quantity(values, "film", 1e6, "um") == "1.5 um (error unknown)"
+    assert quantity({**values, "error": {"film": 2e-9}}, "film", 1e6, "um") == "1.5000 ± 0.0020 um"
     json.dumps({"error": bars([{"a": Reading(1.0)}])}, allow_nan=False)
 
 

@@ -88,8 +88,8 @@ def test_the_summary_and_the_table_have_it():
     assert deep is part["below"] and below == {"Fi_max": companions.RESOLVED_BELOW}
     part["error"], part["unknown"] = {"Fi_max": 0.02}, {}
     rows = dict(summary_rows.fatigue_rows(search))
-    assert rows["Fi_max while resolved (to 0.60 a)"] == "0.8000 ± 0.02"
-    assert rows["below it while resolved, at 25 um"] == "0.9000 (error unknown)"
+    assert rows["Fi_max while resolved (to 0.60 a)"] == "0.800 ± 0.020"
+    assert rows["below it while resolved, at 25 um"] == "0.9 (error unknown)"
     assert flat.error_of("fatigue_resolved_Fi_max") in flat.numbers({"fatigue": search})
     assert flat.error_of("fatigue_below_Fi_max") == "fatigue_below_error_Fi_max"
 

@@ -1,5 +1,7 @@
 """The summary of a run as people read it: rows of (quantity, value with its error and unit). Needs no taichi."""
 
+import math
+
 from tehl_taichi.march.readings import HEAT
 
 
@@ -26,9 +28,13 @@ def summary_rows(summary):
 
 
 def quantity(values, name, factor=1, unit=""):
-    """'value ± error unit' of one of the values, or that its error is not known."""
-    text, error = f"{values[name] * factor:.4f}", values.get("error", {}).get(name)
-    return f"{text} {unit}".rstrip() + " (error unknown)" if error is None else f"{text} ± {error * factor:.2g} {unit}".rstrip()
+    """'value ± error unit' of one of the values, with two digits of the error; three digits where that is not known."""
+    value, error = values[name] * factor, values.get("error", {}).get(name)
+    if error is None:
+        return f"{value:.3g} {unit}".rstrip() + " (error unknown)"
+    size = error * factor
+    digits = min(max(1 - math.floor(math.log10(size)), 0), 9) if size > 0 else 4
+    return f"{value:.{digits}f} ± {size:.{digits}f} {unit}".rstrip()
 
 
 def _heat_rows(when, values):
