@@ -23,7 +23,17 @@ def summary_table(summary):
     from tehl_taichi.io.summary_rows import summary_rows, title
 
     _table(title(summary), summary_rows(summary))
+    _answer(summary)
     warning_lines(summary.get("warnings", []))
+
+
+def _answer(summary):
+    """Print what the report of a passage begins with."""
+    from tehl_taichi.report.verdict import of_fatigue
+
+    if "fatigue" in summary:
+        question, answer, *_ = of_fatigue(summary["fatigue"])
+        print(f"{question} {answer}")
 
 
 def warning_lines(sentences):

@@ -366,3 +366,9 @@ def test_what_is_not_installed_is_named_with_how_to_get_it(thermal, tmp_path, mo
     monkeypatch.setitem(sys.modules, name, None)
     with pytest.raises(StoreError, match=rf"a report needs {name}: pip install 'tehl_taichi\[report\]'"):
         tehl.report(thermal, tmp_path / "a.html")
+
+
+def test_the_terminal_has_the_same_answer(thermal, pages):
+    shown = CliRunner().invoke(app, ["show", str(thermal)])
+    question, headline, *_ = verdict.of_fatigue(tehl.open(thermal).summary["fatigue"])
+    assert f"{question} {headline}" in shown.output.splitlines() and headline in pages["thermal"].text

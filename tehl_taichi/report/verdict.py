@@ -1,7 +1,7 @@
 """The answer of a run, in a sentence, and what it rests on."""
 
 from tehl_taichi.report.document import Answer
-from tehl_taichi.report.rounded import roughly, told
+from tehl_taichi.report.rounded import index, told
 from tehl_taichi.report.scene_words import material
 from tehl_taichi.scene.route import total_steps
 
@@ -76,12 +76,7 @@ def _by_what_is_known(part, whole, tells):
 
 def _told(where, Fi, error, said):
     unknown = "" if error is not None else " (error not known)"
-    return f"{where[0].upper()}{where[1:]}: Fi = {_index(Fi, error)}{unknown}, {SAID[said]}."
-
-
-def _index(Fi, error=None):
-    """Digits are a promise: few where nothing is known of the error."""
-    return roughly(Fi) if error is None else told(Fi, error)
+    return f"{where[0].upper()}{where[1:]}: Fi = {index(Fi, error)}{unknown}, {SAID[said]}."
 
 
 def headline(worst, places, known, when=""):
@@ -99,7 +94,7 @@ def _alone(fatigue):
     if not alone:
         return ()
     more = ": the material is overloaded there without the feature too" if alone["Fi_max"] > 1 else ""
-    return (f"The contact without its feature has Fi = {_index(alone['Fi_max'])} at {alone['depth_m'] * 1e6:.0f} µm{more}.",)
+    return (f"The contact without its feature has Fi = {index(alone['Fi_max'])} at {alone['depth_m'] * 1e6:.0f} µm{more}.",)
 
 
 def _plane(fatigue):
