@@ -12,9 +12,10 @@ AT_FLOOR = 1e-3  # relative, that a film on its floor may lie above
 HIGH = 5.0  # central films, more than a usual asperity (1.5 um over 0.4): features that rise so far are named
 
 
-def not_converged(solver, heat, report, where):
-    """NotConverged for what is in the solver's table; heat: its FilmHeat or None; where: what was solved."""
-    return NotConverged(f"{where} did not converge: {_reason(solver, heat, report)}")
+def not_converged(solver, heat, report, where, passing=False):
+    """NotConverged for what is in the solver's table; heat: its FilmHeat or None; where: what was solved; passing: whether the
+    features of the scene are in the contact."""
+    return NotConverged(f"{where} did not converge: {_reason(solver, heat, report, passing)}")
 
 
 def crossed(shot, a, border):
@@ -26,10 +27,10 @@ def crossed(shot, a, border):
                         "(grid.x_min, grid.x_max, grid.y_max) gives it room")
 
 
-def _reason(solver, heat, report):
+def _reason(solver, heat, report, passing):
     double = "" if solver.levels.precision == "f64" else ", --precision f64"
     return (f"{_what_failed(solver, heat, report)}; "
-            f"{_on_its_floor(solver) or f'try a finer grid (--grid), a smaller time.courant{double}'}")
+            f"{_on_its_floor(solver, passing) or f'try a finer grid (--grid), a smaller time.courant{double}'}")
 
 
 def _what_failed(solver, heat, report):
@@ -63,19 +64,19 @@ def _heated(heat):
     return f", temperatures {' and '.join(found)}" if found else ""
 
 
-def _on_its_floor(solver):
+def _on_its_floor(solver, passing):
     """What to do where the film is as thin as the equations have it, "" elsewhere."""
     v = solver.levels
     floor, nodes = v.G[0, fields.FLOOR], int((v.get(fields.H) < (1 + AT_FLOOR) * v.G[0, fields.FLOOR]).sum())
     if not nodes:
         return ""
     return (f"the film is on its floor ({floor * v.scales.h:.1e} m, rheology.film_floor) at {nodes} nodes: "
-            f"{_too_high(v.scene) or f'too thin for this grid, {_finer(v.scene)}'}")
+            f"{passing and _too_high(v.scene) or f'too thin for this grid, {_finer(v.scene)}'}")
 
 
 def _too_high(scene):
     """Features that no film carries, "" where there are none; a map may hold the form of its body, or another unit."""
-    if not scene.transient or (top := max(f.top for f in scene.features)) <= HIGH * (film := heated_film(scene)):
+    if (top := max(f.top for f in scene.features)) <= HIGH * (film := heated_film(scene)):
         return ""
     measured = any(f.kind.measured for f in scene.features)
     asked = " (is that its roughness without its form, feature.level, in the right feature.unit?)" if measured else ""

@@ -151,7 +151,7 @@ class Passage:
         self.rejected += 1
         if part / 2 < SMALLEST_PART:
             where = f"step {self.step + 1} (feature at {self.position(self.step + 1):.2f} a), down to {part:g} of it,"
-            raise not_converged(self.solver, self.heat, report, where)
+            raise not_converged(self.solver, self.heat, report, where, passing=True)
         return part / 2
 
     def position(self, step):
