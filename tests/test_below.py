@@ -114,6 +114,42 @@ def test_a_row_s_histories_at_the_surface_are_those_of_all_points(taichi_cpu, he
             np.testing.assert_allclose(histories[n], points, atol=1e-4 * np.abs(points).max())
 
 
+class Beside(Rolling):
+    """On a whole domain: the bump at 0.25 a across, and shear that is largest at -0.5 a, on the surface's worst row."""
+
+    def __init__(self, scene):
+        super().__init__(scene)
+        self.y = np.linspace(-1, 1, 17) * self.s.a
+
+    def fields(self, n, names):
+        x, y = self.x[:, None] / self.s.a, self.y[None, :] / self.s.a
+        hertz = self.s.p_H * np.sqrt(np.maximum(1 - x**2, 0)) + 0 * y
+        at = x - self.centres[n] / self.s.a
+        bump = np.exp(-(at**2 + (y - 0.25) ** 2) / 0.01) if n else 0 * hertz
+        rub = np.exp(-(at**2 + (y + 0.5) ** 2) / 0.01) if n else 0 * hertz
+        found = {"pressure": hertz * (1 + bump), "traction_x_a": hertz * (0.05 + 0.4 * rub), "traction_y_a": 0 * hertz}
+        return {name: found[name] for name in names}
+
+
+@pytest.mark.parametrize("until", [None, 0.4])
+def test_on_a_whole_domain_the_worst_row_below_is_found(taichi_cpu, until):
+    """Neither the row of the feature, 0, nor that of the worst point of the surface, -0.5 a."""
+    scene = tehl.scene("gear").replace(**{"thermal.on": False, "fatigue.kappa": 0.0})
+    told = []
+    found = assessment.run(scene, reader := Beside(scene), lambda *parts: told.append(parts), until)
+    deep, a = found.summary["below"], reader.s.a
+    assert found.summary["y_m"] == pytest.approx(-0.5 * a) and deep["y_m"] == pytest.approx(0.25 * a)
+    plane, depth = found.maps["findley_stress_at_worst_depth"][0], float(found.maps["worst_depth"][0][0])
+    whole = assessment.run(scene.replace(**{"fatigue.depths": [depth]}), reader)
+    np.testing.assert_array_equal(plane, whole.maps["findley_stress_at_depth"][0][1])
+    assert deep["findley_stress_max_Pa"] >= plane.max() * (1 - 1e-9)
+    if until:
+        early = found.summary["resolved"]["below"]
+        assert early["y_m"] == pytest.approx(0.25 * a) and early["Fi_max"] <= deep["Fi_max"] * (1 + 1e-9)
+    counts = [done for done, _ in told]
+    assert counts == sorted(counts) and told[-1][0] == told[-1][1] and len({total for _, total in told}) == 1
+
+
 def test_depths_beyond_the_rungs_are_interpolated_well(taichi_cpu):
     """Histories between two rungs against those computed there: 0.5 % of the largest stress."""
     scene = tehl.scene("gear").replace(**{"thermal.on": False})

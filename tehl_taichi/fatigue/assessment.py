@@ -1,19 +1,16 @@
 """Fatigue of the material around a feature: stress histories, critical planes, the index."""
 
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
 
-from tehl_taichi.fatigue import below, findley
+from tehl_taichi.fatigue import depth_search
 from tehl_taichi.fatigue.histories import Passage
-from tehl_taichi.fatigue.thermal_stress import WORKERS
+from tehl_taichi.fatigue.layer import layer
 from tehl_taichi.fatigue.told import Told
-from tehl_taichi.fatigue.worst_point import Point, worse, worst_of
 from tehl_taichi.scene import SceneError
 
 PIT_ANGLES = (18.0, 50.0)  # degrees to the surface at which pits begin (Everitt 2018)
-POINTS = 16  # whose largest principal stresses are found at once
 
 
 @dataclass(frozen=True)
@@ -71,12 +68,13 @@ def run(scene, reader, progress=None, until=None):
         raise SceneError(f"the feature is at no stored moment between fatigue.from_x = {f.from_x:g} a and to_x = {f.to_x:g} a; "
                          f"it goes from {centres[0] / passage.a:.2f} to {centres[-1] / passage.a:.2f} a")
     progress, early, auto = Told.of(progress, scene, passage), _early(passage, until), scene.fatigue.depths == "auto"
-    layers = [_layer(scene, passage, depth, progress, early) for depth in (0.0, *(() if auto else scene.fatigue.depths))]
-    whole, before = _profiles(scene, passage, layers[0], early, progress) if auto else ([], [])
-    result = _result(scene, passage, layers, whole)
+    layers = [layer(scene, passage, depth, progress, early) for depth in (0.0, *(() if auto else scene.fatigue.depths))]
+    deep = depth_search.search(scene, passage, layers[0], early, progress) if auto else depth_search.Deep([], [])
+    progress.end()
+    result = _result(scene, passage, layers, deep)
     if early is not None:
-        deep = [layer.early for layer in layers[1:]] + _under(before)
-        result.summary["resolved"] = _resolved(until, layers[0].early, deep, scene.fatigue.endurance)
+        points = [found.early for found in layers[1:]] + deep.early
+        result.summary["resolved"] = _resolved(until, layers[0].early, points, scene.fatigue.endurance)
     return result
 
 
@@ -95,64 +93,7 @@ def _resolved(until, top, deep, limit):
     return out if worst is None else out | {"below": {"depth_m": worst.depth, **worst.summary(limit)}}
 
 
-@dataclass(frozen=True)
-class Layer:
-    """What was found at one depth: maps (nx, rows), the worst point, and that of the early moments where they are wanted."""
-
-    depth: float
-    f: np.ndarray
-    theta: np.ndarray
-    phi: np.ndarray
-    sigma1: np.ndarray
-    worst: Point
-    early: Point | None
-
-
-def _layer(scene, passage, depth, progress, early):
-    operators, parts, worst, before = passage.stresses(depth), [], None, None
-    for rows in passage.row_blocks():
-        history = passage.history(rows, operators, progress, lambda: findley.prepare(scene.fatigue.criterion))
-        f, normals = findley.search(history, scene.fatigue.kappa, criterion=scene.fatigue.criterion, tell=progress)
-        shape = passage.x.size, rows.stop - rows.start
-        parts.append([v.reshape(shape) for v in (f, *findley.angles(normals), _tension(history))])
-        places = passage.places(depth, rows)
-        worst = worse(worst, places, history, f, normals)
-        if early is not None:
-            before = worst_of(history, early, scene.fatigue, f, places, before)
-    return Layer(depth, *(np.concatenate(part, axis=1) for part in zip(*parts)), worst, before)
-
-
-def _tension(history):
-    """Largest principal stress of every point (points,), Pa, over its history."""
-    def of(points):
-        return findley.largest_principal(points).max(axis=1)
-
-    with ThreadPoolExecutor(WORKERS) as pool:
-        return np.concatenate(list(pool.map(of, np.array_split(history, -(-len(history) // POINTS)))))
-
-
-def _profiles(scene, passage, surface, early, progress):
-    """What lies below the feature's row, below the surface's worst rows if those are others, and below the contact alone:
-    ([of the whole passage], [of its early moments])."""
-    y, ways = passage.reader.y, (scene.features[0].y, surface.worst.y, *([surface.early.y] if surface.early else []))
-    rows = [int(np.argmin(np.abs(y - at))) for at in ways]
-    windows = [slice(None)] + [early] * (early is not None)
-    found = below.profiles(passage, list(dict.fromkeys(rows)), _has_far_row(scene, y), windows, progress)
-    return found[:: len(windows)], found[1 :: 2] if len(windows) > 1 else []
-
-
-def _under(profiles):
-    """Worst points of those that lie under the feature."""
-    return [profile.worst for profile in profiles if not profile.alone]
-
-
-def _has_far_row(scene, y):
-    """Whether the last row of a line contact is beyond all features."""
-    beyond = all(0 < f.reach_y and abs(f.y) + f.reach_y < y[-1] for f in scene.features)
-    return scene.contact.kind == "line" and y.size > 1 and beyond
-
-
-def _result(scene, passage, layers, profiles):
+def _result(scene, passage, layers, below):
     surface, limit, centres = layers[0], scene.fatigue.endurance, passage.centres
     summary = {**surface.worst.summary(limit), "sigma1_max_Pa": float(surface.sigma1.max()),
                "kappa_F": float(scene.fatigue.kappa), "sigma_eF_Pa": float(limit), **surface.worst.moments(centres),
@@ -160,15 +101,15 @@ def _result(scene, passage, layers, profiles):
                "pit_angles_deg": list(PIT_ANGLES)}
     maps, worst, deep = _maps(surface, passage, limit), surface.worst.history(centres), None
     maps |= _history_maps(worst, "worst", "the worst point of the surface")
-    points = [layer.worst for layer in layers[1:]] + _under(profiles)
+    points = [found.worst for found in layers[1:]] + below.worst
     if points:
         point = max(points, key=lambda point: point.f)
         summary["below"], deep = {"depth_m": point.depth, **point.summary(limit)}, point.history(centres)
         maps |= _history_maps(deep, "worst_below", "the worst point below it")
-    if profiles:
-        depths = profiles[0].depths
-        summary["below"] |= {"searched_m": [float(depths[0]), float(depths[-1])], **_alone(profiles, limit)}
-        maps |= _profile_maps(surface, passage, profiles)
+    if below.profiles:
+        depths = below.profiles[0].depths
+        summary["below"] |= {"searched_m": [float(depths[0]), float(depths[-1])], **_alone(below.profiles, limit)}
+        maps |= _profile_maps(surface, passage, below.profiles) | _plane_maps(below.plane)
     if len(layers) > 1:
         summary["by_depth"] = [{"depth_m": layer.depth, "findley_stress_max_Pa": float(layer.f.max()),
                                 "sigma1_max_Pa": float(layer.sigma1.max())} for layer in layers]
@@ -205,6 +146,14 @@ def _maps(surface, passage, limit):
             "sigma1_max": (surface.sigma1, BOTH, "Pa", "largest principal stress of the passage"),
             "plane_theta": (surface.theta, BOTH, "degree", "angle of the critical plane's normal from the surface normal"),
             "plane_phi": (surface.phi, BOTH, "degree", "direction of the critical plane's normal in the surface, from x")}
+
+
+def _plane_maps(plane):
+    """Of the plane below that was searched at all its points."""
+    if plane is None:
+        return {}
+    return {"worst_depth": (np.array([plane.depth]), ["worst_depth"], "m", "below the surface, searched at all points"),
+            "findley_stress_at_worst_depth": (plane.f, BOTH, "Pa", "Findley stress at that depth")}
 
 
 def _layer_maps(layers):

@@ -1,5 +1,7 @@
 """How far a fatigue search is: its passes follow each other, and are told of as one count."""
 
+from tehl_taichi.fatigue.depth_search import passes
+
 
 class Told:
     """Called with (done, total) parts of one of `passes` passes after another; tells progress(done, total) of all of them: in
@@ -17,11 +19,15 @@ class Told:
         those under rows where the worst depth is looked for."""
         ladder = scene.fatigue.depths == "auto"
         layers = 1 if ladder else 1 + len(scene.fatigue.depths)
-        return cls(progress, 2 * layers * len(passage.row_blocks()) + 2 * ladder)
+        return cls(progress, 2 * layers * len(passage.row_blocks()) + (2 + passes(passage)) * ladder)
 
     def __call__(self, done, total):
         self._tell(self.through + self.EACH * done // total)
         self.through += self.EACH * (done == total)
+
+    def end(self):
+        """All is done, also what was not needed."""
+        self._tell(self.total)
 
     def _tell(self, done):
         if self.progress:

@@ -16,7 +16,7 @@ from tehl_taichi.values.checks import number
 from tehl_taichi.values.plain import plain
 
 MAPS = ("feature_frame_x", "feature_frame_y", "Fi", "fatigue_depth", "findley_stress_at_depth", "findley_stress_under_row",
-        "findley_stress_contact_alone")  # what the figures show where it was found
+        "findley_stress_contact_alone", "worst_depth", "findley_stress_at_worst_depth")  # shown where they were found
 EVEN = 200  # depths drawn of a section
 FROM_CENTRE = "x from the feature's centre (µm), flow to the right"
 LEAST = 8.0  # cm that a map needs to stand beside another
@@ -86,6 +86,10 @@ def _layers(found):
     """The surface, and the layer below it that is wanted, or the worst where all its points were searched."""
     top = _worst("surface", found.maps["Fi"], found.summary, found.points["surface"])
     below = _searched(found)
+    if found.depth is None and found.maps.get("findley_stress_at_worst_depth") is not None:
+        where = f"{float(found.maps['worst_depth'][0]) * 1e6:.3g} µm below"
+        Fi = found.maps["findley_stress_at_worst_depth"] / found.summary["sigma_eF_Pa"]
+        return [top, _worst(where, Fi, found.summary["below"], found.points["below"])]
     if below is None or (found.depth is None and "findley_stress_at_depth" not in found.maps):
         return [top]
     depths, deep = found.maps["fatigue_depth"], found.summary["below"]

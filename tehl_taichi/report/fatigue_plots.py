@@ -30,6 +30,10 @@ def index(store):
     if deep is not None and "below" in f:
         n = int(np.argmin(np.abs(store.map("fatigue_depth") - f["below"]["depth_m"])))
         found.append(_map(store, "below", _depth(f["below"]), deep[n] / f["sigma_eF_Pa"], f["below"]))
+    plane = store.map("findley_stress_at_worst_depth")
+    if plane is not None:
+        where = _depth({"depth_m": float(store.map("worst_depth")[0])})
+        found.append(_map(store, "below", where, plane / f["sigma_eF_Pa"], f["below"]))
     return found
 
 
