@@ -117,6 +117,20 @@ def test_the_answer_rests_on_what_is_known(part, error, whole, tone, said):
     assert tells[2] == "Over the whole passage, whose pressure it does not resolve:" and f"Fi = {whole}" in tells[3]
 
 
+def test_the_report_says_first_that_steel_would_yield():
+    summary = {"steady": {"p_max_Pa": 1.9e9}, "transient": {"p_max_Pa": 6.3e9}, "fatigue": {}}
+    said, = verdict._yielding(summary)
+    assert "reaches 6.3 GPa" in said and "that of the first passages" in said
+    assert verdict._yielding({**summary, "transient": {"p_max_Pa": 3.9e9}}) == ()
+    assert verdict._yielding({key: part for key, part in summary.items() if key != "fatigue"}) == ()
+
+
+def test_the_report_says_which_moments_count():
+    part = GEAR.replace(**{"fatigue.to_x": 0.5}).fatigue
+    assert verdict._counted(GEAR.fatigue) == ()
+    assert verdict._counted(part) == ("Only moments with the feature up to 0.5 a count (fatigue.from_x, to_x).",)
+
+
 def test_steel_that_would_yield():
     said, = result_judge.yielding(None, {"steady": {"p_max_Pa": 1.9e9}, "transient": {"p_max_Pa": 4.7e9}})
     assert "p_max 4.70 GPa" in said and "about 4 GPa" in said

@@ -59,9 +59,14 @@ def unknown_errors(store, summary):
     return [f"the error of {', '.join(names)} is not known: {why}" for why, names in reasons.items()]
 
 
+def largest_pressure(summary):
+    """Pa, of the steady start and of the passage."""
+    return max(summary.get(part, {}).get("p_max_Pa", 0.0) for part in ("steady", "transient"))
+
+
 def yielding(store, summary):
     """Pressures that no steel bears without yielding, while the bodies here stay elastic."""
-    p = max(summary.get(part, {}).get("p_max_Pa", 0.0) for part in ("steady", "transient"))
+    p = largest_pressure(summary)
     if p > YIELDS:
         yield (f"p_max {p / 1e9:.2f} GPa: hardened steel yields from about {YIELDS / 1e9:g} GPa on (static limit of roller "
                "bearings, ISO 76), others earlier; both bodies are elastic here, in the first passages such a peak would be "

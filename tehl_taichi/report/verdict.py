@@ -1,5 +1,8 @@
 """The answer of a run, in a sentence, and what it rests on."""
 
+import math
+
+from tehl_taichi.io.result_judge import YIELDS, largest_pressure
 from tehl_taichi.report.document import Answer
 from tehl_taichi.report.rounded import index, told
 from tehl_taichi.report.scene_words import material
@@ -17,7 +20,7 @@ def of(store):
         return _none_yet(store)
     found = of_fatigue(summary["fatigue"]) if "fatigue" in summary else _of_film(summary)
     question, headline, tone, tells = found
-    doubts = (*_cut(store), *_constants(store, summary), *_version(store))
+    doubts = (*_yielding(summary), *_cut(store), *_constants(store, summary), *_version(store))
     return Answer(question, headline, tone, (*tells, *_read_first(store.warnings)), doubts, tuple(store.warnings))
 
 
@@ -131,6 +134,23 @@ def _cut(store):
     return (f"The passage ends at {store.cut:.2f} a, inside the contact: what comes later is not in these numbers.",)
 
 
+def _yielding(summary):
+    """What follows from pressures under which steel yields: first of all doubts, it changes what the index means."""
+    p = largest_pressure(summary)
+    if "fatigue" not in summary or p <= YIELDS:
+        return ()
+    return (f"The pressure reaches {p / 1e9:.1f} GPa, and hardened steel yields from about {YIELDS / 1e9:g} GPa on: the bodies "
+            "are elastic here, so read the index as that of the first passages.",)
+
+
+def _counted(fatigue):
+    """The part of the passage that counts, where it is not all of it."""
+    if fatigue.from_x == -math.inf and fatigue.to_x == math.inf:
+        return ()
+    ends = [f"{word} {x:g} a" for word, x in (("from", fatigue.from_x), ("up to", fatigue.to_x)) if math.isfinite(x)]
+    return (f"Only moments with the feature {' '.join(ends)} count (fatigue.from_x, to_x).",)
+
+
 def _constants(store, summary):
     if "fatigue" not in summary:
         return ()
@@ -138,7 +158,7 @@ def _constants(store, summary):
     said = (f"Fi = 1 is the fatigue limit σ_eF = {f['sigma_eF_Pa'] / 1e6:g} MPa with κ = {f['kappa_F']:g} "
             f"({f['criterion']}): {material(store.scene.fatigue)}.")
     stress = "counts" if f["thermal_stress"] else "does not count"
-    return said, f"The stress of the heat {stress} in it."
+    return said, f"The stress of the heat {stress} in it.", *_counted(store.scene.fatigue)
 
 
 def _version(store):
