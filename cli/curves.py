@@ -11,14 +11,15 @@ SHOWN = (("pressure", "pressure", 1e-9, "GPa", "magenta"), ("film", "film", 1e6,
 
 
 class Curves:
-    """The newest snapshot along y = 0, in axes that only grow: x around the contact, p from 0, h to 2.5 central films, T."""
+    """The newest snapshot along y = 0, on a whole domain through its largest pressure, in axes that only grow: x around the
+    contact, p from 0, h to 2.5 central films, T."""
 
     def __init__(self):
         self.part, self.curves, self.feature, self.ends = None, {}, np.nan, {}
 
     def take(self, snapshot):
         """Keep what is drawn of a snapshot."""
-        row = int(np.argmin(np.abs(snapshot.y)))
+        row = shown_row(snapshot)
         if self.part is None:
             self.part = around(snapshot.fields["pressure"][:, row])
             self.x = snapshot.x[self.part]
@@ -89,6 +90,13 @@ class Bar:
         """Draw it with so many steps done."""
         self.steps.update(self.task, completed=step, description=text)
         self.live.refresh()
+
+
+def shown_row(snapshot):
+    """Row along which a snapshot is drawn."""
+    if snapshot.y[0] < 0:
+        return int(np.argmax(snapshot.fields["pressure"].max(axis=0)))
+    return int(np.argmin(np.abs(snapshot.y)))
 
 
 def around(p):

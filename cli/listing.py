@@ -18,13 +18,13 @@ def _table(title, rows):
     Console().print(table)
 
 
-def summary_table(summary):
-    """Print the summary of a run."""
+def summary_table(summary, said=()):
+    """Print the summary of a run; said: warnings that stand above already."""
     from tehl_taichi.io.summary_rows import summary_rows, title
 
     _table(title(summary), summary_rows(summary))
     _answer(summary)
-    warning_lines(summary.get("warnings", []))
+    warning_lines([sentence for sentence in summary.get("warnings", []) if sentence not in said])
 
 
 def _answer(summary):

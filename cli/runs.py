@@ -66,7 +66,7 @@ def run(
     description = _on_grid_for(target_error, changes, description)
     with Live(quiet, curves) as live:
         done = tehl.run(description, out, force=force, threads=threads, arch=arch, progress=live)
-    _print(done, as_json)
+    _print(done, as_json, description.warnings())
 
 
 def resume(
@@ -98,10 +98,11 @@ def resume(
     _print(done, as_json)
 
 
-def _print(run, as_json):
+def _print(run, as_json, said=()):
+    """said: warnings that were told before the run."""
     from tehl_cli.listing import summary_table
 
-    print_json(run.summary) if as_json else summary_table(run.summary)
+    print_json(run.summary) if as_json else summary_table(run.summary, said)
 
 
 def _on_grid_for(target, changes, description):

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from rich.console import Console
 from tehl_cli import live
-from tehl_cli.curves import ROWS, Curves, braille
+from tehl_cli.curves import ROWS, Curves, braille, shown_row
 
 from tehl_taichi.study.progress import ERRORS, FATIGUE, PASSAGE, STEADY
 
@@ -70,6 +70,13 @@ def test_curves_name_their_axes_and_the_place_of_the_feature():
     axis, ends = lines[-2][:30].rstrip(), lines[-1][:31].rstrip()
     assert axis.index("▲") == pytest.approx(len(axis) / 2, abs=1)
     assert ends.startswith("-0.75") and ends.endswith("+0.75")  # the contact and 0.3 of its width on both sides
+
+
+def test_whole_domains_are_drawn_through_their_largest_pressure():
+    half, whole = snapshot(), snapshot()
+    half.y = np.array([0.0, 1e-3, 2e-3])
+    whole.fields["pressure"] = np.roll(whole.fields["pressure"], 1, axis=1)
+    assert (shown_row(half), shown_row(snapshot()), shown_row(whole)) == (0, 1, 2)
 
 
 def test_no_more_curves_than_there_is_room_for():

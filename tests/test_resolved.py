@@ -1,5 +1,6 @@
 """What is known where a grid does not resolve all pressures: the moments before that, their search, bars and words."""
 
+import made_results
 import numpy as np
 import pytest
 from made_results import fatigue
@@ -129,6 +130,18 @@ def test_the_report_says_which_moments_count():
     part = GEAR.replace(**{"fatigue.to_x": 0.5}).fatigue
     assert verdict._counted(GEAR.fatigue) == ()
     assert verdict._counted(part) == ("Only moments with the feature up to 0.5 a count (fatigue.from_x, to_x).",)
+
+
+def test_fatigue_of_a_run_is_told_apart_like_the_run(tmp_path, monkeypatch):
+    """With other constants, up to the same position; a run that resolves everything has no such part."""
+    asked = []
+    monkeypatch.setattr(assessment, "run", lambda *args: asked.append(args[3]))
+    done = tehl.open(made_results.run(tmp_path / "made.zarr", search=fatigue()))
+    for until in (-0.25, None):
+        monkeypatch.setattr(companions, "resolved", lambda *_, until=until: until)
+        done.fatigue(kappa=0.2)
+    done.fatigue(until=0.5)
+    assert asked == [-0.25, None, 0.5]
 
 
 def test_steel_that_would_yield():

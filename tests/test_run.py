@@ -1,10 +1,13 @@
 """tehl.run, open and resume: what the command line does, from Python."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 import tehl_taichi as tehl
 from tehl_taichi.io.store import Store
+from tehl_taichi.scene.route import total_steps
 
 pytestmark = pytest.mark.usefixtures("taichi_cpu")
 # a ridge: one dimension
@@ -88,6 +91,15 @@ def test_a_run_is_what_is_stored(done):
     assert found == (ripples[0], max(ripples[1:])) and found[1] > 0
     np.testing.assert_array_equal(run.store.fields(4)["film"], shots[4].fields["film"].astype("f4"))
     assert repr(run) == f"<tehl.Run gear: 4 steps, finished, {run.path}>"
+
+
+def test_a_passage_that_lacks_its_fatigue_says_so():
+    from tehl_taichi.study import single
+
+    left = SimpleNamespace(store=SimpleNamespace(last_step=total_steps(RIDGE)), scene=RIDGE)
+    assert single._missing(left) == ", all of the passage: its stresses and errors are missing"
+    left.store.last_step -= 1
+    assert single._missing(left) == ""
 
 
 def test_ctrl_c_says_what_is_stored_and_is_no_error_of_ours(done, tmp_path):

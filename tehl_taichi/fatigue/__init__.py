@@ -19,7 +19,7 @@ __all__ = ["fatigue"]
 
 
 def fatigue(of: Any, scene: "Scene | None" = None, *, progress: Any = None, threads: int | None = None,
-            **constants: Any) -> "FatigueResult | Points":
+            until: float | None = None, **constants: Any) -> "FatigueResult | Points":
     """Fatigue of a run again, of snapshots, or of stress histories from elsewhere; what it is of stays as it is.
 
     of: a :class:`tehl_taichi.Run`; or snapshots of `scene` (as :func:`tehl_taichi.march` yields them); or stresses (points,
@@ -27,7 +27,8 @@ def fatigue(of: Any, scene: "Scene | None" = None, *, progress: Any = None, thre
     constants: any of the scene's section [fatigue] (kappa, endurance in Pa, criterion, depths in m, from_x and to_x in a,
     thermal_stress, residual_xx ...; None: as it is), or in place of kappa and endurance the limits in reversed bending and
     torsion (bending_limit, torsion_limit, Pa). progress: see :class:`tehl_taichi.Progress`; threads: as of
-    :func:`tehl_taichi.run`.
+    :func:`tehl_taichi.run`; until: position (a) of the feature, the worst points up to there are told apart ("resolved" of the
+    summary; of a Run: where its grid resolves the pressure no longer).
     Returns a :class:`tehl_taichi.fatigue.assessment.FatigueResult`, of stresses :class:`tehl_taichi.fatigue.points.Points`.
     Raises SceneError for constants out of range, without a passage, or for stresses of another shape. Source: Findley 1959
     (the other criteria: see :func:`tehl_taichi.fatigue.findley.search`).
@@ -53,7 +54,8 @@ def fatigue(of: Any, scene: "Scene | None" = None, *, progress: Any = None, thre
     reader = reader if hasattr(reader, "fields") else list(reader)
     scene = given.changed(scene or getattr(reader, "scene", None), constants)
     runtime.start_or_join(threads=threads)
-    return assessment.run(scene, reader, progress and (lambda done, total: progress.stage("stresses and fatigue", done, total)))
+    tell = progress and (lambda done, total: progress.stage("stresses and fatigue", done, total))
+    return assessment.run(scene, reader, tell, until)
 
 
 callable_room(__name__, fatigue)

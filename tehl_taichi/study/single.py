@@ -237,4 +237,13 @@ def _what_is_left(path):
         return f"; {path} cannot be read any more"
     if left.finished:
         return f"; {path} is finished"
-    return f" after {left.store.last_step} steps; go on with: tehl resume {path}"
+    return f" after {left.store.last_step} steps{_missing(left)}; go on with: tehl resume {path}"
+
+
+def _missing(left):
+    """What a whole passage still lacks, in words."""
+    from tehl_taichi.scene.route import total_steps
+
+    if left.store.last_step < total_steps(left.scene):
+        return ""
+    return ", all of the passage: its stresses and errors are missing" if left.scene.fatigue_wanted else ""

@@ -50,9 +50,13 @@ class Run:
         return self.store.warnings
 
     def fatigue(self, **constants: Any) -> Any:
-        """Its fatigue again, with other constants: :func:`tehl_taichi.fatigue` of it."""
+        """Its fatigue again, with other constants: :func:`tehl_taichi.fatigue` of it; told apart up to where its grid resolves
+        the pressure."""
         from tehl_taichi.fatigue import fatigue
+        from tehl_taichi.march import companions
 
+        if len(self.store) > 1:
+            constants.setdefault("until", companions.resolved(self.scene, self.store, self.store.scalar))
         return fatigue(self, **constants)
 
     def crack(self, **wanted: Any) -> Any:
