@@ -64,6 +64,15 @@ def test_the_resolved_part_ends_before_the_first_peak_that_is_not():
     assert companions.resolved(GEAR, never, never.scalar) is None
 
 
+def test_moments_of_low_pressure_are_not_looked_at():
+    """A peak below two thirds of the largest cannot overtake it."""
+    reader, read = Peaked(GEAR, 1.0), []
+    p, fields = reader.scalar("p_max_Pa"), reader.fields
+    reader.fields = lambda n, names: read.append(n) or fields(n, names)
+    companions.resolved(GEAR, reader, lambda name: p)
+    assert read and all(p[n] >= p[1:].max() / 1.5 for n in read) and len(read) < len(p) / 2
+
+
 def test_its_numbers_are_not_in_doubt():
     reader = Peaked(GEAR, 1.0)
     search = {**fatigue(), "resolved": {"to_x_a": 0.6, **fatigue(0.8, 0.9)}}

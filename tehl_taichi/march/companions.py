@@ -14,6 +14,7 @@ import numpy as np
 from tehl_taichi.errors import Error
 from tehl_taichi.march import readings
 from tehl_taichi.march.error_bars import Reading, bars
+from tehl_taichi.march.peaks import LEAST
 from tehl_taichi.scene.route import total_steps
 from tehl_taichi.scene.scales import Scales
 
@@ -51,7 +52,7 @@ def passage_readings(scene, reader, scalar, fatigue=None):
            "friction_coefficient_mean": Reading(float(np.mean(scalar("friction_coefficient")[1:])))}
     out |= {name: Reading(float(part["Fi_max"])) for name, part in indices(fatigue or {}).items()}
     # a peak that the grid does not resolve at some moment: neither its pressure is known nor what it does to oil and steel
-    why = readings.unresolved(reader, range(1, len(p) + 1), p.max(), a)
+    why = readings.unresolved(reader, _high(p), p.max(), a)
     return out | {name: replace(out[name], doubt=why) for name in SHARP if why and name in out}
 
 
@@ -64,9 +65,14 @@ def indices(fatigue):
 
 def resolved(scene, reader, scalar):
     """Position (a) of the feature up to which the grid resolves every peak of the pressure; None where it always does."""
-    p, a = scalar("p_max_Pa")[1:].max(), Scales.of(scene).a
-    first = next((n for n in range(1, len(reader)) if readings.unresolved(reader, [n], p, a)), None)
+    p, a = scalar("p_max_Pa")[1:], Scales.of(scene).a
+    first = next((n for n in _high(p) if readings.unresolved(reader, [n], p.max(), a)), None)
     return None if first is None else float(reader.feature_x(first - 1)) / a
+
+
+def _high(p):
+    """Entries with pressures high enough for a peak that leaves the largest unknown; p: theirs from entry 1 on."""
+    return [int(n) + 1 for n in np.flatnonzero(p >= LEAST * p.max())]
 
 
 def values(scene, tell=lambda: None, until=lambda: None):

@@ -6,6 +6,7 @@ NARROW = 0.75  # a largest pressure of which less is left two cells away, on the
 # A lower peak grows on finer grids by up to this part of what it loses in two cells: on grids four times as fine 0.86 of the
 # largest with 0.59 of it left there became 1.06, 0.92 with 0.60 1.08, 0.99 with 0.81 1.01; 0.76 with 0.69 stayed
 GROWS, SHARP = 0.5, 0.85
+LEAST = 1 / (1 + GROWS)  # of the largest pressure: no lower peak leaves it unknown
 WAVE = 8  # nodes of a ripple
 
 
