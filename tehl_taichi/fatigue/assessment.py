@@ -50,7 +50,8 @@ def run(scene, reader, progress=None, until=None):
     """Fatigue index of the points of body a within 0.6 a of the first feature (0.3 a beyond larger ones), over its passage.
 
     At all points of the surface and below it: with scene.fatigue.depths "auto" under the row through the feature (and the
-    surface's worst row), the depth looked for (:mod:`tehl_taichi.fatigue.below`); with a list at all points at these depths.
+    surface's worst row), the depth looked for (:mod:`tehl_taichi.fatigue.below`), on a whole domain at all points of that
+    depth, too (:mod:`tehl_taichi.fatigue.depth_search`); with a list at all points at these depths.
     Between its from_x and to_x, by its criterion. reader: see :class:`tehl_taichi.fatigue.histories.Passage`; or a list of
     snapshots. progress: called with (done, total) parts. until: position (a) of the feature; the worst points of the moments up
     to there are told, too ("resolved" of the summary).

@@ -2,6 +2,8 @@
 
 import math
 
+from tehl_taichi.values.digits import decimals
+
 SENSE = 1000.0  # an index beyond is of no material: as of a Newtonian film that slips, whose shear has no limit
 
 
@@ -10,7 +12,7 @@ def told_index(Fi, error=None):
     if Fi >= SENSE:
         return f"{Fi:.3g}"
     known = error is not None and math.isfinite(error) and error > 0
-    return f"{Fi:.{min(max(1 - math.floor(math.log10(error)), 0), 4) if known else 2}f}"
+    return f"{Fi:.{min(max(decimals(error), 0), 4) if known else 2}f}"
 
 
 def error_of(found):

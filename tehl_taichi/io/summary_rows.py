@@ -1,8 +1,7 @@
 """The summary of a run as people read it: rows of (quantity, value with its error and unit). Needs no taichi."""
 
-import math
-
 from tehl_taichi.march.readings import HEAT
+from tehl_taichi.values.digits import decimals
 
 
 def title(summary):
@@ -33,7 +32,7 @@ def quantity(values, name, factor=1, unit=""):
     if error is None:
         return f"{value:.3g} {unit}".rstrip() + " (error unknown)"
     size = error * factor
-    digits = min(max(1 - math.floor(math.log10(size)), 0), 9) if size > 0 else 4
+    digits = min(max(decimals(size), 0), 9) if size > 0 else 4
     return f"{value:.{digits}f} ± {size:.{digits}f} {unit}".rstrip()
 
 

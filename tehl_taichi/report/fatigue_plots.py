@@ -29,16 +29,16 @@ def index(store):
     deep = store.map("findley_stress_at_depth")
     if deep is not None and "below" in f:
         n = int(np.argmin(np.abs(store.map("fatigue_depth") - f["below"]["depth_m"])))
-        found.append(_map(store, "below", _depth(f["below"]), deep[n] / f["sigma_eF_Pa"], f["below"]))
+        found.append(_map(store, "below", _depth(f["below"]["depth_m"]), deep[n] / f["sigma_eF_Pa"], f["below"]))
     plane = store.map("findley_stress_at_worst_depth")
     if plane is not None:
-        where = _depth({"depth_m": float(store.map("worst_depth")[0])})
+        where = _depth(float(store.map("worst_depth")[0]))
         found.append(_map(store, "below", where, plane / f["sigma_eF_Pa"], f["below"]))
     return found
 
 
-def _depth(found):
-    return f"{found['depth_m'] * 1e6:.0f} µm below the surface"
+def _depth(depth):
+    return f"{depth * 1e6:.0f} µm below the surface"
 
 
 def _map(store, which, where, Fi, found):

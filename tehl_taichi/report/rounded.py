@@ -3,6 +3,7 @@
 import math
 
 from tehl_taichi.study.study_figures import SCALES
+from tehl_taichi.values.digits import decimals
 
 UNITS = {"degC": "°C", "1": ""}  # of stores: as they are written
 
@@ -28,7 +29,7 @@ def apart(value, error, unit, digits=4):
     if error is None or not math.isfinite(error):
         return f"{value * factor:.{digits}g}", "", scale
     value, error = value * factor, error * factor
-    digits = 1 - math.floor(math.log10(error)) if error > 0 else 99
+    digits = decimals(error) if error > 0 else 99
     if not 0 <= digits <= 9:
         return f"{value:.4g}", f"{error:.2g}", scale
     return f"{value:.{digits}f}", f"{error:.{digits}f}", scale

@@ -1,19 +1,12 @@
-"""The next finer grids of a scene, and what they cost."""
+"""The next finer grid of a scene, and what it costs."""
 
 
-def doubled(scene, times=1):
-    """(nx, ny) of the grid with twice the cells each way, so many times over."""
-    return scene.grid.nx << times, scene.grid.ny << times
+def doubled(scene):
+    """The scene on the grid with twice the cells each way."""
+    return scene.replace(**{"grid.nx": 2 * scene.grid.nx, "grid.ny": 2 * scene.grid.ny})
 
 
-def on_doubled(scene, times=1):
-    """The scene on that grid."""
-    nx, ny = doubled(scene, times)
-    return scene.replace(**{"grid.nx": nx, "grid.ny": ny})
-
-
-def told(scene, times=1):
+def told(scene):
     """'--grid 512x128 (8 times the work)': a passage has twice the steps, too."""
-    nx, ny = doubled(scene, times)
-    work = 2 ** (times * (1 + (not scene.one_dimensional) + scene.transient))
-    return f"--grid {nx}x{ny} ({work} times the work)"
+    work = 2 ** (1 + (not scene.one_dimensional) + scene.transient)
+    return f"--grid {2 * scene.grid.nx}x{2 * scene.grid.ny} ({work} times the work)"

@@ -19,10 +19,9 @@ class Form:
     axis: str
 
     @classmethod
-    def of(cls, f):
-        """Of a map as it was measured, whatever its level takes off."""
-        raw = f.raw
-        sags = [(abs(c) * size**2, c, axis) for c, size, axis in zip(curvature(raw, f.steps), f.size, "xy")]
+    def of(cls, raw, steps, sizes):
+        """Of heights (rows, columns) as they were measured; steps: of their points, sizes: of all, along x and y; all in m."""
+        sags = [(abs(c) * size**2, c, axis) for c, size, axis in zip(curvature(raw, steps), sizes, "xy")]
         _, bent, axis = max(sags)
         return cls(*(float(levelled(raw, level).std()) for level in ("plane", "form")), float(bent), axis)
 

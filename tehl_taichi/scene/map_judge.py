@@ -6,7 +6,7 @@ import numpy as np
 
 from tehl_taichi.scene import map_holes
 from tehl_taichi.scene.height_map import LEVELS, missed
-from tehl_taichi.scene.map_form import FLAT, Form
+from tehl_taichi.scene.map_form import FLAT
 from tehl_taichi.scene.scales import Scales
 
 STEEP = 10.0  # degrees: the film equation takes slopes for small (tan 10 deg = 0.18)
@@ -33,7 +33,7 @@ def lines(f, scene):
     cell = cells(scene)
     (rows, columns), m, name = f.heights.shape, f.measures, f"map {os.path.basename(f.file)}"
     heights = f"heights in {f.unit}" + (f" times {f.scale:g}" if f.scale != 1 else "")
-    off = f"{LEVELS[f.level]} taken off" + (f" ({Form.of(f).says})" if f.level == "form" else "")
+    off = f"{LEVELS[f.level]} taken off" + (f" ({f.form.says})" if f.level == "form" else "")
     yield (f"{name}: {columns} x {rows} points {_apart(f)} um apart, {_um(f.patch[0])} x {_um(f.patch[1])} um of them used, "
            f"{heights}, {off}")
     yield (f"{name}: {_um(m.low)} to {_um(m.high)} um (range {_um(m.range)} um), rms {_um(m.rms)} um, largest slope "
@@ -57,7 +57,7 @@ def _holes(f, scene):
 
 
 def _form(f, scene):
-    form = Form.of(f)
+    form = f.form
     if not form.dominant:
         return
     turned = "" if form.convex else f". {TURNED}"
@@ -120,6 +120,6 @@ def _middle(heights):
 def _rim(f, scene):
     used = f.used
     step = max(float(np.abs(edge).max()) for edge in (used[0], used[-1], used[:, 0], used[:, -1]))
-    formed = f.level != "form" and Form.of(f).dominant  # the step is the form's, of which _form tells
+    formed = f.level != "form" and f.form.dominant  # the step is the form's, of which _form tells
     if f.taper == 0 and step > RIM * f.measures.rms and not formed:
         yield f"{_name(f)} ends in a step of up to {_um(step)} um at its rim; feature.taper (m) lets it fade out"

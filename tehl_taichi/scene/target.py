@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene import map_judge
+from tehl_taichi.scene import finer, map_judge
 from tehl_taichi.scene.scales import Scales
 
 # Written by `tehl bench accuracy --keep`: {"machine", "families": {name: {"columns_per_width": columns for one cell per
@@ -22,8 +22,8 @@ def grid_for(description, target):
     """(nx, ny) cells with which the largest error of film, pressure and Findley index is about `target` (relative).
 
     The resolution counts: cells per contact half-width of a steady scene, per feature width of a passage; measured maps must be
-    seen, too (:mod:`tehl_taichi.scene.map_judge`). Beyond the finest
-    measured grid the error is taken to fall in proportion to the cells. Raises SceneError where that needs too fine a grid.
+    seen, too (:mod:`tehl_taichi.scene.map_judge`). Beyond the finest measured grid the error is taken to fall in proportion to
+    the cells. Raises SceneError where that needs too fine a grid.
     """
     measured = families()[family_of(description)]
     errors = {int(nx): error for nx, error in measured["errors"].items()}
@@ -39,12 +39,12 @@ def grid_for(description, target):
 def _seeing_maps(description, nx, ny):
     """This grid, or the first of twice its columns and rows, four times ... that sees the measured maps; where none of up to
     MOST columns does, this one: the scene's warnings tell."""
-    found = nx, ny
-    while found[0] <= MOST:
-        if map_judge.carried(description.replace(**dict(zip(("grid.nx", "grid.ny"), found)))):
-            return found
-        found = 2 * found[0], 2 * found[1]
-    return nx, ny
+    found = description.replace(**{"grid.nx": nx, "grid.ny": ny})
+    while not map_judge.carried(found):
+        if 2 * found.grid.nx > MOST:
+            return nx, ny
+        found = finer.doubled(found)
+    return found.grid.nx, found.grid.ny
 
 
 @functools.cache

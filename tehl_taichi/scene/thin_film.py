@@ -25,7 +25,7 @@ def needed(scene, most=FINEST):
     while carried(scene) < 1:
         if 2 * scene.grid.nx > most:
             return None
-        scene = finer.on_doubled(scene)
+        scene = finer.doubled(scene)
     return scene.grid.nx, scene.grid.ny
 
 

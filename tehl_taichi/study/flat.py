@@ -5,9 +5,7 @@ import math
 # what a case has of its own, or what is no number of its result
 LEFT_OUT = {"store", "scene", "version", "left_out", "warnings", "converged", "unknown", "clamps", "grid", "cells"}
 UNITS = {"m": "m", "Pa": "Pa", "C": "degC", "K": "K", "s": "s", "deg": "degree", "J": "J", "W": "W", "N": "N", "kg": "kg"}
-
-# of a summary, inside others
-PARTS = ("fatigue_resolved_below", "fatigue_resolved", "fatigue_below")
+PARTS = ("fatigue_resolved_below", "fatigue_resolved", "fatigue_below")  # of a summary, inside others
 
 
 def numbers(summary, above=""):

@@ -10,6 +10,7 @@ from tehl_taichi.errors import SceneError
 from tehl_taichi.scene import height_map, map_holes, map_judge
 from tehl_taichi.scene.features.patch import Patch
 from tehl_taichi.scene.height_map import LEVELS, MICRO, UNITS, Measures
+from tehl_taichi.scene.map_form import Form
 from tehl_taichi.scene.shape import share
 from tehl_taichi.values.checks import number
 from tehl_taichi.values.quantity import choice, quantity, text
@@ -50,6 +51,11 @@ class Measured:
     def surface(self):
         """The same levelled: what passes through the contact."""
         return height_map.levelled(self.raw, self.level)
+
+    @cached_property
+    def form(self):
+        """The :class:`tehl_taichi.scene.map_form.Form` that it was measured with."""
+        return Form.of(self.raw, self.steps, self.size)
 
     @property
     def steps(self):
