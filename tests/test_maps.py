@@ -256,7 +256,8 @@ def moved(taichi_cpu, tmp_path_factory):
     from tehl_taichi.study.single import completed
 
     home = tmp_path_factory.mktemp("home")
-    description = with_map(wave(home, length=60.0), **{"time.steps": 4})
+    turned = {"feature.transpose": True, "feature.mirror_x": True}
+    description = with_map(wave(home, length=60.0), **{"time.steps": 4}, **turned)
     whole = completed(description, home / "whole.zarr")
     run = march(description)
     broken = Store.create(home / "broken.zarr", description, next(run), 5, {"steady_error": "{}", "steady_unknown": "{}"})
@@ -280,6 +281,7 @@ def test_a_moved_store_goes_on_without_the_map_file(moved, elsewhere):
 
     description, broken, whole = moved
     assert Store.open(broken).scene == description
+    np.testing.assert_array_equal(Store.open(broken).scene.features[0].surface, description.features[0].surface)  # turned once
     a, b = completed(description, broken).store, Store.open(whole)  # resumes
     assert len(a) == len(b) == 5 and np.array_equal(a.fields(4)["film"], b.fields(4)["film"])
 

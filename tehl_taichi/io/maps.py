@@ -13,9 +13,9 @@ def write(group, scene):
         if feature.kind.measured and _name(feature.sha256) not in group:
             name = _name(feature.sha256)
             array = group.create_array(name, shape=feature.heights.shape, dtype="f8",
-                                       dimension_names=[f"{name}_y", f"{name}_x"])
-            array.attrs.update({"units": feature.unit, "long_name": "measured heights, not levelled", "sha256": feature.sha256,
-                                "pixel_m": list(feature.steps), "file": feature.file})
+                                       dimension_names=[f"{name}_row", f"{name}_column"])
+            array.attrs.update({"units": feature.unit, "long_name": "heights as in the file, neither turned nor levelled",
+                                "sha256": feature.sha256, "pixel_m": list(feature.file_steps), "file": feature.file})
             array[...] = feature.heights
 
 

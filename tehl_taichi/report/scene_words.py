@@ -5,7 +5,7 @@ import os
 from tehl_taichi.physics.rheology import LAWS
 from tehl_taichi.report.rounded import told
 from tehl_taichi.scene.scales import Scales
-from tehl_taichi.values.quantity import Number, Text, kinds
+from tehl_taichi.values.quantity import Number, Switch, Text, kinds
 
 LONG = 60  # letters of a word that is shown
 
@@ -73,6 +73,8 @@ def _sizes(f):
             yield f"{key} {told(value, unit=kind.unit.replace('-', '1'))}"
         elif isinstance(kind, Text) and 0 < len(name := os.path.basename(value)) < LONG:  # a file without its folders
             yield f"{key} {name}"
+        elif isinstance(kind, Switch) and value:
+            yield key
 
 
 def material(fatigue):

@@ -57,10 +57,11 @@ def _kept(found, i, j):
 
 def measured(f):
     """(what, value) of a map: of its file, and of the heights that pass."""
-    (rows, columns), m, (length, width) = f.heights.shape, f.measures, f.patch
+    (along, across), m, (length, width) = f.points, f.measures, f.patch
     turned = f", times {f.scale:g}" if f.scale != 1 else ""
     rim = f", fading out over {told(f.taper, unit='m')} at its rim" if f.taper else ""
-    return [("file", os.path.basename(f.file)), ("points", f"{columns} × {rows}"),
+    return [("file", os.path.basename(f.file)), ("points", f"{along} × {across}"),
+            *([("turned", f.orientation.says)] if f.orientation.says else []),
             ("distance of its points", " × ".join(told(step, unit="m") for step in f.steps)),
             ("unit of its heights", f"{f.unit.replace('um', 'µm')}{turned}"), ("taken off", LEVELS[f.level]),
             ("patch used", f"{told(length, unit='m')} × {told(width, unit='m')}{rim}"),

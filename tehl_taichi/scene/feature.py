@@ -6,7 +6,7 @@ from tehl_taichi.errors import SceneError
 from tehl_taichi.registry import collect
 from tehl_taichi.scene import features
 from tehl_taichi.scene.shape import Shape, told
-from tehl_taichi.values.quantity import Choice, Text, check, choice, kinds, quantity
+from tehl_taichi.values.quantity import Choice, Switch, Text, check, choice, kinds, quantity
 
 SHAPES = collect(features, Shape)
 OWN = tuple(shape.keys for shape in SHAPES.values() if shape.keys)
@@ -50,8 +50,8 @@ class Feature(*OWN, Shared):
         self._check_strangers()
 
     def _check_strangers(self):
-        """Refuse words that only another shape takes: whoever gives them means that shape."""
-        for key in (key for keys in OWN for key, kind in kinds(keys).items() if isinstance(kind, (Text, Choice))):
+        """Refuse words and switches that only another shape takes: whoever gives them means that shape."""
+        for key in (key for keys in OWN for key, kind in kinds(keys).items() if isinstance(kind, (Text, Choice, Switch))):
             if self.shape not in USED_BY[key] and getattr(self, key) and not getattr(type(self), key):
                 raise SceneError(f"feature.{key} = {getattr(self, key)!r} needs shape = {USED_BY[key][0]!r}, not "
                                  f"{self.shape!r}")

@@ -31,11 +31,12 @@ def cells(scene):
 def lines(f, scene):
     """Two lines: what was read, and what passes through the contact."""
     cell = cells(scene)
-    (rows, columns), m, name = f.heights.shape, f.measures, f"map {os.path.basename(f.file)}"
+    (along, across), m, name = f.points, f.measures, f"map {os.path.basename(f.file)}"
     heights = f"heights in {f.unit}" + (f" times {f.scale:g}" if f.scale != 1 else "")
+    turned = f"{f.orientation.says}, " if f.orientation.says else ""
     off = f"{LEVELS[f.level]} taken off" + (f" ({f.form.says})" if f.level == "form" else "")
-    yield (f"{name}: {columns} x {rows} points {_apart(f)} um apart, {_um(f.patch[0])} x {_um(f.patch[1])} um of them used, "
-           f"{heights}, {off}")
+    yield (f"{name}: {along} x {across} points {_apart(f)} um apart, {_um(f.patch[0])} x {_um(f.patch[1])} um of them used, "
+           f"{turned}{heights}, {off}")
     yield (f"{name}: {_um(m.low)} to {_um(m.high)} um (range {_um(m.range)} um), rms {_um(m.rms)} um, largest slope "
            f"{m.slope:.2g} deg; a cell of the grid has {cell[0] / f.steps[0]:.3g} x {cell[1] / f.steps[1]:.3g} points")
 

@@ -11,9 +11,10 @@ from tehl_taichi.scene import height_map, map_holes, map_judge
 from tehl_taichi.scene.features.patch import Patch
 from tehl_taichi.scene.height_map import LEVELS, MICRO, UNITS, Measures
 from tehl_taichi.scene.map_form import Form
+from tehl_taichi.scene.map_orientation import Orientation
 from tehl_taichi.scene.shape import share
 from tehl_taichi.values.checks import number
-from tehl_taichi.values.quantity import choice, quantity, text
+from tehl_taichi.values.quantity import choice, quantity, switch, text
 
 MAX_RANGE, MAX_SLOPE = 1e-4, 45.0  # m, degrees, of a map: beyond them no film, or a wrong unit or pixel
 
@@ -22,12 +23,15 @@ MAX_RANGE, MAX_SLOPE = 1e-4, 45.0  # m, degrees, of a map: beyond them no film, 
 class Measured:
     """Keys of a map, and what follows from them."""
 
-    file: str = text("", "map: CSV or NPY file (others with the `topography` extra), rows along y; a path in a scene file "
-                     "starts at that file", most=4096, compare=False)
+    file: str = text("", "map: CSV or NPY file (others with the `topography` extra), each row a line of points along x; a "
+                     "path in a scene file starts at that file", most=4096, compare=False)
     unit: str = choice("", "map: of the heights in its file", ("", *UNITS))
     scale: float = quantity(1.0, "", "map: its heights are multiplied with it; -1 turns them over, as for a replica", -1e3, 1e3)
-    pixel: float = quantity(0.0, "m", "map: distance of its points; 0: not given", 0.0, 1e-2)
-    pixel_y: float = quantity(0.0, "m", "map: distance of its rows, across, where it is another one; 0: pixel", 0.0, 1e-2)
+    pixel: float = quantity(0.0, "m", "map: distance of the points in a row of the file; 0: not given", 0.0, 1e-2)
+    pixel_y: float = quantity(0.0, "m", "map: distance of the rows of the file, where it is another one; 0: pixel", 0.0, 1e-2)
+    transpose: bool = switch(False, "map: the rows of its file lie along y, across; pixel and pixel_y stay those of the file")
+    mirror_x: bool = switch(False, "map: its ends along x change places (transpose comes first)")
+    mirror_y: bool = switch(False, "map: its ends along y change places (transpose comes first)")
     level: str = choice("plane", "map: what is taken off its heights; form: plane and curvature", tuple(LEVELS))
     sha256: str = text("", "map: of its heights, filled in when they are read; a file with other heights is refused then")
 
@@ -43,9 +47,15 @@ class Measured:
         return height_map.fetch(self.file, self.sha256)[1]
 
     @property
+    def orientation(self):
+        """The :class:`tehl_taichi.scene.map_orientation.Orientation` of its file."""
+        return Orientation(self.transpose, self.mirror_x, self.mirror_y)
+
+    @property
     def raw(self):
-        """Heights (rows, columns) of a map in m, its holes filled, scaled, with the form that they were measured with."""
-        return map_holes.filled(self.heights) * (UNITS[self.unit] * self.scale)
+        """Heights (points along y, along x) of a map in m as they lie in the contact, its holes filled, scaled, with the form
+        that they were measured with."""
+        return map_holes.filled(self.orientation.turned(self.heights)) * (UNITS[self.unit] * self.scale)
 
     @cached_property
     def surface(self):
@@ -58,15 +68,24 @@ class Measured:
         return Form.of(self.raw, self.steps, self.size)
 
     @property
+    def file_steps(self):
+        """(along a row of the file, from row to row): distances of its points in m."""
+        return self.pixel, self.pixel_y or self.pixel
+
+    @property
     def steps(self):
         """(along x, along y): distances of its points in m."""
-        return self.pixel, self.pixel_y or self.pixel
+        return self.orientation.swapped(self.file_steps)
+
+    @property
+    def points(self):
+        """How many it has (along x, along y)."""
+        return self.orientation.swapped(self.heights.shape[::-1])
 
     @property
     def size(self):
         """(length, width) of the whole map in m."""
-        rows, columns = self.heights.shape
-        return (columns - 1) * self.steps[0], (rows - 1) * self.steps[1]
+        return tuple((count - 1) * step for count, step in zip(self.points, self.steps))
 
     @property
     def patch(self):
@@ -166,7 +185,7 @@ TENT = 1 - np.abs(np.arange(33) - 16) / 16
 HILL = height_map.keep(0.3 * TENT[:, None] * TENT)  # held here, so that it is known by its sha256
 EXAMPLE = {"shape": "map", "sha256": HILL[0], "unit": "um", "pixel": 10e-6, "level": "none"}
 MAP = Map(
-    name="map", says="heights measured on a grid (CSV, NPY), rows along y, that fade out at the rim of their patch",
+    name="map", says="heights measured on a grid (CSV, NPY) that fade out at the rim of their patch",
     source="the file", keys=Measured,
     uses={"height": "0 or not given", "extent_x": "0: the whole map", "extent_y": "0: the whole map", "taper": ""},
     example=EXAMPLE, checked=(share("by hand, (1 - 8.5/16)(1 - 4/16) of a hill with straight sides", 0.3515625, 85e-6, 40e-6,

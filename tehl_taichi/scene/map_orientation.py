@@ -1,0 +1,29 @@
+"""Which way round a scan lies: from the rows and columns of its file to y and x of the contact."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Orientation:
+    """transpose: rows of the file lie along y, not x; mirror_x, mirror_y: after that its ends along x or y change places."""
+
+    transpose: bool = False
+    mirror_x: bool = False
+    mirror_y: bool = False
+
+    def turned(self, values):
+        """(points along y, along x) of `values` (rows, columns), in memory as a file that is turned: sums are the same."""
+        values = values.T if self.transpose else values
+        return np.ascontiguousarray(values[::-1 if self.mirror_y else 1, ::-1 if self.mirror_x else 1])
+
+    def swapped(self, pair):
+        """(along x, along y) of what a file has (along a row, from row to row)."""
+        return tuple(pair)[::-1] if self.transpose else tuple(pair)
+
+    @property
+    def says(self):
+        """In words; "" where nothing is done."""
+        axes = [axis for axis, mirrored in (("x", self.mirror_x), ("y", self.mirror_y)) if mirrored]
+        return ", ".join(["transposed"] * self.transpose + [f"mirrored along {' and '.join(axes)}"] * bool(axes))
