@@ -99,6 +99,8 @@ def _show_run(saved, as_json):
         return print_json(saved.summary or so_far(saved))
     store = saved.path
     print(f"{store}: scene {saved.scene.name}, {saved.steps} entries, {_state(saved)}")
+    if saved.scene.note:
+        print(f"note: {saved.scene.note}")
     if other := saved.other_version:
         print(f"{store} was {other}")
     if saved.summary:

@@ -9,7 +9,7 @@ from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.given import EXCLUSIVE, SHORT
 from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.parts import Body
-from tehl_taichi.scene.whole import SECTIONS
+from tehl_taichi.scene.whole import SECTIONS, TOP, Scene
 from tehl_taichi.values.quantity import kinds
 
 # as they follow each other in a file of `tehl new`: {heading: (first part of the dotted key, class)}
@@ -21,9 +21,17 @@ COLUMNS = ("key", "default", "unit", "meaning", "allowed")
 
 
 def text():
-    """All sections, then short names and what excludes each other."""
+    """Keys above the tables, all sections, then short names and what excludes each other."""
     parts = [section(heading, *part) for heading, part in PARTS.items()]
-    return "\n\n".join([*parts, short_names(), exclusive()])
+    return "\n\n".join([top(), *parts, short_names(), exclusive()])
+
+
+def top():
+    """A row a key that stands above all tables."""
+    defaults = {field.name: field.default for field in dataclasses.fields(Scene)}
+    rows = ((f"{code(key)}{{ #{key} }}", code(toml_value(defaults[key])), "", plain(declared.about), "")
+            for key, declared in TOP.items())
+    return "## Above the tables { #top }\n\n" + table(COLUMNS, rows)
 
 
 def section(heading, first, kind):

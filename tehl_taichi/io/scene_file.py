@@ -9,7 +9,7 @@ from tehl_taichi.scene import Scene, SceneError, scene
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.parts import Body
-from tehl_taichi.scene.whole import SECTIONS
+from tehl_taichi.scene.whole import SECTIONS, TOP
 from tehl_taichi.values.checks import text
 from tehl_taichi.values.quantity import kinds
 
@@ -100,7 +100,7 @@ def _merge_contact(base, given):
 def dumps(description):
     """TOML text of a scene, every value written out with unit, range and meaning; reading it back gives an equal scene."""
     data = description.to_dict()
-    lines = [HEADER, f"name = {toml_value(data['name'])}", ""]
+    lines = [HEADER, *_commented((key, data[key], declared) for key, declared in TOP.items()), ""]
     for key in ("contact", "bodies.a", "bodies.b", "operation", "oil", "rheology"):
         table, kind = (data["bodies"][key[-1]], Body) if key in CARRIES else (data[key], {**SECTIONS, "oil": Oil}[key])
         lines += _table(f"[{key}]", table, kind, CARRIES.get(key, ""))
@@ -114,11 +114,14 @@ def dumps(description):
 
 def _table(head, values, kind, first=""):
     """The lines of a section, commented from its declarations (see tehl_taichi.values.quantity)."""
-    lines, comments = [head], [first + (kind.__doc__ or "").partition("\n")[0]]
-    for key, declared in kinds(kind).items():
-        lines.append(f"{key} = {toml_value(values[key])}")
-        comments.append(declared.sentence)
-    return [f"{line:<{COLUMN}}  # {comment}" for line, comment in zip(lines, comments)] + [""]
+    about = first + (kind.__doc__ or "").partition("\n")[0]
+    keys = ((key, values[key], declared) for key, declared in kinds(kind).items())
+    return [f"{head:<{COLUMN}}  # {about}", *_commented(keys), ""]
+
+
+def _commented(keys):
+    """A line each of (key, value, its declaration)."""
+    return [f"{f'{key} = {toml_value(value)}':<{COLUMN}}  # {declared.sentence}" for key, value, declared in keys]
 
 
 def toml_value(value):

@@ -11,8 +11,9 @@ LONG = 60  # letters of a word that is shown
 
 
 def words(scene):
-    """Sentences: contact, motion, oil, heat, features."""
-    return [_contact(scene), _motion(scene), _oil(scene), _heat(scene), *_features(scene)]
+    """Sentences: note, contact, motion, oil, heat, features."""
+    note = [f"Note: {scene.note}"] if scene.note else []
+    return [*note, _contact(scene), _motion(scene), _oil(scene), _heat(scene), *_features(scene)]
 
 
 def _contact(scene):

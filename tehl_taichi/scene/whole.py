@@ -15,9 +15,12 @@ from tehl_taichi.scene.parts import AUTO, Body, Contact, Fatigue, Grid, Numerics
 from tehl_taichi.scene.route import LATEST, cut_at
 from tehl_taichi.values.checks import build, file_name, nearest, number
 from tehl_taichi.values.plain import plain, shown
+from tehl_taichi.values.quantity import Text
 
 SECTIONS = {"contact": Contact, "operation": Operation, "rheology": Rheology, "thermal": Thermal, "fatigue": Fatigue,
             "grid": Grid, "time": Time, "numerics": Numerics, "output": Output}
+TOP = {"name": Text("what stores are named after", 100),  # the keys above all tables
+       "note": Text("free words on one line, kept and shown with the run; nothing is computed with them")}
 FIRST, LAST = -1.6, 1.4  # of the path of a small feature, in a
 CLEAR = 1.3  # distance in a of a feature's front from X = 0 at an automatic start
 BEYOND = 1.2  # half-widths, at least, from the centre to the edge of the grid
@@ -50,9 +53,11 @@ class Scene:
     time: Time = Time()
     numerics: Numerics = Numerics()
     output: Output = Output()
+    note: str = field(default="", compare=False)
 
     def __post_init__(self):
         file_name("name", self.name)
+        TOP["note"].check("note", self.note)
         self._check_kinds()
         if self.contact.moes_M > 0:
             object.__setattr__(self, "operation", dataclasses.replace(self.operation, u_m=self._moes_speed()))
@@ -226,7 +231,7 @@ class Scene:
 
     def to_dict(self):
         """Plain nested dictionary with every value, defaults included; the sections of a scene file."""
-        data = {"name": self.name}
+        data = {"name": self.name, "note": self.note}
         for key in SECTIONS:
             data[key] = dataclasses.asdict(getattr(self, key))
         data["bodies"] = {"a": dataclasses.asdict(self.body_a), "b": dataclasses.asdict(self.body_b)}
@@ -237,7 +242,7 @@ class Scene:
     @classmethod
     def from_dict(cls, data):
         """Scene from such a dictionary; missing values take their defaults, unknown keys are refused."""
-        known = {"name", "bodies", "oil", "feature", *SECTIONS}
+        known = {*TOP, "bodies", "oil", "feature", *SECTIONS}
         if not isinstance(data, dict):
             raise SceneError(f"a scene is described by a table of sections, not by {shown(data)}")
         for key in data:
@@ -251,7 +256,7 @@ class Scene:
             parts["oil"] = named_oils.from_values(data["oil"])
         if "feature" in data:
             parts["features"] = _features(data["feature"])
-        return cls(name=data.get("name", "gear"), **parts)
+        return cls(name=data.get("name", "gear"), note=data.get("note", ""), **parts)
 
 
 def _speeds(values):

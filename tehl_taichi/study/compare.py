@@ -42,7 +42,7 @@ class Comparison:
 
     def labels(self):
         """A name for each run that says what is special about it: up to two values that differ, or its folder."""
-        differs = [(key, values) for key, values in self.differs.items() if not _follows(key, self.differs)]
+        differs = [(key, values) for key, values in self.differs.items() if key != "note" and not _follows(key, self.differs)]
         if not 1 <= len(differs) <= 2:
             return self.names
         return [", ".join(f"{key.removesuffix('.name').rpartition('.')[2]} = {_short(values[n])}" for key, values in differs)

@@ -62,13 +62,25 @@ class Plan:
     @property
     def name(self):
         """The same for the same plan: scene and six digits of what it is."""
-        return f"{self.scene.name}-sweep-{hashlib.sha256(self.text.encode()).hexdigest()[:6]}"
+        return f"{self.scene.name}-sweep-{hashlib.sha256(self._text(note='').encode()).hexdigest()[:6]}"
 
     @property
     def text(self):
         """All of it as JSON."""
+        return self._text()
+
+    def _text(self, **other):
+        """The same with other values of the scene."""
         axes = [{"keys": axis.keys, "rows": axis.rows} for axis in self.axes]
-        return json.dumps({"scene": self.scene.to_dict(), "axes": axes, "drawn": self.drawn}, sort_keys=True)
+        return json.dumps({"scene": {**self.scene.to_dict(), **other}, "axes": axes, "drawn": self.drawn}, sort_keys=True)
+
+    def told_by(self, text):
+        """Whether such a text is of this plan; another note makes no other plan."""
+        try:
+            scene = json.loads(text)["scene"]
+            return text == self._text(**{key: scene[key] for key in ("note",) if key in scene})
+        except (ValueError, KeyError, TypeError):
+            return False
 
     @classmethod
     def from_text(cls, text):

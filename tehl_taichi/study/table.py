@@ -66,7 +66,7 @@ class Study(Held):
         attrs = attributes(path)
         if attrs is None and (path.is_file() or path.is_dir() and any(path.iterdir())):
             raise StoreError(f"{path} exists already and is no study; choose another --out")
-        if attrs is not None and attrs[PLAN] != plan.text:
+        if attrs is not None and not plan.told_by(attrs[PLAN]):
             raise StoreError(f"{path} holds another study; choose another --out or remove it")
         try:
             path.mkdir(parents=True, exist_ok=True)
