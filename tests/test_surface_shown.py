@@ -115,3 +115,49 @@ def test_the_report_thins_large_maps_and_leaves_out_what_does_not_pass(tmp_path)
     assert surface_plots.section(scene("smooth-line")) == ()
     seen = page(made_results.run(tmp_path / "a.zarr", SMALL), tmp_path)
     assert "The surface" in seen.headings and "largest slope" not in seen.text and tehl.open(tmp_path / "a.zarr")
+
+
+def holed(tmp_path, hole=np.s_[4:6, 10:13], rows=30, columns=20, **keys):
+    """The same scan with a hole, its rows turned round."""
+    scanned(tmp_path, rows, columns)
+    values = np.load(tmp_path / "scan.npy")
+    values[hole] = np.nan
+    np.save(tmp_path / "holed.npy", values)
+    return scanned(tmp_path, rows, columns, file=str(tmp_path / "holed.npy"), mirror_y=True, **keys)[0]
+
+
+def test_holes_of_a_scan_lie_where_the_scan_has_them(tmp_path):
+    made = holed(tmp_path)
+    filled = heights(made).filled
+    assert filled.shape == (20, 30) and filled.sum() == 6 and filled[10:13, 24:26].all()  # row 4 of 30 is row 25 now
+    assert not heights(holed(tmp_path, extent_y=50e-6)).filled.any()  # beyond the patch
+    x, y = heights(made).x[11], heights(made).y[24]
+    both = heights(dataclasses.replace(made, features=(Feature(**BUMP), dataclasses.replace(made.features[0], x=1e-4))))
+    i, j = (np.argmin(np.abs(axis - at)) for axis, at in ((both.x, x + 1e-4), (both.y, y)))
+    assert both.filled[i, j] and 0 < both.filled.mean() < 6 / 600
+    rim = holed(tmp_path, np.s_[:2, 8:10])
+    both = heights(dataclasses.replace(rim, features=(Feature(**BUMP), *rim.features)))
+    i, j = np.nonzero(both.filled)
+    assert i.size and both.y[j].max() <= rim.features[0].size[1] / 2  # its holes do not go on beyond it
+    assert not heights(passing(BUMP)).filled.any() and not heights(scene("furrow-line")).filled.any()
+
+
+def test_holes_are_marked_in_the_figure(tmp_path):
+    figure = drawn(holed(tmp_path))
+    cover, image = figure.axes[0].images
+    assert np.isfinite(cover.get_array().filled(np.nan)).sum() == 6 and cover.get_zorder() > image.get_zorder()
+    assert cover.get_extent() == image.get_extent() and "light: not measured" in figure.get_suptitle()
+    assert "light" not in drawn(scanned(tmp_path)[0]).get_suptitle()
+
+
+@pytest.mark.parametrize("columns, marked", [(20, 6), (900, 4)])
+def test_holes_are_marked_in_the_report(tmp_path, columns, marked):
+    """Also where only some of the points are kept: of these columns 9 and 11."""
+    from tehl_taichi.report import surface_plots
+
+    picture = surface_plots.picture(holed(tmp_path, columns=columns, pixel=2e-6))
+    heat, cover = picture.traces
+    assert cover["z"].shape == heat["z"].shape and np.argwhere(np.isfinite(cover["z"])).min(axis=0)[0] == 24
+    assert ("not measured", "6, filled in") in surface_plots.measured(holed(tmp_path).features[0])
+    assert np.isfinite(cover["z"]).sum() == marked and "Light: points that were not measured" in picture.caption
+    assert "Light" not in surface_plots.picture(scanned(tmp_path)[0]).caption

@@ -16,11 +16,12 @@ AROUND = 0.05  # of what is covered, shown on each side of it: the smooth surfac
 @dataclass(frozen=True)
 class Heights:
     """x, y: m, from the first feature's centre and from the middle of the contact, as in maps of the index; values (x, y): m,
-    of one row where nothing varies along y."""
+    of one row where nothing varies along y; filled (x, y): where a scan has no height and its neighbours gave one."""
 
     x: np.ndarray
     y: np.ndarray
     values: np.ndarray
+    filled: np.ndarray
 
     @property
     def line(self):
@@ -47,7 +48,8 @@ def heights(scene):
     else:
         edge = scene.grid.y_max * Scales.of(scene).b
         x, y = _even(features, "x", EVEN), _even([f for f in features if not f.transverse], "y", EVEN, edge)
-    return Heights(x, y, sum(f.height_at(x[:, None] - f.x, y - f.y) for f in features))
+    places = [(f, x[:, None] - f.x, y - f.y) for f in features]
+    return Heights(x, y, sum(f.height_at(*at) for f, *at in places), sum(f.kind.filled(f, *at) for f, *at in places) > 0)
 
 
 def _own(f):

@@ -1,5 +1,7 @@
 """Figure of the surface that passes: heights over x, y, or over x where nothing varies across."""
 
+import numpy as np
+
 from tehl_taichi.figures import palette
 from tehl_taichi.figures.field_maps import bar
 from tehl_taichi.figures.passing_heights import heights
@@ -15,7 +17,8 @@ def surface(page, moments):
     found = heights(scene)
     figure = _line(page, found) if found.line else _map(page, found)
     low, high = (float(end) * 1e6 for end in (found.values.min(), found.values.max()))
-    page.title(figure, f"{scene.name}: heights of surface a, {low:.3g} to {high:.3g} µm")
+    holes = "; light: not measured, filled in" if found.filled.any() else ""
+    page.title(figure, f"{scene.name}: heights of surface a, {low:.3g} to {high:.3g} µm{holes}")
     return figure
 
 
@@ -40,4 +43,14 @@ def _picture(ax, found):
     ends = [end * 1e6 for at in (found.x, found.y)
             for end in (at[0] - (at[1] - at[0]) / 2, at[-1] + (at[1] - at[0]) / 2)]
     between = "bilinear" if max(found.values.shape) <= COARSE else "antialiased"
+    if found.filled.any():
+        _cover(ax, found.filled, ends)
     return ax.imshow(found.values.T * 1e6, origin="lower", extent=ends, interpolation=between, cmap=palette.HEIGHT)
+
+
+def _cover(ax, filled, ends):
+    """Points that were not measured, in the colour of what has no value."""
+    from matplotlib.colors import ListedColormap
+
+    ax.imshow(np.where(filled.T, 1.0, np.nan), origin="lower", extent=ends, interpolation="nearest", zorder=1,
+              cmap=ListedColormap([palette.SHADE]))

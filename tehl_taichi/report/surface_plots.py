@@ -2,10 +2,11 @@
 
 import math
 import os
+from dataclasses import replace
 
 import numpy as np
 
-from tehl_taichi.figures.palette import HEIGHT
+from tehl_taichi.figures.palette import HEIGHT, SHADE
 from tehl_taichi.figures.passing_heights import heights
 from tehl_taichi.report.document import Section, drawn, facts
 from tehl_taichi.report.passage_plots import thinned
@@ -15,6 +16,7 @@ from tehl_taichi.scene.height_map import LEVELS
 
 FROM_CENTRE = "x from the feature's centre (µm)"
 STEPS = 1000  # of heights, at least
+HOLES = " Light: points that were not measured; what passes there was filled smoothly from their neighbours."
 MOST = 400  # columns and rows kept: what a screen shows
 
 
@@ -35,9 +37,19 @@ def picture(scene):
     if found.line:
         drawn_line = line(x, values[:, 0], "height", colour(0), told=False)
         return stacked("surface", caption, FROM_CENTRE, [("height (µm)", [drawn_line], {})], height=330)
-    caption += _kept(found, i, j)
-    return field_map("surface", caption, x, y, _stepped(values), HEIGHT, "µm", FROM_CENTRE, "y (µm)", true=found.true,
-                     height=440)
+    caption += _kept(found, i, j) + HOLES * bool(found.filled.any())
+    drawn_map = field_map("surface", caption, x, y, _stepped(values), HEIGHT, "µm", FROM_CENTRE, "y (µm)", true=found.true,
+                          height=440)
+    return replace(drawn_map, traces=[*drawn_map.traces, *_holes(found, i, j)])
+
+
+def _holes(found, i, j):
+    """A trace that covers what was not measured; what is not kept counts to the kept point before it."""
+    if not found.filled.any():
+        return []
+    holes = np.logical_or.reduceat(np.logical_or.reduceat(found.filled, i, axis=0), j, axis=1)
+    return [{"type": "heatmap", "x": found.x[i] * 1e6, "y": found.y[j] * 1e6, "z": np.where(holes, 1.0, np.nan).T,
+             "colorscale": [[0, SHADE], [1, SHADE]], "showscale": False, "hovertemplate": "not measured<extra></extra>"}]
 
 
 def _stepped(values):
@@ -61,6 +73,7 @@ def measured(f):
     turned = f", times {f.scale:g}" if f.scale != 1 else ""
     rim = f", fading out over {told(f.taper, unit='m')} at its rim" if f.taper else ""
     return [("file", os.path.basename(f.file)), ("points", f"{along} × {across}"),
+            *([("not measured", f"{f.holes.sum()}, filled in")] if f.holes.any() else []),
             *([("turned", f.orientation.says)] if f.orientation.says else []),
             ("distance of its points", " × ".join(told(step, unit="m") for step in f.steps)),
             ("unit of its heights", f"{f.unit.replace('um', 'µm')}{turned}"), ("taken off", LEVELS[f.level]),

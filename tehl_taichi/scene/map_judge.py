@@ -4,7 +4,6 @@ import os
 
 import numpy as np
 
-from tehl_taichi.scene import map_holes
 from tehl_taichi.scene.height_map import LEVELS, missed
 from tehl_taichi.scene.map_form import FLAT
 from tehl_taichi.scene.scales import Scales
@@ -51,7 +50,7 @@ def _um(value):
 
 
 def _holes(f, scene):
-    count = int(map_holes.missing(f.heights).sum())
+    count = int(f.holes.sum())
     if count:
         yield (f"{_name(f)}: {count} of its {f.heights.size} points were not measured; they are filled smoothly from their "
                "neighbours, so nothing that passes there is known")

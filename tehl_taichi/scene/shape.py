@@ -30,6 +30,10 @@ class Shape(Entry):
         """Height (positive: out of the surface) at x, y from its centre; arrays that broadcast, and so does the result."""
         raise NotImplementedError(f"{self.name} has no height")
 
+    def filled(self, f, x, y):
+        """Whether its height there is no measured one; arrays that broadcast, and so does the result."""
+        return np.zeros(np.broadcast(x, y).shape, bool)
+
     def reach(self, f):
         """Distance along x from its centre within which it is not zero."""
         return f.width / 2

@@ -57,6 +57,11 @@ class Measured:
         that they were measured with."""
         return map_holes.filled(self.orientation.turned(self.heights)) * (UNITS[self.unit] * self.scale)
 
+    @property
+    def holes(self):
+        """Points (along y, along x) that were not measured: what passes there is filled in."""
+        return self.orientation.turned(map_holes.missing(self.heights))
+
     @cached_property
     def surface(self):
         """The same levelled: what passes through the contact."""
@@ -120,6 +125,13 @@ class Map(Patch):
         low = (1 - u) * values[j0, i0] + u * values[j0, i0 + 1]
         high = (1 - u) * values[j0 + 1, i0] + u * values[j0 + 1, i0 + 1]
         return ((1 - v) * low + v * high) * self.window(f, x, y)
+
+    def filled(self, f, x, y):
+        """Where the nearest of its points was not measured, within its patch."""
+        holes = f.holes
+        i, j = (np.clip(np.rint(at / step + (count - 1) / 2).astype(int), 0, count - 1)
+                for at, step, count in zip((x, y), f.steps, f.points))
+        return holes[j, i] & (self.window(f, x, y) > 0)
 
     def patch(self, f):
         return f.patch
