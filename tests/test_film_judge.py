@@ -6,6 +6,7 @@ import pytest
 from tehl_taichi.io import film_judge
 from tehl_taichi.io import result_judge as judge_of_results
 from tehl_taichi.scene import scene
+from tehl_taichi.scene.features.map import EXAMPLE
 from tehl_taichi.scene.scales import Scales
 
 
@@ -40,6 +41,14 @@ def said(store):
 
 def gear(**changes):
     return scene("gear").replace(**{"thermal.on": False, **changes})
+
+
+def test_a_peak_under_a_scan_is_told_with_its_centre():
+    scan = gear(**{f"feature.{key}": value for key, value in EXAMPLE.items()})
+    text, = film_judge.unresolved(Made(scan, pressure=lambda X, smooth: smooth + 3e9 * (np.abs(X - X[40]) < 1e-9)[:, None]), {})
+    assert "of the passage (scan centre at 0.30 a)" in text
+    text, = film_judge.ripples(Made(scan, pressure=lambda X, smooth: smooth * (1 + 0.05 * (-1) ** np.arange(97))[:, None]), {})
+    assert "(scan centre at 0.30 a, X = " in text
 
 
 def test_a_plausible_run_has_no_warnings_of_its_film():

@@ -82,3 +82,20 @@ def test_only_a_map_is_turned():
         Feature(mirror_x=True)
     with pytest.raises(SceneError, match="must be true or false"):
         Feature(shape="map", transpose=1)
+
+
+@pytest.mark.parametrize("keys", [{}, {"transpose": True}, {"mirror_x": True}, {"transpose": True, "mirror_y": True}])
+def test_the_file_s_row_and_column_of_a_place_are_told(tmp_path, keys):
+    """Of the peak, wherever it lies; points farther away than the patch have none."""
+    values = np.zeros((20, 31))
+    values[2, 25] = 0.1
+    values[10, 4] = np.nan
+    np.save(tmp_path / "peak.npy", values)
+    f = feature(tmp_path / "peak.npy", **STEPS, level="none", **keys)
+    j, i = np.unravel_index(f.surface.argmax(), f.surface.shape)
+    x, y = ((at - (count - 1) / 2) * step for at, count, step in zip((i, j), f.points, f.steps))
+    assert f.told_at(x + 0.4 * f.steps[0], y - 0.4 * f.steps[1]) == "row 3, column 26"
+    assert f.told_at(f.size[0] / 2 + 1e-9, 0.0) == "" == f.told_at(0.0, -f.size[1] / 2 - 1e-9)
+    (j,), (i,) = np.nonzero(f.holes)
+    x, y = ((at - (count - 1) / 2) * step for at, count, step in zip((i, j), f.points, f.steps))
+    assert f.told_at(x, y) == "row 11, column 5, not measured"

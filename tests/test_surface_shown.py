@@ -161,3 +161,25 @@ def test_holes_are_marked_in_the_report(tmp_path, columns, marked):
     assert ("not measured", "6, filled in") in surface_plots.measured(holed(tmp_path).features[0])
     assert np.isfinite(cover["z"]).sum() == marked and "Light: points that were not measured" in picture.caption
     assert "Light" not in surface_plots.picture(scanned(tmp_path)[0]).caption
+
+
+def test_words_of_a_scan_in_figures_and_report(tmp_path):
+    """His scan is no feature to its user; other scenes keep their word."""
+    pytest.importorskip("plotly")
+    made, f = scanned(tmp_path, rows=31, columns=41, mirror_x=True)
+    scan = made.replace(**{"grid.nx": 64, "grid.ny": 16})
+    assert Moments(Made(scan)).says(2) == "scan centre at +0.00 a" and Moments(Made(SMALL)).says(2) == "feature at +0.00 a"
+    assert drawn(scan).axes[0].get_xlabel() == "x from the scan's centre (µm), flow to the right"
+    search = made_results.fatigue()
+    search["below"] |= {"x_m": 1e-3}
+    of_scan, of_bump = (page(made_results.run(tmp_path / f"{name}.zarr", one, search=search), tmp_path)
+                        for name, one in (("scan", scan), ("bump", made_results.THERMAL)))
+    for seen, what, where in ((of_scan, "scan", "scan centre"), (of_bump, "feature", "feature")):
+        for said in (f"Position of the {where}", f"x of the {what}", f"dotted: the centre of the {what}",
+                     f"Surface a carries the {what}", f"which carries the {what}", f"while the {what} passes",
+                     f"the {what} is on the slower one"):
+            assert said in seen.text, said
+    assert of_scan.figures["index-surface"]["layout"]["xaxis"]["title"]["text"] == "x from the scan's centre (µm)"
+    assert of_scan.figures["stress-surface"]["layout"]["xaxis"]["title"]["text"] == "position of the scan centre x / a"
+    assert "nearest point in the file of the scan\nrow 16, column 20\n" in of_scan.text  # 8 um ahead of column 21, turned round
+    assert "file of the scan" not in of_bump.text

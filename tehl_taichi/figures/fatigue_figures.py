@@ -18,14 +18,15 @@ from tehl_taichi.values.plain import plain
 MAPS = ("feature_frame_x", "feature_frame_y", "Fi", "fatigue_depth", "findley_stress_at_depth", "findley_stress_under_row",
         "findley_stress_contact_alone", "worst_depth", "findley_stress_at_worst_depth")  # shown where they were found
 EVEN = 200  # depths drawn of a section
-FROM_CENTRE = "x from the feature's centre (µm), flow to the right"
+FLOW = ", flow to the right"
 LEAST = 8.0  # cm that a map needs to stand beside another
 
 
 @dataclass(frozen=True)
 class Found:
     """title: the scene's name; maps: {name of MAPS: array} found; points: {"surface": history, "below": the same or None};
-    summary: of a FatigueResult; a: m; depth: µm, of the layer that is wanted beside the surface, or None (the worst one)."""
+    summary: of a FatigueResult; a: m; depth: µm, of the layer that is wanted beside the surface, or None (the worst one);
+    along: title of the axis."""
 
     title: str
     maps: dict
@@ -33,6 +34,7 @@ class Found:
     summary: dict
     a: float
     depth: float | None = None
+    along: str = "x from the feature's centre (µm)"
 
     @property
     def constants(self):
@@ -132,7 +134,7 @@ def index_figure(page, found, layers):
     for ax, layer in zip(axes.ravel(), layers):
         index_map(figure, ax, found.maps, layer, beside and len(layers) > 1)
     for ax in axes[-1]:
-        ax.set_xlabel(FROM_CENTRE if columns == 1 else FROM_CENTRE.partition(",")[0])
+        ax.set_xlabel(found.along + FLOW * (columns == 1))
     for ax in axes[:, 0]:
         ax.set_ylabel("y (µm)")
     lines = explained(any(layer.traced for layer in layers), any(crossed(layer.Fi) for layer in layers))
@@ -146,7 +148,7 @@ def index_lines(page, found, layers):
     for layer, colour in zip(layers, palette.LINES):
         ax.plot(found.maps["feature_frame_x"] * 1e6, layer.Fi[:, 0], color=colour, label=layer.where)
         ax.plot(layer.at[0] * 1e6, layer.Fi.max(), "+", color=colour, ms=page.text, mew=0.2 * page.text, label=layer.said)
-    ax.set(xlabel=FROM_CENTRE, ylabel="Fi")
+    ax.set(xlabel=found.along + FLOW, ylabel="Fi")
     ax.grid()
     page.legend(figure)
     page.title(figure, found.constants)
@@ -197,7 +199,7 @@ def _section(page, figure, ax, found, Fi, depth):
     bar(figure, shade(ax, x, even, shown, cmap=palette.INDEX), ax, f"Fi at y = {deep['y_m'] * 1e6:.0f} µm", not page.narrow)
     limit_line(ax, x, even, shown)
     _mark(ax, deep["x_m"] * 1e6, deep["depth_m"] * 1e6)
-    ax.set_xlabel(FROM_CENTRE if page.narrow else FROM_CENTRE.partition(",")[0])
+    ax.set_xlabel(found.along + FLOW * page.narrow)
 
 
 def _over_depth(ax, found, Fi, depth):

@@ -3,6 +3,7 @@
 import numpy as np
 
 from tehl_taichi.figures import palette
+from tehl_taichi.scene.passing_words import passing
 
 ALONG = "x / a (flow to the right)"
 SURFACES = (("temperature_mid", "mid-film", "-"), ("temperature_a", "surface a", "--"), ("temperature_b", "surface b", ":"))
@@ -10,8 +11,8 @@ ACROSS = (-1.0, -0.5, 0.0, 0.5, 1.0)  # x / a at which profiles are drawn
 
 
 def carrier(scene):
-    """Which of both surfaces has the feature, in words; nothing where none passes."""
-    return "surface a carries the feature" if scene.transient else ""
+    """Which of both surfaces has what passes, in words; nothing where nothing does."""
+    return f"surface a carries the {passing(scene)}" if scene.transient else ""
 
 
 def headed(page, figure, moments, what, shown, more=""):

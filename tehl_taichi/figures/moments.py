@@ -7,6 +7,7 @@ import numpy as np
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.figures import palette
+from tehl_taichi.scene.passing_words import where
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.values.checks import number
 from tehl_taichi.values.plain import plain
@@ -126,7 +127,7 @@ class Moments:
         """What entry n shows, in words."""
         if n == 0:
             return "steady start" if self.store.steps > 1 else "steady"
-        return f"feature at {self._position(n)}"
+        return f"{where(self.store.scene)} at {self._position(n)}"
 
     def _position(self, n):
         return f"{self.moved[n - 1]:+.2f} a".replace("-0.00", "+0.00")

@@ -6,6 +6,7 @@ from tehl_taichi.errors import SceneError
 from tehl_taichi.figures import fatigue_figures, field_maps, line_figures, surface_figure
 from tehl_taichi.figures.moments import Moments
 from tehl_taichi.figures.page import Page
+from tehl_taichi.scene.passing_words import from_centre
 from tehl_taichi.scene.scales import Scales
 
 
@@ -37,7 +38,8 @@ def _of_the_film(store):
 def _fatigue(store, depth):
     maps = {name: values for name in fatigue_figures.MAPS if (values := store.map(name)) is not None}
     points = {"surface": _history(store, "worst"), "below": _history(store, "worst_below")}
-    return fatigue_figures.Found(store.scene.name, maps, points, store.summary["fatigue"], Scales.of(store.scene).a, depth)
+    return fatigue_figures.Found(store.scene.name, maps, points, store.summary["fatigue"], Scales.of(store.scene).a, depth,
+                                 from_centre(store.scene))
 
 
 def _history(store, name):

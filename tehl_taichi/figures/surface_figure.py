@@ -5,9 +5,9 @@ import numpy as np
 from tehl_taichi.figures import palette
 from tehl_taichi.figures.field_maps import bar
 from tehl_taichi.figures.passing_heights import heights
+from tehl_taichi.scene.passing_words import from_centre
 
 LABEL = "height (µm)"
-FROM_CENTRE = "x from the feature's centre (µm), flow to the right"
 COARSE = 400  # points: so few are joined by colours in between, as the heights are; of more, several share a dot
 
 
@@ -16,6 +16,7 @@ def surface(page, moments):
     scene = moments.store.scene
     found = heights(scene)
     figure = _line(page, found) if found.line else _map(page, found)
+    figure.axes[0].set_xlabel(f"{from_centre(scene)}, flow to the right")
     low, high = (float(end) * 1e6 for end in (found.values.min(), found.values.max()))
     holes = "; light: not measured, filled in" if found.filled.any() else ""
     page.title(figure, f"{scene.name}: heights of surface a, {low:.3g} to {high:.3g} µm{holes}")
@@ -25,7 +26,7 @@ def surface(page, moments):
 def _line(page, found):
     figure, ((ax,),) = page.figure(height=1.3 * page.row())
     ax.plot(found.x * 1e6, found.values[:, 0] * 1e6)
-    ax.set(xlabel=FROM_CENTRE, ylabel=LABEL, xlim=(found.x[0] * 1e6, found.x[-1] * 1e6))
+    ax.set(ylabel=LABEL, xlim=(found.x[0] * 1e6, found.x[-1] * 1e6))
     ax.grid()
     return figure
 
@@ -34,7 +35,7 @@ def _map(page, found):
     height = 1.2 * page.inches * (min(found.tall, 1.0) if found.true else 0.6)  # more than enough
     figure, ((ax,),) = page.figure(height=height, equal=found.true)
     bar(figure, _picture(ax, found), ax, LABEL)
-    ax.set(xlabel=FROM_CENTRE, ylabel="y (µm)", aspect="equal" if found.true else "auto")
+    ax.set(ylabel="y (µm)", aspect="equal" if found.true else "auto")
     return figure
 
 

@@ -6,6 +6,7 @@ import numpy as np
 from tehl_taichi.march import readings
 from tehl_taichi.march.peaks import ripple, sharpest
 from tehl_taichi.scene import finer
+from tehl_taichi.scene.passing_words import where
 from tehl_taichi.scene.scales import Scales
 
 MOST_FRICTION = 0.2  # of a film: no oil is known to bear more than about 0.12 of the pressure, traction fluids included
@@ -43,7 +44,7 @@ def unresolved(store, summary):
 
 def _where(store, n, p, i):
     a = Scales.of(store.scene).a
-    when = f"of the passage (feature at {store.feature_x(n) / a:.2f} a)" if n else "of the steady state"
+    when = f"of the passage ({where(store.scene)} at {store.feature_x(n) / a:.2f} a)" if n else "of the steady state"
     return f"p_max {p.max() / 1e9:.2f} GPa {when}, at X = {store.x[i] / a:.2f}, is a few cells wide"
 
 
@@ -69,7 +70,7 @@ def ripples(store, summary):
     (size, i), n = worst_ripple(store, range(len(store)))
     if size > MOST_RIPPLE * float(store.scalar("p_max_Pa").max()):
         a, at_edge = Scales.of(store.scene).a, store.x[i] > 0 and _endless(store.scene)
-        when = f"feature at {store.feature_x(n) / a:.2f} a, " if n else ""
+        when = f"{where(store.scene)} at {store.feature_x(n) / a:.2f} a, " if n else ""
         yield ((readings.EXIT if at_edge else "") + "the pressure ripples from node to node along x by up to "
                f"{size / 1e9:.3f} GPa ({when}X = {store.x[i] / a:.2f}): the grid's shortest wave, not a result; "
                + (NO_VALUE if at_edge else f"try another time.courant or {finer.told(store.scene)}"))

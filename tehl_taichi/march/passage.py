@@ -23,6 +23,7 @@ from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.pressure.newton import PressureSolver
 from tehl_taichi.pressure.one_temperature import OneTemperature
 from tehl_taichi.pressure.storage import Storage
+from tehl_taichi.scene.passing_words import where
 from tehl_taichi.scene.route import step_cells, total_steps
 from tehl_taichi.scene.scales import Scales
 
@@ -150,8 +151,9 @@ class Passage:
     def _shorter(self, report, part):
         self.rejected += 1
         if part / 2 < SMALLEST_PART:
-            where = f"step {self.step + 1} (feature at {self.position(self.step + 1):.2f} a), down to {part:g} of it,"
-            raise not_converged(self.solver, self.heat, report, where, passing=True)
+            at = f"{where(self.scene)} at {self.position(self.step + 1):.2f} a"
+            raise not_converged(self.solver, self.heat, report, f"step {self.step + 1} ({at}), down to {part:g} of it,",
+                                passing=True)
         return part / 2
 
     def position(self, step):

@@ -6,10 +6,10 @@ from tehl_taichi.figures.crack_figures import BAND, SHOWN
 from tehl_taichi.figures.palette import GREY, TENSION
 from tehl_taichi.io.kept_crack import kept
 from tehl_taichi.report.document import Part, Section, drawn, facts, sentences
-from tehl_taichi.report.passage_plots import POSITION
 from tehl_taichi.report.plots import colour, field_map, line, stacked
 from tehl_taichi.report.rounded import told
 
+POSITION = "position of the feature x / a"
 OF = "x' from the feature's centre (µm), rolling to the left"
 
 

@@ -8,12 +8,11 @@ from tehl_taichi.figures.field_maps import whole
 from tehl_taichi.figures.index_words import largest
 from tehl_taichi.figures.limit_line import crossed, explained
 from tehl_taichi.figures.palette import GREY, INDEX, MARK
-from tehl_taichi.report.passage_plots import POSITION
 from tehl_taichi.report.plots import colour, field_map, level, line, marks, stacked
 from tehl_taichi.report.rounded import told
+from tehl_taichi.scene.passing_words import from_centre, passing, position
 from tehl_taichi.scene.scales import Scales
 
-FROM_CENTRE = "x from the feature's centre (µm)"
 EVEN = 100  # depths drawn of a section
 POINTS = {"surface": ("worst", "worst point of the surface"), "below": ("worst_below", "worst point below the surface")}
 
@@ -47,7 +46,7 @@ def _map(store, which, where, Fi, found):
     at, trace = np.array([found["x_m"], found["y_m"]]) * 1e6, _trace(store, which, found, 0.12 * np.ptp(x))
     marked = [*_limit(x, y, full), marks([at[0]], [at[1]], f"worst point, Fi = {largest(found)}", MARK), *trace]
     caption = f"Index Fi {where}, over the whole passage{explained(bool(trace), crossed(full))}."
-    return field_map(f"index-{which}", caption, x, y, full, INDEX, "Fi", FROM_CENTRE, "y (µm)", marked, height=440)
+    return field_map(f"index-{which}", caption, x, y, full, INDEX, "Fi", from_centre(store.scene), "y (µm)", marked, height=440)
 
 
 def _trace(store, which, found, length):
@@ -77,7 +76,7 @@ def _around(found):
 def _over_x(store, f, Fi):
     x = store.map("feature_frame_x") * 1e6
     worst = marks([f["x_m"] * 1e6], [f["Fi_max"]], f"worst, plane {f['surface_angle_deg']:.0f}° to the surface", colour(1))
-    return stacked("index", "Index Fi of the surface, over the whole passage.", FROM_CENTRE,
+    return stacked("index", "Index Fi of the surface, over the whole passage.", from_centre(store.scene),
                    [("Fi", [line(x, Fi[:, 0], "at the surface", colour(0)), worst], {})], height=440)
 
 
@@ -92,8 +91,8 @@ def depth(store):
     section = np.stack([np.interp(even, z, column) for column in Fi.T])
     worst = marks([deep["x_m"] * 1e6], [deep["depth_m"] * 1e6], f"worst point, Fi = {largest(deep)}", MARK)
     caption = f"Index Fi in the section y = {deep['y_m'] * 1e6:.0f} µm under the feature{explained(False, crossed(section))}."
-    figure = field_map("section", caption, x, even, section, INDEX, "Fi", FROM_CENTRE, "below the surface (µm)",
-                       [*_limit(x, even, section), worst], true=False, height=440)
+    figure = field_map("section", caption, x, even, section, INDEX, "Fi", from_centre(store.scene),
+                       "below the surface (µm)", [*_limit(x, even, section), worst], true=False, height=440)
     figure.layout["yaxis"]["autorange"] = "reversed"
     return [figure, _over_depth(store, f, deep, z, Fi)]
 
@@ -115,17 +114,17 @@ def worst_points(store):
     for which, (name, text) in POINTS.items():
         if store.map(f"{name}_stress") is not None:
             history = {part: store.map(f"{name}_{part}") for part in ("x_a", "stress", "normal", "circle")}
-            out.append((_stresses(which, text, history, Scales.of(store.scene).a), _path(which, text, history)))
+            out.append((_stresses(which, text, history, store.scene), _path(which, text, history)))
     return out
 
 
-def _stresses(which, text, history, a):
-    x, stress = history["x_a"][:-1] / a, history["stress"]
+def _stresses(which, text, history, scene):
+    x, stress = history["x_a"][:-1] / Scales.of(scene).a, history["stress"]
     normal = shear_path(stress, history["normal"])[2]
     traces = [line(x, largest_principal(stress)[:-1] / 1e6, "largest principal stress σ₁", colour(0)),
               line(x, normal[:-1] / 1e6, "normal to the critical plane", colour(1))]
-    return stacked(f"stress-{which}", f"Stresses of the {text} while the feature passes.", POSITION, [("MPa", traces, {})],
-                   height=400)
+    caption = f"Stresses of the {text} while the {passing(scene)} passes."
+    return stacked(f"stress-{which}", caption, position(scene), [("MPa", traces, {})], height=400)
 
 
 def _path(which, text, history):

@@ -6,6 +6,7 @@ from tehl_taichi.figures.moments import Moments
 from tehl_taichi.figures.palette import FILM, PRESSURE, TEMPERATURE
 from tehl_taichi.report.passage_plots import columns, film_top, thinned
 from tehl_taichi.report.plots import field_map
+from tehl_taichi.scene.passing_words import passing
 from tehl_taichi.scene.scales import Scales
 
 ROWS = 101  # of a half domain, at most
@@ -36,7 +37,7 @@ def _when(moments):
 def _styles(store):
     """{field: (title, colours, unit, factor, ends of the colours)}."""
     top = film_top(store) * 1e6
-    whose = {"surface a": ", which carries the feature"} if store.scene.transient else {}
+    whose = {"surface a": f", which carries the {passing(store.scene)}"} if store.scene.transient else {}
     heat = {name: (f"Temperature, {text}{whose.get(text, '')}", TEMPERATURE, "°C", 1.0, {})
             for name, text, _ in SURFACES if name in store.stored}
     film = f"Film, thicker than {top:.2g} µm in the last colour", FILM, "µm", 1e6, {"zmin": 0.0, "zmax": top}

@@ -6,10 +6,10 @@ from tehl_taichi.figures.line_figures import ALONG, SURFACES, carrier
 from tehl_taichi.figures.moments import WINDOW, Moments
 from tehl_taichi.figures.palette import GREY
 from tehl_taichi.report.plots import colour, line, stacked
+from tehl_taichi.scene.passing_words import passing, position
 from tehl_taichi.scene.scales import Scales
 
 MOMENTS, COLUMNS = 200, 400  # kept, at most: what a screen shows
-POSITION = "position of the feature x / a"
 DASHES = dict(zip((name for name, *_ in SURFACES), ("solid", "dash", "dot")))
 FIELDS = (("pressure (GPa)", 1e-9, {"pressure": ""}), ("film (µm)", 1e6, {"film": ""}),
           ("temperature (°C)", 1.0, {name: text for name, text, _ in SURFACES}))
@@ -111,7 +111,7 @@ def _caption(store, shown):
     along = Moments(store).along
     said = f"{along[0].upper()}{along[1:]}.{_carries(store)}"
     if len(shown) > 1:
-        said += " Grey: the steady start; dotted: the centre of the feature."
+        said += f" Grey: the steady start; dotted: the centre of the {passing(store.scene)}."
     left = [f"{len(shown)} of {store.steps} stored moments"] * (len(shown) < store.steps)
     return said + (f" {left[0]} are kept in this page." if left else "")
 
@@ -134,7 +134,8 @@ def histories(store):
                  for n, (name, text) in enumerate(found.items())]
         if lines:
             panels.append((title, lines, {}))
-    return stacked("histories", f"Of each time step; the contact lies between −1 and 1.{_carries(store)}", POSITION, panels)
+    caption = f"Of each time step; the contact lies between −1 and 1.{_carries(store)}"
+    return stacked("histories", caption, position(store.scene), panels)
 
 
 LEFT_OVER = {"residual": "residual", "load_error": "load", "mass_error": "mass"}

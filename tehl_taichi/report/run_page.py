@@ -14,6 +14,7 @@ from tehl_taichi.report import (
     verdict,
 )
 from tehl_taichi.report.document import Page, Part, Section, drawn, facts, sentences
+from tehl_taichi.scene.passing_words import where
 
 
 def of(folder):
@@ -40,7 +41,8 @@ def _film(store):
     moved, maps = line.more.get("slides"), drawn(*map_plots.maps(store))
     if not moved:
         return Section("Film and pressure", (drawn(line), maps)),
-    slider = Part("slider", {"figures": [line], "first": moved["first"], "last": len(moved["at"]) - 1})
+    slider = Part("slider", {"figures": [line], "first": moved["first"], "last": len(moved["at"]) - 1,
+                             "what": where(store.scene)})
     return (Section("Passage", (slider,)), Section("Histories", (drawn(histories), run_tables.solid_contact(store.summary))),
             Section("Moment of the largest pressure", (maps,)))
 
@@ -50,8 +52,8 @@ def _fatigue(store):
     if "fatigue" not in store.summary:
         return ()
     found = store.summary["fatigue"]
-    return (Section("Fatigue", (drawn(*fatigue_plots.index(store), *fatigue_plots.depth(store)), run_tables.worst_points(found),
-                                run_tables.tension(found))),
+    return (Section("Fatigue", (drawn(*fatigue_plots.index(store), *fatigue_plots.depth(store)),
+                                run_tables.worst_points(found, store.scene), run_tables.tension(found))),
             Section("Stresses of the worst points", tuple(drawn(*pair) for pair in fatigue_plots.worst_points(store))))
 
 

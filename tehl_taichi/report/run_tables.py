@@ -6,6 +6,7 @@ from tehl_taichi.io import intact
 from tehl_taichi.march.output import Scalar, entries
 from tehl_taichi.report.document import facts, table
 from tehl_taichi.report.rounded import FEW, apart, index, roughly, share, told
+from tehl_taichi.scene.passing_words import passing
 
 PARTS = (("steady", "steady start"), ("transient", "passage"), ("fatigue", "fatigue"))
 ENDS = {"_mean": ", mean", "_max": ", largest"}
@@ -49,16 +50,24 @@ def _meaning(name):
 
 
 POINT = (("index Fi", "Fi_max", "1"), ("stress of the criterion", "findley_stress_max_Pa", "Pa"), ("depth", "depth_m", "m"),
-         ("x of the feature", "x_m", "m"), ("y of the feature", "y_m", "m"), ("shear amplitude", "tau_amp_Pa", "Pa"),
+         ("x of the {}", "x_m", "m"), ("y of the {}", "y_m", "m"), ("shear amplitude", "tau_amp_Pa", "Pa"),
          ("largest normal stress", "sigma_n_max_Pa", "Pa"), ("largest principal stress", "sigma1_worst_Pa", "Pa"),
          ("critical plane to the surface (0°: it lies in the surface)", "surface_angle_deg", "°"))
 
 
-def worst_points(fatigue):
+def worst_points(fatigue, scene):
     """The worst point of the surface beside the one below it."""
     points = [("surface", {"depth_m": 0.0, **fatigue}), *([("below it", fatigue["below"])] if "below" in fatigue else [])]
-    rows = [(text, *(_of_point(point, key, unit) for _, point in points)) for text, key, unit in POINT]
-    return table(("worst point", *(where for where, _ in points)), rows)
+    rows = [(text.format(passing(scene)), *(_of_point(point, key, unit) for _, point in points)) for text, key, unit in POINT]
+    return table(("worst point", *(where for where, _ in points)), rows + _in_file(scene, [point for _, point in points]))
+
+
+def _in_file(scene, points):
+    """[(what, where each point lies in the file of the scan)]; none of a scene whose positions are not those of a scan."""
+    if passing(scene) != "scan":
+        return []
+    first = scene.features[0]
+    return [("nearest point in the file of the scan", *(first.told_at(p["x_m"] - first.x, p["y_m"] - first.y) for p in points))]
 
 
 def _of_point(point, key, unit):

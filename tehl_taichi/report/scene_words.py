@@ -4,6 +4,7 @@ import os
 
 from tehl_taichi.physics.rheology import LAWS
 from tehl_taichi.report.rounded import told
+from tehl_taichi.scene.passing_words import passing
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.values.quantity import Number, Switch, Text, kinds
 
@@ -37,7 +38,7 @@ def _motion(scene):
     if o.srr == 0:
         return f"The surfaces roll at {o.u_m:.4g} m/s without slip."
     kind = "slower" if o.u_a < o.u_b else "faster"
-    carries = f"; the feature is on the {kind} one, a" if scene.features else ""
+    carries = f"; the {passing(scene)} is on the {kind} one, a" if scene.features else ""
     return (f"The surfaces move at {o.u_a:.4g} m/s (a) and {o.u_b:.4g} m/s (b): mean {o.u_m:.4g} m/s, slide-to-roll ratio "
             f"{o.srr:+.3g}{carries}.")
 

@@ -13,8 +13,8 @@ from tehl_taichi.report.passage_plots import thinned
 from tehl_taichi.report.plots import colour, field_map, line, stacked
 from tehl_taichi.report.rounded import told
 from tehl_taichi.scene.height_map import LEVELS
+from tehl_taichi.scene.passing_words import from_centre
 
-FROM_CENTRE = "x from the feature's centre (µm)"
 STEPS = 1000  # of heights, at least
 HOLES = " Light: points that were not measured; what passes there was filled smoothly from their neighbours."
 MOST = 400  # columns and rows kept: what a screen shows
@@ -33,12 +33,13 @@ def picture(scene):
     found = heights(scene)
     i, j = (thinned(at.size, MOST) for at in (found.x, found.y))
     x, y, values = found.x[i] * 1e6, found.y[j] * 1e6, found.values[i][:, j] * 1e6
+    along = from_centre(scene)
     caption = "Heights of the features, all on surface a, that of body a."
     if found.line:
         drawn_line = line(x, values[:, 0], "height", colour(0), told=False)
-        return stacked("surface", caption, FROM_CENTRE, [("height (µm)", [drawn_line], {})], height=330)
+        return stacked("surface", caption, along, [("height (µm)", [drawn_line], {})], height=330)
     caption += _kept(found, i, j) + HOLES * bool(found.filled.any())
-    drawn_map = field_map("surface", caption, x, y, _stepped(values), HEIGHT, "µm", FROM_CENTRE, "y (µm)", true=found.true,
+    drawn_map = field_map("surface", caption, x, y, _stepped(values), HEIGHT, "µm", along, "y (µm)", true=found.true,
                           height=440)
     return replace(drawn_map, traces=[*drawn_map.traces, *_holes(found, i, j)])
 

@@ -18,6 +18,11 @@ class Orientation:
         values = values.T if self.transpose else values
         return np.ascontiguousarray(values[::-1 if self.mirror_y else 1, ::-1 if self.mirror_x else 1])
 
+    def in_file(self, shape, j, i):
+        """(row, column), from 0, in a file of that shape of the point j along y, i along x."""
+        numbers = self.turned(np.arange(shape[0] * shape[1]).reshape(shape))
+        return divmod(int(numbers[j, i]), shape[1])
+
     def swapped(self, pair):
         """(along x, along y) of what a file has (along a row, from row to row)."""
         return tuple(pair)[::-1] if self.transpose else tuple(pair)

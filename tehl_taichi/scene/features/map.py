@@ -62,6 +62,20 @@ class Measured:
         """Points (along y, along x) that were not measured: what passes there is filled in."""
         return self.orientation.turned(map_holes.missing(self.heights))
 
+    def nearest(self, x, y):
+        """Its points (along y, along x) that are nearest to x, y (m, from its centre), arrays or numbers."""
+        i, j = (np.clip(np.rint(at / step + (count - 1) / 2).astype(int), 0, count - 1)
+                for at, step, count in zip((np.asarray(x), np.asarray(y)), self.steps, self.points))
+        return j, i
+
+    def told_at(self, x, y):
+        """Where in its file the nearest point to x, y (m, from its centre) stands, in words; "" beyond its patch."""
+        if any(abs(at) > size / 2 for at, size in zip((x, y), self.patch)):
+            return ""
+        nearest = self.nearest(x, y)
+        row, column = self.orientation.in_file(self.heights.shape, *nearest)
+        return f"row {row + 1}, column {column + 1}" + ", not measured" * bool(self.holes[nearest])
+
     @cached_property
     def surface(self):
         """The same levelled: what passes through the contact."""
@@ -128,10 +142,7 @@ class Map(Patch):
 
     def filled(self, f, x, y):
         """Where the nearest of its points was not measured, within its patch."""
-        holes = f.holes
-        i, j = (np.clip(np.rint(at / step + (count - 1) / 2).astype(int), 0, count - 1)
-                for at, step, count in zip((x, y), f.steps, f.points))
-        return holes[j, i] & (self.window(f, x, y) > 0)
+        return f.holes[f.nearest(x, y)] & (self.window(f, x, y) > 0)
 
     def patch(self, f):
         return f.patch

@@ -1,0 +1,22 @@
+"""What passes through the contact, as its user calls it: his scan where the first feature, from which positions count, is a
+measured map."""
+
+
+def passing(scene):
+    """The word for it."""
+    return "scan" if scene.features and scene.features[0].kind.measured else "feature"
+
+
+def where(scene):
+    """Of what a position is told: of a scan, which is as long as the contact, it must be its centre."""
+    return "scan centre" if passing(scene) == "scan" else "feature"
+
+
+def from_centre(scene):
+    """Title of an axis that goes with it."""
+    return f"x from the {passing(scene)}'s centre (µm)"
+
+
+def position(scene):
+    """Title of an axis of moments."""
+    return f"position of the {where(scene)} x / a"
