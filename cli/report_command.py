@@ -4,6 +4,8 @@ from pathlib import Path
 from typing import Optional
 
 import typer
+from tehl_cli.fatigue_options import asks
+from tehl_cli.live import Live
 
 
 def register(app):
@@ -11,21 +13,29 @@ def register(app):
     app.command()(report)
 
 
+@asks
 def report(
     store: Path = typer.Argument(..., help="store of a run (finished or not), a study, or the folder of a flank"),
-    out: Optional[Path] = typer.Option(None, help="HTML file to write (default: beside the store)"),
+    out: Optional[Path] = typer.Option(None, help="HTML file to write (default: beside the store; with other constants of "
+                                       "fatigue STORE-fatigue.html)"),
     force: bool = typer.Option(False, "--force", help="replace a file that is there"),
     open_: bool = typer.Option(False, "--open/--no-open", help="show it in the browser"),
+    threads: Optional[int] = typer.Option(None, help="CPU threads of a search with other constants (default: all)"),
+    **asked,
 ):
     """One HTML page to send to a colleague: the answer and how sure it is, the scene, figures to zoom, errors, origin.
 
-    It needs no other file and no network.
+    It needs no other file and no network. With constants as of `tehl fatigue` it is the page of the fatigue that they give.
 
-    Examples: `tehl report runs/gear-1.zarr --open` · `tehl report runs/fzg-c-1 --out flank.html`
+    Examples: `tehl report runs/gear-1.zarr --open` · `tehl report runs/fzg-c-1 --out flank.html` ·
+    `tehl report runs/gear-1.zarr --bending-limit 600e6 --torsion-limit 390e6 --to-x 0.5`
     """
     import tehl_taichi as tehl
+    from tehl_taichi.engine import runtime
 
-    path = tehl.report(store, out, force=force)
+    runtime.check(threads=threads)
+    with Live() as live:
+        path = tehl.report(store, out, force=force, progress=live, threads=threads, **asked)
     print(path)
     if open_:
         typer.launch(path.absolute().as_uri())

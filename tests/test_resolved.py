@@ -1,5 +1,7 @@
 """What is known where a grid does not resolve all pressures: the moments before that, their search, bars and words."""
 
+from types import SimpleNamespace
+
 import made_results
 import numpy as np
 import pytest
@@ -144,7 +146,7 @@ def test_the_report_says_which_moments_count():
 def test_fatigue_of_a_run_is_told_apart_like_the_run(tmp_path, monkeypatch):
     """With other constants, up to the same position; a run that resolves everything has no such part."""
     asked = []
-    monkeypatch.setattr(assessment, "run", lambda *args: asked.append(args[3]))
+    monkeypatch.setattr(assessment, "run", lambda *args: asked.append(args[3]) or SimpleNamespace(summary={}))
     done = tehl.open(made_results.run(tmp_path / "made.zarr", search=fatigue()))
     for until in (-0.25, None):
         monkeypatch.setattr(companions, "resolved", lambda *_, until=until: until)

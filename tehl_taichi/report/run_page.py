@@ -19,7 +19,11 @@ from tehl_taichi.scene.passing_words import where
 
 def of(folder):
     """The :class:`tehl_taichi.report.document.Page` of the store in `folder`. Raises StoreError."""
-    store = Reader.open(folder)
+    return page(Reader.open(folder))
+
+
+def page(store):
+    """The same of a :class:`tehl_taichi.io.reader.Reader`."""
     about = f"{store.scene.name}: a run of tehl_taichi {store.attrs.get('version', '')}"
     sections = (scene_section(store.scene, store.attrs.get("scene_toml", "")), *surface_plots.section(store.scene),
                 *_film(store), *_fatigue(store), *crack_plots.section(store), *_made(store))

@@ -101,7 +101,7 @@ def numerics(store):
             ("tolerance of the residual", f"{scene.numerics.tolerance:g}"),
             *((f"largest error of {name}", f"{store.scalar(key).max():.1e}") for name, key in
               (("residual", "residual"), ("load", "load_error"), ("mass", "mass_error")))]
-    return facts(rows + (_work(summary) if summary else []))
+    return facts(rows + (_work(summary) if "work" in summary else []))
 
 
 def _work(summary):

@@ -7,12 +7,15 @@ from typing import Any
 from tehl_taichi.errors import StoreError
 
 
-def report(of: str | PathLike | Any, out: str | PathLike | None = None, *, force: bool = False) -> Path:
+def report(of: str | PathLike | Any, out: str | PathLike | None = None, *, force: bool = False, progress: Any = None,
+           threads: int | None = None, **constants: Any) -> Path:
     """Write the page of a run's store (finished or not), of a study or of a flank; returns its path.
 
     of: the folder, or the Run, Study or Flank itself; out: the file (default: beside the folder, with .html); force: replace a
-    file that is there. The page needs no other file and no network. Raises StoreError where `of` is nothing of ours, jinja2 or
-    plotly are missing (the `report` extra), or the file is there already or cannot be written.
+    file that is there. The page needs no other file and no network. constants: as of :func:`tehl_taichi.fatigue` (kappa,
+    endurance, to_x ...), of a run: the page is of the fatigue found with them (by default ...-fatigue.html), the store stays as
+    it is; progress, threads: of that search. Raises StoreError where `of` is nothing of ours, or no run where constants are
+    given, jinja2 or plotly are missing (the `report` extra), or the file is there already or cannot be written; SceneError.
 
     >>> import tehl_taichi as tehl
     >>> scene = tehl.scene("smooth-line").replace(**{"grid.nx": 32, "thermal.on": False})
@@ -22,11 +25,24 @@ def report(of: str | PathLike | Any, out: str | PathLike | None = None, *, force
     from tehl_taichi.report import document, packed
 
     folder = Path(getattr(of, "path", getattr(of, "folder", of)))
-    out = Path(out) if out else beside(folder)
+    asked = _asked(folder, constants)
+    out = Path(out) if out else beside(folder, "-fatigue" if asked else "")
     _check_free(out, force)
     packed.check_installed()
-    _write(out, document.rendered(page_of(folder)))
+    page = asked.page(progress, threads) if asked else page_of(folder)
+    _write(out, document.rendered(page))
     return out
+
+
+def _asked(folder, constants):
+    """The question that these constants ask of the run in `folder`; None where it is the one whose answer is stored. Raises
+    StoreError, SceneError."""
+    if all(value is None for value in constants.values()):
+        return None
+    from tehl_taichi.report.asked_again import Asked
+
+    asked = Asked(folder, constants)
+    return None if asked.is_answered else asked
 
 
 def _write(out, text):
@@ -41,10 +57,10 @@ def _write(out, text):
         raise StoreError(f"cannot write {out}: {reason(error)}") from None
 
 
-def beside(folder):
-    """The file of the page of `folder` where no other is wanted."""
+def beside(folder, end=""):
+    """The file of the page of `folder` where no other is wanted; end: of its name."""
     folder = folder.absolute() if not folder.name else folder
-    return folder.with_suffix(".html") if folder.suffix else folder.with_name(f"{folder.name}.html")
+    return folder.with_name(f"{folder.stem if folder.suffix else folder.name}{end}.html")
 
 
 def _check_free(out, force):

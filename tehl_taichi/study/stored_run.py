@@ -51,13 +51,18 @@ class Run:
 
     def fatigue(self, **constants: Any) -> Any:
         """Its fatigue again, with other constants: :func:`tehl_taichi.fatigue` of it; told apart up to where its grid resolves
-        the pressure."""
+        the pressure, with the error bars of its index where they hold for these constants, too."""
         from tehl_taichi.fatigue import fatigue
+        from tehl_taichi.fatigue.constants import changed
         from tehl_taichi.march import companions
+        from tehl_taichi.study import errors_again
 
         if len(self.store) > 1:
             constants.setdefault("until", companions.resolved(self.scene, self.store, self.store.scalar))
-        return fatigue(self, **constants)
+        found = fatigue(self, **constants)
+        asked = {key: value for key, value in constants.items() if key not in ("until", "progress", "threads", "scene")}
+        errors_again.tell(found.summary, changed(self.scene, asked).fatigue, self.store)
+        return found
 
     def crack(self, **wanted: Any) -> Any:
         """Where a crack goes under its loads: :func:`tehl_taichi.crack` of it."""

@@ -1,0 +1,32 @@
+"""Error bars of a run's fatigue that is searched again.
+
+The companions of a run answered the run's own question: their bars are not those of another kappa, criterion, window or stress.
+The fatigue limit alone is no part of the search, the index is the stress over it: with another one the relative error stays.
+"""
+
+from dataclasses import replace
+
+from tehl_taichi.march.companions import FI, indices
+
+OTHER = "the companion runs were searched with the fatigue constants of the run, not with these"
+SAME = 1e-6  # of the stress: the stored search and this one are the same
+
+
+def tell(summary, asked, store):
+    """Put "error" and "unknown" into the parts of the summary of a search. asked: the section [fatigue] that it was made with;
+    store: of the run."""
+    own, stored = store.scene.fatigue, indices(store.summary.get("fatigue", {}))
+    alike = replace(asked, endurance=own.endurance, source=own.source, on=own.on) == own
+    for name, part in indices(summary).items():
+        before = stored.get(name, {}) if alike else {}
+        part["error"], part["unknown"] = _scaled(part, before)
+
+
+def _scaled(part, before):
+    """({FI: bar or None}, {FI: why there is none}) of a part of a search from that of the stored search, {} of another."""
+    stress = "findley_stress_max_Pa"
+    if not before or abs(part[stress] - before[stress]) > SAME * abs(before[stress]):
+        return {FI: None}, {FI: OTHER}
+    bar = before.get("error", {}).get(FI)
+    scaled = None if bar is None else abs(bar * part[FI] / before[FI])
+    return {FI: scaled}, dict(before.get("unknown", {}))
