@@ -35,9 +35,9 @@ def asks(command):
     own = [one for one in inspect.signature(command).parameters.values() if one.kind != inspect.Parameter.VAR_KEYWORD]
 
     @functools.wraps(command)
-    def asking(**given):
-        asked = {name: given.pop(name) for name in options}
-        return command(**given, **{**asked, "depths": _depths(asked["depths"])})
+    def asking(*first, **given):
+        asked = {name: given.pop(name, None) for name in options}
+        return command(*first, **given, **{**asked, "depths": _depths(asked["depths"])})
 
     named = [one.replace(kind=inspect.Parameter.KEYWORD_ONLY) for one in (own[0], *options.values(), *own[1:])]
     asking.__signature__ = inspect.Signature(named)

@@ -1,12 +1,14 @@
 """Below the surface: rows against whole planes, the depth that is found, what the run, the table and the figures say of it."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from rolling import Rolling
 
 import tehl_taichi as tehl
 from tehl_taichi.errors import RuntimeUnavailable
-from tehl_taichi.fatigue import assessment, below, half_space, row_stress
+from tehl_taichi.fatigue import assessment, below, depth_search, half_space, row_stress
 from tehl_taichi.fatigue.histories import Passage
 from tehl_taichi.fatigue.row_stress import RowStress
 from tehl_taichi.fatigue.under_row import histories_of
@@ -70,6 +72,39 @@ def test_the_depth_found_is_the_worst_of_all(taichi_cpu, heat):
     assert deep["findley_stress_max_Pa"] == pytest.approx(max(by_depth[1:]), rel=2e-3)
     assert by_depth[2] >= max(by_depth[1:]) * (1 - 1e-3)
     assert layers.summary["below"]["y_m"] == deep["y_m"] == 0.0
+
+
+@pytest.mark.parametrize("depths", [[5e-6], [1.4e-3]])
+def test_the_worst_depth_is_looked_for_where_others_are_listed(found, depths):
+    """An answer by the listed ones alone would be that of the deepest or of the next to the surface."""
+    _, listed = result(**{"fatigue.depths": depths})
+    assert listed.summary["below"] == found.summary["below"]
+    assert [layer["depth_m"] for layer in listed.summary["by_depth"]] == [0.0, *depths]
+    for name, dim in (("findley_stress_under_row", "under_row_depth"), ("findley_stress_contact_alone", "under_row_depth"),
+                      ("findley_stress_at_depth", "fatigue_depth")):
+        values, dims, *_ = listed.maps[name]
+        assert dims[0] == dim and values.shape[0] == listed.maps[dim][0].size
+        if name in found.maps:
+            np.testing.assert_array_equal(values, found.maps[name][0])
+
+
+def test_the_rows_of_the_worst_of_listed_depths_are_searched(taichi_cpu, monkeypatch):
+    """Else the section would not go through the worst point."""
+    scene, asked = tehl.scene("gear").replace(**{"thermal.on": False}), []
+    monkeypatch.setattr(depth_search, "_under", lambda passage, rows, *_: asked.append(rows) or ([], []))
+    monkeypatch.setattr(depth_search, "passes", lambda passage: 0)
+    reader = Rolling(scene)
+    layers = [SimpleNamespace(worst=SimpleNamespace(y=y), early=None) for y in (reader.y[2], reader.y[5])]
+    depth_search.search(scene, Passage(scene, reader, reader.centres), layers, None, None)
+    assert asked == [[0, 2, 5]]
+
+
+def test_listed_depths_are_told_of_as_one_count_with_the_search(taichi_cpu):
+    told = []
+    scene = tehl.scene("gear").replace(**{"thermal.on": False, "fatigue.depths": [2e-5, 6e-5]})
+    assessment.run(scene, Rolling(scene), lambda *parts: told.append(parts))
+    last, total = [done for done, _ in told][-2:], told[0][1]
+    assert last == [total, total] and {of for _, of in told} == {total}  # its last part ends it: no jump
 
 
 def test_it_is_searched_under_the_surface_s_worst_row_too(taichi_cpu):
@@ -217,12 +252,21 @@ def lines(ax):
     return [line.get_xydata() for line in ax.lines]
 
 
+@pytest.mark.parametrize("depths", [[20e-6, 60e-6], [1.4e-3]])
+def test_figures_show_the_listed_depth_next_to_the_worst(taichi_cpu, monkeypatch, tmp_path, depths):
+    """Beside the surface, never that again; the profile has every depth of the ladder."""
+    _, layers = result(**{"fatigue.depths": depths})
+    figures = drawn(monkeypatch, layers, tmp_path)
+    index = [ax.collections[0].get_array().max() for ax in figures["fatigue"].axes if ax.get_title()]
+    worst = layers.summary["below"]["depth_m"]
+    near = min(layers.summary["by_depth"][1:], key=lambda layer: abs(layer["depth_m"] - worst))
+    assert index == pytest.approx([layers.summary["Fi_max"], near["findley_stress_max_Pa"] / 400e6])
+    ladder = lines(figures["fatigue_depth"].axes[1])[0]
+    assert ladder[:, 1] == pytest.approx(layers.maps["under_row_depth"][0] * 1e6) and len(ladder) > 5
+
+
 def test_figures_show_what_was_searched(found, monkeypatch, tmp_path):
-    """Depths: the worst one beside the surface; the profile has every depth; one row: lines, not an empty map."""
-    _, layers = result(**{"fatigue.depths": [20e-6, 60e-6]})
-    maps = [ax for ax in drawn(monkeypatch, layers, tmp_path)["fatigue"].axes if ax.get_title()]
-    index = [ax.collections[0].get_array().max() for ax in maps]
-    assert index == pytest.approx([layers.summary["Fi_max"], layers.summary["below"]["Fi_max"]])
+    """The profile has every depth; one row: lines, not an empty map."""
     profile = lines(drawn(monkeypatch, found, tmp_path)["fatigue_depth"].axes[1])[0]
     assert profile[:, 0].max() == pytest.approx(found.maps["findley_stress_under_row"][0].max() / 400e6)
     scene = tehl.scene("furrow-line").replace(**{"thermal.on": False})

@@ -48,14 +48,14 @@ def fatigue_maps():
             "worst_stress": (stress, ["moment", "component"], "Pa", "stress")}
 
 
-def run(path, finished=True):
+def run(path, finished=True, maps=None):
     from tehl_taichi.io.store import Store
 
     with Store.create(path, SMALL, moment(0), 50, {"steady_error": "{}"}) as made:
         for step in range(1, STEPS):
             made.append(moment(step))
         if finished:
-            made.finish(SUMMARY, fatigue_maps())
+            made.finish(SUMMARY, maps or fatigue_maps())
     return path
 
 
@@ -96,6 +96,19 @@ def test_the_fatigue_tables_name_the_place_of_every_value(stored, tmp_path):
     assert np.allclose(under["fatigue_depth [m]"], np.repeat([0, 1e-5], 3))
     worst = table(made / "worst_point.csv")
     assert np.array_equal(worst["sigma_xz [Pa]"], [4, 10]) and np.allclose(worst["feature_x [m]"], [0, 1e-5])
+
+
+def test_what_lies_under_a_row_has_depths_of_its_own_where_others_were_listed(tmp_path):
+    """Listed: two, at all points; under the row three."""
+    maps, rungs = fatigue_maps(), [0.0, 2e-5, 4e-5]
+    maps |= {"under_row_depth": (rungs, ["under_row_depth"], "m", "below"),
+             "findley_stress_under_row": (np.arange(9.0).reshape(3, 3), ["under_row_depth", "feature_frame_x"], "Pa", "stress"),
+             "findley_stress_contact_alone": (np.arange(3.0), ["under_row_depth"], "Pa", "stress"),
+             "findley_stress_at_depth": (np.ones((2, 3, 2)), ["fatigue_depth", *maps["Fi"][1]], "Pa", "stress")}
+    made = tehl.export(run(tmp_path / "a.zarr", maps=maps), "csv", tmp_path / "tables")
+    for name, column, times in (("under_row", "under_row_depth [m]", 3), ("contact_alone", "under_row_depth [m]", 1)):
+        assert np.allclose(table(made / f"fatigue_{name}.csv")[column], np.repeat(rungs, times))
+    assert np.allclose(table(made / "fatigue_at_depths.csv")["fatigue_depth [m]"], np.repeat([0, 1e-5], 6))
 
 
 def test_a_point_of_the_surface_goes_with_the_feature(stored, tmp_path):

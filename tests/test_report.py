@@ -174,6 +174,21 @@ def test_maps_of_the_index_have_a_line_where_it_is_one(pages, tmp_path):
     assert "blue line: trace of the critical plane (at 0° it lies in the surface), white line: Fi = 1." in seen.text
 
 
+@pytest.mark.parametrize("listed, shown", [([0.0, 6e-5, 2.4e-4], 60), ([0.0, 2.5e-5], 25)])
+def test_listed_depths_have_their_map_and_the_section(tmp_path, listed, shown):
+    """The map of the listed depth next to the worst, 25 µm, which is marked where it lies there; the section has its own."""
+    maps = made_results.maps()
+    layers = np.stack([maps["Fi"][0]] * len(listed)) * 4e8 * np.arange(1, len(listed) + 1)[:, None, None]
+    maps |= {"under_row_depth": maps["fatigue_depth"], "fatigue_depth": (np.array(listed), ["d"], "m", "listed"),
+             "findley_stress_at_depth": (layers, ["d", "x", "y"], "Pa", "stress")}
+    seen = page(made_results.run(tmp_path / "a.zarr", search=made_results.fatigue(), found=maps), tmp_path)
+    assert f"Index Fi {shown} µm below the surface" in seen.text and {"section", "over-depth"} <= set(seen.places)
+    below = seen.figures["index-below"]["data"]
+    assert numbers(below[0]).max() == pytest.approx(2.0)
+    assert any("worst point" in trace.get("name", "") for trace in below) == (shown == 25)
+    assert numbers(seen.figures["over-depth"]["data"][0]) == pytest.approx(maps["under_row_depth"][0] * 1e6)
+
+
 def test_lines_and_maps_say_where_and_when(pages, tmp_path):
     half, whole = pages["thermal"].text, made_results.run(tmp_path / "a.zarr", SMALL.replace(**{"feature.y": 2e-5}))
     assert "Along y = 0. Surface a carries the feature. Grey: the steady start" in half

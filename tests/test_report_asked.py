@@ -155,7 +155,7 @@ def test_the_error_stays_where_only_the_limit_is_another():
     for part in companions.indices(halved).values():
         part["Fi_max"] /= 2
         part["error"] = {}
-    found = told(dataclasses.replace(own, endurance=2 * own.endurance, source="mine"), stored, halved)
+    found = told(dataclasses.replace(own, endurance=2 * own.endurance, source="mine", depths=[5e-5]), stored, halved)
     assert found["error"] == {"Fi_max": pytest.approx(0.02)} and found["resolved"]["error"]["Fi_max"] == pytest.approx(0.015)
     assert found["below"]["error"] == {"Fi_max": None} and found["below"]["unknown"] == {"Fi_max": "a peak"}
 

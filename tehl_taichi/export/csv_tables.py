@@ -6,8 +6,9 @@ from tehl_taichi.errors import SceneError
 from tehl_taichi.export.file_format import Format, flat_fields, unit
 
 DIGITS = "%.10g"  # single precision has nine
-FRAME_X, FRAME_Y, DEPTH = "feature_frame_x", "feature_frame_y", "fatigue_depth"
+FRAME_X, FRAME_Y, DEPTH, ROW_DEPTH = "feature_frame_x", "feature_frame_y", "fatigue_depth", "under_row_depth"
 FOUND = {(FRAME_X, FRAME_Y): "fatigue", (DEPTH, FRAME_X): "fatigue_under_row", (DEPTH,): "fatigue_contact_alone",
+         (ROW_DEPTH, FRAME_X): "fatigue_under_row", (ROW_DEPTH,): "fatigue_contact_alone",
          (DEPTH, FRAME_X, FRAME_Y): "fatigue_at_depths"}  # {dimensions of a fatigue result: its table}
 COMPONENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 

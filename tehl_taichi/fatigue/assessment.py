@@ -49,9 +49,9 @@ class Snapshots:
 def run(scene, reader, progress=None, until=None):
     """Fatigue index of the points of body a within 0.6 a of the first feature (0.3 a beyond larger ones), over its passage.
 
-    At all points of the surface and below it: with scene.fatigue.depths "auto" under the row through the feature (and the
+    At all points of the surface and, unless scene.fatigue.depths is empty, below it: under the row through the feature (and the
     surface's worst row), the depth looked for (:mod:`tehl_taichi.fatigue.below`), on a whole domain at all points of that
-    depth, too (:mod:`tehl_taichi.fatigue.depth_search`); with a list at all points at these depths.
+    depth, too (:mod:`tehl_taichi.fatigue.depth_search`); where depths are listed also at all points at these.
     Between its from_x and to_x, by its criterion. reader: see :class:`tehl_taichi.fatigue.histories.Passage`; or a list of
     snapshots. progress: called with (done, total) parts. until: position (a) of the feature; the worst points of the moments up
     to there are told, too ("resolved" of the summary).
@@ -68,9 +68,9 @@ def run(scene, reader, progress=None, until=None):
         f = scene.fatigue
         raise SceneError(f"the feature is at no stored moment between fatigue.from_x = {f.from_x:g} a and to_x = {f.to_x:g} a; "
                          f"it goes from {centres[0] / passage.a:.2f} to {centres[-1] / passage.a:.2f} a")
-    progress, early, auto = Told.of(progress, scene, passage), _early(passage, until), scene.fatigue.depths == "auto"
-    layers = [layer(scene, passage, depth, progress, early) for depth in (0.0, *(() if auto else scene.fatigue.depths))]
-    deep = depth_search.search(scene, passage, layers[0], early, progress) if auto else depth_search.Deep([], [])
+    progress, early, wanted = Told.of(progress, scene, passage), _early(passage, until), bool(scene.fatigue.depths)
+    layers = [layer(scene, passage, depth, progress, early) for depth in (0.0, *scene.fatigue.listed)]
+    deep = depth_search.search(scene, passage, layers, early, progress) if wanted else depth_search.Deep([], [])
     progress.end()
     result = _result(scene, passage, layers, deep)
     if early is not None:
@@ -110,7 +110,8 @@ def _result(scene, passage, layers, below):
     if below.profiles:
         depths = below.profiles[0].depths
         summary["below"] |= {"searched_m": [float(depths[0]), float(depths[-1])], **_alone(below.profiles, limit)}
-        maps |= _profile_maps(surface, passage, below.profiles) | _plane_maps(below.plane)
+        rungs = ROW_DEPTH if len(layers) > 1 else DEPTH
+        maps |= _profile_maps(surface, passage, below.profiles, rungs) | _plane_maps(below.plane)
     if len(layers) > 1:
         summary["by_depth"] = [{"depth_m": layer.depth, "findley_stress_max_Pa": float(layer.f.max()),
                                 "sigma1_max_Pa": float(layer.sigma1.max())} for layer in layers]
@@ -137,6 +138,7 @@ def _history_maps(history, name, of):
 
 
 BOTH = ["feature_frame_x", "feature_frame_y"]
+DEPTH, ROW_DEPTH = "fatigue_depth", "under_row_depth"  # the depths searched; those under a row, where others are listed
 
 
 def _maps(surface, passage, limit):
@@ -159,20 +161,19 @@ def _plane_maps(plane):
 
 def _layer_maps(layers):
     """Of all points at every depth asked for."""
-    return {"fatigue_depth": (np.array([layer.depth for layer in layers]), ["fatigue_depth"], "m", "below the surface"),
-            "findley_stress_at_depth": (np.stack([layer.f for layer in layers]), ["fatigue_depth", *BOTH], "Pa",
-                                        "Findley stress")}
+    return {DEPTH: (np.array([layer.depth for layer in layers]), [DEPTH], "m", "below the surface"),
+            "findley_stress_at_depth": (np.stack([layer.f for layer in layers]), [DEPTH, *BOTH], "Pa", "Findley stress")}
 
 
-def _profile_maps(surface, passage, profiles):
-    """Over depth, the surface first: under the row with the worst point, and of the contact alone."""
+def _profile_maps(surface, passage, profiles, depth):
+    """Over the dimension `depth`, the surface first: under the row with the worst point, and of the contact alone."""
     under = max((profile for profile in profiles if not profile.alone), key=lambda profile: profile.worst.f)
     row = surface.f[:, [int(np.argmin(np.abs(passage.y - under.worst.y)))]].T
-    out = {"fatigue_depth": (np.append(0.0, under.depths), ["fatigue_depth"], "m", "below the surface"),
-           "findley_stress_under_row": (np.concatenate([row, under.f]), ["fatigue_depth", BOTH[0]], "Pa",
+    out = {depth: (np.append(0.0, under.depths), [depth], "m", "below the surface"),
+           "findley_stress_under_row": (np.concatenate([row, under.f]), [depth, BOTH[0]], "Pa",
                                         "Findley stress under the row of the worst point below the surface")}
     for profile in profiles:
         if profile.alone:
-            out["findley_stress_contact_alone"] = (np.append(np.nan, profile.f.max(axis=1)), ["fatigue_depth"], "Pa",
+            out["findley_stress_contact_alone"] = (np.append(np.nan, profile.f.max(axis=1)), [depth], "Pa",
                                                    "Findley stress of the contact without its feature")
     return out

@@ -33,10 +33,10 @@ class Deep:
         return _points(self.before) + ([self.plane.early] if self.plane and self.plane.early else [])
 
 
-def search(scene, passage, surface, early, progress):
-    """The Deep below the rows of the feature and of the worst points of `surface` (a Layer), and below the contact alone; on a
+def search(scene, passage, layers, early, progress):
+    """The Deep below the rows of the feature and of the worst points of `layers` (Layer), and below the contact alone; on a
     whole domain at all points of the worst depth, too, and below the rows of what is worst there."""
-    rows = _rows(passage, (scene.features[0].y, *_worst(surface)))
+    rows = _rows(passage, (scene.features[0].y, *(place for found in layers for place in _worst(found))))
     profiles, before = _under(passage, rows, _has_far_row(scene, passage.reader.y), early, progress)
     if not passes(passage):
         return Deep(profiles, before)

@@ -15,10 +15,10 @@ class Told:
 
     @classmethod
     def of(cls, progress, scene, passage):
-        """Of a :func:`tehl_taichi.fatigue.assessment.run`: stresses and search of every block of rows at every depth, then
-        those under rows where the worst depth is looked for."""
-        ladder = scene.fatigue.depths == "auto"
-        layers = 1 if ladder else 1 + len(scene.fatigue.depths)
+        """Of a :func:`tehl_taichi.fatigue.assessment.run`: stresses and search of every block of rows at every depth asked
+        for, then those under rows where the worst depth is looked for."""
+        ladder = bool(scene.fatigue.depths)
+        layers = 1 + len(scene.fatigue.listed)
         return cls(progress, 2 * layers * len(passage.row_blocks()) + (2 + passes(passage)) * ladder)
 
     def __call__(self, done, total):

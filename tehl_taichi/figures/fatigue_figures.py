@@ -16,7 +16,7 @@ from tehl_taichi.values.checks import number
 from tehl_taichi.values.plain import plain
 
 MAPS = ("feature_frame_x", "feature_frame_y", "Fi", "fatigue_depth", "findley_stress_at_depth", "findley_stress_under_row",
-        "findley_stress_contact_alone", "worst_depth", "findley_stress_at_worst_depth")  # shown where they were found
+        "findley_stress_contact_alone", "under_row_depth", "worst_depth", "findley_stress_at_worst_depth")  # those found
 EVEN = 200  # depths drawn of a section
 FLOW = ", flow to the right"
 LEAST = 8.0  # cm that a map needs to stand beside another
@@ -95,7 +95,7 @@ def _layers(found):
     if below is None or (found.depth is None and "findley_stress_at_depth" not in found.maps):
         return [top]
     depths, deep = found.maps["fatigue_depth"], found.summary["below"]
-    wanted = deep["depth_m"] if found.depth is None else found.depth * 1e-6
+    wanted = max(deep["depth_m"], depths[1]) if found.depth is None else found.depth * 1e-6  # the surface is there already
     n = int(np.argmin(np.abs(depths - wanted)))
     where, Fi = f"{depths[n] * 1e6:.3g} µm below", below[n] / found.summary["sigma_eF_Pa"]
     if np.isclose(depths[n], deep["depth_m"]):
@@ -178,7 +178,8 @@ def _mark(ax, x, y):
 
 def depth_figure(page, found):
     """Index in the section under the row of the worst point below the surface, and its largest value over depth."""
-    depth, Fi = found.maps["fatigue_depth"] * 1e6, found.maps["findley_stress_under_row"] / found.summary["sigma_eF_Pa"]
+    rungs = found.maps.get("under_row_depth", found.maps["fatigue_depth"])  # of its own where depths were listed
+    depth, Fi = rungs * 1e6, found.maps["findley_stress_under_row"] / found.summary["sigma_eF_Pa"]
     sizes = dict(height_ratios=(1, 1)) if page.narrow else dict(width_ratios=(3, 2))
     panels, height = ((2, 1), 3.2 * page.row()) if page.narrow else ((1, 2), 2.3 * page.row(2))
     figure, axes = page.figure(*panels, height=height, **sizes)

@@ -26,14 +26,21 @@ def index(store):
         return [_over_x(store, f, Fi)]
     found = [_map(store, "surface", "at the surface", Fi, f)]
     deep = store.map("findley_stress_at_depth")
-    if deep is not None and "below" in f:
-        n = int(np.argmin(np.abs(store.map("fatigue_depth") - f["below"]["depth_m"])))
-        found.append(_map(store, "below", _depth(f["below"]["depth_m"]), deep[n] / f["sigma_eF_Pa"], f["below"]))
     plane = store.map("findley_stress_at_worst_depth")
     if plane is not None:
         where = _depth(float(store.map("worst_depth")[0]))
         found.append(_map(store, "below", where, plane / f["sigma_eF_Pa"], f["below"]))
+    elif deep is not None and "below" in f:
+        found.append(_listed(store, deep / f["sigma_eF_Pa"], f["below"]))
     return found
+
+
+def _listed(store, Fi, worst):
+    """Of the depths that were listed the one next to the worst, which is marked where it lies there; Fi (depth, x, y)."""
+    depths = store.map("fatigue_depth")
+    n = 1 + int(np.argmin(np.abs(depths[1:] - worst["depth_m"])))  # the first is the surface
+    there = worst if np.isclose(depths[n], worst["depth_m"]) else None
+    return _map(store, "below", _depth(depths[n]), Fi[n], there)
 
 
 def _depth(depth):
@@ -41,10 +48,12 @@ def _depth(depth):
 
 
 def _map(store, which, where, Fi, found):
-    """One layer with the line of the fatigue limit, its worst point, and the trace of the critical plane in it."""
+    """One layer with the line of the fatigue limit, its worst point (where it has one: found), and the trace of the critical
+    plane in it."""
     x, (y, full) = store.map("feature_frame_x") * 1e6, whole(store.map("feature_frame_y") * 1e6, Fi)
-    at, trace = np.array([found["x_m"], found["y_m"]]) * 1e6, _trace(store, which, found, 0.12 * np.ptp(x))
-    marked = [*_limit(x, y, full), marks([at[0]], [at[1]], f"worst point, Fi = {largest(found)}", MARK), *trace]
+    trace = _trace(store, which, found, 0.12 * np.ptp(x)) if found else []
+    worst = [marks([found["x_m"] * 1e6], [found["y_m"] * 1e6], f"worst point, Fi = {largest(found)}", MARK)] if found else []
+    marked = [*_limit(x, y, full), *worst, *trace]
     caption = f"Index Fi {where}, over the whole passage{explained(bool(trace), crossed(full))}."
     return field_map(f"index-{which}", caption, x, y, full, INDEX, "Fi", from_centre(store.scene), "y (µm)", marked, height=440)
 
@@ -86,7 +95,7 @@ def depth(store):
     if under is None or "below" not in f:
         return []
     deep, Fi = f["below"], under / f["sigma_eF_Pa"]
-    x, z = store.map("feature_frame_x") * 1e6, store.map("fatigue_depth") * 1e6
+    x, z = store.map("feature_frame_x") * 1e6, _rungs(store) * 1e6
     even = np.linspace(0, z[-1], EVEN)
     section = np.stack([np.interp(even, z, column) for column in Fi.T])
     worst = marks([deep["x_m"] * 1e6], [deep["depth_m"] * 1e6], f"worst point, Fi = {largest(deep)}", MARK)
@@ -95,6 +104,12 @@ def depth(store):
                        "below the surface (µm)", [*_limit(x, even, section), worst], true=False, height=440)
     figure.layout["yaxis"]["autorange"] = "reversed"
     return [figure, _over_depth(store, f, deep, z, Fi)]
+
+
+def _rungs(store):
+    """Depths (m) of what lies under a row: of its own where others were listed."""
+    own = store.map("under_row_depth")
+    return store.map("fatigue_depth") if own is None else own
 
 
 def _over_depth(store, f, deep, z, Fi):

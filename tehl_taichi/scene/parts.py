@@ -159,7 +159,7 @@ class Fatigue:
     source: str = text("example values, set your own", "where kappa and endurance come from", one_line=False)
     criterion: str = choice("findley", "fatigue criterion", tuple(CRITERIA))
     depths: Union[tuple, str] = quantities(AUTO, "m", "searched below the surface; auto: the worst depth under the feature is "
-                                           "looked for; or all points at these, as [50e-6, 100e-6]", 1e-7, 0.1, auto=True)
+                                           "looked for; as [50e-6, 100e-6]: all points at these, too", 1e-7, 0.1, auto=True)
     shear: bool = switch(True, "whether the shear tractions count")
     thermal_stress: Union[bool, str] = switch(AUTO, "whether the stress of the heat counts; auto: where there are temperatures",
                                               auto=True)
@@ -174,6 +174,11 @@ class Fatigue:
             raise SceneError(f"fatigue.from_x = {self.from_x!r} a must be less than to_x = {self.to_x!r} a")
         if self.depths != AUTO:
             object.__setattr__(self, "depths", tuple(self.depths))
+
+    @property
+    def listed(self):
+        """Depths (m) at which all points are searched, whatever is worst."""
+        return () if self.depths == AUTO else self.depths
 
 
 @dataclass(frozen=True)

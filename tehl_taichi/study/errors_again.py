@@ -1,7 +1,8 @@
 """Error bars of a run's fatigue that is searched again.
 
 The companions of a run answered the run's own question: their bars are not those of another kappa, criterion, window or stress.
-The fatigue limit alone is no part of the search, the index is the stress over it: with another one the relative error stays.
+The fatigue limit is no part of the search, the index is the stress over it: with another one the relative error stays. So it
+does with other depths, where the same point is the worst.
 """
 
 from dataclasses import replace
@@ -9,6 +10,7 @@ from dataclasses import replace
 from tehl_taichi.march.companions import FI, indices
 
 OTHER = "the companion runs were searched with the fatigue constants of the run, not with these"
+FREE = ("on", "endurance", "source", "depths")  # of the section [fatigue]: they change no stress of a point
 SAME = 1e-6  # of the stress: the stored search and this one are the same
 
 
@@ -16,7 +18,7 @@ def tell(summary, asked, store):
     """Put "error" and "unknown" into the parts of the summary of a search. asked: the section [fatigue] that it was made with;
     store: of the run."""
     own, stored = store.scene.fatigue, indices(store.summary.get("fatigue", {}))
-    alike = replace(asked, endurance=own.endurance, source=own.source, on=own.on) == own
+    alike = replace(asked, **{key: getattr(own, key) for key in FREE}) == own
     for name, part in indices(summary).items():
         before = stored.get(name, {}) if alike else {}
         part["error"], part["unknown"] = _scaled(part, before)
