@@ -24,7 +24,7 @@ def compare(
     width: Width = 17.0,
     as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout"),
 ):
-    """What differs of the scenes, the summaries side by side, one figure of centrelines, histories and Fi.
+    """What differs of the scenes and of the results, side by side, and one figure of centrelines, histories and Fi.
 
     Example: `tehl compare runs/gear-1.zarr runs/gear-2.zarr`
     """
@@ -42,16 +42,29 @@ def compare(
 
 
 def _tables(found):
+    _scenes(found)
+    _results(found)
+
+
+def _scenes(found):
     from tehl_cli.listing import list_table
 
-    names = found.names
-    list_table("what differs of the scenes", ("key", *names), _rows(found.differs))
-    list_table("summaries", ("quantity", *names), _rows({key: values for key, values in found.summaries.items()
-                                                         if "error" not in key.split(".")}))
+    if not found.differs:
+        return print("the scenes do not differ")
+    rows = [(key, *map(_shown, values)) for key, values in found.differs.items()]
+    list_table("what differs of the scenes", ("key", *found.names), rows, whole=True)
 
 
-def _rows(table):
-    return [(key, *(_shown(value) for value in values)) for key, values in table.items()]
+def _results(found):
+    """The rows that differ, with the change where two runs are compared; then those that do not, as a line."""
+    from tehl_cli.listing import list_table
+
+    pair, lines = len(found.names) == 2, found.lines
+    rows = [(line.what, *line.values, *[line.change] * pair) for line in lines if not line.same]
+    if rows:
+        list_table("what differs of the results", ("quantity", *found.names, *["change"] * pair), rows, whole=True)
+    if same := [f"{line.what} {line.values[0]}" for line in lines if line.same]:
+        print(f"same in all: {'; '.join(same)}")
 
 
 def _shown(value):

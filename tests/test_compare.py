@@ -68,6 +68,79 @@ def test_a_run_that_is_not_finished_has_no_numbers(runs, tmp_path):
     assert found.to_dict()["finished"] == [True, False]
 
 
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """Three finished runs of numbers that were made up: the second on a scene of another slip, the third without fatigue."""
+    folder = tmp_path_factory.mktemp("made")
+    deep = made_results.fatigue(1.2, 1.392)
+    deep["below"]["depth_m"] = 40e-6
+    scene = made_results.THERMAL
+    return [made_results.run(folder / "a.zarr", scene, search=made_results.fatigue()),
+            made_results.run(folder / "b.zarr", scene.replace(srr=0.12), 4, search=deep),
+            made_results.run(folder / "c.zarr", scene)]
+
+
+def lines_of(*paths):
+    return {line.what: line for line in tehl.compare(*paths).lines}
+
+
+def test_results_are_told_as_tehl_show_tells_them(made):
+    """Where a value lies is told with it where runs differ in that; what stands twice tells its part."""
+    from tehl_taichi.io.summary_rows import summary_rows
+
+    found, shown = lines_of(*made[:2]), [dict(summary_rows(tehl.open(path).summary)) for path in made[:2]]
+    for what in ("passage p_max", "Fi_max at the surface", "steady h_min", "run time"):
+        assert found[what].values == tuple(one[what] for one in shown)
+    assert found["Fi_max below it"].values == ("1.39 (error unknown), at 25 um", "1.39 (error unknown), at 40 um")
+    assert found["Fi of the contact alone, at 180 um"].values == ("0.9000", "0.9000")
+    assert found["findley stress"].values == ("403.2 MPa", "480.0 MPa")
+    assert found["findley stress, below it"].same and not found["findley stress"].same
+    assert found["critical plane to the surface"].values[0] == "57.0 deg"  # without where pits begin
+    order = list(found)
+    assert order.index("passage p_max") < order.index("Fi_max at the surface") < order.index("findley stress, below it")
+
+
+def test_the_change_of_two_runs_is_told_where_it_means_something(made, monkeypatch):
+    found = lines_of(*made[:2])
+    p = [tehl.open(path).summary["transient"]["p_max_Pa"] for path in made]
+    assert found["passage p_max"].change == f"{100 * (p[1] / p[0] - 1):+.2g}%" and found["findley stress"].change == "+19%"
+    for what in ("at x, y of the feature", "with kappa, sigma_eF", "passage film / surface a / surface b, largest"):
+        assert found[what].change == ""
+    assert {line.change for line in lines_of(*made).values()} == {""}  # of three
+
+
+@pytest.mark.parametrize("first, error, second, change", [
+    (0.2, 0.01, 0.1, "-50%"), (0.2, None, 0.201, "+0.5%"), (0.02, 0.05, 0.3, ""), (0.02, None, 0.3, "x 15"),
+    (0.0, None, 0.3, "")])
+def test_no_change_from_what_may_be_nothing(first, error, second, change):
+    from tehl_taichi.io.summary_rows import _of
+    from tehl_taichi.study.compare_rows import _line
+
+    rows = [_of({"h": h, "error": {"h": bar}}, "h", "film") for h, bar in ((first, error), (second, None))]
+    assert _line("film", rows).change == change
+
+
+def test_what_a_run_does_not_have_is_a_dash_in_its_place(made, tmp_path):
+    found = lines_of(made[2], made[0], store(tmp_path / "begun.zarr").path)
+    assert found["Fi_max at the surface"].values == ("-", "1.008 ± 0.023", "-") and found["steady h_c"].values[2] == "-"
+    order = list(found)
+    assert order.index("worst residual / load / mass error") < order.index("Fi_max at the surface") < order.index("run time")
+
+
+def test_the_command_tells_what_differs_and_what_is_the_same(made):
+    told = CliRunner().invoke(app, ["compare", *map(str, made[:2])], env={"COLUMNS": "100"}).stdout
+    scenes, results, same = told.index("operation.srr"), told.index("passage p_max"), told.index("same in all: ")
+    assert scenes < results < same and "change" in told and "p_max_Pa" not in told
+    assert "Hertz pressure p_H" in told[same:] and "Hertz pressure p_H" not in told[:same]
+    assert max(map(len, told[:same].splitlines())) <= 100
+
+
+def test_runs_of_one_scene(tmp_path):
+    made = [made_results.run(tmp_path / f"{n}.zarr", SMALL) for n in range(2)]
+    told = CliRunner().invoke(app, ["compare", *map(str, made)]).stdout
+    assert "the scenes do not differ" in told and "what differs of the results" not in told and "same in all: Hertz" in told
+
+
 def test_the_figure_shows_all_runs_at_one_position(runs, tmp_path, monkeypatch):
     shown = []
     monkeypatch.setattr(compare_figure, "_legend", lambda page, figure, curves: shown.append((figure, curves)))

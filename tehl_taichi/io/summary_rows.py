@@ -1,7 +1,30 @@
 """The summary of a run as people read it: rows of (quantity, value with its error and unit). Needs no taichi."""
 
+from dataclasses import dataclass, replace
+
 from tehl_taichi.march.readings import HEAT
 from tehl_taichi.values.digits import decimals
+
+SURFACE, BELOW, RESOLVED = "at the surface", "below it", "while resolved"  # parts of a search
+
+
+@dataclass(frozen=True)
+class Row:
+    """what: the quantity, the same words for every run; value: with error and unit; number: the value alone where it is one
+    whose relative change means something; where: place of this run's value, which completes `what`; note: behind the value;
+    part: of the fatigue search that it is of, else ""."""
+
+    what: str
+    value: str
+    number: float | None = None
+    where: str = ""
+    note: str = ""
+    part: str = ""
+
+    @property
+    def told(self):
+        """(quantity, value) in words."""
+        return self.what + self.where, self.value + self.note
 
 
 def title(summary):
@@ -11,19 +34,36 @@ def title(summary):
 
 def summary_rows(summary):
     """(quantity, value) of the summary of a finished run."""
-    rows = [("Hertz half-width a", f"{summary['hertz']['a_m'] * 1e3:.4f} mm"),
-            ("Hertz pressure p_H", f"{summary['hertz']['p_Pa'] / 1e9:.4f} GPa")]
-    steady = summary["steady"]
-    for key, name, factor, unit in (("h_c_m", "steady h_c", 1e6, "um"), ("h_min_m", "steady h_min", 1e6, "um"),
-                                    ("p_max_Pa", "steady p_max", 1e-9, "GPa")):
-        rows.append((name, quantity(steady, key, factor, unit)))
+    return [row.told for row in rows_of(summary)]
+
+
+def fatigue_rows(f):
+    """(quantity, value) of a fatigue summary."""
+    return [row.told for row in rows_of_fatigue(f)]
+
+
+STEADY = (("h_c_m", "steady h_c", 1e6, "um"), ("h_min_m", "steady h_min", 1e6, "um"), ("p_max_Pa", "steady p_max", 1e-9, "GPa"))
+
+
+def rows_of(summary):
+    """A list of :class:`Row` of the summary of a finished run."""
+    steady, hertz = summary["steady"], summary["hertz"]
+    rows = [Row("Hertz half-width a", f"{hertz['a_m'] * 1e3:.4f} mm", hertz["a_m"]),
+            Row("Hertz pressure p_H", f"{hertz['p_Pa'] / 1e9:.4f} GPa", hertz["p_Pa"]),
+            *(_of(steady, key, name, factor, unit) for key, name, factor, unit in STEADY)]
     if "film_formula_m" in steady:
-        rows.append(("h_c by formula (isothermal, Newtonian)", f"{steady['film_formula_m'] * 1e6:.4f} um"))
-    rows.append(("steady friction coefficient", quantity(steady, "friction_coefficient")))
-    rows += _heat_rows("steady", steady)
-    rows += _passage_rows(summary)
-    rows.append(("run time", f"{summary['wall_s']:.1f} s (kernels {summary['compile_s']:.1f} s)"))
+        formula = steady["film_formula_m"]
+        rows.append(Row("h_c by formula (isothermal, Newtonian)", f"{formula * 1e6:.4f} um", formula))
+    rows.append(_of(steady, "friction_coefficient", "steady friction coefficient"))
+    rows += _heat_rows("steady", steady) + _passage_rows(summary)
+    rows.append(Row("run time", f"{summary['wall_s']:.1f} s (kernels {summary['compile_s']:.1f} s)", summary["wall_s"]))
     return rows
+
+
+def _of(values, key, what, factor=1, unit="", **more):
+    """The Row of one of the values with its error; what may be 0 by its error has no relative change."""
+    known = abs(values[key]) > (values.get("error", {}).get(key) or 0.0)
+    return Row(what, quantity(values, key, factor, unit), values[key] if known else None, **more)
 
 
 def quantity(values, name, factor=1, unit=""):
@@ -43,7 +83,7 @@ def _heat_rows(when, values):
     largest = " / ".join(f"{values[key]:.1f}" + (f" ± {error:.2g}" if error is not None else "")
                          for key, error in zip(HEAT, errors))
     unknown = " (errors unknown)" if errors == [None] * len(HEAT) else ""
-    return [(f"{when} film / surface a / surface b, largest", f"{largest} °C{unknown}")]
+    return [Row(f"{when} film / surface a / surface b, largest", f"{largest} °C{unknown}")]
 
 
 def _passage_rows(summary):
@@ -51,26 +91,24 @@ def _passage_rows(summary):
     if "transient" in summary:
         t = summary["transient"]
         rows += _heat_rows("passage", t)
-        rows += [("passage p_max", quantity(t, "p_max_Pa", 1e-9, "GPa")),
-                 ("passage h_min", quantity(t, "h_min_m", 1e6, "um")),
-                 ("passage friction coefficient, mean", quantity(t, "friction_coefficient_mean")),
-                 ("load carried by solid contact", f"{t['contact_load_fraction_max']:.3%} at most"),
-                 ("worst residual / load / mass error",
-                  f"{t['residual_max']:.1e} / {t['load_error_max']:.1e} / {t['mass_error_max']:.1e}")]
+        rows += [_of(t, "p_max_Pa", "passage p_max", 1e-9, "GPa"), _of(t, "h_min_m", "passage h_min", 1e6, "um"),
+                 _of(t, "friction_coefficient_mean", "passage friction coefficient, mean"),
+                 Row("load carried by solid contact", f"{t['contact_load_fraction_max']:.3%} at most"),
+                 Row("worst residual / load / mass error",
+                     f"{t['residual_max']:.1e} / {t['load_error_max']:.1e} / {t['mass_error_max']:.1e}")]
     if "fatigue" in summary:
-        rows += fatigue_rows(summary["fatigue"])
+        rows += rows_of_fatigue(summary["fatigue"])
     return rows
 
 
-def fatigue_rows(f):
-    """(quantity, value) of a fatigue summary: the worst point of the surface, then of what lies below."""
-    rows = [("Fi_max at the surface", quantity(f, "Fi_max")),
-            (f"{f['criterion']} stress", _stress(f["findley_stress_max_Pa"])), *_point_rows(f),
-            ("largest principal stress on the surface", _stress(f["sigma1_max_Pa"])),
-            ("with kappa, sigma_eF", f"{f['kappa_F']:g}, {f['sigma_eF_Pa'] / 1e6:g} MPa"),
-            ("thermal stress", "counted" if f["thermal_stress"] else "left out")]
-    rows += [(f"largest at {_depth(layer)}", _stress(layer["findley_stress_max_Pa"])) for layer in f.get("by_depth", [])]
-    return rows + _below_rows(f) + _resolved_rows(f)
+def rows_of_fatigue(f):
+    """A list of :class:`Row` of a fatigue summary: the worst point of the surface, then of what lies below."""
+    rows = [_of(f, "Fi_max", "Fi_max at the surface"), _stress(f"{f['criterion']} stress", f["findley_stress_max_Pa"]),
+            *_point_rows(f), _stress("largest principal stress on the surface", f["sigma1_max_Pa"]),
+            Row("with kappa, sigma_eF", f"{f['kappa_F']:g}, {f['sigma_eF_Pa'] / 1e6:g} MPa"),
+            Row("thermal stress", "counted" if f["thermal_stress"] else "left out")]
+    rows += [_stress(f"largest at {_depth(layer)}", layer["findley_stress_max_Pa"]) for layer in f.get("by_depth", [])]
+    return [replace(row, part=SURFACE) for row in rows] + _below_rows(f) + _resolved_rows(f)
 
 
 def _resolved_rows(f):
@@ -78,36 +116,40 @@ def _resolved_rows(f):
     if "resolved" not in f:
         return []
     part = f["resolved"]
-    rows = [(f"Fi_max while resolved (to {part['to_x_a']:.2f} a)", quantity(part, "Fi_max"))]
+    rows = [_of(part, "Fi_max", "Fi_max while resolved", where=f" (to {part['to_x_a']:.2f} a)", part=RESOLVED)]
     deep = part.get("below")
-    return rows + ([(f"below it while resolved, at {_depth(deep)}", quantity(deep, "Fi_max"))] if deep else [])
+    return rows + ([_of(deep, "Fi_max", "below it while resolved", where=_at(deep), part=RESOLVED)] if deep else [])
 
 
 def _point_rows(f):
     """The worst point of the surface or below it."""
     low, high = f.get("pit_angles_deg", (None, None))
     pits = "" if low is None else f" (pits begin at {low:g} to {high:g})"
-    rows = [("at x, y of the feature", f"{f['x_m'] * 1e6:.1f}, {f['y_m'] * 1e6:.1f} um"),
-            ("critical plane to the surface", f"{f['surface_angle_deg']:.1f} deg{pits}"),
-            ("shear amplitude, largest normal stress", f"{f['tau_amp_Pa'] / 1e6:.1f}, {f['sigma_n_max_Pa'] / 1e6:.1f} MPa")]
+    rows = [Row("at x, y of the feature", f"{f['x_m'] * 1e6:.1f}, {f['y_m'] * 1e6:.1f} um"),
+            Row("critical plane to the surface", f"{f['surface_angle_deg']:.1f} deg", note=pits),
+            Row("shear amplitude, largest normal stress", f"{f['tau_amp_Pa'] / 1e6:.1f}, {f['sigma_n_max_Pa'] / 1e6:.1f} MPa")]
     own = f.get("sigma1_worst_Pa")  # not in stores before 0.2
-    return rows + ([("largest principal stress there", _stress(own))] if own is not None else [])
+    return rows + ([_stress("largest principal stress there", own)] if own is not None else [])
 
 
 def _below_rows(f):
     if "below" not in f:
         return []
     deep = f["below"]
-    rows = [(f"Fi_max below it, at {_depth(deep)}", quantity(deep, "Fi_max")),
-            (f"{f['criterion']} stress", _stress(deep["findley_stress_max_Pa"])), *_point_rows(deep)]
+    rows = [_of(deep, "Fi_max", "Fi_max below it", where=_at(deep)),
+            _stress(f"{f['criterion']} stress", deep["findley_stress_max_Pa"]), *_point_rows(deep)]
     if "contact_alone" in deep:
         alone = deep["contact_alone"]
-        rows.append((f"Fi of the contact alone, at {_depth(alone)}", f"{alone['Fi_max']:.4f}"))
-    return rows
+        rows.append(Row("Fi of the contact alone", f"{alone['Fi_max']:.4f}", alone["Fi_max"], where=_at(alone)))
+    return [replace(row, part=BELOW) for row in rows]
 
 
-def _stress(value):
-    return f"{value / 1e6:.1f} MPa"
+def _stress(what, value):
+    return Row(what, f"{value / 1e6:.1f} MPa", value)
+
+
+def _at(values):
+    return f", at {_depth(values)}"
 
 
 def _depth(values):

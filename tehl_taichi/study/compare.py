@@ -40,6 +40,13 @@ class Comparison:
         """{dotted name, as in the JSON summary: its number in every run}; None where a run does not have it (yet)."""
         return _side_by_side([flat(store.summary) for store in self.stores], lambda key, values: _told(key, values))
 
+    @property
+    def lines(self):
+        """What `tehl show` tells of the summaries, a :class:`tehl_taichi.study.compare_rows.Line` for each quantity."""
+        from tehl_taichi.study.compare_rows import lines
+
+        return lines([store.summary for store in self.stores])
+
     def labels(self):
         """A name for each run that says what is special about it: up to two values that differ, or its folder."""
         differs = [(key, values) for key, values in self.differs.items() if key != "note" and not _follows(key, self.differs)]
