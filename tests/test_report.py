@@ -12,6 +12,7 @@ import made_results
 import numpy as np
 import pytest
 from fake_cases import formula
+from made_results import THERMAL
 from small_stores import SMALL, store
 from tehl_cli.main import app
 from typer.testing import CliRunner
@@ -275,10 +276,22 @@ def test_warnings_of_the_result_stand_before_those_of_the_scene(pages, tmp_path)
     assert tehl.open(made).store.warnings == [*known, *found]
 
 
+@pytest.mark.parametrize("search", [made_results.fatigue(), None])
+def test_that_steel_would_yield_is_said_once(tmp_path, search):
+    """First of all doubts where there is an index, else among the warnings."""
+    from tehl_taichi.io.result_judge import yielding
+
+    said = [*yielding(None, {"steady": {"p_max_Pa": 4.7e9}}), "another one"]
+    made = made_results.run(tmp_path / "a.zarr", THERMAL, 14, search, said=said)  # up to 2.3 p_H
+    text = page(made, tmp_path).text
+    assert text.count("hardened steel yields") == 1 and ("p_max 4.70 GPa" in text) == (search is None)
+    assert ("Read the warning below first" if search else "Read the 2 warnings below first") in text
+
+
 def test_a_cut_passage_says_so(tmp_path):
     cut = made_results.THERMAL.replace(**{"time.steps": 4})
     text = page(made_results.run(tmp_path / "a.zarr", cut, 5, made_results.fatigue()), tmp_path).text
-    assert "inside the contact: what comes later is not in these numbers" in text
+    assert "inside the contact: what comes later is not in these numbers" in text and "rest of the passage" not in text
 
 
 @pytest.mark.parametrize("Fi, error, tone, said", [

@@ -2,10 +2,11 @@
 
 import math
 
+import numpy as np
 import pytest
 
 from tehl_taichi.io import scene_file
-from tehl_taichi.scene import BUILT_INS, SceneError, scene
+from tehl_taichi.scene import BUILT_INS, SceneError, judge, scene
 from tehl_taichi.scene.scales import Scales
 
 
@@ -101,6 +102,34 @@ def test_unknown_keys_name_the_nearest(tmp_path):
         scene_file.load(path)
     with pytest.raises(SceneError, match="smooth-line"):
         scene("smoothline")
+
+
+def test_features_that_are_alike_are_doubted_and_shown_once(tmp_path):
+    np.savetxt(tmp_path / "m.csv", 200 * np.sin(np.arange(40) / 3)[:, None] * np.ones(60), delimiter=",")
+    alike = {"shape": "map", "file": str(tmp_path / "m.csv"), "unit": "nm", "pixel": 5e-6}
+    (tmp_path / "two.toml").write_text("\n".join(["base = 'gear'", *(
+        "[[feature]]\n" + "\n".join(f"{key} = {value!r}" for key, value in {**alike, "x": x}.items()) for x in (0.0, -6e-4))]))
+    two = scene_file.load(tmp_path / "two.toml")
+    assert len(two.features) == 2
+    for told in (two.warnings(), judge.preview(two)):
+        assert any("m.csv" in line for line in told) and len(told) == len(set(told))
+
+
+def test_a_cut_is_left_out_where_no_warning_tells_of_it():
+    cut = scene("gear").replace(**{"time.steps": 4})
+    assert [line for line in cut.left_out() if line not in cut.left_out(cut=False)] == [
+        line for line in cut.left_out() if line.startswith("rest of the passage")]
+    assert any("passage cut at" in sentence for sentence in cut.warnings())
+
+
+def test_a_run_tells_of_a_cut_once():
+    from tehl_taichi.study import single
+    from tehl_taichi.study.progress import Progress
+
+    said, progress = [], Progress()
+    progress.say = progress.warn = said.append
+    single._announce(scene("gear").replace(**{"time.steps": 4}), progress)
+    assert sum("cut at" in line for line in said) == 1 and any(line.startswith("left out: half") for line in said)
 
 
 def test_left_out_says_why():

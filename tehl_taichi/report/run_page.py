@@ -33,7 +33,7 @@ def page(store):
 
 def scene_section(scene, source):
     """A scene in words and numbers, and all of its values."""
-    left_out = sentences(scene.left_out(), "Left out, because the scene does not need it")
+    left_out = sentences(scene.left_out(cut=False), "Left out, because the scene does not need it")
     whole = Part("source", {"title": "every value, as a scene file", "text": source}) if source else None
     return Section("Scene", (Part("text", {"sentences": scene_words.words(scene)}), facts(scene_words.numbers(scene)), left_out,
                              whole))

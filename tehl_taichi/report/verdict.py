@@ -2,7 +2,7 @@
 
 import math
 
-from tehl_taichi.io.result_judge import YIELDS, largest_pressure
+from tehl_taichi.io.result_judge import STEEL, YIELDS, largest_pressure
 from tehl_taichi.report.document import Answer
 from tehl_taichi.report.rounded import index, told
 from tehl_taichi.report.scene_words import material
@@ -20,8 +20,10 @@ def of(store):
         return _none_yet(store)
     found = of_fatigue(summary["fatigue"]) if "fatigue" in summary else _of_film(summary)
     question, headline, tone, tells = found
-    doubts = (*_yielding(summary), *_cut(store), *_constants(store, summary), *_version(store))
-    return Answer(question, headline, tone, (*tells, *_read_first(store.warnings)), doubts, tuple(store.warnings))
+    yields = _yielding(summary)
+    warnings = [sentence for sentence in store.warnings if not (yields and STEEL in sentence)]  # it stands first already
+    doubts = (*yields, *_cut(store), *_constants(store, summary), *_version(store))
+    return Answer(question, headline, tone, (*tells, *_read_first(warnings)), doubts, tuple(warnings))
 
 
 def _read_first(warnings):
@@ -139,8 +141,9 @@ def _yielding(summary):
     p = largest_pressure(summary)
     if "fatigue" not in summary or p <= YIELDS:
         return ()
-    return (f"The pressure reaches {p / 1e9:.1f} GPa, and hardened steel yields from about {YIELDS / 1e9:g} GPa on: the bodies "
-            "are elastic here, so read the index as that of the first passages.",)
+    return (f"The pressure reaches {p / 1e9:.1f} GPa, and {STEEL} (static limit of roller bearings, ISO 76), others earlier. "
+            "Both bodies are elastic here, true ones would press such a peak flatter: read the index as that of the first "
+            "passages.",)
 
 
 def _counted(fatigue):

@@ -4,13 +4,18 @@ from tehl_taichi.scene import named_steels, oil_range, passing, room, route, thi
 
 
 def warnings(scene):
-    """Sentences with the value, the unit and what would be better; [] for a scene without doubts."""
-    return [sentence for check in CHECKS for sentence in check(scene)]
+    """Sentences with the value, the unit and what would be better, each once; [] for a scene without doubts."""
+    return _once(sentence for check in CHECKS for sentence in check(scene))
 
 
 def preview(scene):
-    """Lines about its features, printed before a run."""
-    return [line for feature in scene.features for line in feature.kind.preview(feature, scene)]
+    """Lines about its features, printed before a run, each once."""
+    return _once(line for feature in scene.features for line in feature.kind.preview(feature, scene))
+
+
+def _once(sentences):
+    """Of features that are alike every one says the same."""
+    return list(dict.fromkeys(sentences))
 
 
 def doubtful_features(scene):

@@ -187,8 +187,9 @@ class Scene:
         wanted = self.fatigue.thermal_stress
         return not self.isothermal if wanted == AUTO else bool(wanted)
 
-    def left_out(self):
-        """What this scene does not need and therefore does not compute, each with its reason."""
+    def left_out(self, cut=True):
+        """What this scene does not need and therefore does not compute, each with its reason; cut: and the rest of a passage
+        that is cut, of which a warning tells, too."""
         out = []
         if self.isothermal:
             why = "isothermal film" if self.thermal.on is False else "no slip" if self.operation.srr == 0 else "a Moes pair"
@@ -201,7 +202,7 @@ class Scene:
             out.append("half of the domain (symmetric in y)")
         if not self.transient:
             out.append("march in time (steady)" if self.features else "march in time (no feature)")
-        elif (end := cut_at(self)) is not None:
+        elif cut and (end := cut_at(self)) is not None:
             out.append(f"rest of the passage (cut at {end:.2f} a by time.steps or time.x_end; `tehl resume` goes on)")
         if not self.fatigue_wanted:
             out.append("stresses and fatigue (" + ("switched off" if not self.fatigue.on else "no passage") + ")")

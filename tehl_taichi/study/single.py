@@ -143,7 +143,7 @@ def _begin(scene, place, clock, progress):
 def _announce(scene, progress):
     from tehl_taichi.scene.judge import preview
 
-    for said in (*(f"left out: {what}" for what in scene.left_out()), *preview(scene)):
+    for said in (*(f"left out: {what}" for what in scene.left_out(cut=False)), *preview(scene)):
         progress.say(said)
     for sentence in scene.warnings():
         progress.warn(sentence)
