@@ -14,6 +14,10 @@ from tehl_taichi.heat.nodes import Nodes, second, slope, weight, zeta
 from tehl_taichi.heat.slots import (
     AA,
     AB,
+    CHANGE,
+    FAILED,
+    HELD,
+    HL,
     LAST,
     MS,
     MSN,
@@ -22,11 +26,13 @@ from tehl_taichi.heat.slots import (
     MY,
     NIE,
     NRHO,
+    PL,
     PS,
     PX,
     PY,
     QA,
     QB,
+    RESTS,
     TS,
     VY,
     T,
@@ -53,8 +59,6 @@ LONGEST = 60.0  # K, of a Newton step of a column
 USUAL, SLUGGISH, LEAST = 3, 0.5, 1 / 16
 LIGHT = 1e-3  # of p_H: eddies of the inlet, in a gap that nodes do not resolve, carry nothing: their columns may fail
 BETA, THROUGH = VY, U  # the velocities' slots, used again once the departure points are known
-CHANGE, FAILED, HELD = range(3)  # columns of what a step tells of each tile
-TOLD = 3
 
 
 @ti.dataclass
@@ -294,11 +298,13 @@ def solve_column(Z: ti.template(), C: ti.template(), X: ti.template(), N: ti.tem
 @ti.kernel
 def energy(S: ti.template(), Z: ti.template(), C: ti.template(), X: ti.template(), G: Table, N: Nodes, oil: ti.template(),
            rheology: ti.template(), conditions: Flat, numbers: Flat, told: Table):
-    """One implicit step of every column, by Newton, after velocities and departures. told[tile, ...]: CHANGE, largest change of
-    T against the last iterate, FAILED, columns that did not converge, HELD, nodes held in range."""
+    """One implicit step of every column of the tiles that do not rest, by Newton, after velocities and departures; told: see
+    :mod:`tehl_taichi.heat.slots`."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for c in range(tiles(nx, ny)):
+        if told[c, RESTS] > 0.0:
+            continue
         s, first, last = tile(c, nx)
         scene, step, nz = read(Conditions, conditions), read(Step, numbers), N.shape[1]
         change, failed, clamped = 0.0, 0.0, 0.0
@@ -312,4 +318,5 @@ def energy(S: ti.template(), Z: ti.template(), C: ti.template(), X: ti.template(
             transfer = col.k / col.h
             flux_a, flux_b = wall_slopes(Z, N, at.q)
             C[at.q, QA], C[at.q, QB] = transfer * flux_a, -transfer * flux_b
+            C[at.q, PL], C[at.q, HL] = col.p, col.h
         told[c, CHANGE], told[c, FAILED], told[c, HELD] = change, failed, clamped

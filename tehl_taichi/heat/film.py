@@ -13,7 +13,7 @@ from tehl_taichi.engine.lanes import Flat, Table, V, cells, place, tile, tiles
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
 from tehl_taichi.heat.nodes import Nodes, beyond, integral, weight, zeta
-from tehl_taichi.heat.slots import KEPT, MS, MX, MY, NIE, NRHO, PX, PY, TAU, VY, XA, XB, YA, YB, T, U
+from tehl_taichi.heat.slots import KEPT, MS, MX, MY, NIE, NRHO, PX, PY, RESTS, TAU, VY, XA, XB, YA, YB, T, U
 from tehl_taichi.physics.density import rho_film
 from tehl_taichi.physics.rheology import DP
 from tehl_taichi.physics.viscosity import ln_eta_of, part, parts
@@ -179,11 +179,13 @@ def store_shear(C: ti.template(), q, col: ti.template(), flow: ti.template()):
 
 @ti.kernel
 def velocities(S: ti.template(), Z: ti.template(), C: ti.template(), G: Table, N: Nodes, oil: ti.template(),
-               rheology: ti.template(), conditions: Flat):
-    """Velocities, mass fluxes below each node, and the shear on both walls."""
+               rheology: ti.template(), conditions: Flat, told: Table):
+    """Velocities, mass fluxes below each node, and the shear on both walls, in tiles that do not rest."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for c in range(tiles(nx, ny)):
+        if told[c, RESTS] > 0.0:
+            continue
         s, first, last = tile(c, nx)
         scene, nz = read(Conditions, conditions), N.shape[1]
         for i in range(first, last):

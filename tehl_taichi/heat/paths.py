@@ -4,7 +4,7 @@ from tehl_taichi.engine.elementary import maximum, minimum, within
 from tehl_taichi.engine.lanes import Flat, Table, V, W, cells, place, tile, tiles
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
-from tehl_taichi.heat.slots import MS, MSN, MSNN, PN, PNN, PS, TN, TNN, TS, VY, T, U, columns_around, rows_around
+from tehl_taichi.heat.slots import MS, MSN, MSNN, PN, PNN, PS, RESTS, TN, TNN, TS, VY, T, U, columns_around, rows_around
 from tehl_taichi.heat.step import Step
 from tehl_taichi.pressure.conditions import Conditions
 from tehl_taichi.pressure.fields import P
@@ -99,12 +99,15 @@ def origin(Z: ti.template(), C: ti.template(), nz, at: ti.template(), past: ti.t
 
 
 @ti.kernel
-def departures(S: ti.template(), Z: ti.template(), C: ti.template(), G: Table, nz: ti.i32, conditions: Flat, numbers: Flat):
+def departures(S: ti.template(), Z: ti.template(), C: ti.template(), G: Table, nz: ti.i32, conditions: Flat, numbers: Flat,
+               told: Table):
     """Temperature and pressure where the oil of each node was one and two steps ago (BDF2 along its path): cubic along x,
-    quadratic along y."""
+    quadratic along y; in tiles that do not rest."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for c in range(tiles(nx, ny)):
+        if told[c, RESTS] > 0.0:
+            continue
         s, first, last = tile(c, nx)
         scene, step = read(Conditions, conditions), read(Step, numbers)
         for i in range(first, last):

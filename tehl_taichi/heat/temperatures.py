@@ -12,7 +12,7 @@ import numpy as np
 from tehl_taichi.engine import lanes, tables
 from tehl_taichi.engine.launches import bind
 from tehl_taichi.engine.records import Record
-from tehl_taichi.heat import energy, film, paths, slots
+from tehl_taichi.heat import energy, film, paths, rest, slots
 from tehl_taichi.heat.across import Across
 from tehl_taichi.heat.bodies import Bodies
 from tehl_taichi.heat.relaxation import Relaxation
@@ -22,6 +22,7 @@ from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.storage import bdf
 
 COLUMN_TOLERANCE = 0.1  # of the tolerance of a round
+RESTING = 0.4  # of the tolerance of a round: what the one before changed where the next rests
 COLUMN_ITERATIONS = 40  # Newton steps of a column; 2 are usual, 6 to 8 the most seen where none is halved
 
 
@@ -58,15 +59,17 @@ class FilmHeat:
         v, conditions = self.levels, self.levels.conditions.values
         tiles = v.fine * (v.nx // lanes.TILE + 1)
         self.X = tables.lease(self, 0, lanes.W, tiles, self.nz * (self.nz + 2), clean=False)
-        self.told = np.zeros((tiles, energy.TOLD))
+        self.told = np.zeros((tiles, slots.TOLD))
         film_state = v.S, self.columns.field
         state = *film_state, self.columns.singles.field
         known = v.G, self.across.table, scene.oil, scene.rheology, conditions
         self.values, self.slopes = (bind(film.laws, *film_state, *known, slopes) for slopes in (0, 1))
         self._keep_parts = bind(film.keep, self.columns.field, v.G, self.nz, scene.oil) if parts(scene.oil) else lambda: None
-        self._velocities = bind(film.velocities, *state, *known)
-        self._departures = bind(paths.departures, *state, v.G, self.nz, conditions, self.step.values)
+        self._velocities = bind(film.velocities, *state, *known, self.told)
+        self._departures = bind(paths.departures, *state, v.G, self.nz, conditions, self.step.values, self.told)
         self._energy = bind(energy.energy, *state, self.X, *known, self.step.values, self.told)
+        self._choose_rest = bind(rest.choose, v.S, self.columns.singles.field, v.G, conditions,
+                                 RESTING * scene.thermal.tolerance, self.told)
         self._accept = bind(paths.accept, *state, v.G, self.nz, v.scales.p_H)
 
     def start(self, T=None):
@@ -88,12 +91,16 @@ class FilmHeat:
                       inv_y=1 / (v.dy * a), B_a=B_a, B_b=B_b, tolerance=COLUMN_TOLERANCE * v.scene.thermal.tolerance,
                       iterations=COLUMN_ITERATIONS)
 
-    def solve(self):
-        """Temperatures of this step for the pressure and film in the table. Returns a HeatReport."""
+    def solve(self, again=False):
+        """Temperatures of this step for the pressure and film in the table; again: of a step with temperatures already, which
+        stay where they would hardly move (:mod:`tehl_taichi.heat.rest`). Returns a HeatReport."""
+        if again:
+            self._choose_rest()
         self._velocities()
         self._departures()
         self._energy()
-        change, failed, held = (self.told[:, column] for column in (energy.CHANGE, energy.FAILED, energy.HELD))
+        change, failed, held = (self.told[:, column] for column in (slots.CHANGE, slots.FAILED, slots.HELD))
+        self.told[:, slots.RESTS] = 0.0
         self.report = HeatReport(float(change.max()), int(failed.sum()), int(held.sum()))
         return self.report
 
@@ -110,7 +117,8 @@ class FilmHeat:
         return not (self.report.failed or self.held)
 
     def relax(self):
-        """Take less of what the last round changed, where rounds overshoot each other."""
+        """Take less of what the last round changed, where rounds overshoot each other; nothing rests in the next."""
+        self.told[:, slots.CHANGE] = np.inf
         self.set_temperature(self.rounds.relaxed(self.columns.nodes(slots.LAST), self.temperature()))
 
     def accept(self):

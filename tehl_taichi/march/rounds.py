@@ -25,7 +25,7 @@ def exchange(solver, heat, solve, most=None):
         newton, cycles = newton + report.newton, cycles + report.cycles
         if not (first or report.converged):
             break
-        told, before = heat.solve(), change
+        told, before = heat.solve(again=turn > 0), change
         change = told.change
         if thermal.rounds > 1:  # they contract: the next one changes about as much less as this one did
             told.change *= min(change / before, 1.0)
