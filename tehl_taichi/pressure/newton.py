@@ -74,7 +74,7 @@ class PressureSolver:
         self.preconditioner = AdditiveLines(levels, self.krylov)
         self.inside = levels.inside.astype(levels.linear)
         self.load = levels.scales.load
-        self.H0 = 0.0
+        self.H0, self.kept = 0.0, False
         self._bind()
 
     def _bind(self):
@@ -113,7 +113,7 @@ class PressureSolver:
         """Newton iteration from the pressure in the table and H0; leaves the solution there. Returns a Report."""
         numerics = self.levels.scene.numerics
         tolerance = tolerance or numerics.tolerance
-        merit, cycles = self._begin(), 0
+        merit, cycles = self._begin(self.kept), 0
         # at least one Newton step: the residual does not see pressure errors where eps is 0, a prediction adds them up
         last = newton_max or numerics.newton_max
         for newton in range(1, last + 1):
@@ -124,14 +124,19 @@ class PressureSolver:
                 break
             self.equations.linearise()
             merit = self.measure()
-        return Report(merit, self.load_error, self.mass_error, newton, cycles, self._converged(merit, tolerance))
+        converged = self._converged(merit, tolerance)
+        self.kept = self.kept and converged
+        return Report(merit, self.load_error, self.mass_error, newton, cycles, converged)
 
     @or_lost
     def improve(self):
-        """One Newton step from a good guess, not checked where it is small: what follows checks. Returns a Report."""
+        """One Newton step from a good guess, not checked where it is small: what follows checks, and keeps what is dear to
+        prepare and not much different there (the coarsest level, the lift). Returns a Report."""
         numerics, merit = self.levels.scene.numerics, self._begin()
         step, cycles = self._direction(FIRST_ROUND)
-        if np.abs(step[:-1]).max() < SMALL_CHANGE:
+        self.change = float(np.abs(step[:-1]).max())
+        self.kept = self.change < SMALL_CHANGE
+        if self.kept:
             self._move(self._keep(step), step, 1.0)
             self.levels.set_film(self.H0)
         else:
@@ -142,11 +147,14 @@ class PressureSolver:
         """Whether the state in the table solves the equations as they are now."""
         return self._converged(self._begin(), self.levels.scene.numerics.tolerance)
 
-    def _begin(self):
-        """Linearise about the state in the table. Returns its merit."""
+    def _begin(self, kept=False):
+        """Linearise about the state in the table; kept: near the one that the last linear solve prepared for. Returns its
+        merit."""
         self.residual()
         self.equations.linearise()
-        self.lifted, self.before, self.change = False, None, np.inf
+        self.before, self.kept = None, kept
+        if not kept:
+            self.lifted, self.change = False, np.inf
         return self.measure()
 
     def _forcing(self, krylov_tolerance, merit, tolerance):
