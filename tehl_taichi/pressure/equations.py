@@ -30,9 +30,11 @@ class Equations:
         self.film.values()
         self.evaluate()
 
-    def linearise(self):
-        """Slopes of the laws, Jacobian rows and the diagonal of the finest level; needs :meth:`residual`."""
-        self.film.slopes()
+    def linearise(self, kept=False):
+        """Slopes of the laws (kept: those that are there), Jacobian rows and the diagonal of the finest level; needs
+        :meth:`residual`."""
+        if not kept:
+            self.film.slopes()
         self._rows()
 
     def linearise_coarse(self):

@@ -151,7 +151,7 @@ class PressureSolver:
         """Linearise about the state in the table; kept: near the one that the last linear solve prepared for. Returns its
         merit."""
         self.residual()
-        self.equations.linearise()
+        self.equations.linearise(kept)
         self.before, self.kept = None, kept
         if not kept:
             self.lifted, self.change = False, np.inf
