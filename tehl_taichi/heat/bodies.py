@@ -62,7 +62,6 @@ class Bodies:
                          for n, body in enumerate(self.each)]
         self._remember = [bind(strips.remember, F, C, G, body.modes, body.drift.values, count, n, flux[n])
                           for n, body in enumerate(self.each)]
-        self._adopt = bind(strips.adopt, F, G, count)
 
     def begin(self, dt):
         """A of both surfaces after a step of dt s, into the columns. Returns B of both."""
@@ -78,7 +77,6 @@ class Bodies:
         for body, remember in zip(self.each, self._remember):
             if not (body.rests and self.steady):
                 remember()
-        self._adopt()
         self.offset = self.until
 
     def warm_resting(self):

@@ -1,8 +1,7 @@
 """Material strips of both bodies: heat that went in earlier, remembered in the bodies' own frames.
 
-F[column, slot]: the modes of body a and of body b (`count` each) and the flux of the last step into both; all that again for
-the new step; one scratch slot. A column belongs to a material strip, which the grid of the contact overtakes by whole cells and
-a rest (Drift).
+F[column, slot]: the modes of body a and of body b (`count` each) and the flux of the last step into both; one scratch slot. A
+column belongs to a material strip, which the grid of the contact overtakes by whole cells and a rest (Drift).
 """
 
 from tehl_taichi.engine.lanes import Flat, Table, V, W, cells
@@ -24,13 +23,13 @@ def kept(count):
 
 @ti.pyfunc
 def memory(count, body):
-    """Slots of the first mode of a body and of the last flux into it; those of the new step lie `kept` further on."""
+    """Slots of the first mode of a body and of the last flux into it."""
     return body * count, 2 * count + body
 
 
 def width(count):
     """Slots in all."""
-    return 2 * kept(count) + 1
+    return kept(count) + 1
 
 
 @ti.func
@@ -49,7 +48,7 @@ def surface(F: ti.template(), C: ti.template(), G: Table, modes: Modes, drift: F
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
-        first, scratch = s * (nx + 1), 2 * kept(count)
+        first, scratch = s * (nx + 1), kept(count)
         lies = read(Drift, drift)
         shift = int(lies.shift)
         modes_at, flux_at = memory(count, body)
@@ -67,15 +66,16 @@ def surface(F: ti.template(), C: ti.template(), G: Table, modes: Modes, drift: F
 @ti.kernel
 def remember(F: ti.template(), C: ti.template(), G: Table, modes: Modes, drift: Flat, count: ti.i32, body: ti.i32,
              slot: ti.i32):
-    """The new memory of a body from the flux C[slot] of this step and that of the last."""
+    """The new memory of a body from the flux C[slot] of this step and that of the last; from the right, as strips come from
+    the left: none is overwritten that is still wanted."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
         first, lies = s * (nx + 1), read(Drift, drift)
         shift = int(lies.shift)
         modes_at, flux_at = memory(count, body)
-        new = kept(count)
-        for i in range(nx + 1):
+        for behind in range(nx + 1):
+            i = nx - behind
             q, last = interpolate(C, first, i, nx, slot, lies.rest), V(0.0)
             if i - shift >= 0:
                 last = F[first + i - shift, flux_at]
@@ -83,16 +83,5 @@ def remember(F: ti.template(), C: ti.template(), G: Table, modes: Modes, drift: 
                 old = V(0.0)
                 if i - shift >= 0:
                     old = F[first + i - shift, modes_at + m]
-                F[first + i, new + modes_at + m] = modes[DECAY, m] * old + modes[GAIN, m] * q + modes[GAIN_LAST, m] * last
-            F[first + i, new + flux_at] = q
-
-
-@ti.kernel
-def adopt(F: ti.template(), G: Table, count: ti.i32):
-    """The new memory of both bodies becomes the present one."""
-    nx, ny, off = cells(G, 0)
-    ti.loop_config(block_dim=1)
-    for s in range(ny // W + 1):
-        for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
-            for m in range(kept(count)):
-                F[q, m] = F[q, kept(count) + m]
+                F[first + i, modes_at + m] = modes[DECAY, m] * old + modes[GAIN, m] * q + modes[GAIN_LAST, m] * last
+            F[first + i, flux_at] = q
