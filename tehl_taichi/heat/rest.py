@@ -5,9 +5,11 @@ Gear at SRR -0.12, 256x64x9: of the second rounds' tiles 87 % rest; solved all t
 (thermal.tolerance: 0.05 K), without the limits of pressure and film by 0.019 K. 128 columns: see the CHANGELOG.
 """
 
-from tehl_taichi.engine.lanes import Flat, Table, cells, tile, tiles
+from tehl_taichi.engine.elementary import maximum
+from tehl_taichi.engine.lanes import Flat, Table, cells, place, tile, tiles
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
+from tehl_taichi.heat.energy import largest_row
 from tehl_taichi.heat.film import pressure_and_film
 from tehl_taichi.heat.slots import CHANGE, HL, PL, RESTS
 from tehl_taichi.pressure.conditions import Conditions
@@ -17,11 +19,11 @@ STILL_FILM = 1e-3  # and part of its film
 
 
 @ti.func
-def moved(S: ti.template(), C: ti.template(), G: ti.template(), k, q, scene: ti.template()):
+def moved(S: ti.template(), C: ti.template(), G: ti.template(), at: ti.template(), scene: ti.template()):
     """Largest change of pressure and film of a column since its temperatures were solved for, over what a tile at rest may."""
-    p, h = pressure_and_film(S, G, k, scene)
-    by_pressure, by_film = ti.abs(p - C[q, PL]) / (STILL_PRESSURE * scene.p_H), ti.abs(h - C[q, HL]) / (STILL_FILM * h)
-    return ti.max(by_pressure.max(), by_film.max())
+    p, h = pressure_and_film(S, G, at.k, scene)
+    by_pressure = ti.abs(p - C[at.q, PL]) / (STILL_PRESSURE * scene.p_H)
+    return largest_row(maximum(by_pressure, ti.abs(h - C[at.q, HL]) / (STILL_FILM * h)), at)
 
 
 @ti.kernel
@@ -32,6 +34,7 @@ def choose(S: ti.template(), C: ti.template(), G: Table, conditions: Flat, most:
     for c in range(tiles(nx, ny)):
         s, first, last = tile(c, nx)
         scene, most_moved = read(Conditions, conditions), 0.0
-        for q in range(s * (nx + 1) + first, s * (nx + 1) + last):
-            most_moved = ti.max(most_moved, moved(S, C, G, off + q, q, scene))
+        for i in range(first, last):
+            at = place(G, c, i)
+            most_moved = ti.max(most_moved, moved(S, C, G, at, scene))
         told[c, RESTS] = float(told[c, CHANGE] < most and most_moved < 1.0)
