@@ -38,7 +38,7 @@ def test_what_rests_would_hardly_move(taichi_cpu, monkeypatch):
     list(march(GEAR))
     late = np.mean(rested[len(rested) // 2 :])  # once the guesses have steps to go by
     print(f"now: {late:.2f} of the tiles rest, they would change by up to {max(differs):.3f} K")
-    assert late > 0.3
+    assert late > 0.2
     assert max(differs) < 0.5 * GEAR.thermal.tolerance
 
 
