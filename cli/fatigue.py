@@ -33,7 +33,6 @@ def fatigue(
     from tehl_taichi.engine import runtime
     from tehl_taichi.figures.page import Page
     from tehl_taichi.results.opened import open_run
-    from tehl_taichi.scene.scales import Scales
 
     runtime.check(threads=threads)
     page = Page(format, dpi, width)
@@ -44,7 +43,7 @@ def fatigue(
     if figures:
         from tehl_taichi.figures.run_figures import write_fatigue
 
-        for path in write_fatigue(result, run.scene.name, Scales.of(run.scene).a, figures, page):
+        for path in write_fatigue(result, run.scene, figures, page):
             say(str(path))
 
 

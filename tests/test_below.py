@@ -244,7 +244,7 @@ def drawn(monkeypatch, found, tmp_path):
     """{name: figure} that write_fatigue would have saved."""
     kept = {}
     monkeypatch.setattr(Page, "save", lambda page, draw, path: kept.setdefault(path.stem, draw()))
-    write_fatigue(found, "test", 0.36e-3, tmp_path)
+    write_fatigue(found, tehl.scene("gear"), tmp_path)
     return kept
 
 

@@ -49,10 +49,10 @@ def _history(store, name):
     return {part: store.map(f"{name}_{part}") for part in ("x_a", "stress", "normal", "circle")}
 
 
-def write_fatigue(result, title, a, folder, page=None, depth=None):
-    """Write the figures of a FatigueResult into `folder`; returns the paths. Raises SceneError, StoreError."""
+def write_fatigue(result, scene, folder, page=None, depth=None):
+    """Write the figures of a FatigueResult of a scene into `folder`; returns the paths. Raises SceneError, StoreError."""
     page = page or Page()
     maps = {name: value[0] for name, value in result.maps.items()}
     points = {"surface": result.worst, "below": result.worst_below}
-    found = fatigue_figures.Found(title, maps, points, result.summary, a, depth)
+    found = fatigue_figures.Found(scene.name, maps, points, result.summary, Scales.of(scene).a, depth, from_centre(scene))
     return page.write(folder, fatigue_figures.all_figures(page, found))
