@@ -30,7 +30,7 @@ class Passage:
     """
 
     def __init__(self, scene, reader, centres, window=WINDOW):
-        self.scene, self.reader, self.window = scene, reader, window
+        self.scene, self.reader, self.window, self.last_below = scene, reader, window, None
         self.a = Scales.of(scene).a
         self.dx = float(reader.x[-1] - reader.x[0]) / (reader.x.size - 1)
         low, high = (max(1, int(side / self.dx + 1e-9)) for side in self._window("x"))
@@ -94,8 +94,15 @@ class Passage:
         y, thermal = self.reader.y, None
         operator = Stress(self.grid_x, y - y[0], self.scene.body_a.nu, self.line, self.mirrored, depth)
         if self.scene.thermal_stress_wanted:
-            thermal = self.heat(ThermalBelow, depth).at(depth) if depth else self.heat(ThermalStress)
+            thermal = self.below(depth).at(depth) if depth else self.heat(ThermalStress)
         return operator, thermal
+
+    def below(self, depth):
+        """The ThermalBelow of this passage from a depth (m) on: the last one where it reaches up to there, since to make it
+        takes every temperature and its transform."""
+        if self.last_below is None or self.last_below.shallowest > depth:
+            self.last_below = self.heat(ThermalBelow, depth)
+        return self.last_below
 
     def heat(self, kind, *more):
         """ThermalStress, or ThermalBelow (and its shallowest depth), of this passage."""

@@ -5,7 +5,6 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from tehl_taichi.fatigue.row_stress import RowStress
-from tehl_taichi.fatigue.thermal_depth import ThermalBelow
 from tehl_taichi.fatigue.thermal_stress import WORKERS, ThermalStress
 
 BLOCK = 16  # entries whose stresses are found at once
@@ -52,7 +51,7 @@ def _operators(passage, depths, kinds):
 
 def _heat(passage, depths, rows, entries, out, tell):
     """Thermal stress added to the histories `out` (kinds, x', depths, moments, 6); tell: called with the depths done."""
-    thermal, part = passage.heat(ThermalBelow, min(depth for depth in depths if depth)), np.zeros_like(out[0, :, 0])
+    thermal, part = passage.below(min(depth for depth in depths if depth)), np.zeros_like(out[0, :, 0])
 
     def at(depth):
         return thermal.rows(depth, rows) if depth else _at_the_surface(passage, rows)

@@ -129,7 +129,7 @@ class Passage:
     def _exchange(self, part):
         """Pressure and temperatures of a part of a step."""
         self.heat.begin(part * self.dT * self.scales.t)
-        return exchange(self.solver, self.heat, self._solve, self._rounds())
+        return exchange(self.solver, self.heat, self._solve, self._rounds(), sparing=True)
 
     def _rounds(self):
         """Of pressure and temperature, at most: more for a step that failed, but for a user who wants one lagged round."""

@@ -133,14 +133,15 @@ class PressureSolver:
         return Report(merit, self.load_error, self.mass_error, newton, cycles, converged)
 
     @or_lost
-    def improve(self):
-        """One Newton step from a good guess, not checked where it is small: what follows checks, and keeps what is dear to
-        prepare and not much different there (the coarsest level, the lift). Returns a Report."""
+    def improve(self, keeps=False):
+        """One Newton step from a good guess, not checked where it is small: what follows checks, and keeps (if wanted) what is
+        dear to prepare and not much different there: the coarsest level, the lift. Returns a Report."""
         numerics, merit = self.levels.scene.numerics, self._begin()
         step, cycles = self._direction(FIRST_ROUND)
         self.change = float(np.abs(step[:-1]).max())
-        self.kept = self.change < SMALL_CHANGE
-        if self.kept:
+        small = self.change < SMALL_CHANGE
+        self.kept = keeps and small
+        if small:
             self._move(self._keep(step), step, 1.0)
             self.levels.set_film(self.H0)
         else:
