@@ -66,7 +66,6 @@ class ThermalBelow(Heated):
         self.ix, self.iy = np.nonzero((strength > WEAK * strength.max()) & (self.waves.k * shallowest < REACH))
         self.kx, self.ky = self.waves.kx[self.ix, 0], self.waves.ky[0, self.iy]
         self.k = np.hypot(self.kx, self.ky)
-        self.alike = self.ix * self.waves.ny + np.minimum(self.iy, self.waves.ny - self.iy)  # of ky and -ky
         self.shallowest = shallowest
         self.passed = self._passed(spectra[:, self.ix, self.iy].T)
 
@@ -91,10 +90,7 @@ class ThermalBelow(Heated):
             yield from zip(some, each(lambda cut: self._response(cut, depth), some))
 
     def _response(self, cut, depth):
-        _, one, of = np.unique(self.alike[cut], return_index=True, return_inverse=True)
-        kernels = self._kernels(self.k[cut[one], None], self._angle[cut[one], None], depth)
-        # waves along ky and -ky answer alike: half the work where the domain is whole
-        return (kernels if one.size == cut.size else kernels[:, of]) * self.passed[cut]
+        return self._kernels(self.k[cut, None], self._angle[cut, None], depth) * self.passed[cut]
 
     def _kernels(self, k, angle, depth):
         """(4, waves, size): what temperatures, linear over a step in the frame of the contact, do from then on; within the
