@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from tehl_taichi.fatigue import by_wave_number
 from tehl_taichi.fatigue import thermal_depth as td
 from tehl_taichi.fatigue.thermal_stress import ThermalStress
 from tehl_taichi.scene.parts import Body
@@ -157,3 +158,18 @@ def test_a_standing_temperature_moves_over_the_body_within_a_step():
     np.testing.assert_allclose((before * np.exp(-1j * angle) + now)[:, 0], exact, atol=1e-5)
     before, now = td._means(0 * angle, 0.25, 0.5)  # a part of the step: what is left of the old is its mean age
     np.testing.assert_allclose((before[0, 0], now[0, 0]), (0.375, 0.625), atol=1e-12)
+
+
+@pytest.mark.parametrize("mirrored", [True, False])
+@pytest.mark.parametrize("depth", [2e-6, 10e-6, 60e-6])
+def test_answers_between_wave_numbers_of_a_table_are_those_of_each(monkeypatch, mirrored, depth):
+    """To what single precision leaves, the mean (k = 0) among them."""
+    thermal, used = passing(td.ThermalBelow, 2e-6, mirrored=mirrored, rows=25), []
+    weights = by_wave_number.Answers._weights
+    monkeypatch.setattr(by_wave_number.Answers, "_weights", lambda *given: used.append(given[1].min()) or weights(*given))
+    found = []
+    for worth in (0, 1e9):
+        monkeypatch.setattr(by_wave_number, "WORTH", worth)
+        found.append(thermal.rows(depth, [3])[0])
+    assert used and min(used) == 0.0 and np.abs(found[1]).max() > 0.01 * HELD
+    np.testing.assert_allclose(found[0], found[1], atol=2e-6 * np.abs(found[1]).max())

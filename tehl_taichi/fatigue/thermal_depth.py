@@ -17,6 +17,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from tehl_taichi.engine.fftw import single, single_back, single_real
+from tehl_taichi.fatigue.by_wave_number import Answers
 from tehl_taichi.fatigue.thermal_stress import WORKERS, Heated, depth_after, erfcx, fast_length
 
 LEAD = 4.0  # a: the contact stands at its first state for this way of the body, which is cold before
@@ -85,29 +86,32 @@ class ThermalBelow(Heated):
         a function to the items of a list."""
         reached = np.flatnonzero(self.k * depth < REACH)
         cuts = [reached[start : start + CHUNK] for start in range(0, reached.size, CHUNK)]
+        table = Answers.of(self.k[reached], lambda k: self._answers(k, depth))
         for first in range(0, len(cuts), WORKERS):  # not more of them at once: there may be 100, of 8 MB each
             some = cuts[first : first + WORKERS]
-            yield from zip(some, each(lambda cut: self._response(cut, depth), some))
+            yield from zip(some, each(lambda cut: self._kernels(table, cut) * self.passed[cut], some))
 
-    def _response(self, cut, depth):
-        return self._kernels(self.k[cut, None], self._angle[cut, None], depth) * self.passed[cut]
-
-    def _kernels(self, k, angle, depth):
+    def _kernels(self, table, cut):
         """(4, waves, size): what temperatures, linear over a step in the frame of the contact, do from then on; within the
         newest step the parts PARTS of it count by their age."""
-        count, later = self.lead + self.entries, np.exp(-2j * np.pi * np.arange(self.size) / self.size).astype(np.complex64)
+        (out, newest), angle = table(self.k[cut]), self._angle[cut, None]
+        later = np.exp(-2j * np.pi * np.arange(self.size) / self.size).astype(np.complex64)
+        before, now = _means(angle, 0.0, 1.0)
+        out *= before * later + now
+        for n in range(PARTS.size - 1):
+            before, now = _means(angle, PARTS[n], PARTS[n + 1])
+            out += newest[..., [n]] * (before * later + now)
+        return out
+
+    def _answers(self, k, depth):
+        """Of waves k (n,) to a temperature that changes by 1: (4, n, size), the transform in time of what each step adds after
+        the newest, and (4, n, parts), what the parts of that one add."""
+        count, k = self.lead + self.entries, k[:, None]
         stress = step_stresses(k, depth, self.diffusivity, self.nu, np.append(np.arange(count), PARTS) * self.dt)
         stress[3] *= k
         reach = np.diff(stress[..., :count], axis=2, append=stress[..., count - 1 : count])
         reach[..., 0] = 0.0
-        before, now = _means(angle, 0.0, 1.0)
-        out = single(reach, self.size)
-        out *= before * later + now
-        newest = np.diff(stress[..., count:], axis=2)
-        for n in range(PARTS.size - 1):
-            before, now = _means(angle, PARTS[n], PARTS[n + 1])
-            out += newest[..., [n]].astype(np.float32) * (before * later + now)
-        return out
+        return single(reach, self.size), np.diff(stress[..., count:], axis=2).astype(np.float32)
 
     def _turned(self, parts, cut):
         """xx, yy, zz, xy, xz, yz from ss, tt, zz, sz of waves (4, waves, ...)."""
