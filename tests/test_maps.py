@@ -107,7 +107,7 @@ def test_heights_are_not_invented(tmp_path, hole, words):
 
 
 @pytest.mark.filterwarnings("error")  # the sentence says it all
-@pytest.mark.parametrize("told", ["height in nm\n" + 4 * "1,2,3,4\n", "1;2;3;4\n1;2;3\n" * 4, "", "1,2,3\n4,five,6\n"])
+@pytest.mark.parametrize("told", ["1,2,3,4\nheight in nm\n" + 4 * "1,2,3,4\n", "1;2;3;4\n1;2;3\n" * 4, "", "1,2,3\n4,five,6\n"])
 def test_tables_with_something_else_in_them_are_refused(tmp_path, told):
     (tmp_path / "scan.csv").write_text(told, encoding="utf-8")
     with pytest.raises(SceneError, match="cannot read heights from .*scan.csv|at least 4 x 4 heights"):

@@ -5,7 +5,6 @@ feature that was made from it, and a store that holds the heights needs no file.
 """
 
 import hashlib
-import itertools
 import math
 import weakref
 from dataclasses import dataclass
@@ -14,12 +13,14 @@ from pathlib import Path
 import numpy as np
 
 from tehl_taichi.errors import SceneError, extra
-from tehl_taichi.scene import map_holes
+from tehl_taichi.scene import height_text, map_holes
 
 UNITS = {"nm": 1e-9, "um": 1e-6, "mm": 1e-3, "m": 1.0}  # of the heights in a file, m
 LEVELS = {"none": "nothing", "mean": "mean", "plane": "plane", "form": "plane and curvature"}  # level: what it takes off
 MICRO = str.maketrans({"\u00b5": "u", "\u03bc": "u"})  # micro sign and Greek mu, as in µm
 _known = weakref.WeakValueDictionary()  # sha256 -> heights, as long as a feature holds them
+_skipped = {}  # sha256 -> what of its file was no height, in words
+POINTS = "a list of x, y and z is not read: export the heights as a grid, a row of numbers a line"
 
 
 def keep(values):
@@ -39,26 +40,38 @@ def fetch(file, sha256=""):
     known = _known.get(sha256)
     if known is not None:
         return sha256, known
-    found, values = keep(read(file))
+    read_, skipped = _read(file)
+    found, values = keep(read_)
+    _skipped[found] = skipped
     if sha256 and found != sha256:
         raise SceneError(f"feature.file = {file!r} holds other heights than when this scene was made (feature.sha256 = "
                          f"{sha256[:12]}..., not {found[:12]}...); take feature.sha256 out to use the file as it is now")
     return found, values
 
 
+def skipped(sha256):
+    """What of the file of these heights was skipped, in words; "" where nothing, or where no file was read (a store)."""
+    return _skipped.get(sha256, "")
+
+
 def read(file):
     """Heights (rows, columns) in the unit of the file; nan where nothing was measured. Raises SceneError."""
+    return _read(file)[0]
+
+
+def _read(file):
+    """(the same, what was skipped in words)."""
     path = Path(file)
     if not file:
         raise SceneError("feature.file is missing: shape 'map' needs a CSV or NPY file of heights")
     if not path.is_file():
         raise SceneError(f"feature.file = {str(file)!r} does not exist")
-    values = _load(path)
+    values, skipped = _load(path)
     if values.ndim != 2 or min(values.shape) < 4:
         raise SceneError(f"feature.file = {str(file)!r} must hold a grid of at least 4 x 4 heights, not one of shape "
-                         f"{values.shape}")
+                         f"{values.shape}{f' ({POINTS})' if values.shape[-1:] == (3,) else ''}")
     _check_holes(file, values)
-    return values
+    return values, skipped
 
 
 def _check_holes(file, values):
@@ -76,32 +89,18 @@ def _load(path):
             values = np.load(path, allow_pickle=False)
             if values.dtype.kind not in "fiu":
                 raise ValueError(f"it holds {values.dtype}, not numbers")
-            return values.astype(float)
+            return values.astype(float), ""
         if path.suffix in (".csv", ".txt", ".asc"):
             return _table(path)
     except (ValueError, OSError, EOFError) as error:
         raise SceneError(f"cannot read heights from {path}: {error}") from None
-    return _surface_topography(path)
+    return _surface_topography(path), ""
 
 
 def _table(path):
-    """Heights of a text file as instruments export them: columns between semicolons or tabs (numbers may have decimal commas
-    then), commas or blanks, whichever its first line without # has. Raises ValueError."""
-    with path.open(encoding="utf-8-sig") as file:
-        told = (line for line in file if not line.startswith("#"))
-        first = next(told, "").rstrip("\r\n ")
-        if not first.strip():
-            raise ValueError("it begins with an empty line")
-        mark = next((mark for mark in ";\t," if mark in first), None)
-        closed = mark if mark and first.endswith(mark) else ""  # behind every number, the last one too
-        lines = (line.rstrip("\r\n ").removesuffix(closed) for line in itertools.chain([first], told))
-        lines = lines if mark in (",", None) else (line.replace(",", ".") for line in lines)
-        return np.loadtxt(lines, delimiter=mark, ndmin=2, converters=_height if mark else None)
-
-
-def _height(word):
-    """A number; nothing between two marks is a point that was not measured."""
-    return float(word) if word.strip() else math.nan
+    """(heights, what was skipped in words) of a text file. Raises ValueError."""
+    table = height_text.read(path)
+    return table.values, table.skipped
 
 
 def _surface_topography(path):
@@ -109,11 +108,15 @@ def _surface_topography(path):
         import SurfaceTopography
     except ImportError:
         raise SceneError(f"{path.name} is neither .csv nor .npy; other formats need SurfaceTopography: "
-                         f"{extra('topography')}") from None
+                         f"{extra('topography')}{_points(path)}") from None
     try:
         return np.ma.filled(np.ma.asarray(SurfaceTopography.read_topography(str(path)).heights(), float), math.nan).T
     except Exception as error:
-        raise SceneError(f"cannot read heights from {path}: {error}") from None
+        raise SceneError(f"cannot read heights from {path}: {error}{_points(path)}") from None
+
+
+def _points(path):
+    return f"; {POINTS}" if path.suffix == ".xyz" else ""
 
 
 def levelled(values, level):

@@ -4,6 +4,7 @@ import os
 
 import numpy as np
 
+from tehl_taichi.scene import height_map
 from tehl_taichi.scene.height_map import LEVELS, missed
 from tehl_taichi.scene.map_form import FLAT
 from tehl_taichi.scene.scales import Scales
@@ -34,7 +35,8 @@ def lines(f, scene):
     heights = f"heights in {f.unit}" + (f" times {f.scale:g}" if f.scale != 1 else "")
     turned = f"{f.orientation.says}, " if f.orientation.says else ""
     off = f"{LEVELS[f.level]} taken off" + (f" ({f.form.says})" if f.level == "form" else "")
-    yield (f"{name}: {along} x {across} points {_apart(f)} um apart, {_um(f.patch[0])} x {_um(f.patch[1])} um of them used, "
+    skipped = f"{found}, " if (found := height_map.skipped(f.sha256)) else ""
+    yield (f"{name}: {skipped}{along} x {across} points {_apart(f)} um apart, {_um(f.patch[0])} x {_um(f.patch[1])} um of them used, "
            f"{turned}{heights}, {off}")
     yield (f"{name}: {_um(m.low)} to {_um(m.high)} um (range {_um(m.range)} um), rms {_um(m.rms)} um, largest slope "
            f"{m.slope:.2g} deg; a cell of the grid has {cell[0] / f.steps[0]:.3g} x {cell[1] / f.steps[1]:.3g} points")
