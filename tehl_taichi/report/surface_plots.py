@@ -78,6 +78,7 @@ def measured(f):
             *([("turned", f.orientation.says)] if f.orientation.says else []),
             ("distance of its points", " × ".join(told(step, unit="m") for step in f.steps)),
             ("unit of its heights", f"{f.unit.replace('um', 'µm')}{turned}"), ("taken off", LEVELS[f.level]),
+            *([("low-pass", f"Gaussian, cutoff {told(f.cutoff, unit='m')}")] if f.cutoff else []),
             ("patch used", f"{told(length, unit='m')} × {told(width, unit='m')}{rim}"),
             ("range", f"{told(m.range, unit='m')}: {_signed(m.low)} to {_signed(m.high)}"), ("rms", told(m.rms, unit="m")),
             ("largest slope", f"{m.slope:.2g}°")]

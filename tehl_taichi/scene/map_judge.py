@@ -4,8 +4,8 @@ import os
 
 import numpy as np
 
-from tehl_taichi.scene import height_map
-from tehl_taichi.scene.height_map import LEVELS, missed
+from tehl_taichi.scene import height_map, map_filter
+from tehl_taichi.scene.height_map import LEVELS, Measures, missed
 from tehl_taichi.scene.map_form import FLAT
 from tehl_taichi.scene.scales import Scales
 
@@ -13,6 +13,7 @@ STEEP = 10.0  # degrees: the film equation takes slopes for small (tan 10 deg = 
 SHARE = 0.1  # of the rms that a grid, or the map's own points, may miss: a wave of six cells
 TURNED = "Heights count out of the metal and most bodies are convex: is it upside down? feature.scale = -1 turns it over"
 RIM = 0.1  # of the rms: a step at the rim below that is roughness like the rest
+CUTOFFS = (4, 6, 8, 12, 16)  # cells, that a cutoff is looked for among
 JUDGED = 1024  # points along each side, from the middle, that are judged
 
 
@@ -36,10 +37,14 @@ def lines(f, scene):
     turned = f"{f.orientation.says}, " if f.orientation.says else ""
     off = f"{LEVELS[f.level]} taken off" + (f" ({f.form.says})" if f.level == "form" else "")
     skipped = f"{found}, " if (found := height_map.skipped(f.sha256)) else ""
-    yield (f"{name}: {skipped}{along} x {across} points {_apart(f)} um apart, {_um(f.patch[0])} x {_um(f.patch[1])} um of them used, "
-           f"{turned}{heights}, {off}")
+    yield (f"{name}: {skipped}{along} x {across} points {_apart(f)} um apart, {_um(f.patch[0])} x {_um(f.patch[1])} um of them "
+           f"used, {turned}{heights}, {off}{_filter(f)}")
     yield (f"{name}: {_um(m.low)} to {_um(m.high)} um (range {_um(m.range)} um), rms {_um(m.rms)} um, largest slope "
            f"{m.slope:.2g} deg; a cell of the grid has {cell[0] / f.steps[0]:.3g} x {cell[1] / f.steps[1]:.3g} points")
+
+
+def _filter(f):
+    return f", low-pass with a cutoff of {_um(f.cutoff)} um (Gaussian)" if f.cutoff else ""
 
 
 def _apart(f):
@@ -72,11 +77,12 @@ def _form(f, scene):
 
 def _size(f, scene):
     m, told = f.measures, f"{_name(f)}: heights in {f.unit}"
+    helps = f", or roughness? {found}" if m.slope > STEEP and (found := _cutoff(f, scene)) else "?"
     if m.rms < FLAT:
         yield f"{told} have an rms of {m.rms * 1e9:.2g} nm, nothing to a film; is feature.unit = {f.unit!r} right?"
     if m.slope > STEEP:
         yield (f"{told} have slopes up to {m.slope:.3g} deg; the film equation takes slopes for small (below {STEEP:g} deg): "
-               "spikes of the measurement?")
+               f"spikes of the measurement{helps}")
 
 
 def _name(f):
@@ -87,7 +93,8 @@ def _grid(f, scene):
     steps, heights, lost = _seen(f, scene)
     own = missed(heights, 2, 2)
     if lost > SHARE:
-        yield f"{_name(f)}: the grid misses {lost:.0%} of the map's rms ({_finer(heights, steps, scene.grid)})"
+        yield (f"{_name(f)}: the grid misses {lost:.0%} of the map's rms ({_finer(heights, steps, scene.grid)}"
+               f"{f'; {found}' if (found := _cutoff(f, scene)) else ''})")
     if min(steps) < 1 and own > SHARE:
         yield (f"{_name(f)}: points {_apart(f)} um apart are {1 / min(steps):.2g} cells and do not resolve their own "
                f"roughness ({own:.0%} of the rms changes without every second one); heights are taken as linear between them")
@@ -102,6 +109,22 @@ def _seen(f, scene):
 def carried(scene):
     """Whether the grid sees every map of the scene."""
     return all(_seen(f, scene)[-1] <= SHARE for f in scene.features if f.kind.measured)
+
+
+def _cutoff(f, scene):
+    """The first cutoff of some cells with which the doubts about grid and slopes are gone, in words; "" where there is none."""
+    size, (least, most) = max(cells(scene)), map_filter.limits(f)
+    for count in CUTOFFS:
+        cutoff = float(f"{count * size:.1e}")
+        if max(least, f.cutoff) < cutoff < most and _taken(_middle(f.inside(f.filtered(cutoff))), f.steps, cells(scene)):
+            return f"feature.cutoff = {cutoff:g} (m, {count} cells) filters what is finer"
+    return ""
+
+
+def _taken(heights, steps, cell):
+    """Whether heights (points along y, along x) in m, those steps (m) apart, are long and flat enough for such cells (m)."""
+    seen = missed(heights, *(size / step for size, step in zip(cell, steps))) <= SHARE
+    return seen and Measures.of(heights, steps).slope <= STEEP
 
 
 def _finer(heights, steps, grid):

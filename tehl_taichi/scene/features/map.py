@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene import height_map, map_holes, map_judge
+from tehl_taichi.scene import height_map, map_filter, map_holes, map_judge
 from tehl_taichi.scene.features.patch import Patch
 from tehl_taichi.scene.height_map import LEVELS, MICRO, UNITS, Measures
 from tehl_taichi.scene.map_form import Form
@@ -33,6 +33,8 @@ class Measured:
     mirror_x: bool = switch(False, "map: its ends along x change places (transpose comes first)")
     mirror_y: bool = switch(False, "map: its ends along y change places (transpose comes first)")
     level: str = choice("plane", "map: what is taken off its heights; form: plane and curvature", tuple(LEVELS))
+    cutoff: float = quantity(0.0, "m", "map: Gaussian low-pass (ISO 16610-61), wavelength of which half is kept; 0: none", 0.0,
+                             1e-2)
     sha256: str = text("", "map: of its heights, filled in when they are read; a file with other heights is refused then")
 
     def __setstate__(self, state):
@@ -78,8 +80,16 @@ class Measured:
 
     @cached_property
     def surface(self):
-        """The same levelled: what passes through the contact."""
-        return height_map.levelled(self.raw, self.level)
+        """The same levelled and filtered: what passes through the contact."""
+        return self.filtered(self.cutoff)
+
+    def filtered(self, cutoff):
+        """The same levelled, low-pass with that cutoff (m; 0: none). A plane that was left passes as it is, up to the rim."""
+        flat = height_map.levelled(self.raw, self.level)
+        if not cutoff:
+            return flat
+        rest = height_map.levelled(flat, "plane")
+        return flat - rest + map_filter.lowpass(rest, self.steps, cutoff)
 
     @cached_property
     def form(self):
@@ -115,9 +125,13 @@ class Measured:
     @property
     def used(self):
         """The part of `surface` inside the patch."""
-        rows, columns = self.surface.shape
+        return self.inside(self.surface)
+
+    def inside(self, values):
+        """The part of such an array inside the patch."""
+        rows, columns = values.shape
         cut = [int((n - 1 - round(size / step)) // 2) for n, size, step in zip((columns, rows), self.patch, self.steps)]
-        return self.surface[cut[1]:rows - cut[1], cut[0]:columns - cut[0]]
+        return values[cut[1]:rows - cut[1], cut[0]:columns - cut[0]]
 
     @cached_property
     def measures(self):
@@ -191,6 +205,8 @@ def _check_keys(f):
     object.__setattr__(f, "height", 0.0)
     for key, size, extent, step in zip(("extent_x", "extent_y"), f.size, f.patch, f.steps):
         number(f"feature.{key}", extent, "m", 3 * step, size * (1 + 1e-9))
+    if f.cutoff:
+        number("feature.cutoff", f.cutoff, "m", *map_filter.limits(f))
 
 
 def _check_heights(f):

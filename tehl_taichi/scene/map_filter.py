@@ -1,0 +1,39 @@
+"""Areal Gaussian filter of heights (ISO 16610-61): what is finer than a cutoff wavelength is taken off."""
+
+import math
+
+import numpy as np
+
+ALPHA = math.sqrt(math.log(2) / math.pi)  # 0.4697: half of a wave as long as the cutoff passes
+REACH = 1.5  # cutoffs, to which weights go: 1e-14 of the largest there
+FEWEST = 2.0  # points in a cutoff: a finer one would be the identity; from four on half passes to 0.5 %
+
+
+def lowpass(values, steps, cutoff):
+    """`values` (points along y, along x), those steps (m, along x, along y) apart, as the mean with weights
+    exp(-pi (r/(ALPHA cutoff))^2); cutoff in m. At the rim the mean is of the points that there are."""
+    smooth = _smoothed(_smoothed(values, steps[0], cutoff).T, steps[1], cutoff)
+    return np.ascontiguousarray(smooth.T)
+
+
+def limits(f):
+    """(smallest, largest) cutoff of a map, m: its points and its size allow no other."""
+    return FEWEST * max(f.steps) * (1 - 1e-9), min(f.size) * (1 + 1e-9)
+
+
+def passes(wavelength, cutoff):
+    """Share of the height of a wave along x or y that is kept, far from the rim."""
+    return math.exp(-math.pi * (ALPHA * cutoff / wavelength) ** 2)
+
+
+def _smoothed(values, step, cutoff):
+    """Rows of `values`, each for itself."""
+    count = values.shape[1]
+    reach = min(count - 1, math.ceil(REACH * cutoff / step))
+    size = count + reach  # so that the end of a row does not meet its beginning
+    places = np.arange(size)
+    away = np.minimum(places, size - places)
+    weights = np.where(away <= reach, np.exp(-math.pi * (away * step / (ALPHA * cutoff)) ** 2), 0.0)
+    spectrum = np.fft.rfft(weights)
+    rows, whole = (np.fft.irfft(np.fft.rfft(v, size) * spectrum, size)[..., :count] for v in (values, np.ones(count)))
+    return rows / whole
