@@ -1,6 +1,7 @@
 """Error bars hold: on sequences made by hand, on scenes against grids four times as fine, and when companions fail."""
 
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -8,9 +9,10 @@ from tehl_taichi.profiles import coverage
 
 from tehl_taichi.fatigue.assessment import Snapshots
 from tehl_taichi.io import result_judge, summary
-from tehl_taichi.march import companions, readings
+from tehl_taichi.march import companions, error_bars, readings
 from tehl_taichi.march.error_bars import Reading, bar, bars, beside, estimated_error
 from tehl_taichi.scene import scene
+from tehl_taichi.scene.scales import Scales
 
 LIMIT = 2.0
 
@@ -58,6 +60,29 @@ def test_a_number_that_grids_do_not_resolve_has_no_bar():
     assert bar([Reading(0.4), Reading(1.0)]) == (None, "it still changes by 60% from grid to grid")
     assert bar([Reading(5e-6, lost=True), Reading(1.0), Reading(1.1)])[0] == pytest.approx(0.15)
     assert bar([Reading(1.0), Reading(5e-6, doubt="touches", lost=True)]) == (None, "touches")
+
+
+def test_a_film_whose_bar_would_reach_zero_has_none():
+    """Of 0.24, 0.021, 0.02 um the first difference leaves a tenth of itself, more than the film; of 0.06 um it leaves 4 nm."""
+    thin = [Reading(value, positive=True) for value in (0.24e-6, 0.021e-6, 0.02e-6)]
+    assert bar(thin) == (None, error_bars.WHOLE) and bar([Reading(one.value) for one in thin])[0] == pytest.approx(0.0219e-6)
+    assert bar([Reading(0.06e-6, positive=True), *thin[1:]])[0] == pytest.approx(0.0039e-6)
+
+
+def test_a_film_on_the_floor_is_not_known():
+    """Two grids have it there, so they agree to the last digit: 0.0 +- 0.019 um was stated of 0.024 um."""
+    gear = short()
+    floor = gear.rheology.film_floor * Scales.of(gear).h
+
+    def least(h):
+        film = np.full((9, 5), 4e-7)
+        film[4, 2] = h
+        return readings.lowest(SimpleNamespace(fields={"film": film}, x=np.arange(9) * 1e-5, feature_x=0.0), gear)
+
+    on, above = least(floor * (1 + 1e-7)), least(2e-8)
+    assert on.doubt == readings.TOUCH and on.lost and not above.doubt
+    assert bar([least(2.5e-7), on, on]) == (None, readings.TOUCH)
+    assert bar([on, on, above]) == (None, "no coarser grid tells it")
 
 
 def test_extremes_between_nodes():

@@ -47,7 +47,7 @@ def passage_readings(scene, reader, scalar, fatigue=None):
     p, h, a = *(scalar(name)[1:] for name in ("p_max_Pa", "h_min_m")), Scales.of(scene).a
     heat = () if scene.isothermal else readings.HEAT
     out = {"p_max_Pa": readings.highest(_moment(reader, int(np.argmax(p)) + 1), a),
-           "h_min_m": readings.lowest(_moment(reader, int(np.argmin(h)) + 1)),
+           "h_min_m": readings.lowest(_moment(reader, int(np.argmin(h)) + 1), scene),
            **{name: readings.hottest(np.max(scalar(name)[1:]), scene) for name in heat},
            "friction_coefficient_mean": Reading(float(np.mean(scalar("friction_coefficient")[1:])))}
     out |= {name: Reading(float(part["Fi_max"])) for name, part in indices(fatigue or {}).items()}

@@ -19,6 +19,7 @@ ALONE = 1.5  # of the only difference there is
 ACCIDENT = 1e-3  # of a number, no extreme: two grids may agree by accident
 BLURRED = 1.5  # of the distance between an extreme over nodes and that of the parabola through them
 HOPELESS = 0.5  # a number that changes by more than this part of itself from grid to grid is not resolved
+WHOLE = "its error may be as large as the number itself"  # of one that is positive: nothing is known of it but that
 MOVED = 4.0  # cells of the coarser grid that the place of an extreme may move: more is another extreme
 
 
@@ -29,7 +30,7 @@ class Reading:
     blur: how far the true extreme may lie from the one over nodes on this grid; place: where that is, in each frame in which it
     may rest, and cell: the spacing there, () and nan for a number that is no extreme; doubt: why this grid cannot know the
     number ("" where it can); lost: whether its value is not even a step towards that of the next grid; settled: how far the
-    iterations may have left it from the solution of this grid.
+    iterations may have left it from the solution of this grid; positive: whether the number is so by nature, as a film is.
     """
 
     value: float
@@ -39,6 +40,7 @@ class Reading:
     doubt: str = ""
     lost: bool = False
     settled: float = 0.0
+    positive: bool = False
 
 
 def bar(readings):
@@ -59,7 +61,8 @@ def bar(readings):
     if abs(steps[0]) > HOPELESS * abs(last.value):
         return None, f"it still changes by {abs(steps[0] / last.value):.0%} from grid to grid"
     accident = ACCIDENT * abs(last.value) if len(steps) == 1 and not last.place else 0.0
-    return max(accident, last.settled, BLURRED * last.blur, _left(steps, bool(last.place))), ""
+    size = max(accident, last.settled, BLURRED * last.blur, _left(steps, bool(last.place)))
+    return (None, WHOLE) if last.positive and size >= last.value else (size, "")
 
 
 def _left(steps, extreme):

@@ -14,11 +14,13 @@ SETTLED = 0.1  # of thermal.tolerance: rounds end when another one would move te
 SPIKE = "a pressure peak of {:.0%} of the largest is only a few cells wide and may grow on finer grids"
 EXIT, EXITS = "exit not resolved: ", 0.5  # where the feature, or the oil that it let in, leaves the film: beyond so many a
 TOUCH = "the surfaces touch on this grid, which is too coarse for so thin a film"
+ON_FLOOR = 1.01  # of rheology.film_floor: the residual and a store's single precision leave less, a film that flows more
 
 
 def steady(shot, scene):
     """{name: Reading} of a snapshot of a steady smooth contact."""
-    out = {"h_c_m": Reading(shot.scalars["h_c_m"]), "h_min_m": lowest(shot), "p_max_Pa": highest(shot, Scales.of(scene).a),
+    out = {"h_c_m": Reading(shot.scalars["h_c_m"], positive=True), "h_min_m": lowest(shot, scene),
+           "p_max_Pa": highest(shot, Scales.of(scene).a),
            "friction_coefficient": Reading(shot.scalars["friction_coefficient"]),
            **{name: hottest(shot.scalars[name], scene) for name in HEAT if name in shot.scalars}}
     if "film_max_C" in out:  # a narrow peak of pressure may be the hottest place
@@ -56,11 +58,13 @@ def unresolved(reader, entries, largest, a):
     return doubt(reader.x, *max(sharpest(reader.fields(n, ("pressure",))["pressure"], largest) for n in entries), a)
 
 
-def lowest(shot):
-    """Reading of the smallest film of a snapshot, m."""
+def lowest(shot, scene):
+    """Reading of the smallest film of a snapshot, m; one that lies on the floor is the floor's height on every grid."""
     h = shot.fields["film"]
     i, j = np.unravel_index(h.argmin(), h.shape)
-    return Reading(float(h[i, j]), _between(h, i, j), _place(shot, i), float(shot.x[1] - shot.x[0]))
+    touches = bool(h[i, j] <= ON_FLOOR * scene.rheology.film_floor * Scales.of(scene).h)
+    return Reading(float(h[i, j]), _between(h, i, j), _place(shot, i), float(shot.x[1] - shot.x[0]), TOUCH if touches else "",
+                   touches, positive=True)
 
 
 def _place(shot, i):
