@@ -187,7 +187,22 @@ def test_listed_depths_have_their_map_and_the_section(tmp_path, listed, shown):
     below = seen.figures["index-below"]["data"]
     assert numbers(below[0]).max() == pytest.approx(2.0)
     assert any("worst point" in trace.get("name", "") for trace in below) == (shown == 25)
+    assert ("The worst depth is 25 µm, under the row y = 0 µm, with Fi = 1.39." in seen.text) == (shown != 25)
     assert numbers(seen.figures["over-depth"]["data"][0]) == pytest.approx(maps["under_row_depth"][0] * 1e6)
+
+
+def test_a_plane_that_is_not_at_the_worst_depth_has_its_own_mark(tmp_path):
+    """The worst depth is looked for once more under the row of what is worst in the plane, which then lies beside it."""
+    maps = made_results.maps()
+    plane = np.roll(maps["Fi"][0], 2, axis=0) * 4e8 * 1.2
+    maps |= {"worst_depth": (np.array([27.3e-6]), ["d"], "m", "depth"),
+             "findley_stress_at_worst_depth": (plane, ["x", "y"], "Pa", "stress")}
+    seen = page(made_results.run(tmp_path / "a.zarr", search=made_results.fatigue(), found=maps), tmp_path)
+    mark, = [trace for trace in seen.figures["index-below"]["data"] if "Fi = " in trace.get("name", "")]
+    assert mark["name"] == "largest at this depth, Fi = 1.20" and mark["y"] == [0.0]
+    assert mark["x"] == pytest.approx([50.0])
+    assert "Index Fi 27.3 µm below the surface" in seen.text
+    assert "The worst depth is 25 µm, under the row y = 0 µm, with Fi = 1.39." in seen.text
 
 
 def test_lines_and_maps_say_where_and_when(pages, tmp_path):

@@ -5,7 +5,7 @@ import numpy as np
 from tehl_taichi.fatigue.findley import largest_principal, shear_path
 from tehl_taichi.fatigue.worst_point import on_circle
 from tehl_taichi.figures.field_maps import whole
-from tehl_taichi.figures.index_words import largest
+from tehl_taichi.figures.index_words import largest, told_index
 from tehl_taichi.figures.limit_line import crossed, explained
 from tehl_taichi.figures.palette import GREY, INDEX, MARK
 from tehl_taichi.report.plots import colour, field_map, level, line, marks, stacked
@@ -28,34 +28,50 @@ def index(store):
     deep = store.map("findley_stress_at_depth")
     plane = store.map("findley_stress_at_worst_depth")
     if plane is not None:
-        where = _depth(float(store.map("worst_depth")[0]))
-        found.append(_map(store, "below", where, plane / f["sigma_eF_Pa"], f["below"]))
+        found.append(_layer(store, float(store.map("worst_depth")[0]), plane / f["sigma_eF_Pa"], f["below"]))
     elif deep is not None and "below" in f:
         found.append(_listed(store, deep / f["sigma_eF_Pa"], f["below"]))
     return found
 
 
 def _listed(store, Fi, worst):
-    """Of the depths that were listed the one next to the worst, which is marked where it lies there; Fi (depth, x, y)."""
+    """Of the depths that were listed the one next to the worst; Fi (depth, x, y)."""
     depths = store.map("fatigue_depth")
     n = 1 + int(np.argmin(np.abs(depths[1:] - worst["depth_m"])))  # the first is the surface
-    there = worst if np.isclose(depths[n], worst["depth_m"]) else None
-    return _map(store, "below", _depth(depths[n]), Fi[n], there)
+    return _layer(store, depths[n], Fi[n], worst)
+
+
+def _layer(store, depth, Fi, worst):
+    """One depth (m) with Fi (x, y): with the worst point below where it lies there, else with its own largest value, and in
+    words which depth is the worst: looked for under some rows, between the depths whose points were all searched."""
+    if np.isclose(depth, worst["depth_m"]):
+        return _map(store, "below", _depth(depth), Fi, worst)
+    elsewhere = (f". The worst depth is {worst['depth_m'] * 1e6:.3g} µm, under the row y = {worst['y_m'] * 1e6:.0f} µm, with "
+                 f"Fi = {largest(worst)}")
+    return _map(store, "below", _depth(depth), Fi, None, elsewhere)
 
 
 def _depth(depth):
-    return f"{depth * 1e6:.0f} µm below the surface"
+    return f"{depth * 1e6:.3g} µm below the surface"
 
 
-def _map(store, which, where, Fi, found):
-    """One layer with the line of the fatigue limit, its worst point (where it has one: found), and the trace of the critical
-    plane in it."""
+def _map(store, which, where, Fi, found, more=""):
+    """One layer with the line of the fatigue limit, its worst point with the trace of the critical plane in it (found: its
+    summary; None: the largest value is no worst point); more: at the end of the caption."""
     x, (y, full) = store.map("feature_frame_x") * 1e6, whole(store.map("feature_frame_y") * 1e6, Fi)
     trace = _trace(store, which, found, 0.12 * np.ptp(x)) if found else []
-    worst = [marks([found["x_m"] * 1e6], [found["y_m"] * 1e6], f"worst point, Fi = {largest(found)}", MARK)] if found else []
-    marked = [*_limit(x, y, full), *worst, *trace]
-    caption = f"Index Fi {where}, over the whole passage{explained(bool(trace), crossed(full))}."
+    marked = [*_limit(x, y, full), _marked(store, Fi, found), *trace]
+    caption = f"Index Fi {where}, over the whole passage{explained(bool(trace), crossed(full))}{more}."
     return field_map(f"index-{which}", caption, x, y, full, INDEX, "Fi", from_centre(store.scene), "y (µm)", marked, height=440)
+
+
+def _marked(store, Fi, found):
+    """Mark of the worst point, or of the largest value of a layer where that is none."""
+    if found:
+        return marks([found["x_m"] * 1e6], [found["y_m"] * 1e6], f"worst point, Fi = {largest(found)}", MARK)
+    i, j = np.unravel_index(int(np.argmax(Fi)), Fi.shape)
+    x, y = (store.map(f"feature_frame_{axis}") * 1e6 for axis in "xy")
+    return marks([x[i]], [y[j]], f"largest at this depth, Fi = {told_index(Fi[i, j])}", MARK)
 
 
 def _trace(store, which, found, length):
