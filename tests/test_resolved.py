@@ -1,5 +1,6 @@
 """What is known where a grid does not resolve all pressures: the moments before that, their search, bars and words."""
 
+import dataclasses
 from types import SimpleNamespace
 
 import made_results
@@ -12,7 +13,7 @@ import tehl_taichi as tehl
 from tehl_taichi.fatigue import assessment
 from tehl_taichi.io import result_judge, summary, summary_rows
 from tehl_taichi.march import companions
-from tehl_taichi.report import verdict
+from tehl_taichi.report import scene_words, verdict
 from tehl_taichi.study import flat
 
 GEAR = tehl.scene("gear").replace(**{"thermal.on": False, "srr": 0.0})
@@ -127,6 +128,16 @@ def test_the_answer_rests_on_what_is_known(part, error, whole, tone, said):
     assert found == tone and headline.startswith(said)
     assert tells[0] == "As long as the grid resolves the pressure (feature up to 0.60 a):" and f"Fi = {part}" in tells[1]
     assert tells[2] == "Over the whole passage, whose pressure it does not resolve:" and f"Fi = {whole}" in tells[3]
+
+
+def test_a_cut_search_is_not_called_whole():
+    part = dataclasses.replace(GEAR.fatigue, from_x=-0.5, to_x=0.7)
+    before, over = {"to_x_a": 0.6, **fatigue(0.8, None)}, scene_words.when(part)
+    assert over == "over all moments that count (feature from -0.5 a up to 0.7 a)"
+    tells = verdict.of_fatigue({**fatigue(1.6), "resolved": before}, over)[-1]
+    assert tells[2] == "Over all moments that count (feature from -0.5 a up to 0.7 a), whose pressure it does not resolve:"
+    assert any(said.startswith("The contact without") and ", over the same moments" in said for said in tells)
+    assert not any("same moments" in said for said in verdict.of_fatigue(fatigue(1.6))[-1])
 
 
 def test_the_report_says_first_that_steel_would_yield():

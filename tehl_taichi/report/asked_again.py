@@ -1,13 +1,13 @@
 """The page of a run whose fatigue is searched again with other constants."""
 
 import dataclasses
-import math
 
 from tehl_taichi.errors import StoreError
 from tehl_taichi.fatigue.constants import changed
 from tehl_taichi.io import result_judge, scene_file
 from tehl_taichi.report import run_page
 from tehl_taichi.report.rounded import told
+from tehl_taichi.report.scene_words import moments
 from tehl_taichi.report.verdict import FATIGUE
 from tehl_taichi.results.opened import INSIDE, RUN, kind, open_run
 from tehl_taichi.scene.route import total_steps
@@ -92,7 +92,7 @@ def _words(scene):
     """[(what, value)] of all that the answer depends on, the same in number and order for every scene."""
     f = scene.fatigue
     return [("κ =", f"{f.kappa:.5g}"), ("σ_eF =", told(f.endurance, unit="Pa", digits=5)), ("the criterion", f.criterion),
-            ("depths searched:", _depths(f.depths)), ("moments:", _moments(f)),
+            ("depths searched:", _depths(f.depths)), ("moments:", moments(f) or "the whole passage"),
             ("shear tractions", "counted" if f.shear else "left out"),
             ("the stress of the heat", "counted" if scene.thermal_stress_wanted else "left out"),
             *((f"residual stress along {axis}", f"{getattr(f, f'residual_{axis}{axis}') / 1e6:g} MPa") for axis in "xy")]
@@ -103,8 +103,3 @@ def _depths(depths):
         return "the surface alone"
     points = [] if isinstance(depths, str) else ["all points at " + " and ".join(told(depth, unit="m") for depth in depths)]
     return ", ".join(["the worst", *points])
-
-
-def _moments(f):
-    ends = [f"{word} {x:g} a" for word, x in (("from", f.from_x), ("up to", f.to_x)) if math.isfinite(x)]
-    return f"feature {' '.join(ends)}" if ends else "the whole passage"

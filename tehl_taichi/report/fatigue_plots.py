@@ -10,6 +10,7 @@ from tehl_taichi.figures.limit_line import crossed, explained
 from tehl_taichi.figures.palette import GREY, INDEX, MARK
 from tehl_taichi.report.plots import colour, field_map, level, line, marks, stacked
 from tehl_taichi.report.rounded import told
+from tehl_taichi.report.scene_words import moments, when
 from tehl_taichi.scene.passing_words import from_centre, passing, position
 from tehl_taichi.scene.scales import Scales
 
@@ -61,7 +62,7 @@ def _map(store, which, where, Fi, found, more=""):
     x, (y, full) = store.map("feature_frame_x") * 1e6, whole(store.map("feature_frame_y") * 1e6, Fi)
     trace = _trace(store, which, found, 0.12 * np.ptp(x)) if found else []
     marked = [*_limit(x, y, full), _marked(store, Fi, found), *trace]
-    caption = f"Index Fi {where}, over the whole passage{explained(bool(trace), crossed(full))}{more}."
+    caption = f"Index Fi {where}, {when(store.scene.fatigue)}{explained(bool(trace), crossed(full))}{more}."
     return field_map(f"index-{which}", caption, x, y, full, INDEX, "Fi", from_centre(store.scene), "y (µm)", marked, height=440)
 
 
@@ -101,7 +102,7 @@ def _around(found):
 def _over_x(store, f, Fi):
     x = store.map("feature_frame_x") * 1e6
     worst = marks([f["x_m"] * 1e6], [f["Fi_max"]], f"worst, plane {f['surface_angle_deg']:.0f}° to the surface", colour(1))
-    return stacked("index", "Index Fi of the surface, over the whole passage.", from_centre(store.scene),
+    return stacked("index", f"Index Fi of the surface, {when(store.scene.fatigue)}.", from_centre(store.scene),
                    [("Fi", [line(x, Fi[:, 0], "at the surface", colour(0)), worst], {})], height=440)
 
 
@@ -134,7 +135,8 @@ def _over_depth(store, f, deep, z, Fi):
               marks([f["Fi_max"]], [0.0], "surface", colour(1), symbol="circle")]
     alone = store.map("findley_stress_contact_alone")
     if alone is not None:
-        traces.append(line(alone / f["sigma_eF_Pa"], z, "contact without its feature", GREY, dash="dash"))
+        same = ", same moments" if moments(store.scene.fatigue) else ""
+        traces.append(line(alone / f["sigma_eF_Pa"], z, f"contact without its feature{same}", GREY, dash="dash"))
     return stacked("over-depth", "Largest index Fi at each depth.", "largest Fi",
                    [("below the surface (µm)", traces, {"autorange": "reversed"})], height=440)
 

@@ -1,5 +1,6 @@
 """A scene in words and in numbers."""
 
+import math
 import os
 
 from tehl_taichi.physics.rheology import LAWS
@@ -8,6 +9,7 @@ from tehl_taichi.scene.passing_words import passing
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.values.quantity import Number, Switch, Text, kinds
 
+WHOLE = "over the whole passage"
 LONG = 60  # letters of a word that is shown
 
 
@@ -77,6 +79,18 @@ def _sizes(f):
             yield f"{key} {name}"
         elif isinstance(kind, Switch) and value:
             yield key
+
+
+def moments(fatigue):
+    """'feature up to 0.5 a': the moments of a passage that count, '' where all do; fatigue: section of a scene."""
+    ends = [f"{word} {x:g} a" for word, x in (("from", fatigue.from_x), ("up to", fatigue.to_x)) if math.isfinite(x)]
+    return f"feature {' '.join(ends)}" if ends else ""
+
+
+def when(fatigue):
+    """What a search was over, in words."""
+    counted = moments(fatigue)
+    return f"over all moments that count ({counted})" if counted else WHOLE
 
 
 def material(fatigue):

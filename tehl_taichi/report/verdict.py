@@ -1,11 +1,9 @@
 """The answer of a run, in a sentence, and what it rests on."""
 
-import math
-
 from tehl_taichi.io.result_judge import STEEL, YIELDS, largest_pressure
 from tehl_taichi.report.document import Answer
 from tehl_taichi.report.rounded import index, told
-from tehl_taichi.report.scene_words import material
+from tehl_taichi.report.scene_words import WHOLE, material, moments, when
 from tehl_taichi.scene.route import total_steps
 
 ABOVE, WITHIN, BELOW = 1, 0, -1
@@ -18,7 +16,8 @@ def of(store):
     summary = store.summary
     if not summary:
         return _none_yet(store)
-    found = of_fatigue(summary["fatigue"]) if "fatigue" in summary else _of_film(summary)
+    over = when(store.scene.fatigue)
+    found = of_fatigue(summary["fatigue"], over) if "fatigue" in summary else _of_film(summary)
     question, headline, tone, tells = found
     yields = _yielding(summary)
     warnings = [sentence for sentence in store.warnings if not (yields and STEEL in sentence)]  # it stands first already
@@ -46,12 +45,13 @@ def layers(fatigue):
     return [(where, part["Fi_max"], part.get("error", {}).get("Fi_max")) for where, part in found]
 
 
-def of_fatigue(fatigue):
-    """(question, headline, tone, sentences) of the summary of a search."""
+def of_fatigue(fatigue, over=WHOLE):
+    """(question, headline, tone, sentences) of the summary of a search; over: which moments, in words
+    (:func:`tehl_taichi.report.scene_words.when`)."""
     worst, places, known, tells = _judged(fatigue)
-    said, tells = headline(worst, places, known), [*tells, *_alone(fatigue), *_plane(fatigue)]
+    said, tells = headline(worst, places, known), [*tells, *_alone(fatigue, over), *_plane(fatigue)]
     if "resolved" in fatigue:
-        said, tells = _by_what_is_known(fatigue["resolved"], worst, tells)
+        said, tells = _by_what_is_known(fatigue["resolved"], worst, tells, over)
     return FATIGUE, *said, tuple(tells)
 
 
@@ -64,12 +64,12 @@ def _judged(fatigue):
     return worst, places, known, [_told(*layer) for layer in found]
 
 
-def _by_what_is_known(part, whole, tells):
+def _by_what_is_known(part, whole, tells, over):
     """(headline and tone, sentences) where the grid does not resolve every pressure: by the part of the passage before that, to
-    which the rest can only add. whole: the worst of what is judged of the whole passage."""
+    which the rest can only add. whole: the worst of what is judged of the whole search, over these moments."""
     worst, places, known, early = _judged(part)
     tells = [f"As long as the grid resolves the pressure (feature up to {part['to_x_a']:.2f} a):", *early,
-             "Over the whole passage, whose pressure it does not resolve:", *tells]
+             f"{over[0].upper()}{over[1:]}, whose pressure it does not resolve:", *tells]
     if worst != BELOW:
         even = "even " if worst == ABOVE else ""
         return headline(worst, places, known, f", {even}without the pressures that this grid does not resolve"), tells
@@ -94,12 +94,13 @@ def headline(worst, places, known, when=""):
     return f"{no}: the index stays below 1{when}{more}.", "no"
 
 
-def _alone(fatigue):
+def _alone(fatigue, over):
     alone = fatigue.get("below", {}).get("contact_alone")
     if not alone:
         return ()
     more = ": the material is overloaded there without the feature too" if alone["Fi_max"] > 1 else ""
-    return (f"The contact without its feature has Fi = {index(alone['Fi_max'])} at {alone['depth_m'] * 1e6:.0f} µm{more}.",)
+    where = f"{alone['depth_m'] * 1e6:.0f} µm" + ("" if over == WHOLE else ", over the same moments")
+    return (f"The contact without its feature has Fi = {index(alone['Fi_max'])} at {where}{more}.",)
 
 
 def _plane(fatigue):
@@ -148,10 +149,8 @@ def _yielding(summary):
 
 def _counted(fatigue):
     """The part of the passage that counts, where it is not all of it."""
-    if fatigue.from_x == -math.inf and fatigue.to_x == math.inf:
-        return ()
-    ends = [f"{word} {x:g} a" for word, x in (("from", fatigue.from_x), ("up to", fatigue.to_x)) if math.isfinite(x)]
-    return (f"Only moments with the feature {' '.join(ends)} count (fatigue.from_x, to_x).",)
+    counted = moments(fatigue)
+    return (f"Only moments with the {counted} count (fatigue.from_x, to_x).",) if counted else ()
 
 
 def _constants(store, summary):
