@@ -8,7 +8,7 @@ import pytest
 from tehl_taichi.profiles import coverage
 
 from tehl_taichi.fatigue.assessment import Snapshots
-from tehl_taichi.io import result_judge, summary
+from tehl_taichi.io import result_judge, summary, summary_rows
 from tehl_taichi.march import companions, error_bars, readings
 from tehl_taichi.march.error_bars import Reading, bar, bars, beside, estimated_error
 from tehl_taichi.scene import scene
@@ -243,6 +243,15 @@ def test_a_summary_has_numbers_or_null():
     assert quantity(values, "film", 1e6, "um") == "1.5 um (error unknown)"
     assert quantity({**values, "error": {"film": 2e-9}}, "film", 1e6, "um") == "1.5000 ± 0.0020 um"
     json.dumps({"error": bars([{"a": Reading(1.0)}])}, allow_nan=False)
+
+
+@pytest.mark.parametrize("errors, told", [
+    ({"surface_a_max_C": 2.1, "surface_b_max_C": 1.6}, "302.6 (error unknown) / 182.4 ± 2.1 / 150.7 ± 1.6 °C"),
+    ({}, "302.6 / 182.4 / 150.7 °C (errors unknown)")])
+def test_a_temperature_without_an_error_says_so(errors, told):
+    values = dict(zip(readings.HEAT, (302.57, 182.36, 150.72)))
+    row, = summary_rows._heat_rows("passage", {**values, "error": dict.fromkeys(readings.HEAT) | errors})
+    assert row.value == told
 
 
 def test_a_narrow_peak_at_any_moment_leaves_pressure_and_fatigue_unknown(passage):

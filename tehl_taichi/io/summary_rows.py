@@ -80,10 +80,14 @@ def _heat_rows(when, values):
     if "film_max_C" not in values:
         return []
     errors = [values.get("error", {}).get(key) for key in HEAT]
-    largest = " / ".join(f"{values[key]:.1f}" + (f" ± {error:.2g}" if error is not None else "")
-                         for key, error in zip(HEAT, errors))
-    unknown = " (errors unknown)" if errors == [None] * len(HEAT) else ""
-    return [Row(f"{when} film / surface a / surface b, largest", f"{largest} °C{unknown}")]
+    each, once = (" (error unknown)", "") if any(error is not None for error in errors) else ("", " (errors unknown)")
+    largest = " / ".join(_temperature(values[key], error, each) for key, error in zip(HEAT, errors))
+    return [Row(f"{when} film / surface a / surface b, largest", f"{largest} °C{once}")]
+
+
+def _temperature(value, error, unknown):
+    """A temperature (deg C) with its error; unknown: what stands in place of that where it is None."""
+    return f"{value:.1f}" + (unknown if error is None else f" ± {error:.2g}")
 
 
 def _passage_rows(summary):
