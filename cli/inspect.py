@@ -28,13 +28,16 @@ def scenes():
 
 
 def oils():
-    """List the named oils with their sources."""
+    """List the named oils with their viscosity (at p = 0) and its rise with pressure, and their sources."""
     from tehl_cli.listing import list_table
 
     from tehl_taichi.scene.named_oils import NAMED
 
-    list_table("named oils (--set oil.name=NAME)", ("name", "what", "viscosity law", "source"),
-               [(entry.name, entry.says, entry.oil.viscosity, entry.source) for entry in NAMED.values()])
+    rows = [(name, oil.says, oil.oil.viscosity, *oil.told) for name, oil in NAMED.items()]
+    list_table("named oils (--set oil.name=NAME); at p = 0: eta in mPa s at 40 and 100 C, alpha in 1/GPa at 40 C",
+               ("name", "what", "viscosity law", "eta 40", "eta 100", "alpha"), rows)
+    for name, oil in NAMED.items():
+        print(f"{name}: {oil.source}")
 
 
 def laws():

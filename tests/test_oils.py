@@ -1,7 +1,9 @@
 """The registry of named oils."""
 
 import pytest
+from tehl_cli.main import app
 from test_registry import hold
+from typer.testing import CliRunner
 
 from tehl_taichi.scene import SceneError, scene
 from tehl_taichi.scene.named_oils import NAMED, OILS, from_values
@@ -39,3 +41,26 @@ def test_a_grade_in_a_name_is_that_of_iso_3448(name, grade):
 def test_the_steep_oil_thins_faster_with_temperature():
     even, steep = (NAMED[name] for name in ("mineral-vg100", "mineral-vg100-steep"))
     assert steep.viscosity(0.0, 100.0) < 0.8 * even.viscosity(0.0, 100.0)
+
+
+@pytest.mark.parametrize("name", NAMED)
+def test_alpha_is_the_rise_with_pressure_at_none(name):
+    oil = NAMED[name]
+    rise = (oil.viscosity(2e6, 40.0) / oil.viscosity(0.0, 40.0) - 1) / 2e6
+    assert oil.alpha(40.0) == pytest.approx(rise, rel=0.03)  # of Roelands': alpha^2 p/2 and Z are left
+
+
+def test_alpha_of_a_law_that_has_it_is_that_number():
+    fluid = NAMED["moes-test-fluid"]
+    assert fluid.alpha(40.0) == pytest.approx(fluid.oil.alpha, rel=1e-6)
+
+
+def test_the_list_has_numbers_of_the_laws():
+    done = CliRunner(env={"COLUMNS": "100"}).invoke(app, ["oils"])
+    row, = [line for line in done.stdout.splitlines() if "reference-pao" in line and "\u2502" in line]
+    table = [line for line in done.stdout.splitlines() if "\u2502" in line]
+    oil = NAMED["reference-pao"]
+    assert NAMED["ridge-test-fluid"].told[0] == "1220"
+    for number in (oil.viscosity(0.0, 40.0) * 1e3, oil.viscosity(0.0, 100.0) * 1e3, oil.alpha(40.0) * 1e9):
+        assert f" {number:.3g} " in row
+    assert max(map(len, table)) <= 100 and f"reference-pao: {oil.oil.source}" in done.stdout

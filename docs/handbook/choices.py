@@ -57,8 +57,10 @@ def fillings():
 
 def oils():
     """A named oil a row."""
-    rows = ((code(entry.name), plain(entry.says), code(entry.oil.viscosity), plain(entry.source)) for entry in NAMED.values())
-    return "## Oils: `oil.name`\n\n" + table(("name", "what", "viscosity law", "source"), rows)
+    rows = ((code(entry.name), plain(entry.says), code(entry.oil.viscosity), *entry.told, plain(entry.source))
+            for entry in NAMED.values())
+    return "## Oils: `oil.name`\n\n" + table(("name", "what", "viscosity law", "η at 40 °C, mPa s", "at 100 °C",
+                                               "α at 40 °C, 1/GPa", "source"), rows)
 
 
 def steels():

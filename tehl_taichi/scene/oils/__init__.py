@@ -11,6 +11,8 @@ from tehl_taichi.physics.viscosity import ln_eta
 from tehl_taichi.registry import Checked, Entry
 from tehl_taichi.scene.oil import Oil
 
+STEP = 1e5  # Pa, of alpha: ln(eta) bends over some 1e8 Pa, so the error is some 1e-6 of it
+
 
 @dataclass(frozen=True, kw_only=True)
 class NamedOil(Entry):
@@ -36,3 +38,14 @@ class NamedOil(Entry):
     def viscosity(self, p, Gamma):
         """Pa s at p (Pa) and Gamma (deg C)."""
         return math.exp(ln_eta(self.oil, p, Gamma))
+
+    def alpha(self, Gamma):
+        """1/Pa, d ln(eta)/dp at p = 0 and Gamma (deg C), by differences of second order from p = 0 on."""
+        at = [ln_eta(self.oil, n * STEP, Gamma) for n in range(3)]
+        return (4 * at[1] - 3 * at[0] - at[2]) / (2 * STEP)
+
+    @property
+    def told(self):
+        """As lists show it, three digits each: viscosity at 40 and 100 deg C in mPa s, alpha at 40 deg C in 1/GPa, at p = 0."""
+        numbers = self.viscosity(0.0, 40.0) * 1e3, self.viscosity(0.0, 100.0) * 1e3, self.alpha(40.0) * 1e9
+        return tuple(f"{float(f'{number:.3g}'):g}" for number in numbers)
