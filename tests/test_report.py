@@ -330,6 +330,14 @@ def test_digits_follow_the_error():
     assert [rounded.roughly(Fi) for Fi in (1.645, 0.911, 1.03, 0.996, 1.004)] == ["1.6", "0.91", "1.03", "0.996", "1.004"]
 
 
+def test_the_oil_in_words_and_numbers():
+    """Of the own law alone: which other laws take a number says nothing about this scene."""
+    own = scene("gear").replace(oil={"name": "VG220", "viscosity": "barus", "eta0": 0.2, "alpha": 2e-8})
+    assert "The oil is VG220 (source not given) and comes in" in " ".join(scene_words.words(own))
+    rows = dict(scene_words.numbers(own))
+    assert rows["eta0: viscosity at p = 0"] == "0.2 Pa s" and not any("roelands" in what for what in rows)
+
+
 def test_a_scene_in_words():
     text = " ".join(scene_words.words(scene("gear").replace(srr=-0.12)))
     for said in ("A line contact of reduced radius 10.6 mm carries 1100 N/mm", "the feature is on the slower one",

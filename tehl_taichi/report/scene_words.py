@@ -3,8 +3,10 @@
 import math
 import os
 
+from tehl_taichi.physics import viscosity
 from tehl_taichi.physics.rheology import LAWS
 from tehl_taichi.report.rounded import told
+from tehl_taichi.scene.named_oils import NO_SOURCE
 from tehl_taichi.scene.passing_words import passing
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.values.quantity import Number, Switch, Text, kinds
@@ -47,7 +49,8 @@ def _motion(scene):
 
 def _oil(scene):
     law = LAWS[scene.rheology.law]
-    return (f"The oil is {scene.oil.name} ({scene.oil.source}) and comes in at {scene.operation.temperature:g} °C; its shear "
+    source = "source not given" if scene.oil.source == NO_SOURCE else scene.oil.source
+    return (f"The oil is {scene.oil.name} ({source}) and comes in at {scene.operation.temperature:g} °C; its shear "
             f"law is {law.name}: {law.says}.")
 
 
@@ -116,6 +119,6 @@ def numbers(scene):
 
 def _of_oil(oil):
     """The numbers of its viscosity law, with their meaning."""
-    declared = kinds(type(oil))
-    return [(f"{key}, {declared[key].about}", f"{getattr(oil, key):.6g} {declared[key].unit}".rstrip(" -"))
-            for key in oil.law_numbers if isinstance(declared[key], Number)]
+    declared = {key: one.metadata["kind"] for key, one in viscosity.LAWS[oil.viscosity].numbers.items()}
+    return [(f"{key}: {kind.about}", f"{getattr(oil, key):.6g} {kind.unit}".rstrip(" -"))
+            for key, kind in declared.items() if isinstance(kind, Number)]

@@ -143,8 +143,8 @@ def _yielding(summary):
     if "fatigue" not in summary or p <= YIELDS:
         return ()
     return (f"The pressure reaches {p / 1e9:.1f} GPa, and {STEEL} (static limit of roller bearings, ISO 76), others earlier. "
-            "Both bodies are elastic here, true ones would press such a peak flatter: read the index as that of the first "
-            "passages.",)
+            "Both bodies are elastic here, true ones would press such a peak flatter: the index is that of elastic "
+            "bodies.",)
 
 
 def _counted(fatigue):
