@@ -21,7 +21,7 @@ def test_a_bound_launch_reads_each_number_by_its_name():
     columns, step = slots.Columns(levels, 5), Record(Step)
     x = np.arange(65.0)[None, None, :] + np.zeros((5, 1, 1))
     departures = bind(paths.departures, levels.S, columns.field, columns.singles.field, levels.G, 5, levels.conditions.values,
-                      step.values)
+                      step.values, np.zeros((2 * levels.fine, slots.TOLD)))
     columns.put_nodes(slots.TN, x)
     columns.put_nodes(slots.TNN, 100 + x)
     columns.put_nodes(slots.U, np.full_like(x, 2.0))

@@ -1,6 +1,7 @@
 """The sections of a scene, one frozen dataclass each (SI; temperatures in deg C)."""
 
 import math
+import numbers
 from dataclasses import dataclass
 from typing import Union
 
@@ -80,7 +81,7 @@ class Operation:
     temperature: float = quantity(90.0, "deg C", "of oil and bodies at the inlet", -50.0, 300.0)
 
     def __post_init__(self):
-        if self.u_m == 0:
+        if isinstance(self.u_m, numbers.Number) and self.u_m == 0:
             raise SceneError(f"operation.u_m = 0 m/s: without entrainment there is no film and SRR (= {self.srr}) has no "
                              "meaning; allowed: at least 1e-6 m/s")
         check(self, "operation")
