@@ -19,6 +19,7 @@ from typer.testing import CliRunner
 
 import tehl_taichi as tehl
 from tehl_taichi.errors import StoreError
+from tehl_taichi.march import readings
 from tehl_taichi.report import rounded, scene_words, verdict
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.route import total_steps
@@ -240,6 +241,15 @@ def test_what_has_no_known_error_is_told_with_few_digits(pages):
     assert "The largest index is Fi = 1.4, at the surface at A" in flank
     assert rounded.told(3.9443e-7, None, "m", digits=3) == "0.394 µm" and rounded.index(1.008, None) == "1.008"
     assert [rounded.index(1.392, error) for error in (None, 0.041)] == ["1.4", "1.392 ± 0.041"]
+
+
+def test_a_long_reason_why_an_error_is_not_known_stands_once_behind_the_tables(tmp_path, monkeypatch):
+    why, other = "exit not resolved: " + readings.SPIKE.format(0.9), "its place differs from that on the next coarser grid"
+    monkeypatch.setitem(made_results.EXTRA, "passage_error", {"p_max_Pa": None, "Fi_max": None, "below_Fi_max": None})
+    monkeypatch.setitem(made_results.EXTRA, "passage_unknown", {"p_max_Pa": why, "Fi_max": why, "below_Fi_max": other})
+    seen = page(made_results.run(tmp_path / "a.zarr", search=made_results.fatigue()), tmp_path).text
+    assert seen.count(why) == 1 and seen.count("\nexit not resolved ¹\n") == 2 and seen.count("\nnot known ²\n") == 1
+    assert f"\nWhy an error is not known\n¹ {why}\n² {other}\n" in seen
 
 
 def test_a_scale_that_changes_nothing_is_not_told(tmp_path):

@@ -4,29 +4,33 @@ import json
 
 from tehl_taichi.io import intact
 from tehl_taichi.march.output import Scalar, entries
-from tehl_taichi.report.document import facts, table
+from tehl_taichi.report.document import facts, sentences, table
 from tehl_taichi.report.rounded import FEW, apart, index, roughly, share, told
 from tehl_taichi.scene.passing_words import passing
 
 PARTS = (("steady", "steady start"), ("transient", "passage"), ("fatigue", "fatigue"))
 ENDS = {"_mean": ", mean", "_max": ", largest"}
+SHORT = 30  # letters of a reason that stands in the row itself
+RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 OWN = {"Fi_max": ("index of fatigue Fi of the surface, largest", "1")}
 
 
 def errors(summary):
-    """Tables of the numbers that have an error or a reason why it is not known."""
-    head = ("what", "value", "error", "relative")
-    return [table(head, [*_with_errors(found := summary.get(part, {})), *_of_below(found.get("below", {}))], when)
-            for part, when in PARTS]
+    """Tables of the numbers that have an error or a reason why it is not known; behind them the long reasons, once each."""
+    head, reasons = ("what", "value", "error", "relative"), []
+    tables = [table(head, [*_with_errors(found := summary.get(part, {}), reasons),
+                           *_of_below(found.get("below", {}), reasons)], when) for part, when in PARTS]
+    return [*tables, sentences([f"{_mark(n)} {why}" for n, why in enumerate(reasons)], "Why an error is not known")]
 
 
-def _of_below(deep):
+def _of_below(deep, reasons):
     """The same of what lies below the surface."""
-    for says, *rest in _with_errors(deep):
+    for says, *rest in _with_errors(deep, reasons):
         yield says.replace("of the surface", f"{told(deep['depth_m'], unit='m')} below the surface"), *rest
 
 
-def _with_errors(values):
+def _with_errors(values, reasons):
+    """Rows; reasons: the long ones so far, to which those of these rows are added."""
     for name, error in values.get("error", {}).items():
         if values.get(name) is None:
             continue
@@ -34,8 +38,23 @@ def _with_errors(values):
         value, shown, scale = apart(values[name], error, unit, FEW)
         value = roughly(values[name]) if name == "Fi_max" and error is None else value
         why = values.get("unknown", {}).get(name, "not estimated")
-        yield (says, f"{value} {scale}".strip(), why if error is None else f"{shown} {scale}".strip(),
+        yield (says, f"{value} {scale}".strip(), _in_row(why, reasons) if error is None else f"{shown} {scale}".strip(),
                "" if error is None else share(error, values[name]))
+
+
+def _in_row(why, reasons):
+    """A reason as its row has it: a long one by its first words, or as no more than that, with its mark behind the tables."""
+    if len(why) <= SHORT:
+        return why
+    if why not in reasons:
+        reasons.append(why)
+    first = why.partition(": ")[0]
+    return f"{first if len(first) <= SHORT else 'not known'} {_mark(reasons.index(why))}"
+
+
+def _mark(n):
+    """The n-th mark of a note, from 0."""
+    return str(n + 1).translate(RAISED)
 
 
 def _meaning(name):
