@@ -147,17 +147,11 @@ def _drawn(rng):
                                     "speed": log_uniform(0.01, 50.0), "thermal.on": bool(rng.random() < 0.5),
                                     "rheology.law": law, "time.steps": RANDOM_STEPS, "contact": contact,
                                     "bodies.b.E": 206e9 / log_uniform(1, 10)})
-    cell = max(_cells(smooth))
+    cell = max(Scales.of(smooth).cell(smooth.grid))
     feature = Feature(height=float(rng.choice([-1.0, 1.0])) * log_uniform(0.1e-6, 3e-6),
                       width=log_uniform(max(20e-6, 1.01 * FEWEST * cell), max(400e-6, 2 * FEWEST * cell)),
                       shape=str(rng.choice([name for name, shape in SHAPES.items() if shape.drawn])))
     return dataclasses.replace(smooth, features=(feature,))
-
-
-def _cells(description):
-    """Lengths of a cell along x and y, m."""
-    g, s = description.grid, Scales.of(description)
-    return (g.x_max - g.x_min) * s.a / g.nx, g.y_max * s.b / g.ny
 
 
 def edited(base, changes):

@@ -1,9 +1,19 @@
-"""The next finer grid of a scene, and what it costs."""
+"""The next finer grids of a scene, and what the first costs."""
 
 
 def doubled(scene):
     """The scene on the grid with twice the cells each way."""
     return scene.replace(**{"grid.nx": 2 * scene.grid.nx, "grid.ny": 2 * scene.grid.ny})
+
+
+def first(scene, enough, most):
+    """(nx, ny) of the first grid, of its own, with twice, four times ... the cells, on which enough(scene); None where none of
+    up to `most` columns is."""
+    while not enough(scene):
+        if 2 * scene.grid.nx > most:
+            return None
+        scene = doubled(scene)
+    return scene.grid.nx, scene.grid.ny
 
 
 def told(scene):

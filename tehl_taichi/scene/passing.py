@@ -62,8 +62,7 @@ def _check_x(scene, scales, name, feature):
 
 
 def _check_y(scene, scales, name, feature):
-    edge = scene.grid.y_max * scales.b
-    cell = edge / scene.grid.ny
+    edge, (_, cell) = scene.grid.y_max * scales.b, scales.cell(scene.grid)
     if not feature.transverse and abs(feature.y) + cell > edge + feature.reach_y:
         raise SceneError(f"{name}.y = {feature.y:g} m: no part of the feature, which reaches {feature.reach_y:.3g} m to each "
                          f"side, passes through the domain; allowed: -{edge + feature.reach_y - cell:.3g} to "
@@ -73,8 +72,8 @@ def _check_y(scene, scales, name, feature):
 
 def sights(scene):
     """A Sight for each feature and axis along which it has a size; none where its shape names none."""
-    g, s = scene.grid, Scales.of(scene)
-    cell = {"nx": (g.x_max - g.x_min) * s.a / g.nx, "ny": g.y_max * s.b / g.ny}
+    g = scene.grid
+    cell = dict(zip(MULTIPLES, Scales.of(scene).cell(g)))
     out = []
     for n, f in enumerate(scene.features):
         along, across = f.kind.sizes(f)

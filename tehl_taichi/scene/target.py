@@ -39,12 +39,7 @@ def grid_for(description, target):
 def _seeing_maps(description, nx, ny):
     """This grid, or the first of twice its columns and rows, four times ... that sees the measured maps; where none of up to
     MOST columns does, this one: the scene's warnings tell."""
-    found = description.replace(**{"grid.nx": nx, "grid.ny": ny})
-    while not map_judge.carried(found):
-        if 2 * found.grid.nx > MOST:
-            return nx, ny
-        found = finer.doubled(found)
-    return found.grid.nx, found.grid.ny
+    return finer.first(description.replace(**{"grid.nx": nx, "grid.ny": ny}), map_judge.carried, MOST) or (nx, ny)
 
 
 @functools.cache

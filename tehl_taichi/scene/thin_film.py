@@ -22,11 +22,7 @@ def carried(scene):
 
 def needed(scene, most=FINEST):
     """(nx, ny) of the grid with twice, four times, ... the cells that carries the film, or None beyond `most` columns."""
-    while carried(scene) < 1:
-        if 2 * scene.grid.nx > most:
-            return None
-        scene = finer.doubled(scene)
-    return scene.grid.nx, scene.grid.ny
+    return finer.first(scene, lambda one: carried(one) >= 1, most)
 
 
 def warnings(scene):
