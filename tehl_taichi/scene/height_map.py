@@ -40,9 +40,9 @@ def fetch(file, sha256=""):
     known = _known.get(sha256)
     if known is not None:
         return sha256, known
-    read_, skipped = _read(file)
-    found, values = keep(read_)
-    _skipped[found] = skipped
+    table = _read(file)
+    found, values = keep(table.values)
+    _skipped[found] = table.skipped
     if sha256 and found != sha256:
         raise SceneError(f"feature.file = {file!r} holds other heights than when this scene was made (feature.sha256 = "
                          f"{sha256[:12]}..., not {found[:12]}...); take feature.sha256 out to use the file as it is now")
@@ -56,22 +56,23 @@ def skipped(sha256):
 
 def read(file):
     """Heights (rows, columns) in the unit of the file; nan where nothing was measured. Raises SceneError."""
-    return _read(file)[0]
+    return _read(file).values
 
 
 def _read(file):
-    """(the same, what was skipped in words)."""
+    """The same as a :class:`tehl_taichi.scene.height_text.Table`."""
     path = Path(file)
     if not file:
         raise SceneError("feature.file is missing: shape 'map' needs a CSV or NPY file of heights")
     if not path.is_file():
         raise SceneError(f"feature.file = {str(file)!r} does not exist")
-    values, skipped = _load(path)
+    table = _load(path)
+    values = table.values
     if values.ndim != 2 or min(values.shape) < 4:
         raise SceneError(f"feature.file = {str(file)!r} must hold a grid of at least 4 x 4 heights, not one of shape "
                          f"{values.shape}{f' ({POINTS})' if values.shape[-1:] == (3,) else ''}")
     _check_holes(file, values)
-    return values, skipped
+    return table
 
 
 def _check_holes(file, values):
@@ -89,18 +90,12 @@ def _load(path):
             values = np.load(path, allow_pickle=False)
             if values.dtype.kind not in "fiu":
                 raise ValueError(f"it holds {values.dtype}, not numbers")
-            return values.astype(float), ""
+            return height_text.Table(values.astype(float))
         if path.suffix in (".csv", ".txt", ".asc"):
-            return _table(path)
+            return height_text.read(path)
     except (ValueError, OSError, EOFError) as error:
         raise SceneError(f"cannot read heights from {path}: {error}") from None
-    return _surface_topography(path), ""
-
-
-def _table(path):
-    """(heights, what was skipped in words) of a text file. Raises ValueError."""
-    table = height_text.read(path)
-    return table.values, table.skipped
+    return height_text.Table(_surface_topography(path))
 
 
 def _surface_topography(path):

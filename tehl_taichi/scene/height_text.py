@@ -13,11 +13,11 @@ SPLIT = {"no data": "nodata", "bad data": "bad"}  # marks of two words, which bl
 @dataclass(frozen=True)
 class Table:
     """values: heights (rows, columns) in the unit of the file, nan where nothing was measured; header: lines before the first
-    row; inside: lines that begin with # after it."""
+    row; inside: lines that begin with # after it (none of files that are no text)."""
 
     values: np.ndarray
-    header: int
-    inside: int
+    header: int = 0
+    inside: int = 0
 
     @property
     def skipped(self):
