@@ -80,7 +80,8 @@ def field_map(name, caption, x, y, values, scale, unit, x_title, y_title, marked
     heat = {"type": "heatmap", "x": x, "y": y, "z": values.T, "colorscale": colours(scale), "zsmooth": "best",
             "colorbar": {"title": {"text": unit, "side": "top"}, "orientation": "h", "thickness": 12, "y": -0.22,
                          "yanchor": "top", "lenmode": "fraction", "len": 0.9}, **keys}
-    layout = {"xaxis": axis(x_title, constrain="domain"), "yaxis": axis(y_title, constrain="domain"), **_frame(bool(marked))}
+    frame = _frame(any(trace.get("showlegend") for trace in marked))
+    layout = {"xaxis": axis(x_title, constrain="domain"), "yaxis": axis(y_title, constrain="domain"), **frame}
     if true:
         layout["yaxis"]["scaleanchor"] = "x"
     return Figure(name, caption, [heat, *marked], layout, height)

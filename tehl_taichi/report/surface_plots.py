@@ -2,7 +2,6 @@
 
 import math
 import os
-from dataclasses import replace
 
 import numpy as np
 
@@ -39,9 +38,8 @@ def picture(scene):
         drawn_line = line(x, values[:, 0], "height", colour(0), told=False)
         return stacked("surface", caption, along, [("height (µm)", [drawn_line], {})], height=330)
     caption += _kept(found, i, j) + HOLES * bool(found.filled.any())
-    drawn_map = field_map("surface", caption, x, y, _stepped(values), HEIGHT, "µm", along, "y (µm)", true=found.true,
-                          height=440)
-    return replace(drawn_map, traces=[*drawn_map.traces, *_holes(found, i, j)])
+    return field_map("surface", caption, x, y, _stepped(values), HEIGHT, "µm", along, "y (µm)", _holes(found, i, j),
+                     true=found.true, height=440)
 
 
 def _holes(found, i, j):
