@@ -65,7 +65,7 @@ def searched(one_row=False, y_worst=0.0, **depth):
                "stress": np.outer(np.sin(turn), [1e8, 0, 2e8, 0, 5e7, 0])}
     maps = {"feature_frame_x": x, "feature_frame_y": y, "Fi": hill / 4e8, "fatigue_depth": np.array([0.0, 2e-5, 6e-5])}
     maps |= {"findley_stress_under_row": layers[:, :, 0]} if one_row else {"findley_stress_at_depth": layers}
-    return fatigue_figures.Found("made up", maps, {"surface": history, "below": history}, summary, 3.6e-4, **depth)
+    return fatigue_figures.Found("made up", maps, {"surface": history, "below": history}, summary, 3.6e-4, "x (µm)", **depth)
 
 
 def drawn(name, store, page=None, at=None):

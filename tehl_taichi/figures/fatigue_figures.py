@@ -12,6 +12,9 @@ from tehl_taichi.figures import palette
 from tehl_taichi.figures.field_maps import bar, shade, whole
 from tehl_taichi.figures.index_words import error_of, largest, mpa, told_index
 from tehl_taichi.figures.limit_line import crossed, explained, handle, limit_line
+from tehl_taichi.figures.searched_depths import beside_worst, under_row
+from tehl_taichi.scene.passing_words import from_centre
+from tehl_taichi.scene.scales import Scales
 from tehl_taichi.values.checks import number
 from tehl_taichi.values.plain import plain
 
@@ -25,16 +28,21 @@ LEAST = 8.0  # cm that a map needs to stand beside another
 @dataclass(frozen=True)
 class Found:
     """title: the scene's name; maps: {name of MAPS: array} found; points: {"surface": history, "below": the same or None};
-    summary: of a FatigueResult; a: m; depth: µm, of the layer that is wanted beside the surface, or None (the worst one);
-    along: title of the axis."""
+    summary: of a FatigueResult; a: m; along: title of the axis along x; depth: µm, of the layer that is wanted beside the
+    surface, or None (the worst one)."""
 
     title: str
     maps: dict
     points: dict
     summary: dict
     a: float
+    along: str
     depth: float | None = None
-    along: str = "x from the feature's centre (µm)"
+
+    @classmethod
+    def of(cls, scene, maps, points, summary, depth=None):
+        """Of a search of a scene."""
+        return cls(scene.name, maps, points, summary, Scales.of(scene).a, from_centre(scene), depth)
 
     @property
     def constants(self):
@@ -95,8 +103,7 @@ def _layers(found):
     if below is None or (found.depth is None and "findley_stress_at_depth" not in found.maps):
         return [top]
     depths, deep = found.maps["fatigue_depth"], found.summary["below"]
-    wanted = max(deep["depth_m"], depths[1]) if found.depth is None else found.depth * 1e-6  # the surface is there already
-    n = int(np.argmin(np.abs(depths - wanted)))
+    n = beside_worst(depths, deep["depth_m"]) if found.depth is None else int(np.argmin(np.abs(depths - found.depth * 1e-6)))
     where, Fi = f"{depths[n] * 1e6:.3g} µm below", below[n] / found.summary["sigma_eF_Pa"]
     if np.isclose(depths[n], deep["depth_m"]):
         return [top, _worst(where, Fi, deep, found.points["below"])]
@@ -178,8 +185,7 @@ def _mark(ax, x, y):
 
 def depth_figure(page, found):
     """Index in the section under the row of the worst point below the surface, and its largest value over depth."""
-    rungs = found.maps.get("under_row_depth", found.maps["fatigue_depth"])  # of its own where depths were listed
-    depth, Fi = rungs * 1e6, found.maps["findley_stress_under_row"] / found.summary["sigma_eF_Pa"]
+    depth, Fi = under_row(found.maps.get) * 1e6, found.maps["findley_stress_under_row"] / found.summary["sigma_eF_Pa"]
     sizes = dict(height_ratios=(1, 1)) if page.narrow else dict(width_ratios=(3, 2))
     panels, height = ((2, 1), 3.2 * page.row()) if page.narrow else ((1, 2), 2.3 * page.row(2))
     figure, axes = page.figure(*panels, height=height, **sizes)

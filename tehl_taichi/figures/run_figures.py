@@ -6,8 +6,6 @@ from tehl_taichi.errors import SceneError
 from tehl_taichi.figures import fatigue_figures, field_maps, line_figures, surface_figure
 from tehl_taichi.figures.moments import Moments
 from tehl_taichi.figures.page import Page
-from tehl_taichi.scene.passing_words import from_centre
-from tehl_taichi.scene.scales import Scales
 
 
 def write_all(store, folder, page=None, at=None, depth=None):
@@ -38,8 +36,7 @@ def _of_the_film(store):
 def _fatigue(store, depth):
     maps = {name: values for name in fatigue_figures.MAPS if (values := store.map(name)) is not None}
     points = {"surface": _history(store, "worst"), "below": _history(store, "worst_below")}
-    return fatigue_figures.Found(store.scene.name, maps, points, store.summary["fatigue"], Scales.of(store.scene).a, depth,
-                                 from_centre(store.scene))
+    return fatigue_figures.Found.of(store.scene, maps, points, store.summary["fatigue"], depth)
 
 
 def _history(store, name):
@@ -54,5 +51,5 @@ def write_fatigue(result, scene, folder, page=None, depth=None):
     page = page or Page()
     maps = {name: value[0] for name, value in result.maps.items()}
     points = {"surface": result.worst, "below": result.worst_below}
-    found = fatigue_figures.Found(scene.name, maps, points, result.summary, Scales.of(scene).a, depth, from_centre(scene))
+    found = fatigue_figures.Found.of(scene, maps, points, result.summary, depth)
     return page.write(folder, fatigue_figures.all_figures(page, found))

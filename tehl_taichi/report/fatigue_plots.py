@@ -8,6 +8,7 @@ from tehl_taichi.figures.field_maps import whole
 from tehl_taichi.figures.index_words import largest, told_index
 from tehl_taichi.figures.limit_line import crossed, explained
 from tehl_taichi.figures.palette import GREY, INDEX, MARK
+from tehl_taichi.figures.searched_depths import beside_worst, under_row
 from tehl_taichi.report.plots import colour, field_map, level, line, marks, stacked
 from tehl_taichi.report.rounded import told
 from tehl_taichi.report.scene_words import moments, when
@@ -38,7 +39,7 @@ def index(store):
 def _listed(store, Fi, worst):
     """Of the depths that were listed the one next to the worst; Fi (depth, x, y)."""
     depths = store.map("fatigue_depth")
-    n = 1 + int(np.argmin(np.abs(depths[1:] - worst["depth_m"])))  # the first is the surface
+    n = beside_worst(depths, worst["depth_m"])
     return _layer(store, depths[n], Fi[n], worst)
 
 
@@ -112,7 +113,7 @@ def depth(store):
     if under is None or "below" not in f:
         return []
     deep, Fi = f["below"], under / f["sigma_eF_Pa"]
-    x, z = store.map("feature_frame_x") * 1e6, _rungs(store) * 1e6
+    x, z = store.map("feature_frame_x") * 1e6, under_row(store.map) * 1e6
     even = np.linspace(0, z[-1], EVEN)
     section = np.stack([np.interp(even, z, column) for column in Fi.T])
     worst = marks([deep["x_m"] * 1e6], [deep["depth_m"] * 1e6], f"worst point, Fi = {largest(deep)}", MARK)
@@ -121,12 +122,6 @@ def depth(store):
                        "below the surface (µm)", [*_limit(x, even, section), worst], true=False, height=440)
     figure.layout["yaxis"]["autorange"] = "reversed"
     return [figure, _over_depth(store, f, deep, z, Fi)]
-
-
-def _rungs(store):
-    """Depths (m) of what lies under a row: of its own where others were listed."""
-    own = store.map("under_row_depth")
-    return store.map("fatigue_depth") if own is None else own
 
 
 def _over_depth(store, f, deep, z, Fi):
