@@ -13,3 +13,11 @@ def taichi_cpu():
 def linear(request):
     """Changes of a scene for linear solves in single and in double precision."""
     return {"numerics.precision": request.param}
+
+
+@pytest.fixture(scope="session")
+def thermal(tmp_path_factory):
+    """A finished run with temperatures and fatigue, made up."""
+    import made_results
+
+    return made_results.run(tmp_path_factory.mktemp("report") / "made.zarr", search=made_results.fatigue())

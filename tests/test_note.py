@@ -2,9 +2,9 @@
 
 import made_results
 import pytest
+from read_pages import page
 from small_stores import SMALL, store
 from tehl_cli.main import app
-from test_report import page
 from typer.testing import CliRunner
 
 import tehl_taichi as tehl

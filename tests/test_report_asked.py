@@ -7,9 +7,9 @@ from types import SimpleNamespace
 import made_results
 import pytest
 from made_results import THERMAL, fatigue
+from read_pages import Seen
 from small_stores import store
 from tehl_cli.main import app
-from test_report import Seen
 from typer.testing import CliRunner
 
 import tehl_taichi as tehl

@@ -6,9 +6,9 @@ import dataclasses
 import made_results
 import numpy as np
 import pytest
+from made_figures import Made
+from read_pages import page
 from small_stores import SMALL
-from test_figures import Made
-from test_report import page
 
 import tehl_taichi as tehl
 from tehl_taichi.figures import palette

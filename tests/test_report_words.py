@@ -1,0 +1,62 @@
+"""Words and digits of reports."""
+
+import made_results
+import numpy as np
+import pytest
+
+from tehl_taichi.report import rounded, scene_words, verdict
+from tehl_taichi.scene import scene
+
+
+def test_a_scale_that_changes_nothing_is_not_told(tmp_path):
+    np.save(tmp_path / "m.npy", 1e-7 * np.sin(np.arange(20))[:, None] * np.ones(20))
+    of_map = scene("gear").replace(**{"feature.shape": "map", "feature.file": str(tmp_path / "m.npy"), "feature.unit": "m",
+                                      "feature.pixel": 1e-5})
+    assert "scale" not in scene_words.words(of_map)[-1] and "pixel 10 µm" in scene_words.words(of_map)[-1]
+    assert "scale -1" in scene_words.words(of_map.replace(**{"feature.scale": -1.0}))[-1]
+
+
+@pytest.mark.parametrize("keys, said", [
+    ({}, "example values, to be replaced by those of the material itself"), ({"source": "Example."}, "example values, to be"),
+    ({"source": "DIN 50100, 42CrMo4"}, "DIN 50100, 42CrMo4"), ({"endurance": 450e6}, "no source is given")])
+def test_example_values_do_not_pass_for_those_of_a_material(keys, said):
+    changed = scene("gear").replace(**{f"fatigue.{key}": value for key, value in keys.items()})
+    assert scene_words.material(changed.fatigue).startswith(said)
+
+
+@pytest.mark.parametrize("Fi, error, tone, said", [
+    (1.2, 0.1, "yes", "Yes: the fatigue limit is exceeded at the surface."), (1.05, 0.1, "open", "Not decided"),
+    (0.95, 0.1, "open", "Not decided"), (0.8, 0.1, "no", "No: the index stays below 1."), (0.8, None, "no", "Probably not"),
+    (1.2, None, "yes", "Probably yes")])
+def test_the_answer_knows_how_sure_it_is(Fi, error, tone, said):
+    _, headline, found, _ = verdict.of_fatigue({**made_results.fatigue(Fi, None), "error": {"Fi_max": error}})
+    assert found == tone and headline.startswith(said)
+
+
+def test_a_surface_that_holds_over_a_depth_that_does_not():
+    layers = verdict.layers(made_results.fatigue(0.5, 1.2))
+    assert [where for where, *_ in layers] == ["at the surface", "25 µm below the surface"]
+
+
+def test_digits_follow_the_error():
+    assert rounded.told(1.00812, 0.0231) == "1.008 ± 0.023" and rounded.told(4.0247e9, 1.767e7, "Pa") == "4.025 ± 0.018 GPa"
+    assert rounded.told(3.944e-7, None, "m") == "0.3944 µm" and rounded.told(2.5, 0.0) == "2.5 ± 0"
+    assert rounded.told(2.286e11, 1e12) == "2.286e+11 ± 1e+12" and rounded.share(0.5, -50.0) == "1 %"
+    assert [rounded.roughly(Fi) for Fi in (1.645, 0.911, 1.03, 0.996, 1.004)] == ["1.6", "0.91", "1.03", "0.996", "1.004"]
+
+
+def test_the_oil_in_words_and_numbers():
+    """Of the own law alone: which other laws take a number says nothing about this scene."""
+    own = scene("gear").replace(oil={"name": "VG220", "viscosity": "barus", "eta0": 0.2, "alpha": 2e-8})
+    assert "The oil is VG220 (source not given) and comes in" in " ".join(scene_words.words(own))
+    rows = dict(scene_words.numbers(own))
+    assert rows["eta0: viscosity at p = 0"] == "0.2 Pa s" and not any("roelands" in what for what in rows)
+
+
+def test_a_scene_in_words():
+    text = " ".join(scene_words.words(scene("gear").replace(srr=-0.12)))
+    for said in ("A line contact of reduced radius 10.6 mm carries 1100 N/mm", "the feature is on the slower one",
+                 "height 1.5 µm", "width 200 µm", "comes in at 90 °C"):
+        assert said in text, said
+    assert "faster one" in " ".join(scene_words.words(scene("gear").replace(srr=0.12)))
+    assert "without slip" in " ".join(scene_words.words(scene("gear").replace(srr=0.0)))
