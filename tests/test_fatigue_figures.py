@@ -92,3 +92,13 @@ def test_a_depth_that_was_not_searched_is_refused(depth):
     del found.maps["findley_stress_at_depth"]
     with pytest.raises(SceneError, match="tehl fatigue STORE --depths 2e-05"):
         fatigue_figures.all_figures(Page(), found)
+
+
+def test_a_plane_that_is_not_at_the_worst_depth_has_its_own_mark():
+    """The worst depth is looked for once more under the row of what is worst in the plane, which then lies beside it."""
+    found = searched()
+    x, plane = found.maps["feature_frame_x"], np.roll(found.maps.pop("findley_stress_at_depth")[1], -4, axis=0)
+    found.maps.update({"findley_stress_at_worst_depth": plane, "worst_depth": np.array([5e-5])})
+    ax = [ax for ax in fatigue_figures.all_figures(Page(dpi=40), found)["fatigue"]().axes if ax.get_title()][1]
+    assert ax.get_title() == "worst, Fi = 0.50" and ax.collections[0].colorbar.ax.get_xlabel() == "Fi, 50 µm below"
+    assert ax.lines[0].get_xdata() == pytest.approx([1e6 * x[np.unravel_index(plane.argmax(), plane.shape)[0]]])

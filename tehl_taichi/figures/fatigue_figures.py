@@ -95,20 +95,23 @@ def all_figures(page, found):
 def _layers(found):
     """The surface, and the layer below it that is wanted, or the worst where all its points were searched."""
     top = _worst("surface", found.maps["Fi"], found.summary, found.points["surface"])
-    below = _searched(found)
-    if found.depth is None and found.maps.get("findley_stress_at_worst_depth") is not None:
-        where = f"{float(found.maps['worst_depth'][0]) * 1e6:.3g} µm below"
-        Fi = found.maps["findley_stress_at_worst_depth"] / found.summary["sigma_eF_Pa"]
-        return [top, _worst(where, Fi, found.summary["below"], found.points["below"])]
+    below, plane = _searched(found), found.maps.get("findley_stress_at_worst_depth")
+    if found.depth is None and plane is not None:
+        return [top, _layer(found, float(found.maps["worst_depth"][0]), plane)]
     if below is None or (found.depth is None and "findley_stress_at_depth" not in found.maps):
         return [top]
-    depths, deep = found.maps["fatigue_depth"], found.summary["below"]
-    n = beside_worst(depths, deep["depth_m"]) if found.depth is None else int(np.argmin(np.abs(depths - found.depth * 1e-6)))
-    where, Fi = f"{depths[n] * 1e6:.3g} µm below", below[n] / found.summary["sigma_eF_Pa"]
-    if np.isclose(depths[n], deep["depth_m"]):
-        return [top, _worst(where, Fi, deep, found.points["below"])]
+    depths, worst = found.maps["fatigue_depth"], found.summary["below"]["depth_m"]
+    n = beside_worst(depths, worst) if found.depth is None else int(np.argmin(np.abs(depths - found.depth * 1e-6)))
+    return [top, _layer(found, depths[n], below[n])]
+
+
+def _layer(found, depth, stress):
+    """One depth (m) with its Findley stress (x, y): with the worst point where that lies there, else with its own largest."""
+    where, Fi, deep = f"{depth * 1e6:.3g} µm below", stress / found.summary["sigma_eF_Pa"], found.summary["below"]
+    if np.isclose(depth, deep["depth_m"]):
+        return _worst(where, Fi, deep, found.points["below"])
     i, j = np.unravel_index(int(np.argmax(Fi)), Fi.shape)
-    return [top, Layer(where, Fi, (found.maps["feature_frame_x"][i], found.maps["feature_frame_y"][j]))]
+    return Layer(where, Fi, (found.maps["feature_frame_x"][i], found.maps["feature_frame_y"][j]))
 
 
 def _worst(where, Fi, summary, history):
