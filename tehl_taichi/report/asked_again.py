@@ -80,7 +80,7 @@ class Answered:
 
 def _source(fatigue, run, constants):
     """Where its constants come from: that of the run's is not that of others."""
-    own, limits = run.scene.fatigue, [constants.get(f"{kind}_limit") for kind in ("bending", "torsion")]
+    own, limits = run.scene.fatigue, [constants.get(key) for key in ("bending_limit", "torsion_limit")]
     if constants.get("source") is not None or (fatigue.kappa, fatigue.endurance) == (own.kappa, own.endurance):
         return fatigue.source
     if None not in limits:

@@ -49,19 +49,19 @@ class Run:
         """What is doubtful, a sentence each; of a run that is not finished: in its scene."""
         return self.store.warnings
 
-    def fatigue(self, **constants: Any) -> Any:
+    def fatigue(self, *, progress: Any = None, threads: int | None = None, until: float | None = None, **constants: Any) -> Any:
         """Its fatigue again, with other constants: :func:`tehl_taichi.fatigue` of it; told apart up to where its grid resolves
-        the pressure, with the error bars of its index where they hold for these constants, too."""
+        the pressure (or `until`), with the error bars of its index where they hold for these constants, too."""
         from tehl_taichi.fatigue import fatigue
         from tehl_taichi.fatigue.constants import changed
         from tehl_taichi.march import companions
         from tehl_taichi.study import errors_again
 
-        if len(self.store) > 1:
-            constants.setdefault("until", companions.resolved(self.scene, self.store, self.store.scalar))
-        found = fatigue(self, **constants)
-        asked = {key: value for key, value in constants.items() if key not in ("until", "progress", "threads", "scene")}
-        errors_again.tell(found.summary, changed(self.scene, asked).fatigue, self.store)
+        scene = changed(self.scene, constants)
+        if until is None and len(self.store) > 1:
+            until = companions.resolved(self.scene, self.store, self.store.scalar)
+        found = fatigue(self, scene, progress=progress, threads=threads, until=until)
+        errors_again.tell(found.summary, scene.fatigue, self.store)
         return found
 
     def crack(self, **wanted: Any) -> Any:
