@@ -43,9 +43,12 @@ def unresolved(store, summary):
 
 
 def _where(store, n, p, i):
-    a = Scales.of(store.scene).a
-    when = f"of the passage ({where(store.scene)} at {store.feature_x(n) / a:.2f} a)" if n else "of the steady state"
-    return f"p_max {p.max() / 1e9:.2f} GPa {when}, at X = {store.x[i] / a:.2f}, is a few cells wide"
+    when = f"of the passage ({_moment(store, n)})" if n else "of the steady state"
+    return f"p_max {p.max() / 1e9:.2f} GPa {when}, at X = {store.x[i] / Scales.of(store.scene).a:.2f}, is a few cells wide"
+
+
+def _moment(store, n):
+    return f"{where(store.scene)} at {store.feature_x(n) / Scales.of(store.scene).a:.2f} a"
 
 
 def _because(store, i):
@@ -70,7 +73,7 @@ def ripples(store, summary):
     (size, i), n = worst_ripple(store, range(len(store)))
     if size > MOST_RIPPLE * float(store.scalar("p_max_Pa").max()):
         a, at_edge = Scales.of(store.scene).a, store.x[i] > 0 and _endless(store.scene)
-        when = f"{where(store.scene)} at {store.feature_x(n) / a:.2f} a, " if n else ""
+        when = f"{_moment(store, n)}, " if n else ""
         yield ((readings.EXIT if at_edge else "") + "the pressure ripples from node to node along x by up to "
                f"{size / 1e9:.3f} GPa ({when}X = {store.x[i] / a:.2f}): the grid's shortest wave, not a result; "
                + (NO_VALUE if at_edge else f"try another time.courant or {finer.told(store.scene)}"))

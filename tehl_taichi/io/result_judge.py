@@ -64,15 +64,15 @@ def largest_pressure(summary):
     return max(summary.get(part, {}).get("p_max_Pa", 0.0) for part in ("steady", "transient"))
 
 
-STEEL = f"hardened steel yields from about {YIELDS / 1e9:g} GPa on"
+STEEL = f"hardened steel yields from about {YIELDS / 1e9:g} GPa on (static limit of roller bearings, ISO 76), others earlier"
 
 
 def yielding(store, summary):
     """Pressures that no steel bears without yielding, while the bodies here stay elastic."""
     p = largest_pressure(summary)
     if p > YIELDS:
-        yield (f"p_max {p / 1e9:.2f} GPa: {STEEL} (static limit of roller bearings, ISO 76), others earlier; both bodies are "
-               "elastic here, in the first passages such a peak would be pressed flatter")
+        yield (f"p_max {p / 1e9:.2f} GPa: {STEEL}; both bodies are elastic here, in the first passages such a peak would be "
+               "pressed flatter")
 
 
 def worst_below(store, summary):

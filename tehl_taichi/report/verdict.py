@@ -142,9 +142,8 @@ def _yielding(summary):
     p = largest_pressure(summary)
     if "fatigue" not in summary or p <= YIELDS:
         return ()
-    return (f"The pressure reaches {p / 1e9:.1f} GPa, and {STEEL} (static limit of roller bearings, ISO 76), others earlier. "
-            "Both bodies are elastic here, true ones would press such a peak flatter: the index is that of elastic "
-            "bodies.",)
+    return (f"The pressure reaches {p / 1e9:.1f} GPa, and {STEEL}. Both bodies are elastic here, true ones would press such a "
+            "peak flatter: the index is that of elastic bodies.",)
 
 
 def _counted(fatigue):
