@@ -37,13 +37,9 @@ def compare(
     if as_json:
         print_json({**found.to_dict(), "figure": str(figure)})
         return
-    _tables(found)
-    say(str(figure))
-
-
-def _tables(found):
     _scenes(found)
     _results(found)
+    say(str(figure))
 
 
 def _scenes(found):
