@@ -6,6 +6,7 @@ from test_registry import hold
 from typer.testing import CliRunner
 
 from tehl_taichi.scene import SceneError, scene
+from tehl_taichi.scene.data_sheet import KEYS
 from tehl_taichi.scene.named_oils import NAMED, OILS, from_values
 from tehl_taichi.scene.oil import Oil
 
@@ -16,7 +17,7 @@ def test_every_named_oil_holds(name):
     oil = OILS[name]
     assert oil.name == name and oil.source == NAMED[name].source
     assert scene("gear").replace(**{"oil.name": name}).oil == from_values({"name": name}) == oil
-    assert NAMED[name].numbers.keys() <= {*oil.law_numbers, "viscosity", "D1", "D2", "beta0", "expansion"}
+    assert NAMED[name].numbers.keys() <= {*oil.law_numbers, "viscosity", "D1", "D2", "beta0", "expansion", *KEYS}
 
 
 def test_the_reference_oil_is_that_of_scenes():

@@ -5,7 +5,7 @@ import math
 import tomllib
 from pathlib import Path
 
-from tehl_taichi.scene import Scene, SceneError, scene
+from tehl_taichi.scene import Scene, SceneError, data_sheet, scene
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.parts import Body
@@ -79,8 +79,8 @@ def merge(base, data):
             base[key] = _merge_contact(base[key], value)
         elif key == "operation" and isinstance(value, dict) and {"u_a", "u_b"} & value.keys():
             base[key] = {"temperature": base[key]["temperature"], **value}
-        elif key == "oil" and isinstance(value, dict) and "name" in value:
-            base[key] = value  # a named oil brings its own numbers, not those of the base
+        elif key == "oil" and isinstance(value, dict) and ("name" in value or data_sheet.speaks(value)):
+            base[key] = value  # an oil with a name or a data sheet brings its own numbers, not those of the base
         elif isinstance(value, dict) and isinstance(value.get("material"), str) and value["material"]:
             base[key] = value  # so does a body of a named steel
         elif isinstance(value, dict) and isinstance(base.get(key), dict):

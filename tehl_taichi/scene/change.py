@@ -3,7 +3,7 @@
 import dataclasses
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene import given
+from tehl_taichi.scene import data_sheet, given
 from tehl_taichi.scene import named_oils as oils
 from tehl_taichi.scene.feature import SHAPES, USED_BY
 from tehl_taichi.scene.named_steels import STEELS
@@ -15,6 +15,7 @@ def applied(data, changes):
     """`data` (a scene as nested dictionary) with changes {full key: value}; what they replace is cleared. Raises SceneError."""
     _clear(data, changes)
     _name_oil(data, changes)
+    _read_sheet(data["oil"], changes)
     _name_steels(data, changes)
     for key in sorted(changes, key=lambda key: key.count(".")):  # whole tables before single values
         _assign(data, key, changes[key])
@@ -62,13 +63,32 @@ def _clear(data, changes):
 
 
 def _name_oil(data, changes):
-    """A known name brings the numbers of its oil; a new one must come with numbers."""
+    """A known name brings the numbers of its oil; a new one must come with numbers, or a data sheet."""
     name = changes.get("oil.name", data["oil"]["name"])
     if isinstance(name, str) and name in oils.OILS and "oil.name" in changes:
         data["oil"] = dataclasses.asdict(oils.OILS[name])
     elif name != data["oil"]["name"]:
-        oils.check_new(name, {key.partition(".")[2]: value for key, value in changes.items() if key.startswith("oil.")})
-        data["oil"]["source"] = oils.NO_SOURCE
+        new = _of_oil(changes)
+        if not data_sheet.speaks(new):
+            oils.check_new(name, new)
+            data["oil"].update(dict.fromkeys(data_sheet.KEYS, 0.0))
+        data["oil"]["source"] = "" if data_sheet.speaks(new) else oils.NO_SOURCE
+
+
+def _of_oil(changes):
+    return {key.partition(".")[2]: value for key, value in changes.items() if key.startswith("oil.")}
+
+
+def _read_sheet(oil, changes):
+    """A data sheet makes another oil of one that had none; what follows from it is found anew, its source, too, unless that is
+    the user's own."""
+    new = _of_oil(changes)
+    sheet = {**{key: oil[key] for key in data_sheet.KEYS}, **new}
+    if data_sheet.speaks(sheet) and not data_sheet.speaks(oil):
+        oil.update(name=changes.get("oil.name", data_sheet.NAME), viscosity=data_sheet.LAW, source="")
+    elif data_sheet.KEYS.keys() & new.keys() and (oil["source"].startswith(data_sheet.FROM) or oil["name"] in oils.OILS):
+        oil["source"] = "" if data_sheet.speaks(sheet) else oils.NO_SOURCE
+    oil.update(dict.fromkeys(data_sheet.follows(sheet)))
 
 
 def _name_steels(data, changes):

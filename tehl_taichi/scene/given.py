@@ -10,7 +10,9 @@ LOADS = ("contact.load", "contact.hertz_pressure", "contact.moes_M", "contact.mo
 BY_SURFACE = ("operation.u_a", "operation.u_b")
 # keys of one line say the same in different ways: only those of one of its groups can be given
 EXCLUSIVE = ((LOADS[:1], LOADS[1:2], LOADS[2:]), (BY_SURFACE, ("operation.u_m", "operation.srr")),
-             (LOADS[2:], ("operation.u_m", *BY_SURFACE)), (("time.steady_only",), ("time.steps",)))
+             (LOADS[2:], ("operation.u_m", *BY_SURFACE)), (("time.steady_only",), ("time.steps",)),
+             (("oil.nu_40", "oil.nu_100", "oil.alpha_40"), ("oil.G0", "oil.S0", "oil.Dz", "oil.Cz")),
+             (("oil.rho_15",), ("oil.rho0",)))
 
 
 def full_name(key):

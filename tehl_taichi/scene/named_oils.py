@@ -5,10 +5,11 @@ import dataclasses
 from tehl_taichi.errors import SceneError
 from tehl_taichi.physics import viscosity
 from tehl_taichi.registry import collect
-from tehl_taichi.scene import oils
+from tehl_taichi.scene import data_sheet, oils
 from tehl_taichi.scene.oil import Oil
 from tehl_taichi.values import checks
 from tehl_taichi.values.checks import build, nearest
+from tehl_taichi.values.plain import plain
 
 NAMED = collect(oils, oils.NamedOil)
 OILS = {name: entry.oil for name, entry in NAMED.items()}
@@ -17,14 +18,31 @@ NO_SOURCE = "not given"
 
 def from_values(values):
     """Oil from a table. The name of a known oil gives the values that are not named; a new name must bring the numbers of its
-    viscosity law (see :func:`check_new`), the others are those of the reference oil."""
+    viscosity law (see :func:`check_new`) or a data sheet, the others are those of the reference oil."""
     if not isinstance(values, dict):
         return build(Oil, values, "oil")
-    name = values.get("name", Oil.name)
-    if isinstance(name, str) and name in OILS:
-        return build(Oil, {**dataclasses.asdict(OILS[name]), **values}, "oil")
+    name = values.get("name", data_sheet.NAME if data_sheet.speaks(values) else Oil.name)
+    known = dataclasses.asdict(OILS[name]) if isinstance(name, str) and name in OILS else {}
+    if data_sheet.speaks({**known, **values}):
+        return _from_sheet(name, known, values)
+    if known:
+        return build(Oil, {**known, **values}, "oil")
     check_new(name, values)
     return build(Oil, {"source": NO_SOURCE, **values}, "oil")
+
+
+def _from_sheet(name, known, values):
+    """Oil by a data sheet. None stands for a number that follows from it, one that is given must agree with it."""
+    if known and not data_sheet.speaks(known):
+        raise SceneError(f"oil.name = {name!r} brings its own viscosity, not that of a data sheet (oil.nu_40, nu_100); leave "
+                         "the name out, or give the oil one of its own")
+    checks.text("oil.name", name, 100, empty=False)
+    changed = {"source": ""} if data_sheet.speaks(values) else {}  # of a known oil: it is another one
+    merged = {**known, **changed, "name": name, **values}
+    free = data_sheet.follows(merged)
+    oil = build(Oil, {key: value for key, value in merged.items() if key not in free}, "oil")
+    data_sheet.check_free({key: plain(values[key]) for key in free if values.get(key) is not None}, vars(oil))
+    return oil
 
 
 def check_new(name, given):
@@ -35,4 +53,5 @@ def check_new(name, given):
     missing = [key for key in ("viscosity", *needed) if key not in given]
     if missing:
         raise SceneError(f"oil.name = {name!r} is not known{nearest(name, OILS)}; known: {', '.join(OILS)}; a new oil brings "
-                         f"its viscosity law and its numbers: oil.{', oil.'.join(missing)} missing")
+                         f"its viscosity law and its numbers: oil.{', oil.'.join(missing)} missing; or its data sheet: "
+                         "oil.nu_40, oil.nu_100")

@@ -4,12 +4,14 @@ from dataclasses import dataclass
 
 from tehl_taichi.physics import conduction, density, viscosity
 from tehl_taichi.physics.law import declared, section
+from tehl_taichi.scene import data_sheet
 from tehl_taichi.values.quantity import check, choice, kinds, text
 
 _OIL = section(
     "_OIL", name=text("reference-pao", "`tehl oils` lists the named ones"),
     source=text("PAO of Everitt, licentiate thesis 2018; density after Larsson et al. 2000", "origin of its numbers",
                 one_line=False),
+    **data_sheet.KEYS,
     viscosity=choice("roelands-temperature", "law of the viscosity (`tehl laws`)", tuple(viscosity.LAWS)),
     **declared(viscosity.LAWS),
     density=choice("dowson-higginson", "law of the density (`tehl laws`)", tuple(density.LAWS)),
@@ -22,14 +24,18 @@ _OIL = section(
 class Oil(_OIL):
     """A lubricant; each law has its own numbers, those of laws that it did not choose are not used.
 
-    The laws and their numbers stand in tehl_taichi/physics: viscosities, densities and conduction.py.
+    The laws and their numbers stand in tehl_taichi/physics: viscosities, densities and conduction.py. With `nu_40` and `nu_100`
+    of a data sheet the numbers of the viscosity follow from these.
     """
 
     def __post_init__(self):
+        data_sheet.check_range(self)
         check(self, "oil")
         for key in self.law_numbers:
             if getattr(self, key) == ():
                 raise kinds(Oil)[key].refusal(f"oil.{key}", ())
+        for key, value in data_sheet.completed(self).items():
+            object.__setattr__(self, key, value)
 
     @property
     def law_numbers(self):

@@ -5,10 +5,12 @@ import dataclasses
 from tehl_taichi.errors import SceneError
 from tehl_taichi.physics import viscosity
 from tehl_taichi.physics.law import declared
+from tehl_taichi.scene import data_sheet, mineral_alpha
 from tehl_taichi.scene.named_oils import OILS
+from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.scales import Scales
 
-NOT_HEAT = ("name", "source", "viscosity", "expansion", *declared(viscosity.LAWS))
+NOT_HEAT = ("name", "source", "viscosity", "expansion", *declared(viscosity.LAWS), *data_sheet.KEYS)
 
 
 def check(scene):
@@ -27,7 +29,7 @@ def _said(scene, what):
 
 def warnings(scene):
     """What is doubtful about the oil of a scene."""
-    return [*_name(scene.oil), *_said(scene, "doubted"), *_without_temperature(scene), *_moes(scene)]
+    return [*_name(scene.oil), *_estimate(scene.oil), *_said(scene, "doubted"), *_without_temperature(scene), *_moes(scene)]
 
 
 def _name(oil):
@@ -40,12 +42,31 @@ def _name(oil):
             yield (f"oil.name = {oil.name} with other numbers than that oil ({', '.join(other)}): it is another oil; give it "
                    "a name of its own")
         return
-    of_heat, of_law = [key for key in values if key not in NOT_HEAT], (*oil.law_numbers, "viscosity")
+    of_heat = [key for key in values if key not in (*NOT_HEAT, *["rho0"] * (oil.rho_15 > 0))]
     heat = [known for known in OILS.values() if all(values[key] == getattr(known, key) for key in of_heat)]
-    whole = [known for known in heat if all(values[key] == getattr(known, key) for key in of_law)]
+    whole = [known for known in heat if all(values[key] == getattr(known, key) for key in (*oil.law_numbers, "viscosity"))]
     if heat:
-        same = "all its numbers" if whole else "its density, conductivity and heat capacity"
-        yield f"oil.name = {oil.name}: {same} are those of {', '.join(known.name for known in whole or heat)}"
+        yield f"oil.name = {oil.name}: {_same(oil, whole)} are those of {_known(whole or heat)}"
+
+
+def _same(oil, whole):
+    """What it has in common with known oils."""
+    dense = "density, " if not oil.rho_15 else "density's rise with pressure, "
+    return "all its numbers" if whole else f"its {dense}conductivity and heat capacity"
+
+
+def _known(oils):
+    """Their names; of the reference oil that alone, others have it from there."""
+    names = [oil.name for oil in oils]
+    return Oil.name if Oil.name in names else ", ".join(names)
+
+
+def _estimate(oil):
+    """Alpha that was not given."""
+    if data_sheet.estimated(oil):
+        alpha = data_sheet.alpha_40(oil.nu_40, oil.rho0, oil.Dz)
+        yield (f"oil.alpha_40 is not given: alpha at 40 deg C is estimated as {alpha * 1e9:.3g} 1/GPa, of a "
+               f"mineral oil within {mineral_alpha.WITHIN * 100:g} % (8 % of the film); a PAO may have a quarter less")
 
 
 def _without_temperature(scene):

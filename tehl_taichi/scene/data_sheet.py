@@ -1,0 +1,138 @@
+"""An oil by its data sheet: kinematic viscosities at 40 and 100 deg C, perhaps its density at 15 and alpha at 40 deg C.
+
+They become, once, where an Oil is made, the numbers of the law roelands-temperature, so that no law knows of data sheets: G0
+and S0 such that both viscosities at p = 0 are met exactly, Z from alpha, the same at all temperatures (Cz = 0).
+"""
+
+import math
+
+from tehl_taichi.errors import SceneError
+from tehl_taichi.physics import density
+from tehl_taichi.physics.densities import RHO0
+from tehl_taichi.physics.viscosities.roelands_temperature import P_ROELANDS, ROELANDS_TEMPERATURE
+from tehl_taichi.scene import mineral_alpha
+from tehl_taichi.values.checks import HUGE
+from tehl_taichi.values.plain import plain
+from tehl_taichi.values.quantity import quantity
+
+NAME = "data-sheet"  # of an oil that is given no other
+LAW = ROELANDS_TEMPERATURE.name
+FROM = "data sheet: "  # begins the source of an oil that is given no other
+LOG_SCALE, LN_SCALE = 4.2, 9.67  # of that law: log10 eta0 + 4.2 and ln eta0 + 9.67
+KEYS = {"nu_40": quantity(0.0, "m2/s", "of a data sheet, with nu_100 in place of the law's numbers: kinematic viscosity at 40 "
+                          "deg C (220 mm2/s: 220e-6); 0: not given", 0.0, 0.1),
+        "nu_100": quantity(0.0, "m2/s", "the same at 100 deg C", 0.0, 0.1),
+        "alpha_40": quantity(0.0, "1/Pa", "rise of the viscosity with pressure at 40 deg C, beside nu_40 and nu_100; 0: "
+                             "estimated as of a mineral oil", 0.0, 1e-7),
+        "rho_15": quantity(0.0, "kg/m3", "density at 15 deg C, beside nu_40 and nu_100, in place of rho0; 0: not given",
+                           0.0, 3000.0)}
+# what a sheet can say of each, in its unit; and the unit that sheets have, over it: of what is typed as it stands there
+SAYS = {"nu_40": (1e-6, 0.1, "mm2/s", "e-6"), "nu_100": (1e-6, 0.1, "mm2/s", "e-6"), "alpha_40": (1e-9, 1e-7, "1/GPa", "e-9"),
+        "rho_15": (500.0, 3000.0, "kg/l", "e3")}
+VISCOSITY = ("G0", "S0", "Dz", "Cz")
+
+
+def speaks(values):
+    """Whether some of these values of an oil are of a data sheet."""
+    return any(plain(values.get(key, 0)) != 0 for key in KEYS)
+
+
+def follows(values):
+    """Names of the numbers that follow from the sheet of these values, () without one."""
+    return () if not speaks(values) else (*VISCOSITY, "rho0") if values.get("rho_15", 0) else VISCOSITY
+
+
+def check_range(oil):
+    """Refuse a number that no oil has; where it stands as on a sheet, say how it is written here. Raises SceneError."""
+    for key, (low, high, unit, power) in SAYS.items():
+        value, own = plain(getattr(oil, key)), KEYS[key].metadata["kind"].unit
+        number = isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < HUGE
+        if number and value != 0 and not low <= value <= high:
+            meant = f"; did you mean {value:g}{power} ({value:g} {unit})?" if low <= value * float("1" + power) <= high else ""
+            raise SceneError(f"oil.{key} = {value:g} {own} is out of range; allowed: {low:g} to {high:g} {own}{meant}")
+
+
+def completed(oil):
+    """{key: value} that follow from the sheet of an oil, nothing where it has none. Raises SceneError where it contradicts
+    itself or what else is given."""
+    values = vars(oil)
+    if not speaks(values):
+        return {}
+    _check(oil)
+    found = {"rho0": oil.rho_15 / _expansion(oil, 15.0) if oil.rho_15 else oil.rho0}
+    found |= _viscosity(oil, found["rho0"])
+    fresh = {key: found[key] for key in follows(values)}
+    check_free({key: values[key] for key in fresh if values[key] != _declared(key).default}, fresh)
+    return {**fresh, "source": words(oil, found)} if oil.source in ("", type(oil).source) else fresh
+
+
+def check_free(given, fresh):
+    """Refuse numbers {key: value} beside a sheet unless they are those that follow from it. Raises SceneError."""
+    for key, value in given.items():
+        _declared(key).metadata["kind"].check(f"oil.{key}", value)
+    wrong = [key for key in given if not math.isclose(given[key], fresh[key], rel_tol=1e-6)]
+    if wrong:
+        numbers = ", ".join(f"{key} = {fresh[key]:.6g}" for key in wrong)
+        sheet = "oil.rho_15" if wrong == ["rho0"] else "oil.nu_40, nu_100"
+        raise SceneError(f"oil.{wrong[0]} = {given[wrong[0]]:g} and the data sheet ({sheet}) contradict each other: the sheet "
+                         f"gives {numbers}; leave {', '.join(wrong)} out, or the keys of the sheet")
+
+
+def estimated(oil):
+    """Whether alpha of this oil is an estimate."""
+    return oil.nu_40 > 0 and not oil.alpha_40
+
+
+def alpha_40(nu_40, rho0, Z):
+    """1/Pa, d ln(eta)/dp at p = 0 and 40 deg C of that law."""
+    return Z * P_ROELANDS * _ln_rise(nu_40 * rho0)
+
+
+def words(oil, found):
+    """Where the numbers of an oil with a sheet come from; found: what follows from it, and rho0."""
+    rho0 = found["rho0"]
+    density_ = f", {oil.rho_15:g} kg/m3 at 15 deg C" if oil.rho_15 else f"; {rho0:g} kg/m3 at 40 deg C, not from there"
+    alpha = f"alpha {alpha_40(oil.nu_40, rho0, found['Dz']) * 1e9:.3g} 1/GPa at 40 deg C"
+    estimate = "" if oil.alpha_40 else f" estimated as of a mineral oil, within {mineral_alpha.WITHIN * 100:g} %"
+    return (f"{FROM}{oil.nu_40 * 1e6:.4g} mm2/s at 40 deg C, {oil.nu_100 * 1e6:.4g} mm2/s at 100 deg C{density_}; "
+            f"{alpha}{estimate}")
+
+
+def _check(oil):
+    """Both viscosities, the first the larger, no other law, and one of which alpha is known."""
+    if not (oil.nu_40 and oil.nu_100):
+        known = next(key for key in KEYS if getattr(oil, key))
+        missing = " and ".join(f"oil.{key}" for key in ("nu_40", "nu_100") if not getattr(oil, key))
+        raise SceneError(f"oil.{known} = {getattr(oil, known):g} {KEYS[known].metadata['kind'].unit} is of a data sheet, which "
+                         f"needs both viscosities: {missing} missing")
+    if not oil.nu_40 > oil.nu_100:
+        raise SceneError(f"oil.nu_100 = {oil.nu_100:g} m2/s must be less than nu_40 = {oil.nu_40:g} m2/s: oil thins with heat")
+    if oil.viscosity != LAW:
+        raise SceneError(f"oil.viscosity = {oil.viscosity!r} takes no data sheet (oil.nu_40, nu_100); allowed with one: {LAW}")
+    if estimated(oil) and not mineral_alpha.holds(oil.nu_40, oil.nu_100):
+        m, (low, high) = mineral_alpha.slope(oil.nu_40, oil.nu_100), mineral_alpha.STEEPNESS
+        raise SceneError(f"oil.alpha_40 is missing: with oil.nu_40 = {oil.nu_40:g} m2/s and nu_100 = {oil.nu_100:g} m2/s the "
+                         f"viscosity is no mineral oil's, of which alpha could be estimated (slope {m:.3g} of ASTM D341, "
+                         f"theirs {low:g} to {high:g})")
+
+
+def _viscosity(oil, rho0):
+    """G0, S0, Dz, Cz at that density (kg/m3, 40 deg C): eta = nu rho, each at its own temperature."""
+    eta_40, eta_100 = oil.nu_40 * rho0, oil.nu_100 * rho0 * _expansion(oil, 100.0)
+    cold, hot = math.log10(eta_40) + LOG_SCALE, math.log10(eta_100) + LOG_SCALE
+    S0 = math.log(cold / hot) / math.log(235 / 175)  # (1 + Gamma/135) at 100 over that at 40 deg C
+    Z = oil.alpha_40 / (P_ROELANDS * _ln_rise(eta_40)) or mineral_alpha.exponent(oil.nu_40, oil.nu_100)
+    return {"G0": cold * (175 / 135) ** S0, "S0": S0, "Dz": Z, "Cz": 0.0}
+
+
+def _ln_rise(eta):
+    return math.log(eta) + LN_SCALE
+
+
+def _expansion(oil, Gamma):
+    """Density at p = 0 over that at 40 deg C."""
+    return float(density.LAWS[oil.density].expansion(oil, 0.0, Gamma))
+
+
+def _declared(key):
+    return RHO0 if key == "rho0" else ROELANDS_TEMPERATURE.numbers[key]
