@@ -141,6 +141,7 @@ def test_what_follows_is_found_anew_with_every_change():
     spread = first.replace(**{"oil.beta0": 8e-4}).oil
     assert nu(spread, 100.0) == pytest.approx(19e-6, rel=1e-9) and spread.G0 != first.oil.G0
     assert first.replace(**{"oil.source": "ours"}).replace(**{"oil.nu_40": 230e-6}).oil.source == "ours"
+    assert GEAR.replace(**{"oil.name": "mineral-vg220"}).replace(**{"oil.nu_100": 20e-6}).oil.source.startswith("data sheet: ")
 
 
 def test_where_the_numbers_come_from_is_told():
@@ -187,3 +188,12 @@ def test_a_study_over_a_viscosity_of_the_sheet():
     assert alpha(made.case(3).oil, 40.0) == pytest.approx(25e-9, rel=1e-5)
     with pytest.raises(SceneError, match="did you mean 220e-6"):
         plan(GEAR.replace(**SET), {"oil.nu_40": [200e-6, 220.0]}).refused()
+
+
+@pytest.mark.parametrize("grade, nu_100", [(220, 18.75), (320, 23.96)])
+def test_gear_oils_are_those_of_their_grade(grade, nu_100):
+    oil = NAMED[f"mineral-vg{grade}"].oil
+    assert nu(oil, 40.0) * 1e6 == pytest.approx(grade, rel=1e-9) and nu(oil, 100.0) * 1e6 == pytest.approx(nu_100, rel=1e-9)
+    assert "made of ISO 3448" in oil.source and "estimated" in oil.source and data_sheet.estimated(oil)
+    with pytest.raises(SceneError, match="gives G0"):
+        from_values({"name": oil.name, "G0": 4.57})

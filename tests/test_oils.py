@@ -32,7 +32,8 @@ def test_an_unknown_name_is_refused_with_those_that_are_known():
 
 
 @pytest.mark.parametrize("name, grade", [("mineral-vg68", 68), ("mineral-vg100", 100), ("mineral-vg150", 150),
-                                         ("mineral-vg460", 460), ("mineral-vg100-steep", 100)])
+                                         ("mineral-vg460", 460), ("mineral-vg100-steep", 100),
+                                         ("mineral-vg220", 220), ("mineral-vg320", 320)])
 def test_a_grade_in_a_name_is_that_of_iso_3448(name, grade):
     """Within 10 % of the grade in mm2/s at 40 deg C, for any density that such an oil can have."""
     for density in (850.0, 880.0):

@@ -1,0 +1,28 @@
+"""Mineral gear oils of the grades that mineral_oils.py does not have, by a data sheet as such oils have it.
+
+The viscosity at 40 deg C is the grade's midpoint (ISO 3448), that at 100 deg C the one of viscosity index 95 (ASTM D2270:
+VI = 100 (L - nu_40)/(L - H), L and H tabulated over nu_100); 890 kg/m3 at 15 deg C is usual. Alpha is an estimate.
+"""
+
+from tehl_taichi.registry import Checked
+from tehl_taichi.scene.oils import NamedOil
+
+RHO_40 = 890 / 1.017  # kg/m3; by hand: 25 K at 6.8e-4 1/K
+RHO_100 = RHO_40 * 0.9592
+
+
+def _gear_oil(grade, nu_100, L, H):
+    """An entry; nu_100 in mm2/s with L and H of the standard's table at it, interpolated."""
+    return NamedOil(
+        name=f"mineral-vg{grade}", says=f"gear oil, ISO VG {grade}, VI 95",
+        source=f"mineral, made of ISO 3448 ({grade} mm2/s at 40 deg C), viscosity index 95 (ASTM D2270: {nu_100:g} mm2/s "
+               "at 100 deg C), 890 kg/m3 at 15 deg C; alpha estimated as of a mineral oil, within 15 %; conductivity and heat "
+               "capacity are those of the reference PAO",
+        numbers=dict(nu_40=grade * 1e-6, nu_100=nu_100 * 1e-6, rho_15=890.0),
+        known=((0.0, 40.0, grade * 1e-6 * RHO_40, 1e-6, "by hand: nu rho at 40 deg C"),
+               (0.0, 100.0, nu_100 * 1e-6 * RHO_100, 1e-6, "by hand: nu rho at 100 deg C")),
+        checked=(Checked("viscosity index, ASTM D2270", 95.0, lambda: 100 * (L - grade) / (L - H), 1e-3),))
+
+
+VG220 = _gear_oil(220, 18.75, 439.4, 208.45)
+VG320 = _gear_oil(320, 23.96, 681.86, 301.02)
