@@ -29,15 +29,16 @@ def scenes():
 
 def oils():
     """List the named oils with their viscosity (at p = 0) and its rise with pressure, and their sources."""
-    from tehl_cli.listing import list_table
+    from tehl_cli.listing import list_table, wrapped
 
     from tehl_taichi.scene.named_oils import NAMED
 
-    rows = [(name, oil.says, oil.oil.viscosity, *oil.told) for name, oil in NAMED.items()]
-    list_table("named oils (--set oil.name=NAME); at p = 0: eta in mPa s at 40 and 100 C, alpha in 1/GPa at 40 C",
-               ("name", "what", "viscosity law", "eta 40", "eta 100", "alpha"), rows)
+    list_table("named oils; at p = 0: eta in mPa s at 40 and 100 C, alpha in 1/GPa at 40 C",
+               ("name", "what", "eta 40", "eta 100", "alpha"), [(name, oil.says, *oil.told) for name, oil in NAMED.items()])
     for name, oil in NAMED.items():
-        print(f"{name}: {oil.source}")
+        wrapped(f"{name}: {oil.source} [{oil.oil.viscosity}]")
+    wrapped("one of them: --set oil.name=NAME; your own by its data sheet (m2/s, kg/m3): --set oil.nu_40=220e-6 "
+            "--set oil.nu_100=19e-6 --set oil.rho_15=890")
 
 
 def laws():

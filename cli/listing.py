@@ -42,6 +42,15 @@ def warning_lines(sentences):
         print(f"warning: {sentence}")
 
 
+def wrapped(sentence):
+    """Print a sentence within the width of the terminal, further lines indented."""
+    import shutil
+    import textwrap
+
+    width = max(shutil.get_terminal_size().columns, NAME)
+    print(textwrap.fill(sentence, width, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False))
+
+
 def list_table(title, columns, rows, whole=False):
     """Print rows under column names; whole: as wide as they are, where there is no terminal whose width counts."""
     from rich.console import Console

@@ -197,3 +197,11 @@ def test_gear_oils_are_those_of_their_grade(grade, nu_100):
     assert "made of ISO 3448" in oil.source and "estimated" in oil.source and data_sheet.estimated(oil)
     with pytest.raises(SceneError, match="gives G0"):
         from_values({"name": oil.name, "G0": 4.57})
+
+
+def test_the_list_reads_well_on_80_columns():
+    lines = CliRunner(env={"COLUMNS": "80"}).invoke(app, ["oils"]).stdout.splitlines()
+    assert max(map(len, lines)) <= 80 and lines[0].startswith("named oils") and not lines[1].strip(" ┏━┳┓")
+    row, = [line for line in lines if "mineral-vg220" in line and "│" in line]
+    assert "gear oil, ISO VG 220, VI 95" in row and "193" in row and "27.1" in row
+    assert any(line.startswith("mineral-vg220: mineral, made of ISO 3448") for line in lines)
