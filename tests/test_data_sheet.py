@@ -79,6 +79,12 @@ def test_the_estimate_of_alpha_holds_for_the_mineral_oils_of_the_table():
     assert abs(sum(errors)) / len(errors) < 0.01
 
 
+def test_the_law_is_near_the_viscosities_of_the_table_between():
+    """Of the thinnest, the first, less so."""
+    errors = [math.exp(ln_eta(by_walther(eta), 0.0, 60.0)) * 1e3 / eta[1] - 1 for eta, _ in TABLE]
+    assert max(map(abs, errors[1:])) < 0.055 and 0.1 < errors[0] < 0.13
+
+
 def test_the_reference_pao_has_a_quarter_less_than_the_estimate():
     pao = NAMED["reference-pao"].oil
     guess = from_values({"nu_40": nu(pao, 40.0), "nu_100": nu(pao, 100.0)})

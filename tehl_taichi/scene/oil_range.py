@@ -65,8 +65,9 @@ def _estimate(oil):
     """Alpha that was not given."""
     if data_sheet.estimated(oil):
         alpha = data_sheet.alpha_40(oil.nu_40, oil.rho0, oil.Dz)
-        yield (f"oil.alpha_40 is not given: alpha at 40 deg C is estimated as {alpha * 1e9:.3g} 1/GPa, of a "
-               f"mineral oil within {mineral_alpha.WITHIN * 100:g} % (8 % of the film); a PAO may have a quarter less")
+        yield (f"oil.alpha_40 is not given: alpha at 40 deg C is estimated as {alpha * 1e9:.3g} 1/GPa, "
+               f"for a handbook's mineral oils within {mineral_alpha.WITHIN * 100:g} % (8 % of the film); a PAO may have "
+               "a quarter less")
 
 
 def _without_temperature(scene):
