@@ -1,5 +1,7 @@
 """The note of a scene: kept and shown with its run, told as a difference, and nothing more."""
 
+import json
+
 import made_results
 import pytest
 from read_pages import page
@@ -38,6 +40,11 @@ def test_it_makes_no_other_scene_and_no_other_study():
     one, other = (plan(each, {"srr": [-0.1, 0.1]}) for each in (SMALL, NOTED))
     assert one.name == other.name and one.told_by(other.text) and other.told_by(one.text)
     assert not one.told_by(plan(SMALL, {"srr": [-0.1, 0.2]}).text) and not one.told_by("{}")
+    without = json.loads(one.text)  # as before there were notes
+    del without["scene"]["note"], without["scene"]["oil"]["nu_40"]
+    assert one.told_by(json.dumps(without))
+    without["scene"]["oil"]["G0"] *= 1.01
+    assert not one.told_by(json.dumps(without))
     assert plan(SMALL.replace(srr=0.1), {"height": [1e-6]}).name != plan(SMALL, {"height": [1e-6]}).name
 
 

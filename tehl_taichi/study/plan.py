@@ -75,10 +75,9 @@ class Plan:
         return json.dumps({"scene": {**self.scene.to_dict(), **other}, "axes": axes, "drawn": self.drawn}, sort_keys=True)
 
     def told_by(self, text):
-        """Whether such a text is of this plan; another note makes no other plan."""
+        """Whether such a text is of this plan; another note makes no other plan, nor do keys that came after it was written."""
         try:
-            scene = json.loads(text)["scene"]
-            return text == self._text(**{key: scene[key] for key in ("note",) if key in scene})
+            return type(self).from_text(text) == self
         except (ValueError, KeyError, TypeError):
             return False
 
