@@ -5,8 +5,8 @@ import stat
 
 import numpy as np
 import pytest
+from made_figures import Made, made
 from small_stores import store
-from test_figures import Made, made
 
 import tehl_taichi as tehl
 from tehl_taichi.errors import SceneError, StoreError

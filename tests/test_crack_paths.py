@@ -7,9 +7,9 @@ import sys
 
 import numpy as np
 import pytest
+from read_pages import Seen, numbers
 from rolling import Rolling
 from small_stores import SMALL, shot
-from test_report import Seen, go, numbers
 
 import tehl_taichi as tehl
 from tehl_taichi.crack import growth
@@ -310,6 +310,7 @@ def test_the_command(taichi_cpu, tmp_path, capsys):
 
 def _in_the_report(store, summary):
     """What was kept stands there, and its path is drawn; not with another run in that place, nor if it is damaged."""
+    go = pytest.importorskip("plotly.graph_objects")
     page = Seen(tehl.report(store).read_text(encoding="utf-8"))
     entry, K = summary["sides"]["entry"], page.figures["K-entry"]["data"]
     assert "Cracks" in page.headings and "friction of closed faces\n0.1\n" in page.text and "None" not in page.text
