@@ -74,6 +74,24 @@ def test_a_scan_that_is_upside_down_is_asked_about(tmp_path):
     assert first.endswith("plane and curvature taken off (convex with a radius of 12 mm along x)")
 
 
+def test_a_scan_that_lies_across_is_asked_about(tmp_path):
+    """The bodies of a line contact are curved along x alone; those of an ellipse along y, too."""
+    def asked(transpose, of="gear"):
+        found = feature(flank(tmp_path), pixel=5e-6, level="form", scale=-1.0, transpose=transpose)
+        return "".join(said for said in found.kind.doubts(found, scene(of)) if "lie across" in said)
+
+    assert "a radius of 12 mm along y, across the rolling direction" in asked(True)
+    assert asked(True).endswith("feature.transpose = false turns it")
+    assert asked(False) == asked(True, "ball-on-disc") == ""
+
+
+def test_what_does_not_fit_into_the_gap_is_told_to_be_a_form(tmp_path):
+    high = dict(shape="map", unit="um", file=str(flank(tmp_path)), pixel=5e-6, scale=5.0)
+    with pytest.raises(SceneError, match="undeformed gap of .* all but .* one curvature.*'form' takes it off"):
+        scene("gear").replace(feature=[high], **{"grid.x_max": 1.2})
+    assert scene("gear").replace(feature=[{**high, "level": "form"}], **{"grid.x_max": 1.2}).features
+
+
 def test_curvatures_are_those_of_a_paraboloid():
     y, x = np.mgrid[:31, :40] * np.array([3e-6, 2e-6])[:, None, None]
     along, across = height_map.curvature(1e-6 + 0.02 * x - 0.5 * x * x / 0.012 + 0.5 * y * y / 0.4, (2e-6, 3e-6))

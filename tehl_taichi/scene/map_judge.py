@@ -23,7 +23,7 @@ def doubts(f, scene):
     """Sentences about a map that has holes, has the form of its body, is flat or steep, finer or coarser than the grid, or ends
     in a step."""
     cutoff = functools.cache(lambda: _cutoff(f, scene))  # wanted up to twice; to look for it, the map is filtered several times
-    return [*_holes(f), *_form(f), *_size(f, cutoff), *_grid(f, scene, cutoff), *_rim(f)]
+    return [*_holes(f), *form(f), *_across(f, scene), *_size(f, cutoff), *_grid(f, scene, cutoff), *_rim(f)]
 
 
 def lines(f, scene):
@@ -60,16 +60,24 @@ def _holes(f):
                "neighbours, so nothing that passes there is known")
 
 
-def _form(f):
-    form = f.form
-    if not form.dominant:
+def form(f):
+    """Sentences about a map that is mostly the form of a body."""
+    found = f.form
+    if not found.dominant:
         return
-    turned = "" if form.convex else f". {TURNED}"
+    turned = "" if found.convex else f". {TURNED}"
     if f.level != "form":
-        yield (f"{_name(f)}: all but {_um(form.left)} um of its rms of {_um(form.flat)} um are one curvature, {form.says}. If "
-               f"it is that of the body, whose radius the scene has already, feature.level = 'form' takes it off{turned}")
+        yield (f"{_name(f)}: all but {_um(found.left)} um of its rms of {_um(found.flat)} um are one curvature, {found.says}. "
+               f"If it is that of the body, whose radius the scene has already, feature.level = 'form' takes it off{turned}")
     elif turned:
-        yield f"{_name(f)}: the form taken off is {form.says}{turned}"
+        yield f"{_name(f)}: the form taken off is {found.says}{turned}"
+
+
+def _across(f, scene):
+    """A form that is not that of the bodies: those of a line contact are curved along x alone."""
+    if scene.contact.kind == "line" and f.form.dominant and f.form.axis == "y":
+        yield (f"{_name(f)}: its form is {f.form.says}, across the rolling direction, but the bodies of a line contact are "
+               f"curved along x alone; does the scan lie across? feature.transpose = {str(not f.transpose).lower()} turns it")
 
 
 def _size(f, cutoff):

@@ -7,7 +7,7 @@ from typing import Any
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.physics.shear.newtonian import NEWTONIAN
-from tehl_taichi.scene import change, given, judge, named_oils, oil_range, passing, scales
+from tehl_taichi.scene import change, given, judge, map_judge, named_oils, oil_range, passing, scales
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.named_steels import completed
 from tehl_taichi.scene.oil import Oil
@@ -115,7 +115,12 @@ class Scene:
                 raise SceneError(f"{self._load_words()} gives a half-width a of {s.a:.3g} m and so, at grid.{key} = {end:g} "
                                  "a, an "
                                  f"undeformed gap of {gap:.3g} m, smaller than the height of a feature, {highest:.3g} m; "
-                                 f"allowed: a height of at most {gap:.2g} m, more load{farther}")
+                                 f"allowed: a height of at most {gap:.2g} m, more load{farther}{self._form_words()}")
+
+    def _form_words(self):
+        """What is said of the form of a measured feature, which makes it higher than it need be."""
+        said = (sentence for f in self.features if f.kind.measured for sentence in map_judge.form(f))
+        return "".join(f". {sentence}" for sentence in said)
 
     def _load_words(self):
         """The load as it was given."""
