@@ -53,6 +53,7 @@ def run(
     Examples: `tehl run --srr -0.12` · `tehl run dent --grid coarse` · `tehl run my.toml --set feature.height=1e-6`
     """
     import tehl_taichi as tehl
+    from tehl_taichi.io.found import find_changed
 
     changes = given_by(
         {"srr": srr, "load": load, "hertz_pressure": hertz_pressure, "speed": speed, "temperature": temperature,
@@ -60,8 +61,7 @@ def run(
          "fatigue.on": fatigue, "numerics.estimate_error": estimate_error, "numerics.precision": precision,
           "time.steady_only": steady or None},
         grid, set_ or [])
-    description = tehl.scene(scene)
-    description = description.replace(**changes) if changes else description
+    description = find_changed(scene, changes)
     check_rows(grid, changes, lambda: description)
     description = _on_grid_for(target_error, changes, description)
     with Live(quiet, curves) as live:

@@ -69,7 +69,7 @@ def sweep(
 
 def _planned(name, over, samples, seed, changes, grid, out):
     """(plan, where its study goes or None) of a scene with --over, of a study file, or of a study."""
-    from tehl_taichi.io.found import find
+    from tehl_taichi.io.found import find_changed
     from tehl_taichi.scene import SceneError
     from tehl_taichi.study import study_file
     from tehl_taichi.study.plan import plan
@@ -81,7 +81,7 @@ def _planned(name, over, samples, seed, changes, grid, out):
         raise SceneError(f"{name} says what is swept: leave out --over, --samples, --set and the like")
     if whole:
         return (study_file.load(name), out) if study_file.is_study_file(name) else (Study.open(name).plan, out or Path(name))
-    scene = find(name).replace(**changes) if changes else find(name)
+    scene = find_changed(name, changes)
     check_rows(grid, changes, lambda: scene)
     return plan(scene, over_of(over, samples is not None), samples, seed), out
 

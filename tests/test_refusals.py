@@ -7,6 +7,7 @@ import tomllib
 import pytest
 
 from tehl_taichi.io import scene_file
+from tehl_taichi.io.found import find, find_changed
 from tehl_taichi.scene import Scene, SceneError, scene
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.oil import Oil
@@ -209,3 +210,19 @@ def test_parts_of_another_kind():
     refused(lambda: Body(E="x"), "bodies.E")
     refused(lambda: Contact(load=10**400), "contact.load = 1000")
     assert Scene(features=[Feature()]).features == (Feature(),)
+
+
+@pytest.mark.parametrize("base", ('base = "gear"\n', ""))
+def test_what_is_set_may_be_what_a_file_needs(tmp_path, base):
+    """The file alone is refused; with what is given beside it it is as if that stood in the file."""
+    path = tmp_path / "mine.toml"
+    path.write_text(base + '[[feature]]\nheight = 1e-6\n[grid]\nx_max = 0.2\n[oil]\nname = "mineral-vg68"\n')
+    with pytest.raises(SceneError, match="grid.x_max = 0.2"):
+        find_changed(path, {})
+    with pytest.raises(SceneError, match="grid.x_max = 0.3"):
+        find_changed(path, {"grid.x_max": 0.3})
+    found = find_changed(path, {"grid.x_max": 1.5, "feature.0.height": 2e-6, "operation.srr": 0.1})
+    path.write_text(path.read_text().replace("x_max = 0.2", "x_max = 1.5").replace("1e-6", "2e-6"))
+    assert found == find_changed(path, {"srr": 0.1}) == find(path).replace(srr=0.1) and found.oil.name == "mineral-vg68"
+    with pytest.raises(SceneError, match="did you mean 'width'"):
+        find_changed(path, {"feature.0.wdth": 2e-6})

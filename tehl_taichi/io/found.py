@@ -26,6 +26,20 @@ def find(name: str | os.PathLike | Scene = "gear") -> Scene:
     return built_in(name) if name in BUILT_INS else _from_file(Path(name))
 
 
+def find_changed(name, changes):
+    """The scene by its name with changes {full key: value}. They may be what a file needs: one that is refused by itself counts
+    with them written into it. Raises SceneError."""
+    from tehl_taichi.io import scene_file
+
+    try:
+        found = find(name)
+    except SceneError:
+        if not changes or not Path(name).is_file():
+            raise
+        found = scene_file.load(name, changes)
+    return found.replace(**changes) if changes else found
+
+
 def _from_file(path):
     """Scene of a store or a TOML file; what is neither was meant as a name."""
     from tehl_taichi.io import intact, scene_file

@@ -18,8 +18,9 @@ CARRIES = {"bodies.a": "Surface a carries the feature. ", "bodies.b": "The other
 COLUMN = 26  # where the comments of short lines begin
 
 
-def load(path):
-    """Scene from a TOML file; `base = "gear"` fills what is not given. Raises SceneError (also for broken TOML)."""
+def load(path, changes=()):
+    """Scene from a TOML file; `base = "gear"` fills what is not given. changes: {full key: value}, as if they stood in it.
+    Raises SceneError (also for broken TOML)."""
     path = Path(path)
     try:
         data = tomllib.loads(path.read_text(encoding="utf-8"))
@@ -29,7 +30,21 @@ def load(path):
         raise SceneError(f"{path} nests tables or lists too deeply; a scene needs two levels") from None
     except ValueError as error:  # of TOML, and of Python for whole numbers of more than 4300 digits
         raise SceneError(f"{path} is not valid TOML: {error}") from None
+    for key in changes:
+        _write(data, key.split("."), changes[key])
     return from_data(_beside(data, path.absolute().parent), path.stem)
+
+
+def _write(data, key, value):
+    """Put a value where its key [section, ..., name] has its place, if there is one."""
+    first, *rest = key
+    if isinstance(data, list):
+        if first.isdigit() and int(first) < len(data) and rest:
+            _write(data[int(first)], rest, value)
+    elif isinstance(data, dict) and rest:
+        _write(data.setdefault(first, {}), rest, value)
+    elif isinstance(data, dict):
+        data[first] = value
 
 
 def new(path, base):
