@@ -9,7 +9,7 @@ import math
 from tehl_taichi.errors import SceneError
 from tehl_taichi.physics import density
 from tehl_taichi.physics.densities import RHO0
-from tehl_taichi.physics.viscosities.roelands_temperature import P_ROELANDS, ROELANDS_TEMPERATURE
+from tehl_taichi.physics.viscosities.roelands_temperature import LN_SCALE, LOG_SCALE, P_ROELANDS, ROELANDS_TEMPERATURE
 from tehl_taichi.scene import mineral_alpha
 from tehl_taichi.values.checks import HUGE
 from tehl_taichi.values.plain import plain
@@ -18,7 +18,6 @@ from tehl_taichi.values.quantity import quantity
 NAME = "data-sheet"  # of an oil that is given no other
 LAW = ROELANDS_TEMPERATURE.name
 FROM = "data sheet: "  # begins the source of an oil that is given no other
-LOG_SCALE, LN_SCALE = 4.2, 9.67  # of that law: log10 eta0 + 4.2 and ln eta0 + 9.67
 KEYS = {"nu_40": quantity(0.0, "m2/s", "of a data sheet, with nu_100 in place of the law's numbers: kinematic viscosity at 40 "
                           "deg C (220 mm2/s: 220e-6); 0: not given", 0.0, 0.1),
         "nu_100": quantity(0.0, "m2/s", "the same at 100 deg C", 0.0, 0.1),

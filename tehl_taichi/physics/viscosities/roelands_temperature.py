@@ -9,12 +9,13 @@ from tehl_taichi.registry import Checked
 from tehl_taichi.values.quantity import quantity
 
 P_ROELANDS = 5.1e-9  # 1/Pa, Roelands' pressure scale (1.96e8 Pa)
+LOG_SCALE, LN_SCALE = 4.2, 9.67  # of his viscosity scale (6.31e-5 Pa s), less their signs: log10 and ln
 
 
 @pointwise
 def ln_eta0(oil, Gamma):
     """ln of the viscosity at p = 0: log10 eta0 = -4.2 + G0 (1 + Gamma/135)^-S0 (Everitt 2018, Eq 1.2)."""
-    return LN10 * (-4.2 + oil.G0 * exp(-oil.S0 * log(1 + Gamma * PER_135)))
+    return LN10 * (-LOG_SCALE + oil.G0 * exp(-oil.S0 * log(1 + Gamma * PER_135)))
 
 
 @pointwise
@@ -26,7 +27,7 @@ def exponent(oil, Gamma):
 @pointwise
 def risen(oil, p, ln0, Z):
     """Roelands' rise from ln0, the viscosity at p = 0 (Eq 1.1)."""
-    return ln0 + (ln0 + 9.67) * (exp(Z * log(1 + P_ROELANDS * p)) - 1)
+    return ln0 + (ln0 + LN_SCALE) * (exp(Z * log(1 + P_ROELANDS * p)) - 1)
 
 
 @pointwise
