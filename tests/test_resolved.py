@@ -10,7 +10,7 @@ from made_results import fatigue
 from rolling import Rolling
 
 import tehl_taichi as tehl
-from tehl_taichi.fatigue import assessment
+from tehl_taichi.fatigue import assessment, resolved
 from tehl_taichi.io import result_judge, summary, summary_rows
 from tehl_taichi.march import companions
 from tehl_taichi.report import scene_words, verdict
@@ -25,8 +25,8 @@ def test_the_early_moments_are_those_of_a_search_up_to_there(taichi_cpu, changes
     scene = GEAR.replace(**changes)
     reader = Rolling(scene)
     both, whole = assessment.run(scene, reader, until=-0.3), assessment.run(scene, reader)
-    early = both.summary.pop("resolved")
-    part = assessment.run(scene.replace(**{"fatigue.to_x": -0.3}), reader).summary
+    early, alone = both.summary.pop("resolved"), assessment.run(scene.replace(**{"fatigue.to_x": -0.3}), reader)
+    part = alone.summary
     assert early.pop("to_x_a") == -0.3
     assert both.summary["Fi_max"] == whole.summary["Fi_max"]
     if not changes.get("feature.y"):  # else the row of the early worst point is one more to look under
@@ -34,6 +34,12 @@ def test_the_early_moments_are_those_of_a_search_up_to_there(taichi_cpu, changes
     deep, other = early.pop("below", {}), part.get("below", {})
     assert early == {key: pytest.approx(part[key], rel=1e-9) for key in early} and early["Fi_max"] < whole.summary["Fi_max"]
     assert deep == {key: pytest.approx(other[key], rel=1e-9) for key in deep} and bool(deep) == bool(other)
+    maps = {name.removeprefix(resolved.NAME): values[0] for name, values in both.maps.items() if resolved.NAME in name}
+    own = set(alone.maps) & {"Fi", "worst_stress", "worst_below_normal", "worst_depth", "findley_stress_at_worst_depth",
+                             "findley_stress_at_depth", "findley_stress_under_row"}
+    assert "Fi" in own and own <= set(maps)
+    for name, values in maps.items():
+        np.testing.assert_allclose(values, alone.maps[name][0], atol=1e-9 * np.nanmax(np.abs(values)), err_msg=name)
 
 
 @pytest.mark.parametrize("until", [None, -3.0, 3.0])

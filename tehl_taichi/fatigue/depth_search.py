@@ -10,17 +10,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl_taichi.fatigue import below
-from tehl_taichi.fatigue.layer import Layer, layer
+from tehl_taichi.fatigue.layer import Layer, Part, early_layer, layer
 
 
 @dataclass(frozen=True)
 class Deep:
     """What was found: profiles under rows (:class:`tehl_taichi.fatigue.below.Profile`), those of the early moments where they
-    are wanted, and the plane that was searched at all its points, or None."""
+    are wanted, the plane that was searched at all its points, and that of the early moments at their own worst depth
+    (or None)."""
 
     profiles: list
     before: list
     plane: Layer | None = None
+    early_plane: Part | None = None
 
     @property
     def worst(self):
@@ -30,32 +32,48 @@ class Deep:
     @property
     def early(self):
         """Worst points of the early moments."""
-        return _points(self.before) + ([self.plane.early] if self.plane and self.plane.early else [])
+        planes = [self.plane.early, self.early_plane] if self.early_plane else []
+        return _points(self.before) + [plane.worst for plane in planes]
 
 
 def search(scene, passage, layers, early, progress):
     """The Deep below the rows of the feature and of the worst points of `layers` (Layer), and below the contact alone; on a
-    whole domain at all points of the worst depth, too, and below the rows of what is worst there."""
+    whole domain at all points of the worst depth, too, and below the rows of what is worst there; early moments have a worst
+    depth of their own."""
     rows = _rows(passage, (scene.features[0].y, *(place for found in layers for place in _worst(found))))
     profiles, before = _under(passage, rows, _has_far_row(scene, passage.reader.y), early, progress)
     if not passes(passage):
         return Deep(profiles, before)
-    plane = layer(scene, passage, max(_points(profiles), key=lambda point: point.f).depth, progress, early)
-    more = [row for row in _rows(passage, _worst(plane)) if row not in rows]
-    if not more:
-        return Deep(profiles, before, plane)
-    others, earlier = _under(passage, more, False, early, progress)
-    return Deep(profiles + others, before + earlier, plane)
+    plane, sooner = _planes(scene, passage, profiles, before, early, progress)
+    places = _worst(plane) + ([sooner.worst.y] if sooner else [])
+    more = [row for row in _rows(passage, places) if row not in rows]
+    others, earlier = _under(passage, more, False, early, progress) if more else ([], [])
+    return Deep(profiles + others, before + earlier, plane, sooner)
 
 
-def passes(passage):
+def _planes(scene, passage, profiles, before, early, progress):
+    """(Layer at the worst depth of all moments, Part at that of the early ones or None)."""
+    plane = layer(scene, passage, _depth(profiles), progress, early)
+    if early is None:
+        return plane, None
+    depth = _depth(before)
+    return plane, plane.early if depth == plane.depth else early_layer(scene, passage, depth, progress, early)
+
+
+def _depth(profiles):
+    """That of the worst of their points, m."""
+    return max(_points(profiles), key=lambda point: point.f).depth
+
+
+def passes(passage, early=None):
     """Passes of stresses and search after the first rows: none on a half domain, whose worst row is that of the feature."""
-    return 2 * len(passage.row_blocks()) + 2 if passage.reader.y[0] < 0 else 0
+    each = 2 if early is None else 3  # the stresses of a second plane
+    return each * len(passage.row_blocks()) + 2 if passage.reader.y[0] < 0 else 0
 
 
 def _worst(found):
     """Places across of the worst points of a layer."""
-    return [point.y for point in (found.worst, found.early) if point]
+    return [one.worst.y for one in (found, found.early) if one]
 
 
 def _rows(passage, places):

@@ -7,14 +7,23 @@ import numpy as np
 
 from tehl_taichi.fatigue import findley
 from tehl_taichi.fatigue.thermal_stress import WORKERS
-from tehl_taichi.fatigue.worst_point import Point, worse, worst_of
+from tehl_taichi.fatigue.worst_point import Point, over_some, worse
 
 POINTS = 16  # whose largest principal stresses are found at once
 
 
 @dataclass(frozen=True)
+class Part:
+    """What the early moments have at one depth: Findley stress f (nx, rows) Pa, and the worst point."""
+
+    depth: float
+    f: np.ndarray
+    worst: Point
+
+
+@dataclass(frozen=True)
 class Layer:
-    """What was found at one depth: maps (nx, rows), the worst point, and that of the early moments where they are wanted."""
+    """What was found at one depth: maps (nx, rows), the worst point, and the Part of the early moments where it is wanted."""
 
     depth: float
     f: np.ndarray
@@ -22,22 +31,54 @@ class Layer:
     phi: np.ndarray
     sigma1: np.ndarray
     worst: Point
-    early: Point | None
+    early: Part | None
 
 
 def layer(scene, passage, depth, progress, early):
     """Find a Layer: stresses and search of all points at a depth (m). early: moments that are searched apart, or None."""
-    operators, parts, worst, before = passage.stresses(depth), [], None, None
-    for rows in passage.row_blocks():
-        history = passage.history(rows, operators, progress, lambda: findley.prepare(scene.fatigue.criterion))
+    parts, worst, sooner = [], None, _Early(scene, passage, depth, early)
+    for rows, history in _blocks(scene, passage, depth, progress):
         f, normals = findley.search(history, scene.fatigue.kappa, criterion=scene.fatigue.criterion, tell=progress)
         shape = passage.x.size, rows.stop - rows.start
         parts.append([v.reshape(shape) for v in (f, *findley.angles(normals), _tension(history))])
-        places = passage.places(depth, rows)
-        worst = worse(worst, places, history, f, normals)
-        if early is not None:
-            before = worst_of(history, early, scene.fatigue, f, places, before)
-    return Layer(depth, *(np.concatenate(part, axis=1) for part in zip(*parts)), worst, before)
+        worst = worse(worst, passage.places(depth, rows), history, f, normals)
+        sooner.add(rows, history)
+    return Layer(depth, *(np.concatenate(part, axis=1) for part in zip(*parts)), worst, sooner.found)
+
+
+def early_layer(scene, passage, depth, progress, early):
+    """The Part of these moments alone at a depth (m)."""
+    sooner = _Early(scene, passage, depth, early)
+    for rows, history in _blocks(scene, passage, depth, progress):
+        sooner.add(rows, history)
+    return sooner.found
+
+
+def _blocks(scene, passage, depth, progress):
+    """(rows, stress histories of their points at that depth), block by block."""
+    operators = passage.stresses(depth)
+    for rows in passage.row_blocks():
+        yield rows, passage.history(rows, operators, progress, lambda: findley.prepare(scene.fatigue.criterion))
+
+
+class _Early:
+    """Gathers the Part of the early moments, block by block; early None: there is none."""
+
+    def __init__(self, scene, passage, depth, early):
+        self.scene, self.passage, self.depth, self.early = scene, passage, depth, early
+        self.parts, self.worst = [], None
+
+    def add(self, rows, history):
+        """Search those moments of a block."""
+        if self.early is None:
+            return
+        places = self.passage.places(self.depth, rows)
+        f, self.worst = over_some(history, self.early, self.scene.fatigue, places, self.worst)
+        self.parts.append(f.reshape(self.passage.x.size, -1))
+
+    @property
+    def found(self):
+        return Part(self.depth, np.concatenate(self.parts, axis=1), self.worst) if self.parts else None
 
 
 def _tension(history):

@@ -14,12 +14,12 @@ class Told:
         self._tell(0)
 
     @classmethod
-    def of(cls, progress, scene, passage):
+    def of(cls, progress, scene, passage, early=None):
         """Of a :func:`tehl_taichi.fatigue.assessment.run`: stresses and search of every block of rows at every depth asked
         for, then those under rows where the worst depth is looked for."""
         ladder = bool(scene.fatigue.depths)
         layers = 1 + len(scene.fatigue.listed)
-        return cls(progress, 2 * layers * len(passage.row_blocks()) + (2 + passes(passage)) * ladder)
+        return cls(progress, 2 * layers * len(passage.row_blocks()) + (2 + passes(passage, early)) * ladder)
 
     def __call__(self, done, total):
         self._tell(self.through + self.EACH * done // total)

@@ -60,17 +60,16 @@ def worse(worst, places, history, f, normals):
     return Point(*places(top), f[top], history[top].copy(), normals[top])
 
 
-def worst_of(history, moments, fatigue, bound, places, worst=None):
-    """The worst point of some of the moments, or the one so far. bound: the stress of every point over all moments, which it
-    does not exceed over some: the most promising come first, and most are never looked at."""
-    order = np.argsort(-bound)
-    for points in np.array_split(order, max(1, order.size // AT_ONCE)):
-        if worst is not None and bound[points[0]] <= worst.f:
-            break
-        part = history[points][:, moments]
-        f, normals = findley.search(part, fatigue.kappa, criterion=fatigue.criterion)
-        worst = worse(worst, lambda n, points=points: places(points[n]), part, f, normals)
-    return worst
+def over_some(history, moments, fatigue, places, worst=None):
+    """(stress of every point, Pa, worst point or the one so far) of some of the moments. Few points at once: a choice of
+    moments is a copy of their histories."""
+    f = np.empty(len(history))
+    for first in range(0, len(history), AT_ONCE):
+        points = slice(first, first + AT_ONCE)
+        part = history[points, moments]
+        f[points], normals = findley.search(part, fatigue.kappa, criterion=fatigue.criterion)
+        worst = worse(worst, lambda n, first=first: places(first + n), part, f[points], normals)
+    return f, worst
 
 
 def on_circle(u, v, circle):
