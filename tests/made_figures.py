@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from tehl_taichi.figures import fatigue_figures
 from tehl_taichi.figures.moments import Moments
 from tehl_taichi.figures.page import Page
+from tehl_taichi.figures.searches import Found
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 
@@ -45,7 +45,7 @@ def made(name="gear"):
     return Made(scene(name).replace(**{"thermal.on": True}))
 
 
-def searched(one_row=False, y_worst=0.0, **depth):
+def searched(one_row=False, y_worst=0.0, **more):
     """What a search of the surface and of two depths found: a hill of Fi at each, highest at 60 um."""
     x, y = np.linspace(-1e-4, 1e-4, 21), np.zeros(1) if one_row else np.linspace(-1e-4, 1e-4, 11)
     hill = np.exp(-((x[:, None] - 2e-5) ** 2 + y**2) / 1e-9) * 4e8
@@ -58,7 +58,7 @@ def searched(one_row=False, y_worst=0.0, **depth):
                "stress": np.outer(np.sin(turn), [1e8, 0, 2e8, 0, 5e7, 0])}
     maps = {"feature_frame_x": x, "feature_frame_y": y, "Fi": hill / 4e8, "fatigue_depth": np.array([0.0, 2e-5, 6e-5])}
     maps |= {"findley_stress_under_row": layers[:, :, 0]} if one_row else {"findley_stress_at_depth": layers}
-    return fatigue_figures.Found("made up", maps, {"surface": history, "below": history}, summary, 3.6e-4, "x (µm)", **depth)
+    return Found("made up", maps, {"surface": history, "below": history}, summary, 3.6e-4, "x (µm)", **more)
 
 
 def drawn(name, store, page=None, at=None):

@@ -107,6 +107,9 @@ def test_the_summary_and_the_table_have_it():
     assert deep is part["below"] and below == {"Fi_max": companions.RESOLVED_BELOW}
     part["error"], part["unknown"] = {"Fi_max": 0.02}, {}
     rows = dict(summary_rows.fatigue_rows(search))
+    assert list(rows)[0] == "Fi_max while resolved (to 0.60 a)" and rows["at x, y of the feature, below while resolved"]
+    assert "Fi_max at the surface, whole passage" in rows and "Fi_max below it, at 25 um, whole passage" in rows
+    assert list(dict(summary_rows.fatigue_rows(fatigue())))[0] == "Fi_max at the surface"
     assert rows["Fi_max while resolved (to 0.60 a)"] == "0.800 ± 0.020"
     assert rows["below it while resolved, at 25 um"] == "0.9 (error unknown)"
     assert flat.error_of("fatigue_resolved_Fi_max") in flat.numbers({"fatigue": search})
@@ -132,7 +135,8 @@ def test_the_answer_rests_on_what_is_known(part, error, whole, tone, said):
     before = {"to_x_a": 0.6, **fatigue(part, None), "error": {"Fi_max": error}}
     _, headline, found, tells = verdict.of_fatigue({**fatigue(whole, None), "error": {"Fi_max": None}, "resolved": before})
     assert found == tone and headline.startswith(said)
-    assert tells[0] == "As long as the grid resolves the pressure (feature up to 0.60 a):" and f"Fi = {part}" in tells[1]
+    assert tells[0] == ("As long as the grid resolves the pressure (feature up to 0.60 a, that is 0.60 half-widths behind the "
+                        "middle of the contact):") and f"Fi = {part}" in tells[1]
     assert tells[2] == "Over the whole passage, whose pressure it does not resolve:" and f"Fi = {whole}" in tells[3]
 
 
@@ -140,7 +144,8 @@ def test_a_cut_search_is_not_called_whole():
     part = dataclasses.replace(GEAR.fatigue, from_x=-0.5, to_x=0.7)
     before, over = {"to_x_a": 0.6, **fatigue(0.8, None)}, scene_words.when(part)
     assert over == "over all moments that count (feature from -0.5 a up to 0.7 a)"
-    tells = verdict.of_fatigue({**fatigue(1.6), "resolved": before}, over)[-1]
+    tells = verdict.of_fatigue({**fatigue(1.6), "resolved": {**before, "surface_angle_deg": 67.0}}, over)[-1]
+    assert "stands at 67° to it, over the whole passage at 57°." in tells[-1] and "18 to 50° to the surface" in tells[-1]
     assert tells[2] == "Over all moments that count (feature from -0.5 a up to 0.7 a), whose pressure it does not resolve:"
     assert any(said.startswith("The contact without") and ", over the same moments" in said for said in tells)
     assert not any("same moments" in said for said in verdict.of_fatigue(fatigue(1.6))[-1])

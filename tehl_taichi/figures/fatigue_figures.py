@@ -1,6 +1,7 @@
 """Figures of a fatigue result: index of the surface and over depth, stress of the worst points, paths on their planes."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -13,52 +14,18 @@ from tehl_taichi.figures.field_maps import bar, shade, whole
 from tehl_taichi.figures.index_words import error_of, largest, mpa, told_index
 from tehl_taichi.figures.limit_line import crossed, explained, handle, limit_line
 from tehl_taichi.figures.searched_depths import beside_worst, under_row
-from tehl_taichi.scene.passing_words import from_centre
-from tehl_taichi.scene.scales import Scales
 from tehl_taichi.values.checks import number
 from tehl_taichi.values.plain import plain
 
-MAPS = ("feature_frame_x", "feature_frame_y", "Fi", "fatigue_depth", "findley_stress_at_depth", "findley_stress_under_row",
-        "findley_stress_contact_alone", "under_row_depth", "worst_depth", "findley_stress_at_worst_depth")  # those found
 EVEN = 200  # depths drawn of a section
 FLOW = ", flow to the right"
 LEAST = 8.0  # cm that a map needs to stand beside another
 
 
 @dataclass(frozen=True)
-class Found:
-    """title: the scene's name; maps: {name of MAPS: array} found; points: {"surface": history, "below": the same or None};
-    summary: of a FatigueResult; a: m; along: title of the axis along x; depth: µm, of the layer that is wanted beside the
-    surface, or None (the worst one)."""
-
-    title: str
-    maps: dict
-    points: dict
-    summary: dict
-    a: float
-    along: str
-    depth: float | None = None
-
-    @classmethod
-    def of(cls, scene, maps, points, summary, depth=None):
-        """Of a search of a scene."""
-        return cls(scene.name, maps, points, summary, Scales.of(scene).a, from_centre(scene), depth)
-
-    @property
-    def constants(self):
-        """Scene, criterion and its numbers, in words."""
-        f = self.summary
-        return f"{self.title}: {f['criterion']}, κ = {f['kappa_F']:g}, σ_eF = {f['sigma_eF_Pa'] / 1e6:g} MPa"
-
-    @property
-    def one_row(self):
-        return self.maps["feature_frame_y"].size == 1
-
-
-@dataclass(frozen=True)
 class Layer:
     """where: in words; Fi: (x, y); at: its worst point, m; angle: of the critical plane there to the surface, deg, with
-    normal and error of the largest Fi: where they are known."""
+    normal and error of the largest Fi: where they are known; when: moments in words, "" where all count alike."""
 
     where: str
     Fi: Any
@@ -66,6 +33,7 @@ class Layer:
     angle: float | None = None
     normal: Any = None
     error: float | None = None
+    when: str = ""
 
     @property
     def flat(self):
@@ -81,20 +49,27 @@ class Layer:
         plane = "" if self.angle is None else f", plane at {self.angle:.0f}° to the surface"
         return f"worst, Fi = {told_index(self.Fi.max(), self.error)}{plane}"
 
+    @property
+    def title(self):
+        """With its moments, in lines that a panel has room for."""
+        return "\n".join([*filter(None, [self.when.replace(" (", "\n(")]), self.said])
+
 
 def all_figures(page, found):
-    """{name: function that draws it}. Raises SceneError where the depth that is wanted was not searched."""
-    layers = _layers(found)
+    """{name: function that draws it}: without more in its name of what the answer rests on. Raises SceneError where the depth
+    that is wanted was not searched."""
+    layers = [_layers(one) for one in found.each]
     figures = {"fatigue": lambda: index_figure(page, found, layers)}
-    if "findley_stress_under_row" in found.maps:
-        figures["fatigue_depth"] = lambda: depth_figure(page, found)
-    figures["fatigue_point"] = lambda: worst_points(page, found)
+    for one, more in zip(found.each, ("", "_whole")):
+        if "findley_stress_under_row" in one.maps:
+            figures[f"fatigue_depth{more}"] = partial(depth_figure, page, one)
+        figures[f"fatigue_point{more}"] = partial(worst_points, page, one)
     return figures
 
 
 def _layers(found):
     """The surface, and the layer below it that is wanted, or the worst where all its points were searched."""
-    top = _worst("surface", found.maps["Fi"], found.summary, found.points["surface"])
+    top = _worst(found, "surface", found.maps["Fi"], found.summary, found.points["surface"])
     below, plane = _searched(found), found.maps.get("findley_stress_at_worst_depth")
     if found.depth is None and plane is not None:
         return [top, _layer(found, float(found.maps["worst_depth"][0]), plane)]
@@ -109,14 +84,14 @@ def _layer(found, depth, stress):
     """One depth (m) with its Findley stress (x, y): with the worst point where that lies there, else with its own largest."""
     where, Fi, deep = f"{depth * 1e6:.3g} µm below", stress / found.summary["sigma_eF_Pa"], found.summary["below"]
     if np.isclose(depth, deep["depth_m"]):
-        return _worst(where, Fi, deep, found.points["below"])
+        return _worst(found, where, Fi, deep, found.points["below"])
     i, j = np.unravel_index(int(np.argmax(Fi)), Fi.shape)
-    return Layer(where, Fi, (found.maps["feature_frame_x"][i], found.maps["feature_frame_y"][j]))
+    return Layer(where, Fi, (found.maps["feature_frame_x"][i], found.maps["feature_frame_y"][j]), when=found.when)
 
 
-def _worst(where, Fi, summary, history):
+def _worst(found, where, Fi, summary, history):
     return Layer(where, Fi, (summary["x_m"], summary["y_m"]), summary["surface_angle_deg"], history["normal"],
-                 error_of(summary))
+                 error_of(summary), found.when)
 
 
 def _searched(found):
@@ -134,21 +109,22 @@ def _searched(found):
 
 
 def index_figure(page, found, layers):
-    """Index around the feature in every layer; lines over x where there is one row only."""
+    """Index around the feature in every layer, a row for each of `found.each`; lines where nothing varies across."""
+    shown, most = [layer for row in layers for layer in row], len(layers[0])
     if found.one_row:
-        return index_lines(page, found, layers)
-    beside = page.width / len(layers) >= LEAST
-    rows, columns = (1, len(layers)) if beside else (len(layers), 1)
+        return index_lines(page, found, shown)
+    beside = page.width / most >= LEAST
+    rows, columns = (len(layers), most) if beside else (len(shown), 1)
     height = 1.3 * page.inches / columns * rows  # more than enough
-    figure, axes = page.figure(rows, columns, height, True, sharey=beside, sharex=not beside)
-    for ax, layer in zip(axes.ravel(), layers):
-        index_map(figure, ax, found.maps, layer, beside and len(layers) > 1)
+    figure, axes = page.figure(rows, columns, height, True, sharey=True, sharex=True)
+    for ax, layer in zip(axes.ravel(), shown):
+        index_map(figure, ax, found.maps, layer, beside and most > 1)
     for ax in axes[-1]:
         ax.set_xlabel(found.along + FLOW * (columns == 1))
     for ax in axes[:, 0]:
         ax.set_ylabel("y (µm)")
-    lines = explained(any(layer.traced for layer in layers), any(crossed(layer.Fi) for layer in layers))
-    page.title(figure, found.constants + lines)
+    lines = explained(any(layer.traced for layer in shown), any(crossed(layer.Fi) for layer in shown))
+    page.title(figure, replace(found, when="").constants + lines)
     return figure
 
 
@@ -156,12 +132,13 @@ def index_lines(page, found, layers):
     """Index over x, a line for each layer with its worst point."""
     figure, ((ax,),) = page.figure(height=1.6 * page.row())
     for layer, colour in zip(layers, palette.LINES):
-        ax.plot(found.maps["feature_frame_x"] * 1e6, layer.Fi[:, 0], color=colour, label=layer.where)
+        where = ": ".join(filter(None, (layer.when, layer.where)))
+        ax.plot(found.maps["feature_frame_x"] * 1e6, layer.Fi[:, 0], color=colour, label=where)
         ax.plot(layer.at[0] * 1e6, layer.Fi.max(), "+", color=colour, ms=page.text, mew=0.2 * page.text, label=layer.said)
     ax.set(xlabel=found.along + FLOW, ylabel="Fi")
     ax.grid()
     page.legend(figure)
-    page.title(figure, found.constants)
+    page.title(figure, replace(found, when="").constants)
     return figure
 
 
@@ -176,7 +153,7 @@ def index_map(figure, ax, maps, layer, beside):
     if layer.traced:
         trace = np.array([-layer.normal[1], layer.normal[0]]) / layer.flat * 0.12 * np.ptp(x) * 1e6
         ax.plot(*np.stack([at - trace, at + trace]).T, "-", color=palette.MARK)
-    ax.set(aspect="equal", title=layer.said, xlim=(x[0] * 1e6, x[-1] * 1e6), ylim=(y[0], y[-1]))
+    ax.set(aspect="equal", title=layer.title, xlim=(x[0] * 1e6, x[-1] * 1e6), ylim=(y[0], y[-1]))
 
 
 def _mark(ax, x, y):

@@ -4,6 +4,8 @@ import math
 
 from tehl_taichi.values.digits import decimals
 
+PART = "as long as the grid resolves the pressure"
+REST = "whole passage, its later pressures not resolved"
 SENSE = 1000.0  # an index beyond is of no material: as of a Newtonian film that slips, whose shear has no limit
 
 
@@ -13,6 +15,11 @@ def told_index(Fi, error=None):
         return f"{Fi:.3g}"
     known = error is not None and math.isfinite(error) and error > 0
     return f"{Fi:.{min(max(decimals(error), 0), 4) if known else 2}f}"
+
+
+def resolved(found, whose="feature"):
+    """Which moments the resolved part of a search has; found: its summary; whose: position it is, in words."""
+    return f"{PART} ({whose} up to {found['to_x_a']:.2f} a)"
 
 
 def error_of(found):

@@ -106,23 +106,37 @@ def _passage_rows(summary):
 
 
 def rows_of_fatigue(f):
-    """A list of :class:`Row` of a fatigue summary: the worst point of the surface, then of what lies below."""
-    rows = [_of(f, "Fi_max", "Fi_max at the surface"), _stress(f"{f['criterion']} stress", f["findley_stress_max_Pa"]),
-            *_point_rows(f), _stress("largest principal stress on the surface", f["sigma1_max_Pa"]),
+    """A list of :class:`Row` of a fatigue summary: the worst point of the surface, then of what lies below; where the grid does
+    not resolve every pressure first those of the part before, on which the answer rests."""
+    rows = [_of(f, "Fi_max", "Fi_max at the surface", where=_whole(f)),
+            _stress(f"{f['criterion']} stress", f["findley_stress_max_Pa"]), *_point_rows(f),
+            _stress("largest principal stress on the surface", f["sigma1_max_Pa"]),
             Row("with kappa, sigma_eF", f"{f['kappa_F']:g}, {f['sigma_eF_Pa'] / 1e6:g} MPa"),
             Row("thermal stress", "counted" if f["thermal_stress"] else "left out")]
     rows += [_stress(f"largest at {_depth(layer)}", layer["findley_stress_max_Pa"]) for layer in f.get("by_depth", [])]
-    return [replace(row, part=SURFACE) for row in rows] + _below_rows(f) + _resolved_rows(f)
+    return _resolved_rows(f) + [replace(row, part=SURFACE) for row in rows] + _below_rows(f)
+
+
+def _whole(f):
+    """Behind what is of the whole passage, where some of it stands beside it."""
+    return ", whole passage" if "resolved" in f else ""
 
 
 def _resolved_rows(f):
     """What is known as long as the grid resolves the pressure, where it does not always do so."""
     if "resolved" not in f:
         return []
-    part = f["resolved"]
-    rows = [_of(part, "Fi_max", "Fi_max while resolved", where=f" (to {part['to_x_a']:.2f} a)", part=RESOLVED)]
-    deep = part.get("below")
-    return rows + ([_of(deep, "Fi_max", "below it while resolved", where=_at(deep), part=RESOLVED)] if deep else [])
+    part, deep = f["resolved"], f["resolved"].get("below")
+    rows = [_of(part, "Fi_max", "Fi_max while resolved", where=f" (to {part['to_x_a']:.2f} a)"),
+            *_placed(part, "while resolved")]
+    if deep:
+        rows += [_of(deep, "Fi_max", "below it while resolved", where=_at(deep)), *_placed(deep, "below while resolved")]
+    return [replace(row, part=RESOLVED) for row in rows]
+
+
+def _placed(point, when):
+    """Place and plane of a worst point."""
+    return [replace(row, what=f"{row.what}, {when}") for row in _point_rows(point)[:2]]
 
 
 def _point_rows(f):
@@ -140,7 +154,7 @@ def _below_rows(f):
     if "below" not in f:
         return []
     deep = f["below"]
-    rows = [_of(deep, "Fi_max", "Fi_max below it", where=_at(deep)),
+    rows = [_of(deep, "Fi_max", "Fi_max below it", where=_at(deep) + _whole(f)),
             _stress(f"{f['criterion']} stress", deep["findley_stress_max_Pa"]), *_point_rows(deep)]
     if "contact_alone" in deep:
         alone = deep["contact_alone"]

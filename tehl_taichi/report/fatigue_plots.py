@@ -11,7 +11,7 @@ from tehl_taichi.figures.palette import GREY, INDEX, MARK
 from tehl_taichi.figures.searched_depths import beside_worst, under_row
 from tehl_taichi.report.plots import colour, field_map, level, line, marks, stacked
 from tehl_taichi.report.rounded import told
-from tehl_taichi.report.scene_words import moments, when
+from tehl_taichi.report.scene_words import moments
 from tehl_taichi.scene.passing_words import from_centre, passing, position
 from tehl_taichi.scene.scales import Scales
 
@@ -19,71 +19,77 @@ EVEN = 100  # depths drawn of a section
 POINTS = {"surface": ("worst", "worst point of the surface"), "below": ("worst_below", "worst point below the surface")}
 
 
-def index(store):
+def index(search):
     """Fi of the surface and of the worst depth, with the worst points; lines over x where there is one row only."""
-    f, Fi = store.summary["fatigue"], store.map("Fi")
+    f, Fi = search.found, search.map("Fi")
     if Fi is None:
         return []
     if Fi.shape[1] == 1:
-        return [_over_x(store, f, Fi)]
-    found = [_map(store, "surface", "at the surface", Fi, f)]
-    deep = store.map("findley_stress_at_depth")
-    plane = store.map("findley_stress_at_worst_depth")
+        return [_over_x(search, f, Fi)]
+    found = [_map(search, "surface", "at the surface", Fi, f)]
+    deep = search.map("findley_stress_at_depth")
+    plane = search.map("findley_stress_at_worst_depth")
     if plane is not None:
-        found.append(_layer(store, float(store.map("worst_depth")[0]), plane / f["sigma_eF_Pa"], f["below"]))
+        found.append(_layer(search, float(search.map("worst_depth")[0]), plane / f["sigma_eF_Pa"], f["below"]))
     elif deep is not None and "below" in f:
-        found.append(_listed(store, deep / f["sigma_eF_Pa"], f["below"]))
+        found.append(_listed(search, deep / f["sigma_eF_Pa"], f["below"]))
     return found
 
 
-def _listed(store, Fi, worst):
+def _listed(search, Fi, worst):
     """Of the depths that were listed the one next to the worst; Fi (depth, x, y)."""
-    depths = store.map("fatigue_depth")
+    depths = search.map("fatigue_depth")
     n = beside_worst(depths, worst["depth_m"])
-    return _layer(store, depths[n], Fi[n], worst)
+    return _layer(search, depths[n], Fi[n], worst)
 
 
-def _layer(store, depth, Fi, worst):
+def _layer(search, depth, Fi, worst):
     """One depth (m) with Fi (x, y): with the worst point below where it lies there, else with its own largest value, and in
     words which depth is the worst: looked for under some rows, between the depths whose points were all searched."""
     if np.isclose(depth, worst["depth_m"]):
-        return _map(store, "below", _depth(depth), Fi, worst)
+        return _map(search, "below", _depth(depth), Fi, worst)
     elsewhere = (f". The worst depth is {worst['depth_m'] * 1e6:.3g} µm, under the row y = {worst['y_m'] * 1e6:.0f} µm, with "
                  f"Fi = {largest(worst)}")
-    return _map(store, "below", _depth(depth), Fi, None, elsewhere)
+    return _map(search, "below", _depth(depth), Fi, None, elsewhere)
 
 
 def _depth(depth):
     return f"{depth * 1e6:.3g} µm below the surface"
 
 
-def _map(store, which, where, Fi, found, more=""):
+def _map(search, which, where, Fi, found, more=""):
     """One layer with the line of the fatigue limit, its worst point with the trace of the critical plane in it (found: its
     summary; None: the largest value is no worst point); more: at the end of the caption."""
-    x, (y, full) = store.map("feature_frame_x") * 1e6, whole(store.map("feature_frame_y") * 1e6, Fi)
-    trace = _trace(store, which, found, 0.12 * np.ptp(x)) if found else []
-    marked = [*_limit(x, y, full), _marked(store, Fi, found), *trace]
-    caption = f"Index Fi {where}, {when(store.scene.fatigue)}{explained(bool(trace), crossed(full))}{more}."
-    return field_map(f"index-{which}", caption, x, y, full, INDEX, "Fi", from_centre(store.scene), "y (µm)", marked, height=440)
+    x, (y, full) = search.map("feature_frame_x") * 1e6, whole(search.map("feature_frame_y") * 1e6, Fi)
+    trace = _trace(search, which, found, 0.12 * np.ptp(x)) if found else []
+    marked = [*_limit(x, y, full), _marked(search, Fi, found), *trace]
+    caption = f"Index Fi {where}, {search.when}{explained(bool(trace), crossed(full))}{more}."
+    return field_map(f"{search.on}index-{which}", caption, x, y, full, INDEX, "Fi", from_centre(search.scene), "y (µm)", marked,
+                     height=440)
 
 
-def _marked(store, Fi, found):
+def _marked(search, Fi, found):
     """Mark of the worst point, or of the largest value of a layer where that is none."""
     if found:
         return marks([found["x_m"] * 1e6], [found["y_m"] * 1e6], f"worst point, Fi = {largest(found)}", MARK)
     i, j = np.unravel_index(int(np.argmax(Fi)), Fi.shape)
-    x, y = (store.map(f"feature_frame_{axis}") * 1e6 for axis in "xy")
+    x, y = (search.map(f"feature_frame_{axis}") * 1e6 for axis in "xy")
     return marks([x[i]], [y[j]], f"largest at this depth, Fi = {told_index(Fi[i, j])}", MARK)
 
 
-def _trace(store, which, found, length):
+def _trace(search, which, found, length):
     """[line] where the critical plane of the worst point cuts the layer, `length` µm to both sides; [] where it does not."""
-    normal = store.map(f"{POINTS[which][0]}_normal")
+    normal = search.map(f"{POINTS[which][0]}_normal")
     if normal is None or (flat := np.hypot(*normal[:2])) <= 1e-6:
         return []
     at, along = np.array([found["x_m"], found["y_m"]]) * 1e6, np.array([-normal[1], normal[0]]) / flat * length
     ends = np.stack([at - along, at + along])
     return [line(ends[:, 0], ends[:, 1], f"critical plane, {found['surface_angle_deg']:.0f}° to the surface", MARK)]
+
+
+def _briefly(search):
+    """Its moments behind a caption, where there are two searches."""
+    return f", {search.short}" if search.short else ""
 
 
 def _limit(x, y, Fi):
@@ -100,70 +106,71 @@ def _around(found):
     return slice(max(at[0] - 1, 0), at[-1] + 2)
 
 
-def _over_x(store, f, Fi):
-    x = store.map("feature_frame_x") * 1e6
+def _over_x(search, f, Fi):
+    x = search.map("feature_frame_x") * 1e6
     worst = marks([f["x_m"] * 1e6], [f["Fi_max"]], f"worst, plane {f['surface_angle_deg']:.0f}° to the surface", colour(1))
-    return stacked("index", f"Index Fi of the surface, {when(store.scene.fatigue)}.", from_centre(store.scene),
+    return stacked(f"{search.on}index", f"Index Fi of the surface, {search.when}.", from_centre(search.scene),
                    [("Fi", [line(x, Fi[:, 0], "at the surface", colour(0)), worst], {})], height=440)
 
 
-def depth(store):
+def depth(search):
     """[section under the feature, largest index over depth]; [] where nothing was searched below."""
-    f, under = store.summary["fatigue"], store.map("findley_stress_under_row")
+    f, under = search.found, search.map("findley_stress_under_row")
     if under is None or "below" not in f:
         return []
     deep, Fi = f["below"], under / f["sigma_eF_Pa"]
-    x, z = store.map("feature_frame_x") * 1e6, under_row(store.map) * 1e6
+    x, z = search.map("feature_frame_x") * 1e6, under_row(search.map) * 1e6
     even = np.linspace(0, z[-1], EVEN)
     section = np.stack([np.interp(even, z, column) for column in Fi.T])
     worst = marks([deep["x_m"] * 1e6], [deep["depth_m"] * 1e6], f"worst point, Fi = {largest(deep)}", MARK)
-    caption = f"Index Fi in the section y = {deep['y_m'] * 1e6:.0f} µm under the feature{explained(False, crossed(section))}."
-    figure = field_map("section", caption, x, even, section, INDEX, "Fi", from_centre(store.scene),
+    caption = (f"Index Fi in the section y = {deep['y_m'] * 1e6:.0f} µm under the {passing(search.scene)}{_briefly(search)}"
+               f"{explained(False, crossed(section))}.")
+    figure = field_map(f"{search.on}section", caption, x, even, section, INDEX, "Fi", from_centre(search.scene),
                        "below the surface (µm)", [*_limit(x, even, section), worst], true=False, height=440)
     figure.layout["yaxis"]["autorange"] = "reversed"
-    return [figure, _over_depth(store, f, deep, z, Fi)]
+    return [figure, _over_depth(search, f, deep, z, Fi)]
 
 
-def _over_depth(store, f, deep, z, Fi):
+def _over_depth(search, f, deep, z, Fi):
     traces = [line(Fi.max(axis=1), z, "under the feature", colour(0)),
               marks([deep["Fi_max"]], [deep["depth_m"] * 1e6], "worst below", colour(0)),
               marks([f["Fi_max"]], [0.0], "surface", colour(1), symbol="circle")]
-    alone = store.map("findley_stress_contact_alone")
+    alone = search.map("findley_stress_contact_alone")
     if alone is not None:
-        same = ", same moments" if moments(store.scene.fatigue) else ""
+        same = ", same moments" if moments(search.scene.fatigue) else ""
         traces.append(line(alone / f["sigma_eF_Pa"], z, f"contact without its feature{same}", GREY, dash="dash"))
-    return stacked("over-depth", "Largest index Fi at each depth.", "largest Fi",
+    return stacked(f"{search.on}over-depth", f"Largest index Fi at each depth{_briefly(search)}.", "largest Fi",
                    [("below the surface (µm)", traces, {"autorange": "reversed"})], height=440)
 
 
-def worst_points(store):
+def worst_points(search):
     """[(stresses over the passage, shear path on the critical plane)] of the worst point of the surface and of that below."""
     out = []
     for which, (name, text) in POINTS.items():
-        if store.map(f"{name}_stress") is not None:
-            history = {part: store.map(f"{name}_{part}") for part in ("x_a", "stress", "normal", "circle")}
-            out.append((_stresses(which, text, history, store.scene), _path(which, text, history)))
+        if search.map(f"{name}_stress") is not None:
+            history = {part: search.map(f"{name}_{part}") for part in ("x_a", "stress", "normal", "circle")}
+            out.append((_stresses(search, which, text, history), _path(search, which, text, history)))
     return out
 
 
-def _stresses(which, text, history, scene):
-    x, stress = history["x_a"][:-1] / Scales.of(scene).a, history["stress"]
+def _stresses(search, which, text, history):
+    x, stress = history["x_a"][:-1] / Scales.of(search.scene).a, history["stress"]
     normal = shear_path(stress, history["normal"])[2]
     traces = [line(x, largest_principal(stress)[:-1] / 1e6, "largest principal stress σ₁", colour(0)),
               line(x, normal[:-1] / 1e6, "normal to the critical plane", colour(1))]
-    caption = f"Stresses of the {text} while the {passing(scene)} passes."
-    return stacked(f"stress-{which}", caption, position(scene), [("MPa", traces, {})], height=400)
+    caption = f"Stresses of the {text} while the {passing(search.scene)} passes{_briefly(search)}."
+    return stacked(f"{search.on}stress-{which}", caption, position(search.scene), [("MPa", traces, {})], height=400)
 
 
-def _path(which, text, history):
+def _path(search, which, text, history):
     dip, strike, normal = shear_path(history["stress"], history["normal"])
     u, v, radius = history["circle"] / 1e6
     ends, angle = on_circle(dip, strike, history["circle"]), np.linspace(0, 2 * np.pi, 90)
     traces = [line(dip / 1e6, strike / 1e6, "path", colour(0)),
               line(u + radius * np.cos(angle), v + radius * np.sin(angle), "smallest circle", colour(1)),
               marks(dip[ends] / 1e6, strike[ends] / 1e6, "touches it", colour(1), symbol="circle")]
-    caption = (f"Shear path of the {text} on its critical plane: amplitude {told(radius * 1e6, unit='Pa')}, "
+    caption = (f"Shear path of the {text} on its critical plane{_briefly(search)}: amplitude {told(radius * 1e6, unit='Pa')}, "
                f"largest normal stress {told(normal.max(), unit='Pa')}.")
-    return stacked(f"path-{which}", caption, "shear along dip (MPa)",
+    return stacked(f"{search.on}path-{which}", caption, "shear along dip (MPa)",
                    [("shear along strike (MPa)", traces, {"scaleanchor": "x", "constrain": "domain"})], {"constrain": "domain"},
                    height=400)

@@ -14,7 +14,11 @@ from tehl_taichi.report import (
     verdict,
 )
 from tehl_taichi.report.document import Page, Part, Section, drawn, facts, sentences
+from tehl_taichi.report.searches import searches
 from tehl_taichi.scene.passing_words import where
+
+OF = (("", ""), (", resolved part", "The answer rests on this: "), (", whole passage", ""))  # of one search; of two
+NO_MAPS = " Maps of this part are not in the store, which an older version wrote; another search of its fatigue makes them."
 
 
 def of(folder):
@@ -52,13 +56,24 @@ def _film(store):
 
 
 def _fatigue(store):
-    """The index and the worst points."""
+    """The index and the worst points, those on which the answer rests first."""
     if "fatigue" not in store.summary:
         return ()
-    found = store.summary["fatigue"]
-    return (Section("Fatigue", (drawn(*fatigue_plots.index(store), *fatigue_plots.depth(store)),
-                                run_tables.worst_points(found, store.scene), run_tables.tension(found))),
-            Section("Stresses of the worst points", tuple(drawn(*pair) for pair in fatigue_plots.worst_points(store))))
+    found = searches(store)
+    return tuple(section for search, of in zip(found, OF[len(found) - 1 :]) for section in _of_search(search, *of))
+
+
+def _of_search(search, of, lead):
+    """Two sections; of: said in their headings; lead: begins the words on its moments, where there are two searches."""
+    shown = drawn(*fatigue_plots.index(search), *fatigue_plots.depth(search))
+    words = [_sentence(f"{lead}{search.when}.") + NO_MAPS * (shown is None)] * bool(search.short)
+    return (Section(f"Fatigue{of}", (Part("text", {"sentences": words}) if words else None, shown,
+                                     run_tables.worst_points(search.found, search.scene), run_tables.tension(search.found))),
+            Section(f"Stresses of the worst points{of}", tuple(drawn(*pair) for pair in fatigue_plots.worst_points(search))))
+
+
+def _sentence(text):
+    return text[0].upper() + text[1:]
 
 
 def _made(store):

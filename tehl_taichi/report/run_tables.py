@@ -2,6 +2,7 @@
 
 import json
 
+from tehl_taichi.figures.index_words import resolved
 from tehl_taichi.io import intact
 from tehl_taichi.march.output import Scalar, entries
 from tehl_taichi.report.document import facts, sentences, table
@@ -18,9 +19,22 @@ OWN = {"Fi_max": ("index of fatigue Fi of the surface, largest", "1")}
 def errors(summary):
     """Tables of the numbers that have an error or a reason why it is not known; behind them the long reasons, once each."""
     head, reasons = ("what", "value", "error", "relative"), []
-    tables = [table(head, [*_with_errors(found := summary.get(part, {}), reasons),
-                           *_of_below(found.get("below", {}), reasons)], when) for part, when in PARTS]
+    tables = [table(head, [row for found in _in_order(summary.get(part, {})) for row in _with_below(reasons, *found)], when)
+              for part, when in PARTS]
     return [*tables, sentences([f"{_mark(n)} {why}" for n, why in enumerate(reasons)], "Why an error is not known")]
+
+
+def _in_order(values):
+    """[(numbers, behind what they are)]: those of the resolved part, on which an answer rests, first."""
+    if "resolved" not in values:
+        return [(values, "")]
+    return [(values["resolved"], f", {resolved(values['resolved'])}"), (values, ", whole passage")]
+
+
+def _with_below(reasons, found, more):
+    """Rows of the surface (or of what has none) and of what lies below it; more: behind what each is."""
+    for says, *rest in (*_with_errors(found, reasons), *_of_below(found.get("below", {}), reasons)):
+        yield says + more, *rest
 
 
 def _of_below(deep, reasons):

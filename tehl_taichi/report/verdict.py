@@ -49,10 +49,10 @@ def of_fatigue(fatigue, over=WHOLE):
     """(question, headline, tone, sentences) of the summary of a search; over: which moments, in words
     (:func:`tehl_taichi.report.scene_words.when`)."""
     worst, places, known, tells = _judged(fatigue)
-    said, tells = headline(worst, places, known), [*tells, *_alone(fatigue, over), *_plane(fatigue)]
+    said, tells = headline(worst, places, known), [*tells, *_alone(fatigue, over)]
     if "resolved" in fatigue:
         said, tells = _by_what_is_known(fatigue["resolved"], worst, tells, over)
-    return FATIGUE, *said, tuple(tells)
+    return FATIGUE, *said, (*tells, *_plane(fatigue))
 
 
 def _judged(fatigue):
@@ -68,7 +68,7 @@ def _by_what_is_known(part, whole, tells, over):
     """(headline and tone, sentences) where the grid does not resolve every pressure: by the part of the passage before that, to
     which the rest can only add. whole: the worst of what is judged of the whole search, over these moments."""
     worst, places, known, early = _judged(part)
-    tells = [f"As long as the grid resolves the pressure (feature up to {part['to_x_a']:.2f} a):", *early,
+    tells = [f"As long as the grid resolves the pressure (feature up to {_place(part['to_x_a'])}):", *early,
              f"{over[0].upper()}{over[1:]}, whose pressure it does not resolve:", *tells]
     if worst != BELOW:
         even = "even " if worst == ABOVE else ""
@@ -77,6 +77,14 @@ def _by_what_is_known(part, whole, tells, over):
         return headline(worst, places, False, ", as far as the grid resolves the pressure"), tells
     text = "Not decided: the index stays below 1 as long as the grid resolves the pressure, and exceeds it later."
     return (text, "open"), tells
+
+
+def _place(x):
+    """A position of the feature (a) for who does not know the frame."""
+    if round(x, 2) == 0:
+        return "the middle of the contact"
+    side = "before" if x < 0 else "behind"
+    return f"{x:.2f} a, that is {abs(x):.2f} half-widths {side} the middle of the contact"
 
 
 def _told(where, Fi, error, said):
@@ -105,8 +113,12 @@ def _alone(fatigue, over):
 
 def _plane(fatigue):
     pits = fatigue.get("pit_angles_deg")
-    known = f"; pits begin at {pits[0]:g} to {pits[1]:g}°" if pits else ""
-    return (f"The critical plane at the surface stands at {fatigue['surface_angle_deg']:.0f}° to it{known}.",)
+    known = (f" For comparison: pits of gear flanks were found to begin at {pits[0]:g} to {pits[1]:g}° to the surface."
+             if pits else "")
+    angle, early = f"{fatigue['surface_angle_deg']:.0f}°", fatigue.get("resolved")
+    both = f"{early['surface_angle_deg']:.0f}° to it, over the whole passage at {angle}" if early else f"{angle} to it"
+    return (f"The critical plane at the surface, on which the index is largest and a crack would begin, stands at {both}."
+            f"{known}",)
 
 
 def _of_film(summary):

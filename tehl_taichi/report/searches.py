@@ -1,0 +1,42 @@
+"""What a fatigue search found, as pages show it: of the part of the passage on which the answer rests, and of the whole."""
+
+from dataclasses import dataclass
+from typing import Any
+
+from tehl_taichi.figures.index_words import PART, resolved
+from tehl_taichi.figures.searches import CONSTANTS, OF_PART, PLACES
+from tehl_taichi.report.scene_words import when
+from tehl_taichi.scene.passing_words import where
+
+
+@dataclass(frozen=True)
+class Search:
+    """store: of the run, or what answers in its place; found: summary of the search; when: its moments, in words; of: begins
+    names of its maps, on: of its figures; short: the moments in few words, "" where there is one search only."""
+
+    store: Any
+    found: dict
+    when: str
+    of: str = ""
+    on: str = ""
+    short: str = ""
+
+    @property
+    def scene(self):
+        return self.store.scene
+
+    def map(self, name):
+        """One of its maps, or None."""
+        return self.store.map(name if name in PLACES else self.of + name)
+
+
+def searches(store):
+    """One :class:`Search`, or two: where the grid does not resolve every pressure first that of the part before, on which the
+    answer rests."""
+    found, over = store.summary["fatigue"], when(store.scene.fatigue)
+    known = found.get("resolved")
+    if not known:
+        return [Search(store, found, over)]
+    part = {**{key: found[key] for key in CONSTANTS}, **known}
+    return [Search(store, part, resolved(known, where(store.scene)), OF_PART, "resolved-", PART),
+            Search(store, found, f"{over}, whose later pressures the grid does not resolve", short=over)]
