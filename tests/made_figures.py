@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from tehl_taichi.figures.found_search import Found
 from tehl_taichi.figures.moments import Moments
 from tehl_taichi.figures.page import Page
-from tehl_taichi.figures.searches import Found
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 

@@ -9,7 +9,7 @@ from made_figures import searched, title, titles
 from read_pages import numbers, page
 
 from tehl_taichi.fatigue import resolved
-from tehl_taichi.figures import fatigue_figures, searches
+from tehl_taichi.figures import fatigue_figures, found_search
 from tehl_taichi.figures.page import Page
 
 PART = {"to_x_a": 0.6, **made_results.fatigue(0.8, 0.9)}
@@ -22,21 +22,21 @@ def maps(of_part=True):
     whole |= {"worst_depth": (np.array([25e-6]), ["d"], "m", "depth"),
               "findley_stress_at_worst_depth": (4e8 * whole["Fi"][0], ["x", "y"], "Pa", "stress")}
     part = {resolved.NAME + name: (0.8 * values if "stress" in name or name == "Fi" else values, *rest)
-            for name, (values, *rest) in whole.items() if name not in searches.PLACES}
+            for name, (values, *rest) in whole.items() if name not in found_search.PLACES}
     return whole | part if of_part else whole
 
 
 def test_figures_of_a_stored_run_know_the_part():
-    assert searches.OF_PART == resolved.NAME
+    assert found_search.OF_PART == resolved.NAME
     arrays = {name: values[0] for name, values in maps().items()}
-    found = searches.Found.of(made_results.THERMAL, arrays, SEARCH)
+    found = found_search.Found.of(made_results.THERMAL, arrays, SEARCH)
     part, whole = found.each
     assert whole is found and part.summary["Fi_max"] == 0.8 and part.summary["criterion"] == "findley"
     np.testing.assert_allclose(part.maps["Fi"], 0.8 * found.maps["Fi"])
     np.testing.assert_allclose(part.points["below"]["stress"], 0.8 * found.points["below"]["stress"])
     assert "feature up to 0.60 a" in part.constants
     assert found.constants.endswith("whole passage, its later pressures not resolved")
-    older = searches.Found.of(made_results.THERMAL, {name: values[0] for name, values in maps(False).items()}, SEARCH)
+    older = found_search.Found.of(made_results.THERMAL, {name: values[0] for name, values in maps(False).items()}, SEARCH)
     assert older.each == [older] and older.when == ""
 
 

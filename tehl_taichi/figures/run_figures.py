@@ -3,7 +3,7 @@
 from functools import partial
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.figures import fatigue_figures, field_maps, line_figures, searches, surface_figure
+from tehl_taichi.figures import fatigue_figures, field_maps, found_search, line_figures, surface_figure
 from tehl_taichi.figures.moments import Moments
 from tehl_taichi.figures.page import Page
 
@@ -34,13 +34,13 @@ def _of_the_film(store):
 
 
 def _fatigue(store, depth):
-    maps = {name: values for name in searches.MAPS if (values := store.map(name)) is not None}
-    return searches.Found.of(store.scene, maps, store.summary["fatigue"], depth)
+    maps = {name: values for name in found_search.MAPS if (values := store.map(name)) is not None}
+    return found_search.Found.of(store.scene, maps, store.summary["fatigue"], depth)
 
 
 def write_fatigue(result, scene, folder, page=None, depth=None):
     """Write the figures of a FatigueResult of a scene into `folder`; returns the paths. Raises SceneError, StoreError."""
     page = page or Page()
     maps = {name: value[0] for name, value in result.maps.items()}
-    found = searches.Found.of(scene, maps, result.summary, depth)
+    found = found_search.Found.of(scene, maps, result.summary, depth)
     return page.write(folder, fatigue_figures.all_figures(page, found))

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tehl_taichi.io import film_judge
+from tehl_taichi.io import film_judge, rim_judge
 from tehl_taichi.physics import conduction
 from tehl_taichi.physics.law import beyond
 
@@ -92,4 +92,5 @@ def worst_below(store, summary):
 
 
 # functions of (store, summary) that give their sentences
-CHECKS = (worst_below, yielding, *film_judge.CHECKS, beyond_measured, held_temperatures, unknown_errors, crowded)
+CHECKS = (worst_below, rim_judge.rims, yielding, *film_judge.CHECKS, beyond_measured, held_temperatures, unknown_errors,
+          crowded)

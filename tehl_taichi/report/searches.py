@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from typing import Any
 
+from tehl_taichi.figures.found_search import CONSTANTS, OF_PART, PLACES
 from tehl_taichi.figures.index_words import PART, resolved
-from tehl_taichi.figures.searches import CONSTANTS, OF_PART, PLACES
 from tehl_taichi.report.scene_words import when
 from tehl_taichi.scene.passing_words import where
 

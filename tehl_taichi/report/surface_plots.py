@@ -72,7 +72,7 @@ def measured(f):
     turned = f", times {f.scale:g}" if f.scale != 1 else ""
     rim = f", fading out over {told(f.taper, unit='m')} at its rim" if f.taper else ""
     return [("file", os.path.basename(f.file)), ("points", f"{along} × {across}"),
-            *([("not measured", f"{f.holes.sum()}, filled in")] if f.holes.any() else []),
+            *([("not measured", _missing(f))] if f.holes.any() else []),
             *([("turned", f.orientation.says)] if f.orientation.says else []),
             ("distance of its points", " × ".join(told(step, unit="m") for step in f.steps)),
             ("unit of its heights", f"{f.unit.replace('um', 'µm')}{turned}"), ("taken off", LEVELS[f.level]),
@@ -80,6 +80,12 @@ def measured(f):
             ("patch used", f"{told(length, unit='m')} × {told(width, unit='m')}{rim}"),
             ("range", f"{told(m.range, unit='m')}: {_signed(m.low)} to {_signed(m.high)}"), ("rms", told(m.rms, unit="m")),
             ("largest slope", f"{m.slope:.2g}°")]
+
+
+def _missing(f):
+    """Points that were not measured: of the part that is used, and of the file where that is more."""
+    used, all_ = int(f.inside(f.holes).sum()), int(f.holes.sum())
+    return f"{used}, filled in" + f" ({all_} in the whole file)" * (used < all_)
 
 
 def _signed(height):

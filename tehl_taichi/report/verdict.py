@@ -1,5 +1,6 @@
 """The answer of a run, in a sentence, and what it rests on."""
 
+from tehl_taichi.io import rim_judge
 from tehl_taichi.io.result_judge import STEEL, YIELDS, largest_pressure
 from tehl_taichi.report.document import Answer
 from tehl_taichi.report.rounded import index, told
@@ -19,9 +20,11 @@ def of(store):
     over = when(store.scene.fatigue)
     found = of_fatigue(summary["fatigue"], over) if "fatigue" in summary else _of_film(summary)
     question, headline, tone, tells = found
-    yields = _yielding(summary)
-    warnings = [sentence for sentence in store.warnings if not (yields and STEEL in sentence)]  # it stands first already
-    doubts = (*yields, *_cut(store), *_constants(store, summary), *_version(store))
+    yields, rims = _yielding(summary), list(rim_judge.rims(store, summary))
+    known = [sentence for sentence in store.warnings if sentence in rims or yields and STEEL in sentence]
+    warnings = [sentence for sentence in store.warnings if sentence not in known]  # those stand first already
+    at_rim = [f"{said[0].upper()}{said[1:]}." for said in rims]
+    doubts = (*yields, *at_rim, *_cut(store), *_constants(store, summary), *_version(store))
     return Answer(question, headline, tone, (*tells, *_read_first(warnings)), doubts, tuple(warnings))
 
 

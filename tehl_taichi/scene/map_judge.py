@@ -54,10 +54,11 @@ def _um(value):
 
 
 def _holes(f):
-    count = int(f.holes.sum())
-    if count:
-        yield (f"{_name(f)}: {count} of its {f.heights.size} points were not measured; they are filled smoothly from their "
-               "neighbours, so nothing that passes there is known")
+    holes = f.inside(f.holes)  # what is cut off does not pass
+    if holes.any():
+        cut = " that are used" if holes.size < f.heights.size else ""
+        yield (f"{_name(f)}: {holes.sum()} of its {holes.size} points{cut} were not measured; they are filled smoothly from "
+               "their neighbours, so nothing that passes there is known")
 
 
 def form(f):

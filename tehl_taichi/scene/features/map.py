@@ -122,6 +122,10 @@ class Measured:
         length, width = self.size
         return self.extent_x or length, self.extent_y or width
 
+    def to_rim(self, x, y):
+        """(along x, along y): distances (m) of a point x, y (m, from its centre) from the rim of the patch, < 0 beyond it."""
+        return tuple(size / 2 - abs(at) for size, at in zip(self.patch, (x, y)))
+
     @property
     def used(self):
         """The part of `surface` inside the patch."""
