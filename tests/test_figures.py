@@ -133,8 +133,17 @@ def test_the_film_colours_that_are_cut_end_in_an_arrow():
     assert [image.colorbar.extend for image in images] == ["neither", "max"]
     film = images[1]
     assert film.get_clim()[1] < film.get_array().max() and film.get_clim()[1] == pytest.approx(1.1 * 0.2 * 4.81, rel=0.1)
-    temperature = [ax.collections[0] for ax in drawn("temperature_maps", made()).axes if ax.get_title()]
-    assert len({image.get_clim() for image in temperature}) == 1 == len({image.cmap.name for image in temperature})
+
+
+def test_both_surfaces_have_one_scale_of_colours_and_the_film_its_own():
+    hot = made()
+    fields = hot.fields
+    hot.fields = lambda n, names: {name: (9 if "mid" in name else 1) * values for name, values in fields(n, names).items()}
+    film, *bodies = [ax.collections[0] for ax in drawn("temperature_maps", hot).axes if ax.get_title()]
+    assert len({image.cmap.name for image in (film, *bodies)}) == 1
+    a, b = (image.get_clim() for image in bodies)
+    assert a == b and all(a[0] <= image.get_array().min() and image.get_array().max() <= a[1] for image in bodies)
+    assert film.get_clim()[1] > 5 * a[1] and film.get_array().max() <= film.get_clim()[1]
 
 
 def test_one_moment_has_one_colour_in_every_figure():

@@ -106,6 +106,21 @@ def test_lines_and_maps_say_where_and_when(pages, tmp_path):
     assert table.max() == pytest.approx(p[np.abs(reader.x / 3.6217e-4) < 1.61, 0].max(), rel=1e-6)
 
 
+def test_both_surfaces_have_one_scale_of_colours(thermal, tmp_path, monkeypatch):
+    """Which is not that of the film."""
+    from tehl_taichi.io.reader import Reader
+    from tehl_taichi.report import map_plots
+
+    fields = Reader.fields
+    factors = {"temperature_mid": 9.0, "temperature_b": 2.0}
+    monkeypatch.setattr(Reader, "fields", lambda self, n, names=None: {
+        name: factors.get(name, 1.0) * values for name, values in fields(self, n, names).items()})
+    maps = {figure.name: figure.traces[0] for figure in map_plots.maps(Reader.open(thermal))}
+    a, b = (maps[f"map-temperature_{which}"] for which in "ab")
+    assert a["zmin"] == b["zmin"] == a["z"].min() and a["zmax"] == b["zmax"] == b["z"].max()
+    assert "zmax" not in maps["map-temperature_mid"]
+
+
 def test_what_carries_the_feature_is_said_where_temperatures_are(pages):
     seen = pages["thermal"].text
     assert "Temperature, surface a, which carries the feature: " in seen and "Temperature, surface b: " in seen

@@ -53,6 +53,21 @@ def test_the_oil_in_words_and_numbers():
     assert rows["eta0: viscosity at p = 0"] == "0.2 Pa s" and not any("roelands" in what for what in rows)
 
 
+def test_an_oil_by_its_data_sheet_is_told_as_the_sheet_has_it():
+    sheet = {"name": "ours", "nu_40": 220e-6, "nu_100": 18.9e-6, "rho_15": 893.0}
+    hot = scene("gear").replace(oil=sheet, temperature=100.0)
+    rows = dict(scene_words.numbers(hot))
+    assert rows["data sheet: kinematic viscosity at 40 °C"] == "220 mm²/s"
+    assert rows["data sheet: kinematic viscosity at 100 °C"] == "18.9 mm²/s"
+    assert rows["data sheet: density at 15 °C"] == "893 kg/m³"
+    assert rows["α at 40 °C, not on the sheet"].startswith("27 1/GPa, estimated")
+    eta, unit = rows["viscosity at the inlet (p = 0)"].split(maxsplit=1)
+    assert unit == "mPa s" and 0.93 < float(eta) / (18.9e-6 * 893e3) < 0.95  # 85 K expand it by 6 %
+    known = dict(scene_words.numbers(scene("gear").replace(oil={**sheet, "alpha_40": 21e-9})))
+    assert known["data sheet: α at 40 °C"] == "21 1/GPa"
+    assert not any("sheet" in what for what in dict(scene_words.numbers(scene("gear"))))
+
+
 def test_a_scene_in_words():
     text = " ".join(scene_words.words(scene("gear").replace(srr=-0.12)))
     for said in ("A line contact of reduced radius 10.6 mm carries 1100 N/mm", "the feature is on the slower one",

@@ -69,15 +69,21 @@ def maps(page, moments):
     return figure
 
 
+def ends(fields):
+    """(smallest, largest) value of some fields."""
+    return min(float(one.min()) for one in fields), max(float(one.max()) for one in fields)
+
+
 def temperature_maps(page, moments):
-    """Mid-film and both surfaces in one scale of colours."""
+    """Mid-film, and both surfaces in a scale of colours of their own: the film is far hotter."""
     n = moments.one()
     f = moments.store.fields(n, [name for name, *_ in SURFACES])
-    low, top = min(float(v.min()) for v in f.values()), max(float(v.max()) for v in f.values())
     figure, axes, beside = panels(page, moments, 3)
-    for ax, (name, text, _) in zip(axes, SURFACES):
-        image = draw_map(ax, moments, f[name], text, cmap=palette.TEMPERATURE, vmin=low, vmax=top)
-    bar(figure, image, list(axes), "temperature (°C)", beside)
+    for shown, label in ((slice(0, 1), "film (°C)"), (slice(1, 3), "both surfaces (°C)")):
+        low, top = ends([f[name] for name, *_ in SURFACES[shown]])
+        for ax, (name, text, _) in zip(axes[shown], SURFACES[shown]):
+            image = draw_map(ax, moments, f[name], text, cmap=palette.TEMPERATURE, vmin=low, vmax=top)
+        bar(figure, image, list(axes[shown]), label, beside)
     scene = moments.store.scene
     page.title(figure, f"{scene.name}: temperatures, {moments.peak(n)}{'; ' * scene.transient}{carrier(scene)}")
     return figure

@@ -1,6 +1,6 @@
 """Fields over the contact at the worst moment of the passage."""
 
-from tehl_taichi.figures.field_maps import whole
+from tehl_taichi.figures.field_maps import ends, whole
 from tehl_taichi.figures.line_figures import ALONG, SURFACES
 from tehl_taichi.figures.moments import Moments
 from tehl_taichi.figures.palette import FILM, PRESSURE, TEMPERATURE
@@ -9,6 +9,7 @@ from tehl_taichi.report.plots import field_map
 from tehl_taichi.scene.passing_words import passing
 from tehl_taichi.scene.scales import Scales
 
+BODIES = tuple(f"map-{name}" for name, text, _ in SURFACES if text.startswith("surface"))
 ROWS = 101  # of a half domain, at most
 
 
@@ -45,8 +46,8 @@ def _styles(store):
 
 
 def _alike(figures):
-    """Temperatures in one scale of colours."""
-    heat = [figure.traces[0] for figure in figures if "temperature" in figure.name]
+    """Both surfaces in one scale of colours, which is not that of the film: that is far hotter."""
+    heat = [figure.traces[0] for figure in figures if figure.name in BODIES]
     for trace in heat:
-        trace |= {"zmin": min(float(one["z"].min()) for one in heat), "zmax": max(float(one["z"].max()) for one in heat)}
+        trace |= dict(zip(("zmin", "zmax"), ends([one["z"] for one in heat])))
     return figures

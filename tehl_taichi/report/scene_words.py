@@ -6,6 +6,7 @@ import os
 from tehl_taichi.physics import viscosity
 from tehl_taichi.physics.rheology import LAWS
 from tehl_taichi.report.rounded import told
+from tehl_taichi.scene import data_sheet, mineral_alpha
 from tehl_taichi.scene.named_oils import NO_SOURCE
 from tehl_taichi.scene.passing_words import passing
 from tehl_taichi.scene.scales import Scales
@@ -112,9 +113,34 @@ def numbers(scene):
     rows = [("Hertz pressure p_H", told(s.p_H, unit="Pa")), ("half-width a", told(s.a, unit="m")), ("load", _load(scene)),
             ("reduced radius R'", told(s.R, unit="m")), ("reduced modulus E'", told(s.E, unit="Pa")),
             ("mean speed u_m", f"{scene.operation.u_m:.4g} m/s"), ("slide-to-roll ratio", f"{scene.operation.srr:g}"),
-            ("inlet temperature", f"{scene.operation.temperature:g} °C"), ("viscosity law", oil.viscosity),
-            *_of_oil(oil)]
+            ("inlet temperature", f"{scene.operation.temperature:g} °C"), ("viscosity at the inlet (p = 0)", _inlet(scene)),
+            *_of_sheet(oil), ("viscosity law", oil.viscosity), *_of_oil(oil)]
     return rows
+
+
+def _inlet(scene):
+    """Of the oil as it comes in."""
+    eta = math.exp(float(viscosity.ln_eta(scene.oil, 0.0, scene.operation.temperature)))
+    return f"{eta * 1e3:.4g} mPa s"
+
+
+def _of_sheet(oil):
+    """The data sheet that the numbers of the law follow from, in its units; nothing of an oil without one."""
+    if not data_sheet.speaks(vars(oil)):
+        return []
+    rows = [(f"data sheet: kinematic viscosity at {at} °C", f"{nu * 1e6:.4g} mm²/s") for at, nu in
+            ((40, oil.nu_40), (100, oil.nu_100))]
+    density = [("data sheet: density at 15 °C", f"{oil.rho_15:g} kg/m³")] if oil.rho_15 else []
+    return [*rows, *density, _alpha(oil)]
+
+
+def _alpha(oil):
+    """Of the sheet, or what it was estimated as."""
+    if not data_sheet.estimated(oil):
+        return "data sheet: α at 40 °C", f"{oil.alpha_40 * 1e9:.4g} 1/GPa"
+    alpha = data_sheet.alpha_40(oil.nu_40, oil.rho0, oil.Dz)
+    return ("α at 40 °C, not on the sheet", f"{alpha * 1e9:.3g} 1/GPa, estimated as of a mineral oil, within "
+            f"{mineral_alpha.WITHIN * 100:g} %")
 
 
 def _of_oil(oil):
