@@ -13,7 +13,7 @@ from tehl_cli.main import app
 from typer.testing import CliRunner
 
 import tehl_taichi as tehl
-from tehl_taichi.report import rounded, verdict
+from tehl_taichi.report import for_readers, rounded, verdict
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.route import total_steps
 from tehl_taichi.study import many
@@ -174,7 +174,9 @@ def test_warnings_of_the_result_stand_before_those_of_the_scene(pages, tmp_path)
     assert known
     made = made_results.run(tmp_path / "a.zarr", cut, 5, made_results.fatigue(), said=[*known, *found])
     text = page(made, tmp_path).text
-    places = [text.index(sentence) for sentence in ("About the result", *found, "About the scene", *known)]
+    shown = [for_readers.told(sentence) for sentence in known]
+    assert any("`tehl resume" in sentence for sentence in known) and "tehl resume" not in " ".join(shown)
+    places = [text.index(sentence) for sentence in ("About the result", *found, "About the scene", *shown)]
     assert places == sorted(places) and text.count("Warning:") == len(known) + 2
     assert "About the result" in pages["thermal"].text and "About the scene" not in pages["thermal"].text
     assert tehl.open(made).store.warnings == [*known, *found]

@@ -4,7 +4,7 @@ import made_results
 import numpy as np
 import pytest
 
-from tehl_taichi.report import rounded, scene_words, verdict
+from tehl_taichi.report import for_readers, rounded, scene_words, verdict
 from tehl_taichi.scene import scene
 
 
@@ -75,3 +75,13 @@ def test_a_scene_in_words():
         assert said in text, said
     assert "faster one" in " ".join(scene_words.words(scene("gear").replace(srr=0.12)))
     assert "without slip" in " ".join(scene_words.words(scene("gear").replace(srr=0.0)))
+
+
+def test_warnings_lose_what_only_a_terminal_takes():
+    from tehl_taichi.scene import finer
+
+    of_grid = f"a finer grid may resolve it: {finer.told(scene('gear'))}"
+    assert for_readers.told(of_grid) == "a finer grid may resolve it: a grid of 512 × 128 cells (8 times the work)"
+    left_out = scene("gear").replace(**{"thermal.on": False}).left_out()
+    assert any("--thermal" in one for one in left_out) and not any("--" in for_readers.told(one) for one in left_out)
+    assert for_readers.told("feature.taper = 4e-05 (m)") == "feature.taper = 4e-05 (m)"

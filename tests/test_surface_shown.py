@@ -183,3 +183,17 @@ def test_words_of_a_scan_in_figures_and_report(tmp_path):
     assert of_scan.figures["stress-surface"]["layout"]["xaxis"]["title"]["text"] == "position of the scan centre x / a"
     assert "nearest point in the file of the scan\nrow 16, column 20\n" in of_scan.text  # 8 um ahead of column 21, turned round
     assert "file of the scan" not in of_bump.text
+
+
+@pytest.mark.parametrize("keys, y, said", [
+    ({"taper": 0.0}, -0.5, "through the largest pressure"),
+    ({"taper": 60e-6}, None, "through the largest pressure away from the scan's rim"),
+    ({"taper": 60e-6, "y": 1e-4}, -0.5, "through the largest pressure")])
+def test_no_line_runs_along_the_rim_of_a_scan(tmp_path, keys, y, said):
+    """The largest pressure lies at y = -a/2, in the third case where nothing of the scan is."""
+    a = Made(scene("gear")).a
+    made = scanned(tmp_path, rows=int(1.2 * a / 5e-6), columns=100, **keys)[0]
+    moments, f = Moments(Made(made, whole=True)), made.features[0]
+    at, rim = moments.store.y[moments.line], f.to_rim(0.0, moments.store.y[moments.line] - f.y)[1]
+    assert moments.along.endswith(said)
+    assert at == pytest.approx(y * a) if y else rim > f.taper or rim < 0

@@ -72,10 +72,22 @@ class Moments:
     @cached_property
     def line(self):
         """Row of the lines along x: y = 0, but of a passage on the whole domain that of its largest pressure, which may lie
-        anywhere: along y = 0 a measured surface would often show its second-best peaks only."""
+        anywhere: along y = 0 a measured surface would often show its second-best peaks only. No row at the rim of a map."""
         if self.half:
             return self.row
-        return int(np.argmax(self.store.fields(self.worst, ["pressure"])["pressure"].max(axis=0)))
+        p = self._pressures
+        return int(np.argmax(np.where(self._away, p, -1.0))) if self._away.any() else int(np.argmax(p))
+
+    @cached_property
+    def _pressures(self):
+        """Largest one of every row at the moment of the largest pressure, Pa."""
+        return self.store.fields(self.worst, ["pressure"])["pressure"].max(axis=0)
+
+    @cached_property
+    def _away(self):
+        """Rows that do not lie where a measured map fades out: what is there is not the surface's own."""
+        rims = [(f, f.to_rim(0.0, self.store.y - f.y)[1]) for f in self.store.scene.features if f.kind.measured]
+        return np.all([np.full(self.store.y.size, True), *((rim < 0) | (rim > f.taper) for f, rim in rims)], axis=0)
 
     @property
     def along(self):
@@ -85,7 +97,8 @@ class Moments:
             return "along x"
         if self.half:
             return "along y = 0"
-        return f"along y = {round(float(store.y[self.line]) * 1e6)} µm, through the largest pressure"
+        rest = "" if self._away.all() or self._pressures[self.line] >= self._pressures.max() else " away from the scan's rim"
+        return f"along y = {round(float(store.y[self.line]) * 1e6)} µm, through the largest pressure{rest}"
 
     @property
     def window(self):

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from tehl_taichi.report import for_readers
 from tehl_taichi.report.packed import as_json, library, packed
 
 TEMPLATES = Path(__file__).parent / "templates"
@@ -53,9 +54,10 @@ class Answer:
 
     @property
     def groups(self):
-        """[(heading, warnings)]: those of the result first, which the answer hangs on; none that is empty."""
-        found = [one for one in self.warnings if one not in self.known_before]
-        known = [one for one in self.warnings if one in self.known_before]
+        """[(heading, warnings)]: those of the result first, which the answer hangs on; none that is empty.
+        In words for readers."""
+        found = [for_readers.told(one) for one in self.warnings if one not in self.known_before]
+        known = [for_readers.told(one) for one in self.warnings if one in self.known_before]
         return [group for group in (("About the result", found), ("About the scene", known)) if group[1]]
 
 

@@ -6,6 +6,7 @@ from tehl_taichi.io.reader import Reader
 from tehl_taichi.report import (
     crack_plots,
     fatigue_plots,
+    for_readers,
     map_plots,
     passage_plots,
     run_tables,
@@ -37,10 +38,10 @@ def page(store):
 
 def scene_section(scene, source):
     """A scene in words and numbers, and all of its values."""
-    left_out = sentences(scene.left_out(cut=False), "Left out, because the scene does not need it")
+    left_out = [for_readers.told(one) for one in scene.left_out(cut=False)]
     whole = Part("source", {"title": "every value, as a scene file", "text": source}) if source else None
-    return Section("Scene", (Part("text", {"sentences": scene_words.words(scene)}), facts(scene_words.numbers(scene)), left_out,
-                             whole))
+    return Section("Scene", (Part("text", {"sentences": scene_words.words(scene)}), facts(scene_words.numbers(scene)),
+                             sentences(left_out, "Left out, because the scene does not need it"), whole))
 
 
 def _film(store):

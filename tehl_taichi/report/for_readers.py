@@ -1,0 +1,13 @@
+"""Warnings as a reader has them who did not run the command: the facts stay, options of the command line become words."""
+
+import re
+
+WORDS = ((re.compile(r"--grid (\d+)x(\d+)"), r"a grid of \1 × \2 cells"), (re.compile(r"; `tehl resume[^`]*` goes on"), ""),
+         (re.compile(r"; --thermal has them"), ""))
+
+
+def told(sentence):
+    """The sentence without what only a terminal takes."""
+    for pattern, words in WORDS:
+        sentence = pattern.sub(words, sentence)
+    return sentence
