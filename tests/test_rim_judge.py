@@ -65,7 +65,7 @@ def test_only_points_that_are_used_count_as_not_measured(tmp_path):
     heights[:3, :3] = heights[50, 50:52] = np.nan
     np.save(tmp_path / "holed.npy", heights)
     cut, whole = (feature(tmp_path / "holed.npy", **keys) for keys in ({"extent_x": 50e-6, "extent_y": 60e-6}, {}))
-    assert "2 of its 3111 points that are used were not measured" in next(map_judge._holes(cut))
+    assert "2 of its 3111 used points were not measured" in next(map_judge._holes(cut))
     assert "11 of its 10201 points were not measured" in next(map_judge._holes(whole))
     assert ("not measured", "2, filled in (11 in the whole file)") in surface_plots.measured(cut)
     away = feature(tmp_path / "holed.npy", extent_x=50e-6, extent_y=60e-6, x=0.0)

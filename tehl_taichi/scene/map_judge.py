@@ -56,8 +56,8 @@ def _um(value):
 def _holes(f):
     holes = f.inside(f.holes)  # what is cut off does not pass
     if holes.any():
-        cut = " that are used" if holes.size < f.heights.size else ""
-        yield (f"{_name(f)}: {holes.sum()} of its {holes.size} points{cut} were not measured; they are filled smoothly from "
+        cut = " used" if holes.size < f.heights.size else ""
+        yield (f"{_name(f)}: {holes.sum()} of its {holes.size}{cut} points were not measured; they are filled smoothly from "
                "their neighbours, so nothing that passes there is known")
 
 
