@@ -174,7 +174,9 @@ def test_fatigue_of_a_run_is_told_apart_like_the_run(tmp_path, monkeypatch):
         monkeypatch.setattr(companions, "resolved", lambda *_, until=until: until)
         done.fatigue(kappa=0.2)
     done.fatigue(until=0.5)
-    assert asked == [-0.25, None, 0.5]
+    monkeypatch.setattr(companions, "resolved", lambda *_: -0.25)
+    tehl.fatigue(done, kappa=0.2)
+    assert asked == [-0.25, None, 0.5, -0.25]
 
 
 def test_steel_that_would_yield():

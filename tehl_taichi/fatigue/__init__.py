@@ -42,6 +42,9 @@ def fatigue(of: Any, scene: "Scene | None" = None, *, progress: Any = None, thre
     >>> print(f"{found.f[0] / 1e6:.2f} MPa, Fi {found.Fi[0]:.3f}")
     67.20 MPa, Fi 0.168
     """
+    if scene is None and hasattr(of, "fatigue"):  # a Run knows up to where its grid resolves the pressure, and its error bars
+        return of.fatigue(progress=progress, threads=threads, until=until, **constants)
+
     from tehl_taichi.engine import runtime
     from tehl_taichi.fatigue import assessment, points
     from tehl_taichi.fatigue import constants as given
