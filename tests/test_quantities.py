@@ -71,3 +71,37 @@ def test_the_load_is_refused_in_the_unit_of_its_contact():
         Contact(load=-1.0)
     with pytest.raises(SceneError, match="at least 0 N and"):
         Contact(kind="point", radius_y=10.6e-3, load=-1.0)
+
+
+@pytest.mark.parametrize("section, key, value, said", [
+    ("fatigue", "endurance", 400, "400e6 Pa (400 MPa)"), ("bodies", "E", 206, "206e9 Pa (206 GPa)"),
+    ("contact", "radius_x", 7.5, "7.5e-3 m (7.5 mm)"), ("feature", "height", 1.5, "1.5e-6 m (1.5 um)"),
+    ("feature", "width", 200, "200e-6 m (200 um)"), ("feature", "pixel", 2.53, "2.53e-6 m (2.53 um)"),
+    ("oil", "nu_40", 220, "220e-6 m2/s (220 mm2/s)"), ("fatigue", "depths", [50], "50e-6 m (50 um)"),
+    ("bodies", "rho", 0.785, "0.785e3 kg/m3 (0.785 kg/l)"), ("bodies", "alpha", 12, "12e-6 1/K (12 um/mK)"),
+])
+def test_what_is_out_of_range_by_its_unit_is_asked_about(section, key, value, said):
+    """The unit that comes nearest to a usual value, of those that people write: 206 of a modulus is GPa, 400 of a limit MPa."""
+    with pytest.raises(SceneError) as error:
+        made_with(section, key, value)
+    assert str(error.value).endswith(f"; did you mean {said}?")
+
+
+@pytest.mark.parametrize("section, key, value", [
+    ("bodies", "nu", 30), ("fatigue", "endurance", -400), ("bodies", "E", 10**400), ("fatigue", "endurance", math.nan),
+    ("contact", "radius_x", 1e30), ("feature", "width", 0.0), ("oil", "c0", 1e12)])
+def test_what_no_unit_explains_is_not_guessed_at(section, key, value):
+    with pytest.raises(SceneError) as error:
+        made_with(section, key, value)
+    assert "did you mean" not in str(error.value)
+
+
+@pytest.mark.parametrize("name, changes, said", [
+    ("gear", {"load": 350.0}, "did you mean 350e3 N/m (350 N/mm)?"),
+    ("gear", {"hertz_pressure": 1.3}, "did you mean 1.3e9 Pa (1.3 GPa)?"),
+    ("gear", {"hertz_pressure": 1300.0}, "did you mean 1300e6 Pa (1300 MPa)?"),
+    ("ball-on-disc", {"load": 1e-8}, ""), ("gear", {"load": 1e-8}, "")])
+def test_a_load_that_makes_no_contact_is_asked_about(name, changes, said):
+    with pytest.raises(SceneError) as error:
+        scene(name).replace(**changes)
+    assert str(error.value).endswith(said) and ("did you mean" in str(error.value)) == bool(said)

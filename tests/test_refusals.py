@@ -226,3 +226,12 @@ def test_what_is_set_may_be_what_a_file_needs(tmp_path, base):
     assert found == find_changed(path, {"srr": 0.1}) == find(path).replace(srr=0.1) and found.oil.name == "mineral-vg68"
     with pytest.raises(SceneError, match="did you mean 'width'"):
         find_changed(path, {"feature.0.wdth": 2e-6})
+
+
+@pytest.mark.parametrize("line, words", [
+    ("srr = -0,2", ("line 3 has a decimal comma, TOML takes a point: -0.2",)),
+    ("srr = 1,5e-3  # of it", ("line 3", "1.5e-3",)), ("srr = -0;2", ("Expected newline", "line 3"))])
+def test_a_decimal_comma_is_named(line, words, tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(f'base = "gear"\n[operation]\n{line}\n[grid]\nnx = 128\n')
+    refused(lambda: scene_file.load(path), "mine.toml is not valid TOML", *words)

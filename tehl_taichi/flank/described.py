@@ -1,13 +1,13 @@
 """A flank by whatever names it: a built-in pair, a TOML file, a table (CSV), or a GearPair."""
 
 import dataclasses
-import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.flank import load_table, positions
 from tehl_taichi.flank.mesh import Mesh
+from tehl_taichi.io import toml_file
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.gear_pair import PAIRS, GearPair, gear_pair
 from tehl_taichi.scene.whole import Scene
@@ -69,7 +69,7 @@ def _from_file(path):
     one or a scene file); files beside this one."""
     from tehl_taichi.io.found import find
 
-    data = _parsed(path)
+    data = toml_file.read(path, "flank")
     for key in data:
         if key not in KEYS:
             raise SceneError(f"unknown key {shown(key)} in {path}{nearest(key, KEYS)}; known: {', '.join(KEYS)}")
@@ -83,15 +83,6 @@ def _from_file(path):
     base = dataclasses.asdict(gear_pair(_text(data, "base"))) if "base" in data else {}
     gear = data.get("gear", {})
     return Described(**given, pair=build(GearPair, {**base, **gear} if isinstance(gear, dict) else gear, "gear"))
-
-
-def _parsed(path):
-    try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError) as error:
-        raise SceneError(f"cannot read flank file {path}: {getattr(error, 'strerror', None) or error}") from None
-    except (ValueError, RecursionError) as error:
-        raise SceneError(f"{path} is not valid TOML: {error}") from None
 
 
 def _text(data, key, default=""):

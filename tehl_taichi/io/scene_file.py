@@ -2,9 +2,9 @@
 
 import json
 import math
-import tomllib
 from pathlib import Path
 
+from tehl_taichi.io import toml_file
 from tehl_taichi.scene import Scene, SceneError, data_sheet, scene
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.oil import Oil
@@ -22,14 +22,7 @@ def load(path, changes=()):
     """Scene from a TOML file; `base = "gear"` fills what is not given. changes: {full key: value}, as if they stood in it.
     Raises SceneError (also for broken TOML)."""
     path = Path(path)
-    try:
-        data = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError) as error:
-        raise SceneError(f"cannot read scene file {path}: {getattr(error, 'strerror', None) or error}") from None
-    except RecursionError:
-        raise SceneError(f"{path} nests tables or lists too deeply; a scene needs two levels") from None
-    except ValueError as error:  # of TOML, and of Python for whole numbers of more than 4300 digits
-        raise SceneError(f"{path} is not valid TOML: {error}") from None
+    data = toml_file.read(path, "scene")
     for key in changes:
         _write(data, key.split("."), changes[key])
     return from_data(_beside(data, path.absolute().parent), path.stem)

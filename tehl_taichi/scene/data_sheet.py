@@ -11,7 +11,7 @@ from tehl_taichi.physics import density
 from tehl_taichi.physics.densities import RHO0
 from tehl_taichi.physics.viscosities.roelands_temperature import LN_SCALE, LOG_SCALE, P_ROELANDS, ROELANDS_TEMPERATURE
 from tehl_taichi.scene import mineral_alpha
-from tehl_taichi.values.checks import HUGE
+from tehl_taichi.values import checks
 from tehl_taichi.values.plain import plain
 from tehl_taichi.values.quantity import quantity
 
@@ -25,9 +25,9 @@ KEYS = {"nu_40": quantity(0.0, "m2/s", "of a data sheet, with nu_100 in place of
                              "estimated as of a mineral oil", 0.0, 1e-7),
         "rho_15": quantity(0.0, "kg/m3", "density at 15 deg C, beside nu_40 and nu_100, in place of rho0; 0: not given",
                            0.0, 3000.0)}
-# what a sheet can say of each, in its unit; and the unit that sheets have, over it: of what is typed as it stands there
-SAYS = {"nu_40": (1e-6, 0.1, "mm2/s", "e-6"), "nu_100": (1e-6, 0.1, "mm2/s", "e-6"), "alpha_40": (1e-9, 1e-7, "1/GPa", "e-9"),
-        "rho_15": (500.0, 3000.0, "kg/l", "e3")}
+# what a sheet can say of each, in its unit, and a usual value
+SAYS = {"nu_40": (1e-6, 0.1, 1e-4), "nu_100": (1e-6, 0.1, 1e-5), "alpha_40": (1e-9, 1e-7, 2e-8),
+        "rho_15": (500.0, 3000.0, 880.0)}
 VISCOSITY = ("G0", "S0", "Dz", "Cz")
 
 
@@ -42,13 +42,11 @@ def follows(values):
 
 
 def check_range(oil):
-    """Refuse a number that no oil has; where it stands as on a sheet, say how it is written here. Raises SceneError."""
-    for key, (low, high, unit, power) in SAYS.items():
-        value, own = plain(getattr(oil, key)), KEYS[key].metadata["kind"].unit
-        number = isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < HUGE
-        if number and value != 0 and not low <= value <= high:
-            meant = f"; did you mean {value:g}{power} ({value:g} {unit})?" if low <= value * float("1" + power) <= high else ""
-            raise SceneError(f"oil.{key} = {value:g} {own} is out of range; allowed: {low:g} to {high:g} {own}{meant}")
+    """Refuse a number that no oil has. Raises SceneError."""
+    for key, (low, high, usual) in SAYS.items():
+        value = plain(getattr(oil, key))
+        if value != 0 or isinstance(value, bool):
+            checks.number(f"oil.{key}", value, KEYS[key].metadata["kind"].unit, low, high, usual=usual)
 
 
 def completed(oil):

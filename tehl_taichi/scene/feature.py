@@ -28,11 +28,12 @@ class Shared:
     height: float = quantity(1.5e-6, "m", _about("height", "height"), -1e-3, 1e-3)
     width: float = quantity(200e-6, "m", _about("width", "along x"), 1e-6, 0.1)
     length: float = quantity(0.0, "m", _about("length", "along y"), 0.0, infinite=True)
-    x: float = quantity(0.0, "m", "centre, ahead of the first feature", -0.1, 0.1)
-    y: float = quantity(0.0, "m", "centre", -0.1, 0.1)
-    extent_x: float = quantity(0.0, "m", _about("extent_x", "length of the patch"), 0.0, 0.1)
-    extent_y: float = quantity(0.0, "m", _about("extent_y", "its width; 0: without end"), 0.0, 0.1)
-    taper: float = quantity(0.0, "m", _about("taper", "distance over which the patch fades out at its rim"), 0.0, 0.1)
+    x: float = quantity(0.0, "m", "centre, ahead of the first feature", -0.1, 0.1, usual=1e-4)
+    y: float = quantity(0.0, "m", "centre", -0.1, 0.1, usual=1e-4)
+    extent_x: float = quantity(0.0, "m", _about("extent_x", "length of the patch"), 0.0, 0.1, usual=5e-4)
+    extent_y: float = quantity(0.0, "m", _about("extent_y", "its width; 0: without end"), 0.0, 0.1, usual=5e-4)
+    taper: float = quantity(0.0, "m", _about("taper", "distance over which the patch fades out at its rim"), 0.0, 0.1,
+                            usual=5e-5)
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,8 @@ from tehl_taichi.physics.law import declared, section
 from tehl_taichi.scene.named_steels import STEELS
 from tehl_taichi.values.quantity import AUTO, check, choice, count, quantities, quantity, switch, text
 
+LARGEST_RADIUS = 1.0  # m: the teeth of the largest gears have a fifth of it; a number beyond it was meant in mm
+
 
 @dataclass(frozen=True)
 class Contact:
@@ -22,10 +24,10 @@ class Contact:
     """
 
     kind: str = choice("line", "shape; point: circular", ("line", "point", "elliptic"))
-    radius_x: float = quantity(10.6e-3, "m", "reduced radius along x, 1/R' = 1/r_a + 1/r_b", 1e-6, 1e3)
+    radius_x: float = quantity(10.6e-3, "m", "reduced radius along x, 1/R' = 1/r_a + 1/r_b", 1e-6, LARGEST_RADIUS)
     radius_y: float = quantity(math.inf, "m", "reduced radius along y; line: inf", 1e-6, infinite=True)
     load: float = quantity(0.0, "N/m or N", "line: N/m, point and elliptic: N; 0: not given", 0.0, 1e10)
-    hertz_pressure: float = quantity(0.0, "Pa", "in place of a load; 0: not given", 0.0, 2e10)
+    hertz_pressure: float = quantity(0.0, "Pa", "in place of a load; 0: not given", 0.0, 2e10, usual=1e9)
     moes_M: float = quantity(0.0, "", "Moes' load number, with moes_L in place of load and speed; 0: not given", 0.0, 1e6)
     moes_L: float = quantity(0.0, "", "Moes' lubricant number, with moes_M; 0: not given", 0.0, 1e3)
 
@@ -156,16 +158,17 @@ class Fatigue:
 
     on: bool = switch(True, "stresses and fatigue index of a passage")
     kappa: float = quantity(0.3, "", f"sensitivity to stress, {sensitivities()}", 0.0, 5.0)
-    endurance: float = quantity(400e6, "Pa", "fatigue limit sigma_eF: Fi = 1", 1e3, 1e11)
+    endurance: float = quantity(400e6, "Pa", "fatigue limit sigma_eF: Fi = 1", 1e6, 1e11)
     source: str = text("example values, set your own", "where kappa and endurance come from", one_line=False)
     criterion: str = choice("findley", "fatigue criterion", tuple(CRITERIA))
     depths: Union[tuple, str] = quantities(AUTO, "m", "searched below the surface; auto: the worst depth under the feature is "
-                                           "looked for; as [50e-6, 100e-6]: all points at these, too", 1e-7, 0.1, auto=True)
+                                           "looked for; as [50e-6, 100e-6]: all points at these, too", 1e-7, 0.1,
+                                           auto=True, usual=1e-4)
     shear: bool = switch(True, "whether the shear tractions count")
     thermal_stress: Union[bool, str] = switch(AUTO, "whether the stress of the heat counts; auto: where there are temperatures",
                                               auto=True)
-    residual_xx: float = quantity(0.0, "Pa", "constant residual stress along x", -1e10, 1e10)
-    residual_yy: float = quantity(0.0, "Pa", "constant residual stress along y", -1e10, 1e10)
+    residual_xx: float = quantity(0.0, "Pa", "constant residual stress along x", -1e10, 1e10, usual=-2e8)
+    residual_yy: float = quantity(0.0, "Pa", "constant residual stress along y", -1e10, 1e10, usual=-2e8)
     from_x: float = quantity(-math.inf, "a", "moments count from this position of the feature on; -inf: all", infinite=True)
     to_x: float = quantity(math.inf, "a", "moments count up to this position of the feature; inf: all", infinite=True)
 

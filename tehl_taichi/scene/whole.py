@@ -14,6 +14,7 @@ from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.parts import AUTO, Body, Contact, Fatigue, Grid, Numerics, Operation, Output, Rheology, Thermal, Time
 from tehl_taichi.scene.route import LATEST, cut_at
 from tehl_taichi.values.checks import build, file_name, nearest, number
+from tehl_taichi.values.meant import meant
 from tehl_taichi.values.plain import plain, shown
 from tehl_taichi.values.quantity import Text
 
@@ -89,8 +90,8 @@ class Scene:
     def _check_pressure(self):
         p_H = scales.Scales.of(self).p_H
         if not MIN_HERTZ <= p_H <= MAX_HERTZ:
-            raise SceneError(f"the load gives a Hertz pressure of {p_H:.3g} Pa; allowed: {MIN_HERTZ:.0e} to "
-                             f"{MAX_HERTZ:.0e} Pa")
+            raise SceneError(f"{self._load_words()} gives a Hertz pressure of {p_H:.3g} Pa; allowed: {MIN_HERTZ:.0e} to "
+                             f"{MAX_HERTZ:.0e} Pa{self._load_meant()}")
 
     def _check_path(self):
         start, end = self.path
@@ -115,7 +116,8 @@ class Scene:
                 raise SceneError(f"{self._load_words()} gives a half-width a of {s.a:.3g} m and so, at grid.{key} = {end:g} "
                                  "a, an "
                                  f"undeformed gap of {gap:.3g} m, smaller than the height of a feature, {highest:.3g} m; "
-                                 f"allowed: a height of at most {gap:.2g} m, more load{farther}{self._form_words()}")
+                                 f"allowed: a height of at most {gap:.2g} m, more load{farther}"
+                                 f"{self._load_meant(need / abs(end)) or self._form_words()}")
 
     def _form_words(self):
         """What is said of the form of a measured feature, which makes it higher than it need be."""
@@ -124,9 +126,27 @@ class Scene:
 
     def _load_words(self):
         """The load as it was given."""
+        key, value, unit = self._load_given()
+        return f"contact.{key} = {value:g}{' ' * bool(unit)}{unit}"
+
+    def _load_given(self):
+        """(key, value, unit) of the load."""
         key = next(key for key in ("load", "hertz_pressure", "moes_M") if getattr(self.contact, key) > 0)
-        unit = {"load": " N/m" if self.contact.kind == "line" else " N", "hertz_pressure": " Pa", "moes_M": ""}[key]
-        return f"contact.{key} = {getattr(self.contact, key):g}{unit}"
+        unit = {"load": "N/m" if self.contact.kind == "line" else "N", "hertz_pressure": "Pa", "moes_M": ""}[key]
+        return key, getattr(self.contact, key), unit
+
+    def _load_meant(self, wider=0.0):
+        """What the load was perhaps meant as, where it makes no contact, or one that has to be so many times wider. Width and
+        Hertz pressure grow alike with it."""
+        key, value, unit = self._load_given()
+        power = 1.0 if key == "hertz_pressure" else 1 / 2 if self.contact.kind == "line" else 1 / 3
+        p_H = scales.Scales.of(self).p_H
+
+        def fits(other):
+            times = (other / value) ** power
+            return times >= wider and MIN_HERTZ <= times * p_H <= MAX_HERTZ
+
+        return meant(value, unit, fits)
 
     def _check_motion(self):
         if self.transient and self.operation.u_a < 1e-3 * self.operation.u_m:

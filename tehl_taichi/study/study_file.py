@@ -4,6 +4,7 @@ import tomllib
 from pathlib import Path
 
 from tehl_taichi.errors import SceneError
+from tehl_taichi.io import toml_file
 from tehl_taichi.io.found import find
 from tehl_taichi.scene import BUILT_INS
 from tehl_taichi.study.plan import plan
@@ -31,10 +32,7 @@ def load(path):
     keys with dots may be quoted or not. scene: a built-in, or a scene file beside this one.
     """
     path = Path(path)
-    try:
-        data = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise SceneError(f"cannot read study file {path}: {error}") from None
+    data = toml_file.read(path, "study")
     for key in data:
         if key not in KNOWN:
             raise SceneError(f"unknown key {shown(key)} in {path}{nearest(key, KNOWN)}; known: {', '.join(KNOWN)}")

@@ -6,19 +6,23 @@ import difflib
 import math
 
 from tehl_taichi.errors import SceneError
+from tehl_taichi.values.meant import meant
 from tehl_taichi.values.plain import plain, shown
 
 HUGE = 10**300  # whole numbers beyond it are no floats
 
-def number(where, value, unit="", low=-math.inf, high=math.inf, strict=False, infinite=False):
-    """Refuse `value` unless it is a number within low..high (`strict`: low itself is refused too)."""
+
+def number(where, value, unit="", low=-math.inf, high=math.inf, strict=False, infinite=False, usual=0.0):
+    """Refuse `value` unless it is a number within low..high (`strict`: low itself is refused too); of what is out of range as
+    if in another unit the one is named that comes nearest to a usual value."""
     if isinstance(value, bool) or not isinstance(value, (int, float)) or value != value:
         raise SceneError(f"{where} = {shown(value)} is not a number{_allowed(unit, low, high, strict)}")
     if abs(value) == math.inf and not infinite:
         raise SceneError(f"{where} = {value} must be finite{_allowed(unit, low, high, strict)}")
     if value < low or value > high or (strict and value == low) or (isinstance(value, int) and abs(value) > HUGE):
         text = f"{value:g}" if isinstance(value, float) else shown(value)
-        raise SceneError(f"{where} = {text}{' ' + unit if unit else ''} is out of range{_allowed(unit, low, high, strict)}")
+        other = meant(value, unit, lambda other: low <= other <= high, usual) if abs(value) <= HUGE else ""
+        raise SceneError(f"{where} = {text}{' ' * bool(unit)}{unit} is out of range{_allowed(unit, low, high, strict)}{other}")
 
 
 def _allowed(unit, low, high, strict):

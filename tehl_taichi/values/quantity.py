@@ -27,7 +27,7 @@ class Kind:
 
 @dataclass(frozen=True)
 class Number(Kind):
-    """A number in its unit; strict: `low` itself is refused; infinite: inf is allowed."""
+    """A number in its unit; strict: `low` itself is refused; infinite: inf is allowed; usual: one of its order (0: unknown)."""
 
     about: str
     unit: str = "-"
@@ -35,9 +35,10 @@ class Number(Kind):
     high: float = math.inf
     strict: bool = False
     infinite: bool = False
+    usual: float = 0.0
 
     def check(self, where, value):
-        checks.number(where, value, self.unit.strip("-"), self.low, self.high, self.strict, self.infinite)
+        checks.number(where, value, self.unit.strip("-"), self.low, self.high, self.strict, self.infinite, self.usual)
 
     @property
     def allowed(self):
@@ -162,14 +163,15 @@ def _declared(default, kind, compare=True):
     return dataclasses.field(default=default, compare=compare, metadata={"kind": kind})
 
 
-def quantity(default, unit, about, low=-math.inf, high=math.inf, strict=False, infinite=False):
-    """Field of a dataclass: a number in `unit` within low..high."""
-    return _declared(default, Number(about, unit or "-", low, high, strict, infinite))
+def quantity(default, unit, about, low=-math.inf, high=math.inf, strict=False, infinite=False, usual=0.0):
+    """Field of a dataclass: a number in `unit` within low..high; usual: one of its order, where the default is none."""
+    usual = usual or (default if math.isfinite(default) else 0.0)
+    return _declared(default, Number(about, unit or "-", low, high, strict, infinite, usual))
 
 
-def quantities(default, unit, about, low=-math.inf, high=math.inf, auto=False):
+def quantities(default, unit, about, low=-math.inf, high=math.inf, auto=False, usual=0.0):
     """Field: a list of such numbers."""
-    return _declared(default, Numbers(about, unit, low, high, auto=auto))
+    return _declared(default, Numbers(about, unit, low, high, usual=usual, auto=auto))
 
 
 def count(default, about, low, high, multiple=1):

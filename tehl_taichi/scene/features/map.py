@@ -27,14 +27,15 @@ class Measured:
                      "path in a scene file starts at that file", most=4096, compare=False)
     unit: str = choice("", "map: of the heights in its file", ("", *UNITS))
     scale: float = quantity(1.0, "", "map: its heights are multiplied with it; -1 turns them over, as for a replica", -1e3, 1e3)
-    pixel: float = quantity(0.0, "m", "map: distance of the points in a row of the file; 0: not given", 0.0, 1e-2)
-    pixel_y: float = quantity(0.0, "m", "map: distance of the rows of the file, where it is another one; 0: pixel", 0.0, 1e-2)
+    pixel: float = quantity(0.0, "m", "map: distance of the points in a row of the file; 0: not given", 0.0, 1e-2, usual=1e-6)
+    pixel_y: float = quantity(0.0, "m", "map: distance of the rows of the file, where it is another one; 0: pixel", 0.0, 1e-2,
+                              usual=1e-6)
     transpose: bool = switch(False, "map: the rows of its file lie along y, across; pixel and pixel_y stay those of the file")
     mirror_x: bool = switch(False, "map: its ends along x change places (transpose comes first)")
     mirror_y: bool = switch(False, "map: its ends along y change places (transpose comes first)")
     level: str = choice("plane", "map: what is taken off its heights; form: plane and curvature", tuple(LEVELS))
     cutoff: float = quantity(0.0, "m", "map: Gaussian low-pass (ISO 16610-61), wavelength of which half is kept; 0: none", 0.0,
-                             1e-2)
+                             1e-2, usual=2e-5)
     sha256: str = text("", "map: of its heights, filled in when they are read; a file with other heights is refused then")
 
     def __setstate__(self, state):

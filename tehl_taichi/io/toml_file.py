@@ -1,0 +1,33 @@
+"""Reading TOML that people write."""
+
+import re
+import tomllib
+from pathlib import Path
+
+from tehl_taichi.errors import SceneError
+
+COMMA = re.compile(r"\s*[\w.\"'-]+\s*=\s*([-+]?\d+),(\d+(?:[eE][-+]?\d+)?)\s*(?:#.*)?")  # key = -0,2
+LINE = re.compile(r"\(at line (\d+), ")
+
+
+def read(path, what):
+    """The nested dictionary of a TOML file; what: "scene", as sentences name it. Raises SceneError: it cannot be read, or is no
+    TOML; of a decimal comma it says so."""
+    try:
+        text = Path(path).read_text(encoding="utf-8")
+        return tomllib.loads(text)
+    except (OSError, UnicodeDecodeError) as error:
+        raise SceneError(f"cannot read {what} file {path}: {getattr(error, 'strerror', None) or error}") from None
+    except RecursionError:
+        raise SceneError(f"{path} nests tables or lists too deeply; a {what} needs two levels") from None
+    except ValueError as error:  # of TOML, and of Python for whole numbers of more than 4300 digits
+        raise SceneError(f"{path} is not valid TOML: {_with_point(text, error) or error}") from None
+
+
+def _with_point(text, error):
+    """What to say of a line with a decimal comma, None of other errors."""
+    line = LINE.search(str(error))
+    number = int(line[1]) if line else 0
+    lines = text.split("\n")
+    found = COMMA.fullmatch(lines[number - 1].rstrip("\r")) if 0 < number <= len(lines) else None
+    return found and f"line {number} has a decimal comma, TOML takes a point: {found[1]}.{found[2]}"

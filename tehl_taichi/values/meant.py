@@ -1,0 +1,29 @@
+"""What a number out of its range was probably meant as: the same digits in a unit that people write it in."""
+
+import math
+
+# {unit: [(power of ten, its name)]}
+WRITTEN = {"m": ((-3, "mm"), (-6, "um"), (-9, "nm")), "Pa": ((6, "MPa"), (9, "GPa")), "N/m": ((3, "N/mm"),), "N": ((3, "kN"),),
+           "m/s": ((-3, "mm/s"),), "kg/m3": ((3, "kg/l"),), "m2/s": ((-6, "mm2/s"),), "1/Pa": ((-9, "1/GPa"), (-6, "1/MPa")),
+           "Pa s": ((-3, "mPa s"),), "1/K": ((-6, "um/mK"),), "J/kgK": ((3, "kJ/kgK"),), "N m": ((3, "kN m"),)}
+
+
+def meant(value, unit, fits, usual=0.0):
+    """'; did you mean 400e6 Pa (400 MPa)?', or '' where no unit that people write makes sense of it.
+
+    fits: function of a value in `unit`, whether it is allowed; usual: one of its order (0: unknown), the nearest is told.
+
+    >>> meant(206, "Pa", lambda value: value > 1e6, usual=2e11)
+    '; did you mean 206e9 Pa (206 GPa)?'
+    """
+    found = [(power, name) for power, name in WRITTEN.get(unit, ()) if value and fits(value * 10.0**power)]
+    if not found:
+        return ""
+    power, name = min(found, key=lambda one: _apart(value * 10.0**one[0], usual))
+    digits = f"{value:g}"
+    return "" if "e" in digits else f"; did you mean {digits}e{power} {unit} ({digits} {name})?"
+
+
+def _apart(value, usual):
+    """Powers of ten between them; the order of `WRITTEN` decides where nothing is usual."""
+    return abs(math.log10(abs(value / usual))) if usual else 0.0
