@@ -235,3 +235,56 @@ def test_a_decimal_comma_is_named(line, words, tmp_path):
     path = tmp_path / "mine.toml"
     path.write_text(f'base = "gear"\n[operation]\n{line}\n[grid]\nnx = 128\n')
     refused(lambda: scene_file.load(path), "mine.toml is not valid TOML", *words)
+
+
+FILES = (GEAR, "[contact]\nload = 1.1e6\n", GEAR + "[operation]\nu_a = 7.0\nu_b = 9.0\n",
+         GEAR + '[oil]\nname = "mineral-vg68"\n[bodies.a]\nmaterial = "100Cr6"\n[bodies.b]\nE = 3e11\n',
+         GEAR + '[oil]\nname = "mineral-vg220"\nk0 = 0.2\n', '[contact]\nload = 1.1e6\n[[feature]]\nwidth = 300e-6\n[[feature]]\n',
+         GEAR + "[oil]\nnu_40 = 220e-6\nnu_100 = 19e-6\nrho_15 = 890\n", 'base = "furrow-line"\n[grid]\nnx = 512\n')
+CHANGES = ({"srr": 0.1}, {"speed": 5.0}, {"operation.u_a": 8.0, "operation.u_b": 9.0}, {"hertz_pressure": 2e9},
+           {"contact.load": 1.2e6}, {"oil.k0": 0.1}, {"oil.name": "reference-pao"}, {"bodies.a.material": ""},
+           {"bodies.b.material": "16MnCr5"}, {"oil.nu_40": 320e-6, "oil.nu_100": 24e-6}, {"oil.rho0": 870.0},
+           {"time.steady_only": True}, {"name": "other", "feature": []}, {"height": 1e-6}, {"oil.alpha_40": 2e-8},
+           {"oil.name": "shop", "oil.viscosity": "barus", "oil.eta0": 0.1, "oil.alpha": 2e-8})
+
+
+def outcome(make):
+    try:
+        return make()
+    except SceneError as error:
+        return str(error)
+
+
+@pytest.mark.parametrize("changes", CHANGES, ids=lambda changes: ",".join(changes))
+@pytest.mark.parametrize("text", FILES, ids=range(len(FILES)))
+def test_a_change_of_a_file_is_that_of_its_scene(text, changes, tmp_path):
+    """Where a file needs no help, it makes no difference whether its changes come before or after it is judged."""
+    path = tmp_path / "mine.toml"
+    path.write_text(text)
+    assert outcome(lambda: find_changed(path, changes)) == outcome(lambda: find(path).replace(**changes))
+
+
+@pytest.mark.parametrize("text", ["oil = 3", "operation = 3", "bodies = 3", "[bodies]\na = 3", "feature = 3", "feature = [3]",
+                                  "contact = []", "time = 1", "[oil]\nname = []"])
+@pytest.mark.parametrize("changes", CHANGES, ids=lambda changes: ",".join(changes))
+def test_what_is_no_table_is_refused_whatever_is_changed(text, changes, tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(GEAR + text)
+    said = outcome(lambda: find_changed(path, changes))
+    repaired = {"oil.name", "feature"} & changes.keys() or "oil.nu_40" in changes and "name" in text
+    assert isinstance(said, str) or repaired and said == find_changed("gear", changes).replace(name=said.name)
+
+
+@pytest.mark.parametrize("text, changes", [
+    ('[oil]\nname = "mine"\nviscosity = "barus"\nalpha = 2e-8', {"oil.eta0": 0.1}),
+    ("[oil]\nnu_40 = 220e-6", {"oil.nu_100": 19e-6}), ("[operation]\nu_a = 8.0", {"operation.u_b": 9.0}),
+    ('[operation]\nsrr = "x"', {"srr": 0.1}), ("[fatigue]\nendurance = 400", {"endurance": 400e6}),
+    ("[contact]\nload = 350", {"load": 350e3}), ('[contact]\nmoes_M = 100.0\nmoes_L = 10.0\n[operation]\nu_m = 5.0', {"load": 1e6}),
+    ('[bodies.a]\nmaterial = "100Cr7"', {"bodies.a.material": "100Cr6"})])
+def test_what_repairs_a_file(text, changes, tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(GEAR + text)
+    refused(lambda: find(path))
+    found = find_changed(path, changes)
+    section = next(iter(changes)).partition(".")[0]
+    assert found.name == "mine" and (section not in ("oil", "bodies") or found != scene("gear").replace(name="mine"))

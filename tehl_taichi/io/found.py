@@ -19,33 +19,32 @@ def find(name: str | os.PathLike | Scene = "gear") -> Scene:
     >>> f"{fast.operation.u_a:.2f} m/s, {fast.grid.nx} cells"
     '7.99 m/s, 128 cells'
     """
-    if isinstance(name, Scene):
-        return name
-    if not isinstance(name, (str, os.PathLike)):
-        raise SceneError(f"{shown(name)} is no scene; allowed: a Scene, the name of a built-in one, a TOML file or a store")
-    return built_in(name) if name in BUILT_INS else _from_file(Path(name))
+    return find_changed(name, {})
 
 
 def find_changed(name, changes):
-    """The scene by its name with changes {full key: value}. They may be what a file needs: one that is refused by itself counts
-    with them written into it. Raises SceneError."""
+    """The scene by its name with changes {key: value}, which count as if they stood in its file: one that is refused by itself
+    may need them. Raises SceneError."""
     from tehl_taichi.io import scene_file
 
-    try:
-        found = find(name)
-    except SceneError:
-        if not changes or not Path(name).is_file():
-            raise
-        found = scene_file.load(name, changes)
+    if not isinstance(name, (str, os.PathLike, Scene)):
+        raise SceneError(f"{shown(name)} is no scene; allowed: a Scene, the name of a built-in one, a TOML file or a store")
+    if not isinstance(name, Scene) and name not in BUILT_INS and _is_file(Path(name)):
+        return scene_file.load(name, changes)
+    found = name if isinstance(name, Scene) else _stored(Path(name)) or built_in(str(name))
     return found.replace(**changes) if changes else found
 
 
-def _from_file(path):
-    """Scene of a store or a TOML file; what is neither was meant as a name."""
-    from tehl_taichi.io import intact, scene_file
+def _is_file(path):
+    return path.suffix == ".toml" or path.exists() and not _is_store(path)
 
-    if path.is_dir() and (path / "zarr.json").exists():
-        return intact.scene_of(path, intact.root_of(path)[0])
-    if path.suffix == ".toml" or path.exists():
-        return scene_file.load(path)
-    return built_in(str(path))
+
+def _is_store(path):
+    return path.is_dir() and (path / "zarr.json").exists()
+
+
+def _stored(path):
+    """Scene of the store at `path`, None where there is none. Raises StoreError for a damaged one."""
+    from tehl_taichi.io import intact
+
+    return intact.scene_of(path, intact.root_of(path)[0]) if _is_store(path) else None

@@ -5,7 +5,7 @@ import math
 from pathlib import Path
 
 from tehl_taichi.io import toml_file
-from tehl_taichi.scene import Scene, SceneError, data_sheet, scene
+from tehl_taichi.scene import Scene, SceneError, change, data_sheet, given, named_oils, named_steels, scene
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.parts import Body
@@ -19,25 +19,11 @@ COLUMN = 26  # where the comments of short lines begin
 
 
 def load(path, changes=()):
-    """Scene from a TOML file; `base = "gear"` fills what is not given. changes: {full key: value}, as if they stood in it.
+    """Scene from a TOML file; `base = "gear"` fills what is not given. changes: {key: value}, as if they stood in it.
     Raises SceneError (also for broken TOML)."""
     path = Path(path)
     data = toml_file.read(path, "scene")
-    for key in changes:
-        _write(data, key.split("."), changes[key])
-    return from_data(_beside(data, path.absolute().parent), path.stem)
-
-
-def _write(data, key, value):
-    """Put a value where its key [section, ..., name] has its place, if there is one."""
-    first, *rest = key
-    if isinstance(data, list):
-        if first.isdigit() and int(first) < len(data) and rest:
-            _write(data[int(first)], rest, value)
-    elif isinstance(data, dict) and rest:
-        _write(data.setdefault(first, {}), rest, value)
-    elif isinstance(data, dict):
-        data[first] = value
+    return from_data(_beside(data, path.absolute().parent), path.stem, changes)
 
 
 def new(path, base):
@@ -59,24 +45,40 @@ def _beside(data, folder):
     return data
 
 
-def from_data(data, name):
-    """Scene from a parsed file."""
-    base = data.pop("base", None)
-    data.setdefault("name", name)
-    if base is None:
-        found = Scene.from_dict({"feature": [], **data})
-    else:
-        text("base", base)
-        found = Scene.from_dict(merge(scene(base).to_dict(), data))
-    _check_speed(found, data)
+def from_data(data, name, changes=()):
+    """Scene from a parsed file with changes {key: value}, which are made before anything is judged. Raises SceneError."""
+    base, changes = data.pop("base", None), given.named(dict(changes))
+    told = data["operation"].get("u_m") if isinstance(data.get("operation"), dict) else None
+    described = _spelled_out(_on_base(base, {"name": name, **data}))
+    found = Scene.from_dict(change.applied(described, changes))
+    change.check_effect(found, changes)
+    if not changes.keys() & set(given.LOADS):
+        _check_speed(found, told)
     return found
 
 
-def _check_speed(found, data):
-    """Refuse a mean speed beside a Moes pair, unless it is the one that the pair gives (as files written by tehl have it)."""
-    given = data.get("operation", {}).get("u_m", found.operation.u_m)
-    if found.contact.moes_M > 0 and not math.isclose(given, found.operation.u_m, rel_tol=1e-6):
-        raise SceneError(f"operation.u_m = {given:g} m/s and contact.moes_L = {found.contact.moes_L:g} contradict each other: "
+def _on_base(base, data):
+    """The nested dictionary of a scene: `data`, and what it leaves to its base."""
+    if base is None:
+        return {"feature": [], **data}
+    text("base", base)
+    return merge(scene(base).to_dict(), data)
+
+
+def _spelled_out(data):
+    """The same with the numbers of its oil and steels, which stay when a change takes the name."""
+    if "oil" in data:
+        data["oil"] = named_oils.spelled_out(data["oil"])
+    if isinstance(data.get("bodies"), dict):
+        data["bodies"] = {which: named_steels.completed(body) for which, body in data["bodies"].items()}
+    return data
+
+
+def _check_speed(found, told):
+    """Refuse a mean speed (m/s, or None) beside a Moes pair, unless it is the one that the pair gives (as files written by tehl
+    have it)."""
+    if told is not None and found.contact.moes_M > 0 and not math.isclose(told, found.operation.u_m, rel_tol=1e-6):
+        raise SceneError(f"operation.u_m = {told:g} m/s and contact.moes_L = {found.contact.moes_L:g} contradict each other: "
                          f"the pair gives {found.operation.u_m:.4g} m/s; leave u_m out")
 
 

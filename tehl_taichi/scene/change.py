@@ -7,19 +7,33 @@ from tehl_taichi.scene import data_sheet, given
 from tehl_taichi.scene import named_oils as oils
 from tehl_taichi.scene.feature import SHAPES, USED_BY
 from tehl_taichi.scene.named_steels import STEELS
+from tehl_taichi.scene.parts import SECTIONS
 from tehl_taichi.scene.route import ALL
+from tehl_taichi.scene.speeds import of_surfaces
 from tehl_taichi.values.checks import key_shown, nearest
+
+TABLES = (*SECTIONS, "bodies", "oil")
 
 
 def applied(data, changes):
-    """`data` (a scene as nested dictionary) with changes {full key: value}; what they replace is cleared. Raises SceneError."""
+    """`data` with changes {full key: value}; what they replace is cleared. Raises SceneError.
+
+    data: a scene as nested dictionary, changed in place; where it stands in a file, sections and keys may be missing, and what
+    is no table is left to whoever makes a scene of it.
+    """
     _clear(data, changes)
     _name_oil(data, changes)
-    _read_sheet(data["oil"], changes)
+    _read_sheet(_table(data, "oil"), changes)
     _name_steels(data, changes)
     for key in sorted(changes, key=lambda key: key.count(".")):  # whole tables before single values
         _assign(data, key, changes[key])
     return data
+
+
+def _table(data, key):
+    """The table of that key, made where there is none; one that is thrown away in place of what is no table."""
+    found = data.setdefault(key, {})
+    return found if isinstance(found, dict) else {}
 
 
 def check_effect(scene, changes):
@@ -55,24 +69,29 @@ def _clear(data, changes):
     if loads:
         pair = given.LOADS[2:]
         kept = pair if loads[0] in pair else loads
-        data["contact"].update({key.partition(".")[2]: 0.0 for key in given.LOADS if key not in kept})
+        _table(data, "contact").update({key.partition(".")[2]: 0.0 for key in given.LOADS if key not in kept})
+    speeds = _table(data, "operation")
     if any(key in changes for key in given.BY_SURFACE):
-        data["operation"] = {key: value for key, value in data["operation"].items() if key not in ("u_m", "srr")}
+        for key in ("u_m", "srr"):
+            speeds.pop(key, None)
+    elif {"operation.u_m", "operation.srr"} & changes.keys():
+        data["operation"] = of_surfaces(data["operation"])
     if changes.get("time.steady_only"):
-        data["time"]["steps"] = ALL
+        _table(data, "time")["steps"] = ALL
 
 
 def _name_oil(data, changes):
     """A known name brings the numbers of its oil; a new one must come with numbers, or a data sheet."""
-    name = changes.get("oil.name", data["oil"]["name"])
+    oil = _table(data, "oil")
+    name = changes.get("oil.name", oil.get("name"))
     if isinstance(name, str) and name in oils.OILS and "oil.name" in changes:
         data["oil"] = dataclasses.asdict(oils.OILS[name])
-    elif name != data["oil"]["name"]:
+    elif name != oil.get("name"):
         new = _of_oil(changes)
         if not data_sheet.speaks(new):
             oils.check_new(name, new)
-            data["oil"].update(dict.fromkeys(data_sheet.KEYS, 0.0))
-        data["oil"]["source"] = "" if data_sheet.speaks(new) else oils.NO_SOURCE
+            oil.update(dict.fromkeys(data_sheet.KEYS, 0.0))
+        oil["source"] = "" if data_sheet.speaks(new) else oils.NO_SOURCE
 
 
 def _of_oil(changes):
@@ -82,42 +101,60 @@ def _of_oil(changes):
 def _read_sheet(oil, changes):
     """A data sheet makes another oil of one that had none; what follows from it is found anew, its source, too, unless that is
     the user's own."""
-    new = _of_oil(changes)
-    sheet = {**{key: oil[key] for key in data_sheet.KEYS}, **new}
+    new, source = _of_oil(changes), str(oil.get("source", ""))
+    sheet = {**{key: oil.get(key, 0.0) for key in data_sheet.KEYS}, **new}
     if data_sheet.speaks(sheet) and not data_sheet.speaks(oil):
         oil.update(name=changes.get("oil.name", data_sheet.NAME), viscosity=data_sheet.LAW, source="")
-    elif data_sheet.KEYS.keys() & new.keys() and (oil["source"].startswith(data_sheet.FROM) or oil["name"] in oils.OILS):
+    elif data_sheet.KEYS.keys() & new.keys() and (source.startswith(data_sheet.FROM) or oil.get("name") in tuple(oils.OILS)):
         oil["source"] = "" if data_sheet.speaks(sheet) else oils.NO_SOURCE
-    oil.update(dict.fromkeys(data_sheet.follows(sheet)))
+    if new:
+        oil.update(dict.fromkeys(data_sheet.follows(sheet)))
 
 
 def _name_steels(data, changes):
     """A known name brings the numbers of its steel."""
-    for which, body in data["bodies"].items():
+    for which in ("a", "b"):
         name = changes.get(f"bodies.{which}.material")
         if isinstance(name, str) and name in STEELS:
-            body.update(STEELS[name].numbers)
+            _table(_table(data, "bodies"), which).update(STEELS[name].numbers)
 
 
 def _assign(data, dotted, value):
-    """Set the dotted key in the nested dictionary."""
+    """Set the dotted key. Raises SceneError where no scene has its section; of a section's keys whoever makes it knows."""
     *path, last = dotted.split(".")
-    target = data
-    if len(path) > 1 and path[0] == "feature" and path[1].isdecimal():
-        features = data["feature"]
-        if not isinstance(features, list) or len(path[1]) > 6 or int(path[1]) >= len(features):
-            raise SceneError(f"{key_shown(dotted)}: scene {data['name']!r} has {len(features)} features")
-        target, path = features[int(path[1])], path[2:]
-    for key in path:
-        if not isinstance(target, dict) or key not in target:
-            raise SceneError(f"unknown key {key_shown(dotted)}{nearest(key, target if isinstance(target, dict) else ())}")
-        target = target[key]
-    known = list(target) if isinstance(target, dict) else []
-    if target is data.get("operation"):
-        known += ["u_a", "u_b", "u_m", "srr"]
-    if last not in known:
-        known += list(given.SHORT) if target is data else []
-        raise SceneError(f"unknown key {key_shown(dotted)}{nearest(last, known)}; known: {', '.join(map(str, known))}")
+    known = (*TABLES, "feature", "name", "note", *given.SHORT)
+    if not path and last not in known:
+        raise _unknown(dotted, last, known)
+    target = _place(data, path, dotted) if path else data
     if last == "file":
         target["sha256"] = ""  # another file, other heights
     target[last] = value
+
+
+def _place(data, path, dotted):
+    """The table in which the keys with that path stand. Raises SceneError."""
+    section, *rest = path
+    if section == "feature" and rest and rest[0].isdecimal():
+        target, rest = _feature(data, rest[0], dotted), rest[1:]
+    elif section == "bodies" and rest and rest[0] in ("a", "b"):
+        target, rest = _table(_table(data, section), rest[0]), rest[1:]
+    elif section in TABLES:
+        target = _table(data, section)
+    else:
+        raise _unknown(dotted, section, TABLES)
+    if rest:
+        raise _unknown(dotted, rest[0], ("a", "b") if section == "bodies" else target)
+    return target
+
+
+def _feature(data, number, dotted):
+    """The table of a feature."""
+    features = data.get("feature", [])
+    if not isinstance(features, list) or len(number) > 6 or int(number) >= len(features):
+        count = len(features) if isinstance(features, list) else 0
+        raise SceneError(f"{key_shown(dotted)}: scene {data.get('name')!r} has {count} features")
+    return features[int(number)] if isinstance(features[int(number)], dict) else {}
+
+
+def _unknown(dotted, key, known):
+    return SceneError(f"unknown key {key_shown(dotted)}{nearest(key, known)}; known: {', '.join(map(str, known))}")

@@ -39,6 +39,11 @@ def settled(given):
     return {key: value for key, (_, value) in found.items()}
 
 
+def named(changes):
+    """{full key: value} of changes {key: value}. Raises SceneError, as :func:`settled`."""
+    return settled([(words(key, value), key, value) for key, value in changes.items()])
+
+
 def words(key, value):
     """A change as a sentence shows it."""
     return f"{key} = {shown(value)}"

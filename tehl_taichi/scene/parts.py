@@ -251,3 +251,7 @@ class Output:
 
     def __post_init__(self):
         check(self, "output")
+
+
+SECTIONS = {"contact": Contact, "operation": Operation, "rheology": Rheology, "thermal": Thermal, "fatigue": Fatigue,
+            "grid": Grid, "time": Time, "numerics": Numerics, "output": Output}

@@ -11,15 +11,27 @@ from tehl_taichi.scene import change, given, judge, map_judge, named_oils, oil_r
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.named_steels import completed
 from tehl_taichi.scene.oil import Oil
-from tehl_taichi.scene.parts import AUTO, Body, Contact, Fatigue, Grid, Numerics, Operation, Output, Rheology, Thermal, Time
+from tehl_taichi.scene.parts import (
+    AUTO,
+    SECTIONS,
+    Body,
+    Contact,
+    Fatigue,
+    Grid,
+    Numerics,
+    Operation,
+    Output,
+    Rheology,
+    Thermal,
+    Time,
+)
 from tehl_taichi.scene.route import LATEST, cut_at
+from tehl_taichi.scene.speeds import of_surfaces
 from tehl_taichi.values.checks import build, file_name, nearest, number
 from tehl_taichi.values.meant import meant
-from tehl_taichi.values.plain import plain, shown
+from tehl_taichi.values.plain import shown
 from tehl_taichi.values.quantity import Text
 
-SECTIONS = {"contact": Contact, "operation": Operation, "rheology": Rheology, "thermal": Thermal, "fatigue": Fatigue,
-            "grid": Grid, "time": Time, "numerics": Numerics, "output": Output}
 TOP = {"name": Text("what stores are named after", 100),  # the keys above all tables
        "note": Text("free words on one line, kept and shown with the run; nothing is computed with them")}
 FIRST, LAST = -1.6, 1.4  # of the path of a small feature, in a
@@ -250,7 +262,7 @@ class Scene:
         """A changed copy. Keys: srr, load, hertz_pressure, speed, temperature, height, width, kappa, endurance, name,
         or dotted ("grid.nx"; "feature.height" is the first feature, "feature.1.height" the second). Raises SceneError.
         """
-        changes = given.settled([(given.words(key, value), key, value) for key, value in changes.items()])
+        changes = given.named(changes)
         changed = Scene.from_dict(change.applied(self.to_dict(), changes))
         change.check_effect(changed, changes)
         return changed
@@ -276,32 +288,13 @@ class Scene:
                 raise SceneError(f"unknown section or key {shown(key)}{nearest(key, known)}; known: {', '.join(sorted(known))}")
         parts = {key: build(kind, data[key], key) for key, kind in SECTIONS.items() if key in data and key != "operation"}
         if "operation" in data:
-            parts["operation"] = build(Operation, _speeds(data["operation"]), "operation")
+            parts["operation"] = build(Operation, of_surfaces(data["operation"]), "operation")
         parts.update(_bodies(data.get("bodies", {})))
         if "oil" in data:
             parts["oil"] = named_oils.from_values(data["oil"])
         if "feature" in data:
             parts["features"] = _features(data["feature"])
         return cls(name=data.get("name", "gear"), note=data.get("note", ""), **parts)
-
-
-def _speeds(values):
-    """u_a, u_b (m/s) in place of u_m and srr."""
-    if not isinstance(values, dict):
-        return values
-    values = dict(values)
-    if "u_a" in values or "u_b" in values:
-        if not {"u_a", "u_b"} <= values.keys() or values.keys() & {"u_m", "srr"}:
-            raise SceneError("operation takes u_a and u_b together, or u_m and srr")
-        u_a, u_b = (plain(values.pop(key)) for key in ("u_a", "u_b"))
-        number("operation.u_a", u_a, "m/s", -1e4, 1e4)
-        number("operation.u_b", u_b, "m/s", -1e4, 1e4)
-        u_m = 0.5 * (u_a + u_b)
-        if not abs(u_m) > 0:
-            raise SceneError(f"operation.u_a = {u_a:g} m/s and u_b = {u_b:g} m/s give no entrainment (mean speed 0): "
-                             "there is no film and SRR has no meaning")
-        values.update(u_m=u_m, srr=(u_a - u_b) / u_m)
-    return values
 
 
 def _bodies(values):

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.io import toml_file
-from tehl_taichi.io.found import find
+from tehl_taichi.io.found import find_changed
 from tehl_taichi.scene import BUILT_INS
 from tehl_taichi.study.plan import plan
 from tehl_taichi.values.checks import nearest
@@ -40,9 +40,8 @@ def load(path):
     for group in data.get("together", []):
         columns = {key: _listed(key, values) for key, values in _flat(group).items()}
         over[tuple(columns)] = _rows(columns)
-    scene = find(_scene_name(data.get("scene", "gear"), path.parent))
-    changes = _flat(_table(data, "set"))
-    return plan(scene.replace(**changes) if changes else scene, over, data.get("samples"), data.get("seed", 0))
+    scene = find_changed(_scene_name(data.get("scene", "gear"), path.parent), _flat(_table(data, "set")))
+    return plan(scene, over, data.get("samples"), data.get("seed", 0))
 
 
 def _table(data, key):
