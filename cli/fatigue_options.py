@@ -12,9 +12,10 @@ from tehl_taichi.criteria import CRITERIA
 def _asked(
     kappa: Annotated[Optional[float], typer.Option(help="sensitivity to normal stress")] = None,
     endurance: Annotated[Optional[float], typer.Option(help="sigma_eF, Pa")] = None,
-    bending_limit: Annotated[Optional[float], typer.Option(help="fatigue limit in reversed bending, Pa (with "
-                                                           "--torsion-limit)")] = None,
-    torsion_limit: Annotated[Optional[float], typer.Option(help="the same in torsion: both give kappa, sigma_eF")] = None,
+    bending_limit: Annotated[Optional[float], typer.Option(help="fatigue limit in reversed bending, Pa, in "
+                                                           "place of --endurance")] = None,
+    torsion_limit: Annotated[Optional[float], typer.Option(help="the same in torsion; one limit and kappa give "
+                                                           "sigma_eF, both kappa, too")] = None,
     criterion: Annotated[Optional[str], typer.Option(help=", ".join(CRITERIA))] = None,
     depths: Annotated[Optional[str], typer.Option(help="auto (the worst depth under the feature), none, or depths at which all "
                                                   "points are searched as well, m, as 50e-6,100e-6")] = None,

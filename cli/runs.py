@@ -36,6 +36,9 @@ def run(
                                                        "very short passages)"),
     kappa: Optional[float] = typer.Option(None, help="Findley's kappa_F"),
     endurance: Optional[float] = typer.Option(None, help="Findley's endurance limit sigma_eF, Pa"),
+    bending_limit: Optional[float] = typer.Option(None, help="fatigue limit in reversed bending, Pa, in place of --endurance"),
+    torsion_limit: Optional[float] = typer.Option(None, help="the same in torsion; one limit and kappa give sigma_eF, both "
+                                                  "kappa, too"),
     steps: Optional[int] = typer.Option(None, help="stop after this many time steps (0: the steady start alone); `tehl "
                                         "resume` goes on"),
     out: Optional[Path] = typer.Option(None, help="store to write (default: runs/SCENE-N.zarr)"),
@@ -58,6 +61,7 @@ def run(
     changes = given_by(
         {"srr": srr, "load": load, "hertz_pressure": hertz_pressure, "speed": speed, "temperature": temperature,
          "height": height, "width": width, "kappa": kappa, "endurance": endurance, "time.steps": steps, "thermal.on": thermal,
+         "bending_limit": bending_limit, "torsion_limit": torsion_limit,
          "fatigue.on": fatigue, "numerics.estimate_error": estimate_error, "numerics.precision": precision,
           "time.steady_only": steady or None},
         grid, set_ or [])

@@ -239,12 +239,16 @@ def test_a_decimal_comma_is_named(line, words, tmp_path):
 
 FILES = (GEAR, "[contact]\nload = 1.1e6\n", GEAR + "[operation]\nu_a = 7.0\nu_b = 9.0\n",
          GEAR + '[oil]\nname = "mineral-vg68"\n[bodies.a]\nmaterial = "100Cr6"\n[bodies.b]\nE = 3e11\n',
-         GEAR + '[oil]\nname = "mineral-vg220"\nk0 = 0.2\n', '[contact]\nload = 1.1e6\n[[feature]]\nwidth = 300e-6\n[[feature]]\n',
+         GEAR + '[oil]\nname = "mineral-vg220"\nk0 = 0.2\n',
+         '[contact]\nload = 1.1e6\n[[feature]]\nwidth = 300e-6\n[[feature]]\n',
+         GEAR + "[fatigue]\ntorsion_limit = 4e8\n", GEAR + "[fatigue]\ntorsion_limit = 4e8\nbending_limit = 6e8\n",
          GEAR + "[oil]\nnu_40 = 220e-6\nnu_100 = 19e-6\nrho_15 = 890\n", 'base = "furrow-line"\n[grid]\nnx = 512\n')
 CHANGES = ({"srr": 0.1}, {"speed": 5.0}, {"operation.u_a": 8.0, "operation.u_b": 9.0}, {"hertz_pressure": 2e9},
            {"contact.load": 1.2e6}, {"oil.k0": 0.1}, {"oil.name": "reference-pao"}, {"bodies.a.material": ""},
            {"bodies.b.material": "16MnCr5"}, {"oil.nu_40": 320e-6, "oil.nu_100": 24e-6}, {"oil.rho0": 870.0},
            {"time.steady_only": True}, {"name": "other", "feature": []}, {"height": 1e-6}, {"oil.alpha_40": 2e-8},
+           {"kappa": 0.4}, {"endurance": 5e8}, {"torsion_limit": 4.2e8}, {"bending_limit": 6.2e8, "torsion_limit": 4.2e8},
+           {"kappa": 0.2, "bending_limit": 6e8}, {"fatigue.criterion": "matake"}, {"torsion_limit": 4e8, "endurance": 5e8},
            {"oil.name": "shop", "oil.viscosity": "barus", "oil.eta0": 0.1, "oil.alpha": 2e-8})
 
 
@@ -279,7 +283,8 @@ def test_what_is_no_table_is_refused_whatever_is_changed(text, changes, tmp_path
     ('[oil]\nname = "mine"\nviscosity = "barus"\nalpha = 2e-8', {"oil.eta0": 0.1}),
     ("[oil]\nnu_40 = 220e-6", {"oil.nu_100": 19e-6}), ("[operation]\nu_a = 8.0", {"operation.u_b": 9.0}),
     ('[operation]\nsrr = "x"', {"srr": 0.1}), ("[fatigue]\nendurance = 400", {"endurance": 400e6}),
-    ("[contact]\nload = 350", {"load": 350e3}), ('[contact]\nmoes_M = 100.0\nmoes_L = 10.0\n[operation]\nu_m = 5.0', {"load": 1e6}),
+    ("[contact]\nload = 350", {"load": 350e3}),
+    ('[contact]\nmoes_M = 100.0\nmoes_L = 10.0\n[operation]\nu_m = 5.0', {"load": 1e6}),
     ('[bodies.a]\nmaterial = "100Cr7"', {"bodies.a.material": "100Cr6"})])
 def test_what_repairs_a_file(text, changes, tmp_path):
     path = tmp_path / "mine.toml"

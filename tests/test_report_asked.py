@@ -101,6 +101,11 @@ def test_limits_in_bending_and_torsion_are_the_source_of_what_follows(made, sear
     assert "from the fatigue limits 600 MPa in reversed bending and 390 MPa in torsion." in text
 
 
+def test_one_limit_is_told_with_what_became_of_it(made, search):
+    text = text_of(tehl.report(tehl.open(made), torsion_limit=400e6))
+    assert "from the fatigue limit 400 MPa in reversed torsion with kappa = 0.3." in text and "417.6" in text
+
+
 @pytest.mark.parametrize("constants, source", [
     ({"residual_xx": -2e8}, "DIN 50100"), ({"kappa": 0.2}, "example values, set your own"),
     ({"kappa": 0.2, "source": "own tests"}, "own tests")])

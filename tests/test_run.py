@@ -195,6 +195,18 @@ def test_the_fatigue_of_stresses_from_elsewhere():
     assert tehl.fatigue(bending(500e6).tolist(), **limits).Fi == pytest.approx(1)  # one point, as a list
 
 
+@pytest.mark.parametrize("kappa", [0.0, 0.3, 1.0])
+def test_one_limit_and_kappa_are_enough(kappa):
+    """The stress of that limit has the index 1; by hand, sigma_eF of torsion is t sqrt(1 + kappa^2), of bending
+    (b/2)(kappa + sqrt(1 + kappa^2))."""
+    torsion = np.zeros((5, 6))
+    torsion[:, 3] = 320e6 * np.array([0, 1, 0, -1, 0])
+    found = tehl.fatigue(torsion, kappa=kappa, torsion_limit=320e6)
+    assert found.Fi == pytest.approx(1, rel=1e-7) and found.limit == pytest.approx(320e6 * np.sqrt(1 + kappa**2), rel=1e-8)
+    found = tehl.fatigue(bending(500e6), kappa=kappa, bending_limit=500e6)
+    assert found.Fi == pytest.approx(1) and found.limit == pytest.approx(250e6 * (kappa + np.sqrt(1 + kappa**2)), rel=1e-8)
+
+
 def test_the_critical_plane_is_told_by_two_angles():
     """Reversed tension along x (y), half of it along y (x), none along z: the normal leans from z by 90 - 36.65 degrees, with
     tan(2 36.65) = 1/0.3, towards x (y)."""
@@ -208,9 +220,9 @@ def test_the_critical_plane_is_told_by_two_angles():
 @pytest.mark.parametrize("of, constants, said", [
     (bending(), {"kapa": 1}, "kappa"), (bending(), {"to_x": 1.0}, "to_x has no meaning"), (bending(), {"kappa": -1}, "kappa"),
     (bending(), {"criterion": "finley"}, "findley"), (bending()[:, :5], {}, "shaped"), (bending() * np.nan, {}, "finite"),
-    (bending(), {"bending_limit": 5e8}, "together"),
+    (bending(), {"bending_limit": 5e8, "endurance": 4e8}, "endurance = 400000000.0 and fatigue.bending_limit = .* contradict"),
     (bending(), {"bending_limit": 5e8, "torsion_limit": 2e8}, "between 0.5 and"),
-    (bending(), {"bending_limit": 0.0, "torsion_limit": 2e8}, "bending_limit"), ([["a"]], {}, "given stresses"),
+    (bending(), {"bending_limit": -5e8, "torsion_limit": 2e8}, "bending_limit"), ([["a"]], {}, "given stresses"),
     (bending(), {"bending_limit": 5e8, "torsion_limit": 1.1e11}, "torsion_limit.*1e\\+11"),
     ([], {}, "snapshots do not know")])
 def test_bad_stresses_and_constants_are_one_error(of, constants, said):

@@ -25,8 +25,8 @@ def fatigue(of: Any, scene: "Scene | None" = None, *, progress: Any = None, thre
     of: a :class:`tehl_taichi.Run`; or snapshots of `scene` (as :func:`tehl_taichi.march` yields them); or stresses (points,
     times, 6) in Pa: xx, yy, zz, xy, xz, yz with z into or out of the surface, one point also as (times, 6).
     constants: any of the scene's section [fatigue] (kappa, endurance in Pa, criterion, depths in m, from_x and to_x in a,
-    thermal_stress, residual_xx ...; None: as it is), or in place of kappa and endurance the limits in reversed bending and
-    torsion (bending_limit, torsion_limit, Pa). progress: see :class:`tehl_taichi.Progress`; threads: as of
+    thermal_stress, residual_xx ...; None: as it is), or in place of endurance a limit in reversed bending or torsion,
+    with both of kappa, too (bending_limit, torsion_limit, Pa). progress: see :class:`tehl_taichi.Progress`; threads: as of
     :func:`tehl_taichi.run`; until: position (a) of the feature, the worst points up to there are told apart ("resolved" of the
     summary; of a Run: where its grid resolves the pressure no longer).
     Returns a :class:`tehl_taichi.fatigue.assessment.FatigueResult`, of stresses :class:`tehl_taichi.fatigue.points.Points`.

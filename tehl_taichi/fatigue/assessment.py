@@ -8,7 +8,7 @@ from tehl_taichi.fatigue import depth_search, resolved, search_maps
 from tehl_taichi.fatigue.histories import Passage
 from tehl_taichi.fatigue.layer import layer
 from tehl_taichi.fatigue.told import Told
-from tehl_taichi.scene import SceneError
+from tehl_taichi.scene import SceneError, fatigue_limits
 
 PIT_ANGLES = (18.0, 50.0)  # degrees to the surface at which pits begin (Everitt 2018)
 
@@ -92,7 +92,8 @@ def _early(passage, until):
 def _result(scene, passage, layers, below):
     surface, limit, centres = layers[0], scene.fatigue.endurance, passage.centres
     summary = {**surface.worst.summary(limit), "sigma1_max_Pa": float(surface.sigma1.max()),
-               "kappa_F": float(scene.fatigue.kappa), "sigma_eF_Pa": float(limit), **surface.worst.moments(centres),
+               "kappa_F": float(scene.fatigue.kappa), "sigma_eF_Pa": float(limit), **_limits(scene.fatigue),
+               **surface.worst.moments(centres),
                "criterion": scene.fatigue.criterion, "thermal_stress": scene.thermal_stress_wanted,
                "pit_angles_deg": list(PIT_ANGLES)}
     maps, worst, deep = search_maps.of_surface(surface, passage, limit), surface.worst.history(centres), None
@@ -112,6 +113,11 @@ def _result(scene, passage, layers, below):
                                 "sigma1_max_Pa": float(layer.sigma1.max())} for layer in layers]
         maps |= search_maps.of_layers(layers)
     return FatigueResult(summary, maps, worst, deep)
+
+
+def _limits(fatigue):
+    """The limits that its constants follow from, Pa; {} where they were given themselves."""
+    return {f"{key}_Pa": float(getattr(fatigue, key)) for key in fatigue_limits.speaks(vars(fatigue))}
 
 
 def _alone(profiles, limit):

@@ -1,14 +1,15 @@
 """Scene files (TOML): reading with a base scene, writing with every value, the commented template."""
 
+import dataclasses
 import json
 import math
 from pathlib import Path
 
 from tehl_taichi.io import toml_file
-from tehl_taichi.scene import Scene, SceneError, change, data_sheet, given, named_oils, named_steels, scene
+from tehl_taichi.scene import Scene, SceneError, change, data_sheet, fatigue_limits, given, named_oils, named_steels, scene
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.oil import Oil
-from tehl_taichi.scene.parts import Body
+from tehl_taichi.scene.parts import Body, Fatigue
 from tehl_taichi.scene.whole import SECTIONS, TOP
 from tehl_taichi.values.checks import text
 from tehl_taichi.values.quantity import kinds
@@ -66,12 +67,22 @@ def _on_base(base, data):
 
 
 def _spelled_out(data):
-    """The same with the numbers of its oil and steels, which stay when a change takes the name."""
-    if "oil" in data:
-        data["oil"] = named_oils.spelled_out(data["oil"])
+    """The same with what follows from the names of its oil and steels, from a data sheet and from fatigue limits: a change that
+    takes these away leaves the numbers."""
+    for key, make in (("oil", named_oils.from_values), ("fatigue", Fatigue.from_values)):
+        if key in data:
+            data[key] = _every_number(make, data[key])
     if isinstance(data.get("bodies"), dict):
         data["bodies"] = {which: named_steels.completed(body) for which, body in data["bodies"].items()}
     return data
+
+
+def _every_number(make, values):
+    """The table of a section with every number; one that is refused, as it is: what mends it may be still to come."""
+    try:
+        return dataclasses.asdict(make(values))
+    except SceneError:
+        return values
 
 
 def _check_speed(found, told):
@@ -91,6 +102,9 @@ def merge(base, data):
             base[key] = {"temperature": base[key]["temperature"], **value}
         elif key == "oil" and isinstance(value, dict) and ("name" in value or data_sheet.speaks(value)):
             base[key] = value  # an oil with a name or a data sheet brings its own numbers, not those of the base
+        elif key == "fatigue" and isinstance(value, dict):  # what follows from its limits is not that of the base
+            free = fatigue_limits.follows(value)
+            base[key] = {**{name: own for name, own in base[key].items() if name not in free}, **value}
         elif isinstance(value, dict) and isinstance(value.get("material"), str) and value["material"]:
             base[key] = value  # so does a body of a named steel
         elif isinstance(value, dict) and isinstance(base.get(key), dict):

@@ -112,6 +112,8 @@ def rows_of_fatigue(f):
             _stress(f"{f['criterion']} stress", f["findley_stress_max_Pa"]), *_point_rows(f),
             _stress("largest principal stress on the surface", f["sigma1_max_Pa"]),
             Row("with kappa, sigma_eF", f"{f['kappa_F']:g}, {f['sigma_eF_Pa'] / 1e6:g} MPa"),
+            *(Row(f"from the limit in reversed {way}", f"{f[key] / 1e6:g} MPa")
+              for way in ("bending", "torsion") if (key := f"{way}_limit_Pa") in f),
             Row("thermal stress", "counted" if f["thermal_stress"] else "left out")]
     rows += [_stress(f"largest at {_depth(layer)}", layer["findley_stress_max_Pa"]) for layer in f.get("by_depth", [])]
     return _resolved_rows(f) + [replace(row, part=SURFACE) for row in rows] + _below_rows(f)

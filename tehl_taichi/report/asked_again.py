@@ -10,6 +10,7 @@ from tehl_taichi.report.rounded import told
 from tehl_taichi.report.scene_words import moments
 from tehl_taichi.report.verdict import FATIGUE
 from tehl_taichi.results.opened import INSIDE, RUN, kind, open_run
+from tehl_taichi.scene import fatigue_limits
 from tehl_taichi.scene.route import total_steps
 
 
@@ -80,12 +81,10 @@ class Answered:
 
 def _source(fatigue, run, constants):
     """Where its constants come from: that of the run's is not that of others."""
-    own, limits = run.scene.fatigue, [constants.get(key) for key in ("bending_limit", "torsion_limit")]
+    own = run.scene.fatigue
     if constants.get("source") is not None or (fatigue.kappa, fatigue.endurance) == (own.kappa, own.endurance):
         return fatigue.source
-    if None not in limits:
-        return "from the fatigue limits {} in reversed bending and {} in torsion".format(*(told(v, unit="Pa") for v in limits))
-    return type(fatigue)().source
+    return fatigue_limits.words(fatigue) or type(fatigue)().source
 
 
 def _words(scene):

@@ -6,7 +6,7 @@ import os
 from tehl_taichi.physics import viscosity
 from tehl_taichi.physics.rheology import LAWS
 from tehl_taichi.report.rounded import told
-from tehl_taichi.scene import data_sheet, mineral_alpha
+from tehl_taichi.scene import data_sheet, fatigue_limits, mineral_alpha
 from tehl_taichi.scene.named_oils import NO_SOURCE
 from tehl_taichi.scene.passing_words import passing
 from tehl_taichi.scene.scales import Scales
@@ -101,7 +101,8 @@ def material(fatigue):
     """Where kappa and the fatigue limit come from: examples must not pass for a material's numbers."""
     default, said = type(fatigue)(), fatigue.source.strip().rstrip(".")
     if said.lower() not in ("", "example", "examples", default.source):
-        return fatigue.source
+        limits = fatigue_limits.words(fatigue)
+        return fatigue.source if limits in ("", fatigue.source) else f"{limits} ({said})"
     if said == default.source and (fatigue.kappa, fatigue.endurance) != (default.kappa, default.endurance):
         return "no source is given (fatigue.source)"
     return "example values, to be replaced by those of the material itself and their source (fatigue.source)"

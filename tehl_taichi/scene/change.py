@@ -3,7 +3,7 @@
 import dataclasses
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene import data_sheet, given
+from tehl_taichi.scene import data_sheet, fatigue_limits, given
 from tehl_taichi.scene import named_oils as oils
 from tehl_taichi.scene.feature import SHAPES, USED_BY
 from tehl_taichi.scene.named_steels import STEELS
@@ -11,6 +11,7 @@ from tehl_taichi.scene.parts import SECTIONS
 from tehl_taichi.scene.route import ALL
 from tehl_taichi.scene.speeds import of_surfaces
 from tehl_taichi.values.checks import key_shown, nearest
+from tehl_taichi.values.plain import plain
 
 TABLES = (*SECTIONS, "bodies", "oil")
 
@@ -25,6 +26,7 @@ def applied(data, changes):
     _name_oil(data, changes)
     _read_sheet(_table(data, "oil"), changes)
     _name_steels(data, changes)
+    fatigue_limits.changed(_table(data, "fatigue"), _of("fatigue", changes))
     for key in sorted(changes, key=lambda key: key.count(".")):  # whole tables before single values
         _assign(data, key, changes[key])
     return data
@@ -83,25 +85,25 @@ def _clear(data, changes):
 def _name_oil(data, changes):
     """A known name brings the numbers of its oil; a new one must come with numbers, or a data sheet."""
     oil = _table(data, "oil")
-    name = changes.get("oil.name", oil.get("name"))
-    if isinstance(name, str) and name in oils.OILS and "oil.name" in changes:
+    name = changes.get("oil.name")
+    if isinstance(name, str) and name in oils.OILS:
         data["oil"] = dataclasses.asdict(oils.OILS[name])
-    elif name != oil.get("name"):
-        new = _of_oil(changes)
+    elif "oil.name" in changes and name != plain(oil.get("name")):
+        new = _of("oil", changes)
         if not data_sheet.speaks(new):
             oils.check_new(name, new)
             oil.update(dict.fromkeys(data_sheet.KEYS, 0.0))
         oil["source"] = "" if data_sheet.speaks(new) else oils.NO_SOURCE
 
 
-def _of_oil(changes):
-    return {key.partition(".")[2]: value for key, value in changes.items() if key.startswith("oil.")}
+def _of(section, changes):
+    return {key.partition(".")[2]: value for key, value in changes.items() if key.startswith(f"{section}.")}
 
 
 def _read_sheet(oil, changes):
     """A data sheet makes another oil of one that had none; what follows from it is found anew, its source, too, unless that is
     the user's own."""
-    new, source = _of_oil(changes), str(oil.get("source", ""))
+    new, source = _of("oil", changes), str(oil.get("source", ""))
     sheet = {**{key: oil.get(key, 0.0) for key in data_sheet.KEYS}, **new}
     if data_sheet.speaks(sheet) and not data_sheet.speaks(oil):
         oil.update(name=changes.get("oil.name", data_sheet.NAME), viscosity=data_sheet.LAW, source="")

@@ -5,14 +5,16 @@ from tehl_taichi.values.plain import plain, shown
 
 SHORT = {"srr": "operation.srr", "load": "contact.load", "hertz_pressure": "contact.hertz_pressure",
          "speed": "operation.u_m", "temperature": "operation.temperature", "height": "feature.height",
-         "width": "feature.width", "kappa": "fatigue.kappa", "endurance": "fatigue.endurance"}
+         "width": "feature.width", "kappa": "fatigue.kappa", "endurance": "fatigue.endurance",
+         "bending_limit": "fatigue.bending_limit", "torsion_limit": "fatigue.torsion_limit"}
 LOADS = ("contact.load", "contact.hertz_pressure", "contact.moes_M", "contact.moes_L")
 BY_SURFACE = ("operation.u_a", "operation.u_b")
 # keys of one line say the same in different ways: only those of one of its groups can be given
 EXCLUSIVE = ((LOADS[:1], LOADS[1:2], LOADS[2:]), (BY_SURFACE, ("operation.u_m", "operation.srr")),
              (LOADS[2:], ("operation.u_m", *BY_SURFACE)), (("time.steady_only",), ("time.steps",)),
              (("oil.nu_40", "oil.nu_100", "oil.alpha_40"), ("oil.G0", "oil.S0", "oil.Dz", "oil.Cz")),
-             (("oil.rho_15",), ("oil.rho0",)))
+             (("oil.rho_15",), ("oil.rho0",)),
+             (("fatigue.endurance",), ("fatigue.torsion_limit", "fatigue.bending_limit")))
 
 
 def full_name(key):

@@ -31,15 +31,6 @@ def from_values(values):
     return build(Oil, {"source": NO_SOURCE, **values}, "oil")
 
 
-def spelled_out(values):
-    """The table of an oil with every number, those of its name or its sheet; one that makes no oil yet, as it is: the change
-    that it needs may be still to come."""
-    try:
-        return dataclasses.asdict(from_values(values))
-    except SceneError:
-        return values
-
-
 def _from_sheet(name, known, values):
     """Oil by a data sheet. None stands for a number that follows from it, one that is given must agree with it."""
     if known and not data_sheet.speaks(known):

@@ -10,7 +10,11 @@ from tehl_taichi.errors import SceneError
 from tehl_taichi.physics import rheology
 from tehl_taichi.physics.boundary import BOUNDARY
 from tehl_taichi.physics.law import declared, section
+from tehl_taichi.scene import fatigue_limits
+from tehl_taichi.scene.fatigue_limits import LARGEST_LIMIT, USUAL_LIMIT
 from tehl_taichi.scene.named_steels import STEELS
+from tehl_taichi.values.checks import build
+from tehl_taichi.values.plain import plain
 from tehl_taichi.values.quantity import AUTO, check, choice, count, quantities, quantity, switch, text
 
 LARGEST_RADIUS = 1.0  # m: the teeth of the largest gears have a fifth of it; a number beyond it was meant in mm
@@ -153,12 +157,17 @@ class Thermal:
 class Fatigue:
     """Fatigue index; kappa and endurance are example values: set those of your material.
 
-    No source is claimed for them. depths = []: the surface alone.
+    No source is claimed for them. With a limit in reversed torsion or bending the endurance follows, with both kappa, too.
+    depths = []: the surface alone.
     """
 
     on: bool = switch(True, "stresses and fatigue index of a passage")
     kappa: float = quantity(0.3, "", f"sensitivity to stress, {sensitivities()}", 0.0, 5.0)
     endurance: float = quantity(400e6, "Pa", "fatigue limit sigma_eF: Fi = 1", 1e6, 1e11)
+    bending_limit: float = quantity(0.0, "Pa", "fatigue limit in reversed bending, in place of endurance; with "
+                                    "torsion_limit of kappa, too; 0: not given", 0.0, LARGEST_LIMIT, usual=USUAL_LIMIT)
+    torsion_limit: float = quantity(0.0, "Pa", "the same in reversed torsion, as handbooks have it", 0.0, LARGEST_LIMIT,
+                                    usual=USUAL_LIMIT)
     source: str = text("example values, set your own", "where kappa and endurance come from", one_line=False)
     criterion: str = choice("findley", "fatigue criterion", tuple(CRITERIA))
     depths: Union[tuple, str] = quantities(AUTO, "m", "searched below the surface; auto: the worst depth under the feature is "
@@ -174,10 +183,31 @@ class Fatigue:
 
     def __post_init__(self):
         check(self, "fatigue")
+        fatigue_limits.check_range(self)
+        self._follow_limits()
         if not self.from_x < self.to_x:
             raise SceneError(f"fatigue.from_x = {self.from_x!r} a must be less than to_x = {self.to_x!r} a")
         if self.depths != AUTO:
             object.__setattr__(self, "depths", tuple(self.depths))
+
+    def _follow_limits(self):
+        """Take the constants that follow from limits; others than these and the defaults are refused."""
+        found = fatigue_limits.completed(self)
+        given = {key: getattr(self, key) for key in fatigue_limits.follows(vars(self))}
+        for key, value in found.items():
+            object.__setattr__(self, key, value)
+        fatigue_limits.check_free({key: value for key, value in given.items() if value != getattr(type(self), key)}, self)
+        if found:
+            check(self, "fatigue")
+
+    @classmethod
+    def from_values(cls, values):
+        """Of a table, with unknown keys refused, and constants beside limits unless they are those that follow; None stands for
+        one that does. Raises SceneError."""
+        free = fatigue_limits.follows(values) if isinstance(values, dict) else ()
+        made = build(cls, {key: value for key, value in values.items() if key not in free} if free else values, "fatigue")
+        fatigue_limits.check_free({key: plain(values[key]) for key in free if values.get(key) is not None}, made)
+        return made
 
     @property
     def listed(self):

@@ -259,8 +259,9 @@ class Scene:
         return self.fatigue.on and self.transient
 
     def replace(self, **changes: Any) -> "Scene":
-        """A changed copy. Keys: srr, load, hertz_pressure, speed, temperature, height, width, kappa, endurance, name,
-        or dotted ("grid.nx"; "feature.height" is the first feature, "feature.1.height" the second). Raises SceneError.
+        """A changed copy. Keys: srr, load, hertz_pressure, speed, temperature, height, width, kappa, endurance, torsion_limit,
+        bending_limit, name, or dotted ("grid.nx"; "feature.height" is the first feature, "feature.1.height" the second). Raises
+        SceneError.
         """
         changes = given.named(changes)
         changed = Scene.from_dict(change.applied(self.to_dict(), changes))
@@ -286,9 +287,12 @@ class Scene:
         for key in data:
             if key not in known:
                 raise SceneError(f"unknown section or key {shown(key)}{nearest(key, known)}; known: {', '.join(sorted(known))}")
-        parts = {key: build(kind, data[key], key) for key, kind in SECTIONS.items() if key in data and key != "operation"}
+        parts = {key: build(kind, data[key], key) for key, kind in SECTIONS.items() if key in data
+                 and key not in ("operation", "fatigue")}
         if "operation" in data:
             parts["operation"] = build(Operation, of_surfaces(data["operation"]), "operation")
+        if "fatigue" in data:
+            parts["fatigue"] = Fatigue.from_values(data["fatigue"])
         parts.update(_bodies(data.get("bodies", {})))
         if "oil" in data:
             parts["oil"] = named_oils.from_values(data["oil"])

@@ -5,12 +5,13 @@ The fatigue limit is no part of the search, the index is the stress over it: wit
 does with other depths, where the same point is the worst.
 """
 
-from dataclasses import replace
+from dataclasses import asdict
 
 from tehl_taichi.march.companions import FI, indices
 
 OTHER = "the companion runs were searched with the fatigue constants of the run, not with these"
-FREE = ("on", "endurance", "source", "depths")  # of the section [fatigue]: they change no stress of a point
+# of the section [fatigue]: they change no stress of a point (limits do by kappa, which is compared)
+FREE = ("on", "endurance", "bending_limit", "torsion_limit", "source", "depths")
 SAME = 1e-6  # of the stress: the stored search and this one are the same
 
 
@@ -18,7 +19,7 @@ def tell(summary, asked, store):
     """Put "error" and "unknown" into the parts of the summary of a search. asked: the section [fatigue] that it was made with;
     store: of the run."""
     own, stored = store.scene.fatigue, indices(store.summary.get("fatigue", {}))
-    alike = replace(asked, **{key: getattr(own, key) for key in FREE}) == own
+    alike = all(getattr(asked, key) == value for key, value in asdict(own).items() if key not in FREE)
     for name, part in indices(summary).items():
         before = stored.get(name, {}) if alike else {}
         part["error"], part["unknown"] = _scaled(part, before)

@@ -1,0 +1,84 @@
+"""Fatigue constants by the limits that handbooks have, in fully reversed bending and torsion.
+
+One of them and kappa give sigma_eF: the criterion's stress under an amplitude of that limit is where its index is 1. Both give
+kappa, too. They become the constants once, where the section [fatigue] is made, so that no search knows of limits.
+"""
+
+import math
+
+from tehl_taichi.criteria import CRITERIA
+from tehl_taichi.errors import SceneError
+from tehl_taichi.values.checks import number
+from tehl_taichi.values.plain import plain
+
+KEYS = ("bending_limit", "torsion_limit")
+LEAST_LIMIT, LARGEST_LIMIT, USUAL_LIMIT = 1e6, 1e11, 4e8  # Pa
+FROM = "from the fatigue limit"  # begins the source of constants that are given no other
+
+
+def speaks(values):
+    """Names of the limits among these values."""
+    return [key for key in KEYS if plain(values.get(key)) not in (None, 0)]
+
+
+def follows(values):
+    """Names of the constants that follow from the limits of these values, () without one."""
+    return ((), ("endurance",), ("kappa", "endurance"))[len(speaks(values))]
+
+
+def check_range(fatigue):
+    """Refuse a limit that no material has. Raises SceneError."""
+    for key in KEYS:
+        if (value := getattr(fatigue, key)) != 0:
+            number(f"fatigue.{key}", value, "Pa", LEAST_LIMIT, LARGEST_LIMIT, usual=USUAL_LIMIT)
+
+
+def completed(fatigue):
+    """{key: value} that follow from the limits of a section [fatigue], nothing where it has none; its source, too, unless it
+    is the user's own. Raises SceneError where the criterion fits no such material."""
+    if not follows(vars(fatigue)):
+        return {}
+    found = dict(zip(("kappa", "endurance"), _constants(fatigue)))
+    own = {} if fatigue.source not in ("", type(fatigue).source) else {"source": words(fatigue, found["kappa"])}
+    return {key: found[key] for key in follows(vars(fatigue))} | own
+
+
+def _constants(fatigue):
+    """(kappa, sigma_eF)."""
+    criterion, bending, torsion = CRITERIA[fatigue.criterion], fatigue.bending_limit, fatigue.torsion_limit
+    if bending and torsion:
+        return criterion.from_limits(bending, torsion)
+    in_one = criterion.in_torsion if torsion else criterion.in_bending
+    return fatigue.kappa, in_one(torsion or bending, fatigue.kappa)
+
+
+def check_free(given, fatigue):
+    """Refuse constants {key: value} beside limits unless they are those that follow from them. Raises SceneError."""
+    for key, value in given.items():
+        number(f"fatigue.{key}", value)
+        if not math.isclose(value, getattr(fatigue, key), rel_tol=1e-6):
+            limits = " and ".join(f"fatigue.{name} = {getattr(fatigue, name):g} Pa" for name in speaks(vars(fatigue)))
+            rest = "the limit in bending or torsion" if key == "kappa" else "the limits"
+            raise SceneError(f"fatigue.{key} = {value:g} contradicts {limits}, which {'give' if 'and' in limits else 'gives'} "
+                             f"{key} = {getattr(fatigue, key):.6g}; leave out {key}, or {rest}")
+
+
+def words(fatigue, kappa=None):
+    """'from the fatigue limit 400 MPa in reversed torsion with kappa = 0.3', '' without limits; kappa: other than its own."""
+    said = [f"{getattr(fatigue, key) / 1e6:g} MPa in {'reversed ' * (n == 0)}{key.partition('_')[0]}"
+            for n, key in enumerate(speaks(vars(fatigue)))]
+    if len(said) == 1:
+        return f"{FROM} {said[0]} with kappa = {fatigue.kappa if kappa is None else kappa:g}"
+    return f"{FROM}s {' and '.join(said)}" if said else ""
+
+
+def changed(table, new):
+    """Clear in the table of a section what new values {key: value} of it replace; None stands for what follows."""
+    if "endurance" in new and not speaks(new):
+        table.update(dict.fromkeys(KEYS, 0.0))
+    if "kappa" in new and len(speaks(new)) == 1:
+        table.update(dict.fromkeys(set(KEYS) - set(speaks(new)), 0.0))
+    if {"kappa", "endurance", "criterion", *KEYS} & new.keys():
+        table.update(dict.fromkeys(follows({**table, **new})))
+        if str(table.get("source", "")).startswith(FROM):
+            del table["source"]
