@@ -211,3 +211,19 @@ def test_the_list_reads_well_on_80_columns():
     row, = [line for line in lines if "mineral-vg220" in line and "│" in line]
     assert "gear oil, ISO VG 220, VI 95" in row and "193" in row and "27.1" in row
     assert any(line.startswith("mineral-vg220: mineral, made of ISO 3448") for line in lines)
+
+
+@pytest.mark.parametrize("changes, what", [
+    (SET, "its data sheet has no traction data"), ({**SET, "oil.name": "ours"}, "its data sheet has no traction data"),
+    ({"oil.name": "ours", "oil.viscosity": "roelands", "oil.eta0": 0.1, "oil.alpha": 2e-8, "oil.Z": 0.6},
+     "its numbers say nothing")])
+def test_the_shear_law_that_an_own_oil_keeps_is_told(changes, what):
+    own = GEAR.replace(**changes)
+    said, = [line for line in own.warnings() if "shear law" in line]
+    assert what in said and "limiting, tau_L0 = 1e+07 Pa, gamma = 0.075" in said and f"oil.name = {own.oil.name}," in said
+
+
+@pytest.mark.parametrize("changes", [{}, {"oil.name": "mineral-vg220"}, {**SET, "rheology.gamma": 0.06}, {**SET, "srr": 0.0},
+                                     {**SET, "rheology.law": "newtonian"}, {**SET, "rheology.law": "eyring"}])
+def test_a_shear_law_that_is_chosen_or_does_not_act_is_not(changes):
+    assert not [line for line in GEAR.replace(**changes).warnings() if "shear law" in line]

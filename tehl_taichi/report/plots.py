@@ -24,8 +24,8 @@ class Figure:
 
 
 def axis(title, **more):
-    """An axis with its title."""
-    return {"title": {"text": title, "standoff": 6}, **more}
+    """An axis with its title, which has the unit: plotly's own prefixes, as in 150µ, would be of nothing."""
+    return {"title": {"text": title, "standoff": 6}, "exponentformat": "power", **more}
 
 
 def line(x, y, name, colour, panel=1, dash="solid", told=True, **more):
@@ -79,7 +79,7 @@ def field_map(name, caption, x, y, values, scale, unit, x_title, y_title, marked
     """A field (x, y) in colours; marked: traces on it; true: one length along both axes; keys: of plotly's heatmap."""
     heat = {"type": "heatmap", "x": x, "y": y, "z": values.T, "colorscale": colours(scale), "zsmooth": "best",
             "colorbar": {"title": {"text": unit, "side": "top"}, "orientation": "h", "thickness": 12, "y": -0.22,
-                         "yanchor": "top", "lenmode": "fraction", "len": 0.9}, **keys}
+                         "yanchor": "top", "lenmode": "fraction", "len": 0.9, "exponentformat": "power"}, **keys}
     frame = _frame(any(trace.get("showlegend") for trace in marked))
     layout = {"xaxis": axis(x_title, constrain="domain"), "yaxis": axis(y_title, constrain="domain"), **frame}
     if true:

@@ -20,7 +20,8 @@ LEVELS = {"none": "nothing", "mean": "mean", "plane": "plane", "form": "plane an
 MICRO = str.maketrans({"\u00b5": "u", "\u03bc": "u"})  # micro sign and Greek mu, as in µm
 _known = weakref.WeakValueDictionary()  # sha256 -> heights, as long as a feature holds them
 _skipped = {}  # sha256 -> what of its file was no height, in words
-POINTS = "a list of x, y and z is not read: export the heights as a grid, a row of numbers a line"
+TEXT = (".csv", ".txt", ".asc")  # endings of files of text
+POINTS = f"a list of x, y and z is not read: export the heights as a grid, a row of numbers a line ({', '.join(TEXT)}, .npy)"
 
 
 def keep(values):
@@ -63,7 +64,7 @@ def _read(file):
     """The same as a :class:`tehl_taichi.scene.height_text.Table`."""
     path = Path(file)
     if not file:
-        raise SceneError("feature.file is missing: shape 'map' needs a CSV or NPY file of heights")
+        raise SceneError("feature.file is missing: shape 'map' needs a file of heights (.csv, .txt, .asc, .npy)")
     if not path.is_file():
         raise SceneError(f"feature.file = {str(file)!r} does not exist")
     table = _load(path)
@@ -91,7 +92,7 @@ def _load(path):
             if values.dtype.kind not in "fiu":
                 raise ValueError(f"it holds {values.dtype}, not numbers")
             return height_text.Table(values.astype(float))
-        if path.suffix in (".csv", ".txt", ".asc"):
+        if path.suffix in TEXT:
             return height_text.read(path)
     except (ValueError, OSError, EOFError) as error:
         raise SceneError(f"cannot read heights from {path}: {error}") from None
@@ -102,7 +103,7 @@ def _surface_topography(path):
     try:
         import SurfaceTopography
     except ImportError:
-        raise SceneError(f"{path.name} is neither .csv nor .npy; other formats need SurfaceTopography: "
+        raise SceneError(f"{path.name} is none of {', '.join(TEXT)}, .npy; other formats need SurfaceTopography: "
                          f"{extra('topography')}{_points(path)}") from None
     try:
         return np.ma.filled(np.ma.asarray(SurfaceTopography.read_topography(str(path)).heights(), float), math.nan).T

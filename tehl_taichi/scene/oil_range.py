@@ -3,7 +3,7 @@
 import dataclasses
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.physics import viscosity
+from tehl_taichi.physics import rheology, viscosity
 from tehl_taichi.physics.law import declared
 from tehl_taichi.scene import data_sheet, mineral_alpha
 from tehl_taichi.scene.named_oils import OILS
@@ -29,7 +29,8 @@ def _said(scene, what):
 
 def warnings(scene):
     """What is doubtful about the oil of a scene."""
-    return [*_name(scene.oil), *_estimate(scene.oil), *_said(scene, "doubted"), *_without_temperature(scene), *_moes(scene)]
+    return [*_name(scene.oil), *_estimate(scene.oil), *_shear(scene), *_said(scene, "doubted"), *_without_temperature(scene),
+            *_moes(scene)]
 
 
 def _name(oil):
@@ -68,6 +69,18 @@ def _estimate(oil):
         yield (f"oil.alpha_40 is not given: alpha at 40 deg C is estimated as {alpha * 1e9:.3g} 1/GPa, "
                f"for a handbook's mineral oils within {mineral_alpha.WITHIN * 100:g} % (8 % of the film); a PAO may have "
                "a quarter less")
+
+
+def _shear(scene):
+    """The shear law of the reference oil with an oil of one's own: neither sheets nor laws of the viscosity bring one."""
+    oil, kept = scene.oil, scene.rheology
+    if oil.name in OILS or kept != type(kept)() or not kept.thins or scene.operation.u_s == 0:
+        return
+    what = "its data sheet has no traction data" if data_sheet.speaks(vars(oil)) else "its numbers say nothing of traction"
+    numbers = ", ".join(f"{key} = {getattr(kept, key):g} {number.metadata['kind'].unit}".strip(" -")
+                        for key, number in rheology.LAWS[kept.law].numbers.items())
+    yield (f"the shear law of the base is kept for oil.name = {oil.name}, {what}: rheology.law = {kept.law}, {numbers}; "
+           "friction, heat and the shear of the surfaces rest on them, [rheology] takes measured ones")
 
 
 def _without_temperature(scene):
