@@ -126,7 +126,8 @@ def test_the_largest_slope_is_that_of_the_ramp(tmp_path):
 
 @pytest.mark.parametrize("changes, words", [
     ({"unit": ""}, "feature.unit is missing.*nm, um, mm, m"), ({"pixel": 0.0}, "feature.pixel is missing"),
-    ({"file": ""}, ".csv, .txt, .asc, .npy"), ({"file": "none.npy"}, "does not exist"), ({"unit": "inch"}, "allowed: nm, um, mm, m"),
+    ({"file": ""}, ".csv, .txt, .asc, .npy"), ({"file": "none.npy"}, "does not exist"),
+    ({"unit": "inch"}, "allowed: nm, um, mm, m"),
     ({"unit": "mm"}, r"ranges over 0.0004\d+ m; allowed: at most 0.0001 m. Is feature.unit = 'mm' right"),
     ({"pixel": 1e-9}, r"slopes of 8\d.\d deg; allowed: at most 45 deg.*feature.pixel = 1e-09 m"),
     ({"height": 1e-6}, "feature.scale"), ({"extent_x": 1e-3}, "at most 0.00012 m"), ({"extent_y": 1e-6}, "at least 3e-06 m"),

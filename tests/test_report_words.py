@@ -85,3 +85,12 @@ def test_warnings_lose_what_only_a_terminal_takes():
     left_out = scene("gear").replace(**{"thermal.on": False}).left_out()
     assert any("--thermal" in one for one in left_out) and not any("--" in for_readers.told(one) for one in left_out)
     assert for_readers.told("feature.taper = 4e-05 (m)") == "feature.taper = 4e-05 (m)"
+
+
+def test_ticks_have_no_prefix_without_a_unit():
+    """plotly writes 150e-6 as 150µ unless told otherwise."""
+    from tehl_taichi.report.plots import axis, field_map
+
+    made = field_map("map", "A map.", [0, 1], [0, 1], np.zeros((2, 2)), "Viridis", "1", "x", "y")
+    parts = [axis("oil.nu_40 (m2/s)"), made.layout["xaxis"], made.layout["yaxis"], made.traces[0]["colorbar"]]
+    assert {part.get("exponentformat") for part in parts} == {"power"}

@@ -39,6 +39,15 @@ def study(tmp_path_factory):
     return many.run(plan(GEAR, OVER), tmp_path_factory.mktemp("studies") / "made.zarr", workers=1, work=formula)
 
 
+@pytest.mark.parametrize("value, unit, shown", [(220e-6, "m2/s", "oil.nu_40 (mm²/s)"), (22e-9, "1/Pa", "oil.nu_40 (1/GPa)"),
+                                               (220e-6, "m", "oil.nu_40 (µm)")])
+def test_keys_are_drawn_in_the_units_of_data_sheets(value, unit, shown):
+    from tehl_taichi.study.study_figures import scaled
+
+    values, label = scaled(np.array([value]), unit, "oil.nu_40")
+    assert 20 < values[0] < 230 and label == shown
+
+
 def test_a_study_is_a_table_over_the_swept_keys(study):
     xarray = pytest.importorskip("xarray")
     data = xarray.open_zarr(study.path)
