@@ -100,7 +100,7 @@ def test_what_no_unit_explains_is_not_guessed_at(section, key, value):
     ("gear", {"load": 350.0}, "did you mean 350e3 N/m (350 N/mm)?"),
     ("gear", {"hertz_pressure": 1.3}, "did you mean 1.3e9 Pa (1.3 GPa)?"),
     ("gear", {"hertz_pressure": 1300.0}, "did you mean 1300e6 Pa (1300 MPa)?"),
-    ("ball-on-disc", {"load": 1e-8}, ""), ("gear", {"load": 1e-8}, "")])
+    ("gear", {"load": 50.0, "height": 10e-6}, ""), ("ball-on-disc", {"load": 1e-8}, ""), ("gear", {"load": 1e-8}, "")])
 def test_a_load_that_makes_no_contact_is_asked_about(name, changes, said):
     with pytest.raises(SceneError) as error:
         scene(name).replace(**changes)

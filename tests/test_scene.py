@@ -79,7 +79,8 @@ def test_a_named_oil_replaces_that_of_the_base(tmp_path):
     ("grid.nx", 100, "multiple of 16"), ("grid.nx", 64.5, "whole number"), ("oil.viscosity", "roeland", "roelands"),
     ("feature.hight", 1e-6, "height"), ("bodies.a.E", -1.0, "Pa"), ("thermal.nodes", 8, "odd"),
     ("feature.y", 1.0, "at most 0.1 m"), ("srr", -2.0, "never passes"), ("load", 1e9, "Hertz pressure"),
-    ("contact.radius_y", 0.01, "line"), ("feature.shape", "map", ".csv, .txt, .asc, .npy"), ("feature.shape", "waviness", "extent_x"),
+    ("contact.radius_y", 0.01, "line"), ("feature.shape", "map", ".csv, .txt, .asc, .npy"),
+    ("feature.shape", "waviness", "extent_x"),
     ("time.x_start", -0.5, "steady start"), ("contact.kind", "elliptic", "a length in m"),
     ("hertz_pressure", 0.3e9, "undeformed gap"), ("time.courant", 0.0, "at least"), ("sr", 0.1, "srr"),
 ])
