@@ -2,12 +2,14 @@
 
 import codecs
 import contextlib
+import gc
 import os
 import signal
 import sys
 import warnings
 
 FAILED, INTERRUPTED = 1, 4  # as in tehl_taichi.errors, which takes longer to import than a hasty Ctrl-C
+SELDOM = 50_000, 20, 100  # new objects between searches for garbage, of which imports and kernels make hardly any: 700, 10, 10
 PLAIN = {"±": "+-", "µ": "u", "μ": "u", "°": "deg ", "σ": "sigma", "τ": "tau", "κ": "kappa", "η": "eta", "ζ": "zeta",
          "₁": "1", "²": "^2", "³": "^3", "−": "-", "–": "-", "×": "x", "·": "-", "…": "...", "≤": "<=", "≥": ">=", "→": "->"}
 
@@ -35,6 +37,7 @@ def _run():
     if debug:
         sys.argv.remove("--debug")
     warnings.showwarning = lambda message, *_: print(f"warning: {message}", file=sys.stderr)
+    gc.set_threshold(*SELDOM)
     try:
         from tehl_cli.main import app
 

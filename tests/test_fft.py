@@ -16,7 +16,7 @@ def transformed(request, taichi_cpu):
 
     lengths, owner = fft.Lengths(), type("owner", (), {})()
     places = {n: lengths.place(n) for n in LENGTHS}
-    Q, w = lengths.table(), lengths.twiddles()
+    Q, w, odd = lengths.table(), lengths.twiddles(), fft.odd_radices(lengths)
     B, T = lease(owner, 1, 4, 2000, precision=request.param), lease(owner, 1, 2, len(w), precision=request.param)
     w = np.pad(w, ((0, T.shape[1] - len(w)), (0, 0)))
     T.from_numpy(w[None].astype(B.to_numpy().dtype))
@@ -25,7 +25,7 @@ def transformed(request, taichi_cpu):
     def run(B: ti.template(), T: ti.template(), Q: fft.Passes, row: ti.i32, rows: ti.i32, backward: ti.i32) -> ti.i32:
         found = 0
         for _ in range(1):
-            found = fft.transform(B, 7, 1007, T, Q, row, rows, backward)
+            found = fft.transform(B, 7, 1007, T, Q, odd, row, rows, backward)
         return found
 
     def transform(n, backward, x):

@@ -12,11 +12,15 @@ import numpy as np
 
 from tehl_taichi.engine.language import ti
 
-ODD = (3, 5)
 LAST = 8  # code of a pass of radix 4 without twiddle factors, the last one
 RADIX, PARTS, STRIDE, FACTORS = range(4)  # columns of a table of passes
 
 Passes = ti.types.ndarray(dtype=ti.i32, ndim=2)
+
+
+def odd_radices(*lengths):
+    """Those of the passes of all these :class:`Lengths`: what no pass has is not compiled."""
+    return tuple(sorted({code for one in lengths for code, *_ in one.passes if code % 2}))
 
 
 def fast_length(n):
@@ -170,10 +174,11 @@ def pass_odd(B: ti.template(), a, b, T: ti.template(), t, parts, stride, sense, 
 
 
 @ti.func
-def transform(B: ti.template(), first, second, T: ti.template(), Q: ti.template(), row, rows, backward):
+def transform(B: ti.template(), first, second, T: ti.template(), Q: ti.template(), odd: ti.template(), row, rows, backward):
     """Transform of the numbers from entry `first` of B[0, :], with `second` as the other buffer; Q[row ...] are its passes.
 
-    backward: 1 for exp(+i ...); no factor 1/n either way. Returns the first entry of the result: `first` or `second`.
+    odd: the odd radices among all passes of Q, see :func:`odd_radices`; backward: 1 for exp(+i ...); no factor 1/n either way.
+    Returns the first entry of the result: `first` or `second`.
     """
     a, b, sense = first, second, ti.cast(1 - 2 * backward, B.dtype)
     for n in range(row, row + rows):
@@ -184,9 +189,8 @@ def transform(B: ti.template(), first, second, T: ti.template(), Q: ti.template(
             pass_4(B, a, b, T, t, parts, stride, sense, False)
         elif code == 2:
             pass_2(B, a, b, T, t, parts, stride, sense)
-        elif code == 3:
-            pass_odd(B, a, b, T, t, parts, stride, sense, 3)
-        else:
-            pass_odd(B, a, b, T, t, parts, stride, sense, 5)
+        for radix in ti.static(odd):
+            if code == radix:
+                pass_odd(B, a, b, T, t, parts, stride, sense, radix)
         a, b = b, a
     return a

@@ -6,7 +6,7 @@ Three phases: pairs of blocks of the pressure along x to waves, groups of waves 
 import numpy as np
 
 from tehl_taichi.engine import runtime, tables, workers
-from tehl_taichi.engine.fft import Passes
+from tehl_taichi.engine.fft import Passes, odd_radices
 from tehl_taichi.engine.lanes import Flat, Table, V, W, cells
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.launches import bind
@@ -64,19 +64,19 @@ def give_film(S: ti.template(), Y: ti.template(), G: ti.template(), j, x, H0):
 
 
 @ti.func
-def work(S: ti.template(), Y: ti.template(), T: ti.template(), G: ti.template(), C: ti.template(), Q: ti.template(), phase, j,
-         w, H0):
+def work(S: ti.template(), Y: ti.template(), T: ti.template(), G: ti.template(), C: ti.template(), Q: ti.template(),
+         odd: ti.template(), phase, j, w, H0):
     """Job j of a phase, by worker w."""
     if phase == THERE:
         take_pressure(S, Y, G, C, j, w)
-    x = transformed(Y, T, Q, C, 0, j, w, phase)
+    x = transformed(Y, T, Q, odd, C, 0, j, w, phase)
     if phase == BACK:
         give_film(S, Y, G, j, x, H0)
 
 
 @ti.kernel
-def bend(S: ti.template(), Y: ti.template(), T: ti.template(), G: Table, C: Numbers, Q: Passes, H0: Flat, sync: workers.Sync,
-         alone: ti.template()):
+def bend(S: ti.template(), Y: ti.template(), T: ti.template(), G: Table, C: Numbers, Q: Passes, odd: ti.template(), H0: Flat,
+         sync: workers.Sync, alone: ti.template()):
     """H = undeformed gap + deflection by P + H0[0] of the finest level."""
     ti.loop_config(block_dim=1, serialize=alone)
     for w in range(ti.cast(sync[workers.COUNT], ti.i32)):
@@ -85,7 +85,7 @@ def bend(S: ti.template(), Y: ti.template(), T: ti.template(), G: Table, C: Numb
             phase, j = workers.phase_of(ticket), workers.job_of(ticket)
             jobs = C[0, GROUPS] if phase == ACROSS else C[0, PAIRS]
             if j < jobs:
-                work(S, Y, T, G, C, Q, phase, j, w, H0[0])
+                work(S, Y, T, G, C, Q, odd, phase, j, w, H0[0])
                 if workers.last_one(sync, jobs):
                     workers.publish(sync, ticket, -1 if phase == BACK else phase + 1)
             else:
@@ -105,7 +105,8 @@ class Bending:
         Y, T = (tables.lease(self, 1, n, size, clean=False) for n, size in zip((GROUP, 2), sizes))
         self.table, self.passes = layout.table, layout.lengths.table()
         convolution.prepare(self.table, [convolution.deflection(shape, levels)], Y, T, layout.lengths, np.dtype(float))
-        self.launch = bind(bend, levels.S, Y, T, levels.G, self.table, self.passes, self.H0, self.team.sync,
+        odd = odd_radices(layout.lengths, largest.lengths)
+        self.launch = bind(bend, levels.S, Y, T, levels.G, self.table, self.passes, odd, self.H0, self.team.sync,
                            runtime.ensure()["threads"] == 1)
 
     def _layout(self, nx, ny):

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from tehl_taichi.engine import lanes, runtime, tables, workers
-from tehl_taichi.engine.fft import Passes
+from tehl_taichi.engine.fft import Passes, odd_radices
 from tehl_taichi.engine.lanes import LinearFlat, Table
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.launches import bind
@@ -26,13 +26,14 @@ Numbers = ti.types.ndarray(dtype=ti.i32, ndim=2)
 @dataclass(frozen=True)
 class Memory:
     """Fields of the solve: J (see :mod:`fields`), V (vectors, see :mod:`phases`), D (inverse of the coarsest level); of the
-    convolutions Y (spectra, symbols, buffers of the workers), T (twiddle factors)."""
+    convolutions Y (spectra, symbols, buffers of the workers), T (twiddle factors) and `odd` (radices of their transforms)."""
 
     J: Any
     V: Any
     D: Any
     Y: Any
     T: Any
+    odd: tuple
 
 
 @ti.kernel
@@ -86,8 +87,8 @@ class Krylov:
         V = tables.lease(self, rows, lanes.W,
                          max(columns(v.nx, v.ny), columns(v.scene.grid.nx, v.scene.rows)), precision=v.precision, clean=False)
         kinds = zip((lanes.W, convolution.GROUP, 2), size)
-        self.memory = Memory(v.J, V, *(tables.lease(self, 1, n, count, precision=v.precision, clean=False)
-                                  for n, count in kinds))
+        fields_of = (tables.lease(self, 1, n, count, precision=v.precision, clean=False) for n, count in kinds)
+        self.memory = Memory(v.J, V, *fields_of, odd_radices(layout.lengths, largest.lengths))
         convolution.prepare(layout.table, self.symbols, self.memory.Y, self.memory.T, layout.lengths, v.linear)
         weights = v.vector(fields.WEIGHT).astype(v.linear).reshape(-1, lanes.W)
         lanes.fill(V, phases.LOADING, 0, weights)

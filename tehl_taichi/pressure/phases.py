@@ -284,7 +284,7 @@ def transformed(F: ti.template(), G: ti.template(), C: ti.template(), Q: ti.temp
         changes(F, C, G, N, j, w, most)
     elif operation == GIVEN:
         given(F, C, G, j, w, right)
-    x = convolution.transformed(F.Y, F.T, Q, C, c, j, w, way)
+    x = convolution.transformed(F.Y, F.T, Q, F.odd, C, c, j, w, way)
     if operation == COLLECT:
         collect(F, C, G, c, j, x)
     elif operation == BACK:
