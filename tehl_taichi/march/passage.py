@@ -13,8 +13,9 @@ from tehl_taichi.errors import NotConverged
 from tehl_taichi.heat.temperatures import FilmHeat
 from tehl_taichi.march import snapshot
 from tehl_taichi.march.failure import crossed, not_converged
+from tehl_taichi.march.parts import Parts
 from tehl_taichi.march.prediction import Prediction
-from tehl_taichi.march.rounds import SMALLEST_PART, carefully, exchange
+from tehl_taichi.march.rounds import carefully, exchange
 from tehl_taichi.march.snapshot import Snapshot
 from tehl_taichi.march.solved import Solved
 from tehl_taichi.march.start import steady_snapshot
@@ -29,9 +30,9 @@ from tehl_taichi.scene.scales import Scales
 
 __all__ = ["NotConverged", "Passage", "Snapshot", "march", "total_steps"]
 
-# A failed step is repeated, with temperatures in so many times the rounds: at the outlet edge of a hot film a shorter step
-# changes as much from round to round (asperity of 100 um on 128 columns, SRR -0.12 and 0.12: by 100 K and more; with 8 rounds
-# neither passes 1.15 a)
+# A failed step is repeated in parts, with temperatures in so many times the rounds: at the outlet edge of a hot film a shorter
+# step changes as much from round to round (asperity of 100 um on 128 columns, SRR -0.12 and 0.12: by 100 K and more; with 8
+# rounds neither passes 1.15 a)
 MORE_ROUNDS = 4
 
 
@@ -67,7 +68,7 @@ class Passage:
 
     def _restore(self, state):
         self.step, self.P, self.solver.H0 = int(state["step"]), np.array(state["P"]), float(state["H0"])
-        self.part = float(state.get("part", 1.0))
+        self.parts = Parts.of(state)
         self.levels.put(fields.P, self.P)
         if self.heat:
             self.heat.restore(state)
@@ -88,14 +89,13 @@ class Passage:
     def advance(self):
         """One time step; where it does not converge, in parts."""
         started, done, self.rejected = time.perf_counter(), 0.0, 0
-        part = min(1.0, 2 * self.part)
         while done < 1.0:
+            part = self.parts.next(done)
             report = self._try(done + part, part)
             if report.converged:
                 done += part
-                part = min(1.0 - done, 2 * part)
             else:
-                part = self._shorter(report, part)
+                self._reject(report, part)
         self.step += 1
         return self._sound(self._describe(report, started))
 
@@ -108,6 +108,7 @@ class Passage:
         report = self._exchange(part) if self.heat else self._solve()
         if report.converged:
             self._accept(at, part)
+            self.parts.accept(part)
         else:
             self.solver.H0 = H0
         return report
@@ -129,12 +130,12 @@ class Passage:
     def _exchange(self, part):
         """Pressure and temperatures of a part of a step."""
         self.heat.begin(part * self.dT * self.scales.t)
-        return exchange(self.solver, self.heat, self._solve, self._rounds(), sparing=True)
+        return exchange(self.solver, self.heat, self._solve, self._rounds(part), sparing=True)
 
-    def _rounds(self):
-        """Of pressure and temperature, at most: more for a step that failed, but for a user who wants one lagged round."""
+    def _rounds(self, part):
+        """Of pressure and temperature, at most: more for a part of a step, but for a user who wants one lagged round."""
         most = self.scene.thermal.rounds
-        return most if self.rejected == 0 or most == 1 else MORE_ROUNDS * most
+        return most if part == 1.0 or most == 1 else MORE_ROUNDS * most
 
     def _solve(self):
         """The pressure, and with it film, cavitation, solid contact and load; carefully where it does not converge at once."""
@@ -142,19 +143,18 @@ class Passage:
 
     def _accept(self, at, part):
         """What is in the tables is the newest state."""
-        self.P, self.part = self.levels.get(fields.P), part
+        self.P = self.levels.get(fields.P)
         self.storage.accept(part * self.dT)
         if self.heat:
             self.heat.accept()
         self.prediction.accept(self.P, at)
 
-    def _shorter(self, report, part):
+    def _reject(self, report, part):
         self.rejected += 1
-        if part / 2 < SMALLEST_PART:
+        if not self.parts.reject(part):
             at = f"{where(self.scene)} at {self.position(self.step + 1):.2f} a"
             raise not_converged(self.solver, self.heat, report, f"step {self.step + 1} ({at}), down to {part:g} of it,",
                                 passing=True)
-        return part / 2
 
     def position(self, step):
         """Centre of the first feature in units of a."""
@@ -180,4 +180,4 @@ class Passage:
         if step != self.step:
             raise RuntimeError(f"the state of step {step} is gone: ask for it before the next step is computed")
         return {**snapshot.state_of(self.solver, self.heat, step), **self.storage.state(), **self.prediction.state(),
-                "part": self.part}
+                **self.parts.state()}

@@ -4,9 +4,6 @@ import math
 
 from tehl_taichi.march.first_film import put
 
-# Of a step that does not converge: it is taken in halves down to this part, after that parts at most double. With 1/16 the
-# asperity of 100 um stops at 1.12 a on 128 columns, where it touches
-SMALLEST_PART = 1 / 64
 RETRY_KRYLOV = 3e-3  # of a solve that failed: ten times tighter
 SLUGGISH = 0.2  # rounds that leave more of the last change are relaxed; usual is 0.01 to 0.1
 

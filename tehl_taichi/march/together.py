@@ -12,7 +12,8 @@ import numpy as np
 
 from tehl_taichi.heat.energy import LIGHT
 from tehl_taichi.march.first_film import again, put
-from tehl_taichi.march.rounds import SMALLEST_PART, carefully, exchange
+from tehl_taichi.march.parts import Parts
+from tehl_taichi.march.rounds import carefully, exchange
 from tehl_taichi.march.settle import FLUTTER, LONGEST_RUN, SETTLED, unsettled
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.storage import Storage
@@ -62,7 +63,7 @@ class Together:
 
     def __init__(self, solver, heat):
         self.solver, self.heat, self.levels = solver, heat, solver.levels
-        self.part, self.lost, self.P = 1.0, False, solver.levels.get(fields.P)
+        self.parts, self.lost, self.P = Parts(), False, solver.levels.get(fields.P)
         speeds = [body.speed for body in heat.bodies.each if body.speed]
         self.dt = self.levels.dx * self.levels.scales.a / max(speeds)  # s: a cell of the faster surface
         self.transit = self.levels.nx * max(speeds) / min(speeds)  # steps
@@ -132,14 +133,14 @@ class Together:
 
     def _step(self):
         """A step, in parts where it does not converge."""
-        done, part = 0.0, min(1.0, 2 * self.part)
+        done = 0.0
         while done < 1.0 and not self.lost:
+            part = self.parts.next(done)
             if self._try(part * self.dt):
-                done, self.part = done + part, part
-                part = min(1.0 - done, 2 * part)
+                done += part
+                self.parts.accept(part)
             else:
-                part /= 2
-                self.lost = part < SMALLEST_PART
+                self.lost = not self.parts.reject(part)
 
     def _try(self, dt):
         """Accept the state dt s later, or leave the last one; whether it converged."""
