@@ -223,8 +223,8 @@ def test_fatigue_again_with_other_constants(tmp_path):
     found = json.loads(again.stdout)
     assert found["findley_stress_max_Pa"] == pytest.approx(first["findley_stress_max_Pa"], rel=1e-9)
     assert found["Fi_max"] == pytest.approx(2 * first["Fi_max"], rel=1e-9)
-    assert {path.name for path in (tmp_path / "figures").iterdir()} == {"fatigue.png", "fatigue_depth.png",
-                                                                              "fatigue_point.png"}
+    assert {path.name for path in (tmp_path / "figures").iterdir()} == {
+        "fatigue.png", "fatigue_depth.png", "fatigue_depth_whole.png", "fatigue_point.png", "fatigue_point_whole.png"}
     part = json.loads(tehl("fatigue", "run.zarr", "--to-x", "-0.5", "--depths", "30e-6", "--json", cwd=tmp_path).stdout)
     assert part["by_depth"][0]["findley_stress_max_Pa"] < first["findley_stress_max_Pa"]
     limits = tehl("fatigue", "run.zarr", "--depths", "none", "--bending-limit", 500e6, "--torsion-limit", 320e6, cwd=tmp_path)

@@ -177,7 +177,7 @@ ROWS = {
     "passage film / surface a / surface b, largest": ("°C", lambda gear: heat(gear, slice(1, None))),
     "passage p_max": ("GPa", lambda gear: [gear.fields["pressure"][1:].max()]),
     "passage h_min": ("um", lambda gear: [gear.fields["film"][1:].min()]),
-    "Fi_max at the surface": ("", lambda gear: [gear.store.map("findley_stress").max() / 400e6]),
+    "Fi_max at the surface, whole passage": ("", lambda gear: [gear.store.map("findley_stress").max() / 400e6]),
     "findley stress": ("MPa", lambda gear: [gear.store.map("findley_stress").max()]),
     "at x, y of the feature": ("um", lambda gear: [gear.summary["fatigue"][key] for key in ("x_m", "y_m")]),
     "critical plane to the surface": ("deg", lambda gear: [gear.summary["fatigue"]["surface_angle_deg"]]),

@@ -319,13 +319,13 @@ def test_heat_balance():
     assert bodies == pytest.approx(58.52e3, rel=0.01)
 
 
-@pytest.mark.parametrize("rejected, rounds, most", [(0, 8, 8), (1, 8, 32), (2, 1, 1)])
-def test_a_step_that_failed_gets_more_rounds(rejected, rounds, most):
+@pytest.mark.parametrize("part, rounds, most", [(1.0, 8, 8), (0.5, 8, 32), (0.25, 1, 1)])
+def test_a_part_of_a_step_gets_more_rounds(part, rounds, most):
     """Not where one lagged round is wanted."""
     from tehl_taichi.march.passage import Passage
 
-    step = SimpleNamespace(rejected=rejected, scene=SimpleNamespace(thermal=Thermal(rounds=rounds)))
-    assert Passage._rounds(step) == most
+    step = SimpleNamespace(scene=SimpleNamespace(thermal=Thermal(rounds=rounds)))
+    assert Passage._rounds(step, part) == most
 
 
 @pytest.mark.slow

@@ -13,12 +13,12 @@ from tehl_taichi.errors import NotConverged
 from tehl_taichi.heat.temperatures import FilmHeat
 from tehl_taichi.march import snapshot
 from tehl_taichi.march.failure import crossed, not_converged
-from tehl_taichi.march.parts import Parts
 from tehl_taichi.march.prediction import Prediction
 from tehl_taichi.march.rounds import carefully, exchange
 from tehl_taichi.march.snapshot import Snapshot
 from tehl_taichi.march.solved import Solved
 from tehl_taichi.march.start import steady_snapshot
+from tehl_taichi.march.step_parts import Parts
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.pressure.newton import PressureSolver

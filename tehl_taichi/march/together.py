@@ -12,9 +12,9 @@ import numpy as np
 
 from tehl_taichi.heat.energy import LIGHT
 from tehl_taichi.march.first_film import again, put
-from tehl_taichi.march.parts import Parts
 from tehl_taichi.march.rounds import carefully, exchange
 from tehl_taichi.march.settle import FLUTTER, LONGEST_RUN, SETTLED, unsettled
+from tehl_taichi.march.step_parts import Parts
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.storage import Storage
 

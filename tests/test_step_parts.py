@@ -1,6 +1,6 @@
 """Parts of time steps: halves of what fails, larger ones again after a while."""
 
-from tehl_taichi.march.parts import FIRST_PAUSE, LONGEST_PAUSE, SMALLEST, Parts
+from tehl_taichi.march.step_parts import FIRST_PAUSE, LONGEST_PAUSE, SMALLEST, Parts
 
 
 def marched(steps, largest):
