@@ -5,8 +5,8 @@ import numpy as np
 from tehl_taichi.io import film_judge, rim_judge
 from tehl_taichi.physics import conduction
 from tehl_taichi.physics.law import beyond
+from tehl_taichi.scene.yielding import STEEL, YIELDS
 
-YIELDS = 4e9  # Pa: under it hardened bearing steel keeps a dent of 1e-4 of a roller's diameter (ISO 76; balls: 4.2 GPa)
 CROWDED = 0.1  # of the launches; a machine of one's own loses a core for a moment now and then, which costs nothing to speak of
 
 
@@ -62,9 +62,6 @@ def unknown_errors(store, summary):
 def largest_pressure(summary):
     """Pa, of the steady start and of the passage."""
     return max(summary.get(part, {}).get("p_max_Pa", 0.0) for part in ("steady", "transient"))
-
-
-STEEL = f"hardened steel yields from about {YIELDS / 1e9:g} GPa on (static limit of roller bearings, ISO 76), others earlier"
 
 
 def yielding(store, summary):

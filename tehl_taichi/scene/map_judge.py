@@ -1,34 +1,30 @@
 """What a measured height map is and whether unit, pixel and grid suit it: lines printed before a run, and doubts."""
 
-import functools
 import os
 
 import numpy as np
 
-from tehl_taichi.scene import height_map, map_filter
-from tehl_taichi.scene.height_map import LEVELS, Measures, missed
+from tehl_taichi.scene import height_map
+from tehl_taichi.scene.height_map import LEVELS, missed
+from tehl_taichi.scene.map_cutoff import SHARE, STEEP, SURELY, helping, middle, points_in_a_cell, pressed, yields
 from tehl_taichi.scene.map_form import FLAT
 from tehl_taichi.scene.passing import MULTIPLES
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.scene.yielding import STEEL
 
-STEEP = 10.0  # degrees: the film equation takes slopes for small (tan 10 deg = 0.18)
-SHARE = 0.1  # of the rms that a grid, or the map's own points, may miss: a wave of six cells
 TURNED = "Heights count out of the metal and most bodies are convex: is it upside down? feature.scale = -1 turns it over"
 RIM = 0.1  # of the rms: a step at the rim below that is roughness like the rest
-CUTOFFS = (4, 6, 8, 12, 16)  # cells, that a cutoff is looked for among
-JUDGED = 1024  # points along each side, from the middle, that are judged
 
 
 def doubts(f, scene):
-    """Sentences about a map that has holes, has the form of its body, is flat or steep, finer or coarser than the grid, or ends
+    """Sentences about a map that has holes, has the form of its body, is flat or rough, finer or coarser than the grid, or ends
     in a step."""
-    cutoff = functools.cache(lambda: _cutoff(f, scene))  # wanted up to twice; to look for it, the map is filtered several times
-    return [*_holes(f), *form(f), *_across(f, scene), *_size(f, cutoff), *_grid(f, scene, cutoff), *_rim(f)]
+    return [*_holes(f), *form(f), *_across(f, scene), *_size(f), *_rough(f, scene), *_grid(f, scene), *_rim(f)]
 
 
 def lines(f, scene):
     """Two lines: what was read, and what passes through the contact."""
-    steps = _points_in_a_cell(f, scene)
+    steps = points_in_a_cell(f, scene)
     (along, across), m, name = f.points, f.measures, f"map {os.path.basename(f.file)}"
     heights = f"heights in {f.unit}" + (f" times {f.scale:g}" if f.scale != 1 else "")
     turned = f"{f.orientation.says}, " if f.orientation.says else ""
@@ -81,55 +77,56 @@ def _across(f, scene):
                f"curved along x alone; does the scan lie across? feature.transpose = {str(not f.transpose).lower()} turns it")
 
 
-def _size(f, cutoff):
-    m, told = f.measures, f"{_name(f)}: heights in {f.unit}"
-    helps = f", or roughness? {found}" if m.slope > STEEP and (found := cutoff()) else "?"
+def _size(f):
+    m = f.measures
     if m.rms < FLAT:
-        yield f"{told} have an rms of {m.rms * 1e9:.2g} nm, nothing to a film; is feature.unit = {f.unit!r} right?"
-    if m.slope > STEEP:
-        yield (f"{told} have slopes up to {m.slope:.3g} deg; the film equation takes slopes for small (below {STEEP:g} deg): "
-               f"spikes of the measurement{helps}")
+        yield (f"{_name(f)}: heights in {f.unit} have an rms of {m.rms * 1e9:.2g} nm, nothing to a film; is feature.unit = "
+               f"{f.unit!r} right?")
+
+
+def _rough(f, scene):
+    """One sentence for slopes that the film equation, and heights that steel does not bear: one cutoff helps against both."""
+    why = [*_steep(f), *_hard(f, scene)]
+    if why:
+        helps = f", or roughness? {found}" if (found := _cutoff(f, scene)) else "?"
+        yield f"{_name(f)}: heights in {f.unit} {', and '.join(why)}: spikes of the measurement{helps}"
+
+
+def _steep(f):
+    if (slope := f.measures.slope) > STEEP:
+        yield f"have slopes up to {slope:.3g} deg; the film equation takes slopes for small (below {STEEP:g} deg)"
+
+
+def _hard(f, scene):
+    if yields(heights := middle(f.used), f, scene, SURELY):
+        yield f"take about {pressed(heights, f, scene) / 1e9:.2g} GPa to be pressed flat in this contact; {STEEL}"
 
 
 def _name(f):
     return f"feature.file = {os.path.basename(f.file)!r}"
 
 
-def _grid(f, scene, cutoff):
-    steps, heights = _points_in_a_cell(f, scene), _middle(f.used)
+def _grid(f, scene):
+    steps, heights = points_in_a_cell(f, scene), middle(f.used)
     lost, own = missed(heights, *steps), missed(heights, 2, 2)
     if lost > SHARE:
         yield (f"{_name(f)}: the grid misses {lost:.0%} of the map's rms ({_finer(heights, steps, scene.grid)}"
-               f"{f'; {found}' if (found := cutoff()) else ''})")
+               f"{f'; {found}' if (found := _cutoff(f, scene)) else ''})")
     if min(steps) < 1 and own > SHARE:
         yield (f"{_name(f)}: points {_apart(f)} um apart are {1 / min(steps):.2g} cells and do not resolve their own "
                f"roughness ({own:.0%} of the rms changes without every second one); heights are taken as linear between them")
 
 
-def _points_in_a_cell(f, scene):
-    """[along x, along y] of the map; they need not be whole."""
-    return [size / step for size, step in zip(Scales.of(scene).cell(scene.grid), f.steps)]
-
-
 def carried(scene):
     """Whether the grid sees every map of the scene."""
-    return all(missed(_middle(f.used), *_points_in_a_cell(f, scene)) <= SHARE for f in scene.features if f.kind.measured)
+    return all(missed(middle(f.used), *points_in_a_cell(f, scene)) <= SHARE for f in scene.features if f.kind.measured)
 
 
 def _cutoff(f, scene):
-    """The first cutoff of some cells with which the doubts about grid and slopes are gone, in words; "" where there is none."""
-    size, (least, most) = max(Scales.of(scene).cell(scene.grid)), map_filter.limits(f)
-    for count in CUTOFFS:
-        cutoff = float(f"{count * size:.1e}")
-        if max(least, f.cutoff) < cutoff < most and _taken(f, scene, cutoff):
-            return f"feature.cutoff = {cutoff:g} (m, {count} cells) filters what is finer"
-    return ""
-
-
-def _taken(f, scene, cutoff):
-    """Whether the map with this cutoff (m) is long and flat enough for the grid."""
-    heights = _middle(f.inside(f.filtered(cutoff)))
-    return missed(heights, *_points_in_a_cell(f, scene)) <= SHARE and Measures.of(heights, f.steps).slope <= STEEP
+    """The cutoff with which the doubts about grid, slopes and pressure are gone, in words; "" where there is none."""
+    cutoff = helping(f, scene)
+    cells = cutoff / max(Scales.of(scene).cell(scene.grid))
+    return f"feature.cutoff = {cutoff:g} (m; {_um(cutoff)} um, {cells:.2g} cells) filters what is finer" if cutoff else ""
 
 
 def _finer(heights, steps, grid):
@@ -140,12 +137,6 @@ def _finer(heights, steps, grid):
     (nx, ny), most = (grid.nx * factor, grid.ny * factor), [cells for _, cells in MULTIPLES.values()]
     return (f"--grid {nx}x{ny} sees it" if nx <= most[0] and ny <= most[1] else
             f"so does every grid up to {most[0]} x {most[1]}: filter the map")
-
-
-def _middle(heights):
-    """The middle of a large map."""
-    cut = [max(0, (n - JUDGED) // 2) for n in heights.shape]
-    return heights[cut[0]:heights.shape[0] - cut[0], cut[1]:heights.shape[1] - cut[1]]
 
 
 def _rim(f):

@@ -97,6 +97,11 @@ class Measured:
         """The :class:`tehl_taichi.scene.map_form.Form` that it was measured with."""
         return Form.of(self.raw, self.steps, self.size)
 
+    @cached_property
+    def cutoffs(self):
+        """{(scales, grid): cutoff that helps there}, kept by `scene.map_cutoff`, where each try is a filter."""
+        return {}
+
     @property
     def file_steps(self):
         """(along a row of the file, from row to row): distances of its points in m."""
