@@ -97,8 +97,8 @@ def test_features_beside_the_domain(feature, words):
 def test_features_at_its_edge_are_cut():
     assert on(256, 64, Feature(y=4.5e-4)).rows == 128
     said, = on(256, 64, Feature(y=3e-4)).warnings()
-    assert "cut off" in said and "; grid.y_max = 1.2 takes it in, with cells 1.2 times as wide unless grid.ny = 80" in said
-    assert on(256, 64, Feature(y=3e-4), **{"grid.y_max": 1.2, "grid.ny": 80}).warnings() == []
+    assert said.endswith("what lies beyond is cut off; --set grid.y_max=1.2 --grid 256x76 gives room")
+    assert on(256, 64, Feature(y=3e-4), **{"grid.y_max": 1.2, "grid.ny": 76}).warnings() == []
     assert on(256, 64, Feature(shape="ridge", y=1e-3, height=1e-7)).one_dimensional  # transverse: the same for every y
 
 
@@ -106,7 +106,7 @@ def test_a_patch_that_is_too_wide_may_be_made_smaller():
     patch = Feature(**dict(PATCH, shape="rough", width=60e-6, extent_y=1.2e-3, y=1e-5))
     said, = (text for text in on(256, 64, patch).warnings() if "cut off" in text)
     extent = float(said.split("feature.extent_y = ")[1].split()[0])
-    assert "makes the patch smaller, or grid.y_max = " in said
+    assert "makes the patch smaller); --set grid.y_max=" in said
     smaller = Feature(**dict(PATCH, shape="rough", width=60e-6, extent_y=extent, y=1e-5))
     assert not any("cut off" in text for text in on(256, 64, smaller).warnings())
     assert extent > 0.98 * 2 * (362e-6 - 1e-5)  # b less the way to the side

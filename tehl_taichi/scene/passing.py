@@ -111,28 +111,12 @@ def _coarse(scene):
             f"{_remedy(scene, ENOUGH, worst)}"]
 
 
+def beside(f, scales):
+    """Whether a feature passes beside the contact."""
+    return not scales.line and abs(f.y) - f.reach_y >= scales.b
+
+
 def _beside(scene):
-    """Features whose sides lie beyond the edge of the domain, or that pass beside the contact."""
-    out, s = [], Scales.of(scene)
-    edge = scene.grid.y_max * s.b
-    for n, f in enumerate(scene.features):
-        name, far = label(scene, n), abs(f.y) + f.reach_y
-        if f.transverse or math.isinf(far):
-            continue
-        if not s.line and abs(f.y) - f.reach_y >= s.b:
-            out.append(f"{name}.y = {f.y:g} m: the feature passes beside the contact, which reaches to {s.b:.3g} m")
-        elif far > edge * (1 + 1e-9):
-            out.append(f"{name} reaches to {far:.3g} m along y, the domain to grid.y_max = {scene.grid.y_max:g} b ({edge:.3g} "
-                       f"m): what lies beyond is cut off; {_taken_in(scene, f, name, far / s.b)}")
-    return out
-
-
-def _taken_in(scene, f, name, far):
-    """How a feature that reaches to `far` (b) fits in: a smaller patch, or a wider domain, whose cells grow unless ny does."""
-    g, s, multiple = scene.grid, Scales.of(scene), MULTIPLES["ny"][0]
-    y_max, room = math.ceil(10 * far) / 10, 2 * (g.y_max * s.b - abs(f.y))
-    ny = math.ceil(g.ny * y_max / g.y_max / multiple - 1e-9) * multiple
-    wider = f"grid.y_max = {y_max:g} takes it in, with cells {y_max / g.y_max:.2g} times as wide unless grid.ny = {ny} as well"
-    if "extent_y" not in f.kind.uses or room < s.b / 10:
-        return wider
-    return f"{name}.extent_y = {math.floor(room * 1e6) * 1e-6:.4g} makes the patch smaller, or {wider}"
+    s = Scales.of(scene)
+    return [f"{label(scene, n)}.y = {f.y:g} m: the feature passes beside the contact, which reaches to {s.b:.3g} m"
+            for n, f in enumerate(scene.features) if not f.transverse and beside(f, s)]

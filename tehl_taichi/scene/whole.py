@@ -7,7 +7,7 @@ from typing import Any
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.physics.shear.newtonian import NEWTONIAN
-from tehl_taichi.scene import change, given, judge, map_judge, named_oils, oil_range, passing, scales
+from tehl_taichi.scene import change, given, judge, map_judge, named_oils, oil_range, passing, room, scales
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.named_steels import completed
 from tehl_taichi.scene.oil import Oil
@@ -37,7 +37,6 @@ TOP = {"name": Text("what stores are named after", 100),  # the keys above all t
 FIRST, LAST = -1.6, 1.4  # of the path of a small feature, in a
 CLEAR = 1.3  # distance in a of a feature's front from X = 0 at an automatic start
 BEYOND = 1.2  # half-widths, at least, from the centre to the edge of the grid
-FARTHEST = 9.5  # half-widths to which a grid may well reach on both sides
 AT_REST = 0.01  # of the mean speed
 MAX_HERTZ, MIN_HERTZ = 6e9, 1e7  # Pa: outside this range the laws say nothing
 
@@ -124,7 +123,7 @@ class Scene:
         for key, end in (("x_min", self.grid.x_min), ("x_max", self.grid.x_max)):
             if self.transient and abs(end) < need:
                 gap = 0.5 * end**2 * s.h
-                farther = f", or grid.{key} = {math.copysign(need * 1.05, end):.2g} a or farther out" if need < FARTHEST else ""
+                farther = f", or a wider domain: {words}" if (words := room.domain_words(self)) else ""
                 raise SceneError(f"{self._load_words()} gives a half-width a of {s.a:.3g} m and so, at grid.{key} = {end:g} "
                                  "a, an "
                                  f"undeformed gap of {gap:.3g} m, smaller than the height of a feature, {highest:.3g} m; "
