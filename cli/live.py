@@ -63,6 +63,7 @@ class Live(Lines):
     def step(self, snapshot):
         if not self.bar:
             return super().step(snapshot)
+        self.beyond_steel(snapshot)
         self._when_due(lambda: self._draw(snapshot), snapshot.step == self.total)
 
     def _when_due(self, draw, last):

@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import List, Optional
 
 import typer
-from tehl_cli.changes import check_rows, given_by
+from tehl_cli.changes import GRIDS, check_rows, given_by
 from tehl_cli.live import Live, say
 from tehl_cli.out import print_json
 
@@ -39,8 +39,8 @@ def run(
     bending_limit: Optional[float] = typer.Option(None, help="fatigue limit in reversed bending, Pa, in place of --endurance"),
     torsion_limit: Optional[float] = typer.Option(None, help="the same in torsion; one limit and kappa give sigma_eF, both "
                                                   "kappa, too"),
-    steps: Optional[int] = typer.Option(None, help="stop after this many time steps (0: the steady start alone); `tehl "
-                                        "resume` goes on"),
+    steps: Optional[int] = typer.Option(None, help="stop after this many time steps (0: the steady start alone, and "
+                                        "how long the passage would take); `tehl resume` goes on"),
     out: Optional[Path] = typer.Option(None, help="store to write (default: runs/SCENE-N.zarr)"),
     force: bool = typer.Option(False, "--force", help="replace an existing store, as soon as the new one has its first entry"),
     arch: str = typer.Option("cpu", help="cpu"),
@@ -71,6 +71,8 @@ def run(
     with Live(quiet, curves) as live:
         done = tehl.run(description, out, force=force, threads=threads, arch=arch, progress=live)
     _print(done, as_json, description.warnings())
+    if description.time.steps == 0 and not quiet:
+        _tell_time(done)
 
 
 def resume(
@@ -107,6 +109,14 @@ def _print(run, as_json, said=()):
     from tehl_cli.listing import summary_table
 
     print_json(run.summary) if as_json else summary_table(run.summary, said)
+
+
+def _tell_time(done):
+    """How long the passage would take of which the steady start alone was asked for."""
+    from tehl_taichi.study import look
+
+    for sentence in look.lines(done, GRIDS["coarse"]):
+        say(sentence)
 
 
 def _on_grid_for(target, changes, description):

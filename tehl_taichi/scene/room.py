@@ -81,12 +81,12 @@ def _grid(scene, ends):
     """--grid with the cells that keep their size in a domain with these ends, where it needs more of them."""
     g = scene.grid
     x_min, x_max, y_max = (ends.get(key, getattr(g, key)) for key in ("x_min", "x_max", "y_max"))
-    nx, ny = _cells("nx", g.nx, (x_max - x_min) / (g.x_max - g.x_min)), _cells("ny", g.ny, y_max / g.y_max)
+    nx, ny = cells("nx", g.nx, (x_max - x_min) / (g.x_max - g.x_min)), cells("ny", g.ny, y_max / g.y_max)
     if (nx, ny) != (g.nx, g.ny):
         yield f"--grid {nx}" + ("" if scene.one_dimensional else f"x{ny}")
 
 
-def _cells(key, count, times):
-    """So many times as many, in the multiples that a grid keeps to."""
+def cells(key, count, times):
+    """Of the axis "nx" or "ny" that becomes so many times as long: about as large as before, in multiples that a grid takes."""
     multiple = passing.MULTIPLES[key][0]
-    return count if times <= WIDER else math.ceil(count * times / WIDER / multiple - 1e-9) * multiple
+    return count if 1 <= times <= WIDER else math.ceil(count * times / WIDER / multiple - 1e-9) * multiple

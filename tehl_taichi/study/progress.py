@@ -4,6 +4,8 @@ import contextlib
 import sys
 import time
 
+from tehl_taichi.study.pace import Pace
+
 STEADY, PASSAGE, FATIGUE, ERRORS = STAGES = ("steady start", "passage", "stresses and fatigue", "companion runs")
 LATE = FATIGUE, ERRORS  # stages after the last step, of minutes on fine grids
 
@@ -35,7 +37,8 @@ class Progress:
 
 
 class Lines(Progress):
-    """Prints lines: sentences at once, steps and parts of later stages every few seconds. stream: where to (default: stderr).
+    """Prints lines: sentences at once, steps (with the time left at the pace of the last ones) and parts of later stages every
+    few seconds, once that the pressure passes what steel bears. stream: where to (default: stderr).
 
     >>> Lines(sys.stdout).warn("passage cut at -1.37 a")
     warning: passage cut at -1.37 a
@@ -44,7 +47,7 @@ class Lines(Progress):
     EVERY = 5.0  # seconds between the lines of steps and parts
 
     def __init__(self, stream=None):
-        self.stream, self.total, self.last = stream, 0, time.perf_counter()
+        self.stream, self.total, self.last, self.pace, self.yielded = stream, 0, time.perf_counter(), Pace(), False
 
     def say(self, text):
         with contextlib.suppress(BrokenPipeError):  # a run goes on where nobody reads it
@@ -56,11 +59,24 @@ class Lines(Progress):
     def stage(self, name, done, total):
         if name == PASSAGE:
             self.total = total
+            self.pace.at(done)
         elif name in LATE:
             self._say_now_and_then(f"{name} {done}/{total}")
 
     def step(self, snapshot):
-        self._say_now_and_then(f"step {snapshot.step}/{self.total}  {line(snapshot)}")
+        self.beyond_steel(snapshot)
+        left = self.pace.left(self.total)
+        self._say_now_and_then(f"step {snapshot.step}/{self.total}  {line(snapshot)}{f'  {left}' if left else ''}")
+
+    def beyond_steel(self, snapshot):
+        """Say it once, as soon as a pressure is more than steel bears: whoever waits may want to stop."""
+        from tehl_taichi.scene.yielding import STEEL, YIELDS
+
+        p = snapshot.scalars["p_max_Pa"]
+        if p > YIELDS and not self.yielded:
+            self.yielded = True
+            self.say(f"step {snapshot.step}: p_max {p / 1e9:.2f} GPa; {STEEL}, and both bodies are elastic here. It goes on; "
+                     "Ctrl-C stops it. Less load, or feature.cutoff for a rough scan, makes it lower")
 
     def _say_now_and_then(self, text):
         if time.perf_counter() - self.last > self.EVERY:

@@ -1,0 +1,33 @@
+"""How long steps take, and what is left of a passage at that pace, in words."""
+
+import time
+from collections import deque
+
+LAST = 20  # steps whose mean is the pace: those of a rough scan take twenty times as long once it is in the contact
+FEWEST = 3  # steps that tell one
+
+
+class Pace:
+    """The clock of a passage: told each step as it ends."""
+
+    def __init__(self):
+        self.passed = deque(maxlen=LAST + 1)
+
+    def at(self, done):
+        """`done` steps are through, now; as many as before, or fewer, is another passage."""
+        if self.passed and done <= self.passed[-1][0]:
+            self.passed.clear()
+        self.passed.append((done, time.perf_counter()))
+
+    def left(self, total):
+        """Words for the time to the end of `total` steps; "" while nobody knows."""
+        steps, seconds = (last - first for first, last in zip(self.passed[0], self.passed[-1])) if self.passed else (0, 0.0)
+        rest = total - self.passed[-1][0] if self.passed else 0
+        return f"{about(rest * seconds / steps)} left" if steps >= FEWEST and rest else ""
+
+
+def about(seconds):
+    """A time in words, as well as one knows it."""
+    if seconds < 50:
+        return f"about {max(seconds, 1):.0f} s"
+    return f"about {seconds / 60:.0f} min" if seconds < 90 * 60 else f"about {seconds / 3600:.1f} h"
