@@ -5,7 +5,8 @@ import pytest
 from map_feature import feature
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene import height_map, height_text, scene
+from tehl_taichi.scene import scene
+from tehl_taichi.scene.maps import height_map, height_text
 
 WYKO = ["Wyko ASCII Data File Format\t0\t0\t1", "X Size\t6", "Y Size\t40", "Height units\t5\t4\t\u00b5m", "",
         "RAW_DATA\t3\t264000"]

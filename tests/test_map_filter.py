@@ -9,8 +9,9 @@ from map_feature import feature
 import tehl_taichi as tehl
 from tehl_taichi.errors import SceneError
 from tehl_taichi.report import surface_plots
-from tehl_taichi.scene import map_filter, scene
+from tehl_taichi.scene import scene
 from tehl_taichi.scene.judge import doubtful_features
+from tehl_taichi.scene.maps import map_filter
 
 CUTOFF = 25e-6
 STEPS = {"pixel": 2e-6, "pixel_y": 2.5e-6}

@@ -6,7 +6,8 @@ from map_feature import feature
 
 import tehl_taichi as tehl
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene import height_map, scene, target
+from tehl_taichi.scene import scene, target
+from tehl_taichi.scene.maps import height_map
 
 
 def test_rows_may_lie_farther_apart_than_the_points_of_a_row(tmp_path):

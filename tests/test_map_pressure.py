@@ -5,8 +5,9 @@ import pytest
 from map_feature import feature
 
 import tehl_taichi as tehl
-from tehl_taichi.scene import map_cutoff, map_pressure, scene
+from tehl_taichi.scene import scene
 from tehl_taichi.scene.judge import doubtful_features
+from tehl_taichi.scene.maps import map_cutoff, map_pressure
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.yielding import YIELDS
 

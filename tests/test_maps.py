@@ -12,10 +12,11 @@ from map_feature import feature
 
 import tehl_taichi as tehl
 from tehl_taichi.io import scene_file
-from tehl_taichi.scene import SceneError, height_map, scene
+from tehl_taichi.scene import SceneError, scene
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.judge import doubtful_features as doubts
 from tehl_taichi.scene.judge import preview
+from tehl_taichi.scene.maps import height_map
 
 TOML = 'base = "gear"\n[[feature]]\nshape = "map"\nfile = "scan.npy"\nunit = "um"\npixel = 1e-6\n'
 SMALL = {"grid.nx": 64, "grid.ny": 16, "thermal.on": False}
@@ -203,7 +204,7 @@ def test_flat_steep_and_cut_off_maps_are_doubted(tmp_path):
 
 
 def test_what_a_grid_misses_is_what_linear_cells_miss():
-    from tehl_taichi.scene.height_map import missed
+    from tehl_taichi.scene.maps.height_map import missed
 
     x = np.arange(2001.0)
     for cells in (4.5, 8.0, 20.0):  # of linear interpolation of a wave of that many cells: (2 pi/cells)^2 sqrt(1/120 + ...)
@@ -273,7 +274,7 @@ def moved(taichi_cpu, tmp_path_factory):
 @pytest.fixture
 def elsewhere(monkeypatch):
     """As in another process: no heights are known."""
-    monkeypatch.setattr("tehl_taichi.scene.height_map._known", weakref.WeakValueDictionary())
+    monkeypatch.setattr("tehl_taichi.scene.maps.height_map._known", weakref.WeakValueDictionary())
 
 
 def test_a_moved_store_goes_on_without_the_map_file(moved, elsewhere):

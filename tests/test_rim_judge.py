@@ -9,7 +9,8 @@ from map_feature import feature
 
 from tehl_taichi.io import result_judge, rim_judge
 from tehl_taichi.report import surface_plots
-from tehl_taichi.scene import map_judge, scene
+from tehl_taichi.scene import scene
+from tehl_taichi.scene.maps import map_judge
 
 HALF = {"x": 150e-6, "y": 100e-6}  # m, of the patch
 

@@ -3,8 +3,9 @@
 import zarr
 
 from tehl_taichi.errors import StoreError
-from tehl_taichi.scene import Scene, height_map
+from tehl_taichi.scene import Scene
 from tehl_taichi.scene.feature import SHAPES
+from tehl_taichi.scene.maps import height_map
 
 
 def write(group, scene):

@@ -11,7 +11,7 @@ from tehl_taichi.report.document import Section, drawn, facts
 from tehl_taichi.report.passage_plots import thinned
 from tehl_taichi.report.plots import colour, field_map, line, stacked
 from tehl_taichi.report.rounded import told
-from tehl_taichi.scene.height_map import LEVELS
+from tehl_taichi.scene.maps.height_map import LEVELS
 from tehl_taichi.scene.passing_words import from_centre
 
 STEPS = 1000  # of heights, at least

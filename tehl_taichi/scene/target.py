@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene import finer, map_judge
+from tehl_taichi.scene import finer
+from tehl_taichi.scene.maps import map_judge
 from tehl_taichi.scene.scales import Scales
 
 # Written by `tehl bench accuracy --keep`: {"machine", "families": {name: {"columns_per_width": columns for one cell per
@@ -22,8 +23,8 @@ def grid_for(description, target):
     """(nx, ny) cells with which the largest error of film, pressure and Findley index is about `target` (relative).
 
     The resolution counts: cells per contact half-width of a steady scene, per feature width of a passage; measured maps must be
-    seen, too (:mod:`tehl_taichi.scene.map_judge`). Beyond the finest measured grid the error is taken to fall in proportion to
-    the cells. Raises SceneError where that needs too fine a grid.
+    seen, too (:mod:`tehl_taichi.scene.maps.map_judge`). Beyond the finest measured grid the error is taken to fall in
+    proportion to the cells. Raises SceneError where that needs too fine a grid.
     """
     measured = families()[family_of(description)]
     errors = {int(nx): error for nx, error in measured["errors"].items()}

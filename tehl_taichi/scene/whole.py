@@ -7,8 +7,9 @@ from typing import Any
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.physics.shear.newtonian import NEWTONIAN
-from tehl_taichi.scene import change, given, judge, map_judge, named_oils, oil_range, passing, room, scales
+from tehl_taichi.scene import change, given, judge, named_oils, oil_range, passing, room, scales
 from tehl_taichi.scene.feature import Feature
+from tehl_taichi.scene.maps import map_judge
 from tehl_taichi.scene.named_steels import completed
 from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.parts import (

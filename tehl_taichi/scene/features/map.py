@@ -7,11 +7,11 @@ from functools import cached_property
 import numpy as np
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene import height_map, map_filter, map_holes, map_judge
 from tehl_taichi.scene.features.patch import Patch
-from tehl_taichi.scene.height_map import LEVELS, MICRO, UNITS, Measures
-from tehl_taichi.scene.map_form import Form
-from tehl_taichi.scene.map_orientation import Orientation
+from tehl_taichi.scene.maps import height_map, map_filter, map_holes, map_judge
+from tehl_taichi.scene.maps.height_map import LEVELS, MICRO, UNITS, Measures
+from tehl_taichi.scene.maps.map_form import Form
+from tehl_taichi.scene.maps.map_orientation import Orientation
 from tehl_taichi.scene.shape import share
 from tehl_taichi.values.checks import number
 from tehl_taichi.values.quantity import choice, quantity, switch, text
@@ -51,7 +51,7 @@ class Measured:
 
     @property
     def orientation(self):
-        """The :class:`tehl_taichi.scene.map_orientation.Orientation` of its file."""
+        """The :class:`tehl_taichi.scene.maps.map_orientation.Orientation` of its file."""
         return Orientation(self.transpose, self.mirror_x, self.mirror_y)
 
     @property
@@ -94,7 +94,7 @@ class Measured:
 
     @cached_property
     def form(self):
-        """The :class:`tehl_taichi.scene.map_form.Form` that it was measured with."""
+        """The :class:`tehl_taichi.scene.maps.map_form.Form` that it was measured with."""
         return Form.of(self.raw, self.steps, self.size)
 
     @cached_property

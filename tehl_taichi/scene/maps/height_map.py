@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from tehl_taichi.errors import SceneError, extra
-from tehl_taichi.scene import height_text, map_holes
+from tehl_taichi.scene.maps import height_text, map_holes
 
 UNITS = {"nm": 1e-9, "um": 1e-6, "mm": 1e-3, "m": 1.0}  # of the heights in a file, m
 LEVELS = {"none": "nothing", "mean": "mean", "plane": "plane", "form": "plane and curvature"}  # level: what it takes off
@@ -61,7 +61,7 @@ def read(file):
 
 
 def _read(file):
-    """The same as a :class:`tehl_taichi.scene.height_text.Table`."""
+    """The same as a :class:`tehl_taichi.scene.maps.height_text.Table`."""
     path = Path(file)
     if not file:
         raise SceneError("feature.file is missing: shape 'map' needs a file of heights (.csv, .txt, .asc, .npy)")

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from tehl_taichi.scene.height_map import curvature, levelled
+from tehl_taichi.scene.maps.height_map import curvature, levelled
 
 FLAT = 1e-9  # m rms: a tenth of a percent of the thinnest films of this kind (1 um), and less than one molecule
 CURVED = 0.25  # of the rms, left without the curvature: less is taken for the form of a body (a ridge as wide leaves 0.28)

@@ -3,7 +3,7 @@ spaces (Johnson, Contact Mechanics, section 13.2; half of the contact modulus, w
 
 import numpy as np
 
-from tehl_taichi.scene.height_map import levelled
+from tehl_taichi.scene.maps.height_map import levelled
 
 RIM = 0.1  # of each side, over which heights fade out: a Fourier series joins opposite sides
 SHARE = 0.999  # of the points have less: what is left are spikes of the measurement, and peaks that a dot of plastic flow takes

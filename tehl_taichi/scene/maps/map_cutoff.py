@@ -3,8 +3,8 @@
 import bisect
 import math
 
-from tehl_taichi.scene import map_filter, map_pressure
-from tehl_taichi.scene.height_map import Measures, missed
+from tehl_taichi.scene.maps import map_filter, map_pressure
+from tehl_taichi.scene.maps.height_map import Measures, missed
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.yielding import YIELDS
 

@@ -4,10 +4,10 @@ import os
 
 import numpy as np
 
-from tehl_taichi.scene import height_map
-from tehl_taichi.scene.height_map import LEVELS, missed
-from tehl_taichi.scene.map_cutoff import SHARE, STEEP, SURELY, helping, middle, points_in_a_cell, pressed, yields
-from tehl_taichi.scene.map_form import FLAT
+from tehl_taichi.scene.maps import height_map
+from tehl_taichi.scene.maps.height_map import LEVELS, missed
+from tehl_taichi.scene.maps.map_cutoff import SHARE, STEEP, SURELY, helping, middle, points_in_a_cell, pressed, yields
+from tehl_taichi.scene.maps.map_form import FLAT
 from tehl_taichi.scene.passing import MULTIPLES
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.yielding import STEEL

@@ -1,0 +1,1 @@
+"""Measured heights: reading, levelling, filtering, judging."""
