@@ -20,7 +20,7 @@ os.environ.setdefault("ENABLE_TAICHI_HEADER_PRINT", "0")
 # in a notebook every launch would look for what its kernel printed: ours print nothing
 os.environ.setdefault("TI_ENABLE_PYBUF", "0")
 
-__version__ = "0.7.0"
+__version__ = "0.8.0"
 __all__ = ["Error", "Interrupted", "Lines", "NotConverged", "Progress", "Run", "RuntimeUnavailable", "Scene", "SceneError",
            "StoreError", "__version__", "animate", "compare", "crack", "export", "fatigue", "flank", "march", "open", "report",
            "resume", "run", "scene", "simulate", "sweep"]
