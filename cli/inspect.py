@@ -58,12 +58,33 @@ def laws():
 def new(
     file: Path = typer.Argument(..., help="scene file to write, as my.toml"),
     base: str = typer.Option("gear", help="built-in scene to start from"),
+    scan: Optional[Path] = typer.Option(None, help="file of measured heights: a short scene for it, with what you have to say"),
+    unit: str = typer.Option("", help="of the scan's heights: nm, um, mm or m"),
+    pixel: float = typer.Option(0.0, help="distance of its points along a row, m"),
+    pixel_y: float = typer.Option(0.0, help="distance of its rows, m, where it is another one"),
 ):
-    """Write a commented scene file with every value. Example: `tehl new my.toml`"""
-    from tehl_taichi.io import scene_file
+    """Write a commented scene file with every value, or a short one for a scan.
 
-    scene_file.new(file, base)
-    print(f"wrote {file}; run it with: tehl run {file}")
+    Examples: `tehl new my.toml` · `tehl new my_flank.toml --scan scan.csv --unit um --pixel 1.8e-6`
+    """
+    from tehl_taichi.io import scan_scene, scene_file
+
+    if scan is None:
+        _only_with_scan(unit=unit, pixel=pixel, pixel_y=pixel_y)
+        scene_file.new(file, base)
+        return print(f"wrote {file}; run it with: tehl run {file}")
+    read, missing = scan_scene.new(file, base, scan, unit, pixel, pixel_y)
+    fill = f"fill in feature.{' and feature.'.join(missing)} and " if missing else ""
+    said = f"wrote {file} for {scan} ({read}); {fill}put the numbers of your contact, oil and steel in it, then: "
+    print(f"{said}tehl run {file} --grid coarse --steps 0")
+
+
+def _only_with_scan(**options):
+    from tehl_taichi.errors import SceneError
+
+    for key, value in options.items():
+        if value:
+            raise SceneError(f"--{key.replace('_', '-')} {value} is of a scan; --scan FILE names it")
 
 
 def show(

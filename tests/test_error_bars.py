@@ -206,7 +206,8 @@ def test_a_companion_that_fails_spares_the_coarser_ones(monkeypatch):
 def test_companions_that_fail_leave_bars_unknown_and_say_why(passage):
     hopeless = short(**{"grid.nx": 32, "grid.ny": 8, "numerics.newton_max": 1, "numerics.krylov_max": 5})
     refused, one = companions.scenes(short(**{"grid.nx": 48}))[1], companions.answer(hopeless)
-    assert len(refused) == 2 and "24 x 8 cells is refused: grid.nx = 24" in refused[0]
+    assert len(refused) == 3 and "24 x 8 cells is refused: grid.nx = 24" in refused[0]
+    assert refused[-1] == "grid.nx in multiples of 64 and grid.ny of 16 have both"
     assert "32 x 8 cells failed: " in one["reason"] and "did not converge" in one["reason"]
     own = companions.passage_readings(short(), passage, passage.scalar)
     found, unknown = companions.judged([{"reason": refused[0]}, one], own)

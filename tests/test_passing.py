@@ -97,7 +97,7 @@ def test_features_beside_the_domain(feature, words):
 def test_features_at_its_edge_are_cut():
     assert on(256, 64, Feature(y=4.5e-4)).rows == 128
     said, = on(256, 64, Feature(y=3e-4)).warnings()
-    assert said.endswith("what lies beyond is cut off; --set grid.y_max=1.2 --grid 256x76 gives room")
+    assert said.endswith("what lies beyond is cut off; --set grid.y_max=1.2 --grid 256x80 gives room")
     assert on(256, 64, Feature(y=3e-4), **{"grid.y_max": 1.2, "grid.ny": 76}).warnings() == []
     assert on(256, 64, Feature(shape="ridge", y=1e-3, height=1e-7)).one_dimensional  # transverse: the same for every y
 

@@ -1,6 +1,5 @@
 """What is known where a grid does not resolve all pressures: the moments before that, their search, bars and words."""
 
-import dataclasses
 from types import SimpleNamespace
 
 import made_results
@@ -141,7 +140,7 @@ def test_the_answer_rests_on_what_is_known(part, error, whole, tone, said):
 
 
 def test_a_cut_search_is_not_called_whole():
-    part = dataclasses.replace(GEAR.fatigue, from_x=-0.5, to_x=0.7)
+    part = GEAR.replace(**{"fatigue.from_x": -0.5, "fatigue.to_x": 0.7})
     before, over = {"to_x_a": 0.6, **fatigue(0.8, None)}, scene_words.when(part)
     assert over == "over all moments that count (feature from -0.5 a up to 0.7 a)"
     tells = verdict.of_fatigue({**fatigue(1.6), "resolved": {**before, "surface_angle_deg": 67.0}}, over)[-1]
@@ -160,8 +159,8 @@ def test_the_report_says_first_that_steel_would_yield():
 
 
 def test_the_report_says_which_moments_count():
-    part = GEAR.replace(**{"fatigue.to_x": 0.5}).fatigue
-    assert verdict._counted(GEAR.fatigue) == ()
+    part = GEAR.replace(**{"fatigue.to_x": 0.5})
+    assert verdict._counted(GEAR) == ()
     assert verdict._counted(part) == ("Only moments with the feature up to 0.5 a count (fatigue.from_x, to_x).",)
 
 

@@ -191,12 +191,12 @@ def _section(page, figure, ax, found, Fi, depth):
 
 def _over_depth(ax, found, Fi, depth):
     deep, limit = found.summary["below"], found.summary["sigma_eF_Pa"]
-    line, = ax.plot(Fi.max(axis=1), depth, ".-", label="under the feature")
+    line, = ax.plot(Fi.max(axis=1), depth, ".-", label=f"under the {found.whose}")
     ax.plot(deep["Fi_max"], deep["depth_m"] * 1e6, "+", color=line.get_color(), ms=2.5 * line.get_markersize(),
             mew=line.get_linewidth(), label=f"worst, Fi = {largest(deep)} at {deep['depth_m'] * 1e6:.0f} µm")
     if "findley_stress_contact_alone" in found.maps:
         ax.plot(found.maps["findley_stress_contact_alone"] / limit, depth, "--", color=palette.GREY,
-                label="contact without its feature")
+                label=f"contact without its {found.whose}")
     ax.plot(found.summary["Fi_max"], 0.0, "o", color=palette.VERMILLION, clip_on=False,
             label=f"surface, Fi = {largest(found.summary)}")
     ax.set_xlabel("largest Fi")

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from tehl_taichi.figures.index_words import REST, resolved
-from tehl_taichi.scene.passing_words import from_centre, where
+from tehl_taichi.scene.passing_words import from_centre, passing, where
 from tehl_taichi.scene.scales import Scales
 
 OF_PART = "resolved_"  # begins the names of the part's maps
@@ -23,8 +23,8 @@ CONSTANTS = ("criterion", "kappa_F", "sigma_eF_Pa")
 class Found:
     """title: the scene's name; maps: {name of MAPS: array} found; points: {"surface": history, "below": the same or None};
     summary: of a FatigueResult; a: m; along: title of the axis along x; depth: µm, of the layer that is wanted beside the
-    surface, or None (the worst one); part: the Found of the resolved part, on which the answer rests, None where it is all or
-    has no maps; when: the moments in words, "" where there is no part."""
+    surface, or None (the worst one); whose: what passes, in words; part: the Found of the resolved part, on which the answer
+    rests, None where it is all or has no maps; when: the moments in words, "" where there is no part."""
 
     title: str
     maps: dict
@@ -33,13 +33,14 @@ class Found:
     a: float
     along: str
     depth: float | None = None
+    whose: str = "feature"
     part: Any = None
     when: str = ""
 
     @classmethod
     def of(cls, scene, maps, summary, depth=None):
         """Of a search of a scene, with its maps and those of its part."""
-        common = scene.name, Scales.of(scene).a, from_centre(scene), depth
+        common = scene.name, Scales.of(scene).a, from_centre(scene), depth, passing(scene)
         known = summary.get("resolved")
         part = _of(common, _part(maps), {**{key: summary[key] for key in CONSTANTS}, **known},
                    when=resolved(known, where(scene))) if known and OF_PART + "Fi" in maps else None
@@ -49,7 +50,7 @@ class Found:
     def constants(self):
         """Scene, criterion and its numbers, moments where not all count alike, in words."""
         f, when = self.summary, f"; {self.when}" if self.when else ""
-        return f"{self.title}: {f['criterion']}, κ = {f['kappa_F']:g}, σ_eF = {f['sigma_eF_Pa'] / 1e6:g} MPa{when}"
+        return f"{self.title}: {f['criterion']}, κ = {f['kappa_F']:g}, σ_eF = {f['sigma_eF_Pa'] / 1e6:.4g} MPa{when}"
 
     @property
     def each(self):
@@ -62,9 +63,9 @@ class Found:
 
 
 def _of(common, maps, summary, **more):
-    title, a, along, depth = common
+    title, a, along, depth, whose = common
     points = {which: _history(maps, name) for which, name in HISTORIES.items()}
-    return Found(title, maps, points, summary, a, along, depth, **more)
+    return Found(title, maps, points, summary, a, along, depth, whose, **more)
 
 
 def _part(maps):

@@ -52,6 +52,11 @@ def heights(scene):
     return Heights(x, y, sum(f.height_at(*at) for f, *at in places), sum(f.kind.filled(f, *at) for f, *at in places) > 0)
 
 
+def height_at(scene, x, y):
+    """Height (m) of all features together at one place, m, as in :class:`Heights`."""
+    return float(sum(np.ravel(f.height_at(np.array([[x - f.x]]), np.array([y - f.y])))[0] for f in scene.features))
+
+
 def _own(f):
     """Points of a map inside its patch."""
     sides = []

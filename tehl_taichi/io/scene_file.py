@@ -24,20 +24,25 @@ def load(path, changes=()):
     Raises SceneError (also for broken TOML)."""
     path = Path(path)
     data = toml_file.read(path, "scene")
-    return from_data(_beside(data, path.absolute().parent), path.stem, changes)
+    return from_data(beside(data, path.absolute().parent), path.stem, changes)
 
 
 def new(path, base):
     """Write the built-in scene `base` with every value, under the name of the file. Raises SceneError where it cannot."""
     path = Path(path)
+    check_new(path)
+    path.write_text(dumps(scene(base).replace(name=path.stem)), encoding="utf-8")
+
+
+def check_new(path):
+    """Raises SceneError where no file can be written at `path` without overwriting one."""
     if path.exists():
         raise SceneError(f"{path} exists already; choose another name")
     if not path.absolute().parent.is_dir():
         raise SceneError(f"{path.absolute().parent} is not a folder")
-    path.write_text(dumps(scene(base).replace(name=path.stem)), encoding="utf-8")
 
 
-def _beside(data, folder):
+def beside(data, folder):
     """The same with the paths of height maps starting at `folder`, whatever folder the command runs in."""
     features = data.get("feature", [])
     for feature in features if isinstance(features, list) else []:

@@ -111,7 +111,7 @@ def rows_of_fatigue(f):
     rows = [_of(f, "Fi_max", "Fi_max at the surface", where=_whole(f)),
             _stress(f"{f['criterion']} stress", f["findley_stress_max_Pa"]), *_point_rows(f),
             _stress("largest principal stress on the surface", f["sigma1_max_Pa"]),
-            Row("with kappa, sigma_eF", f"{f['kappa_F']:g}, {f['sigma_eF_Pa'] / 1e6:g} MPa"),
+            Row("with kappa, sigma_eF", f"{f['kappa_F']:g}, {f['sigma_eF_Pa'] / 1e6:.4g} MPa"),
             *(Row(f"from the limit in reversed {way}", f"{f[key] / 1e6:g} MPa")
               for way in ("bending", "torsion") if (key := f"{way}_limit_Pa") in f),
             Row("thermal stress", "counted" if f["thermal_stress"] else "left out")]

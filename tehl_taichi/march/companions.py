@@ -15,10 +15,11 @@ from tehl_taichi.errors import Error
 from tehl_taichi.march import readings
 from tehl_taichi.march.error_bars import Reading, bars
 from tehl_taichi.march.peaks import LEAST
+from tehl_taichi.scene.passing import HALVED, MULTIPLES
 from tehl_taichi.scene.route import total_steps
 from tehl_taichi.scene.scales import Scales
 
-COMPANIONS = 2  # with the run itself three grids; 1/8 and 1/64 of its cells and steps
+COMPANIONS = HALVED  # with the run itself three grids; 1/8 and 1/64 of its cells and steps
 FI, BELOW = "Fi_max", "below_Fi_max"  # names of the largest index of the surface, and below it
 RESOLVED, RESOLVED_BELOW = "resolved_Fi_max", "resolved_below_Fi_max"  # of both as long as the grid resolves the pressure
 SHARP = ("p_max_Pa", "film_max_C", FI, BELOW)  # what a peak that is not resolved leaves unknown
@@ -35,7 +36,14 @@ def scenes(scene):
             out.append(scene.replace(**{"grid.nx": nx, "grid.ny": ny, "time.steps": steps, "output.profiles": False}))
         except Error as error:
             refused.append(f"a companion run on {nx} x {ny} cells is refused: {error}")
-    return out[::-1], refused
+    return out[::-1], [*refused, *_all_of_them(scene)] if refused else []
+
+
+def _all_of_them(scene):
+    """Which cells have every companion, where those of a scene have not."""
+    nx, ny = (least << COMPANIONS for least, _ in MULTIPLES.values())
+    if scene.grid.nx % nx or scene.grid.ny % ny:
+        yield f"grid.nx in multiples of {nx} and grid.ny of {ny} have both"
 
 
 def passage_readings(scene, reader, scalar, fatigue=None):

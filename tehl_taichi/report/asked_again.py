@@ -91,7 +91,7 @@ def _words(scene):
     """[(what, value)] of all that the answer depends on, the same in number and order for every scene."""
     f = scene.fatigue
     return [("κ =", f"{f.kappa:.5g}"), ("σ_eF =", told(f.endurance, unit="Pa", digits=5)), ("the criterion", f.criterion),
-            ("depths searched:", _depths(f.depths)), ("moments:", moments(f) or "the whole passage"),
+            ("depths searched:", _depths(f.depths)), ("moments:", moments(scene) or "the whole passage"),
             ("shear tractions", "counted" if f.shear else "left out"),
             ("the stress of the heat", "counted" if scene.thermal_stress_wanted else "left out"),
             *((f"residual stress along {axis}", f"{getattr(f, f'residual_{axis}{axis}') / 1e6:g} MPa") for axis in "xy")]

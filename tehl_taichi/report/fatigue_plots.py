@@ -9,6 +9,7 @@ from tehl_taichi.figures.index_words import largest, told_index
 from tehl_taichi.figures.limit_line import crossed, explained
 from tehl_taichi.figures.palette import GREY, INDEX, MARK
 from tehl_taichi.figures.searched_depths import beside_worst, under_row
+from tehl_taichi.report.numbered_places import numbered
 from tehl_taichi.report.plots import colour, field_map, level, line, marks, stacked
 from tehl_taichi.report.rounded import told
 from tehl_taichi.report.scene_words import moments
@@ -62,7 +63,7 @@ def _map(search, which, where, Fi, found, more=""):
     summary; None: the largest value is no worst point); more: at the end of the caption."""
     x, (y, full) = search.map("feature_frame_x") * 1e6, whole(search.map("feature_frame_y") * 1e6, Fi)
     trace = _trace(search, which, found, 0.12 * np.ptp(x)) if found else []
-    marked = [*_limit(x, y, full), _marked(search, Fi, found), *trace]
+    marked = [*_limit(x, y, full), _marked(search, Fi, found), *trace, *numbered(search)]
     caption = f"Index Fi {where}, {search.when}{explained(bool(trace), crossed(full))}{more}."
     return field_map(f"{search.on}index-{which}", caption, x, y, full, INDEX, "Fi", from_centre(search.scene), "y (µm)", marked,
                      height=440)
@@ -132,13 +133,14 @@ def depth(search):
 
 
 def _over_depth(search, f, deep, z, Fi):
-    traces = [line(Fi.max(axis=1), z, "under the feature", colour(0)),
+    traces = [line(Fi.max(axis=1), z, f"under the {passing(search.scene)}", colour(0)),
               marks([deep["Fi_max"]], [deep["depth_m"] * 1e6], "worst below", colour(0)),
               marks([f["Fi_max"]], [0.0], "surface", colour(1), symbol="circle")]
     alone = search.map("findley_stress_contact_alone")
     if alone is not None:
-        same = ", same moments" if moments(search.scene.fatigue) else ""
-        traces.append(line(alone / f["sigma_eF_Pa"], z, f"contact without its feature{same}", GREY, dash="dash"))
+        same = ", same moments" if moments(search.scene) else ""
+        name = f"contact without its {passing(search.scene)}{same}"
+        traces.append(line(alone / f["sigma_eF_Pa"], z, name, GREY, dash="dash"))
     return stacked(f"{search.on}over-depth", f"Largest index Fi at each depth{_briefly(search)}.", "largest Fi",
                    [("below the surface (µm)", traces, {"autorange": "reversed"})], height=440)
 

@@ -8,6 +8,7 @@ from tehl_taichi.report import (
     fatigue_plots,
     for_readers,
     map_plots,
+    numbered_places,
     passage_plots,
     run_tables,
     scene_words,
@@ -68,7 +69,7 @@ def _of_search(search, of, lead):
     """Two sections; of: said in their headings; lead: begins the words on its moments, where there are two searches."""
     shown = drawn(*fatigue_plots.index(search), *fatigue_plots.depth(search))
     words = [_sentence(f"{lead}{search.when}.") + NO_MAPS * (shown is None)] * bool(search.short)
-    return (Section(f"Fatigue{of}", (Part("text", {"sentences": words}) if words else None, shown,
+    return (Section(f"Fatigue{of}", (Part("text", {"sentences": words}) if words else None, shown, numbered_places.rows(search),
                                      run_tables.worst_points(search.found, search.scene), run_tables.tension(search.found))),
             Section(f"Stresses of the worst points{of}", tuple(drawn(*pair) for pair in fatigue_plots.worst_points(search))))
 

@@ -33,7 +33,7 @@ class Search:
 def searches(store):
     """One :class:`Search`, or two: where the grid does not resolve every pressure first that of the part before, on which the
     answer rests."""
-    found, over = store.summary["fatigue"], when(store.scene.fatigue)
+    found, over = store.summary["fatigue"], when(store.scene)
     known = found.get("resolved")
     if not known:
         return [Search(store, found, over)]

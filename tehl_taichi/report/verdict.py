@@ -5,6 +5,7 @@ from tehl_taichi.io.result_judge import STEEL, YIELDS, largest_pressure
 from tehl_taichi.report.document import Answer
 from tehl_taichi.report.rounded import index, told
 from tehl_taichi.report.scene_words import WHOLE, material, moments, when
+from tehl_taichi.scene.passing_words import passing, where
 from tehl_taichi.scene.route import total_steps
 
 ABOVE, WITHIN, BELOW = 1, 0, -1
@@ -17,8 +18,8 @@ def of(store):
     summary = store.summary
     if not summary:
         return _none_yet(store)
-    over = when(store.scene.fatigue)
-    found = of_fatigue(summary["fatigue"], over) if "fatigue" in summary else _of_film(summary)
+    over = when(store.scene)
+    found = of_fatigue(summary["fatigue"], over, store.scene) if "fatigue" in summary else _of_film(summary)
     question, headline, tone, tells = found
     yields, rims = _yielding(summary), list(rim_judge.rims(store, summary))
     known = [sentence for sentence in store.warnings if sentence in rims or yields and STEEL in sentence]
@@ -48,13 +49,13 @@ def layers(fatigue):
     return [(where, part["Fi_max"], part.get("error", {}).get("Fi_max")) for where, part in found]
 
 
-def of_fatigue(fatigue, over=WHOLE):
+def of_fatigue(fatigue, over=WHOLE, scene=None):
     """(question, headline, tone, sentences) of the summary of a search; over: which moments, in words
-    (:func:`tehl_taichi.report.scene_words.when`)."""
+    (:func:`tehl_taichi.report.scene_words.when`); scene: whose, where that is known."""
     worst, places, known, tells = _judged(fatigue)
-    said, tells = headline(worst, places, known), [*tells, *_alone(fatigue, over)]
+    said, tells = headline(worst, places, known), [*tells, *_alone(fatigue, over, passing(scene))]
     if "resolved" in fatigue:
-        said, tells = _by_what_is_known(fatigue["resolved"], worst, tells, over)
+        said, tells = _by_what_is_known(fatigue["resolved"], worst, tells, over, where(scene))
     return FATIGUE, *said, (*tells, *_plane(fatigue))
 
 
@@ -67,11 +68,12 @@ def _judged(fatigue):
     return worst, places, known, [_told(*layer) for layer in found]
 
 
-def _by_what_is_known(part, whole, tells, over):
+def _by_what_is_known(part, whole, tells, over, whose):
     """(headline and tone, sentences) where the grid does not resolve every pressure: by the part of the passage before that, to
-    which the rest can only add. whole: the worst of what is judged of the whole search, over these moments."""
+    which the rest can only add. whole: the worst of what is judged of the whole search, over these moments; whose: position
+    ends that part, in words."""
     worst, places, known, early = _judged(part)
-    tells = [f"As long as the grid resolves the pressure (feature up to {_place(part['to_x_a'])}):", *early,
+    tells = [f"As long as the grid resolves the pressure ({whose} up to {_place(part['to_x_a'])}):", *early,
              f"{over[0].upper()}{over[1:]}, whose pressure it does not resolve:", *tells]
     if worst != BELOW:
         even = "even " if worst == ABOVE else ""
@@ -105,13 +107,13 @@ def headline(worst, places, known, when=""):
     return f"{no}: the index stays below 1{when}{more}.", "no"
 
 
-def _alone(fatigue, over):
+def _alone(fatigue, over, passing):
     alone = fatigue.get("below", {}).get("contact_alone")
     if not alone:
         return ()
-    more = ": the material is overloaded there without the feature too" if alone["Fi_max"] > 1 else ""
+    more = f": the material is overloaded there without the {passing} too" if alone["Fi_max"] > 1 else ""
     where = f"{alone['depth_m'] * 1e6:.0f} µm" + ("" if over == WHOLE else ", over the same moments")
-    return (f"The contact without its feature has Fi = {index(alone['Fi_max'])} at {where}{more}.",)
+    return (f"The contact without its {passing} has Fi = {index(alone['Fi_max'])} at {where}{more}.",)
 
 
 def _plane(fatigue):
@@ -161,9 +163,9 @@ def _yielding(summary):
             "peak flatter: the index is that of elastic bodies.",)
 
 
-def _counted(fatigue):
+def _counted(scene):
     """The part of the passage that counts, where it is not all of it."""
-    counted = moments(fatigue)
+    counted = moments(scene)
     return (f"Only moments with the {counted} count (fatigue.from_x, to_x).",) if counted else ()
 
 
@@ -171,10 +173,10 @@ def _constants(store, summary):
     if "fatigue" not in summary:
         return ()
     f = summary["fatigue"]
-    said = (f"Fi = 1 is the fatigue limit σ_eF = {f['sigma_eF_Pa'] / 1e6:g} MPa with κ = {f['kappa_F']:g} "
+    said = (f"Fi = 1 is the fatigue limit σ_eF = {f['sigma_eF_Pa'] / 1e6:.4g} MPa with κ = {f['kappa_F']:g} "
             f"({f['criterion']}): {material(store.scene.fatigue)}.")
     stress = "counts" if f["thermal_stress"] else "does not count"
-    return said, f"The stress of the heat {stress} in it.", *_counted(store.scene.fatigue)
+    return said, f"The stress of the heat {stress} in it.", *_counted(store.scene)
 
 
 def _version(store):

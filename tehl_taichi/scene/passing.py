@@ -11,6 +11,7 @@ from tehl_taichi.scene.scales import Scales
 # 12 to 18, 1 % with 35.
 FEWEST, ENOUGH = 4, 16
 MULTIPLES = {"nx": (16, 8192), "ny": (4, 4096)}  # that a grid must keep to, and its most cells
+HALVED = 2  # times: by the coarser grids that tell the errors of a run
 MOST_FEATURES = 256  # each costs a time step 1 ms on 256 x 64 cells: with 60 of them a step takes twice as long
 
 
@@ -26,8 +27,15 @@ class Sight:
 
     def grid_for(self, cells):
         """Cells of the grid that give it so many."""
-        multiple = MULTIPLES[self.count][0]
+        multiple = kept_multiple(self.count, self.grid)
         return max(math.ceil(self.grid * cells / self.cells / multiple - 1e-9) * multiple, self.grid)
+
+
+def kept_multiple(count, cells):
+    """What a grid keeps to that is advised in place of one with so many cells along this axis: if that one can be halved for
+    error bars, so can the other."""
+    least = MULTIPLES[count][0]
+    return least << HALVED if cells % (least << HALVED) == 0 else least
 
 
 def check(scene):

@@ -3,8 +3,8 @@ measured map."""
 
 
 def passing(scene):
-    """The word for it."""
-    return "scan" if scene.features and scene.features[0].kind.measured else "feature"
+    """The word for it; scene: None where nobody knows it."""
+    return "scan" if scene and scene.features and scene.features[0].kind.measured else "feature"
 
 
 def where(scene):

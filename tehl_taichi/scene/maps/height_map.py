@@ -41,7 +41,7 @@ def fetch(file, sha256=""):
     known = _known.get(sha256)
     if known is not None:
         return sha256, known
-    table = _read(file)
+    table = table_of(file)
     found, values = keep(table.values)
     _skipped[found] = table.skipped
     if sha256 and found != sha256:
@@ -57,11 +57,11 @@ def skipped(sha256):
 
 def read(file):
     """Heights (rows, columns) in the unit of the file; nan where nothing was measured. Raises SceneError."""
-    return _read(file).values
+    return table_of(file).values
 
 
-def _read(file):
-    """The same as a :class:`tehl_taichi.scene.maps.height_text.Table`."""
+def table_of(file):
+    """The same as a :class:`tehl_taichi.scene.maps.height_text.Table`, which knows what it skipped."""
     path = Path(file)
     if not file:
         raise SceneError("feature.file is missing: shape 'map' needs a file of heights (.csv, .txt, .asc, .npy)")

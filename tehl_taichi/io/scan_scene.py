@@ -1,0 +1,108 @@
+"""A short scene file for a scan: what a user has to say of his contact, and nothing else."""
+
+import os
+import tomllib
+from pathlib import Path
+
+from tehl_taichi.io import scene_file
+from tehl_taichi.io.scene_file import toml_value
+from tehl_taichi.scene import scene
+from tehl_taichi.scene.maps import height_map
+
+LINES, LETTERS = 20, 100  # of the header of a file, shown
+TAPER, SHARE = 40e-6, 8  # m, and of the shorter side
+LINE = "N/m: of a line of contact, 280 N/mm are 280e3"
+PIXEL_Y = "pixel_y = {:<13}  # m: distance of the rows\n"
+NO_PIXEL_Y = "# pixel_y = 2e-6         # m: distance of the rows, where it is another one\n"
+
+HEAD = """\
+# A scan passes through a contact. Put the numbers of yours in place of those of the built-in scene {base}; SI units,
+# temperatures in deg C. What is not said here is as in {base}; `tehl new all.toml` writes every key with unit and range.
+base = "{base}"
+
+[contact]
+radius_x = {radius:<12}  # m: reduced radius 1/(1/R_a + 1/R_b), 7.5e-3 of 12 and 20 mm
+{radius_y}\
+load = {load:<16}  # {load_about}
+
+[operation]
+u_a = {u_a:<17}  # m/s: speed of the surface that was scanned, relative to the contact
+u_b = {u_b:<17}  # m/s: of the other one
+temperature = {temperature:<9}  # deg C: of oil and bodies at the inlet
+
+# [oil]                    # your oil by its data sheet; without: {oil}
+# name = "our gear oil"
+# nu_40 = 220e-6           # m2/s: at 40 deg C
+# nu_100 = 19e-6           # m2/s: at 100 deg C
+# rho_15 = 890             # kg/m3: at 15 deg C
+# source = "data sheet"
+
+[fatigue]
+kappa = {kappa:<15}  # of your steel, as the next number
+torsion_limit = {limit:<7}  # Pa: fatigue limit in reversed torsion (or bending_limit, or both, which give kappa, too)
+source = "example values, set your own"
+
+[[feature]]
+shape = "map"
+file = {file}
+{header}\
+unit = {unit:<16}  # of the heights: nm, um, mm or m
+pixel = {pixel:<15}  # m: distance of the points in a row of the file, which runs along x, the direction of rolling
+{pixel_y}\
+level = "form"           # takes off plane and curvature of the body ("plane": the plane alone)
+taper = {taper:<15}  # m: over which the heights fade out at the rim
+# cutoff = 25e-6         # m: Gaussian low-pass for roughness that the grid does not carry
+"""
+
+
+def new(path, base, scan, unit="", pixel=0.0, pixel_y=0.0):
+    """Write a scene file for the heights in the file `scan` on the contact of the built-in scene `base`; returns (what of the
+    scan was read, keys that are still to be filled in). Raises SceneError where it cannot, or the scene would be refused."""
+    path, scan = Path(path), Path(scan)
+    scene_file.check_new(path)
+    table = height_map.table_of(scan)
+    text = _text(path, scene(base), base, scan, table, unit, pixel, pixel_y)
+    missing = [key for key, value in (("unit", unit), ("pixel", pixel)) if not value]
+    if not missing:
+        scene_file.from_data(scene_file.beside(tomllib.loads(text), path.absolute().parent), path.stem)
+    path.write_text(text, encoding="utf-8")
+    rows, columns = table.values.shape
+    return f"{rows} rows of {columns} points{f', {table.skipped}' if table.skipped else ''}", missing
+
+
+def _text(path, found, base, scan, table, unit, pixel, pixel_y):
+    f, steps = found, (pixel, pixel_y or pixel)
+    place = Path(os.path.relpath(scan, path.absolute().parent)).as_posix()
+    numbers = dict(radius=f.contact.radius_x, load=float(f"{f.load:.4g}"), u_a=round(f.operation.u_a, 6),
+                   u_b=round(f.operation.u_b, 6), temperature=f.operation.temperature, kappa=f.fatigue.kappa, file=place,
+                   unit=unit, pixel=pixel, taper=_taper(table.values.shape, *steps))
+    return HEAD.format(base=base, oil=f.oil.name, limit="380e6", header=_header(scan, table), radius_y=_radius_y(f.contact),
+                       load_about=LINE if f.contact.kind == "line" else "N",
+                       pixel_y=PIXEL_Y.format(toml_value(pixel_y)) if pixel_y else NO_PIXEL_Y,
+                       **{key: toml_value(value) for key, value in numbers.items()})
+
+
+def _radius_y(contact):
+    if contact.kind == "line":
+        return ""
+    return f"radius_y = {toml_value(contact.radius_y):<12}  # m: the same across\n"
+
+
+def _taper(shape, pixel, pixel_y):
+    """Micrometres, at most an eighth of the shorter side."""
+    side = min((count - 1) * step for count, step in zip(shape[::-1], (pixel, pixel_y)))
+    return max(int(min(TAPER, side / SHARE) * 1e6), 1) * 1e-6 if side else TAPER
+
+
+def _header(scan, table):
+    """The lines before the first row, as comments: instruments tell unit and distances there."""
+    if not table.header:
+        return ""
+    with scan.open(encoding="utf-8-sig", errors="replace") as file:
+        lines = [line.strip() for line in file if line.strip()][: min(table.header, LINES)]
+    return "".join(f"#   its header: {_plain(line)}\n" for line in lines)
+
+
+def _plain(line):
+    """Without what TOML does not take in a comment."""
+    return "".join(letter if letter.isprintable() else " " for letter in line)[:LETTERS]

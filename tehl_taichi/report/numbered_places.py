@@ -1,0 +1,92 @@
+"""The worst places of a surface with many heights, by number: in the maps of the index and in a table."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl_taichi.fatigue.worst_places import around, worst_places
+from tehl_taichi.figures.index_words import told_index
+from tehl_taichi.figures.palette import LIMIT
+from tehl_taichi.figures.passing_heights import height_at
+from tehl_taichi.report.document import table
+from tehl_taichi.report.rounded import told
+from tehl_taichi.scene.passing_words import passing
+from tehl_taichi.scene.scales import Scales
+
+MOST = 8
+APART = 0.25  # half-widths between two of them: asperities nearer to each other are one
+
+
+@dataclass(frozen=True)
+class Place:
+    """x, y: m, from the feature's centre; Fi: at the surface, below: at the worst depth (None: not searched at all points),
+    each the largest around it; height: m."""
+
+    x: float
+    y: float
+    Fi: float
+    below: float | None
+    height: float
+
+
+def places(search):
+    """A list of :class:`Place`, the worst first; [] of a single asperity, dent or ridge, whose worst point tells enough."""
+    Fi, scene = search.map("Fi"), search.scene
+    if Fi is None or Fi.shape[1] == 1 or not _many(scene):
+        return []
+    x, y = (search.map(f"feature_frame_{axis}") for axis in "xy")
+    deep, apart = _below(search), APART * Scales.of(scene).a
+    worst = Fi if deep is None else np.maximum(Fi, deep)
+    return [Place(float(x[i]), float(y[j]), around(x, y, Fi, (i, j), apart / 2),
+                  None if deep is None else around(x, y, deep, (i, j), apart / 2), height_at(scene, x[i], y[j]))
+            for i, j in worst_places(x, y, worst, apart, MOST)]
+
+
+def _many(scene):
+    """Whether more than one height passes: several features, or patches of them."""
+    return len(scene.features) > 1 or any("extent_x" in f.kind.uses for f in scene.features)
+
+
+def _below(search):
+    stress = search.map("findley_stress_at_worst_depth")
+    return None if stress is None else stress / search.found["sigma_eF_Pa"]
+
+
+def numbered(search):
+    """[trace] of their numbers on a map."""
+    found = places(search)
+    text = [str(n) for n in range(1, len(found) + 1)]
+    return [{"type": "scatter", "mode": "text", "x": [p.x * 1e6 for p in found], "y": [p.y * 1e6 for p in found], "text": text,
+             "textposition": "top right", "textfont": {"color": LIMIT, "size": 13}, "name": "places of the table",
+             "showlegend": False, "hoverinfo": "skip"}] if found else []
+
+
+def rows(search):
+    """The table of them, None where there are none."""
+    found, scene = places(search), search.scene
+    if not found:
+        return None
+    head, cells = zip(*_columns(search, scene, found))
+    caption = (f"Places of the {passing(scene)} with the largest index, by their numbers on the maps. x, y: from its "
+               f"centre; Fi: the largest within {told(APART / 2 * Scales.of(scene).a, unit='m', digits=3)}.")
+    return table(("worst place", *head), [(str(n), *row) for n, row in enumerate(zip(*cells), 1)], caption)
+
+
+def _columns(search, scene, found):
+    """(heading, cells) of each column that has something to tell."""
+    for axis in ("x", "y", "height"):
+        yield axis, [told(getattr(p, axis), unit="m", digits=3) for p in found]
+    yield "Fi at the surface", [told_index(p.Fi) for p in found]
+    if found[0].below is not None:
+        depth = told(float(search.map("worst_depth")[0]), unit="m", digits=3)
+        yield f"Fi {depth} below", [told_index(p.below) for p in found]
+    if passing(scene) == "scan":
+        yield "in the file", [_in_file(scene, p) for p in found]
+
+
+def _in_file(scene, p):
+    """Row and column, and whether heights fade out there."""
+    first = scene.features[0]
+    at = p.x - first.x, p.y - first.y
+    fades = min(first.to_rim(*at)) < first.taper
+    return first.told_at(*at) + ", fading out at the rim" * fades
