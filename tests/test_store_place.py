@@ -243,6 +243,23 @@ def test_places_where_no_store_can_be_made(tmp_path, out, said):
     assert names(tmp_path) == before
 
 
+@pytest.mark.parametrize("left, replaced", [((), True), (("zarr.0a1b.partial",), True), (("notes.txt",), False),
+                                            (("zarr.0a1b.partial", "notes.txt"), False)])
+def test_an_array_that_was_only_begun_is_part_of_a_store(tmp_path, left, replaced):
+    """A process that is killed while it writes its results leaves a folder without metadata."""
+    path = store(tmp_path / "a.zarr").path
+    (path / "Fi").mkdir()
+    for name in left:
+        (path / "Fi" / name).touch()
+    if replaced:
+        with Place(path, replace=True) as place:
+            place.give_up()
+    else:
+        with pytest.raises(StoreError, match="holds Fi, which is no part of a store"):
+            Place(path, replace=True)
+    assert len(Store.open(path)) == 3
+
+
 def test_a_link_to_a_store_is_not_replaced(tmp_path):
     path = store(tmp_path / "a.zarr").path
     (tmp_path / "link").symlink_to(path)

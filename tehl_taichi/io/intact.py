@@ -28,7 +28,15 @@ def is_store(path):
 def strangers(path):
     """Names in the folder of a store that are no part of it."""
     return sorted(child.name for child in path.iterdir()
-                  if child.name not in OURS and (child.is_symlink() or not (child / ROOT).is_file()))
+                  if child.name not in OURS and (child.is_symlink() or not _of_array(child)))
+
+
+def _of_array(folder):
+    """Whether it is that of an array, also of one that a killed process had only begun: zarr writes its metadata first, under
+    another name until they are whole."""
+    if (folder / ROOT).is_file():
+        return True
+    return folder.is_dir() and all(part.name.endswith(".partial") for part in folder.iterdir())
 
 
 def root_of(path):
