@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import tehl_taichi as tehl
-from tehl_taichi.errors import SceneError
+from tehl_taichi.errors import NotConverged, SceneError
 from tehl_taichi.scene import scene
 
 pytestmark = pytest.mark.usefixtures("taichi_cpu")
@@ -137,3 +137,22 @@ def test_thermal_steps(linear):
     newton, cycles = effort(steps)
     assert balanced(steps) and newton < 2.6 and cycles < 18.4  # 2.33, 16.7
     assert steps[3].scalars["film_max_C"] == pytest.approx(141.93, abs=0.05)
+
+
+# its film is on its floor as soon as it enters: two steps need double precision, which its smooth film does not
+HIGH = {"shape": "rough", "height": 1.3e-6, "width": 120e-6, "extent_x": 400e-6, "extent_y": 900e-6, "taper": 40e-6}
+LIGHT = {"load": 300e3, "thermal.on": False, "time.steps": 2, "grid.nx": 64, "grid.ny": 48, "grid.x_max": 1.6,
+         "grid.y_max": 2.4}
+
+
+def test_a_passage_goes_on_in_double_where_single_fails(taichi_cpu):
+    rough = tehl.scene("gear").replace(feature=[HIGH], **LIGHT)
+    with pytest.raises(NotConverged, match="--precision f64|on its floor"):
+        list(tehl.march(rough, precision="f32"))
+    states, films = [], []
+    for shot in tehl.march(rough):
+        states.append(shot.state)
+        films.append(shot.fields["film"])
+    assert [bool(state.get("double")) for state in states] == [False, True, True]
+    again, = tehl.march(rough, states[1])
+    np.testing.assert_array_equal(again.fields["film"], films[2])

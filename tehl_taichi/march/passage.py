@@ -24,6 +24,7 @@ from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.pressure.newton import PressureSolver
 from tehl_taichi.pressure.one_temperature import OneTemperature
 from tehl_taichi.pressure.storage import Storage
+from tehl_taichi.scene.parts import AUTO
 from tehl_taichi.scene.passing_words import where
 from tehl_taichi.scene.route import step_cells, total_steps
 from tehl_taichi.scene.scales import Scales
@@ -55,7 +56,12 @@ class Passage:
     """The march in time from a saved state."""
 
     def __init__(self, scene, scales, state):
-        self.scene, self.scales = scene, scales
+        self.scales, self.doubled = scales, bool(state.get("double", False))
+        self._set_up(_in_double(scene) if self.doubled else scene, state)
+
+    def _set_up(self, scene, state, done=0.0):
+        """Tables and solvers of a scene, at a state that has `done` of its next step."""
+        self.scene, scales = scene, self.scales
         self.levels = Levels(scene, scales, scene.grid.nx, scene.rows, full=not scene.symmetric)
         self.smooth, self.border = self.levels.smooth_gap(), self.levels.get(fields.MASK).T == 0
         self.step_x = step_cells(scene) * self.levels.dx
@@ -64,15 +70,15 @@ class Passage:
         # the film whose density and viscosity the pressure is solved for: they follow the temperatures, where there are any
         self.film = self.heat or OneTemperature(self.levels)
         self.solver = PressureSolver(self.levels, self.film)
-        self._restore(state)
+        self._restore(state, done)
 
-    def _restore(self, state):
+    def _restore(self, state, done):
         self.step, self.P, self.solver.H0 = int(state["step"]), np.array(state["P"]), float(state["H0"])
         self.parts = Parts.of(state)
         self.levels.put(fields.P, self.P)
         if self.heat:
             self.heat.restore(state)
-        self.prediction = Prediction(self.solver, self.heat, self._moved(self.step), state)
+        self.prediction = Prediction(self.solver, self.heat, self._moved(self.step + done), state)
         self.storage = Storage(self.levels, state) if "mass" in state else self._new_storage()
 
     def _new_storage(self):
@@ -95,7 +101,7 @@ class Passage:
             if report.converged:
                 done += part
             else:
-                self._reject(report, part)
+                self._reject(report, part, done)
         self.step += 1
         return self._sound(self._describe(report, started))
 
@@ -149,12 +155,25 @@ class Passage:
             self.heat.accept()
         self.prediction.accept(self.P, at)
 
-    def _reject(self, report, part):
+    def _reject(self, report, part, done):
         self.rejected += 1
-        if not self.parts.reject(part):
+        if not self.parts.reject(part) and not self._double(done):
             at = f"{where(self.scene)} at {self.position(self.step + 1):.2f} a"
             raise not_converged(self.solver, self.heat, report, f"step {self.step + 1} ({at}), down to {part:g} of it,",
                                 passing=True)
+
+    def _double(self, done):
+        """Go on in double precision from the last accepted state, `done` of a step after the last whole one: single is chosen
+        by the smooth film, and under roughness that may be on its floor. Returns False where it is double already, or the
+        user's choice."""
+        if self.levels.precision == "f64" or self.scene.numerics.precision != AUTO:
+            return False
+        state = {"step": self.step, "P": self.P, "H0": self.solver.H0, **(self.heat.state() if self.heat else {}),
+                 **self.storage.state(), **self.prediction.state()}
+        self.levels = self.solver = self.heat = self.film = self.prediction = self.storage = None  # they give up their tables
+        self.doubled = True
+        self._set_up(_in_double(self.scene), state, done)
+        return True
 
     def position(self, step):
         """Centre of the first feature in units of a."""
@@ -180,4 +199,8 @@ class Passage:
         if step != self.step:
             raise RuntimeError(f"the state of step {step} is gone: ask for it before the next step is computed")
         return {**snapshot.state_of(self.solver, self.heat, step), **self.storage.state(), **self.prediction.state(),
-                **self.parts.state()}
+                **self.parts.state(), **({"double": True} if self.doubled else {})}
+
+
+def _in_double(scene):
+    return scene.replace(**{"numerics.precision": "f64"})
