@@ -14,6 +14,7 @@ from tehl_taichi.scene.passing_words import passing
 from tehl_taichi.scene.scales import Scales
 
 MOST = 8
+UNBROKEN = "\u00a0"  # a space between a number and its unit, where columns are narrow
 APART = 0.25  # half-widths between two of them: asperities nearer to each other are one
 
 
@@ -75,7 +76,7 @@ def rows(search):
 def _columns(search, scene, found):
     """(heading, cells) of each column that has something to tell."""
     for axis in ("x", "y", "height"):
-        yield axis, [told(getattr(p, axis), unit="m", digits=3) for p in found]
+        yield axis, [told(getattr(p, axis), unit="m", digits=3).replace(" ", UNBROKEN) for p in found]
     yield "Fi at the surface", [told_index(p.Fi) for p in found]
     if found[0].below is not None:
         depth = told(float(search.map("worst_depth")[0]), unit="m", digits=3)
