@@ -143,7 +143,7 @@ def test_a_cut_search_is_not_called_whole():
     part = GEAR.replace(**{"fatigue.from_x": -0.5, "fatigue.to_x": 0.7})
     before, over = {"to_x_a": 0.6, **fatigue(0.8, None)}, scene_words.when(part)
     assert over == "over all moments that count (feature from -0.5 a up to 0.7 a)"
-    tells = verdict.of_fatigue({**fatigue(1.6), "resolved": {**before, "surface_angle_deg": 67.0}}, over)[-1]
+    tells = verdict.of_fatigue({**fatigue(1.6), "resolved": {**before, "surface_angle_deg": 67.0}}, part)[-1]
     assert "stands at 67° to it, over the whole passage at 57°." in tells[-1] and "18 to 50° to the surface" in tells[-1]
     assert tells[2] == "Over all moments that count (feature from -0.5 a up to 0.7 a), whose pressure it does not resolve:"
     assert any(said.startswith("The contact without") and ", over the same moments" in said for said in tells)

@@ -48,13 +48,13 @@ def heights(scene):
     else:
         edge = scene.grid.y_max * Scales.of(scene).b
         x, y = _even(features, "x", EVEN), _even([f for f in features if not f.transverse], "y", EVEN, edge)
-    places = [(f, x[:, None] - f.x, y - f.y) for f in features]
-    return Heights(x, y, sum(f.height_at(*at) for f, *at in places), sum(f.kind.filled(f, *at) for f, *at in places) > 0)
+    filled = sum(f.kind.filled(f, x[:, None] - f.x, y - f.y) for f in features) > 0
+    return Heights(x, y, height_at(scene, x[:, None], y), filled)
 
 
 def height_at(scene, x, y):
-    """Height (m) of all features together at one place, m, as in :class:`Heights`."""
-    return float(sum(np.ravel(f.height_at(np.array([[x - f.x]]), np.array([y - f.y])))[0] for f in scene.features))
+    """Height (m) of all features together at x, y (m, arrays, as in :class:`Heights`)."""
+    return sum(f.height_at(x - f.x, y - f.y) for f in scene.features)
 
 
 def _own(f):

@@ -2,6 +2,7 @@
 
 import os
 import tomllib
+from itertools import islice
 from pathlib import Path
 
 from tehl_taichi.io import scene_file
@@ -70,12 +71,11 @@ def new(path, base, scan, unit="", pixel=0.0, pixel_y=0.0):
     return f"{rows} rows of {columns} points{f', {table.skipped}' if table.skipped else ''}", missing
 
 
-def _text(path, found, base, scan, table, unit, pixel, pixel_y):
-    f, steps = found, (pixel, pixel_y or pixel)
+def _text(path, f, base, scan, table, unit, pixel, pixel_y):
     place = Path(os.path.relpath(scan, path.absolute().parent)).as_posix()
     numbers = dict(radius=f.contact.radius_x, load=float(f"{f.load:.4g}"), u_a=round(f.operation.u_a, 6),
                    u_b=round(f.operation.u_b, 6), temperature=f.operation.temperature, kappa=f.fatigue.kappa, file=place,
-                   unit=unit, pixel=pixel, taper=_taper(table.values.shape, *steps))
+                   unit=unit, pixel=pixel, taper=_taper(table.values.shape, pixel, pixel_y or pixel))
     return HEAD.format(base=base, oil=f.oil.name, limit="380e6", header=_header(scan, table), radius_y=_radius_y(f.contact),
                        load_about=LINE if f.contact.kind == "line" else "N",
                        pixel_y=PIXEL_Y.format(toml_value(pixel_y)) if pixel_y else NO_PIXEL_Y,
@@ -99,8 +99,8 @@ def _header(scan, table):
     if not table.header:
         return ""
     with scan.open(encoding="utf-8-sig", errors="replace") as file:
-        lines = [line.strip() for line in file if line.strip()][: min(table.header, LINES)]
-    return "".join(f"#   its header: {_plain(line)}\n" for line in lines)
+        lines = islice(filter(None, map(str.strip, file)), min(table.header, LINES))
+        return "".join(f"#   its header: {_plain(line)}\n" for line in lines)
 
 
 def _plain(line):

@@ -57,10 +57,11 @@ class Passage:
 
     def __init__(self, scene, scales, state):
         self.scales, self.doubled = scales, bool(state.get("double", False))
-        self._set_up(_in_double(scene) if self.doubled else scene, state)
+        self._set_up(scene, state)
 
     def _set_up(self, scene, state, done=0.0):
         """Tables and solvers of a scene, at a state that has `done` of its next step."""
+        scene = scene.replace(**{"numerics.precision": "f64"}) if self.doubled else scene
         self.scene, scales = scene, self.scales
         self.levels = Levels(scene, scales, scene.grid.nx, scene.rows, full=not scene.symmetric)
         self.smooth, self.border = self.levels.smooth_gap(), self.levels.get(fields.MASK).T == 0
@@ -168,11 +169,9 @@ class Passage:
         user's choice."""
         if self.levels.precision == "f64" or self.scene.numerics.precision != AUTO:
             return False
-        state = {"step": self.step, "P": self.P, "H0": self.solver.H0, **(self.heat.state() if self.heat else {}),
-                 **self.storage.state(), **self.prediction.state()}
+        state, self.doubled = self._accepted(), True
         self.levels = self.solver = self.heat = self.film = self.prediction = self.storage = None  # they give up their tables
-        self.doubled = True
-        self._set_up(_in_double(self.scene), state, done)
+        self._set_up(self.scene, state, done)
         return True
 
     def position(self, step):
@@ -198,9 +197,9 @@ class Passage:
     def _state(self, step):
         if step != self.step:
             raise RuntimeError(f"the state of step {step} is gone: ask for it before the next step is computed")
-        return {**snapshot.state_of(self.solver, self.heat, step), **self.storage.state(), **self.prediction.state(),
-                **self.parts.state(), **({"double": True} if self.doubled else {})}
+        return {**self._accepted(), **self.parts.state(), **({"double": True} if self.doubled else {})}
 
-
-def _in_double(scene):
-    return scene.replace(**{"numerics.precision": "f64"})
+    def _accepted(self):
+        """The last accepted state, whatever is in the tables."""
+        return {"step": self.step, "P": self.P, "H0": self.solver.H0, **(self.heat.state() if self.heat else {}),
+                **self.storage.state(), **self.prediction.state()}

@@ -10,6 +10,7 @@ from tehl_taichi.figures.palette import LIMIT
 from tehl_taichi.figures.passing_heights import height_at
 from tehl_taichi.report.document import table
 from tehl_taichi.report.rounded import told
+from tehl_taichi.report.run_tables import in_file
 from tehl_taichi.scene.passing_words import passing
 from tehl_taichi.scene.scales import Scales
 
@@ -37,10 +38,15 @@ def places(search):
         return []
     x, y = (search.map(f"feature_frame_{axis}") for axis in "xy")
     deep, apart = _below(search), APART * Scales.of(scene).a
-    worst = Fi if deep is None else np.maximum(Fi, deep)
-    return [Place(float(x[i]), float(y[j]), around(x, y, Fi, (i, j), apart / 2),
-                  None if deep is None else around(x, y, deep, (i, j), apart / 2), height_at(scene, x[i], y[j]))
-            for i, j in worst_places(x, y, worst, apart, MOST)]
+    found = worst_places(x, y, Fi if deep is None else np.maximum(Fi, deep), apart, MOST)
+    i, j = np.array(found).T
+    heights = height_at(scene, x[i], y[j])
+
+    def largest(values, place):
+        return None if values is None else around(x, y, values, place, apart / 2)
+
+    return [Place(float(x[at[0]]), float(y[at[1]]), largest(Fi, at), largest(deep, at), float(height))
+            for at, height in zip(found, heights)]
 
 
 def _many(scene):
@@ -55,7 +61,7 @@ def _below(search):
 
 def numbered(search):
     """[trace] of their numbers on a map."""
-    found = places(search)
+    found = search.places
     text = [str(n) for n in range(1, len(found) + 1)]
     return [{"type": "scatter", "mode": "text", "x": [p.x * 1e6 for p in found], "y": [p.y * 1e6 for p in found], "text": text,
              "textposition": "top right", "textfont": {"color": LIMIT, "size": 13}, "name": "places of the table",
@@ -64,7 +70,7 @@ def numbered(search):
 
 def rows(search):
     """The table of them, None where there are none."""
-    found, scene = places(search), search.scene
+    found, scene = search.places, search.scene
     if not found:
         return None
     head, cells = zip(*_columns(search, scene, found))
@@ -88,6 +94,5 @@ def _columns(search, scene, found):
 def _in_file(scene, p):
     """Row and column, and whether heights fade out there."""
     first = scene.features[0]
-    at = p.x - first.x, p.y - first.y
-    fades = min(first.to_rim(*at)) < first.taper
-    return first.told_at(*at) + ", fading out at the rim" * fades
+    fades = min(first.to_rim(p.x - first.x, p.y - first.y)) < first.taper
+    return in_file(scene, p.x, p.y) + ", fading out at the rim" * fades

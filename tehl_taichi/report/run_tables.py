@@ -99,8 +99,13 @@ def _in_file(scene, points):
     """[(what, where each point lies in the file of the scan)]; none of a scene whose positions are not those of a scan."""
     if passing(scene) != "scan":
         return []
+    return [("nearest point in the file of the scan", *(in_file(scene, p["x_m"], p["y_m"]) for p in points))]
+
+
+def in_file(scene, x, y):
+    """Where the point of a scan nearest to x, y (m, as in maps of the index) stands in its file, in words."""
     first = scene.features[0]
-    return [("nearest point in the file of the scan", *(first.told_at(p["x_m"] - first.x, p["y_m"] - first.y) for p in points))]
+    return first.told_at(x - first.x, y - first.y)
 
 
 def _of_point(point, key, unit):

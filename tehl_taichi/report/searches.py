@@ -1,10 +1,12 @@
 """What a fatigue search found, as pages show it: of the part of the passage on which the answer rests, and of the whole."""
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 from tehl_taichi.figures.found_search import CONSTANTS, OF_PART, PLACES
 from tehl_taichi.figures.index_words import PART, resolved
+from tehl_taichi.report import numbered_places
 from tehl_taichi.report.scene_words import when
 from tehl_taichi.scene.passing_words import where
 
@@ -24,6 +26,11 @@ class Search:
     @property
     def scene(self):
         return self.store.scene
+
+    @cached_property
+    def places(self):
+        """Its worst places, see :func:`tehl_taichi.report.numbered_places.places`: in two maps and a table."""
+        return numbered_places.places(self)
 
     def map(self, name):
         """One of its maps, or None."""

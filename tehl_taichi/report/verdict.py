@@ -5,7 +5,7 @@ from tehl_taichi.io.result_judge import STEEL, YIELDS, largest_pressure
 from tehl_taichi.report.document import Answer
 from tehl_taichi.report.rounded import index, told
 from tehl_taichi.report.scene_words import WHOLE, material, moments, when
-from tehl_taichi.scene.passing_words import passing, where
+from tehl_taichi.scene import passing_words
 from tehl_taichi.scene.route import total_steps
 
 ABOVE, WITHIN, BELOW = 1, 0, -1
@@ -18,8 +18,7 @@ def of(store):
     summary = store.summary
     if not summary:
         return _none_yet(store)
-    over = when(store.scene)
-    found = of_fatigue(summary["fatigue"], over, store.scene) if "fatigue" in summary else _of_film(summary)
+    found = of_fatigue(summary["fatigue"], store.scene) if "fatigue" in summary else _of_film(summary)
     question, headline, tone, tells = found
     yields, rims = _yielding(summary), list(rim_judge.rims(store, summary))
     known = [sentence for sentence in store.warnings if sentence in rims or yields and STEEL in sentence]
@@ -49,13 +48,14 @@ def layers(fatigue):
     return [(where, part["Fi_max"], part.get("error", {}).get("Fi_max")) for where, part in found]
 
 
-def of_fatigue(fatigue, over=WHOLE, scene=None):
-    """(question, headline, tone, sentences) of the summary of a search; over: which moments, in words
-    (:func:`tehl_taichi.report.scene_words.when`); scene: whose, where that is known."""
+def of_fatigue(fatigue, scene=None):
+    """(question, headline, tone, sentences) of the summary of a search; scene: whose, which tells the moments and what passes;
+    None: nobody knows it, all moments of a feature."""
+    over = when(scene) if scene else WHOLE
     worst, places, known, tells = _judged(fatigue)
-    said, tells = headline(worst, places, known), [*tells, *_alone(fatigue, over, passing(scene))]
+    said, tells = headline(worst, places, known), [*tells, *_alone(fatigue, over, passing_words.passing(scene))]
     if "resolved" in fatigue:
-        said, tells = _by_what_is_known(fatigue["resolved"], worst, tells, over, where(scene))
+        said, tells = _by_what_is_known(fatigue["resolved"], worst, tells, over, passing_words.where(scene))
     return FATIGUE, *said, (*tells, *_plane(fatigue))
 
 
@@ -107,13 +107,13 @@ def headline(worst, places, known, when=""):
     return f"{no}: the index stays below 1{when}{more}.", "no"
 
 
-def _alone(fatigue, over, passing):
+def _alone(fatigue, over, what):
     alone = fatigue.get("below", {}).get("contact_alone")
     if not alone:
         return ()
-    more = f": the material is overloaded there without the {passing} too" if alone["Fi_max"] > 1 else ""
+    more = f": the material is overloaded there without the {what} too" if alone["Fi_max"] > 1 else ""
     where = f"{alone['depth_m'] * 1e6:.0f} µm" + ("" if over == WHOLE else ", over the same moments")
-    return (f"The contact without its {passing} has Fi = {index(alone['Fi_max'])} at {where}{more}.",)
+    return (f"The contact without its {what} has Fi = {index(alone['Fi_max'])} at {where}{more}.",)
 
 
 def _plane(fatigue):
