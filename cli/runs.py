@@ -63,7 +63,7 @@ def run(
          "height": height, "width": width, "kappa": kappa, "endurance": endurance, "time.steps": steps, "thermal.on": thermal,
          "bending_limit": bending_limit, "torsion_limit": torsion_limit,
          "fatigue.on": fatigue, "numerics.estimate_error": estimate_error, "numerics.precision": precision,
-          "time.steady_only": steady or None},
+         "time.steady_only": steady or None},
         grid, set_ or [])
     description = find_changed(scene, changes)
     check_rows(grid, changes, lambda: description)

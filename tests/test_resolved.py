@@ -106,7 +106,7 @@ def test_the_summary_and_the_table_have_it():
     assert deep is part["below"] and below == {"Fi_max": companions.RESOLVED_BELOW}
     part["error"], part["unknown"] = {"Fi_max": 0.02}, {}
     rows = dict(summary_rows.fatigue_rows(search))
-    assert list(rows)[0] == "Fi_max while resolved (to 0.60 a)" and rows["at x, y of the feature, below while resolved"]
+    assert list(rows)[0] == "Fi_max while resolved (to 0.60 a)" and rows["at x, y from the centre, below while resolved"]
     assert "Fi_max at the surface, whole passage" in rows and "Fi_max below it, at 25 um, whole passage" in rows
     assert list(dict(summary_rows.fatigue_rows(fatigue())))[0] == "Fi_max at the surface"
     assert rows["Fi_max while resolved (to 0.60 a)"] == "0.800 ± 0.020"

@@ -145,7 +145,7 @@ def _point_rows(f):
     """The worst point of the surface or below it."""
     low, high = f.get("pit_angles_deg", (None, None))
     pits = "" if low is None else f" (pits begin at {low:g} to {high:g})"
-    rows = [Row("at x, y of the feature", f"{f['x_m'] * 1e6:.1f}, {f['y_m'] * 1e6:.1f} um"),
+    rows = [Row("at x, y from the centre", f"{f['x_m'] * 1e6:.1f}, {f['y_m'] * 1e6:.1f} um"),
             Row("critical plane to the surface", f"{f['surface_angle_deg']:.1f} deg", note=pits),
             Row("shear amplitude, largest normal stress", f"{f['tau_amp_Pa'] / 1e6:.1f}, {f['sigma_n_max_Pa'] / 1e6:.1f} MPa")]
     own = f.get("sigma1_worst_Pa")  # not in stores before 0.2

@@ -163,5 +163,6 @@ def _index(ax, curves):
         x = c.store.map("feature_frame_x") * 1e6
         i, j = np.unravel_index(int(np.argmax(Fi)), Fi.shape)
         ax.plot(x, Fi[:, j], color=c.colour)
-        ax.plot(x[i], Fi[i, j], "+", color=c.colour, ms=ax.xaxis.label.get_size(), mew=0.2 * ax.xaxis.label.get_size())
+        ax.plot(x[i], Fi[i, j], "+", color=c.colour, ms=ax.xaxis.label.get_size(), mew=0.2 * ax.xaxis.label.get_size(),
+                clip_on=False)  # whole at the rim, too
     ax.set(xlabel="x from the feature's centre (µm)", ylabel="Fi, worst row")
