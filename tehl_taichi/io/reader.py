@@ -1,5 +1,6 @@
 """Reading a store: its scene, series, fields, maps and summary; nothing here writes but the undoing of half a replacement."""
 
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -86,11 +87,11 @@ class Reader:
         """The table among the attributes of that name, which going on needs. Raises StoreError."""
         return intact.attribute(self.path, self.attrs, name)
 
-    @property
-    def x(self):
+    @cached_property
+    def x(self):  # opening the group takes 2 ms, and a fatigue search asks for every entry
         return self._whole("x")
 
-    @property
+    @cached_property
     def y(self):
         return self._whole("y")
 
