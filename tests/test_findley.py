@@ -165,6 +165,28 @@ def test_pruning_changes_nothing(taichi_cpu):
         np.testing.assert_array_equal(one, all_)
 
 
+def test_planes_of_more_moments_are_kept_where_these_have_as_much(taichi_cpu):
+    h, effort = passages(40, 80), np.zeros(40)
+    known, part = findley.search(h, 0.3), h[:, 20:]
+    alone, kept = findley.search(part, 0.3), findley.search(part, 0.3, known=known, decided=effort)
+    same = effort == 1
+    assert 5 < same.sum() < 35 and effort[~same].min() > 200
+    for one, other, more in zip(kept, alone, known):
+        np.testing.assert_array_equal(one[same], more[same])
+        np.testing.assert_array_equal(one[~same], other[~same])
+    np.testing.assert_allclose(kept[0], alone[0], rtol=1e-7)
+    assert (alone[0][~same] < known[0][~same] * (1 - 1e-9)).all()
+
+
+@pytest.mark.parametrize("criterion", ["matake", "dang-van"])
+def test_criteria_that_fewer_moments_may_raise_keep_nothing(taichi_cpu, criterion):
+    h = passages(10, 40)
+    known, part = findley.search(h, 0.3, criterion=criterion), h[:, 10:]
+    for one, other in zip(findley.search(part, 0.3, criterion=criterion, known=known),
+                          findley.search(part, 0.3, criterion=criterion)):
+        np.testing.assert_array_equal(one, other)
+
+
 def test_mirror_and_rotation_change_nothing(taichi_cpu):
     h = passages(30, 80, seed=5)
     f, _ = findley.search(h, 0.3)

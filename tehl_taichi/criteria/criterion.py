@@ -31,6 +31,11 @@ class Criterion(Entry):
     momentary: bool = False
     sheared: bool = False
 
+    @property
+    def falls(self):
+        """Whether fewer moments never give more: not where the plane, or the circle's centre, is another one then."""
+        return not (self.sheared or self.momentary)
+
     def from_limits(self, bending, torsion):
         """(kappa, sigma_eF) from the fatigue limits in fully reversed bending and torsion (Pa).
 

@@ -47,13 +47,23 @@ def profiles(passage, rows, alone=False, windows=(slice(None),), tell=lambda don
     found = []
     for n, (kind, histories) in enumerate(zip(kinds, histories_of(passage, depths, kinds, tell)), 1):
         points = slice(middle, middle + 1) if kind[1] else slice(None)
-        found += [_profile(passage, depths, histories[:, points, moments], passage.x[points], *kind) for moments in windows]
+        found += _profiles(passage, depths, histories[:, points], windows, passage.x[points], kind)
         tell(n, len(kinds))
     return found
 
 
-def _profile(passage, depths, histories, x, row, single):
-    f = np.array([findley.search(history, *_rule(passage))[0] for history in histories])
+def _profiles(passage, depths, histories, windows, x, kind):
+    """The Profile of each window; kind: row, and whether it is of one point of the contact alone."""
+    found, known = [], [None] * depths.size
+    for moments in windows:
+        some = histories[:, :, moments]
+        searched = [findley.search(history, *_rule(passage), known=before) for history, before in zip(some, known)]
+        known = known if found else searched  # the first window are all moments
+        found.append(_profile(passage, depths, some, np.array([f for f, _ in searched]), x, *kind))
+    return found
+
+
+def _profile(passage, depths, histories, f, x, row, single):
     depth, point, *rest = _refined(passage, np.log(depths), histories, f)
     return Profile(depths, f, Point(depth, float(x[point]), float(passage.reader.y[row]), *rest), single)
 

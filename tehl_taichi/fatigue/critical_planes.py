@@ -22,6 +22,7 @@ STARTS = 5      # peaks refined at most: 4 and 20 agree to 2e-7 at every point o
 NEAR = 0.975   # cosine of the angle (13 degrees) below which planes of the grid belong to one peak
 SAME = 0.9998  # the same (1 degree) for peaks after the first halvings
 SLACK = 1e-11  # relative rounding of a bound
+KEPT = 1e-12  # relative rounding of a value that fewer moments leave as it is
 
 vec6 = ti.types.vector(6, ti.f64)
 LANES = 8     # planes bounded at once: the ring of a pattern search
@@ -303,8 +304,21 @@ def circle(steps: ti.i32, a: ti.types.ndarray(dtype=ti.f64, ndim=2), b: ti.types
             out[0], out[1] = out[0] + weight[k] * a[0, index[k]], out[1] + weight[k] * b[0, index[k]]
 
 
+@ti.func
+def still(S: ti.template(), a: ti.template(), b: ti.template(), known: ti.template(), row, steps, kappa, rule: ti.template()):
+    """Whether the known plane has the known value: no other plane can have more."""
+    found = 0
+    if known[row, 0] < 1e300:
+        n = vec3(known[row, 1], known[row, 2], known[row, 3])
+        value, _ = plane_value(S, a, b, row, steps, n, kappa, rule)
+        if value >= known[row, 0] - KEPT * ti.abs(known[row, 0]):
+            found = 1
+    return found
+
+
 @ti.kernel
 def search(points: ti.i32, steps: ti.i32, kappa: ti.f64, rule: ti.template(), step0: ti.f64, shrinks: ti.i32, prune: ti.i32,
+           known: ti.types.ndarray(dtype=ti.f64, ndim=2),
            S: ti.types.ndarray(dtype=ti.f64, ndim=3), planes: ti.types.ndarray(dtype=ti.f64, ndim=2),
            values: ti.types.ndarray(dtype=ti.f64, ndim=2), a: ti.types.ndarray(dtype=ti.f64, ndim=2),
            b: ti.types.ndarray(dtype=ti.f64, ndim=2), peaks: ti.types.ndarray(dtype=ti.f64, ndim=3),
@@ -312,23 +326,28 @@ def search(points: ti.i32, steps: ti.i32, kappa: ti.f64, rule: ti.template(), st
     """out[point] = (f, n_x, n_y, n_z, planes decided) from S[point, time, (xx, yy, zz, xy, xz, yz)].
 
     rule: a :class:`tehl_taichi.criteria.criterion.Criterion` whose value may be traced; planes (m, 3): unit normals of the
-    grid; step0: first step, rad, halved `shrinks` times; scratch: values (points, m), a, b (points, steps), peaks (points,
+    grid; step0: first step, rad, halved `shrinks` times; known (points, 4): value and plane that a search of more moments
+    found, not to be looked for again where these have as much there (infinite: not known); scratch: values (points, m), a, b (points, steps), peaks (points,
     STARTS, PEAK).
     """
     ti.loop_config(block_dim=8)
     for row in range(points):
-        on_grid = scan(S, planes, values, a, b, row, steps, kappa, rule, prune)
-        count = collect(S, planes, values, a, b, peaks, row, steps, on_grid, kappa, rule)
-        decided = planes.shape[0]
-        for stage in range(2):
+        out[row, 4] = 1
+        for k in ti.static(range(4)):
+            out[row, k] = known[row, k]
+        if still(S, a, b, known, row, steps, kappa, rule) == 0:
+            on_grid = scan(S, planes, values, a, b, row, steps, kappa, rule, prune)
+            count = collect(S, planes, values, a, b, peaks, row, steps, on_grid, kappa, rule)
+            decided = planes.shape[0]
+            for stage in range(2):
+                for peak in range(count):
+                    if stage == 0 or hopeful(peaks, row, peak, count):
+                        step = step0 if stage == 0 else step0 * 0.5**FIRST
+                        decided += refine(S, a, b, peaks, row, steps, peak, kappa, rule, step,
+                                          FIRST if stage == 0 else shrinks - FIRST, FIRST_TURNS if stage == 0 else TURNS, prune)
+            out[row, 0], out[row, 4] = -1e300, decided
             for peak in range(count):
-                if stage == 0 or hopeful(peaks, row, peak, count):
-                    step = step0 if stage == 0 else step0 * 0.5**FIRST
-                    decided += refine(S, a, b, peaks, row, steps, peak, kappa, rule, step,
-                                      FIRST if stage == 0 else shrinks - FIRST, FIRST_TURNS if stage == 0 else TURNS, prune)
-        out[row, 0], out[row, 4] = -1e300, decided
-        for peak in range(count):
-            if peaks[row, peak, 3] > out[row, 0]:
-                out[row, 0] = peaks[row, peak, 3]
-                for k in ti.static(range(3)):
-                    out[row, k + 1] = peaks[row, peak, k]
+                if peaks[row, peak, 3] > out[row, 0]:
+                    out[row, 0] = peaks[row, peak, 3]
+                    for k in ti.static(range(3)):
+                        out[row, k + 1] = peaks[row, peak, k]

@@ -35,12 +35,13 @@ def traced(criterion):
     return dataclasses.replace(criterion, value=unrolled(criterion.value))
 
 
-def search(history, kappa, prune=True, criterion="findley", degrees=GRID, decided=None, tell=None):
+def search(history, kappa, prune=True, criterion="findley", degrees=GRID, decided=None, tell=None, known=None):
     """Largest value of a criterion over all planes, and its plane, of every point.
 
     history (points, times, 6) Pa: xx, yy, zz, xy, xz, yz. kappa >= 0. criterion: one of `tehl_taichi.criteria`. prune=False
     evaluates every plane (for tests); degrees: between the first planes; decided (points,), if given, takes the number of
-    planes bounded or evaluated at each point; tell: called with (done, total) points.
+    planes bounded or evaluated at each point; tell: called with (done, total) points; known: (f, normals) of a search of
+    histories that these are some moments of: a value that these moments reach on that plane is the largest here, too.
     Returns f (points,) Pa (may be negative: nowhere near fatigue) and unit normals (points, 3), n_z >= 0.
     Raises ValueError for a history with NaN or of another shape, KeyError for an unknown criterion.
     """
@@ -56,12 +57,14 @@ def search(history, kappa, prune=True, criterion="findley", degrees=GRID, decide
     a, b = np.zeros((2, points, steps))
     grid = planes(degrees)
     values, peaks = np.zeros((points, len(grid))), np.zeros((points, critical_planes.STARTS, critical_planes.PEAK))
-    rule = CRITERIA[criterion]
+    rule, before = CRITERIA[criterion], np.full((points, 4), np.inf)
+    if known is not None and rule.falls:
+        before[:, 0], before[:, 1:] = known
     shrinks = SHEARED_SHRINKS if rule.sheared else SHRINKS
     for first in range(0, points, SLICE):
         part = slice(first, min(first + SLICE, points))
         critical_planes.search(part.stop - first, steps, kappa, traced(rule), math.radians(degrees / 2), shrinks, int(prune),
-                               history[part], grid, *(array[part] for array in (values, a, b, peaks, out)))
+                               before[part], history[part], grid, *(array[part] for array in (values, a, b, peaks, out)))
         if tell:
             tell(part.stop, points)
     if decided is not None:

@@ -42,7 +42,7 @@ def layer(scene, passage, depth, progress, early):
         shape = passage.x.size, rows.stop - rows.start
         parts.append([v.reshape(shape) for v in (f, *findley.angles(normals), _tension(history))])
         worst = worse(worst, passage.places(depth, rows), history, f, normals)
-        sooner.add(rows, history)
+        sooner.add(rows, history, (f, normals))
     return Layer(depth, *(np.concatenate(part, axis=1) for part in zip(*parts)), worst, sooner.found)
 
 
@@ -68,12 +68,12 @@ class _Early:
         self.scene, self.passage, self.depth, self.early = scene, passage, depth, early
         self.parts, self.worst = [], None
 
-    def add(self, rows, history):
-        """Search those moments of a block."""
+    def add(self, rows, history, known=None):
+        """Search those moments of a block; known: (f, normals) of all of its moments."""
         if self.early is None:
             return
         places = self.passage.places(self.depth, rows)
-        f, self.worst = over_some(history, self.early, self.scene.fatigue, places, self.worst)
+        f, self.worst = over_some(history, self.early, self.scene.fatigue, places, known, self.worst)
         self.parts.append(f.reshape(self.passage.x.size, -1))
 
     @property

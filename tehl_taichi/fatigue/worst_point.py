@@ -60,14 +60,15 @@ def worse(worst, places, history, f, normals):
     return Point(*places(top), f[top], history[top].copy(), normals[top])
 
 
-def over_some(history, moments, fatigue, places, worst=None):
-    """(stress of every point, Pa, worst point or the one so far) of some of the moments. Few points at once: a choice of
-    moments is a copy of their histories."""
+def over_some(history, moments, fatigue, places, known, worst=None):
+    """(stress of every point, Pa, worst point or the one so far) of some of the moments; known: (f, normals) of all of them.
+    Few points at once: a choice of moments is a copy of their histories."""
     f = np.empty(len(history))
     for first in range(0, len(history), AT_ONCE):
         points = slice(first, first + AT_ONCE)
         part = history[points, moments]
-        f[points], normals = findley.search(part, fatigue.kappa, criterion=fatigue.criterion)
+        whole = [values[points] for values in known] if known else None
+        f[points], normals = findley.search(part, fatigue.kappa, criterion=fatigue.criterion, known=whole)
         worst = worse(worst, lambda n, first=first: places(first + n), part, f[points], normals)
     return f, worst
 
