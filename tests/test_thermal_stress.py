@@ -38,7 +38,7 @@ def make(rises, dt=1e-6, speed=0.0, n=64, rows=1, length=1e-3):
 
 def test_resting_harmonic_temperatures_give_no_stress_in_their_plane():
     """cos(kx) exp(-kz): sigma_xx = 0, sigma_yy = -E alpha T (plane strain; Boley & Weiner)."""
-    w = ts.Waves(64, 1, 1e-5, 1.0, True)
+    w = ts.WaveNumbers(64, 1, 1e-5, 1.0, True)
     theta = ts.steady_depth(w.kx, w.k, D, 0.0)[1:, 0].real
     k = w.k[1:, 0]
     np.testing.assert_allclose(-1 + 2 * k * theta, 0, atol=1e-12)
@@ -60,7 +60,7 @@ def cerruti(n, step):
     x, y = np.arange(n) * step, np.arange(n // 2 + 1) * step
     bell = np.exp(-((x[:, None] - 256e-6) ** 2 + y[None, :] ** 2) / (40e-6) ** 2)
     stress = ts.ThermalStress(STEEL, 3.0, [10.0 * bell], 1e-6, x, y, 0, n, 50e-6, True)
-    theta = stress.waves.values(stress.first)
+    theta = stress.waves.values(stress.thetas[0])
     qx, qy = (-HELD * d for d in np.gradient(theta, step))
     load = half_space.Stress(np.arange(theta.shape[0]) * step, y, STEEL.nu, line=False)(0 * qx, qx, qy)
     wide, inner = np.abs(load["sxx"]).max(), (slice(n // 6, -n // 3), slice(0, n // 4))

@@ -316,6 +316,27 @@ def still(S: ti.template(), a: ti.template(), b: ti.template(), known: ti.templa
     return found
 
 
+@ti.func
+def look(S: ti.template(), planes: ti.template(), values: ti.template(), a: ti.template(), b: ti.template(),
+         peaks: ti.template(), out: ti.template(), row, steps, kappa, rule: ti.template(), step0, shrinks, prune):
+    """Find the best plane of a point; into its row of `out`, with the number of planes decided."""
+    on_grid = scan(S, planes, values, a, b, row, steps, kappa, rule, prune)
+    count = collect(S, planes, values, a, b, peaks, row, steps, on_grid, kappa, rule)
+    decided = planes.shape[0]
+    for stage in range(2):
+        for peak in range(count):
+            if stage == 0 or hopeful(peaks, row, peak, count):
+                step = step0 if stage == 0 else step0 * 0.5**FIRST
+                decided += refine(S, a, b, peaks, row, steps, peak, kappa, rule, step,
+                                  FIRST if stage == 0 else shrinks - FIRST, FIRST_TURNS if stage == 0 else TURNS, prune)
+    out[row, 0], out[row, 4] = -1e300, decided
+    for peak in range(count):
+        if peaks[row, peak, 3] > out[row, 0]:
+            out[row, 0] = peaks[row, peak, 3]
+            for k in ti.static(range(3)):
+                out[row, k + 1] = peaks[row, peak, k]
+
+
 @ti.kernel
 def search(points: ti.i32, steps: ti.i32, kappa: ti.f64, rule: ti.template(), step0: ti.f64, shrinks: ti.i32, prune: ti.i32,
            known: ti.types.ndarray(dtype=ti.f64, ndim=2),
@@ -327,8 +348,8 @@ def search(points: ti.i32, steps: ti.i32, kappa: ti.f64, rule: ti.template(), st
 
     rule: a :class:`tehl_taichi.criteria.criterion.Criterion` whose value may be traced; planes (m, 3): unit normals of the
     grid; step0: first step, rad, halved `shrinks` times; known (points, 4): value and plane that a search of more moments
-    found, not to be looked for again where these have as much there (infinite: not known); scratch: values (points, m), a, b (points, steps), peaks (points,
-    STARTS, PEAK).
+    found, not looked for again where these have as much there (infinite: not known); scratch: values (points, m), a, b
+    (points, steps), peaks (points, STARTS, PEAK).
     """
     ti.loop_config(block_dim=8)
     for row in range(points):
@@ -336,18 +357,4 @@ def search(points: ti.i32, steps: ti.i32, kappa: ti.f64, rule: ti.template(), st
         for k in ti.static(range(4)):
             out[row, k] = known[row, k]
         if still(S, a, b, known, row, steps, kappa, rule) == 0:
-            on_grid = scan(S, planes, values, a, b, row, steps, kappa, rule, prune)
-            count = collect(S, planes, values, a, b, peaks, row, steps, on_grid, kappa, rule)
-            decided = planes.shape[0]
-            for stage in range(2):
-                for peak in range(count):
-                    if stage == 0 or hopeful(peaks, row, peak, count):
-                        step = step0 if stage == 0 else step0 * 0.5**FIRST
-                        decided += refine(S, a, b, peaks, row, steps, peak, kappa, rule, step,
-                                          FIRST if stage == 0 else shrinks - FIRST, FIRST_TURNS if stage == 0 else TURNS, prune)
-            out[row, 0], out[row, 4] = -1e300, decided
-            for peak in range(count):
-                if peaks[row, peak, 3] > out[row, 0]:
-                    out[row, 0] = peaks[row, peak, 3]
-                    for k in ti.static(range(3)):
-                        out[row, k + 1] = peaks[row, peak, k]
+            look(S, planes, values, a, b, peaks, out, row, steps, kappa, rule, step0, shrinks, prune)

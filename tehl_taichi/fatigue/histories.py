@@ -8,6 +8,7 @@ from concurrent.futures import ThreadPoolExecutor, wait
 
 import numpy as np
 
+from tehl_taichi.engine.fftw import SINGLE
 from tehl_taichi.fatigue.half_space import COMPONENTS, Stress
 from tehl_taichi.fatigue.thermal_depth import ThermalBelow
 from tehl_taichi.fatigue.thermal_stress import WORKERS, ThermalStress
@@ -38,7 +39,8 @@ class Passage:
         offset = (reader.x[0] - centres[0]) / self.dx
         self.x = (np.arange(-low, high + 1) + offset - round(offset)) * self.dx
         low, high = self._window("y")
-        self.rows = np.flatnonzero((reader.y >= -low * (1 + 1e-9)) & (reader.y <= high * (1 + 1e-9)))
+        rows = np.flatnonzero((reader.y >= -low * (1 + 1e-9)) & (reader.y <= high * (1 + 1e-9)))
+        self.rows = slice(rows[0], rows[-1] + 1)
         self.y = reader.y[self.rows]
         # centre of the feature and entry of the reader at every moment
         before, after = self._lead_in(centres[0]), self._lead_out(centres[-1])
@@ -92,7 +94,7 @@ class Passage:
     def stresses(self, depth):
         """Stress operator for a depth in m, and the thermal stress where the scene wants it (else None)."""
         y, thermal = self.reader.y, None
-        operator = Stress(self.grid_x, y - y[0], self.scene.body_a.nu, self.line, self.mirrored, depth)
+        operator = Stress(self.grid_x, y - y[0], self.scene.body_a.nu, self.line, self.mirrored, depth, self.rows, SINGLE)
         if self.scene.thermal_stress_wanted:
             thermal = self.below(depth).at(depth) if depth else self.heat(ThermalStress)
         return operator, thermal
@@ -129,7 +131,7 @@ class Passage:
         done, entries = [], np.unique(self.entries)
         parts = np.array_split(entries, max(1, min(WORKERS, entries.size)))
         with ThreadPoolExecutor(WORKERS) as pool:
-            tasks = [pool.submit(self._fill, out, part, rows, operators[0].twin(), operators[1], done) for part in parts]
+            tasks = [pool.submit(self._fill, out, part, rows, *operators, done) for part in parts]
             meanwhile()
             while wait(tasks, LOOK).not_done and progress:
                 progress(min(len(done), entries.size - 1), entries.size)
@@ -168,9 +170,9 @@ class Passage:
     def _stress_field(self, entry, rows, stress, thermal):
         found = stress(*self.loads(entry))
         if thermal:
-            for name, values in zip(COMPONENTS if stress.depth else HELD, thermal(self.ticks[entry])):
-                found[name] = found[name] + values
-        return np.stack([found[name][:, self.rows[rows]] for name in COMPONENTS], axis=-1)
+            for name, values in zip(COMPONENTS if stress.depth else HELD, thermal(self.ticks[entry], self.rows)):
+                found[name] += values
+        return np.stack([found[name][:, rows] for name in COMPONENTS], axis=-1)
 
 
 def equal_steps(times):

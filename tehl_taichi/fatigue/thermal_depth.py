@@ -16,7 +16,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
-from tehl_taichi.engine.fftw import single, single_back, single_real
+from tehl_taichi.engine.fftw import half_back, transform, transform_back
 from tehl_taichi.fatigue.by_wave_number import Answers
 from tehl_taichi.fatigue.thermal_stress import WORKERS, Heated, depth_after, erfcx, fast_length
 
@@ -61,7 +61,7 @@ class ThermalBelow(Heated):
         self.lead, self.entries = math.ceil(LEAD * a / (speed * dt)), len(self.rises)
         self.size = fast_length(2 * self.entries + self.lead)
         with ThreadPoolExecutor(WORKERS) as pool:
-            spectra = np.stack(list(pool.map(lambda rise: self.waves.spectrum(rise).astype(np.complex64), self.rises)))
+            spectra = np.stack(list(pool.map(self.waves.spectrum, self.rises)))
         self.rises = None
         strength = np.abs(spectra).max(axis=0) * np.exp(-self.waves.k * shallowest)
         self.ix, self.iy = np.nonzero((strength > WEAK * strength.max()) & (self.waves.k * shallowest < REACH))
@@ -74,7 +74,7 @@ class ThermalBelow(Heated):
         """Transform in time of the temperatures in the frame of the body, before which the contact moves on."""
         n = np.concatenate([np.zeros(self.lead, int), np.arange(self.entries)])
         turn = np.exp(1j * np.outer(self._angle, np.arange(n.size))).astype(np.complex64)
-        return single(waves[:, n] * turn, self.size)
+        return transform(waves[:, n] * turn, self.size)
 
     @property
     def _angle(self):
@@ -111,7 +111,7 @@ class ThermalBelow(Heated):
         stress[3] *= k
         reach = np.diff(stress[..., :count], axis=2, append=stress[..., count - 1 : count])
         reach[..., 0] = 0.0
-        return single(reach, self.size), np.diff(stress[..., count:], axis=2).astype(np.float32)
+        return transform(reach, self.size), np.diff(stress[..., count:], axis=2).astype(np.float32)
 
     def _turned(self, parts, cut):
         """xx, yy, zz, xy, xz, yz from ss, tt, zz, sz of waves (4, waves, ...)."""
@@ -123,7 +123,7 @@ class ThermalBelow(Heated):
     def _back(self, spectra, kx):
         """Entries of transforms in time (..., waves or kx, size), in the frame of the contact again."""
         back = np.exp(-1j * np.outer(kx * self.speed * self.dt, np.arange(self.lead, self.lead + self.entries)))
-        return single_back(spectra)[..., self.lead : self.lead + self.entries] * back.astype(np.complex64)
+        return transform_back(spectra)[..., self.lead : self.lead + self.entries] * back.astype(np.complex64)
 
     def rows(self, depth, rows):
         """(rows, entries, columns, 6) Pa at `depth` on some rows."""
@@ -137,21 +137,22 @@ class ThermalBelow(Heated):
                     found[n, self.ix[cut][starts]] += np.add.reduceat(part * weight[ODD[n]][cut], starts, axis=0)
         spectra = np.zeros((len(rows), 6, w.kx.size, self.entries), np.complex64)
         spectra[:, :, :columns] = self._back(out, w.kx[:columns, 0])
-        return self.stiffness * single_real(spectra, w.nx, 2)[:, :, : self.columns].transpose(0, 3, 2, 1)
+        return self.stiffness / w.nx * half_back(spectra, w.nx, 2)[:, :, : self.columns].transpose(0, 3, 2, 1)
 
     def at(self, depth):
-        """Function of the entry that gives sxx, syy, szz, sxy, sxz, syz, each (columns, ny+1), at `depth`."""
+        """Function of the entry (and of the rows that are wanted) that gives sxx, syy, szz, sxy, sxz, syz, each (columns,
+        ny+1), at `depth`."""
         w, held = self.waves, np.zeros((6, self.k.size, self.entries), np.complex64)
         with ThreadPoolExecutor(WORKERS) as pool:
             for cut, parts in self._responses(depth, pool.map):
                 held[:, cut] = self._back(np.stack(self._turned(parts, cut)), self.kx[cut])
 
-        def fields(entry):
+        def fields(entry, rows=slice(None)):
             out = []
             for n in range(6):
-                spectrum = np.zeros(w.k.shape, complex)
+                spectrum = np.zeros(w.k.shape, np.complex64)
                 spectrum[self.ix, self.iy] = held[n, :, entry]
-                out.append(self.stiffness * w.values(spectrum, ODD[n])[: self.columns])
+                out.append(self.stiffness * w.values(spectrum, ODD[n], rows=rows)[: self.columns])
             return out
 
         return fields

@@ -14,6 +14,9 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from tehl_taichi.engine import cores
+from tehl_taichi.engine.fftw import transform, transform_back
+from tehl_taichi.fatigue.by_wave_number import Answers
+from tehl_taichi.fatigue.waves import Waves
 
 SERIES = 32  # terms of Weideman's rational series
 TAPER = 1.0  # a: behind the grid its last temperatures fade over this length
@@ -53,32 +56,17 @@ def fast_length(n):
     return pyfftw.next_fast_len(n)
 
 
-class Waves:
-    """Wave numbers of fields on `columns` x `rows` nodes, even about the first row (mirrored) or padded with zeros."""
+class WaveNumbers(Waves):
+    """Waves of fields on `columns` x `rows` nodes and their numbers kx, ky, k (1/m): even about the first row (mirrored), or
+    padded with zeros."""
 
     def __init__(self, columns, rows, dx, dy, mirrored):
-        self.columns, self.rows, self.mirrored = columns, rows, mirrored
-        self.nx = fast_length(2 * columns)
-        self.ny = 1 if rows == 1 else 2 * (rows - 1) if mirrored else fast_length(2 * rows)
+        ny = 1 if rows == 1 else 2 * (rows - 1) if mirrored else fast_length(2 * rows)
+        super().__init__(columns, rows, fast_length(2 * columns), ny, mirrored)
         kx = 2 * np.pi * np.fft.rfftfreq(self.nx, dx)
         ky = 2 * np.pi * np.fft.fftfreq(self.ny, dy if rows > 1 else 1.0)
-        self.kx, self.ky = kx[:, None], ky[None, : rows if mirrored else None]
+        self.kx, self.ky = kx[:, None], ky[None, : self.modes]
         self.k = np.hypot(self.kx, self.ky)
-
-    def spectrum(self, values):
-        """(nx//2+1, modes of y) of values (columns, rows)."""
-        whole = np.zeros((self.nx, self.ny))
-        whole[: self.columns, : self.rows] = values
-        if self.mirrored and self.rows > 1:
-            whole[: self.columns, self.rows :] = values[:, -2:0:-1]
-        return np.fft.fft(np.fft.rfft(whole, axis=0), axis=1)[:, : self.k.shape[1]]
-
-    def values(self, spectrum, odd=False):
-        """(columns, rows) of a spectrum; odd: about the first row."""
-        if self.mirrored and self.rows > 1:
-            sign = -1 if odd else 1
-            spectrum = np.concatenate([spectrum, sign * spectrum[:, -2:0:-1]], axis=1)
-        return np.fft.irfft(np.fft.ifft(spectrum, axis=1), self.nx, axis=0)[: self.columns, : self.rows]
 
     def row_weights(self, row, odd=False):
         """(modes of y,): their sum with a spectrum is its row `row`, still a spectrum along x."""
@@ -98,7 +86,7 @@ class Heated:
         self.taper = math.ceil(TAPER * a / self.dx)
         self.columns = columns
         whole = max(columns, front + x.size + self.taper)
-        self.waves = Waves(whole, rows, self.dx, y[1] - y[0] if rows > 1 else 1.0, mirrored)
+        self.waves = WaveNumbers(whole, rows, self.dx, y[1] - y[0] if rows > 1 else 1.0, mirrored)
         self.rises = [self._extended(rise).astype(np.float32) for rise in rises]
 
     def _extended(self, rise):
@@ -123,41 +111,46 @@ class ThermalStress(Heated):
         super().__init__(body, rises, x, y, front, columns, a, mirrored)
         diffusivity = body.k / (body.rho * body.c)
         w = self.waves
-        steady = w.spectrum(self.rises[0])
-        self.first = steady * steady_depth(w.kx, w.k, diffusivity, speed)
+        first = (w.spectrum(self.rises[0]) * steady_depth(w.kx, w.k, diffusivity, speed)).astype(np.complex64)
         with ThreadPoolExecutor(WORKERS) as pool:
-            changes = np.stack(list(pool.map(lambda rise: w.spectrum(rise - self.rises[0]).astype(np.complex64), self.rises)))
+            changes = np.stack(list(pool.map(lambda rise: w.spectrum(rise - self.rises[0]), self.rises)))
         self.thetas = _convolved(changes, w, diffusivity, speed, dt)
+        self.thetas += first
+        self.pushed = [(2 * self.stiffness * part / np.where(w.k > 0, w.k, 1.0)).astype(np.float32)
+                       for part in (w.kx**2 + self.nu * w.ky**2, w.ky**2 + self.nu * w.kx**2, (1 - self.nu) * w.kx * w.ky)]
 
-    def __call__(self, entry):
-        """(sxx, syy, sxy), each (columns, ny+1)."""
-        w = self.waves
-        theta = (self.first + self.thetas[entry]) * 2 * self.stiffness / np.where(w.k > 0, w.k, 1.0)
-        held = -self.stiffness * self.rises[entry]
-        sxx = held + w.values((w.kx**2 + self.nu * w.ky**2) * theta)
-        syy = held + w.values((w.ky**2 + self.nu * w.kx**2) * theta)
-        sxy = w.values((1 - self.nu) * w.kx * w.ky * theta, odd=True)
-        return tuple(v[: self.columns] for v in (sxx, syy, sxy))
+    def __call__(self, entry, rows=slice(None)):
+        """(sxx, syy, sxy), each (columns, ny+1), or some rows of it."""
+        theta, held = self.thetas[entry], -self.stiffness * self.rises[entry][:, rows]
+        sxx, syy, sxy = (self.waves.values(part * theta, odd, rows=rows)
+                         for part, odd in zip(self.pushed, (False, False, True)))
+        return tuple(v[: self.columns] for v in (held + sxx, held + syy, sxy))
 
 
 def _convolved(changes, waves, diffusivity, speed, dt):
     """Theta of the changes against the steady state, (entries, ...): a sum over the past in the frame of the body, linear in
     time between the entries (their mean over a step)."""
     entries, shape = changes.shape[0], waves.k.shape
-    k, kx = waves.k.ravel(), np.broadcast_to(waves.kx, shape).ravel()
-    flat, times, size = changes.reshape(entries, -1), np.arange(entries) * dt, fast_length(2 * entries)
+    k, along = waves.k.ravel(), np.repeat(np.arange(shape[0]), shape[1])
+    flat, size = changes.reshape(entries, -1), fast_length(2 * entries)
+    turns = np.exp(1j * speed * dt * np.outer(waves.kx[:, 0], np.arange(entries))).astype(np.complex64)
+    reaches = Answers.of(k, lambda k: [_reach(k, diffusivity, dt, entries, size)])
 
     def convolve(start):
         cut = slice(start, start + CHUNK)
-        turn = np.exp(1j * np.outer(times, kx[cut]) * speed)
-        moving = flat[:, cut] * turn
-        moving[1:] = 0.5 * (moving[1:] + moving[:-1])
-        moving[0] = 0.0
-        reach = np.diff(depth_after(k[cut], diffusivity, times[:, None]), axis=0, append=0.0)
-        reach[-1] = 0.0
-        theta = np.fft.ifft(np.fft.fft(moving, size, axis=0) * np.fft.fft(reach, size, axis=0), axis=0)[:entries]
-        flat[:, cut] = theta / turn
+        turn = turns[along[cut]]
+        moving = flat[:, cut].T * turn
+        moving[:, 1:] = 0.5 * (moving[:, 1:] + moving[:, :-1])
+        moving[:, 0] = 0.0
+        theta = transform_back(transform(moving, size) * reaches(k[cut])[0][0])[:, :entries]
+        flat[:, cut] = (theta * turn.conj()).T
 
     with ThreadPoolExecutor(WORKERS) as pool:
         list(pool.map(convolve, range(0, k.size, CHUNK)))
     return changes
+
+
+def _reach(k, diffusivity, dt, entries, size):
+    """(1, waves, size): transform in time of what each step of the temperature adds to Theta after it."""
+    deep = depth_after(k[:, None], diffusivity, np.arange(entries) * dt)
+    return transform(np.diff(deep, axis=1, append=deep[:, -1:]), size)[None]
