@@ -104,7 +104,7 @@ class SlotTable:
 
     def __init__(self, levels, slots):
         self.levels, self.carriers = levels, Carriers()
-        self.field = tables.lease(self, 0, W, levels.fine * (levels.nx + 1), slots)
+        self.field = tables.lease(self, 0, W, levels.most_columns, slots)
 
     def get(self, first, count=1):
         """`count` slots from `first` on as a new array."""
@@ -128,7 +128,7 @@ class Columns(SlotTable):
 
     def __init__(self, levels, nz):
         self.levels, self.carriers, self.nz = levels, Carriers(), nz
-        self.field = tables.lease(self, KEPT + parts(levels.scene.oil), W, levels.fine * (levels.nx + 1), each=nz)
+        self.field = tables.lease(self, KEPT + parts(levels.scene.oil), W, levels.most_columns, each=nz)
         self.singles = SlotTable(levels, SINGLES)
 
     def nodes(self, kind):

@@ -58,7 +58,8 @@ class FilmHeat:
     def _bind(self, scene):
         v, conditions = self.levels, self.levels.conditions.values
         tiles = v.fine * (v.nx // lanes.TILE + 1)
-        self.X = tables.lease(self, 0, lanes.W, tiles, self.nz * (self.nz + 2), clean=False)
+        most = v.most_columns // (scene.grid.nx + 1) * (scene.grid.nx // lanes.TILE + 1)
+        self.X = tables.lease(self, 0, lanes.W, max(tiles, most), self.nz * (self.nz + 2), clean=False)
         self.told = np.zeros((tiles, slots.TOLD))
         film_state = v.S, self.columns.field
         state = *film_state, self.columns.singles.field

@@ -84,8 +84,7 @@ class Krylov:
         size = [max(dense_entries(v.sizes, v.dense), dense, SMALLEST), max(layout.y, largest.y, SMALLEST),
                 max(layout.t, largest.t)]
         rows = phases.BASIS + 2 * max(self.most, self.USUAL) + 1 + phases.AT_ONCE
-        V = tables.lease(self, rows, lanes.W,
-                         max(columns(v.nx, v.ny), columns(v.scene.grid.nx, v.scene.rows)), precision=v.precision, clean=False)
+        V = tables.lease(self, rows, lanes.W, v.most_columns, precision=v.precision, clean=False)
         kinds = zip((lanes.W, convolution.GROUP, 2), size)
         fields_of = (tables.lease(self, 1, n, count, precision=v.precision, clean=False) for n, count in kinds)
         self.memory = Memory(v.J, V, *fields_of, odd_radices(layout.lengths, largest.lengths))

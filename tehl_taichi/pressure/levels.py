@@ -95,8 +95,12 @@ class Levels(Grids):
 
         The same for the smaller grids of a start as for the finest: either way of a kernel takes time to trace.
         """
-        largest = max(columns(self.nx, self.ny), columns(self.scene.grid.nx, self.scene.rows))
-        return bind(kernel, *args, runtime.alone(work * largest))
+        return bind(kernel, *args, runtime.alone(work * self.most_columns))
+
+    @property
+    def most_columns(self):
+        """Columns of the finest grid, or of that of the scene: the smaller grids of a start use its memory, and so its kernels."""
+        return max(columns(self.nx, self.ny), columns(self.scene.grid.nx, self.scene.rows))
 
     def set_film(self, H0):
         """H from the pressure in the table and the rigid approach H0."""
