@@ -12,7 +12,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
-from tehl_taichi.engine.fftw import DOUBLE, half, half_back
+from tehl_taichi.engine.fftw import DOUBLE, half, half_back, real_of
 from tehl_taichi.engine.transforms import even_fast_length
 from tehl_taichi.fatigue import rectangle
 from tehl_taichi.fatigue.half_space import spacing
@@ -23,19 +23,19 @@ from tehl_taichi.fatigue.unit_loads import ACROSS, SIGNS, TURNED, along, unit_lo
 class RowStress:
     """Six components at `depths` (m, 0: the surface) under `rows` of a grid, from p, q_x and q_y on all its rows.
 
-    x, y, nu, line, mirrored: as for :class:`tehl_taichi.fatigue.half_space.Stress`; mirrored rows begin at y = 0.
+    x, y, nu, line, mirrored, kind: as for :class:`tehl_taichi.fatigue.half_space.Stress`; mirrored rows begin at y = 0.
     """
 
-    def __init__(self, x, y, nu, line, mirrored, depths, rows):
+    def __init__(self, x, y, nu, line, mirrored, depths, rows, kind=DOUBLE):
         self.x, self.y, self.nu, self.line = np.asarray(x, float), np.asarray(y, float), float(nu), line
-        self.n, self.size, self.wanted = self.x.size, even_fast_length(2 * self.x.size - 1), list(rows)
+        self.n, self.size, self.wanted, self.kind = self.x.size, even_fast_length(2 * self.x.size - 1), list(rows), kind
         lags = np.arange(self.n) * spacing(self.x)
         self.strips = np.stack([self._strips(lags, z) for z in depths], axis=1) if line else None
         self.rows = None
         if self.y.size > 1:
             with ThreadPoolExecutor(WORKERS) as pool:
                 found = list(pool.map(lambda z: self._rectangles(lags, z, mirrored), depths))
-            self.rows = np.stack(found, axis=3).reshape(self.size // 2 + 1, 3 * self.y.size, -1)
+            self.rows = np.stack(found, axis=3).reshape(self.size // 2 + 1, 3 * self.y.size, -1).astype(real_of(kind))
 
     def __call__(self, p, qx, qy):
         """(rows, entries, depths, nx+1, 6) Pa from loads (entries, nx+1, ny+1) Pa."""
@@ -45,21 +45,21 @@ class RowStress:
         found = 0.0
         if self.rows is not None:
             loads -= far
-            found = self._carried(half(loads.reshape(*loads.shape[:2], -1), self.size, 1, DOUBLE))
+            found = self._carried(half(loads.reshape(*loads.shape[:2], -1), self.size, 1, self.kind))
         if self.line:
             strips = np.fft.rfft(far[:, :, :2, 0], self.size, axis=1)
-            found = found + np.einsum("ewl,ldwc->wedc", strips, self.strips)[:, :, None]
-        return np.moveaxis(half_back(found, self.size, 0, DOUBLE)[: self.n], (0, 2), (3, 0)) / self.size
+            found = found + np.einsum("ewl,ldwc->wedc", strips, self.strips)[:, :, None].astype(self.kind)
+        return np.moveaxis(half_back(found, self.size, 0, self.kind)[: self.n], (0, 2), (3, 0)) / self.size
 
     def _carried(self, spectra):
         """(waves, entries, rows, depths, 6) from the loads of all rows (entries, waves, loads)."""
         entries, waves, loads = spectra.shape
-        parts = np.empty((waves, 2, entries, loads))
+        parts = np.empty((waves, 2, entries, loads), real_of(self.kind))
         parts[:, 0], parts[:, 1] = spectra.real.swapaxes(0, 1), spectra.imag.swapaxes(0, 1)
         turned, shear = slice(loads // 3, 2 * (loads // 3)), spectra[..., loads // 3 : 2 * (loads // 3)].swapaxes(0, 1)
         parts[:, 0, :, turned], parts[:, 1, :, turned] = -shear.imag, shear.real  # i q_x
         parts = (parts.reshape(waves, -1, loads) @ self.rows).reshape(waves, 2, entries, len(self.wanted), -1, 6)
-        found = np.empty((waves, *parts.shape[2:]), complex)
+        found = np.empty((waves, *parts.shape[2:]), self.kind)
         found.real, found.imag = parts[:, 0], parts[:, 1]
         found[..., TURNED] *= 1j
         return found

@@ -4,6 +4,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
+from tehl_taichi.engine.fftw import SINGLE
 from tehl_taichi.fatigue.row_stress import RowStress
 from tehl_taichi.fatigue.thermal_stress import WORKERS, ThermalStress
 
@@ -22,13 +23,17 @@ def histories_of(passage, depths, kinds, tell=lambda done, total: None):
     entries = np.unique(passage.entries)
 
     def fill(block):
-        loads = np.stack([passage.loads(int(entry)) for entry in block], axis=1)
+        loads = np.zeros((3, BLOCK, passage.grid_x.size, passage.reader.y.size))
+        for entry in block:
+            loads[:, entry % BLOCK] = passage.loads(int(entry))
         for operator, rows, those in operators:
             for n, stresses in zip(those, operator(*loads[..., rows])):
-                for entry, stress in zip(block, stresses):
-                    passage.follow(out[n], entry, stress.swapaxes(0, 1))
+                for entry in block:
+                    passage.follow(out[n], entry, stresses[entry % BLOCK].swapaxes(0, 1))
 
-    blocks, hot = np.array_split(entries, -(-entries.size // BLOCK)), passage.scene.thermal_stress_wanted
+    # by their numbers: an entry has its place in the same block, and so the same bits, whatever moments are searched
+    blocks = np.split(entries, np.flatnonzero(np.diff(entries // BLOCK)) + 1)
+    hot = passage.scene.thermal_stress_wanted
     total = len(blocks) + hot * len(depths)
     with ThreadPoolExecutor(WORKERS) as pool:
         for done, _ in enumerate(pool.map(fill, blocks), 1):
@@ -42,7 +47,8 @@ def _operators(passage, depths, kinds):
     """(RowStress, rows of loads that it takes, which of the kinds it gives): one of all loads for all rows, one of each row
     whose loads go on."""
     def made(y, rows):
-        return RowStress(passage.grid_x, y, passage.scene.body_a.nu, passage.line, passage.mirrored, depths, rows)
+        return RowStress(passage.grid_x, y, passage.scene.body_a.nu, passage.line, passage.mirrored, depths, rows,
+                         SINGLE)
 
     plain = [n for n, (_, endless) in enumerate(kinds) if not endless]
     out = [(made(passage.reader.y, [kinds[n][0] for n in plain]), slice(None), plain)] if plain else []
