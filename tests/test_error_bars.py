@@ -186,6 +186,15 @@ def test_the_index_below_the_surface_has_a_bar_of_its_own():
     assert said == "the error of Fi_max below the surface is not known: it still changes"
 
 
+@pytest.mark.parametrize("depth,surface,known", [(3e-6, 0.6, False), (3e-6, 0.8, True), (9e-6, 0.6, True)])
+def test_an_index_that_grows_towards_the_surface_as_far_as_a_grid_sees_is_not_known(depth, surface, known):
+    part = {"Fi_max": surface, "below": {"Fi_max": 0.7, "depth_m": depth, "searched_m": [3e-6, 3e-4]}}
+    early = {"Fi_max": surface, "below": {"Fi_max": 0.7, "depth_m": depth}}
+    found = {**part, "resolved": early}
+    assert [companions._shallow(name, found) == "" for name in companions.indices(found)] == [True, known, True, known]
+    assert companions._shallow(companions.FI, {"Fi_max": 0.7}) == ""
+
+
 def test_companions_use_the_tables_of_the_run(passage):
     """Others would compile all kernels anew."""
     from tehl_taichi.engine import tables

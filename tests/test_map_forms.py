@@ -72,7 +72,10 @@ def test_a_scan_that_is_upside_down_is_asked_about(tmp_path):
         right = feature(hollow, pixel=5e-6, level=level, scale=-1.0)
         assert "upside" not in "".join(right.kind.doubts(right, scene("gear")))
     first, _ = right.kind.preview(right, scene("gear"))
-    assert first.endswith("plane and curvature taken off (convex with a radius of 12 mm along x)")
+    assert first.endswith("taken off (convex with a radius of 12 mm along x; with contact.radius_x = 10.6 mm the other body "
+                          "has a radius of 91.2 mm)")
+    first, _ = right.kind.preview(right, scene("gear").replace(**{"contact.radius_x": 0.015}))
+    assert first.endswith("with contact.radius_x = 15 mm the other body has a concave radius of 59.9 mm)")
 
 
 def test_a_scan_that_lies_across_is_asked_about(tmp_path):

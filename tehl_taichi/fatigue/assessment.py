@@ -93,7 +93,7 @@ def _result(scene, passage, layers, below):
     surface, limit, centres = layers[0], scene.fatigue.endurance, passage.centres
     summary = {**surface.worst.summary(limit), "sigma1_max_Pa": float(surface.sigma1.max()),
                "kappa_F": float(scene.fatigue.kappa), "sigma_eF_Pa": float(limit), **_limits(scene.fatigue),
-               **surface.worst.moments(centres),
+               **_cut(scene.fatigue), **surface.worst.moments(centres),
                "criterion": scene.fatigue.criterion, "thermal_stress": scene.thermal_stress_wanted,
                "pit_angles_deg": list(PIT_ANGLES)}
     maps, worst, deep = search_maps.of_surface(surface, passage, limit), surface.worst.history(centres), None
@@ -113,6 +113,12 @@ def _result(scene, passage, layers, below):
                                 "sigma1_max_Pa": float(layer.sigma1.max())} for layer in layers]
         maps |= search_maps.of_layers(layers)
     return FatigueResult(summary, maps, worst, deep)
+
+
+def _cut(fatigue):
+    """Positions of the feature (a) between which moments count; {} where all do."""
+    ends = {"from_x_a": fatigue.from_x, "to_x_a": fatigue.to_x}
+    return {key: float(x) for key, x in ends.items() if np.isfinite(x)}
 
 
 def _limits(fatigue):

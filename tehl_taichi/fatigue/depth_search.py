@@ -1,5 +1,5 @@
-"""Where below the surface the body is worst loaded: under some rows first, and where a surface is not symmetric at all points
-of the depth found there.
+"""Where below the surface the body is worst loaded: under some rows first, and where a surface is not symmetric under rows that
+look bad at any depth (:mod:`tehl_taichi.fatigue.candidates`), too, and at all points of the depth found there.
 
 The row of the worst point below is not always that of the surface: of a scanned bump between two rows of 128x32 cells the one
 had Fi 1.04, the other 1.85.
@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl_taichi.fatigue import below
+from tehl_taichi.fatigue import below, candidates
 from tehl_taichi.fatigue.layer import Layer, Part, early_layer, layer
 
 
@@ -41,6 +41,8 @@ def search(scene, passage, layers, early, progress):
     whole domain at all points of the worst depth, too, and below the rows of what is worst there; early moments have a worst
     depth of their own."""
     rows = _rows(passage, (scene.features[0].y, *(place for found in layers for place in _worst(found))))
+    if passes(passage):
+        rows = list(dict.fromkeys(rows + candidates.rows(passage, below.ladder(passage), _windows(early), progress)))
     profiles, before = _under(passage, rows, _has_far_row(scene, passage.reader.y), early, progress)
     if not passes(passage):
         return Deep(profiles, before)
@@ -68,7 +70,7 @@ def _depth(profiles):
 def passes(passage, early=None):
     """Passes of stresses and search after the first rows: none on a half domain, whose worst row is that of the feature."""
     each = 2 if early is None else 3  # the stresses of a second plane
-    return each * len(passage.row_blocks()) + 2 if passage.reader.y[0] < 0 else 0
+    return each * len(passage.row_blocks()) + 3 if passage.reader.y[0] < 0 else 0
 
 
 def _worst(found):
@@ -83,9 +85,14 @@ def _rows(passage, places):
 
 def _under(passage, rows, alone, early, progress):
     """([profiles of the whole passage], [of its early moments])."""
-    windows = [slice(None)] + [early] * (early is not None)
+    windows = _windows(early)
     found = below.profiles(passage, rows, alone, windows, progress)
     return found[:: len(windows)], found[1::2] if len(windows) > 1 else []
+
+
+def _windows(early):
+    """Moments that are searched apart: all of them, and the early ones where they are wanted."""
+    return [slice(None)] + [early] * (early is not None)
 
 
 def _points(profiles):

@@ -91,10 +91,14 @@ class Passage:
 
         return place
 
+    def operator(self, depth):
+        """Stress operator for a depth in m, on the rows of the window."""
+        y = self.reader.y
+        return Stress(self.grid_x, y - y[0], self.scene.body_a.nu, self.line, self.mirrored, depth, self.rows, SINGLE)
+
     def stresses(self, depth):
         """Stress operator for a depth in m, and the thermal stress where the scene wants it (else None)."""
-        y, thermal = self.reader.y, None
-        operator = Stress(self.grid_x, y - y[0], self.scene.body_a.nu, self.line, self.mirrored, depth, self.rows, SINGLE)
+        operator, thermal = self.operator(depth), None
         if self.scene.thermal_stress_wanted:
             thermal = self.below(depth).at(depth) if depth else self.heat(ThermalStress)
         return operator, thermal
@@ -156,8 +160,15 @@ class Passage:
     def follow(self, out, entry, fields):
         """Stress fields (x, ..., 6) of an entry, at all its moments, into the histories `out` (x', ..., moments, 6)."""
         for t in np.flatnonzero(self.entries == entry):
-            start = (self.centres[t] + self.x[0] - self.grid_x[0]) / self.dx
-            out[..., t, :] = _shifted(fields, start, self.x.size)
+            out[..., t, :] = self._at(fields, t)
+
+    def under(self, fields, t):
+        """Those of fields (x, rows, parts) at the material points at moment t: (parts, x', rows)."""
+        return np.moveaxis(self._at(fields, t), -1, 0)
+
+    def _at(self, fields, t):
+        start = (self.centres[t] + self.x[0] - self.grid_x[0]) / self.dx
+        return _shifted(fields, start, self.x.size)
 
     def loads(self, entry):
         """p, q_x and q_y (x, y) Pa of an entry; the shear is zero where it is not to count."""

@@ -15,6 +15,7 @@ from tehl_taichi.figures.index_words import error_of, largest, mpa, told_index
 from tehl_taichi.figures.limit_line import crossed, explained, handle, limit_line
 from tehl_taichi.figures.searched_depths import beside_worst, under_row
 from tehl_taichi.values.checks import number
+from tehl_taichi.values.digits import micrometres
 from tehl_taichi.values.plain import plain
 
 EVEN = 200  # depths drawn of a section
@@ -193,7 +194,7 @@ def _over_depth(ax, found, Fi, depth):
     deep, limit = found.summary["below"], found.summary["sigma_eF_Pa"]
     line, = ax.plot(Fi.max(axis=1), depth, ".-", label=f"under the {found.whose}")
     ax.plot(deep["Fi_max"], deep["depth_m"] * 1e6, "+", color=line.get_color(), ms=2.5 * line.get_markersize(),
-            mew=line.get_linewidth(), label=f"worst, Fi = {largest(deep)} at {deep['depth_m'] * 1e6:.0f} µm")
+            mew=line.get_linewidth(), label=f"worst, Fi = {largest(deep)} at {micrometres(deep['depth_m'])} µm")
     if "findley_stress_contact_alone" in found.maps:
         ax.plot(found.maps["findley_stress_contact_alone"] / limit, depth, "--", color=palette.GREY,
                 label=f"contact without its {found.whose}")
@@ -207,7 +208,7 @@ def worst_points(page, found):
     """Of the worst point of the surface and of the one below it: see :func:`worst_point`."""
     shown = [("worst point of the surface", found.points["surface"])]
     if found.points.get("below"):
-        shown.append((f"worst point below, {found.summary['below']['depth_m'] * 1e6:.0f} µm", found.points["below"]))
+        shown.append((f"worst point below, {micrometres(found.summary['below']['depth_m'])} µm", found.points["below"]))
     columns = 1 if page.narrow else 2
     height = 1.6 * page.row(columns) * len(shown) * (2 / columns)
     figure, axes = page.figure(len(shown) * 2 // columns, columns, height)

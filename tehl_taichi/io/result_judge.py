@@ -6,6 +6,7 @@ from tehl_taichi.io import film_judge, rim_judge
 from tehl_taichi.physics import conduction
 from tehl_taichi.physics.law import beyond
 from tehl_taichi.scene.yielding import STEEL, YIELDS
+from tehl_taichi.values.digits import micrometres
 
 CROWDED = 0.1  # of the launches; a machine of one's own loses a core for a moment now and then, which costs nothing to speak of
 
@@ -78,11 +79,11 @@ def worst_below(store, summary):
     deep = fatigue.get("below")
     if not deep or deep["Fi_max"] <= fatigue["Fi_max"]:
         return []
-    said = (f"the worst point lies below the surface: Fi {deep['Fi_max']:.2f} at {deep['depth_m'] * 1e6:.0f} um, "
+    said = (f"the worst point lies below the surface: Fi {deep['Fi_max']:.2f} at {micrometres(deep['depth_m'])} um, "
             f"{fatigue['Fi_max']:.2f} at the surface")
     alone = deep.get("contact_alone")
     if alone and alone["Fi_max"] > fatigue["Fi_max"]:
-        said += f"; the contact without its feature has {alone['Fi_max']:.2f} at {alone['depth_m'] * 1e6:.0f} um"
+        said += f"; the contact without its feature has {alone['Fi_max']:.2f} at {micrometres(alone['depth_m'])} um"
     if deep["depth_m"] <= 1.001 * deep.get("searched_m", [0.0])[0]:
         said += "; nearer to the surface (half a cell) this grid resolves nothing: take a finer one"
     return [said]

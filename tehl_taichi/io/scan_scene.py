@@ -28,8 +28,12 @@ load = {load:<16}  # {load_about}
 
 [operation]
 u_a = {u_a:<17}  # m/s: speed of the surface that was scanned, relative to the contact
-u_b = {u_b:<17}  # m/s: of the other one
+u_b = {u_b:<17}  # m/s: of the other one (or, in place of both, u_m, their mean, and srr = (u_a - u_b)/u_m)
 temperature = {temperature:<9}  # deg C: of oil and bodies at the inlet
+
+[bodies]                   # by name (`tehl steels`), or E, nu, k, rho, c, alpha of your own
+a.material = "100Cr6"      # the body that was scanned
+b.material = "100Cr6"
 
 # [oil]                    # your oil by its data sheet; without: {oil}
 # name = "our gear oil"
@@ -91,7 +95,7 @@ def _radius_y(contact):
 def _taper(shape, pixel, pixel_y):
     """Micrometres, at most an eighth of the shorter side."""
     side = min((count - 1) * step for count, step in zip(shape[::-1], (pixel, pixel_y)))
-    return max(int(min(TAPER, side / SHARE) * 1e6), 1) * 1e-6 if side else TAPER
+    return round(max(int(min(TAPER, side / SHARE) * 1e6), 1) * 1e-6, 9) if side else TAPER
 
 
 def _header(scan, table):

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 
 from tehl_taichi.march.readings import HEAT
-from tehl_taichi.values.digits import decimals
+from tehl_taichi.values.digits import decimals, micrometres
 
 SURFACE, BELOW, RESOLVED = "at the surface", "below it", "while resolved"  # parts of a search
 
@@ -120,7 +120,10 @@ def rows_of_fatigue(f):
 
 
 def _whole(f):
-    """Behind what is of the whole passage, where some of it stands beside it."""
+    """Behind what is of all moments that count, where some of them stand beside it, or others were left out."""
+    cut = [f"{word} {f[key]:g} a" for word, key in (("from", "from_x_a"), ("up to", "to_x_a")) if key in f]
+    if cut:
+        return f", {' '.join(cut)}"
     return ", whole passage" if "resolved" in f else ""
 
 
@@ -173,4 +176,4 @@ def _at(values):
 
 
 def _depth(values):
-    return f"{values['depth_m'] * 1e6:.0f} um"
+    return f"{micrometres(values['depth_m'])} um"

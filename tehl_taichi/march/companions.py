@@ -23,6 +23,7 @@ COMPANIONS = HALVED  # with the run itself three grids; 1/8 and 1/64 of its cell
 FI, BELOW = "Fi_max", "below_Fi_max"  # names of the largest index of the surface, and below it
 RESOLVED, RESOLVED_BELOW = "resolved_Fi_max", "resolved_below_Fi_max"  # of both as long as the grid resolves the pressure
 SHARP = ("p_max_Pa", "film_max_C", FI, BELOW)  # what a peak that is not resolved leaves unknown
+SHALLOW = "it is largest at the smallest depth that is searched, half a cell, where a grid resolves nothing"
 WORTH = 3e5  # nodes times steps of a run: below, it is a try, on a grid whose companions tell little
 
 
@@ -58,10 +59,20 @@ def passage_readings(scene, reader, scalar, fatigue=None):
            "h_min_m": readings.lowest(_moment(reader, int(np.argmin(h)) + 1), scene),
            **{name: readings.hottest(np.max(scalar(name)[1:]), scene) for name in heat},
            "friction_coefficient_mean": Reading(float(np.mean(scalar("friction_coefficient")[1:])))}
-    out |= {name: Reading(float(part["Fi_max"])) for name, part in indices(fatigue or {}).items()}
+    out |= {name: Reading(float(part["Fi_max"]), doubt=_shallow(name, fatigue))
+            for name, part in indices(fatigue or {}).items()}
     # a peak that the grid does not resolve at some moment: neither its pressure is known nor what it does to oil and steel
     why = readings.unresolved(reader, _high(p), p.max(), a)
     return out | {name: replace(out[name], doubt=why) for name in SHARP if why and name in out}
+
+
+def _shallow(name, fatigue):
+    """Why an index below the surface is not known where it grows towards the surface as far as the grid can look, beyond what
+    the surface itself has; "" of others."""
+    found, above = indices(fatigue), {BELOW: FI, RESOLVED_BELOW: RESOLVED}
+    least = fatigue.get("below", {}).get("searched_m", [0.0])[0]
+    grows = name in above and found[name]["depth_m"] <= 1.001 * least and found[name]["Fi_max"] > found[above[name]]["Fi_max"]
+    return SHALLOW if grows else ""
 
 
 def indices(fatigue):

@@ -99,7 +99,7 @@ class Levels(Grids):
 
     @property
     def most_columns(self):
-        """Columns of the finest grid, or of that of the scene: the smaller grids of a start use its memory, and so its kernels."""
+        """Columns of the finest grid, or of the scene's: smaller grids of a start use its memory, and so its kernels."""
         return max(columns(self.nx, self.ny), columns(self.scene.grid.nx, self.scene.rows))
 
     def set_film(self, H0):

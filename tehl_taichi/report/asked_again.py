@@ -1,4 +1,4 @@
-"""The page of a run whose fatigue is searched again with other constants."""
+"""The page of a run whose fatigue is searched again, with other constants or moments."""
 
 import dataclasses
 
@@ -11,6 +11,7 @@ from tehl_taichi.report.scene_words import moments
 from tehl_taichi.report.verdict import FATIGUE
 from tehl_taichi.results.opened import INSIDE, RUN, kind, open_run
 from tehl_taichi.scene import fatigue_limits
+from tehl_taichi.scene.passing_words import where
 from tehl_taichi.scene.route import total_steps
 
 
@@ -42,7 +43,7 @@ class Asked:
         found = self.run.fatigue(**self.constants, progress=progress, threads=threads)
         page = run_page.page(Answered(self.run.store, self.scene, found))
         answer = dataclasses.replace(page.answer, question=self._question(), doubts=(*self._doubts(), *page.answer.doubts))
-        return dataclasses.replace(page, title=f"{self.scene.name}: report, fatigue with other constants", answer=answer,
+        return dataclasses.replace(page, title=f"{self.scene.name}: report, fatigue of another question", answer=answer,
                                    about=f"{page.about}, its fatigue searched again")
 
     def _question(self):
@@ -53,7 +54,7 @@ class Asked:
         """What the run itself was asked, and how much of it there is."""
         own, store = ", ".join(f"{what} {value}" for what, _, value in self.differs), self.run.store
         if own:
-            yield f"This is not the question that was stored with the run, which has {own}."
+            yield f"The run was stored with another question: {own}."
         if not store.finished:
             yield (f"The run is not finished: {store.last_step} of {total_steps(store.scene)} time steps are stored, and only "
                    "they count.")
@@ -91,7 +92,7 @@ def _words(scene):
     """[(what, value)] of all that the answer depends on, the same in number and order for every scene."""
     f = scene.fatigue
     return [("κ =", f"{f.kappa:.5g}"), ("σ_eF =", told(f.endurance, unit="Pa", digits=5)), ("the criterion", f.criterion),
-            ("depths searched:", _depths(f.depths)), ("moments:", moments(scene) or "the whole passage"),
+            ("depths searched:", _depths(f.depths)), ("moments with the", moments(scene) or f"{where(scene)} anywhere"),
             ("shear tractions", "counted" if f.shear else "left out"),
             ("the stress of the heat", "counted" if scene.thermal_stress_wanted else "left out"),
             *((f"residual stress along {axis}", f"{getattr(f, f'residual_{axis}{axis}') / 1e6:g} MPa") for axis in "xy")]

@@ -7,6 +7,7 @@ from tehl_taichi.report.rounded import index, told
 from tehl_taichi.report.scene_words import WHOLE, material, moments, when
 from tehl_taichi.scene import passing_words
 from tehl_taichi.scene.route import total_steps
+from tehl_taichi.values.digits import micrometres
 
 ABOVE, WITHIN, BELOW = 1, 0, -1
 SAID = {ABOVE: "above 1", WITHIN: "1 lies within the error", BELOW: "below 1"}
@@ -44,7 +45,7 @@ def layers(fatigue):
     """[(where in words, Fi, its error or None)] of the surface and of what lies below it; of a search or of its part."""
     found = [("at the surface", fatigue)]
     if "below" in fatigue:
-        found.append((f"{fatigue['below']['depth_m'] * 1e6:.0f} µm below the surface", fatigue["below"]))
+        found.append((f"{micrometres(fatigue['below']['depth_m'])} µm below the surface", fatigue["below"]))
     return [(where, part["Fi_max"], part.get("error", {}).get("Fi_max")) for where, part in found]
 
 
@@ -112,7 +113,7 @@ def _alone(fatigue, over, what):
     if not alone:
         return ()
     more = f": the material is overloaded there without the {what} too" if alone["Fi_max"] > 1 else ""
-    where = f"{alone['depth_m'] * 1e6:.0f} µm" + ("" if over == WHOLE else ", over the same moments")
+    where = f"{micrometres(alone['depth_m'])} µm" + ("" if over == WHOLE else ", over the same moments")
     return (f"The contact without its {what} has Fi = {index(alone['Fi_max'])} at {where}{more}.",)
 
 

@@ -24,9 +24,9 @@ def doubtful_features(scene):
 
 
 def cut_passage(scene):
-    """A passage that ends although the feature still is in the contact."""
+    """A passage that ends although the feature still is in the contact; not one of no steps, where nobody wants any."""
     end = route.cut_at(scene)
-    if end is not None:
+    if end is not None and scene.time.steps != 0:
         yield (f"passage cut at {end:.2f} a: its extremes and its fatigue are those of a part, a whole one ends at "
                f"{route.uncut(scene).path[1]:.2f} a; `tehl resume STORE` goes on")
 

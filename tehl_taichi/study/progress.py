@@ -61,7 +61,9 @@ class Lines(Progress):
             self.total = total
             self.pace.at(done)
         elif name in LATE:
-            self._say_now_and_then(f"{name} {done}/{total}")
+            self.pace.at(done)
+            left = self.pace.left(total)
+            self._say_now_and_then(f"{name}: {done / total:.0%}{f', {left}' if left else ''}")
 
     def step(self, snapshot):
         self.beyond_steel(snapshot)

@@ -1,6 +1,11 @@
-"""How many digits of a number its error leaves."""
+"""How many digits of a number are told, and its error leaves."""
 
 import math
+
+
+def micrometres(length):
+    """A length (m) in micrometres: whole ones, below ten two digits."""
+    return f"{length * 1e6:.0f}" if length >= 9.95e-6 else f"{length * 1e6:.2g}"
 
 
 def decimals(error):

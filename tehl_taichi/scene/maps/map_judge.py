@@ -28,7 +28,7 @@ def lines(f, scene):
     (along, across), m, name = f.points, f.measures, f"map {os.path.basename(f.file)}"
     heights = f"heights in {f.unit}" + (f" times {f.scale:g}" if f.scale != 1 else "")
     turned = f"{f.orientation.says}, " if f.orientation.says else ""
-    off = f"{LEVELS[f.level]} taken off" + (f" ({f.form.says})" if f.level == "form" else "")
+    off = f"{LEVELS[f.level]} taken off" + (f" ({f.form.says}{mate(f, scene)})" if f.level == "form" else "")
     skipped = f"{found}, " if (found := height_map.skipped(f.sha256)) else ""
     yield (f"{name}: {skipped}{along} x {across} points {_apart(f)} um apart, {_um(f.patch[0])} x {_um(f.patch[1])} um of them "
            f"used, {turned}{heights}, {off}{_filter(f)}")
@@ -68,6 +68,17 @@ def form(f):
                f"If it is that of the body, whose radius the scene has already, feature.level = 'form' takes it off{turned}")
     elif turned:
         yield f"{_name(f)}: the form taken off is {found.says}{turned}"
+
+
+def mate(f, scene):
+    """What the form taken off tells of the other body, if it is that of the one that was scanned: whoever knows that one sees
+    whether radii and scan belong together."""
+    if not f.form.dominant or not f.form.convex or f.form.axis != "x":
+        return ""
+    other = 1 / scene.contact.radius_x - f.form.bent
+    radius = f"radius of {1e3 / abs(other):.3g} mm" if other else "plane"
+    return (f"; with contact.radius_x = {scene.contact.radius_x * 1e3:.4g} mm the other body has a"
+            f"{'' if other >= 0 else ' concave'} {radius}")
 
 
 def _across(f, scene):
@@ -124,9 +135,11 @@ def carried(scene):
 
 def _cutoff(f, scene):
     """The cutoff with which the doubts about grid, slopes and pressure are gone, in words; "" where there is none."""
-    cutoff = helping(f, scene)
-    cells = cutoff / max(Scales.of(scene).cell(scene.grid))
-    return f"feature.cutoff = {cutoff:g} (m; {_um(cutoff)} um, {cells:.2g} cells) filters what is finer" if cutoff else ""
+    if not (cutoff := helping(f, scene)):
+        return ""
+    cells, left = cutoff / max(Scales.of(scene).cell(scene.grid)), np.ptp(f.inside(f.filtered(cutoff)))
+    return (f"feature.cutoff = {cutoff:g} (m; {_um(cutoff)} um, {cells:.2g} cells) filters what is finer, and takes the range "
+            f"from {_um(f.measures.range)} to {_um(left)} um")
 
 
 def _finer(heights, steps, grid):
