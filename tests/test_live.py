@@ -176,10 +176,11 @@ def test_what_comes_after_the_passage_has_a_bar_too(terminal, monkeypatch, name)
 
 
 def test_what_comes_after_the_passage_has_lines_without_a_terminal(terminal, monkeypatch):
-    """Every five seconds; a part takes one, and what is left is told; the companions tell nothing but that they are waited for."""
+    """Every five seconds, with the time left; a part takes one, companions tell nothing but that they are waited for."""
     now = [0.0]
     monkeypatch.setattr(live.time, "perf_counter", lambda: now[0])
-    for quiet, expected in ((False, [f"{FATIGUE}: 36%, about 9 s left", f"{FATIGUE}: 79%, about 3 s left", f"{ERRORS}: 0%"]), (True, [])):
+    lines = [f"{FATIGUE}: 36%, about 9 s left", f"{FATIGUE}: 79%, about 3 s left", f"{ERRORS}: 0%"]
+    for quiet, expected in ((False, lines), (True, [])):
         stderr = terminal(stderr=io.StringIO())
         with live.Live(quiet) as shows:
             for part in (*((FATIGUE, n, 14) for n in range(15)), *[(ERRORS, 0, 1)] * 3):
