@@ -139,15 +139,25 @@ def test_thermal_steps(linear):
     assert steps[3].scalars["film_max_C"] == pytest.approx(141.93, abs=0.05)
 
 
-# its film is on its floor as soon as it enters: two steps need double precision, which its smooth film does not
-HIGH = {"shape": "rough", "height": 1.3e-6, "width": 120e-6, "extent_x": 400e-6, "extent_y": 900e-6, "taper": 40e-6}
-LIGHT = {"load": 300e3, "thermal.on": False, "time.steps": 2, "grid.nx": 64, "grid.ny": 48, "grid.x_max": 1.6,
-         "grid.y_max": 2.4}
+@pytest.fixture
+def single_fails(monkeypatch):
+    """Every solve of a passage in single precision: a scene whose film is on its floor does it on some machines only, whose
+    sums round the other way."""
+    from tehl_taichi.march import passage
+
+    own = passage.carefully
+
+    def carefully(solver, P):
+        report = own(solver, P)
+        report.converged = report.converged and solver.levels.precision == "f64"
+        return report
+
+    monkeypatch.setattr(passage, "carefully", carefully)
 
 
-def test_a_passage_goes_on_in_double_where_single_fails(taichi_cpu):
-    rough = tehl.scene("gear").replace(feature=[HIGH], **LIGHT)
-    with pytest.raises(NotConverged, match="--precision f64|on its floor"):
+def test_a_passage_goes_on_in_double_where_single_fails(taichi_cpu, single_fails):
+    rough = gear(**{"time.steps": 2})
+    with pytest.raises(NotConverged):
         list(tehl.march(rough, precision="f32"))
     states, films = [], []
     for shot in tehl.march(rough):

@@ -336,7 +336,8 @@ def test_cut_passages_are_judged():
     for changes, at in (({"time.steps": 30}, -1.6 + 30 / 64), ({"time.x_end": 0.3}, 0.3), ({"time.steps": 0}, -1.6)):
         cut = gear.replace(**changes)
         assert route.cut_at(cut) == pytest.approx(at, abs=1 / 64)
-        assert f"passage cut at {route.cut_at(cut):.2f} a" in cut.warnings()[0] and "1.40 a" in cut.warnings()[0]
+        said = [f"passage cut at {route.cut_at(cut):.2f} a" in text and "1.40 a" in text for text in cut.warnings()]
+        assert said == ([True] if cut.time.steps else [])  # nobody wants steps where there are none
         assert any(line.startswith("rest of the passage") for line in cut.left_out())
         assert route.uncut(cut) == gear
     assert route.cut_at(gear.replace(**{"time.steps": 191})) is None  # behind the contact: 1.38 a
