@@ -12,7 +12,9 @@ from tehl_taichi.fatigue import resolved
 from tehl_taichi.figures import fatigue_figures, found_search
 from tehl_taichi.figures.page import Page
 
+ALONE = "findley_stress_contact_alone"
 PART = {"to_x_a": 0.6, **made_results.fatigue(0.8, 0.9)}
+PLACES = set(found_search.SHARED) - {ALONE}
 SEARCH = {**made_results.fatigue(1.6, 1.7), "resolved": PART}
 
 
@@ -22,7 +24,7 @@ def maps(of_part=True):
     whole |= {"worst_depth": (np.array([25e-6]), ["d"], "m", "depth"),
               "findley_stress_at_worst_depth": (4e8 * whole["Fi"][0], ["x", "y"], "Pa", "stress")}
     part = {resolved.NAME + name: (0.8 * values if "stress" in name or name == "Fi" else values, *rest)
-            for name, (values, *rest) in whole.items() if name not in found_search.PLACES}
+            for name, (values, *rest) in whole.items() if name not in PLACES}
     return whole | part if of_part else whole
 
 
@@ -34,6 +36,7 @@ def test_figures_of_a_stored_run_know_the_part():
     assert whole is found and part.summary["Fi_max"] == 0.8 and part.summary["criterion"] == "findley"
     np.testing.assert_allclose(part.maps["Fi"], 0.8 * found.maps["Fi"])
     np.testing.assert_allclose(part.points["below"]["stress"], 0.8 * found.points["below"]["stress"])
+    np.testing.assert_array_equal(part.maps[ALONE], found.maps[ALONE])  # of a part of the passage it would say nothing
     assert "feature up to 0.60 a" in part.constants
     assert found.constants.endswith("whole passage, its later pressures not resolved")
     older = found_search.Found.of(made_results.THERMAL, {name: values[0] for name, values in maps(False).items()}, SEARCH)

@@ -9,12 +9,12 @@ from tehl_taichi.scene.scales import Scales
 
 OF_PART = "resolved_"  # begins the names of the part's maps
 DEPTHS = ("fatigue_depth", "under_row_depth")
-PLACES = ("feature_frame_x", "feature_frame_y", *DEPTHS)  # maps that both share
-RESULTS = ("Fi", "findley_stress_at_depth", "findley_stress_under_row", "findley_stress_contact_alone", "worst_depth",
-           "findley_stress_at_worst_depth")
+# maps that both share: places, and the contact alone, which has not yet loaded a point by the end of a part of its passage
+SHARED = ("feature_frame_x", "feature_frame_y", *DEPTHS, "findley_stress_contact_alone")
+RESULTS = ("Fi", "findley_stress_at_depth", "findley_stress_under_row", "worst_depth", "findley_stress_at_worst_depth")
 HISTORY = ("x_a", "stress", "normal", "circle")
 HISTORIES = {"surface": "worst", "below": "worst_below"}
-MAPS = (*PLACES, *(first + name for first in ("", OF_PART)
+MAPS = (*SHARED, *(first + name for first in ("", OF_PART)
                    for name in (*RESULTS, *(f"{of}_{part}" for of in HISTORIES.values() for part in HISTORY))))  # those found
 CONSTANTS = ("criterion", "kappa_F", "sigma_eF_Pa")
 
@@ -71,7 +71,7 @@ def _of(common, maps, summary, **more):
 def _part(maps):
     """Those of the part, under the names that they have of the whole."""
     own = {name.removeprefix(OF_PART): values for name, values in maps.items() if name.startswith(OF_PART)}
-    return {name: maps[name] for name in PLACES if name in maps} | own
+    return own | {name: maps[name] for name in SHARED if name in maps}
 
 
 def _history(maps, name):

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from tehl_taichi.figures.found_search import CONSTANTS, OF_PART, PLACES
+from tehl_taichi.figures.found_search import CONSTANTS, OF_PART, SHARED
 from tehl_taichi.figures.index_words import PART, resolved
 from tehl_taichi.report import numbered_places
 from tehl_taichi.report.scene_words import when
@@ -34,7 +34,7 @@ class Search:
 
     def map(self, name):
         """One of its maps, or None."""
-        return self.store.map(name if name in PLACES else self.of + name)
+        return self.store.map(name if name in SHARED else self.of + name)
 
 
 def searches(store):
