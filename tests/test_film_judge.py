@@ -15,7 +15,7 @@ class Made:
 
     def __init__(self, description, friction=(0.05, 0.06), contact=(0.0, 0.0), pressure=None):
         self.scene, a = description, Scales.of(description).a
-        self.x, self.at = np.linspace(-2.5, 1.5, 97) * a, np.array([-1.6, 0.3]) * a
+        self.x, self.y, self.at = np.linspace(-2.5, 1.5, 97) * a, np.linspace(0, a, 9), np.array([-1.6, 0.3]) * a
         smooth = 1.9e9 * np.sqrt(np.maximum(1 - (self.x / a) ** 2, 0))[:, None] * np.ones(9)
         self.pressure = [smooth, smooth * 1.2 if pressure is None else pressure(self.x / a, smooth)]
         self.series = {"friction_coefficient": np.array(friction), "contact_load_fraction": np.array(contact),
@@ -105,6 +105,17 @@ def test_a_peak_at_a_free_edge(changes, advice):
     text, = film_judge.unresolved(Made(gear(**changes), pressure=tip), {})
     assert text.startswith("exit not resolved: p_max 5.00 GPa of the passage (feature at 0.30 a), at X = 0.79")
     assert advice in text
+
+
+@pytest.mark.parametrize("at,told", [(40, True), (90, False)])
+def test_a_resolved_part_that_ends_before_the_outlet_says_why(at, told):
+    """At the outlet the bars say it. The part ends before the only moment that there is."""
+    store = Made(gear(), pressure=lambda X, smooth: smooth + 6e9 * (np.abs(X - X[at]) < 1e-9)[:, None])
+    found = list(film_judge.first_unresolved(store, {"fatigue": {"resolved": {"to_x_a": 0.2}}}))
+    assert len(found) == told and not list(film_judge.first_unresolved(store, {"fatigue": {}}))
+    for text in found:
+        assert text.startswith("the resolved part of the passage ends before the feature at 0.30 a: its pressure peak of ")
+        assert "at X = -0.83, y = 0 um is a few cells wide; a finer grid may resolve it: --grid " in text
 
 
 def test_what_is_an_exit():

@@ -4,7 +4,7 @@ that give their sentences."""
 import numpy as np
 
 from tehl_taichi.march import readings
-from tehl_taichi.march.peaks import ripple, sharpest
+from tehl_taichi.march.peaks import peak, ripple, sharpest
 from tehl_taichi.scene import finer
 from tehl_taichi.scene.passing_words import where
 from tehl_taichi.scene.scales import Scales
@@ -40,6 +40,20 @@ def unresolved(store, summary):
         height, i = sharpest(p)
         if height >= 1.0:  # of lower peaks the bars tell, which they leave unknown
             yield readings.exits(store.x[i], Scales.of(store.scene).a) + _where(store, n, p, i) + _because(store, i)
+
+
+def first_unresolved(store, summary):
+    """Where the resolved part of a passage ends, if not at the outlet, of which the bars tell."""
+    part, a = summary.get("fatigue", {}).get("resolved"), Scales.of(store.scene).a
+    later = [n for n in range(1, len(store)) if part and store.feature_x(n) > (part["to_x_a"] + 1e-9) * a]
+    if later:
+        p = store.fields(later[0], ("pressure",))["pressure"]
+        i, row = sharpest(p, store.scalar("p_max_Pa").max())[1], peak(p)[1]
+        if i and not readings.exits(store.x[i], a):
+            at = f"X = {store.x[i] / a:.2f}, y = {store.y[row] * 1e6:.0f} um"
+            yield (f"the resolved part of the passage ends before the {_moment(store, later[0])}: its pressure peak of "
+                   f"{p[i, row] / 1e9:.2f} GPa at {at} is a few cells wide; a finer grid may resolve it: "
+                   f"{finer.told(store.scene)}")
 
 
 def _where(store, n, p, i):
@@ -79,4 +93,4 @@ def ripples(store, summary):
                + (NO_VALUE if at_edge else f"try another time.courant or {finer.told(store.scene)}"))
 
 
-CHECKS = (friction, unresolved, ripples)
+CHECKS = (friction, unresolved, first_unresolved, ripples)
