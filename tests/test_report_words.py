@@ -82,6 +82,8 @@ def test_warnings_lose_what_only_a_terminal_takes():
 
     of_grid = f"a finer grid may resolve it: {finer.told(scene('gear'))}"
     assert for_readers.told(of_grid) == "a finer grid may resolve it: a grid of 512 × 128 cells (8 times the work)"
+    room = for_readers.told("--set grid.y_max=1.3 --grid 128x48 gives room")
+    assert room == "grid.y_max=1.3 and a grid of 128 × 48 cells gives room"
     left_out = scene("gear").replace(**{"thermal.on": False}).left_out()
     assert any("--thermal" in one for one in left_out) and not any("--" in for_readers.told(one) for one in left_out)
     assert for_readers.told("feature.taper = 4e-05 (m)") == "feature.taper = 4e-05 (m)"

@@ -129,13 +129,13 @@ def test_one_reason_is_said_once():
     (1.2, None, 1.6, "yes", "Probably yes: the fatigue limit is exceeded at the surface, even without the pressures that "),
     (0.98, 0.1, 1.6, "open", "Not decided: the index is 1 within its error at the surface, without the pressures that"),
     (0.8, 0.1, 1.6, "open", "Not decided: the index stays below 1 as long as the grid resolves the pressure, and"),
-    (0.8, 0.1, 0.9, "no", "Probably not: the index stays below 1, as far as the grid resolves the pressure;")])
+    (0.8, 0.1, 0.9, "no", "Probably not: the index stays below 1; over the whole passage its error is not known.")])
 def test_the_answer_rests_on_what_is_known(part, error, whole, tone, said):
     before = {"to_x_a": 0.6, **fatigue(part, None), "error": {"Fi_max": error}}
     _, headline, found, tells = verdict.of_fatigue({**fatigue(whole, None), "error": {"Fi_max": None}, "resolved": before})
     assert found == tone and headline.startswith(said)
     assert tells[0] == ("As long as the grid resolves the pressure (feature up to 0.60 a, that is 0.60 half-widths behind the "
-                        "middle of the contact):") and f"Fi = {part}" in tells[1]
+                        "middle of the contact; the rest can only add):") and f"Fi = {part}" in tells[1]
     assert tells[2] == "Over the whole passage, whose pressure it does not resolve:" and f"Fi = {whole}" in tells[3]
 
 

@@ -54,6 +54,7 @@ file = {file}
 unit = {unit:<16}  # of the heights: nm, um, mm or m
 pixel = {pixel:<15}  # m: distance of the points in a row of the file, which runs along x, the direction of rolling
 {pixel_y}\
+# mirror_x = true        # where the scan lies the other way round: its last columns enter the contact first
 level = "form"           # takes off plane and curvature of the body ("plane": the plane alone)
 taper = {taper:<15}  # m: over which the heights fade out at the rim
 # cutoff = 25e-6         # m: Gaussian low-pass for roughness that the grid does not carry

@@ -24,6 +24,7 @@ FI, BELOW = "Fi_max", "below_Fi_max"  # names of the largest index of the surfac
 RESOLVED, RESOLVED_BELOW = "resolved_Fi_max", "resolved_below_Fi_max"  # of both as long as the grid resolves the pressure
 SHARP = ("p_max_Pa", "film_max_C", FI, BELOW)  # what a peak that is not resolved leaves unknown
 SHALLOW = "it is largest at the smallest depth that is searched, half a cell, where a grid resolves nothing"
+SHALLOWEST = 1.5  # of that depth: up to the next one that is searched
 WORTH = 3e5  # nodes times steps of a run: below, it is a try, on a grid whose companions tell little
 
 
@@ -71,8 +72,8 @@ def _shallow(name, fatigue):
     the surface itself has; "" of others."""
     found, above = indices(fatigue), {BELOW: FI, RESOLVED_BELOW: RESOLVED}
     least = fatigue.get("below", {}).get("searched_m", [0.0])[0]
-    grows = name in above and found[name]["depth_m"] <= 1.001 * least and found[name]["Fi_max"] > found[above[name]]["Fi_max"]
-    return SHALLOW if grows else ""
+    near = name in above and found[name]["depth_m"] < SHALLOWEST * least
+    return SHALLOW if near and found[name]["Fi_max"] > found[above[name]]["Fi_max"] else ""
 
 
 def indices(fatigue):

@@ -2,7 +2,8 @@
 
 import re
 
-WORDS = ((re.compile(r"--grid (\d+)x(\d+)"), r"a grid of \1 × \2 cells"), (re.compile(r"; `tehl resume[^`]*` goes on"), ""),
+WORDS = ((re.compile(r"(--set \S+) --grid"), r"\1 and --grid"), (re.compile(r"--grid (\d+)x(\d+)"), r"a grid of \1 × \2 cells"),
+         (re.compile(r"--set (\S+=\S+)"), r"\1"), (re.compile(r"; `tehl resume[^`]*` goes on"), ""),
          (re.compile(r"; --thermal has them"), ""))
 
 

@@ -63,8 +63,9 @@ def numbered(search):
     """[trace] of their numbers on a map."""
     found = search.places
     text = [str(n) for n in range(1, len(found) + 1)]
+    font = {"color": LIMIT, "size": 13, "shadow": "auto"}  # readable on light colours, too
     return [{"type": "scatter", "mode": "text", "x": [p.x * 1e6 for p in found], "y": [p.y * 1e6 for p in found], "text": text,
-             "textposition": "top right", "textfont": {"color": LIMIT, "size": 13}, "name": "places of the table",
+             "textposition": "top right", "textfont": font, "name": "places of the table",
              "showlegend": False, "hoverinfo": "skip"}] if found else []
 
 
@@ -88,7 +89,7 @@ def _columns(search, scene, found):
         depth = told(float(search.map("worst_depth")[0]), unit="m", digits=3)
         yield f"Fi {depth} below", [told_index(p.below) for p in found]
     if passing(scene) == "scan":
-        yield "in the file", [_in_file(scene, p) for p in found]
+        yield "in the file, from 1", [_in_file(scene, p) for p in found]
 
 
 def _in_file(scene, p):

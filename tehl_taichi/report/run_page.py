@@ -19,6 +19,7 @@ from tehl_taichi.report.document import Page, Part, Section, drawn, facts, sente
 from tehl_taichi.report.searches import searches
 from tehl_taichi.scene.passing_words import where
 
+DARK = " What has not come through the contact by then is dark on its maps: it is not loaded yet."
 OF = (("", ""), (", resolved part", "The answer rests on this: "), (", whole passage", ""))  # of one search; of two
 NO_MAPS = " Maps of this part are not in the store, which an older version wrote; another search of its fatigue makes them."
 
@@ -68,7 +69,8 @@ def _fatigue(store):
 def _of_search(search, of, lead):
     """Two sections; of: said in their headings; lead: begins the words on its moments, where there are two searches."""
     shown = drawn(*fatigue_plots.index(search), *fatigue_plots.depth(search))
-    words = [_sentence(f"{lead}{search.when}.") + NO_MAPS * (shown is None)] * bool(search.short)
+    behind = NO_MAPS if shown is None else DARK if search.of else ""
+    words = [_sentence(f"{lead}{search.when}.") + behind] * bool(search.short)
     return (Section(f"Fatigue{of}", (Part("text", {"sentences": words}) if words else None, shown, numbered_places.rows(search),
                                      run_tables.worst_points(search.found, search.scene), run_tables.tension(search.found))),
             Section(f"Stresses of the worst points{of}", tuple(drawn(*pair) for pair in fatigue_plots.worst_points(search))))

@@ -74,13 +74,14 @@ def _by_what_is_known(part, whole, tells, over, whose):
     which the rest can only add. whole: the worst of what is judged of the whole search, over these moments; whose: position
     ends that part, in words."""
     worst, places, known, early = _judged(part)
-    tells = [f"As long as the grid resolves the pressure ({whose} up to {_place(part['to_x_a'])}):", *early,
+    end = f"{whose} up to {_place(part['to_x_a'])}"
+    tells = [f"As long as the grid resolves the pressure ({end}; the rest can only add):", *early,
              f"{over[0].upper()}{over[1:]}, whose pressure it does not resolve:", *tells]
     if worst != BELOW:
         even = "even " if worst == ABOVE else ""
         return headline(worst, places, known, f", {even}without the pressures that this grid does not resolve"), tells
     if whole == BELOW:
-        return headline(worst, places, False, ", as far as the grid resolves the pressure"), tells
+        return (f"Probably not: the index stays below 1; {over} its error is not known.", "no"), tells
     text = "Not decided: the index stays below 1 as long as the grid resolves the pressure, and exceeds it later."
     return (text, "open"), tells
 

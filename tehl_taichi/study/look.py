@@ -29,7 +29,8 @@ def lines(run, coarse):
     most = _most(scene) * total * pace
     said = (f"the whole passage: {total} steps, {about(total * pace)} at the pace of the first ones ({pace:.2g} s each); with "
             f"{'a rough surface' if _scans(scene) else 'features'} in the contact they take more rounds, up to {_most(scene)} "
-            f"times as long: up to {about(most)}; stresses and error bars come after it")
+            f"times as long: up to {about(most)}; stresses and error bars come after it"
+            f"{', of a wide scan as long again' if _scans(scene) else ''}")
     return [said, *(_faster(scene, coarse, most) if most > LONG else ())]
 
 

@@ -8,6 +8,7 @@ from tehl_taichi.study.pace import Pace
 
 STEADY, PASSAGE, FATIGUE, ERRORS = STAGES = ("steady start", "passage", "stresses and fatigue", "companion runs")
 LATE = FATIGUE, ERRORS  # stages after the last step, of minutes on fine grids
+TOLD = 0.1  # of such a stage, from which on the time left is told: its first parts, tables, take longer than the others
 
 
 class Progress:
@@ -62,7 +63,7 @@ class Lines(Progress):
             self.pace.at(done)
         elif name in LATE:
             self.pace.at(done)
-            left = self.pace.left(total)
+            left = self.pace.left(total) if done >= TOLD * total else ""
             self._say_now_and_then(f"{name}: {done / total:.0%}{f', {left}' if left else ''}")
 
     def step(self, snapshot):
