@@ -66,7 +66,7 @@ def numbered(search):
     font = {"color": LIMIT, "size": 13, "shadow": "auto"}  # readable on light colours, too
     return [{"type": "scatter", "mode": "text", "x": [p.x * 1e6 for p in found], "y": [p.y * 1e6 for p in found], "text": text,
              "textposition": "top right", "textfont": font, "name": "places of the table",
-             "showlegend": False, "hoverinfo": "skip"}] if found else []
+             "showlegend": False, "hoverinfo": "skip", "cliponaxis": False}] if found else []
 
 
 def rows(search):
