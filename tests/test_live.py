@@ -188,6 +188,7 @@ def test_what_comes_after_the_passage_has_lines_without_a_terminal(terminal, mon
                 shows.stage(*part)
         assert stderr.getvalue().splitlines() == expected
     with live.Live() as shows:
+        shows.stage(ERRORS, 0, 0)  # all of them are refused
         shows.stage(STEADY, 0, 1)
         assert shows.bar is None
 

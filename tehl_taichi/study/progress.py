@@ -63,8 +63,9 @@ class Lines(Progress):
             self.pace.at(done)
         elif name in LATE:
             self.pace.at(done)
-            left = self.pace.left(total) if done >= TOLD * total else ""
-            self._say_now_and_then(f"{name}: {done / total:.0%}{f', {left}' if left else ''}")
+            share = done / total if total else 1.0  # companions may all be refused
+            left = self.pace.left(total) if share >= TOLD else ""
+            self._say_now_and_then(f"{name}: {share:.0%}{f', {left}' if left else ''}")
 
     def step(self, snapshot):
         self.beyond_steel(snapshot)
