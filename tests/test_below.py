@@ -8,7 +8,7 @@ from rolling import Rolling
 
 import tehl_taichi as tehl
 from tehl_taichi.errors import RuntimeUnavailable
-from tehl_taichi.fatigue import assessment, below, depth_search, half_space, row_stress
+from tehl_taichi.fatigue import assessment, below, candidates, depth_search, half_space, row_stress
 from tehl_taichi.fatigue.histories import Passage
 from tehl_taichi.fatigue.row_stress import RowStress
 from tehl_taichi.fatigue.under_row import histories_of
@@ -183,6 +183,21 @@ def test_on_a_whole_domain_the_worst_row_below_is_found(taichi_cpu, until):
         assert early["y_m"] == pytest.approx(0.25 * a) and early["Fi_max"] <= deep["Fi_max"] * (1 + 1e-9)
     counts = [done for done, _ in told]
     assert counts == sorted(counts) and told[-1][0] == told[-1][1] and len({total for _, total in told}) == 1
+
+
+@pytest.mark.parametrize("workers", [1, 3])
+def test_rows_that_look_bad_at_some_depth_are_named(taichi_cpu, monkeypatch, workers):
+    """That of the worst point below among the two of all moments, by any number of threads; none of moments before it loads."""
+    monkeypatch.setattr(candidates, "WORKERS", workers)
+    scene, told = tehl.scene("gear").replace(**{"thermal.on": False}), []
+    passage = Passage(scene, reader := Beside(scene), reader.centres)
+    rungs, worst = below.ladder(passage), int(np.argmin(np.abs(reader.y - 0.25 * reader.s.a)))
+    found = candidates.rows(passage, rungs, [slice(None)], lambda *parts: told.append(parts))
+    assert worst in found and len(found) <= candidates.MOST and told[-1][0] == told[-1][1] == len(rungs[::candidates.DEPTHS])
+    early = [n for n in range(passage.centres.size) if passage.centres[n] < -1.2 * passage.a]
+    least, = candidates._ranges(passage, rungs[4], [np.array(early)])
+    most, = candidates._ranges(passage, rungs[4], [slice(None)])
+    assert (least <= most).all() and least.max() < 0.7 * most.max()
 
 
 def test_depths_beyond_the_rungs_are_interpolated_well(taichi_cpu):
