@@ -7,9 +7,9 @@ import numpy as np
 from tehl_taichi.engine.fftw import SINGLE
 from tehl_taichi.fatigue.row_stress import RowStress
 from tehl_taichi.fatigue.thermal_stress import WORKERS, ThermalStress
+from tehl_taichi.fatigue.unit_loads import HELD
 
 BLOCK = 16  # entries whose stresses are found at once
-HELD = (0, 1, 3)  # components of the heat at the surface
 
 
 def histories_of(passage, depths, kinds, tell=lambda done, total: None):
