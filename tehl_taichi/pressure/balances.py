@@ -35,7 +35,7 @@ def sums(S: ti.template(), G: Table, middle: ti.i32, out: Table, alone: ti.templ
         for i in range(nx + 1):
             k = off + s * (nx + 1) + i
             a, b, c = parts(S, k, floor, inv)
-            phi = ti.min(ti.min(a, b), c) * S[MASK, k]
+            phi = ti.select(S[MASK, k] > 0.0, ti.min(ti.min(a, b), c), V(0.0))
             phi2 += phi * phi
             load_sum += S[WEIGHT, k] * S[P, k]
             # not P > 0: a pressure of 1e-12 left on a ruptured node would count its whole residual

@@ -74,7 +74,7 @@ def residual(S: ti.template(), G: Table, couette: ti.template(), rheology: ti.te
             r = transport(S, k, i, couette, frame) + CT_0 * S[RHO, k] * S[H, k] + S[QOLD, k] - (right - left) * inv
             if ny > 0:
                 r -= net_driven_y(S, k, n2, up, down, rheology, across) * metric
-            S[R, k] = r * S[MASK, k]
+            S[R, k] = ti.select(S[MASK, k] > 0.0, r, V(0.0))  # not 0 times what ghosts have, which need not be a number
             left = right
 
 
