@@ -6,6 +6,7 @@ from tehl_taichi.fatigue import search_maps
 
 NAME = "resolved_"  # begins the names of their maps: they are those of the whole passage, of fewer moments
 SAID = " as long as the grid resolves the pressure"
+SHARED = (search_maps.DEPTH, search_maps.ROW_DEPTH, search_maps.ALONE)
 OWN = ("moment", "worst_depth")  # dimensions that are not those of the whole passage
 
 
@@ -45,6 +46,6 @@ def _below(passage, layers, deep):
 
 
 def _named(maps):
-    """The same with names of their own; depths that were searched are those of the whole passage."""
+    """The same with names of their own; depths that were searched, and the contact alone, are those of the whole passage."""
     return {NAME + name: (values, [NAME + dim if dim in OWN else dim for dim in dims], units, text + SAID)
-            for name, (values, dims, units, text) in maps.items() if name not in (search_maps.DEPTH, search_maps.ROW_DEPTH)}
+            for name, (values, dims, units, text) in maps.items() if name not in SHARED}

@@ -3,6 +3,7 @@
 import numpy as np
 
 BOTH = ["feature_frame_x", "feature_frame_y"]
+ALONE = "findley_stress_contact_alone"
 DEPTH, ROW_DEPTH = "fatigue_depth", "under_row_depth"  # the depths searched; those under a row, where others are listed
 
 
@@ -53,6 +54,6 @@ def of_profiles(f, passage, profiles, listed):
                                         "Findley stress under the row of the worst point below the surface")}
     for profile in profiles:
         if profile.alone:
-            out["findley_stress_contact_alone"] = (np.append(np.nan, profile.f.max(axis=1)), [depth], "Pa",
-                                                   "Findley stress of the contact without its feature")
+            out[ALONE] = (np.append(np.nan, profile.f.max(axis=1)), [depth], "Pa",
+                          "Findley stress of the contact without its feature")
     return out
