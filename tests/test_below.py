@@ -185,6 +185,20 @@ def test_on_a_whole_domain_the_worst_row_below_is_found(taichi_cpu, until):
     assert counts == sorted(counts) and told[-1][0] == told[-1][1] and len({total for _, total in told}) == 1
 
 
+@pytest.mark.parametrize("low_first", [True, False])
+def test_windows_know_planes_of_more_moments_alone(taichi_cpu, low_first):
+    """Whatever their order: of fewer moments nothing is known for more."""
+    scene = tehl.scene("gear").replace(**{"thermal.on": False})
+    passage = Passage(scene, reader := Rolling(scene), reader.centres)
+    windows = [np.append(passage.centres < 0, True), slice(None)][:: 1 if low_first else -1]
+    together = below.profiles(passage, [0], True, windows)
+    alone = [found for window in windows for found in below.profiles(passage, [0], True, [window])]
+    for one, other in zip(together, [alone[0], alone[2], alone[1], alone[3]]):
+        np.testing.assert_allclose(one.f, other.f, rtol=1e-7)
+        assert one.alone == other.alone and one.worst.f == pytest.approx(other.worst.f, rel=1e-7)
+    assert max(together[0].f.max(), together[1].f.max()) > 1.02 * min(together[0].f.max(), together[1].f.max())
+
+
 @pytest.mark.parametrize("workers", [1, 3])
 def test_rows_that_look_bad_at_some_depth_are_named(taichi_cpu, monkeypatch, workers):
     """That of the worst point below among the two of all moments, by any number of threads; none of moments before it loads."""

@@ -53,12 +53,15 @@ def profiles(passage, rows, alone=False, windows=(slice(None),), tell=lambda don
 
 
 def _profiles(passage, depths, histories, windows, x, kind):
-    """The Profile of each window; kind: row, and whether it is of one point of the contact alone."""
-    found, known = [], [None] * depths.size
+    """The Profile of each window; kind: row, and whether it is of one point of the contact alone. Windows of some moments of
+    the first one keep its planes where they have as much there."""
+    found, all_, unknown = [], np.arange(histories.shape[2]), [None] * depths.size
+    first, known = all_[windows[0]], unknown
     for moments in windows:
-        some = histories[:, :, moments]
-        searched = [findley.search(history, *_rule(passage), known=before) for history, before in zip(some, known)]
-        known = known if found else searched  # the first window are all moments
+        some, fewer = histories[:, :, moments], np.isin(all_[moments], first).all()
+        searched = [findley.search(history, *_rule(passage), known=before)
+                    for history, before in zip(some, known if fewer else unknown)]
+        known = known if found else searched
         found.append(_profile(passage, depths, some, np.array([f for f, _ in searched]), x, *kind))
     return found
 

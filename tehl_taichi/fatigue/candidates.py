@@ -50,9 +50,10 @@ def _extremes(passage, operator, entries, windows):
         shears = _shears(operator(*passage.loads(int(entry))))
         for moment in np.flatnonzero(passage.entries == entry):
             here = passage.under(shears, moment)
-            for n in (n for n, those in enumerate(counted) if moment in those):
-                np.minimum(low[n], here, out=low[n])
-                np.maximum(high[n], here, out=high[n])
+            for n, those in enumerate(counted):
+                if moment in those:
+                    np.minimum(low[n], here, out=low[n])
+                    np.maximum(high[n], here, out=high[n])
     return low, high
 
 
