@@ -53,6 +53,8 @@ def test_a_ball_has_both_radii(scan, tmp_path):
     scan_scene.new(file, "ridge-on-ball", scan, "nm", 2e-6)
     found, ball = scene_file.load(file), scene_file.scene("ridge-on-ball")
     assert found.contact.radius_y == ball.contact.radius_y and found.load == ball.load
+    assert found.body_b == ball.body_b and found.body_b.E < 100e9  # the disc stays glass
+    assert found.body_a.material == "100Cr6"
 
 
 def test_what_is_not_given_is_asked_for(scan, tmp_path):

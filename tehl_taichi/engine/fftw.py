@@ -26,32 +26,32 @@ def _as_if_not_installed(names):
 with _as_if_not_installed(OFFERED_TO):
     import pyfftw
 
-__all__ = ["DOUBLE", "SINGLE", "half", "half_back", "padded", "pyfftw", "real_of", "transform", "transform_back", "transformed"]
+__all__ = ["DOUBLE", "SINGLE", "half", "half_back", "pyfftw", "real_of", "transform", "transform_back", "transformed"]
 SINGLE, DOUBLE = np.dtype(np.complex64), np.dtype(np.complex128)  # kinds of spectra
 
 
 def transform(values, length, kind=SINGLE):
     """Transform (..., length) of values (..., n), zeros behind them: numpy's takes far longer in single precision than in
     double (1024 of 330 numbers to 480: 8.3 and 3.3 ms, this 1.6)."""
-    return transformed(padded(values, length, -1, kind))
+    return transformed(_padded(values, length, -1, kind))
 
 
-def transform_back(spectra, kind=SINGLE):
-    """The way back of :func:`transform`."""
-    out = transformed(padded(spectra, spectra.shape[-1], -1, kind), "FFTW_BACKWARD")
+def transform_back(spectra):
+    """The way back of :func:`transform`, in single precision."""
+    out = transformed(_padded(spectra, spectra.shape[-1], -1, SINGLE), "FFTW_BACKWARD")
     out /= spectra.shape[-1]
     return out
 
 
 def transformed(numbers, direction="FFTW_FORWARD"):
-    """The transform of complex numbers in a buffer of :func:`padded`, which takes it; back, it is `length` times as large."""
+    """The transform of complex numbers in an aligned buffer, which takes it; back, it is `length` times as large."""
     _run(numbers, numbers, -1, direction)
     return numbers
 
 
 def half(values, length, axis, kind=SINGLE):
     """First half of the transform along `axis` of so many real numbers, zeros behind those that there are."""
-    given = padded(values, length, axis, real_of(kind))
+    given = _padded(values, length, axis, real_of(kind))
     out = pyfftw.empty_aligned(_with(given.shape, axis, length // 2 + 1), kind)
     _run(given, out, axis)
     return out
@@ -60,11 +60,11 @@ def half(values, length, axis, kind=SINGLE):
 def half_back(spectra, length, axis, kind=SINGLE):
     """`length` real numbers along `axis` from the first half of their spectra, `length` times as large."""
     out = pyfftw.empty_aligned(_with(spectra.shape, axis, length), real_of(kind))
-    _run(padded(spectra, spectra.shape[axis], axis, kind), out, axis, "FFTW_BACKWARD")
+    _run(_padded(spectra, spectra.shape[axis], axis, kind), out, axis, "FFTW_BACKWARD")
     return out
 
 
-def padded(values, length, axis, kind):
+def _padded(values, length, axis, kind):
     """A buffer for FFTW with these values and zeros behind them, up to so many along `axis`."""
     out = pyfftw.empty_aligned(_with(values.shape, axis, length), kind)
     along = np.moveaxis(out, axis, 0)

@@ -57,9 +57,8 @@ class FilmHeat:
 
     def _bind(self, scene):
         v, conditions = self.levels, self.levels.conditions.values
-        tiles = v.fine * (v.nx // lanes.TILE + 1)
-        most = v.most_columns // (scene.grid.nx + 1) * (scene.grid.nx // lanes.TILE + 1)
-        self.X = tables.lease(self, 0, lanes.W, max(tiles, most), self.nz * (self.nz + 2), clean=False)
+        tiles, final = _tiles(v.nx, v.ny), _tiles(scene.grid.nx, scene.rows)
+        self.X = tables.lease(self, 0, lanes.W, max(tiles, final), self.nz * (self.nz + 2), clean=False)
         self.told = np.zeros((tiles, slots.TOLD))
         film_state = v.S, self.columns.field
         state = *film_state, self.columns.singles.field
@@ -165,3 +164,8 @@ class FilmHeat:
     def shear(self):
         """Shear stress (Pa) at z = 0 along x, y and at z = h along x, y: (4, ny+1, nx+1)."""
         return self.columns.singles.get(slots.XA, slots.SHEARS)
+
+
+def _tiles(nx, ny):
+    """Tiles of a grid, as kernels count them (:func:`tehl_taichi.engine.lanes.tiles`)."""
+    return (ny // lanes.W + 1) * (nx // lanes.TILE + 1)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from tehl_taichi.io import film_judge, rim_judge
-from tehl_taichi.march.companions import SHALLOWEST
+from tehl_taichi.march.companions import near_the_surface
 from tehl_taichi.physics import conduction
 from tehl_taichi.physics.law import beyond
 from tehl_taichi.scene.yielding import STEEL, YIELDS
@@ -85,7 +85,7 @@ def worst_below(store, summary):
     alone = deep.get("contact_alone")
     if alone and alone["Fi_max"] > fatigue["Fi_max"]:
         said += f"; the contact without its feature has {alone['Fi_max']:.2f} at {micrometres(alone['depth_m'])} um"
-    if deep["depth_m"] < SHALLOWEST * deep.get("searched_m", [0.0])[0]:
+    if near_the_surface(deep, fatigue):
         said += "; nearer to the surface (half a cell) this grid resolves nothing: take a finer one"
     return [said]
 

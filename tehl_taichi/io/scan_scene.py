@@ -9,6 +9,7 @@ from tehl_taichi.io import scene_file
 from tehl_taichi.io.scene_file import toml_value
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.maps import height_map
+from tehl_taichi.scene.parts import Body
 
 LINES, LETTERS = 20, 100  # of the header of a file, shown
 TAPER, SHARE = 40e-6, 8  # m, and of the shorter side
@@ -32,8 +33,8 @@ u_b = {u_b:<17}  # m/s: of the other one (or, in place of both, u_m, their mean,
 temperature = {temperature:<9}  # deg C: of oil and bodies at the inlet
 
 [bodies]                   # by name (`tehl steels`), or E, nu, k, rho, c, alpha of your own
-a.material = "100Cr6"      # the body that was scanned
-b.material = "100Cr6"
+{body_a}a.material = "100Cr6"      # the body that was scanned
+{body_b}b.material = "100Cr6"      # the other one
 
 # [oil]                    # your oil by its data sheet; without: {oil}
 # name = "our gear oil"
@@ -82,9 +83,15 @@ def _text(path, f, base, scan, table, unit, pixel, pixel_y):
                    u_b=round(f.operation.u_b, 6), temperature=f.operation.temperature, kappa=f.fatigue.kappa, file=place,
                    unit=unit, pixel=pixel, taper=_taper(table.values.shape, pixel, pixel_y or pixel))
     return HEAD.format(base=base, oil=f.oil.name, limit="380e6", header=_header(scan, table), radius_y=_radius_y(f.contact),
+                       body_a=_unless_steel(f.body_a), body_b=_unless_steel(f.body_b),
                        load_about=LINE if f.contact.kind == "line" else "N",
                        pixel_y=PIXEL_Y.format(toml_value(pixel_y)) if pixel_y else NO_PIXEL_Y,
                        **{key: toml_value(value) for key, value in numbers.items()})
+
+
+def _unless_steel(body):
+    """Begins the line of a body: a comment where the base has another one than steel, as the disc of glass."""
+    return "" if body == Body() else "# "
 
 
 def _radius_y(contact):

@@ -1,8 +1,10 @@
 """The summary of a run as people read it: rows of (quantity, value with its error and unit). Needs no taichi."""
 
+import math
 from dataclasses import dataclass, replace
 
 from tehl_taichi.march.readings import HEAT
+from tehl_taichi.scene.passing_words import between
 from tehl_taichi.values.digits import decimals, micrometres
 
 SURFACE, BELOW, RESOLVED = "at the surface", "below it", "while resolved"  # parts of a search
@@ -121,10 +123,8 @@ def rows_of_fatigue(f):
 
 def _whole(f):
     """Behind what is of all moments that count, where some of them stand beside it, or others were left out."""
-    cut = [f"{word} {f[key]:g} a" for word, key in (("from", "from_x_a"), ("up to", "to_x_a")) if key in f]
-    if cut:
-        return f", {' '.join(cut)}"
-    return ", whole passage" if "resolved" in f else ""
+    said = between(f.get("from_x_a", -math.inf), f.get("to_x_a", math.inf)) or "whole passage" * ("resolved" in f)
+    return f", {said}" if said else ""
 
 
 def _resolved_rows(f):

@@ -71,9 +71,14 @@ def _shallow(name, fatigue):
     """Why an index below the surface is not known where it grows towards the surface as far as the grid can look, beyond what
     the surface itself has; "" of others."""
     found, above = indices(fatigue), {BELOW: FI, RESOLVED_BELOW: RESOLVED}
-    least = fatigue.get("below", {}).get("searched_m", [0.0])[0]
-    near = name in above and found[name]["depth_m"] < SHALLOWEST * least
-    return SHALLOW if near and found[name]["Fi_max"] > found[above[name]]["Fi_max"] else ""
+    if name not in above or not near_the_surface(found[name], fatigue):
+        return ""
+    return SHALLOW if found[name]["Fi_max"] > found[above[name]]["Fi_max"] else ""
+
+
+def near_the_surface(deep, fatigue):
+    """Whether the worst depth of a part below lies as near to it as the search looks; fatigue: the summary of that."""
+    return deep["depth_m"] < SHALLOWEST * fatigue["below"].get("searched_m", [0.0])[0]
 
 
 def indices(fatigue):

@@ -8,7 +8,7 @@ from tehl_taichi.physics.rheology import LAWS
 from tehl_taichi.report.rounded import told
 from tehl_taichi.scene import data_sheet, fatigue_limits, mineral_alpha
 from tehl_taichi.scene.named_oils import NO_SOURCE
-from tehl_taichi.scene.passing_words import passing, where
+from tehl_taichi.scene.passing_words import between, passing, where
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.values.quantity import Number, Switch, Text, kinds
 
@@ -88,8 +88,8 @@ def _sizes(f):
 def moments(scene):
     """'feature up to 0.5 a': the moments of a passage that count, '' where all do."""
     f = scene.fatigue
-    ends = [f"{word} {x:g} a" for word, x in (("from", f.from_x), ("up to", f.to_x)) if math.isfinite(x)]
-    return f"{where(scene)} {' '.join(ends)}" if ends else ""
+    ends = between(f.from_x, f.to_x)
+    return f"{where(scene)} {ends}" if ends else ""
 
 
 def when(scene):

@@ -12,7 +12,7 @@ from tehl_taichi.report.passage_plots import thinned
 from tehl_taichi.report.plots import colour, field_map, line, stacked
 from tehl_taichi.report.rounded import told
 from tehl_taichi.scene.maps.height_map import LEVELS
-from tehl_taichi.scene.maps.map_judge import mate
+from tehl_taichi.scene.maps.map_judge import form_taken
 from tehl_taichi.scene.passing_words import from_centre
 
 STEPS = 1000  # of heights, at least
@@ -76,15 +76,12 @@ def measured(f, scene):
             *([("not measured", _missing(f))] if f.holes.any() else []),
             *([("turned", f.orientation.says)] if f.orientation.says else []),
             ("distance of its points", " × ".join(told(step, unit="m") for step in f.steps)),
-            ("unit of its heights", f"{f.unit.replace('um', 'µm')}{turned}"), ("taken off", LEVELS[f.level] + _form(f, scene)),
+            ("unit of its heights", f"{f.unit.replace('um', 'µm')}{turned}"),
+            ("taken off", LEVELS[f.level] + form_taken(f, scene)),
             *([("low-pass", f"Gaussian, cutoff {told(f.cutoff, unit='m')}")] if f.cutoff else []),
             ("patch used", f"{told(length, unit='m')} × {told(width, unit='m')}{rim}"),
             ("range", f"{told(m.range, unit='m')}: {_signed(m.low)} to {_signed(m.high)}"), ("rms", told(m.rms, unit="m")),
             ("largest slope", f"{m.slope:.2g}°")]
-
-
-def _form(f, scene):
-    return f" ({f.form.says}{mate(f, scene)})" if f.level == "form" else ""
 
 
 def _missing(f):

@@ -1,6 +1,8 @@
 """What passes through the contact, as its user calls it: his scan where the first feature, from which positions count, is a
 measured map."""
 
+import math
+
 
 def passing(scene):
     """The word for it; scene: None where nobody knows it."""
@@ -10,6 +12,11 @@ def passing(scene):
 def where(scene):
     """Of what a position is told: of a scan, which is as long as the contact, it must be its centre."""
     return "scan centre" if passing(scene) == "scan" else "feature"
+
+
+def between(low, high):
+    """'from -0.5 a up to 1 a': positions (a) between which moments count, "" where all do."""
+    return " ".join(f"{word} {x:g} a" for word, x in (("from", low), ("up to", high)) if math.isfinite(x))
 
 
 def from_centre(scene):

@@ -28,7 +28,7 @@ def lines(f, scene):
     (along, across), m, name = f.points, f.measures, f"map {os.path.basename(f.file)}"
     heights = f"heights in {f.unit}" + (f" times {f.scale:g}" if f.scale != 1 else "")
     turned = f"{f.orientation.says}, " if f.orientation.says else ""
-    off = f"{LEVELS[f.level]} taken off" + (f" ({f.form.says}{mate(f, scene)})" if f.level == "form" else "")
+    off = f"{LEVELS[f.level]} taken off{form_taken(f, scene)}"
     skipped = f"{found}, " if (found := height_map.skipped(f.sha256)) else ""
     yield (f"{name}: {skipped}{along} x {across} points {_apart(f)} um apart, {_um(f.patch[0])} x {_um(f.patch[1])} um of them "
            f"used, {turned}{heights}, {off}{_filter(f)}")
@@ -70,7 +70,12 @@ def form(f):
         yield f"{_name(f)}: the form taken off is {found.says}{turned}"
 
 
-def mate(f, scene):
+def form_taken(f, scene):
+    """' (convex with a radius of ...)': the form that was taken off; "" where only a plane was."""
+    return f" ({f.form.says}{_mate(f, scene)})" if f.level == "form" else ""
+
+
+def _mate(f, scene):
     """What the form taken off tells of the other body, if it is that of the one that was scanned: whoever knows that one sees
     whether radii and scan belong together."""
     if not f.form.dominant or not f.form.convex or f.form.axis != "x":
