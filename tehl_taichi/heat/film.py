@@ -156,16 +156,26 @@ def store_velocities(Z: ti.template(), N: ti.template(), q, col: ti.template(), 
 
 @ti.func
 def store_fluxes(Z: ti.template(), N: ti.template(), q, h):
-    """Mass and mass fluxes below each node; needs rho and the velocities."""
+    """Mass fluxes below each node; needs rho and the velocities."""
     nz = N.shape[1]
     for n in range(nz):
-        mass, along, across = V(0.0), V(0.0), V(0.0)
+        along, across = V(0.0), V(0.0)
         for m in range(nz):
             rho = integral(N, n, m) * Z[NRHO, q * nz + m]
-            mass += rho
             along += rho * Z[U, q * nz + m]
             across += rho * Z[VY, q * nz + m]
-        Z[MS, q * nz + n], Z[MX, q * nz + n], Z[MY, q * nz + n] = h * mass, h * along, h * across
+        Z[MX, q * nz + n], Z[MY, q * nz + n] = h * along, h * across
+
+
+@ti.func
+def store_mass(Z: ti.template(), N: ti.template(), q, h):
+    """Mass below each node; needs rho."""
+    nz = N.shape[1]
+    for n in range(nz):
+        mass = V(0.0)
+        for m in range(nz):
+            mass += integral(N, n, m) * Z[NRHO, q * nz + m]
+        Z[MS, q * nz + n] = h * mass
 
 
 @ti.func
@@ -179,8 +189,9 @@ def store_shear(C: ti.template(), q, col: ti.template(), flow: ti.template()):
 
 @ti.kernel
 def velocities(S: ti.template(), Z: ti.template(), C: ti.template(), G: Table, N: Nodes, oil: ti.template(),
-               rheology: ti.template(), conditions: Flat, told: Table):
-    """Velocities, mass fluxes below each node, and the shear on both walls, in tiles that do not rest."""
+               rheology: ti.template(), conditions: Flat, told: Table, flows: ti.i32):
+    """Mass below each node and the shear on both walls, which a state is remembered by, and where it `flows` (1) velocities and
+    mass fluxes, in tiles that do not rest."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for c in range(tiles(nx, ny)):
@@ -193,6 +204,8 @@ def velocities(S: ti.template(), Z: ti.template(), C: ti.template(), G: Table, N
             col = column(S, G, at, scene)
             node_laws(Z, at.q, nz, oil, col.p, scene.ln_eta0)
             flow = couette(Z, N, at.q, rheology, col.p, col.h, scene)
-            store_velocities(Z, N, at.q, col, flow, scene)
-            store_fluxes(Z, N, at.q, col.h)
+            if flows:
+                store_velocities(Z, N, at.q, col, flow, scene)
+                store_fluxes(Z, N, at.q, col.h)
+            store_mass(Z, N, at.q, col.h)
             store_shear(C, at.q, col, flow)

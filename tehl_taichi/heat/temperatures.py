@@ -65,7 +65,7 @@ class FilmHeat:
         known = v.G, self.across.table, scene.oil, scene.rheology, conditions
         self.values, self.slopes = (bind(film.laws, *film_state, *known, slopes) for slopes in (0, 1))
         self._keep_parts = bind(film.keep, self.columns.field, v.G, self.nz, scene.oil) if parts(scene.oil) else lambda: None
-        self._velocities = bind(film.velocities, *state, *known, self.told)
+        self._velocities, self._remembered = (bind(film.velocities, *state, *known, self.told, flows) for flows in (1, 0))
         self._departures = bind(paths.departures, *state, v.G, self.nz, conditions, self.step.values, self.told)
         self._energy = bind(energy.energy, *state, self.X, *known, self.step.values, self.told)
         self._choose_rest = bind(rest.choose, v.S, self.columns.singles.field, v.G, conditions,
@@ -129,7 +129,7 @@ class FilmHeat:
 
     def _keep(self):
         """The present state of the film becomes that of the last step."""
-        self._velocities()
+        self._remembered()
         self._accept()
         self.T = self.temperature()
 

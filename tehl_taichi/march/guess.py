@@ -18,21 +18,22 @@ NOTHING = 1e-14  # squared error that is as good as none
 
 
 class Guess:
-    """The last states of a field (..., ny+1, nx+1) and what comes next.
+    """The last pressures (ny+1, nx+1) and what comes next.
 
-    order: highest order of extrapolation; field: the newest state; at: how far the feature has moved, in cells (it moves at a
-    constant speed, so this is the time, too); state: what :meth:`state` gave under `name` is gone on from, if it is in there.
+    order: highest order of extrapolation; P: the newest; at: how far the feature has moved, in cells (it moves at a constant
+    speed, so this is the time, too); state: what :meth:`state` gave is gone on from, if it is in there.
     """
 
-    def __init__(self, order, field, at, state, name):
-        self.length, self.keys = order + 2, (name + "_history", name + "_moved")
-        known = self.keys[0] in state
-        self.fields = list(state[self.keys[0]]) if known else [_single(field)]
-        self.at = [float(where) for where in state[self.keys[1]]] if known else [at]
+    KEYS = "P_history", "P_moved"  # newest first
+
+    def __init__(self, order, P, at, state):
+        self.length, (history, moved) = order + 2, self.KEYS
+        self.fields = list(state.get(history, [_single(P)]))
+        self.at = [float(where) for where in state.get(moved, [at])]
 
     def state(self):
-        """Arrays to go on from: the states, newest first, and where the feature was."""
-        return dict(zip(self.keys, (np.stack(self.fields), np.array(self.at))))
+        """Arrays to go on from: the pressures, and where the feature was."""
+        return dict(zip(self.KEYS, (np.stack(self.fields), np.array(self.at))))
 
     def accept(self, field, at):
         """`field` is the newest state."""
@@ -43,25 +44,15 @@ class Guess:
         newest = self.fields[0]
         if len(self.fields) == 1:
             return newest
-        trusts, out = self._trusts(), np.zeros_like(newest)
-        total = sum(trusts)
-        for layer in range(len(newest)) if newest.ndim > 2 else [...]:  # one after the other they stay in the cache
-            known = [field[layer] for field in self.fields[:-1]]
-            for trust, guess in zip(trusts, _extrapolations(known, self.at[:-1], at)):
-                out[layer] += trust * guess
-            out[layer] /= total
-        return out
+        trusts = self._trusts()
+        guesses = _extrapolations(self.fields[:-1], self.at[:-1], at)
+        return sum(trust * guess for trust, guess in zip(trusts, guesses)) / sum(trusts)
 
     def _trusts(self):
-        """Weight of each extrapolation at each node (ny+1, nx+1): one over the square of what it would have missed."""
-        judged, *known = (_judged(field) for field in self.fields)
+        """Weight of each extrapolation at each node: one over the square of what it would have missed."""
+        newest, *known = self.fields
         past = _extrapolations(known, self.at[1:], self.at[0])
-        return [1 / (_nearby(before - judged) + NOTHING) for before in past]
-
-
-def _judged(field):
-    """Of a field in layers the first, the middle and the last one."""
-    return field if field.ndim == 2 else field[:: max((len(field) - 1) // 2, 1)]
+        return [1 / (_nearby((before - newest) ** 2) + NOTHING) for before in past]
 
 
 def _single(field):
@@ -94,10 +85,9 @@ def extrapolated(values, at, to):
     return float(sum(weight * value for weight, value in zip(lagrange(at[: len(values)], to), values)))
 
 
-def _nearby(error):
-    """Squares of an error (..., ny+1, nx+1), summed over each node and its eight neighbours: (ny+1, nx+1)."""
-    layers = error.reshape(-1, *error.shape[-2:])
-    out = np.einsum("kji,kji->ji", layers, layers)
+def _nearby(squares):
+    """(ny+1, nx+1), summed over each node and its eight neighbours."""
+    out = squares.copy()
     for axis in (0, 1):
         middle, ahead, behind = out.copy(), [slice(None)] * 2, [slice(None)] * 2
         ahead[axis], behind[axis] = slice(1, None), slice(None, -1)

@@ -152,9 +152,9 @@ class Passage:
         """What is in the tables is the newest state."""
         self.P = self.levels.get(fields.P)
         self.storage.accept(part * self.dT)
+        self.prediction.accept(self.P, at)
         if self.heat:
             self.heat.accept()
-        self.prediction.accept(self.P, at)
 
     def _reject(self, report, part, done):
         self.rejected += 1

@@ -2,11 +2,11 @@
 
 import numpy as np
 
+from tehl_taichi.heat import guess as heat_guess
 from tehl_taichi.march.guess import Guess, extrapolated
 from tehl_taichi.pressure import fields
 
-ORDER, HEAT_ORDER = 3, 1  # of the extrapolation in time of pressure and temperatures
-HOTTER = 20.0  # K, that a film is guessed to become than it was
+ORDER = 3  # of the extrapolation in time of the pressure
 
 
 class Prediction:
@@ -15,9 +15,9 @@ class Prediction:
 
     def __init__(self, solver, heat, at, state):
         self.solver, self.heat = solver, heat
-        self.pressure = Guess(ORDER, np.array(state["P"]), at, state, "P")
+        self.pressure = Guess(ORDER, np.array(state["P"]), at, state)
         self.heights = list(state.get("H0_history", [float(state["H0"])]))  # at the positions of the pressure
-        self.temperature = Guess(HEAT_ORDER, heat.T, at, state, "T") if heat else None
+        self.temperature = heat_guess.Guess(heat, at, state) if heat else None
 
     def put(self, at):
         """The guess for the state with the features at `at` into the tables."""
@@ -26,15 +26,14 @@ class Prediction:
         self.solver.levels.put(fields.P, P)
         self.solver.H0 = extrapolated(self.heights[: ORDER + 1], self.pressure.at, at)
         if self.heat:
-            T = self.temperature.next(at)
-            self.heat.set_temperature(np.clip(T, self.heat.T.min(), self.heat.T.max() + HOTTER))
+            self.temperature.put(at)
 
     def accept(self, P, at):
-        """The state with the pressure P and the features at `at` is the newest."""
+        """The state with the pressure P and the features at `at` is the newest; to be told before `heat` accepts it."""
         self.pressure.accept(P, at)
         self.heights = [self.solver.H0, *self.heights[:ORDER]]
         if self.heat:
-            self.temperature.accept(self.heat.T, at)
+            self.temperature.accept(at)
 
     def state(self):
         """Arrays to go on from."""

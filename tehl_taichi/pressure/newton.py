@@ -6,7 +6,7 @@ Converged = rms of phi plus the load error below the tolerance: a residual of th
 """
 
 import functools
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -52,6 +52,11 @@ class Report:
     newton: int
     cycles: int
     converged: bool
+
+    def after(self, others):
+        """This one, with the work of those before it."""
+        newton, cycles = (sum(getattr(one, name) for one in (self, *others)) for name in ("newton", "cycles"))
+        return replace(self, newton=newton, cycles=cycles)
 
 
 def or_lost(solve):
@@ -113,8 +118,9 @@ class PressureSolver:
         return float(np.sqrt(sums[balances.PHI2] / self.levels.unknowns)) + abs(self.load_error)
 
     @or_lost
-    def solve(self, krylov_tolerance=None, tolerance=None, newton_max=None):
-        """Newton iteration from the pressure in the table and H0; leaves the solution there. Returns a Report."""
+    def solve(self, krylov_tolerance=None, tolerance=None, newton_max=None, enough=0.0):
+        """Newton iteration from the pressure in the table and H0; leaves the solution there; at the residual `enough` it
+        stops without convergence. Returns a Report."""
         numerics = self.levels.scene.numerics
         tolerance = tolerance or numerics.tolerance
         merit, cycles = self._begin(self.kept), 0
@@ -124,7 +130,7 @@ class PressureSolver:
             step, used = self._direction(self._forcing(krylov_tolerance or numerics.krylov_tolerance, merit, tolerance))
             cycles += used
             merit = self._advance(step, merit, newton == 1, tolerance)
-            if newton == last or self._converged(merit, tolerance) or not np.isfinite(merit):
+            if newton == last or self._converged(merit, tolerance) or merit < enough or not np.isfinite(merit):
                 break
             self.equations.linearise()
             merit = self.measure()

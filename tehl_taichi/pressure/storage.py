@@ -48,14 +48,22 @@ def bdf(lengths):
 
 def carried(q, cells):
     """q (..., nx+1) moved by `cells` towards +x: interpolation between six nodes, what comes in is as at the border."""
-    whole, n = math.floor(cells + WHOLE), q.shape[-1]
-    padded = np.concatenate([q[..., :1]] * (whole + 3) + [q] + [q[..., -1:]] * 2, axis=-1)
-    if cells - whole < WHOLE:
+    (back, weights), n = shift(cells), q.shape[-1]
+    padded = np.concatenate([q[..., :1]] * back + [q] + [q[..., -1:]] * 2, axis=-1)
+    if 1.0 in weights:
         return padded[..., 3 : 3 + n]
     out, term = np.zeros_like(q), np.empty_like(q)
-    for k, weight in enumerate(_weights(cells - whole)):
+    for k, weight in enumerate(weights):
         out += np.multiply(padded[..., k : k + n], weight, out=term)
     return out
+
+
+def shift(cells):
+    """(back, weights) of what is moved by `cells` towards +x: at node i the sum of weights[k] times the value at i - back + k.
+    Whole cells have a single weight, 1."""
+    whole = math.floor(cells + WHOLE)
+    part = cells - whole
+    return whole + 3, _weights(0.0 if part < WHOLE else part)
 
 
 def followed(q, cells):
