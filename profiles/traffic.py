@@ -14,7 +14,7 @@ IN_S = ("P", "H", "GAP0", "QOLD", "MASK", "WEIGHT", "RHO", "LE", "IE", "ROOT", "
         "TOUCH", "RHOC", "QCP", "DLH")
 IN_Z = ("T", "TN", "TNN", "U", "VY", "MX", "MY", "MS", "MSN", "MSNN", "NIE", "NRHO", "TS", "PS", "LAST",
         "KEPT")  # per node of zeta; the last one stands for those of the viscosity
-IN_C = ("PN", "PNN", "QA", "QB", "AA", "AB", "TAU", "PX", "PY", "XA", "YA", "XB", "YB", "PL", "HL")
+IN_C = ("PN", "PNN", "QA", "QB", "AA", "AB", "TAU", "PX", "PY", "XA", "YA", "XB", "YB", "PL", "HL", "STILL", "MOVING")
 CONSTANT = ("G", "blocks")  # arguments too small to count
 
 

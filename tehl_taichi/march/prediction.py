@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tehl_taichi.heat import guess as heat_guess
+from tehl_taichi.heat.foresight import Foresight
 from tehl_taichi.march.guess import Guess, extrapolated
 from tehl_taichi.pressure import fields
 
@@ -17,7 +17,7 @@ class Prediction:
         self.solver, self.heat = solver, heat
         self.pressure = Guess(ORDER, np.array(state["P"]), at, state)
         self.heights = list(state.get("H0_history", [float(state["H0"])]))  # at the positions of the pressure
-        self.temperature = heat_guess.Guess(heat, at, state) if heat else None
+        self.temperature = Foresight(heat, at, state) if heat else None
 
     def put(self, at):
         """The guess for the state with the features at `at` into the tables."""

@@ -15,6 +15,7 @@ from tehl_taichi.pressure.storage import carried, shift
 HOTTER = 20.0  # K, that a film is guessed to become than it was
 NOTHING = 1e-14  # squared error that is as good as none
 REACH = 6  # nodes of an interpolation along x
+STATES = 3  # that must be known before differences in time count: the first of a start is none
 EDGE, STAYS = 0, 1  # of the outermost row, (nz, nx+1): the next value, and what of it does not move with the feature
 
 
@@ -100,7 +101,7 @@ def foresee(Z: ti.template(), C: ti.template(), G: Table, nz: ti.i32, oil: ti.te
             keep_parts(Z, at.q, nz, oil)
 
 
-class Guess:
+class Foresight:
     """Of the temperatures of `heat`, a :class:`tehl_taichi.heat.temperatures.FilmHeat`, from its last two states; at: how far
     the feature has moved in the last one, in cells; state: what :meth:`state` gave is gone on from, if it is in there."""
 
@@ -108,8 +109,9 @@ class Guess:
 
     def __init__(self, heat, at, state):
         moved, missed = self.KEYS
-        self.heat, self.at = heat, [float(where) for where in state.get(moved, [at])]
+        self.heat, self.at = heat, [at]
         if missed in state:
+            self.at = [float(where) for where in state[moved]]
             heat.columns.singles.put(STILL, np.asarray(state[missed], float))
         self.edge_before = heat.columns.nodes(TNN)[:, -1]
         self.ahead, self.paths, self.edges = Record(Ahead), np.zeros((2, REACH + 1)), np.zeros((2, *self.edge_before.shape))
@@ -128,7 +130,7 @@ class Guess:
         """What is in the table is the newest state; to be told before the table's last states move on."""
         self._look(at)
         self._judge()
-        self.at, self.edge_before = [at, self.at[0]], self.heat.T[:, -1]
+        self.at, self.edge_before = [at, *self.at[: STATES - 1]], self.heat.T[:, -1]
 
     def state(self):
         """Arrays to go on from."""
@@ -136,8 +138,8 @@ class Guess:
 
     def _look(self, to):
         """How the last states go on to `to`."""
-        T, before = self.heat.T, self.at[-1]
-        slope = (to - self.at[0]) / (self.at[0] - before) if len(self.at) > 1 else 0.0
+        T, before = self.heat.T, self.at[min(1, len(self.at) - 1)]
+        slope = (to - self.at[0]) / (self.at[0] - before) if len(self.at) == STATES else 0.0
         self.ahead.set(slope=slope, lowest=T.min(), highest=T.max() + HOTTER)
         rows, ways = (T[:, -1], self.edge_before), (to - self.at[0], to - before)
         for path, way in zip(self.paths, ways):
