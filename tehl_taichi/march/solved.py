@@ -86,6 +86,7 @@ class Solved:
         v = self.solver.levels
         out = v.fill(tractions.tractions, (4, v.ny + 1, v.nx + 1), self.scene.rheology, v.conditions.values)
         if self.heat:
-            wall, film = self.heat.shear(), (self.P > 0) & (self.touch == 0)
-            out = np.where(film, wall * np.array([1, 1, -1, -1])[:, None, None], out)
+            wall = self.heat.shear()
+            wall[2:] *= -1  # on body b
+            np.copyto(out, wall, where=(self.P > 0) & (self.touch == 0))
         return out
