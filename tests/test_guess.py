@@ -30,6 +30,23 @@ def test_moving_and_resting_patterns_are_both_foreseen(state):
     assert np.abs(contact(4.0) - contact(5.0)).max() > 0.1
 
 
+@pytest.mark.parametrize("rows", [np.ones((1, 1)), np.linspace(1.0, 0.0, 5)[:, None]])
+@pytest.mark.parametrize("kept", [False, True])
+def test_what_differs_from_the_start_moves_where_no_outermost_row_tells(rows, kept):
+    """One row, and a pressure that ends before the last one: a feature on top of what stays and changes."""
+    def passing(at):
+        return rows * ((1.0 + 0.01 * at) * bump(60.0, 30.0) + 0.3 * bump(20.0 + at))
+
+    guess = Guess(1, rows * bump(60.0, 30.0), 0.0, {})
+    for at in (30.0, 31.0, 32.0, 33.0):
+        guess.accept(passing(at), at)
+    if kept:
+        guess = Guess(1, passing(33.0), 33.0, guess.state())
+    error, moved = np.abs(guess.next(34.0) - passing(34.0)).max(), np.abs(passing(33.0) - passing(34.0)).max()
+    print(f"now: {error:.1e} of {moved:.1e}")
+    assert error < 0.015 * moved
+
+
 def test_one_state_is_its_own_guess():
     assert np.array_equal(Guess(2, contact(0.0), 0.0, {}).next(1.0), contact(0.0).astype(np.float32))
 
@@ -41,15 +58,15 @@ def test_numbers_follow_a_polynomial():
 
 
 class Film:
-    """Temperatures of a film that a test makes, with their last two states."""
+    """Temperatures of a film that a test makes, with their last two states; changes: of its scene."""
 
-    def __init__(self):
+    def __init__(self, **changes):
         from tehl_taichi.heat.temperatures import FilmHeat
         from tehl_taichi.pressure.levels import Levels
         from tehl_taichi.scene import scene
         from tehl_taichi.scene.scales import Scales
 
-        gear = scene("gear").replace(**{"grid.nx": 128, "grid.ny": 32})
+        gear = scene("gear").replace(**{"grid.nx": 128, "grid.ny": 32, **changes})
         scales = Scales.of(gear)
         self.heat = FilmHeat(Levels(gear, scales, 128, gear.rows, full=False), 1e-3 * scales.t)
         self.put(0.0)
@@ -96,6 +113,26 @@ def test_temperatures_are_foreseen_where_they_move_and_where_they_rest(taichi_cp
     missed, moved = np.abs(film.heat.temperature() - film.at(at[-1])), np.abs(film.at(at[-1]) - film.at(at[-2]))
     print(f"now: {missed.max():.1e} K of {moved.max():.1f}")
     assert missed.max() < 2e-3 and moved.max() > 4.0
+
+
+def test_temperatures_of_a_single_row_move_by_what_differs_from_their_start(taichi_cpu):
+    from tehl_taichi.heat import foresight
+
+    film = Film(**{"feature.length": np.inf})
+    assert film.heat.levels.ny == 0
+    resting = film.at(0.0)  # its pattern that moves stands still here, and another one passes it
+    i = np.arange(film.heat.levels.nx + 1.0)
+    film.at = lambda at: resting + (at > 0) * 15.0 * np.exp(-(((i - 20.0 - at) / 5.0) ** 2))
+    film.keep()
+    guess = foresight.Foresight(film.heat, 0.0, {})
+    for at in (20.0, 21.5, 23.0):
+        film.accept(guess, at)
+    state = guess.state()
+    guess = foresight.Foresight(film.heat, 23.0, state)
+    guess.put(24.5)
+    missed, moved = np.abs(film.heat.temperature() - film.at(24.5)).max(), np.abs(film.at(24.5) - film.at(23.0)).max()
+    print(f"now: {missed:.1e} K of {moved:.1f}")
+    assert missed < 0.02 and moved > 3.0
 
 
 def test_temperatures_go_on_as_they_did_once_two_steps_are_known(taichi_cpu):

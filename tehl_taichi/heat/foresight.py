@@ -9,14 +9,13 @@ from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.launches import bind
 from tehl_taichi.engine.records import Record, read
 from tehl_taichi.heat.film import keep_parts
-from tehl_taichi.heat.slots import MOVING, STILL, TN, TNN, Fields, T, columns_around, rows_around
+from tehl_taichi.heat.slots import MOVING, STILL, TN, TNN, T, columns_around, rows_around
 from tehl_taichi.pressure.storage import carried, shift
 
 HOTTER = 20.0  # K, that a film is guessed to become than it was
 NOTHING = 1e-14  # squared error that is as good as none
 REACH = 6  # nodes of an interpolation along x
 STATES = 3  # that must be known before differences in time count: the first of a start is none
-EDGE, STAYS = 0, 1  # of the outermost row, (nz, nx+1): the next value, and what of it does not move with the feature
 
 
 @ti.dataclass
@@ -39,12 +38,24 @@ def shifted(Z: ti.template(), kind: ti.template(), at: ti.template(), nz, n, pat
 
 
 @ti.func
-def extrapolated(Z: ti.template(), at: ti.template(), nz, n, paths: ti.template(), edges: ti.template(), slope):
-    """The next values at node n, in the frame of the contact and in that of the feature."""
+def extrapolated(Z: ti.template(), at: ti.template(), nz, n, paths: ti.template(), stays: ti.template(), slope):
+    """The next values at node n, in the frame of the contact and in that of the feature; stays (nz, nx+1): what does not move
+    with it."""
     q = at.q * nz + n
     still = Z[TN, q] + slope * (Z[TN, q] - Z[TNN, q])
     moved = (1.0 + slope) * shifted(Z, TN, at, nz, n, paths, 0) - slope * shifted(Z, TNN, at, nz, n, paths, 1)
-    return still, moved + edges[STAYS, n, at.i]
+    return still, moved + stays[n, at.i]
+
+
+@ti.func
+def repeated(at: ti.template(), values):
+    """Values of a block of rows, those beyond the last row as this."""
+    last = 0.0
+    for u in ti.static(range(W)):
+        last = ti.select(u == at.ny % W, values[u], last)
+    for u in ti.static(range(W)):
+        values[u] = ti.select(at.s * W + u <= at.ny, values[u], last)
+    return values
 
 
 @ti.func
@@ -61,7 +72,7 @@ def around(C: ti.template(), at: ti.template(), kind: ti.template()):
 
 @ti.kernel
 def judge(Z: ti.template(), C: ti.template(), G: Table, nz: ti.i32, numbers: Flat, paths: Table,
-          edges: Fields):
+          stays: Table):
     """STILL, MOVING: squares of what both would have missed the present temperatures by, at both walls and in the middle."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
@@ -73,7 +84,7 @@ def judge(Z: ti.template(), C: ti.template(), G: Table, nz: ti.i32, numbers: Fla
             missed_still, missed_moving = V(0.0), V(0.0)
             for third in range(3):
                 n = third * (nz - 1) // 2
-                still, moving = extrapolated(Z, at, nz, n, paths, edges, ahead.slope)
+                still, moving = extrapolated(Z, at, nz, n, paths, stays, ahead.slope)
                 missed_still += (still - Z[T, at.q * nz + n]) ** 2
                 missed_moving += (moving - Z[T, at.q * nz + n]) ** 2
             C[at.q, STILL], C[at.q, MOVING] = missed_still, missed_moving
@@ -81,7 +92,7 @@ def judge(Z: ti.template(), C: ti.template(), G: Table, nz: ti.i32, numbers: Fla
 
 @ti.kernel
 def foresee(Z: ti.template(), C: ti.template(), G: Table, nz: ti.i32, oil: ti.template(), numbers: Flat, paths: Table,
-            edges: Fields):
+            stays: Table):
     """Temperatures, and what of the viscosity depends on them alone; rows beyond the last one as this."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
@@ -93,11 +104,9 @@ def foresee(Z: ti.template(), C: ti.template(), G: Table, nz: ti.i32, oil: ti.te
             missed_still, missed_moving = around(C, at, STILL) + NOTHING, around(C, at, MOVING) + NOTHING
             trust = missed_moving / (missed_still + missed_moving)  # in what stays: one over its error
             for n in range(nz):
-                still, moving = extrapolated(Z, at, nz, n, paths, edges, ahead.slope)
+                still, moving = extrapolated(Z, at, nz, n, paths, stays, ahead.slope)
                 guess = moving + trust * (still - moving)
-                for u in ti.static(range(W)):
-                    guess[u] = ti.select(at.s * W + u <= at.ny, guess[u], edges[EDGE, n, i])
-                Z[T, at.q * nz + n] = minimum(maximum(guess, ahead.lowest), ahead.highest)
+                Z[T, at.q * nz + n] = minimum(maximum(repeated(at, guess), ahead.lowest), ahead.highest)
             keep_parts(Z, at.q, nz, oil)
 
 
@@ -105,18 +114,16 @@ class Foresight:
     """Of the temperatures of `heat`, a :class:`tehl_taichi.heat.temperatures.FilmHeat`, from its last two states; at: how far
     the feature has moved in the last one, in cells; state: what :meth:`state` gave is gone on from, if it is in there."""
 
-    KEYS = "T_moved", "T_missed"  # positions, newest first; (2, ny+1, nx+1)
-
     def __init__(self, heat, at, state):
-        moved, missed = self.KEYS
-        self.heat, self.at = heat, [at]
-        if missed in state:
-            self.at = [float(where) for where in state[moved]]
-            heat.columns.singles.put(STILL, np.asarray(state[missed], float))
-        self.edge_before = heat.columns.nodes(TNN)[:, -1]
-        self.ahead, self.paths, self.edges = Record(Ahead), np.zeros((2, REACH + 1)), np.zeros((2, *self.edge_before.shape))
+        self.heat, self.at, row = heat, [at], heat.columns.nodes(TNN)[:, -1]
+        if "T_missed" in state:
+            self.at = [float(where) for where in state["T_moved"]]  # newest first
+            heat.columns.singles.put(STILL, np.asarray(state["T_missed"], float))
+        self.start = state.get("T_start", heat.T[:, 0]) if heat.levels.ny == 0 else None
+        self.edge_before = row
+        self.ahead, self.paths, self.stays = Record(Ahead), np.zeros((2, REACH + 1)), np.zeros(row.shape)
         film = (heat.columns.field, heat.columns.singles.field, heat.levels.G, heat.nz)
-        known = self.ahead.values, self.paths, self.edges
+        known = self.ahead.values, self.paths, self.stays
         self._judge = bind(judge, *film, *known)
         self._foresee = bind(foresee, *film, heat.levels.scene.oil, *known)
 
@@ -133,18 +140,18 @@ class Foresight:
         self.at, self.edge_before = [at, *self.at[: STATES - 1]], self.heat.T[:, -1]
 
     def state(self):
-        """Arrays to go on from."""
-        return dict(zip(self.KEYS, (np.array(self.at), self.heat.columns.singles.get(STILL, 2))))
+        """Arrays to go on from: where the feature was, squares (2, ny+1, nx+1) of what was missed, the start."""
+        start = {} if self.start is None else {"T_start": self.start}
+        return {"T_moved": np.array(self.at), "T_missed": self.heat.columns.singles.get(STILL, 2), **start}
 
     def _look(self, to):
         """How the last states go on to `to`."""
         T, before = self.heat.T, self.at[min(1, len(self.at) - 1)]
         slope = (to - self.at[0]) / (self.at[0] - before) if len(self.at) == STATES else 0.0
         self.ahead.set(slope=slope, lowest=T.min(), highest=T.max() + HOTTER)
-        rows, ways = (T[:, -1], self.edge_before), (to - self.at[0], to - before)
+        ways = to - self.at[0], to - before
         for path, way in zip(self.paths, ways):
             path[REACH], path[:REACH] = shift(way)
-        newest, last = rows
-        moved, moved_last = (carried(row, way) for row, way in zip(rows, ways))
-        self.edges[EDGE] = newest + slope * (newest - last)
-        self.edges[STAYS] = self.edges[EDGE] - (moved + slope * (moved - moved_last))
+        rests = (T[:, -1], self.edge_before) if self.start is None else (self.start, self.start)
+        newest, last = (row - carried(row, way) for row, way in zip(rests, ways))
+        self.stays[:] = newest + slope * (newest - last)
