@@ -71,8 +71,7 @@ def around(C: ti.template(), at: ti.template(), kind: ti.template()):
 
 
 @ti.kernel
-def judge(Z: ti.template(), C: ti.template(), G: Table, nz: ti.i32, numbers: Flat, paths: Table,
-          stays: Table):
+def judge(Z: ti.template(), C: ti.template(), G: Table, nz: ti.i32, numbers: Flat, paths: Table, stays: Table):
     """STILL, MOVING: squares of what both would have missed the present temperatures by, at both walls and in the middle."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
