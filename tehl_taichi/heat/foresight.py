@@ -127,10 +127,13 @@ class Foresight:
         self._foresee = bind(foresee, *film, heat.levels.scene.oil, *known)
 
     def put(self, to):
-        """The guess for the state with the feature at `to` into the table; the first one is the newest state."""
-        if len(self.at) > 1:
-            self._look(to)
-            self._foresee()
+        """The guess for the state with the feature at `to` into the table, whatever a failed attempt left there; the first one is
+        the newest state."""
+        if len(self.at) == 1:
+            self.heat.set_temperature(self.heat.T)
+            return
+        self._look(to)
+        self._foresee()
 
     def accept(self, at):
         """What is in the table is the newest state; to be told before the table's last states move on."""
