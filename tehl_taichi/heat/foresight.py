@@ -114,20 +114,19 @@ class Foresight:
     the feature has moved in the last one, in cells; state: what :meth:`state` gave is gone on from, if it is in there."""
 
     def __init__(self, heat, at, state):
-        self.heat, self.at, row = heat, [at], heat.columns.nodes(TNN)[:, -1]
+        self.heat, self.at, self.edge_before = heat, [at], heat.columns.nodes(TNN)[:, -1]
         if "T_missed" in state:
             self.at = [float(where) for where in state["T_moved"]]  # newest first
             heat.columns.singles.put(STILL, np.asarray(state["T_missed"], float))
         self.start = state.get("T_start", heat.T[:, 0]) if heat.levels.ny == 0 else None
-        self.edge_before = row
-        self.ahead, self.paths, self.stays = Record(Ahead), np.zeros((2, REACH + 1)), np.zeros(row.shape)
+        self.ahead, self.paths, self.stays = Record(Ahead), np.zeros((2, REACH + 1)), np.zeros(self.edge_before.shape)
         film = (heat.columns.field, heat.columns.singles.field, heat.levels.G, heat.nz)
         known = self.ahead.values, self.paths, self.stays
         self._judge = bind(judge, *film, *known)
         self._foresee = bind(foresee, *film, heat.levels.scene.oil, *known)
 
     def put(self, to):
-        """The guess for the state with the feature at `to` into the table, whatever a failed attempt left there; the first one is
+        """The guess for the state with the feature at `to` into the table, whatever an attempt left there; the first one is
         the newest state."""
         if len(self.at) == 1:
             self.heat.set_temperature(self.heat.T)
