@@ -132,6 +132,7 @@ class Foresight:
             self.heat.set_temperature(self.heat.T)
             return
         self._look(to)
+        self.ahead.set(lowest=self.heat.T.min(), highest=self.heat.T.max() + HOTTER)
         self._foresee()
 
     def accept(self, at):
@@ -149,7 +150,7 @@ class Foresight:
         """How the last states go on to `to`."""
         T, before = self.heat.T, self.at[min(1, len(self.at) - 1)]
         slope = (to - self.at[0]) / (self.at[0] - before) if len(self.at) == STATES else 0.0
-        self.ahead.set(slope=slope, lowest=T.min(), highest=T.max() + HOTTER)
+        self.ahead.set(slope=slope)
         ways = to - self.at[0], to - before
         for path, way in zip(self.paths, ways):
             path[REACH], path[:REACH] = shift(way)
