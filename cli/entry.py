@@ -1,5 +1,6 @@
 """Where `tehl` starts: nothing heavy is imported before signals, pipes and encodings are seen to."""
 
+import atexit
 import codecs
 import contextlib
 import gc
@@ -16,6 +17,8 @@ PLAIN = {"±": "+-", "µ": "u", "μ": "u", "°": "deg ", "σ": "sigma", "τ": "t
 
 def main():
     """Run the command line; exit codes: 0 done, 2 bad input, 3 not converged, 4 interrupted, 1 anything else."""
+    end = {"code": FAILED}
+    atexit.register(_leave, end)  # the first that is registered is the last that is called
     try:
         _stop_as_ctrl_c_does()
         _print_in_any_encoding()
@@ -28,7 +31,14 @@ def main():
     except BrokenPipeError:  # as in `tehl show STORE | head`: the reader has seen enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
         code = 0
+    end["code"] = code
     sys.exit(code)
+
+
+def _leave(end):
+    """Where kernels were launched the process ends at once, without what Python and Taichi free piece by piece."""
+    if "tehl_taichi.engine.runtime" in sys.modules:
+        sys.modules["tehl_taichi.engine.runtime"].leave(end["code"])
 
 
 def _run():

@@ -100,6 +100,20 @@ def test_a_cache_that_cannot_be_written_costs_a_warning_only(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["file"]
 
 
+def test_a_process_that_leaves_at_once_has_written_its_kernels(tmp_path):
+    ends = "import atexit; from tehl_taichi.engine import runtime; atexit.register(print, 'freed'); runtime.leave(9)"
+    environment = os.environ | {"TEHL_CACHE": str(tmp_path)}
+    nothing = subprocess.run([sys.executable, "-c", ends], env=environment, capture_output=True, text=True)
+    assert (nothing.returncode, nothing.stdout) == (0, "freed\n") and not list(tmp_path.rglob("*.tic"))
+    done = subprocess.run([sys.executable, "-c", USES_A_KERNEL + ends], env=environment, capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (9, "") and "freed" not in done.stdout
+    assert [float(part) for part in done.stdout.split()] == pytest.approx([1.0, 0.0, 1.0])
+    kernels = {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*.tic")}
+    assert kernels
+    subprocess.run([sys.executable, "-c", USES_A_KERNEL + ends], env=environment, capture_output=True)
+    assert {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*.tic")} == kernels  # nothing was compiled again
+
+
 def test_kernels_that_can_be_read_are_used(no_cache_dir, monkeypatch, tmp_path):
     monkeypatch.setenv("TEHL_CACHE", str(tmp_path))
     wanted = runtime.cache_dir()

@@ -134,6 +134,20 @@ def _check_home():
                                  "their own (multiprocessing.get_context('spawn'))")
 
 
+def leave(code):
+    """End this process now, with its kernels written: what Taichi frees piece by piece the system takes at once, which saves
+    0.2 of the 3 s of a steady circle. Returns where nothing was started here, or Taichi is another than expected."""
+    if not _started or _home[0] != os.getpid():
+        return
+    from taichi.lang import impl
+
+    with contextlib.suppress(AttributeError, OSError, ValueError):  # a closed stream
+        impl.get_runtime().prog.finalize()
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(code)
+
+
 def alone(work):
     """Whether a loop of `work` (in units of the lane vectors that a copy moves) is better run by the calling thread.
 

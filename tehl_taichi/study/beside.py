@@ -96,6 +96,7 @@ def serve():
     threading.Thread(target=_end_with, args=(run,), daemon=True).start()
     runtime.start(threads=1)
     print(json.dumps(companions.answers(scene, until=functools.cache(functools.partial(_heard, pipe)))), flush=True)
+    runtime.leave(0)
 
 
 def _heard(pipe):
