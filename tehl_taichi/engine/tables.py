@@ -1,12 +1,14 @@
 """Fields that are handed from one owner to the next: Taichi never frees them, and a new one compiles its kernels anew."""
 
 import gc
+import itertools
 import weakref
 
 from tehl_taichi.engine import runtime
 
 _tables = []  # [field, weak reference to its owner]
-SMALLEST_TABLE = 5000  # columns; sizes grow by factors of 4, because every size of a field compiles its kernels anew
+SMALLEST_TABLE = 6600  # columns, of 256 x 64 cells with their coarse levels; sizes are 1, 1.5, 2, 3, 4, 6, ... times this: every
+# size of a field compiles its kernels anew, and what is too large is emptied at every start (513 x 257: 0.13 of 3 s by fours)
 # columns more, so that rows do not lie a multiple of 4096 bytes apart: all that a loop reads would share a few cache sets then.
 # Whole cache lines in both precisions. Isothermal step on 512x128, ms on one / two threads, medians of three: none 113 / 94, 12
 # columns 109 / 86, 13 columns 139 / 91
@@ -31,13 +33,16 @@ def lease(owner, rows, lanes, columns, slots=0, each=1, precision="f64", clean=T
         return field
     from tehl_taichi.engine.language import ti
 
-    capacity = SMALLEST_TABLE
-    while capacity + SKEW < columns:
-        capacity *= 4
-    capacity += SKEW
+    capacity = _capacity(columns)
     field = ti.Vector.field(lanes, getattr(ti, precision), shape=(capacity, slots) if slots else (rows, capacity * each))
     _tables.append([field, weakref.ref(owner)])
     return field
+
+
+def _capacity(columns):
+    """The next size of a table of so many columns."""
+    sizes = (size for n in itertools.count() for size in (SMALLEST_TABLE << n, 3 * SMALLEST_TABLE << n >> 1))
+    return next(size + SKEW for size in sizes if size + SKEW >= columns)
 
 
 def _free(entries):

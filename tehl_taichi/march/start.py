@@ -16,11 +16,12 @@ from tehl_taichi.march.steady import solve_steady
 def steady_snapshot(scene, scales):
     """Snapshot 0 with the error bars of its numbers; of a passage whose temperatures do not settle, a state in time, with the
     reason why none of its numbers is known. Raises NotConverged where there is neither."""
-    started = time.perf_counter()
+    started, shots = time.perf_counter(), []
 
     def look(solver, heat, report):
         solved = Solved(solver, heat, report, started)
-        return readings.steady(snapshot.take(solved, 0, 0.0, math.nan, None), scene) if report.converged else None
+        shots[:] = [snapshot.take(solved, 0, 0.0, math.nan, None)]
+        return readings.steady(shots[0], scene) if report.converged else None
 
     result = solve_steady(scene, scales, scene.grid.nx, 0 if scales.line else scene.grid.ny, look)
     unsettled = ""
@@ -29,9 +30,8 @@ def steady_snapshot(scene, scales):
         if not (result.moving and scene.transient):
             raise failure
         unsettled = str(failure)
-    state = snapshot.state_of(result.solver, result.heat, 0)
-    solved = Solved(result.solver, result.heat, result.report, started)
-    first = snapshot.take(solved, 0, 0.0, math.nan, lambda: state)
+    state, first = snapshot.state_of(result.solver, result.heat, 0), shots[0]  # of the last grid, the finest
+    first.make_state = lambda: state
     first.scalars["cycles"], first.unsettled = float(result.work), unsettled
     first.grids, (first.error, first.unknown) = result.values, _unknown(first, scene) if unsettled else bars(result.values)
     return _spread(first, scene, scales)
