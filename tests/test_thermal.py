@@ -286,7 +286,7 @@ def sources_and_sinks(heat, levels):
     P, H = levels.get(fields.P)[0] * S.p_H, levels.get(fields.H)[0] * S.h
     T, TS, ie, rho, MX, MS, dp = (heat.columns.nodes(kind)[:, 0] for kind in (
         kernels.T, kernels.TS, kernels.NIE, kernels.NRHO, kernels.MX, kernels.MS, kernels.PS))
-    shear, tau = heat.shear()[:, 0], heat.columns.single(kernels.TAU)[0]
+    shear, tau = heat.columns.singles.get(kernels.XA, 4)[:, 0], heat.columns.single(kernels.TAU)[0]
     e0, eta0 = (w * ie).sum(0), levels.conditions["eta0"]
     centre = (w * zeta * ie).sum(0) / e0
     left = tau * H * e0 / (-levels.scene.operation.u_s * eta0)  # of the viscosity by the shear law

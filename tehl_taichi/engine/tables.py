@@ -7,8 +7,8 @@ import weakref
 from tehl_taichi.engine import runtime
 
 _tables = []  # [field, weak reference to its owner]
-SMALLEST_TABLE = 6600  # columns, of 256 x 64 cells with their coarse levels; sizes are 1, 1.5, 2, 3, 4, 6, ... times this: every
-# size of a field compiles its kernels anew, and what is too large is emptied at every start (513 x 257: 0.13 of 3 s by fours)
+SMALLEST_TABLE = 6600  # columns, of 256 x 64 cells with their coarse levels; sizes are 1, 1.5, 2, 3, 4, 6, ... times this: each
+# compiles its kernels anew, and what is too large is emptied at every start (513 x 257: 0.13 of 3 s by fours)
 # columns more, so that rows do not lie a multiple of 4096 bytes apart: all that a loop reads would share a few cache sets then.
 # Whole cache lines in both precisions. Isothermal step on 512x128, ms on one / two threads, medians of three: none 113 / 94, 12
 # columns 109 / 86, 13 columns 139 / 91

@@ -24,7 +24,6 @@ KEPT = 15  # and from here on what of the viscosity depends on the temperature a
 # what extrapolations would have missed, in the frame of the contact and in that of the feature
 PN, PNN, QA, QB, AA, AB, TAU, PX, PY, XA, YA, XB, YB, PL, HL, STILL, MOVING = range(17)
 SINGLES = 17
-SHEARS = 4  # from XA on
 # told[tile, ...]: largest change of T against the last iterate (K), columns that did not converge, nodes held in range, and 1
 # where the tile rests (:mod:`tehl_taichi.heat.rest`)
 CHANGE, FAILED, HELD, RESTS = range(4)

@@ -17,6 +17,7 @@ from tehl_taichi.heat.across import Across
 from tehl_taichi.heat.bodies import Bodies
 from tehl_taichi.heat.relaxation import Relaxation
 from tehl_taichi.heat.step import Step
+from tehl_taichi.heat.wall_shear import wall_shear
 from tehl_taichi.physics.viscosity import parts
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.storage import bdf
@@ -161,9 +162,10 @@ class FilmHeat:
         self.columns.put_nodes(slots.T, values)
         self._keep_parts()
 
-    def shear(self):
-        """Shear stress (Pa) at z = 0 along x, y and at z = h along x, y: (4, ny+1, nx+1)."""
-        return self.columns.singles.get(slots.XA, slots.SHEARS)
+    def tractions(self):
+        """Shear (4, ny+1, nx+1) in Pa on body a along x, y and on body b along x, y, of the state that was accepted."""
+        v, singles = self.levels, self.columns.singles.field
+        return v.fill(wall_shear, (4, v.ny + 1, v.nx + 1), singles, v.scene.rheology, v.conditions.values)
 
 
 def _tiles(nx, ny):

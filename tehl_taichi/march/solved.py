@@ -5,11 +5,9 @@ import time
 from dataclasses import dataclass
 from typing import Optional
 
-import numpy as np
-
 from tehl_taichi.heat.temperatures import FilmHeat
 from tehl_taichi.march.steady import scalars
-from tehl_taichi.pressure import fields, tractions
+from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.grids import load_weights
 from tehl_taichi.pressure.newton import PressureSolver, Report
 
@@ -83,10 +81,4 @@ class Solved:
     @functools.cached_property
     def stress(self):
         """Shear (4, ny+1, nx+1) in Pa on body a along x, y and on body b along x, y."""
-        v = self.solver.levels
-        out = v.fill(tractions.tractions, (4, v.ny + 1, v.nx + 1), self.scene.rheology, v.conditions.values)
-        if self.heat:
-            wall = self.heat.shear()
-            wall[2:] *= -1  # on body b
-            np.copyto(out, wall, where=(self.P > 0) & (self.touch == 0))
-        return out
+        return (self.heat or self.solver.equations.film).tractions()

@@ -1,6 +1,6 @@
 """A film of one temperature, that of the inlet."""
 
-from tehl_taichi.pressure import fields, laws
+from tehl_taichi.pressure import fields, laws, tractions
 from tehl_taichi.pressure.levels import HEAVY
 
 
@@ -12,7 +12,12 @@ class OneTemperature:
     """
 
     def __init__(self, levels):
-        scene = levels.scene
+        self.levels, scene = levels, levels.scene
         self.rows = (fields.SHEARED if levels.thins else fields.NEWTONIAN) if scene.isothermal else fields.THERMAL
         known = levels.S, levels.G, scene.oil, scene.shear_law, levels.conditions.values, self.rows
         self.values, self.slopes = (levels.launch(laws.laws, *known, slopes, work=HEAVY) for slopes in (0, 1))
+
+    def tractions(self):
+        """Shear (4, ny+1, nx+1) in Pa on body a along x, y and on body b along x, y."""
+        v = self.levels
+        return v.fill(tractions.tractions, (4, v.ny + 1, v.nx + 1), v.scene.rheology, v.conditions.values)

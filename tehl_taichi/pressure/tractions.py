@@ -26,13 +26,32 @@ def shear(rheology: ti.template(), p, h, eta, touch, u_s):
     return ti.select(touch > 0, solid_friction(rheology, p, u_s), film)
 
 
-@ti.kernel
-def tractions(S: ti.template(), G: Table, rheology: ti.template(), conditions: Flat, out: Stack):
-    """out[X_A, Y_A, X_B, Y_B; j, i] = force per area (Pa) on body a along x, y and on body b along x, y.
+@ti.func
+def on_bodies(S: ti.template(), G: ti.template(), at: ti.template(), rheology: ti.template(), scene: ti.template()):
+    """Force per area (Pa) on body a along x, on both along y, and on body b along x.
 
     z points from a to b. Stress tau(z) = tau_m + (z - h/2) dp/dx with tau_m from the slip and the viscosity that the flow
     feels; body a feels tau(0), body b feels -tau(h). Touching nodes: mu_b p, at most the shear limit.
     """
+    px, py = central_gradient(S, G, at)
+    half = 0.5 * S[H, at.k] * scene.h * scene.p_H / scene.a
+    eta = scene.eta0 / S[IE, at.k]
+    mean = shear(rheology, S[P, at.k] * scene.p_H, S[GAP, at.k] * scene.h, eta, S[TOUCH, at.k], scene.u_s)
+    return mean - half * px, -half * py, -mean - half * px
+
+
+@ti.func
+def store(out: ti.template(), at: ti.template(), a_x, a_y, b_x, b_y):
+    """Those of a place into a Stack."""
+    for u in ti.static(range(W)):
+        j = at.s * W + u
+        if j <= at.ny:
+            out[X_A, j, at.i], out[Y_A, j, at.i], out[X_B, j, at.i], out[Y_B, j, at.i] = a_x[u], a_y[u], b_x[u], b_y[u]
+
+
+@ti.kernel
+def tractions(S: ti.template(), G: Table, rheology: ti.template(), conditions: Flat, out: Stack):
+    """out[X_A, Y_A, X_B, Y_B; j, i] = force per area (Pa) on body a along x, y and on body b along x, y."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for c in range(tiles(nx, ny)):
@@ -40,12 +59,5 @@ def tractions(S: ti.template(), G: Table, rheology: ti.template(), conditions: F
         scene = read(Conditions, conditions)
         for i in range(first, last):
             at = place(G, c, i)
-            px, py = central_gradient(S, G, at)
-            half = 0.5 * S[H, at.k] * scene.h * scene.p_H / scene.a
-            eta = scene.eta0 / S[IE, at.k]
-            mean = shear(rheology, S[P, at.k] * scene.p_H, S[GAP, at.k] * scene.h, eta, S[TOUCH, at.k], scene.u_s)
-            a_x, b_x, y = mean - half * px, -mean - half * px, -half * py
-            for u in ti.static(range(W)):
-                j = s * W + u
-                if j <= ny:
-                    out[X_A, j, i], out[Y_A, j, i], out[X_B, j, i], out[Y_B, j, i] = a_x[u], y[u], b_x[u], y[u]
+            a_x, y, b_x = on_bodies(S, G, at, rheology, scene)
+            store(out, at, a_x, y, b_x, y)

@@ -1,0 +1,25 @@
+"""Shear tractions on both surfaces of a film with temperatures: the stress at its walls, where it carries."""
+
+from tehl_taichi.engine.lanes import Flat, Table, cells, place, tile, tiles
+from tehl_taichi.engine.language import ti
+from tehl_taichi.engine.records import read
+from tehl_taichi.heat.slots import XA, XB, YA, YB
+from tehl_taichi.pressure.conditions import Conditions
+from tehl_taichi.pressure.fields import TOUCH, P
+from tehl_taichi.pressure.tractions import Stack, on_bodies, store
+
+
+@ti.kernel
+def wall_shear(S: ti.template(), G: Table, C: ti.template(), rheology: ti.template(), conditions: Flat, out: Stack):
+    """As :func:`tehl_taichi.pressure.tractions.tractions`, which it is where the film has ruptured or the surfaces touch."""
+    nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1)
+    for c in range(tiles(nx, ny)):
+        s, first, last = tile(c, nx)
+        scene = read(Conditions, conditions)
+        for i in range(first, last):
+            at = place(G, c, i)
+            a_x, y, b_x = on_bodies(S, G, at, rheology, scene)
+            carries = (S[P, at.k] > 0.0) & (S[TOUCH, at.k] == 0.0)
+            store(out, at, ti.select(carries, C[at.q, XA], a_x), ti.select(carries, C[at.q, YA], y),
+                  ti.select(carries, -C[at.q, XB], b_x), ti.select(carries, -C[at.q, YB], y))
