@@ -54,9 +54,9 @@ def search(history, kappa, prune=True, criterion="findley", degrees=GRID, decide
         raise ValueError(f"a stress history must be finite and shaped (points, times, 6), not {history.shape}")
     points, steps, _ = history.shape
     out = np.zeros((points, 5))
-    a, b = np.zeros((2, points, steps))
-    grid = planes(degrees)
-    values, peaks = np.zeros((points, len(grid))), np.zeros((points, critical_planes.STARTS, critical_planes.PEAK))
+    grid, most = planes(degrees), min(points, SLICE)
+    scratch = [np.empty((most, *size)) for size in ((len(grid),), (steps,), (steps,),
+                                                    (critical_planes.STARTS, critical_planes.PEAK))]
     rule, before = CRITERIA[criterion], np.full((points, 4), np.inf)
     if known is not None and rule.falls:
         before[:, 0], before[:, 1:] = known
@@ -64,7 +64,7 @@ def search(history, kappa, prune=True, criterion="findley", degrees=GRID, decide
     for first in range(0, points, SLICE):
         part = slice(first, min(first + SLICE, points))
         critical_planes.search(part.stop - first, steps, kappa, traced(rule), math.radians(degrees / 2), shrinks, int(prune),
-                               before[part], history[part], grid, *(array[part] for array in (values, a, b, peaks, out)))
+                               before[part], history[part], grid, *(one[: part.stop - first] for one in scratch), out[part])
         if tell:
             tell(part.stop, points)
     if decided is not None:

@@ -60,8 +60,7 @@ class ThermalBelow(Heated):
         self.diffusivity, self.speed, self.dt = body.k / (body.rho * body.c), speed, dt
         self.lead, self.entries = math.ceil(LEAD * a / (speed * dt)), len(self.rises)
         self.size = fast_length(2 * self.entries + self.lead)
-        with ThreadPoolExecutor(WORKERS) as pool:
-            spectra = np.stack(list(pool.map(self.waves.spectrum, self.rises)))
+        spectra = self.spectra()
         self.rises = None
         strength = np.abs(spectra).max(axis=0) * np.exp(-self.waves.k * shallowest)
         self.ix, self.iy = np.nonzero((strength > WEAK * strength.max()) & (self.waves.k * shallowest < REACH))

@@ -98,6 +98,17 @@ class Heated:
         out[end : end + self.taper] = rise[-1] * fade[: out.shape[0] - end, None]
         return out
 
+    def spectra(self, since=0.0):
+        """(entries, nx//2+1, modes) of all rises, less `since`."""
+        out = np.empty((len(self.rises), *self.waves.k.shape), np.complex64)
+
+        def put(n):
+            out[n] = self.waves.spectrum(self.rises[n] - since)
+
+        with ThreadPoolExecutor(WORKERS) as pool:
+            list(pool.map(put, range(len(out))))
+        return out
+
 
 class ThermalStress(Heated):
     """sigma_xx, sigma_yy, sigma_xy (Pa) at the surface of `body`, which moves at `speed` (m/s), at every entry of a passage.
@@ -112,9 +123,7 @@ class ThermalStress(Heated):
         diffusivity = body.k / (body.rho * body.c)
         w = self.waves
         first = (w.spectrum(self.rises[0]) * steady_depth(w.kx, w.k, diffusivity, speed)).astype(np.complex64)
-        with ThreadPoolExecutor(WORKERS) as pool:
-            changes = np.stack(list(pool.map(lambda rise: w.spectrum(rise - self.rises[0]), self.rises)))
-        self.thetas = _convolved(changes, w, diffusivity, speed, dt)
+        self.thetas = _convolved(self.spectra(since=self.rises[0]), w, diffusivity, speed, dt)
         self.thetas += first
         self.pushed = [(2 * self.stiffness * part / np.where(w.k > 0, w.k, 1.0)).astype(np.float32)
                        for part in (w.kx**2 + self.nu * w.ky**2, w.ky**2 + self.nu * w.kx**2, (1 - self.nu) * w.kx * w.ky)]

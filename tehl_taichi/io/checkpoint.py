@@ -1,6 +1,5 @@
 """The states that a run can go on from, one .npz each (whose members carry checksums), named by the entries before it."""
 
-import io
 import zipfile
 import zlib
 
@@ -14,9 +13,8 @@ NEEDED = {"step", "P", "H0"}
 
 def write(folder, number, state):
     """Store the state behind entry `number`."""
-    content = io.BytesIO()
-    np.savez(content, **{key: value for key, value in state.items() if value is not None})
-    atomic.replace(folder / f"{number}.npz", content.getbuffer())
+    with atomic.aside(folder / f"{number}.npz") as temporary, open(temporary, "wb") as file:
+        np.savez(file, **{key: value for key, value in state.items() if value is not None})
 
 
 def forget(folder, number):
