@@ -15,7 +15,7 @@ from tehl_taichi.scene.route import total_steps
 
 SWITCH = 1e-4  # s, interpreter switch interval while a thread writes
 EVERY = 2.0  # s between the states that a run can go on from; a thermal one has 11 MB at 257x65x9, a tenth of a step's time
-SHOWN = 0.5  # s between the steps that readers see: nobody looks more often, and no run goes on from one between two states
+SHOWN = 1.0  # s between the steps that readers see, at 30 ms each: nobody looks more often, nor does a run go on from one
 
 
 class Due:
