@@ -32,8 +32,9 @@ def shifted(Z: ti.template(), kind: ti.template(), at: ti.template(), nz, n, pat
     """Values at node n moved by path number `path`; what comes in is as at the border."""
     moved, first = V(0.0), at.i - int(paths[path, REACH])
     for m in ti.static(range(REACH)):
-        q = at.q - at.i + ti.min(ti.max(first + m, 0), at.nx)
-        moved += paths[path, m] * Z[kind, q * nz + n]
+        if paths[path, m] != 0.0:  # one of them, as features move by whole cells
+            q = at.q - at.i + ti.min(ti.max(first + m, 0), at.nx)
+            moved += paths[path, m] * Z[kind, q * nz + n]
     return moved
 
 
