@@ -316,3 +316,34 @@ def test_a_march_from_nothing_forgets_what_the_bodies_remember(monkeypatch):
     monkeypatch.setattr(together.Together, "report", Report(1e-9, 0.0, 1e-9, 3, 9, True), raising=False)
     together.march_to_rest(solver, heat, levels.get(fields.P), solver.H0)
     assert seen == [(0.0, 0.0, 0.0)]
+
+
+@pytest.mark.parametrize("converged, looks", [(False, 0), (True, 1)])
+def test_a_grid_is_looked_at_once_and_only_where_it_converged(monkeypatch, converged, looks):
+    """What a start that failed has left may be no numbers."""
+    from types import SimpleNamespace
+
+    from tehl_taichi.errors import NotConverged
+    from tehl_taichi.march import start
+
+    seen, report = [], SimpleNamespace(converged=converged)
+
+    def steady(scene, scales, nx, ny, look):
+        look("solver", None, SimpleNamespace(converged=False))
+        return SimpleNamespace(solver="solver", heat=None, report=report, moving=False, work=0,
+                               values=[look("solver", None, report)])
+
+    monkeypatch.setattr(start, "solve_steady", steady)
+    monkeypatch.setattr(start, "not_converged", lambda *_: NotConverged("stopped"))
+    monkeypatch.setattr(start.snapshot, "take", lambda *_: seen.append(SimpleNamespace(scalars={})) or seen[-1])
+    monkeypatch.setattr(start.snapshot, "state_of", lambda *_: {"P": 1.0})
+    monkeypatch.setattr(start.readings, "steady", lambda *_: {})
+    monkeypatch.setattr(start, "bars", lambda values: ({}, {}))
+    monkeypatch.setattr(start, "_spread", lambda first, *_: first)
+    if not converged:
+        with pytest.raises(NotConverged, match="stopped"):
+            start.steady_snapshot(scene("ball-on-disc"), SimpleNamespace(line=False))
+    else:
+        first = start.steady_snapshot(scene("ball-on-disc"), SimpleNamespace(line=False))
+        assert first is seen[0] and first.make_state() == {"P": 1.0} and first.unsettled == ""
+    assert len(seen) == looks

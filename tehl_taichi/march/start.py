@@ -13,28 +13,45 @@ from tehl_taichi.march.solved import Solved
 from tehl_taichi.march.steady import solve_steady
 
 
+class Looks:
+    """What is seen of the grids of a start, from now on; newest: the snapshot of the last one that converged."""
+
+    def __init__(self, scene):
+        self.scene, self.started, self.newest = scene, time.perf_counter(), None
+
+    def __call__(self, solver, heat, report):
+        if not report.converged:
+            return None
+        self.newest = self.taken(solver, heat, report)
+        return readings.steady(self.newest, self.scene)
+
+    def taken(self, solver, heat, report):
+        """The snapshot of what is in the solver's table."""
+        return snapshot.take(Solved(solver, heat, report, self.started), 0, 0.0, math.nan, None)
+
+
 def steady_snapshot(scene, scales):
     """Snapshot 0 with the error bars of its numbers; of a passage whose temperatures do not settle, a state in time, with the
     reason why none of its numbers is known. Raises NotConverged where there is neither."""
-    started, shots = time.perf_counter(), []
-
-    def look(solver, heat, report):
-        solved = Solved(solver, heat, report, started)
-        shots[:] = [snapshot.take(solved, 0, 0.0, math.nan, None)]
-        return readings.steady(shots[0], scene) if report.converged else None
-
-    result = solve_steady(scene, scales, scene.grid.nx, 0 if scales.line else scene.grid.ny, look)
-    unsettled = ""
-    if not result.report.converged:
-        failure = not_converged(result.solver, result.heat, result.report, "the steady start")
-        if not (result.moving and scene.transient):
-            raise failure
-        unsettled = str(failure)
-    state, first = snapshot.state_of(result.solver, result.heat, 0), shots[0]  # of the last grid, the finest
+    looks = Looks(scene)
+    result = solve_steady(scene, scales, scene.grid.nx, 0 if scales.line else scene.grid.ny, looks)
+    unsettled = _unsettled(result, scene)
+    first = looks.taken(result.solver, result.heat, result.report) if unsettled else looks.newest
+    state = snapshot.state_of(result.solver, result.heat, 0)
     first.make_state = lambda: state
     first.scalars["cycles"], first.unsettled = float(result.work), unsettled
     first.grids, (first.error, first.unknown) = result.values, _unknown(first, scene) if unsettled else bars(result.values)
     return _spread(first, scene, scales)
+
+
+def _unsettled(result, scene):
+    """Why the finest state is one in time; "": it is steady. Raises NotConverged where it is neither."""
+    if result.report.converged:
+        return ""
+    failure = not_converged(result.solver, result.heat, result.report, "the steady start")
+    if not (result.moving and scene.transient):
+        raise failure
+    return str(failure)
 
 
 def _unknown(first, scene):
