@@ -45,6 +45,8 @@ def stability(
     by_film: bool = typer.Option(False, "--grid-by-film", help="as many columns as the film formula asks for"),
     confirm: bool = typer.Option(False, "--confirm", help="what half the time step and twice the columns change of starts with "
                                  "temperatures, instead"),
+    again: int = typer.Option(0, min=0, max=6, help="with --confirm: doublings, at most, of a grid on which a start does not "
+                              "hold, up to 2048 columns (points: 256)"),
     finer: int = typer.Option(0, min=0, max=4, help="doublings of every grid before anything is run, up to 2048 columns "
                               "(points: 512)"),
     as_json: bool = typer.Option(False, "--json", help="one JSON object with the counts on stdout"),
@@ -63,7 +65,7 @@ def stability(
     chosen, found = carried(chosen) if by_film else chosen, []
     chosen = suite.finer(chosen, finer)
     if confirm:
-        return _confirm(chosen, as_json, workers, threads)
+        return _confirm(chosen, as_json, workers, threads, again)
     for outcome in run(chosen.items(), precision, workers, threads):
         found.append(outcome)
         say(f"{outcome.name}: {outcome.verdict} {outcome.reason}")
@@ -84,14 +86,14 @@ def stability(
     raise typer.Exit(1 if counts["failed"] else 0)
 
 
-def _confirm(chosen, as_json, workers, threads):
+def _confirm(chosen, as_json, workers, threads, again):
     from tehl_taichi.profiles.stability import confirm
 
     found = []
-    for one in confirm(chosen, workers, threads):
+    for one in confirm(chosen, workers, threads, again):
         found.append({**vars(one), "holds": one.holds})
         changes = ", ".join(f"{key} {value:.2g}" for key, value in vars(one).items() if isinstance(value, float))
-        say(f"{one.name}: {one.reason or changes or 'stops'}")
+        say(f"{one.name}: {one.reason or f'{one.columns} columns, ' + (changes or 'stops')}")
     counts = {"starts": len(found), "holds": sum(one["holds"] for one in found),
               "moving": sum(one["holds"] and one["moving"] for one in found)}
     if as_json:

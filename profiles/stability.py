@@ -25,6 +25,7 @@ NARROW = {"grid.nx": 304, "grid.ny": 76}  # 20 um are four cells, the fewest tha
 MOST_STEPS = 600  # of a passage; with temperatures SRR -1.99 would need 25 536, the feature hardly moves in one
 FINEST = {"line": 1024, "point": 256}  # columns, of scenes on the grid that their film asks for
 MOST = {True: 2048, False: 512}  # columns of lines, of points, that are made finer
+CONFIRMED = {True: 2048, False: 256}  # the same, of those that are made finer until twice the columns confirm them
 FILM_HOLDS, HOLDS_K = 0.01, 1.0  # what half a step and a finer grid may change of a start that they confirm
 RANDOM_LINE, RANDOM_POINT, RANDOM_STEPS = {"grid.nx": 64, "grid.ny": 16}, {"grid.nx": 64, "grid.ny": 16, "grid.y_max": 2.0}, 12
 # the default first, then in the order that the published figures were drawn in
@@ -69,8 +70,7 @@ class Confirmed:
     @property
     def holds(self):
         """Whether neither changes the film by more than 1 %, nor the temperature by more than 1 K."""
-        films, kelvins = (self.half_film, self.finer_film), (self.half_K, self.finer_K)
-        return None not in films and max(films) <= FILM_HOLDS and max(kelvins) <= HOLDS_K
+        return _small(self.half_film, self.half_K) and _small(self.finer_film, self.finer_K)
 
 
 def cases(thermal=False):
@@ -229,25 +229,45 @@ def run_case(name, description, precision=AUTO):
                    thin_film.carried(description) >= 1)
 
 
-def confirm(chosen, workers=1, threads=None):
-    """Generator of a Confirmed for each of `chosen`, {name: scene}, in the order in which they end."""
-    jobs = list(chosen.items())
+def confirm(chosen, workers=1, threads=None, again=0):
+    """Generator of a Confirmed for each of `chosen`, {name: scene}, in the order in which they end.
+
+    again: doublings, at most, of a grid on which a start does not hold, up to CONFIRMED columns.
+    """
+    jobs = [(name, description, again) for name, description in chosen.items()]
     for number, found in measure.side_by_side(confirmed, jobs, workers, threads):
         lost = isinstance(found, pool.Lost)
-        name, description = jobs[number]
+        name, description, _ = jobs[number]
         yield Confirmed(name, description.grid.nx, None, None, None, None, reason=found.reason) if lost else found
 
 
-def confirmed(name, description):
-    """The start of a scene three times: as it is, with half the time step, on twice the columns. Returns a Confirmed."""
-    own, half, finer = (_start(one) for one in (
-        description, description.replace(**{"time.courant": 0.5 * description.time.courant}), doubled(description)))
+def confirmed(name, description, again=0):
+    """The start of a scene three times: as it is, on twice the columns, and with half the time step; where it does not hold the
+    same on twice the columns, `again` times at most. Returns the last Confirmed."""
+    own, most = _start(description), CONFIRMED[Scales.of(description).line]
+    while True:
+        twice = doubled(description)
+        finer, last = _start(twice), again == 0 or twice.grid.nx > most
+        half = _start(_halved(description)) if last or _small(*_change(own, finer)) else None  # else the grid has decided
+        found = Confirmed(name, description.grid.nx, *_change(own, half), *_change(own, finer),
+                          any(state[2] for state in (own, half, finer) if state))
+        if last or found.holds:
+            return found
+        description, own, again = twice, finer, again - 1
 
-    def change(other):
-        return (abs(other[0] / own[0] - 1), abs(other[1] - own[1])) if own and other else (None, None)
 
-    moving = any(state[2] for state in (own, half, finer) if state)
-    return Confirmed(name, description.grid.nx, *change(half), *change(finer), moving)
+def _halved(description):
+    return description.replace(**{"time.courant": 0.5 * description.time.courant})
+
+
+def _change(own, other):
+    """(part of the film, K) between two starts, (None, None) where one stops."""
+    return (abs(other[0] / own[0] - 1), abs(other[1] - own[1])) if own and other else (None, None)
+
+
+def _small(film, kelvin):
+    """Whether a start that changes by so much holds."""
+    return film is not None and film <= FILM_HOLDS and kelvin <= HOLDS_K
 
 
 def doubled(description, times=1):

@@ -139,6 +139,30 @@ def test_starts_are_confirmed_by_half_a_step_and_twice_the_columns(monkeypatch):
     assert stability.finer({"line": coarse}, 2)["line"].grid.nx == 256
 
 
+def test_a_start_is_doubled_until_it_holds(monkeypatch):
+    """Films of 1 um + 1 um / columns and 100 deg C + 128 K / columns hold from 64 columns on, until half a step counts."""
+    from tehl_taichi.errors import NotConverged
+
+    run = []
+
+    def march(description):
+        nx, half = description.grid.nx, description.time.courant < 1
+        run.append((nx, half))
+        if nx == 32:
+            raise NotConverged("too coarse")
+        yield SimpleNamespace(scalars={"h_c_m": (1 + 1 / nx) * 1e-6, "film_max_C": 100 + 128 / nx + 5 * half * (nx < 128)},
+                              unsettled="")
+
+    monkeypatch.setattr("tehl_taichi.march.passage.march", march)
+    coarse = scene("gear").replace(**{"grid.nx": 32, "grid.ny": 32})
+    found, = stability.confirm({"case": coarse}, again=6)
+    assert found.holds and (found.columns, found.finer_K, found.half_K) == (128, 0.5, 0.0)
+    assert run == [(32, False), (64, False), (128, False), (64, True), (256, False), (128, True)]
+    assert not next(stability.confirm({"case": coarse}, again=1)).holds
+    monkeypatch.setitem(stability.CONFIRMED, True, 64)
+    assert next(stability.confirm({"case": coarse}, again=6)).columns == 64
+
+
 def test_a_start_that_is_lost_is_told(monkeypatch):
     from tehl_taichi.profiles import measure
 
