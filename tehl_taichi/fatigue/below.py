@@ -55,14 +55,13 @@ def profiles(passage, rows, alone=False, windows=(slice(None),), tell=lambda don
 def _profiles(passage, depths, histories, windows, x, kind):
     """The Profile of each window; kind: row, and whether it is of one point of the contact alone. Windows of some moments of
     the first one keep its planes where they have as much there."""
-    found, all_, unknown = [], np.arange(histories.shape[2]), [None] * depths.size
-    first, known = all_[windows[0]], unknown
+    found, all_, known = [], np.arange(histories.shape[2]), None
+    first = all_[windows[0]]
     for moments in windows:
         some, fewer = histories[:, :, moments], np.isin(all_[moments], first).all()
-        searched = [findley.search(history, *_rule(passage), known=before)
-                    for history, before in zip(some, known if fewer else unknown)]
+        searched = findley.search(some.reshape(-1, *some.shape[2:]), *_rule(passage), known=known if fewer else None)
         known = known if found else searched
-        found.append(_profile(passage, depths, some, np.array([f for f, _ in searched]), x, *kind))
+        found.append(_profile(passage, depths, some, searched[0].reshape(some.shape[:2]), x, *kind))
     return found
 
 

@@ -10,6 +10,7 @@ bound is nearly the value itself, and only planes that are really better are eva
 
 from tehl_taichi.engine.language import ti
 from tehl_taichi.fatigue.circle import enclose, vec3
+from tehl_taichi.fatigue.thinning import all_of, extent, stress, thin, vec6
 
 FIRST = 4     # halvings of the step done for every peak; the others only for peaks within CLOSE of the best by then
 CLOSE = 5e-3
@@ -24,7 +25,6 @@ SAME = 0.9998  # the same (1 degree) for peaks after the first halvings
 SLACK = 1e-11  # relative rounding of a bound
 KEPT = 1e-12  # relative rounding of a value that fewer moments leave as it is
 
-vec6 = ti.types.vector(6, ti.f64)
 LANES = 8     # planes bounded at once: the ring of a pattern search
 lanes = ti.types.vector(LANES, ti.f64)
 PEAK = 11     # numbers kept per peak: normal (3), value, turn, middle (6)
@@ -63,11 +63,6 @@ def traction(s, x, y, z):
 
 
 @ti.func
-def stress(S: ti.template(), row, t):
-    return vec6(S[row, t, 0], S[row, t, 1], S[row, t, 2], S[row, t, 3], S[row, t, 4], S[row, t, 5])
-
-
-@ti.func
 def mean_stress(S: ti.template(), row, t):
     return (S[row, t, 0] + S[row, t, 1] + S[row, t, 2]) / 3
 
@@ -82,11 +77,12 @@ def value_of(rule: ti.template(), tau, normal, mean, kappa):
 
 
 @ti.func
-def bounds(S: ti.template(), row, steps, x, y, z, middle, kappa, rule: ti.template()):
+def bounds(S: ti.template(), some: ti.template(), row, steps, x, y, z, middle, kappa, rule: ti.template()):
     """Upper bounds of the values on several planes (x, y, z): the circle about the shear of the stress `middle`."""
     ca, cb, cc, cn = traction(middle, x, y, z)
     top, far, mean = lanes(-1e300), lanes(0.0), -1e300
-    for t in range(steps):
+    for q in range(steps):
+        t = some[row, q]
         a, b, c, normal = traction(stress(S, row, t), x, y, z)
         n = normal - cn
         da, db, dc = a - ca - n * x, b - cb - n * y, c - cc - n * z
@@ -96,29 +92,31 @@ def bounds(S: ti.template(), row, steps, x, y, z, middle, kappa, rule: ti.templa
 
 
 @ti.func
-def plane_value(S: ti.template(), a: ti.template(), b: ti.template(), row, steps, n, kappa, rule: ti.template()):
+def plane_value(S: ti.template(), some: ti.template(), a: ti.template(), b: ti.template(), row, steps, n, kappa,
+                rule: ti.template()):
     """What the rule gives for the plane n, and the mean stress whose shear is the centre of its circle."""
     e1, e2 = plane_frame(n)
     top, mean, la, ha, lb, hb = -1e300, -1e300, 1e300, -1e300, 1e300, -1e300
     ia, ja, ib, jb = 0, 0, 0, 0
-    for t in range(steps):
+    for q in range(steps):
+        t = some[row, q]
         u, v = project(S, row, t, e1, n), project(S, row, t, e2, n)
         top, mean = ti.max(top, project(S, row, t, n, n)), ti.max(mean, mean_stress(S, row, t))
-        a[row, t], b[row, t] = u, v
+        a[row, q], b[row, q] = u, v
         if u < la:
-            la, ia = u, t
+            la, ia = u, q
         if u > ha:
-            ha, ja = u, t
+            ha, ja = u, q
         if v < lb:
-            lb, ib = v, t
+            lb, ib = v, q
         if v > hb:
-            hb, jb = v, t
+            hb, jb = v, q
     if hb - lb > ha - la:
         ia, ja = ib, jb
     radius, index, weight = enclose(a, b, row, steps, ia, ja)
     middle = vec6(0.0)
     for k in ti.static(range(3)):
-        middle += weight[k] * stress(S, row, index[k])
+        middle += weight[k] * stress(S, row, some[row, index[k]])
     tau = radius
     if ti.static(rule.chord):
         tau = half_chord(a, b, row, steps)
@@ -126,8 +124,9 @@ def plane_value(S: ti.template(), a: ti.template(), b: ti.template(), row, steps
     if ti.static(rule.momentary):
         cu, cv = shear_of(middle, e1, n), shear_of(middle, e2, n)
         value = -1e300
-        for t in range(steps):
-            away = ti.sqrt((a[row, t] - cu) ** 2 + (b[row, t] - cv) ** 2)
+        for q in range(steps):
+            t = some[row, q]
+            away = ti.sqrt((a[row, q] - cu) ** 2 + (b[row, q] - cv) ** 2)
             value = ti.max(value, value_of(rule, away, project(S, row, t, n, n), mean_stress(S, row, t), kappa))
     return value, middle
 
@@ -142,8 +141,8 @@ def half_chord(a: ti.template(), b: ti.template(), row, steps):
 
 
 @ti.func
-def best_of_ring(S: ti.template(), a: ti.template(), b: ti.template(), row, steps, centre, step, turn, value, middle,
-                 kappa, rule: ti.template(), prune):
+def best_of_ring(S: ti.template(), some: ti.template(), a: ti.template(), b: ti.template(), row, steps, centre, step, turn,
+                 value, middle, kappa, rule: ti.template(), prune):
     """Best of eight planes around `centre` (tilted by `step`): normal, value and middle; the given ones if none is better."""
     e1, e2 = plane_frame(centre)
     n, best, mid = centre, value, middle
@@ -152,14 +151,14 @@ def best_of_ring(S: ti.template(), a: ti.template(), b: ti.template(), row, step
         angle = turn + k * 0.7853981633974483
         trial = (centre + step * (ti.cos(angle) * e1 + ti.sin(angle) * e2)).normalized()
         x[k], y[k], z[k] = trial[0], trial[1], trial[2]
-    bound = bounds(S, row, steps, x, y, z, middle, kappa, rule)
+    bound = bounds(S, some, row, steps, x, y, z, middle, kappa, rule)
     for _ in range(LANES):
         top, at, trial = -1e300, 0, centre
         for k in ti.static(range(LANES)):
             if bound[k] > top:
                 top, at, trial = bound[k], k, vec3(x[k], y[k], z[k])
         if top > best or prune == 0:
-            v, m = plane_value(S, a, b, row, steps, trial, kappa, rule)
+            v, m = plane_value(S, some, a, b, row, steps, trial, kappa, rule)
             if v > best:
                 n, best, mid = trial, v, m
         for k in ti.static(range(LANES)):
@@ -169,18 +168,19 @@ def best_of_ring(S: ti.template(), a: ti.template(), b: ti.template(), row, step
 
 
 @ti.func
-def refine(S: ti.template(), a: ti.template(), b: ti.template(), peaks: ti.template(), row, steps, peak, kappa,
-           rule: ti.template(), step0, shrinks, turns, prune):
+def refine(S: ti.template(), some: ti.template(), a: ti.template(), b: ti.template(), peaks: ti.template(), row, steps, peak,
+           kappa, rule: ti.template(), step0, shrinks, turns, prune):
     """Pattern search on the sphere: eight neighbours, move to the best; after `turns` turned patterns halve the step.
     Returns the number of planes decided."""
     n, best, middle = get_peak(peaks, row, peak)
+    best, middle = plane_value(S, some, a, b, row, steps, n, kappa, rule)
     step, turn, decided = step0, peaks[row, peak, 4], 0
     for _ in range(shrinks):
         failed, count = 0, 0
         while failed < turns and count < MOVES:
             count += 1
             failed += 1
-            chosen, value, mid = best_of_ring(S, a, b, row, steps, n, step, turn, best, middle, kappa, rule,
+            chosen, value, mid = best_of_ring(S, some, a, b, row, steps, n, step, turn, best, middle, kappa, rule,
                                               prune)
             if value > best:
                 n, best, middle, failed = chosen, value, mid, 0
@@ -209,26 +209,17 @@ def put_peak(peaks: ti.template(), row, peak, n, value, turn, middle):
 
 
 @ti.func
-def extent(S: ti.template(), row, steps):
-    """Middle of the range of every stress component."""
-    low, high = stress(S, row, 0), stress(S, row, 0)
-    for t in range(1, steps):
-        s = stress(S, row, t)
-        low, high = ti.min(low, s), ti.max(high, s)
-    return 0.5 * (low + high)
-
-
-@ti.func
-def scan(S: ti.template(), planes: ti.template(), values: ti.template(), a: ti.template(), b: ti.template(), row, steps,
-         kappa, rule: ti.template(), prune):
+def scan(S: ti.template(), some: ti.template(), planes: ti.template(), values: ti.template(), a: ti.template(),
+         b: ti.template(), row, steps, kappa, rule: ti.template(), prune):
     """Values on all planes of the grid (hopeless ones -1e300); returns the largest."""
-    count, middle = planes.shape[0], extent(S, row, steps)
+    low, high = extent(S, row, S.shape[1])
+    count, middle = planes.shape[0], 0.5 * (low + high)
     for group in range((count + LANES - 1) // LANES):
         x, y, z = lanes(0.0), lanes(0.0), lanes(0.0)
         for k in ti.static(range(LANES)):
             q = ti.min(group * LANES + k, count - 1)
             x[k], y[k], z[k] = planes[q, 0], planes[q, 1], planes[q, 2]
-        bound = bounds(S, row, steps, x, y, z, middle, kappa, rule)
+        bound = bounds(S, some, row, steps, x, y, z, middle, kappa, rule)
         for k in ti.static(range(LANES)):
             if group * LANES + k < count:
                 values[row, group * LANES + k] = bound[k]
@@ -242,7 +233,7 @@ def scan(S: ti.template(), planes: ti.template(), values: ti.template(), a: ti.t
         if q == 0 or k != first:
             if prune == 0 or values[row, k] > best - MARGIN * ti.abs(best):
                 trial = vec3(planes[k, 0], planes[k, 1], planes[k, 2])
-                values[row, k] = plane_value(S, a, b, row, steps, trial, kappa, rule)[0]
+                values[row, k] = plane_value(S, some, a, b, row, steps, trial, kappa, rule)[0]
                 best = ti.max(best, values[row, k])
             else:
                 values[row, k] = -1e300
@@ -264,8 +255,8 @@ def take_best(planes: ti.template(), values: ti.template(), row):
 
 
 @ti.func
-def collect(S: ti.template(), planes: ti.template(), values: ti.template(), a: ti.template(), b: ti.template(),
-            peaks: ti.template(), row, steps, on_grid, kappa, rule: ti.template()):
+def collect(S: ti.template(), some: ti.template(), planes: ti.template(), values: ti.template(), a: ti.template(),
+            b: ti.template(), peaks: ti.template(), row, steps, on_grid, kappa, rule: ti.template()):
     """The peaks of the grid worth a refinement; returns how many."""
     count, going = 0, 1
     while going == 1 and count < STARTS:
@@ -273,7 +264,7 @@ def collect(S: ti.template(), planes: ti.template(), values: ti.template(), a: t
         going = 0
         if top > on_grid - MARGIN * ti.abs(on_grid):
             going = 1
-            value, middle = plane_value(S, a, b, row, steps, n, kappa, rule)
+            value, middle = plane_value(S, some, a, b, row, steps, n, kappa, rule)
             put_peak(peaks, row, count, n, value, 0.0, middle)
             count += 1
     return count
@@ -305,29 +296,34 @@ def circle(steps: ti.i32, a: ti.types.ndarray(dtype=ti.f64, ndim=2), b: ti.types
 
 
 @ti.func
-def still(S: ti.template(), a: ti.template(), b: ti.template(), known: ti.template(), row, steps, kappa, rule: ti.template()):
+def still(S: ti.template(), some: ti.template(), a: ti.template(), b: ti.template(), known: ti.template(), row, steps, kappa,
+          rule: ti.template()):
     """Whether the known plane has the known value: no other plane can have more."""
     found = 0
     if known[row, 0] < 1e300:
         n = vec3(known[row, 1], known[row, 2], known[row, 3])
-        value, _ = plane_value(S, a, b, row, steps, n, kappa, rule)
+        value, _ = plane_value(S, some, a, b, row, steps, n, kappa, rule)
         if value >= known[row, 0] - KEPT * ti.abs(known[row, 0]):
             found = 1
     return found
 
 
 @ti.func
-def look(S: ti.template(), planes: ti.template(), values: ti.template(), a: ti.template(), b: ti.template(),
-         peaks: ti.template(), out: ti.template(), row, steps, kappa, rule: ti.template(), step0, shrinks, prune):
-    """Find the best plane of a point; into its row of `out`, with the number of planes decided."""
-    on_grid = scan(S, planes, values, a, b, row, steps, kappa, rule, prune)
-    count = collect(S, planes, values, a, b, peaks, row, steps, on_grid, kappa, rule)
+def look(S: ti.template(), some: ti.template(), planes: ti.template(), values: ti.template(), a: ti.template(),
+         b: ti.template(), peaks: ti.template(), out: ti.template(), row, steps, kappa, rule: ti.template(), step0, shrinks,
+         prune):
+    """Find the best plane of a point, by some of its moments first; into its row of `out`, with the planes decided."""
+    moments = thin(S, some, row, steps)
+    on_grid = scan(S, some, planes, values, a, b, row, moments, kappa, rule, prune)
+    count = collect(S, some, planes, values, a, b, peaks, row, moments, on_grid, kappa, rule)
     decided = planes.shape[0]
     for stage in range(2):
+        if stage == 1:
+            moments = all_of(some, row, steps)
         for peak in range(count):
             if stage == 0 or hopeful(peaks, row, peak, count):
                 step = step0 if stage == 0 else step0 * 0.5**FIRST
-                decided += refine(S, a, b, peaks, row, steps, peak, kappa, rule, step,
+                decided += refine(S, some, a, b, peaks, row, moments, peak, kappa, rule, step,
                                   FIRST if stage == 0 else shrinks - FIRST, FIRST_TURNS if stage == 0 else TURNS, prune)
     out[row, 0], out[row, 4] = -1e300, decided
     for peak in range(count):
@@ -343,12 +339,12 @@ def search(points: ti.i32, steps: ti.i32, kappa: ti.f64, rule: ti.template(), st
            S: ti.types.ndarray(dtype=ti.f64, ndim=3), planes: ti.types.ndarray(dtype=ti.f64, ndim=2),
            values: ti.types.ndarray(dtype=ti.f64, ndim=2), a: ti.types.ndarray(dtype=ti.f64, ndim=2),
            b: ti.types.ndarray(dtype=ti.f64, ndim=2), peaks: ti.types.ndarray(dtype=ti.f64, ndim=3),
-           out: ti.types.ndarray(dtype=ti.f64, ndim=2)):
+           some: ti.types.ndarray(dtype=ti.i32, ndim=2), out: ti.types.ndarray(dtype=ti.f64, ndim=2)):
     """out[point] = (f, n_x, n_y, n_z, planes decided) from S[point, time, (xx, yy, zz, xy, xz, yz)].
 
     rule: a :class:`tehl_taichi.criteria.criterion.Criterion` whose value may be traced; planes (m, 3): unit normals of the
     grid; step0: first step, rad, halved `shrinks` times; known (points, 4): value and plane that a search of more moments
-    found, not looked for again where these have as much there (infinite: not known); scratch: values (points, m), a, b
+    found, not looked for again where these have as much there (infinite: not known); scratch: values (points, m), a, b, some
     (points, steps), peaks (points, STARTS, PEAK).
     """
     ti.loop_config(block_dim=8)
@@ -356,5 +352,6 @@ def search(points: ti.i32, steps: ti.i32, kappa: ti.f64, rule: ti.template(), st
         out[row, 4] = 1
         for k in ti.static(range(4)):
             out[row, k] = known[row, k]
-        if still(S, a, b, known, row, steps, kappa, rule) == 0:
-            look(S, planes, values, a, b, peaks, out, row, steps, kappa, rule, step0, shrinks, prune)
+        all_of(some, row, steps)
+        if still(S, some, a, b, known, row, steps, kappa, rule) == 0:
+            look(S, some, planes, values, a, b, peaks, out, row, steps, kappa, rule, step0, shrinks, prune)

@@ -57,6 +57,7 @@ def search(history, kappa, prune=True, criterion="findley", degrees=GRID, decide
     grid, most = planes(degrees), min(points, SLICE)
     scratch = [np.empty((most, *size)) for size in ((len(grid),), (steps,), (steps,),
                                                     (critical_planes.STARTS, critical_planes.PEAK))]
+    scratch.append(np.empty((most, steps), np.int32))
     rule, before = CRITERIA[criterion], np.full((points, 4), np.inf)
     if known is not None and rule.falls:
         before[:, 0], before[:, 1:] = known

@@ -81,14 +81,21 @@ class ThermalBelow(Heated):
         return self.kx * self.speed * self.dt
 
     def _responses(self, depth, each=map):
-        """(cut, (4, waves, size)): transforms in time of ss, tt, zz, sz of some waves (without their way back); each: applies
-        a function to the items of a list."""
+        """(cut, (waves, 4, size)): transforms in time of ss, tt, zz, sz of some waves (without their way back), those of one kx
+        together; each: applies a function to the items of a list."""
         reached = np.flatnonzero(self.k * depth < REACH)
-        cuts = [reached[start : start + CHUNK] for start in range(0, reached.size, CHUNK)]
+        reached = reached[np.argsort(self.k[reached], kind="stable")]  # waves of one cut take few rows of the table
+        cuts = [np.sort(reached[start : start + CHUNK]) for start in range(0, reached.size, CHUNK)]
         table = Answers.of(self.k[reached], lambda k: self._answers(k, depth))
         for first in range(0, len(cuts), WORKERS):  # not more of them at once: there may be 100, of 8 MB each
             some = cuts[first : first + WORKERS]
-            yield from zip(some, each(lambda cut: self._kernels(table, cut) * self.passed[cut], some))
+            yield from zip(some, each(lambda cut: self._passing(table, cut), some))
+
+    def _passing(self, table, cut):
+        """(waves, 4, size): what the temperatures that pass do."""
+        out = np.empty((cut.size, 4, self.size), np.complex64)
+        np.multiply(self._kernels(table, cut).swapaxes(0, 1), self.passed[cut][:, None], out=out)
+        return out
 
     def _kernels(self, table, cut):
         """(4, waves, size): what temperatures, linear over a step in the frame of the contact, do from then on; within the
@@ -97,9 +104,9 @@ class ThermalBelow(Heated):
         later = np.exp(-2j * np.pi * np.arange(self.size) / self.size).astype(np.complex64)
         before, now = _means(angle, 0.0, 1.0)
         out *= before * later + now
-        for n in range(PARTS.size - 1):
-            before, now = _means(angle, PARTS[n], PARTS[n + 1])
-            out += newest[..., [n]] * (before * later + now)
+        before, now = (sum(newest[..., [n]] * means for n, means in enumerate(parts))
+                       for parts in zip(*(_means(angle, *ends) for ends in zip(PARTS[:-1], PARTS[1:]))))
+        out += before * later + now
         return out
 
     def _answers(self, k, depth):
@@ -112,12 +119,14 @@ class ThermalBelow(Heated):
         reach[..., 0] = 0.0
         return transform(reach, self.size), np.diff(stress[..., count:], axis=2).astype(np.float32)
 
-    def _turned(self, parts, cut):
-        """xx, yy, zz, xy, xz, yz from ss, tt, zz, sz of waves (4, waves, ...)."""
-        cos, sin = (np.where(self.k[cut] > 0, v[cut] / np.where(self.k[cut] > 0, self.k[cut], 1.0), one)[:, None]
-                    .astype(np.float32) for v, one in ((self.kx, 1.0), (self.ky, 0.0)))
-        ss, tt, zz, sz = parts
-        return (cos**2 * ss + sin**2 * tt, sin**2 * ss + cos**2 * tt, zz, cos * sin * (ss - tt), 1j * cos * sz, 1j * sin * sz)
+    def _turns(self, cut):
+        """(waves, 4, 6): what ss, tt, zz, sz of waves add to xx, yy, zz, xy, xz, yz."""
+        k = np.where(self.k[cut] > 0, self.k[cut], 1.0)
+        cos, sin = np.where(self.k[cut] > 0, self.kx[cut] / k, 1.0), np.where(self.k[cut] > 0, self.ky[cut] / k, 0.0)
+        none, one = 0 * cos, 1 + 0 * cos
+        turns = [[cos**2, sin**2, none, cos * sin, none, none], [sin**2, cos**2, none, -cos * sin, none, none],
+                 [none, none, one, none, none, none], [none, none, none, none, 1j * cos, 1j * sin]]
+        return np.array(turns).transpose(2, 0, 1).astype(np.complex64)
 
     def _back(self, spectra, kx):
         """Entries of transforms in time (..., waves or kx, size), in the frame of the contact again."""
@@ -127,13 +136,15 @@ class ThermalBelow(Heated):
     def rows(self, depth, rows):
         """(rows, entries, columns, 6) Pa at `depth` on some rows."""
         w, columns = self.waves, int(self.ix.max()) + 1
-        out = np.zeros((len(rows), 6, columns, self.size), np.complex64)
-        weights = [[w.row_weights(row, odd)[self.iy, None].astype(np.complex64) for odd in (False, True)] for row in rows]
+        out = np.zeros((columns, len(rows) * 6, self.size), np.complex64)
+        both = np.array([[w.row_weights(row, odd)[self.iy] for odd in (False, True)] for row in rows])
+        weights = both[:, np.array(ODD, int)].astype(np.complex64).transpose(2, 0, 1)  # (waves, rows, 6)
         for cut, parts in self._responses(depth):
-            starts = np.flatnonzero(np.diff(self.ix[cut], prepend=-1))
-            for n, part in enumerate(self._turned(parts, cut)):
-                for found, weight in zip(out, weights):
-                    found[n, self.ix[cut][starts]] += np.add.reduceat(part * weight[ODD[n]][cut], starts, axis=0)
+            adds = (self._turns(cut)[:, :, None] * weights[cut][:, None]).reshape(cut.size, 4, -1)
+            ends = [*np.flatnonzero(np.diff(self.ix[cut], prepend=-1)), cut.size]
+            for first, end in zip(ends[:-1], ends[1:]):  # the waves of one kx
+                out[self.ix[cut[first]]] += _rows_of(adds[first:end]).T @ _rows_of(parts[first:end])
+        out = out.reshape(columns, len(rows), 6, self.size).transpose(1, 2, 0, 3)
         spectra = np.zeros((len(rows), 6, w.kx.size, self.entries), np.complex64)
         spectra[:, :, :columns] = self._back(out, w.kx[:columns, 0])
         return self.stiffness / w.nx * half_back(spectra, w.nx, 2)[:, :, : self.columns].transpose(0, 3, 2, 1)
@@ -144,7 +155,7 @@ class ThermalBelow(Heated):
         w, held = self.waves, np.zeros((6, self.k.size, self.entries), np.complex64)
         with ThreadPoolExecutor(WORKERS) as pool:
             for cut, parts in self._responses(depth, pool.map):
-                held[:, cut] = self._back(np.stack(self._turned(parts, cut)), self.kx[cut])
+                held[:, cut] = self._back((self._turns(cut).swapaxes(1, 2) @ parts).swapaxes(0, 1), self.kx[cut])
 
         def fields(entry, rows=slice(None)):
             out = []
@@ -158,6 +169,11 @@ class ThermalBelow(Heated):
 
 
 ODD = (False, False, False, True, False, True)  # about the first row of a mirrored domain: xy and yz
+
+
+def _rows_of(array):
+    """(n, 4, m) as (n 4, m)."""
+    return array.reshape(-1, array.shape[-1])
 
 
 def _means(angle, low, high):

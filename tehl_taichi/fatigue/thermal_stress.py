@@ -87,11 +87,11 @@ class Heated:
         self.columns = columns
         whole = max(columns, front + x.size + self.taper)
         self.waves = WaveNumbers(whole, rows, self.dx, y[1] - y[0] if rows > 1 else 1.0, mirrored)
-        self.rises = [self._extended(rise).astype(np.float32) for rise in rises]
+        self.rises = [np.asarray(rise, np.float32) for rise in rises]
 
     def _extended(self, rise):
         """The rise on the wide grid, fading out behind its last column."""
-        out = np.zeros((self.waves.columns, rise.shape[1]))
+        out = np.zeros((self.waves.columns, rise.shape[1]), rise.dtype)
         end = self.front + rise.shape[0]
         out[self.front : end] = rise
         fade = 0.5 * (1 + np.cos(np.pi * np.arange(1, self.taper + 1) / self.taper))
@@ -103,7 +103,7 @@ class Heated:
         out = np.empty((len(self.rises), *self.waves.k.shape), np.complex64)
 
         def put(n):
-            out[n] = self.waves.spectrum(self.rises[n] - since)
+            out[n] = self.waves.spectrum(self._extended(self.rises[n] - since))
 
         with ThreadPoolExecutor(WORKERS) as pool:
             list(pool.map(put, range(len(out))))
@@ -122,7 +122,7 @@ class ThermalStress(Heated):
         super().__init__(body, rises, x, y, front, columns, a, mirrored)
         diffusivity = body.k / (body.rho * body.c)
         w = self.waves
-        first = (w.spectrum(self.rises[0]) * steady_depth(w.kx, w.k, diffusivity, speed)).astype(np.complex64)
+        first = (w.spectrum(self._extended(self.rises[0])) * steady_depth(w.kx, w.k, diffusivity, speed)).astype(np.complex64)
         self.thetas = _convolved(self.spectra(since=self.rises[0]), w, diffusivity, speed, dt)
         self.thetas += first
         self.pushed = [(2 * self.stiffness * part / np.where(w.k > 0, w.k, 1.0)).astype(np.float32)
@@ -130,10 +130,11 @@ class ThermalStress(Heated):
 
     def __call__(self, entry, rows=slice(None)):
         """(sxx, syy, sxy), each (columns, ny+1), or some rows of it."""
-        theta, held = self.thetas[entry], -self.stiffness * self.rises[entry][:, rows]
+        theta, held = self.thetas[entry], -self.stiffness * self._extended(self.rises[entry][:, rows])[: self.columns]
         sxx, syy, sxy = (self.waves.values(part * theta, odd, rows=rows)
                          for part, odd in zip(self.pushed, (False, False, True)))
-        return tuple(v[: self.columns] for v in (held + sxx, held + syy, sxy))
+        sxx, syy, sxy = (v[: self.columns] for v in (sxx, syy, sxy))
+        return held + sxx, held + syy, sxy
 
 
 def _convolved(changes, waves, diffusivity, speed, dt):
