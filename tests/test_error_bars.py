@@ -1,6 +1,7 @@
 """Error bars hold: on sequences made by hand, on scenes against grids four times as fine, and when companions fail."""
 
 import json
+import math
 from types import SimpleNamespace
 
 import numpy as np
@@ -60,6 +61,65 @@ def test_a_number_that_grids_do_not_resolve_has_no_bar():
     assert bar([Reading(0.4), Reading(1.0)]) == (None, "it still changes by 60% from grid to grid")
     assert bar([Reading(5e-6, lost=True), Reading(1.0), Reading(1.1)])[0] == pytest.approx(0.15)
     assert bar([Reading(1.0), Reading(5e-6, doubt="touches", lost=True)]) == (None, "touches")
+
+
+NARROW = "a few cells wide"
+QUIET = (2.0e9, 2.0e9, 2.0e9)  # of a part of the passage, on three grids
+
+
+def narrow(values, *parts, doubt=NARROW):
+    """Readings of a number of a narrow peak on grids each twice as fine; parts: pressures of parts of the passage on each."""
+    return [Reading(value, doubt=doubt, course=course) for value, course in zip(values, zip(*parts))]
+
+
+def test_three_grids_tell_a_narrow_peak_whose_differences_halve():
+    """Of a dent that leaves at SRR 0.12: 3.65, 4.39, 4.55 GPa on 128, 256, 512 columns (docs/exit.md), then 4.56 and 4.55."""
+    dent = (3.65, 4.39, 4.55)
+    own = tuple(1e9 * p for p in dent)
+    assert bar(narrow(dent, own, QUIET)) == (pytest.approx(max(0.16, 0.25 * 0.74, 2.0 / 2 * 0.16)), "")
+    assert bar(narrow(dent, own, QUIET)[1:]) == bar([Reading(value, doubt=NARROW) for value in dent]) == (None, NARROW)
+    assert bar(narrow((1.12, 1.33, 1.32), own, QUIET))[0] == pytest.approx(0.25 * 0.21)  # an index that follows it
+    assert bar([*narrow(dent, own, QUIET)[:2], Reading(4.55, doubt="touches")]) == (None, "touches")
+
+
+def test_a_peak_that_grows_like_a_singular_one_stays_unknown():
+    newtonian = (3.28, 4.06, 5.23)
+    assert bar(narrow(newtonian, tuple(1e9 * p for p in newtonian), QUIET)) == (None, NARROW)
+    assert bar(narrow((2.75, 3.26, 3.57), (2.75e9, 3.26e9, 3.57e9), QUIET)) == (None, NARROW)  # in rolling, 3.70 on finer ones
+
+
+@pytest.mark.parametrize("doubt", ["", NARROW])
+def test_another_part_of_the_passage_may_overtake(doubt):
+    """An island of oil behind an asperity: 1.93, 2.25, 3.07 GPa beside 4.04, 4.03, 4.03; and one that stays below."""
+    own, p = (4.04e9, 4.03e9, 4.03e9), (4.04, 4.03, 4.03)
+    size, why = bar(narrow(p, own, (1.93e9, 2.25e9, 3.07e9), doubt=doubt))
+    assert size is None and why == (doubt or error_bars.RIVAL.format("1.93, 2.25, 3.07 GPa"))
+    assert bar(narrow(p, own, (1.9e9, 2.6e9, 2.8e9), doubt=doubt))[0] == pytest.approx(0.0025 if doubt else 0.001)
+    near = bar(narrow(p, own, (3.2e9, 3.8e9, 4.0e9), doubt=doubt))[0]  # goes on to 4.1
+    assert near == pytest.approx(4.03 * (4.1 / 4.03 - 1))
+    assert bar(narrow(p, own, (math.nan, math.nan, 3.07e9), doubt=doubt))[0] < 0.01
+
+
+def test_a_peak_that_grows_in_all_parts_is_its_own_rival():
+    """Not narrow: differences that do not fall yet leave a bar, by the last of them."""
+    own, beside_it = (3.0e9, 3.1e9, 3.25e9), (2.9e9, 3.0e9, 3.15e9)
+    assert bar(narrow((3.0, 3.1, 3.25), own, beside_it, doubt=""))[0] == pytest.approx(1.75 * 0.15)
+
+
+def test_parts_of_a_passage_are_the_same_on_every_grid():
+    path, coarse, fine = (-1.5, 1.5), np.arange(1, 49) / 16 - 1.5, np.arange(1, 385) / 128 - 1.5
+    p = [companions._course(1e9 + at**2, list(at), path) for at in (coarse, fine)]
+    assert len(p[0]) == len(p[1]) == 31 and p[0][0] == pytest.approx(1e9 + 1.4375**2) and p[1][-1] == pytest.approx(1e9 + 2.25)
+    assert all(one <= other for one, other in zip(*p))
+    cut = companions._course(np.ones(3), [-1.5, -1.4, -1.38], path)
+    assert cut[:2] == (1.0, 1.0) and np.isnan(cut[2:]).all()
+
+
+def test_an_index_at_the_shallowest_depth_is_settled_by_no_grid():
+    shallow = companions._doubted(Reading(1.8, doubt=companions.SHALLOW), "", (2e9,))
+    assert (shallow.doubt, shallow.course) == (companions.SHALLOW, ())
+    found = companions._doubted(Reading(1.8), NARROW, (2e9,))
+    assert (found.doubt, found.course) == (NARROW, (2e9,)) and companions._doubted(Reading(1.8), "", (2e9,)).course
 
 
 def test_a_film_whose_bar_would_reach_zero_has_none():

@@ -92,7 +92,7 @@ def front(X, smooth):
 
 @pytest.mark.parametrize("changes, advice", [
     ({"rheology.law": "newtonian"}, "1/sqrt(cell); oil without a shear limit has no finite value here; take temperatures or"),
-    ({"rheology.law": "newtonian", "thermal.on": True}, "; a finer grid may resolve it: --grid 512x128 (8 times the work)"),
+    ({"rheology.law": "newtonian", "thermal.on": True}, "; a finer grid may resolve it: --grid 512x64 (4 times the work)"),
     ({"rheology.law": "newtonian", "srr": 0.0}, "1/sqrt(cell); oil without a shear limit"),
     ({}, "wide; a finer grid may resolve it"),
     ({"srr": 0.0}, "wide; a finer grid may resolve it")])
@@ -105,6 +105,20 @@ def test_a_peak_at_a_free_edge(changes, advice):
     text, = film_judge.unresolved(Made(gear(**changes), pressure=tip), {})
     assert text.startswith("exit not resolved: p_max 5.00 GPa of the passage (feature at 0.30 a), at X = 0.79")
     assert advice in text
+
+
+def test_a_peak_that_three_grids_know_is_not_warned_of():
+    store = Made(gear(), pressure=lambda X, smooth: smooth + 6e9 * (np.abs(X - X[90]) < 1e-9)[:, None])
+    assert len(list(film_judge.unresolved(store, {"transient": {"error": {"p_max_Pa": None}}}))) == 1
+    assert not list(film_judge.unresolved(store, {"transient": {"error": {"p_max_Pa": 1e8}}}))
+
+
+def test_an_exit_whose_error_is_not_known_tells_which_grid_to_try():
+    why = "exit not resolved: a pressure peak of 89% of the largest is only a few cells wide"
+    assert film_judge.finer_exit(gear(), why).endswith("finer along x: --grid 512x64 (4 times the work)")
+    for left, other in ((gear(**{"rheology.law": "newtonian"}), why), (gear(), "there are no coarser grids"),
+                        (gear(feature=[]), why)):
+        assert film_judge.finer_exit(left, other) == ""
 
 
 @pytest.mark.parametrize("at,told", [(40, True), (90, False)])

@@ -116,12 +116,13 @@ def test_the_summary_and_the_table_have_it():
 
 
 def test_one_reason_is_said_once():
-    why = {"Fi_max": "exit not resolved"}
+    why = {"Fi_max": "exit not resolved: a narrow peak"}
     told = {"transient": {"unknown": {"p_max_Pa": why["Fi_max"], "h_min_m": "it still changes"}},
             "fatigue": {"unknown": why, "resolved": {"unknown": why, "below": {"unknown": why}}}}
-    assert result_judge.unknown_errors(None, told) == [
+    assert result_judge.unknown_errors(SimpleNamespace(scene=GEAR), told) == [
         "the error of passage p_max_Pa, Fi_max, Fi_max of the resolved part, Fi_max below the surface of the resolved part "
-        "is not known: exit not resolved", "the error of passage h_min_m is not known: it still changes"]
+        "is not known: exit not resolved: a narrow peak; the next to try is finer along x: --grid 512x64 (4 times the work)",
+        "the error of passage h_min_m is not known: it still changes"]
 
 
 @pytest.mark.parametrize("part, error, whole, tone, said", [

@@ -34,8 +34,9 @@ def _follow(scene, summary):
 
 
 def unresolved(store, summary):
-    """Of the steady state, and of the moment with the largest pressure of the passage."""
-    for n in dict.fromkeys((0, int(np.argmax(store.scalar("p_max_Pa"))))):
+    """Of the steady state, and of the moment with the largest pressure of the passage, unless grids together know it."""
+    known = summary.get("transient", {}).get("error", {}).get("p_max_Pa") is not None
+    for n in dict.fromkeys((0,) if known else (0, int(np.argmax(store.scalar("p_max_Pa"))))):
         p = store.fields(n, ("pressure",))["pressure"]
         height, i = sharpest(p)
         if height >= 1.0:  # of lower peaks the bars tell, which they leave unknown
@@ -69,7 +70,14 @@ def _because(store, i):
     """At the outlet the frozen film ends in a free edge: an inverse square root, which only a shear limit makes finite."""
     if store.x[i] > 0 and _endless(store.scene):
         return f" and grows like 1/sqrt(cell); {NO_VALUE}"
-    return f"; a finer grid may resolve it: {finer.told(store.scene)}"
+    at_exit = readings.exits(store.x[i], Scales.of(store.scene).a)
+    return f"; a finer grid may resolve it: {finer.along(store.scene) if at_exit else finer.told(store.scene)}"
+
+
+def finer_exit(scene, why):
+    """What to try where the error of a passage is not known for this reason, if that is its exit and a grid may help."""
+    helps = why.startswith(readings.EXIT) and scene.transient and not _endless(scene)
+    return f"; the next to try is finer along x: {finer.along(scene)}" if helps else ""
 
 
 def _endless(scene):

@@ -58,7 +58,8 @@ def unknown_errors(store, summary):
                                (early.get("below", {}), "", deep + of_it)):
         for name, why in part.get("unknown", {}).items():
             reasons.setdefault(why, []).append(f"{when}{name}{behind}")
-    return [f"the error of {', '.join(names)} is not known: {why}" for why, names in reasons.items()]
+    return [f"the error of {', '.join(names)} is not known: {why}{film_judge.finer_exit(store.scene, why)}"
+            for why, names in reasons.items()]
 
 
 def largest_pressure(summary):

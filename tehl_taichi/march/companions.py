@@ -23,6 +23,7 @@ COMPANIONS = HALVED  # with the run itself three grids; 1/8 and 1/64 of its cell
 FI, BELOW = "Fi_max", "below_Fi_max"  # names of the largest index of the surface, and below it
 RESOLVED, RESOLVED_BELOW = "resolved_Fi_max", "resolved_below_Fi_max"  # of both as long as the grid resolves the pressure
 SHARP = ("p_max_Pa", "film_max_C", FI, BELOW)  # what a peak that is not resolved leaves unknown
+PART = 0.1  # a
 SHALLOW = "it is largest at the smallest depth that is searched, half a cell, where a grid resolves nothing"
 SHALLOWEST = 1.5  # of that depth: up to the next one that is searched
 WORTH = 3e5  # nodes times steps of a run: below, it is a try, on a grid whose companions tell little
@@ -64,7 +65,20 @@ def passage_readings(scene, reader, scalar, fatigue=None):
             for name, part in indices(fatigue or {}).items()}
     # a peak that the grid does not resolve at some moment: neither its pressure is known nor what it does to oil and steel
     why = readings.unresolved(reader, _high(p), p.max(), a)
-    return out | {name: replace(out[name], doubt=why) for name in SHARP if why and name in out}
+    course = _course(p, [reader.feature_x(n) / a for n in range(1, p.size + 1)], scene.path)
+    return out | {name: _doubted(out[name], why, course) for name in SHARP if name in out}
+
+
+def _doubted(reading, why, course):
+    """The reading of a number that depends on the highest pressures, of which `why` is not known."""
+    return replace(reading, doubt=why or reading.doubt, course=() if reading.doubt == SHALLOW else course)
+
+
+def _course(p, at, path):
+    """Largest of the pressures p while the feature, `at` these places (a), is in each PART of its path; nan: never there."""
+    parts = np.floor((np.asarray(at) - path[0]) / PART + 1e-9).astype(int)
+    count = int(np.floor((path[1] - path[0]) / PART + 1e-9)) + 1
+    return tuple(float(p[parts == n].max(initial=-np.inf)) if (parts == n).any() else np.nan for n in range(count))
 
 
 def _shallow(name, fatigue):

@@ -21,6 +21,13 @@ BLURRED = 1.5  # of the distance between an extreme over nodes and that of the p
 HOPELESS = 0.5  # a number that changes by more than this part of itself from grid to grid is not resolved
 WHOLE = "its error may be as large as the number itself"  # of one that is positive: nothing is known of it but that
 MOVED = 4.0  # cells of the coarser grid that the place of an extreme may move: more is another extreme
+# A number of a peak too narrow for one grid is told by three whose differences halve at least (those of a singular peak grow by
+# 1.41); its bar is no smaller than the last difference, and than a quarter of the one before
+HALVES, BEFORE = 2.0, 0.25
+# Parts of a course go on as a geometric series, for so many of the last difference at most; they may exceed the largest by so
+# much of it, which then is part of the bar
+GROWS_ON, EXCEEDS = 4.0, 0.1
+RIVAL = "the pressure in another part of the passage grows from grid to grid ({}) and may become the largest"
 
 
 @dataclass(frozen=True)
@@ -30,7 +37,8 @@ class Reading:
     blur: how far the true extreme may lie from the one over nodes on this grid; place: where that is, in each frame in which it
     may rest, and cell: the spacing there, () and nan for a number that is no extreme; doubt: why this grid cannot know the
     number ("" where it can); lost: whether its value is not even a step towards that of the next grid; settled: how far the
-    iterations may have left it from the solution of this grid; positive: whether the number is so by nature, as a film is.
+    iterations may have left it from the solution of this grid; positive: whether the number is so by nature, as a film is;
+    course: where grids together may settle a doubt, the largest pressures by parts of the passage (nan: none), else ().
     """
 
     value: float
@@ -41,6 +49,7 @@ class Reading:
     lost: bool = False
     settled: float = 0.0
     positive: bool = False
+    course: tuple = ()
 
 
 def bar(readings):
@@ -49,9 +58,10 @@ def bar(readings):
     Lost readings, and those before them, do not count.
     """
     last = readings[-1]
-    if last.doubt:
-        return None, last.doubt
     known = readings[max((n + 1 for n, r in enumerate(readings) if r.lost), default=0) :]
+    least, doubt = _of_course(known) if known else (0.0, last.doubt)
+    if doubt:
+        return None, doubt
     if len(known) < 2:
         return None, "no coarser grid tells it"
     before = known[-2]
@@ -61,7 +71,7 @@ def bar(readings):
     if abs(steps[0]) > HOPELESS * abs(last.value):
         return None, f"it still changes by {abs(steps[0] / last.value):.0%} from grid to grid"
     accident = ACCIDENT * abs(last.value) if len(steps) == 1 and not last.place else 0.0
-    size = max(accident, last.settled, BLURRED * last.blur, _left(steps, bool(last.place)))
+    size = max(accident, last.settled, BLURRED * last.blur, _left(steps, bool(last.place)), least)
     return (None, WHOLE) if last.positive and size >= last.value else (size, "")
 
 
@@ -73,6 +83,38 @@ def _left(steps, extreme):
     even = steps[0] * steps[1] > 0 and earlier[0] >= EVENLY * last
     part = SAFETY[extreme] / (min(earlier[0] / last, STEEPEST) - 1) if even else UNEVEN[extreme]
     return max(part * last, *(share * step for share, step in zip(EARLIER, earlier)))
+
+
+def _of_course(known):
+    """(what the bar is at least, why there is none or "") of a number that depends on the highest pressures of a passage."""
+    last, excess, parts = known[-1], *_exceeds([reading.course for reading in known[-3:]])
+    if excess is None:
+        return 0.0, last.doubt
+    if excess > EXCEEDS:
+        return 0.0, last.doubt or RIVAL.format(", ".join(f"{p / 1e9:.2f}" for p in parts) + " GPa")
+    least = excess * abs(last.value)
+    if not last.doubt:
+        return least, ""
+    before, now = (b.value - a.value for a, b in zip(known[-3:-1], known[-2:]))
+    if abs(before) < HALVES * abs(now):
+        return 0.0, last.doubt
+    return max(least, abs(now), BEFORE * abs(before)), ""
+
+
+def _exceeds(courses):
+    """(by what share another part may exceed the largest on finer grids, or None where these do not tell, its pressures)."""
+    if len(courses) < 3 or not courses[-1] or len({len(course) for course in courses}) > 1:
+        return None, ()
+    parts = [part for part in zip(*courses) if not any(map(math.isnan, part))]
+    rival, top = max(parts, key=lambda part: _may_reach(*part)), max(parts, key=lambda part: part[2])
+    largest = max(top[2] + abs(top[2] - top[1]), _may_reach(*top))
+    return max(0.0, _may_reach(*rival) / largest - 1), rival
+
+
+def _may_reach(first, second, third):
+    """What a pressure may become beyond three grids: its differences go on as they fall, for GROWS_ON of the last at most."""
+    before, last = abs(second - first), abs(third - second)
+    return third + min(last / (before / last - 1) if before > last > 0 else math.inf, GROWS_ON * last)
 
 
 def bars(grids):
