@@ -154,7 +154,8 @@ def cracks(
 
 def accuracy(
     out: Path = OUT, quick: bool = QUICK, threads: Optional[int] = THREADS,
-    only: Optional[str] = typer.Option(None, help="errors (against run time) or coverage (of the error bars)"),
+    only: Optional[str] = typer.Option(None, help="errors (against run time), coverage (of the error bars), or that of "
+                               "exits"),
     seed: int = typer.Option(4, help="of the random scenes that judge the error bars"),
     judge: bool = typer.Option(False, "--judge", help="the coverage of the battery that `out` holds already"),
     keep: bool = typer.Option(False, "--keep", help="write the errors into the package, for --target-error"),
@@ -166,12 +167,13 @@ def accuracy(
     from tehl_taichi.engine import runtime
     from tehl_taichi.values.checks import choice
 
-    choice("--only", only, (None, "errors", "coverage"))
+    choice("--only", only, (None, "errors", "coverage", "exits"))
     runtime.start(threads=threads)
-    if only != "coverage" and not judge:
+    if only in (None, "errors") and not judge:
         _accuracy(out, quick, keep)
     if only != "errors":
-        _coverage(out / "coverage.json", seed, quick, judge, threads or _cores())
+        exits = only == "exits"
+        _coverage(out / ("exits.json" if exits else "coverage.json"), seed, quick, judge, threads or _cores(), exits)
 
 
 def _accuracy(out, quick, keep):
@@ -192,13 +194,13 @@ def _accuracy(out, quick, keep):
         say(f"wrote {target.FILE}")
 
 
-def _coverage(path, seed, quick, judge, threads):
+def _coverage(path, seed, quick, judge, threads, exits):
     from tehl_cli.listing import list_table
     from tehl_taichi.profiles import coverage as suite
     from tehl_taichi.profiles import measure
 
     if not judge:
-        measure.fresh(threads, suite.run, path, seed, quick, say)
+        measure.fresh(threads, suite.run, path, seed, quick, say, exits)
     stored = json.loads(path.read_text())
     for part, rows in itertools.groupby(suite.table(stored["rows"]), lambda row: row[0]):
         list_table(f"{part}: error bars of random scenes (seed {stored['seed']}), judged on grids {suite.FINER} times as "

@@ -18,15 +18,16 @@ STEADY = {"line, Moes": (10, (64, 128, 256)), "line": (14, (64, 128, 256)), "lin
           "circle, Moes": (8, (64, 64, 128)), "circle": (4, (64, 64, 128)), "ellipse": (8, (64, 64, 128)),
           "point, thermal": (2, (64,))}
 PASSAGES = {"ridge": 1, "ridge, thermal": 1, "asperity": 2, "asperity, thermal": 1, "ridge on ball": 1}
+EXITS = {"exit": 10, "exit, thermal": 10}  # of endless features, in one dimension: grids four times as fine are within reach
 QUICK, DRAWS = 6, 100  # every so many-th scene; draws until one is admissible
 RELATIVE_TO = {"C": 1.0}  # K: temperatures have no natural zero
 
 
-def battery(seed, quick=False):
-    """[(kind, scene)]: steady scenes and passages, the same for the same seed."""
+def battery(seed, quick=False, exits=False):
+    """[(kind, scene)]: steady scenes and passages, or exits, the same for the same seed."""
     rng = np.random.default_rng(seed)
-    kinds = [(kind, columns) for kind, (count, columns) in STEADY.items() for _ in range(count)]
-    kinds += [(kind, None) for kind, count in PASSAGES.items() for _ in range(count)]
+    kinds = [(kind, columns) for kind, (count, columns) in STEADY.items() for _ in range(count) if not exits]
+    kinds += [(kind, None) for kind, count in (EXITS if exits else PASSAGES).items() for _ in range(count)]
     drawn = [(kind, _admissible(rng, kind, columns)) for kind, columns in kinds]
     return drawn[:: QUICK if quick else 1]
 
@@ -35,7 +36,9 @@ def _admissible(rng, kind, columns):
     """The first scene drawn that is not refused."""
     for _ in range(DRAWS):
         with contextlib.suppress(SceneError):
-            return _passage(rng, kind) if columns is None else _steady(rng, kind, int(rng.choice(columns)))
+            if columns is not None:
+                return _steady(rng, kind, int(rng.choice(columns)))
+            return _exit(rng, "thermal" in kind) if kind.startswith("exit") else _passage(rng, kind)
     raise SceneError(f"none of {DRAWS} scenes drawn as {kind!r} is admissible")
 
 
@@ -81,11 +84,21 @@ def _passage(rng, kind):
         "grid.ny": nx // 4, "time.x_end": float("inf") if ridge else 0.0})
 
 
-def run(path, seed, quick=False, progress=None):
+def _exit(rng, thermal):
+    """An asperity or a dent that nothing ends across, until it has left."""
+    nx = int(rng.choice([256, 512]))
+    return scene("gear").replace(**{
+        "feature.length": float("inf"), "height": float(rng.choice([-1.0, 1.0])) * _log_uniform(rng, 0.5e-6, 1.5e-6),
+        "width": _log_uniform(rng, 150e-6, 300e-6), "srr": float(rng.choice([0.0, rng.uniform(-0.4, 0.4)], p=[0.2, 0.8])),
+        "thermal.on": thermal, "hertz_pressure": _log_uniform(rng, 1e9, 2.2e9), "temperature": float(rng.uniform(60, 100)),
+        "grid.nx": nx, "grid.ny": nx // 4})
+
+
+def run(path, seed, quick=False, progress=None, exits=False):
     """Rows of all scenes of a battery (see :func:`row`), kept in the JSON file `path` as they come."""
     rows, path = [], Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
-    for n, (kind, description) in enumerate(battery(seed, quick)):
+    for n, (kind, description) in enumerate(battery(seed, quick, exits)):
         if progress:
             progress(f"{n + 1}: {kind}, {description.grid.nx} columns")
         rows.append({"kind": kind, "columns": description.grid.nx, **row(description)})
@@ -124,8 +137,8 @@ def judged(rows):
     for one in rows:
         if "reason" in one:
             continue
-        part = "passage" if "answers" in one else "steady"
-        if part == "passage":
+        part = "steady" if "answers" not in one else "exit" if one["kind"].startswith("exit") else "passage"
+        if part != "steady":
             own = {name: Reading(**values) for name, values in one["own"].items()}
             found, _ = companions.judged(one["answers"], own)
         else:

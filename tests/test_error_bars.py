@@ -205,6 +205,17 @@ def test_the_table_of_a_battery_is_counted_right():
     assert film[:5] == ("steady", "h_c_m", 2, 1, 1.0) and everything[2:5] == (4, 2, 0.75)
 
 
+def test_a_battery_of_exits_leaves_the_contact_in_one_dimension():
+    drawn = coverage.battery(3, exits=True)
+    assert [kind for kind, _ in drawn] == ["exit"] * 10 + ["exit, thermal"] * 10
+    for kind, one in drawn:
+        assert one.one_dimensional and one.path[1] > 1.2 and one.grid.nx in (256, 512) and one.isothermal == (kind == "exit")
+    assert len({one.operation.srr for _, one in drawn}) > 10 and len({one.features[0].height > 0 for _, one in drawn}) == 2
+    own, coarser = ({"p_max_Pa": vars(Reading(value))} for value in (4.0, 3.9))
+    row = {"own": own, "answers": [{"values": coarser}], "finer": {"p_max_Pa": 4.05}}
+    assert [coverage.judged([{"kind": kind, **row}])[0][0] for kind in ("exit, thermal", "ridge")] == ["exit", "passage"]
+
+
 def short(**changes):
     return scene("gear").replace(**{"thermal.on": False, "grid.nx": 64, "grid.ny": 16, "time.steps": 4,
                                     "numerics.estimate_error": True, **changes})
