@@ -87,28 +87,31 @@ def _left(steps, extreme):
 
 def _of_course(known):
     """(what the bar is at least, why there is none or "") of a number that depends on the highest pressures of a passage."""
-    last, excess, parts = known[-1], *_exceeds([reading.course for reading in known[-3:]])
-    if excess is None:
+    last, parts = known[-1], _parts([reading.course for reading in known[-3:]])
+    if not parts:
         return 0.0, last.doubt
+    top, rival = max(parts, key=lambda part: part[2]), max(parts, key=lambda part: _may_reach(*part))
+    excess = max(0.0, _may_reach(*rival) / max(top[2] + abs(top[2] - top[1]), _may_reach(*top)) - 1)
     if excess > EXCEEDS:
-        return 0.0, last.doubt or RIVAL.format(", ".join(f"{p / 1e9:.2f}" for p in parts) + " GPa")
-    least = excess * abs(last.value)
+        return 0.0, last.doubt or RIVAL.format(", ".join(f"{p / 1e9:.2f}" for p in rival) + " GPa")
+    values, least = [reading.value for reading in known[-3:]], excess * abs(last.value)
     if not last.doubt:
         return least, ""
-    before, now = (b.value - a.value for a, b in zip(known[-3:-1], known[-2:]))
-    if abs(before) < HALVES * abs(now):
+    if not (_halves(*values) and _halves(*top)):  # what follows from a pressure settles no earlier than that does
         return 0.0, last.doubt
-    return max(least, abs(now), BEFORE * abs(before)), ""
+    return max(least, abs(values[2] - values[1]), BEFORE * abs(values[1] - values[0])), ""
 
 
-def _exceeds(courses):
-    """(by what share another part may exceed the largest on finer grids, or None where these do not tell, its pressures)."""
+def _parts(courses):
+    """The pressures of three grids in every part of a passage that all of them tell of; [] where they are not three."""
     if len(courses) < 3 or not courses[-1] or len({len(course) for course in courses}) > 1:
-        return None, ()
-    parts = [part for part in zip(*courses) if not any(map(math.isnan, part))]
-    rival, top = max(parts, key=lambda part: _may_reach(*part)), max(parts, key=lambda part: part[2])
-    largest = max(top[2] + abs(top[2] - top[1]), _may_reach(*top))
-    return max(0.0, _may_reach(*rival) / largest - 1), rival
+        return []
+    return [part for part in zip(*courses) if not any(map(math.isnan, part))]
+
+
+def _halves(first, second, third):
+    """Whether the differences of three grids halve, at least."""
+    return abs(second - first) >= HALVES * abs(third - second)
 
 
 def _may_reach(first, second, third):
