@@ -1,7 +1,6 @@
 """The conclusions of the thesis (Everitt 2018) as a table of Findley stresses with errors, and a verdict on each.
 
-Every case runs on three grids, each twice as fine (time steps shrink with the cells); errors by Richardson's extrapolation
-with the observed order where it is credible.
+Every case runs on three grids, each twice as fine (time steps shrink with the cells); errors as a run with companions has them.
 """
 
 from dataclasses import dataclass, field
@@ -13,8 +12,8 @@ from tehl_taichi.profiles import measure
 from tehl_taichi.errors import NotConverged
 from tehl_taichi.fatigue import below, findley
 from tehl_taichi.fatigue.histories import Passage
-from tehl_taichi.march import readings
-from tehl_taichi.march.error_bars import estimated_error
+from tehl_taichi.march import companions, readings
+from tehl_taichi.march.error_bars import Reading, bar
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.study import pool
@@ -81,7 +80,7 @@ def run(folder, quick=False, progress=None, workers=1, threads=None):
 
 def row(name, description, folder, grids, progress=None):
     """One Row from runs on `grids`; one that does not converge is too coarse, and no step of the error."""
-    found, friction, reason = [], (np.nan, np.nan), ""
+    found, courses, friction, reason = [], [], (np.nan, np.nan), ""
     for nx, ny in grids:
         if progress:
             progress(f"{name}: {nx} x {ny} cells")
@@ -89,15 +88,31 @@ def row(name, description, folder, grids, progress=None):
         try:
             saved = completed(sized, folder / f"{_slug(name)}-{nx}.zarr").store
         except NotConverged as error:
-            found, reason = [], f"{nx} x {ny} cells: {error}"
+            found, courses, reason = [], [], f"{nx} x {ny} cells: {error}"
             continue
         found.append(stresses(saved))
+        courses.append({window: course(saved, *ends) for window, ends in WINDOWS.items()})
         friction = tuple(footprint_friction(saved, at) for at in (-0.5, 0.5))
     if not found:
         return Row(name, description.operation.srr, {}, {}, friction, reason=reason)
     doubts = unresolved(saved)
-    errors = {key: np.nan if key in doubts else estimated_error([one[key] for one in found]) for key in found[-1]}
+    errors = {key: error_of(key, found, courses, doubts.get(key, "")) for key in found[-1]}
     return Row(name, description.operation.srr, found[-1], errors, friction, doubts)
+
+
+def error_of(key, found, courses, doubt):
+    """Error of a value of the last grid, or nan; found: values on each grid, courses: of the pressures in each window there."""
+    follows = key[0] in LOADS or key in DEEP.values()  # a number that depends on the highest pressures of its window
+    known, _ = bar([Reading(values[key], doubt=doubt, course=course[key[1]] if follows else ())
+                    for values, course in zip(found, courses)])
+    return np.nan if known is None else known
+
+
+def course(saved, low, high):
+    """The :func:`tehl_taichi.march.companions.course` of a stored passage between two positions of its feature (a)."""
+    at, p = saved.scalar("feature_x")[1:] / Scales.of(saved.scene).a, saved.scalar("p_max_Pa")[1:]
+    inside = (at >= low) & (at <= high)
+    return companions.course(p[inside], at[inside], saved.scene.path)
 
 
 def unresolved(saved):

@@ -70,6 +70,24 @@ def test_an_exit_that_is_not_resolved_has_no_error():
     assert "400 (exit not resolved)" in conclusions.cells(row) and "400 (error unknown)" in conclusions.cells(row)
 
 
+def test_three_grids_may_tell_a_peak_that_one_does_not():
+    """Of the window of its pressures; what does not depend on them has its error anyway."""
+    late, quiet = {"whole": (4.61e9, 5.40e9, 5.52e9)}, {"whole": (5.0e9, 5.2e9, 5.52e9)}
+    key, alone = ("all", "whole"), conclusions.ALONE
+    found = [{key: 446e6, alone: 478e6}, {key: 525e6, alone: 478e6}, {key: 556e6, alone: 478e6}]
+
+    def told(key, pressures, doubt="exit not resolved"):
+        return conclusions.error_of(key, found, [{"whole": (p, 2e9)} for p in pressures["whole"]], doubt)
+
+    assert told(key, late) == pytest.approx(40e6, rel=0.01) and np.isnan(told(key, quiet))
+    assert told(key, quiet, "") > 0 and told(alone, quiet, "") == 0.0
+
+
+def test_a_course_is_that_of_a_window():
+    whole, early = (conclusions.course(Spiked(0.7), *conclusions.WINDOWS[name]) for name in ("whole", "to 0.5 a"))
+    assert len(whole) == len(early) and np.nanmax(whole) == 3e9 and np.isnan(early[-3]) and np.nanmax(early) < 2.1e9
+
+
 def test_every_case_has_its_own_store():
     names = [conclusions._slug(name) for name in conclusions.cases()]
     assert len(set(names)) == len(names) == 21

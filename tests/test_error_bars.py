@@ -113,10 +113,10 @@ def test_a_peak_that_grows_in_all_parts_is_its_own_rival():
 
 def test_parts_of_a_passage_are_the_same_on_every_grid():
     path, coarse, fine = (-1.5, 1.5), np.arange(1, 49) / 16 - 1.5, np.arange(1, 385) / 128 - 1.5
-    p = [companions._course(1e9 + at**2, list(at), path) for at in (coarse, fine)]
+    p = [companions.course(1e9 + at**2, list(at), path) for at in (coarse, fine)]
     assert len(p[0]) == len(p[1]) == 31 and p[0][0] == pytest.approx(1e9 + 1.4375**2) and p[1][-1] == pytest.approx(1e9 + 2.25)
     assert all(one <= other for one, other in zip(*p))
-    cut = companions._course(np.ones(3), [-1.5, -1.4, -1.38], path)
+    cut = companions.course(np.ones(3), [-1.5, -1.4, -1.38], path)
     assert cut[:2] == (1.0, 1.0) and np.isnan(cut[2:]).all()
 
 

@@ -65,16 +65,16 @@ def passage_readings(scene, reader, scalar, fatigue=None):
             for name, part in indices(fatigue or {}).items()}
     # a peak that the grid does not resolve at some moment: neither its pressure is known nor what it does to oil and steel
     why = readings.unresolved(reader, _high(p), p.max(), a)
-    course = _course(p, [reader.feature_x(n) / a for n in range(1, p.size + 1)], scene.path)
-    return out | {name: _doubted(out[name], why, course) for name in SHARP if name in out}
+    pressures = course(p, [reader.feature_x(n) / a for n in range(1, p.size + 1)], scene.path)
+    return out | {name: _doubted(out[name], why, pressures) for name in SHARP if name in out}
 
 
-def _doubted(reading, why, course):
-    """The reading of a number that depends on the highest pressures, of which `why` is not known."""
-    return replace(reading, doubt=why or reading.doubt, course=() if reading.doubt == SHALLOW else course)
+def _doubted(reading, why, pressures):
+    """The reading of a number that depends on the highest pressures (a :func:`course`), where `why` is not known."""
+    return replace(reading, doubt=why or reading.doubt, course=() if reading.doubt == SHALLOW else pressures)
 
 
-def _course(p, at, path):
+def course(p, at, path):
     """Largest of the pressures p while the feature, `at` these places (a), is in each PART of its path; nan: never there."""
     parts = np.floor((np.asarray(at) - path[0]) / PART + 1e-9).astype(int)
     count = int(np.floor((path[1] - path[0]) / PART + 1e-9)) + 1
