@@ -111,6 +111,14 @@ def test_a_peak_that_grows_in_all_parts_is_its_own_rival():
     assert bar(narrow((3.0, 3.1, 3.25), own, beside_it, doubt=""))[0] == pytest.approx(1.75 * 0.15)
 
 
+def test_what_an_unknown_peak_sways_has_a_wide_bar():
+    """The hottest place of a surface, in rolling: 97.9, 98.3, 98.3 deg C, and 99.2 on grids four times as fine."""
+    values = (97.91, 98.32, 98.28)
+    assert bar([Reading(value, swayed=True) for value in values])[0] == pytest.approx(3 * 0.41)
+    assert bar([Reading(value) for value in values])[0] < 0.1
+    assert bar([Reading(values[1], swayed=True), Reading(values[2], swayed=True)])[0] == pytest.approx(3 * 0.04)
+
+
 def test_parts_of_a_passage_are_the_same_on_every_grid():
     path, coarse, fine = (-1.5, 1.5), np.arange(1, 49) / 16 - 1.5, np.arange(1, 385) / 128 - 1.5
     p = [companions.course(1e9 + at**2, list(at), path) for at in (coarse, fine)]

@@ -23,6 +23,7 @@ COMPANIONS = HALVED  # with the run itself three grids; 1/8 and 1/64 of its cell
 FI, BELOW = "Fi_max", "below_Fi_max"  # names of the largest index of the surface, and below it
 RESOLVED, RESOLVED_BELOW = "resolved_Fi_max", "resolved_below_Fi_max"  # of both as long as the grid resolves the pressure
 SHARP = ("p_max_Pa", "film_max_C", FI, BELOW)  # what a peak that is not resolved leaves unknown
+SWAYED = ("surface_a_max_C", "surface_b_max_C", "friction_coefficient_mean")  # what it has a part in
 PART = 0.1  # a
 SHALLOW = "it is largest at the smallest depth that is searched, half a cell, where a grid resolves nothing"
 SHALLOWEST = 1.5  # of that depth: up to the next one that is searched
@@ -66,6 +67,7 @@ def passage_readings(scene, reader, scalar, fatigue=None):
     # a peak that the grid does not resolve at some moment: neither its pressure is known nor what it does to oil and steel
     why = readings.unresolved(reader, _high(p), p.max(), a)
     pressures = course(p, [reader.feature_x(n) / a for n in range(1, p.size + 1)], scene.path)
+    out |= {name: replace(out[name], swayed=bool(why)) for name in SWAYED if name in out}
     return out | {name: _doubted(out[name], why, pressures) for name in SHARP if name in out}
 
 
