@@ -13,7 +13,7 @@ from tehl_taichi.errors import NotConverged
 from tehl_taichi.fatigue import below, findley
 from tehl_taichi.fatigue.histories import Passage
 from tehl_taichi.march import companions, readings
-from tehl_taichi.march.error_bars import Reading, bar
+from tehl_taichi.march.error_bars import estimated_error
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.study import pool
@@ -103,9 +103,7 @@ def row(name, description, folder, grids, progress=None):
 def error_of(key, found, courses, doubt):
     """Error of a value of the last grid, or nan; found: values on each grid, courses: of the pressures in each window there."""
     follows = key[0] in LOADS or key in DEEP.values()  # a number that depends on the highest pressures of its window
-    known, _ = bar([Reading(values[key], doubt=doubt, course=course[key[1]] if follows else ())
-                    for values, course in zip(found, courses)])
-    return np.nan if known is None else known
+    return estimated_error([one[key] for one in found], doubt, [one[key[1]] for one in courses] if follows else ())
 
 
 def course(saved, low, high):

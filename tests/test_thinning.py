@@ -27,7 +27,8 @@ def kept(history):
     def choose(steps: ti.i32, S: ti.types.ndarray(dtype=ti.f64, ndim=3), some: ti.types.ndarray(dtype=ti.i32, ndim=2),
                count: ti.types.ndarray(dtype=ti.i32, ndim=1)):
         for row in range(1):
-            count[row] = thinning.thin(S, some, row, steps)
+            low, high = thinning.extent(S, row, steps)
+            count[row] = thinning.thin(S, some, row, steps, low, high)
 
     choose(len(history), history[None].copy(), some, count)
     return some[0, : count[0]]

@@ -27,7 +27,7 @@ KEPT = 1e-12  # relative rounding of a value that fewer moments leave as it is
 
 LANES = 8     # planes bounded at once: the ring of a pattern search
 lanes = ti.types.vector(LANES, ti.f64)
-PEAK = 11     # numbers kept per peak: normal (3), value, turn, middle (6)
+PEAK = 5      # numbers kept per peak: normal (3), value, turn
 
 
 @ti.func
@@ -172,7 +172,7 @@ def refine(S: ti.template(), some: ti.template(), a: ti.template(), b: ti.templa
            kappa, rule: ti.template(), step0, shrinks, turns, prune):
     """Pattern search on the sphere: eight neighbours, move to the best; after `turns` turned patterns halve the step.
     Returns the number of planes decided."""
-    n, best, middle = get_peak(peaks, row, peak)
+    n = get_peak(peaks, row, peak)[0]
     best, middle = plane_value(S, some, a, b, row, steps, n, kappa, rule)
     step, turn, decided = step0, peaks[row, peak, 4], 0
     for _ in range(shrinks):
@@ -187,33 +187,27 @@ def refine(S: ti.template(), some: ti.template(), a: ti.template(), b: ti.templa
             turn += 0.2763932022500210
         decided += LANES * count
         step *= 0.5
-    put_peak(peaks, row, peak, n, best, turn, middle)
+    put_peak(peaks, row, peak, n, best, turn)
     return decided
 
 
 @ti.func
 def get_peak(peaks: ti.template(), row, peak):
-    middle = vec6(0.0)
-    for k in ti.static(range(6)):
-        middle[k] = peaks[row, peak, 5 + k]
-    return vec3(peaks[row, peak, 0], peaks[row, peak, 1], peaks[row, peak, 2]), peaks[row, peak, 3], middle
+    return vec3(peaks[row, peak, 0], peaks[row, peak, 1], peaks[row, peak, 2]), peaks[row, peak, 3]
 
 
 @ti.func
-def put_peak(peaks: ti.template(), row, peak, n, value, turn, middle):
+def put_peak(peaks: ti.template(), row, peak, n, value, turn):
     for k in ti.static(range(3)):
         peaks[row, peak, k] = n[k]
     peaks[row, peak, 3], peaks[row, peak, 4] = value, turn
-    for k in ti.static(range(6)):
-        peaks[row, peak, 5 + k] = middle[k]
 
 
 @ti.func
 def scan(S: ti.template(), some: ti.template(), planes: ti.template(), values: ti.template(), a: ti.template(),
-         b: ti.template(), row, steps, kappa, rule: ti.template(), prune):
-    """Values on all planes of the grid (hopeless ones -1e300); returns the largest."""
-    low, high = extent(S, row, S.shape[1])
-    count, middle = planes.shape[0], 0.5 * (low + high)
+         b: ti.template(), row, steps, middle, kappa, rule: ti.template(), prune):
+    """Values on all planes of the grid (hopeless ones -1e300), bounded about the shear of `middle`; returns the largest."""
+    count = planes.shape[0]
     for group in range((count + LANES - 1) // LANES):
         x, y, z = lanes(0.0), lanes(0.0), lanes(0.0)
         for k in ti.static(range(LANES)):
@@ -255,8 +249,7 @@ def take_best(planes: ti.template(), values: ti.template(), row):
 
 
 @ti.func
-def collect(S: ti.template(), some: ti.template(), planes: ti.template(), values: ti.template(), a: ti.template(),
-            b: ti.template(), peaks: ti.template(), row, steps, on_grid, kappa, rule: ti.template()):
+def collect(planes: ti.template(), values: ti.template(), peaks: ti.template(), row, on_grid):
     """The peaks of the grid worth a refinement; returns how many."""
     count, going = 0, 1
     while going == 1 and count < STARTS:
@@ -264,8 +257,7 @@ def collect(S: ti.template(), some: ti.template(), planes: ti.template(), values
         going = 0
         if top > on_grid - MARGIN * ti.abs(on_grid):
             going = 1
-            value, middle = plane_value(S, some, a, b, row, steps, n, kappa, rule)
-            put_peak(peaks, row, count, n, value, 0.0, middle)
+            put_peak(peaks, row, count, n, top, 0.0)
             count += 1
     return count
 
@@ -273,10 +265,10 @@ def collect(S: ti.template(), some: ti.template(), planes: ti.template(), values
 @ti.func
 def hopeful(peaks: ti.template(), row, peak, count):
     """Whether this peak is close to the best one, and none in front of it is the same."""
-    n, value, _ = get_peak(peaks, row, peak)
+    n, value = get_peak(peaks, row, peak)
     good = 1
     for other in range(count):
-        m, top, _ = get_peak(peaks, row, other)
+        m, top = get_peak(peaks, row, other)
         if value < top - CLOSE * ti.abs(top):
             good = 0
         if other < peak and ti.abs(n.dot(m)) > SAME:
@@ -301,6 +293,7 @@ def still(S: ti.template(), some: ti.template(), a: ti.template(), b: ti.templat
     """Whether the known plane has the known value: no other plane can have more."""
     found = 0
     if known[row, 0] < 1e300:
+        all_of(some, row, steps)
         n = vec3(known[row, 1], known[row, 2], known[row, 3])
         value, _ = plane_value(S, some, a, b, row, steps, n, kappa, rule)
         if value >= known[row, 0] - KEPT * ti.abs(known[row, 0]):
@@ -313,9 +306,10 @@ def look(S: ti.template(), some: ti.template(), planes: ti.template(), values: t
          b: ti.template(), peaks: ti.template(), out: ti.template(), row, steps, kappa, rule: ti.template(), step0, shrinks,
          prune):
     """Find the best plane of a point, by some of its moments first; into its row of `out`, with the planes decided."""
-    moments = thin(S, some, row, steps)
-    on_grid = scan(S, some, planes, values, a, b, row, moments, kappa, rule, prune)
-    count = collect(S, some, planes, values, a, b, peaks, row, moments, on_grid, kappa, rule)
+    low, high = extent(S, row, steps)
+    moments = thin(S, some, row, steps, low, high)
+    on_grid = scan(S, some, planes, values, a, b, row, moments, 0.5 * (low + high), kappa, rule, prune)
+    count = collect(planes, values, peaks, row, on_grid)
     decided = planes.shape[0]
     for stage in range(2):
         if stage == 1:
@@ -352,6 +346,5 @@ def search(points: ti.i32, steps: ti.i32, kappa: ti.f64, rule: ti.template(), st
         out[row, 4] = 1
         for k in ti.static(range(4)):
             out[row, k] = known[row, k]
-        all_of(some, row, steps)
         if still(S, some, a, b, known, row, steps, kappa, rule) == 0:
             look(S, some, planes, values, a, b, peaks, out, row, steps, kappa, rule, step0, shrinks, prune)

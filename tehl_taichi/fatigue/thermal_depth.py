@@ -89,13 +89,9 @@ class ThermalBelow(Heated):
         table = Answers.of(self.k[reached], lambda k: self._answers(k, depth))
         for first in range(0, len(cuts), WORKERS):  # not more of them at once: there may be 100, of 8 MB each
             some = cuts[first : first + WORKERS]
-            yield from zip(some, each(lambda cut: self._passing(table, cut), some))
-
-    def _passing(self, table, cut):
-        """(waves, 4, size): what the temperatures that pass do."""
-        out = np.empty((cut.size, 4, self.size), np.complex64)
-        np.multiply(self._kernels(table, cut).swapaxes(0, 1), self.passed[cut][:, None], out=out)
-        return out
+            # each wave's four in one piece, as :meth:`rows` takes them
+            yield from zip(some, each(lambda cut: np.multiply(self._kernels(table, cut).swapaxes(0, 1),
+                                                              self.passed[cut][:, None], order="C"), some))
 
     def _kernels(self, table, cut):
         """(4, waves, size): what temperatures, linear over a step in the frame of the contact, do from then on; within the

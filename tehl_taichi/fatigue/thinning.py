@@ -28,9 +28,8 @@ def extent(S: ti.template(), row, steps):
 
 
 @ti.func
-def thin(S: ti.template(), some: ti.template(), row, steps):
-    """some[row] = the moments that are kept, the first and the last among them; returns how many."""
-    low, high = extent(S, row, steps)
+def thin(S: ti.template(), some: ti.template(), row, steps, low, high):
+    """some[row] = the moments that are kept, the first and the last among them; returns how many. low, high: their extent."""
     limit = OFF * OFF * (high - low).dot(high - low)
     some[row, 0] = 0
     count, last = 1, 0

@@ -80,7 +80,7 @@ def course(p, at, path):
     """Largest of the pressures p while the feature, `at` these places (a), is in each PART of its path; nan: never there."""
     parts = np.floor((np.asarray(at) - path[0]) / PART + 1e-9).astype(int)
     count = int(np.floor((path[1] - path[0]) / PART + 1e-9)) + 1
-    return tuple(float(p[parts == n].max(initial=-np.inf)) if (parts == n).any() else np.nan for n in range(count))
+    return tuple(float(p[parts == n].max()) if (parts == n).any() else np.nan for n in range(count))
 
 
 def _shallow(name, fatigue):

@@ -1,15 +1,16 @@
 """Error bars: how far a number may lie from its limit, from what grids each twice as fine as the one before gave.
 
 Where the differences between grids fall evenly, Richardson's extrapolation with the order observed (Roache 1994), at most
-log2 3, and a factor of safety. They do so for the central film of thick films; thin films are not there yet on the coarse grids
-(differences fall by 10, not 4), extremes over nodes jump about with the places of the nodes, and a pressure spike is as high as
-its grid is fine. So the last difference bounds the error where they do not, a part of the earlier ones bounds it anyway, and a
-number that the grid cannot know has no bar. The factors are measured on 1000 bars of random scenes: `tehl bench accuracy`,
-docs/benchmarks.md.
+log2 3, and a factor of safety. They do so for the central film of thick films; thin films are not there yet on the coarse
+grids (differences fall by 10, not 4), extremes over nodes jump about with the places of the nodes, and a pressure spike is
+as high as its grid is fine. So the last difference bounds the error where they do not, a part of the earlier ones bounds it
+anyway, and a number that neither its grid nor three together can know has no bar. The factors are measured on 1000 bars of
+random scenes: `tehl bench accuracy`, docs/benchmarks.md.
 """
 
 import math
 from dataclasses import dataclass
+from itertools import zip_longest
 
 EVENLY, STEEPEST = 1.5, 3.0  # differences that fall by less from grid to grid show no order, by more no higher one
 # of the error by Richardson's extrapolation, and of the last difference where there is none; the blur of an extreme adds to it
@@ -26,7 +27,7 @@ MOVED = 4.0  # cells of the coarser grid that the place of an extreme may move: 
 HALVES, BEFORE = 2.0, 0.25
 # Of what such a peak sways, but does not decide, three times the larger of the last two differences (20 passages with exits in
 # one dimension, `tehl bench accuracy --only exits`: bars of surface temperatures and mean friction that hold 64 -> 94 %)
-SWAYED = 3.0
+SWAY = 3.0
 # Parts of a course go on as a geometric series, for so many of the last difference at most; they may exceed the largest by so
 # much of it, which then is part of the bar
 GROWS_ON, EXCEEDS = 4.0, 0.1
@@ -76,7 +77,7 @@ def bar(readings):
     if abs(steps[0]) > HOPELESS * abs(last.value):
         return None, f"it still changes by {abs(steps[0] / last.value):.0%} from grid to grid"
     accident = ACCIDENT * abs(last.value) if len(steps) == 1 and not last.place else 0.0
-    sway = SWAYED * max(map(abs, steps[:2])) if last.swayed else 0.0
+    sway = SWAY * max(map(abs, steps[:2])) if last.swayed else 0.0
     size = max(accident, last.settled, BLURRED * last.blur, _left(steps, bool(last.place)), least, sway)
     return (None, WHOLE) if last.positive and size >= last.value else (size, "")
 
@@ -132,9 +133,10 @@ def bars(grids):
     return {name: size for name, (size, _) in found.items()}, {name: why for name, (size, why) in found.items() if size is None}
 
 
-def estimated_error(values):
-    """The bar of plain numbers on grids each twice as fine as the one before, or nan."""
-    found = bar([Reading(value) for value in values])[0]
+def estimated_error(values, doubt="", courses=()):
+    """The bar of plain numbers on grids each twice as fine as the one before, or nan; doubt: about the last of them, courses:
+    of all (see :class:`Reading`), where there are any."""
+    found = bar([Reading(value, doubt=doubt, course=course) for value, course in zip_longest(values, courses, fillvalue=())])[0]
     return math.nan if found is None else found
 
 
