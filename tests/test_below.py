@@ -11,7 +11,8 @@ from tehl_taichi.errors import RuntimeUnavailable
 from tehl_taichi.fatigue import assessment, below, candidates, depth_search, half_space, row_stress
 from tehl_taichi.fatigue.histories import Passage
 from tehl_taichi.fatigue.row_stress import RowStress
-from tehl_taichi.fatigue.under_row import histories_of
+from tehl_taichi.fatigue.thermal_stress import ThermalStress
+from tehl_taichi.fatigue.under_row import at_the_surface, histories_of
 from tehl_taichi.figures.page import Page
 from tehl_taichi.figures.run_figures import write_fatigue
 from tehl_taichi.io import result_judge, summary_rows
@@ -19,7 +20,7 @@ from tehl_taichi.scene import SceneError
 from tehl_taichi.scene.scales import Scales
 
 NU = 0.3
-DEPTHS = [2e-6, 15e-6, 80e-6, 0.0]
+DEPTHS = [0.0, 2e-6, 15e-6, 80e-6]
 
 
 @pytest.mark.parametrize("line,mirrored,row", [(True, True, 0), (True, True, 3), (False, True, 2), (False, False, 5)])
@@ -31,7 +32,9 @@ def test_rows_are_those_of_the_whole_plane(line, mirrored, row):
         loads[2, ..., 0] *= depth > 0 or not mirrored  # odd: nothing on the axis, whatever is stored there
         whole = half_space.Stress(x, y, NU, line, mirrored, depth)(*loads[:, 1])
         for component, values in enumerate(whole.values()):
-            np.testing.assert_allclose(found[:, 1, n, :, component], values[:, [7, row]].T, atol=1e-3)  # of 1e9 Pa
+            np.testing.assert_allclose(found[1, :, :, n, component], values[:, [7, row]], atol=1e-3)  # of 1e9 Pa
+    alone = RowStress(x, y, NU, line, mirrored, DEPTHS[:1], [7, row])(*loads)
+    np.testing.assert_allclose(alone[:, :, :, 0], found[:, :, :, 0], atol=1e-3)
 
 
 def test_rows_by_any_number_of_threads(monkeypatch):
@@ -44,9 +47,9 @@ def test_rows_by_any_number_of_threads(monkeypatch):
 
 def test_one_row_alone_is_plane_strain():
     x, p = np.arange(24) * 11e-6, np.random.default_rng(4).standard_normal((3, 1, 24, 1)) * 1e9
-    found = RowStress(x, np.zeros(1), NU, True, True, DEPTHS, [0])(*p)[0]
+    found = RowStress(x, np.zeros(1), NU, True, True, DEPTHS, [0])(*p)[0, :, 0]
     whole = half_space.Stress(x, np.zeros(1), NU, depth=15e-6)(*p[:, 0])
-    np.testing.assert_allclose(found[0, 1], np.stack(list(whole.values()), axis=-1)[:, 0], atol=1e-3)
+    np.testing.assert_allclose(found[:, 2], np.stack(list(whole.values()), axis=-1)[:, 0], atol=1e-3)
 
 
 def result(heat=False, **changes):
@@ -142,11 +145,33 @@ def test_of_a_row_alone_the_profile_is_that_of_the_row(taichi_cpu):
 def test_a_row_s_histories_at_the_surface_are_those_of_all_points(taichi_cpu, heat):
     scene = tehl.scene("gear").replace(**{"thermal.on": heat, "fatigue.residual_xx": 3e6})
     passage = Passage(scene, reader := Rolling(scene), reader.centres)
-    found = histories_of(passage, [0.0, 40e-6], [(0, False), (3, False)])
-    for n, depth in enumerate((0.0, 40e-6)):
-        for histories, row in zip(found, (0, 3)):
-            points = passage.history(slice(row, row + 1), passage.stresses(depth))
-            np.testing.assert_allclose(histories[n], points, atol=1e-4 * np.abs(points).max())
+    surface, deep = at_the_surface(passage)(slice(0, 4)).reshape(passage.x.size, 4, -1, 6), 40e-6
+    for histories, row in zip(histories_of(passage, [0.0, deep], [(0, False), (3, False)]), (0, 3)):
+        points = passage.history(slice(row, row + 1), passage.stresses(deep))
+        np.testing.assert_allclose(histories[1], points, atol=1e-4 * np.abs(points).max())
+        np.testing.assert_allclose(histories[0], surface[:, row], atol=1e-6 * np.abs(surface).max())
+
+
+@pytest.mark.parametrize("heat,kind", [(False, "line"), (True, "line"), (True, "point")])
+def test_histories_at_the_surface_are_those_of_whole_planes(taichi_cpu, heat, kind):
+    """By transforms across, entry by entry, in place of products."""
+    base = "gear" if kind == "line" else "ridge-on-ball"
+    scene = tehl.scene(base).replace(**{"thermal.on": heat, "fatigue.residual_xx": 3e6})
+    passage = Passage(scene, reader := Rolling(scene), reader.centres)
+    rows, operator = slice(0, passage.y.size), passage.operator(0.0)
+    found = at_the_surface(passage)(rows).reshape(passage.x.size, passage.y.size, -1, 6)
+    wanted, thermal = np.zeros_like(found), passage.heat(ThermalStress) if heat else None
+    for entry in range(len(reader)):
+        fields = operator(*passage.loads(entry))
+        if heat:
+            w, held = thermal.waves, -thermal.stiffness * thermal._extended(thermal.rises[entry])
+            spectrum = 2 * thermal.stiffness * thermal.thetas[passage.ticks[entry]] / np.where(w.k > 0, w.k, 1.0)
+            nu, window = thermal.nu, (slice(0, thermal.columns), passage.rows)
+            fields["sxx"] += (held + w.values((w.kx**2 + nu * w.ky**2) * spectrum))[window]
+            fields["syy"] += (held + w.values((w.ky**2 + nu * w.kx**2) * spectrum))[window]
+            fields["sxy"] += w.values((1 - nu) * w.kx * w.ky * spectrum, odd=True)[window]
+        passage.follow(wanted, entry, np.stack(list(fields.values()), axis=-1))
+    np.testing.assert_allclose(found, passage.resting(wanted), atol=2e-6 * np.abs(wanted).max())
 
 
 class Beside(Rolling):

@@ -7,6 +7,7 @@ from rolling import Rolling
 import tehl_taichi as tehl
 from tehl_taichi.criteria import CRITERIA
 from tehl_taichi.fatigue import assessment, findley, worst_point
+from tehl_taichi.fatigue.under_row import at_the_surface
 from tehl_taichi.scene import SceneError
 
 S = 100.0
@@ -243,12 +244,12 @@ def test_history_of_whole_cells_is_exact_and_begins_and_ends_unloaded(taichi_cpu
     scene = tehl.scene("gear").replace(**SURFACE)
     reader = moving(scene)
     passage = assessment.Passage(scene, reader, reader.centres)
-    h = passage.history(slice(0, 1), passage.stresses(0.0))
+    h = at_the_surface(passage)(slice(0, 1))
     n = int(np.argmin(np.abs(reader.centres)))
     t = int(np.flatnonzero(passage.entries == n)[0])
     point = passage.x.size // 2 + 3
     column = int(round((passage.centres[t] + passage.x[point] - reader.x[0]) / passage.dx))
-    assert -h[point, t, 2] == reader.fields(n, ("pressure",))["pressure"][column, 0] > 0
+    assert -h[point, t, 2] == np.float32(reader.fields(n, ("pressure",))["pressure"][column, 0]) > 0
     assert np.abs(h[:, 0, 2]).max() == np.abs(h[:, -2, 2]).max() == np.abs(h[:, -1]).max() == 0.0
 
 
@@ -256,7 +257,7 @@ def test_the_first_planes_are_close_enough(taichi_cpu):
     """Histories of a passage: four times as many planes to begin with find the same to 1e-6."""
     scene = tehl.scene("gear").replace(**SURFACE)
     passage = assessment.Passage(scene, reader := moving(scene, 16, 9), reader.centres)
-    h = passage.history(slice(0, passage.y.size), passage.stresses(0.0))
+    h = at_the_surface(passage)(slice(0, passage.y.size))
     np.testing.assert_allclose(findley.search(h, 0.3)[0], findley.search(h, 0.3, degrees=5.0)[0], rtol=1e-6)
 
 

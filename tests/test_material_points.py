@@ -201,8 +201,8 @@ def test_temperatures_fade_out_behind_the_grid():
     x = np.arange(n) * step
     a, cells = 200e-6, 10
     stress = ts.ThermalStress(steel, 2.0, [np.full((n, 1), 30.0)], 1e-6, x, np.zeros(1), front, n + front + cells + 8, a, True)
-    sxx, syy, _ = stress(0)
-    T = -(syy - steel.nu * sxx)[:, 0] / (steel.E * steel.alpha)
+    sxx, syy, _ = stress.on([0])(0)[:, 0].T
+    T = -(syy - steel.nu * sxx) / (steel.E * steel.alpha)
     end = front + n
     np.testing.assert_allclose(T[front:end], 30.0, rtol=1e-5)
     assert np.abs(T[:front]).max() < 1e-3 and np.abs(T[end + cells - 1 :]).max() < 1e-3

@@ -140,8 +140,8 @@ def test_thermal_stress_of_thinned_entries():
     def heat(steps):
         reader = Snapshots([shot(step) for step in steps])
         passage = Passage(description, reader, np.array([reader.feature_x(n) for n in range(len(reader))]))
-        stress = passage.heat(ThermalStress)
-        return np.stack([stress(passage.ticks[n])[0] for n in range(len(reader))])
+        stress = passage.heat(ThermalStress).on([0])
+        return np.stack([stress(tick)[:, 0, 0] for tick in passage.ticks])
 
     kept = [*range(0, 31, 2), 31]
     whole, thin = heat(range(32)), heat(kept)

@@ -100,7 +100,7 @@ def test_the_surface_is_their_limit():
     """Extrapolated from 1 and 2 um to the surface: the stress of the surface, and no traction."""
     surface = passing(ThermalStress)
     below = passing(td.ThermalBelow, 1e-6)
-    sxx, syy, sxy = surface(9)
+    sxx, syy, sxy = np.moveaxis(surface.on(range(surface.waves.rows))(9), -1, 0)
     near, far = (np.array(below.at(depth)(9)) for depth in (1e-6, 2e-6))
     limit, scale = 2 * near - far, np.abs(sxx).max()
     for n, exact in ((0, sxx), (1, syy), (3, sxy)):

@@ -36,6 +36,11 @@ def make(rises, dt=1e-6, speed=0.0, n=64, rows=1, length=1e-3):
     return x, y, ts.ThermalStress(STEEL, speed, rises(x[:, None], y[None, :]), dt, x, y, 0, n, 0.1e-3, True)
 
 
+def at(stress, entry):
+    """sxx, syy, sxy (columns, rows) of an entry."""
+    return np.moveaxis(stress.on(range(stress.waves.rows))(entry), -1, 0)
+
+
 def test_resting_harmonic_temperatures_give_no_stress_in_their_plane():
     """cos(kx) exp(-kz): sigma_xx = 0, sigma_yy = -E alpha T (plane strain; Boley & Weiner)."""
     w = ts.WaveNumbers(64, 1, 1e-5, 1.0, True)
@@ -51,7 +56,7 @@ def test_a_hot_layer_is_held():
         return [np.zeros_like(x + y), 10.0 * np.exp(-((x - 0.5) ** 2) / 0.02) + 0 * y]
 
     x, y, stress = make(heated, dt=1e-9, length=1.0)
-    sxx, syy, sxy = stress(1)
+    sxx, syy, sxy = at(stress, 1)
     assert sxx.min() == pytest.approx(-10 * HELD, rel=1e-3) and syy.min() == pytest.approx(-10 * HELD, rel=1e-3)
 
 
@@ -65,7 +70,7 @@ def cerruti(n, step):
     load = half_space.Stress(np.arange(theta.shape[0]) * step, y, STEEL.nu, line=False)(0 * qx, qx, qy)
     wide, inner = np.abs(load["sxx"]).max(), (slice(n // 6, -n // 3), slice(0, n // 4))
     return max(np.abs(field + HELD * 10 * bell * (name != "sxy") - load[name][:n])[inner].max() / wide
-               for field, name in zip(stress(0), ("sxx", "syy", "sxy")))
+               for field, name in zip(at(stress, 0), ("sxx", "syy", "sxy")))
 
 
 def test_the_correction_is_cerruti_s():
@@ -82,7 +87,7 @@ def test_the_history_of_a_standing_field_ends_in_the_steady_one():
 
     x, y, steady = make(lambda x, y: [bell(x, y)], speed=speed, n=256)
     _, _, history = make(lambda x, y: [0 * bell(x, y), *[bell(x, y)] * 240], dt=dt, speed=speed, n=256)
-    (one, two, _), (a, b, _) = steady(0), history(240)
+    (one, two, _), (a, b, _) = at(steady, 0), at(history, 240)
     near = x < 0.6e-3  # farther on the first heat is still to be seen
     np.testing.assert_allclose(a[near], one[near], atol=0.02 * np.abs(one).max())
     np.testing.assert_allclose(b[near], two[near], atol=0.02 * np.abs(two).max())

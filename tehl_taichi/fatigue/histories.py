@@ -11,7 +11,7 @@ import numpy as np
 from tehl_taichi.engine.fftw import SINGLE
 from tehl_taichi.fatigue.half_space import COMPONENTS, Stress
 from tehl_taichi.fatigue.thermal_depth import ThermalBelow
-from tehl_taichi.fatigue.thermal_stress import WORKERS, ThermalStress
+from tehl_taichi.fatigue.thermal_stress import WORKERS
 from tehl_taichi.scene.scales import Scales
 
 WINDOW = 0.6       # half width (in a) of the part searched around one small feature: farther out its stress has died out
@@ -20,7 +20,6 @@ LOADED = 1.5       # material points are followed while within this distance (in
 BLOCK_BYTES = 1e9  # histories held at once; more points than fit are done in blocks of y rows, each from the loads again
 LOOK = 0.5         # s between looks at how many entries are done
 LOADS = ("pressure", "traction_x_a", "traction_y_a")
-HELD = ("sxx", "syy", "sxy")  # what heat does at the surface; below it does all six
 
 
 class Passage:
@@ -97,11 +96,8 @@ class Passage:
         return Stress(self.grid_x, y - y[0], self.scene.body_a.nu, self.line, self.mirrored, depth, self.rows, SINGLE)
 
     def stresses(self, depth):
-        """Stress operator for a depth in m, and the thermal stress where the scene wants it (else None)."""
-        operator, thermal = self.operator(depth), None
-        if self.scene.thermal_stress_wanted:
-            thermal = self.below(depth).at(depth) if depth else self.heat(ThermalStress)
-        return operator, thermal
+        """Stress operator for a depth in m below the surface, and the thermal stress where the scene wants it (else None)."""
+        return self.operator(depth), self.below(depth).at(depth) if self.scene.thermal_stress_wanted else None
 
     def below(self, depth):
         """The ThermalBelow of this passage from a depth (m) on: the last one where it reaches up to there, since to make it
@@ -124,11 +120,11 @@ class Passage:
         rows = max(1, int(BLOCK_BYTES / row_bytes))
         return [slice(j, min(j + rows, self.y.size)) for j in range(0, self.y.size, rows)]
 
-    def history(self, rows, operators, progress=None, meanwhile=lambda: None):
-        """(points, times + 1, 6) Pa; points run over x', then rows; the last moment is the unloaded state.
+    def history(self, rows, operators, tell=lambda done, total: None, meanwhile=lambda: None):
+        """(points, times + 1, 6) Pa below the surface; points run over x', then rows; the last moment is the unloaded state.
 
-        operators: of :meth:`stresses`; progress: called with (done, total) entries; meanwhile: what this thread does while
-        others find the stresses.
+        operators: of :meth:`stresses`; tell: called with (done, total) entries; meanwhile: what this thread does while others
+        find the stresses.
         """
         shape = self.x.size, rows.stop - rows.start
         out = np.zeros((*shape, self.centres.size + 1, len(COMPONENTS)))
@@ -137,12 +133,11 @@ class Passage:
         with ThreadPoolExecutor(WORKERS) as pool:
             tasks = [pool.submit(self._fill, out, part, rows, *operators, done) for part in parts]
             meanwhile()
-            while wait(tasks, LOOK).not_done and progress:
-                progress(min(len(done), entries.size - 1), entries.size)
+            while wait(tasks, LOOK).not_done:
+                tell(min(len(done), entries.size - 1), entries.size)
             for task in tasks:
                 task.result()
-        if progress:
-            progress(entries.size, entries.size)
+        tell(entries.size, entries.size)
         return self.resting(out).reshape(-1, *out.shape[2:])
 
     def resting(self, stress):
@@ -171,17 +166,17 @@ class Passage:
         return _shifted(fields, start, self.x.size)
 
     def loads(self, entry):
-        """p, q_x and q_y (x, y) Pa of an entry; the shear is zero where it is not to count."""
-        loads = self.reader.fields(entry, LOADS)
-        loads = [np.pad(np.asarray(loads[name], float), (self.pad, (0, 0))) for name in LOADS]
-        if not self.scene.fatigue.shear:
-            loads[1:] = [0 * load for load in loads[1:]]
-        return loads
+        """p, q_x and q_y (3, x, y) Pa of an entry; the shear is zero where it is not to count."""
+        given, front = self.reader.fields(entry, LOADS), self.pad[0]
+        out = np.zeros((3, self.grid_x.size, self.reader.y.size))
+        for load, name in zip(out, LOADS if self.scene.fatigue.shear else LOADS[:1]):
+            load[front : front + self.reader.x.size] = given[name]
+        return out
 
     def _stress_field(self, entry, rows, stress, thermal):
         found = stress(*self.loads(entry))
         if thermal:
-            for name, values in zip(COMPONENTS if stress.depth else HELD, thermal(self.ticks[entry], self.rows)):
+            for name, values in zip(COMPONENTS, thermal(self.ticks[entry], self.rows)):
                 found[name] += values
         return np.stack([found[name][:, rows] for name in COMPONENTS], axis=-1)
 

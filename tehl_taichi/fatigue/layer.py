@@ -1,5 +1,6 @@
 """All material points at one depth: their stresses, their critical planes, the worst of them."""
 
+import functools
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
@@ -7,6 +8,7 @@ import numpy as np
 
 from tehl_taichi.fatigue import findley
 from tehl_taichi.fatigue.thermal_stress import WORKERS
+from tehl_taichi.fatigue.under_row import at_the_surface
 from tehl_taichi.fatigue.worst_point import Point, over_some, worse
 
 POINTS = 16  # whose largest principal stresses are found at once
@@ -56,9 +58,9 @@ def early_layer(scene, passage, depth, progress, early):
 
 def _blocks(scene, passage, depth, progress):
     """(rows, stress histories of their points at that depth), block by block."""
-    operators = passage.stresses(depth)
+    histories = functools.partial(passage.history, operators=passage.stresses(depth)) if depth else at_the_surface(passage)
     for rows in passage.row_blocks():
-        yield rows, passage.history(rows, operators, progress, lambda: findley.prepare(scene.fatigue.criterion))
+        yield rows, histories(rows, tell=progress, meanwhile=lambda: findley.prepare(scene.fatigue.criterion))
 
 
 class _Early:

@@ -14,7 +14,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from tehl_taichi.engine import cores
-from tehl_taichi.engine.fftw import transform, transform_back
+from tehl_taichi.engine.fftw import half_back, transform, transform_back
 from tehl_taichi.fatigue.by_wave_number import Answers
 from tehl_taichi.fatigue.waves import Waves
 
@@ -125,16 +125,22 @@ class ThermalStress(Heated):
         first = (w.spectrum(self._extended(self.rises[0])) * steady_depth(w.kx, w.k, diffusivity, speed)).astype(np.complex64)
         self.thetas = _convolved(self.spectra(since=self.rises[0]), w, diffusivity, speed, dt)
         self.thetas += first
-        self.pushed = [(2 * self.stiffness * part / np.where(w.k > 0, w.k, 1.0)).astype(np.float32)
-                       for part in (w.kx**2 + self.nu * w.ky**2, w.ky**2 + self.nu * w.kx**2, (1 - self.nu) * w.kx * w.ky)]
+        self.strength = (2 * self.stiffness / np.where(w.k > 0, w.k, 1.0)).astype(np.float32)
 
-    def __call__(self, entry, rows=slice(None)):
-        """(sxx, syy, sxy), each (columns, ny+1), or some rows of it."""
-        theta, held = self.thetas[entry], -self.stiffness * self._extended(self.rises[entry][:, rows])[: self.columns]
-        sxx, syy, sxy = (self.waves.values(part * theta, odd, rows=rows)
-                         for part, odd in zip(self.pushed, (False, False, True)))
-        sxx, syy, sxy = (v[: self.columns] for v in (sxx, syy, sxy))
-        return held + sxx, held + syy, sxy
+    def on(self, rows):
+        """Function of an entry (its number) that gives sxx, syy, sxy on these rows, (columns, rows, 3)."""
+        w, rows, nu, kx = self.waves, list(rows), self.nu, self.waves.kx.astype(np.float32)
+        even, odd = (np.stack([w.row_weights(row, odd) for row in rows], axis=1) for odd in (False, True))
+        weights = np.concatenate([even, w.ky.T**2 * even, w.ky.T * odd], axis=1).astype(np.complex64)
+
+        def stresses(entry):
+            along, across, turned = np.split((self.thetas[entry] * self.strength) @ weights, 3, axis=1)
+            pushed = np.stack([kx**2 * along + nu * across, nu * kx**2 * along + across, (1 - nu) * kx * turned], axis=-1)
+            out = half_back(pushed, w.nx, 0)[: self.columns] / w.nx
+            out[..., :2] -= self.stiffness * self._extended(self.rises[entry][:, rows])[: self.columns, :, None]
+            return out
+
+        return stresses
 
 
 def _convolved(changes, waves, diffusivity, speed, dt):

@@ -1,10 +1,10 @@
-"""Stress histories under rows of material points at many depths, the surface (0) among them if wanted."""
+"""Stress histories of points in rows of a body: under some rows at many depths, and of all rows of its surface."""
 
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
-from tehl_taichi.engine.fftw import SINGLE
+from tehl_taichi.engine.fftw import DOUBLE, SINGLE, real_of
 from tehl_taichi.fatigue.row_stress import RowStress
 from tehl_taichi.fatigue.thermal_stress import WORKERS, ThermalStress
 from tehl_taichi.fatigue.unit_loads import HELD
@@ -12,70 +12,110 @@ from tehl_taichi.fatigue.unit_loads import HELD
 BLOCK = 16  # entries whose stresses are found at once
 
 
-def histories_of(passage, depths, kinds, tell=lambda done, total: None):
-    """A list of (depths, x', moments, 6) Pa, one for each kind: (row, whether its loads go on as an endless line).
+def _nobody(done, total):
+    """Is told and does nothing."""
+
+
+def at_the_surface(passage):
+    """Function of rows of the window (a slice), `tell` and `meanwhile` that gives the stress histories of their points at the
+    surface, as :meth:`tehl_taichi.fatigue.histories.Passage.history` does those below it."""
+    first, thermal = passage.rows.start, _thermal(passage)
+
+    def histories(rows, tell=_nobody, meanwhile=lambda: None):
+        kinds = [(row, False) for row in range(first + rows.start, first + rows.stop)]
+        out = _histories(passage, [0.0], kinds, tell, thermal, meanwhile)
+        return out.reshape(-1, *out.shape[3:])
+
+    return histories
+
+
+def histories_of(passage, depths, kinds, tell=_nobody):
+    """A list of (depths, x', moments, 6) Pa, one for each kind: (row, whether its loads go on as an endless line), those last.
 
     passage: a :class:`tehl_taichi.fatigue.histories.Passage`; depths: m, increasing. The last moment is the unloaded state.
     tell: called with (done, total): blocks of entries, and depths where there is heat.
     """
-    operators = _operators(passage, depths, kinds)
-    out = np.zeros((len(kinds), passage.x.size, len(depths), passage.centres.size + 1, 6))
+    thermal = None if depths[0] else _thermal(passage)
+    return list(_histories(passage, depths, kinds, tell, thermal).transpose(1, 2, 0, 3, 4))
+
+
+def _thermal(passage):
+    """Its ThermalStress, where the scene wants it."""
+    return passage.heat(ThermalStress) if passage.scene.thermal_stress_wanted else None
+
+
+def _histories(passage, depths, kinds, tell, thermal, meanwhile=lambda: None):
+    """(x', kinds, depths, moments, 6) Pa; thermal: that of the surface, if it is among the depths; meanwhile: what this thread
+    does while others find stresses."""
+    stresses = _Stresses(passage, depths, kinds, thermal)
+    out = np.zeros((passage.x.size, len(kinds), len(depths), passage.centres.size + 1, 6))
     entries = np.unique(passage.entries)
-
-    def fill(block):
-        loads = np.zeros((3, BLOCK, passage.grid_x.size, passage.reader.y.size))
-        for entry in block:
-            loads[:, entry % BLOCK] = passage.loads(int(entry))
-        for operator, rows, those in operators:
-            for n, stresses in zip(those, operator(*loads[..., rows])):
-                for entry in block:
-                    passage.follow(out[n], entry, stresses[entry % BLOCK].swapaxes(0, 1))
-
     # by their numbers: an entry has its place in the same block, and so the same bits, whatever moments are searched
     blocks = np.split(entries, np.flatnonzero(np.diff(entries // BLOCK)) + 1)
-    hot = passage.scene.thermal_stress_wanted
-    total = len(blocks) + hot * len(depths)
+    deep = [depth for depth in depths if depth] if passage.scene.thermal_stress_wanted else []
+
+    def fill(block):
+        for entry, fields in zip(block, stresses(block)):
+            passage.follow(out, int(entry), fields)
+
     with ThreadPoolExecutor(WORKERS) as pool:
-        for done, _ in enumerate(pool.map(fill, blocks), 1):
-            tell(done, total)
-    if hot:
-        _heat(passage, depths, [row for row, _ in kinds], entries, out, lambda n: tell(len(blocks) + n, total))
-    return passage.resting(out).swapaxes(1, 2)
+        tasks = [pool.submit(fill, block) for block in blocks]
+        meanwhile()
+        for done, task in enumerate(tasks, 1):
+            task.result()
+            tell(done, len(blocks) + len(deep))
+    if deep:
+        _heat(passage, depths, [row for row, _ in kinds], entries, out,
+              lambda n: tell(len(blocks) + n, len(blocks) + len(deep)))
+    return passage.resting(out)
+
+
+class _Stresses:
+    """Those of some entries of a passage, with the heat of points at the surface; arguments as for :func:`_histories`."""
+
+    def __init__(self, passage, depths, kinds, thermal):
+        self.passage, self.operators = passage, _operators(passage, depths, kinds)
+        self.heat = thermal.on([row for row, _ in kinds]) if thermal else None
+
+    def __call__(self, block):
+        """(entries, columns, kinds, depths, 6) Pa of entries that have a place in one block."""
+        passage, at = self.passage, block % BLOCK
+        loads = np.zeros((3, BLOCK, passage.grid_x.size, passage.reader.y.size), real_of(_kind(passage)))
+        for entry in block:
+            loads[:, entry % BLOCK] = passage.loads(int(entry))
+        found = [operator(*loads[..., rows]) for operator, rows in self.operators]
+        out = (np.concatenate(found, axis=2) if len(found) > 1 else found[0])[at]
+        for fields, tick in zip(out, passage.ticks[block] if self.heat else []):
+            fields[:, :, 0][..., HELD] += self.heat(tick)
+        return out
+
+
+def _kind(passage):
+    """Precision: a single row is plane strain alone, and quick."""
+    return SINGLE if passage.reader.y.size > 1 else DOUBLE
 
 
 def _operators(passage, depths, kinds):
-    """(RowStress, rows of loads that it takes, which of the kinds it gives): one of all loads for all rows, one of each row
-    whose loads go on."""
+    """[(RowStress, rows of loads that it takes)]: one of all loads for all rows, one of each row whose loads go on."""
     def made(y, rows):
         return RowStress(passage.grid_x, y, passage.scene.body_a.nu, passage.line, passage.mirrored, depths, rows,
-                         SINGLE)
+                         _kind(passage))
 
-    plain = [n for n, (_, endless) in enumerate(kinds) if not endless]
-    out = [(made(passage.reader.y, [kinds[n][0] for n in plain]), slice(None), plain)] if plain else []
-    return out + [(made(np.zeros(1), [0]), [row], [n]) for n, (row, endless) in enumerate(kinds) if endless]
+    y = passage.reader.y
+    plain = [row for row, endless in kinds if not endless]
+    out = [(made(y, plain), slice(None))] if plain else []
+    return out + [(made(np.zeros(1), [0]), [row]) for row, endless in kinds if endless]
 
 
 def _heat(passage, depths, rows, entries, out, tell):
-    """Thermal stress added to the histories `out` (kinds, x', depths, moments, 6); tell: called with the depths done."""
-    thermal, part = passage.below(min(depth for depth in depths if depth)), np.zeros_like(out[0, :, 0])
-
-    def at(depth):
-        return thermal.rows(depth, rows) if depth else _at_the_surface(passage, rows)
-
+    """Thermal stress below the surface added to the histories `out` (x', kinds, depths, moments, 6); tell: called with the
+    depths done."""
+    deep = [n for n, depth in enumerate(depths) if depth]
+    thermal, part = passage.below(min(depths[n] for n in deep)), np.zeros_like(out[:, 0, 0])
     with ThreadPoolExecutor(WORKERS) as pool:
-        for n, found in enumerate(pool.map(at, depths)):
-            for histories, stresses in zip(out, found):
+        for done, (n, found) in enumerate(zip(deep, pool.map(lambda n: thermal.rows(depths[n], rows), deep)), 1):
+            for kind, stresses in enumerate(found):
                 for entry in entries:
                     passage.follow(part, entry, stresses[passage.ticks[entry]])
-                histories[:, n] += part
-            tell(n + 1)
-
-
-def _at_the_surface(passage, rows):
-    """(rows, entries, columns, 6) Pa."""
-    thermal = passage.heat(ThermalStress)
-    out = np.zeros((len(rows), len(thermal.rises), thermal.columns, 6))
-    for entry in range(len(thermal.rises)):
-        held = np.stack(thermal(entry), axis=-1)
-        out[:, entry][..., HELD] = held[:, rows].swapaxes(0, 1)
-    return out
+                out[:, kind, n] += part
+            tell(done)
