@@ -25,7 +25,7 @@ NARROW = {"grid.nx": 304, "grid.ny": 76}  # 20 um are four cells, the fewest tha
 MOST_STEPS = 600  # of a passage; with temperatures SRR -1.99 would need 25 536, the feature hardly moves in one
 FINEST = {"line": 1024, "point": 256}  # columns, of scenes on the grid that their film asks for
 MOST = {True: 2048, False: 512}  # columns of lines, of points, that are made finer
-CONFIRMED = {True: 2048, False: 256}  # the same, of those that are made finer until twice the columns confirm them
+CONFIRMED = {True: 2048, False: 512}  # the same, of those that are made finer until twice the columns confirm them
 FILM_HOLDS, HOLDS_K = 0.01, 1.0  # what half a step and a finer grid may change of a start that they confirm
 RANDOM_LINE, RANDOM_POINT, RANDOM_STEPS = {"grid.nx": 64, "grid.ny": 16}, {"grid.nx": 64, "grid.ny": 16, "grid.y_max": 2.0}, 12
 # the default first, then in the order that the published figures were drawn in

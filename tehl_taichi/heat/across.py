@@ -47,9 +47,9 @@ def largest(T):
     tell up to 2 K less than 17."""
     columns = np.asarray(T).reshape(len(T), -1)
     top = columns.max(axis=0)
-    coefficients = np.linalg.inv(_values(len(T), len(T))) @ columns[:, top >= top.max() - NEAR * (top.max() - columns.min())]
-    hottest = (_values(FINE, len(T)) @ coefficients).max(axis=0).argmax()
-    return _maximum(coefficients[:, hottest])
+    near = columns[:, top >= top.max() - NEAR * (top.max() - columns.min())]
+    series_of, between = _interpolation(len(T))
+    return _maximum(series_of @ near[:, (between @ near).max(axis=0).argmax()])
 
 
 def _maximum(coefficients):
@@ -61,6 +61,12 @@ def _maximum(coefficients):
 
 
 @functools.lru_cache(maxsize=8)
+def _interpolation(count):
+    """Matrices from the values at so many nodes to the Chebyshev series through them, and to their values at FINE places."""
+    series_of = np.linalg.inv(_values(count, count))
+    return series_of, _values(FINE, count) @ series_of
+
+
 def _values(places, count):
     """Values of the first `count` Chebyshev polynomials at so many Lobatto nodes."""
     return series.chebvander(-np.cos(np.pi * np.arange(places) / (places - 1)), count - 1)
