@@ -14,7 +14,7 @@ from tehl_taichi.fatigue import below, findley
 from tehl_taichi.fatigue.histories import Passage
 from tehl_taichi.fatigue.under_row import at_the_surface
 from tehl_taichi.march import companions, readings
-from tehl_taichi.march.error_bars import estimated_error
+from tehl_taichi.march.error_bars import RIVAL, told_error
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.study import pool
@@ -32,6 +32,8 @@ LOADS = {"pressure": {"fatigue.shear": False, "fatigue.thermal_stress": False},
 NEAR_ONE = 0.9
 # the worst below the surface under the feature's row, up to 0.5 a and over the whole passage, and of the contact without it
 DEEP, ALONE = {window: ("below", window) for window in ("to 0.5 a", "whole")}, ("contact alone", "whole")
+# what a table says of an error that is not known, by the beginning of the reason
+UNKNOWN = {readings.EXIT: "exit not resolved", readings.SPIKE.partition("{")[0]: "peak not resolved", RIVAL: "a rival grows"}
 BARE = {"fatigue.on": False, "numerics.estimate_error": False}  # both are worked out here, for all grids and loads together
 DEPTHS = {**{key: ("depth", window) for window, key in DEEP.items()}, ALONE: ("depth alone", "whole")}
 
@@ -39,8 +41,8 @@ DEPTHS = {**{key: ("depth", window) for window, key in DEEP.items()}, ALONE: ("d
 @dataclass(frozen=True)
 class Row:
     """One case: Findley stress in Pa by (loads, window) and its error, DEEP and ALONE (Pa) and their depths (m) among them;
-    friction over load on the footprint at x_a = -0.5 and 0.5 a; doubts: why errors that are NaN are not known; reason: why it
-    has no values."""
+    friction over load on the footprint at x_a = -0.5 and 0.5 a; doubts: why errors are not known; reason: why it has no
+    values."""
 
     name: str
     srr: float
@@ -101,14 +103,16 @@ def row(name, description, folder, grids, progress=None):
     if not found:
         return Row(name, description.operation.srr, {}, {}, friction, reason=reason)
     doubts = unresolved(saved)
-    errors = {key: error_of(key, found, courses, doubts.get(key, "")) for key in found[-1]}
+    told = {key: error_of(key, found, courses, doubts.get(key, "")) for key in found[-1]}
+    errors, doubts = ({key: pair[n] for key, pair in told.items()} for n in (0, 1))
     return Row(name, description.operation.srr, found[-1], errors, friction, doubts)
 
 
 def error_of(key, found, courses, doubt):
-    """Error of a value of the last grid, or nan; found: values on each grid, courses: of the pressures in each window there."""
+    """(error of a value of the last grid or nan, why it is not known); found: values on each grid, courses: of the pressures in
+    each window there."""
     follows = key[0] in LOADS or key in DEEP.values()  # a number that depends on the highest pressures of its window
-    return estimated_error([one[key] for one in found], doubt, [one[key[1]] for one in courses] if follows else ())
+    return told_error([one[key] for one in found], doubt, [one[key[1]] for one in courses] if follows else ())
 
 
 def course(saved, low, high):
@@ -219,8 +223,7 @@ def _pair(one, other):
 def _with_error(f, error, doubt=""):
     if np.isfinite(error):
         return f"{f / 1e6:.0f} ± {error / 1e6:.0f}"
-    exits = doubt.startswith(readings.EXIT)
-    return f"{f / 1e6:.0f} ({'exit not resolved' if exits else 'peak not resolved' if doubt else 'error unknown'})"
+    return f"{f / 1e6:.0f} ({next((short for begins, short in UNKNOWN.items() if doubt.startswith(begins)), 'error unknown')})"
 
 
 def _slug(name):

@@ -79,8 +79,15 @@ def test_three_grids_may_tell_a_peak_that_one_does_not():
     def told(key, pressures, doubt="exit not resolved"):
         return conclusions.error_of(key, found, [{"whole": (p, 2e9)} for p in pressures["whole"]], doubt)
 
-    assert told(key, late) == pytest.approx(40e6, rel=0.01) and np.isnan(told(key, quiet))
-    assert told(key, quiet, "") > 0 and told(alone, quiet, "") == 0.0
+    assert told(key, late)[0] == pytest.approx(40e6, rel=0.01) and np.isnan(told(key, quiet)[0])
+    assert told(key, quiet, "")[0] > 0 and told(alone, quiet, "") == (0.0, "")
+
+
+def test_a_rival_that_grows_is_named():
+    key, row = ("all", "whole"), make("asperity", 406e6, 5e6)
+    grown = [{"whole": (3.2e9, p)} for p in (1.93e9, 2.25e9, 3.07e9)]
+    row.errors[key], row.doubts[key] = conclusions.error_of(key, [{key: f} for f in (404e6, 405e6, 406e6)], grown, "")
+    assert "406 (a rival grows)" in conclusions.cells(row)
 
 
 def test_a_course_is_that_of_a_window():
