@@ -14,7 +14,7 @@ from tehl_taichi.fatigue import below, findley
 from tehl_taichi.fatigue.histories import Passage
 from tehl_taichi.fatigue.under_row import at_the_surface
 from tehl_taichi.march import companions, readings
-from tehl_taichi.march.error_bars import RIVAL, told_error
+from tehl_taichi.march.error_bars import RIVAL, estimated_error
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.study import pool
@@ -33,7 +33,8 @@ NEAR_ONE = 0.9
 # the worst below the surface under the feature's row, up to 0.5 a and over the whole passage, and of the contact without it
 DEEP, ALONE = {window: ("below", window) for window in ("to 0.5 a", "whole")}, ("contact alone", "whole")
 # what a table says of an error that is not known, by the beginning of the reason
-UNKNOWN = {readings.EXIT: "exit not resolved", readings.SPIKE.partition("{")[0]: "peak not resolved", RIVAL: "a rival grows"}
+UNKNOWN = {reason.partition("{")[0]: short for reason, short in (
+    (readings.EXIT, "exit not resolved"), (readings.SPIKE, "peak not resolved"), (RIVAL, "a rival grows"))}
 BARE = {"fatigue.on": False, "numerics.estimate_error": False}  # both are worked out here, for all grids and loads together
 DEPTHS = {**{key: ("depth", window) for window, key in DEEP.items()}, ALONE: ("depth alone", "whole")}
 
@@ -56,7 +57,7 @@ class Row:
 def cases(quick=False):
     """{name: scene}; all with temperatures, so that pure rolling has its heat of compression."""
     base = scene("gear").replace(**{"thermal.on": True})
-    kinds = {DECIDE[0]: {}, DECIDE[1]: {"height": -1.5e-6}}
+    kinds = dict(zip(DECIDE, ({}, {"height": -1.5e-6})))
     if not quick:
         kinds |= {"asperity, 1.5 GPa": {"hertz_pressure": 1.5e9}, "asperity, 2.5 GPa": {"hertz_pressure": 2.5e9},
                   "asperity 0.75 um": {"height": 0.75e-6}, "asperity 100 um wide": {"width": 100e-6},
@@ -112,7 +113,7 @@ def error_of(key, found, courses, doubt):
     """(error of a value of the last grid or nan, why it is not known); found: values on each grid, courses: of the pressures in
     each window there."""
     follows = key[0] in LOADS or key in DEEP.values()  # a number that depends on the highest pressures of its window
-    return told_error([one[key] for one in found], doubt, [one[key[1]] for one in courses] if follows else ())
+    return estimated_error([one[key] for one in found], doubt, [one[key[1]] for one in courses] if follows else ())
 
 
 def course(saved, low, high):

@@ -4,7 +4,7 @@ Material points keep their place in the frame of the feature, x' = x - x_a(t). B
 snapshot (feature outside the contact) they move through the steady field, so every history begins and ends unloaded.
 """
 
-from concurrent.futures import ThreadPoolExecutor, wait
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
@@ -18,7 +18,7 @@ WINDOW = 0.6       # half width (in a) of the part searched around one small fea
 MARGIN = 0.3       # (in a) searched beyond the rim of larger features
 LOADED = 1.5       # material points are followed while within this distance (in a) of the centre of the contact
 BLOCK_BYTES = 1e9  # histories held at once; more points than fit are done in blocks of y rows, each from the loads again
-LOOK = 0.5         # s between looks at how many entries are done
+BLOCK = 16         # entries whose stresses are found at once
 LOADS = ("pressure", "traction_x_a", "traction_y_a")
 
 
@@ -123,34 +123,43 @@ class Passage:
     def history(self, rows, operators, tell=lambda done, total: None, meanwhile=lambda: None):
         """(points, times + 1, 6) Pa below the surface; points run over x', then rows; the last moment is the unloaded state.
 
-        operators: of :meth:`stresses`; tell: called with (done, total) entries; meanwhile: what this thread does while others
-        find the stresses.
+        operators: of :meth:`stresses`; tell, meanwhile: as for :meth:`gathered`.
         """
-        shape = self.x.size, rows.stop - rows.start
-        out = np.zeros((*shape, self.centres.size + 1, len(COMPONENTS)))
-        done, entries = [], np.unique(self.entries)
-        parts = np.array_split(entries, max(1, min(WORKERS, entries.size)))
-        with ThreadPoolExecutor(WORKERS) as pool:
-            tasks = [pool.submit(self._fill, out, part, rows, *operators, done) for part in parts]
-            meanwhile()
-            while wait(tasks, LOOK).not_done:
-                tell(min(len(done), entries.size - 1), entries.size)
-            for task in tasks:
-                task.result()
-        tell(entries.size, entries.size)
+        def stresses(block):
+            return (self._stress_field(int(entry), rows, *operators) for entry in block)
+
+        out = self.gathered((rows.stop - rows.start,), stresses, tell, meanwhile)
         return self.resting(out).reshape(-1, *out.shape[2:])
+
+    @property
+    def blocks(self):
+        """The entries that count, by their numbers: one has its place in the same block, and so the same bits, whatever moments
+        are searched."""
+        entries = np.unique(self.entries)
+        return np.split(entries, np.flatnonzero(np.diff(entries // BLOCK)) + 1)
+
+    def gathered(self, shape, stresses, tell, meanwhile):
+        """Histories (x', *shape, times + 1, 6) Pa from the fields (columns, *shape, 6) that stresses(block) gives of each entry
+        of a block. tell: called with (done, total) blocks; meanwhile: what this thread does while others find the stresses."""
+        out, blocks = np.zeros((self.x.size, *shape, self.centres.size + 1, len(COMPONENTS))), self.blocks
+
+        def fill(block):
+            for entry, fields in zip(block, stresses(block)):
+                self.follow(out, int(entry), fields)
+
+        with ThreadPoolExecutor(WORKERS) as pool:
+            tasks = [pool.submit(fill, block) for block in blocks]
+            meanwhile()
+            for done, task in enumerate(tasks, 1):
+                task.result()
+                tell(done, len(blocks))
+        return out
 
     def resting(self, stress):
         """The same stress (..., 6) with the constant residual one."""
         stress[..., 0] += self.scene.fatigue.residual_xx
         stress[..., 1] += self.scene.fatigue.residual_yy
         return stress
-
-    def _fill(self, out, entries, rows, stress, thermal, done):
-        """The moments that belong to these entries of the reader; done: list that takes every entry that is."""
-        for entry in entries:
-            self.follow(out, int(entry), self._stress_field(int(entry), rows, stress, thermal))
-            done.append(entry)
 
     def follow(self, out, entry, fields):
         """Stress fields (x, ..., 6) of an entry, at all its moments, into the histories `out` (x', ..., moments, 6)."""

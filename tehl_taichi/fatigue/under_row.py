@@ -5,11 +5,10 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from tehl_taichi.engine.fftw import DOUBLE, SINGLE, real_of
+from tehl_taichi.fatigue.histories import BLOCK
 from tehl_taichi.fatigue.row_stress import RowStress
 from tehl_taichi.fatigue.thermal_stress import WORKERS, ThermalStress
 from tehl_taichi.fatigue.unit_loads import HELD
-
-BLOCK = 16  # entries whose stresses are found at once
 
 
 def _nobody(done, total):
@@ -47,26 +46,11 @@ def _thermal(passage):
 def _histories(passage, depths, kinds, tell, thermal, meanwhile=lambda: None):
     """(x', kinds, depths, moments, 6) Pa; thermal: that of the surface, if it is among the depths; meanwhile: what this thread
     does while others find stresses."""
-    stresses = _Stresses(passage, depths, kinds, thermal)
-    out = np.zeros((passage.x.size, len(kinds), len(depths), passage.centres.size + 1, 6))
-    entries = np.unique(passage.entries)
-    # by their numbers: an entry has its place in the same block, and so the same bits, whatever moments are searched
-    blocks = np.split(entries, np.flatnonzero(np.diff(entries // BLOCK)) + 1)
-    deep = [depth for depth in depths if depth] if passage.scene.thermal_stress_wanted else []
-
-    def fill(block):
-        for entry, fields in zip(block, stresses(block)):
-            passage.follow(out, int(entry), fields)
-
-    with ThreadPoolExecutor(WORKERS) as pool:
-        tasks = [pool.submit(fill, block) for block in blocks]
-        meanwhile()
-        for done, task in enumerate(tasks, 1):
-            task.result()
-            tell(done, len(blocks) + len(deep))
+    deep = [n for n, depth in enumerate(depths) if depth] if passage.scene.thermal_stress_wanted else []
+    blocks, stresses = len(passage.blocks), _Stresses(passage, depths, kinds, thermal)
+    out = passage.gathered((len(kinds), len(depths)), stresses, lambda done, _: tell(done, blocks + len(deep)), meanwhile)
     if deep:
-        _heat(passage, depths, [row for row, _ in kinds], entries, out,
-              lambda n: tell(len(blocks) + n, len(blocks) + len(deep)))
+        _heat(passage, depths, deep, [row for row, _ in kinds], out, lambda n: tell(blocks + n, blocks + len(deep)))
     return passage.resting(out)
 
 
@@ -107,11 +91,11 @@ def _operators(passage, depths, kinds):
     return out + [(made(np.zeros(1), [0]), [row]) for row, endless in kinds if endless]
 
 
-def _heat(passage, depths, rows, entries, out, tell):
-    """Thermal stress below the surface added to the histories `out` (x', kinds, depths, moments, 6); tell: called with the
-    depths done."""
-    deep = [n for n, depth in enumerate(depths) if depth]
+def _heat(passage, depths, deep, rows, out, tell):
+    """Thermal stress below the surface added to the histories `out` (x', kinds, depths, moments, 6); deep: numbers of the
+    depths there; tell: called with those done."""
     thermal, part = passage.below(min(depths[n] for n in deep)), np.zeros_like(out[:, 0, 0])
+    entries = np.unique(passage.entries)
     with ThreadPoolExecutor(WORKERS) as pool:
         for done, (n, found) in enumerate(zip(deep, pool.map(lambda n: thermal.rows(depths[n], rows), deep)), 1):
             for kind, stresses in enumerate(found):

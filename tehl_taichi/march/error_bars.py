@@ -31,8 +31,7 @@ SWAY = 3.0
 # Parts of a course go on as a geometric series, for so many of the last difference at most; they may exceed the largest by so
 # much of it, which then is part of the bar
 GROWS_ON, EXCEEDS = 4.0, 0.1
-RIVAL = "the pressure in another part of the passage grows from grid to grid"
-RIVALS = RIVAL + " ({}) and may become the largest"
+RIVAL = "the pressure in another part of the passage grows from grid to grid ({}) and may become the largest"
 
 
 @dataclass(frozen=True)
@@ -101,7 +100,7 @@ def _of_course(known):
     top, rival = max(parts, key=lambda part: part[2]), max(parts, key=lambda part: _may_reach(*part))
     excess = max(0.0, _may_reach(*rival) / max(top[2] + abs(top[2] - top[1]), _may_reach(*top)) - 1)
     if excess > EXCEEDS:
-        return 0.0, last.doubt or RIVALS.format(", ".join(f"{p / 1e9:.2f}" for p in rival) + " GPa")
+        return 0.0, last.doubt or RIVAL.format(", ".join(f"{p / 1e9:.2f}" for p in rival) + " GPa")
     values, least = [reading.value for reading in known[-3:]], excess * abs(last.value)
     if not last.doubt:
         return least, ""
@@ -135,13 +134,8 @@ def bars(grids):
 
 
 def estimated_error(values, doubt="", courses=()):
-    """The bar of plain numbers on grids each twice as fine as the one before, or nan; arguments: see :func:`told_error`."""
-    return told_error(values, doubt, courses)[0]
-
-
-def told_error(values, doubt="", courses=()):
-    """(that bar or nan, why it is not known or ""); doubt: about the last of the numbers, courses: of all (see
-    :class:`Reading`), where there are any."""
+    """(bar of plain numbers on grids each twice as fine as the one before, or nan, why it is not known or ""); doubt: about the
+    last of them, courses: of all (see :class:`Reading`), where there are any."""
     pairs = zip_longest(values, courses, fillvalue=())
     size, why = bar([Reading(value, doubt=doubt, course=course) for value, course in pairs])
     return (math.nan if size is None else size), why
