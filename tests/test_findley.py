@@ -160,10 +160,11 @@ def test_no_plane_of_a_scan_is_above_the_maximum(taichi_cpu):
         assert scan <= f[point] * (1 + 1e-12) and scan > 0.98 * f[point]
 
 
-def test_pruning_changes_nothing(taichi_cpu):
+def test_pruning_changes_rounding_alone(taichi_cpu):
+    """Of a circle that is found from fewer moments, in another order."""
     h = passages(40, 80)
     for one, all_ in zip(findley.search(h, 0.3), findley.search(h, 0.3, prune=False)):
-        np.testing.assert_array_equal(one, all_)
+        np.testing.assert_allclose(one, all_, rtol=1e-14, atol=1e-14)
 
 
 def test_planes_of_more_moments_are_kept_where_these_have_as_much(taichi_cpu):

@@ -36,6 +36,11 @@ class Criterion(Entry):
         """Whether fewer moments never give more: not where the plane, or the circle's centre, is another one then."""
         return not (self.sheared or self.momentary)
 
+    @property
+    def outer(self):
+        """Whether moments that lie inside the circle, and have not the largest normal stress, change nothing."""
+        return not (self.chord or self.momentary)
+
     def from_limits(self, bending, torsion):
         """(kappa, sigma_eF) from the fatigue limits in fully reversed bending and torsion (Pa).
 

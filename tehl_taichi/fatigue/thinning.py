@@ -5,16 +5,10 @@ the worse of them, and one beside it as much more as it lies off. Half of a hist
 """
 
 from tehl_taichi.engine.language import ti
+from tehl_taichi.fatigue.on_planes import stress
 
 OFF = 2e-4  # of the range of the stresses: 110 of 539 moments of the gear's passage on 512 columns are left
 LONGEST = 32  # moments between two that are kept
-
-vec6 = ti.types.vector(6, ti.f64)
-
-
-@ti.func
-def stress(S: ti.template(), row, t):
-    return vec6(S[row, t, 0], S[row, t, 1], S[row, t, 2], S[row, t, 3], S[row, t, 4], S[row, t, 5])
 
 
 @ti.func
