@@ -13,13 +13,13 @@ from tehl_taichi.scene.scales import Scales
 LOAD = 0.03
 
 
-@pytest.fixture(scope="module", params=("f32", "f64"))
+@pytest.fixture(scope="module", params=(("f32", "jacobi"), ("f64", "jacobi"), ("f64", "red-black")), ids="-".join)
 def problem(request, taichi_cpu):
     """A linear problem of a steady contact pressed together a little: (its solver, right-hand side)."""
     from tehl_taichi.march.steady import solve_steady
 
     description = scene("gear").replace(**{"thermal.on": False, "rheology.law": "newtonian", "grid.nx": 64, "grid.ny": 16,
-                                           "numerics.precision": request.param})
+                                           "numerics.precision": request.param[0], "numerics.sweep": request.param[1]})
     solver = solve_steady(description, Scales.of(description), 64, 16).solver
     solver.H0 -= 0.003
     solver._begin()

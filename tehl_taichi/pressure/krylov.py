@@ -13,7 +13,7 @@ from tehl_taichi.engine.launches import bind
 from tehl_taichi.pressure import convolution, decisions, fields, phases
 from tehl_taichi.pressure.decisions import SCALARS
 from tehl_taichi.pressure.grids import coarsen, columns, solved_by
-from tehl_taichi.pressure.program import DECISION, FIRST_JOB, JOBS, Program
+from tehl_taichi.pressure.program import DECISION, FIRST_JOB, JOBS, RED_BLACK, Program
 
 # vectors of lanes that the iterations of one launch go through, each some 0.25 us on one core: while a kernel runs nobody hears
 # Ctrl-C, nor do other threads of Python get on
@@ -26,7 +26,8 @@ Numbers = ti.types.ndarray(dtype=ti.i32, ndim=2)
 @dataclass(frozen=True)
 class Memory:
     """Fields of the solve: J (see :mod:`fields`), V (vectors, see :mod:`phases`), D (inverse of the coarsest level); of the
-    convolutions Y (spectra, symbols, buffers of the workers), T (twiddle factors) and `odd` (radices of their transforms)."""
+    convolutions Y (spectra, symbols, buffers of the workers), T (twiddle factors) and `odd` (radices of their transforms);
+    colours: whether lines are solved in two."""
 
     J: Any
     V: Any
@@ -34,6 +35,7 @@ class Memory:
     Y: Any
     T: Any
     odd: tuple
+    colours: bool
 
 
 @ti.kernel
@@ -87,7 +89,8 @@ class Krylov:
         V = tables.lease(self, rows, lanes.W, v.most_columns, precision=v.precision, clean=False)
         kinds = zip((lanes.W, convolution.GROUP, 2), size)
         fields_of = (tables.lease(self, 1, n, count, precision=v.precision, clean=False) for n, count in kinds)
-        self.memory = Memory(v.J, V, *fields_of, odd_radices(layout.lengths, largest.lengths))
+        self.memory = Memory(v.J, V, *fields_of, odd_radices(layout.lengths, largest.lengths),
+                             v.scene.numerics.sweep == RED_BLACK)
         convolution.prepare(layout.table, self.symbols, self.memory.Y, self.memory.T, layout.lengths, v.linear)
         weights = v.vector(fields.WEIGHT).astype(v.linear).reshape(-1, lanes.W)
         lanes.fill(V, phases.LOADING, 0, weights)

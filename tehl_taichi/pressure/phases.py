@@ -11,7 +11,10 @@ from tehl_taichi.pressure.fields import BD, BU, COR, FILM, RES, SCALE, SOL, TRIA
 from tehl_taichi.pressure.lines import DISTRIBUTED, DRY_KIND, LOCAL, is_kind, substitute
 from tehl_taichi.pressure.program import (
     ACROSS,
+    ADDED,
     BACK,
+    BENT,
+    BLACK,
     COLLECT,
     COPY,
     DENSE,
@@ -20,12 +23,15 @@ from tehl_taichi.pressure.program import (
     FINISH,
     FORWARD,
     GIVEN,
+    LEFT,
     LIFT,
     LINES,
     ONES,
     PROLONG,
+    RED,
     RESTRICT,
     ROWS,
+    SPREAD,
     START,
     UPDATE,
 )
@@ -123,12 +129,55 @@ def distributed_part(F: ti.template(), k):
 
 
 @ti.func
-def distributed(F: ti.template(), C: ti.template(), G: ti.template(), c, j, w):
-    """Line solutions of a pair; the rows of their distributed part."""
+def keep_colour(F: ti.template(), first, n2, operation):
+    """SOL of the lines of the other colour is nothing: of every second row."""
+    kept = L(F.J, 0.0)
+    for u in ti.static(range(W)):
+        kept[u] = number(F, float((operation == RED) == (u % 2 == 0)))
+    for k in range(first, first + n2):
+        F.J[SOL, k] = F.J[SOL, k] * kept
+
+
+@ti.func
+def spread(F: ti.template(), C: ti.template(), G: ti.template(), j, w):
+    """The correction so far as a direction."""
+    first, second, n2 = pair(G, 0, j)
+    a = buffer(C, w)
+    for i in range(n2):
+        y, z = F.J[COR, first + i], F.J[COR, second + i]
+        F.J[TRIAL, second + i], F.J[TRIAL, first + i], F.Y[0, a + i] = z, y, side_by_side(y, z)
+    clear(F.Y, a + n2, a + 2 * C[0, M])
+
+
+@ti.func
+def left(F: ti.template(), G: ti.template(), s):
+    """RES of the finest level less what the correction so far answers."""
+    first, end, off = block(G, s)
+    for k in range(off + first, off + end):
+        F.J[RES, k] = F.J[RES, k] - reynolds_row(F.J, k, end - first)
+
+
+@ti.func
+def added(F: ti.template(), G: ti.template(), partial: ti.template(), s):
+    """COR of both colours, and its load."""
+    first, end, off = block(G, s)
+    load = L(F.J, 0.0)
+    for q in range(first, end):
+        F.J[COR, off + q] = F.J[COR, off + q] + F.J[TRIAL, off + q]
+        load += F.V[LOADING, q] * F.J[COR, off + q]
+    partial[s, LOAD_SUM] = sum_of(load)
+
+
+@ti.func
+def distributed(F: ti.template(), C: ti.template(), G: ti.template(), c, j, w, operation):
+    """Line solutions of a pair, of one colour or of both; the rows of their distributed part."""
     first, second, n2 = pair(G, C[c, LEVEL], j)
     a, period = buffer(C, w), 2 * C[c, M]
     for h in range(2 if second > first else 1):
         substitute(F.J, first + h * n2, n2)
+        if ti.static(F.colours):
+            if operation != LINES:
+                keep_colour(F, first + h * n2, n2, operation)
     for i in range(ti.min(n2, period)):
         F.Y[0, a + i] = side_by_side(distributed_part(F, first + i), distributed_part(F, second + i))
     clear(F.Y, a + n2, a + period)
@@ -184,9 +233,10 @@ def collect(F: ti.template(), C: ti.template(), G: ti.template(), c, j, x):
 
 
 @ti.func
-def film(F: ti.template(), G: ti.template(), N: ti.template(), j, x):
+def film(F: ti.template(), G: ti.template(), j, x, change):
+    """FILM of a pair from the rows at x, and a change of H0."""
     first, second, n2 = pair(G, 0, j)
-    rise = L(F.J, N[SCALARS, RISE])
+    rise = L(F.J, change)
     for i in range(n2):
         bent = F.Y[0, x + i]
         F.J[FILM, second + i] = second_of(bent) + rise
@@ -278,17 +328,25 @@ def transformed(F: ti.template(), G: ti.template(), C: ti.template(), Q: ti.temp
         way = convolution.ACROSS
     elif operation == COLLECT or operation == BACK:
         way = convolution.BACK
-    elif operation == LINES:
-        distributed(F, C, G, c, j, w)
+    elif operation == LINES or operation == RED or operation == BLACK:
+        distributed(F, C, G, c, j, w, operation)
     elif operation == FORWARD:
         changes(F, C, G, N, j, w, most)
     elif operation == GIVEN:
         given(F, C, G, j, w, right)
+    if ti.static(F.colours):
+        if operation == SPREAD:
+            spread(F, C, G, j, w)
+        elif operation == BENT:
+            way = convolution.BACK
     x = convolution.transformed(F.Y, F.T, Q, F.odd, C, c, j, w, way)
     if operation == COLLECT:
         collect(F, C, G, c, j, x)
     elif operation == BACK:
-        film(F, G, N, j, x)
+        film(F, G, j, x, N[SCALARS, RISE])
+    if ti.static(F.colours):
+        if operation == BENT:
+            film(F, G, j, x, 0.0)
 
 
 @ti.func
@@ -311,6 +369,11 @@ def vectors(F: ti.template(), G: ti.template(), N: ti.template(), partial: ti.te
         lift(F, G, partial, s)
     elif operation == COPY:
         copy(F, G, N, s, out)
+    if ti.static(F.colours):
+        if operation == LEFT:
+            left(F, G, s)
+        elif operation == ADDED:
+            added(F, G, partial, s)
     if operation == ROWS or operation == DOTS:
         dots(F, G, N, partial, s)
 
@@ -326,7 +389,7 @@ def work(F: ti.template(), G: ti.template(), C: ti.template(), Q: ti.template(),
     elif operation == DENSE:
         dense(F, G, a, s)
     elif (operation == LINES or operation == ACROSS or operation == COLLECT or operation == FORWARD or operation == BACK
-          or operation == GIVEN):
+          or operation == GIVEN or operation == RED or operation == BLACK or operation == SPREAD or operation == BENT):
         transformed(F, G, C, Q, N, operation, a, s, w, most, right)
     else:
         vectors(F, G, N, partial, operation, a, s, most, right, outflow, out)

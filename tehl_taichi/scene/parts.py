@@ -265,6 +265,8 @@ class Numerics:
     krylov_max: int = count(80, "Krylov iterations of a Newton step at most", 5, 500)
     precision: str = choice(AUTO, "of the linear solves inside Newton; auto: f32 where the film is thick enough for it "
                             "(elsewhere it is refused); the state and its residual are always double", (AUTO, "f32", "f64"))
+    sweep: str = choice("jacobi", "along the lines of the linear solves: all at once, or every second one and then the others, "
+                        "which takes longer everywhere (docs/benchmarks.md)", ("jacobi", "red-black"))
     estimate_error: Union[bool, str] = switch(AUTO, "error of the passage's numbers, by companion runs on coarser grids, in a "
                                               "seventh of its time; auto: of all but very short ones", auto=True)
 
