@@ -1,9 +1,9 @@
 """What the passage does to the material: stresses at and below the surface, critical planes, the fatigue index.
 
 `half_space`, `rectangle`, `row_stress` (elastic), `thermal_stress`, `thermal_depth`; `histories` of material points; `findley`
-searches by one of `criteria`, its kernels are in `critical_planes`, `circle`, with fewer moments by `thinning`, `deciding`; `assessment` is the
-whole of a passage, `points` that of stress histories from elsewhere, `constants` what can be changed of them. Rests on
-`criteria`, `scene` and `engine` alone. `tehl_taichi.fatigue(run)` is the function.
+searches by one of `criteria`, its kernels are in `critical_planes`, `circle`, with fewer moments by `thinning`, `deciding`;
+`assessment` is the whole of a passage, `points` that of stress histories from elsewhere, `constants` what can be changed of
+them. Rests on `criteria`, `scene` and `engine` alone. `tehl_taichi.fatigue(run)` is the function.
 """
 
 from typing import TYPE_CHECKING, Any
