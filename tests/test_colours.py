@@ -4,9 +4,9 @@ import dataclasses
 
 import numpy as np
 import pytest
+from test_krylov import pressed
 
 from tehl_taichi.scene import scene
-from tehl_taichi.scene.scales import Scales
 
 pytestmark = pytest.mark.usefixtures("taichi_cpu")
 
@@ -18,8 +18,6 @@ class Once:
         from tehl_taichi.pressure import program
 
         self.krylov, p = krylov, krylov.program
-        p.jobs, p.phases = p.jobs.tolist(), p.phases.tolist()
-        p._jobs, p._phases = p.jobs, p.phases
         self.whole = p._fine(program.START, program.BEGIN)
         p._precondition(program.END)
         self.finest = p._fine(program.START, program.BEGIN)
@@ -30,30 +28,25 @@ class Once:
         krylov._bind()
 
     def answer(self, right, phase):
-        from tehl_taichi.engine.lanes import OFF
+        from tehl_taichi.engine.lanes import OFF, W
         from tehl_taichi.pressure import fields
 
         k, v = self.krylov, self.krylov.levels
         k.right[:] = right
         k._run(phase)
         first = int(v.G[0, OFF])
-        return k.memory.J.to_numpy()[fields.COR, first : first + v.n // 4].ravel()
+        return k.memory.J.to_numpy()[fields.COR, first : first + v.n // W].ravel()
 
 
 @pytest.fixture(scope="module")
 def both(taichi_cpu):
     """A linear problem and its preconditioners of one colour and of two: (right-hand side, row of each number, Once, Once)."""
-    from tehl_taichi.march.steady import solve_steady
+    from tehl_taichi.engine.lanes import W
     from tehl_taichi.pressure.krylov import Krylov
 
-    description = scene("gear").replace(**{"thermal.on": False, "rheology.law": "newtonian", "grid.nx": 64, "grid.ny": 16,
-                                           "numerics.precision": "f64"})
-    solver = solve_steady(description, Scales.of(description), 64, 16).solver
-    solver.H0 -= 0.003
-    solver._begin()
-    solver._direction(0.1)
+    solver = pressed("f64", "jacobi")
     one, v = solver.krylov, solver.levels
-    right, rows = one.right.copy(), np.arange(v.n) // 4 // (v.nx + 1) * 4 + np.arange(v.n) % 4
+    right, rows = one.right.copy(), np.arange(v.n) // W // (v.nx + 1) * W + np.arange(v.n) % W
     v.scene = dataclasses.replace(v.scene, numerics=dataclasses.replace(v.scene.numerics, sweep="red-black"))
     two = Krylov(v)
     two.dense[:] = one.dense

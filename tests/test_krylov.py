@@ -13,18 +13,24 @@ from tehl_taichi.scene.scales import Scales
 LOAD = 0.03
 
 
-@pytest.fixture(scope="module", params=(("f32", "jacobi"), ("f64", "jacobi"), ("f64", "red-black")), ids="-".join)
-def problem(request, taichi_cpu):
-    """A linear problem of a steady contact pressed together a little: (its solver, right-hand side)."""
+def pressed(precision, sweep):
+    """Solver of a steady contact pressed together a little, with its linear problem."""
     from tehl_taichi.march.steady import solve_steady
 
     description = scene("gear").replace(**{"thermal.on": False, "rheology.law": "newtonian", "grid.nx": 64, "grid.ny": 16,
-                                           "numerics.precision": request.param[0], "numerics.sweep": request.param[1]})
+                                           "numerics.precision": precision, "numerics.sweep": sweep})
     solver = solve_steady(description, Scales.of(description), 64, 16).solver
     solver.H0 -= 0.003
     solver._begin()
     solver._direction(0.1)
-    return solver.krylov, solver.krylov.right.copy()
+    return solver
+
+
+@pytest.fixture(scope="module", params=(("f32", "jacobi"), ("f64", "jacobi"), ("f64", "red-black")), ids="-".join)
+def problem(request, taichi_cpu):
+    """A linear problem: (its solver, right-hand side)."""
+    krylov = pressed(*request.param).krylov
+    return krylov, krylov.right.copy()
 
 
 def outflow(problem):

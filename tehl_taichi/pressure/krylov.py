@@ -13,7 +13,7 @@ from tehl_taichi.engine.launches import bind
 from tehl_taichi.pressure import convolution, decisions, fields, phases
 from tehl_taichi.pressure.decisions import SCALARS
 from tehl_taichi.pressure.grids import coarsen, columns, solved_by
-from tehl_taichi.pressure.program import DECISION, FIRST_JOB, JOBS, RED_BLACK, Program
+from tehl_taichi.pressure.program import DECISION, FIRST_JOB, JOBS, Program
 
 # vectors of lanes that the iterations of one launch go through, each some 0.25 us on one core: while a kernel runs nobody hears
 # Ctrl-C, nor do other threads of Python get on
@@ -76,8 +76,8 @@ class Krylov:
         self.right, self.outflow, self.out = (np.zeros(levels.n, levels.linear) for _ in range(3))
         self.numbers = np.zeros((decisions.TRIANGLE + self.most, self.most + 16))
         self.numbers[SCALARS, decisions.PORTION] = max(1, PORTION // columns(levels.nx, levels.ny))
-        self._allocate(convolution.Layout(shapes, self.team.size))
         self.program = Program(levels, shapes)
+        self._allocate(convolution.Layout(shapes, self.team.size))
         self._bind()
 
     def _allocate(self, layout):
@@ -90,7 +90,7 @@ class Krylov:
         kinds = zip((lanes.W, convolution.GROUP, 2), size)
         fields_of = (tables.lease(self, 1, n, count, precision=v.precision, clean=False) for n, count in kinds)
         self.memory = Memory(v.J, V, *fields_of, odd_radices(layout.lengths, largest.lengths),
-                             v.scene.numerics.sweep == RED_BLACK)
+                             self.program.colours)
         convolution.prepare(layout.table, self.symbols, self.memory.Y, self.memory.T, layout.lengths, v.linear)
         weights = v.vector(fields.WEIGHT).astype(v.linear).reshape(-1, lanes.W)
         lanes.fill(V, phases.LOADING, 0, weights)

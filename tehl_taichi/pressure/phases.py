@@ -144,9 +144,14 @@ def spread(F: ti.template(), C: ti.template(), G: ti.template(), j, w):
     first, second, n2 = pair(G, 0, j)
     a = buffer(C, w)
     for i in range(n2):
-        y, z = F.J[COR, first + i], F.J[COR, second + i]
-        F.J[TRIAL, second + i], F.J[TRIAL, first + i], F.Y[0, a + i] = z, y, side_by_side(y, z)
+        take(F, first + i, second + i, a + i, F.J[COR, first + i], F.J[COR, second + i])
     clear(F.Y, a + n2, a + 2 * C[0, M])
+
+
+@ti.func
+def take(F: ti.template(), k, k2, row, y, z):
+    """Changes of the pressure of columns k and k2 as a direction, and to be transformed."""
+    F.J[TRIAL, k2], F.J[TRIAL, k], F.Y[0, row] = z, y, side_by_side(y, z)
 
 
 @ti.func
@@ -161,11 +166,9 @@ def left(F: ti.template(), G: ti.template(), s):
 def added(F: ti.template(), G: ti.template(), partial: ti.template(), s):
     """COR of both colours, and its load."""
     first, end, off = block(G, s)
-    load = L(F.J, 0.0)
-    for q in range(first, end):
-        F.J[COR, off + q] = F.J[COR, off + q] + F.J[TRIAL, off + q]
-        load += F.V[LOADING, q] * F.J[COR, off + q]
-    partial[s, LOAD_SUM] = sum_of(load)
+    for k in range(off + first, off + end):
+        F.J[COR, k] = F.J[COR, k] + F.J[TRIAL, k]
+    finest(F, G, partial, 0, s)
 
 
 @ti.func
@@ -210,8 +213,7 @@ def given(F: ti.template(), C: ti.template(), G: ti.template(), j, w, right: ti.
     first, second, n2 = pair(G, 0, j)
     a, off = buffer(C, w), cells(G, 0)[2]
     for i in range(n2):
-        y, z = lanes_in(right, first + i - off), lanes_in(right, second + i - off)
-        F.J[TRIAL, second + i], F.J[TRIAL, first + i], F.Y[0, a + i] = z, y, side_by_side(y, z)
+        take(F, first + i, second + i, a + i, lanes_in(right, first + i - off), lanes_in(right, second + i - off))
     clear(F.Y, a + n2, a + 2 * C[0, M])
 
 
@@ -326,7 +328,7 @@ def transformed(F: ti.template(), G: ti.template(), C: ti.template(), Q: ti.temp
     way = convolution.THERE
     if operation == ACROSS:
         way = convolution.ACROSS
-    elif operation == COLLECT or operation == BACK:
+    elif operation == COLLECT or operation == BACK or operation == BENT:
         way = convolution.BACK
     elif operation == LINES or operation == RED or operation == BLACK:
         distributed(F, C, G, c, j, w, operation)
@@ -337,16 +339,11 @@ def transformed(F: ti.template(), G: ti.template(), C: ti.template(), Q: ti.temp
     if ti.static(F.colours):
         if operation == SPREAD:
             spread(F, C, G, j, w)
-        elif operation == BENT:
-            way = convolution.BACK
     x = convolution.transformed(F.Y, F.T, Q, F.odd, C, c, j, w, way)
     if operation == COLLECT:
         collect(F, C, G, c, j, x)
-    elif operation == BACK:
-        film(F, G, j, x, N[SCALARS, RISE])
-    if ti.static(F.colours):
-        if operation == BENT:
-            film(F, G, j, x, 0.0)
+    elif operation == BACK or operation == BENT:
+        film(F, G, j, x, N[SCALARS, RISE] if operation == BACK else 0.0)
 
 
 @ti.func

@@ -95,19 +95,16 @@ class Program:
 
     def _second_colour(self, decision):
         """The other lines of the finest level, with the film that the first ones leave."""
-        self._phase(self._pairs(SPREAD, 0))
-        self._phase(self._groups(0))
-        self._phase(self._pairs(BENT, 0))
-        self._fine(LEFT)
+        self._deflected(SPREAD, ON, BENT, LEFT)
         self._phase(self._pairs(BLACK, 1))
         self._phase(self._groups(1))
         self._phase(self._pairs(COLLECT, 1))
         self._fine(ADDED, decision)
 
-    def _deflected(self, source, decision):
+    def _deflected(self, source, decision, back=BACK, rows=ROWS):
         """Change of the pressure -> rows of the Jacobian. Returns the first phase."""
         first = self._phase(self._pairs(source, 0))
         self._phase(self._groups(0))
-        self._phase(self._pairs(BACK, 0))
-        self._fine(ROWS, decision)
+        self._phase(self._pairs(back, 0))
+        self._fine(rows, decision)
         return first
