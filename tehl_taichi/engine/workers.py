@@ -71,11 +71,16 @@ def crowding():
     return _launches.copy()
 
 
-class Team:
-    """Number of workers from launch to launch, at most `largest` and the threads of the engine; `sync` is what kernels take."""
+def team_size(jobs):
+    """Workers of phases of so many jobs at most: no more than the threads of the engine."""
+    return max(1, min(jobs, runtime.ensure()["threads"], cores.available()))
 
-    def __init__(self, largest, patience=LONG):
-        self.size = max(1, min(largest, runtime.ensure()["threads"], cores.available()))
+
+class Team:
+    """Number of workers from launch to launch, at most :func:`team_size`; `sync` is what kernels take."""
+
+    def __init__(self, jobs, patience=LONG):
+        self.size = team_size(jobs)
         memory = np.zeros(64 + 8, np.int64)
         shift = -memory.ctypes.data // 8 % 8  # cache lines have 64 bytes
         self.sync = memory[shift : shift + 64]

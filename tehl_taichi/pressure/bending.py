@@ -109,9 +109,10 @@ class Bending:
         self.launch = bind(bend, levels.S, Y, T, levels.G, self.table, self.passes, odd, self.H0, self.team.sync,
                            runtime.ensure()["threads"] == 1)
 
-    def _layout(self, nx, ny):
+    @staticmethod
+    def _layout(nx, ny):
         shape = convolution.shapes([(nx, ny)], [])[0]
-        return shape, convolution.Layout([shape], self.team.size)
+        return shape, convolution.Layout([shape], workers.team_size(ny // W + 1))
 
     def bend(self, H0):
         """H from the pressure in the table and the rigid approach H0."""

@@ -101,7 +101,7 @@ class Krylov:
         scene = self.levels.scene
         sizes = coarsen(scene.grid.nx, scene.rows)
         dense, lines = solved_by(sizes)
-        return dense_entries(sizes, dense), convolution.Layout(convolution.shapes(sizes, lines), self.team.size)
+        return dense_entries(sizes, dense), convolution.Layout(convolution.shapes(sizes, lines), workers.team_size(scene.rows // lanes.W + 1))
 
     def _bind(self):
         v, p = self.levels, self.program
