@@ -84,11 +84,11 @@ def enclose(a: ti.template(), b: ti.template(), row, steps, i0, i1):
     m, going, count = 2, 1, 0
     c = circle2(px[0], py[0], px[1], py[1])
     distance = 0.0
-    while going == 1 and count < PIVOTS:
-        count += 1
+    while going == 1:
         far, d = farthest(a, b, row, steps, c)
         going, distance = 0, d
-        if d > c[2] * (1 + INSIDE):
+        if count < PIVOTS and d > c[2] * (1 + INSIDE):
+            count += 1
             fx, fy = a[row, far], b[row, far]
             best, bi, bj = pivot(px, py, m, fx, fy)
             if bi >= 0 and best[2] > c[2]:
@@ -101,8 +101,6 @@ def enclose(a: ti.template(), b: ti.template(), row, steps, i0, i1):
                 px, py, index, c = qx, qy, q, best
                 m = 3 if bj >= 0 else 2
                 going = 1
-    if going == 1:
-        distance = farthest(a, b, row, steps, c)[1]
     return ti.sqrt(ti.max(distance, 0.0)), index, weights(px, py, m, c)
 
 

@@ -136,30 +136,44 @@ def best_of_ring(S: ti.template(), some: ti.template(), a: ti.template(), b: ti.
 
 
 @ti.func
+def walk(S: ti.template(), some: ti.template(), a: ti.template(), b: ti.template(), row, steps, n, step, turn, best, middle,
+         kappa, rule: ti.template(), turns, prune):
+    """To the best of eight neighbours, as long as there is a better one; after `turns` turned patterns without it the end.
+    Returns plane, value, middle, the last turn and the number of patterns."""
+    failed, count = 0, 0
+    while failed < turns and count < MOVES:
+        count += 1
+        failed += 1
+        chosen, value, mid = best_of_ring(S, some, a, b, row, steps, n, step, turn, best, middle, kappa, rule, prune)
+        if value > best:
+            n, best, middle, failed = chosen, value, mid, 0
+        turn += 0.2763932022500210
+    return n, best, middle, turn, count
+
+
+@ti.func
 def refine(S: ti.template(), some: ti.template(), a: ti.template(), b: ti.template(), peaks: ti.template(), row, steps, peak,
            kappa, rule: ti.template(), step0, shrinks, turns, prune, choose):
-    """Pattern search on the sphere: eight neighbours, move to the best; after `turns` turned patterns halve the step.
-    choose: by those of the moments alone that may count from there on. Returns the number of planes decided."""
-    n = get_peak(peaks, row, peak)[0]
-    best, middle = plane_value(S, some, a, b, row, steps, n, kappa, rule)
+    """Pattern search on the sphere, with steps halved `shrinks` times. choose: by those of the moments alone that may count
+    from there on. Returns the number of planes decided."""
+    n, best, middle = get_peak(peaks, row, peak)[0], -1e300, vec6(0.0)
     step, turn, decided, moments = step0, peaks[row, peak, 4], 0, steps
-    for _ in range(shrinks):
+    for halving in range(shrinks + 1):  # before the first one: the value of the peak by all of these moments
+        few = moments
         if ti.static(rule.outer):
-            if choose == 1:
+            if choose == 1 and halving > 0:
                 few = deciding(S, some, row, moments, n, middle, REACH * step)
-                if plane_value(S, some, a, b, row, few, n, kappa, rule)[0] >= best - KEPT * ti.abs(best):
-                    moments = few
-        failed, count = 0, 0
-        while failed < turns and count < MOVES:
-            count += 1
-            failed += 1
-            chosen, value, mid = best_of_ring(S, some, a, b, row, moments, n, step, turn, best, middle, kappa, rule,
-                                              prune)
-            if value > best:
-                n, best, middle, failed = chosen, value, mid, 0
-            turn += 0.2763932022500210
-        decided += LANES * count
-        step *= 0.5
+        if halving == 0 or few < moments:
+            value, mid = plane_value(S, some, a, b, row, few, n, kappa, rule)
+            if halving == 0:
+                best, middle = value, mid
+            if value >= best - KEPT * ti.abs(best):
+                moments = few
+        if halving > 0:
+            n, best, middle, turn, count = walk(S, some, a, b, row, moments, n, step, turn, best, middle, kappa, rule, turns,
+                                                prune)
+            decided += LANES * count
+            step *= 0.5
     put_peak(peaks, row, peak, n, best, turn)
     return decided
 
@@ -261,20 +275,6 @@ def circle(steps: ti.i32, a: ti.types.ndarray(dtype=ti.f64, ndim=2), b: ti.types
 
 
 @ti.func
-def still(S: ti.template(), some: ti.template(), a: ti.template(), b: ti.template(), known: ti.template(), row, steps, kappa,
-          rule: ti.template()):
-    """Whether the known plane has the known value: no other plane can have more."""
-    found = 0
-    if known[row, 0] < 1e300:
-        all_of(some, row, steps)
-        n = vec3(known[row, 1], known[row, 2], known[row, 3])
-        value, _ = plane_value(S, some, a, b, row, steps, n, kappa, rule)
-        if value >= known[row, 0] - KEPT * ti.abs(known[row, 0]):
-            found = 1
-    return found
-
-
-@ti.func
 def look(S: ti.template(), some: ti.template(), planes: ti.template(), values: ti.template(), a: ti.template(),
          b: ti.template(), peaks: ti.template(), out: ti.template(), row, steps, kappa, rule: ti.template(), step0, shrinks,
          prune):
@@ -299,8 +299,6 @@ def look(S: ti.template(), some: ti.template(), planes: ti.template(), values: t
             out[row, 0] = peaks[row, peak, 3]
             for k in ti.static(range(3)):
                 out[row, k + 1] = peaks[row, peak, k]
-    n = vec3(out[row, 1], out[row, 2], out[row, 3])  # what all moments have there, should a peak have moved beyond REACH
-    out[row, 0] = ti.max(out[row, 0], plane_value(S, some, a, b, row, steps, n, kappa, rule)[0])
 
 
 @ti.kernel
@@ -322,5 +320,13 @@ def search(points: ti.i32, steps: ti.i32, kappa: ti.f64, rule: ti.template(), st
         out[row, 4] = 1
         for k in ti.static(range(4)):
             out[row, k] = known[row, k]
-        if still(S, some, a, b, known, row, steps, kappa, rule) == 0:
-            look(S, some, planes, values, a, b, peaks, out, row, steps, kappa, rule, step0, shrinks, prune)
+        for turn in range(2):  # the known plane, then what is found
+            if turn == 1:
+                look(S, some, planes, values, a, b, peaks, out, row, steps, kappa, rule, step0, shrinks, prune)
+            if out[row, 0] < 1e300:
+                # by all moments: no other plane has more than the known one has, and a peak may have moved beyond REACH
+                n = vec3(out[row, 1], out[row, 2], out[row, 3])
+                value = plane_value(S, some, a, b, row, all_of(some, row, steps), n, kappa, rule)[0]
+                if turn == 0 and value >= out[row, 0] - KEPT * ti.abs(out[row, 0]):
+                    break
+                out[row, 0] = ti.max(out[row, 0], value)

@@ -36,10 +36,9 @@ def publish(path, attrs, arrays):
 
 def array(group, name, shape, chunk, dtype, dims, units, long_name, fill, between="/", **attrs):
     """A new array of the group; between: the numbers of a chunk, in the name of its file."""
-    made = group.create_array(name, shape=shape, chunks=chunk, dtype=dtype, dimension_names=dims, fill_value=fill,
-                              compressors=chunks.codecs(), chunk_key_encoding={"name": "default", "separator": between})
-    made.attrs.update({"units": units, "long_name": long_name, **attrs})
-    return made
+    return group.create_array(name, shape=shape, chunks=chunk, dtype=dtype, dimension_names=dims, fill_value=fill,
+                              compressors=chunks.codecs(), chunk_key_encoding={"name": "default", "separator": between},
+                              attributes={"units": units, "long_name": long_name, **attrs})
 
 
 def _coordinates(group, snapshot):

@@ -114,7 +114,7 @@ def _deflection_symbols(nx, ny, dx, dy, compliance, mirrored, period, N):
     even, later = np.zeros((2, N, period // 2 + 1))
     even[: ny + 1], even[N - ny :] = t[: ny + 1], t[ny:0:-1]
     later[: 2 * ny] = mirrored * t[: 2 * ny]
-    return np.fft.fft(even, axis=0)[: N // 2 + 1].real, np.fft.fft(later, axis=0)[: N // 2 + 1]
+    return np.fft.rfft(even, axis=0).real, np.fft.rfft(later, axis=0)
 
 
 def distribution(shape, levels):

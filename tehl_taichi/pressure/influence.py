@@ -12,10 +12,8 @@ import numpy as np
 
 def rectangle(nx, ny, dx, dy, compliance):
     """Deflection at offsets (i dx, j dy) of a unit pressure on the cell at the origin; shape (nx + 1, ny + 1)."""
-    x, y = np.arange(nx + 1)[:, None] * dx, np.arange(ny + 1)[None, :] * dy
-    left, right, low, high = x - dx / 2, x + dx / 2, y - dy / 2, y + dy / 2
-    corners = _primitive(right, high) - _primitive(left, high) - _primitive(right, low) + _primitive(left, low)
-    return compliance * corners
+    x, y = (np.arange(nx + 2) - 0.5)[:, None] * dx, (np.arange(ny + 2) - 0.5)[None, :] * dy  # edges of cells
+    return compliance * np.diff(np.diff(_primitive(x, y), axis=0), axis=1)
 
 
 def _primitive(x, y):
@@ -48,6 +46,6 @@ def symbol(nx_period, ny, dx, dy, compliance, aliases=2):
 
 
 def _mode(kx, ky, dx, dy):
-    k = np.hypot(kx[None, :], ky[:, None])
+    k = np.sqrt(kx[None, :] ** 2 + ky[:, None] ** 2)
     k[k == 0] = 1.0
     return np.sinc(kx * dx / 2 / np.pi)[None, :] * np.sinc(ky * dy / 2 / np.pi)[:, None] / k
