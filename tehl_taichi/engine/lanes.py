@@ -158,12 +158,19 @@ def get(S: ti.template(), G: Table, l: ti.i32, row: ti.i32, values: Table, alone
                     values[s * W + u, i] = v[u]
 
 
+def one_of(fields, field):
+    """The first arguments of :func:`fill` for one of these fields."""
+    return fields, next(n for n, other in enumerate(fields) if other is field)
+
+
 @ti.kernel
-def fill(field: ti.template(), row: ti.i32, first: ti.i32, values: LinearTable):
-    """field[row, first ...] = values (entries, lanes)."""
+def fill(fields: ti.template(), which: ti.i32, row: ti.i32, first: ti.i32, values: LinearTable):
+    """fields[which][row, first ...] = values (entries, lanes): one kernel for several, as each takes 12 ms to load."""
     for n in range(values.shape[0]):
-        for u in ti.static(range(field.n)):
-            field[row, first + n][u] = values[n, u]
+        for k in ti.static(range(len(fields))):
+            if which == k:
+                for u in ti.static(range(fields[k].n)):
+                    fields[k][row, first + n][u] = values[n, u]
 
 
 @ti.kernel

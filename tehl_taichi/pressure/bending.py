@@ -104,7 +104,7 @@ class Bending:
         sizes = max(layout.y, largest.y, SMALLEST), max(layout.t, largest.t)
         Y, T = (tables.lease(self, 1, n, size, clean=False) for n, size in zip((GROUP, 2), sizes))
         self.table, self.passes = layout.table, layout.lengths.table()
-        convolution.prepare(self.table, [convolution.deflection(shape, levels)], Y, T, layout.lengths, np.dtype(float))
+        convolution.prepare(self.table, [convolution.deflection(shape, levels)], (Y, T), layout.lengths, np.dtype(float))
         odd = odd_radices(layout.lengths, largest.lengths)
         self.launch = bind(bend, levels.S, Y, T, levels.G, self.table, self.passes, odd, self.H0, self.team.sync,
                            runtime.ensure()["threads"] == 1)

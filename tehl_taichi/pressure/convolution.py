@@ -126,12 +126,14 @@ def distribution(shape, levels):
     return Symbols(shape, A, A, np.zeros(shape.M + 1), (True, ny == shape.further), False)
 
 
-def prepare(table, symbols, Y, T, lengths, dtype):
-    """Put what the convolutions of a :class:`Layout` need into its `table` and the fields Y and T. symbols: of each."""
-    lanes.fill(T, 0, 0, lengths.twiddles().astype(dtype))
+def prepare(table, symbols, fields, lengths, dtype):
+    """Put what the convolutions of a :class:`Layout` need into its `table` and the first two of `fields`, Y and T. symbols: of
+    each; fields: all that the caller fills."""
+    Y, T, *_ = fields
+    lanes.fill(*lanes.one_of(fields, T), 0, 0, lengths.twiddles().astype(dtype))
     for row, one in zip(table, symbols):
         row[[HALF_FIRST, HALF_LAST, ENDLESS]] = *one.mirrors, one.endless
-        lanes.fill(Y, 0, int(row[SYMBOL]), one.entries().astype(dtype))
+        lanes.fill(*lanes.one_of(fields, Y), 0, int(row[SYMBOL]), one.entries().astype(dtype))
 
 
 def waves(coefficients, period):
@@ -273,22 +275,24 @@ def transformed(Y: ti.template(), T: ti.template(), Q: ti.template(), odd: ti.te
     """Pair j of blocks, whose rows are in the buffer of worker w, to the spectra; group j of waves times the symbol; or pair j
     from the spectra. Returns the first entry of its rows then."""
     a, size, row, rows = buffer(C, w), C[c, SIZE], C[c, X_ROW], C[c, X_ROWS]
-    z, e = a, C[c, SPECTRA] + 2 * j
-    if way == ACROSS:
-        row, rows = C[c, Y_ROW], C[c, Y_ROWS]
-        load_waves(Y, C, c, e, a)
-    elif way == BACK:
-        z = a + size
-        exchange(Y, a, C, c, j, way)
-        merge(Y, a, z, T, C, c)
-    for turn in range(2 if way == ACROSS else 1):
-        z = transform(Y, z, other(z, a, size), T, Q, odd, row, rows, turn + way // BACK)
-        if way == ACROSS and turn == 0:
-            multiply(Y, z, C, c, j)
-    if way == ACROSS:
-        store_waves(Y, z, C, c, e, j)
-    elif way == THERE:
-        o = other(z, a, size)
-        split(Y, z, o, T, C, c)
-        exchange(Y, o, C, c, j, way)
+    z, o, e = a, a, C[c, SPECTRA] + 2 * j
+    for half in range(2):  # so that `exchange`, a fifth of the code, stands here once
+        if way == (BACK if half == 0 else THERE):
+            exchange(Y, o, C, c, j, way)
+        if half == 0:
+            if way == ACROSS:
+                row, rows = C[c, Y_ROW], C[c, Y_ROWS]
+                load_waves(Y, C, c, e, a)
+            elif way == BACK:
+                z = a + size
+                merge(Y, a, z, T, C, c)
+            for turn in range(2 if way == ACROSS else 1):
+                z = transform(Y, z, other(z, a, size), T, Q, odd, row, rows, turn + way // BACK)
+                if way == ACROSS and turn == 0:
+                    multiply(Y, z, C, c, j)
+            if way == ACROSS:
+                store_waves(Y, z, C, c, e, j)
+            elif way == THERE:
+                o = other(z, a, size)
+                split(Y, z, o, T, C, c)
     return z

@@ -37,6 +37,11 @@ class Memory:
     odd: tuple
     colours: bool
 
+    @property
+    def filled(self):
+        """What numbers are put into from outside, see :func:`tehl_taichi.engine.lanes.fill`."""
+        return self.Y, self.T, self.V, self.D, self.J
+
 
 @ti.kernel
 def linear_solve(memory: ti.template(), G: Table, C: Numbers, Q: Passes, todo: Numbers, jobs: Numbers, N: Table,
@@ -91,9 +96,10 @@ class Krylov:
         fields_of = (tables.lease(self, 1, n, count, precision=v.precision, clean=False) for n, count in kinds)
         self.memory = Memory(v.J, V, *fields_of, odd_radices(layout.lengths, largest.lengths),
                              self.program.colours)
-        convolution.prepare(layout.table, self.symbols, self.memory.Y, self.memory.T, layout.lengths, v.linear)
-        weights = v.vector(fields.WEIGHT).astype(v.linear).reshape(-1, lanes.W)
-        lanes.fill(V, phases.LOADING, 0, weights)
+        filled, weights = self.memory.filled, v.vector(fields.WEIGHT).astype(v.linear).reshape(-1, lanes.W)
+        convolution.prepare(layout.table, self.symbols, filled, layout.lengths, v.linear)
+        lanes.fill(*lanes.one_of(filled, V), phases.LOADING, 0, weights)
+        lanes.fill(*lanes.one_of(filled, v.J), fields.SCALE, int(v.G[0, lanes.OFF]), np.ones_like(weights))
 
     def _largest(self):
         """Entries of the inverse, and layout, of the finest grid of the scene: the smaller ones of a start use the same memory,
@@ -101,12 +107,13 @@ class Krylov:
         scene = self.levels.scene
         sizes = coarsen(scene.grid.nx, scene.rows)
         dense, lines = solved_by(sizes)
-        return dense_entries(sizes, dense), convolution.Layout(convolution.shapes(sizes, lines), workers.team_size(scene.rows // lanes.W + 1))
+        layout = convolution.Layout(convolution.shapes(sizes, lines), workers.team_size(scene.rows // lanes.W + 1))
+        return dense_entries(sizes, dense), layout
 
     def _bind(self):
         v, p = self.levels, self.program
         self.dense = np.zeros((dense_entries(v.sizes, v.dense), lanes.W), v.linear)
-        self._fill_dense = bind(lanes.fill, self.memory.D, 0, 0, self.dense)
+        self._fill_dense = bind(lanes.fill, *lanes.one_of(self.memory.filled, self.memory.D), 0, 0, self.dense)
         self.partial = np.zeros((v.fine, decisions.DOT_SUM + self.most + phases.AT_ONCE))
         self._launch = bind(linear_solve, self.memory, v.G, self.layout.table, self.layout.lengths.table(), p.phases, p.jobs,
                             self.numbers, self.partial, self.team.sync, self.most, self.right, self.outflow, self.out,

@@ -50,7 +50,6 @@ class Levels(Grids):
         self.inside = self.vector(fields.MASK)
         for l in range(len(self.sizes)):
             self._clear_level(l)
-        lanes.put(self.J, self.G, 0, fields.SCALE, np.ones((self.ny + 1, self.nx + 1)), True)
 
     def _clear_level(self, l):
         """Everything dry with a film of 1 and the diagonal 1, so that ghosts and borders stay finite."""
