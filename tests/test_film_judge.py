@@ -47,8 +47,10 @@ def test_a_peak_under_a_scan_is_told_with_its_centre():
     scan = gear(**{f"feature.{key}": value for key, value in EXAMPLE.items()})
     text, = film_judge.unresolved(Made(scan, pressure=lambda X, smooth: smooth + 3e9 * (np.abs(X - X[40]) < 1e-9)[:, None]), {})
     assert "of the passage (scan centre at 0.30 a)" in text
-    text, = film_judge.ripples(Made(scan, pressure=lambda X, smooth: smooth * (1 + 0.05 * (-1) ** np.arange(97))[:, None]), {})
-    assert "(scan centre at 0.30 a, X = " in text
+    rough = Made(scan, pressure=lambda X, smooth: smooth * (1 + 0.05 * (-1) ** np.arange(97))[:, None])
+    for part, name in (("steady", "ripple_Pa"), ("transient", "ripple_max_Pa")):
+        text, = film_judge.ripples(rough, {part: {name: film_judge.worst_ripple(rough, range(len(rough)))[0][0]}})
+        assert "(scan centre at 0.30 a, X = " in text
 
 
 def test_a_plausible_run_has_no_warnings_of_its_film():

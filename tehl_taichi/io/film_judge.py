@@ -92,8 +92,10 @@ def worst_ripple(store, entries):
 
 def ripples(store, summary):
     """From node to node along x, at any moment."""
-    (size, i), n = worst_ripple(store, range(len(store)))
+    numbers = ("steady", "ripple_Pa"), ("transient", "ripple_max_Pa")
+    size = max(summary.get(part, {}).get(name, 0.0) for part, name in numbers)
     if size > MOST_RIPPLE * float(store.scalar("p_max_Pa").max()):
+        (_, i), n = worst_ripple(store, range(len(store)))
         a, at_edge = Scales.of(store.scene).a, store.x[i] > 0 and _endless(store.scene)
         when = f"{_moment(store, n)}, " if n else ""
         yield ((readings.EXIT if at_edge else "") + "the pressure ripples from node to node along x by up to "

@@ -2,8 +2,7 @@
 
 import math
 
-from tehl_taichi.study.study_figures import SCALES
-from tehl_taichi.values.digits import decimals
+from tehl_taichi.values.digits import SCALES, decimals
 
 UNITS = {"degC": "°C", "1": ""}  # of stores: as they are written
 

@@ -13,12 +13,11 @@ from tehl_taichi.study.flat import error_of, unit_of
 from tehl_taichi.study.plan import unit
 from tehl_taichi.study.typed import all_numbers, word
 from tehl_taichi.values.checks import nearest
+from tehl_taichi.values.digits import SCALES
 
 # drawn where nobody chooses: the first of each line that the study has
 USUAL = (("fatigue_Fi_max",), ("transient_h_min_m", "steady_h_c_m"), ("transient_p_max_Pa", "steady_p_max_Pa"))
 INDEX, FILM = "fatigue_Fi_max", "transient_h_min_m"
-SCALES = {"m": ((1e-3, 1e6, "µm"), (1.0, 1e3, "mm")), "Pa": ((1e9, 1e-6, "MPa"), (np.inf, 1e-9, "GPa")),
-          "m2/s": ((np.inf, 1e6, "mm²/s"),), "1/Pa": ((np.inf, 1e9, "1/GPa"),)}
 TOLD = 120  # cells of a map with their values in them
 TICKS = 12
 HIGH = 1.7  # rows of lines: height of a figure with one panel

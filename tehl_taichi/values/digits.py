@@ -1,6 +1,10 @@
-"""How many digits of a number are told, and its error leaves."""
+"""In which units numbers are read, how many digits of them are told, and an error leaves."""
 
 import math
+
+# of SI units: (up to below this size, factor, unit that people read)
+SCALES = {"m": ((1e-3, 1e6, "µm"), (1.0, 1e3, "mm")), "Pa": ((1e9, 1e-6, "MPa"), (math.inf, 1e-9, "GPa")),
+          "m2/s": ((math.inf, 1e6, "mm²/s"),), "1/Pa": ((math.inf, 1e9, "1/GPa"),)}
 
 
 def micrometres(length):
