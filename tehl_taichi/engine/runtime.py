@@ -21,6 +21,7 @@ MOST_THREADS = 1024
 _started = {}
 _home = None  # (process, thread) that Taichi was started in
 WORTH_THREADS = 2500
+_grown = 1
 
 
 def wanted_cache():
@@ -153,7 +154,18 @@ def alone(work):
 
     To hand a loop to Taichi's threads takes 20 us at once and 50 to 100 us after some work outside, a copy 30 ns a vector.
     """
-    return ensure()["threads"] == 1 or work < WORTH_THREADS
+    return ensure()["threads"] == 1 or _grown * work < WORTH_THREADS
+
+
+@contextlib.contextmanager
+def grown(times):
+    """Inside, loops run as those of so many times their work do: by kernels that are there, in place of others."""
+    global _grown
+    before, _grown = _grown, times
+    try:
+        yield
+    finally:
+        _grown = before
 
 
 def _same_start(arch, threads):
