@@ -47,6 +47,20 @@ def test_what_differs_from_the_start_moves_where_no_outermost_row_tells(rows, ke
     assert error < 0.015 * moved
 
 
+def test_a_guess_is_judged_by_what_it_said_not_made_twice(monkeypatch):
+    """From the fourth state on; the same bits as without the memory, also after a step that was taken in parts."""
+    guess, made = Guess(2, contact(0.0), 0.0, {}), []
+    extrapolations = Guess._extrapolations
+    monkeypatch.setattr(Guess, "_extrapolations", lambda self, *args: made.append(args[-1]) or extrapolations(self, *args))
+    for at in (1.0, 2.0, 3.0, 4.0, 5.0, 5.5, 6.0, 7.0):
+        made.clear()
+        told = guess.next(6.0 if at == 5.5 else at)
+        count = len(made)
+        assert np.array_equal(told, Guess(2, contact(0.0), 0.0, guess.state()).next(6.0 if at == 5.5 else at))
+        assert count == (0 if at == 1.0 else 2 if at < 5 or at == 6.0 else 1), at
+        guess.accept(contact(at), at)
+
+
 def test_one_state_is_its_own_guess():
     assert np.array_equal(Guess(2, contact(0.0), 0.0, {}).next(1.0), contact(0.0).astype(np.float32))
 

@@ -8,7 +8,7 @@ from tehl_taichi.pressure.storage import Storage, bdf, carried, followed, third_
 
 @pytest.mark.parametrize("lengths", [[0.3], [0.3, 0.2], [0.3, 0.2, 0.5]])
 def test_backward_differences_are_exact_for_polynomials(lengths):
-    rate, weights = bdf(lengths)
+    rate, weights = bdf(*lengths)
     times = -np.concatenate([[0.0], np.cumsum(lengths)])
     for power in range(len(lengths) + 1):
         values = (1 + times) ** power
@@ -16,8 +16,8 @@ def test_backward_differences_are_exact_for_polynomials(lengths):
 
 
 def test_backward_differences_of_equal_steps():
-    assert bdf([0.5])[0] == 2 and bdf([0.5, 0.5])[0] == pytest.approx(3)
-    assert bdf([1, 1, 1])[1] == pytest.approx([18 / 11, -9 / 11, 2 / 11])
+    assert bdf(0.5)[0] == 2 and bdf(0.5, 0.5)[0] == pytest.approx(3)
+    assert bdf(1, 1, 1)[1] == pytest.approx([18 / 11, -9 / 11, 2 / 11])
 
 
 @pytest.mark.parametrize("cells, left", [(0.0, 1.0), (1.0, 0.5), (2.0, 0.25), (3.0, 0.125)])

@@ -87,7 +87,7 @@ class FilmHeat:
         """Prepare a step of dt s: what the bodies remember, A and B of both surfaces."""
         v, a, self.dt_now, self.rounds = self.levels, self.levels.scales.a, dt, Relaxation()
         B_a, B_b = self.bodies.begin(dt)
-        rate, (near, *far) = bdf([dt, self.dt_before] if self.dt_before else [dt])
+        rate, (near, *far) = bdf(*([dt, self.dt_before] if self.dt_before else [dt]))
         self.step.set(rate=rate, near=near, far=sum(far), back=dt, back_2=dt + self.dt_before, inv_x=1 / (v.dx * a),
                       inv_y=1 / (v.dy * a), B_a=B_a, B_b=B_b, tolerance=COLUMN_TOLERANCE * v.scene.thermal.tolerance,
                       iterations=COLUMN_ITERATIONS)

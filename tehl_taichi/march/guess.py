@@ -33,6 +33,7 @@ class Guess:
         self.fields = list(state.get("P_history", [_single(P)]))  # newest first
         self.at = [float(where) for where in state.get("P_moved", [at])]
         self.start = None if len(P) > 1 and P[-1].any() else state.get("P_start", _single(P))
+        self.made = None, []  # where to, and the extrapolations of the last guess
 
     def state(self):
         """Arrays to go on from: the pressures, where the feature was, and the start where it is remembered."""
@@ -49,13 +50,16 @@ class Guess:
         if len(self.fields) == 1:
             return newest
         trusts = self._trusts()
-        guesses = self._extrapolations(self.fields[:-1], self.at[:-1], at)
+        guesses = list(self._extrapolations(self.fields[:-1], self.at[:-1], at))
+        self.made = at if len(self.fields) == self.length else None, guesses
         return sum(trust * guess for trust, guess in zip(trusts, guesses)) / sum(trusts)
 
     def _trusts(self):
         """Weight of each extrapolation at each node: one over the square of what it would have missed."""
         newest, *known = self.fields
-        past = self._extrapolations(known, self.at[1:], self.at[0])
+        made, past = self.made
+        if made != self.at[0]:  # else they are those of the last guess, which went to this place by the same states
+            past = self._extrapolations(known, self.at[1:], self.at[0])
         return [1 / (_nearby((before - newest) ** 2) + NOTHING) for before in past]
 
     def _extrapolations(self, fields, at, to):

@@ -33,7 +33,8 @@ EIGHTH = np.array([math.comb(8, k) * (-1) ** k for k in range(9)]) / 256  # diff
 STEADY = 1e-6  # relative; third-order differences need steps of equal length
 
 
-def bdf(lengths):
+@functools.lru_cache(maxsize=16)  # nearly all steps have one length
+def bdf(*lengths):
     """(rate, weights): df/dt is rate (f - sum of weights times the values before), by the polynomial through them.
 
     lengths: this step's, that of the step before, ... (one more value each).
@@ -119,14 +120,15 @@ class Storage:
         v, length = self.levels, dT / self.levels.dx
         frame = min(1.0, LONGEST_PATH / length)
         lengths = [dT, *self.lengths[: self._order(dT, (1 - frame) * length) - 1]]
-        rate, weights = bdf(lengths)
+        rate, weights = bdf(*lengths)
         paths = frame * np.cumsum(lengths) / v.dx
         old = self.start + sum(w * followed(q - self.start, path) for w, q, path in zip(weights, self.old, paths))
         v.numbers.set_rate(rate, frame)
         v.put(fields.QOLD, frame * self.couette - rate * v.dx * old)
 
     def _order(self, dT, at_rest):
-        steady = np.allclose(self.lengths[: ORDER - 1], dT, rtol=STEADY, atol=0.0) and at_rest < STABLE_AT_REST
+        equal = all(abs(length - dT) <= STEADY * dT for length in self.lengths[: ORDER - 1])
+        steady = equal and at_rest < STABLE_AT_REST
         return min(ORDER if steady else 2, len(self.old))
 
     def accept(self, dT):
