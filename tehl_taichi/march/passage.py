@@ -109,7 +109,6 @@ class Passage:
     def _try(self, until, part):
         """The state at `until` steps from here, `part` of a step after the last accepted one; accepted if it converged."""
         H0, at = self.solver.H0, self._moved(self.step + until)
-        self.prediction.begin(at)
         self._move_feature(self.step + until)
         self.storage.begin(part * self.dT)
         self._predict(at)

@@ -1,10 +1,7 @@
 """Start values of the next state: pressure, rigid approach and temperatures, extrapolated in time."""
 
-from concurrent.futures import ThreadPoolExecutor
-
 import numpy as np
 
-from tehl_taichi.engine import runtime
 from tehl_taichi.heat.foresight import Foresight
 from tehl_taichi.march.guess import Guess, extrapolated
 from tehl_taichi.pressure import fields
@@ -21,16 +18,10 @@ class Prediction:
         self.pressure = Guess(ORDER, np.array(state["P"]), at, state)
         self.heights = list(state.get("H0_history", [float(state["H0"])]))  # at the positions of the pressure
         self.temperature = Foresight(heat, at, state) if heat else None
-        self.beside = None if runtime.alone(solver.levels.n) else ThreadPoolExecutor(1)
-
-    def begin(self, at):
-        """Begin to guess the pressure for the features at `at`, on a core that has nothing to do before the first kernel of a
-        step. (512x128x9: 3.5 of 10 ms that a step takes between its kernels.)"""
-        self.coming = self.beside.submit(self.pressure.next, at) if self.beside else None
 
     def put(self, at):
-        """The guess for the state with the features at `at` into the tables; to be begun before."""
-        P = np.maximum(self.coming.result() if self.coming else self.pressure.next(at), 0.0)
+        """The guess for the state with the features at `at` into the tables."""
+        P = np.maximum(self.pressure.next(at), 0.0)
         P[:, [0, -1]] = 0.0
         self.solver.levels.put(fields.P, P)
         self.solver.H0 = extrapolated(self.heights[: ORDER + 1], self.pressure.at, at)
