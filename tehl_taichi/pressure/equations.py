@@ -1,5 +1,7 @@
 """The discrete equations of a film: its laws, the residual of the Reynolds equation and the Jacobian, on all levels."""
 
+import numpy as np
+
 from tehl_taichi.engine.lanes import W
 from tehl_taichi.pressure import fields, reynolds, transfer
 from tehl_taichi.pressure.levels import HEAVY
@@ -17,8 +19,8 @@ class Equations:
         v, rows, rheology = levels, film.rows, levels.scene.rheology
         self.levels, self.film = levels, film
         self.evaluate = v.launch(reynolds.residual, v.S, v.G, rows.couette, rheology)
-        blocks = v.sizes[1][1] // W + 1 if len(v.sizes) > 1 else 0
-        self.inject = v.launch(transfer.inject, v.S, v.J, v.G, len(v.sizes), blocks, fields.STATE + rows.follow, work=HEAVY)
+        blocks, injected = v.sizes[1][1] // W + 1 if len(v.sizes) > 1 else 0, np.array(fields.STATE + rows.follow, np.int32)
+        self.inject = v.launch(transfer.inject, v.S, v.J, v.G, len(v.sizes), blocks, injected, work=HEAVY)
         self._rows, self._rows_coarse = (
             v.launch(reynolds.linearise, v.S, v.J, v.G, v.blocks, *cut, rows.couette, rows.slope, rows.thinning, rheology,
                      work=HEAVY)

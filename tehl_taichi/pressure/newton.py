@@ -93,9 +93,13 @@ class PressureSolver:
         self.old, self.part = np.zeros(v.n), np.ones(1)
         self._keep_pressure = v.launch(balances.save, v.S, v.G, fields.P, self.old)
         self._move_pressure = v.launch(balances.advance, v.S, v.G, self.old, self.step, self.part)
-        self._contact = v.launch(reynolds.contact_right, v.S, v.J, v.G, self.b)
         self._sums = v.launch(balances.sums, v.S, v.G, int(np.argmin(np.abs(v.X))), self.partial)
         self._choose_sets = v.launch(balances.choose_sets, v.S, v.J, v.G, ROW_CAP, self.b, self.mass_row, self.touching)
+
+    @functools.cached_property
+    def _contact(self):
+        v = self.levels
+        return v.launch(reynolds.contact_right, v.S, v.J, v.G, self.b)  # 15 ms to make, which few scenes need
 
     def take(self, film):
         """Density and viscosity are those of this film from now on."""

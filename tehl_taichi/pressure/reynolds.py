@@ -6,7 +6,7 @@ time derivative of the newest level, in a frame that may move with the oil. Ever
 
 from tehl_taichi.engine.lanes import Blocks, L, LinearFlat, Table, V, W, above, below, cells, face_weights, lanes_in, lanes_out
 from tehl_taichi.engine.language import ti
-from tehl_taichi.pressure.cell_faces import driven_x, face_above, face_below, face_x, net_driven_y, wall_x, wall_y
+from tehl_taichi.pressure.cell_faces import Face, driven_x, face_above, face_below, face_x, net_driven_y, wall_x, wall_y
 from tehl_taichi.pressure.couette import couette_weights
 from tehl_taichi.pressure.fields import (
     AD,
@@ -66,15 +66,15 @@ def residual(S: ti.template(), G: Table, couette: ti.template(), rheology: ti.te
         up, down = face_weights(s, ny)
         inv, metric, CT_0, frame = 1 / G[0, DX], G[0, DX] / G[0, DY] ** 2, G[0, CT], G[0, FRAME]
         first, along, across = off + s * n2, wall_x(G, 0), wall_y(G, 0)
-        left = driven_x(S, first, rheology, along)
-        S[R, first], S[R, first + nx] = V(0.0), V(0.0)
-        for i in range(1, nx):
+        S[R, first], S[R, first + nx], left = V(0.0), V(0.0), V(0.0)
+        for i in range(nx):
             k = first + i
             right = driven_x(S, k, rheology, along)
-            r = transport(S, k, i, couette, frame) + CT_0 * S[RHO, k] * S[H, k] + S[QOLD, k] - (right - left) * inv
-            if ny > 0:
-                r -= net_driven_y(S, k, n2, up, down, rheology, across) * metric
-            S[R, k] = ti.select(S[MASK, k] > 0.0, r, V(0.0))  # not 0 times what ghosts have, which need not be a number
+            if i > 0:
+                r = transport(S, k, i, couette, frame) + CT_0 * S[RHO, k] * S[H, k] + S[QOLD, k] - (right - left) * inv
+                if ny > 0:
+                    r -= net_driven_y(S, k, n2, up, down, rheology, across) * metric
+                S[R, k] = ti.select(S[MASK, k] > 0.0, r, V(0.0))  # not 0 times what ghosts have, which need not be a number
             left = right
 
 
@@ -107,28 +107,29 @@ def linearise(S: ti.template(), J: ti.template(), G: Table, blocks: Blocks, firs
         up, down = face_weights(s, ny)
         metric, inv, CT_l, K_0, K_1 = G[l, DX] / G[l, DY] ** 2, 1 / G[l, DX], G[l, CT], G[l, K0], G[l, K1]
         frame, along, across = G[l, FRAME], wall_x(G, l), wall_y(G, l)
-        left = face_x(S, off + s * n2, thinning, rheology, along)
-        for i in range(1, nx):
+        left = Face(p0=V(0.0), p1=V(0.0), h0=V(0.0), h1=V(0.0), eps=V(0.0))
+        for i in range(nx):
             k = off + s * n2 + i
-            w = couette_weights(i)
-            q, c = stencil(S, k, slope, QP, frame), stencil(S, k, couette, RHO, frame)
             right = face_x(S, k, thinning, rheology, along)
-            a2 = w[2] * q[2] + CT_l * S[QP, k] + (left.p1 - right.p0) * inv
-            b2 = w[2] * c[2] + CT_l * S[RHO, k] + (left.h1 - right.h0) * inv
-            total = (left.eps + right.eps) * inv
-            if ny > 0:
-                u, d = up * metric, down * metric
-                upper = face_above(S, k, n2, thinning, rheology, across)
-                lower = face_below(S, k, n2, thinning, rheology, across)
-                a2 += d * lower.p1 - u * upper.p0
-                b2 += d * lower.h1 - u * upper.h0
-                total += u * upper.eps + d * lower.eps
-                store_rows(J, k, ti.static((AU, AD, BU, BD)), -u * upper.p1, d * lower.p0, -u * upper.h1, d * lower.h0)
-            store_rows(J, k, ti.static(A), w[0] * q[0], w[1] * q[1] + left.p0 * inv, a2, w[3] * q[3] - right.p1 * inv)
-            store_rows(J, k, ti.static(B), w[0] * c[0], w[1] * c[1] + left.h0 * inv, b2, w[3] * c[3] - right.h1 * inv)
-            J[EPS, k] = ti.cast(total, J.dtype)
-            own = 0.5 * (q[2] + c[2] * K_0) + CT_l * (S[QP, k] + S[RHO, k] * K_0)
-            S[D, k] = ti.max(own + (c[3] / 3 - c[1]) * K_1 + total, 0.5 * K_0)
+            if i > 0:
+                w = couette_weights(i)
+                q, c = stencil(S, k, slope, QP, frame), stencil(S, k, couette, RHO, frame)
+                a2 = w[2] * q[2] + CT_l * S[QP, k] + (left.p1 - right.p0) * inv
+                b2 = w[2] * c[2] + CT_l * S[RHO, k] + (left.h1 - right.h0) * inv
+                total = (left.eps + right.eps) * inv
+                if ny > 0:
+                    u, d = up * metric, down * metric
+                    upper = face_above(S, k, n2, thinning, rheology, across)
+                    lower = face_below(S, k, n2, thinning, rheology, across)
+                    a2 += d * lower.p1 - u * upper.p0
+                    b2 += d * lower.h1 - u * upper.h0
+                    total += u * upper.eps + d * lower.eps
+                    store_rows(J, k, ti.static((AU, AD, BU, BD)), -u * upper.p1, d * lower.p0, -u * upper.h1, d * lower.h0)
+                store_rows(J, k, ti.static(A), w[0] * q[0], w[1] * q[1] + left.p0 * inv, a2, w[3] * q[3] - right.p1 * inv)
+                store_rows(J, k, ti.static(B), w[0] * c[0], w[1] * c[1] + left.h0 * inv, b2, w[3] * c[3] - right.h1 * inv)
+                J[EPS, k] = ti.cast(total, J.dtype)
+                own = 0.5 * (q[2] + c[2] * K_0) + CT_l * (S[QP, k] + S[RHO, k] * K_0)
+                S[D, k] = ti.max(own + (c[3] / 3 - c[1]) * K_1 + total, 0.5 * K_0)
             left = right
 
 

@@ -6,6 +6,7 @@ from tehl_taichi.pressure.fields import COR, DRY, JN, KIND, LINES, RES, TOUCH, H
 from tehl_taichi.pressure.lines import DRY_KIND, LOCAL, is_kind
 
 HALF_W = W // 2
+Rows = ti.types.ndarray(dtype=ti.i32, ndim=1)  # of the table S
 
 
 @ti.func
@@ -25,10 +26,12 @@ def inject_block(S: ti.template(), J: ti.template(), G: ti.template(), l, t, row
     """The fields `rows` of block t of level l + 1 from level l."""
     nx, ny, off = cells(G, l)
     mx, my, coff = cells(G, l + 1)
-    for I in range(mx + 1):
-        c, k = coff + t * (mx + 1) + I, off + 2 * t * (nx + 1) + 2 * I
-        for row in ti.static(rows):
-            S[row, c] = every_second(S, row, k, nx + 1)
+    first, fine = coff + t * (mx + 1), off + 2 * t * (nx + 1)
+    for n in range(rows.shape[0]):
+        row = rows[n]
+        for I in range(mx + 1):
+            S[row, first + I] = every_second(S, row, fine + 2 * I, nx + 1)
+    for c in range(first, first + mx + 1):
         for u in ti.static(range(W)):
             if t * W + u >= int(G[l + 1, JN]):
                 S[DRY, c][u] = 1.0
@@ -40,8 +43,7 @@ def inject_block(S: ti.template(), J: ti.template(), G: ti.template(), l, t, row
 
 
 @ti.kernel
-def inject(S: ti.template(), J: ti.template(), G: Table, levels: ti.i32, shared: ti.i32, rows: ti.template(),
-           alone: ti.template()):
+def inject(S: ti.template(), J: ti.template(), G: Table, levels: ti.i32, shared: ti.i32, rows: Rows, alone: ti.template()):
     """The fields `rows` (state, sets, laws) of every coarser level from the coinciding nodes of the finest; ghosts stay dry.
     KIND: what is dry, for levels that corrections only pass through. shared: blocks of the first one (3/4 of all).
     """
