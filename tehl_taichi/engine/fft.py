@@ -12,7 +12,6 @@ import numpy as np
 
 from tehl_taichi.engine.language import ti
 
-LAST = 8  # code of a pass of radix 4 without twiddle factors, the last one
 RADIX, PARTS, STRIDE, FACTORS = range(4)  # columns of a table of passes
 
 Passes = ti.types.ndarray(dtype=ti.i32, ndim=2)
@@ -66,8 +65,7 @@ class Lengths:
         stride, parts = 1, n
         for radix in radices(n):
             parts //= radix
-            code = LAST if radix == 4 and parts == 1 else radix
-            self.passes.append((code, parts, stride, self.turns(np.outer(np.arange(parts), np.arange(1, radix)).ravel(),
+            self.passes.append((radix, parts, stride, self.turns(np.outer(np.arange(parts), np.arange(1, radix)).ravel(),
                                                                 radix * parts)))
             stride *= radix
 
@@ -107,7 +105,7 @@ def pass_2(B: ti.template(), a, b, T: ti.template(), t, parts, stride, sense):
 
 
 @ti.func
-def pass_4(B: ti.template(), a, b, T: ti.template(), t, parts, stride, sense, last: ti.template()):
+def pass_4(B: ti.template(), a, b, T: ti.template(), t, parts, stride, sense):
     d, e = 2 * parts * stride, 2 * stride
     for p in range(parts):
         w1, w2, w3 = T[0, t + 3 * p], T[0, t + 3 * p + 1], T[0, t + 3 * p + 2]
@@ -118,11 +116,9 @@ def pass_4(B: ti.template(), a, b, T: ti.template(), t, parts, stride, sense, la
             x2r, x2i, x3r, x3i = B[0, i + 2 * d], B[0, i + 2 * d + 1], B[0, i + 3 * d], B[0, i + 3 * d + 1]
             ar, ai, br, bi = x0r + x2r, x0i + x2i, x0r - x2r, x0i - x2i
             cr, ci, dr, di = x1r + x3r, x1i + x3i, sense * (x1i - x3i), sense * (x3r - x1r)
-            y1r, y1i, y2r, y2i, y3r, y3i = br + dr, bi + di, ar - cr, ai - ci, br - dr, bi - di
-            if ti.static(not last):
-                y1r, y1i = turned(y1r, y1i, w1[0], s1)
-                y2r, y2i = turned(y2r, y2i, w2[0], s2)
-                y3r, y3i = turned(y3r, y3i, w3[0], s3)
+            y1r, y1i = turned(br + dr, bi + di, w1[0], s1)
+            y2r, y2i = turned(ar - cr, ai - ci, w2[0], s2)
+            y3r, y3i = turned(br - dr, bi - di, w3[0], s3)
             B[0, o], B[0, o + 1] = ar + cr, ai + ci
             B[0, o + e], B[0, o + e + 1] = y1r, y1i
             B[0, o + 2 * e], B[0, o + 2 * e + 1] = y2r, y2i
@@ -183,10 +179,8 @@ def transform(B: ti.template(), first, second, T: ti.template(), Q: ti.template(
     a, b, sense = first, second, ti.cast(1 - 2 * backward, B.dtype)
     for n in range(row, row + rows):
         code, parts, stride, t = Q[n, RADIX], Q[n, PARTS], Q[n, STRIDE], Q[n, FACTORS]
-        if code == LAST:
-            pass_4(B, a, b, T, t, parts, stride, sense, True)
-        elif code == 4:
-            pass_4(B, a, b, T, t, parts, stride, sense, False)
+        if code == 4:
+            pass_4(B, a, b, T, t, parts, stride, sense)
         elif code == 2:
             pass_2(B, a, b, T, t, parts, stride, sense)
         for radix in ti.static(odd):
