@@ -17,8 +17,11 @@ from tehl_taichi.pressure.levels import HEAVY
 # Switch between the two kinds of columns where time passes. Krylov iterations a step with 1 / 10 / 30 / 1000, gear at SRR
 # -0.12: whole passages on 128 columns 15.8 / 15.1 / 14.9 / 16.0, on 256 15.0 / 14.2 / 14.0 / 15.2 (with temperatures 18.1 and,
 # with 30, 15.8); the feature coming in, on 512 15.1 and 12.6, 1024 29.5 / 17.0 / 16.6 / 17.1, 2048 some 41 / 30 / 20.5 / 21.1.
-# At rest 1: with 3 the steady start on 2048 columns does not converge
 THETA = 30.0
+# At rest, of one row and of several. Krylov iterations on the finest grid of steady point contacts, 0.5 / 2 / 4 / 8 / 16 / 32:
+# 18 on 128 and 256 columns 1345 / 1156 / 1085 / 1127 / 1201 / -, 5 on 512 columns 396 / 315 / 289 / 311 / 289 / 288. One row:
+# with 2 starts on 2048 columns do not converge
+REST_LINE, REST = 0.5, 8.0
 
 
 class AdditiveLines:
@@ -37,8 +40,8 @@ class AdditiveLines:
         self._bind()
 
     def _bind(self):
-        v = self.levels
-        self._classify = [v.launch(lines.classify, v.S, v.J, v.G, v.blocks, *cut, touching, THETA) for touching in (0, 1)
+        v, bounds = self.levels, (REST if self.levels.ny else REST_LINE, THETA)
+        self._classify = [v.launch(lines.classify, v.S, v.J, v.G, v.blocks, *cut, touching, *bounds) for touching in (0, 1)
                           for cut in ((0, v.fine), (v.fine, len(v.blocks)))]
         self._build_lines = v.launch(lines.build_lines, v.J, v.G, v.blocks, self.count, self.near, self.inverse, work=HEAVY)
 
