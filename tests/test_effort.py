@@ -15,8 +15,8 @@ COUNTS = {
     "gear, isothermal": ((5, 74), (2.13, 13.8)),
     "gear, thermal": (None, (3.13, 22.1)),
     "touching asperity": ((5, 61), (3.27, 19.1)),
-    "steady circle": ((5, 42), None),
-    "ridge on ball": ((5, 42), (2.38, 12.9)),
+    "steady circle": ((4, 37), None),
+    "ridge on ball": ((4, 37), (2.38, 12.9)),
     # guesses that do not move with the ridge 3.29, 11.7; by the law of the walls alone 6.5, 19.0
     "ridge that leaves, walls yield": ((4, 43), (2.58, 8.5)),
     # guesses that do not move 4.21, 14.4; pressures solved for to the end in every round, too, 4.7, 16.1
