@@ -79,3 +79,9 @@ def test_a_film_carried_by_the_oil_stores_nothing(courant):
         storage.accept(dT)
     found = levels.get(fields.R)[0, 2:-2] / levels.dx
     assert np.abs(found - 0.1).max() < (2e-3 if courant <= 1 else 0.02)
+
+
+def test_third_order_is_for_steps_of_one_length():
+    storage = Storage.__new__(Storage)
+    storage.lengths, storage.old = [1.0, 1.0], [None] * 3
+    assert [storage._order(dT, at_rest) for dT, at_rest in ((1.0, 0.1), (0.5, 0.1), (1.0, 0.9))] == [3, 2, 2]
