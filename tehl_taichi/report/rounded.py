@@ -2,17 +2,9 @@
 
 import math
 
-from tehl_taichi.values.digits import SCALES, decimals
+from tehl_taichi.values.digits import decimals, fitting
 
 UNITS = {"degC": "°C", "1": ""}  # of stores: as they are written
-
-
-def fitting(unit, size):
-    """(factor, unit) for numbers of about `size` in the SI unit `unit`: 2e9 Pa are read in GPa."""
-    for below, factor, shown in SCALES.get(unit, ()):
-        if abs(size) < below:
-            return factor, shown
-    return 1.0, UNITS.get(unit, unit)
 
 
 def told(value, error=None, unit="1", digits=4):
@@ -24,7 +16,7 @@ def told(value, error=None, unit="1", digits=4):
 def apart(value, error, unit, digits=4):
     """(value, error, unit) in words: two digits of the error say how many of the value are told; `digits` of it, and '' for
     the error, where that is not known."""
-    factor, scale = fitting(unit, value)
+    factor, scale = fitting(UNITS.get(unit, unit), value)
     if error is None or not math.isfinite(error):
         return f"{value * factor:.{digits}g}", "", scale
     value, error = value * factor, error * factor

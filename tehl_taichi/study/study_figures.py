@@ -13,7 +13,7 @@ from tehl_taichi.study.flat import error_of, unit_of
 from tehl_taichi.study.plan import unit
 from tehl_taichi.study.typed import all_numbers, word
 from tehl_taichi.values.checks import nearest
-from tehl_taichi.values.digits import SCALES
+from tehl_taichi.values.digits import fitting
 
 # drawn where nobody chooses: the first of each line that the study has
 USUAL = (("fatigue_Fi_max",), ("transient_h_min_m", "steady_h_c_m"), ("transient_p_max_Pa", "steady_p_max_Pa"))
@@ -206,7 +206,7 @@ def scaled(values, unit_, text):
 def _scale(values, unit_):
     """(factor, its unit) for what people read."""
     top = np.nanmax(np.abs(values)) if np.isfinite(values).any() else 0.0
-    return next(((factor, shown) for below, factor, shown in SCALES.get(unit_, ()) if top < below), (1.0, unit_))
+    return fitting(unit_, top)
 
 
 def _label(text, unit_, shown):
