@@ -25,10 +25,12 @@ def test_each_whole_cell_takes_out_half_of_the_shortest_wave(cells, left):
     """And nothing of a polynomial of degree 7; parts of a cell are interpolated as they are."""
     i, inner = np.arange(40), slice(8, -8)
     wave = (-1.0) ** i
-    assert followed(wave, cells)[inner] == pytest.approx(left * carried(wave, cells)[inner], abs=1e-12)
+    assert followed([wave], [cells])[inner] == pytest.approx(left * carried(wave, cells)[inner], abs=1e-12)
     smooth = ((i - 20) / 20.0) ** 7
-    assert followed(smooth, cells)[inner] == pytest.approx(carried(smooth, cells)[inner], abs=1e-12)
-    assert np.array_equal(followed(wave, 0.37), carried(wave, 0.37))
+    assert followed([smooth], [cells])[inner] == pytest.approx(carried(smooth, cells)[inner], abs=1e-12)
+    assert np.array_equal(followed([wave], [0.37]), carried(wave, 0.37))
+    both = followed([3 * wave, smooth * wave], [cells, 1.0])
+    assert both[inner] == pytest.approx((3 * followed([wave], [cells]) + followed([smooth * wave], [1.0]))[inner], abs=1e-12)
 
 
 @pytest.mark.parametrize("cells", [0.0, 1.0, 0.37, 1.064, 3.5])
