@@ -70,24 +70,29 @@ def test_thin_oil_needs_no_more_than_what_brings_it_the_flow(levels, axis):
 
 def test_slopes_across_the_film_come_from_where_the_flow_does():
     """Polynomials where conduction rules, the node behind where the flow does, a part of both between."""
-    from tehl_taichi.engine.lanes import V
+    from tehl_taichi.engine.lanes import Place, V, W
     from tehl_taichi.engine.language import ti
     from tehl_taichi.heat.across import Across
-    from tehl_taichi.heat.energy import one_sided, upstream
+    from tehl_taichi.heat.energy import one_sided, turn_upstream
     from tehl_taichi.heat.nodes import Nodes
+
+    Z, X = (ti.Vector.field(W, ti.f64, shape=(1, size)) for size in (5, 25))
 
     @ti.kernel
     def collect(N: Nodes, n: ti.i32, swept: ti.f64, conduction: ti.f64, out: ti.types.ndarray(dtype=ti.f64, ndim=1)):
         for _ in range(1):
             out[0] = one_sided(N, n, V(swept), V(conduction))[0]
-            for m in range(N.shape[1]):
-                out[1 + m] = upstream(N, n, m, V(swept))[0]
+            out[1] = turn_upstream(Z, X, N, Place(k=0, q=0, c=0, i=0, s=0, nx=1, ny=0), n, V(swept))[0]
 
-    across, out = Across(5), np.zeros(6)
+    across, out = Across(5), np.zeros(2)
     z, T = across.zeta, np.array([3.0, 5.0, 4.0, 8.0, 1.0])
+    Z.from_numpy(np.repeat(T[None, :, None], W, axis=2))
     for swept, behind in ((2.0, 1), (-2.0, 3)):
-        distance = abs(z[2] - z[behind])
+        distance, slope = abs(z[2] - z[behind]), (T[2] - T[behind]) / (z[2] - z[behind])
         for carried, part in ((1.0, 0.0), (2.0, 0.0), (3.0, 0.5), (4.0, 1.0), (9.0, 1.0)):  # times what is conducted
+            X.fill(0.0)
             collect(across.table, 2, swept, 2.0 * distance / carried, out)
             assert out[0] == pytest.approx(part, abs=1e-12)
-        assert out[1:] @ T == pytest.approx((T[2] - T[behind]) / (z[2] - z[behind]), rel=1e-12)
+        rows = X.to_numpy()[0, :, 0].reshape(5, 5)
+        assert out[1] == pytest.approx(swept * slope, rel=1e-12) == rows[2] @ T
+        assert not rows[[0, 1, 3, 4]].any()

@@ -163,11 +163,16 @@ def one_sided(N: ti.template(), n, swept, conduction):
 
 
 @ti.func
-def upstream(N: ti.template(), n, m, swept):
-    """Of node m in the slope at node n to the node that the flow comes from."""
-    own, behind, ahead = float(m == n), float(m == n - 1), float(m == n + 1)
-    return ti.select(swept > 0.0, V((own - behind) / (zeta(N, n) - zeta(N, n - 1))),
-                     V((ahead - own) / (zeta(N, n + 1) - zeta(N, n))))
+def turn_upstream(Z: ti.template(), X: ti.template(), N: ti.template(), at: ti.template(), n, swept):
+    """`swept`, a part of the flow through node n, carries by the slope to the node that it comes from: into row n of the
+    matrix. Returns what it adds to the balance."""
+    q, c, nz, balance = at.q, at.c, N.shape[1], V(0.0)
+    for side in ti.static((-1, 1)):
+        brought = maximum(-side * swept, 0.0) * (1.0 / ti.abs(zeta(N, n + side) - zeta(N, n)))
+        balance += brought * (Z[T, q * nz + n] - Z[T, q * nz + n + side])
+        X[c, n * nz + n] = X[c, n * nz + n] + brought
+        X[c, n * nz + n + side] = X[c, n * nz + n + side] - brought
+    return balance
 
 
 @ti.func
@@ -188,13 +193,14 @@ def assemble(Z: ti.template(), X: ti.template(), N: ti.template(), at: ti.templa
                     swell=expansivity(oil, col.p, t) * Z[PS, q * nz + n] * step.rate)
         made = sources(node, col, flow, bend)
         balance = storing * step.rate * (t - Z[TS, q * nz + n]) - made.heat - made.squeeze * (t + 273.15)
-        rough = one_sided(N, n, swept, conduction)
+        turned = one_sided(N, n, swept, conduction) * swept
         for m in range(nz):
-            along = slope(N, n, m) + rough * (upstream(N, n, m, swept) - slope(N, n, m))
-            link = swept * along - conduction * second(N, n, m)
+            link = (swept - turned) * slope(N, n, m) - conduction * second(N, n, m)
             balance += link * Z[T, q * nz + m]
             X[c, n * nz + m] = link + made.gain * X[c, by_node + m]
         X[c, n * nz + n] = X[c, n * nz + n] + storing * step.rate - made.squeeze - made.viscous * Z[BETA, q * nz + n]
+        if ti.abs(turned).max() > 0.0:
+            balance += turn_upstream(Z, X, N, at, n, turned)
         X[c, nz * nz + n] = -balance
 
 
