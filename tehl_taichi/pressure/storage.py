@@ -50,7 +50,8 @@ def bdf(*lengths):
 def carried(q, cells):
     """q (..., nx+1) moved by `cells` towards +x: interpolation between six nodes, what comes in is as at the border."""
     (back, weights), n = shift(cells), q.shape[-1]
-    padded = np.concatenate([q[..., :1]] * back + [q] + [q[..., -1:]] * 2, axis=-1)
+    padded = np.empty((*q.shape[:-1], n + back + 2), q.dtype)
+    padded[..., :back], padded[..., back : back + n], padded[..., back + n :] = q[..., :1], q, q[..., -1:]
     if 1.0 in weights:
         return padded[..., 3 : 3 + n]
     out, term = np.zeros_like(q), np.empty_like(q)
