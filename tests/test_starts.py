@@ -319,9 +319,9 @@ def test_cold_inlets_settle_on_two_grids(temperature, srr):
 
 @pytest.mark.slow  # a minute
 def test_a_cold_inlet_settles_where_a_quick_slip_is_lost():
-    """256 columns; 2.348 um on 64, 2.349 on 128. The outlet's spike, and with it the hottest place, grows with the grid."""
+    """256 columns; 2.337 um on 64, 2.350 on 128. The outlet's spike, and with it the hottest place, grows with the grid."""
     found = settled(temperature=20.0, srr=-0.12, **{"grid.nx": 256})
-    assert found["h_c_m"] == pytest.approx(2.348e-6, rel=0.01) and found["film_max_C"] < 200.0
+    assert found["h_c_m"] == pytest.approx(2.343e-6, rel=0.01) and found["film_max_C"] < 200.0
     assert found["mass_error"] < 1e-6
 
 
