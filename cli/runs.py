@@ -43,7 +43,7 @@ def run(
                                         "how long the passage would take); `tehl resume` goes on"),
     out: Optional[Path] = typer.Option(None, help="store to write (default: runs/SCENE-N.zarr)"),
     force: bool = typer.Option(False, "--force", help="replace an existing store, as soon as the new one has its first entry"),
-    arch: str = typer.Option("cpu", help="cpu"),
+    arch: str = typer.Option("cpu", help="cpu, or cuda: a graphics card, slower by now"),
     threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
     precision: Optional[str] = typer.Option(None, help="of the linear solves: f32, f64 or auto (f32 for thick films); the "
                                             "state and its residual are always double"),

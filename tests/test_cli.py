@@ -155,7 +155,7 @@ def test_a_broken_run_opens_and_resumes_to_the_same_result(finished, tmp_path, s
     (("run", "--load", "-5"), "N/m"), (("run", "--load", "nan"), "not a number"), (("run", "geer"), "gear"),
     (("run", "no-such.toml"), "cannot read"), (("run", "--set", "feature.hight=1e-6"), "height"),
     (("run", "--set", "feature.height"), "key=value"), (("run", "--grid", "huge"), "NXxNY"),
-    (("run", "--arch", "cuda"), "cpu"), (("run", "--precision", "f16"), "f64"), (("run", "--threads", "0"), "1 to"),
+    (("run", "--arch", "metal"), "cpu"), (("run", "--precision", "f16"), "f64"), (("run", "--threads", "0"), "1 to"),
     (("run", "--speed", "0"), "entrainment"), (("run", "--srr", "-2"), "never passes"), (("run", "--sr", "1"), "srr"),
     (("run", "--target-error", "fast"), "0.01% to 50%"), (("run", "--target-error", "1%", "--grid", "coarse"), "leave out"),
     (("run", "--srr", "fast"), "'fast'"), (("bench", "sweep", "--workers", "-3"), "'-3'"),

@@ -6,7 +6,7 @@ import sys
 import numpy as np
 import pytest
 
-from tehl_taichi.engine import cores
+from tehl_taichi.engine import cores, runtime, workers
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 
@@ -60,44 +60,19 @@ def test_the_same_bits_by_any_number_of_workers(problem, size, patience):
     assert x.tobytes() == y.tobytes() and rest == others and rest[1] > 5
 
 
-def test_each_phase_as_a_launch_of_its_own_gives_the_same_bits(problem):
-    """As hardware without resident workers would do it: the jobs of a phase, then what follows."""
-    from tehl_taichi.engine.lanes import LinearFlat, Table
-    from tehl_taichi.engine.language import ti
-    from tehl_taichi.pressure import decisions, phases
-    from tehl_taichi.pressure.krylov import Numbers
-    from tehl_taichi.pressure.program import DECISION, FIRST_JOB, JOBS
-
-    @ti.kernel
-    def launch(memory: ti.template(), G: Table, C: Numbers, Q: Numbers, todo: Numbers, jobs: Numbers, N: Table, partial: Table,
-               phase: ti.i32, most: ti.i32, right: LinearFlat, outflow: LinearFlat, out: LinearFlat):
-        ti.loop_config(serialize=True)  # they share the buffer of one worker
-        for j in range(todo[phase, JOBS]):
-            q = todo[phase, FIRST_JOB] + todo[phase, JOBS] - 1 - j  # in whatever order
-            phases.work(memory, G, C, Q, N, partial, jobs[q, 0], jobs[q, 1], jobs[q, 2], 0, most, right, outflow, out)
-
-    @ti.kernel
-    def follows(N: Table, partial: Table, todo: Numbers, phase: ti.i32, most: ti.i32) -> ti.i32:
-        return decisions.decide(N, partial, todo, phase, todo[phase, DECISION], most)
-
-    def run(krylov, phase):
-        p, tables = krylov.program, (krylov.numbers, krylov.partial)
-        known = krylov.memory, krylov.levels.G, krylov.layout.table, krylov.layout.lengths.table(), p.phases, p.jobs
-        goes_on = krylov.numbers[decisions.SCALARS]
-        while phase >= 0:
-            goes_on[decisions.NEXT] = -1
-            launch(*known, *tables, phase, krylov.most, krylov.right, krylov.outflow, krylov.out)
-            phase = follows(*tables, p.phases, phase, krylov.most)
-            phase = int(goes_on[decisions.NEXT]) if phase < 0 else phase
-
-    krylov, whole = problem[0], solved(problem, 1e-3)
-    krylov.out[:] = 0.0
-    krylov._run = lambda phase: run(krylov, phase)
-    try:
-        x, *rest = solved(problem, 1e-3)
-    finally:
-        del krylov._run
-    assert x.tobytes() == whole[0].tobytes() and tuple(rest) == whole[1:] and rest[1] > 5
+def test_each_phase_as_a_launch_of_its_own_gives_the_same_bits(problem, monkeypatch):
+    """As a graphics card does it, from the first film on."""
+    krylov, right = problem
+    monkeypatch.setattr(runtime, "by_phases", lambda: True)
+    other = pressed(krylov.levels.precision, krylov.levels.scene.numerics.sweep).krylov
+    ran, launch = [], other._launch
+    other._launch = lambda: (ran.append(int(other.team.sync[workers.TICKET])), launch())
+    assert other.right.tobytes() == right.tobytes()
+    x, *rest = solved((other, right), 1e-3)
+    monkeypatch.undo()
+    y, *others = solved(problem, 1e-3)
+    assert x.tobytes() == y.tobytes() and rest == others and rest[1] > 5
+    assert len(ran) > 10 * rest[1] and len(set(ran)) <= len(krylov.program.phases)
 
 
 def test_the_same_bits_beside_others_on_all_cores(problem):

@@ -233,7 +233,7 @@ def test_bad_stresses_and_constants_are_one_error(of, constants, said):
 @pytest.mark.parametrize("words, said", [
     (("geer",), "gear"), (("no.toml",), "cannot read"), ((5,), "5 is no scene"), ((RIDGE, "a", {"threads": 0}), "1 to 1024"),
     ((RIDGE, "a", {"threads": "two"}), "threads = 'two'"),
-    ((RIDGE, "a", {"threads": 1}), "already runs"), ((RIDGE, "a", {"arch": "cuda"}), "cpu")])
+    ((RIDGE, "a", {"threads": 1}), "already runs"), ((RIDGE, "a", {"arch": "metal"}), "cpu")])
 def test_bad_input_is_one_error_and_writes_nothing(tmp_path, monkeypatch, words, said):
     monkeypatch.chdir(tmp_path)
     *words, options = words if isinstance(words[-1], dict) else (*words, {})

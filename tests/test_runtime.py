@@ -62,6 +62,29 @@ def test_other_threads_than_those_that_run_are_refused_before_anything_begins(ta
     assert not list(tmp_path.iterdir())
 
 
+NO_CARD = """
+from tehl_taichi.engine import runtime
+runtime.DRIVER = {driver!r}
+try:
+    runtime.start("cuda", 2)
+except runtime.RuntimeUnavailable as error:
+    print(error)
+print(runtime.start("cpu", 2)["arch"])
+"""
+
+
+@pytest.mark.parametrize("driver, said", [("no-such-driver.so", "no driver"), (None, "no card")])  # None: any library
+def test_a_card_that_is_not_there_is_refused(driver, said):
+    """Taichi itself would take the cores."""
+    from tehl_taichi.engine.language import ti
+
+    if ti.lang.misc.is_arch_supported(ti.cuda):
+        pytest.skip("there is one")
+    done = subprocess.run([sys.executable, "-c", NO_CARD.format(driver=driver)], capture_output=True, text=True)
+    error, arch = done.stdout.splitlines()
+    assert "'cuda' is out of reach" in error and said in error and arch == "cpu", done.stderr
+
+
 def test_a_forked_process_is_told_instead_of_waiting_for_ever(taichi_cpu):
     first_film()
     with warnings.catch_warnings():

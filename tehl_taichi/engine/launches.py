@@ -7,19 +7,22 @@ import time
 
 import numpy as np
 
+from tehl_taichi.engine import runtime
+
 
 def bind(kernel, *args):
     """A launch of `kernel` with these very arguments, to be called without any, as often as wanted.
 
     Arrays are bound by address: they must stay alive (they are held here) and their contents may change. Taichi's own
     call inspects every argument anew, some 40 us an array, more than most kernels run; here the argument record is made
-    once. Where the pinned Taichi's internals are not found, the launch falls back to the plain call.
+    once. Where the pinned Taichi's internals are not found, the launch is the plain call; and on a graphics card, which puts
+    addresses of its own into the record.
     """
     global _binding
     started = time.perf_counter()
     try:
         with _uncollected():
-            launch = _recorded(kernel, args)
+            launch = functools.partial(kernel, *args) if runtime.by_phases() else _recorded(kernel, args)
     except (AttributeError, TypeError):
         launch = functools.partial(kernel, *args)
     _binding += time.perf_counter() - started

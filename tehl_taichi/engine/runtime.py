@@ -2,6 +2,7 @@
 
 import atexit
 import contextlib
+import ctypes
 import functools
 import numbers
 import os
@@ -16,7 +17,8 @@ from tehl_taichi import __version__
 from tehl_taichi.engine import cores, memory
 from tehl_taichi.errors import RuntimeUnavailable
 
-ARCHES = ("cpu",)  # that the kernels have been checked on
+ARCHES = ("cpu", "cuda")  # that the kernels have been checked on
+DRIVER = "libcuda.so.1"
 MOST_THREADS = 1024
 _started = {}
 _home = None  # (process, thread) that Taichi was started in
@@ -70,17 +72,28 @@ def check(arch="cpu", threads=None):
     RuntimeUnavailable."""
     if arch not in ARCHES:
         raise RuntimeUnavailable(f"arch = {arch!r} is not available in this version: {', '.join(map(repr, ARCHES))} is")
+    if arch == "cuda":
+        _driven()
     if threads is not None and not (isinstance(threads, numbers.Integral) and 1 <= threads <= MOST_THREADS):
         raise RuntimeUnavailable(f"threads = {threads!r} is out of range; allowed: 1 to {MOST_THREADS}")
     if _started and threads is not None:
         _same_start(arch, int(threads))
 
 
+def _driven():
+    """Refuse a graphics card where there is none: Taichi would take the cores instead, in silence."""
+    try:
+        ctypes.CDLL(DRIVER)
+    except OSError:
+        raise RuntimeUnavailable(f"arch = 'cuda' is out of reach: no driver of a graphics card ({DRIVER}) is found here; 'cpu' "
+                                 "always is there") from None
+
+
 def start(arch="cpu", threads=None):
     """Start Taichi and say what was really started.
 
-    arch: "cpu" (others when their kernels are checked); threads: number of CPU threads, or None for all cores that
-    this process may use. Returns a dict with arch, threads, taichi (version) and cache (folder).
+    arch: "cpu", or "cuda", which is slower by now (docs/benchmarks.md); threads: number of CPU threads, or None for all cores
+    that this process may use. Returns a dict with arch, threads, taichi (version) and cache (folder).
     Raises RuntimeUnavailable when arch or threads cannot be had, another start is already active, or Taichi runs in another
     thread or in the process that this one was forked from.
     """
@@ -100,13 +113,19 @@ def _start(arch, threads):
     from tehl_taichi.engine.language import attempt, ti
 
     with _no_banner(), contextlib.redirect_stdout(None), cores.pinned(threads):  # in a notebook prints do not go to file 1
-        ti.init(arch=ti.cpu, default_fp=ti.f64, fast_math=False, cpu_max_num_threads=threads, log_level=ti.ERROR,
+        ti.init(arch=getattr(ti, arch), default_fp=ti.f64, fast_math=False, cpu_max_num_threads=threads, log_level=ti.ERROR,
                 # its own optimisation passes take 40 s for the Findley search (2 s without) and gain nothing over LLVM's
                 advanced_optimization=False,
                 # Taichi would run loops of up to 512 rows on one thread: our loops run over rows of that number
                 make_cpu_multithreading_loop=False,
                 offline_cache=True, offline_cache_file_path=cache)
+        if ti.cfg.arch != getattr(ti, arch):
+            ti.reset()
+            raise RuntimeUnavailable(f"arch = {arch!r} is out of reach: its driver finds no card here")
         attempt(loops.keep_rolled)
+    if arch == "cuda":
+        warnings.warn("arch = 'cuda' gives the same results, later: a step of 512x128 took an H200 six times as long as one "
+                      "core; see docs/benchmarks.md", RuntimeWarning, stacklevel=2)
     _started.update(arch=arch, threads=threads, taichi=".".join(map(str, ti.__version__)), cache=cache)
     _home = os.getpid(), threading.get_ident()
 
@@ -154,7 +173,13 @@ def alone(work):
 
     To hand a loop to Taichi's threads takes 20 us at once and 50 to 100 us after some work outside, a copy 30 ns a vector.
     """
-    return ensure()["threads"] == 1 or _grown * work < WORTH_THREADS
+    return not by_phases() and (ensure()["threads"] == 1 or _grown * work < WORTH_THREADS)
+
+
+def by_phases():
+    """Whether each phase of jobs is a launch of its own, a job a thread, as on a graphics card: it does not promise that all
+    threads of a kernel run at once, so that they must not wait for each other."""
+    return ensure()["arch"] != "cpu"
 
 
 @contextlib.contextmanager

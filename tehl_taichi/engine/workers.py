@@ -72,8 +72,16 @@ def crowding():
 
 
 def team_size(jobs):
-    """Workers of phases of so many jobs at most: no more than the threads of the engine."""
+    """Workers of phases of so many jobs at most: no more than the threads of the engine; on a card one a job."""
+    if runtime.by_phases():
+        return jobs
     return max(1, min(jobs, runtime.ensure()["threads"], cores.available()))
+
+
+def kernel_of(workers, one_phase):
+    """The kernel of `workers`, or where threads do not wait for each other that of `one_phase`, a job a thread, which leaves
+    in TICKET what follows (negative: nothing). Both take the same."""
+    return one_phase if runtime.by_phases() else workers
 
 
 class Team:
@@ -89,6 +97,18 @@ class Team:
 
     def run(self, launch, phase=0):
         """Launch from `phase` on. After a launch that a worker has left, the next ones have one worker: each time more."""
+        if runtime.by_phases():
+            self._one_by_one(launch, phase)
+        else:
+            self._together(launch, phase)
+
+    def _one_by_one(self, launch, phase):
+        """A launch does the phase in TICKET and leaves there which one follows, if any."""
+        self.sync[TICKET] = phase
+        while self.sync[TICKET] >= 0:
+            launch()
+
+    def _together(self, launch, phase):
         self.sync[[TICKET, DONE, LEFT]] = phase << JOB_BITS, 0, 0
         self.sync[COUNT] = 1 if self.alone else self.size
         launch()

@@ -94,6 +94,17 @@ def bend(S: ti.template(), Y: ti.template(), T: ti.template(), G: Table, C: Numb
                 ticket = workers.take(sync)
 
 
+@ti.kernel
+def one_phase(S: ti.template(), Y: ti.template(), T: ti.template(), G: Table, C: Numbers, Q: Passes, odd: ti.template(),
+              H0: Flat, sync: workers.Sync, alone: ti.template()):
+    """The phase that `sync` stands at, a job a thread, and which one follows."""
+    ti.loop_config(block_dim=1)
+    for j in range(C[0, GROUPS if sync[workers.TICKET] == ACROSS else PAIRS]):
+        work(S, Y, T, G, C, Q, odd, ti.cast(sync[workers.TICKET], ti.i32), j, j, H0[0])
+    for _ in range(1):
+        sync[workers.TICKET] = -1 if sync[workers.TICKET] == BACK else sync[workers.TICKET] + 1
+
+
 class Bending:
     """Sets the film of `levels` (see :class:`Levels`)."""
 
@@ -106,13 +117,13 @@ class Bending:
         self.table, self.passes = layout.table, layout.lengths.table()
         convolution.prepare(self.table, [convolution.deflection(shape, levels)], (Y, T), layout.lengths, np.dtype(float))
         odd = odd_radices(layout.lengths, largest.lengths)
-        self.launch = bind(bend, levels.S, Y, T, levels.G, self.table, self.passes, odd, self.H0, self.team.sync,
-                           runtime.ensure()["threads"] == 1)
+        self.launch = bind(workers.kernel_of(bend, one_phase), levels.S, Y, T, levels.G, self.table, self.passes, odd, self.H0,
+                           self.team.sync, runtime.ensure()["threads"] == 1)
 
     @staticmethod
     def _layout(nx, ny):
         shape = convolution.shapes([(nx, ny)], [])[0]
-        return shape, convolution.Layout([shape], workers.team_size(ny // W + 1))
+        return shape, convolution.Layout([shape])
 
     def bend(self, H0):
         """H from the pressure in the table and the rigid approach H0."""

@@ -18,6 +18,7 @@ from tehl_taichi.engine import lanes
 from tehl_taichi.engine.fft import Lengths, fast_length, transform
 from tehl_taichi.engine.lanes import W, cells
 from tehl_taichi.engine.language import ti
+from tehl_taichi.engine.workers import team_size
 from tehl_taichi.pressure import influence
 
 GROUP = 2 * W  # rows that go along x side by side, and waves along x that go along y: one transform in the code serves both
@@ -52,10 +53,10 @@ def shapes(sizes, lines):
 class Layout:
     """Table of convolutions and places in the fields (Y: spectra, symbols, buffers; T: twiddle factors); `y`, `t`: their sizes.
 
-    shapes: see :func:`shapes`; workers: how many need buffers.
+    shapes: see :func:`shapes`; every worker, or job, has buffers of its own.
     """
 
-    def __init__(self, shapes, workers):
+    def __init__(self, shapes):
         self.lengths, self.table = Lengths(), np.zeros((len(shapes), COLUMNS), np.int32)
         sizes = (n for c in shapes for n in (c.pairs * GROUP * c.step, self.symbols(c), c.groups))
         entries = itertools.accumulate(sizes, initial=0)
@@ -66,6 +67,7 @@ class Layout:
                            *self.lengths.place(c.N), 0, 0, 0)
         size = max(2 * max(c.groups * GROUP, c.N) for c in shapes) + 2
         self.table[:, WORK:] = next(entries), size
+        workers = team_size(max(sum(c.pairs for c in shapes), sum(c.groups for c in shapes)))
         self.y, self.t = int(self.table[0, WORK]) + 2 * workers * size, len(self.lengths.twiddles())
 
     @staticmethod

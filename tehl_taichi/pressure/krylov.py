@@ -64,6 +64,20 @@ def linear_solve(memory: ti.template(), G: Table, C: Numbers, Q: Passes, todo: N
                 ticket = workers.take(sync)
 
 
+@ti.kernel
+def one_phase(memory: ti.template(), G: Table, C: Numbers, Q: Passes, todo: Numbers, jobs: Numbers, N: Table,
+              partial: Table, sync: workers.Sync, most: ti.i32, right: LinearFlat, outflow: LinearFlat, out: LinearFlat,
+              alone: ti.template()):
+    """The phase that `sync` stands at, a job a thread, and which one follows."""
+    ti.loop_config(block_dim=1)
+    for j in range(todo[ti.cast(sync[workers.TICKET], ti.i32), JOBS]):
+        q = todo[ti.cast(sync[workers.TICKET], ti.i32), FIRST_JOB] + j
+        phases.work(memory, G, C, Q, N, partial, jobs[q, 0], jobs[q, 1], jobs[q, 2], j, most, right, outflow, out)
+    for _ in range(1):
+        n = ti.cast(sync[workers.TICKET], ti.i32)
+        sync[workers.TICKET] = decisions.decide(N, partial, todo, n, todo[n, DECISION], most)
+
+
 class Krylov:
     """FGMRES for the linearised problem in the tables of `levels` (see :class:`Levels`).
 
@@ -82,7 +96,7 @@ class Krylov:
         self.numbers = np.zeros((decisions.TRIANGLE + self.most, self.most + 16))
         self.numbers[SCALARS, decisions.PORTION] = max(1, PORTION // columns(levels.nx, levels.ny))
         self.program = Program(levels, shapes)
-        self._allocate(convolution.Layout(shapes, self.team.size))
+        self._allocate(convolution.Layout(shapes))
         self._bind()
 
     def _allocate(self, layout):
@@ -107,7 +121,7 @@ class Krylov:
         scene = self.levels.scene
         sizes = coarsen(scene.grid.nx, scene.rows)
         dense, lines = solved_by(sizes)
-        layout = convolution.Layout(convolution.shapes(sizes, lines), workers.team_size(scene.rows // lanes.W + 1))
+        layout = convolution.Layout(convolution.shapes(sizes, lines))
         return dense_entries(sizes, dense), layout
 
     def _bind(self):
@@ -115,7 +129,8 @@ class Krylov:
         self.dense = np.zeros((dense_entries(v.sizes, v.dense), lanes.W), v.linear)
         self._fill_dense = bind(lanes.fill, *lanes.one_of(self.memory.filled, self.memory.D), 0, 0, self.dense)
         self.partial = np.zeros((v.fine, decisions.DOT_SUM + self.most + phases.AT_ONCE))
-        self._launch = bind(linear_solve, self.memory, v.G, self.layout.table, self.layout.lengths.table(), p.phases, p.jobs,
+        kernel = workers.kernel_of(linear_solve, one_phase)
+        self._launch = bind(kernel, self.memory, v.G, self.layout.table, self.layout.lengths.table(), p.phases, p.jobs,
                             self.numbers, self.partial, self.team.sync, self.most, self.right, self.outflow, self.out,
                             runtime.ensure()["threads"] == 1)
 
