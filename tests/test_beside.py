@@ -65,6 +65,17 @@ def test_only_an_idle_core_has_them_beside(taichi_cpu, monkeypatch):
             assert (told(None).func is companions.answers) == (not expected)
 
 
+@pytest.mark.parametrize("idle", (1, 2, 7))
+def test_they_have_the_idle_cores_and_no_more_threads_than_the_run(taichi_cpu, monkeypatch, idle):
+    threads = beside.runtime.ensure()["threads"]
+    monkeypatch.setattr(beside, "LONG", 0.0)
+    monkeypatch.setattr(beside.cores, "available", lambda: threads + idle)
+    monkeypatch.setattr(beside, "_started", lambda scene, pipe, count: given.append(count) or sleeper())
+    given = []
+    with beside.told(SHORT):
+        assert given == [min(idle, threads)]
+
+
 def no_process(*_):
     pytest.fail("a process")
 
@@ -104,7 +115,7 @@ def test_where_they_die_they_are_worked_out_here(idle_core, monkeypatch):
 LONG = ("import sys, time; from tehl_taichi.engine import runtime; from tehl_taichi.study import beside; "
         "from tehl_taichi.scene import scene; runtime.start(threads=1); beside.cores.available = lambda: 2; "
         "one = scene('gear').replace(**{'grid.nx': 512, 'grid.ny': 128, 'numerics.estimate_error': True}); "
-        "found = beside._started(one, 0); print(found.pid, flush=True); time.sleep(100)")
+        "found = beside._started(one, 0, 1); print(found.pid, flush=True); time.sleep(100)")
 
 
 def test_they_end_where_their_run_is_killed(taichi_cpu):

@@ -1,4 +1,4 @@
-"""Companions beside their run: in a process of their own, on a core that a long run leaves idle; else after it, in its process.
+"""Companions beside their run: in a process of their own, on cores that a long run leaves idle; else after it, in its process.
 
 Default gear on one of two cores, s, medians of three in turn: 45.5 without bars, 49.2 with them after it, 43.1 beside it; on
 both cores a process beside the run takes more than they do after it (67.5 against 59.7).
@@ -45,7 +45,7 @@ def told(scene):
         yield lambda until: functools.partial(companions.answers, scene, until=lambda: until)
         return
     read, write = os.pipe()
-    with open(write, "wb", 0) as word, _started(scene, read) as process:
+    with open(write, "wb", 0) as word, _started(scene, read, min(idle(), runtime.ensure()["threads"])) as process:
         os.close(read)
         try:
             yield functools.partial(_begun, process, word, scene)
@@ -53,9 +53,10 @@ def told(scene):
             process.kill()
 
 
-def _started(scene, read):
+def _started(scene, read, threads):
+    """On no more threads than the run: with one beside 8 of 16 cores the run waited for them."""
     with tempfile.TemporaryFile() as scenes:
-        pickle.dump((os.getpid(), read, scene), scenes)
+        pickle.dump((os.getpid(), read, scene, threads), scenes)
         scenes.seek(0)
         # a session of its own: Ctrl-C is for the run, which ends it
         return subprocess.Popen([sys.executable, "-c", "from tehl_taichi.study.beside import serve; serve()"], stdin=scenes,
@@ -90,11 +91,11 @@ def _said(process):
 
 
 def serve():
-    """The process: the number of the run's process, that of the pipe by which `until` comes once it is known, and the scene
-    come by stdin, the answers go to stdout."""
-    run, pipe, scene = pickle.load(sys.stdin.buffer)
+    """The process: the number of the run's process, that of the pipe by which `until` comes once it is known, the scene and the
+    number of threads come by stdin, the answers go to stdout."""
+    run, pipe, scene, threads = pickle.load(sys.stdin.buffer)
     threading.Thread(target=_end_with, args=(run,), daemon=True).start()
-    runtime.start(threads=1)
+    runtime.start(threads=threads)
     print(json.dumps(companions.answers(scene, until=functools.cache(functools.partial(_heard, pipe)))), flush=True)
     runtime.leave(0)
 
