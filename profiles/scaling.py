@@ -68,14 +68,14 @@ def chart(plt, rows):
     shown = [mark for mark in MARKS if left.get_ylim()[0] <= mark <= left.get_ylim()[1]]
     left.set(yticks=shown, yticklabels=shown)
     left.minorticks_off()
-    left.legend()
+    left.legend(ncols=3, loc="lower center", bbox_to_anchor=(0.5, 1.0))
     for nx in sorted({row["nx"] for row in rows if row["speed_up"]}):
         _speed_up(right, most, [row for row in rows if row["nx"] == nx])
     right.plot(CORES, CORES, ":", color="0.5", lw=0.8)
     right.set(xlabel="threads (lines: model)", ylabel="speed-up over one thread", xscale="log", yscale="log", xticks=CORES,
               xticklabels=CORES, yticks=CORES, yticklabels=CORES, ylim=(0.7, CORES[-1]))
     right.minorticks_off()
-    right.legend(title="columns")
+    right.legend(title="columns", loc="upper left")
     return figure
 
 
