@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from tehl_taichi.pressure.storage import Storage, bdf, carried, followed, third_order
+from tehl_taichi.pressure.past import carried
+from tehl_taichi.pressure.storage import Storage, bdf, third_order
 
 
 @pytest.mark.parametrize("lengths", [[0.3], [0.3, 0.2], [0.3, 0.2, 0.5]])
@@ -20,17 +21,73 @@ def test_backward_differences_of_equal_steps():
     assert bdf(1, 1, 1)[1] == pytest.approx([18 / 11, -9 / 11, 2 / 11])
 
 
-@pytest.mark.parametrize("cells, left", [(0.0, 1.0), (1.0, 0.5), (2.0, 0.25), (3.0, 0.125)])
+def columns(nx, ny=0):
+    """Levels of so many cells."""
+    from tehl_taichi.pressure.levels import Levels
+    from tehl_taichi.scene import scene
+    from tehl_taichi.scene.scales import Scales
+
+    description = scene("pitch-line" if ny else "smooth-line").replace(**{"thermal.on": False})
+    return Levels(description, Scales.of(description), nx, ny)
+
+
+def followed(old, lengths, cells, start=0.0):
+    """What the storage term takes for the old states (newest first), a step of so many cells after the newest."""
+    from tehl_taichi.pressure import fields
+
+    levels = columns(len(old[0][0]) - 1, len(old[0]) - 1)
+    rest = start + 0 * old[0]
+    storage = Storage(levels, {"mass": [rest, *old], "lengths": [length * levels.dx for length in lengths]})
+    storage.begin(cells * levels.dx)
+    frame = storage.frame
+    return (frame["speed"] * third_order(rest) - levels.get(fields.QOLD)) / frame["rate"], frame
+
+
+@pytest.mark.usefixtures("taichi_cpu")
+@pytest.mark.parametrize("cells, left", [(1.0, 0.5), (2.0, 0.25)])
 def test_each_whole_cell_takes_out_half_of_the_shortest_wave(cells, left):
     """And nothing of a polynomial of degree 7; parts of a cell are interpolated as they are."""
-    i, inner = np.arange(40), slice(8, -8)
-    wave = (-1.0) ** i
-    assert followed([wave], [cells])[inner] == pytest.approx(left * carried(wave, cells)[inner], abs=1e-12)
-    smooth = ((i - 20) / 20.0) ** 7
-    assert followed([smooth], [cells])[inner] == pytest.approx(carried(smooth, cells)[inner], abs=1e-12)
-    assert np.array_equal(followed([wave], [0.37]), carried(wave, 0.37))
-    both = followed([3 * wave, smooth * wave], [cells, 1.0])
-    assert both[inner] == pytest.approx((3 * followed([wave], [cells]) + followed([smooth * wave], [1.0]))[inner], abs=1e-12)
+    i, inner = np.arange(41.0)[None], (..., slice(8, -8))
+    wave, smooth = (-1.0) ** i, ((i - 20) / 20.0) ** 7
+    assert followed([wave], [], cells)[0][inner] == pytest.approx(left * carried(wave, cells)[inner], abs=1e-12)
+    assert followed([smooth], [], cells)[0][inner] == pytest.approx(carried(smooth, cells)[inner], abs=1e-12)
+    assert followed([wave], [], 0.37)[0] == pytest.approx(carried(wave, 0.37), abs=1e-14)
+
+
+@pytest.mark.usefixtures("taichi_cpu")
+@pytest.mark.parametrize("cells, lengths, order", [
+    (1.0, [1.0, 1.0], 3), (0.3, [0.3, 0.3], 3), (1.0, [0.5], 2), (3.0, [3.0], 2)])
+def test_old_states_go_their_ways_and_what_rests_stays(cells, lengths, order):
+    """Rows of several blocks and lanes that no row fills; whole cells, parts of them, and a frame slower than the oil."""
+    rng, shape = np.random.default_rng(3), (11, 65)
+    old, rest = [rng.normal(size=shape) for _ in range(order)], rng.normal(size=shape)
+    found, frame = followed(old, lengths, cells, rest)
+    ways = frame["speed"] * np.cumsum([cells, *lengths][:order])
+    _, weights = bdf(*[cells, *lengths][:order])
+    moved = [weight * carried(q - rest, way) for weight, way, q in zip(weights, ways, old)]
+    expected = rest + sum(moved)
+    lost = sum((1 - 0.5 ** round(way)) * q if abs(way - round(way)) < 1e-9 else 0 * q for q, way in zip(moved, ways))
+    expected[..., 4:-4] -= np.diff(lost, 8) / 256
+    assert frame["states"] == order and found == pytest.approx(expected, abs=1e-10)
+
+
+@pytest.mark.usefixtures("taichi_cpu")
+def test_the_states_of_the_last_steps_are_those_that_were_in_the_table():
+    """In turn, whatever rows they are in; the arrays to go on from, too."""
+    from tehl_taichi.pressure import fields
+
+    levels = columns(32, 9)
+    states = [np.random.default_rng(n).normal(size=(10, 33)) for n in range(5)]
+    levels.put(fields.RHO, 2.0)
+    levels.put(fields.H, states[0])
+    storage = Storage(levels)
+    for n, state in enumerate(states[1:], 1):
+        levels.put(fields.H, state)
+        storage.accept(0.1)
+        kept = storage.state()["mass"]
+        assert len(kept) == min(n + 1, 3) + 1 and np.array_equal(kept[0], 2 * states[0])
+        assert all(np.array_equal(one, 2 * states[n - back]) for back, one in enumerate(kept[1:]))
+        assert np.array_equal(Storage(levels, storage.state()).state()["mass"], kept)
 
 
 @pytest.mark.parametrize("cells", [0.0, 1.0, 0.37, 1.064, 3.5])
@@ -57,13 +114,9 @@ def test_a_film_carried_by_the_oil_stores_nothing(courant):
     """rho H that moves with the oil, and rho H at rest: the storage term with the Couette flow is 0 and d(rho H)/dX."""
     from tehl_taichi.pressure import fields
     from tehl_taichi.pressure.equations import Equations
-    from tehl_taichi.pressure.levels import Levels
     from tehl_taichi.pressure.one_temperature import OneTemperature
-    from tehl_taichi.scene import scene
-    from tehl_taichi.scene.scales import Scales
 
-    description = scene("smooth-line").replace(**{"thermal.on": False})
-    levels = Levels(description, Scales.of(description), 128, 0)
+    levels = columns(128)
     equations = Equations(levels, OneTemperature(levels))
     X, dT = levels.X[None], courant * levels.dx
 
@@ -85,5 +138,5 @@ def test_a_film_carried_by_the_oil_stores_nothing(courant):
 
 def test_third_order_is_for_steps_of_one_length():
     storage = Storage.__new__(Storage)
-    storage.lengths, storage.old = [1.0, 1.0], [None] * 3
+    storage.lengths, storage.known = [1.0, 1.0], 3
     assert [storage._order(dT, at_rest) for dT, at_rest in ((1.0, 0.1), (0.5, 0.1), (1.0, 0.9))] == [3, 2, 2]

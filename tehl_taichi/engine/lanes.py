@@ -75,6 +75,38 @@ def place(G: ti.template(), c, i):
 
 
 @ti.func
+def columns_around(at: ti.template(), q):
+    """Column q in the blocks before and behind that of the place `at`; where there is no such block, q."""
+    n2 = at.nx + 1
+    return q - (n2 if at.s > 0 else 0), q + (n2 if at.s < at.ny // W else 0)
+
+
+@ti.func
+def rows_around(at: ti.template(), here, before, behind):
+    """Values at j - 1 and j + 1 of a block of rows, from those of the blocks before and behind; where there is no such row,
+    at j."""
+    lower, upper = here, here
+    for u in ti.static(range(W - 1)):
+        lower[u + 1], upper[u] = here[u], here[u + 1]
+    lower[0], upper[W - 1] = before[W - 1], behind[0]
+    for u in ti.static(range(W)):  # chosen, not branched: that would keep what follows from vector instructions
+        j = at.s * W + u
+        lower[u], upper[u] = ti.select(j > 0, lower[u], here[u]), ti.select(j < at.ny, upper[u], here[u])
+    return lower, upper
+
+
+@ti.func
+def repeated(values, s, ny):
+    """Values of the rows of block s, those beyond the last row as this."""
+    last = values[W - 1]
+    for u in ti.static(range(W)):
+        last = ti.select(s * W + u == ny, values[u], last)
+    for u in ti.static(range(W)):
+        values[u] = ti.select(s * W + u <= ny, values[u], last)
+    return values
+
+
+@ti.func
 def above(S: ti.template(), row, k, n2):
     """Field at j + 1."""
     out = S[row, k]
@@ -147,7 +179,7 @@ def put(S: ti.template(), G: Table, l: ti.i32, row: ti.i32, values: Table, alone
 
 @ti.kernel
 def get(S: ti.template(), G: Table, l: ti.i32, row: ti.i32, values: Table, alone: ti.template()):
-    """values (ny+1, nx+1) from S[row] of level l."""
+    """values (nx+1, ny+1) from S[row] of level l: that way round a step is stored."""
     nx, ny, off = cells(G, l)
     ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
@@ -155,7 +187,7 @@ def get(S: ti.template(), G: Table, l: ti.i32, row: ti.i32, values: Table, alone
             v = S[row, off + s * (nx + 1) + i]
             for u in ti.static(range(W)):
                 if s * W + u <= ny:
-                    values[s * W + u, i] = v[u]
+                    values[i, s * W + u] = v[u]
 
 
 def one_of(fields, field):

@@ -4,17 +4,16 @@ trusted where it was right one step ago (see :mod:`tehl_taichi.march.guess`, whi
 import numpy as np
 
 from tehl_taichi.engine.elementary import maximum, minimum
-from tehl_taichi.engine.lanes import Flat, Table, V, W, cells, place, tile, tiles
+from tehl_taichi.engine.lanes import Flat, Table, V, cells, columns_around, place, repeated, rows_around, tile, tiles
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.launches import bind
 from tehl_taichi.engine.records import Record, read
 from tehl_taichi.heat.film import keep_parts
-from tehl_taichi.heat.slots import MOVING, STILL, TN, TNN, T, columns_around, rows_around
-from tehl_taichi.pressure.storage import carried, shift
+from tehl_taichi.heat.slots import MOVING, STILL, TN, TNN, T
+from tehl_taichi.pressure.past import WAY, carried, moved, set_way
 
 HOTTER = 20.0  # K, that a film is guessed to become than it was
 NOTHING = 1e-14  # squared error that is as good as none
-REACH = 6  # nodes of an interpolation along x
 STATES = 3  # that must be known before differences in time count: the first of a start is none
 
 
@@ -28,35 +27,14 @@ class Ahead:
 
 
 @ti.func
-def shifted(Z: ti.template(), kind: ti.template(), at: ti.template(), nz, n, paths: ti.template(), path: ti.template()):
-    """Values at node n moved by path number `path`; what comes in is as at the border."""
-    moved, first = V(0.0), at.i - int(paths[path, REACH])
-    for m in ti.static(range(REACH)):
-        if paths[path, m] != 0.0:  # one of them, as features move by whole cells
-            q = at.q - at.i + ti.min(ti.max(first + m, 0), at.nx)
-            moved += paths[path, m] * Z[kind, q * nz + n]
-    return moved
-
-
-@ti.func
 def extrapolated(Z: ti.template(), at: ti.template(), nz, n, paths: ti.template(), stays: ti.template(), slope):
     """The next values at node n, in the frame of the contact and in that of the feature; stays (nz, nx+1): what does not move
     with it."""
     q = at.q * nz + n
     still = Z[TN, q] + slope * (Z[TN, q] - Z[TNN, q])
-    moved = (1.0 + slope) * shifted(Z, TN, at, nz, n, paths, 0) - slope * shifted(Z, TNN, at, nz, n, paths, 1)
-    return still, moved + stays[n, at.i]
-
-
-@ti.func
-def repeated(at: ti.template(), values):
-    """Values of a block of rows, those beyond the last row as this."""
-    last = 0.0
-    for u in ti.static(range(W)):
-        last = ti.select(u == at.ny % W, values[u], last)
-    for u in ti.static(range(W)):
-        values[u] = ti.select(at.s * W + u <= at.ny, values[u], last)
-    return values
+    newest = moved(Z, TN, at.q - at.i, at.i, at.nx, paths, 0, nz, n)
+    last = moved(Z, TNN, at.q - at.i, at.i, at.nx, paths, 1, nz, n)
+    return still, (1.0 + slope) * newest - slope * last + stays[n, at.i]
 
 
 @ti.func
@@ -106,7 +84,7 @@ def foresee(Z: ti.template(), C: ti.template(), G: Table, nz: ti.i32, oil: ti.te
             for n in range(nz):
                 still, moving = extrapolated(Z, at, nz, n, paths, stays, ahead.slope)
                 guess = moving + trust * (still - moving)
-                Z[T, at.q * nz + n] = minimum(maximum(repeated(at, guess), ahead.lowest), ahead.highest)
+                Z[T, at.q * nz + n] = minimum(maximum(repeated(guess, at.s, at.ny), ahead.lowest), ahead.highest)
             keep_parts(Z, at.q, nz, oil)
 
 
@@ -120,7 +98,7 @@ class Foresight:
             self.at = [float(where) for where in state["T_moved"]]  # newest first
             heat.columns.singles.put(STILL, np.asarray(state["T_missed"], float))
         self.start = state.get("T_start", heat.T[:, 0]) if heat.levels.ny == 0 else None
-        self.ahead, self.paths, self.stays = Record(Ahead), np.zeros((2, REACH + 1)), np.zeros(self.edge_before.shape)
+        self.ahead, self.paths, self.stays = Record(Ahead), np.zeros((2, WAY)), np.zeros(self.edge_before.shape)
         film = (heat.columns.field, heat.columns.singles.field, heat.levels.G, heat.nz)
         known = self.ahead.values, self.paths, self.stays
         self._judge = bind(judge, *film, *known)
@@ -154,7 +132,7 @@ class Foresight:
         self.ahead.set(slope=slope)
         ways = to - self.at[0], to - before
         for path, way in zip(self.paths, ways):
-            path[REACH], path[:REACH] = shift(way)
+            set_way(path, way)
         rests = (T[:, -1], self.edge_before) if self.start is None else (self.start, self.start)
         newest, last = (row - carried(row, way) for row, way in zip(rests, ways))
         self.stays[:] = newest + slope * (newest - last)

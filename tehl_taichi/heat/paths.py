@@ -1,10 +1,10 @@
 """Where the oil of a film came from: values one and two steps ago at the departure points of its nodes."""
 
 from tehl_taichi.engine.elementary import maximum, minimum, within
-from tehl_taichi.engine.lanes import Flat, Table, V, W, cells, place, tile, tiles
+from tehl_taichi.engine.lanes import Flat, Table, V, W, cells, columns_around, place, rows_around, tile, tiles
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
-from tehl_taichi.heat.slots import MS, MSN, MSNN, PN, PNN, PS, RESTS, TN, TNN, TS, VY, T, U, columns_around, rows_around
+from tehl_taichi.heat.slots import MS, MSN, MSNN, PN, PNN, PS, RESTS, TN, TNN, TS, VY, T, U
 from tehl_taichi.heat.step import Step
 from tehl_taichi.pressure.conditions import Conditions
 from tehl_taichi.pressure.fields import P

@@ -8,7 +8,7 @@ and 256x64x9, ms a call, velocities 3.6 (now 2.7), departures 4.3 (2.4), energy 
 import numpy as np
 
 from tehl_taichi.engine import tables
-from tehl_taichi.engine.lanes import Table, V, W, cells
+from tehl_taichi.engine.lanes import Table, V, W, cells, columns_around, rows_around
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.launches import Carriers, bind
 from tehl_taichi.physics.viscosity import parts
@@ -28,27 +28,6 @@ SINGLES = 17
 # where the tile rests (:mod:`tehl_taichi.heat.rest`)
 CHANGE, FAILED, HELD, RESTS = range(4)
 TOLD = 4
-
-
-@ti.func
-def columns_around(at: ti.template(), q):
-    """Column q in the blocks before and behind that of the place `at`; where there is no such block, q."""
-    n2 = at.nx + 1
-    return q - (n2 if at.s > 0 else 0), q + (n2 if at.s < at.ny // W else 0)
-
-
-@ti.func
-def rows_around(at: ti.template(), here, before, behind):
-    """Values at j - 1 and j + 1 of a block of rows, from those of the blocks before and behind; where there is no such row,
-    at j."""
-    lower, upper = here, here
-    for u in ti.static(range(W - 1)):
-        lower[u + 1], upper[u] = here[u], here[u + 1]
-    lower[0], upper[W - 1] = before[W - 1], behind[0]
-    for u in ti.static(range(W)):  # chosen, not branched: that would keep what follows from vector instructions
-        j = at.s * W + u
-        lower[u], upper[u] = ti.select(j > 0, lower[u], here[u]), ti.select(j < at.ny, upper[u], here[u])
-    return lower, upper
 
 
 @ti.func

@@ -12,91 +12,205 @@ by place, order 1 8e-5 / 9e-4 / 1e-4 / 2e-5 / 2e-5 / 1e-3 / 3e-3 / 3e-3, orders 
 
 import numpy as np
 
-from tehl_taichi.pressure.storage import carried, lagrange
+from tehl_taichi.engine.lanes import (
+    Flat,
+    L,
+    LinearTable,
+    Table,
+    W,
+    cells,
+    columns_around,
+    place,
+    repeated,
+    rows_around,
+    tile,
+    tiles,
+)
+from tehl_taichi.engine.language import ti
+from tehl_taichi.engine.launches import bind
+from tehl_taichi.pressure.fields import P
+from tehl_taichi.pressure.past import WAY, Past, lagrange, nodes, set_way, source
 
 NOTHING = 1e-14  # squared error that is as good as none
+START = 0  # row of the pressure of the start, where that tells what does not move
+MADE = 1  # and of the first of 2 * order guesses, frame after frame; behind them squares of what they missed, and the states
+
+
+@ti.func
+def resting(F: ti.template(), at: ti.template(), edges: ti.template(), by_edge: ti.template(), state, i):
+    """What does not move with the feature, at column i."""
+    out = L(F, 0.0)
+    if ti.static(by_edge):
+        out += edges[state, i]
+    else:
+        out += F[START, at.q - at.i + i]
+    return out
+
+
+@ti.func
+def with_feature(F: ti.template(), at: ti.template(), row, ways: ti.template(), edges: ti.template(), by_edge: ti.template(),
+                 way):
+    """The state in a row where what differs from what does not move has gone its way."""
+    out = resting(F, at, edges, by_edge, row, at.i)
+    begin, end = nodes(ways, way)
+    for m in range(begin, end):
+        i = source(at.i, at.nx, ways, way, m)
+        out += ti.cast(ways[way, m], F.dtype) * (F[row, at.q - at.i + i] - resting(F, at, edges, by_edge, row, i))
+    return out
+
+
+@ti.kernel
+def extrapolate(F: ti.template(), G: Table, order: ti.template(), rows: Flat, ways: Table, weights: Table, edges: LinearTable,
+                by_edge: ti.template()):
+    """The guesses, by polynomials of degree 1 to `order` through the states in `rows`."""
+    nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1)
+    for c in range(tiles(nx, ny)):
+        s, first, last = tile(c, nx)
+        for i in range(first, last):
+            at = place(G, c, i)
+            out = [L(F, 0.0) for _ in ti.static(range(2 * order))]
+            for n in ti.static(range(order + 1)):
+                row = int(rows[n])
+                still, moving = F[row, at.q], with_feature(F, at, row, ways, edges, by_edge, n)
+                for g in ti.static(range(order)):
+                    weight = ti.cast(weights[g, n], F.dtype)
+                    out[g] += weight * still
+                    out[order + g] += weight * moving
+            for g in ti.static(range(2 * order)):
+                F[MADE + g, at.q] = out[g]
+
+
+@ti.kernel
+def judge(S: ti.template(), F: ti.template(), G: Table, order: ti.template(), rows: Flat, edges: LinearTable):
+    """The pressure in the first of `rows`; squares of what the guesses have missed it by, added up over neighbours along x."""
+    nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1)
+    for c in range(tiles(nx, ny)):
+        s, first, last = tile(c, nx)
+        row = int(rows[0])
+        for i in range(first, last):
+            at = place(G, c, i)
+            missed = [L(F, 0.0) for _ in ti.static(range(2 * order))]
+            for t in ti.static(range(-1, 2)):
+                there = ti.min(ti.max(i + t, 0), nx) - i
+                newest = ti.cast(S[P, at.k + there], F.dtype)
+                for g in ti.static(range(2 * order)):
+                    missed[g] += (F[MADE + g, at.q + there] - newest) ** 2
+            for g in ti.static(range(2 * order)):
+                F[MADE + 2 * order + g, at.q] = missed[g]
+            newest = repeated(ti.cast(S[P, at.k], F.dtype), s, ny)
+            F[row, at.q] = newest
+            if s == ny // W:
+                edges[row, i] = newest[W - 1]
+
+
+@ti.func
+def nearby(F: ti.template(), at: ti.template(), row):
+    """A row, summed over each node and its neighbours along y."""
+    before, behind = columns_around(at, at.q)
+    lower, upper = rows_around(at, F[row, at.q], F[row, before], F[row, behind])
+    return lower + F[row, at.q] + upper
+
+
+@ti.kernel
+def trust(S: ti.template(), F: ti.template(), G: Table, order: ti.template(), count: Flat):
+    """The pressure from the first count[0] guesses of each frame, each trusted by one over the square of what it missed."""
+    nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1)
+    for c in range(tiles(nx, ny)):
+        s, first, last = tile(c, nx)
+        for i in range(first, last):
+            at = place(G, c, i)
+            out, total = L(F, 0.0), L(F, 0.0)
+            for g in ti.static(range(2 * order)):
+                if g % order < int(count[0]):
+                    weight = L(F, 1.0) / (nearby(F, at, MADE + 2 * order + g) + L(F, NOTHING))
+                    out += weight * F[MADE + g, at.q]
+                    total += weight
+            out = repeated(ti.max(out / total, 0.0), s, ny)
+            S[P, at.k] = ti.cast(out, ti.f64) * (1.0 if i > 0 and i < nx else 0.0)
 
 
 class Guess:
-    """The last pressures (ny+1, nx+1) and what comes next.
+    """The last pressures of `levels` and what comes next.
 
-    order: highest order of extrapolation; P: the newest; at: how far the feature has moved, in cells (it moves at a constant
-    speed, so this is the time, too); state: what :meth:`state` gave is gone on from, if it is in there.
+    order: highest order of extrapolation; the newest pressure is that in the table; at: how far the feature has moved, in cells
+    (it moves at a constant speed, so this is the time, too); state: what :meth:`state` gave is gone on from, if it is in there.
 
     What does not move is told by the outermost row of a line contact, which knows nothing of the feature. A single row, and a
     point contact, whose pressure ends before that row, remember their start instead. Newton steps by the outermost row and by
     the start: `furrow-line` 3.49, 3.01; a ridge 3.08, 2.51; `ridge-on-ball` on 64 columns 2.84, 2.67; `gear` on 128 2.64, 2.82.
     """
 
-    def __init__(self, order, P, at, state):
-        self.length = order + 2
-        self.fields = list(state.get("P_history", [_single(P)]))  # newest first
+    def __init__(self, levels, order, at, state):
+        self.levels, self.order = levels, order
+        first = MADE + 4 * order
+        self.past = Past(levels, first + order + 2, "f32")
+        self.rows = list(range(first, first + order + 2))  # the newest first; as many hold states as there are in `at`
         self.at = [float(where) for where in state.get("P_moved", [at])]
-        self.start = None if len(P) > 1 and P[-1].any() else state.get("P_start", _single(P))
-        self.made = None, []  # where to, and the extrapolations of the last guess
+        self.made = None  # where the guesses in the table go to, if they are by order + 1 states
+        newest = levels.get(P)
+        self.by_edge = "P_start" not in state and levels.ny > 0 and bool(newest[-1].any())
+        self._bind()
+        self._restore(state.get("P_history", newest[None]), state.get("P_start", newest))
+
+    def _bind(self):
+        v, F, order = self.levels, self.past.field, self.order
+        self.places, self.ways, self.count = np.zeros(order + 1), np.zeros((order + 1, WAY)), np.zeros(1)
+        self.weights, self.edges = np.zeros((order, order + 1)), np.zeros((self.rows[-1] + 1, v.nx + 1), np.float32)
+        self._extrapolate = bind(extrapolate, F, v.G, order, self.places, self.ways, self.weights, self.edges, self.by_edge)
+        self._judge = bind(judge, v.S, F, v.G, order, self.places, self.edges)
+        self._trust = bind(trust, v.S, F, v.G, order, self.count)
+
+    def _restore(self, history, start):
+        if not self.by_edge:
+            self.past.put(START, start)
+        for row, field in zip(self.rows, history):
+            self.past.put(row, field)
+            self.edges[row] = field[-1]
+        newest, *self.rows = self.rows
+        at, *self.at = self.at
+        self.rows.append(newest)
+        self.accept(at)
 
     def state(self):
         """Arrays to go on from: the pressures, where the feature was, and the start where it is remembered."""
-        start = {} if self.start is None else {"P_start": self.start}
-        return {"P_history": np.stack(self.fields), "P_moved": np.array(self.at), **start}
+        start = {} if self.by_edge else {"P_start": self.past.get(START).astype(np.float32)}
+        history = np.stack([self.past.get(row) for row in self.rows[: len(self.at)]]).astype(np.float32)
+        return {"P_history": history, "P_moved": np.array(self.at), **start}
 
-    def accept(self, field, at):
-        """`field` is the newest state."""
-        self.fields, self.at = [_single(field), *self.fields[: self.length - 1]], [at, *self.at[: self.length - 1]]
+    def accept(self, at):
+        """The pressure in the table is the newest state."""
+        if self.at and self.made != at:  # the guesses that its first ones are judged by
+            self._look(self.rows, self.at[: self.order + 1], at)
+        self.count[0] = max(1, min(len(self.at), self.order + 1) - 1)
+        self.rows = [self.rows[-1], *self.rows[:-1]]
+        self.at, self.made = [at, *self.at[: self.order + 1]], None
+        self.places[0] = self.rows[0]
+        self._judge()
 
-    def next(self, at):
-        """The guess for the state with the feature at `at`."""
-        newest = self.fields[0]
-        if len(self.fields) == 1:
-            return newest
-        trusts = self._trusts()
-        guesses = list(self._extrapolations(self.fields[:-1], self.at[:-1], at))
-        self.made = at if len(self.fields) == self.length else None, guesses
-        return sum(trust * guess for trust, guess in zip(trusts, guesses)) / sum(trusts)
+    def put(self, to):
+        """The guess for the state with the feature at `to` into the table, not negative; the first one is the newest state."""
+        if len(self.at) == 1:
+            self.levels.put(P, self.past.get(self.rows[0]))
+            return
+        self._look(self.rows, self.at[:-1], to)
+        self.made = to if len(self.at) == self.order + 2 else None
+        self._trust()
 
-    def _trusts(self):
-        """Weight of each extrapolation at each node: one over the square of what it would have missed."""
-        newest, *known = self.fields
-        made, past = self.made
-        if made != self.at[0]:  # else they are those of the last guess, which went to this place by the same states
-            past = self._extrapolations(known, self.at[1:], self.at[0])
-        return [1 / (_nearby((before - newest) ** 2) + NOTHING) for before in past]
-
-    def _extrapolations(self, fields, at, to):
-        """The field at `to` by polynomials of degree 1, 2, ... through the newest states (Newton's divided differences), in the
-        frame of the contact and then in that of the feature; as it is if there is but one."""
-        for moving in (0.0, 1.0):
-            slopes, power = [self._moved(field, moving * (to - where)) for field, where in zip(fields, at)], 1.0
-            guess = slopes[0]
-            if len(at) == 1:
-                yield guess
-            for k in range(1, len(at)):
-                slopes = [(a - b) / (at[j] - at[j + k]) for j, (a, b) in enumerate(zip(slopes, slopes[1:]))]
-                power *= to - at[k - 1]
-                guess = guess + power * slopes[0]
-                yield guess
-
-    def _moved(self, field, cells):
-        """What differs from the outermost row, or from the start, moved by `cells`."""
-        resting = field[-1:] if self.start is None else self.start
-        return resting + carried(field - resting, cells) if cells else field
-
-
-def _single(field):
-    return field.astype(np.float32)
+    def _look(self, rows, at, to):
+        """How the states in these rows, known at the places `at`, go on to `to`."""
+        self.weights[:] = 0.0
+        for n, (row, where) in enumerate(zip(rows, at)):
+            self.places[n] = row
+            set_way(self.ways[n], to - where)
+        self.places[len(at):], self.ways[len(at):] = rows[0], self.ways[0]
+        for g, states in enumerate(range(2, len(at) + 1) if len(at) > 1 else [1]):
+            self.weights[g, :states] = lagrange(at[:states], to)
+        self._extrapolate()
 
 
 def extrapolated(values, at, to):
     """The number at `to` by the polynomial through the given ones."""
     return float(sum(weight * value for weight, value in zip(lagrange(at[: len(values)], to), values)))
-
-
-def _nearby(squares):
-    """(ny+1, nx+1), summed over each node and its eight neighbours."""
-    out = squares.copy()
-    for axis in (0, 1):
-        middle, ahead, behind = out.copy(), [slice(None)] * 2, [slice(None)] * 2
-        ahead[axis], behind[axis] = slice(1, None), slice(None, -1)
-        out[tuple(ahead)] += middle[tuple(behind)]
-        out[tuple(behind)] += middle[tuple(ahead)]
-    return out

@@ -152,7 +152,7 @@ class Passage:
         """What is in the tables is the newest state."""
         self.P = self.levels.get(fields.P)
         self.storage.accept(part * self.dT)
-        self.prediction.accept(self.P, at)
+        self.prediction.accept(at)
         if self.heat:
             self.heat.accept()
 

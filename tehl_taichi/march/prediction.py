@@ -4,7 +4,6 @@ import numpy as np
 
 from tehl_taichi.heat.foresight import Foresight
 from tehl_taichi.march.guess import Guess, extrapolated
-from tehl_taichi.pressure import fields
 
 ORDER = 3  # of the extrapolation in time of the pressure
 
@@ -15,22 +14,20 @@ class Prediction:
 
     def __init__(self, solver, heat, at, state):
         self.solver, self.heat = solver, heat
-        self.pressure = Guess(ORDER, np.array(state["P"]), at, state)
+        self.pressure = Guess(solver.levels, ORDER, at, state)
         self.heights = list(state.get("H0_history", [float(state["H0"])]))  # at the positions of the pressure
         self.temperature = Foresight(heat, at, state) if heat else None
 
     def put(self, at):
         """The guess for the state with the features at `at` into the tables."""
-        P = np.maximum(self.pressure.next(at), 0.0)
-        P[:, [0, -1]] = 0.0
-        self.solver.levels.put(fields.P, P)
+        self.pressure.put(at)
         self.solver.H0 = extrapolated(self.heights[: ORDER + 1], self.pressure.at, at)
         if self.heat:
             self.temperature.put(at)
 
-    def accept(self, P, at):
-        """The state with the pressure P and the features at `at` is the newest; to be told before `heat` accepts it."""
-        self.pressure.accept(P, at)
+    def accept(self, at):
+        """The state in the tables, with the features at `at`, is the newest; to be told before `heat` accepts it."""
+        self.pressure.accept(at)
         self.heights = [self.solver.H0, *self.heights[:ORDER]]
         if self.heat:
             self.temperature.accept(at)

@@ -66,8 +66,8 @@ class Levels(Grids):
             lanes.clear_ghosts(self.S, self.G, row, last - first)
 
     def get(self, row, l=0):
-        """Field `row` of level l as a new array (ny+1, nx+1)."""
-        return self._carry(lanes.get, row, l).copy()
+        """Field `row` of level l as a new array (ny+1, nx+1), column by column in memory."""
+        return self._carry(lanes.get, row, l).copy().T
 
     def put(self, row, values, l=0):
         """Set field `row` of level l from an array that broadcasts to (ny+1, nx+1)."""
@@ -81,7 +81,8 @@ class Levels(Grids):
         """Launch a kernel between a field of level l (or in table order) and an array. Returns the array."""
         shape, place = self.n, (row,)
         if l is not None:
-            shape, place = (self.sizes[l][1] + 1, self.sizes[l][0] + 1), (l, row)
+            (nx, ny), place = self.sizes[l], (l, row)
+            shape = (nx + 1, ny + 1) if values is None else (ny + 1, nx + 1)
         return self._carriers.carry((kernel, row, l), shape,
                                     lambda array: self.launch(kernel, self.S, self.G, *place, array), values)
 

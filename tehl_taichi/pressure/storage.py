@@ -10,17 +10,21 @@ mobilities). Steps of half a cell: with cubic interpolation -1.2 %, with this on
 """
 
 import functools
+import itertools
 import math
 
 import numpy as np
 
-from tehl_taichi.pressure import fields
+from tehl_taichi.engine.lanes import Flat, L, Table, W, cells, repeated
+from tehl_taichi.engine.language import ti
+from tehl_taichi.engine.records import Record, read
 from tehl_taichi.pressure.couette import FIRST, UPWIND
+from tehl_taichi.pressure.fields import QOLD, RHO, H
+from tehl_taichi.pressure.past import WAY, WHOLE, Past, nodes, set_way, source
 
 LONGEST_PATH = 2.0  # cells of a step; beyond, the frame moves slower than the oil
 STABLE_AT_REST = 0.5  # cells of a step that the oil may move in that frame with third-order differences
 ORDER = 3
-WHOLE = 1e-9  # cells
 # Of the node-to-node wave on the way of a cell, where paths are of whole cells and nothing else damps it. furrow-line (two
 # cells a step), largest ripple of the pressure over the passage / with the furrow at -0.5 a, MPa: as it is 37/35, paths of at
 # most 1.95 / 1.9 cells 31/21 / 30/13, filters by the fourth difference (0.5 of a path) 8/0.2, the sixth (0.5) 9/0.2, the
@@ -29,7 +33,8 @@ WHOLE = 1e-9  # cells
 # eighth with 0.5 of each cell: 7 on 256 columns, 17 on 128 (0.5 of a path 21), 45 at the exit of 512 (57), and the asperity's
 # film stays 0.1303
 DAMPING = 0.5
-EIGHTH = 256  # eighth difference of the wave (-1)^i
+EIGHTH = tuple((-1.0) ** m * math.comb(8, m) / 256 for m in range(9))  # eighth difference, of the wave (-1)^i the wave
+FOLLOWING = 8  # work of a column, in units of a copy
 STEADY = 1e-6  # relative; third-order differences need steps of equal length
 
 
@@ -47,51 +52,9 @@ def bdf(*lengths):
     return rate, np.array(weights)
 
 
-def carried(q, cells):
-    """q (..., nx+1) moved by `cells` towards +x: interpolation between six nodes, what comes in is as at the border."""
-    (back, weights), n = shift(cells), q.shape[-1]
-    padded = np.empty((*q.shape[:-1], n + back + 2), q.dtype)
-    padded[..., :back], padded[..., back : back + n], padded[..., back + n :] = q[..., :1], q, q[..., -1:]
-    if 1.0 in weights:
-        return padded[..., 3 : 3 + n]
-    out, term = np.zeros_like(q), np.empty_like(q)
-    for k, weight in enumerate(weights):
-        out += np.multiply(padded[..., k : k + n], weight, out=term)
-    return out
-
-
-def shift(cells):
-    """(back, weights) of what is moved by `cells` towards +x: at node i the sum of weights[k] times the value at i - back + k.
-    Whole cells have a single weight, 1."""
-    whole = math.floor(cells + WHOLE)
-    part = cells - whole
-    return whole + 3, _weights(0.0 if part < WHOLE else part)
-
-
-def followed(fields, cells):
-    """Sum of the fields (..., nx+1), each :func:`carried` by so many cells, over and over again: each whole cell, which no
-    interpolation smooths, takes DAMPING of the shortest wave."""
-    moved = [carried(q, path) for q, path in zip(fields, cells)]
-    out = sum(moved)
-    if any(map(_lost, cells)):
-        out[..., 4:-4] -= np.diff(sum(_lost(path) * q for path, q in zip(cells, moved)), 8) / EIGHTH
-    return out
-
-
 def _lost(cells):
     """Share of the shortest wave that is taken out on the way of so many cells."""
     return 1 - (1 - DAMPING) ** round(cells) if abs(cells - round(cells)) < WHOLE else 0.0
-
-
-@functools.lru_cache(maxsize=16)
-def _weights(part):
-    """Of the nodes -3 ... 2 for the value at -part."""
-    return lagrange(range(-3, 3), -part)
-
-
-def lagrange(at, to):
-    """Weights of the values at the places `at` for the value at `to`, by the polynomial through them."""
-    return [math.prod((to - b) / (a - b) for b in at if b != a) for a in at]
 
 
 def third_order(q):
@@ -103,43 +66,142 @@ def third_order(q):
     return out
 
 
+_row = itertools.count()
+START, COUETTE, LOST = (next(_row) for _ in range(3))  # rows: rho H that counts as resting, dx d/dX of it, what is damped
+OLD = [next(_row) for _ in range(ORDER)]  # and of the last steps
+ROW, SHARE = range(2)  # what is told of an old state: its row, share of the shortest wave that is lost on its way
+
+
+@ti.dataclass
+class Frame:
+    """In which the old states are followed."""
+
+    states: ti.f64  # number of those that count
+    speed: ti.f64  # of the oil's
+    rate: ti.f64  # times dx
+    damped: ti.f64  # 1 where a path is of whole cells
+
+
+@ti.func
+def differences(O: ti.template(), first, i, nx, states: ti.template(), ways: ti.template(), count):
+    """What differs from the resting state, followed along the paths: its sum, and the sum whose shortest wave is lost."""
+    out, lost = L(O, 0.0), L(O, 0.0)
+    for n in range(count):
+        row = int(states[n, ROW])
+        begin, end = nodes(ways, n)
+        followed = L(O, 0.0)
+        for m in range(begin, end):
+            q = first + source(i, nx, ways, n, m)
+            followed += ways[n, m] * (O[row, q] - O[START, q])
+        out += followed
+        lost += states[n, SHARE] * followed
+    return out, lost
+
+
+@ti.func
+def eighth(O: ti.template(), q):
+    """The shortest wave of LOST in column q."""
+    out = L(O, 0.0)
+    for m in ti.static(range(9)):
+        out += ti.static(EIGHTH[m]) * O[LOST, q - 4 + m]
+    return out
+
+
+@ti.kernel
+def follow(S: ti.template(), O: ti.template(), G: Table, numbers: Flat, states: Table, ways: Table, alone: ti.template()):
+    """QOLD from the old states."""
+    nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1, serialize=alone)
+    for s in range(ny // W + 1):
+        frame, first = read(Frame, numbers), s * (nx + 1)
+        for i in range(nx + 1):
+            out, lost = differences(O, first, i, nx, states, ways, int(frame.states))
+            old = O[START, first + i] + out
+            S[QOLD, off + first + i] = frame.speed * O[COUETTE, first + i] - frame.rate * old
+            O[LOST, first + i] = lost
+        if frame.damped > 0.0:
+            for i in range(4, nx - 3):
+                k = off + first + i
+                S[QOLD, k] = S[QOLD, k] + frame.rate * eighth(O, first + i)
+
+
+@ti.kernel
+def keep(S: ti.template(), O: ti.template(), G: Table, row: Flat, alone: ti.template()):
+    """O[row[0]] = rho H of the present state."""
+    nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1, serialize=alone)
+    for s in range(ny // W + 1):
+        for i in range(nx + 1):
+            q = s * (nx + 1) + i
+            O[int(row[0]), q] = repeated(S[RHO, off + q] * S[H, off + q], s, ny)
+
+
 class Storage:
     """rho H of the start and of the last steps on `levels`; state: what :meth:`state` gave, or None for the table's."""
 
     def __init__(self, levels, state=None):
-        self.levels = levels
-        self.start, *self.old = [self._now()] * 2 if state is None else state["mass"]
-        self.lengths = [] if state is None else list(state["lengths"])
-        self.couette = third_order(self.start)
+        self.levels, self.past = levels, Past(levels, len((START, COUETTE, LOST, *OLD)))
+        self.old, self.known, self.lengths = list(OLD), 0, []  # rows, the newest first: the first `known` of them hold states
+        self._bind()
+        if state is None:
+            self._keep_newest()
+            self.centre()
+        else:
+            self._restore(state)
+
+    def _bind(self):
+        v = self.levels
+        self.frame, self.newest = Record(Frame), np.zeros(1)
+        self.states, self.ways = np.zeros((ORDER, SHARE + 1)), np.zeros((ORDER, WAY))
+        self._keep = v.launch(keep, v.S, self.past.field, v.G, self.newest)
+        self._follow = v.launch(follow, v.S, self.past.field, v.G, self.frame.values, self.states, self.ways, work=FOLLOWING)
+
+    def _restore(self, state):
+        start, *old = state["mass"]
+        self._rest(start)
+        self.known, self.lengths = len(old), list(state["lengths"])
+        for row, q in zip(self.old, old):
+            self.past.put(row, q)
 
     def centre(self):
         """What counts as resting is the newest state from here on: one that does not change any more is then steady."""
-        self.start = self.old[0]
-        self.couette = third_order(self.start)
+        self._rest(self.past.get(self.old[0]))
+
+    def _rest(self, start):
+        self.past.put(START, start)
+        self.past.put(COUETTE, third_order(start))
 
     def state(self):
         """Arrays to go on from: mass (start, newest, ...), lengths of the steps between the latter."""
-        return {"mass": np.stack([self.start, *self.old]), "lengths": np.array(self.lengths)}
+        rows = START, *self.old[: self.known]
+        return {"mass": np.stack([self.past.get(row) for row in rows]), "lengths": np.array(self.lengths)}
 
     def begin(self, dT):
         """Rate, frame and old levels of the storage term for a step of dT."""
         v, length = self.levels, dT / self.levels.dx
-        frame = min(1.0, LONGEST_PATH / length)
-        lengths = [dT, *self.lengths[: self._order(dT, (1 - frame) * length) - 1]]
+        speed = min(1.0, LONGEST_PATH / length)
+        lengths = [dT, *self.lengths[: self._order(dT, (1 - speed) * length) - 1]]
         rate, weights = bdf(*lengths)
-        differences = [weight * (q - self.start) for weight, q in zip(weights, self.old)]
-        old = self.start + followed(differences, frame * np.cumsum(lengths) / v.dx)
-        v.numbers.set_rate(rate, frame)
-        v.put(fields.QOLD, frame * self.couette - rate * v.dx * old)
+        paths = speed * np.cumsum(lengths) / v.dx
+        for n, (weight, path) in enumerate(zip(weights, paths)):
+            self.states[n] = self.old[n], _lost(path)
+            set_way(self.ways[n], path, weight)
+        self.frame.set(states=len(lengths), speed=speed, rate=rate * v.dx, damped=any(map(_lost, paths)))
+        v.numbers.set_rate(rate, speed)
+        self._follow()
 
     def _order(self, dT, at_rest):
         equal = all(abs(length - dT) <= STEADY * dT for length in self.lengths[: ORDER - 1])
         steady = equal and at_rest < STABLE_AT_REST
-        return min(ORDER if steady else 2, len(self.old))
+        return min(ORDER if steady else 2, self.known)
 
     def accept(self, dT):
         """The state in the table is the next one, dT after the last."""
-        self.old, self.lengths = [self._now(), *self.old[: ORDER - 1]], [dT, *self.lengths[: ORDER - 2]]
+        self._keep_newest()
+        self.lengths = [dT, *self.lengths[: ORDER - 2]]
 
-    def _now(self):
-        return self.levels.get(fields.RHO) * self.levels.get(fields.H)
+    def _keep_newest(self):
+        self.newest[0] = self.old.pop()
+        self._keep()
+        self.old.insert(0, int(self.newest[0]))
+        self.known = min(self.known + 1, ORDER)

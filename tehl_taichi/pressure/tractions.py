@@ -46,12 +46,12 @@ def store(out: ti.template(), at: ti.template(), a_x, a_y, b_x, b_y):
     for u in ti.static(range(W)):
         j = at.s * W + u
         if j <= at.ny:
-            out[X_A, j, at.i], out[Y_A, j, at.i], out[X_B, j, at.i], out[Y_B, j, at.i] = a_x[u], a_y[u], b_x[u], b_y[u]
+            out[X_A, at.i, j], out[Y_A, at.i, j], out[X_B, at.i, j], out[Y_B, at.i, j] = a_x[u], a_y[u], b_x[u], b_y[u]
 
 
 @ti.kernel
 def tractions(S: ti.template(), G: Table, rheology: ti.template(), conditions: Flat, out: Stack):
-    """out[X_A, Y_A, X_B, Y_B; j, i] = force per area (Pa) on body a along x, y and on body b along x, y."""
+    """out[X_A, Y_A, X_B, Y_B; i, j] = force per area (Pa) on body a along x, y and on body b along x, y."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for c in range(tiles(nx, ny)):

@@ -10,6 +10,11 @@ def drag(s):
     return 0.5 * abs(float(np.sum(s.weights * (s.stress[0] - s.stress[2])))) / s.scales.p_H
 
 
+def touching(s):
+    """Load where the surfaces touch; most never do."""
+    return float(np.sum(s.weights * s.P * s.touch)) if s.touch.any() else 0.0
+
+
 H0 = Scalar(name="h0_m", unit="m", says="rigid approach", over="point", source="load balance (pressure/newton)",
             of=lambda s: s.H0 * s.scales.h, by_hand=-0.25e-6)
 P_MAX = Scalar(name="p_max_Pa", unit="Pa", says="largest pressure", over="maximum", source="largest at the nodes",
@@ -20,6 +25,6 @@ H_C = Scalar(name="h_c_m", unit="m", says="film at x = 0, far edge", over="point
              of=lambda s: s.extremes["h_c"] * s.scales.h, by_hand=1e-6)
 TOUCHING = Scalar(name="contact_load_fraction", unit="1", says="load carried by solid contact", over="maximum",
                   source="pressure where the surfaces touch, over the load",
-                  of=lambda s: float(np.sum(s.weights * s.P * s.touch)) / s.load, by_hand=0.5 / 0.75)
+                  of=lambda s: touching(s) / s.load, by_hand=0.5 / 0.75)
 FRICTION = Scalar(name="friction_coefficient", unit="1", says="friction coefficient", over="mean",
                   source="mean friction of both bodies over the load", of=lambda s: drag(s) / s.load, by_hand=0.02)
