@@ -70,7 +70,7 @@ def extrapolate(F: ti.template(), G: Table, order: ti.template(), rows: Flat, wa
         for i in range(first, last):
             at = place(G, c, i)
             out = [L(F, 0.0) for _ in ti.static(range(2 * order))]
-            for n in ti.static(range(order + 1)):
+            for n in range(order + 1):
                 row = int(rows[n])
                 still, moving = F[row, at.q], with_feature(F, at, row, ways, edges, by_edge, n)
                 for g in ti.static(range(order)):
@@ -91,14 +91,14 @@ def judge(S: ti.template(), F: ti.template(), G: Table, order: ti.template(), ro
         row = int(rows[0])
         for i in range(first, last):
             at = place(G, c, i)
-            missed = [L(F, 0.0) for _ in ti.static(range(2 * order))]
-            for t in ti.static(range(-1, 2)):
-                there = ti.min(ti.max(i + t, 0), nx) - i
-                newest = ti.cast(S[P, at.k + there], F.dtype)
-                for g in ti.static(range(2 * order)):
-                    missed[g] += (F[MADE + g, at.q + there] - newest) ** 2
-            for g in ti.static(range(2 * order)):
-                F[MADE + 2 * order + g, at.q] = missed[g]
+            there = [ti.min(ti.max(i + t, 0), nx) - i for t in ti.static(range(-1, 2))]
+            pressed = [ti.cast(S[P, at.k + there[t]], F.dtype) for t in ti.static(range(3))]
+            for g in range(2 * order):
+                missed = L(F, 0.0)
+                for t in ti.static(range(3)):
+                    miss = F[MADE + g, at.q + there[t]] - pressed[t]
+                    missed += miss * miss
+                F[MADE + 2 * order + g, at.q] = missed
             newest = repeated(ti.cast(S[P, at.k], F.dtype), s, ny)
             F[row, at.q] = newest
             if s == ny // W:
@@ -166,7 +166,7 @@ class Guess:
     def _restore(self, history, start):
         if not self.by_edge:
             self.past.put(START, start)
-        for row, field in zip(self.rows, history):
+        for row, field in zip(self.rows[1:], history[1:]):  # the first one is in the table
             self.past.put(row, field)
             self.edges[row] = field[-1]
         newest, *self.rows = self.rows
