@@ -27,10 +27,10 @@ from tehl_taichi.engine.lanes import (
     tiles,
 )
 from tehl_taichi.engine.language import ti
-from tehl_taichi.engine.launches import bind
 from tehl_taichi.pressure.fields import P
 from tehl_taichi.pressure.past import WAY, Past, lagrange, nodes, set_way, source
 
+WORK = 2  # of a column, in units of a copy
 NOTHING = 1e-14  # squared error that is as good as none
 START = 0  # row of the pressure of the start, where that tells what does not move
 MADE = 1  # and of the first of 2 * order guesses, frame after frame; behind them squares of what they missed, and the states
@@ -61,10 +61,10 @@ def with_feature(F: ti.template(), at: ti.template(), row, ways: ti.template(), 
 
 @ti.kernel
 def extrapolate(F: ti.template(), G: Table, order: ti.template(), rows: Flat, ways: Table, weights: Table, edges: LinearTable,
-                by_edge: ti.template()):
+                by_edge: ti.template(), alone: ti.template()):
     """The guesses, by polynomials of degree 1 to `order` through the states in `rows`."""
     nx, ny, off = cells(G, 0)
-    ti.loop_config(block_dim=1)
+    ti.loop_config(block_dim=1, serialize=alone)
     for c in range(tiles(nx, ny)):
         s, first, last = tile(c, nx)
         for i in range(first, last):
@@ -82,10 +82,11 @@ def extrapolate(F: ti.template(), G: Table, order: ti.template(), rows: Flat, wa
 
 
 @ti.kernel
-def judge(S: ti.template(), F: ti.template(), G: Table, order: ti.template(), rows: Flat, edges: LinearTable):
+def judge(S: ti.template(), F: ti.template(), G: Table, order: ti.template(), rows: Flat, edges: LinearTable,
+          alone: ti.template()):
     """The pressure in the first of `rows`; squares of what the guesses have missed it by, added up over neighbours along x."""
     nx, ny, off = cells(G, 0)
-    ti.loop_config(block_dim=1)
+    ti.loop_config(block_dim=1, serialize=alone)
     for c in range(tiles(nx, ny)):
         s, first, last = tile(c, nx)
         row = int(rows[0])
@@ -114,10 +115,10 @@ def nearby(F: ti.template(), at: ti.template(), row):
 
 
 @ti.kernel
-def trust(S: ti.template(), F: ti.template(), G: Table, order: ti.template(), count: Flat):
+def trust(S: ti.template(), F: ti.template(), G: Table, order: ti.template(), count: Flat, alone: ti.template()):
     """The pressure from the first count[0] guesses of each frame, each trusted by one over the square of what it missed."""
     nx, ny, off = cells(G, 0)
-    ti.loop_config(block_dim=1)
+    ti.loop_config(block_dim=1, serialize=alone)
     for c in range(tiles(nx, ny)):
         s, first, last = tile(c, nx)
         for i in range(first, last):
@@ -159,9 +160,10 @@ class Guess:
         v, F, order = self.levels, self.past.field, self.order
         self.places, self.ways, self.count = np.zeros(order + 1), np.zeros((order + 1, WAY)), np.zeros(1)
         self.weights, self.edges = np.zeros((order, order + 1)), np.zeros((self.rows[-1] + 1, v.nx + 1), np.float32)
-        self._extrapolate = bind(extrapolate, F, v.G, order, self.places, self.ways, self.weights, self.edges, self.by_edge)
-        self._judge = bind(judge, v.S, F, v.G, order, self.places, self.edges)
-        self._trust = bind(trust, v.S, F, v.G, order, self.count)
+        self._extrapolate = v.launch(extrapolate, F, v.G, order, self.places, self.ways, self.weights, self.edges, self.by_edge,
+                                     work=WORK)
+        self._judge = v.launch(judge, v.S, F, v.G, order, self.places, self.edges, work=WORK)
+        self._trust = v.launch(trust, v.S, F, v.G, order, self.count, work=WORK)
 
     def _restore(self, history, start):
         if not self.by_edge:

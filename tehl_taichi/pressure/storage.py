@@ -34,7 +34,7 @@ ORDER = 3
 # film stays 0.1303
 DAMPING = 0.5
 EIGHTH = tuple((-1.0) ** m * math.comb(8, m) / 256 for m in range(9))  # eighth difference, of the wave (-1)^i the wave
-FOLLOWING = 8  # work of a column, in units of a copy
+FOLLOWING = 2  # work of a column, in units of a copy
 STEADY = 1e-6  # relative; third-order differences need steps of equal length
 
 
