@@ -165,7 +165,7 @@ class FilmHeat:
     def tractions(self):
         """Shear (4, ny+1, nx+1) in Pa on body a along x, y and on body b along x, y, of the state that was accepted."""
         v, singles = self.levels, self.columns.singles.field
-        return v.fill(wall_shear, (4, v.nx + 1, v.ny + 1), singles, v.scene.rheology, v.conditions.values).swapaxes(1, 2)
+        return v.fill(wall_shear, 4, singles, v.scene.rheology, v.conditions.values)
 
 
 def _tiles(nx, ny):

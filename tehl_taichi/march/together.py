@@ -84,8 +84,6 @@ class Together:
         for n in range(steps):
             self._slip(whole, (n + 1) / steps)
             self._step()
-            if self.lost:
-                break
         self._slip(whole, 1.0)
         self.storage.centre()
 

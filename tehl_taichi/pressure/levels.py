@@ -86,9 +86,12 @@ class Levels(Grids):
         return self._carriers.carry((kernel, row, l), shape,
                                     lambda array: self.launch(kernel, self.S, self.G, *place, array), values)
 
-    def fill(self, kernel, shape, *args):
-        """A new array of this shape that kernel(S, G, *args, array) fills, for the same arguments every time."""
-        return self._carriers.carry(kernel, shape, lambda array: bind(kernel, self.S, self.G, *args, array)).copy()
+    def fill(self, kernel, count, *args):
+        """A new array (count, ny+1, nx+1), column by column in memory, that kernel(S, G, *args, array) fills, for the same
+        arguments every time."""
+        shape = count, self.nx + 1, self.ny + 1
+        array = self._carriers.carry(kernel, shape, lambda array: bind(kernel, self.S, self.G, *args, array))
+        return array.copy().swapaxes(1, 2)
 
     def launch(self, kernel, *args, work=1):
         """A launch of `kernel`, whose last argument is `alone`; work: of one column, in units of a copy.

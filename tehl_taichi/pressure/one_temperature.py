@@ -20,4 +20,4 @@ class OneTemperature:
     def tractions(self):
         """Shear (4, ny+1, nx+1) in Pa on body a along x, y and on body b along x, y."""
         v = self.levels
-        return v.fill(tractions.tractions, (4, v.nx + 1, v.ny + 1), v.scene.rheology, v.conditions.values).swapaxes(1, 2)
+        return v.fill(tractions.tractions, 4, v.scene.rheology, v.conditions.values)

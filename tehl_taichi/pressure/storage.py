@@ -186,7 +186,7 @@ class Storage:
         for n, (weight, path) in enumerate(zip(weights, paths)):
             self.states[n] = self.old[n], _lost(path)
             set_way(self.ways[n], path, weight)
-        self.frame.set(states=len(lengths), speed=speed, rate=rate * v.dx, damped=any(map(_lost, paths)))
+        self.frame.set(states=len(lengths), speed=speed, rate=rate * v.dx, damped=self.states[: len(lengths), SHARE].any())
         v.numbers.set_rate(rate, speed)
         self._follow()
 
