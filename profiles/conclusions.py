@@ -7,36 +7,25 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from tehl_taichi.profiles import measure
+from tehl_taichi.profiles import measure, passage_stresses
+from tehl_taichi.profiles.passage_stresses import ALONE, DEEP, DEPTHS, LOADS, WINDOWS
 
 from tehl_taichi.errors import NotConverged
-from tehl_taichi.fatigue import below, findley
-from tehl_taichi.fatigue.histories import Passage
-from tehl_taichi.fatigue.under_row import at_the_surface
-from tehl_taichi.march import companions, readings
+from tehl_taichi.march import readings
 from tehl_taichi.march.error_bars import RIVAL, estimated_error
 from tehl_taichi.scene import scene
-from tehl_taichi.scene.scales import Scales
 from tehl_taichi.study import pool
-from tehl_taichi.study.single import completed
 
-# cells along x more than across: that is what an exit asks for (docs/exit.md); those that decide have twice as many
-GRIDS, FINE_GRIDS, QUICK_GRIDS = ((128, 16), (256, 32), (512, 64)), ((256, 16), (512, 32), (1024, 64)), ((64, 16), (128, 32))
+# cells along x more than across: that is what an exit asks for (docs/exit.md); those that decide have four times as many
+GRIDS, FINE_GRIDS, QUICK_GRIDS = ((128, 16), (256, 32), (512, 64)), ((512, 16), (1024, 32), (2048, 64)), ((64, 16), (128, 32))
+EVERY = 1024  # columns of which each moment is stored; every second of twice as many changes Findley stresses by 0.03 %
 DECIDE = "asperity 1.5 um", "dent 1.5 um"
 SLIPS = (-0.12, 0.0, 0.12)
-WINDOWS = {"entry": (-np.inf, -0.5), "inside": (-0.5, 0.5), "exit": (0.5, np.inf), "to 0.5 a": (-np.inf, 0.5),
-           "whole": (-np.inf, np.inf)}
-# what counts: pressure alone, with the shear tractions, with thermal stress too
-LOADS = {"pressure": {"fatigue.shear": False, "fatigue.thermal_stress": False},
-         "no thermal stress": {"fatigue.thermal_stress": False}, "all": {}}
 NEAR_ONE = 0.9
-# the worst below the surface under the feature's row, up to 0.5 a and over the whole passage, and of the contact without it
-DEEP, ALONE = {window: ("below", window) for window in ("to 0.5 a", "whole")}, ("contact alone", "whole")
 # what a table says of an error that is not known, by the beginning of the reason
 UNKNOWN = {reason.partition("{")[0]: short for reason, short in (
     (readings.EXIT, "exit not resolved"), (readings.SPIKE, "peak not resolved"), (RIVAL, "a rival grows"))}
 BARE = {"fatigue.on": False, "numerics.estimate_error": False}  # both are worked out here, for all grids and loads together
-DEPTHS = {**{key: ("depth", window) for window, key in DEEP.items()}, ALONE: ("depth alone", "whole")}
 
 
 @dataclass(frozen=True)
@@ -88,86 +77,30 @@ def grids_of(name, quick=False):
 
 def row(name, description, folder, grids, progress=None):
     """One Row from runs on `grids`; one that does not converge is too coarse, and no step of the error."""
-    found, courses, friction, reason = [], [], (np.nan, np.nan), ""
+    told, reason = [], ""
     for nx, ny in grids:
         if progress:
             progress(f"{name}: {nx} x {ny} cells")
-        sized = description.replace(**{"grid.nx": nx, "grid.ny": ny, **BARE})
         try:
-            saved = completed(sized, folder / f"{_slug(name)}-{nx}.zarr").store
+            told.append(passage_stresses.told(_sized(description, nx, ny), folder / f"{_slug(name)}-{nx}x{ny}.zarr"))
         except NotConverged as error:
-            found, courses, reason = [], [], f"{nx} x {ny} cells: {error}"
-            continue
-        found.append(stresses(saved))
-        courses.append({window: course(saved, *ends) for window, ends in WINDOWS.items()})
-        friction = tuple(footprint_friction(saved, at) for at in (-0.5, 0.5))
-    if not found:
-        return Row(name, description.operation.srr, {}, {}, friction, reason=reason)
-    doubts = unresolved(saved)
-    told = {key: error_of(key, found, courses, doubts.get(key, "")) for key in found[-1]}
-    errors, doubts = ({key: pair[n] for key, pair in told.items()} for n in (0, 1))
-    return Row(name, description.operation.srr, found[-1], errors, friction, doubts)
+            told, reason = [], f"{nx} x {ny} cells: {error}"
+    if not told:
+        return Row(name, description.operation.srr, {}, {}, (np.nan, np.nan), reason=reason)
+    last = told[-1]
+    known = {key: error_of(key, told, last.doubts.get(key, "")) for key in last.values}
+    errors, doubts = ({key: pair[n] for key, pair in known.items()} for n in (0, 1))
+    return Row(name, description.operation.srr, last.values, errors, last.friction, doubts)
 
 
-def error_of(key, found, courses, doubt):
-    """(error of a value of the last grid or nan, why it is not known); found: values on each grid, courses: of the pressures in
-    each window there."""
+def _sized(description, nx, ny):
+    return description.replace(**{"grid.nx": nx, "grid.ny": ny, "output.every": max(1, nx // EVERY), **BARE})
+
+
+def error_of(key, told, doubt):
+    """(error of a value of the last grid or nan, why it is not known); told: by each grid, from coarse to fine."""
     follows = key[0] in LOADS or key in DEEP.values()  # a number that depends on the highest pressures of its window
-    return estimated_error([one[key] for one in found], doubt, [one[key[1]] for one in courses] if follows else ())
-
-
-def course(saved, low, high):
-    """The :func:`tehl_taichi.march.companions.course` of a stored passage between two positions of its feature (a)."""
-    at, p = saved.scalar("feature_x")[1:] / Scales.of(saved.scene).a, saved.scalar("p_max_Pa")[1:]
-    inside = (at >= low) & (at <= high)
-    return companions.course(p[inside], at[inside], saved.scene.path)
-
-
-def unresolved(saved):
-    """{(loads, window): why the grid does not know it}, of windows with a pressure peak that it does not resolve."""
-    a = Scales.of(saved.scene).a
-    at, p = saved.scalar("feature_x")[1:] / a, saved.scalar("p_max_Pa")[1:]
-    entries = {window: 1 + np.flatnonzero((at >= low) & (at <= high)) for window, (low, high) in WINDOWS.items()}
-    doubts = {window: readings.unresolved(saved, those, p[those - 1].max(), a) for window, those in entries.items()
-              if those.size}
-    keys = [(loads, window) for loads in LOADS for window in WINDOWS] + [*DEEP.values()]
-    return {key: doubts[key[1]] for key in keys if doubts.get(key[1])}
-
-
-def stresses(saved):
-    """{(loads, window): largest Findley stress, Pa}; windows with every load, the other loads over the whole passage."""
-    out = {}
-    for loads, changes in LOADS.items():
-        passage = Passage(saved.scene.replace(**changes) if changes else saved.scene, saved, saved.scalar("feature_x"))
-        history = at_the_surface(passage)(slice(0, passage.y.size))
-        for window, (low, high) in WINDOWS.items():
-            if loads == "all" or window == "whole":
-                inside = _moments(passage, low, high)
-                out[loads, window] = float(findley.search(history[:, inside], saved.scene.fatigue.kappa)[0].max())
-    return out | deep_stresses(Passage(saved.scene, saved, saved.scalar("feature_x")))
-
-
-def _moments(passage, low, high):
-    """Those of a history with the feature between `low` and `high` (in a), and the one without load."""
-    return np.append((passage.centres >= low * passage.a) & (passage.centres <= high * passage.a), True)
-
-
-def deep_stresses(passage):
-    """DEEP, ALONE and their depths."""
-    row = int(np.argmin(np.abs(passage.reader.y - passage.scene.features[0].y)))
-    *deep, _, alone = below.profiles(passage, [row], True, [_moments(passage, *WINDOWS[window]) for window in DEEP])
-    return {key: value for stress, profile in zip(DEPTHS, (*deep, alone))
-            for key, value in ((stress, profile.worst.f), (DEPTHS[stress], profile.worst.depth))}
-
-
-def footprint_friction(saved, at):
-    """Friction over load on the feature's footprint when it is at x_a = at (in a)."""
-    a = Scales.of(saved.scene).a
-    n = int(np.argmin(np.abs(saved.scalar("feature_x") / a - at)))
-    fields = saved.fields(n, ("pressure", "traction_x_a"))
-    distance = np.hypot(saved.x[:, None] - saved.feature_x(n), saved.y[None, :])
-    under = distance < saved.scene.features[0].reach
-    return float(abs(fields["traction_x_a"][under].sum()) / fields["pressure"][under].sum())
+    return estimated_error([one.values[key] for one in told], doubt, [one.courses[key[1]] for one in told] if follows else ())
 
 
 def verdicts(rows, limit):

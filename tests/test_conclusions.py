@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from tehl_taichi.profiles import conclusions
+from tehl_taichi.profiles import conclusions, passage_stresses
 
 from tehl_taichi.errors import StoreError
 from tehl_taichi.scene import scene
@@ -60,14 +60,18 @@ class Spiked:
 
 def test_an_exit_that_is_not_resolved_has_no_error():
     """What is found before the peak is known."""
-    assert conclusions.unresolved(Spiked(np.inf)) == {}
-    late, early = conclusions.unresolved(Spiked(0.7)), conclusions.unresolved(Spiked(-0.7))
+    assert passage_stresses.unresolved(Spiked(np.inf)) == {}
+    late, early = passage_stresses.unresolved(Spiked(0.7)), passage_stresses.unresolved(Spiked(-0.7))
     exits = {(loads, window) for loads in conclusions.LOADS for window in ("exit", "whole")}
     assert set(late) == exits | {conclusions.DEEP["whole"]}
     assert ("all", "entry") in early and all(why.startswith("exit not resolved") for why in late.values())
     row = make("asperity", 400e6, np.nan)
     row.doubts["all", "whole"] = late["all", "whole"]
     assert "400 (exit not resolved)" in conclusions.cells(row) and "400 (error unknown)" in conclusions.cells(row)
+
+
+def told_by(values, courses):
+    return [passage_stresses.Told(one, course, (0.06, 0.05), {}) for one, course in zip(values, courses)]
 
 
 def test_three_grids_may_tell_a_peak_that_one_does_not():
@@ -77,7 +81,7 @@ def test_three_grids_may_tell_a_peak_that_one_does_not():
     found = [{key: 446e6, alone: 478e6}, {key: 525e6, alone: 478e6}, {key: 556e6, alone: 478e6}]
 
     def told(key, pressures, doubt="exit not resolved"):
-        return conclusions.error_of(key, found, [{"whole": (p, 2e9)} for p in pressures["whole"]], doubt)
+        return conclusions.error_of(key, told_by(found, [{"whole": (p, 2e9)} for p in pressures["whole"]]), doubt)
 
     assert told(key, late)[0] == pytest.approx(40e6, rel=0.01) and np.isnan(told(key, quiet)[0])
     assert told(key, quiet, "")[0] > 0 and told(alone, quiet, "") == (0.0, "")
@@ -86,12 +90,14 @@ def test_three_grids_may_tell_a_peak_that_one_does_not():
 def test_a_rival_that_grows_is_named():
     key, row = ("all", "whole"), make("asperity", 406e6, 5e6)
     grown = [{"whole": (3.2e9, p)} for p in (1.93e9, 2.25e9, 3.07e9)]
-    row.errors[key], row.doubts[key] = conclusions.error_of(key, [{key: f} for f in (404e6, 405e6, 406e6)], grown, "")
+    told = told_by([{key: f} for f in (404e6, 405e6, 406e6)], grown)
+    row.errors[key], row.doubts[key] = conclusions.error_of(key, told, "")
     assert "406 (a rival grows)" in conclusions.cells(row)
 
 
 def test_a_course_is_that_of_a_window():
-    whole, early = (conclusions.course(Spiked(0.7), *conclusions.WINDOWS[name]) for name in ("whole", "to 0.5 a"))
+    windows = conclusions.WINDOWS
+    whole, early = (passage_stresses.course(Spiked(0.7), *windows[name]) for name in ("whole", "to 0.5 a"))
     assert len(whole) == len(early) and np.nanmax(whole) == 3e9 and np.isnan(early[-3]) and np.nanmax(early) < 2.1e9
 
 
@@ -113,3 +119,27 @@ def test_a_row_is_computed_once_and_kept(taichi_cpu, tmp_path):
         conclusions.row("short", short.replace(srr=0.1), tmp_path, ((64, 16),))
     hopeless = short.replace(**{"numerics.newton_max": 1, "numerics.krylov_max": 5})
     assert "did not converge" in conclusions.row("hopeless", hopeless, tmp_path, ((64, 16),)).reason
+
+
+def test_a_large_store_goes_when_it_has_told(taichi_cpu, tmp_path, monkeypatch):
+    """What it told serves the next time, and only for the scene that it tells of."""
+    short = scene("gear").replace(**{"thermal.on": False, "time.steps": 4, "grid.nx": 64, "grid.ny": 16, **conclusions.BARE})
+    store, kept = tmp_path / "short.zarr", tmp_path / "short.json"
+    small = passage_stresses.told(short, store)
+    assert store.exists() and not kept.exists()
+    monkeypatch.setattr(passage_stresses, "LARGE", 1000)
+    large = passage_stresses.told(short, store)
+    assert kept.exists() and not store.exists()
+    again = passage_stresses.told(short, store)
+    assert not store.exists() and again.doubts == large.doubts and again.friction == large.friction
+    assert again.values == large.values == small.values
+    for window, course in small.courses.items():
+        np.testing.assert_array_equal(again.courses[window], course)
+    with pytest.raises(StoreError, match="another scene"):
+        passage_stresses.told(short.replace(srr=0.1), store)
+
+
+def test_moments_of_many_columns_are_thinned():
+    gear = scene("gear")
+    every = [conclusions._sized(gear, nx, 64).output.every for nx in (64, 1024, 2048)]
+    assert every == [1, 1, 2]

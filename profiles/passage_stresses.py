@@ -1,0 +1,130 @@
+"""What one stored passage tells: Findley stresses by loads and by part of the passage, and which its grid does not know."""
+
+import json
+import shutil
+from dataclasses import asdict, dataclass
+
+import numpy as np
+
+from tehl_taichi.errors import StoreError
+from tehl_taichi.fatigue import below, findley
+from tehl_taichi.fatigue.histories import Passage
+from tehl_taichi.fatigue.under_row import at_the_surface
+from tehl_taichi.io import atomic
+from tehl_taichi.io.json_values import plain
+from tehl_taichi.march import companions, readings
+from tehl_taichi.scene.scales import Scales
+from tehl_taichi.study.single import completed
+
+WINDOWS = {"entry": (-np.inf, -0.5), "inside": (-0.5, 0.5), "exit": (0.5, np.inf), "to 0.5 a": (-np.inf, 0.5),
+           "whole": (-np.inf, np.inf)}
+# what counts: pressure alone, with the shear tractions, with thermal stress too
+LOADS = {"pressure": {"fatigue.shear": False, "fatigue.thermal_stress": False},
+         "no thermal stress": {"fatigue.thermal_stress": False}, "all": {}}
+# the worst below the surface under the feature's row, up to 0.5 a and over the whole passage, and of the contact without it
+DEEP, ALONE = {window: ("below", window) for window in ("to 0.5 a", "whole")}, ("contact alone", "whole")
+DEPTHS = {**{key: ("depth", window) for window, key in DEEP.items()}, ALONE: ("depth alone", "whole")}
+FRICTION_AT = (-0.5, 0.5)  # a
+LARGE = 100_000  # cells of a passage whose store is not kept: of 2048x64 it has 6 GB
+
+
+@dataclass(frozen=True)
+class Told:
+    """values: {(loads, window): largest Findley stress, Pa}, DEEP and ALONE (Pa) and their DEPTHS (m) among them; courses:
+    {window: the pressures' :func:`course`}; friction: :func:`footprint_friction` at FRICTION_AT; doubts: {(loads, window): why
+    the grid does not know it}."""
+
+    values: dict
+    courses: dict
+    friction: tuple
+    doubts: dict
+
+
+def told(description, store):
+    """The :class:`Told` of a scene by its run in the store at this path: as it lies there, gone on with, or run now.
+
+    A LARGE one goes when it has told; its answers, in a file beside it, serve the next time. Raises StoreError where the store
+    or the file is of another scene, NotConverged.
+    """
+    kept = store.with_suffix(".json")
+    if kept.exists():
+        return _kept(kept, description)
+    found = of(completed(description, store).store)
+    if description.grid.nx * description.grid.ny > LARGE:
+        _keep(kept, description, found)
+        shutil.rmtree(store)
+    return found
+
+
+def _keep(path, description, found):
+    parts = {name: list(part.items()) if isinstance(part, dict) else part for name, part in asdict(found).items()}
+    atomic.replace(path, json.dumps(plain({"scene": description.to_dict(), **parts})).encode())
+
+
+def _kept(path, description):
+    parts = json.loads(path.read_text())
+    if parts.pop("scene") != plain(description.to_dict()):
+        raise StoreError(f"{path} tells of another scene; choose another folder or remove it")
+    values, doubts = ({tuple(key): value for key, value in parts[name]} for name in ("values", "doubts"))
+    courses = {window: tuple(np.nan if p is None else p for p in course) for window, course in parts["courses"]}
+    return Told(values, courses, tuple(parts["friction"]), doubts)
+
+
+def of(saved):
+    """The :class:`Told` of a finished store."""
+    return Told(stresses(saved), {window: course(saved, *ends) for window, ends in WINDOWS.items()},
+                tuple(footprint_friction(saved, at) for at in FRICTION_AT), unresolved(saved))
+
+
+def course(saved, low, high):
+    """The :func:`tehl_taichi.march.companions.course` of a stored passage between two positions of its feature (a)."""
+    at, p = saved.scalar("feature_x")[1:] / Scales.of(saved.scene).a, saved.scalar("p_max_Pa")[1:]
+    inside = (at >= low) & (at <= high)
+    return companions.course(p[inside], at[inside], saved.scene.path)
+
+
+def unresolved(saved):
+    """{(loads, window): why the grid does not know it}, of windows with a pressure peak that it does not resolve."""
+    a = Scales.of(saved.scene).a
+    at, p = saved.scalar("feature_x")[1:] / a, saved.scalar("p_max_Pa")[1:]
+    entries = {window: 1 + np.flatnonzero((at >= low) & (at <= high)) for window, (low, high) in WINDOWS.items()}
+    doubts = {window: readings.unresolved(saved, those, p[those - 1].max(), a) for window, those in entries.items()
+              if those.size}
+    keys = [(loads, window) for loads in LOADS for window in WINDOWS] + [*DEEP.values()]
+    return {key: doubts[key[1]] for key in keys if doubts.get(key[1])}
+
+
+def stresses(saved):
+    """{(loads, window): largest Findley stress, Pa}; windows with every load, the other loads over the whole passage."""
+    out = {}
+    for loads, changes in LOADS.items():
+        passage = Passage(saved.scene.replace(**changes) if changes else saved.scene, saved, saved.scalar("feature_x"))
+        history = at_the_surface(passage)(slice(0, passage.y.size))
+        for window, (low, high) in WINDOWS.items():
+            if loads == "all" or window == "whole":
+                inside = _moments(passage, low, high)
+                out[loads, window] = float(findley.search(history[:, inside], saved.scene.fatigue.kappa)[0].max())
+    return out | deep_stresses(Passage(saved.scene, saved, saved.scalar("feature_x")))
+
+
+def _moments(passage, low, high):
+    """Those of a history with the feature between `low` and `high` (in a), and the one without load."""
+    return np.append((passage.centres >= low * passage.a) & (passage.centres <= high * passage.a), True)
+
+
+def deep_stresses(passage):
+    """DEEP, ALONE and their depths."""
+    row = int(np.argmin(np.abs(passage.reader.y - passage.scene.features[0].y)))
+    *deep, _, alone = below.profiles(passage, [row], True, [_moments(passage, *WINDOWS[window]) for window in DEEP])
+    return {key: value for stress, profile in zip(DEPTHS, (*deep, alone))
+            for key, value in ((stress, profile.worst.f), (DEPTHS[stress], profile.worst.depth))}
+
+
+def footprint_friction(saved, at):
+    """Friction over load on the feature's footprint when it is at x_a = at (in a)."""
+    a = Scales.of(saved.scene).a
+    n = int(np.argmin(np.abs(saved.scalar("feature_x") / a - at)))
+    fields = saved.fields(n, ("pressure", "traction_x_a"))
+    distance = np.hypot(saved.x[:, None] - saved.feature_x(n), saved.y[None, :])
+    under = distance < saved.scene.features[0].reach
+    return float(abs(fields["traction_x_a"][under].sum()) / fields["pressure"][under].sum())
