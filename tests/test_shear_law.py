@@ -167,9 +167,9 @@ def flow_between(law, levels_of, p):
 
 def test_walls_bear_no_more_than_the_shear_limit():
     """Residuals of a fall from 1 GPa to nothing within three cells, of both laws: by the definition of the law, the difference
-    is what walls that yield let through more, beyond what they carry themselves in proportion to the stress."""
+    is what walls that yield let through more, beyond a tenth of what they carry themselves in proportion to the stress."""
     X = np.linspace(0, 1, 65)
-    p = np.interp(X, [0.0, 0.5, 33 / 64, 36 / 64, 1.0], [1.0, 1.0, 0.817, 0.28, 0.0])
+    p = np.interp(X, [0.0, 0.5, 33 / 64, 36 / 64, 1.0], [1.0, 1.0, 0.822, 0.28, 0.0])
     weak = {"rheology.tau_L0": 2e6, "rheology.gamma": 0.004}
     (yielding, levels), (stiff, _) = flow_between("limiting", weak, p), flow_between("newtonian", {}, p)
     assert np.abs(yielding - stiff).max() > 3 * np.abs(stiff).max()  # in three cells; elsewhere both are the same
@@ -184,7 +184,7 @@ def test_walls_bear_no_more_than_the_shear_limit():
     mean = np.where(np.abs(steps) > 1e-9, (ie[:-1] - ie[1:]) / np.where(steps == 0, 1, steps), ie[1:])
     P, H = p * 1e9 / levels.scales.p_H, 1.5e-6 / levels.scales.h
     extra = root[:-1] * root[1:] * H**3 * mean * np.diff(P) * (ratio - 1) / levels.dx
-    over = np.maximum(np.abs(extra) / H, 1)
+    over = np.maximum(np.abs(extra) / (0.1 * H), 1)
     assert over.max() > 100 and np.any((over == 1) & (np.abs(extra) > 0.01 * H))  # faces of both kinds
     extra *= (1 + 41 * (over ** (1 / 41) - 1)) / over
     np.testing.assert_allclose((yielding - stiff)[1:-1], -np.diff(extra), rtol=1e-6, atol=1e-9 * np.abs(extra).max())
