@@ -88,7 +88,7 @@ def row(name, description, folder, grids, progress=None):
     if not told:
         return Row(name, description.operation.srr, {}, {}, (np.nan, np.nan), reason=reason)
     last = told[-1]
-    known = {key: error_of(key, told, last.doubts.get(key, "")) for key in last.values}
+    known = {key: error_of(key, told) for key in last.values}
     errors, doubts = ({key: pair[n] for key, pair in known.items()} for n in (0, 1))
     return Row(name, description.operation.srr, last.values, errors, last.friction, doubts)
 
@@ -97,10 +97,11 @@ def _sized(description, nx, ny):
     return description.replace(**{"grid.nx": nx, "grid.ny": ny, "output.every": max(1, nx // EVERY), **BARE})
 
 
-def error_of(key, told, doubt):
+def error_of(key, told):
     """(error of a value of the last grid or nan, why it is not known); told: by each grid, from coarse to fine."""
     follows = key[0] in LOADS or key in DEEP.values()  # a number that depends on the highest pressures of its window
-    return estimated_error([one.values[key] for one in told], doubt, [one.courses[key[1]] for one in told] if follows else ())
+    courses = [one.courses[key[1]] for one in told] if follows else ()
+    return estimated_error([one.values[key] for one in told], told[-1].doubts.get(key, ""), courses)
 
 
 def verdicts(rows, limit):

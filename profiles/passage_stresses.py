@@ -11,8 +11,8 @@ from tehl_taichi.fatigue import below, findley
 from tehl_taichi.fatigue.histories import Passage
 from tehl_taichi.fatigue.under_row import at_the_surface
 from tehl_taichi.io import atomic
-from tehl_taichi.io.json_values import plain
 from tehl_taichi.march import companions, readings
+from tehl_taichi.scene import Scene
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.study.single import completed
 
@@ -47,27 +47,25 @@ def told(description, store):
     or the file is of another scene, NotConverged.
     """
     kept = store.with_suffix(".json")
-    if kept.exists():
-        return _kept(kept, description)
-    found = of(completed(description, store).store)
-    if description.grid.nx * description.grid.ny > LARGE:
-        _keep(kept, description, found)
+    if not kept.exists():
+        found = of(completed(description, store).store)
+        if description.grid.nx * description.grid.ny <= LARGE:
+            return found
+        content = {name: list(part.items()) if isinstance(part, dict) else part for name, part in asdict(found).items()}
+        atomic.replace(kept, json.dumps({"scene": description.to_dict(), **content}).encode())
+    found = _kept(kept, description)
+    if store.exists():  # still, where an earlier end of the suite left a part of it
         shutil.rmtree(store)
     return found
 
 
-def _keep(path, description, found):
-    parts = {name: list(part.items()) if isinstance(part, dict) else part for name, part in asdict(found).items()}
-    atomic.replace(path, json.dumps(plain({"scene": description.to_dict(), **parts})).encode())
-
-
 def _kept(path, description):
-    parts = json.loads(path.read_text())
-    if parts.pop("scene") != plain(description.to_dict()):
+    content = json.loads(path.read_text())
+    if Scene.from_dict(content.pop("scene")) != description:
         raise StoreError(f"{path} tells of another scene; choose another folder or remove it")
-    values, doubts = ({tuple(key): value for key, value in parts[name]} for name in ("values", "doubts"))
-    courses = {window: tuple(np.nan if p is None else p for p in course) for window, course in parts["courses"]}
-    return Told(values, courses, tuple(parts["friction"]), doubts)
+    values, doubts = ({tuple(key): value for key, value in content[name]} for name in ("values", "doubts"))
+    courses = {window: tuple(pressures) for window, pressures in content["courses"]}
+    return Told(values, courses, tuple(content["friction"]), doubts)
 
 
 def of(saved):
@@ -76,17 +74,21 @@ def of(saved):
                 tuple(footprint_friction(saved, at) for at in FRICTION_AT), unresolved(saved))
 
 
+def _largest(saved):
+    """Positions of the feature (a) and the largest pressures (Pa), of all entries but the start."""
+    return saved.scalar("feature_x")[1:] / Scales.of(saved.scene).a, saved.scalar("p_max_Pa")[1:]
+
+
 def course(saved, low, high):
     """The :func:`tehl_taichi.march.companions.course` of a stored passage between two positions of its feature (a)."""
-    at, p = saved.scalar("feature_x")[1:] / Scales.of(saved.scene).a, saved.scalar("p_max_Pa")[1:]
+    at, p = _largest(saved)
     inside = (at >= low) & (at <= high)
     return companions.course(p[inside], at[inside], saved.scene.path)
 
 
 def unresolved(saved):
     """{(loads, window): why the grid does not know it}, of windows with a pressure peak that it does not resolve."""
-    a = Scales.of(saved.scene).a
-    at, p = saved.scalar("feature_x")[1:] / a, saved.scalar("p_max_Pa")[1:]
+    a, (at, p) = Scales.of(saved.scene).a, _largest(saved)
     entries = {window: 1 + np.flatnonzero((at >= low) & (at <= high)) for window, (low, high) in WINDOWS.items()}
     doubts = {window: readings.unresolved(saved, those, p[those - 1].max(), a) for window, those in entries.items()
               if those.size}
