@@ -1,4 +1,11 @@
+import signal
+
 import pytest
+
+
+def pytest_configure():
+    """A shell leaves what it starts with `&` deaf to Ctrl-C, and so would be the commands that tests interrupt."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture(scope="session")
