@@ -381,3 +381,17 @@ def test_a_grid_is_looked_at_once_and_only_where_it_converged(monkeypatch, conve
         first = start.steady_snapshot(scene("ball-on-disc"), SimpleNamespace(line=False))
         assert first is seen[0] and first.make_state() == {"P": 1.0} and first.unsettled == ""
     assert len(seen) == looks
+
+
+def test_a_film_too_thin_for_a_grid_comes_to_the_next_in_time(taichi_cpu, monkeypatch):
+    """12 nm at 2.2 GPa: no way from nothing leads to it on 1024 columns, nor does Newton alone from 512."""
+    from tehl_taichi.profiles import stability
+
+    from tehl_taichi.march import steady
+
+    begun, from_nothing = [], steady.from_nothing
+    monkeypatch.setattr(steady, "from_nothing", lambda solver: begun.append(solver.levels.dx) or from_nothing(solver))
+    (thin,) = stability.starts({name: one for name, one in stability.random_cases(35, 42).items() if "42-34" in name}).values()
+    thin = thin.replace(**{"thermal.on": False})
+    found = steady.solve_steady(thin, Scales.of(thin), 1024, 0)
+    assert found.report.converged and begun == [4 / 64]

@@ -126,10 +126,10 @@ def _at_speed(solver, speed, P, H0):
     """From P and H0 at `speed` times that of the scene; in time where that does not converge."""
     solver.levels.numbers.slow_down(1 / speed)
     report = solver.solve(CAREFUL)
-    return report if report.converged else _in_time(solver, P, H0)
+    return report if report.converged else in_time(solver, P, H0)
 
 
-def _in_time(solver, P, H0):
+def in_time(solver, P, H0):
     """From P and H0 towards the steady state in implicit steps of time, longer and longer; then the steady equations."""
     v, step = solver.levels, 1.0
     for _ in range(TIME_STEPS):

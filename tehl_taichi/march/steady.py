@@ -10,7 +10,7 @@ from typing import Optional
 import numpy as np
 
 from tehl_taichi.heat.temperatures import FilmHeat
-from tehl_taichi.march.first_film import again, from_here, from_nothing, put
+from tehl_taichi.march.first_film import again, from_here, from_nothing, in_time, put
 from tehl_taichi.march.settle import settle, time_step
 from tehl_taichi.march.together import check, march_to_rest
 from tehl_taichi.pressure import fields
@@ -92,9 +92,14 @@ def _touches(solver):
 
 
 def _from_coarser(solver, P, H0):
-    put(solver, refine(P) * solver.levels.get(fields.MASK), H0)
-    report = from_here(solver)
-    return report if report.converged else from_nothing(solver)
+    """In time where Newton does not get there: in a film too thin for the coarser grid the way to the next is long."""
+    P = refine(P) * solver.levels.get(fields.MASK)
+    put(solver, P, H0)
+    for way in (from_here, lambda each: in_time(each, P, H0), from_nothing):
+        report = way(solver)
+        if report.converged:
+            break
+    return report
 
 
 def refine(P):
