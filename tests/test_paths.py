@@ -58,3 +58,23 @@ def test_waves_from_row_to_row_do_not_grow(rows):
         last, before = film.after(last, before), last
         largest.append(np.abs(last).max())
     assert max(largest) < 1.5, largest
+
+
+@pytest.mark.parametrize("rows", [0.1, -0.3, 0.5])
+def test_bends_between_rows_count(rows):
+    """Exactly, as long as differences do not double from row to row."""
+    film, y = Sideways(rows), np.arange(ROWS + 1.0)[None, :, None]
+    inner = slice(3, -2)
+    expected = 4 / 3 * (y - rows) ** 2 - 1 / 3 * (y - 2 * rows) ** 2 + np.zeros(film.shape)
+    bent = y**2 + np.zeros(film.shape)
+    np.testing.assert_allclose(film.after(bent, bent)[:, inner], expected[:, inner], atol=1e-12)
+
+
+@pytest.mark.parametrize("rows", [0.1, 0.3, -0.5])
+def test_a_sawtooth_of_rows_dies(rows):
+    """Which moving quadratics alone leave as it is."""
+    film = Sideways(rows)
+    last = before = (-1.0) ** np.arange(ROWS + 1.0)[None, :, None] + np.zeros(film.shape)
+    for _ in range(ROWS):
+        last, before = film.after(last, before), last
+    assert np.abs(np.diff(last, 2, axis=1)).max() / 4 < 0.2  # it comes in at one side

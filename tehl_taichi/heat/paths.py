@@ -76,10 +76,19 @@ def across(Z: ti.template(), C: ti.template(), nz, at: ti.template(), past: ti.t
 
 @ti.func
 def along_y(at: ti.template(), here, before, behind, moved):
-    """Change of a value by flow along y: quadratic, within the two nearest; before, behind: in the blocks beside."""
+    """Change of a value by flow along y: quadratic, linear where the value is an extreme; before, behind: in the blocks beside.
+
+    Quadratic alone, two steps of BDF2 leave a sawtooth of rows as it is, however far the oil moves: the row beside the border
+    rested at 257 deg C between rows of 113 and 106, in oil that bears nothing and conducts slowly. So a bend counts up to the
+    smaller of both differences only, as in limiters of slopes (van Leer 1977).
+    """
     lower, upper = rows_around(at, here, before, behind)
-    value = here + 0.5 * moved * (lower - upper + moved * (upper - 2.0 * here + lower))
-    return within(value, here, ti.select(moved > 0.0, lower, upper)) - here
+    rise, fall = upper - here, here - lower
+    most = maximum(minimum(rise, fall), 0.0) + maximum(minimum(-rise, -fall), 0.0)
+    bend = minimum(maximum(rise - fall, -most), most)
+    speed = maximum(moved, -moved)
+    upstream = ti.select(moved > 0.0, lower, upper)
+    return speed * (upstream - here - 0.5 * (1.0 - speed) * bend)
 
 
 # Rows that the oil moves along y in the two steps of BDF2, at most. Where it is swifter, thick oil that flows out at the sides
