@@ -119,7 +119,7 @@ def origin(Z: ti.template(), C: ti.template(), nz, at: ti.template(), past: ti.t
 def departures(S: ti.template(), Z: ti.template(), C: ti.template(), G: Table, nz: ti.i32, conditions: Flat, numbers: Flat,
                told: Table):
     """Temperature and pressure where the oil of each node was one and two steps ago (BDF2 along its path): cubic along x,
-    quadratic along y; in tiles that do not rest."""
+    quadratic along y with a limited bend; in tiles that do not rest."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for c in range(tiles(nx, ny)):
