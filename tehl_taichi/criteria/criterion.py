@@ -8,6 +8,7 @@ from tehl_taichi.errors import SceneError
 from tehl_taichi.registry import Entry
 
 ANGLES = 20001  # of planes; the largest of a smooth function is right to 2e-9
+TIED = 1e-9  # relative difference of shear amplitudes that are one
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -18,7 +19,8 @@ class Criterion(Entry):
     tau: shear amplitude of a plane, the radius of the smallest circle around its shear path; normal: its largest normal stress;
     mean: the largest mean stress. With chord: tau is half the longest chord of the path. With momentary: all three are those of
     one moment (tau: distance from the circle's centre), and the worst moment counts. With sheared: the plane is that of the
-    largest tau, whatever the others are there. sensitivity: what kappa is the sensitivity to; constants(torsion/bending):
+    largest tau, of planes with the same tau that of the largest normal stress.
+    sensitivity: what kappa is the sensitivity to; constants(torsion/bending):
     (kappa, limit/torsion) at which value is the limit for both fatigue limits, for ratios between least and most.
     """
 
@@ -67,7 +69,7 @@ class Criterion(Entry):
 
     def _worst(self, tau, normal, mean, kappa):
         values = self.value(tau, normal, mean, kappa) + 0 * tau
-        return float(values[tau.argmax()] if self.sheared else values.max())
+        return float((values[tau >= (1 - TIED) * tau.max()] if self.sheared else values).max())
 
 
 def _planes():

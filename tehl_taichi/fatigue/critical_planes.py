@@ -21,10 +21,12 @@ MOVES = 40    # moves at one step length at most
 TURNS = 3     # turned patterns without success before the step is halved: the maximum often lies on a sharp ridge
 FIRST_TURNS = 2  # the same in the first halvings: 3.1e-7 at most over 3003 points of the gear passage against 13 000 planes a
                  # point from 4 degrees (with 1: 4.7e-6)
-MARGIN = 0.03  # other peaks of the grid within this of its best are refined too (the grid itself is about 1 % low)
+SHEARED_MARGIN, SHEARED_STARTS = 0.1, 12  # the same where the shear chooses: planes of equal shear are as far as 3 % apart here
+MARGIN = 0.06  # other peaks of the grid within this of its best are refined too (the grid itself is about 1 % low)
 STARTS = 5      # peaks refined at most: 4 and 20 agree to 2e-7 at every point of the gear passage (4.2 s against 5.6 s)
 NEAR = 0.975   # cosine of the angle (13 degrees) below which planes of the grid belong to one peak
 SAME = 0.9998  # the same (1 degree) for peaks after the first halvings
+TIE = 2.0  # weight of the normal stress over the step, rad: a pattern then follows a ridge of equal shear at every step
 SLACK = 1e-11  # relative rounding of a bound
 KEPT = 1e-12  # relative rounding of a value that fewer moments leave as it is
 REACH = 2.0   # steps that a pattern moves before the moments that decide are chosen anew: the same values at 1473 points of a
@@ -37,10 +39,20 @@ PEAK = 5      # numbers kept per peak: normal (3), value, turn
 
 @ti.func
 def value_of(rule: ti.template(), tau, normal, mean, kappa):
-    """What the criterion says of them; with `sheared` the shear alone, which chooses the plane."""
-    out = tau
+    """The criterion's stress; with `sheared`, where the shear chooses the plane, shear + kappa * normal stress with a kappa
+    that goes to 0 with the step (`tie`): of planes with the same shear the one with the larger normal stress."""
+    out = tau + kappa * normal
     if ti.static(not rule.sheared):
         out = rule.value(tau, normal, mean, kappa)
+    return out
+
+
+@ti.func
+def tie(rule: ti.template(), kappa, step):
+    """kappa of the criterion, or the weight of the normal stress while a search with this step looks for the largest shear."""
+    out = kappa
+    if ti.static(rule.sheared):
+        out = TIE * step
     return out
 
 
@@ -153,27 +165,31 @@ def walk(S: ti.template(), some: ti.template(), a: ti.template(), b: ti.template
 
 @ti.func
 def refine(S: ti.template(), some: ti.template(), a: ti.template(), b: ti.template(), peaks: ti.template(), row, steps, peak,
-           kappa, rule: ti.template(), step0, shrinks, turns, prune, choose):
-    """Pattern search on the sphere, with steps halved `shrinks` times. choose: by those of the moments alone that may count
+           kappa, rule: ti.template(), step0, shrinks, turns, prune, stage):
+    """Pattern search on the sphere, with steps halved `shrinks` times. In stage 1 by those of the moments alone that may count
     from there on. Returns the number of planes decided."""
     n, best, middle = get_peak(peaks, row, peak)[0], -1e300, vec6(0.0)
     step, turn, decided, moments = step0, peaks[row, peak, 4], 0, steps
     for halving in range(shrinks + 1):  # before the first one: the value of the peak by all of these moments
-        few = moments
+        few, weight = moments, tie(rule, kappa, step)
         if ti.static(rule.outer):
-            if choose == 1 and halving > 0:
+            if stage * prune == 1 and halving > 0:
                 few = deciding(S, some, row, moments, n, middle, REACH * step)
+        if ti.static(rule.sheared):  # the weight has changed
+            best, middle = plane_value(S, some, a, b, row, moments, n, weight, rule)
         if halving == 0 or few < moments:
-            value, mid = plane_value(S, some, a, b, row, few, n, kappa, rule)
+            value, mid = plane_value(S, some, a, b, row, few, n, weight, rule)
             if halving == 0:
                 best, middle = value, mid
             if value >= best - KEPT * ti.abs(best):
                 moments = few
         if halving > 0:
-            n, best, middle, turn, count = walk(S, some, a, b, row, moments, n, step, turn, best, middle, kappa, rule, turns,
+            n, best, middle, turn, count = walk(S, some, a, b, row, moments, n, step, turn, best, middle, weight, rule, turns,
                                                 prune)
             decided += LANES * count
             step *= 0.5
+    if ti.static(rule.sheared):
+        best = plane_value(S, some, a, b, row, moments, n, tie(rule, kappa, step) * stage, rule)[0]
     put_peak(peaks, row, peak, n, best, turn)
     return decided
 
@@ -212,7 +228,7 @@ def scan(S: ti.template(), some: ti.template(), planes: ti.template(), values: t
     for q in range(count + 1):  # the most promising plane first
         k = first if q == 0 else q - 1
         if q == 0 or k != first:
-            if prune == 0 or values[row, k] > best - MARGIN * ti.abs(best):
+            if prune == 0 or values[row, k] > best - ti.static(SHEARED_MARGIN if rule.sheared else MARGIN) * ti.abs(best):
                 trial = vec3(planes[k, 0], planes[k, 1], planes[k, 2])
                 values[row, k] = plane_value(S, some, a, b, row, steps, trial, kappa, rule)[0]
                 best = ti.max(best, values[row, k])
@@ -236,13 +252,13 @@ def take_best(planes: ti.template(), values: ti.template(), row):
 
 
 @ti.func
-def collect(planes: ti.template(), values: ti.template(), peaks: ti.template(), row, on_grid):
+def collect(planes: ti.template(), values: ti.template(), peaks: ti.template(), row, on_grid, rule: ti.template()):
     """The peaks of the grid worth a refinement; returns how many."""
     count, going = 0, 1
-    while going == 1 and count < STARTS:
+    while going == 1 and count < ti.static(SHEARED_STARTS if rule.sheared else STARTS):
         top, n = take_best(planes, values, row)
         going = 0
-        if top > on_grid - MARGIN * ti.abs(on_grid):
+        if top > on_grid - ti.static(SHEARED_MARGIN if rule.sheared else MARGIN) * ti.abs(on_grid):
             going = 1
             put_peak(peaks, row, count, n, top, 0.0)
             count += 1
@@ -281,18 +297,20 @@ def look(S: ti.template(), some: ti.template(), planes: ti.template(), values: t
     """Find the best plane of a point, by some of its moments first; into its row of `out`, with the planes decided."""
     low, high = extent(S, row, steps)
     moments = thin(S, some, row, steps, low, high)
-    on_grid = scan(S, some, planes, values, a, b, row, moments, 0.5 * (low + high), kappa, rule, prune)
-    count = collect(planes, values, peaks, row, on_grid)
+    on_grid = scan(S, some, planes, values, a, b, row, moments, 0.5 * (low + high), tie(rule, kappa, step0), rule, prune)
+    count = collect(planes, values, peaks, row, on_grid, rule)
     decided = planes.shape[0]
     for stage in range(2):
         if stage == 1:
             moments = all_of(some, row, steps)
         for peak in range(count):
-            if stage == 0 or hopeful(peaks, row, peak, count):
+            if stage == 1 and not hopeful(peaks, row, peak, count):
+                peaks[row, peak, 3] = -1e300
+            else:
                 step = step0 if stage == 0 else step0 * 0.5**FIRST
                 decided += refine(S, some, a, b, peaks, row, moments, peak, kappa, rule, step,
                                   FIRST if stage == 0 else shrinks - FIRST, FIRST_TURNS if stage == 0 else TURNS, prune,
-                                  stage * prune)
+                                  stage)
     out[row, 0], out[row, 4] = -1e300, decided
     for peak in range(count):
         if peaks[row, peak, 3] > out[row, 0]:
@@ -313,7 +331,7 @@ def search(points: ti.i32, steps: ti.i32, kappa: ti.f64, rule: ti.template(), st
     rule: a :class:`tehl_taichi.criteria.criterion.Criterion` whose value may be traced; planes (m, 3): unit normals of the
     grid; step0: first step, rad, halved `shrinks` times; known (points, 4): value and plane that a search of more moments
     found, not looked for again where these have as much there (infinite: not known); scratch: values (points, m), a, b, some
-    (points, steps), peaks (points, STARTS, PEAK).
+    (points, steps), peaks (points, SHEARED_STARTS, PEAK).
     """
     ti.loop_config(block_dim=8)
     for row in range(points):
@@ -329,4 +347,4 @@ def search(points: ti.i32, steps: ti.i32, kappa: ti.f64, rule: ti.template(), st
                 value = plane_value(S, some, a, b, row, all_of(some, row, steps), n, kappa, rule)[0]
                 if turn == 0 and value >= out[row, 0] - KEPT * ti.abs(out[row, 0]):
                     break
-                out[row, 0] = ti.max(out[row, 0], value)
+                out[row, 0] = value if ti.static(rule.sheared) else ti.max(out[row, 0], value)
