@@ -209,7 +209,7 @@ def test_a_table_of_positions(tmp_path):
 
 @pytest.mark.parametrize("old, new, why", [
     ("load_N_per_mm", "load_N_mm", r"has no column load_N_per_mm \(did you mean 'load_N_mm'\?\); needed: x_pl_mm,"),
-    ("560.5", "much", "row 3: load_N_per_mm = 'much' is not a number; allowed: 0.001 to 1e.07 N/mm"),
+    ("560.5", "much", "row 3: load_N_per_mm = 'much' is not a number; allowed: 0.001 to 100000 N/mm"),
     ("560.5", "-5", "row 3: load_N_per_mm = -5 N/mm is out of range"),
     ("16.0", "nan", "row 3: R_a_mm = nan is not a number"),
     ("3.6, 2.9", "0, 0", "row 3: u_a_m_s and u_b_m_s are both 0 m/s"),

@@ -78,7 +78,7 @@ def test_a_named_oil_replaces_that_of_the_base(tmp_path):
     ("speed", 0.0, "no film"), ("srr", 3.0, "at most 2"), ("temperature", 1e4, "deg C"), ("height", 1.0, "at most"),
     ("grid.nx", 100, "multiple of 16"), ("grid.nx", 64.5, "whole number"), ("oil.viscosity", "roeland", "roelands"),
     ("feature.hight", 1e-6, "height"), ("bodies.a.E", -1.0, "Pa"), ("thermal.nodes", 8, "odd"),
-    ("feature.y", 1.0, "at most 0.1 m"), ("srr", -2.0, "never passes"), ("load", 1e9, "Hertz pressure"),
+    ("feature.y", 1.0, "at most 0.03 m"), ("srr", -2.0, "never passes"), ("load", 1e9, "Hertz pressure"),
     ("contact.radius_y", 0.01, "line"), ("feature.shape", "map", ".csv, .txt, .asc, .npy"),
     ("feature.shape", "waviness", "extent_x"),
     ("time.x_start", -0.5, "steady start"), ("contact.kind", "elliptic", "a length in m"),

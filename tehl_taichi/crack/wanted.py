@@ -4,11 +4,13 @@ from dataclasses import dataclass
 from typing import Union
 
 from tehl_taichi.crack.fillings import FILLINGS
+from tehl_taichi.crack.residual import Residual
 from tehl_taichi.errors import SceneError
-from tehl_taichi.values.checks import choice, integer, normalise, number
+from tehl_taichi.values.quantity import Choice, Number, check, choice, count, quantity
 
 SIDES = ("entry", "exit")
 FLATTEST = 15.0  # degrees to the surface: flatter cracks have not been compared with anything
+LONGEST, PIECE = 0.03, 1e-3  # m, a crack and a piece of it: a contact is a millimetre wide, 0.05 was meant in mm
 
 
 @dataclass(frozen=True)
@@ -22,34 +24,25 @@ class Wanted:
     acts on both faces (an upper bound). elements: of a straight crack. Raises SceneError for values out of range.
     """
 
-    side: str = "both"
-    start: Union[float, None] = None
-    angle: float = 90.0
-    first: float = 5e-6
-    step: float = 5e-6
-    length: float = 100e-6
-    distance: float = 3e-6
-    threshold: Union[float, None] = None
+    side: str = choice("both", "of the feature", (*SIDES, "both"))
+    start: Union[float, None] = quantity(None, "m", "x' of the mouth", -LONGEST, LONGEST, usual=5e-5)
+    angle: float = quantity(90.0, "degrees", "of the first piece", FLATTEST, 180 - FLATTEST)
+    first: float = quantity(5e-6, "m", "length of the first piece", 1e-8, PIECE)
+    step: float = quantity(5e-6, "m", "length of the others", 1e-8, PIECE)
+    length: float = quantity(100e-6, "m", "of the crack at which to stop", 1e-8, LONGEST)
+    distance: float = quantity(3e-6, "m", "ahead of the tip", 1e-8, PIECE)
+    threshold: Union[float, None] = quantity(None, "Pa sqrt(m)", "of K_I", 0.0, 1e9, usual=3e6, least=1e3)
     residual: object = None
-    face_friction: float = 0.0
+    face_friction: float = quantity(0.0, "", "of closed faces", 0.0, 1.0)
     oil: Union[float, str] = "dry"
-    elements: int = 12
+    elements: int = count(12, "on a straight crack", 6, 200)
 
     def __post_init__(self):
-        normalise(self)
-        choice("side", self.side, (*SIDES, "both"))
-        for key in ("first", "step", "length", "distance"):
-            number(key, getattr(self, key), "m", 1e-8, 0.1)
-        number("angle", self.angle, "degrees", FLATTEST, 180 - FLATTEST)
-        number("face_friction", self.face_friction, "", 0.0, 1.0)
-        if isinstance(self.oil, str):
-            choice("oil", self.oil, (*FILLINGS, "a share of the film's pressure from 0 to 1"))
-        else:
-            number("oil", self.oil, "", 0.0, 1.0)
-        integer("elements", self.elements, 6, 200)
-        for key, unit, low, high in (("start", "m", -0.1, 0.1), ("threshold", "Pa sqrt(m)", 0.0, 1e9)):
-            if getattr(self, key) is not None:
-                number(key, getattr(self, key), unit, low, high)
+        check(self)
+        Choice("", (*FILLINGS, "a share of the film's pressure from 0 to 1")).check("oil", self.oil) if isinstance(
+            self.oil, str) else Number("", "", 0.0, 1.0).check("oil", self.oil)
+        if self.residual is not None:
+            Residual(self.residual)  # refused here, not after the stresses of a passage
         for key in ("first", "step"):
             if getattr(self, key) > self.length * (1 + 1e-9):
                 raise SceneError(f"{key} = {getattr(self, key):g} m is longer than length = {self.length:g} m")

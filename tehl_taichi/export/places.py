@@ -51,6 +51,6 @@ def _entry(reader, at):
 def _point(reader, point):
     if not isinstance(point, tuple) or len(point) != 2:
         raise SceneError(f"point = {shown(point)} must be two numbers, x and y in m")
-    number("x of a point", point[0], "m", -1.0, 1.0)
-    number("y of a point", point[1], "m", float(reader.y[0]), float(reader.y[-1]))
+    number("x of a point", point[0], "m", -0.1, 0.1, usual=1e-4)
+    number("y of a point", point[1], "m", float(reader.y[0]), float(reader.y[-1]), usual=1e-4)
     return point

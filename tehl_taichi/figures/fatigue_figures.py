@@ -105,7 +105,7 @@ def _searched(found):
                          f"{found.depth * 1e-6:g} --figures FOLDER does it")
     if found.depth is not None:
         depths = found.maps["fatigue_depth"] * 1e6
-        number("depth", plain(found.depth), "µm", float(depths[0]), float(depths[-1]))
+        number("depth", plain(found.depth), "µm", float(depths[0]), float(depths[-1]), usual=100.0)
     return layers
 
 

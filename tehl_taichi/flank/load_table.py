@@ -6,11 +6,13 @@ from pathlib import Path
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.flank.positions import Position
-from tehl_taichi.values.checks import nearest, number
+from tehl_taichi.values.checks import nearest
+from tehl_taichi.values.quantity import Number
 
-# column: (factor to SI, unit, smallest and largest value allowed)
-NEEDED = {"x_pl_mm": (1e-3, "mm", -1e3, 1e3), "load_N_per_mm": (1e3, "N/mm", 1e-3, 1e7), "R_a_mm": (1e-3, "mm", 1e-3, 1e6),
-          "R_b_mm": (1e-3, "mm", 1e-3, 1e6), "u_a_m_s": (1.0, "m/s", 0.0, 1e3), "u_b_m_s": (1.0, "m/s", 0.0, 1e3)}
+RADIUS, SPEED = Number("", "mm", 0.1, 1e6, usual=20.0), Number("", "m/s", 0.0, 1e3, usual=10.0)
+# column: (factor to SI, its declaration)
+NEEDED = {"x_pl_mm": (1e-3, Number("", "mm", -1e3, 1e3, usual=5.0)), "R_a_mm": (1e-3, RADIUS), "R_b_mm": (1e-3, RADIUS),
+          "load_N_per_mm": (1e3, Number("", "N/mm", 1e-3, 1e5, usual=300.0)), "u_a_m_s": (1.0, SPEED), "u_b_m_s": (1.0, SPEED)}
 POINT = "point"  # column with A to E, where there is one
 MOST = 1000  # rows
 
@@ -51,10 +53,10 @@ def _position(path, n, row):
                     more=more)
 
 
-def _value(where, text, factor, unit, low, high):
+def _value(where, text, factor, declared):
     try:
         value = float(text)
     except (TypeError, ValueError):
-        raise SceneError(f"{where} = {text!r} is not a number; allowed: {low:g} to {high:g} {unit}") from None
-    number(where, value if math.isfinite(value) else math.nan, unit, low, high)
+        raise SceneError(f"{where} = {text!r} is not a number; allowed: {declared.allowed} {declared.unit}") from None
+    declared.check(where, value if math.isfinite(value) else math.nan)
     return value * factor

@@ -6,6 +6,7 @@ from tehl_taichi.errors import SceneError
 from tehl_taichi.values.checks import integer, nearest, number
 
 ONS = ("pinion", "gear")
+BEYOND = 20  # lengths of the path of contact within which a table of shares ends
 JUMPED = 1e-12  # m: nearer than this, a position asked for is at a jump of the load
 
 
@@ -51,11 +52,19 @@ def shares(mesh):
         if pair.load_share[0][0] > A or pair.load_share[-1][0] < E:
             raise SceneError(f"gear.load_share covers {pair.load_share[0][0]:.6g} to {pair.load_share[-1][0]:.6g} m past C; "
                              f"needed: {A:.6g} m (A) to {E:.6g} m (E)")
+        _check_ways(pair.load_share, E - A)
         return pair.load_share
     if pair.beta:
         return ((A, 1.0), (E, 1.0))
     B, D = mesh.points["B"], mesh.points["D"]
     return ((A, 1 / 3), (B, 2 / 3), (B, 1.0), (D, 1.0), (D, 2 / 3), (E, 1 / 3))
+
+
+def _check_ways(table, path):
+    """Refuse a table that goes so far beyond the path that its ways were meant in another unit. Raises SceneError."""
+    most = BEYOND * path
+    for way, _ in (table[0], table[-1]):
+        number("gear.load_share: a way past C", way, "m", -most, most, usual=path / 2)
 
 
 def share(table, x, side):
@@ -115,7 +124,7 @@ def _asked(mesh, table, place, on):
         x = mesh.points[name]
     else:
         A, E = sorted(towards_tip * end for end in mesh.ends)
-        number("the position past C", place, "m", A - JUMPED, E + JUMPED)
+        number("the position past C", place, "m", A - JUMPED, E + JUMPED, usual=5e-3)
         x, side = min(max(towards_tip * float(place), mesh.ends[0]), mesh.ends[1]), ""
     at_jump = [jump for jump in jumps(mesh, table) if abs(jump - x) < JUMPED]
     return [(at_jump[0], one) for one in side or "-+"] if at_jump else [(x, "")]

@@ -11,7 +11,6 @@ from tehl_taichi.physics import density
 from tehl_taichi.physics.densities import RHO0
 from tehl_taichi.physics.viscosities.roelands_temperature import LN_SCALE, LOG_SCALE, P_ROELANDS, ROELANDS_TEMPERATURE
 from tehl_taichi.scene import mineral_alpha
-from tehl_taichi.values import checks
 from tehl_taichi.values.plain import plain
 from tehl_taichi.values.quantity import quantity
 
@@ -19,15 +18,12 @@ NAME = "data-sheet"  # of an oil that is given no other
 LAW = ROELANDS_TEMPERATURE.name
 FROM = "data sheet: "  # begins the source of an oil that is given no other
 KEYS = {"nu_40": quantity(0.0, "m2/s", "of a data sheet, with nu_100 in place of the law's numbers: kinematic viscosity at 40 "
-                          "deg C (220 mm2/s: 220e-6); 0: not given", 0.0, 0.1),
-        "nu_100": quantity(0.0, "m2/s", "the same at 100 deg C", 0.0, 0.1),
+                          "deg C (220 mm2/s: 220e-6); 0: not given", 0.0, 0.1, usual=1e-4, least=1e-6),
+        "nu_100": quantity(0.0, "m2/s", "the same at 100 deg C", 0.0, 0.1, usual=1e-5, least=1e-6),
         "alpha_40": quantity(0.0, "1/Pa", "rise of the viscosity with pressure at 40 deg C, beside nu_40 and nu_100; 0: "
-                             "estimated as of a mineral oil", 0.0, 1e-7),
+                             "estimated as of a mineral oil", 0.0, 1e-7, usual=2e-8, least=1e-9),
         "rho_15": quantity(0.0, "kg/m3", "density at 15 deg C, beside nu_40 and nu_100, in place of rho0; 0: not given",
-                           0.0, 3000.0)}
-# what a sheet can say of each, in its unit, and a usual value
-SAYS = {"nu_40": (1e-6, 0.1, 1e-4), "nu_100": (1e-6, 0.1, 1e-5), "alpha_40": (1e-9, 1e-7, 2e-8),
-        "rho_15": (500.0, 3000.0, 880.0)}
+                           0.0, 3000.0, usual=880.0, least=500.0)}
 VISCOSITY = ("G0", "S0", "Dz", "Cz")
 
 
@@ -39,14 +35,6 @@ def speaks(values):
 def follows(values):
     """Names of the numbers that follow from the sheet of these values, () without one."""
     return () if not speaks(values) else (*VISCOSITY, "rho0") if values.get("rho_15", 0) else VISCOSITY
-
-
-def check_range(oil):
-    """Refuse a number that no oil has. Raises SceneError."""
-    for key, (low, high, usual) in SAYS.items():
-        value = plain(getattr(oil, key))
-        if value != 0 or isinstance(value, bool):
-            checks.number(f"oil.{key}", value, KEYS[key].metadata["kind"].unit, low, high, usual=usual)
 
 
 def completed(oil):

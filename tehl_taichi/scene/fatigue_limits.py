@@ -26,13 +26,6 @@ def follows(values):
     return ((), ("endurance",), ("kappa", "endurance"))[len(speaks(values))]
 
 
-def check_range(fatigue):
-    """Refuse a limit that no material has. Raises SceneError."""
-    for key in KEYS:
-        if (value := getattr(fatigue, key)) != 0:
-            number(f"fatigue.{key}", value, "Pa", LEAST_LIMIT, LARGEST_LIMIT, usual=USUAL_LIMIT)
-
-
 def completed(fatigue):
     """{key: value} that follow from the limits of a section [fatigue], nothing where it has none; its source, too, unless it
     is the user's own. Raises SceneError where the criterion fits no such material."""

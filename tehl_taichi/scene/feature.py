@@ -14,6 +14,7 @@ OWN = tuple(shape.keys for shape in SHAPES.values() if shape.keys)
 USED_BY = {key: tuple(name for name, shape in SHAPES.items() if key in shape.uses)
            for key in dict.fromkeys(key for shape in SHAPES.values() for key in shape.uses)}
 USED_BY |= {key: (name,) for name, shape in SHAPES.items() if shape.keys for key in kinds(shape.keys)}
+LARGEST = 0.03  # m: contacts are a millimetre wide, 0.05 was meant in mm
 
 
 def _about(key, general):
@@ -26,13 +27,13 @@ class Shared:
 
     shape: str = choice("cosine", "what it is", tuple(SHAPES))
     height: float = quantity(1.5e-6, "m", _about("height", "height"), -1e-3, 1e-3)
-    width: float = quantity(200e-6, "m", _about("width", "along x"), 1e-6, 0.1)
-    length: float = quantity(0.0, "m", _about("length", "along y"), 0.0, infinite=True)
-    x: float = quantity(0.0, "m", "centre, ahead of the first feature", -0.1, 0.1, usual=1e-4)
-    y: float = quantity(0.0, "m", "centre", -0.1, 0.1, usual=1e-4)
-    extent_x: float = quantity(0.0, "m", _about("extent_x", "length of the patch"), 0.0, 0.1, usual=5e-4)
-    extent_y: float = quantity(0.0, "m", _about("extent_y", "its width; 0: without end"), 0.0, 0.1, usual=5e-4)
-    taper: float = quantity(0.0, "m", _about("taper", "distance over which the patch fades out at its rim"), 0.0, 0.1,
+    width: float = quantity(200e-6, "m", _about("width", "along x"), 1e-6, LARGEST)
+    length: float = quantity(0.0, "m", _about("length", "along y"), 0.0, LARGEST, infinite=True, usual=5e-4)
+    x: float = quantity(0.0, "m", "centre, ahead of the first feature", -LARGEST, LARGEST, usual=1e-4)
+    y: float = quantity(0.0, "m", "centre", -LARGEST, LARGEST, usual=1e-4)
+    extent_x: float = quantity(0.0, "m", _about("extent_x", "length of the patch"), 0.0, LARGEST, usual=5e-4)
+    extent_y: float = quantity(0.0, "m", _about("extent_y", "its width; 0: without end"), 0.0, LARGEST, usual=5e-4)
+    taper: float = quantity(0.0, "m", _about("taper", "distance over which the patch fades out at its rim"), 0.0, LARGEST,
                             usual=5e-5)
 
 

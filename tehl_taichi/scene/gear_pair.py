@@ -9,6 +9,8 @@ from tehl_taichi.values.quantity import check, count, pairs, quantity
 
 LOOSE, TIGHT = 0.1, 0.001  # m_n by which a given centre distance may exceed that of the shifts (backlash), or fall short of it
 
+LARGEST = 15.0  # m, of a wheel: 91.5 was meant in mm
+
 
 @dataclass(frozen=True)
 class GearPair:
@@ -24,10 +26,11 @@ class GearPair:
     beta: float = quantity(0.0, "deg", "helix angle, 0: spur", 0.0, 45.0)
     x1: float = quantity(math.inf, "", "profile shift of the pinion over m_n; inf: not given", -3.0, infinite=True)
     x2: float = quantity(math.inf, "", "profile shift of the gear; inf: not given", -3.0, infinite=True)
-    a_w: float = quantity(0.0, "m", "centre distance; 0: from x1 and x2", 0.0, 50.0)
+    a_w: float = quantity(0.0, "m", "centre distance; 0: from x1 and x2", 0.0, LARGEST, usual=0.1)
     b: float = quantity(14e-3, "m", "common face width", 1e-4, 5.0)
-    d_a1: float = quantity(0.0, "m", "tip diameter of the pinion; 0: m_n (z/cos beta + 2 + 2 x - 2 Delta)", 0.0, 50.0)
-    d_a2: float = quantity(0.0, "m", "tip diameter of the gear; 0: alike", 0.0, 50.0)
+    d_a1: float = quantity(0.0, "m", "tip diameter of the pinion; 0: m_n (z/cos beta + 2 + 2 x - 2 Delta)", 0.0, LARGEST,
+                            usual=0.1)
+    d_a2: float = quantity(0.0, "m", "tip diameter of the gear; 0: alike", 0.0, LARGEST, usual=0.1)
     torque: float = quantity(265.1, "N m", "of the pinion", 0.0, 1e8, strict=True)
     n1: float = quantity(2170.0, "1/min", "speed of the pinion", 0.0, 1e6, strict=True)
     load_share: tuple = pairs((), "[way past C along the line of action from the pinion's root to its tip in m, share of the "

@@ -1,6 +1,7 @@
 """What is doubtful in a scene although it can be simulated, a sentence each: the warnings that are known before a run."""
 
-from tehl_taichi.scene import named_steels, oil_range, passing, room, route, thin_film
+from tehl_taichi.scene import keys, named_steels, oil_range, passing, room, route, scales, thin_film
+from tehl_taichi.values.quantity import Number
 
 
 def warnings(scene):
@@ -43,6 +44,20 @@ def thinned(scene):
                f"{apart / every:.3f} a)")
 
 
+FAINT, PRESSED = 1e8, 3e8  # Pa: steel under less hardly needs this program; what a load in another unit gives at least
+
+
+def unusual(scene):
+    """Values that were perhaps meant in another unit."""
+    for key, kind, value in keys.every(scene):
+        if isinstance(kind, Number) and isinstance(value, float) and (said := kind.doubted(key, value)):
+            yield said
+    p_H = scales.Scales.of(scene).p_H
+    if scene.contact.load and p_H < FAINT and (said := scene.load_meant(least=PRESSED)):
+        yield (f"contact.load = {scene.contact.load:g} {scene.load_unit} gives a Hertz pressure of {p_H / 1e6:.0f} MPa "
+               f"only{said}")
+
+
 # functions of a scene that give its sentences
 CHECKS = (passing.warnings, room.warnings, thin_film.warnings, oil_range.warnings, named_steels.doubts, cut_passage, thinned,
-          doubtful_features)
+          doubtful_features, unusual)

@@ -29,7 +29,6 @@ class Oil(_OIL):
     """
 
     def __post_init__(self):
-        data_sheet.check_range(self)
         check(self, "oil")
         for key in self.law_numbers:
             if getattr(self, key) == ():

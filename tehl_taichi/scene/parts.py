@@ -11,13 +11,17 @@ from tehl_taichi.physics import rheology
 from tehl_taichi.physics.boundary import BOUNDARY
 from tehl_taichi.physics.law import declared, section
 from tehl_taichi.scene import fatigue_limits
-from tehl_taichi.scene.fatigue_limits import LARGEST_LIMIT, USUAL_LIMIT
+from tehl_taichi.scene.fatigue_limits import LARGEST_LIMIT, LEAST_LIMIT, USUAL_LIMIT
 from tehl_taichi.scene.named_steels import STEELS
 from tehl_taichi.values.checks import build
+from tehl_taichi.values.meant import meant
 from tehl_taichi.values.plain import plain
 from tehl_taichi.values.quantity import AUTO, check, choice, count, quantities, quantity, switch, text
 
+LEAST_RESIDUAL, LARGEST_RESIDUAL = 1e5, 1e10  # Pa, in size: what is smaller does nothing, and was meant in MPa
+DEEPEST = 0.03  # m, of a depth: contacts are a millimetre wide, 0.05 was meant in mm
 LARGEST_RADIUS = 1.0  # m: the teeth of the largest gears have a fifth of it; a number beyond it was meant in mm
+LARGEST_RADIUS_Y = 100.0  # m: a roller is nearly straight
 
 
 @dataclass(frozen=True)
@@ -28,10 +32,12 @@ class Contact:
     """
 
     kind: str = choice("line", "shape; point: circular", ("line", "point", "elliptic"))
-    radius_x: float = quantity(10.6e-3, "m", "reduced radius along x, 1/R' = 1/r_a + 1/r_b", 1e-6, LARGEST_RADIUS)
-    radius_y: float = quantity(math.inf, "m", "reduced radius along y; line: inf", 1e-6, infinite=True)
+    radius_x: float = quantity(10.6e-3, "m", "reduced radius along x, 1/R' = 1/r_a + 1/r_b", 1e-6, LARGEST_RADIUS,
+                               common=(1e-4, 0.4))
+    radius_y: float = quantity(math.inf, "m", "reduced radius along y; line: inf", 1e-6, LARGEST_RADIUS_Y, infinite=True,
+                               usual=10e-3)
     load: float = quantity(0.0, "N/m or N", "line: N/m, point and elliptic: N; 0: not given", 0.0, 1e10)
-    hertz_pressure: float = quantity(0.0, "Pa", "in place of a load; 0: not given", 0.0, 2e10, usual=1e9)
+    hertz_pressure: float = quantity(0.0, "Pa", "in place of a load; 0: not given", 0.0, 2e10, usual=1e9, least=1e7)
     moes_M: float = quantity(0.0, "", "Moes' load number, with moes_L in place of load and speed; 0: not given", 0.0, 1e6)
     moes_L: float = quantity(0.0, "", "Moes' lubricant number, with moes_M; 0: not given", 0.0, 1e3)
 
@@ -55,7 +61,10 @@ class Contact:
                              "kind 'elliptic'")
         if self.kind != "line" and not 0.02 <= self.radius_y / self.radius_x <= 50:
             raise SceneError(f"contact.radius_y = {self.radius_y:g} m is out of range; allowed: radius_x/50 to 50 radius_x "
-                             f"(radius_x = {self.radius_x:g} m)")
+                             f"(radius_x = {self.radius_x:g} m){self._radius_meant()}")
+
+    def _radius_meant(self):
+        return meant(self.radius_y, "m", lambda other: 0.02 <= other / self.radius_x <= 50, self.radius_x)
 
 
 @dataclass(frozen=True)
@@ -70,7 +79,7 @@ class Body:
     E: float = quantity(206e9, "Pa", "Young's modulus", 1e6, 1e13)
     nu: float = quantity(0.3, "", "Poisson's ratio", 0.0, 0.499)
     k: float = quantity(47.0, "W/mK", "thermal conductivity", 0.01, 1e4)
-    rho: float = quantity(7850.0, "kg/m3", "density", 1.0, 1e5)
+    rho: float = quantity(7850.0, "kg/m3", "density", 100.0, 1e5)
     c: float = quantity(450.0, "J/kgK", "specific heat", 1.0, 1e5)
     alpha: float = quantity(12e-6, "1/K", "thermal expansion, for the thermal stress", 0.0, 1e-3)
 
@@ -82,7 +91,7 @@ class Body:
 class Operation:
     """Motion; u_a and u_b in m/s may be given in place of u_m and srr."""
 
-    u_m: float = quantity(8.5, "m/s", "mean speed (u_a + u_b)/2", 1e-6, 1e3)
+    u_m: float = quantity(8.5, "m/s", "mean speed (u_a + u_b)/2", 1e-6, 1e3, common=(1e-4, 200.0))
     srr: float = quantity(-0.12, "", "slip (u_a - u_b)/u_m; negative: the feature is on the slower surface", -2.0, 2.0)
     temperature: float = quantity(90.0, "deg C", "of oil and bodies at the inlet", -50.0, 300.0)
 
@@ -165,25 +174,27 @@ class Fatigue:
     kappa: float = quantity(0.3, "", f"sensitivity to stress, {sensitivities()}", 0.0, 5.0)
     endurance: float = quantity(400e6, "Pa", "fatigue limit sigma_eF: Fi = 1", 1e6, 1e11)
     bending_limit: float = quantity(0.0, "Pa", "fatigue limit in reversed bending, in place of endurance; with "
-                                    "torsion_limit of kappa, too; 0: not given", 0.0, LARGEST_LIMIT, usual=USUAL_LIMIT)
+                                    "torsion_limit of kappa, too; 0: not given", 0.0, LARGEST_LIMIT, usual=USUAL_LIMIT,
+                                    least=LEAST_LIMIT)
     torsion_limit: float = quantity(0.0, "Pa", "the same in reversed torsion, as handbooks have it", 0.0, LARGEST_LIMIT,
-                                    usual=USUAL_LIMIT)
+                                    usual=USUAL_LIMIT, least=LEAST_LIMIT)
     source: str = text("example values, set your own", "where kappa and endurance come from", one_line=False)
     criterion: str = choice("findley", "fatigue criterion", tuple(CRITERIA))
     depths: Union[tuple, str] = quantities(AUTO, "m", "searched below the surface; auto: the worst depth under the feature is "
-                                           "looked for; as [50e-6, 100e-6]: all points at these, too", 1e-7, 0.1,
+                                           "looked for; as [50e-6, 100e-6]: all points at these, too", 1e-7, DEEPEST,
                                            auto=True, usual=1e-4)
     shear: bool = switch(True, "whether the shear tractions count")
     thermal_stress: Union[bool, str] = switch(AUTO, "whether the stress of the heat counts; auto: where there are temperatures",
                                               auto=True)
-    residual_xx: float = quantity(0.0, "Pa", "constant residual stress along x", -1e10, 1e10, usual=-2e8)
-    residual_yy: float = quantity(0.0, "Pa", "constant residual stress along y", -1e10, 1e10, usual=-2e8)
+    residual_xx: float = quantity(0.0, "Pa", "constant residual stress along x", -LARGEST_RESIDUAL, LARGEST_RESIDUAL,
+                                  usual=-2e8, least=LEAST_RESIDUAL)
+    residual_yy: float = quantity(0.0, "Pa", "constant residual stress along y", -LARGEST_RESIDUAL, LARGEST_RESIDUAL,
+                                  usual=-2e8, least=LEAST_RESIDUAL)
     from_x: float = quantity(-math.inf, "a", "moments count from this position of the feature on; -inf: all", infinite=True)
     to_x: float = quantity(math.inf, "a", "moments count up to this position of the feature; inf: all", infinite=True)
 
     def __post_init__(self):
         check(self, "fatigue")
-        fatigue_limits.check_range(self)
         self._follow_limits()
         if not self.from_x < self.to_x:
             raise SceneError(f"fatigue.from_x = {self.from_x!r} a must be less than to_x = {self.to_x!r} a")

@@ -103,7 +103,7 @@ class Scene:
         p_H = scales.Scales.of(self).p_H
         if not MIN_HERTZ <= p_H <= MAX_HERTZ:
             raise SceneError(f"{self._load_words()} gives a Hertz pressure of {p_H:.3g} Pa; allowed: {MIN_HERTZ:.0e} to "
-                             f"{MAX_HERTZ:.0e} Pa{self._load_meant()}")
+                             f"{MAX_HERTZ:.0e} Pa{self.load_meant()}")
 
     def _check_path(self):
         start, end = self.path
@@ -129,7 +129,7 @@ class Scene:
                                  "a, an "
                                  f"undeformed gap of {gap:.3g} m, smaller than the height of a feature, {highest:.3g} m; "
                                  f"allowed: a height of at most {gap:.2g} m, more load{farther}"
-                                 f"{self._load_meant(need / abs(end)) or self._form_words()}")
+                                 f"{self.load_meant(need / abs(end)) or self._form_words()}")
 
     def _form_words(self):
         """What is said of the form of a measured feature, which makes it higher than it need be."""
@@ -144,19 +144,24 @@ class Scene:
     def _load_given(self):
         """(key, value, unit) of the load."""
         key = next(key for key in ("load", "hertz_pressure", "moes_M") if getattr(self.contact, key) > 0)
-        unit = {"load": "N/m" if self.contact.kind == "line" else "N", "hertz_pressure": "Pa", "moes_M": ""}[key]
+        unit = {"load": self.load_unit, "hertz_pressure": "Pa", "moes_M": ""}[key]
         return key, getattr(self.contact, key), unit
 
-    def _load_meant(self, wider=0.0):
-        """What the load was perhaps meant as, where it makes no contact, or one that has to be so many times wider. Width and
-        Hertz pressure grow alike with it."""
+    @property
+    def load_unit(self):
+        """Of contact.load."""
+        return "N/m" if self.contact.kind == "line" else "N"
+
+    def load_meant(self, wider=0.0, least=MIN_HERTZ):
+        """What the load was perhaps meant as, where it makes no contact, or one that has to be so many times wider, or with
+        that Hertz pressure (Pa) at least. Width and Hertz pressure grow alike with it."""
         key, value, unit = self._load_given()
         power = 1.0 if key == "hertz_pressure" else 1 / 2 if self.contact.kind == "line" else 1 / 3
         p_H = scales.Scales.of(self).p_H
 
         def fits(other):
             times = (other / value) ** power
-            return times >= wider and MIN_HERTZ <= times * p_H <= MAX_HERTZ
+            return times >= wider and least <= times * p_H <= MAX_HERTZ
 
         return meant(value, unit, fits)
 

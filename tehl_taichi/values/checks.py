@@ -12,25 +12,37 @@ from tehl_taichi.values.plain import plain, shown
 HUGE = 10**300  # whole numbers beyond it are no floats
 
 
-def number(where, value, unit="", low=-math.inf, high=math.inf, strict=False, infinite=False, usual=0.0):
-    """Refuse `value` unless it is a number within low..high (`strict`: low itself is refused too); of what is out of range as
-    if in another unit the one is named that comes nearest to a usual value."""
+def number(where, value, unit="", low=-math.inf, high=math.inf, strict=False, infinite=False, usual=0.0, least=0.0):
+    """Refuse `value` unless it is a number within low..high (`strict`: low itself is refused too), and 0, infinite or at least
+    `least` in size; of what is out of range as if in another unit the one is named that comes nearest to a usual value."""
+    allowed = _allowed(unit, low, high, strict, least)
     if isinstance(value, bool) or not isinstance(value, (int, float)) or value != value:
-        raise SceneError(f"{where} = {shown(value)} is not a number{_allowed(unit, low, high, strict)}")
+        raise SceneError(f"{where} = {shown(value)} is not a number{allowed}")
     if abs(value) == math.inf and not infinite:
-        raise SceneError(f"{where} = {value} must be finite{_allowed(unit, low, high, strict)}")
-    if value < low or value > high or (strict and value == low) or (isinstance(value, int) and abs(value) > HUGE):
+        raise SceneError(f"{where} = {value} must be finite{allowed}")
+    if not _within(value, low, high, strict, least, infinite) or (isinstance(value, int) and abs(value) > HUGE):
         text = f"{value:g}" if isinstance(value, float) else shown(value)
-        other = meant(value, unit, lambda other: low <= other <= high, usual) if abs(value) <= HUGE else ""
-        raise SceneError(f"{where} = {text}{' ' * bool(unit)}{unit} is out of range{_allowed(unit, low, high, strict)}{other}")
+        other = meant(value, unit, lambda other: _within(other, low, high, strict, least), usual) if abs(value) <= HUGE else ""
+        raise SceneError(f"{where} = {text}{' ' * bool(unit)}{unit} is out of range{allowed}{other}")
 
 
-def _allowed(unit, low, high, strict):
+def _within(value, low, high, strict, least, infinite=False):
+    """Whether a value is in its range; infinite: and so is inf, above a range that begins somewhere."""
+    if infinite and value == math.inf and low > -math.inf:
+        return True
+    return low <= value <= high and not (strict and value == low) and (value == 0 or abs(value) >= least)
+
+
+def _allowed(unit, low, high, strict, least=0.0):
+    """The range as a refusal says it; least: the smallest size of what is not 0."""
     unit = " " + unit if unit else ""
-    above = f"{'more than' if strict else 'at least'} {low:g}{unit}" if low > -math.inf else ""
+    if least:
+        above = f"0, or at least {least:g}{unit}"
+    else:
+        above = f"{'more than' if strict else 'at least'} {low:g}{unit}" if low > -math.inf else ""
     below = f"at most {high:g}{unit}" if high < math.inf else ""
     both = " and ".join(part for part in (above, below) if part)
-    return f"; allowed: {both}" if both else ""
+    return f"; allowed: {both}{', of either sign' if least and low < 0 else ''}" if both else ""
 
 
 def integer(where, value, low, high):

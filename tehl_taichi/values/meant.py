@@ -5,7 +5,10 @@ import math
 # {unit: [(power of ten, its name)]}
 WRITTEN = {"m": ((-3, "mm"), (-6, "um"), (-9, "nm")), "Pa": ((6, "MPa"), (9, "GPa")), "N/m": ((3, "N/mm"),), "N": ((3, "kN"),),
            "m/s": ((-3, "mm/s"),), "kg/m3": ((3, "kg/l"),), "m2/s": ((-6, "mm2/s"),), "1/Pa": ((-9, "1/GPa"), (-6, "1/MPa")),
-           "Pa s": ((-3, "mPa s"),), "1/K": ((-6, "um/mK"),), "J/kgK": ((3, "kJ/kgK"),), "N m": ((3, "kN m"),)}
+           "Pa s": ((-3, "mPa s"),), "1/K": ((-6, "um/mK"),), "J/kgK": ((3, "kJ/kgK"),), "N m": ((3, "kN m"),),
+           "Pa sqrt(m)": ((6, "MPa sqrt(m)"),), "mm": ((3, "m"), (-3, "um")), "N/mm": ((-3, "N/m"), (3, "kN/mm")),
+           "µm": ((6, "m"), (3, "mm"))}
+KELVIN = 273.15  # of 0 deg C
 
 
 def meant(value, unit, fits, usual=0.0):
@@ -16,12 +19,15 @@ def meant(value, unit, fits, usual=0.0):
     >>> meant(206, "Pa", lambda value: value > 1e6, usual=2e11)
     '; did you mean 206e9 Pa (206 GPa)?'
     """
+    if unit == "deg C" and fits(value - KELVIN):
+        return f"; did you mean {value - KELVIN:g} deg C ({value:g} K)?"
     found = [(power, name) for power, name in WRITTEN.get(unit, ()) if value and fits(value * 10.0**power)]
     if not found:
         return ""
     power, name = min(found, key=lambda one: _apart(value * 10.0**one[0], usual))
     digits = f"{value:g}"
-    return "" if "e" in digits else f"; did you mean {digits}e{power} {unit} ({digits} {name})?"
+    scaled = f"{value * 10.0**power:g}" if "e" in digits else f"{digits}e{power}"
+    return f"; did you mean {scaled} {unit} ({digits} {name})?"
 
 
 def _apart(value, usual):

@@ -9,6 +9,7 @@ import math
 from dataclasses import dataclass
 
 from tehl_taichi.values import checks
+from tehl_taichi.values.meant import meant
 from tehl_taichi.values.plain import shown
 
 AUTO = "auto"
@@ -27,7 +28,9 @@ class Kind:
 
 @dataclass(frozen=True)
 class Number(Kind):
-    """A number in its unit; strict: `low` itself is refused; infinite: inf is allowed; usual: one of its order (0: unknown)."""
+    """A number in its unit; strict: `low` itself is refused; infinite: inf is allowed; usual: one of its order (0: unknown);
+    least: the smallest size of one that is not 0, below which it was meant in another unit; common: (low, high), what is
+    allowed beyond them is doubted where another unit makes a common value of it."""
 
     about: str
     unit: str = "-"
@@ -36,13 +39,26 @@ class Number(Kind):
     strict: bool = False
     infinite: bool = False
     usual: float = 0.0
+    least: float = 0.0
+    common: tuple = ()
+
+    def doubted(self, where, value):
+        """A sentence about a value that is allowed, but was perhaps meant in another unit; "" where it was not."""
+        low, high = self.common or (-math.inf, math.inf)
+        if low <= value <= high:
+            return ""
+        other = meant(value, self.unit, lambda other: low <= other <= high, self.usual)
+        return f"{where} = {value:g} {self.unit} is unusual{other}" if other else ""
 
     def check(self, where, value):
-        checks.number(where, value, self.unit.strip("-"), self.low, self.high, self.strict, self.infinite, self.usual)
+        checks.number(where, value, self.unit.strip("-"), self.low, self.high, self.strict, self.infinite, self.usual,
+                      self.least)
 
     @property
     def allowed(self):
         """The range in words, '' where there is none."""
+        if self.least:
+            return f"0 or {self.least:g} to {self.high:g}{' in size' * (self.low < 0)}"
         if self.low > -math.inf and self.high < math.inf:
             return f"{'more than ' if self.strict else ''}{self.low:g} to {self.high:g}"
         above = f"{'more than' if self.strict else 'at least'} {self.low:g}" if self.low > -math.inf else ""
@@ -163,10 +179,12 @@ def _declared(default, kind, compare=True):
     return dataclasses.field(default=default, compare=compare, metadata={"kind": kind})
 
 
-def quantity(default, unit, about, low=-math.inf, high=math.inf, strict=False, infinite=False, usual=0.0):
-    """Field of a dataclass: a number in `unit` within low..high; usual: one of its order, where the default is none."""
-    usual = usual or (default if math.isfinite(default) else 0.0)
-    return _declared(default, Number(about, unit or "-", low, high, strict, infinite, usual))
+def quantity(default, unit, about, low=-math.inf, high=math.inf, strict=False, infinite=False, usual=0.0, least=0.0,
+             common=()):
+    """Field of a dataclass: a number in `unit` within low..high; usual: one of its order, where the default is none; least,
+    common: see :class:`Number`."""
+    usual = usual or (default if default is not None and math.isfinite(default) else 0.0)
+    return _declared(default, Number(about, unit or "-", low, high, strict, infinite, usual, least, common))
 
 
 def quantities(default, unit, about, low=-math.inf, high=math.inf, auto=False, usual=0.0):
@@ -201,15 +219,18 @@ def pairs(default, about, fewest, most, jumps=False):
 
 def kinds(cls):
     """{key: its Number, Count, Choice, ...} of a section of a scene, in the order of its keys."""
-    return {f.name: f.metadata["kind"] for f in dataclasses.fields(cls)}
+    return {f.name: f.metadata["kind"] for f in dataclasses.fields(cls) if "kind" in f.metadata}
 
 
-def check(part, section, **units):
-    """Check every value of `part` as it is declared. units: {key: unit} where a unit depends on other values.
+def check(part, section="", **units):
+    """Check every value of `part` as it is declared; where its default is None, so can the value be. units: {key: unit} where a
+    unit depends on other values.
 
     Raises SceneError: one sentence with the value, the unit and what is allowed.
     """
     checks.normalise(part)
     for key, kind in kinds(type(part)).items():
         kind = dataclasses.replace(kind, unit=units[key]) if key in units else kind
-        kind.check(f"{section}.{key}", getattr(part, key))
+        value = getattr(part, key)
+        if value is not None or getattr(type(part), key) is not None:
+            kind.check(f"{section}.{key}".lstrip("."), value)

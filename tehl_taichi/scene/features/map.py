@@ -17,6 +17,7 @@ from tehl_taichi.values.checks import number
 from tehl_taichi.values.quantity import choice, quantity, switch, text
 
 MAX_RANGE, MAX_SLOPE = 1e-4, 45.0  # m, degrees, of a map: beyond them no film, or a wrong unit or pixel
+FARTHEST = 5e-4  # m, between points of a map: 0.001 was meant in mm
 
 
 @dataclass(frozen=True)
@@ -27,9 +28,10 @@ class Measured:
                      "path in a scene file starts at that file", most=4096, compare=False)
     unit: str = choice("", "map: of the heights in its file", ("", *UNITS))
     scale: float = quantity(1.0, "", "map: its heights are multiplied with it; -1 turns them over, as for a replica", -1e3, 1e3)
-    pixel: float = quantity(0.0, "m", "map: distance of the points in a row of the file; 0: not given", 0.0, 1e-2, usual=1e-6)
-    pixel_y: float = quantity(0.0, "m", "map: distance of the rows of the file, where it is another one; 0: pixel", 0.0, 1e-2,
-                              usual=1e-6)
+    pixel: float = quantity(0.0, "m", "map: distance of the points in a row of the file; 0: not given", 0.0, FARTHEST,
+                            usual=1e-6)
+    pixel_y: float = quantity(0.0, "m", "map: distance of the rows of the file, where it is another one; 0: pixel", 0.0,
+                              FARTHEST, usual=1e-6)
     transpose: bool = switch(False, "map: the rows of its file lie along y, across; pixel and pixel_y stay those of the file")
     mirror_x: bool = switch(False, "map: its ends along x change places (transpose comes first)")
     mirror_y: bool = switch(False, "map: its ends along y change places (transpose comes first)")

@@ -1,0 +1,18 @@
+"""All keys of a scene by their full names, with what they are declared as."""
+
+from tehl_taichi.scene.parts import SECTIONS
+from tehl_taichi.values.quantity import kinds
+
+
+def parts(scene):
+    """{name before the key, as in "bodies.a" or "feature.0": that part} of a scene."""
+    sections = {name: getattr(scene, name) for name in SECTIONS}
+    features = {f"feature.{n}": feature for n, feature in enumerate(scene.features)}
+    return {**sections, "oil": scene.oil, "bodies.a": scene.body_a, "bodies.b": scene.body_b, **features}
+
+
+def every(scene):
+    """(full key, its declaration, its value) of every key of a scene but name and note."""
+    for name, part in parts(scene).items():
+        for key, kind in kinds(type(part)).items():
+            yield f"{name}.{key}", kind, getattr(part, key)
