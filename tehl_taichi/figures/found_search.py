@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import Any
 
+from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.figures.index_words import REST, resolved
 from tehl_taichi.scene.passing_words import from_centre, passing, where
 from tehl_taichi.scene.scales import Scales
@@ -40,7 +41,8 @@ class Found:
     @classmethod
     def of(cls, scene, maps, summary, depth=None):
         """Of a search of a scene, with its maps and those of its part."""
-        common = scene.name, Scales.of(scene).a, from_centre(scene), depth, passing(scene)
+        name = f"{scene.name}, pressure alone" if why_none(summary) else scene.name
+        common, summary = (name, Scales.of(scene).a, from_centre(scene), depth, passing(scene)), searched(summary)
         known = summary.get("resolved")
         part = _of(common, _part(maps), {**{key: summary[key] for key in CONSTANTS}, **known},
                    when=resolved(known, where(scene))) if known and OF_PART + "Fi" in maps else None

@@ -3,6 +3,7 @@ that give their sentences."""
 
 import numpy as np
 
+from tehl_taichi.fatigue.pressure_alone import searched
 from tehl_taichi.march import readings
 from tehl_taichi.march.peaks import peak, ripple, sharpest
 from tehl_taichi.scene import finer
@@ -14,12 +15,24 @@ MOST_RIPPLE = 0.005  # of the largest pressure: a tenth of what a passing featur
 NO_VALUE = "oil without a shear limit has no finite value here; take temperatures or a limiting law (rheology.law)"
 
 
+def too_much_friction(store):
+    """["when value", ...] where the friction coefficient of the film alone is beyond that of any oil: the least that it may be,
+    as solid contact has at most the coefficient that the scene gives it."""
+    film = store.scalar("friction_coefficient") - store.scene.rheology.mu_boundary * store.scalar("contact_load_fraction")
+    parts = ("steady", slice(0, 1)), ("in the passage up to", slice(1, None))
+    return [f"{when} {film[part].max():.3g}" for when, part in parts if film[part].size and film[part].max() > MOST_FRICTION]
+
+
+def no_index(store):
+    """Why no index of fatigue follows from the tractions of a run, "" where one does."""
+    found = too_much_friction(store)
+    return (f"the friction coefficient of the film ({', '.join(found)}) is more than {MOST_FRICTION:g}, more than any oil has"
+            if found else "")
+
+
 def friction(store, summary):
-    """Of the film alone, at least: solid contact has at most the coefficient that the scene gives it."""
-    rheology, steady = store.scene.rheology, slice(0, 1)
-    film = store.scalar("friction_coefficient") - rheology.mu_boundary * store.scalar("contact_load_fraction")
-    found = [f"{when} {film[part].max():.3g}" for when, part in (("steady", steady), ("in the passage up to", slice(1, None)))
-             if film[part].size and film[part].max() > MOST_FRICTION]
+    """Shear that no oil has."""
+    rheology, found = store.scene.rheology, too_much_friction(store)
     if found:
         law = (f"a Newtonian film (rheology.law = {rheology.law}) has no limit; its flow holds, its friction does not"
                if not rheology.thins else f"the constants of the law {rheology.law!r} allow it")
@@ -29,8 +42,9 @@ def friction(store, summary):
 
 def _follow(scene, summary):
     """What follows from such a shear, in words: it loads the surface, and heats the film."""
-    said = ["the index of fatigue"] * ("fatigue" in summary) + ["the temperatures"] * (not scene.isothermal)
-    return f"; what follows from that shear has no meaning either: {' and '.join(said)}" if said else ""
+    said = ["the index of fatigue is that of the pressure alone"] * ("fatigue" in summary and scene.fatigue.shear)
+    said += ["the temperatures that follow from it have no meaning"] * (not scene.isothermal)
+    return f"; {' and '.join(said)}" if said else ""
 
 
 def unresolved(store, summary):
@@ -45,7 +59,7 @@ def unresolved(store, summary):
 
 def first_unresolved(store, summary):
     """Where the resolved part of a passage ends, if not at the outlet, of which the bars tell."""
-    part, a = summary.get("fatigue", {}).get("resolved"), Scales.of(store.scene).a
+    part, a = searched(summary.get("fatigue", {})).get("resolved"), Scales.of(store.scene).a
     later = [n for n in range(1, len(store)) if part and store.feature_x(n) > (part["to_x_a"] + 1e-9) * a]
     if later:
         p = store.fields(later[0], ("pressure",))["pressure"]

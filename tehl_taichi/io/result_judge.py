@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.io import film_judge, rim_judge
 from tehl_taichi.march.companions import near_the_surface
 from tehl_taichi.physics import conduction
@@ -50,7 +51,7 @@ def crowded(store, summary):
 
 def unknown_errors(store, summary):
     """Numbers of which no error can be told, with the reason; one sentence for all that share it."""
-    fatigue, deep = summary.get("fatigue", {}), " below the surface"
+    fatigue, deep = searched(summary.get("fatigue", {})), " below the surface"
     early, of_it = fatigue.get("resolved", {}), " of the resolved part"
     reasons = {}
     for part, when, behind in ((summary.get("steady", {}), "steady ", ""), (summary.get("transient", {}), "passage ", ""),
@@ -77,11 +78,12 @@ def yielding(store, summary):
 
 def worst_below(store, summary):
     """The surface is not where the body is worst loaded."""
-    fatigue = summary.get("fatigue", {})
+    fatigue = searched(summary.get("fatigue", {}))
     deep = fatigue.get("below")
     if not deep or deep["Fi_max"] <= fatigue["Fi_max"]:
         return []
-    said = (f"the worst point lies below the surface: Fi {deep['Fi_max']:.2f} at {micrometres(deep['depth_m'])} um, "
+    alone_of = "from the pressure alone " * bool(why_none(summary["fatigue"]))
+    said = (f"{alone_of}the worst point lies below the surface: Fi {deep['Fi_max']:.2f} at {micrometres(deep['depth_m'])} um, "
             f"{fatigue['Fi_max']:.2f} at the surface")
     alone = deep.get("contact_alone")
     if alone and alone["Fi_max"] > fatigue["Fi_max"]:

@@ -1,5 +1,6 @@
 """Worst points that lie where a measured map ends: what is worst there may be the rim's, not the surface's."""
 
+from tehl_taichi.fatigue.pressure_alone import searched
 from tehl_taichi.scene.passing_words import passing
 from tehl_taichi.scene.scales import Scales
 
@@ -8,7 +9,7 @@ NEAR = 2  # cells of the grid: so near to an edge that a stress is of both its s
 
 def rims(store, summary):
     """A sentence for every worst point at the rim of a map; of those of the resolved part first, each place once."""
-    found = summary.get("fatigue", {})
+    found = searched(summary.get("fatigue", {}))
     seen = set()
     for part, of in ((found.get("resolved", {}), " of the resolved part"), (found, "")):
         for point, where in ((part, "at the surface"), (part.get("below", {}), "below the surface")):

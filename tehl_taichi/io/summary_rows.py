@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass, replace
 
+from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.march.readings import HEAT
 from tehl_taichi.scene.passing_words import between
 from tehl_taichi.values.digits import decimals, micrometres
@@ -108,8 +109,18 @@ def _passage_rows(summary):
 
 
 def rows_of_fatigue(f):
-    """A list of :class:`Row` of a fatigue summary: the worst point of the surface, then of what lies below; where the grid does
-    not resolve every pressure first those of the part before, on which the answer rests."""
+    """A list of :class:`Row` of a fatigue summary (see :func:`_rows_of_search`); where the tractions give no index, the reason,
+    then the rows of the pressure alone."""
+    why = why_none(f)
+    rows = _rows_of_search(searched(f))
+    if not why:
+        return rows
+    return [Row("Fi_max", f"no value: {why}"), *(replace(row, what=f"{row.what}, pressure alone") for row in rows)]
+
+
+def _rows_of_search(f):
+    """A list of :class:`Row` of what a search found: the worst point of the surface, then of what lies below; where the grid
+    does not resolve every pressure first those of the part before, on which the answer rests."""
     rows = [_of(f, "Fi_max", "Fi_max at the surface", where=_whole(f)),
             _stress(f"{f['criterion']} stress", f["findley_stress_max_Pa"]), *_point_rows(f),
             _stress("largest principal stress on the surface", f["sigma1_max_Pa"]),

@@ -13,6 +13,7 @@ import numpy as np
 
 from tehl_taichi.engine import runtime
 from tehl_taichi.errors import Error
+from tehl_taichi.fatigue.pressure_alone import searched
 from tehl_taichi.march import readings
 from tehl_taichi.march.error_bars import Reading, bars
 from tehl_taichi.march.peaks import LEAST
@@ -100,8 +101,9 @@ def near_the_surface(deep, fatigue):
 
 def indices(fatigue):
     """{name of its largest index among the readings: part of the summary of a search}, of the parts that there are."""
-    part = fatigue.get("resolved", {})
-    found = {FI: fatigue, BELOW: fatigue.get("below"), RESOLVED: part, RESOLVED_BELOW: part.get("below")}
+    found = searched(fatigue)
+    part = found.get("resolved", {})
+    found = {FI: found, BELOW: found.get("below"), RESOLVED: part, RESOLVED_BELOW: part.get("below")}
     return {name: part for name, part in found.items() if part}
 
 

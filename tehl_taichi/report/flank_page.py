@@ -1,5 +1,6 @@
 """The page of a flank: where along it a crack would start, from what its folder keeps."""
 
+from tehl_taichi.fatigue.pressure_alone import why_none
 from tehl_taichi.figures.palette import GREY
 from tehl_taichi.flank.columns import dig, tables
 from tehl_taichi.flank.flank_figure import PANELS
@@ -29,14 +30,23 @@ def of(folder):
         Section("Provenance", (facts(_provenance(flank)),))))
 
 
+QUESTION = "Where along the flank does a fatigue crack start?"
+
+
 def _where(at):
     """A position in words."""
     return f"{at.point}{', ' * bool(at.point)}x_pl = {at.x_pl * 1e3:.3f} mm"
 
 
+def _has_index(summary):
+    """Whether a fatigue search of this position gave an index."""
+    found = dig(summary, "fatigue")
+    return bool(found) and not why_none(found)
+
+
 def worst(flank):
     """[(Fi, where in words, its error or None)] of every position, the largest first."""
-    found = [(Fi, f"{layer} at {_where(at)}", error) for at, _, summary in flank.rows if dig(summary, "fatigue")
+    found = [(Fi, f"{layer} at {_where(at)}", error) for at, _, summary in flank.rows if _has_index(summary)
              for layer, Fi, error in verdict.layers(summary["fatigue"])]
     return sorted(found, key=lambda entry: -entry[0])
 
@@ -45,14 +55,18 @@ def _answer(flank):
     found = worst(flank)
     left = f"{len(flank.failed)} of {len(flank.rows)} positions did not converge and are not in this answer."
     said = f"Warnings of the positions, listed below: {len(warnings(flank))}."
-    doubts = (*[left] * bool(flank.failed), f"Assumed: {flank.told['assumption']}.", *[said] * bool(warnings(flank)))
+    none = [f"At {_where(at)} no verdict: {why_none(found)}." for at, _, summary in flank.rows
+            if (found := dig(summary, "fatigue")) and why_none(found)]
+    doubts = (*none, *[left] * bool(flank.failed), f"Assumed: {flank.told['assumption']}.", *[said] * bool(warnings(flank)))
+    if not found and none:
+        return Answer(QUESTION, "No verdict: the films of all positions have more friction than any oil.", "open", (), doubts)
     if not found:
         return _of_films(flank, doubts)
     Fi, where, error = found[0]
     headline, tone = verdict.headline(verdict.judged(Fi, error), where, error is not None)
-    above = [summary for *_, summary in flank.rows if dig(summary, "fatigue")
+    above = [summary for *_, summary in flank.rows if _has_index(summary)
              and max(value for _, value, _ in verdict.layers(summary["fatigue"])) > 1]
-    return Answer("Where along the flank does a fatigue crack start?", headline, tone, (
+    return Answer(QUESTION, headline, tone, (
         f"The largest index is Fi = {index(Fi, error)}, {where}.",
         f"It is above 1 at {len(above)} of {len(flank.rows)} positions."), doubts)
 

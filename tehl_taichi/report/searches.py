@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.figures.found_search import CONSTANTS, OF_PART, SHARED
 from tehl_taichi.figures.index_words import PART, resolved
 from tehl_taichi.report import numbered_places
@@ -40,7 +41,8 @@ class Search:
 def searches(store):
     """One :class:`Search`, or two: where the grid does not resolve every pressure first that of the part before, on which the
     answer rests."""
-    found, over = store.summary["fatigue"], when(store.scene)
+    found, over = searched(store.summary["fatigue"]), when(store.scene)
+    over += ", pressure alone" * bool(why_none(store.summary["fatigue"]))
     known = found.get("resolved")
     if not known:
         return [Search(store, found, over)]

@@ -1,5 +1,6 @@
 """The answer of a run, in a sentence, and what it rests on."""
 
+from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.io import rim_judge
 from tehl_taichi.io.result_judge import STEEL, YIELDS, largest_pressure
 from tehl_taichi.report.document import Answer
@@ -43,6 +44,7 @@ def judged(Fi, error=None):
 
 def layers(fatigue):
     """[(where in words, Fi, its error or None)] of the surface and of what lies below it; of a search or of its part."""
+    fatigue = searched(fatigue)
     found = [("at the surface", fatigue)]
     if "below" in fatigue:
         found.append((f"{micrometres(fatigue['below']['depth_m'])} µm below the surface", fatigue["below"]))
@@ -52,6 +54,8 @@ def layers(fatigue):
 def of_fatigue(fatigue, scene=None):
     """(question, headline, tone, sentences) of the summary of a search; scene: whose, which tells the moments and what passes;
     None: nobody knows it, all moments of a feature."""
+    if why := why_none(fatigue):
+        return FATIGUE, f"No verdict: {why}.", "open", _from_pressure(searched(fatigue))
     over = when(scene) if scene else WHOLE
     worst, places, known, tells = _judged(fatigue)
     said, tells = headline(worst, places, known), [*tells, *_alone(fatigue, over, passing_words.passing(scene))]
@@ -60,13 +64,24 @@ def of_fatigue(fatigue, scene=None):
     return FATIGUE, *said, (*tells, *_plane(fatigue))
 
 
+def _from_pressure(found):
+    """Sentences on the index of the pressure alone."""
+    told_of = (_told(*layer) for layer in _judged_layers(found))
+    return ("From the pressure alone, without shear on the surface and its heat:", *told_of)
+
+
 def _judged(fatigue):
     """(the worst of what is judged, where, whether the errors behind it are known, sentences)."""
-    found = [(where, Fi, error, judged(Fi, error)) for where, Fi, error in layers(fatigue)]
+    found = _judged_layers(fatigue)
     worst = max(said for *_, said in found)
     places = " and ".join(where for where, _, _, said in found if said == worst)
     known = all(error is not None for _, _, error, said in found if said == worst)
     return worst, places, known, [_told(*layer) for layer in found]
+
+
+def _judged_layers(fatigue):
+    """[(where, Fi, its error or None, what is said of it)], see :func:`layers`."""
+    return [(where, Fi, error, judged(Fi, error)) for where, Fi, error in layers(fatigue)]
 
 
 def _by_what_is_known(part, whole, tells, over, whose):
@@ -174,7 +189,7 @@ def _counted(scene):
 def _constants(store, summary):
     if "fatigue" not in summary:
         return ()
-    f = summary["fatigue"]
+    f = searched(summary["fatigue"])
     said = (f"Fi = 1 is the fatigue limit σ_eF = {f['sigma_eF_Pa'] / 1e6:.4g} MPa with κ = {f['kappa_F']:g} "
             f"({f['criterion']}): {material(store.scene.fatigue)}.")
     stress = "counts" if f["thermal_stress"] else "does not count"

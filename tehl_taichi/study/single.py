@@ -10,7 +10,7 @@ from pathlib import Path
 from tehl_taichi.errors import StoreError, stopped
 from tehl_taichi.io.found import find
 from tehl_taichi.scene import Scene
-from tehl_taichi.study.progress import ERRORS, FATIGUE, PASSAGE, STEADY, Progress
+from tehl_taichi.study.progress import ERRORS, PASSAGE, STEADY, Progress
 from tehl_taichi.study.stored_run import Run
 
 
@@ -151,6 +151,7 @@ def _announce(scene, progress):
 
 def _finish(saved, state, steady, clock, progress):
     """From a state of the store to its summary."""
+    from tehl_taichi.fatigue.pressure_alone import why_none
     from tehl_taichi.io.summary import summarise
     from tehl_taichi.march import companions
     from tehl_taichi.study import beside
@@ -160,7 +161,8 @@ def _finish(saved, state, steady, clock, progress):
         until = _resolved(saved)
         told = begun(until)
         fatigue, maps = _fatigue(saved, until, progress)
-        passage = companions.errors(saved.scene, saved, fatigue, lambda: told(functools.partial(progress.stage, ERRORS)))
+        sure = fatigue if fatigue and not why_none(fatigue) else None
+        passage = companions.errors(saved.scene, saved, sure, lambda: told(functools.partial(progress.stage, ERRORS)))
     saved.finish(summarise(saved, {**clock.times(), **steady, **passage}, fatigue), maps)
     return Run(saved)
 
@@ -210,12 +212,12 @@ def _resolved(saved):
 
 def _fatigue(saved, until, progress):
     """(summary, maps) of the fatigue search, None twice where there is none."""
+    from tehl_taichi.study.assessed import assessed
+
     if not _searched(saved):
         return None, None
-    from tehl_taichi.fatigue import assessment
-
     progress.say("stresses and Findley search")
-    result = assessment.run(saved.scene, saved, lambda done, total: progress.stage(FATIGUE, done, total), until)
+    result = assessed(saved, saved.scene, progress, until)
     return result.summary, result.maps
 
 

@@ -52,15 +52,15 @@ class Run:
     def fatigue(self, *, progress: Any = None, threads: int | None = None, until: float | None = None, **constants: Any) -> Any:
         """Its fatigue again, with other constants: :func:`tehl_taichi.fatigue` of it; told apart up to where its grid resolves
         the pressure (or `until`), with the error bars of its index where they hold for these constants, too."""
-        from tehl_taichi.fatigue import fatigue
         from tehl_taichi.fatigue.constants import changed
         from tehl_taichi.march import companions
         from tehl_taichi.study import errors_again
+        from tehl_taichi.study.assessed import assessed
 
         scene = changed(self.scene, constants)
         if until is None and len(self.store) > 1:
             until = companions.resolved(self.scene, self.store, self.store.scalar)
-        found = fatigue(self, scene, progress=progress, threads=threads, until=until)
+        found = assessed(self.store, scene, progress, until, threads)
         errors_again.tell(found.summary, scene.fatigue, self.store)
         return found
 

@@ -1,0 +1,21 @@
+"""Fatigue of a run whose film carries more shear than any oil: no index, and the index of its pressure alone."""
+
+CONSTANTS = ("kappa_F", "sigma_eF_Pa", "criterion")
+WITHOUT = {"fatigue.shear": False, "fatigue.thermal_stress": False}  # changes of a scene: no shear on the surface, nor its heat
+
+
+def without_index(found, why):
+    """The summary of such a run. found: summary of the search with the changes WITHOUT; why: there is no index, in words."""
+    index = {"Fi_max": None, "findley_stress_max_Pa": None}
+    return {**index, "unknown": dict.fromkeys(index, why), **{key: found[key] for key in CONSTANTS},
+            "thermal_stress": False, "pressure_alone": found}
+
+
+def searched(summary):
+    """The numbers that a search found: the summary itself, or those of the pressure alone."""
+    return summary.get("pressure_alone", summary)
+
+
+def why_none(summary):
+    """Why there is no index, "" where there is one."""
+    return summary["unknown"]["Fi_max"] if "pressure_alone" in summary else ""
