@@ -75,12 +75,12 @@ def test_what_follows_from_a_friction_that_no_oil_bears_is_named():
     def told(summary, **changes):
         return next(film_judge.friction(Made(gear(**{"rheology.law": "newtonian"}, **changes), friction=(1.8, 33.3)), summary))
 
-    none = "no meaning either"
-    assert none not in told({})
-    assert told({"fatigue": {}}).endswith("; what follows from that shear has no meaning either: the index of fatigue")
-    assert told({}, **{"thermal.on": True}).endswith("meaning either: the temperatures")
-    both = told({"fatigue": {}}, **{"thermal.on": True})
-    assert both.endswith("meaning either: the index of fatigue and the temperatures")
+    index, heat = "the index of fatigue is that of the pressure alone", "the temperatures that follow from it have no meaning"
+    assert index not in told({}) and heat not in told({})
+    assert told({"fatigue": {}}).endswith(f"; {index}")
+    assert told({}, **{"thermal.on": True}).endswith(f"; {heat}")
+    assert told({"fatigue": {}}, **{"thermal.on": True}).endswith(f"; {index} and {heat}")
+    assert index not in told({"fatigue": {}}, **{"fatigue.shear": False})  # as it was asked for
 
 
 def test_friction_of_solid_contact_is_not_the_films():
