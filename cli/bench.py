@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Optional
 
 import typer
+from tehl_cli.bench_results import finish, picture, table
 from tehl_cli.live import say
 from tehl_cli.out import print_json
 
@@ -31,11 +32,13 @@ def _folder(usual, says):
 
 OUT = _folder("runs/bench", "folder for the JSON and PNG")
 QUICK = typer.Option(False, "--quick", help="small grids, a few steps")
+JSON = typer.Option(False, "--json", help="one JSON object on stdout, that of the file, instead of tables")
 THREADS = typer.Option(None, help="CPU threads (default: all)")
 WORKERS = typer.Option(1, help="processes side by side, which share the cores (more than 1 needs the extra `sweep`)")
 
 
 def stability(
+    out: Path = OUT,
     match: str = typer.Option("", help="only cases with this text in their name"),
     thermal: bool = typer.Option(False, "--thermal/--isothermal", help="the table with temperatures"),
     random: int = typer.Option(200, help="random scenes after the table"),
@@ -49,7 +52,7 @@ def stability(
                               "hold, up to 2048 columns (points: 256)"),
     finer: int = typer.Option(0, min=0, max=4, help="doublings of every grid before anything is run, up to 2048 columns "
                               "(points: 512)"),
-    as_json: bool = typer.Option(False, "--json", help="one JSON object with the counts on stdout"),
+    as_json: bool = JSON,
     threads: Optional[int] = THREADS,
     workers: int = WORKERS,
     precision: str = typer.Option("auto", help="of the linear solves: f32, f64 or what suits each scene"),
@@ -58,14 +61,14 @@ def stability(
     from tehl_taichi.profiles import stability as suite
     from tehl_taichi.profiles.stability import carried, cases, random_cases, run, starts
 
-    table = list(cases(thermal).items())
-    chosen = [*table[:: 6 if quick else 1], *random_cases(min(random, 8) if quick else random, seed).items()]
+    listed = list(cases(thermal).items())
+    chosen = [*listed[:: 6 if quick else 1], *random_cases(min(random, 8) if quick else random, seed).items()]
     chosen = {name: description for name, description in chosen if match.lower() in name.lower()}
     chosen = starts(chosen) if only_starts or confirm else chosen
     chosen, found = carried(chosen) if by_film else chosen, []
     chosen = suite.finer(chosen, finer)
     if confirm:
-        return _confirm(chosen, as_json, workers, threads, again)
+        return _confirm(out, chosen, as_json, workers, threads, again)
     for outcome in run(chosen.items(), precision, workers, threads):
         found.append(outcome)
         say(f"{outcome.name}: {outcome.verdict} {outcome.reason}")
@@ -74,40 +77,40 @@ def stability(
     counts["unsettled"] = sum(o.unsettled for o in found)
     counts["carried"] = sum(o.carried for o in found)
     counts["carried_converged"] = sum(o.carried and o.verdict == "converged" for o in found)
-    if as_json:
-        print_json({**counts, "cases": [vars(o) for o in found]})
-    else:
-        rows = [{**vars(o), "case": o.name} for o in found]
-        _table("stability" + (" with temperatures" if thermal else ""), rows,
-               {"case": "{}", "verdict": "{}", "steps": "{}", "newton": "{:.1f}", "cycles": "{:.0f}", "seconds": "{:.1f}",
-                "Fi_max": "{:.3f}"})
-        say("{converged} converged ({unsettled} of them from a start that did not settle), {refused} refused, {stopped} "
-            "stopped, {failed} failed; {carried_converged} of {carried} whose film the grid carries converged".format(**counts))
+    if not as_json:
+        table("stability" + (" with temperatures" if thermal else ""), [{**vars(o), "case": o.name} for o in found],
+              {"case": "{}", "verdict": "{}", "steps": "{}", "newton": "{:.1f}", "cycles": "{:.0f}", "seconds": "{:.1f}",
+               "Fi_max": "{:.3f}"})
+    say("{converged} converged ({unsettled} of them from a start that did not settle), {refused} refused, {stopped} stopped, "
+        "{failed} failed; {carried_converged} of {carried} whose film the grid carries converged".format(**counts))
+    finish(out, "stability", [vars(o) for o in found], lambda plt: suite.chart(plt, found), as_json, **counts)
     raise typer.Exit(1 if counts["failed"] else 0)
 
 
-def _confirm(chosen, as_json, workers, threads, again):
-    from tehl_taichi.profiles.stability import confirm
+def _confirm(out, chosen, as_json, workers, threads, again):
+    from tehl_taichi.profiles import stability as suite
 
     found = []
-    for one in confirm(chosen, workers, threads, again):
+    for one in suite.confirm(chosen, workers, threads, again):
         found.append({**vars(one), "holds": one.holds})
         changes = ", ".join(f"{key} {value:.2g}" for key, value in vars(one).items() if isinstance(value, float))
         say(f"{one.name}: {one.reason or f'{one.columns} columns, ' + (changes or 'stops')}")
     counts = {"starts": len(found), "holds": sum(one["holds"] for one in found),
               "moving": sum(one["holds"] and one["moving"] for one in found)}
-    if as_json:
-        return print_json({**counts, "cases": found})
-    rows = [{**one, **{key: 100 * one[key] for key in ("half_film", "finer_film") if one[key] is not None}} for one in found]
-    _table("what half the time step and twice the columns change: h_c in %, temperature in K", rows,
-           {"name": "{}", "columns": "{}", **dict.fromkeys(("half_film", "half_K", "finer_film", "finer_K"), "{:.2f}")})
+    if not as_json:
+        rows = [{**one, **{key: 100 * one[key] for key in ("half_film", "finer_film") if one[key] is not None}}
+                for one in found]
+        table("what half the time step and twice the columns change: h_c in %, temperature in K", rows,
+              {"name": "{}", "columns": "{}", **dict.fromkeys(("half_film", "half_K", "finer_film", "finer_K"), "{:.2f}")})
     say("{holds} of {starts} starts hold: neither changes their film by more than 1 %, nor their temperature by more than 1 K "
         "({moving} of them states in time)".format(**counts))
+    finish(out, "starts", found, lambda plt: suite.changes_chart(plt, found), as_json, **counts)
 
 
 def conclusions(
     out: Path = _folder("runs/conclusions", "folder of the stores (used again) and of the results"),
     quick: bool = typer.Option(False, "--quick", help="the reference asperity and dent on coarse grids"),
+    as_json: bool = JSON,
     threads: Optional[int] = THREADS,
     workers: int = WORKERS,
 ):
@@ -118,42 +121,41 @@ def conclusions(
     from tehl_cli.listing import list_table
     from tehl_taichi.profiles import conclusions as suite
 
-    from tehl_taichi.io.json_values import plain
     from tehl_taichi.scene import scene
 
     rows = suite.run(out, quick, say, workers, threads)
     base = scene("gear")
     judged = suite.verdicts(rows, base.fatigue.endurance)
-    list_table("Findley stress, MPa", ("case", *suite.WINDOWS), [(r.name, *suite.cells(r)) for r in rows])
-    list_table("the thesis' conclusions", ("statement", "verdict", "figures"), judged)
+    if not as_json:
+        list_table("Findley stress, MPa", ("case", *suite.WINDOWS), [(r.name, *suite.cells(r)) for r in rows])
+        list_table("the thesis' conclusions", ("statement", "verdict", "figures"), judged)
     (out / "conclusions.md").write_text(suite.page(rows, judged, base))
-    (out / "conclusions.json").write_text(json.dumps(plain([
-        {"case": r.name, "reason": r.reason, "friction": r.friction, "findley_stress_Pa": {
-            "; ".join(key): (value, r.errors[key]) for key, value in r.values.items()}} for r in rows]), indent=1))
-    say(f"wrote {out}/conclusions.md and conclusions.json")
+    finish(out, "conclusions", [suite.plain_row(r) for r in rows], lambda plt: suite.chart(plt, rows), as_json,
+           verdicts=[dict(zip(("statement", "verdict", "figures"), one)) for one in judged])
 
 
 def cracks(
     out: Path = _folder("runs/cracks", "folder of the stores (used again) and of the results"),
     quick: bool = typer.Option(False, "--quick", help="the reference asperity on coarse grids"),
+    as_json: bool = JSON,
     threads: Optional[int] = THREADS,
     workers: int = WORKERS,
 ):
     """Crack paths from the loads of a passage, with errors. Example: `tehl bench cracks --quick`"""
     from tehl_cli.listing import list_table
     from tehl_taichi.profiles import cracks as suite
-
-    from tehl_taichi.io.json_values import plain
+    from tehl_taichi.profiles import measure
 
     for rows in suite.run(out, quick, say, workers, threads):  # those so far are kept, whatever comes
+        measure.save(out, "cracks", measure.result([vars(row) for row in rows]))
         (out / "cracks.md").write_text(suite.page(rows))
-        (out / "cracks.json").write_text(json.dumps(plain([vars(row) for row in rows]), indent=1))
-    list_table("crack paths", suite.COLUMNS, [(row.case, *suite.cells(row)) for row in rows])
-    say(f"wrote {out}/cracks.md and cracks.json")
+    if not as_json:
+        list_table("crack paths", suite.COLUMNS, [(row.case, *suite.cells(row)) for row in rows])
+    finish(out, "cracks", [vars(row) for row in rows], lambda plt: suite.chart(plt, rows), as_json)
 
 
 def accuracy(
-    out: Path = OUT, quick: bool = QUICK, threads: Optional[int] = THREADS,
+    out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, threads: Optional[int] = THREADS,
     only: Optional[str] = typer.Option(None, help="errors (against run time), coverage (of the error bars), or that of "
                                "exits"),
     seed: int = typer.Option(4, help="of the random scenes that judge the error bars"),
@@ -169,40 +171,51 @@ def accuracy(
 
     choice("--only", only, (None, "errors", "coverage", "exits"))
     runtime.start(threads=threads)
+    found = {}
     if only in (None, "errors") and not judge:
-        _accuracy(out, quick, keep)
+        found["errors"] = _accuracy(out, quick, as_json, keep)
     if only != "errors":
-        exits = only == "exits"
-        _coverage(out / ("exits.json" if exits else "coverage.json"), seed, quick, judge, threads or _cores(), exits)
+        name = "exits" if only == "exits" else "coverage"
+        found[name] = _coverage(out, name, seed, quick, judge, threads or _cores(), as_json)
+    if as_json:
+        print_json(found)
 
 
-def _accuracy(out, quick, keep):
+def _accuracy(out, quick, as_json, keep):
     from tehl_cli.listing import list_table
     from tehl_taichi.profiles import accuracy as suite
     from tehl_taichi.profiles import measure
 
     rows = suite.run(quick, say)
-    _errors(rows)
-    list_table("columns that are enough", ("family", "quantity", "order", *(f"{target:g}" for target in suite.TARGETS)),
-               [(family, quantity, "none" if order is None else f"{order:.1f}", *(str(nx or "finer") for nx in grids))
-                for family, quantity, order, grids in suite.enough(rows)])
-    _write(out, "accuracy", rows, lambda plt: suite.chart(plt, rows))
+    if not as_json:
+        _errors(rows)
+        list_table("columns that are enough", ("family", "quantity", "order", *(f"{target:g}" for target in suite.TARGETS)),
+                   [(family, quantity, "none" if order is None else f"{order:.1f}", *(str(nx or "finer") for nx in grids))
+                    for family, quantity, order, grids in suite.enough(rows)])
+    finish(out, "accuracy", rows, lambda plt: suite.chart(plt, rows), False)
     if keep:
         from tehl_taichi.scene import target
 
         target.FILE.write_text(json.dumps({"machine": measure.machine(), "families": suite.grid_errors(rows)}, indent=1) + "\n")
         say(f"wrote {target.FILE}")
+    return rows
 
 
-def _coverage(path, seed, quick, judge, threads, exits):
+def _coverage(out, name, seed, quick, judge, threads, as_json):
     from tehl_cli.listing import list_table
     from tehl_taichi.profiles import coverage as suite
     from tehl_taichi.profiles import measure
 
+    from tehl_taichi.errors import StoreError
+
+    path = out / f"{name}.json"
     if not judge:
-        measure.fresh(threads, suite.run, path, seed, quick, say, exits)
+        measure.fresh(threads, suite.run, path, seed, quick, say, name == "exits")
+    elif not path.exists():
+        raise StoreError(f"--judge: there is no {path}, which `tehl bench accuracy --only {name}` writes")
     stored = json.loads(path.read_text())
-    for part, rows in itertools.groupby(suite.table(stored["rows"]), lambda row: row[0]):
+    found = suite.table(stored["rows"])
+    for part, rows in () if as_json else itertools.groupby(found, lambda row: row[0]):
         list_table(f"{part}: error bars of random scenes (seed {stored['seed']}), judged on grids {suite.FINER} times as "
                    "fine;\nmedians of bar over real error, bar, real error, in parts of the value or in K",
                    ("quantity", "bars", "null", "hold, %", "ratio", "bar", "error"),
@@ -211,6 +224,9 @@ def _coverage(path, seed, quick, judge, threads, exits):
     for one in stored["rows"]:
         if "reason" in one:
             say(f"left out, {one['kind']}: {one['reason']}")
+    say(f"wrote {path}")
+    picture(out, name, lambda plt: suite.chart(plt, found))
+    return [dict(zip(suite.COLUMNS, row)) for row in found]
 
 
 def _short(value, factor):
@@ -229,72 +245,58 @@ def _errors(rows):
                [(family, str(name), *(run.get(key, "") for key in ("s", *quantities))) for (family, name), run in runs.items()])
 
 
-def speed(out: Path = OUT, quick: bool = QUICK, threads: Optional[int] = THREADS):
+def speed(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, threads: Optional[int] = THREADS):
     """Times against the project's targets, and reference loops to compare machines by. Example: `tehl bench speed --quick`"""
     from tehl_taichi.profiles import speed as suite
 
     rows = suite.run(quick, threads or _cores(), say)
     details = {"step_ms": "step {:.1f} ms", "convolutions": "{:.0f} convolutions", "cycles": "{:.1f} Krylov",
                "memory_mb": "{:.0f} MB", "planes_per_s_core": "{:.2g} planes/s core"}
-    _table("speed", [{**row, "detail": ", ".join(form.format(row[key]) for key, form in details.items() if key in row)}
-                     for row in rows], {"what": "{}", "seconds": "{:.3f}", "target": "{:g}", "detail": "{}"})
-    _write(out, "speed", rows, None if quick else lambda plt: suite.chart(plt, rows))
+    if not as_json:
+        table("speed", [{**row, "detail": ", ".join(form.format(row[key]) for key, form in details.items() if key in row)}
+                        for row in rows], {"what": "{}", "seconds": "{:.3f}", "target": "{:g}", "detail": "{}"})
+    finish(out, "speed", rows, lambda plt: suite.chart(plt, rows), as_json)
 
 
-def scaling(out: Path = OUT, quick: bool = QUICK, threads: Optional[int] = THREADS,
+def scaling(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, threads: Optional[int] = THREADS,
             thermal: bool = typer.Option(False, "--thermal/--isothermal", help="with temperatures")):
     """Time and memory against grid and threads. Example: `tehl bench scaling --quick`"""
     from tehl_taichi.profiles import scaling as suite
 
     rows = suite.run(quick, threads or _cores(), thermal, say)
-    _table("scaling", rows, {"nx": "{}", "ny": "{}", "threads": "{}", "step_ms": "{:.1f}", "speed_up": "{:.2f}",
-                             "node_ns": "{:.0f}", "newton": "{:.1f}", "cycles": "{:.1f}", "memory_mb": "{:.0f}",
-                             "node_B": "{:.0f}"})
-    _write(out, "scaling", rows, lambda plt: suite.chart(plt, rows))
+    if not as_json:
+        table("scaling", rows, {"nx": "{}", "ny": "{}", "threads": "{}", "step_ms": "{:.1f}", "speed_up": "{:.2f}",
+                                "node_ns": "{:.0f}", "newton": "{:.1f}", "cycles": "{:.1f}", "memory_mb": "{:.0f}",
+                                "node_B": "{:.0f}"})
+    finish(out, "scaling", rows, lambda plt: suite.chart(plt, rows), as_json)
 
 
-def sweep(out: Path = OUT, quick: bool = QUICK,
+def sweep(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON,
           workers: Optional[int] = typer.Option(None, min=1, help="the most (default: one for each core)")):
     """Speed-up of a sweep of 16 cases on 1, 2, 4 ... workers of one thread. Example: `tehl bench sweep --workers 2`"""
     from tehl_taichi.profiles import side_by_side as suite
 
     rows = suite.run(quick, workers, say)
-    _table("16 cases side by side", rows, {"workers": "{}", "seconds": "{:.1f}", "cases_s": "{:.1f}", "speed_up": "{:.2f}"})
-    _write(out, "sweep", rows, None)
+    if not as_json:
+        table("cases side by side", rows, {"workers": "{}", "seconds": "{:.1f}", "cases_s": "{:.1f}", "speed_up": "{:.2f}"})
+    finish(out, "sweep", rows, lambda plt: suite.chart(plt, rows), as_json)
 
 
-def profile(out: Path = OUT, quick: bool = QUICK, threads: Optional[int] = THREADS,
+def profile(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, threads: Optional[int] = THREADS,
             thermal: bool = typer.Option(True, "--thermal/--isothermal", help="with temperatures")):
     """Where the time of a step goes, per stage and per kernel. Example: `tehl bench profile --isothermal`"""
     from tehl_taichi.profiles import measure
     from tehl_taichi.profiles import profile as suite
 
-    nx, ny, steps = (128, 32, 8) if quick else (256, 64, 30)
-    stages, kernels, numbers = measure.fresh(threads or _cores(), suite.run, nx, ny, thermal, steps)
-    columns = {"what": "{}", "calls": "{:.1f}", "ms": "{:.2f}", "limit_ms": "{:.2f}", "MB": "{:.1f}"}
-    _table("stages, per step (a stage may hold others)", stages, columns)
-    _table("kernels, per step", kernels, columns)
+    stages, kernels, numbers = measure.fresh(threads or _cores(), suite.run, *(suite.QUICK if quick else suite.FULL), thermal)
+    if not as_json:
+        columns = {"what": "{}", "calls": "{:.1f}", "ms": "{:.2f}", "limit_ms": "{:.2f}", "MB": "{:.1f}"}
+        table("stages, per step (a stage may hold others)", stages, columns)
+        table("kernels, per step", kernels, columns)
     say(", ".join(f"{key} {value:.3f}" for key, value in numbers.items()))
     say("most to gain, ms a step: " + ", ".join(f"{what} {ms:.1f}" for what, ms in suite.gaps(stages, kernels)))
     rows = [{"kind": kind, **row} for kind, part in (("stage", stages), ("kernel", kernels)) for row in part]
-    _write(out, "profile", rows, lambda plt: suite.chart(plt, stages, kernels, numbers["step_s"]))
-
-
-def _table(title, rows, columns):
-    from tehl_cli.listing import list_table
-
-    list_table(title, columns, [[form.format(row[key]) if row.get(key) is not None else "" for key, form in columns.items()]
-                                for row in rows])
-
-
-def _write(folder, name, rows, chart):
-    from tehl_taichi.profiles import measure
-
-    say(f"wrote {measure.save(folder, name, rows)}")
-    plt = measure.pyplot()
-    if chart and plt:
-        chart(plt).savefig(folder / f"{name}.png", dpi=110)
-        say(f"wrote {folder / name}.png")
+    finish(out, "profile", rows, lambda plt: suite.chart(plt, stages, kernels, numbers["step_s"]), as_json, **numbers)
 
 
 def _cores():

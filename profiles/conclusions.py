@@ -17,7 +17,7 @@ from tehl_taichi.scene import scene
 from tehl_taichi.study import pool
 
 # cells along x more than across: that is what an exit asks for (docs/exit.md); those that decide have four times as many
-GRIDS, FINE_GRIDS, QUICK_GRIDS = ((128, 16), (256, 32), (512, 64)), ((512, 16), (1024, 32), (2048, 64)), ((64, 16), (128, 32))
+GRIDS, FINE_GRIDS, QUICK_GRIDS = ((128, 16), (256, 32), (512, 64)), ((512, 16), (1024, 32), (2048, 64)), ((32, 8), (64, 16))
 EVERY = 1024  # columns of which each moment is stored; every second of twice as many changes Findley stresses by 0.03 %
 DECIDE = "asperity 1.5 um", "dent 1.5 um"
 SLIPS = (-0.12, 0.0, 0.12)
@@ -194,3 +194,23 @@ def page(rows, judged, scene_):
     lines += [f"| {statement} | **{verdict}** | {figures} |" for statement, verdict, figures in judged]
     f = scene_.fatigue
     return "\n".join([f"Findley stress in MPa (kappa_F = {f.kappa:g}); Fi = f / {f.endurance / 1e6:g} MPa.", "", *lines, ""])
+
+
+def plain_row(row):
+    """A row as its JSON has it."""
+    return {"case": row.name, "reason": row.reason, "friction": row.friction, "findley_stress_Pa": {
+        "; ".join(key): (value, row.errors[key]) for key, value in row.values.items()}}
+
+
+def chart(plt, rows):
+    """Findley stress of each case over the whole passage, at the surface and below it, with errors."""
+    shown = [row for row in rows if not row.reason]
+    figure, ax = plt.subplots(figsize=(8, 0.35 * len(shown) + 1.4), constrained_layout=True)
+    at = np.arange(len(shown))
+    for shift, key, label in ((-0.15, ("all", "whole"), "surface"), (0.15, DEEP["whole"], "below it")):
+        errors = [row.errors[key] / 1e6 for row in shown]
+        ax.errorbar([row.values[key] / 1e6 for row in shown], at + shift, xerr=errors, fmt="o", ms=4, label=label)
+    ax.set(xlabel="Findley stress, MPa (no bar: error not known)", yticks=at, yticklabels=[row.name for row in shown])
+    ax.invert_yaxis()
+    ax.legend()
+    return figure

@@ -19,26 +19,33 @@ STEADY = {"line, Moes": (10, (64, 128, 256)), "line": (14, (64, 128, 256)), "lin
           "point, thermal": (2, (64,))}
 PASSAGES = {"ridge": 1, "ridge, thermal": 1, "asperity": 2, "asperity, thermal": 1, "ridge on ball": 1}
 EXITS = {"exit": 10, "exit, thermal": 10}  # of endless features, in one dimension: grids four times as fine are within reach
-QUICK, DRAWS = 6, 100  # every so many-th scene; draws until one is admissible
+QUICK = {"line, Moes": (2, (64,)), "line": (1, (64,)), "line, thermal": (1, (64,)), "circle": (1, (32,))}
+QUICK_EXITS = {"exit": 1}
+QUICK_EXIT_COLUMNS, EXIT_COLUMNS = (128,), (256, 512)
+DRAWS = 100  # until one is admissible
+COLUMNS = ("part", "quantity", "bars", "null", "hold", "ratio", "bar", "error")  # of the table
 RELATIVE_TO = {"C": 1.0}  # K: temperatures have no natural zero
 
 
 def battery(seed, quick=False, exits=False):
-    """[(kind, scene)]: steady scenes and passages, or exits, the same for the same seed."""
+    """[(kind, scene)]: steady scenes and passages, or exits, the same for the same seed; quick: a few on coarse grids."""
     rng = np.random.default_rng(seed)
-    kinds = [(kind, columns) for kind, (count, columns) in STEADY.items() for _ in range(count) if not exits]
-    kinds += [(kind, None) for kind, count in (EXITS if exits else PASSAGES).items() for _ in range(count)]
-    drawn = [(kind, _admissible(rng, kind, columns)) for kind, columns in kinds]
-    return drawn[:: QUICK if quick else 1]
+    steady, passages = (QUICK, {}) if quick else (STEADY, PASSAGES)
+    kinds = [(kind, columns) for kind, (count, columns) in steady.items() for _ in range(count) if not exits]
+    moving = (QUICK_EXITS if quick else EXITS) if exits else passages
+    of_exits = QUICK_EXIT_COLUMNS if quick else EXIT_COLUMNS
+    kinds += [(kind, of_exits if exits else None) for kind, count in moving.items() for _ in range(count)]
+    return [(kind, _admissible(rng, kind, columns)) for kind, columns in kinds]
 
 
 def _admissible(rng, kind, columns):
     """The first scene drawn that is not refused."""
     for _ in range(DRAWS):
         with contextlib.suppress(SceneError):
-            if columns is not None:
-                return _steady(rng, kind, int(rng.choice(columns)))
-            return _exit(rng, "thermal" in kind) if kind.startswith("exit") else _passage(rng, kind)
+            if columns is None:
+                return _passage(rng, kind)
+            nx = int(rng.choice(columns))
+            return _exit(rng, "thermal" in kind, nx) if kind.startswith("exit") else _steady(rng, kind, nx)
     raise SceneError(f"none of {DRAWS} scenes drawn as {kind!r} is admissible")
 
 
@@ -84,9 +91,8 @@ def _passage(rng, kind):
         "grid.ny": nx // 4, "time.x_end": float("inf") if ridge else 0.0})
 
 
-def _exit(rng, thermal):
+def _exit(rng, thermal, nx):
     """An asperity or a dent that nothing ends across, until it has left."""
-    nx = int(rng.choice([256, 512]))
     return scene("gear").replace(**{
         "feature.length": float("inf"), "height": float(rng.choice([-1.0, 1.0])) * _log_uniform(rng, 0.5e-6, 1.5e-6),
         "width": _log_uniform(rng, 150e-6, 300e-6), "srr": float(rng.choice([0.0, rng.uniform(-0.4, 0.4)], p=[0.2, 0.8])),
@@ -167,3 +173,13 @@ def _line(group):
     width = size / np.maximum(real, 1e-300)
     return (len(stated), len(group) - len(stated), float(np.mean(real <= size)), float(np.median(width)),
             float(np.median(size / unit)), float(np.median(real / unit)))
+
+
+def chart(plt, lines):
+    """Share of the error bars that hold, of each quantity; lines: of the :func:`table`."""
+    figure, ax = plt.subplots(figsize=(7, 0.3 * len(lines) + 1.2), constrained_layout=True)
+    ax.barh([f"{name} ({part}, {known} bars)" for part, name, known, *_ in lines],
+            [100 * (share or 0.0) for _, _, _, _, share, *_ in lines])
+    ax.set(xlabel="error bars that hold, %", xlim=(0, 100))
+    ax.invert_yaxis()
+    return figure

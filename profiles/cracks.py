@@ -15,7 +15,7 @@ from tehl_taichi.scene import scene
 from tehl_taichi.study import pool
 from tehl_taichi.study.single import completed
 
-GRIDS, QUICK_GRIDS = ((128, 32), (256, 64)), ((64, 16), (128, 32))
+GRIDS, QUICK_GRIDS = ((128, 32), (256, 64)), ((32, 8), (64, 16))
 BARE = {"fatigue.on": False, "numerics.estimate_error": False}  # errors of cracks are worked out here
 SLIPS = {"dedendum": -0.12, "pitch line": 0.0, "addendum": 0.12}
 REFERENCE = "asperity 1.5 um, 200 um wide"
@@ -25,6 +25,7 @@ FEATURES = {REFERENCE: {}, "dent 1.5 um, 200 um wide": {"height": -1.5e-6}, "asp
 CONDITIONS = {"": {}, "residual -200 MPa": {"residual": -200e6}, "residual +200 MPa": {"residual": 200e6},
               "face friction 0.3": {"face_friction": 0.3}, "oil 0.3 (upper bound)": {"oil": 0.3},
               "oil sealed in": {"oil": "sealed"}, "oil that flows": {"oil": "flow"}}
+QUICK_CONDITIONS = {"": {}, "oil 0.3 (upper bound)": {"oil": 0.3}}
 NUMBERS = {"sigma1": ("largest tension, MPa", 1e6, "{:.0f}"), "depth": ("pulled to, um", 1e-6, "{:.1f}"),
            "chord": ("trajectory at 20 um, deg", 1, "{:.0f}"), "K_first": ("K_I at 5 um", 1e6, "{:.2f}"),
            "K_later": ("K_I at 20 um", 1e6, "{:.2f}"), "K_II": ("range of K_II at 20 um", 1e6, "{:.1f}"),
@@ -55,7 +56,8 @@ def run(folder, quick=False, progress=None, workers=1, threads=None):
     """Generator of all rows so far, after every case; stores lie in `folder` and are used again. progress: called with a line
     of text; workers: processes side by side, each on `threads` threads (None: all that are left)."""
     tell = progress if workers == 1 else None  # other processes have nobody to tell
-    jobs = [(name, description, Path(folder).absolute(), QUICK_GRIDS if quick else GRIDS, tell)
+    grids, conditions = (QUICK_GRIDS, QUICK_CONDITIONS) if quick else (GRIDS, CONDITIONS)
+    jobs = [(name, description, Path(folder).absolute(), grids, conditions if name.startswith(REFERENCE) else {"": {}}, tell)
             for name, description in cases(quick).items()]
     found = {}
     for number, rows in measure.side_by_side(case, jobs, workers, threads):
@@ -66,10 +68,10 @@ def run(folder, quick=False, progress=None, workers=1, threads=None):
         yield [row for job in jobs for row in found.get(job[0], [])]
 
 
-def case(name, description, folder, grids, progress=None):
-    """The rows of one case from runs on `grids`."""
+def case(name, description, folder, grids, conditions, progress=None):
+    """The rows of one case from runs on `grids`, under each of the conditions."""
     stores = _stores(name, description, folder, grids, progress or (lambda line: None))
-    return rows_of(name, stores, CONDITIONS if name.startswith(REFERENCE) else {"": {}}) if stores else []
+    return rows_of(name, stores, conditions) if stores else []
 
 
 def _stores(name, description, folder, grids, progress):
@@ -147,3 +149,17 @@ def page(rows):
     """Markdown of the table."""
     lines = ["| " + " | ".join(COLUMNS) + " |", "|---" * len(COLUMNS) + "|"]
     return "\n".join(lines + [f"| {row.case} | " + " | ".join(cells(row)) + " |" for row in rows]) + "\n"
+
+
+def chart(plt, rows):
+    """Stress intensities of the cracks that open, with what the coarser grid changes."""
+    shown = [row for row in rows if row.numbers]
+    figure, ax = plt.subplots(figsize=(8, 0.35 * len(shown) + 1.4), constrained_layout=True)
+    at = np.arange(len(shown))
+    for shift, key in ((-0.2, "K_first"), (0.0, "K_later"), (0.2, "K_II")):
+        values, changes, _ = (np.array([row.numbers[key][n] for row in shown], float) / 1e6 for n in range(3))
+        ax.errorbar(values, at + shift, xerr=changes, fmt="o", ms=4, label=NUMBERS[key][0])
+    ax.set(xlabel="MPa m^0.5", yticks=at, yticklabels=[f"{row.case}, {row.side}" for row in shown])
+    ax.invert_yaxis()
+    ax.legend()
+    return figure

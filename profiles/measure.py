@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from tehl_taichi.engine import runtime
+from tehl_taichi.io.json_values import plain
 from tehl_taichi.study import pool
 
 
@@ -96,12 +97,17 @@ def machine():
     return f"{name}, {os.cpu_count()} cores, {time.strftime('%Y-%m-%d')}"
 
 
-def save(folder, name, rows):
-    """Rows (dictionaries) as JSON with the machine; returns the path."""
+def result(rows, **more):
+    """What a suite gives, as JSON has it: the machine, its rows (dictionaries) and what else it counts."""
+    return plain({"machine": machine(), **more, "rows": rows})
+
+
+def save(folder, name, found):
+    """A :func:`result` as NAME.json; returns the path."""
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / f"{name}.json"
-    path.write_text(json.dumps({"machine": machine(), "rows": rows}, indent=1))
+    path.write_text(json.dumps(found, indent=1, allow_nan=False))
     return path
 
 

@@ -22,8 +22,10 @@ STAGES = {"pressure: Newton": "pressure.newton:PressureSolver.solve", "pressure:
           "temperatures": "heat.temperatures:FilmHeat.solve", "temperatures: accept": "heat.temperatures:FilmHeat.accept",
           "guess": "march.prediction:Prediction.put", "snapshot": "march.snapshot:take"}
 
+FULL, QUICK = (256, 64, 30), (64, 16, 4)  # columns, rows, steps
 
-def run(nx, ny, thermal, steps):
+
+def run(nx, ny, steps, thermal):
     """(stages, kernels, numbers): rows {"what", "calls", "ms", "limit_ms"} per step (kernels: "MB" too); start, tracing and
     compiling kernels (or finding them in the cache), first step and step in s, rate of a copy in GB/s.
 

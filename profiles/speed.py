@@ -12,7 +12,9 @@ from tehl_taichi.profiles import measure
 from tehl_taichi.figures import palette
 from tehl_taichi.scene import scene
 
-GRID, QUICK_GRID = (256, 64), (128, 32)
+GRID, QUICK_GRID = (256, 64), (64, 16)
+QUICK_STEPS = 4
+PASSAGES = (("isothermal", 1, 10.0), ("isothermal", None, 4.0), ("thermal", 1, None), ("thermal", None, None))  # None: all
 
 
 def run(quick=False, threads=4, progress=None):
@@ -20,15 +22,15 @@ def run(quick=False, threads=4, progress=None):
     units of the first of them (convolutions): that figure compares between machines."""
     say = progress or (lambda text: None)
     nx, ny = QUICK_GRID if quick else GRID
-    steps = 8 if quick else None
+    steps = QUICK_STEPS if quick else None
     rows = [*measure.fresh(1, references, nx, ny)]
     gear = scene("gear").replace(**{"grid.nx": nx, "grid.ny": ny})
     # targets hold for 256 x 64 cells
-    for name, thermal, count, target in (("isothermal", False, 1, 10.0), ("isothermal", False, threads, 4.0),
-                                         ("thermal", True, 1, None), ("thermal", True, threads, None)):
+    for name, count, target in [one for one in PASSAGES if one[1] is None or not quick]:
+        count = count or threads
         say(f"{name} passage, {nx} x {ny} cells, {count} threads")
-        row = passage(f"{name} passage {nx}x{ny}, {count} threads", count, gear.replace(**{"thermal.on": thermal}), steps,
-                      None if quick else target)
+        row = passage(f"{name} passage {nx}x{ny}, {count} threads", count, gear.replace(**{"thermal.on": name == "thermal"}),
+                      steps, None if quick else target)
         rows.append({**row, "convolutions": 1e-3 * row["step_ms"] / rows[0]["seconds"]})
     if not quick:
         say(f"thermal passage, {2 * nx} x {2 * ny} cells, {threads} threads")
@@ -38,12 +40,12 @@ def run(quick=False, threads=4, progress=None):
     rows += commands(nx, ny, threads, quick)
     rows.append(passage(f"isothermal passage {nx}x{ny}, 1 thread, linear solves in f64", 1,
                         gear.replace(**{"thermal.on": False, "numerics.precision": "f64"}), steps))
-    for columns, target in ((128, None), *(() if quick else ((256, 0.3), (512, 1.0)))):
+    for columns, target in ((64 if quick else 128, None), *(() if quick else ((256, 0.3), (512, 1.0)))):
         say(f"steady circular contact, {columns} columns, 1 thread")
         rows.append({"what": f"steady circular contact {columns} columns, 1 thread", "target": target,
                      "seconds": measure.fresh(1, measure.steady, circular(columns), 1 if quick else 3)})
     say("Findley search")
-    points, moments = (2000, 200) if quick else (257 * 65, 400)
+    points, moments = (500, 100) if quick else (257 * 65, 400)
     seconds, rate = measure.fresh(threads, search, points, moments)
     rows.append({"what": f"Findley search {points} points x {moments} moments, {threads} threads", "seconds": seconds,
                  "target": None if quick else 10.0, "planes_per_s_core": rate / threads})
@@ -51,8 +53,9 @@ def run(quick=False, threads=4, progress=None):
 
 
 def passage(what, threads, description, steps, target=None):
-    """Row of a passage in a process of its own, after one that compiled its kernels."""
-    measure.fresh(threads, measure.passage, description, 1)
+    """Row of a passage in a process of its own; of a whole one after one that compiled its kernels."""
+    if steps is None:
+        measure.fresh(threads, measure.passage, description, 1)
     timing = measure.fresh(threads, measure.passage, description, steps)
     return {"what": what, "seconds": timing.passage_s, "target": target, "step_ms": 1e3 * timing.step_s,
             "newton": timing.newton, "cycles": timing.cycles, "memory_mb": timing.memory_mb}
@@ -60,26 +63,28 @@ def passage(what, threads, description, steps, target=None):
 
 def commands(nx, ny, threads, quick):
     """Whole commands, with the start of Python: until the first step is stored, without and with compiled kernels; passages
-    with stresses and fatigue."""
+    with stresses and fatigue. Quick: the first step, with the kernels that this machine has."""
     base = ("--grid", f"{nx}x{ny}", "--threads", threads)
     first = (*base, "--steps", 1, "--no-fatigue")
     with tempfile.TemporaryDirectory() as folder:
+        if quick:
+            return [{"what": "first step of tehl run", "seconds": command(folder, *first, cache=None), "target": None}]
         found = [("first step of tehl run, nothing compiled", command(folder, *first), 10.0),
                  ("first step of tehl run, kernels compiled", command(folder, *first), 4.0)]
-        for options, target in () if quick else (((), None), (("--no-estimate-error",), 18.0),
-                                                 (("--isothermal", "--no-estimate-error"), 8.0)):
+        for options, target in ((), None), (("--no-estimate-error",), 18.0), (("--isothermal", "--no-estimate-error"), 8.0):
             command(folder, *base, *options, "--steps", 3)  # its kernels
             found.append((" ".join(("tehl run", *options)) + f", {nx}x{ny}, {threads} threads",
                           float(np.median([command(folder, *base, *options) for _ in range(3)])), target))
-    return [{"what": what, "seconds": value, "target": None if quick else target} for what, value, target in found]
+    return [{"what": what, "seconds": value, "target": target} for what, value, target in found]
 
 
-def command(folder, *words):
-    """Seconds of `tehl run gear` with these options; store and compiled kernels in `folder`."""
+def command(folder, *words, cache="cache"):
+    """Seconds of `tehl run gear` with these options; store and compiled kernels (cache: None: the usual ones) in `folder`."""
     words = ("run", "gear", "--quiet", "--force", "--out", f"{folder}/run.zarr", *map(str, words))
     call = [sys.executable, "-c", "from tehl_cli.main import main; main()", *words]
     started = time.perf_counter()
-    subprocess.run(call, check=True, capture_output=True, env=os.environ | {"TEHL_CACHE": f"{folder}/cache"})
+    cached = {"TEHL_CACHE": f"{folder}/{cache}"} if cache else {}
+    subprocess.run(call, check=True, capture_output=True, env=os.environ | cached)
     return time.perf_counter() - started
 
 
@@ -116,12 +121,16 @@ def search(points, moments):
 
 
 def chart(plt, rows):
-    """Bars of the times that have a target, in units of it."""
+    """Bars of the times that have a target, in units of it; of all times where none has."""
     shown = [row for row in rows if row.get("target")]
+    units = [row["target"] for row in shown] or [1.0] * len(rows)
+    shown, label = (shown, "time / target") if shown else (rows, "time, s")
     figure, ax = plt.subplots(figsize=(8, 0.6 * len(shown) + 1.2), constrained_layout=True)
-    ratios = [row["seconds"] / row["target"] for row in shown]
-    ax.barh([row["what"] for row in shown], ratios, color=[palette.GREEN if r <= 1 else palette.ORANGE for r in ratios])
-    ax.axvline(1, color=palette.BLACK, lw=0.8)
-    ax.set(xlabel="time / target", xscale="log", title=measure.machine())
+    ratios = [row["seconds"] / unit for row, unit in zip(shown, units)]
+    beyond = [ratio > 1 and label == "time / target" for ratio in ratios]
+    ax.barh([row["what"] for row in shown], ratios, color=[palette.ORANGE if one else palette.GREEN for one in beyond])
+    if label == "time / target":
+        ax.axvline(1, color=palette.BLACK, lw=0.8)
+    ax.set(xlabel=label, xscale="log", title=measure.machine())
     ax.invert_yaxis()
     return figure

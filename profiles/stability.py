@@ -10,6 +10,7 @@ import numpy as np
 from tehl_taichi.profiles import measure
 
 from tehl_taichi.criteria import CRITERIA
+from tehl_taichi.figures import palette
 from tehl_taichi.io.scene_file import merge
 from tehl_taichi.physics import rheology
 from tehl_taichi.scene import Scene, SceneError, scene, thin_film
@@ -28,6 +29,7 @@ MOST = {True: 2048, False: 512}  # columns of lines, of points, that are made fi
 CONFIRMED = {True: 2048, False: 512}  # the same, of those that are made finer until twice the columns confirm them
 FILM_HOLDS, HOLDS_K = 0.01, 1.0  # what half a step and a finer grid may change of a start that they confirm
 RANDOM_LINE, RANDOM_POINT, RANDOM_STEPS = {"grid.nx": 64, "grid.ny": 16}, {"grid.nx": 64, "grid.ny": 16, "grid.y_max": 2.0}, 12
+COLOURS = {"converged": palette.GREEN, "refused": palette.GREY, "stopped": palette.ORANGE, "failed": palette.VERMILLION}
 # the default first, then in the order that the published figures were drawn in
 SHEAR_LAWS = [Rheology.law, *sorted(set(rheology.LAWS) - {Rheology.law}, reverse=True)]
 
@@ -305,3 +307,34 @@ def sound(shot):
     """No NaN, no negative film or pressure."""
     p, h = shot.fields["pressure"], shot.fields["film"]
     return bool(np.isfinite(p).all() and np.isfinite(h).all() and p.min() >= 0 and h.min() > 0)
+
+
+def chart(plt, found):
+    """Krylov iterations and seconds of a step of every case, by its verdict; those that did not converge are named."""
+    figure, ax = plt.subplots(figsize=(7, 4.6), constrained_layout=True)
+    for verdict, colour in COLOURS.items():
+        own = [one for one in found if one.verdict == verdict]
+        steps = [one.seconds / max(one.steps, 1) for one in own]
+        cycles = [one.cycles for one in own]
+        ax.scatter(steps, cycles, s=16, color=colour, label=f"{len(own)} {verdict}")
+        for one, x, y in zip(own, steps, cycles):
+            if verdict != "converged":
+                ax.annotate(one.name, (x, y), fontsize=6, xytext=(3, 2), textcoords="offset points")
+    ax.set(xlabel="seconds a step", ylabel="Krylov iterations a step")
+    ax.set_xscale("symlog", linthresh=1e-3)
+    ax.set_yscale("symlog", linthresh=1)
+    ax.legend(fontsize=8)
+    return figure
+
+
+def changes_chart(plt, found):
+    """What half the time step and twice the columns change of every start, and what they may."""
+    figure, ax = plt.subplots(figsize=(5.4, 4.6), constrained_layout=True)
+    for which, label in (("half", "half the time step"), ("finer", "twice the columns")):
+        pairs = [(100 * one[f"{which}_film"], one[f"{which}_K"]) for one in found if one[f"{which}_film"] is not None]
+        ax.scatter(*(np.maximum(values, 1e-6) for values in (zip(*pairs) if pairs else ((), ()))), s=16, label=label)
+    ax.axvline(100 * FILM_HOLDS, color=palette.RULE)
+    ax.axhline(HOLDS_K, color=palette.RULE)
+    ax.set(xlabel="change of the central film, %", ylabel="change of the largest temperature, K", xscale="log", yscale="log")
+    ax.legend(fontsize=8)
+    return figure

@@ -6,6 +6,7 @@ import numpy as np
 
 from tehl_taichi.engine.lanes import W
 from tehl_taichi.heat import slots
+from tehl_taichi.march import guess
 from tehl_taichi.pressure import fields
 
 # names in :mod:`tehl_taichi.pressure.fields`: of the linear problem (table J), and of the state (S)
@@ -16,6 +17,9 @@ IN_Z = ("T", "TN", "TNN", "U", "VY", "MX", "MY", "MS", "MSN", "MSNN", "NIE", "NR
         "KEPT")  # per node of zeta; the last one stands for those of the viscosity
 IN_C = ("PN", "PNN", "QA", "QB", "AA", "AB", "TAU", "PX", "PY", "XA", "YA", "XB", "YB", "PL", "HL", "STILL", "MOVING")
 CONSTANT = ("G", "blocks")  # arguments too small to count
+# rows of the guesses' table that a kernel reads and writes: guesses of `order` orders in two frames, what they missed, states
+OF_GUESSES = {guess.extrapolate: lambda order: 3 * order + 1, guess.judge: lambda order: 4 * order + 1,
+              guess.trust: lambda order: 4 * order}
 
 
 def bytes_of(kernel, args):
@@ -23,7 +27,12 @@ def bytes_of(kernel, args):
     function = inspect.unwrap(kernel)
     given, names = dict(zip(inspect.signature(function).parameters, args)), _names(function)
     arrays = sum(value.nbytes for key, value in given.items() if isinstance(value, np.ndarray) and key not in CONSTANT)
-    return arrays + _columns(given) * W * _per_node(given, names)
+    return int(arrays + _columns(given) * W * (_per_node(given, names) + _of_guesses(kernel, given)))
+
+
+def _of_guesses(kernel, given):
+    """Bytes at one node of the table F of a kernel of :mod:`tehl_taichi.march.guess`, 0 of others."""
+    return OF_GUESSES[kernel](given["order"]) * _bytes_of_a_number(given["F"]) if kernel in OF_GUESSES else 0
 
 
 def _per_node(given, names):
@@ -32,7 +41,7 @@ def _per_node(given, names):
     chosen = (1 if "row" in given else 0) + len(given.get("rows", ()) if isinstance(given.get("rows"), tuple) else ())
     total = 8 * (_rows(fields, IN_S, names) + chosen) if "S" in given else 0
     total += _bytes_of_a_number(given["J"]) * _rows(fields, IN_J, names) if "J" in given else 0
-    total += 8 * given.get("count", 0) if "F" in given else 0  # the modes of one body
+    total += 8 * given["count"] if "modes" in given else 0  # of one body
     total += 8 * _rows(slots, IN_C, names) if "C" in given else 0
     return total + (8 * nz * _rows(slots, IN_Z, names) if "Z" in given else 0)
 
