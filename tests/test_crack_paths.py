@@ -151,7 +151,7 @@ def test_oil_inside_adds_its_pressure_to_the_faces():
 
 @pytest.mark.parametrize("wanted,said", [
     ({"side": "left"}, "entry"), ({"angle": 14.0}, "15 degrees"), ({"angle": 166.0}, "165"), ({"step": 0.0}, "more than|1e-08"),
-    ({"step": 2e-4}, "longer than"), ({"first": 2e-4}, "longer than"), ({"threshold": -1.0}, "at least 0"),
+    ({"step": 2e-4}, "longer than"), ({"first": 2e-4}, "longer than"), ({"threshold": -1.0}, "0, or at least 1000 Pa"),
     ({"face_friction": -0.1}, "at least 0"), ({"oil": 1.5}, "at most 1"), ({"oil": float("nan")}, "not a number"),
     ({"oil": "flwo"}, "did you mean 'flow'"), ({"oil": "much"}, "dry, film, flow, sealed, a share"),
     ({"elements": 3}, "6 to 200"), ({"distance": -1e-6}, "1e-08"), ({"length": "long"}, "not a number")])
