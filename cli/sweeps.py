@@ -21,7 +21,7 @@ def sweep(
     over: Optional[List[str]] = typer.Option(None, "--over", help="key=values, repeatable: a,b,c or low:high:N or "
                                              "low:high:N:log; 'key=values key=values' change together"),
     samples: Optional[int] = typer.Option(None, help="so many cases of a Latin hypercube; --over key=low:high[:log] or a,b,c"),
-    seed: int = typer.Option(0, help="of the samples"),
+    seed: Optional[int] = typer.Option(None, help="of the samples (default: 0)"),
     set_: Optional[List[str]] = typer.Option(None, "--set", help="dotted.key=value in all cases, repeatable"),
     grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY (cells or nodes); NX where nothing varies "
                                        "across"),
@@ -57,6 +57,8 @@ def sweep(
     if dry_run:
         return _tell(plan, out)
     _check_count(plan, yes)
+    for sentence in _doubts(plan):
+        say(sentence)
     with SweepLive(quiet) as live:
         try:
             study = many.run(plan, out, workers=workers, threads_per_worker=threads_per_worker, scheduler=scheduler, keep=keep,
@@ -77,7 +79,7 @@ def _planned(name, over, samples, seed, changes, grid, out):
     from tehl_taichi.study.typed import over_of
 
     whole = study_file.is_study_file(name) or is_study(name)
-    if whole and (over or changes or samples is not None or seed):
+    if whole and (over or changes or samples is not None or seed is not None):
         raise SceneError(f"{name} says what is swept: leave out --over, --samples, --set and the like")
     if whole:
         return (study_file.load(name), out) if study_file.is_study_file(name) else (Study.open(name).plan, out or Path(name))
@@ -103,6 +105,17 @@ def _tell(plan, out):
         print(f"{key} = {', '.join(values[:12])}{' ...' if len(values) > 12 else ''}")
     for number, reason in refused.items():
         print(f"case {number} is refused: {reason}")
+    for sentence in _doubts(plan):
+        print(sentence)
+
+
+def _doubts(plan):
+    """Of keys without effect: in all cases, and in some of them."""
+    from tehl_taichi.scene import acting
+
+    yield from (f"warning: {sentence}" for sentence in acting.doubts(plan.scene))
+    yield from (f"warning: case {number} is the same as case {first}: what differs has no effect there"
+                for number, first in plan.equal().items())
 
 
 def _print(study, as_json):

@@ -6,7 +6,18 @@ import math
 from pathlib import Path
 
 from tehl_taichi.io import toml_file
-from tehl_taichi.scene import Scene, SceneError, change, data_sheet, fatigue_limits, given, named_oils, named_steels, scene
+from tehl_taichi.scene import (
+    Scene,
+    SceneError,
+    acting,
+    change,
+    data_sheet,
+    fatigue_limits,
+    given,
+    named_oils,
+    named_steels,
+    scene,
+)
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.parts import Body, Fatigue
@@ -54,13 +65,22 @@ def beside(data, folder):
 def from_data(data, name, changes=()):
     """Scene from a parsed file with changes {key: value}, which are made before anything is judged. Raises SceneError."""
     base, changes = data.pop("base", None), given.named(dict(changes))
+    own = _tables(data)
     told = data["operation"].get("u_m") if isinstance(data.get("operation"), dict) else None
     described = _spelled_out(_on_base(base, {"name": name, **data}))
     found = Scene.from_dict(change.applied(described, changes))
     change.check_effect(found, changes)
     if not changes.keys() & set(given.LOADS):
         _check_speed(found, told)
-    return found
+    return found.asking(acting.told(found, own) | changes.keys())
+
+
+def _tables(data):
+    """The tables that a file gives, as they are now: what follows from them is written into them later."""
+    lists = {key: [dict(one) if isinstance(one, dict) else {} for one in value] for key, value in data.items()
+             if isinstance(value, list)}
+    return lists | {key: {name: dict(one) if isinstance(one, dict) else one for name, one in value.items()}
+                    for key, value in data.items() if isinstance(value, dict)}
 
 
 def _on_base(base, data):

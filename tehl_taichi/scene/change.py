@@ -3,9 +3,8 @@
 import dataclasses
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene import data_sheet, fatigue_limits, given
+from tehl_taichi.scene import acting, data_sheet, fatigue_limits, given
 from tehl_taichi.scene import named_oils as oils
-from tehl_taichi.scene.feature import SHAPES, USED_BY
 from tehl_taichi.scene.named_steels import STEELS
 from tehl_taichi.scene.parts import SECTIONS
 from tehl_taichi.scene.route import ALL
@@ -39,30 +38,11 @@ def _table(data, key):
 
 
 def check_effect(scene, changes):
-    """Refuse changes that the rest of the changed scene overrules or does not look at. Raises SceneError."""
+    """Refuse changes that the rest of the changed scene overrules, or that are of another law or shape. Raises SceneError."""
+    strange = acting.strange(scene)
     for key in changes:
-        section, _, name = key.partition(".")
-        if key in SPEEDS and scene.contact.moes_M > 0:
-            raise SceneError(f"{given.words(key, changes[key])} has no effect: contact.moes_L = {scene.contact.moes_L:g} sets "
-                             f"the mean speed, {scene.operation.u_m:.4g} m/s")
-        if section == "oil" and name in scene.oil.unused - set(MOES if scene.contact.moes_M > 0 else ()):
-            raise SceneError(f"{key} has no effect: the laws of this oil ({_laws_of(scene.oil)}) do not take it")
-        if section == "feature" and name:
-            number, _, name = name.partition(".")
-            shape = scene.features[int(number)].shape
-            if shape not in USED_BY.get(name, SHAPES):
-                raise SceneError(f"feature.{name} has no effect on shape {shape!r}; it is of {', '.join(USED_BY[name])}")
-
-
-SPEEDS = ("operation.u_m", *given.BY_SURFACE)
-
-
-MOES = ("eta0", "alpha")  # numbers of the oil that a Moes pair uses
-
-
-def _laws_of(oil):
-    """The laws that it chose, with their numbers."""
-    return "; ".join(f"{law.name}: {', '.join(law.numbers)}" for law in oil.laws[:2])
+        if key in strange:
+            raise SceneError(f"{given.words(acting.shown(key, scene), changes[key])} has no effect: {strange[key]}")
 
 
 def _clear(data, changes):

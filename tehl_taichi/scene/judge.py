@@ -1,6 +1,6 @@
 """What is doubtful in a scene although it can be simulated, a sentence each: the warnings that are known before a run."""
 
-from tehl_taichi.scene import keys, named_steels, oil_range, passing, room, route, scales, thin_film
+from tehl_taichi.scene import acting, keys, named_steels, oil_range, passing, room, route, scales, thin_film
 from tehl_taichi.values.quantity import Number
 
 
@@ -60,4 +60,4 @@ def unusual(scene):
 
 # functions of a scene that give its sentences
 CHECKS = (passing.warnings, room.warnings, thin_film.warnings, oil_range.warnings, named_steels.doubts, cut_passage, thinned,
-          doubtful_features, unusual)
+          doubtful_features, unusual, acting.doubts)

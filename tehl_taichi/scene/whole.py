@@ -67,6 +67,7 @@ class Scene:
     numerics: Numerics = Numerics()
     output: Output = Output()
     note: str = field(default="", compare=False)
+    asked = frozenset()  # full keys that the user gave: of these, what has no effect is told
 
     def __post_init__(self):
         file_name("name", self.name)
@@ -271,7 +272,12 @@ class Scene:
         changes = given.named(changes)
         changed = Scene.from_dict(change.applied(self.to_dict(), changes))
         change.check_effect(changed, changes)
-        return changed
+        return changed.asking(self.asked | changes.keys())
+
+    def asking(self, keys):
+        """Itself, as one of which the user gave these keys (see :mod:`tehl_taichi.scene.acting`)."""
+        object.__setattr__(self, "asked", frozenset(keys))
+        return self
 
     def to_dict(self):
         """Plain nested dictionary with every value, defaults included; the sections of a scene file."""

@@ -15,7 +15,7 @@ KEEP = ("stores", "summary")
 
 
 def sweep(scene: Scene | str | PathLike, over: Mapping, path: str | PathLike | None = None, *, samples: int | None = None,
-          seed: int = 0, workers: int | None = None, threads_per_worker: int | None = None, scheduler: Any = None,
+          seed: int | None = None, workers: int | None = None, threads_per_worker: int | None = None, scheduler: Any = None,
           keep: str = "stores", progress: Callable | None = None) -> "Study":
     """Run `scene` with all combinations of changes; returns the :class:`tehl_taichi.study.table.Study`.
 

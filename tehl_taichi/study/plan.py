@@ -1,16 +1,19 @@
 """What a sweep varies: a scene, the keys that change and their values; its cases, and which of them the scene refuses."""
 
+import contextlib
 import hashlib
 import json
 import math
 from dataclasses import dataclass, field
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene import Scene, given
+from tehl_taichi.scene import Scene, acting, given
 from tehl_taichi.study import typed
 from tehl_taichi.study.sampling import latin_hypercube
+from tehl_taichi.values.plain import shown
 from tehl_taichi.values.quantity import kinds
 
+LOOKED_AT = 200  # cases among which equal ones are looked for
 MOST = 100_000  # cases: more are a mistake in a range
 ONE = "case"  # the dimension of a study whose keys change together
 
@@ -124,6 +127,33 @@ class Plan:
             self._check_values(axis, found)
         if len(found) == self.count:
             raise SceneError(found[0])
+        self._check_effect(found)
+        return found
+
+    def _check_effect(self, refused):
+        """Raises SceneError for a key that changes nothing in any case: all its rows would be equal."""
+        for key in self.keys:
+            if len({repr(self.changes(number)[key]) for number in range(self.count)}) > 1 and (why := self._idle(key, refused)):
+                raise SceneError(f"{key} has no effect here: {why}; its rows would be equal")
+
+    def _idle(self, key, refused):
+        """Why a key changes nothing, where it does so in every case that can run; else ""."""
+        why = ""
+        for number in (n for n in range(self.count) if n not in refused):
+            scene = self.case(number)
+            why = acting.idle(scene).get(given.full_name(key), "")
+            if not why:
+                break
+        return why
+
+    def equal(self):
+        """{case: earlier case} of cases that differ in keys without effect alone, of a plan that is not too large to look."""
+        seen, found = {}, {}
+        for number in range(self.count if self.count <= LOOKED_AT else 0):
+            with contextlib.suppress(SceneError):
+                first = seen.setdefault(repr(acting.signature(self.case(number))), number)
+                if first != number:
+                    found[number] = first
         return found
 
     def _check_values(self, axis, found):
@@ -134,7 +164,7 @@ class Plan:
                 raise SceneError(next(reason for number, reason in found.items() if self.positions(number)[place] == n))
 
 
-def plan(scene, over, samples=None, seed=0):
+def plan(scene, over, samples=None, seed=None):
     """Plan of `over`: {key: values}; a key that is a tuple of keys has rows of values, which change together.
 
     values: a list, an array, a text as --over has it; with `samples` (so many drawn by a Latin hypercube) "low:high",
@@ -145,6 +175,9 @@ def plan(scene, over, samples=None, seed=0):
     >>> found.dims, found.shape, found.changes(5)
     (('srr', 'feature.height'), (2, 3), {'srr': 0.1, 'feature.height': 1.5e-06})
     """
+    if samples is None and seed is not None:
+        raise SceneError(f"seed = {shown(seed)} has no effect without samples: nothing is drawn")
+    seed = 0 if seed is None else seed
     if samples is None:
         return Plan(scene, tuple(_axis(keys, rows) for keys, rows in over.items()))
     columns = {key: _choices(key, found) for key, found in over.items()}

@@ -41,7 +41,7 @@ def load(path):
         columns = {key: _listed(key, values) for key, values in _flat(group).items()}
         over[tuple(columns)] = _rows(columns)
     scene = find_changed(_scene_name(data.get("scene", "gear"), path.parent), _flat(_table(data, "set")))
-    return plan(scene, over, data.get("samples"), data.get("seed", 0))
+    return plan(scene, over, data.get("samples"), data.get("seed"))
 
 
 def _table(data, key):
