@@ -23,7 +23,7 @@ def animate(
     shown: str = typer.Option("film", "--map", help="below the lines: film, pressure or temperature"),
     dpi: Dpi = 110,
     width: Width = 17.0,
-    force: bool = typer.Option(False, "--force", help="replace the file"),
+    force: bool = typer.Option(False, "--force", help="replace a file that is there, if tehl wrote it"),
     quiet: bool = typer.Option(False, "--quiet", help="no progress"),
 ):
     """GIF or MP4 of the passage: pressure, film and temperatures along the centreline, a map below.

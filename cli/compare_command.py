@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import List, Optional
 
 import typer
-from tehl_cli.figure_options import Dpi, Format, Width
+from tehl_cli.figure_options import Dpi, Force, Format, Width
 from tehl_cli.live import say
 from tehl_cli.out import print_json
 
@@ -22,6 +22,7 @@ def compare(
     format: Format = "png",
     dpi: Dpi = 160,
     width: Width = 17.0,
+    force: Force = False,
     as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout"),
 ):
     """What differs of the scenes and of the results, side by side, and one figure of centrelines, histories and Fi.
@@ -33,7 +34,7 @@ def compare(
 
     number("--at", at, "a", -20.0, 20.0)
     found = side_by_side(*stores)
-    figure = found.plot(out or stores[0].parent / "compare", at, dpi, format, width)
+    figure = found.plot(out or stores[0].parent / "compare", at, dpi, format, width, force)
     if as_json:
         print_json({**found.to_dict(), "figure": str(figure)})
         return

@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Optional
 
 import typer
-from tehl_cli.figure_options import Dpi, Format, Width
+from tehl_cli.figure_options import Dpi, Force, Format, Width
 from tehl_cli.live import say
 from tehl_cli.out import print_json
 
@@ -36,6 +36,7 @@ def crack(
     format: Format = "png",
     dpi: Dpi = 160,
     width: Width = 17.0,
+    force: Force = False,
     threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
     as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout"),
 ):
@@ -47,7 +48,7 @@ def crack(
     from tehl_taichi.figures.page import Page
     from tehl_taichi.results.opened import open_run
 
-    page = Page(format, dpi, width)
+    page = Page(format, dpi, width, force)
     run = open_run(store)
     result = run.crack(side=side, start=start, angle=angle, first=first, step=step, length=length, distance=distance,
                        threshold=threshold, residual=None if residual is None else read(residual), face_friction=face_friction,

@@ -5,7 +5,7 @@ from typing import Optional
 
 import typer
 from tehl_cli.fatigue_options import asks
-from tehl_cli.figure_options import Dpi, Format, Width
+from tehl_cli.figure_options import Dpi, Force, Format, Width
 from tehl_cli.live import Live, say
 from tehl_cli.out import print_json
 
@@ -22,6 +22,7 @@ def fatigue(
     format: Format = "png",
     dpi: Dpi = 160,
     width: Width = 17.0,
+    force: Force = False,
     threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
     as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout"),
     **asked,
@@ -35,7 +36,7 @@ def fatigue(
     from tehl_taichi.results.opened import open_run
 
     runtime.check(threads=threads)
-    page = Page(format, dpi, width)
+    page = Page(format, dpi, width, force)
     run = open_run(store)
     with Live() as live:
         result = run.fatigue(**asked, threads=threads, progress=live)

@@ -49,7 +49,7 @@ def flank(
     from tehl_taichi.figures.page import Page
     from tehl_taichi.io.found import find
 
-    page = Page(format, dpi, figure_width)
+    page = Page(format, dpi, figure_width, force=True)
     changes = given_by({"temperature": temperature, "height": height, "width": width, "thermal.on": thermal}, grid, set_ or [])
     base = find(scene) if scene else None
     check_rows(grid, changes, lambda: _line(gear, base, changes, steady))

@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Optional
 
 import typer
-from tehl_cli.figure_options import Dpi, Format, Width
+from tehl_cli.figure_options import Dpi, Force, Format, Width
 from tehl_cli.live import say
 
 
@@ -148,7 +148,7 @@ def _state(saved):
 def plot(store: Path = typer.Argument(..., help="store of a run, a study, or the folder of a flank"),
          out: Path = typer.Option(None, help="folder for the figures (default: beside the store; of a flank: in it)"),
          quantity: str = typer.Option(None, help="of a study: the column of its table to draw, as fatigue_Fi_max"),
-         format: Format = "png", dpi: Dpi = 160, width: Width = 17.0,
+         format: Format = "png", dpi: Dpi = 160, width: Width = 17.0, force: Force = False,
          at: Optional[float] = typer.Option(None, help="of a run: the moment with the (first) feature nearest to this place, "
                                             "in half-widths a of the contact (default: -0.8, 0, 0.8 in lines, 0 in maps)"),
          depth: Optional[float] = typer.Option(None, help="of a run: µm below the surface, where fatigue is shown beside "
@@ -159,7 +159,7 @@ def plot(store: Path = typer.Argument(..., help="store of a run, a study, or the
     Examples: `tehl plot runs/gear-1.zarr --format pdf --width 8.5 --at 0.5` · `tehl plot runs/gear-1.zarr --dpi 300` ·
     `tehl plot runs/gear-sweep-0a1b2c.zarr --quantity steady_h_c_m`
     """
-    page = dict(dpi=dpi, format=format, width=width)
+    page = dict(dpi=dpi, format=format, width=width, force=force)
     for path in _draw(store, out, {"quantity": quantity, "at": at, "depth": depth}, page):
         print(path)
 

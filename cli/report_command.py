@@ -18,7 +18,7 @@ def report(
     store: Path = typer.Argument(..., help="store of a run (finished or not), a study, or the folder of a flank"),
     out: Optional[Path] = typer.Option(None, help="HTML file to write (default: beside the store; with other constants of "
                                        "fatigue STORE-fatigue.html)"),
-    force: bool = typer.Option(False, "--force", help="replace a file that is there"),
+    force: bool = typer.Option(False, "--force", help="replace a file that is there, if tehl wrote it"),
     open_: bool = typer.Option(False, "--open/--no-open", help="show it in the browser"),
     threads: Optional[int] = typer.Option(None, help="CPU threads of a search with other constants (default: all)"),
     **asked,

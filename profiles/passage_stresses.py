@@ -1,16 +1,16 @@
 """What one stored passage tells: Findley stresses by loads and by part of the passage, and which its grid does not know."""
 
 import json
-import shutil
 from dataclasses import asdict, dataclass
 
 import numpy as np
 
+from tehl_taichi.disk import files
 from tehl_taichi.errors import StoreError
 from tehl_taichi.fatigue import below, findley
 from tehl_taichi.fatigue.histories import Passage
 from tehl_taichi.fatigue.under_row import at_the_surface
-from tehl_taichi.io import atomic
+from tehl_taichi.io.place import removed
 from tehl_taichi.march import companions, readings
 from tehl_taichi.scene import Scene
 from tehl_taichi.scene.scales import Scales
@@ -52,10 +52,10 @@ def told(description, store):
         if description.grid.nx * description.grid.ny <= LARGE:
             return found
         content = {name: list(part.items()) if isinstance(part, dict) else part for name, part in asdict(found).items()}
-        atomic.replace(kept, json.dumps({"scene": description.to_dict(), **content}).encode())
+        files.replace(kept, json.dumps({"scene": description.to_dict(), **content}).encode())
     found = _kept(kept, description)
     if store.exists():  # still, where an earlier end of the suite left a part of it
-        shutil.rmtree(store)
+        removed(store)
     return found
 
 

@@ -39,6 +39,7 @@ def test_the_suffix_of_a_file_tells_its_format(tmp_path):
     assert Page("pdf").of_file("a")[1].name == "a.pdf"
     with pytest.raises(SceneError, match="format of a.doc = 'doc'"):
         Page().of_file("a.doc")
+    (tmp_path / "none").touch()
     with pytest.raises(StoreError, match="cannot write"):
         Page().save(lambda: drawn("centreline", made()), tmp_path / "none" / "a.png")
 

@@ -20,9 +20,14 @@ def test_a_file_that_is_there_stays_unless_forced(thermal, tmp_path):
     refused = CliRunner().invoke(app, words).exception
     assert isinstance(refused, StoreError) and "exists already; choose another --out, or --force" in str(refused)
     assert (tmp_path / "mine.html").read_text() == "mine"
-    assert CliRunner().invoke(app, [*words, "--force"]).output.strip() == str(tmp_path / "mine.html")
-    assert (tmp_path / "mine.html").read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["mine.html"]
+    refused = CliRunner().invoke(app, [*words, "--force"]).exception
+    assert isinstance(refused, StoreError) and "was not written by this program" in str(refused)
+    assert (tmp_path / "mine.html").read_text() == "mine"
+    words[-1] = str(tmp_path / "page.html")
+    for more in ([], ["--force"]):
+        assert CliRunner().invoke(app, [*words, *more]).output.strip() == words[-1]
+        assert (tmp_path / "page.html").read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["mine.html", "page.html"]
 
 
 @pytest.mark.slow

@@ -10,8 +10,8 @@ import pytest
 from small_stores import SMALL, shot, store
 
 from tehl_taichi import __version__
+from tehl_taichi.disk import files
 from tehl_taichi.errors import INTERRUPTED, Interrupted, StoreError
-from tehl_taichi.io import atomic
 from tehl_taichi.io.store import Store
 from tehl_taichi.march.output import Scalar, entries
 from tehl_taichi.scene import scene
@@ -206,7 +206,7 @@ def test_a_store_that_is_moved_while_it_is_written(path, tmp_path):
 
 @pytest.mark.parametrize("fails", ["pressure", "h_min_m", "npz", "zarr.json"])
 def test_a_disk_that_fills_up_loses_no_entry(path, monkeypatch, fails):
-    written = atomic.write
+    written = files.write
 
     def full(target, content):
         if fails in str(target.relative_to(path)):
@@ -218,7 +218,7 @@ def test_a_disk_that_fills_up_loses_no_entry(path, monkeypatch, fails):
         file.write(b"half of a checkpoint")
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("tehl_taichi.io.atomic.write", full)
+    monkeypatch.setattr("tehl_taichi.disk.files.write", full)
     if fails == "npz":
         monkeypatch.setattr(np, "savez", half)
     with Store.write(path) as saved:
@@ -236,7 +236,7 @@ def test_a_disk_that_is_full_at_the_end(path, monkeypatch):
     def full(*_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("tehl_taichi.io.atomic.replace", full)
+    monkeypatch.setattr("tehl_taichi.disk.files.replace", full)
     with Store.write(path) as saved, pytest.raises(Interrupted, match="every step is stored; then: tehl resume"):
         saved.finish({"steps": 2}, {"Fi": ([[1.0]], ["i", "j"], "1", "index")})
     monkeypatch.undo()
@@ -253,30 +253,30 @@ def test_a_disk_that_is_full_when_a_run_goes_on(path, monkeypatch):
 
     with Store.write(path) as saved:
         saved.append(shot(3))
-        monkeypatch.setattr("tehl_taichi.io.atomic.replace", full)
+        monkeypatch.setattr("tehl_taichi.disk.files.replace", full)
         for change in (saved.go_back, lambda: saved.extend(SMALL)):
             with pytest.raises(Interrupted, match="No space left on device; then: tehl resume"):
                 change()
     monkeypatch.undo()
     assert len(Store.open(path)) == 4
-    monkeypatch.setattr("tehl_taichi.io.lock.json.dump", full)
+    monkeypatch.setattr("tehl_taichi.disk.locks.json.dump", full)
     with pytest.raises(StoreError, match="cannot write to .*No space left on device"):
         Store.write(path)
 
 
 def test_a_file_that_cannot_be_replaced_stays(tmp_path, monkeypatch):
     file = tmp_path / "f"
-    atomic.replace(file, b"before")
+    files.replace(file, b"before")
 
-    written = atomic.write
+    written = files.write
 
     def half(path, content):
         written(path, content[:2])
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("tehl_taichi.io.atomic.write", half)
+    monkeypatch.setattr("tehl_taichi.disk.files.write", half)
     with pytest.raises(OSError):
-        atomic.replace(file, b"after")
+        files.replace(file, b"after")
     assert file.read_bytes() == b"before" and [p.name for p in tmp_path.iterdir()] == ["f"]
 
 

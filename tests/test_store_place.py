@@ -9,10 +9,11 @@ from pathlib import Path
 import pytest
 from small_stores import SMALL, shot, store
 
+from tehl_taichi.disk import drafts as places
+from tehl_taichi.disk.drafts import beside, clean
+from tehl_taichi.disk.locks import LOCK, Busy, Lock, abandoned, holder
 from tehl_taichi.errors import Error, StoreError
-from tehl_taichi.io import place as places
-from tehl_taichi.io.lock import LOCK, Busy, Lock, abandoned, holder
-from tehl_taichi.io.place import Place, beside, clean
+from tehl_taichi.io.place import Place
 from tehl_taichi.io.store import Store
 
 
@@ -22,7 +23,7 @@ def names(folder):
 
 def killed_holder(folder):
     """A lock left by a process that was killed while it held it."""
-    code = ("import os, signal, sys; from tehl_taichi.io.lock import Lock; lock = Lock(sys.argv[1]); "
+    code = ("import os, signal, sys; from tehl_taichi.disk.locks import Lock; lock = Lock(sys.argv[1]); "
             "os.kill(os.getpid(), signal.SIGKILL)")
     assert subprocess.run([sys.executable, "-c", code, folder]).returncode == -9
     return folder
@@ -98,7 +99,7 @@ def test_a_failed_first_entry_leaves_nothing(tmp_path, monkeypatch):
     def full(*_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("tehl_taichi.io.atomic.replace", full)
+    monkeypatch.setattr("tehl_taichi.disk.files.replace", full)
     with pytest.raises(Error, match="No space left on device; nothing is stored"):
         store(tmp_path / "runs" / "a.zarr")
     assert names(tmp_path) == []

@@ -14,7 +14,7 @@ import pytest
 from commands import CALL, here
 from small_stores import store
 
-from tehl_taichi.io import atomic
+from tehl_taichi.disk import files
 from tehl_taichi.io.store import Store
 
 # a ridge: one dimension, 51 steps in a second
@@ -170,7 +170,7 @@ def test_a_finished_steady_run_gives_valid_json(tehl):
 
 
 def test_a_full_disk_in_the_middle_of_a_run(tehl, unbroken, monkeypatch):
-    left, written = [400], atomic.write
+    left, written = [400], files.write
 
     def filling(path, content):
         left[0] -= 1
@@ -178,7 +178,7 @@ def test_a_full_disk_in_the_middle_of_a_run(tehl, unbroken, monkeypatch):
             raise OSError(28, "No space left on device")
         written(path, content)
 
-    monkeypatch.setattr("tehl_taichi.io.atomic.write", filling)
+    monkeypatch.setattr("tehl_taichi.disk.files.write", filling)
     monkeypatch.setattr("tehl_taichi.study.recorder.SHOWN", 0.0)
     code, _, said = tehl(*RIDGE, "--out", "full.zarr")
     assert code == 4 and len([line for line in said.splitlines() if not line.startswith("warning: ")]) == 1

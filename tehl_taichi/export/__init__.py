@@ -38,8 +38,8 @@ def export(of: Any, format: str = "csv", path: str | PathLike | None = None, *, 
     >>> print((made / "centreline_steady.csv").read_text()[:42])
     x [m],contact [1],film [m],pressure [Pa],t
     """
+    from tehl_taichi.disk import outputs
     from tehl_taichi.errors import SceneError
-    from tehl_taichi.export.draft import written
     from tehl_taichi.export.places import Places
     from tehl_taichi.io.reader import Reader
     from tehl_taichi.values.checks import choice
@@ -50,7 +50,10 @@ def export(of: Any, format: str = "csv", path: str | PathLike | None = None, *, 
     reader, chosen = Reader.open(getattr(of, "path", of)), known[format]
     if not chosen.chosen and (plain(at), plain(point)) != ((), ()):
         raise SceneError(f"at and point choose tables of csv; {format} has every moment and every point")
-    return written(chosen, reader, Places.of(reader, at, point), path, force)
+    places, path = Places.of(reader, at, point), Path(path) if path is not None else chosen.beside(Path(reader.path))
+    with outputs.made(path, force, kind=chosen.ending[1:], parts=chosen.parts) as draft:
+        chosen.write(reader, draft, places)
+    return path
 
 
 def formats() -> "dict[str, Format]":

@@ -17,6 +17,10 @@ class Format:
     parts: str = ""
     chosen: bool = False
 
+    def beside(self, store):
+        """Path beside the store at `store`, named after it."""
+        return store.with_name(store.name.removesuffix(".zarr") + self.ending)
+
 
 def unit(reader, name):
     """Unit of an array of the store."""

@@ -13,6 +13,7 @@ import numpy as np
 from tehl_taichi.export.file_format import Format, flat_fields, unit
 
 TYPES = {"f4": "Float32", "f8": "Float64", "u1": "UInt8"}
+TOP = '<?xml version="1.0"?>\n<!-- tehl_taichi -->\n'  # by which --force knows the file
 HEAD = 'byte_order="LittleEndian" header_type="UInt64" compressor="vtkZLibDataCompressor"'
 
 
@@ -33,7 +34,7 @@ def write(reader, folder, places):
 def collection(times):
     """The text of a .pvd: (time, file) of every image."""
     parts = "\n".join(f'<DataSet timestep="{float(time)!r}" file="{file}"/>' for time, file in times)
-    return (f'<?xml version="1.0"?>\n<VTKFile type="Collection" version="1.0" {HEAD}>\n<Collection>\n{parts}\n</Collection>\n'
+    return (f'{TOP}<VTKFile type="Collection" version="1.0" {HEAD}>\n<Collection>\n{parts}\n</Collection>\n'
             "</VTKFile>\n")
 
 
@@ -43,7 +44,7 @@ def image(x, y, fields, numbers):
     steps = " ".join(repr(float(v[-1] - v[0]) / (v.size - 1) if v.size > 1 else 1.0) for v in (x, y))
     points = "\n".join(_array(name, values.T, "") for name, values in fields.items())  # x runs fastest
     alone = "\n".join(_array(name, np.array([float(value)]), 'NumberOfTuples="1"') for name, value in numbers.items())
-    return (f'<?xml version="1.0"?>\n<VTKFile type="ImageData" version="1.0" {HEAD}>\n'
+    return (f'{TOP}<VTKFile type="ImageData" version="1.0" {HEAD}>\n'
             f'<ImageData WholeExtent="{extent}" Origin="{float(x[0])!r} {float(y[0])!r} 0" Spacing="{steps} 1">\n'
             f'<FieldData>\n{alone}\n</FieldData>\n<Piece Extent="{extent}">\n<PointData>\n{points}\n</PointData>\n</Piece>\n'
             "</ImageData>\n</VTKFile>\n")

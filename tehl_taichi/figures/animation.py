@@ -9,12 +9,11 @@ from typing import Any, Callable
 
 import numpy as np
 
+from tehl_taichi.disk import outputs
 from tehl_taichi.errors import SceneError, StoreError
 from tehl_taichi.figures.frames import SHOWN, Frames
 from tehl_taichi.figures.moments import Moments
-from tehl_taichi.figures.page import Page, drawing, made
-from tehl_taichi.io import atomic
-from tehl_taichi.io.place import exists, reason
+from tehl_taichi.figures.page import Page, drawing
 from tehl_taichi.values.checks import choice, integer
 
 FORMATS = ("gif", "mp4")
@@ -51,12 +50,9 @@ def animate(source: str | PathLike | Any, out: str | PathLike | None = None, *, 
     write = {"gif": _gif, "mp4": _mp4}[format]
     tool = _ffmpeg() if format == "mp4" else None
     entries = np.unique(np.linspace(0, store.steps - 1, frames).round().astype(int)).tolist()
-    try:
-        with page.style(), atomic.aside(path) as temporary:
-            write(temporary, Frames(page, Moments(store), entries, shown if store.y.size > 1 else None), fps,
-                  progress or (lambda done, total: None), tool)
-    except OSError as error:
-        raise StoreError(f"cannot write {path}: {reason(error)}") from None
+    with page.style(), outputs.made(path, force, kind=format) as draft:
+        write(draft, Frames(page, Moments(store), entries, shown if store.y.size > 1 else None), fps,
+              progress or (lambda done, total: None), tool)
     return path
 
 
@@ -71,9 +67,7 @@ def _file(store, out, format, force):
     if told in FORMATS and told != format:
         raise SceneError(f"out = {path} is no {format}; leave out --format, or choose another --out")
     path = path if told == format else path.with_name(f"{path.name}.{format}")
-    if path.exists() and not force:
-        raise StoreError(exists(path))
-    made(path.parent)
+    outputs.check(path, force, format)
     return path, format
 
 
@@ -101,7 +95,8 @@ def _gif(path, frames, fps, progress, _):
     colours = _kept_white(Image.fromarray(np.concatenate([frames.picture(n) for n in some])).quantize(256))
     plain = Image.Dither.NONE
     pictures = (Image.fromarray(picture).quantize(palette=colours, dither=plain) for picture in _told(frames, progress))
-    next(pictures).save(path, "GIF", save_all=True, append_images=pictures, duration=10 * round(100 / fps), loop=0)
+    next(pictures).save(path, "GIF", save_all=True, append_images=pictures, duration=10 * round(100 / fps), loop=0,
+                        comment=outputs.PROGRAM.encode())
 
 
 def _kept_white(image):
@@ -124,7 +119,7 @@ def _mp4(path, frames, fps, progress, ffmpeg):
     """Pictures go to ffmpeg one by one; Ctrl-C is for us, not for it. Raises StoreError with what it says."""
     rows, columns, _ = frames.picture(frames.entries[0]).shape
     raw = f"-f rawvideo -pix_fmt rgb24 -s {columns}x{rows} -r {fps} -i -"
-    film = f"-an -vf {EVEN} -pix_fmt yuv420p -movflags +faststart -f mp4"
+    film = f"-an -vf {EVEN} -pix_fmt yuv420p -movflags +faststart -metadata comment={outputs.PROGRAM} -f mp4"
     command = [ffmpeg, "-y", "-loglevel", "error", *raw.split(), *film.split(), str(path)]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True) as process:
         try:

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 
+from tehl_taichi.disk import outputs
+from tehl_taichi.disk.files import reason
 from tehl_taichi.errors import SceneError, StoreError, extra
 from tehl_taichi.figures import palette
-from tehl_taichi.io import atomic
-from tehl_taichi.io.place import reason
 from tehl_taichi.values.checks import choice, integer, number
 from tehl_taichi.values.plain import plain
 
@@ -22,12 +22,14 @@ SIZES = ((5.0, 8.5, 17.0, 60.0), (6.0, 7.0, 9.0, 32.0))  # widths, cm: text, poi
 LETTER = 0.5            # of the text's size: mean width of a letter
 ROWS, LINE = 4, 1.35    # of a legend: as many have room in a figure; height of another one, of the text's size
 WIDEST = 0.55           # the same, of a line of a title with many wide ones
-UNDATED = {"png": {}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}  # the same figure is the same file
+SAID = {"png": {"Software": outputs.PROGRAM}, "pdf": {"Creator": outputs.PROGRAM, "CreationDate": None},
+        "svg": {"Title": outputs.PROGRAM, "Date": None}}  # by which --force knows it; the same figure is the same file
 
 
 @dataclass(frozen=True)
 class Page:
-    """format: png, pdf or svg; dpi: dots per inch, of the maps inside pdf and svg too; width: of the figure, cm.
+    """format: png, pdf or svg; dpi: dots per inch, of the maps inside pdf and svg too; width: of the figure, cm; force:
+    whether figures of ours that are there are replaced.
 
     Raises SceneError for what no figure can have.
     """
@@ -35,6 +37,7 @@ class Page:
     format: str = "png"
     dpi: int = DPI
     width: float = WIDTH
+    force: bool = False
 
     def __post_init__(self):
         choice("format", self.format, FORMATS)
@@ -100,18 +103,23 @@ class Page:
 
     def write(self, folder, figures):
         """Write {name: function that draws the figure} into `folder`; returns the paths. Raises StoreError."""
-        folder = made(folder)
-        return [self.save(draw, folder / f"{name}.{self.format}") for name, draw in figures.items()]
+        folder, paths = Path(folder), [Path(folder) / f"{name}.{self.format}" for name in figures]
+        for path in paths:
+            self.check(path)
+        made(folder)
+        return [self.save(draw, path) for draw, path in zip(figures.values(), paths)]
 
-    def save(self, draw, path):
+    def check(self, path, of=None):
+        """Raises StoreError where no figure may be written to `path`; of: as of :func:`tehl_taichi.disk.outputs.check`."""
+        outputs.check(path, self.force, self.format, of=of)
+
+    def save(self, draw, path, of=None):
         """Write the figure that `draw()` makes to `path`, whose suffix tells the format; returns it. Raises StoreError."""
+        self.check(path, of)
         with self.style():
             figure = self.fitted(draw())
-            try:
-                with atomic.aside(path) as temporary:
-                    figure.savefig(temporary, format=self.format, dpi=self.dpi, metadata=UNDATED[self.format])
-            except OSError as error:
-                raise StoreError(f"cannot write {path}: {reason(error)}") from None
+            with outputs.made(path, self.force, kind=self.format, of=of) as draft:
+                figure.savefig(draft, format=self.format, dpi=self.dpi, metadata=SAID[self.format])
         return path
 
     def fitted(self, figure):

@@ -24,8 +24,9 @@ LAST = 5  # panels: friction and slip fill up what a steady or isothermal flank 
 def write(flank, path, page):
     """Write the figure of a Flank, as the :class:`Page` wants it; returns the path."""
     page, path = page.of_file(path)
+    page.check(path, flank.folder)
     made(path.parent)
-    return page.save(lambda: _drawn(page, flank), path)
+    return page.save(lambda: _drawn(page, flank), path, of=flank.folder)
 
 
 def _drawn(page, flank):

@@ -1,10 +1,12 @@
 """A flank as its folder keeps it: the positions with their summaries, the table, the figure."""
 
 import json
+import os
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
 
+from tehl_taichi.disk import files, links, outputs
 from tehl_taichi.errors import StoreError
 from tehl_taichi.flank import columns
 from tehl_taichi.flank.positions import Position
@@ -30,7 +32,7 @@ class Flank:
         """The flank in a folder. Raises StoreError."""
         file = Path(folder) / FILE
         try:
-            told = json.loads(file.read_text(encoding="utf-8"))
+            told = json.loads(files.text(file))
             found = cls(Path(folder), {**told, "name": str(told["name"]), "geometry": dict(told["geometry"])})
             found.rows  # noqa: B018  whatever is missing is missing now
             return found
@@ -78,33 +80,42 @@ class Flank:
 
     def write(self) -> list:
         """flank.json and flank.csv into the folder; returns their paths. Raises StoreError."""
-        from tehl_taichi.io import atomic
-        from tehl_taichi.io.place import reason
-
         paths = self.folder / FILE, self.folder / TABLE
         texts = json.dumps(self.told, indent=1, allow_nan=False), columns.csv_text(self.rows)
-        try:
+        with files.blamed(self.folder, "cannot write to"):
             self.folder.mkdir(parents=True, exist_ok=True)  # where no position converged there are no stores
             for path, text in zip(paths, texts):
-                atomic.replace(path, text.encode())
-        except OSError as error:
-            raise StoreError(f"cannot write to {self.folder}: {reason(error)}") from None
+                files.replace(path, text.encode())
         return list(paths)
 
-    def plot(self, path: str | PathLike | None = None, dpi: int = 160, format: str = "png", width: float = 17.0) -> Path:
+    def plot(self, path: str | PathLike | None = None, dpi: int = 160, format: str = "png", width: float = 17.0,
+             force: bool = False) -> Path:
         """The figure (default: flank.png in the folder, or flank.pdf, flank.svg); returns its path.
 
-        dpi, format (where the path has no suffix that tells it), width: as :meth:`Run.plot`. Raises SceneError, or StoreError
-        without matplotlib.
+        dpi, format (where the path has no suffix that tells it), width, force: as :meth:`Run.plot`. Raises SceneError, or
+        StoreError without matplotlib, or where something is in the way.
         """
         from tehl_taichi.figures.page import Page
         from tehl_taichi.flank import flank_figure
 
-        return flank_figure.write(self, path or self.folder / "flank", Page(format, dpi, width))
+        return flank_figure.write(self, path or self.folder / "flank", Page(format, dpi, width, force))
 
     def __repr__(self):
         done = len(self.told["positions"]) - len(self.failed)
         return f"<tehl.Flank {self.name}: {done} of {len(self.told['positions'])} positions, {self.folder}>"
+
+
+def check_writable(folder):
+    """Raises StoreError where no flank can be made in `folder`, nor one in it be gone on with."""
+    outputs.check_outside(folder)
+    if not os.path.lexists(folder):
+        return
+    links.refuse(folder)
+    if is_flank(folder):
+        Flank.open(folder)
+        files.tidy(folder)
+    elif (table := folder / TABLE).exists():
+        raise StoreError(f"{table} is there and is no table of a flank of tehl; choose another --out")
 
 
 def is_flank(path):

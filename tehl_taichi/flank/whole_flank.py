@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+import os
 from collections.abc import Sequence
 from os import PathLike
 from pathlib import Path
@@ -11,7 +12,7 @@ from tehl_taichi.flank.contacts import scene_at
 from tehl_taichi.flank.described import described
 from tehl_taichi.flank.mesh import Mesh
 from tehl_taichi.flank.outcomes import Outcome, summaries
-from tehl_taichi.flank.stored_flank import Flank
+from tehl_taichi.flank.stored_flank import Flank, check_writable
 from tehl_taichi.io.json_values import plain
 from tehl_taichi.scene import Scene
 from tehl_taichi.scene.gear_pair import GearPair
@@ -58,6 +59,7 @@ def flank(gear: str | PathLike | GearPair = "fzg-c", *, torque: float | None = N
     places = found.positions(on, positions, at)
     scenes = [scene_at(scene or found.scene, changes, found.name, n, place) for n, place in enumerate(places, 1)]
     folder = Path(folder) if folder else fresh(found.name)
+    check_writable(folder)
     subject = about(found, folder, (on or "pinion") if found.pair else "")
     outcomes = [Outcome(folder / f"{one.name}.zarr", reason=WAITING) for one in scenes]
     try:
@@ -106,6 +108,6 @@ def _position(at, scene, outcome):
 def fresh(name):
     """The first of runs/NAME-1, runs/NAME-2 ... that does not exist."""
     n = 1
-    while (folder := Path("runs") / f"{name}-{n}").exists():
+    while os.path.lexists(folder := Path("runs") / f"{name}-{n}"):
         n += 1
     return folder

@@ -5,15 +5,15 @@ import zlib
 
 import numpy as np
 
+from tehl_taichi.disk import files, npy
 from tehl_taichi.errors import StoreError
-from tehl_taichi.io import atomic
 
 NEEDED = {"step", "P", "H0"}
 
 
 def write(folder, number, state):
     """Store the state behind entry `number`."""
-    with atomic.aside(folder / f"{number}.npz") as temporary, open(temporary, "wb") as file:
+    with files.aside(folder / f"{number}.npz") as temporary, open(temporary, "xb") as file:
         np.savez(file, **{key: value for key, value in state.items() if value is not None})
 
 
@@ -31,8 +31,7 @@ def last(store, folder, steps, shape):
     if number is None:
         raise StoreError(f"{store} holds nothing to go on from; `tehl run {store} --out NEW` repeats its run")
     try:
-        with np.load(folder / f"{number}.npz", allow_pickle=False) as saved:
-            state = {key: saved[key] for key in saved.files}
+        state = npy.load_all(folder / f"{number}.npz") if (folder / f"{number}.npz").is_file() else {}
     except (OSError, ValueError, KeyError, EOFError, AttributeError, NotImplementedError, zipfile.BadZipFile, zlib.error):
         state = {}
     if not NEEDED <= state.keys() or state["P"].shape != shape:

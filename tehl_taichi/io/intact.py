@@ -6,29 +6,31 @@ import re
 from pathlib import Path
 
 from tehl_taichi import __version__
+from tehl_taichi.disk import files
+from tehl_taichi.disk.drafts import ROOT
+from tehl_taichi.disk.files import TEMPORARY
+from tehl_taichi.disk.locks import LOCK
 from tehl_taichi.errors import SceneError, StoreError
 from tehl_taichi.io import maps
-from tehl_taichi.io.lock import LOCK
 from tehl_taichi.scene.whole import SECTIONS
 
 FORMAT = 3  # 1: version 0.1, without checksums; 2: to 0.6.1, every entry of a field in folders of its own
 CHECKPOINTS = ".checkpoints"
-ROOT = "zarr.json"
-OURS = {ROOT, f"{ROOT}.tmp", CHECKPOINTS, LOCK}
+OURS = {ROOT, f"{ROOT}.tmp", CHECKPOINTS, LOCK}  # .tmp: to version 0.8
 
 
 def is_store(path):
     """Whether a store of this program, whole or damaged, is at `path`."""
     try:
-        return {"scene", "steps"} <= json.loads((Path(path) / ROOT).read_text())["attributes"].keys()
+        return {"scene", "steps"} <= json.loads(files.text(Path(path) / ROOT))["attributes"].keys()
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
         return False
 
 
 def strangers(path):
     """Names in the folder of a store that are no part of it."""
-    return sorted(child.name for child in path.iterdir()
-                  if child.name not in OURS and (child.is_symlink() or not _of_array(child)))
+    return sorted(child.name for child in path.iterdir() if child.name not in OURS and not TEMPORARY.fullmatch(child.name)
+                  and (child.is_symlink() or not _of_array(child)))
 
 
 def _of_array(folder):
@@ -43,7 +45,7 @@ def root_of(path):
     """(attributes, {name: metadata of an array}) of the store at `path`. Raises StoreError."""
     path = Path(path)
     try:
-        root = json.loads((path / ROOT).read_text())
+        root = json.loads(files.text(path / ROOT))
         attrs = root["attributes"]
         arrays = root["consolidated_metadata"]["metadata"]
     except FileNotFoundError:

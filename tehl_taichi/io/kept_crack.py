@@ -4,10 +4,9 @@ import json
 
 import numpy as np
 
+from tehl_taichi.disk import files, outputs
 from tehl_taichi.errors import StoreError
-from tehl_taichi.io import atomic
 from tehl_taichi.io.json_values import plain
-from tehl_taichi.io.place import reason
 
 DEPTHS = 60  # of the section that is kept
 
@@ -23,10 +22,7 @@ def keep(result, store):
     path. Raises StoreError."""
     path = place(store.path)
     content = {"run": store.attrs["date"], "summary": result.summary, "drawn": _drawn(result)}
-    try:
-        atomic.replace(path, json.dumps(plain(content)).encode())
-    except OSError as error:
-        raise StoreError(f"cannot write {path}: {reason(error)}") from None
+    outputs.text(path, json.dumps({"program": outputs.PROGRAM, **plain(content)}), force=True)
     return path
 
 
@@ -36,7 +32,7 @@ def kept(store):
     if not path.is_file():
         return None
     try:
-        content = json.loads(path.read_text(encoding="utf-8"))
+        content = json.loads(files.text(path))
         return content if content["run"] == store.attrs["date"] else None  # else of a run that was here before
     except (ValueError, KeyError, TypeError, OSError) as error:
         raise StoreError(f"{path} is damaged ({error}): remove it, or make it anew with tehl crack --keep") from None

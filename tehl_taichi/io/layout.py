@@ -2,7 +2,8 @@
 
 import json
 
-from tehl_taichi.io import atomic, chunks
+from tehl_taichi.disk import files
+from tehl_taichi.io import chunks
 from tehl_taichi.io.intact import ROOT
 from tehl_taichi.march.output import fields_of, scalars_of
 
@@ -20,7 +21,7 @@ def lay_out(group, capacity, scene, snapshot):
 
 def metadata(path):
     """Metadata of every array of the group, by name."""
-    return {file.parent.name: json.loads(file.read_text()) for file in sorted(path.glob("*/zarr.json"))}
+    return {file.parent.name: json.loads(files.text(file)) for file in sorted(path.glob("*/zarr.json"))}
 
 
 def publish(path, attrs, arrays):
@@ -31,7 +32,7 @@ def publish(path, attrs, arrays):
             array["shape"][0] = attrs["steps"]
     root = {"zarr_format": 3, "node_type": "group", "attributes": attrs,
             "consolidated_metadata": {"kind": "inline", "must_understand": False, "metadata": arrays}}
-    atomic.replace(path / ROOT, json.dumps(root).encode())
+    files.replace(path / ROOT, json.dumps(root).encode())
 
 
 def array(group, name, shape, chunk, dtype, dims, units, long_name, fill, between="/", **attrs):

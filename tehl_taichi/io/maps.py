@@ -1,8 +1,7 @@
 """The height maps of a scene inside its store: what a store needs to be shown, resumed and run again without their files."""
 
-import zarr
-
 from tehl_taichi.errors import StoreError
+from tehl_taichi.io import chunks
 from tehl_taichi.scene import Scene
 from tehl_taichi.scene.feature import SHAPES
 from tehl_taichi.scene.maps import height_map
@@ -45,7 +44,7 @@ def _upgrade(feature):
 
 def _heights(path, sha256):
     try:
-        found, values = height_map.keep(zarr.open_array(str(path / _name(sha256)), mode="r")[...])
+        found, values = height_map.keep(chunks.whole(path / _name(sha256)))
     except Exception as error:
         raise StoreError(f"{path / _name(sha256)}: the stored height map cannot be read: {error}") from None
     if found != sha256:

@@ -5,6 +5,7 @@ import tomllib
 from itertools import islice
 from pathlib import Path
 
+from tehl_taichi.disk import outputs
 from tehl_taichi.io import scene_file
 from tehl_taichi.io.scene_file import toml_value
 from tehl_taichi.scene import scene
@@ -72,7 +73,7 @@ def new(path, base, scan, unit="", pixel=0.0, pixel_y=0.0):
     missing = [key for key, value in (("unit", unit), ("pixel", pixel)) if not value]
     if not missing:
         scene_file.from_data(scene_file.beside(tomllib.loads(text), path.absolute().parent), path.stem)
-    path.write_text(text, encoding="utf-8")
+    outputs.text(path, text)
     rows, columns = table.values.shape
     return f"{rows} rows of {columns} points{f', {table.skipped}' if table.skipped else ''}", missing
 

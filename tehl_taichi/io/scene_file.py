@@ -3,8 +3,10 @@
 import dataclasses
 import json
 import math
+import os
 from pathlib import Path
 
+from tehl_taichi.disk import outputs
 from tehl_taichi.io import toml_file
 from tehl_taichi.scene import (
     Scene,
@@ -42,12 +44,12 @@ def new(path, base):
     """Write the built-in scene `base` with every value, under the name of the file. Raises SceneError where it cannot."""
     path = Path(path)
     check_new(path)
-    path.write_text(dumps(scene(base).replace(name=path.stem)), encoding="utf-8")
+    outputs.text(path, dumps(scene(base).replace(name=path.stem)))
 
 
 def check_new(path):
     """Raises SceneError where no file can be written at `path` without overwriting one."""
-    if path.exists():
+    if os.path.lexists(path):
         raise SceneError(f"{path} exists already; choose another name")
     if not path.absolute().parent.is_dir():
         raise SceneError(f"{path.absolute().parent} is not a folder")

@@ -4,7 +4,7 @@ Arrays are laid out for the whole run at once; what a reader sees is the consoli
 `zarr.json`, whose shapes end at the last complete step that was shown. That one file is replaced atomically after all chunks of
 these steps and a checkpoint are written, so steps become visible as a whole, and a killed run leaves a store that opens.
 The store itself appears with its first entry (:mod:`tehl_taichi.io.place`) and has one writer at a time
-(:mod:`tehl_taichi.io.lock`); every chunk and checkpoint carries a checksum.
+(:mod:`tehl_taichi.disk.locks`); every chunk and checkpoint carries a checksum.
 """
 
 import contextlib
@@ -15,13 +15,15 @@ import numpy as np
 import zarr
 
 from tehl_taichi import __version__
+from tehl_taichi.disk import files
+from tehl_taichi.disk.files import reason
+from tehl_taichi.disk.held import Held, held
 from tehl_taichi.errors import Error, Interrupted
-from tehl_taichi.io import atomic, checkpoint, chunks, intact, layout, maps, scene_file
-from tehl_taichi.io.held import Held, held
+from tehl_taichi.io import checkpoint, chunks, intact, layout, maps, scene_file
 from tehl_taichi.io.intact import CHECKPOINTS, FORMAT
 from tehl_taichi.io.json_values import plain
 from tehl_taichi.io.layout import OWN
-from tehl_taichi.io.place import Place, reason
+from tehl_taichi.io.place import CasePlace, Place
 from tehl_taichi.io.reader import Reader
 from tehl_taichi.march.output import names
 
@@ -38,7 +40,7 @@ class Store(Held, Reader):
 
         path: a :class:`Place`, or a path that is reserved now. Raises StoreError if it exists or cannot be written.
         """
-        place = path if isinstance(path, Place) else Place(path)
+        place = path if isinstance(path, Place) else CasePlace(path)
         try:
             with _told(place.folder, "nothing is stored", Error):
                 store = cls._begun(place, scene, snapshot, capacity, attrs or {})
@@ -95,7 +97,7 @@ class Store(Held, Reader):
     def _append(self, snapshot, state, shown=True):
         n = self.steps
         for name, dtype in self.stored.items():  # what nobody sees yet needs no care
-            atomic.write(self._file(name, n), chunks.packed(snapshot.fields[name], "<" + dtype))
+            files.write(self._file(name, n), chunks.packed(snapshot.fields[name], "<" + dtype))
         values = {**snapshot.scalars, **{name: getattr(snapshot, name) for name in OWN}}
         for name, series in self.series.items():
             series[n] = values[name]
@@ -109,7 +111,7 @@ class Store(Held, Reader):
 
     def _show(self):
         for name, series in self.series.items():
-            atomic.replace(self.path / name / "c" / "0", chunks.packed(series, "<" + series.dtype.str[1:]))
+            files.replace(self.path / name / "c" / "0", chunks.packed(series, "<" + series.dtype.str[1:]))
         self._commit(steps=self.steps)
 
     def _safe(self):

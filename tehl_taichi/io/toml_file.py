@@ -2,8 +2,8 @@
 
 import re
 import tomllib
-from pathlib import Path
 
+from tehl_taichi.disk import files
 from tehl_taichi.errors import SceneError
 
 COMMA = re.compile(r"\s*[\w.\"'-]+\s*=\s*([-+]?\d+),(\d+(?:[eE][-+]?\d+)?)\s*(?:#.*)?")  # key = -0,2
@@ -14,7 +14,7 @@ def read(path, what):
     """The nested dictionary of a TOML file; what: "scene", as sentences name it. Raises SceneError: it cannot be read, or is no
     TOML; of a decimal comma it says so."""
     try:
-        text = Path(path).read_text(encoding="utf-8")
+        text = files.text(path)
         return tomllib.loads(text)
     except (OSError, UnicodeDecodeError) as error:
         raise SceneError(f"cannot read {what} file {path}: {getattr(error, 'strerror', None) or error}") from None

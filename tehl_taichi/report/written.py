@@ -4,7 +4,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from tehl_taichi.errors import StoreError
+from tehl_taichi.disk import outputs
 
 
 def report(of: str | PathLike | Any, out: str | PathLike | None = None, *, force: bool = False, progress: Any = None,
@@ -27,10 +27,10 @@ def report(of: str | PathLike | Any, out: str | PathLike | None = None, *, force
     folder = Path(getattr(of, "path", getattr(of, "folder", of)))
     asked = _asked(folder, constants)
     out = Path(out) if out else beside(folder, "-fatigue" if asked else "")
-    _check_free(out, force)
+    outputs.check(out, force, "html")
     packed.check_installed()
     page = asked.page(progress, threads) if asked else page_of(folder)
-    _write(out, document.rendered(page))
+    outputs.text(out, document.rendered(page), force, kind="html")
     return out
 
 
@@ -45,32 +45,10 @@ def _asked(folder, constants):
     return None if asked.is_answered else asked
 
 
-def _write(out, text):
-    """Put the file there as a whole. Raises StoreError."""
-    from tehl_taichi.io import atomic
-    from tehl_taichi.io.place import reason
-
-    try:
-        out.parent.mkdir(parents=True, exist_ok=True)
-        atomic.replace(out, text.encode())
-    except OSError as error:
-        raise StoreError(f"cannot write {out}: {reason(error)}") from None
-
-
 def beside(folder, end=""):
     """The file of the page of `folder` where no other is wanted; end: of its name."""
     folder = folder.absolute() if not folder.name else folder
     return folder.with_name(f"{folder.stem if folder.suffix else folder.name}{end}.html")
-
-
-def _check_free(out, force):
-    """Refuse before anything is read. Raises StoreError."""
-    from tehl_taichi.io.place import exists
-
-    if out.is_dir():
-        raise StoreError(f"{out} is a folder; --out takes the name of a file, as in {out / 'report.html'}")
-    if out.exists() and not force:
-        raise StoreError(exists(out))
 
 
 def page_of(folder):

@@ -1,7 +1,6 @@
 """One case of a sweep, as a worker runs it: into its store, from where an earlier attempt stopped, to a record."""
 
 import contextlib
-import json
 import socket
 import tempfile
 import time
@@ -59,10 +58,12 @@ def _run(job, path, progress):
 
 def _free(path):
     """Take over what a worker of another machine left locked: it is gone, else the case were still its own."""
-    from tehl_taichi.io.lock import LOCK
-    from tehl_taichi.io.place import PART, beside
+    from tehl_taichi.disk.drafts import PART, beside
+    from tehl_taichi.disk.links import is_folder
+    from tehl_taichi.disk.locks import LOCK, said_in
 
     for folder in (path, beside(path, PART)):
-        with contextlib.suppress(OSError, ValueError, KeyError, TypeError):
-            if json.loads((folder / LOCK).read_text())["host"] != socket.gethostname():
+        said = said_in(folder)
+        if is_folder(folder) and said and said["host"] != socket.gethostname():
+            with contextlib.suppress(OSError):
                 (folder / LOCK).unlink()

@@ -1,12 +1,14 @@
 """What a study knows of its cases, one JSON line each as they end: a line is whole or was never written."""
 
+import io
 import json
-import os
 
+from tehl_taichi.disk import files
 from tehl_taichi.errors import StoreError
 from tehl_taichi.io.json_values import plain
 
 FILE = "cases.jsonl"
+MOST = 2e9  # bytes: 100 000 cases have a quarter of them
 # of a case; the number stands in the study's table
 STATUS = {"waiting": 0, "converged": 1, "not converged": 2, "refused": 3, "failed": 4}
 FINAL = ("converged", "not converged", "refused")  # would end the same again; a failed one lost its worker or its disk
@@ -15,17 +17,15 @@ FINAL = ("converged", "not converged", "refused")  # would end the same again; a
 def append(folder, record):
     """Add one record, a dictionary with its "case" and "status" among others."""
     line = (json.dumps(plain(record), allow_nan=False) + "\n").encode()
-    with open(folder / FILE, "ab") as file:
-        file.write(line)
+    files.append(folder / FILE, line)
 
 
 def read(folder):
     """Generator of records in the order in which they came (a case that ran again comes again). Raises StoreError."""
     try:
-        with open(folder / FILE, "rb") as file:
-            for line in file:
-                if line.endswith(b"\n") and (record := _record(line)):
-                    yield record
+        for line in io.BytesIO(files.content(folder / FILE, MOST)):
+            if line.endswith(b"\n") and (record := _record(line)):
+                yield record
     except FileNotFoundError:
         return
     except OSError as error:
@@ -35,9 +35,9 @@ def read(folder):
 def mend(folder):
     """Cut off a line whose writer was killed in its middle, so that the next one begins where a line begins."""
     path = folder / FILE
-    content = path.read_bytes() if path.exists() else b""
+    content = files.content(path, MOST) if path.exists() else b""
     if content and not content.endswith(b"\n"):
-        os.truncate(path, content.rfind(b"\n") + 1)
+        files.cut(path, content.rfind(b"\n") + 1)
 
 
 def _record(line):

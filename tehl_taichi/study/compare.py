@@ -60,15 +60,17 @@ class Comparison:
         return {"stores": [str(store.path) for store in self.stores], "finished": [store.finished for store in self.stores],
                 "differs": self.differs, "summaries": self.summaries}
 
-    def plot(self, path: str | PathLike, at: float = 0.0, dpi: int = 160, format: str = "png", width: float = 17.0) -> Path:
+    def plot(self, path: str | PathLike, at: float = 0.0, dpi: int = 160, format: str = "png", width: float = 17.0,
+             force: bool = False) -> Path:
         """The figure, with the feature at `at` half-widths where runs have one; returns its path.
 
-        dpi, format (where the path has no suffix that tells it), width: as :meth:`Run.plot`. Raises SceneError, StoreError.
+        dpi, format (where the path has no suffix that tells it), width, force: as :meth:`Run.plot`. Raises SceneError,
+        StoreError.
         """
         from tehl_taichi.figures.page import Page
         from tehl_taichi.study import compare_figure
 
-        return compare_figure.write(self, path, at, Page(format, dpi, width))
+        return compare_figure.write(self, path, at, Page(format, dpi, width, force))
 
 
 def compare(*paths: str | PathLike | Run) -> Comparison:

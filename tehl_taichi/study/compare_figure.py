@@ -44,6 +44,7 @@ class Curve:
 def write(comparison, path, at, page):
     """Write the figure, as the :class:`Page` wants it; returns the path. at: position of the features, a."""
     page, path = page.of_file(path)
+    page.check(path)
     moments = [Moments(store) for store in comparison.stores]
     rows, labels, where = _rows(moments, comparison.labels())
     curves = [Curve(one, label, colour, one.nearest(at), row)

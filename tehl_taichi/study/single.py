@@ -33,13 +33,17 @@ def run(scene: Scene | str | PathLike, path: str | PathLike | None = None, *, fo
     >>> f"{run.summary['steady']['h_c_m'] * 1e6:.2f} um"
     '0.43 um'
     """
+    return _run(find(scene), path, force, threads, arch, progress or Progress())
+
+
+def _run(scene, path, force, threads, arch, progress, case=False):
+    """As :func:`run`; case: the store is part of a study or a flank and lies in it."""
     began = time.perf_counter()
     from tehl_taichi.engine import runtime
-    from tehl_taichi.io.place import Place
+    from tehl_taichi.io.place import CasePlace, Place
 
-    scene, progress = find(scene), progress or Progress()
     runtime.check(arch, threads)
-    place = Place(path, force) if path is not None else Place.fresh(Path("runs"), scene.name)
+    place = CasePlace(path) if case else Place(path, force) if path is not None else Place.fresh(Path("runs"), scene.name)
     with place, _stoppable(place.path, place):
         runtime.start_or_join(arch, threads)
         return _begin(scene, place, _Clock(began), progress)
@@ -92,7 +96,7 @@ def completed(scene: Scene, path: str | PathLike, *, threads: int | None = None,
     from tehl_taichi.io.intact import is_store
 
     if not is_store(path):
-        return run(scene, path, threads=threads, progress=progress)
+        return _run(scene, path, False, threads, "cpu", progress or Progress(), case=True)
     there = open(path)
     if there.scene != scene:
         raise StoreError(f"{path} holds a run of another scene; choose another folder or remove it")

@@ -80,18 +80,18 @@ class Run:
         return xarray.open_zarr(self.path)
 
     def plot(self, folder: str | PathLike | None = None, dpi: int = 160, format: str = "png", width: float = 17.0,
-             at: float | None = None, depth: float | None = None) -> list:
+             at: float | None = None, depth: float | None = None, force: bool = False) -> list:
         """Write the figures of `tehl plot` into `folder` (default: beside the store); returns their paths.
 
         dpi: dots per inch, 40 to 1200; format: png, pdf or svg; width: cm, 5 to 60; at: position of the feature to show, in
         half-widths a (default: some, see :mod:`tehl_taichi.figures.moments`); depth: µm, of the fatigue to show beside that of
-        the surface (default: the worst). Raises SceneError, or StoreError without matplotlib (the `plot` extra) or where it
-        cannot write.
+        the surface (default: the worst); force: replace figures of ours that are there. Raises SceneError, or StoreError
+        without matplotlib (the `plot` extra) or where it cannot write.
         """
         from tehl_taichi.figures.page import Page, beside
         from tehl_taichi.figures.run_figures import write_all
 
-        return write_all(self.store, folder or beside(self.path), Page(format, dpi, width), at, depth)
+        return write_all(self.store, folder or beside(self.path), Page(format, dpi, width, force), at, depth)
 
     def animate(self, out: str | PathLike | None = None, **options: Any) -> Path:
         """Write a film of its passage: :func:`tehl_taichi.animate` of it."""

@@ -3,6 +3,7 @@
 import tomllib
 from pathlib import Path
 
+from tehl_taichi.disk import files
 from tehl_taichi.errors import SceneError
 from tehl_taichi.io import toml_file
 from tehl_taichi.io.found import find_changed
@@ -20,7 +21,7 @@ def is_study_file(path):
     if path.suffix != ".toml" or not path.is_file():
         return False
     try:
-        return bool({"over", "together"} & tomllib.loads(path.read_text(encoding="utf-8")).keys())
+        return bool({"over", "together"} & tomllib.loads(files.text(path)).keys())
     except (OSError, ValueError, RecursionError):
         return False
 

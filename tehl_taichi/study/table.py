@@ -17,11 +17,11 @@ import zarr
 
 from tehl_taichi import __version__
 from tehl_taichi.commit import commit
+from tehl_taichi.disk.files import blamed, reason, replace, text
+from tehl_taichi.disk.held import Held, held
+from tehl_taichi.disk.outputs import check_outside
 from tehl_taichi.errors import StoreError, extra
-from tehl_taichi.io.atomic import replace
-from tehl_taichi.io.held import Held, held
 from tehl_taichi.io.intact import ROOT
-from tehl_taichi.io.place import reason
 from tehl_taichi.study import case_records as records
 from tehl_taichi.study import flat
 from tehl_taichi.study.plan import ONE, Plan, unit
@@ -64,14 +64,13 @@ class Study(Held):
         another sweep writes it."""
         path = Path(path)
         attrs = attributes(path)
+        check_outside(path)
         if attrs is None and (path.is_file() or path.is_dir() and any(path.iterdir())):
             raise StoreError(f"{path} exists already and is no study; choose another --out")
         if attrs is not None and not plan.told_by(attrs[PLAN]):
             raise StoreError(f"{path} holds another study; choose another --out or remove it")
-        try:
+        with blamed(path, "cannot write to"):
             path.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise StoreError(f"cannot write to {path}: {reason(error)}") from None
         return held(path, lambda lock: cls._locked(path, plan, lock))
 
     @classmethod
@@ -193,7 +192,7 @@ class Study(Held):
 
     def _publish(self):
         """The group's metadata with those of its arrays, replaced as a whole."""
-        arrays = {name: json.loads((self.path / name / ROOT).read_text()) for name in self.written}
+        arrays = {name: json.loads(text(self.path / name / ROOT)) for name in self.written}
         coordinates = [key for key in (*self.plan.keys, ONE) if key in arrays and key not in self.plan.dims]
         attrs = {PLAN: self.plan.text, "version": __version__, "commit": commit(), "coordinates": " ".join(coordinates)}
         root = {"zarr_format": 3, "node_type": "group", "attributes": attrs,
@@ -222,16 +221,16 @@ class Study(Held):
             raise StoreError(f"xarray is not installed: {extra('xarray')}") from None
         return xarray.open_zarr(self.path).load()
 
-    def plot(self, folder=None, quantity=None, dpi=160, format="png", width=17.0):
+    def plot(self, folder=None, quantity=None, dpi=160, format="png", width=17.0, force=False):
         """Write its figures into `folder` (default: beside the study): of one column of the table or of the usual ones.
 
-        dpi, format, width: as :meth:`Run.plot`. Returns their paths. Raises SceneError, or StoreError without matplotlib, for
-        an unknown column, or where it cannot write.
+        dpi, format, width, force: as :meth:`Run.plot`. Returns their paths. Raises SceneError, or StoreError without
+        matplotlib, for an unknown column, or where it cannot write.
         """
         from tehl_taichi.figures.page import Page, beside
         from tehl_taichi.study import study_figures
 
-        return study_figures.write_all(self, folder or beside(self.path), quantity, Page(format, dpi, width))
+        return study_figures.write_all(self, folder or beside(self.path), quantity, Page(format, dpi, width, force))
 
 
 def is_study(path):
@@ -242,7 +241,7 @@ def is_study(path):
 def attributes(path):
     """Attributes of the study at `path`, or None."""
     try:
-        attrs = json.loads((Path(path) / ROOT).read_text())["attributes"]
+        attrs = json.loads(text(Path(path) / ROOT))["attributes"]
         return attrs if PLAN in attrs else None
     except (OSError, ValueError, KeyError, TypeError):
         return None

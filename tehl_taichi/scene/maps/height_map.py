@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
+from tehl_taichi.disk import npy, sizes
 from tehl_taichi.errors import SceneError, extra
 from tehl_taichi.scene.maps import height_text, map_holes
 
@@ -86,9 +87,10 @@ def _check_holes(file, values):
 
 
 def _load(path):
+    sizes.check(12 * path.stat().st_size * (path.suffix in TEXT), f"{path}, read as heights,")  # 2 letters a number, 3 copies
     try:
         if path.suffix == ".npy":
-            values = np.load(path, allow_pickle=False)
+            values = npy.load(path)
             if values.dtype.kind not in "fiu":
                 raise ValueError(f"it holds {values.dtype}, not numbers")
             return height_text.Table(values.astype(float))

@@ -9,6 +9,7 @@ import socket
 import time
 from pathlib import Path
 
+from tehl_taichi.disk import files
 from tehl_taichi.errors import StoreError
 
 LOCK = ".lock"
@@ -21,14 +22,16 @@ class Busy(StoreError):
 
 
 class Lock:
-    """The right to write below `folder`; taken over from dead processes of this host. Raises Busy, or OSError where the lock
-    file cannot be written."""
+    """The right to write below `folder`; taken over from dead processes of this host. Raises Busy, StoreError where a file that
+    is no lock has its name, or OSError where it cannot be written (it may be a link)."""
 
     def __init__(self, folder, name=None):
         self.path, self.name = Path(folder) / LOCK, name or folder
         self.file = _taken(self.path, self.name)
         try:
             before = _read(self.file)
+            if not before and os.fstat(self.file.fileno()).st_size:
+                raise StoreError(f"{self.path} is no lock that tehl wrote; look what it is, and move it away")
             if before and before["host"] != socket.gethostname():
                 raise Busy(f"{self.name} was being written by process {before['pid']} on {before['host']}, which cannot be "
                            f"asked from here; if that run has ended, remove {self.path}")
@@ -55,27 +58,40 @@ class Lock:
 def holder(folder):
     """Who writes below `folder` at this moment, in words, or None."""
     try:
-        with open(Path(folder) / LOCK) as file:
+        with _to_read(folder) as file:
             return _words(_read(file)) if not _lock(file, shared=True) else None
     except OSError:
         return None
 
 
+def said_in(folder):
+    """What the lock in `folder` says (program, pid, host, since), {} where there is none of this program."""
+    try:
+        with _to_read(folder) as file:
+            return _read(file)
+    except OSError:
+        return {}
+
+
 def abandoned(folder):
     """Whether `folder` has a lock of this program that nobody on this host holds any more."""
     try:
-        with open(Path(folder) / LOCK) as file:
+        with _to_read(folder) as file:
             said = _read(file)
             return bool(said) and said["host"] == socket.gethostname() and _lock(file, shared=True)
     except OSError:
         return False
 
 
+def _to_read(folder):
+    return os.fdopen(files.opened(Path(folder) / LOCK, os.O_RDONLY))
+
+
 def _taken(path, name):
     """The lock file, opened and locked. Raises Busy."""
     until = time.monotonic() + PATIENCE
     while True:
-        file = open(path, "a+")
+        file = os.fdopen(files.opened(path, os.O_RDWR | os.O_CREAT), "r+")
         if _lock(file) and _same(file, path):
             return file
         said = _read(file)
@@ -114,7 +130,7 @@ def _alive(pid):
 def _same(file, path):
     """Whether the open file still is the one of that name: its last owner may have removed it meanwhile."""
     try:
-        return os.path.samestat(os.fstat(file.fileno()), os.stat(path))
+        return os.path.samestat(os.fstat(file.fileno()), os.lstat(path))
     except OSError:
         return False
 
@@ -126,7 +142,7 @@ def _read(file):
         said = json.load(file)
         known = said["program"] == PROGRAM and isinstance(said["pid"], int) and isinstance(said["host"], str)
         return said if known else {}
-    except (ValueError, KeyError, TypeError, OSError):
+    except (ValueError, KeyError, TypeError, RecursionError, OSError):
         return {}
 
 

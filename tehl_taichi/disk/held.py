@@ -1,8 +1,9 @@
 """What is written under the lock of its folder: opened whole or let go, closed at the end of a `with`."""
 
-from tehl_taichi.errors import StoreError
-from tehl_taichi.io.lock import Lock
-from tehl_taichi.io.place import reason
+
+from tehl_taichi.disk import links
+from tehl_taichi.disk.files import blamed, tidy
+from tehl_taichi.disk.locks import Lock
 
 
 class Held:
@@ -24,12 +25,14 @@ class Held:
 
 
 def held(path, opened):
-    """`opened(lock)` under the lock of the folder `path`, which is let go where that fails. Raises StoreError, Busy."""
-    try:
+    """`opened(lock)` under the lock of the folder `path`, which is let go where that fails. Raises StoreError, also where it
+    holds a link; Busy."""
+    links.refuse(path)
+    with blamed(path, "cannot write to"):
         lock = Lock(path)
-    except OSError as error:
-        raise StoreError(f"cannot write to {path}: {reason(error)}") from None
     try:
+        with blamed(path, "cannot write to"):
+            tidy(path)
         return opened(lock)
     except BaseException:
         lock.release()

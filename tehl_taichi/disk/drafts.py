@@ -1,0 +1,209 @@
+"""Where something new is made: beside its name, hidden and locked, renamed to it when it is whole.
+
+So a store, a figure, an export appears whole or not at all. Beside `NAME` there may be, with a dot before and one of these
+behind it:
+  .part  what is being made, or what a killed process left of it: cleaned up by the next draft in that folder
+  .old   the folder that --force replaces, for the moment between two renames: put back if the second never came
+  .gone  one that is being removed
+Each is a folder with a lock; one whose lock does not say that it is ours is nobody's to touch.
+"""
+
+import contextlib
+import os
+import shutil
+from pathlib import Path
+
+from tehl_taichi.disk.files import reason
+from tehl_taichi.disk.links import is_folder
+from tehl_taichi.disk.locks import LOCK, Busy, Lock, abandoned, holder, said_in
+from tehl_taichi.errors import StoreError
+
+PART, OLD, GONE = "part", "old", "gone"
+ROOT = "zarr.json"  # of a store and of a study
+
+
+def beside(path, what):
+    """The hidden folder beside a name, see above."""
+    return path.with_name(f".{path.name}.{what}")
+
+
+class Draft:
+    """The name `path`, reserved for what :meth:`publish` puts there; replace: also where something stands.
+
+    Raises StoreError where nothing can be made, or what is there may not be replaced; Busy.
+    """
+
+    def __init__(self, path, replace=False):
+        self.path, self.made, self.old, self.lock, self.published = Path(path), [], None, None, False
+        if not self.path.name:
+            raise StoreError(f"{path} has no name that a store or a file could take; choose another --out")
+        self.folder, self.replaces = beside(self.path, PART), replace
+        put_back(self.path)
+        try:
+            self.old = self.allowed(replace)
+            self._make()
+        except BaseException as error:
+            self.give_up()
+            if isinstance(error, OSError):
+                raise StoreError(f"cannot write to {self.path.parent}: {reason(error)}") from None
+            raise
+
+    def allowed(self, replace):
+        """The lock of the folder that is replaced, None where there is none. Raises StoreError where `path` may not be made."""
+        raise NotImplementedError
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.give_up()
+
+    def _make(self):
+        self.made = _parents(self.path)
+        self.path.parent.mkdir(parents=True, exist_ok=True)
+        clean(self.path.parent)
+        self.lock = self._locked()
+        for leftover in self.folder.iterdir():
+            if leftover.name != LOCK:
+                _remove(leftover)
+        if os.path.lexists(self.path) and not self.replaces:  # it came while we looked
+            raise Busy(exists(self.path))
+
+    def _locked(self):
+        """The lock of the hidden folder, which is new, or what a killed process left. Raises Busy for anything else."""
+        while True:
+            try:
+                self.folder.mkdir()
+            except FileExistsError:
+                _check_ours(self.folder)
+            try:
+                return Lock(self.folder, self.path)
+            except FileNotFoundError:
+                continue  # its last owner removed the folder between the two lines
+
+    def publish(self, made=None):
+        """Give the hidden folder, or `made` in it, the name; what stood there is removed. Raises StoreError where something
+        else has come there."""
+        aside = beside(self.path, OLD)
+        try:
+            if self.old:
+                os.rename(self.path, aside)
+            _put(made or self.folder, self.path, self.replaces)
+        except OSError as error:
+            put_back(self.path)
+            raise StoreError(f"cannot put it at {self.path}: {reason(error)}") from None
+        self.published = True
+        if made:
+            remove(self.folder, self.lock)
+        else:
+            self.lock.moved(self.path)
+        if self.old:
+            gone = beside(self.path, GONE)
+            os.rename(aside, gone)
+            remove(gone, self.old)
+
+    def give_up(self):
+        """Remove what was made so far, unless it is published; what stood at the name before stays."""
+        if self.published:
+            return
+        put_back(self.path)  # Ctrl-C came between the renames
+        if self.lock:
+            remove(self.folder, self.lock)
+        for folder in self.made:
+            with contextlib.suppress(OSError):  # others use it
+                folder.rmdir()
+        if self.old:
+            self.old.release()
+
+
+def _put(made, path, replaces):
+    """Rename; a file takes no name that another one has, unless it replaces it."""
+    if made.is_dir() or replaces:
+        os.rename(made, path)
+        return
+    try:
+        os.link(made, path)  # refused where something has that name, which a rename would not be
+    except FileExistsError:
+        raise
+    except OSError:  # a file system without hard links
+        os.rename(made, path)
+
+
+def put_back(path):
+    """Undo half a replacement: the old folder gets its name back where the new one never came."""
+    aside = beside(path, OLD) if path.name else None
+    if aside and not os.path.lexists(path) and _ours(aside):
+        with contextlib.suppress(OSError):  # a read-only folder, or another process was faster
+            os.rename(aside, path)
+
+
+def clean(folder):
+    """Remove what killed processes of this host left unfinished in `folder`; an old store only where a new one stands."""
+    for what in (PART, GONE, OLD):
+        for leftover in folder.glob(f".*.{what}"):
+            new = folder / leftover.name[1 : -len(what) - 1]
+            if _ours(leftover) and abandoned(leftover) and (what != OLD or _replaced(leftover, new)):
+                with contextlib.suppress(Busy, OSError):  # somebody takes it over, or cleans too
+                    remove(leftover, Lock(leftover))
+
+
+def _replaced(old, new):
+    """Whether a folder of the same kind stands where the old one stood."""
+    return is_folder(new) and (new / ROOT).is_file() >= (old / ROOT).is_file()
+
+
+def _ours(folder):
+    """Whether a hidden folder was made by this program for this user: a folder, no link, whose lock says so."""
+    return is_folder(folder) and _own(folder) and bool(said_in(folder))
+
+
+def _own(folder):
+    return not hasattr(os, "geteuid") or os.lstat(folder).st_uid == os.geteuid()
+
+
+def _check_ours(folder):
+    """Raises Busy where a hidden folder is nothing that a killed process of ours left."""
+    with contextlib.suppress(FileNotFoundError):  # its owner removes it now
+        left = set(os.listdir(folder)) if is_folder(folder) else None
+        begun = left == set() or left == {LOCK} and not os.path.getsize(folder / LOCK)
+        if not _ours(folder) and not (begun and _own(folder)):
+            what = "a link" if os.path.islink(folder) else "nothing that tehl left there"
+            raise Busy(f"{folder} is in the way and is {what}: move it away, or choose another --out")
+
+
+def unmade(path):
+    """What there is of a store that has not appeared at `path` yet, a sentence, or None."""
+    folder = beside(Path(path), PART)
+    if not is_folder(folder):
+        return None
+    if who := holder(folder):
+        return f"{path} is still being made by {who}: its first entry is not in yet"
+    return f"{path} was never made: its run ended before the first entry was in; run it again"
+
+
+def _parents(path):
+    """Folders above `path` that do not exist yet, the innermost first."""
+    return [folder for folder in path.absolute().parents if not folder.exists()]
+
+
+def remove(folder, lock):
+    """Remove a folder with its lock last, so that half of it is still known for what it is; links in it go, not what they lead
+    to."""
+    try:
+        for child in folder.iterdir():
+            if child.name != LOCK:
+                _remove(child)
+        lock.moved(folder)
+        lock.release()
+        folder.rmdir()
+    except OSError:  # what stays is cleaned up by a later draft
+        lock.file.close()
+
+
+def _remove(path):
+    shutil.rmtree(path) if is_folder(path) else path.unlink()
+
+
+def exists(path):
+    """That something stands at `path`, in words."""
+    return f"{path} exists already; choose another --out, or --force to replace it"

@@ -1,0 +1,47 @@
+"""Arrays in numpy's own files, whose headers are believed only as far as the file goes."""
+
+import math
+import os
+import zipfile
+
+import numpy as np
+
+from tehl_taichi.disk import sizes
+
+HEADERS = {(1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.read_array_header_2_0}
+
+
+def load(path):
+    """The array of a .npy file. Raises ValueError where it is none, or declares more than it holds; SceneError where there is
+    no room for it; OSError."""
+    with open(path, "rb") as file:
+        sizes.check(3 * declared(file, os.fstat(file.fileno()).st_size), f"{path}, with its copies,")
+        file.seek(0)
+        return np.load(file, allow_pickle=False)
+
+
+def load_all(path):
+    """{name: array} of an .npz file that is not compressed, as ours are. Raises ValueError, OSError, zipfile.BadZipFile."""
+    with zipfile.ZipFile(path) as archive:
+        members, size = archive.infolist(), os.path.getsize(path)
+        if any(member.compress_type != zipfile.ZIP_STORED for member in members) or sum(m.file_size for m in members) > size:
+            raise ValueError("it declares more than it holds")
+        for member in members:
+            with archive.open(member) as file:
+                declared(file, member.file_size)
+    with np.load(path, allow_pickle=False) as saved:
+        return {key: saved[key] for key in saved.files}
+
+
+def declared(file, size):
+    """Bytes of the array that the header of an open .npy file of `size` bytes declares. Raises ValueError where the file does
+    not hold them."""
+    version = np.lib.format.read_magic(file)
+    if version not in HEADERS:
+        raise ValueError(f"its format {version[0]}.{version[1]} is not known")
+    shape, _, dtype = HEADERS[version](file)
+    found = math.prod(shape) * dtype.itemsize
+    if found > size - file.tell() and not dtype.hasobject:  # objects are refused by numpy
+        raise ValueError(f"its header declares {'x'.join(map(str, shape))} numbers, {sizes.words(found)}, and the file holds "
+                         f"{sizes.words(size - file.tell())}")
+    return found

@@ -1,0 +1,238 @@
+"""Received stores, studies and flanks whose files are links to files outside: nothing outside changes, nothing is lost."""
+
+import json
+import os
+import shutil
+import stat
+from pathlib import Path
+
+import fake_cases
+import made_results
+import pytest
+from small_stores import SMALL, shot, store
+
+import tehl_taichi as tehl
+from tehl_taichi.disk.drafts import beside
+from tehl_taichi.errors import StoreError
+from tehl_taichi.flank import flank
+from tehl_taichi.io.place import Place
+from tehl_taichi.io.store import Store
+from tehl_taichi.study import many
+from tehl_taichi.study.plan import plan
+
+
+def cli(*words):
+    """(exit code, what it says) of the command."""
+    from tehl_cli.main import app
+    from typer.testing import CliRunner
+
+    found = CliRunner().invoke(app, [*map(str, words)])
+    return getattr(found.exception, "exit_code", found.exit_code), f"{found.output}{found.exception or ''}"
+
+
+def snapshot(folder):
+    """{path: what tells it from any other file or state of it} of everything below a folder, links as such."""
+    found = {str(path): path.lstat() for path in (folder, *folder.rglob("*"))}
+    return {path: (s.st_mode, s.st_ino, s.st_nlink, s.st_size, stat.S_ISREG(s.st_mode) and s.st_mtime_ns)
+            for path, s in found.items()}
+
+
+def swept(path, count=2):
+    """A study of so many cases, with a store of each and some left to do."""
+    heights = [0.5e-6 + 0.1e-6 * n for n in range(count)]
+    with pytest.raises(KeyboardInterrupt):
+        many.run(plan(SMALL, {"feature.height": heights}), path, workers=1, work=_stopped_after(1))
+    store(path / "cases" / "0000.zarr", 1)
+    return path
+
+
+def _stopped_after(count):
+    done = []
+
+    def work(job):
+        if len(done) == count:
+            raise KeyboardInterrupt
+        done.append(job)
+        return fake_cases.formula(job)
+
+    return work
+
+
+def stored(path):
+    found = store(path, 1).path
+    (found / ".lock").write_text(json.dumps({"program": "tehl_taichi", "pid": 2**22 + 1, "host": os.uname().nodename}))
+    return found
+
+
+def flanked(path):
+    path.mkdir()
+    store(path / "1.zarr", 1)
+    return made_results.flank(path)
+
+
+def write_to_store(path):
+    for attempt in (lambda: Store.write(path).close(), lambda: Place(path, replace=True).give_up(), lambda: tehl.resume(path)):
+        with pytest.raises(StoreError) as refused:
+            attempt()
+    return str(refused.value)
+
+
+def write_to_study(path):
+    with pytest.raises(StoreError) as refused:
+        found = plan(SMALL, {"feature.height": [0.5e-6, 0.6e-6]})
+        many.run(found, path, workers=1, work=fake_cases.formula)
+    return str(refused.value)
+
+
+def write_to_flank(path):
+    with pytest.raises(StoreError) as refused:
+        flank("fzg-c", at=["A", "C", "E"], folder=path, workers=1)
+    return str(refused.value)
+
+
+ARCHIVES = {"store": (stored, write_to_store), "study": (swept, write_to_study), "flank": (flanked, write_to_flank)}
+
+
+def by_symlink(file, outside):
+    shutil.move(file, outside)
+    file.symlink_to(outside)
+
+
+def by_hard_link(file, outside):
+    os.link(file, outside)
+
+
+def by_fifo(file, outside):
+    file.unlink()
+    os.mkfifo(file)
+
+
+@pytest.mark.parametrize("replaced", [by_symlink, by_hard_link, by_fifo])
+@pytest.mark.parametrize("kind", ARCHIVES)
+def test_no_file_of_an_archive_leads_writing_outside(tmp_path, kind, replaced):
+    """Every file in turn. What opens no more (a FIFO in place of the attributes) is refused for that."""
+    make, write = ARCHIVES[kind]
+    path, kept, outside = make(tmp_path / "made"), tmp_path / "kept", tmp_path / "outside"
+    files = sorted(file for file in path.rglob("*") if file.is_file())
+    assert len(files) > 4
+    for file in files if replaced is by_symlink else files[::3]:
+        shutil.copy2(file, kept)
+        replaced(file, outside)
+        before = snapshot(tmp_path)
+        said = write(path)
+        assert str(file) in said or str(path) in said and replaced is by_fifo, said
+        assert snapshot(tmp_path) == before, file
+        file.unlink()
+        shutil.move(kept, file)
+        outside.unlink(missing_ok=True)
+
+
+@pytest.mark.parametrize("kind", ARCHIVES)
+def test_no_folder_of_an_archive_leads_writing_outside(tmp_path, kind):
+    make, write = ARCHIVES[kind]
+    path, outside = make(tmp_path / "made"), tmp_path / "outside"
+    for folder in sorted(folder for folder in path.rglob("*") if folder.is_dir())[::2]:
+        by_symlink(folder, outside)
+        before = snapshot(tmp_path)
+        assert str(folder) in write(path)
+        assert snapshot(tmp_path) == before, folder
+        folder.unlink()
+        shutil.move(outside, folder)
+
+
+@pytest.mark.parametrize("kind", ARCHIVES)
+def test_an_archive_that_is_a_link_is_not_written(tmp_path, kind):
+    make, write = ARCHIVES[kind]
+    found = make(tmp_path / "source")
+    (tmp_path / "link").symlink_to(found)
+    before = snapshot(tmp_path)
+    assert f"{tmp_path / 'link'} is a link" in write(tmp_path / "link")
+    assert snapshot(tmp_path) == before
+
+
+def thesis(folder):
+    folder.mkdir()
+    (folder / "chapter.tex").write_text("four years of work")
+    return folder
+
+
+@pytest.mark.parametrize("kind", ["link", "store", "folder", "file"])
+def test_what_has_the_name_of_a_draft_stays(tmp_path, kind):
+    """B1: a link, another store behind it with a stale lock, somebody's folder, a file."""
+    runs, mine = tmp_path / "runs", thesis(tmp_path / "thesis")
+    runs.mkdir()
+    part = beside(runs / "gear-1.zarr", "part")
+    if kind == "link":
+        part.symlink_to(mine)
+    elif kind == "store":
+        part.symlink_to(stored(tmp_path / "other.zarr"))
+    elif kind == "folder":
+        thesis(part)
+    else:
+        part.write_text("mine")
+    before = snapshot(tmp_path)
+    with pytest.raises(StoreError, match=r"gear-1.zarr.part is in the way"):
+        Place(runs / "gear-1.zarr")
+    with Place.fresh(runs, "gear") as place:  # takes the next number
+        assert place.path.name == "gear-2.zarr"
+        store(runs / "another.zarr", 1)  # whose draft cleans the folder
+        shutil.rmtree(runs / "another.zarr")
+    assert snapshot(tmp_path) == before
+
+
+@pytest.mark.parametrize("what", ["old", "gone", "part"])
+def test_links_beside_a_store_are_neither_put_back_nor_cleaned(tmp_path, what):
+    runs, other = tmp_path / "runs", stored(tmp_path / "other.zarr")
+    runs.mkdir()
+    beside(runs / "a.zarr", what).symlink_to(other)
+    before = snapshot(tmp_path)
+    with pytest.raises(StoreError):
+        Store.open(runs / "a.zarr")
+    store(runs / "b.zarr", 1)
+    shutil.rmtree(runs / "b.zarr")
+    assert snapshot(tmp_path) == before
+
+
+def test_links_in_a_leftover_are_removed_not_followed(tmp_path):
+    mine, left = thesis(tmp_path / "thesis"), beside(tmp_path / "a.zarr", "part")
+    shutil.copytree(stored(tmp_path / "other.zarr"), left)
+    (left / "x" / "thesis").symlink_to(mine)
+    (left / "thesis").symlink_to(mine)
+    os.link(mine / "chapter.tex", left / "chapter.tex")
+    store(tmp_path / "b.zarr", 1)
+    assert not left.exists() and (mine / "chapter.tex").read_text() == "four years of work"
+
+
+def test_a_store_cannot_be_emptied_by_the_lock_of_another_program(tmp_path):
+    path = store(tmp_path / "a.zarr").path
+    (path / ".lock").write_text("my notes")
+    with pytest.raises(StoreError, match="is no lock that tehl wrote"):
+        Store.write(path)
+    assert (path / ".lock").read_text() == "my notes"
+
+
+def test_temporary_names_cannot_be_guessed_and_are_tidied(tmp_path):
+    from tehl_taichi.disk import files
+
+    names = []
+    for _ in range(2):
+        with files.aside(tmp_path / "a") as temporary:
+            names.append(temporary.name)
+            files.write(temporary, b"1")
+    assert len(set(names)) == 2 and [path.name for path in tmp_path.iterdir()] == ["a"]
+    path = store(tmp_path / "a.zarr").path
+    (path / names[0]).write_text("half")
+    Store.write(path).close()
+    assert not (path / names[0]).exists() and len(Store.open(path)) == 3
+
+
+def test_a_chunk_that_is_there_is_made_anew(tmp_path):
+    """Not written through: a store that went back writes its entries again."""
+    path = store(tmp_path / "a.zarr").path
+    with Store.write(path) as saved:
+        saved.go_back()
+        chunk = saved._file("pressure", 3)
+        os.link(__file__, chunk) if os.stat(__file__).st_dev == os.stat(path).st_dev else chunk.symlink_to(__file__)
+        before = Path(__file__).read_bytes()
+        saved.append(shot(3), shot(3).state)
+    assert Path(__file__).read_bytes() == before and len(Store.open(path)) == 4
