@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -252,8 +253,10 @@ def test_companions_give_the_bars_of_a_passage(passage):
     told = []
     found = companions.errors(short(), passage, {"Fi_max": 0.5},
                               lambda: companions.answers(short(), lambda *part: told.append(part)))
-    assert found["passage_error"].keys() == {"p_max_Pa", "h_min_m", "friction_coefficient_mean", "Fi_max"}
-    assert all(size > 0 for size in found["passage_error"].values() if size is not None)
+    bars = found["passage_error"]
+    assert bars.keys() == {"p_max_Pa", "h_min_m", "friction_coefficient_mean", "contact_load_fraction_max", "Fi_max"}
+    assert bars.pop("contact_load_fraction_max") == 0.0  # nothing touches
+    assert all(size > 0 for size in bars.values() if size is not None)
     assert found["passage_error"]["friction_coefficient_mean"] is not None
     assert told == [(0, 3), (1, 3), (2, 3), (3, 3)]  # 16 columns are refused, 32 have a start and two steps
 
@@ -328,7 +331,8 @@ def test_who_gets_companions():
 
 def test_a_run_without_a_passage_or_companions_has_no_bars(passage):
     assert companions.errors(short(), passage.items[:1], None, None) == {}
-    assert companions.errors(short(**{"numerics.estimate_error": False}), passage, None, None) == {"passage_unknown": {}}
+    assert companions.errors(short(**{"numerics.estimate_error": False}), passage, None, None) == {
+        "passage_error": {"contact_load_fraction_max": 0.0}, "passage_unknown": {}}
 
 
 def test_a_summary_has_numbers_or_null():
@@ -368,3 +372,17 @@ def test_a_narrow_peak_at_any_moment_leaves_pressure_and_fatigue_unknown(passage
             shot.fields["pressure"][...] = field
     assert "exit not resolved: a pressure peak of 90% of the largest" in after["p_max_Pa"].doubt and after["Fi_max"].doubt
     assert not after["h_min_m"].doubt and alone == {name: after[name].doubt for name in ("p_max_Pa", "Fi_max")}
+
+
+@pytest.mark.parametrize("shares, size", [((0.05, 0.02, 0.0), 0.0),  # the finest film carries all: so do finer ones
+                                          ((0.2, 0.05, 0.008), None), ((0.12, 0.11, 0.107), pytest.approx(0.003, rel=0.8))])
+def test_the_load_on_solid_contact_has_a_bar_or_none(shares, size):
+    found, why = bar([Reading(share, positive=True) for share in shares])
+    assert found == size and bool(why) == (size is None)
+
+
+def test_a_passage_that_touches_without_companions_says_so(passage):
+    shots = [replace(shot, scalars={**shot.scalars, "contact_load_fraction": 0.01 * n}) for n, shot in enumerate(passage.items)]
+    found = companions.errors(short(**{"numerics.estimate_error": False}), Store(shots), None, None)
+    assert "contact_load_fraction_max" not in found["passage_error"]
+    assert "touch" in found["passage_unknown"]["contact_load_fraction_max"]

@@ -135,7 +135,7 @@ def test_tables_have_the_error_below_the_surface_and_what_no_figure_shows(pages,
     assert "index of fatigue Fi 25 µm below the surface, largest\n1.392\n0.041\n2.9 %" in seen
     assert "index of fatigue Fi 25 µm below the surface, largest\n1.4\nnot estimated\n" in pages["thermal"].text
     assert "largest principal stress on the surface\n300 MPa\n" in seen
-    assert "load carried by solid contact, at most\n" in seen and "load carried" not in pages["steady line"].text
+    assert "load carried by solid contact\n" in seen and "load carried" not in pages["steady line"].text
     assert "critical plane to the surface (0°: it lies in the surface)\n57 °" in seen
 
 

@@ -5,7 +5,7 @@ import numpy as np
 from tehl_taichi import __version__
 from tehl_taichi.io import result_judge
 from tehl_taichi.io.film_judge import worst_ripple
-from tehl_taichi.march.companions import FI, indices
+from tehl_taichi.march.companions import CONTACT, FI, indices
 from tehl_taichi.march.readings import HEAT
 from tehl_taichi.physics import conduction
 from tehl_taichi.physics.law import beyond
@@ -55,7 +55,7 @@ def counts(store):
             "cells": {"nx": grid.nx, "ny": 0 if scene.one_dimensional else grid.ny}}
 
 
-PASSAGE = ("p_max_Pa", "h_min_m", *HEAT, "friction_coefficient_mean")
+PASSAGE = ("p_max_Pa", "h_min_m", *HEAT, "friction_coefficient_mean", CONTACT)
 
 
 def _clamps(store):

@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass, replace
 
 from tehl_taichi.fatigue.pressure_alone import searched, why_none
+from tehl_taichi.march.companions import CONTACT
 from tehl_taichi.march.readings import HEAT
 from tehl_taichi.scene.passing_words import between
 from tehl_taichi.values.digits import decimals, micrometres
@@ -100,7 +101,7 @@ def _passage_rows(summary):
         rows += _heat_rows("passage", t)
         rows += [_of(t, "p_max_Pa", "passage p_max", 1e-9, "GPa"), _of(t, "h_min_m", "passage h_min", 1e6, "um"),
                  _of(t, "friction_coefficient_mean", "passage friction coefficient, mean"),
-                 Row("load carried by solid contact", f"{t['contact_load_fraction_max']:.3%} at most"),
+                 Row("load carried by solid contact", contact_share(t)),
                  Row("worst residual / load / mass error",
                      f"{t['residual_max']:.1e} / {t['load_error_max']:.1e} / {t['mass_error_max']:.1e}")]
     if "fatigue" in summary:
@@ -176,6 +177,14 @@ def _below_rows(f):
         alone = deep["contact_alone"]
         rows.append(Row("Fi of the contact alone", f"{alone['Fi_max']:.4f}", alone["Fi_max"], where=_at(alone)))
     return [replace(row, part=BELOW) for row in rows]
+
+
+def contact_share(t):
+    """The largest share of the load on solid contact: none, with its error, or as no more than what this grid has."""
+    share, error = t[CONTACT], t.get("error", {}).get(CONTACT)
+    if share == 0:
+        return "none"
+    return f"{share:.2%} at most, not resolved" if error is None else f"{quantity(t, CONTACT, 100)} % at most"
 
 
 def _stress(what, value):

@@ -24,6 +24,7 @@ from tehl_taichi.scene.scales import Scales
 COMPANIONS = HALVED  # with the run itself three grids; 1/8 and 1/64 of its cells and steps
 FI, BELOW = "Fi_max", "below_Fi_max"  # names of the largest index of the surface, and below it
 RESOLVED, RESOLVED_BELOW = "resolved_Fi_max", "resolved_below_Fi_max"  # of both as long as the grid resolves the pressure
+CONTACT = "contact_load_fraction_max"
 SHARP = ("p_max_Pa", "film_max_C", FI, BELOW)  # what a peak that is not resolved leaves unknown
 SWAYED = ("surface_a_max_C", "surface_b_max_C", "friction_coefficient_mean")  # what it has a part in
 PART = 0.1  # a
@@ -63,7 +64,8 @@ def passage_readings(scene, reader, scalar, fatigue=None):
     out = {"p_max_Pa": readings.highest(_moment(reader, int(np.argmax(p)) + 1), a),
            "h_min_m": readings.lowest(_moment(reader, int(np.argmin(h)) + 1), scene),
            **{name: readings.hottest(np.max(scalar(name)[1:]), scene) for name in heat},
-           "friction_coefficient_mean": Reading(float(np.mean(scalar("friction_coefficient")[1:])))}
+           "friction_coefficient_mean": Reading(float(np.mean(scalar("friction_coefficient")[1:]))),
+           CONTACT: Reading(float(np.max(scalar("contact_load_fraction")[1:])), positive=True)}
     out |= {name: Reading(float(part["Fi_max"]), doubt=_shallow(name, fatigue))
             for name, part in indices(fatigue or {}).items()}
     # a peak that the grid does not resolve at some moment: neither its pressure is known nor what it does to oil and steel
@@ -148,7 +150,10 @@ def errors(scene, reader, fatigue, told):
         return {}
     own = passage_readings(scene, reader, reader.scalar, fatigue)
     if not wanted(scene):
-        return {"passage_unknown": {name: reading.doubt for name, reading in own.items() if reading.doubt}}
+        touches = own[CONTACT].value > 0
+        doubts = {name: reading.doubt for name, reading in own.items() if reading.doubt}
+        doubts |= {CONTACT: readings.TOUCH} if touches else {}
+        return {"passage_error": {} if touches else {CONTACT: 0.0}, "passage_unknown": doubts}
     found, unknown = judged(told(), own)
     return {"passage_error": found, "passage_unknown": unknown}
 

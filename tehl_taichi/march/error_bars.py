@@ -71,6 +71,8 @@ def bar(readings):
     if len(known) < 2:
         return None, "no coarser grid tells it"
     before = known[-2]
+    if last.positive and last.value == 0 and not last.place:  # a film that carries all here does so on finer grids, too
+        return 0.0, ""
     if last.place and all(abs(a - b) > MOVED * before.cell for a, b in zip(last.place, before.place)):
         return None, "its place differs from that on the next coarser grid"
     steps = [b.value - a.value for a, b in zip(known[:-1], known[1:])][::-1]

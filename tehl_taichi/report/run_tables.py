@@ -4,6 +4,7 @@ import json
 
 from tehl_taichi.figures.index_words import resolved
 from tehl_taichi.io import intact
+from tehl_taichi.io.summary_rows import contact_share
 from tehl_taichi.march.output import Scalar, entries
 from tehl_taichi.report.document import facts, sentences, table
 from tehl_taichi.report.rounded import FEW, apart, index, roughly, share, told
@@ -123,8 +124,8 @@ def tension(fatigue):
 
 def solid_contact(summary):
     """The share of the load that the film did not carry; None without a finished passage."""
-    most = summary.get("transient", {}).get("contact_load_fraction_max")
-    return facts([("load carried by solid contact, at most", share(most, 1.0))] if most is not None else [])
+    passage = summary.get("transient")
+    return facts([("load carried by solid contact", contact_share(passage))] if passage else [])
 
 
 def numerics(store):
