@@ -40,7 +40,7 @@ def test_the_same_surface_in_another_unit_is_the_same_surface(tmp_path):
     np.save(nm, np.load(um) * 1e3)
     one, other = feature(um), feature(nm, unit="nm")
     np.testing.assert_allclose(one.surface, other.surface, atol=1e-18)
-    assert one.measures.rms == pytest.approx(np.std(one.surface)) and 0.05e-6 < one.measures.rms < 0.2e-6
+    assert one.unfaded.rms == pytest.approx(np.std(one.surface)) and 0.05e-6 < one.measures.rms < 0.2e-6
     assert feature(um, unit="\u00b5m").unit == "um"
     np.testing.assert_allclose(feature(um, scale=-2.0).surface, -2 * one.surface)
 
@@ -58,8 +58,9 @@ def test_a_map_gives_the_feature_it_was_sampled_from(tmp_path):
 def test_a_tilted_map_is_levelled_and_a_broken_one_refused(tmp_path):
     y, x = np.mgrid[:20, :30]
     np.savetxt(tmp_path / "tilt.csv", 3.0 + 0.2 * x - 0.1 * y, delimiter=",")
-    assert np.abs(feature(tmp_path / "tilt.csv").surface).max() < 1e-18
-    assert feature(tmp_path / "tilt.csv", level="mean").measures.low == pytest.approx(-(0.2 * 14.5 + 0.1 * 9.5) * 1e-6)
+    assert np.abs(feature(tmp_path / "tilt.csv", taper=5e-6).surface).max() < 1e-18
+    mean = feature(tmp_path / "tilt.csv", level="mean", taper=5e-6)
+    assert mean.unfaded.low == pytest.approx(-(0.2 * 14.5 + 0.1 * 9.5) * 1e-6)
     (tmp_path / "broken.csv").write_text("1,2\n3,4\n")
     with pytest.raises(SceneError, match=r"4 x 4 heights, not one of shape \(2, 2\)"):
         feature(tmp_path / "broken.csv")
@@ -118,10 +119,10 @@ def test_tables_with_something_else_in_them_are_refused(tmp_path, told):
 def test_the_largest_slope_is_that_of_the_ramp(tmp_path):
     y, x = np.mgrid[:40, :50] * 2e-6
     np.save(tmp_path / "ramp.npy", 0.03 * x + 0.04 * y)
-    found = feature(tmp_path / "ramp.npy", unit="m", pixel=2e-6, level="none").measures
+    found = feature(tmp_path / "ramp.npy", unit="m", pixel=2e-6, level="none", taper=0.0).measures
     assert found.slope == pytest.approx(np.degrees(np.arctan(0.05))) and found.low == 0
     assert found.range == pytest.approx(0.03 * 98e-6 + 0.04 * 78e-6)
-    part = feature(tmp_path / "ramp.npy", unit="m", pixel=2e-6, level="none", extent_x=48e-6, extent_y=38e-6).measures
+    part = feature(tmp_path / "ramp.npy", unit="m", pixel=2e-6, level="none", extent_x=48e-6, extent_y=38e-6, taper=0.0).unfaded
     assert part.range == pytest.approx(0.03 * 48e-6 + 0.04 * 38e-6, rel=0.06)  # whole points: one more at most
 
 

@@ -1,5 +1,6 @@
 """Heights measured on a grid."""
 
+import dataclasses
 import os
 from dataclasses import dataclass
 from functools import cached_property
@@ -136,8 +137,17 @@ class Measured:
 
     @property
     def used(self):
-        """The part of `surface` inside the patch."""
-        return self.inside(self.surface)
+        """What passes through the contact: the part of `surface` inside the patch, faded out at its rim."""
+        return self.faded(self.inside(self.surface))
+
+    def passing(self, cutoff):
+        """The same with another cutoff (m; 0: none)."""
+        return self.faded(self.inside(self.filtered(cutoff)))
+
+    def faded(self, values):
+        """Values (points along y, along x) of the patch, faded out at its rim."""
+        y, x = ((np.arange(count) - (count - 1) / 2) * step for count, step in zip(values.shape, self.steps[::-1]))
+        return values * self.kind.window(self, x, y[:, None]) if self.taper else values
 
     def inside(self, values):
         """The part of such an array inside the patch."""
@@ -147,8 +157,13 @@ class Measured:
 
     @cached_property
     def measures(self):
-        """Range, rms and largest slope of the part of a map that is used."""
-        return Measures.of(self.used, self.steps)
+        """Range and rms of what passes of a map; the largest slope is that of its patch as it was measured."""
+        return dataclasses.replace(Measures.of(self.used, self.steps), slope=self.unfaded.slope)
+
+    @cached_property
+    def unfaded(self):
+        """Range, rms and largest slope of its patch, not faded out."""
+        return Measures.of(self.inside(self.surface), self.steps)
 
 
 class Map(Patch):
@@ -197,6 +212,7 @@ class Map(Patch):
         f.__dict__["heights"] = heights
         _check_keys(f)
         _check_heights(f)
+        super().check(f)
 
     def preview(self, f, scene):
         return map_judge.lines(f, scene)
@@ -222,7 +238,7 @@ def _check_keys(f):
 
 
 def _check_heights(f):
-    found, where = f.measures, f"feature.file = {f.file!r}, in {f.unit} with level = {f.level!r},"
+    found, where = f.unfaded, f"feature.file = {f.file!r}, in {f.unit} with level = {f.level!r},"
     if found.range > MAX_RANGE:
         raise SceneError(f"{where} ranges over {found.range:.3g} m; allowed: at most {MAX_RANGE:g} m. Is feature.unit = "
                          f"{f.unit!r} right?")

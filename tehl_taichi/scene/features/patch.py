@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from tehl_taichi.errors import SceneError
 from tehl_taichi.scene.shape import Shape
 
 
@@ -11,6 +12,14 @@ class Patch(Shape):
     def patch(self, f):
         """(length along x, along y) of the rectangle."""
         return f.extent_x, f.extent_y or math.inf
+
+    def check(self, f):
+        """Refuse a taper that leaves no height of the patch as it is: half of its shorter side."""
+        short = min(self.patch(f))
+        if f.taper > short / 2 * (1 + 1e-9):
+            key = "extent_x" if short == self.patch(f)[0] else "extent_y"
+            raise SceneError(f"feature.taper = {f.taper:g} m fades out more than half of the patch, {short:.4g} m "
+                             f"(feature.{key}); allowed: at most {short / 2:.4g} m")
 
     def reach(self, f):
         return self.patch(f)[0] / 2

@@ -34,6 +34,7 @@ class Rough(Patch):
 
     def check(self, f):
         needs_patch(f)
+        super().check(f)
 
     def sizes(self, f):
         across = {"width": f.width} | ({"extent_y": f.extent_y} if f.extent_y > 0 else {})

@@ -20,6 +20,7 @@ class Waviness(Patch):
 
     def check(self, f):
         needs_patch(f)
+        super().check(f)
         if math.isinf(f.length):
             raise SceneError("feature.length = inf m: waves that are the same for every y have length = 0")
 

@@ -13,13 +13,14 @@ from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.yielding import STEEL
 
 TURNED = "Heights count out of the metal and most bodies are convex: is it upside down? feature.scale = -1 turns it over"
+LEFT = 0.5  # of the rms that a taper ought to leave
 RIM = 0.1  # of the rms: a step at the rim below that is roughness like the rest
 
 
 def doubts(f, scene):
-    """Sentences about a map that has holes, has the form of its body, is flat or rough, finer or coarser than the grid, or ends
-    in a step."""
-    return [*_holes(f), *form(f), *_across(f, scene), *_size(f), *_rough(f, scene), *_grid(f, scene), *_rim(f)]
+    """Sentences about a map that has holes, has the form of its body, is flat or rough, finer or coarser than the grid, ends in
+    a step, or fades out over much of it."""
+    return [*_holes(f), *form(f), *_across(f, scene), *_size(f), *_rough(f, scene), *_grid(f, scene), *_rim(f), *_faded(f)]
 
 
 def lines(f, scene):
@@ -31,13 +32,17 @@ def lines(f, scene):
     off = f"{LEVELS[f.level]} taken off{form_taken(f, scene)}"
     skipped = f"{found}, " if (found := height_map.skipped(f.sha256)) else ""
     yield (f"{name}: {skipped}{along} x {across} points {_apart(f)} um apart, {_um(f.patch[0])} x {_um(f.patch[1])} um of them "
-           f"used, {turned}{heights}, {off}{_filter(f)}")
+           f"used{_taper(f)}, {turned}{heights}, {off}{_filter(f)}")
     yield (f"{name}: {_um(m.low)} to {_um(m.high)} um (range {_um(m.range)} um), rms {_um(m.rms)} um, largest slope "
            f"{m.slope:.2g} deg; a cell of the grid has {steps[0]:.3g} x {steps[1]:.3g} points")
 
 
 def _filter(f):
     return f", low-pass with a cutoff of {_um(f.cutoff)} um (Gaussian)" if f.cutoff else ""
+
+
+def _taper(f):
+    return f", fading out over {_um(f.taper)} um at the rim" if f.taper else ""
 
 
 def _apart(f):
@@ -142,7 +147,7 @@ def _cutoff(f, scene):
     """The cutoff with which the doubts about grid, slopes and pressure are gone, in words; "" where there is none."""
     if not (cutoff := helping(f, scene)):
         return ""
-    cells, left = cutoff / max(Scales.of(scene).cell(scene.grid)), np.ptp(f.inside(f.filtered(cutoff)))
+    cells, left = cutoff / max(Scales.of(scene).cell(scene.grid)), np.ptp(f.passing(cutoff))
     return (f"feature.cutoff = {cutoff:g} (m; {_um(cutoff)} um, {cells:.2g} cells) filters what is finer, and takes the range "
             f"from {_um(f.measures.range)} to {_um(left)} um")
 
@@ -163,3 +168,10 @@ def _rim(f):
     formed = f.level != "form" and f.form.dominant  # the step is the form's, of which _form tells
     if f.taper == 0 and step > RIM * f.measures.rms and not formed:
         yield f"{_name(f)} ends in a step of up to {_um(step)} um at its rim; feature.taper (m) lets it fade out"
+
+
+def _faded(f):
+    whole = f.unfaded.rms
+    if f.taper and f.measures.rms < LEFT * whole:
+        yield (f"{_name(f)}: feature.taper = {f.taper:g} m leaves {f.measures.rms / whole:.0%} of the rms of its patch, "
+               f"{_um(f.patch[0])} x {_um(f.patch[1])} um")
