@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Optional
 
 import typer
-from tehl_cli.bench_results import finish, picture, table
+from tehl_cli.bench_results import Results, table
 from tehl_cli.live import say
 from tehl_cli.out import print_json
 
@@ -31,6 +31,7 @@ def _folder(usual, says):
 
 
 OUT = _folder("runs/bench", "folder for the JSON and PNG")
+FORCE = typer.Option(False, "--force", help="replace the results of an earlier run")
 QUICK = typer.Option(False, "--quick", help="small grids, a few steps")
 JSON = typer.Option(False, "--json", help="one JSON object on stdout, that of the file, instead of tables")
 THREADS = typer.Option(None, help="CPU threads (default: all)")
@@ -53,6 +54,7 @@ def stability(
     finer: int = typer.Option(0, min=0, max=4, help="doublings of every grid before anything is run, up to 2048 columns "
                               "(points: 512)"),
     as_json: bool = JSON,
+    force: bool = FORCE,
     threads: Optional[int] = THREADS,
     workers: int = WORKERS,
     precision: str = typer.Option("auto", help="of the linear solves: f32, f64 or what suits each scene"),
@@ -61,6 +63,7 @@ def stability(
     from tehl_taichi.profiles import stability as suite
     from tehl_taichi.profiles.stability import carried, cases, random_cases, run, starts
 
+    results = Results(out, "starts" if confirm else "stability", force)
     listed = list(cases(thermal).items())
     chosen = [*listed[:: 6 if quick else 1], *random_cases(min(random, 8) if quick else random, seed).items()]
     chosen = {name: description for name, description in chosen if match.lower() in name.lower()}
@@ -68,7 +71,7 @@ def stability(
     chosen, found = carried(chosen) if by_film else chosen, []
     chosen = suite.finer(chosen, finer)
     if confirm:
-        return _confirm(out, chosen, as_json, workers, threads, again)
+        return _confirm(results, chosen, as_json, workers, threads, again)
     for outcome in run(chosen.items(), precision, workers, threads):
         found.append(outcome)
         say(f"{outcome.name}: {outcome.verdict} {outcome.reason}")
@@ -83,11 +86,11 @@ def stability(
                "Fi_max": "{:.3f}"})
     say("{converged} converged ({unsettled} of them from a start that did not settle), {refused} refused, {stopped} stopped, "
         "{failed} failed; {carried_converged} of {carried} whose film the grid carries converged".format(**counts))
-    finish(out, "stability", [vars(o) for o in found], lambda plt: suite.chart(plt, found), as_json, **counts)
+    results.finish([vars(o) for o in found], lambda plt: suite.chart(plt, found), as_json, **counts)
     raise typer.Exit(1 if counts["failed"] else 0)
 
 
-def _confirm(out, chosen, as_json, workers, threads, again):
+def _confirm(results, chosen, as_json, workers, threads, again):
     from tehl_taichi.profiles import stability as suite
 
     found = []
@@ -104,13 +107,14 @@ def _confirm(out, chosen, as_json, workers, threads, again):
               {"name": "{}", "columns": "{}", **dict.fromkeys(("half_film", "half_K", "finer_film", "finer_K"), "{:.2f}")})
     say("{holds} of {starts} starts hold: neither changes their film by more than 1 %, nor their temperature by more than 1 K "
         "({moving} of them states in time)".format(**counts))
-    finish(out, "starts", found, lambda plt: suite.changes_chart(plt, found), as_json, **counts)
+    results.finish(found, lambda plt: suite.changes_chart(plt, found), as_json, **counts)
 
 
 def conclusions(
     out: Path = _folder("runs/conclusions", "folder of the stores (used again) and of the results"),
     quick: bool = typer.Option(False, "--quick", help="the reference asperity and dent on coarse grids"),
     as_json: bool = JSON,
+    force: bool = FORCE,
     threads: Optional[int] = THREADS,
     workers: int = WORKERS,
 ):
@@ -123,21 +127,23 @@ def conclusions(
 
     from tehl_taichi.scene import scene
 
+    results = Results(out, "conclusions", force, more=("md",))
     rows = suite.run(out, quick, say, workers, threads)
     base = scene("gear")
     judged = suite.verdicts(rows, base.fatigue.endurance)
     if not as_json:
         list_table("Findley stress, MPa", ("case", *suite.WINDOWS), [(r.name, *suite.cells(r)) for r in rows])
         list_table("the thesis' conclusions", ("statement", "verdict", "figures"), judged)
-    (out / "conclusions.md").write_text(suite.page(rows, judged, base))
-    finish(out, "conclusions", [suite.plain_row(r) for r in rows], lambda plt: suite.chart(plt, rows), as_json,
-           verdicts=[dict(zip(("statement", "verdict", "figures"), one)) for one in judged])
+    results.page(suite.page(rows, judged, base))
+    results.finish([suite.plain_row(r) for r in rows], lambda plt: suite.chart(plt, rows), as_json,
+                   verdicts=[dict(zip(("statement", "verdict", "figures"), one)) for one in judged])
 
 
 def cracks(
     out: Path = _folder("runs/cracks", "folder of the stores (used again) and of the results"),
     quick: bool = typer.Option(False, "--quick", help="the reference asperity on coarse grids"),
     as_json: bool = JSON,
+    force: bool = FORCE,
     threads: Optional[int] = THREADS,
     workers: int = WORKERS,
 ):
@@ -146,16 +152,17 @@ def cracks(
     from tehl_taichi.profiles import cracks as suite
     from tehl_taichi.profiles import measure
 
+    results = Results(out, "cracks", force, more=("md",))
     for rows in suite.run(out, quick, say, workers, threads):  # those so far are kept, whatever comes
         measure.save(out, "cracks", measure.result([vars(row) for row in rows]))
-        (out / "cracks.md").write_text(suite.page(rows))
+        results.page(suite.page(rows))
     if not as_json:
         list_table("crack paths", suite.COLUMNS, [(row.case, *suite.cells(row)) for row in rows])
-    finish(out, "cracks", [vars(row) for row in rows], lambda plt: suite.chart(plt, rows), as_json)
+    results.finish([vars(row) for row in rows], lambda plt: suite.chart(plt, rows), as_json)
 
 
 def accuracy(
-    out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, threads: Optional[int] = THREADS,
+    out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: bool = FORCE, threads: Optional[int] = THREADS,
     only: Optional[str] = typer.Option(None, help="errors (against run time), coverage (of the error bars), or that of "
                                "exits"),
     seed: int = typer.Option(4, help="of the random scenes that judge the error bars"),
@@ -171,17 +178,18 @@ def accuracy(
 
     choice("--only", only, (None, "errors", "coverage", "exits"))
     runtime.start(threads=threads)
-    found = {}
-    if only in (None, "errors") and not judge:
-        found["errors"] = _accuracy(out, quick, as_json, keep)
-    if only != "errors":
-        name = "exits" if only == "exits" else "coverage"
-        found[name] = _coverage(out, name, seed, quick, judge, threads or _cores(), as_json)
+    found, name = {}, "exits" if only == "exits" else "coverage"
+    errors = Results(out, "accuracy", force) if only in (None, "errors") and not judge else None
+    bars = Results(out, name, force, kept=("json",) if judge else ()) if only != "errors" else None
+    if errors:
+        found["errors"] = _accuracy(errors, quick, as_json, keep)
+    if bars:
+        found[name] = _coverage(bars, seed, quick, judge, threads or _cores(), as_json)
     if as_json:
         print_json(found)
 
 
-def _accuracy(out, quick, as_json, keep):
+def _accuracy(results, quick, as_json, keep):
     from tehl_cli.listing import list_table
     from tehl_taichi.profiles import accuracy as suite
     from tehl_taichi.profiles import measure
@@ -192,23 +200,25 @@ def _accuracy(out, quick, as_json, keep):
         list_table("columns that are enough", ("family", "quantity", "order", *(f"{target:g}" for target in suite.TARGETS)),
                    [(family, quantity, "none" if order is None else f"{order:.1f}", *(str(nx or "finer") for nx in grids))
                     for family, quantity, order, grids in suite.enough(rows)])
-    finish(out, "accuracy", rows, lambda plt: suite.chart(plt, rows), False)
+    results.finish(rows, lambda plt: suite.chart(plt, rows), False)
     if keep:
+        from tehl_taichi.disk import files
         from tehl_taichi.scene import target
 
-        target.FILE.write_text(json.dumps({"machine": measure.machine(), "families": suite.grid_errors(rows)}, indent=1) + "\n")
+        text = json.dumps({"machine": measure.machine(), "families": suite.grid_errors(rows)}, indent=1) + "\n"
+        files.replace(target.FILE, text.encode())
         say(f"wrote {target.FILE}")
     return rows
 
 
-def _coverage(out, name, seed, quick, judge, threads, as_json):
+def _coverage(results, seed, quick, judge, threads, as_json):
     from tehl_cli.listing import list_table
     from tehl_taichi.profiles import coverage as suite
     from tehl_taichi.profiles import measure
 
     from tehl_taichi.errors import StoreError
 
-    path = out / f"{name}.json"
+    path, name = results.file("json"), results.name
     if not judge:
         measure.fresh(threads, suite.run, path, seed, quick, say, name == "exits")
     elif not path.exists():
@@ -225,7 +235,7 @@ def _coverage(out, name, seed, quick, judge, threads, as_json):
         if "reason" in one:
             say(f"left out, {one['kind']}: {one['reason']}")
     say(f"wrote {path}")
-    picture(out, name, lambda plt: suite.chart(plt, found))
+    results.picture(lambda plt: suite.chart(plt, found))
     return [dict(zip(suite.COLUMNS, row)) for row in found]
 
 
@@ -245,49 +255,56 @@ def _errors(rows):
                [(family, str(name), *(run.get(key, "") for key in ("s", *quantities))) for (family, name), run in runs.items()])
 
 
-def speed(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, threads: Optional[int] = THREADS):
+def speed(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: bool = FORCE,
+          threads: Optional[int] = THREADS):
     """Times against the project's targets, and reference loops to compare machines by. Example: `tehl bench speed --quick`"""
     from tehl_taichi.profiles import speed as suite
 
+    results = Results(out, "speed", force)
     rows = suite.run(quick, threads or _cores(), say)
     details = {"step_ms": "step {:.1f} ms", "convolutions": "{:.0f} convolutions", "cycles": "{:.1f} Krylov",
                "memory_mb": "{:.0f} MB", "planes_per_s_core": "{:.2g} planes/s core"}
     if not as_json:
         table("speed", [{**row, "detail": ", ".join(form.format(row[key]) for key, form in details.items() if key in row)}
                         for row in rows], {"what": "{}", "seconds": "{:.3f}", "target": "{:g}", "detail": "{}"})
-    finish(out, "speed", rows, lambda plt: suite.chart(plt, rows), as_json)
+    results.finish(rows, lambda plt: suite.chart(plt, rows), as_json)
 
 
-def scaling(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, threads: Optional[int] = THREADS,
+def scaling(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: bool = FORCE,
+            threads: Optional[int] = THREADS,
             thermal: bool = typer.Option(False, "--thermal/--isothermal", help="with temperatures")):
     """Time and memory against grid and threads. Example: `tehl bench scaling --quick`"""
     from tehl_taichi.profiles import scaling as suite
 
+    results = Results(out, "scaling", force)
     rows = suite.run(quick, threads or _cores(), thermal, say)
     if not as_json:
         table("scaling", rows, {"nx": "{}", "ny": "{}", "threads": "{}", "step_ms": "{:.1f}", "speed_up": "{:.2f}",
                                 "node_ns": "{:.0f}", "newton": "{:.1f}", "cycles": "{:.1f}", "memory_mb": "{:.0f}",
                                 "node_B": "{:.0f}"})
-    finish(out, "scaling", rows, lambda plt: suite.chart(plt, rows), as_json)
+    results.finish(rows, lambda plt: suite.chart(plt, rows), as_json)
 
 
-def sweep(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON,
+def sweep(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: bool = FORCE,
           workers: Optional[int] = typer.Option(None, min=1, help="the most (default: one for each core)")):
     """Speed-up of a sweep of 16 cases on 1, 2, 4 ... workers of one thread. Example: `tehl bench sweep --workers 2`"""
     from tehl_taichi.profiles import side_by_side as suite
 
+    results = Results(out, "sweep", force)
     rows = suite.run(quick, workers, say)
     if not as_json:
         table("cases side by side", rows, {"workers": "{}", "seconds": "{:.1f}", "cases_s": "{:.1f}", "speed_up": "{:.2f}"})
-    finish(out, "sweep", rows, lambda plt: suite.chart(plt, rows), as_json)
+    results.finish(rows, lambda plt: suite.chart(plt, rows), as_json)
 
 
-def profile(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, threads: Optional[int] = THREADS,
+def profile(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: bool = FORCE,
+            threads: Optional[int] = THREADS,
             thermal: bool = typer.Option(True, "--thermal/--isothermal", help="with temperatures")):
     """Where the time of a step goes, per stage and per kernel. Example: `tehl bench profile --isothermal`"""
     from tehl_taichi.profiles import measure
     from tehl_taichi.profiles import profile as suite
 
+    results = Results(out, "profile", force)
     stages, kernels, numbers = measure.fresh(threads or _cores(), suite.run, *(suite.QUICK if quick else suite.FULL), thermal)
     if not as_json:
         columns = {"what": "{}", "calls": "{:.1f}", "ms": "{:.2f}", "limit_ms": "{:.2f}", "MB": "{:.1f}"}
@@ -296,7 +313,7 @@ def profile(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, threads:
     say(", ".join(f"{key} {value:.3f}" for key, value in numbers.items()))
     say("most to gain, ms a step: " + ", ".join(f"{what} {ms:.1f}" for what, ms in suite.gaps(stages, kernels)))
     rows = [{"kind": kind, **row} for kind, part in (("stage", stages), ("kernel", kernels)) for row in part]
-    finish(out, "profile", rows, lambda plt: suite.chart(plt, stages, kernels, numbers["step_s"]), as_json, **numbers)
+    results.finish(rows, lambda plt: suite.chart(plt, stages, kernels, numbers["step_s"]), as_json, **numbers)
 
 
 def _cores():

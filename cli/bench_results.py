@@ -12,27 +12,53 @@ def table(title, rows, columns):
                                 for row in rows])
 
 
-def finish(folder, name, rows, chart, as_json, **more):
-    """Write NAME.json (machine, rows and what else is given) and NAME.png; print the JSON object where it is asked for.
+class Results:
+    """The files NAME.json, NAME.png and others (`more`: their endings) of a suite in a folder.
 
-    chart(plt): the figure.
+    force: replace those of an earlier run. Raises StoreError, before the work, where they may not be written.
     """
-    from tehl_taichi.profiles import measure
 
-    found = measure.result(rows, **more)
-    say(f"wrote {measure.save(folder, name, found)}")
-    picture(folder, name, chart)
-    if as_json:
-        print_json(found)
+    def __init__(self, folder, name, force, more=(), kept=()):
+        from tehl_taichi.disk import outputs
 
+        self.folder, self.name = folder, name
+        for ending in ("json", "png", *more):
+            if ending not in kept:
+                outputs.check(self.file(ending), force)
 
-def picture(folder, name, chart):
-    """Write NAME.png where matplotlib is installed; chart(plt): the figure."""
-    from tehl_taichi.profiles import measure
+    def file(self, ending):
+        """Path of the file with that ending."""
+        return self.folder / f"{self.name}.{ending}"
 
-    plt = measure.pyplot()
-    if plt:
-        figure = chart(plt)
-        figure.savefig(folder / f"{name}.png", dpi=110)
-        plt.close(figure)
-        say(f"wrote {folder / name}.png")
+    def finish(self, rows, chart, as_json, **more):
+        """Write NAME.json (machine, rows and what else is given) and NAME.png; print the JSON object where it is asked for.
+
+        chart(plt): the figure.
+        """
+        from tehl_taichi.profiles import measure
+
+        found = measure.result(rows, **more)
+        say(f"wrote {measure.save(self.folder, self.name, found)}")
+        self.picture(chart)
+        if as_json:
+            print_json(found)
+
+    def page(self, text):
+        """Write NAME.md."""
+        from tehl_taichi.disk import outputs
+
+        outputs.text(self.file("md"), f"{text.rstrip()}\n\n{outputs.COMMENT}\n", force=True)
+
+    def picture(self, chart):
+        """Write NAME.png where matplotlib is installed; chart(plt): the figure."""
+        from tehl_taichi.profiles import measure
+
+        from tehl_taichi.disk import outputs
+
+        plt = measure.pyplot()
+        if plt:
+            figure = chart(plt)
+            with outputs.made(self.file("png"), force=True) as draft:
+                figure.savefig(draft, format="png", dpi=110, metadata={"Software": outputs.PROGRAM})
+            plt.close(figure)
+            say(f"wrote {self.file('png')}")

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from tehl_taichi.disk import outputs
 from tehl_taichi.errors import Error
 from tehl_taichi.march import companions
 from tehl_taichi.march.error_bars import Reading, bars
@@ -103,12 +104,11 @@ def _exit(rng, thermal, nx):
 def run(path, seed, quick=False, progress=None, exits=False):
     """Rows of all scenes of a battery (see :func:`row`), kept in the JSON file `path` as they come."""
     rows, path = [], Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
     for n, (kind, description) in enumerate(battery(seed, quick, exits)):
         if progress:
             progress(f"{n + 1}: {kind}, {description.grid.nx} columns")
         rows.append({"kind": kind, "columns": description.grid.nx, **row(description)})
-        path.write_text(json.dumps({"seed": seed, "rows": rows}))
+        outputs.text(path, json.dumps({"program": outputs.PROGRAM, "seed": seed, "rows": rows}), force=True)
     return rows
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
+from tehl_taichi.disk import outputs
 from tehl_taichi.engine import runtime
 from tehl_taichi.io.json_values import plain
 from tehl_taichi.study import pool
@@ -99,15 +100,13 @@ def machine():
 
 def result(rows, **more):
     """What a suite gives, as JSON has it: the machine, its rows (dictionaries) and what else it counts."""
-    return plain({"machine": machine(), **more, "rows": rows})
+    return plain({"program": outputs.PROGRAM, "machine": machine(), **more, "rows": rows})
 
 
 def save(folder, name, found):
-    """A :func:`result` as NAME.json; returns the path."""
-    folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
-    path = folder / f"{name}.json"
-    path.write_text(json.dumps(found, indent=1, allow_nan=False))
+    """A :func:`result` as NAME.json, in place of an earlier one; returns the path. Raises StoreError."""
+    path = Path(folder) / f"{name}.json"
+    outputs.text(path, json.dumps(found, indent=1, allow_nan=False), force=True)
     return path
 
 

@@ -57,7 +57,9 @@ def done(folder, name, *words):
     image = (folder / f"{name}.png").read_bytes()
     assert image.startswith(PNG) and len(image) > 5000
     (folder / f"{name}.png").unlink()
-    found = here("bench", *words, "--out", folder, "--json")
+    refused = here("bench", *words, "--out", folder)
+    assert refused.returncode == 2 and f"{name}.json exists already" in refused.stderr and not refused.stdout
+    found = here("bench", *words, "--out", folder, "--json", "--force")
     assert found.returncode == 0, found.stderr
     printed, kept = json.loads(found.stdout), json.loads((folder / f"{name}.json").read_text())
     assert printed == kept and kept["rows"] and kept["machine"] == measure.machine()
@@ -165,7 +167,7 @@ def test_sweep(tmp_path, monkeypatch):
     row, = found["rows"]
     assert row["speed_up"] == 1.0 and 0 < row["cases_s"] <= row["seconds"] and (tmp_path / "sweep.png").exists()
     monkeypatch.setattr(side_by_side, "run", lambda *words: found["rows"])
-    assert done(tmp_path, "sweep", "sweep", "--quick")[1] == found
+    assert done(tmp_path / "again", "sweep", "sweep", "--quick")[1] == found
     assert lines_with(run.stdout, "1", f"{row['seconds']:.1f}", f"{row['cases_s']:.1f}", "1.00")
 
 
@@ -177,7 +179,7 @@ def test_accuracy(tmp_path, monkeypatch, direct):
     words = ("bench", "accuracy", "--quick", "--threads", 2, "--out", tmp_path)
     text = here(*words)
     assert text.returncode == 0, text.stderr
-    again = here(*words, "--judge", "--only", "coverage", "--json")
+    again = here(*words, "--judge", "--only", "coverage", "--json", "--force")
     found = {"errors": json.loads((tmp_path / "accuracy.json").read_text())["rows"], **json.loads(again.stdout)}
     for name in ("accuracy", "coverage"):
         assert (tmp_path / f"{name}.png").read_bytes().startswith(PNG)
@@ -189,7 +191,7 @@ def test_accuracy(tmp_path, monkeypatch, direct):
     for name, row in held.items():
         known = (f"{100 * row['hold']:.1f}", f"{row['bar']:.2g}", f"{row['error']:.2g}") if row["bars"] else ()
         assert lines_with(text.stdout, name, str(row["bars"]), str(row["null"]), *known)
-    as_json = here(*words, "--only", "errors", "--json")
+    as_json = here(*words, "--only", "errors", "--json", "--force")
     assert json.loads(as_json.stdout)["errors"] == found["errors"] and "│" not in as_json.stdout
 
 

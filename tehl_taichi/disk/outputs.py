@@ -16,15 +16,15 @@ from tehl_taichi.disk.files import blamed
 from tehl_taichi.disk.locks import Lock
 from tehl_taichi.errors import StoreError
 
-PROGRAM = "tehl_taichi"
+PROGRAM, COMMENT = "tehl_taichi", "<!-- tehl_taichi -->"
 FLANK = "flank.json"
 COLUMN = re.compile(rb'"?[^\[\],]+ \[[^\[\]]*\]"?')
 # {kind: (how a file of it begins, what it has somewhere if tehl wrote it)}
 SIGNS = {"png": (b"\x89PNG", b"Software\0tehl_taichi"), "pdf": (b"%PDF-", b"/Creator (tehl_taichi)"),
          "svg": (b"<?xml", b"<dc:title>tehl_taichi</dc:title>"), "gif": (b"GIF8", b"tehl_taichi"), "mp4": (b"", b"tehl_taichi"),
          "html": (b"<!doctype html>", b'<meta name="generator" content="tehl_taichi">'), "nc": (b"\x89HDF", b"tehl_taichi"),
-         "vti": (b"<?xml", b"<!-- tehl_taichi -->"), "pvd": (b"<?xml", b"<!-- tehl_taichi -->"),
-         "json": (b"{", b'"program": "tehl_taichi"'), "md": (b"", b"<!-- tehl_taichi -->")}
+         "vti": (b"<?xml", COMMENT.encode()), "pvd": (b"<?xml", COMMENT.encode()),
+         "json": (b"{", b'"program": "tehl_taichi"'), "md": (b"", COMMENT.encode())}
 
 
 class Output(Draft):
