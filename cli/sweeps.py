@@ -116,6 +116,15 @@ def _doubts(plan):
     yield from (f"warning: {sentence}" for sentence in acting.doubts(plan.scene))
     yield from (f"warning: case {number} is the same as case {first}: what differs has no effect there"
                 for number, first in plan.equal().items())
+    if some := plan.without_temperatures():
+        yield (f"warning: {_cases(some)} no temperatures, the other cases have them: --thermal computes them in all, "
+               "--isothermal in none")
+
+
+def _cases(numbers):
+    """Cases by their numbers, with the verb."""
+    few = ", ".join(map(str, numbers[:8])) + ", ..." * (len(numbers) > 8)
+    return f"case {few} computes" if len(numbers) == 1 else f"cases {few} compute"
 
 
 def _print(study, as_json):

@@ -24,7 +24,7 @@ def rho_film(oil, p, Gamma):
 
 @unrolled
 def rho_ratio(oil, p, Gamma):
-    """Of a film with one temperature; the thermal factor acts when `oil.expansion` is "always"."""
+    """Of a film with one temperature; the thermal factor acts when `oil.expansion` is "always" (see Scene.film_oil)."""
     return _density(oil, p, Gamma, oil.expansion == "always")
 
 

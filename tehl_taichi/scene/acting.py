@@ -14,6 +14,7 @@ from tehl_taichi.physics.law import declared
 from tehl_taichi.physics.viscosity import ln_eta
 from tehl_taichi.scene import data_sheet, given, keys
 from tehl_taichi.scene.feature import USED_BY
+from tehl_taichi.scene.oil import in_one_temperature
 from tehl_taichi.scene.parts import Fatigue, Time
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.values.quantity import kinds
@@ -128,10 +129,19 @@ def _laws(scene):
     """Function of an oil: what its laws give where the film of this scene may be."""
     p, inlet = np.array(PARTS) * Scales.of(scene).p_H, scene.operation.temperature
     if scene.isothermal:
-        return lambda oil: [ln_eta(oil, one, inlet) for one in p] + [density.rho_ratio(oil, one, inlet) for one in p]
+        return lambda oil: [law(oil, one, inlet) for law in (ln_eta, _density_of(scene)) for one in p]
     places = [(one, inlet + more) for one in p for more in WARMER]
     return lambda oil: [law(oil, *at) for at in places for law in (ln_eta, density.rho_film, conduction.heat_capacity,
                                                                    lambda oil, p, Gamma: conduction.conductivity(oil, p))]
+
+
+def _density_of(scene):
+    """The density law of an isothermal film of this scene."""
+    def law(oil, p, Gamma):
+        expansion = in_one_temperature(oil.expansion, scene.keeps_expansion)
+        return density.rho_ratio(SimpleNamespace(**{**vars(oil), "expansion": expansion}), p, Gamma)
+
+    return law
 
 
 def _why_not_heat(scene):
@@ -147,7 +157,8 @@ def _temperature(scene):
 def _warmer(scene):
     """As :func:`_laws` asks it, at another inlet temperature."""
     return SimpleNamespace(contact=scene.contact, load=scene.load, body_a=scene.body_a, body_b=scene.body_b, isothermal=True,
-                           operation=SimpleNamespace(u_m=scene.operation.u_m, temperature=scene.operation.temperature + 1.0))
+                           keeps_expansion=scene.keeps_expansion, operation=SimpleNamespace(
+                               u_m=scene.operation.u_m, temperature=scene.operation.temperature + 1.0))
 
 
 def _heat(scene):

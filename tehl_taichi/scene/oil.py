@@ -15,9 +15,14 @@ _OIL = section(
     viscosity=choice("roelands-temperature", "law of the viscosity (`tehl laws`)", tuple(viscosity.LAWS)),
     **declared(viscosity.LAWS),
     density=choice("dowson-higginson", "law of the density (`tehl laws`)", tuple(density.LAWS)),
-    expansion=choice("thermal", "where the thermal factor of the density acts; thermal: only with the energy equation",
+    expansion=choice("thermal", "where the thermal factor of the density acts; thermal: unless the film is to be isothermal",
                      ("thermal", "always", "never")),
     **declared({**density.LAWS, **conduction.LAWS}))
+
+
+def in_one_temperature(expansion, keeps):
+    """`oil.expansion` of a film with one temperature; keeps: see `Scene.keeps_expansion`."""
+    return "always" if keeps and expansion == "thermal" else expansion
 
 
 @dataclass(frozen=True)

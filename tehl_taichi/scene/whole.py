@@ -7,7 +7,7 @@ from typing import Any
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.physics.shear.newtonian import NEWTONIAN
-from tehl_taichi.scene import change, given, judge, named_oils, oil_range, passing, room, scales
+from tehl_taichi.scene import change, film_formula, given, judge, named_oils, oil, oil_range, passing, room, scales
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.maps import map_judge
 from tehl_taichi.scene.named_steels import completed
@@ -225,6 +225,18 @@ class Scene:
         return self.rheology if self.operation.u_s != 0 else dataclasses.replace(self.rheology, law=NEWTONIAN.name)
 
     @property
+    def keeps_expansion(self):
+        """Whether the density of a film with one temperature keeps its thermal factor, at the inlet temperature: where nobody
+        asks for an isothermal film and nothing slips, so that films with and without slip are of one oil."""
+        return self.thermal.on == AUTO and self.contact.moes_M == 0
+
+    @property
+    def film_oil(self):
+        """The oil of a film with one temperature."""
+        expansion = oil.in_one_temperature(self.oil.expansion, self.keeps_expansion)
+        return dataclasses.replace(self.oil, expansion=expansion) if expansion != self.oil.expansion else self.oil
+
+    @property
     def thermal_stress_wanted(self):
         """Whether the heat of the surface counts in its stress."""
         wanted = self.fatigue.thermal_stress
@@ -236,8 +248,8 @@ class Scene:
         out = []
         if self.isothermal:
             why = "isothermal film" if self.thermal.on is False else "no slip" if self.operation.srr == 0 else "a Moes pair"
-            out.append(f"energy equation and temperatures ({why}; --thermal has them)")
-        if self.isothermal and self.oil.expansion == "thermal" and self.oil.expands:
+            out.append(f"energy equation and temperatures ({why}; --thermal has them{film_formula.heat_words(self)})")
+        if self.isothermal and self.film_oil.expansion == "thermal" and self.oil.expands:
             out.append("thermal expansion of the oil (isothermal film; oil.expansion = 'always' keeps it)")
         if self.one_dimensional:
             out.append("y direction (nothing varies across this line contact)")

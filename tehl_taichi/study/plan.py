@@ -156,6 +156,15 @@ class Plan:
                     found[number] = first
         return found
 
+    def without_temperatures(self):
+        """Numbers of the cases whose film has one temperature while other cases compute theirs; [] where all do alike, or of a
+        plan too large to look."""
+        found = {}
+        for number in range(self.count if self.count <= LOOKED_AT else 0):
+            with contextlib.suppress(SceneError):
+                found.setdefault(self.case(number).isothermal, []).append(number)
+        return found.get(True, []) if len(found) > 1 else []
+
     def _check_values(self, axis, found):
         place = self.axes.index(axis)
         bad = [self.positions(number)[place] for number in found]
