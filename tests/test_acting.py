@@ -56,7 +56,8 @@ def _laws(scene, s):
     inlet, warmer = scene.operation.temperature, (0,) if scene.isothermal else (0, 9, 50)
     places = [(p * s.p_H, inlet + T) for p in (0, 0.3, 1) for T in warmer]
     rho, r = density.rho_ratio if scene.isothermal else density.rho_film, scene.rheology
-    yield [(float(ln_eta(scene.oil, *at)), float(rho(scene.oil, *at))) for at in places]
+    oil = scene.film_oil if scene.isothermal else scene.oil
+    yield [(float(ln_eta(oil, *at)), float(rho(oil, *at))) for at in places]
     yield [(rheology.shear_stress(r, tau, p), rheology.poiseuille(r, tau, p)) for tau in (1e6, 1e8) for p, _ in places]
     yield r.film_floor, r.law
     if scene.operation.u_s:
