@@ -23,7 +23,7 @@ def test_the_header_of_an_instrument_is_skipped_and_told(tmp_path, encoding):
     table = height_text.read(written(tmp_path, WYKO + ROWS, encoding=encoding))
     assert table.values.shape == (40, 6) and table.values[3, 2] == 0.05
     assert table.skipped == "5 header lines skipped"
-    found = feature(tmp_path / "scan.asc")
+    found = feature(tmp_path / "scan.asc", taper=2e-6)
     assert [*found.kind.preview(found, scene("gear"))][0].startswith("map scan.asc: 5 header lines skipped, 6 x 40 points")
 
 

@@ -1,6 +1,7 @@
 """Heights measured on a grid."""
 
 import dataclasses
+import math
 import os
 from dataclasses import dataclass
 from functools import cached_property
@@ -18,6 +19,7 @@ from tehl_taichi.values.checks import number
 from tehl_taichi.values.quantity import choice, quantity, switch, text
 
 MAX_RANGE, MAX_SLOPE = 1e-4, 45.0  # m, degrees, of a map: beyond them no film, or a wrong unit or pixel
+SAME = 0.02  # relative difference of a pixel and the distance of rounded coordinates
 FARTHEST = 5e-4  # m, between points of a map: 0.001 was meant in mm
 
 
@@ -227,6 +229,7 @@ def _check_keys(f):
                          f"{', '.join(UNITS)} (feature.height, m per unit of the file in version 0.1.0, is not used)")
     if f.pixel == 0:
         raise SceneError("feature.pixel is missing: shape 'map' needs the distance of its points in m, as pixel = 1e-6")
+    _check_spacing(f)
     if f.height not in (0, type(f).height):
         raise SceneError(f"feature.height = {f.height:g} m says nothing about a map, whose heights are those of its "
                          "file in feature.unit; allowed: 0 or not given (feature.scale multiplies the heights)")
@@ -235,6 +238,14 @@ def _check_keys(f):
         number(f"feature.{key}", extent, "m", 3 * step, size * (1 + 1e-9))
     if f.cutoff:
         number("feature.cutoff", f.cutoff, "m", *map_filter.limits(f))
+
+
+def _check_spacing(f):
+    """Refuse a pixel that the coordinates in the file contradict, whatever unit they have."""
+    for key, step, told in zip(("pixel", "pixel_y" if f.pixel_y else "pixel"), f.file_steps, height_map.spacing(f.sha256)):
+        if told is not None and not any(math.isclose(told * unit, step, rel_tol=SAME) for unit in UNITS.values()):
+            raise SceneError(f"feature.{key} = {step:g} m does not fit the coordinates in feature.file = {f.file!r}, which are "
+                             f"{told:g} apart: in {', '.join(UNITS)} that is another distance")
 
 
 def _check_heights(f):

@@ -14,13 +14,14 @@ import numpy as np
 
 from tehl_taichi.disk import npy, sizes
 from tehl_taichi.errors import SceneError, extra
-from tehl_taichi.scene.maps import height_text, map_holes
+from tehl_taichi.scene.maps import height_text, map_coordinates, map_holes
 
 UNITS = {"nm": 1e-9, "um": 1e-6, "mm": 1e-3, "m": 1.0}  # of the heights in a file, m
 LEVELS = {"none": "nothing", "mean": "mean", "plane": "plane", "form": "plane and curvature"}  # level: what it takes off
 MICRO = str.maketrans({"\u00b5": "u", "\u03bc": "u"})  # micro sign and Greek mu, as in µm
 _known = weakref.WeakValueDictionary()  # sha256 -> heights, as long as a feature holds them
 _skipped = {}  # sha256 -> what of its file was no height, in words
+_spacing = {}  # sha256 -> distances of the coordinates in its file
 TEXT = (".csv", ".txt", ".asc")  # endings of files of text
 POINTS = f"a list of x, y and z is not read: export the heights as a grid, a row of numbers a line ({', '.join(TEXT)}, .npy)"
 
@@ -44,7 +45,7 @@ def fetch(file, sha256=""):
         return sha256, known
     table = table_of(file)
     found, values = keep(table.values)
-    _skipped[found] = table.skipped
+    _skipped[found], _spacing[found] = table.skipped, table.spacing
     if sha256 and found != sha256:
         raise SceneError(f"feature.file = {file!r} holds other heights than when this scene was made (feature.sha256 = "
                          f"{sha256[:12]}..., not {found[:12]}...); take feature.sha256 out to use the file as it is now")
@@ -54,6 +55,11 @@ def fetch(file, sha256=""):
 def skipped(sha256):
     """What of the file of these heights was skipped, in words; "" where nothing, or where no file was read (a store)."""
     return _skipped.get(sha256, "")
+
+
+def spacing(sha256):
+    """(along a row of the file, from row to row): distances of the coordinates that stood in it, None where there are none."""
+    return _spacing.get(sha256, (None, None))
 
 
 def read(file):
@@ -69,6 +75,10 @@ def table_of(file):
     if not path.is_file():
         raise SceneError(f"feature.file = {str(file)!r} does not exist")
     table = _load(path)
+    if map_coordinates.is_list(table.values):
+        raise SceneError(f"feature.file = {str(file)!r} has {' x '.join(map(str, table.values.shape))} numbers, which are no "
+                         f"grid of heights ({POINTS})")
+    table = table.without_coordinates()
     values = table.values
     if values.ndim != 2 or min(values.shape) < 4:
         raise SceneError(f"feature.file = {str(file)!r} must hold a grid of at least 4 x 4 heights, not one of shape "

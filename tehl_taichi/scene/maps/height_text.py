@@ -1,8 +1,10 @@
 """Heights in a text file as instruments export them: header, marks of points that were not measured, columns between marks."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+
+from tehl_taichi.scene.maps import map_coordinates
 
 COLUMNS = (";", "\t", ",", None)  # what may stand between two heights, the first that a row has; None: blanks
 UNMEASURED = ("bad", "bad data", "nan", "na", "n/a", "no data", "no_data", "nodata", "null")  # also nothing, and * or - alone
@@ -18,12 +20,21 @@ class Table:
     values: np.ndarray
     header: int = 0
     inside: int = 0
+    beside: tuple = ()
+    spacing: tuple = (None, None)
+
+    def without_coordinates(self):
+        """The same with the heights alone; beside: the coordinates that were taken off, in words; spacing: theirs, (along a
+        row, from row to row), None where there are none."""
+        found = map_coordinates.without(self.values)
+        return replace(self, values=found.heights, beside=found.told, spacing=(found.x, found.y))
 
     @property
     def skipped(self):
         """What was not read, in words; "" where all was."""
         told = ((self.header, "header line", "skipped"), (self.inside, "line", "with # among the heights skipped"))
-        return ", ".join(f"{count} {what}{'s' * (count > 1)} {why}" for count, what, why in told if count)
+        lines = [f"{count} {what}{'s' * (count > 1)} {why}" for count, what, why in told if count]
+        return ", ".join([*lines, *(f"{what} skipped" for what in self.beside)])
 
 
 def read(path):
@@ -73,9 +84,18 @@ def _rows(lines, mark):
 
 def _words(line, mark):
     """Columns of a line; with semicolons or tabs numbers may have decimal commas."""
-    if mark is None:
-        return _joined(line).split()
-    return (line if mark == "," else line.replace(",", ".")).split(mark)
+    words = _joined(line).split() if mark is None else (line if mark == "," else line.replace(",", ".")).split(mark)
+    return ["nan", *words[1:]] if _has_corner(words) else words
+
+
+def _has_corner(words):
+    """Whether they are coordinates behind the name of their corner, as 'y/x, 0, 1, 2, ...'."""
+    if len(words) < 5 or _is_height(words[0]):
+        return False
+    try:
+        return map_coordinates.rises(np.array(words[1:], float))
+    except ValueError:
+        return False
 
 
 def _joined(line):
