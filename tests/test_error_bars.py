@@ -171,7 +171,7 @@ def test_extremes_between_nodes():
 def moes(M, L, nx, x_min=-2.5):
     return scene("smooth-line").replace(**{
         "thermal.on": False, "contact.load": 0.0, "contact.moes_M": M, "contact.moes_L": L, "oil.name": "moes-test-fluid",
-        "grid.nx": nx, "grid.x_min": x_min})
+        "grid.nx": nx, "grid.x_min": x_min, "grid.inlet": "starved"})
 
 
 def start(description):

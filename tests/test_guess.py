@@ -48,8 +48,10 @@ class Pressure:
         self.guess.accept(at)
 
     def next(self, at):
-        """The guess, whatever is in the table."""
-        self.P = 0.7
+        """The guess, whatever is in the table inside; the border keeps what it has."""
+        from tehl_taichi.pressure import fields
+
+        self.P = np.where(self.levels.get(fields.MASK) > 0, 0.7, self.P)
         self.guess.put(at)
         return self.P
 
@@ -108,17 +110,26 @@ def test_a_guess_is_judged_by_what_it_said_not_made_twice(monkeypatch):
 
 @pytest.mark.usefixtures("taichi_cpu")
 def test_one_state_is_its_own_guess():
-    assert np.array_equal(Pressure(6, 2, contact(0.0)).next(1.0), contact(0.0).astype(np.float32))
+    """As the memory has it; the border to the last bit."""
+    P = contact(0.0)
+    found = Pressure(6, 2, P).next(1.0)
+    assert np.array_equal(found[:, 1:-1], P.astype(np.float32)[:, 1:-1])
+    assert np.array_equal(found[:, [0, -1]], P[:, [0, -1]])
 
 
 @pytest.mark.usefixtures("taichi_cpu")
-def test_no_guess_is_negative_or_presses_at_the_border():
-    pressure = Pressure(6, 3, 1.0 + 0 * contact(0.0))
+def test_no_guess_is_negative_or_changes_the_border():
+    """There the pressure is given: that of the oil beyond it."""
+    def falling(at):
+        P = (1.0 - 0.19 * at) * (1 + 0 * contact(0.0))
+        P[:, [0, -1]] = 0.1, 0.0
+        return P
+
+    pressure = Pressure(6, 3, falling(0.0))
     for at in (1.0, 2.0, 3.0, 4.0, 5.0):
-        pressure.accept((1.0 - 0.19 * at) * (1 + 0 * contact(0.0)), at)
-    found = pressure.next(6.0)
-    assert found.min() == found.max() == 0.0 and pressure.next(5.2)[:, 1:-1] == pytest.approx(0.012, abs=1e-5)
-    assert not pressure.P[:, [0, -1]].any()
+        pressure.accept(falling(at), at)
+    assert not pressure.next(6.0)[:, 1:-1].any() and pressure.next(5.2)[:, 1:-1] == pytest.approx(0.012, abs=1e-5)
+    assert (pressure.P[:, 0] == 0.1).all() and not pressure.P[:, -1].any()
 
 
 def test_numbers_follow_a_polynomial():

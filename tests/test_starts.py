@@ -290,9 +290,9 @@ def settled(**changes):
 
 def test_oil_of_40_degrees_between_surfaces_that_slip_settles():
     """Its hot band meets cold oil at the outlet, where the pressure falls by 1 GPa within a cell: until 0.5.3 columns without a
-    solution, on 64 to 256 columns. Finer grids: 1.350 um (128), 192.0 deg C."""
+    solution, on 64 to 256 columns. Finer grids: 1.389 um (128), 1.392 (256), 192.0 deg C."""
     found = settled(**{"temperature": 40.0, "srr": -0.5, "grid.nx": 64})
-    assert found["h_c_m"] == pytest.approx(1.350e-6, rel=0.015) and found["film_max_C"] == pytest.approx(192.0, abs=1.0)
+    assert found["h_c_m"] == pytest.approx(1.390e-6, rel=0.015) and found["film_max_C"] == pytest.approx(192.0, abs=1.0)
 
 
 def test_a_thin_film_comes_down_from_a_high_speed():
@@ -373,6 +373,7 @@ def test_a_grid_is_looked_at_once_and_only_where_it_converged(monkeypatch, conve
     monkeypatch.setattr(start.snapshot, "state_of", lambda *_: {"P": 1.0})
     monkeypatch.setattr(start.readings, "steady", lambda *_: {})
     monkeypatch.setattr(start, "bars", lambda values: ({}, {}))
+    monkeypatch.setattr(start, "share", lambda *_: start.Share())
     monkeypatch.setattr(start, "_spread", lambda first, *_: first)
     if not converged:
         with pytest.raises(NotConverged, match="stopped"):

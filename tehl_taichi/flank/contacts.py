@@ -53,8 +53,9 @@ def _room(plain, position):
     a, _ = hertz.line(position.load, position.R, reduced_modulus(plain))
     end = hertz.gap_reaches(SPARE * max(f.top for f in plain.features) * position.R / a**2)
     reach, grid = max(abs(f.y) + f.reach_y for f in plain.features), plain.grid
-    across = {"grid.y_max": max(grid.y_max, min(AROUND * reach / a, 20.0))} if math.isfinite(reach) else {}
-    return {"grid.x_min": min(grid.x_min, -end), "grid.x_max": max(grid.x_max, end), **across}
+    side = min(AROUND * reach / a, 20.0) if math.isfinite(reach) else 0.0
+    ends = {"grid.x_min": (-end, end), "grid.x_max": (end, end), "grid.y_max": (side, side)}
+    return {key: value for key, (value, far) in ends.items() if far > abs(getattr(grid, key.partition(".")[2]))}
 
 
 def store_name(name, n, position):

@@ -117,4 +117,4 @@ def ripples(store, summary):
                + (NO_VALUE if at_edge else f"try another time.courant or {finer.told(store.scene)}"))
 
 
-CHECKS = (friction, unresolved, first_unresolved, ripples)
+CHECKS = {friction: "friction", unresolved: "peak", first_unresolved: "resolved", ripples: "ripple"}

@@ -87,6 +87,10 @@ class Reader:
         """The table among the attributes of that name, which going on needs. Raises StoreError."""
         return intact.attribute(self.path, self.attrs, name)
 
+    def known(self, name):
+        """The table among the attributes of that name, {} in stores of versions that had none."""
+        return intact.optional(self.attrs, name, {})
+
     @cached_property
     def x(self):  # opening the group takes 2 ms, and a fatigue search asks for every entry
         return self._whole("x")

@@ -3,20 +3,20 @@
 import numpy as np
 
 from tehl_taichi.fatigue.pressure_alone import searched, why_none
-from tehl_taichi.io import film_judge, rim_judge
+from tehl_taichi.io import domain_judge, film_judge, rim_judge
 from tehl_taichi.march.companions import near_the_surface
 from tehl_taichi.physics import conduction
 from tehl_taichi.physics.law import beyond
 from tehl_taichi.scene.yielding import STEEL, YIELDS
 from tehl_taichi.values.digits import micrometres
+from tehl_taichi.values.warned import once, warned
 
 CROWDED = 0.1  # of the launches; a machine of one's own loses a core for a moment now and then, which costs nothing to speak of
 
 
 def warnings(store, summary):
     """All warnings of a run, without repetition. store: of the run; summary: its numbers so far (see io.summary)."""
-    found = [*store.scene.warnings(), *(sentence for check in CHECKS for sentence in check(store, summary))]
-    return list(dict.fromkeys(found))
+    return once([*store.scene.warnings(), *warned(CHECKS, store, summary)])
 
 
 def reached(store):
@@ -93,6 +93,7 @@ def worst_below(store, summary):
     return [said]
 
 
-# functions of (store, summary) that give their sentences
-CHECKS = (worst_below, rim_judge.rims, yielding, *film_judge.CHECKS, beyond_measured, held_temperatures, unknown_errors,
-          crowded)
+# functions of (store, summary) that give their sentences, with the code of these
+CHECKS = {domain_judge.short: "domain", domain_judge.starved: "starved", worst_below: "below", rim_judge.rims: "rim",
+          yielding: "yield", **film_judge.CHECKS, beyond_measured: "measured", held_temperatures: "held",
+          unknown_errors: "unknown", crowded: "crowded"}

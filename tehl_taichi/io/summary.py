@@ -11,32 +11,35 @@ from tehl_taichi.physics import conduction
 from tehl_taichi.physics.law import beyond
 from tehl_taichi.scene.film_formula import central_film
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.values.chosen import Chosen
 
 
 def summarise(store, extra, fatigue=None):
     """Summary dictionary. extra: wall_s, compile_s (kernels traced, compiled or loaded), crowding (see
-    :func:`tehl_taichi.engine.workers.crowding`, here of this run; optional), steady_error and steady_unknown (see
-    :class:`tehl_taichi.march.snapshot.Snapshot`), passage_error and passage_unknown alike; fatigue: its own dictionary or
-    None."""
+    :func:`tehl_taichi.engine.workers.crowding`, here of this run; optional), steady_error, steady_unknown, steady_parts and
+    steady_domain (see :class:`tehl_taichi.march.snapshot.Snapshot`), passage_error, passage_unknown and passage_parts alike;
+    fatigue: its own dictionary or None."""
     scene = store.scene
     scales = Scales.of(scene)
     out = {"scene": scene.name, "version": __version__, "store": str(store.path), "converged": True,
            "wall_s": extra["wall_s"], "compile_s": extra["compile_s"], "steps": int(store.series["step"][len(store) - 1]),
            **counts(store),
-           "hertz": {"a_m": scales.a, "p_Pa": scales.p_H}, "left_out": scene.left_out(),
+           "hertz": {"a_m": scales.a, "p_Pa": scales.p_H}, "domain": domain_of(scene), "left_out": scene.left_out(),
            "steady": _steady(store, extra)}
     if len(store) > 1:
         out["transient"] = _transient(store)
     if fatigue:
         out["fatigue"] = fatigue
-    known, unknown = extra.get("passage_error", {}), extra.get("passage_unknown", {})
+    known, unknown, of_it = (extra.get(f"passage_{what}", {}) for what in ("error", "unknown", "parts"))
     for part, names in _parts(out):
         part["error"] = {name: known.get(told) for name, told in names.items()}
+        part["error_parts"] = {name: of_it[told] for name, told in names.items() if told in of_it}
         part["unknown"] = {name: unknown[told] for name, told in names.items() if told in unknown}
     out["work"] = _work(store)
     out["crowding"] = extra.get("crowding", [0, 0])
     out["clamps"] = _clamps(store)
     out["warnings"] = result_judge.warnings(store, out)
+    out["warning_codes"] = [one.code for one in out["warnings"]]
     return out
 
 
@@ -53,6 +56,13 @@ def counts(store):
     scene, grid = store.scene, store.scene.grid
     return {"grid": {"nx": store.x.size, "ny": store.y.size, "nz": 1 if scene.isothermal else scene.thermal.nodes},
             "cells": {"nx": grid.nx, "ny": 0 if scene.one_dimensional else grid.ny}}
+
+
+def domain_of(scene):
+    """Ends of the domain in half-widths of the contact, and whether the program chose where it begins."""
+    g = scene.grid
+    ends = {"x_min_a": float(g.x_min), "x_max_a": float(g.x_max), "y_max_b": float(g.y_max)}
+    return {**ends, "auto": isinstance(g.x_min, Chosen)}
 
 
 PASSAGE = ("p_max_Pa", "h_min_m", *HEAT, "friction_coefficient_mean", CONTACT)
@@ -73,7 +83,13 @@ def _steady(store, extra):
     out = {name: float(store.scalar(name)[0]) for name in names}
     out["film_formula_m"], out["ripple_Pa"] = central_film(store.scene), worst_ripple(store, [0])[0][0]
     out["error"], out["unknown"] = extra["steady_error"], extra.get("steady_unknown", {})
-    return out
+    out["error_parts"] = extra.get("steady_parts", {})
+    return {**out, **_before(extra.get("steady_domain", {}))}
+
+
+def _before(known):
+    """What is known of the inlet: the gap there over the film, the share of it that a border without pressure would take."""
+    return {"inlet_gap": known["gap"], "inlet_lost": known["lost"]} if known else {}
 
 
 def _parts(out):

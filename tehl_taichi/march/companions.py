@@ -15,6 +15,7 @@ from tehl_taichi.engine import runtime
 from tehl_taichi.errors import Error
 from tehl_taichi.fatigue.pressure_alone import searched
 from tehl_taichi.march import readings
+from tehl_taichi.march.domain_error import Share, widened
 from tehl_taichi.march.error_bars import Reading, bars
 from tehl_taichi.march.peaks import LEAST
 from tehl_taichi.scene.passing import HALVED, MULTIPLES
@@ -140,11 +141,12 @@ def _moment(reader, n):
     return SimpleNamespace(x=reader.x, feature_x=reader.feature_x(n), fields=reader.fields(n, ("pressure", "film")))
 
 
-def errors(scene, reader, fatigue, told):
-    """{"passage_error": {name: error bar or None}, "passage_unknown": {name: why it is None}} of the numbers of a run; {} of
-    one without a passage, doubts alone where there are no companions.
+def errors(scene, reader, fatigue, told, domain=Share()):
+    """{"passage_error": {name: error bar or None}, "passage_unknown": {name: why it is None}, "passage_parts": {name: {"grid",
+    "domain"}}} of the numbers of a run; {} of one without a passage, doubts alone where there are no companions.
 
-    reader: its store; fatigue: summary of its search or None; told(): what :func:`answers` gives of the scene.
+    reader: its store; fatigue: summary of its search or None; told(): what :func:`answers` gives of the scene; domain: the
+    Share that its start told.
     """
     if len(reader) < 2:
         return {}
@@ -154,8 +156,9 @@ def errors(scene, reader, fatigue, told):
         doubts = {name: reading.doubt for name, reading in own.items() if reading.doubt}
         doubts |= {CONTACT: readings.TOUCH} if touches else {}
         return {"passage_error": {} if touches else {CONTACT: 0.0}, "passage_unknown": doubts}
-    found, unknown = judged(told(), own)
-    return {"passage_error": found, "passage_unknown": unknown}
+    values = {name: reading.value for name, reading in own.items()}
+    found, unknown, parts = widened(*judged(told(), own), values, domain, scene, passing=True)
+    return {"passage_error": found, "passage_unknown": unknown, "passage_parts": parts}
 
 
 def wanted(scene):

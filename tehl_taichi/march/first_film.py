@@ -152,7 +152,8 @@ def in_time(solver, P, H0):
 def _hertz(solver, film):
     v = solver.levels
     r2 = v.X[None, :] ** 2 + (0.0 if v.line else (v.Y[:, None] * v.scales.a / v.scales.b) ** 2)
-    v.put(fields.P, np.sqrt(np.maximum(1 - r2, 0.0)))
+    unknown = v.get(fields.MASK) > 0  # the border keeps its pressure
+    v.put(fields.P, np.where(unknown, np.sqrt(np.maximum(1 - r2, 0.0)), v.get(fields.P)))
     v.set_film(0.0)
     centre = v.get(fields.H)[0, int(np.argmin(np.abs(v.X)))]
     solver.H0 = film - float(centre)

@@ -27,7 +27,7 @@ from tehl_taichi.engine.lanes import (
     tiles,
 )
 from tehl_taichi.engine.language import ti
-from tehl_taichi.pressure.fields import P
+from tehl_taichi.pressure.fields import MASK, P
 from tehl_taichi.pressure.past import WAY, Past, lagrange, nodes, set_way, source
 
 WORK = 2  # of a column, in units of a copy
@@ -129,8 +129,8 @@ def trust(S: ti.template(), F: ti.template(), G: Table, order: ti.template(), co
                     weight = L(F, 1.0) / (nearby(F, at, MADE + 2 * order + g) + L(F, NOTHING))
                     out += weight * F[MADE + g, at.q]
                     total += weight
-            out = repeated(ti.max(out / total, 0.0), s, ny)
-            S[P, at.k] = ti.cast(out, ti.f64) * (1.0 if i > 0 and i < nx else 0.0)
+            guess = ti.cast(ti.max(out / total, 0.0), ti.f64)
+            S[P, at.k] = repeated(ti.select(S[MASK, at.k] > 0.0, guess, S[P, at.k]), s, ny)  # the border keeps its own
 
 
 class Guess:
@@ -152,7 +152,7 @@ class Guess:
         self.at = [float(where) for where in state.get("P_moved", [at])]
         self.made = None  # where the guesses in the table go to, if they are by order + 1 states
         newest = levels.get(P)
-        self.by_edge = "P_start" not in state and levels.ny > 0 and bool(newest[-1].any())
+        self.by_edge = "P_start" not in state and levels.line and levels.ny > 0 and bool(newest[-1].any())
         self._bind()
         self._restore(state.get("P_history", newest[None]), state.get("P_start", newest))
 
@@ -195,7 +195,8 @@ class Guess:
     def put(self, to):
         """The guess for the state with the feature at `to` into the table, not negative; the first one is the newest state."""
         if len(self.at) == 1:
-            self.levels.put(P, self.past.get(self.rows[0]))
+            newest, here = self.past.get(self.rows[0]), self.levels.get(P)
+            self.levels.put(P, np.where(self.levels.get(MASK) > 0, newest, here))
             return
         self._look(self.rows, self.at[:-1], to)
         self.made = to if len(self.at) == self.order + 2 else None

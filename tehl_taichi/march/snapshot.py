@@ -2,7 +2,7 @@
 
 import functools
 from dataclasses import dataclass, field
-from typing import Callable
+from typing import Any, Callable
 
 import numpy as np
 
@@ -17,7 +17,8 @@ class Snapshot:
     step: 0 = steady start; time s; feature_x m, centre of the first feature (nan without one); x (nx+1,), y (ny+1,) m;
     fields: (nx+1, ny+1) arrays in SI; scalars: numbers in SI; make_state: called for
     :attr:`state`. Of a steady start, grids: {name: Reading} of every grid that it visited, error: bars of its numbers (None
-    where they are not known), unknown: why they are not; unsettled: why it is none, but a state in time ("": it is one).
+    where they are not known), unknown: why they are not, parts: {name: {"grid", "domain"}} of them, domain: the
+    :class:`tehl_taichi.march.domain_error.Share`; unsettled: why it is none, but a state in time ("": it is one).
     """
 
     step: int
@@ -31,6 +32,8 @@ class Snapshot:
     grids: list = field(default_factory=list)
     error: dict = field(default_factory=dict)
     unknown: dict = field(default_factory=dict)
+    parts: dict = field(default_factory=dict)
+    domain: Any = None
     unsettled: str = ""
 
     @functools.cached_property

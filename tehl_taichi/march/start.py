@@ -7,6 +7,7 @@ import numpy as np
 
 from tehl_taichi.heat.temperatures import FilmHeat
 from tehl_taichi.march import readings, snapshot
+from tehl_taichi.march.domain_error import Share, share, widened
 from tehl_taichi.march.error_bars import bars
 from tehl_taichi.march.failure import not_converged
 from tehl_taichi.march.solved import Solved
@@ -40,7 +41,8 @@ def steady_snapshot(scene, scales):
     state = snapshot.state_of(result.solver, result.heat, 0)
     first.make_state = lambda: state
     first.scalars["cycles"], first.unsettled = float(result.work), unsettled
-    first.grids, (first.error, first.unknown) = result.values, _unknown(first, scene) if unsettled else bars(result.values)
+    first.grids, first.domain = result.values, Share() if unsettled else share(result.solver)
+    first.error, first.unknown, first.parts = _bars(first, scene)
     return _spread(first, scene, scales)
 
 
@@ -52,6 +54,13 @@ def _unsettled(result, scene):
     if not (result.moving and scene.transient):
         raise failure
     return str(failure)
+
+
+def _bars(first, scene):
+    """(bars, why some are unknown, their parts by grid and domain)."""
+    own = readings.steady(first, scene)
+    found = _unknown(first, scene) if first.unsettled else bars(first.grids)
+    return widened(*found, {name: reading.value for name, reading in own.items()}, first.domain, scene)
 
 
 def _unknown(first, scene):

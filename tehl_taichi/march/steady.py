@@ -11,6 +11,7 @@ import numpy as np
 
 from tehl_taichi.heat.temperatures import FilmHeat
 from tehl_taichi.march.first_film import again, from_here, from_nothing, in_time, put
+from tehl_taichi.march.flooding import flood, turn
 from tehl_taichi.march.settle import settle, time_step
 from tehl_taichi.march.together import check, march_to_rest
 from tehl_taichi.pressure import fields
@@ -55,7 +56,7 @@ def solve_steady(scene, scales, nx, ny, look=None):
         finest, levels = size[0] == nx, Levels(scene, scales, *size)
         levels.put(fields.GAP0, levels.smooth_gap())
         solver = PressureSolver(levels, OneTemperature(levels))
-        report = from_nothing(solver) if P is None else _from_coarser(solver, P, H0)
+        report = flood(solver, from_nothing(solver) if P is None else _from_coarser(solver, P, H0))
         # a grid too coarse for the outlet of this film is no start for the next one, nor a step of its error
         P, H0 = (levels.get(fields.P), solver.H0) if report.converged else (None, 0.0)
         if report.converged and not scene.isothermal and (finest or nx // size[0] <= FINEST_THERMAL and not _touches(solver)):
@@ -78,7 +79,8 @@ def _with_temperatures(solver, heat, T, finest):
     """By turns, from the temperatures T of a coarser grid; on the finest grid in time, where that fails. Returns the Report,
     and whether what did not settle is a state in time."""
     P, H0, resolved = solver.levels.get(fields.P), solver.H0, finest and not _touches(solver)
-    report, trouble = settle(solver.levels, heat, lambda: again(solver), T)
+    report, trouble = settle(solver.levels, heat, lambda: turn(solver, again), T)
+    report = flood(solver, report, again)
     if report.converged and trouble and resolved:
         report = check(solver, heat)
     if report.converged or not resolved:  # surfaces that touch flip from step to step: no time makes up for the grid
@@ -93,7 +95,7 @@ def _touches(solver):
 
 def _from_coarser(solver, P, H0):
     """In time where Newton does not get there: in a film too thin for the coarser grid the way to the next is long."""
-    P = refine(P) * solver.levels.get(fields.MASK)
+    P = refine(P)  # the border's, too
     put(solver, P, H0)
     for way in (from_here, lambda each: in_time(each, P, H0), from_nothing):
         report = way(solver)

@@ -14,8 +14,11 @@ from tehl_taichi.pressure import convolution
 from tehl_taichi.pressure.convolution import (
     ACROSS,
     BACK,
+    ENDLESS,
     GROUP,
     GROUPS,
+    HALF_FIRST,
+    NY,
     PAIRS,
     THERE,
     M,
@@ -34,12 +37,24 @@ Numbers = ti.types.ndarray(dtype=ti.i32, ndim=2)
 
 
 @ti.func
+def bends(C: ti.template(), first_row):
+    """1 in the lanes of a block whose pressure bends the bodies: not that of the sides of a point contact, which is given and
+    small, and which the transforms of a half domain would take twice."""
+    out, last = V(1.0), C[0, NY]
+    for u in ti.static(range(W)):
+        side = first_row + u >= last or (first_row + u == 0 and C[0, HALF_FIRST] == 0)
+        out[u] = 0.0 if C[0, ENDLESS] == 0 and side else 1.0
+    return out
+
+
+@ti.func
 def take_pressure(S: ti.template(), Y: ti.template(), G: ti.template(), C: ti.template(), j, w):
     """The pressure of pair j to the rows of worker w."""
     first, second, n2 = pair(G, 0, j)
-    a = buffer(C, w)
+    a, block = buffer(C, w), ti.min(2 * j + 1, C[0, NY] // W)
+    one, other = bends(C, 2 * j * W), bends(C, block * W)
     for i in range(n2):
-        Y[0, a + i] = side_by_side(S[P, first + i], S[P, second + i])
+        Y[0, a + i] = side_by_side(one * S[P, first + i], other * S[P, second + i])
     clear(Y, a + n2, a + 2 * C[0, M])
 
 

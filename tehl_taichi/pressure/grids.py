@@ -64,13 +64,15 @@ class Grids:
 def load_weights(grids):
     """Weights w (ny+1, nx+1) such that sum(w P) is the load (model.md section 4, Hertz units).
 
-    Line: the mean over y (trapezoid over the stored rows) of int P dX = pi/2; point: the double integral, both halves.
+    Line: the mean over y (trapezoid over the stored rows) of int P dX = pi/2; point: the double integral, both halves, without
+    the sides, whose pressure is given and bends nothing.
     """
     w_y = np.full((grids.ny + 1, 1), grids.dx)
     if grids.ny:
-        w_y[0] *= 0.5
+        w_y[0] *= 0.5 if grids.line or grids.mirrored else 0.0
         if not grids.line:
             w_y *= 2 * grids.dy if grids.mirrored else grids.dy
+            w_y[-1] = 0.0
         else:
             w_y[-1] *= 0.5
             w_y /= grids.ny

@@ -24,6 +24,14 @@ def central_film(scene):
     return film * math.sqrt(2 * eta0 * s.u_m / (E * s.R)) * s.R
 
 
+def load_power(scene):
+    """-d ln h/d ln f of the central film of a line by the formula: 0.1 of usual films, 1 between rigid bodies."""
+    s, E, Gamma = Scales.of(scene), reduced_modulus(scene), scene.operation.temperature
+    eta0, alpha = math.exp(ln_eta(scene.oil, 0.0, Gamma)), pressure_coefficient(scene.oil, Gamma)
+    M, L = moes_numbers(scene.load, s.R, E, eta0, alpha, s.u_m)
+    return -math.log(moes_line(1.05 * M, L) / moes_line(M, L)) / math.log(1.05)
+
+
 def heated_film(scene):
     """The same (m) with what the oil's own heat in the inlet leaves of it; isothermal scenes: all.
 

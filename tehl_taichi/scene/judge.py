@@ -1,22 +1,19 @@
 """What is doubtful in a scene although it can be simulated, a sentence each: the warnings that are known before a run."""
 
-from tehl_taichi.scene import acting, keys, named_steels, oil_range, passing, room, route, scales, thin_film
+from tehl_taichi.scene import acting, domain, keys, named_steels, oil_range, passing, room, route, scales, thin_film
 from tehl_taichi.values.quantity import Number
+from tehl_taichi.values.warned import once, warned
 
 
 def warnings(scene):
-    """Sentences with the value, the unit and what would be better, each once; [] for a scene without doubts."""
-    return _once(sentence for check in CHECKS for sentence in check(scene))
+    """Sentences with the value, the unit and what would be better, each once, with the code of their kind; [] for a scene
+    without doubts."""
+    return warned(CHECKS, scene)
 
 
 def preview(scene):
     """Lines about its features, printed before a run, each once."""
-    return _once(line for feature in scene.features for line in feature.kind.preview(feature, scene))
-
-
-def _once(sentences):
-    """Of features that are alike every one says the same."""
-    return list(dict.fromkeys(sentences))
+    return once(line for feature in scene.features for line in feature.kind.preview(feature, scene))
 
 
 def doubtful_features(scene):
@@ -58,6 +55,12 @@ def unusual(scene):
                f"only{said}")
 
 
-# functions of a scene that give its sentences
-CHECKS = (passing.warnings, room.warnings, thin_film.warnings, oil_range.warnings, named_steels.doubts, cut_passage, thinned,
-          doubtful_features, unusual, acting.doubts)
+def wide_domain(scene):
+    """Where auto moved the inlet away from a thick film."""
+    return filter(None, [domain.moved(scene)])
+
+
+# functions of a scene that give its sentences, with the code of these
+CHECKS = {passing.warnings: "cells", room.warnings: "room", thin_film.warnings: "film", oil_range.warnings: "oil",
+          named_steels.doubts: "steel", cut_passage: "cut", thinned: "moments", doubtful_features: "feature",
+          unusual: "unit", acting.doubts: "idle", wide_domain: "inlet"}

@@ -235,9 +235,13 @@ class Grid:
 
     nx: int = count(256, "cells along x", 32, 8192, 16)
     ny: int = count(64, "cells along y, of the half domain y >= 0", 8, 4096, 4)
-    x_min: float = quantity(-2.5, "a", "inlet end of the grid", -20.0, -1.2)
-    x_max: float = quantity(1.5, "a", "outlet end of the grid", 1.2, 10.0)
-    y_max: float = quantity(1.0, "b", "side end of the grid", 0.3, 20.0)
+    x_min: Union[float, str] = quantity(AUTO, "a", "inlet end of the grid; auto: -2.5, farther before films so thick that they "
+                                        "would feel it (tehl_taichi/scene/domain.py)", -20.0, -1.2, usual=-2.5)
+    x_max: Union[float, str] = quantity(AUTO, "a", "outlet end of the grid; auto: 1.5", 1.2, 10.0, usual=1.5)
+    y_max: Union[float, str] = quantity(AUTO, "b", "side end of the grid; auto: 1 of a line, at least 1.5 of a point contact",
+                                        0.3, 20.0, usual=1.0)
+    inlet: str = choice("flooded", "oil before the grid; flooded: it goes on for ever, the border has its pressure; starved: "
+                        "x_min is where it begins, with no pressure", ("flooded", "starved"))
 
     def __post_init__(self):
         check(self, "grid")

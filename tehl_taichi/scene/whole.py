@@ -7,7 +7,7 @@ from typing import Any
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.physics.shear.newtonian import NEWTONIAN
-from tehl_taichi.scene import change, film_formula, given, judge, named_oils, oil, oil_range, passing, room, scales
+from tehl_taichi.scene import change, domain, film_formula, given, judge, named_oils, oil, oil_range, passing, room, scales
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.maps import map_judge
 from tehl_taichi.scene.named_steels import completed
@@ -78,6 +78,7 @@ class Scene:
         if self.fatigue.thermal_stress is True and self.isothermal:
             raise SceneError("fatigue.thermal_stress = true needs temperatures: use --thermal, or \"auto\"")
         self._check_pressure()
+        object.__setattr__(self, "grid", domain.chosen(self))
         self._check_motion()
         self._check_path()
         self._check_room()
@@ -295,7 +296,7 @@ class Scene:
         """Plain nested dictionary with every value, defaults included; the sections of a scene file."""
         data = {"name": self.name, "note": self.note}
         for key in SECTIONS:
-            data[key] = dataclasses.asdict(getattr(self, key))
+            data[key] = domain.as_asked(dataclasses.asdict(getattr(self, key)))
         data["bodies"] = {"a": dataclasses.asdict(self.body_a), "b": dataclasses.asdict(self.body_b)}
         data["oil"] = dataclasses.asdict(self.oil)
         data["feature"] = [dataclasses.asdict(f) for f in self.features]

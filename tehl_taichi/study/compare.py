@@ -9,7 +9,8 @@ from tehl_taichi.study.stored_run import Run
 from tehl_taichi.values.plain import plain
 
 MOST = 8  # stores: more lines than that nobody tells apart
-OWN = ("store", "version", "scene", "left_out", "warnings", "unknown")  # of a summary: words, or what every run has of its own
+# of a summary: words, or what every run has of its own
+OWN = ("store", "version", "scene", "left_out", "warnings", "warning_codes", "error_parts", "unknown")
 
 
 @dataclass(frozen=True)

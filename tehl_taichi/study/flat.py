@@ -3,7 +3,8 @@
 import math
 
 # what a case has of its own, or what is no number of its result
-LEFT_OUT = {"store", "scene", "version", "left_out", "warnings", "converged", "unknown", "clamps", "grid", "cells"}
+LEFT_OUT = {"store", "scene", "version", "left_out", "warnings", "warning_codes", "domain", "error_parts", "converged",
+            "unknown", "clamps", "grid", "cells"}
 UNITS = {"m": "m", "Pa": "Pa", "C": "degC", "K": "K", "s": "s", "deg": "degree", "J": "J", "W": "W", "N": "N", "kg": "kg"}
 PARTS = ("fatigue_resolved_below", "fatigue_resolved", "fatigue_below")  # of a summary, inside others
 

@@ -110,6 +110,7 @@ def _continue(path, scene, threads, began, progress):
 
     with _stoppable(path), Store.write(path) as saved:
         steady = {name: saved.needed(name) for name in ("steady_error", "steady_unknown")}
+        steady |= {name: saved.known(name) for name in ("steady_parts", "steady_domain")}
         runtime.start_or_join(threads=threads)
         state = saved.go_back()
         clock = _Clock(began, _spent(saved))
@@ -137,7 +138,8 @@ def _begin(scene, place, clock, progress):
     progress.stage(STEADY, 1, 1)
     if first.unsettled:
         progress.warn(f"{first.unsettled}; the passage starts from a state in time")
-    steady = {"steady_error": plain(first.error), "steady_unknown": first.unknown}
+    steady = {"steady_error": plain(first.error), "steady_unknown": first.unknown, "steady_parts": plain(first.parts),
+              "steady_domain": first.domain.values()}
     attrs = {"warnings": json.dumps(scene.warnings()), **{name: json.dumps(value) for name, value in steady.items()},
              **provenance(scene)}
     with Store.create(place, scene, first, most_steps(scene) + 1, attrs) as saved:
@@ -158,6 +160,7 @@ def _finish(saved, state, steady, clock, progress):
     from tehl_taichi.fatigue.pressure_alone import why_none
     from tehl_taichi.io.summary import summarise
     from tehl_taichi.march import companions
+    from tehl_taichi.march.domain_error import Share
     from tehl_taichi.study import beside
 
     with beside.told(saved.scene) as begun:
@@ -166,7 +169,9 @@ def _finish(saved, state, steady, clock, progress):
         told = begun(until)
         fatigue, maps = _fatigue(saved, until, progress)
         sure = fatigue if fatigue and not why_none(fatigue) else None
-        passage = companions.errors(saved.scene, saved, sure, lambda: told(functools.partial(progress.stage, ERRORS)))
+        domain = Share.from_values(steady["steady_domain"])
+        tell = functools.partial(progress.stage, ERRORS)
+        passage = companions.errors(saved.scene, saved, sure, lambda: told(tell), domain)
     saved.finish(summarise(saved, {**clock.times(), **steady, **passage}, fatigue), maps)
     return Run(saved)
 

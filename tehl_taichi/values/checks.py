@@ -4,6 +4,7 @@ import contextlib
 import dataclasses
 import difflib
 import math
+from typing import Union
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.values.meant import meant
@@ -43,6 +44,12 @@ def _allowed(unit, low, high, strict, least=0.0):
     below = f"at most {high:g}{unit}" if high < math.inf else ""
     both = " and ".join(part for part in (above, below) if part)
     return f"; allowed: {both}{', of either sign' if least and low < 0 else ''}" if both else ""
+
+
+def word(where, value, only, kind):
+    """Refuse a text that is not the only one allowed in place of a number."""
+    if value != only:
+        raise SceneError(f"{where} = {shown(value)} is not a number; allowed: {kind.allowed}")
 
 
 def integer(where, value, low, high):
@@ -97,7 +104,8 @@ def normalise(part):
     """Give a frozen dataclass plain Python values (see :func:`plain`), whole numbers as floats where a float is meant."""
     for field in dataclasses.fields(part):
         value = plain(getattr(part, field.name))
-        if field.type is float and isinstance(value, int) and not isinstance(value, bool) and abs(value) <= HUGE:
+        real = field.type in (float, Union[float, str])
+        if real and isinstance(value, int) and not isinstance(value, bool) and abs(value) <= HUGE:
             value = float(value)
         object.__setattr__(part, field.name, value)
 

@@ -30,7 +30,7 @@ class Kind:
 class Number(Kind):
     """A number in its unit; strict: `low` itself is refused; infinite: inf is allowed; usual: one of its order (0: unknown);
     least: the smallest size of one that is not 0, below which it was meant in another unit; common: (low, high), what is
-    allowed beyond them is doubted where another unit makes a common value of it."""
+    allowed beyond them is doubted where another unit makes a common value of it; auto: the scene itself decides unless told."""
 
     about: str
     unit: str = "-"
@@ -41,6 +41,7 @@ class Number(Kind):
     usual: float = 0.0
     least: float = 0.0
     common: tuple = ()
+    auto: bool = False
 
     def doubted(self, where, value):
         """A sentence about a value that is allowed, but was perhaps meant in another unit; "" where it was not."""
@@ -51,6 +52,8 @@ class Number(Kind):
         return f"{where} = {value:g} {self.unit} is unusual{other}" if other else ""
 
     def check(self, where, value):
+        if self.auto and isinstance(value, str):
+            return checks.word(where, value, AUTO, self)
         checks.number(where, value, self.unit.strip("-"), self.low, self.high, self.strict, self.infinite, self.usual,
                       self.least)
 
@@ -60,7 +63,7 @@ class Number(Kind):
         if self.least:
             return f"0 or {self.least:g} to {self.high:g}{' in size' * (self.low < 0)}"
         if self.low > -math.inf and self.high < math.inf:
-            return f"{'more than ' if self.strict else ''}{self.low:g} to {self.high:g}"
+            return f"{'more than ' if self.strict else ''}{self.low:g} to {self.high:g}{f', or {AUTO}' if self.auto else ''}"
         above = f"{'more than' if self.strict else 'at least'} {self.low:g}" if self.low > -math.inf else ""
         return above or (f"at most {self.high:g}" if self.high < math.inf else "")
 
@@ -68,8 +71,6 @@ class Number(Kind):
 @dataclass(frozen=True)
 class Numbers(Number):
     """A list of such numbers; with `auto`: the scene itself decides unless told."""
-
-    auto: bool = False
 
     def check(self, where, value):
         if self.auto and isinstance(value, str) and value == AUTO:
@@ -181,10 +182,11 @@ def _declared(default, kind, compare=True):
 
 def quantity(default, unit, about, low=-math.inf, high=math.inf, strict=False, infinite=False, usual=0.0, least=0.0,
              common=()):
-    """Field of a dataclass: a number in `unit` within low..high; usual: one of its order, where the default is none; least,
-    common: see :class:`Number`."""
-    usual = usual or (default if default is not None and math.isfinite(default) else 0.0)
-    return _declared(default, Number(about, unit or "-", low, high, strict, infinite, usual, least, common))
+    """Field of a dataclass: a number in `unit` within low..high, or "auto" where that is the default; usual: one of its order,
+    where the default is none; least, common: see :class:`Number`."""
+    auto = default == AUTO
+    usual = usual or (default if not auto and default is not None and math.isfinite(default) else 0.0)
+    return _declared(default, Number(about, unit or "-", low, high, strict, infinite, usual, least, common, auto))
 
 
 def quantities(default, unit, about, low=-math.inf, high=math.inf, auto=False, usual=0.0):

@@ -1,0 +1,37 @@
+"""What a domain that ends too near costs: sentences of (store, summary)."""
+
+from tehl_taichi.scene import domain
+from tehl_taichi.scene.scales import Scales
+
+MUCH, SOME = 0.01, 1e-3  # of the film: told always; told where the grid is better than that
+
+
+def short(store, summary):
+    """A part of the domain in the error of the film that is large, or larger than that of the grid."""
+    steady, g = summary["steady"], store.scene.grid
+    parts = steady.get("error_parts", {}).get("h_c_m")
+    if not parts or g.inlet == "starved":
+        return
+    part, grid = parts["domain"] / steady["h_c_m"], (parts["grid"] or 0.0) / steady["h_c_m"]
+    if part > MUCH or part > max(grid, SOME):
+        yield (f"the domain begins at {-g.x_min:g} a, where the gap is {steady['inlet_gap']:.2g} times the film: what lies "
+               f"before it may change the film by {part:.1%}{_farther(store.scene, steady)}")
+
+
+def starved(store, summary):
+    """An inlet that the scene starves, and what that takes of the film."""
+    lost, g = summary["steady"].get("inlet_lost", 0.0), store.scene.grid
+    if g.inlet == "starved" and lost > MUCH:
+        yield (f"grid.inlet = starved: the oil begins at {-g.x_min:g} a, which takes about {lost:.0%} of the film of a flooded "
+               "inlet")
+
+
+def _farther(scene, steady):
+    """Options of a domain that reaches far enough, on cells as large as before."""
+    s, g = Scales.of(scene), scene.grid
+    found = domain.remedy(scene, steady["h_c_m"] / s.h)
+    asked = {key: end for key, end in found.items() if abs(end) > abs(getattr(g, key)) * (1 + 1e-9)}
+    if not asked:
+        return ""
+    sets = " ".join(f"--set grid.{key}={end:g}" for key, end in asked.items())
+    return f"; {sets} --grid {domain.same_cells(scene, **asked)} (same cells)"

@@ -1,0 +1,114 @@
+"""What the end of the domain may cost the numbers of a run: a share of the film, from the steady start.
+
+A border without pressure in a flooded inlet takes alpha q (0.73 + 0.15 |X|/(alpha p_H)) of the film, q the reduced pressure
+that the oil beyond it would have there and 0.73 Grubin's exponent 8/11 (99 lines of M 5 to 100, L 2 to 20: 0.82 to 1.14 of what
+is measured); a point contact 0.73 alpha q and, by its sides, (gap there/0.7 films)^(-3/2). Of that a border with the pressure
+of the oil beyond leaves a part. What the oil beyond bears is missing in the load.
+"""
+
+from dataclasses import asdict, dataclass
+from dataclasses import fields as of_class
+
+import numpy as np
+
+from tehl_taichi.march.error_bars import WHOLE
+from tehl_taichi.march.readings import HEAT
+from tehl_taichi.pressure import fields
+from tehl_taichi.pressure.inlet import Inlet, far
+from tehl_taichi.scene.domain import HEATED
+from tehl_taichi.scene.film_formula import load_power
+
+GRUBIN, LONG = 0.73, 0.15
+SIDE = 0.7  # films
+# Parts that the bar has of that: of a line, of a point; with the pressure of the oil beyond; where its temperature is not known
+LINE, POINT, LINE_LEFT, POINT_LEFT = 1.3, 1.0, 0.2, 0.3
+PASSAGE = 3.0  # extremes of a passage, pressures and friction move by up to 3.5 times as much as the central film
+HEATING = 2.0  # of the share of the film, by which a rise of temperature changes
+FILM, FRICTION = "film", "friction"
+
+
+@dataclass(frozen=True)
+class Share:
+    """film: relative error by the domain; friction: error of the coefficient by the oil before the domain; gap: at the inlet,
+    over the film; lost: relative error that a border without pressure has."""
+
+    film: float = 0.0
+    friction: float = 0.0
+    gap: float = 0.0
+    lost: float = 0.0
+
+    @classmethod
+    def from_values(cls, values):
+        """Of what :meth:`values` gave; of a store that has none: nothing is known to be off."""
+        return cls(**{field.name: values[field.name] for field in of_class(cls) if field.name in values})
+
+    def values(self):
+        return asdict(self)
+
+    def of(self, name, value, scene, passing):
+        """What a number of a steady start or, passing, of a passage may be off by."""
+        times = PASSAGE if passing or name not in ("h_c_m", "h_min_m") else 1.0
+        if name in HEAT:
+            return (PASSAGE if passing else HEATING) * self.film * abs(value - scene.operation.temperature)
+        return times * self.film * abs(value) + (self.friction if name.startswith(FRICTION) else 0.0)
+
+
+def share(solver):
+    """The Share of the steady film in the table."""
+    v, inlet = solver.levels, Inlet(solver.levels)
+    H = v.get(fields.H)
+    gap = H[v.middle, 0] / np.interp(0.0, v.X, H[v.middle])
+    if not inlet.flooded:
+        return Share(gap=float(gap), lost=_lost(v, inlet, H, _raised(v, inlet, H)))
+    unknown = not v.scene.isothermal and gap < HEATED
+    part = (LINE if unknown else LINE_LEFT) if v.line else POINT if unknown else POINT_LEFT
+    lost, miss = _lost(v, inlet, H, 0.0), np.abs(inlet.beyond() - inlet.now()).max() / inlet.q[-1]
+    film = part * lost + GRUBIN * miss + (_load(v, inlet, H) * load_power(v.scene) if v.line else 0.0)
+    return Share(float(film), _friction(v, H), float(gap), float(lost))
+
+
+def _raised(v, inlet, H):
+    """Part of its film that a starved one would gain."""
+    gain = 0.0
+    for _ in range(40):
+        lost = min(_lost(v, inlet, H, gain), 0.9)
+        gain = 0.5 * (gain + lost / (1 - lost))
+    return gain
+
+
+def _lost(v, inlet, H, gain):
+    """Share of the film that a border without pressure takes, of a film that is thicker by `gain` of itself than H."""
+    film = np.interp(0.0, v.X, H[v.middle])
+    q = inlet.without_heat(H + gain * film, (1 + gain) * inlet.carried(H)) / inlet.q[-1]
+    if v.line:
+        return float(q.max() * (GRUBIN + LONG * abs(v.X[0]) * inlet.q[-1] / v.scales.p_H))
+    side = np.interp(0.0, v.X, H[-1]) / film + gain
+    return float(q.max() * GRUBIN + (side / SIDE) ** -1.5)
+
+
+def _load(v, inlet, H):
+    """Share of the load that the oil beyond the border of a line bears."""
+    X, gap, weights = far(v.X[0], H[v.middle, 0], 1.0)
+    shape = np.sum(weights * (np.abs(X) - abs(v.X[0])) * (gap - inlet.carried(H)) / gap**3)
+    return max(float(shape), 0.0) / v.numbers.inv_lambda / v.scales.load
+
+
+def _friction(v, H):
+    """Of the sheared oil before the domain, over the load; a point contact's as wide as its grid."""
+    X, gap, weights = far(v.X[0], H[v.middle, 0], float(v.line))
+    wide = 1.0 if v.line else 2 * abs(v.Y[-1])
+    sheared = v.conditions["eta0"] * abs(v.conditions["u_s"]) / (v.scales.h * v.scales.p_H)
+    return sheared * float(np.sum(weights / gap)) * wide / v.scales.load
+
+
+def widened(errors, unknown, values, found, scene, passing=False):
+    """(bars, why some are unknown, {name: {"grid", "domain"}}) of bars by the grid, {name: size or None}, and of what the Share
+    `found` adds to them; values: {name: the number}."""
+    parts = {name: {"grid": size, "domain": found.of(name, values[name], scene, passing)} for name, size in errors.items()}
+    whole = {name: None if part["grid"] is None else part["grid"] + part["domain"] for name, part in parts.items()}
+    lost = [name for name, size in whole.items() if size is not None and _positive(name) and size >= values[name]]
+    return {**whole, **dict.fromkeys(lost)}, {**unknown, **dict.fromkeys(lost, WHOLE)}, parts
+
+
+def _positive(name):
+    return name.startswith("h_") or name.endswith("Fi_max")

@@ -1,0 +1,100 @@
+"""The pressure of the oil beyond the border of the grid, where a flooded inlet goes on for ever.
+
+Far before the contact bodies hardly bend under it, so the Reynolds equation can be integrated: with the reduced pressure
+q(p) = int_0^p eta_0/eta dp, a line has q = 12 eta_0 u_m int (h - h*)/h^3 dx beyond the border, h* what the film carries (its
+flow over u_m); a point the value for two rigid paraboloids, q = 12 eta_0 u_m |x|/((3 + 2 R_x/R_y) h^2), exact for thick gaps,
+with the film at the node itself and half of what a line's integral differs from it. eta_0: the viscosity of the column at the
+border.
+"""
+
+import functools
+
+import numpy as np
+
+from tehl_taichi.physics.viscosity import ln_eta
+from tehl_taichi.pressure import fields
+
+T, WEIGHTS = (0.5 * part for part in np.polynomial.legendre.leggauss(40))
+T = T + 0.5  # X = X_border/T beyond the border
+PRESSURES = np.concatenate([[0.0], np.geomspace(1e2, 3e9, 800)])  # Pa
+MOST = 0.95  # of the reduced pressure that the oil reaches at all
+
+
+@functools.lru_cache(maxsize=16)
+def reduced(oil, Gamma):
+    """(p, q) in Pa: the reduced pressure of an oil at Gamma deg C; between its points 1/eta is exponential."""
+    ln = np.array([ln_eta(oil, float(p), Gamma) for p in PRESSURES])
+    fall = np.diff(ln)
+    near = np.abs(fall) < 1e-6
+    mean = np.where(near, 1 - fall / 2, -np.expm1(-fall) / np.where(near, 1.0, fall))
+    return PRESSURES, np.concatenate([[0.0], np.cumsum(np.diff(PRESSURES) * np.exp(ln[0] - ln[:-1]) * mean)])
+
+
+def far(X, H, log):
+    """(places, films, weights of an integral) beyond X, from the film H there; log: 1 beside a line contact, whose bodies bend
+    by a logarithm, 0 beside a point."""
+    return X / T, H + 0.5 * X**2 * (1 / T**2 - 1) + 0.5 * log * np.log(T), WEIGHTS * abs(X) / T**2
+
+
+def integral(X, H, carried, log):
+    """int (H - carried)/H^3 dX beyond X."""
+    _, gap, weights = far(X, H, log)
+    return float(np.sum(weights * (gap - carried) / gap**3))
+
+
+class Inlet:
+    """What the oil beyond the border presses on the grid of `levels`; its border nodes: the first column, and before the
+    contact (X < 0) the sides of a point contact."""
+
+    def __init__(self, levels):
+        self.levels, v = levels, levels
+        self.flooded = v.scene.grid.inlet == "flooded"
+        self.border = np.zeros((v.ny + 1, v.nx + 1), bool)
+        self.border[:, 0] = True
+        if not v.line:
+            self.border[-1, v.X < 0] = True
+            self.border[0, v.X < 0] |= not v.mirrored
+        self.p, self.q = reduced(v.scene.oil, v.scene.operation.temperature)
+
+    def now(self):
+        """Reduced pressure (Pa) at the border nodes of the table."""
+        return np.interp(self.levels.get(fields.P)[self.border] * self.levels.scales.p_H, self.p, self.q)
+
+    def put(self, q):
+        """Give the border nodes this reduced pressure, Pa."""
+        P = self.levels.get(fields.P)
+        P[self.border] = np.interp(np.minimum(q, MOST * self.q[-1]), self.q, self.p) / self.levels.scales.p_H
+        self.levels.put(fields.P, P)
+
+    def beyond(self):
+        """Reduced pressure (Pa) that the oil beyond the border has there, by the film in the table."""
+        H = self.levels.get(fields.H)
+        return self.without_heat(H, self.carried(H)) * self.warmth()
+
+    def without_heat(self, H, carried):
+        """The same by the film H, that carries so much, of oil as it comes in."""
+        v = self.levels
+        if v.line:
+            shape = np.full(v.ny + 1, integral(v.X[0], H[v.middle, 0], carried, 1.0))
+        else:
+            X = np.broadcast_to(v.X, H.shape)[self.border]
+            shape = self._kappa(H, carried) * np.abs(X) / ((3 + 2 * v.scales.curvature) * H[self.border] ** 2)
+        return np.maximum(shape, 0.0) * v.scales.p_H / v.numbers.inv_lambda
+
+    def carried(self, H):
+        """rho H that the film carries at X = 0, over the density of the inlet."""
+        v = self.levels
+        return float(np.interp(0.0, v.X, (H * v.get(fields.RHO))[v.middle]))
+
+    def _kappa(self, H, carried):
+        """Mean of 1 and what the integral along y = 0 is over that of a gap that grows like X^2."""
+        v = self.levels
+        X, H_0 = v.X[0], H[v.middle, 0]
+        return 0.5 + 1.5 * integral(X, H_0, carried, 0.0) * H_0**2 / abs(X)
+
+    def warmth(self):
+        """Viscosity at the border nodes over that of the oil of the inlet at their pressure."""
+        v = self.levels
+        p = v.get(fields.P)[self.border] * v.scales.p_H
+        cold = ln_eta(v.scene.oil, p, v.scene.operation.temperature) - v.conditions["ln_eta0"]
+        return np.exp(v.get(fields.LE)[self.border] - cold)

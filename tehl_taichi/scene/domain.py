@@ -1,0 +1,92 @@
+"""Where the domain of a scene ends: the gap at its border has to be some times the film, or the film feels the border.
+
+What a border that takes the pressure of the oil beyond it (:mod:`tehl_taichi.pressure.inlet`) still costs falls with that
+ratio; what one without pressure costs is about (ratio/1.4)^(-3/2) of the film.
+"""
+
+import math
+from dataclasses import replace
+
+from tehl_taichi.scene import hertz
+from tehl_taichi.scene.film_formula import heated_film
+from tehl_taichi.scene.scales import Scales
+from tehl_taichi.values.chosen import Chosen
+from tehl_taichi.values.quantity import AUTO
+
+OUTLET, LINE_SIDE = 1.5, 1.0  # a; b, where nothing depends on it
+# Inlets (a) that auto takes: with the usual outlet, and columns in multiples of 64, X = 0 is a node of every grid of a start
+# but the last one's
+INLETS = 2.5, 4.5, 6.5, 10.5, 14.5, 20.0
+SIDES = 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 11.0, 15.0, 20.0  # b
+# Gap over film at both, at least. With temperatures the oil that flows back heats what comes in beyond the border (smooth line
+# at 0.5 GPa, 20 m/s, 60 deg C, SRR -0.5: the film is 12 % too thick with 2.5, 2.7 % with 8, 0.8 % with 18)
+GAPS, HEATED = 8.0, 20.0
+ENDS = "x_min", "x_max", "y_max"
+
+
+def chosen(scene):
+    """The grid of a scene with a number for every end that is "auto"."""
+    grid = scene.grid
+    asked = [key for key in ENDS if _auto(getattr(grid, key))]
+    if not asked:
+        return grid
+    found = {"x_min": lambda s, film: -_first(INLETS, lambda X: inlet_gap(s, X) / film, _least(scene)),
+             "x_max": lambda s, film: OUTLET,
+             "y_max": lambda s, film: LINE_SIDE if s.line else _first(SIDES, lambda Y: side_gap(s, Y) / film, GAPS)}
+    s = Scales.of(scene)
+    film = heated_film(scene) / s.h if {"x_min", "y_max"} & set(asked) else 1.0
+    return replace(grid, **{key: Chosen(found[key](s, film)) for key in asked})
+
+
+def as_asked(values):
+    """Values of a grid with "auto" where the program chose."""
+    return {key: AUTO if isinstance(value, Chosen) else value for key, value in values.items()}
+
+
+def _auto(value):
+    return value == AUTO or isinstance(value, Chosen)
+
+
+def _least(scene):
+    return GAPS if scene.isothermal else HEATED
+
+
+def _first(ends, ratio, least):
+    """The nearest of these ends where the gap is so many times the film, or the last."""
+    return next((end for end in ends if 1 + ratio(end) >= least), ends[-1])
+
+
+def inlet_gap(s, X):
+    """Gap beside the dry contact, |X| a before its centre, in a^2/R'."""
+    return (hertz.line_gap if s.line else hertz.point_gap)(abs(X))
+
+
+def side_gap(s, Y):
+    """The same Y b beside the centre of a point contact, by the rigid bodies less what they approach each other."""
+    return max(0.5 * s.curvature * (Y * s.b / s.a) ** 2 - min(1.0, s.curvature), 0.02)
+
+
+def remedy(scene, film):
+    """{"x_min", "y_max": ends (a, b)} that lie where the gap is twice as many times the film (a^2/R') as auto asks for."""
+    s, least = Scales.of(scene), 2 * _least(scene)
+    inlet = {"x_min": -_first(INLETS, lambda X: inlet_gap(s, X) / film, least)}
+    return inlet if s.line else {**inlet, "y_max": _first(SIDES, lambda Y: side_gap(s, Y) / film, least)}
+
+
+def moved(scene):
+    """What auto did beyond the usual inlet, in a sentence; "" where it did nothing."""
+    g = scene.grid
+    if not (isinstance(g.x_min, Chosen) and g.x_min < -INLETS[0]):
+        return ""
+    per_a = g.nx / (g.x_max - g.x_min)
+    as_fine = math.ceil(g.nx * (g.x_max - g.x_min) / (g.x_max + INLETS[0]) / 16 - 1e-9) * 16
+    return (f"thick film: the domain begins at {-g.x_min:g} a (grid.x_min = \"auto\"), its {g.nx} columns are {per_a:.3g} per "
+            f"half-width; --grid {as_fine}{'' if scene.one_dimensional else f'x{g.ny}'} makes them as fine as with 2.5 a")
+
+
+def same_cells(scene, x_min=None, y_max=None):
+    """Columns, and rows where there are any, that keep their size on a domain with other ends."""
+    g = scene.grid
+    nx = math.ceil(g.nx * (g.x_max - (x_min or g.x_min)) / (g.x_max - g.x_min) / 16 - 1e-9) * 16
+    ny = math.ceil(g.ny * (y_max or g.y_max) / g.y_max / 4 - 1e-9) * 4
+    return f"{nx}" if scene.one_dimensional else f"{nx}x{ny}"
