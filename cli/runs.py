@@ -124,13 +124,14 @@ def _on_grid_for(target, changes, description):
     if target is None:
         return description
     from tehl_taichi.scene import SceneError
-    from tehl_taichi.scene.target import grid_for
+    from tehl_taichi.scene.target import reaching
 
     if {"grid.nx", "grid.ny"} & changes.keys():
         raise SceneError(f"--target-error {target} chooses the grid; leave out --grid")
-    nx, ny = grid_for(description, _share(target))
-    say(f"{nx} x {ny} cells for an error of {target}")
-    return description.replace(**{"grid.nx": nx, "grid.ny": ny})
+    found = reaching(description, _share(target))
+    g = found.grid
+    say(f"{g.nx} x {g.ny} cells, from {g.x_min:g} a on, for an error of {target}")
+    return found
 
 
 def _share(text):

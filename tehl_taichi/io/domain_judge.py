@@ -3,7 +3,7 @@
 from tehl_taichi.scene import domain
 from tehl_taichi.scene.scales import Scales
 
-MUCH, SOME = 0.01, 1e-3  # of the film: told always; told where the grid is better than that
+MUCH, SOME = 0.01, 3e-3  # of the film: told always; told of ends that the user fixed where the grid is better than that
 
 
 def short(store, summary):
@@ -13,7 +13,7 @@ def short(store, summary):
     if not parts or g.inlet == "starved":
         return
     part, grid = parts["domain"] / steady["h_c_m"], (parts["grid"] or 0.0) / steady["h_c_m"]
-    if part > MUCH or part > max(grid, SOME):
+    if part > MUCH or part > max(grid, SOME) and not summary["domain"]["auto"]:
         yield (f"the domain begins at {-g.x_min:g} a, where the gap is {steady['inlet_gap']:.2g} times the film: what lies "
                f"before it may change the film by {part:.1%}{_farther(store.scene, steady)}")
 

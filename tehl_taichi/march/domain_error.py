@@ -15,14 +15,12 @@ from tehl_taichi.march.error_bars import WHOLE
 from tehl_taichi.march.readings import HEAT
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.inlet import Inlet, far
-from tehl_taichi.scene.domain import HEATED
+from tehl_taichi.scene.domain import HEATED, LEFT, PASSAGE, SIDE
 from tehl_taichi.scene.film_formula import load_power
 
 GRUBIN, LONG = 0.73, 0.15
-SIDE = 0.7  # films
-# Parts that the bar has of that: of a line, of a point; with the pressure of the oil beyond; where its temperature is not known
-LINE, POINT, LINE_LEFT, POINT_LEFT = 1.3, 1.0, 0.2, 0.3
-PASSAGE = 3.0  # extremes of a passage, pressures and friction move by up to 3.5 times as much as the central film
+# Of that the bar has LEFT where the border has the pressure of the oil beyond, this where the temperature of that is not known
+LINE, POINT = 1.3, 1.0
 HEATING = 2.0  # of the share of the film, by which a rise of temperature changes
 FILM, FRICTION = "film", "friction"
 
@@ -61,7 +59,7 @@ def share(solver):
     if not inlet.flooded:
         return Share(gap=float(gap), lost=_lost(v, inlet, H, _raised(v, inlet, H)))
     unknown = not v.scene.isothermal and gap < HEATED
-    part = (LINE if unknown else LINE_LEFT) if v.line else POINT if unknown else POINT_LEFT
+    part = LEFT[v.scales.kind] if not unknown else LINE if v.line else POINT
     lost, miss = _lost(v, inlet, H, 0.0), np.abs(inlet.beyond() - inlet.now()).max() / inlet.q[-1]
     film = part * lost + GRUBIN * miss + (_load(v, inlet, H) * load_power(v.scene) if v.line else 0.0)
     return Share(float(film), _friction(v, H), float(gap), float(lost))

@@ -7,6 +7,7 @@ ratio; what one without pressure costs is about (ratio/1.4)^(-3/2) of the film.
 import math
 from dataclasses import replace
 
+from tehl_taichi.errors import SceneError
 from tehl_taichi.scene import hertz
 from tehl_taichi.scene.film_formula import heated_film
 from tehl_taichi.scene.scales import Scales
@@ -21,6 +22,9 @@ SIDES = 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 11.0, 15.0, 20.0  # b
 # Gap over film at both, at least. With temperatures the oil that flows back heats what comes in beyond the border (smooth line
 # at 0.5 GPa, 20 m/s, 60 deg C, SRR -0.5: the film is 12 % too thick with 2.5, 2.7 % with 8, 0.8 % with 18)
 GAPS, HEATED = 8.0, 20.0
+# What an end costs the film: a part of (gap there/so many films)^(-3/2), and of a passage's numbers
+INLET, SIDE, LEFT, PASSAGE = 1.4, 0.7, {"line": 0.2, "point": 0.3}, 3.0
+LITTLE = 2e-3
 ENDS = "x_min", "x_max", "y_max"
 
 
@@ -62,15 +66,41 @@ def inlet_gap(s, X):
 
 
 def side_gap(s, Y):
-    """The same Y b beside the centre of a point contact, by the rigid bodies less what they approach each other."""
-    return max(0.5 * s.curvature * (Y * s.b / s.a) ** 2 - min(1.0, s.curvature), 0.02)
+    """The same Y b beside the centre of a point contact: exact for a circle, and far from an ellipse."""
+    return s.curvature * (s.b / s.a) ** 2 * hertz.point_gap(Y)
+
+
+def within(scene, share):
+    """The scene on a domain that costs at most this share of its numbers, as far as the film formula knows. Raises SceneError
+    where the user's own ends are nearer, or none is far enough."""
+    if scene.grid.inlet == "starved":  # the domain is as long as the oil
+        return scene
+    s, film = Scales.of(scene), heated_film(scene) / Scales.of(scene).h
+    power = (LEFT[s.kind] * (PASSAGE if scene.transient else 1.0) / share) ** (2 / 3)
+    needed = {"x_min": -_needed("x_min", INLETS, lambda X: inlet_gap(s, X) / film, max(_least(scene), INLET * power), share)}
+    if not s.line:
+        needed["y_max"] = _needed("y_max", SIDES, lambda Y: side_gap(s, Y) / film, max(GAPS, SIDE * power), share)
+    nearer = {key: end for key, end in needed.items() if abs(end) > abs(getattr(scene.grid, key))}
+    for key, end in nearer.items():
+        if not isinstance(own := getattr(scene.grid, key), Chosen):
+            raise SceneError(f"grid.{key} = {own:g} leaves more than {share:.2g} of the film to the end of the domain; "
+                             f"allowed: at least {abs(end):g} in size, or \"{AUTO}\"")
+    return scene.replace(**{f"grid.{key}": end for key, end in nearer.items()})
+
+
+def _needed(key, ends, ratio, least, share):
+    found = _first(ends, ratio, least)
+    if 1 + ratio(found) < least:
+        raise SceneError(f"a share of {share:.2g} for the end of the domain needs it beyond grid.{key} = {found:g}, as far as "
+                         "it goes, before so thick a film")
+    return found
 
 
 def remedy(scene, film):
-    """{"x_min", "y_max": ends (a, b)} that lie where the gap is twice as many times the film (a^2/R') as auto asks for."""
-    s, least = Scales.of(scene), 2 * _least(scene)
-    inlet = {"x_min": -_first(INLETS, lambda X: inlet_gap(s, X) / film, least)}
-    return inlet if s.line else {**inlet, "y_max": _first(SIDES, lambda Y: side_gap(s, Y) / film, least)}
+    """{"x_min", "y_max": ends (a, b)} that cost the film (a^2/R') LITTLE."""
+    s, power = Scales.of(scene), (LEFT[Scales.of(scene).kind] / LITTLE) ** (2 / 3)
+    inlet = {"x_min": -_first(INLETS, lambda X: inlet_gap(s, X) / film, max(_least(scene), INLET * power))}
+    return inlet if s.line else {**inlet, "y_max": _first(SIDES, lambda Y: side_gap(s, Y) / film, max(GAPS, SIDE * power))}
 
 
 def moved(scene):

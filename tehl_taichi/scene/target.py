@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene import finer
+from tehl_taichi.scene import domain, finer
 from tehl_taichi.scene.maps import map_judge
 from tehl_taichi.scene.scales import Scales
 
@@ -17,6 +17,14 @@ from tehl_taichi.scene.scales import Scales
 FILE = Path(__file__).with_name("grid_errors.json")
 MOST = 2048  # columns
 MULTIPLE = 32  # of columns: the coarser grids of the solver need halves of halves
+
+
+def reaching(description, target):
+    """The scene on a grid and a domain with which the largest error of film, pressure and Findley index is about `target`: up
+    to half of it by the domain, which may end nearer where that is less. Raises SceneError."""
+    wide = domain.within(description, target / 2)
+    nx, ny = grid_for(wide, target)
+    return wide.replace(**{"grid.nx": nx, "grid.ny": ny})
 
 
 def grid_for(description, target):
