@@ -1,4 +1,5 @@
-"""Do the error bars hold? Scenes drawn at random, their bars judged by the same scenes on grids four times as fine."""
+"""Do the error bars hold? Scenes drawn at random, their bars judged by the same scenes on grids four times as fine and domains
+four times as long."""
 
 import contextlib
 import json
@@ -10,14 +11,17 @@ import numpy as np
 from tehl_taichi.disk import outputs
 from tehl_taichi.errors import Error
 from tehl_taichi.march import companions
+from tehl_taichi.march.domain_error import Share, widened
 from tehl_taichi.march.error_bars import Reading, bars
 from tehl_taichi.scene import Scene, SceneError, scene
 
-FINER = 4
+FINER = LONGER = 4
+FARTHEST, WIDEST = 20.0, 12.0  # a, b: ends of the longer domains
+FIXED = 0.3  # share of scenes with a domain that the user fixed
 # how many of each kind, by the columns that they are drawn for; temperatures on a point contact march in time for long
-STEADY = {"line, Moes": (10, (64, 128, 256)), "line": (14, (64, 128, 256)), "line, thermal": (14, (64, 128, 128, 256)),
-          "circle, Moes": (8, (64, 64, 128)), "circle": (4, (64, 64, 128)), "ellipse": (8, (64, 64, 128)),
-          "point, thermal": (2, (64,))}
+STEADY = {"line, Moes": (12, (64, 128, 256)), "line": (10, (64, 128, 256)), "line, thermal": (10, (64, 128, 128, 256)),
+          "flank, thermal": (8, (64, 128, 256)), "circle, Moes": (8, (64, 64, 128)), "circle": (3, (64, 64, 128)),
+          "ellipse, Moes": (6, (64, 64, 128)), "ellipse": (3, (64, 64, 128)), "point, thermal": (2, (64,))}
 PASSAGES = {"ridge": 1, "ridge, thermal": 1, "asperity": 2, "asperity, thermal": 1, "ridge on ball": 1}
 EXITS = {"exit": 10, "exit, thermal": 10}  # of endless features, in one dimension: grids four times as fine are within reach
 QUICK = {"line, Moes": (2, (64,)), "line": (1, (64,)), "line, thermal": (1, (64,)), "circle": (1, (32,))}
@@ -55,27 +59,38 @@ def _log_uniform(rng, low, high):
 
 
 def _steady(rng, kind, nx):
-    line, grid = kind.startswith("line"), {"grid.nx": nx}
+    """On the domain that the scene chooses, or on the usual one as if the user had fixed it."""
+    line, grid = kind.startswith(("line", "flank")), {"grid.nx": nx}
     if not line:
-        grid |= {"grid.ny": nx // 2, "grid.x_min": -2.5, "grid.x_max": 1.5, "grid.y_max": 2.0}
-    if "Moes" in kind:
-        M = _log_uniform(rng, 10, 1000)
-        grid |= {"grid.x_min": -4.5 if M < 40 else -2.5} if line else {"grid.x_min": -3.0 if M > 100 else -4.5}
-        return scene("smooth-line" if line else "ball-on-disc").replace(**{
-            "contact.load": 0.0, "contact.moes_M": M, "contact.moes_L": float(rng.uniform(2, 20)),
-            "oil.name": "moes-test-fluid", **grid})
-    most = 2.5e9 if line else 2e9
-    changes = {"temperature": float(rng.uniform(50, 120)), "speed": _log_uniform(rng, 1, 20 if line else 10),
-               "srr": float(rng.uniform(-0.6, 0.6)), "thermal.on": "thermal" in kind}
-    base = scene("smooth-line").replace(**grid).to_dict()
-    pressure = _log_uniform(rng, 0.5e9, most)
-    if line:
-        base["contact"] = {"radius_x": 10.6e-3, "hertz_pressure": pressure}
-    else:
-        ratio = 1.0 if kind == "circle" else _log_uniform(rng, 0.3, 4)
-        base["contact"] = {"kind": "point" if ratio == 1 else "elliptic", "radius_x": 12.7e-3, "radius_y": 12.7e-3 * ratio,
-                           "hertz_pressure": pressure}
-    return Scene.from_dict(base).replace(**changes)
+        grid |= {"grid.ny": nx // 2, "grid.y_max": "auto", "grid.x_min": "auto"}
+    if rng.random() < FIXED:
+        grid |= {"grid.x_min": -2.5} | ({} if line else {"grid.y_max": 1.5})
+    ratio = 1.0 if line or "circle" in kind else _log_uniform(rng, 0.3, 4)
+    return _moes(rng, line, ratio, grid) if "Moes" in kind else _by_pressure(rng, kind, line, ratio, grid)
+
+
+def _moes(rng, line, ratio, grid):
+    M, round_ = _log_uniform(rng, 2 if line else 5, 1000), {} if line else _radii(ratio)
+    return scene("smooth-line" if line else "ball-on-disc").replace(**{
+        "contact.load": 0.0, "contact.moes_M": M, "contact.moes_L": float(rng.uniform(2, 25)), "oil.name": "moes-test-fluid",
+        **round_, **grid})
+
+
+def _radii(ratio):
+    return {"contact.kind": "point" if ratio == 1 else "elliptic", "contact.radius_y": 12.7e-3 * ratio}
+
+
+def _by_pressure(rng, kind, line, ratio, grid):
+    flank, most = kind.startswith("flank"), 2.5e9 if line else 2e9
+    pressure = _log_uniform(rng, 0.3e9, 0.8e9) if flank else _log_uniform(rng, 0.5e9, most)
+    changes = {"temperature": float(rng.uniform(50, 120)), "srr": float(rng.uniform(-0.6, 0.6)),
+               "thermal.on": "thermal" in kind,
+               "speed": _log_uniform(rng, 10, 30) if flank else _log_uniform(rng, 1, 20 if line else 10)}
+    base = scene("smooth-line").to_dict()
+    radii = {"radius_x": 10.6e-3} if line else {"radius_x": 12.7e-3, "radius_y": 12.7e-3 * ratio,
+                                                "kind": "point" if ratio == 1 else "elliptic"}
+    base["contact"] = {**radii, "hertz_pressure": pressure}
+    return Scene.from_dict(base).replace(**{**grid, **changes})
 
 
 def _passage(rng, kind):
@@ -113,28 +128,59 @@ def run(path, seed, quick=False, progress=None, exits=False):
 
 
 def row(description):
-    """{"own": readings per grid or of companions, "finer": {name: value}} of one scene, or the reason why it has none."""
-    g = description.grid
-    finer = description.replace(**{"grid.nx": FINER * g.nx, "grid.ny": FINER * g.ny})
+    """{"own": readings per grid or of companions, "finer": {name: value}, "domain": values of its Share, "inlet": deg C} of one
+    scene, or the reason why it has none; finer: on FINER cells and a LONGER domain."""
     try:
-        return _row_of_passage(description, finer) if description.transient else _row_of_start(description, finer)
+        return _row_of_passage(description) if description.transient else _row_of_start(description)
     except Error as error:
         return {"reason": str(error)}
 
 
-def _row_of_start(description, finer):
+def on_finer(description):
+    """The scene on FINER cells, on the same domain."""
+    g = description.grid
+    return description.replace(**{"grid.nx": FINER * g.nx, "grid.ny": FINER * g.ny, "grid.x_min": float(g.x_min),
+                                  "grid.y_max": float(g.y_max)})
+
+
+def on_longer(description):
+    """The scene on a LONGER domain, on cells as large as before."""
+    g, line = description.grid, description.contact.kind == "line"
+    x_min, y_max = -min(LONGER * -g.x_min, FARTHEST), g.y_max if line else max(min(LONGER * g.y_max, WIDEST), g.y_max)
+    nx = round(g.nx * (g.x_max - x_min) / (g.x_max - g.x_min) / 32) * 32
+    return description.replace(**{"grid.x_min": x_min, "grid.y_max": float(y_max), "grid.nx": nx,
+                                  "grid.ny": round(g.ny * y_max / g.y_max / 8) * 8})
+
+
+def truth(description, values):
+    """{name: value} on finer cells and a longer domain at once where that is cheap, else both changes of values() added; of
+    numbers that a domain with the pressure of the oil beyond it moves."""
+    if description.isothermal and description.contact.kind == "line" and not description.transient:
+        return values(on_longer(on_finer(description)))
+    own, fine, far = (values(one) for one in (description, on_finer(description), on_longer(description)))
+    return {name: value + far[name] - own[name] for name, value in fine.items()}
+
+
+def _row_of_start(description):
     from tehl_taichi.march.passage import march
 
-    own = [{name: asdict(reading) for name, reading in grid.items()} for grid in next(march(description)).grids]
-    scalars = next(march(finer)).scalars
-    return {"own": own, "finer": {name: scalars[name] for name in own[-1]}}
+    shot = next(march(description))
+    own = [{name: asdict(reading) for name, reading in grid.items()} for grid in shot.grids]
+    found = truth(description, lambda one: next(march(one)).scalars)
+    return {"own": own, "finer": {name: found[name] for name in own[-1]}, "domain": shot.domain.values(),
+            "inlet": description.operation.temperature, "ends": [float(description.grid.x_min), float(description.grid.y_max)]}
 
 
-def _row_of_passage(description, finer):
+def _row_of_passage(description):
+    from tehl_taichi.march.passage import march
+
     coarser, refused = companions.scenes(description)
     own = {name: asdict(reading) for name, reading in companions.values(description).items()}
     answers = [{"reason": reason} for reason in refused] + [companions.answer(one) for one in coarser]
-    return {"own": own, "answers": answers, "finer": {name: r.value for name, r in companions.values(finer).items()}}
+    found = truth(description, lambda one: {name: reading.value for name, reading in companions.values(one).items()})
+    domain = next(march(description.replace(**{"time.steps": 0}))).domain
+    return {"own": own, "answers": answers, "finer": found, "domain": domain.values(),
+            "inlet": description.operation.temperature}
 
 
 def judged(rows):
@@ -144,15 +190,23 @@ def judged(rows):
         if "reason" in one:
             continue
         part = "steady" if "answers" not in one else "exit" if one["kind"].startswith("exit") else "passage"
-        if part != "steady":
-            own = {name: Reading(**values) for name, values in one["own"].items()}
-            found, _ = companions.judged(one["answers"], own)
-        else:
-            grids = [{name: Reading(**values) for name, values in grid.items()} for grid in one["own"]]
-            own, (found, _) = grids[-1], bars(grids)
+        own, found = _bars(one, part)
         out += [(part, name, own[name].value, size, abs(one["finer"][name] - own[name].value)) for name, size in found.items()
                 if own[name].value != 0]  # friction without slip
     return out
+
+
+def _bars(one, part):
+    """(readings, bars) of a row."""
+    if part != "steady":
+        own = {name: Reading(**values) for name, values in one["own"].items()}
+        known = companions.judged(one["answers"], own)
+    else:
+        grids = [{name: Reading(**values) for name, values in grid.items()} for grid in one["own"]]
+        own, known = grids[-1], bars(grids)
+    values = {name: reading.value for name, reading in own.items()}
+    share = Share.from_values(one.get("domain", {}))
+    return own, widened(*known, values, share, one.get("inlet", 0.0), part != "steady")[0]
 
 
 def table(rows):

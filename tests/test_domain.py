@@ -223,12 +223,12 @@ def test_bars_hold_both_parts_and_are_none_where_either_leaves_nothing():
     found = Share(film=0.1, friction=1e-3)
     values = {"h_c_m": 1e-6, "h_min_m": 2e-7, "p_max_Pa": 1e9, "friction_coefficient": 0.02, "film_max_C": 140.0}
     grid = {"h_c_m": 1e-8, "h_min_m": 1.9e-7, "p_max_Pa": None, "friction_coefficient": 1e-4, "film_max_C": 1.0}
-    whole, unknown, parts = widened(grid, {"p_max_Pa": "why"}, values, found, scene("gear"))
+    whole, unknown, parts = widened(grid, {"p_max_Pa": "why"}, values, found, 90.0)
     assert whole["h_c_m"] == pytest.approx(1e-8 + 1e-7) and whole["p_max_Pa"] is None and unknown["p_max_Pa"] == "why"
     assert whole["h_min_m"] is None and "as large as the number" in unknown["h_min_m"]
     assert whole["friction_coefficient"] == pytest.approx(1e-4 + 0.3 * 0.02 + 1e-3)
     assert whole["film_max_C"] == pytest.approx(1.0 + 0.2 * 50) and parts["h_c_m"] == {"grid": 1e-8, "domain": 1e-7}
-    passing, _, _ = widened({"h_min_m": 0.0, "Fi_max": 0.0}, {}, {"h_min_m": 1e-7, "Fi_max": 0.9}, found, scene("gear"), True)
+    passing, _, _ = widened({"h_min_m": 0.0, "Fi_max": 0.0}, {}, {"h_min_m": 1e-7, "Fi_max": 0.9}, found, 90.0, True)
     assert passing == pytest.approx({"h_min_m": 3e-8, "Fi_max": 0.27})
 
 

@@ -157,7 +157,7 @@ def errors(scene, reader, fatigue, told, domain=Share()):
         doubts |= {CONTACT: readings.TOUCH} if touches else {}
         return {"passage_error": {} if touches else {CONTACT: 0.0}, "passage_unknown": doubts}
     values = {name: reading.value for name, reading in own.items()}
-    found, unknown, parts = widened(*judged(told(), own), values, domain, scene, passing=True)
+    found, unknown, parts = widened(*judged(told(), own), values, domain, scene.operation.temperature, passing=True)
     return {"passage_error": found, "passage_unknown": unknown, "passage_parts": parts}
 
 

@@ -43,11 +43,11 @@ class Share:
     def values(self):
         return asdict(self)
 
-    def of(self, name, value, scene, passing):
-        """What a number of a steady start or, passing, of a passage may be off by."""
+    def of(self, name, value, inlet, passing):
+        """What a number of a steady start or, passing, of a passage may be off by; inlet: deg C."""
         times = PASSAGE if passing or name not in ("h_c_m", "h_min_m") else 1.0
         if name in HEAT:
-            return (PASSAGE if passing else HEATING) * self.film * abs(value - scene.operation.temperature)
+            return (PASSAGE if passing else HEATING) * self.film * abs(value - inlet)
         return times * self.film * abs(value) + (self.friction if name.startswith(FRICTION) else 0.0)
 
 
@@ -99,10 +99,10 @@ def _friction(v, H):
     return sheared * float(np.sum(weights / gap)) * wide / v.scales.load
 
 
-def widened(errors, unknown, values, found, scene, passing=False):
+def widened(errors, unknown, values, found, inlet, passing=False):
     """(bars, why some are unknown, {name: {"grid", "domain"}}) of bars by the grid, {name: size or None}, and of what the Share
-    `found` adds to them; values: {name: the number}."""
-    parts = {name: {"grid": size, "domain": found.of(name, values[name], scene, passing)} for name, size in errors.items()}
+    `found` adds to them; values: {name: the number}; inlet: deg C."""
+    parts = {name: {"grid": size, "domain": found.of(name, values[name], inlet, passing)} for name, size in errors.items()}
     whole = {name: None if part["grid"] is None else part["grid"] + part["domain"] for name, part in parts.items()}
     lost = [name for name, size in whole.items() if size is not None and _positive(name) and size >= values[name]]
     return {**whole, **dict.fromkeys(lost)}, {**unknown, **dict.fromkeys(lost, WHOLE)}, parts

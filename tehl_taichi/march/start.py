@@ -60,7 +60,8 @@ def _bars(first, scene):
     """(bars, why some are unknown, their parts by grid and domain)."""
     own = readings.steady(first, scene)
     found = _unknown(first, scene) if first.unsettled else bars(first.grids)
-    return widened(*found, {name: reading.value for name, reading in own.items()}, first.domain, scene)
+    return widened(*found, {name: reading.value for name, reading in own.items()}, first.domain,
+                   scene.operation.temperature)
 
 
 def _unknown(first, scene):

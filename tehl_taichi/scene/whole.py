@@ -78,12 +78,12 @@ class Scene:
         if self.fatigue.thermal_stress is True and self.isothermal:
             raise SceneError("fatigue.thermal_stress = true needs temperatures: use --thermal, or \"auto\"")
         self._check_pressure()
+        oil_range.check(self)
         object.__setattr__(self, "grid", domain.chosen(self))
         self._check_motion()
         self._check_path()
         self._check_room()
         passing.check(self)
-        oil_range.check(self)
 
     def _check_kinds(self):
         """Each part of its own kind, the features a tuple."""
@@ -131,7 +131,7 @@ class Scene:
                                  "a, an "
                                  f"undeformed gap of {gap:.3g} m, smaller than the height of a feature, {highest:.3g} m; "
                                  f"allowed: a height of at most {gap:.2g} m, more load{farther}"
-                                 f"{self.load_meant(need / abs(end)) or self._form_words()}")
+                                 f"{self.load_meant(need / min(abs(end), domain.INLETS[0])) or self._form_words()}")
 
     def _form_words(self):
         """What is said of the form of a measured feature, which makes it higher than it need be."""
