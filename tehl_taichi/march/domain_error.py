@@ -21,6 +21,7 @@ from tehl_taichi.scene.film_formula import load_power
 GRUBIN, LONG = 0.73, 0.15
 # Of that the bar has LEFT where the border has the pressure of the oil beyond, this where the temperature of that is not known
 LINE, POINT = 1.3, 1.0
+SLIDING = 8.0  # of the share of the film, of friction: that of the inlet is a part of it
 HEATING = 2.0  # of the share of the film, by which a rise of temperature changes
 FILM, FRICTION = "film", "friction"
 
@@ -45,7 +46,7 @@ class Share:
 
     def of(self, name, value, inlet, passing):
         """What a number of a steady start or, passing, of a passage may be off by; inlet: deg C."""
-        times = PASSAGE if passing or name not in ("h_c_m", "h_min_m") else 1.0
+        times = SLIDING if name.startswith(FRICTION) else PASSAGE if passing or name not in ("h_c_m", "h_min_m") else 1.0
         if name in HEAT:
             return (PASSAGE if passing else HEATING) * self.film * abs(value - inlet)
         return times * self.film * abs(value) + (self.friction if name.startswith(FRICTION) else 0.0)
