@@ -7,6 +7,7 @@ from typing import Optional
 import typer
 from tehl_cli.figure_options import Dpi, Width
 from tehl_cli.live import say
+from tehl_cli.out import put
 
 
 def register(app):
@@ -35,7 +36,7 @@ def animate(
     with Bar(quiet) as bar:
         path = tehl.animate(store, out, format=format, frames=frames, fps=fps, dpi=dpi, width=width, shown=shown, force=force,
                             progress=bar.show)
-    print(path)
+    put(path)
 
 
 class Bar:

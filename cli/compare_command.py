@@ -6,7 +6,7 @@ from typing import List, Optional
 import typer
 from tehl_cli.figure_options import Dpi, Force, Format, Width
 from tehl_cli.live import say
-from tehl_cli.out import print_json
+from tehl_cli.out import print_json, put
 
 
 def register(app):
@@ -47,7 +47,7 @@ def _scenes(found):
     from tehl_cli.listing import list_table
 
     if not found.differs:
-        return print("the scenes do not differ")
+        return put("the scenes do not differ")
     rows = [(key, *map(_shown, values)) for key, values in found.differs.items()]
     list_table("what differs of the scenes", ("key", *found.names), rows, whole=True)
 
@@ -61,7 +61,7 @@ def _results(found):
     if rows:
         list_table("what differs of the results", ("quantity", *found.names, *["change"] * pair), rows, whole=True)
     if same := [f"{line.what} {line.values[0]}" for line in lines if line.same]:
-        print(f"same in all: {'; '.join(same)}")
+        put(f"same in all: {'; '.join(same)}")
 
 
 def _shown(value):

@@ -6,7 +6,7 @@ from typing import Optional
 import typer
 from tehl_cli.figure_options import Dpi, Force, Format, Width
 from tehl_cli.live import say
-from tehl_cli.out import print_json
+from tehl_cli.out import print_json, put
 
 
 def register(app):
@@ -81,7 +81,7 @@ def _show(summary, as_json):
     for side, found in summary["sides"].items():
         list_table(f"crack on the {side} side", ("quantity", "value"), _rows(found, summary["pit_angles_deg"]))
         for doubt in found.get("doubts", []):
-            print(f"warning: {doubt}")
+            put(f"warning: {doubt}")
 
 
 def _rows(found, pits):

@@ -46,7 +46,7 @@ def _run():
     debug = "--debug" in sys.argv
     if debug:
         sys.argv.remove("--debug")
-    warnings.showwarning = lambda message, *_: print(f"warning: {message}", file=sys.stderr)
+    warnings.showwarning = lambda message, *_: print(_in_a_line(f"warning: {message}"), file=sys.stderr)
     gc.set_threshold(*SELDOM)
     try:
         from tehl_cli.main import app
@@ -67,7 +67,14 @@ def _run():
 def _tell(sentence):
     """The last word; a closed terminal does not take it, which changes no exit code."""
     with contextlib.suppress(OSError):
-        print(f"tehl: {sentence}", file=sys.stderr)
+        print(_in_a_line(f"tehl: {sentence}"), file=sys.stderr)
+
+
+def _in_a_line(text):
+    """Letters that do not print (names may have escape sequences) are spelled."""
+    from tehl_taichi.values.escape import printable
+
+    return printable(text)
 
 
 def _code(stop):

@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import List, Optional
 
 import typer
+from tehl_cli.out import put
 
 
 def register(app):
@@ -29,7 +30,7 @@ def export(
     from tehl_taichi.results.opened import open_run
 
     points = [_point(text) for text in point or ()] or ()
-    print(tehl.export(open_run(store), format, out, at=at or (), point=points, force=force))
+    put(tehl.export(open_run(store), format, out, at=at or (), point=points, force=force))
 
 
 def _point(text):

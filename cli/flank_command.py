@@ -7,7 +7,7 @@ import typer
 from tehl_cli.changes import check_rows, given_by
 from tehl_cli.figure_options import Dpi, FigureWidth, Format
 from tehl_cli.live import Live, say
-from tehl_cli.out import print_json
+from tehl_cli.out import print_json, put
 
 
 def register(app):
@@ -91,11 +91,11 @@ def print_flank(found):
 
     from tehl_taichi.flank.columns import tables
 
-    print(found.title)
+    put(found.title)
     for title, (heads, lines) in tables(found.rows).items():
         list_table(title, heads, lines, whole=True)
-    print(f"assumed: {found.told['assumption']}")
-    print(f"load: {found.told['load_sharing']}")
+    put(f"assumed: {found.told['assumption']}")
+    put(f"load: {found.told['load_sharing']}")
     for at, reason in found.failed:
-        print(f"no result: {at.point} (x_pl = {at.x_pl * 1e3:.3f} mm): {reason}")
-    print(f"stores, flank.csv, flank.json: {found.folder}")
+        put(f"no result: {at.point} (x_pl = {at.x_pl * 1e3:.3f} mm): {reason}")
+    put(f"stores, flank.csv, flank.json: {found.folder}")

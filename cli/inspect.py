@@ -6,6 +6,7 @@ from typing import Optional
 import typer
 from tehl_cli.figure_options import Dpi, Force, Format, Width
 from tehl_cli.live import say
+from tehl_cli.out import put
 
 
 def register(app):
@@ -72,11 +73,11 @@ def new(
     if scan is None:
         _only_with_scan(unit=unit, pixel=pixel, pixel_y=pixel_y)
         scene_file.new(file, base)
-        return print(f"wrote {file}; run it with: tehl run {file}")
+        return put(f"wrote {file}; run it with: tehl run {file}")
     read, missing = scan_scene.new(file, base, scan, unit, pixel, pixel_y)
     fill = f"fill in feature.{' and feature.'.join(missing)} and " if missing else ""
     said = f"wrote {file} for {scan} ({read}); {fill}put the numbers of your contact, oil and steel in it, then: "
-    print(f"{said}tehl run {file} --grid coarse --steps 0")
+    put(f"{said}tehl run {file} --grid coarse --steps 0")
 
 
 def _only_with_scan(**options):
@@ -123,11 +124,11 @@ def _show_run(saved, as_json):
     if as_json:
         return print_json(saved.summary or so_far(saved))
     store = saved.path
-    print(f"{store}: scene {saved.scene.name}, {saved.steps} entries, {_state(saved)}")
+    put(f"{store}: scene {saved.scene.name}, {saved.steps} entries, {_state(saved)}")
     if saved.scene.note:
-        print(f"note: {saved.scene.note}")
+        put(f"note: {saved.scene.note}", "\n")
     if other := saved.other_version:
-        print(f"{store} was {other}")
+        put(f"{store} was {other}")
     if saved.summary:
         summary_table(saved.summary)
     else:
@@ -161,7 +162,7 @@ def plot(store: Path = typer.Argument(..., help="store of a run, a study, or the
     """
     page = dict(dpi=dpi, format=format, width=width, force=force)
     for path in _draw(store, out, {"quantity": quantity, "at": at, "depth": depth}, page):
-        print(path)
+        put(path)
 
 
 OPTIONS = {"run": ("at", "depth"), "study": ("quantity",), "flank": ()}  # of tehl plot: what only such a one can show

@@ -2,19 +2,30 @@
 
 import os
 
+from tehl_cli.out import put
+
 MOST = 240  # columns of a table in a file
 NAME = 40  # characters of a first column that is not broken; sentences are
+
+
+def cell(text, keep=""):
+    """Text of a table as it is: [brackets] are no markup of rich's."""
+    from rich.text import Text
+
+    from tehl_taichi.values.escape import printable
+
+    return Text(printable(text, keep))
 
 
 def _table(title, rows):
     from rich.console import Console
     from rich.table import Table
 
-    table = Table(title=title, title_justify="left")
+    table = Table(title=cell(title), title_justify="left")
     table.add_column("quantity")
     table.add_column("value", justify="right")
     for row in rows:
-        table.add_row(*row)
+        table.add_row(*map(cell, row))
     Console().print(table)
 
 
@@ -33,13 +44,13 @@ def _answer(summary):
 
     if "fatigue" in summary:
         question, answer, *_ = of_fatigue(summary["fatigue"])
-        print(f"{question} {answer}")
+        put(f"{question} {answer}")
 
 
 def warning_lines(sentences):
     """Print warnings below a table, a line each."""
     for sentence in sentences:
-        print(f"warning: {sentence}")
+        put(f"warning: {sentence}")
 
 
 def wrapped(sentence):
@@ -48,7 +59,7 @@ def wrapped(sentence):
     import textwrap
 
     width = max(shutil.get_terminal_size().columns, NAME)
-    print(textwrap.fill(sentence, width, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False))
+    put(textwrap.fill(sentence, width, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False), "\n")
 
 
 def list_table(title, columns, rows, whole=False):
@@ -56,12 +67,12 @@ def list_table(title, columns, rows, whole=False):
     from rich.console import Console
     from rich.table import Table
 
-    table = Table(title=title, title_justify="left")
+    table = Table(title=cell(title, "\n"), title_justify="left")
     names = all(len(row[0]) <= NAME for row in rows)
     for n, column in enumerate(columns):
-        table.add_column(column, no_wrap=n == 0 and names, overflow="fold")
+        table.add_column(cell(column), no_wrap=n == 0 and names, overflow="fold")
     for row in rows:
-        table.add_row(*row)
+        table.add_row(*map(cell, row))
     console = Console()
     if whole and not console.is_terminal and "COLUMNS" not in os.environ:
         console = Console(width=max(console.width, Console(width=MOST).measure(table).maximum))

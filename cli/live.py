@@ -4,13 +4,15 @@ import contextlib
 import sys
 import time
 
+from tehl_cli.out import put
+
 from tehl_taichi.study.progress import LATE, PASSAGE, Lines, line
 
 
 def say(text):
     """One line on stderr; a run goes on where nobody reads it."""
     with contextlib.suppress(BrokenPipeError):
-        print(text, file=sys.stderr, flush=True)
+        put(text, file=sys.stderr)
 
 
 class Live(Lines):

@@ -1,5 +1,7 @@
 """The commands."""
 
+import contextlib
+
 import typer
 import typer.core
 from tehl_cli import (
@@ -23,18 +25,38 @@ from tehl_taichi.errors import Interrupted, stopped
 __all__ = ["app", "main"]
 
 
+USAGE = typer.BadParameter.__mro__[2]  # of typer's own errors, which it does not give a name
+
+
 class Commands(typer.core.TyperGroup):
     """The commands; Ctrl-C in any of them is one more error that ends in a sentence (typer's own end is "Aborted!"), and a
     refused value is named."""
 
+    def make_context(self, *words, **options):
+        with _printable():
+            return super().make_context(*words, **options)
+
     def invoke(self, ctx):
         try:
-            return super().invoke(ctx)
+            with _printable():
+                return super().invoke(ctx)
         except typer.BadParameter as error:
             error.message = _with_value(error)
             raise
         except KeyboardInterrupt as stop:
             raise Interrupted(_sentence(stop)) from None
+
+
+@contextlib.contextmanager
+def _printable():
+    """What typer says of a refused word has its letters spelled that do not print."""
+    try:
+        yield
+    except USAGE as error:
+        from tehl_taichi.values.escape import printable
+
+        error.message = printable(error.message, "\n")
+        raise
 
 
 def _sentence(stop):

@@ -1,6 +1,14 @@
 """What goes to stdout."""
 
 import json
+import sys
+
+
+def put(text, keep="", file=None):
+    """Print a line in which letters that do not print are spelled, but for those in `keep`."""
+    from tehl_taichi.values.escape import printable
+
+    print(printable(text, keep), file=file or sys.stdout, flush=file is not None)
 
 
 def print_json(value):

@@ -6,6 +6,7 @@ from typing import Optional
 import typer
 from tehl_cli.fatigue_options import asks
 from tehl_cli.live import Live
+from tehl_cli.out import put
 
 
 def register(app):
@@ -36,6 +37,6 @@ def report(
     runtime.check(threads=threads)
     with Live() as live:
         path = tehl.report(store, out, force=force, progress=live, threads=threads, **asked)
-    print(path)
+    put(path)
     if open_:
         typer.launch(path.absolute().as_uri())

@@ -7,6 +7,7 @@ import time
 from collections import deque
 
 from tehl_cli.live import say
+from tehl_cli.out import put
 
 from tehl_taichi.study.flat import error_of
 
@@ -73,12 +74,13 @@ class SweepLive:
         from rich.console import Group
         from rich.progress_bar import ProgressBar
         from rich.table import Table
+        from tehl_cli.listing import cell
 
         table = Table()
         for title in ("case", "changes", "status", "s"):
             table.add_column(title)
         for record in self.rows:
-            table.add_row(str(record["case"]), changes_words(record), record["status"], f"{record['seconds']:.1f}")
+            table.add_row(*map(cell, (record["case"], changes_words(record), record["status"], f"{record['seconds']:.1f}")))
         foot = Table.grid(padding=(0, 2))
         done = len(self.study) - len(self.study.open_cases)
         foot.add_row(ProgressBar(total=len(self.study), completed=done, width=30), self._headline())
@@ -118,11 +120,11 @@ def print_study(study):
     rows = [_cells(study, row, columns) for row in itertools.islice(study.rows(), MOST_ROWS)]
     list_table(f"{study.path}", ("case", *study.plan.keys, "status", *(title for _, title, _ in columns)), rows, whole=True)
     if len(study) > MOST_ROWS:
-        print(f"and {len(study) - MOST_ROWS} more in {study.table}")
+        put(f"and {len(study) - MOST_ROWS} more in {study.table}")
     for record in study.results():
         if not record["converged"]:
-            print(f"{case_words(record)}: {record['status']}: {record['reason']}")
-    print(f"table: {study.table}; pictures: tehl plot {study.path}")
+            put(f"{case_words(record)}: {record['status']}: {record['reason']}")
+    put(f"table: {study.table}; pictures: tehl plot {study.path}")
 
 
 def _number(value, error):

@@ -6,7 +6,7 @@ from typing import List, Optional
 import typer
 from tehl_cli.changes import check_rows, given_by
 from tehl_cli.live import say
-from tehl_cli.out import print_json
+from tehl_cli.out import print_json, put
 
 MANY = 1000  # cases that nobody starts by mistake
 
@@ -99,14 +99,14 @@ def _tell(plan, out):
     """What would run."""
     refused = plan.refused()
     shape = f" ({' x '.join(map(str, plan.shape))})" if len(plan.shape) > 1 else ""
-    print(f"{plan.count} cases{shape} of {plan.scene.name} into {out}")
+    put(f"{plan.count} cases{shape} of {plan.scene.name} into {out}")
     for key in plan.keys:
         values = [str(value) for value in plan.coordinate(key)[1]]
-        print(f"{key} = {', '.join(values[:12])}{' ...' if len(values) > 12 else ''}")
+        put(f"{key} = {', '.join(values[:12])}{' ...' if len(values) > 12 else ''}")
     for number, reason in refused.items():
-        print(f"case {number} is refused: {reason}")
+        put(f"case {number} is refused: {reason}")
     for sentence in _doubts(plan):
-        print(sentence)
+        put(sentence)
 
 
 def _doubts(plan):

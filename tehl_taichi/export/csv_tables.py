@@ -4,6 +4,7 @@ import numpy as np
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.export.file_format import Format, flat_fields, unit
+from tehl_taichi.values.escape import cell
 
 DIGITS = "%.10g"  # single precision has nine
 FRAME_X, FRAME_Y, DEPTH, ROW_DEPTH = "feature_frame_x", "feature_frame_y", "fatigue_depth", "under_row_depth"
@@ -17,7 +18,7 @@ def write(reader, folder, places):
     """Every table that the run has, and those of `places`, into the folder."""
     for name, table in _tables(reader, places):
         rows = np.column_stack(list(table.values()))
-        np.savetxt(folder / f"{name}.csv", rows, DIGITS, ",", header=",".join(table), comments="")
+        np.savetxt(folder / f"{name}.csv", rows, DIGITS, ",", header=",".join(map(_cell, table)), comments="", encoding="utf-8")
 
 
 def _tables(reader, places):
@@ -34,6 +35,12 @@ def _tables(reader, places):
     for name in ("worst", "worst_below"):
         if reader.map(f"{name}_stress") is not None:
             yield f"{name}_point", worst(reader, name)
+
+
+def _cell(title):
+    """A title as a cell of the first line: of a foreign store it may be anything."""
+    text = cell(title)
+    return '"' + text.replace('"', '""') + '"' if set(text) & set(',"\n') else text
 
 
 def _title(reader, name):

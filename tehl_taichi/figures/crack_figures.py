@@ -84,8 +84,8 @@ def _history(ax, result, name):
     path, at = result.sides[name].path, plane.centres[:-1] / plane.a
     cracks = [path.last] if path.first is path.last else [path.first, path.last]
     for crack, width in zip(cracks, (1.0, 2.0)):
-        for K, kind, style in zip(crack.K, ("K_I", "K_{II}"), ("-", ":")):
-            ax.plot(at, K[:-1] / 1e6, style, color=COLOURS[name], lw=width, label=f"${kind}$ at {crack.faces.a * 1e6:.0f} µm")
-    ax.set(xlabel="position of the feature, $x_a/a$", ylabel=f"{name} side: K (MPa √m)")
+        for K, kind, style in zip(crack.K, ("K_I", "K_II"), ("-", ":")):
+            ax.plot(at, K[:-1] / 1e6, style, color=COLOURS[name], lw=width, label=f"{kind} at {crack.faces.a * 1e6:.0f} µm")
+    ax.set(xlabel="position of the feature, x_a/a", ylabel=f"{name} side: K (MPa √m)")
     ax.grid()
     ax.legend(**BELOW, ncols=2)

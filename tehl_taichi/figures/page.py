@@ -11,6 +11,7 @@ from tehl_taichi.disk.files import reason
 from tehl_taichi.errors import SceneError, StoreError, extra
 from tehl_taichi.figures import palette
 from tehl_taichi.values.checks import choice, integer, number
+from tehl_taichi.values.escape import printable
 from tehl_taichi.values.plain import plain
 
 FORMATS = ("png", "pdf", "svg")
@@ -84,6 +85,9 @@ class Page:
         """Of lines (default: of the first panel), below the panels, where it covers nothing, as wide as there is room for; a
         long one makes the figure higher."""
         handles = handles or figure.axes[0].get_legend_handles_labels()[0]
+        for handle in handles:
+            if handle.get_label().startswith("_"):  # which matplotlib would leave out
+                handle.set_label(f" {handle.get_label()}")
         longest = max(len(handle.get_label()) for handle in handles) * LETTER + 4.5
         rows = -(-len(handles) // max(int(self.inches * 72 / (longest * self.text)), 1))
         figure.legend(handles=handles, loc="outside lower center", ncols=-(-len(handles) // rows), **options)
@@ -93,6 +97,7 @@ class Page:
         """The context in which figures are drawn and saved. Raises StoreError where matplotlib is not installed."""
         small, line = 0.9 * self.text, 0.14 * self.text
         return drawing().rc_context({
+            "text.parse_math": False, "text.usetex": False,  # a name with $ in it is a name
             "font.size": self.text, "axes.titlesize": self.text, "axes.labelsize": self.text,
             "figure.titlesize": 1.1 * self.text,
             "legend.fontsize": small, "legend.frameon": False, "legend.title_fontsize": small, "xtick.labelsize": small,
@@ -117,7 +122,7 @@ class Page:
         """Write the figure that `draw()` makes to `path`, whose suffix tells the format; returns it. Raises StoreError."""
         self.check(path, of)
         with self.style():
-            figure = self.fitted(draw())
+            figure = self.fitted(spelled(draw()))
             with outputs.made(path, self.force, kind=self.format, of=of) as draft:
                 figure.savefig(draft, format=self.format, dpi=self.dpi, metadata=SAID[self.format])
         return path
@@ -151,6 +156,16 @@ def drawing():
     except ImportError:
         raise StoreError(f"figures need matplotlib: {extra('plot')}") from None
     return matplotlib
+
+
+def spelled(figure):
+    """The figure with the letters spelled that do not print, as names of files may have them."""
+    from matplotlib.text import Text
+
+    for text in figure.findobj(Text):
+        if text.get_text() != (said := printable(text.get_text(), "\n")):
+            text.set_text(said)
+    return figure
 
 
 def beside(path):

@@ -5,6 +5,8 @@ import io
 from dataclasses import dataclass
 from typing import Callable
 
+from tehl_taichi.values.escape import cell
+
 
 @dataclass(frozen=True)
 class Column:
@@ -99,7 +101,7 @@ def csv_text(rows):
     known = [column for column in columns if any(column.error(*row) is not None for row in rows)]
     text = io.StringIO()
     out = csv.writer(text)
-    out.writerow([*(column.name for column in columns), *(f"error_{column.name}" for column in known), *more])
-    out.writerows([*(column.value(*row) for column in columns), *(column.error(*row) for column in known),
-                   *(row[0].more.get(key) for key in more)] for row in rows)
+    out.writerow(map(cell, [*(column.name for column in columns), *(f"error_{column.name}" for column in known), *more]))
+    out.writerows(map(cell, [*(column.value(*row) for column in columns), *(column.error(*row) for column in known),
+                             *(row[0].more.get(key) for key in more)]) for row in rows)
     return text.getvalue()

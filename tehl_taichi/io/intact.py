@@ -57,6 +57,8 @@ def root_of(path):
         raise StoreError(f"{path} is not a store of tehl run: its {ROOT} is none of a store") from None
     if not isinstance(attrs, dict) or "scene" not in attrs or not isinstance(arrays, dict):
         raise StoreError(f"{path} is not a store of tehl run: its {ROOT} describes no scene")
+    if any(name != Path(name).name for name in arrays):
+        raise damaged(path, "an array of it lies outside")
     return attrs, arrays
 
 

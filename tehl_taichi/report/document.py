@@ -5,6 +5,7 @@ from pathlib import Path
 
 from tehl_taichi.report import for_readers
 from tehl_taichi.report.packed import as_json, library, packed
+from tehl_taichi.values.escape import label, printable
 
 TEMPLATES = Path(__file__).parent / "templates"
 
@@ -106,7 +107,24 @@ def rendered(page):
     import jinja2
 
     world = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, lstrip_blocks=True,
-                               undefined=jinja2.StrictUndefined)
-    figures = {name: figure.spec for name, figure in page.figures.items()}
+                               undefined=jinja2.StrictUndefined, finalize=_spelled)
+    figures = {name: _labelled(figure.spec) for name, figure in page.figures.items()}
     return world.get_template("page.html").render(page=page, library=library() if figures else "",
                                                   figures=packed(as_json(figures)))
+
+
+def _spelled(value):
+    """A value of a template; letters that do not print are spelled."""
+    return printable(value, "\n") if type(value) is str else value  # Markup is ours
+
+
+LABELS = ("text", "name", "ticktext", "legendgroup")
+
+
+def _labelled(spec, key=""):
+    """The same description of a figure with its labels as plotly.js shows them."""
+    if isinstance(spec, dict):
+        return {name: _labelled(value, name) for name, value in spec.items()}
+    if isinstance(spec, (list, tuple)):
+        return [_labelled(value, key) for value in spec]
+    return label(spec) if isinstance(spec, str) and key in LABELS else spec

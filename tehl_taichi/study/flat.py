@@ -1,11 +1,13 @@
 """A summary as one row of a table: its numbers by one name each, with their units."""
 
 import math
+import re
 
 # what a case has of its own, or what is no number of its result
 LEFT_OUT = {"store", "scene", "version", "left_out", "warnings", "warning_codes", "domain", "error_parts", "converged",
             "unknown", "clamps", "grid", "cells"}
 UNITS = {"m": "m", "Pa": "Pa", "C": "degC", "K": "K", "s": "s", "deg": "degree", "J": "J", "W": "W", "N": "N", "kg": "kg"}
+NAME = re.compile(r"\w[\w.+-]*")  # of an array and its folder, a column and a label
 PARTS = ("fatigue_resolved_below", "fatigue_resolved", "fatigue_below")  # of a summary, inside others
 
 
@@ -13,7 +15,7 @@ def numbers(summary, above=""):
     """{name: number} of a nested summary: "fatigue_Fi_max" is summary["fatigue"]["Fi_max"]; lists and words are left out."""
     out = {}
     for key, value in summary.items():
-        if key in LEFT_OUT or " " in key:
+        if key in LEFT_OUT or not NAME.fullmatch(key):
             continue
         if isinstance(value, dict):
             out |= numbers(value, f"{above}{key}_")

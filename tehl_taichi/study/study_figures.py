@@ -173,6 +173,8 @@ def _dress(ax, x_label, x, ticks, in_numbers):
         ax.set_xticks(list(places), list(places.values()))
     elif len(x) > 2 and (x > 0).all() and x.max() > 30 * x.min():
         ax.set_xscale("log")
+        ax.xaxis.set_major_formatter("{x:g}")  # plain numbers: no text is read as mathematics
+        ax.xaxis.set_minor_formatter("")
 
 
 def numeric(study, key):

@@ -26,6 +26,7 @@ from tehl_taichi.study import case_records as records
 from tehl_taichi.study import flat
 from tehl_taichi.study.plan import ONE, Plan, unit
 from tehl_taichi.study.typed import all_numbers, word
+from tehl_taichi.values.escape import cell
 
 TABLE, CASES, PLAN = "table.csv", "cases", "study"  # PLAN: the attribute that makes a group a study
 SHARE = 0.05  # of the time, at most, goes into writing table and arrays
@@ -202,9 +203,9 @@ class Study(Held):
     def _csv(self):
         text = io.StringIO()
         out = csv.DictWriter(text, ["case", *self.plan.keys, "status", *self.values], restval="", lineterminator="\n")
-        out.writeheader()
+        out.writerow({key: cell(key) for key in out.fieldnames})
         for row in self.rows():
-            out.writerow({key: "" if value != value else value for key, value in row.items()})
+            out.writerow({key: "" if value != value else cell(value) for key, value in row.items()})
         return text.getvalue()
 
     def to_dict(self):

@@ -1,0 +1,46 @@
+"""Text from elsewhere (names, notes, paths) as each kind of output shows it as it is: one function for each.
+
+Figures read no text as mathematics (`tehl_taichi/figures/page.py`), templates of pages escape what they are given, names of
+folders are checked (`checks.file_name`).
+"""
+
+import html
+import unicodedata
+
+FORMULA = tuple("=+-@\t\r＝＋－＠")  # a spreadsheet computes what begins so
+LINES = "\n"
+
+
+def printable(text, keep=""):
+    """For a terminal, and for every page and figure: letters that do not print (escape sequences, line breaks but for those in
+    `keep`, marks that turn the direction) are spelled.
+
+    >>> printable("a\\x1b[2Jb\\n")
+    'a\\\\x1b[2Jb\\\\n'
+    """
+    return "".join(c if c.isprintable() or c in keep or unicodedata.category(c) == "Zs" else
+                   c.encode("unicode_escape").decode() for c in str(text))
+
+
+def cell(value):
+    """For a table (CSV): text that a spreadsheet would compute begins with an apostrophe; numbers stay.
+
+    >>> cell("=HYPERLINK(1)"), cell("-0.5"), cell(-0.5)
+    ("'=HYPERLINK(1)", '-0.5', -0.5)
+    """
+    if not isinstance(value, str):
+        return value
+    text = printable(value, LINES)
+    return f"'{text}" if value.lstrip(" \n").startswith(FORMULA) and not _is_number(value) else text
+
+
+def label(text):
+    """For the labels of plotly.js, which knows some tags of HTML."""
+    return html.escape(printable(text), quote=False)
+
+
+def _is_number(text):
+    try:
+        return bool(float(text)) or True
+    except ValueError:
+        return False
