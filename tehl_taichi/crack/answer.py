@@ -55,8 +55,15 @@ def follow(plane, scene, wanted):
             sides[name] = Side(begun, *trajectory(plane, begun, FAR * wanted.length), grow(plane, begun, wanted, E_star))
             told[name] |= _summary(plane, sides[name], wanted, E_star)
         else:
-            told[name]["why"] = "nothing pulls the surface on this side, so a crack would never open"
+            told[name]["why"] = _why_not(plane, name)
     return CrackResult({"sides": told, **_common(scene, wanted)}, sides, plane, wanted)
+
+
+def _why_not(plane, side):
+    """Why no crack starts on that side."""
+    if not ((plane.centres < 0) if side == "entry" else (plane.centres > 0)).any():
+        return "the passage has no moment with the feature on this side of the contact"
+    return "nothing pulls the surface on this side, so a crack would never open"
 
 
 def _check_places(plane, wanted):

@@ -29,6 +29,8 @@ def start(plane, side, x=None):
     sign = -1 if side == "entry" else 1
     places = plane.x[(sign * plane.x > 0) & (np.abs(plane.x) < NEAR * plane.reach)] if x is None else np.array([x])
     moments = np.flatnonzero(sign * plane.centres > 0)  # not the unloaded one
+    if not (places.size and moments.size):
+        return None
     tension = principal(plane.at(places + 0j, moments))[0]
     at, moment = np.unravel_index(int(np.argmax(tension)), tension.shape)
     largest = float(tension[at, moment])

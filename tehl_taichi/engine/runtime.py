@@ -14,7 +14,7 @@ import warnings
 from pathlib import Path
 
 from tehl_taichi import __version__
-from tehl_taichi.engine import cores, memory
+from tehl_taichi.engine import cores, float_mode, memory
 from tehl_taichi.errors import RuntimeUnavailable
 
 ARCHES = ("cpu", "cuda")  # that the kernels have been checked on
@@ -112,7 +112,8 @@ def _start(arch, threads):
     from tehl_taichi.engine import loops
     from tehl_taichi.engine.language import attempt, ti
 
-    with _no_banner(), contextlib.redirect_stdout(None), cores.pinned(threads):  # in a notebook prints do not go to file 1
+    # in a notebook prints do not go to file 1
+    with float_mode.kept(), _no_banner(), contextlib.redirect_stdout(None), cores.pinned(threads):
         ti.init(arch=getattr(ti, arch), default_fp=ti.f64, fast_math=False, cpu_max_num_threads=threads, log_level=ti.ERROR,
                 # its own optimisation passes take 40 s for the Findley search (2 s without) and gain nothing over LLVM's
                 advanced_optimization=False,
@@ -123,6 +124,7 @@ def _start(arch, threads):
             ti.reset()
             raise RuntimeUnavailable(f"arch = {arch!r} is out of reach: its driver finds no card here")
         attempt(loops.keep_rolled)
+        attempt(functools.partial(float_mode.launching, ti.lang.impl.get_runtime().prog, float_mode.now()))
     if arch == "cuda":
         warnings.warn("arch = 'cuda' gives the same results, later: a step of 512x128 took an H200 six times as long as one "
                       "core; see docs/benchmarks.md", RuntimeWarning, stacklevel=2)
