@@ -8,24 +8,28 @@ from tehl_taichi.engine.launches import bind
 from tehl_taichi.engine.records import Record
 from tehl_taichi.heat import modes, slots, strips
 from tehl_taichi.heat.step import Drift
+from tehl_taichi.scene.scales import peclet
 
 
 class Body:
     """One body: what it is made of, how its surface moves, and what it remembers in a step."""
 
-    def __init__(self, material, speed, rests, dt, a):
+    def __init__(self, material, speed, rests, dt, scales):
         """material: a scene's Body; speed of its surface, m/s; rests: whether it has none; dt: of the step that the memory is
-        made for, s; a: Hertz half-width, m."""
+        made for, s; scales: of the contact."""
         self.rests, self.speed, self.dt = rests, 0.0 if rests else speed, dt
         self.effusivity = math.sqrt(material.k * material.rho * material.c)
-        diffusivity = material.k / (material.rho * material.c)
-        self.depth = modes.REST * a / math.sqrt(diffusivity * dt) if rests else math.inf
+        diffusivity, slab = material.k / (material.rho * material.c), rests and scales.line
+        self.depth = modes.REST * scales.a / math.sqrt(diffusivity * dt) if slab else math.inf
+        pe = 0.0 if rests else peclet(material, speed, scales)
+        wide = modes.NONE if scales.line or pe > modes.FAST else modes.widths(pe, scales.a, scales.b)
+        self.spread = tuple(w * w / (4 * diffusivity * dt) for w in wide)
         self.modes, self.drift = np.zeros((4, modes.MODES)), Record(Drift)
 
     def begin(self, dt, before, after, settled):
         """Prepare a step of dt s in which the grid passes from `before` to `after`, in cells; settled: whether it has a memory
         of a long time with the flux of the step itself. Returns B."""
-        known = modes.memory(dt, self.effusivity, self.dt, self.depth)
+        known = modes.memory(dt, self.effusivity, self.dt, self.depth, self.spread)
         for row, values in ((strips.WEIGHT, known.weight), (strips.DECAY, known.decay), (strips.GAIN, known.gain),
                             (strips.GAIN_LAST, known.gain_last)):
             self.modes[row] = values
@@ -37,7 +41,7 @@ class Body:
 
     def settled(self):
         """What its modes hold after a long time, per flux."""
-        return modes.steady_modes(self.dt, self.depth)
+        return modes.steady_modes(self.dt, self.depth, self.spread)
 
 
 class Bodies:
@@ -47,10 +51,10 @@ class Bodies:
     """
 
     def __init__(self, levels, columns, dt):
-        scene, a = levels.scene, levels.scales.a
+        scene = levels.scene
         self.levels, self.columns, self.steady = levels, columns, False
         speeds = scene.operation.u_a, scene.operation.u_b
-        self.each = [Body(*one, dt, a) for one in zip((scene.body_a, scene.body_b), speeds, scene.at_rest)]
+        self.each = [Body(*one, dt, levels.scales) for one in zip((scene.body_a, scene.body_b), speeds, scene.at_rest)]
         self.table = slots.SlotTable(levels, strips.width(modes.MODES))
         self.offset = self.until = np.zeros(2)  # cells that each body has moved since the start, and will have
         self._bind(scene.operation.temperature)

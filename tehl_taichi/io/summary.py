@@ -10,7 +10,7 @@ from tehl_taichi.march.readings import HEAT
 from tehl_taichi.physics import conduction
 from tehl_taichi.physics.law import beyond
 from tehl_taichi.scene.film_formula import central_film
-from tehl_taichi.scene.scales import Scales
+from tehl_taichi.scene.scales import Scales, peclet
 from tehl_taichi.values.chosen import Chosen
 
 
@@ -24,7 +24,8 @@ def summarise(store, extra, fatigue=None):
     out = {"scene": scene.name, "version": __version__, "store": str(store.path), "converged": True,
            "wall_s": extra["wall_s"], "compile_s": extra["compile_s"], "steps": int(store.series["step"][len(store) - 1]),
            **counts(store),
-           "hertz": {"a_m": scales.a, "p_Pa": scales.p_H}, "domain": domain_of(scene), "left_out": scene.left_out(),
+           "hertz": {"a_m": scales.a, "p_Pa": scales.p_H}, **_peclet(scene, scales), "domain": domain_of(scene),
+           "left_out": scene.left_out(),
            "steady": _steady(store, extra)}
     if len(store) > 1:
         out["transient"] = _transient(store)
@@ -41,6 +42,13 @@ def summarise(store, extra, fatigue=None):
     out["warnings"] = result_judge.warnings(store, out)
     out["warning_codes"] = [one.code for one in out["warnings"]]
     return out
+
+
+def _peclet(scene, scales):
+    """Peclet numbers u a/alpha of both surfaces, where temperatures are computed."""
+    o = scene.operation
+    each = (("a", scene.body_a, o.u_a), ("b", scene.body_b, o.u_b))
+    return {} if scene.isothermal else {"peclet": {name: peclet(body, u, scales) for name, body, u in each}}
 
 
 def so_far(store):

@@ -59,7 +59,7 @@ def rows_of(summary):
         formula = steady["film_formula_m"]
         rows.append(Row("h_c by formula (isothermal, Newtonian)", f"{formula * 1e6:.4f} um", formula))
     rows.append(_of(steady, "friction_coefficient", "steady friction coefficient"))
-    rows += _heat_rows("steady", steady) + _passage_rows(summary)
+    rows += _peclet_rows(summary) + _heat_rows("steady", steady) + _passage_rows(summary)
     rows.append(Row("run time", f"{summary['wall_s']:.1f} s (kernels {summary['compile_s']:.1f} s)", summary["wall_s"]))
     return rows
 
@@ -78,6 +78,12 @@ def quantity(values, name, factor=1, unit=""):
     size = error * factor
     digits = min(max(decimals(size), 0), 9) if size > 0 else 4
     return f"{value:.{digits}f} ± {size:.{digits}f} {unit}".rstrip()
+
+
+def _peclet_rows(summary):
+    if "peclet" not in summary:
+        return []
+    return [Row("Péclet number of surface a / b", " / ".join(f"{summary['peclet'][which]:.3g}" for which in "ab"))]
 
 
 def _heat_rows(when, values):

@@ -59,6 +59,11 @@ class Scales:
         return cls("point", R, E, a, b, p_H, u_m, R / R_y)
 
 
+def peclet(material, speed, scales):
+    """Peclet number u a/alpha of a body's surface, alpha = k/(rho c): how far it moves while heat crosses a half-width."""
+    return abs(speed) * scales.a * material.rho * material.c / material.k
+
+
 def reduced_modulus(scene):
     """E' with 2/E' = (1 - nu_a^2)/E_a + (1 - nu_b^2)/E_b [Eq 1]."""
     return 2 / sum((1 - b.nu**2) / b.E for b in (scene.body_a, scene.body_b))
