@@ -22,7 +22,8 @@ def fatigue(of: Any, scene: "Scene | None" = None, *, progress: Any = None, thre
             until: float | None = None, **constants: Any) -> "FatigueResult | Points":
     """Fatigue of a run again, of snapshots, or of stress histories from elsewhere; what it is of stays as it is.
 
-    of: a :class:`tehl_taichi.Run`; or snapshots of `scene` (as :func:`tehl_taichi.march` yields them); or stresses (points,
+    of: a :class:`tehl_taichi.Run`, with a scene that differs in its fatigue alone; or snapshots of `scene` (as
+    :func:`tehl_taichi.march` yields them); or, perhaps with a scene whose constants are taken, stresses (points,
     times, 6) in Pa: xx, yy, zz, xy, xz, yz with z into or out of the surface, one point also as (times, 6).
     constants: any of the scene's section [fatigue] (kappa, endurance in Pa, criterion, depths in m, from_x and to_x in a,
     thermal_stress, residual_xx ...; None: as it is), or in place of endurance a limit in reversed bending or torsion,
@@ -50,12 +51,12 @@ def fatigue(of: Any, scene: "Scene | None" = None, *, progress: Any = None, thre
     from tehl_taichi.fatigue import constants as given
 
     if points.are_stresses(of):
-        limits = given.of_points(constants)
+        limits = given.of_points(constants, scene)
         runtime.start_or_join(threads=threads)
         return points.search(of, limits)
     reader = getattr(of, "store", of)
     reader = reader if hasattr(reader, "fields") else list(reader)
-    scene = given.changed(scene or getattr(reader, "scene", None), constants)
+    scene = given.changed(given.agreed(scene, reader), constants)
     runtime.start_or_join(threads=threads)
     tell = progress and (lambda done, total: progress.stage("stresses and fatigue", done, total))
     return assessment.run(scene, reader, tell, until)

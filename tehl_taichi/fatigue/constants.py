@@ -1,10 +1,40 @@
 """The numbers of a fatigue search that can be other ones than those of the scene."""
 
-from tehl_taichi.scene import SceneError
+from tehl_taichi.scene import Scene, SceneError, keys
 from tehl_taichi.scene.given import named
 from tehl_taichi.scene.parts import Fatigue
+from tehl_taichi.values.plain import shown
+from tehl_taichi.values.quantity import kinds
 
+FREE = ("fatigue", "time", "output", "numerics")  # sections in which a scene may differ from that of its run
 OF_POINTS = ("bending_limit", "torsion_limit", "criterion", "endurance", "kappa")  # the others belong to a passage
+
+
+def agreed(scene, reader):
+    """The scene (None: that which the reader knows) of a run or of snapshots. Raises SceneError where it is another one than
+    theirs in more than fatigue and what is stored of it."""
+    own = getattr(reader, "scene", None)
+    if scene is None or own is None:
+        _check_nodes(scene, reader)
+        return scene or own
+    if not isinstance(scene, Scene):
+        raise SceneError(f"{shown(scene)} is no scene; allowed: a Scene")
+    theirs = dict((key, value) for key, _, value in keys.every(own))
+    other = [key for key, _, value in keys.every(scene) if key.partition(".")[0] not in FREE and theirs.pop(key, None) != value]
+    if other:
+        many = f"{', '.join(other[:4])} {'are' if other[1:] else 'is'}"
+        raise SceneError(f"the given scene is not that of the run: {many} another; its fatigue alone "
+                         "may be: give constants, as kappa = 0.2, or run the other scene")
+    return scene
+
+
+def _check_nodes(scene, snapshots):
+    """Refuse snapshots of another grid than that of the scene."""
+    if scene is not None and isinstance(snapshots, list) and snapshots and hasattr(snapshots[0], "x"):
+        found, wanted = (snapshots[0].x.size, snapshots[0].y.size), (scene.grid.nx + 1, scene.rows + 1)
+        if found != wanted:
+            raise SceneError(f"the snapshots have {found[0]} x {found[1]} nodes, the given scene {wanted[0]} x {wanted[1]}: "
+                             "it is not theirs")
 
 
 def changed(scene, constants):
@@ -15,12 +45,16 @@ def changed(scene, constants):
     return scene.replace(**changes) if changes else scene
 
 
-def of_points(constants):
-    """:class:`tehl_taichi.scene.parts.Fatigue` of stresses without a passage. Raises SceneError."""
+def of_points(constants, scene=None):
+    """:class:`tehl_taichi.scene.parts.Fatigue` of stresses without a passage: that of the scene, if there is one, with these
+    constants. Raises SceneError."""
     values = {key.partition(".")[2]: value for key, value in _given(constants).items()}
-    if other := sorted(values.keys() - set(OF_POINTS)):
+    own = scene.fatigue if scene is not None else Fatigue()
+    strange = [key for key in kinds(Fatigue) if key not in (*OF_POINTS, "on", "source") and getattr(own, key) != getattr(
+        Fatigue, key)]
+    if other := sorted(values.keys() - set(OF_POINTS)) or strange:
         raise SceneError(f"{other[0]} has no meaning for given stresses; allowed: {', '.join(OF_POINTS)}")
-    return Fatigue.from_values(values)
+    return Fatigue.from_values(values) if scene is None else changed(scene, constants).fatigue
 
 
 def _given(constants):

@@ -33,8 +33,12 @@ def march(scene: "Scene", state: dict | None = None, precision: str | None = Non
     1 (65, 17) 1.93 GPa
     2 (65, 17) 1.93 GPa
     """
+    from tehl_taichi.errors import SceneError
     from tehl_taichi.march.passage import march as run
 
+    if state is not None and (found := tuple(state["P"].shape)) != (wanted := (scene.rows + 1, scene.grid.nx + 1)):
+        raise SceneError(f"the state has {found[1]} x {found[0]} nodes, the scene {wanted[1]} x {wanted[0]}: it is not of this "
+                         "scene")
     return run(scene if precision is None else scene.replace(**{"numerics.precision": precision}), state)
 
 
