@@ -1,0 +1,60 @@
+"""The same scene in other units of length, seen in a mirror, on cells of another shape: the same answer."""
+
+import numpy as np
+import pytest
+
+import tehl_taichi as tehl
+from tehl_taichi.fatigue import assessment
+
+pytestmark = pytest.mark.usefixtures("taichi_cpu")
+SMALL = {"grid.nx": 64, "grid.ny": 16, "thermal.on": False, "time.steps": 24, "fatigue.depths": ()}
+
+
+def passage(scene):
+    """The snapshots of a passage."""
+    return list(tehl.march(scene))
+
+
+def enlarged(scene, by):
+    """The scene with every length and speed so many times as large: the pressures stay."""
+    f = scene.features[0]
+    return scene.replace(speed=by * scene.operation.u_m, **{
+        "contact.radius_x": by * scene.contact.radius_x, "contact.load": by * scene.contact.load,
+        **{f"feature.{key}": by * getattr(f, key) for key in ("height", "width", "x", "y")}})
+
+
+@pytest.mark.parametrize("y", [0.0, 4e-5])
+def test_lengths_and_speeds_twice_as_large_change_no_pressure(y):
+    """Also beside the axis, where the whole domain is computed; films and places are twice as large, times as long."""
+    scene = tehl.scene("gear").replace(srr=-0.3, **{**SMALL, "feature.y": y, "feature.x": 3e-5})
+    one, two = passage(scene), passage(enlarged(scene, 2.0))
+    assert len(one) == len(two) == 25
+    for a, b in zip(one[::6], two[::6]):
+        assert b.time == pytest.approx(a.time, rel=1e-9) and b.feature_x == pytest.approx(2 * a.feature_x, rel=1e-9)
+        np.testing.assert_allclose(b.fields["pressure"], a.fields["pressure"], atol=2e-5 * a.scalars["p_max_Pa"])
+        assert b.scalars["h_min_m"] == pytest.approx(2 * a.scalars["h_min_m"], rel=1e-4)
+        assert b.scalars["friction_coefficient"] == pytest.approx(a.scalars["friction_coefficient"], rel=1e-4)
+    own, large = (assessment.run(s, shots).summary for s, shots in ((scene, one), (enlarged(scene, 2.0), two)))
+    assert large["Fi_max"] == pytest.approx(own["Fi_max"], rel=1e-4)
+    assert large["x_m"] == pytest.approx(2 * own["x_m"], abs=1e-7) and large["y_m"] == pytest.approx(2 * own["y_m"], abs=1e-7)
+
+
+def test_a_passage_in_the_mirror():
+    """To what the edges differ in: the first row of a whole domain is a plane of symmetry far away, the last goes on."""
+    scene = tehl.scene("gear").replace(srr=-0.3, **{**SMALL, "feature.y": 6e-5, "time.steps": 16})
+    one, other = passage(scene)[-1], passage(scene.replace(**{"feature.y": -6e-5}))[-1]
+    for name in ("pressure", "film", "traction_x_a", "traction_x_b"):
+        scale = np.abs(one.fields[name]).max()
+        np.testing.assert_allclose(one.fields[name], other.fields[name][:, ::-1], atol=0.01 * scale, err_msg=name)
+    np.testing.assert_allclose(one.fields["traction_y_a"], -other.fields["traction_y_a"][:, ::-1],
+                               atol=0.01 * np.abs(one.fields["traction_x_a"]).max())
+
+
+@pytest.mark.parametrize("nx, ny", [(128, 16), (64, 48)])
+def test_cells_of_another_shape_have_the_same_film(nx, ny):
+    """A steady circle on cells three times as long across, and half as long along, against others: within what grids differ."""
+    ball = tehl.scene("ball-on-disc").replace(**{"thermal.on": False, "fatigue.on": False})
+    square, other = (passage(ball.replace(**{"grid.nx": x, "grid.ny": y, "time.steady_only": True}))[0] for x, y in
+                     ((128, 48), (nx, ny)))
+    for name, rel in (("h_c_m", 0.04), ("p_max_Pa", 0.04), ("h_min_m", 0.12)):
+        assert other.scalars[name] == pytest.approx(square.scalars[name], rel=rel), name
