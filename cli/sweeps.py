@@ -73,6 +73,7 @@ def _planned(name, over, samples, seed, changes, grid, out):
     """(plan, where its study goes or None) of a scene with --over, of a study file, or of a study."""
     from tehl_taichi.io.found import find_changed
     from tehl_taichi.scene import SceneError
+    from tehl_taichi.scene.given import check_swept
     from tehl_taichi.study import study_file
     from tehl_taichi.study.plan import plan
     from tehl_taichi.study.table import Study, is_study
@@ -83,9 +84,11 @@ def _planned(name, over, samples, seed, changes, grid, out):
         raise SceneError(f"{name} says what is swept: leave out --over, --samples, --set and the like")
     if whole:
         return (study_file.load(name), out) if study_file.is_study_file(name) else (Study.open(name).plan, out or Path(name))
+    swept = over_of(over, samples is not None)
+    check_swept(changes, [key for keys in swept for key in ((keys,) if isinstance(keys, str) else keys)])
     scene = find_changed(name, changes)
     check_rows(grid, changes, lambda: scene)
-    return plan(scene, over_of(over, samples is not None), samples, seed), out
+    return plan(scene, swept, samples, seed), out
 
 
 def _check_count(plan, yes):

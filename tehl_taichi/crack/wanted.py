@@ -41,6 +41,8 @@ class Wanted:
         check(self)
         Choice("", (*FILLINGS, "a share of the film's pressure from 0 to 1")).check("oil", self.oil) if isinstance(
             self.oil, str) else Number("", "", 0.0, 1.0).check("oil", self.oil)
+        if self.start is not None and self.side not in ("both", on := SIDES[self.start >= 0]):
+            raise SceneError(f"start = {self.start:g} m is on the {on} side, not on the side {self.side!r}: give one of them")
         if self.residual is not None:
             Residual(self.residual)  # refused here, not after the stresses of a passage
         for key in ("first", "step"):

@@ -41,6 +41,8 @@ class Described:
     def positions(self, on=None, count=None, at=()):
         """Positions on the flank of `on` (pinion unless told): see :func:`tehl_taichi.flank.positions.along`. A table has its
         own. Raises SceneError."""
+        if count is not None and at:
+            raise SceneError(f"positions = {shown(count)} and at = {shown(list(at))} contradict each other: give one of them")
         if self.pair:
             return positions.along(Mesh(self.pair), on or "pinion", 9 if count is None else count, at)
         for word, value in (("on", on), ("positions", count), ("at", at or None)):

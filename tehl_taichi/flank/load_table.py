@@ -35,6 +35,8 @@ def load(path):
 def _complete(path, rows):
     """The rows, once their header is seen to have every needed column."""
     names = [name.strip() for name in rows.fieldnames or ()]
+    if twice := sorted({name for name in names if name and names.count(name) > 1}):
+        raise SceneError(f"table {path} has the column {twice[0]} twice: leave out one of them")
     missing = [name for name in NEEDED if name not in names]
     if missing:
         told = ", ".join(f"{name}{nearest(name, [n for n in names if n not in NEEDED])}" for name in missing)

@@ -6,6 +6,7 @@ from pathlib import Path
 from tehl_taichi.errors import StoreError
 from tehl_taichi.study import case, pool, single
 from tehl_taichi.study.progress import Progress
+from tehl_taichi.study.single import check_version
 
 STAGE = "positions"
 
@@ -42,6 +43,7 @@ def _before(scene, path):
     if not path.exists():
         return None
     stored = single.open(path)
+    check_version(path, stored)
     if stored.scene != scene:
         raise StoreError(f"{path} is of another scene ({stored.scene.name} with other values); choose another folder")
     return Outcome(path, stored.summary) if stored.finished else None

@@ -16,6 +16,7 @@ from tehl_taichi.flank.stored_flank import Flank, check_writable
 from tehl_taichi.io.json_values import plain
 from tehl_taichi.scene import Scene
 from tehl_taichi.scene.gear_pair import GearPair
+from tehl_taichi.scene.given import settled, words
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.study.progress import Progress
 
@@ -55,7 +56,7 @@ def flank(gear: str | PathLike | GearPair = "fzg-c", *, torque: float | None = N
     tehl_taichi.errors.SceneError: gear.torque = 0 N m is out of range; allowed: more than 0 N m and at most 1e+08 N m
     """
     found = described(gear).changed(torque, speed)
-    changes = {**(changes or {}), **({"time.steady_only": True} if steady else {})}
+    changes = _settled(changes or {}, steady)
     places = found.positions(on, positions, at)
     scenes = [scene_at(scene or found.scene, changes, found.name, n, place) for n, place in enumerate(places, 1)]
     folder = Path(folder) if folder else fresh(found.name)
@@ -72,6 +73,12 @@ def flank(gear: str | PathLike | GearPair = "fzg-c", *, torque: float | None = N
         raise KeyboardInterrupt(f"{stopped(stop)} after {done} of {len(scenes)} positions; the same tehl flank with --out "
                                 f"{folder} goes on") from None
     return whole
+
+
+def _settled(changes, steady):
+    """{full key: value} of all that is changed. Raises SceneError where steady and a change contradict each other."""
+    return settled([*((words(key, value), key, value) for key, value in changes.items()),
+                    *[("steady = True", "time.steady_only", True)] * steady])
 
 
 def told(subject, places, scenes, outcomes):

@@ -41,6 +41,12 @@ def settled(given):
     return {key: value for key, (_, value) in found.items()}
 
 
+def check_swept(changes, keys):
+    """Refuse changes {key: value} of all cases that a sweep over these keys overrules or contradicts. Raises SceneError."""
+    settled([*((f"{words(key, value)} in all cases", key, value) for key, value in changes.items()),
+             *((f"the sweep over {key}", key, f"swept {key}") for key in keys)])
+
+
 def named(changes):
     """{full key: value} of changes {key: value}. Raises SceneError, as :func:`settled`."""
     return settled([(words(key, value), key, value) for key, value in changes.items()])

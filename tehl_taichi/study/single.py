@@ -98,9 +98,17 @@ def completed(scene: Scene, path: str | PathLike, *, threads: int | None = None,
     if not is_store(path):
         return _run(scene, path, False, threads, "cpu", progress or Progress(), case=True)
     there = open(path)
+    check_version(path, there)
     if there.scene != scene:
         raise StoreError(f"{path} holds a run of another scene; choose another folder or remove it")
     return there if there.finished else resume(path, threads=threads, progress=progress)
+
+
+def check_version(path, run):
+    """Refuse a run of another version as part of what this one computes. Raises StoreError."""
+    if run.store.other_version:
+        raise StoreError(f"{path} was {run.store.other_version}: their results are not mixed; choose another folder or "
+                         "remove it")
 
 
 def _continue(path, scene, threads, began, progress):

@@ -8,6 +8,7 @@ from tehl_taichi.errors import SceneError
 from tehl_taichi.io import toml_file
 from tehl_taichi.io.found import find_changed
 from tehl_taichi.scene import BUILT_INS
+from tehl_taichi.scene.given import check_swept
 from tehl_taichi.study.plan import plan
 from tehl_taichi.values.checks import nearest
 from tehl_taichi.values.plain import shown
@@ -41,7 +42,9 @@ def load(path):
     for group in data.get("together", []):
         columns = {key: _listed(key, values) for key, values in _flat(group).items()}
         over[tuple(columns)] = _rows(columns)
-    scene = find_changed(_scene_name(data.get("scene", "gear"), path.parent), _flat(_table(data, "set")))
+    changes = _flat(_table(data, "set"))
+    check_swept(changes, [key for keys in over for key in ((keys,) if isinstance(keys, str) else keys)])
+    scene = find_changed(_scene_name(data.get("scene", "gear"), path.parent), changes)
     return plan(scene, over, data.get("samples"), data.get("seed"))
 
 

@@ -68,6 +68,9 @@ class Study(Held):
         check_outside(path)
         if attrs is None and (path.is_file() or path.is_dir() and any(path.iterdir())):
             raise StoreError(f"{path} exists already and is no study; choose another --out")
+        if attrs is not None and (version := attrs.get("version", "unknown")) != __version__:
+            raise StoreError(f"{path} was written by version {version}, this is {__version__}: their cases are not mixed; "
+                             f"choose another --out, or go on with version {version}")
         if attrs is not None and not plan.told_by(attrs[PLAN]):
             raise StoreError(f"{path} holds another study; choose another --out or remove it")
         with blamed(path, "cannot write to"):
