@@ -12,6 +12,9 @@ import os
 import sys
 
 from tehl_taichi.engine import tracing
+from tehl_taichi.engine.homes import give_home
+
+give_home()
 
 
 @contextlib.contextmanager

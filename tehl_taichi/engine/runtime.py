@@ -14,7 +14,7 @@ import warnings
 from pathlib import Path
 
 from tehl_taichi import __version__
-from tehl_taichi.engine import cores, float_mode, memory
+from tehl_taichi.engine import cores, float_mode, homes, memory
 from tehl_taichi.errors import RuntimeUnavailable
 
 ARCHES = ("cpu", "cuda")  # that the kernels have been checked on
@@ -31,7 +31,7 @@ def wanted_cache():
 
     It is private to this project and version, because one start option below is not part of Taichi's cache key.
     """
-    root = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
+    root = os.environ.get("XDG_CACHE_HOME") or os.path.join(homes.home(), ".cache")
     return Path(os.environ.get("TEHL_CACHE") or os.path.join(root, "tehl_taichi")) / f"kernels-{__version__}"
 
 
@@ -52,7 +52,7 @@ def cache_dir():
 
 def _borrowed(wanted):
     """A folder for this process alone with the kernels that can be read."""
-    folder = Path(tempfile.mkdtemp(prefix="tehl-"))
+    folder = Path(tempfile.mkdtemp(prefix="tehl-", dir=homes.temporary()))
     atexit.register(_give_up, folder)
     with contextlib.suppress(OSError):
         for file in wanted.iterdir():
@@ -107,6 +107,7 @@ def start(arch="cpu", threads=None):
 
 def _start(arch, threads):
     global _home
+    homes.temporary()  # Taichi needs one too
     cache = str(cache_dir())
     memory.keep_freed()
     from tehl_taichi.engine import loops
