@@ -59,9 +59,16 @@ def _run():
     except Exception as error:  # noqa: BLE001  every failure ends in one sentence
         if debug:
             raise
-        _tell(error or type(error).__name__)
+        _tell(_sentence(error))
         return getattr(error, "exit_code", FAILED)
     return 0
+
+
+def _sentence(error):
+    """What to say of an error; of the system's refusals (a full disk) without their number, of the others at least the name."""
+    if isinstance(error, OSError) and error.strerror:
+        return f"{error.filename}: {error.strerror}" if error.filename else error.strerror
+    return str(error) or type(error).__name__
 
 
 def _tell(sentence):
@@ -82,8 +89,15 @@ def _code(stop):
     if isinstance(stop.__context__, BrokenPipeError):
         raise BrokenPipeError
     if stop.code == 128 + signal.SIGINT:
-        raise KeyboardInterrupt(*getattr(stop.__context__, "args", ()))  # the name of its signal
+        raise KeyboardInterrupt(*_signal_of(stop))
     return stop.code or 0
+
+
+def _signal_of(error):
+    """(name of the signal,) that a KeyboardInterrupt behind an error has, () of Ctrl-C; a number is an exit code of typer."""
+    while error is not None and not isinstance(error, KeyboardInterrupt):
+        error = error.__context__
+    return tuple(part for part in getattr(error, "args", ()) if isinstance(part, str))
 
 
 def _stop_as_ctrl_c_does():

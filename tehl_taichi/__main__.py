@@ -2,4 +2,5 @@
 
 from tehl_cli.entry import main
 
-main()
+if __name__ == "__main__":  # not where it is imported, as tools that look at every module do
+    main()

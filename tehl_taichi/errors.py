@@ -56,6 +56,13 @@ def extra(name):
     return f"pip install 'tehl_taichi[{name}]' (in a checkout: pip install -e '.[{name}]')"
 
 
+def brief(error, most=200):
+    """Somebody else's error in one sentence: the first line that says something, without what a dump shows below it."""
+    lines = [line.strip() for line in str(error).splitlines() if line.strip()]
+    text = " ".join(lines[0].split()) if lines else type(error).__name__
+    return text if len(text) <= most else f"{text[:most].rsplit(' ', 1)[0]} ..."
+
+
 def stopped(stop):
     """How a sentence about a KeyboardInterrupt begins: "interrupted" (Ctrl-C), or by which signal it was stopped, where that
     is its text (as the command line has it: "SIGTERM") or begins it ("stopped by SIGTERM after 2 steps")."""

@@ -4,8 +4,11 @@ import pytest
 
 
 def pytest_configure():
-    """A shell leaves what it starts with `&` deaf to Ctrl-C, and so would be the commands that tests interrupt."""
+    """A shell leaves what it starts with `&` deaf to Ctrl-C, `nohup` to a closed terminal, and so would be the commands that
+    tests interrupt."""
     signal.signal(signal.SIGINT, signal.default_int_handler)
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
 
 
 @pytest.fixture(scope="session")

@@ -37,10 +37,9 @@ def crack(of: Any, scene: "Scene | None" = None, *, thermal_stress: bool | None 
     from tehl_taichi.crack.answer import run
     from tehl_taichi.crack.wanted import Wanted
     from tehl_taichi.engine import runtime
-    from tehl_taichi.fatigue.constants import agreed, changed
+    from tehl_taichi.fatigue.constants import agreed, changed, reader_of
 
-    asked, reader = Wanted(**wanted), getattr(of, "store", of)
-    reader = reader if hasattr(reader, "fields") else list(reader)
+    asked, reader = Wanted(**wanted), reader_of(of, "crack")
     scene = changed(agreed(scene, reader), {"thermal_stress": thermal_stress})
     runtime.start_or_join(threads=threads)
     return run(scene, reader, asked)

@@ -43,11 +43,12 @@ def export(of: Any, format: str = "csv", path: str | PathLike | None = None, *, 
     from tehl_taichi.export.places import Places
     from tehl_taichi.io.reader import Reader
     from tehl_taichi.values.checks import choice
+    from tehl_taichi.values.given_path import folder_of
     from tehl_taichi.values.plain import plain
 
     known = formats()
     choice("format", format, list(known))
-    reader, chosen = Reader.open(getattr(of, "path", of)), known[format]
+    reader, chosen = Reader.open(folder_of(of)), known[format]
     if not chosen.chosen and (plain(at), plain(point)) != ((), ()):
         raise SceneError(f"at and point choose tables of csv; {format} has every moment and every point")
     places, path = Places.of(reader, at, point), Path(path) if path is not None else chosen.beside(Path(reader.path))

@@ -43,7 +43,7 @@ def fatigue(of: Any, scene: "Scene | None" = None, *, progress: Any = None, thre
     >>> print(f"{found.f[0] / 1e6:.2f} MPa, Fi {found.Fi[0]:.3f}")
     67.20 MPa, Fi 0.168
     """
-    if scene is None and hasattr(of, "fatigue"):  # a Run knows up to where its grid resolves the pressure, and its error bars
+    if scene is None and hasattr(of, "store"):  # a Run knows up to where its grid resolves the pressure, and its error bars
         return of.fatigue(progress=progress, threads=threads, until=until, **constants)
 
     from tehl_taichi.engine import runtime
@@ -54,8 +54,7 @@ def fatigue(of: Any, scene: "Scene | None" = None, *, progress: Any = None, thre
         limits = given.of_points(constants, scene)
         runtime.start_or_join(threads=threads)
         return points.search(of, limits)
-    reader = getattr(of, "store", of)
-    reader = reader if hasattr(reader, "fields") else list(reader)
+    reader = given.reader_of(of, "fatigue")
     scene = given.changed(given.agreed(scene, reader), constants)
     runtime.start_or_join(threads=threads)
     tell = progress and (lambda done, total: progress.stage("stresses and fatigue", done, total))

@@ -1,6 +1,6 @@
 """The numbers of a fatigue search that can be other ones than those of the scene."""
 
-from tehl_taichi.scene import Scene, SceneError, keys
+from tehl_taichi.scene import SceneError, builtin, keys
 from tehl_taichi.scene.given import named
 from tehl_taichi.scene.parts import Fatigue
 from tehl_taichi.values.plain import shown
@@ -13,12 +13,10 @@ OF_POINTS = ("bending_limit", "torsion_limit", "criterion", "endurance", "kappa"
 def agreed(scene, reader):
     """The scene (None: that which the reader knows) of a run or of snapshots. Raises SceneError where it is another one than
     theirs in more than fatigue and what is stored of it."""
-    own = getattr(reader, "scene", None)
+    own, scene = getattr(reader, "scene", None), None if scene is None else builtin.given(scene)
     if scene is None or own is None:
         _check_nodes(scene, reader)
         return scene or own
-    if not isinstance(scene, Scene):
-        raise SceneError(f"{shown(scene)} is no scene; allowed: a Scene")
     theirs = dict((key, value) for key, _, value in keys.every(own))
     other = [key for key, _, value in keys.every(scene) if key.partition(".")[0] not in FREE and theirs.pop(key, None) != value]
     if other:
@@ -49,12 +47,25 @@ def of_points(constants, scene=None):
     """:class:`tehl_taichi.scene.parts.Fatigue` of stresses without a passage: that of the scene, if there is one, with these
     constants. Raises SceneError."""
     values = {key.partition(".")[2]: value for key, value in _given(constants).items()}
+    scene = None if scene is None else builtin.given(scene)
     own = scene.fatigue if scene is not None else Fatigue()
     strange = [key for key in kinds(Fatigue) if key not in (*OF_POINTS, "on", "source") and getattr(own, key) != getattr(
         Fatigue, key)]
     if other := sorted(values.keys() - set(OF_POINTS)) or strange:
         raise SceneError(f"{other[0]} has no meaning for given stresses; allowed: {', '.join(OF_POINTS)}")
     return Fatigue.from_values(values) if scene is None else changed(scene, constants).fatigue
+
+
+def reader_of(of, function):
+    """What is read of a run, or the list of its snapshots. Raises SceneError for what is neither."""
+    reader = getattr(of, "store", of)
+    if hasattr(reader, "fields"):
+        return reader
+    try:
+        return list(reader)
+    except TypeError:
+        raise SceneError(f"{shown(of)} is neither a run nor snapshots; tehl_taichi.{function} takes what tehl_taichi.open or "
+                         "tehl_taichi.march gives") from None
 
 
 def _given(constants):

@@ -15,6 +15,7 @@ from tehl_taichi.figures.frames import SHOWN, Frames
 from tehl_taichi.figures.moments import Moments
 from tehl_taichi.figures.page import Page, drawing
 from tehl_taichi.values.checks import choice, integer
+from tehl_taichi.values.given_path import folder_of
 
 FORMATS = ("gif", "mp4")
 FRAMES, FPS, DPI, WIDTH = 120, 15, 110, 17.0
@@ -43,7 +44,7 @@ def animate(source: str | PathLike | Any, out: str | PathLike | None = None, *, 
     integer("frames", frames, 2, 2000)
     integer("fps", fps, 1, 50)
     choice("map", shown, SHOWN)
-    page, store = Page(dpi=dpi, width=width), Store.open(getattr(source, "path", source))
+    page, store = Page(dpi=dpi, width=width), Store.open(folder_of(source))
     path, format = _file(store, out, format, force)
     _check(store, shown)
     drawing()

@@ -2,7 +2,6 @@
 
 import dataclasses
 from dataclasses import dataclass
-from pathlib import Path
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.flank import load_table, positions
@@ -12,6 +11,8 @@ from tehl_taichi.scene import scene
 from tehl_taichi.scene.gear_pair import PAIRS, GearPair, gear_pair
 from tehl_taichi.scene.whole import Scene
 from tehl_taichi.values.checks import build, file_name, nearest
+from tehl_taichi.values.file_ending import ending
+from tehl_taichi.values.given_path import path_of
 from tehl_taichi.values.plain import shown
 
 KEYS = ("name", "base", "gear", "table", "scene")
@@ -58,10 +59,10 @@ def described(what):
         return Described("flank", scene(SCENE), what)
     if isinstance(what, str) and what in PAIRS:
         return Described(what, scene(SCENE), gear_pair(what), source=PAIRS[what][1])
-    path = Path(what)
-    if path.suffix == ".csv":
+    path = path_of("gear", what)
+    if ending(path) == ".csv":
         return Described(path.stem, scene(SCENE), table=tuple(load_table.load(path)), source=str(what))
-    if path.suffix == ".toml" or path.exists():
+    if ending(path) == ".toml" or path.exists():
         return _from_file(path)
     return Described(str(what), scene(SCENE), gear_pair(str(what)))
 

@@ -13,12 +13,14 @@ from tehl_taichi.flank.described import described
 from tehl_taichi.flank.mesh import Mesh
 from tehl_taichi.flank.outcomes import Outcome, summaries
 from tehl_taichi.flank.stored_flank import Flank, check_writable
+from tehl_taichi.io.found import find
 from tehl_taichi.io.json_values import plain
 from tehl_taichi.scene import Scene
 from tehl_taichi.scene.gear_pair import GearPair
 from tehl_taichi.scene.given import settled, words
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.study.progress import Progress
+from tehl_taichi.values.given_path import path_of
 
 ASSUMPTION = ("each position is a contact of its own with constant load and speeds while the feature passes: a passage takes "
               "some 0.1 ms, a mesh some ms")
@@ -36,13 +38,13 @@ def flank(gear: str | PathLike | GearPair = "fzg-c", *, torque: float | None = N
 
     gear: "fzg-c", "fzg-a", a TOML or CSV file, or a GearPair; torque (N m) and speed (1/min) of the pinion, instead of its
     own; on: "pinion" or "gear", whose flank carries the feature; positions: how many; at: points ("C", "B-") or x_pl in m in
-    their place; scene: everything but contact and speeds (default: what the file names, or "gear"); changes: of that scene, as
-    Scene.replace takes them; steady: no feature passes; folder: of the stores and results (default: runs/NAME-N; one that is
-    there is gone on with); workers: processes side by side (default: one for each core, this one alone without Dask), 1 is
-    this one; threads: of each (default: the cores that `workers` leave, one where nothing is said); progress: as
-    :func:`tehl_taichi.run`. Raises SceneError, StoreError and RuntimeUnavailable (no Dask) before anything runs; a position
-    without a result is in :attr:`Flank.failed`. Workers import the script that calls this: its own calls stand under
-    `if __name__ == "__main__":`.
+    their place; scene: everything but contact and speeds, or what names one (default: what the file names, or
+    "gear"); changes: of that scene, as Scene.replace takes them; steady: no feature passes; folder: of the stores and results
+    (default: runs/NAME-N; one that is there is gone on with); workers: processes side by side (default: one for each core,
+    this one alone without Dask), 1 is this one; threads: of each (default: the cores that `workers` leave, one where nothing is
+    said); progress: as :func:`tehl_taichi.run`. Raises SceneError, StoreError and RuntimeUnavailable (no Dask) before anything
+    runs; a position without a result is in :attr:`Flank.failed`. Workers import the script that calls this: its own calls stand
+    under `if __name__ == "__main__":`.
 
     >>> import tehl_taichi as tehl
     >>> pitch = tehl.flank("fzg-c", at=["C"], steady=True, changes={"grid.nx": 64, "thermal.on": False}, folder="pitch")
@@ -55,11 +57,11 @@ def flank(gear: str | PathLike | GearPair = "fzg-c", *, torque: float | None = N
     ...
     tehl_taichi.errors.SceneError: gear.torque = 0 N m is out of range; allowed: more than 0 N m and at most 1e+08 N m
     """
-    found = described(gear).changed(torque, speed)
+    found, scene = described(gear).changed(torque, speed), None if scene is None else find(scene)
     changes = _settled(changes or {}, steady)
     places = found.positions(on, positions, at)
     scenes = [scene_at(scene or found.scene, changes, found.name, n, place) for n, place in enumerate(places, 1)]
-    folder = Path(folder) if folder else fresh(found.name)
+    folder = path_of("folder", folder) if folder else fresh(found.name)
     check_writable(folder)
     subject = about(found, folder, (on or "pinion") if found.pair else "")
     outcomes = [Outcome(folder / f"{one.name}.zarr", reason=WAITING) for one in scenes]

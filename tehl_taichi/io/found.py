@@ -5,6 +5,7 @@ from pathlib import Path
 
 from tehl_taichi.scene import BUILT_INS, Scene, SceneError
 from tehl_taichi.scene.builtin import scene as built_in
+from tehl_taichi.values.file_ending import ending
 from tehl_taichi.values.plain import shown
 
 
@@ -36,7 +37,7 @@ def find_changed(name, changes):
 
 
 def _is_file(path):
-    return path.suffix == ".toml" or path.exists() and not _is_store(path)
+    return ending(path) == ".toml" or path.exists() and not _is_store(path)
 
 
 def _is_store(path):

@@ -6,13 +6,17 @@ import re
 from pathlib import Path
 
 from tehl_taichi import __version__
+from tehl_taichi.criteria import CRITERIA
 from tehl_taichi.disk import files
 from tehl_taichi.disk.drafts import ROOT
 from tehl_taichi.disk.files import TEMPORARY
 from tehl_taichi.disk.locks import LOCK
 from tehl_taichi.errors import SceneError, StoreError
-from tehl_taichi.io import maps
+from tehl_taichi.io import attributes, maps
+from tehl_taichi.physics.choices import CHOICES
+from tehl_taichi.scene.feature import SHAPES
 from tehl_taichi.scene.whole import SECTIONS
+from tehl_taichi.values.plain import shown
 
 FORMAT = 3  # 1: version 0.1, without checksums; 2: to 0.6.1, every entry of a field in folders of its own
 CHECKPOINTS = ".checkpoints"
@@ -65,14 +69,49 @@ def root_of(path):
 def scene_of(path, attrs):
     """The scene that a store was run with. Raises StoreError."""
     try:
-        data = json.loads(attrs["scene"])
-        if not isinstance(data, dict) or not SECTIONS.keys() <= data.keys():
-            raise ValueError("sections are missing")
+        data = _scene_data(attrs["scene"])
         if attrs.get("format", 1) == 1 and data["time"]["steps"] == 0:  # meant all in version 0.1
             data["time"]["steps"] = -1
         return maps.scene_of(path, data)
     except (SceneError, ValueError, TypeError, KeyError, AttributeError) as error:
-        raise StoreError(f"{path} is damaged: the scene in its {ROOT} cannot be read ({error})") from None
+        if said := lacking(attrs["scene"]):
+            raise StoreError(f"{path} needs {said}") from None
+        said = error if type(error) in (SceneError, ValueError, StoreError) else "a key of it is missing or no such value"
+        raise StoreError(f"{path} is damaged: the scene in its {ROOT} cannot be read ({said})") from None
+
+
+def _scene_data(text):
+    """The nested dictionary of a scene as stores keep it. Raises ValueError."""
+    try:
+        data = json.loads(text)
+    except (TypeError, ValueError):
+        raise ValueError(f"{shown(text)} is no JSON") from None
+    if not isinstance(data, dict) or not SECTIONS.keys() <= data.keys():
+        raise ValueError("sections are missing")
+    features = data.get("feature")
+    if not isinstance(features, list) or not all(isinstance(one, dict) for one in features):
+        raise ValueError(f"feature = {shown(features)} must be a list of tables")
+    return data
+
+
+def lacking(text):
+    """The law, criterion or shape of a scene (as JSON) that is not installed here, in words, or ""."""
+    try:
+        data = json.loads(text)
+        chosen = {**{key: (_entry(data, key), names) for key, names in CHOICES.items()},
+                  "fatigue.criterion": (_entry(data, "fatigue.criterion"), CRITERIA)}
+        shapes = [("feature.shape", (one.get("shape"), SHAPES)) for one in data["feature"]]
+    except (TypeError, ValueError, KeyError, AttributeError):
+        return ""
+    for key, (name, known) in (*chosen.items(), *shapes):
+        if isinstance(name, str) and name not in known:
+            return f"{key} = {shown(name)}, which is not installed here; known: {', '.join(known)}"
+    return ""
+
+
+def _entry(data, key):
+    section, _, name = key.partition(".")
+    return data[section].get(name)
 
 
 def check(path, attrs, arrays, scene, needed):
@@ -83,6 +122,8 @@ def check(path, attrs, arrays, scene, needed):
         raise damaged(path, f"'steps', the number of its entries, is {steps!r}")
     if not isinstance(attrs.get("finished"), bool):
         raise damaged(path, f"'finished' is {attrs.get('finished')!r}, neither true nor false")
+    if said := attributes.wrong(attrs, written_by(attrs) is None):
+        raise damaged(path, said)
     grid = {"x": scene.grid.nx + 1, "y": scene.rows + 1}
     for name, dimensions in needed.items():
         wanted = [steps] + [grid[key] for key in dimensions]

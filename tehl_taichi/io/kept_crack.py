@@ -21,7 +21,7 @@ def keep(result, store):
     """Write a :class:`tehl_taichi.crack.answer.CrackResult` beside the store it is of, in place of an earlier one; returns the
     path. Raises StoreError."""
     path = place(store.path)
-    content = {"run": store.attrs["date"], "summary": result.summary, "drawn": _drawn(result)}
+    content = {"run": store.attrs.get("date"), "summary": result.summary, "drawn": _drawn(result)}
     outputs.text(path, json.dumps({"program": outputs.PROGRAM, **plain(content)}), force=True)
     return path
 
@@ -33,7 +33,7 @@ def kept(store):
         return None
     try:
         content = json.loads(files.text(path))
-        return content if content["run"] == store.attrs["date"] else None  # else of a run that was here before
+        return content if content["run"] == store.attrs.get("date") else None  # else of a run that was here before
     except (ValueError, KeyError, TypeError, OSError) as error:
         raise StoreError(f"{path} is damaged ({error}): remove it, or make it anew with tehl crack --keep") from None
 

@@ -1,6 +1,6 @@
 """The height maps of a scene inside its store: what a store needs to be shown, resumed and run again without their files."""
 
-from tehl_taichi.errors import StoreError
+from tehl_taichi.errors import StoreError, brief
 from tehl_taichi.io import chunks
 from tehl_taichi.scene import Scene
 from tehl_taichi.scene.feature import SHAPES
@@ -46,7 +46,7 @@ def _heights(path, sha256):
     try:
         found, values = height_map.keep(chunks.whole(path / _name(sha256)))
     except Exception as error:
-        raise StoreError(f"{path / _name(sha256)}: the stored height map cannot be read: {error}") from None
+        raise StoreError(f"{path / _name(sha256)}: the stored height map cannot be read: {brief(error)}") from None
     if found != sha256:
         raise StoreError(f"{path / _name(sha256)}: the stored height map is damaged (its sha256 begins with {found[:12]}, not "
                          f"{sha256[:12]})")

@@ -65,10 +65,11 @@ def _check_free(path):
         parent = parent.parent
     if not parent.is_dir() or not os.access(parent, os.W_OK):
         raise StoreError(f"cannot write to {parent}: no permission, read-only or not a folder")
-    _check_room(parent)
+    check_room(parent)
 
 
-def _check_room(folder):
+def check_room(folder):
+    """Raises Error where the disk of an existing folder has no room for a run."""
     free = shutil.disk_usage(folder).free
     if free < ROOM:
         raise Error(f"{folder} has only {free / 1e6:.0f} MB left; a run needs at least {ROOM / 1e6:.0f} MB")
@@ -83,7 +84,7 @@ def replaceable(path):
     if strangers := intact.strangers(path):
         raise StoreError(f"{path} holds {strangers[0]}, which is no part of a store; move it away, or choose another --out")
     links.refuse(path)
-    _check_room(path)
+    check_room(path)
     try:
         return Lock(path)
     except OSError as error:

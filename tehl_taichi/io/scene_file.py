@@ -37,6 +37,7 @@ def load(path, changes=()):
     Raises SceneError (also for broken TOML)."""
     path = Path(path)
     data = toml_file.read(path, "scene")
+    toml_file.check_brackets(path, data, ("contact", "bodies", "operation", "oil", *SECTIONS), ("feature",))
     return from_data(beside(data, path.absolute().parent), path.stem, changes)
 
 
@@ -53,6 +54,21 @@ def check_new(path):
         raise SceneError(f"{path} exists already; choose another name")
     if not path.absolute().parent.is_dir():
         raise SceneError(f"{path.absolute().parent} is not a folder")
+
+
+def write_new(path, text):
+    """Write a file where none is. Raises SceneError, and then leaves nothing behind."""
+    made = False
+    try:
+        with open(path, "x", encoding="utf-8") as file:
+            made = True
+            file.write(text)
+    except FileExistsError:
+        raise SceneError(f"{path} exists already; choose another name") from None
+    except OSError as error:
+        if made:
+            path.unlink(missing_ok=True)
+        raise SceneError(f"cannot write {path}: {error.strerror or error}") from None
 
 
 def beside(data, folder):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from tehl_taichi import __version__
-from tehl_taichi.io import result_judge
+from tehl_taichi.io import attributes, result_judge
 from tehl_taichi.io.film_judge import worst_ripple
 from tehl_taichi.march.companions import CONTACT, FI, indices
 from tehl_taichi.march.readings import HEAT
@@ -53,9 +53,9 @@ def _peclet(scene, scales):
 
 def so_far(store):
     """What is known of a run without a summary, as JSON has it: it is not finished, or being written at this moment."""
-    return {"scene": store.scene.name, "version": store.attrs["version"], "store": str(store.path), "finished": False,
-            "written_by": store.writer, "steps": store.last_step, **counts(store), "left_out": store.scene.left_out(),
-            "warnings": store.warnings}
+    return {"scene": store.scene.name, "version": attributes.text(store.attrs, "version"), "store": str(store.path),
+            "finished": False, "written_by": store.writer, "steps": store.last_step, **counts(store),
+            "left_out": store.scene.left_out(), "warnings": store.warnings}
 
 
 def counts(store):

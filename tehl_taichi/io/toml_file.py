@@ -5,6 +5,7 @@ import tomllib
 
 from tehl_taichi.disk import files
 from tehl_taichi.errors import SceneError
+from tehl_taichi.values.plain import shown
 
 COMMA = re.compile(r"\s*[\w.\"'-]+\s*=\s*([-+]?\d+),(\d+(?:[eE][-+]?\d+)?)\s*(?:#.*)?")  # key = -0,2
 LINE = re.compile(r"\(at line (\d+), ")
@@ -22,6 +23,24 @@ def read(path, what):
         raise SceneError(f"{path} nests tables or lists too deeply; a {what} needs two levels") from None
     except ValueError as error:  # of TOML, and of Python for whole numbers of more than 4300 digits
         raise SceneError(f"{path} is not valid TOML: {_with_point(text, error) or error}") from None
+
+
+def check_brackets(path, data, one=(), several=()):
+    """Refuse [NAME] where [[NAME]] is meant, and the other way round. one, several: names of tables that stand once, and of
+    those that may stand several times. Raises SceneError."""
+    for names, wanted, other in ((one, "[{}]", "[[{}]]"), (several, "[[{}]]", "[{}]")):
+        for name in names:
+            found = data.get(name)
+            if found is None or _is_kind(found, name in several):
+                continue
+            brackets = isinstance(found, dict) or found and _is_kind(found, True)
+            said = other.format(name) if brackets else f"{name} = {shown(found)}"
+            raise SceneError(f"{said} in {path} must be {wanted.format(name)}, the head of a table of keys and values"
+                             f"{' (each with its own head)' if name in several else ''}")
+
+
+def _is_kind(found, several):
+    return isinstance(found, list) and all(isinstance(one, dict) for one in found) if several else isinstance(found, dict)
 
 
 def _with_point(text, error):

@@ -20,9 +20,10 @@ __all__ = ["march", "simulate"]
 def march(scene: "Scene", state: dict | None = None, precision: str | None = None) -> "Iterator[Snapshot]":
     """Generator of snapshots of `scene`: the steady start, then one per time step (for loops of one's own).
 
-    state: of the snapshot to go on from, taken from it (`snapshot.state`) while it is the newest; precision: "f32" or "f64", of
-    the linear solves, instead of the scene's own (`numerics.precision`). Every scene runs in its own, in any order. A snapshot
-    has fields (nx+1, ny+1) and scalars in SI, see :class:`tehl_taichi.march.snapshot.Snapshot`.
+    scene: a Scene, or the name of a built-in one; state: of the snapshot to go on from, taken from it (`snapshot.state`) while
+    it is the newest; precision: "f32" or "f64", of the linear solves, instead of the scene's own (`numerics.precision`). Every
+    scene runs in its own, in any order. A snapshot has fields (nx+1, ny+1) and scalars in SI, see
+    :class:`tehl_taichi.march.snapshot.Snapshot`.
     Raises SceneError at once for another precision, NotConverged when a step fails for good: the snapshots before it are good.
 
     >>> import tehl_taichi as tehl
@@ -35,7 +36,9 @@ def march(scene: "Scene", state: dict | None = None, precision: str | None = Non
     """
     from tehl_taichi.errors import SceneError
     from tehl_taichi.march.passage import march as run
+    from tehl_taichi.scene.builtin import given
 
+    scene = given(scene)
     if state is not None and (found := tuple(state["P"].shape)) != (wanted := (scene.rows + 1, scene.grid.nx + 1)):
         raise SceneError(f"the state has {found[1]} x {found[0]} nodes, the scene {wanted[1]} x {wanted[0]}: it is not of this "
                          "scene")

@@ -2,6 +2,7 @@
 
 import dataclasses
 
+from tehl_taichi.io.attributes import text
 from tehl_taichi.io.reader import Reader
 from tehl_taichi.report import (
     crack_plots,
@@ -31,8 +32,8 @@ def of(folder):
 
 def page(store):
     """The same of a :class:`tehl_taichi.io.reader.Reader`."""
-    about = f"{store.scene.name}: a run of tehl_taichi {store.attrs.get('version', '')}"
-    sections = (scene_section(store.scene, store.attrs.get("scene_toml", "")), *surface_plots.section(store.scene),
+    about = f"{store.scene.name}: a run of tehl_taichi {text(store.attrs, 'version')}"
+    sections = (scene_section(store.scene, text(store.attrs, "scene_toml", "")), *surface_plots.section(store.scene),
                 *_film(store), *_fatigue(store), *crack_plots.section(store), *_made(store))
     answer = dataclasses.replace(verdict.of(store), known_before=tuple(store.scene.warnings()))
     return Page(f"{store.scene.name}: report", about, answer, sections)
@@ -76,8 +77,8 @@ def _of_search(search, of, lead):
             Section(f"Stresses of the worst points{of}", tuple(drawn(*pair) for pair in fatigue_plots.worst_points(search))))
 
 
-def _sentence(text):
-    return text[0].upper() + text[1:]
+def _sentence(words):
+    return words[0].upper() + words[1:]
 
 
 def _made(store):

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from tehl_taichi.disk import outputs
+from tehl_taichi.values.given_path import folder_of
 
 
 def report(of: str | PathLike | Any, out: str | PathLike | None = None, *, force: bool = False, progress: Any = None,
@@ -24,7 +25,7 @@ def report(of: str | PathLike | Any, out: str | PathLike | None = None, *, force
     """
     from tehl_taichi.report import document, packed
 
-    folder = Path(getattr(of, "path", getattr(of, "folder", of)))
+    folder = folder_of(of)
     asked = _asked(folder, constants)
     out = Path(out) if out else beside(folder, "-fatigue" if asked else "")
     outputs.check(out, force, "html")

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tehl_taichi.errors import StoreError
+from tehl_taichi.values.given_path import folder_of
 
 if TYPE_CHECKING:
     from tehl_taichi.flank.stored_flank import Flank
@@ -41,7 +42,7 @@ def open(path: str | PathLike) -> "Run | Study | Flank":
     from tehl_taichi.flank.stored_flank import Flank
     from tehl_taichi.study.table import Study
 
-    found = kind(path)
+    found = kind(path := folder_of(path))
     return Study.open(path) if found == STUDY else Flank.open(path) if found == FLANK else _run(path)
 
 

@@ -6,6 +6,7 @@ from tehl_taichi.scene.named_oils import OILS
 from tehl_taichi.scene.parts import Body, Contact, Grid, Operation, Rheology, Thermal
 from tehl_taichi.scene.whole import Scene
 from tehl_taichi.values.checks import nearest
+from tehl_taichi.values.plain import shown
 
 # ball of steel on glass, R = 12.7 mm: E' = 117 GPa; oil with alpha = 2.2e-8 1/Pa (spec: the ridge of Venner & Lubrecht)
 GLASS = Body(E=75.06e9, nu=0.22, k=1.1, rho=2510.0, c=800.0)
@@ -36,6 +37,15 @@ BUILT_INS = {
                     "a 2 um transverse furrow on the slower surface of a line contact (SRR -1), 2 GPa: 1-D, Newtonian oil (its "
                     "friction is not meant)"),
 }
+
+
+def given(scene_):
+    """The scene that is given, or the built-in one of that name. Raises SceneError."""
+    if isinstance(scene_, Scene):
+        return scene_
+    if isinstance(scene_, str):
+        return scene(scene_)
+    raise SceneError(f"{shown(scene_)} is no scene; tehl_taichi.scene makes one from a built-in name, a TOML file or a store")
 
 
 def scene(name="gear"):

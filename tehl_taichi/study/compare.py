@@ -6,6 +6,7 @@ from pathlib import Path
 
 from tehl_taichi.errors import SceneError, StoreError
 from tehl_taichi.study.stored_run import Run
+from tehl_taichi.values.given_path import folder_of
 from tehl_taichi.values.plain import plain
 
 MOST = 8  # stores: more lines than that nobody tells apart
@@ -94,7 +95,7 @@ def compare(*paths: str | PathLike | Run) -> Comparison:
 
     if not 2 <= len(paths) <= MOST:
         raise SceneError(f"{len(paths)} stores to compare; allowed: 2 to {MOST}")
-    stores = tuple(Store.open(getattr(path, "path", path)) for path in paths)
+    stores = tuple(Store.open(folder_of(path)) for path in paths)
     if len({store.path.resolve() for store in stores}) < len(stores):
         raise StoreError(f"{_twice([store.path for store in stores])} is given twice; a run is compared with others")
     return Comparison(stores)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from tehl_taichi.scene import Scene
 from tehl_taichi.study.job import Lost
+from tehl_taichi.values.given_path import path_of
 
 if TYPE_CHECKING:
     from tehl_taichi.study.table import Study
@@ -50,15 +51,15 @@ def run(plan, path=None, *, workers=None, threads_per_worker=None, scheduler=Non
         work=None):
     """The cases of `plan` that its study at `path` has no result of; as :func:`sweep`. work: what runs a
     :class:`tehl_taichi.study.case.Job` (default: :func:`tehl_taichi.study.case.work`)."""
+    from tehl_taichi.io.place import check_room
     from tehl_taichi.study import case, pool
     from tehl_taichi.study.table import Study
-    from tehl_taichi.values.checks import choice
 
-    choice("--keep", keep, KEEP)
-    workers, threads = pool.sizes(workers, threads_per_worker, scheduler)
+    workers, threads = checked(workers, threads_per_worker, scheduler, keep)
     refused = plan.refused()
-    pool.check(workers, threads, scheduler)
-    path = Path(path) if path is not None else default_path(plan)
+    path = path_of("path", path) if path is not None else default_path(plan)
+    if keep == "stores":
+        check_room(_nearest_folder(path))
     with Study.write(path, plan) as study:
         _tell_refused(study, refused)
         todo = study.open_cases
@@ -70,6 +71,23 @@ def run(plan, path=None, *, workers=None, threads_per_worker=None, scheduler=Non
         for place, answer in found if todo else ():
             _keep(study, todo[place], answer, keep, progress)
     return study
+
+
+def checked(workers=None, threads_per_worker=None, scheduler=None, keep="stores"):
+    """(processes, threads of each) of a sweep, as :func:`tehl_taichi.study.pool.sizes` gives them. Raises SceneError and
+    RuntimeUnavailable where no sweep can have them."""
+    from tehl_taichi.study import pool
+    from tehl_taichi.values.checks import choice
+
+    choice("--keep", keep, KEEP)
+    workers, threads = pool.sizes(workers, threads_per_worker, scheduler)
+    pool.check(workers, threads, scheduler)
+    return workers, threads
+
+
+def _nearest_folder(path):
+    """The folder at `path`, or the first above it that there is."""
+    return next(folder for folder in (path.absolute(), *path.absolute().parents) if folder.is_dir())
 
 
 def default_path(plan):

@@ -4,6 +4,7 @@ import contextlib
 import hashlib
 import json
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from tehl_taichi.errors import SceneError
@@ -184,6 +185,8 @@ def plan(scene, over, samples=None, seed=None):
     >>> found.dims, found.shape, found.changes(5)
     (('srr', 'feature.height'), (2, 3), {'srr': 0.1, 'feature.height': 1.5e-06})
     """
+    if not isinstance(over, Mapping):
+        raise SceneError(f"over = {shown(over)} must be a dictionary {{key: values}}, as in {{'srr': [0.0, 0.1]}}")
     if samples is None and seed is not None:
         raise SceneError(f"seed = {shown(seed)} has no effect without samples: nothing is drawn")
     seed = 0 if seed is None else seed

@@ -12,6 +12,7 @@ from tehl_taichi.io.found import find
 from tehl_taichi.scene import Scene
 from tehl_taichi.study.progress import ERRORS, PASSAGE, STEADY, Progress
 from tehl_taichi.study.stored_run import Run
+from tehl_taichi.values.given_path import folder_of, path_of
 
 
 def run(scene: Scene | str | PathLike, path: str | PathLike | None = None, *, force: bool = False, threads: int | None = None,
@@ -43,6 +44,7 @@ def _run(scene, path, force, threads, arch, progress, case=False):
     from tehl_taichi.io.place import CasePlace, Place
 
     runtime.check(arch, threads)
+    path = None if path is None else path_of("path", path)
     place = CasePlace(path) if case else Place(path, force) if path is not None else Place.fresh(Path("runs"), scene.name)
     with place, _stoppable(place.path, place):
         runtime.start_or_join(arch, threads)
@@ -54,7 +56,7 @@ def open(path: str | PathLike) -> Run:
     one."""
     from tehl_taichi.io.store import Store
 
-    return Run(Store.open(path))
+    return Run(Store.open(folder_of(path)))
 
 
 def resume(path: str | PathLike, *, steps: int | None = None, threads: int | None = None,
@@ -81,11 +83,12 @@ def resume(path: str | PathLike, *, steps: int | None = None, threads: int | Non
     if steps is not None:
         integer("steps", steps, 1, 10**7)
     before, progress = open(path), progress or Progress()
+    path = before.path
     rest = before.rest(steps)
     if rest is None:
         return before
     runtime.check(threads=threads)
-    return _continue(Path(path), rest, threads, began, progress)
+    return _continue(path, rest, threads, began, progress)
 
 
 def completed(scene: Scene, path: str | PathLike, *, threads: int | None = None, progress: Progress | None = None) -> Run:

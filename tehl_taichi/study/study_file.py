@@ -11,6 +11,7 @@ from tehl_taichi.scene import BUILT_INS
 from tehl_taichi.scene.given import check_swept
 from tehl_taichi.study.plan import plan
 from tehl_taichi.values.checks import nearest
+from tehl_taichi.values.file_ending import ending
 from tehl_taichi.values.plain import shown
 
 KNOWN = ("scene", "set", "over", "together", "samples", "seed")
@@ -19,7 +20,7 @@ KNOWN = ("scene", "set", "over", "together", "samples", "seed")
 def is_study_file(path):
     """Whether it is TOML that sweeps: a scene file has no table [over] or [[together]]."""
     path = Path(path)
-    if path.suffix != ".toml" or not path.is_file():
+    if ending(path) != ".toml" or not path.is_file():
         return False
     try:
         return bool({"over", "together"} & tomllib.loads(files.text(path)).keys())
@@ -38,20 +39,15 @@ def load(path):
     for key in data:
         if key not in KNOWN:
             raise SceneError(f"unknown key {shown(key)} in {path}{nearest(key, KNOWN)}; known: {', '.join(KNOWN)}")
-    over = {key: _listed(key, values) for key, values in _flat(_table(data, "over")).items()}
+    toml_file.check_brackets(path, data, one=("set", "over"), several=("together",))
+    over = {key: _listed(key, values) for key, values in _flat(data.get("over", {})).items()}
     for group in data.get("together", []):
         columns = {key: _listed(key, values) for key, values in _flat(group).items()}
         over[tuple(columns)] = _rows(columns)
-    changes = _flat(_table(data, "set"))
+    changes = _flat(data.get("set", {}))
     check_swept(changes, [key for keys in over for key in ((keys,) if isinstance(keys, str) else keys)])
     scene = find_changed(_scene_name(data.get("scene", "gear"), path.parent), changes)
     return plan(scene, over, data.get("samples"), data.get("seed"))
-
-
-def _table(data, key):
-    if not isinstance(data.get(key, {}), dict):
-        raise SceneError(f"[{key}] must be a table of keys and values, not {shown(data[key])}")
-    return data.get(key, {})
 
 
 def _flat(table, above=""):
@@ -77,4 +73,4 @@ def _rows(columns):
 def _scene_name(name, folder):
     if not isinstance(name, str):
         raise SceneError(f"scene = {shown(name)} must be the name of a built-in scene or of a scene file")
-    return name if name in BUILT_INS else str(folder / name) if name.endswith(".toml") else name
+    return name if name in BUILT_INS else str(folder / name) if ending(name) == ".toml" else name

@@ -6,6 +6,7 @@
     STUDY/cases/0001.zarr             the store of a case
 """
 
+import contextlib
 import csv
 import io
 import json
@@ -20,13 +21,14 @@ from tehl_taichi.commit import commit
 from tehl_taichi.disk.files import blamed, reason, replace, text
 from tehl_taichi.disk.held import Held, held
 from tehl_taichi.disk.outputs import check_outside
-from tehl_taichi.errors import StoreError, extra
-from tehl_taichi.io.intact import ROOT
+from tehl_taichi.errors import SceneError, StoreError, extra
+from tehl_taichi.io.intact import ROOT, lacking
 from tehl_taichi.study import case_records as records
 from tehl_taichi.study import flat
 from tehl_taichi.study.plan import ONE, Plan, unit
 from tehl_taichi.study.typed import all_numbers, word
 from tehl_taichi.values.escape import cell
+from tehl_taichi.values.plain import shown
 
 TABLE, CASES, PLAN = "table.csv", "cases", "study"  # PLAN: the attribute that makes a group a study
 SHARE = 0.05  # of the time, at most, goes into writing table and arrays
@@ -56,8 +58,11 @@ class Study(Held):
             raise StoreError(f"{path} is not a study of tehl sweep")
         try:
             return cls(path, Plan.from_text(attrs[PLAN]))
-        except (ValueError, KeyError, TypeError) as error:
-            raise StoreError(f"{path} is damaged: its plan cannot be read ({error})") from None
+        except (ValueError, KeyError, TypeError, AttributeError, IndexError) as error:
+            if said := lacking(_scene_text(attrs[PLAN])):
+                raise StoreError(f"{path} needs {said}") from None
+            said = error if isinstance(error, SceneError) else f"{shown(attrs[PLAN])} is not as this program writes it"
+            raise StoreError(f"{path} is damaged: its plan cannot be read ({said})") from None
 
     @classmethod
     def write(cls, path, plan):
@@ -81,9 +86,21 @@ class Study(Held):
     def _locked(cls, path, plan, lock):
         records.mend(path)
         study = cls(path, plan, lock)
-        (path / CASES).mkdir(exist_ok=True)
+        with study._told():
+            if attributes(path) is None:
+                study._publish()  # whatever ends the rest, the same command knows it for its own
+            (path / CASES).mkdir(exist_ok=True)
         study.flush()
         return study
+
+    @contextlib.contextmanager
+    def _told(self):
+        """What a disk refuses (full, read-only), as a StoreError."""
+        try:
+            yield
+        except OSError as error:
+            raise StoreError(f"cannot write to {self.path}: {reason(error)}; what is stored stays, the same command goes on") \
+                from None
 
     def close(self):
         """Write what is not written yet, and let others write."""
@@ -139,14 +156,11 @@ class Study(Held):
 
     def add(self, record):
         """Keep the record of a case that ended; the table follows now and then. Raises StoreError."""
-        try:
+        with self._told():
             records.append(self.path, record)
-            self._take(record)
-            if time.monotonic() >= self.due:
-                self.flush()
-        except OSError as error:
-            raise StoreError(f"cannot write to {self.path}: {reason(error)}; what is stored stays, the same command goes on") \
-                from None
+        self._take(record)
+        if time.monotonic() >= self.due:
+            self.flush()
 
     def _take(self, record):
         n = record["case"]
@@ -157,7 +171,11 @@ class Study(Held):
             self.values.setdefault(name, np.full(len(self), np.nan))[n] = value
 
     def flush(self):
-        """Write arrays and CSV as they are now."""
+        """Write arrays and CSV as they are now. Raises StoreError."""
+        with self._told():
+            self._flush()
+
+    def _flush(self):
         started = time.monotonic()
         group = zarr.open_group(str(self.path), mode="a", zarr_format=3)
         if not self.written:
@@ -235,6 +253,14 @@ class Study(Held):
         from tehl_taichi.study import study_figures
 
         return study_figures.write_all(self, folder or beside(self.path), quantity, Page(format, dpi, width, force))
+
+
+def _scene_text(plan):
+    """The scene in the text of a plan, as JSON; "" where there is none."""
+    try:
+        return json.dumps(json.loads(plan)["scene"])
+    except (TypeError, ValueError, KeyError):
+        return ""
 
 
 def is_study(path):

@@ -13,8 +13,9 @@ from pathlib import Path
 import numpy as np
 
 from tehl_taichi.disk import npy, sizes
-from tehl_taichi.errors import SceneError, extra
+from tehl_taichi.errors import SceneError, brief, extra
 from tehl_taichi.scene.maps import height_text, map_coordinates, map_holes
+from tehl_taichi.values.file_ending import ending
 
 UNITS = {"nm": 1e-9, "um": 1e-6, "mm": 1e-3, "m": 1.0}  # of the heights in a file, m
 LEVELS = {"none": "nothing", "mean": "mean", "plane": "plane", "form": "plane and curvature"}  # level: what it takes off
@@ -22,6 +23,7 @@ MICRO = str.maketrans({"\u00b5": "u", "\u03bc": "u"})  # micro sign and Greek mu
 _known = weakref.WeakValueDictionary()  # sha256 -> heights, as long as a feature holds them
 _skipped = {}  # sha256 -> what of its file was no height, in words
 _spacing = {}  # sha256 -> distances of the coordinates in its file
+UNKNOWN_FILE = ("CannotDetectFileFormat", "UnknownFileFormat")  # errors of SurfaceTopography that list every reader
 TEXT = (".csv", ".txt", ".asc")  # endings of files of text
 POINTS = f"a list of x, y and z is not read: export the heights as a grid, a row of numbers a line ({', '.join(TEXT)}, .npy)"
 
@@ -97,17 +99,17 @@ def _check_holes(file, values):
 
 
 def _load(path):
-    sizes.check(12 * path.stat().st_size * (path.suffix in TEXT), f"{path}, read as heights,")  # 2 letters a number, 3 copies
+    sizes.check(12 * path.stat().st_size * (ending(path) in TEXT), f"{path}, read as heights,")  # 2 letters a number, 3 copies
     try:
-        if path.suffix == ".npy":
+        if ending(path) == ".npy":
             values = npy.load(path)
             if values.dtype.kind not in "fiu":
                 raise ValueError(f"it holds {values.dtype}, not numbers")
             return height_text.Table(values.astype(float))
-        if path.suffix in TEXT:
+        if ending(path) in TEXT:
             return height_text.read(path)
     except (ValueError, OSError, EOFError) as error:
-        raise SceneError(f"cannot read heights from {path}: {error}") from None
+        raise SceneError(f"cannot read heights from {path}: {brief(error)}") from None
     return height_text.Table(_surface_topography(path))
 
 
@@ -120,11 +122,18 @@ def _surface_topography(path):
     try:
         return np.ma.filled(np.ma.asarray(SurfaceTopography.read_topography(str(path)).heights(), float), math.nan).T
     except Exception as error:
-        raise SceneError(f"cannot read heights from {path}: {error}{_points(path)}") from None
+        raise SceneError(f"cannot read heights from {path}: {_told(error, path)}{_points(path)}") from None
+
+
+def _told(error, path):
+    """What a reader of instruments' files says; where none knows the file, all that it tried is of no use to anybody."""
+    if type(error).__name__ in UNKNOWN_FILE:
+        return f"none of the formats that SurfaceTopography reads; export it as text ({', '.join(TEXT)}) or .npy"
+    return brief(error)
 
 
 def _points(path):
-    return f"; {POINTS}" if path.suffix == ".xyz" else ""
+    return f"; {POINTS}" if ending(path) == ".xyz" else ""
 
 
 def levelled(values, level):
