@@ -24,7 +24,7 @@ def sentence(call):
     return str(caught.value)
 
 
-PATCH = dict(height=1e-7, extent_x=300e-6, taper=20e-6)
+PATCH = dict(height=1e-7, extent_x=300e-6, taper=10e-6)
 NARROW, WIDE = 3.9 * CELL, 4.1 * CELL
 COARSE = {
     "bump": (dict(width=NARROW), "feature.width", "nx"), "ridge": (dict(shape="ridge", width=NARROW), "feature.width", "nx"),

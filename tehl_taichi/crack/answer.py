@@ -40,13 +40,13 @@ class CrackResult:
 def run(scene, reader, wanted):
     """:class:`CrackResult` of a passage of `scene`; reader: see :func:`plane_of`, or a list of snapshots. Raises SceneError."""
     reader = Snapshots(reader) if isinstance(reader, list) else reader
-    plane = plane_of(scene, reader, wanted.residual)
+    plane = plane_of(scene, reader, wanted.residual, check=lambda *extent: _check_places(*extent, wanted))
     return follow(plane, scene, wanted)
 
 
 def follow(plane, scene, wanted):
     """:class:`CrackResult` in a given plane of stresses."""
-    _check_places(plane, wanted)
+    _check_places(plane.x, plane.depths[-1], wanted)
     E_star, sides, told = scene.body_a.E / (1 - scene.body_a.nu**2), {}, {}
     for name in wanted.sides:
         begun = start(plane, name, wanted.start)
@@ -66,15 +66,16 @@ def _why_not(plane, side):
     return "nothing pulls the surface on this side, so a crack would never open"
 
 
-def _check_places(plane, wanted):
-    x = plane.x[0] if wanted.start is None else wanted.start
-    if not plane.x[0] <= x <= plane.x[-1]:
-        raise SceneError(f"start = {x:g} m is outside the stresses that are known; allowed: {plane.x[0]:.3g} to "
-                         f"{plane.x[-1]:.3g} m")
-    tip = x + wanted.first * np.exp(1j * np.radians(wanted.angle))
-    if wanted.start is not None and not plane.holds(tip):
-        raise SceneError(f"first = {wanted.first:g} m from start = {x:g} m leads out of the stresses that are known (to "
-                         f"{plane.x[-1]:.3g} m along x, {plane.depths[-1]:.3g} m deep)")
+def _check_places(places, deepest, wanted):
+    """Refuse a mouth or a first piece outside the stresses at these x' (m), down to `deepest` (m)."""
+    (low, high), x = places[[0, -1]], wanted.start
+    if x is not None and not low <= x <= high:
+        raise SceneError(f"start = {x:g} m is outside the stresses that are known; allowed: {low:.3g} to {high:.3g} m")
+    tip = (x or 0.0) + wanted.first * np.exp(1j * np.radians(wanted.angle))
+    if not (low <= tip.real <= high and tip.imag <= deepest):
+        mouth = f" from start = {x:g} m" if x is not None else ""
+        raise SceneError(f"first = {wanted.first:g} m{mouth} leads out of the stresses that are known (to {high:.3g} m along "
+                         f"x, {deepest:.3g} m deep)")
 
 
 def _common(scene, wanted):

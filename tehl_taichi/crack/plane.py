@@ -72,10 +72,11 @@ def principal(stress):
     return (xx + zz) / 2 + np.hypot((xx - zz) / 2, xz), 0.5 * np.arctan2(2 * xz, xx - zz)
 
 
-def plane_of(scene, reader, residual=None):
+def plane_of(scene, reader, residual=None, check=None):
     """The :class:`Plane` of a stored passage; reader: see :class:`tehl_taichi.fatigue.histories.Passage`.
 
-    residual: Pa or (depth, Pa) rows, instead of the scene's fatigue.residual_xx. Raises SceneError where nothing passes, y = 0
+    residual: Pa or (depth, Pa) rows, instead of the scene's fatigue.residual_xx. check(x', deepest): called with its extent
+    (m) before any stress is computed. Raises SceneError where nothing passes, y = 0
     is no plane of symmetry, or a stress is no number.
     """
     feature, centres = _checked(scene, reader)
@@ -84,6 +85,8 @@ def plane_of(scene, reader, residual=None):
     skin = SKIN * min(feature.reach, passage.a)
     count = int(np.ceil(np.log1p(DEEPEST * passage.a / skin) / np.log(GROWTH))) + 1
     depths = skin * (GROWTH ** np.arange(count) - 1)
+    if check:
+        check(passage.x, depths[-1])
     stress = histories_of(passage, depths, [(0, False)])[0][..., KEPT].swapaxes(0, 1)
     if not np.isfinite(stress).all():
         raise SceneError("the stored tractions are no numbers somewhere, so the stresses below are none either")

@@ -32,6 +32,16 @@ def total_steps(scene):
     return steps if scene.time.steps == ALL else min(steps, scene.time.steps)
 
 
+def moments(scene):
+    """(how many stored moments fatigue.from_x and to_x leave, position in a of the first step and of the last)."""
+    (start, _), steps, every = scene.path, total_steps(scene), scene.output.every
+    end, apart = start + steps * step_length(scene), every * step_length(scene)
+    first = max(0, math.ceil((max(scene.fatigue.from_x, start) - start) / apart - 1e-9))
+    last = math.floor((min(scene.fatigue.to_x, end) - start) / apart + 1e-9)
+    beside = steps % every > 0 and scene.fatigue.from_x <= end <= scene.fatigue.to_x  # the last step is stored in any case
+    return max(0, last - first + 1) + beside, start, end
+
+
 def cut_at(scene):
     """Position (a) at which the passage ends although its features still are in the contact, else None."""
     if not scene.transient:

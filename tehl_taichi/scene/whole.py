@@ -26,7 +26,7 @@ from tehl_taichi.scene.parts import (
     Thermal,
     Time,
 )
-from tehl_taichi.scene.route import LATEST, cut_at
+from tehl_taichi.scene.route import LATEST, cut_at, moments, total_steps
 from tehl_taichi.scene.speeds import of_surfaces
 from tehl_taichi.values.checks import build, file_name, nearest, number
 from tehl_taichi.values.meant import meant
@@ -84,6 +84,7 @@ class Scene:
         self._check_path()
         self._check_room()
         passing.check(self)
+        self._check_window()
 
     def _check_kinds(self):
         """Each part of its own kind, the features a tuple."""
@@ -132,6 +133,16 @@ class Scene:
                                  f"undeformed gap of {gap:.3g} m, smaller than the height of a feature, {highest:.3g} m; "
                                  f"allowed: a height of at most {gap:.2g} m, more load{farther}"
                                  f"{self.load_meant(need / min(abs(end), domain.INLETS[0])) or self._form_words()}")
+
+    def _check_window(self):
+        """Some moments must be left of the passage."""
+        if not self.fatigue_wanted or total_steps(self) == 0:
+            return
+        count, start, end = moments(self)
+        if count < 2:
+            f = self.fatigue
+            raise SceneError(f"fatigue.from_x = {f.from_x:g} a to fatigue.to_x = {f.to_x:g} a leaves {count} stored moments "
+                             f"of the passage, which goes from {start:.2f} to {end:.2f} a; allowed: a window of two at least")
 
     def _form_words(self):
         """What is said of the form of a measured feature, which makes it higher than it need be."""
