@@ -25,7 +25,7 @@ def contact(kind, M, columns):
     light = M <= 20
     changes = {"thermal.on": False, "rheology.law": "newtonian", "oil.name": "moes-test-fluid", "contact.moes_M": M,
                "contact.moes_L": L, "grid.nx": columns if kind == "point" else 2 * columns, "grid.ny": columns // 2,
-               "grid.x_min": -4.5 if light else -2.5}
+               "grid.x_min": -4.5 if light else -2.5, "grid.inlet": "starved"}  # as their domains end
     if kind == "point":
         changes |= {"contact.kind": "point", "contact.radius_y": 10.6e-3, "grid.y_max": 3.0 if light else 2.0}
     return tehl.scene("smooth-line").replace(**changes)
