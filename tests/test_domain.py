@@ -220,9 +220,9 @@ def test_a_wanted_error_sees_the_domain():
 
 
 def test_bars_hold_both_parts_and_are_none_where_either_leaves_nothing():
-    found = Share(film=0.1, friction=1e-3)
+    found = Share(film=0.1, thinnest=0.17, friction=0.3, before=1e-3)
     values = {"h_c_m": 1e-6, "h_min_m": 2e-7, "p_max_Pa": 1e9, "friction_coefficient": 0.02, "film_max_C": 140.0}
-    grid = {"h_c_m": 1e-8, "h_min_m": 1.9e-7, "p_max_Pa": None, "friction_coefficient": 1e-4, "film_max_C": 1.0}
+    grid = {"h_c_m": 1e-8, "h_min_m": 1.8e-7, "p_max_Pa": None, "friction_coefficient": 1e-4, "film_max_C": 1.0}
     whole, unknown, parts = widened(grid, {"p_max_Pa": "why"}, values, found, 90.0)
     assert whole["h_c_m"] == pytest.approx(1e-8 + 1e-7) and whole["p_max_Pa"] is None and unknown["p_max_Pa"] == "why"
     assert whole["h_min_m"] is None and "as large as the number" in unknown["h_min_m"]
@@ -258,4 +258,4 @@ def test_ends_that_are_far_enough_are_not_told():
     steady["error_parts"]["h_c_m"]["domain"] = 4e-9
     assert len([*domain_judge.short(store, summary)]) == 1  # larger than that of the grid, and the user's own
     assert not [*domain_judge.short(store, {**summary, "domain": {"auto": True}})]
-    assert math.isclose(Share.from_values(Share(0.1, 0.2, 3.0, 0.4).values()).lost, 0.4) and not Share.from_values({}).film
+    assert math.isclose(Share.from_values(Share(0.1, lost=0.4).values()).lost, 0.4) and not Share.from_values({}).film
