@@ -1,9 +1,11 @@
 """Positions from the table of a loaded tooth contact analysis (CSV)."""
 
 import csv
+import io
 import math
 from pathlib import Path
 
+from tehl_taichi.disk import files
 from tehl_taichi.errors import SceneError
 from tehl_taichi.flank.positions import Position
 from tehl_taichi.values.checks import nearest
@@ -22,7 +24,7 @@ def load(path):
     `more`, a column `point` names positions. Raises SceneError."""
     path = Path(path)
     try:
-        with path.open(newline="", encoding="utf-8-sig") as file:
+        with io.StringIO(files.content(path).decode("utf-8-sig"), newline="") as file:
             rows = csv.DictReader(file, skipinitialspace=True)
             found = [_position(path, n, row) for n, row in enumerate(_complete(path, rows), 2)]
     except (OSError, UnicodeDecodeError, csv.Error) as error:

@@ -36,12 +36,12 @@ def read(path, dtype, count):
     except FileNotFoundError:
         raise StoreError(f"{path} is missing: the store is damaged") from None
     except (OSError, RuntimeError, ValueError) as error:
-        raise StoreError(f"{path} is damaged ({error}); what it held is lost") from None
+        raise StoreError(f"{path} is damaged ({getattr(error, 'strerror', error)}); what it held is lost") from None
 
 
 def declared(frame):
     """Bytes that a frame of zstd declares, None where it does not say."""
-    if frame[:4] != MAGIC or len(frame) < 18:
+    if frame[:4] != MAGIC or len(frame) < 6:
         return None
     kind, alone = frame[4] >> 6, frame[4] >> 5 & 1
     begin, size = 5 + (1 - alone) + ID[frame[4] & 3], SIZES.get(kind, alone)
@@ -61,7 +61,8 @@ def whole(folder):
     except StoreError:
         raise
     except Exception as error:  # zarr and its codecs have no common one
-        raise StoreError(f"{folder} is damaged or missing ({' '.join(str(error).split())})") from None
+        why = getattr(error, "strerror", None) or " ".join(str(error).split())
+        raise StoreError(f"{folder} is damaged or missing ({why})") from None
 
 
 def check(folder):

@@ -24,6 +24,7 @@ from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.pressure.newton import PressureSolver
 from tehl_taichi.pressure.one_temperature import OneTemperature
 from tehl_taichi.pressure.storage import Storage
+from tehl_taichi.scene import demand
 from tehl_taichi.scene.parts import AUTO
 from tehl_taichi.scene.passing_words import where
 from tehl_taichi.scene.route import step_cells, total_steps
@@ -41,8 +42,10 @@ def march(scene, state=None):
     """Yield a Snapshot per time step, from the steady start or after the snapshot whose `state` is given (to be taken from it
     before the next one is asked for).
 
-    Raises NotConverged when a step fails for good. The same state gives the same following steps, bit for bit.
+    Raises SceneError where there is no room for the grid, NotConverged when a step fails for good. The same state gives the
+    same following steps, bit for bit.
     """
+    demand.check(scene)
     scales = Scales.of(scene)
     if state is None:
         first = steady_snapshot(scene, scales)

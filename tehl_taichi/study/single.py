@@ -42,9 +42,11 @@ def _run(scene, path, force, threads, arch, progress, case=False):
     began = time.perf_counter()
     from tehl_taichi.engine import runtime
     from tehl_taichi.io.place import CasePlace, Place
+    from tehl_taichi.scene import demand
 
     runtime.check(arch, threads)
     path = None if path is None else path_of("path", path)
+    demand.check(scene)
     place = CasePlace(path) if case else Place(path, force) if path is not None else Place.fresh(Path("runs"), scene.name)
     with place, _stoppable(place.path, place):
         runtime.start_or_join(arch, threads)
@@ -118,7 +120,9 @@ def _continue(path, scene, threads, began, progress):
     """Go on with the store at `path` to the end of `scene`."""
     from tehl_taichi.engine import runtime
     from tehl_taichi.io.store import Store
+    from tehl_taichi.scene import demand
 
+    demand.check(scene)
     with _stoppable(path), Store.write(path) as saved:
         steady = {name: saved.needed(name) for name in ("steady_error", "steady_unknown")}
         steady |= {name: saved.known(name) for name in ("steady_parts", "steady_domain")}
