@@ -55,7 +55,7 @@ def sweep(
     plan, out = _planned(scene, over or [], samples, seed, changes, grid, out)
     out = out or many.default_path(plan)
     if dry_run:
-        many.checked(workers, threads_per_worker, scheduler, keep)
+        many.checked(workers, threads_per_worker, scheduler, keep, connect=False)
         return _tell(plan, out)
     _check_count(plan, yes)
     for sentence in _doubts(plan):

@@ -6,7 +6,7 @@ import signal
 import threading
 import uuid
 
-from tehl_taichi.errors import RuntimeUnavailable, StoreError, extra
+from tehl_taichi.errors import RuntimeUnavailable, StoreError, brief, extra
 from tehl_taichi.study.job import Lost, in_one_thread
 
 AHEAD, LEAST = 3, 16  # jobs that the scheduler knows, for each worker and at least: memory stays bounded, nobody waits
@@ -95,8 +95,8 @@ def _client(distributed, workers, scheduler):
 def _connected(distributed, scheduler):
     try:
         return distributed.Client(scheduler, timeout=PATIENCE)
-    except (OSError, ValueError, TimeoutError) as error:
-        raise StoreError(f"no scheduler answers at {scheduler}: {' '.join(str(error).split())}; `dask scheduler` starts one "
+    except Exception as error:  # whatever answers there need not be Dask, and what it says is read as lengths of messages
+        raise StoreError(f"no scheduler answers at {scheduler}: {brief(error)}; `dask scheduler` starts one "
                          "and prints its address") from None
 
 

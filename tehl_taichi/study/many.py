@@ -73,15 +73,16 @@ def run(plan, path=None, *, workers=None, threads_per_worker=None, scheduler=Non
     return study
 
 
-def checked(workers=None, threads_per_worker=None, scheduler=None, keep="stores"):
-    """(processes, threads of each) of a sweep, as :func:`tehl_taichi.study.pool.sizes` gives them. Raises SceneError and
-    RuntimeUnavailable where no sweep can have them."""
+def checked(workers=None, threads_per_worker=None, scheduler=None, keep="stores", connect=True):
+    """(processes, threads of each) of a sweep, as :func:`tehl_taichi.study.pool.sizes` gives them; connect: a scheduler is
+    asked whether it is there. Raises SceneError and RuntimeUnavailable where no sweep can have them."""
     from tehl_taichi.study import pool
     from tehl_taichi.values.checks import choice
 
     choice("--keep", keep, KEEP)
     workers, threads = pool.sizes(workers, threads_per_worker, scheduler)
-    pool.check(workers, threads, scheduler)
+    if connect or scheduler is None:
+        pool.check(workers, threads, scheduler)
     return workers, threads
 
 
