@@ -6,7 +6,7 @@ from typing import List, Optional
 import typer
 from tehl_cli.changes import GRIDS, check_rows, given_by
 from tehl_cli.live import Live, say
-from tehl_cli.out import print_json
+from tehl_cli.out import print_json, put
 
 
 def register(app):
@@ -43,6 +43,7 @@ def run(
                                         "how long the passage would take); `tehl resume` goes on"),
     out: Optional[Path] = typer.Option(None, help="store to write (default: runs/SCENE-N.zarr)"),
     force: bool = typer.Option(False, "--force", help="replace an existing store, as soon as the new one has its first entry"),
+    dry_run: bool = typer.Option(False, "--dry-run", help="tell what would run, and stop"),
     arch: str = typer.Option("cpu", help="cpu, or cuda: a graphics card, slower by now"),
     threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
     precision: Optional[str] = typer.Option(None, help="of the linear solves: f32, f64 or auto (f32 for thick films); the "
@@ -68,6 +69,8 @@ def run(
     description = find_changed(scene, changes)
     check_rows(grid, changes, lambda: description)
     description = _on_grid_for(target_error, changes, description)
+    if dry_run:
+        return _tell_scene(description)
     with Live(quiet, curves) as live:
         done = tehl.run(description, out, force=force, threads=threads, arch=arch, progress=live)
     _print(done, as_json, description.warnings())
@@ -109,6 +112,21 @@ def _print(run, as_json, said=()):
     from tehl_cli.listing import summary_table
 
     print_json(run.summary) if as_json else summary_table(run.summary, said)
+
+
+def _tell_scene(scene):
+    """What would run: the contact, its film by formula, grid and steps, what passes, what is left out or doubtful."""
+    from tehl_taichi.scene.film_formula import central_film, formula_words
+    from tehl_taichi.scene.judge import preview
+    from tehl_taichi.scene.route import total_steps
+    from tehl_taichi.scene.scales import Scales
+
+    put(f"{scene.name}: {Scales.of(scene).words}")
+    put(f"h_c by formula: {central_film(scene) * 1e6:.4f} um ({formula_words(scene)})")
+    put(f"{scene.grid.nx} x {scene.rows} cells, {total_steps(scene)} steps")
+    for line in (*preview(scene), *(f"left out: {one}" for one in scene.left_out()), *(f"warning: {one}" for one in
+                                                                                     scene.warnings())):
+        put(line)
 
 
 def _tell_time(done):

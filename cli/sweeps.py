@@ -101,9 +101,12 @@ def _check_count(plan, yes):
 
 def _tell(plan, out):
     """What would run."""
+    from tehl_taichi.scene.scales import Scales
+
     refused = plan.refused()
     shape = f" ({' x '.join(map(str, plan.shape))})" if len(plan.shape) > 1 else ""
     put(f"{plan.count} cases{shape} of {plan.scene.name} into {out}")
+    put(f"{plan.scene.name}: {Scales.of(plan.scene).words}")
     for key in plan.keys:
         values = [str(value) for value in plan.coordinate(key)[1]]
         put(f"{key} = {', '.join(values[:12])}{' ...' if len(values) > 12 else ''}")

@@ -142,7 +142,7 @@ def test_a_run_shows_itself_as_a_table_and_in_figures(done, tmp_path):
     shown = run._repr_html_()
     assert f"<td>{run.summary['transient']['p_max_Pa'] / 1e9:.3g} GPa (error unknown)</td>" in shown
     film = f"{run.summary['steady']['film_formula_m'] * 1e6:.4f} um"
-    assert f"<td>h_c by formula (isothermal, Newtonian)</td><td>{film}</td>" in shown  # a heated film is thinner: say so
+    assert f"isothermal, Newtonian, heavy load: within 16%)</td><td>{film}</td>" in shown
     assert "<li>passage cut" in shown and "gear: 4 steps" in shown
     data = run.to_xarray()
     assert data.pressure.dims == ("time", "x", "y") and float(data.p_max_Pa[4]) == run.store.scalar("p_max_Pa")[4]

@@ -4,6 +4,7 @@ import numpy as np
 
 from tehl_taichi.figures import palette
 from tehl_taichi.figures.line_figures import ALONG, SURFACES, carrier
+from tehl_taichi.scene.scales import Scales
 
 LEAST, LEAST_TALL = 5.0, 3.4  # cm that a map needs to stand beside another
 TALL = 0.9                    # height over width, beyond it the second
@@ -28,8 +29,14 @@ def panels(page, moments, count):
     for ax in axes[-1]:
         ax.set_xlabel(ALONG)
     for ax in axes[:, 0]:
-        ax.set_ylabel("y / a")
+        ax.set_ylabel(f"y / a{_half_axis(moments.store.scene)}")
     return figure, axes.ravel(), beside
+
+
+def _half_axis(scene):
+    """Behind y / a: how long the half-axis b of an ellipse is."""
+    s = Scales.of(scene)
+    return f" (b = {s.b / s.a:.3g} a)" if scene.contact.kind == "elliptic" else ""
 
 
 def draw_map(ax, moments, values, title, **style):

@@ -9,7 +9,7 @@ from tehl_taichi.march.companions import CONTACT, FI, indices
 from tehl_taichi.march.readings import HEAT
 from tehl_taichi.physics import conduction
 from tehl_taichi.physics.law import beyond
-from tehl_taichi.scene.film_formula import central_film
+from tehl_taichi.scene.film_formula import central_film, formula_words, spread
 from tehl_taichi.scene.scales import Scales, peclet
 from tehl_taichi.values.chosen import Chosen
 
@@ -24,7 +24,7 @@ def summarise(store, extra, fatigue=None):
     out = {"scene": scene.name, "version": __version__, "store": str(store.path), "converged": True,
            "wall_s": extra["wall_s"], "compile_s": extra["compile_s"], "steps": int(store.series["step"][len(store) - 1]),
            **counts(store),
-           "hertz": {"a_m": scales.a, "p_Pa": scales.p_H}, **_peclet(scene, scales), "domain": domain_of(scene),
+           "hertz": _hertz(scales), **_peclet(scene, scales), "domain": domain_of(scene),
            "left_out": scene.left_out(),
            "steady": _steady(store, extra)}
     if len(store) > 1:
@@ -85,11 +85,18 @@ def _clamps(store):
             **({"temperatures held inside the allowed range": held} if held else {})}
 
 
+def _hertz(scales):
+    """Half-axes and pressure of the dry contact; b along y where it ends there."""
+    across = {} if scales.line else {"b_m": scales.b}
+    return {"a_m": scales.a, **across, "p_Pa": scales.p_H}
+
+
 def _steady(store, extra):
     names = ["h_c_m", "h_min_m", "p_max_Pa", "load_error", "mass_error", "friction_coefficient"]
     names += [] if store.scene.isothermal else HEAT
     out = {name: float(store.scalar(name)[0]) for name in names}
     out["film_formula_m"], out["ripple_Pa"] = central_film(store.scene), worst_ripple(store, [0])[0][0]
+    out["film_formula"], out["film_formula_spread"] = formula_words(store.scene), spread(store.scene)
     out["error"], out["unknown"] = extra["steady_error"], extra.get("steady_unknown", {})
     out["error_parts"] = extra.get("steady_parts", {})
     return {**out, **_before(extra.get("steady_domain", {}))}

@@ -53,11 +53,13 @@ def rows_of(summary):
     """A list of :class:`Row` of the summary of a finished run."""
     steady, hertz = summary["steady"], summary["hertz"]
     rows = [Row("Hertz half-width a", f"{hertz['a_m'] * 1e3:.4f} mm", hertz["a_m"]),
+            *([Row("Hertz half-axis b, across", f"{hertz['b_m'] * 1e3:.4f} mm", hertz["b_m"])] if "b_m" in hertz else []),
             Row("Hertz pressure p_H", f"{hertz['p_Pa'] / 1e9:.4f} GPa", hertz["p_Pa"]),
             *(_of(steady, key, name, factor, unit) for key, name, factor, unit in STEADY)]
     if "film_formula_m" in steady:
         formula = steady["film_formula_m"]
-        rows.append(Row("h_c by formula (isothermal, Newtonian)", f"{formula * 1e6:.4f} um", formula))
+        by = steady.get("film_formula", "isothermal, Newtonian")
+        rows.append(Row(f"h_c by formula ({by})", f"{formula * 1e6:.4f} um", formula))
     rows.append(_of(steady, "friction_coefficient", "steady friction coefficient"))
     rows += _peclet_rows(summary) + _heat_rows("steady", steady) + _passage_rows(summary)
     rows.append(Row("run time", f"{summary['wall_s']:.1f} s (kernels {summary['compile_s']:.1f} s)", summary["wall_s"]))

@@ -26,7 +26,14 @@ def _contact(scene):
     c, s = scene.contact, Scales.of(scene)
     side = "" if c.kind != "elliptic" else f" along x and {told(c.radius_y, unit='m')} across"
     return (f"A {c.kind} contact of reduced radius {told(c.radius_x, unit='m')}{side} carries {_load(scene)}: Hertz pressure "
-            f"{told(s.p_H, unit='Pa')}, half-width {told(s.a, unit='m')}. {_bodies(scene)}")
+            f"{told(s.p_H, unit='Pa')}, {_half_axes(s)}. {_bodies(scene)}")
+
+
+def _half_axes(s):
+    """Of the dry contact: along x, and across where it ends there."""
+    if s.line:
+        return f"half-width {told(s.a, unit='m')}"
+    return f"half-axes {told(s.a, unit='m')} along x and {told(s.b, unit='m')} across"
 
 
 def _load(scene):
@@ -112,7 +119,8 @@ def material(fatigue):
 def numbers(scene):
     """(what, value) of what a reader compares first."""
     s, oil = Scales.of(scene), scene.oil
-    rows = [("Hertz pressure p_H", told(s.p_H, unit="Pa")), ("half-width a", told(s.a, unit="m")), ("load", _load(scene)),
+    rows = [("Hertz pressure p_H", told(s.p_H, unit="Pa")), ("half-width a", told(s.a, unit="m")),
+            *([] if s.line else [("half-axis b, across", told(s.b, unit="m"))]), ("load", _load(scene)),
             ("reduced radius R'", told(s.R, unit="m")), ("reduced modulus E'", told(s.E, unit="Pa")),
             ("mean speed u_m", f"{scene.operation.u_m:.4g} m/s"), ("slide-to-roll ratio", f"{scene.operation.srr:g}"),
             ("inlet temperature", f"{scene.operation.temperature:g} °C"), ("viscosity at the inlet (p = 0)", _inlet(scene)),

@@ -30,6 +30,12 @@ class Scales:
         return self.a / self.u_m
 
     @property
+    def words(self):
+        """The dry contact in words."""
+        across = "" if self.line else f", half-axis b = {self.b * 1e3:.4f} mm across"
+        return f"Hertz contact: half-width a = {self.a * 1e3:.4f} mm{across}, p_H = {self.p_H / 1e9:.4f} GPa"
+
+    @property
     def line(self):
         return self.kind == "line"
 
