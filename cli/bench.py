@@ -35,7 +35,7 @@ FORCE = typer.Option(False, "--force", help="replace the results of an earlier r
 QUICK = typer.Option(False, "--quick", help="small grids, a few steps")
 JSON = typer.Option(False, "--json", help="one JSON object on stdout, that of the file, instead of tables")
 THREADS = typer.Option(None, help="CPU threads (default: all)")
-WORKERS = typer.Option(1, help="processes side by side, which share the cores (more than 1 needs the extra `sweep`)")
+WORKERS = typer.Option(1, help="processes side by side, which share the cores")
 
 
 def stability(

@@ -43,3 +43,29 @@ def cubed(job):
         (Path(folder) / str(deaths)).touch()
         os._exit(1)
     return number**3
+
+
+def sockets(folder):
+    """Tells which ports this worker listens on, then works for long."""
+    import json
+    import os
+    import time
+
+    mine = {os.readlink(path) for path in map(str, Path("/proc/self/fd").iterdir()) if os.path.lexists(path)}
+    rows = [line.split() for name in ("tcp", "tcp6") for line in Path(f"/proc/net/{name}").read_text().splitlines()[1:]]
+    listening = [row[1] for row in rows if row[3] == "0A" and f"socket:[{row[9]}]" in mine]
+    draft = Path(folder) / f"{os.getpid()}.tmp"
+    draft.write_text(json.dumps({"pid": os.getpid(), "listening": listening}))
+    draft.rename(draft.with_suffix(".json"))
+    time.sleep(600)
+
+
+def greedy(megabytes):
+    """Holds so much memory for a while."""
+    import time
+
+    held = bytearray(megabytes * 10**6)
+    for n in range(0, len(held), 4096):
+        held[n] = 1
+    time.sleep(2 if megabytes > 100 else 0)
+    return megabytes

@@ -92,7 +92,6 @@ def test_scenes_of_the_suite_run_through_the_pool(taichi_cpu):
 
 @pytest.mark.slow
 def test_scenes_of_the_suite_run_side_by_side():
-    pytest.importorskip("distributed")
     short = scene("smooth-line").replace(**{"thermal.on": False, "grid.nx": 64})
     chosen = [(f"srr {srr}", short.replace(srr=srr)) for srr in (0.0, 0.1, 0.2)]
     found = {one.name: one.cycles for one in stability.run(chosen, workers=2)}

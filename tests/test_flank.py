@@ -1,6 +1,5 @@
 """A whole flank: its scenes, their runs and stores, tables, files and figure."""
 
-import contextlib
 import csv
 import json
 import math
@@ -18,7 +17,7 @@ from tehl_taichi.flank.described import described
 from tehl_taichi.scene import SceneError, hertz
 from tehl_taichi.scene.gear_pair import gear_pair
 from tehl_taichi.scene.scales import Scales
-from tehl_taichi.study import case, cluster
+from tehl_taichi.study import case
 
 SMALL = {"grid.nx": 64, "grid.ny": 16}
 NAMES = {"x_pl_m", "rho_a_m", "rho_b_m", "R_m", "u_a_m_s", "u_b_m_s", "srr", "load_N_m", "p_Hertz_Pa", "summary"}
@@ -106,12 +105,10 @@ class Heard(tehl.Progress):
 
 
 def test_positions_run_side_by_side_and_those_without_a_result_are_listed(tmp_path, monkeypatch):
-    """Through Dask, in this process and without a solver."""
-    distributed, heard = pytest.importorskip("distributed"), Heard()
+    """In two processes, without a solver."""
+    heard = Heard()
     monkeypatch.setattr(case, "work", position)
-    with distributed.Client(processes=False, n_workers=2, threads_per_worker=1, dashboard_address=None) as client:
-        monkeypatch.setattr(cluster, "_client", lambda *_: contextlib.nullcontext(client))
-        found = tehl.flank("fzg-c", positions=7, steady=True, folder=tmp_path / "f", workers=2, progress=heard)
+    found = tehl.flank("fzg-c", positions=7, steady=True, folder=tmp_path / "f", workers=2, progress=heard)
     assert [at.point for at in found.positions] == ["A", "B-", "B+", "C", "D-", "D+", "E"]
     assert [summary and summary["steady"]["h_c_m"] for *_, summary in found.rows] == \
         [None, *(pytest.approx(at.R) for at in found.positions[1:6]), None]

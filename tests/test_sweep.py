@@ -7,12 +7,13 @@ import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
 from commands import CALL, here
 from commands import process as tehl
-from fake_cases import cubed, formula, square
+from fake_cases import cubed, formula, greedy, square
 
 from tehl_taichi.errors import RuntimeUnavailable, StoreError
 from tehl_taichi.scene import SceneError, scene
@@ -121,12 +122,13 @@ def test_numbers_of_workers():
             pool.sizes(**wrong)
 
 
-def test_without_dask_one_worker_runs_and_several_say_what_is_missing(tmp_path, monkeypatch):
+def test_without_dask_workers_run_and_a_scheduler_says_what_is_missing(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(RuntimeUnavailable, match=r"pip install 'tehl_taichi\[sweep\]'"):
-        many.run(plan(GEAR, OVER), tmp_path / "s.zarr", workers=2, work=formula)
+        many.run(plan(GEAR, OVER), tmp_path / "s.zarr", scheduler="tcp://127.0.0.1:1", work=formula)
     assert list(tmp_path.iterdir()) == []
-    assert many.run(plan(GEAR, OVER), tmp_path / "s.zarr", work=formula).counts["waiting"] == 0
+    made = many.run(plan(GEAR, OVER), tmp_path / "s.zarr", workers=2, work=formula)
+    assert made.counts["waiting"] == 0 and made.results() == many.run(made.plan, made.path, workers=1, work=formula).results()
 
 
 @pytest.fixture(scope="module")
@@ -253,9 +255,45 @@ def test_a_sweep_that_cannot_be_writes_nothing(words, said, tmp_path, monkeypatc
     assert error.exit_code == 2 and said in str(error) and list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.slow
+def test_answers_belong_to_their_jobs():
+    jobs = range(-2, 30)
+    found = dict(pool.results(square, iter(jobs), workers=3))
+    assert [found.pop(n).reason for n in (0, 1)] == ["ValueError: -2 has no place here", "ValueError: -1 has no place here"]
+    assert found == {n: job**2 for n, job in enumerate(jobs) if job >= 0}
+
+
+def test_workers_open_no_port_and_end_with_their_sweep(tmp_path):
+    """A worker hears of its jobs by a pipe; of a killed sweep it is not left."""
+    code = ("import fake_cases, sys; from tehl_taichi.study import pool\n"
+            "if __name__ == '__main__': dict(pool.results(fake_cases.sockets, [sys.argv[1]] * 2, workers=2))")
+    (tmp_path / "script.py").write_text(code)
+    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parent)}
+    run = subprocess.Popen([sys.executable, "script.py", tmp_path], cwd=tmp_path, env=environment)
+    _wait_for(lambda: len(list(tmp_path.glob("*.json"))) == 2)
+    workers = [json.loads(path.read_text()) for path in tmp_path.glob("*.json")]
+    assert all(found["listening"] == [] for found in workers)
+    run.kill()
+    run.wait()
+    _wait_for(lambda: not any(Path(f"/proc/{found['pid']}/cmdline").exists() and _alive(found["pid"]) for found in workers))
+
+
+def _alive(pid):
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+def test_a_worker_that_takes_more_than_its_share_is_ended(monkeypatch):
+    from tehl_taichi.disk import sizes
+
+    monkeypatch.setattr(sizes, "available", lambda: 4e8)  # 190 MB each
+    monkeypatch.setattr("tehl_taichi.study.crew.PAUSE", 0.05)
+    found = dict(pool.results(greedy, [10, 400], workers=2))
+    assert found[0] == 10 and "out of memory" in found[1].reason
+
+
 def test_a_job_over_which_workers_die_is_tried_once_more_then_told_of(tmp_path):
-    pytest.importorskip("distributed")
     jobs = [(number, str(tmp_path)) for number in range(20)]
     found = dict(pool.results(cubed, jobs, workers=2))
     assert isinstance(found.pop(13), pool.Lost) and found == {n: n**3 for n in range(20) if n != 13}
@@ -265,7 +303,6 @@ def test_a_job_over_which_workers_die_is_tried_once_more_then_told_of(tmp_path):
 
 @pytest.mark.slow
 def test_a_sweep_survives_the_death_of_a_worker_and_its_own(tmp_path):
-    pytest.importorskip("distributed")
     small = ("--isothermal", "--grid", "64x16", "--steps", "20")
     words = ("sweep", "gear", "--over", "srr=-0.1,0.1", "--over", "feature.height=0.5e-6,1e-6", *small, "--out", "s.zarr")
     nowhere = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}

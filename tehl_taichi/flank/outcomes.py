@@ -24,8 +24,8 @@ def summaries(scenes, folder, workers=None, threads=None, progress=None):
     """Generator of (number of the scene, its Outcome) as they end, each with a store NAME.zarr in `folder`.
 
     A scene that does not converge, or loses its worker twice, does not stop the others. A store that is there already is gone
-    on with. workers, threads: as :func:`tehl_taichi.study.pool.sizes`. Raises StoreError where a store is of another scene,
-    RuntimeUnavailable where several workers are wanted without Dask; KeyboardInterrupt leaves what is stored.
+    on with. workers, threads: as :func:`tehl_taichi.study.pool.sizes`. Raises StoreError where a store is of another scene;
+    KeyboardInterrupt leaves what is stored.
     """
     places = [(scene, Path(folder) / f"{scene.name}.zarr") for scene in scenes]
     done = {n: outcome for n, place in enumerate(places) if (outcome := _before(*place))}

@@ -40,11 +40,10 @@ def flank(gear: str | PathLike | GearPair = "fzg-c", *, torque: float | None = N
     own; on: "pinion" or "gear", whose flank carries the feature; positions: how many; at: points ("C", "B-") or x_pl in m in
     their place; scene: everything but contact and speeds, or what names one (default: what the file names, or
     "gear"); changes: of that scene, as Scene.replace takes them; steady: no feature passes; folder: of the stores and results
-    (default: runs/NAME-N; one that is there is gone on with); workers: processes side by side (default: one for each core,
-    this one alone without Dask), 1 is this one; threads: of each (default: the cores that `workers` leave, one where nothing is
-    said); progress: as :func:`tehl_taichi.run`. Raises SceneError, StoreError and RuntimeUnavailable (no Dask) before anything
-    runs; a position without a result is in :attr:`Flank.failed`. Workers import the script that calls this: its own calls stand
-    under `if __name__ == "__main__":`.
+    (default: runs/NAME-N; one that is there is gone on with); workers: processes side by side (default: one for each core), 1
+    is this one; threads: of each (default: the cores that `workers` leave, one where nothing is said); progress: as
+    :func:`tehl_taichi.run`. Raises SceneError and StoreError before anything runs; a position without a result is in
+    :attr:`Flank.failed`. Workers import the script that calls this: its own calls stand under `if __name__ == "__main__":`.
 
     >>> import tehl_taichi as tehl
     >>> pitch = tehl.flank("fzg-c", at=["C"], steady=True, changes={"grid.nx": 64, "thermal.on": False}, folder="pitch")

@@ -1,9 +1,7 @@
-"""Dask underneath: workers of our own on this machine, or those of a scheduler that runs already."""
+"""Dask underneath: the workers of a scheduler that runs already."""
 
 import contextlib
 import itertools
-import signal
-import threading
 import uuid
 
 from tehl_taichi.errors import RuntimeUnavailable, StoreError, brief, extra
@@ -12,18 +10,13 @@ from tehl_taichi.study.job import Lost, in_one_thread
 AHEAD, LEAST = 3, 16  # jobs that the scheduler knows, for each worker and at least: memory stays bounded, nobody waits
 PATIENCE = 30  # s to find a scheduler
 AGAIN = ("pending", "lost")  # its worker died with the answer that nobody had fetched yet: another one works it out again
-# of our own cluster. A job whose worker died is given to another one, once; a worker has one job at a time, none waits with it.
-# What grows is stopped at 95 % of its share of the memory; a pause before that would last for ever.
-SETTINGS = {"distributed.scheduler.allowed-failures": 1, "distributed.scheduler.worker-saturation": 1.0,
-            "distributed.worker.memory.target": False, "distributed.worker.memory.spill": False,
-            "distributed.worker.memory.pause": False, "distributed.worker.memory.terminate": 0.95,
-            "distributed.worker.profile.enabled": False, "distributed.comm.timeouts.connect": f"{PATIENCE}s"}
+SETTINGS = {"distributed.comm.timeouts.connect": f"{PATIENCE}s"}
 
 
-def results(work, jobs, workers, scheduler, told):
+def results(work, jobs, scheduler, told):
     """As :func:`tehl_taichi.study.pool.results`."""
     distributed = _distributed()
-    with _client(distributed, workers, scheduler) as client:
+    with _client(distributed, scheduler) as client:
         if not client.nthreads():
             told("no worker has come yet; the first one begins (on any machine: dask worker ADDRESS --nthreads 1)")
         waiting, running, run = iter(enumerate(jobs)), {}, uuid.uuid4().hex[:8]
@@ -67,29 +60,16 @@ def _answer(future):
     return Lost(f"{type(error).__name__}: {error}")
 
 
-def dask_setup(worker):
-    """Dask calls this in every new worker process of our own: Ctrl-C is for the sweep, which then ends its workers."""
-    if threading.current_thread() is threading.main_thread():
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
-
-
 @contextlib.contextmanager
-def _client(distributed, workers, scheduler):
-    """The client of that scheduler, or of a cluster that lives as long as the context."""
+def _client(distributed, scheduler):
+    """The client of that scheduler, or the one that is given."""
     import dask
 
-    if scheduler is not None and not isinstance(scheduler, str):
+    if not isinstance(scheduler, str):
         yield scheduler
         return
-    with dask.config.set(SETTINGS):
-        if scheduler is not None:
-            with contextlib.closing(_connected(distributed, scheduler)) as client:
-                yield client
-            return
-        ours = distributed.LocalCluster(n_workers=workers, threads_per_worker=1, processes=True, silence_logs="CRITICAL",
-                                        dashboard_address="127.0.0.1:0", preload=[__name__])
-        with ours, distributed.Client(ours) as client:
-            yield client
+    with dask.config.set(SETTINGS), contextlib.closing(_connected(distributed, scheduler)) as client:
+        yield client
 
 
 def _connected(distributed, scheduler):
@@ -104,6 +84,6 @@ def _distributed():
     try:
         import distributed
     except ImportError:
-        raise RuntimeUnavailable(f"several workers need Dask: {extra('sweep')}; --workers 1 runs the cases one after the "
-                                 "other without it") from None
+        raise RuntimeUnavailable(f"a scheduler needs Dask: {extra('sweep')}; --workers takes processes of this machine "
+                                 "without it") from None
     return distributed

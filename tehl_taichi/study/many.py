@@ -29,8 +29,8 @@ def sweep(scene: Scene | str | PathLike, over: Mapping, path: str | PathLike | N
 
     A case that does not converge, is refused or loses its worker is in the study with its reason, the others go on. The same
     call again goes on where it stopped and leaves alone what is done. Raises SceneError for what no case can run with,
-    StoreError, RuntimeUnavailable where Dask is wanted and not installed. Workers import the script that calls this: its own
-    calls stand under `if __name__ == "__main__":`.
+    StoreError, RuntimeUnavailable where a scheduler is named and Dask is not installed. Workers import the script that
+    calls this: its own calls stand under `if __name__ == "__main__":`.
 
     >>> import tehl_taichi as tehl
     >>> line = tehl.scene("smooth-line").replace(**{"grid.nx": 32, "thermal.on": False})

@@ -1,9 +1,8 @@
 """Jobs side by side: a list of jobs goes in, what became of each comes out as soon as it is known.
 
-One worker is this process. More of them, or a scheduler somewhere else, are Dask's (:mod:`tehl_taichi.study.cluster`).
+One worker is this process. More of them are processes of our own (:mod:`tehl_taichi.study.crew`), a scheduler somewhere else is
+Dask's (:mod:`tehl_taichi.study.cluster`).
 """
-
-from importlib.util import find_spec
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.study.job import Lost
@@ -19,21 +18,25 @@ def results(work, jobs, *, workers=1, scheduler=None, told=None):
 
     work: a function that other processes can import; it starts the engine itself; jobs: an iterable, drawn from as workers
     come free; workers: processes, 1 is this one, None those of the scheduler: its address, or a distributed.Client; told:
-    called with sentences. Raises RuntimeUnavailable where Dask is wanted and not installed, StoreError where no scheduler
-    answers.
+    called with sentences. Raises RuntimeUnavailable where a scheduler is named and Dask is not installed, StoreError where
+    none answers.
     """
     if workers == 1:
         yield from ((number, work(job)) for number, job in enumerate(jobs))
         return
+    if workers:
+        from tehl_taichi.study import crew
+
+        yield from crew.results(work, jobs, workers)
+        return
     from tehl_taichi.study import cluster
 
-    yield from cluster.results(work, jobs, workers, scheduler, told or (lambda sentence: None))
+    yield from cluster.results(work, jobs, scheduler, told or (lambda sentence: None))
 
 
 def sizes(workers=None, threads=None, scheduler=None, jobs=MOST):
     """(processes, threads of each): one thread on every core, or what the given number leaves of the cores; (1, None) is this
-    process as it is started; (None, threads) a scheduler that runs already. No more processes than jobs, and without Dask one
-    unless more are asked for. Raises SceneError."""
+    process as it is started; (None, threads) a scheduler that runs already. No more processes than jobs. Raises SceneError."""
     from tehl_taichi.engine import cores
 
     if workers is not None and scheduler is not None:
@@ -44,7 +47,7 @@ def sizes(workers=None, threads=None, scheduler=None, jobs=MOST):
     if scheduler is not None:
         return None, threads or 1
     if workers is None:
-        workers = max(1, min(jobs, cores.available() // (threads or 1))) if find_spec("distributed") else 1
+        workers = max(1, min(jobs, cores.available() // (threads or 1)))
         return workers, threads or (1 if workers > 1 else None)
     workers = min(workers, max(1, jobs))
     return workers, threads or (max(1, cores.available() // workers) if workers > 1 else None)
@@ -52,11 +55,11 @@ def sizes(workers=None, threads=None, scheduler=None, jobs=MOST):
 
 def check(workers, threads, scheduler=None):
     """Raise what :func:`results` would raise before its first job, and what this process would at each where it does them."""
-    if workers != 1:
+    if scheduler is not None:
         from tehl_taichi.study import cluster
 
         cluster.check(scheduler)
-    else:
+    elif workers == 1:
         from tehl_taichi.engine import runtime
 
         runtime.check(threads=threads)
