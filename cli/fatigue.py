@@ -38,6 +38,8 @@ def fatigue(
     runtime.check(threads=threads)
     page = Page(format, dpi, width, force)
     run = open_run(store)
+    for sentence in _doubts(run.scene, asked):
+        say(f"warning: {sentence}")
     with Live() as live:
         result = run.fatigue(**asked, threads=threads, progress=live)
     _show(result, as_json)
@@ -46,6 +48,14 @@ def fatigue(
 
         for path in write_fatigue(result, run.scene, figures, page):
             say(str(path))
+
+
+def _doubts(scene, asked):
+    """Of what is asked, what has no effect on this passage."""
+    from tehl_taichi.fatigue.constants import changed
+    from tehl_taichi.scene import acting
+
+    return acting.doubts(changed(scene, {**asked, "on": True}))
 
 
 def _show(result, as_json):

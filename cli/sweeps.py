@@ -118,9 +118,7 @@ def _tell(plan, out):
 
 def _doubts(plan):
     """Of keys without effect: in all cases, and in some of them."""
-    from tehl_taichi.scene import acting
-
-    yield from (f"warning: {sentence}" for sentence in acting.doubts(plan.scene))
+    yield from (f"warning: {sentence}" for sentence in plan.doubts())
     yield from (f"warning: case {number} is the same as case {first}: what differs has no effect there"
                 for number, first in plan.equal().items())
     if some := plan.without_temperatures():

@@ -198,6 +198,21 @@ def test_a_sweep_says_which_cases_are_equal():
     assert law.refused() == {} and law.equal() == {1: 0}
 
 
+def test_a_sweep_tells_what_has_no_effect_in_any_case():
+    found = plan(SCENES["newtonian"].replace(kappa=0.2), {"rheology.gamma": [0.05, 0.08], "srr": [0.1, 0.0]})
+    assert [sentence.split()[0] for sentence in found.doubts()] == ["fatigue.kappa"]  # friction of solid contact needs slip
+    slips = plan(SCENES["newtonian"], {"rheology.gamma": [0.05, 0.08], "srr": [0.1, 0.2]})
+    assert [sentence.split()[0] for sentence in slips.doubts()] == ["rheology.gamma"]
+
+
+def test_fatigue_asked_again_says_it_too():
+    from tehl_cli.fatigue import _doubts
+
+    scene = SCENES["isothermal"].replace(**{"fatigue.on": False})
+    assert list(_doubts(scene, {"kappa": 0.2, "thermal_stress": None})) == []
+    assert [said.split()[0] for said in _doubts(scene, {"kappa": 0.2, "thermal_stress": False})] == ["fatigue.thermal_stress"]
+
+
 def test_a_seed_of_no_samples_is_refused(tmp_path):
     with pytest.raises(SceneError, match="seed = 3 has no effect without samples"):
         plan(GEAR, {"srr": [0.1, 0.2]}, seed=3)

@@ -233,6 +233,6 @@ def test_fatigue_again_with_other_constants(tmp_path):
     assert "0.3, 417.6 MPa" in one and "from the limit in reversed torsion" in one and "400 MPa" in one
     for words, what in ((("--criterion", "finley"), "findley"),
                         (("--torsion-limit", "4e8", "--endurance", "4e8"), "contradict"),
-                        (("--from-x", "9"), "no stored moment"), (("--depths", "a"), "50e-6"), (("--kappa", "-1"), "kappa")):
+                        (("--from-x", "9"), "0 stored moments"), (("--depths", "a"), "50e-6"), (("--kappa", "-1"), "kappa")):
         bad = tehl("fatigue", "run.zarr", *words, cwd=tmp_path)
         assert bad.returncode == 2 and what in bad.stderr and len(bad.stderr.splitlines()) == 1, bad.stderr

@@ -147,6 +147,16 @@ class Plan:
                 break
         return why
 
+    def doubts(self):
+        """Sentences about keys, set or swept, that have no effect in any case; of a large plan about those that are set."""
+        if self.count > LOOKED_AT:
+            return list(acting.doubts(self.scene))
+        every = []
+        for number in range(self.count):
+            with contextlib.suppress(SceneError):
+                every.append(list(acting.doubts(self.case(number))))
+        return [sentence for sentence in every[0] if all(sentence in other for other in every)] if every else []
+
     def equal(self):
         """{case: earlier case} of cases that differ in keys without effect alone, of a plan that is not too large to look."""
         seen, found = {}, {}
