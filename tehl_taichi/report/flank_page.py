@@ -55,8 +55,8 @@ def _answer(flank):
     found = worst(flank)
     left = f"{len(flank.failed)} of {len(flank.rows)} positions did not converge and are not in this answer."
     said = f"Warnings of the positions, listed below: {len(warnings(flank))}."
-    none = [f"At {_where(at)} no verdict: {why_none(found)}." for at, _, summary in flank.rows
-            if (found := dig(summary, "fatigue")) and why_none(found)]
+    none = [f"At {_where(at)} no verdict: {why_none(part)}." for at, _, summary in flank.rows
+            if (part := dig(summary, "fatigue")) and why_none(part)]
     doubts = (*none, *[left] * bool(flank.failed), f"Assumed: {flank.told['assumption']}.", *[said] * bool(warnings(flank)))
     if not found and none:
         return Answer(QUESTION, "No verdict: the films of all positions have more friction than any oil.", "open", (), doubts)
