@@ -19,9 +19,10 @@ class Results:
     """
 
     def __init__(self, folder, name, force, more=(), kept=()):
-        from tehl_taichi.disk import outputs
+        from tehl_taichi.disk import links, outputs
 
         self.folder, self.name = folder, name
+        links.refuse_itself(folder)
         for ending in ("json", "png", *more):
             if ending not in kept:
                 outputs.check(self.file(ending), force)

@@ -150,6 +150,50 @@ def test_an_archive_that_is_a_link_is_not_written(tmp_path, kind):
     assert snapshot(tmp_path) == before
 
 
+def test_a_case_behind_a_link_in_its_study_is_not_written(tmp_path):
+    study, other = swept(tmp_path / "study"), tmp_path / "other"
+    shutil.move(study / "cases", other)
+    (study / "cases").symlink_to(other)
+    before = snapshot(tmp_path)
+    for attempt in (Store.write, tehl.resume, lambda path: Place(path, replace=True)):
+        with pytest.raises(StoreError, match="study/cases is a link|lies in .*study"):
+            attempt(study / "cases" / "0000.zarr")
+    (study / "pictures").symlink_to(other)
+    second = store(tmp_path / "b.zarr").path
+    for out in (study / "pictures" / "a.png", study / "cases" / "a.png"):
+        assert cli("compare", other / "0000.zarr", second, "--out", out)[0] == 2
+    shutil.rmtree(second)
+    (study / "pictures").unlink()
+    assert snapshot(tmp_path).keys() == before.keys()
+
+
+def test_folders_of_figures_that_came_as_links(tmp_path):
+    """An archive may bring a link with the name that the figures would have."""
+    pytest.importorskip("matplotlib")
+    mine = thesis(tmp_path / "thesis")
+    path = made_results.run(tmp_path / "a.zarr", SMALL, 3)
+    (tmp_path / "a").symlink_to(mine)
+    code, said = cli("plot", path, "--dpi", 40)
+    assert code == 2 and f"{tmp_path / 'a'} is a link" in said and [file.name for file in mine.iterdir()] == ["chapter.tex"]
+    folder = flanked(tmp_path / "flank")
+    (tmp_path / "f").symlink_to(folder)
+    assert cli("plot", tmp_path / "f", "--dpi", 40)[0] == 2
+    (folder / "more").symlink_to(mine)
+    assert cli("plot", folder, "--dpi", 40)[0] == 2 and not (folder / "flank.png").exists()
+
+
+def test_attributes_nested_without_end(tmp_path):
+    path = store(tmp_path / "a.zarr").path
+    deep = "[" * 200_000
+    (path / "zarr.json").write_text(deep)
+    with pytest.raises(StoreError, match="is not a store of tehl run"):
+        tehl.open(path)
+    folder = flanked(tmp_path / "f")
+    (folder / "flank.json").write_text(deep)
+    with pytest.raises(StoreError, match="flank.json is damaged"):
+        tehl.open(folder)
+
+
 def thesis(folder):
     folder.mkdir()
     (folder / "chapter.tex").write_text("four years of work")

@@ -14,12 +14,11 @@ import shutil
 from pathlib import Path
 
 from tehl_taichi.disk.files import reason
-from tehl_taichi.disk.links import is_folder
+from tehl_taichi.disk.links import ROOT, is_folder
 from tehl_taichi.disk.locks import LOCK, Busy, Lock, abandoned, holder, said_in
 from tehl_taichi.errors import StoreError
 
 PART, OLD, GONE = "part", "old", "gone"
-ROOT = "zarr.json"  # of a store and of a study
 
 
 def beside(path, what):

@@ -2,6 +2,7 @@
 
 import contextlib
 import errno
+import json
 import os
 import re
 import secrets
@@ -89,6 +90,14 @@ def content(path, most=TEXT):
 def text(path):
     """The text of a plain file. Raises as :func:`content`; ValueError where it is no text."""
     return content(path).decode("utf-8")
+
+
+def json_of(path):
+    """What a JSON file says. Raises as :func:`content`; ValueError where it is none, or nested without end."""
+    try:
+        return json.loads(text(path))
+    except RecursionError:
+        raise ValueError("it is nested too deeply") from None
 
 
 def tidy(folder):

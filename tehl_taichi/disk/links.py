@@ -6,12 +6,16 @@ from pathlib import Path
 
 from tehl_taichi.errors import StoreError
 
+ROOT, FLANK = "zarr.json", "flank.json"  # what makes a folder a store or a study, and a flank
+
 
 def refuse(folder):
-    """Raises StoreError where `folder`, or anything in it, is a link, a file with a second name, or no plain file."""
-    for path in (Path(folder), *_below(folder)):
+    """Raises StoreError where `folder`, or anything in it, is a link, a file with a second name, or no plain file; also where
+    a link leads to it inside a study or a flank."""
+    folder = Path(folder)
+    for path in (*_ways(folder), folder, *_below(folder)):
         if what := strange(os.lstat(path)):
-            where = f"{path} is {what}" if path == Path(folder) else f"{folder} holds {what}, {path}"
+            where = f"{folder} holds {what}, {path}" if path.is_relative_to(folder) and path != folder else f"{path} is {what}"
             raise StoreError(f"{where}, and nothing is written through one; what it leads to stays as it is. "
                              f"`cp -rL {folder} NEW` makes a copy without links, which can be written")
 
@@ -30,6 +34,27 @@ def strange(status):
 def is_folder(path):
     """Whether there is a folder at `path` itself, not where a link leads."""
     return os.path.isdir(path) and not os.path.islink(path)
+
+
+def refuse_itself(path):
+    """Raises StoreError where a folder to write into is a link."""
+    if os.path.islink(path):
+        raise StoreError(f"{path} is a link, and nothing is written through one; choose another --out")
+
+
+def around(path):
+    """The stores, studies and flanks around a path, the innermost first, by its name and by where its links lead."""
+    ways = path.absolute().parent, Path(os.path.realpath(path.absolute().parent))
+    return [folder for way in ways for folder in (way, *way.parents)
+            if any(os.path.lexists(folder / mark) for mark in (ROOT, FLANK))]
+
+
+def _ways(folder):
+    """The links inside a study or a flank that the name of `folder` leads through."""
+    absolute = folder.absolute()
+    found = [top for top in around(folder) if absolute.is_relative_to(top)]
+    return [way for way in absolute.parents if found and way.is_relative_to(found[-1]) and way != found[-1]
+            and os.path.islink(way)]
 
 
 def _below(folder):

@@ -8,16 +8,14 @@ import contextlib
 import mmap
 import os
 import re
-from pathlib import Path
 
 from tehl_taichi.disk import links
-from tehl_taichi.disk.drafts import ROOT, Draft, exists
+from tehl_taichi.disk.drafts import Draft, exists
 from tehl_taichi.disk.files import blamed
 from tehl_taichi.disk.locks import Lock
 from tehl_taichi.errors import StoreError
 
 PROGRAM, COMMENT = "tehl_taichi", "<!-- tehl_taichi -->"
-FLANK = "flank.json"
 COLUMN = re.compile(rb'"?[^\[\],]+ \[[^\[\]]*\]"?')
 # {kind: (how a file of it begins, what it has somewhere if tehl wrote it)}
 SIGNS = {"png": (b"\x89PNG", b"Software\0tehl_taichi"), "pdf": (b"%PDF-", b"/Creator (tehl_taichi)"),
@@ -66,9 +64,8 @@ def check(path, force=False, kind="", parts="", of=None):
 
 def check_outside(path, of=None):
     """Raises StoreError where `path` lies inside a store, a study or a flank other than `of`."""
-    inner = Path(os.path.realpath(path.absolute().parent))
-    for folder in (inner, *inner.parents):
-        if any(os.path.lexists(folder / mark) for mark in (ROOT, FLANK)) and not (of and os.path.samefile(folder, of)):
+    for folder in links.around(path):
+        if not (of and os.path.samefile(folder, of)):
             raise StoreError(f"{path} lies in {folder}, which is a store, a study or a flank; choose another --out")
 
 

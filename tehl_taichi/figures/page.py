@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from tehl_taichi.disk import outputs
+from tehl_taichi.disk import links, outputs
 from tehl_taichi.disk.files import reason
 from tehl_taichi.errors import SceneError, StoreError, extra
 from tehl_taichi.figures import palette
@@ -108,6 +108,7 @@ class Page:
 
     def write(self, folder, figures):
         """Write {name: function that draws the figure} into `folder`; returns the paths. Raises StoreError."""
+        links.refuse_itself(folder)
         folder, paths = Path(folder), [Path(folder) / f"{name}.{self.format}" for name in figures]
         for path in paths:
             self.check(path)

@@ -1,7 +1,10 @@
 """Film, pressure, temperature and fatigue over the flank: dedendum left of the pitch line, addendum right of it."""
 
+import os
+
 import numpy as np
 
+from tehl_taichi.disk import links
 from tehl_taichi.figures import palette
 from tehl_taichi.figures.page import made
 from tehl_taichi.flank.columns import dig, error_of
@@ -24,6 +27,8 @@ LAST = 5  # panels: friction and slip fill up what a steady or isothermal flank 
 def write(flank, path, page):
     """Write the figure of a Flank, as the :class:`Page` wants it; returns the path."""
     page, path = page.of_file(path)
+    if os.path.realpath(path.parent) == os.path.realpath(flank.folder):
+        links.refuse(path.parent)
     page.check(path, flank.folder)
     made(path.parent)
     return page.save(lambda: _drawn(page, flank), path, of=flank.folder)

@@ -32,13 +32,13 @@ class Flank:
         """The flank in a folder. Raises StoreError."""
         file = Path(folder) / FILE
         try:
-            told = json.loads(files.text(file))
+            told = files.json_of(file)
             found = cls(Path(folder), {**told, "name": str(told["name"]), "geometry": dict(told["geometry"])})
             found.rows  # noqa: B018  whatever is missing is missing now
             return found
         except OSError as error:
             raise StoreError(f"cannot read {file}: {error.strerror or error}") from None
-        except (ValueError, KeyError, TypeError) as error:
+        except (ValueError, KeyError, TypeError, RecursionError) as error:
             raise StoreError(f"{file} is damaged ({type(error).__name__}: {error}); the same tehl flank writes it again") \
                 from None
 

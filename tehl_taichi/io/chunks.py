@@ -3,7 +3,6 @@
 What a file declares is compared with what its array holds before memory is asked for: a few bytes can declare terabytes.
 """
 
-import json
 import math
 
 import numpy as np
@@ -11,7 +10,7 @@ import zarr
 from numcodecs import zstd
 
 from tehl_taichi.disk import files, sizes
-from tehl_taichi.disk.drafts import ROOT
+from tehl_taichi.disk.links import ROOT
 from tehl_taichi.errors import StoreError
 
 LEVEL = 1  # of zstd: the fields are a third smaller, more costs more time than it saves
@@ -68,7 +67,7 @@ def whole(folder):
 def check(folder):
     """Refuse an array whose files declare more than it holds, or whose values find no room. Raises StoreError, OSError,
     ValueError, KeyError, TypeError."""
-    array = json.loads(files.text(folder / ROOT))
+    array = files.json_of(folder / ROOT)
     chunk, kind = array["chunk_grid"]["configuration"]["chunk_shape"], array["data_type"]
     if {codec["name"] for codec in array["codecs"]} - CODECS:
         raise StoreError(f"{folder} is damaged: no array of a store has its codecs")

@@ -8,8 +8,8 @@ from pathlib import Path
 from tehl_taichi import __version__
 from tehl_taichi.criteria import CRITERIA
 from tehl_taichi.disk import files
-from tehl_taichi.disk.drafts import ROOT
 from tehl_taichi.disk.files import TEMPORARY
+from tehl_taichi.disk.links import ROOT
 from tehl_taichi.disk.locks import LOCK
 from tehl_taichi.errors import SceneError, StoreError
 from tehl_taichi.io import attributes, maps
@@ -26,8 +26,8 @@ OURS = {ROOT, f"{ROOT}.tmp", CHECKPOINTS, LOCK}  # .tmp: to version 0.8
 def is_store(path):
     """Whether a store of this program, whole or damaged, is at `path`."""
     try:
-        return {"scene", "steps"} <= json.loads(files.text(Path(path) / ROOT))["attributes"].keys()
-    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        return {"scene", "steps"} <= files.json_of(Path(path) / ROOT)["attributes"].keys()
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
         return False
 
 
@@ -49,7 +49,7 @@ def root_of(path):
     """(attributes, {name: metadata of an array}) of the store at `path`. Raises StoreError."""
     path = Path(path)
     try:
-        root = json.loads(files.text(path / ROOT))
+        root = files.json_of(path / ROOT)
         attrs = root["attributes"]
         arrays = root["consolidated_metadata"]["metadata"]
     except FileNotFoundError:
@@ -57,7 +57,7 @@ def root_of(path):
                          (f"it has no {ROOT}" if path.is_dir() else "there is no such folder")) from None
     except OSError as error:
         raise StoreError(f"{path} is not a store of tehl run: {error.strerror or error}") from None
-    except (ValueError, KeyError, TypeError):
+    except (ValueError, KeyError, TypeError, RecursionError):
         raise StoreError(f"{path} is not a store of tehl run: its {ROOT} is none of a store") from None
     if not isinstance(attrs, dict) or "scene" not in attrs or not isinstance(arrays, dict):
         raise StoreError(f"{path} is not a store of tehl run: its {ROOT} describes no scene")
@@ -73,7 +73,7 @@ def scene_of(path, attrs):
         if attrs.get("format", 1) == 1 and data["time"]["steps"] == 0:  # meant all in version 0.1
             data["time"]["steps"] = -1
         return maps.scene_of(path, data)
-    except (SceneError, ValueError, TypeError, KeyError, AttributeError) as error:
+    except (SceneError, ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
         if said := lacking(attrs["scene"]):
             raise StoreError(f"{path} needs {said}") from None
         said = error if type(error) in (SceneError, ValueError, StoreError) else "a key of it is missing or no such value"
@@ -153,7 +153,7 @@ def optional(attrs, name, default):
     """A JSON attribute that only readers miss; `default` where it is missing or no value of that kind."""
     try:
         value = json.loads(attrs[name])
-    except (KeyError, TypeError, ValueError):
+    except (KeyError, TypeError, ValueError, RecursionError):
         return default
     return value if isinstance(value, type(default)) else default
 

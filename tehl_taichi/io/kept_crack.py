@@ -32,9 +32,9 @@ def kept(store):
     if not path.is_file():
         return None
     try:
-        content = json.loads(files.text(path))
+        content = files.json_of(path)
         return content if content["run"] == store.attrs.get("date") else None  # else of a run that was here before
-    except (ValueError, KeyError, TypeError, OSError) as error:
+    except (ValueError, KeyError, TypeError, RecursionError, OSError) as error:
         raise StoreError(f"{path} is damaged ({error}): remove it, or make it anew with tehl crack --keep") from None
 
 

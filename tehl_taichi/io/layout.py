@@ -21,7 +21,7 @@ def lay_out(group, capacity, scene, snapshot):
 
 def metadata(path):
     """Metadata of every array of the group, by name."""
-    return {file.parent.name: json.loads(files.text(file)) for file in sorted(path.glob("*/zarr.json"))}
+    return {file.parent.name: files.json_of(file) for file in sorted(path.glob("*/zarr.json"))}
 
 
 def publish(path, attrs, arrays):

@@ -44,5 +44,5 @@ def _record(line):
     try:
         record = json.loads(line)
         return record if isinstance(record, dict) and record["status"] in STATUS and isinstance(record["case"], int) else None
-    except (ValueError, KeyError, TypeError):
+    except (ValueError, KeyError, TypeError, RecursionError):
         return None

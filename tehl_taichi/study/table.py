@@ -18,7 +18,7 @@ import zarr
 
 from tehl_taichi import __version__
 from tehl_taichi.commit import commit
-from tehl_taichi.disk.files import blamed, reason, replace, text
+from tehl_taichi.disk.files import blamed, json_of, reason, replace
 from tehl_taichi.disk.held import Held, held
 from tehl_taichi.disk.outputs import check_outside
 from tehl_taichi.errors import SceneError, StoreError, extra
@@ -214,7 +214,7 @@ class Study(Held):
 
     def _publish(self):
         """The group's metadata with those of its arrays, replaced as a whole."""
-        arrays = {name: json.loads(text(self.path / name / ROOT)) for name in self.written}
+        arrays = {name: json_of(self.path / name / ROOT) for name in self.written}
         coordinates = [key for key in (*self.plan.keys, ONE) if key in arrays and key not in self.plan.dims]
         attrs = {PLAN: self.plan.text, "version": __version__, "commit": commit(), "coordinates": " ".join(coordinates)}
         root = {"zarr_format": 3, "node_type": "group", "attributes": attrs,
@@ -271,7 +271,7 @@ def is_study(path):
 def attributes(path):
     """Attributes of the study at `path`, or None."""
     try:
-        attrs = json.loads(text(Path(path) / ROOT))["attributes"]
+        attrs = json_of(Path(path) / ROOT)["attributes"]
         return attrs if PLAN in attrs else None
     except (OSError, ValueError, KeyError, TypeError):
         return None

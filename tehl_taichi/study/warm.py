@@ -13,6 +13,7 @@ import subprocess
 import sys
 
 from tehl_taichi.commit import commit
+from tehl_taichi.disk import files
 from tehl_taichi.errors import Error
 
 STEPS = 3  # the fewest with a fatigue search
@@ -27,11 +28,11 @@ def once(scene):
         return
     with contextlib.suppress(OSError):  # a folder that nobody can write to has no new kernels
         stamp.parent.mkdir(parents=True, exist_ok=True)
-        with open(stamp.with_suffix(".lock"), "a") as lock:
+        with os.fdopen(files.opened(stamp.with_suffix(".lock"), os.O_RDWR | os.O_CREAT), "r+b") as lock:
             _wait_for(lock)
             if not stamp.exists():
                 _compile(scene)
-                stamp.touch()
+                files.append(stamp, b"")
 
 
 def _kind(scene):
