@@ -227,7 +227,7 @@ def test_bars_hold_both_parts_and_are_none_where_either_leaves_nothing():
     assert whole["h_c_m"] == pytest.approx(1e-8 + 1e-7) and whole["p_max_Pa"] is None and unknown["p_max_Pa"] == "why"
     assert whole["h_min_m"] is None and "as large as the number" in unknown["h_min_m"]
     assert whole["friction_coefficient"] == pytest.approx(1e-4 + 0.3 * 0.02 + 1e-3)
-    assert whole["film_max_C"] == pytest.approx(1.0 + 0.2 * 50) and parts["h_c_m"] == {"grid": 1e-8, "domain": 1e-7}
+    assert whole["film_max_C"] == pytest.approx(1.0 + 0.1 * 50) and parts["h_c_m"] == {"grid": 1e-8, "domain": 1e-7}
     passing, _, _ = widened({"h_min_m": 0.0, "Fi_max": 0.0}, {}, {"h_min_m": 1e-7, "Fi_max": 0.9}, found, 90.0, True)
     assert passing == pytest.approx({"h_min_m": 3e-8, "Fi_max": 0.27})
 

@@ -21,11 +21,11 @@ from tehl_taichi.scene.film_formula import load_power
 GRUBIN, LONG = 0.73, 0.15
 # Of that the bar has, where the border has the pressure of the oil beyond: of a line STIFF and SOFT/(alpha p_H) (eleven
 # held-out lines, M 2 to 70, L 2 to 25, from -2.5 and -4.5 a: films err by 0.03 to 0.76 of the bar), of a point contact LEFT;
-# with temperatures HOT more: oil that flows in at the border is taken to be cold (smooth line at 0.5 GPa, 20 m/s, 60 deg C, SRR
-# -0.5 and -0.1: 0.17 and 0.22 of it with a gap of 2 films, 0.10 and 0.11 with 12)
-STIFF, SOFT, HOT = 0.03, 0.15, 0.2
-THINNEST = 1.7  # times as much of the smallest film of a point contact, by its sides
-PRESSURE, SLIDING, HEATING = 2.5, 3.0, 2.0  # of the share of the film: of the largest pressure, friction, rises of temperature
+# with temperatures HOT/gap more, HOTTEST at most: oil that flows in at the border is taken to be cold (smooth line at 0.5 GPa,
+# 20 m/s, 60 deg C, SRR -0.5 and -0.1: 0.17 and 0.22 of it with a gap of 2 films, 0.10 and 0.11 with 12)
+STIFF, SOFT, HOT, HOTTEST = 0.03, 0.15, 2.0, 0.2
+THINNEST = 2.0  # times as much of the smallest film of a point contact, by its sides
+PRESSURE, SLIDING, HEATING = 2.5, 3.0, 1.0  # of the share of the film: of the largest pressure, friction, rises of temperature
 
 
 @dataclass(frozen=True)
@@ -67,16 +67,16 @@ def share(solver):
     if not inlet.flooded:
         return Share(gap=gap, lost=_lost(v, inlet, H, _raised(v, inlet, H)))
     lost, miss = _lost(v, inlet, H, 0.0), np.abs(inlet.beyond() - inlet.now()).max() / inlet.q[-1]
-    film = _left(v, inlet) * lost + GRUBIN * float(miss) + (_load(v, inlet, H) * load_power(v.scene) if v.line else 0.0)
+    film = _left(v, inlet, gap) * lost + GRUBIN * float(miss) + (_load(v, inlet, H) * load_power(v.scene) if v.line else 0.0)
     # the inlet has a part in friction that even p = 0 changes little
     friction = max(SLIDING * film, lost if v.scene.isothermal else 0.0)
     return Share(film, film * (1.0 if v.line else THINNEST), friction, _before(v, H), gap, lost)
 
 
-def _left(v, inlet):
+def _left(v, inlet, gap):
     """Part of what a border without pressure takes that one with it leaves."""
     left = STIFF + SOFT * inlet.q[-1] / v.scales.p_H if v.line else LEFT[v.scales.kind]
-    return left + (0.0 if v.scene.isothermal else HOT)
+    return left + (0.0 if v.scene.isothermal else min(HOT / gap, HOTTEST))
 
 
 def _raised(v, inlet, H):
