@@ -137,19 +137,19 @@ def test_the_same_contact_at_another_scale_has_the_same_border():
 
 THICK_PASSAGE = {"hertz_pressure": 6e8, "speed": 20.0, "thermal.on": False, "grid.x_max": 3.5, "grid.x_min": -2.5,
                  "grid.nx": 192, "numerics.estimate_error": False}
-LOW_RIDGE = {"feature.shape": "ridge", "height": 0.4e-6, "width": 100e-6, "time.x_start": -2.2, "time.x_end": 2.2}
+LOW_RIDGE = {"feature.shape": "ridge", "height": 0.4e-6, "width": 100e-6, "time.x_start": -2.2, "time.x_end": 0.0}
 
 
 @pytest.mark.usefixtures("taichi_cpu")
 def test_a_passage_holds_the_pressure_of_its_start():
-    """A ridge in a thick film: h_min 0.569 um by 12.5 a, 0.446 with p = 0 at -2.5 a; and the same bits after a break."""
+    """A ridge in a thick film: h_min 0.723 um by 12.5 a up to X = 0, 0.539 with p = 0 at -2.5 a; and the same bits after a break."""
     from tehl_taichi.march.passage import march
 
     description = scene("gear").replace(**{**THICK_PASSAGE, **LOW_RIDGE})
     shots = list(march(description))
     border = np.array([shot.fields["pressure"][0] for shot in shots])
     assert border[0].min() > 2e7 and (border == border[0]).all()
-    assert min(shot.scalars["h_min_m"] for shot in shots[1:]) == pytest.approx(0.569e-6, rel=0.01)
+    assert min(shot.scalars["h_min_m"] for shot in shots[1:]) == pytest.approx(0.723e-6, rel=0.005)
     run = march(description)
     states = [next(run).state for _ in range(6)]
     for state, n in ((states[0], 1), (states[5], 6)):
@@ -176,7 +176,7 @@ def test_a_mirrored_feature_on_a_flooded_circle_gives_mirrored_fields():
     shots = []
     for y in (40e-6, -40e-6):
         shots.append(list(march(scene("ridge-on-ball").replace(**{
-            "feature.shape": "cosine", "feature.width": 120e-6, "feature.y": y, "grid.nx": 64, "grid.ny": 32, "time.steps": 3,
+            "feature.shape": "cosine", "feature.width": 120e-6, "feature.y": y, "grid.nx": 64, "grid.ny": 32, "time.steps": 1,
             "time.x_start": -1.5, "numerics.tolerance": 1e-9})))[-1])
     one, other = (shot.fields["pressure"] for shot in shots)
     np.testing.assert_allclose(one, other[:, ::-1], rtol=0, atol=1e-6 * one.max())
