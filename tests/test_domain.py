@@ -142,7 +142,7 @@ LOW_RIDGE = {"feature.shape": "ridge", "height": 0.4e-6, "width": 100e-6, "time.
 
 @pytest.mark.usefixtures("taichi_cpu")
 def test_a_passage_holds_the_pressure_of_its_start():
-    """A ridge in a thick film: h_min 0.723 um by 12.5 a up to X = 0, 0.539 with p = 0 at -2.5 a; and the same bits after a break."""
+    """A ridge in a thick film: h_min 0.723 um by 12.5 a up to X = 0, 0.539 with p = 0 at -2.5 a. The same bits on resuming."""
     from tehl_taichi.march.passage import march
 
     description = scene("gear").replace(**{**THICK_PASSAGE, **LOW_RIDGE})
