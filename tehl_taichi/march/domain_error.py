@@ -19,8 +19,8 @@ from tehl_taichi.scene.domain import LEFT, PASSAGE, SIDE
 from tehl_taichi.scene.film_formula import load_power
 
 GRUBIN, LONG = 0.73, 0.15
-# Of that the bar has, where the border has the pressure of the oil beyond: of a line STIFF and SOFT/(alpha p_H) (nine lines held
-# out, M 2.5 to 50, from -2.5 and -4.5 a: films err by 0.07 to 0.99 of the bar), of a point contact LEFT;
+# Of that the bar has, where the border has the pressure of the oil beyond: of a line STIFF and SOFT/(alpha p_H) (nine lines
+# held out, M 2.5 to 50, from -2.5 and -4.5 a: films err by 0.07 to 0.99 of the bar), of a point contact LEFT;
 # with temperatures HOT/gap more, HOTTEST at most: oil that flows in at the border is taken to be cold (smooth line at 0.5 GPa,
 # 20 m/s, 60 deg C, SRR -0.5 and -0.1: 0.17 and 0.22 of it with a gap of 2 films, 0.10 and 0.11 with 12)
 STIFF, SOFT, HOT, HOTTEST = 0.03, 0.15, 2.0, 0.2
