@@ -115,7 +115,8 @@ HEAD = "x_pl_mm,load_N_per_mm,R_a_mm,R_b_mm,u_a_m_s,u_b_m_s\n"
 
 @pytest.mark.parametrize("row, said", [
     ("1,300,10e-3,20e-3,3,2", "did you mean 0.01e3 mm"), ("1,300000,10,20,3,2", "did you mean 300000e-3 N/mm"),
-    ("1,300,10,20,3000,2000", "did you mean 3000e-3 m/s")])
+    ("1,300,10,20,3000,2000", "did you mean 3000e-3 m/s"), ("0.004,300,10,20,3,2", "did you mean 0.004e3 mm"),
+    ("0,300,10,20,3,2\n-0.004,300,10,20,3,2", "did you mean -0.004e3 mm")])
 def test_tables_of_a_flank(tmp_path, row, said):
     (tmp_path / "t.csv").write_text(HEAD + row + "\n")
     with pytest.raises(SceneError, match=said):

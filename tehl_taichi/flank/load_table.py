@@ -9,12 +9,14 @@ from tehl_taichi.disk import files
 from tehl_taichi.errors import SceneError
 from tehl_taichi.flank.positions import Position
 from tehl_taichi.values.checks import nearest
+from tehl_taichi.values.meant import meant
 from tehl_taichi.values.quantity import Number
 
 RADIUS, SPEED = Number("", "mm", 0.1, 1e6, usual=20.0), Number("", "m/s", 0.0, 1e3, usual=10.0)
 # column: (factor to SI, its declaration)
 NEEDED = {"x_pl_mm": (1e-3, Number("", "mm", -1e3, 1e3, usual=5.0)), "R_a_mm": (1e-3, RADIUS), "R_b_mm": (1e-3, RADIUS),
           "load_N_per_mm": (1e3, Number("", "N/mm", 1e-3, 1e5, usual=300.0)), "u_a_m_s": (1.0, SPEED), "u_b_m_s": (1.0, SPEED)}
+SHORTEST = 0.02  # mm, of the farthest way of a flank
 POINT = "point"  # column with A to E, where there is one
 MOST = 1000  # rows
 
@@ -31,7 +33,16 @@ def load(path):
         raise SceneError(f"cannot read table {path}: {getattr(error, 'strerror', None) or error}") from None
     if not 1 <= len(found) <= MOST:
         raise SceneError(f"table {path} has {len(found)} rows; allowed: 1 to {MOST}")
+    _check_ways(path, found)
     return sorted(found, key=lambda p: p.x_pl)
+
+
+def _check_ways(path, found):
+    """Refuse ways that are nothing beside any tooth: they were meant in another unit. Raises SceneError."""
+    way = max(found, key=lambda p: abs(p.x_pl)).x_pl * 1e3
+    if 0 < abs(way) < SHORTEST:
+        raise SceneError(f"table {path}: x_pl_mm = {way:g} mm is the farthest way from the pitch point, nothing to a tooth"
+                         f"{meant(way, 'mm', lambda other: SHORTEST <= abs(other) <= 1e3, NEEDED['x_pl_mm'][1].usual)}")
 
 
 def _complete(path, rows):
