@@ -14,7 +14,7 @@ from tehl_taichi.study.sampling import latin_hypercube
 from tehl_taichi.values.plain import shown
 from tehl_taichi.values.quantity import kinds
 
-LOOKED_AT = 200  # cases among which equal ones are looked for
+LOOKED_AT = 100  # cases among which equal ones are looked for, 10 ms each
 MOST = 100_000  # cases: more are a mistake in a range
 ONE = "case"  # the dimension of a study whose keys change together
 
