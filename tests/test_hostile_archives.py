@@ -280,3 +280,30 @@ def test_a_chunk_that_is_there_is_made_anew(tmp_path):
         before = Path(__file__).read_bytes()
         saved.append(shot(3), shot(3).state)
     assert Path(__file__).read_bytes() == before and len(Store.open(path)) == 4
+
+
+def put(kind, path, target):
+    {"link": lambda: path.symlink_to(target), "dangling": lambda: path.symlink_to(target.with_name("none")),
+     "hard": lambda: os.link(target, path), "fifo": lambda: os.mkfifo(path), "folder": path.mkdir}[kind]()
+
+
+@pytest.mark.parametrize("kind", ["link", "dangling", "hard", "fifo", "folder"])
+def test_single_files_and_locks_are_written_to_plain_files_alone(tmp_path, kind):
+    """Each writer by itself, without the look at the whole folder before."""
+    from tehl_taichi.disk import files
+    from tehl_taichi.disk.locks import Lock, abandoned, holder
+
+    mine, folder = tmp_path / "thesis", tmp_path / "folder"
+    mine.write_text("four years of work\n")
+    folder.mkdir()
+    put(kind, folder / ".lock", mine)
+    before = snapshot(tmp_path)
+    for attempt in (lambda: files.append(folder / ".lock", b"x"), lambda: files.cut(folder / ".lock", 0), lambda: Lock(folder)):
+        with pytest.raises(OSError):
+            attempt()
+        assert snapshot(tmp_path) == before
+    assert holder(folder) is None and not abandoned(folder)
+    if kind != "folder":
+        files.write(folder / ".lock", b"new")  # takes the name, not what has it
+        assert (folder / ".lock").read_bytes() == b"new" and not (folder / ".lock").is_symlink()
+    assert mine.read_text() == "four years of work\n" and not (tmp_path / "none").exists()

@@ -114,6 +114,19 @@ def test_one_folder_knows_taichi(path):
     assert not taichi or path.parent == PACKAGE / "engine"
 
 
+WRITES = re.compile(r"write_text\(|write_bytes\(|os\.(replace|rename|unlink|truncate)\(|rmtree\(|\.(unlink|rmdir|touch)\(|"
+                    r"open\([^)\n]*[\"'][wa]b?\+?[\"']|savefig\((?!draft)|np\.save")
+# what writes by itself: kernels and plans in the cache, a pipe, files of a draft, a lock and a checkpoint of ours, examples
+WRITERS = {"runtime.py", "plans.py", "beside.py", "vtk_series.py", "csv_tables.py", "checkpoint.py", "case.py",
+           "published_films.py", "gallery.py", "make_scan.py", "measured_surface.py"}
+
+
+def test_one_room_writes_to_disk():
+    """No command replaces or removes a file by itself: `disk` knows links, and what is ours."""
+    found = {path.name for path in SOURCES if path.parent.name != "disk" and WRITES.search(path.read_text(encoding="utf-8"))}
+    assert found == WRITERS
+
+
 def test_package_and_scene_do_not_import_taichi():
     code = "import sys, tehl_taichi, tehl_taichi.scene, tehl_cli.main; sys.exit('taichi' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0

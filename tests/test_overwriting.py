@@ -132,3 +132,14 @@ def test_a_flank_plots_into_itself_and_nowhere_else_inside(tmp_path):
     assert cli("plot", folder, *FAST)[0] == 2 and cli("plot", folder, *FAST, "--force")[0] == 0
     other = store(tmp_path / "other.zarr", 1).path
     assert cli("plot", folder, *FAST, "--out", other)[0] == 2 and not (other / "flank.png").exists()
+
+
+@pytest.mark.parametrize("name", ["a.xyz", "a", "a.png", "a.html", "a.json", "a.csv", "a.nc", "a.pdf", "a.md", "a.pvd"])
+def test_files_of_others_are_not_taken_for_ours(tmp_path, name):
+    """Empty, of other programs, or with our name in them."""
+    from tehl_taichi.disk.outputs import is_ours
+
+    for content in (b"", b"tehl_taichi", b"\x89PNG tehl_taichi", b'{"note": "made with tehl_taichi"}', b"a,b [m]\n1,2\n",
+                    b"<?xml version='1.0'?><p>tehl_taichi</p>", b"%PDF-1.4 tehl_taichi", b"<html>tehl_taichi"):
+        (tmp_path / name).write_bytes(content)
+        assert not is_ours(tmp_path / name), content

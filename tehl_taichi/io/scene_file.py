@@ -56,21 +56,6 @@ def check_new(path):
         raise SceneError(f"{path.absolute().parent} is not a folder")
 
 
-def write_new(path, text):
-    """Write a file where none is. Raises SceneError, and then leaves nothing behind."""
-    made = False
-    try:
-        with open(path, "x", encoding="utf-8") as file:
-            made = True
-            file.write(text)
-    except FileExistsError:
-        raise SceneError(f"{path} exists already; choose another name") from None
-    except OSError as error:
-        if made:
-            path.unlink(missing_ok=True)
-        raise SceneError(f"cannot write {path}: {error.strerror or error}") from None
-
-
 def beside(data, folder):
     """The same with the paths of height maps starting at `folder`, whatever folder the command runs in."""
     features = data.get("feature", [])
