@@ -109,11 +109,11 @@ def test_scaling(tmp_path, monkeypatch, direct):
 def test_speed(tmp_path, monkeypatch, direct):
     once(monkeypatch, speed)
     monkeypatch.setattr(speed, "command", lambda *words, **options: 1.5)  # a process of its own
+    monkeypatch.setattr(speed, "PASSAGES", (("isothermal", None, None),))
     text, found = done(tmp_path, "speed", "speed", "--quick", "--threads", 2)
     names = [row["what"].split(",")[0].split(":")[0] for row in found["rows"]]
-    assert names == ["reference", "reference", "isothermal passage 64x16", "thermal passage 64x16", "first step of tehl run",
-                     "isothermal passage 64x16", "steady circular contact 64 columns",
-                     "Findley search 500 points x 100 moments"]
+    assert names == ["reference", "reference", "isothermal passage 64x16", "first step of tehl run", "isothermal passage 64x16",
+                     "steady circular contact 64 columns", "Findley search 500 points x 100 moments"]
     for row in found["rows"]:
         line, = lines_with(text, row["what"])
         assert f"{row['seconds']:.3f}" in line and row["seconds"] > 0 and row["target"] is None
