@@ -190,3 +190,20 @@ def test_the_bar_of_a_run_counts_steps_and_names_what_comes_later(monkeypatch):
     live._start_bar(PASSAGE, 3, 40)
     live._start_bar("fatigue", 1, 9)
     assert made == [(40, 3, "step"), (9, 1, "fatigue")]
+
+
+def test_a_column_of_a_flank_shows_numbers_in_its_unit_words_as_they_are_and_nothing_for_nothing():
+    from tehl_taichi.flank.columns import Column
+
+    column = Column("h_c", "h_c um", 1e6, ".3f", lambda value: value, "")
+    assert [column.shown(value) for value in (2.5e-6, "at C", "", None, 0.0)] == ["2.500", "at C", "", "", "0.000"]
+
+
+def test_the_least_and_the_largest_mean_speed():
+    """1 um/s to 1 km/s, as scene_keys says."""
+    for speed, good in ((1e-6, True), (0.99e-6, False), (1.01e3, False)):
+        if good:
+            assert tehl.scene("smooth-line").replace(**{"speed": speed, "thermal.on": False}).operation.u_m == speed
+        else:
+            with pytest.raises(tehl.SceneError, match="u_m"):
+                tehl.scene("smooth-line").replace(**{"speed": speed, "thermal.on": False})
