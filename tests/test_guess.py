@@ -6,6 +6,7 @@ import pytest
 from tehl_taichi.march.guess import Guess, extrapolated
 
 X = np.arange(129.0)
+TINY = 1e-37
 ROWS = np.linspace(1.0, 0.0, 6)[:, None]  # in two blocks, the second not full
 
 
@@ -113,7 +114,8 @@ def test_one_state_is_its_own_guess():
     """As the memory has it; the border to the last bit."""
     P = contact(0.0)
     found = Pressure(6, 2, P).next(1.0)
-    assert np.array_equal(found[:, 1:-1], P.astype(np.float32)[:, 1:-1])
+    kept = np.where(P < TINY, found, P.astype(np.float32))  # single precision may take such numbers to be 0
+    assert np.array_equal(found[:, 1:-1], kept[:, 1:-1]) and found[P < TINY].max() < TINY
     assert np.array_equal(found[:, [0, -1]], P[:, [0, -1]])
 
 
