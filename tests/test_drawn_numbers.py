@@ -207,3 +207,9 @@ def test_the_least_and_the_largest_mean_speed():
         else:
             with pytest.raises(tehl.SceneError, match="u_m"):
                 tehl.scene("smooth-line").replace(**{"speed": speed, "thermal.on": False})
+
+
+def test_values_that_are_numbers_alone_are_numbers_in_a_table():
+    from tehl_taichi.study.typed import all_numbers
+
+    assert all_numbers([1, 2.5, -3]) and not any(map(all_numbers, (["a", "b"], [1, "a"], [True, False], [1.0, True])))
