@@ -72,6 +72,29 @@ def test_a_film_that_shears_heats_by_stress_times_slip():
     assert tau[10] > 1e6  # on body a, towards the faster body b
 
 
+@pytest.mark.parametrize("slope", [-1.0, 1.0])
+def test_a_wall_along_which_oil_slips_takes_the_heat_of_that(slope):
+    """Frozen oil, a steep pressure: all heats together are the work of both walls and of the pressure, int tau du; what slips
+    heats the wall where |tau| is the limit, which takes far more than the other one."""
+    from tehl_taichi.heat import slots
+
+    heat, levels = film(srr=-0.2)
+    X, h = levels.X, 0.05e-6
+    P = 1.2 + 0.15 * slope * X
+    flux = step_between_walls(heat, levels, P, np.full(X.size, h), 0 * X)
+    heat._velocities()
+    u, px = heat.columns.nodes(slots.U)[:, 0], heat.columns.single(slots.PX)[0]
+    a, b = (heat.columns.single(name)[0] for name in (slots.XA, slots.XB))
+    operation, mean_u = levels.scene.operation, np.tensordot(heat.across.C[-1], u, axes=1)
+    work = b * operation.u_b - a * operation.u_a - h * px * mean_u
+    inner = slice(4, int(np.searchsorted(X, 0.0)) - 2)
+    np.testing.assert_allclose(flux.sum(axis=0)[inner], work[inner], rtol=5e-3)
+    limit = 10e6 + 0.075 * P * levels.scales.p_H
+    hot, cold, held = (flux[1], flux[0], b) if slope > 0 else (flux[0], flux[1], a)
+    np.testing.assert_allclose(held[inner], limit[inner], rtol=0.02)
+    assert np.all(hot[inner] > 3 * cold[inner])
+
+
 def test_oil_that_is_compressed_warms():
     """20 MPa more in a thick film, which conducts nothing: rho c dT = (T + 273.15) beta dp.
 

@@ -52,8 +52,8 @@ def mismatch(description, warm=None, step=1e-5):
 
 def thick(name, **changes):
     """A scene whose film, a third of a^2/R', carries with all terms of about one size."""
-    return scene(name).replace(**{"grid.nx": 64, "grid.ny": 16, "grid.y_max": 1.25, "contact.hertz_pressure": 0.4e9,
-                                  "height": 0.1e-6, **changes})
+    return scene(name).replace(**{"grid.nx": 64, "grid.ny": 16, "grid.x_min": -2.5, "grid.y_max": 1.25,
+                                  "contact.hertz_pressure": 0.4e9, "height": 0.1e-6, **changes})
 
 
 def test_isothermal(taichi_cpu):
@@ -61,21 +61,25 @@ def test_isothermal(taichi_cpu):
 
 
 def test_isothermal_with_a_shear_limit(taichi_cpu):
-    """The viscosity felt depends on pressure and film by the shear law."""
-    assert mismatch(thick("gear", **{"thermal.on": False, "srr": -1.9, "temperature": 40.0})) < 1e-4
+    """The flow depends on pressure and film by the stress of the sliding, too."""
+    assert mismatch(thick("gear", **{"thermal.on": False, "srr": -1.9, "temperature": 40.0})) < 1e-5
 
 
 def test_with_temperatures_and_a_shear_limit(taichi_cpu):
-    """The viscosity felt depends on the film by the shear law, too."""
+    """The flow depends on what the temperatures make of both its parts, too."""
     def warm(z, X, Y):
         return 40 + 30 * z + 20 * z * (1 - z) * (1 + 0.2 * np.cos(X) * np.cos(np.pi * Y))
 
     assert mismatch(thick("gear", **{"thermal.on": True, "srr": -1.9, "temperature": 40.0}), warm) < 1e-4
 
 
-@pytest.mark.parametrize("law", [{"law": "limiting", "tau_L0": 1e5, "gamma": 5e-4}, {"law": "eyring", "tau_0": 3e4},
-                                 {"law": "carreau", "tau_0": 3e4, "carreau_n": 0.5}], ids=lambda law: law["law"])
-def test_walls_that_yield_to_the_pressure(taichi_cpu, law):
-    """In pure rolling, where the law acts by the gradient of the pressure alone; far more than rounding of its slopes."""
+@pytest.mark.parametrize("srr", [0.0, -0.1])
+@pytest.mark.parametrize("law, step", [({"law": "limiting", "tau_L0": 1e5, "gamma": 5e-4}, 1e-8),
+                                       ({"law": "eyring", "tau_0": 3e4}, 1e-6),
+                                       ({"law": "carreau", "tau_0": 3e4, "carreau_n": 0.5}, 1e-6)],
+                         ids=lambda law: law["law"] if isinstance(law, dict) else "")
+def test_walls_that_yield_to_the_pressure(taichi_cpu, law, step, srr):
+    """In pure rolling, where the law acts by the gradient of the pressure alone, and with some slip; limiting: a step that few
+    walls come to their limit within, where the flow bends."""
     weak = {f"rheology.{key}": value for key, value in law.items()}
-    assert mismatch(thick("gear", **{"thermal.on": False, "srr": 0.0, "speed": 3.0, **weak}), step=1e-6) < 1e-4
+    assert mismatch(thick("gear", **{"thermal.on": False, "srr": srr, "speed": 3.0, **weak}), step=step) < 1e-4

@@ -11,7 +11,9 @@ import pytest
 from test_registry import hold
 
 from tehl_taichi.physics.choices import ALONE, CHOICES
-from tehl_taichi.physics.law import Law, ShearLaw, beyond, declared
+from tehl_taichi.physics.law import Law, ShearLaw, declared
+from tehl_taichi.physics.law import beyond as left_behind
+from tehl_taichi.physics.sheared_flow import beyond, flow
 from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.parts import Rheology
 from tehl_taichi.values.quantity import Choice, Number, Pairs, kinds, quantity
@@ -47,10 +49,15 @@ def test_shear_laws_are_odd_and_newtonian_where_the_stress_is_small(law):
 
 @of("rheology.law")
 def test_pressure_drives_more_through_oil_that_thins_the_more_it_strains_the_walls(law):
-    rheology = law.having()
-    driven = [float(law.poiseuille(rheology, wall, 1e9)) for wall in (0.0, 1e3, 5e7, 7e7, 9e7, 1.3e8)]
-    assert driven[0] == 1.0 and driven[1] == pytest.approx(1.0, rel=1e-8)
-    assert all((more > less) == law.thins for less, more in zip(driven[1:], driven[2:]))
+    rheology = law.having(law=law.name)
+
+    def driven(wall):
+        return float(wall * sum(part(rheology, wall, 0.0, 1e9)[0] for part in (flow, beyond)))
+
+    flows = [driven(wall) / wall for wall in (1e3, 5e7, 7e7, 9e7, 1.3e8)]
+    assert flows[0] == pytest.approx(1.0, rel=1e-8)
+    assert all((flows[0] < one) == law.thins for one in flows[1:])
+    assert driven(5e7) < driven(7e7) < driven(9e7) < driven(1.3e8)
 
 
 @of("oil.viscosity")
@@ -101,8 +108,8 @@ def test_a_number_of_two_laws_is_declared_once():
 def test_limits_that_a_film_leaves_behind():
     laws = {name: Law(name=name, says="", source="", checked=(), numbers={}, most_p=p, most_Gamma=Gamma)
             for name, p, Gamma in (("a", 1e9, 100.0), ("b", 2e9, 50.0))}
-    assert beyond(laws, 1e9, 50.0) == {}
-    assert beyond(laws, 3e9, 60.0) == {"a and b measured up to Pa": 1e9, "b measured up to degC": 50.0}
+    assert left_behind(laws, 1e9, 50.0) == {}
+    assert left_behind(laws, 3e9, 60.0) == {"a and b measured up to Pa": 1e9, "b measured up to degC": 50.0}
 
 
 def test_laws_need_no_taichi_for_numbers():

@@ -4,6 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+from one_column import carreau, column, limiting
 
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
@@ -17,15 +18,6 @@ def film(law="limiting", name="smooth-line", **changes):
     return scene(name).replace(**{"thermal.on": False, "rheology.law": law, **LAWS.get(law, {}), **changes})
 
 
-def stress(rheology, newtonian, p):
-    """Of the laws, by numpy."""
-    if rheology.law == "limiting":
-        return newtonian / np.sqrt(1 + (newtonian / (rheology.tau_L0 + rheology.gamma * p)) ** 2)
-    if rheology.law == "eyring":
-        return rheology.tau_0 * np.arcsinh(newtonian / rheology.tau_0)
-    return newtonian * (1 + (newtonian / rheology.tau_0) ** 2) ** ((rheology.carreau_n - 1) / 2)
-
-
 def equations_of(description, nx, ny=0):
     """The equations of an isothermal film, and their levels."""
     from tehl_taichi.pressure.equations import Equations
@@ -36,58 +28,60 @@ def equations_of(description, nx, ny=0):
     return Equations(levels, OneTemperature(levels)), levels
 
 
-def viscosity(levels, P, H):
-    """ln of eta/eta0 that a film of P and H should flow with."""
-    from tehl_taichi.physics.viscosity import ln_eta
+def rate(rheology):
+    """Of a law, over its own stress."""
+    return {"limiting": limiting, "eyring": np.sinh, "carreau": carreau(rheology.carreau_n)}[rheology.law]
 
-    s, p = levels.scales, P * levels.scales.p_H
-    eta = np.exp(np.array([float(ln_eta(levels.scene.oil, q, levels.conditions["inlet"])) for q in p.ravel()])).reshape(p.shape)
-    newtonian = eta * levels.scene.operation.u_s / (H * s.h)
-    return np.log(eta * stress(levels.scene.rheology, newtonian, p) / newtonian) - levels.conditions["ln_eta0"]
+
+def scale(rheology, p):
+    return rheology.tau_L0 + rheology.gamma * p if rheology.law == "limiting" else rheology.tau_0
+
+
+def flow_between(law, changes, p, h=1.5e-6):
+    """Flux times cell of each face along x that the residual has of a pressure (GPa) in a film of h (m), in the units of the
+    Reynolds equation; and its levels."""
+    from tehl_taichi.pressure import fields
+
+    equations, levels = equations_of(film(law, **{"srr": 0.0, **changes}), 64)
+    levels.put(fields.P, p[None, :] * 1e9 / levels.scales.p_H)
+    levels.put(fields.H, h / levels.scales.h)
+    equations.film.values()
+    equations.evaluate()
+    equations.linearise()
+    return levels.get(fields.R)[0], levels
 
 
 @pytest.mark.parametrize("law", LAWS)
-def test_the_flow_feels_what_the_law_leaves_of_the_viscosity(law):
-    """ln eta, its slopes by P and H (against differences of the law by numpy), and what the coarser levels get of them."""
+def test_the_flow_along_the_sliding_is_that_of_columns(law):
+    """What the residual has of a pressure beside that of a Newtonian film, face by face, against sums across a column each."""
+    from tehl_taichi.physics.viscosity import ln_eta
     from tehl_taichi.pressure import fields
 
-    equations, levels = equations_of(film(law, srr=-0.5), 64)
-    X = levels.X[None, :]
-    P, H = 0.02 + 0.5 * np.exp(-(X**2)), 0.02 + 0.05 * X**2
-    for row, values in ((fields.P, P), (fields.H, H)):
-        levels.put(row, values)
-    equations.film.values()
-    equations.linearise()
-    expected = viscosity(levels, P, H)
-    np.testing.assert_allclose(levels.get(fields.LE), expected, atol=1e-10)
-    np.testing.assert_allclose(levels.get(fields.IE), np.exp(-expected), rtol=1e-10)
-    by_P = (viscosity(levels, P + 1e-5, H) - viscosity(levels, P - 1e-5, H)) / 2e-5
-    by_H = (viscosity(levels, P, H * 1.0001) - viscosity(levels, P, H * 0.9999)) / (2e-4 * H)
-    assert by_H.max() * H.min() > 0.5  # sheared hard somewhere, and nearly Newtonian elsewhere
-    np.testing.assert_allclose(levels.get(fields.DLE), by_P, rtol=2e-4, atol=1e-4)
-    np.testing.assert_allclose(levels.get(fields.DLH) * H, by_H * H, atol=1e-3)
-    equations.inject()
-    for row in (fields.LE, fields.DLH):
-        assert np.array_equal(levels.get(row, 1), levels.get(row)[:, ::2])
-
-
-def test_no_film_is_thinned_below_its_floor():
-    """Where surfaces touch the film stays at the floor, and the viscosity with it."""
-    from tehl_taichi.pressure import fields
-
-    equations, levels = equations_of(film(srr=-0.5), 64)
-    floor = levels.scene.rheology.film_floor
-    levels.put(fields.P, 0.5)
-    levels.put(fields.H, 0.3 * floor)
-    equations.film.values()
-    equations.linearise()
-    assert levels.get(fields.LE)[0, 20] == pytest.approx(float(viscosity(levels, np.array(0.5), floor)), abs=1e-10)
-    assert not levels.get(fields.DLH).any()
+    x = np.linspace(-1.0, 1.0, 65)
+    p, h = 0.85 + 0.25 * np.cos(2.2 * x), 0.6e-6
+    (sheared, levels), (newtonian, _) = (flow_between(name, {"srr": -0.1, **weak}, p, h)
+                                         for name, weak in ((law, LAWS[law]), ("newtonian", {})))
+    rheology, cell = levels.scene.rheology, levels.dx * levels.scales.a
+    eta = np.exp([float(ln_eta(levels.scene.oil, q * 1e9, levels.conditions["inlet"])) for q in p])
+    steps = np.diff(np.log(eta))
+    fluidity = (1 / eta[:-1] - 1 / eta[1:]) / np.where(np.abs(steps) > 1e-9, steps, 1.0)
+    middle = 0.5e9 * (p[1:] + p[:-1])
+    wall, sliding = 0.5 * h * np.abs(np.diff(p)) * 1e9 / cell, abs(levels.scene.operation.u_s) / h / fluidity
+    bound, limit = scale(rheology, middle) + 0 * middle, 1.0 if law == "limiting" else np.inf
+    shares = np.array([column(rate(rheology), *known, limit)[0] - 1 for known in zip(wall / bound + 1e-12, sliding / bound)])
+    root, P = levels.get(fields.ROOT)[0], p * 1e9 / levels.scales.p_H
+    mobility = root[:-1] * root[1:] * (h / levels.scales.h) ** 3 * fluidity * levels.conditions["eta0"]
+    extra = mobility * np.diff(P) * shares / levels.dx
+    inner = np.abs(steps) > 1e-9
+    assert shares[inner].max() > 1 and (law != "limiting" or (sliding / bound).max() < 15)
+    exact, found = -np.diff(extra), (sheared - newtonian)[1:-1]
+    both = inner[1:] & inner[:-1]
+    np.testing.assert_allclose(found[both], exact[both], atol=(5e-3 if law == "carreau" else 1e-6) * np.abs(extra).max())
 
 
 @pytest.mark.parametrize("law", LAWS)
 def test_friction_is_that_of_the_law(law):
-    """Mean of the shear on both surfaces against the law by numpy, from the stored pressure and film alone."""
+    """Mean of the shear on both surfaces against sums across columns, from the stored pressure and film alone."""
     from tehl_taichi.march.passage import march
     from tehl_taichi.physics.viscosity import ln_eta
 
@@ -95,12 +89,17 @@ def test_friction_is_that_of_the_law(law):
     shot = next(march(description))
     p, h = shot.fields["pressure"][:, 0], shot.fields["film"][:, 0]
     eta = np.exp([float(ln_eta(description.oil, q, 90.0)) for q in p])
-    expected = stress(description.rheology, -eta * description.operation.u_s / h, p) * (p > 0)
+    rheology, sliding = description.rheology, -eta * description.operation.u_s / h
+    wall = 0.5 * h * np.abs(np.gradient(p, shot.x))
+    bounds, limit = scale(rheology, p) + 0 * p, 1.0 if law == "limiting" else np.inf
+    expected = np.array([column(rate(rheology), w / bound + 1e-12, one / bound, limit)[1] * bound
+                         for w, one, bound in zip(wall, sliding, bounds)]) * (p > 0)
     found = 0.5 * (shot.fields["traction_x_a"] - shot.fields["traction_x_b"])[:, 0]
-    np.testing.assert_allclose(found, expected, rtol=1e-6, atol=1.0)
+    np.testing.assert_allclose(found, expected, rtol=4e-3 if law == "carreau" else 1e-6, atol=1e3)
     assert expected.max() > 5e6 and found[p > 1e9].min() > 0  # b is the faster surface: it drags a along
     cell = (shot.x[-1] - shot.x[0]) / 64
-    assert shot.scalars["friction_coefficient"] == pytest.approx(expected.sum() * cell / description.load, rel=1e-4)
+    assert shot.scalars["friction_coefficient"] == pytest.approx(expected.sum() * cell / description.load,
+                                                                            rel=1e-3)
 
 
 def cold(description):
@@ -137,37 +136,54 @@ def test_nothing_is_held_for_a_law_that_does_not_act(changes, thins):
 
     _, levels = equations_of(film(**changes), 64)
     assert levels.thins is thins
-    assert levels.S.shape[0] == (fields.NROWS_SHEARED if thins else fields.NROWS)
+    assert levels.S.shape[0] == fields.NROWS
     law = [text for text in levels.scene.left_out() if "shear law" in text]
     assert bool(law) is not levels.scene.rheology.thins
 
 
-def test_in_pure_rolling_every_law_is_the_newtonian_film():
-    """Of a smooth contact: its pressure falls too slowly to strain the walls."""
+def test_in_pure_rolling_a_smooth_film_is_nearly_newtonian():
+    """Its pressure falls too slowly to strain the walls: where it strains them most, by 0.3 of the limit, 3 % more flows."""
     from tehl_taichi.march.passage import march
 
     shots = [next(march(film(law, srr=0.0, **{"grid.nx": 64}))) for law in ("newtonian", "limiting")]
-    assert np.array_equal(shots[0].fields["pressure"], shots[1].fields["pressure"])
+    newtonian, limited = (shot.fields["pressure"] for shot in shots)
+    assert 0 < np.abs(newtonian - limited).max() < 2e-3 * newtonian.max()
+    assert shots[0].scalars["h_c_m"] == pytest.approx(shots[1].scalars["h_c_m"], rel=2e-3)
     assert shots[0].scalars["friction_coefficient"] == shots[1].scalars["friction_coefficient"] == 0.0
 
 
-def flow_between(law, levels_of, p):
-    """Flux times cell of each face along x that the residual has of a pressure (GPa) along x in a film of 1.5 um, in the units
-    of the Reynolds equation."""
-    from tehl_taichi.pressure import fields
+def test_a_steady_film_does_not_know_which_surface_slides():
+    """With the same mean speed: the film of +SRR is that of -SRR; and it falls along the contact, as a plug that goes with the
+    faster surface where the pressure drives it on, with the slower one behind the middle."""
+    from tehl_taichi.march.passage import march
 
-    equations, levels = equations_of(film(law, srr=0.0, **levels_of), 64)
-    levels.put(fields.P, p[None, :] * 1e9 / levels.scales.p_H)
-    levels.put(fields.H, 1.5e-6 / levels.scales.h)
-    equations.film.values()
-    equations.evaluate()
-    equations.linearise()
-    return levels.get(fields.R)[0], levels
+    ahead, back = (next(march(film(srr=srr, **{"grid.nx": 64}))) for srr in (0.5, -0.5))
+    h, x = ahead.fields["film"][:, 0], ahead.x / (ahead.x[-1] / 1.5)
+    np.testing.assert_allclose(h, back.fields["film"][:, 0], rtol=1e-5)
+    before, behind = np.interp([-0.5, 0.5], x, h)
+    assert 0.2 < (before - behind) / ahead.scalars["h_c_m"] < 0.5  # u_s/u_m: both plugs at u_m + u_s/2 and u_m - u_s/2
+
+
+def test_no_wall_of_a_run_holds_more_than_the_limit():
+    """Sheared by sliding and by a steep pressure at once, along and across, with and without temperatures, where surfaces touch
+    too."""
+    from tehl_taichi.march.passage import march
+
+    for thermal in (False, True):
+        description = film(name="touching-asperity", srr=0.3, **{"grid.nx": 64, "grid.ny": 16, "time.steps": 12,
+                                                                 "thermal.on": thermal})
+        worst = 0.0
+        for shot in march(description):
+            f = shot.fields
+            held = np.maximum(*(np.hypot(f[f"traction_x_{one}"], f[f"traction_y_{one}"]) for one in "ab"))
+            worst = max(worst, float((held / scale(description.rheology, f["pressure"])).max()))
+        assert 0.99 < worst < 1 + 1e-6
 
 
 def test_walls_bear_no_more_than_the_shear_limit():
-    """Residuals of a fall from 1 GPa to nothing within three cells, of both laws: by the definition of the law, the difference
-    is what walls that yield let through more, beyond a tenth of what they carry themselves in proportion to the stress."""
+    """Residuals of a fall from 1 GPa to nothing within three cells, of both laws: the difference is what a column carries more
+    and, beyond the limit, what walls that yield let through, from a tenth of what they carry themselves on in proportion to the
+    stress."""
     X = np.linspace(0, 1, 65)
     p = np.interp(X, [0.0, 0.5, 33 / 64, 36 / 64, 1.0], [1.0, 1.0, 0.822, 0.28, 0.0])
     weak = {"rheology.tau_L0": 2e6, "rheology.gamma": 0.004}
@@ -177,17 +193,20 @@ def test_walls_bear_no_more_than_the_shear_limit():
 
     cell = levels.dx * levels.scales.a
     wall = 0.5 * 1.5e-6 * np.abs(np.diff(p)) * 1e9 / cell
-    ratio = 1 + (wall / (2e6 + 0.004 * 0.5e9 * (p[1:] + p[:-1]))) ** 40
-    assert ratio.max() > 10
+    s = wall / (2e6 + 0.004 * 0.5e9 * (p[1:] + p[:-1]))
+    assert s.max() ** 40 > 10
     le, ie, root = (levels.get(row)[0] for row in (fields.LE, fields.IE, fields.ROOT))
     steps = np.diff(le)
     mean = np.where(np.abs(steps) > 1e-9, (ie[:-1] - ie[1:]) / np.where(steps == 0, 1, steps), ie[1:])
     P, H = p * 1e9 / levels.scales.p_H, 1.5e-6 / levels.scales.h
-    extra = root[:-1] * root[1:] * H**3 * mean * np.diff(P) * (ratio - 1) / levels.dx
+    carried = root[:-1] * root[1:] * H**3 * mean * np.diff(P) / levels.dx
+    extra = carried * s**40
     over = np.maximum(np.abs(extra) / (0.1 * H), 1)
     assert over.max() > 100 and np.any((over == 1) & (np.abs(extra) > 0.01 * H))  # faces of both kinds
     extra *= (1 + 41 * (over ** (1 / 41) - 1)) / over
-    np.testing.assert_allclose((yielding - stiff)[1:-1], -np.diff(extra), rtol=1e-6, atol=1e-9 * np.abs(extra).max())
+    alone = [column(limiting, min(one, 1 - 1e-9), 0.0, 1.0)[0] if one > 1e-6 else 1.0 for one in s]
+    extra += carried * (np.array(alone) * np.minimum(1, 1 / np.maximum(s, 1e-9)) - 1)
+    np.testing.assert_allclose((yielding - stiff)[1:-1], -np.diff(extra), rtol=1e-5, atol=1e-6 * np.abs(extra).max())
 
 
 def test_the_exit_of_a_dent_in_rolling_is_held_by_the_walls():
@@ -203,25 +222,27 @@ def test_the_exit_of_a_dent_in_rolling_is_held_by_the_walls():
         wall = 0.25 * (h[1:] + h[:-1]) * np.abs(np.diff(p) / np.diff(shot.x))
         limit = rheology.tau_L0 + rheology.gamma * 0.5 * (p[1:] + p[:-1])
         largest, strain = max(largest, p.max()), max(strain, float((wall / limit).max()))
-    assert largest == pytest.approx(3.263e9, rel=2e-3)
+    assert largest == pytest.approx(3.356e9, rel=2e-3)
     assert 1.0 < strain < 1.2  # 1.9 of a Newtonian film
 
 
 def test_a_sheared_film_flows_more_easily():
-    """Newtonian and limiting pressures differ where the film slips; its thickness hardly: that is made in the inlet."""
+    """Newtonian and limiting pressures differ where the film slips; its thickness in the middle hardly: that is made in the
+    inlet."""
     from tehl_taichi.march.passage import march
 
     thick, thin = (next(march(film(law, srr=-0.5, **{"grid.nx": 64}))) for law in ("newtonian", "limiting"))
-    assert thin.scalars["h_c_m"] == pytest.approx(thick.scalars["h_c_m"], rel=1e-3)
+    assert thin.scalars["h_c_m"] == pytest.approx(thick.scalars["h_c_m"], rel=5e-3)
     assert np.abs(thin.fields["pressure"] - thick.fields["pressure"]).max() > 1e-3 * thick.scalars["p_max_Pa"]
     assert thick.scalars["friction_coefficient"] > 5 and thin.scalars["friction_coefficient"] < 0.08  # no oil bears the former
 
 
 def test_a_start_with_much_slip_does_not_end_on_the_floor():
-    """SRR 1.7, 3.6 GPa, 117 deg C on 64 columns: sheared from the first guess on, all of the contact would touch."""
+    """SRR 1.7, 3.6 GPa, 117 deg C on 64 columns: sheared from the first guess on, all of the contact would touch. Frozen oil
+    goes with the faster surface where the pressure drives it on, with the slower one behind: its film is thinner."""
     from tehl_taichi.march.passage import march
 
     shot = next(march(film(hertz_pressure=3.6e9, srr=1.7, speed=15.3, temperature=117.0, **{"grid.nx": 64})))
     assert not shot.fields["contact"].any() and shot.scalars["newton"] < 25  # 20; its neighbours 3 to 29
     newtonian = next(march(film("newtonian", hertz_pressure=3.6e9, srr=1.7, speed=15.3, temperature=117.0, **{"grid.nx": 64})))
-    assert shot.scalars["h_c_m"] == pytest.approx(newtonian.scalars["h_c_m"], rel=0.03)
+    assert 0.8 * newtonian.scalars["h_c_m"] < shot.scalars["h_c_m"] < newtonian.scalars["h_c_m"]

@@ -226,7 +226,7 @@ def test_coarse_thermal_passage():
         assert s.scalars["residual"] < 1e-6 and s.scalars["mass_error"] < 1e-6 and s.scalars["load_error"] < 1e-6
         assert s.scalars["temperature_change_K"] < 0.05 and s.scalars["h_min_m"] > 0
     inside = min(steps[1:], key=lambda s: abs(s.feature_x))
-    assert inside.scalars["p_max_Pa"] == pytest.approx(4.0e9, rel=0.05)  # 4.14 on 64 columns, 4.00 on 128 and 256
+    assert inside.scalars["p_max_Pa"] == pytest.approx(3.8e9, rel=0.03)  # 3.76; the passage has 3.85 on 128, 3.89 on 256
     assert 180 < inside.scalars["film_max_C"] < 225
     assert inside.fields["temperature_a"].max() == pytest.approx(177, abs=8)
     edge = steps[-1].fields["temperature_mid"][:, -1]
@@ -263,7 +263,7 @@ def test_isothermal_scenes_hold_nothing_of_it():
 
     s = next(march(scene("smooth-line").replace(**{"thermal.on": False, "grid.nx": 64})))
     assert not any("temperature" in name for name in s.fields) and "film_max_C" not in s.scalars
-    assert fields.NROWS_SHEARED < fields.NROWS_THERMAL and not any(key.startswith("heat") for key in s.state)
+    assert fields.NROWS < fields.NROWS_THERMAL and not any(key.startswith("heat") for key in s.state)
 
 
 def test_a_point_contact_heats_up():

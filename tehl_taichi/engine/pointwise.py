@@ -58,6 +58,7 @@ def _elementary(by_numpy, name, module="taichi"):
 exp = _elementary(np.exp, "exp", "tehl_taichi.engine.elementary")
 log = _elementary(np.log, "log", "tehl_taichi.engine.elementary")
 sqrt = _elementary(np.sqrt, "sqrt")
+asin = _elementary(np.arcsin, "asin")
 absolute = _elementary(np.absolute, "abs")
 minimum = _elementary(np.minimum, "minimum", "tehl_taichi.engine.elementary")
 maximum = _elementary(np.maximum, "maximum", "tehl_taichi.engine.elementary")

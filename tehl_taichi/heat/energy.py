@@ -9,8 +9,9 @@ from tehl_taichi.engine.lanes import Flat, Table, V, W, cells, place, tile, tile
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
 from tehl_taichi.heat.elimination import eliminate
-from tehl_taichi.heat.film import couette, keep_parts, node_laws, pressure_and_film
+from tehl_taichi.heat.film import keep_parts, node_laws, pressure_and_film
 from tehl_taichi.heat.nodes import Nodes, second, slope, weight, zeta
+from tehl_taichi.heat.sliding import couette, sheared
 from tehl_taichi.heat.slots import (
     AA,
     AB,
@@ -33,6 +34,8 @@ from tehl_taichi.heat.slots import (
     QA,
     QB,
     RESTS,
+    SA,
+    SB,
     TS,
     VY,
     T,
@@ -42,13 +45,14 @@ from tehl_taichi.heat.slots import (
 from tehl_taichi.heat.step import Step
 from tehl_taichi.physics.conduction import conductivity, heat_capacity
 from tehl_taichi.physics.density import expansivity
-from tehl_taichi.physics.rheology import sensitivity
+from tehl_taichi.physics.sheared_flow import mean_stress, wall_slip
 from tehl_taichi.physics.viscosity import ln_eta
 from tehl_taichi.pressure.conditions import Conditions
-from tehl_taichi.pressure.fields import TOUCH, P
+from tehl_taichi.pressure.fields import SKEW, TOUCH, P
 from tehl_taichi.pressure.tractions import solid_friction
 
 DT = 1e-2  # K, step of the difference quotient in temperature
+RISE = 1e-3  # and of that in the Newtonian stress, a part of it
 FADE = 1e-4  # heat sources fade as P/(P + FADE) towards the cavitated outlet: switching them off at P = 0 cycles
 QUADRATIC = 0.1  # 1/K: a Newton step of a column that changes T by d is followed by one of about 0.1 d^2 (beta/2 is 0.05)
 WARM, HOT = 100.0, 900.0  # the temperature stays above the inlet's minus WARM, and below HOT (deg C)
@@ -69,6 +73,7 @@ class Heated:
     h: V  # m, at least the floor
     px: V  # Pa/m
     py: V  # Pa/m
+    skew: V  # fluidity for the flow by pressure over that of the Couette flow
     k: V  # W/mK, conductivity
     fade: V  # part of the film's heat sources that counts
     touch: V  # 1 where boundary friction heats instead of the film,
@@ -138,17 +143,54 @@ def heated(S: ti.template(), C: ti.template(), G: ti.template(), at: ti.template
     if at.i > scene.centre:
         fade = S[P, at.k] / (S[P, at.k] + FADE)
     friction = -scene.u_s * solid_friction(rheology, p, scene.u_s) / h
-    return Heated(p=p, h=h, px=C[at.q, PX], py=C[at.q, PY], k=conductivity(oil, p), fade=fade, touch=S[TOUCH, at.k],
+    return Heated(p=p, h=h, px=C[at.q, PX], py=C[at.q, PY], skew=S[SKEW, at.k],
+                  k=conductivity(oil, p), fade=fade, touch=S[TOUCH, at.k],
                   friction=friction)
 
 
+@ti.dataclass
+class Work:
+    """What the shear of a column does, over its 1/eta: stresses (Pa) by the sliding, and by lever times the gradients along it
+    and across; the first's square by ln of the Newtonian stress; and heat of the slip along walls, W/m2, with its derivative by
+    e0."""
+
+    sliding: V
+    along: V
+    across: V
+    bend: V
+    slip: V
+    slip_e0: V
+
+
 @ti.func
-def sources(node: ti.template(), col: ti.template(), flow: ti.template(), bend):
-    """The Sources at a node; bend: d tau/d newtonian of the column."""
-    tau, solid = flow.left * flow.newtonian, col.touch > 0.0
-    tx, ty = tau + node.lever * col.px, node.lever * col.py
-    viscous = ti.select(solid, V(0.0), (tx * tx + ty * ty) * node.ie / flow.left * col.fade)
-    gain = node.ie * (bend * flow.newtonian + tau) * flow.newtonian / flow.e0 * col.fade
+def sheared_through(rheology: ti.template(), col: ti.template(), newtonian):
+    """Work of the sliding inside the film, over 1/eta: of what does not slip along a wall; and the part that does."""
+    x = 0.5 * col.h * ti.abs(col.px) * col.skew
+    slip = wall_slip(rheology, x, newtonian, col.p)
+    return mean_stress(rheology, x, newtonian, col.p) * newtonian * (1.0 - slip), slip
+
+
+@ti.func
+def work(rheology: ti.template(), col: ti.template(), flow: ti.template(), scene: ti.template()):
+    """The Work of a column. Together its heats are tau u_s + p_x q, q: what the gradient carries. Where oil slips along a wall,
+    bend is that of a rate which stays: at a stress that stays Newton steps swing between films that slip and those that do not.
+    """
+    law = sheared(rheology, col, flow, scene)
+    inside, part = sheared_through(rheology, col, flow.newtonian)
+    more, _ = sheared_through(rheology, col, flow.newtonian * (1.0 + RISE))
+    held = law.tau + 0.5 * col.h * ti.abs(col.px)
+    return Work(sliding=flow.sign * ti.sqrt(inside), along=ti.sqrt(law.along), across=ti.sqrt(law.across),
+                bend=ti.select(part > 0.0, inside, (more - inside) / RISE), slip=held * ti.abs(scene.u_s) * part,
+                slip_e0=held * ti.abs(scene.u_s) * ti.select(part > 0.0, 1.0 - part, V(0.0)) / flow.e0)
+
+
+@ti.func
+def sources(node: ti.template(), col: ti.template(), flow: ti.template(), done: ti.template()):
+    """The Sources at a node."""
+    solid = col.touch > 0.0
+    tx, ty = done.sliding + node.lever * col.px * done.along, node.lever * col.py * done.across
+    viscous = ti.select(solid, V(0.0), (tx * tx + ty * ty) * node.ie * col.fade)
+    gain = node.ie * done.bend / flow.e0 * col.fade
     return Sources(viscous=viscous, heat=ti.select(solid, col.friction, viscous),
                    squeeze=ti.select(solid, V(0.0), node.swell * col.fade), gain=ti.select(solid, V(0.0), gain))
 
@@ -176,12 +218,12 @@ def turn_upstream(Z: ti.template(), X: ti.template(), N: ti.template(), at: ti.t
 
 
 @ti.func
-def assemble(Z: ti.template(), X: ti.template(), N: ti.template(), at: ti.template(), col: ti.template(), oil: ti.template(),
-             rheology: ti.template(), scene: ti.template(), step: ti.template()):
+def assemble(Z: ti.template(), C: ti.template(), X: ti.template(), N: ti.template(), at: ti.template(), col: ti.template(),
+             oil: ti.template(), rheology: ti.template(), scene: ti.template(), step: ti.template()):
     """Newton equations of the inner nodes, see :mod:`elimination`; the right side is minus the residual."""
     q, c, nz = at.q, at.c, N.shape[1]
-    flow = couette(Z, N, q, rheology, col.p, col.h, scene)
-    bend = flow.left * sensitivity(rheology, flow.newtonian, col.p, flow.left)
+    flow = couette(Z, N, q, col.h, scene)
+    done = work(rheology, col, flow, scene)
     conduction, by_node = col.k / (col.h * col.h), nz * (nz + 1)
     for m in range(nz):  # how the heat of every node depends on the temperature of node m, through the stress: times gain
         X[c, by_node + m] = weight(N, m) * Z[NIE, q * nz + m] * Z[BETA, q * nz + m]
@@ -191,7 +233,7 @@ def assemble(Z: ti.template(), X: ti.template(), N: ti.template(), at: ti.templa
         swept = storing / Z[NRHO, q * nz + n] * Z[THROUGH, q * nz + n] / col.h  # fluxes and rho are both over rho_0
         node = Node(ie=Z[NIE, q * nz + n] / scene.eta0, lever=(zeta(N, n) - flow.centre) * col.h,
                     swell=expansivity(oil, col.p, t) * Z[PS, q * nz + n] * step.rate)
-        made = sources(node, col, flow, bend)
+        made = sources(node, col, flow, done)
         balance = storing * step.rate * (t - Z[TS, q * nz + n]) - made.heat - made.squeeze * (t + 273.15)
         turned = one_sided(N, n, swept, conduction) * swept
         for m in range(nz):
@@ -202,6 +244,21 @@ def assemble(Z: ti.template(), X: ti.template(), N: ti.template(), at: ti.templa
         if ti.abs(turned).max() > 0.0:
             balance += turn_upstream(Z, X, N, at, n, turned)
         X[c, nz * nz + n] = -balance
+    assemble_slip(X, C, N, at, col, flow, done, step)
+
+
+@ti.func
+def assemble_slip(X: ti.template(), C: ti.template(), N: ti.template(), at: ti.template(), col: ti.template(),
+                  flow: ti.template(), done: ti.template(), step: ti.template()):
+    """Heat of the oil that slips along the wall where the stress is largest, into the equation of that wall; kept in C."""
+    c, q, nz, last = at.c, at.q, N.shape[1], N.shape[1] - 1
+    counts = ti.select(col.touch > 0.0, V(0.0), col.fade)
+    at_b = ti.select(flow.sign * col.px > 0.0, V(1.0), V(0.0))
+    to_a, to_b = (1.0 - at_b) * counts, at_b * counts
+    C[q, SA], C[q, SB] = to_a * done.slip, to_b * done.slip
+    for m in range(nz):
+        falls = done.slip_e0 * X[c, nz * (nz + 1) + m]
+        X[c, m], X[c, last * nz + m] = step.B_a * to_a * falls, step.B_b * to_b * falls
 
 
 @ti.func
@@ -217,17 +274,17 @@ def wall_slopes(Z: ti.template(), N: ti.template(), q):
 @ti.func
 def assemble_walls(Z: ti.template(), C: ti.template(), X: ti.template(), N: ti.template(), at: ti.template(), transfer,
                    step: ti.template()):
-    """Equations of both walls, T_s = A + B q; transfer: conductivity over film thickness."""
+    """Equations of both walls, T_s = A + B q, after :func:`assemble`; transfer: conductivity over film thickness."""
     q, c, nz = at.q, at.c, N.shape[1]
     last = nz - 1
     flux_a, flux_b = wall_slopes(Z, N, q)
     for m in range(nz):
-        X[c, m] = -step.B_a * transfer * slope(N, 0, m)
-        X[c, last * nz + m] = step.B_b * transfer * slope(N, last, m)
+        X[c, m] = X[c, m] - step.B_a * transfer * slope(N, 0, m)
+        X[c, last * nz + m] = X[c, last * nz + m] + step.B_b * transfer * slope(N, last, m)
     X[c, 0] = X[c, 0] + 1.0
     X[c, last * nz + last] = X[c, last * nz + last] + 1.0
-    X[c, nz * nz] = C[q, AA] + step.B_a * transfer * flux_a - Z[T, q * nz]
-    X[c, nz * nz + last] = C[q, AB] - step.B_b * transfer * flux_b - Z[T, q * nz + last]
+    X[c, nz * nz] = C[q, AA] + step.B_a * (transfer * flux_a + C[q, SA]) - Z[T, q * nz]
+    X[c, nz * nz + last] = C[q, AB] - step.B_b * (transfer * flux_b - C[q, SB]) - Z[T, q * nz + last]
 
 
 @ti.func
@@ -285,7 +342,7 @@ def solve_column(Z: ti.template(), C: ti.template(), X: ti.template(), N: ti.tem
         if count >= USUAL:
             thinning(Z, at.q, nz, oil, col.p, scene.ln_eta0)
         count += 1
-        assemble(Z, X, N, at, col, oil, rheology, scene, step)
+        assemble(Z, C, X, N, at, col, oil, rheology, scene, step)
         assemble_walls(Z, C, X, N, at, col.k / col.h, step)
         eliminate(X, at.c, nz)
         previous = moved
@@ -323,6 +380,6 @@ def energy(S: ti.template(), Z: ti.template(), C: ti.template(), X: ti.template(
             change = ti.max(change, change_of_column(Z, at, nz))
             transfer = col.k / col.h
             flux_a, flux_b = wall_slopes(Z, N, at.q)
-            C[at.q, QA], C[at.q, QB] = transfer * flux_a, -transfer * flux_b
+            C[at.q, QA], C[at.q, QB] = transfer * flux_a + C[at.q, SA], C[at.q, SB] - transfer * flux_b
             C[at.q, PL], C[at.q, HL] = col.p, col.h
         told[c, CHANGE], told[c, FAILED], told[c, HELD] = change, failed, clamped

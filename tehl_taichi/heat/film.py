@@ -3,9 +3,9 @@
 In the table of :mod:`tehl_taichi.heat.slots`. Source: generalised Reynolds equation, Yang & Wen 1990. In SI but for
 viscosities, which are over eta0, and densities, over rho_0.
 
-With the stress of the Couette part tau = -u_s/(h E0) b, u_s = u_a - u_b, E0 = int dzeta/eta, zeta_c = int zeta dzeta/eta / E0
-and b what the shear law leaves of the viscosity: u = u_a - u_s int_0 dzeta/eta / E0 + h^2 p_x int_0 (zeta - zeta_c)/eta dzeta
-/ b. Integrals over zeta: N, see :mod:`tehl_taichi.heat.nodes`.
+With the Newtonian stress of the Couette part -u_s/(h E0), u_s = u_a - u_b, E0 = int dzeta/eta, zeta_c = int zeta dzeta/eta / E0
+and Phi what the shear law makes of the flow by pressure (:mod:`tehl_taichi.heat.sliding`): u = u_a - u_s int_0 dzeta/eta / E0
++ Phi h^2 p_x int_0 (zeta - zeta_c)/eta dzeta. Integrals over zeta: N, see :mod:`tehl_taichi.heat.nodes`.
 """
 
 from tehl_taichi.engine.elementary import exp, log, maximum
@@ -13,14 +13,17 @@ from tehl_taichi.engine.lanes import Flat, Table, V, cells, place, tile, tiles
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
 from tehl_taichi.heat.nodes import Nodes, beyond, integral, weight, zeta
+from tehl_taichi.heat.sliding import couette, sheared
 from tehl_taichi.heat.slots import KEPT, MS, MX, MY, NIE, NRHO, PX, PY, RESTS, TAU, VY, XA, XB, YA, YB, T, U
 from tehl_taichi.physics.density import rho_film
 from tehl_taichi.physics.rheology import DP
+from tehl_taichi.physics.sheared_flow import wall_limit
 from tehl_taichi.physics.viscosity import ln_eta_of, part, parts
 from tehl_taichi.pressure.conditions import Conditions
-from tehl_taichi.pressure.fields import FLOOR, ILAM, QCP, RHOC, H, P
+from tehl_taichi.pressure.fields import DSKEW, FLOOR, ILAM, QCP, RHOC, SKEW, H, P
 from tehl_taichi.pressure.gradient import limited_gradient
-from tehl_taichi.pressure.laws import sheared, store_laws, store_slopes, store_thinning
+from tehl_taichi.pressure.laws import store_laws, store_slopes
+from tehl_taichi.pressure.tractions import walls
 
 
 @ti.dataclass
@@ -31,16 +34,7 @@ class Column:
     h: V  # m, at least the floor
     px: V  # Pa/m
     py: V  # Pa/m
-
-
-@ti.dataclass
-class Couette:
-    """The Couette part of a column."""
-
-    e0: V  # int dzeta/eta over 1/eta0
-    centre: V  # zeta_c
-    newtonian: V  # Pa, stress on body a without a shear law
-    left: V  # b, what the law leaves of it
+    skew: V  # fluidity for the flow by pressure over E0
 
 
 @ti.func
@@ -55,7 +49,7 @@ def column(S: ti.template(), G: ti.template(), at: ti.template(), scene: ti.temp
     px, py = limited_gradient(S, G, at)
     p, h = pressure_and_film(S, G, at.k, scene)
     slope = scene.p_H / scene.a
-    return Column(p=p, h=h, px=px * slope, py=py * slope)
+    return Column(p=p, h=h, px=px * slope, py=py * slope, skew=S[SKEW, at.k])
 
 
 @ti.func
@@ -88,21 +82,9 @@ def keep(Z: ti.template(), G: Table, nz: ti.i32, oil: ti.template()):
 
 
 @ti.func
-def couette(Z: ti.template(), N: ti.template(), q, rheology: ti.template(), p, h, scene: ti.template()):
-    """The Couette part of column q under the pressure p (Pa) in a film h (m)."""
-    nz, e0, e1 = N.shape[1], V(0.0), V(0.0)
-    for n in range(nz):
-        part = weight(N, n) * Z[NIE, q * nz + n]
-        e0 += part
-        e1 += zeta(N, n) * part
-    newtonian, left = sheared(rheology, p, h, e0, -scene.u_s * scene.eta0)
-    return Couette(e0=e0, centre=e1 / e0, newtonian=newtonian, left=left)
-
-
-@ti.func
 def felt(Z: ti.template(), N: ti.template(), q, flow: ti.template(), scene: ti.template()):
     """What the Reynolds equation feels of a column: mean density, density carried by the Couette flow, 1/eta that the
-    Poiseuille flow feels."""
+    Poiseuille flow of Newtonian oil feels."""
     nz, mean, carried, turned = N.shape[1], V(0.0), V(0.0), V(0.0)
     for m in range(nz):
         above_m = V(0.0)  # of the density beyond node m, which its shear carries along
@@ -112,13 +94,12 @@ def felt(Z: ti.template(), N: ti.template(), q, flow: ti.template(), scene: ti.t
         mean += weight(N, m) * Z[NRHO, q * nz + m]
         carried += part
         turned += (flow.centre - zeta(N, m)) * part
-    return mean, (scene.u_a * mean - scene.u_s * carried / flow.e0) / scene.u_m, 12.0 * turned / (mean * flow.left)
+    return mean, (scene.u_a * mean - scene.u_s * carried / flow.e0) / scene.u_m, 12.0 * turned / mean
 
 
 @ti.kernel
-def laws(S: ti.template(), Z: ti.template(), G: Table, N: Nodes, oil: ti.template(), rheology: ti.template(),
-         conditions: Flat, slopes: ti.template()):
-    """RHO, RHOC, LE, IE, ROOT, GAP of the finest level from pressure, film and the temperatures. With slopes = 1 their
+def laws(S: ti.template(), Z: ti.template(), G: Table, N: Nodes, oil: ti.template(), conditions: Flat, slopes: ti.template()):
+    """RHO, RHOC, LE, IE, ROOT, GAP, SKEW of the finest level from pressure, film and the temperatures. With slopes = 1 their
     derivatives, which need the values."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
@@ -129,29 +110,31 @@ def laws(S: ti.template(), Z: ti.template(), G: Table, N: Nodes, oil: ti.templat
             k = off + q
             p, h = S[P, k] * scene.p_H + slopes * DP, maximum(S[H, k], floor)
             node_laws(Z, q, nz, oil, p, scene.ln_eta0)
-            flow = couette(Z, N, q, rheology, p, h * scene.h, scene)
+            flow = couette(Z, N, q, h * scene.h, scene)
             mean, carried, ie = felt(Z, N, q, flow, scene)
             if ti.static(slopes):
                 store_slopes(S, k, mean, -log(ie), scene.p_H / DP)
-                store_thinning(S, k, h, floor, rheology, p, flow.newtonian, flow.left)
+                S[DSKEW, k] = (ie / flow.e0 - S[SKEW, k]) * (scene.p_H / DP)
                 S[QCP, k] = (carried - S[RHOC, k]) * (scene.p_H / DP) * S[H, k]
             else:
                 store_laws(S, k, h, mean, -log(ie), ie, G[0, ILAM])
-                S[RHOC, k] = carried
+                S[RHOC, k], S[SKEW, k] = carried, ie / flow.e0
 
 
 @ti.func
-def store_velocities(Z: ti.template(), N: ti.template(), q, col: ti.template(), flow: ti.template(), scene: ti.template()):
+def store_velocities(Z: ti.template(), N: ti.template(), q, col: ti.template(), flow: ti.template(), law: ti.template(),
+                     scene: ti.template()):
     """u and v at the nodes; needs their 1/eta."""
-    nz, poiseuille = N.shape[1], col.h * col.h / (flow.left * scene.eta0)
+    nz, poiseuille = N.shape[1], col.h * col.h / scene.eta0
+    along, across = poiseuille * (law.along + law.slips) * col.px, poiseuille * law.across * col.py
     for n in range(nz):
         turn, driven = V(0.0), V(0.0)  # int_0^zeta of 1/eta, and of (zeta - zeta_c)/eta
         for m in range(nz):
             ie = integral(N, n, m) * Z[NIE, q * nz + m]
             turn += ie
             driven += (zeta(N, m) - flow.centre) * ie
-        Z[U, q * nz + n] = scene.u_a - scene.u_s * turn / flow.e0 + poiseuille * col.px * driven
-        Z[VY, q * nz + n] = poiseuille * col.py * driven
+        Z[U, q * nz + n] = scene.u_a - scene.u_s * turn / flow.e0 + along * driven
+        Z[VY, q * nz + n] = across * driven
 
 
 @ti.func
@@ -179,12 +162,13 @@ def store_mass(Z: ti.template(), N: ti.template(), q, h):
 
 
 @ti.func
-def store_shear(C: ti.template(), q, col: ti.template(), flow: ti.template()):
+def store_shear(C: ti.template(), q, col: ti.template(), flow: ti.template(), law: ti.template(), limit):
     """Stress of the Couette part, gradient of the pressure, and tau on both walls."""
-    tau, above = flow.left * flow.newtonian, 1.0 - flow.centre
+    tau, x, y = flow.sign * law.tau, 0.5 * col.h * col.px, 0.5 * col.h * col.py
+    shift = 1.0 - 2.0 * flow.centre  # of the middle of the film
+    a_x, a_y, b_x, b_y = walls(tau + shift * x, x, shift * y, y, limit)
     C[q, TAU], C[q, PX], C[q, PY] = tau, col.px, col.py
-    C[q, XA], C[q, YA] = tau - flow.centre * col.h * col.px, -flow.centre * col.h * col.py
-    C[q, XB], C[q, YB] = tau + above * col.h * col.px, above * col.h * col.py
+    C[q, XA], C[q, YA], C[q, XB], C[q, YB] = a_x, a_y, -b_x, -b_y
 
 
 @ti.kernel
@@ -203,9 +187,10 @@ def velocities(S: ti.template(), Z: ti.template(), C: ti.template(), G: Table, N
             at = place(G, c, i)
             col = column(S, G, at, scene)
             node_laws(Z, at.q, nz, oil, col.p, scene.ln_eta0)
-            flow = couette(Z, N, at.q, rheology, col.p, col.h, scene)
+            flow = couette(Z, N, at.q, col.h, scene)
+            law = sheared(rheology, col, flow, scene)
             if flows:
-                store_velocities(Z, N, at.q, col, flow, scene)
+                store_velocities(Z, N, at.q, col, flow, law, scene)
                 store_fluxes(Z, N, at.q, col.h)
             store_mass(Z, N, at.q, col.h)
-            store_shear(C, at.q, col, flow)
+            store_shear(C, at.q, col, flow, law, wall_limit(rheology, col.p))

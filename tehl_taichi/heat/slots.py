@@ -21,9 +21,9 @@ T, TN, TNN, U, VY, MX, MY, MS, MSN, MSNN, NIE, NRHO, TS, PS, LAST = range(15)
 KEPT = 15  # and from here on what of the viscosity depends on the temperature alone, where its law has such parts
 # pressure of the last step and the one before (Pa); heat into the bodies; A of T_s = A + B q; stress of the Couette part;
 # gradient of the pressure (Pa/m); shear on the walls z = 0 and z = h; pressure (Pa) and film (m) of the last round; squares of
-# what extrapolations would have missed, in the frame of the contact and in that of the feature
-PN, PNN, QA, QB, AA, AB, TAU, PX, PY, XA, YA, XB, YB, PL, HL, STILL, MOVING = range(17)
-SINGLES = 17
+# what extrapolations would have missed, in the frame of the contact and in that of the feature; heat of the slip along walls
+PN, PNN, QA, QB, AA, AB, TAU, PX, PY, XA, YA, XB, YB, PL, HL, STILL, MOVING, SA, SB = range(19)
+SINGLES = 19
 # told[tile, ...]: largest change of T against the last iterate (K), columns that did not converge, nodes held in range, and 1
 # where the tile rests (:mod:`tehl_taichi.heat.rest`)
 CHANGE, FAILED, HELD, RESTS = range(4)

@@ -64,7 +64,7 @@ class FilmHeat:
         film_state = v.S, self.columns.field
         state = *film_state, self.columns.singles.field
         known = v.G, self.across.table, scene.oil, scene.rheology, conditions
-        self.values, self.slopes = (bind(film.laws, *film_state, *known, slopes) for slopes in (0, 1))
+        self.values, self.slopes = (bind(film.laws, *film_state, *known[:3], conditions, slopes) for slopes in (0, 1))
         self._keep_parts = bind(film.keep, self.columns.field, v.G, self.nz, scene.oil) if parts(scene.oil) else lambda: None
         self._velocities, self._remembered = (bind(film.velocities, *state, *known, self.told, flows) for flows in (1, 0))
         self._departures = bind(paths.departures, *state, v.G, self.nz, conditions, self.step.values, self.told)

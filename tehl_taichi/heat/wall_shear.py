@@ -19,7 +19,7 @@ def wall_shear(S: ti.template(), G: Table, C: ti.template(), rheology: ti.templa
         scene = read(Conditions, conditions)
         for i in range(first, last):
             at = place(G, c, i)
-            a_x, y, b_x = on_bodies(S, G, at, rheology, scene)
+            a_x, a_y, b_x, b_y = on_bodies(S, G, at, rheology, scene)
             carries = (S[P, at.k] > 0.0) & (S[TOUCH, at.k] == 0.0)
-            store(out, at, ti.select(carries, C[at.q, XA], a_x), ti.select(carries, C[at.q, YA], y),
-                  ti.select(carries, -C[at.q, XB], b_x), ti.select(carries, -C[at.q, YB], y))
+            store(out, at, ti.select(carries, C[at.q, XA], a_x), ti.select(carries, C[at.q, YA], a_y),
+                  ti.select(carries, -C[at.q, XB], b_x), ti.select(carries, -C[at.q, YB], b_y))

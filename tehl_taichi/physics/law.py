@@ -15,11 +15,6 @@ def _nothing(oil, Gamma, p):
     return ""
 
 
-def _newtonian(rheology, wall, p):
-    """As Newtonian oil."""
-    return 1.0 + 0.0 * wall
-
-
 @dataclass(frozen=True, kw_only=True)
 class Law(Entry):
     """numbers: {key: declaration} of what the law takes from a scene (see :mod:`tehl_taichi.values.quantity`); most_p (Pa),
@@ -45,13 +40,23 @@ class ShearLaw(Law):
     """stress(rheology, newtonian, p): the stress (Pa) that a film bears for the Newtonian stress eta * (shear rate); odd in it,
     and equal to it where it is small. thins: whether it ever is another one.
 
-    poiseuille(rheology, wall, p): what a gradient of the pressure drives through the film without slip, over what it drives
-    through Newtonian oil; wall = h |grad p|/2: the stress (Pa) that it puts on both walls. power: of that stress that what it
-    drives beyond Newtonian oil grows with, where that is too steep for Newton's method; 1: it is not.
+    What a film of one viscosity carries under a gradient of the pressure along the sliding, with wall = h |grad p|/2 >= 0, the
+    stress that it puts on both walls, and newtonian >= 0, that of the sliding:
+
+    flow(rheology, wall, newtonian, p): over what Newtonian oil carries; and its derivatives by ln wall, ln newtonian and p.
+    beyond: the same of what comes on top and is too steep in `wall` for Newton's method; power: of the wall that what is
+    carried then grows with. mean_stress: in the middle of the film. slip: part of the sliding that the oil slips along a wall.
+    limit(rheology, p): what no wall holds more than.
+
+    None: of the stress alone, by the circular law that touches it (:mod:`tehl_taichi.physics.touching`), or none such.
     """
 
     stress: Callable
-    poiseuille: Callable = _newtonian
+    flow: Callable | None = None
+    beyond: Callable | None = None
+    mean_stress: Callable | None = None
+    slip: Callable | None = None
+    limit: Callable | None = None
     power: float = 1.0
     thins: bool = True
 

@@ -8,7 +8,6 @@ from tehl_taichi.registry import collect
 LAWS = collect(shear, ShearLaw)  # choices of rheology.law
 LARGEST = 1e100  # Pa: beyond any trial state, and its square is still a number
 DP = 1e3  # Pa, step of the difference quotients of laws: their scale is 1e8 Pa, so a quotient is good to 1e-5
-RISE = 1e-6  # and of those by a wall stress, as a part of it
 
 
 @unrolled
@@ -17,28 +16,9 @@ def shear_stress(rheology, newtonian, p):
     return LAWS[rheology.law].stress(rheology, newtonian, p)
 
 
-@unrolled
-def poiseuille(rheology, wall, p):
-    """Poiseuille flow under a stress h |grad p|/2 of the walls over that of Newtonian oil."""
-    return LAWS[rheology.law].poiseuille(rheology, wall, p)
-
-
-@pointwise
-def poiseuille_slopes(rheology, wall, p, value):
-    """wall d/dwall and d/dp (1/Pa) of :func:`poiseuille`, by differences."""
-    return ((poiseuille(rheology, wall * (1.0 + RISE), p) - value) / RISE,
-            (poiseuille(rheology, wall, p + DP) - value) / DP)
-
-
 @pointwise
 def secant(rheology, newtonian, p):
     """shear_stress / newtonian: what is left of the viscosity, 1 without shear."""
     small = absolute(newtonian) < 1e-3
     safe = where(small, newtonian + 1.0, minimum(maximum(newtonian, -LARGEST), LARGEST))
     return where(small, 0.0 * newtonian + 1.0, shear_stress(rheology, safe, p) / safe)
-
-
-@pointwise
-def sensitivity(rheology, newtonian, p, b):
-    """d shear_stress/d newtonian over the secant b: 1 + d ln b/d ln newtonian."""
-    return (secant(rheology, newtonian * 1.001, p) * 1.001 - b) * 1000.0 / b

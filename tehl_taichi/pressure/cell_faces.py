@@ -1,15 +1,17 @@
 """Poiseuille flow between two neighbouring nodes and its derivatives.
 
 Mobility of the face: log-mean of 1/eta, geometric mean of rho, and of H^3 the :func:`cube`; times what the shear law makes of
-it under the stress that the gradient along the face puts on the walls (that of each direction by itself).
+it (:mod:`tehl_taichi.physics.sheared_flow`) under the stress that the gradient puts on the walls, that of each direction by
+itself, and the Newtonian stress of the sliding, that of the face's own viscosity and film.
 """
 
 from tehl_taichi.engine.lanes import V, above, below
 from tehl_taichi.engine.language import ti
-from tehl_taichi.physics.rheology import poiseuille, poiseuille_slopes
-from tehl_taichi.pressure.fields import DLE, DRP, DX, DY, GAP, IE, LE, P_H, ROOT, WALL, P
+from tehl_taichi.physics.sheared_flow import either
+from tehl_taichi.pressure.fields import DLE, DRP, DX, DY, GAP, IE, LE, P_H, ROOT, SHEAR, WALL, P
 
-NEGLIGIBLE = 1e-9  # more flow by a shear law, nearly everywhere: its slopes are not worth finding (6 % of a step)
+LARGEST = 1e30  # Pa, Newtonian stress of the sliding: ghosts have no film
+SMALLEST = 1e-300
 # What a film carries by pressure, over what its walls carry at the mean speed, up to which walls yield by their law (`eased`).
 # Krylov iterations a step, gear isothermal on 512x128, SRR -0.12, 0.12, 0: with 1 16.2, 16.2, 14.4, here 15.8, 15.3, 13.9;
 # as its asperity leaves in rolling (0.8 to 1.2 a) on 1024x32 26.6, here 18.7, with 0.02 15.6. Largest pressures change by
@@ -26,6 +28,7 @@ class Node:
     ie: V  # exp(-le)
     root: V  # root of rho / lambda
     gap: V  # film, at least the floor
+    skew: V  # fluidity for the flow by pressure over that for the sliding: 1 of a film of one viscosity
 
 
 @ti.dataclass
@@ -34,17 +37,18 @@ class Slopes:
 
     le: V  # d le/dP
     root: V  # d root/dP
-    le_h: V  # d le/dH
+    skew: V  # d skew/dP
 
 
 @ti.dataclass
 class Wall:
-    """Of a level and a direction: Pa on both walls of a film H = 1 by a difference of P of 1, Pa of P = 1, and the distance of
-    the nodes."""
+    """Of a level and a direction: Pa on both walls of a film H = 1 by a difference of P of 1, Pa of P = 1, the distance of the
+    nodes, and Pa of the sliding of oil at p = 0 in a film H = 1."""
 
     stress: ti.f64
     p_H: ti.f64
     distance: ti.f64
+    shear: ti.f64
 
 
 @ti.dataclass
@@ -96,10 +100,13 @@ def beside(S: ti.template(), row: ti.template(), k, n2, up: ti.template()):
 
 
 @ti.func
-def node(S: ti.template(), k, n2, up: ti.template()):
-    """The Node at row j + up."""
+def node(S: ti.template(), k, n2, up: ti.template(), skew: ti.template()):
+    """The Node at row j + up; skew: its row, or -1 of a film of one viscosity."""
+    f = V(1.0)
+    if ti.static(skew >= 0):
+        f = beside(S, skew, k, n2, up)
     return Node(p=beside(S, P, k, n2, up), le=beside(S, LE, k, n2, up), ie=beside(S, IE, k, n2, up),
-                root=beside(S, ROOT, k, n2, up), gap=beside(S, GAP, k, n2, up))
+                root=beside(S, ROOT, k, n2, up), gap=beside(S, GAP, k, n2, up), skew=f)
 
 
 @ti.func
@@ -117,109 +124,149 @@ def flux(a, b):
 @ti.func
 def wall_x(G: ti.template(), l):
     """The Wall of level l along x."""
-    return Wall(stress=G[l, WALL], p_H=G[l, P_H], distance=G[l, DX])
+    return Wall(stress=G[l, WALL], p_H=G[l, P_H], distance=G[l, DX], shear=ti.abs(G[l, SHEAR]))
 
 
 @ti.func
 def wall_y(G: ti.template(), l):
     """The Wall of level l along y."""
-    return Wall(stress=G[l, WALL] * G[l, DX] / G[l, DY], p_H=G[l, P_H], distance=G[l, DY])
+    return Wall(stress=G[l, WALL] * G[l, DX] / G[l, DY], p_H=G[l, P_H], distance=G[l, DY], shear=ti.abs(G[l, SHEAR]))
 
 
 @ti.func
-def strain(a, b, wall):
-    """Stress on the walls and pressure at the face, Pa."""
-    return wall.stress * 0.5 * (a.gap + b.gap) * ti.abs(b.p - a.p), 0.5 * wall.p_H * (a.p + b.p)
+def strain(a, b, mean, wall):
+    """At the face, Pa: stress on the walls, pressure, Newtonian stress of the sliding (mean: of 1/eta); and the skew."""
+    film, skew = 0.5 * (a.gap + b.gap), 0.5 * (a.skew + b.skew)
+    sliding = ti.min(wall.shear * skew / ti.max(film * mean, SMALLEST), LARGEST)
+    return wall.stress * film * ti.abs(b.p - a.p), 0.5 * wall.p_H * (a.p + b.p), sliding, skew
 
 
 @ti.func
-def eased(a, b, wall, q, power: ti.template()):
-    """Where walls carry q ~ stress^power beyond Newtonian oil, beyond CARRIED it is in proportion to the stress.
+def yielding(rheology: ti.template(), stress, p, sliding, skew, along: ti.template()):
+    """What the shear law makes of the flow along the sliding, or across it: what Newton's method may take as it is, and the
+    steep rest; each with its derivatives by the logarithms of both stresses and by p. A film with temperatures feels a gradient
+    as one of the viscosity that slides would feel `skew` of it: so that what slips carries at most u_s/2."""
+    return either(rheology, along, stress * skew, stress, sliding, p)
+
+
+@ti.func
+def easing(over, power: ti.template()):
+    """Where walls carry ~ stress^power, from `over` = 1 on it is in proportion to the stress, with the slope it has there.
 
     By the law alone a front that is a tenth too steep carries forty times too much, and Newton steps take a fortieth off it.
-    Returns what this makes of q as a factor, of its derivatives, and of it by the logarithm of the film.
+    Returns what this makes of what they carry as a factor, of its derivatives, and of it by the logarithm of the bound.
     """
     share, own, by_film = V(1.0), V(1.0), V(0.0)
-    if ti.static(power > 1.0):
-        over = ti.max(ti.abs(q) / (CARRIED * wall.distance * 0.5 * (a.gap + b.gap)), 1.0)
-        if over.max() > 1.0:
-            stress = ti.exp(ti.log(over) / power)
-            carried = 1.0 + power * (stress - 1.0)
-            share, own, by_film = carried / over, stress / over, (carried - stress) / over
+    if over.max() > 1.0:
+        stress = ti.exp(ti.log(over) / power)
+        carried = 1.0 + power * (stress - 1.0)
+        share, own, by_film = carried / over, stress / over, (carried - stress) / over
     return share, own, by_film
 
 
 @ti.func
-def driven(a, b, rheology: ti.template(), wall):
+def eased(a, b, wall, q, power: ti.template()):
+    """The :func:`easing` of what walls carry beyond what the law lets through smoothly."""
+    share, own, by_film = V(1.0), V(1.0), V(0.0)
+    if ti.static(power > 1.0):
+        over = ti.max(ti.abs(q) / (CARRIED * wall.distance * 0.5 * (a.gap + b.gap)), 1.0)
+        share, own, by_film = easing(over, power)
+    return share, own, by_film
+
+
+@ti.func
+def driven(a, b, rheology: ti.template(), wall, along: ti.template()):
     """The :func:`flux` of oil with a shear law."""
     out = flux(a, b)
     if ti.static(rheology.thins):
-        more = out * (poiseuille(rheology, *strain(a, b, wall)) - 1.0)
-        out += more * eased(a, b, wall, more, rheology.power)[0]
+        stress, p, sliding, skew = strain(a, b, log_mean(a.le, b.le, a.ie, b.ie)[0], wall)
+        smooth, steep = yielding(rheology, stress, p, sliding, skew, along)
+        more = out * steep[0]
+        out = out * smooth[0] + more * eased(a, b, wall, more, rheology.power)[0]
     return out
 
 
 @ti.func
 def flux_x(S: ti.template(), k):
-    return flux(node(S, k, 0, 0), node(S, k + 1, 0, 0))
+    return flux(node(S, k, 0, 0, -1), node(S, k + 1, 0, 0, -1))
 
 
 @ti.func
-def driven_x(S: ti.template(), k, rheology: ti.template(), wall: ti.template()):
-    return driven(node(S, k, 0, 0), node(S, k + 1, 0, 0), rheology, wall)
+def driven_x(S: ti.template(), k, skew: ti.template(), rheology: ti.template(), wall: ti.template()):
+    return driven(node(S, k, 0, 0, skew), node(S, k + 1, 0, 0, skew), rheology, wall, True)
 
 
 @ti.func
-def net_driven_y(S: ti.template(), k, n2, up, down, rheology: ti.template(), wall: ti.template()):
-    here = node(S, k, n2, 0)
-    above_it, below_it = node(S, k, n2, 1), node(S, k, n2, -1)
-    return up * driven(here, above_it, rheology, wall) - down * driven(below_it, here, rheology, wall)
+def net_driven_y(S: ti.template(), k, n2, up, down, skew: ti.template(), rheology: ti.template(), wall: ti.template()):
+    here = node(S, k, n2, 0, skew)
+    above_it, below_it = node(S, k, n2, 1, skew), node(S, k, n2, -1, skew)
+    return up * driven(here, above_it, rheology, wall, False) - down * driven(below_it, here, rheology, wall, False)
+
+
+@ti.dataclass
+class Yield:
+    """How much more a shear law lets through than Newtonian oil, and what that changes with."""
+
+    part: V  # the flux over that of Newtonian oil, by the mobility
+    along: V  # and by the difference of P
+    by_p: V  # of the flux over the mobility: by the pressure of either node,
+    by_h: V  # by the film of either,
+    by_le: V  # by the mean of 1/eta through the sliding, times that mean,
+    by_skew: V  # and by the skew of either
 
 
 @ti.func
-def linear_face(a, da, b, db, rheology: ti.template(), wall):
-    """The Face between the Nodes a and b with their Slopes."""
+def yield_of(a, b, mean, eps, rheology: ti.template(), wall, along: ti.template()):
+    """The Yield of a face of the mobility eps, but for what it is multiplied by: the difference g of P (in by_p to by_skew)."""
+    out = Yield(part=V(1.0), along=V(1.0), by_p=V(0.0), by_h=V(0.0), by_le=V(0.0), by_skew=V(0.0))
+    if ti.static(rheology.thins):
+        stress, p, sliding, skew = strain(a, b, mean, wall)
+        smooth, steep = yielding(rheology, stress, p, sliding, skew, along)
+        _, own, by_film = eased(a, b, wall, eps * (b.p - a.p) * steep[0], rheology.power)
+        part, strained, slid = smooth[0] + own * steep[0], smooth[1] + own * steep[1], smooth[2] + own * steep[2]
+        out = Yield(part=part, along=part + strained, by_p=0.5 * wall.p_H * (smooth[3] + own * steep[3]),
+                    by_h=(strained - slid + by_film * steep[0]) / (a.gap + b.gap), by_le=slid,
+                    by_skew=(smooth[1] + slid) / (2.0 * skew))
+    return out
+
+
+@ti.func
+def linear_face(a, da, b, db, rheology: ti.template(), wall, x: ti.template()):
+    """The Face between the Nodes a and b with their Slopes; x: whether it lies along the sliding."""
     mean, mean_0, mean_1 = log_mean(a.le, b.le, a.ie, b.ie)
     c, c0, c1 = cube(a.gap, b.gap)
     g, r, m = b.p - a.p, a.root * b.root, a.root * b.root * c
-    eps, along, by_p, by_h = m * mean, g, V(0.0), V(0.0)
-    if ti.static(rheology.thins):  # along: g times what the law makes of the flow
-        stress, p = strain(a, b, wall)
-        law = poiseuille(rheology, stress, p)
-        if (law - 1.0).max() > NEGLIGIBLE:
-            rise, slope = poiseuille_slopes(rheology, stress, p, law)
-            _, own, by_film = eased(a, b, wall, eps * g * (law - 1.0), rheology.power)
-            along, by_p = g * (1.0 + own * (law - 1.0)), eps * g * own * slope * 0.5 * wall.p_H
-            by_h = eps * g * (own * rise + by_film * (law - 1.0)) / (a.gap + b.gap)
-            eps *= 1.0 + own * (law - 1.0 + rise)
-    return Face(p0=along * (c * b.root * da.root * mean - m * mean_0 * da.le) - eps + by_p,
-                p1=along * (c * a.root * db.root * mean - m * mean_1 * db.le) + eps + by_p,
-                h0=along * (r * c0 * mean - m * mean_0 * da.le_h) + by_h,
-                h1=along * (r * c1 * mean - m * mean_1 * db.le_h) + by_h, eps=eps)
+    eps = m * mean
+    y = yield_of(a, b, mean, eps, rheology, wall, x)
+    by_p, by_h, by_mean, along = eps * g * y.by_p, eps * g * y.by_h, m * g * (y.part - y.by_le), g * y.part * mean
+    by_skew, carried = eps * g * y.by_skew, eps * y.along
+    return Face(p0=along * c * b.root * da.root - by_mean * mean_0 * da.le + by_skew * da.skew + by_p - carried,
+                p1=along * c * a.root * db.root - by_mean * mean_1 * db.le + by_skew * db.skew + by_p + carried,
+                h0=along * r * c0 + by_h, h1=along * r * c1 + by_h, eps=carried)
 
 
 @ti.func
-def slopes(S: ti.template(), k, n2, up: ti.template(), thinning: ti.template()):
-    """The Slopes at row j + up; thinning: row of d LE/dH, or -1."""
+def slopes(S: ti.template(), k, n2, up: ti.template(), skew: ti.template()):
+    """The Slopes at row j + up; skew: as in :func:`node`, its slope is in the row behind."""
     f = V(0.0)
-    if ti.static(thinning >= 0):
-        f = beside(S, thinning, k, n2, up)
-    return Slopes(le=beside(S, DLE, k, n2, up), root=beside(S, DRP, k, n2, up), le_h=f)
+    if ti.static(skew >= 0):
+        f = beside(S, skew + 1, k, n2, up)
+    return Slopes(le=beside(S, DLE, k, n2, up), root=beside(S, DRP, k, n2, up), skew=f)
 
 
 @ti.func
-def face_x(S: ti.template(), k, thinning: ti.template(), rheology: ti.template(), wall: ti.template()):
-    return linear_face(node(S, k, 0, 0), slopes(S, k, 0, 0, thinning), node(S, k + 1, 0, 0), slopes(S, k + 1, 0, 0, thinning),
-                       rheology, wall)
+def face_x(S: ti.template(), k, skew: ti.template(), rheology: ti.template(), wall: ti.template()):
+    return linear_face(node(S, k, 0, 0, skew), slopes(S, k, 0, 0, skew), node(S, k + 1, 0, 0, skew),
+                       slopes(S, k + 1, 0, 0, skew), rheology, wall, True)
 
 
 @ti.func
-def face_above(S: ti.template(), k, n2, thinning: ti.template(), rheology: ti.template(), wall: ti.template()):
-    return linear_face(node(S, k, n2, 0), slopes(S, k, n2, 0, thinning), node(S, k, n2, 1), slopes(S, k, n2, 1, thinning),
-                       rheology, wall)
+def face_above(S: ti.template(), k, n2, skew: ti.template(), rheology: ti.template(), wall: ti.template()):
+    return linear_face(node(S, k, n2, 0, skew), slopes(S, k, n2, 0, skew), node(S, k, n2, 1, skew),
+                       slopes(S, k, n2, 1, skew), rheology, wall, False)
 
 
 @ti.func
-def face_below(S: ti.template(), k, n2, thinning: ti.template(), rheology: ti.template(), wall: ti.template()):
-    return linear_face(node(S, k, n2, -1), slopes(S, k, n2, -1, thinning), node(S, k, n2, 0), slopes(S, k, n2, 0, thinning),
-                       rheology, wall)
+def face_below(S: ti.template(), k, n2, skew: ti.template(), rheology: ti.template(), wall: ti.template()):
+    return linear_face(node(S, k, n2, -1, skew), slopes(S, k, n2, -1, skew), node(S, k, n2, 0, skew),
+                       slopes(S, k, n2, 0, skew), rheology, wall, False)

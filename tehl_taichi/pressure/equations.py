@@ -18,11 +18,11 @@ class Equations:
     def __init__(self, levels, film):
         v, rows, rheology = levels, film.rows, levels.scene.rheology
         self.levels, self.film = levels, film
-        self.evaluate = v.launch(reynolds.residual, v.S, v.G, rows.couette, rheology)
+        self.evaluate = v.launch(reynolds.residual, v.S, v.G, rows.couette, rows.skew, rheology)
         blocks, injected = v.sizes[1][1] // W + 1 if len(v.sizes) > 1 else 0, np.array(fields.STATE + rows.follow, np.int32)
         self.inject = v.launch(transfer.inject, v.S, v.J, v.G, len(v.sizes), blocks, injected, work=HEAVY)
         self._rows, self._rows_coarse = (
-            v.launch(reynolds.linearise, v.S, v.J, v.G, v.blocks, *cut, rows.couette, rows.slope, rows.thinning, rheology,
+            v.launch(reynolds.linearise, v.S, v.J, v.G, v.blocks, *cut, rows.couette, rows.slope, rows.skew, rheology,
                      work=HEAVY)
             for cut in ((0, v.fine), (v.fine, len(v.blocks))))
 

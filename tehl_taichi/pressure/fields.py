@@ -27,7 +27,7 @@ QOLD = next(_row)  # dx * (what d(rho H)/dT in its moving frame takes from old l
 MASK = next(_row)  # 1 where P is unknown, 0 on the border and on ghosts
 WEIGHT = next(_row)  # weight of P in the load
 RHO = next(_row)  # density over rho_0
-LE = next(_row)  # ln(eta / eta(p=0)) of what the shear law leaves of the viscosity
+LE = next(_row)  # ln(eta / eta(p=0)), without a shear law
 IE = next(_row)  # exp(-LE)
 ROOT = next(_row)  # root of RHO / lambda: times that of a neighbour, in the mobility of the face between them
 GAP = next(_row)  # film thickness, at least the floor: what the mobility sees
@@ -39,33 +39,32 @@ D = next(_row)  # its diagonal
 DRY = next(_row)  # 1 where P = 0 is the equation (cavitated, or outside the unknowns)
 TOUCH = next(_row)  # 1 where H = H_floor is the equation (solid contact)
 NROWS = next(_row)
-DLH = NROWS  # where a shear law acts: d LE / dH
-NROWS_SHEARED = next(_row)
-RHOC = NROWS_SHEARED  # with temperatures: density that the Couette flow carries, over rho_0 (isothermal: RHO)
+RHOC = NROWS  # with temperatures: density that the Couette flow carries, over rho_0 (isothermal: RHO)
 QCP = next(_row)  # d(RHOC H)/dP at fixed H (isothermal: QP)
+SKEW = next(_row)  # fluidity that the pressure flow feels over that of the Couette flow (isothermal: 1),
+DSKEW = next(_row)  # and d SKEW/dP in the row behind
 NROWS_THERMAL = next(_row)
 STATE = (P, H, DRY, TOUCH)  # carried to the coarser levels
 LAWS = (RHO, LE, IE, ROOT, GAP, DLE, DRP, QP)  # and these, which follow from them
-FILM_LAWS = (DLH, RHOC, QCP)  # of a film with temperatures
+FILM_LAWS = (RHOC, QCP, SKEW, DSKEW)  # of a film with temperatures
 
 
 @dataclass(frozen=True)
 class LawRows:
     """Where the laws of a film are, for its equations.
 
-    couette: density that the Couette flow carries, slope: its derivative by P, thinning: d LE/dH or -1 where the viscosity does
-    not depend on the film; follow: all that the coarser levels take over.
+    couette: density that the Couette flow carries, slope: its derivative by P, skew: of both fluidities, or -1 where they are
+    one; follow: all that the coarser levels take over.
     """
 
     couette: int
     slope: int
-    thinning: int
+    skew: int
     follow: tuple
 
 
-NEWTONIAN = LawRows(couette=RHO, slope=QP, thinning=-1, follow=LAWS)
-SHEARED = LawRows(couette=RHO, slope=QP, thinning=DLH, follow=(*LAWS, DLH))
-THERMAL = LawRows(couette=RHOC, slope=QCP, thinning=DLH, follow=LAWS + FILM_LAWS)
+ISOTHERMAL = LawRows(couette=RHO, slope=QP, skew=-1, follow=LAWS)
+THERMAL = LawRows(couette=RHOC, slope=QCP, skew=SKEW, follow=LAWS + FILM_LAWS)
 
 # J, the linear problem
 A = _rows(4)  # row of the Jacobian: pressure of the nodes i-2, i-1, i, i+1

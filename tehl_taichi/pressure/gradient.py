@@ -55,7 +55,7 @@ def limited_gradient(S: ti.template(), G: ti.template(), at: ti.template()):
 @ti.func
 def driving_x(S: ti.template(), at: ti.template()):
     """Difference of P that drives the mean of the fluxes to both neighbours through oil as it is at the node."""
-    here = node(S, at.k, 0, 0)
+    here = node(S, at.k, 0, 0, -1)
     behind, ahead = flux_x(S, at.k - ti.min(at.i, 1)), flux_x(S, at.k - ti.max(at.i - at.nx + 1, 0))
     return 0.5 * (behind + ahead) / mobility(here)
 
@@ -64,8 +64,8 @@ def driving_x(S: ti.template(), at: ti.template()):
 def driving_y(S: ti.template(), at: ti.template()):
     """The same across."""
     n2 = at.nx + 1
-    here = node(S, at.k, n2, 0)
-    return 0.5 * (flux(node(S, at.k, n2, -1), here) + flux(here, node(S, at.k, n2, 1))) / mobility(here)
+    here = node(S, at.k, n2, 0, -1)
+    return 0.5 * (flux(node(S, at.k, n2, -1, -1), here) + flux(here, node(S, at.k, n2, 1, -1))) / mobility(here)
 
 
 @ti.func

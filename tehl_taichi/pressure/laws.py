@@ -1,26 +1,17 @@
 """Density, viscosity and mobility of a film that has one temperature.
 
-Generalised Reynolds equation (Yang & Wen 1990) without an energy equation: oil of one viscosity across the film flows as if it
-had what the shear law leaves of that viscosity at the stress of the Couette part.
+Without a shear law: what that makes of the flow follows at the faces (:mod:`tehl_taichi.pressure.cell_faces`).
 """
 
-from tehl_taichi.engine.elementary import exp, log, maximum
+from tehl_taichi.engine.elementary import exp, maximum
 from tehl_taichi.engine.lanes import Flat, Table, V, W, cells
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
 from tehl_taichi.physics.density import rho_ratio
-from tehl_taichi.physics.rheology import DP, secant, sensitivity
+from tehl_taichi.physics.rheology import DP
 from tehl_taichi.physics.viscosity import ln_eta
 from tehl_taichi.pressure.conditions import Conditions
-from tehl_taichi.pressure.fields import DLE, DLH, DRP, FLOOR, GAP, IE, ILAM, LE, QP, RHO, ROOT, SHEAR, H, P
-
-
-@ti.func
-def sheared(rheology: ti.template(), p, h, ie, shear):
-    """Newtonian stress of the Couette part in a film of 1/viscosity `ie`, and what the shear law leaves of it; shear: that
-    stress for h = ie = 1."""
-    newtonian = shear / (h * ie)
-    return newtonian, secant(rheology, newtonian, p)
+from tehl_taichi.pressure.fields import DLE, DRP, FLOOR, GAP, IE, ILAM, LE, QP, RHO, ROOT, H, P
 
 
 @ti.func
@@ -37,37 +28,24 @@ def store_slopes(S: ti.template(), k, rho, le, rate):
     S[DRP, k] = 0.5 * S[ROOT, k] * (rho / S[RHO, k] - 1.0) * rate
 
 
-@ti.func
-def store_thinning(S: ti.template(), k, h, floor, rheology: ti.template(), p, newtonian, b):
-    """d LE/dH: a thicker film is sheared less."""
-    S[DLH, k] = ti.select(S[H, k] > floor, (1.0 - sensitivity(rheology, newtonian, p, b)) / h, V(0.0))
-
-
 @ti.kernel
-def laws(S: ti.template(), G: Table, oil: ti.template(), rheology: ti.template(), conditions: Flat, rows: ti.template(),
-         slopes: ti.template(), alone: ti.template()):
+def laws(S: ti.template(), G: Table, oil: ti.template(), conditions: Flat, rows: ti.template(), slopes: ti.template(),
+         alone: ti.template()):
     """Density, viscosity and mobility on the finest level; with slopes = 1 their derivatives, which need the values. rows: the
     LawRows that the equations read."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
-        floor, shear, scene = G[0, FLOOR], G[0, SHEAR], read(Conditions, conditions)
+        floor, scene = G[0, FLOOR], read(Conditions, conditions)
         for k in range(off + s * (nx + 1), off + (s + 1) * (nx + 1)):
             p, h = S[P, k] * scene.p_H + slopes * DP, maximum(S[H, k], floor)
             rho, le = rho_ratio(oil, p, scene.inlet), ln_eta(oil, p, scene.inlet) - scene.ln_eta0
             ie = exp(-le)
-            if ti.static(rheology.thins):
-                newtonian, b = sheared(rheology, p, h, ie, shear)
-                le, ie = le + log(b), ie / b
-                if ti.static(slopes):
-                    store_thinning(S, k, h, floor, rheology, p, newtonian, b)
-            elif ti.static(slopes and rows.thinning == DLH):
-                S[DLH, k] = V(0.0)
             if ti.static(slopes):
                 store_slopes(S, k, rho, le, scene.p_H / DP)
                 if ti.static(rows.slope != QP):
-                    S[rows.slope, k] = S[QP, k]
+                    S[rows.slope, k], S[rows.skew + 1, k] = S[QP, k], V(0.0)
             else:
                 store_laws(S, k, h, rho, le, ie, G[0, ILAM])
                 if ti.static(rows.couette != RHO):
-                    S[rows.couette, k] = rho
+                    S[rows.couette, k], S[rows.skew, k] = rho, V(1.0)

@@ -35,7 +35,7 @@ class Levels(Grids):
     def _lease_tables(self):
         self.precision = precision.of(self.scene)
         self.linear = np.dtype(DTYPES[self.precision])
-        rows = (fields.NROWS_SHEARED if self.thins else fields.NROWS) if self.scene.isothermal else fields.NROWS_THERMAL
+        rows = fields.NROWS if self.scene.isothermal else fields.NROWS_THERMAL
         size = max(table_columns(self.nx, self.ny), _final_columns(self.scene))
         self.S = tables.lease(self, rows, lanes.W, size)
         self.J = tables.lease(self, fields.NROWS_LINEAR, lanes.W, size, precision=self.precision)
@@ -55,7 +55,7 @@ class Levels(Grids):
         """Everything dry with a film of 1 and the diagonal 1, so that ghosts and borders stay finite."""
         nx, ny = self.sizes[l]
         ones = np.ones((ny + 1, nx + 1))
-        carried = () if self.scene.isothermal else (fields.RHOC,)
+        carried = () if self.scene.isothermal else (fields.RHOC, fields.SKEW)
         for row in (fields.DRY, fields.H, fields.GAP, fields.RHO, fields.D, *carried):
             self.put(row, ones, l)
 

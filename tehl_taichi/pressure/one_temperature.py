@@ -13,8 +13,8 @@ class OneTemperature:
 
     def __init__(self, levels):
         self.levels, scene = levels, levels.scene
-        self.rows = (fields.SHEARED if levels.thins else fields.NEWTONIAN) if scene.isothermal else fields.THERMAL
-        known = levels.S, levels.G, scene.film_oil, scene.shear_law, levels.conditions.values, self.rows
+        self.rows = fields.ISOTHERMAL if scene.isothermal else fields.THERMAL
+        known = levels.S, levels.G, scene.film_oil, levels.conditions.values, self.rows
         self.values, self.slopes = (levels.launch(laws.laws, *known, slopes, work=HEAVY) for slopes in (0, 1))
 
     def tractions(self):

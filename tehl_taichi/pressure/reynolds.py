@@ -56,7 +56,8 @@ def transport(S: ti.template(), k, i, couette: ti.template(), frame):
 
 
 @ti.kernel
-def residual(S: ti.template(), G: Table, couette: ti.template(), rheology: ti.template(), alone: ti.template()):
+def residual(S: ti.template(), G: Table, couette: ti.template(), skew: ti.template(), rheology: ti.template(),
+             alone: ti.template()):
     """R = dx [ d(rho H)/dX + d(rho H)/dT - div(eps grad P) ] on the unknowns of the finest level, 0 elsewhere; with d/dT in a
     frame that moves, only the rest of the Couette flow is in d/dX."""
     nx, ny, off = cells(G, 0)
@@ -69,11 +70,11 @@ def residual(S: ti.template(), G: Table, couette: ti.template(), rheology: ti.te
         S[R, first], S[R, first + nx], left = V(0.0), V(0.0), V(0.0)
         for i in range(nx):
             k = first + i
-            right = driven_x(S, k, rheology, along)
+            right = driven_x(S, k, skew, rheology, along)
             if i > 0:
                 r = transport(S, k, i, couette, frame) + CT_0 * S[RHO, k] * S[H, k] + S[QOLD, k] - (right - left) * inv
                 if ny > 0:
-                    r -= net_driven_y(S, k, n2, up, down, rheology, across) * metric
+                    r -= net_driven_y(S, k, n2, up, down, skew, rheology, across) * metric
                 S[R, k] = ti.select(S[MASK, k] > 0.0, r, V(0.0))  # not 0 times what ghosts have, which need not be a number
             left = right
 
@@ -93,11 +94,12 @@ def store_rows(J: ti.template(), k, rows: ti.template(), c0, c1, c2, c3):
 
 @ti.kernel
 def linearise(S: ti.template(), J: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: ti.i32,
-              couette: ti.template(), slope: ti.template(), thinning: ti.template(), rheology: ti.template(),
+              couette: ti.template(), slope: ti.template(), skew: ti.template(), rheology: ti.template(),
               alone: ti.template()):
     """Jacobian rows, EPS and the diagonal in the blocks first..last-1; needs `laws` and `slopes`.
 
-    couette: row of the density in the Couette flow, slope: row of its derivative, thinning: row of d LE/dH or -1.
+    couette: row of the density in the Couette flow, slope: row of its derivative, skew: as in
+    :class:`tehl_taichi.pressure.fields.LawRows`.
     """
     ti.loop_config(block_dim=1, serialize=alone)
     for b in range(first, last):
@@ -110,7 +112,7 @@ def linearise(S: ti.template(), J: ti.template(), G: Table, blocks: Blocks, firs
         left = Face(p0=V(0.0), p1=V(0.0), h0=V(0.0), h1=V(0.0), eps=V(0.0))
         for i in range(nx):
             k = off + s * n2 + i
-            right = face_x(S, k, thinning, rheology, along)
+            right = face_x(S, k, skew, rheology, along)
             if i > 0:
                 w = couette_weights(i)
                 q, c = stencil(S, k, slope, QP, frame), stencil(S, k, couette, RHO, frame)
@@ -119,8 +121,8 @@ def linearise(S: ti.template(), J: ti.template(), G: Table, blocks: Blocks, firs
                 total = (left.eps + right.eps) * inv
                 if ny > 0:
                     u, d = up * metric, down * metric
-                    upper = face_above(S, k, n2, thinning, rheology, across)
-                    lower = face_below(S, k, n2, thinning, rheology, across)
+                    upper = face_above(S, k, n2, skew, rheology, across)
+                    lower = face_below(S, k, n2, skew, rheology, across)
                     a2 += d * lower.p1 - u * upper.p0
                     b2 += d * lower.h1 - u * upper.h0
                     total += u * upper.eps + d * lower.eps

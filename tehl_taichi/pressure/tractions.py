@@ -1,43 +1,74 @@
 """Shear tractions on both surfaces from the film (isothermal: one viscosity across it) and from solid contact."""
 
+from tehl_taichi.engine.elementary import maximum, minimum, within
 from tehl_taichi.engine.lanes import Flat, Table, V, W, cells, place, tile, tiles
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
 from tehl_taichi.physics.boundary import boundary_stress
+from tehl_taichi.physics.rheology import LARGEST
+from tehl_taichi.physics.sheared_flow import mean_stress, wall_limit
 from tehl_taichi.pressure.conditions import Conditions
 from tehl_taichi.pressure.fields import GAP, IE, TOUCH, H, P
 from tehl_taichi.pressure.gradient import central_gradient
 
 X_A, Y_A, X_B, Y_B = range(4)  # along x and y on body a, on body b
+SMALLEST = 1e-300
 Stack = ti.types.ndarray(dtype=ti.f64, ndim=3)
 
 
 @ti.func
 def solid_friction(rheology: ti.template(), p, u_s):
     """Stress on body a where the surfaces touch, against its slip u_s = u_a - u_b."""
-    towards = 1.0 if u_s < 0 else (-1.0 if u_s > 0 else 0.0)
-    return towards * boundary_stress(rheology, p)
+    return against(u_s) * boundary_stress(rheology, p)
 
 
 @ti.func
-def shear(rheology: ti.template(), p, h, eta, touch, u_s):
-    """Mean shear stress on body a: the film's (eta as the shear law leaves it), or friction where the surfaces touch."""
-    film = ti.select(p > 0, -eta * u_s / h, V(0.0))
-    return ti.select(touch > 0, solid_friction(rheology, p, u_s), film)
+def against(u_s):
+    """Sign of the stress on body a that slips at u_s."""
+    return 1.0 if u_s < 0 else (-1.0 if u_s > 0 else 0.0)
+
+
+@ti.func
+def borne(mean, half, limit):
+    """Mean stress and half the difference of both walls, no wall beyond the limit: the mean gives way first, since the
+    difference is what balances the pressure."""
+    kept = within(half, -limit, limit)
+    room = limit - ti.abs(kept)
+    return within(mean, -room, room), kept
+
+
+@ti.func
+def shortened(x, y, limit):
+    """The vector (x, y), no longer than the limit."""
+    part = minimum(limit / maximum(ti.sqrt(x * x + y * y), SMALLEST), 1.0)
+    return x * part, y * part
+
+
+@ti.func
+def walls(mean_x, half_x, mean_y, half_y, limit):
+    """Force per area on body a along x and y, on body b along x and y, from the stress in the middle of the film and halves of
+    its differences between both walls."""
+    m_x, x = borne(mean_x, half_x, limit)
+    m_y, y = borne(mean_y, half_y, limit)
+    a_x, a_y = shortened(m_x - x, m_y - y, limit)
+    b_x, b_y = shortened(-m_x - x, -m_y - y, limit)
+    return a_x, a_y, b_x, b_y
 
 
 @ti.func
 def on_bodies(S: ti.template(), G: ti.template(), at: ti.template(), rheology: ti.template(), scene: ti.template()):
-    """Force per area (Pa) on body a along x, on both along y, and on body b along x.
+    """Force per area (Pa) on body a along x and y, on body b along x and y.
 
-    z points from a to b. Stress tau(z) = tau_m + (z - h/2) dp/dx with tau_m from the slip and the viscosity that the flow
-    feels; body a feels tau(0), body b feels -tau(h). Touching nodes: mu_b p, at most the shear limit.
+    z points from a to b. Stress tau(z) = tau_m + (z - h/2) dp/dx with tau_m as the flow has it; body a feels tau(0), body b
+    feels -tau(h). Touching nodes: mu_b p, at most the shear limit, and nothing else.
     """
     px, py = central_gradient(S, G, at)
-    half = 0.5 * S[H, at.k] * scene.h * scene.p_H / scene.a
-    eta = scene.eta0 / S[IE, at.k]
-    mean = shear(rheology, S[P, at.k] * scene.p_H, S[GAP, at.k] * scene.h, eta, S[TOUCH, at.k], scene.u_s)
-    return mean - half * px, -half * py, -mean - half * px
+    p, solid = S[P, at.k] * scene.p_H, S[TOUCH, at.k] > 0
+    half = ti.select(solid, V(0.0), 0.5 * S[H, at.k] * scene.h * scene.p_H / scene.a)
+    newtonian = minimum(ti.abs(scene.u_s) * scene.eta0 / (S[IE, at.k] * S[GAP, at.k] * scene.h), LARGEST)
+    film = against(scene.u_s) * mean_stress(rheology, ti.abs(half * px), newtonian, p)
+    mean = ti.select(solid, solid_friction(rheology, p, scene.u_s), ti.select(p > 0, film, V(0.0)))
+    return walls(mean, half * px, V(0.0), half * py, wall_limit(rheology, p))
 
 
 @ti.func
@@ -59,5 +90,4 @@ def tractions(S: ti.template(), G: Table, rheology: ti.template(), conditions: F
         scene = read(Conditions, conditions)
         for i in range(first, last):
             at = place(G, c, i)
-            a_x, y, b_x = on_bodies(S, G, at, rheology, scene)
-            store(out, at, a_x, y, b_x, y)
+            store(out, at, *on_bodies(S, G, at, rheology, scene))

@@ -1,6 +1,6 @@
 """What is doubtful in a scene although it can be simulated, a sentence each: the warnings that are known before a run."""
 
-from tehl_taichi.scene import acting, domain, keys, named_steels, oil_range, passing, room, route, scales, thin_film
+from tehl_taichi.scene import acting, domain, frozen, keys, named_steels, oil_range, passing, room, route, scales, thin_film
 from tehl_taichi.values.quantity import Number
 from tehl_taichi.values.warned import once, warned
 
@@ -63,4 +63,4 @@ def wide_domain(scene):
 # functions of a scene that give its sentences, with the code of these
 CHECKS = {passing.warnings: "cells", room.warnings: "room", thin_film.warnings: "film", oil_range.warnings: "oil",
           named_steels.doubts: "steel", cut_passage: "cut", thinned: "moments", doubtful_features: "feature",
-          unusual: "unit", acting.doubts: "idle", wide_domain: "inlet"}
+          unusual: "unit", acting.doubts: "idle", wide_domain: "inlet", frozen.warnings: "frozen"}

@@ -11,7 +11,19 @@ def stress(rheology, newtonian, p):
     return newtonian
 
 
+@pointwise
+def flow(rheology, wall, newtonian, p):
+    return 1.0 + 0.0 * wall, 0.0 * wall, 0.0 * wall, 0.0 * wall
+
+
+@pointwise
+def mean_stress(rheology, wall, newtonian, p):
+    """The gradient has no part in it."""
+    return newtonian
+
+
 NEWTONIAN = ShearLaw(
     name="newtonian", says="stress = eta * (shear rate), as isothermal film formulas have it; no oil bears its friction",
-    source="Newton", numbers={}, stress=stress, thins=False,
+    source="Newton", numbers={}, stress=stress, flow=flow,
+    mean_stress=mean_stress, thins=False,
     checked=(Checked("by definition: 3 MPa of 3 MPa", 3e6, lambda: stress(NEWTONIAN.having(), 3e6, 1e9)),))

@@ -1,0 +1,73 @@
+"""The sliding (Couette) part of a column of the film, and what the shear law makes of it and of the flow by pressure."""
+
+from tehl_taichi.engine.elementary import maximum, minimum
+from tehl_taichi.engine.lanes import V
+from tehl_taichi.engine.language import ti
+from tehl_taichi.heat.nodes import weight, zeta
+from tehl_taichi.heat.slots import NIE
+from tehl_taichi.physics.rheology import LARGEST
+from tehl_taichi.physics.sheared_flow import either, mean_stress, wall_slip
+from tehl_taichi.pressure.cell_faces import CARRIED, easing
+from tehl_taichi.pressure.tractions import against
+
+SMALL = 1e-3  # Pa, of the Newtonian stress: no sliding to speak of
+
+
+@ti.dataclass
+class Couette:
+    """The sliding part of a column."""
+
+    e0: V  # int dzeta/eta over 1/eta0
+    centre: V  # zeta_c
+    newtonian: V  # Pa, size of the stress without a shear law
+    sign: V  # of the stress on body a
+
+
+@ti.dataclass
+class Sheared:
+    """A column as its shear law has it."""
+
+    tau: V  # Pa, stress at zeta_c
+    along: V  # flow by pressure along the sliding over that of Newtonian oil, without what slips,
+    slips: V  # and what slips along a wall,
+    across: V  # and across the sliding
+    slip: V  # part of the sliding that the oil slips along a wall
+
+
+@ti.func
+def couette(Z: ti.template(), N: ti.template(), q, h, scene: ti.template()):
+    """The Couette part of column q in a film h (m)."""
+    nz, e0, e1 = N.shape[1], V(0.0), V(0.0)
+    for n in range(nz):
+        part = weight(N, n) * Z[NIE, q * nz + n]
+        e0 += part
+        e1 += zeta(N, n) * part
+    newtonian = minimum(ti.abs(scene.u_s) * scene.eta0 / (h * e0), LARGEST)
+    return Couette(e0=e0, centre=e1 / e0, newtonian=newtonian, sign=V(against(scene.u_s)))
+
+
+@ti.func
+def eased(more, col: ti.template(), slope, fluidity, power: ti.template(), scene: ti.template()):
+    """What is left at a node of the steep rest of a flow, as the faces ease it."""
+    share = V(1.0)
+    if ti.static(power > 1.0):
+        carried = more * fluidity * col.h * col.h * ti.abs(slope) / (12.0 * scene.eta0)
+        share = easing(maximum(carried / (CARRIED * scene.u_m), 1.0), power)[0]
+    return more * share
+
+
+@ti.func
+def sheared(rheology: ti.template(), col: ti.template(), couette: ti.template(), scene: ti.template()):
+    """The Sheared of a column; col: its p, h, px, py, skew."""
+    newtonian, fluidity = couette.newtonian, couette.e0 * col.skew
+    x, y = 0.5 * col.h * ti.abs(col.px), 0.5 * col.h * ti.abs(col.py)
+    slip = wall_slip(rheology, x * col.skew, newtonian, col.p)
+    smooth_x, steep_x = either(rheology, True, x * col.skew, x, newtonian, col.p)
+    smooth_y, steep_y = either(rheology, False, y * col.skew, y, newtonian, col.p)
+    along, across = smooth_x[0], smooth_y[0]
+    slips = minimum(3.0 * slip * newtonian / maximum(x * col.skew, SMALL), along)
+    along -= slips
+    along += eased(steep_x[0], col, col.px, fluidity, rheology.power, scene)
+    across += eased(steep_y[0], col, col.py, fluidity, rheology.power, scene)
+    tau = mean_stress(rheology, x * col.skew, newtonian, col.p)
+    return Sheared(tau=tau, along=along, slips=slips, across=across, slip=slip)
