@@ -213,3 +213,37 @@ def test_the_share_of_each_body_follows_its_effusivity():
     steel, glass = heat.step["B_a"], heat.step["B_b"]
     assert glass / steel == pytest.approx(12885.2 / 1486.2, rel=1e-3)
     assert steel == pytest.approx(4 / 3 * math.sqrt(heat.dt / math.pi) / 12885.2, rel=1e-4)
+
+
+def test_columns_without_a_solution_keep_the_temperatures_of_the_oil_that_came_in():
+    """One Newton step where ten are needed: columns fail, and stop a step; held, they take those of the departure points."""
+    from tehl_taichi.heat import slots
+    from tehl_taichi.pressure import fields
+
+    heat, levels = film(srr=-0.5)
+    X = levels.X
+    levels.put(fields.P, np.sqrt(np.maximum(1 - X**2, 0)))
+    levels.put(fields.H, np.full(X.size, 0.2e-6 / levels.scales.h))
+    heat.begin(heat.dt)
+    for holding in (0.0, 1.0):
+        heat.step.set(iterations=1, tolerance=1e-12, hold=holding)
+        report = heat.solve()
+        assert (report.failed > 0) == (holding == 0)
+    assert report.clamped > 0
+    came, T, inside = heat.columns.nodes(slots.TS)[:, 0], heat.temperature()[:, 0], np.abs(X) < 0.7
+    assert (T == came)[:, inside].all() and not np.allclose(T[:, inside], heat.columns.nodes(slots.LAST)[:, 0, inside])
+
+
+def test_few_columns_without_a_solution_are_held_once():
+    from tehl_taichi.heat.temperatures import FEW
+
+    heat, _ = film()
+    heat.report.failed = FEW + 1
+    assert not heat.hold()
+    heat.holding = False
+    heat.report.failed = FEW
+    assert heat.hold() and heat.holding and not heat.hold()
+    heat.begin(heat.dt)
+    assert heat.step["hold"] == 1.0
+    heat.accept()
+    assert not heat.holding

@@ -321,12 +321,12 @@ def sum_of_rows(values, at: ti.template()):
 
 
 @ti.func
-def change_of_column(Z: ti.template(), at: ti.template(), nz):
-    """Largest change against the last iterate, K."""
+def change_of_column(Z: ti.template(), at: ti.template(), nz, counts):
+    """Largest change against the last iterate, K; counts: 1 in the rows that do, else 0."""
     change = V(0.0)
     for n in range(nz):
         change = maximum(change, ti.abs(Z[T, at.q * nz + n] - Z[LAST, at.q * nz + n]))
-    return largest_row(change, at)
+    return largest_row(change * counts, at)
 
 
 @ti.func
@@ -358,6 +358,15 @@ def solve_column(Z: ti.template(), C: ti.template(), X: ti.template(), N: ti.tem
     return failed, clamped
 
 
+@ti.func
+def keep_departed(Z: ti.template(), at: ti.template(), nz, oil: ti.template()):
+    """Temperatures of the oil as it came in, where a column has no other; returns of how many nodes."""
+    for n in range(nz):
+        Z[T, at.q * nz + n] = Z[TS, at.q * nz + n]
+    keep_parts(Z, at.q, nz, oil)
+    return 1.0 * nz * W
+
+
 @ti.kernel
 def energy(S: ti.template(), Z: ti.template(), C: ti.template(), X: ti.template(), G: Table, N: Nodes, oil: ti.template(),
            rheology: ti.template(), conditions: Flat, numbers: Flat, told: Table):
@@ -376,8 +385,12 @@ def energy(S: ti.template(), Z: ti.template(), C: ti.template(), X: ti.template(
             col = heated(S, C, G, at, oil, rheology, scene)
             prepare(Z, at, nz, oil, col.p, scene.ln_eta0, step)
             lost, held = solve_column(Z, C, X, N, at, col, oil, rheology, scene, step)
+            if lost * step.hold > 0.0:
+                lost, held = 0.0, keep_departed(Z, at, nz, oil)
+            else:
+                counts = ti.select(col.p > LIGHT * scene.p_H * step.hold, V(1.0), V(1.0 - step.hold))
+                change = ti.max(change, change_of_column(Z, at, nz, counts))
             failed, clamped = failed + lost, clamped + held
-            change = ti.max(change, change_of_column(Z, at, nz))
             transfer = col.k / col.h
             flux_a, flux_b = wall_slopes(Z, N, at.q)
             C[at.q, QA], C[at.q, QB] = transfer * flux_a + C[at.q, SA], C[at.q, SB] - transfer * flux_b

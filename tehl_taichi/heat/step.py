@@ -18,6 +18,7 @@ class Step:
     back_2: ti.f64  # s, dt and that of the step before
     near: ti.f64  # weight of the state dt ago in d/dt,
     far: ti.f64  # and of that back_2 ago: together 1
+    hold: ti.f64  # 1: columns without a solution keep the temperatures of the oil that came in, those without load may change
 
 
 @ti.dataclass

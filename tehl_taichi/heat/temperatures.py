@@ -23,6 +23,7 @@ from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.storage import bdf
 
 COLUMN_TOLERANCE = 0.1  # of the tolerance of a round
+FEW = 8  # columns without a solution that a passage goes on with
 RESTING = 0.4  # of the tolerance of a round: what the one before changed where the next rests
 COLUMN_ITERATIONS = 40  # Newton steps of a column; 2 are usual, 6 to 8 the most seen where none is halved
 
@@ -52,6 +53,7 @@ class FilmHeat:
         self.levels, self.dt, self.nz = levels, dt_s, levels.scene.thermal.nodes
         self.across, self.columns = Across(self.nz), slots.Columns(levels, self.nz)
         self.bodies = Bodies(levels, self.columns, dt_s)
+        self.holding = False  # columns without a solution at the temperatures of the oil that came in, see :meth:`hold`
         self.step, self.dt_now, self.dt_before = Record(Step), 0.0, 0.0
         self.report, self.rounds = HeatReport(math.nan, 0, 0), Relaxation()
         self._bind(levels.scene)
@@ -90,7 +92,7 @@ class FilmHeat:
         rate, (near, *far) = bdf(*([dt, self.dt_before] if self.dt_before else [dt]))
         self.step.set(rate=rate, near=near, far=sum(far), back=dt, back_2=dt + self.dt_before, inv_x=1 / (v.dx * a),
                       inv_y=1 / (v.dy * a), B_a=B_a, B_b=B_b, tolerance=COLUMN_TOLERANCE * v.scene.thermal.tolerance,
-                      iterations=COLUMN_ITERATIONS)
+                      iterations=COLUMN_ITERATIONS, hold=float(self.holding))
 
     def solve(self, again=False):
         """Temperatures of this step for the pressure and film in the table; again: of a step with temperatures already, which
@@ -117,6 +119,13 @@ class FilmHeat:
         """Whether every column under load of the last step converged, inside the allowed range."""
         return not (self.report.failed or self.held)
 
+    def hold(self):
+        """Let columns without a solution keep the temperatures of the oil that came in until the step is accepted: a few
+        are left beside solid contact or a front that the grid does not resolve; those that bear nothing may change with
+        the rounds. Returns whether that is worth a try."""
+        worth, self.holding = not self.holding and self.report.failed <= FEW, True
+        return worth
+
     def relax(self):
         """Take less of what the last round changed, where rounds overshoot each other; nothing rests in the next."""
         self.told[:, slots.CHANGE] = np.inf
@@ -125,6 +134,7 @@ class FilmHeat:
     def accept(self):
         """Make this step the last one."""
         self.bodies.accept()
+        self.holding = False
         self.dt_before = self.dt_now
         self._keep()
 

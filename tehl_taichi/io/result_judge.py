@@ -37,7 +37,8 @@ def beyond_measured(store, summary):
 def held_temperatures(store, summary):
     """Temperatures that the solver had to hold inside the allowed range."""
     held = 0 if store.scene.isothermal else int(np.nansum(store.scalar("clamped")))
-    return [f"temperatures were held inside the allowed range at {held} nodes"] if held else []
+    return [f"temperatures were held at {held} nodes: inside the allowed range or, in columns of the film without a solution, "
+            "at those of the oil that came in"] if held else []
 
 
 def crowded(store, summary):

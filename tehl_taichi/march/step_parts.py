@@ -40,6 +40,10 @@ class Parts:
         if whole and not self.left:
             self.part = min(1.0, 2 * self.part)
 
+    def retry(self):
+        """Try the smallest part again."""
+        self.part = SMALLEST
+
     def reject(self, part):
         """What was tried, `part` of a step, did not converge. Returns whether half of it is worth a try."""
         if not self.failing:

@@ -21,5 +21,5 @@ WALL = Scalar(name="wall_s", unit="s", says="run time of the step", over="sum", 
 CHANGE = Scalar(name="temperature_change_K", unit="K", over="maximum", exists=thermal, source="rounds (march/passage)",
                 says="largest change of temperature that another round of the step would make",
                 of=lambda s: s.heat.report.change, by_hand=0.02)
-CLAMPED = Scalar(name="clamped", unit="1", says="nodes held inside the allowed range of temperature", over="sum",
+CLAMPED = Scalar(name="clamped", unit="1", says="nodes whose temperature was held", over="sum",
                  exists=thermal, source="heat/temperatures", of=lambda s: s.heat.report.clamped, by_hand=1)
