@@ -11,7 +11,7 @@ import tehl_taichi as tehl
 from tehl_taichi.criteria import CRITERIA
 from tehl_taichi.errors import SceneError
 from tehl_taichi.io import scene_file
-from tehl_taichi.physics import conduction, density, rheology
+from tehl_taichi.physics import conduction, density, rheology, sheared_flow
 from tehl_taichi.physics.boundary import boundary_stress
 from tehl_taichi.physics.viscosity import ln_eta
 from tehl_taichi.pressure.conditions import conditions
@@ -58,10 +58,18 @@ def _laws(scene, s):
     rho, r = density.rho_ratio if scene.isothermal else density.rho_film, scene.rheology
     oil = scene.film_oil if scene.isothermal else scene.oil
     yield [(float(ln_eta(oil, *at)), float(rho(oil, *at))) for at in places]
-    yield [(rheology.shear_stress(r, tau, p), rheology.poiseuille(r, tau, p)) for tau in (1e6, 1e8) for p, _ in places]
+    tau, p = (one.ravel() for one in np.meshgrid((1e6, 1e8), [p for p, _ in places]))
+    yield [one.tolist() for one in (rheology.shear_stress(r, tau, p), *_flows(r, tau, p), sheared_flow.wall_limit(r, p))]
     yield r.film_floor, r.law
     if scene.operation.u_s:
         yield [boundary_stress(r, p) for p in (1e6, 1e8, 1e9)]
+
+
+def _flows(r, tau, p):
+    """What the film carries by pressure, along the sliding and across it, and the stress that it shears at."""
+    yield from (part for along in (True, False) for law in sheared_flow.either(r, along, 0.3 * tau, 0.3 * tau, tau, p)
+                for part in law)
+    yield from (sheared_flow.mean_stress(r, 0.3 * tau, tau, p), sheared_flow.wall_slip(r, 0.3 * tau, tau, p))
 
 
 def _heat(scene):
