@@ -329,7 +329,7 @@ def test_figures_show_what_was_searched(found, monkeypatch, tmp_path):
     np.testing.assert_allclose(curve[:, 1], row.maps["Fi"][0][:, 0])
 
 
-@pytest.mark.parametrize("value,said", [("deep", "auto"), (3.0, "auto"), ([0.5], "0.1"), ([-1e-6], "1e-07")])
+@pytest.mark.parametrize("value,said", [("deep", "auto"), (3.0, "auto"), ([0.5], "at most 0.03 m"), ([-1e-6], "1e-07")])
 def test_depths_are_checked(value, said):
     with pytest.raises(SceneError, match="fatigue.depths") as error:
         tehl.scene("gear").replace(**{"fatigue.depths": value})

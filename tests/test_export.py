@@ -18,7 +18,9 @@ from tehl_taichi.scene.scales import Scales
 A = Scales.of(SMALL).a
 STEPS, FIRST = 4, -2e-5  # the feature goes 1e-5 m a step
 FRAME = np.array([-1e-5, 0.0, 1e-5]), np.array([0.0, 2e-5])
-SUMMARY = {"scene": "gear", "fatigue": {"Fi_max": 0.7}, "warnings": []}
+SUMMARY = {"scene": "gear", "version": tehl.__version__, "wall_s": 2.0, "compile_s": 1.0, "steps": STEPS - 1,
+           "grid": {"nx": 33, "ny": 9, "nz": 1}, "hertz": {"a_m": A}, "left_out": [], "work": {}, "clamps": {}, "warnings": [],
+           "steady": {"h_c_m": 4e-7, "h_min_m": 3e-7, "p_max_Pa": 2e9, "error": {}, "unknown": {}}, "fatigue": {"Fi_max": 0.7}}
 
 
 def field(step, x, y):
@@ -216,8 +218,9 @@ def test_what_a_killed_export_left_is_cleaned_up_by_the_next(stored, tmp_path):
 def test_what_a_run_does_not_have_is_refused(stored, tmp_path):
     out = tmp_path / "out"
     for options, said in (({"at": 2.0}, "at = 2 a: the feature goes from -0.03 to 0.03 a"), ({"at": "0"}, "is not a number"),
-                          ({"point": (1.0, 1.0)}, "y of a point = 1 m is out of range; allowed: at least 0 m and"),
-                          ({"point": (0.5, 0.0)}, "never is on the grid"), ({"point": 0.0}, "point = 0.0 must be two numbers"),
+                          ({"point": (1e-5, 0.01)}, "y of a point = 0.01 m is out of range; allowed: at least 0 m and"),
+                          ({"point": (1.0, 0.01)}, "x of a point = 1 m is out of range; .* did you mean 1e-3 m"),
+                          ({"point": (0.05, 0.0)}, "never is on the grid"), ({"point": 0.0}, "point = 0.0 must be two numbers"),
                           ({"format": "vtk", "at": np.zeros(1)}, "at and point choose tables of csv"),
                           ({"format": "hdf"}, "format = 'hdf' is not known; allowed: csv, netcdf, vtk")):
         with pytest.raises(tehl.SceneError, match=said.replace("(", r"\(")):

@@ -54,8 +54,10 @@ def test_a_run_takes_a_scene_of_another_fatigue_alone(run):
                              ({"feature.height": 1e-6}, "feature.0.height is")):
             with pytest.raises(SceneError, match=f"not that of the run: {key}"):
                 call(run, SCENE.replace(**changes))
-        with pytest.raises(SceneError, match="'gear' is no scene"):
-            call(run, "gear")
+        with pytest.raises(SceneError, match="not that of the run: thermal.on, grid.nx"):
+            call(run, "gear")  # a name is the built-in scene
+        with pytest.raises(SceneError, match="5 is no scene"):
+            call(run, 5)
 
 
 def test_snapshots_and_states_of_another_grid_are_refused():

@@ -154,7 +154,7 @@ UNITS = {"mm": 1e-3, "um": 1e-6, "GPa": 1e9, "MPa": 1e6, "°C": 1.0, "s": 1.0, "
 
 def printed(text, unit):
     """The numbers of a table row in SI, without its error; the row must say this unit."""
-    text = text.split(" (")[0].removesuffix(" at most")
+    text = text.split(" (")[0].removesuffix(", not resolved").removesuffix(" at most")
     assert unit == "" or text.endswith(unit), text
     numbers = re.findall(r"-?\d+\.?\d*(?:e[-+]\d+)?", re.sub(r"±\s*\S+", "", text))
     return [float(number) * UNITS[unit] for number in numbers]

@@ -8,7 +8,7 @@ MUCH, SOME = 0.01, 3e-3  # of the film: told always; told of ends that the user 
 
 def short(store, summary):
     """A part of the domain in the error of the film that is large, or larger than that of the grid."""
-    steady, g = summary["steady"], store.scene.grid
+    steady, g = summary.get("steady", {}), store.scene.grid
     parts = steady.get("error_parts", {}).get("h_c_m")
     if not parts or g.inlet == "starved":
         return
@@ -20,7 +20,7 @@ def short(store, summary):
 
 def starved(store, summary):
     """An inlet that the scene starves, and what that takes of the film."""
-    lost, g = summary["steady"].get("inlet_lost", 0.0), store.scene.grid
+    lost, g = summary.get("steady", {}).get("inlet_lost", 0.0), store.scene.grid
     if g.inlet == "starved" and lost > MUCH:
         yield (f"grid.inlet = starved: the oil begins at {-g.x_min:g} a, which takes about {lost:.0%} of the film of a flooded "
                "inlet")
