@@ -65,7 +65,8 @@ def load_weights(grids):
     """Weights w (ny+1, nx+1) such that sum(w P) is the load (model.md section 4, Hertz units).
 
     Line: the mean over y (trapezoid over the stored rows) of int P dX = pi/2; point: the double integral, both halves, without
-    the sides, whose pressure is given and bends nothing.
+    the sides, whose pressure is given and bends nothing. Along x of whole cells around the nodes, that of the border, too: its
+    pressure bends the bodies as a whole cell.
     """
     w_y = np.full((grids.ny + 1, 1), grids.dx)
     if grids.ny:
