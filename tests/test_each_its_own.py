@@ -315,3 +315,65 @@ def test_entries_of_a_store_come_back_as_they_were(tmp_path):
     for n, step in enumerate(steps):
         assert all((values == step + 1.5).all() for name, values in found.fields(n).items() if name != "contact")
         assert found.feature_x(n) == 1e-5 * step and found.time[n] == 1e-6 * step
+
+
+def commands(app, before=()):
+    """((words), click command) of every command."""
+    import typer
+
+    group = typer.main.get_command(app)
+
+    def each(command, words):
+        for name, one in getattr(command, "commands", {}).items():
+            yield from each(one, (*words, name))
+        if not hasattr(command, "commands"):
+            yield words, command
+
+    return list(each(group, before))
+
+
+def test_a_switch_that_is_not_given_is_off():
+    """All switches with one name (--force, --json, --quick, --confirm ...): what a command does is what is typed."""
+    from tehl_cli.main import app
+
+    switches = [(words, option.name, option.default) for words, command in commands(app) for option in command.params
+                if getattr(option, "is_flag", False) and not option.secondary_opts]
+    assert len(switches) > 40
+    assert [one for one in switches if one[2]] == []
+
+
+def test_a_resumed_run_prints_its_summary_as_one_object(monkeypatch, small):
+    import json
+
+    from tehl_taichi.results import opened
+
+    summary = {"scene": "gear", "steps": 3}
+    run = SimpleNamespace(rest=lambda steps: SMALL, store=[], summary=summary)
+    monkeypatch.setattr(opened, "open_run", lambda path: run)
+    monkeypatch.setattr(tehl, "resume", lambda *path, **options: run)
+    assert json.loads(here("resume", small, "--json").stdout) == summary
+
+
+@pytest.mark.parametrize("formula", [True, False])
+def test_the_row_of_the_film_formula_stands_where_there_is_one(formula):
+    from tehl_taichi.io.summary_rows import rows_of
+
+    steady = {"h_c_m": 1e-7, "h_min_m": 9e-8, "p_max_Pa": 1e9, "friction_coefficient": 0.05}
+    steady |= {"film_formula_m": 1.2e-7, "film_formula": "Moes, line"} if formula else {}
+    rows = rows_of({"steady": steady, "hertz": {"a_m": 1e-4, "p_Pa": 1e9}, "wall_s": 1.0, "compile_s": 0.1})
+    found = [row.told for row in rows if "formula" in row.what]
+    assert found == ([("h_c by formula (Moes, line)", "0.1200 um")] if formula else [])
+
+
+def test_profiles_lie_on_the_nodes_across_the_film(tmp_path):
+    description = SMALL.replace(**{"thermal.on": True, "thermal.nodes": 7, "output.profiles": True})
+    first = shot(0, description)
+    first.fields["temperature"] = np.full((*first.fields["pressure"].shape, 7), 90.0)
+    import zarr
+
+    from tehl_taichi.io.store import Store
+
+    with Store.create(tmp_path / "z.zarr", description, first, 5, {"runtime": "{}", "steady_error": "{}"}):
+        pass
+    zeta = np.asarray(zarr.open(tmp_path / "z.zarr", mode="r")["zeta"])
+    assert zeta.size == 7 and zeta[0] == 0 and zeta[-1] == 1 and (np.diff(zeta) > 0).all()
