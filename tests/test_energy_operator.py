@@ -97,7 +97,8 @@ def solved(cells, courant=0.8):
     from tehl_taichi.pressure import fields
     from tehl_taichi.pressure.levels import Levels
 
-    base = scene("smooth-line").replace(**{"contact.hertz_pressure": 0.5e9, "speed": 2.0, "srr": -0.3, "grid.y_max": 1.0})
+    base = scene("smooth-line").replace(**{"contact.hertz_pressure": 0.5e9, "speed": 2.0, "srr": -0.3, "grid.y_max": 1.0,
+                                           "grid.x_min": -2.5})  # the cells of the waves, however thick the film
     description = dataclasses.replace(base, rheology=Rheology(law="newtonian"), thermal=Thermal(on=True))
     levels = Levels(description, Scales.of(description), 4 * cells, cells)
     s = levels.scales

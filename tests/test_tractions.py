@@ -125,10 +125,11 @@ def test_solid_friction_stops_at_the_shear_limit(faster):
 
 
 def test_friction_coefficient_is_the_mean_shear_force_over_the_load(slower):
-    """int (tau_a - tau_b)/2 dx dy over f times the width, by the trapezoid rule."""
+    """int (tau_a - tau_b)/2 dx dy over f times the width: whole cells along x as the load counts them (the border's, too, which
+    has a pressure), the trapezoid rule along y."""
     for shot in slower.shots:
         mean = 0.5 * (shot.fields["traction_x_a"] - shot.fields["traction_x_b"])
-        per_width = np.trapezoid(np.trapezoid(mean, shot.y, axis=1), shot.x) / shot.y[-1]
+        per_width = np.trapezoid(mean, shot.y, axis=1).sum() * (shot.x[1] - shot.x[0]) / shot.y[-1]
         assert shot.scalars["friction_coefficient"] == pytest.approx(abs(per_width) / slower.scene.load, rel=1e-9)
 
 
