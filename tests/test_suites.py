@@ -87,9 +87,9 @@ def test_the_front_of_error_against_run_time():
 
 def test_error_against_run_time_of_a_line(taichi_cpu):
     found = [(nx, 1.0, accuracy.solve("steady line", nx)) for nx in (64, 128, 256)]
-    # 8.5 %, 0.55 %, order 1.97
+    # 0.33 %, 0.025 %, order 1.87: 1.91 of Newtonian oil, 1.93 of sheared oil that flows by the secant of its law
     rows = [row for row in accuracy.judged("steady line", found) if row["quantity"] == "h_c_m"]
-    assert rows[0]["error"] > 10 * rows[2]["error"] and rows[2]["error"] < 1e-2 and rows[0]["order"] > 1.9
+    assert rows[0]["error"] > 10 * rows[2]["error"] and rows[2]["error"] < 5e-4 and rows[0]["order"] > 1.85
 
 
 def test_a_target_error_chooses_the_grid():
