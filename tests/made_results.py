@@ -7,8 +7,8 @@ from tehl_taichi.scene.scales import Scales
 
 THERMAL = SMALL.replace(**{"thermal.on": True})
 EXTRA = {"wall_s": 12.5, "compile_s": 2.5, "steady_error": {"h_c_m": 1e-9, "h_min_m": None},
-         "steady_unknown": {"h_min_m": "no coarser grid"}, "passage_error": {"Fi_max": 0.023, "p_max_Pa": 2e7},
-         "passage_unknown": {}}
+         "steady_unknown": {"h_min_m": "no coarser grid"}, "steady_parts": {"h_c_m": {"grid": 1e-9, "domain": 0.0}},
+         "passage_error": {"Fi_max": 0.023, "p_max_Pa": 2e7}, "passage_unknown": {}}
 
 
 def fatigue(Fi=1.008, below=1.392):

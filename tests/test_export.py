@@ -19,7 +19,8 @@ A = Scales.of(SMALL).a
 STEPS, FIRST = 4, -2e-5  # the feature goes 1e-5 m a step
 FRAME = np.array([-1e-5, 0.0, 1e-5]), np.array([0.0, 2e-5])
 SUMMARY = {"scene": "gear", "version": tehl.__version__, "wall_s": 2.0, "compile_s": 1.0, "steps": STEPS - 1,
-           "grid": {"nx": 33, "ny": 9, "nz": 1}, "hertz": {"a_m": A}, "left_out": [], "work": {}, "clamps": {}, "warnings": [],
+           "grid": {"nx": 33, "ny": 9, "nz": 1}, "hertz": {"a_m": A}, "left_out": [], "work": {}, "clamps": {},
+           "domain": {}, "warnings": [], "warning_codes": [],
            "steady": {"h_c_m": 4e-7, "h_min_m": 3e-7, "p_max_Pa": 2e9, "error": {}, "unknown": {}}, "fatigue": {"Fi_max": 0.7}}
 
 

@@ -291,7 +291,8 @@ def test_a_store_with_an_edited_attribute_is_read_or_refused_in_a_sentence(whole
 
 
 @pytest.mark.parametrize("part", ["steady", "grid", "fatigue.below", "transient.error", "wall_s", "steady.h_c_m", "work",
-                                  "fatigue.Fi_max", "warnings", "left_out", "clamps"])
+                                  "fatigue.Fi_max", "warnings", "left_out", "clamps", "domain", "warning_codes",
+                                  "steady.error_parts", "steady.error_parts.h_c_m", "steady.error_parts.h_c_m.domain"])
 def test_a_summary_with_an_edited_part(whole, tmp_path, part):
     path = tmp_path / "edited.zarr"
     shutil.copytree(whole, path)

@@ -10,9 +10,10 @@ KINDS = {dict: "a table", list: "a list", str: "text", int: "a whole number", fl
 SUMMARY = {"scene": str, "version": str, "wall_s": float, "compile_s": float, "steps": int, "grid": dict, "cells": dict,
            "hertz": dict, "left_out": list, "steady": dict, "work": dict, "crowding": list, "clamps": dict, "warnings": list,
            "transient": dict, "fatigue": dict, "error": dict, "unknown": dict, "below": dict, "contact_alone": dict,
-           "searched_m": list, "pit_angles_deg": list, "criterion": str}
+           "searched_m": list, "pit_angles_deg": list, "criterion": str, "domain": dict, "error_parts": dict, "peclet": dict,
+           "warning_codes": list}
 PARTS = {"transient", "fatigue", "cells", "crowding", "error", "unknown", "below", "contact_alone", "searched_m",
-         "pit_angles_deg", "criterion"}  # that some runs do not have
+         "pit_angles_deg", "criterion", "domain", "error_parts", "peclet", "warning_codes"}  # that some runs do not have
 TABLES = ("", "hertz.", "steady.", "transient.", "fatigue.", "fatigue.below.", "fatigue.below.contact_alone.")
 STEADY = ("h_c_m", "h_min_m", "p_max_Pa", "error", "unknown")
 
@@ -67,6 +68,8 @@ def _kind(name, above):
     """The kind of an entry, None where any will do: what later versions add."""
     if above.endswith(("unknown.", "error.")):
         return str if above.endswith("unknown.") else float
+    if "error_parts." in above:
+        return dict if above.endswith("error_parts.") else float
     if above not in TABLES:
         return None
     return SUMMARY.get(name, float if name.endswith(NUMBERS) else None)

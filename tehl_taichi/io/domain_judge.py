@@ -10,10 +10,10 @@ def short(store, summary):
     """A part of the domain in the error of the film that is large, or larger than that of the grid."""
     steady, g = summary.get("steady", {}), store.scene.grid
     parts = steady.get("error_parts", {}).get("h_c_m")
-    if not parts or g.inlet == "starved":
+    if not parts or "inlet_gap" not in steady or g.inlet == "starved":
         return
     part, grid = parts["domain"] / steady["h_c_m"], (parts["grid"] or 0.0) / steady["h_c_m"]
-    if part > MUCH or part > max(grid, SOME) and not summary["domain"]["auto"]:
+    if part > MUCH or part > max(grid, SOME) and not summary.get("domain", {}).get("auto"):
         yield (f"the domain begins at {-g.x_min:g} a, where the gap is {steady['inlet_gap']:.2g} times the film: what lies "
                f"before it may change the film by {part:.1%}{_farther(store.scene, steady)}")
 
