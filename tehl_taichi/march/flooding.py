@@ -11,16 +11,22 @@ AGREES = 1e-3
 TURNS = 20  # at most; 2 to 5 are usual, the thickest films (M = 2, L = 20) take 8
 LEAST, LARGEST = 0.2, 1.0  # of a turn's change
 BETWEEN = 0.7  # of a change between blocks of temperatures
+BLOCKS = 4  # of temperatures between which the border moves; 0.3^4 of a change are left
 SHORTEST = 0.01  # part of a change that is tried where larger ones do not converge
 
 
-def turn(solver, solve):
-    """One turn without a check, before solve(solver): between blocks of temperatures, which move the film more."""
-    inlet = Inlet(solver.levels)
-    if inlet.flooded:
-        now = inlet.now()
-        inlet.put(now + BETWEEN * (inlet.beyond() - now))
-    return solve(solver)
+def turns(solver, solve):
+    """Function that solves with solve(solver), the first times after a turn without a check: between blocks of temperatures,
+    which move the film more. Then the border rests, so that they can settle."""
+    inlet, left = Inlet(solver.levels), iter(range(BLOCKS))
+
+    def turn():
+        if inlet.flooded and next(left, None) is not None:
+            now = inlet.now()
+            inlet.put(now + BETWEEN * (inlet.beyond() - now))
+        return solve(solver)
+
+    return turn
 
 
 def flood(solver, report, solve=from_here):

@@ -11,7 +11,7 @@ import numpy as np
 
 from tehl_taichi.heat.temperatures import FilmHeat
 from tehl_taichi.march.first_film import again, from_here, from_nothing, in_time, put
-from tehl_taichi.march.flooding import flood, turn
+from tehl_taichi.march.flooding import flood, turns
 from tehl_taichi.march.settle import settle, time_step
 from tehl_taichi.march.together import check, march_to_rest
 from tehl_taichi.pressure import fields
@@ -79,7 +79,7 @@ def _with_temperatures(solver, heat, T, finest):
     """By turns, from the temperatures T of a coarser grid; on the finest grid in time, where that fails. Returns the Report,
     and whether what did not settle is a state in time."""
     P, H0, resolved = solver.levels.get(fields.P), solver.H0, finest and not _touches(solver)
-    report, trouble = settle(solver.levels, heat, lambda: turn(solver, again), T)
+    report, trouble = settle(solver.levels, heat, turns(solver, again), T)
     report = flood(solver, report, again)
     if report.converged and trouble and resolved:
         report = check(solver, heat)
