@@ -13,7 +13,8 @@ from tehl_taichi.scene import scene
 pytestmark = pytest.mark.usefixtures("taichi_cpu")
 
 
-NEWTONIAN = {"thermal.on": False, "rheology.law": "newtonian"}
+# the domain and the inlet of the numbers below
+NEWTONIAN = {"thermal.on": False, "rheology.law": "newtonian", "grid.inlet": "starved", "grid.x_min": -2.5}
 
 
 def line(**changes):

@@ -186,10 +186,10 @@ def _parents(path):
 
 
 def remove(folder, lock):
-    """Remove a folder with its lock last, so that half of it is still known for what it is; links in it go, not what they lead
-    to."""
+    """Remove a folder with what names it and its lock last, so that half of it is still known for what it is; links in it go,
+    not what they lead to."""
     try:
-        for child in folder.iterdir():
+        for child in sorted(folder.iterdir(), key=lambda one: one.name == ROOT):
             if child.name != LOCK:
                 _remove(child)
         lock.moved(folder)
