@@ -10,7 +10,9 @@ from tehl_taichi.pressure import fields
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 
-GEAR = scene("gear").replace(**{"srr": -0.12, "grid.nx": 128, "grid.ny": 32, "time.x_start": -1.4, "time.x_end": -0.5})
+# starved: with a flooded inlet the last step is tried twice, 0.16 of the tiles rest with the rounds of the attempt that failed
+GEAR = scene("gear").replace(**{"srr": -0.12, "grid.nx": 128, "grid.ny": 32, "time.x_start": -1.4, "time.x_end": -0.5,
+                                "grid.inlet": "starved", "grid.x_min": -2.5})
 
 
 def test_what_rests_would_hardly_move(taichi_cpu, monkeypatch):
