@@ -66,6 +66,7 @@ def test_the_second_colour_answers_what_the_first_leaves(both):
     assert np.abs(one.answer(right * red, one.finest)).max() > 0
 
 
+@pytest.mark.slow
 def test_they_settle_in_the_same_state():
     """A whole start and some steps."""
     from tehl_taichi.march.passage import march

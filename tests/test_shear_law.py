@@ -12,6 +12,8 @@ from tehl_taichi.scene.scales import Scales
 pytestmark = pytest.mark.usefixtures("taichi_cpu")
 
 LAWS = {"limiting": {}, "eyring": {"rheology.tau_0": 5e6}, "carreau": {"rheology.tau_0": 5e6, "rheology.carreau_n": 0.4}}
+# Carreau's kernels, five nodes a face, take 20 s to compile
+QUICK_LAWS = ["limiting", "eyring", pytest.param("carreau", marks=pytest.mark.slow)]
 
 
 def film(law="limiting", name="smooth-line", **changes):
@@ -51,7 +53,7 @@ def flow_between(law, changes, p, h=1.5e-6):
     return levels.get(fields.R)[0], levels
 
 
-@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("law", QUICK_LAWS)
 def test_the_flow_along_the_sliding_is_that_of_columns(law):
     """What the residual has of a pressure beside that of a Newtonian film, face by face, against sums across a column each."""
     from tehl_taichi.physics.viscosity import ln_eta
@@ -79,7 +81,7 @@ def test_the_flow_along_the_sliding_is_that_of_columns(law):
     np.testing.assert_allclose(found[both], exact[both], atol=(5e-3 if law == "carreau" else 1e-6) * np.abs(extra).max())
 
 
-@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("law", QUICK_LAWS)
 def test_friction_is_that_of_the_law(law):
     """Mean of the shear on both surfaces against sums across columns, from the stored pressure and film alone."""
     from tehl_taichi.march.passage import march

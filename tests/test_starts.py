@@ -295,6 +295,7 @@ def test_oil_of_40_degrees_between_surfaces_that_slip_settles():
     assert found["h_c_m"] == pytest.approx(1.390e-6, rel=0.015) and found["film_max_C"] == pytest.approx(192.0, abs=1.0)
 
 
+@pytest.mark.slow
 def test_a_thin_film_comes_down_from_a_high_speed():
     """15 nm at 3.7 GPa on 512 columns, which carry it: from Hertz at its own speed Newton does not find it, and up from low
     speeds the surfaces touch over the contact (until 0.5.3)."""
