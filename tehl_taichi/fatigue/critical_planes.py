@@ -21,9 +21,9 @@ MOVES = 40    # moves at one step length at most
 TURNS = 3     # turned patterns without success before the step is halved: the maximum often lies on a sharp ridge
 FIRST_TURNS = 2  # the same in the first halvings: 3.1e-7 at most over 3003 points of the gear passage against 13 000 planes a
                  # point from 4 degrees (with 1: 4.7e-6)
-SHEARED_MARGIN, SHEARED_STARTS = 0.1, 12  # the same where the shear chooses: planes of equal shear are as far as 3 % apart here
 MARGIN = 0.06  # other peaks of the grid within this of its best are refined too (the grid itself is about 1 % low)
 STARTS = 5      # peaks refined at most: 4 and 20 agree to 2e-7 at every point of the gear passage (4.2 s against 5.6 s)
+SHEARED_MARGIN, SHEARED_STARTS = 0.1, 12  # both where the shear chooses: on the grid planes of equal shear differ by up to 3 %
 NEAR = 0.975   # cosine of the angle (13 degrees) below which planes of the grid belong to one peak
 SAME = 0.9998  # the same (1 degree) for peaks after the first halvings
 TIE = 2.0  # weight of the normal stress over the step, rad: a pattern then follows a ridge of equal shear at every step

@@ -238,8 +238,8 @@ class Scene:
 
     @property
     def keeps_expansion(self):
-        """Whether the density of a film with one temperature keeps its thermal factor, at the inlet temperature: where nobody
-        asks for an isothermal film and nothing slips, so that films with and without slip are of one oil."""
+        """Whether the density of a film with one temperature keeps its thermal factor, at the inlet temperature: where the
+        user leaves the choice and nothing slips, so that films with and without slip are of one oil."""
         return self.thermal.on == AUTO and self.contact.moes_M == 0
 
     @property
