@@ -12,9 +12,9 @@ NODES, ROWS = 5, 16
 
 
 class Sideways:
-    """A film on whose rows oil moves by so many rows a step, all else at rest."""
+    """A film on whose rows oil moves by so many rows, and columns, a step, all else at rest."""
 
-    def __init__(self, rows):
+    def __init__(self, rows, along=0.0):
         from tehl_taichi.engine.launches import bind
         from tehl_taichi.engine.records import Record
         from tehl_taichi.heat import paths, slots
@@ -26,7 +26,7 @@ class Sideways:
         self.slots, self.columns, step = slots, slots.Columns(levels, NODES), Record(Step)
         step.set(inv_x=1.0, inv_y=1.0, back=1.0, back_2=2.0, near=4 / 3, far=-1 / 3)
         self.shape = NODES, ROWS + 1, 33
-        self.columns.put_nodes(slots.U, np.zeros(self.shape))
+        self.columns.put_nodes(slots.U, np.full(self.shape, float(along)))
         self.columns.put_nodes(slots.VY, np.full(self.shape, float(rows)))
         self.launch = bind(paths.departures, levels.S, self.columns.field, self.columns.singles.field, levels.G, NODES,
                            levels.conditions.values, step.values, np.zeros((5 * levels.fine, slots.TOLD)))
@@ -78,3 +78,15 @@ def test_a_sawtooth_of_rows_dies(rows):
     for _ in range(ROWS):
         last, before = film.after(last, before), last
     assert np.abs(np.diff(last, 2, axis=1)).max() / 4 < 0.2  # it comes in at one side
+
+
+@pytest.mark.parametrize("along", [2.0, 3.4])
+def test_oil_from_beyond_the_border_brings_nothing_from_other_rows(along):
+    """It is the same in all of them. Until 0.8 the change from row to row was extrapolated from both first columns, and grew
+    twice a step where a flooded border has a gradient along y."""
+    film = Sideways(0.3, along)
+    warm = 90.0 + np.arange(ROWS + 1.0)[None, :, None] * np.linspace(9, 1, 33) + np.zeros(film.shape)
+    np.testing.assert_allclose(film.after(warm, warm)[:, :, :2], 90.0, atol=1e-12)
+    half = Sideways(0.0, 0.5).after(warm, warm), Sideways(0.3, 0.5).after(warm, warm)
+    change = (half[1] - half[0])[:, 2:-2, 0] / (-0.3 * 9.0)
+    np.testing.assert_allclose(change, 4 / 3 * 0.5, atol=1e-12)  # of half a column; two steps ago all came from beyond

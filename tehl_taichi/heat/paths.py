@@ -108,10 +108,11 @@ def origin(Z: ti.template(), C: ti.template(), nz, at: ti.template(), past: ti.t
         moved = rows * (past.seconds / step.back_2)
         # between the two columns next to the first row's origin: taken at i, the step would be of first order in x y
         i0 = ti.min(ti.max(int(ti.floor(x[0])), 0), at.nx - 1)
-        f, q0 = minimum(maximum(x - i0, -1.0), 2.0), at.q - at.i + i0
+        f, q0 = minimum(maximum(maximum(x, 0.0) - i0, -1.0), 2.0), at.q - at.i + i0
+        inside = minimum(maximum(1.0 + x, 0.0), 1.0)  # oil that comes in is the same in all rows
         T1, p1 = across(Z, C, nz, at, past, q0, moved)
         T2, p2 = across(Z, C, nz, at, past, q0 + 1, moved)
-        T0, p0 = T0 + ((1.0 - f) * T1 + f * T2), p0 + ((1.0 - f) * p1 + f * p2)
+        T0, p0 = T0 + inside * ((1.0 - f) * T1 + f * T2), p0 + inside * ((1.0 - f) * p1 + f * p2)
     return T0, p0
 
 
