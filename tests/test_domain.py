@@ -81,7 +81,7 @@ def test_the_thick_film_of_the_worst_row_lies_inside_its_bar():
     for shot in (wide, short):
         assert abs(shot.scalars["h_c_m"] - truth) < shot.error["h_c_m"]
         for name, parts in shot.parts.items():
-            assert shot.error[name] == pytest.approx(parts["grid"] + parts["domain"])
+            assert shot.error[name] == pytest.approx(math.hypot(parts["grid"], parts["domain"]))
     assert short.scalars["h_c_m"] == pytest.approx(truth, rel=0.03)
     assert starved.scalars["h_c_m"] == pytest.approx(1.5617e-6, rel=1e-4) and not starved.parts["h_c_m"]["domain"]
     assert starved.domain.lost == pytest.approx(1 - 1.5617 / 2.3629, abs=0.12)
@@ -223,12 +223,14 @@ def test_a_wanted_error_sees_the_domain():
 def test_bars_hold_both_parts_and_are_none_where_either_leaves_nothing():
     found = Share(film=0.1, thinnest=0.17, friction=0.3, before=1e-3)
     values = {"h_c_m": 1e-6, "h_min_m": 2e-7, "p_max_Pa": 1e9, "friction_coefficient": 0.02, "film_max_C": 140.0}
-    grid = {"h_c_m": 1e-8, "h_min_m": 1.8e-7, "p_max_Pa": None, "friction_coefficient": 1e-4, "film_max_C": 1.0}
+    grid = {"h_c_m": 1e-8, "h_min_m": 1.99e-7, "p_max_Pa": None, "friction_coefficient": 1e-4, "film_max_C": 1.0}
     whole, unknown, parts = widened(grid, {"p_max_Pa": "why"}, values, found, 90.0)
-    assert whole["h_c_m"] == pytest.approx(1e-8 + 1e-7) and whole["p_max_Pa"] is None and unknown["p_max_Pa"] == "why"
+    assert whole["h_c_m"] == pytest.approx(math.hypot(1e-8, 1e-7))
+    assert whole["p_max_Pa"] is None and unknown["p_max_Pa"] == "why"
     assert whole["h_min_m"] is None and "as large as the number" in unknown["h_min_m"]
-    assert whole["friction_coefficient"] == pytest.approx(1e-4 + 0.3 * 0.02 + 1e-3)
-    assert whole["film_max_C"] == pytest.approx(1.0 + 0.1 * 50) and parts["h_c_m"] == {"grid": 1e-8, "domain": 1e-7}
+    assert whole["friction_coefficient"] == pytest.approx(math.hypot(1e-4, 0.3 * 0.02 + 1e-3))
+    assert whole["film_max_C"] == pytest.approx(math.hypot(1.0, 2 * 0.1 * 50))
+    assert parts["h_c_m"] == {"grid": 1e-8, "domain": 1e-7}
     passing, _, _ = widened({"h_min_m": 0.0, "Fi_max": 0.0}, {}, {"h_min_m": 1e-7, "Fi_max": 0.9}, found, 90.0, True)
     assert passing == pytest.approx({"h_min_m": 3e-8, "Fi_max": 0.27})
 
@@ -243,7 +245,7 @@ def test_a_domain_that_ends_too_near_is_told_with_options_that_end_that(tmp_path
     assert "begins at 2.5 a, where the gap is 1.9 times the film" in said
     assert summary["domain"] == {"x_min_a": -2.5, "x_max_a": 1.5, "y_max_b": 1.0, "auto": False}
     parts = summary["steady"]["error_parts"]["h_c_m"]
-    assert summary["steady"]["error"]["h_c_m"] == pytest.approx(parts["grid"] + parts["domain"])
+    assert summary["steady"]["error"]["h_c_m"] == pytest.approx(math.hypot(parts["grid"], parts["domain"]))
     x_min, nx = float(said.partition("grid.x_min=")[2].split()[0]), int(said.partition("--grid ")[2].split()[0])
     wide = tehl.run(short.replace(**{"grid.x_min": x_min, "grid.nx": nx}), tmp_path / "wide.zarr").summary
     assert "domain" not in wide["warning_codes"] and nx / (1.5 - x_min) >= 64

@@ -6,6 +6,7 @@ is measured); a point contact 0.73 alpha q and, by its sides, (gap there/0.7 fil
 of the oil beyond leaves a part. What the oil beyond bears is missing in the load.
 """
 
+import math
 from dataclasses import asdict, dataclass
 from dataclasses import fields as of_class
 
@@ -25,7 +26,7 @@ GRUBIN, LONG = 0.73, 0.15
 # 20 m/s, 60 deg C, SRR -0.5 and -0.1: 0.17 and 0.22 of it with a gap of 2 films, 0.10 and 0.11 with 12)
 STIFF, SOFT, HOT, HOTTEST = 0.03, 0.15, 2.0, 0.2
 THINNEST = 2.0  # times as much of the smallest film of a point contact, by its sides
-PRESSURE, SLIDING, HEATING = 2.5, 3.0, 1.0  # of the share of the film: of the largest pressure, friction, rises of temperature
+PRESSURE, SLIDING, HEATING = 2.0, 3.0, 2.0  # of the share of the film: of the largest pressure, friction, rises of temperature
 
 
 @dataclass(frozen=True)
@@ -115,9 +116,9 @@ def _before(v, H):
 
 def widened(errors, unknown, values, found, inlet, passing=False):
     """(bars, why some are unknown, {name: {"grid", "domain"}}) of bars by the grid, {name: size or None}, and of what the Share
-    `found` adds to them; values: {name: the number}; inlet: deg C."""
+    `found` adds to them, whose causes are independent: in quadrature; values: {name: the number}; inlet: deg C."""
     parts = {name: {"grid": size, "domain": found.of(name, values[name], inlet, passing)} for name, size in errors.items()}
-    whole = {name: None if part["grid"] is None else part["grid"] + part["domain"] for name, part in parts.items()}
+    whole = {name: None if part["grid"] is None else math.hypot(part["grid"], part["domain"]) for name, part in parts.items()}
     lost = [name for name, size in whole.items() if size is not None and _positive(name) and size >= values[name]]
     return {**whole, **dict.fromkeys(lost)}, {**unknown, **dict.fromkeys(lost, WHOLE)}, parts
 
