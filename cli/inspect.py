@@ -172,7 +172,7 @@ def _draw(store, out, wanted, page):
     """Paths of the figures of whatever lies at `store`; wanted: {option: value} of OPTIONS, None where not wanted."""
     import tehl_taichi as tehl
     from tehl_taichi.errors import SceneError
-    from tehl_taichi.results.opened import FLANK, kind
+    from tehl_taichi.results.opened import FLANK, RUN, kind
 
     which = kind(store)
     for name, value in wanted.items():
@@ -180,7 +180,9 @@ def _draw(store, out, wanted, page):
             whose = next(other for other, options in OPTIONS.items() if name in options)
             raise SceneError(f"--{name} {value} is of a {whose}, and {store} is a {which}")
     found, mine = tehl.open(store), {name: wanted[name] for name in OPTIONS[which]}
-    return [found.plot(out and out / "flank", **page)] if which == FLANK else found.plot(out, **mine, **page)
+    if which == FLANK:
+        return [found.plot(out and out / "flank", **page)]
+    return (found.save_figures if which == RUN else found.plot)(out, **mine, **page)
 
 
 def doctor():

@@ -7,7 +7,10 @@ Importing this package does not import taichi; the compiled parts load when a si
 True
 """
 
+import importlib
 import os
+import sys
+from types import ModuleType
 from typing import TYPE_CHECKING
 
 # Waiting FFT or BLAS threads must sleep, not spin: a spinning pool stalls every other pool on a busy machine.
@@ -21,32 +24,77 @@ os.environ.setdefault("ENABLE_TAICHI_HEADER_PRINT", "0")
 os.environ.setdefault("TI_ENABLE_PYBUF", "0")
 
 __version__ = "0.8.0"
-__all__ = ["Error", "Interrupted", "Lines", "NotConverged", "Progress", "Run", "RuntimeUnavailable", "Scene", "SceneError",
-           "StoreError", "__version__", "animate", "compare", "crack", "export", "fatigue", "flank", "march", "open", "report",
-           "resume", "run", "scene", "simulate", "sweep"]
 
 # after the settings above, which numpy reads
-from tehl_taichi.called import offered  # noqa: E402
-from tehl_taichi.errors import Error, Interrupted, NotConverged, RuntimeUnavailable, SceneError, StoreError  # noqa: E402
+from tehl_taichi.api import (  # noqa: E402
+    FUNCTIONS,
+    animate,
+    compare,
+    crack,
+    export,
+    fatigue,
+    flank,
+    march,
+    report,
+    resume,
+    run,
+    scene,
+    simulate,
+    stresses,
+    sweep,
+)
+from tehl_taichi.api import open as open
+from tehl_taichi.errors import Error, Interrupted, NotConverged, RuntimeUnavailable, SceneError, StoreError, UnknownName  # noqa: E402
 
 if TYPE_CHECKING:
-    from tehl_taichi.crack import crack
-    from tehl_taichi.export import export
-    from tehl_taichi.fatigue import fatigue
-    from tehl_taichi.figures import animate
-    from tehl_taichi.flank import flank
-    from tehl_taichi.io.found import find as scene
-    from tehl_taichi.march import march, simulate
-    from tehl_taichi.report import report
-    from tehl_taichi.results.opened import open
-    from tehl_taichi.scene import Scene
-    from tehl_taichi.study.compare import compare
-    from tehl_taichi.study.many import sweep
+    from tehl_taichi.crack.answer import CrackResult
+    from tehl_taichi.fatigue.assessment import FatigueResult
+    from tehl_taichi.flank.stored_flank import Flank
+    from tehl_taichi.march.snapshot import Snapshot
+    from tehl_taichi.scene.feature import Feature
+    from tehl_taichi.scene.gear_pair import GearPair
+    from tehl_taichi.scene.oil import Oil
+    from tehl_taichi.scene.parts import Body, Contact, Fatigue, Grid, Numerics, Operation, Output, Rheology, Thermal, Time
+    from tehl_taichi.scene.whole import Scene
+    from tehl_taichi.study.compare import Comparison
     from tehl_taichi.study.progress import Lines, Progress
-    from tehl_taichi.study.single import resume, run
     from tehl_taichi.study.stored_run import Run
-else:  # the command line asks for a few of them only: 0.3 s of its start
-    __getattr__ = offered(__name__, {
-        "animate": "figures", "simulate": "march", "Scene": "scene", "compare": "study.compare", "sweep": "study.many",
-        "Lines": "study.progress", "Progress": "study.progress", "open": "results.opened", "resume": "study.single",
-        "run": "study.single", "Run": "study.stored_run"}, ("crack", "export", "fatigue", "flank", "march", "report", "scene"))
+    from tehl_taichi.study.table import Study
+    from tehl_taichi.values.estimate import Quantity
+
+# classes and the modules that hold them, loaded when they are used: the command line needs a few of them only
+CLASSES = {"Scene": "scene.whole", "Feature": "scene.feature", "Oil": "scene.oil", "GearPair": "scene.gear_pair",
+           **dict.fromkeys(("Body", "Contact", "Fatigue", "Grid", "Numerics", "Operation", "Output", "Rheology", "Thermal",
+                            "Time"), "scene.parts"),
+           "Run": "study.stored_run", "Study": "study.table", "Flank": "flank.stored_flank", "Comparison": "study.compare",
+           "Snapshot": "march.snapshot", "FatigueResult": "fatigue.assessment", "CrackResult": "crack.answer",
+           "Lines": "study.progress", "Progress": "study.progress", "Quantity": "values.estimate"}
+# not `open`: `from tehl_taichi import *` leaves the builtin alone
+__all__ = ["Body", "Comparison", "Contact", "CrackResult", "Error", "Fatigue", "FatigueResult", "Feature", "Flank", "GearPair",
+           "Grid", "Interrupted", "Lines", "NotConverged", "Numerics", "Oil", "Operation", "Output", "Progress", "Quantity",
+           "Rheology", "Run", "RuntimeUnavailable", "Scene", "SceneError", "Snapshot", "StoreError", "Study", "Thermal",
+           "Time", "UnknownName", "__version__", "animate", "compare", "crack", "export", "fatigue", "flank", "march",
+           "report", "resume", "run", "scene", "simulate", "stresses", "sweep"]
+
+
+def __getattr__(name):
+    if name not in CLASSES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(importlib.import_module(f"{__name__}.{CLASSES[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__():
+    return sorted([*__all__, "open"])
+
+
+class _Package(ModuleType):
+    """Importing the folder `march` would set `tehl_taichi.march` to it: the function of that name stays."""
+
+    def __setattr__(self, name, value):
+        if not (name in FUNCTIONS and isinstance(value, ModuleType)):
+            super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Package

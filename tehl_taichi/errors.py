@@ -6,8 +6,15 @@ FAILED, BAD_INPUT, NOT_CONVERGED, INTERRUPTED = 1, 2, 3, 4
 
 
 class Error(Exception):
-    """Base of all errors raised on purpose; the message is for people, exit_code for the command line.
+    """Base of all errors that this package raises on purpose.
 
+    Attributes
+    ----------
+    exit_code : int
+        Exit code of the command line: 1 failed, 2 invalid input, 3 not converged, 4 interrupted.
+
+    Examples
+    --------
     >>> import tehl_taichi as tehl
     >>> for wrong in (lambda: tehl.scene("gear").replace(load=-5), lambda: tehl.open("nothing.zarr")):
     ...     try:
@@ -22,33 +29,40 @@ class Error(Exception):
 
 
 class SceneError(Error, ValueError):
-    """The scene cannot be simulated as it is described."""
+    """The scene or an argument is invalid; the message says the value, its unit and what is allowed."""
 
     exit_code = BAD_INPUT
 
 
 class StoreError(Error):
-    """The store cannot be used as asked; one sentence says why."""
+    """The store cannot be used in this way; the message says why."""
 
     exit_code = BAD_INPUT
 
 
 class RuntimeUnavailable(Error, RuntimeError):
-    """What is asked of this process or machine (architecture, precision, threads) cannot be had."""
+    """This process or machine does not offer the requested architecture, precision or number of threads."""
 
     exit_code = BAD_INPUT
 
 
 class NotConverged(Error, RuntimeError):
-    """A step did not converge; the message says where, why and what to try. Earlier snapshots are good."""
+    """A step did not converge; the message says where, why and what to try. Earlier snapshots are valid."""
 
     exit_code = NOT_CONVERGED
 
 
 class Interrupted(Error):
-    """Stopped from outside in the middle of a run; the store can be resumed."""
+    """The run was stopped from outside; the store can be resumed."""
 
     exit_code = INTERRUPTED
+
+
+class UnknownName(Error, KeyError):
+    """A run has no quantity of this name."""
+
+    exit_code = BAD_INPUT
+    __str__ = Exception.__str__  # KeyError would put it into quotes
 
 
 def extra(name):

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from tehl_taichi.profiles import stability
 
+from tehl_taichi.march import passage
 from tehl_taichi.scene import Scene, SceneError, scene, thin_film
 from tehl_taichi.scene.scales import Scales
 
@@ -54,7 +55,7 @@ def test_starts_are_scenes_with_temperatures(monkeypatch):
     drawn = stability.starts(stability.random_cases(20, 3))
     assert len(drawn) > 4 and all(not s.isothermal and s.time.steps == 1 for s in drawn.values())
     shot = SimpleNamespace(scalars={"newton": 1.0, "cycles": 2.0}, unsettled="it moves")
-    monkeypatch.setattr("tehl_taichi.march.passage.march", lambda description: iter([shot, shot]))
+    monkeypatch.setattr(passage, "march", lambda description: iter([shot, shot]))
     monkeypatch.setattr(stability, "sound", lambda shot: True)
     found = stability.run_case("moving", scene("gear"))
     assert found.unsettled and (found.verdict, found.reason, found.steps) == ("converged", "it moves", 1)
@@ -80,7 +81,7 @@ def test_an_error_is_a_failure(monkeypatch):
         raise ZeroDivisionError("1/0")
         yield
 
-    monkeypatch.setattr("tehl_taichi.march.passage.march", broken)
+    monkeypatch.setattr(passage, "march", broken)
     assert stability.run_case("broken", scene("gear")).verdict == "failed"
 
 
@@ -121,7 +122,7 @@ def test_starts_are_confirmed_by_half_a_step_and_twice_the_columns(monkeypatch):
         hot = description.time.courant < 1
         yield SimpleNamespace(scalars={"h_c_m": film, "film_max_C": 100.0 + hot}, unsettled="it moves" * (film > 2e-6))
 
-    monkeypatch.setattr("tehl_taichi.march.passage.march", march)
+    monkeypatch.setattr(passage, "march", march)
     coarse, fine = (scene("gear").replace(**{"grid.nx": nx, "grid.ny": 32}) for nx in (64, 128))
     found, stopped = stability.confirm({"coarse": coarse, "fine": fine})
     assert found == stability.Confirmed("coarse", 64, 0.0, 1.0, pytest.approx(2.28 / 1.64 - 1), 0.0, True)
@@ -152,7 +153,7 @@ def test_a_start_is_doubled_until_it_holds(monkeypatch):
         yield SimpleNamespace(scalars={"h_c_m": (1 + 1 / nx) * 1e-6, "film_max_C": 100 + 128 / nx + 5 * half * (nx < 128)},
                               unsettled="")
 
-    monkeypatch.setattr("tehl_taichi.march.passage.march", march)
+    monkeypatch.setattr(passage, "march", march)
     coarse = scene("gear").replace(**{"grid.nx": 32, "grid.ny": 32})
     found, = stability.confirm({"case": coarse}, again=6)
     assert found.holds and (found.columns, found.finer_K, found.half_K) == (128, 0.5, 0.0)

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 import tehl_taichi as tehl
+from tehl_taichi.crack import plane
 from tehl_taichi.errors import SceneError
+from tehl_taichi.fatigue import histories
 from tehl_taichi.scene.route import moments, step_length, total_steps
 
 GEAR = tehl.scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16, "thermal.on": False})
@@ -37,7 +39,7 @@ def test_moments_are_counted_as_a_store_has_them(every, window):
 
 def test_a_stored_run_is_asked_about_such_a_window_before_it_is_searched(tmp_path, monkeypatch):
     run = tehl.run(GEAR.replace(**{"time.steps": 3}), tmp_path / "a.zarr")
-    monkeypatch.setattr("tehl_taichi.fatigue.histories.Passage.__init__", lambda *_: pytest.fail("stresses were asked for"))
+    monkeypatch.setattr(histories.Passage, "__init__", lambda *_: pytest.fail("stresses were asked for"))
     with pytest.raises(SceneError, match="leaves 0 stored moments"):
         run.fatigue(from_x=10.0)
 
@@ -47,6 +49,6 @@ def test_a_stored_run_is_asked_about_such_a_window_before_it_is_searched(tmp_pat
                                            ({"start": 5e-5, "first": 9e-4, "length": 1e-3}, "from start = 5e-05 m leads out")])
 def test_a_crack_outside_the_stresses_is_refused_before_they_are_computed(tmp_path, monkeypatch, changes, said):
     shots = tehl.simulate(GEAR.replace(**{"time.steps": 3}))
-    monkeypatch.setattr("tehl_taichi.crack.plane.histories_of", lambda *_: pytest.fail("stresses were asked for"))
+    monkeypatch.setattr(plane, "histories_of", lambda *_: pytest.fail("stresses were asked for"))
     with pytest.raises(SceneError, match=said):
         tehl.crack(shots, GEAR.replace(**{"time.steps": 3}), **changes)

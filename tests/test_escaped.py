@@ -158,4 +158,4 @@ def test_no_text_of_a_figure_is_mathematics(tmp_path, monkeypatch):
     matplotlib = pytest.importorskip("matplotlib")
     monkeypatch.setitem(matplotlib.rcParams, "text.usetex", True)
     path = made_results.run(tmp_path / "a.zarr", SMALL.replace(name="$\\alpha$".replace("\\", "|")), 3)
-    assert smooth(0, SMALL).x.size and tehl.open(path).plot(dpi=40)
+    assert smooth(0, SMALL).x.size and tehl.open(path).save_figures(dpi=40)

@@ -1,50 +1,81 @@
-"""The examples of the public names run, in a folder of their own each."""
+"""The public face: what it lists, what it says, its examples, which run in a folder of their own each."""
 
 import doctest
 import importlib
 import inspect
+import pickle
+import pydoc
+import subprocess
+import sys
 import tomllib
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import tehl_taichi as tehl
+from tehl_taichi import api
 
 ROOT = Path(__file__).parents[1]
-NAMES = sorted(set(tehl.__all__) - {"__version__"})
+NAMES = sorted({*tehl.__all__, "open"} - {"__version__"})
+CLASSES = [name for name in NAMES if isinstance(getattr(tehl, name), type)]
+FUNCTIONS = [name for name in NAMES if name not in CLASSES]
 
 
-def called(name):
-    """The function or class behind a public name."""
-    found = getattr(tehl, name)
-    return getattr(found, "called", found)
+def inherits(thing):
+    """Whether it is one of the errors, which their base explains."""
+    return isinstance(thing, type) and issubclass(thing, tehl.Error) and thing is not tehl.Error
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_every_public_name_says_what_it_is_and_shows_it(taichi_cpu, monkeypatch, tmp_path, name):
-    thing = called(name)
-    inherited = isinstance(thing, type) and issubclass(thing, tehl.Error) and thing is not tehl.Error
-    assert thing.__doc__ and (inherited or ">>> " in thing.__doc__)
+    thing = getattr(tehl, name)
+    assert thing.__doc__ and (inherits(thing) or "Examples\n" in thing.__doc__ and ">>> " in thing.__doc__)
     monkeypatch.chdir(tmp_path)
     runner = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS)
-    for test in doctest.DocTestFinder(recurse=False).find(thing, name, globs=vars(inspect.getmodule(thing)).copy()):
+    for test in doctest.DocTestFinder(recurse=not inherits(thing)).find(thing, name, globs={}):
         assert runner.run(test).failed == 0
 
 
-def test_public_functions_are_typed():
-    for name in NAMES:
-        thing = called(name)
-        if not isinstance(thing, type):
-            signature = inspect.signature(thing)
-            assert signature.return_annotation is not signature.empty, name
-            assert inspect.signature(getattr(tehl, name)) == signature
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_public_functions_are_plain_typed_and_say_what_goes_in_and_out(name):
+    thing = getattr(tehl, name)
+    assert inspect.isfunction(thing) and thing.__module__ == "tehl_taichi.api" and pickle.loads(pickle.dumps(thing)) is thing
+    signature = inspect.signature(thing)
+    assert signature.return_annotation is not signature.empty
+    for part in ("Parameters\n    ------", "Yields\n    ---" if name == "march" else "Returns\n    ---", "Raises\n    ---"):
+        assert part in thing.__doc__, part
+    for parameter in signature.parameters:
+        assert parameter in thing.__doc__
+    assert pydoc.render_doc(f"tehl_taichi.{name}", renderer=pydoc.plaintext).startswith("Python Library Documentation: func")
+
+
+def test_the_package_is_typed():
     declared = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["setuptools"]["package-data"]["tehl_taichi"]
     assert "py.typed" in declared and (ROOT / "tehl_taichi" / "py.typed").exists()
 
 
-@pytest.mark.parametrize("room", ["fatigue", "march", "scene"])
-def test_a_folder_that_is_called_stays_a_folder(room):
-    assert callable(getattr(tehl, room)) and importlib.import_module(f"tehl_taichi.{room}") is getattr(tehl, room)
+def test_tab_completion_lists_what_users_call_and_a_star_leaves_the_builtin():
+    assert dir(tehl) == sorted({*tehl.__all__, "open"}) and set(api.FUNCTIONS) | set(tehl.CLASSES) < set(dir(tehl))
+    code = "import builtins; from tehl_taichi import *; assert open is builtins.open; assert run and Scene and march"
+    assert subprocess.run([sys.executable, "-c", code]).returncode == 0
+
+
+def test_functions_stay_where_folders_have_their_names():
+    for name in ("march", "scene", "fatigue", "crack", "flank", "export", "report"):
+        folder = importlib.import_module(f"tehl_taichi.{name}")
+        assert inspect.ismodule(folder) and getattr(tehl, name) is getattr(api, name)
+
+
+def test_classes_and_functions_of_one_name_have_the_same_defaults():
+    from tehl_taichi.figures.animation import animate
+    from tehl_taichi.flank.whole_flank import flank
+    from tehl_taichi.study import many, single
+
+    for inner in (animate, flank, many.sweep, single.run, single.resume):
+        outer = inspect.signature(getattr(api, inner.__name__)).parameters
+        assert {name: p.default for name, p in outer.items()} == {
+            name: p.default for name, p in inspect.signature(inner).parameters.items()}
 
 
 def test_a_scene_by_whatever_names_it(tmp_path):
@@ -55,3 +86,37 @@ def test_a_scene_by_whatever_names_it(tmp_path):
     for wrong, said in (("geer", "gear"), (tmp_path / "none.toml", "cannot read"), (None, "None is no scene")):
         with pytest.raises(tehl.SceneError, match=said):
             tehl.scene(wrong)
+
+
+@pytest.mark.parametrize("changes, meant", [({"SRR": 0.1}, "'operation.srr'"), ({"nx": 64}, "'grid.nx'"), ({"sr": 1}, "'srr'"),
+                                            ({"E": 2e11}, "'bodies.a.E' or 'bodies.b.E'"), ({"grid.Nx": 64}, "'nx'")])
+def test_a_wrong_name_of_a_change_is_answered_by_the_right_one(changes, meant):
+    with pytest.raises(tehl.SceneError, match=f"did you mean {meant}\\?"):
+        tehl.scene("gear").replace(**changes)
+
+
+def test_what_is_shown_is_short():
+    scene = tehl.scene("rough").replace(**{"bodies.a.E": 2e11})
+    for thing in (scene, scene.oil, *scene.features, scene.grid, scene.body_a):
+        assert len(repr(thing)) < 160
+    assert repr(scene.features[0]).startswith("Feature(shape='rough', height=1.5e-07, width=4e-05") and "nan" not in repr(scene)
+    assert repr(tehl.Grid(nx=128, ny=32)) == "Grid(nx=128, ny=32)"
+    assert eval(repr(scene.grid), {"Grid": tehl.Grid}) == scene.grid
+
+
+def test_heights_in_an_array_are_those_of_a_file(tmp_path):
+    z = 1e-6 * np.random.default_rng(2).standard_normal((12, 20)).cumsum(0).cumsum(1) / 20
+    np.save(tmp_path / "z.npy", z)
+    keys = dict(pixel=5e-6, pixel_y=6e-6, level="plane", taper=1e-5)
+    by_array = tehl.Feature.from_heights(z, **keys)
+    by_file = tehl.Feature(shape="map", file=str(tmp_path / "z.npy"), unit="m", **keys)
+    assert by_array == by_file and (by_array.surface == by_file.surface).all()
+    scene = tehl.Scene(features=[by_array])
+    assert scene.replace(srr=0.1).features[0].heights is by_array.heights
+
+
+@pytest.mark.parametrize("heights, said", [(np.zeros((3, 9)), "at least 4 x 4"), (np.zeros(9), r"\(rows, columns\)"),
+                                           ("abc", "array of numbers"), (np.full((9, 9), np.nan), "heights lacks 1 of its 81")])
+def test_what_is_no_grid_of_heights_is_refused(heights, said):
+    with pytest.raises(tehl.SceneError, match=said):
+        tehl.Feature.from_heights(heights, pixel=1e-6)

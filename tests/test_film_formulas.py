@@ -110,7 +110,7 @@ def test_an_ellipse_says_its_half_axes_and_its_film(tmp_path):
     assert any("half-axis b" in what for what, _ in scene_words.numbers(scene))
     assert "across" in " ".join(scene_words.words(scene))
     assert field_maps._half_axis(scene) == f" (b = {s.b / s.a:.3g} a)" and field_maps._half_axis(ellipse(1.0)) == ""
-    assert run.plot(tmp_path / "p")
+    assert run.save_figures(tmp_path / "p")
 
 
 def test_a_dry_run_tells_the_contact_and_starts_nothing(tmp_path, monkeypatch):

@@ -6,7 +6,7 @@ from rolling import Rolling
 
 import tehl_taichi as tehl
 from tehl_taichi.criteria import CRITERIA
-from tehl_taichi.fatigue import assessment, findley, worst_point
+from tehl_taichi.fatigue import assessment, findley, histories, worst_point
 from tehl_taichi.fatigue.under_row import at_the_surface
 from tehl_taichi.scene import SceneError
 
@@ -266,7 +266,7 @@ def test_blocks_of_rows_change_nothing(taichi_cpu, monkeypatch):
     scene = tehl.scene("gear").replace(**SURFACE)
     reader = moving(scene, cells=8, rows=5)
     whole = assessment.run(scene, reader)
-    monkeypatch.setattr("tehl_taichi.fatigue.histories.BLOCK_BYTES", 1.0)
+    monkeypatch.setattr(histories, "BLOCK_BYTES", 1.0)
     assert assessment.run(scene, reader).summary == whole.summary
 
 

@@ -92,7 +92,7 @@ def test_a_result_that_is_there_stays(tmp_path, monkeypatch):
     from matplotlib.figure import Figure
 
     path = made_results.run(tmp_path / "a.zarr", SMALL, 3)
-    before = {file: file.read_bytes() for file in tehl.open(path).plot(dpi=40)}
+    before = {file: file.read_bytes() for file in tehl.open(path).save_figures(dpi=40)}
 
     def full(self, target, **_):
         target.write_bytes(b"half")
@@ -100,5 +100,5 @@ def test_a_result_that_is_there_stays(tmp_path, monkeypatch):
 
     monkeypatch.setattr(Figure, "savefig", full)
     with pytest.raises(StoreError, match="No space left on device"):
-        tehl.open(path).plot(dpi=40, force=True)
+        tehl.open(path).save_figures(dpi=40, force=True)
     assert {file: file.read_bytes() for file in before} == before and len(list((tmp_path / "a").iterdir())) == len(before)

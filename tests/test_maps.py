@@ -12,6 +12,7 @@ from map_feature import feature
 
 import tehl_taichi as tehl
 from tehl_taichi.io import scene_file
+from tehl_taichi.march import passage
 from tehl_taichi.scene import SceneError, scene
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.judge import doubtful_features as doubts
@@ -168,7 +169,7 @@ def test_tehl_run_shows_the_map_before_it_computes_anything(taichi_cpu, tmp_path
 
     wave(tmp_path)
     (tmp_path / "my.toml").write_text(TOML)
-    monkeypatch.setattr("tehl_taichi.march.passage.march", stop)
+    monkeypatch.setattr(passage, "march", stop)
     monkeypatch.chdir("/")
     words = ["run", str(tmp_path / "my.toml"), "--threads", "2", "--precision", "f64", "--out", str(tmp_path / "o.zarr")]
     done = CliRunner().invoke(app, words)
@@ -275,7 +276,7 @@ def moved(taichi_cpu, tmp_path_factory):
 @pytest.fixture
 def elsewhere(monkeypatch):
     """As in another process: no heights are known."""
-    monkeypatch.setattr("tehl_taichi.scene.maps.height_map._known", weakref.WeakValueDictionary())
+    monkeypatch.setattr(height_map, "_known", weakref.WeakValueDictionary())
 
 
 def test_a_moved_store_goes_on_without_the_map_file(moved, elsewhere):

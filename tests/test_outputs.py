@@ -8,6 +8,7 @@ from small_stores import SMALL, shot, store
 from test_registry import hold
 
 from tehl_taichi.io.store import Store
+from tehl_taichi.march import output
 from tehl_taichi.march.output import Field, Scalar, entries, fields_of, scalars_of
 
 EVERY = {**entries(Field), **entries(Scalar)}
@@ -30,7 +31,7 @@ def test_temperatures_are_outputs_of_scenes_that_have_them():
 def without(monkeypatch, name):
     """As a program that has no such output."""
     fewer = {key: field for key, field in entries(Field).items() if key != name}
-    monkeypatch.setattr("tehl_taichi.march.output.entries", lambda kind: fewer if kind is Field else entries(kind))
+    monkeypatch.setattr(output, "entries", lambda kind: fewer if kind is Field else entries(kind))
 
 
 def test_a_store_from_before_an_output_opens_and_goes_on_without_it(tmp_path, monkeypatch):

@@ -146,11 +146,33 @@ def test_a_run_shows_itself_as_a_table_and_in_figures(done, tmp_path):
     assert "<li>passage cut" in shown and "gear: 4 steps" in shown
     data = run.to_xarray()
     assert data.pressure.dims == ("time", "x", "y") and float(data.p_max_Pa[4]) == run.store.scalar("p_max_Pa")[4]
-    figures = run.plot(tmp_path / "figures", dpi=np.int64(40))
+    assert not {*data.dims} - {*data.coords} and data.feature_x.dims == ("time",) and "feature_x" in data.pressure.coords
+    assert data.worst_stress.sel(component="xz").shape == data.moment.shape
+    drawn = run.plot(width=8.5, dpi=40)
+    assert drawn["maps"].savefig and drawn._repr_html_().count("data:image/png;base64") == len(drawn) > 3
+    figures = run.save_figures(tmp_path / "figures", dpi=np.int64(40))
     assert {path.name for path in figures} >= {"centreline.png", "fatigue.png"} and all(path.exists() for path in figures)
     for folder, dpi in ((tmp_path, 5), (figures[0], 40)):
         with pytest.raises(tehl.Error, match="dpi = 5|cannot put figures"):
-            run.plot(folder, dpi)
+            run.save_figures(folder, dpi=dpi)
+    assert {path.stem for path in figures} == {*drawn}
+    with pytest.warns(DeprecationWarning, match="save_figures"):
+        assert run.plot(tmp_path / "old", dpi=40) == [tmp_path / "old" / path.name for path in figures]
+
+
+def test_a_number_of_a_run_by_its_name(done):
+    run, _ = done
+    summary = run.summary
+    p = run["p_max"]
+    assert p == run["transient.p_max_Pa"] == run["transient.p_max"] and p.value == float(p) == summary["transient"]["p_max_Pa"]
+    assert p.unit == "Pa" and p.error is None and p.reason == summary["transient"]["unknown"]["p_max_Pa"] in str(p)
+    assert run["steady.p_max"].value == summary["steady"]["p_max_Pa"] and run["film_formula"].name == "steady.film_formula_m"
+    assert run["Fi_max"].value == summary["fatigue"]["Fi_max"] and run["Fi_max"].unit == "" and run["hertz.a_m"].reason == ""
+    assert run["fatigue.below.Fi_max"].value == summary["fatigue"]["below"]["Fi_max"]
+    assert "transient.h_min_m" in run._ipython_key_completions_()
+    with pytest.raises(KeyError, match="'p_mx' is no number of this run .did you mean 'p_max'"):
+        run["p_mx"]
+    assert issubclass(tehl.UnknownName, tehl.Error)
 
 
 def test_the_fatigue_of_a_run_again(done):

@@ -25,16 +25,40 @@ class Side:
     tension: np.ndarray
     path: Path
 
+    def __repr__(self):
+        return f"<Side from x = {self.begun.x * 1e6:.1f} um: {self.path.points.size} points, stopped by {self.path.why}>"
+
 
 @dataclass(frozen=True)
 class CrackResult:
-    """summary: numbers in SI; sides: {"entry" or "exit": :class:`Side`}, without those that are nowhere pulled; plane: the
-    stresses below the feature; wanted: what was asked."""
+    """Crack paths on both sides of a feature.
+
+    Attributes
+    ----------
+    summary : dict
+        Numbers in SI units.
+    sides : dict
+        {"entry" or "exit": :class:`Side`} of the sides where the surface is in tension.
+    plane : Plane
+        Stresses in the plane below the feature.
+    wanted : Wanted
+        The options.
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> tehl.CrackResult({}, {}, None, None)
+    <tehl.CrackResult: no side opens>
+    """
 
     summary: dict
     sides: dict
     plane: Plane
     wanted: object
+
+    def __repr__(self):
+        each = [f"{name} to {side.path.points.imag.max() * 1e6:.0f} um deep" for name, side in self.sides.items()]
+        return f"<tehl.CrackResult: {', '.join(each) or 'no side opens'}>"
 
 
 def run(scene, reader, wanted):

@@ -32,6 +32,9 @@ class Loaded:
     pressure: np.ndarray
     mouth: np.ndarray
 
+    def __repr__(self):
+        return f"<Loaded crack: {self.K.shape[1]} moments, K_I to {self.K[0].max():.3g} Pa sqrt(m)>"
+
 
 @dataclass
 class Path:
@@ -43,6 +46,9 @@ class Path:
     why: str = "length"
     first: Loaded = None
     last: Loaded = None
+
+    def __repr__(self):
+        return f"<Path of {self.points.size} points, stopped by {self.why}>"
 
 
 def loaded(plane, points, wanted, E_star, elements=None):

@@ -3,15 +3,12 @@
 A format is a file here that declares a `file_format.Format`: `csv_tables`, `netcdf_file`, `vtk_series`; `draft` lets a file or
 folder appear whole or not at all, `places` is what of a run is asked for. May import `io` and what that may; nothing here
 computes.
-`tehl_taichi.export(run, "csv")` is the function.
 """
 
 from collections.abc import Sequence
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
-
-from tehl_taichi.called import callable_room
 
 if TYPE_CHECKING:
     from tehl_taichi.export.file_format import Format
@@ -21,23 +18,7 @@ __all__ = ["export", "formats"]
 
 def export(of: Any, format: str = "csv", path: str | PathLike | None = None, *, at: float | Sequence[float] = (),
            point: Sequence = (), force: bool = False) -> Path:
-    """Write a stored run for other tools, as `tehl export` does; returns the file or folder that was made.
-
-    of: a :class:`tehl_taichi.Run` or the path of a store, finished or not; format: csv (a folder of tables), netcdf (a file),
-    vtk (a folder with passage.pvd); path: where to (default: beside the store, named after it); at: positions of the feature
-    (a) of the centrelines in csv (default: 0); point: (x, y), or several, of points of surface a whose history csv has, m, as
-    x_m and y_m of a fatigue summary (x from the centre of the feature); force: replace what such an export made before.
-    Raises SceneError for what the run or the format does not have, StoreError where there is no store, something is in the
-    way, it cannot be written, or xarray is missing.
-
-    >>> import tehl_taichi as tehl
-    >>> scene = tehl.scene("smooth-line").replace(**{"grid.nx": 32, "thermal.on": False})
-    >>> made = tehl.export(tehl.run(scene, "told.zarr"), "csv")
-    >>> made.name, sorted(file.name for file in made.iterdir())
-    ('told-csv', ['centreline_steady.csv', 'series.csv'])
-    >>> print((made / "centreline_steady.csv").read_text()[:42])
-    x [m],contact [1],film [m],pressure [Pa],t
-    """
+    """As :func:`tehl_taichi.export`."""
     from tehl_taichi.disk import outputs
     from tehl_taichi.errors import SceneError
     from tehl_taichi.export.places import Places
@@ -65,6 +46,3 @@ def formats() -> "dict[str, Format]":
     from tehl_taichi.registry import collect
 
     return collect(sys.modules[__name__], Format)
-
-
-callable_room(__name__, export)

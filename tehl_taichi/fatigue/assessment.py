@@ -15,15 +15,35 @@ PIT_ANGLES = (18.0, 50.0)  # degrees to the surface at which pits begin (Everitt
 
 @dataclass(frozen=True)
 class FatigueResult:
-    """summary: numbers in SI, of the surface, and of what lies below it in its "below"; maps: name -> (values, dimensions,
-    units, text), in the frame of the feature; worst: history of the worst point of the surface: x_a (m), stress (times, 6) Pa
-    (the last one unloaded), normal (3,), circle around the shear path (centre along dip and strike, radius; Pa); worst_below:
-    the same of the worst point below, or None where only the surface was searched."""
+    """Fatigue of a passage.
+
+    Attributes
+    ----------
+    summary : dict
+        Numbers in SI units, of the surface, and below it in its "below".
+    maps : dict
+        {name: (values, dimensions, units, text)} in the frame of the feature.
+    worst, worst_below : dict
+        Stress history of the critical point of the surface, and of that below (None where only the surface was searched):
+        x_a (m), stress (times, 6) Pa, the last one unloaded, normal (3,), circle around the shear path (centre along dip and
+        strike, radius; Pa).
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> scene = tehl.scene("furrow-line").replace(**{"grid.nx": 64, "time.steps": 3, "fatigue.depths": []})
+    >>> tehl.fatigue(tehl.simulate(scene), scene)  # doctest: +ELLIPSIS
+    <tehl.FatigueResult: Fi_max ... at the surface, ... maps>
+    """
 
     summary: dict
     maps: dict
     worst: dict
     worst_below: dict
+
+    def __repr__(self):
+        below = f", {self.summary['below']['Fi_max']:.3g} below" if "below" in self.summary else ""
+        return f"<tehl.FatigueResult: Fi_max {self.summary['Fi_max']:.3g} at the surface{below}, {len(self.maps)} maps>"
 
 
 class Snapshots:

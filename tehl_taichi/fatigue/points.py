@@ -20,6 +20,9 @@ class Points:
     normals: np.ndarray
     limit: float
 
+    def __repr__(self):
+        return f"<tehl.Points: {self.f.size} points, Fi_max {self.Fi.max():.3g} at point {self.worst}>"
+
     @property
     def Fi(self):
         """Index (points,)."""

@@ -27,18 +27,7 @@ SAMPLES = 5  # frames that the colours of a GIF are taken from
 def animate(source: str | PathLike | Any, out: str | PathLike | None = None, *, format: str | None = None, frames: int = FRAMES,
             fps: int = FPS, dpi: int = DPI, width: float = WIDTH, shown: str = "film", force: bool = False,
             progress: Callable[[int, int], None] | None = None) -> Path:
-    """Write a film of a run: pressure, film and temperatures along the centreline, a map below them; returns its path.
-
-    source: a store, or a run, finished or not; out: the file (default: beside the store); format: gif or mp4 (default: as the
-    suffix of `out` says, else gif); frames: at most so many, evenly over the passage, 2 to 2000; fps: so many of them a second,
-    1 to 50; dpi, width (cm): as of a figure; shown: the map, film, pressure or temperature; force: replace the file; progress:
-    called with (frames done, of how many). Raises SceneError; StoreError where nothing passes, or the file cannot be written.
-
-    >>> import tehl_taichi as tehl
-    >>> scene = tehl.scene("furrow-line").replace(**{"grid.nx": 64, "thermal.on": False, "time.steps": 2, "fatigue.on": False})
-    >>> tehl.animate(tehl.run(scene, "furrow.zarr"), dpi=40).name
-    'furrow.gif'
-    """
+    """As :func:`tehl_taichi.animate`."""
     from tehl_taichi.io.store import Store
 
     integer("frames", frames, 2, 2000)

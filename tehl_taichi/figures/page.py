@@ -123,10 +123,18 @@ class Page:
         """Write the figure that `draw()` makes to `path`, whose suffix tells the format; returns it. Raises StoreError."""
         self.check(path, of)
         with self.style():
-            figure = self.fitted(spelled(draw()))
+            figure = self._finished(draw)
             with outputs.made(path, self.force, kind=self.format, of=of) as draft:
                 figure.savefig(draft, format=self.format, dpi=self.dpi, metadata=SAID[self.format])
         return path
+
+    def drawn(self, draw):
+        """The matplotlib Figure that `draw()` makes, in this style. Raises StoreError without matplotlib."""
+        with self.style():
+            return self._finished(draw)
+
+    def _finished(self, draw):
+        return self.fitted(spelled(draw()))
 
     def fitted(self, figure):
         """The figure, without the height that its panels leave empty where their scales are equal."""

@@ -6,6 +6,7 @@ from tehl_taichi.errors import SceneError
 from tehl_taichi.figures import fatigue_figures, field_maps, found_search, line_figures, surface_figure
 from tehl_taichi.figures.moments import Moments
 from tehl_taichi.figures.page import Page
+from tehl_taichi.figures.shown import Figures
 
 
 def write_all(store, folder, page=None, at=None, depth=None):
@@ -15,12 +16,23 @@ def write_all(store, folder, page=None, at=None, depth=None):
     that of the surface (default: the worst). Raises SceneError for a moment or a depth that the store has not, StoreError.
     """
     page = page or Page()
+    return page.write(folder, _all_of(store, page, at, depth))
+
+
+def draw_all(store, page=None, at=None, depth=None):
+    """{name: matplotlib Figure} of the same figures. Raises SceneError, StoreError."""
+    page = page or Page()
+    return Figures({name: page.drawn(draw) for name, draw in _all_of(store, page, at, depth).items()}, page.dpi)
+
+
+def _all_of(store, page, at, depth):
+    """{name: function that draws the figure}."""
     figures = {name: partial(draw, page, Moments(store, at)) for name, draw in _of_the_film(store).items()}
     if store.map("worst_stress") is not None:
-        figures |= fatigue_figures.all_figures(page, _fatigue(store, depth))
-    elif depth is not None:
+        return figures | fatigue_figures.all_figures(page, _fatigue(store, depth))
+    if depth is not None:
         raise SceneError(f"depth = {depth:g} µm is of a fatigue search, and {store.path} has none")
-    return page.write(folder, figures)
+    return figures
 
 
 def _of_the_film(store):

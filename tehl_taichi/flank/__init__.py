@@ -5,11 +5,8 @@ flank, `contacts` its scenes, `outcomes` runs them; `whole_flank` is all of it, 
 and `flank_figure` what is shown. May import every room but the commands; importing it imports no taichi.
 """
 
-from tehl_taichi.called import callable_room
 from tehl_taichi.flank.stored_flank import Flank
 from tehl_taichi.flank.whole_flank import flank
 from tehl_taichi.scene.gear_pair import PAIRS, GearPair
 
 __all__ = ["PAIRS", "Flank", "GearPair", "flank"]
-
-callable_room(__name__, flank)

@@ -19,9 +19,20 @@ KEYS = {"point", "x_pl_m", "arc_m", "rho_a_m", "rho_b_m", "R_m", "u_a_m_s", "u_b
 
 @dataclass(frozen=True)
 class Flank:
-    """A flank: what :func:`tehl_taichi.flank` and :func:`tehl_taichi.open` give.
+    """Results along a gear flank: :func:`tehl_taichi.flank` and :func:`tehl_taichi.open` give one.
 
-    folder: where it lies; told: the JSON object of `tehl flank --json`.
+    Attributes
+    ----------
+    folder : pathlib.Path
+        Its folder.
+    told : dict
+        The JSON object of `tehl flank --json`.
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> tehl.Flank("f", {"name": "mine", "geometry": {}, "positions": []})
+    <tehl.Flank mine: 0 of 0 positions, f>
     """
 
     folder: Path

@@ -34,28 +34,7 @@ def flank(gear: str | PathLike | GearPair = "fzg-c", *, torque: float | None = N
           on: str | None = None, positions: int | None = None, at: Sequence[str | float] = (), scene: Scene | None = None,
           changes: dict | None = None, steady: bool = False, folder: str | PathLike | None = None,
           workers: int | None = None, threads: int | None = None, progress: Progress | None = None) -> Flank:
-    """Film, pressure, temperatures and fatigue along a gear flank, a run per position: a :class:`Flank`.
-
-    gear: "fzg-c", "fzg-a", a TOML or CSV file, or a GearPair; torque (N m) and speed (1/min) of the pinion, instead of its
-    own; on: "pinion" or "gear", whose flank carries the feature; positions: how many; at: points ("C", "B-") or x_pl in m in
-    their place; scene: everything but contact and speeds, or what names one (default: what the file names, or
-    "gear"); changes: of that scene, as Scene.replace takes them; steady: no feature passes; folder: of the stores and results
-    (default: runs/NAME-N; one that is there is gone on with); workers: processes side by side (default: one for each core), 1
-    is this one; threads: of each (default: the cores that `workers` leave, one where nothing is said); progress: as
-    :func:`tehl_taichi.run`. Raises SceneError and StoreError before anything runs; a position without a result is in
-    :attr:`Flank.failed`. Workers import the script that calls this: its own calls stand under `if __name__ == "__main__":`.
-
-    >>> import tehl_taichi as tehl
-    >>> pitch = tehl.flank("fzg-c", at=["C"], steady=True, changes={"grid.nx": 64, "thermal.on": False}, folder="pitch")
-    >>> pitch
-    <tehl.Flank fzg-c: 1 of 1 positions, pitch>
-    >>> pitch.positions[0].srr, round(pitch.positions[0].R * 1e3, 2)
-    (0.0, 8.38)
-    >>> tehl.flank("fzg-c", torque=0)
-    Traceback (most recent call last):
-    ...
-    tehl_taichi.errors.SceneError: gear.torque = 0 N m is out of range; allowed: more than 0 N m and at most 1e+08 N m
-    """
+    """As :func:`tehl_taichi.flank`."""
     found, scene = described(gear).changed(torque, speed), None if scene is None else find(scene)
     changes = _settled(changes or {}, steady)
     places = found.positions(on, positions, at)

@@ -10,16 +10,7 @@ from tehl_taichi.values.plain import shown
 
 
 def find(name: str | os.PathLike | Scene = "gear") -> Scene:
-    """Scene by the name of a built-in one (`tehl scenes` lists them), from a TOML file, or of the run in a store.
-
-    A Scene is itself. Raises SceneError with the nearest name, or with what is wrong in the file; StoreError for a damaged
-    store.
-
-    >>> import tehl_taichi as tehl
-    >>> fast = tehl.scene("gear").replace(srr=-0.12, **{"grid.nx": 128})
-    >>> f"{fast.operation.u_a:.2f} m/s, {fast.grid.nx} cells"
-    '7.99 m/s, 128 cells'
-    """
+    """As :func:`tehl_taichi.scene`."""
     return find_changed(name, {})
 
 

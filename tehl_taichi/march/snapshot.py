@@ -12,13 +12,39 @@ from tehl_taichi.pressure import fields
 
 @dataclass
 class Snapshot:
-    """One accepted state.
+    """One accepted state of a run: the steady start or a time step, in SI units.
 
-    step: 0 = steady start; time s; feature_x m, centre of the first feature (nan without one); x (nx+1,), y (ny+1,) m;
-    fields: (nx+1, ny+1) arrays in SI; scalars: numbers in SI; make_state: called for
-    :attr:`state`. Of a steady start, grids: {name: Reading} of every grid that it visited, error: bars of its numbers (None
-    where they are not known), unknown: why they are not, parts: {name: {"grid", "domain"}} of them, domain: the
-    :class:`tehl_taichi.march.domain_error.Share`; unsettled: why it is none, but a state in time ("": it is one).
+    Attributes
+    ----------
+    step : int
+        0 is the steady start.
+    time : float
+        s, since the steady start.
+    feature_x : float
+        Centre of the first feature, m; nan without a feature.
+    x, y : array (nx+1,), (ny+1,)
+        Nodes, m.
+    fields : dict
+        {name: array (nx+1, ny+1)}: pressure, film, contact, tractions, temperatures.
+    scalars : dict
+        {name: number}: p_max_Pa, h_min_m, friction_coefficient, residual ...
+    state : dict
+        All that :func:`tehl_taichi.march` needs to continue (f64, large). Available while the snapshot is the newest;
+        RuntimeError later.
+    error, unknown, parts : dict
+        Of a steady start: error bars of its numbers (None where unknown), why they are unknown, and {"grid", "domain"} of each.
+    grids : list
+        Of a steady start: {name: Reading} of every grid that it visited.
+    domain : Share
+        Of a steady start: the share of the inlet, :class:`tehl_taichi.march.domain_error.Share`.
+    unsettled : str
+        Why a steady start is only a state in time; "": it is steady.
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> next(tehl.march(tehl.scene("smooth-line").replace(**{"grid.nx": 32, "thermal.on": False})))
+    <tehl.Snapshot steady start: 33 x 1 nodes, p_max 1.93 GPa, h_min 0.33 um>
     """
 
     step: int
@@ -36,9 +62,14 @@ class Snapshot:
     domain: Any = None
     unsettled: str = ""
 
+    def __repr__(self):
+        when, s = f"step {self.step}" if self.step else "steady start", self.scalars
+        return (f"<tehl.Snapshot {when}: {self.x.size} x {self.y.size} nodes, p_max {s['p_max_Pa'] / 1e9:.2f} GPa, "
+                f"h_min {s['h_min_m'] * 1e6:.2g} um>")
+
     @functools.cached_property
     def state(self):
-        """All that is needed to go on (f64, large). Ask for it before the next snapshot is computed: RuntimeError later."""
+        """All that a march needs to continue from here."""
         return self.make_state()
 
 

@@ -6,9 +6,6 @@ keeps plotly.js and the numbers small. May import every room but the commands; j
 used.
 """
 
-from tehl_taichi.called import callable_room
 from tehl_taichi.report.written import report
 
 __all__ = ["report"]
-
-callable_room(__name__, report)

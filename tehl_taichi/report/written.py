@@ -10,19 +10,7 @@ from tehl_taichi.values.given_path import folder_of
 
 def report(of: str | PathLike | Any, out: str | PathLike | None = None, *, force: bool = False, progress: Any = None,
            threads: int | None = None, **constants: Any) -> Path:
-    """Write the page of a run's store (finished or not), of a study or of a flank; returns its path.
-
-    of: the folder, or the Run, Study or Flank itself; out: the file (default: beside the folder, with .html); force: replace a
-    file that is there. The page needs no other file and no network. constants: as of :func:`tehl_taichi.fatigue` (kappa,
-    endurance, to_x ...), of a run: the page is of the fatigue found with them (by default ...-fatigue.html), the store stays as
-    it is; progress, threads: of that search. Raises StoreError where `of` is nothing of ours, or no run where constants are
-    given, jinja2 or plotly are missing (the `report` extra), or the file is there already or cannot be written; SceneError.
-
-    >>> import tehl_taichi as tehl
-    >>> scene = tehl.scene("smooth-line").replace(**{"grid.nx": 32, "thermal.on": False})
-    >>> tehl.report(tehl.run(scene, "told.zarr")).name
-    'told.html'
-    """
+    """As :func:`tehl_taichi.report`."""
     from tehl_taichi.report import document, packed
 
     folder = folder_of(of)

@@ -25,20 +25,7 @@ def kind(path: str | PathLike) -> str:
 
 
 def open(path: str | PathLike) -> "Run | Study | Flank":
-    """What lies at `path`, finished, being written or broken off: a run's store gives a :class:`tehl_taichi.Run`, the folder of
-    a sweep a :class:`tehl_taichi.study.table.Study`, that of a flank a :class:`tehl_taichi.flank.Flank`.
-
-    Raises StoreError where there is none of them, or a damaged one.
-
-    >>> import tehl_taichi as tehl
-    >>> line = tehl.scene("smooth-line").replace(**{"grid.nx": 32, "thermal.on": False})
-    >>> made = tehl.run(line, "made.zarr"), tehl.sweep(line, {"srr": [0.0]}, "swept.zarr", workers=1)
-    >>> run, study = tehl.open("made.zarr"), tehl.open("swept.zarr")
-    >>> run.finished, run.scene.name, run.store.fields(0)["pressure"].shape
-    (True, 'smooth-line', (33, 1))
-    >>> study
-    <Study swept.zarr: 1 cases, 1 converged>
-    """
+    """As :func:`tehl_taichi.open`."""
     from tehl_taichi.flank.stored_flank import Flank
     from tehl_taichi.study.table import Study
 

@@ -3,7 +3,7 @@
 import dataclasses
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene import acting, data_sheet, fatigue_limits, given
+from tehl_taichi.scene import acting, data_sheet, fatigue_limits, given, keys
 from tehl_taichi.scene import named_oils as oils
 from tehl_taichi.scene.named_steels import STEELS
 from tehl_taichi.scene.parts import SECTIONS
@@ -11,6 +11,7 @@ from tehl_taichi.scene.route import ALL
 from tehl_taichi.scene.speeds import of_surfaces
 from tehl_taichi.values.checks import key_shown, nearest
 from tehl_taichi.values.plain import plain
+from tehl_taichi.values.quantity import kinds
 
 TABLES = (*SECTIONS, "bodies", "oil")
 
@@ -139,4 +140,11 @@ def _feature(data, number, dotted):
 
 
 def _unknown(dotted, key, known):
-    return SceneError(f"unknown key {key_shown(dotted)}{nearest(key, known)}; known: {', '.join(map(str, known))}")
+    meant = _with_section(dotted) or nearest(key, known)
+    return SceneError(f"unknown key {key_shown(dotted)}{meant}; known: {', '.join(map(str, known))}")
+
+
+def _with_section(key):
+    """' (did you mean ...?)' for the full keys that end in a key given without its section, or nothing."""
+    full = [f"{name}.{own}" for name, kind in keys.CLASSES.items() for own in kinds(kind) if own.lower() == str(key).lower()]
+    return f" (did you mean {' or '.join(map(repr, full))}?)" if full else ""

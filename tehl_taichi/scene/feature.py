@@ -1,12 +1,14 @@
 """Surface features of body a: the keys that shapes share, those of single shapes, and what the shape makes of them."""
 
 from dataclasses import dataclass
+from typing import Any
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.registry import collect
 from tehl_taichi.scene import features
+from tehl_taichi.scene.maps import height_map
 from tehl_taichi.scene.shape import Shape, told
-from tehl_taichi.values.quantity import Choice, Switch, Text, check, choice, kinds, quantity
+from tehl_taichi.values.quantity import Choice, Switch, Text, check, choice, documented, kinds, quantity
 
 SHAPES = collect(features, Shape)
 OWN = tuple(shape.keys for shape in SHAPES.values() if shape.keys)
@@ -37,12 +39,60 @@ class Shared:
                             usual=5e-5)
 
 
-@dataclass(frozen=True)
+@documented
+@dataclass(frozen=True, repr=False)
 class Feature(*OWN, Shared):
     """One feature of surface a; the other features stand x and y from the first.
 
-    Its shape is an entry of `scene/features/`, which says what its keys mean.
+    Its shape is an entry of `scene/features/`, which says what its keys mean. Heights in an array: :meth:`from_heights`.
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> tehl.Feature(shape="furrow", height=-2e-6, width=500e-6)
+    Feature(shape='furrow', height=-2e-06, width=0.0005)
+    >>> float(tehl.Feature(height=1e-6, width=200e-6).height_at(0.0, 0.0))
+    1e-06
     """
+
+    @classmethod
+    def from_heights(cls, heights: Any, pixel: float, pixel_y: float = 0.0, *, unit: str = "m", **keys: Any) -> "Feature":
+        """Make a feature (shape "map") of heights in an array.
+
+        Parameters
+        ----------
+        heights : array (rows, columns)
+            At least 4 x 4, a row per line of points along x; nan where nothing was measured.
+        pixel, pixel_y : float
+            Distances in m of the points in a row, and of the rows (default: pixel).
+        unit : {"m", "mm", "um", "nm"}
+            Unit of the heights.
+        **keys
+            Further keys of a map: level, cutoff, scale, taper, x, y ...
+
+        Returns
+        -------
+        Feature
+            It holds a copy of the heights, and stores of its runs do.
+
+        Raises
+        ------
+        SceneError
+            The heights are no such array, or a key is out of range.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import tehl_taichi as tehl
+        >>> z = 1e-6 * np.cos(np.linspace(-1.5, 1.5, 64)) * np.cos(np.linspace(-1.5, 1.5, 48))[:, None]
+        >>> bump = tehl.Feature.from_heights(z, pixel=4e-6, level="none")
+        >>> f"{bump.top * 1e6:.2f} um, {bump.size[0] * 1e6:.0f} x {bump.size[1] * 1e6:.0f} um"
+        '1.00 um, 252 x 188 um'
+        """
+        sha256, held = height_map.of_array(heights)
+        made = cls(shape="map", sha256=sha256, unit=unit, pixel=pixel, pixel_y=pixel_y, **keys)
+        del held  # the feature holds them now
+        return made
 
     def __post_init__(self):
         for shape in SHAPES.values():

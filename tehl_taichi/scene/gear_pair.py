@@ -5,18 +5,26 @@ from dataclasses import dataclass
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.values.checks import nearest
-from tehl_taichi.values.quantity import check, count, pairs, quantity
+from tehl_taichi.values.quantity import check, count, documented, pairs, quantity
 
 LOOSE, TIGHT = 0.1, 0.001  # m_n by which a given centre distance may exceed that of the shifts (backlash), or fall short of it
 
 LARGEST = 15.0  # m, of a wheel: 91.5 was meant in mm
 
 
-@dataclass(frozen=True)
+@documented
+@dataclass(frozen=True, repr=False)
 class GearPair:
-    """The pinion (1) drives the gear (2). Of x1, x2 and a_w, what is not given follows from the others.
+    """A pair of external involute gears; the pinion (1) drives the gear (2).
 
-    load_share is of spur gears; without it: 1/3 to 2/3 from A to B, 1 to D, 2/3 to 1/3 at E.
+    Of x1, x2 and a_w, what is not given follows from the others. load_share is of spur gears; without it: 1/3 to 2/3 from A
+    to B, 1 to D, 2/3 to 1/3 at E.
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> tehl.GearPair(torque=300.0)
+    GearPair(x1=0.0, x2=0.0, a_w=0.09, torque=300.0)
     """
 
     z1: int = count(16, "teeth of the pinion", 5, 1000)

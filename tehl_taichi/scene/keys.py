@@ -1,7 +1,12 @@
 """All keys of a scene by their full names, with what they are declared as."""
 
-from tehl_taichi.scene.parts import SECTIONS
+from tehl_taichi.scene.feature import Feature
+from tehl_taichi.scene.oil import Oil
+from tehl_taichi.scene.parts import SECTIONS, Body
 from tehl_taichi.values.quantity import kinds
+
+# {first part of a full key: class of that section}; "feature" is the first feature
+CLASSES = {**SECTIONS, "oil": Oil, "bodies.a": Body, "bodies.b": Body, "feature": Feature}
 
 
 def parts(scene):

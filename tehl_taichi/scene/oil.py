@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from tehl_taichi.physics import conduction, density, viscosity
 from tehl_taichi.physics.law import declared, section
 from tehl_taichi.scene import data_sheet
-from tehl_taichi.values.quantity import check, choice, kinds, text
+from tehl_taichi.values.quantity import check, choice, documented, kinds, text
 
 _OIL = section(
     "_OIL", name=text("reference-pao", "`tehl oils` lists the named ones"),
@@ -25,12 +25,19 @@ def in_one_temperature(expansion, keeps):
     return "always" if keeps and expansion == "thermal" else expansion
 
 
-@dataclass(frozen=True)
+@documented
+@dataclass(frozen=True, repr=False)
 class Oil(_OIL):
     """A lubricant; each law has its own numbers, those of laws that it did not choose are not used.
 
     The laws and their numbers stand in tehl_taichi/physics: viscosities, densities and conduction.py. With `nu_40` and `nu_100`
     of a data sheet the numbers of the viscosity follow from these.
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> tehl.Oil(eta0=0.02).eta0
+    0.02
     """
 
     def __post_init__(self):

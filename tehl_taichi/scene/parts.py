@@ -16,7 +16,7 @@ from tehl_taichi.scene.named_steels import STEELS
 from tehl_taichi.values.checks import build
 from tehl_taichi.values.meant import meant
 from tehl_taichi.values.plain import plain
-from tehl_taichi.values.quantity import AUTO, check, choice, count, quantities, quantity, switch, text
+from tehl_taichi.values.quantity import AUTO, check, choice, count, documented, quantities, quantity, switch, text
 
 LEAST_RESIDUAL, LARGEST_RESIDUAL = 1e5, 1e10  # Pa, in size: what is smaller does nothing, and was meant in MPa
 DEEPEST = 0.03  # m, of a depth: contacts are a millimetre wide, 0.05 was meant in mm
@@ -24,11 +24,20 @@ LARGEST_RADIUS = 1.0  # m: the teeth of the largest gears have a fifth of it; a 
 LARGEST_RADIUS_Y = 100.0  # m: a roller is nearly straight
 
 
-@dataclass(frozen=True)
+@documented
+@dataclass(frozen=True, repr=False)
 class Contact:
     """Geometry and load: one of load, hertz_pressure or the Moes pair; 0 = not given.
 
     With the pair the speed follows from L (with the oil's alpha and eta0) and the load from M.
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> tehl.Contact(load=1.1e6)
+    Contact(load=1100000.0)
+    >>> tehl.Contact(kind="point", radius_x=0.01, radius_y=0.01, hertz_pressure=1e9).load
+    0.0
     """
 
     kind: str = choice("line", "shape; point: circular", ("line", "point", "elliptic"))
@@ -67,12 +76,19 @@ class Contact:
         return meant(self.radius_y, "m", lambda other: 0.02 <= other / self.radius_x <= 50, self.radius_x)
 
 
-@dataclass(frozen=True)
+@documented
+@dataclass(frozen=True, repr=False)
 class Body:
     """An elastic half-space; default: steel (Everitt 2018).
 
     Its alpha is the usual handbook value of bearing and gear steels. The name of a steel (`tehl steels`) gives the numbers that
     a scene file or a change does not name; in Python: Body(**STEELS["100Cr6"].numbers, material="100Cr6").
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> tehl.Body(E=75e9, nu=0.22)
+    Body(E=75000000000.0, nu=0.22)
     """
 
     material: str = choice("", "a named steel; empty: none, the numbers are one's own", ("", *STEELS))
@@ -87,9 +103,17 @@ class Body:
         check(self, "bodies")
 
 
-@dataclass(frozen=True)
+@documented
+@dataclass(frozen=True, repr=False)
 class Operation:
-    """Motion; u_a and u_b in m/s may be given in place of u_m and srr."""
+    """Motion; u_a and u_b in m/s may be given in place of u_m and srr.
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> tehl.Operation(u_m=10.0, srr=0.2).u_a
+    11.0
+    """
 
     u_m: float = quantity(8.5, "m/s", "mean speed (u_a + u_b)/2", 1e-6, 1e3, common=(1e-4, 200.0))
     srr: float = quantity(-0.12, "", "slip (u_a - u_b)/u_m; negative: the feature is on the slower surface", -2.0, 2.0)
@@ -119,14 +143,21 @@ _RHEOLOGY = section("_RHEOLOGY", law=choice("limiting", "shear law of the film (
                     **declared({**rheology.LAWS, BOUNDARY.name: BOUNDARY}))
 
 
-@dataclass(frozen=True)
+@documented
+@dataclass(frozen=True, repr=False)
 class Rheology(_RHEOLOGY):
     """Shear law of the film and friction of solid contact.
 
     The law acts wherever the surfaces slip, in flow, friction and heat, and in the flow wherever a gradient of the pressure
-    strains the walls, with and without temperatures; a law that does not thin is the film that isothermal film formulas and
-    most published films are of (its friction under pressure is not that of any oil). The laws and their numbers stand in
-    tehl_taichi/physics/shear.
+    shears the film at the walls, with and without temperatures; a law that does not thin is the film that isothermal film
+    formulas and most published films are of (its friction under pressure is not that of any oil). The laws and their numbers
+    stand in tehl_taichi/physics/shear.
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> tehl.Rheology(law="newtonian").thins
+    False
     """
 
     def __post_init__(self):
@@ -143,12 +174,19 @@ class Rheology(_RHEOLOGY):
         return rheology.LAWS[self.law].power
 
 
-@dataclass(frozen=True)
+@documented
+@dataclass(frozen=True, repr=False)
 class Thermal:
     """The energy equation; without it the film keeps the inlet temperature.
 
     9 nodes are good to 0.01 %, 7 to 0.1 %, also for the largest temperature, which is that of the profile through them (at SRR
     -0.75 9 tell 0.01 K less than 17). One round is one lagged pass: half the time, film under an asperity 0.3 % off.
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> tehl.Thermal(nodes=7)
+    Thermal(nodes=7)
     """
 
     on: Union[bool, str] = switch(AUTO, "energy equation; auto: where the surfaces slip", auto=True)
@@ -162,12 +200,19 @@ class Thermal:
             raise SceneError(f"thermal.nodes = {self.nodes} must be odd, so that one node lies at mid-film")
 
 
-@dataclass(frozen=True)
+@documented
+@dataclass(frozen=True, repr=False)
 class Fatigue:
     """Fatigue index; kappa and endurance are example values: set those of your material.
 
     No source is claimed for them. With a limit in reversed torsion or bending the endurance follows, with both kappa, too.
     depths = []: the surface alone.
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> f"{tehl.Fatigue(bending_limit=600e6, torsion_limit=390e6).kappa:.3f}"
+    '0.314'
     """
 
     on: bool = switch(True, "stresses and fatigue index of a passage")
@@ -226,11 +271,18 @@ class Fatigue:
         return () if self.depths == AUTO else self.depths
 
 
-@dataclass(frozen=True)
+@documented
+@dataclass(frozen=True, repr=False)
 class Grid:
     """Cells, and extent in half-widths of the contact, a along x and b along y (b = a unless elliptic).
 
     Nodes: one more than cells; twice ny cells where the scene is not symmetric, none across where nothing varies there.
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> tehl.Grid(nx=128)
+    Grid(nx=128)
     """
 
     nx: int = count(256, "cells along x", 32, 8192, 16)
@@ -247,9 +299,17 @@ class Grid:
         check(self, "grid")
 
 
-@dataclass(frozen=True)
+@documented
+@dataclass(frozen=True, repr=False)
 class Time:
-    """Path of the first feature's centre and the length of a step."""
+    """Path of the first feature's centre and the length of a step.
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> tehl.Time(courant=0.5)
+    Time(courant=0.5)
+    """
 
     steady_only: bool = switch(False, "no march in time")
     x_start: float = quantity(-math.inf, "a", "position of the feature at the start; -inf: before the contact", high=20.0,
@@ -264,13 +324,20 @@ class Time:
             raise SceneError(f"time.steady_only = true and time.steps = {self.steps} contradict each other: give one of them")
 
 
-@dataclass(frozen=True)
+@documented
+@dataclass(frozen=True, repr=False)
 class Numerics:
     """Tolerances and limits of the pressure solver, and the error of its numbers.
 
     tolerance 1e-6: ten times less moves the film by under 0.1 % at 256 columns. mass_tolerance 1e-6: the conservation that
     users check. krylov_tolerance: from 0.03 to 0.3 a passage costs the same. newton_max, krylov_max: no converging case came
     near them. estimate_error: see tehl_taichi/march/companions.py.
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> tehl.Numerics(precision="f64")
+    Numerics(precision='f64')
     """
 
     tolerance: float = quantity(1e-6, "", "rms of min(P, R/D, gap) plus load error", 1e-11, 1e-3)
@@ -289,9 +356,17 @@ class Numerics:
         check(self, "numerics")
 
 
-@dataclass(frozen=True)
+@documented
+@dataclass(frozen=True, repr=False)
 class Output:
-    """What is stored."""
+    """What is stored.
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> tehl.Output(every=4)
+    Output(every=4)
+    """
 
     every: int = count(1, "store every n-th step and the last; their numbers then tell of the steps between too", 1, 10**6)
     profiles: bool = switch(False, "store the temperature at every node across the film too")

@@ -44,10 +44,36 @@ MAX_HERTZ, MIN_HERTZ = 6e9, 1e7  # Pa: outside this range the laws say nothing
 
 @dataclass(frozen=True)
 class Scene:
-    """One contact, its bodies, oil and motion, and how it is computed; SI units. Raises SceneError when the parts do not fit.
+    """A contact, its bodies, oil and motion, and how it is computed; SI units.
 
-    >>> from tehl_taichi.scene.parts import Contact, Grid
-    >>> scene = Scene(contact=Contact(load=1.1e6), grid=Grid(nx=128, ny=32))
+    Immutable: :meth:`replace` gives a changed copy. :func:`tehl_taichi.scene` loads one by name, file or store.
+
+    Parameters
+    ----------
+    name : str
+        Stores are named after it.
+    contact, operation, rheology, thermal, fatigue, grid, time, numerics, output
+        The sections, classes of these names (:class:`tehl_taichi.Contact` ...).
+    body_a, body_b : Body
+        Body a carries the features.
+    oil : Oil
+        The lubricant.
+    features : sequence of Feature
+        None: a smooth contact.
+    note : str
+        Free words, stored with the run.
+
+    Raises
+    ------
+    SceneError
+        The sections contradict each other, or a value is out of range.
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> scene = tehl.Scene(contact=tehl.Contact(load=1.1e6), grid=tehl.Grid(nx=128, ny=32))
+    >>> scene
+    <tehl.Scene gear: line contact, p_H 1.93 GPa, u_m 8.5 m/s, SRR -0.12, 1 feature, 128 x 32 cells>
     >>> scene.replace(hertz_pressure=1.5e9, **{"feature.height": -1e-6}).features[0].height
     -1e-06
     """
@@ -68,6 +94,12 @@ class Scene:
     output: Output = Output()
     note: str = field(default="", compare=False)
     asked = frozenset()  # full keys that the user gave: of these, what has no effect is told
+
+    def __repr__(self):
+        s, o, count = scales.Scales.of(self), self.operation, len(self.features)
+        cells = f"{self.grid.nx} cells" if self.one_dimensional else f"{self.grid.nx} x {self.grid.ny} cells"
+        return (f"<tehl.Scene {self.name}: {self.contact.kind} contact, p_H {s.p_H / 1e9:.2f} GPa, u_m {o.u_m:.3g} m/s, "
+                f"SRR {o.srr:g}, {count} feature{'s' * (count != 1)}, {cells}>")
 
     def __post_init__(self):
         file_name("name", self.name)
@@ -289,9 +321,34 @@ class Scene:
         return self.fatigue.on and self.transient
 
     def replace(self, **changes: Any) -> "Scene":
-        """A changed copy. Keys: srr, load, hertz_pressure, speed, temperature, height, width, kappa, endurance, torsion_limit,
-        bending_limit, name, or dotted ("grid.nx"; "feature.height" is the first feature, "feature.1.height" the second). Raises
-        SceneError.
+        """Return a changed copy.
+
+        Parameters
+        ----------
+        **changes
+            Short names (srr, load, hertz_pressure, speed, temperature, height, width, kappa, endurance, torsion_limit,
+            bending_limit, name), or full keys as in a scene file: "grid.nx", "bodies.a.E", "feature.height" (the first
+            feature), "feature.1.height" (the second).
+
+        Returns
+        -------
+        Scene
+
+        Raises
+        ------
+        SceneError
+            The key is unknown (the message proposes the nearest one), the value is out of range, it has no effect on this
+            scene, or two changes contradict each other.
+
+        Examples
+        --------
+        >>> import tehl_taichi as tehl
+        >>> tehl.scene("gear").replace(srr=0.2, **{"grid.nx": 128}).operation.srr
+        0.2
+        >>> tehl.scene("gear").replace(nx=128)
+        Traceback (most recent call last):
+        ...
+        tehl_taichi.errors.SceneError: unknown key nx (did you mean 'grid.nx'?); known: ...
         """
         changes = given.named(changes)
         changed = Scene.from_dict(change.applied(self.to_dict(), changes))

@@ -16,9 +16,24 @@ OWN = ("store", "version", "scene", "left_out", "warnings", "warning_codes", "er
 
 @dataclass(frozen=True)
 class Comparison:
-    """stores: the :class:`tehl_taichi.io.store.Store` of each run, in the order they were given."""
+    """Two or more runs side by side: :func:`tehl_taichi.compare` gives one.
+
+    Attributes
+    ----------
+    stores : tuple of Store
+        The stores of the runs, in the given order.
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> tehl.Comparison(())
+    <tehl.Comparison of 0 runs>
+    """
 
     stores: tuple
+
+    def __repr__(self):
+        return f"<tehl.Comparison of {len(self.stores)} runs{': ' * bool(self.stores)}{', '.join(self.labels())}>"
 
     @property
     def names(self):
@@ -76,21 +91,7 @@ class Comparison:
 
 
 def compare(*paths: str | PathLike | Run) -> Comparison:
-    """Two runs or more side by side: what differs of their scenes, their summaries, one figure.
-
-    paths: their stores, or the runs themselves, finished or not. Raises SceneError for fewer or too many, StoreError where a
-    path is no store.
-
-    >>> import tehl_taichi as tehl
-    >>> scene = tehl.scene("smooth-line").replace(**{"grid.nx": 64, "thermal.on": False})
-    >>> slow, fast = (tehl.run(scene.replace(speed=u), f"{u:g}.zarr") for u in (5, 10))
-    >>> found = tehl.compare(slow, fast)
-    >>> found.differs
-    {'operation.u_m': [5.0, 10.0]}
-    >>> thin, thick = found.summaries["steady.h_c_m"]
-    >>> thin < thick
-    True
-    """
+    """As :func:`tehl_taichi.compare`."""
     from tehl_taichi.io.store import Store
 
     if not 2 <= len(paths) <= MOST:

@@ -3,10 +3,11 @@
 import math
 import re
 
+from tehl_taichi.values import summary_units
+
 # what a case has of its own, or what is no number of its result
 LEFT_OUT = {"store", "scene", "version", "left_out", "warnings", "warning_codes", "domain", "error_parts", "converged",
             "unknown", "clamps", "grid", "cells"}
-UNITS = {"m": "m", "Pa": "Pa", "C": "degC", "K": "K", "s": "s", "deg": "degree", "J": "J", "W": "W", "N": "N", "kg": "kg"}
 NAME = re.compile(r"\w[\w.+-]*")  # of an array and its folder, a column and a label
 PARTS = ("fatigue_resolved_below", "fatigue_resolved", "fatigue_below")  # of a summary, inside others
 
@@ -32,4 +33,4 @@ def error_of(name):
 
 def unit_of(name):
     """Unit of a number by the end of its name, as summaries have it: h_min_m is in m, load_error in nothing."""
-    return UNITS.get(name.rpartition("_")[2], "1")
+    return summary_units.unit_of(name) or "1"

@@ -18,28 +18,7 @@ KEEP = ("stores", "summary")
 def sweep(scene: Scene | str | PathLike, over: Mapping, path: str | PathLike | None = None, *, samples: int | None = None,
           seed: int | None = None, workers: int | None = None, threads_per_worker: int | None = None, scheduler: Any = None,
           keep: str = "stores", progress: Callable | None = None) -> "Study":
-    """Run `scene` with all combinations of changes; returns the :class:`tehl_taichi.study.table.Study`.
-
-    scene: a Scene, or what names one; over: {key: values}, values as a list, an array or a range "low:high:n", a tuple of keys
-    with rows of values for keys that change together; samples: so many of a Latin hypercube instead, values as "low:high" or a
-    list to choose from; path: of the study (default: runs/NAME.zarr, the same for the same sweep).
-    workers: processes (default: one for each core), 1 is this one; threads_per_worker: of each case (default: 1, or the cores
-    that `workers` leave); scheduler: address of a Dask scheduler, or a distributed.Client, instead; keep: "summary" leaves the
-    stores of the cases out; progress(study, record or None): called at the start and after each case.
-
-    A case that does not converge, is refused or loses its worker is in the study with its reason, the others go on. The same
-    call again goes on where it stopped and leaves alone what is done. Raises SceneError for what no case can run with,
-    StoreError, RuntimeUnavailable where a scheduler is named and Dask is not installed. Workers import the script that
-    calls this: its own calls stand under `if __name__ == "__main__":`.
-
-    >>> import tehl_taichi as tehl
-    >>> line = tehl.scene("smooth-line").replace(**{"grid.nx": 32, "thermal.on": False})
-    >>> tehl.sweep(line, {"srr": [0.0, 0.2], "speed": "5:15:2"}, "study.zarr", workers=1)
-    <Study study.zarr: 4 cases, 4 converged>
-    >>> study = tehl.sweep(line, {"srr": [0.0, 0.2], "speed": "5:15:2"}, "study.zarr", workers=1)  # nothing is left to do
-    >>> study.values["steady_h_c_m"].shape, study.results()[3]["changes"]
-    ((4,), {'srr': 0.2, 'speed': 15})
-    """
+    """As :func:`tehl_taichi.sweep`."""
     from tehl_taichi.io.found import find
     from tehl_taichi.study.plan import plan
 

@@ -12,11 +12,14 @@ TOLD = 0.1  # of such a stage, from which on the time left is told: its first pa
 
 
 class Progress:
-    """Listens to a run and does nothing; derive from it and override what you want to hear.
+    """Receives the progress of a run and ignores it; derive from it and override what you need.
 
     Every method is called in the thread that runs; an exception in one of them ends the run like Ctrl-C.
 
-    >>> class Bar(Progress):
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> class Bar(tehl.Progress):
     ...     def stage(self, name, done, total):
     ...         print(f"{name} {done}/{total}")
     >>> Bar().stage("passage", 3, 192)
@@ -38,10 +41,18 @@ class Progress:
 
 
 class Lines(Progress):
-    """Prints lines: sentences at once, steps (with the time left at the pace of the last ones) and parts of later stages every
-    few seconds, once that the pressure passes what steel bears. stream: where to (default: stderr).
+    """Prints progress as lines: messages at once, steps and parts of later stages every few seconds, with the time left.
 
-    >>> Lines(sys.stdout).warn("passage cut at -1.37 a")
+    Parameters
+    ----------
+    stream : file, optional
+        Where to print; default: stderr.
+
+    Examples
+    --------
+    >>> import sys
+    >>> import tehl_taichi as tehl
+    >>> tehl.Lines(sys.stdout).warn("passage cut at -1.37 a")
     warning: passage cut at -1.37 a
     """
 

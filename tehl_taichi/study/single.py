@@ -17,23 +17,7 @@ from tehl_taichi.values.given_path import folder_of, path_of
 
 def run(scene: Scene | str | PathLike, path: str | PathLike | None = None, *, force: bool = False, threads: int | None = None,
         arch: str = "cpu", progress: Progress | None = None) -> Run:
-    """Run a scene into a new store, as `tehl run` does: steady start, passage, stresses, fatigue, errors, summary.
-
-    scene: a Scene, or what names one (see :func:`tehl_taichi.scene`); path: of the store (default: runs/NAME-N.zarr with the
-    first free N); force: replace the store there, as soon as the new one has its first entry; threads: of the CPU (default:
-    those of a start before, else all); progress: who listens (default: nobody).
-    Raises SceneError and StoreError for bad input (nothing is written then), RuntimeUnavailable for other threads than
-    those that the process already uses, NotConverged (earlier steps are stored), Interrupted where the disk takes no more;
-    Ctrl-C is a KeyboardInterrupt that says what is stored.
-
-    >>> import tehl_taichi as tehl
-    >>> scene = tehl.scene("smooth-line").replace(**{"grid.nx": 32, "thermal.on": False})
-    >>> tehl.run(scene, "line.zarr")
-    <tehl.Run smooth-line: 0 steps, finished, line.zarr>
-    >>> run = tehl.run(scene, "line.zarr", force=True)
-    >>> f"{run.summary['steady']['h_c_m'] * 1e6:.2f} um"
-    '0.43 um'
-    """
+    """As :func:`tehl_taichi.run`."""
     return _run(find(scene), path, force, threads, arch, progress or Progress())
 
 
@@ -63,21 +47,7 @@ def open(path: str | PathLike) -> Run:
 
 def resume(path: str | PathLike, *, steps: int | None = None, threads: int | None = None,
            progress: Progress | None = None) -> Run:
-    """Go on with the run in the store at `path`, at most two seconds of work before its last stored step, as `tehl resume`.
-
-    What comes after the passage, the stresses, the search for the critical planes and the companion runs, begins anew: nothing
-    of it is stored before its end.
-    steps: so many more (default: to the end that the run was given; of a finished run, to the end of its passage). Where
-    nothing is left it comes back as it is. threads, progress and errors: as :func:`run`; StoreError also where another
-    version wrote the store, or somebody writes it now.
-
-    >>> import tehl_taichi as tehl
-    >>> scene = tehl.scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16, "thermal.on": False, "time.steps": 1})
-    >>> tehl.run(scene, "begun.zarr")
-    <tehl.Run gear: 1 steps, finished, begun.zarr>
-    >>> tehl.resume("begun.zarr", steps=1)
-    <tehl.Run gear: 2 steps, finished, begun.zarr>
-    """
+    """As :func:`tehl_taichi.resume`."""
     began = time.perf_counter()
     from tehl_taichi.engine import runtime
     from tehl_taichi.values.checks import integer

@@ -36,10 +36,29 @@ EVERY = 1.0  # s between two writes, at least
 
 
 class Study(Held):
-    """A study to read (:meth:`open`) or to go on with (:meth:`write`, which holds its lock until :meth:`close`).
+    """A sweep on disk: its cases, their status and a table of all numbers of their summaries.
 
-    plan: the :class:`tehl_taichi.study.plan.Plan`; status: array over the cases of numbers of `case_records.STATUS`; values:
-    {name: array over the cases}, NaN where a case has no such number.
+    :func:`tehl_taichi.sweep` and :func:`tehl_taichi.open` give one; `xarray.open_zarr(study.path)` reads it with the swept
+    keys as dimensions.
+
+    Attributes
+    ----------
+    path : pathlib.Path
+        Its folder.
+    plan : Plan
+        Scene, keys and values, :class:`tehl_taichi.study.plan.Plan`.
+    status : array (cases,)
+        Numbers of `case_records.STATUS`.
+    values : dict
+        {name: array (cases,)}, for instance "fatigue_Fi_max"; nan where a case has no such number.
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> line = tehl.scene("smooth-line").replace(**{"grid.nx": 32, "thermal.on": False})
+    >>> study = tehl.sweep(line, {"srr": [0.0, 0.1]}, "small.zarr", workers=1)
+    >>> study, study.counts["converged"], len(study)
+    (<Study small.zarr: 2 cases, 2 converged>, 2, 2)
     """
 
     def __init__(self, path, plan, lock=None):

@@ -96,8 +96,9 @@ def file_name(where, value):
 def nearest(word, allowed):
     """' (did you mean ...?)' for the closest known word, or nothing."""
     word = word[:100] if isinstance(word, str) else shown(word)
-    close = difflib.get_close_matches(word, [str(a) for a in allowed], n=1, cutoff=0.5)
-    return f" (did you mean {close[0]!r}?)" if close else ""
+    known = {str(a).lower(): str(a) for a in allowed}
+    close = difflib.get_close_matches(word.lower(), known, n=1, cutoff=0.5)
+    return f" (did you mean {known[close[0]]!r}?)" if close else ""
 
 
 def normalise(part):

@@ -19,5 +19,33 @@ def micrometres(length):
 
 
 def decimals(error):
-    """Decimals with which two digits of an error (more than 0) are told; may be negative."""
+    """Decimals with which two digits of an error (more than 0) are shown; may be negative."""
     return 1 - math.floor(math.log10(error))
+
+
+NOTHING, EXACT = 1e-12, 1e-8  # sizes that are rounding: of a number in the unit it is shown in, of an error over its number
+PLAIN = (1e-3, 1e6)  # numbers between these are shown without an exponent
+
+
+def with_error(value, error, unit="", digits=4):
+    """'1.008 ± 0.023 µm': two digits of the error, and the value with as many decimals; `digits` of the value where the error
+    is not known (None)."""
+    text, rest, power = parted(value, error, digits)
+    both = f"{text} ± {rest}" if rest else text
+    return f"{f'({both}){power}' if power and rest else both + power} {unit}".rstrip()
+
+
+def parted(value, error, digits=4):
+    """(value, error, power of ten) in words as :func:`with_error` joins them; error "": not known."""
+    if error is None or not math.isfinite(error) or not math.isfinite(value):
+        return f"{value:.{digits}g}", "", ""
+    size = max(abs(value), error)
+    if size < NOTHING:
+        return "0", "0", ""
+    if error < EXACT * size:
+        return f"{value:.{digits}g}", "0", ""
+    exponent = 0 if PLAIN[0] <= size < PLAIN[1] else math.floor(math.log10(size))
+    value, error = value / 10.0**exponent, error / 10.0**exponent
+    places = decimals(float(f"{error:.1e}"))
+    shown = [f"{round(number, places):.{max(places, 0)}f}" for number in (value, error)]
+    return *shown, f"e{exponent:+03d}" if exponent else ""

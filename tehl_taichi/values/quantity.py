@@ -224,6 +224,34 @@ def kinds(cls):
     return {f.name: f.metadata["kind"] for f in dataclasses.fields(cls) if "kind" in f.metadata}
 
 
+def documented(cls):
+    """Class decorator: the declared keys become the parameters of its docstring, those that differ from their defaults its
+    repr."""
+    about, mark, examples = cls.__doc__.partition("\n\n    Examples\n")
+    rows = "".join(f"\n    {key} : {_default(cls, key)}\n        {_meaning(kind)}" for key, kind in kinds(cls).items())
+    cls.__doc__ = f"{about.rstrip()}\n\n    Parameters\n    ----------{rows}{mark}{examples}"
+    cls.__repr__ = _changed
+    return cls
+
+
+def _default(cls, key):
+    kind = kinds(cls)[key]
+    word = {Numbers: "sequence of float", Number: "float", Count: "int", Switch: "bool", Pairs: "sequence of pairs"}
+    auto = f" or '{AUTO}'" if getattr(kind, "auto", False) else ""
+    return f"{word.get(type(kind), 'str')}{auto}, default {shown(getattr(cls, key, None))}"
+
+
+def _meaning(kind):
+    unit = f", in {kind.unit}" if kind.unit not in ("", "-") else ""
+    return f"{kind.about}{unit}{f' [{kind.allowed}]' if kind.allowed else ''}"
+
+
+def _changed(part):
+    """The call that makes this part, without the keys that have their defaults."""
+    given = ((key, getattr(part, key)) for key in kinds(type(part)))
+    return f"{type(part).__name__}({', '.join(f'{k}={v!r}' for k, v in given if v != getattr(type(part), k, None))})"
+
+
 def check(part, section="", **units):
     """Check every value of `part` as it is declared; where its default is None, so can the value be. units: {key: unit} where a
     unit depends on other values.

@@ -16,6 +16,7 @@ from tehl_taichi.disk import npy, sizes
 from tehl_taichi.errors import SceneError, brief, extra
 from tehl_taichi.scene.maps import height_text, map_coordinates, map_holes
 from tehl_taichi.values.file_ending import ending
+from tehl_taichi.values.plain import shown
 
 UNITS = {"nm": 1e-9, "um": 1e-6, "mm": 1e-3, "m": 1.0}  # of the heights in a file, m
 LEVELS = {"none": "nothing", "mean": "mean", "plane": "plane", "form": "plane and curvature"}  # level: what it takes off
@@ -54,6 +55,18 @@ def fetch(file, sha256=""):
     return found, values
 
 
+def of_array(values):
+    """(sha256, heights) of heights in memory. Raises SceneError where they are no grid of heights."""
+    try:
+        values = np.array(values, float)
+    except (ValueError, TypeError):
+        raise SceneError(f"heights = {shown(values)} must be an array of numbers") from None
+    if values.ndim != 2 or min(values.shape) < 4:
+        raise SceneError(f"heights have the shape {values.shape}; allowed: (rows, columns), at least 4 x 4")
+    _check_holes("heights", values)
+    return keep(values)
+
+
 def skipped(sha256):
     """What of the file of these heights was skipped, in words; "" where nothing, or where no file was read (a store)."""
     return _skipped.get(sha256, "")
@@ -85,15 +98,15 @@ def table_of(file):
     if values.ndim != 2 or min(values.shape) < 4:
         raise SceneError(f"feature.file = {str(file)!r} must hold a grid of at least 4 x 4 heights, not one of shape "
                          f"{values.shape}{f' ({POINTS})' if values.shape[-1:] == (3,) else ''}")
-    _check_holes(file, values)
+    _check_holes(f"feature.file = {str(file)!r}", values)
     return table
 
 
-def _check_holes(file, values):
+def _check_holes(where, values):
     holes = map_holes.missing(values)
     share, deep = holes.mean(), map_holes.depth(holes)
     if share > map_holes.MOST or deep > map_holes.DEEPEST:
-        raise SceneError(f"feature.file = {str(file)!r} lacks {share:.2g} of its {values.size} heights, in holes of up to "
+        raise SceneError(f"{where} lacks {share:.2g} of its {values.size} heights, in holes of up to "
                          f"{2 * deep} points across; allowed: {map_holes.MOST:g}, holes of {2 * map_holes.DEEPEST} (they are "
                          "filled from their neighbours); cut out a better part, or fill them where you measured")
 

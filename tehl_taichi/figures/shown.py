@@ -1,0 +1,24 @@
+"""Figures in memory, as a notebook shows them."""
+
+import base64
+import io
+
+
+class Figures(dict):
+    """{name: matplotlib Figure}; a notebook shows all of them, `figures["maps"].savefig(...)` writes one."""
+
+    def __init__(self, figures, dpi):
+        super().__init__(figures)
+        self.dpi = dpi
+
+    def __repr__(self):
+        return f"<tehl figures: {', '.join(self)}>"
+
+    def _repr_html_(self):
+        return "".join(f'<figure><img alt="{name}" src="data:image/png;base64,{self._png(figure)}"></figure>'
+                       for name, figure in self.items())
+
+    def _png(self, figure):
+        out = io.BytesIO()
+        figure.savefig(out, format="png", dpi=self.dpi)
+        return base64.b64encode(out.getvalue()).decode()

@@ -1,0 +1,21 @@
+"""A store as an xarray.Dataset with a coordinate for every dimension."""
+
+import numpy as np
+
+from tehl_taichi.errors import StoreError, extra
+
+NAMES = {"component": ["xx", "yy", "zz", "xy", "xz", "yz"], "direction": ["x", "y", "z"],
+         "of_circle": ["along dip", "along strike", "radius"]}
+ALONG_TIME = ("feature_x", "step")  # series that say which moment it is
+
+
+def dataset(path):
+    """The store at `path`. Raises StoreError without xarray (the `xarray` extra)."""
+    try:
+        import xarray
+    except ImportError:
+        raise StoreError(f"a dataset needs xarray: {extra('xarray')}") from None
+    data = xarray.open_zarr(path)
+    data = data.set_coords([name for name in ALONG_TIME if name in data])
+    missing = {dim: size for dim, size in data.sizes.items() if dim not in data.coords}
+    return data.assign_coords({dim: NAMES.get(dim, np.arange(size)) for dim, size in missing.items()})

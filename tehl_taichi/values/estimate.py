@@ -1,0 +1,60 @@
+"""A number with its error bar, unit, and the reason where the error is not known."""
+
+from dataclasses import dataclass
+
+from tehl_taichi.values.digits import fitting, with_error
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A number of a summary with its error: `run["p_max"]` gives one.
+
+    Attributes
+    ----------
+    value : float
+        In SI units (temperatures in deg C).
+    error : float or None
+        Estimated discretisation error, in the same unit; None where it is unknown.
+    unit : str
+        "" for a pure number.
+    reason : str
+        Why the error is unknown; "" where it is known, or the number has none.
+    name : str
+        Its place in the summary, "transient.p_max_Pa" for instance.
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> p = tehl.Quantity(3.114e9, 0.021e9, "Pa", name="transient.p_max_Pa")
+    >>> print(p)
+    3.114 ± 0.021 GPa
+    >>> float(p), p.relative < 0.01
+    (3114000000.0, True)
+    >>> print(tehl.Quantity(3.114e9, None, "Pa", "a peak of 8% is only a few cells wide"))
+    3.114 GPa, error unknown (a peak of 8% is only a few cells wide)
+    """
+
+    value: float
+    error: float | None = None
+    unit: str = ""
+    reason: str = ""
+    name: str = ""
+
+    def __float__(self):
+        return float(self.value)
+
+    @property
+    def relative(self):
+        """Error over value; None where one of them is unknown or the value is 0."""
+        return None if self.error is None or not self.value else abs(self.error / self.value)
+
+    def __str__(self):
+        factor, unit = fitting(self.unit, self.value)
+        unit = {"degC": "°C"}.get(unit, unit)
+        if self.error is not None:
+            return with_error(self.value * factor, self.error * factor, unit)
+        why = f", error unknown ({self.reason})" if self.reason else ""
+        return with_error(self.value * factor, None, unit) + why
+
+    def __repr__(self):
+        return f"<{self.name or 'Quantity'}: {self}>"
