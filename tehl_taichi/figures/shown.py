@@ -5,7 +5,7 @@ import io
 
 
 class Figures(dict):
-    """{name: matplotlib Figure}; a notebook shows all of them, `figures["maps"].savefig(...)` writes one."""
+    """{name: matplotlib Figure}; a notebook shows all of them."""
 
     def __init__(self, figures, dpi):
         super().__init__(figures)
@@ -19,6 +19,6 @@ class Figures(dict):
                        for name, figure in self.items())
 
     def _png(self, figure):
-        out = io.BytesIO()
-        figure.savefig(out, format="png", dpi=self.dpi)
-        return base64.b64encode(out.getvalue()).decode()
+        draft = io.BytesIO()
+        figure.savefig(draft, format="png", dpi=self.dpi)
+        return base64.b64encode(draft.getvalue()).decode()
