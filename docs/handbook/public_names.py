@@ -38,7 +38,8 @@ def parts(words):
 
 def listed(body):
     """Names with what they are, an item each."""
-    return "\n".join(f"* `{name.replace('`', '')}`: {plain(' '.join(what.split()))}" for name, what in ENTRY.findall(body + "\n"))
+    items = ((name.replace("`", ""), plain(" ".join(what.split()))) for name, what in ENTRY.findall(body + "\n"))
+    return "\n".join(f"* `{name}`: {what}" for name, what in items)
 
 
 def paragraph(words):
