@@ -11,9 +11,8 @@ from tehl_taichi.profiles import measure
 
 from tehl_taichi.criteria import CRITERIA
 from tehl_taichi.figures import palette
-from tehl_taichi.io.scene_file import merge
 from tehl_taichi.physics import rheology
-from tehl_taichi.scene import Scene, SceneError, scene, thin_film
+from tehl_taichi.scene import Scene, SceneError, change, scene, thin_film
 from tehl_taichi.scene.feature import SHAPES, Feature
 from tehl_taichi.scene.named_oils import OILS
 from tehl_taichi.scene.parts import AUTO, Rheology
@@ -160,7 +159,7 @@ def edited(base, changes):
     """Scene `base` with dotted changes, and whole tables as a scene file would give them."""
     tables = {key: value for key, value in changes.items() if isinstance(value, (dict, list))}
     plain = {key: value for key, value in changes.items() if key not in tables}
-    return Scene.from_dict(merge(scene(base).replace(**plain).to_dict(), tables))
+    return Scene.from_dict(change.merged(scene(base).replace(**plain).to_dict(), tables))
 
 
 def carried(chosen):

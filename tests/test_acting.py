@@ -15,8 +15,11 @@ from tehl_taichi.physics import conduction, density, rheology, sheared_flow
 from tehl_taichi.physics.boundary import boundary_stress
 from tehl_taichi.physics.viscosity import ln_eta
 from tehl_taichi.pressure.conditions import conditions
-from tehl_taichi.scene import acting, data_sheet, keys
+from tehl_taichi.scene import BUILT_INS, Scene, acting, data_sheet, keys, named_oils
 from tehl_taichi.scene.feature import Feature
+from tehl_taichi.scene.named_oils import OILS
+from tehl_taichi.scene.named_steels import STEELS
+from tehl_taichi.scene.parts import Body, Contact, Fatigue, Rheology, Thermal, Time
 from tehl_taichi.scene.route import step_length, total_steps
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.study.plan import plan
@@ -236,3 +239,22 @@ def test_the_command_says_it_before_it_sweeps():
 
     done = CliRunner().invoke(app, ["sweep", "smooth-line", "--set", "fatigue.kappa=0.4", "--over", "srr=0.1,0.2", "--dry-run"])
     assert done.exit_code == 0 and "warning: fatigue.kappa has no effect here" in done.output
+
+
+def test_a_scene_of_parts_says_it_of_unusual_values():
+    still = Scene(features=[], thermal=Thermal(on=False, nodes=7), rheology=Rheology(law="newtonian", gamma=0.05),
+                  oil=OILS["ridge-test-fluid"], body_a=Body(**STEELS["16MnCr5"].numbers, material="16MnCr5"))
+    said = [sentence.split()[0] for sentence in still.warnings() if "no effect" in sentence]
+    assert said == ["thermal.nodes", "rheology.gamma"]
+    assert [one.split()[0] for one in still.replace(srr=-0.2).warnings() if "no effect" in one] == said
+    assert [one.split()[0] for one in acting.doubts(Scene(time=Time(steady_only=True), features=(Feature(height=1e-6),)))] == [
+        "feature.height"]
+
+
+def test_what_follows_from_other_keys_was_not_given():
+    limits, sheet = Fatigue.from_values({"bending_limit": 4e8}), named_oils.from_values({"nu_40": 220e-6, "nu_100": 19e-6})
+    scene = Scene(features=(), contact=Contact(moes_M=20.0, moes_L=10.0), fatigue=limits, oil=sheet)
+    assert not {"operation.u_m", "fatigue.endurance", "oil.G0", "oil.S0", "grid.x_min"} & acting.asked(scene)
+    assert {"contact.moes_M", "fatigue.bending_limit", "oil.nu_40"} <= acting.asked(scene)
+    assert list(acting.doubts(scene)) == ["fatigue.bending_limit has no effect here: there is no fatigue without a passage"]
+    assert all(not list(acting.doubts(tehl.scene(name))) for name in BUILT_INS)

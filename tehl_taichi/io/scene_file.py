@@ -13,8 +13,6 @@ from tehl_taichi.scene import (
     SceneError,
     acting,
     change,
-    data_sheet,
-    fatigue_limits,
     given,
     named_oils,
     named_steels,
@@ -91,7 +89,7 @@ def _on_base(base, data):
     if base is None:
         return {"feature": [], **data}
     text("base", base)
-    return merge(scene(base).to_dict(), data)
+    return change.merged(scene(base).to_dict(), data)
 
 
 def _spelled_out(data):
@@ -119,34 +117,6 @@ def _check_speed(found, told):
     if told is not None and found.contact.moes_M > 0 and not math.isclose(told, found.operation.u_m, rel_tol=1e-6):
         raise SceneError(f"operation.u_m = {told:g} m/s and contact.moes_L = {found.contact.moes_L:g} contradict each other: "
                          f"the pair gives {found.operation.u_m:.4g} m/s; leave u_m out")
-
-
-def merge(base, data):
-    """`base` (a scene as nested dictionary) with the tables and values of `data`; what excludes each other is replaced."""
-    for key, value in data.items():
-        if key == "contact" and isinstance(value, dict):
-            base[key] = _merge_contact(base[key], value)
-        elif key == "operation" and isinstance(value, dict) and {"u_a", "u_b"} & value.keys():
-            base[key] = {"temperature": base[key]["temperature"], **value}
-        elif key == "oil" and isinstance(value, dict) and ("name" in value or data_sheet.speaks(value)):
-            base[key] = value  # an oil with a name or a data sheet brings its own numbers, not those of the base
-        elif key == "fatigue" and isinstance(value, dict):  # what follows from its limits is not that of the base
-            free = fatigue_limits.follows(value)
-            base[key] = {**{name: own for name, own in base[key].items() if name not in free}, **value}
-        elif isinstance(value, dict) and isinstance(value.get("material"), str) and value["material"]:
-            base[key] = value  # so does a body of a named steel
-        elif isinstance(value, dict) and isinstance(base.get(key), dict):
-            base[key] = merge(base[key], value)
-        else:
-            base[key] = value
-    return base
-
-
-def _merge_contact(base, given):
-    loads = ("load", "hertz_pressure", "moes_M", "moes_L")
-    if any(key in given for key in loads):
-        base = {key: value for key, value in base.items() if key not in loads}
-    return {**base, **given}
 
 
 def dumps(description):

@@ -12,11 +12,14 @@ from tehl_taichi.physics import conduction, density, rheology
 from tehl_taichi.physics.boundary import BOUNDARY, boundary_stress
 from tehl_taichi.physics.law import declared
 from tehl_taichi.physics.viscosity import ln_eta
-from tehl_taichi.scene import data_sheet, given, keys
+from tehl_taichi.scene import data_sheet, fatigue_limits, given, keys
 from tehl_taichi.scene.feature import USED_BY
-from tehl_taichi.scene.oil import in_one_temperature
+from tehl_taichi.scene.named_oils import OILS
+from tehl_taichi.scene.named_steels import STEELS
+from tehl_taichi.scene.oil import Oil, in_one_temperature
 from tehl_taichi.scene.parts import Fatigue, Time
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.values.chosen import Chosen
 from tehl_taichi.values.quantity import kinds
 
 MOES = ("oil.eta0", "oil.alpha")  # numbers of the oil that a Moes pair uses
@@ -49,14 +52,36 @@ def signature(scene):
 
 def doubts(scene):
     """A sentence about every key that the user gave although it has no effect."""
-    found = idle(scene)
-    beside = {"time.steady_only", *["grid.ny"] * ("grid.nx" in scene.asked)}  # says what is so; --grid gives both
+    found, own = idle(scene), asked(scene)
+    beside = {"time.steady_only", *["grid.ny"] * ("grid.nx" in own)}  # says what is so; --grid gives both
     beside |= {"time.steps"} if scene.time.steps <= 0 else set()  # all of none, none
-    for key in sorted(scene.asked & found.keys() - beside):
+    for key in sorted(own & found.keys() - beside):
         yield f"{shown(key, scene)} has no effect here: {found[key]}"
     yield from (f"rheology.{key} has no effect on the film: the law {scene.rheology.law!r} does not take it; it limits the "
                 "friction of solid contact alone" for key in BOUNDARY.numbers
-                if f"rheology.{key}" in scene.asked - found.keys() and _only_solid(scene, key))
+                if f"rheology.{key}" in own - found.keys() and _only_solid(scene, key))
+
+
+def asked(scene):
+    """Full keys that the user gave; of a scene made of its parts in Python those of another value than the declared one, but for
+    what follows from names, sheets and other keys."""
+    return _unusual(scene) if scene.asked is None else scene.asked
+
+
+def _unusual(scene):
+    return frozenset(f"{name}.{key}" for name, part in keys.parts(scene).items() for key, usual in _usual(scene, name, part)
+                     if usual is not None and getattr(part, key) != usual and not isinstance(getattr(part, key), Chosen))
+
+
+def _usual(scene, name, part):
+    """(key, its value if the user gives none) of a part; None where it follows from others."""
+    follow = data_sheet.follows(vars(part)) if name == "oil" else fatigue_limits.follows(vars(part)) if name == "fatigue" else ()
+    follow += ("u_m",) * (name == "operation" and scene.contact.moes_M > 0)
+    brought = vars(OILS.get(part.name, Oil())) if name == "oil" else {}
+    if name.startswith("bodies") and part.material:
+        brought = STEELS[part.material].numbers
+    for key in kinds(type(part)):
+        yield key, None if key in follow else brought.get(key, getattr(type(part), key))
 
 
 def shown(key, scene):

@@ -53,3 +53,7 @@ def scene(name="gear"):
     if name not in BUILT_INS:
         raise SceneError(f"unknown scene {name!r}{nearest(name, BUILT_INS)}; built in: {', '.join(BUILT_INS)}")
     return BUILT_INS[name][0]
+
+
+for _scene, _ in BUILT_INS.values():
+    _scene.asking(())

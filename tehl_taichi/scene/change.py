@@ -14,6 +14,8 @@ from tehl_taichi.values.plain import plain
 from tehl_taichi.values.quantity import kinds
 
 TABLES = (*SECTIONS, "bodies", "oil")
+BODIES = ("bodies.a", "bodies.b")
+NESTED, TOP = (*TABLES, *BODIES), (*TABLES, "feature", "name", "note")
 
 
 def applied(data, changes):
@@ -30,6 +32,29 @@ def applied(data, changes):
     for key in sorted(changes, key=lambda key: key.count(".")):  # whole tables before single values
         _assign(data, key, changes[key])
     return data
+
+
+def merged(base, data):
+    """`base` (every value of a scene, as nested dictionary) with the tables of a scene file over it, as changes. Raises
+    SceneError."""
+    known = {key: value for key, value in data.items() if key in TOP}
+    return {**applied(base, dict(_as_changes(known))), **{key: data[key] for key in data.keys() - known.keys()}}
+
+
+def _as_changes(tables, above=""):
+    """(full key, value) of the tables of a file. An oil or a body of its own name, or of a data sheet, is a whole value: the
+    numbers of the base are not its own."""
+    for key, value in tables.items():
+        if isinstance(value, dict) and above + key in NESTED and not _brings_its_numbers(above + key, value):
+            yield from _as_changes(value, f"{above}{key}.")
+        else:
+            yield above + key, value
+
+
+def _brings_its_numbers(key, table):
+    if key == "oil":
+        return "name" in table or data_sheet.speaks(table)
+    return key in BODIES and isinstance(table.get("material"), str) and table["material"] != ""
 
 
 def _table(data, key):
@@ -105,7 +130,7 @@ def _name_steels(data, changes):
 def _assign(data, dotted, value):
     """Set the dotted key. Raises SceneError where no scene has its section; of a section's keys whoever makes it knows."""
     *path, last = dotted.split(".")
-    known = (*TABLES, "feature", "name", "note", *given.SHORT)
+    known = (*TOP, *given.SHORT)
     if not path and last not in known:
         raise _unknown(dotted, last, known)
     target = _place(data, path, dotted) if path else data

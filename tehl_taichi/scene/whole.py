@@ -7,7 +7,7 @@ from typing import Any
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.physics.shear.newtonian import NEWTONIAN
-from tehl_taichi.scene import change, domain, film_formula, given, judge, named_oils, oil, oil_range, passing, room, scales
+from tehl_taichi.scene import acting, change, domain, film_formula, given, judge, named_oils, oil, oil_range, passing, room, scales
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.maps import map_judge
 from tehl_taichi.scene.named_steels import completed
@@ -93,7 +93,7 @@ class Scene:
     numerics: Numerics = Numerics()
     output: Output = Output()
     note: str = field(default="", compare=False)
-    asked = frozenset()  # full keys that the user gave: of these, what has no effect is told
+    asked = None  # full keys that the user gave: of these, what has no effect is told; None: those of unusual values
 
     def __repr__(self):
         s, o, count = scales.Scales.of(self), self.operation, len(self.features)
@@ -353,7 +353,7 @@ class Scene:
         changes = given.named(changes)
         changed = Scene.from_dict(change.applied(self.to_dict(), changes))
         change.check_effect(changed, changes)
-        return changed.asking(self.asked | changes.keys())
+        return changed.asking(acting.asked(self) | changes.keys())
 
     def asking(self, keys):
         """Itself, as one of which the user gave these keys (see :mod:`tehl_taichi.scene.acting`)."""
@@ -372,7 +372,8 @@ class Scene:
 
     @classmethod
     def from_dict(cls, data):
-        """Scene from such a dictionary; missing values take their defaults, unknown keys are refused."""
+        """Scene from such a dictionary; missing values take their defaults, unknown keys are refused. None of them
+        counts as given by the user."""
         known = {*TOP, "bodies", "oil", "feature", *SECTIONS}
         if not isinstance(data, dict):
             raise SceneError(f"a scene is described by a table of sections, not by {shown(data)}")
@@ -390,7 +391,7 @@ class Scene:
             parts["oil"] = named_oils.from_values(data["oil"])
         if "feature" in data:
             parts["features"] = _features(data["feature"])
-        return cls(name=data.get("name", "gear"), note=data.get("note", ""), **parts)
+        return cls(name=data.get("name", "gear"), note=data.get("note", ""), **parts).asking(())
 
 
 def _bodies(values):
