@@ -2,11 +2,13 @@
 
 import itertools
 import json
+import os
 from pathlib import Path
 from typing import Optional
 
 import typer
 from tehl_cli.bench_results import Results, table
+from tehl_cli.idle_options import say_idle
 from tehl_cli.live import say
 from tehl_cli.out import print_json
 
@@ -39,6 +41,7 @@ WORKERS = typer.Option(1, help="processes side by side, which share the cores")
 
 
 def stability(
+    context: typer.Context,
     out: Path = OUT,
     match: str = typer.Option("", help="only cases with this text in their name"),
     thermal: bool = typer.Option(False, "--thermal/--isothermal", help="the table with temperatures"),
@@ -64,6 +67,12 @@ def stability(
     from tehl_taichi.profiles.stability import carried, cases, random_cases, run, starts
 
     results = Results(out, "starts" if confirm else "stability", force)
+    if confirm:
+        say_idle(context, "--confirm takes all starts, each in its own precision", "only_starts", "precision")
+    else:
+        say_idle(context, "it is of --confirm", "again")
+    if not random:
+        say_idle(context, "--random 0 draws no scenes", "seed")
     listed = list(cases(thermal).items())
     chosen = [*listed[:: 6 if quick else 1], *random_cases(min(random, 8) if quick else random, seed).items()]
     chosen = {name: description for name, description in chosen if match.lower() in name.lower()}
@@ -162,6 +171,7 @@ def cracks(
 
 
 def accuracy(
+    context: typer.Context,
     out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: bool = FORCE, threads: Optional[int] = THREADS,
     only: Optional[str] = typer.Option(None, help="errors (against run time), coverage (of the error bars), or that of "
                                "exits"),
@@ -177,6 +187,14 @@ def accuracy(
     from tehl_taichi.values.checks import choice
 
     choice("--only", only, (None, "errors", "coverage", "exits"))
+    if judge or only not in (None, "errors"):
+        say_idle(context, "no errors are computed", "keep")
+    elif keep:
+        _check_package()
+    if judge or only == "errors":
+        say_idle(context, "no random scenes are run", "seed")
+    if only == "errors":
+        say_idle(context, "no error bars are judged", "judge")
     runtime.start(threads=threads)
     found, name = {}, "exits" if only == "exits" else "coverage"
     errors = Results(out, "accuracy", force) if only in (None, "errors") and not judge else None
@@ -187,6 +205,15 @@ def accuracy(
         found[name] = _coverage(bars, seed, quick, judge, threads or _cores(), as_json)
     if as_json:
         print_json(found)
+
+
+def _check_package():
+    """Raises StoreError where the errors cannot be written into the package."""
+    from tehl_taichi.errors import StoreError
+    from tehl_taichi.scene import target
+
+    if not os.access(target.FILE.parent, os.W_OK):
+        raise StoreError(f"--keep: {target.FILE} cannot be written")
 
 
 def _accuracy(results, quick, as_json, keep):

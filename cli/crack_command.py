@@ -5,6 +5,7 @@ from typing import Optional
 
 import typer
 from tehl_cli.figure_options import Dpi, Force, Format, Width
+from tehl_cli.idle_options import DRAWS, say_idle
 from tehl_cli.live import say
 from tehl_cli.out import print_json, put
 
@@ -16,6 +17,7 @@ def register(app):
 
 def crack(
     store: Path = typer.Argument(..., help="store of a run with a feature on y = 0, finished or not"),
+    context: typer.Context = None,
     side: str = typer.Option("both", help="of the feature: entry, exit or both"),
     start: Optional[float] = typer.Option(None, help="x' of the crack's mouth, m (default: where the surface is pulled most)"),
     angle: float = typer.Option(90.0, help="of its first piece, degrees: 90 straight down, more: leaning with rolling"),
@@ -46,18 +48,20 @@ def crack(
     """
     from tehl_taichi.crack.residual import read
     from tehl_taichi.figures.page import Page
+    from tehl_taichi.io import kept_crack
     from tehl_taichi.results.opened import open_run
 
     page = Page(format, dpi, width, force)
+    page.check_all(figures, ["crack"]) if figures else say_idle(context, "no --figures are drawn", *DRAWS)
     run = open_run(store)
+    if keep:
+        kept_crack.check(store)
     result = run.crack(side=side, start=start, angle=angle, first=first, step=step, length=length, distance=distance,
                        threshold=threshold, residual=None if residual is None else read(residual), face_friction=face_friction,
                        oil=_share(oil), elements=elements, thermal_stress=thermal_stress, threads=threads)
     _show(result.summary, as_json)
     if keep:
-        from tehl_taichi.io.kept_crack import keep as kept
-
-        say(str(kept(result, run.store)))
+        say(str(kept_crack.keep(result, run.store)))
     if figures:
         from tehl_taichi.figures.crack_figures import write_crack
 

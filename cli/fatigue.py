@@ -6,6 +6,7 @@ from typing import Optional
 import typer
 from tehl_cli.fatigue_options import asks
 from tehl_cli.figure_options import Dpi, Force, Format, Width
+from tehl_cli.idle_options import DRAWS, say_idle
 from tehl_cli.live import Live, say
 from tehl_cli.out import print_json
 
@@ -18,6 +19,7 @@ def register(app):
 @asks
 def fatigue(
     store: Path = typer.Argument(..., help="store of a run with a feature, finished or not"),
+    context: typer.Context = None,
     figures: Optional[Path] = typer.Option(None, help="folder for figures"),
     format: Format = "png",
     dpi: Dpi = 160,
@@ -32,11 +34,13 @@ def fatigue(
     Example: `tehl fatigue runs/gear-1.zarr --kappa 0.25 --endurance 450e6 --to-x 0.5`
     """
     from tehl_taichi.engine import runtime
+    from tehl_taichi.figures import fatigue_figures
     from tehl_taichi.figures.page import Page
     from tehl_taichi.results.opened import open_run
 
     runtime.check(threads=threads)
     page = Page(format, dpi, width, force)
+    page.check_all(figures, fatigue_figures.NAMES) if figures else say_idle(context, "no --figures are drawn", *DRAWS)
     run = open_run(store)
     for sentence in _doubts(run.scene, asked):
         say(f"warning: {sentence}")

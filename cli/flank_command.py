@@ -6,6 +6,7 @@ from typing import List, Optional
 import typer
 from tehl_cli.changes import check_rows, given_by
 from tehl_cli.figure_options import Dpi, FigureWidth, Format
+from tehl_cli.idle_options import DRAWS, say_idle
 from tehl_cli.live import Live, say
 from tehl_cli.out import print_json, put
 
@@ -17,6 +18,7 @@ def register(app):
 
 def flank(
     gear: str = typer.Argument("fzg-c", help="fzg-c, fzg-a, a TOML file, or a table of positions (CSV)"),
+    context: typer.Context = None,
     torque: Optional[float] = typer.Option(None, help="of the pinion, N m"),
     speed: Optional[float] = typer.Option(None, help="of the pinion, 1/min"),
     on: Optional[str] = typer.Option(None, help="whose flank carries the feature: pinion (default) or gear"),
@@ -47,9 +49,11 @@ def flank(
     """
     import tehl_taichi as tehl
     from tehl_taichi.figures.page import Page
+    from tehl_taichi.flank import flank_figure
     from tehl_taichi.io.found import find
 
     page = Page(format, dpi, figure_width, force=True)
+    flank_figure.check(out, page) if figure else say_idle(context, "--no-figure draws none", *DRAWS)
     changes = given_by({"temperature": temperature, "height": height, "width": width, "thermal.on": thermal}, grid, set_ or [])
     base = find(scene) if scene else None
     check_rows(grid, changes, lambda: _line(gear, base, changes, steady))

@@ -5,6 +5,7 @@ from typing import Optional
 
 import typer
 from tehl_cli.fatigue_options import asks
+from tehl_cli.idle_options import say_idle
 from tehl_cli.live import Live
 from tehl_cli.out import put
 
@@ -17,6 +18,7 @@ def register(app):
 @asks
 def report(
     store: Path = typer.Argument(..., help="store of a run (finished or not), a study, or the folder of a flank"),
+    context: typer.Context = None,
     out: Optional[Path] = typer.Option(None, help="HTML file to write (default: beside the store; with other constants of "
                                        "fatigue STORE-fatigue.html)"),
     force: bool = typer.Option(False, "--force", help="replace a file that is there, if tehl wrote it"),
@@ -35,6 +37,8 @@ def report(
     from tehl_taichi.engine import runtime
 
     runtime.check(threads=threads)
+    if all(value is None for value in asked.values()):
+        say_idle(context, "only a search with other constants computes", "threads")
     with Live() as live:
         path = tehl.report(store, out, force=force, progress=live, threads=threads, **asked)
     put(path)

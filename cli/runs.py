@@ -5,6 +5,7 @@ from typing import List, Optional
 
 import typer
 from tehl_cli.changes import GRIDS, check_rows, given_by
+from tehl_cli.idle_options import say_idle
 from tehl_cli.live import Live, say
 from tehl_cli.out import print_json, put
 
@@ -17,6 +18,7 @@ def register(app):
 
 def run(
     scene: str = typer.Argument("gear", help="built-in name (see `tehl scenes`), TOML file, or a store to repeat"),
+    context: typer.Context = None,
     srr: Optional[float] = typer.Option(None, help="slip over mean speed, (u_a - u_b)/u_m; negative: dedendum"),
     load: Optional[float] = typer.Option(None, help="N/m (line) or N (point)"),
     hertz_pressure: Optional[float] = typer.Option(None, help="Pa, instead of a load"),
@@ -69,7 +71,10 @@ def run(
     description = find_changed(scene, changes)
     check_rows(grid, changes, lambda: description)
     description = _on_grid_for(target_error, changes, description)
+    if out is None:
+        say_idle(context, "without --out every run makes a store of its own", "force")
     if dry_run:
+        say_idle(context, "--dry-run prints lines", "as_json")
         return _tell_scene(description)
     with Live(quiet, curves) as live:
         done = tehl.run(description, out, force=force, threads=threads, arch=arch, progress=live)

@@ -5,6 +5,7 @@ from typing import List, Optional
 
 import typer
 from tehl_cli.changes import check_rows, given_by
+from tehl_cli.idle_options import say_idle
 from tehl_cli.live import say
 from tehl_cli.out import print_json, put
 
@@ -18,6 +19,7 @@ def register(app):
 
 def sweep(
     scene: str = typer.Argument(..., help="built-in name, TOML scene, TOML study file, or a study to go on with"),
+    context: typer.Context = None,
     over: Optional[List[str]] = typer.Option(None, "--over", help="key=values, repeatable: a,b,c or low:high:N or "
                                              "low:high:N:log; 'key=values key=values' change together"),
     samples: Optional[int] = typer.Option(None, help="so many cases of a Latin hypercube; --over key=low:high[:log] or a,b,c"),
@@ -56,6 +58,7 @@ def sweep(
     out = out or many.default_path(plan)
     if dry_run:
         many.checked(workers, threads_per_worker, scheduler, keep, connect=False)
+        say_idle(context, "--dry-run prints lines", "as_json")
         return _tell(plan, out)
     _check_count(plan, yes)
     for sentence in _doubts(plan):

@@ -56,6 +56,9 @@ class Layer:
         return "\n".join([*filter(None, [self.when.replace(" (", "\n(")]), self.said])
 
 
+NAMES = ("fatigue", "fatigue_depth", "fatigue_point", "fatigue_depth_whole", "fatigue_point_whole")  # at most
+
+
 def all_figures(page, found):
     """{name: function that draws it}: without more in its name of what the answer rests on. Raises SceneError where the depth
     that is wanted was not searched."""

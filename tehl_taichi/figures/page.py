@@ -1,5 +1,6 @@
 """What figures are made for: file format, dots per inch and width of the column; text and lines follow from the width."""
 
+import os
 import textwrap
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -108,12 +109,20 @@ class Page:
 
     def write(self, folder, figures):
         """Write {name: function that draws the figure} into `folder`; returns the paths. Raises StoreError."""
-        links.refuse_itself(folder)
-        folder, paths = Path(folder), [Path(folder) / f"{name}.{self.format}" for name in figures]
-        for path in paths:
-            self.check(path)
+        paths = self.check_all(folder, figures)
         made(folder)
         return [self.save(draw, path) for draw, path in zip(figures.values(), paths)]
+
+    def check_all(self, folder, names):
+        """The paths of figures of these names in `folder`. Raises StoreError where they cannot be drawn or may not be
+        written."""
+        drawing()
+        links.refuse_itself(folder)
+        check_folder(folder)
+        paths = [Path(folder) / f"{name}.{self.format}" for name in names]
+        for path in paths:
+            self.check(path)
+        return paths
 
     def check(self, path, of=None):
         """Raises StoreError where no figure may be written to `path`; of: as of :func:`tehl_taichi.disk.outputs.check`."""
@@ -180,6 +189,13 @@ def spelled(figure):
 def beside(path):
     """The folder of the figures of the store at `path` where no other is wanted."""
     return path.with_suffix("") if path.suffix else path.with_name(f"{path.name}-figures")
+
+
+def check_folder(folder):
+    """Raises StoreError where no folder of that name can be made."""
+    there = next(path for path in (Path(folder).absolute(), *Path(folder).absolute().parents) if os.path.lexists(path))
+    if not there.is_dir():
+        raise StoreError(f"cannot put figures into {folder}: {there} is no folder; choose another one")
 
 
 def made(folder):

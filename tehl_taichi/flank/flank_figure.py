@@ -6,7 +6,7 @@ import numpy as np
 
 from tehl_taichi.disk import links
 from tehl_taichi.figures import palette
-from tehl_taichi.figures.page import made
+from tehl_taichi.figures.page import drawing, made
 from tehl_taichi.flank.columns import dig, error_of
 
 # panel: label, factor, {legend: keys in the summary}; "p_H" is the Hertz pressure
@@ -22,6 +22,14 @@ PANELS = (("film (µm)", 1e6, {"steady, centre": ("steady", "h_c_m"), "steady, l
                                        "mean while the feature passes": ("transient", "friction_coefficient_mean")}),
           ("SRR", 1, {"(u_a − u_b)/u_m": "srr"}))
 LAST = 5  # panels: friction and slip fill up what a steady or isothermal flank leaves free
+
+
+def check(folder, page):
+    """Raises StoreError where no figure could be drawn, nor written into the folder (None: a new one) of a flank to come."""
+    drawing()
+    if folder is not None and os.path.lexists(folder):
+        links.refuse(folder)
+        page.check(folder / f"flank.{page.format}", folder)
 
 
 def write(flank, path, page):

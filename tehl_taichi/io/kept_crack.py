@@ -17,6 +17,11 @@ def place(store):
     return path.with_name(f"{path.stem if path.suffix == '.zarr' else path.name}.crack.json")
 
 
+def check(store):
+    """Raises StoreError where the answer of the run in the store at this path cannot be kept."""
+    outputs.check(place(store), force=True)
+
+
 def keep(result, store):
     """Write a :class:`tehl_taichi.crack.answer.CrackResult` beside the store it is of, in place of an earlier one; returns the
     path. Raises StoreError."""

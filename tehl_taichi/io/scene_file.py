@@ -8,16 +8,7 @@ from pathlib import Path
 
 from tehl_taichi.disk import outputs
 from tehl_taichi.io import toml_file
-from tehl_taichi.scene import (
-    Scene,
-    SceneError,
-    acting,
-    change,
-    given,
-    named_oils,
-    named_steels,
-    scene,
-)
+from tehl_taichi.scene import Scene, SceneError, acting, change, given, named_oils, named_steels, scene
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.parts import Body, Fatigue

@@ -24,6 +24,7 @@ from tehl_taichi.values.quantity import kinds
 
 MOES = ("oil.eta0", "oil.alpha")  # numbers of the oil that a Moes pair uses
 LABELS = ("oil.name", "oil.source", "fatigue.source", "bodies.a.material", "bodies.b.material")  # nothing follows from them
+FOLLOW = {"oil": data_sheet.follows, "fatigue": fatigue_limits.follows}  # names of the numbers that others of a part give
 PARTS = (0.0, 0.1, 0.5, 1.0, 2.0)  # of the Hertz pressure, at which laws are asked
 WARMER = (0.0, 20.0, 80.0)  # K above the inlet, of a film with temperatures
 NUDGE = 0.01  # of a number, by which it is changed to see whether a law takes it
@@ -63,8 +64,8 @@ def doubts(scene):
 
 
 def asked(scene):
-    """Full keys that the user gave; of a scene made of its parts in Python those of another value than the declared one, but for
-    what follows from names, sheets and other keys."""
+    """Full keys that the user gave; of a scene made of its parts in Python those of another value than the declared one,
+    without what follows from names, sheets and other keys."""
     return _unusual(scene) if scene.asked is None else scene.asked
 
 
@@ -75,7 +76,7 @@ def _unusual(scene):
 
 def _usual(scene, name, part):
     """(key, its value if the user gives none) of a part; None where it follows from others."""
-    follow = data_sheet.follows(vars(part)) if name == "oil" else fatigue_limits.follows(vars(part)) if name == "fatigue" else ()
+    follow = FOLLOW[name](vars(part)) if name in FOLLOW else ()
     follow += ("u_m",) * (name == "operation" and scene.contact.moes_M > 0)
     brought = vars(OILS.get(part.name, Oil())) if name == "oil" else {}
     if name.startswith("bodies") and part.material:

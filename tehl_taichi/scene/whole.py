@@ -7,7 +7,20 @@ from typing import Any
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.physics.shear.newtonian import NEWTONIAN
-from tehl_taichi.scene import acting, change, domain, film_formula, given, judge, named_oils, oil, oil_range, passing, room, scales
+from tehl_taichi.scene import (
+    acting,
+    change,
+    domain,
+    film_formula,
+    given,
+    judge,
+    named_oils,
+    oil,
+    oil_range,
+    passing,
+    room,
+    scales,
+)
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.maps import map_judge
 from tehl_taichi.scene.named_steels import completed

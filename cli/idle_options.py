@@ -1,0 +1,19 @@
+"""Options that were typed and change nothing beside the others: said, as of the keys of a scene."""
+
+from tehl_cli.live import say
+
+DRAWS = ("format", "dpi", "width", "figure_width", "force")  # of figures: without one they have nothing to say
+
+
+def say_idle(context, why, *names):
+    """A warning for each of these parameters of the command that the user typed."""
+    for parameter in context.command.params:
+        if parameter.name in names and context.get_parameter_source(parameter.name).name == "COMMANDLINE":
+            say(f"warning: {_typed(parameter, context.params[parameter.name])} has no effect here: {why}")
+
+
+def _typed(parameter, value):
+    """The option with its value, as it is typed."""
+    if isinstance(value, bool):
+        return (parameter.opts if value else parameter.secondary_opts or parameter.opts)[0]
+    return f"{parameter.opts[0]} {value}"
