@@ -15,10 +15,14 @@ import tehl_taichi as tehl
 from tehl_taichi.disk.drafts import beside
 from tehl_taichi.errors import StoreError
 from tehl_taichi.flank import flank
+from tehl_taichi.flank.stored_flank import check_writable
 from tehl_taichi.io.place import Place
 from tehl_taichi.io.store import Store
 from tehl_taichi.study import many
 from tehl_taichi.study.plan import plan
+from tehl_taichi.study.table import Study
+
+TWO = plan(SMALL, {"feature.height": [0.5e-6, 0.6e-6]})
 
 
 def cli(*words):
@@ -32,9 +36,17 @@ def cli(*words):
 
 def snapshot(folder):
     """{path: what tells it from any other file or state of it} of everything below a folder, links as such."""
-    found = {str(path): path.lstat() for path in (folder, *folder.rglob("*"))}
+    found = {path: os.lstat(path) for path in (str(folder), *_below(str(folder)))}
     return {path: (s.st_mode, s.st_ino, s.st_nlink, s.st_size, stat.S_ISREG(s.st_mode) and s.st_mtime_ns)
             for path, s in found.items()}
+
+
+def _below(folder):
+    with os.scandir(folder) as entries:
+        for entry in entries:
+            yield entry.path
+            if entry.is_dir(follow_symlinks=False):
+                yield from _below(entry.path)
 
 
 def swept(path, count=2):
@@ -79,8 +91,7 @@ def write_to_store(path):
 
 def write_to_study(path):
     with pytest.raises(StoreError) as refused:
-        found = plan(SMALL, {"feature.height": [0.5e-6, 0.6e-6]})
-        many.run(found, path, workers=1, work=fake_cases.formula)
+        many.run(TWO, path, workers=1, work=fake_cases.formula)
     return str(refused.value)
 
 
@@ -90,6 +101,9 @@ def write_to_flank(path):
     return str(refused.value)
 
 
+# the doors that these go through, without the work before
+DOORS = {"store": (lambda path: Store.write(path).close(), lambda path: Place(path, replace=True).give_up()),
+         "study": (lambda path: Study.write(path, TWO).close(),), "flank": (check_writable,)}
 ARCHIVES = {"store": (stored, write_to_store), "study": (swept, write_to_study), "flank": (flanked, write_to_flank)}
 
 
@@ -110,21 +124,33 @@ def by_fifo(file, outside):
 @pytest.mark.parametrize("replaced", [by_symlink, by_hard_link, by_fifo])
 @pytest.mark.parametrize("kind", ARCHIVES)
 def test_no_file_of_an_archive_leads_writing_outside(tmp_path, kind, replaced):
-    """Every file in turn. What opens no more (a FIFO in place of the attributes) is refused for that."""
-    make, write = ARCHIVES[kind]
-    path, kept, outside = make(tmp_path / "made"), tmp_path / "kept", tmp_path / "outside"
+    """Every file in turn, through each door. What opens no more (a FIFO in place of the attributes) is refused for that."""
+    path, kept, outside = ARCHIVES[kind][0](tmp_path / "made"), tmp_path / "kept", tmp_path / "outside"
     files = sorted(file for file in path.rglob("*") if file.is_file())
     assert len(files) > 4
-    for file in files if replaced is by_symlink else files[::3]:
+    for file in files:
         shutil.copy2(file, kept)
         replaced(file, outside)
         before = snapshot(tmp_path)
-        said = write(path)
-        assert str(file) in said or str(path) in said and replaced is by_fifo, said
+        for door in DOORS[kind]:
+            with pytest.raises(StoreError) as refused:
+                door(path)
+            assert str(file) in str(refused.value) or str(path) in str(refused.value) and replaced is by_fifo, refused.value
         assert snapshot(tmp_path) == before, file
         file.unlink()
         shutil.move(kept, file)
         outside.unlink(missing_ok=True)
+
+
+@pytest.mark.parametrize("replaced", [by_symlink, by_hard_link, by_fifo])
+@pytest.mark.parametrize("kind", ARCHIVES)
+def test_whole_commands_go_through_these_doors(tmp_path, kind, replaced):
+    make, write = ARCHIVES[kind]
+    path = make(tmp_path / "made")
+    file = next(path.rglob("wall_s/c/0" if kind == "store" else "*.csv"))
+    replaced(file, tmp_path / "outside")
+    before = snapshot(tmp_path)
+    assert str(file) in write(path) and snapshot(tmp_path) == before
 
 
 @pytest.mark.parametrize("kind", ARCHIVES)
