@@ -12,13 +12,14 @@ def limiting(t):
 
 
 def carreau(n):
-    """The rate by bisection of its logarithm."""
+    """The rate by Newton's method for its logarithm, which rises to it from below: the stress is concave there."""
     def rate(t):
-        low, high = np.full(np.shape(t), -60.0), np.full(np.shape(t), 60.0)
-        for _ in range(90):
-            y = 0.5 * (low + high)
-            less = y + 0.5 * (n - 1) * np.log1p(np.exp(2 * y)) < np.log(np.maximum(np.abs(t), 1e-30))
-            low, high = np.where(less, y, low), np.where(less, high, y)
+        y = known = np.log(np.maximum(np.abs(t), 1e-30))
+        for _ in range(60):
+            step = (known - y - 0.5 * (n - 1) * np.log1p(np.exp(2 * y))) / (1 + (n - 1) / (1 + np.exp(-2 * y)))
+            y = y + step
+            if np.abs(step).max() < 1e-14:
+                break
         return np.sign(t) * np.exp(y)
 
     return rate
@@ -40,6 +41,8 @@ def column(rate, wall, sliding, limit=np.inf, fluidity=1.0):
         low, high, slip = -sliding * 1e3 - wall, min(sliding * 1e3 + wall, most), 0.0
         for _ in range(200):
             mean = 0.5 * (low + high)
+            if mean in (low, high):
+                break
             low, high = (mean, high) if slid(mean) < sliding else (low, mean)
     carried = SHARE @ (fluidity * Z * rate(mean + wall * Z)) + slip
     return 3 * carried / wall, mean, slip / sliding

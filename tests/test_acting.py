@@ -88,7 +88,7 @@ def _passage(scene, s, x, y):
         return
     yield step_length(scene), total_steps(scene), scene.path, scene.output.every, scene.symmetric
     for at in np.linspace(*scene.path, 7):
-        yield [(f.height_at((x[None] - at) * s.a - f.x, y[:, None] * s.b - f.y) + 0.0).tolist() for f in scene.features]
+        yield [hash((f.height_at((x[None] - at) * s.a - f.x, y[:, None] * s.b - f.y) + 0.0).tobytes()) for f in scene.features]
 
 
 def _fatigue(scene):
@@ -144,11 +144,12 @@ def test_a_key_changes_what_a_run_takes_or_is_said_to_have_no_effect(name):
     idle, now = acting.idle(scene), prepared(scene)
     follow = [f"oil.{key}" for key in data_sheet.follows(vars(scene.oil))]
     for key in (key for one, key in CASES if one == name):
-        around = list(neighbours(scene, key))
-        same = all(prepared(other) == now for other in around)
-        tried += bool(around)
-        if around and key not in (*acting.LABELS, "contact.kind", *follow):  # a circle by either name
-            assert same == (key in idle), (key, idle.get(key, "acts"), around)
+        if key in (*acting.LABELS, "contact.kind", *follow):  # a circle by either name
+            continue
+        differ = (prepared(other) != now for other in neighbours(scene, key))
+        first = next(differ, None)
+        tried += first is not None
+        assert first is None or (first or any(differ)) == (key not in idle), (key, idle.get(key, "acts"))
     assert tried > 60
 
 

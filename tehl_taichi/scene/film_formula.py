@@ -108,7 +108,7 @@ def heat_words(scene):
 def pressure_coefficient(oil, Gamma):
     """alpha* (1/Pa) = 1 / int eta0/eta dp, the coefficient that films follow whatever the law (Blok 1963): of the gear's oil
     1.15e-8, its slope at the inlet 1.37e-8."""
-    fluidity = np.exp([ln_eta(oil, 0.0, Gamma) - ln_eta(oil, float(p), Gamma) for p in PRESSURES])
+    fluidity = np.exp(ln_eta(oil, 0.0, Gamma) - ln_eta(oil, PRESSURES, Gamma) + 0 * PRESSURES)  # of constant oil, too
     return 1 / float(np.trapezoid(fluidity, PRESSURES))
 
 
