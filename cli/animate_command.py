@@ -18,16 +18,16 @@ def register(app):
 def animate(
     store: Path = typer.Argument(..., help="store of a run with a feature, finished or not"),
     out: Optional[Path] = typer.Option(None, help="file to write (default: beside the store)"),
-    format: Optional[str] = typer.Option(None, help="gif, or mp4 where there is ffmpeg (default: as --out says, else gif)"),
-    frames: int = typer.Option(120, help="at most so many, evenly over the passage, 2 to 2000"),
-    fps: int = typer.Option(15, help="frames a second, 1 to 50"),
-    shown: str = typer.Option("film", "--map", help="below the lines: film, pressure or temperature"),
+    format: Optional[str] = typer.Option(None, help="gif or mp4 (mp4 needs ffmpeg); default: the ending of `--out`, else gif"),
+    frames: int = typer.Option(120, help="largest number of frames, spread evenly over the passage, 2 to 2000"),
+    fps: int = typer.Option(15, help="frames per second, 1 to 50"),
+    shown: str = typer.Option("film", "--map", help="map below the curves: film, pressure or temperature"),
     dpi: Dpi = 110,
     width: Width = 17.0,
-    force: bool = typer.Option(False, "--force", help="replace a file that is there, if tehl wrote it"),
-    quiet: bool = typer.Option(False, "--quiet", help="no progress"),
+    force: bool = typer.Option(False, "--force", help="replace an existing file that tehl wrote"),
+    quiet: bool = typer.Option(False, "--quiet", help="print no progress"),
 ):
-    """GIF or MP4 of the passage: pressure, film and temperatures along the centreline, a map below.
+    """Write a GIF or MP4 of the passage: pressure, film and temperatures along the centreline, with a map below.
 
     Examples: `tehl animate runs/gear-1.zarr` · `tehl animate runs/gear-1.zarr --out film.mp4 --map pressure --fps 25`
     """

@@ -15,7 +15,8 @@ from tehl_cli.out import print_json
 
 def register(app):
     """Add the group of commands to the app."""
-    bench = typer.Typer(no_args_is_help=True, help="Benchmark suites; each prints a table, none asserts.")
+    bench = typer.Typer(no_args_is_help=True, help="Run a benchmark suite. Each suite prints a table; none fails on its "
+                                                   "numbers.")
     bench.command()(stability)
     bench.command()(conclusions)
     bench.command()(cracks)
@@ -32,37 +33,38 @@ def _folder(usual, says):
     return typer.Option(Path(usual), file_okay=False, writable=True, help=says)
 
 
-OUT = _folder("runs/bench", "folder for the JSON and PNG")
+OUT = _folder("runs/bench", "folder for the JSON file and the figure")
 FORCE = typer.Option(False, "--force", help="replace the results of an earlier run")
-QUICK = typer.Option(False, "--quick", help="small grids, a few steps")
-JSON = typer.Option(False, "--json", help="one JSON object on stdout, that of the file, instead of tables")
+QUICK = typer.Option(False, "--quick", help="small grids and few steps")
+JSON = typer.Option(False, "--json", help="print the JSON object of the file to stdout instead of tables")
 THREADS = typer.Option(None, help="CPU threads (default: all)")
-WORKERS = typer.Option(1, help="processes side by side, which share the cores")
+WORKERS = typer.Option(1, help="number of processes, which share the cores")
 
 
 def stability(
     context: typer.Context,
     out: Path = OUT,
-    match: str = typer.Option("", help="only cases with this text in their name"),
-    thermal: bool = typer.Option(False, "--thermal/--isothermal", help="the table with temperatures"),
-    random: int = typer.Option(200, help="random scenes after the table"),
-    seed: int = typer.Option(0, help="of the random scenes"),
-    quick: bool = typer.Option(False, "--quick", help="every sixth case and eight random scenes"),
-    only_starts: bool = typer.Option(False, "--starts", help="scenes with temperatures alone, their start and one step"),
-    by_film: bool = typer.Option(False, "--grid-by-film", help="as many columns as the film formula asks for"),
-    confirm: bool = typer.Option(False, "--confirm", help="what half the time step and twice the columns change of starts with "
-                                 "temperatures, instead"),
-    again: int = typer.Option(0, min=0, max=6, help="with --confirm: doublings, at most, of a grid on which a start does not "
-                              "hold, up to 2048 columns (points: 256)"),
-    finer: int = typer.Option(0, min=0, max=4, help="doublings of every grid before anything is run, up to 2048 columns "
-                              "(points: 512)"),
+    match: str = typer.Option("", help="run only the cases with this text in their name"),
+    thermal: bool = typer.Option(False, "--thermal/--isothermal", help="run the table with temperatures"),
+    random: int = typer.Option(200, help="number of random scenes after the table"),
+    seed: int = typer.Option(0, help="seed of the random scenes"),
+    quick: bool = typer.Option(False, "--quick", help="run every sixth case and eight random scenes"),
+    only_starts: bool = typer.Option(False, "--starts", help="run only scenes with temperatures: the steady start and one "
+                                                             "step"),
+    by_film: bool = typer.Option(False, "--grid-by-film", help="choose the number of columns from the film formula"),
+    confirm: bool = typer.Option(False, "--confirm", help="check the starts with temperatures against half the time step and "
+                                                          "twice the columns"),
+    again: int = typer.Option(0, min=0, max=6, help="with --confirm: largest number of doublings of a grid on which a start "
+                                                    "does not hold, up to 2048 columns (point contacts: 256)"),
+    finer: int = typer.Option(0, min=0, max=4, help="number of doublings of every grid before the runs, up to 2048 columns "
+                                                    "(point contacts: 512)"),
     as_json: bool = JSON,
     force: bool = FORCE,
     threads: Optional[int] = THREADS,
     workers: int = WORKERS,
-    precision: str = typer.Option("auto", help="of the linear solves: f32, f64 or what suits each scene"),
+    precision: str = typer.Option("auto", help="precision of the linear solves: f32, f64 or auto (chosen for each scene)"),
 ):
-    """Stiff and extreme scenes: converged, refused, stopped with the reason, or failed. Example: `tehl bench stability`"""
+    """Run stiff and extreme scenes; each converges, is refused, stops or fails. Example: `tehl bench stability`"""
     from tehl_taichi.profiles import stability as suite
     from tehl_taichi.profiles.stability import carried, cases, random_cases, run, starts
 
@@ -70,7 +72,7 @@ def stability(
     if confirm:
         say_idle(context, "--confirm takes all starts, each in its own precision", "only_starts", "precision")
     else:
-        say_idle(context, "it is of --confirm", "again")
+        say_idle(context, "it applies to --confirm only", "again")
     if not random:
         say_idle(context, "--random 0 draws no scenes", "seed")
     listed = list(cases(thermal).items())
@@ -112,7 +114,7 @@ def _confirm(results, chosen, as_json, workers, threads, again):
     if not as_json:
         rows = [{**one, **{key: 100 * one[key] for key in ("half_film", "finer_film") if one[key] is not None}}
                 for one in found]
-        table("what half the time step and twice the columns change: h_c in %, temperature in K", rows,
+        table("change by half the time step and by twice the columns: h_c in %, temperature in K", rows,
               {"name": "{}", "columns": "{}", **dict.fromkeys(("half_film", "half_K", "finer_film", "finer_K"), "{:.2f}")})
     say("{holds} of {starts} starts hold: neither changes their film by more than 1 %, nor their temperature by more than 1 K "
         "({moving} of them states in time)".format(**counts))
@@ -120,14 +122,14 @@ def _confirm(results, chosen, as_json, workers, threads, again):
 
 
 def conclusions(
-    out: Path = _folder("runs/conclusions", "folder of the stores (used again) and of the results"),
-    quick: bool = typer.Option(False, "--quick", help="the reference asperity and dent on coarse grids"),
+    out: Path = _folder("runs/conclusions", "folder of the stores and results (existing stores are reused)"),
+    quick: bool = typer.Option(False, "--quick", help="run the reference asperity and dent on coarse grids"),
     as_json: bool = JSON,
     force: bool = FORCE,
     threads: Optional[int] = THREADS,
     workers: int = WORKERS,
 ):
-    """What the thesis concludes, with errors: Findley stress by slip, feature, pressure, part of the passage.
+    """Check the conclusions of the thesis: Findley stress by slip, feature, pressure and part of the passage, with errors.
 
     Example: `tehl bench conclusions --quick`
     """
@@ -149,14 +151,14 @@ def conclusions(
 
 
 def cracks(
-    out: Path = _folder("runs/cracks", "folder of the stores (used again) and of the results"),
-    quick: bool = typer.Option(False, "--quick", help="the reference asperity on coarse grids"),
+    out: Path = _folder("runs/cracks", "folder of the stores and results (existing stores are reused)"),
+    quick: bool = typer.Option(False, "--quick", help="run the reference asperity on coarse grids"),
     as_json: bool = JSON,
     force: bool = FORCE,
     threads: Optional[int] = THREADS,
     workers: int = WORKERS,
 ):
-    """Crack paths from the loads of a passage, with errors. Example: `tehl bench cracks --quick`"""
+    """Compute crack paths from the loads of a passage, with errors. Example: `tehl bench cracks --quick`"""
     from tehl_cli.listing import list_table
     from tehl_taichi.profiles import cracks as suite
     from tehl_taichi.profiles import measure
@@ -173,13 +175,13 @@ def cracks(
 def accuracy(
     context: typer.Context,
     out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: bool = FORCE, threads: Optional[int] = THREADS,
-    only: Optional[str] = typer.Option(None, help="errors (against run time), coverage (of the error bars), or that of "
-                               "exits"),
-    seed: int = typer.Option(4, help="of the random scenes that judge the error bars"),
-    judge: bool = typer.Option(False, "--judge", help="the coverage of the battery that `out` holds already"),
-    keep: bool = typer.Option(False, "--keep", help="write the errors into the package, for --target-error"),
+    only: Optional[str] = typer.Option(None, help="run only one part: errors (against run time), coverage (of the error bars) "
+                                                  "or exits (error bars of exits)"),
+    seed: int = typer.Option(4, help="seed of the random scenes that check the error bars"),
+    judge: bool = typer.Option(False, "--judge", help="evaluate the runs that `--out` already holds"),
+    keep: bool = typer.Option(False, "--keep", help="write the errors into the package, for `--target-error`"),
 ):
-    """Error against run time, the grid that is enough for 5, 1 and 0.1 %, and whether error bars hold on random scenes.
+    """Measure error against run time, the grid needed for 5, 1 and 0.1 %, and the coverage of the error bars.
 
     Examples: `tehl bench accuracy --quick` · `tehl bench accuracy --only coverage --threads 1`
     """
@@ -224,7 +226,8 @@ def _accuracy(results, quick, as_json, keep):
     rows = suite.run(quick, say)
     if not as_json:
         _errors(rows)
-        list_table("columns that are enough", ("family", "quantity", "order", *(f"{target:g}" for target in suite.TARGETS)),
+        list_table("columns needed for each "
+                   "error", ("family", "quantity", "order", *(f"{target:g}" for target in suite.TARGETS)),
                    [(family, quantity, "none" if order is None else f"{order:.1f}", *(str(nx or "finer") for nx in grids))
                     for family, quantity, order, grids in suite.enough(rows)])
     results.finish(rows, lambda plt: suite.chart(plt, rows), False)
@@ -249,18 +252,18 @@ def _coverage(results, seed, quick, judge, threads, as_json):
     if not judge:
         measure.fresh(threads, suite.run, path, seed, quick, say, name == "exits")
     elif not path.exists():
-        raise StoreError(f"--judge: there is no {path}, which `tehl bench accuracy --only {name}` writes")
+        raise StoreError(f"--judge: {path} does not exist. Run `tehl bench accuracy --only {name}` first")
     stored = json.loads(path.read_text())
     found = suite.table(stored["rows"])
     for part, rows in () if as_json else itertools.groupby(found, lambda row: row[0]):
-        list_table(f"{part}: error bars of random scenes (seed {stored['seed']}), judged on grids {suite.FINER} times as "
-                   "fine;\nmedians of bar over real error, bar, real error, in parts of the value or in K",
+        list_table(f"{part}: error bars of random scenes (seed {stored['seed']}), checked on grids {suite.FINER} times as "
+                   "fine;\nmedians of bar/error, bar and error (relative, or in K)",
                    ("quantity", "bars", "null", "hold, %", "ratio", "bar", "error"),
                    [(name, str(known), str(unknown), *(_short(value, factor) for value, factor in zip(numbers, (100, 1, 1, 1))))
                     for _, name, known, unknown, *numbers in rows])
     for one in stored["rows"]:
         if "reason" in one:
-            say(f"left out, {one['kind']}: {one['reason']}")
+            say(f"{one['kind']} skipped: {one['reason']}")
     say(f"wrote {path}")
     results.picture(lambda plt: suite.chart(plt, found))
     return [dict(zip(suite.COLUMNS, row)) for row in found]
@@ -284,7 +287,7 @@ def _errors(rows):
 
 def speed(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: bool = FORCE,
           threads: Optional[int] = THREADS):
-    """Times against the project's targets, and reference loops to compare machines by. Example: `tehl bench speed --quick`"""
+    """Measure run times against their targets, and reference loops to compare machines. Example: `tehl bench speed --quick`"""
     from tehl_taichi.profiles import speed as suite
 
     results = Results(out, "speed", force)
@@ -299,8 +302,8 @@ def speed(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: boo
 
 def scaling(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: bool = FORCE,
             threads: Optional[int] = THREADS,
-            thermal: bool = typer.Option(False, "--thermal/--isothermal", help="with temperatures")):
-    """Time and memory against grid and threads. Example: `tehl bench scaling --quick`"""
+            thermal: bool = typer.Option(False, "--thermal/--isothermal", help="with or without temperatures")):
+    """Measure time and memory against grid size and threads. Example: `tehl bench scaling --quick`"""
     from tehl_taichi.profiles import scaling as suite
 
     results = Results(out, "scaling", force)
@@ -313,21 +316,21 @@ def scaling(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: b
 
 
 def sweep(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: bool = FORCE,
-          workers: Optional[int] = typer.Option(None, min=1, help="the most (default: one for each core)")):
-    """Speed-up of a sweep of 16 cases on 1, 2, 4 ... workers of one thread. Example: `tehl bench sweep --workers 2`"""
+          workers: Optional[int] = typer.Option(None, min=1, help="largest number of workers (default: one per core)")):
+    """Measure the speed-up of a sweep of 16 cases on 1, 2, 4 ... workers. Example: `tehl bench sweep --workers 2`"""
     from tehl_taichi.profiles import side_by_side as suite
 
     results = Results(out, "sweep", force)
     rows = suite.run(quick, workers, say)
     if not as_json:
-        table("cases side by side", rows, {"workers": "{}", "seconds": "{:.1f}", "cases_s": "{:.1f}", "speed_up": "{:.2f}"})
+        table("cases in parallel", rows, {"workers": "{}", "seconds": "{:.1f}", "cases_s": "{:.1f}", "speed_up": "{:.2f}"})
     results.finish(rows, lambda plt: suite.chart(plt, rows), as_json)
 
 
 def profile(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: bool = FORCE,
             threads: Optional[int] = THREADS,
-            thermal: bool = typer.Option(True, "--thermal/--isothermal", help="with temperatures")):
-    """Where the time of a step goes, per stage and per kernel. Example: `tehl bench profile --isothermal`"""
+            thermal: bool = typer.Option(True, "--thermal/--isothermal", help="with or without temperatures")):
+    """Measure the time of a step per stage and per kernel. Example: `tehl bench profile --isothermal`"""
     from tehl_taichi.profiles import measure
     from tehl_taichi.profiles import profile as suite
 
@@ -335,10 +338,10 @@ def profile(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: b
     stages, kernels, numbers = measure.fresh(threads or _cores(), suite.run, *(suite.QUICK if quick else suite.FULL), thermal)
     if not as_json:
         columns = {"what": "{}", "calls": "{:.1f}", "ms": "{:.2f}", "limit_ms": "{:.2f}", "MB": "{:.1f}"}
-        table("stages, per step (a stage may hold others)", stages, columns)
+        table("stages, per step (a stage may contain others)", stages, columns)
         table("kernels, per step", kernels, columns)
     say(", ".join(f"{key} {value:.3f}" for key, value in numbers.items()))
-    say("most to gain, ms a step: " + ", ".join(f"{what} {ms:.1f}" for what, ms in suite.gaps(stages, kernels)))
+    say("largest possible gains, ms per step: " + ", ".join(f"{what} {ms:.1f}" for what, ms in suite.gaps(stages, kernels)))
     rows = [{"kind": kind, **row} for kind, part in (("stage", stages), ("kernel", kernels)) for row in part]
     results.finish(rows, lambda plt: suite.chart(plt, stages, kernels, numbers["step_s"]), as_json, **numbers)
 

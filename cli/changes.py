@@ -32,8 +32,8 @@ def _grid(text):
     try:
         counts = GRIDS.get(text) or [int(part) // 2 * 2 for part in text.lower().split("x", 1)]
     except ValueError:
-        raise SceneError(f"--grid {text!r} is not known; allowed: {', '.join(GRIDS)} or NXxNY, as in 256x64 (NX alone where "
-                         "nothing varies across)") from None
+        raise SceneError(f"--grid {text!r} is not known; allowed: {', '.join(GRIDS)} or NXxNY, as in 256x64 (NX alone if "
+                         "nothing varies along y)") from None
     return dict(zip(("grid.nx", "grid.ny"), counts))
 
 
@@ -45,8 +45,8 @@ def check_rows(grid, changes, description):
     from tehl_taichi.scene import SceneError
 
     nx = changes["grid.nx"]
-    raise SceneError(f"--grid {grid} is of scenes in which nothing varies across; allowed here: {', '.join(GRIDS)} or NXxNY, "
-                     f"as in {nx}x{nx // 4}")
+    raise SceneError(f"--grid {grid} needs a scene in which nothing varies along y; allowed for this scene: {', '.join(GRIDS)} "
+                     f"or NXxNY, as in {nx}x{nx // 4}")
 
 
 def _settings(pairs):
@@ -57,7 +57,7 @@ def _settings(pairs):
     for pair in pairs:
         key, equals, text = pair.partition("=")
         if not equals:
-            raise SceneError(f"--set {pair!r} must look like dotted.key=value, as in feature.height=1e-6")
+            raise SceneError(f"--set {pair!r} must have the form dotted.key=value, as in feature.height=1e-6")
         out.append((f"--set {pair}", key.strip(), _value(text)))
     return out
 

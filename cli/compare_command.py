@@ -15,17 +15,17 @@ def register(app):
 
 
 def compare(
-    stores: List[Path] = typer.Argument(..., help="stores of two runs or more, finished or not"),
-    at: float = typer.Option(0.0, help="position of the feature in the figure's centrelines, half-widths"),
-    out: Optional[Path] = typer.Option(None, help="figure to write; .pdf or .svg as well (default: compare.png beside the "
-                                       "first store)"),
+    stores: List[Path] = typer.Argument(..., help="stores of two or more runs, finished or not"),
+    at: float = typer.Option(0.0, help="position of the feature in the centreline plots, in half-widths a"),
+    out: Optional[Path] = typer.Option(None, help="figure to write: .png, .pdf or .svg (default: compare.png beside the first "
+                                                  "store)"),
     format: Format = "png",
     dpi: Dpi = 160,
     width: Width = 17.0,
     force: Force = False,
-    as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout"),
+    as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout"),
 ):
-    """What differs of the scenes and of the results, side by side, and one figure of centrelines, histories and Fi.
+    """Compare runs: differences between scenes and results, and one figure of centrelines, histories and Fi.
 
     Example: `tehl compare runs/gear-1.zarr runs/gear-2.zarr`
     """
@@ -47,9 +47,9 @@ def _scenes(found):
     from tehl_cli.listing import list_table
 
     if not found.differs:
-        return put("the scenes do not differ")
+        return put("the scenes are identical")
     rows = [(key, *map(_shown, values)) for key, values in found.differs.items()]
-    list_table("what differs of the scenes", ("key", *found.names), rows, whole=True)
+    list_table("differences between the scenes", ("key", *found.names), rows, whole=True)
 
 
 def _results(found):
@@ -59,9 +59,9 @@ def _results(found):
     pair, lines = len(found.names) == 2, found.lines
     rows = [(line.what, *line.values, *[line.change] * pair) for line in lines if not line.same]
     if rows:
-        list_table("what differs of the results", ("quantity", *found.names, *["change"] * pair), rows, whole=True)
+        list_table("differences between the results", ("quantity", *found.names, *["change"] * pair), rows, whole=True)
     if same := [f"{line.what} {line.values[0]}" for line in lines if line.same]:
-        put(f"same in all: {'; '.join(same)}")
+        put(f"equal in all: {'; '.join(same)}")
 
 
 def _shown(value):

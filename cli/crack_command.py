@@ -18,31 +18,36 @@ def register(app):
 def crack(
     store: Path = typer.Argument(..., help="store of a run with a feature on y = 0, finished or not"),
     context: typer.Context = None,
-    side: str = typer.Option("both", help="of the feature: entry, exit or both"),
-    start: Optional[float] = typer.Option(None, help="x' of the crack's mouth, m (default: where the surface is pulled most)"),
-    angle: float = typer.Option(90.0, help="of its first piece, degrees: 90 straight down, more: leaning with rolling"),
-    first: float = typer.Option(5e-6, help="length of its first piece, m"),
-    step: float = typer.Option(5e-6, help="length of the others, m"),
-    length: float = typer.Option(100e-6, help="of the crack at which to stop, m"),
-    distance: float = typer.Option(3e-6, help="ahead of the tip, m, at which the largest tension gives the direction"),
-    threshold: Optional[float] = typer.Option(None, help="of K_I, Pa sqrt(m): stops below it (default: none)"),
-    residual: Optional[str] = typer.Option(None, help="residual stress along x: Pa, or a CSV file of depth (m), stress (Pa)"),
-    face_friction: float = typer.Option(0.0, help="coefficient of the closed faces"),
-    oil: str = typer.Option("dry", help="inside: dry, film (its pressure above the mouth, or a share of it, as 0.3: an upper "
-                                        "bound), sealed (shut in when the mouth shuts) or flow (along the crack)"),
+    side: str = typer.Option("both", help="side of the feature: entry, exit or both"),
+    start: Optional[float] = typer.Option(None, help="x' of the crack mouth, m (default: place of the largest surface "
+                                                     "tension)"),
+    angle: float = typer.Option(90.0, help="angle of the first segment, degrees; 90 is straight down, more leans with "
+                                           "rolling"),
+    first: float = typer.Option(5e-6, help="length of the first segment, m"),
+    step: float = typer.Option(5e-6, help="length of the other segments, m"),
+    length: float = typer.Option(100e-6, help="length at which the crack stops, m"),
+    distance: float = typer.Option(3e-6, help="distance ahead of the tip, m, at which the largest tension sets the direction"),
+    threshold: Optional[float] = typer.Option(None, help="threshold of K_I, Pa sqrt(m); the crack stops below it (default: "
+                                                         "none)"),
+    residual: Optional[str] = typer.Option(None, help="residual stress along x, Pa, or a CSV file with depth (m) and stress "
+                                                      "(Pa)"),
+    face_friction: float = typer.Option(0.0, help="friction coefficient of the closed crack faces"),
+    oil: str = typer.Option("dry", help="oil in the crack: dry, film (film pressure above the mouth, an upper bound; a number "
+                                        "as 0.3 is a share of it), sealed (trapped when the mouth closes) or flow (flow along "
+                                        "the crack)"),
     thermal_stress: Optional[bool] = typer.Option(None, "--thermal-stress/--no-thermal-stress",
-                                                  help="stress of the heat (default: as in the run)"),
-    elements: int = typer.Option(12, help="on a straight crack, 6 to 200"),
-    keep: bool = typer.Option(False, "--keep", help="keep the answer beside the store, for `tehl report`"),
+                                                  help="include thermal stress (default: as in the run)"),
+    elements: int = typer.Option(12, help="number of elements of a straight crack, 6 to 200"),
+    keep: bool = typer.Option(False, "--keep", help="save the result beside the store, for `tehl report`"),
     figures: Optional[Path] = typer.Option(None, help="folder for the figure"),
     format: Format = "png",
     dpi: Dpi = 160,
     width: Width = 17.0,
     force: Force = False,
     threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
-    as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout"),
+    as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout"),
 ):
-    """Crack paths from both sides of the feature in the plane of symmetry; the store stays as it is.
+    """Compute crack paths from both sides of the feature, in the plane y = 0. The store does not change.
 
     Example: `tehl crack runs/gear-1.zarr --residual -100e6 --figures runs/crack`
     """
@@ -52,7 +57,7 @@ def crack(
     from tehl_taichi.results.opened import open_run
 
     page = Page(format, dpi, width, force)
-    page.check_all(figures, ["crack"]) if figures else say_idle(context, "no --figures are drawn", *DRAWS)
+    page.check_all(figures, ["crack"]) if figures else say_idle(context, "it needs --figures", *DRAWS)
     run = open_run(store)
     if keep:
         kept_crack.check(store)
@@ -92,9 +97,9 @@ def _rows(found, pits):
     """(quantity, value) of one side."""
     if not found["opens"]:
         return [("no crack", found["why"])]
-    rows = [("largest tension of the surface", f"{found['sigma1_surface_Pa'] / 1e6:.0f} MPa"),
-            ("at x' (the feature then at)", f"{found['start_x_m'] * 1e6:.1f} um ({found['moment_x_m'] * 1e6:.0f} um)"),
-            ("pulled down to", f"{found['tension_depth_m'] * 1e6:.1f} um")]
+    rows = [("largest tension at the surface", f"{found['sigma1_surface_Pa'] / 1e6:.0f} MPa"),
+            ("at x' (feature position)", f"{found['start_x_m'] * 1e6:.1f} um ({found['moment_x_m'] * 1e6:.0f} um)"),
+            ("tension reaches down to", f"{found['tension_depth_m'] * 1e6:.1f} um")]
     for name in ("trajectory", "path"):
         rows += [(f"{name} leans", found[name]["lean"]),
                  (f"{name}: chord at 10, 20, 40 um (pits {pits[0]:g} to {pits[1]:g})", _chords(found[name]))]
@@ -112,7 +117,7 @@ def _growth(found):
     error = found.get("error_at_last_length")
     if error:
         rows.append(("their errors at the last length", f"{error['K_I_max'] / 1e6:.1g}, {error['K_II_range'] / 1e6:.1g}"))
-    return rows + [("it stops because", found["why"])]
+    return rows + [("stop reason", found["why"])]
 
 
 def _some(steps):

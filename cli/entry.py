@@ -26,7 +26,7 @@ def main():
         sys.stdout.flush()
     except KeyboardInterrupt as stop:
         by = f"stopped by {stop}" if str(stop) else "interrupted"
-        _tell(f"{by}; nothing that was stored is lost")
+        _tell(f"{by}; all stored data are kept")
         code = INTERRUPTED
     except BrokenPipeError:  # as in `tehl show STORE | head`: the reader has seen enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)

@@ -15,14 +15,14 @@ def register(app):
 def export(
     store: Path = typer.Argument(..., help="store of a run, finished or not"),
     format: str = typer.Option("csv", "--format", help="csv (tables), netcdf (one file) or vtk (a time series for ParaView)"),
-    at: Optional[List[float]] = typer.Option(None, help="csv: centreline with the feature there, half-widths (default: 0); "
-                                             "repeatable"),
-    point: Optional[List[str]] = typer.Option(None, help="csv: history of the point X,Y of surface a, m, X from the feature's "
-                                              "centre (as x_m, y_m of the fatigue summary); repeatable"),
-    out: Optional[Path] = typer.Option(None, help="file or folder to make (default: beside the store)"),
-    force: bool = typer.Option(False, "--force", help="replace what an export made there before"),
+    at: Optional[List[float]] = typer.Option(None, help="csv: centreline with the feature at this position, in half-widths a "
+                                                        "(default: 0); repeatable"),
+    point: Optional[List[str]] = typer.Option(None, help="csv: history of the point X,Y of surface a, m, from the centre of "
+                                                         "the feature (like x_m, y_m in the fatigue summary); repeatable"),
+    out: Optional[Path] = typer.Option(None, help="file or folder to write (default: beside the store)"),
+    force: bool = typer.Option(False, "--force", help="replace an earlier export"),
 ):
-    """Tables, NetCDF or VTK of a stored run; prints what was made.
+    """Export a stored run as CSV tables, NetCDF or VTK, and print the path.
 
     Examples: `tehl export runs/gear-1.zarr --at -0.5 --at 0.5 --point=-37e-6,0` · `tehl export runs/gear-1.zarr --format vtk`
     """
@@ -39,5 +39,5 @@ def _point(text):
     try:
         x, y = map(float, text.split(","))
     except ValueError:
-        raise SceneError(f"--point {text!r} must be two numbers in m with a comma between, as -37e-6,0") from None
+        raise SceneError(f"--point {text!r} must be two numbers in m, separated by a comma, as -37e-6,0") from None
     return x, y

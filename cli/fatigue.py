@@ -26,10 +26,10 @@ def fatigue(
     width: Width = 17.0,
     force: Force = False,
     threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
-    as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout"),
+    as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout"),
     **asked,
 ):
-    """Fatigue of a stored passage; the store stays as it is.
+    """Evaluate the fatigue of a stored passage with other constants. The store does not change.
 
     Example: `tehl fatigue runs/gear-1.zarr --kappa 0.25 --endurance 450e6 --to-x 0.5`
     """
@@ -40,7 +40,7 @@ def fatigue(
 
     runtime.check(threads=threads)
     page = Page(format, dpi, width, force)
-    page.check_all(figures, fatigue_figures.NAMES) if figures else say_idle(context, "no --figures are drawn", *DRAWS)
+    page.check_all(figures, fatigue_figures.NAMES) if figures else say_idle(context, "it needs --figures", *DRAWS)
     run = open_run(store)
     for sentence in _doubts(run.scene, asked):
         say(f"warning: {sentence}")

@@ -10,21 +10,25 @@ from tehl_taichi.criteria import CRITERIA
 
 
 def _asked(
-    kappa: Annotated[Optional[float], typer.Option(help="sensitivity to normal stress")] = None,
+    kappa: Annotated[Optional[float], typer.Option(help="sensitivity to normal stress kappa_F")] = None,
     endurance: Annotated[Optional[float], typer.Option(help="sigma_eF, Pa")] = None,
-    bending_limit: Annotated[Optional[float], typer.Option(help="fatigue limit in reversed bending, Pa, in "
-                                                           "place of --endurance")] = None,
-    torsion_limit: Annotated[Optional[float], typer.Option(help="the same in torsion; one limit and kappa give "
-                                                           "sigma_eF, both kappa, too")] = None,
+    bending_limit: Annotated[Optional[float], typer.Option(help="fatigue limit in reversed bending, Pa (replaces "
+                                                                "--endurance)")] = None,
+    torsion_limit: Annotated[Optional[float], typer.Option(help="fatigue limit in reversed torsion, Pa (one limit fixes "
+                                                                "sigma_eF; both limits also fix kappa)")] = None,
     criterion: Annotated[Optional[str], typer.Option(help=", ".join(CRITERIA))] = None,
-    depths: Annotated[Optional[str], typer.Option(help="auto (the worst depth under the feature), none, or depths at which all "
-                                                  "points are searched as well, m, as 50e-6,100e-6")] = None,
-    from_x: Annotated[Optional[float], typer.Option(help="only moments with the feature beyond this position, a")] = None,
-    to_x: Annotated[Optional[float], typer.Option(help="only moments with the feature before this position, a")] = None,
-    thermal_stress: Annotated[Optional[bool], typer.Option("--thermal-stress/--no-thermal-stress", help="stress of the heat "
-                                                           "(default: where there is heat)")] = None,
+    depths: Annotated[Optional[str], typer.Option(help="depths to search: auto (critical depth under the feature), none, or a "
+                                                       "list in m for all points, as 50e-6,100e-6")] = None,
+    from_x: Annotated[Optional[float], typer.Option(help="use only moments with the feature after this position, in "
+                                                         "half-widths a")] = None,
+    to_x: Annotated[Optional[float], typer.Option(help="use only moments with the feature before this position, in "
+                                                       "half-widths a")] = None,
+    thermal_stress: Annotated[Optional[bool], typer.Option("--thermal-stress/--no-thermal-stress", help="include thermal "
+                                                                                                        "stress (default: if "
+                                                                                                        "temperatures were "
+                                                                                                        "computed)")] = None,
     residual_xx: Annotated[Optional[float], typer.Option(help="constant residual stress along x, Pa")] = None,
-    residual_yy: Annotated[Optional[float], typer.Option(help="the same along y, Pa")] = None,
+    residual_yy: Annotated[Optional[float], typer.Option(help="constant residual stress along y, Pa")] = None,
 ):
     """The options, as typer reads them."""
 
@@ -54,4 +58,4 @@ def _depths(text):
     try:
         return [float(part) for part in text.split(",")]
     except ValueError:
-        raise SceneError(f"--depths {text!r} must be auto, none or numbers in m with commas between, as 50e-6,1e-4") from None
+        raise SceneError(f"--depths {text!r} must be auto, none or numbers in m separated by commas, as 50e-6,1e-4") from None

@@ -19,31 +19,36 @@ def register(app):
 def flank(
     gear: str = typer.Argument("fzg-c", help="fzg-c, fzg-a, a TOML file, or a table of positions (CSV)"),
     context: typer.Context = None,
-    torque: Optional[float] = typer.Option(None, help="of the pinion, N m"),
-    speed: Optional[float] = typer.Option(None, help="of the pinion, 1/min"),
-    on: Optional[str] = typer.Option(None, help="whose flank carries the feature: pinion (default) or gear"),
-    positions: Optional[int] = typer.Option(None, help="how many, A to E among them (default: 9)"),
-    at: Optional[List[str]] = typer.Option(None, help="in their place: a point (C, B-) or way past C in m; repeatable"),
-    scene: Optional[str] = typer.Option(None, help="oil, bodies, feature, numerics: built-in name, TOML file or store"),
-    steady: bool = typer.Option(False, "--steady", help="no feature passes"),
+    torque: Optional[float] = typer.Option(None, help="torque of the pinion, N m"),
+    speed: Optional[float] = typer.Option(None, help="speed of the pinion, 1/min"),
+    on: Optional[str] = typer.Option(None, help="flank that carries the feature: pinion (default) or gear"),
+    positions: Optional[int] = typer.Option(None, help="number of positions, including the points A to E (default: 9)"),
+    at: Optional[List[str]] = typer.Option(None, help="one position instead: a point (C, B-) or a distance past C in m; "
+                                                      "repeatable"),
+    scene: Optional[str] = typer.Option(None, help="scene with oil, bodies, feature and numerics: built-in name, TOML file or "
+                                                   "store"),
+    steady: bool = typer.Option(False, "--steady", help="steady contacts without a feature"),
     temperature: Optional[float] = typer.Option(None, help="inlet temperature, deg C"),
     height: Optional[float] = typer.Option(None, help="feature height, m (negative: dent)"),
     width: Optional[float] = typer.Option(None, help="feature width, m"),
-    thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="energy equation on or off"),
+    thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="with or without the energy equation"),
     set_: Optional[List[str]] = typer.Option(None, "--set", help="dotted.key=value of the scene, repeatable"),
-    grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY; NX where nothing varies across"),
-    out: Optional[Path] = typer.Option(None, help="folder (default: runs/NAME-N); one that is there is gone on with"),
-    figure: bool = typer.Option(True, "--figure/--no-figure", help="flank.png (.pdf, .svg) in that folder"),
+    grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY (NX alone if nothing varies along y)"),
+    out: Optional[Path] = typer.Option(None, help="folder to write (default: runs/NAME-N); an existing flank is resumed"),
+    figure: bool = typer.Option(True, "--figure/--no-figure", help="draw flank.png (.pdf, .svg) in that folder"),
     format: Format = "png",
     dpi: Dpi = 160,
     figure_width: FigureWidth = 17.0,
-    workers: Optional[int] = typer.Option(None, help="positions side by side, a process each (default: one for each core)"),
-    threads: Optional[int] = typer.Option(None, help="CPU threads of each (default: what --workers leaves, or 1)"),
-    as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout, everything else on stderr"),
-    quiet: bool = typer.Option(False, "--quiet", help="no progress"),
-    curves: bool = typer.Option(True, "--live/--no-live", help="p, h and T along y = 0, in a terminal with --workers 1"),
+    workers: Optional[int] = typer.Option(None, help="number of positions computed at the same time, one process each "
+                                                     "(default: one per core)"),
+    threads: Optional[int] = typer.Option(None, help="CPU threads per position (default: the cores that --workers leaves, or "
+                                                     "1)"),
+    as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout and all else to stderr"),
+    quiet: bool = typer.Option(False, "--quiet", help="print no progress"),
+    curves: bool = typer.Option(True, "--live/--no-live", help="draw p, h and T along y = 0 in the terminal (with --workers "
+                                                               "1)"),
 ):
-    """Film, pressure, temperature, friction and fatigue along a gear flank: a run at every position, one table, one figure.
+    """Compute film, pressure, temperature, friction and fatigue along a gear flank: one run per position, one table.
 
     Examples: `tehl flank fzg-c --torque 265.1` · `tehl flank my_gears.toml --on gear --steady` · `tehl flank table.csv`
     """
@@ -68,7 +73,7 @@ def flank(
         from tehl_taichi.errors import NotConverged
 
         raise NotConverged(f"{len(found.failed)} of {len(found.positions)} positions have no result; the others are in "
-                           f"{found.folder}, and --grid, --set ... with another --out may help")
+                           f"{found.folder}. Try another --grid or --set with a new --out")
 
 
 def _line(gear, base, changes, steady):

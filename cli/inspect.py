@@ -16,7 +16,7 @@ def register(app):
 
 
 def scenes():
-    """List the built-in scenes, and the shapes of features."""
+    """List the built-in scenes and the feature shapes."""
     from tehl_cli.listing import list_table
 
     from tehl_taichi.scene import BUILT_INS
@@ -29,7 +29,7 @@ def scenes():
 
 
 def oils():
-    """List the named oils with their viscosity (at p = 0) and its rise with pressure, and their sources."""
+    """List the named oils with viscosity at p = 0, pressure-viscosity coefficient and source."""
     from tehl_cli.listing import list_table, wrapped
 
     from tehl_taichi.scene.named_oils import NAMED
@@ -38,31 +38,32 @@ def oils():
                ("name", "what", "eta 40", "eta 100", "alpha"), [(name, oil.says, *oil.told) for name, oil in NAMED.items()])
     for name, oil in NAMED.items():
         wrapped(f"{name}: {oil.source} [{oil.oil.viscosity}]")
-    wrapped("one of them: --set oil.name=NAME; your own by its data sheet (m2/s, kg/m3): --set oil.nu_40=220e-6 "
+    wrapped("To choose one: --set oil.name=NAME. For your own oil give its data sheet (m2/s, kg/m3): --set oil.nu_40=220e-6 "
             "--set oil.nu_100=19e-6 --set oil.rho_15=890")
 
 
 def laws():
-    """List the laws of the oil and of friction and the criteria of fatigue, with their numbers and sources."""
+    """List the laws of oil and friction and the fatigue criteria, with their constants and sources."""
     from tehl_cli.listing import list_table
 
     from tehl_taichi.criteria import CRITERIA
     from tehl_taichi.physics.choices import ALONE, CHOICES
 
     for key, registry in {**CHOICES, "": ALONE}.items():
-        list_table(f"--set {key}=NAME" if key else "not to be chosen", ("name", "law", "numbers", "source"),
+        list_table(f"--set {key}=NAME" if key else "always used", ("name", "law", "numbers", "source"),
                    [(law.name, law.says, ", ".join(law.numbers), law.source) for law in registry.values()])
     list_table("--set fatigue.criterion=NAME", ("name", "criterion", "kappa: sensitivity to", "source"),
                [(rule.name, rule.says, rule.sensitivity, rule.source) for rule in CRITERIA.values()])
 
 
 def new(
-    file: Path = typer.Argument(..., help="scene file to write, as my.toml"),
+    file: Path = typer.Argument(..., help="scene file to write, for example my.toml"),
     base: str = typer.Option("gear", help="built-in scene to start from"),
-    scan: Optional[Path] = typer.Option(None, help="file of measured heights: a short scene for it, with what you have to say"),
-    unit: str = typer.Option("", help="of the scan's heights: nm, um, mm or m"),
-    pixel: float = typer.Option(0.0, help="distance of its points along a row, m"),
-    pixel_y: float = typer.Option(0.0, help="distance of its rows, m, where it is another one"),
+    scan: Optional[Path] = typer.Option(None, help="file of measured heights; writes a short scene with the values that you "
+                                                   "must give"),
+    unit: str = typer.Option("", help="unit of the heights: nm, um, mm or m"),
+    pixel: float = typer.Option(0.0, help="distance between points of a row, m"),
+    pixel_y: float = typer.Option(0.0, help="distance between rows, m (default: --pixel)"),
 ):
     """Write a commented scene file with every value, or a short one for a scan.
 
@@ -76,7 +77,7 @@ def new(
         return put(f"wrote {file}; run it with: tehl run {file}")
     read, missing = scan_scene.new(file, base, scan, unit, pixel, pixel_y)
     fill = f"fill in feature.{' and feature.'.join(missing)} and " if missing else ""
-    said = f"wrote {file} for {scan} ({read}); {fill}put the numbers of your contact, oil and steel in it, then: "
+    said = f"wrote {file} for {scan} ({read}); {fill}enter the values of your contact, oil and steel, then run: "
     put(f"{said}tehl run {file} --grid coarse --steps 0")
 
 
@@ -85,14 +86,14 @@ def _only_with_scan(**options):
 
     for key, value in options.items():
         if value:
-            raise SceneError(f"--{key.replace('_', '-')} {value} is of a scan; --scan FILE names it")
+            raise SceneError(f"--{key.replace('_', '-')} {value} has no effect without a scan; name its file with --scan FILE")
 
 
 def show(
-    store: Path = typer.Argument(..., help="store of a finished, running or broken run, a study, or the folder of a flank"),
-    as_json: bool = typer.Option(False, "--json", help="the summary as one JSON object, as `tehl run --json` gives it"),
+    store: Path = typer.Argument(..., help="store of a run (finished, running or broken), a study, or the folder of a flank"),
+    as_json: bool = typer.Option(False, "--json", help="print the summary as one JSON object, as `tehl run --json` does"),
 ):
-    """Summary and residual history of a run; table of a study or a flank.
+    """Print the summary and residual history of a run, or the table of a study or flank.
 
     Example: `tehl show runs/gear-1.zarr --json | jq .fatigue`
     """
@@ -142,20 +143,22 @@ def _state(saved):
     if saved.writer:
         return f"still being written by {saved.writer}"
     if not saved.finished:
-        return f"not finished; go on with: tehl resume {saved.path}"
-    return "finished" if saved.cut is None else f"finished, cut at {saved.cut:.2f} a; go on with: tehl resume {saved.path}"
+        return f"not finished; resume with: tehl resume {saved.path}"
+    return "finished" if saved.cut is None else f"finished, cut at {saved.cut:.2f} a; extend with: tehl resume {saved.path}"
 
 
 def plot(store: Path = typer.Argument(..., help="store of a run, a study, or the folder of a flank"),
-         out: Path = typer.Option(None, help="folder for the figures (default: beside the store; of a flank: in it)"),
-         quantity: str = typer.Option(None, help="of a study: the column of its table to draw, as fatigue_Fi_max"),
+         out: Path = typer.Option(None, help="folder for the figures (default: beside the store; for a flank: inside it)"),
+         quantity: str = typer.Option(None, help="study: column of its table to draw, as fatigue_Fi_max"),
          format: Format = "png", dpi: Dpi = 160, width: Width = 17.0, force: Force = False,
-         at: Optional[float] = typer.Option(None, help="of a run: the moment with the (first) feature nearest to this place, "
-                                            "in half-widths a of the contact (default: -0.8, 0, 0.8 in lines, 0 in maps)"),
-         depth: Optional[float] = typer.Option(None, help="of a run: µm below the surface, where fatigue is shown beside "
-                                               "the surface's, of those searched (default: the worst)")):
-    """Figures of a run: pressure and film along the centreline, maps, fatigue; of a study its results over the swept keys; of a
-    flank its results along it.
+         at: Optional[float] = typer.Option(None, help="run: position of the (first) feature to draw, in half-widths a "
+                                                       "(default: -0.8, 0, 0.8 for curves, 0 for maps)"),
+         depth: Optional[float] = typer.Option(None, help="run: depth of a second fatigue map, µm below the surface, among "
+                                                          "those searched (default: the critical one)")):
+    """Draw the figures of a run, a study or a flank.
+
+    Run: pressure and film along the centreline, maps, fatigue. Study: results over the swept keys. Flank: results along
+    the line of action.
 
     Examples: `tehl plot runs/gear-1.zarr --format pdf --width 8.5 --at 0.5` · `tehl plot runs/gear-1.zarr --dpi 300` ·
     `tehl plot runs/gear-sweep-0a1b2c.zarr --quantity steady_h_c_m`
@@ -178,7 +181,7 @@ def _draw(store, out, wanted, page):
     for name, value in wanted.items():
         if value is not None and name not in OPTIONS[which]:
             whose = next(other for other, options in OPTIONS.items() if name in options)
-            raise SceneError(f"--{name} {value} is of a {whose}, and {store} is a {which}")
+            raise SceneError(f"--{name} {value} applies to a {whose}, but {store} is a {which}")
     found, mine = tehl.open(store), {name: wanted[name] for name in OPTIONS[which]}
     if which == FLANK:
         return [found.plot(out and out / "flank", **page)]
@@ -186,7 +189,7 @@ def _draw(store, out, wanted, page):
 
 
 def doctor():
-    """Versions, threads, cache and a short self-test."""
+    """Print versions, threads and cache, and run a short self-test."""
     from tehl_cli.listing import list_table
 
     from tehl_taichi.study import checkup

@@ -61,7 +61,7 @@ def _printable():
 
 def _sentence(stop):
     """What a KeyboardInterrupt says; where it names a signal at most, what is stored."""
-    return str(stop) if " " in str(stop) else f"{stopped(stop)}; nothing that was stored is lost"
+    return str(stop) if " " in str(stop) else f"{stopped(stop)}; all stored data are kept"
 
 
 def _with_value(error):
@@ -75,9 +75,9 @@ app = typer.Typer(cls=Commands, no_args_is_help=True, add_completion=False, pret
 
 
 @app.callback()
-def options(version: bool = typer.Option(False, "--version", help="versions and commit, and nothing else",
+def options(version: bool = typer.Option(False, "--version", help="print the versions and the commit",
                                          callback=lambda wanted: wanted and _tell_version(), is_eager=True)):
-    """Lubricated contacts with surface features: film, pressure, stresses, fatigue.
+    """Simulate lubricated contacts with surface features: film, pressure, stresses and fatigue.
 
     Example: tehl run --srr -0.12
     """

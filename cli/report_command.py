@@ -19,16 +19,16 @@ def register(app):
 def report(
     store: Path = typer.Argument(..., help="store of a run (finished or not), a study, or the folder of a flank"),
     context: typer.Context = None,
-    out: Optional[Path] = typer.Option(None, help="HTML file to write (default: beside the store; with other constants of "
-                                       "fatigue STORE-fatigue.html)"),
-    force: bool = typer.Option(False, "--force", help="replace a file that is there, if tehl wrote it"),
-    open_: bool = typer.Option(False, "--open/--no-open", help="show it in the browser"),
-    threads: Optional[int] = typer.Option(None, help="CPU threads of a search with other constants (default: all)"),
+    out: Optional[Path] = typer.Option(None, help="HTML file to write (default: beside the store; with other fatigue "
+                                                  "constants: STORE-fatigue.html)"),
+    force: bool = typer.Option(False, "--force", help="replace an existing file that tehl wrote"),
+    open_: bool = typer.Option(False, "--open/--no-open", help="open the report in the browser"),
+    threads: Optional[int] = typer.Option(None, help="CPU threads for a search with other constants (default: all)"),
     **asked,
 ):
-    """One HTML page to send to a colleague: the answer and how sure it is, the scene, figures to zoom, errors, origin.
+    """Write one HTML page to send to a colleague: verdict, scene, interactive figures, errors and origin.
 
-    It needs no other file and no network. With constants as of `tehl fatigue` it is the page of the fatigue that they give.
+    The page needs no other file and no network. Options of `tehl fatigue` give the page of that fatigue search.
 
     Examples: `tehl report runs/gear-1.zarr --open` · `tehl report runs/fzg-c-1 --out flank.html` ·
     `tehl report runs/gear-1.zarr --bending-limit 600e6 --torsion-limit 390e6 --to-x 0.5`

@@ -17,44 +17,45 @@ def register(app):
 
 
 def run(
-    scene: str = typer.Argument("gear", help="built-in name (see `tehl scenes`), TOML file, or a store to repeat"),
+    scene: str = typer.Argument("gear", help="built-in name (see `tehl scenes`), TOML file, or store to repeat"),
     context: typer.Context = None,
-    srr: Optional[float] = typer.Option(None, help="slip over mean speed, (u_a - u_b)/u_m; negative: dedendum"),
-    load: Optional[float] = typer.Option(None, help="N/m (line) or N (point)"),
-    hertz_pressure: Optional[float] = typer.Option(None, help="Pa, instead of a load"),
-    speed: Optional[float] = typer.Option(None, help="mean speed u_m, m/s"),
+    srr: Optional[float] = typer.Option(None, help="slide-to-roll ratio (u_a - u_b)/u_m; negative in the dedendum"),
+    load: Optional[float] = typer.Option(None, help="load, N/m (line contact) or N (point contact)"),
+    hertz_pressure: Optional[float] = typer.Option(None, help="Hertz pressure, Pa (instead of a load)"),
+    speed: Optional[float] = typer.Option(None, help="mean surface speed u_m, m/s"),
     temperature: Optional[float] = typer.Option(None, help="inlet temperature, deg C"),
     height: Optional[float] = typer.Option(None, help="feature height, m (negative: dent)"),
     width: Optional[float] = typer.Option(None, help="feature width, m"),
-    set_: Optional[List[str]] = typer.Option(None, "--set", help="dotted.key=value, repeatable"),
-    grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY (cells or nodes); NX where nothing varies "
-                                       "across"),
-    target_error: Optional[str] = typer.Option(None, help="the grid for this error, as in 1% (see `tehl bench accuracy`)"),
-    steady: bool = typer.Option(False, "--steady", help="no march in time"),
-    thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="energy equation on or off"),
-    fatigue: Optional[bool] = typer.Option(None, "--fatigue/--no-fatigue", help="stresses and Findley index"),
+    set_: Optional[List[str]] = typer.Option(None, "--set", help="any scene value, dotted.key=value; repeatable"),
+    grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY (cells or nodes; NX alone if nothing varies "
+                                                  "along y)"),
+    target_error: Optional[str] = typer.Option(None, help="choose the grid for this relative error, as in 1% (see `tehl bench "
+                                                          "accuracy`)"),
+    steady: bool = typer.Option(False, "--steady", help="compute the steady contact only"),
+    thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="with or without the energy equation"),
+    fatigue: Optional[bool] = typer.Option(None, "--fatigue/--no-fatigue", help="with or without stresses and fatigue index"),
     estimate_error: Optional[bool] = typer.Option(None, "--estimate-error/--no-estimate-error",
-                                                  help="error of the passage's numbers, by companion runs (default: of all but "
-                                                       "very short passages)"),
+                                                  help="estimate errors by coarse-grid runs (default: for all but very short "
+                                                       "passages)"),
     kappa: Optional[float] = typer.Option(None, help="Findley's kappa_F"),
     endurance: Optional[float] = typer.Option(None, help="Findley's endurance limit sigma_eF, Pa"),
-    bending_limit: Optional[float] = typer.Option(None, help="fatigue limit in reversed bending, Pa, in place of --endurance"),
-    torsion_limit: Optional[float] = typer.Option(None, help="the same in torsion; one limit and kappa give sigma_eF, both "
-                                                  "kappa, too"),
-    steps: Optional[int] = typer.Option(None, help="stop after this many time steps (0: the steady start alone, and "
-                                        "how long the passage would take); `tehl resume` goes on"),
+    bending_limit: Optional[float] = typer.Option(None, help="fatigue limit in reversed bending, Pa (replaces --endurance)"),
+    torsion_limit: Optional[float] = typer.Option(None, help="fatigue limit in reversed torsion, Pa (one limit fixes "
+                                                             "sigma_eF; both limits also fix kappa)"),
+    steps: Optional[int] = typer.Option(None, help="stop after this many time steps (0: steady start and an estimate of the "
+                                                   "run time); `tehl resume` continues"),
     out: Optional[Path] = typer.Option(None, help="store to write (default: runs/SCENE-N.zarr)"),
-    force: bool = typer.Option(False, "--force", help="replace an existing store, as soon as the new one has its first entry"),
-    dry_run: bool = typer.Option(False, "--dry-run", help="tell what would run, and stop"),
-    arch: str = typer.Option("cpu", help="cpu, or cuda: a graphics card, slower by now"),
+    force: bool = typer.Option(False, "--force", help="replace an existing store once the new one has its first entry"),
+    dry_run: bool = typer.Option(False, "--dry-run", help="print what would run, and stop"),
+    arch: str = typer.Option("cpu", help="cpu, or cuda (graphics card, slower at present)"),
     threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
-    precision: Optional[str] = typer.Option(None, help="of the linear solves: f32, f64 or auto (f32 for thick films); the "
-                                            "state and its residual are always double"),
-    as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout, everything else on stderr"),
-    quiet: bool = typer.Option(False, "--quiet", help="no progress"),
-    curves: bool = typer.Option(True, "--live/--no-live", help="p, h and T along y = 0 while it runs, in a terminal"),
+    precision: Optional[str] = typer.Option(None, help="precision of the linear solves: f32, f64 or auto (f32 for thick "
+                                                       "films); the state and its residual are always double"),
+    as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout and all else to stderr"),
+    quiet: bool = typer.Option(False, "--quiet", help="print no progress"),
+    curves: bool = typer.Option(True, "--live/--no-live", help="draw p, h and T along y = 0 in the terminal during the run"),
 ):
-    """Steady start, the feature passes, stresses, fatigue; streamed to a store.
+    """Run one contact: steady start, passage of the feature, stresses and fatigue. Results are written to a store.
 
     Examples: `tehl run --srr -0.12` · `tehl run dent --grid coarse` · `tehl run my.toml --set feature.height=1e-6`
     """
@@ -74,7 +75,7 @@ def run(
     if out is None:
         say_idle(context, "without --out every run makes a store of its own", "force")
     if dry_run:
-        say_idle(context, "--dry-run prints lines", "as_json")
+        say_idle(context, "--dry-run prints text", "as_json")
         return _tell_scene(description)
     with Live(quiet, curves) as live:
         done = tehl.run(description, out, force=force, threads=threads, arch=arch, progress=live)
@@ -84,17 +85,17 @@ def run(
 
 
 def resume(
-    store: Path = typer.Argument(..., help="store of an interrupted run, or of a passage that was cut"),
-    steps: Optional[int] = typer.Option(None, min=1, help="so many more (default: to the end that the run was given; of a "
-                                        "finished run, to the end of its passage)"),
+    store: Path = typer.Argument(..., help="store of an interrupted run, or of a run stopped with `--steps`"),
+    steps: Optional[int] = typer.Option(None, min=1, help="number of further steps (default: to the end of the run; for a "
+                                                          "finished run to the end of the passage)"),
     threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
-    as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout"),
-    quiet: bool = typer.Option(False, "--quiet", help="no progress"),
-    curves: bool = typer.Option(True, "--live/--no-live", help="p, h and T along y = 0 while it runs, in a terminal"),
+    as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout"),
+    quiet: bool = typer.Option(False, "--quiet", help="print no progress"),
+    curves: bool = typer.Option(True, "--live/--no-live", help="draw p, h and T along y = 0 in the terminal during the run"),
 ):
-    """Go on, at most two seconds of work before the last stored step; a finished run to the end of its passage.
+    """Resume an interrupted run, or extend a run stopped with `--steps`.
 
-    The stresses and the fatigue search after the passage, and the companion runs, begin anew.
+    The run resumes from a checkpoint at most 2 s old. Coarse-grid runs, stresses and the fatigue search start again.
 
     Example: `tehl resume runs/gear-1.zarr`
     """
@@ -150,10 +151,10 @@ def _on_grid_for(target, changes, description):
     from tehl_taichi.scene.target import reaching
 
     if {"grid.nx", "grid.ny"} & changes.keys():
-        raise SceneError(f"--target-error {target} chooses the grid; leave out --grid")
+        raise SceneError(f"--target-error {target} chooses the grid; omit --grid")
     found = reaching(description, _share(target))
     g = found.grid
-    say(f"{g.nx} x {g.ny} cells, from {g.x_min:g} a on, for an error of {target}")
+    say(f"{g.nx} x {g.ny} cells from x_min = {g.x_min:g} a, for an error of {target}")
     return found
 
 

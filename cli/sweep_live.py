@@ -49,11 +49,11 @@ class SweepLive:
     def _start(self):
         study, todo = self.study, len(self.study.open_cases)
         if not self.quiet:
-            done = f", {len(study) - todo} of them done before" if len(study) > todo else ""
+            done = f", {len(study) - todo} of them already done" if len(study) > todo else ""
             say(f"{len(study)} cases into {study.path}{done}")
         for record in study.results():
             if record["status"] == "refused":
-                say(f"case {record['case']} is refused: {record['reason']}")
+                say(f"case {record['case']} was refused: {record['reason']}")
         if not self.quiet and todo and sys.stderr.isatty():
             from rich.console import Console
             from rich.live import Live
@@ -89,9 +89,9 @@ class SweepLive:
     def left(self):
         """What is left of a sweep that was stopped, the end of a sentence."""
         if self.study is None:
-            return "before anything was stored"
+            return "before any result was stored"
         done = len(self.study) - len(self.study.open_cases)
-        return f"after {done} of {len(self.study)} cases; go on with: tehl sweep {self.study.path}"
+        return f"after {done} of {len(self.study)} cases; resume with: tehl sweep {self.study.path}"
 
 
 def changes_words(record):
@@ -124,7 +124,7 @@ def print_study(study):
     for record in study.results():
         if not record["converged"]:
             put(f"{case_words(record)}: {record['status']}: {record['reason']}")
-    put(f"table: {study.table}; pictures: tehl plot {study.path}")
+    put(f"table: {study.table}; figures: tehl plot {study.path}")
 
 
 def _number(value, error):

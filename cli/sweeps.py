@@ -18,31 +18,34 @@ def register(app):
 
 
 def sweep(
-    scene: str = typer.Argument(..., help="built-in name, TOML scene, TOML study file, or a study to go on with"),
+    scene: str = typer.Argument(..., help="built-in name, TOML scene, TOML study file, or study to resume"),
     context: typer.Context = None,
-    over: Optional[List[str]] = typer.Option(None, "--over", help="key=values, repeatable: a,b,c or low:high:N or "
-                                             "low:high:N:log; 'key=values key=values' change together"),
-    samples: Optional[int] = typer.Option(None, help="so many cases of a Latin hypercube; --over key=low:high[:log] or a,b,c"),
-    seed: Optional[int] = typer.Option(None, help="of the samples (default: 0)"),
+    over: Optional[List[str]] = typer.Option(None, "--over", help="key=values with values a,b,c or low:high:N or "
+                                                                  "low:high:N:log; 'key=values key=values' change together; "
+                                                                  "repeatable"),
+    samples: Optional[int] = typer.Option(None, help="number of cases of a Latin hypercube, with --over key=low:high[:log] or "
+                                                     "a,b,c"),
+    seed: Optional[int] = typer.Option(None, help="seed of the samples (default: 0)"),
     set_: Optional[List[str]] = typer.Option(None, "--set", help="dotted.key=value in all cases, repeatable"),
-    grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY (cells or nodes); NX where nothing varies "
-                                       "across"),
-    steady: bool = typer.Option(False, "--steady", help="no march in time"),
-    thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="energy equation on or off"),
-    fatigue: Optional[bool] = typer.Option(None, "--fatigue/--no-fatigue", help="stresses and Findley index"),
+    grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY (cells or nodes; NX alone if nothing varies "
+                                                  "along y)"),
+    steady: bool = typer.Option(False, "--steady", help="compute steady contacts only"),
+    thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="with or without the energy equation"),
+    fatigue: Optional[bool] = typer.Option(None, "--fatigue/--no-fatigue", help="with or without stresses and fatigue index"),
     steps: Optional[int] = typer.Option(None, help="stop every case after this many time steps"),
-    workers: Optional[int] = typer.Option(None, help="processes on this machine (default: one for each core)"),
-    threads_per_worker: Optional[int] = typer.Option(None, help="CPU threads of a case (default: 1, or what --workers leaves)"),
+    workers: Optional[int] = typer.Option(None, help="number of processes on this machine (default: one per core)"),
+    threads_per_worker: Optional[int] = typer.Option(None, help="CPU threads per case (default: 1, or the cores that "
+                                                                "--workers leaves)"),
     scheduler: Optional[str] = typer.Option(None, help="address of a running Dask scheduler, as in tcp://10.0.0.1:8786"),
-    keep: str = typer.Option("stores", help="stores (one for each case) or summary (the table alone)"),
-    out: Optional[Path] = typer.Option(None, help="study to write or to go on with (default: runs/NAME.zarr, the same for the "
-                                       "same sweep)"),
-    yes: bool = typer.Option(False, "--yes", help=f"start more than {MANY} cases without asking"),
-    dry_run: bool = typer.Option(False, "--dry-run", help="tell what would run, and stop"),
-    as_json: bool = typer.Option(False, "--json", help="one JSON object on stdout, everything else on stderr"),
-    quiet: bool = typer.Option(False, "--quiet", help="no progress"),
+    keep: str = typer.Option("stores", help="stores (table and one store per case) or summary (table only)"),
+    out: Optional[Path] = typer.Option(None, help="study to write or resume (default: runs/NAME.zarr, which depends on the "
+                                                  "sweep only)"),
+    yes: bool = typer.Option(False, "--yes", help=f"allow more than {MANY} cases"),
+    dry_run: bool = typer.Option(False, "--dry-run", help="print what would run, and stop"),
+    as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout and all else to stderr"),
+    quiet: bool = typer.Option(False, "--quiet", help="print no progress"),
 ):
-    """All combinations of changes of a scene, into one table; the same command again goes on where it stopped.
+    """Run all combinations of scene values and collect the results in one table. Repeat the command to resume.
 
     Examples: `tehl sweep gear --over srr=-0.3:0.3:7 --over feature.height=0.5e-6,1e-6` · `tehl sweep study.toml` ·
     `tehl sweep gear --samples 40 --over srr=-0.3:0.3 --over speed=1:20:log` · then `tehl plot runs/NAME.zarr`
@@ -58,7 +61,7 @@ def sweep(
     out = out or many.default_path(plan)
     if dry_run:
         many.checked(workers, threads_per_worker, scheduler, keep, connect=False)
-        say_idle(context, "--dry-run prints lines", "as_json")
+        say_idle(context, "--dry-run prints text", "as_json")
         return _tell(plan, out)
     _check_count(plan, yes)
     for sentence in _doubts(plan):
@@ -85,7 +88,7 @@ def _planned(name, over, samples, seed, changes, grid, out):
 
     whole = study_file.is_study_file(name) or is_study(name)
     if whole and (over or changes or samples is not None or seed is not None):
-        raise SceneError(f"{name} says what is swept: leave out --over, --samples, --set and the like")
+        raise SceneError(f"{name} already defines the sweep; omit --over, --samples, --set and scene options")
     if whole:
         return (study_file.load(name), out) if study_file.is_study_file(name) else (Study.open(name).plan, out or Path(name))
     swept = over_of(over, samples is not None)
@@ -99,7 +102,7 @@ def _check_count(plan, yes):
     from tehl_taichi.scene import SceneError
 
     if plan.count > MANY and not yes:
-        raise SceneError(f"{plan.count} cases are more than {MANY}: --yes starts them all the same, --dry-run tells of them")
+        raise SceneError(f"{plan.count} cases are more than {MANY}; use --yes to run them anyway, --dry-run to list them")
 
 
 def _tell(plan, out):
@@ -114,7 +117,7 @@ def _tell(plan, out):
         values = [str(value) for value in plan.coordinate(key)[1]]
         put(f"{key} = {', '.join(values[:12])}{' ...' if len(values) > 12 else ''}")
     for number, reason in refused.items():
-        put(f"case {number} is refused: {reason}")
+        put(f"case {number} would be refused: {reason}")
     for sentence in _doubts(plan):
         put(sentence)
 
@@ -122,10 +125,10 @@ def _tell(plan, out):
 def _doubts(plan):
     """Of keys without effect: in all cases, and in some of them."""
     yield from (f"warning: {sentence}" for sentence in plan.doubts())
-    yield from (f"warning: case {number} is the same as case {first}: what differs has no effect there"
+    yield from (f"warning: case {number} equals case {first}: the keys that differ have no effect there"
                 for number, first in plan.equal().items())
     if some := plan.without_temperatures():
-        yield (f"warning: {_cases(some)} no temperatures, the other cases have them: --thermal computes them in all, "
+        yield (f"warning: {_cases(some)} no temperatures, the other cases do; use --thermal to compute them in all cases, "
                "--isothermal in none")
 
 

@@ -131,7 +131,7 @@ def verdicts(rows, limit):
             f, e = by_name[name].values, by_name[name].errors
             for window, key in DEEP.items():
                 one, other = ((f[each], e[each]) for each in (key, ("all", window)))
-                out.append((f"the worst point lies below the surface: {name}; {window}", *_compared(one, other)))
+                out.append((f"the critical point lies below the surface: {name}; {window}", *_compared(one, other)))
     r = by_name.get("asperity 1.5 um, SRR -0.12")
     if r:
         out.append(("friction on the asperity is larger near the inlet than near the outlet",

@@ -199,7 +199,7 @@ def test_a_scene_with_every_value_is_not_asked_about_them(tmp_path):
     (SCENES["isothermal"], {"srr": [0.1, 0.2], "thermal.nodes": [5, 9]}, "thermal.nodes"),
     (SCENES["smooth"], {("srr", "kappa"): [(0.1, 0.2), (0.2, 0.3)]}, "kappa")])
 def test_a_sweep_of_equal_rows_is_refused(scene, over, key):
-    with pytest.raises(SceneError, match=f"{key} has no effect here.*its rows would be equal"):
+    with pytest.raises(SceneError, match=f"{key} has no effect here.*the cases would be equal"):
         plan(scene, over).refused()
 
 

@@ -259,7 +259,7 @@ def test_a_worst_point_below_is_said():
     assert "Fi 1.39 at 25 um, 1.01 at the surface" in said and "1.20 at 183 um" in said
     assert result_judge.worst_below in result_judge.CHECKS and "finer" not in said
     first = {**fatigue_["below"], "searched_m": [24.8e-6, 1e-3]}
-    assert "take a finer one" in result_judge.worst_below(None, {"fatigue": {**fatigue_, "below": first}})[0]
+    assert "use a finer grid" in result_judge.worst_below(None, {"fatigue": {**fatigue_, "below": first}})[0]
     assert result_judge.worst_below(None, {"fatigue": {**fatigue_, "Fi_max": 1.5}}) == []
     assert result_judge.worst_below(None, {"fatigue": {"Fi_max": 1.0}}) == result_judge.worst_below(None, {}) == []
 
@@ -274,9 +274,9 @@ def test_the_table_names_the_worst_point_s_own_tension(found):
     rows = summary_rows.fatigue_rows(f)
     values = dict(rows[:9])
     assert values["largest principal stress there"] == f"{f['sigma1_worst_Pa'] / 1e6:.1f} MPa"
-    assert values["largest principal stress on the surface"] == f"{f['sigma1_max_Pa'] / 1e6:.1f} MPa"
+    assert values["largest principal stress at the surface"] == f"{f['sigma1_max_Pa'] / 1e6:.1f} MPa"
     deep = f["below"]
-    assert (f"Fi_max below it, at {deep['depth_m'] * 1e6:.0f} um", f"{deep['Fi_max']:.3g} (error unknown)") in rows
+    assert (f"Fi_max below the surface, at {deep['depth_m'] * 1e6:.0f} um", f"{deep['Fi_max']:.3g} (error unknown)") in rows
 
 
 def test_the_angle_to_the_surface_is_that_of_the_plane(found):

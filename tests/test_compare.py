@@ -91,11 +91,11 @@ def test_results_are_told_as_tehl_show_tells_them(made):
     found, shown = lines_of(*made[:2]), [dict(summary_rows(tehl.open(path).summary)) for path in made[:2]]
     for what in ("passage p_max", "Fi_max at the surface", "steady h_min", "run time"):
         assert found[what].values == tuple(one[what] for one in shown)
-    assert found["Fi_max below it"].values == ("1.39 (error unknown), at 25 um", "1.39 (error unknown), at 40 um")
+    assert found["Fi_max below the surface"].values == ("1.39 (error unknown), at 25 um", "1.39 (error unknown), at 40 um")
     assert found["Fi of the contact alone, at 180 um"].values == ("0.9000", "0.9000")
     assert found["findley stress"].values == ("403.2 MPa", "480.0 MPa")
     assert found["findley stress, below it"].same and not found["findley stress"].same
-    assert found["critical plane to the surface"].values[0] == "57.0 deg"  # without where pits begin
+    assert found["critical plane, angle to the surface"].values[0] == "57.0 deg"  # without where pits begin
     order = list(found)
     assert order.index("passage p_max") < order.index("Fi_max at the surface") < order.index("findley stress, below it")
 
@@ -129,7 +129,7 @@ def test_what_a_run_does_not_have_is_a_dash_in_its_place(made, tmp_path):
 
 def test_the_command_tells_what_differs_and_what_is_the_same(made):
     told = CliRunner().invoke(app, ["compare", *map(str, made[:2])], env={"COLUMNS": "100"}).stdout
-    scenes, results, same = told.index("operation.srr"), told.index("passage p_max"), told.index("same in all: ")
+    scenes, results, same = told.index("operation.srr"), told.index("passage p_max"), told.index("equal in all: ")
     assert scenes < results < same and "change" in told and "p_max_Pa" not in told
     assert "Hertz pressure p_H" in told[same:] and "Hertz pressure p_H" not in told[:same]
     assert max(map(len, told[:same].splitlines())) <= 100
@@ -138,7 +138,7 @@ def test_the_command_tells_what_differs_and_what_is_the_same(made):
 def test_runs_of_one_scene(tmp_path):
     made = [made_results.run(tmp_path / f"{n}.zarr", SMALL) for n in range(2)]
     told = CliRunner().invoke(app, ["compare", *map(str, made)]).stdout
-    assert "the scenes do not differ" in told and "what differs of the results" not in told and "same in all: Hertz" in told
+    assert "the scenes are identical" in told and "differences" not in told and "equal in all: Hertz" in told
 
 
 def test_the_figure_shows_all_runs_at_one_position(runs, tmp_path, monkeypatch):
@@ -198,7 +198,7 @@ def test_the_command_prints_and_writes(two, tmp_path):
 def test_nothing_to_compare_is_refused(two, pick, why):
     with pytest.raises(tehl.Error, match=why):
         tehl.compare(*(two[n] for n in pick))
-    with pytest.raises(tehl.Error, match="there is no such folder"):
+    with pytest.raises(tehl.Error, match="the folder does not exist"):
         tehl.compare(two[0], two[0].parent / "none.zarr")
 
 

@@ -36,7 +36,7 @@ def test_the_statements_follow_from_the_rows():
     text = conclusions.page(rows, conclusions.verdicts(rows, 400e6), scene("gear"))
     assert "400 ± 5" in text and "560 ± 5 at 25 um" in text and "**follows**" in text
     for window in conclusions.DEEP:
-        assert judged[f"the worst point lies below the surface: asperity 1.5 um, SRR -0.12; {window}"] == "follows"
+        assert judged[f"the critical point lies below the surface: asperity 1.5 um, SRR -0.12; {window}"] == "follows"
 
 
 class Spiked:

@@ -143,7 +143,7 @@ def test_bad_residual_stress_is_refused(given):
 
 
 def test_oil_inside_adds_its_pressure_to_the_faces():
-    """Pulled along x by 1e8, half of a pressure of 1e8 inside: as pulled by 1.5e8."""
+    """Pulled along x by 1e8, half of a pressure of 1e8 inside: as tension reaches 1.5e8."""
     pressed = plane(1e8, -1e8)
     dry, wet = (grown(pressed, oil=oil, length=5 * MICRO).steps[0]["K_I_max"] for oil in (0.0, 0.5))
     assert wet == pytest.approx(1.5 * dry, rel=1e-9)
@@ -184,7 +184,7 @@ class Whole(Rolling):
 
 
 @pytest.mark.parametrize("reader,changes,said", [
-    (Still, {}, "passage of a feature"), (Broken, {}, "no numbers"), (Whole, {}, "no plane of symmetry"),
+    (Still, {}, "passage of a feature"), (Broken, {}, "not numbers"), (Whole, {}, "not a plane of symmetry"),
     (Rolling, {"feature.y": 0.1e-3}, "feature.y = 0.0001 m")])
 def test_what_has_no_plane_of_symmetry_is_refused(taichi_cpu, reader, changes, said):
     scene = SCENE.replace(**{"thermal.on": False, **changes})
@@ -212,7 +212,7 @@ def test_the_answer(rolled):
     line = rolled.sides["entry"].trajectory
     across = np.interp(20 * MICRO, line.imag, line.real) - line[0].real
     assert chords["20"] == pytest.approx(np.degrees(np.arctan2(20 * MICRO, -across)), abs=1e-6)
-    assert not found["exit"]["opens"] and "nothing pulls" in found["exit"]["why"] and "exit" not in rolled.sides
+    assert not found["exit"]["opens"] and "never in tension" in found["exit"]["why"] and "exit" not in rolled.sides
 
 
 def test_oil_flows_with_the_oil_and_the_speed_of_the_scene(rolled):
@@ -314,7 +314,7 @@ def _in_the_report(store, summary):
     page = Seen(tehl.report(store).read_text(encoding="utf-8"))
     entry, K = summary["sides"]["entry"], page.figures["K-entry"]["data"]
     assert "Cracks" in page.headings and "friction of closed faces\n0.1\n" in page.text and "None" not in page.text
-    assert f"pulled by {entry['sigma1_surface_Pa'] / 1e6:.4g} MPa" in page.text and entry["why"] in page.text
+    assert f"tension reaches {entry['sigma1_surface_Pa'] / 1e6:.4g} MPa" in page.text and entry["why"] in page.text
     assert max(numbers(K[0])) == pytest.approx(entry["K"][0]["K_I_max"] / 1e6, rel=1e-3) and len(K) == 4
     for name in ("cracks", "K-entry"):
         go.Figure({key: page.figures[name][key] for key in ("data", "layout")})  # refuses what plotly does not know

@@ -19,7 +19,7 @@ GEAR = tehl.scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16, "thermal.on":
                                      {"fatigue.from_x": 0.1, "fatigue.to_x": 0.11}, {"time.x_end": -1.0, "fatigue.from_x": 0.0},
                                      {"time.steps": 4, "fatigue.from_x": 0.0}])
 def test_a_window_that_no_step_reaches(changes):
-    with pytest.raises(SceneError, match=r"fatigue.from_x = .* leaves [01] stored moments of the passage, which goes from -\d"):
+    with pytest.raises(SceneError, match=r"fatigue.from_x = .* leaves [01] stored moments of .* from -\d"):
         GEAR.replace(**changes)
     GEAR.replace(**changes, **{"fatigue.on": False})
     GEAR.replace(**{**changes, "time.steps": 0, "fatigue.on": True})  # the steady start alone

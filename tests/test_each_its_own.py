@@ -270,8 +270,8 @@ def search(Fi, below, error=None, early=None):
     (search(1.3, 0.7), "yes", "Probably yes: the fatigue limit is exceeded at the surface;"),
     (search(1.2, 1.3, 0.05), "yes", "Yes: the fatigue limit is exceeded at the surface and 25 µm below the surface."),
     (search(0.99, 0.7, 0.05), "open", "Not decided: the index is 1 within its error at the surface."),
-    (search(0.8, 0.9, 0.05, (0.6, 0.7)), "no", "Probably not: the index stays below 1; over the whole passage its error"),
-    (search(1.4, 0.9, 0.05, (0.6, 0.7)), "open", "Not decided: the index stays below 1 as long as the grid resolves"),
+    (search(0.8, 0.9, 0.05, (0.6, 0.7)), "no", "Probably not: the index stays below 1, but over the whole passage its error"),
+    (search(1.4, 0.9, 0.05, (0.6, 0.7)), "open", "Not decided: the index stays below 1 while the grid resolves"),
     (search(1.4, 0.9, 0.05, (1.2, 0.7)), "yes", "Yes: the fatigue limit is exceeded at the surface, even without"),
     (search(1.4, 0.9, 0.05, (1.01, 0.7)), "open", "Not decided: the index is 1 within its error at the surface, without"),
 ])

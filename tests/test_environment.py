@@ -37,7 +37,7 @@ def test_the_command_says_in_a_sentence_that_no_folder_can_be_written(tmp_path, 
             f"{CALL[2]}")
     words = ("run", "smooth-line", "--grid", "32", "--isothermal", "--threads", "1")
     done = subprocess.run([sys.executable, "-c", code, *words], capture_output=True, text=True, cwd=tmp_path)
-    assert done.returncode == 2 and done.stderr.endswith("set TMPDIR to one that can\n") and not list(tmp_path.iterdir())
+    assert done.returncode == 2 and done.stderr.endswith("set TMPDIR to a writable folder\n") and not list(tmp_path.iterdir())
 
 
 def test_a_user_whom_the_system_does_not_know(monkeypatch, tmp_path):
@@ -53,5 +53,5 @@ def test_a_user_whom_the_system_does_not_know(monkeypatch, tmp_path):
         raise FileNotFoundError(2, "No usable temporary directory")
 
     monkeypatch.setattr(tempfile, "gettempdir", none)
-    with pytest.raises(RuntimeUnavailable, match="set TMPDIR to one that can"):
+    with pytest.raises(RuntimeUnavailable, match="set TMPDIR to a writable folder"):
         homes.home()

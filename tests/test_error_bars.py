@@ -156,7 +156,7 @@ def test_a_film_on_the_floor_is_not_known():
     on, above = least(floor * (1 + 1e-7)), least(2e-8)
     assert on.doubt == readings.TOUCH and on.lost and not above.doubt
     assert bar([least(2.5e-7), on, on]) == (None, readings.TOUCH)
-    assert bar([on, on, above]) == (None, "no coarser grid tells it")
+    assert bar([on, on, above]) == (None, "no coarser grid gives it")
 
 
 def test_extremes_between_nodes():
@@ -305,14 +305,14 @@ def test_companions_that_fail_leave_bars_unknown_and_say_why(passage):
     hopeless = short(**{"grid.nx": 32, "grid.ny": 8, "numerics.newton_max": 1, "numerics.krylov_max": 5})
     refused, one = companions.scenes(short(**{"grid.nx": 48}))[1], companions.answer(hopeless)
     assert len(refused) == 3 and "24 x 8 cells is refused: grid.nx = 24" in refused[0]
-    assert refused[-1] == "grid.nx in multiples of 64 and grid.ny of 16 have both"
+    assert refused[-1] == "use a grid.nx that is a multiple of 64 and a grid.ny that is a multiple of 16"
     assert "32 x 8 cells failed: " in one["reason"] and "did not converge" in one["reason"]
     own = companions.passage_readings(short(), passage, passage.scalar)
     found, unknown = companions.judged([{"reason": refused[0]}, one], own)
     assert set(found.values()) == {None} and "did not converge" in unknown["p_max_Pa"]
     summary = {"steady": {}, "transient": {"error": found, "unknown": unknown}}
     said = list(result_judge.unknown_errors(SimpleNamespace(scene=short()), summary))
-    assert len(said) == 1 and "passage h_min_m, passage p_max_Pa" in said[0] and refused[0] in said[0]
+    assert len(said) == 1 and "passage p_max_Pa, passage h_min_m" in said[0] and refused[0] in said[0]
 
 
 def test_a_failed_companion_takes_coarser_ones_with_it(passage):

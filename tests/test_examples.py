@@ -83,7 +83,7 @@ def test_a_scene_by_whatever_names_it(tmp_path):
     file.write_text('base = "gear"\n[operation]\nu_m = 10.0\nsrr = 0.2\n')
     by_path, by_text = tehl.scene(file), tehl.scene(str(file))
     assert by_path == by_text and by_path.operation.srr == 0.2 and by_path.name == "my" and tehl.scene(by_path) is by_path
-    for wrong, said in (("geer", "gear"), (tmp_path / "none.toml", "cannot read"), (None, "None is no scene")):
+    for wrong, said in (("geer", "gear"), (tmp_path / "none.toml", "cannot read"), (None, "None is not a scene")):
         with pytest.raises(tehl.SceneError, match=said):
             tehl.scene(wrong)
 

@@ -183,9 +183,9 @@ def test_nothing_is_overwritten_unasked(stored, tmp_path, format):
     assert tehl.export(stored, format, made, force=True) == made and list(tmp_path.iterdir()) == [made]
     if made.is_dir():
         (made / "scan.csv").write_text("mine")
-        with pytest.raises(tehl.StoreError, match="holds scan.csv, which is no part of an export"):
+        with pytest.raises(tehl.StoreError, match="holds scan.csv, which is not part of an export"):
             tehl.export(stored, format, made, force=True)
-    with pytest.raises(tehl.StoreError, match="is there and is no"):
+    with pytest.raises(tehl.StoreError, match="exists and is"):
         tehl.export(stored, "csv" if made.is_file() else "netcdf", made, force=True)
 
 
@@ -218,15 +218,15 @@ def test_what_a_killed_export_left_is_cleaned_up_by_the_next(stored, tmp_path):
 
 def test_what_a_run_does_not_have_is_refused(stored, tmp_path):
     out = tmp_path / "out"
-    for options, said in (({"at": 2.0}, "at = 2 a: the feature goes from -0.03 to 0.03 a"), ({"at": "0"}, "is not a number"),
+    for options, said in (({"at": 2.0}, "at = 2 a: the feature moves from -0.03 to 0.03 a"), ({"at": "0"}, "is not a number"),
                           ({"point": (1e-5, 0.01)}, "y of a point = 0.01 m is out of range; allowed: at least 0 m and"),
                           ({"point": (1.0, 0.01)}, "x of a point = 1 m is out of range; .* did you mean 1e-3 m"),
-                          ({"point": (0.05, 0.0)}, "never is on the grid"), ({"point": 0.0}, "point = 0.0 must be two numbers"),
-                          ({"format": "vtk", "at": np.zeros(1)}, "at and point choose tables of csv"),
+                          ({"point": (0.05, 0.0)}, "is never on the grid"), ({"point": 0.0}, "point = 0.0 must be two numbers"),
+                          ({"format": "vtk", "at": np.zeros(1)}, "at and point apply to csv only"),
                           ({"format": "hdf"}, "format = 'hdf' is not known; allowed: csv, netcdf, vtk")):
         with pytest.raises(tehl.SceneError, match=said.replace("(", r"\(")):
             tehl.export(stored, path=out, **options)
-    with pytest.raises(tehl.StoreError, match="has no name"):
+    with pytest.raises(tehl.StoreError, match="is not a possible name"):
         tehl.export(stored, path="/")
     assert list(tmp_path.iterdir()) == []
 

@@ -20,8 +20,8 @@ def test_fatigue_is_shown_at_the_depth_that_is_wanted():
 
     top, worst = layers()
     assert top[0] == pytest.approx(1.0) and worst[0] == pytest.approx(1.5)
-    assert worst[1:] == ("Fi, 60 µm below", "worst, Fi = 1.50, plane at 50° to the surface")
-    assert layers(depth=25.0)[1] == (pytest.approx(0.5), "Fi, 20 µm below", "worst, Fi = 0.50")
+    assert worst[1:] == ("Fi, 60 µm below", "largest, Fi = 1.50, plane at 50° to the surface")
+    assert layers(depth=25.0)[1] == (pytest.approx(0.5), "Fi, 20 µm below", "largest, Fi = 0.50")
     line = fatigue_figures.all_figures(Page(), searched(True, depth=60.0))["fatigue"]().axes[0].lines
     assert [one.get_ydata().max() for one in line] == pytest.approx([1.0, 1.0, 1.5, 1.5])
 
@@ -36,10 +36,10 @@ def test_an_index_has_the_digits_that_its_error_leaves_and_stresses_have_no_expo
     found = searched()
     found.summary["error"] = {"Fi_max": 0.004}
     figures = fatigue_figures.all_figures(Page(dpi=40), found)
-    assert "worst, Fi = 1.0000, plane at 50° to the surface" in titles(figures["fatigue"]())
+    assert "largest, Fi = 1.0000, plane at 50° to the surface" in titles(figures["fatigue"]())
     found.maps["findley_stress_under_row"] = found.maps["findley_stress_at_depth"][:, :, 5]
     depth = fatigue_figures.all_figures(Page(dpi=40), found)["fatigue_depth"]()
-    assert {"worst, Fi = 1.50 at 60 µm", "surface, Fi = 1.0000"} <= set(legend(depth))
+    assert {"largest, Fi = 1.50 at 60 µm", "surface, Fi = 1.0000"} <= set(legend(depth))
 
 
 def test_the_lines_on_maps_of_the_index_are_explained():
@@ -100,5 +100,5 @@ def test_a_plane_that_is_not_at_the_worst_depth_has_its_own_mark():
     x, plane = found.maps["feature_frame_x"], np.roll(found.maps.pop("findley_stress_at_depth")[1], -4, axis=0)
     found.maps.update({"findley_stress_at_worst_depth": plane, "worst_depth": np.array([5e-5])})
     ax = [ax for ax in fatigue_figures.all_figures(Page(dpi=40), found)["fatigue"]().axes if ax.get_title()][1]
-    assert ax.get_title() == "worst, Fi = 0.50" and ax.collections[0].colorbar.ax.get_xlabel() == "Fi, 50 µm below"
+    assert ax.get_title() == "largest, Fi = 0.50" and ax.collections[0].colorbar.ax.get_xlabel() == "Fi, 50 µm below"
     assert ax.lines[0].get_xdata() == pytest.approx([1e6 * x[np.unravel_index(plane.argmax(), plane.shape)[0]]])

@@ -55,8 +55,8 @@ def test_options_of_the_command_are_checked(tmp_path):
     from typer.testing import CliRunner
 
     path = str(store(tmp_path / "a.zarr").path)
-    for option, value, said in (("dpi", "5", "allowed: 40 to 1200"), ("quantity", "x", "--quantity x is of a study"),
-                                ("at", "9", "at = 9 a is out of range"), ("depth", "20", "depth = 20 µm is of a fatigue"),
+    for option, value, said in (("dpi", "5", "allowed: 40 to 1200"), ("quantity", "x", "--quantity x applies to a study"),
+                                ("at", "9", "at = 9 a is out of range"), ("depth", "20", "depth = 20 µm needs a fatigue"),
                                 ("format", "gif", "format = 'gif'"), ("width", "1", "width = 1")):
         found = CliRunner().invoke(app, ["plot", path, f"--{option}", value]).exception
         assert isinstance(found, SceneError) and said in str(found)

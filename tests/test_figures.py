@@ -183,7 +183,7 @@ def test_colour_blind_readers_tell_the_lines_apart_and_everybody_reads_the_maps_
 
 
 @pytest.mark.parametrize("built_in, at, said", [("gear", 1.2, "at = 1.2 a is out of range; allowed: at least -0.85 a"),
-                                                ("ball-on-disc", 0.0, "made.zarr has a steady state only")])
+                                                ("ball-on-disc", 0.0, "made.zarr has only a steady state")])
 def test_moments_that_never_were_are_refused(built_in, at, said):
     with pytest.raises(SceneError, match=said):
         Moments(made(built_in), at)

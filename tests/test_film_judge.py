@@ -75,7 +75,7 @@ def test_what_follows_from_a_friction_that_no_oil_bears_is_named():
     def told(summary, **changes):
         return next(film_judge.friction(Made(gear(**{"rheology.law": "newtonian"}, **changes), friction=(1.8, 33.3)), summary))
 
-    index, heat = "the index of fatigue is that of the pressure alone", "the temperatures that follow from it have no meaning"
+    index, heat = "the fatigue index is that of the pressure alone", "the temperatures that follow have no meaning"
     assert index not in told({}) and heat not in told({})
     assert told({"fatigue": {}}).endswith(f"; {index}")
     assert told({}, **{"thermal.on": True}).endswith(f"; {heat}")
@@ -98,7 +98,7 @@ def front(X, smooth):
 
 
 @pytest.mark.parametrize("changes, advice", [
-    ({"rheology.law": "newtonian"}, "1/sqrt(cell); oil without a shear limit has no finite value here; take temperatures or"),
+    ({"rheology.law": "newtonian"}, "1/sqrt(cell); oil without a shear limit has no finite value here; use --thermal or"),
     ({"rheology.law": "newtonian", "thermal.on": True}, "; a finer grid may resolve it: --grid 512x64 (4 times the work)"),
     ({"rheology.law": "newtonian", "srr": 0.0}, "1/sqrt(cell); oil without a shear limit"),
     ({}, "wide; a finer grid may resolve it"),
@@ -123,7 +123,7 @@ def test_a_peak_that_three_grids_know_is_not_warned_of():
 def test_an_exit_whose_error_is_not_known_tells_which_grid_to_try():
     why = "exit not resolved: a pressure peak of 89% of the largest is only a few cells wide"
     assert film_judge.finer_exit(gear(), why).endswith("finer along x: --grid 512x64 (4 times the work)")
-    for left, other in ((gear(**{"rheology.law": "newtonian"}), why), (gear(), "there are no coarser grids"),
+    for left, other in ((gear(**{"rheology.law": "newtonian"}), why), (gear(), "no coarser grid is possible"),
                         (gear(feature=[]), why)):
         assert film_judge.finer_exit(left, other) == ""
 
@@ -136,7 +136,7 @@ def test_a_resolved_part_that_ends_before_the_outlet_says_why(at, told):
     assert len(found) == told and not list(film_judge.first_unresolved(store, {"fatigue": {}}))
     for text in found:
         assert text.startswith("the resolved part of the passage ends before the feature at 0.30 a: its pressure peak of ")
-        assert "at X = -0.83, y = 0 um is a few cells wide; a finer grid may resolve it: --grid " in text
+        assert "at X = -0.83, y = 0 um is only a few cells wide; a finer grid may resolve it: --grid " in text
 
 
 def test_what_is_an_exit():

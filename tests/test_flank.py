@@ -18,7 +18,6 @@ from tehl_taichi.scene import SceneError, hertz
 from tehl_taichi.scene.gear_pair import gear_pair
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.study import case
-from tehl_taichi.values.digits import with_error
 
 SMALL = {"grid.nx": 64, "grid.ny": 16}
 NAMES = {"x_pl_m", "rho_a_m", "rho_b_m", "R_m", "u_a_m_s", "u_b_m_s", "srr", "load_N_m", "p_Hertz_Pa", "summary"}
@@ -83,7 +82,7 @@ def test_table_and_figure_carry_the_errors(steady):
     pytest.importorskip("matplotlib")
     (column,) = [c for c in columns.COLUMNS if c.name == "steady_h_c_m"]
     film = steady.rows[0][2]["steady"]
-    assert column.shown(*steady.rows[0]) == with_error(film["h_c_m"] * 1e6, film["error"]["h_c_m"] * 1e6)
+    assert column.shown(*steady.rows[0]) == f"{film['h_c_m'] * 1e6:.3f} ± {film['error']['h_c_m'] * 1e6:.2g}"
     bars = flank_figure._drawn(Page(), steady).axes[0].containers[0].lines[2][0].get_segments()
     assert bars[0][1, 1] - bars[0][0, 1] == pytest.approx(2e6 * film["error"]["h_c_m"])
 
@@ -127,7 +126,7 @@ def test_an_interrupted_flank_says_how_far_it_is(tmp_path, monkeypatch, said, by
         return position(job)
 
     monkeypatch.setattr(case, "work", until_c)
-    with pytest.raises(KeyboardInterrupt, match=f"{by} after 3 of 7 positions; the same .* --out .*/f goes on"):
+    with pytest.raises(KeyboardInterrupt, match=f"{by} after 3 of 7 positions; repeat .* --out .*/f to resume"):
         tehl.flank("fzg-c", positions=7, steady=True, folder=tmp_path / "f", workers=1)
     waiting = [(at.point, reason) for at, reason in tehl.open(tmp_path / "f").failed]
     assert [point for point, _ in waiting] == ["A", "C", "D-", "D+", "E"] and "has not run yet" in waiting[1][1]
@@ -188,7 +187,7 @@ def test_the_command_prints_tables_and_the_assumption(steady):
     done = CliRunner().invoke(app, words)
     assert done.exit_code == 0 and "steady film" in done.stdout
     assert "while the feature passes" not in done.stdout.split("assumed")[0]  # a table that has nothing is left out
-    assert "assumed: each position is a contact of its own" in done.stdout and "load: trapezoid" in done.stdout
+    assert "assumed: each position is a separate contact" in done.stdout and "load: trapezoid" in done.stdout
     assert json.loads(CliRunner().invoke(app, [*words, "--json"]).stdout)["geometry"]["on"] == "pinion"
 
 
@@ -201,7 +200,7 @@ def test_a_table_of_positions(tmp_path):
     assert high.point == "D-" and high.arc is None
     with pytest.raises(SceneError, match="on = 'gear' has no effect: the rows of a table"):
         found.positions(on="gear")
-    with pytest.raises(SceneError, match="torque and speed are of gear pairs"):
+    with pytest.raises(SceneError, match="torque and speed apply to gear pairs"):
         found.changed(torque=100.0)
 
 
@@ -254,5 +253,5 @@ def test_a_scene_that_no_position_can_have_is_refused_with_the_place(tmp_path):
 
 @pytest.mark.parametrize("key", ["load", "contact.hertz_pressure", "srr", "speed", "operation.u_a"])
 def test_what_the_gears_say_cannot_be_changed(key):
-    with pytest.raises(SceneError, match="position A .* has no effect: the gears or the table say"):
+    with pytest.raises(SceneError, match="position A .* has no effect: the gears or the table set"):
         tehl.flank("fzg-c", changes={key: 1.0})

@@ -144,12 +144,12 @@ def test_helical_gears_by_the_transverse_section():
     ({"torque": 0}, "gear.torque = 0 N m is out of range; allowed: more than 0 N m"),
     ({"n1": -5.0}, "gear.n1 = -5 1/min is out of range"),
     ({"z1": 16.5}, "gear.z1 = 16.5 is not a whole number; allowed: 5 to 1000"),
-    ({"x1": 0.2}, "gear.x1 alone does not tell the profile shifts; allowed: x1 and x2, or a_w with one of them"),
-    ({"a_w": 91.5e-3}, "gear.a_w = 0.0915 m alone does not tell"),
+    ({"x1": 0.2}, "gear.x1 alone does not determine the profile shifts; allowed: x1 and x2, or a_w with one of them"),
+    ({"a_w": 91.5e-3}, "gear.a_w = 0.0915 m alone does not determine"),
     ({"a_w": 0.05, "x1": 0.1}, "gear.a_w = 0.05 m leaves no line of action; allowed: more than 0.0845"),
     ({"a_w": 0.093, "x1": 0.1817, "x2": 0.1715}, "contradict each other: without backlash they give 0.0915"),
     ({"x1": -2.0, "x2": -2.0}, "gear.x1 . x2 = -4 leaves no centre distance"),
-    ({"beta": 20.0, "load_share": ((-1, 1), (1, 1))}, "gear.load_share is of spur gears"),
+    ({"beta": 20.0, "load_share": ((-1, 1), (1, 1))}, "gear.load_share applies to spur gears"),
     ({"load_share": ((1, 0.5), (-1, 0.5))}, "gear.load_share has 2 pairs; allowed: 2 to 1000 .*rising, or the same twice"),
     ({"load_share": ((-1, 0.5), (0, 0.5), (0, 0.6), (0, 0.7))}, "gear.load_share has 4 pairs"),
     ({"load_share": ((-1, 0.5), (1, 1.5))}, "a share of 1.5 is out of range; allowed: more than 0 and at most 1"),
@@ -161,7 +161,7 @@ def test_pairs_that_cannot_be_are_refused(values, why):
 
 @pytest.mark.parametrize("values, why", [
     ({"d_a2": 0.12}, "gear.d_a2 = 0.12 m: the tips of the gear reach .* beyond the involute .*less than 0.11"),
-    ({"d_a1": 0.0735, "d_a2": 0.1095}, "contact ratio eps_alpha of 0.[0-9]+: the teeth lose touch; allowed: at least 1"),
+    ({"d_a1": 0.0735, "d_a2": 0.1095}, "contact ratio eps_alpha of 0.[0-9]+: the teeth lose contact; allowed: at least 1"),
     ({"d_a1": 0.06}, "gear.d_a1 = 0.06 m: the tips of the pinion lie inside its base circle; allowed: more than 0.0676"),
     ({"x1": 1.5, "x2": -0.5}, "teeth of the pinion are pointed"),
     ({"z1": 8}, "gear.d_a2 = .* m: the tips of the gear reach .*undercut"),
@@ -178,7 +178,7 @@ def test_the_limits_of_the_refusals_hold():
     limit = float(str(error.value).split("less than ")[1].split()[0])
     assert Mesh(GearPair(d_a2=limit - 1e-6)).points["A"] + Mesh(GearPair()).rho_C(1) == pytest.approx(0, abs=1e-5)
     high = GearPair(z1=60, z2=80, alpha_n=15.0, d_a1=0.285, d_a2=0.375)
-    with pytest.raises(SceneError, match="eps_alpha = 3.38: .*less than 2, or gear.load_share"):
+    with pytest.raises(SceneError, match="eps_alpha = 3.38: .*less than 2, or give gear.load_share"):
         Mesh(high)
     assert Mesh(dataclasses.replace(high, load_share=((-0.1, 0.5), (0.1, 0.5)))).eps_alpha > 2
 
@@ -186,8 +186,8 @@ def test_the_limits_of_the_refusals_hold():
 @pytest.mark.parametrize("options, why", [
     ({"on": "wheel"}, "on = 'wheel' is not known"),
     ({"count": 3}, "positions = 3 is out of range; allowed: 7 to 1000"),
-    ({"at": ("F",)}, "the point 'F' is none of this flank; known: A, B, C, D, E"),
-    ({"at": ("C+",)}, "the point 'C.' is none"),
+    ({"at": ("F",)}, "the point 'F' is not on this flank; known: A, B, C, D, E"),
+    ({"at": ("C+",)}, "the point 'C.' is not on this flank"),
     ({"at": (0.02,)}, "0.02 m is out of range; allowed: at least -0.0095.* m and at most 0.0095"),
 ])
 def test_positions_that_are_not_on_the_flank_are_refused(options, why):

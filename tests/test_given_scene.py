@@ -35,7 +35,7 @@ def test_constants_beside_the_scene_come_before_its_own():
 @pytest.mark.parametrize("changes, key", [({"fatigue.residual_xx": -2e8}, "residual_xx"), ({"fatigue.to_x": 0.5}, "to_x"),
                                           ({"fatigue.depths": [5e-5]}, "depths")])
 def test_what_has_no_meaning_for_stresses_is_refused_in_a_scene_too(changes, key):
-    with pytest.raises(SceneError, match=f"{key} has no meaning for given stresses"):
+    with pytest.raises(SceneError, match=f"{key} has no effect on given stresses"):
         tehl.fatigue(bending(), SCENE.replace(**changes))
 
 
@@ -52,11 +52,11 @@ def test_a_run_takes_a_scene_of_another_fatigue_alone(run):
         for changes, key in (({"load": 1e6}, "contact.load is another"), ({"srr": 0.1}, "operation.srr is another"),
                              ({"bodies.a.nu": 0.2}, "bodies.a.nu is another"),
                              ({"feature.height": 1e-6}, "feature.0.height is")):
-            with pytest.raises(SceneError, match=f"not that of the run: {key}"):
+            with pytest.raises(SceneError, match=f"differs from that of the run: {key}"):
                 call(run, SCENE.replace(**changes))
-        with pytest.raises(SceneError, match="not that of the run: thermal.on, grid.nx"):
+        with pytest.raises(SceneError, match="differs from that of the run: thermal.on, grid.nx"):
             call(run, "gear")  # a name is the built-in scene
-        with pytest.raises(SceneError, match="5 is no scene"):
+        with pytest.raises(SceneError, match="5 is not a scene"):
             call(run, 5)
 
 

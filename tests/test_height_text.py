@@ -50,9 +50,9 @@ def test_marks_between_blanks(tmp_path, mark):
 
 
 @pytest.mark.parametrize("at, row, words", [
-    (20, "and so on", "line 21 has 1 columns|line 21: 'and so on' is no number"),
-    (20, ROWS[20].replace("0.23", "high"), "line 21: 'high' is no number and no mark of a point"),
-    (0, ROWS[0].replace("0.03", "high"), "line 1: 'high' is no number"),
+    (20, "and so on", "line 21 has 1 columns|line 21: 'and so on' is neither"),
+    (20, ROWS[20].replace("0.23", "high"), "line 21: 'high' is neither a number nor a mark of an unmeasured point"),
+    (0, ROWS[0].replace("0.03", "high"), "line 1: 'high' is neither"),
     (20, ROWS[20] + "\t1", r"line 21 has 7 columns, the first row \(line 1\) 6")])
 def test_what_is_wrong_below_the_header_is_named_by_its_line(tmp_path, at, row, words):
     with pytest.raises(SceneError, match=f"cannot read heights from .*scan.asc: ({words})"):
@@ -60,10 +60,10 @@ def test_what_is_wrong_below_the_header_is_named_by_its_line(tmp_path, at, row, 
 
 
 def test_words_alone_and_lists_of_points_are_refused_in_words(tmp_path):
-    with pytest.raises(SceneError, match="no line of it is a row of numbers"):
+    with pytest.raises(SceneError, match="no line is a row of numbers"):
         height_map.read(written(tmp_path, WYKO))
     points = [f"{i} {j} 0.1" for i in range(5) for j in range(5)]
-    with pytest.raises(SceneError, match="a list of x, y and z is not read: export the heights as a grid"):
+    with pytest.raises(SceneError, match="a list of x, y and z is not supported; export the heights as a grid"):
         height_map.read(written(tmp_path, points))
-    with pytest.raises(SceneError, match=r"a list of x, y and z is not read: export .* a grid.*\(.csv, .txt, .asc, .npy\)"):
+    with pytest.raises(SceneError, match=r"a list of x, y and z is not supported; .*\(.csv, .txt, .asc, .npy\)"):
         height_map.read(written(tmp_path, points, "scan.xyz"))

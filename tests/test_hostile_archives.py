@@ -276,7 +276,7 @@ def test_links_in_a_leftover_are_removed_not_followed(tmp_path):
 def test_a_store_cannot_be_emptied_by_the_lock_of_another_program(tmp_path):
     path = store(tmp_path / "a.zarr").path
     (path / ".lock").write_text("my notes")
-    with pytest.raises(StoreError, match="is no lock that tehl wrote"):
+    with pytest.raises(StoreError, match="is not a lock of tehl"):
         Store.write(path)
     assert (path / ".lock").read_text() == "my notes"
 

@@ -49,9 +49,9 @@ def test_figures_in_the_way_are_seen_before_the_search(run, tmp_path, no_work, c
     code, said = cli(command, run, "--figures", tmp_path)
     assert code == 2 and f"{tmp_path / name} exists already" in said
     code, said = cli(command, run, "--figures", tmp_path, "--force")
-    assert code == 2 and "was not written by this program" in said and (tmp_path / name).read_text() == "mine"
+    assert code == 2 and "was not written by tehl" in said and (tmp_path / name).read_text() == "mine"
     code, said = cli(command, run, "--figures", tmp_path / name / "new")
-    assert code == 2 and f"{tmp_path / name} is no folder" in said
+    assert code == 2 and f"{tmp_path / name} is not a folder" in said
 
 
 def test_the_kept_crack_and_the_picture_of_a_flank_are_seen_before_the_work(run, tmp_path, no_work):
@@ -63,7 +63,7 @@ def test_the_kept_crack_and_the_picture_of_a_flank_are_seen_before_the_work(run,
     folder = flanked(tmp_path / "flank")
     (folder / "flank.png").write_text("mine")
     code, said = cli("flank", "fzg-c", "--out", folder)
-    assert code == 2 and "flank.png was not written by this program" in said
+    assert code == 2 and "flank.png was not written by tehl" in said
     code, said = cli("flank", "fzg-c", "--out", folder / "1.zarr")
     assert code == 2 and str(folder) in said
 

@@ -59,7 +59,7 @@ def test_lines_tell_the_time_left_and_once_that_steel_yields(clock):
     assert re.fullmatch(r"step 1/100  p_max 2.000 GPa .* cycles 7", said[0])
     assert said[2].endswith("  about 10 min left") and said[-1].endswith("  about 9 min left")
     beyond, = (line for line in said if "yields" in line)
-    assert beyond.startswith("step 5: p_max 4.20 GPa; hardened steel yields from about 4 GPa on") and "Ctrl-C" in beyond
+    assert beyond.startswith("step 5: p_max 4.20 GPa; hardened steel yields above about 4 GPa") and "Ctrl-C" in beyond
 
 
 def test_a_bar_tells_it_too():
@@ -84,8 +84,8 @@ def test_a_look_tells_steps_and_minutes_of_the_whole_passage(taichi_cpu, tmp_pat
     assert 1e-3 < seconds < 2.0
     monkeypatch.setattr(look, "_pace", lambda path, scene: 2.5)
     said, = look.lines(run, (64, 16))
-    assert f"{total} steps, {about(2.5 * total)} at the pace of the first ones (2.5 s each)" in said
-    assert said.endswith(f"up to 3 times as long: {'up to ' + about(7.5 * total)}; stresses and error bars come after it")
+    assert f"{total} steps, {about(2.5 * total)} at the speed of the first steps (2.5 s each)" in said
+    assert said.endswith(f"up to 3 times as long: {'up to ' + about(7.5 * total)}; stresses and error bars follow")
     assert tehl.open(run.path).store.last_step == 0 and tehl.open(run.path).finished
 
 

@@ -79,9 +79,9 @@ def test_arrays_too_and_their_spacing_is_compared(tmp_path):
     np.save(tmp_path / "scan.npy", framed(X, Y))
     f = feature(tmp_path / "scan.npy", pixel=2e-6, pixel_y=3e-6, taper=1e-6)
     assert np.array_equal(f.heights, HEIGHTS)
-    for wrong, said in (({"pixel": 3e-6, "pixel_y": 3e-6}, "feature.pixel = 3e-06 m does not fit .* 2 apart"),
-                        ({"pixel": 2e-6}, "feature.pixel = 2e-06 m does not fit .* 3 apart"),
-                        ({"pixel": 2e-6, "pixel_y": 4e-6}, "feature.pixel_y = 4e-06 m does not fit .* 3 apart")):
+    for wrong, said in (({"pixel": 3e-6, "pixel_y": 3e-6}, "feature.pixel = 3e-06 m does not match .* 2 apart"),
+                        ({"pixel": 2e-6}, "feature.pixel = 2e-06 m does not match .* 3 apart"),
+                        ({"pixel": 2e-6, "pixel_y": 4e-6}, "feature.pixel_y = 4e-06 m does not match .* 3 apart")):
         with pytest.raises(SceneError, match=said):
             feature(tmp_path / "scan.npy", taper=1e-6, **wrong)
 
@@ -101,7 +101,7 @@ def test_lists_of_points_are_refused(tmp_path, order, more, turned):
     np.save(tmp_path / "scan.npy", table.T if turned else table)
     np.savetxt(tmp_path / "scan.csv", table, delimiter=",", header="X,Y,Z,more", comments="")
     for name in ("scan.npy", "scan.csv"):
-        with pytest.raises(SceneError, match="a list of x, y and z is not read: export the heights as a grid"):
+        with pytest.raises(SceneError, match="a list of x, y and z is not supported; export the heights as a grid"):
             feature(tmp_path / name)
 
 

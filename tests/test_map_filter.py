@@ -82,7 +82,7 @@ def test_a_store_has_the_heights_of_the_file_and_filters_them_once(tmp_path):
 def test_what_was_filtered_is_told(tmp_path):
     f = feature(waves(tmp_path, CUTOFF, 0), **STEPS, cutoff=CUTOFF)
     first, _ = f.kind.preview(f, scene("gear"))
-    assert first.endswith("plane taken off, low-pass with a cutoff of 25 um (Gaussian)")
+    assert first.endswith("plane removed, low-pass with a cutoff of 25 um (Gaussian)")
     assert ("low-pass", "Gaussian, cutoff 25 µm") in surface_plots.measured(f, scene("gear"))
     assert "low-pass" not in dict(surface_plots.measured(feature(tmp_path / "waves.npy"), scene("gear")))
 
@@ -100,7 +100,7 @@ def test_a_scan_that_the_grid_does_not_carry_is_told_the_cutoff_that_helps(tmp_p
     keys = {"shape": "map", "file": str(tmp_path / "rough.npy"), "unit": "um", "pixel": 2e-6, "taper": 20e-6}
     rough = tehl.Scene.from_dict({**scene("gear").to_dict(), "feature": [keys]})
     steep, missed = (said for said in doubtful_features(rough) if "rough.npy" in said)
-    assert "slopes up to" in steep and "the grid misses" in missed
+    assert "slopes up to" in steep and "the grid loses" in missed
     told = {said.split("feature.cutoff = ")[1].split()[0] for said in (steep, missed)}
     assert len(told) == 1
     fixed = rough.replace(**{"feature.cutoff": float(told.pop())})

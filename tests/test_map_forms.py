@@ -68,11 +68,11 @@ def test_a_scan_that_is_upside_down_is_asked_about(tmp_path):
     for level in ("plane", "form"):
         said, = (text for text in feature(hollow, pixel=5e-6, level=level).kind.doubts(
             feature(hollow, pixel=5e-6, level=level), scene("gear")) if "radius of" in text)
-        assert "concave with a radius of 12 mm along x" in said and "feature.scale = -1 turns it over" in said
+        assert "concave with a radius of 12 mm along x" in said and "feature.scale = -1" in said
         right = feature(hollow, pixel=5e-6, level=level, scale=-1.0)
         assert "upside" not in "".join(right.kind.doubts(right, scene("gear")))
     first, _ = right.kind.preview(right, scene("gear"))
-    assert first.endswith("taken off (convex with a radius of 12 mm along x; with contact.radius_x = 10.6 mm the other body "
+    assert first.endswith("removed (convex with a radius of 12 mm along x; with contact.radius_x = 10.6 mm the other body "
                           "has a radius of 91.2 mm)")
     first, _ = right.kind.preview(right, scene("gear").replace(**{"contact.radius_x": 0.015}))
     assert first.endswith("with contact.radius_x = 15 mm the other body has a concave radius of 59.9 mm)")
@@ -82,16 +82,16 @@ def test_a_scan_that_lies_across_is_asked_about(tmp_path):
     """The bodies of a line contact are curved along x alone; those of an ellipse along y, too."""
     def asked(transpose, of="gear"):
         found = feature(flank(tmp_path), pixel=5e-6, level="form", scale=-1.0, transpose=transpose)
-        return "".join(said for said in found.kind.doubts(found, scene(of)) if "lie across" in said)
+        return "".join(said for said in found.kind.doubts(found, scene(of)) if "lies across" in said)
 
     assert "a radius of 12 mm along y, across the rolling direction" in asked(True)
-    assert asked(True).endswith("feature.transpose = false turns it")
+    assert asked(True).endswith("feature.transpose = false")
     assert asked(False) == asked(True, "ball-on-disc") == ""
 
 
 def test_what_does_not_fit_into_the_gap_is_told_to_be_a_form(tmp_path):
     high = dict(shape="map", unit="um", file=str(flank(tmp_path)), pixel=5e-6, scale=5.0)
-    with pytest.raises(SceneError, match="undeformed gap of .* all but .* one curvature.*'form' takes it off"):
+    with pytest.raises(SceneError, match="undeformed gap of .* all but .* one curvature.*'form' to remove it"):
         scene("gear").replace(feature=[high], **{"grid.x_max": 1.2})
     assert scene("gear").replace(feature=[{**high, "level": "form"}], **{"grid.x_max": 1.2}).features
 
@@ -118,4 +118,4 @@ def test_a_target_error_sees_the_map(tmp_path):
     nx, ny = target.grid_for(rough, 0.2)
     smooth = target.grid_for(scene("gear"), 0.2)
     assert nx == 8 * smooth[0] and ny == 8 * smooth[1]
-    assert not any("the grid misses" in said for said in rough.replace(**{"grid.nx": nx, "grid.ny": ny}).warnings())
+    assert not any("the grid loses" in said for said in rough.replace(**{"grid.nx": nx, "grid.ny": ny}).warnings())

@@ -60,7 +60,7 @@ def rough(described):
 def test_heights_that_steel_does_not_bear_are_told_the_cutoff_that_it_does():
     """Slopes of 7 deg, where nothing but the pressure is doubtful; a tenth less of a cutoff would not do."""
     said, = rough(scan := passing(waves(40e-6, 0.5e-6)))
-    assert "take about 6.4 GPa to be pressed flat in this contact; hardened steel yields from about 4 GPa on" in said
+    assert "need about 6.4 GPa to be flattened in this contact; hardened steel yields above about 4 GPa" in said
     assert "deg" not in said
     cutoff = float(said.split("feature.cutoff = ")[1].split()[0])
     assert f"(m; {cutoff * 1e6:g} um, " in said
@@ -72,7 +72,7 @@ def test_heights_that_steel_does_not_bear_are_told_the_cutoff_that_it_does():
 
 def test_slopes_and_pressure_share_a_sentence():
     said, = rough(passing(waves(40e-6, 1.5e-6)))
-    assert "slopes up to 13" in said and ", and take about 1" in said and said.count("feature.cutoff = ") == 1
+    assert "slopes up to 13" in said and ", and need about 1" in said and said.count("feature.cutoff = ") == 1
 
 
 def test_what_steel_bears_is_not_doubted():

@@ -152,7 +152,7 @@ def test_what_is_no_grid_of_numbers_is_refused(tmp_path):
 
 def test_the_preview_tells_points_range_rms_slope_and_points_per_cell(tmp_path):
     first, second = preview(with_map(wave(tmp_path)))
-    assert "121 x 61 points 1 um apart, 120 x 60 um" in first and "heights in um, plane taken off" in first
+    assert "121 x 61 points 1 um apart, 120 x 60 um" in first and "heights in um, plane removed" in first
     f = with_map(wave(tmp_path)).features[0]
     assert f"range {f.measures.range * 1e6:.4g} um" in second and f"rms {f.measures.rms * 1e6:.4g} um" in second
     assert f"slope {f.measures.slope:.2g} deg" in second and "a cell of the grid has 22.6 x 22.6 points" in second
@@ -183,7 +183,7 @@ def test_tehl_run_shows_the_map_before_it_computes_anything(taichi_cpu, tmp_path
 def test_a_map_finer_than_the_grid_is_doubted_and_the_grid_named_is_fine(tmp_path):
     rough = with_map(wave(tmp_path, length=60.0))
     (sentence,) = doubts(rough)
-    assert "the grid misses" in sentence and sentence in rough.warnings()
+    assert "the grid loses" in sentence and sentence in rough.warnings()
     nx, ny = sentence.split("--grid ")[1].split()[0].split("x")
     assert doubts(rough.replace(**{"grid.nx": int(nx), "grid.ny": int(ny)})) == []
     assert doubts(rough.replace(**{"grid.nx": int(nx) // 2, "grid.ny": int(ny) // 2})) != []
@@ -239,7 +239,7 @@ def test_a_written_scene_refuses_a_changed_file(tmp_path):
     del description
     gc.collect()
     wave(tmp_path, height=0.1)
-    with pytest.raises(SceneError, match="take feature.sha256 out"):
+    with pytest.raises(SceneError, match="remove feature.sha256"):
         scene_file.load(tmp_path / "s.toml")
 
 

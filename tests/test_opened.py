@@ -38,7 +38,7 @@ def test_what_lies_there_is_what_comes_out(made):
 
 
 @pytest.mark.parametrize("name, said", [
-    (".", "is no run, study or flank: it has neither zarr.json nor flank.json"), ("nothing", "there is no such folder")])
+    (".", "is not a run, study or flank: it has neither zarr.json nor flank.json"), ("nothing", "the folder does not exist")])
 def test_what_is_nothing_of_ours_is_refused(made, name, said):
     with pytest.raises(StoreError, match=said):
         tehl.open(made / name)
@@ -51,7 +51,7 @@ def test_where_a_run_is_needed_the_others_say_where_theirs_lie(made, name, said)
         open_run(made / name)
     for words in (("resume",), ("fatigue",), ("crack",), ("export",)):
         done = here(*words, name, cwd=made)
-        assert done.returncode == 2 and f"{name} is a " in done.stderr and "this takes the store" in done.stderr, words
+        assert done.returncode == 2 and f"{name} is a " in done.stderr and "use the store" in done.stderr, words
 
 
 def test_show_prints_a_flank_as_it_was_printed(made):
@@ -64,6 +64,6 @@ def test_plot_draws_each_and_refuses_what_is_of_another(made):
     pytest.importorskip("matplotlib")
     done = here("plot", "flank", "--dpi", 40, "--out", "drawn", cwd=made)
     assert done.returncode == 0 and done.stdout.split() == ["drawn/flank.png"] and (made / "drawn/flank.png").exists()
-    for words, said in ((("flank", "--at", 0.5), "--at 0.5 is of a run, and flank is a flank"),
-                        (("run.zarr", "--quantity", "x"), "--quantity x is of a study, and run.zarr is a run")):
+    for words, said in ((("flank", "--at", 0.5), "--at 0.5 applies to a run, but flank is a flank"),
+                        (("run.zarr", "--quantity", "x"), "--quantity x applies to a study, but run.zarr is a run")):
         assert said in here("plot", *words, cwd=made).stderr

@@ -107,7 +107,7 @@ def test_other_files_that_commands_write(run, tmp_path, monkeypatch):
     from tehl_taichi.disk import outputs
     from tehl_taichi.errors import StoreError
 
-    with pytest.raises(StoreError, match="was not written by this program"):
+    with pytest.raises(StoreError, match="was not written by tehl"):
         outputs.text(kept, "{}", force=True)
     assert kept.read_text() == "mine"
     kept.unlink()
@@ -123,7 +123,7 @@ def test_other_files_that_commands_write(run, tmp_path, monkeypatch):
     folder.mkdir()
     (folder / "flank.csv").write_text("mine")
     code, said = cli("flank", "fzg-c", "--out", folder, "--workers", 1)
-    assert code == 2 and "no table of a flank" in said and (folder / "flank.csv").read_text() == "mine"
+    assert code == 2 and "not a table of a flank" in said and (folder / "flank.csv").read_text() == "mine"
 
 
 def test_a_flank_plots_into_itself_and_nowhere_else_inside(tmp_path):

@@ -38,7 +38,7 @@ def test_figures_of_a_stored_run_know_the_part():
     np.testing.assert_allclose(part.points["below"]["stress"], 0.8 * found.points["below"]["stress"])
     np.testing.assert_array_equal(part.maps[ALONE], found.maps[ALONE])  # of a part of the passage it would say nothing
     assert "feature up to 0.60 a" in part.constants
-    assert found.constants.endswith("whole passage, its later pressures not resolved")
+    assert found.constants.endswith("whole passage, later pressures not resolved")
     older = found_search.Found.of(made_results.THERMAL, {name: values[0] for name, values in maps(False).items()}, SEARCH)
     assert older.each == [older] and older.when == ""
 
@@ -51,8 +51,8 @@ def test_the_map_of_the_part_comes_first(width):
     figures = fatigue_figures.all_figures(Page(dpi=40, width=width), searched(part=part, when="all"))
     figure = figures["fatigue"]()
     said = [text for text in titles(figure)[1:] if text]
-    assert said[0].startswith("as long as it is\n(up to 0.6 a)\nworst, Fi = 0.80")
-    assert said[2].startswith("all\nworst, Fi = 1.00")
+    assert said[0].startswith("as long as it is\n(up to 0.6 a)\nlargest, Fi = 0.80")
+    assert said[2].startswith("all\nlargest, Fi = 1.00")
     assert list(figures) == ["fatigue", "fatigue_point", "fatigue_point_whole"]
     assert title(figures["fatigue_point"]()).endswith("as long as it is (up to 0.6 a)")
 
@@ -61,17 +61,17 @@ def test_the_page_shows_the_part_before_the_whole(tmp_path):
     pytest.importorskip("plotly")
     seen = page(made_results.run(tmp_path / "a.zarr", search=SEARCH, found=maps()), tmp_path)
     first, last = seen.headings.index("Fatigue, resolved part"), seen.headings.index("Fatigue, whole passage")
-    assert "The answer rests on this: as long as the grid resolves the pressure (feature up to 0.60 a)." in seen.text
+    assert "The answer uses this part: while the grid resolves the pressure (feature up to 0.60 a)." in seen.text
     assert first < last
     names = [name for name in seen.places if "index-" in name]
     assert names == ["resolved-index-surface", "resolved-index-below", "index-surface", "index-below"]
     assert numbers(seen.figures[names[0]]["data"][0]).max() == pytest.approx(0.8)
     rows = seen.text[seen.text.index("Numbers and their errors") :]
-    assert rows.index("largest, as long as the grid resolves") < rows.index("largest, whole passage")
+    assert rows.index("largest, while the grid resolves") < rows.index("largest, whole passage")
 
 
 def test_a_store_without_maps_of_the_part_says_so(tmp_path):
     pytest.importorskip("plotly")
     seen = page(made_results.run(tmp_path / "a.zarr", search=SEARCH, found=maps(False)), tmp_path)
-    assert "Maps of this part are not in the store" in seen.text and "resolved-index-surface" not in seen.places
+    assert "has no maps of this part" in seen.text and "resolved-index-surface" not in seen.places
     assert "Fatigue, resolved part" in seen.headings

@@ -95,7 +95,7 @@ def test_going_on_from_a_state_repeats_the_run():
     whole += run
     rest = list(march(description, state))
     assert len(rest) == 7
-    with pytest.raises(RuntimeError, match="state of step 4 is gone"):
+    with pytest.raises(RuntimeError, match="state of step 4 is no longer available"):
         march(description, whole[4].state)
     for name, values in rest[-1].fields.items():
         assert np.array_equal(values, whole[-1].fields[name])

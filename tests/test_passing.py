@@ -67,7 +67,7 @@ def test_the_worst_of_several_features_is_named():
 
 def test_too_narrow_for_any_grid():
     said = sentence(lambda: on(256, 64, Feature(width=1e-6), **{"grid.x_min": -20.0}))
-    assert "no grid has them" in said and "feature.width of 0.00012 m would do" in said
+    assert "no grid is fine enough" in said and "feature.width of 0.00012 m is enough" in said
 
 
 def test_lines_and_steady_scenes_need_no_rows():
@@ -102,7 +102,7 @@ def test_features_beside_the_domain(feature, words):
 def test_features_at_its_edge_are_cut():
     assert on(256, 64, Feature(y=4.5e-4)).rows == 128
     said, = told(on(256, 64, Feature(y=3e-4)))
-    assert said.endswith("what lies beyond is cut off; --set grid.y_max=1.2 --grid 256x80 gives room")
+    assert said.endswith("heights beyond are cut off; use --set grid.y_max=1.2 --grid 256x80")
     assert told(on(256, 64, Feature(y=3e-4), **{"grid.y_max": 1.2, "grid.ny": 76})) == []
     assert on(256, 64, Feature(shape="ridge", y=1e-3, height=1e-7)).one_dimensional  # transverse: the same for every y
 

@@ -230,7 +230,7 @@ def test_what_is_set_may_be_what_a_file_needs(tmp_path, base):
 
 
 @pytest.mark.parametrize("line, words", [
-    ("srr = -0,2", ("line 3 has a decimal comma, TOML takes a point: -0.2",)),
+    ("srr = -0,2", ("line 3 has a decimal comma; TOML needs a point: -0.2",)),
     ("srr = 1,5e-3  # of it", ("line 3", "1.5e-3",)), ("srr = -0;2", ("Expected newline", "line 3"))])
 def test_a_decimal_comma_is_named(line, words, tmp_path):
     path = tmp_path / "mine.toml"

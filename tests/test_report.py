@@ -71,10 +71,10 @@ def test_the_numbers_are_those_of_the_summary(thermal, pages):
     seen, summary = pages["thermal"], tehl.open(thermal).summary
     f, steady = summary["fatigue"], summary["steady"]
     assert f"At the surface: Fi = {f['Fi_max']:.3f} ± 0.023, 1 lies within the error." in seen.text
-    assert "25 µm below the surface: Fi = 1.4 (error not known), above 1." in seen.text
+    assert "25 µm below the surface: Fi = 1.4 (error unknown), above 1." in seen.text
     for text in (f"{steady['h_c_m'] * 1e6:.4f} µm", "0.0010 µm", "no coarser grid",
-                 f"{summary['hertz']['p_Pa'] / 1e9:.4g} GPa", "12.5 s, of it kernels 2.5 s", "tehl run made-up", "abc123",
-                 "something is doubtful", "σ_eF = 400 MPa with κ = 0.3 (findley): example values, to be replaced"):
+                 f"{summary['hertz']['p_Pa'] / 1e9:.4g} GPa", "12.5 s, including kernels 2.5 s", "tehl run made-up", "abc123",
+                 "something is doubtful", "σ_eF = 400 MPa with κ = 0.3 (findley): example values, replace them"):
         assert text in seen.text, text
     assert all(sentence in seen.text for sentence in tehl.open(thermal).scene.left_out())
     assert seen.headings[0] == "How sure" and seen.text.index("Probably yes") < seen.text.index("Scene")
@@ -124,7 +124,7 @@ def test_both_surfaces_have_one_scale_of_colours(thermal, tmp_path, monkeypatch)
 def test_what_carries_the_feature_is_said_where_temperatures_are(pages):
     seen = pages["thermal"].text
     assert "Temperature, surface a, which carries the feature: " in seen and "Temperature, surface b: " in seen
-    assert "Surface a, that of body a, carries a feature of the shape cosine" in seen
+    assert "Surface a (body a) carries a feature of the shape cosine" in seen
     assert "the contact lies between −1 and 1. Surface a carries the feature." in seen
     assert "the contact lies between −1 and 1.\n" in pages["no fatigue"].text  # isothermal
 
@@ -132,9 +132,9 @@ def test_what_carries_the_feature_is_said_where_temperatures_are(pages):
 def test_tables_have_the_error_below_the_surface_and_what_no_figure_shows(pages, tmp_path, monkeypatch):
     monkeypatch.setitem(made_results.EXTRA["passage_error"], "below_Fi_max", 0.041)
     seen = page(made_results.run(tmp_path / "a.zarr", search=made_results.fatigue()), tmp_path).text
-    assert "index of fatigue Fi 25 µm below the surface, largest\n1.392\n0.041\n2.9 %" in seen
-    assert "index of fatigue Fi 25 µm below the surface, largest\n1.4\nnot estimated\n" in pages["thermal"].text
-    assert "largest principal stress on the surface\n300 MPa\n" in seen
+    assert "fatigue index Fi 25 µm below the surface, largest\n1.392\n0.041\n2.9 %" in seen
+    assert "fatigue index Fi 25 µm below the surface, largest\n1.4\nnot estimated\n" in pages["thermal"].text
+    assert "largest principal stress at the surface\n300 MPa\n" in seen
     assert "load carried by solid contact\n" in seen and "load carried" not in pages["steady line"].text
     assert "critical plane to the surface (0°: it lies in the surface)\n57 °" in seen
 
@@ -196,7 +196,7 @@ def test_a_flank_says_where(pages):
     seen = pages["flank"]
     assert "exceeded at the surface at A, x_pl = -" in seen.text and "It is above 1 at 1 of 3 positions." in seen.text
     assert "step 7 failed" in seen.text and "A, C: same everywhere" in seen.text
-    assert "Warnings of the positions, listed below: 1." in seen.text and "module" in seen.text
+    assert "Number of warnings, listed below: 1." in seen.text and "module" in seen.text
     films, *_, slip = seen.figures.values()
     assert [mark["text"] for mark in films["layout"]["annotations"]] == ["A", "B", "C", "D", "E"]
     assert [line["y"] for line in films["data"]] == [pytest.approx([0.1, 0.4]), pytest.approx([0.05, 0.2])]

@@ -59,9 +59,9 @@ def test_the_page_is_of_the_fatigue_that_is_asked_for(made, search):
     assert path == made.with_name("made-fatigue.html") and until is None
     assert (asked.fatigue.kappa, asked.fatigue.endurance, asked.fatigue.to_x) == (0.25, 450e6, 0.5)
     assert "Does a fatigue crack start here, with κ = 0.25, σ_eF = 450 MPa, moments with the feature up to 0.5 a?" in text
-    assert ("The run was stored with another question: κ = 0.3, σ_eF = 400 MPa, moments with the feature "
+    assert ("The run was stored with other constants: κ = 0.3, σ_eF = 400 MPa, moments with the feature "
             "anywhere." in text)
-    assert "At the surface: Fi = 0.5 (error not known), below 1." in text and "1.008" not in text
+    assert "At the surface: Fi = 0.5 (error unknown), below 1." in text and "1.008" not in text
     assert "Fi = 1 is the fatigue limit σ_eF = 450 MPa with κ = 0.25 (findley): no source is given" in text
     assert "Only moments with the feature up to 0.5 a count" in text and "over the whole passage" not in text
     assert "Index Fi at the surface, over all moments that count (feature up to 0.5 a)" in text
@@ -118,7 +118,7 @@ def test_the_source_of_the_run_is_not_that_of_other_constants(tmp_path, constant
 @pytest.mark.parametrize("changes, said", [
     ({"depths": [5e-5, 1e-4]}, ("depths searched:", "the worst, all points at 50 µm and 100 µm", "the worst")),
     ({"depths": []}, ("depths searched:", "the surface alone", "the worst")),
-    ({"thermal_stress": False}, ("the stress of the heat", "left out", "counted")),
+    ({"thermal_stress": False}, ("thermal stress", "left out", "counted")),
     ({"from_x": -0.5, "to_x": 1}, ("moments with the", "feature from -0.5 a up to 1 a", "feature anywhere")),
     ({"residual_yy": -2e8}, ("residual stress along y", "-200 MPa", "0 MPa")),
     ({"criterion": "matake"}, ("the criterion", "matake", "findley")),
@@ -130,12 +130,12 @@ def test_what_differs_is_said(made, changes, said):
 def test_an_unfinished_run_is_asked_as_far_as_it_goes(tmp_path, search):
     begun = store(tmp_path / "begun.zarr").path
     text = text_of(tehl.report(begun, kappa=0.25))
-    assert "The run is not finished: 2 of " in text and "Fi = 0.5 (error not known)" in text
+    assert "The run is not finished: 2 of " in text and "Fi = 0.5 (error unknown)" in text
 
 
 def test_a_study_and_a_flank_are_refused(tmp_path):
     flank = made_results.flank(tmp_path / "flank")
-    with pytest.raises(StoreError, match=r"is a flank: kappa can be asked of one of its runs, as .*POSITION\.zarr"):
+    with pytest.raises(StoreError, match=r"is a flank; kappa applies to one of its runs, as .*POSITION\.zarr"):
         tehl.report(flank, kappa=0.2, to_x=None)
     with pytest.raises(SceneError, match="kapa"):
         tehl.report(store(tmp_path / "a.zarr").path, kapa=0.2)

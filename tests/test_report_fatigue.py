@@ -39,13 +39,13 @@ def test_listed_depths_have_their_map_and_the_section(tmp_path, listed, shown):
     assert f"Index Fi {shown} µm below the surface" in seen.text and {"section", "over-depth"} <= set(seen.places)
     below = seen.figures["index-below"]["data"]
     assert numbers(below[0]).max() == pytest.approx(2.0)
-    assert any("worst point" in trace.get("name", "") for trace in below) == (shown == 25)
-    assert ("The worst depth is 25 µm, under the row y = 0 µm, with Fi = 1.39." in seen.text) == (shown != 25)
+    assert any("critical point" in trace.get("name", "") for trace in below) == (shown == 25)
+    assert ("The critical depth is 25 µm, under the row y = 0 µm, with Fi = 1.39." in seen.text) == (shown != 25)
     assert numbers(seen.figures["over-depth"]["data"][0]) == pytest.approx(maps["under_row_depth"][0] * 1e6)
 
 
 def test_a_plane_that_is_not_at_the_worst_depth_has_its_own_mark(tmp_path):
-    """The worst depth is looked for once more under the row of what is worst in the plane, which then lies beside it."""
+    """The critical depth is looked for once more under the row of what is worst in the plane, which then lies beside it."""
     maps = made_results.maps()
     plane = np.roll(maps["Fi"][0], 2, axis=0) * 4e8 * 1.2
     maps |= {"worst_depth": (np.array([27.3e-6]), ["d"], "m", "depth"),
@@ -55,7 +55,7 @@ def test_a_plane_that_is_not_at_the_worst_depth_has_its_own_mark(tmp_path):
     assert mark["name"] == "largest at this depth, Fi = 1.20" and mark["y"] == [0.0]
     assert mark["x"] == pytest.approx([50.0])
     assert "Index Fi 27.3 µm below the surface" in seen.text
-    assert "The worst depth is 25 µm, under the row y = 0 µm, with Fi = 1.39." in seen.text
+    assert "The critical depth is 25 µm, under the row y = 0 µm, with Fi = 1.39." in seen.text
 
 
 def test_a_long_reason_why_an_error_is_not_known_stands_once_behind_the_tables(tmp_path, monkeypatch):
@@ -64,7 +64,7 @@ def test_a_long_reason_why_an_error_is_not_known_stands_once_behind_the_tables(t
     monkeypatch.setitem(made_results.EXTRA, "passage_unknown", {"p_max_Pa": why, "Fi_max": why, "below_Fi_max": other})
     seen = page(made_results.run(tmp_path / "a.zarr", search=made_results.fatigue()), tmp_path).text
     assert seen.count(why) == 1 and seen.count("\nexit not resolved ¹\n") == 2 and seen.count("\nnot known ²\n") == 1
-    assert f"\nWhy an error is not known\n¹ {why}\n² {other}\n" in seen
+    assert f"\nWhy an error is unknown\n¹ {why}\n² {other}\n" in seen
 
 
 @pytest.mark.parametrize("search", [made_results.fatigue(), None])
@@ -82,4 +82,4 @@ def test_that_steel_would_yield_is_said_once(tmp_path, search):
 def test_a_cut_passage_says_so(tmp_path):
     cut = made_results.THERMAL.replace(**{"time.steps": 4})
     text = page(made_results.run(tmp_path / "a.zarr", cut, 5, made_results.fatigue()), tmp_path).text
-    assert "inside the contact: what comes later is not in these numbers" in text and "rest of the passage" not in text
+    assert "inside the contact; later moments are not part of these numbers" in text and "rest of the passage" not in text

@@ -18,10 +18,10 @@ def test_a_file_that_is_there_stays_unless_forced(thermal, tmp_path):
     (tmp_path / "mine.html").write_text("mine")
     words = ["report", str(thermal), "--out", str(tmp_path / "mine.html")]
     refused = CliRunner().invoke(app, words).exception
-    assert isinstance(refused, StoreError) and "exists already; choose another --out, or --force" in str(refused)
+    assert isinstance(refused, StoreError) and "exists already; choose another --out, or use --force" in str(refused)
     assert (tmp_path / "mine.html").read_text() == "mine"
     refused = CliRunner().invoke(app, [*words, "--force"]).exception
-    assert isinstance(refused, StoreError) and "was not written by this program" in str(refused)
+    assert isinstance(refused, StoreError) and "was not written by tehl" in str(refused)
     assert (tmp_path / "mine.html").read_text() == "mine"
     words[-1] = str(tmp_path / "page.html")
     for more in ([], ["--force"]):

@@ -106,11 +106,12 @@ def test_the_summary_and_the_table_have_it():
     assert deep is part["below"] and below == {"Fi_max": companions.RESOLVED_BELOW}
     part["error"], part["unknown"] = {"Fi_max": 0.02}, {}
     rows = dict(summary_rows.fatigue_rows(search))
-    assert list(rows)[0] == "Fi_max while resolved (to 0.60 a)" and rows["at x, y from the centre, below while resolved"]
-    assert "Fi_max at the surface, whole passage" in rows and "Fi_max below it, at 25 um, whole passage" in rows
+    assert list(rows)[0] == "Fi_max while resolved (to 0.60 a)"
+    assert rows["at x, y from the feature centre, below while resolved"]
+    assert "Fi_max at the surface, whole passage" in rows and "Fi_max below the surface, at 25 um, whole passage" in rows
     assert list(dict(summary_rows.fatigue_rows(fatigue())))[0] == "Fi_max at the surface"
     assert rows["Fi_max while resolved (to 0.60 a)"] == "0.800 ± 0.020"
-    assert rows["below it while resolved, at 25 um"] == "0.9 (error unknown)"
+    assert rows["below the surface while resolved, at 25 um"] == "0.9 (error unknown)"
     assert flat.error_of("fatigue_resolved_Fi_max") in flat.numbers({"fatigue": search})
     assert flat.error_of("fatigue_below_Fi_max") == "fatigue_below_error_Fi_max"
 
@@ -121,7 +122,7 @@ def test_one_reason_is_said_once():
             "fatigue": {"unknown": why, "resolved": {"unknown": why, "below": {"unknown": why}}}}
     assert result_judge.unknown_errors(SimpleNamespace(scene=GEAR), told) == [
         "the error of passage p_max_Pa, Fi_max, Fi_max of the resolved part, Fi_max below the surface of the resolved part "
-        "is not known: exit not resolved: a narrow peak; the next to try is finer along x: --grid 512x64 (4 times the work)",
+        "is not known: exit not resolved: a narrow peak; try a grid that is finer along x: --grid 512x64 (4 times the work)",
         "the error of passage h_min_m is not known: it still changes"]
 
 
@@ -129,15 +130,15 @@ def test_one_reason_is_said_once():
     (1.2, 0.1, 1.6, "yes", "Yes: the fatigue limit is exceeded at the surface, even without the pressures"),
     (1.2, None, 1.6, "yes", "Probably yes: the fatigue limit is exceeded at the surface, even without the pressures that "),
     (0.98, 0.1, 1.6, "open", "Not decided: the index is 1 within its error at the surface, without the pressures that"),
-    (0.8, 0.1, 1.6, "open", "Not decided: the index stays below 1 as long as the grid resolves the pressure, and"),
-    (0.8, 0.1, 0.9, "no", "Probably not: the index stays below 1; over the whole passage its error is not known.")])
+    (0.8, 0.1, 1.6, "open", "Not decided: the index stays below 1 while the grid resolves the pressure, and"),
+    (0.8, 0.1, 0.9, "no", "Probably not: the index stays below 1, but over the whole passage its error is unknown.")])
 def test_the_answer_rests_on_what_is_known(part, error, whole, tone, said):
     before = {"to_x_a": 0.6, **fatigue(part, None), "error": {"Fi_max": error}}
     _, headline, found, tells = verdict.of_fatigue({**fatigue(whole, None), "error": {"Fi_max": None}, "resolved": before})
     assert found == tone and headline.startswith(said)
-    assert tells[0] == ("As long as the grid resolves the pressure (feature up to 0.60 a, that is 0.60 half-widths behind the "
+    assert tells[0] == ("While the grid resolves the pressure (feature up to 0.60 a, that is 0.60 half-widths behind the "
                         "middle of the contact; the rest can only add):") and f"Fi = {part}" in tells[1]
-    assert tells[2] == "Over the whole passage, whose pressure it does not resolve:" and f"Fi = {whole}" in tells[3]
+    assert tells[2] == "Over the whole passage, where the grid does not resolve the pressure:" and f"Fi = {whole}" in tells[3]
 
 
 def test_a_cut_search_is_not_called_whole():
@@ -145,8 +146,8 @@ def test_a_cut_search_is_not_called_whole():
     before, over = {"to_x_a": 0.6, **fatigue(0.8, None)}, scene_words.when(part)
     assert over == "over all moments that count (feature from -0.5 a up to 0.7 a)"
     tells = verdict.of_fatigue({**fatigue(1.6), "resolved": {**before, "surface_angle_deg": 67.0}}, part)[-1]
-    assert "stands at 67° to it, over the whole passage at 57°." in tells[-1] and "18 to 50° to the surface" in tells[-1]
-    assert tells[2] == "Over all moments that count (feature from -0.5 a up to 0.7 a), whose pressure it does not resolve:"
+    assert "is at 67° to it, over the whole passage at 57°." in tells[-1] and "18 to 50° to the surface" in tells[-1]
+    assert tells[2].startswith("Over all moments that count (feature from -0.5 a up to 0.7 a), where the grid does not")
     assert any(said.startswith("The contact without") and ", over the same moments" in said for said in tells)
     assert not any("same moments" in said for said in verdict.of_fatigue(fatigue(1.6))[-1])
 

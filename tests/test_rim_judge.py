@@ -38,17 +38,17 @@ def test_a_worst_point_in_the_taper_is_doubted(tmp_path, x, y, words):
     assert len(found) == (words is not None)
     if words:
         axis, size = ("y", "0.3") if y else ("x", "0.4")
-        assert found[0].startswith(f"the worst point at the surface lies {words}")
-        assert f"a larger feature.extent_{axis} moves the rim away from it (the file has {size} mm)" in found[0]
+        assert found[0].startswith(f"the critical point at the surface lies {words}")
+        assert f"a larger feature.extent_{axis} moves the rim away (the file has {size} mm)" in found[0]
 
 
 def test_a_cut_edge_without_a_taper_is_a_step(tmp_path):
     cut = store(tmp_path, taper=0.0)
     sentence, = said(cut, 0.0, HALF["y"] - 1e-6)
-    assert "1 um inside the rim along which the scan ends, in a step, without a taper: its index may be that of" in sentence
+    assert "1 um inside the rim along which the scan ends, in a step, without a taper: its index may be caused by" in sentence
     assert said(cut, 0.0, 60e-6) == []
     whole = store(tmp_path, extent_x=0.0, extent_y=0.0)
-    assert "the file ends there: a scan that is longer along y" in said(whole, 0.0, 140e-6)[0]
+    assert "the file ends there; use a scan that is longer along y" in said(whole, 0.0, 140e-6)[0]
 
 
 def test_places_are_those_of_the_map_and_told_once(tmp_path):
@@ -57,7 +57,7 @@ def test_places_are_those_of_the_map_and_told_once(tmp_path):
     at = {"x_m": 0.0, "y_m": 70e-6}
     below, part = {**at, "depth_m": 9e-6}, {"to_x_a": 0.1, "x_m": 0.0, "y_m": 0.0, "below": at}
     found = said(store(tmp_path), 0.0, 0.0, below=below, resolved=part)
-    assert [one.partition(" lies ")[0] for one in found] == ["the worst point below the surface of the resolved part"]
+    assert [one.partition(" lies ")[0] for one in found] == ["the critical point below the surface of the resolved part"]
     assert rim_judge.rims in result_judge.CHECKS and said(SimpleNamespace(scene=scene("gear")), 0.0, 1e-4) == []
 
 

@@ -44,7 +44,7 @@ def settled(said):
 def test_a_feature_that_may_find_no_room_is_doubted():
     tight = tehl.scene("gear").replace(**TIGHT)
     [said] = [sentence for sentence in tight.warnings() if "grid.x_max" in sentence]
-    assert "1.5e-06 m passes grid.x_max = 1.5 a, where the dry contact leaves" in said
+    assert "1.5e-06 m passes grid.x_max = 1.5 a, where the dry gap is" in said
     assert not any("grid.x_max" in sentence for sentence in tight.replace(**settled(said)).warnings())
     assert not any("grid.x_max" in sentence for sentence in tehl.scene("gear").warnings())
 

@@ -97,14 +97,14 @@ def test_a_passage_that_lacks_its_fatigue_says_so():
     from tehl_taichi.study import single
 
     left = SimpleNamespace(store=SimpleNamespace(last_step=total_steps(RIDGE)), scene=RIDGE)
-    assert single._missing(left) == ", all of the passage: its stresses and errors are missing"
+    assert single._missing(left) == ", the whole passage; stresses and errors are missing"
     left.store.last_step -= 1
     assert single._missing(left) == ""
 
 
 def test_ctrl_c_says_what_is_stored_and_is_no_error_of_ours(done, tmp_path):
     path = tmp_path / "b.zarr"
-    with pytest.raises(KeyboardInterrupt, match="interrupted after [12] steps; go on with: tehl resume .*b.zarr"):
+    with pytest.raises(KeyboardInterrupt, match="interrupted after [12] steps; resume with: tehl resume .*b.zarr"):
         tehl.run(RIDGE, path, progress=Heard(stop=2))
     half = tehl.open(path)
     assert not half.finished and half.summary == {} and "not finished" in repr(half) and half.rest() == RIDGE
@@ -240,20 +240,20 @@ def test_the_critical_plane_is_told_by_two_angles():
 
 
 @pytest.mark.parametrize("of, constants, said", [
-    (bending(), {"kapa": 1}, "kappa"), (bending(), {"to_x": 1.0}, "to_x has no meaning"), (bending(), {"kappa": -1}, "kappa"),
+    (bending(), {"kapa": 1}, "kappa"), (bending(), {"to_x": 1.0}, "to_x has no effect"), (bending(), {"kappa": -1}, "kappa"),
     (bending(), {"criterion": "finley"}, "findley"), (bending()[:, :5], {}, "shaped"), (bending() * np.nan, {}, "finite"),
     (bending(), {"bending_limit": 5e8, "endurance": 4e8}, "endurance = 400000000.0 and fatigue.bending_limit = .* contradict"),
     (bending(), {"bending_limit": 5e8, "torsion_limit": 2e8}, "between 0.5 and"),
     (bending(), {"bending_limit": -5e8, "torsion_limit": 2e8}, "bending_limit"), ([["a"]], {}, "given stresses"),
     (bending(), {"bending_limit": 5e8, "torsion_limit": 1.1e11}, "torsion_limit.*1e\\+11"),
-    ([], {}, "snapshots do not know")])
+    ([], {}, "snapshots need their scene")])
 def test_bad_stresses_and_constants_are_one_error(of, constants, said):
     with pytest.raises(tehl.SceneError, match=said):
         tehl.fatigue(of, **constants)
 
 
 @pytest.mark.parametrize("words, said", [
-    (("geer",), "gear"), (("no.toml",), "cannot read"), ((5,), "5 is no scene"), ((RIDGE, "a", {"threads": 0}), "1 to 1024"),
+    (("geer",), "gear"), (("no.toml",), "cannot read"), ((5,), "5 is not a scene"), ((RIDGE, "a", {"threads": 0}), "1 to 1024"),
     ((RIDGE, "a", {"threads": "two"}), "threads = 'two'"),
     ((RIDGE, "a", {"threads": 1}), "already runs"), ((RIDGE, "a", {"arch": "metal"}), "cpu")])
 def test_bad_input_is_one_error_and_writes_nothing(tmp_path, monkeypatch, words, said):

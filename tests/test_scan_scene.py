@@ -68,7 +68,7 @@ def test_what_is_not_given_is_asked_for(scan, tmp_path):
     (("--scan", "none.csv"), "'none.csv' does not exist"),
     (("--scan", "scans/a.csv", "--unit", "um", "--pixel", "1.8"), "did you mean 1.8e-6 m"),
     (("--scan", "scans/a.csv", "--unit", "inch", "--pixel", "1e-6"), "inch"),
-    (("--unit", "um"), "--unit um is of a scan"), (("--pixel-y", "1e-6"), "--pixel-y 1e-06 is of a scan")])
+    (("--unit", "um"), "--unit um has no effect without a scan"), (("--pixel-y", "1e-6"), "--pixel-y 1e-06 has no effect")])
 def test_nothing_is_written_of_what_is_refused(scan, tmp_path, words, said):
     done = tehl("new", "mine.toml", *words, cwd=tmp_path)
     assert done.returncode == 2 and said in done.stderr and not (tmp_path / "mine.toml").exists()
@@ -76,7 +76,7 @@ def test_nothing_is_written_of_what_is_refused(scan, tmp_path, words, said):
 
 def test_the_command_says_what_is_left_to_do(scan, tmp_path):
     done = tehl("new", "mine.toml", "--scan", "scans/a.csv", "--unit", "um", cwd=tmp_path)
-    assert done.returncode == 0 and "fill in feature.pixel and put the numbers of your contact" in done.stdout
+    assert done.returncode == 0 and "fill in feature.pixel and enter the values of your contact" in done.stdout
     assert 'file = "scans/a.csv"' in (tmp_path / "mine.toml").read_text(encoding="utf-8")
     again = tehl("new", "mine.toml", "--scan", "scans/a.csv", cwd=tmp_path)
     assert again.returncode == 2 and "exists already" in again.stderr

@@ -47,7 +47,7 @@ def test_keys_of_one_shape_are_refused_on_others():
     turns = {"transpose", "mirror_x", "mirror_y"}
     assert {"seed", "file", "unit", "scale", "pixel", "pixel_y", "level", "cutoff", "sha256", *turns} == set(own)
     for key in ("scale", "pixel", "seed"):
-        with pytest.raises(SceneError, match=f"feature.{key} .*has no effect: shape 'cosine' .* it is of {USED_BY[key][0]}"):
+        with pytest.raises(SceneError, match=f"feature.{key} .*has no effect: shape 'cosine' .* belongs to {USED_BY[key][0]}"):
             scene("gear").replace(**{f"feature.{key}": 2 if key == "seed" else 1e-4})
 
 

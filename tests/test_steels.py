@@ -35,7 +35,7 @@ def test_a_number_beside_the_name_is_used_and_warned_about():
     changed = scene("gear").replace(**{"bodies.a.material": "100Cr6", "bodies.a.k": 40.0})
     assert changed.body_a.k == 40.0 and changed.body_a.c == NAMED["100Cr6"].c
     warned, = changed.warnings()
-    assert warned.startswith("bodies.a.material = 100Cr6 with other numbers than that steel (k)")
+    assert warned.startswith("bodies.a.material = 100Cr6 has other numbers than that steel (k)")
 
 
 def test_unknown_steels_are_refused_with_the_nearest(tmp_path):

@@ -133,7 +133,7 @@ def test_a_broken_or_pickled_checkpoint_is_refused(path, tmp_path):
     with Store.write(path) as saved, pytest.raises(StoreError, match="checkpoint is of another step"):
         saved.go_back()
     file.unlink()
-    with Store.write(path) as saved, pytest.raises(StoreError, match="nothing to go on from.*--out NEW"):
+    with Store.write(path) as saved, pytest.raises(StoreError, match="no checkpoint.*--out NEW"):
         saved.go_back()
 
 
@@ -187,7 +187,7 @@ def test_a_moved_store_is_found_at_its_new_place(path, tmp_path):
         with Store.write(tmp_path / name) as again:
             assert again.summary["store"] == str(tmp_path / name) and again.go_back()["step"] == 2
             again.append(shot(3))
-    with pytest.raises(StoreError, match="no such folder"):
+    with pytest.raises(StoreError, match="the folder does not exist"):
         Store.open(path)
 
 
@@ -196,7 +196,7 @@ def test_a_store_that_is_moved_while_it_is_written(path, tmp_path):
         path.rename(tmp_path / "moved.zarr")
         with pytest.raises(StoreError, match="still being written"):
             Store.write(tmp_path / "moved.zarr")
-        with pytest.raises(Interrupted, match="it was moved or removed; 3 entries are safe"):
+        with pytest.raises(Interrupted, match="it was moved or removed; 3 entries are stored"):
             saved.append(shot(3))
         assert not path.exists()  # no half of a store comes up at the old name
     with Store.write(tmp_path / "moved.zarr") as again:
@@ -222,7 +222,7 @@ def test_a_disk_that_fills_up_loses_no_entry(path, monkeypatch, fails):
     if fails == "npz":
         monkeypatch.setattr(np, "savez", half)
     with Store.write(path) as saved:
-        with pytest.raises(Interrupted, match="No space left on device; 3 entries are safe; then: tehl resume") as told:
+        with pytest.raises(Interrupted, match="No space left on device; 3 entries are stored; then use: tehl resume") as told:
             saved.append(shot(3), shot(3).state)
         assert told.value.exit_code == INTERRUPTED
     monkeypatch.undo()

@@ -71,7 +71,7 @@ def test_a_cut_passage_says_so_and_goes_on_to_the_same_result(tehl, unbroken):
     assert code == 0 and summary["steps"] == 5 and "warning: passage cut at -1.37 a" in said
     assert any(sentence.startswith("passage cut at -1.37 a") for sentence in summary["warnings"])
     assert any(line.startswith("rest of the passage") for line in summary["left_out"])
-    assert "cut at -1.37 a; go on with: tehl resume cut.zarr" in tehl("show", "cut.zarr")[1]
+    assert "cut at -1.37 a; extend with: tehl resume cut.zarr" in tehl("show", "cut.zarr")[1]
     code, out, _ = tehl("resume", "cut.zarr", "--steps", 7, "--threads", 2, "--json")
     assert code == 0 and json.loads(out)["steps"] == 12 and "passage cut at -0.94 a" in out
     code, out, _ = tehl("resume", "cut.zarr", "--threads", 2, "--json")
@@ -155,7 +155,7 @@ def test_a_run_that_still_goes_is_left_alone(tehl, tmp_path):
             code, _, said = tehl(*words)
             assert code == 2 and f"is still being written by process {os.getpid()}" in said and "--force" not in said
         assert "still being written by process" in tehl("show", path)[1]
-    assert "not finished; go on with: tehl resume" in tehl("show", path)[1]
+    assert "not finished; resume with: tehl resume" in tehl("show", path)[1]
 
 
 def test_a_finished_steady_run_gives_valid_json(tehl):
@@ -245,7 +245,7 @@ def test_a_hasty_stop_meets_no_import(name, by, late):
             f"        if name == '{late}': import os, signal; os.kill(os.getpid(), signal.{name})\n"
             "sys.meta_path.insert(0, Late()); sys.argv = ['tehl', 'resume', 'no.zarr']; entry.main()")
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
-    assert (done.returncode, done.stderr) == (4, f"tehl: {by}; nothing that was stored is lost\n")
+    assert (done.returncode, done.stderr) == (4, f"tehl: {by}; all stored data are kept\n")
 
 
 @pytest.mark.parametrize("stop", [signal.SIGTERM, signal.SIGHUP])
@@ -264,7 +264,7 @@ def test_a_stopped_run_says_by_what_and_how_it_goes_on(tmp_path):
         time.sleep(0.01)
     os.kill(run.pid, signal.SIGTERM)
     assert run.wait() == 4
-    assert re.search(r"^tehl: stopped by SIGTERM after \d+ steps; go on with: tehl resume a.zarr$", run.stderr.read(), re.M)
+    assert re.search(r"^tehl: stopped by SIGTERM after \d+ steps; resume with: tehl resume a.zarr$", run.stderr.read(), re.M)
 
 
 def test_a_closed_terminal_takes_no_last_word_and_changes_no_exit_code(tmp_path):

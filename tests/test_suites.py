@@ -103,7 +103,7 @@ def test_a_target_error_chooses_the_grid():
     narrow = {"width": gear.features[0].width / 2}
     for changes in (narrow, {"grid.x_min": 2 * gear.grid.x_min, "grid.x_max": 2 * gear.grid.x_max}):
         assert target.grid_for(gear.replace(**changes), passage[256])[0] == 512
-    with pytest.raises(SceneError, match="at most 2048 are taken, good for"):
+    with pytest.raises(SceneError, match="at most 2048, which give"):
         target.grid_for(gear, 1e-4)
 
 

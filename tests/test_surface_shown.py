@@ -99,7 +99,7 @@ def test_the_report_shows_the_map_and_what_was_read(tmp_path):
     assert seen.headings.index("The surface") == seen.headings.index("Scene") + 1
     for text in ("file\nscan.npy\n", "20 × 30", "6 µm × 5 µm", "nm", "plane", f"{f.measures.rms * 1e6:.4g} µm",
                  f"{f.measures.slope:.2g}°", "114 µm × 145 µm, fading out over 20 µm at its rim",
-                 "all on surface a, that of body a"):
+                 "all on surface a (body a)"):
         assert text in seen.text, text
     assert "file scan.npy, " in seen.text  # in words: without its folders
     trace, = seen.figures["surface"]["data"]
@@ -177,7 +177,7 @@ def test_words_of_a_scan_in_figures_and_report(tmp_path):
     for seen, what, where in ((of_scan, "scan", "scan centre"), (of_bump, "feature", "feature")):
         for said in (f"Position of the {where}", f"x of the {what}", f"dotted: the centre of the {what}",
                      f"Surface a carries the {what}", f"which carries the {what}", f"while the {what} passes",
-                     f"the {what} is on the slower one"):
+                     f"the {what} is on the slower surface"):
             assert said in seen.text, said
     assert of_scan.figures["index-surface"]["layout"]["xaxis"]["title"]["text"] == "x from the scan's centre (µm)"
     assert of_scan.figures["stress-surface"]["layout"]["xaxis"]["title"]["text"] == "position of the scan centre x / a"

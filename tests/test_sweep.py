@@ -106,7 +106,7 @@ def test_another_study_is_not_touched(study, tmp_path):
     with pytest.raises(StoreError, match="another study"):
         many.run(plan(GEAR, {"srr": [0.1]}), study.path, workers=1, work=formula)
     (tmp_path / "file").touch()
-    for path, said in ((tmp_path, "is no study"), (tmp_path / "file", "is no study")):
+    for path, said in ((tmp_path, "is not a study"), (tmp_path / "file", "is not a study")):
         with pytest.raises(StoreError, match=said):
             many.run(plan(GEAR, OVER), path, workers=1, work=formula)
     with Study.write(tmp_path / "held.zarr", plan(GEAR, OVER)), pytest.raises(StoreError, match="still being written"):
@@ -178,7 +178,7 @@ def test_lines_carry_the_errors_that_are_known(study):
     drawn = [[float(np.ptp(bar[:, 1])) for bar in of_line if len(bar) and np.isfinite(bar).all()] for of_line in bars]
     assert drawn == [pytest.approx([0.08] * 3), [], []]
     hollow = [line.get_xdata().tolist() for line in ax.lines if str(line.get_color()) == "white"]
-    assert [len(x) for x in hollow] == [0, 3, 3] and "hollow: its error is not known" in ax.figure.get_suptitle()
+    assert [len(x) for x in hollow] == [0, 3, 3] and "hollow: error unknown" in ax.figure.get_suptitle()
 
 
 def test_the_table_shows_errors_that_are_known(study):
@@ -239,7 +239,7 @@ def test_the_command_line_of_a_sweep(taichi_cpu, tmp_path, monkeypatch):
     assert found["results"][3]["changes"] == {"srr": 0.1, "speed": 10} and found["results"][3]["summary"]["steady"]["h_c_m"] > 0
     assert {"changes", "store", "converged", "summary"} <= found["results"][0].keys() and (tmp_path / found["table"]).exists()
     again = invoked(tmp_path, monkeypatch, "sweep", found["study"], "--workers", 1)
-    assert again.exit_code == 0 and "4 of them done before" in again.stderr and "ok" in again.stdout
+    assert again.exit_code == 0 and "4 of them already done" in again.stderr and "ok" in again.stdout
     assert again.stdout in invoked(tmp_path, monkeypatch, "show", found["study"]).stdout
     assert json.loads(invoked(tmp_path, monkeypatch, "show", found["study"], "--json").stdout) == found
     assert f"its table is {found['table']}" in str(invoked(tmp_path, monkeypatch, "export", found["study"]).exception)

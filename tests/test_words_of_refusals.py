@@ -104,7 +104,7 @@ def test_a_reader_of_instruments_that_dumps_all_it_tried(tmp_path, monkeypatch):
 
     file = tmp_path / "scan.X3P"
     file.write_bytes(b"PK rubbish")
-    for kind, said in ((type("CannotDetectFileFormat", (Exception,), {}), "none of the formats"),
+    for kind, said in ((type("CannotDetectFileFormat", (Exception,), {}), "does not read this format"),
                        (RuntimeError, "No reader found for the file.")):
         monkeypatch.setitem(sys.modules, "SurfaceTopography", reader(kind))
         with pytest.raises(tehl.SceneError) as found:
@@ -150,7 +150,7 @@ def test_a_sweep_into_a_full_disk(tmp_path, monkeypatch, where):
     path = tmp_path / "s.zarr"
     with monkeypatch.context() as disk:
         disk.setattr(where, full)
-        with pytest.raises(tehl.StoreError, match="No space left on device; what is stored stays, the same command goes on"):
+        with pytest.raises(tehl.StoreError, match="No space left on device; stored cases are kept"):
             many.run(plan(GEAR, {"srr": [0.1, 0.2]}), path, workers=1, work=made_up)
     study = many.run(plan(GEAR, {"srr": [0.1, 0.2]}), path, workers=1, work=made_up)
     assert study.counts["converged"] == 2 and Study.open(path).counts == study.counts
@@ -235,7 +235,7 @@ def test_an_interrupt_is_named_by_its_signal_never_by_an_exit_code(monkeypatch, 
         monkeypatch.setattr("tehl_cli.main.app", ended)
         with pytest.raises(SystemExit) as end:
             entry.main()
-        assert end.value.code == 4 and f"tehl: {said}; nothing that was stored is lost" in capsys.readouterr().err
+        assert end.value.code == 4 and f"tehl: {said}; all stored data are kept" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGHUP])
@@ -252,7 +252,7 @@ def test_signals_in_the_first_moments(number, tmp_path):
         _, said = run.communicate()
         assert run.returncode in (0, 4) and "130" not in said and "Traceback" not in said
         if run.returncode == 4:
-            assert said.strip().splitlines()[-1].endswith("nothing that was stored is lost")
+            assert said.strip().splitlines()[-1].endswith("all stored data are kept")
 
 
 WRONG = (None, 3, "x", [], "null", "3", '{"a": 1}', '[1]')

@@ -52,7 +52,7 @@ def rendered():
 def test_reports_number_the_places_of_a_rough_surface(rendered, tmp_path):
     rough = {"shape": "rough", "height": 1e-7, "width": 200e-6, "extent_x": 200e-6, "extent_y": 200e-6}
     seen = searched(THERMAL.replace(feature=[rough]), tmp_path)
-    assert "Places of the feature with the largest index" in seen.text and "Fi 3 µm below" in seen.text
+    assert "Points of the feature with the largest index" in seen.text and "Fi 3 µm below" in seen.text
     numbers, = [trace for trace in seen.figures["index-surface"]["data"] if trace.get("mode") == "text"]
     assert numbers["text"] == ["1", "2"] and sorted(numbers["x"]) == pytest.approx([-50.0, 50.0])
     assert "1.20" in seen.text and "1.10" in seen.text
@@ -60,5 +60,5 @@ def test_reports_number_the_places_of_a_rough_surface(rendered, tmp_path):
 
 def test_a_single_asperity_needs_no_table(rendered, tmp_path):
     seen = searched(THERMAL, tmp_path)
-    assert "with the largest index, by their numbers" not in seen.text
+    assert "with the largest index, numbered" not in seen.text
     assert not [trace for trace in seen.figures["index-surface"]["data"] if trace.get("mode") == "text"]

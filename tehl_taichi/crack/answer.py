@@ -87,19 +87,19 @@ def _why_not(plane, side):
     """Why no crack starts on that side."""
     if not ((plane.centres < 0) if side == "entry" else (plane.centres > 0)).any():
         return "the passage has no moment with the feature on this side of the contact"
-    return "nothing pulls the surface on this side, so a crack would never open"
+    return "the surface is never in tension on this side, so a crack would not open"
 
 
 def _check_places(places, deepest, wanted):
     """Refuse a mouth or a first piece outside the stresses at these x' (m), down to `deepest` (m)."""
     (low, high), x = places[[0, -1]], wanted.start
     if x is not None and not low <= x <= high:
-        raise SceneError(f"start = {x:g} m is outside the stresses that are known; allowed: {low:.3g} to {high:.3g} m")
+        raise SceneError(f"start = {x:g} m is outside the computed stresses; allowed: {low:.3g} to {high:.3g} m")
     tip = (x or 0.0) + wanted.first * np.exp(1j * np.radians(wanted.angle))
     if not (low <= tip.real <= high and tip.imag <= deepest):
         mouth = f" from start = {x:g} m" if x is not None else ""
-        raise SceneError(f"first = {wanted.first:g} m{mouth} leads out of the stresses that are known (to {high:.3g} m along "
-                         f"x, {deepest:.3g} m deep)")
+        raise SceneError(f"first = {wanted.first:g} m{mouth} leads out of the computed stresses (to {high:.3g} m along x, "
+                         f"{deepest:.3g} m deep)")
 
 
 def _common(scene, wanted):
@@ -158,7 +158,7 @@ def _doubts(plane, path, wanted, E_star):
     if max(error.values()) > CLEAR * largest:
         doubts.append(f"twice as many elements change the stress intensities by {max(error.values()) / largest:.0%}")
     if missed > CLEAR * len(path.steps) * K.shape[1]:
-        doubts.append(f"{missed} moments did not settle between sticking and sliding")
+        doubts.append(f"{missed} moments did not converge between sticking and sliding")
     if path.points.size > 2 and path.points[2:].imag.min() < 2 * wanted.distance:
-        doubts.append("the crack is nearer to the surface than twice the distance at which its direction is looked for")
+        doubts.append("the crack is closer to the surface than twice `--distance`, at which its direction is found")
     return {"error_at_last_length": error, "unsettled": missed, "doubts": doubts}

@@ -14,9 +14,9 @@ from tehl_taichi.crack.fillings import FILLINGS
 from tehl_taichi.crack.wet import Wet
 
 WIDEST, FAN = np.radians(75.0), 51  # directions looked at: up to there on both sides
-WHY = {"length": "it has the length that was asked for", "threshold": "K_I stays below the threshold",
-       "closed": "its tip never opens", "window": "it leaves the part of the body whose stresses are known",
-       "surface": "it comes up to the surface"}
+WHY = {"length": "it has reached the given length", "threshold": "K_I stays below the threshold",
+       "closed": "its tip never opens", "window": "it leaves the region of computed stresses",
+       "surface": "it reaches the surface"}
 
 
 @dataclass

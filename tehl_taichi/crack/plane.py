@@ -9,7 +9,6 @@ from tehl_taichi.crack.residual import Residual
 from tehl_taichi.errors import SceneError
 from tehl_taichi.fatigue.histories import Passage
 from tehl_taichi.fatigue.under_row import histories_of
-from tehl_taichi.values.interpolation import lagrange
 
 WINDOW = 1.3    # a: half width of the table; a path of 100 um turns out to half of that
 SKIN = 0.05     # of the feature's half width (or of a, if that is less): depths are even below it, and grow beyond
@@ -63,7 +62,8 @@ class Plane:
 def _cubic(at, count):
     """(first of four nodes, their weights (4, points)) for places `at` in nodes."""
     first = np.clip(np.floor(at).astype(int) - 1, 0, count - 4)
-    return first, np.array(lagrange(range(4), at - first))
+    nodes, here = np.arange(4), at - first
+    return first, np.array([np.prod([(here - n) / (m - n) for n in nodes if n != m], axis=0) for m in nodes])
 
 
 def principal(stress):
@@ -89,7 +89,7 @@ def plane_of(scene, reader, residual=None, check=None):
         check(passage.x, depths[-1])
     stress = histories_of(passage, depths, [(0, False)])[0][..., KEPT].swapaxes(0, 1)
     if not np.isfinite(stress).all():
-        raise SceneError("the stored tractions are no numbers somewhere, so the stresses below are none either")
+        raise SceneError("some stored tractions are not numbers, so the stresses are not known")
     times, centres = passage.centres / scene.operation.u_a, np.append(passage.centres, np.nan)
     times = np.append(times, 2 * times[-1] - times[0])  # unloaded as long after
     return Plane(passage.x, skin, np.ascontiguousarray(stress), centres, passage.a, feature.reach, None, times,
@@ -102,6 +102,6 @@ def _checked(scene, reader):
         raise SceneError("a crack needs the passage of a feature: a scene with a feature and at least one time step")
     feature = scene.features[0]
     if reader.y[0] < 0 or any(not one.symmetric for one in scene.features):
-        raise SceneError(f"y = 0 is no plane of symmetry of this scene (feature.y = {feature.y:g} m, or a surface that is not "
-                         "even in y), so a crack in it would not stay in it; allowed: features on y = 0 that are even in y")
+        raise SceneError(f"y = 0 is not a plane of symmetry of this scene (feature.y = {feature.y:g} m, or a surface that is "
+                         "not even in y), so a crack would leave it; allowed: features on y = 0 that are even in y")
     return feature, centres

@@ -12,7 +12,7 @@ from tehl_taichi.values.quantity import Number
 LARGEST = 5e9  # Pa
 STRESS = Number("", "Pa", -LARGEST, LARGEST, usual=-2e8, least=1e5)
 DEPTH = Number("", "m", 0.0, 0.03, usual=1e-4)
-WANTED = "lines of depth in m, stress in Pa, perhaps below a line that names these columns"
+WANTED = "lines with depth in m and stress in Pa; a header line may name the columns"
 MARKS = (";", "\t", ",")  # what may stand between the two, the first that the file has; else blanks
 
 
@@ -55,7 +55,7 @@ def read(text):
     try:
         return _rows(_words(path.read_text(encoding="utf-8-sig")))
     except (ValueError, OSError, csv.Error) as error:
-        raise SceneError(f"--residual {text}: {error}; wanted: {WANTED}") from None
+        raise SceneError(f"--residual {text}: {error}; allowed: {WANTED}") from None
 
 
 def _words(text):
@@ -79,7 +79,7 @@ def _rows(lines):
     try:
         return np.array([[float(words[column]) for column in columns] for _, words in lines], float).reshape(-1, 2)
     except (ValueError, IndexError) as error:
-        raise ValueError(f"its lines are not alike, or no numbers ({error})") from None
+        raise ValueError(f"its lines differ in length or are not numbers ({error})") from None
 
 
 def _named(head):

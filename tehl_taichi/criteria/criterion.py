@@ -49,7 +49,7 @@ class Criterion(Entry):
         Raises SceneError where the criterion fits no material of such limits.
         """
         if self.constants is None:
-            raise SceneError(f"{self.name} does not say which kappa and sigma_eF belong to fatigue limits: give these two")
+            raise SceneError(f"{self.name} cannot derive kappa and sigma_eF from fatigue limits: give kappa and endurance")
         ratio = torsion / bending
         if not self.least < ratio < self.most:
             raise SceneError(f"fatigue limits in bending {bending:g} Pa and torsion {torsion:g} Pa: {self.name} needs a ratio "

@@ -15,7 +15,7 @@ def constants(ratio):
 
 
 DANG_VAN = Criterion(
-    name="dang-van", says="shear from the middle of its path + kappa * mean stress, at their worst moment",
+    name="dang-van", says="shear from the middle of its path + kappa * mean stress, at the moment of the largest sum",
     source="Dang Van, Griveau & Message 1989", value=value, momentary=True, sensitivity="mean stress", constants=constants,
     checked=(Checked("by hand, bending: S/2 + kappa S/3", 60.0, lambda: DANG_VAN.in_bending(100.0, 0.3)),
              Checked("by hand, torsion: S", 100.0, lambda: DANG_VAN.in_torsion(100.0, 0.3))))

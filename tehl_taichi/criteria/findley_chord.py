@@ -5,7 +5,7 @@ from tehl_taichi.criteria.findley_circle import constants, value
 from tehl_taichi.registry import Checked
 
 CHORD = Criterion(
-    name="findley-chord", says="findley with half the longest chord of the shear path for its amplitude",
+    name="findley-chord", says="Findley's criterion with half the longest chord of the shear path as amplitude",
     source="Findley 1959, the amplitude as many programs take it", value=value, chord=True, sensitivity="normal stress",
     constants=constants,
     checked=(Checked("a straight path has its chord for diameter: as findley", 100.0,

@@ -19,7 +19,7 @@ def constants(ratio):
 
 
 FINDLEY = Criterion(
-    name="findley", says="shear amplitude + kappa * largest normal stress of a plane, at their worst sum",
+    name="findley", says="shear amplitude + kappa * largest normal stress, on the plane of the largest sum",
     source="Findley 1959", value=value, sensitivity="normal stress", constants=constants,
     checked=(Checked("by hand, bending: (S/2)(kappa + sqrt(1 + kappa^2))", 100.0, lambda: FINDLEY.in_bending(100.0, 0.75),
                      1e-8),

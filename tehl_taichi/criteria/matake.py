@@ -11,7 +11,8 @@ def constants(ratio):
 
 
 MATAKE = Criterion(
-    name="matake", says="findley's sum on the plane of the largest shear amplitude, of equal ones the one most pulled",
+    name="matake", says="Findley's sum on the plane of the largest shear amplitude (of equal planes the one with the largest "
+                        "normal stress)",
     source="Matake 1977", value=value, sheared=True, sensitivity="normal stress",
     constants=constants,
     checked=(Checked("by hand, bending: (1 + kappa) S/2, at 45 degrees", 65.0, lambda: MATAKE.in_bending(100.0, 0.3)),

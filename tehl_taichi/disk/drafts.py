@@ -35,7 +35,7 @@ class Draft:
     def __init__(self, path, replace=False):
         self.path, self.made, self.old, self.lock, self.published = Path(path), [], None, None, False
         if not self.path.name:
-            raise StoreError(f"{path} has no name that a store or a file could take; choose another --out")
+            raise StoreError(f"{path} is not a possible name of a store or file; choose another --out")
         self.folder, self.replaces = beside(self.path, PART), replace
         put_back(self.path)
         try:
@@ -90,7 +90,7 @@ class Draft:
             _put(made or self.folder, self.path, self.replaces)
         except OSError as error:
             put_back(self.path)
-            raise StoreError(f"cannot put it at {self.path}: {reason(error)}") from None
+            raise StoreError(f"cannot write {self.path}: {reason(error)}") from None
         self.published = True
         if made:
             remove(self.folder, self.lock)
@@ -166,7 +166,7 @@ def _check_ours(folder):
         left = set(os.listdir(folder)) if is_folder(folder) else None
         begun = left == set() or left == {LOCK} and not os.path.getsize(folder / LOCK)
         if not _ours(folder) and not (begun and _own(folder)):
-            what = "a link" if os.path.islink(folder) else "nothing that tehl left there"
+            what = "a link" if os.path.islink(folder) else "not written by tehl"
             raise Busy(f"{folder} is in the way and is {what}: move it away, or choose another --out")
 
 
@@ -176,8 +176,8 @@ def unmade(path):
     if not is_folder(folder):
         return None
     if who := holder(folder):
-        return f"{path} is still being made by {who}: its first entry is not in yet"
-    return f"{path} was never made: its run ended before the first entry was in; run it again"
+        return f"{path} is still being written by {who} and has no entry yet"
+    return f"{path} does not exist: its run ended before the first entry was stored; run it again"
 
 
 def _parents(path):
@@ -205,4 +205,4 @@ def _remove(path):
 
 def exists(path):
     """That something stands at `path`, in words."""
-    return f"{path} exists already; choose another --out, or --force to replace it"
+    return f"{path} exists already; choose another --out, or use --force to replace it"

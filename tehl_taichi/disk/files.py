@@ -11,7 +11,7 @@ import stat
 from tehl_taichi.errors import StoreError
 
 TEMPORARY = re.compile(r"\..+\.[0-9a-f]{16}\.tmp")  # unguessable: nobody can have put a link there before
-LINK = "it is a link, and nothing is written through one"
+LINK = "it is a link, and tehl does not write through links"
 TEXT = 2e8  # bytes: no attributes, tables or scenes of ours are larger
 UNWAITING = getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)  # the reader of a FIFO would wait for its writer
 UNFOLLOWING = getattr(os, "O_NOFOLLOW", 0) | UNWAITING
@@ -71,7 +71,7 @@ def opened(path, flags):
     if stat.S_ISREG(status.st_mode) and status.st_nlink <= 1:
         return found
     os.close(found)
-    raise OSError(errno.EINVAL, LINK if stat.S_ISREG(status.st_mode) else "it is no plain file")
+    raise OSError(errno.EINVAL, LINK if stat.S_ISREG(status.st_mode) else "it is not a regular file")
 
 
 def content(path, most=TEXT):
@@ -81,7 +81,7 @@ def content(path, most=TEXT):
         if stat.S_ISDIR(status.st_mode):
             raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
         if not stat.S_ISREG(status.st_mode):
-            raise OSError(errno.EINVAL, "it is no plain file")
+            raise OSError(errno.EINVAL, "it is not a regular file")
         if status.st_size > most:
             raise OSError(errno.EFBIG, f"it has {status.st_size} bytes; allowed: at most {most:.0f}")
         return file.read()

@@ -16,8 +16,8 @@ def refuse(folder):
     for path in (*_ways(folder), folder, *_below(folder)):
         if what := strange(os.lstat(path)):
             where = f"{folder} holds {what}, {path}" if path.is_relative_to(folder) and path != folder else f"{path} is {what}"
-            raise StoreError(f"{where}, and nothing is written through one; what it leads to stays as it is. "
-                             f"`cp -rL {folder} NEW` makes a copy without links, which can be written")
+            raise StoreError(f"{where}, and tehl does not write through links. `cp -rL {folder} NEW` makes a copy without "
+                             "links that can be written")
 
 
 def strange(status):
@@ -39,7 +39,7 @@ def is_folder(path):
 def refuse_itself(path):
     """Raises StoreError where a folder to write into is a link."""
     if os.path.islink(path):
-        raise StoreError(f"{path} is a link, and nothing is written through one; choose another --out")
+        raise StoreError(f"{path} is a link, and tehl does not write through links; choose another --out")
 
 
 def around(path):

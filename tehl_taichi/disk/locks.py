@@ -31,10 +31,10 @@ class Lock:
         try:
             before = _read(self.file)
             if not before and os.fstat(self.file.fileno()).st_size:
-                raise StoreError(f"{self.path} is no lock that tehl wrote; look what it is, and move it away")
+                raise StoreError(f"{self.path} is not a lock of tehl; check the file and move it away")
             if before and before["host"] != socket.gethostname():
                 raise Busy(f"{self.name} was being written by process {before['pid']} on {before['host']}, which cannot be "
-                           f"asked from here; if that run has ended, remove {self.path}")
+                           f"checked from this machine; if that run has ended, remove {self.path}")
             self.file.seek(0)
             self.file.truncate()
             json.dump({"program": PROGRAM, "pid": os.getpid(), "host": socket.gethostname(), "since": time.time()}, self.file)

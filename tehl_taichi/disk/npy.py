@@ -25,7 +25,7 @@ def load_all(path):
     with zipfile.ZipFile(path) as archive:
         members, size = archive.infolist(), os.path.getsize(path)
         if any(member.compress_type != zipfile.ZIP_STORED for member in members) or sum(m.file_size for m in members) > size:
-            raise ValueError("it declares more than it holds")
+            raise ValueError("it declares more data than it holds")
         for member in members:
             with archive.open(member) as file:
                 declared(file, member.file_size)

@@ -53,10 +53,10 @@ def check(path, force=False, kind="", parts="", of=None):
     if not os.path.lexists(path):
         return
     if what := links.strange(os.lstat(path)):
-        raise StoreError(f"{path} is {what}, and nothing is written through one; remove it or choose another --out")
+        raise StoreError(f"{path} is {what}, and tehl does not write through links; remove it or choose another --out")
     if links.is_folder(path) != bool(parts):
-        what = "no folder" if parts else "no file: it is a folder"
-        raise StoreError(f"{path} is there and is {what}; --out takes the name of a {'folder' if parts else 'file'}")
+        what = "no folder" if parts else "a folder, not a file"
+        raise StoreError(f"{path} exists and is {what}; --out takes the name of a {'folder' if parts else 'file'}")
     if not force:
         raise StoreError(exists(path))
     _check_parts(path, parts) if parts else _check_ours(path, kind)
@@ -72,13 +72,13 @@ def check_outside(path, of=None):
 def _check_parts(path, parts):
     for part in sorted(path.iterdir()):
         if not re.fullmatch(parts, part.name) or links.strange(os.lstat(part)):
-            raise StoreError(f"{path} holds {part.name}, which is no part of an export; move it away, or choose another --out")
+            raise StoreError(f"{path} holds {part.name}, which is not part of an export; move it away, or choose another --out")
         _check_ours(part)
 
 
 def _check_ours(path, kind=""):
     if not is_ours(path, kind):
-        raise StoreError(f"{path} was not written by this program, and --force replaces nothing else; move it away, or choose "
+        raise StoreError(f"{path} was not written by tehl, and --force replaces only files of tehl; move it away, or choose "
                          "another --out")
 
 

@@ -16,7 +16,7 @@ def check(needed, what, kind=SceneError):
     """Raises an error of that kind where `what` needs more bytes than this process can have."""
     there = available()
     if needed > SHARE * there:
-        raise kind(f"{what} needs {words(needed)} of memory, and {words(there)} are available")
+        raise kind(f"{what} needs {words(needed)} of memory; {words(there)} are available")
 
 
 def available():

@@ -17,7 +17,7 @@ def temporary():
     try:
         return tempfile.gettempdir()
     except OSError:
-        raise RuntimeUnavailable("no folder for temporary files can be written here: set TMPDIR to one that can") from None
+        raise RuntimeUnavailable("no folder for temporary files is writable; set TMPDIR to a writable folder") from None
 
 
 def give_home():

@@ -45,8 +45,8 @@ def cache_dir():
         with tempfile.TemporaryFile(dir=wanted):
             return wanted
     except OSError as error:
-        warnings.warn(f"compiled kernels cannot be kept in {wanted} ({error.strerror}): every run compiles what is not there; "
-                      "set TEHL_CACHE to a folder that can be written", RuntimeWarning, stacklevel=2)
+        warnings.warn(f"compiled kernels cannot be kept in {wanted} ({error.strerror}), so every run compiles them again; set "
+                      "TEHL_CACHE to a writable folder", RuntimeWarning, stacklevel=2)
         return _borrowed(wanted)
 
 
@@ -85,14 +85,14 @@ def _driven():
     try:
         ctypes.CDLL(DRIVER)
     except OSError:
-        raise RuntimeUnavailable(f"arch = 'cuda' is out of reach: no driver of a graphics card ({DRIVER}) is found here; 'cpu' "
-                                 "always is there") from None
+        raise RuntimeUnavailable(f"arch = 'cuda' is not available: no driver of a graphics card ({DRIVER}) was found; use "
+                                 "'cpu'") from None
 
 
 def start(arch="cpu", threads=None):
     """Start Taichi and say what was really started.
 
-    arch: "cpu", or "cuda", which is slower by now (docs/benchmarks.md); threads: number of CPU threads, or None for all cores
+    arch: "cpu", or "cuda", which is slower by now (docs/performance.md); threads: number of CPU threads, or None for all cores
     that this process may use. Returns a dict with arch, threads, taichi (version) and cache (folder).
     Raises RuntimeUnavailable when arch or threads cannot be had, another start is already active, or Taichi runs in another
     thread or in the process that this one was forked from.
@@ -123,12 +123,12 @@ def _start(arch, threads):
                 offline_cache=True, offline_cache_file_path=cache)
         if ti.cfg.arch != getattr(ti, arch):
             ti.reset()
-            raise RuntimeUnavailable(f"arch = {arch!r} is out of reach: its driver finds no card here")
+            raise RuntimeUnavailable(f"arch = {arch!r} is not available: the driver finds no graphics card")
         attempt(loops.keep_rolled)
         attempt(functools.partial(float_mode.launching, ti.lang.impl.get_runtime().prog, float_mode.now()))
     if arch == "cuda":
-        warnings.warn("arch = 'cuda' gives the same results, later: a step of 512x128 took an H200 six times as long as one "
-                      "core; see docs/benchmarks.md", RuntimeWarning, stacklevel=2)
+        warnings.warn("arch = 'cuda' gives equal results but is slower: a step of 512x128 took an H200 six times as long as "
+                      "one core; see docs/performance.md", RuntimeWarning, stacklevel=2)
     _started.update(arch=arch, threads=threads, taichi=".".join(map(str, ti.__version__)), cache=cache)
     _home = os.getpid(), threading.get_ident()
 
@@ -150,11 +150,11 @@ def _check_home():
     """Taichi adds to its program from the thread that started it only, and a forked process has none of its threads."""
     process, thread = _home
     if os.getpid() != process:
-        raise RuntimeUnavailable("Taichi was started before this process was forked and would wait for ever: use "
+        raise RuntimeUnavailable("Taichi was started before this process was forked and would block; use "
                                  "multiprocessing.get_context('spawn')")
     if threading.get_ident() != thread:
-        raise RuntimeUnavailable("Taichi belongs to the thread that started it: simulate in that thread, or in processes of "
-                                 "their own (multiprocessing.get_context('spawn'))")
+        raise RuntimeUnavailable("Taichi works only in the thread that started it; simulate in that thread, or in other "
+                                 "processes (multiprocessing.get_context('spawn'))")
 
 
 def leave(code):

@@ -31,7 +31,7 @@ def export(of: Any, format: str = "csv", path: str | PathLike | None = None, *, 
     choice("format", format, list(known))
     reader, chosen = Reader.open(folder_of(of)), known[format]
     if not chosen.chosen and (plain(at), plain(point)) != ((), ()):
-        raise SceneError(f"at and point choose tables of csv; {format} has every moment and every point")
+        raise SceneError(f"at and point apply to csv only; {format} holds every moment and every point")
     places, path = Places.of(reader, at, point), Path(path) if path is not None else chosen.beside(Path(reader.path))
     with outputs.made(path, force, kind=chosen.ending[1:], parts=chosen.parts) as draft:
         chosen.write(reader, draft, places)

@@ -66,7 +66,7 @@ def history(reader, x, y):
     centres = np.nan_to_num(reader.scalar("feature_x"))
     entries = np.flatnonzero((centres + x >= reader.x[0]) & (centres + x <= reader.x[-1]))
     if not entries.size:
-        raise SceneError(f"the point {x:g} m ahead of the centre of the feature never is on the grid, which goes from "
+        raise SceneError(f"the point {x:g} m ahead of the feature centre is never on the grid, which extends from "
                          f"{reader.x[0]:g} to {reader.x[-1]:g} m")
     at = {name: reader.scalar(name)[entries] for name in ("time", "feature_x")}
     fields = [_at(reader, _flat(reader, n), centres[n] + x, y) for n in entries]

@@ -40,11 +40,11 @@ def _passed(reader):
 def _entry(reader, at):
     number("at", at, "a", -1e3, 1e3)
     if len(reader) < 2:
-        raise SceneError(f"at = {at:g} a: nothing passes in {reader.path}, it has the steady contact only")
+        raise SceneError(f"at = {at:g} a: {reader.path} has no passage, only the steady contact")
     passed = _passed(reader)
     step = abs(passed[-1] - passed[0]) / max(passed.size - 1, 1)
     if not passed.min() - BEYOND * step <= at <= passed.max() + BEYOND * step:
-        raise SceneError(f"at = {at:g} a: the feature goes from {passed.min():.2f} to {passed.max():.2f} a in {reader.path}")
+        raise SceneError(f"at = {at:g} a: the feature moves from {passed.min():.2f} to {passed.max():.2f} a in {reader.path}")
     return 1 + int(np.argmin(np.abs(passed - at)))
 
 

@@ -86,8 +86,8 @@ def run(scene, reader, progress=None, until=None):
     passage = Passage(scene, reader, centres)
     if passage.centres.size < 2:
         f = scene.fatigue
-        raise SceneError(f"the feature is at no stored moment between fatigue.from_x = {f.from_x:g} a and to_x = {f.to_x:g} a; "
-                         f"it goes from {centres[0] / passage.a:.2f} to {centres[-1] / passage.a:.2f} a")
+        raise SceneError(f"no stored moment has the feature between fatigue.from_x = {f.from_x:g} a and to_x = {f.to_x:g} a; "
+                         f"it moves from {centres[0] / passage.a:.2f} to {centres[-1] / passage.a:.2f} a")
     early, wanted = _early(passage, until), bool(scene.fatigue.depths)
     progress = Told.of(progress, scene, passage, early)
     layers = [layer(scene, passage, depth, progress, early) for depth in (0.0, *scene.fatigue.listed)]
@@ -117,12 +117,12 @@ def _result(scene, passage, layers, below):
                "criterion": scene.fatigue.criterion, "thermal_stress": scene.thermal_stress_wanted,
                "pit_angles_deg": list(PIT_ANGLES)}
     maps, worst, deep = search_maps.of_surface(surface, passage, limit), surface.worst.history(centres), None
-    maps |= search_maps.of_history(worst, "worst", "the worst point of the surface")
+    maps |= search_maps.of_history(worst, "worst", "the critical point at the surface")
     points = [found.worst for found in layers[1:]] + below.worst
     if points:
         point = max(points, key=lambda point: point.f)
         summary["below"], deep = {"depth_m": point.depth, **point.summary(limit)}, point.history(centres)
-        maps |= search_maps.of_history(deep, "worst_below", "the worst point below it")
+        maps |= search_maps.of_history(deep, "worst_below", "the critical point below the surface")
     if below.profiles:
         depths = below.profiles[0].depths
         summary["below"] |= {"searched_m": [float(depths[0]), float(depths[-1])], **_alone(below.profiles, limit)}

@@ -21,8 +21,8 @@ def agreed(scene, reader):
     other = [key for key, _, value in keys.every(scene) if key.partition(".")[0] not in FREE and theirs.pop(key, None) != value]
     if other:
         many = f"{', '.join(other[:4])} {'are' if other[1:] else 'is'}"
-        raise SceneError(f"the given scene is not that of the run: {many} another; its fatigue alone "
-                         "may be: give constants, as kappa = 0.2, or run the other scene")
+        raise SceneError(f"the given scene differs from that of the run: {many} another; only its [fatigue] may differ. Give "
+                         "constants, as kappa = 0.2, or run the other scene")
     return scene
 
 
@@ -32,13 +32,13 @@ def _check_nodes(scene, snapshots):
         found, wanted = (snapshots[0].x.size, snapshots[0].y.size), (scene.grid.nx + 1, scene.rows + 1)
         if found != wanted:
             raise SceneError(f"the snapshots have {found[0]} x {found[1]} nodes, the given scene {wanted[0]} x {wanted[1]}: "
-                             "it is not theirs")
+                             "they do not belong together")
 
 
 def changed(scene, constants):
     """The scene with these constants of its fatigue (None: its own). Raises SceneError."""
     if scene is None:
-        raise SceneError("snapshots do not know their scene: tehl_taichi.fatigue(snapshots, scene)")
+        raise SceneError("snapshots need their scene: tehl_taichi.fatigue(snapshots, scene)")
     changes = _given(constants)
     return scene.replace(**changes) if changes else scene
 
@@ -52,7 +52,7 @@ def of_points(constants, scene=None):
     strange = [key for key in kinds(Fatigue) if key not in (*OF_POINTS, "on", "source") and getattr(own, key) != getattr(
         Fatigue, key)]
     if other := sorted(values.keys() - set(OF_POINTS)) or strange:
-        raise SceneError(f"{other[0]} has no meaning for given stresses; allowed: {', '.join(OF_POINTS)}")
+        raise SceneError(f"{other[0]} has no effect on given stresses; allowed: {', '.join(OF_POINTS)}")
     return Fatigue.from_values(values) if scene is None else changed(scene, constants).fatigue
 
 

@@ -27,7 +27,7 @@ class Stress:
     def __init__(self, x, y, nu, line=True, mirrored=True, depth=0.0, rows=None, kind=DOUBLE):
         self.x, self.y, self.nu, self.line = np.asarray(x, float), np.asarray(y, float), float(nu), line
         if self.y.size == 1 and not line:
-            raise ValueError("one row of y describes a line contact only (line=True)")
+            raise ValueError("one row in y is a line contact; set line=True")
         self.depth, self.rows, dx = depth, rows or slice(None), spacing(self.x)
         self.size = even_fast_length(2 * self.x.size - 1)
         self.strips = self._strips(rectangle.strip(np.arange(self.x.size) * dx, depth, dx / 2))
@@ -104,5 +104,5 @@ class _Convolution:
 def spacing(v):
     steps = np.diff(v)
     if v.size < 2 or not np.allclose(steps, steps.mean(), rtol=1e-6):
-        raise ValueError("surface stresses need a uniform grid of at least two nodes")
+        raise ValueError("surface stresses need a uniform grid with at least two nodes")
     return float(steps.mean())

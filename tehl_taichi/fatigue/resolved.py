@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from tehl_taichi.fatigue import search_maps
 
 NAME = "resolved_"  # begins the names of their maps: they are those of the whole passage, of fewer moments
-SAID = " as long as the grid resolves the pressure"
+SAID = " while the grid resolves the pressure"
 SHARED = (search_maps.DEPTH, search_maps.ROW_DEPTH, search_maps.ALONE)
 OWN = ("moment", "worst_depth")  # dimensions that are not those of the whole passage
 
@@ -25,11 +25,11 @@ def part(scene, passage, early, until, layers, deep):
     limit, centres = scene.fatigue.endurance, passage.centres[early[:-1]]
     top, points = layers[0].early, [found.early.worst for found in layers[1:]] + deep.early
     maps, summary = {"Fi": search_maps.index(top.f, limit)}, {"to_x_a": float(until), **top.worst.summary(limit)}
-    maps |= search_maps.of_history(top.worst.history(centres), "worst", "the worst point of the surface")
+    maps |= search_maps.of_history(top.worst.history(centres), "worst", "the critical point at the surface")
     if points:
         worst = max(points, key=lambda point: point.f)
         summary["below"] = {"depth_m": worst.depth, **worst.summary(limit)}
-        maps |= search_maps.of_history(worst.history(centres), "worst_below", "the worst point below it")
+        maps |= search_maps.of_history(worst.history(centres), "worst_below", "the critical point below the surface")
     return Resolved(summary, _named(maps | _below(passage, layers, deep)))
 
 

@@ -51,7 +51,7 @@ def of_profiles(f, passage, profiles, listed):
     row = f[:, [int(np.argmin(np.abs(passage.y - under.worst.y)))]].T
     out = {depth: (np.append(0.0, under.depths), [depth], "m", "below the surface"),
            "findley_stress_under_row": (np.concatenate([row, under.f]), [depth, BOTH[0]], "Pa",
-                                        "Findley stress under the row of the worst point below the surface")}
+                                        "Findley stress below the row of the critical point below the surface")}
     for profile in profiles:
         if profile.alone:
             out[ALONE] = (np.append(np.nan, profile.f.max(axis=1)), [depth], "Pa",

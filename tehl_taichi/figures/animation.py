@@ -50,12 +50,12 @@ def _file(store, out, format, force):
     """(path, format) of the file to write. Raises SceneError, or StoreError where something is in the way."""
     path = Path(out) if out else store.path.with_name(store.path.name.removesuffix(".zarr"))
     if out and path.is_dir():
-        raise StoreError(f"{path} is a folder; --out takes a file")
+        raise StoreError(f"{path} is a folder; --out takes the name of a file")
     told = path.suffix[1:].lower() if out else ""
     format = format or told or "gif"
     choice("format", format, FORMATS)
     if told in FORMATS and told != format:
-        raise SceneError(f"out = {path} is no {format}; leave out --format, or choose another --out")
+        raise SceneError(f"out = {path} does not end in .{format}; omit --format, or choose another --out")
     path = path if told == format else path.with_name(f"{path.name}.{format}")
     outputs.check(path, force, format)
     return path, format
@@ -64,9 +64,9 @@ def _file(store, out, format, force):
 def _check(store, shown):
     """Raise StoreError where there is nothing to animate."""
     if store.steps < 2:
-        raise StoreError(f"{store.path} has one entry, a steady state: nothing passes that could be animated; see tehl plot")
+        raise StoreError(f"{store.path} has only a steady state, so there is no passage to animate; use `tehl plot`")
     if shown == "temperature" and store.scene.isothermal:
-        raise StoreError(f"{store.path} is isothermal: it has no temperature to show; --map film or pressure")
+        raise StoreError(f"{store.path} is isothermal and has no temperatures; use --map film or --map pressure")
 
 
 def _told(frames, progress):
@@ -101,7 +101,7 @@ def _ffmpeg():
     """The program. Raises StoreError where there is none."""
     found = shutil.which("ffmpeg")
     if not found:
-        raise StoreError("MP4 needs the program ffmpeg, which is not on the path; install it, or take --format gif")
+        raise StoreError("MP4 needs the program ffmpeg, which was not found; install it, or use --format gif")
     return found
 
 
@@ -118,7 +118,7 @@ def _mp4(path, frames, fps, progress, ffmpeg):
             process.kill()
             raise
     if process.returncode:
-        raise StoreError(f"ffmpeg gave up: {' '.join(said.decode(errors='replace').split()) or process.returncode}")
+        raise StoreError(f"ffmpeg failed: {' '.join(said.decode(errors='replace').split()) or process.returncode}")
 
 
 def _fed(process, pictures):

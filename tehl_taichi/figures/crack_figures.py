@@ -10,7 +10,7 @@ COLOURS = {"entry": palette.BLUE, "exit": palette.BLACK}  # both stand out on th
 SHOWN = 150e6  # Pa: more tension has the same colour
 DEEP = 1.3     # of the deepest line, shown
 BELOW = dict(loc="upper center", bbox_to_anchor=(0.5, 0.0), borderaxespad=4.0)  # legends: under the axis, in sizes of text
-OILS = {"film": "{}the film's pressure inside (an upper bound)", "flow": "oil flows along it", "sealed": "oil sealed in"}
+OILS = {"film": "{}film pressure inside (an upper bound)", "flow": "oil flows along it", "sealed": "oil sealed in"}
 BAND = 60e-6   # m: length of the pits' band along the surface
 
 

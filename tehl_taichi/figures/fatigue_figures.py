@@ -48,7 +48,7 @@ class Layer:
     @property
     def said(self):
         plane = "" if self.angle is None else f", plane at {self.angle:.0f}° to the surface"
-        return f"worst, Fi = {told_index(self.Fi.max(), self.error)}{plane}"
+        return f"largest, Fi = {told_index(self.Fi.max(), self.error)}{plane}"
 
     @property
     def title(self):
@@ -104,8 +104,8 @@ def _searched(found):
     if layers is None and found.one_row and row is not None:
         layers = row[:, :, None]
     if layers is None and found.depth is not None:
-        raise SceneError(f"depth = {found.depth:g} µm: no depth was searched at all its points; tehl fatigue STORE --depths "
-                         f"{found.depth * 1e-6:g} --figures FOLDER does it")
+        raise SceneError(f"depth = {found.depth:g} µm: this depth was not searched at all points; use `tehl fatigue STORE "
+                         f"--depths {found.depth * 1e-6:g} --figures FOLDER`")
     if found.depth is not None:
         depths = found.maps["fatigue_depth"] * 1e6
         number("depth", plain(found.depth), "µm", float(depths[0]), float(depths[-1]), usual=100.0)
@@ -197,7 +197,7 @@ def _over_depth(ax, found, Fi, depth):
     deep, limit = found.summary["below"], found.summary["sigma_eF_Pa"]
     line, = ax.plot(Fi.max(axis=1), depth, ".-", label=f"under the {found.whose}")
     ax.plot(deep["Fi_max"], deep["depth_m"] * 1e6, "+", color=line.get_color(), ms=2.5 * line.get_markersize(),
-            mew=line.get_linewidth(), label=f"worst, Fi = {largest(deep)} at {micrometres(deep['depth_m'])} µm")
+            mew=line.get_linewidth(), label=f"largest, Fi = {largest(deep)} at {micrometres(deep['depth_m'])} µm")
     if "findley_stress_contact_alone" in found.maps:
         ax.plot(found.maps["findley_stress_contact_alone"] / limit, depth, "--", color=palette.GREY,
                 label=f"contact without its {found.whose}")
@@ -209,9 +209,9 @@ def _over_depth(ax, found, Fi, depth):
 
 def worst_points(page, found):
     """Of the worst point of the surface and of the one below it: see :func:`worst_point`."""
-    shown = [("worst point of the surface", found.points["surface"])]
+    shown = [("critical point at the surface", found.points["surface"])]
     if found.points.get("below"):
-        shown.append((f"worst point below, {micrometres(found.summary['below']['depth_m'])} µm", found.points["below"]))
+        shown.append((f"critical point below, {micrometres(found.summary['below']['depth_m'])} µm", found.points["below"]))
     columns = 1 if page.narrow else 2
     height = 1.6 * page.row(columns) * len(shown) * (2 / columns)
     figure, axes = page.figure(len(shown) * 2 // columns, columns, height)

@@ -4,8 +4,8 @@ import math
 
 from tehl_taichi.values.digits import decimals
 
-PART = "as long as the grid resolves the pressure"
-REST = "whole passage, its later pressures not resolved"
+PART = "while the grid resolves the pressure"
+REST = "whole passage, later pressures not resolved"
 SENSE = 1000.0  # an index beyond is of no material: as of a Newtonian film that slips, whose shear has no limit
 
 

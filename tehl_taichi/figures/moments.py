@@ -34,7 +34,7 @@ class Moments:
         if self.at is None:
             return
         if self.store.steps < 2:
-            raise SceneError(f"at = {self.at} a is a position of the feature, and {self.store.path} has a steady state only")
+            raise SceneError(f"at = {self.at} a is a position of the feature, but {self.store.path} has only a steady state")
         low, high = self.moved.min(), self.moved.max()
         number("at", plain(self.at), "a", round(low - BEYOND, 2), round(high + BEYOND, 2))
 

@@ -46,7 +46,7 @@ class Page:
         integer("dpi", self.dpi, 40, 1200)
         number("width", plain(self.width), "cm", 5.0, 60.0)
         if self.width / INCH * self.dpi > DOTS:
-            raise SceneError(f"width = {self.width:g} cm with dpi = {self.dpi} is {self.width / INCH * self.dpi:.0f} dots; "
+            raise SceneError(f"width = {self.width:g} cm with dpi = {self.dpi} gives {self.width / INCH * self.dpi:.0f} dots; "
                              f"allowed: at most {DOTS}")
 
     @property
@@ -195,7 +195,7 @@ def check_folder(folder):
     """Raises StoreError where no folder of that name can be made."""
     there = next(path for path in (Path(folder).absolute(), *Path(folder).absolute().parents) if os.path.lexists(path))
     if not there.is_dir():
-        raise StoreError(f"cannot put figures into {folder}: {there} is no folder; choose another one")
+        raise StoreError(f"cannot put figures into {folder}: {there} is not a folder; choose another one")
 
 
 def made(folder):

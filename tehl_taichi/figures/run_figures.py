@@ -31,7 +31,7 @@ def _all_of(store, page, at, depth):
     if store.map("worst_stress") is not None:
         return figures | fatigue_figures.all_figures(page, _fatigue(store, depth))
     if depth is not None:
-        raise SceneError(f"depth = {depth:g} µm is of a fatigue search, and {store.path} has none")
+        raise SceneError(f"depth = {depth:g} µm needs a fatigue search, and {store.path} has none")
     return figures
 
 

@@ -30,7 +30,7 @@ def scene_at(base, changes, name, n, position):
 def _check_free(given):
     for key in given:
         if key.startswith("contact.") or key in ("operation.u_m", "operation.srr", *BY_SURFACE):
-            raise SceneError(f"{key} has no effect: the gears or the table say what it is at every position")
+            raise SceneError(f"{key} has no effect: the gears or the table set it at every position")
 
 
 def _without_passage(base, given):

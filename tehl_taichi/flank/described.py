@@ -36,7 +36,7 @@ class Described:
         """With another torque (N m) and speed (1/min) of the pinion. Raises SceneError."""
         given = {key: value for key, value in (("torque", torque), ("n1", speed)) if value is not None}
         if given and not self.pair:
-            raise SceneError(f"{self.name} is a table, which has its own loads and speeds: torque and speed are of gear pairs")
+            raise SceneError(f"{self.name} is a table with its own loads and speeds; torque and speed apply to gear pairs only")
         return dataclasses.replace(self, pair=dataclasses.replace(self.pair, **given)) if given else self
 
     def positions(self, on=None, count=None, at=()):
@@ -48,8 +48,8 @@ class Described:
             return positions.along(Mesh(self.pair), on or "pinion", 9 if count is None else count, at)
         for word, value in (("on", on), ("positions", count), ("at", at or None)):
             if value is not None:
-                raise SceneError(f"{word} = {shown(value)} has no effect: the rows of a table say where the positions are, and "
-                                 "body a of them carries the feature")
+                raise SceneError(f"{word} = {shown(value)} has no effect: the rows of a table define the positions, and body a "
+                                 "carries the feature")
         return list(self.table)
 
 

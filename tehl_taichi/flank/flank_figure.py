@@ -10,16 +10,16 @@ from tehl_taichi.figures.page import drawing, made
 from tehl_taichi.flank.columns import dig, error_of
 
 # panel: label, factor, {legend: keys in the summary}; "p_H" is the Hertz pressure
-PANELS = (("film (µm)", 1e6, {"steady, centre": ("steady", "h_c_m"), "steady, least": ("steady", "h_min_m"),
-                              "least while the feature passes": ("transient", "h_min_m")}),
+PANELS = (("film (µm)", 1e6, {"steady, centre": ("steady", "h_c_m"), "steady, smallest": ("steady", "h_min_m"),
+                              "smallest, feature passes": ("transient", "h_min_m")}),
           ("largest pressure (GPa)", 1e-9, {"Hertz": "p_H", "steady": ("steady", "p_max_Pa"),
-                                            "while the feature passes": ("transient", "p_max_Pa")}),
+                                            "feature passes": ("transient", "p_max_Pa")}),
           ("temperature (°C)", 1, {"film, steady": ("steady", "film_max_C"),
                                    "film, feature passes": ("transient", "film_max_C"),
                                    "surface a, feature passes": ("transient", "surface_a_max_C")}),
-          ("Fi", 1, {"at the surface": ("fatigue", "Fi_max"), "largest below it": ("fatigue", "below", "Fi_max")}),
+          ("Fi", 1, {"at the surface": ("fatigue", "Fi_max"), "largest below the surface": ("fatigue", "below", "Fi_max")}),
           ("friction coefficient", 1, {"steady": ("steady", "friction_coefficient"),
-                                       "mean while the feature passes": ("transient", "friction_coefficient_mean")}),
+                                       "mean, feature passes": ("transient", "friction_coefficient_mean")}),
           ("SRR", 1, {"(u_a − u_b)/u_m": "srr"}))
 LAST = 5  # panels: friction and slip fill up what a steady or isothermal flank leaves free
 

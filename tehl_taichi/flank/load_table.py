@@ -41,15 +41,15 @@ def _check_ways(path, found):
     """Refuse ways that are nothing beside any tooth: they were meant in another unit. Raises SceneError."""
     way = max(found, key=lambda p: abs(p.x_pl)).x_pl * 1e3
     if 0 < abs(way) < SHORTEST:
-        raise SceneError(f"table {path}: x_pl_mm = {way:g} mm is the farthest way from the pitch point, nothing to a tooth"
-                         f"{meant(way, 'mm', lambda other: SHORTEST <= abs(other) <= 1e3, NEEDED['x_pl_mm'][1].usual)}")
+        raise SceneError(f"table {path}: x_pl_mm = {way:g} mm is the largest distance from the pitch point, too small for a "
+                         f"tooth{meant(way, 'mm', lambda other: SHORTEST <= abs(other) <= 1e3, NEEDED['x_pl_mm'][1].usual)}")
 
 
 def _complete(path, rows):
     """The rows, once their header is seen to have every needed column."""
     names = [name.strip() for name in rows.fieldnames or ()]
     if twice := sorted({name for name in names if name and names.count(name) > 1}):
-        raise SceneError(f"table {path} has the column {twice[0]} twice: leave out one of them")
+        raise SceneError(f"table {path} has the column {twice[0]} twice; remove one of them")
     missing = [name for name in NEEDED if name not in names]
     if missing:
         told = ", ".join(f"{name}{nearest(name, [n for n in names if n not in NEEDED])}" for name in missing)

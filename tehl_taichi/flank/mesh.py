@@ -145,7 +145,7 @@ class Mesh:
                                  f"{most:.6g} m, or other profile shifts")
         if self.eps_alpha < 1:
             raise SceneError(f"the tip diameters {self.d_a(1):.6g} m and {self.d_a(2):.6g} m give a contact ratio eps_alpha of "
-                             f"{self.eps_alpha:.3g}: the teeth lose touch; allowed: at least 1")
+                             f"{self.eps_alpha:.3g}: the teeth lose contact; allowed: at least 1")
         if self.eps_alpha >= MESHES and not (self.pair.beta or self.pair.load_share):
-            raise SceneError(f"eps_alpha = {self.eps_alpha:.3g}: two pairs of teeth or more carry everywhere, which the usual "
-                             f"sharing does not know; allowed: less than {MESHES:g}, or gear.load_share")
+            raise SceneError(f"eps_alpha = {self.eps_alpha:.3g}: at least two pairs of teeth carry everywhere, which the "
+                             f"built-in load sharing does not cover; allowed: less than {MESHES:g}, or give gear.load_share")

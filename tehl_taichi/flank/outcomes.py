@@ -45,7 +45,7 @@ def _before(scene, path):
     stored = single.open(path)
     check_version(path, stored)
     if stored.scene != scene:
-        raise StoreError(f"{path} is of another scene ({stored.scene.name} with other values); choose another folder")
+        raise StoreError(f"{path} holds another scene ({stored.scene.name} with other values); choose another folder")
     return Outcome(path, stored.summary) if stored.finished else None
 
 

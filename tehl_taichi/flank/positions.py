@@ -119,8 +119,8 @@ def _asked(mesh, table, place, on):
     if isinstance(place, str):
         name, side = place.strip("+-"), place[len(place.strip("+-")):]
         if name not in mesh.points or side and mesh.points[name] not in jumps(mesh, table):
-            raise SceneError(f"the point {place!r} is none of this flank; known: {', '.join(mesh.points)} (with - or + "
-                             "where the load jumps), or a way past C in m")
+            raise SceneError(f"the point {place!r} is not on this flank; known: {', '.join(mesh.points)} (with - or + where "
+                             "the load jumps), or a distance past C in m")
         x = mesh.points[name]
     else:
         A, E = sorted(towards_tip * end for end in mesh.ends)

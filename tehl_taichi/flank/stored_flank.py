@@ -50,7 +50,8 @@ class Flank:
         except OSError as error:
             raise StoreError(f"cannot read {file}: {error.strerror or error}") from None
         except (ValueError, KeyError, TypeError, RecursionError) as error:
-            raise StoreError(f"{file} is damaged ({type(error).__name__}: {error}); the same tehl flank writes it again") \
+            raise StoreError(f"{file} is damaged ({type(error).__name__}: {error}); repeat the tehl flank command to write it "
+                             "again") \
                 from None
 
     @property
@@ -126,7 +127,7 @@ def check_writable(folder):
         Flank.open(folder)
         files.tidy(folder)
     elif (table := folder / TABLE).exists():
-        raise StoreError(f"{table} is there and is no table of a flank of tehl; choose another --out")
+        raise StoreError(f"{table} exists and is not a table of a flank; choose another --out")
 
 
 def is_flank(path):

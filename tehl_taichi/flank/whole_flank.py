@@ -22,12 +22,12 @@ from tehl_taichi.scene.scales import Scales
 from tehl_taichi.study.progress import Progress
 from tehl_taichi.values.given_path import path_of
 
-ASSUMPTION = ("each position is a contact of its own with constant load and speeds while the feature passes: a passage takes "
-              "some 0.1 ms, a mesh some ms")
+ASSUMPTION = ("each position is a separate contact with constant load and speeds during the passage (a passage takes about "
+              "0.1 ms, a mesh a few ms)")
 SHARING = {"table": "of the table", "given": "gear.load_share",
            "spur": "trapezoid: 1/3 to 2/3 from A to B, 1 from B to D, 2/3 to 1/3 from D to E",
            "helical": "normal force over the mean length of the contact lines, b eps_alpha/cos beta_b"}
-WAITING = "it has not run yet: the same tehl flank with --out goes on"
+WAITING = "it has not run yet; repeat the tehl flank command with --out to resume"
 
 
 def flank(gear: str | PathLike | GearPair = "fzg-c", *, torque: float | None = None, speed: float | None = None,
@@ -50,8 +50,8 @@ def flank(gear: str | PathLike | GearPair = "fzg-c", *, torque: float | None = N
             whole.write()
     except KeyboardInterrupt as stop:
         done = sum(outcome.reason != WAITING for outcome in outcomes)
-        raise KeyboardInterrupt(f"{stopped(stop)} after {done} of {len(scenes)} positions; the same tehl flank with --out "
-                                f"{folder} goes on") from None
+        raise KeyboardInterrupt(f"{stopped(stop)} after {done} of {len(scenes)} positions; repeat the tehl flank command with "
+                                f"--out {folder} to resume") from None
     return whole
 
 

@@ -24,7 +24,7 @@ def wrong(attrs, whole):
     for name in LISTS:
         found = _parsed(attrs.get(name, "[]"))
         if isinstance(found, list) and (odd := [one for one in found if not isinstance(one, str)]):
-            return f"its attribute {name!r} holds {shown(odd[0])}, not texts alone"
+            return f"its attribute {name!r} holds {shown(odd[0])}, not only texts"
     found = _parsed(attrs.get("summary", "{}"))
     known = isinstance(found, dict) and found  # else there is none: readers do without
     of_ours = known and whole and {"scene", "steady"} & found.keys()

@@ -29,14 +29,14 @@ def last(store, folder, steps, shape):
     Raises StoreError."""
     number = max((n for n in _numbers(folder) if n <= steps), default=None)
     if number is None:
-        raise StoreError(f"{store} holds nothing to go on from; `tehl run {store} --out NEW` repeats its run")
+        raise StoreError(f"{store} holds no checkpoint, so it cannot be resumed; `tehl run {store} --out NEW` repeats the run")
     try:
         state = npy.load_all(folder / f"{number}.npz") if (folder / f"{number}.npz").is_file() else {}
     except (OSError, ValueError, KeyError, EOFError, AttributeError, NotImplementedError, zipfile.BadZipFile, zlib.error):
         state = {}
     if not NEEDED <= state.keys() or state["P"].shape != shape:
-        raise StoreError(f"the checkpoint {folder / f'{number}.npz'} is damaged or of another grid; what is stored can be "
-                         f"looked at, `tehl run {store} --out NEW` repeats the run")
+        raise StoreError(f"the checkpoint {folder / f'{number}.npz'} is damaged or of another grid; the store can be read, and "
+                         f"`tehl run {store} --out NEW` repeats the run")
     return number, state
 
 

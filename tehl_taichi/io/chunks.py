@@ -35,7 +35,7 @@ def read(path, dtype, count):
     except FileNotFoundError:
         raise StoreError(f"{path} is missing: the store is damaged") from None
     except (OSError, RuntimeError, ValueError) as error:
-        raise StoreError(f"{path} is damaged ({getattr(error, 'strerror', error)}); what it held is lost") from None
+        raise StoreError(f"{path} is damaged ({getattr(error, 'strerror', error)}); its data are lost") from None
 
 
 def declared(frame):
@@ -70,7 +70,7 @@ def check(folder):
     array = files.json_of(folder / ROOT)
     chunk, kind = array["chunk_grid"]["configuration"]["chunk_shape"], array["data_type"]
     if {codec["name"] for codec in array["codecs"]} - CODECS:
-        raise StoreError(f"{folder} is damaged: no array of a store has its codecs")
+        raise StoreError(f"{folder} is damaged: its codecs are not those of a store")
     if kind == "string":
         return
     each = np.dtype(kind).itemsize

@@ -14,7 +14,7 @@ def short(store, summary):
         return
     part, grid = parts["domain"] / steady["h_c_m"], (parts["grid"] or 0.0) / steady["h_c_m"]
     if part > MUCH or part > max(grid, SOME) and not summary.get("domain", {}).get("auto"):
-        yield (f"the domain begins at {-g.x_min:g} a, where the gap is {steady['inlet_gap']:.2g} times the film: what lies "
+        yield (f"the domain begins at {-g.x_min:g} a, where the gap is {steady['inlet_gap']:.2g} times the film; the oil "
                f"before it may change the film by {part:.1%}{_farther(store.scene, steady)}")
 
 

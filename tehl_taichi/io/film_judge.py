@@ -12,7 +12,7 @@ from tehl_taichi.scene.scales import Scales
 
 MOST_FRICTION = 0.2  # of a film: no oil is known to bear more than about 0.12 of the pressure, traction fluids included
 MOST_RIPPLE = 0.005  # of the largest pressure: a tenth of what a passing feature changes, ten times what resolved passages show
-NO_VALUE = "oil without a shear limit has no finite value here; take temperatures or a limiting law (rheology.law)"
+NO_VALUE = "oil without a shear limit has no finite value here; use --thermal or a limiting law (rheology.law)"
 
 
 def too_much_friction(store):
@@ -26,7 +26,7 @@ def too_much_friction(store):
 def no_index(store):
     """Why no index of fatigue follows from the tractions of a run, "" where one does."""
     found = too_much_friction(store)
-    return (f"the friction coefficient of the film ({', '.join(found)}) is more than {MOST_FRICTION:g}, more than any oil has"
+    return (f"the friction coefficient of the film ({', '.join(found)}) is more than {MOST_FRICTION:g}, which no oil reaches"
             if found else "")
 
 
@@ -34,16 +34,16 @@ def friction(store, summary):
     """Shear that no oil has."""
     rheology, found = store.scene.rheology, too_much_friction(store)
     if found:
-        law = (f"a Newtonian film (rheology.law = {rheology.law}) has no limit; its flow holds, its friction does not"
-               if not rheology.thins else f"the constants of the law {rheology.law!r} allow it")
-        yield (f"the friction coefficient ({', '.join(found)}) is more than {MOST_FRICTION:g}, which no oil bears: {law}"
+        law = (f"a Newtonian film (rheology.law = {rheology.law}) has no limit; its film is valid, its friction is not"
+               if not rheology.thins else f"the constants of the law {rheology.law!r} allow this")
+        yield (f"the friction coefficient ({', '.join(found)}) is more than {MOST_FRICTION:g}, which no oil reaches: {law}"
                + _follow(store.scene, summary))
 
 
 def _follow(scene, summary):
     """What follows from such a shear, in words: it loads the surface, and heats the film."""
-    said = ["the index of fatigue is that of the pressure alone"] * ("fatigue" in summary and scene.fatigue.shear)
-    said += ["the temperatures that follow from it have no meaning"] * (not scene.isothermal)
+    said = ["the fatigue index is that of the pressure alone"] * ("fatigue" in summary and scene.fatigue.shear)
+    said += ["the temperatures that follow have no meaning"] * (not scene.isothermal)
     return f"; {' and '.join(said)}" if said else ""
 
 
@@ -67,13 +67,13 @@ def first_unresolved(store, summary):
         if i and not readings.exits(store.x[i], a):
             at = f"X = {store.x[i] / a:.2f}, y = {store.y[row] * 1e6:.0f} um"
             yield (f"the resolved part of the passage ends before the {_moment(store, later[0])}: its pressure peak of "
-                   f"{p[i, row] / 1e9:.2f} GPa at {at} is a few cells wide; a finer grid may resolve it: "
+                   f"{p[i, row] / 1e9:.2f} GPa at {at} is only a few cells wide; a finer grid may resolve it: "
                    f"{finer.told(store.scene)}")
 
 
 def _where(store, n, p, i):
     when = f"of the passage ({_moment(store, n)})" if n else "of the steady state"
-    return f"p_max {p.max() / 1e9:.2f} GPa {when}, at X = {store.x[i] / Scales.of(store.scene).a:.2f}, is a few cells wide"
+    return f"p_max {p.max() / 1e9:.2f} GPa {when}, at X = {store.x[i] / Scales.of(store.scene).a:.2f}, is only a few cells wide"
 
 
 def _moment(store, n):
@@ -91,7 +91,7 @@ def _because(store, i):
 def finer_exit(scene, why):
     """What to try where the error of a passage is not known for this reason, if that is its exit and a grid may help."""
     helps = why.startswith(readings.EXIT) and scene.transient and not _endless(scene)
-    return f"; the next to try is finer along x: {finer.along(scene)}" if helps else ""
+    return f"; try a grid that is finer along x: {finer.along(scene)}" if helps else ""
 
 
 def _endless(scene):
@@ -112,8 +112,8 @@ def ripples(store, summary):
         (_, i), n = worst_ripple(store, range(len(store)))
         a, at_edge = Scales.of(store.scene).a, store.x[i] > 0 and _endless(store.scene)
         when = f"{_moment(store, n)}, " if n else ""
-        yield ((readings.EXIT if at_edge else "") + "the pressure ripples from node to node along x by up to "
-               f"{size / 1e9:.3f} GPa ({when}X = {store.x[i] / a:.2f}): the grid's shortest wave, not a result; "
+        yield ((readings.EXIT if at_edge else "") + f"the pressure ripples from node to node along x by up to {size / 1e9:.3f} "
+                                                    f"GPa ({when}X = {store.x[i] / a:.2f}), an artefact of the grid; "
                + (NO_VALUE if at_edge else f"try another time.courant or {finer.told(store.scene)}"))
 
 

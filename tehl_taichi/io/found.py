@@ -20,7 +20,7 @@ def find_changed(name, changes):
     from tehl_taichi.io import scene_file
 
     if not isinstance(name, (str, os.PathLike, Scene)):
-        raise SceneError(f"{shown(name)} is no scene; allowed: a Scene, the name of a built-in one, a TOML file or a store")
+        raise SceneError(f"{shown(name)} is not a scene; allowed: a Scene, a built-in name, a TOML file or a store")
     if not isinstance(name, Scene) and name not in BUILT_INS and _is_file(Path(name)):
         return scene_file.load(name, changes)
     found = name if isinstance(name, Scene) else _stored(Path(name)) or built_in(str(name))

@@ -54,15 +54,15 @@ def root_of(path):
         arrays = root["consolidated_metadata"]["metadata"]
     except FileNotFoundError:
         raise StoreError(f"{path} is not a store of tehl run: " +
-                         (f"it has no {ROOT}" if path.is_dir() else "there is no such folder")) from None
+                         (f"it has no {ROOT}" if path.is_dir() else "the folder does not exist")) from None
     except OSError as error:
         raise StoreError(f"{path} is not a store of tehl run: {error.strerror or error}") from None
     except (ValueError, KeyError, TypeError, RecursionError):
-        raise StoreError(f"{path} is not a store of tehl run: its {ROOT} is none of a store") from None
+        raise StoreError(f"{path} is not a store of tehl run: its {ROOT} is not that of a store") from None
     if not isinstance(attrs, dict) or "scene" not in attrs or not isinstance(arrays, dict):
         raise StoreError(f"{path} is not a store of tehl run: its {ROOT} describes no scene")
     if any(name != Path(name).name for name in arrays):
-        raise damaged(path, "an array of it lies outside")
+        raise damaged(path, "one of its arrays lies outside")
     return attrs, arrays
 
 
@@ -76,7 +76,7 @@ def scene_of(path, attrs):
     except (SceneError, ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
         if said := lacking(attrs["scene"]):
             raise StoreError(f"{path} needs {said}") from None
-        said = error if type(error) in (SceneError, ValueError, StoreError) else "a key of it is missing or no such value"
+        said = error if type(error) in (SceneError, ValueError, StoreError) else "a key is missing or has a wrong value"
         raise StoreError(f"{path} is damaged: the scene in its {ROOT} cannot be read ({said})") from None
 
 
@@ -85,7 +85,7 @@ def _scene_data(text):
     try:
         data = json.loads(text)
     except (TypeError, ValueError):
-        raise ValueError(f"{shown(text)} is no JSON") from None
+        raise ValueError(f"{shown(text)} is not JSON") from None
     if not isinstance(data, dict) or not SECTIONS.keys() <= data.keys():
         raise ValueError("sections are missing")
     features = data.get("feature")
@@ -191,10 +191,9 @@ def release(version):
 def check_version(path, attrs):
     """Refuse to go on where another version began."""
     if said := written_by(attrs):
-        raise StoreError(f"{path} was {said}: it can be looked at, but not gone on with; `tehl run {path} --out NEW` repeats "
-                         "its run")
+        raise StoreError(f"{path} was {said}: it can be read but not resumed; `tehl run {path} --out NEW` repeats the run")
 
 
 def damaged(path, what):
     """The error that says so."""
-    return StoreError(f"{path} is damaged: {what}; `tehl run {path} --out NEW` repeats its run")
+    return StoreError(f"{path} is damaged: {what}; `tehl run {path} --out NEW` repeats the run")

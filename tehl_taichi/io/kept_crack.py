@@ -40,7 +40,7 @@ def kept(store):
         content = files.json_of(path)
         return content if content["run"] == store.attrs.get("date") else None  # else of a run that was here before
     except (ValueError, KeyError, TypeError, RecursionError, OSError) as error:
-        raise StoreError(f"{path} is damaged ({error}): remove it, or make it anew with tehl crack --keep") from None
+        raise StoreError(f"{path} is damaged ({error}); remove it, or write it again with `tehl crack --keep`") from None
 
 
 def _drawn(result):

@@ -55,11 +55,11 @@ def removed(path):
 
 def _check_free(path):
     if path.is_symlink() and not path.exists():
-        raise StoreError(f"{path} is a link that leads nowhere; remove it or choose another --out")
+        raise StoreError(f"{path} is a broken link; remove it or choose another --out")
     if path.exists():
         if intact.is_store(path):
             raise StoreError(exists(path))
-        raise StoreError(f"{path} exists already and is no store; choose another --out")
+        raise StoreError(f"{path} exists already and is not a store; choose another --out")
     parent = path.absolute().parent
     while not os.path.lexists(parent):
         parent = parent.parent
@@ -78,11 +78,11 @@ def check_room(folder):
 def replaceable(path):
     """The lock of the store at `path`, which may be replaced. Raises StoreError where it may not."""
     if path.is_symlink():
-        raise StoreError(f"{path} is a link; --force replaces only a store itself: remove the link or choose another --out")
+        raise StoreError(f"{path} is a link, and --force replaces only stores; remove the link or choose another --out")
     if not intact.is_store(path):
-        raise StoreError(f"{path} is not a store of tehl run, and --force replaces nothing else; choose another --out")
+        raise StoreError(f"{path} is not a store of tehl run, and --force replaces only stores; choose another --out")
     if strangers := intact.strangers(path):
-        raise StoreError(f"{path} holds {strangers[0]}, which is no part of a store; move it away, or choose another --out")
+        raise StoreError(f"{path} holds {strangers[0]}, which is not part of a store; move it away, or choose another --out")
     links.refuse(path)
     check_room(path)
     try:

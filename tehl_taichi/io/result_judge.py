@@ -30,15 +30,15 @@ def beyond_measured(store, summary):
         return []
     p, T = reached(store)
     return [f"the film reaches {p / 1e9:.2f} GPa and {T:.0f} deg C; {' and '.join(conduction.LAWS)} were measured up to "
-            f"{conduction.P_MEASURED / 1e9:g} GPa and {conduction.GAMMA_MEASURED:g} deg C: beyond that they keep their last "
-            "values"]
+            f"{conduction.P_MEASURED / 1e9:g} GPa and {conduction.GAMMA_MEASURED:g} deg C; beyond that range they keep their "
+            "last values"]
 
 
 def held_temperatures(store, summary):
     """Temperatures that the solver had to hold inside the allowed range."""
     held = 0 if store.scene.isothermal else int(np.nansum(store.scalar("clamped")))
-    return [f"temperatures were held at {held} nodes: inside the allowed range or, in columns of the film without a solution, "
-            "at those of the oil that came in"] if held else []
+    return [f"temperatures were limited at {held} nodes, to the allowed range or (in columns without a solution) to the inlet "
+            "temperature of the oil"] if held else []
 
 
 def crowded(store, summary):
@@ -46,8 +46,8 @@ def crowded(store, summary):
     done, fewer = summary.get("crowding", (0, 0))
     if fewer <= CROWDED * done:
         return []
-    return [f"something else used the cores of this run: {fewer} of {done} launches of linear solves went on with one worker, "
-            "to the same results, but later; fewer threads leave the others their cores"]
+    return [f"another program used the cores of this run: {fewer} of {done} linear-solve launches ran with one worker. The "
+            "results are equal but slower; use fewer --threads"]
 
 
 def unknown_errors(store, summary):
@@ -73,8 +73,8 @@ def yielding(store, summary):
     """Pressures that no steel bears without yielding, while the bodies here stay elastic."""
     p = largest_pressure(summary)
     if p > YIELDS:
-        yield (f"p_max {p / 1e9:.2f} GPa: {STEEL}; both bodies are elastic here, in the first passages such a peak would be "
-               "pressed flatter")
+        yield (f"p_max {p / 1e9:.2f} GPa: {STEEL}; both bodies are elastic here, while real bodies would flatten such a peak "
+               "in the first passages")
 
 
 def worst_below(store, summary):
@@ -84,13 +84,13 @@ def worst_below(store, summary):
     if not deep or deep["Fi_max"] <= fatigue["Fi_max"]:
         return []
     alone_of = "from the pressure alone " * bool(why_none(summary["fatigue"]))
-    said = (f"{alone_of}the worst point lies below the surface: Fi {deep['Fi_max']:.2f} at {micrometres(deep['depth_m'])} um, "
-            f"{fatigue['Fi_max']:.2f} at the surface")
+    said = (f"{alone_of}the critical point lies below the surface: Fi {deep['Fi_max']:.2f} at {micrometres(deep['depth_m'])} "
+            f"um, {fatigue['Fi_max']:.2f} at the surface")
     alone = deep.get("contact_alone")
     if alone and alone["Fi_max"] > fatigue["Fi_max"]:
         said += f"; the contact without its feature has {alone['Fi_max']:.2f} at {micrometres(alone['depth_m'])} um"
     if near_the_surface(deep, fatigue):
-        said += "; nearer to the surface (half a cell) this grid resolves nothing: take a finer one"
+        said += "; this grid resolves nothing closer to the surface (half a cell): use a finer grid"
     return [said]
 
 

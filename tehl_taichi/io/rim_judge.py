@@ -15,7 +15,7 @@ def rims(store, summary):
         for point, where in ((part, "at the surface"), (part.get("below", {}), "below the surface")):
             place = point.get("x_m"), point.get("y_m"), where
             if None not in place and place not in seen:
-                yield from _of_point(store.scene, point, f"the worst point {where}{of}")
+                yield from _of_point(store.scene, point, f"the critical point {where}{of}")
             seen.add(place)
 
 
@@ -31,14 +31,15 @@ def _side(f, distance, whose):
     """How far it lies from the rim, and what is there."""
     rim = f"{abs(distance) * 1e6:.0f} um {'inside' if distance >= 0 else 'outside'} the rim along which the {whose} ends"
     if 0 <= distance <= f.taper:
-        return f"{rim}, within its taper of {f.taper * 1e6:.3g} um: heights fade out there, its index is not the surface's"
+        return (f"{rim}, within its taper of {f.taper * 1e6:.3g} um: the heights fade out there, so its index is not that of "
+                "the surface")
     taper = f"after a taper of {f.taper * 1e6:.3g} um" if f.taper else "in a step, without a taper"
-    return f"{rim}, {taper}: its index may be that of the edge"
+    return f"{rim}, {taper}: its index may be caused by the edge"
 
 
 def _advice(f, axis):
     """What moves the rim away: a wider patch, where the file has one."""
     n = "xy".index(axis)
     if f.patch[n] < f.size[n] * (1 - 1e-9):
-        return f"a larger feature.extent_{axis} moves the rim away from it (the file has {f.size[n] * 1e3:.3g} mm)"
-    return f"the file ends there: a scan that is longer along {axis} shows what the surface has of its own"
+        return f"a larger feature.extent_{axis} moves the rim away (the file has {f.size[n] * 1e3:.3g} mm)"
+    return f"the file ends there; use a scan that is longer along {axis}"

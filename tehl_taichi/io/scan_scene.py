@@ -15,12 +15,12 @@ from tehl_taichi.scene.parts import Body
 LINES, LETTERS = 20, 100  # of the header of a file, shown
 TAPER, SHARE = 40e-6, 8  # m, and of the shorter side
 LINE = "N/m: of a line of contact, 280 N/mm are 280e3"
-PIXEL_Y = "pixel_y = {:<13}  # m: distance of the rows\n"
-NO_PIXEL_Y = "# pixel_y = 2e-6         # m: distance of the rows, where it is another one\n"
+PIXEL_Y = "pixel_y = {:<13}  # m: distance between rows\n"
+NO_PIXEL_Y = "# pixel_y = 2e-6         # m: distance between rows, if it differs from pixel\n"
 
 HEAD = """\
-# A scan passes through a contact. Put the numbers of yours in place of those of the built-in scene {base}; SI units,
-# temperatures in deg C. What is not said here is as in {base}; `tehl new all.toml` writes every key with unit and range.
+# A scan passes through a contact. Replace the numbers of the built-in scene {base} by yours; SI units,
+# temperatures in deg C. Other values are those of {base}; `tehl new all.toml` writes every key with unit and range.
 base = "{base}"
 
 [contact]
@@ -29,13 +29,13 @@ radius_x = {radius:<12}  # m: reduced radius 1/(1/R_a + 1/R_b), 7.5e-3 of 12 and
 load = {load:<16}  # {load_about}
 
 [operation]
-u_a = {u_a:<17}  # m/s: speed of the surface that was scanned, relative to the contact
-u_b = {u_b:<17}  # m/s: of the other one (or, in place of both, u_m, their mean, and srr = (u_a - u_b)/u_m)
+u_a = {u_a:<17}  # m/s: speed of the scanned surface, relative to the contact
+u_b = {u_b:<17}  # m/s: speed of the other surface (or give u_m, the mean, and srr = (u_a - u_b)/u_m)
 temperature = {temperature:<9}  # deg C: of oil and bodies at the inlet
 
-[bodies]                   # by name (`tehl steels`), or E, nu, k, rho, c, alpha of your own
-{body_a}a.material = "100Cr6"      # the body that was scanned
-{body_b}b.material = "100Cr6"      # the other one
+[bodies]                   # by name (`tehl steels`), or your own E, nu, k, rho, c, alpha
+{body_a}a.material = "100Cr6"      # the scanned body
+{body_b}b.material = "100Cr6"      # the other body
 
 # [oil]                    # your oil by its data sheet; without: {oil}
 # name = "our gear oil"
@@ -45,21 +45,21 @@ temperature = {temperature:<9}  # deg C: of oil and bodies at the inlet
 # source = "data sheet"
 
 [fatigue]
-kappa = {kappa:<15}  # of your steel, as the next number
-torsion_limit = {limit:<7}  # Pa: fatigue limit in reversed torsion (or bending_limit, or both, which give kappa, too)
+kappa = {kappa:<15}  # of your steel, as the next value
+torsion_limit = {limit:<7}  # Pa: fatigue limit in reversed torsion (or bending_limit, or both, which also give kappa)
 source = "example values, set your own"
 
 [[feature]]
 shape = "map"
 file = {file}
 {header}\
-unit = {unit:<16}  # of the heights: nm, um, mm or m
-pixel = {pixel:<15}  # m: distance of the points in a row of the file, which runs along x, the direction of rolling
+unit = {unit:<16}  # unit of the heights: nm, um, mm or m
+pixel = {pixel:<15}  # m: distance between points in a row of the file; rows run along x, the rolling direction
 {pixel_y}\
-# mirror_x = true        # where the scan lies the other way round: its last columns enter the contact first
-level = "form"           # takes off plane and curvature of the body ("plane": the plane alone)
-taper = {taper:<15}  # m: over which the heights fade out at the rim
-# cutoff = 25e-6         # m: Gaussian low-pass for roughness that the grid does not carry
+# mirror_x = true        # if the last columns of the scan enter the contact first
+level = "form"           # removes plane and curvature of the body ("plane": only the plane)
+taper = {taper:<15}  # m: width over which the heights fade out at the rim
+# cutoff = 25e-6         # m: Gaussian low-pass for roughness that the grid does not resolve
 """
 
 
@@ -98,7 +98,7 @@ def _unless_steel(body):
 def _radius_y(contact):
     if contact.kind == "line":
         return ""
-    return f"radius_y = {toml_value(contact.radius_y):<12}  # m: the same across\n"
+    return f"radius_y = {toml_value(contact.radius_y):<12}  # m: reduced radius across\n"
 
 
 def _taper(shape, pixel, pixel_y):

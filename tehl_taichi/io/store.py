@@ -116,7 +116,7 @@ class Store(Held, Reader):
 
     def _safe(self):
         """What a disk refuses while a passage is written."""
-        return _told(self.path, f"{self.attrs['steps']} entries are safe; then: tehl resume {self.path}")
+        return _told(self.path, f"{self.attrs['steps']} entries are stored; then use: tehl resume {self.path}")
 
     def _commit(self, **attrs):
         attrs = {**self.attrs, **attrs}

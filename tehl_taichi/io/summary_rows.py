@@ -4,11 +4,10 @@ import math
 from dataclasses import dataclass, replace
 
 from tehl_taichi.fatigue.pressure_alone import searched, why_none
-from tehl_taichi.march import quantities
 from tehl_taichi.march.companions import CONTACT
-from tehl_taichi.march.quantities import HEAT
+from tehl_taichi.march.readings import HEAT
 from tehl_taichi.scene.passing_words import between
-from tehl_taichi.values.digits import micrometres, with_error
+from tehl_taichi.values.digits import decimals, micrometres
 
 SURFACE, BELOW, RESOLVED = "at the surface", "below it", "while resolved"  # parts of a search
 
@@ -47,26 +46,24 @@ def fatigue_rows(f):
     return [row.told for row in rows_of_fatigue(f)]
 
 
+STEADY = (("h_c_m", "steady h_c", 1e6, "um"), ("h_min_m", "steady h_min", 1e6, "um"), ("p_max_Pa", "steady p_max", 1e-9, "GPa"))
+
+
 def rows_of(summary):
     """A list of :class:`Row` of the summary of a finished run."""
     steady, hertz = summary["steady"], summary["hertz"]
     rows = [Row("Hertz half-width a", f"{hertz['a_m'] * 1e3:.4f} mm", hertz["a_m"]),
             *([Row("Hertz half-axis b, across", f"{hertz['b_m'] * 1e3:.4f} mm", hertz["b_m"])] if "b_m" in hertz else []),
             Row("Hertz pressure p_H", f"{hertz['p_Pa'] / 1e9:.4f} GPa", hertz["p_Pa"]),
-            *_labelled("steady", steady)]
+            *(_of(steady, key, name, factor, unit) for key, name, factor, unit in STEADY)]
     if "film_formula_m" in steady:
         formula = steady["film_formula_m"]
         by = steady.get("film_formula", "isothermal, Newtonian")
         rows.append(Row(f"h_c by formula ({by})", f"{formula * 1e6:.4f} um", formula))
+    rows.append(_of(steady, "friction_coefficient", "steady friction coefficient"))
     rows += _peclet_rows(summary) + _heat_rows("steady", steady) + _passage_rows(summary)
     rows.append(Row("run time", f"{summary['wall_s']:.1f} s (kernels {summary['compile_s']:.1f} s)", summary["wall_s"]))
     return rows
-
-
-def _labelled(part, values):
-    """The rows of the numbers of a part that have a label; not of those that its run did not know."""
-    return [_of(values, entry.key, entry.label, entry.factor, entry.shown)
-            for entry in quantities.of_part(part) if entry.label and entry.key in values]
 
 
 def _of(values, key, what, factor=1, unit="", **more):
@@ -76,11 +73,13 @@ def _of(values, key, what, factor=1, unit="", **more):
 
 
 def quantity(values, name, factor=1, unit=""):
-    """'value ± error unit' of one of the values; three digits where the error is not known."""
+    """'value ± error unit' of one of the values, with two digits of the error; three digits where that is not known."""
     value, error = values[name] * factor, values.get("error", {}).get(name)
     if error is None:
-        return f"{with_error(value, None, unit, 3)} (error unknown)"
-    return with_error(value, error * factor, unit)
+        return f"{value:.3g} {unit}".rstrip() + " (error unknown)"
+    size = error * factor
+    digits = min(max(decimals(size), 0), 9) if size > 0 else 4
+    return f"{value:.{digits}f} ± {size:.{digits}f} {unit}".rstrip()
 
 
 def _peclet_rows(summary):
@@ -100,7 +99,7 @@ def _heat_rows(when, values):
 
 def _temperature(value, error, unknown):
     """A temperature (deg C) with its error; unknown: what stands in place of that where it is None."""
-    return f"{value:.1f}{unknown}" if error is None else with_error(value, error)
+    return f"{value:.1f}" + (unknown if error is None else f" ± {error:.2g}")
 
 
 def _passage_rows(summary):
@@ -108,7 +107,9 @@ def _passage_rows(summary):
     if "transient" in summary:
         t = summary["transient"]
         rows += _heat_rows("passage", t)
-        rows += [*_labelled("transient", t), Row("load carried by solid contact", contact_share(t)),
+        rows += [_of(t, "p_max_Pa", "passage p_max", 1e-9, "GPa"), _of(t, "h_min_m", "passage h_min", 1e6, "um"),
+                 _of(t, "friction_coefficient_mean", "passage friction coefficient, mean"),
+                 Row("load carried by solid contact", contact_share(t)),
                  Row("worst residual / load / mass error",
                      f"{t['residual_max']:.1e} / {t['load_error_max']:.1e} / {t['mass_error_max']:.1e}")]
     if "fatigue" in summary:
@@ -131,7 +132,7 @@ def _rows_of_search(f):
     does not resolve every pressure first those of the part before, on which the answer rests."""
     rows = [_of(f, "Fi_max", "Fi_max at the surface", where=_whole(f)),
             _stress(f"{f['criterion']} stress", f["findley_stress_max_Pa"]), *_point_rows(f),
-            _stress("largest principal stress on the surface", f["sigma1_max_Pa"]),
+            _stress("largest principal stress at the surface", f["sigma1_max_Pa"]),
             Row("with kappa, sigma_eF", f"{f['kappa_F']:g}, {f['sigma_eF_Pa'] / 1e6:.4g} MPa"),
             *(Row(f"from the limit in reversed {way}", f"{f[key] / 1e6:g} MPa")
               for way in ("bending", "torsion") if (key := f"{way}_limit_Pa") in f),
@@ -154,7 +155,8 @@ def _resolved_rows(f):
     rows = [_of(part, "Fi_max", "Fi_max while resolved", where=f" (to {part['to_x_a']:.2f} a)"),
             *_placed(part, "while resolved")]
     if deep:
-        rows += [_of(deep, "Fi_max", "below it while resolved", where=_at(deep)), *_placed(deep, "below while resolved")]
+        rows += [_of(deep, "Fi_max", "below the surface while "
+                                     "resolved", where=_at(deep)), *_placed(deep, "below while resolved")]
     return [replace(row, part=RESOLVED) for row in rows]
 
 
@@ -167,8 +169,8 @@ def _point_rows(f):
     """The worst point of the surface or below it."""
     low, high = f.get("pit_angles_deg", (None, None))
     pits = "" if low is None else f" (pits begin at {low:g} to {high:g})"
-    rows = [Row("at x, y from the centre", f"{f['x_m'] * 1e6:.1f}, {f['y_m'] * 1e6:.1f} um"),
-            Row("critical plane to the surface", f"{f['surface_angle_deg']:.1f} deg", note=pits),
+    rows = [Row("at x, y from the feature centre", f"{f['x_m'] * 1e6:.1f}, {f['y_m'] * 1e6:.1f} um"),
+            Row("critical plane, angle to the surface", f"{f['surface_angle_deg']:.1f} deg", note=pits),
             Row("shear amplitude, largest normal stress", f"{f['tau_amp_Pa'] / 1e6:.1f}, {f['sigma_n_max_Pa'] / 1e6:.1f} MPa")]
     own = f.get("sigma1_worst_Pa")  # not in stores before 0.2
     return rows + ([_stress("largest principal stress there", own)] if own is not None else [])
@@ -178,7 +180,7 @@ def _below_rows(f):
     if "below" not in f:
         return []
     deep = f["below"]
-    rows = [_of(deep, "Fi_max", "Fi_max below it", where=_at(deep) + _whole(f)),
+    rows = [_of(deep, "Fi_max", "Fi_max below the surface", where=_at(deep) + _whole(f)),
             _stress(f"{f['criterion']} stress", deep["findley_stress_max_Pa"]), *_point_rows(deep)]
     if "contact_alone" in deep:
         alone = deep["contact_alone"]

@@ -20,7 +20,7 @@ def read(path, what):
     except (OSError, UnicodeDecodeError) as error:
         raise SceneError(f"cannot read {what} file {path}: {getattr(error, 'strerror', None) or error}") from None
     except RecursionError:
-        raise SceneError(f"{path} nests tables or lists too deeply; a {what} needs two levels") from None
+        raise SceneError(f"{path} nests tables or lists too deeply; a {what} has two levels") from None
     except ValueError as error:  # of TOML, and of Python for whole numbers of more than 4300 digits
         raise SceneError(f"{path} is not valid TOML: {_with_point(text, error) or error}") from None
 
@@ -35,8 +35,8 @@ def check_brackets(path, data, one=(), several=()):
                 continue
             brackets = isinstance(found, dict) or found and _is_kind(found, True)
             said = other.format(name) if brackets else f"{name} = {shown(found)}"
-            raise SceneError(f"{said} in {path} must be {wanted.format(name)}, the head of a table of keys and values"
-                             f"{' (each with its own head)' if name in several else ''}")
+            raise SceneError(f"{said} in {path} must be {wanted.format(name)}, the header of a table of keys and "
+                             f"values{' (each with its own header)' if name in several else ''}")
 
 
 def _is_kind(found, several):
@@ -49,4 +49,4 @@ def _with_point(text, error):
     number = int(line[1]) if line else 0
     lines = text.split("\n")
     found = COMMA.fullmatch(lines[number - 1].rstrip("\r")) if 0 < number <= len(lines) else None
-    return found and f"line {number} has a decimal comma, TOML takes a point: {found[1]}.{found[2]}"
+    return found and f"line {number} has a decimal comma; TOML needs a point: {found[1]}.{found[2]}"

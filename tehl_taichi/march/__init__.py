@@ -23,6 +23,6 @@ def march(scene: "Scene", state: dict | None = None, precision: str | None = Non
 
     scene = given(scene)
     if state is not None and (found := tuple(state["P"].shape)) != (wanted := (scene.rows + 1, scene.grid.nx + 1)):
-        raise SceneError(f"the state has {found[1]} x {found[0]} nodes, the scene {wanted[1]} x {wanted[0]}: it is not of this "
-                         "scene")
+        raise SceneError(f"the state has {found[1]} x {found[0]} nodes, the scene {wanted[1]} x {wanted[0]}; it belongs to "
+                         "another scene")
     return run(scene if precision is None else scene.replace(**{"numerics.precision": precision}), state)

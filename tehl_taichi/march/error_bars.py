@@ -5,7 +5,7 @@ log2 3, and a factor of safety. They do so for the central film of thick films; 
 grids (differences fall by 10, not 4), extremes over nodes jump about with the places of the nodes, and a pressure spike is
 as high as its grid is fine. So the last difference bounds the error where they do not, a part of the earlier ones bounds it
 anyway, and a number that neither its grid nor three together can know has no bar. The factors are measured on 1000 bars of
-random scenes: `tehl bench accuracy`, docs/benchmarks.md.
+random scenes: `tehl bench accuracy`, docs/performance.md.
 """
 
 import math
@@ -20,7 +20,7 @@ ALONE = 1.5  # of the only difference there is
 ACCIDENT = 1e-3  # of a number, no extreme: two grids may agree by accident
 BLURRED = 1.5  # of the distance between an extreme over nodes and that of the parabola through them
 HOPELESS = 0.5  # a number that changes by more than this part of itself from grid to grid is not resolved
-WHOLE = "its error may be as large as the number itself"  # of one that is positive: nothing is known of it but that
+WHOLE = "its error may be as large as its value"  # of one that is positive: nothing is known of it but that
 MOVED = 4.0  # cells of the coarser grid that the place of an extreme may move: more is another extreme
 # A number of a peak too narrow for one grid is told by three whose differences halve at least (those of a singular peak grow by
 # 1.41); its bar is no smaller than the last difference, and than a quarter of the one before
@@ -31,7 +31,7 @@ SWAY = 3.0
 # Parts of a course go on as a geometric series, for so many of the last difference at most; they may exceed the largest by so
 # much of it, which then is part of the bar
 GROWS_ON, EXCEEDS = 4.0, 0.1
-RIVAL = "the pressure in another part of the passage grows from grid to grid ({}) and may become the largest"
+RIVAL = "the pressure in another part of the passage ({}) grows with grid refinement and may become the largest"
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ def bar(readings):
     if doubt:
         return None, doubt
     if len(known) < 2:
-        return None, "no coarser grid tells it"
+        return None, "no coarser grid gives it"
     before = known[-2]
     if last.positive and last.value == 0 and not last.place:  # a film that carries all here does so on finer grids, too
         return 0.0, ""

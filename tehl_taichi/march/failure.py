@@ -22,9 +22,9 @@ def crossed(shot, a, border):
     """NotConverged for a snapshot with a negative film at nodes of the border (True in an array like its fields); a: m."""
     film = np.where(border, shot.fields["film"], np.inf)
     i, j = np.unravel_index(film.argmin(), film.shape)
-    return NotConverged(f"step {shot.step}: the surfaces cross at the border of the grid, a film of {film[i, j]:.2g} m at "
-                        f"X = {shot.x[i] / a:.2f}: a feature is higher than the gap there; a grid that reaches farther "
-                        "(grid.x_min, grid.x_max, grid.y_max) gives it room")
+    return NotConverged(f"step {shot.step}: the surfaces cross at the border of the grid, a film of {film[i, j]:.2g} m at X = "
+                        f"{shot.x[i] / a:.2f}: a feature is higher than the gap there; use a larger domain (grid.x_min, "
+                        "grid.x_max, grid.y_max)")
 
 
 def _reason(solver, heat, report, passing):
@@ -46,7 +46,7 @@ def _what_failed(solver, heat, report):
     if not heat.sound:
         return _heated(heat)[2:]
     if not np.isfinite(heat.report.change):
-        return "no step of a march in time converges any more"
+        return "no further time step converges"
     return f"the temperatures still change by {heat.report.change:.2g} K"
 
 
@@ -59,7 +59,7 @@ def _heated(heat):
     """What is wrong with the temperatures themselves, "" where nothing is."""
     if not heat or heat.sound:
         return ""
-    found = [f"held in their range (up to {HOT:g} deg C) at {heat.held} nodes"] * bool(heat.held)
+    found = [f"limited to their range (up to {HOT:g} deg C) at {heat.held} nodes"] * bool(heat.held)
     found += [f"without a solution in {heat.report.failed} columns"] * bool(heat.report.failed)
     return f", temperatures {' and '.join(found)}" if found else ""
 
@@ -79,11 +79,11 @@ def _too_high(scene):
     if (top := max(f.top for f in scene.features)) <= HIGH * (film := heated_film(scene)):
         return ""
     measured = any(f.kind.measured for f in scene.features)
-    asked = " (is that its roughness without its form, feature.level, in the right feature.unit?)" if measured else ""
-    return (f"a feature rises {top:.2g} m{asked} where the film formula has {film:.2g} m; a lower one passes, or "
+    asked = " (check feature.unit, and remove the form with feature.level)" if measured else ""
+    return (f"a feature rises {top:.2g} m{asked} where the film formula has {film:.2g} m; use a lower feature, or try "
             f"{finer.told(scene)} may")
 
 
 def _finer(scene):
     """The next grid, or the one that the film formula asks for."""
-    return thin_film.remedy(scene) if thin_film.carried(scene) < 1 else f"take a finer one, {finer.told(scene)}"
+    return thin_film.remedy(scene) if thin_film.carried(scene) < 1 else f"use a finer one, {finer.told(scene)}"

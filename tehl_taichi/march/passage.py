@@ -206,7 +206,7 @@ class Passage:
 
     def _state(self, step):
         if step != self.step:
-            raise RuntimeError(f"the state of step {step} is gone: ask for it before the next step is computed")
+            raise RuntimeError(f"the state of step {step} is no longer available; read it before the next step")
         return {**self._accepted(), **self.parts.state(), **({"double": True} if self.doubled else {})}
 
     def _accepted(self):

@@ -66,7 +66,7 @@ def _bars(first, scene):
 
 def _unknown(first, scene):
     """Bars of a state in time: none, and why."""
-    return tuple(dict.fromkeys(readings.steady(first, scene), said) for said in (None, f"not settled: {first.unsettled}"))
+    return tuple(dict.fromkeys(readings.steady(first, scene), said) for said in (None, f"not converged: {first.unsettled}"))
 
 
 def _spread(first, scene, scales):

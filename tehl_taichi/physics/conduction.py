@@ -36,8 +36,8 @@ def refused(oil, Gamma, p):
     for q, T in product((P_MEASURED * n / 10 for n in range(11)), (min(Gamma, GAMMA_MEASURED), GAMMA_MEASURED)):
         factor = rise(oil, q, T)
         if factor < SPARE:
-            return (f"oil.b0, b1, b2: the heat capacity falls to {factor:.3g} of its value at 22 deg C where the film has "
-                    f"{T:g} deg C and {q:.3g} Pa; allowed: at least {SPARE:g}")
+            return (f"oil.b0, b1, b2: the heat capacity falls to {factor:.3g} of its value at 22 deg C at {T:g} deg C and "
+                    f"{q:.3g} Pa, which the film reaches; allowed: at least {SPARE:g}")
     return ""
 
 

@@ -115,7 +115,7 @@ def declared(laws):
     for law in laws.values():
         for key, one in law.numbers.items():
             if out.setdefault(key, one) is not one:
-                raise ValueError(f"{key} is declared twice, by the law {law.name!r} too: laws share one declaration")
+                raise ValueError(f"{key} is declared twice, also by the law {law.name!r}; laws must share one declaration")
     return {key: _told(one, [law.name for law in laws.values() if key in law.numbers]) for key, one in out.items()}
 
 

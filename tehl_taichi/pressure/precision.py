@@ -17,7 +17,8 @@ def of(scene):
     if wanted == "f32" and suited(scene) != "f32":
         h = central_film(scene)
         raise SceneError(f"numerics.precision = 'f32': a film of about {h:.2g} m ({h / Scales.of(scene).h:.2g} a^2/R') is too "
-                         f"thin for linear solves in single precision, which need {THICK:g} a^2/R'; allowed: auto, f64")
+                         f"thin for linear solves in single precision, which need at least {THICK:g} a^2/R'; allowed: auto, "
+                         "f64")
     return suited(scene) if wanted == AUTO else wanted
 
 

@@ -22,7 +22,7 @@ class Asked:
     def __init__(self, folder, constants):
         if (found := kind(folder)) != RUN:
             given = ", ".join(key for key, value in constants.items() if value is not None)
-            raise StoreError(f"{folder} is a {found}: {given} can be asked of one of its runs, as {folder / INSIDE[found][1]}")
+            raise StoreError(f"{folder} is a {found}; {given} applies to one of its runs, as {folder / INSIDE[found][1]}")
         self.run, self.constants = open_run(folder), constants
         scene = changed(self.run.scene, constants)
         self.scene = scene.replace(**{"fatigue.on": True, "fatigue.source": _source(scene.fatigue, self.run, constants)})
@@ -43,8 +43,8 @@ class Asked:
         found = self.run.fatigue(**self.constants, progress=progress, threads=threads)
         page = run_page.page(Answered(self.run.store, self.scene, found))
         answer = dataclasses.replace(page.answer, question=self._question(), doubts=(*self._doubts(), *page.answer.doubts))
-        return dataclasses.replace(page, title=f"{self.scene.name}: report, fatigue of another question", answer=answer,
-                                   about=f"{page.about}, its fatigue searched again")
+        return dataclasses.replace(page, title=f"{self.scene.name}: report, fatigue with other constants", answer=answer,
+                                   about=f"{page.about}, with a new fatigue search")
 
     def _question(self):
         asked = ", ".join(f"{what} {value}" for what, value, _ in self.differs)
@@ -54,10 +54,10 @@ class Asked:
         """What the run itself was asked, and how much of it there is."""
         own, store = ", ".join(f"{what} {value}" for what, _, value in self.differs), self.run.store
         if own:
-            yield f"The run was stored with another question: {own}."
+            yield f"The run was stored with other constants: {own}."
         if not store.finished:
             yield (f"The run is not finished: {store.last_step} of {total_steps(store.scene)} time steps are stored, and only "
-                   "they count.")
+                   "these count.")
 
 
 class Answered:
@@ -94,7 +94,7 @@ def _words(scene):
     return [("κ =", f"{f.kappa:.5g}"), ("σ_eF =", told(f.endurance, unit="Pa", digits=5)), ("the criterion", f.criterion),
             ("depths searched:", _depths(f.depths)), ("moments with the", moments(scene) or f"{where(scene)} anywhere"),
             ("shear tractions", "counted" if f.shear else "left out"),
-            ("the stress of the heat", "counted" if scene.thermal_stress_wanted else "left out"),
+            ("thermal stress", "counted" if scene.thermal_stress_wanted else "left out"),
             *((f"residual stress along {axis}", f"{getattr(f, f'residual_{axis}{axis}') / 1e6:g} MPa") for axis in "xy")]
 
 

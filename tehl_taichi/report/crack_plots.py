@@ -31,11 +31,11 @@ def verdict(summary):
 
 def _said(name, side, pits):
     if not side["opens"]:
-        return f"On the {name} side there is no crack: {side['why']}."
+        return f"There is no crack on the {name} side: {side['why']}."
     error = side.get("error_at_last_length", {}).get("K_I_max")
-    begins = f"On the {name} side the surface is pulled by {told(side['sigma1_surface_Pa'], unit='Pa')}"
+    begins = f"On the {name} side the surface tension reaches {told(side['sigma1_surface_Pa'], unit='Pa')}"
     drives = f"K_I reaches {side['K_I_max'] / 1e6:.2g} MPa√m" + (
-        f" (at its last length ± {error / 1e6:.1g}, by twice as many elements)" if error is not None else "")
+        f" (at the last length ± {error / 1e6:.1g}, by twice as many elements)" if error is not None else "")
     where = _angles(side["path"], pits) if "length_m" in side else ""
     return f"{begins}; {drives}{where}; the crack stops because {side['why']}."
 

@@ -17,7 +17,7 @@ from tehl_taichi.scene.passing_words import from_centre, passing, position
 from tehl_taichi.scene.scales import Scales
 
 EVEN = 100  # depths drawn of a section
-POINTS = {"surface": ("worst", "worst point of the surface"), "below": ("worst_below", "worst point below the surface")}
+POINTS = {"surface": ("worst", "critical point at the surface"), "below": ("worst_below", "critical point below the surface")}
 
 
 def index(search):
@@ -49,8 +49,8 @@ def _layer(search, depth, Fi, worst):
     words which depth is the worst: looked for under some rows, between the depths whose points were all searched."""
     if np.isclose(depth, worst["depth_m"]):
         return _map(search, "below", _depth(depth), Fi, worst)
-    elsewhere = (f". The worst depth is {worst['depth_m'] * 1e6:.3g} µm, under the row y = {worst['y_m'] * 1e6:.0f} µm, with "
-                 f"Fi = {largest(worst)}")
+    elsewhere = (f". The critical depth is {worst['depth_m'] * 1e6:.3g} µm, under the row y = {worst['y_m'] * 1e6:.0f} µm, "
+                 f"with Fi = {largest(worst)}")
     return _map(search, "below", _depth(depth), Fi, None, elsewhere)
 
 
@@ -72,7 +72,7 @@ def _map(search, which, where, Fi, found, more=""):
 def _marked(search, Fi, found):
     """Mark of the worst point, or of the largest value of a layer where that is none."""
     if found:
-        return marks([found["x_m"] * 1e6], [found["y_m"] * 1e6], f"worst point, Fi = {largest(found)}", MARK)
+        return marks([found["x_m"] * 1e6], [found["y_m"] * 1e6], f"critical point, Fi = {largest(found)}", MARK)
     i, j = np.unravel_index(int(np.argmax(Fi)), Fi.shape)
     x, y = (search.map(f"feature_frame_{axis}") * 1e6 for axis in "xy")
     return marks([x[i]], [y[j]], f"largest at this depth, Fi = {told_index(Fi[i, j])}", MARK)
@@ -109,7 +109,7 @@ def _around(found):
 
 def _over_x(search, f, Fi):
     x = search.map("feature_frame_x") * 1e6
-    worst = marks([f["x_m"] * 1e6], [f["Fi_max"]], f"worst, plane {f['surface_angle_deg']:.0f}° to the surface", colour(1))
+    worst = marks([f["x_m"] * 1e6], [f["Fi_max"]], f"largest, plane {f['surface_angle_deg']:.0f}° to the surface", colour(1))
     return stacked(f"{search.on}index", f"Index Fi of the surface, {search.when}.", from_centre(search.scene),
                    [("Fi", [line(x, Fi[:, 0], "at the surface", colour(0)), worst], {})], height=440)
 
@@ -123,7 +123,7 @@ def depth(search):
     x, z = search.map("feature_frame_x") * 1e6, under_row(search.map) * 1e6
     even = np.linspace(0, z[-1], EVEN)
     section = np.stack([np.interp(even, z, column) for column in Fi.T])
-    worst = marks([deep["x_m"] * 1e6], [deep["depth_m"] * 1e6], f"worst point, Fi = {largest(deep)}", MARK)
+    worst = marks([deep["x_m"] * 1e6], [deep["depth_m"] * 1e6], f"critical point, Fi = {largest(deep)}", MARK)
     caption = (f"Index Fi in the section y = {deep['y_m'] * 1e6:.0f} µm under the {passing(search.scene)}{_briefly(search)}"
                f"{explained(False, crossed(section))}.")
     figure = field_map(f"{search.on}section", caption, x, even, section, INDEX, "Fi", from_centre(search.scene),
@@ -134,7 +134,7 @@ def depth(search):
 
 def _over_depth(search, f, deep, z, Fi):
     traces = [line(Fi.max(axis=1), z, f"under the {passing(search.scene)}", colour(0)),
-              marks([deep["Fi_max"]], [deep["depth_m"] * 1e6], "worst below", colour(0)),
+              marks([deep["Fi_max"]], [deep["depth_m"] * 1e6], "largest below", colour(0)),
               marks([f["Fi_max"]], [0.0], "surface", colour(1), symbol="circle")]
     alone = search.map("findley_stress_contact_alone")
     if alone is not None:
@@ -170,7 +170,7 @@ def _path(search, which, text, history):
     ends, angle = on_circle(dip, strike, history["circle"]), np.linspace(0, 2 * np.pi, 90)
     traces = [line(dip / 1e6, strike / 1e6, "path", colour(0)),
               line(u + radius * np.cos(angle), v + radius * np.sin(angle), "smallest circle", colour(1)),
-              marks(dip[ends] / 1e6, strike[ends] / 1e6, "touches it", colour(1), symbol="circle")]
+              marks(dip[ends] / 1e6, strike[ends] / 1e6, "points on the circle", colour(1), symbol="circle")]
     caption = (f"Shear path of the {text} on its critical plane{_briefly(search)}: amplitude {told(radius * 1e6, unit='Pa')}, "
                f"largest normal stress {told(normal.max(), unit='Pa')}.")
     return stacked(f"{search.on}path-{which}", caption, "shear along dip (MPa)",

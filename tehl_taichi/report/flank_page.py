@@ -53,13 +53,13 @@ def worst(flank):
 
 def _answer(flank):
     found = worst(flank)
-    left = f"{len(flank.failed)} of {len(flank.rows)} positions did not converge and are not in this answer."
-    said = f"Warnings of the positions, listed below: {len(warnings(flank))}."
-    none = [f"At {_where(at)} no verdict: {why_none(part)}." for at, _, summary in flank.rows
+    left = f"{len(flank.failed)} of {len(flank.rows)} positions did not converge and are not part of this answer."
+    said = f"Number of warnings, listed below: {len(warnings(flank))}."
+    none = [f"No verdict at {_where(at)}: {why_none(part)}." for at, _, summary in flank.rows
             if (part := dig(summary, "fatigue")) and why_none(part)]
     doubts = (*none, *[left] * bool(flank.failed), f"Assumed: {flank.told['assumption']}.", *[said] * bool(warnings(flank)))
     if not found and none:
-        return Answer(QUESTION, "No verdict: the films of all positions have more friction than any oil.", "open", (), doubts)
+        return Answer(QUESTION, "No verdict: at all positions the film has more friction than any oil.", "open", (), doubts)
     if not found:
         return _of_films(flank, doubts)
     Fi, where, error = found[0]
@@ -78,7 +78,7 @@ def _of_films(flank, doubts):
         return Answer(question, "No answer: no position converged.", "none", (), doubts)
     h, at = min(films, key=lambda entry: entry[0])
     return Answer(question, f"The smallest film is {told(h, unit='m', digits=FEW)}, at {_where(at)}.", "none",
-                  ("No feature passes: there is no index of fatigue.",), doubts)
+                  ("No feature passes, so the fatigue index is not computed.",), doubts)
 
 
 def figures(flank):

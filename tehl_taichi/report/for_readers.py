@@ -3,8 +3,8 @@
 import re
 
 WORDS = ((re.compile(r"(--set \S+) --grid"), r"\1 and --grid"), (re.compile(r"--grid (\d+)x(\d+)"), r"a grid of \1 × \2 cells"),
-         (re.compile(r"--set (\S+=\S+)"), r"\1"), (re.compile(r"; `tehl resume[^`]*` goes on"), ""),
-         (re.compile(r"; --thermal has them"), ""))
+         (re.compile(r"--set (\S+=\S+)"), r"\1"), (re.compile(r"; `tehl resume[^`]*` continues"), ""),
+         (re.compile(r"; --thermal computes them"), ""))
 
 
 def told(sentence):

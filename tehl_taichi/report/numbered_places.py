@@ -65,7 +65,7 @@ def numbered(search):
     text = [str(n) for n in range(1, len(found) + 1)]
     font = {"color": LIMIT, "size": 13, "shadow": "auto"}  # readable on light colours, too
     return [{"type": "scatter", "mode": "text", "x": [p.x * 1e6 for p in found], "y": [p.y * 1e6 for p in found], "text": text,
-             "textposition": "top right", "textfont": font, "name": "places of the table",
+             "textposition": "top right", "textfont": font, "name": "points of the table",
              "showlegend": False, "hoverinfo": "skip", "cliponaxis": False}] if found else []
 
 
@@ -75,9 +75,9 @@ def rows(search):
     if not found:
         return None
     head, cells = zip(*_columns(search, scene, found))
-    caption = (f"Places of the {passing(scene)} with the largest index, by their numbers on the maps. x, y: from its "
-               f"centre; Fi: the largest within {told(APART / 2 * Scales.of(scene).a, unit='m', digits=3)}.")
-    return table(("worst place", *head), [(str(n), *row) for n, row in enumerate(zip(*cells), 1)], caption)
+    caption = (f"Points of the {passing(scene)} with the largest index, numbered as on the maps. x, y: from its centre; Fi: "
+               f"largest value within {told(APART / 2 * Scales.of(scene).a, unit='m', digits=3)}.")
+    return table(("critical point", *head), [(str(n), *row) for n, row in enumerate(zip(*cells), 1)], caption)
 
 
 def _columns(search, scene, found):
@@ -89,7 +89,7 @@ def _columns(search, scene, found):
         depth = told(float(search.map("worst_depth")[0]), unit="m", digits=3)
         yield f"Fi {depth} below", [told_index(p.below) for p in found]
     if passing(scene) == "scan":
-        yield "in the file, from 1", [_in_file(scene, p) for p in found]
+        yield "in the file, counted from 1", [_in_file(scene, p) for p in found]
 
 
 def _in_file(scene, p):

@@ -134,7 +134,7 @@ def histories(store):
                  for n, (name, text) in enumerate(found.items())]
         if lines:
             panels.append((title, lines, {}))
-    caption = f"Of each time step; the contact lies between −1 and 1.{_carries(store)}"
+    caption = f"One value per time step; the contact lies between −1 and 1.{_carries(store)}"
     return stacked("histories", caption, position(store.scene), panels)
 
 

@@ -20,9 +20,9 @@ from tehl_taichi.report.document import Page, Part, Section, drawn, facts, sente
 from tehl_taichi.report.searches import searches
 from tehl_taichi.scene.passing_words import where
 
-DARK = " What has not come through the contact by then is dark on its maps: it is not loaded yet."
-OF = (("", ""), (", resolved part", "The answer rests on this: "), (", whole passage", ""))  # of one search; of two
-NO_MAPS = " Maps of this part are not in the store, which an older version wrote; another search of its fatigue makes them."
+DARK = " Points that have not passed the contact by then are dark on the maps: they are not loaded yet."
+OF = (("", ""), (", resolved part", "The answer uses this part: "), (", whole passage", ""))  # of one search; of two
+NO_MAPS = " The store was written by an older version and has no maps of this part; `tehl fatigue` makes them."
 
 
 def of(folder):
@@ -44,7 +44,7 @@ def scene_section(scene, source):
     left_out = [for_readers.told(one) for one in scene.left_out(cut=False)]
     whole = Part("source", {"title": "every value, as a scene file", "text": source}) if source else None
     return Section("Scene", (Part("text", {"sentences": scene_words.words(scene)}), facts(scene_words.numbers(scene)),
-                             sentences(left_out, "Left out, because the scene does not need it"), whole))
+                             sentences(left_out, "Left out, because the scene does not need these parts"), whole))
 
 
 def _film(store):
@@ -74,7 +74,7 @@ def _of_search(search, of, lead):
     words = [_sentence(f"{lead}{search.when}.") + behind] * bool(search.short)
     return (Section(f"Fatigue{of}", (Part("text", {"sentences": words}) if words else None, shown, numbered_places.rows(search),
                                      run_tables.worst_points(search.found, search.scene), run_tables.tension(search.found))),
-            Section(f"Stresses of the worst points{of}", tuple(drawn(*pair) for pair in fatigue_plots.worst_points(search))))
+            Section(f"Stresses at the critical points{of}", tuple(drawn(*pair) for pair in fatigue_plots.worst_points(search))))
 
 
 def _sentence(words):

@@ -5,14 +5,16 @@ import json
 from tehl_taichi.figures.index_words import resolved
 from tehl_taichi.io import intact
 from tehl_taichi.io.summary_rows import contact_share
-from tehl_taichi.march import quantities
+from tehl_taichi.march.output import Scalar, entries
 from tehl_taichi.report.document import facts, sentences, table
 from tehl_taichi.report.rounded import FEW, apart, index, roughly, share, told
 from tehl_taichi.scene.passing_words import passing
 
 PARTS = (("steady", "steady start"), ("transient", "passage"), ("fatigue", "fatigue"))
+ENDS = {"_mean": ", mean", "_max": ", largest"}
 SHORT = 30  # letters of a reason that stands in the row itself
 RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
+OWN = {"Fi_max": ("fatigue index Fi at the surface, largest", "1")}
 
 
 def errors(summary):
@@ -20,7 +22,7 @@ def errors(summary):
     head, reasons = ("what", "value", "error", "relative"), []
     tables = [table(head, [row for found in _in_order(summary.get(part, {})) for row in _with_below(reasons, *found)], when)
               for part, when in PARTS]
-    return [*tables, sentences([f"{_mark(n)} {why}" for n, why in enumerate(reasons)], "Why an error is not known")]
+    return [*tables, sentences([f"{_mark(n)} {why}" for n, why in enumerate(reasons)], "Why an error is unknown")]
 
 
 def _in_order(values):
@@ -39,7 +41,7 @@ def _with_below(reasons, found, more):
 def _of_below(deep, reasons):
     """The same of what lies below the surface."""
     for says, *rest in _with_errors(deep, reasons):
-        yield says.replace("of the surface", f"{told(deep['depth_m'], unit='m')} below the surface"), *rest
+        yield says.replace("at the surface", f"{told(deep['depth_m'], unit='m')} below the surface"), *rest
 
 
 def _with_errors(values, reasons):
@@ -71,9 +73,14 @@ def _mark(n):
 
 
 def _meaning(name):
-    """(long name, unit) of a number of the summary."""
-    entry = quantities.of_key(name)
-    return (entry.name, entry.unit) if entry else (name, "1")
+    """(long name, unit) of a number of the summary, as outputs declare them."""
+    known = {key: (entry.says, entry.unit) for key, entry in entries(Scalar).items()} | OWN
+    if name in known:
+        return known[name]
+    for end, text in ENDS.items():
+        if (key := name.removesuffix(end)) in known and key != name:
+            return known[key][0] + text, known[key][1]
+    return name, "1"
 
 
 POINT = (("index Fi", "Fi_max", "1"), ("stress of the criterion", "findley_stress_max_Pa", "Pa"), ("depth", "depth_m", "m"),
@@ -86,7 +93,7 @@ def worst_points(fatigue, scene):
     """The worst point of the surface beside the one below it."""
     points = [("surface", {"depth_m": 0.0, **fatigue}), *([("below it", fatigue["below"])] if "below" in fatigue else [])]
     rows = [(text.format(passing(scene)), *(_of_point(point, key, unit) for _, point in points)) for text, key, unit in POINT]
-    return table(("worst point", *(where for where, _ in points)), rows + _in_file(scene, [point for _, point in points]))
+    return table(("critical point", *(where for where, _ in points)), rows + _in_file(scene, [point for _, point in points]))
 
 
 def _in_file(scene, points):
@@ -112,7 +119,7 @@ def _of_point(point, key, unit):
 def tension(fatigue):
     """What the worst point does not tell of the surface; None where it was not kept."""
     most = fatigue.get("sigma1_max_Pa")
-    return facts([("largest principal stress on the surface", told(most, unit="Pa"))] if most is not None else [])
+    return facts([("largest principal stress at the surface", told(most, unit="Pa"))] if most is not None else [])
 
 
 def solid_contact(summary):
@@ -140,7 +147,7 @@ def _work(summary):
     work = summary["work"]
     rows = [("Newton steps", str(work["newton_steps"])), ("Krylov iterations", str(work["pressure_cycles"])),
             ("most in a step", str(work["cycles_per_step_max"])), ("attempts rejected", str(work["rejected_steps"])),
-            ("run time", f"{summary['wall_s']:.1f} s, of it kernels {summary['compile_s']:.1f} s")]
+            ("run time", f"{summary['wall_s']:.1f} s, including kernels {summary['compile_s']:.1f} s")]
     return rows + [(what, f"{value:g}") for what, value in summary.get("clamps", {}).items()]
 
 

@@ -50,7 +50,7 @@ def _motion(scene):
     if o.srr == 0:
         return f"The surfaces roll at {o.u_m:.4g} m/s without slip."
     kind = "slower" if o.u_a < o.u_b else "faster"
-    carries = f"; the {passing(scene)} is on the {kind} one, a" if scene.features else ""
+    carries = f"; the {passing(scene)} is on the {kind} surface, a" if scene.features else ""
     return (f"The surfaces move at {o.u_a:.4g} m/s (a) and {o.u_b:.4g} m/s (b): mean {o.u_m:.4g} m/s, slide-to-roll ratio "
             f"{o.srr:+.3g}{carries}.")
 
@@ -58,20 +58,20 @@ def _motion(scene):
 def _oil(scene):
     law = LAWS[scene.rheology.law]
     source = "source not given" if scene.oil.source == NO_SOURCE else scene.oil.source
-    return (f"The oil is {scene.oil.name} ({source}) and comes in at {scene.operation.temperature:g} °C; its shear "
-            f"law is {law.name}: {law.says}.")
+    return (f"The oil is {scene.oil.name} ({source}) and enters at {scene.operation.temperature:g} °C. Its shear law is "
+            f"{law.name}: {law.says}.")
 
 
 def _heat(scene):
     if scene.isothermal:
-        return "The film keeps the temperature of the inlet."
+        return "The film has the inlet temperature everywhere."
     return "The temperatures of the film and of both surfaces are computed."
 
 
 def _features(scene):
     if not scene.transient:
-        return ["No feature passes: the steady contact of smooth surfaces." if scene.features else "The surfaces are smooth."]
-    return [f"Surface a, that of body a, carries a feature of the shape {f.shape} ({f.kind.says}): {', '.join(_sizes(f))}."
+        return ["No feature passes: steady contact of smooth surfaces." if scene.features else "The surfaces are smooth."]
+    return [f"Surface a (body a) carries a feature of the shape {f.shape} ({f.kind.says}): {', '.join(_sizes(f))}."
             for f in scene.features]
 
 
@@ -113,7 +113,7 @@ def material(fatigue):
         return fatigue.source if limits in ("", fatigue.source) else f"{limits} ({said})"
     if said == default.source and (fatigue.kappa, fatigue.endurance) != (default.kappa, default.endurance):
         return "no source is given (fatigue.source)"
-    return "example values, to be replaced by those of the material itself and their source (fatigue.source)"
+    return "example values, replace them by those of your material and name the source (fatigue.source)"
 
 
 def numbers(scene):
@@ -149,7 +149,7 @@ def _alpha(oil):
     if not data_sheet.estimated(oil):
         return "data sheet: α at 40 °C", f"{oil.alpha_40 * 1e9:.4g} 1/GPa"
     alpha = data_sheet.alpha_40(oil.nu_40, oil.rho0, oil.Dz)
-    return ("α at 40 °C, not on the sheet", f"{alpha * 1e9:.3g} 1/GPa, estimated as of a mineral oil, within "
+    return ("α at 40 °C, not on the data sheet", f"{alpha * 1e9:.3g} 1/GPa, estimated as for a mineral oil, within "
             f"{mineral_alpha.WITHIN * 100:g} %")
 
 

@@ -48,4 +48,4 @@ def searches(store):
         return [Search(store, found, over)]
     part = {**{key: found[key] for key in CONSTANTS}, **known}
     return [Search(store, part, resolved(known, where(store.scene)), OF_PART, "resolved-", PART),
-            Search(store, found, f"{over}, whose later pressures the grid does not resolve", short=over)]
+            Search(store, found, f"{over}, later pressures not resolved by the grid", short=over)]

@@ -34,7 +34,7 @@ def _answer(study):
     doubts += [f"Not run yet: {waiting} of {len(study)} cases."] * bool(waiting)
     if not known.any():
         headline = f"{study.counts['converged']} of {len(study)} cases have a result."
-        return Answer("What does the study say?", headline, "none", (), tuple(doubts))
+        return Answer("What are the results of the study?", headline, "none", (), tuple(doubts))
     above, of_all = int((Fi[known] >= 1).sum()), int(known.sum())
     headline = f"The index, at the surface or below it, is above 1 in {above} of {of_all} cases with a result."
     tone = "yes" if above == of_all else "open" if above else "no"
@@ -71,7 +71,7 @@ def _table(study):
 
 
 def _rest(study):
-    return sentences([f"{len(study) - MOST_ROWS} more stand in {study.table.name}."]) if len(study) > MOST_ROWS else None
+    return sentences([f"{len(study) - MOST_ROWS} more are in {study.table.name}."]) if len(study) > MOST_ROWS else None
 
 
 def _failed(study):

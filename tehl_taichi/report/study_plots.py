@@ -50,7 +50,7 @@ def _map(study, name):
     values, label = column(study, name)
     (x, x_label, x_words), (y, y_label, y_words) = (along(study, key) for key in study.plan.keys)
     places = np.arange(len(x), dtype=float), np.arange(len(y), dtype=float)
-    made = field_map(f"{name}-map", f"{label}: a cell a case, empty without a result.", *places,
+    made = field_map(f"{name}-map", f"{label}: one cell per case, empty without a result.", *places,
                      values.reshape(study.plan.shape), RESULT, label, x_label, y_label, true=False, height=400, zsmooth=False)
     made.layout["xaxis"] |= _ticks(places[0], x_words, False)
     made.layout["yaxis"] |= _ticks(places[1], y_words, False)

@@ -16,7 +16,7 @@ from tehl_taichi.scene.maps.map_judge import form_taken
 from tehl_taichi.scene.passing_words import from_centre
 
 STEPS = 1000  # of heights, at least
-HOLES = " Light: points that were not measured; what passes there was filled smoothly from their neighbours."
+HOLES = " Light: points that were not measured and were filled smoothly from their neighbours."
 MOST = 400  # columns and rows kept: what a screen shows
 
 
@@ -34,7 +34,7 @@ def picture(scene):
     i, j = (thinned(at.size, MOST) for at in (found.x, found.y))
     x, y, values = found.x[i] * 1e6, found.y[j] * 1e6, found.values[i][:, j] * 1e6
     along = from_centre(scene)
-    caption = "Heights of the features, all on surface a, that of body a."
+    caption = "Heights of the features, all on surface a (body a)."
     if found.line:
         drawn_line = line(x, values[:, 0], "height", colour(0), told=False)
         return stacked("surface", caption, along, [("height (µm)", [drawn_line], {})], height=330)
@@ -75,9 +75,9 @@ def measured(f, scene):
     return [("file", os.path.basename(f.file)), ("points", f"{along} × {across}"),
             *([("not measured", _missing(f))] if f.holes.any() else []),
             *([("turned", f.orientation.says)] if f.orientation.says else []),
-            ("distance of its points", " × ".join(told(step, unit="m") for step in f.steps)),
-            ("unit of its heights", f"{f.unit.replace('um', 'µm')}{turned}"),
-            ("taken off", LEVELS[f.level] + form_taken(f, scene)),
+            ("distance between points", " × ".join(told(step, unit="m") for step in f.steps)),
+            ("unit of the heights", f"{f.unit.replace('um', 'µm')}{turned}"),
+            ("removed form", LEVELS[f.level] + form_taken(f, scene)),
             *([("low-pass", f"Gaussian, cutoff {told(f.cutoff, unit='m')}")] if f.cutoff else []),
             ("patch used", f"{told(length, unit='m')} × {told(width, unit='m')}{rim}"),
             ("range", f"{told(m.range, unit='m')}: {_signed(m.low)} to {_signed(m.high)}"), ("rms", told(m.rms, unit="m")),

@@ -67,7 +67,7 @@ def of_fatigue(fatigue, scene=None):
 def _from_pressure(found):
     """Sentences on the index of the pressure alone."""
     told_of = (_told(*layer) for layer in _judged_layers(found))
-    return ("From the pressure alone, without shear on the surface and its heat:", *told_of)
+    return ("From the pressure alone, without surface shear and frictional heat:", *told_of)
 
 
 def _judged(fatigue):
@@ -90,14 +90,14 @@ def _by_what_is_known(part, whole, tells, over, whose):
     ends that part, in words."""
     worst, places, known, early = _judged(part)
     end = f"{whose} up to {_place(part['to_x_a'])}"
-    tells = [f"As long as the grid resolves the pressure ({end}; the rest can only add):", *early,
-             f"{over[0].upper()}{over[1:]}, whose pressure it does not resolve:", *tells]
+    tells = [f"While the grid resolves the pressure ({end}; the rest can only add):", *early,
+             f"{over[0].upper()}{over[1:]}, where the grid does not resolve the pressure:", *tells]
     if worst != BELOW:
         even = "even " if worst == ABOVE else ""
-        return headline(worst, places, known, f", {even}without the pressures that this grid does not resolve"), tells
+        return headline(worst, places, known, f", {even}without the pressures that the grid does not resolve"), tells
     if whole == BELOW:
-        return (f"Probably not: the index stays below 1; {over} its error is not known.", "no"), tells
-    text = "Not decided: the index stays below 1 as long as the grid resolves the pressure, and exceeds it later."
+        return (f"Probably not: the index stays below 1, but {over} its error is unknown.", "no"), tells
+    text = "Not decided: the index stays below 1 while the grid resolves the pressure, and exceeds 1 later."
     return (text, "open"), tells
 
 
@@ -110,7 +110,7 @@ def _place(x):
 
 
 def _told(where, Fi, error, said):
-    unknown = "" if error is not None else " (error not known)"
+    unknown = "" if error is not None else " (error unknown)"
     return f"{where[0].upper()}{where[1:]}: Fi = {index(Fi, error)}{unknown}, {SAID[said]}."
 
 
@@ -118,7 +118,7 @@ def headline(worst, places, known, when=""):
     """(headline, tone); known: whether the error of the numbers behind it is; when: a part of the passage, in words."""
     if worst == WITHIN:
         return f"Not decided: the index is 1 within its error {places}{when}.", "open"
-    yes, no, more = ("Yes", "No", "") if known else ("Probably yes", "Probably not", "; the error of that is not known")
+    yes, no, more = ("Yes", "No", "") if known else ("Probably yes", "Probably not", "; the error of this is unknown")
     if worst == ABOVE:
         return f"{yes}: the fatigue limit is exceeded {places}{when}{more}.", "yes"
     return f"{no}: the index stays below 1{when}{more}.", "no"
@@ -128,26 +128,25 @@ def _alone(fatigue, over, what):
     alone = fatigue.get("below", {}).get("contact_alone")
     if not alone:
         return ()
-    more = f": the material is overloaded there without the {what} too" if alone["Fi_max"] > 1 else ""
+    more = f": the material is overloaded even without the {what}" if alone["Fi_max"] > 1 else ""
     where = f"{micrometres(alone['depth_m'])} µm" + ("" if over == WHOLE else ", over the same moments")
     return (f"The contact without its {what} has Fi = {index(alone['Fi_max'])} at {where}{more}.",)
 
 
 def _plane(fatigue):
     pits = fatigue.get("pit_angles_deg")
-    known = (f" For comparison: pits of gear flanks were found to begin at {pits[0]:g} to {pits[1]:g}° to the surface."
+    known = (f" For comparison, pits on gear flanks were found to begin at {pits[0]:g} to {pits[1]:g}° to the surface."
              if pits else "")
     angle, early = f"{fatigue['surface_angle_deg']:.0f}°", fatigue.get("resolved")
     both = f"{early['surface_angle_deg']:.0f}° to it, over the whole passage at {angle}" if early else f"{angle} to it"
-    return (f"The critical plane at the surface, on which the index is largest and a crack would begin, stands at {both}."
-            f"{known}",)
+    return (f"The critical plane at the surface, on which a crack would begin, is at {both}.{known}",)
 
 
 def _of_film(summary):
     part, when = (summary["transient"], "least") if "transient" in summary else (summary["steady"], "smallest")
     film, pressure = (_with_error(part, key, unit) for key, unit in (("h_min_m", "m"), ("p_max_Pa", "Pa")))
     centre = _with_error(summary["steady"], "h_c_m", "m")
-    why = next((f"No index of fatigue: {text}." for text in summary["left_out"] if text.startswith("stresses and fatigue")), "")
+    why = next((f"No fatigue index: {text}." for text in summary["left_out"] if text.startswith("stresses and fatigue")), "")
     return FILM, f"The {when} film is {film}, the largest pressure {pressure}.", "none", tuple(filter(None, (
         f"The film in the middle of the steady contact is {centre}.", why)))
 
@@ -159,7 +158,7 @@ def _with_error(part, key, unit):
 def _none_yet(store):
     total, writer = total_steps(store.scene), store.writer
     state = (f"It is still being written by {writer}." if writer else
-             f"It was stopped, or a step did not converge; `tehl resume {store.path.name}` goes on.")
+             f"It was stopped, or a step did not converge; `tehl resume {store.path.name}` continues it.")
     question = FATIGUE if store.scene.fatigue_wanted else FILM
     return Answer(question, "No answer yet: the run is not finished.", "none", (
         f"{store.last_step} of {total} time steps are stored. {state}",), _version(store), tuple(store.warnings))
@@ -168,7 +167,7 @@ def _none_yet(store):
 def _cut(store):
     if store.cut is None:
         return ()
-    return (f"The passage ends at {store.cut:.2f} a, inside the contact: what comes later is not in these numbers.",)
+    return (f"The passage ends at {store.cut:.2f} a, inside the contact; later moments are not part of these numbers.",)
 
 
 def _yielding(summary):
@@ -176,8 +175,8 @@ def _yielding(summary):
     p = largest_pressure(summary)
     if "fatigue" not in summary or p <= YIELDS:
         return ()
-    return (f"The pressure reaches {p / 1e9:.1f} GPa, and {STEEL}. Both bodies are elastic here, true ones would press such a "
-            "peak flatter: the index is that of elastic bodies.",)
+    return (f"The pressure reaches {p / 1e9:.1f} GPa, and {STEEL}. Both bodies are elastic here, while real bodies would "
+            "flatten such a peak; the index is that of elastic bodies.",)
 
 
 def _counted(scene):
@@ -193,7 +192,7 @@ def _constants(store, summary):
     said = (f"Fi = 1 is the fatigue limit σ_eF = {f['sigma_eF_Pa'] / 1e6:.4g} MPa with κ = {f['kappa_F']:g} "
             f"({f['criterion']}): {material(store.scene.fatigue)}.")
     stress = "counts" if f["thermal_stress"] else "does not count"
-    return said, f"The stress of the heat {stress} in it.", *_counted(store.scene)
+    return said, f"Thermal stress {stress} in the index.", *_counted(store.scene)
 
 
 def _version(store):

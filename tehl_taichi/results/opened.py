@@ -38,7 +38,7 @@ def open_run(path: str | PathLike) -> "Run":
     if (found := kind(path)) == RUN:
         return _run(path)
     table, store = (Path(path) / part for part in INSIDE[found])
-    raise StoreError(f"{path} is a {found}: its table is {table}; this takes the store of one of its runs, {store}")
+    raise StoreError(f"{path} is a {found}: its table is {table}; use the store of one of its runs, {store}")
 
 
 def _run(path):
@@ -49,5 +49,5 @@ def _run(path):
         return single.open(path)
     except StoreError:
         if Path(path).is_dir() and not (Path(path) / ROOT).exists():
-            raise StoreError(f"{path} is no run, study or flank: it has neither {ROOT} nor flank.json") from None
+            raise StoreError(f"{path} is not a run, study or flank: it has neither {ROOT} nor flank.json") from None
         raise

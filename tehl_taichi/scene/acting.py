@@ -58,8 +58,8 @@ def doubts(scene):
     beside |= {"time.steps"} if scene.time.steps <= 0 else set()  # all of none, none
     for key in sorted(own & found.keys() - beside):
         yield f"{shown(key, scene)} has no effect here: {found[key]}"
-    yield from (f"rheology.{key} has no effect on the film: the law {scene.rheology.law!r} does not take it; it limits the "
-                "friction of solid contact alone" for key in BOUNDARY.numbers
+    yield from (f"rheology.{key} has no effect on the film: the law {scene.rheology.law!r} does not use it; it only "
+                "limits the friction of solid contact" for key in BOUNDARY.numbers
                 if f"rheology.{key}" in own - found.keys() and _only_solid(scene, key))
 
 
@@ -105,14 +105,14 @@ def _other_laws(scene):
     used = MOES if scene.contact.moes_M > 0 else ()
     for key in scene.oil.unused:
         if f"oil.{key}" not in used:
-            yield f"oil.{key}", f"the laws of this oil ({laws}) do not take it"
+            yield f"oil.{key}", f"the laws of this oil ({laws}) do not use it"
 
 
 def _other_shapes(scene):
     for n, feature in enumerate(scene.features):
         for key, names in USED_BY.items():
             if feature.shape not in names:
-                yield f"feature.{n}.{key}", f"shape {feature.shape!r} does not take it; it is of {', '.join(names)}"
+                yield f"feature.{n}.{key}", f"shape {feature.shape!r} does not use it; it belongs to {', '.join(names)}"
 
 
 def _rheology(scene):
@@ -120,7 +120,7 @@ def _rheology(scene):
     law = rheology.LAWS[scene.rheology.law]
     for key in declared({**rheology.LAWS, BOUNDARY.name: BOUNDARY}):
         if key not in law.numbers and key not in BOUNDARY.numbers:
-            yield f"rheology.{key}", f"the shear law {law.name!r} does not take it"
+            yield f"rheology.{key}", f"the shear law {law.name!r} does not use it"
         elif key not in law.numbers and scene.operation.u_s == 0 and _changes(_friction, scene.rheology, key):
             yield f"rheology.{key}", "nothing slips where the surfaces could touch (SRR = 0)"
 
@@ -148,7 +148,7 @@ def _oil(scene):
             yield f"oil.{key}", _why_not_heat(scene)
     if all(np.array_equal(now, laws(SimpleNamespace(**{**vars(scene.oil), "expansion": word})))
            for word in kinds(type(scene.oil))["expansion"].words):
-        yield "oil.expansion", "this oil does not expand at the temperatures of its film"
+        yield "oil.expansion", "this oil does not expand at the film temperatures"
 
 
 def _laws(scene):
@@ -171,13 +171,14 @@ def _density_of(scene):
 
 
 def _why_not_heat(scene):
-    return "the film keeps the inlet temperature (isothermal)" if scene.isothermal else "the laws of this oil give the same"
+    return "the film keeps the inlet temperature (isothermal)" if scene.isothermal else ("the laws of this oil give an equal "
+                                                                                         "result")
 
 
 def _temperature(scene):
     laws, o = _laws(scene), scene.operation
     if scene.isothermal and np.array_equal(laws(scene.oil), _laws(_warmer(scene))(scene.oil)):
-        yield "operation.temperature", f"the oil {scene.oil.name} is the same at any (isothermal, {o.temperature:g} deg C)"
+        yield "operation.temperature", f"the oil {scene.oil.name} does not depend on it (isothermal, {o.temperature:g} deg C)"
 
 
 def _warmer(scene):
@@ -192,13 +193,13 @@ def _heat(scene):
         return
     idle = ("thermal.nodes", "thermal.tolerance", "thermal.rounds", "output.profiles", "fatigue.thermal_stress",
             *(f"bodies.{which}.{key}" for which in "ab" for key in ("k", "rho", "c")))
-    yield from ((key, "no temperatures are solved for (isothermal)") for key in idle)
+    yield from ((key, "no temperatures are computed (isothermal)") for key in idle)
 
 
 def _expansion_of_bodies(scene):
     yield "bodies.b.alpha", "stresses are those of body a"
     if not (scene.fatigue_wanted and scene.thermal_stress_wanted):
-        yield "bodies.a.alpha", "no stress of the heat is computed"
+        yield "bodies.a.alpha", "no thermal stress is computed"
 
 
 def _passage(scene):
@@ -218,16 +219,16 @@ def _passage(scene):
 
 def _fatigue(scene):
     if not scene.fatigue_wanted:
-        why = "fatigue.on = false" if scene.transient else "there is no fatigue without a passage"
+        why = "fatigue.on = false" if scene.transient else "fatigue needs a passage"
         yield from ((f"fatigue.{key}", why) for key in kinds(Fatigue) if key not in ("on", "source"))
 
 
 def _across(scene):
     if scene.rows == 0:
-        yield from ((f"grid.{key}", "nothing varies across this line contact") for key in ("ny", "y_max"))
+        yield from ((f"grid.{key}", "nothing varies along y in this line contact") for key in ("ny", "y_max"))
     for n, feature in enumerate(scene.features):
         if scene.transient and feature.transverse:
-            yield f"feature.{n}.y", "the feature is the same for every y"
+            yield f"feature.{n}.y", "the feature does not vary along y"
 
 
 RULES = (_rheology, _oil, _temperature, _heat, _expansion_of_bodies, _passage, _fatigue, _across)

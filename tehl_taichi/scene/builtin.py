@@ -20,22 +20,23 @@ ROUGH = Feature(shape="rough", height=0.15e-6, width=40e-6, extent_x=500e-6, ext
 
 BUILT_INS = {
     "gear": (Scene(), "dedendum of a driving gear: 1.5 um asperity on the slower surface (SRR -0.12), 1.93 GPa"),
-    "pitch-line": (Scene(name="pitch-line", operation=Operation(srr=0.0)), "the same asperity in pure rolling"),
-    "addendum": (Scene(name="addendum", operation=Operation(srr=0.12)), "the asperity on the faster surface (SRR +0.12)"),
-    "smooth-line": (Scene(name="smooth-line", features=()), "the gear contact without an asperity: steady, 1-D"),
-    "dent": (Scene(name="dent", features=(Feature(height=-1.5e-6),)), "a 1.5 um dent in place of the asperity"),
+    "pitch-line": (Scene(name="pitch-line", operation=Operation(srr=0.0)), "1.5 um asperity in pure rolling"),
+    "addendum": (Scene(name="addendum", operation=Operation(srr=0.12)), "1.5 um asperity on the faster surface (SRR +0.12)"),
+    "smooth-line": (Scene(name="smooth-line", features=()), "gear contact without an asperity: steady, 1-D"),
+    "dent": (Scene(name="dent", features=(Feature(height=-1.5e-6),)), "1.5 um dent instead of the asperity"),
     "touching-asperity": (Scene(name="touching-asperity", features=(Feature(height=3e-6),)),
-                          "a 3 um asperity: the surfaces touch"),
-    "rough": (Scene(name="rough", features=(ROUGH,)), "the gear contact with a patch of random roughness, rms 0.15 um"),
+                          "3 um asperity: the surfaces touch"),
+    "rough": (Scene(name="rough", features=(ROUGH,)), "gear contact with a patch of random roughness, rms 0.15 um"),
     "ball-on-disc": (Scene(name="ball-on-disc", features=(), operation=Operation(u_m=0.01075, srr=0.0), **BALL),
                      "steel ball on glass, 0.54 GPa: steady circular contact, Newtonian oil"),
     "ridge-on-ball": (Scene(name="ridge-on-ball", features=(RIDGE,), operation=Operation(u_m=0.01075, srr=0.0), **BALL),
-                      "the ball with a transverse ridge of 0.2 um, pure rolling (--srr -1 or 1 slides), Newtonian oil"),
+                      "the ball with a transverse ridge of 0.2 um, pure rolling (use --srr -1 or 1 for sliding), Newtonian "
+                      "oil"),
     "furrow-line": (Scene(name="furrow-line", contact=Contact(radius_x=14.1e-3, load=1.5708e6), **NEWTONIAN,
                           operation=Operation(u_m=0.97, srr=-1.0), oil=OILS["moes-test-fluid"], features=(FURROW,),
                           grid=Grid(x_min=-3.5, x_max=2.0)),
-                    "a 2 um transverse furrow on the slower surface of a line contact (SRR -1), 2 GPa: 1-D, Newtonian oil (its "
-                    "friction is not meant)"),
+                    "2 um transverse furrow on the slower surface of a line contact (SRR -1), 2 GPa: 1-D, Newtonian oil "
+                    "(ignore its friction)"),
 }
 
 
@@ -45,7 +46,8 @@ def given(scene_):
         return scene_
     if isinstance(scene_, str):
         return scene(scene_)
-    raise SceneError(f"{shown(scene_)} is no scene; tehl_taichi.scene makes one from a built-in name, a TOML file or a store")
+    raise SceneError(f"{shown(scene_)} is not a scene; tehl_taichi.scene makes one from a built-in name, a TOML file or a "
+                     "store")
 
 
 def scene(name="gear"):

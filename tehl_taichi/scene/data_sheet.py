@@ -17,12 +17,12 @@ from tehl_taichi.values.quantity import quantity
 NAME = "data-sheet"  # of an oil that is given no other
 LAW = ROELANDS_TEMPERATURE.name
 FROM = "data sheet: "  # begins the source of an oil that is given no other
-KEYS = {"nu_40": quantity(0.0, "m2/s", "of a data sheet, with nu_100 in place of the law's numbers: kinematic viscosity at 40 "
-                          "deg C (220 mm2/s: 220e-6); 0: not given", 0.0, 0.1, usual=1e-4, least=1e-6),
-        "nu_100": quantity(0.0, "m2/s", "the same at 100 deg C", 0.0, 0.1, usual=1e-5, least=1e-6),
-        "alpha_40": quantity(0.0, "1/Pa", "rise of the viscosity with pressure at 40 deg C, beside nu_40 and nu_100; 0: "
-                             "estimated as of a mineral oil", 0.0, 1e-7, usual=2e-8, least=1e-9),
-        "rho_15": quantity(0.0, "kg/m3", "density at 15 deg C, beside nu_40 and nu_100, in place of rho0; 0: not given",
+KEYS = {"nu_40": quantity(0.0, "m2/s", "data sheet: kinematic viscosity at 40 deg C (220 mm2/s: 220e-6), with nu_100 instead "
+                                       "of the numbers of the law; 0: not given", 0.0, 0.1, usual=1e-4, least=1e-6),
+        "nu_100": quantity(0.0, "m2/s", "data sheet: kinematic viscosity at 100 deg C", 0.0, 0.1, usual=1e-5, least=1e-6),
+        "alpha_40": quantity(0.0, "1/Pa", "data sheet: pressure-viscosity coefficient at 40 deg C; 0: estimated as for a "
+                                          "mineral oil", 0.0, 1e-7, usual=2e-8, least=1e-9),
+        "rho_15": quantity(0.0, "kg/m3", "data sheet: density at 15 deg C, instead of rho0; 0: not given",
                            0.0, 3000.0, usual=880.0, least=500.0)}
 VISCOSITY = ("G0", "S0", "Dz", "Cz")
 
@@ -60,7 +60,7 @@ def check_free(given, fresh):
         numbers = ", ".join(f"{key} = {fresh[key]:.6g}" for key in wrong)
         sheet = "oil.rho_15" if wrong == ["rho0"] else "oil.nu_40, nu_100"
         raise SceneError(f"oil.{wrong[0]} = {given[wrong[0]]:g} and the data sheet ({sheet}) contradict each other: the sheet "
-                         f"gives {numbers}; leave {', '.join(wrong)} out, or the keys of the sheet")
+                         f"gives {numbers}; omit {', '.join(wrong)}, or the keys of the sheet")
 
 
 def estimated(oil):
@@ -78,7 +78,7 @@ def words(oil, found):
     rho0 = found["rho0"]
     density_ = f", {oil.rho_15:g} kg/m3 at 15 deg C" if oil.rho_15 else f"; {rho0:g} kg/m3 at 40 deg C, not from there"
     alpha = f"alpha {alpha_40(oil.nu_40, rho0, found['Dz']) * 1e9:.3g} 1/GPa at 40 deg C"
-    estimate = "" if oil.alpha_40 else f" estimated as of a mineral oil, within {mineral_alpha.WITHIN * 100:g} %"
+    estimate = "" if oil.alpha_40 else f" estimated as for a mineral oil, within {mineral_alpha.WITHIN * 100:g} %"
     return (f"{FROM}{oil.nu_40 * 1e6:.4g} mm2/s at 40 deg C, {oil.nu_100 * 1e6:.4g} mm2/s at 100 deg C{density_}; "
             f"{alpha}{estimate}")
 
@@ -88,17 +88,18 @@ def _check(oil):
     if not (oil.nu_40 and oil.nu_100):
         known = next(key for key in KEYS if getattr(oil, key))
         missing = " and ".join(f"oil.{key}" for key in ("nu_40", "nu_100") if not getattr(oil, key))
-        raise SceneError(f"oil.{known} = {getattr(oil, known):g} {KEYS[known].metadata['kind'].unit} is of a data sheet, which "
-                         f"needs both viscosities: {missing} missing")
+        raise SceneError(f"oil.{known} = {getattr(oil, known):g} {KEYS[known].metadata['kind'].unit} belongs to a data sheet, "
+                         f"which needs both viscosities; missing: {missing}")
     if not oil.nu_40 > oil.nu_100:
         raise SceneError(f"oil.nu_100 = {oil.nu_100:g} m2/s must be less than nu_40 = {oil.nu_40:g} m2/s: oil thins with heat")
     if oil.viscosity != LAW:
-        raise SceneError(f"oil.viscosity = {oil.viscosity!r} takes no data sheet (oil.nu_40, nu_100); allowed with one: {LAW}")
+        raise SceneError(f"oil.viscosity = {oil.viscosity!r} does not accept a data sheet (oil.nu_40, nu_100); allowed with a "
+                         f"data sheet: {LAW}")
     if estimated(oil) and not mineral_alpha.holds(oil.nu_40, oil.nu_100):
         m, (low, high) = mineral_alpha.slope(oil.nu_40, oil.nu_100), mineral_alpha.STEEPNESS
         raise SceneError(f"oil.alpha_40 is missing: with oil.nu_40 = {oil.nu_40:g} m2/s and nu_100 = {oil.nu_100:g} m2/s the "
-                         f"viscosity is no mineral oil's, of which alpha could be estimated (slope {m:.3g} of ASTM D341, "
-                         f"theirs {low:g} to {high:g})")
+                         f"oil is not like a mineral oil, for which alpha can be estimated (slope {m:.3g} of ASTM D341; "
+                         f"mineral oils {low:g} to {high:g})")
 
 
 def _viscosity(oil, rho0):

@@ -83,16 +83,16 @@ def within(scene, share):
     nearer = {key: end for key, end in needed.items() if abs(end) > abs(getattr(scene.grid, key))}
     for key, end in nearer.items():
         if not isinstance(own := getattr(scene.grid, key), Chosen):
-            raise SceneError(f"grid.{key} = {own:g} leaves more than {share:.2g} of the film to the end of the domain; "
-                             f"allowed: at least {abs(end):g} in size, or \"{AUTO}\"")
+            raise SceneError(f'grid.{key} = {own:g} leaves more than {share:.2g} of the film to the end of the domain; '
+                             f'allowed: a magnitude of at least {abs(end):g}, or "{AUTO}"')
     return scene.replace(**{f"grid.{key}": end for key, end in nearer.items()})
 
 
 def _needed(key, ends, ratio, least, share):
     found = _first(ends, ratio, least)
     if 1 + ratio(found) < least:
-        raise SceneError(f"a share of {share:.2g} for the end of the domain needs it beyond grid.{key} = {found:g}, as far as "
-                         "it goes, before so thick a film")
+        raise SceneError(f"a share of {share:.2g} needs a domain beyond grid.{key} = {found:g}, the largest possible for such "
+                         "a thick film")
     return found
 
 
@@ -110,8 +110,8 @@ def moved(scene):
         return ""
     per_a = g.nx / (g.x_max - g.x_min)
     as_fine = math.ceil(g.nx * (g.x_max - g.x_min) / (g.x_max + INLETS[0]) / 16 - 1e-9) * 16
-    return (f"thick film: the domain begins at {-g.x_min:g} a (grid.x_min = \"auto\"), its {g.nx} columns are {per_a:.3g} per "
-            f"half-width; --grid {as_fine}{'' if scene.one_dimensional else f'x{g.ny}'} makes them as fine as with 2.5 a")
+    return (f"thick film: the domain begins at {-g.x_min:g} a (grid.x_min = \"auto\"), its {g.nx} columns give {per_a:.3g} per "
+            f"half-width; --grid {as_fine}{'' if scene.one_dimensional else f'x{g.ny}'} makes them as fine as for 2.5 a")
 
 
 def same_cells(scene, x_min=None, y_max=None):

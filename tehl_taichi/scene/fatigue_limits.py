@@ -53,7 +53,7 @@ def check_free(given, fatigue):
             limits = " and ".join(f"fatigue.{name} = {getattr(fatigue, name):g} Pa" for name in speaks(vars(fatigue)))
             rest = "the limit in bending or torsion" if key == "kappa" else "the limits"
             raise SceneError(f"fatigue.{key} = {value:g} contradicts {limits}, which {'give' if 'and' in limits else 'gives'} "
-                             f"{key} = {getattr(fatigue, key):.6g}; leave out {key}, or {rest}")
+                             f"{key} = {getattr(fatigue, key):.6g}; omit {key}, or {rest}")
 
 
 def words(fatigue, kappa=None):

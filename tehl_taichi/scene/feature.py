@@ -34,8 +34,9 @@ class Shared:
     x: float = quantity(0.0, "m", "centre, ahead of the first feature", -LARGEST, LARGEST, usual=1e-4)
     y: float = quantity(0.0, "m", "centre", -LARGEST, LARGEST, usual=1e-4)
     extent_x: float = quantity(0.0, "m", _about("extent_x", "length of the patch"), 0.0, LARGEST, usual=5e-4)
-    extent_y: float = quantity(0.0, "m", _about("extent_y", "its width; 0: without end"), 0.0, LARGEST, usual=5e-4)
-    taper: float = quantity(0.0, "m", _about("taper", "distance over which the patch fades out at its rim"), 0.0, LARGEST,
+    extent_y: float = quantity(0.0, "m", _about("extent_y", "width of the patch; 0: unlimited"), 0.0, LARGEST, usual=5e-4)
+    taper: float = quantity(0.0, "m", _about("taper", "distance over which the heights fade out at the rim of the "
+                                                      "patch"), 0.0, LARGEST,
                             usual=5e-5)
 
 

@@ -101,7 +101,7 @@ def heat_words(scene):
     """Behind what an isothermal film leaves out: how much thinner the heat of its inlet alone would make it, where that is
     noticeable; "" elsewhere."""
     less = 1 - inlet_heating(scene)
-    return f"; by formula the heat of the inlet alone makes h_c {less:.0%} thinner" if less > NOTICED else ""
+    return f"; by formula inlet shear heating alone reduces h_c by {less:.0%}" if less > NOTICED else ""
 
 
 @functools.lru_cache(maxsize=64)

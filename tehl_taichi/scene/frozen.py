@@ -17,6 +17,6 @@ def warnings(scene):
     eta = math.exp(float(ln_eta(scene.oil, p_H, operation.temperature)))
     times = 1 / float(secant(scene.rheology, eta * abs(operation.u_s) / central_film(scene), p_H))
     if times > MOST_R:
-        yield (f"isothermal oil of {eta:.2g} Pa s at {p_H / 1e9:.3g} GPa: its sliding would take {times:.2g} times the stress "
-               f"that rheology.law = {scene.rheology.law} leaves, and more under a feature; the film there follows an "
-               "extrapolated viscosity (plug flow), --thermal has what the oil's own heat leaves of it")
+        yield (f"isothermal oil of {eta:.2g} Pa s at {p_H / 1e9:.3g} GPa: its sliding would need {times:.2g} times the stress "
+               f"that rheology.law = {scene.rheology.law} allows, and more under a feature. The film follows an extrapolated "
+               "viscosity (plug flow); use --thermal to include frictional heat")

@@ -38,11 +38,11 @@ class GearPair:
     b: float = quantity(14e-3, "m", "common face width", 1e-4, 5.0)
     d_a1: float = quantity(0.0, "m", "tip diameter of the pinion; 0: m_n (z/cos beta + 2 + 2 x - 2 Delta)", 0.0, LARGEST,
                             usual=0.1)
-    d_a2: float = quantity(0.0, "m", "tip diameter of the gear; 0: alike", 0.0, LARGEST, usual=0.1)
-    torque: float = quantity(265.1, "N m", "of the pinion", 0.0, 1e8, strict=True)
+    d_a2: float = quantity(0.0, "m", "tip diameter of the gear; 0: as for the pinion", 0.0, LARGEST, usual=0.1)
+    torque: float = quantity(265.1, "N m", "torque of the pinion", 0.0, 1e8, strict=True)
     n1: float = quantity(2170.0, "1/min", "speed of the pinion", 0.0, 1e6, strict=True)
-    load_share: tuple = pairs((), "[way past C along the line of action from the pinion's root to its tip in m, share of the "
-                              "tooth normal force]; twice the same way: a jump", 2, 1000, jumps=True)
+    load_share: tuple = pairs((), "[distance past C along the line of action from pinion root to tip in m, share of the tooth "
+                                  "normal force]; a repeated distance is a jump", 2, 1000, jumps=True)
 
     def __post_init__(self):
         check(self, "gear")
@@ -59,7 +59,8 @@ class GearPair:
             self._set(**{"x2" if given[0] else "x1": self._sum_of_shifts() - (self.x1 if given[0] else self.x2)})
         else:
             known = f"gear.a_w = {self.a_w:g} m" if self.a_w else f"gear.x{1 if given[0] else 2}"
-            raise SceneError(f"{known} alone does not tell the profile shifts; allowed: x1 and x2, or a_w with one of them")
+            raise SceneError(f"{known} alone does not determine the profile shifts; allowed: x1 and x2, or a_w with one of "
+                             "them")
         if not self.a_w:
             self._set(a_w=self.distance_of_shifts)
 
@@ -68,12 +69,12 @@ class GearPair:
         tight = self.distance_of_shifts
         if self.a_w and not -TIGHT * self.m_n <= self.a_w - tight <= LOOSE * self.m_n:
             raise SceneError(f"gear.a_w = {self.a_w:g} m and x1 + x2 = {self.x1 + self.x2:g} contradict each other: without "
-                             f"backlash they give {tight:.6g} m; allowed: up to {tight + LOOSE * self.m_n:.6g} m, or leave one "
-                             "of x1, x2 or a_w out")
+                             f"backlash they give {tight:.6g} m; allowed: up to {tight + LOOSE * self.m_n:.6g} m, or omit one "
+                             "of x1, x2 and a_w")
 
     def _check_share(self):
         if self.load_share and self.beta:
-            raise SceneError(f"gear.load_share is of spur gears, not of gear.beta = {self.beta:g} deg (mean load of its "
+            raise SceneError(f"gear.load_share applies to spur gears, not to gear.beta = {self.beta:g} deg (mean load of its "
                              "contact lines)")
         for _, share in self.load_share:
             if not 0 < share <= 1:

@@ -25,8 +25,8 @@ def cut_passage(scene):
     """A passage that ends although the feature still is in the contact; not one of no steps, where nobody wants any."""
     end = route.cut_at(scene)
     if end is not None and scene.time.steps != 0:
-        yield (f"passage cut at {end:.2f} a: its extremes and its fatigue are those of a part, a whole one ends at "
-               f"{route.uncut(scene).path[1]:.2f} a; `tehl resume STORE` goes on")
+        yield (f"passage cut at {end:.2f} a: its extremes and fatigue cover only a part; the whole passage ends at "
+               f"{route.uncut(scene).path[1]:.2f} a; `tehl resume STORE` continues")
 
 
 MISSED = 0.35  # of Fi, per a between moments: at most 2, 3.6 and 7 % at 0.06, 0.125 and 0.19 a (gear, every choice of moments)
@@ -36,8 +36,8 @@ def thinned(scene):
     """Moments that a fatigue search misses where not every step is stored."""
     every, apart = scene.output.every, scene.output.every * route.step_length(scene)
     if every > 1 and scene.fatigue_wanted:
-        yield (f"output.every = {every} leaves {apart:.3f} a between the moments that the fatigue search sees: its Fi can be "
-               f"{MISSED * apart:.0%} too small (it wants 0.01 a where the feature enters and leaves; every step has "
+        yield (f"output.every = {every} leaves {apart:.3f} a between the moments of the fatigue search, so Fi can be "
+               f"{MISSED * apart:.0%} too small; use a distance of about 0.01 a at entry and exit (every step has "
                f"{apart / every:.3f} a)")
 
 
@@ -51,8 +51,8 @@ def unusual(scene):
             yield said
     p_H = scales.Scales.of(scene).p_H
     if scene.contact.load and p_H < FAINT and (said := scene.load_meant(least=PRESSED)):
-        yield (f"contact.load = {scene.contact.load:g} {scene.load_unit} gives a Hertz pressure of {p_H / 1e6:.0f} MPa "
-               f"only{said}")
+        yield (f"contact.load = {scene.contact.load:g} {scene.load_unit} gives a Hertz pressure of only {p_H / 1e6:.0f} "
+               f"MPa{said}")
 
 
 def wide_domain(scene):

@@ -34,8 +34,8 @@ def from_values(values):
 def _from_sheet(name, known, values):
     """Oil by a data sheet. None stands for a number that follows from it, one that is given must agree with it."""
     if known and not data_sheet.speaks(known):
-        raise SceneError(f"oil.name = {name!r} brings its own viscosity, not that of a data sheet (oil.nu_40, nu_100); leave "
-                         "the name out, or give the oil one of its own")
+        raise SceneError(f"oil.name = {name!r} has its own viscosity and accepts no data sheet (oil.nu_40, nu_100); omit the "
+                         "name, or choose a new one")
     checks.text("oil.name", name, 100, empty=False)
     changed = {"source": ""} if data_sheet.speaks(values) else {}  # of a known oil: it is another one
     merged = {**known, **changed, "name": name, **values}
@@ -52,6 +52,6 @@ def check_new(name, given):
     needed = viscosity.LAWS[law].needed if isinstance(law, str) and law in viscosity.LAWS else ()
     missing = [key for key in ("viscosity", *needed) if key not in given]
     if missing:
-        raise SceneError(f"oil.name = {name!r} is not known{nearest(name, OILS)}; known: {', '.join(OILS)}; a new oil brings "
-                         f"its viscosity law and its numbers: oil.{', oil.'.join(missing)} missing; or its data sheet: "
-                         "oil.nu_40, oil.nu_100")
+        raise SceneError(f"oil.name = {name!r} is not known{nearest(name, OILS)}; known: {', '.join(OILS)}; a new oil needs "
+                         f"its viscosity law and numbers: oil.{', oil.'.join(missing)} missing, or its data sheet: oil.nu_40, "
+                         "oil.nu_100")

@@ -17,5 +17,5 @@ def doubts(scene):
     for which, body in (("a", scene.body_a), ("b", scene.body_b)):
         numbers = STEELS[body.material].numbers if body.material else {}
         if other := [key for key, value in numbers.items() if getattr(body, key) != value]:
-            yield (f"bodies.{which}.material = {body.material} with other numbers than that steel ({', '.join(other)}): leave "
-                   "the name out, or the numbers")
+            yield (f"bodies.{which}.material = {body.material} has other numbers than that steel ({', '.join(other)}); omit "
+                   "the name or the numbers")

@@ -9,13 +9,13 @@ from tehl_taichi.values.quantity import check, choice, documented, kinds, text
 
 _OIL = section(
     "_OIL", name=text("reference-pao", "`tehl oils` lists the named ones"),
-    source=text("PAO of Everitt, licentiate thesis 2018; density after Larsson et al. 2000", "origin of its numbers",
+    source=text("PAO of Everitt, licentiate thesis 2018; density after Larsson et al. 2000", "source of the numbers",
                 one_line=False),
     **data_sheet.KEYS,
     viscosity=choice("roelands-temperature", "law of the viscosity (`tehl laws`)", tuple(viscosity.LAWS)),
     **declared(viscosity.LAWS),
     density=choice("dowson-higginson", "law of the density (`tehl laws`)", tuple(density.LAWS)),
-    expansion=choice("thermal", "where the thermal factor of the density acts; thermal: unless the film is to be isothermal",
+    expansion=choice("thermal", "when the density depends on temperature; thermal: unless the film is isothermal by option",
                      ("thermal", "always", "never")),
     **declared({**density.LAWS, **conduction.LAWS}))
 

@@ -40,8 +40,7 @@ def _name(oil):
         known = dataclasses.asdict(OILS[oil.name])
         other = [key for key in values if key not in ("name", "source") and values[key] != known[key]]
         if other:
-            yield (f"oil.name = {oil.name} with other numbers than that oil ({', '.join(other)}): it is another oil; give it "
-                   "a name of its own")
+            yield (f"oil.name = {oil.name} has other numbers than that oil ({', '.join(other)}); give this oil a new name")
         return
     of_heat = [key for key in values if key not in (*NOT_HEAT, *["rho0"] * (oil.rho_15 > 0))]
     heat = [known for known in OILS.values() if all(values[key] == getattr(known, key) for key in of_heat)]
@@ -66,9 +65,9 @@ def _estimate(oil):
     """Alpha that was not given."""
     if data_sheet.estimated(oil):
         alpha = data_sheet.alpha_40(oil.nu_40, oil.rho0, oil.Dz)
-        yield (f"oil.alpha_40 is not given: alpha at 40 deg C is estimated as {alpha * 1e9:.3g} 1/GPa, "
-               f"for a handbook's mineral oils within {mineral_alpha.WITHIN * 100:g} % (8 % of the film); a PAO may have "
-               "a quarter less")
+        yield (f"oil.alpha_40 is not given: alpha at 40 deg C is estimated as {alpha * 1e9:.3g} 1/GPa, which holds within "
+               f"{mineral_alpha.WITHIN * 100:g} % for mineral oils of a handbook (8 % of the film); the alpha of a PAO may be "
+               "a quarter lower")
 
 
 def _shear(scene):
@@ -76,11 +75,11 @@ def _shear(scene):
     oil, kept = scene.oil, scene.rheology
     if oil.name in OILS or kept != type(kept)() or not kept.thins or scene.operation.u_s == 0:
         return
-    what = "its data sheet has no traction data" if data_sheet.speaks(vars(oil)) else "its numbers say nothing of traction"
+    what = "its data sheet has no traction data" if data_sheet.speaks(vars(oil)) else "its numbers do not include traction"
     numbers = ", ".join(f"{key} = {getattr(kept, key):g} {number.metadata['kind'].unit}".strip(" -")
                         for key, number in rheology.LAWS[kept.law].numbers.items())
-    yield (f"the shear law of the base is kept for oil.name = {oil.name}, {what}: rheology.law = {kept.law}, {numbers}; "
-           "friction, heat and the shear of the surfaces rest on them, [rheology] takes measured ones")
+    yield (f"the shear law of the base scene is used for oil.name = {oil.name}, {what}: rheology.law = {kept.law}, {numbers}. "
+           "Friction, heat and surface shear depend on it; set measured values in [rheology]")
 
 
 def _without_temperature(scene):
@@ -91,11 +90,11 @@ def _without_temperature(scene):
         return
     if not scene.isothermal or T.temperature != type(T).temperature:
         why = f"oil.viscosity = {oil.viscosity}" + "".join(f", {key} = 0" for key in numbers)
-        yield f"{why}: this viscosity changes neither with the temperature of the inlet nor with that of the film"
+        yield f"{why}: this viscosity depends neither on the inlet temperature nor on the film temperature"
 
 
 def _moes(scene):
     oil = scene.oil
     if scene.contact.moes_M > 0 and not {"eta0", "alpha"} <= set(oil.law_numbers):
-        yield (f"contact.moes_L takes oil.eta0 and oil.alpha, which the law of this oil ({oil.viscosity}) does not use: M and "
-               "L are not those of its film; oil.name = moes-test-fluid has them")
+        yield (f"contact.moes_L uses oil.eta0 and oil.alpha, which the law of this oil ({oil.viscosity}) does not use, so M "
+               "and L do not describe its film; oil.name = moes-test-fluid uses them")

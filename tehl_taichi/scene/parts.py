@@ -46,9 +46,10 @@ class Contact:
     radius_y: float = quantity(math.inf, "m", "reduced radius along y; line: inf", 1e-6, LARGEST_RADIUS_Y, infinite=True,
                                usual=10e-3)
     load: float = quantity(0.0, "N/m or N", "line: N/m, point and elliptic: N; 0: not given", 0.0, 1e10)
-    hertz_pressure: float = quantity(0.0, "Pa", "in place of a load; 0: not given", 0.0, 2e10, usual=1e9, least=1e7)
-    moes_M: float = quantity(0.0, "", "Moes' load number, with moes_L in place of load and speed; 0: not given", 0.0, 1e6)
-    moes_L: float = quantity(0.0, "", "Moes' lubricant number, with moes_M; 0: not given", 0.0, 1e3)
+    hertz_pressure: float = quantity(0.0, "Pa", "Hertz pressure instead of a load; 0: not "
+                                                "given", 0.0, 2e10, usual=1e9, least=1e7)
+    moes_M: float = quantity(0.0, "", "Moes load number, with moes_L instead of load and speed; 0: not given", 0.0, 1e6)
+    moes_L: float = quantity(0.0, "", "Moes lubricant number, with moes_M; 0: not given", 0.0, 1e3)
 
     def __post_init__(self):
         check(self, "contact", load="N/m" if isinstance(self.kind, str) and self.kind == "line" else "N")
@@ -60,13 +61,13 @@ class Contact:
             raise SceneError(f"contact needs exactly one of load, hertz_pressure or the pair moes_M, moes_L (more than "
                              f"0); given: {', '.join(given) or 'none'}")
         if (self.moes_M > 0) != (self.moes_L > 0):
-            raise SceneError(f"contact.moes_M = {self.moes_M:g} and moes_L = {self.moes_L:g} come as a pair, both more "
-                             "than 0")
+            raise SceneError(f"contact.moes_M = {self.moes_M:g} and moes_L = {self.moes_L:g} must be given as a pair, both "
+                             "more than 0")
         if (self.kind == "line") != math.isinf(self.radius_y):
-            raise SceneError(f"contact.radius_y = {self.radius_y:g} m does not fit kind {self.kind!r}: inf for a line "
-                             "contact, a length in m otherwise")
+            raise SceneError(f"contact.radius_y = {self.radius_y:g} m does not match kind {self.kind!r}; allowed: inf for a "
+                             "line contact, a length in m otherwise")
         if self.kind == "point" and self.radius_y != self.radius_x:
-            raise SceneError(f"contact.radius_y = {self.radius_y:g} m differs from radius_x = {self.radius_x:g} m: that is "
+            raise SceneError(f"contact.radius_y = {self.radius_y:g} m differs from radius_x = {self.radius_x:g} m, which needs "
                              "kind 'elliptic'")
         if self.kind != "line" and not 0.02 <= self.radius_y / self.radius_x <= 50:
             raise SceneError(f"contact.radius_y = {self.radius_y:g} m is out of range; allowed: radius_x/50 to 50 radius_x "
@@ -91,7 +92,7 @@ class Body:
     Body(E=75000000000.0, nu=0.22)
     """
 
-    material: str = choice("", "a named steel; empty: none, the numbers are one's own", ("", *STEELS))
+    material: str = choice("", "named steel; empty: use the numbers below", ("", *STEELS))
     E: float = quantity(206e9, "Pa", "Young's modulus", 1e6, 1e13)
     nu: float = quantity(0.3, "", "Poisson's ratio", 0.0, 0.499)
     k: float = quantity(47.0, "W/mK", "thermal conductivity", 0.01, 1e4)
@@ -117,7 +118,7 @@ class Operation:
 
     u_m: float = quantity(8.5, "m/s", "mean speed (u_a + u_b)/2", 1e-6, 1e3, common=(1e-4, 200.0))
     srr: float = quantity(-0.12, "", "slip (u_a - u_b)/u_m; negative: the feature is on the slower surface", -2.0, 2.0)
-    temperature: float = quantity(90.0, "deg C", "of oil and bodies at the inlet", -50.0, 300.0)
+    temperature: float = quantity(90.0, "deg C", "temperature of oil and bodies at the inlet", -50.0, 300.0)
 
     def __post_init__(self):
         if isinstance(self.u_m, numbers.Number) and self.u_m == 0:
@@ -189,10 +190,10 @@ class Thermal:
     Thermal(nodes=7)
     """
 
-    on: Union[bool, str] = switch(AUTO, "energy equation; auto: where the surfaces slip", auto=True)
+    on: Union[bool, str] = switch(AUTO, "energy equation; auto: if the surfaces slip", auto=True)
     nodes: int = count(9, "Chebyshev nodes across the film, odd: one at mid-film", 5, 33)
-    tolerance: float = quantity(0.05, "K", "change of the temperature in the last round of a step", 1e-6, 10.0)
-    rounds: int = count(8, "pressure-temperature rounds of a step at most", 1, 50)
+    tolerance: float = quantity(0.05, "K", "largest temperature change in the last round of a step", 1e-6, 10.0)
+    rounds: int = count(8, "largest number of pressure-temperature rounds of a step", 1, 50)
 
     def __post_init__(self):
         check(self, "thermal")
@@ -218,25 +219,25 @@ class Fatigue:
     on: bool = switch(True, "stresses and fatigue index of a passage")
     kappa: float = quantity(0.3, "", f"sensitivity to stress, {sensitivities()}", 0.0, 5.0)
     endurance: float = quantity(400e6, "Pa", "fatigue limit sigma_eF: Fi = 1", 1e6, 1e11)
-    bending_limit: float = quantity(0.0, "Pa", "fatigue limit in reversed bending, in place of endurance; with "
-                                    "torsion_limit of kappa, too; 0: not given", 0.0, LARGEST_LIMIT, usual=USUAL_LIMIT,
+    bending_limit: float = quantity(0.0, "Pa", "fatigue limit in reversed bending, instead of endurance; with torsion_limit "
+                                               "also instead of kappa; 0: not given", 0.0, LARGEST_LIMIT, usual=USUAL_LIMIT,
                                     least=LEAST_LIMIT)
-    torsion_limit: float = quantity(0.0, "Pa", "the same in reversed torsion, as handbooks have it", 0.0, LARGEST_LIMIT,
+    torsion_limit: float = quantity(0.0, "Pa", "fatigue limit in reversed torsion; 0: not given", 0.0, LARGEST_LIMIT,
                                     usual=USUAL_LIMIT, least=LEAST_LIMIT)
-    source: str = text("example values, set your own", "where kappa and endurance come from", one_line=False)
+    source: str = text("example values, set your own", "source of kappa and endurance", one_line=False)
     criterion: str = choice("findley", "fatigue criterion", tuple(CRITERIA))
-    depths: Union[tuple, str] = quantities(AUTO, "m", "searched below the surface; auto: the worst depth under the feature is "
-                                           "looked for; as [50e-6, 100e-6]: all points at these, too", 1e-7, DEEPEST,
+    depths: Union[tuple, str] = quantities(AUTO, "m", "depths to search; auto: the critical depth under the feature; a list "
+                                                      "as [50e-6, 100e-6]: these depths for all points", 1e-7, DEEPEST,
                                            auto=True, usual=1e-4)
-    shear: bool = switch(True, "whether the shear tractions count")
-    thermal_stress: Union[bool, str] = switch(AUTO, "whether the stress of the heat counts; auto: where there are temperatures",
+    shear: bool = switch(True, "include the shear tractions")
+    thermal_stress: Union[bool, str] = switch(AUTO, "include thermal stress; auto: if temperatures are computed",
                                               auto=True)
     residual_xx: float = quantity(0.0, "Pa", "constant residual stress along x", -LARGEST_RESIDUAL, LARGEST_RESIDUAL,
                                   usual=-2e8, least=LEAST_RESIDUAL)
     residual_yy: float = quantity(0.0, "Pa", "constant residual stress along y", -LARGEST_RESIDUAL, LARGEST_RESIDUAL,
                                   usual=-2e8, least=LEAST_RESIDUAL)
-    from_x: float = quantity(-math.inf, "a", "moments count from this position of the feature on; -inf: all", infinite=True)
-    to_x: float = quantity(math.inf, "a", "moments count up to this position of the feature; inf: all", infinite=True)
+    from_x: float = quantity(-math.inf, "a", "first position of the feature that counts; -inf: all", infinite=True)
+    to_x: float = quantity(math.inf, "a", "last position of the feature that counts; inf: all", infinite=True)
 
     def __post_init__(self):
         check(self, "fatigue")
@@ -287,13 +288,13 @@ class Grid:
 
     nx: int = count(256, "cells along x", 32, 8192, 16)
     ny: int = count(64, "cells along y, of the half domain y >= 0", 8, 4096, 4)
-    x_min: Union[float, str] = quantity(AUTO, "a", "inlet end of the grid; auto: -2.5, farther before films so thick that they "
-                                        "would feel it (tehl_taichi/scene/domain.py)", -20.0, -1.2, usual=-2.5)
+    x_min: Union[float, str] = quantity(AUTO, "a", "inlet end of the grid; auto: -2.5, or farther for thick "
+                                                   "films", -20.0, -1.2, usual=-2.5)
     x_max: Union[float, str] = quantity(AUTO, "a", "outlet end of the grid; auto: 1.5", 1.2, 10.0, usual=1.5)
     y_max: Union[float, str] = quantity(AUTO, "b", "side end of the grid; auto: 1 of a line, at least 1.5 of a point contact",
                                         0.3, 20.0, usual=1.0)
-    inlet: str = choice("flooded", "oil before the grid; flooded: it goes on for ever, the border has its pressure; starved: "
-                        "x_min is where it begins, with no pressure", ("flooded", "starved"))
+    inlet: str = choice("flooded", "oil before the grid; flooded: unlimited, its pressure acts at the border; starved: the "
+                                   "oil begins at x_min without pressure", ("flooded", "starved"))
 
     def __post_init__(self):
         check(self, "grid")
@@ -311,11 +312,11 @@ class Time:
     Time(courant=0.5)
     """
 
-    steady_only: bool = switch(False, "no march in time")
-    x_start: float = quantity(-math.inf, "a", "position of the feature at the start; -inf: before the contact", high=20.0,
+    steady_only: bool = switch(False, "compute the steady contact only")
+    x_start: float = quantity(-math.inf, "a", "first position of the feature; -inf: before the contact", high=20.0,
                               infinite=True)
-    x_end: float = quantity(math.inf, "a", "position at the end; inf: behind the contact", -20.0, infinite=True)
-    courant: float = quantity(1.0, "cells", "way of the feature in a step", 0.05, 4.0)
+    x_end: float = quantity(math.inf, "a", "last position of the feature; inf: behind the contact", -20.0, infinite=True)
+    courant: float = quantity(1.0, "cells", "distance that the feature moves in a step", 0.05, 4.0)
     steps: int = count(-1, "stop after this many steps; -1: all, 0: the steady start alone", -1, 10**7)
 
     def __post_init__(self):
@@ -342,15 +343,15 @@ class Numerics:
 
     tolerance: float = quantity(1e-6, "", "rms of min(P, R/D, gap) plus load error", 1e-11, 1e-3)
     mass_tolerance: float = quantity(1e-6, "", "net mass defect over the Couette flux", 1e-9, 1.0)
-    krylov_tolerance: float = quantity(0.2, "", "of the linear solves inside Newton, at most", 1e-6, 0.5)
-    newton_max: int = count(30, "Newton steps of an attempt at most", 1, 1000)
-    krylov_max: int = count(80, "Krylov iterations of a Newton step at most", 5, 500)
-    precision: str = choice(AUTO, "of the linear solves inside Newton; auto: f32 where the film is thick enough for it "
-                            "(elsewhere it is refused); the state and its residual are always double", (AUTO, "f32", "f64"))
-    sweep: str = choice("jacobi", "along the lines of the linear solves: all at once, or every second one and then the others, "
-                        "which takes longer everywhere (docs/benchmarks.md)", ("jacobi", "red-black"))
-    estimate_error: Union[bool, str] = switch(AUTO, "error of the passage's numbers, by companion runs on coarser grids, in a "
-                                              "seventh of its time; auto: of all but very short ones", auto=True)
+    krylov_tolerance: float = quantity(0.2, "", "largest tolerance of the linear solves inside Newton", 1e-6, 0.5)
+    newton_max: int = count(30, "largest number of Newton steps of an attempt", 1, 1000)
+    krylov_max: int = count(80, "largest number of Krylov iterations of a Newton step", 5, 500)
+    precision: str = choice(AUTO, "precision of the linear solves inside Newton; auto: f32 for thick films (f32 is refused "
+                                  "for thin ones); the state and its residual are always double", (AUTO, "f32", "f64"))
+    sweep: str = choice("jacobi", "order of the lines in the linear solves: all at once, or alternating (red-black, slower; "
+                                  "see docs/decisions/05-line-order.md)", ("jacobi", "red-black"))
+    estimate_error: Union[bool, str] = switch(AUTO, "estimate errors by coarse-grid runs, in a seventh of the run time; auto: "
+                                                    "for all but very short passages", auto=True)
 
     def __post_init__(self):
         check(self, "numerics")
@@ -368,8 +369,8 @@ class Output:
     Output(every=4)
     """
 
-    every: int = count(1, "store every n-th step and the last; their numbers then tell of the steps between too", 1, 10**6)
-    profiles: bool = switch(False, "store the temperature at every node across the film too")
+    every: int = count(1, "store every n-th step and the last; their extremes include the steps between", 1, 10**6)
+    profiles: bool = switch(False, "also store the temperature at every node across the film")
 
     def __post_init__(self):
         check(self, "output")

@@ -41,8 +41,8 @@ def kept_multiple(count, cells):
 def check(scene):
     """Refuse features that no part of the domain meets, or that fall between the nodes of the grid. Raises SceneError."""
     if len(scene.features) > MOST_FEATURES:
-        raise SceneError(f"{len(scene.features)} features are too many: each costs every time step about 1 ms; allowed: at "
-                         f"most {MOST_FEATURES}, or all of them in one height map (shape = \"map\")")
+        raise SceneError(f'{len(scene.features)} features are too many; allowed: at most {MOST_FEATURES}, or all of them in '
+                         'one height map (shape = "map")')
     if not scene.transient:
         return
     scales = Scales.of(scene)
@@ -51,9 +51,8 @@ def check(scene):
         _check_y(scene, scales, label(scene, n), feature)
     worst = min(sights(scene), key=lambda sight: sight.cells, default=None)
     if worst and worst.cells < FEWEST:
-        raise SceneError(f"{worst.key} = {worst.length:.3g} m is {worst.cells:.2g} cells of grid.{worst.count} = "
-                         f"{worst.grid}, which do not see it; allowed: at least {FEWEST} cells: "
-                         f"{_remedy(scene, FEWEST, worst)}")
+        raise SceneError(f"{worst.key} = {worst.length:.3g} m is {worst.cells:.2g} cells of grid.{worst.count} = {worst.grid}, "
+                         f"too few to resolve it; allowed: at least {FEWEST} cells: {_remedy(scene, FEWEST, worst)}")
 
 
 def label(scene, n):
@@ -99,7 +98,7 @@ def _remedy(scene, cells, worst):
             for count in MULTIPLES}
     if all(need[count] <= most for count, (_, most) in MULTIPLES.items()):
         return f"--grid {need['nx']}x{need['ny']}"
-    return f"no grid has them; {worst.key} of {worst.length * cells / worst.cells:.2g} m would do on this one"
+    return f"no grid is fine enough; {worst.key} of {worst.length * cells / worst.cells:.2g} m is enough on this one"
 
 
 def warnings(scene):
@@ -113,9 +112,8 @@ def _coarse(scene):
     worst = min(sights(scene), key=lambda sight: sight.cells, default=None)
     if worst is None or worst.cells >= ENOUGH:
         return []
-    return [f"{worst.key} = {worst.length:.3g} m is {worst.cells:.1f} cells of grid.{worst.count} = {worst.grid}: with fewer "
-            "than "
-            f"{ENOUGH} the film and pressure at a feature are off by 5 % and more (about 20 % with 8, 40 % with 4); "
+    return [f"{worst.key} = {worst.length:.3g} m is {worst.cells:.1f} cells of grid.{worst.count} = {worst.grid}; with fewer "
+            f"than {ENOUGH} the film and pressure at a feature have errors above 5 % (about 20 % with 8, 40 % with 4); "
             f"{_remedy(scene, ENOUGH, worst)}"]
 
 

@@ -16,7 +16,7 @@ def warnings(scene):
     it), or wider than the grid, with what gives all of them room."""
     reasons = [*_low_ends(scene), *_narrow(scene)] if scene.transient else []
     if reasons:
-        yield "; ".join([*reasons, *(f"{words} gives room" for words in [domain_words(scene)] if words)])
+        yield "; ".join([*reasons, *(f"use {words}" for words in [domain_words(scene)] if words)])
 
 
 def domain_words(scene):
@@ -41,8 +41,8 @@ def _low(scene):
 def _low_ends(scene):
     top = max((f.top for f in scene.features), default=0.0)
     for key, end, room, _ in _low(scene):
-        yield (f"a feature of {top:.3g} m passes grid.{key} = {end:g} a, where the dry contact leaves {room:.3g} m: unless the "
-               "film adds the rest, the run ends there")
+        yield (f"a feature of {top:.3g} m passes grid.{key} = {end:g} a, where the dry gap is {room:.3g} m; the run stops "
+               "there unless the film is thick enough")
 
 
 def _wide(scene):
@@ -65,7 +65,7 @@ def _narrow(scene):
     if wide := _wide(scene):
         n = max(wide, key=wide.get)
         yield (f"{passing.label(scene, n)} reaches to {wide[n]:.3g} m along y, the domain to grid.y_max = {scene.grid.y_max:g} "
-               f"b ({scene.grid.y_max * Scales.of(scene).b:.3g} m): what lies beyond is cut off{_smaller(scene, n)}")
+               f"b ({scene.grid.y_max * Scales.of(scene).b:.3g} m); heights beyond are cut off{_smaller(scene, n)}")
 
 
 def _smaller(scene, n):

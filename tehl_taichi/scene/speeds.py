@@ -12,7 +12,7 @@ def of_surfaces(values):
     values = dict(values)
     if "u_a" in values or "u_b" in values:
         if not {"u_a", "u_b"} <= values.keys() or values.keys() & {"u_m", "srr"}:
-            raise SceneError("operation takes u_a and u_b together, or u_m and srr")
+            raise SceneError("operation needs u_a and u_b together, or u_m and srr")
         u_a, u_b = (plain(values.pop(key)) for key in ("u_a", "u_b"))
         number("operation.u_a", u_a, "m/s", -1e4, 1e4)
         number("operation.u_b", u_b, "m/s", -1e4, 1e4)

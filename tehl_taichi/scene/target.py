@@ -40,8 +40,8 @@ def grid_for(description, target):
     nx = math.ceil(needed / MULTIPLE - 1e-9) * MULTIPLE
     if nx > MOST:
         finest = target * nx / MOST
-        raise SceneError(f"a target error of {100 * target:.3g} % would need {nx} columns; at most {MOST} are taken, good for "
-                         f"{100 * finest:.2g} % of this scene (`tehl bench accuracy` shows what grids reach)")
+        raise SceneError(f"a target error of {100 * target:.3g} % would need {nx} columns; allowed: at most {MOST}, which give "
+                         f"{100 * finest:.2g} % for this scene (see `tehl bench accuracy`)")
     return _seeing_maps(description, nx, max(8, round(nx * description.grid.ny / description.grid.nx / 8) * 8))
 
 

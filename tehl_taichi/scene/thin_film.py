@@ -30,14 +30,14 @@ def warnings(scene):
     film, thinnest, part = heated_film(scene), thinnest_film(scene), carried(scene)
     if film < SMOOTHEST:
         yield (f"the film formula has {film * 1e9:.2g} nm at the centre, less than the roughness of polished steel "
-               f"({SMOOTHEST * 1e9:g} nm): real surfaces touch there, these are smooth")
+               f"({SMOOTHEST * 1e9:g} nm); real surfaces touch there, but this model is smooth")
     elif part < 1:
         where = "at the centre" if thinnest == film else "in the side lobes"
-        yield (f"the film formula has {thinnest:.2g} m {where}, {part:.2g} of what {scene.grid.nx} columns carry: the "
-               f"surfaces would touch on this grid and the start may not settle; {remedy(scene)}")
+        yield (f"the film formula has {thinnest:.2g} m {where}, {part:.2g} of what {scene.grid.nx} columns resolve; the "
+               f"surfaces may touch on this grid and the start may not converge; {remedy(scene)}")
 
 
 def remedy(scene):
     """The grid that carries the film, in words."""
     size = needed(scene)
-    return f"--grid {size[0]}x{size[1]} carries it" if size else f"no grid up to {FINEST} columns carries it"
+    return f"use --grid {size[0]}x{size[1]}" if size else f"no grid up to {FINEST} columns resolves it"

@@ -46,8 +46,8 @@ from tehl_taichi.values.meant import meant
 from tehl_taichi.values.plain import shown
 from tehl_taichi.values.quantity import Text
 
-TOP = {"name": Text("what stores are named after", 100),  # the keys above all tables
-       "note": Text("free words on one line, kept and shown with the run; nothing is computed with them")}
+TOP = {"name": Text("name of the scene and its stores", 100),  # the keys above all tables
+       "note": Text("free text on one line, stored and shown with the run")}
 FIRST, LAST = -1.6, 1.4  # of the path of a small feature, in a
 CLEAR = 1.3  # distance in a of a feature's front from X = 0 at an automatic start
 BEYOND = 1.2  # half-widths, at least, from the centre to the edge of the grid
@@ -160,12 +160,12 @@ class Scene:
         front = start + max((f.x + f.reach for f in self.features), default=-10.0) / scales.Scales.of(self).a
         if self.transient and front > -LATEST:
             raise SceneError(f"time.x_start = {start:g} a: the features reach up to {front:.2f} a at the start, but the steady "
-                             f"start has none; allowed: at most {start - front - LATEST:.2f} a (or -inf)")
+                             f"start needs a smooth contact; allowed: at most {start - front - LATEST:.2f} a (or -inf)")
 
     def _check_room(self):
         """A point contact must fit into the grid, and a feature into the gap at its ends, where it comes in and leaves."""
         if self.contact.kind != "line" and self.grid.y_max < BEYOND:
-            raise SceneError(f"grid.y_max = {self.grid.y_max:g} b: a {self.contact.kind} contact reaches to 1; allowed: at "
+            raise SceneError(f"grid.y_max = {self.grid.y_max:g} b: a {self.contact.kind} contact extends to 1 b; allowed: at "
                              f"least {BEYOND:g} b")
         highest, s = max((f.top for f in self.features), default=0.0), scales.Scales.of(self)
         need = math.sqrt(2 * max(highest, 0.0) / s.h)
@@ -186,8 +186,8 @@ class Scene:
         count, start, end = moments(self)
         if count < 2:
             f = self.fatigue
-            raise SceneError(f"fatigue.from_x = {f.from_x:g} a to fatigue.to_x = {f.to_x:g} a leaves {count} stored moments "
-                             f"of the passage, which goes from {start:.2f} to {end:.2f} a; allowed: a window of two at least")
+            raise SceneError(f"fatigue.from_x = {f.from_x:g} a to fatigue.to_x = {f.to_x:g} a leaves {count} stored moments of "
+                             f"the passage, which extends from {start:.2f} to {end:.2f} a; allowed: a window of at least two")
 
     def _form_words(self):
         """What is said of the form of a measured feature, which makes it higher than it need be."""
@@ -226,7 +226,7 @@ class Scene:
     def _check_motion(self):
         if self.transient and self.operation.u_a < 1e-3 * self.operation.u_m:
             raise SceneError(f"operation.srr = {self.operation.srr:g} leaves surface a, which carries the feature, at "
-                             f"{self.operation.u_a:g} m/s: it never passes; allowed with a feature: srr > -1.998, or use "
+                             f"{self.operation.u_a:g} m/s, so it never passes; allowed with a feature: srr > -1.998, or use "
                              "--steady")
 
     @property
@@ -305,17 +305,17 @@ class Scene:
         out = []
         if self.isothermal:
             why = "isothermal film" if self.thermal.on is False else "no slip" if self.operation.srr == 0 else "a Moes pair"
-            out.append(f"energy equation and temperatures ({why}; --thermal has them{film_formula.heat_words(self)})")
+            out.append(f"energy equation and temperatures ({why}; --thermal computes them{film_formula.heat_words(self)})")
         if self.isothermal and self.film_oil.expansion == "thermal" and self.oil.expands:
-            out.append("thermal expansion of the oil (isothermal film; oil.expansion = 'always' keeps it)")
+            out.append("thermal expansion of the oil (isothermal film; oil.expansion = 'always' includes it)")
         if self.one_dimensional:
-            out.append("y direction (nothing varies across this line contact)")
+            out.append("y direction (nothing varies along y in this line contact)")
         elif self.symmetric:
             out.append("half of the domain (symmetric in y)")
         if not self.transient:
             out.append("march in time (steady)" if self.features else "march in time (no feature)")
         elif cut and (end := cut_at(self)) is not None:
-            out.append(f"rest of the passage (cut at {end:.2f} a by time.steps or time.x_end; `tehl resume` goes on)")
+            out.append(f"rest of the passage (cut at {end:.2f} a by time.steps or time.x_end; `tehl resume` continues)")
         if not self.fatigue_wanted:
             out.append("stresses and fatigue (" + ("switched off" if not self.fatigue.on else "no passage") + ")")
         if self.operation.u_s == 0:
@@ -389,7 +389,7 @@ class Scene:
         counts as given by the user."""
         known = {*TOP, "bodies", "oil", "feature", *SECTIONS}
         if not isinstance(data, dict):
-            raise SceneError(f"a scene is described by a table of sections, not by {shown(data)}")
+            raise SceneError(f"a scene must be a table of sections, not {shown(data)}")
         for key in data:
             if key not in known:
                 raise SceneError(f"unknown section or key {shown(key)}{nearest(key, known)}; known: {', '.join(sorted(known))}")
@@ -409,7 +409,7 @@ class Scene:
 
 def _bodies(values):
     if not isinstance(values, dict) or set(values) - {"a", "b"}:
-        raise SceneError(f"[bodies] has the tables [bodies.a] and [bodies.b] only, not {shown(values)}")
+        raise SceneError(f"[bodies] may only hold the tables [bodies.a] and [bodies.b], not {shown(values)}")
     return {f"body_{key}": build(Body, completed(value), f"bodies.{key}", "bodies") for key, value in values.items()}
 
 

@@ -18,7 +18,7 @@ def results(work, jobs, scheduler, told):
     distributed = _distributed()
     with _client(distributed, scheduler) as client:
         if not client.nthreads():
-            told("no worker has come yet; the first one begins (on any machine: dask worker ADDRESS --nthreads 1)")
+            told("no worker is connected yet; start one (on any machine: dask worker ADDRESS --nthreads 1)")
         waiting, running, run = iter(enumerate(jobs)), {}, uuid.uuid4().hex[:8]
         ended = distributed.as_completed()
 
@@ -53,10 +53,10 @@ def _answer(future):
     if future.status == "finished":
         return future.result()
     if future.status != "error":
-        return Lost("the scheduler dropped it: it was restarted or went away")
+        return Lost("the scheduler lost this case (it was restarted or stopped)")
     error = future.exception()
     if type(error).__name__ == "KilledWorker":
-        return Lost("its worker died, and so did the one that tried again (killed, or out of memory)")
+        return Lost("its worker died, also at the second attempt (killed, or out of memory)")
     return Lost(f"{type(error).__name__}: {error}")
 
 
@@ -84,6 +84,6 @@ def _distributed():
     try:
         import distributed
     except ImportError:
-        raise RuntimeUnavailable(f"a scheduler needs Dask: {extra('sweep')}; --workers takes processes of this machine "
-                                 "without it") from None
+        raise RuntimeUnavailable(f"a scheduler needs Dask: {extra('sweep')}; --workers uses processes of this machine without "
+                                 "Dask") from None
     return distributed

@@ -98,7 +98,7 @@ def compare(*paths: str | PathLike | Run) -> Comparison:
         raise SceneError(f"{len(paths)} stores to compare; allowed: 2 to {MOST}")
     stores = tuple(Store.open(folder_of(path)) for path in paths)
     if len({store.path.resolve() for store in stores}) < len(stores):
-        raise StoreError(f"{_twice([store.path for store in stores])} is given twice; a run is compared with others")
+        raise StoreError(f"{_twice([store.path for store in stores])} is given twice; give different runs")
     return Comparison(stores)
 
 

@@ -87,8 +87,8 @@ def _moment(curves, at):
     if not any(c.passes for c in curves):
         return "steady"
     off = max(abs(c.moments.moved[c.entry - 1] - at) for c in curves if c.passes)
-    told = f"feature at {at:+.2f} a" + (f" (up to {off:.2f} a off)" if off > 0.05 else "")
-    return told + ("" if all(c.passes for c in curves) else ", steady where none passes")
+    told = f"feature at {at:+.2f} a" + (f" (up to {off:.2f} a away)" if off > 0.05 else "")
+    return told + ("" if all(c.passes for c in curves) else ", steady for runs without a passage")
 
 
 def _legend(page, figure, curves):
@@ -166,4 +166,4 @@ def _index(ax, curves):
         ax.plot(x, Fi[:, j], color=c.colour)
         ax.plot(x[i], Fi[i, j], "+", color=c.colour, ms=ax.xaxis.label.get_size(), mew=0.2 * ax.xaxis.label.get_size(),
                 clip_on=False)  # whole at the rim, too
-    ax.set(xlabel="x from the feature's centre (µm)", ylabel="Fi, worst row")
+    ax.set(xlabel="x from the feature's centre (µm)", ylabel="Fi, critical row")

@@ -18,7 +18,7 @@ from tehl_taichi.study.job import Lost, in_one_thread
 SHARE = 0.95  # of the part of a worker in the memory that is available
 PAUSE = 1.0  # s between two looks at that
 TRIES = 2
-DIED = "its worker died, and so did the one that tried again (killed, or out of memory)"
+DIED = "its worker died, also at the second attempt (killed, or out of memory)"
 
 
 def results(work, jobs, workers):

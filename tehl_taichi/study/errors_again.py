@@ -9,7 +9,7 @@ from dataclasses import asdict
 
 from tehl_taichi.march.companions import FI, indices
 
-OTHER = "the companion runs were searched with the constants and moments of the run, not with these"
+OTHER = "the coarse-grid runs used the constants and moments of the run, not these"
 # of the section [fatigue]: they change no stress of a point (limits do by kappa, which is compared)
 FREE = ("on", "endurance", "bending_limit", "torsion_limit", "source", "depths")
 SAME = 1e-6  # of the stress: the stored search and this one are the same

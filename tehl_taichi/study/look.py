@@ -27,10 +27,10 @@ def lines(run, coarse):
     if not run.scene.transient or pace is None:
         return []
     most = _most(scene) * total * pace
-    said = (f"the whole passage: {total} steps, {about(total * pace)} at the pace of the first ones ({pace:.2g} s each); with "
-            f"{'a rough surface' if _scans(scene) else 'features'} in the contact they take more rounds, up to {_most(scene)} "
-            f"times as long: up to {about(most)}; stresses and error bars come after it"
-            f"{', of a wide scan as long again' if _scans(scene) else ''}")
+    said = (f"the whole passage: {total} steps, {about(total * pace)} at the speed of the first steps ({pace:.2g} s each); "
+            f"with {'a rough surface' if _scans(scene) else 'features'} in the contact steps take up to {_most(scene)} times "
+            f"as long: up to {about(most)}; stresses and error bars "
+            f"follow{', which take as long again for a wide scan' if _scans(scene) else ''}")
     return [said, *(_faster(scene, coarse, most) if most > LONG else ())]
 
 

@@ -33,7 +33,7 @@ class Plan:
 
     def __post_init__(self):
         if not self.axes:
-            raise SceneError("a sweep needs a key to change: --over key=values, as in --over srr=-0.3:0.3:7")
+            raise SceneError("a sweep needs a key: --over key=values, as in --over srr=-0.3:0.3:7")
         names = [given.full_name(key) for key in self.keys]
         for key, name in zip(self.keys, names):
             if names.count(name) > 1:
@@ -135,7 +135,7 @@ class Plan:
         """Raises SceneError for a key that changes nothing in any case: all its rows would be equal."""
         for key in self.keys:
             if len({repr(self.changes(number)[key]) for number in range(self.count)}) > 1 and (why := self._idle(key, refused)):
-                raise SceneError(f"{key} has no effect here: {why}; its rows would be equal")
+                raise SceneError(f"{key} has no effect here: {why}; the cases would be equal")
 
     def _idle(self, key, refused):
         """Why a key changes nothing, where it does so in every case that can run; else ""."""
@@ -198,7 +198,7 @@ def plan(scene, over, samples=None, seed=None):
     if not isinstance(over, Mapping):
         raise SceneError(f"over = {shown(over)} must be a dictionary {{key: values}}, as in {{'srr': [0.0, 0.1]}}")
     if samples is None and seed is not None:
-        raise SceneError(f"seed = {shown(seed)} has no effect without samples: nothing is drawn")
+        raise SceneError(f"seed = {shown(seed)} has no effect without samples")
     seed = 0 if seed is None else seed
     if samples is None:
         return Plan(scene, tuple(_axis(keys, rows) for keys, rows in over.items()))
@@ -219,7 +219,7 @@ def _axis(keys, rows):
 
 def _choices(key, found):
     if not isinstance(key, str):
-        raise SceneError(f"{', '.join(key)} change together: samples are drawn of keys that do not")
+        raise SceneError(f"{', '.join(key)} change together; samples need independent keys")
     if isinstance(found, tuple) and len(found) == 2:
         return typed.column(f"{float(found[0])!r}:{float(found[1])!r}")
     return typed.column(found)

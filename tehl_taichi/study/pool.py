@@ -40,7 +40,7 @@ def sizes(workers=None, threads=None, scheduler=None, jobs=MOST):
     from tehl_taichi.engine import cores
 
     if workers is not None and scheduler is not None:
-        raise SceneError(f"--workers {workers} and --scheduler contradict each other: a running cluster has its own workers")
+        raise SceneError(f"--workers {workers} and --scheduler contradict each other; a running cluster has its own workers")
     for name, number in (("--workers", workers), ("--threads-per-worker", threads)):
         if number is not None:
             integer(name, plain(number), 1, MOST)

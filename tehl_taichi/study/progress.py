@@ -6,7 +6,7 @@ import time
 
 from tehl_taichi.study.pace import Pace
 
-STEADY, PASSAGE, FATIGUE, ERRORS = STAGES = ("steady start", "passage", "stresses and fatigue", "companion runs")
+STEADY, PASSAGE, FATIGUE, ERRORS = STAGES = ("steady start", "passage", "stresses and fatigue", "coarse-grid runs")
 LATE = FATIGUE, ERRORS  # stages after the last step, of minutes on fine grids
 TOLD = 0.1  # of such a stage, from which on the time left is told: its first parts, tables, take longer than the others
 
@@ -90,8 +90,8 @@ class Lines(Progress):
         p = snapshot.scalars["p_max_Pa"]
         if p > YIELDS and not self.yielded:
             self.yielded = True
-            self.say(f"step {snapshot.step}: p_max {p / 1e9:.2f} GPa; {STEEL}, and both bodies are elastic here. It goes on; "
-                     "Ctrl-C stops it. Less load, or feature.cutoff for a rough scan, makes it lower")
+            self.say(f"step {snapshot.step}: p_max {p / 1e9:.2f} GPa; {STEEL}, and both bodies are elastic here. The run "
+                     "continues (Ctrl-C stops it). Reduce the load, or set feature.cutoff for a rough scan")
 
     def _say_now_and_then(self, text):
         if time.perf_counter() - self.last > self.EVERY:

@@ -82,8 +82,8 @@ def completed(scene: Scene, path: str | PathLike, *, threads: int | None = None,
 def check_version(path, run):
     """Refuse a run of another version as part of what this one computes. Raises StoreError."""
     if run.store.other_version:
-        raise StoreError(f"{path} was {run.store.other_version}: their results are not mixed; choose another folder or "
-                         "remove it")
+        raise StoreError(f"{path} was {run.store.other_version}: results of two versions are not mixed; choose another folder "
+                         "or remove it")
 
 
 def _continue(path, scene, threads, began, progress):
@@ -122,7 +122,7 @@ def _begin(scene, place, clock, progress):
     first = next(march(scene))
     progress.stage(STEADY, 1, 1)
     if first.unsettled:
-        progress.warn(f"{first.unsettled}; the passage starts from a state in time")
+        progress.warn(f"{first.unsettled}; the passage starts from an unsteady state")
     steady = {"steady_error": plain(first.error), "steady_unknown": first.unknown, "steady_parts": plain(first.parts),
               "steady_domain": first.domain.values()}
     attrs = {"warnings": json.dumps(scene.warnings()), **{name: json.dumps(value) for name, value in steady.items()},
@@ -230,10 +230,10 @@ def _what_is_left(path):
     try:
         left = open(path)
     except StoreError:
-        return f"; {path} cannot be read any more"
+        return f"; {path} can no longer be read"
     if left.finished:
         return f"; {path} is finished"
-    return f" after {left.store.last_step} steps{_missing(left)}; go on with: tehl resume {path}"
+    return f" after {left.store.last_step} steps{_missing(left)}; resume with: tehl resume {path}"
 
 
 def _missing(left):
@@ -242,4 +242,4 @@ def _missing(left):
 
     if left.store.last_step < total_steps(left.scene):
         return ""
-    return ", all of the passage: its stresses and errors are missing" if left.scene.fatigue_wanted else ""
+    return ", the whole passage; stresses and errors are missing" if left.scene.fatigue_wanted else ""

@@ -147,7 +147,7 @@ def index_over_film(page, study):
     ax.axhline(1.0, color=palette.GREY, ls="--")
     ax.set(xlabel=film_label, ylabel="fatigue index Fi")
     ax.grid()
-    page.title(figure, f"{study.plan.scene.name}: Fi over the least film, {_count(study)}{_unknown(Fi, Fi_error)}")
+    page.title(figure, f"{study.plan.scene.name}: Fi over the smallest film, {_count(study)}{_unknown(Fi, Fi_error)}")
     return figure
 
 
@@ -158,7 +158,7 @@ def _hollow(ax, x, y, errors):
 
 
 def _unknown(values, errors):
-    return " (hollow: its error is not known)" if (np.isfinite(values) & ~np.isfinite(errors)).any() else ""
+    return " (hollow: error unknown)" if (np.isfinite(values) & ~np.isfinite(errors)).any() else ""
 
 
 def _count(study):

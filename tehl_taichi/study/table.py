@@ -80,7 +80,7 @@ class Study(Held):
         except (ValueError, KeyError, TypeError, AttributeError, IndexError) as error:
             if said := lacking(_scene_text(attrs[PLAN])):
                 raise StoreError(f"{path} needs {said}") from None
-            said = error if isinstance(error, SceneError) else f"{shown(attrs[PLAN])} is not as this program writes it"
+            said = error if isinstance(error, SceneError) else f"{shown(attrs[PLAN])} is not written by tehl"
             raise StoreError(f"{path} is damaged: its plan cannot be read ({said})") from None
 
     @classmethod
@@ -91,10 +91,10 @@ class Study(Held):
         attrs = attributes(path)
         check_outside(path)
         if attrs is None and (path.is_file() or path.is_dir() and any(path.iterdir())):
-            raise StoreError(f"{path} exists already and is no study; choose another --out")
+            raise StoreError(f"{path} exists already and is not a study; choose another --out")
         if attrs is not None and (version := attrs.get("version", "unknown")) != __version__:
-            raise StoreError(f"{path} was written by version {version}, this is {__version__}: their cases are not mixed; "
-                             f"choose another --out, or go on with version {version}")
+            raise StoreError(f"{path} was written by version {version}, this is {__version__}; cases of two versions are not "
+                             f"mixed. Choose another --out, or use version {version}")
         if attrs is not None and not plan.told_by(attrs[PLAN]):
             raise StoreError(f"{path} holds another study; choose another --out or remove it")
         with blamed(path, "cannot write to"):
@@ -118,7 +118,8 @@ class Study(Held):
         try:
             yield
         except OSError as error:
-            raise StoreError(f"cannot write to {self.path}: {reason(error)}; what is stored stays, the same command goes on") \
+            raise StoreError(f"cannot write to {self.path}: {reason(error)}; stored cases are kept, and the same command "
+                             "resumes") \
                 from None
 
     def close(self):
@@ -201,7 +202,7 @@ class Study(Held):
             self._write_coordinates(group)
         for name, values in self.values.items():
             self._write(group, name, values, flat.unit_of(name), name.replace("_", " "))
-        self._write(group, "status", self.status, "1", "what became of the case", flag_values=list(records.STATUS.values()),
+        self._write(group, "status", self.status, "1", "status of the case", flag_values=list(records.STATUS.values()),
                     flag_meanings=" ".join(word.replace(" ", "_") for word in records.STATUS))
         self._publish()
         replace(self.table, self._csv().encode())

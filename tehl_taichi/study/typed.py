@@ -66,7 +66,7 @@ def axis(keys, columns):
     """Axis of keys with a column of values each. Raises SceneError where columns differ in length or a row comes twice."""
     if any(isinstance(column, Span) for column in columns):
         key, span = next((k, c) for k, c in zip(keys, columns) if isinstance(c, Span))
-        raise SceneError(f"{key} = {span.low:g}:{span.high:g} has no number of values: give {span.low:g}:{span.high:g}:N, or "
+        raise SceneError(f"{key} = {span.low:g}:{span.high:g} has no number of values; use {span.low:g}:{span.high:g}:N, or "
                          "--samples N for all keys")
     lengths = {key: len(column) for key, column in zip(keys, columns)}
     if len(set(lengths.values())) > 1:
@@ -114,7 +114,7 @@ def _range(text, low, high, count, log):
         raise SceneError(f"{text}: a logarithmic range needs positive ends")
     if count is None:
         if not a < b:
-            raise SceneError(f"{text}: the first end must be the smaller one")
+            raise SceneError(f"{text}: the first end must be smaller than the second")
         return Span(a, b, bool(log))
     if not 1 <= int(count) <= MOST or (int(count) == 1 and a != b):
         raise SceneError(f"{text} must have 2 to {MOST} values, {FORMS}")

@@ -43,7 +43,7 @@ def _allowed(unit, low, high, strict, least=0.0):
         above = f"{'more than' if strict else 'at least'} {low:g}{unit}" if low > -math.inf else ""
     below = f"at most {high:g}{unit}" if high < math.inf else ""
     both = " and ".join(part for part in (above, below) if part)
-    return f"; allowed: {both}{', of either sign' if least and low < 0 else ''}" if both else ""
+    return f"; allowed: {both}{', positive or negative' if least and low < 0 else ''}" if both else ""
 
 
 def word(where, value, only, kind):

@@ -10,7 +10,7 @@ from tehl_taichi.values.plain import shown
 def path_of(name, value):
     """The Path that an argument means. Raises SceneError where it is no text and no path."""
     if not isinstance(value, (str, PathLike)) or isinstance(value, bytes):
-        raise SceneError(f"{name} = {shown(value)} is no path; allowed: text or a pathlib.Path")
+        raise SceneError(f"{name} = {shown(value)} is not a path; allowed: text or a pathlib.Path")
     return Path(value)
 
 
@@ -19,4 +19,4 @@ def folder_of(of):
     for found in (of, getattr(of, "path", None), getattr(of, "folder", None)):
         if isinstance(found, (str, PathLike)):
             return Path(found)
-    raise StoreError(f"{shown(of)} is no run, study or flank; allowed: the path of one, or what tehl_taichi.open gives")
+    raise StoreError(f"{shown(of)} is not a run, study or flank; allowed: its path, or the result of tehl_taichi.open")

@@ -58,7 +58,7 @@ def _conductance(resistance):
 
 
 ALONG = Filling(
-    name="flow", says="oil flows along the crack, in and out at its mouth: Reynolds' equation in the crack's own opening",
+    name="flow", says="oil flows along the crack, in and out at the mouth: Reynolds equation in the crack opening",
     source="Reynolds 1886; cavities after Elrod 1981", inside=inside,
     checked=(Checked("normal edge crack, tension 1, pressure 3 at the mouth for long: four times that of the tension",
                      4 * 1.1215, lambda: in_tension(ALONG, mouth=3.0), 1e-3),))

@@ -7,7 +7,7 @@ from tehl_taichi.crack.fillings import in_tension
 from tehl_taichi.registry import Checked
 
 DRY = Filling(
-    name="dry", says="nothing in the crack", source="Hannes & Alfredsson 2011 (dry asperity)",
+    name="dry", says="no oil in the crack", source="Hannes & Alfredsson 2011 (dry asperity)",
     inside=lambda wet: wet.under(np.zeros_like(wet.mouth)),
     checked=(Checked("normal edge crack, tension 1, whatever the film has (Tada, Paris & Irwin)", 1.1215,
                      lambda: in_tension(DRY, mouth=3.0), 1e-3),))

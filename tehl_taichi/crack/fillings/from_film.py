@@ -5,7 +5,7 @@ from tehl_taichi.crack.fillings import in_tension
 from tehl_taichi.registry import Checked
 
 FROM_FILM = Filling(
-    name="film", says="the film's pressure above the mouth everywhere in the crack: an upper bound", source="Way 1935",
+    name="film", says="film pressure above the mouth acts everywhere in the crack: an upper bound", source="Way 1935",
     inside=lambda wet: wet.under(wet.share * wet.mouth),
     checked=(Checked("normal edge crack, tension 1 and pressure 3: four times that of the tension", 4 * 1.1215,
                      lambda: in_tension(FROM_FILM, mouth=3.0), 1e-3),))

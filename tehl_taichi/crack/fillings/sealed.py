@@ -66,7 +66,7 @@ def _let_out(march, n, high):
 
 
 SEALED = Filling(
-    name="sealed", says="the film's pressure while the mouth is open; what is inside when it shuts is shut in",
+    name="sealed", says="film pressure while the mouth is open; oil inside is trapped when it closes",
     source="Keer & Bryant 1983; Bower 1988 (J. Tribol. 110)", inside=inside,
     checked=(Checked("normal edge crack, tension 1 and pressure 3 at a mouth that stays open: four times that of the tension",
                      4 * 1.1215, lambda: in_tension(SEALED, mouth=3.0), 1e-3),))

@@ -19,7 +19,7 @@ STEP = Scalar(name="dt_s", unit="s", says="time step", over="point", source="tim
 WALL = Scalar(name="wall_s", unit="s", says="run time of the step", over="sum", source="the clock", of=lambda s: s.wall,
               by_hand=0.25)
 CHANGE = Scalar(name="temperature_change_K", unit="K", over="maximum", exists=thermal, source="rounds (march/passage)",
-                says="largest change of temperature that another round of the step would make",
+                says="estimated temperature change by one more round of the step",
                 of=lambda s: s.heat.report.change, by_hand=0.02)
-CLAMPED = Scalar(name="clamped", unit="1", says="nodes whose temperature was held", over="sum",
+CLAMPED = Scalar(name="clamped", unit="1", says="nodes with a limited temperature", over="sum",
                  exists=thermal, source="heat/temperatures", of=lambda s: s.heat.report.clamped, by_hand=1)

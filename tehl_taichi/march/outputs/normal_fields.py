@@ -9,5 +9,5 @@ PRESSURE = Field(name="pressure", unit="Pa", says="film pressure", source="Reyno
 FILM = Field(name="film", unit="m", says="film thickness", source="rigid approach, gap and deflection (pressure/deflection)",
              of=lambda s: s.H * s.scales.h, by_hand=11e-6)
 CONTACT = Field(name="contact", unit="1", dtype="u1", says="solid contact (1 where the surfaces touch)",
-                source="film at its floor, the load there borne by the solids (pressure/newton)",
+                source="film at its floor, load carried by the solids (pressure/newton)",
                 of=lambda s: s.touch.astype(np.uint8), by_hand=1)

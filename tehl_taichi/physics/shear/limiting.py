@@ -56,7 +56,7 @@ def beyond(rheology, wall, newtonian, p):
 
 
 LIMITING = ShearLaw(
-    name="limiting", says="smooth towards tau_L = tau_L0 + gamma p: shear rate = (tau/eta) (1 - (tau/tau_L)^2)^(-1/2)",
+    name="limiting", says="approaches tau_L = tau_L0 + gamma p smoothly: shear rate = (tau/eta) (1 - (tau/tau_L)^2)^(-1/2)",
     source="Lee & Hamrock 1990 (circular model); numbers: Everitt 2018", stress=stress,
     flow=flow, mean_stress=mean_stress, slip=slip, limit=shear_limit,
     beyond=beyond, power=41.0,  # the gradient itself, times its fortieth power

@@ -23,7 +23,8 @@ def mean_stress(rheology, wall, newtonian, p):
 
 
 NEWTONIAN = ShearLaw(
-    name="newtonian", says="stress = eta * (shear rate), as isothermal film formulas have it; no oil bears its friction",
+    name="newtonian", says="stress = eta * (shear rate), as in isothermal film formulas; its friction is higher than that of "
+                           "any oil",
     source="Newton", numbers={}, stress=stress, flow=flow,
     mean_stress=mean_stress, thins=False,
     checked=(Checked("by definition: 3 MPa of 3 MPa", 3e6, lambda: stress(NEWTONIAN.having(), 3e6, 1e9)),))

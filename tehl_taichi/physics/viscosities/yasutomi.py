@@ -45,7 +45,7 @@ def doubted(oil, Gamma, p):
     """Below the glass transition it says nothing."""
     return "" if glass(oil, p) <= Gamma else (
         f"oil.viscosity = yasutomi: at the Hertz pressure the glass transition lies at {glass(oil, p):.0f} deg C, above the "
-        f"inlet's {Gamma:g}: the law is used beyond its range")
+        f"inlet temperature of {Gamma:g} deg C; the law is used beyond its range")
 
 
 YASUTOMI = ViscosityLaw(

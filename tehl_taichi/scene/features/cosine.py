@@ -26,9 +26,9 @@ class Cosine(Shape):
 
 
 COSINE = Cosine(
-    name="cosine", says="a bump, or a dent with a negative height: one cycle of a cosine, round or elliptic",
+    name="cosine", says="bump (or dent with a negative height): one cycle of a cosine, round or elliptic",
     source="Everitt, licentiate thesis 2018, Fig 6",
-    uses={"height": "negative: dent", "width": "", "length": "0: as wide, inf: the same for every y"},
+    uses={"height": "negative: dent", "width": "", "length": "0: equal to width, inf: no variation along y"},
     example={"height": 1e-6, "width": 200e-6}, drawn=True,
     checked=(share("half of it at a quarter of its width", 0.5, 30e-6, 40e-6, width=200e-6),
              share("by hand, 0.5 - sqrt(1/8) at 3/8 of its length", 0.5 - 0.125**0.5, 0.0, 150e-6, width=2e-4, length=4e-4),

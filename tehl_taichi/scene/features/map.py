@@ -27,21 +27,23 @@ FARTHEST = 5e-4  # m, between points of a map: 0.001 was meant in mm
 class Measured:
     """Keys of a map, and what follows from them."""
 
-    file: str = text("", "map: CSV or NPY file (others with the `topography` extra), each row a line of points along x; a "
-                     "path in a scene file starts at that file", most=4096, compare=False)
-    unit: str = choice("", "map: of the heights in its file", ("", *UNITS))
-    scale: float = quantity(1.0, "", "map: its heights are multiplied with it; -1 turns them over, as for a replica", -1e3, 1e3)
-    pixel: float = quantity(0.0, "m", "map: distance of the points in a row of the file; 0: not given", 0.0, FARTHEST,
+    file: str = text("", "map: CSV or NPY file (others with the `topography` extra), each row a line of points along x; paths "
+                         "are relative to the scene file", most=4096, compare=False)
+    unit: str = choice("", "map: unit of the heights in the file", ("", *UNITS))
+    scale: float = quantity(1.0, "", "map: factor for the heights; -1 inverts them, as for a replica", -1e3, 1e3)
+    pixel: float = quantity(0.0, "m", "map: distance between points in a row of the file; 0: not given", 0.0, FARTHEST,
                             usual=1e-6)
-    pixel_y: float = quantity(0.0, "m", "map: distance of the rows of the file, where it is another one; 0: pixel", 0.0,
+    pixel_y: float = quantity(0.0, "m", "map: distance between rows of the file; 0: equal to pixel", 0.0,
                               FARTHEST, usual=1e-6)
-    transpose: bool = switch(False, "map: the rows of its file lie along y, across; pixel and pixel_y stay those of the file")
-    mirror_x: bool = switch(False, "map: its ends along x change places (transpose comes first)")
-    mirror_y: bool = switch(False, "map: its ends along y change places (transpose comes first)")
-    level: str = choice("plane", "map: what is taken off its heights; form: plane and curvature", tuple(LEVELS))
-    cutoff: float = quantity(0.0, "m", "map: Gaussian low-pass (ISO 16610-61), wavelength of which half is kept; 0: none", 0.0,
+    transpose: bool = switch(False, "map: the rows of the file run along y (across); pixel and pixel_y remain those of the "
+                                    "file")
+    mirror_x: bool = switch(False, "map: reverse the heights along x (after transpose)")
+    mirror_y: bool = switch(False, "map: reverse the heights along y (after transpose)")
+    level: str = choice("plane", "map: shape removed from the heights; form: plane and curvature", tuple(LEVELS))
+    cutoff: float = quantity(0.0, "m", "map: Gaussian low-pass (ISO 16610-61), wavelength reduced to half its amplitude; 0: "
+                                       "none", 0.0,
                              1e-2, usual=2e-5)
-    sha256: str = text("", "map: of its heights, filled in when they are read; a file with other heights is refused then")
+    sha256: str = text("", "map: checksum of the heights, set when they are read; a file with other heights is then refused")
 
     def __setstate__(self, state):
         """A copy in another process brings its heights along."""
@@ -231,8 +233,8 @@ def _check_keys(f):
         raise SceneError("feature.pixel is missing: shape 'map' needs the distance of its points in m, as pixel = 1e-6")
     _check_spacing(f)
     if f.height not in (0, type(f).height):
-        raise SceneError(f"feature.height = {f.height:g} m says nothing about a map, whose heights are those of its "
-                         "file in feature.unit; allowed: 0 or not given (feature.scale multiplies the heights)")
+        raise SceneError(f"feature.height = {f.height:g} m has no effect on a map, whose heights are in its file; allowed: 0 "
+                         "or not given (feature.scale multiplies the heights)")
     object.__setattr__(f, "height", 0.0)
     for key, size, extent, step in zip(("extent_x", "extent_y"), f.size, f.patch, f.steps):
         number(f"feature.{key}", extent, "m", 3 * step, size * (1 + 1e-9))
@@ -244,8 +246,8 @@ def _check_spacing(f):
     """Refuse a pixel that the coordinates in the file contradict, whatever unit they have."""
     for key, step, told in zip(("pixel", "pixel_y" if f.pixel_y else "pixel"), f.file_steps, height_map.spacing(f.sha256)):
         if told is not None and not any(math.isclose(told * unit, step, rel_tol=SAME) for unit in UNITS.values()):
-            raise SceneError(f"feature.{key} = {step:g} m does not fit the coordinates in feature.file = {f.file!r}, which are "
-                             f"{told:g} apart: in {', '.join(UNITS)} that is another distance")
+            raise SceneError(f"feature.{key} = {step:g} m does not match the coordinates in feature.file = {f.file!r}, which "
+                             f"are {told:g} apart in {', '.join(UNITS)}")
 
 
 def _check_heights(f):
@@ -263,7 +265,7 @@ TENT = 1 - np.abs(np.arange(33) - 16) / 16
 HILL = height_map.keep(0.3 * TENT[:, None] * TENT)  # held here, so that it is known by its sha256
 EXAMPLE = {"shape": "map", "sha256": HILL[0], "unit": "um", "pixel": 10e-6, "level": "none"}
 MAP = Map(
-    name="map", says="heights measured on a grid (CSV, NPY) that fade out at the rim of their patch",
+    name="map", says="heights measured on a grid (CSV, NPY), fading out at the rim of the patch",
     source="the file", keys=Measured,
     uses={"height": "0 or not given", "extent_x": "0: the whole map", "extent_y": "0: the whole map", "taper": ""},
     example=EXAMPLE, checked=(share("by hand, (1 - 8.5/16)(1 - 4/16) of a hill with straight sides", 0.3515625, 85e-6, 40e-6,

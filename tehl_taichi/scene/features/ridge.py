@@ -21,6 +21,7 @@ class Ridge(Shape):
 
 
 RIDGE = Ridge(
-    name="ridge", says="transverse, the same for every y, with a shallow valley on both sides", source="Venner & Lubrecht 1994",
+    name="ridge", says="transverse ridge without variation along y, with a shallow valley on both "
+                       "sides", source="Venner & Lubrecht 1994",
     uses={"height": "", "width": ""}, example={"shape": "ridge", "height": 0.3e-6, "width": 150e-6}, drawn=True,
     checked=(share("by hand, 10^-0.1 cos 36 deg", 10**-0.1 * 0.8090169943749475, 50e-6, 7.0, shape="ridge", width=500e-6),))

@@ -15,7 +15,7 @@ MODES = 12  # per direction
 
 @dataclass(frozen=True)
 class Random:
-    seed: int = count(1, "rough: of its random numbers", 0, 2**31)
+    seed: int = count(1, "rough: seed of the random numbers", 0, 2**31)
 
 
 class Rough(Patch):
@@ -49,8 +49,9 @@ def rms_of_many():
 
 
 ROUGH = Rough(
-    name="rough", says="random roughness, even in y, that fills a patch and fades out at its rim",
-    source="equal power per octave, as on ground surfaces; its waves are of no measured one", keys=Random,
-    uses={"height": "rms", "width": "shortest wavelength, others up to the patch", "extent_x": "", "extent_y": "", "taper": ""},
+    name="rough", says="random roughness, even in y, in a patch with a faded rim",
+    source="equal power per octave, as on ground surfaces; not from a measurement", keys=Random,
+    uses={"height": "rms", "width": "shortest wavelength; others up to the patch "
+                                    "size", "extent_x": "", "extent_y": "", "taper": ""},
     example={"shape": "rough", "height": 0.1e-6, "width": 80e-6, "extent_x": 300e-6, "extent_y": 300e-6, "taper": 50e-6},
     checked=(Checked("rms = height: the square of sums of cosines has their powers for its mean", 0.2e-6, rms_of_many, 0.02),))

@@ -22,7 +22,7 @@ class Waviness(Patch):
         needs_patch(f)
         super().check(f)
         if math.isinf(f.length):
-            raise SceneError("feature.length = inf m: waves that are the same for every y have length = 0")
+            raise SceneError("feature.length = inf m; waves without variation along y have length = 0")
 
     def sizes(self, f):
         across = {"extent_y": f.extent_y, "length": f.length}
@@ -30,7 +30,7 @@ class Waviness(Patch):
 
 
 WAVINESS = Waviness(
-    name="waviness", says="waves along x, or along x and y, that fill a patch and fade out at its rim",
+    name="waviness", says="waves along x, or along x and y, in a patch with a faded rim",
     source="Venner & Lubrecht 1994",
     uses={"height": "amplitude", "width": "wavelength", "length": "wavelength along y, 0: transverse", "extent_x": "",
           "extent_y": "", "taper": ""},

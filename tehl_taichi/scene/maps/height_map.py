@@ -26,7 +26,7 @@ _skipped = {}  # sha256 -> what of its file was no height, in words
 _spacing = {}  # sha256 -> distances of the coordinates in its file
 UNKNOWN_FILE = ("CannotDetectFileFormat", "UnknownFileFormat")  # errors of SurfaceTopography that list every reader
 TEXT = (".csv", ".txt", ".asc")  # endings of files of text
-POINTS = f"a list of x, y and z is not read: export the heights as a grid, a row of numbers a line ({', '.join(TEXT)}, .npy)"
+POINTS = f"a list of x, y and z is not supported; export the heights as a grid, one row per line ({', '.join(TEXT)}, .npy)"
 
 
 def keep(values):
@@ -50,8 +50,8 @@ def fetch(file, sha256=""):
     found, values = keep(table.values)
     _skipped[found], _spacing[found] = table.skipped, table.spacing
     if sha256 and found != sha256:
-        raise SceneError(f"feature.file = {file!r} holds other heights than when this scene was made (feature.sha256 = "
-                         f"{sha256[:12]}..., not {found[:12]}...); take feature.sha256 out to use the file as it is now")
+        raise SceneError(f"feature.file = {file!r} has changed since this scene was made (feature.sha256 = {sha256[:12]}..., "
+                         f"not {found[:12]}...); remove feature.sha256 to use the present file")
     return found, values
 
 
@@ -91,7 +91,7 @@ def table_of(file):
         raise SceneError(f"feature.file = {str(file)!r} does not exist")
     table = _load(path)
     if map_coordinates.is_list(table.values):
-        raise SceneError(f"feature.file = {str(file)!r} has {' x '.join(map(str, table.values.shape))} numbers, which are no "
+        raise SceneError(f"feature.file = {str(file)!r} has {' x '.join(map(str, table.values.shape))} numbers, which is not a "
                          f"grid of heights ({POINTS})")
     table = table.without_coordinates()
     values = table.values
@@ -108,7 +108,7 @@ def _check_holes(where, values):
     if share > map_holes.MOST or deep > map_holes.DEEPEST:
         raise SceneError(f"{where} lacks {share:.2g} of its {values.size} heights, in holes of up to "
                          f"{2 * deep} points across; allowed: {map_holes.MOST:g}, holes of {2 * map_holes.DEEPEST} (they are "
-                         "filled from their neighbours); cut out a better part, or fill them where you measured")
+                         "filled from their neighbours); use a part with fewer holes, or fill them in the measuring software")
 
 
 def _load(path):
@@ -130,7 +130,7 @@ def _surface_topography(path):
     try:
         import SurfaceTopography
     except ImportError:
-        raise SceneError(f"{path.name} is none of {', '.join(TEXT)}, .npy; other formats need SurfaceTopography: "
+        raise SceneError(f"{path.name} does not end in {', '.join(TEXT)} or .npy; other formats need SurfaceTopography: "
                          f"{extra('topography')}{_points(path)}") from None
     try:
         return np.ma.filled(np.ma.asarray(SurfaceTopography.read_topography(str(path)).heights(), float), math.nan).T
@@ -141,7 +141,7 @@ def _surface_topography(path):
 def _told(error, path):
     """What a reader of instruments' files says; where none knows the file, all that it tried is of no use to anybody."""
     if type(error).__name__ in UNKNOWN_FILE:
-        return f"none of the formats that SurfaceTopography reads; export it as text ({', '.join(TEXT)}) or .npy"
+        return f"SurfaceTopography does not read this format; export the heights as text ({', '.join(TEXT)}) or .npy"
     return brief(error)
 
 

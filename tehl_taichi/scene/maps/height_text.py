@@ -8,7 +8,7 @@ from tehl_taichi.scene.maps import map_coordinates
 
 COLUMNS = (";", "\t", ",", None)  # what may stand between two heights, the first that a row has; None: blanks
 UNMEASURED = ("bad", "bad data", "nan", "na", "n/a", "no data", "no_data", "nodata", "null")  # also nothing, and * or - alone
-MARKS = "bad, nan, no data, ***, --- or nothing between two marks"
+MARKS = "bad, nan, no data, ***, --- or an empty field"
 SPLIT = {"no data": "nodata", "bad data": "bad"}  # marks of two words, which blanks would part
 
 
@@ -59,7 +59,7 @@ def _first_row(lines):
         words = _words(line, mark)
         if all(map(_is_height, words)) and (len(words) > 1 or not _unmeasured(words[0])):
             return index, mark
-    raise ValueError("no line of it is a row of numbers")
+    raise ValueError("no line is a row of numbers")
 
 
 def _check_header(header, first, mark):
@@ -118,7 +118,7 @@ def _height(number, word):
     if _unmeasured(word):
         return np.nan
     if not _is_height(word):
-        raise ValueError(f"line {number}: {word.strip()[:40]!r} is no number and no mark of a point that was not measured "
+        raise ValueError(f"line {number}: {word.strip()[:40]!r} is neither a number nor a mark of an unmeasured point "
                          f"({MARKS})")
     return float(word)
 

@@ -12,7 +12,7 @@ from tehl_taichi.scene.passing import MULTIPLES
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.yielding import STEEL
 
-TURNED = "Heights count out of the metal and most bodies are convex: is it upside down? feature.scale = -1 turns it over"
+TURNED = "Heights point out of the metal and most bodies are convex; if the map is upside down, set feature.scale = -1"
 LEFT = 0.5  # of the rms that a taper ought to leave
 RIM = 0.1  # of the rms: a step at the rim below that is roughness like the rest
 
@@ -29,7 +29,7 @@ def lines(f, scene):
     (along, across), m, name = f.points, f.measures, f"map {os.path.basename(f.file)}"
     heights = f"heights in {f.unit}" + (f" times {f.scale:g}" if f.scale != 1 else "")
     turned = f"{f.orientation.says}, " if f.orientation.says else ""
-    off = f"{LEVELS[f.level]} taken off{form_taken(f, scene)}"
+    off = f"{LEVELS[f.level]} removed{form_taken(f, scene)}"
     skipped = f"{found}, " if (found := height_map.skipped(f.sha256)) else ""
     yield (f"{name}: {skipped}{along} x {across} points {_apart(f)} um apart, {_um(f.patch[0])} x {_um(f.patch[1])} um of them "
            f"used{_taper(f)}, {turned}{heights}, {off}{_filter(f)}")
@@ -58,8 +58,8 @@ def _holes(f):
     holes = f.inside(f.holes)  # what is cut off does not pass
     if holes.any():
         cut = " used" if holes.size < f.heights.size else ""
-        yield (f"{_name(f)}: {holes.sum()} of its {holes.size}{cut} points were not measured; they are filled smoothly from "
-               "their neighbours, so nothing that passes there is known")
+        yield (f"{_name(f)}: {holes.sum()} of its {holes.size}{cut} points were not measured and are filled smoothly from "
+               "their neighbours; results there are not reliable")
 
 
 def form(f):
@@ -70,9 +70,10 @@ def form(f):
     turned = "" if found.convex else f". {TURNED}"
     if f.level != "form":
         yield (f"{_name(f)}: all but {_um(found.left)} um of its rms of {_um(found.flat)} um are one curvature, {found.says}. "
-               f"If it is that of the body, whose radius the scene has already, feature.level = 'form' takes it off{turned}")
+               "If this is the curvature of the body, which the scene already has, set feature.level = 'form' to remove "
+               f"it{turned}")
     elif turned:
-        yield f"{_name(f)}: the form taken off is {found.says}{turned}"
+        yield f"{_name(f)}: the removed form is {found.says}{turned}"
 
 
 def form_taken(f, scene):
@@ -95,14 +96,14 @@ def _across(f, scene):
     """A form that is not that of the bodies: those of a line contact are curved along x alone."""
     if scene.contact.kind == "line" and f.form.dominant and f.form.axis == "y":
         yield (f"{_name(f)}: its form is {f.form.says}, across the rolling direction, but the bodies of a line contact are "
-               f"curved along x alone; does the scan lie across? feature.transpose = {str(not f.transpose).lower()} turns it")
+               f"curved along x only. If the scan lies across, set feature.transpose = {str(not f.transpose).lower()}")
 
 
 def _size(f):
     m = f.measures
     if m.rms < FLAT:
-        yield (f"{_name(f)}: heights in {f.unit} have an rms of {m.rms * 1e9:.2g} nm, nothing to a film; is feature.unit = "
-               f"{f.unit!r} right?")
+        yield (f"{_name(f)}: heights in {f.unit} have an rms of {m.rms * 1e9:.2g} nm, far below the film thickness; check "
+               f"feature.unit = {f.unit!r}")
 
 
 def _rough(f, scene):
@@ -115,12 +116,12 @@ def _rough(f, scene):
 
 def _steep(f):
     if (slope := f.measures.slope) > STEEP:
-        yield f"have slopes up to {slope:.3g} deg; the film equation takes slopes for small (below {STEEP:g} deg)"
+        yield f"have slopes up to {slope:.3g} deg; the film equation assumes slopes below {STEEP:g} deg"
 
 
 def _hard(f, scene):
     if yields(heights := middle(f.used), f, scene, SURELY):
-        yield f"take about {pressed(heights, f, scene) / 1e9:.2g} GPa to be pressed flat in this contact; {STEEL}"
+        yield f"need about {pressed(heights, f, scene) / 1e9:.2g} GPa to be flattened in this contact; {STEEL}"
 
 
 def _name(f):
@@ -131,11 +132,11 @@ def _grid(f, scene):
     steps, heights = points_in_a_cell(f, scene), middle(f.used)
     lost, own = missed(heights, *steps), missed(heights, 2, 2)
     if lost > SHARE:
-        yield (f"{_name(f)}: the grid misses {lost:.0%} of the map's rms ({_finer(heights, steps, scene.grid)}"
-               f"{f'; {found}' if (found := _cutoff(f, scene)) else ''})")
+        yield (f"{_name(f)}: the grid loses {lost:.0%} of the rms of the map "
+               f"({_finer(heights, steps, scene.grid)}{f'; {found}' if (found := _cutoff(f, scene)) else ''})")
     if min(steps) < 1 and own > SHARE:
-        yield (f"{_name(f)}: points {_apart(f)} um apart are {1 / min(steps):.2g} cells and do not resolve their own "
-               f"roughness ({own:.0%} of the rms changes without every second one); heights are taken as linear between them")
+        yield (f"{_name(f)}: points {_apart(f)} um apart are {1 / min(steps):.2g} cells and do not resolve the roughness "
+               f"({own:.0%} of the rms changes without every second point); heights are interpolated linearly")
 
 
 def carried(scene):
@@ -148,7 +149,7 @@ def _cutoff(f, scene):
     if not (cutoff := helping(f, scene)):
         return ""
     cells, left = cutoff / max(Scales.of(scene).cell(scene.grid)), np.ptp(f.passing(cutoff))
-    return (f"feature.cutoff = {cutoff:g} (m; {_um(cutoff)} um, {cells:.2g} cells) filters what is finer, and takes the range "
+    return (f"feature.cutoff = {cutoff:g} (m; {_um(cutoff)} um, {cells:.2g} cells) removes finer waves and reduces the range "
             f"from {_um(f.measures.range)} to {_um(left)} um")
 
 
@@ -158,8 +159,8 @@ def _finer(heights, steps, grid):
     while missed(heights, steps[0] / factor, steps[1] / factor) > SHARE:  # ends at the map's own points
         factor *= 2
     (nx, ny), most = (grid.nx * factor, grid.ny * factor), [cells for _, cells in MULTIPLES.values()]
-    return (f"--grid {nx}x{ny} sees it" if nx <= most[0] and ny <= most[1] else
-            f"so does every grid up to {most[0]} x {most[1]}: filter the map")
+    return (f"--grid {nx}x{ny} resolves it" if nx <= most[0] and ny <= most[1] else
+            f"so does every grid up to {most[0]} x {most[1]}; filter the map")
 
 
 def _rim(f):
@@ -167,7 +168,7 @@ def _rim(f):
     step = max(float(np.abs(edge).max()) for edge in (used[0], used[-1], used[:, 0], used[:, -1]))
     formed = f.level != "form" and f.form.dominant  # the step is the form's, of which _form tells
     if f.taper == 0 and step > RIM * f.measures.rms and not formed:
-        yield f"{_name(f)} ends in a step of up to {_um(step)} um at its rim; feature.taper (m) lets it fade out"
+        yield f"{_name(f)} ends in a step of up to {_um(step)} um at its rim; set feature.taper (m) to fade it out"
 
 
 def _faded(f):

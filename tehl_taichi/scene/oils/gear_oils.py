@@ -17,7 +17,7 @@ def _gear_oil(grade, nu_100, L, H):
     return NamedOil(
         name=f"mineral-vg{grade}", says=f"gear oil, ISO VG {grade}, VI 95",
         source=f"mineral, made of ISO 3448 ({grade} mm2/s at 40 deg C), viscosity index 95 (ASTM D2270: {nu_100:g} mm2/s "
-               "at 100 deg C), 890 kg/m3 at 15 deg C; alpha estimated as of a mineral oil, "
+               "at 100 deg C), 890 kg/m3 at 15 deg C; alpha estimated as for a mineral oil, "
                f"within {mineral_alpha.WITHIN * 100:g} %; conductivity and heat capacity are those of the reference PAO",
         numbers=dict(nu_40=grade * 1e-6, nu_100=nu_100 * 1e-6, rho_15=890.0),
         known=((0.0, 40.0, grade * 1e-6 * RHO_40, 1e-6, "by hand: nu rho at 40 deg C"),

@@ -1,0 +1,77 @@
+"""Words that readers of a second language do not find in a manual stand in no help, message or page."""
+
+import ast
+import re
+from pathlib import Path
+
+import pytest
+import typer.main
+from tehl_cli.main import app
+
+ROOT = Path(__file__).parents[1]
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
+SOURCES = sorted(path for folder in ("tehl_taichi", "cli") for path in (ROOT / folder).rglob("*.py"))
+HOUSE = re.compile(r"""\b(
+    tells? | told | telling | (?:go|goes|going|gone|went)\son | bears? | borne | by\sturns | nobody | somebody | anybody |
+    ask(?:s|ed)?\sfor | at\shand | what\sthere\sis | as\sit\sstands | (?:take|takes|taken|took)\soff | (?:worst|bad)\soff |
+    companions? | anew | all\sthe\ssame | that\s(?:is|are)\sthere | the\ssame\sof | side\sby\sside | to\sbe\shad
+    )\b""", re.VERBOSE | re.IGNORECASE)
+# a word in its definition
+DEFINED = {"docs/numerics.md": "coarse-grid runs (companion runs)"}
+
+
+def found(text):
+    """House words of a text, whatever its lines."""
+    return [match[0] for match in HOUSE.finditer(" ".join(text.split()))]
+
+
+def test_house_words_are_found():
+    assert found("not gone\n on with; a file that is there is told of") == ["gone on", "that is there", "told"]
+    assert found("Resume an interrupted run; the tolerance, a bearing, a teller, forgone onions") == []
+
+
+def commands(command, name="tehl"):
+    """(name, text of its help and of its parameters) of a command and of those below it."""
+    yield name, " ".join([command.help or "", *(getattr(one, "help", None) or "" for one in command.params)])
+    for inner, each in getattr(command, "commands", {}).items():
+        yield from commands(each, f"{name} {inner}")
+
+
+HELP = dict(commands(typer.main.get_command(app)))
+
+
+def test_every_command_has_a_help():
+    assert len(HELP) > 25 and all(text.strip() for text in HELP.values())
+
+
+def test_no_house_word_in_the_help():
+    assert {name: words for name, text in HELP.items() if (words := found(text))} == {}
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda path: str(path.relative_to(ROOT)))
+def test_no_house_word_in_a_page(page):
+    text = page.read_text(encoding="utf-8").replace(DEFINED.get(str(page.relative_to(ROOT)), "\0"), "")
+    assert found(re.sub(r"^```.*?^```", "", text, flags=re.M | re.S)) == []
+
+
+def own_texts(tree):
+    """(line, text) of the literals of a module, without docstrings and keys: what users may read."""
+    skipped = {id(node.body[0].value) for node in ast.walk(tree)
+               if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)) and isinstance(node.body[0], ast.Expr)}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.JoinedStr):
+            skipped |= {id(part) for part in ast.walk(node)} - {id(node)}
+            yield node.lineno, "".join(str(part.value) if isinstance(part, ast.Constant) else "…" for part in node.values)
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in skipped and " " in node.value:
+            yield node.lineno, node.value
+
+
+def test_texts_are_those_that_users_read():
+    tree = ast.parse('"""Told."""\nraise E(f"the {told} file is told", "a {0} that bears it")\nt["told"] = f(told)')
+    assert list(own_texts(tree)) == [(2, "the … file is told"), (2, "a {0} that bears it")]
+
+
+def test_no_house_word_in_messages():
+    texts = ((path, *one) for path in SOURCES for one in own_texts(ast.parse(path.read_text(encoding="utf-8"))))
+    assert [f"{path.relative_to(ROOT)}:{line}: {words}" for path, line, text in texts if (words := found(text))] == []
