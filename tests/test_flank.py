@@ -18,6 +18,7 @@ from tehl_taichi.scene import SceneError, hertz
 from tehl_taichi.scene.gear_pair import gear_pair
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.study import case
+from tehl_taichi.values.digits import with_error
 
 SMALL = {"grid.nx": 64, "grid.ny": 16}
 NAMES = {"x_pl_m", "rho_a_m", "rho_b_m", "R_m", "u_a_m_s", "u_b_m_s", "srr", "load_N_m", "p_Hertz_Pa", "summary"}
@@ -82,7 +83,7 @@ def test_table_and_figure_carry_the_errors(steady):
     pytest.importorskip("matplotlib")
     (column,) = [c for c in columns.COLUMNS if c.name == "steady_h_c_m"]
     film = steady.rows[0][2]["steady"]
-    assert column.shown(*steady.rows[0]) == f"{film['h_c_m'] * 1e6:.3f} ± {film['error']['h_c_m'] * 1e6:.2g}"
+    assert column.shown(*steady.rows[0]) == with_error(film["h_c_m"] * 1e6, film["error"]["h_c_m"] * 1e6)
     bars = flank_figure._drawn(Page(), steady).axes[0].containers[0].lines[2][0].get_segments()
     assert bars[0][1, 1] - bars[0][0, 1] == pytest.approx(2e6 * film["error"]["h_c_m"])
 

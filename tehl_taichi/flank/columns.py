@@ -5,6 +5,7 @@ import io
 from dataclasses import dataclass
 from typing import Callable
 
+from tehl_taichi.values.digits import with_error
 from tehl_taichi.values.escape import cell
 
 
@@ -27,7 +28,8 @@ class Column:
         value, error = self.value(*row), self.error(*row)
         if value is None or isinstance(value, str):
             return value or ""
-        return format(value * self.factor, self.form) + (f" ± {error * self.factor:.2g}" if error is not None else "")
+        value *= self.factor
+        return format(value, self.form) if error is None else with_error(value, error * self.factor)
 
 
 def dig(summary, *keys):

@@ -7,7 +7,7 @@ from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.march.companions import CONTACT
 from tehl_taichi.march.readings import HEAT
 from tehl_taichi.scene.passing_words import between
-from tehl_taichi.values.digits import decimals, micrometres
+from tehl_taichi.values.digits import micrometres, with_error
 
 SURFACE, BELOW, RESOLVED = "at the surface", "below it", "while resolved"  # parts of a search
 
@@ -73,13 +73,11 @@ def _of(values, key, what, factor=1, unit="", **more):
 
 
 def quantity(values, name, factor=1, unit=""):
-    """'value ± error unit' of one of the values, with two digits of the error; three digits where that is not known."""
+    """'value ± error unit' of one of the values; three digits where the error is not known."""
     value, error = values[name] * factor, values.get("error", {}).get(name)
     if error is None:
-        return f"{value:.3g} {unit}".rstrip() + " (error unknown)"
-    size = error * factor
-    digits = min(max(decimals(size), 0), 9) if size > 0 else 4
-    return f"{value:.{digits}f} ± {size:.{digits}f} {unit}".rstrip()
+        return f"{with_error(value, None, unit, 3)} (error unknown)"
+    return with_error(value, error * factor, unit)
 
 
 def _peclet_rows(summary):
@@ -99,7 +97,7 @@ def _heat_rows(when, values):
 
 def _temperature(value, error, unknown):
     """A temperature (deg C) with its error; unknown: what stands in place of that where it is None."""
-    return f"{value:.1f}" + (unknown if error is None else f" ± {error:.2g}")
+    return f"{value:.1f}{unknown}" if error is None else with_error(value, error)
 
 
 def _passage_rows(summary):

@@ -1,29 +1,22 @@
 """Numbers as people read them: in a unit that suits them, with as many digits as their error leaves."""
 
-import math
-
-from tehl_taichi.values.digits import decimals, fitting
+from tehl_taichi.values.digits import fitting, parted, with_error
 
 UNITS = {"degC": "°C", "1": ""}  # of stores: as they are written
 
 
 def told(value, error=None, unit="1", digits=4):
     """'1.008 ± 0.023 µm' of a value and its error in SI; error None: not known, then so many digits of the value."""
-    text, rest, scale = apart(value, error, unit, digits)
-    return f"{text} ± {rest} {scale}".rstrip() if rest else f"{text} {scale}".rstrip()
+    factor, scale = fitting(UNITS.get(unit, unit), value)
+    return with_error(value * factor, None if error is None else error * factor, scale, digits)
 
 
 def apart(value, error, unit, digits=4):
     """(value, error, unit) in words: two digits of the error say how many of the value are told; `digits` of it, and '' for
     the error, where that is not known."""
     factor, scale = fitting(UNITS.get(unit, unit), value)
-    if error is None or not math.isfinite(error):
-        return f"{value * factor:.{digits}g}", "", scale
-    value, error = value * factor, error * factor
-    digits = decimals(error) if error > 0 else 99
-    if not 0 <= digits <= 9:
-        return f"{value:.4g}", f"{error:.2g}", scale
-    return f"{value:.{digits}f}", f"{error:.{digits}f}", scale
+    text, rest, power = parted(value * factor, None if error is None else error * factor, digits)
+    return text + power, rest and rest + power, scale
 
 
 FEW = 3  # digits of what was computed without a known error; numbers that were given have four
