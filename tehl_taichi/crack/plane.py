@@ -9,6 +9,7 @@ from tehl_taichi.crack.residual import Residual
 from tehl_taichi.errors import SceneError
 from tehl_taichi.fatigue.histories import Passage
 from tehl_taichi.fatigue.under_row import histories_of
+from tehl_taichi.values.interpolation import lagrange
 
 WINDOW = 1.3    # a: half width of the table; a path of 100 um turns out to half of that
 SKIN = 0.05     # of the feature's half width (or of a, if that is less): depths are even below it, and grow beyond
@@ -62,8 +63,7 @@ class Plane:
 def _cubic(at, count):
     """(first of four nodes, their weights (4, points)) for places `at` in nodes."""
     first = np.clip(np.floor(at).astype(int) - 1, 0, count - 4)
-    nodes, here = np.arange(4), at - first
-    return first, np.array([np.prod([(here - n) / (m - n) for n in nodes if n != m], axis=0) for m in nodes])
+    return first, np.array(lagrange(range(4), at - first))
 
 
 def principal(stress):

@@ -11,6 +11,7 @@ import numpy as np
 from tehl_taichi.fatigue import findley
 from tehl_taichi.fatigue.under_row import histories_of
 from tehl_taichi.fatigue.worst_point import Point
+from tehl_taichi.values.interpolation import lagrange
 
 RATIO = 1.5      # of neighbouring depths
 SHALLOWEST = 0.5  # cells: nearer to the surface the rectangles of the loads are seen
@@ -98,6 +99,5 @@ def _refined(passage, logs, histories, f):
 def _between(logs, histories, log):
     """Histories (points, moments, 6) at the depth exp(log): the cubic through the four nearest rungs."""
     first = int(np.clip(np.searchsorted(logs, log) - 2, 0, logs.size - 4))
-    near = logs[first : first + 4]
-    weights = [np.prod([(log - other) / (one - other) for other in near if other != one]) for one in near]
+    weights = lagrange(logs[first : first + 4], log)
     return np.tensordot(weights, histories[first : first + 4], axes=1)

@@ -28,7 +28,8 @@ from tehl_taichi.engine.lanes import (
 )
 from tehl_taichi.engine.language import ti
 from tehl_taichi.pressure.fields import MASK, P
-from tehl_taichi.pressure.past import WAY, Past, lagrange, nodes, set_way, source
+from tehl_taichi.pressure.past import WAY, Past, nodes, set_way, source
+from tehl_taichi.values.interpolation import lagrange
 
 WORK = 2  # of a column, in units of a copy
 NOTHING = 1e-14  # squared error that is as good as none

@@ -9,16 +9,12 @@ from tehl_taichi.engine import lanes, tables
 from tehl_taichi.engine.lanes import L
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.launches import Carriers
+from tehl_taichi.values.interpolation import lagrange
 
 REACH = 6  # nodes of an interpolation along x
 BACK, BEGIN, END = range(REACH, REACH + 3)  # columns of a way behind its weights: where its first node is, which nodes count
 WAY = REACH + 3
 WHOLE = 1e-9  # cells
-
-
-def lagrange(at, to):
-    """Weights of the values at the places `at` for the value at `to`, by the polynomial through them."""
-    return [math.prod((to - b) / (a - b) for b in at if b != a) for a in at]
 
 
 def shift(cells):
