@@ -52,3 +52,22 @@ def test_a_store_that_lost_an_output_is_damaged(tmp_path):
     root.write_text(json.dumps(data))
     with pytest.raises(Exception, match="it has no array 'contact'"):
         Store.open(tmp_path / "s.zarr")
+
+
+def test_a_new_number_of_the_summary_is_one_entry(taichi_cpu, tmp_path, monkeypatch):
+    """With its error bar, its row in `tehl show`, its name and unit in reports."""
+    import tehl_taichi as tehl
+    from tehl_taichi.io.summary_rows import summary_rows
+    from tehl_taichi.march import quantities
+    from tehl_taichi.report.run_tables import _meaning
+
+    entry = quantities.Entry(part="transient", key="h_c_mean_m", series="h_c_m", over="mean", error="plain",
+                             label="passage h_c, mean", factor=1e6, shown="um")
+    monkeypatch.setattr(quantities, "ENTRIES", (*quantities.ENTRIES, entry))
+    scene = tehl.scene("furrow-line").replace(**{"grid.nx": 128, "time.steps": 8, "fatigue.on": False,
+                                                 "numerics.estimate_error": True})
+    run = tehl.run(scene, tmp_path / "a.zarr")
+    found = run["h_c_mean"]
+    assert found.value == pytest.approx(run.store.scalar("h_c_m")[1:].mean(), rel=1e-12) and found.unit == "m"
+    assert found.error and "passage h_c, mean" in dict(summary_rows(run.summary))
+    assert _meaning("h_c_mean_m") == ("film at x = 0, far edge, mean", "m")

@@ -5,6 +5,7 @@ import io
 from dataclasses import dataclass
 from typing import Callable
 
+from tehl_taichi.march import quantities
 from tehl_taichi.values.digits import with_error
 from tehl_taichi.values.escape import cell
 
@@ -58,6 +59,7 @@ class _Of:
 
 
 CONTACT, STEADY, PASSAGE = TABLES = ("contact", "steady film", "while the feature passes")
+TITLES = {"steady": STEADY, "transient": PASSAGE, "fatigue": PASSAGE, "fatigue.below": PASSAGE}  # of the parts of a summary
 COLUMNS = (
     Column("point", "at", 1, "", lambda at, *_: at.point, CONTACT),
     Column("x_pl_m", "x_pl mm", 1e3, ".3f", lambda at, *_: at.x_pl, CONTACT),
@@ -67,16 +69,8 @@ COLUMNS = (
     Column("srr", "SRR", 1, ".3f", lambda at, *_: at.srr, CONTACT),
     Column("load_N_m", "N/mm", 1e-3, ".1f", lambda at, *_: at.load, CONTACT),
     Column("p_Hertz_Pa", "p_H GPa", 1e-9, ".3f", lambda at, p_H, _: p_H, CONTACT),
-    Column("steady_h_c_m", "h_c um", 1e6, ".3f", _Of("steady", "h_c_m"), STEADY),
-    Column("steady_h_min_m", "h_min um", 1e6, ".3f", _Of("steady", "h_min_m"), STEADY),
-    Column("steady_p_max_Pa", "p_max GPa", 1e-9, ".3f", _Of("steady", "p_max_Pa"), STEADY),
-    Column("steady_friction", "friction", 1, ".4f", _Of("steady", "friction_coefficient"), STEADY),
-    Column("steady_film_max_C", "film deg C", 1, ".1f", _Of("steady", "film_max_C"), STEADY),
-    Column("passage_h_min_m", "h_min um", 1e6, ".3f", _Of("transient", "h_min_m"), PASSAGE),
-    Column("passage_p_max_Pa", "p_max GPa", 1e-9, ".3f", _Of("transient", "p_max_Pa"), PASSAGE),
-    Column("passage_film_max_C", "film deg C", 1, ".1f", _Of("transient", "film_max_C"), PASSAGE),
-    Column("Fi_max", "Fi", 1, ".3f", _Of("fatigue", "Fi_max"), PASSAGE),
-    Column("Fi_max_below", "Fi below", 1, ".3f", _Of("fatigue", "below", "Fi_max"), PASSAGE),
+    *(Column(one.column, one.head, one.factor, one.form, _Of(*one.part.split("."), one.key), TITLES[one.part])
+      for one in quantities.ENTRIES if one.column),
 )
 
 

@@ -5,8 +5,8 @@ import numpy as np
 from tehl_taichi import __version__
 from tehl_taichi.io import attributes, result_judge
 from tehl_taichi.io.film_judge import worst_ripple
-from tehl_taichi.march.companions import CONTACT, FI, indices
-from tehl_taichi.march.readings import HEAT
+from tehl_taichi.march import quantities
+from tehl_taichi.march.companions import FI, indices
 from tehl_taichi.physics import conduction
 from tehl_taichi.physics.law import beyond
 from tehl_taichi.scene.film_formula import central_film, formula_words, spread
@@ -73,9 +73,6 @@ def domain_of(scene):
     return {**ends, "auto": isinstance(g.x_min, Chosen)}
 
 
-PASSAGE = ("p_max_Pa", "h_min_m", *HEAT, "friction_coefficient_mean", CONTACT)
-
-
 def _clamps(store):
     """Where laws left their measured range or values were held: {what: count or largest value}."""
     if store.scene.isothermal:
@@ -92,9 +89,7 @@ def _hertz(scales):
 
 
 def _steady(store, extra):
-    names = ["h_c_m", "h_min_m", "p_max_Pa", "load_error", "mass_error", "friction_coefficient"]
-    names += [] if store.scene.isothermal else HEAT
-    out = {name: float(store.scalar(name)[0]) for name in names}
+    out = _numbers(store, "steady")
     out["film_formula_m"], out["ripple_Pa"] = central_film(store.scene), worst_ripple(store, [0])[0][0]
     out["film_formula"], out["film_formula_spread"] = formula_words(store.scene), spread(store.scene)
     out["error"], out["unknown"] = extra["steady_error"], extra.get("steady_unknown", {})
@@ -109,21 +104,19 @@ def _before(known):
 
 def _parts(out):
     """[(part of the summary after the start, {its number that has an error bar: that number's name among the errors})]."""
-    parts = [(out.get("transient"), {name: name for name in PASSAGE}),
+    parts = [(out.get("transient"), {entry.key: entry.key for entry in quantities.of_part("transient") if entry.error}),
              *((part, {FI: name}) for name, part in indices(out.get("fatigue", {})).items())]
     return [(part, {name: told for name, told in names.items() if name in part}) for part, names in parts if part]
 
 
 def _transient(store):
-    def largest(name):
-        return float(np.max(store.scalar(name)[1:]))
+    return {**_numbers(store, "transient"), "ripple_max_Pa": worst_ripple(store, range(1, len(store)))[0][0]}
 
-    heat = {} if store.scene.isothermal else {name: largest(name) for name in (*HEAT, "temperature_change_K")}
-    return {**heat, "p_max_Pa": largest("p_max_Pa"), "h_min_m": float(np.min(store.scalar("h_min_m")[1:])),
-            "ripple_max_Pa": worst_ripple(store, range(1, len(store)))[0][0],
-            "contact_load_fraction_max": largest("contact_load_fraction"), "load_error_max": largest("load_error"),
-            "mass_error_max": largest("mass_error"), "residual_max": largest("residual"), "dt_s": largest("dt_s"),
-            "friction_coefficient_mean": float(np.average(store.scalar("friction_coefficient")[1:], weights=_steps_of(store)))}
+
+def _numbers(store, part):
+    """{key: value} of the numbers of a part that :mod:`tehl_taichi.march.quantities` declares."""
+    return {entry.key: entry.of(store.scalar(entry.series), _steps_of(store))
+            for entry in quantities.of_part(part, store.scene)}
 
 
 def _steps_of(store):

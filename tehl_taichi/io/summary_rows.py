@@ -4,8 +4,9 @@ import math
 from dataclasses import dataclass, replace
 
 from tehl_taichi.fatigue.pressure_alone import searched, why_none
+from tehl_taichi.march import quantities
 from tehl_taichi.march.companions import CONTACT
-from tehl_taichi.march.readings import HEAT
+from tehl_taichi.march.quantities import HEAT
 from tehl_taichi.scene.passing_words import between
 from tehl_taichi.values.digits import micrometres, with_error
 
@@ -46,24 +47,26 @@ def fatigue_rows(f):
     return [row.told for row in rows_of_fatigue(f)]
 
 
-STEADY = (("h_c_m", "steady h_c", 1e6, "um"), ("h_min_m", "steady h_min", 1e6, "um"), ("p_max_Pa", "steady p_max", 1e-9, "GPa"))
-
-
 def rows_of(summary):
     """A list of :class:`Row` of the summary of a finished run."""
     steady, hertz = summary["steady"], summary["hertz"]
     rows = [Row("Hertz half-width a", f"{hertz['a_m'] * 1e3:.4f} mm", hertz["a_m"]),
             *([Row("Hertz half-axis b, across", f"{hertz['b_m'] * 1e3:.4f} mm", hertz["b_m"])] if "b_m" in hertz else []),
             Row("Hertz pressure p_H", f"{hertz['p_Pa'] / 1e9:.4f} GPa", hertz["p_Pa"]),
-            *(_of(steady, key, name, factor, unit) for key, name, factor, unit in STEADY)]
+            *_labelled("steady", steady)]
     if "film_formula_m" in steady:
         formula = steady["film_formula_m"]
         by = steady.get("film_formula", "isothermal, Newtonian")
         rows.append(Row(f"h_c by formula ({by})", f"{formula * 1e6:.4f} um", formula))
-    rows.append(_of(steady, "friction_coefficient", "steady friction coefficient"))
     rows += _peclet_rows(summary) + _heat_rows("steady", steady) + _passage_rows(summary)
     rows.append(Row("run time", f"{summary['wall_s']:.1f} s (kernels {summary['compile_s']:.1f} s)", summary["wall_s"]))
     return rows
+
+
+def _labelled(part, values):
+    """The rows of the numbers of a part that have a label; not of those that its run did not know."""
+    return [_of(values, entry.key, entry.label, entry.factor, entry.shown)
+            for entry in quantities.of_part(part) if entry.label and entry.key in values]
 
 
 def _of(values, key, what, factor=1, unit="", **more):
@@ -105,9 +108,7 @@ def _passage_rows(summary):
     if "transient" in summary:
         t = summary["transient"]
         rows += _heat_rows("passage", t)
-        rows += [_of(t, "p_max_Pa", "passage p_max", 1e-9, "GPa"), _of(t, "h_min_m", "passage h_min", 1e6, "um"),
-                 _of(t, "friction_coefficient_mean", "passage friction coefficient, mean"),
-                 Row("load carried by solid contact", contact_share(t)),
+        rows += [*_labelled("transient", t), Row("load carried by solid contact", contact_share(t)),
                  Row("worst residual / load / mass error",
                      f"{t['residual_max']:.1e} / {t['load_error_max']:.1e} / {t['mass_error_max']:.1e}")]
     if "fatigue" in summary:

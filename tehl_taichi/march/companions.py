@@ -14,7 +14,7 @@ import numpy as np
 from tehl_taichi.engine import runtime
 from tehl_taichi.errors import Error
 from tehl_taichi.fatigue.pressure_alone import searched
-from tehl_taichi.march import readings
+from tehl_taichi.march import quantities, readings
 from tehl_taichi.march.domain_error import Share, widened
 from tehl_taichi.march.error_bars import Reading, bars
 from tehl_taichi.march.peaks import LEAST
@@ -26,8 +26,6 @@ COMPANIONS = HALVED  # with the run itself three grids; 1/8 and 1/64 of its cell
 FI, BELOW = "Fi_max", "below_Fi_max"  # names of the largest index of the surface, and below it
 RESOLVED, RESOLVED_BELOW = "resolved_Fi_max", "resolved_below_Fi_max"  # of both as long as the grid resolves the pressure
 CONTACT = "contact_load_fraction_max"
-SHARP = ("p_max_Pa", "film_max_C", FI, BELOW)  # what a peak that is not resolved leaves unknown
-SWAYED = ("surface_a_max_C", "surface_b_max_C", "friction_coefficient_mean")  # what it has a part in
 PART = 0.1  # a
 SHALLOW = "it is largest at the smallest searched depth (half a cell), which no grid resolves"
 SHALLOWEST = 1.5  # of that depth: up to the next one that is searched
@@ -61,19 +59,24 @@ def passage_readings(scene, reader, scalar, fatigue=None):
     the entries' values; fatigue: summary of its search or None.
     """
     p, h, a = *(scalar(name)[1:] for name in ("p_max_Pa", "h_min_m")), Scales.of(scene).a
-    heat = () if scene.isothermal else readings.HEAT
-    out = {"p_max_Pa": readings.highest(_moment(reader, int(np.argmax(p)) + 1), a),
-           "h_min_m": readings.lowest(_moment(reader, int(np.argmin(h)) + 1), scene),
-           **{name: readings.hottest(np.max(scalar(name)[1:]), scene) for name in heat},
-           "friction_coefficient_mean": Reading(float(np.mean(scalar("friction_coefficient")[1:]))),
-           CONTACT: Reading(float(np.max(scalar("contact_load_fraction")[1:])), positive=True)}
+    bars_of = [entry for entry in quantities.of_part("transient") if entry.error]
+    out = {entry.key: _reading(entry, scalar, scene) for entry in bars_of if entry.exists(scene)}
+    out["p_max_Pa"] = readings.highest(_moment(reader, int(np.argmax(p)) + 1), a)
+    out["h_min_m"] = readings.lowest(_moment(reader, int(np.argmin(h)) + 1), scene)
     out |= {name: Reading(float(part["Fi_max"]), doubt=_shallow(name, fatigue))
             for name, part in indices(fatigue or {}).items()}
     # a peak that the grid does not resolve at some moment: neither its pressure is known nor what it does to oil and steel
     why = readings.unresolved(reader, _high(p), p.max(), a)
     pressures = course(p, [reader.feature_x(n) / a for n in range(1, p.size + 1)], scene.path)
-    out |= {name: replace(out[name], swayed=bool(why)) for name in SWAYED if name in out}
-    return out | {name: _doubted(out[name], why, pressures) for name in SHARP if name in out}
+    of = {kind: [entry.key for entry in bars_of if entry.error == kind] for kind in (quantities.SWAYED, quantities.SHARP)}
+    out |= {name: replace(out[name], swayed=bool(why)) for name in of[quantities.SWAYED] if name in out}
+    return out | {name: _doubted(out[name], why, pressures) for name in (*of[quantities.SHARP], FI, BELOW) if name in out}
+
+
+def _reading(entry, scalar, scene):
+    """Of a number that is no extreme over the nodes."""
+    value = entry.of(scalar(entry.series), None)
+    return readings.hottest(value, scene) if entry.key in quantities.HEAT else Reading(value, positive=entry.positive)
 
 
 def _doubted(reading, why, pressures):

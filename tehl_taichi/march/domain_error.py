@@ -13,7 +13,7 @@ from dataclasses import fields as of_class
 import numpy as np
 
 from tehl_taichi.march.error_bars import WHOLE
-from tehl_taichi.march.readings import HEAT
+from tehl_taichi.march.quantities import HEAT
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.inlet import Inlet, far
 from tehl_taichi.scene.domain import LEFT, PASSAGE, SIDE

@@ -7,9 +7,9 @@ import numpy as np
 
 from tehl_taichi.march.error_bars import Reading, beside
 from tehl_taichi.march.peaks import peak, sharpest
+from tehl_taichi.march.quantities import HEAT
 from tehl_taichi.scene.scales import Scales
 
-HEAT = ("film_max_C", "surface_a_max_C", "surface_b_max_C")
 SETTLED = 0.1  # of thermal.tolerance: rounds end when another one would move temperatures by less; usual are 0.01 to 0.1 of it
 SPIKE = "a pressure peak of {:.0%} of the largest is only a few cells wide and may grow on finer grids"
 EXIT, EXITS = "exit not resolved: ", 0.5  # where the feature, or the oil that it let in, leaves the film: beyond so many a

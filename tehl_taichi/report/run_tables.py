@@ -5,16 +5,14 @@ import json
 from tehl_taichi.figures.index_words import resolved
 from tehl_taichi.io import intact
 from tehl_taichi.io.summary_rows import contact_share
-from tehl_taichi.march.output import Scalar, entries
+from tehl_taichi.march import quantities
 from tehl_taichi.report.document import facts, sentences, table
 from tehl_taichi.report.rounded import FEW, apart, index, roughly, share, told
 from tehl_taichi.scene.passing_words import passing
 
 PARTS = (("steady", "steady start"), ("transient", "passage"), ("fatigue", "fatigue"))
-ENDS = {"_mean": ", mean", "_max": ", largest"}
 SHORT = 30  # letters of a reason that stands in the row itself
 RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
-OWN = {"Fi_max": ("fatigue index Fi at the surface, largest", "1")}
 
 
 def errors(summary):
@@ -73,14 +71,9 @@ def _mark(n):
 
 
 def _meaning(name):
-    """(long name, unit) of a number of the summary, as outputs declare them."""
-    known = {key: (entry.says, entry.unit) for key, entry in entries(Scalar).items()} | OWN
-    if name in known:
-        return known[name]
-    for end, text in ENDS.items():
-        if (key := name.removesuffix(end)) in known and key != name:
-            return known[key][0] + text, known[key][1]
-    return name, "1"
+    """(long name, unit) of a number of the summary."""
+    entry = quantities.of_key(name)
+    return (entry.name, entry.unit) if entry else (name, "1")
 
 
 POINT = (("index Fi", "Fi_max", "1"), ("stress of the criterion", "findley_stress_max_Pa", "Pa"), ("depth", "depth_m", "m"),

@@ -1,0 +1,106 @@
+"""The numbers of a summary that are computed from the steps of a run, and those of its fatigue, an entry each.
+
+Summary, error bars, `tehl show`, reports and the tables of flanks read these entries: a new number is a new entry.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl_taichi.march.output import Scalar, always, entries, thermal
+
+OVER = {"start": "", "maximum": ", largest", "minimum": ", smallest", "mean": ", mean"}
+SHARP, SWAYED = "sharp", "swayed"  # numbers that an unresolved pressure peak leaves unknown, or has a part in
+
+
+@dataclass(frozen=True, kw_only=True)
+class Entry:
+    """part, key: its place in the summary ("transient", "p_max_Pa"); series: the number of a step that it is computed from, ""
+    of a number of the fatigue; over: how, a key of OVER. error: "" (it has no error bar), "plain", SHARP or SWAYED; positive:
+    whether it is so by nature. label: its row in `tehl show` ("": none), factor, shown: from SI to the unit there; column,
+    head, form: of the table of a flank ("": not there). says: long name, where it has no series; exists(scene)."""
+
+    part: str
+    key: str
+    series: str = ""
+    over: str = "start"
+    error: str = ""
+    positive: bool = False
+    label: str = ""
+    factor: float = 1.0
+    shown: str = ""
+    column: str = ""
+    head: str = ""
+    form: str = ".3f"
+    says: str = ""
+    exists: Callable = always
+
+    @property
+    def name(self):
+        """Long name."""
+        return self.says or entries(Scalar)[self.series].says + self._ending
+
+    @property
+    def _ending(self):
+        extreme = entries(Scalar)[self.series].over in ("maximum", "minimum")
+        return "" if extreme and not self.key.endswith("_max") else OVER[self.over]
+
+    @property
+    def unit(self):
+        """SI, as stores write it."""
+        return entries(Scalar)[self.series].unit if self.series else "1"
+
+    def of(self, values, weights):
+        """Its value from the series of a run, the steady start first; weights: steps that every later entry stands for."""
+        if self.over == "mean":
+            return float(np.average(values[1:], weights=weights))
+        return float({"start": lambda: values[0], "maximum": lambda: np.max(values[1:]),
+                      "minimum": lambda: np.min(values[1:])}[self.over]())
+
+
+FILM, PRESSURE = dict(factor=1e6, shown="um"), dict(factor=1e-9, shown="GPa")
+HEAT = ("film_max_C", "surface_a_max_C", "surface_b_max_C")
+DEGREES = dict(head="film deg C", form=".1f")
+ENTRIES = (
+    Entry(part="steady", key="h_c_m", series="h_c_m", error="plain", label="steady h_c", **FILM, column="steady_h_c_m",
+          head="h_c um"),
+    Entry(part="steady", key="h_min_m", series="h_min_m", error="plain", label="steady h_min", **FILM, column="steady_h_min_m",
+          head="h_min um"),
+    Entry(part="steady", key="p_max_Pa", series="p_max_Pa", error="plain", label="steady p_max", **PRESSURE,
+          column="steady_p_max_Pa", head="p_max GPa"),
+    Entry(part="steady", key="load_error", series="load_error"), Entry(part="steady", key="mass_error", series="mass_error"),
+    Entry(part="steady", key="friction_coefficient", series="friction_coefficient", error="plain",
+          label="steady friction coefficient", column="steady_friction", head="friction", form=".4f"),
+    Entry(part="steady", key=HEAT[0], series=HEAT[0], error="plain", exists=thermal, column="steady_film_max_C", **DEGREES),
+    *(Entry(part="steady", key=key, series=key, error="plain", exists=thermal) for key in HEAT[1:]),
+    Entry(part="transient", key="h_min_m", series="h_min_m", over="minimum", error="plain", label="passage h_min", **FILM,
+          column="passage_h_min_m", head="h_min um"),
+    Entry(part="transient", key="p_max_Pa", series="p_max_Pa", over="maximum", error=SHARP, label="passage p_max", **PRESSURE,
+          column="passage_p_max_Pa", head="p_max GPa"),
+    Entry(part="transient", key=HEAT[0], series=HEAT[0], over="maximum", error=SHARP, exists=thermal,
+          column="passage_film_max_C", **DEGREES),
+    *(Entry(part="transient", key=key, series=key, over="maximum", error=SWAYED, exists=thermal) for key in HEAT[1:]),
+    Entry(part="transient", key="temperature_change_K", series="temperature_change_K", over="maximum", exists=thermal),
+    Entry(part="transient", key="contact_load_fraction_max", series="contact_load_fraction", over="maximum", error="plain",
+          positive=True),
+    *(Entry(part="transient", key=f"{key}_max", series=key, over="maximum")
+      for key in ("load_error", "mass_error", "residual")),
+    Entry(part="transient", key="dt_s", series="dt_s", over="maximum", says="time step"),
+    Entry(part="transient", key="friction_coefficient_mean", series="friction_coefficient", over="mean", error=SWAYED,
+          label="passage friction coefficient, mean"),
+    Entry(part="fatigue", key="Fi_max", error=SHARP, says="index of fatigue Fi of the surface, largest", column="Fi_max",
+          head="Fi"),
+    Entry(part="fatigue.below", key="Fi_max", error=SHARP, says="index of fatigue Fi of the surface, largest",
+          column="Fi_max_below", head="Fi below"))
+
+
+def of_part(part, scene=None):
+    """The entries of a part of the summary; scene: of those that it has."""
+    return [entry for entry in ENTRIES if entry.part == part and (scene is None or entry.exists(scene))]
+
+
+def of_key(key, part=""):
+    """The first entry with that key (of that part, where one has it), or None."""
+    found = [entry for entry in ENTRIES if entry.key == key]
+    return next((entry for entry in found if entry.part == part), found[0] if found else None)
