@@ -89,9 +89,9 @@ ENTRIES = (
     Entry(part="transient", key="dt_s", series="dt_s", over="maximum", says="time step"),
     Entry(part="transient", key="friction_coefficient_mean", series="friction_coefficient", over="mean", error=SWAYED,
           label="passage friction coefficient, mean"),
-    Entry(part="fatigue", key="Fi_max", error=SHARP, says="index of fatigue Fi of the surface, largest", column="Fi_max",
+    Entry(part="fatigue", key="Fi_max", error=SHARP, says="fatigue index Fi at the surface, largest", column="Fi_max",
           head="Fi"),
-    Entry(part="fatigue.below", key="Fi_max", error=SHARP, says="index of fatigue Fi of the surface, largest",
+    Entry(part="fatigue.below", key="Fi_max", error=SHARP, says="fatigue index Fi at the surface, largest",
           column="Fi_max_below", head="Fi below"))
 
 
