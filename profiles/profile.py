@@ -68,10 +68,18 @@ def copy_rate(size):
 
 def transforms_alone(nx, ny):
     """{stage: seconds of one call} where nothing else has used the caches."""
-    from tehl_taichi.pressure.deflection import Deflection
+    from tehl_taichi.engine.fftw import even_fast_length, pyfftw
 
-    deflection = Deflection(nx, ny, 4 / nx, 2 / ny, 1.0, True)
-    return {"pressure: deflection": measure.median(deflection.deflect, 50)}
+    given = pyfftw.zeros_aligned((even_fast_length(2 * ny), even_fast_length(2 * nx)))
+    waves = pyfftw.zeros_aligned((len(given), given.shape[1] // 2 + 1), complex)
+    there, back = (pyfftw.FFTW(*pair, axes=(0, 1), direction=direction, flags=("FFTW_ESTIMATE",), threads=1)
+                   for pair, direction in (((given, waves), "FFTW_FORWARD"), ((waves, given), "FFTW_BACKWARD")))
+
+    def both():
+        there.execute()
+        back.execute()
+
+    return {"pressure: deflection": measure.median(both, 50)}
 
 
 def gaps(stages, kernels, count=5):

@@ -116,8 +116,8 @@ def test_one_folder_knows_taichi(path):
 
 WRITES = re.compile(r"write_text\(|write_bytes\(|os\.(replace|rename|unlink|truncate)\(|rmtree\(|\.(unlink|rmdir|touch)\(|"
                     r"open\([^)\n]*[\"'][wa]b?\+?[\"']|savefig\((?!draft)|np\.save")
-# what writes by itself: kernels and plans in the cache, a pipe, files of a draft, a lock and a checkpoint of ours, examples
-WRITERS = {"runtime.py", "plans.py", "beside.py", "vtk_series.py", "csv_tables.py", "checkpoint.py", "case.py",
+# what writes by itself: kernels in the cache, a pipe, files of a draft, a lock and a checkpoint of ours, examples
+WRITERS = {"runtime.py", "beside.py", "vtk_series.py", "csv_tables.py", "checkpoint.py", "case.py",
            "published_films.py", "gallery.py", "make_scan.py", "measured_surface.py"}
 
 

@@ -26,8 +26,17 @@ def _as_if_not_installed(names):
 with _as_if_not_installed(OFFERED_TO):
     import pyfftw
 
-__all__ = ["DOUBLE", "SINGLE", "half", "half_back", "pyfftw", "real_of", "transform", "transform_back", "transformed"]
+__all__ = ["DOUBLE", "SINGLE", "even_fast_length", "half", "half_back", "pyfftw", "real_of", "transform", "transform_back",
+           "transformed"]
 SINGLE, DOUBLE = np.dtype(np.complex64), np.dtype(np.complex128)  # kinds of spectra
+
+
+def even_fast_length(n):
+    """Smallest even length >= n that FFTW likes (odd ones are slow)."""
+    length = pyfftw.next_fast_len(n)
+    while length % 2:
+        length = pyfftw.next_fast_len(length + 1)
+    return length
 
 
 def transform(values, length, kind=SINGLE):

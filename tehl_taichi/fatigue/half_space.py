@@ -3,8 +3,7 @@
 
 import numpy as np
 
-from tehl_taichi.engine.fftw import DOUBLE, half, real_of, transform
-from tehl_taichi.engine.transforms import even_fast_length
+from tehl_taichi.engine.fftw import DOUBLE, even_fast_length, half, real_of, transform
 from tehl_taichi.fatigue import rectangle
 from tehl_taichi.fatigue.unit_loads import ACROSS, HELD, SIGNS, along, unit_load, wrapped
 from tehl_taichi.fatigue.waves import Waves

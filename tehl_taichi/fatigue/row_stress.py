@@ -13,8 +13,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
-from tehl_taichi.engine.fftw import DOUBLE, half, half_back, real_of
-from tehl_taichi.engine.transforms import even_fast_length
+from tehl_taichi.engine.fftw import DOUBLE, even_fast_length, half, half_back, real_of
 from tehl_taichi.fatigue import rectangle
 from tehl_taichi.fatigue.half_space import spacing
 from tehl_taichi.fatigue.thermal_stress import WORKERS

@@ -27,6 +27,24 @@ def strip(nx, dx):
     return -np.diff(integral) / np.pi
 
 
+@functools.lru_cache(maxsize=4)  # the grids of a steady start end in the same one
+def matrix(nx, ny, dx, dy, compliance, line, mirrored=True):
+    """Deflection of a small grid as a matrix (nodes, nodes), rows along x; line: the pressure of the last row continues beyond
+    it; mirrored: rows y < 0 are the mirror image of the others. The first column of the grid has no pressure."""
+    i, j = np.arange(nx + 1), np.arange(ny + 1)
+    along = np.abs(i[:, None] - i)
+    K = np.zeros((ny + 1, nx + 1, ny + 1, nx + 1))
+    if ny:
+        cells = rectangle(nx, 2 * ny, dx, dy, compliance)
+        K += cells[along[None, :, None, :], np.abs(j[:, None] - j)[:, None, :, None]]
+        if mirrored:
+            K[:, :, 1:] += cells[along[None, :, None, :], (j[:, None] + j[1:])[:, None, :, None]]
+    if line:  # the last row is a strip without end, the others differ from it
+        K[:, :, -1] = strip(nx, dx)[along] - K[:, :, :-1].sum(axis=2)
+    K[..., 0] = 0.0
+    return K.reshape((ny + 1) * (nx + 1), -1)
+
+
 @functools.lru_cache(maxsize=16)  # levels of the same size belong to several grids of a start
 def symbol(nx_period, ny, dx, dy, compliance, aliases=2):
     """Fourier symbol of the deflection of a periodic row of cells: shape (ny + 1, nx_period // 2 + 1).

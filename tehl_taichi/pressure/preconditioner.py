@@ -4,14 +4,11 @@ Inside a Krylov method one undamped parallel sweep per level beats alternating c
 (measured: 6-8 iterations a Newton step at any grid, load and contact); it must be rebuilt at every Newton step.
 """
 
-import functools
-
 import numpy as np
 
 from tehl_taichi.engine import lanes
 from tehl_taichi.engine.launches import bind
-from tehl_taichi.pressure import fields, lines
-from tehl_taichi.pressure.deflection import Deflection
+from tehl_taichi.pressure import fields, influence, lines
 from tehl_taichi.pressure.levels import HEAVY
 
 # Switch between the two kinds of columns where time passes. Krylov iterations a step with 1 / 10 / 30 / 1000, gear at SRR
@@ -65,8 +62,8 @@ class Coarsest:
         j, i = (q.ravel() for q in np.mgrid[: ny + 1, : nx + 1])
         self.place = (j // lanes.W * (nx + 1) + i) * lanes.W + j % lanes.W
         self.neighbours = self._neighbours(i, j, nx, ny)
-        influence = dense_deflection(*levels.deflection_key(self.l))
-        self.influence = np.stack([influence[q] for q in self.neighbours])
+        bent = influence.matrix(*levels.deflection_key(self.l))
+        self.influence = np.stack([bent[q] for q in self.neighbours])
         self.rows = np.zeros((len(fields.STENCIL), i.size), levels.linear)
         self._export = bind(lines.export_rows, levels.J, levels.G, self.l, self.rows, True)
 
@@ -82,16 +79,3 @@ class Coarsest:
         for a, q in zip(self.rows[:half], self.neighbours):
             J[nodes, q] += a
         self.krylov.set_dense(np.linalg.inv(J), self.place)
-
-
-@functools.lru_cache(maxsize=4)  # the grids of a steady start end in the same one
-def dense_deflection(nx, ny, *rest):
-    """Deflection of a small grid as a matrix (nodes, nodes); rest: see :meth:`Levels.deflection_key`."""
-    deflect, n = Deflection(nx, ny, *rest), (nx + 1) * (ny + 1)
-    K, unit = np.zeros((n, n)), np.zeros((ny + 1, nx + 1))
-    for node in range(n):
-        if node % (nx + 1):  # the first column has no pressure
-            unit.ravel()[node] = 1.0
-            K[:, node] = deflect.apply(unit).ravel()
-            unit.ravel()[node] = 0.0
-    return K
