@@ -7,6 +7,7 @@ import typer.core
 from tehl_cli import (
     animate_command,
     bench,
+    cite,
     compare_command,
     crack_command,
     export_command,
@@ -106,3 +107,4 @@ compare_command.register(app)
 export_command.register(app)
 report_command.register(app)
 bench.register(app)
+cite.register(app)

@@ -23,7 +23,8 @@ os.environ.setdefault("ENABLE_TAICHI_HEADER_PRINT", "0")
 # in a notebook every launch would look for what its kernel printed: ours print nothing
 os.environ.setdefault("TI_ENABLE_PYBUF", "0")
 
-__version__ = "0.8.0"
+__version__ = "0.8.0"  # the only place; CITATION.cff repeats it, which a test compares
+__released__ = "2026-11-24"
 
 # after the settings above, which numpy reads
 from tehl_taichi.api import (  # noqa: E402

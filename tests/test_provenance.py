@@ -98,3 +98,24 @@ def test_pythons_that_are_supported():
     assert PYPROJECT["project"]["requires-python"] == ">=3.11,<3.14"
     assert "3.11, 3.12 or 3.13" in (ROOT / "README.md").read_text()
     assert "python3.11 python3.12 python3.13" in (ROOT / ".ci" / "run").read_text()
+
+
+def test_the_version_stands_in_one_place():
+    """And in CITATION.cff, which no program reads."""
+    from tehl_taichi import __released__
+
+    assert "version" not in PYPROJECT["project"] and PYPROJECT["project"]["dynamic"] == ["version"]
+    cited = (ROOT / "CITATION.cff").read_text()
+    assert set(re.findall(r"^ *version: (.*)$", cited, re.M)) == {__version__} and f"date-released: {__released__}" in cited
+    assert set(re.findall(r"^  year: (.*)$", cited.partition("references:")[0], re.M)) == {__released__[:4]}
+
+
+def test_the_program_says_how_it_is_cited():
+    from tehl_cli.cite import AUTHORS, TITLE, bibtex
+
+    cited = (ROOT / "CITATION.cff").read_text()
+    assert TITLE in cited and AUTHORS in cited
+    entry = bibtex()
+    assert f"version = {{{__version__}}}" in entry and entry.count("{") == entry.count("}") and commit.commit() in entry
+    done = subprocess.run([sys.executable, "-m", "tehl_taichi", "cite"], capture_output=True, text=True, cwd=ROOT)
+    assert done.returncode == 0 and done.stdout.strip() == entry
