@@ -6,8 +6,8 @@ DRAWS = ("format", "dpi", "width", "figure_width", "force")  # of figures: witho
 
 
 def say_idle(context, why, *names):
-    """A warning for each of these parameters of the command that the user typed."""
-    for parameter in context.command.params:
+    """A warning for each of these parameters of the command that the user typed; context: None where Python calls it."""
+    for parameter in context.command.params if context else ():
         if parameter.name in names and context.get_parameter_source(parameter.name).name == "COMMANDLINE":
             say(f"warning: {_typed(parameter, context.params[parameter.name])} has no effect here: {why}")
 
