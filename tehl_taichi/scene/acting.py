@@ -155,10 +155,14 @@ def _laws(scene):
     """Function of an oil: what its laws give where the film of this scene may be."""
     p, inlet = np.array(PARTS) * Scales.of(scene).p_H, scene.operation.temperature
     if scene.isothermal:
-        return lambda oil: [law(oil, one, inlet) for law in (ln_eta, _density_of(scene)) for one in p]
-    places = [(one, inlet + more) for one in p for more in WARMER]
-    return lambda oil: [law(oil, *at) for at in places for law in (ln_eta, density.rho_film, conduction.heat_capacity,
-                                                                   lambda oil, p, Gamma: conduction.conductivity(oil, p))]
+        return lambda oil: _values((ln_eta, _density_of(scene)), oil, p, inlet + 0 * p)
+    laws = ln_eta, density.rho_film, conduction.heat_capacity, lambda oil, p, Gamma: conduction.conductivity(oil, p)
+    return lambda oil: _values(laws, oil, *(one.ravel() for one in np.meshgrid(p, inlet + np.array(WARMER))))
+
+
+def _values(laws, oil, p, Gamma):
+    """Of laws at all places, a row each."""
+    return np.array([law(oil, p, Gamma) + 0 * p for law in laws])
 
 
 def _density_of(scene):
