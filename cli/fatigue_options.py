@@ -11,12 +11,12 @@ from tehl_taichi.criteria import CRITERIA
 
 def _asked(
     kappa: Annotated[Optional[float], typer.Option(help="sensitivity to normal stress kappa_F")] = None,
-    endurance: Annotated[Optional[float], typer.Option(help="sigma_eF, Pa")] = None,
+    endurance: Annotated[Optional[float], typer.Option(help="fatigue limit sigma_eF, Pa")] = None,
     bending_limit: Annotated[Optional[float], typer.Option(help="fatigue limit in reversed bending, Pa (replaces "
                                                                 "--endurance)")] = None,
     torsion_limit: Annotated[Optional[float], typer.Option(help="fatigue limit in reversed torsion, Pa (one limit fixes "
                                                                 "sigma_eF; both limits also fix kappa)")] = None,
-    criterion: Annotated[Optional[str], typer.Option(help=", ".join(CRITERIA))] = None,
+    criterion: Annotated[Optional[str], typer.Option(help="criterion: " + ", ".join(CRITERIA))] = None,
     depths: Annotated[Optional[str], typer.Option(help="depths to search: auto (critical depth under the feature), none, or a "
                                                        "list in m for all points, as 50e-6,100e-6")] = None,
     from_x: Annotated[Optional[float], typer.Option(help="use only moments with the feature after this position, in "

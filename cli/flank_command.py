@@ -48,7 +48,7 @@ def flank(
     curves: bool = typer.Option(True, "--live/--no-live", help="draw p, h and T along y = 0 in the terminal (with --workers "
                                                                "1)"),
 ):
-    """Compute film, pressure, temperature, friction and fatigue along a gear flank: one run per position, one table.
+    """Compute the contacts along a gear flank: film, pressure, temperature, friction and fatigue at each position.
 
     Examples: `tehl flank fzg-c --torque 265.1` · `tehl flank my_gears.toml --on gear --steady` · `tehl flank table.csv`
     """

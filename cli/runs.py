@@ -37,8 +37,8 @@ def run(
     estimate_error: Optional[bool] = typer.Option(None, "--estimate-error/--no-estimate-error",
                                                   help="estimate errors by coarse-grid runs (default: for all but very short "
                                                        "passages)"),
-    kappa: Optional[float] = typer.Option(None, help="Findley's kappa_F"),
-    endurance: Optional[float] = typer.Option(None, help="Findley's endurance limit sigma_eF, Pa"),
+    kappa: Optional[float] = typer.Option(None, help="sensitivity to normal stress kappa_F"),
+    endurance: Optional[float] = typer.Option(None, help="fatigue limit sigma_eF, Pa"),
     bending_limit: Optional[float] = typer.Option(None, help="fatigue limit in reversed bending, Pa (replaces --endurance)"),
     torsion_limit: Optional[float] = typer.Option(None, help="fatigue limit in reversed torsion, Pa (one limit fixes "
                                                              "sigma_eF; both limits also fix kappa)"),
@@ -55,7 +55,7 @@ def run(
     quiet: bool = typer.Option(False, "--quiet", help="print no progress"),
     curves: bool = typer.Option(True, "--live/--no-live", help="draw p, h and T along y = 0 in the terminal during the run"),
 ):
-    """Run one contact: steady start, passage of the feature, stresses and fatigue. Results are written to a store.
+    """Run one contact: steady start, passage of the feature, stresses, fatigue; write all results to a store.
 
     Examples: `tehl run --srr -0.12` · `tehl run dent --grid coarse` · `tehl run my.toml --set feature.height=1e-6`
     """

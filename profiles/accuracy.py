@@ -20,7 +20,7 @@ QUANTITIES = ("h_c_m", "h_min_m", "p_max_Pa", "film_max_C", "Fi_max")
 # of a thermal passage on one grid, against REFERENCE. Not in it: the time step. Steps of whole cells carry the film nearly from
 # node to node; shorter ones interpolate it more often, which costs film where 128 columns hardly resolve it (256: 0.5 %)
 REFERENCE = {"thermal.nodes": 13, "thermal.tolerance": 5e-3, "numerics.tolerance": 1e-8, "numerics.mass_tolerance": 1e-8}
-SETTINGS = {"as it is": {}, "half the time step": {"time.courant": 0.5}, "one lagged round of heat": {"thermal.rounds": 1},
+SETTINGS = {"as it is": {}, "half the time step": {"time.courant": 0.5}, "one lagged temperature round": {"thermal.rounds": 1},
             "isothermal": {"thermal.on": False},
             "tolerances 1e-4": {"numerics.tolerance": 1e-4, "numerics.mass_tolerance": 1e-4},
             "tolerances 1e-8": {"numerics.tolerance": 1e-8, "numerics.mass_tolerance": 1e-8},

@@ -26,7 +26,7 @@ CONDITIONS = {"": {}, "residual -200 MPa": {"residual": -200e6}, "residual +200 
               "face friction 0.3": {"face_friction": 0.3}, "oil 0.3 (upper bound)": {"oil": 0.3},
               "oil sealed in": {"oil": "sealed"}, "oil that flows": {"oil": "flow"}}
 QUICK_CONDITIONS = {"": {}, "oil 0.3 (upper bound)": {"oil": 0.3}}
-NUMBERS = {"sigma1": ("largest tension, MPa", 1e6, "{:.0f}"), "depth": ("pulled to, um", 1e-6, "{:.1f}"),
+NUMBERS = {"sigma1": ("largest tension, MPa", 1e6, "{:.0f}"), "depth": ("tension down to, um", 1e-6, "{:.1f}"),
            "chord": ("trajectory at 20 um, deg", 1, "{:.0f}"), "K_first": ("K_I at 5 um", 1e6, "{:.2f}"),
            "K_later": ("K_I at 20 um", 1e6, "{:.2f}"), "K_II": ("range of K_II at 20 um", 1e6, "{:.1f}"),
            "path": ("path at 20 um, deg", 1, "{:.0f}")}
@@ -142,7 +142,7 @@ def _text(value, grid, elements, unit, form):
     return f"{form.format(value / unit)} ± " + ", ".join(changes[: 1 + (elements != 0)])
 
 
-COLUMNS = ("case", "side", *(title for title, *_ in NUMBERS.values()), "trajectory leans", "the crack stops because")
+COLUMNS = ("case", "side", *(title for title, *_ in NUMBERS.values()), "trajectory leans", "stop reason")
 
 
 def page(rows):

@@ -27,12 +27,10 @@ def described(name, grid, steps):
 def row(run):
     """What its summary says, as text in the order of COLUMNS."""
     s, p = run.summary["steady"], run.summary.get("transient", {})
-    heat, Fi = {**s, **p}.get("film_max_C"), run.summary.get("fatigue", {}).get("Fi_max", np.nan)
-    if any("which no oil bears" in sentence for sentence in run.warnings):
-        Fi = np.nan  # stresses of a friction that is none
+    heat, Fi = {**s, **p}.get("film_max_C"), run.summary.get("fatigue", {}).get("Fi_max")  # None: too much friction
     values = (run.summary["hertz"]["p_Pa"] / 1e9, s["h_c_m"] * 1e6, s["h_min_m"] * 1e6, p.get("p_max_Pa", np.nan) / 1e9,
               p.get("h_min_m", np.nan) * 1e6, np.nan if heat is None else heat,
-              Fi, p.get("contact_load_fraction_max", np.nan))
+              np.nan if Fi is None else Fi, p.get("contact_load_fraction_max", np.nan))
     return [run.scene.name, *("" if np.isnan(value) else f"{value:.3g}" for value in values)]
 
 

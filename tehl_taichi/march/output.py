@@ -21,7 +21,7 @@ def always(scene):
 
 
 def thermal(scene):
-    """Of scenes with temperatures."""
+    """With temperatures."""
     return not scene.isothermal
 
 

@@ -43,9 +43,9 @@ class Shared:
 @documented
 @dataclass(frozen=True, repr=False)
 class Feature(*OWN, Shared):
-    """One feature of surface a; the other features stand x and y from the first.
+    """Feature of surface a; x and y of further features are measured from the first.
 
-    Its shape is an entry of `scene/features/`, which says what its keys mean. Heights in an array: :meth:`from_heights`.
+    `tehl scenes` lists the shapes and their keys. Heights in an array: :meth:`from_heights`.
 
     Examples
     --------

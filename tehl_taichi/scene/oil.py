@@ -28,10 +28,10 @@ def in_one_temperature(expansion, keeps):
 @documented
 @dataclass(frozen=True, repr=False)
 class Oil(_OIL):
-    """A lubricant; each law has its own numbers, those of laws that it did not choose are not used.
+    """Lubricant; each law has its own numbers, and numbers of other laws have no effect.
 
-    The laws and their numbers stand in tehl_taichi/physics: viscosities, densities and conduction.py. With `nu_40` and `nu_100`
-    of a data sheet the numbers of the viscosity follow from these.
+    `tehl laws` lists the laws and their numbers. `nu_40` and `nu_100` of a data sheet determine the numbers of the viscosity
+    law.
 
     Examples
     --------

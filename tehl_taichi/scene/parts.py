@@ -29,7 +29,7 @@ LARGEST_RADIUS_Y = 100.0  # m: a roller is nearly straight
 class Contact:
     """Geometry and load: one of load, hertz_pressure or the Moes pair; 0 = not given.
 
-    With the pair the speed follows from L (with the oil's alpha and eta0) and the load from M.
+    The pair gives the speed from L (with alpha and eta0 of the oil) and the load from M.
 
     Examples
     --------
@@ -82,8 +82,8 @@ class Contact:
 class Body:
     """An elastic half-space; default: steel (Everitt 2018).
 
-    Its alpha is the usual handbook value of bearing and gear steels. The name of a steel (`tehl steels`) gives the numbers that
-    a scene file or a change does not name; in Python: Body(**STEELS["100Cr6"].numbers, material="100Cr6").
+    alpha is a handbook value of bearing and gear steels. A named steel (`tehl steels`) gives all numbers that a scene file or a
+    change does not set; in Python: Body(**STEELS["100Cr6"].numbers, material="100Cr6").
 
     Examples
     --------
@@ -107,7 +107,7 @@ class Body:
 @documented
 @dataclass(frozen=True, repr=False)
 class Operation:
-    """Motion; u_a and u_b in m/s may be given in place of u_m and srr.
+    """Surface speeds; u_a and u_b in m/s may replace u_m and srr.
 
     Examples
     --------
@@ -149,10 +149,9 @@ _RHEOLOGY = section("_RHEOLOGY", law=choice("limiting", "shear law of the film (
 class Rheology(_RHEOLOGY):
     """Shear law of the film and friction of solid contact.
 
-    The law acts wherever the surfaces slip, in flow, friction and heat, and in the flow wherever a gradient of the pressure
-    shears the film at the walls, with and without temperatures; a law that does not thin is the film that isothermal film
-    formulas and most published films are of (its friction under pressure is not that of any oil). The laws and their numbers
-    stand in tehl_taichi/physics/shear.
+    The law acts in flow, friction and heat wherever the surfaces slip, and in the flow wherever a pressure gradient shears the
+    film at the walls. `newtonian` gives the film of isothermal formulas and most published films; its friction is higher than
+    that of any oil. `tehl laws` lists the laws and their numbers.
 
     Examples
     --------
@@ -178,10 +177,10 @@ class Rheology(_RHEOLOGY):
 @documented
 @dataclass(frozen=True, repr=False)
 class Thermal:
-    """The energy equation; without it the film keeps the inlet temperature.
+    """Energy equation; without it the film has the inlet temperature.
 
-    9 nodes are good to 0.01 %, 7 to 0.1 %, also for the largest temperature, which is that of the profile through them (at SRR
-    -0.75 9 tell 0.01 K less than 17). One round is one lagged pass: half the time, film under an asperity 0.3 % off.
+    Nine nodes have an error of 0.01 %, seven of 0.1 %, also for the largest temperature of the profile through the nodes. One
+    round (a lagged temperature) takes half the time and changes the film under an asperity by 0.3 %.
 
     Examples
     --------
@@ -204,10 +203,9 @@ class Thermal:
 @documented
 @dataclass(frozen=True, repr=False)
 class Fatigue:
-    """Fatigue index; kappa and endurance are example values: set those of your material.
+    """Fatigue index; kappa and endurance are example values, set those of your material.
 
-    No source is claimed for them. With a limit in reversed torsion or bending the endurance follows, with both kappa, too.
-    depths = []: the surface alone.
+    One limit in reversed torsion or bending fixes endurance; both limits also fix kappa. depths = []: only the surface.
 
     Examples
     --------
@@ -275,9 +273,10 @@ class Fatigue:
 @documented
 @dataclass(frozen=True, repr=False)
 class Grid:
-    """Cells, and extent in half-widths of the contact, a along x and b along y (b = a unless elliptic).
+    """Cells and extent of the grid, in half-widths a along x and b along y (b = a unless elliptic).
 
-    Nodes: one more than cells; twice ny cells where the scene is not symmetric, none across where nothing varies there.
+    The grid has one node more than cells. A scene that is not symmetric in y has twice ny cells; a scene without variation
+    along y has none.
 
     Examples
     --------
@@ -303,7 +302,7 @@ class Grid:
 @documented
 @dataclass(frozen=True, repr=False)
 class Time:
-    """Path of the first feature's centre and the length of a step.
+    """Path of the centre of the first feature and length of a step.
 
     Examples
     --------
@@ -328,11 +327,10 @@ class Time:
 @documented
 @dataclass(frozen=True, repr=False)
 class Numerics:
-    """Tolerances and limits of the pressure solver, and the error of its numbers.
+    """Tolerances and limits of the pressure solver, and error estimates.
 
-    tolerance 1e-6: ten times less moves the film by under 0.1 % at 256 columns. mass_tolerance 1e-6: the conservation that
-    users check. krylov_tolerance: from 0.03 to 0.3 a passage costs the same. newton_max, krylov_max: no converging case came
-    near them. estimate_error: see tehl_taichi/march/companions.py.
+    A tolerance ten times smaller changes the film by less than 0.1 % at 256 columns. krylov_tolerance from 0.03 to 0.3 gives
+    equal run times. No converging case came near newton_max or krylov_max. For estimate_error see docs/numerics.md.
 
     Examples
     --------
