@@ -171,13 +171,14 @@ def _check_ours(folder):
 
 
 def unmade(path):
-    """What there is of a store that has not appeared at `path` yet, a sentence, or None."""
+    """The error that says what exists of a store that has not appeared at `path` yet, Busy while it is being written; or
+    None."""
     folder = beside(Path(path), PART)
     if not is_folder(folder):
         return None
     if who := holder(folder):
-        return f"{path} is still being written by {who} and has no entry yet"
-    return f"{path} does not exist: its run ended before the first entry was stored; run it again"
+        return Busy(f"{path} is still being written by {who} and has no entry yet")
+    return StoreError(f"{path} does not exist: its run ended before the first entry was stored; run it again")
 
 
 def _parents(path):

@@ -5,15 +5,16 @@ import json
 from tehl_taichi.values.plain import shown
 
 NUMBERS = "_m", "_Pa", "_C", "_K", "_s", "_deg", "_error", "_fraction", "Fi_max", "ripple", "steps", "cycles", "kappa_F"
-LISTS = ("warnings", "results", "outputs")  # of texts
+LISTS = ("warnings", "warning_codes", "results", "outputs")  # of texts
 KINDS = {dict: "a table", list: "a list", str: "text", int: "a whole number", float: "a number", bool: "true or false"}
 SUMMARY = {"scene": str, "version": str, "wall_s": float, "compile_s": float, "steps": int, "grid": dict, "cells": dict,
            "hertz": dict, "left_out": list, "steady": dict, "work": dict, "crowding": list, "clamps": dict, "warnings": list,
            "transient": dict, "fatigue": dict, "error": dict, "unknown": dict, "below": dict, "contact_alone": dict,
            "searched_m": list, "pit_angles_deg": list, "criterion": str, "domain": dict, "error_parts": dict, "peclet": dict,
-           "warning_codes": list}
+           "warning_codes": list, "warning_data": list}
 PARTS = {"transient", "fatigue", "cells", "crowding", "error", "unknown", "below", "contact_alone", "searched_m",
-         "pit_angles_deg", "criterion", "domain", "error_parts", "peclet", "warning_codes"}  # that some runs do not have
+         "pit_angles_deg", "criterion", "domain", "error_parts", "peclet", "warning_codes",
+         "warning_data"}  # that some runs do not have
 TABLES = ("", "hertz.", "steady.", "transient.", "fatigue.", "fatigue.below.", "fatigue.below.contact_alone.")
 STEADY = ("h_c_m", "h_min_m", "p_max_Pa", "error", "unknown")
 

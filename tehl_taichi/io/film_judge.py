@@ -9,6 +9,7 @@ from tehl_taichi.march.peaks import peak, ripple, sharpest
 from tehl_taichi.scene import finer
 from tehl_taichi.scene.passing_words import where
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.values.warned import with_data
 
 MOST_FRICTION = 0.2  # of a film: no oil is known to bear more than about 0.12 of the pressure, traction fluids included
 MOST_RIPPLE = 0.005  # of the largest pressure: a tenth of what a passing feature changes, ten times what resolved passages show
@@ -36,8 +37,9 @@ def friction(store, summary):
     if found:
         law = (f"a Newtonian film (rheology.law = {rheology.law}) has no limit; its film is valid, its friction is not"
                if not rheology.thins else f"the constants of the law {rheology.law!r} allow this")
-        yield (f"the friction coefficient ({', '.join(found)}) is more than {MOST_FRICTION:g}, which no oil reaches: {law}"
-               + _follow(store.scene, summary))
+        text = f"the friction coefficient ({', '.join(found)}) is more than {MOST_FRICTION:g}, which no oil reaches: {law}"
+        most = float(store.scalar("friction_coefficient").max())
+        yield with_data(text + _follow(store.scene, summary), friction_coefficient_max=most, limit=MOST_FRICTION)
 
 
 def _follow(scene, summary):
@@ -112,9 +114,10 @@ def ripples(store, summary):
         (_, i), n = worst_ripple(store, range(len(store)))
         a, at_edge = Scales.of(store.scene).a, store.x[i] > 0 and _endless(store.scene)
         when = f"{_moment(store, n)}, " if n else ""
-        yield ((readings.EXIT if at_edge else "") + f"the pressure ripples from node to node along x by up to {size / 1e9:.3f} "
-                                                    f"GPa ({when}X = {store.x[i] / a:.2f}), an artefact of the grid; "
-               + (NO_VALUE if at_edge else f"try another time.courant or {finer.told(store.scene)}"))
+        text = (f"{readings.EXIT if at_edge else ''}the pressure ripples from node to node along x by up to {size / 1e9:.3f} "
+                f"GPa ({when}X = {store.x[i] / a:.2f}), an artefact of the grid; ")
+        remedy = NO_VALUE if at_edge else f"try another time.courant or {finer.told(store.scene)}"
+        yield with_data(text + remedy, ripple_Pa=size, x_m=float(store.x[i]), entry=int(n))
 
 
 CHECKS = {friction: "friction", unresolved: "peak", first_unresolved: "resolved", ripples: "ripple"}

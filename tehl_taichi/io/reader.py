@@ -7,12 +7,13 @@ from pathlib import Path
 import numpy as np
 
 from tehl_taichi.disk.drafts import put_back, unmade
-from tehl_taichi.disk.locks import Busy, holder
+from tehl_taichi.disk.locks import holder
 from tehl_taichi.errors import StoreError
 from tehl_taichi.io import chunks, intact
 from tehl_taichi.io.layout import OWN
 from tehl_taichi.march.output import fields_of, names, scalars_of
 from tehl_taichi.scene.route import cut_at
+from tehl_taichi.values.warned import of_lists
 
 
 class Reader:
@@ -36,8 +37,8 @@ class Reader:
     @classmethod
     def _opened(cls, path, lock):
         put_back(path)
-        if not path.exists() and (said := unmade(path)):
-            raise (Busy if "still" in said else StoreError)(said)
+        if not path.exists() and (why := unmade(path)):
+            raise why
         store = cls(path, lock)
         needed = {name: ["x", "y"] for name in store.stored} | {name: [] for name in store.names}
         with intact.blamed_on_newer(path, store.attrs):
@@ -80,8 +81,10 @@ class Reader:
 
     @property
     def warnings(self):
-        """What is doubtful, a sentence each: of the whole run where it is finished, else of its scene."""
-        return intact.optional(self.attrs, "warnings", [])
+        """What is doubtful, a :class:`tehl_taichi.values.warned.Warned` each: of the run where it is finished, else of its
+        scene."""
+        names = "warnings", "warning_codes", "warning_data"
+        return of_lists(*(intact.optional(self.attrs, name, []) for name in names))
 
     def needed(self, name):
         """The table among the attributes of that name, which going on needs. Raises StoreError."""

@@ -9,7 +9,7 @@ from tehl_taichi.physics import conduction
 from tehl_taichi.physics.law import beyond
 from tehl_taichi.scene.yielding import STEEL, YIELDS
 from tehl_taichi.values.digits import micrometres
-from tehl_taichi.values.warned import once, warned
+from tehl_taichi.values.warned import once, warned, with_data
 
 CROWDED = 0.1  # of the launches; a machine of one's own loses a core for a moment now and then, which costs nothing to speak of
 
@@ -29,16 +29,18 @@ def beyond_measured(store, summary):
     if store.scene.isothermal or not beyond(conduction.LAWS, *reached(store)):
         return []
     p, T = reached(store)
-    return [f"the film reaches {p / 1e9:.2f} GPa and {T:.0f} deg C; {' and '.join(conduction.LAWS)} were measured up to "
+    text = (f"the film reaches {p / 1e9:.2f} GPa and {T:.0f} deg C; {' and '.join(conduction.LAWS)} were measured up to "
             f"{conduction.P_MEASURED / 1e9:g} GPa and {conduction.GAMMA_MEASURED:g} deg C; beyond that range they keep their "
-            "last values"]
+            "last values")
+    return [with_data(text, p_max_Pa=p, film_max_C=T)]
 
 
 def held_temperatures(store, summary):
     """Temperatures that the solver had to hold inside the allowed range."""
     held = 0 if store.scene.isothermal else int(np.nansum(store.scalar("clamped")))
-    return [f"temperatures were limited at {held} nodes, to the allowed range or (in columns without a solution) to the inlet "
-            "temperature of the oil"] if held else []
+    text = (f"temperatures were limited at {held} nodes, to the allowed range or (in columns without a solution) to the inlet "
+            "temperature of the oil")
+    return [with_data(text, nodes=held)] if held else []
 
 
 def crowded(store, summary):
@@ -46,8 +48,9 @@ def crowded(store, summary):
     done, fewer = summary.get("crowding", (0, 0))
     if fewer <= CROWDED * done:
         return []
-    return [f"another program used the cores of this run: {fewer} of {done} linear-solve launches ran with one worker. The "
-            "results are equal but slower; use fewer --threads"]
+    text = (f"another program used the cores of this run: {fewer} of {done} linear-solve launches ran with one worker. The "
+            "results are equal but slower; use fewer --threads")
+    return [with_data(text, launches=int(done), with_one_worker=int(fewer))]
 
 
 def unknown_errors(store, summary):
@@ -60,8 +63,8 @@ def unknown_errors(store, summary):
                                (early.get("below", {}), "", deep + of_it)):
         for name, why in part.get("unknown", {}).items():
             reasons.setdefault(why, []).append(f"{when}{name}{behind}")
-    return [f"the error of {', '.join(names)} is not known: {why}{film_judge.finer_exit(store.scene, why)}"
-            for why, names in reasons.items()]
+    return [with_data(f"the error of {', '.join(names)} is not known: {why}{film_judge.finer_exit(store.scene, why)}",
+                      numbers=names, reason=str(why)) for why, names in reasons.items()]
 
 
 def largest_pressure(summary):
@@ -73,8 +76,9 @@ def yielding(store, summary):
     """Pressures that no steel bears without yielding, while the bodies here stay elastic."""
     p = largest_pressure(summary)
     if p > YIELDS:
-        yield (f"p_max {p / 1e9:.2f} GPa: {STEEL}; both bodies are elastic here, while real bodies would flatten such a peak "
-               "in the first passages")
+        text = (f"p_max {p / 1e9:.2f} GPa: {STEEL}; both bodies are elastic here, while real bodies would flatten such a peak "
+                "in the first passages")
+        yield with_data(text, p_max_Pa=p, yields_Pa=YIELDS)
 
 
 def worst_below(store, summary):
@@ -91,7 +95,7 @@ def worst_below(store, summary):
         said += f"; the contact without its feature has {alone['Fi_max']:.2f} at {micrometres(alone['depth_m'])} um"
     if near_the_surface(deep, fatigue):
         said += "; this grid resolves nothing closer to the surface (half a cell): use a finer grid"
-    return [said]
+    return [with_data(said, Fi_max=fatigue["Fi_max"], below_Fi_max=deep["Fi_max"], depth_m=deep["depth_m"])]
 
 
 # functions of (store, summary) that give their sentences, with the code of these

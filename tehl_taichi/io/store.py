@@ -26,6 +26,7 @@ from tehl_taichi.io.layout import OWN
 from tehl_taichi.io.place import CasePlace, Place
 from tehl_taichi.io.reader import Reader
 from tehl_taichi.march.output import names
+from tehl_taichi.values.warned import texts
 
 
 class Store(Held, Reader):
@@ -143,7 +144,7 @@ class Store(Held, Reader):
         self.attrs.pop("summary", None)
         with _told(self.path, f"then: tehl resume {self.path}"):
             self._commit(scene=json.dumps(scene.to_dict()), scene_toml=scene_file.dumps(scene), results="[]", finished=False,
-                         warnings=json.dumps(scene.warnings()))
+                         **texts(scene.warnings()))
 
     def finish(self, summary, maps=None):
         """Store the summary (and maps {name: (values, dims, units, text)}) and mark the run as finished."""
@@ -157,7 +158,7 @@ class Store(Held, Reader):
             written = layout.metadata(self.path)
             self.metadata |= {name: written[name] for name in maps or {}}
             self._commit(summary=json.dumps(plain(summary)), results=json.dumps(list(maps or {})), finished=True,
-                         warnings=json.dumps(summary.get("warnings", self.warnings)))
+                         **texts(summary.get("warnings", self.warnings)))
 
 
 @contextlib.contextmanager

@@ -12,6 +12,7 @@ from tehl_taichi.physics.law import beyond
 from tehl_taichi.scene.film_formula import central_film, formula_words, spread
 from tehl_taichi.scene.scales import Scales, peclet
 from tehl_taichi.values.chosen import Chosen
+from tehl_taichi.values.warned import lists
 
 
 def summarise(store, extra, fatigue=None):
@@ -39,8 +40,8 @@ def summarise(store, extra, fatigue=None):
     out["work"] = _work(store)
     out["crowding"] = extra.get("crowding", [0, 0])
     out["clamps"] = _clamps(store)
-    out["warnings"] = result_judge.warnings(store, out)
-    out["warning_codes"] = [one.code for one in out["warnings"]]
+    found = result_judge.warnings(store, out)
+    out |= {**lists(found), "warnings": found}
     return out
 
 

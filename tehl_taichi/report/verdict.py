@@ -20,11 +20,10 @@ def of(store):
     summary = store.summary
     if not summary:
         return _none_yet(store)
-    found = of_fatigue(summary["fatigue"], store.scene) if "fatigue" in summary else _of_film(summary)
+    found = of_fatigue(summary["fatigue"], store.scene) if "fatigue" in summary else _of_film(summary, store.scene)
     question, headline, tone, tells = found
     yields, rims = _yielding(summary), list(rim_judge.rims(store, summary))
-    known = [sentence for sentence in store.warnings if sentence in rims or yields and STEEL in sentence]
-    warnings = [sentence for sentence in store.warnings if sentence not in known]  # those stand first already
+    warnings = [one for one in store.warnings if one.code not in ("rim", "yield")]  # those stand first already
     at_rim = [f"{said[0].upper()}{said[1:]}." for said in rims]
     doubts = (*yields, *at_rim, *_cut(store), *_constants(store, summary), *_version(store))
     return Answer(question, headline, tone, (*tells, *_read_first(warnings)), doubts, tuple(warnings))
@@ -142,11 +141,11 @@ def _plane(fatigue):
     return (f"The critical plane at the surface, on which a crack would begin, is at {both}.{known}",)
 
 
-def _of_film(summary):
+def _of_film(summary, scene):
     part, when = (summary["transient"], "least") if "transient" in summary else (summary["steady"], "smallest")
     film, pressure = (_with_error(part, key, unit) for key, unit in (("h_min_m", "m"), ("p_max_Pa", "Pa")))
     centre = _with_error(summary["steady"], "h_c_m", "m")
-    why = next((f"No fatigue index: {text}." for text in summary["left_out"] if text.startswith("stresses and fatigue")), "")
+    why = f"No fatigue index: {scene.without_fatigue}." if scene.without_fatigue else ""
     return FILM, f"The {when} film is {film}, the largest pressure {pressure}.", "none", tuple(filter(None, (
         f"The film in the middle of the steady contact is {centre}.", why)))
 

@@ -2,7 +2,7 @@
 
 from tehl_taichi.scene import acting, domain, frozen, keys, named_steels, oil_range, passing, room, route, scales, thin_film
 from tehl_taichi.values.quantity import Number
-from tehl_taichi.values.warned import once, warned
+from tehl_taichi.values.warned import once, warned, with_data
 
 
 def warnings(scene):
@@ -25,8 +25,9 @@ def cut_passage(scene):
     """A passage that ends although the feature still is in the contact; not one of no steps, where nobody wants any."""
     end = route.cut_at(scene)
     if end is not None and scene.time.steps != 0:
-        yield (f"passage cut at {end:.2f} a: its extremes and fatigue cover only a part; the whole passage ends at "
-               f"{route.uncut(scene).path[1]:.2f} a; `tehl resume STORE` continues")
+        whole = route.uncut(scene).path[1]
+        yield with_data(f"passage cut at {end:.2f} a: its extremes and fatigue cover only a part; the whole passage ends at "
+                        f"{whole:.2f} a; `tehl resume STORE` continues", end_a=end, whole_a=whole)
 
 
 MISSED = 0.35  # of Fi, per a between moments: at most 2, 3.6 and 7 % at 0.06, 0.125 and 0.19 a (gear, every choice of moments)
@@ -36,9 +37,10 @@ def thinned(scene):
     """Moments that a fatigue search misses where not every step is stored."""
     every, apart = scene.output.every, scene.output.every * route.step_length(scene)
     if every > 1 and scene.fatigue_wanted:
-        yield (f"output.every = {every} leaves {apart:.3f} a between the moments of the fatigue search, so Fi can be "
-               f"{MISSED * apart:.0%} too small; use a distance of about 0.01 a at entry and exit (every step has "
-               f"{apart / every:.3f} a)")
+        text = (f"output.every = {every} leaves {apart:.3f} a between the moments of the fatigue search, so Fi can be "
+                f"{MISSED * apart:.0%} too small; use a distance of about 0.01 a at entry and exit (every step has "
+                f"{apart / every:.3f} a)")
+        yield with_data(text, every=every, apart_a=apart)
 
 
 FAINT, PRESSED = 1e8, 3e8  # Pa: steel under less hardly needs this program; what a load in another unit gives at least

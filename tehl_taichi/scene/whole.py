@@ -317,7 +317,7 @@ class Scene:
         elif cut and (end := cut_at(self)) is not None:
             out.append(f"rest of the passage (cut at {end:.2f} a by time.steps or time.x_end; `tehl resume` continues)")
         if not self.fatigue_wanted:
-            out.append("stresses and fatigue (" + ("switched off" if not self.fatigue.on else "no passage") + ")")
+            out.append(self.without_fatigue)
         if self.operation.u_s == 0:
             out.append("sliding friction (SRR = 0)")
         if not self.rheology.thins:
@@ -332,6 +332,12 @@ class Scene:
     def fatigue_wanted(self):
         """Fatigue needs a passage: the stress history of material points."""
         return self.fatigue.on and self.transient
+
+    @property
+    def without_fatigue(self):
+        """Why it has no fatigue index, as :meth:`left_out` lists it; "" where it has one."""
+        why = "" if self.fatigue_wanted else "no passage" if self.fatigue.on else "switched off"
+        return f"stresses and fatigue ({why})" if why else ""
 
     def replace(self, **changes: Any) -> "Scene":
         """Return a changed copy.

@@ -13,6 +13,7 @@ from tehl_taichi.scene import Scene
 from tehl_taichi.study.progress import ERRORS, PASSAGE, STEADY, Progress
 from tehl_taichi.study.stored_run import Run
 from tehl_taichi.values.given_path import folder_of, path_of
+from tehl_taichi.values.warned import texts
 
 
 def run(scene: Scene | str | PathLike, path: str | PathLike | None = None, *, force: bool = False, threads: int | None = None,
@@ -125,7 +126,7 @@ def _begin(scene, place, clock, progress):
         progress.warn(f"{first.unsettled}; the passage starts from an unsteady state")
     steady = {"steady_error": plain(first.error), "steady_unknown": first.unknown, "steady_parts": plain(first.parts),
               "steady_domain": first.domain.values()}
-    attrs = {"warnings": json.dumps(scene.warnings()), **{name: json.dumps(value) for name, value in steady.items()},
+    attrs = {**texts(scene.warnings()), **{name: json.dumps(value) for name, value in steady.items()},
              **provenance(scene)}
     with Store.create(place, scene, first, most_steps(scene) + 1, attrs) as saved:
         return _finish(saved, saved.go_back(), steady, clock, progress)

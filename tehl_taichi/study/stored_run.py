@@ -60,7 +60,15 @@ class Run:
 
     @property
     def warnings(self) -> list:
-        """What is doubtful, a sentence each; of a run that is not finished: in its scene."""
+        """What is doubtful: sentences that carry a `code` and `data`; of a run that is not finished: in its scene.
+
+        Examples
+        --------
+        >>> import tehl_taichi as tehl
+        >>> scene = tehl.scene("furrow-line").replace(**{"grid.nx": 64, "time.steps": 1, "fatigue.on": False})
+        >>> [warning.code for warning in tehl.run(scene, "cut.zarr").warnings if "end_a" in warning.data]
+        ['cut']
+        """
         return self.store.warnings
 
     def __getitem__(self, name: str) -> Quantity:
