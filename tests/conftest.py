@@ -1,6 +1,10 @@
+import os
 import signal
+import sys
 
 import pytest
+
+MOST = 4  # processes of the whole suite: each needs 1.5 GB
 
 
 def pytest_configure():
@@ -9,6 +13,17 @@ def pytest_configure():
     signal.signal(signal.SIGINT, signal.default_int_handler)
     signal.signal(signal.SIGHUP, signal.SIG_DFL)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    sys.dont_write_bytecode = False  # the commands that tests start would all compile the package anew, half a second each
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_cmdline_main(config):
+    """Folders of tests run in several processes where pytest-xdist is installed, a file in one; single files, --pdb and -n 0 in
+    this one."""
+    o, asked = config.option, getattr(config.option, "numprocesses", 0)
+    if asked is None and "PYTEST_XDIST_WORKER" not in os.environ and any(map(os.path.isdir, config.args)) and not o.usepdb:
+        o.numprocesses, o.dist, o.loadscopereorder = min(len(os.sched_getaffinity(0)), MOST), "loadfile", False
 
 
 @pytest.fixture(scope="session")

@@ -21,7 +21,8 @@ from tehl_taichi.profiles import (
     stability,
 )
 
-from tehl_taichi.scene import scene
+from tehl_taichi.scene import SceneError, scene
+from tehl_taichi.study import many, warm
 
 PNG = b"\x89PNG\r\n\x1a\n"
 
@@ -110,6 +111,9 @@ def test_speed(tmp_path, monkeypatch, direct):
     once(monkeypatch, speed)
     monkeypatch.setattr(speed, "command", lambda *words, **options: 1.5)  # a process of its own
     monkeypatch.setattr(speed, "PASSAGES", (("isothermal", None, None),))
+    assert speed.circular(64).contact.kind == "point" and speed.circular(64).grid.nx == 64
+    line = scene("gear").replace(**{"thermal.on": False, "grid.nx": 64, "grid.ny": 16, "time.steady_only": True})
+    monkeypatch.setattr(speed, "circular", lambda columns: line)  # whose kernels the passages have compiled
     text, found = done(tmp_path, "speed", "speed", "--quick", "--threads", 2)
     names = [row["what"].split(",")[0].split(":")[0] for row in found["rows"]]
     assert names == ["reference", "reference", "isothermal passage 64x16", "first step of tehl run", "isothermal passage 64x16",
@@ -133,9 +137,14 @@ def test_speed_with_targets_is_drawn_in_units_of_them():
 
 def test_stability(tmp_path, monkeypatch):
     once(monkeypatch, stability)
+    small = scene("gear").replace(**{"thermal.on": False, "grid.nx": 64, "grid.ny": 16, "time.steps": 2})
+    drawn = {"line 2 5": small, "line": SceneError("no")}
+    monkeypatch.setattr(stability, "random_cases", lambda count, seed: drawn if (count, seed) == (2, 5) else {})
     words = ("stability", "--quick", "--match", "line", "--random", 2, "--seed", 5, "--threads", 2)
     text, found = done(tmp_path, "stability", *words)
-    assert {row["name"] for row in found["rows"]} and all("line" in row["name"] for row in found["rows"])
+    verdicts = {row["name"]: row["verdict"] for row in found["rows"]}
+    assert verdicts.pop("line 2 5") == "converged" and verdicts and set(verdicts.values()) == {"refused"}
+    assert all("line" in name for name in verdicts)
     assert found["converged"] + found["refused"] + found["stopped"] == len(found["rows"]) and found["failed"] == 0
     for row in found["rows"]:
         assert lines_with(text, row["name"], row["verdict"], str(row["steps"]), f"{row['newton']:.1f}", f"{row['seconds']:.1f}")
@@ -160,15 +169,15 @@ def test_starts(tmp_path, monkeypatch):
 
 
 def test_sweep(tmp_path, monkeypatch):
-    """In a process of its own, whose one worker has one thread; more need the extra `sweep`."""
-    run = process("bench", "sweep", "--quick", "--workers", 1, "--out", tmp_path)
-    assert run.returncode == 0, run.stderr
-    found = json.loads((tmp_path / "sweep.json").read_text())
+    """On the two threads of this process in place of one of a new one."""
+    once(monkeypatch, side_by_side)
+    run = many.run
+    monkeypatch.setattr(many, "run", lambda *words, **options: run(*words, **{**options, "threads_per_worker": 2}))
+    monkeypatch.setattr(warm, "once", lambda description: None)
+    text, found = done(tmp_path, "sweep", "sweep", "--quick", "--workers", 1)
     row, = found["rows"]
-    assert row["speed_up"] == 1.0 and 0 < row["cases_s"] <= row["seconds"] and (tmp_path / "sweep.png").exists()
-    monkeypatch.setattr(side_by_side, "run", lambda *words: found["rows"])
-    assert done(tmp_path / "again", "sweep", "sweep", "--quick")[1] == found
-    assert lines_with(run.stdout, "1", f"{row['seconds']:.1f}", f"{row['cases_s']:.1f}", "1.00")
+    assert row["speed_up"] == 1.0 and 0 < row["cases_s"] <= row["seconds"]
+    assert lines_with(text, "1", f"{row['seconds']:.1f}", f"{row['cases_s']:.1f}", "1.00")
 
 
 def test_accuracy(tmp_path, monkeypatch, direct):

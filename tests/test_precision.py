@@ -133,6 +133,7 @@ def test_a_passage_and_its_effort(linear):
     assert steps[12].scalars["h_min_m"] == pytest.approx(0.11873e-6, rel=1e-3)
 
 
+@pytest.mark.parametrize("linear", ["f32", pytest.param("f64", marks=pytest.mark.slow)], indirect=True)
 def test_thermal_steps(linear):
     steps = list(tehl.march(gear(**linear, **{"thermal.on": True, "rheology.law": "limiting"})))
     newton, cycles = effort(steps)
