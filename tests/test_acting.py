@@ -257,5 +257,5 @@ def test_what_follows_from_other_keys_was_not_given():
     scene = Scene(features=(), contact=Contact(moes_M=20.0, moes_L=10.0), fatigue=limits, oil=sheet)
     assert not {"operation.u_m", "fatigue.endurance", "oil.G0", "oil.S0", "grid.x_min"} & acting.asked(scene)
     assert {"contact.moes_M", "fatigue.bending_limit", "oil.nu_40"} <= acting.asked(scene)
-    assert list(acting.doubts(scene)) == ["fatigue.bending_limit has no effect here: there is no fatigue without a passage"]
+    assert list(acting.doubts(scene)) == ["fatigue.bending_limit has no effect here: fatigue needs a passage"]
     assert all(not list(acting.doubts(tehl.scene(name))) for name in BUILT_INS)

@@ -64,7 +64,7 @@ def test_a_finished_flank_is_read_not_run(steady, monkeypatch):
 
 
 def test_a_folder_of_another_flank_is_refused_before_anything_runs(steady):
-    with pytest.raises(tehl.Error, match="is of another scene .*; choose another folder"):
+    with pytest.raises(tehl.Error, match="holds another scene .*; choose another folder"):
         tehl.flank("fzg-c", torque=200.0, at=("A", "C"), steady=True, changes=SMALL, folder=steady.folder)
 
 

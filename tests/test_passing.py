@@ -111,7 +111,7 @@ def test_a_patch_that_is_too_wide_may_be_made_smaller():
     patch = Feature(**dict(PATCH, shape="rough", width=60e-6, extent_y=1.2e-3, y=1e-5))
     said, = (text for text in on(256, 64, patch).warnings() if "cut off" in text)
     extent = float(said.split("feature.extent_y = ")[1].split()[0])
-    assert "makes the patch smaller); --set grid.y_max=" in said
+    assert "makes the patch smaller); use --set grid.y_max=" in said
     smaller = Feature(**dict(PATCH, shape="rough", width=60e-6, extent_y=extent, y=1e-5))
     assert not any("cut off" in text for text in on(256, 64, smaller).warnings())
     assert extent > 0.98 * 2 * (362e-6 - 1e-5)  # b less the way to the side

@@ -19,4 +19,4 @@ def warnings(scene):
     if times > MOST_R:
         yield (f"isothermal oil of {eta:.2g} Pa s at {p_H / 1e9:.3g} GPa: its sliding would need {times:.2g} times the stress "
                f"that rheology.law = {scene.rheology.law} allows, and more under a feature. The film follows an extrapolated "
-               "viscosity (plug flow); use --thermal to include frictional heat")
+               "viscosity (plug flow); use --thermal to include shear heating")
