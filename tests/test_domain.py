@@ -136,6 +136,60 @@ def test_the_same_contact_at_another_scale_has_the_same_border():
     assert a.scalars["h_c_m"] / Scales.of(one).h == pytest.approx(b.scalars["h_c_m"] / Scales.of(other).h, rel=1e-3)
 
 
+def effort(description, monkeypatch):
+    """Newton steps, Krylov iterations and sweeps of the temperatures of a start."""
+    from tehl_taichi.heat.temperatures import FilmHeat
+    from tehl_taichi.march.steady import solve_steady
+    from tehl_taichi.pressure.newton import PressureSolver
+
+    done, solve, sweep = np.zeros(3, int), PressureSolver.solve, FilmHeat.solve
+
+    def solved(*args, **options):
+        report = solve(*args, **options)
+        done[:2] += report.newton, report.cycles
+        return report
+
+    monkeypatch.setattr(PressureSolver, "solve", solved)
+    monkeypatch.setattr(FilmHeat, "solve", lambda *args, **options: (sweep(*args, **options), done.__iadd__([0, 0, 1]))[0])
+    s = Scales.of(description)
+    found = solve_steady(description, s, description.grid.nx, 0 if s.line else description.grid.ny)
+    monkeypatch.undo()
+    border = inlet.Inlet(found.solver.levels)
+    assert found.report.converged and (border.agrees() or not border.flooded)
+    return done
+
+
+@pytest.mark.usefixtures("taichi_cpu")
+@pytest.mark.parametrize("name, changes, more", [
+    ("gear", {"thermal.on": False, "grid.nx": 128}, (1.1, 1.1, 1)),
+    ("smooth-line", {"srr": -0.5, "grid.nx": 64}, (1.1, 1.1, 1.1)),
+    ("ball-on-disc", {"thermal.on": False, "grid.nx": 64, "grid.ny": 32}, (1.2, 1.1, 1)),
+    # its frozen first film, without temperatures, takes more on 32x16 cells
+    ("ball-on-disc", {"thermal.on": True, "rheology.law": "limiting", "hertz_pressure": 1e9, "speed": 0.5, "srr": -0.5,
+                      "grid.nx": 64, "grid.ny": 32}, (3, 5, 1.1))])
+def test_a_flooded_start_takes_hardly_more_than_a_starved_one(monkeypatch, name, changes, more):
+    """Border and film agree after it. The last one took 100 times the Newton steps until 0.8."""
+    flooded = scene(name).replace(**changes)
+    starved = flooded.replace(**STARVED, **{"grid.x_min": float(flooded.grid.x_min), "grid.y_max": float(flooded.grid.y_max)})
+    assert (effort(flooded, monkeypatch) <= np.array(more) * effort(starved, monkeypatch)).all()
+
+
+@pytest.mark.usefixtures("taichi_cpu")
+def test_temperatures_settle_beside_the_border_of_their_film(monkeypatch):
+    """Beside a gap of two films, which answers the border with as large a change; 0.03 of the oil's pressure were left once."""
+    from tehl_taichi.march import steady as starts
+
+    missed, agreed = [], starts.agreed
+
+    def seen(solver, border, report):
+        missed.append(np.abs(border.beyond() - border.now()).max() / border.q[-1])
+        return agreed(solver, border, report)
+
+    monkeypatch.setattr(starts, "agreed", seen)
+    shot = steady(scene("smooth-line").replace(**{**THICK, "thermal.on": True, "srr": -0.5, "grid.nx": 64, "grid.x_min": -2.5}))
+    assert shot.scalars["residual"] < 1e-6 and len(missed) == 2 and max(missed) < 2e-3
+
+
 THICK_PASSAGE = {"hertz_pressure": 6e8, "speed": 20.0, "thermal.on": False, "grid.x_max": 3.5, "grid.x_min": -2.5,
                  "grid.nx": 192, "numerics.estimate_error": False}
 LOW_RIDGE = {"feature.shape": "ridge", "height": 0.4e-6, "width": 100e-6, "time.x_start": -2.2, "time.x_end": 0.0}

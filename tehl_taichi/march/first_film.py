@@ -11,7 +11,7 @@ CLOSE = 0.03  # Krylov tolerance between blocks of temperatures: with 0.2 they m
 CAREFUL = 1e-2  # Krylov tolerance where that of the scene did not converge
 FIRST_FILM = 0.05  # central film of the first guess, Hertz units: thick enough to flow, thin enough to be near
 START_TRIES = (1.0, 0.3, 3.0)  # times FIRST_FILM
-SLIPS = (1.0,), (1e-3, 1e-2, 0.1, 1.0)  # parts of the slip that a start goes through, and again where it fails
+SLIPS = (1.0,), (1e-3, 1e-2, 0.1, 0.3, 1.0)  # parts of the slip that a start goes through, and again where it fails
 # Times the speed of the scene, that a start comes from. Down from high ones, where films are thick: thin ones are near to those
 # of three times their speed. Up from a low one a film touches on its grid, and may go on touching (lines of 15 and 50 nm on 512
 # and 1024 columns, which carry them): for grids that do not carry it
@@ -155,5 +155,8 @@ def _hertz(solver, film):
     unknown = v.get(fields.MASK) > 0  # the border keeps its pressure
     v.put(fields.P, np.where(unknown, np.sqrt(np.maximum(1 - r2, 0.0)), v.get(fields.P)))
     v.set_film(0.0)
-    centre = v.get(fields.H)[0, int(np.argmin(np.abs(v.X)))]
-    solver.H0 = film - float(centre)
+    gap = v.get(fields.H)
+    centre = float(gap[0, int(np.argmin(np.abs(v.X)))])
+    if solver.border is not None:
+        solver.border.begin(gap - centre)
+    solver.H0 = film - centre

@@ -10,8 +10,8 @@ from typing import Optional
 import numpy as np
 
 from tehl_taichi.heat.temperatures import FilmHeat
-from tehl_taichi.march.first_film import again, from_here, from_nothing, in_time, put
-from tehl_taichi.march.flooding import flood, turns
+from tehl_taichi.march.first_film import from_here, from_nothing, in_time, put
+from tehl_taichi.march.flooding import agreed, between_blocks, border_of
 from tehl_taichi.march.settle import settle, time_step
 from tehl_taichi.march.together import check, march_to_rest
 from tehl_taichi.pressure import fields
@@ -56,7 +56,8 @@ def solve_steady(scene, scales, nx, ny, look=None):
         finest, levels = size[0] == nx, Levels(scene, scales, *size)
         levels.put(fields.GAP0, levels.smooth_gap())
         solver = PressureSolver(levels, OneTemperature(levels))
-        report = flood(solver, from_nothing(solver) if P is None else _from_coarser(solver, P, H0))
+        solver.border = border_of(levels)
+        report = from_nothing(solver) if P is None else _from_coarser(solver, P, H0)
         # a grid too coarse for the outlet of this film is no start for the next one, nor a step of its error
         P, H0 = (levels.get(fields.P), solver.H0) if report.converged else (None, 0.0)
         if report.converged and not scene.isothermal and (finest or nx // size[0] <= FINEST_THERMAL and not _touches(solver)):
@@ -79,13 +80,14 @@ def _with_temperatures(solver, heat, T, finest):
     """By turns, from the temperatures T of a coarser grid; on the finest grid in time, where that fails. Returns the Report,
     and whether what did not settle is a state in time."""
     P, H0, resolved = solver.levels.get(fields.P), solver.H0, finest and not _touches(solver)
-    report, trouble = settle(solver.levels, heat, turns(solver, again), T)
-    report = flood(solver, report, again)
+    border, solver.border = solver.border, None
+    report, trouble = settle(solver.levels, heat, between_blocks(solver, border), T)
+    report = agreed(solver, border, report)
     if report.converged and trouble and resolved:
         report = check(solver, heat)
     if report.converged or not resolved:  # surfaces that touch flip from step to step: no time makes up for the grid
         return report, False
-    report = march_to_rest(solver, heat, P, H0)
+    report = agreed(solver, border, march_to_rest(solver, heat, P, H0))
     return report, not (report.converged or heat.held) and math.isfinite(heat.report.change)
 
 

@@ -13,11 +13,13 @@ import numpy as np
 
 from tehl_taichi.physics.viscosity import ln_eta
 from tehl_taichi.pressure import fields
+from tehl_taichi.scene.film_formula import central_film
 
 T, WEIGHTS = (0.5 * part for part in np.polynomial.legendre.leggauss(40))
 T = T + 0.5  # X = X_border/T beyond the border
 PRESSURES = np.concatenate([[0.0], np.geomspace(1e2, 3e9, 800)])  # Pa
 MOST = 0.95  # of the reduced pressure that the oil reaches at all
+AGREES = 1e-4  # of the same: border and film, which a border changes by its share of it
 
 
 @functools.lru_cache(maxsize=16)
@@ -65,6 +67,24 @@ class Inlet:
         P = self.levels.get(fields.P)
         P[self.border] = np.interp(np.minimum(q, MOST * self.q[-1]), self.q, self.p) / self.levels.scales.p_H
         self.levels.put(fields.P, P)
+
+    def follow(self, part=1.0):
+        """Move the border by this part of the way to the pressure of the oil beyond it. Returns whether it had to."""
+        moved = not self.agrees()
+        if moved:
+            now = self.now()
+            self.put(now + part * (self.beyond() - now))
+        return moved
+
+    def agrees(self):
+        """Whether border and film agree."""
+        miss = np.minimum(self.beyond(), MOST * self.q[-1]) - self.now()
+        return bool(np.abs(miss).max() <= AGREES * self.q[-1])
+
+    def begin(self, gap):
+        """Give the border what it has beside a film by formula; gap: of the dry contact."""
+        film = central_film(self.levels.scene) / self.levels.scales.h
+        self.put(self.without_heat(gap + film, film))
 
     def beyond(self):
         """Reduced pressure (Pa) that the oil beyond the border has there, by the film in the table."""

@@ -84,6 +84,7 @@ class PressureSolver:
         self.inside = levels.inside.astype(levels.linear)
         self.load = levels.scales.load
         self.H0, self.kept = 0.0, False
+        self.border = None  # Inlet whose border follows the film; None: it rests
         self._bind()
 
     def _bind(self):
@@ -134,11 +135,11 @@ class PressureSolver:
             step, used = self._direction(self._forcing(krylov_tolerance or numerics.krylov_tolerance, merit, tolerance))
             cycles += used
             merit = self._advance(step, merit, newton == 1, tolerance)
-            if newton == last or self._converged(merit, tolerance) or merit < enough or not np.isfinite(merit):
+            converged = not self._follow() and self._converged(merit, tolerance)
+            if newton == last or converged or merit < enough or not np.isfinite(merit):
                 break
             self.equations.linearise()
             merit = self.measure()
-        converged = self._converged(merit, tolerance)
         self.kept = self.kept and converged
         return Report(merit, self.load_error, self.mass_error, newton, cycles, converged)
 
@@ -171,6 +172,13 @@ class PressureSolver:
         if not kept:
             self.lifted, self.change = False, np.inf
         return self.measure()
+
+    def _follow(self):
+        """Whether the border has moved after the film: the equations are others then."""
+        moved = self.border is not None and self.border.follow()
+        if moved:
+            self.residual()
+        return moved
 
     def _forcing(self, krylov_tolerance, merit, tolerance):
         """Relative accuracy of the linear solve: what the Newton step is likely to gain, not much more than convergence
