@@ -10,9 +10,8 @@ from tehl_taichi.pressure import fields
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 
-# starved: with a flooded inlet the last step is tried twice, 0.16 of the tiles rest with the rounds of the attempt that failed
-GEAR = scene("gear").replace(**{"srr": -0.12, "grid.nx": 128, "grid.ny": 32, "time.x_start": -1.4, "time.x_end": -0.5,
-                                "grid.inlet": "starved", "grid.x_min": -2.5})
+# its last step has columns where oil begins to slip along a wall, whose Newton steps creep
+GEAR = scene("gear").replace(**{"srr": -0.12, "grid.nx": 128, "grid.ny": 32, "time.x_start": -1.4, "time.x_end": -0.5})
 
 
 def test_what_rests_would_hardly_move(taichi_cpu, monkeypatch):
@@ -37,7 +36,7 @@ def test_what_rests_would_hardly_move(taichi_cpu, monkeypatch):
         return report
 
     monkeypatch.setattr(FilmHeat, "solve", both)
-    list(march(GEAR))
+    assert sum(shot.scalars["rejected"] for shot in march(GEAR) if shot.step) == 0
     late = np.mean(rested[len(rested) // 2 :])  # once the guesses have steps to go by
     print(f"now: {late:.2f} of the tiles rest, they would change by up to {max(differs):.3f} K")
     assert late > 0.2

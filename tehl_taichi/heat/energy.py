@@ -58,8 +58,9 @@ QUADRATIC = 0.1  # 1/K: a Newton step of a column that changes T by d is followe
 WARM, HOT = 100.0, 900.0  # the temperature stays above the inlet's minus WARM, and below HOT (deg C)
 LONGEST = 60.0  # K, of a Newton step of a column
 # Newton steps of a column with the -d ln eta/d Gamma that it began with, and what a step must leave of the one before, or the
-# next are halved. Where oil expands at the outlet it is cold in the middle and sheared in a hot band beside a wall, its
-# -d ln eta/d Gamma three times that of the band: steps would go to and fro by 0.01 to 100 K
+# next are halved if they go to and fro. Where oil expands at the outlet it is cold in the middle and sheared in a hot band
+# beside a wall, its -d ln eta/d Gamma three times that of the band: steps go to and fro by 0.01 to 100 K. Where oil begins
+# to slip along a wall they creep, halved ones without an end
 USUAL, SLUGGISH, LEAST = 3, 0.5, 1 / 16
 LIGHT = 1e-3  # of p_H: eddies of the inlet, in a gap that nodes do not resolve, carry nothing: their columns may fail
 BETA, THROUGH = VY, U  # the velocities' slots, used again once the departure points are known
@@ -289,16 +290,16 @@ def assemble_walls(Z: ti.template(), C: ti.template(), X: ti.template(), N: ti.t
 
 @ti.func
 def update(Z: ti.template(), X: ti.template(), at: ti.template(), nz, coldest, part):
-    """Add this part of the Newton step to the temperatures. Returns the largest change (K) of the whole step and how many nodes
-    were held in range."""
-    moved, held = V(0.0), V(0.0)
+    """Add this part of the Newton step to the temperatures. Returns the largest change (K) of the whole step, its sum over the
+    nodes of each row, and how many nodes were held in range."""
+    moved, total, held = V(0.0), V(0.0), V(0.0)
     for n in range(nz):
         change = minimum(maximum(X[at.c, nz * nz + n], -LONGEST), LONGEST)
         t = Z[T, at.q * nz + n] + part * change
         Z[T, at.q * nz + n] = minimum(maximum(t, coldest), HOT)
-        moved = maximum(moved, ti.abs(change))
+        moved, total = maximum(moved, ti.abs(change)), total + change
         held += ti.select(t > HOT, V(1.0), ti.select(t < coldest, V(1.0), V(0.0)))
-    return largest_row(moved, at), sum_of_rows(held, at)
+    return largest_row(moved, at), total, sum_of_rows(held, at)
 
 
 @ti.func
@@ -330,12 +331,18 @@ def change_of_column(Z: ti.template(), at: ti.template(), nz, counts):
 
 
 @ti.func
+def paced(part, turned):
+    """Part of the next step to take: half as much where steps go to and fro (turned < 0), more where they creep."""
+    return ti.max(0.5 * part, LEAST) if turned < 0.0 else ti.min(2.0 * part, 1.0)
+
+
+@ti.func
 def solve_column(Z: ti.template(), C: ti.template(), X: ti.template(), N: ti.template(), at: ti.template(),
                  col: ti.template(), oil: ti.template(), rheology: ti.template(), scene: ti.template(), step: ti.template()):
     """Temperatures of a column by Newton. Returns 1.0 if they did not converge under load and how many nodes were held in
     range."""
     nz = N.shape[1]
-    moved, expected, part, count, clamped, failed = 1e300, 1e300, 1.0, 0, 0.0, 0.0
+    moved, expected, part, count, clamped, failed, went = 1e300, 1e300, 1.0, 0, 0.0, 0.0, V(0.0)
     while expected > step.tolerance and count < int(step.iterations):
         if count > 0:
             node_laws(Z, at.q, nz, oil, col.p, scene.ln_eta0)
@@ -345,12 +352,12 @@ def solve_column(Z: ti.template(), C: ti.template(), X: ti.template(), N: ti.tem
         assemble(Z, C, X, N, at, col, oil, rheology, scene, step)
         assemble_walls(Z, C, X, N, at, col.k / col.h, step)
         eliminate(X, at.c, nz)
-        previous = moved
-        moved, held = update(Z, X, at, nz, scene.inlet - WARM, part)
+        previous, before = moved, went
+        moved, went, held = update(Z, X, at, nz, scene.inlet - WARM, part)
         keep_parts(Z, at.q, nz, oil)
         clamped += held
         if SLUGGISH * previous < moved and previous < LONGEST:
-            part = ti.max(0.5 * part, LEAST)
+            part = paced(part, sum_of_rows(went * before, at))
         # of the next step: quadratic at first, then as the last two; saves the step that would only confirm
         expected = QUADRATIC * moved * moved if count == 1 else moved * ti.min(moved / previous, 1.0)
     if expected > step.tolerance and largest_row(col.p, at) > LIGHT * scene.p_H:
