@@ -83,3 +83,37 @@ def test_walls_that_yield_to_the_pressure(taichi_cpu, law, step, srr):
     walls come to their limit within, where the flow bends."""
     weak = {f"rheology.{key}": value for key, value in law.items()}
     assert mismatch(thick("gear", **{"thermal.on": False, "srr": srr, "speed": 3.0, **weak}), step=step) < 1e-4
+
+
+def diagonals(turned):
+    """The diagonal of a line whose walls switch: by tangents, and after a linearisation of the same state, or (turned) of the
+    one with the opposite ripple."""
+    from tehl_taichi.pressure import fields
+    from tehl_taichi.pressure.levels import Levels
+    from tehl_taichi.pressure.newton import PressureSolver
+    from tehl_taichi.pressure.one_temperature import OneTemperature
+
+    description = scene("smooth-line").replace(**{"thermal.on": False, "srr": 0.12, "grid.nx": 64})
+    levels = Levels(description, Scales.of(description), 64, 0)
+    solver, X = PressureSolver(levels, OneTemperature(levels)), levels.X[None, :]
+
+    def linearised(ripple, again):
+        levels.put(fields.P, np.sqrt(np.maximum(1 - X**2, 0)) + ripple * np.cos(20 * X) * (np.abs(X) < 0.8))
+        solver.residual()
+        solver.equations.linearise(again=again)
+        return levels.get(fields.D)[0, 1:-1].copy()
+
+    tangents = linearised(0.3, False)
+    linearised(-0.3 if turned else 0.3, False)
+    return tangents, linearised(0.3, True)
+
+
+def test_a_flux_that_was_expected_has_its_tangent(taichi_cpu):
+    tangents, found = diagonals(turned=False)
+    np.testing.assert_allclose(found, tangents, rtol=1e-9)
+
+
+def test_a_flux_that_was_not_expected_has_a_steeper_slope(taichi_cpu):
+    """Between tangent and secant: nowhere flatter, and by far steeper where the walls have switched."""
+    tangents, found = diagonals(turned=True)
+    assert (found > 0.999 * tangents).all() and (found > 1.1 * tangents).sum() > 5 and (found > 1.5 * tangents).any()

@@ -50,7 +50,7 @@ def test_coarse_passage_conserves_and_leaves_the_steady_state_behind(law):
     for s in steps:
         assert s.scalars["load_error"] < 1e-6 and s.scalars["residual"] < 1e-6 and s.scalars["mass_error"] < 1e-6
     effort = sorted(s.scalars["cycles"] for s in steps[1:])
-    assert effort[-2] < 80 and effort[-1] < 200  # one step of the exit may be solved twice on cells so large (0.95 a, limiting)
+    assert effort[-1] < 80
     assert max(s.scalars["p_max_Pa"] for s in steps) > 1.5 * steps[0].scalars["p_max_Pa"]
     assert steps[-1].scalars["p_max_Pa"] == pytest.approx(steps[0].scalars["p_max_Pa"], rel=0.02)
 

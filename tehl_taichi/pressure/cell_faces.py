@@ -8,7 +8,8 @@ itself, and the Newtonian stress of the sliding, that of the face's own viscosit
 from tehl_taichi.engine.lanes import V, above, below
 from tehl_taichi.engine.language import ti
 from tehl_taichi.physics.sheared_flow import either
-from tehl_taichi.pressure.fields import DLE, DRP, DX, DY, GAP, IE, LE, P_H, ROOT, SHEAR, WALL, P
+from tehl_taichi.pressure.fields import BASE, DLE, DRP, DX, DY, GAP, IE, LE, P_H, RISE, ROOT, SHEAR, WALL, P
+from tehl_taichi.pressure.saturation import Line, share, unknown
 
 LARGEST = 1e30  # Pa, Newtonian stress of the sliding: ghosts have no film
 SMALLEST = 1e-300
@@ -60,6 +61,7 @@ class Face:
     h0: V  # and by the film of both
     h1: V
     eps: V  # the mobility
+    base: V  # the flux less eps times the difference of P
 
 
 @ti.func
@@ -231,18 +233,29 @@ def yield_of(a, b, mean, eps, rheology: ti.template(), wall, along: ti.template(
 
 
 @ti.func
-def linear_face(a, da, b, db, rheology: ti.template(), wall, x: ti.template()):
-    """The Face between the Nodes a and b with their Slopes; x: whether it lies along the sliding."""
+def bent(y, line, eps, g, rheology: ti.template(), along: ti.template()):
+    """The Yield with the :func:`share` of its bend: along the sliding walls switch, across it they do not."""
+    if ti.static(rheology.thins and along):
+        bend = y.along - y.part
+        kept = share(line, eps * g * y.part, g, bend)
+        y = Yield(part=y.part, along=y.part + kept * bend, by_p=kept * y.by_p, by_h=kept * y.by_h, by_le=kept * y.by_le,
+                  by_skew=kept * y.by_skew)
+    return y
+
+
+@ti.func
+def linear_face(a, da, b, db, line, rheology: ti.template(), wall, x: ti.template()):
+    """The Face between the Nodes a and b with their Slopes; line: its last Line; x: whether it lies along the sliding."""
     mean, mean_0, mean_1 = log_mean(a.le, b.le, a.ie, b.ie)
     c, c0, c1 = cube(a.gap, b.gap)
     g, r, m = b.p - a.p, a.root * b.root, a.root * b.root * c
     eps = m * mean
-    y = yield_of(a, b, mean, eps, rheology, wall, x)
+    y = bent(yield_of(a, b, mean, eps, rheology, wall, x), line, eps, g, rheology, x)
     by_p, by_h, by_mean, along = eps * g * y.by_p, eps * g * y.by_h, m * g * (y.part - y.by_le), g * y.part * mean
     by_skew, carried = eps * g * y.by_skew, eps * y.along
     return Face(p0=along * c * b.root * da.root - by_mean * mean_0 * da.le + by_skew * da.skew + by_p - carried,
                 p1=along * c * a.root * db.root - by_mean * mean_1 * db.le + by_skew * db.skew + by_p + carried,
-                h0=along * r * c0 + by_h, h1=along * r * c1 + by_h, eps=carried)
+                h0=along * r * c0 + by_h, h1=along * r * c1 + by_h, eps=carried, base=eps * g * y.part - carried * g)
 
 
 @ti.func
@@ -255,18 +268,25 @@ def slopes(S: ti.template(), k, n2, up: ti.template(), skew: ti.template()):
 
 
 @ti.func
-def face_x(S: ti.template(), k, skew: ti.template(), rheology: ti.template(), wall: ti.template()):
-    return linear_face(node(S, k, 0, 0, skew), slopes(S, k, 0, 0, skew), node(S, k + 1, 0, 0, skew),
-                       slopes(S, k + 1, 0, 0, skew), rheology, wall, True)
+def face_x(S: ti.template(), k, known, skew: ti.template(), rheology: ti.template(), wall: ti.template()):
+    """The Face to the right of k, its Line kept for the next linearisation; known: whether there is one of this solve."""
+    line = unknown()
+    if ti.static(rheology.thins):
+        line = Line(base=S[BASE, k], rise=S[RISE, k], known=known)
+    face = linear_face(node(S, k, 0, 0, skew), slopes(S, k, 0, 0, skew), node(S, k + 1, 0, 0, skew),
+                       slopes(S, k + 1, 0, 0, skew), line, rheology, wall, True)
+    if ti.static(rheology.thins):
+        S[BASE, k], S[RISE, k] = face.base, face.eps
+    return face
 
 
 @ti.func
 def face_above(S: ti.template(), k, n2, skew: ti.template(), rheology: ti.template(), wall: ti.template()):
     return linear_face(node(S, k, n2, 0, skew), slopes(S, k, n2, 0, skew), node(S, k, n2, 1, skew),
-                       slopes(S, k, n2, 1, skew), rheology, wall, False)
+                       slopes(S, k, n2, 1, skew), unknown(), rheology, wall, False)
 
 
 @ti.func
 def face_below(S: ti.template(), k, n2, skew: ti.template(), rheology: ti.template(), wall: ti.template()):
     return linear_face(node(S, k, n2, -1, skew), slopes(S, k, n2, -1, skew), node(S, k, n2, 0, skew),
-                       slopes(S, k, n2, 0, skew), rheology, wall, False)
+                       slopes(S, k, n2, 0, skew), unknown(), rheology, wall, False)

@@ -17,13 +17,13 @@ class Equations:
 
     def __init__(self, levels, film):
         v, rows, rheology = levels, film.rows, levels.scene.rheology
-        self.levels, self.film = levels, film
+        self.levels, self.film, self.known = levels, film, np.zeros(1)
         self.evaluate = v.launch(reynolds.residual, v.S, v.G, rows.couette, rows.skew, rheology)
         blocks, injected = v.sizes[1][1] // W + 1 if len(v.sizes) > 1 else 0, np.array(fields.STATE + rows.follow, np.int32)
         self.inject = v.launch(transfer.inject, v.S, v.J, v.G, len(v.sizes), blocks, injected, work=HEAVY)
         self._rows, self._rows_coarse = (
-            v.launch(reynolds.linearise, v.S, v.J, v.G, v.blocks, *cut, rows.couette, rows.slope, rows.skew, rheology,
-                     work=HEAVY)
+            v.launch(reynolds.linearise, v.S, v.J, v.G, v.blocks, *cut, self.known, rows.couette, rows.slope, rows.skew,
+                     rheology, work=HEAVY)
             for cut in ((0, v.fine), (v.fine, len(v.blocks))))
 
     def residual(self, H0):
@@ -32,9 +32,10 @@ class Equations:
         self.film.values()
         self.evaluate()
 
-    def linearise(self, kept=False):
+    def linearise(self, kept=False, again=False):
         """Slopes of the laws (kept: those that are there), Jacobian rows and the diagonal of the finest level; needs
-        :meth:`residual`."""
+        :meth:`residual`. again: after a Newton step of the same solve."""
+        self.known[0] = again
         if not kept:
             self.film.slopes()
         self._rows()

@@ -38,6 +38,8 @@ R = next(_row)  # residual of the Reynolds equation, times dx
 D = next(_row)  # its diagonal
 DRY = next(_row)  # 1 where P = 0 is the equation (cavitated, or outside the unknowns)
 TOUCH = next(_row)  # 1 where H = H_floor is the equation (solid contact)
+BASE = next(_row)  # flux to the next node along x by the difference g of P, as the last linearisation had it: BASE + RISE g,
+RISE = next(_row)  # times the distance (laws that thin only)
 NROWS = next(_row)
 RHOC = NROWS  # with temperatures: density that the Couette flow carries, over rho_0 (isothermal: RHO)
 QCP = next(_row)  # d(RHOC H)/dP at fixed H (isothermal: QP)

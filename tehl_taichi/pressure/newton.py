@@ -18,6 +18,10 @@ from tehl_taichi.pressure.preconditioner import AdditiveLines
 SHORTEST_STEP = 0.05  # of a Newton step; below it a step is taken as it is and the next linearisation decides
 SMALL_CHANGE = 0.05  # in P/p_H: near the solution full steps are taken although the merit may rise for a moment
 SMALL_MERIT = 1e-2
+# So often in a solve: two states that full steps take into each other have no end. As a ridge leaves
+# (test_effort), most Newton steps in one with 0, 1, 2, 3: 30, 10, 12, 14; always: one is rejected. Its start: 1 costs 14 Krylov
+# iterations more
+RISES = 2
 # and up to here a later round of a step keeps the slopes of the laws: Newton steps and evaluations of the laws a step, 256x64x9
 # at SRR -0.12: never 2.99, 7.5; up to here 2.97, 6.8; up to 0.01, 0.02 and 0.05 2.98, 3.02 and 3.03 Newton steps (64 columns:
 # 3.25, 3.38, 3.44, 3.44, 3.63)
@@ -138,7 +142,7 @@ class PressureSolver:
             converged = not self._follow() and self._converged(merit, tolerance)
             if newton == last or converged or merit < enough or not np.isfinite(merit):
                 break
-            self.equations.linearise()
+            self.equations.linearise(again=True)
             merit = self.measure()
         self.kept = self.kept and converged
         return Report(merit, self.load_error, self.mass_error, newton, cycles, converged)
@@ -168,7 +172,7 @@ class PressureSolver:
         merit."""
         self.residual()
         self.equations.linearise(kept and self.change < SAME_SLOPES)
-        self.before, self.kept = None, kept
+        self.before, self.kept, self.rises = None, kept, 0
         if not kept:
             self.lifted, self.change = False, np.inf
         return self.measure()
@@ -224,8 +228,8 @@ class PressureSolver:
             self.mass_row *= min(1.0, float(np.sqrt(b @ b)) / defect)
 
     def _advance(self, step, merit, first, tolerance):
-        """Damped update: halve until the merit falls (or the change is small and the merit stays small). Returns the merit, by
-        the row scales of the last linearisation."""
+        """Damped update: halve until the merit falls (or, RISES times, the change is small and the merit stays small). Returns
+        the merit, by the row scales of the last linearisation."""
         old_H0, t = self._keep(step), 1.0
         largest = float(np.abs(step[:-1]).max())
         while True:
@@ -233,9 +237,9 @@ class PressureSolver:
             self.residual()
             new = self.measure()
             falls = new < (1 - 1e-4 * t) * merit or (first and new < 2 * merit)
-            settled = t * largest < SMALL_CHANGE and new < SMALL_MERIT
+            settled = t * largest < SMALL_CHANGE and new < SMALL_MERIT and self.rises < RISES
             if falls or settled or new < tolerance or t < SHORTEST_STEP:
-                self.change = t * largest
+                self.change, self.rises = t * largest, self.rises + (new >= merit)
                 return new
             t *= 0.5
 

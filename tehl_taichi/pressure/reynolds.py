@@ -4,7 +4,21 @@ Conservative five-point Poiseuille part; Couette part third-order upwind-biased,
 time derivative of the newest level, in a frame that may move with the oil. Everything is multiplied by dx.
 """
 
-from tehl_taichi.engine.lanes import Blocks, L, LinearFlat, Table, V, W, above, below, cells, face_weights, lanes_in, lanes_out
+from tehl_taichi.engine.lanes import (
+    Blocks,
+    Flat,
+    L,
+    LinearFlat,
+    Table,
+    V,
+    W,
+    above,
+    below,
+    cells,
+    face_weights,
+    lanes_in,
+    lanes_out,
+)
 from tehl_taichi.engine.language import ti
 from tehl_taichi.pressure.cell_faces import Face, driven_x, face_above, face_below, face_x, net_driven_y, wall_x, wall_y
 from tehl_taichi.pressure.couette import couette_weights
@@ -94,11 +108,12 @@ def store_rows(J: ti.template(), k, rows: ti.template(), c0, c1, c2, c3):
 
 @ti.kernel
 def linearise(S: ti.template(), J: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: ti.i32,
-              couette: ti.template(), slope: ti.template(), skew: ti.template(), rheology: ti.template(),
+              known: Flat, couette: ti.template(), slope: ti.template(), skew: ti.template(), rheology: ti.template(),
               alone: ti.template()):
     """Jacobian rows, EPS and the diagonal in the blocks first..last-1; needs `laws` and `slopes`.
 
-    couette: row of the density in the Couette flow, slope: row of its derivative, skew: as in
+    known[0]: 1 after another linearisation of the same solve (:mod:`tehl_taichi.pressure.saturation`), else 0; couette: row of
+    the density in the Couette flow, slope: row of its derivative, skew: as in
     :class:`tehl_taichi.pressure.fields.LawRows`.
     """
     ti.loop_config(block_dim=1, serialize=alone)
@@ -109,10 +124,10 @@ def linearise(S: ti.template(), J: ti.template(), G: Table, blocks: Blocks, firs
         up, down = face_weights(s, ny)
         metric, inv, CT_l, K_0, K_1 = G[l, DX] / G[l, DY] ** 2, 1 / G[l, DX], G[l, CT], G[l, K0], G[l, K1]
         frame, along, across = G[l, FRAME], wall_x(G, l), wall_y(G, l)
-        left = Face(p0=V(0.0), p1=V(0.0), h0=V(0.0), h1=V(0.0), eps=V(0.0))
+        left = Face(p0=V(0.0), p1=V(0.0), h0=V(0.0), h1=V(0.0), eps=V(0.0), base=V(0.0))
         for i in range(nx):
             k = off + s * n2 + i
-            right = face_x(S, k, skew, rheology, along)
+            right = face_x(S, k, known[0], skew, rheology, along)
             if i > 0:
                 w = couette_weights(i)
                 q, c = stencil(S, k, slope, QP, frame), stencil(S, k, couette, RHO, frame)
