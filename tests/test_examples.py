@@ -67,6 +67,11 @@ def test_functions_stay_where_folders_have_their_names():
         assert inspect.ismodule(folder) and getattr(tehl, name) is getattr(api, name)
 
 
+def test_an_old_name_works_and_warns():
+    with pytest.warns(DeprecationWarning, match="tehl_taichi.simulate"):
+        assert importlib.import_module("tehl_taichi.march").simulate is tehl.simulate
+
+
 def test_classes_and_functions_of_one_name_have_the_same_defaults():
     from tehl_taichi.figures.animation import animate
     from tehl_taichi.flank.whole_flank import flank

@@ -16,7 +16,7 @@ matplotlib = pytest.importorskip("matplotlib")
 @pytest.mark.parametrize("wrong, said", [(dict(format="jpg"), "format = 'jpg'.*allowed: png, pdf, svg"),
                                          (dict(dpi=5), "dpi = 5 is out of range; allowed: 40 to 1200"),
                                          (dict(width=3), "width = 3 cm is out of range; allowed: at least 5 cm and at most 60"),
-                                         (dict(width=50, dpi=1200), "width = 50 cm with dpi = 1200 is 23622 dots")])
+                                         (dict(width=50, dpi=1200), "width = 50 cm with dpi = 1200 gives 23622 dots")])
 def test_pages_that_nobody_can_print_are_refused(wrong, said):
     with pytest.raises(SceneError, match=said):
         Page(**wrong)

@@ -26,3 +26,15 @@ def march(scene: "Scene", state: dict | None = None, precision: str | None = Non
         raise SceneError(f"the state has {found[1]} x {found[0]} nodes, the scene {wanted[1]} x {wanted[0]}; it belongs to "
                          "another scene")
     return run(scene if precision is None else scene.replace(**{"numerics.precision": precision}), state)
+
+
+def __getattr__(name):
+    """Its name before version 0.9."""
+    if name != "simulate":
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    import warnings
+
+    from tehl_taichi.api import simulate
+
+    warnings.warn("tehl_taichi.march.simulate is tehl_taichi.simulate", DeprecationWarning, stacklevel=2)
+    return simulate
