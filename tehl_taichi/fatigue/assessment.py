@@ -31,9 +31,8 @@ class FatigueResult:
     Examples
     --------
     >>> import tehl_taichi as tehl
-    >>> scene = tehl.scene("furrow-line").replace(**{"grid.nx": 64, "time.steps": 3, "fatigue.depths": []})
-    >>> tehl.fatigue(tehl.simulate(scene), scene)  # doctest: +ELLIPSIS
-    <tehl.FatigueResult: Fi_max ... at the surface, ... maps>
+    >>> tehl.FatigueResult({"Fi_max": 0.97, "below": {"Fi_max": 1.21}}, {}, {}, None)
+    <tehl.FatigueResult: Fi_max 0.97 at the surface, 1.21 below, 0 maps>
     """
 
     summary: dict

@@ -26,7 +26,7 @@ class Run:
     Examples
     --------
     >>> import tehl_taichi as tehl
-    >>> scene = tehl.scene("smooth-line").replace(**{"grid.nx": 128, "thermal.on": False})
+    >>> scene = tehl.scene("smooth-line").replace(**{"grid.nx": 64, "thermal.on": False})
     >>> run = tehl.run(scene, "shown.zarr")
     >>> run.path.name, run.finished, run.scene == scene, run.rest()
     ('shown.zarr', True, True, None)
@@ -65,9 +65,9 @@ class Run:
         Examples
         --------
         >>> import tehl_taichi as tehl
-        >>> scene = tehl.scene("furrow-line").replace(**{"grid.nx": 64, "time.steps": 1, "fatigue.on": False})
-        >>> [warning.code for warning in tehl.run(scene, "cut.zarr").warnings if "end_a" in warning.data]
-        ['cut']
+        >>> cut, = (one for one in tehl.scene("gear").replace(**{"time.steps": 1}).warnings() if one.code == "cut")
+        >>> cut[:11], sorted(cut.data)
+        ('passage cut', ['end_a', 'whole_a'])
         """
         return self.store.warnings
 
