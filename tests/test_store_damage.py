@@ -237,7 +237,7 @@ def test_a_disk_that_is_full_at_the_end(path, monkeypatch):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr("tehl_taichi.disk.files.replace", full)
-    with Store.write(path) as saved, pytest.raises(Interrupted, match="every step is stored; then: tehl resume"):
+    with Store.write(path) as saved, pytest.raises(Interrupted, match="every step is stored; then use: tehl resume"):
         saved.finish({"steps": 2}, {"Fi": ([[1.0]], ["i", "j"], "1", "index")})
     monkeypatch.undo()
     half = Store.open(path)
@@ -255,7 +255,7 @@ def test_a_disk_that_is_full_when_a_run_goes_on(path, monkeypatch):
         saved.append(shot(3))
         monkeypatch.setattr("tehl_taichi.disk.files.replace", full)
         for change in (saved.go_back, lambda: saved.extend(SMALL)):
-            with pytest.raises(Interrupted, match="No space left on device; then: tehl resume"):
+            with pytest.raises(Interrupted, match="No space left on device; then use: tehl resume"):
                 change()
     monkeypatch.undo()
     assert len(Store.open(path)) == 4

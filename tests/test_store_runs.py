@@ -182,7 +182,7 @@ def test_a_full_disk_in_the_middle_of_a_run(tehl, unbroken, monkeypatch):
     monkeypatch.setattr("tehl_taichi.study.recorder.SHOWN", 0.0)
     code, _, said = tehl(*RIDGE, "--out", "full.zarr")
     assert code == 4 and len([line for line in said.splitlines() if not line.startswith("warning: ")]) == 1
-    assert "cannot write to full.zarr: No space left on device" in said and "then: tehl resume full.zarr" in said
+    assert "cannot write to full.zarr: No space left on device" in said and "tehl resume full.zarr" in said
     left[0] = 10**9
     assert 1 < len(Store.open("full.zarr")) < 52
     assert tehl("resume", "full.zarr", "--threads", 2, "--quiet")[0] == 0

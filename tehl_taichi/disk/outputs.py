@@ -55,7 +55,7 @@ def check(path, force=False, kind="", parts="", of=None):
     if what := links.strange(os.lstat(path)):
         raise StoreError(f"{path} is {what}, and tehl does not write through links; remove it or choose another --out")
     if links.is_folder(path) != bool(parts):
-        what = "no folder" if parts else "a folder, not a file"
+        what = "not a folder" if parts else "a folder"
         raise StoreError(f"{path} exists and is {what}; --out takes the name of a {'folder' if parts else 'file'}")
     if not force:
         raise StoreError(exists(path))

@@ -132,7 +132,7 @@ class Store(Held, Reader):
         if int(state["step"]) != self.series["step"][number - 1]:
             raise intact.damaged(self.path, "its checkpoint is of another step")
         if number < self.steps:
-            with _told(self.path, f"then: tehl resume {self.path}"):
+            with _told(self.path, f"then use: tehl resume {self.path}"):
                 self._commit(steps=number)
         return state
 
@@ -142,13 +142,13 @@ class Store(Held, Reader):
             self.metadata.pop(name, None)
         self.scene = scene
         self.attrs.pop("summary", None)
-        with _told(self.path, f"then: tehl resume {self.path}"):
+        with _told(self.path, f"then use: tehl resume {self.path}"):
             self._commit(scene=json.dumps(scene.to_dict()), scene_toml=scene_file.dumps(scene), results="[]", finished=False,
                          **texts(scene.warnings()))
 
     def finish(self, summary, maps=None):
         """Store the summary (and maps {name: (values, dims, units, text)}) and mark the run as finished."""
-        with _told(self.path, f"every step is stored; then: tehl resume {self.path}"):
+        with _told(self.path, f"every step is stored; then use: tehl resume {self.path}"):
             group = zarr.open_group(str(self.path), mode="r+", use_consolidated=False)
             for name, (values, dims, units, text) in (maps or {}).items():
                 if name in group:
