@@ -27,7 +27,7 @@ def no_work(monkeypatch):
     (("fatigue", "none", "--dpi", 300, "--force", "--kappa", 0.2), ["--dpi 300", "--force"]),
     (("crack", "none", "--format", "pdf", "--width", 8.5), ["--format pdf", "--width 8.5"]),
     (("flank", "none", "--no-figure", "--figure-width", 8.5), ["--figure-width 8.5"]),
-    (("report", "none", "--threads", 1), ["--threads 1"]), (("report", "none", "--threads", 1, "--kappa", 0.2), []),
+    (("report", "none", "--threads", 2), ["--threads 2"]), (("report", "none", "--threads", 2, "--kappa", 0.2), []),
     (("fatigue", "none", "--dpi", 300, "--figures", "new"), []), (("run", "gear", "--dry-run"), []),
     (("bench", "stability", "--match", "none", "--random", 0, "--seed", 3, "--again", 2), ["--again 2", "--seed 3"]),
     (("bench", "stability", "--match", "none", "--random", 0, "--confirm", "--starts"), ["--starts"]),
