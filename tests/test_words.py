@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 import typer.main
+from handbook import makers
 from tehl_cli.main import app
 
 ROOT = Path(__file__).parents[1]
@@ -52,6 +53,12 @@ def test_no_house_word_in_the_help():
 def test_no_house_word_in_a_page(page):
     text = page.read_text(encoding="utf-8").replace(DEFINED.get(str(page.relative_to(ROOT)), "\0"), "")
     assert found(re.sub(r"^```.*?^```", "", text, flags=re.M | re.S)) == []
+
+
+def test_no_house_word_in_what_is_made_for_the_pages():
+    """Names of attributes stand among the public names, whatever they are called."""
+    made = {name: make() for name, make in makers.MAKERS.items() if name != "public_names"}
+    assert len(made) >= 6 and {name: words for name, text in made.items() if (words := found(text))} == {}
 
 
 def own_texts(tree):
