@@ -6,8 +6,8 @@ from typing import Optional
 
 import typer
 from tehl_cli.figure_options import Dpi, Width
-from tehl_cli.live import say
-from tehl_cli.out import put
+from tehl_cli.live_display import say
+from tehl_cli.stdout import put
 
 
 def register(app):
@@ -33,13 +33,13 @@ def animate(
     """
     import tehl_taichi as tehl
 
-    with Bar(quiet) as bar:
+    with FrameBar(quiet) as bar:
         path = tehl.animate(store, out, format=format, frames=frames, fps=fps, dpi=dpi, width=width, shown=shown, force=force,
                             progress=bar.show)
     put(path)
 
 
-class Bar:
+class FrameBar:
     """Progress on stderr: a bar in a terminal, a line for every quarter elsewhere."""
 
     def __init__(self, quiet):

@@ -5,8 +5,8 @@ from typing import List, Optional
 
 import typer
 from tehl_cli.figure_options import Dpi, Force, Format, Width
-from tehl_cli.live import say
-from tehl_cli.out import print_json, put
+from tehl_cli.live_display import say
+from tehl_cli.stdout import print_json, put
 
 
 def register(app):
@@ -29,7 +29,7 @@ def compare(
 
     Example: `tehl compare runs/gear-1.zarr runs/gear-2.zarr`
     """
-    from tehl_taichi.study.compare import compare as side_by_side
+    from tehl_taichi.runs.compare import compare as side_by_side
     from tehl_taichi.values.checks import number
 
     number("--at", at, "a", -20.0, 20.0)
@@ -44,7 +44,7 @@ def compare(
 
 
 def _scenes(found):
-    from tehl_cli.listing import list_table
+    from tehl_cli.tables import list_table
 
     if not found.differs:
         return put("the scenes are identical")
@@ -54,7 +54,7 @@ def _scenes(found):
 
 def _results(found):
     """The rows that differ, with the change where two runs are compared; then those that do not, as a line."""
-    from tehl_cli.listing import list_table
+    from tehl_cli.tables import list_table
 
     pair, lines = len(found.names) == 2, found.lines
     rows = [(line.what, *line.values, *[line.change] * pair) for line in lines if not line.same]

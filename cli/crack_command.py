@@ -6,8 +6,8 @@ from typing import Optional
 import typer
 from tehl_cli.figure_options import Dpi, Force, Format, Width
 from tehl_cli.idle_options import DRAWS, say_idle
-from tehl_cli.live import say
-from tehl_cli.out import print_json, put
+from tehl_cli.live_display import say
+from tehl_cli.stdout import print_json, put
 
 
 def register(app):
@@ -51,24 +51,24 @@ def crack(
 
     Example: `tehl crack runs/gear-1.zarr --residual -100e6 --figures runs/crack`
     """
-    from tehl_taichi.crack.residual import read
-    from tehl_taichi.figures.page import Page
-    from tehl_taichi.io import kept_crack
-    from tehl_taichi.results.opened import open_run
+    from tehl_taichi.crack.residual_stress import read
+    from tehl_taichi.runs.open_results import open_run
+    from tehl_taichi.store import crack_file
+    from tehl_taichi.view.figures.figure_style import FigureStyle
 
-    page = Page(format, dpi, width, force)
+    page = FigureStyle(format, dpi, width, force)
     page.check_all(figures, ["crack"]) if figures else say_idle(context, "it needs --figures", *DRAWS)
     run = open_run(store)
     if keep:
-        kept_crack.check(store)
+        crack_file.check(store)
     result = run.crack(side=side, start=start, angle=angle, first=first, step=step, length=length, distance=distance,
                        threshold=threshold, residual=None if residual is None else read(residual), face_friction=face_friction,
                        oil=_share(oil), elements=elements, thermal_stress=thermal_stress, threads=threads)
     _show(result.summary, as_json)
     if keep:
-        say(str(kept_crack.keep(result, run.store)))
+        say(str(crack_file.keep(result, run.store)))
     if figures:
-        from tehl_taichi.figures.crack_figures import write_crack
+        from tehl_taichi.view.figures.crack_figures import write_crack
 
         say(str(write_crack(result, run.scene.name, figures, page)))
 
@@ -82,7 +82,7 @@ def _share(oil):
 
 
 def _show(summary, as_json):
-    from tehl_cli.listing import list_table
+    from tehl_cli.tables import list_table
 
     if as_json:
         print_json(summary)

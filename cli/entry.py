@@ -26,7 +26,7 @@ def main():
         sys.stdout.flush()
     except KeyboardInterrupt as stop:
         by = f"stopped by {stop}" if str(stop) else "interrupted"
-        _tell(f"{by}; all stored data are kept")
+        _print_last(f"{by}; all stored data are kept")
         code = INTERRUPTED
     except BrokenPipeError:  # as in `tehl show STORE | head`: the reader has seen enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
@@ -59,7 +59,7 @@ def _run():
     except Exception as error:  # noqa: BLE001  every failure ends in one sentence
         if debug:
             raise
-        _tell(_sentence(error))
+        _print_last(_sentence(error))
         return getattr(error, "exit_code", FAILED)
     return 0
 
@@ -71,7 +71,7 @@ def _sentence(error):
     return str(error) or type(error).__name__
 
 
-def _tell(sentence):
+def _print_last(sentence):
     """The last word; a closed terminal does not take it, which changes no exit code."""
     with contextlib.suppress(OSError):
         print(_in_a_line(f"tehl: {sentence}"), file=sys.stderr)

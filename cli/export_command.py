@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import List, Optional
 
 import typer
-from tehl_cli.out import put
+from tehl_cli.stdout import put
 
 
 def register(app):
@@ -27,7 +27,7 @@ def export(
     Examples: `tehl export runs/gear-1.zarr --at -0.5 --at 0.5 --point=-37e-6,0` · `tehl export runs/gear-1.zarr --format vtk`
     """
     import tehl_taichi as tehl
-    from tehl_taichi.results.opened import open_run
+    from tehl_taichi.runs.open_results import open_run
 
     points = [_point(text) for text in point or ()] or ()
     put(tehl.export(open_run(store), format, out, at=at or (), point=points, force=force))

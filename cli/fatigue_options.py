@@ -6,10 +6,10 @@ from typing import Annotated, Optional
 
 import typer
 
-from tehl_taichi.criteria import CRITERIA
+from tehl_taichi.laws.criteria import CRITERIA
 
 
-def _asked(
+def _options(
     kappa: Annotated[Optional[float], typer.Option(help="sensitivity to normal stress kappa_F")] = None,
     endurance: Annotated[Optional[float], typer.Option(help="fatigue limit sigma_eF, Pa")] = None,
     bending_limit: Annotated[Optional[float], typer.Option(help="fatigue limit in reversed bending, Pa (replaces "
@@ -33,10 +33,10 @@ def _asked(
     """The options, as typer reads them."""
 
 
-def asks(command):
+def with_fatigue_options(command):
     """The command with these options in place of its `**asked`: the constants that :func:`tehl_taichi.fatigue` takes, None
     where they are not given."""
-    options = inspect.signature(_asked).parameters
+    options = inspect.signature(_options).parameters
     own = [one for one in inspect.signature(command).parameters.values() if one.kind != inspect.Parameter.VAR_KEYWORD]
 
     @functools.wraps(command)

@@ -4,11 +4,11 @@ from pathlib import Path
 from typing import List, Optional
 
 import typer
-from tehl_cli.changes import check_rows, given_by
 from tehl_cli.figure_options import Dpi, FigureWidth, Format
 from tehl_cli.idle_options import DRAWS, say_idle
-from tehl_cli.live import Live, say
-from tehl_cli.out import print_json, put
+from tehl_cli.live_display import Live, say
+from tehl_cli.scene_options import check_rows, given_by
+from tehl_cli.stdout import print_json, put
 
 
 def register(app):
@@ -53,11 +53,11 @@ def flank(
     Examples: `tehl flank fzg-c --torque 265.1` · `tehl flank my_gears.toml --on gear --steady` · `tehl flank table.csv`
     """
     import tehl_taichi as tehl
-    from tehl_taichi.figures.page import Page
-    from tehl_taichi.flank import flank_figure
-    from tehl_taichi.io.found import find
+    from tehl_taichi.runs.flank import flank_figure
+    from tehl_taichi.store.load_scene import find
+    from tehl_taichi.view.figures.figure_style import FigureStyle
 
-    page = Page(format, dpi, figure_width, force=True)
+    page = FigureStyle(format, dpi, figure_width, force=True)
     flank_figure.check(out, page) if figure else say_idle(context, "--no-figure draws none", *DRAWS)
     changes = given_by({"temperature": temperature, "height": height, "width": width, "thermal.on": thermal}, grid, set_ or [])
     base = find(scene) if scene else None
@@ -80,10 +80,10 @@ def _line(gear, base, changes, steady):
     """What the scenes of all positions have in common: a line contact."""
     from math import inf
 
-    from tehl_taichi.flank.described import described
+    from tehl_taichi.runs.flank.flank_source import flank_source
 
     passes = {"time.steady_only": True} if steady else {}
-    return (base or described(gear).scene).replace(**{"contact.kind": "line", "contact.radius_y": inf, **changes, **passes})
+    return (base or flank_source(gear).scene).replace(**{"contact.kind": "line", "contact.radius_y": inf, **changes, **passes})
 
 
 def _place(text):
@@ -96,15 +96,15 @@ def _place(text):
 
 def print_flank(found):
     """Print the tables of a flank, the reasons of what has no result, and where it lies."""
-    from tehl_cli.listing import list_table
+    from tehl_cli.tables import list_table
 
-    from tehl_taichi.flank.columns import tables
+    from tehl_taichi.runs.flank.flank_columns import tables
 
     put(found.title)
     for title, (heads, lines) in tables(found.rows).items():
         list_table(title, heads, lines, whole=True)
-    put(f"assumed: {found.told['assumption']}")
-    put(f"load: {found.told['load_sharing']}")
+    put(f"assumed: {found.record['assumption']}")
+    put(f"load: {found.record['load_sharing']}")
     for at, reason in found.failed:
         put(f"no result: {at.point} (x_pl = {at.x_pl * 1e3:.3f} mm): {reason}")
     put(f"stores, flank.csv, flank.json: {found.folder}")

@@ -1,6 +1,6 @@
 """Options that were typed and change nothing beside the others: said, as of the keys of a scene."""
 
-from tehl_cli.live import say
+from tehl_cli.live_display import say
 
 DRAWS = ("format", "dpi", "width", "figure_width", "force")  # of figures: without one they have nothing to say
 

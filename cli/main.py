@@ -6,18 +6,18 @@ import typer
 import typer.core
 from tehl_cli import (
     animate_command,
-    bench,
-    cite,
+    bench_command,
+    cite_command,
     compare_command,
     crack_command,
     export_command,
-    fatigue,
+    fatigue_command,
     flank_command,
-    inspect,
-    materials,
     report_command,
-    runs,
-    sweeps,
+    run_commands,
+    show_commands,
+    steels_command,
+    sweep_command,
 )
 from tehl_cli.entry import main
 
@@ -77,14 +77,14 @@ app = typer.Typer(cls=Commands, no_args_is_help=True, add_completion=False, pret
 
 @app.callback()
 def options(version: bool = typer.Option(False, "--version", help="print the versions and the commit",
-                                         callback=lambda wanted: wanted and _tell_version(), is_eager=True)):
+                                         callback=lambda wanted: wanted and _print_version(), is_eager=True)):
     """Simulate lubricated contacts with surface features: film, pressure, stresses and fatigue.
 
     Example: tehl run --srr -0.12
     """
 
 
-def _tell_version():
+def _print_version():
     from importlib.metadata import version
     from platform import python_version
 
@@ -95,16 +95,16 @@ def _tell_version():
     raise typer.Exit()
 
 
-runs.register(app)
-sweeps.register(app)
-inspect.register(app)
+run_commands.register(app)
+sweep_command.register(app)
+show_commands.register(app)
 animate_command.register(app)
-materials.register(app)
-fatigue.register(app)
+steels_command.register(app)
+fatigue_command.register(app)
 crack_command.register(app)
 flank_command.register(app)
 compare_command.register(app)
 export_command.register(app)
 report_command.register(app)
-bench.register(app)
-cite.register(app)
+bench_command.register(app)
+cite_command.register(app)

@@ -4,10 +4,10 @@ from pathlib import Path
 from typing import Optional
 
 import typer
-from tehl_cli.fatigue_options import asks
+from tehl_cli.fatigue_options import with_fatigue_options
 from tehl_cli.idle_options import say_idle
-from tehl_cli.live import Live
-from tehl_cli.out import put
+from tehl_cli.live_display import Live
+from tehl_cli.stdout import put
 
 
 def register(app):
@@ -15,7 +15,7 @@ def register(app):
     app.command()(report)
 
 
-@asks
+@with_fatigue_options
 def report(
     store: Path = typer.Argument(..., help="store of a run (finished or not), a study, or the folder of a flank"),
     context: typer.Context = None,

@@ -6,11 +6,11 @@ import time
 import numpy as np
 from tehl_taichi.profiles.speed import circular
 
-from tehl_taichi.engine.launches import binding_seconds
-from tehl_taichi.march.error_bars import observed_order
+from tehl_taichi.engine.taichi_patches.prebound import binding_seconds
+from tehl_taichi.march.accuracy.error_bars import observed_order
 from tehl_taichi.scene import scene
+from tehl_taichi.scene.grid_for_error import columns_per_width
 from tehl_taichi.scene.scales import Scales
-from tehl_taichi.scene.target import columns_per_width
 
 TARGETS = (0.05, 0.01, 0.001)
 COLUMNS = {"steady line": (64, 128, 256, 512, 1024), "steady circle": (64, 128, 256),
@@ -183,7 +183,7 @@ def _curve(ax, own, quantity):
 
 
 def grid_errors(rows):
-    """{family: ...} of rows of a full run, as :mod:`tehl_taichi.scene.target` reads them from its file."""
+    """{family: ...} of rows of a full run, as :mod:`tehl_taichi.scene.grid_for_error` reads them from its file."""
     out = {}
     for family in dict.fromkeys(row["family"] for row in rows if "setting" not in row):
         own = [row for row in rows if row["family"] == family and row["quantity"] != "film_max_C"]

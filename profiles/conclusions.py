@@ -11,10 +11,10 @@ from tehl_taichi.profiles import measure, passage_stresses
 from tehl_taichi.profiles.passage_stresses import ALONE, DEEP, DEPTHS, LOADS, WINDOWS
 
 from tehl_taichi.errors import NotConverged
-from tehl_taichi.march import readings
-from tehl_taichi.march.error_bars import RIVAL, estimated_error
+from tehl_taichi.march.accuracy import readings
+from tehl_taichi.march.accuracy.error_bars import RIVAL, estimated_error
+from tehl_taichi.runs.sweep import pool
 from tehl_taichi.scene import scene
-from tehl_taichi.study import pool
 
 # cells along x more than across: that is what an exit asks for (docs/exit.md); those that decide have four times as many
 GRIDS, FINE_GRIDS, QUICK_GRIDS = ((128, 16), (256, 32), (512, 64)), ((512, 16), (1024, 32), (2048, 64)), ((32, 8), (64, 16))
@@ -29,7 +29,7 @@ BARE = {"fatigue.on": False, "numerics.estimate_error": False}  # both are worke
 
 
 @dataclass(frozen=True)
-class Row:
+class ConclusionRow:
     """One case: Findley stress in Pa by (loads, window) and its error, DEEP and ALONE (Pa) and their depths (m) among them;
     friction over load on the footprint at x_a = -0.5 and 0.5 a; doubts: why errors are not known; reason: why it has no
     values."""
@@ -58,13 +58,14 @@ def run(folder, quick=False, progress=None, workers=1, threads=None):
     """Rows of all cases; their stores lie in `folder` and are used again. progress: called with a line of text; workers:
     processes side by side, each on `threads` threads (None: all that are left)."""
     folder = Path(folder).absolute()
-    tell = progress if workers == 1 else None  # other processes have nobody to tell
-    jobs = [(name, description, folder, grids_of(name, quick), tell) for name, description in cases(quick).items()]
+    notify = progress if workers == 1 else None  # other processes have nobody to tell
+    jobs = [(name, description, folder, grids_of(name, quick), notify) for name, description in cases(quick).items()]
     found = {}
     for number, answer in measure.side_by_side(row, jobs, workers, threads):
         name, description = jobs[number][:2]
-        lost = isinstance(answer, pool.Lost)
-        found[name] = Row(name, description.operation.srr, {}, {}, (np.nan, np.nan), reason=answer.reason) if lost else answer
+        lost = isinstance(answer, pool.LostJob)
+        found[name] = ConclusionRow(name, description.operation.srr, {}, {}, (np.nan, np.nan),
+                                    reason=answer.reason) if lost else answer
         if progress:
             progress(f"{name}: {found[name].reason or 'done'}")
     return [found[name] for name in cases(quick)]
@@ -82,15 +83,15 @@ def row(name, description, folder, grids, progress=None):
         if progress:
             progress(f"{name}: {nx} x {ny} cells")
         try:
-            told.append(passage_stresses.told(_sized(description, nx, ny), folder / f"{_slug(name)}-{nx}x{ny}.zarr"))
+            told.append(passage_stresses.read_passage(_sized(description, nx, ny), folder / f"{_slug(name)}-{nx}x{ny}.zarr"))
         except NotConverged as error:
             told, reason = [], f"{nx} x {ny} cells: {error}"
     if not told:
-        return Row(name, description.operation.srr, {}, {}, (np.nan, np.nan), reason=reason)
+        return ConclusionRow(name, description.operation.srr, {}, {}, (np.nan, np.nan), reason=reason)
     last = told[-1]
     known = {key: error_of(key, told) for key in last.values}
     errors, doubts = ({key: pair[n] for key, pair in known.items()} for n in (0, 1))
-    return Row(name, description.operation.srr, last.values, errors, last.friction, doubts)
+    return ConclusionRow(name, description.operation.srr, last.values, errors, last.friction, doubts)
 
 
 def _sized(description, nx, ny):

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
-from tehl_taichi.disk import outputs
+from tehl_taichi.disk import user_files
 from tehl_taichi.errors import Error
-from tehl_taichi.march import companions
-from tehl_taichi.march.domain_error import Share, widened
-from tehl_taichi.march.error_bars import Reading, bars
+from tehl_taichi.march.accuracy import coarse_runs
+from tehl_taichi.march.accuracy.domain_error import DomainError, widened
+from tehl_taichi.march.accuracy.error_bars import GridReading, bars
 from tehl_taichi.scene import Scene, SceneError, scene
 
 FINER = LONGER = 4
@@ -123,7 +123,7 @@ def run(path, seed, quick=False, progress=None, exits=False):
         if progress:
             progress(f"{n + 1}: {kind}, {description.grid.nx} columns")
         rows.append({"kind": kind, "columns": description.grid.nx, **row(description)})
-        outputs.text(path, json.dumps({"program": outputs.PROGRAM, "seed": seed, "rows": rows}), force=True)
+        user_files.text(path, json.dumps({"program": user_files.PROGRAM, "seed": seed, "rows": rows}), force=True)
     return rows
 
 
@@ -174,10 +174,10 @@ def _row_of_start(description):
 def _row_of_passage(description):
     from tehl_taichi.march.passage import march
 
-    coarser, refused = companions.scenes(description)
-    own = {name: asdict(reading) for name, reading in companions.values(description).items()}
-    answers = [{"reason": reason} for reason in refused] + [companions.answer(one) for one in coarser]
-    found = truth(description, lambda one: {name: reading.value for name, reading in companions.values(one).items()})
+    coarser, refused = coarse_runs.scenes(description)
+    own = {name: asdict(reading) for name, reading in coarse_runs.values(description).items()}
+    answers = [{"reason": reason} for reason in refused] + [coarse_runs.answer(one) for one in coarser]
+    found = truth(description, lambda one: {name: reading.value for name, reading in coarse_runs.values(one).items()})
     domain = next(march(description.replace(**{"time.steps": 0}))).domain
     return {"own": own, "answers": answers, "finer": found, "domain": domain.values(),
             "inlet": description.operation.temperature}
@@ -199,13 +199,13 @@ def judged(rows):
 def _bars(one, part):
     """(readings, bars) of a row."""
     if part != "steady":
-        own = {name: Reading(**values) for name, values in one["own"].items()}
-        known = companions.judged(one["answers"], own)
+        own = {name: GridReading(**values) for name, values in one["own"].items()}
+        known = coarse_runs.judged(one["answers"], own)
     else:
-        grids = [{name: Reading(**values) for name, values in grid.items()} for grid in one["own"]]
+        grids = [{name: GridReading(**values) for name, values in grid.items()} for grid in one["own"]]
         own, known = grids[-1], bars(grids)
     values = {name: reading.value for name, reading in own.items()}
-    share = Share.from_values(one.get("domain", {}))
+    share = DomainError.from_values(one.get("domain", {}))
     return own, widened(*known, values, share, one.get("inlet", 0.0), part != "steady")[0]
 
 

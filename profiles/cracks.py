@@ -7,13 +7,13 @@ from pathlib import Path
 import numpy as np
 from tehl_taichi.profiles import measure
 
-from tehl_taichi.crack.answer import follow
-from tehl_taichi.crack.plane import plane_of
-from tehl_taichi.crack.wanted import SIDES, Wanted
+from tehl_taichi.crack.analysis import follow
+from tehl_taichi.crack.crack_options import SIDES, CrackOptions
+from tehl_taichi.crack.symmetry_plane import plane_of
 from tehl_taichi.errors import NotConverged
+from tehl_taichi.runs.single_run import completed
+from tehl_taichi.runs.sweep import pool
 from tehl_taichi.scene import scene
-from tehl_taichi.study import pool
-from tehl_taichi.study.single import completed
 
 GRIDS, QUICK_GRIDS = ((128, 32), (256, 64)), ((32, 8), (64, 16))
 BARE = {"fatigue.on": False, "numerics.estimate_error": False}  # errors of cracks are worked out here
@@ -33,7 +33,7 @@ NUMBERS = {"sigma1": ("largest tension, MPa", 1e6, "{:.0f}"), "depth": ("tension
 
 
 @dataclass(frozen=True)
-class Row:
+class CrackRow:
     """One side of one case: {number: (value, what the coarser grid, what half the elements change or nan)} of NUMBERS; lean of
     the trajectory; why the crack stopped."""
 
@@ -55,14 +55,14 @@ def cases(quick=False):
 def run(folder, quick=False, progress=None, workers=1, threads=None):
     """Generator of all rows so far, after every case; stores lie in `folder` and are used again. progress: called with a line
     of text; workers: processes side by side, each on `threads` threads (None: all that are left)."""
-    tell = progress if workers == 1 else None  # other processes have nobody to tell
+    notify = progress if workers == 1 else None  # other processes have nobody to tell
     grids, conditions = (QUICK_GRIDS, QUICK_CONDITIONS) if quick else (GRIDS, CONDITIONS)
-    jobs = [(name, description, Path(folder).absolute(), grids, conditions if name.startswith(REFERENCE) else {"": {}}, tell)
+    jobs = [(name, description, Path(folder).absolute(), grids, conditions if name.startswith(REFERENCE) else {"": {}}, notify)
             for name, description in cases(quick).items()]
     found = {}
     for number, rows in measure.side_by_side(case, jobs, workers, threads):
         name = jobs[number][0]
-        found[name] = [Row(name, "", {}, "", rows.reason)] if isinstance(rows, pool.Lost) else rows
+        found[name] = [CrackRow(name, "", {}, "", rows.reason)] if isinstance(rows, pool.LostJob) else rows
         if progress:
             progress(f"{name}: done")
         yield [row for job in jobs for row in found.get(job[0], [])]
@@ -91,26 +91,26 @@ def _stores(name, description, folder, grids, progress):
 def rows_of(name, stores, conditions):
     """The rows of a case from its stores, the finest last: two sides under every condition."""
     planes, rows = [plane_of(one.scene, one) for one in stores], []
-    for condition, wanted in conditions.items():
-        asked = Wanted(**wanted)
+    for condition, options in conditions.items():
+        asked = CrackOptions(**options)
         half = replace(asked, elements=asked.elements // 2)
-        found = [_sides(plane, store, wanted) for plane, store, wanted in
+        found = [_sides(plane, store, options) for plane, store, options in
                  ((planes[-1], stores[-1], half), *((plane, store, asked) for plane, store in zip(planes, stores)))]
         rows += [_row(", ".join(filter(None, (name, condition))), side, *(one[side] for one in found)) for side in SIDES]
     return rows
 
 
-def _sides(plane, store, wanted):
-    return follow(plane.having(wanted.residual), store.scene, wanted).summary["sides"]
+def _sides(plane, store, options):
+    return follow(plane.having(options.residual), store.scene, options).summary["sides"]
 
 
 def _row(name, side, half, *grids):
     finest = grids[-1]
     if not finest["opens"]:
-        return Row(name, side, {}, "", finest["why"])
+        return CrackRow(name, side, {}, "", finest["why"])
     numbers = _numbers(finest)
     coarser = [_numbers(grids[0]) if len(grids) > 1 and grids[0]["opens"] else {}, _numbers(half)]
-    return Row(name, side, {key: (value, *(abs(value - other.get(key, np.nan)) for other in coarser))
+    return CrackRow(name, side, {key: (value, *(abs(value - other.get(key, np.nan)) for other in coarser))
                             for key, value in numbers.items()}, finest["trajectory"]["lean"], finest["why"])
 
 

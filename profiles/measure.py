@@ -11,10 +11,10 @@ from pathlib import Path
 
 import numpy as np
 
-from tehl_taichi.disk import outputs
+from tehl_taichi.disk import user_files
 from tehl_taichi.engine import runtime
-from tehl_taichi.io.json_values import plain
-from tehl_taichi.study import pool
+from tehl_taichi.runs.sweep import pool
+from tehl_taichi.store.json_values import plain
 
 
 @dataclass(frozen=True)
@@ -56,8 +56,8 @@ def passage(description, steps=None):
 
 
 def side_by_side(work, jobs, workers=1, threads=None):
-    """Generator of (number of the job, work(*job) or :class:`tehl_taichi.study.pool.Lost`), in the order in which they end;
-    workers: processes, each on `threads` threads (None: all that are left)."""
+    """Generator of (number of the job, work(*job) or :class:`tehl_taichi.runs.sweep.pool.LostJob`), in the order in which they
+    end; workers: processes, each on `threads` threads (None: all that are left)."""
     workers, threads = pool.sizes(workers, threads)
     return pool.results(_worked, [(work, threads, job) for job in jobs], workers=workers)
 
@@ -100,13 +100,13 @@ def machine():
 
 def result(rows, **more):
     """What a suite gives, as JSON has it: the machine, its rows (dictionaries) and what else it counts."""
-    return plain({"program": outputs.PROGRAM, "machine": machine(), **more, "rows": rows})
+    return plain({"program": user_files.PROGRAM, "machine": machine(), **more, "rows": rows})
 
 
 def save(folder, name, found):
     """A :func:`result` as NAME.json, in place of an earlier one; returns the path. Raises StoreError."""
     path = Path(folder) / f"{name}.json"
-    outputs.text(path, json.dumps(found, indent=1, allow_nan=False), force=True)
+    user_files.text(path, json.dumps(found, indent=1, allow_nan=False), force=True)
     return path
 
 
@@ -118,7 +118,7 @@ def pyplot():
         return None
     from matplotlib import cycler
 
-    from tehl_taichi.figures import palette
+    from tehl_taichi.view.figures import palette
 
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt

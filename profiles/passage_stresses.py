@@ -7,14 +7,14 @@ import numpy as np
 
 from tehl_taichi.disk import files
 from tehl_taichi.errors import StoreError
-from tehl_taichi.fatigue import below, findley
-from tehl_taichi.fatigue.histories import Passage
-from tehl_taichi.fatigue.under_row import at_the_surface
-from tehl_taichi.io.place import removed
-from tehl_taichi.march import companions, readings
+from tehl_taichi.fatigue import depth_profile, findley
+from tehl_taichi.fatigue.stress.histories import StressHistories
+from tehl_taichi.fatigue.stress.row_histories import at_the_surface
+from tehl_taichi.march.accuracy import coarse_runs, readings
+from tehl_taichi.runs.single_run import completed
 from tehl_taichi.scene import Scene
 from tehl_taichi.scene.scales import Scales
-from tehl_taichi.study.single import completed
+from tehl_taichi.store.store_draft import removed
 
 WINDOWS = {"entry": (-np.inf, -0.5), "inside": (-0.5, 0.5), "exit": (0.5, np.inf), "to 0.5 a": (-np.inf, 0.5),
            "whole": (-np.inf, np.inf)}
@@ -29,7 +29,7 @@ LARGE = 100_000  # cells of a passage whose store is not kept: of 2048x64 it has
 
 
 @dataclass(frozen=True)
-class Told:
+class PassageStresses:
     """values: {(loads, window): largest Findley stress, Pa}, DEEP and ALONE (Pa) and their DEPTHS (m) among them; courses:
     {window: the pressures' :func:`course`}; friction: :func:`footprint_friction` at FRICTION_AT; doubts: {(loads, window): why
     the grid does not know it}."""
@@ -40,8 +40,8 @@ class Told:
     doubts: dict
 
 
-def told(description, store):
-    """The :class:`Told` of a scene by its run in the store at this path: as it lies there, gone on with, or run now.
+def read_passage(description, store):
+    """The :class:`PassageStresses` of a scene by its run in the store at this path: as it lies there, gone on with, or run now.
 
     A LARGE one goes when it has told; its answers, in a file beside it, serve the next time. Raises StoreError where the store
     or the file is of another scene, NotConverged.
@@ -65,12 +65,12 @@ def _kept(path, description):
         raise StoreError(f"{path} tells of another scene; choose another folder or remove it")
     values, doubts = ({tuple(key): value for key, value in content[name]} for name in ("values", "doubts"))
     courses = {window: tuple(pressures) for window, pressures in content["courses"]}
-    return Told(values, courses, tuple(content["friction"]), doubts)
+    return PassageStresses(values, courses, tuple(content["friction"]), doubts)
 
 
 def of(saved):
-    """The :class:`Told` of a finished store."""
-    return Told(stresses(saved), {window: course(saved, *ends) for window, ends in WINDOWS.items()},
+    """The :class:`PassageStresses` of a finished store."""
+    return PassageStresses(stresses(saved), {window: course(saved, *ends) for window, ends in WINDOWS.items()},
                 tuple(footprint_friction(saved, at) for at in FRICTION_AT), unresolved(saved))
 
 
@@ -80,10 +80,11 @@ def _largest(saved):
 
 
 def course(saved, low, high):
-    """The :func:`tehl_taichi.march.companions.course` of a stored passage between two positions of its feature (a)."""
+    """The :func:`tehl_taichi.march.accuracy.coarse_runs.course` of a stored passage between two positions of its feature
+    (a)."""
     at, p = _largest(saved)
     inside = (at >= low) & (at <= high)
-    return companions.course(p[inside], at[inside], saved.scene.path)
+    return coarse_runs.course(p[inside], at[inside], saved.scene.path)
 
 
 def unresolved(saved):
@@ -100,13 +101,13 @@ def stresses(saved):
     """{(loads, window): largest Findley stress, Pa}; windows with every load, the other loads over the whole passage."""
     out = {}
     for loads, changes in LOADS.items():
-        passage = Passage(saved.scene.replace(**changes) if changes else saved.scene, saved, saved.scalar("feature_x"))
+        passage = StressHistories(saved.scene.replace(**changes) if changes else saved.scene, saved, saved.scalar("feature_x"))
         history = at_the_surface(passage)(slice(0, passage.y.size))
         for window, (low, high) in WINDOWS.items():
             if loads == "all" or window == "whole":
                 inside = _moments(passage, low, high)
                 out[loads, window] = float(findley.search(history[:, inside], saved.scene.fatigue.kappa)[0].max())
-    return out | deep_stresses(Passage(saved.scene, saved, saved.scalar("feature_x")))
+    return out | deep_stresses(StressHistories(saved.scene, saved, saved.scalar("feature_x")))
 
 
 def _moments(passage, low, high):
@@ -117,7 +118,7 @@ def _moments(passage, low, high):
 def deep_stresses(passage):
     """DEEP, ALONE and their depths."""
     row = int(np.argmin(np.abs(passage.reader.y - passage.scene.features[0].y)))
-    *deep, _, alone = below.profiles(passage, [row], True, [_moments(passage, *WINDOWS[window]) for window in DEEP])
+    *deep, _, alone = depth_profile.profiles(passage, [row], True, [_moments(passage, *WINDOWS[window]) for window in DEEP])
     return {key: value for stress, profile in zip(DEPTHS, (*deep, alone))
             for key, value in ((stress, profile.worst.f), (DEPTHS[stress], profile.worst.depth))}
 

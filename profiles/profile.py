@@ -16,9 +16,9 @@ from tehl_taichi.profiles.traffic import IN_S, bytes_of
 from tehl_taichi.scene import scene
 
 # stage: the method or function that it is (below the package); a stage may contain others
-STAGES = {"pressure: Newton": "pressure.newton:PressureSolver.solve", "pressure: Krylov": "pressure.krylov:Krylov.solve",
-          "pressure: deflection": "pressure.bending:Bending.bend",
-          "pressure: build": "pressure.preconditioner:AdditiveLines.build",
+STAGES = {"pressure: Newton": "pressure.newton:PressureSolver.solve", "pressure: Krylov": "pressure.linear.solver:Krylov.solve",
+          "pressure: deflection": "pressure.deflection:Bending.bend",
+          "pressure: build": "pressure.linear.preconditioner:AdditiveLines.build",
           "temperatures": "heat.temperatures:FilmHeat.solve", "temperatures: accept": "heat.temperatures:FilmHeat.accept",
           "guess": "march.prediction:Prediction.put", "snapshot": "march.snapshot:take"}
 
@@ -31,10 +31,10 @@ def run(nx, ny, steps, thermal):
 
     To be called in a process of its own (:func:`tehl_taichi.profiles.measure.fresh`): kernels must be bound while watched.
     """
-    from tehl_taichi.engine import launches
+    from tehl_taichi.engine.taichi_patches import prebound
     from tehl_taichi.march.passage import march
 
-    watched = launches.watch_launches(bytes_of)
+    watched = prebound.watch_launches(bytes_of)
     description = scene("gear").replace(**{"grid.nx": nx, "grid.ny": ny, "thermal.on": thermal, "time.steps": steps + 1})
     started = time.perf_counter()
     passage = march(description)
@@ -55,7 +55,7 @@ def run(nx, ny, steps, thermal):
     for stage, alone in transforms_alone(nx, ny).items():
         row = next(row for row in stages if row["what"] == stage)
         row["limit_ms"] = 1e3 * alone * row["calls"]
-    numbers = {"start_s": start, "compile_s": launches.binding_seconds(), "first_step_s": first, "step_s": step,
+    numbers = {"start_s": start, "compile_s": prebound.binding_seconds(), "first_step_s": first, "step_s": step,
                "copy_GB_s": rate / 1e9}
     return stages, kernels, numbers
 

@@ -4,7 +4,7 @@ from math import ceil
 
 from tehl_taichi.profiles import measure
 
-from tehl_taichi.pressure import convolution
+from tehl_taichi.pressure.linear import convolution
 from tehl_taichi.scene import scene
 
 COLUMNS, QUICK_COLUMNS = (64, 128, 256, 512, 1024, 2048), (64, 128)
@@ -81,7 +81,7 @@ def chart(plt, rows):
 
 def _pairs(row):
     """Jobs that the deflection of a row's grid has along x."""
-    return convolution.shapes([(row["nx"], row["ny"])], [])[0].pairs
+    return convolution.transform_sizes([(row["nx"], row["ny"])], [])[0].pairs
 
 
 def _speed_up(ax, most, rows):

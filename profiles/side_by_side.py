@@ -5,9 +5,9 @@ import time
 from pathlib import Path
 
 from tehl_taichi.engine import cores
+from tehl_taichi.runs.sweep import sweeping, warm_cache
+from tehl_taichi.runs.sweep.plan import plan
 from tehl_taichi.scene import scene
-from tehl_taichi.study import many, warm
-from tehl_taichi.study.plan import plan
 
 OVER = {"srr": "-0.3:0.3:8", "feature.height": "0.5e-6,1e-6"}  # 16 cases
 QUICK = {"srr": "-0.3:0.3:2"}
@@ -18,7 +18,7 @@ def run(quick=False, most=None, progress=None):
     wall time with the start of the workers, the sum of the times of the cases, and how much faster than one worker."""
     nx, ny, steps, over = (64, 16, 4, QUICK) if quick else (128, 32, -1, OVER)
     small = scene("gear").replace(**{"thermal.on": False, "grid.nx": nx, "grid.ny": ny, "time.steps": steps})
-    warm.once(small)  # kernels are compiled and kept before the first measurement
+    warm_cache.once(small)  # kernels are compiled and kept before the first measurement
     rows, workers = [], 1
     while workers <= (most or cores.available()):
         rows.append(_timed(plan(small, over), workers))
@@ -32,7 +32,7 @@ def run(quick=False, most=None, progress=None):
 def _timed(cases, workers):
     with tempfile.TemporaryDirectory() as folder:
         began = time.perf_counter()
-        study = many.run(cases, Path(folder) / "study.zarr", workers=workers, threads_per_worker=1)
+        study = sweeping.run(cases, Path(folder) / "study.zarr", workers=workers, threads_per_worker=1)
         seconds = time.perf_counter() - began
         return {"workers": workers, "seconds": seconds, "cases_s": sum(one["seconds"] for one in study.results())}
 

@@ -9,8 +9,8 @@ import time
 import numpy as np
 from tehl_taichi.profiles import measure
 
-from tehl_taichi.figures import palette
 from tehl_taichi.scene import scene
+from tehl_taichi.view.figures import palette
 
 GRID, QUICK_GRID = (256, 64), (64, 16)
 QUICK_STEPS = 4

@@ -9,16 +9,16 @@ from typing import Optional
 import numpy as np
 from tehl_taichi.profiles import measure
 
-from tehl_taichi.criteria import CRITERIA
-from tehl_taichi.figures import palette
-from tehl_taichi.physics import rheology
-from tehl_taichi.scene import Scene, SceneError, change, scene, thin_film
+from tehl_taichi.laws import rheology
+from tehl_taichi.laws.criteria import CRITERIA
+from tehl_taichi.runs.sweep import pool
+from tehl_taichi.scene import Scene, SceneError, overrides, scene, thin_film
 from tehl_taichi.scene.feature import SHAPES, Feature
 from tehl_taichi.scene.named_oils import OILS
-from tehl_taichi.scene.parts import AUTO, Rheology
-from tehl_taichi.scene.passing import FEWEST
+from tehl_taichi.scene.resolution import FEWEST
 from tehl_taichi.scene.scales import Scales
-from tehl_taichi.study import pool
+from tehl_taichi.scene.sections import AUTO, Rheology
+from tehl_taichi.view.figures import palette
 
 LINE, POINT = {"grid.nx": 128, "grid.ny": 32}, {"grid.nx": 64, "grid.ny": 32}
 NARROW = {"grid.nx": 304, "grid.ny": 76}  # 20 um are four cells, the fewest that are taken
@@ -34,7 +34,7 @@ SHEAR_LAWS = [Rheology.law, *sorted(set(rheology.LAWS) - {Rheology.law}, reverse
 
 
 @dataclass(frozen=True)
-class Outcome:
+class CaseOutcome:
     """verdict: converged, refused (at the door), stopped (not converged, with a reason) or failed (NaN, negative film).
 
     Fi_max: fatigue index of a passage that converged, else None; unsettled: whether it began from a state in time; carried:
@@ -159,7 +159,7 @@ def edited(base, changes):
     """Scene `base` with dotted changes, and whole tables as a scene file would give them."""
     tables = {key: value for key, value in changes.items() if isinstance(value, (dict, list))}
     plain = {key: value for key, value in changes.items() if key not in tables}
-    return Scene.from_dict(change.merged(scene(base).replace(**plain).to_dict(), tables))
+    return Scene.from_dict(overrides.merged(scene(base).replace(**plain).to_dict(), tables))
 
 
 def carried(chosen):
@@ -189,8 +189,8 @@ def run(chosen, precision=AUTO, workers=1, threads=None):
     """
     jobs = [(name, description, precision) for name, description in chosen]
     for number, found in measure.side_by_side(run_case, jobs, workers, threads):
-        lost = isinstance(found, pool.Lost)
-        yield Outcome(jobs[number][0], "failed", found.reason, 0, 0.0, 0.0, 0.0) if lost else found
+        lost = isinstance(found, pool.LostJob)
+        yield CaseOutcome(jobs[number][0], "failed", found.reason, 0, 0.0, 0.0, 0.0) if lost else found
 
 
 def run_case(name, description, precision=AUTO):
@@ -202,7 +202,7 @@ def run_case(name, description, precision=AUTO):
     started, shots, newton, cycles = time.perf_counter(), [], 0.0, 0.0
     verdict, reason, index = "converged", "", None
     if isinstance(description, SceneError):
-        return Outcome(name, "refused", str(description), 0, 0.0, 0.0, 0.0)
+        return CaseOutcome(name, "refused", str(description), 0, 0.0, 0.0, 0.0)
     description = description.replace(**{"numerics.precision": precision})
     if total_steps(description) > MOST_STEPS:
         description = description.replace(**{"time.steps": MOST_STEPS})
@@ -213,7 +213,7 @@ def run_case(name, description, precision=AUTO):
             if not sound(shot):
                 verdict, reason = "failed", f"NaN or negative film at step {shot.step}"
                 break
-        if verdict == "converged" and description.fatigue_wanted and len(shots) > 2:
+        if verdict == "converged" and description.has_fatigue and len(shots) > 2:
             index = assessment.run(description, shots).summary["Fi_max"]
             if not 0 <= index < np.inf:
                 verdict, reason = "failed", f"fatigue index {index}"
@@ -226,7 +226,8 @@ def run_case(name, description, precision=AUTO):
     steps = max(len(shots) - 1, 0)
     count, seconds = max(steps, 1), time.perf_counter() - started
     unsettled = shots[0].unsettled if shots else ""
-    return Outcome(name, verdict, reason or unsettled, steps, newton / count, cycles / count, seconds, index, bool(unsettled),
+    return CaseOutcome(name, verdict, reason or unsettled, steps, newton / count, cycles / count, seconds, index,
+                       bool(unsettled),
                    thin_film.carried(description) >= 1)
 
 
@@ -237,7 +238,7 @@ def confirm(chosen, workers=1, threads=None, again=0):
     """
     jobs = [(name, description, again) for name, description in chosen.items()]
     for number, found in measure.side_by_side(confirmed, jobs, workers, threads):
-        lost = isinstance(found, pool.Lost)
+        lost = isinstance(found, pool.LostJob)
         name, description, _ = jobs[number]
         yield Confirmed(name, description.grid.nx, None, None, None, None, reason=found.reason) if lost else found
 

@@ -4,9 +4,9 @@ import inspect
 
 import numpy as np
 
-from tehl_taichi.engine.lanes import W
-from tehl_taichi.heat import slots
-from tehl_taichi.march import guess
+from tehl_taichi.engine.simd import W
+from tehl_taichi.heat import film_tables
+from tehl_taichi.march import extrapolation
 from tehl_taichi.pressure import fields
 
 # names in :mod:`tehl_taichi.pressure.fields`: of the linear problem (table J), and of the state (S)
@@ -19,8 +19,8 @@ IN_C = ("PN", "PNN", "QA", "QB", "AA", "AB", "TAU", "PX", "PY", "XA", "YA", "XB"
         "SA", "SB")
 CONSTANT = ("G", "blocks")  # arguments too small to count
 # rows of the guesses' table that a kernel reads and writes: guesses of `order` orders in two frames, what they missed, states
-OF_GUESSES = {guess.extrapolate: lambda order: 3 * order + 1, guess.judge: lambda order: 4 * order + 1,
-              guess.trust: lambda order: 4 * order}
+OF_GUESSES = {extrapolation.extrapolate: lambda order: 3 * order + 1, extrapolation.judge: lambda order: 4 * order + 1,
+              extrapolation.trust: lambda order: 4 * order}
 
 
 def bytes_of(kernel, args):
@@ -32,7 +32,7 @@ def bytes_of(kernel, args):
 
 
 def _of_guesses(kernel, given):
-    """Bytes at one node of the table F of a kernel of :mod:`tehl_taichi.march.guess`, 0 of others."""
+    """Bytes at one node of the table F of a kernel of :mod:`tehl_taichi.march.extrapolation`, 0 of others."""
     return OF_GUESSES[kernel](given["order"]) * _bytes_of_a_number(given["F"]) if kernel in OF_GUESSES else 0
 
 
@@ -43,8 +43,8 @@ def _per_node(given, names):
     total = 8 * (_rows(fields, IN_S, names) + chosen) if "S" in given else 0
     total += _bytes_of_a_number(given["J"]) * _rows(fields, IN_J, names) if "J" in given else 0
     total += 8 * given["count"] if "modes" in given else 0  # of one body
-    total += 8 * _rows(slots, IN_C, names) if "C" in given else 0
-    return total + (8 * nz * _rows(slots, IN_Z, names) if "Z" in given else 0)
+    total += 8 * _rows(film_tables, IN_C, names) if "C" in given else 0
+    return total + (8 * nz * _rows(film_tables, IN_Z, names) if "Z" in given else 0)
 
 
 def _bytes_of_a_number(field):

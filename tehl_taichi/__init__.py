@@ -48,28 +48,29 @@ from tehl_taichi.api import open as open
 from tehl_taichi.errors import Error, Interrupted, NotConverged, RuntimeUnavailable, SceneError, StoreError, UnknownName  # noqa: E402
 
 if TYPE_CHECKING:
-    from tehl_taichi.crack.answer import CrackResult
+    from tehl_taichi.crack.analysis import CrackResult
     from tehl_taichi.fatigue.assessment import FatigueResult
-    from tehl_taichi.flank.stored_flank import Flank
     from tehl_taichi.march.snapshot import Snapshot
+    from tehl_taichi.runs.compare import Comparison
+    from tehl_taichi.runs.flank.stored_flank import Flank
+    from tehl_taichi.runs.progress import Lines, Progress
+    from tehl_taichi.runs.stored_run import Run
+    from tehl_taichi.runs.sweep.study_table import Study
+    from tehl_taichi.scene.description import Scene
     from tehl_taichi.scene.feature import Feature
     from tehl_taichi.scene.gear_pair import GearPair
     from tehl_taichi.scene.oil import Oil
-    from tehl_taichi.scene.parts import Body, Contact, Fatigue, Grid, Numerics, Operation, Output, Rheology, Thermal, Time
-    from tehl_taichi.scene.whole import Scene
-    from tehl_taichi.study.compare import Comparison
-    from tehl_taichi.study.progress import Lines, Progress
-    from tehl_taichi.study.stored_run import Run
-    from tehl_taichi.study.table import Study
+    from tehl_taichi.scene.sections import Body, Contact, Fatigue, Grid, Numerics, Operation, Output, Rheology, Thermal, Time
     from tehl_taichi.values.estimate import Quantity
 
 # classes and the modules that hold them, loaded when they are used: the command line needs a few of them only
-CLASSES = {"Scene": "scene.whole", "Feature": "scene.feature", "Oil": "scene.oil", "GearPair": "scene.gear_pair",
+CLASSES = {"Scene": "scene.description", "Feature": "scene.feature", "Oil": "scene.oil", "GearPair": "scene.gear_pair",
            **dict.fromkeys(("Body", "Contact", "Fatigue", "Grid", "Numerics", "Operation", "Output", "Rheology", "Thermal",
-                            "Time"), "scene.parts"),
-           "Run": "study.stored_run", "Study": "study.table", "Flank": "flank.stored_flank", "Comparison": "study.compare",
-           "Snapshot": "march.snapshot", "FatigueResult": "fatigue.assessment", "CrackResult": "crack.answer",
-           "Lines": "study.progress", "Progress": "study.progress", "Quantity": "values.estimate"}
+                            "Time"), "scene.sections"),
+           "Run": "runs.stored_run", "Study": "runs.sweep.study_table", "Flank": "runs.flank.stored_flank",
+           "Comparison": "runs.compare",
+           "Snapshot": "march.snapshot", "FatigueResult": "fatigue.assessment", "CrackResult": "crack.analysis",
+           "Lines": "runs.progress", "Progress": "runs.progress", "Quantity": "values.estimate"}
 # not `open`: `from tehl_taichi import *` leaves the builtin alone
 __all__ = ["Body", "Comparison", "Contact", "CrackResult", "Error", "Fatigue", "FatigueResult", "Feature", "Flank", "GearPair",
            "Grid", "Interrupted", "Lines", "NotConverged", "Numerics", "Oil", "Operation", "Output", "Progress", "Quantity",

@@ -13,17 +13,17 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     import numpy as np
 
-    from tehl_taichi.crack.answer import CrackResult
+    from tehl_taichi.crack.analysis import CrackResult
     from tehl_taichi.fatigue.assessment import FatigueResult
-    from tehl_taichi.fatigue.points import Points
-    from tehl_taichi.flank.stored_flank import Flank
+    from tehl_taichi.fatigue.given_histories import Points
     from tehl_taichi.march.snapshot import Snapshot
+    from tehl_taichi.runs.compare import Comparison
+    from tehl_taichi.runs.flank.stored_flank import Flank
+    from tehl_taichi.runs.progress import Progress
+    from tehl_taichi.runs.stored_run import Run
+    from tehl_taichi.runs.sweep.study_table import Study
+    from tehl_taichi.scene.description import Scene
     from tehl_taichi.scene.gear_pair import GearPair
-    from tehl_taichi.scene.whole import Scene
-    from tehl_taichi.study.compare import Comparison
-    from tehl_taichi.study.progress import Progress
-    from tehl_taichi.study.stored_run import Run
-    from tehl_taichi.study.table import Study
 
 Name = str | PathLike
 FUNCTIONS = ("animate", "compare", "crack", "export", "fatigue", "flank", "march", "open", "report", "resume", "run", "scene",
@@ -57,7 +57,7 @@ def scene(name: "Name | Scene" = "gear") -> "Scene":
     >>> f"{fast.operation.u_a:.2f} m/s, {fast.grid.nx} cells"
     '7.99 m/s, 128 cells'
     """
-    from tehl_taichi.io.found import find
+    from tehl_taichi.store.load_scene import find
 
     return find(name)
 
@@ -109,9 +109,9 @@ def run(scene: "Scene | Name", path: Name | None = None, *, force: bool = False,
     >>> f"{run.summary['steady']['h_c_m'] * 1e6:.2f} um"
     '0.43 um'
     """
-    from tehl_taichi.study import single
+    from tehl_taichi.runs import single_run
 
-    return single.run(scene, path, force=force, threads=threads, arch=arch, progress=progress)
+    return single_run.run(scene, path, force=force, threads=threads, arch=arch, progress=progress)
 
 
 def resume(path: Name, *, steps: int | None = None, threads: int | None = None, progress: "Progress | None" = None) -> "Run":
@@ -149,9 +149,9 @@ def resume(path: Name, *, steps: int | None = None, threads: int | None = None, 
     >>> tehl.resume("begun.zarr", steps=1)
     <tehl.Run gear: 2 steps, finished, begun.zarr>
     """
-    from tehl_taichi.study import single
+    from tehl_taichi.runs import single_run
 
-    return single.resume(path, steps=steps, threads=threads, progress=progress)
+    return single_run.resume(path, steps=steps, threads=threads, progress=progress)
 
 
 def open(path: Name) -> "Run | Study | Flank":
@@ -183,9 +183,9 @@ def open(path: Name) -> "Run | Study | Flank":
     >>> study
     <Study swept.zarr: 1 cases, 1 converged>
     """
-    from tehl_taichi.results import opened
+    from tehl_taichi.runs import open_results
 
-    return opened.open(path)
+    return open_results.open(path)
 
 
 def march(scene: "Scene | str", state: dict | None = None, precision: str | None = None) -> "Iterator[Snapshot]":
@@ -354,7 +354,7 @@ def stresses(pressure: Any, traction_x: Any = None, traction_y: Any = None, dx: 
     >>> found.shape, f"{found[200, 1, 2] / 1e9:.4f} GPa"
     ((401, 2, 6), '-0.7070 GPa')
     """
-    from tehl_taichi.fatigue import given_tractions
+    from tehl_taichi.fatigue.stress import given_tractions
 
     return given_tractions.stresses(pressure, traction_x, traction_y, dx, dy, depths, nu)
 
@@ -375,7 +375,7 @@ def crack(of: Any, scene: "Scene | None" = None, *, thermal_stress: bool | None 
         As for :func:`tehl_taichi.run`.
     **options
         side ("entry", "exit", "both"), start (m), angle (degrees), first, step, length, distance (m), threshold
-        (Pa sqrt(m)), residual (Pa), face_friction, oil, elements; see :class:`tehl_taichi.crack.wanted.Wanted`.
+        (Pa sqrt(m)), residual (Pa), face_friction, oil, elements; see :class:`tehl_taichi.crack.crack_options.CrackOptions`.
 
     Returns
     -------
@@ -460,9 +460,9 @@ def sweep(scene: "Scene | Name", over: Mapping, path: Name | None = None, *, sam
     >>> study.values["steady_h_c_m"].shape, study.results()[3]["changes"]
     ((4,), {'srr': 0.2, 'speed': 15})
     """
-    from tehl_taichi.study import many
+    from tehl_taichi.runs.sweep import sweeping
 
-    return many.sweep(scene, over, path, samples=samples, seed=seed, workers=workers, threads_per_worker=threads_per_worker,
+    return sweeping.sweep(scene, over, path, samples=samples, seed=seed, workers=workers, threads_per_worker=threads_per_worker,
                       scheduler=scheduler, keep=keep, progress=progress)
 
 
@@ -523,7 +523,7 @@ def flank(gear: "Name | GearPair" = "fzg-c", *, torque: float | None = None, spe
     ...
     tehl_taichi.errors.SceneError: gear.torque = 0 N m is out of range; allowed: more than 0 N m and at most 1e+08 N m
     """
-    from tehl_taichi.flank.whole_flank import flank
+    from tehl_taichi.runs.flank.flank_run import flank
 
     return flank(gear, torque=torque, speed=speed, on=on, positions=positions, at=at, scene=scene, changes=changes,
                  steady=steady, folder=folder, workers=workers, threads=threads, progress=progress)
@@ -561,7 +561,7 @@ def compare(*paths: "Name | Run") -> "Comparison":
     >>> thin < thick
     True
     """
-    from tehl_taichi.study.compare import compare
+    from tehl_taichi.runs.compare import compare
 
     return compare(*paths)
 
@@ -607,7 +607,7 @@ def export(of: "Name | Run", format: str = "csv", path: Name | None = None, *, a
     >>> print((made / "centreline_steady.csv").read_text()[:42])
     x [m],contact [1],film [m],pressure [Pa],t
     """
-    from tehl_taichi.export import export
+    from tehl_taichi.view.export import export
 
     return export(of, format, path, at=at, point=point, force=force)
 
@@ -649,7 +649,7 @@ def report(of: Any, out: Name | None = None, *, force: bool = False, progress: A
     >>> tehl.report(tehl.run(scene, "line.zarr")).name
     'line.html'
     """
-    from tehl_taichi.report.written import report
+    from tehl_taichi.report.write import report
 
     return report(of, out, force=force, progress=progress, threads=threads, **constants)
 
@@ -701,7 +701,7 @@ def animate(source: "Name | Run", out: Name | None = None, *, format: str | None
     >>> tehl.animate(tehl.run(scene, "furrow.zarr"), dpi=40).name
     'furrow.gif'
     """
-    from tehl_taichi.figures.animation import animate
+    from tehl_taichi.view.figures.animation import animate
 
     return animate(source, out, format=format, frames=frames, fps=fps, dpi=dpi, width=width, shown=shown, force=force,
                    progress=progress)

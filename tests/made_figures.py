@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from tehl_taichi.figures.found_search import Found
-from tehl_taichi.figures.moments import Moments
-from tehl_taichi.figures.page import Page
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.view.figures.figure_style import FigureStyle
+from tehl_taichi.view.figures.moments import Moments
+from tehl_taichi.view.figures.search_data import DrawnSearch
 
 
 class Made:
@@ -58,15 +58,15 @@ def searched(one_row=False, y_worst=0.0, **more):
                "stress": np.outer(np.sin(turn), [1e8, 0, 2e8, 0, 5e7, 0])}
     maps = {"feature_frame_x": x, "feature_frame_y": y, "Fi": hill / 4e8, "fatigue_depth": np.array([0.0, 2e-5, 6e-5])}
     maps |= {"findley_stress_under_row": layers[:, :, 0]} if one_row else {"findley_stress_at_depth": layers}
-    return Found("made up", maps, {"surface": history, "below": history}, summary, 3.6e-4, "x (µm)", **more)
+    return DrawnSearch("made up", maps, {"surface": history, "below": history}, summary, 3.6e-4, "x (µm)", **more)
 
 
 def drawn(name, store, page=None, at=None):
     """One of the figures of a run."""
-    from tehl_taichi.figures import field_maps, line_figures, surface_figure
+    from tehl_taichi.view.figures import field_maps, line_figures, surface_figure
 
     draw = next(getattr(room, name) for room in (field_maps, line_figures, surface_figure) if hasattr(room, name))
-    return draw(page or Page(), Moments(store, at))
+    return draw(page or FigureStyle(), Moments(store, at))
 
 
 def title(figure):

@@ -57,8 +57,8 @@ def smooth(step, scene):
 def run(path, scene=THERMAL, entries=5, search=None, found=None, said=("something is doubtful",)):
     """A finished store; search: the summary of its fatigue, or None; found: its maps (default: :func:`maps`);
     said: its warnings."""
-    from tehl_taichi.io.store import Store
-    from tehl_taichi.io.summary import summarise
+    from tehl_taichi.runs.summary.summary import summarise
+    from tehl_taichi.store.store import Store
 
     attrs = {"runtime": '{"threads": 2}', "command": "tehl run made-up", "commit": "abc123"}
     with Store.create(path, scene, smooth(0, scene), 50, attrs) as made:
@@ -71,18 +71,18 @@ def run(path, scene=THERMAL, entries=5, search=None, found=None, said=("somethin
 
 def flank(folder):
     """A flank of three positions, the last of which did not converge."""
-    from tehl_taichi.flank.contacts import scene_at
-    from tehl_taichi.flank.described import described
-    from tehl_taichi.flank.outcomes import Outcome
-    from tehl_taichi.flank.stored_flank import Flank
-    from tehl_taichi.flank.whole_flank import about, told
+    from tehl_taichi.runs.flank.flank_run import about, flank_record
+    from tehl_taichi.runs.flank.flank_source import flank_source
+    from tehl_taichi.runs.flank.line_contacts import scene_at
+    from tehl_taichi.runs.flank.outcomes import Outcome
+    from tehl_taichi.runs.flank.stored_flank import Flank
 
-    found = described("fzg-c")
+    found = flank_source("fzg-c")
     places = found.positions("pinion", None, ("A", "C", "E"))
     scenes = [scene_at(found.scene, {}, found.name, n, place) for n, place in enumerate(places, 1)]
     summaries = [{"steady": {"h_c_m": h, "h_min_m": h / 2, "p_max_Pa": 1e9}, "fatigue": fatigue(Fi, None), "version": "made",
                   "wall_s": 1.0, "warnings": ["same everywhere"]} for h, Fi in ((1e-7, 1.4), (4e-7, 0.7))]
     outcomes = [Outcome(folder / "1.zarr", summaries[0]), Outcome(folder / "2.zarr", summaries[1]),
                 Outcome(folder / "3.zarr", reason="step 7 failed")]
-    Flank(folder, told(about(found, folder, "pinion"), places, scenes, outcomes)).write()
+    Flank(folder, flank_record(about(found, folder, "pinion"), places, scenes, outcomes)).write()
     return folder

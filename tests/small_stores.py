@@ -11,7 +11,7 @@ SMALL = scene("gear").replace(**{"grid.nx": 32, "grid.ny": 8, "thermal.on": Fals
 
 def shot(step, description=SMALL):
     """A snapshot whose every number tells its step."""
-    from tehl_taichi.march.output import fields_of, scalars_of
+    from tehl_taichi.march.step_output import fields_of, scalars_of
 
     shape = description.grid.nx + 1, description.rows + 1
     fields = {name: np.full(shape, step + 1.5) for name in fields_of(description)}
@@ -23,7 +23,7 @@ def shot(step, description=SMALL):
 
 def store(path, entries=3, description=SMALL, **attrs):
     """A closed store of so many entries."""
-    from tehl_taichi.io.store import Store
+    from tehl_taichi.store.store import Store
 
     attrs = {"runtime": '{"precision": "f64"}', "steady_error": "{}", **attrs}
     with Store.create(path, description, shot(0), 50, attrs) as made:

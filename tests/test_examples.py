@@ -62,7 +62,7 @@ def test_tab_completion_lists_what_users_call_and_a_star_leaves_the_builtin():
 
 
 def test_functions_stay_where_folders_have_their_names():
-    for name in ("march", "scene", "fatigue", "crack", "flank", "export", "report"):
+    for name in ("march", "scene", "fatigue", "crack", "report"):
         folder = importlib.import_module(f"tehl_taichi.{name}")
         assert inspect.ismodule(folder) and getattr(tehl, name) is getattr(api, name)
 
@@ -73,11 +73,12 @@ def test_an_old_name_works_and_warns():
 
 
 def test_classes_and_functions_of_one_name_have_the_same_defaults():
-    from tehl_taichi.figures.animation import animate
-    from tehl_taichi.flank.whole_flank import flank
-    from tehl_taichi.study import many, single
+    from tehl_taichi.runs import single_run
+    from tehl_taichi.runs.flank.flank_run import flank
+    from tehl_taichi.runs.sweep import sweeping
+    from tehl_taichi.view.figures.animation import animate
 
-    for inner in (animate, flank, many.sweep, single.run, single.resume):
+    for inner in (animate, flank, sweeping.sweep, single_run.run, single_run.resume):
         outer = inspect.signature(getattr(api, inner.__name__)).parameters
         assert {name: p.default for name, p in outer.items()} == {
             name: p.default for name, p in inspect.signature(inner).parameters.items()}

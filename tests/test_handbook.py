@@ -13,10 +13,9 @@ import typer.main
 from handbook import equations, lists, makers, scene_keys
 from tehl_cli.main import app
 
-from tehl_taichi.criteria import CRITERIA
-from tehl_taichi.io import scene_file
-from tehl_taichi.physics.choices import CHOICES
-from tehl_taichi.scene import scene
+from tehl_taichi.laws.choices import CHOICES
+from tehl_taichi.laws.criteria import CRITERIA
+from tehl_taichi.scene import scene, scene_file
 
 ROOT = Path(__file__).parents[1]
 PAGES = sorted((ROOT / "docs").glob("*.md"))

@@ -4,16 +4,16 @@ import json
 
 import numpy as np
 import pytest
-from test_new_laws import extended, shown
+from laws.test_new_laws import extended, shown
 
 RUN = '''
 import json, tomllib
 import numpy as np
 import tehl_taichi as tehl
-from tehl_taichi.criteria import CRITERIA
+from tehl_taichi.laws.criteria import CRITERIA
 from tehl_taichi.fatigue import findley
-from tehl_taichi.io import scene_file
-from tehl_taichi.march.output import Field, entries
+from tehl_taichi.scene import scene_file
+from tehl_taichi.march.step_output import Field, entries
 from tehl_taichi.profiles import stability
 from tehl_taichi.scene.feature import SHAPES, Feature
 from tehl_taichi.scene.named_oils import NAMED

@@ -5,8 +5,8 @@ import math
 
 from handbook.tables import code, plain, table
 from tehl_taichi.crack.fillings import FILLINGS
-from tehl_taichi.criteria import CRITERIA
-from tehl_taichi.physics.choices import ALONE, CHOICES
+from tehl_taichi.laws.choices import ALONE, CHOICES
+from tehl_taichi.laws.criteria import CRITERIA
 from tehl_taichi.scene.feature import SHAPES, USED_BY
 from tehl_taichi.scene.named_oils import NAMED
 from tehl_taichi.scene.named_steels import STEELS
@@ -57,7 +57,7 @@ def fillings():
 
 def oils():
     """A named oil a row."""
-    rows = ((code(entry.name), plain(entry.says), code(entry.oil.viscosity), *entry.told, plain(entry.source))
+    rows = ((code(entry.name), plain(entry.says), code(entry.oil.viscosity), *entry.shown_numbers, plain(entry.source))
             for entry in NAMED.values())
     return "## Oils: `oil.name`\n\n" + table(("name", "what", "viscosity law", "η at 40 °C, mPa s", "at 100 °C",
                                                "α at 40 °C, 1/GPa", "source"), rows)

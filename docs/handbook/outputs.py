@@ -1,7 +1,7 @@
 """What a store holds of every step, from the entries of `march/outputs`."""
 
 from handbook.tables import code, plain, table
-from tehl_taichi.march.output import Field, Scalar, always, entries
+from tehl_taichi.march.step_output import Field, Scalar, always, entries
 
 
 def text():

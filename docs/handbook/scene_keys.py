@@ -4,12 +4,12 @@ import dataclasses
 import inspect
 
 from handbook.tables import code, plain, table
-from tehl_taichi.io.scene_file import toml_value
+from tehl_taichi.scene.aliases import EXCLUSIVE, SHORT
+from tehl_taichi.scene.description import SECTIONS, TOP, Scene
 from tehl_taichi.scene.feature import Feature
-from tehl_taichi.scene.given import EXCLUSIVE, SHORT
 from tehl_taichi.scene.oil import Oil
-from tehl_taichi.scene.parts import Body
-from tehl_taichi.scene.whole import SECTIONS, TOP, Scene
+from tehl_taichi.scene.scene_file import toml_value
+from tehl_taichi.scene.sections import Body
 from tehl_taichi.values.quantity import kinds
 
 # as they follow each other in a file of `tehl new`: {heading: (first part of the dotted key, class)}

@@ -6,7 +6,7 @@ python profiles/examples/own_stresses.py
 import numpy as np
 
 import tehl_taichi as tehl
-from tehl_taichi.criteria import CRITERIA
+from tehl_taichi.laws.criteria import CRITERIA
 
 turn = 2 * np.pi * np.arange(64) / 64
 stresses = np.zeros((2, turn.size, 6))  # (points, times, 6) in Pa: xx, yy, zz, xy, xz, yz

@@ -1,29 +1,29 @@
-"""Where a crack goes under the loads of a passage: trajectories of the largest tension, and a crack whose faces may touch.
+"""Cracks below a feature: where tension opens the surface, which way a crack grows, with oil inside.
 
-`plane` holds the stresses below the feature, `trajectory` follows them; `dislocations`, `elements`, `stiffness`, `compliance`
-are an elastic crack, `bounds`, `closure` and `rubbing` the contact of its faces, `wet` and `fillings` what is inside, `growth`
-lets it grow, `answer` is the whole. May import `fatigue`, `physics` and what they may; nothing here knows of films, or of files
-but a table of residual stress.
+`symmetry_plane` holds the stresses of a passage, `trajectory` follows the largest tension, `growth` extends a crack.
+`dislocations`, `elements`, `stiffness`, `compliance` are the elastic crack; `closure`, `face_friction` the contact of its
+faces; `fluid_filled` and `fillings` its content; `analysis` runs both sides of the feature with `crack_options`.
+May import: engine, values, laws, scene, fatigue.
 """
 
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from tehl_taichi.crack.answer import CrackResult
+    from tehl_taichi.crack.analysis import CrackResult
     from tehl_taichi.scene import Scene
 
 __all__ = ["crack"]
 
 
 def crack(of: Any, scene: "Scene | None" = None, *, thermal_stress: bool | None = None, threads: int | None = None,
-          **wanted: Any) -> "CrackResult":
+          **options: Any) -> "CrackResult":
     """As :func:`tehl_taichi.crack`."""
-    from tehl_taichi.crack.answer import run
-    from tehl_taichi.crack.wanted import Wanted
+    from tehl_taichi.crack.analysis import run
+    from tehl_taichi.crack.crack_options import CrackOptions
     from tehl_taichi.engine import runtime
-    from tehl_taichi.fatigue.constants import agreed, changed, reader_of
+    from tehl_taichi.fatigue.overrides import agreed, changed, reader_of
 
-    asked, reader = Wanted(**wanted), reader_of(of, "crack")
+    asked, reader = CrackOptions(**options), reader_of(of, "crack")
     scene = changed(agreed(scene, reader), {"thermal_stress": thermal_stress})
     runtime.start_or_join(threads=threads)
     return run(scene, reader, asked)

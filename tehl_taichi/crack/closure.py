@@ -5,7 +5,7 @@ A tip that touches has K_I = 0.
 
 import numpy as np
 
-from tehl_taichi.crack.bounds import FREE, LOW, ROUND, bounded
+from tehl_taichi.crack.complementarity import FREE, LOW, ROUND, bounded
 
 
 def opened(faces, forces):

@@ -12,7 +12,7 @@ from tehl_taichi.crack.elements import Elements
 from tehl_taichi.crack.stiffness import stiffness
 
 
-class Faces:
+class CrackFaces:
     """A crack along `path` (complex points, m, from the mouth to the tip) with about `count` elements.
 
     E_star: E/(1 - nu^2), Pa. compliance: (2 nodes, 2 nodes) nodal values (normal ones, then tangential ones, from the mouth to
@@ -67,7 +67,7 @@ def _normals(direction):
 
 
 def _contacts(direction, normal):
-    """(rows, number of those that rub): see :class:`Faces`."""
+    """(rows, number of those that rub): see :class:`CrackFaces`."""
     nodes, eye = normal.size, np.eye(2 * normal.size)
     kinks = 1 + np.flatnonzero(direction[1:] != direction[:-1])
     plain = np.setdiff1d(np.arange(nodes), kinks)

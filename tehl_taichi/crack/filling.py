@@ -5,16 +5,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl_taichi.physics.density import rho_ratio
-from tehl_taichi.physics.viscosity import ln_eta
-from tehl_taichi.registry import Entry
+from tehl_taichi.laws.density import rho_ratio
+from tehl_taichi.laws.viscosity import ln_eta
+from tehl_taichi.values.registry import Entry
 
 GAP = 20e-9  # m: left between faces that touch (their roughness), in which oil creeps on
 
 
 @dataclass(frozen=True, kw_only=True)
 class Filling(Entry):
-    """inside(wet): the :class:`tehl_taichi.crack.wet.Inside` of a :class:`tehl_taichi.crack.wet.Wet` crack."""
+    """inside(wet): the :class:`tehl_taichi.crack.fluid_filled.FluidState` of a
+    :class:`tehl_taichi.crack.fluid_filled.FluidFilledCrack` crack."""
 
     inside: Callable
 

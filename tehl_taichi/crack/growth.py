@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from tehl_taichi.crack.compliance import Faces
+from tehl_taichi.crack.compliance import CrackFaces
 from tehl_taichi.crack.fillings import FILLINGS
-from tehl_taichi.crack.wet import Wet
+from tehl_taichi.crack.fluid_filled import FluidFilledCrack
 
 WIDEST, FAN = np.radians(75.0), 51  # directions looked at: up to there on both sides
 WHY = {"length": "it has reached the given length", "threshold": "K_I stays below the threshold",
@@ -20,11 +20,11 @@ WHY = {"length": "it has reached the given length", "threshold": "K_I stays belo
 
 
 @dataclass
-class Loaded:
+class LoadedCrack:
     """A crack through the passage: its faces, nodal values and K (2, moments) in Pa sqrt(m), share of its length that touches
     (moments,), moments that did not settle, the pressure of the oil at the tip (moments,) Pa, and above the mouth."""
 
-    faces: Faces
+    faces: CrackFaces
     values: np.ndarray
     K: np.ndarray
     touching: np.ndarray
@@ -37,61 +37,62 @@ class Loaded:
 
 
 @dataclass
-class Path:
+class CrackPath:
     """points: (m, complex); steps: one dict per length with K_I_max, K_II_range (Pa sqrt(m)) and when; why it stopped (a key of
-    WHY); first, last: :class:`Loaded` at the first length and at the last one."""
+    WHY); first, last: :class:`LoadedCrack` at the first length and at the last one."""
 
     points: np.ndarray
     steps: list = field(default_factory=list)
     why: str = "length"
-    first: Loaded = None
-    last: Loaded = None
+    first: LoadedCrack = None
+    last: LoadedCrack = None
 
     def __repr__(self):
         return f"<Path of {self.points.size} points, stopped by {self.why}>"
 
 
-def loaded(plane, points, wanted, E_star, elements=None):
-    """The :class:`Loaded` crack along `points`, all of them within the plane."""
-    elements = elements or wanted.elements
-    faces = Faces(points, E_star, elements)
+def loaded(plane, points, options, E_star, elements=None):
+    """The :class:`LoadedCrack` crack along `points`, all of them within the plane."""
+    elements = elements or options.elements
+    faces = CrackFaces(points, E_star, elements)
     mouth = np.maximum(0.0, -plane.at(points[:1])[0, :, 1])
-    wet = Wet(faces, faces.forces(plane.at(faces.points)), mouth, wanted.oil_share, plane.times, wanted.face_friction,
+    wet = FluidFilledCrack(faces, faces.forces(plane.at(faces.points)), mouth, options.oil_share, plane.times,
+                           options.face_friction,
               plane.fluid, elements)
-    inside = FILLINGS[wanted.filling].inside(wet)
+    inside = FILLINGS[options.filling].inside(wet)
     touching, K = (inside.held > 0).mean(axis=0), faces.intensities(inside.values)
-    return Loaded(faces, inside.values, K, touching, inside.missed, inside.pressure, mouth)
+    return LoadedCrack(faces, inside.values, K, touching, inside.missed, inside.pressure, mouth)
 
 
-def grow(plane, begun, wanted, E_star):
-    """The :class:`Path` from a :class:`tehl_taichi.crack.trajectory.Start`."""
-    first = wanted.first * np.exp(1j * np.radians(wanted.angle))
-    path = Path(np.array([begun.x, begun.x + first]))
-    while not _stopped(plane, path, wanted, E_star):
+def grow(plane, begun, options, E_star):
+    """The :class:`CrackPath` from a :class:`tehl_taichi.crack.trajectory.CrackStart`."""
+    first = options.first * np.exp(1j * np.radians(options.angle))
+    path = CrackPath(np.array([begun.x, begun.x + first]))
+    while not _stopped(plane, path, options, E_star):
         z, tip = path.points, path.points[-1]
-        da = min(wanted.step, wanted.length - path.steps[-1]["length_m"])
-        path.points = np.append(z, tip + da * _ahead(plane, path.last, tip, tip - z[-2], wanted))
+        da = min(options.step, options.length - path.steps[-1]["length_m"])
+        path.points = np.append(z, tip + da * _ahead(plane, path.last, tip, tip - z[-2], options))
     return path
 
 
-def _stopped(plane, path, wanted, E_star):
+def _stopped(plane, path, options, E_star):
     """Loads the newest length; True, with the reason, where the crack goes no farther."""
     tip, before = path.points[-1], path.points[-2]
-    rising = tip.imag < before.imag and tip.imag <= wanted.distance  # what is left above it is a flake that breaks off
+    rising = tip.imag < before.imag and tip.imag <= options.distance  # what is left above it is a flake that breaks off
     if rising or not plane.holds(tip):
         path.why, path.points = "surface" if rising else "window", path.points[:-1]
         return True
-    path.last = loaded(plane, path.points, wanted, E_star)
+    path.last = loaded(plane, path.points, options, E_star)
     path.first = path.first or path.last
-    path.steps.append(_told(plane, path.last))
+    path.steps.append(_step_numbers(plane, path.last))
     step = path.steps[-1]
-    reasons = {"closed": step["K_I_max"] == 0, "threshold": step["K_I_max"] < (wanted.threshold or 0.0),
-               "length": step["length_m"] >= wanted.length * (1 - 1e-9)}
+    reasons = {"closed": step["K_I_max"] == 0, "threshold": step["K_I_max"] < (options.threshold or 0.0),
+               "length": step["length_m"] >= options.length * (1 - 1e-9)}
     path.why = next((why for why, so in reasons.items() if so), path.why)
     return any(reasons.values())
 
 
-def _told(plane, crack):
+def _step_numbers(plane, crack):
     K_I, K_II = crack.K
     top = int(np.argmax(K_I))
     return {"length_m": float(crack.faces.a), "K_I_max": float(K_I[top]), "K_II_there": float(K_II[top]),
@@ -99,11 +100,11 @@ def _told(plane, crack):
             "oil_at_tip_Pa": float(crack.pressure.max()), "unsettled": int(crack.missed)}
 
 
-def _ahead(plane, crack, tip, last, wanted):
+def _ahead(plane, crack, tip, last, options):
     """Unit direction of the largest tension at wanted.distance from the tip, over the passage."""
     turns = np.linspace(-WIDEST, WIDEST, FAN)
     directions = last / abs(last) * np.exp(1j * turns)
-    at = tip + wanted.distance * directions
+    at = tip + options.distance * directions
     inside = plane.holds(at)
     tension = np.full((FAN, crack.K.shape[1]), -np.inf)
     tension[inside] = _hoop(plane, crack, at[inside], directions[inside])

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl_taichi.crack.plane import principal
+from tehl_taichi.crack.symmetry_plane import principal
 
 STEP = 5e-3     # of the length
 NOTHING = 1e-3  # of the largest stress: less tension is within its error
@@ -15,7 +15,7 @@ NEAR = 1.5      # half widths of the feature: tension farther from its centre is
 
 
 @dataclass(frozen=True)
-class Start:
+class CrackStart:
     """x (m) of the largest tension of the surface on one side, that tension (Pa), and the number of its moment."""
 
     x: float
@@ -24,8 +24,8 @@ class Start:
 
 
 def start(plane, side, x=None):
-    """The :class:`Start` on the "entry" side (x' < 0, while the feature is before the middle of the contact) or on the "exit"
-    side, or at x (m) in that part of the passage; None where the surface is nowhere pulled then."""
+    """The :class:`CrackStart` on the "entry" side (x' < 0, while the feature is before the middle of the contact) or on the
+    "exit" side, or at x (m) in that part of the passage; None where the surface is nowhere pulled then."""
     sign = -1 if side == "entry" else 1
     places = plane.x[(sign * plane.x > 0) & (np.abs(plane.x) < NEAR * plane.reach)] if x is None else np.array([x])
     moments = np.flatnonzero(sign * plane.centres > 0)  # not the unloaded one
@@ -34,7 +34,7 @@ def start(plane, side, x=None):
     tension = principal(plane.at(places + 0j, moments))[0]
     at, moment = np.unravel_index(int(np.argmax(tension)), tension.shape)
     largest = float(tension[at, moment])
-    return Start(float(places[at]), largest, int(moments[moment])) if largest > NOTHING * plane.scale else None
+    return CrackStart(float(places[at]), largest, int(moments[moment])) if largest > NOTHING * plane.scale else None
 
 
 def trajectory(plane, begun, length):

@@ -1,6 +1,6 @@
-"""What is written to disk, by one protocol: every command and every room writes, replaces and removes through here.
+"""Safe writing and removing of files: atomic, never through links, nothing that this program did not make.
 
-Nothing is written through a link or a special file (:mod:`links`), and nothing is replaced or removed that is not ours.
-:mod:`files` writes one file as a whole, :mod:`locks` lets one process write below a folder, :mod:`drafts` makes a store or an
-output beside its name and publishes it, :mod:`outputs` says which existing files a command may replace.
+`files` replaces one file as a whole, `locks` admits one writer per folder, `drafts` builds beside the final name and publishes.
+`links` refuses links and special files, `user_files` decides which files a command may replace, `memory_limit` is the memory
+left. May import: errors.
 """

@@ -15,13 +15,13 @@ from pathlib import Path
 
 from tehl_taichi.disk.files import reason
 from tehl_taichi.disk.links import ROOT, is_folder
-from tehl_taichi.disk.locks import LOCK, Busy, Lock, abandoned, holder, said_in
+from tehl_taichi.disk.locks import LOCK, Busy, Lock, abandoned, holder, lock_content
 from tehl_taichi.errors import StoreError
 
 PART, OLD, GONE = "part", "old", "gone"
 
 
-def beside(path, what):
+def staging_path(path, what):
     """The hidden folder beside a name, see above."""
     return path.with_name(f".{path.name}.{what}")
 
@@ -36,7 +36,7 @@ class Draft:
         self.path, self.made, self.old, self.lock, self.published = Path(path), [], None, None, False
         if not self.path.name:
             raise StoreError(f"{path} is not a possible name of a store or file; choose another --out")
-        self.folder, self.replaces = beside(self.path, PART), replace
+        self.folder, self.replaces = staging_path(self.path, PART), replace
         put_back(self.path)
         try:
             self.old = self.allowed(replace)
@@ -83,7 +83,7 @@ class Draft:
     def publish(self, made=None):
         """Give the hidden folder, or `made` in it, the name; what stood there is removed. Raises StoreError where something
         else has come there."""
-        aside = beside(self.path, OLD)
+        aside = staging_path(self.path, OLD)
         try:
             if self.old:
                 os.rename(self.path, aside)
@@ -97,7 +97,7 @@ class Draft:
         else:
             self.lock.moved(self.path)
         if self.old:
-            gone = beside(self.path, GONE)
+            gone = staging_path(self.path, GONE)
             os.rename(aside, gone)
             remove(gone, self.old)
 
@@ -130,7 +130,7 @@ def _put(made, path, replaces):
 
 def put_back(path):
     """Undo half a replacement: the old folder gets its name back where the new one never came."""
-    aside = beside(path, OLD) if path.name else None
+    aside = staging_path(path, OLD) if path.name else None
     if aside and not os.path.lexists(path) and _ours(aside):
         with contextlib.suppress(OSError):  # a read-only folder, or another process was faster
             os.rename(aside, path)
@@ -153,7 +153,7 @@ def _replaced(old, new):
 
 def _ours(folder):
     """Whether a hidden folder was made by this program for this user: a folder, no link, whose lock says so."""
-    return is_folder(folder) and _own(folder) and bool(said_in(folder))
+    return is_folder(folder) and _own(folder) and bool(lock_content(folder))
 
 
 def _own(folder):
@@ -173,7 +173,7 @@ def _check_ours(folder):
 def unmade(path):
     """The error that says what exists of a store that has not appeared at `path` yet, Busy while it is being written; or
     None."""
-    folder = beside(Path(path), PART)
+    folder = staging_path(Path(path), PART)
     if not is_folder(folder):
         return None
     if who := holder(folder):

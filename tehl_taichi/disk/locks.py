@@ -64,7 +64,7 @@ def holder(folder):
         return None
 
 
-def said_in(folder):
+def lock_content(folder):
     """What the lock in `folder` says (program, pid, host, since), {} where there is none of this program."""
     try:
         with _to_read(folder) as file:

@@ -6,7 +6,7 @@ import zipfile
 
 import numpy as np
 
-from tehl_taichi.disk import sizes
+from tehl_taichi.disk import memory_limit
 
 HEADERS = {(1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.read_array_header_2_0}
 
@@ -15,7 +15,7 @@ def load(path):
     """The array of a .npy file. Raises ValueError where it is none, or declares more than it holds; SceneError where there is
     no room for it; OSError."""
     with open(path, "rb") as file:
-        sizes.check(3 * declared(file, os.fstat(file.fileno()).st_size), f"{path}, with its copies,")
+        memory_limit.check(3 * declared(file, os.fstat(file.fileno()).st_size), f"{path}, with its copies,")
         file.seek(0)
         return np.load(file, allow_pickle=False)
 
@@ -42,6 +42,7 @@ def declared(file, size):
     shape, _, dtype = HEADERS[version](file)
     found = math.prod(shape) * dtype.itemsize
     if found > size - file.tell() and not dtype.hasobject:  # objects are refused by numpy
-        raise ValueError(f"its header declares {'x'.join(map(str, shape))} numbers, {sizes.words(found)}, and the file holds "
-                         f"{sizes.words(size - file.tell())}")
+        raise ValueError(f"its header declares "
+                         f"{'x'.join(map(str, shape))} numbers, {memory_limit.words(found)}, and the file holds "
+                         f"{memory_limit.words(size - file.tell())}")
     return found

@@ -1,5 +1,6 @@
-"""All that is Taichi or FFTW: its start, fields, launches, lanes, elementary functions, transforms.
+"""Everything that is Taichi or FFTW: start, fields, kernels on blocks of rows (`simd`), transforms, tasks of one kernel.
 
-Nothing of contacts is known here, and nobody else looks into Taichi's internals: a change of the engine is a change of this
-folder. It may import `errors`.
+`language` and `pointwise` are what other rooms write kernels and laws with; `taichi_patches` changes Taichi itself.
+Nothing here knows of contacts; no other room imports Taichi or FFTW.
+May import: errors.
 """

@@ -92,6 +92,6 @@ def _with(shape, axis, length):
     return tuple(shape)
 
 
-def _run(given, wanted, axis, direction="FFTW_FORWARD"):
+def _run(given, target, axis, direction="FFTW_FORWARD"):
     """On one thread by an estimated plan for aligned numbers: the same plan, so the same bits, in every run."""
-    pyfftw.FFTW(given, wanted, axes=(axis,), direction=direction, flags=("FFTW_ESTIMATE",), threads=1).execute()
+    pyfftw.FFTW(given, target, axes=(axis,), direction=direction, flags=("FFTW_ESTIMATE",), threads=1).execute()

@@ -1,8 +1,8 @@
 """Taichi, as every module takes it: `from tehl_taichi.engine.language import ti`. Another engine of the same language is named
-here and in :mod:`launches`, nowhere else.
+here and in :mod:`prebound`, nowhere else.
 
 Its decorators look for the class that a function stands in in the source of the module, at every one: 1.3 s of a coarse run
-(64x16), none here. What else is asked again and again: :mod:`tracing`.
+(64x16), none here. What else is asked again and again: :mod:`fast_tracing`.
 """
 
 import contextlib
@@ -11,8 +11,8 @@ import linecache
 import os
 import sys
 
-from tehl_taichi.engine import tracing
-from tehl_taichi.engine.homes import give_home
+from tehl_taichi.engine.taichi_patches import fast_tracing
+from tehl_taichi.engine.user_folders import give_home
 
 give_home()
 
@@ -57,6 +57,6 @@ def _ask_less():
 
 
 attempt(_ask_less)
-if ti.__version__ == tracing.KNOWN and not os.environ.get("TEHL_DEBUG"):
-    for change in (tracing.trees, tracing.nodes, tracing.expressions):
+if ti.__version__ == fast_tracing.KNOWN and not os.environ.get("TEHL_DEBUG"):
+    for change in (fast_tracing.trees, fast_tracing.nodes, fast_tracing.expressions):
         attempt(change)

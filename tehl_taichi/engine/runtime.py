@@ -14,7 +14,7 @@ import warnings
 from pathlib import Path
 
 from tehl_taichi import __version__
-from tehl_taichi.engine import cores, float_mode, homes, memory
+from tehl_taichi.engine import allocator, cores, float_mode, user_folders
 from tehl_taichi.errors import RuntimeUnavailable
 
 ARCHES = ("cpu", "cuda")  # that the kernels have been checked on
@@ -26,12 +26,12 @@ WORTH_THREADS = 2500
 _grown = 1
 
 
-def wanted_cache():
+def preferred_cache():
     """Folder of compiled kernels as it should be (`TEHL_CACHE`, else below `XDG_CACHE_HOME` or `~/.cache`).
 
     It is private to this project and version, because one start option below is not part of Taichi's cache key.
     """
-    root = os.environ.get("XDG_CACHE_HOME") or os.path.join(homes.home(), ".cache")
+    root = os.environ.get("XDG_CACHE_HOME") or os.path.join(user_folders.home(), ".cache")
     return Path(os.environ.get("TEHL_CACHE") or os.path.join(root, "tehl_taichi")) / f"kernels-{__version__}"
 
 
@@ -39,23 +39,24 @@ def wanted_cache():
 def cache_dir():
     """Folder of compiled kernels that can be written to: the wanted one, or one for this process alone with what that holds
     and a warning (Taichi itself dies at the end of the process when it cannot write its kernels)."""
-    wanted = wanted_cache()
+    requested = preferred_cache()
     try:
-        wanted.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=wanted):
-            return wanted
+        requested.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=requested):
+            return requested
     except OSError as error:
-        warnings.warn(f"compiled kernels cannot be kept in {wanted} ({error.strerror}), so every run compiles them again; set "
+        warnings.warn(f"compiled kernels cannot be kept in "
+                      f"{requested} ({error.strerror}), so every run compiles them again; set "
                       "TEHL_CACHE to a writable folder", RuntimeWarning, stacklevel=2)
-        return _borrowed(wanted)
+        return _borrowed(requested)
 
 
-def _borrowed(wanted):
+def _borrowed(requested):
     """A folder for this process alone with the kernels that can be read."""
-    folder = Path(tempfile.mkdtemp(prefix="tehl-", dir=homes.temporary()))
+    folder = Path(tempfile.mkdtemp(prefix="tehl-", dir=user_folders.temporary()))
     atexit.register(_give_up, folder)
     with contextlib.suppress(OSError):
-        for file in wanted.iterdir():
+        for file in requested.iterdir():
             shutil.copyfile(file, folder / file.name)  # without its mode
     return folder
 
@@ -107,11 +108,11 @@ def start(arch="cpu", threads=None):
 
 def _start(arch, threads):
     global _home
-    homes.temporary()  # Taichi needs one too
+    user_folders.temporary()  # Taichi needs one too
     cache = str(cache_dir())
-    memory.keep_freed()
-    from tehl_taichi.engine import loops
+    allocator.keep_freed()
     from tehl_taichi.engine.language import attempt, ti
+    from tehl_taichi.engine.taichi_patches import rolled_loops
 
     # in a notebook prints do not go to file 1
     with float_mode.kept(), _no_banner(), contextlib.redirect_stdout(None), cores.pinned(threads):
@@ -124,7 +125,7 @@ def _start(arch, threads):
         if ti.cfg.arch != getattr(ti, arch):
             ti.reset()
             raise RuntimeUnavailable(f"arch = {arch!r} is not available: the driver finds no graphics card")
-        attempt(loops.keep_rolled)
+        attempt(rolled_loops.keep_rolled)
         attempt(functools.partial(float_mode.launching, ti.lang.impl.get_runtime().prog, float_mode.now()))
     if arch == "cuda":
         warnings.warn("arch = 'cuda' gives equal results but is slower: a step of 512x128 took an H200 six times as long as "
@@ -198,8 +199,8 @@ def grown(times):
 
 def _same_start(arch, threads):
     _check_home()
-    wanted = dict(arch=arch, threads=threads)
-    if any(_started[key] != value for key, value in wanted.items()):
+    requested = dict(arch=arch, threads=threads)
+    if any(_started[key] != value for key, value in requested.items()):
         raise RuntimeUnavailable(f"this process already runs with {_started['arch']}, {_started['threads']} threads; "
                                  "start a new process for other settings")
     return dict(_started)

@@ -1,16 +1,15 @@
-"""What the passage does to the material: stresses at and below the surface, critical planes, the fatigue index.
+"""Fatigue of the material: critical planes of stress histories at and below the surface, and the fatigue index.
 
-`half_space`, `rectangle`, `row_stress` (elastic), `thermal_stress`, `thermal_depth`; `histories` of material points; `findley`
-searches by one of `criteria`, its kernels are in `critical_planes`, `circle`, with fewer moments by `thinning`, `deciding`;
-`assessment` is the whole of a passage, `points` that of stress histories from elsewhere, `constants` what can be changed of
-them. Rests on `criteria`, `scene` and `engine` alone.
+`assessment` runs it for a passage, `given_histories` for stresses from elsewhere; `findley` searches planes
+(`critical_planes`). `depth_search` finds the worst depth; `stress` computes the stresses; `overrides` are constants that differ
+from the scene. May import: engine, values, laws, scene.
 """
 
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from tehl_taichi.fatigue.assessment import FatigueResult
-    from tehl_taichi.fatigue.points import Points
+    from tehl_taichi.fatigue.given_histories import Points
     from tehl_taichi.scene import Scene
 
 __all__ = ["fatigue"]
@@ -23,15 +22,15 @@ def fatigue(of: Any, scene: "Scene | None" = None, *, progress: Any = None, thre
         return of.fatigue(progress=progress, threads=threads, until=until, **constants)
 
     from tehl_taichi.engine import runtime
-    from tehl_taichi.fatigue import assessment, points
-    from tehl_taichi.fatigue import constants as given
+    from tehl_taichi.fatigue import assessment, given_histories
+    from tehl_taichi.fatigue import overrides as given
 
-    if points.are_stresses(of):
+    if given_histories.are_stresses(of):
         limits = given.of_points(constants, scene)
         runtime.start_or_join(threads=threads)
-        return points.search(of, limits)
+        return given_histories.search(of, limits)
     reader = given.reader_of(of, "fatigue")
     scene = given.changed(given.agreed(scene, reader), constants)
     runtime.start_or_join(threads=threads)
-    tell = progress and (lambda done, total: progress.stage("stresses and fatigue", done, total))
-    return assessment.run(scene, reader, tell, until)
+    notify = progress and (lambda done, total: progress.stage("stresses and fatigue", done, total))
+    return assessment.run(scene, reader, notify, until)

@@ -4,10 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl_taichi.fatigue import depth_search, resolved, search_maps
-from tehl_taichi.fatigue.histories import Passage
+from tehl_taichi.fatigue import depth_search, resolved_part, result_maps
 from tehl_taichi.fatigue.layer import layer
-from tehl_taichi.fatigue.told import Told
+from tehl_taichi.fatigue.pass_progress import PassProgress
+from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.scene import SceneError, fatigue_limits
 
 PIT_ANGLES = (18.0, 50.0)  # degrees to the surface at which pits begin (Everitt 2018)
@@ -69,11 +69,11 @@ def run(scene, reader, progress=None, until=None):
     """Fatigue index of the points of body a within 0.6 a of the first feature (0.3 a beyond larger ones), over its passage.
 
     At all points of the surface and, unless scene.fatigue.depths is empty, below it: under the row through the feature (and the
-    surface's worst row), the depth looked for (:mod:`tehl_taichi.fatigue.below`), on a whole domain at all points of that
-    depth, too (:mod:`tehl_taichi.fatigue.depth_search`); where depths are listed also at all points at these.
-    Between its from_x and to_x, by its criterion. reader: see :class:`tehl_taichi.fatigue.histories.Passage`; or a list of
-    snapshots. progress: called with (done, total) parts. until: position (a) of the feature; the worst points of the moments up
-    to there are told, too ("resolved" of the summary).
+    surface's worst row), the depth looked for (:mod:`tehl_taichi.fatigue.depth_profile`), on a whole domain at all points of
+    that depth, too (:mod:`tehl_taichi.fatigue.depth_search`); where depths are listed also at all points at these.
+    Between its from_x and to_x, by its criterion. reader: see :class:`tehl_taichi.fatigue.stress.histories.StressHistories`; or
+    a list of snapshots. progress: called with (done, total) parts. until: position (a) of the feature; the worst points of the
+    moments up to there are told, too ("resolved" of the summary).
     On the rows of the reader (where they begin with y = 0, the others are its mirror). Memory: one block of histories
     (1 GB at most), with thermal stress 8 bytes more per entry and wave number (4 nodes of the grid).
     Raises SceneError when no feature passes.
@@ -82,19 +82,19 @@ def run(scene, reader, progress=None, until=None):
     centres = np.array([reader.feature_x(n) for n in range(len(reader))])
     if len(reader) < 2 or not np.isfinite(centres).all():
         raise SceneError("fatigue needs the passage of a feature: a scene with a feature and at least one time step")
-    passage = Passage(scene, reader, centres)
+    passage = StressHistories(scene, reader, centres)
     if passage.centres.size < 2:
         f = scene.fatigue
         raise SceneError(f"no stored moment has the feature between fatigue.from_x = {f.from_x:g} a and to_x = {f.to_x:g} a; "
                          f"it moves from {centres[0] / passage.a:.2f} to {centres[-1] / passage.a:.2f} a")
     early, wanted = _early(passage, until), bool(scene.fatigue.depths)
-    progress = Told.of(progress, scene, passage, early)
+    progress = PassProgress.of(progress, scene, passage, early)
     layers = [layer(scene, passage, depth, progress, early) for depth in (0.0, *scene.fatigue.listed)]
-    deep = depth_search.search(scene, passage, layers, early, progress) if wanted else depth_search.Deep([], [])
+    deep = depth_search.search(scene, passage, layers, early, progress) if wanted else depth_search.DepthResult([], [])
     progress.end()
     result = _result(scene, passage, layers, deep)
     if early is not None:
-        part = resolved.part(scene, passage, early, until, layers, deep)
+        part = resolved_part.part(scene, passage, early, until, layers, deep)
         result.summary["resolved"] = part.summary
         result.maps.update(part.maps)
     return result
@@ -113,24 +113,24 @@ def _result(scene, passage, layers, below):
     summary = {**surface.worst.summary(limit), "sigma1_max_Pa": float(surface.sigma1.max()),
                "kappa_F": float(scene.fatigue.kappa), "sigma_eF_Pa": float(limit), **_limits(scene.fatigue),
                **_cut(scene.fatigue), **surface.worst.moments(centres),
-               "criterion": scene.fatigue.criterion, "thermal_stress": scene.thermal_stress_wanted,
+               "criterion": scene.fatigue.criterion, "thermal_stress": scene.has_thermal_stress,
                "pit_angles_deg": list(PIT_ANGLES)}
-    maps, worst, deep = search_maps.of_surface(surface, passage, limit), surface.worst.history(centres), None
-    maps |= search_maps.of_history(worst, "worst", "the critical point at the surface")
+    maps, worst, deep = result_maps.of_surface(surface, passage, limit), surface.worst.history(centres), None
+    maps |= result_maps.of_history(worst, "worst", "the critical point at the surface")
     points = [found.worst for found in layers[1:]] + below.worst
     if points:
         point = max(points, key=lambda point: point.f)
         summary["below"], deep = {"depth_m": point.depth, **point.summary(limit)}, point.history(centres)
-        maps |= search_maps.of_history(deep, "worst_below", "the critical point below the surface")
+        maps |= result_maps.of_history(deep, "worst_below", "the critical point below the surface")
     if below.profiles:
         depths = below.profiles[0].depths
         summary["below"] |= {"searched_m": [float(depths[0]), float(depths[-1])], **_alone(below.profiles, limit)}
-        maps |= search_maps.of_profiles(surface.f, passage, below.profiles, len(layers) > 1)
-        maps |= search_maps.of_plane(below.plane) if below.plane else {}
+        maps |= result_maps.of_profiles(surface.f, passage, below.profiles, len(layers) > 1)
+        maps |= result_maps.of_plane(below.plane) if below.plane else {}
     if len(layers) > 1:
         summary["by_depth"] = [{"depth_m": layer.depth, "findley_stress_max_Pa": float(layer.f.max()),
                                 "sigma1_max_Pa": float(layer.sigma1.max())} for layer in layers]
-        maps |= search_maps.of_layers(layers)
+        maps |= result_maps.of_layers(layers)
     return FatigueResult(summary, maps, worst, deep)
 
 
@@ -142,7 +142,7 @@ def _cut(fatigue):
 
 def _limits(fatigue):
     """The limits that its constants follow from, Pa; {} where they were given themselves."""
-    return {f"{key}_Pa": float(getattr(fatigue, key)) for key in fatigue_limits.speaks(vars(fatigue))}
+    return {f"{key}_Pa": float(getattr(fatigue, key)) for key in fatigue_limits.given_limits(vars(fatigue))}
 
 
 def _alone(profiles, limit):

@@ -10,9 +10,9 @@ to each other, the fewer moments can decide between them (deciding.py).
 """
 
 from tehl_taichi.engine.language import ti
-from tehl_taichi.fatigue.circle import enclose, vec3
-from tehl_taichi.fatigue.deciding import deciding
-from tehl_taichi.fatigue.on_planes import mean_stress, plane_frame, project, shear_of, stress, traction, vec6
+from tehl_taichi.fatigue.deciding_moments import deciding
+from tehl_taichi.fatigue.enclosing_circle import enclose, vec3
+from tehl_taichi.fatigue.plane_components import mean_stress, plane_frame, project, shear_of, stress, traction, vec6
 from tehl_taichi.fatigue.thinning import all_of, extent, thin
 
 FIRST = 4     # halvings of the step done for every peak; the others only for peaks within CLOSE of the best by then
@@ -328,7 +328,7 @@ def search(points: ti.i32, steps: ti.i32, kappa: ti.f64, rule: ti.template(), st
            some: ti.types.ndarray(dtype=ti.i32, ndim=2), out: ti.types.ndarray(dtype=ti.f64, ndim=2)):
     """out[point] = (f, n_x, n_y, n_z, planes decided) from S[point, time, (xx, yy, zz, xy, xz, yz)].
 
-    rule: a :class:`tehl_taichi.criteria.criterion.Criterion` whose value may be traced; planes (m, 3): unit normals of the
+    rule: a :class:`tehl_taichi.laws.criteria.criterion.Criterion` whose value may be traced; planes (m, 3): unit normals of the
     grid; step0: first step, rad, halved `shrinks` times; known (points, 4): value and plane that a search of more moments
     found, not looked for again where these have as much there (infinite: not known); scratch: values (points, m), a, b, some
     (points, steps), peaks (points, SHEARED_STARTS, PEAK).

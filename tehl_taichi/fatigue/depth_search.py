@@ -1,5 +1,5 @@
 """Where below the surface the body is worst loaded: under some rows first, and where a surface is not symmetric under rows that
-look bad at any depth (:mod:`tehl_taichi.fatigue.candidates`), too, and at all points of the depth found there.
+look bad at any depth (:mod:`tehl_taichi.fatigue.candidate_rows`), too, and at all points of the depth found there.
 
 The row of the worst point below is not always that of the surface: of a scanned bump between two rows of 128x32 cells the one
 had Fi 1.04, the other 1.85.
@@ -9,20 +9,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl_taichi.fatigue import below, candidates
-from tehl_taichi.fatigue.layer import Layer, Part, early_layer, layer
+from tehl_taichi.fatigue import candidate_rows, depth_profile
+from tehl_taichi.fatigue.layer import EarlyLayer, Layer, early_layer, layer
 
 
 @dataclass(frozen=True)
-class Deep:
-    """What was found: profiles under rows (:class:`tehl_taichi.fatigue.below.Profile`), those of the early moments where they
-    are wanted, the plane that was searched at all its points, and that of the early moments at their own worst depth
+class DepthResult:
+    """What was found: profiles under rows (:class:`tehl_taichi.fatigue.depth_profile.Profile`), those of the early moments
+    where they are wanted, the plane that was searched at all its points, and that of the early moments at their own worst depth
     (or None)."""
 
     profiles: list
     before: list
     plane: Layer | None = None
-    early_plane: Part | None = None
+    early_plane: EarlyLayer | None = None
 
     @property
     def worst(self):
@@ -42,15 +42,16 @@ def search(scene, passage, layers, early, progress):
     depth of their own."""
     rows = _rows(passage, (scene.features[0].y, *(place for found in layers for place in _worst(found))))
     if passes(passage):
-        rows = list(dict.fromkeys(rows + candidates.rows(passage, below.ladder(passage), _windows(early), progress)))
+        rows = list(dict.fromkeys(rows + candidate_rows.rows(passage, depth_profile.ladder(passage), _windows(early),
+                                                             progress)))
     profiles, before = _under(passage, rows, _has_far_row(scene, passage.reader.y), early, progress)
     if not passes(passage):
-        return Deep(profiles, before)
+        return DepthResult(profiles, before)
     plane, sooner = _planes(scene, passage, profiles, before, early, progress)
     places = _worst(plane) + ([sooner.worst.y] if sooner else [])
     more = [row for row in _rows(passage, places) if row not in rows]
     others, earlier = _under(passage, more, False, early, progress) if more else ([], [])
-    return Deep(profiles + others, before + earlier, plane, sooner)
+    return DepthResult(profiles + others, before + earlier, plane, sooner)
 
 
 def _planes(scene, passage, profiles, before, early, progress):
@@ -86,7 +87,7 @@ def _rows(passage, places):
 def _under(passage, rows, alone, early, progress):
     """([profiles of the whole passage], [of its early moments])."""
     windows = _windows(early)
-    found = below.profiles(passage, rows, alone, windows, progress)
+    found = depth_profile.profiles(passage, rows, alone, windows, progress)
     return found[:: len(windows)], found[1::2] if len(windows) > 1 else []
 
 

@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
-from tehl_taichi.criteria import CRITERIA
 from tehl_taichi.engine.pointwise import unrolled
+from tehl_taichi.laws.criteria import CRITERIA
 
 GRID = 10.0  # degrees between the planes the search begins with
 # halvings of the step: 5 degrees -> 2e-5 rad, error of a smooth maximum about 1e-9; a sum on the plane of the largest shear
@@ -35,13 +35,13 @@ def traced(criterion):
     return dataclasses.replace(criterion, value=unrolled(criterion.value))
 
 
-def search(history, kappa, prune=True, criterion="findley", degrees=GRID, decided=None, tell=None, known=None):
+def search(history, kappa, prune=True, criterion="findley", degrees=GRID, decided=None, notify=None, known=None):
     """Largest value of a criterion over all planes, and its plane, of every point.
 
-    history (points, times, 6) Pa: xx, yy, zz, xy, xz, yz. kappa >= 0. criterion: one of `tehl_taichi.criteria`. prune=False
-    evaluates every plane (for tests); degrees: between the first planes; decided (points,), if given, takes the number of
-    planes bounded or evaluated at each point; tell: called with (done, total) points; known: (f, normals) of a search of
-    histories that these are some moments of: a value that these moments reach on that plane is the largest here, too.
+    history (points, times, 6) Pa: xx, yy, zz, xy, xz, yz. kappa >= 0. criterion: one of `tehl_taichi.laws.criteria`.
+    prune=False evaluates every plane (for tests); degrees: between the first planes; decided (points,), if given, takes the
+    number of planes bounded or evaluated at each point; notify: called with (done, total) points; known: (f, normals) of a
+    search of histories that these are some moments of: a value that these moments reach on that plane is the largest here, too.
     Returns f (points,) Pa (may be negative: nowhere near fatigue) and unit normals (points, 3), n_z >= 0.
     Raises ValueError for a history with NaN or of another shape, KeyError for an unknown criterion.
     """
@@ -66,8 +66,8 @@ def search(history, kappa, prune=True, criterion="findley", degrees=GRID, decide
         part = slice(first, min(first + SLICE, points))
         critical_planes.search(part.stop - first, steps, weight, traced(rule), math.radians(degrees / 2), shrinks, int(prune),
                                before[part], history[part], grid, *(one[: part.stop - first] for one in scratch), out[part])
-        if tell:
-            tell(part.stop, points)
+        if notify:
+            notify(part.stop, points)
     if decided is not None:
         decided[:] = out[:, 4]
     n = out[:, 1:4]

@@ -7,20 +7,20 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl_taichi.fatigue import findley
-from tehl_taichi.fatigue.thermal_stress import WORKERS
-from tehl_taichi.fatigue.under_row import at_the_surface
-from tehl_taichi.fatigue.worst_point import Point, over_some, worse
+from tehl_taichi.fatigue.stress.row_histories import at_the_surface
+from tehl_taichi.fatigue.stress.thermal_stress import WORKERS
+from tehl_taichi.fatigue.worst_point import WorstPoint, over_some, worse
 
 POINTS = 16  # whose largest principal stresses are found at once
 
 
 @dataclass(frozen=True)
-class Part:
+class EarlyLayer:
     """What the early moments have at one depth: Findley stress f (nx, rows) Pa, and the worst point."""
 
     depth: float
     f: np.ndarray
-    worst: Point
+    worst: WorstPoint
 
 
 @dataclass(frozen=True)
@@ -32,15 +32,15 @@ class Layer:
     theta: np.ndarray
     phi: np.ndarray
     sigma1: np.ndarray
-    worst: Point
-    early: Part | None
+    worst: WorstPoint
+    early: EarlyLayer | None
 
 
 def layer(scene, passage, depth, progress, early):
     """Find a Layer: stresses and search of all points at a depth (m). early: moments that are searched apart, or None."""
     parts, worst, sooner = [], None, _Early(scene, passage, depth, early)
     for rows, history in _blocks(scene, passage, depth, progress):
-        f, normals = findley.search(history, scene.fatigue.kappa, criterion=scene.fatigue.criterion, tell=progress)
+        f, normals = findley.search(history, scene.fatigue.kappa, criterion=scene.fatigue.criterion, notify=progress)
         shape = passage.x.size, rows.stop - rows.start
         parts.append([v.reshape(shape) for v in (f, *findley.angles(normals), _tension(history))])
         worst = worse(worst, passage.places(depth, rows), history, f, normals)
@@ -60,7 +60,7 @@ def _blocks(scene, passage, depth, progress):
     """(rows, stress histories of their points at that depth), block by block."""
     histories = functools.partial(passage.history, operators=passage.stresses(depth)) if depth else at_the_surface(passage)
     for rows in passage.row_blocks():
-        yield rows, histories(rows, tell=progress, meanwhile=lambda: findley.prepare(scene.fatigue.criterion))
+        yield rows, histories(rows, notify=progress, meanwhile=lambda: findley.prepare(scene.fatigue.criterion))
 
 
 class _Early:
@@ -80,7 +80,7 @@ class _Early:
 
     @property
     def found(self):
-        return Part(self.depth, np.concatenate(self.parts, axis=1), self.worst) if self.parts else None
+        return EarlyLayer(self.depth, np.concatenate(self.parts, axis=1), self.worst) if self.parts else None
 
 
 def _tension(history):

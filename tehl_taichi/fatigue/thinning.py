@@ -5,7 +5,7 @@ the worse of them, and one beside it as much more as it lies off. Half of a hist
 """
 
 from tehl_taichi.engine.language import ti
-from tehl_taichi.fatigue.on_planes import stress
+from tehl_taichi.fatigue.plane_components import stress
 
 OFF = 2e-4  # of the range of the stresses: 110 of 539 moments of the gear's passage on 512 columns are left
 LONGEST = 32  # moments between two that are kept

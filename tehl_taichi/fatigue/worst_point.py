@@ -10,7 +10,7 @@ AT_ONCE = 512  # points of which some moments are searched
 
 
 @dataclass(frozen=True)
-class Point:
+class WorstPoint:
     """depth, x, y (m, in the frame of the feature), Findley stress f (Pa), stress history (times, 6) Pa, the last one unloaded,
     and the unit normal of its critical plane."""
 
@@ -57,7 +57,7 @@ def worse(worst, places, history, f, normals):
     top = int(np.argmax(f))
     if worst is not None and f[top] <= worst.f:
         return worst
-    return Point(*places(top), f[top], history[top].copy(), normals[top])
+    return WorstPoint(*places(top), f[top], history[top].copy(), normals[top])
 
 
 def over_some(history, moments, fatigue, places, known, worst=None):

@@ -1,7 +1,6 @@
-"""The temperatures of the film and of both bodies: the energy equation in the columns of the film, one step at a time.
+"""Temperatures of the film and of both bodies: one implicit step of the energy equation.
 
-`temperatures` is that step; `slots` names the quantities of a column, `step` its numbers, `across` and `nodes` its places;
-`film` is its flow, `paths` where the oil came from, `foresight` what a step begins with, `energy` the implicit step (with
-`elimination` and `relaxation`), `rest` where later rounds leave it out, `bodies`, `strips` and `modes` the heat in the solids.
-May import `pressure` and what that may.
+`temperatures` is the step; `film` the flow across the film, `energy` the equation, `departure_points` the origin of the oil.
+`film_tables` names the fields of a column, `chebyshev` its nodes; `bodies`, `strips`, `conduction_modes` are the heat in the
+solids. May import: engine, values, laws, scene, pressure.
 """

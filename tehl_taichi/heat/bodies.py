@@ -4,14 +4,14 @@ import math
 
 import numpy as np
 
-from tehl_taichi.engine.launches import bind
 from tehl_taichi.engine.records import Record
-from tehl_taichi.heat import modes, slots, strips
-from tehl_taichi.heat.step import Drift
+from tehl_taichi.engine.taichi_patches.prebound import bind
+from tehl_taichi.heat import conduction_modes, film_tables, strips
+from tehl_taichi.heat.heat_step import Drift
 from tehl_taichi.scene.scales import peclet
 
 
-class Body:
+class ConductingBody:
     """One body: what it is made of, how its surface moves, and what it remembers in a step."""
 
     def __init__(self, material, speed, rests, dt, scales):
@@ -20,16 +20,17 @@ class Body:
         self.rests, self.speed, self.dt = rests, 0.0 if rests else speed, dt
         self.effusivity = math.sqrt(material.k * material.rho * material.c)
         diffusivity, slab = material.k / (material.rho * material.c), rests and scales.line
-        self.depth = modes.REST * scales.a / math.sqrt(diffusivity * dt) if slab else math.inf
+        self.depth = conduction_modes.REST * scales.a / math.sqrt(diffusivity * dt) if slab else math.inf
         pe = 0.0 if rests else peclet(material, speed, scales)
-        wide = modes.NONE if scales.line or pe > modes.FAST else modes.widths(pe, scales.a, scales.b)
+        wide = (conduction_modes.NONE if scales.line or pe > conduction_modes.FAST
+                else conduction_modes.widths(pe, scales.a, scales.b))
         self.spread = tuple(w * w / (4 * diffusivity * dt) for w in wide)
-        self.modes, self.drift = np.zeros((4, modes.MODES)), Record(Drift)
+        self.modes, self.drift = np.zeros((4, conduction_modes.MODES)), Record(Drift)
 
     def begin(self, dt, before, after, settled):
         """Prepare a step of dt s in which the grid passes from `before` to `after`, in cells; settled: whether it has a memory
         of a long time with the flux of the step itself. Returns B."""
-        known = modes.memory(dt, self.effusivity, self.dt, self.depth, self.spread)
+        known = conduction_modes.memory(dt, self.effusivity, self.dt, self.depth, self.spread)
         for row, values in ((strips.WEIGHT, known.weight), (strips.DECAY, known.decay), (strips.GAIN, known.gain),
                             (strips.GAIN_LAST, known.gain_last)):
             self.modes[row] = values
@@ -41,10 +42,10 @@ class Body:
 
     def settled(self):
         """What its modes hold after a long time, per flux."""
-        return modes.steady_modes(self.dt, self.depth, self.spread)
+        return conduction_modes.steady_modes(self.dt, self.depth, self.spread)
 
 
-class Bodies:
+class ConductingBodies:
     """Both bodies under the columns of a film; dt: time step (s) that their memory is made for, shorter ones may be taken too.
 
     steady: surfaces at rest conduct as after a long time, until :meth:`warm_resting`.
@@ -54,14 +55,15 @@ class Bodies:
         scene = levels.scene
         self.levels, self.columns, self.steady = levels, columns, False
         speeds = scene.operation.u_a, scene.operation.u_b
-        self.each = [Body(*one, dt, levels.scales) for one in zip((scene.body_a, scene.body_b), speeds, scene.at_rest)]
-        self.table = slots.SlotTable(levels, strips.width(modes.MODES))
+        self.each = [ConductingBody(*one, dt, levels.scales)
+                     for one in zip((scene.body_a, scene.body_b), speeds, scene.at_rest)]
+        self.table = film_tables.SlotTable(levels, strips.width(conduction_modes.MODES))
         self.offset = self.until = np.zeros(2)  # cells that each body has moved since the start, and will have
         self._bind(scene.operation.temperature)
 
     def _bind(self, inlet):
-        F, C, G, count = self.table.field, self.columns.singles.field, self.levels.G, modes.MODES
-        known, flux = (slots.AA, slots.AB), (slots.QA, slots.QB)
+        F, C, G, count = self.table.field, self.columns.singles.field, self.levels.G, conduction_modes.MODES
+        known, flux = (film_tables.AA, film_tables.AB), (film_tables.QA, film_tables.QB)
         self._surface = [bind(strips.surface, F, C, G, body.modes, body.drift.values, count, n, inlet, known[n])
                          for n, body in enumerate(self.each)]
         self._remember = [bind(strips.remember, F, C, G, body.modes, body.drift.values, count, n, flux[n])
@@ -86,22 +88,22 @@ class Bodies:
     def warm_resting(self):
         """Give the bodies whose surfaces rest the memory of a long time with the present heat."""
         self.steady, memory = False, self.memory()
-        for n, (body, flux) in enumerate(zip(self.each, (slots.QA, slots.QB))):
+        for n, (body, flux) in enumerate(zip(self.each, (film_tables.QA, film_tables.QB))):
             if body.rests:
                 present = self.columns.single(flux)
-                first, last_flux = strips.memory(modes.MODES, n)
-                memory[first : first + modes.MODES] = body.settled()[:, None, None] * present
+                first, last_flux = strips.memory(conduction_modes.MODES, n)
+                memory[first : first + conduction_modes.MODES] = body.settled()[:, None, None] * present
                 memory[last_flux] = present
         self.restore(memory, self.offset)
 
     def cool(self):
         """Forget all heat."""
         v = self.levels
-        self.restore(np.zeros((strips.kept(modes.MODES), v.ny + 1, v.nx + 1)), np.zeros(2))
+        self.restore(np.zeros((strips.kept(conduction_modes.MODES), v.ny + 1, v.nx + 1)), np.zeros(2))
 
     def memory(self):
         """Modes of both bodies and the last flux into them, (slots, ny+1, nx+1)."""
-        return self.table.get(0, strips.kept(modes.MODES))
+        return self.table.get(0, strips.kept(conduction_modes.MODES))
 
     def restore(self, memory, offset):
         """Go on from :meth:`memory` and the cells that each body has moved since the start."""

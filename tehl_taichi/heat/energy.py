@@ -5,14 +5,12 @@ of the bodies) and the flow through the moving nodes in one Newton system per co
 """
 
 from tehl_taichi.engine.elementary import log, maximum, minimum
-from tehl_taichi.engine.lanes import Flat, Table, V, W, cells, place, tile, tiles
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
+from tehl_taichi.engine.simd import Flat, Table, V, W, block_at, cells, tile, tiles
 from tehl_taichi.heat.elimination import eliminate
 from tehl_taichi.heat.film import keep_parts, node_laws, pressure_and_film
-from tehl_taichi.heat.nodes import Nodes, second, slope, weight, zeta
-from tehl_taichi.heat.sliding import couette, sheared
-from tehl_taichi.heat.slots import (
+from tehl_taichi.heat.film_tables import (
     AA,
     AB,
     CHANGE,
@@ -42,11 +40,13 @@ from tehl_taichi.heat.slots import (
     U,
     nodes_around,
 )
-from tehl_taichi.heat.step import Step
-from tehl_taichi.physics.conduction import conductivity, heat_capacity
-from tehl_taichi.physics.density import expansivity
-from tehl_taichi.physics.sheared_flow import mean_stress, wall_slip
-from tehl_taichi.physics.viscosity import ln_eta
+from tehl_taichi.heat.heat_step import HeatStep
+from tehl_taichi.heat.node_table import Nodes, second, slope, weight, zeta
+from tehl_taichi.heat.sliding import couette, sheared
+from tehl_taichi.laws.conduction import conductivity, heat_capacity
+from tehl_taichi.laws.density import expansivity
+from tehl_taichi.laws.sheared_flow import mean_stress, wall_slip
+from tehl_taichi.laws.viscosity import ln_eta
 from tehl_taichi.pressure.conditions import Conditions
 from tehl_taichi.pressure.fields import SKEW, TOUCH, P
 from tehl_taichi.pressure.tractions import solid_friction
@@ -67,7 +67,7 @@ BETA, THROUGH = VY, U  # the velocities' slots, used again once the departure po
 
 
 @ti.dataclass
-class Heated:
+class EnergyColumn:
     """A column as the energy equation sees it, besides its flow."""
 
     p: V  # Pa
@@ -82,7 +82,7 @@ class Heated:
 
 
 @ti.dataclass
-class Node:
+class EnergyNode:
     """A node of a column."""
 
     ie: V  # 1/(Pa s), 1/eta
@@ -144,7 +144,7 @@ def heated(S: ti.template(), C: ti.template(), G: ti.template(), at: ti.template
     if at.i > scene.centre:
         fade = S[P, at.k] / (S[P, at.k] + FADE)
     friction = -scene.u_s * solid_friction(rheology, p, scene.u_s) / h
-    return Heated(p=p, h=h, px=C[at.q, PX], py=C[at.q, PY], skew=S[SKEW, at.k],
+    return EnergyColumn(p=p, h=h, px=C[at.q, PX], py=C[at.q, PY], skew=S[SKEW, at.k],
                   k=conductivity(oil, p), fade=fade, touch=S[TOUCH, at.k],
                   friction=friction)
 
@@ -232,7 +232,7 @@ def assemble(Z: ti.template(), C: ti.template(), X: ti.template(), N: ti.templat
         t = Z[T, q * nz + n]
         storing = heat_capacity(oil, col.p, t)
         swept = storing / Z[NRHO, q * nz + n] * Z[THROUGH, q * nz + n] / col.h  # fluxes and rho are both over rho_0
-        node = Node(ie=Z[NIE, q * nz + n] / scene.eta0, lever=(zeta(N, n) - flow.centre) * col.h,
+        node = EnergyNode(ie=Z[NIE, q * nz + n] / scene.eta0, lever=(zeta(N, n) - flow.centre) * col.h,
                     swell=expansivity(oil, col.p, t) * Z[PS, q * nz + n] * step.rate)
         made = sources(node, col, flow, done)
         balance = storing * step.rate * (t - Z[TS, q * nz + n]) - made.heat - made.squeeze * (t + 273.15)
@@ -378,17 +378,17 @@ def keep_departed(Z: ti.template(), at: ti.template(), nz, oil: ti.template()):
 def energy(S: ti.template(), Z: ti.template(), C: ti.template(), X: ti.template(), G: Table, N: Nodes, oil: ti.template(),
            rheology: ti.template(), conditions: Flat, numbers: Flat, told: Table):
     """One implicit step of every column of the tiles that do not rest, by Newton, after velocities and departures; told: see
-    :mod:`tehl_taichi.heat.slots`."""
+    :mod:`tehl_taichi.heat.film_tables`."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for c in range(tiles(nx, ny)):
         if told[c, RESTS] > 0.0:
             continue
         s, first, last = tile(c, nx)
-        scene, step, nz = read(Conditions, conditions), read(Step, numbers), N.shape[1]
+        scene, step, nz = read(Conditions, conditions), read(HeatStep, numbers), N.shape[1]
         change, failed, clamped = 0.0, 0.0, 0.0
         for i in range(first, last):
-            at = place(G, c, i)
+            at = block_at(G, c, i)
             col = heated(S, C, G, at, oil, rheology, scene)
             prepare(Z, at, nz, oil, col.p, scene.ln_eta0, step)
             lost, held = solve_column(Z, C, X, N, at, col, oil, rheology, scene, step)

@@ -1,33 +1,33 @@
 """The film with temperatures: columns of nz Chebyshev-Lobatto nodes zeta = z/h from body a (0) to body b (1).
 
-In the table of :mod:`tehl_taichi.heat.slots`. Source: generalised Reynolds equation, Yang & Wen 1990. In SI but for
+In the table of :mod:`tehl_taichi.heat.film_tables`. Source: generalised Reynolds equation, Yang & Wen 1990. In SI but for
 viscosities, which are over eta0, and densities, over rho_0.
 
 With the Newtonian stress of the Couette part -u_s/(h E0), u_s = u_a - u_b, E0 = int dzeta/eta, zeta_c = int zeta dzeta/eta / E0
 and Phi what the shear law makes of the flow by pressure (:mod:`tehl_taichi.heat.sliding`): u = u_a - u_s int_0 dzeta/eta / E0
-+ Phi h^2 p_x int_0 (zeta - zeta_c)/eta dzeta. Integrals over zeta: N, see :mod:`tehl_taichi.heat.nodes`.
++ Phi h^2 p_x int_0 (zeta - zeta_c)/eta dzeta. Integrals over zeta: N, see :mod:`tehl_taichi.heat.node_table`.
 """
 
 from tehl_taichi.engine.elementary import exp, log, maximum
-from tehl_taichi.engine.lanes import Flat, Table, V, cells, place, tile, tiles
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
-from tehl_taichi.heat.nodes import Nodes, beyond, integral, weight, zeta
+from tehl_taichi.engine.simd import Flat, Table, V, block_at, cells, tile, tiles
+from tehl_taichi.heat.film_tables import KEPT, MS, MX, MY, NIE, NRHO, PX, PY, RESTS, TAU, VY, XA, XB, YA, YB, T, U
+from tehl_taichi.heat.node_table import Nodes, beyond, integral, weight, zeta
 from tehl_taichi.heat.sliding import couette, sheared
-from tehl_taichi.heat.slots import KEPT, MS, MX, MY, NIE, NRHO, PX, PY, RESTS, TAU, VY, XA, XB, YA, YB, T, U
-from tehl_taichi.physics.density import rho_film
-from tehl_taichi.physics.rheology import DP
-from tehl_taichi.physics.sheared_flow import wall_limit
-from tehl_taichi.physics.viscosity import ln_eta_of, part, parts
+from tehl_taichi.laws.density import rho_film
+from tehl_taichi.laws.rheology import DP
+from tehl_taichi.laws.sheared_flow import wall_limit
+from tehl_taichi.laws.viscosity import ln_eta_of, part, parts
 from tehl_taichi.pressure.conditions import Conditions
 from tehl_taichi.pressure.fields import DSKEW, FLOOR, ILAM, QCP, RHOC, SKEW, H, P
 from tehl_taichi.pressure.gradient import limited_gradient
-from tehl_taichi.pressure.laws import store_laws, store_slopes
+from tehl_taichi.pressure.isothermal_laws import store_laws, store_slopes
 from tehl_taichi.pressure.tractions import walls
 
 
 @ti.dataclass
-class Column:
+class FilmColumn:
     """What the nodes of a column share."""
 
     p: V  # Pa
@@ -49,7 +49,7 @@ def column(S: ti.template(), G: ti.template(), at: ti.template(), scene: ti.temp
     px, py = limited_gradient(S, G, at)
     p, h = pressure_and_film(S, G, at.k, scene)
     slope = scene.p_H / scene.a
-    return Column(p=p, h=h, px=px * slope, py=py * slope, skew=S[SKEW, at.k])
+    return FilmColumn(p=p, h=h, px=px * slope, py=py * slope, skew=S[SKEW, at.k])
 
 
 @ti.func
@@ -184,7 +184,7 @@ def velocities(S: ti.template(), Z: ti.template(), C: ti.template(), G: Table, N
         s, first, last = tile(c, nx)
         scene, nz = read(Conditions, conditions), N.shape[1]
         for i in range(first, last):
-            at = place(G, c, i)
+            at = block_at(G, c, i)
             col = column(S, G, at, scene)
             node_laws(Z, at.q, nz, oil, col.p, scene.ln_eta0)
             flow = couette(Z, N, at.q, col.h, scene)

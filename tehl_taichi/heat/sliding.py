@@ -1,13 +1,13 @@
 """The sliding (Couette) part of a column of the film, and what the shear law makes of it and of the flow by pressure."""
 
 from tehl_taichi.engine.elementary import maximum, minimum
-from tehl_taichi.engine.lanes import V
 from tehl_taichi.engine.language import ti
-from tehl_taichi.heat.nodes import weight, zeta
-from tehl_taichi.heat.slots import NIE
-from tehl_taichi.physics.rheology import LARGEST
-from tehl_taichi.physics.sheared_flow import either, mean_stress, wall_slip
-from tehl_taichi.pressure.cell_faces import CARRIED, easing
+from tehl_taichi.engine.simd import V
+from tehl_taichi.heat.film_tables import NIE
+from tehl_taichi.heat.node_table import weight, zeta
+from tehl_taichi.laws.rheology import LARGEST
+from tehl_taichi.laws.sheared_flow import either, mean_stress, wall_slip
+from tehl_taichi.pressure.fluxes import CARRIED, easing
 from tehl_taichi.pressure.tractions import against
 
 SMALL = 1e-3  # Pa, of the Newtonian stress: no sliding to speak of

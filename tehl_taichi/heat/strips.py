@@ -4,11 +4,11 @@ F[column, slot]: the modes of body a and of body b (`count` each) and the flux o
 column belongs to a material strip, which the grid of the contact overtakes by whole cells and a rest (Drift).
 """
 
-from tehl_taichi.engine.lanes import Flat, Table, V, W, cells
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
-from tehl_taichi.heat.paths import cubic
-from tehl_taichi.heat.step import Drift
+from tehl_taichi.engine.simd import Flat, Table, V, W, cells
+from tehl_taichi.heat.departure_points import cubic
+from tehl_taichi.heat.heat_step import Drift
 
 # rows: weight, decay over the step, gain of the new flux and of the last one (linear in between)
 Modes = ti.types.ndarray(dtype=ti.f64, ndim=2)

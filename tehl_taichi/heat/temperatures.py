@@ -9,18 +9,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl_taichi.engine import lanes, tables
-from tehl_taichi.engine.launches import bind
+from tehl_taichi.engine import field_pool, simd
 from tehl_taichi.engine.records import Record
-from tehl_taichi.heat import energy, film, paths, rest, slots
-from tehl_taichi.heat.across import Across
-from tehl_taichi.heat.bodies import Bodies
-from tehl_taichi.heat.relaxation import Relaxation
-from tehl_taichi.heat.step import Step
+from tehl_taichi.engine.taichi_patches.prebound import bind
+from tehl_taichi.heat import departure_points, energy, film, film_tables, skip_tiles
+from tehl_taichi.heat.aitken import Relaxation
+from tehl_taichi.heat.bodies import ConductingBodies
+from tehl_taichi.heat.chebyshev import ChebyshevNodes
+from tehl_taichi.heat.heat_step import HeatStep
 from tehl_taichi.heat.wall_shear import wall_shear
-from tehl_taichi.physics.viscosity import parts
+from tehl_taichi.laws.viscosity import parts
 from tehl_taichi.pressure import fields
-from tehl_taichi.pressure.storage import bdf
+from tehl_taichi.pressure.storage_term import bdf
 
 COLUMN_TOLERANCE = 0.1  # of the tolerance of a round
 FEW = 8  # columns without a solution that a passage goes on with
@@ -51,33 +51,35 @@ class FilmHeat:
 
     def __init__(self, levels, dt_s):
         self.levels, self.dt, self.nz = levels, dt_s, levels.scene.thermal.nodes
-        self.across, self.columns = Across(self.nz), slots.Columns(levels, self.nz)
-        self.bodies = Bodies(levels, self.columns, dt_s)
+        self.across, self.columns = ChebyshevNodes(self.nz), film_tables.FilmTables(levels, self.nz)
+        self.bodies = ConductingBodies(levels, self.columns, dt_s)
         self.holding = False  # columns without a solution at the temperatures of the oil that came in, see :meth:`hold`
-        self.step, self.dt_now, self.dt_before = Record(Step), 0.0, 0.0
+        self.step, self.dt_now, self.dt_before = Record(HeatStep), 0.0, 0.0
         self.report, self.rounds = HeatReport(math.nan, 0, 0), Relaxation()
         self._bind(levels.scene)
 
     def _bind(self, scene):
         v, conditions = self.levels, self.levels.conditions.values
         tiles, final = _tiles(v.nx, v.ny), _tiles(scene.grid.nx, scene.rows)
-        self.X = tables.lease(self, 0, lanes.W, max(tiles, final), self.nz * (self.nz + 2), clean=False)
-        self.told = np.zeros((tiles, slots.TOLD))
+        self.X = field_pool.lease(self, 0, simd.W, max(tiles, final), self.nz * (self.nz + 2), clean=False)
+        self.tile_report = np.zeros((tiles, film_tables.TOLD))
         film_state = v.S, self.columns.field
         state = *film_state, self.columns.singles.field
         known = v.G, self.across.table, scene.oil, scene.rheology, conditions
         self.values, self.slopes = (bind(film.laws, *film_state, *known[:3], conditions, slopes) for slopes in (0, 1))
         self._keep_parts = bind(film.keep, self.columns.field, v.G, self.nz, scene.oil) if parts(scene.oil) else lambda: None
-        self._velocities, self._remembered = (bind(film.velocities, *state, *known, self.told, flows) for flows in (1, 0))
-        self._departures = bind(paths.departures, *state, v.G, self.nz, conditions, self.step.values, self.told)
-        self._energy = bind(energy.energy, *state, self.X, *known, self.step.values, self.told)
-        self._choose_rest = bind(rest.choose, v.S, self.columns.singles.field, v.G, conditions,
-                                 RESTING * scene.thermal.tolerance, self.told)
-        self._accept = bind(paths.accept, *state, v.G, self.nz, v.scales.p_H)
+        self._velocities, self._remembered = (bind(film.velocities, *state, *known, self.tile_report, flows)
+                                              for flows in (1, 0))
+        self._departures = bind(departure_points.departures, *state, v.G, self.nz, conditions, self.step.values,
+                                self.tile_report)
+        self._energy = bind(energy.energy, *state, self.X, *known, self.step.values, self.tile_report)
+        self._choose_rest = bind(skip_tiles.choose_tiles, v.S, self.columns.singles.field, v.G, conditions,
+                                 RESTING * scene.thermal.tolerance, self.tile_report)
+        self._accept = bind(departure_points.accept, *state, v.G, self.nz, v.scales.p_H)
 
     def start(self, T=None):
         """Everything at the inlet temperature, or the film at T and cold bodies; the pressure and film in the table count as
-        those of the last step. Until :meth:`Bodies.warm_resting`, surfaces at rest conduct as after a long time."""
+        those of the last step. Until :meth:`ConductingBodies.warm_resting`, surfaces at rest conduct as after a long time."""
         v, self.bodies.steady, self.dt_before = self.levels, True, 0.0
         inlet = v.scene.operation.temperature
         self.bodies.cool()
@@ -96,14 +98,15 @@ class FilmHeat:
 
     def solve(self, again=False):
         """Temperatures of this step for the pressure and film in the table; again: of a step with temperatures already, which
-        stay where they would hardly move (:mod:`tehl_taichi.heat.rest`). Returns a HeatReport."""
+        stay where they would hardly move (:mod:`tehl_taichi.heat.skip_tiles`). Returns a HeatReport."""
         if again:
             self._choose_rest()
         self._velocities()
         self._departures()
         self._energy()
-        change, failed, held = (self.told[:, column] for column in (slots.CHANGE, slots.FAILED, slots.HELD))
-        self.told[:, slots.RESTS] = 0.0
+        change, failed, held = (self.tile_report[:, column]
+                                for column in (film_tables.CHANGE, film_tables.FAILED, film_tables.HELD))
+        self.tile_report[:, film_tables.RESTS] = 0.0
         self.report = HeatReport(float(change.max()), int(failed.sum()), int(held.sum()))
         return self.report
 
@@ -128,8 +131,8 @@ class FilmHeat:
 
     def relax(self):
         """Take less of what the last round changed, where rounds overshoot each other; nothing rests in the next."""
-        self.told[:, slots.CHANGE] = np.inf
-        self.set_temperature(self.rounds.relaxed(self.columns.nodes(slots.LAST), self.temperature()))
+        self.tile_report[:, film_tables.CHANGE] = np.inf
+        self.set_temperature(self.rounds.relaxed(self.columns.nodes(film_tables.LAST), self.temperature()))
 
     def accept(self):
         """Make this step the last one."""
@@ -146,30 +149,30 @@ class FilmHeat:
 
     def state(self):
         """All that is needed to go on, as arrays."""
-        return {"heat_T": self.T, "heat_T_before": self.columns.nodes(slots.TNN),
-                "heat_below": self.columns.nodes(slots.MSN), "heat_below_before": self.columns.nodes(slots.MSNN),
-                "heat_p_before": self.columns.single(slots.PNN)[None], "heat_memory": self.bodies.memory(),
+        return {"heat_T": self.T, "heat_T_before": self.columns.nodes(film_tables.TNN),
+                "heat_below": self.columns.nodes(film_tables.MSN), "heat_below_before": self.columns.nodes(film_tables.MSNN),
+                "heat_p_before": self.columns.single(film_tables.PNN)[None], "heat_memory": self.bodies.memory(),
                 "heat_offset": self.bodies.offset, "heat_dt_before": self.dt_before}
 
     def restore(self, state):
         """Go on from a state; the pressure of the last step must be in the table."""
         v = self.levels
-        for kind, name in ((slots.T, "heat_T"), (slots.TN, "heat_T"), (slots.TNN, "heat_T_before"), (slots.MSN, "heat_below"),
-                           (slots.MSNN, "heat_below_before")):
+        for kind, name in ((film_tables.T, "heat_T"), (film_tables.TN, "heat_T"), (film_tables.TNN, "heat_T_before"),
+                           (film_tables.MSN, "heat_below"), (film_tables.MSNN, "heat_below_before")):
             self.columns.put_nodes(kind, state[name])
         self._keep_parts()
-        self.columns.put_single(slots.PN, v.get(fields.P) * v.scales.p_H)
-        self.columns.put_single(slots.PNN, state["heat_p_before"][0])
+        self.columns.put_single(film_tables.PN, v.get(fields.P) * v.scales.p_H)
+        self.columns.put_single(film_tables.PNN, state["heat_p_before"][0])
         self.bodies.restore(state["heat_memory"], state["heat_offset"])
         self.T, self.dt_before = np.array(state["heat_T"]), float(state["heat_dt_before"])
 
     def temperature(self):
         """(nz, ny+1, nx+1) deg C, from body a to body b."""
-        return self.columns.nodes(slots.T)
+        return self.columns.nodes(film_tables.T)
 
     def set_temperature(self, values):
         """Start value of the next solve, (nz, ny+1, nx+1)."""
-        self.columns.put_nodes(slots.T, values)
+        self.columns.put_nodes(film_tables.T, values)
         self._keep_parts()
 
     def tractions(self):
@@ -179,5 +182,5 @@ class FilmHeat:
 
 
 def _tiles(nx, ny):
-    """Tiles of a grid, as kernels count them (:func:`tehl_taichi.engine.lanes.tiles`)."""
-    return (ny // lanes.W + 1) * (nx // lanes.TILE + 1)
+    """Tiles of a grid, as kernels count them (:func:`tehl_taichi.engine.simd.tiles`)."""
+    return (ny // simd.W + 1) * (nx // simd.TILE + 1)

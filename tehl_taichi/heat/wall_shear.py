@@ -1,9 +1,9 @@
 """Shear tractions on both surfaces of a film with temperatures: the stress at its walls, where it carries."""
 
-from tehl_taichi.engine.lanes import Flat, Table, cells, place, tile, tiles
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
-from tehl_taichi.heat.slots import XA, XB, YA, YB
+from tehl_taichi.engine.simd import Flat, Table, block_at, cells, tile, tiles
+from tehl_taichi.heat.film_tables import XA, XB, YA, YB
 from tehl_taichi.pressure.conditions import Conditions
 from tehl_taichi.pressure.fields import TOUCH, P
 from tehl_taichi.pressure.tractions import Stack, on_bodies, store
@@ -18,7 +18,7 @@ def wall_shear(S: ti.template(), G: Table, C: ti.template(), rheology: ti.templa
         s, first, last = tile(c, nx)
         scene = read(Conditions, conditions)
         for i in range(first, last):
-            at = place(G, c, i)
+            at = block_at(G, c, i)
             a_x, a_y, b_x, b_y = on_bodies(S, G, at, rheology, scene)
             carries = (S[P, at.k] > 0.0) & (S[TOUCH, at.k] == 0.0)
             store(out, at, ti.select(carries, C[at.q, XA], a_x), ti.select(carries, C[at.q, YA], a_y),

@@ -1,8 +1,9 @@
-"""A run of a scene in memory: the steady start, then the passage step by step, and how good its numbers are.
+"""A run in memory: steady start, time steps of the passage, snapshots, and the accuracy of their numbers.
 
-`passage` marches in `rounds`; `start` begins (`steady`, `first_film`, `settle`, `together`); `prediction` and `guess` look
-ahead, `failure` says what went wrong; `snapshot` is what comes out, an entry of `outputs/` for each field and number;
-`readings`, `error_bars` and `companions` are its error bars. May import all rooms of physics; nothing here knows of files.
+`passage` marches, `coupling` alternates pressure and temperature; `start`, `steady`, `isothermal_start`, `alternating_start`
+and `pseudo_transient` find the first state; `extrapolation` starts the next step, `failure` explains a failed one.
+`outputs` lists fields and numbers of a step; `accuracy` estimates errors.
+May import: engine, values, laws, scene, pressure, heat, fatigue. No files.
 """
 
 from collections.abc import Iterator

@@ -5,7 +5,7 @@ import numpy as np
 from tehl_taichi.errors import NotConverged
 from tehl_taichi.heat.energy import HOT
 from tehl_taichi.pressure import fields
-from tehl_taichi.scene import finer, thin_film
+from tehl_taichi.scene import refinement, thin_film
 from tehl_taichi.scene.film_formula import heated_film
 
 AT_FLOOR = 1e-3  # relative, that a film on its floor may lie above
@@ -81,9 +81,10 @@ def _too_high(scene):
     measured = any(f.kind.measured for f in scene.features)
     asked = " (check feature.unit, and remove the form with feature.level)" if measured else ""
     return (f"a feature rises {top:.2g} m{asked} where the film formula has {film:.2g} m; use a lower feature, or try "
-            f"{finer.told(scene)} may")
+            f"{refinement.finer_grid_option(scene)} may")
 
 
 def _finer(scene):
     """The next grid, or the one that the film formula asks for."""
-    return thin_film.remedy(scene) if thin_film.carried(scene) < 1 else f"use a finer one, {finer.told(scene)}"
+    return (thin_film.remedy(scene) if thin_film.carried(scene) < 1
+            else f"use a finer one, {refinement.finer_grid_option(scene)}")

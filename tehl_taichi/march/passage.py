@@ -12,23 +12,23 @@ import numpy as np
 from tehl_taichi.errors import NotConverged
 from tehl_taichi.heat.temperatures import FilmHeat
 from tehl_taichi.march import snapshot
+from tehl_taichi.march.coupling import carefully, exchange
 from tehl_taichi.march.failure import crossed, not_converged
 from tehl_taichi.march.prediction import Prediction
-from tehl_taichi.march.rounds import carefully, exchange
 from tehl_taichi.march.snapshot import Snapshot
-from tehl_taichi.march.solved import Solved
+from tehl_taichi.march.solved_state import SolvedState
 from tehl_taichi.march.start import steady_snapshot
-from tehl_taichi.march.step_parts import Parts
+from tehl_taichi.march.substeps import Substeps
 from tehl_taichi.pressure import fields
+from tehl_taichi.pressure.isothermal import OneTemperature
 from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.pressure.newton import PressureSolver
-from tehl_taichi.pressure.one_temperature import OneTemperature
-from tehl_taichi.pressure.storage import Storage
-from tehl_taichi.scene import demand
-from tehl_taichi.scene.parts import AUTO
-from tehl_taichi.scene.passing_words import where
-from tehl_taichi.scene.route import step_cells, total_steps
+from tehl_taichi.pressure.storage_term import Storage
+from tehl_taichi.scene import memory_demand
+from tehl_taichi.scene.feature_wording import where
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.scene.sections import AUTO
+from tehl_taichi.scene.timeline import step_cells, total_steps
 
 __all__ = ["NotConverged", "Passage", "Snapshot", "march", "total_steps"]
 
@@ -45,7 +45,7 @@ def march(scene, state=None):
     Raises SceneError where there is no room for the grid, NotConverged when a step fails for good. The same state gives the
     same following steps, bit for bit.
     """
-    demand.check(scene)
+    memory_demand.check(scene)
     scales = Scales.of(scene)
     if state is None:
         first = steady_snapshot(scene, scales)
@@ -78,7 +78,7 @@ class Passage:
 
     def _restore(self, state, done):
         self.step, self.P, self.solver.H0 = int(state["step"]), np.array(state["P"]), float(state["H0"])
-        self.parts = Parts.of(state)
+        self.parts = Substeps.of(state)
         self.levels.put(fields.P, self.P)
         if self.heat:
             self.heat.restore(state)
@@ -200,7 +200,7 @@ class Passage:
 
     def _describe(self, report, started):
         time_s = self.step * self.dT * self.scales.t
-        solved = Solved(self.solver, self.heat, report, started, self.rejected, self.dT * self.scales.t)
+        solved = SolvedState(self.solver, self.heat, report, started, self.rejected, self.dT * self.scales.t)
         return snapshot.take(solved, self.step, time_s, self.position(self.step) * self.scales.a,
                              functools.partial(self._state, self.step))
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from tehl_taichi.heat.foresight import Foresight
-from tehl_taichi.march.guess import Guess, extrapolated
+from tehl_taichi.heat.extrapolation import TemperatureExtrapolation
+from tehl_taichi.march.extrapolation import StateExtrapolation, extrapolated
 
 ORDER = 3  # of the extrapolation in time of the pressure
 
@@ -14,9 +14,9 @@ class Prediction:
 
     def __init__(self, solver, heat, at, state):
         self.solver, self.heat = solver, heat
-        self.pressure = Guess(solver.levels, ORDER, at, state)
+        self.pressure = StateExtrapolation(solver.levels, ORDER, at, state)
         self.heights = list(state.get("H0_history", [float(state["H0"])]))  # at the positions of the pressure
-        self.temperature = Foresight(heat, at, state) if heat else None
+        self.temperature = TemperatureExtrapolation(heat, at, state) if heat else None
 
     def put(self, at):
         """The guess for the state with the features at `at` into the tables."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl_taichi.march.output import Scalar, always, entries, thermal
+from tehl_taichi.march.step_output import Scalar, always, entries, thermal
 
 OVER = {"start": "", "maximum": ", largest", "minimum": ", smallest", "mean": ", mean"}
 SHARP, SWAYED = "sharp", "swayed"  # numbers that an unresolved pressure peak leaves unknown, or has a part in

@@ -6,7 +6,7 @@ from typing import Any, Callable
 
 import numpy as np
 
-from tehl_taichi.march.output import fields_of, scalars_of
+from tehl_taichi.march.step_output import fields_of, scalars_of
 from tehl_taichi.pressure import fields
 
 
@@ -36,7 +36,7 @@ class Snapshot:
     grids : list
         Of a steady start: {name: Reading} of every grid that it visited.
     domain : Share
-        Of a steady start: the share of the inlet, :class:`tehl_taichi.march.domain_error.Share`.
+        Of a steady start: the share of the inlet, :class:`tehl_taichi.march.accuracy.domain_error.DomainError`.
     unsettled : str
         Why a steady start is only a state in time; "": it is steady.
 
@@ -74,8 +74,8 @@ class Snapshot:
 
 
 def take(solved, step, time_s, feature_x, make_state):
-    """Snapshot of a :class:`tehl_taichi.march.solved.Solved`: every output that its scene has (`march/outputs/`); feature_x in
-    m; make_state: see :class:`Snapshot`."""
+    """Snapshot of a :class:`tehl_taichi.march.solved_state.SolvedState`: every output that its scene has (`march/outputs/`);
+    feature_x in m; make_state: see :class:`Snapshot`."""
     v, a = solved.solver.levels, solved.scales.a
     nodes = {name: np.ascontiguousarray(field.of(solved).swapaxes(0, 1)) for name, field in fields_of(solved.scene).items()}
     numbers = {name: float(scalar.of(solved)) for name, scalar in scalars_of(solved.scene).items()}

@@ -6,15 +6,16 @@ import time
 import numpy as np
 
 from tehl_taichi.heat.temperatures import FilmHeat
-from tehl_taichi.march import readings, snapshot
-from tehl_taichi.march.domain_error import Share, share, widened
-from tehl_taichi.march.error_bars import bars
+from tehl_taichi.march import snapshot
+from tehl_taichi.march.accuracy import readings
+from tehl_taichi.march.accuracy.domain_error import DomainError, domain_error, widened
+from tehl_taichi.march.accuracy.error_bars import bars
 from tehl_taichi.march.failure import not_converged
-from tehl_taichi.march.solved import Solved
+from tehl_taichi.march.solved_state import SolvedState
 from tehl_taichi.march.steady import solve_steady
 
 
-class Looks:
+class StartReadings:
     """What is seen of the grids of a start, from now on; newest: the snapshot of the last one that converged."""
 
     def __init__(self, scene):
@@ -28,20 +29,20 @@ class Looks:
 
     def taken(self, solver, heat, report):
         """The snapshot of what is in the solver's table."""
-        return snapshot.take(Solved(solver, heat, report, self.started), 0, 0.0, math.nan, None)
+        return snapshot.take(SolvedState(solver, heat, report, self.started), 0, 0.0, math.nan, None)
 
 
 def steady_snapshot(scene, scales):
     """Snapshot 0 with the error bars of its numbers; of a passage whose temperatures do not settle, a state in time, with the
     reason why none of its numbers is known. Raises NotConverged where there is neither."""
-    looks = Looks(scene)
+    looks = StartReadings(scene)
     result = solve_steady(scene, scales, scene.grid.nx, 0 if scales.line else scene.grid.ny, looks)
     unsettled = _unsettled(result, scene)
     first = looks.taken(result.solver, result.heat, result.report) if unsettled else looks.newest
     state = snapshot.state_of(result.solver, result.heat, 0)
     first.make_state = lambda: state
     first.scalars["cycles"], first.unsettled = float(result.work), unsettled
-    first.grids, first.domain = result.values, Share() if unsettled else share(result.solver)
+    first.grids, first.domain = result.values, DomainError() if unsettled else domain_error(result.solver)
     first.error, first.unknown, first.parts = _bars(first, scene)
     return _spread(first, scene, scales)
 

@@ -10,14 +10,14 @@ from typing import Optional
 import numpy as np
 
 from tehl_taichi.heat.temperatures import FilmHeat
-from tehl_taichi.march.first_film import from_here, from_nothing, in_time, put
-from tehl_taichi.march.flooding import agreed, between_blocks, border_of
-from tehl_taichi.march.settle import settle, time_step
-from tehl_taichi.march.together import check, march_to_rest
+from tehl_taichi.march.alternating_start import settle, time_step
+from tehl_taichi.march.flooded_border import agreed, between_blocks, border_of
+from tehl_taichi.march.isothermal_start import from_here, from_nothing, in_time, put
+from tehl_taichi.march.pseudo_transient import check, march_to_rest
 from tehl_taichi.pressure import fields
+from tehl_taichi.pressure.isothermal import OneTemperature
 from tehl_taichi.pressure.levels import Levels
-from tehl_taichi.pressure.newton import PressureSolver, Report
-from tehl_taichi.pressure.one_temperature import OneTemperature
+from tehl_taichi.pressure.newton import PressureSolver, SolveReport
 
 FIRST_CELLS = 64  # along x of the first grid: fine enough for a film from Hertz, cheap enough not to matter
 LEAST_CELLS = 32  # of the first grid where that makes one grid more, for the error of coarse runs
@@ -30,7 +30,7 @@ class SteadyResult:
     coarsest first; work: Krylov iterations; moving: whether what did not converge is a state in time."""
 
     solver: PressureSolver
-    report: Report
+    report: SolveReport
     values: list = field(default_factory=list)
     work: int = 0
     heat: Optional[FilmHeat] = None

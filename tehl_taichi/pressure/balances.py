@@ -1,7 +1,7 @@
 """Complementarity, sets and balances of the present state: partial sums per block, added up in a fixed order."""
 
-from tehl_taichi.engine.lanes import Flat, LinearFlat, Table, V, W, cells, face_weights, lanes_in, lanes_out
 from tehl_taichi.engine.language import ti
+from tehl_taichi.engine.simd import Flat, LinearFlat, Table, V, W, cells, face_weights, lanes_in, lanes_out
 from tehl_taichi.pressure.fields import DRY, FLOOR, K0, MASK, RHO, SCALE, TOUCH, WEIGHT, D, H, P, R
 
 PHI2, LOAD, OUTFLOW, COUETTE = range(4)  # columns of what `sums` tells of each block

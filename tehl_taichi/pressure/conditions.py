@@ -6,7 +6,7 @@ import numpy as np
 
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import Record
-from tehl_taichi.physics.viscosity import ln_eta
+from tehl_taichi.laws.viscosity import ln_eta
 
 
 @ti.dataclass

@@ -2,16 +2,17 @@
 
 import numpy as np
 
-from tehl_taichi.engine.lanes import W
-from tehl_taichi.pressure import fields, reynolds, transfer
+from tehl_taichi.engine.simd import W
+from tehl_taichi.pressure import fields, reynolds
 from tehl_taichi.pressure.levels import HEAVY
+from tehl_taichi.pressure.linear import transfer
 
 
 class Equations:
     """The equations of `film` on `levels`.
 
     film: whose density and viscosity they hold for. Its values() are taken from pressure and film in the table, its slopes()
-    from the values; rows: a LawRows, where both are. :class:`tehl_taichi.pressure.one_temperature.OneTemperature`, or a film
+    from the values; rows: a LawRows, where both are. :class:`tehl_taichi.pressure.isothermal.OneTemperature`, or a film
     with temperatures.
     """
 

@@ -10,7 +10,7 @@ MASK 0, dry for ever.
 import itertools
 from dataclasses import dataclass
 
-from tehl_taichi.engine.lanes import JN, NX, NY, OFF  # noqa: F401  columns of the level table too
+from tehl_taichi.engine.simd import JN, NX, NY, OFF  # noqa: F401  columns of the level table too
 
 _row, _linear = itertools.count(), itertools.count()
 

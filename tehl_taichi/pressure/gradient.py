@@ -1,10 +1,10 @@
 """dP/dX and dP/dY at the nodes, from the differences to both neighbours."""
 
 from tehl_taichi.engine.elementary import within
-from tehl_taichi.engine.lanes import V, W, above, below
 from tehl_taichi.engine.language import ti
-from tehl_taichi.pressure.cell_faces import flux, flux_x, mobility, node
+from tehl_taichi.engine.simd import V, W, above, below
 from tehl_taichi.pressure.fields import DX, DY, P
+from tehl_taichi.pressure.fluxes import flux, flux_x, mobility, node
 
 
 @ti.func

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from tehl_taichi.engine import lanes
-from tehl_taichi.physics.gap import undeformed
+from tehl_taichi.engine import simd
+from tehl_taichi.laws.gap import undeformed
 from tehl_taichi.pressure import influence
 
 COARSEST_2D = 16  # cells along x below which no coarser grid is made
@@ -31,11 +31,11 @@ class Grids:
         self.sizes = coarsen(nx, ny)
         self.dense, self.lines = solved_by(self.sizes)
         self.blocks = self._blocks([*self.lines, *self.dense])
-        self.fine = self.sizes[0][1] // lanes.W + 1  # blocks of the finest grid
+        self.fine = self.sizes[0][1] // simd.W + 1  # blocks of the finest grid
 
     def _blocks(self, levels):
         """(level, block) of all blocks of these levels."""
-        return np.array([(l, s) for l in levels for s in range(self.sizes[l][1] // lanes.W + 1)], np.int32)
+        return np.array([(l, s) for l in levels for s in range(self.sizes[l][1] // simd.W + 1)], np.int32)
 
     def grid(self, l):
         """Cells and spacings (nx, ny, dx, dy) of level l."""
@@ -108,7 +108,7 @@ def _can_halve(nx, ny):
 
 def columns(nx, ny):
     """Columns of one grid in the state table."""
-    return (ny // lanes.W + 1) * (nx + 1)
+    return (ny // simd.W + 1) * (nx + 1)
 
 
 def table_columns(nx, ny):

@@ -11,7 +11,7 @@ import functools
 
 import numpy as np
 
-from tehl_taichi.physics.viscosity import ln_eta
+from tehl_taichi.laws.viscosity import ln_eta
 from tehl_taichi.pressure import fields
 from tehl_taichi.scene.film_formula import central_film
 

@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from tehl_taichi.engine import lanes, runtime, tables
-from tehl_taichi.engine.launches import Carriers, bind
+from tehl_taichi.engine import field_pool, runtime, simd
+from tehl_taichi.engine.taichi_patches.prebound import Carriers, bind
 from tehl_taichi.pressure import balances, fields, precision
-from tehl_taichi.pressure.bending import Bending
 from tehl_taichi.pressure.conditions import conditions
+from tehl_taichi.pressure.deflection import Bending
 from tehl_taichi.pressure.grids import Grids, columns, load_weights, table_columns
-from tehl_taichi.pressure.level_numbers import LevelNumbers
+from tehl_taichi.pressure.level_table import LevelNumbers
 
 DTYPES = {"f32": np.float32, "f64": np.float64}  # of the linear solves
 HEAVY = 4  # work of a column in the laws and in the linearisation, in units of a copy
@@ -27,7 +27,7 @@ class Levels(Grids):
         self.scene, self.thins = scene, scene.shear_law.thins
         self.conditions = conditions(scene, scales, self.X)
         self.numbers = LevelNumbers(self, self.conditions, scene.rheology.film_floor)
-        self.G, self.n = self.numbers.G, columns(nx, ny) * lanes.W
+        self.G, self.n = self.numbers.G, columns(nx, ny) * simd.W
         self._lease_tables()
         self.bending, self._carriers = Bending(self), Carriers()
         self._set_masks()
@@ -37,8 +37,8 @@ class Levels(Grids):
         self.linear = np.dtype(DTYPES[self.precision])
         rows = fields.NROWS if self.scene.isothermal else fields.NROWS_THERMAL
         size = max(table_columns(self.nx, self.ny), _final_columns(self.scene))
-        self.S = tables.lease(self, rows, lanes.W, size)
-        self.J = tables.lease(self, fields.NROWS_LINEAR, lanes.W, size, precision=self.precision)
+        self.S = field_pool.lease(self, rows, simd.W, size)
+        self.J = field_pool.lease(self, fields.NROWS_LINEAR, simd.W, size, precision=self.precision)
 
     def _set_masks(self):
         inside = np.zeros((self.ny + 1, self.nx + 1))
@@ -61,17 +61,17 @@ class Levels(Grids):
 
     def _clear_ghosts(self, *rows):
         """`put` repeats the last row in the ghosts; these fields must vanish there."""
-        first, last = lanes.W * (self.fine - 1), self.ny
+        first, last = simd.W * (self.fine - 1), self.ny
         for row in rows:
-            lanes.clear_ghosts(self.S, self.G, row, last - first)
+            simd.clear_ghosts(self.S, self.G, row, last - first)
 
     def get(self, row, l=0):
         """Field `row` of level l as a new array (ny+1, nx+1), column by column in memory."""
-        return self._carry(lanes.get, row, l).copy().T
+        return self._carry(simd.get, row, l).copy().T
 
     def put(self, row, values, l=0):
         """Set field `row` of level l from an array that broadcasts to (ny+1, nx+1)."""
-        self._carry(lanes.put, row, l, values)
+        self._carry(simd.put, row, l, values)
 
     def vector(self, row):
         """Field `row` of the finest level as a new flat vector in table order."""

@@ -12,8 +12,8 @@ import numpy as np
 
 from tehl_taichi.pressure import balances, fields, reynolds
 from tehl_taichi.pressure.equations import Equations
-from tehl_taichi.pressure.krylov import Krylov
-from tehl_taichi.pressure.preconditioner import AdditiveLines
+from tehl_taichi.pressure.linear.preconditioner import AdditiveLines
+from tehl_taichi.pressure.linear.solver import Krylov
 
 SHORTEST_STEP = 0.05  # of a Newton step; below it a step is taken as it is and the next linearisation decides
 SMALL_CHANGE = 0.05  # in P/p_H: near the solution full steps are taken although the merit may rise for a moment
@@ -47,7 +47,7 @@ FIRST_ROUND = 0.1  # of :meth:`PressureSolver.improve`: 0.2 and 0.05 cost 3 % mo
 
 
 @dataclass
-class Report:
+class SolveReport:
     """What a solve did: residual reached, load and mass errors, Newton steps, Krylov iterations, converged."""
 
     residual: float
@@ -63,7 +63,7 @@ class Report:
         return replace(self, newton=newton, cycles=cycles)
 
 
-def or_lost(solve):
+def or_not_converged(solve):
     """A solve that reports no convergence from a state so far off that its linearisation has no inverse."""
 
     @functools.wraps(solve)
@@ -71,7 +71,7 @@ def or_lost(solve):
         try:
             return solve(*args, **options)
         except np.linalg.LinAlgError:
-            return Report(np.nan, np.nan, np.nan, 0, 0, False)
+            return SolveReport(np.nan, np.nan, np.nan, 0, 0, False)
 
     return guarded
 
@@ -126,7 +126,7 @@ class PressureSolver:
         self.mass_error = abs(sums[balances.OUTFLOW] / self.couette)
         return float(np.sqrt(sums[balances.PHI2] / self.levels.unknowns)) + abs(self.load_error)
 
-    @or_lost
+    @or_not_converged
     def solve(self, krylov_tolerance=None, tolerance=None, newton_max=None, enough=0.0):
         """Newton iteration from the pressure in the table and H0; leaves the solution there; at the residual `enough` it
         stops without convergence. Returns a Report."""
@@ -145,9 +145,9 @@ class PressureSolver:
             self.equations.linearise(again=True)
             merit = self.measure()
         self.kept = self.kept and converged
-        return Report(merit, self.load_error, self.mass_error, newton, cycles, converged)
+        return SolveReport(merit, self.load_error, self.mass_error, newton, cycles, converged)
 
-    @or_lost
+    @or_not_converged
     def improve(self, keeps=False):
         """One Newton step from a good guess, not checked where it is small: what follows checks, and keeps (if wanted) what is
         dear to prepare and not much different there: the coarsest level, the lift. Returns a Report."""
@@ -161,7 +161,7 @@ class PressureSolver:
             self.levels.set_film(self.H0)
         else:
             merit = self._advance(step, merit, True, numerics.tolerance)
-        return Report(merit, self.load_error, self.mass_error, 1, cycles, False)
+        return SolveReport(merit, self.load_error, self.mass_error, 1, cycles, False)
 
     def holds(self):
         """Whether the state in the table solves the equations as they are now."""

@@ -2,8 +2,8 @@
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene.film_formula import central_film
-from tehl_taichi.scene.parts import AUTO
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.scene.sections import AUTO
 
 # Central film (in a^2/R') from which on they are done in single precision. The deflection of a trial pressure is known to
 # 1e-7 of its largest value then, too little for thin films on coarse grids: of 200 random scenes 7 converge in double only,
@@ -13,13 +13,13 @@ THICK = 0.01
 
 def of(scene):
     """"f32" or "f64": what the scene asks for, or what suits it. Raises SceneError for f32 and a film too thin for it."""
-    wanted = scene.numerics.precision
-    if wanted == "f32" and suited(scene) != "f32":
+    requested = scene.numerics.precision
+    if requested == "f32" and suited(scene) != "f32":
         h = central_film(scene)
         raise SceneError(f"numerics.precision = 'f32': a film of about {h:.2g} m ({h / Scales.of(scene).h:.2g} a^2/R') is too "
                          f"thin for linear solves in single precision, which need at least {THICK:g} a^2/R'; allowed: auto, "
                          "f64")
-    return suited(scene) if wanted == AUTO else wanted
+    return suited(scene) if requested == AUTO else requested
 
 
 def suited(scene):

@@ -4,7 +4,8 @@ Conservative five-point Poiseuille part; Couette part third-order upwind-biased,
 time derivative of the newest level, in a frame that may move with the oil. Everything is multiplied by dx.
 """
 
-from tehl_taichi.engine.lanes import (
+from tehl_taichi.engine.language import ti
+from tehl_taichi.engine.simd import (
     Blocks,
     Flat,
     L,
@@ -19,9 +20,6 @@ from tehl_taichi.engine.lanes import (
     lanes_in,
     lanes_out,
 )
-from tehl_taichi.engine.language import ti
-from tehl_taichi.pressure.cell_faces import Face, driven_x, face_above, face_below, face_x, net_driven_y, wall_x, wall_y
-from tehl_taichi.pressure.couette import couette_weights
 from tehl_taichi.pressure.fields import (
     AD,
     AU,
@@ -49,6 +47,8 @@ from tehl_taichi.pressure.fields import (
     H,
     R,
 )
+from tehl_taichi.pressure.fluxes import Face, driven_x, face_above, face_below, face_x, net_driven_y, wall_x, wall_y
+from tehl_taichi.pressure.upwind import couette_weights
 
 
 @ti.func

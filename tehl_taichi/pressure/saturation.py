@@ -6,8 +6,8 @@ difference g of the pressure, and Newton steps by tangents alone do not settle. 
 the slope is the tangent where w = q(g) and the secant where w = 0. Figures: docs/decisions/01-sheared-flow.md.
 """
 
-from tehl_taichi.engine.lanes import V
 from tehl_taichi.engine.language import ti
+from tehl_taichi.engine.simd import V
 
 LEAST_FLUX = 1e-30
 

@@ -1,12 +1,12 @@
 """Shear tractions on both surfaces from the film (isothermal: one viscosity across it) and from solid contact."""
 
 from tehl_taichi.engine.elementary import maximum, minimum, within
-from tehl_taichi.engine.lanes import Flat, Table, V, W, cells, place, tile, tiles
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
-from tehl_taichi.physics.boundary import boundary_stress
-from tehl_taichi.physics.rheology import LARGEST
-from tehl_taichi.physics.sheared_flow import mean_stress, wall_limit
+from tehl_taichi.engine.simd import Flat, Table, V, W, block_at, cells, tile, tiles
+from tehl_taichi.laws.rheology import LARGEST
+from tehl_taichi.laws.sheared_flow import mean_stress, wall_limit
+from tehl_taichi.laws.solid_friction import boundary_stress
 from tehl_taichi.pressure.conditions import Conditions
 from tehl_taichi.pressure.fields import GAP, IE, TOUCH, H, P
 from tehl_taichi.pressure.gradient import central_gradient
@@ -89,5 +89,5 @@ def tractions(S: ti.template(), G: Table, rheology: ti.template(), conditions: F
         s, first, last = tile(c, nx)
         scene = read(Conditions, conditions)
         for i in range(first, last):
-            at = place(G, c, i)
+            at = block_at(G, c, i)
             store(out, at, *on_bodies(S, G, at, rheology, scene))

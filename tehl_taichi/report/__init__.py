@@ -1,11 +1,10 @@
-"""One self-contained HTML page of a run, a study or a flank, to send to a colleague: answer first, figures to zoom, no network.
+"""One self-contained HTML page of a run, a study or a flank: the verdict first, figures to zoom, no network.
 
-`written` decides what lies in a folder and writes; `run_page`, `study_page`, `flank_page` say what stands on a page, from
-`verdict`, `scene_words`, tables and plots; `document` renders it with `templates/`, a file for each kind of part; `packed`
-keeps plotly.js and the numbers small. May import every room but the commands; jinja2 and plotly are imported where they are
-used.
+`write` chooses the page of a folder; `run_page`, `study_page`, `flank_page` list its parts, `verdict` writes the answer.
+`document` renders templates, `embed` packs plotly.js and numbers into the page.
+May import: every room but the commands.
 """
 
-from tehl_taichi.report.written import report
+from tehl_taichi.report.write import report
 
 __all__ = ["report"]

@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from tehl_taichi.figures.crack_figures import BAND, SHOWN
-from tehl_taichi.figures.palette import GREY, TENSION
-from tehl_taichi.io.kept_crack import kept
-from tehl_taichi.report.document import Part, Section, drawn, facts, sentences
+from tehl_taichi.report.document import PageBlock, Section, drawn, facts, sentences
+from tehl_taichi.report.number_text import value_text
 from tehl_taichi.report.plots import colour, field_map, line, stacked
-from tehl_taichi.report.rounded import told
+from tehl_taichi.store.crack_file import kept
+from tehl_taichi.view.figures.crack_figures import BAND, SHOWN
+from tehl_taichi.view.figures.palette import GREY, TENSION
 
 POSITION = "position of the feature x / a"
 OF = "x' from the feature's centre (µm), rolling to the left"
@@ -20,20 +20,20 @@ def section(store):
         return ()
     summary, shown = found["summary"], found["drawn"]
     doubts = [doubt for side in summary["sides"].values() for doubt in side.get("doubts", [])]
-    return (Section("Cracks", (Part("text", {"sentences": verdict(summary)}), facts(_asked(summary)),
+    return (Section("Cracks", (PageBlock("text", {"sentences": verdict(summary)}), facts(_options(summary)),
                                sentences(doubts, "Doubtful"), drawn(_map(summary, shown)), drawn(*_histories(shown)))),)
 
 
 def verdict(summary):
     """A sentence for each side: what pulls, where the crack goes, what drives it, why it stops."""
-    return [_said(name, side, summary["pit_angles_deg"]) for name, side in summary["sides"].items()]
+    return [_sentences(name, side, summary["pit_angles_deg"]) for name, side in summary["sides"].items()]
 
 
-def _said(name, side, pits):
+def _sentences(name, side, pits):
     if not side["opens"]:
         return f"There is no crack on the {name} side: {side['why']}."
     error = side.get("error_at_last_length", {}).get("K_I_max")
-    begins = f"On the {name} side the surface tension reaches {told(side['sigma1_surface_Pa'], unit='Pa')}"
+    begins = f"On the {name} side the surface tension reaches {value_text(side['sigma1_surface_Pa'], unit='Pa')}"
     drives = f"K_I reaches {side['K_I_max'] / 1e6:.2g} MPa√m" + (
         f" (at the last length ± {error / 1e6:.1g}, by twice as many elements)" if error is not None else "")
     where = _angles(side["path"], pits) if "length_m" in side else ""
@@ -47,7 +47,7 @@ def _angles(path, pits):
     return f"; the crack leans {path['lean']}{at} (pits: with rolling, {pits[0]:g} to {pits[1]:g}°)"
 
 
-def _asked(summary):
+def _options(summary):
     """What acts on the cracks."""
     oil = summary["oil_is"] + (f", {summary['oil_share']:g} of it" if summary["oil_share"] not in (None, 1) else "")
     threshold = "none" if summary["threshold"] is None else f"{summary['threshold'] / 1e6:g} MPa√m"
@@ -67,12 +67,12 @@ def _map(summary, shown):
     return figure
 
 
-def _band(name, side, pits, told_):
+def _band(name, side, pits, in_legend):
     """Pits lean with rolling from the mouth on, wherever that is."""
     mouth, band = 1e6 * side["path"][0][0], 1e6 * BAND
     ends = band * np.tan(np.radians(pits))
     return [line([mouth, mouth - band, mouth - band, mouth], [0, *ends, 0], f"pits, {pits[0]:g} to {pits[1]:g}°", GREY,
-                 told=told_, fill="toself", opacity=0.4)]
+                 in_legend=in_legend, fill="toself", opacity=0.4)]
 
 
 def _lines(name, side, n):
@@ -88,7 +88,7 @@ def _histories(shown):
 
 def _history(name, cracks, position):
     panels = [(f"{kind} (MPa√m)", [line(position, 1e-6 * np.array(crack[key]), f"at {1e6 * crack['length']:.0f} µm", colour(n),
-                                        panel, told=panel == 1) for n, crack in enumerate(cracks)], {})
+                                        panel, in_legend=panel == 1) for n, crack in enumerate(cracks)], {})
               for panel, (kind, key) in enumerate((("K_I", "K_I"), ("K_II", "K_II")), 1)]
     caption = f"Stress intensities of the crack on the {name} side while the feature passes."
     return stacked(f"K-{name}", caption, POSITION, panels, height=440)

@@ -3,15 +3,15 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from tehl_taichi.report import for_readers
-from tehl_taichi.report.packed import as_json, library, packed
+from tehl_taichi.report import plain_language
+from tehl_taichi.report.embed import as_json, library, packed
 from tehl_taichi.values.escape import label, printable
 
 TEMPLATES = Path(__file__).parent / "templates"
 
 
 @dataclass(frozen=True)
-class Part:
+class PageBlock:
     """kind: its template, templates/parts/KIND.html; data: what that shows."""
 
     kind: str
@@ -57,8 +57,8 @@ class Answer:
     def groups(self):
         """[(heading, warnings)]: those of the result first, which the answer hangs on; none that is empty.
         In words for readers."""
-        found = [for_readers.told(one) for one in self.warnings if one not in self.known_before]
-        known = [for_readers.told(one) for one in self.warnings if one in self.known_before]
+        found = [plain_language.plain_sentence(one) for one in self.warnings if one not in self.known_before]
+        known = [plain_language.plain_sentence(one) for one in self.warnings if one in self.known_before]
         return [group for group in (("About the result", found), ("About the scene", known)) if group[1]]
 
 
@@ -83,23 +83,23 @@ class Page:
 
 def table(head, rows, caption="", words=1):
     """A table whose first columns are words; None without rows."""
-    return Part("table", {"head": head, "rows": rows, "caption": caption, "words": words}) if rows else None
+    return PageBlock("table", {"head": head, "rows": rows, "caption": caption, "words": words}) if rows else None
 
 
 def facts(rows):
     """Pairs of (what, value); None without any."""
-    return Part("facts", {"rows": rows}) if rows else None
+    return PageBlock("facts", {"rows": rows}) if rows else None
 
 
 def sentences(items, title=""):
     """A list of sentences; None without any."""
-    return Part("sentences", {"items": items, "title": title}) if items else None
+    return PageBlock("sentences", {"items": items, "title": title}) if items else None
 
 
 def drawn(*figures):
     """Figures beside each other where there is room; None without any."""
     found = [figure for figure in figures if figure]
-    return Part("figures", {"figures": found}) if found else None
+    return PageBlock("figures", {"figures": found}) if found else None
 
 
 def rendered(page):

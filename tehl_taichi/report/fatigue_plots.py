@@ -4,17 +4,17 @@ import numpy as np
 
 from tehl_taichi.fatigue.findley import largest_principal, shear_path
 from tehl_taichi.fatigue.worst_point import on_circle
-from tehl_taichi.figures.field_maps import whole
-from tehl_taichi.figures.index_words import largest, told_index
-from tehl_taichi.figures.limit_line import crossed, explained
-from tehl_taichi.figures.palette import GREY, INDEX, MARK
-from tehl_taichi.figures.searched_depths import beside_worst, under_row
-from tehl_taichi.report.numbered_places import numbered
+from tehl_taichi.report.number_text import value_text
+from tehl_taichi.report.numbered_points import numbered
 from tehl_taichi.report.plots import colour, field_map, level, line, marks, stacked
-from tehl_taichi.report.rounded import told
-from tehl_taichi.report.scene_words import moments
-from tehl_taichi.scene.passing_words import from_centre, passing, position
+from tehl_taichi.report.scene_text import moments
+from tehl_taichi.scene.feature_wording import from_centre, passing, position
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.view.figures.field_maps import mirrored
+from tehl_taichi.view.figures.index_text import index_text, largest
+from tehl_taichi.view.figures.limit_line import crossed, explained
+from tehl_taichi.view.figures.palette import GREY, INDEX, MARK
+from tehl_taichi.view.figures.searched_depths import beside_worst, under_row
 
 EVEN = 100  # depths drawn of a section
 POINTS = {"surface": ("worst", "critical point at the surface"), "below": ("worst_below", "critical point below the surface")}
@@ -61,7 +61,7 @@ def _depth(depth):
 def _map(search, which, where, Fi, found, more=""):
     """One layer with the line of the fatigue limit, its worst point with the trace of the critical plane in it (found: its
     summary; None: the largest value is no worst point); more: at the end of the caption."""
-    x, (y, full) = search.map("feature_frame_x") * 1e6, whole(search.map("feature_frame_y") * 1e6, Fi)
+    x, (y, full) = search.map("feature_frame_x") * 1e6, mirrored(search.map("feature_frame_y") * 1e6, Fi)
     trace = _trace(search, which, found, 0.12 * np.ptp(x)) if found else []
     marked = [*_limit(x, y, full), _marked(search, Fi, found), *trace, *numbered(search)]
     caption = f"Index Fi {where}, {search.when}{explained(bool(trace), crossed(full))}{more}."
@@ -75,7 +75,7 @@ def _marked(search, Fi, found):
         return marks([found["x_m"] * 1e6], [found["y_m"] * 1e6], f"critical point, Fi = {largest(found)}", MARK)
     i, j = np.unravel_index(int(np.argmax(Fi)), Fi.shape)
     x, y = (search.map(f"feature_frame_{axis}") * 1e6 for axis in "xy")
-    return marks([x[i]], [y[j]], f"largest at this depth, Fi = {told_index(Fi[i, j])}", MARK)
+    return marks([x[i]], [y[j]], f"largest at this depth, Fi = {index_text(Fi[i, j])}", MARK)
 
 
 def _trace(search, which, found, length):
@@ -171,8 +171,9 @@ def _path(search, which, text, history):
     traces = [line(dip / 1e6, strike / 1e6, "path", colour(0)),
               line(u + radius * np.cos(angle), v + radius * np.sin(angle), "smallest circle", colour(1)),
               marks(dip[ends] / 1e6, strike[ends] / 1e6, "points on the circle", colour(1), symbol="circle")]
-    caption = (f"Shear path of the {text} on its critical plane{_briefly(search)}: amplitude {told(radius * 1e6, unit='Pa')}, "
-               f"largest normal stress {told(normal.max(), unit='Pa')}.")
+    caption = (f"Shear path of the "
+               f"{text} on its critical plane{_briefly(search)}: amplitude {value_text(radius * 1e6, unit='Pa')}, "
+               f"largest normal stress {value_text(normal.max(), unit='Pa')}.")
     return stacked(f"{search.on}path-{which}", caption, "shear along dip (MPa)",
                    [("shear along strike (MPa)", traces, {"scaleanchor": "x", "constrain": "domain"})], {"constrain": "domain"},
                    height=400)

@@ -1,16 +1,16 @@
 """The page of a flank: where along it a crack would start, from what its folder keeps."""
 
 from tehl_taichi.fatigue.pressure_alone import why_none
-from tehl_taichi.figures.palette import GREY
-from tehl_taichi.flank.columns import dig, tables
-from tehl_taichi.flank.flank_figure import PANELS
-from tehl_taichi.flank.stored_flank import Flank
 from tehl_taichi.report import verdict
 from tehl_taichi.report.document import Answer, Page, Section, drawn, facts, sentences, table
+from tehl_taichi.report.number_text import FEW, index, value_text
 from tehl_taichi.report.plots import colour, line, stacked
-from tehl_taichi.report.rounded import FEW, index, told
+from tehl_taichi.runs.flank.flank_columns import dig, tables
+from tehl_taichi.runs.flank.flank_figure import PANELS
+from tehl_taichi.runs.flank.stored_flank import Flank
 from tehl_taichi.scene.gear_pair import GearPair
 from tehl_taichi.values.quantity import kinds
+from tehl_taichi.view.figures.palette import GREY
 
 ALONG = "x_pl from the pitch point (mm)"
 
@@ -18,14 +18,14 @@ ALONG = "x_pl from the pitch point (mm)"
 def of(folder):
     """The :class:`tehl_taichi.report.document.Page` of the flank in `folder`. Raises StoreError."""
     flank = Flank.open(folder)
-    name, geometry = flank.told["name"], flank.told["geometry"]
+    name, geometry = flank.record["name"], flank.record["geometry"]
     whose = f", flank of the {geometry['on']}, {geometry['torque']:g} N m and {geometry['n1']:g} 1/min at the pinion" \
         if "torque" in geometry else ""
     return Page(f"{name}: report", f"{name}: a flank of {len(flank.rows)} positions{whose}", _answer(flank), (
         Section("Along the flank", (drawn(*figures(flank)),)),
         Section("Positions", tuple(table(heads, lines, title) for title, (heads, lines) in tables(flank.rows).items())),
         Section("Not converged", (sentences([f"{_where(at)}: {reason}" for at, reason in flank.failed]),)),
-        Section("Gears and load", (facts(_gears(flank)), sentences([f"Load: {flank.told['load_sharing']}."]))),
+        Section("Gears and load", (facts(_gears(flank)), sentences([f"Load: {flank.record['load_sharing']}."]))),
         Section("Warnings", (sentences(warnings(flank)),)),
         Section("Provenance", (facts(_provenance(flank)),))))
 
@@ -57,7 +57,7 @@ def _answer(flank):
     said = f"Number of warnings, listed below: {len(warnings(flank))}."
     none = [f"No verdict at {_where(at)}: {why_none(part)}." for at, _, summary in flank.rows
             if (part := dig(summary, "fatigue")) and why_none(part)]
-    doubts = (*none, *[left] * bool(flank.failed), f"Assumed: {flank.told['assumption']}.", *[said] * bool(warnings(flank)))
+    doubts = (*none, *[left] * bool(flank.failed), f"Assumed: {flank.record['assumption']}.", *[said] * bool(warnings(flank)))
     if not found and none:
         return Answer(QUESTION, "No verdict: at all positions the film has more friction than any oil.", "open", (), doubts)
     if not found:
@@ -77,7 +77,7 @@ def _of_films(flank, doubts):
     if not films:
         return Answer(question, "No answer: no position converged.", "none", (), doubts)
     h, at = min(films, key=lambda entry: entry[0])
-    return Answer(question, f"The smallest film is {told(h, unit='m', digits=FEW)}, at {_where(at)}.", "none",
+    return Answer(question, f"The smallest film is {value_text(h, unit='m', digits=FEW)}, at {_where(at)}.", "none",
                   ("No feature passes, so the fatigue index is not computed.",), doubts)
 
 
@@ -129,7 +129,7 @@ def _series(flank, what):
 
 def _gears(flank):
     """What its geometry says: of a pair each value with its meaning."""
-    return [_value(key, value, kinds(GearPair).get(key)) for key, value in flank.told["geometry"].items()
+    return [_value(key, value, kinds(GearPair).get(key)) for key, value in flank.record["geometry"].items()
             if isinstance(value, (int, float, str))]
 
 

@@ -1,13 +1,13 @@
 """Fields over the contact at the worst moment of the passage."""
 
-from tehl_taichi.figures.field_maps import ends, whole
-from tehl_taichi.figures.line_figures import ALONG, SURFACES
-from tehl_taichi.figures.moments import Moments
-from tehl_taichi.figures.palette import FILM, PRESSURE, TEMPERATURE
 from tehl_taichi.report.passage_plots import columns, film_top, thinned
 from tehl_taichi.report.plots import field_map
-from tehl_taichi.scene.passing_words import passing
+from tehl_taichi.scene.feature_wording import passing
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.view.figures.field_maps import ends, mirrored
+from tehl_taichi.view.figures.line_figures import ALONG, SURFACES
+from tehl_taichi.view.figures.moments import Moments
+from tehl_taichi.view.figures.palette import FILM, PRESSURE, TEMPERATURE
 
 BODIES = tuple(f"map-{name}" for name, text, _ in SURFACES if text.startswith("surface"))
 ROWS = 101  # of a half domain, at most
@@ -23,7 +23,7 @@ def maps(store):
     styles, out = _styles(store), []
     for name, values in store.fields(n, list(styles)).items():
         text, scale, unit, factor, keys = styles[name]
-        y, full = whole(store.y[rows] / a, values[where][:, rows] * factor)
+        y, full = mirrored(store.y[rows] / a, values[where][:, rows] * factor)
         out.append(field_map(f"map-{name}", f"{text}: {when}.", store.x[where] / a, y, full, scale, unit,
                              ALONG, "y / a", **keys))
     return _alike(out)

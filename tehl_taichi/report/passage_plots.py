@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from tehl_taichi.figures.line_figures import ALONG, SURFACES, carrier
-from tehl_taichi.figures.moments import WINDOW, Moments
-from tehl_taichi.figures.palette import GREY
 from tehl_taichi.report.plots import colour, line, stacked
-from tehl_taichi.scene.passing_words import passing, position
+from tehl_taichi.scene.feature_wording import passing, position
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.view.figures.line_figures import ALONG, SURFACES, carrier
+from tehl_taichi.view.figures.moments import WINDOW, Moments
+from tehl_taichi.view.figures.palette import GREY
 
 MOMENTS, COLUMNS = 200, 400  # kept, at most: what a screen shows
 DASHES = dict(zip((name for name, *_ in SURFACES), ("solid", "dash", "dot")))
@@ -61,10 +61,10 @@ def _traces(X, values, name, text, panel):
     """The steady start in grey, and a line that the slider moves."""
     several = len(values) > 1
     hue, dash = (colour(1 + list(DASHES).index(name)), DASHES[name]) if text else (colour(0), "solid")
-    now = line(X, values[0], text or "this moment", hue, panel, dash, told=bool(text) or panel == 1 and several)
+    now = line(X, values[0], text or "this moment", hue, panel, dash, in_legend=bool(text) or panel == 1 and several)
     if not several:
         return [now]
-    return [line(X, values[0], "steady start", GREY, panel, dash, told=panel == 1 and name == "pressure"), now]
+    return [line(X, values[0], "steady start", GREY, panel, dash, in_legend=panel == 1 and name == "pressure"), now]
 
 
 def _range(store, lines, names):
@@ -130,7 +130,7 @@ def histories(store):
     x, panels = store.scalar("feature_x")[1:] / Scales.of(store.scene).a, []
     for title, factor, names in HISTORIES:
         found = {name: text for name, text in names.items() if name in store.series and np.ptp(store.scalar(name)[1:]) > 0}
-        lines = [line(x, store.scalar(name)[1:] * factor, text, colour(n + bool(text)), len(panels) + 1, told=bool(text))
+        lines = [line(x, store.scalar(name)[1:] * factor, text, colour(n + bool(text)), len(panels) + 1, in_legend=bool(text))
                  for n, (name, text) in enumerate(found.items())]
         if lines:
             panels.append((title, lines, {}))
@@ -141,7 +141,7 @@ def histories(store):
 LEFT_OVER = {"residual": "residual", "load_error": "load", "mass_error": "mass"}
 
 
-def left_over(store):
+def residual_plot(store):
     """What the discrete equations leave over at every step; None without a passage."""
     if store.steps < 3:
         return None

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from tehl_taichi.figures.palette import BLACK, LIMIT, LINES, RIM
+from tehl_taichi.view.figures.palette import BLACK, LIMIT, LINES, RIM
 
 PANEL, AROUND = 165, 110  # px: height of a panel of lines; of legend, title and axis around them
 
@@ -28,9 +28,9 @@ def axis(title, **more):
     return {"title": {"text": title, "standoff": 6}, "exponentformat": "power", **more}
 
 
-def line(x, y, name, colour, panel=1, dash="solid", told=True, **more):
-    """A line in one of the panels; told: whether it stands in the legend."""
-    return {"type": "scatter", "mode": "lines", "x": x, "y": y, "name": name, "showlegend": told, "legendgroup": name,
+def line(x, y, name, colour, panel=1, dash="solid", in_legend=True, **more):
+    """A line in one of the panels; in_legend: whether it stands in the legend."""
+    return {"type": "scatter", "mode": "lines", "x": x, "y": y, "name": name, "showlegend": in_legend, "legendgroup": name,
             "line": {"color": colour, "dash": dash, "width": 1.8}, **_in(panel), **more}
 
 

@@ -2,23 +2,23 @@
 
 import dataclasses
 
-from tehl_taichi.io.attributes import text
-from tehl_taichi.io.reader import Reader
 from tehl_taichi.report import (
     crack_plots,
     fatigue_plots,
-    for_readers,
     map_plots,
-    numbered_places,
+    numbered_points,
     passage_plots,
+    plain_language,
     run_tables,
-    scene_words,
+    scene_text,
     surface_plots,
     verdict,
 )
-from tehl_taichi.report.document import Page, Part, Section, drawn, facts, sentences
+from tehl_taichi.report.document import Page, PageBlock, Section, drawn, facts, sentences
 from tehl_taichi.report.searches import searches
-from tehl_taichi.scene.passing_words import where
+from tehl_taichi.scene.feature_wording import where
+from tehl_taichi.store.attributes import text
+from tehl_taichi.store.reader import Reader
 
 DARK = " Points that have not passed the contact by then are dark on the maps: they are not loaded yet."
 OF = (("", ""), (", resolved part", "The answer uses this part: "), (", whole passage", ""))  # of one search; of two
@@ -31,7 +31,7 @@ def of(folder):
 
 
 def page(store):
-    """The same of a :class:`tehl_taichi.io.reader.Reader`."""
+    """The same of a :class:`tehl_taichi.store.reader.Reader`."""
     about = f"{store.scene.name}: a run of tehl_taichi {text(store.attrs, 'version')}"
     sections = (scene_section(store.scene, text(store.attrs, "scene_toml", "")), *surface_plots.section(store.scene),
                 *_film(store), *_fatigue(store), *crack_plots.section(store), *_made(store))
@@ -41,9 +41,9 @@ def page(store):
 
 def scene_section(scene, source):
     """A scene in words and numbers, and all of its values."""
-    left_out = [for_readers.told(one) for one in scene.left_out(cut=False)]
-    whole = Part("source", {"title": "every value, as a scene file", "text": source}) if source else None
-    return Section("Scene", (Part("text", {"sentences": scene_words.words(scene)}), facts(scene_words.numbers(scene)),
+    left_out = [plain_language.plain_sentence(one) for one in scene.left_out(cut=False)]
+    whole = PageBlock("source", {"title": "every value, as a scene file", "text": source}) if source else None
+    return Section("Scene", (PageBlock("text", {"sentences": scene_text.words(scene)}), facts(scene_text.numbers(scene)),
                              sentences(left_out, "Left out, because the scene does not need these parts"), whole))
 
 
@@ -53,7 +53,7 @@ def _film(store):
     moved, maps = line.more.get("slides"), drawn(*map_plots.maps(store))
     if not moved:
         return Section("Film and pressure", (drawn(line), maps)),
-    slider = Part("slider", {"figures": [line], "first": moved["first"], "last": len(moved["at"]) - 1,
+    slider = PageBlock("slider", {"figures": [line], "first": moved["first"], "last": len(moved["at"]) - 1,
                              "what": where(store.scene)})
     return (Section("Passage", (slider,)), Section("Histories", (drawn(histories), run_tables.solid_contact(store.summary))),
             Section("Moment of the largest pressure", (maps,)))
@@ -72,7 +72,8 @@ def _of_search(search, of, lead):
     shown = drawn(*fatigue_plots.index(search), *fatigue_plots.depth(search))
     behind = NO_MAPS if shown is None else DARK if search.of else ""
     words = [_sentence(f"{lead}{search.when}.") + behind] * bool(search.short)
-    return (Section(f"Fatigue{of}", (Part("text", {"sentences": words}) if words else None, shown, numbered_places.rows(search),
+    return (Section(f"Fatigue{of}", (PageBlock("text", {"sentences": words}) if words else None, shown,
+                                     numbered_points.rows(search),
                                      run_tables.worst_points(search.found, search.scene), run_tables.tension(search.found))),
             Section(f"Stresses at the critical points{of}", tuple(drawn(*pair) for pair in fatigue_plots.worst_points(search))))
 
@@ -84,5 +85,5 @@ def _sentence(words):
 def _made(store):
     """How good the numbers are and where they come from."""
     return (Section("Numbers and their errors", tuple(run_tables.errors(store.summary))),
-            Section("Numerics", (run_tables.numerics(store), drawn(passage_plots.left_over(store)))),
+            Section("Numerics", (run_tables.numerics(store), drawn(passage_plots.residual_plot(store)))),
             Section("Provenance", (run_tables.provenance(store),)))

@@ -2,13 +2,13 @@
 
 import json
 
-from tehl_taichi.figures.index_words import resolved
-from tehl_taichi.io import intact
-from tehl_taichi.io.summary_rows import contact_share
 from tehl_taichi.march import quantities
 from tehl_taichi.report.document import facts, sentences, table
-from tehl_taichi.report.rounded import FEW, apart, index, roughly, share, told
-from tehl_taichi.scene.passing_words import passing
+from tehl_taichi.report.number_text import FEW, apart, index, roughly, share, value_text
+from tehl_taichi.runs.summary.summary_rows import contact_share
+from tehl_taichi.scene.feature_wording import passing
+from tehl_taichi.store import integrity
+from tehl_taichi.view.figures.index_text import resolved
 
 PARTS = (("steady", "steady start"), ("transient", "passage"), ("fatigue", "fatigue"))
 SHORT = 30  # letters of a reason that stands in the row itself
@@ -39,7 +39,7 @@ def _with_below(reasons, found, more):
 def _of_below(deep, reasons):
     """The same of what lies below the surface."""
     for says, *rest in _with_errors(deep, reasons):
-        yield says.replace("at the surface", f"{told(deep['depth_m'], unit='m')} below the surface"), *rest
+        yield says.replace("at the surface", f"{value_text(deep['depth_m'], unit='m')} below the surface"), *rest
 
 
 def _with_errors(values, reasons):
@@ -99,20 +99,20 @@ def _in_file(scene, points):
 def in_file(scene, x, y):
     """Where the point of a scan nearest to x, y (m, as in maps of the index) stands in its file, in words."""
     first = scene.features[0]
-    return first.told_at(x - first.x, y - first.y)
+    return first.position_in_file(x - first.x, y - first.y)
 
 
 def _of_point(point, key, unit):
     """A number of a point, '' where it has none; the index as everywhere on the page."""
     if key == "Fi_max":
         return index(point[key], point.get("error", {}).get(key))
-    return told(point[key], unit=unit) if key in point else ""
+    return value_text(point[key], unit=unit) if key in point else ""
 
 
 def tension(fatigue):
     """What the worst point does not tell of the surface; None where it was not kept."""
     most = fatigue.get("sigma1_max_Pa")
-    return facts([("largest principal stress at the surface", told(most, unit="Pa"))] if most is not None else [])
+    return facts([("largest principal stress at the surface", value_text(most, unit="Pa"))] if most is not None else [])
 
 
 def solid_contact(summary):
@@ -149,7 +149,7 @@ FROM = ("command", "date", "version", "commit", "python", "numpy", "pyfftw", "za
 
 def provenance(store):
     """Who computed it: what its attributes tell, and the runtime's own."""
-    runtime = intact.optional(store.attrs, "runtime", {})
+    runtime = integrity.optional(store.attrs, "runtime", {})
     rows = [(key, str(store.attrs[key])) for key in FROM if key in store.attrs]
     return facts([("store", store.path.name), *rows, *((key, _word(runtime[key])) for key in ("taichi", "arch", "threads")
                                                        if key in runtime)])

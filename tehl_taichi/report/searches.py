@@ -5,11 +5,11 @@ from functools import cached_property
 from typing import Any
 
 from tehl_taichi.fatigue.pressure_alone import searched, why_none
-from tehl_taichi.figures.found_search import CONSTANTS, OF_PART, SHARED
-from tehl_taichi.figures.index_words import PART, resolved
-from tehl_taichi.report import numbered_places
-from tehl_taichi.report.scene_words import when
-from tehl_taichi.scene.passing_words import where
+from tehl_taichi.report import numbered_points
+from tehl_taichi.report.scene_text import when
+from tehl_taichi.scene.feature_wording import where
+from tehl_taichi.view.figures.index_text import PART, resolved
+from tehl_taichi.view.figures.search_data import CONSTANTS, OF_PART, SHARED
 
 
 @dataclass(frozen=True)
@@ -30,8 +30,8 @@ class Search:
 
     @cached_property
     def places(self):
-        """Its worst places, see :func:`tehl_taichi.report.numbered_places.places`: in two maps and a table."""
-        return numbered_places.places(self)
+        """Its worst places, see :func:`tehl_taichi.report.numbered_points.places`: in two maps and a table."""
+        return numbered_points.places(self)
 
     def map(self, name):
         """One of its maps, or None."""

@@ -3,11 +3,11 @@
 import numpy as np
 
 from tehl_taichi.report.document import Answer, Page, Section, drawn, facts, sentences, table
-from tehl_taichi.report.rounded import told
+from tehl_taichi.report.number_text import value_text
 from tehl_taichi.report.run_page import scene_section
 from tehl_taichi.report.study_plots import column, figures
-from tehl_taichi.study import study_figures
-from tehl_taichi.study.table import Study, attributes
+from tehl_taichi.runs.sweep import study_figures
+from tehl_taichi.runs.sweep.study_table import Study, attributes
 
 MOST_ROWS = 500
 ERROR, BELOW = "fatigue_error_Fi_max", "fatigue_below_Fi_max"
@@ -45,7 +45,7 @@ def _answer(study):
 
 def _extreme(study, Fi, text, which):
     n = int(which(Fi))
-    return f"The {text} is Fi = {told(Fi[n])}: {_changes(study, n)}."
+    return f"The {text} is Fi = {value_text(Fi[n])}: {_changes(study, n)}."
 
 
 def _errors(study):

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from tehl_taichi.figures.palette import RESULT
 from tehl_taichi.report.plots import colour, field_map, line, marks, stacked
-from tehl_taichi.study.flat import unit_of
-from tehl_taichi.study.study_figures import along, numeric, scaled, usual
+from tehl_taichi.runs.sweep.study_figures import along, numeric, scaled, usual
+from tehl_taichi.runs.sweep.summary_columns import unit_of
+from tehl_taichi.view.figures.palette import RESULT
 
 MOST_LINES = 12
 
@@ -32,7 +32,8 @@ def _lines(study, name):
     x, x_label, words = along(study, study.plan.keys[0])
     rows, seconds = values.reshape(len(x), -1).T, _seconds(study, label)
     shown = np.unique(np.linspace(0, len(rows) - 1, min(len(rows), MOST_LINES)).astype(int))
-    traces = [line(x, rows[n], seconds[n], colour(k), told=len(rows) > 1, mode="lines+markers") for k, n in enumerate(shown)]
+    traces = [line(x, rows[n], seconds[n], colour(k), in_legend=len(rows) > 1, mode="lines+markers") for k,
+              n in enumerate(shown)]
     return stacked(f"{name}-lines", f"{label} over {x_label}.", x_label, [(label, traces, {})],
                    _ticks(x, words, numeric(study, study.plan.keys[0])), height=400)
 

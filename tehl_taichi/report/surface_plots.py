@@ -5,15 +5,15 @@ import os
 
 import numpy as np
 
-from tehl_taichi.figures.palette import HEIGHT, SHADE
-from tehl_taichi.figures.passing_heights import heights
 from tehl_taichi.report.document import Section, drawn, facts
+from tehl_taichi.report.number_text import value_text
 from tehl_taichi.report.passage_plots import thinned
 from tehl_taichi.report.plots import colour, field_map, line, stacked
-from tehl_taichi.report.rounded import told
-from tehl_taichi.scene.maps.height_map import LEVELS
-from tehl_taichi.scene.maps.map_judge import form_taken
-from tehl_taichi.scene.passing_words import from_centre
+from tehl_taichi.scene.feature_wording import from_centre
+from tehl_taichi.scene.surface.maps.height_map import LEVELS
+from tehl_taichi.scene.surface.maps.map_warnings import form_taken
+from tehl_taichi.view.figures.height_profile import heights
+from tehl_taichi.view.figures.palette import HEIGHT, SHADE
 
 STEPS = 1000  # of heights, at least
 HOLES = " Light: points that were not measured and were filled smoothly from their neighbours."
@@ -36,7 +36,7 @@ def picture(scene):
     along = from_centre(scene)
     caption = "Heights of the features, all on surface a (body a)."
     if found.line:
-        drawn_line = line(x, values[:, 0], "height", colour(0), told=False)
+        drawn_line = line(x, values[:, 0], "height", colour(0), in_legend=False)
         return stacked("surface", caption, along, [("height (µm)", [drawn_line], {})], height=330)
     caption += _kept(found, i, j) + HOLES * bool(found.filled.any())
     return field_map("surface", caption, x, y, _stepped(values), HEIGHT, "µm", along, "y (µm)", _holes(found, i, j),
@@ -71,17 +71,17 @@ def measured(f, scene):
     """(what, value) of a map: of its file, and of the heights that pass."""
     (along, across), m, (length, width) = f.points, f.measures, f.patch
     turned = f", times {f.scale:g}" if f.scale != 1 else ""
-    rim = f", fading out over {told(f.taper, unit='m')} at its rim" if f.taper else ""
+    rim = f", fading out over {value_text(f.taper, unit='m')} at its rim" if f.taper else ""
     return [("file", os.path.basename(f.file)), ("points", f"{along} × {across}"),
             *([("not measured", _missing(f))] if f.holes.any() else []),
             *([("turned", f.orientation.says)] if f.orientation.says else []),
-            ("distance between points", " × ".join(told(step, unit="m") for step in f.steps)),
+            ("distance between points", " × ".join(value_text(step, unit="m") for step in f.steps)),
             ("unit of the heights", f"{f.unit.replace('um', 'µm')}{turned}"),
             ("removed form", LEVELS[f.level] + form_taken(f, scene)),
-            *([("low-pass", f"Gaussian, cutoff {told(f.cutoff, unit='m')}")] if f.cutoff else []),
-            ("patch used", f"{told(length, unit='m')} × {told(width, unit='m')}{rim}"),
-            ("range", f"{told(m.range, unit='m')}: {_signed(m.low)} to {_signed(m.high)}"), ("rms", told(m.rms, unit="m")),
-            ("largest slope", f"{m.slope:.2g}°")]
+            *([("low-pass", f"Gaussian, cutoff {value_text(f.cutoff, unit='m')}")] if f.cutoff else []),
+            ("patch used", f"{value_text(length, unit='m')} × {value_text(width, unit='m')}{rim}"),
+            ("range", f"{value_text(m.range, unit='m')}: {_signed(m.low)} to {_signed(m.high)}"),
+            ("rms", value_text(m.rms, unit="m")), ("largest slope", f"{m.slope:.2g}°")]
 
 
 def _missing(f):
@@ -91,4 +91,4 @@ def _missing(f):
 
 
 def _signed(height):
-    return told(height, unit="m").replace("-", "−")
+    return value_text(height, unit="m").replace("-", "−")

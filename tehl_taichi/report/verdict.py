@@ -1,13 +1,13 @@
 """The answer of a run, in a sentence, and what it rests on."""
 
 from tehl_taichi.fatigue.pressure_alone import searched, why_none
-from tehl_taichi.io import rim_judge
-from tehl_taichi.io.result_judge import STEEL, YIELDS, largest_pressure
 from tehl_taichi.report.document import Answer
-from tehl_taichi.report.rounded import index, told
-from tehl_taichi.report.scene_words import WHOLE, material, moments, when
-from tehl_taichi.scene import passing_words
-from tehl_taichi.scene.route import total_steps
+from tehl_taichi.report.number_text import index, value_text
+from tehl_taichi.report.scene_text import WHOLE, material, moments, when
+from tehl_taichi.runs.summary import rim_warnings
+from tehl_taichi.runs.summary.result_warnings import STEEL, YIELDS, largest_pressure
+from tehl_taichi.scene import feature_wording
+from tehl_taichi.scene.timeline import total_steps
 from tehl_taichi.values.digits import micrometres
 
 ABOVE, WITHIN, BELOW = 1, 0, -1
@@ -22,7 +22,7 @@ def of(store):
         return _none_yet(store)
     found = of_fatigue(summary["fatigue"], store.scene) if "fatigue" in summary else _of_film(summary, store.scene)
     question, headline, tone, tells = found
-    yields, rims = _yielding(summary), list(rim_judge.rims(store, summary))
+    yields, rims = _yielding(summary), list(rim_warnings.rims(store, summary))
     warnings = [one for one in store.warnings if one.code not in ("rim", "yield")]  # those stand first already
     at_rim = [f"{said[0].upper()}{said[1:]}." for said in rims]
     doubts = (*yields, *at_rim, *_cut(store), *_constants(store, summary), *_version(store))
@@ -57,15 +57,15 @@ def of_fatigue(fatigue, scene=None):
         return FATIGUE, f"No verdict: {why}.", "open", _from_pressure(searched(fatigue))
     over = when(scene) if scene else WHOLE
     worst, places, known, tells = _judged(fatigue)
-    said, tells = headline(worst, places, known), [*tells, *_alone(fatigue, over, passing_words.passing(scene))]
+    said, tells = headline(worst, places, known), [*tells, *_alone(fatigue, over, feature_wording.passing(scene))]
     if "resolved" in fatigue:
-        said, tells = _by_what_is_known(fatigue["resolved"], worst, tells, over, passing_words.where(scene))
+        said, tells = _by_what_is_known(fatigue["resolved"], worst, tells, over, feature_wording.where(scene))
     return FATIGUE, *said, (*tells, *_plane(fatigue))
 
 
 def _from_pressure(found):
     """Sentences on the index of the pressure alone."""
-    told_of = (_told(*layer) for layer in _judged_layers(found))
+    told_of = (_index_sentence(*layer) for layer in _judged_layers(found))
     return ("From the pressure alone, without surface shear and frictional heat:", *told_of)
 
 
@@ -75,7 +75,7 @@ def _judged(fatigue):
     worst = max(said for *_, said in found)
     places = " and ".join(where for where, _, _, said in found if said == worst)
     known = all(error is not None for _, _, error, said in found if said == worst)
-    return worst, places, known, [_told(*layer) for layer in found]
+    return worst, places, known, [_index_sentence(*layer) for layer in found]
 
 
 def _judged_layers(fatigue):
@@ -108,7 +108,7 @@ def _place(x):
     return f"{x:.2f} a, that is {abs(x):.2f} half-widths {side} the middle of the contact"
 
 
-def _told(where, Fi, error, said):
+def _index_sentence(where, Fi, error, said):
     unknown = "" if error is not None else " (error unknown)"
     return f"{where[0].upper()}{where[1:]}: Fi = {index(Fi, error)}{unknown}, {SAID[said]}."
 
@@ -151,14 +151,14 @@ def _of_film(summary, scene):
 
 
 def _with_error(part, key, unit):
-    return told(part[key], part.get("error", {}).get(key), unit)
+    return value_text(part[key], part.get("error", {}).get(key), unit)
 
 
 def _none_yet(store):
     total, writer = total_steps(store.scene), store.writer
     state = (f"It is still being written by {writer}." if writer else
              f"It was stopped, or a step did not converge; `tehl resume {store.path.name}` continues it.")
-    question = FATIGUE if store.scene.fatigue_wanted else FILM
+    question = FATIGUE if store.scene.has_fatigue else FILM
     return Answer(question, "No answer yet: the run is not finished.", "none", (
         f"{store.last_step} of {total} time steps are stored. {state}",), _version(store), tuple(store.warnings))
 

@@ -1,11 +1,12 @@
-"""What the user describes: frozen dataclasses in SI units, checked when they are made.
+"""The scene: frozen dataclasses in SI units, checked when they are made; their files; what follows from them alone.
 
-Bodies, oil, features, operation, grid, and what follows from them alone: Hertz units, film formulas, routes, doubts. Shapes of
-`features`, named `oils`: a file each. May import `values`, `physics` and `criteria` (which laws there are); needs no taichi.
+`sections` are the tables of a scene file, `description` the whole scene, `overrides` and `aliases` changes by key.
+`hertz`, `scales`, `film_formula` compute from a scene; `scene_warnings` collects warnings; `surface` holds shapes and maps.
+May import: disk, values, laws. Taichi is not loaded.
 """
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene.builtin import BUILT_INS, scene
-from tehl_taichi.scene.whole import Scene
+from tehl_taichi.scene.description import Scene
 
 __all__ = ["BUILT_INS", "Scene", "SceneError", "scene"]

@@ -1,12 +1,12 @@
 """Built-in scenes."""
 
 from tehl_taichi.errors import SceneError
+from tehl_taichi.scene.description import Scene
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.named_oils import OILS
-from tehl_taichi.scene.parts import Body, Contact, Grid, Operation, Rheology, Thermal
-from tehl_taichi.scene.whole import Scene
+from tehl_taichi.scene.sections import Body, Contact, Grid, Operation, Rheology, Thermal
 from tehl_taichi.values.checks import nearest
-from tehl_taichi.values.plain import shown
+from tehl_taichi.values.coerce import shown
 
 # ball of steel on glass, R = 12.7 mm: E' = 117 GPa; oil with alpha = 2.2e-8 1/Pa (spec: the ridge of Venner & Lubrecht)
 GLASS = Body(E=75.06e9, nu=0.22, k=1.1, rho=2510.0, c=800.0)
@@ -58,4 +58,4 @@ def scene(name="gear"):
 
 
 for _scene, _ in BUILT_INS.values():
-    _scene.asking(())
+    _scene.with_user_keys(())

@@ -7,11 +7,11 @@ and S0 such that both viscosities at p = 0 are met exactly, Z from alpha, the sa
 import math
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.physics import density
-from tehl_taichi.physics.densities import RHO0
-from tehl_taichi.physics.viscosities.roelands_temperature import LN_SCALE, LOG_SCALE, P_ROELANDS, ROELANDS_TEMPERATURE
+from tehl_taichi.laws import density
+from tehl_taichi.laws.densities import RHO0
+from tehl_taichi.laws.viscosities.roelands_temperature import LN_SCALE, LOG_SCALE, P_ROELANDS, ROELANDS_TEMPERATURE
 from tehl_taichi.scene import mineral_alpha
-from tehl_taichi.values.plain import plain
+from tehl_taichi.values.coerce import plain
 from tehl_taichi.values.quantity import quantity
 
 NAME = "data-sheet"  # of an oil that is given no other
@@ -27,21 +27,21 @@ KEYS = {"nu_40": quantity(0.0, "m2/s", "data sheet: kinematic viscosity at 40 de
 VISCOSITY = ("G0", "S0", "Dz", "Cz")
 
 
-def speaks(values):
+def is_given(values):
     """Whether some of these values of an oil are of a data sheet."""
     return any(plain(values.get(key, 0)) != 0 for key in KEYS)
 
 
 def follows(values):
     """Names of the numbers that follow from the sheet of these values, () without one."""
-    return () if not speaks(values) else (*VISCOSITY, "rho0") if values.get("rho_15", 0) else VISCOSITY
+    return () if not is_given(values) else (*VISCOSITY, "rho0") if values.get("rho_15", 0) else VISCOSITY
 
 
 def completed(oil):
     """{key: value} that follow from the sheet of an oil, nothing where it has none. Raises SceneError where it contradicts
     itself or what else is given."""
     values = vars(oil)
-    if not speaks(values):
+    if not is_given(values):
         return {}
     _check(oil)
     found = {"rho0": oil.rho_15 / _expansion(oil, 15.0) if oil.rho_15 else oil.rho0}

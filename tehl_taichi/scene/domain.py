@@ -11,7 +11,7 @@ from tehl_taichi.errors import SceneError
 from tehl_taichi.scene import hertz
 from tehl_taichi.scene.film_formula import heated_film
 from tehl_taichi.scene.scales import Scales
-from tehl_taichi.values.chosen import Chosen
+from tehl_taichi.values.automatic import AutomaticValue
 from tehl_taichi.values.quantity import AUTO
 
 OUTLET, LINE_SIDE = 1.5, 1.0  # a; b, where nothing depends on it
@@ -39,16 +39,16 @@ def chosen(scene):
              "y_max": lambda s, film: LINE_SIDE if s.line else _first(SIDES, lambda Y: side_gap(s, Y) / film, GAPS)}
     s = Scales.of(scene)
     film = heated_film(scene) / s.h if {"x_min", "y_max"} & set(asked) else 1.0
-    return replace(grid, **{key: Chosen(found[key](s, film)) for key in asked})
+    return replace(grid, **{key: AutomaticValue(found[key](s, film)) for key in asked})
 
 
-def as_asked(values):
+def with_auto(values):
     """Values of a grid with "auto" where the program chose."""
-    return {key: AUTO if isinstance(value, Chosen) else value for key, value in values.items()}
+    return {key: AUTO if isinstance(value, AutomaticValue) else value for key, value in values.items()}
 
 
 def _auto(value):
-    return value == AUTO or isinstance(value, Chosen)
+    return value == AUTO or isinstance(value, AutomaticValue)
 
 
 def _least(scene):
@@ -82,7 +82,7 @@ def within(scene, share):
         needed["y_max"] = _needed("y_max", SIDES, lambda Y: side_gap(s, Y) / film, max(GAPS, SIDE * power), share)
     nearer = {key: end for key, end in needed.items() if abs(end) > abs(getattr(scene.grid, key))}
     for key, end in nearer.items():
-        if not isinstance(own := getattr(scene.grid, key), Chosen):
+        if not isinstance(own := getattr(scene.grid, key), AutomaticValue):
             raise SceneError(f'grid.{key} = {own:g} leaves more than {share:.2g} of the film to the end of the domain; '
                              f'allowed: a magnitude of at least {abs(end):g}, or "{AUTO}"')
     return scene.replace(**{f"grid.{key}": end for key, end in nearer.items()})
@@ -106,7 +106,7 @@ def remedy(scene, film):
 def moved(scene):
     """What auto did beyond the usual inlet, in a sentence; "" where it did nothing."""
     g = scene.grid
-    if not (isinstance(g.x_min, Chosen) and g.x_min < -INLETS[0]):
+    if not (isinstance(g.x_min, AutomaticValue) and g.x_min < -INLETS[0]):
         return ""
     per_a = g.nx / (g.x_max - g.x_min)
     as_fine = math.ceil(g.nx * (g.x_max - g.x_min) / (g.x_max + INLETS[0]) / 16 - 1e-9) * 16

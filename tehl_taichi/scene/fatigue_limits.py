@@ -6,24 +6,24 @@ kappa, too. They become the constants once, where the section [fatigue] is made,
 
 import math
 
-from tehl_taichi.criteria import CRITERIA
 from tehl_taichi.errors import SceneError
+from tehl_taichi.laws.criteria import CRITERIA
 from tehl_taichi.values.checks import number
-from tehl_taichi.values.plain import plain
+from tehl_taichi.values.coerce import plain
 
 KEYS = ("bending_limit", "torsion_limit")
 LEAST_LIMIT, LARGEST_LIMIT, USUAL_LIMIT = 1e6, 1e11, 4e8  # Pa
 FROM = "from the fatigue limit"  # begins the source of constants that are given no other
 
 
-def speaks(values):
+def given_limits(values):
     """Names of the limits among these values."""
     return [key for key in KEYS if plain(values.get(key)) not in (None, 0)]
 
 
 def follows(values):
     """Names of the constants that follow from the limits of these values, () without one."""
-    return ((), ("endurance",), ("kappa", "endurance"))[len(speaks(values))]
+    return ((), ("endurance",), ("kappa", "endurance"))[len(given_limits(values))]
 
 
 def completed(fatigue):
@@ -50,7 +50,7 @@ def check_free(given, fatigue):
     for key, value in given.items():
         number(f"fatigue.{key}", value)
         if not math.isclose(value, getattr(fatigue, key), rel_tol=1e-6):
-            limits = " and ".join(f"fatigue.{name} = {getattr(fatigue, name):g} Pa" for name in speaks(vars(fatigue)))
+            limits = " and ".join(f"fatigue.{name} = {getattr(fatigue, name):g} Pa" for name in given_limits(vars(fatigue)))
             rest = "the limit in bending or torsion" if key == "kappa" else "the limits"
             raise SceneError(f"fatigue.{key} = {value:g} contradicts {limits}, which {'give' if 'and' in limits else 'gives'} "
                              f"{key} = {getattr(fatigue, key):.6g}; omit {key}, or {rest}")
@@ -59,7 +59,7 @@ def check_free(given, fatigue):
 def words(fatigue, kappa=None):
     """'from the fatigue limit 400 MPa in reversed torsion with kappa = 0.3', '' without limits; kappa: other than its own."""
     said = [f"{getattr(fatigue, key) / 1e6:g} MPa in {'reversed ' * (n == 0)}{key.partition('_')[0]}"
-            for n, key in enumerate(speaks(vars(fatigue)))]
+            for n, key in enumerate(given_limits(vars(fatigue)))]
     if len(said) == 1:
         return f"{FROM} {said[0]} with kappa = {fatigue.kappa if kappa is None else kappa:g}"
     return f"{FROM}s {' and '.join(said)}" if said else ""
@@ -67,10 +67,10 @@ def words(fatigue, kappa=None):
 
 def changed(table, new):
     """Clear in the table of a section what new values {key: value} of it replace; None stands for what follows."""
-    if "endurance" in new and not speaks(new):
+    if "endurance" in new and not given_limits(new):
         table.update(dict.fromkeys(KEYS, 0.0))
-    if "kappa" in new and len(speaks(new)) == 1:
-        table.update(dict.fromkeys(set(KEYS) - set(speaks(new)), 0.0))
+    if "kappa" in new and len(given_limits(new)) == 1:
+        table.update(dict.fromkeys(set(KEYS) - set(given_limits(new)), 0.0))
     if {"kappa", "endurance", "criterion", *KEYS} & new.keys():
         table.update(dict.fromkeys(follows({**table, **new})))
         if str(table.get("source", "")).startswith(FROM):

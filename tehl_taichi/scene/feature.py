@@ -4,13 +4,13 @@ from dataclasses import dataclass
 from typing import Any
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.registry import collect
-from tehl_taichi.scene import features
-from tehl_taichi.scene.maps import height_map
-from tehl_taichi.scene.shape import Shape, told
+from tehl_taichi.scene.surface import shapes
+from tehl_taichi.scene.surface.maps import height_map
+from tehl_taichi.scene.surface.shape import Shape, shared_key_meaning
 from tehl_taichi.values.quantity import Choice, Switch, Text, check, choice, documented, kinds, quantity
+from tehl_taichi.values.registry import collect
 
-SHAPES = collect(features, Shape)
+SHAPES = collect(shapes, Shape)
 OWN = tuple(shape.keys for shape in SHAPES.values() if shape.keys)
 # {key that not every shape has: names of those that look at it}; the others ignore it
 USED_BY = {key: tuple(name for name, shape in SHAPES.items() if key in shape.uses)
@@ -20,11 +20,11 @@ LARGEST = 0.03  # m: contacts are a millimetre wide, 0.05 was meant in mm
 
 
 def _about(key, general):
-    return told(SHAPES, key, general)
+    return shared_key_meaning(SHAPES, key, general)
 
 
 @dataclass(frozen=True)
-class Shared:
+class SharedKeys:
     """Keys that shapes share."""
 
     shape: str = choice("cosine", "what it is", tuple(SHAPES))
@@ -42,7 +42,7 @@ class Shared:
 
 @documented
 @dataclass(frozen=True, repr=False)
-class Feature(*OWN, Shared):
+class Feature(*OWN, SharedKeys):
     """Feature of surface a; x and y of further features are measured from the first.
 
     `tehl scenes` lists the shapes and their keys. Heights in an array: :meth:`from_heights`.

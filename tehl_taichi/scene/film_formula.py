@@ -5,8 +5,8 @@ import math
 
 import numpy as np
 
-from tehl_taichi.physics.conduction import conductivity
-from tehl_taichi.physics.viscosity import ln_eta
+from tehl_taichi.laws.conduction import conductivity
+from tehl_taichi.laws.viscosity import ln_eta
 from tehl_taichi.scene.scales import Scales, reduced_modulus
 
 PRESSURES = np.linspace(0.0, 1.5e9, 201)  # Pa; 1/eta has fallen to 1e-7 at the last

@@ -2,7 +2,7 @@
 
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.oil import Oil
-from tehl_taichi.scene.parts import SECTIONS, Body
+from tehl_taichi.scene.sections import SECTIONS, Body
 from tehl_taichi.values.quantity import kinds
 
 # {first part of a full key: class of that section}; "feature" is the first feature

@@ -3,13 +3,13 @@
 import dataclasses
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.physics import viscosity
-from tehl_taichi.registry import collect
+from tehl_taichi.laws import viscosity
 from tehl_taichi.scene import data_sheet, oils
 from tehl_taichi.scene.oil import Oil
 from tehl_taichi.values import checks
 from tehl_taichi.values.checks import build, nearest
-from tehl_taichi.values.plain import plain
+from tehl_taichi.values.coerce import plain
+from tehl_taichi.values.registry import collect
 
 NAMED = collect(oils, oils.NamedOil)
 OILS = {name: entry.oil for name, entry in NAMED.items()}
@@ -21,9 +21,9 @@ def from_values(values):
     viscosity law (see :func:`check_new`) or a data sheet, the others are those of the reference oil."""
     if not isinstance(values, dict):
         return build(Oil, values, "oil")
-    name = values.get("name", data_sheet.NAME if data_sheet.speaks(values) else Oil.name)
+    name = values.get("name", data_sheet.NAME if data_sheet.is_given(values) else Oil.name)
     known = dataclasses.asdict(OILS[name]) if isinstance(name, str) and name in OILS else {}
-    if data_sheet.speaks({**known, **values}):
+    if data_sheet.is_given({**known, **values}):
         return _from_sheet(name, known, values)
     if known:
         return build(Oil, {**known, **values}, "oil")
@@ -33,11 +33,11 @@ def from_values(values):
 
 def _from_sheet(name, known, values):
     """Oil by a data sheet. None stands for a number that follows from it, one that is given must agree with it."""
-    if known and not data_sheet.speaks(known):
+    if known and not data_sheet.is_given(known):
         raise SceneError(f"oil.name = {name!r} has its own viscosity and accepts no data sheet (oil.nu_40, nu_100); omit the "
                          "name, or choose a new one")
     checks.text("oil.name", name, 100, empty=False)
-    changed = {"source": ""} if data_sheet.speaks(values) else {}  # of a known oil: it is another one
+    changed = {"source": ""} if data_sheet.is_given(values) else {}  # of a known oil: it is another one
     merged = {**known, **changed, "name": name, **values}
     free = data_sheet.follows(merged)
     oil = build(Oil, {key: value for key, value in merged.items() if key not in free}, "oil")

@@ -1,7 +1,7 @@
 """What the name of a steel means for a body of a scene."""
 
-from tehl_taichi.registry import collect
 from tehl_taichi.scene import steels
+from tehl_taichi.values.registry import collect
 
 STEELS = collect(steels, steels.Steel)
 

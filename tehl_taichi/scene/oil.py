@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
-from tehl_taichi.physics import conduction, density, viscosity
-from tehl_taichi.physics.law import declared, section
+from tehl_taichi.laws import conduction, density, viscosity
+from tehl_taichi.laws.law import declared, section
 from tehl_taichi.scene import data_sheet
 from tehl_taichi.values.quantity import check, choice, documented, kinds, text
 

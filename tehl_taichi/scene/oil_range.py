@@ -3,8 +3,8 @@
 import dataclasses
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.physics import rheology, viscosity
-from tehl_taichi.physics.law import declared
+from tehl_taichi.laws import rheology, viscosity
+from tehl_taichi.laws.law import declared
 from tehl_taichi.scene import data_sheet, mineral_alpha
 from tehl_taichi.scene.named_oils import OILS
 from tehl_taichi.scene.oil import Oil
@@ -15,11 +15,11 @@ NOT_HEAT = ("name", "source", "viscosity", "expansion", *declared(viscosity.LAWS
 
 def check(scene):
     """Refuse an oil whose laws have no value between 0 and the Hertz pressure at the inlet temperature. Raises SceneError."""
-    for sentence in _said(scene, "refused"):
+    for sentence in _law_warnings(scene, "refused"):
         raise SceneError(sentence)
 
 
-def _said(scene, what):
+def _law_warnings(scene, what):
     """The sentences that the laws of the oil have about this contact."""
     for law in scene.oil.laws:
         sentence = getattr(law, what)(scene.oil, scene.operation.temperature, Scales.of(scene).p_H)
@@ -29,8 +29,8 @@ def _said(scene, what):
 
 def warnings(scene):
     """What is doubtful about the oil of a scene."""
-    return [*_name(scene.oil), *_estimate(scene.oil), *_shear(scene), *_said(scene, "doubted"), *_without_temperature(scene),
-            *_moes(scene)]
+    return [*_name(scene.oil), *_estimate(scene.oil), *_shear(scene), *_law_warnings(scene, "doubted"),
+            *_without_temperature(scene), *_moes(scene)]
 
 
 def _name(oil):
@@ -75,7 +75,7 @@ def _shear(scene):
     oil, kept = scene.oil, scene.rheology
     if oil.name in OILS or kept != type(kept)() or not kept.thins or scene.operation.u_s == 0:
         return
-    what = "its data sheet has no traction data" if data_sheet.speaks(vars(oil)) else "its numbers do not include traction"
+    what = "its data sheet has no traction data" if data_sheet.is_given(vars(oil)) else "its numbers do not include traction"
     numbers = ", ".join(f"{key} = {getattr(kept, key):g} {number.metadata['kind'].unit}".strip(" -")
                         for key, number in rheology.LAWS[kept.law].numbers.items())
     yield (f"the shear law of the base scene is used for oil.name = {oil.name}, {what}: rheology.law = {kept.law}, {numbers}. "

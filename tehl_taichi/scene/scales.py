@@ -50,7 +50,7 @@ class Scales:
         return math.pi / 2 if self.line else 2 * math.pi / 3 * self.b / self.a
 
     def cell(self, grid):
-        """(along x, along y): size of a cell of the :class:`tehl_taichi.scene.parts.Grid` in m."""
+        """(along x, along y): size of a cell of the :class:`tehl_taichi.scene.sections.Grid` in m."""
         return (grid.x_max - grid.x_min) * self.a / grid.nx, grid.y_max * self.b / grid.ny
 
     @classmethod

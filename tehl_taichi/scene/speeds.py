@@ -2,7 +2,7 @@
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.values.checks import number
-from tehl_taichi.values.plain import plain
+from tehl_taichi.values.coerce import plain
 
 
 def of_surfaces(values):

@@ -1,6 +1,6 @@
 """Whether a grid can carry a film as thin as the film formula has it, and which grid can."""
 
-from tehl_taichi.scene import finer, hertz
+from tehl_taichi.scene import hertz, refinement
 from tehl_taichi.scene.film_formula import heated_film, thinnest_film
 from tehl_taichi.scene.scales import Scales
 
@@ -22,7 +22,7 @@ def carried(scene):
 
 def needed(scene, most=FINEST):
     """(nx, ny) of the grid with twice, four times, ... the cells that carries the film, or None beyond `most` columns."""
-    return finer.first(scene, lambda one: carried(one) >= 1, most)
+    return refinement.first(scene, lambda one: carried(one) >= 1, most)
 
 
 def warnings(scene):

@@ -1,5 +1,6 @@
-"""What a value is: declared once with default, unit, meaning and range; checked at the door; shown in sentences.
+"""Values of scenes and entries: declared once with default, unit, meaning and range (`quantity`), checked, printed.
 
-`quantity` declares, `checks` refuses, `plain` makes Python values of numpy's. Laws (`physics`) and scenes declare their values
-with it. May import `errors`.
+`checks` refuses values out of range, `coerce` turns numpy values into Python ones, `registry` collects entries of a folder.
+`coded_warning` is a warning with a code, `escape` makes text safe for each kind of output.
+May import: errors.
 """

@@ -7,8 +7,8 @@ import math
 from typing import Union
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.values.meant import meant
-from tehl_taichi.values.plain import plain, shown
+from tehl_taichi.values.coerce import plain, shown
+from tehl_taichi.values.unit_hints import meant
 
 HUGE = 10**300  # whole numbers beyond it are no floats
 

@@ -1,7 +1,7 @@
 """Text from elsewhere (names, notes, paths) as each kind of output shows it as it is: one function for each.
 
-Figures read no text as mathematics (`tehl_taichi/figures/page.py`), templates of pages escape what they are given, names of
-folders are checked (`checks.file_name`).
+Figures read no text as mathematics (`tehl_taichi/view/figures/figure_style.py`), templates of pages escape what they are given,
+names of folders are checked (`checks.file_name`).
 """
 
 import html

@@ -1,4 +1,4 @@
-"""Interpolation by the polynomial through given places (in kernels: `cubic` of `heat/paths.py`)."""
+"""Interpolation by the polynomial through given places (in kernels: `cubic` of `heat/departure_points.py`)."""
 
 import math
 

@@ -9,8 +9,8 @@ import math
 from dataclasses import dataclass
 
 from tehl_taichi.values import checks
-from tehl_taichi.values.meant import meant
-from tehl_taichi.values.plain import shown
+from tehl_taichi.values.coerce import shown
+from tehl_taichi.values.unit_hints import meant
 
 AUTO = "auto"
 

@@ -1,26 +1,26 @@
 """What fills a crack, one file each: a new file here is a new choice of `--oil`.
 
-A filling works on a :class:`tehl_taichi.crack.wet.Wet` crack and gives its :class:`tehl_taichi.crack.wet.Inside`. May import
-what `crack` may.
+A filling works on a :class:`tehl_taichi.crack.fluid_filled.FluidFilledCrack` crack and gives its
+:class:`tehl_taichi.crack.fluid_filled.FluidState`. May import what `crack` may.
 """
 
 import sys
 
 import numpy as np
 
-from tehl_taichi.crack.compliance import Faces
+from tehl_taichi.crack.compliance import CrackFaces
 from tehl_taichi.crack.filling import Filling, Fluid
-from tehl_taichi.crack.wet import Wet
-from tehl_taichi.registry import collect
+from tehl_taichi.crack.fluid_filled import FluidFilledCrack
+from tehl_taichi.values.registry import collect
 
 THIN = Fluid(lambda p: 1.0 + 0.0 * p, lambda p: 1.0 + 0.0 * p)
 
 
 def in_tension(filling, mouth):
     """F_I of a normal crack of length 1 under tension 1, with this pressure of the film at its mouth, after a while."""
-    faces, pull = Faces(np.array([0, 1j]), 1.0, 12), np.array([1.0, 0.0, 0.0])
+    faces, pull = CrackFaces(np.array([0, 1j]), 1.0, 12), np.array([1.0, 0.0, 0.0])
     forces = faces.forces(np.tile(pull, (faces.points.size, 3, 1)))
-    inside = filling.inside(Wet(faces, forces, np.full(3, mouth), 1.0, np.arange(3) * 1e9, 0.0, THIN, 12))
+    inside = filling.inside(FluidFilledCrack(faces, forces, np.full(3, mouth), 1.0, np.arange(3) * 1e9, 0.0, THIN, 12))
     return float(faces.intensities(inside.values)[0, -1] / np.sqrt(np.pi))
 
 

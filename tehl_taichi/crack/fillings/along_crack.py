@@ -8,7 +8,7 @@ import numpy as np
 
 from tehl_taichi.crack.filling import Filling
 from tehl_taichi.crack.fillings import in_tension
-from tehl_taichi.registry import Checked
+from tehl_taichi.values.registry import Checked
 
 SAME, ROUNDS = 1e-6, 120  # of the largest pressure: resistances and pressures fit; rounds of a moment until it is unsettled
 CALM = 20  # rounds after which half of a change of the resistances (of their logarithm) is taken, later a third, a fourth ...

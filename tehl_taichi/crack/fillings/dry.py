@@ -4,7 +4,7 @@ import numpy as np
 
 from tehl_taichi.crack.filling import Filling
 from tehl_taichi.crack.fillings import in_tension
-from tehl_taichi.registry import Checked
+from tehl_taichi.values.registry import Checked
 
 DRY = Filling(
     name="dry", says="no oil in the crack", source="Hannes & Alfredsson 2011 (dry asperity)",

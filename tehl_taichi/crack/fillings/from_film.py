@@ -2,7 +2,7 @@
 
 from tehl_taichi.crack.filling import Filling
 from tehl_taichi.crack.fillings import in_tension
-from tehl_taichi.registry import Checked
+from tehl_taichi.values.registry import Checked
 
 FROM_FILM = Filling(
     name="film", says="film pressure above the mouth acts everywhere in the crack: an upper bound", source="Way 1935",

@@ -7,7 +7,7 @@ import numpy as np
 
 from tehl_taichi.crack.filling import Filling
 from tehl_taichi.crack.fillings import in_tension
-from tehl_taichi.registry import Checked
+from tehl_taichi.values.registry import Checked
 
 SAME, ROUNDS = 1e-10, 60  # of the pressure; rounds of the oil's compressibility, or of the pressure that lets oil out
 
@@ -36,7 +36,7 @@ def _step(march, n, before, content):
 
 
 def _shut_in(march, n, content):
-    """:class:`tehl_taichi.crack.wet.Found` with this content and nothing let out."""
+    """:class:`tehl_taichi.crack.fluid_filled.MomentState` with this content and nothing let out."""
     if content[0] <= 0:
         return march.under(n, 0.0)
     p = np.array([march.wet.mouth[n]])

@@ -1,3 +1,3 @@
-"""The fields and numbers of a step, an entry each (:class:`tehl_taichi.march.output.Field`, `Scalar`): a new one is a new
+"""The fields and numbers of a step, an entry each (:class:`tehl_taichi.march.step_output.Field`, `Scalar`): a new one is a new
 entry here, in any file. May import `march.output` and what needs no taichi: what they compute from is given to them.
 """

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tehl_taichi.march.output import Scalar
+from tehl_taichi.march.step_output import Scalar
 
 
 def drag(s):

@@ -1,6 +1,6 @@
 """What the equations leave over, and what solving them took."""
 
-from tehl_taichi.march.output import Scalar, thermal
+from tehl_taichi.march.step_output import Scalar, thermal
 
 NEWTON = "Newton's method on all equations (pressure/newton)"
 LOAD_ERROR = Scalar(name="load_error", unit="1", says="relative load error", over="maximum", source=NEWTON,

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tehl_taichi.march.output import Field
+from tehl_taichi.march.step_output import Field
 
 PRESSURE = Field(name="pressure", unit="Pa", says="film pressure", source="Reynolds' equation, cavitation (pressure/newton)",
                  of=lambda s: s.P * s.scales.p_H, by_hand=1.5e9)

@@ -1,7 +1,7 @@
 """Temperatures of the film and of both surfaces, where there are any."""
 
-from tehl_taichi.heat.across import largest
-from tehl_taichi.march.output import Field, Scalar, thermal
+from tehl_taichi.heat.chebyshev import largest
+from tehl_taichi.march.step_output import Field, Scalar, thermal
 
 ENERGY = "energy equation across the film (heat/energy)"
 CONDUCTION = "conduction into the moving bodies (heat/bodies)"

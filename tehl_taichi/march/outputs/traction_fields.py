@@ -1,6 +1,6 @@
 """Shear on both surfaces."""
 
-from tehl_taichi.march.output import Field
+from tehl_taichi.march.step_output import Field
 
 SHEAR = "shear law of the film, boundary friction where the surfaces touch (pressure/tractions)"
 X_A = Field(name="traction_x_a", unit="Pa", says="shear traction on body a along x", source=SHEAR, of=lambda s: s.stress[0],

@@ -7,9 +7,9 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from tehl_taichi.physics.viscosity import ln_eta
-from tehl_taichi.registry import Checked, Entry
+from tehl_taichi.laws.viscosity import ln_eta
 from tehl_taichi.scene.oil import Oil
+from tehl_taichi.values.registry import Checked, Entry
 
 STEP = 1e5  # Pa, of alpha: ln(eta) bends over some 1e8 Pa, so the error is some 1e-6 of it
 
@@ -45,7 +45,7 @@ class NamedOil(Entry):
         return (4 * at[1] - 3 * at[0] - at[2]) / (2 * STEP)
 
     @property
-    def told(self):
+    def shown_numbers(self):
         """As lists show it, three digits each: viscosity at 40 and 100 deg C in mPa s, alpha at 40 deg C in 1/GPa, at p = 0."""
         numbers = self.viscosity(0.0, 40.0) * 1e3, self.viscosity(0.0, 100.0) * 1e3, self.alpha(40.0) * 1e9
         return tuple(f"{float(f'{number:.3g}'):g}" for number in numbers)

@@ -4,9 +4,9 @@ The viscosity at 40 deg C is the grade's midpoint (ISO 3448), that at 100 deg C 
 VI = 100 (L - nu_40)/(L - H), L and H tabulated over nu_100); 890 kg/m3 at 15 deg C is usual. Alpha is an estimate.
 """
 
-from tehl_taichi.registry import Checked
 from tehl_taichi.scene import mineral_alpha
 from tehl_taichi.scene.oils import NamedOil
+from tehl_taichi.values.registry import Checked
 
 RHO_40 = 890 / 1.017  # kg/m3; by hand: 25 K at 6.8e-4 1/K
 RHO_100 = RHO_40 * 0.9592

@@ -4,8 +4,8 @@ G0, S0, Dz, Cz are fitted to these six numbers (straight lines of ln(log10 eta +
 table tells no density: the ISO VG of a name holds for any from 850 to 880 kg/m3.
 """
 
-from tehl_taichi.registry import Checked
 from tehl_taichi.scene.oils import NamedOil
+from tehl_taichi.values.registry import Checked
 
 TABLE = "Stachowiak & Batchelor, Engineering Tribology, table 2.3"
 FITTED = 0.035  # the worst of the fits is 3.05 % off

@@ -6,7 +6,7 @@ Numbers that a source gives stand there with that source, no others. May import 
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from tehl_taichi.registry import Checked, Entry
+from tehl_taichi.values.registry import Checked, Entry
 
 MARTENSITE = 3.8e6  # J/m3K: "about 3.8 N/(mm2 K)"
 WHERE = "rho c of martensitic gear steels, about 3.8 N/mm2K, in the flash temperature method of AGMA 925 and ISO/TR 13989"
@@ -14,7 +14,7 @@ WHERE = "rho c of martensitic gear steels, about 3.8 N/mm2K, in the flash temper
 
 @dataclass(frozen=True, kw_only=True)
 class Steel(Entry):
-    """A steel with a name. numbers: {key of :class:`tehl_taichi.scene.parts.Body`: value}, all of them."""
+    """A steel with a name. numbers: {key of :class:`tehl_taichi.scene.sections.Body`: value}, all of them."""
 
     numbers: Mapping
     checked: tuple[Checked, ...] = ()

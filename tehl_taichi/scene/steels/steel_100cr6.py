@@ -1,7 +1,7 @@
 """The steel of rolling bearings."""
 
-from tehl_taichi.registry import Checked
 from tehl_taichi.scene.steels import Steel
+from tehl_taichi.values.registry import Checked
 
 STEEL_100CR6 = Steel(
     name="100Cr6", says="through-hardening bearing steel (1.3505, AISI 52100, SUJ2, EN31)",

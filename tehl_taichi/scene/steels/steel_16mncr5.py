@@ -1,7 +1,7 @@
 """A steel of small case-hardened gears."""
 
-from tehl_taichi.registry import Checked
 from tehl_taichi.scene.steels import Steel
+from tehl_taichi.values.registry import Checked
 
 STEEL_16MNCR5 = Steel(
     name="16MnCr5", says="case-hardening gear steel (1.7131)",

@@ -1,7 +1,7 @@
 """A steel of larger case-hardened gears."""
 
-from tehl_taichi.registry import Checked
 from tehl_taichi.scene.steels import Steel
+from tehl_taichi.values.registry import Checked
 
 STEEL_20MNCR5 = Steel(
     name="20MnCr5", says="case-hardening gear steel (1.7147)",

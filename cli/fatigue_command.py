@@ -1,0 +1,73 @@
+"""tehl fatigue: the fatigue pass over a store, again and with other constants."""
+
+from pathlib import Path
+from typing import Optional
+
+import typer
+from tehl_cli.fatigue_options import with_fatigue_options
+from tehl_cli.figure_options import Dpi, Force, Format, Width
+from tehl_cli.idle_options import DRAWS, say_idle
+from tehl_cli.live_display import Live, say
+from tehl_cli.stdout import print_json
+
+
+def register(app):
+    """Add the command to the app."""
+    app.command()(fatigue)
+
+
+@with_fatigue_options
+def fatigue(
+    store: Path = typer.Argument(..., help="store of a run with a feature, finished or not"),
+    context: typer.Context = None,
+    figures: Optional[Path] = typer.Option(None, help="folder for figures"),
+    format: Format = "png",
+    dpi: Dpi = 160,
+    width: Width = 17.0,
+    force: Force = False,
+    threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
+    as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout"),
+    **asked,
+):
+    """Evaluate the fatigue of a stored passage with other constants. The store does not change.
+
+    Example: `tehl fatigue runs/gear-1.zarr --kappa 0.25 --endurance 450e6 --to-x 0.5`
+    """
+    from tehl_taichi.engine import runtime
+    from tehl_taichi.runs.open_results import open_run
+    from tehl_taichi.view.figures import fatigue_figures
+    from tehl_taichi.view.figures.figure_style import FigureStyle
+
+    runtime.check(threads=threads)
+    page = FigureStyle(format, dpi, width, force)
+    page.check_all(figures, fatigue_figures.NAMES) if figures else say_idle(context, "it needs --figures", *DRAWS)
+    run = open_run(store)
+    for sentence in _doubts(run.scene, asked):
+        say(f"warning: {sentence}")
+    with Live() as live:
+        result = run.fatigue(**asked, threads=threads, progress=live)
+    _show(result, as_json)
+    if figures:
+        from tehl_taichi.view.figures.run_figures import write_fatigue
+
+        for path in write_fatigue(result, run.scene, figures, page):
+            say(str(path))
+
+
+def _doubts(scene, asked):
+    """Of what is asked, what has no effect on this passage."""
+    from tehl_taichi.fatigue.overrides import changed
+    from tehl_taichi.scene import idle_keys
+
+    return idle_keys.doubts(changed(scene, {**asked, "on": True}))
+
+
+def _show(result, as_json):
+    from tehl_cli.tables import list_table
+
+    from tehl_taichi.runs.summary.summary_rows import fatigue_rows
+
+    if as_json:
+        print_json(result.summary)
+    else:
+        list_table("fatigue", ("quantity", "value"), fatigue_rows(result.summary))

@@ -1,0 +1,81 @@
+"""Progress on stderr: a bar and curves in a terminal, a plain line now and then elsewhere."""
+
+import contextlib
+import sys
+import time
+
+from tehl_cli.stdout import put
+
+from tehl_taichi.runs.progress import LATE, PASSAGE, Lines, line
+
+
+def say(text):
+    """One line on stderr; a run goes on where nobody reads it."""
+    with contextlib.suppress(BrokenPipeError):
+        put(text, file=sys.stderr)
+
+
+class Live(Lines):
+    """What the command line shows of a run, warnings alone if `quiet`, a bar without curves if not `curves`; a context manager
+    that ends them."""
+
+    DRAWN = 0.5  # s at least between two pictures
+    SHARE = 0.005  # of the time at most for drawing
+
+    def __init__(self, quiet=False, curves=True):
+        super().__init__()
+        self.quiet, self.bar, self.curves, self.due, self.shown = quiet, None, None, 0.0, ""
+        self.shows_curves = curves and not quiet and sys.stdout.isatty() and sys.stderr.isatty()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if self.bar:
+            self.curves.clear()
+            with contextlib.suppress(OSError):  # a terminal that was closed: what ended the run is still to be told
+                self.bar.stop()
+            self.bar = None
+
+    def say(self, text):
+        if not self.quiet:
+            say(text)
+
+    def warn(self, sentence):
+        say(f"warning: {sentence}")
+
+    def stage(self, name, done, total):
+        if name != self.shown:
+            self.__exit__()
+            self.shown = name
+        if not self.bar and done < total and name in (PASSAGE, *LATE) and not self.quiet and sys.stderr.isatty():
+            self._start_bar(name, done, total)
+        if name == PASSAGE or not self.bar:
+            super().stage(name, done, total)
+        else:
+            self._when_due(lambda: self.bar.show(done), done == total)
+
+    def _start_bar(self, name, done, total):
+        from tehl_cli.live_curves import Curves, CurvesBar
+
+        self.curves, self.due = Curves(), 0.0
+        self.bar = CurvesBar(self.curves, total, done, "step" if name == PASSAGE else name)
+        self.bar.start()
+
+    def step(self, snapshot):
+        if not self.bar:
+            return super().step(snapshot)
+        self.beyond_steel(snapshot)
+        self._when_due(lambda: self._draw(snapshot), snapshot.step == self.total)
+
+    def _when_due(self, draw, last):
+        """Draw, unless the picture before was just now; the last one in any case."""
+        if (began := time.perf_counter()) >= self.due or last:
+            draw()
+            done = time.perf_counter()
+            self.due = done + max(self.DRAWN, (done - began) / self.SHARE)
+
+    def _draw(self, snapshot):
+        if self.shows_curves:
+            self.curves.take(snapshot)
+        self.bar.show(snapshot.step, line(snapshot))

@@ -1,0 +1,170 @@
+"""`tehl run` and `tehl resume`."""
+
+from pathlib import Path
+from typing import List, Optional
+
+import typer
+from tehl_cli.idle_options import say_idle
+from tehl_cli.live_display import Live, say
+from tehl_cli.scene_options import GRIDS, check_rows, given_by
+from tehl_cli.stdout import print_json, put
+
+
+def register(app):
+    """Add the commands to the app."""
+    app.command()(run)
+    app.command()(resume)
+
+
+def run(
+    scene: str = typer.Argument("gear", help="built-in name (see `tehl scenes`), TOML file, or store to repeat"),
+    context: typer.Context = None,
+    srr: Optional[float] = typer.Option(None, help="slide-to-roll ratio (u_a - u_b)/u_m; negative in the dedendum"),
+    load: Optional[float] = typer.Option(None, help="load, N/m (line contact) or N (point contact)"),
+    hertz_pressure: Optional[float] = typer.Option(None, help="Hertz pressure, Pa (instead of a load)"),
+    speed: Optional[float] = typer.Option(None, help="mean surface speed u_m, m/s"),
+    temperature: Optional[float] = typer.Option(None, help="inlet temperature, deg C"),
+    height: Optional[float] = typer.Option(None, help="feature height, m (negative: dent)"),
+    width: Optional[float] = typer.Option(None, help="feature width, m"),
+    set_: Optional[List[str]] = typer.Option(None, "--set", help="any scene value, dotted.key=value; repeatable"),
+    grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY (cells or nodes; NX alone if nothing varies "
+                                                  "along y)"),
+    target_error: Optional[str] = typer.Option(None, help="choose the grid for this relative error, as in 1% (see `tehl bench "
+                                                          "accuracy`)"),
+    steady: bool = typer.Option(False, "--steady", help="compute the steady contact only"),
+    thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="with or without the energy equation"),
+    fatigue: Optional[bool] = typer.Option(None, "--fatigue/--no-fatigue", help="with or without stresses and fatigue index"),
+    estimate_error: Optional[bool] = typer.Option(None, "--estimate-error/--no-estimate-error",
+                                                  help="estimate errors by coarse-grid runs (default: for all but very short "
+                                                       "passages)"),
+    kappa: Optional[float] = typer.Option(None, help="sensitivity to normal stress kappa_F"),
+    endurance: Optional[float] = typer.Option(None, help="fatigue limit sigma_eF, Pa"),
+    bending_limit: Optional[float] = typer.Option(None, help="fatigue limit in reversed bending, Pa (replaces --endurance)"),
+    torsion_limit: Optional[float] = typer.Option(None, help="fatigue limit in reversed torsion, Pa (one limit fixes "
+                                                             "sigma_eF; both limits also fix kappa)"),
+    steps: Optional[int] = typer.Option(None, help="stop after this many time steps (0: steady start and an estimate of the "
+                                                   "run time); `tehl resume` continues"),
+    out: Optional[Path] = typer.Option(None, help="store to write (default: runs/SCENE-N.zarr)"),
+    force: bool = typer.Option(False, "--force", help="replace an existing store once the new one has its first entry"),
+    dry_run: bool = typer.Option(False, "--dry-run", help="print what would run, and stop"),
+    arch: str = typer.Option("cpu", help="cpu, or cuda (graphics card, slower at present)"),
+    threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
+    precision: Optional[str] = typer.Option(None, help="precision of the linear solves: f32, f64 or auto (f32 for thick "
+                                                       "films); the state and its residual are always double"),
+    as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout and all else to stderr"),
+    quiet: bool = typer.Option(False, "--quiet", help="print no progress"),
+    curves: bool = typer.Option(True, "--live/--no-live", help="draw p, h and T along y = 0 in the terminal during the run"),
+):
+    """Run one contact: steady start, passage of the feature, stresses, fatigue; write all results to a store.
+
+    Examples: `tehl run --srr -0.12` · `tehl run dent --grid coarse` · `tehl run my.toml --set feature.height=1e-6`
+    """
+    import tehl_taichi as tehl
+    from tehl_taichi.store.load_scene import find_changed
+
+    changes = given_by(
+        {"srr": srr, "load": load, "hertz_pressure": hertz_pressure, "speed": speed, "temperature": temperature,
+         "height": height, "width": width, "kappa": kappa, "endurance": endurance, "time.steps": steps, "thermal.on": thermal,
+         "bending_limit": bending_limit, "torsion_limit": torsion_limit,
+         "fatigue.on": fatigue, "numerics.estimate_error": estimate_error, "numerics.precision": precision,
+         "time.steady_only": steady or None},
+        grid, set_ or [])
+    description = find_changed(scene, changes)
+    check_rows(grid, changes, lambda: description)
+    description = _on_grid_for(target_error, changes, description)
+    if out is None:
+        say_idle(context, "without --out every run makes a store of its own", "force")
+    if dry_run:
+        say_idle(context, "--dry-run prints text", "as_json")
+        return _print_scene(description)
+    with Live(quiet, curves) as live:
+        done = tehl.run(description, out, force=force, threads=threads, arch=arch, progress=live)
+    _print(done, as_json, description.warnings())
+    if description.time.steps == 0 and not quiet:
+        _print_time(done)
+
+
+def resume(
+    store: Path = typer.Argument(..., help="store of an interrupted run, or of a run stopped with `--steps`"),
+    steps: Optional[int] = typer.Option(None, min=1, help="number of further steps (default: to the end of the run; for a "
+                                                          "finished run to the end of the passage)"),
+    threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
+    as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout"),
+    quiet: bool = typer.Option(False, "--quiet", help="print no progress"),
+    curves: bool = typer.Option(True, "--live/--no-live", help="draw p, h and T along y = 0 in the terminal during the run"),
+):
+    """Resume an interrupted run, or extend a run stopped with `--steps`.
+
+    The run resumes from a checkpoint at most 2 s old. Coarse-grid runs, stresses and the fatigue search start again.
+
+    Example: `tehl resume runs/gear-1.zarr`
+    """
+    import tehl_taichi as tehl
+    from tehl_taichi.runs.open_results import open_run
+
+    before = open_run(store)
+    if before.rest(steps) is None:
+        say(f"{store} is finished ({len(before.store)} entries); `tehl show {store}` prints its summary")
+        if as_json:
+            print_json(before.summary)
+        return
+    with Live(quiet, curves) as live:
+        done = tehl.resume(store, steps=steps, threads=threads, progress=live)
+    _print(done, as_json)
+
+
+def _print(run, as_json, said=()):
+    """said: warnings that were told before the run."""
+    from tehl_cli.tables import summary_table
+
+    print_json(run.summary) if as_json else summary_table(run.summary, said)
+
+
+def _print_scene(scene):
+    """What would run: the contact, its film by formula, grid and steps, what passes, what is left out or doubtful."""
+    from tehl_taichi.scene.film_formula import central_film, formula_words
+    from tehl_taichi.scene.scales import Scales
+    from tehl_taichi.scene.scene_warnings import preview
+    from tehl_taichi.scene.timeline import total_steps
+
+    put(f"{scene.name}: {Scales.of(scene).words}")
+    put(f"h_c by formula: {central_film(scene) * 1e6:.4f} um ({formula_words(scene)})")
+    put(f"{scene.grid.nx} x {scene.rows} cells, {total_steps(scene)} steps")
+    for line in (*preview(scene), *(f"left out: {one}" for one in scene.left_out()), *(f"warning: {one}" for one in
+                                                                                     scene.warnings())):
+        put(line)
+
+
+def _print_time(done):
+    """How long the passage would take of which the steady start alone was asked for."""
+    from tehl_taichi.runs import time_estimate
+
+    for sentence in time_estimate.lines(done, GRIDS["coarse"]):
+        say(sentence)
+
+
+def _on_grid_for(target, changes, description):
+    """The scene on the grid that a target error needs."""
+    if target is None:
+        return description
+    from tehl_taichi.scene import SceneError
+    from tehl_taichi.scene.grid_for_error import reaching
+
+    if {"grid.nx", "grid.ny"} & changes.keys():
+        raise SceneError(f"--target-error {target} chooses the grid; omit --grid")
+    found = reaching(description, _share(target))
+    g = found.grid
+    say(f"{g.nx} x {g.ny} cells from x_min = {g.x_min:g} a, for an error of {target}")
+    return found
+
+
+def _share(text):
+    from tehl_taichi.scene import SceneError
+
+    try:
+        value = float(text.removesuffix("%")) / (100 if text.endswith("%") else 1)
+    except ValueError:
+        value = -1.0
+    if not 1e-4 <= value <= 0.5:
+        raise SceneError(f"--target-error {text!r} must be a relative error from 0.01% to 50%, as in 1% or 0.01")
+    return value

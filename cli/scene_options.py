@@ -1,0 +1,72 @@
+"""Changes of a scene as the options of commands and `--set` give them."""
+
+GRIDS = {"coarse": (128, 32), "medium": (256, 64), "fine": (512, 128)}
+
+# options by another name than their key
+WORDS = {("thermal.on", True): "--thermal", ("thermal.on", False): "--isothermal", ("time.steady_only", True): "--steady",
+         ("fatigue.on", True): "--fatigue", ("fatigue.on", False): "--no-fatigue",
+         ("numerics.estimate_error", True): "--estimate-error", ("numerics.estimate_error", False): "--no-estimate-error"}
+
+
+def given_by(options, grid, settings):
+    """{full key: value} of the options that were used and of --set; SceneError where two of them contradict each other."""
+    from tehl_taichi.scene.aliases import settled
+
+    used = [(key, value) for key, value in options.items() if value is not None]
+    given = [(_typed(key, value), key, value) for key, value in used]
+    given += [(f"--grid {grid}", key, value) for key, value in _grid(grid).items()]
+    return settled([*given, *_settings(settings)])
+
+
+def _typed(key, value):
+    """An option as it was typed."""
+    shown = value if isinstance(value, str) else f"{value:g}"
+    return WORDS.get((key, value), f"--{key.rpartition('.')[2].replace('_', '-')} {shown}")
+
+
+def _grid(text):
+    if text is None:
+        return {}
+    from tehl_taichi.scene import SceneError
+
+    try:
+        counts = GRIDS.get(text) or [int(part) // 2 * 2 for part in text.lower().split("x", 1)]
+    except ValueError:
+        raise SceneError(f"--grid {text!r} is not known; allowed: {', '.join(GRIDS)} or NXxNY, as in 256x64 (NX alone if "
+                         "nothing varies along y)") from None
+    return dict(zip(("grid.nx", "grid.ny"), counts))
+
+
+def check_rows(grid, changes, description):
+    """Refuse one number as --grid of a scene that varies across: the other would be that of another grid. grid: as it was
+    typed; changes: what :func:`given_by` made of all; description: a function that gives the changed scene. SceneError."""
+    if grid is None or "grid.ny" in _grid(grid) or description().one_dimensional:
+        return
+    from tehl_taichi.scene import SceneError
+
+    nx = changes["grid.nx"]
+    raise SceneError(f"--grid {grid} needs a scene in which nothing varies along y; allowed for this scene: {', '.join(GRIDS)} "
+                     f"or NXxNY, as in {nx}x{nx // 4}")
+
+
+def _settings(pairs):
+    """(words, key, value) of every --set."""
+    from tehl_taichi.scene import SceneError
+
+    out = []
+    for pair in pairs:
+        key, equals, text = pair.partition("=")
+        if not equals:
+            raise SceneError(f"--set {pair!r} must have the form dotted.key=value, as in feature.height=1e-6")
+        out.append((f"--set {pair}", key.strip(), _value(text)))
+    return out
+
+
+def _value(text):
+    """The value of a --set, as TOML reads it; what is no TOML value is text."""
+    import tomllib
+
+    try:
+        return tomllib.loads(f"v = {text}")["v"]
+    except (ValueError, RecursionError):
+        return text

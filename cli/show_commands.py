@@ -1,0 +1,202 @@
+"""Commands that look: scenes, oils, laws, new, show, plot, doctor."""
+
+from pathlib import Path
+from typing import Optional
+
+import typer
+from tehl_cli.figure_options import Dpi, Force, Format, Width
+from tehl_cli.live_display import say
+from tehl_cli.stdout import put
+
+
+def register(app):
+    """Add the commands to the app."""
+    for command in (scenes, oils, laws, new, show, plot, doctor):
+        app.command()(command)
+
+
+def scenes():
+    """List the built-in scenes and the feature shapes."""
+    from tehl_cli.tables import list_table
+
+    from tehl_taichi.scene import BUILT_INS
+    from tehl_taichi.scene.feature import SHAPES, USED_BY
+
+    list_table("built-in scenes (tehl run NAME)", ("name", "what"), [(name, text) for name, (_, text) in BUILT_INS.items()])
+    list_table("shapes of features (--set feature.shape=NAME)", ("name", "what", "keys", "source"),
+               [(shape.name, shape.says, ", ".join(key for key, users in USED_BY.items() if shape.name in users), shape.source)
+                for shape in SHAPES.values()])
+
+
+def oils():
+    """List the named oils with viscosity at p = 0, pressure-viscosity coefficient and source."""
+    from tehl_cli.tables import list_table, wrapped
+
+    from tehl_taichi.scene.named_oils import NAMED
+
+    list_table("named oils; at p = 0: eta in mPa s at 40 and 100 C, alpha in 1/GPa at 40 C",
+               ("name", "what", "eta 40", "eta 100", "alpha"),
+               [(name, oil.says, *oil.shown_numbers) for name, oil in NAMED.items()])
+    for name, oil in NAMED.items():
+        wrapped(f"{name}: {oil.source} [{oil.oil.viscosity}]")
+    wrapped("To choose one: --set oil.name=NAME. For your own oil give its data sheet (m2/s, kg/m3): --set oil.nu_40=220e-6 "
+            "--set oil.nu_100=19e-6 --set oil.rho_15=890")
+
+
+def laws():
+    """List the laws of oil and friction and the fatigue criteria, with their constants and sources."""
+    from tehl_cli.tables import list_table
+
+    from tehl_taichi.laws.choices import ALONE, CHOICES
+    from tehl_taichi.laws.criteria import CRITERIA
+
+    for key, registry in {**CHOICES, "": ALONE}.items():
+        list_table(f"--set {key}=NAME" if key else "always used", ("name", "law", "numbers", "source"),
+                   [(law.name, law.says, ", ".join(law.numbers), law.source) for law in registry.values()])
+    list_table("--set fatigue.criterion=NAME", ("name", "criterion", "kappa: sensitivity to", "source"),
+               [(rule.name, rule.says, rule.sensitivity, rule.source) for rule in CRITERIA.values()])
+
+
+def new(
+    file: Path = typer.Argument(..., help="scene file to write, for example my.toml"),
+    base: str = typer.Option("gear", help="built-in scene to start from"),
+    scan: Optional[Path] = typer.Option(None, help="file of measured heights; writes a short scene with the values that you "
+                                                   "must give"),
+    unit: str = typer.Option("", help="unit of the heights: nm, um, mm or m"),
+    pixel: float = typer.Option(0.0, help="distance between points of a row, m"),
+    pixel_y: float = typer.Option(0.0, help="distance between rows, m (default: --pixel)"),
+):
+    """Write a commented scene file with every value, or a short one for a scan.
+
+    Examples: `tehl new my.toml` · `tehl new my_flank.toml --scan scan.csv --unit um --pixel 1.8e-6`
+    """
+    from tehl_taichi.scene import scan_scene, scene_file
+
+    if scan is None:
+        _only_with_scan(unit=unit, pixel=pixel, pixel_y=pixel_y)
+        scene_file.new(file, base)
+        return put(f"wrote {file}; run it with: tehl run {file}")
+    read, missing = scan_scene.new(file, base, scan, unit, pixel, pixel_y)
+    fill = f"fill in feature.{' and feature.'.join(missing)} and " if missing else ""
+    said = f"wrote {file} for {scan} ({read}); {fill}enter the values of your contact, oil and steel, then run: "
+    put(f"{said}tehl run {file} --grid coarse --steps 0")
+
+
+def _only_with_scan(**options):
+    from tehl_taichi.errors import SceneError
+
+    for key, value in options.items():
+        if value:
+            raise SceneError(f"--{key.replace('_', '-')} {value} has no effect without a scan; name its file with --scan FILE")
+
+
+def show(
+    store: Path = typer.Argument(..., help="store of a run (finished, running or broken), a study, or the folder of a flank"),
+    as_json: bool = typer.Option(False, "--json", help="print the summary as one JSON object, as `tehl run --json` does"),
+):
+    """Print the summary and residual history of a run, or the table of a study or flank.
+
+    Example: `tehl show runs/gear-1.zarr --json | jq .fatigue`
+    """
+    import tehl_taichi as tehl
+    from tehl_taichi.runs.open_results import RUN, kind
+
+    found = tehl.open(store)
+    _show_run(found.store, as_json) if kind(store) == RUN else _show_table(found, as_json)
+
+
+def _show_table(found, as_json):
+    from tehl_cli.flank_command import print_flank
+    from tehl_cli.stdout import print_json
+    from tehl_cli.sweep_display import print_study
+
+    from tehl_taichi.runs.flank import Flank
+
+    if as_json:
+        return print_json(found.to_dict())
+    print_flank(found) if isinstance(found, Flank) else print_study(found)
+
+
+def _show_run(saved, as_json):
+    from tehl_cli.stdout import print_json
+    from tehl_cli.tables import history_table, summary_table, warning_lines
+
+    from tehl_taichi.runs.summary.summary import so_far
+
+    if as_json:
+        return print_json(saved.summary or so_far(saved))
+    store = saved.path
+    put(f"{store}: scene {saved.scene.name}, {saved.steps} entries, {_state(saved)}")
+    if saved.scene.note:
+        put(f"note: {saved.scene.note}", "\n")
+    if other := saved.other_version:
+        put(f"{store} was {other}")
+    if saved.summary:
+        summary_table(saved.summary)
+    else:
+        warning_lines(saved.warnings)
+    shown = sorted({*range(0, saved.steps, max(saved.steps // 20, 1)), saved.steps - 1})
+    history_table(saved.scalar, shown)
+
+
+def _state(saved):
+    """How far a run is, and what to do about it."""
+    if saved.writer:
+        return f"still being written by {saved.writer}"
+    if not saved.finished:
+        return f"not finished; resume with: tehl resume {saved.path}"
+    return "finished" if saved.cut is None else f"finished, cut at {saved.cut:.2f} a; extend with: tehl resume {saved.path}"
+
+
+def plot(store: Path = typer.Argument(..., help="store of a run, a study, or the folder of a flank"),
+         out: Path = typer.Option(None, help="folder for the figures (default: beside the store; for a flank: inside it)"),
+         quantity: str = typer.Option(None, help="study: column of its table to draw, as fatigue_Fi_max"),
+         format: Format = "png", dpi: Dpi = 160, width: Width = 17.0, force: Force = False,
+         at: Optional[float] = typer.Option(None, help="run: position of the (first) feature to draw, in half-widths a "
+                                                       "(default: -0.8, 0, 0.8 for curves, 0 for maps)"),
+         depth: Optional[float] = typer.Option(None, help="run: depth of a second fatigue map, µm below the surface, among "
+                                                          "those searched (default: the critical one)")):
+    """Draw the figures of a run, a study or a flank.
+
+    Run: pressure and film along the centreline, maps, fatigue. Study: results over the swept keys. Flank: results along
+    the line of action.
+
+    Examples: `tehl plot runs/gear-1.zarr --format pdf --width 8.5 --at 0.5` · `tehl plot runs/gear-1.zarr --dpi 300` ·
+    `tehl plot runs/gear-sweep-0a1b2c.zarr --quantity steady_h_c_m`
+    """
+    page = dict(dpi=dpi, format=format, width=width, force=force)
+    for path in _draw(store, out, {"quantity": quantity, "at": at, "depth": depth}, page):
+        put(path)
+
+
+OPTIONS = {"run": ("at", "depth"), "study": ("quantity",), "flank": ()}  # of tehl plot: what only such a one can show
+
+
+def _draw(store, out, wanted, page):
+    """Paths of the figures of whatever lies at `store`; wanted: {option: value} of OPTIONS, None where not wanted."""
+    import tehl_taichi as tehl
+    from tehl_taichi.errors import SceneError
+    from tehl_taichi.runs.open_results import FLANK, RUN, kind
+
+    which = kind(store)
+    for name, value in wanted.items():
+        if value is not None and name not in OPTIONS[which]:
+            whose = next(other for other, options in OPTIONS.items() if name in options)
+            raise SceneError(f"--{name} {value} applies to a {whose}, but {store} is a {which}")
+    found, mine = tehl.open(store), {name: wanted[name] for name in OPTIONS[which]}
+    if which == FLANK:
+        return [found.plot(out and out / "flank", **page)]
+    return (found.save_figures if which == RUN else found.plot)(out, **mine, **page)
+
+
+def doctor():
+    """Print versions, threads and cache, and run a short self-test."""
+    from tehl_cli.tables import list_table
+
+    from tehl_taichi.runs import self_test
+
+    list_table("this installation", ("what", "value"), self_test.installation().items())
+    film, good, seconds = self_test.self_test()
+    say(f"self-test: steady film of smooth-line {film * 1e6:.4f} um in {seconds:.1f} s: "
+        f"{'good' if good else 'WRONG, expected 0.43 um'}")
+    raise typer.Exit(0 if good else 1)

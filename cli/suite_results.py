@@ -1,0 +1,65 @@
+"""What a suite gives: tables for people or one JSON object, both in files beside a picture."""
+
+from tehl_cli.live_display import say
+from tehl_cli.stdout import print_json
+
+
+def table(title, rows, columns):
+    """Print rows (dictionaries) as {key: format} says; a value that is not known is left empty."""
+    from tehl_cli.tables import list_table
+
+    list_table(title, columns, [[form.format(row[key]) if row.get(key) is not None else "" for key, form in columns.items()]
+                                for row in rows])
+
+
+class Results:
+    """The files NAME.json, NAME.png and others (`more`: their endings) of a suite in a folder.
+
+    force: replace those of an earlier run. Raises StoreError, before the work, where they may not be written.
+    """
+
+    def __init__(self, folder, name, force, more=(), kept=()):
+        from tehl_taichi.disk import links, user_files
+
+        self.folder, self.name = folder, name
+        links.refuse_itself(folder)
+        for ending in ("json", "png", *more):
+            if ending not in kept:
+                user_files.check(self.file(ending), force)
+
+    def file(self, ending):
+        """Path of the file with that ending."""
+        return self.folder / f"{self.name}.{ending}"
+
+    def finish(self, rows, chart, as_json, **more):
+        """Write NAME.json (machine, rows and what else is given) and NAME.png; print the JSON object where it is asked for.
+
+        chart(plt): the figure.
+        """
+        from tehl_taichi.profiles import measure
+
+        found = measure.result(rows, **more)
+        say(f"wrote {measure.save(self.folder, self.name, found)}")
+        self.picture(chart)
+        if as_json:
+            print_json(found)
+
+    def page(self, text):
+        """Write NAME.md."""
+        from tehl_taichi.disk import user_files
+
+        user_files.text(self.file("md"), f"{text.rstrip()}\n\n{user_files.COMMENT}\n", force=True)
+
+    def picture(self, chart):
+        """Write NAME.png where matplotlib is installed; chart(plt): the figure."""
+        from tehl_taichi.profiles import measure
+
+        from tehl_taichi.disk import user_files
+
+        plt = measure.pyplot()
+        if plt:
+            figure = chart(plt)
+            with user_files.made(self.file("png"), force=True) as draft:
+                figure.savefig(draft, format="png", dpi=110, metadata={"Software": user_files.PROGRAM})
+            plt.close(figure)
+            say(f"wrote {self.file('png')}")

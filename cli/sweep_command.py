@@ -1,0 +1,145 @@
+"""`tehl sweep`: many runs of one scene, side by side."""
+
+from pathlib import Path
+from typing import List, Optional
+
+import typer
+from tehl_cli.idle_options import say_idle
+from tehl_cli.live_display import say
+from tehl_cli.scene_options import check_rows, given_by
+from tehl_cli.stdout import print_json, put
+
+MANY = 1000  # cases that nobody starts by mistake
+
+
+def register(app):
+    """Add the command to the app."""
+    app.command()(sweep)
+
+
+def sweep(
+    scene: str = typer.Argument(..., help="built-in name, TOML scene, TOML study file, or study to resume"),
+    context: typer.Context = None,
+    over: Optional[List[str]] = typer.Option(None, "--over", help="key=values with values a,b,c or low:high:N or "
+                                                                  "low:high:N:log; 'key=values key=values' change together; "
+                                                                  "repeatable"),
+    samples: Optional[int] = typer.Option(None, help="number of cases of a Latin hypercube, with --over key=low:high[:log] or "
+                                                     "a,b,c"),
+    seed: Optional[int] = typer.Option(None, help="seed of the samples (default: 0)"),
+    set_: Optional[List[str]] = typer.Option(None, "--set", help="dotted.key=value in all cases, repeatable"),
+    grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY (cells or nodes; NX alone if nothing varies "
+                                                  "along y)"),
+    steady: bool = typer.Option(False, "--steady", help="compute steady contacts only"),
+    thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="with or without the energy equation"),
+    fatigue: Optional[bool] = typer.Option(None, "--fatigue/--no-fatigue", help="with or without stresses and fatigue index"),
+    steps: Optional[int] = typer.Option(None, help="stop every case after this many time steps"),
+    workers: Optional[int] = typer.Option(None, help="number of processes on this machine (default: one per core)"),
+    threads_per_worker: Optional[int] = typer.Option(None, help="CPU threads per case (default: 1, or the cores that "
+                                                                "--workers leaves)"),
+    scheduler: Optional[str] = typer.Option(None, help="address of a running Dask scheduler, as in tcp://10.0.0.1:8786"),
+    keep: str = typer.Option("stores", help="stores (table and one store per case) or summary (table only)"),
+    out: Optional[Path] = typer.Option(None, help="study to write or resume (default: runs/NAME.zarr, which depends on the "
+                                                  "sweep only)"),
+    yes: bool = typer.Option(False, "--yes", help=f"allow more than {MANY} cases"),
+    dry_run: bool = typer.Option(False, "--dry-run", help="print what would run, and stop"),
+    as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout and all else to stderr"),
+    quiet: bool = typer.Option(False, "--quiet", help="print no progress"),
+):
+    """Run all combinations of scene values and collect the results in one table. Repeat the command to resume.
+
+    Examples: `tehl sweep gear --over srr=-0.3:0.3:7 --over feature.height=0.5e-6,1e-6` · `tehl sweep study.toml` ·
+    `tehl sweep gear --samples 40 --over srr=-0.3:0.3 --over speed=1:20:log` · then `tehl plot runs/NAME.zarr`
+    """
+    from tehl_cli.sweep_display import SweepLive
+
+    from tehl_taichi.errors import Interrupted, stopped
+    from tehl_taichi.runs.sweep import sweeping
+
+    options = {"time.steps": steps, "thermal.on": thermal, "fatigue.on": fatigue, "time.steady_only": steady or None}
+    changes = given_by(options, grid, set_ or [])
+    plan, out = _planned(scene, over or [], samples, seed, changes, grid, out)
+    out = out or sweeping.default_path(plan)
+    if dry_run:
+        sweeping.checked(workers, threads_per_worker, scheduler, keep, connect=False)
+        say_idle(context, "--dry-run prints text", "as_json")
+        return _report(plan, out)
+    _check_count(plan, yes)
+    for sentence in _doubts(plan):
+        say(sentence)
+    with SweepLive(quiet) as live:
+        try:
+            study = sweeping.run(plan, out, workers=workers, threads_per_worker=threads_per_worker, scheduler=scheduler,
+                                 keep=keep,
+                             progress=live, say_line=say)
+        except KeyboardInterrupt as stop:
+            raise Interrupted(f"{stopped(stop)} {live.left()}") from None
+    _print(study, as_json)
+    raise typer.Exit(0 if study.counts["converged"] == len(study) else 3)
+
+
+def _planned(name, over, samples, seed, changes, grid, out):
+    """(plan, where its study goes or None) of a scene with --over, of a study file, or of a study."""
+    from tehl_taichi.runs.sweep import study_file
+    from tehl_taichi.runs.sweep.axis_syntax import over_of
+    from tehl_taichi.runs.sweep.plan import plan
+    from tehl_taichi.runs.sweep.study_table import Study, is_study
+    from tehl_taichi.scene import SceneError
+    from tehl_taichi.scene.aliases import check_swept
+    from tehl_taichi.store.load_scene import find_changed
+
+    whole = study_file.is_study_file(name) or is_study(name)
+    if whole and (over or changes or samples is not None or seed is not None):
+        raise SceneError(f"{name} already defines the sweep; omit --over, --samples, --set and scene options")
+    if whole:
+        return (study_file.load(name), out) if study_file.is_study_file(name) else (Study.open(name).plan, out or Path(name))
+    swept = over_of(over, samples is not None)
+    check_swept(changes, [key for keys in swept for key in ((keys,) if isinstance(keys, str) else keys)])
+    scene = find_changed(name, changes)
+    check_rows(grid, changes, lambda: scene)
+    return plan(scene, swept, samples, seed), out
+
+
+def _check_count(plan, yes):
+    from tehl_taichi.scene import SceneError
+
+    if plan.count > MANY and not yes:
+        raise SceneError(f"{plan.count} cases are more than {MANY}; use --yes to run them anyway, --dry-run to list them")
+
+
+def _report(plan, out):
+    """What would run."""
+    from tehl_taichi.scene.scales import Scales
+
+    refused = plan.refused()
+    shape = f" ({' x '.join(map(str, plan.shape))})" if len(plan.shape) > 1 else ""
+    put(f"{plan.count} cases{shape} of {plan.scene.name} into {out}")
+    put(f"{plan.scene.name}: {Scales.of(plan.scene).words}")
+    for key in plan.keys:
+        values = [str(value) for value in plan.coordinate(key)[1]]
+        put(f"{key} = {', '.join(values[:12])}{' ...' if len(values) > 12 else ''}")
+    for number, reason in refused.items():
+        put(f"case {number} would be refused: {reason}")
+    for sentence in _doubts(plan):
+        put(sentence)
+
+
+def _doubts(plan):
+    """Of keys without effect: in all cases, and in some of them."""
+    yield from (f"warning: {sentence}" for sentence in plan.doubts())
+    yield from (f"warning: case {number} equals case {first}: the keys that differ have no effect there"
+                for number, first in plan.equal().items())
+    if some := plan.without_temperatures():
+        yield (f"warning: {_cases(some)} no temperatures, the other cases do; use --thermal to compute them in all cases, "
+               "--isothermal in none")
+
+
+def _cases(numbers):
+    """Cases by their numbers, with the verb."""
+    few = ", ".join(map(str, numbers[:8])) + ", ..." * (len(numbers) > 8)
+    return f"case {few} computes" if len(numbers) == 1 else f"cases {few} compute"
+
+
+def _print(study, as_json):
+    from tehl_cli.sweep_display import print_study
+
+    print_json(study.to_dict()) if as_json else print_study(study)

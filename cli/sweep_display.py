@@ -1,0 +1,140 @@
+"""What a terminal shows of a sweep: a bar with the time left and the last cases, plain lines elsewhere; its table."""
+
+import itertools
+import math
+import sys
+import time
+from collections import deque
+
+from tehl_cli.live_display import say
+from tehl_cli.stdout import put
+
+from tehl_taichi.runs.sweep.summary_columns import error_of
+
+SHOWN = (("fatigue_Fi_max", "Fi", 1), ("transient_h_min_m", "h_min um", 1e6), ("transient_p_max_Pa", "p_max GPa", 1e-9),
+         ("steady_h_c_m", "steady h_c um", 1e6))
+LAST, MOST_ROWS = 8, 60
+
+
+class SweepLive:
+    """Listens to a sweep: called with (study, record of the case that ended, or None at the start)."""
+
+    EVERY = 5.0  # s between plain lines; what fails is told at once
+
+    def __init__(self, quiet=False):
+        self.quiet, self.live, self.rows, self.study = quiet, None, deque(maxlen=LAST), None
+        self.ended, self.first, self.told = 0, None, 0.0  # first: when the first case ended
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if self.live:
+            self.live.stop()
+            self.live = None
+
+    def __call__(self, study, record):
+        self.study = study
+        if record is None:
+            return self._start()
+        self.ended += 1
+        self.first = self.first or time.monotonic()
+        self.rows.append(record)
+        if self.live:
+            self.live.update(self._view())
+        elif not self.quiet and (record["status"] != "converged" or time.monotonic() - self.told > self.EVERY):
+            self.told = time.monotonic()
+            say(f"{self._headline()}  {case_words(record)}: {record['status']} {record['reason']}".rstrip())
+
+    def _start(self):
+        study, todo = self.study, len(self.study.open_cases)
+        if not self.quiet:
+            done = f", {len(study) - todo} of them already done" if len(study) > todo else ""
+            say(f"{len(study)} cases into {study.path}{done}")
+        for record in study.results():
+            if record["status"] == "refused":
+                say(f"case {record['case']} was refused: {record['reason']}")
+        if not self.quiet and todo and sys.stderr.isatty():
+            from rich.console import Console
+            from rich.live import Live
+
+            self.live = Live(self._view(), console=Console(stderr=True), refresh_per_second=4)
+            self.live.start()
+
+    def _headline(self):
+        left, study = len(self.study.open_cases), self.study
+        text = f"{len(study) - left}/{len(study)} cases"
+        bad = sum(count for word, count in study.counts.items() if word not in ("converged", "waiting"))
+        text += f", {bad} without a result" if bad else ""
+        if self.ended > 2 and left:  # the start of the workers is in nobody's pace
+            text += f", {duration((time.monotonic() - self.first) / (self.ended - 1) * left)} left"
+        return text
+
+    def _view(self):
+        from rich.console import Group
+        from rich.progress_bar import ProgressBar
+        from rich.table import Table
+        from tehl_cli.tables import cell
+
+        table = Table()
+        for title in ("case", "changes", "status", "s"):
+            table.add_column(title)
+        for record in self.rows:
+            table.add_row(*map(cell, (record["case"], changes_words(record), record["status"], f"{record['seconds']:.1f}")))
+        foot = Table.grid(padding=(0, 2))
+        done = len(self.study) - len(self.study.open_cases)
+        foot.add_row(ProgressBar(total=len(self.study), completed=done, width=30), self._headline())
+        return Group(table, foot)
+
+    def left(self):
+        """What is left of a sweep that was stopped, the end of a sentence."""
+        if self.study is None:
+            return "before any result was stored"
+        done = len(self.study) - len(self.study.open_cases)
+        return f"after {done} of {len(self.study)} cases; resume with: tehl sweep {self.study.path}"
+
+
+def changes_words(record):
+    """What makes a case, in words."""
+    return ", ".join(f"{key} = {value:g}" if isinstance(value, float) else f"{key} = {value}"
+                     for key, value in record["changes"].items())
+
+
+def case_words(record):
+    """A case, in words."""
+    return f"case {record['case']} ({changes_words(record)})"
+
+
+def duration(seconds):
+    """A time left in words, with a unit that suits it."""
+    if seconds < 90:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"
+
+
+def print_study(study):
+    """Print the table of a study, the reasons of what has no result, and where it lies."""
+    from tehl_cli.tables import list_table
+
+    columns = [entry for entry in SHOWN if entry[0] in study.values]
+    rows = [_cells(study, row, columns) for row in itertools.islice(study.rows(), MOST_ROWS)]
+    list_table(f"{study.path}", ("case", *study.plan.keys, "status", *(title for _, title, _ in columns)), rows, whole=True)
+    if len(study) > MOST_ROWS:
+        put(f"and {len(study) - MOST_ROWS} more in {study.table}")
+    for record in study.results():
+        if not record["converged"]:
+            put(f"{case_words(record)}: {record['status']}: {record['reason']}")
+    put(f"table: {study.table}; figures: tehl plot {study.path}")
+
+
+def _number(value, error):
+    """With its error where that is known, nothing where there is no value."""
+    from tehl_taichi.report.number_text import value_text
+
+    return "" if math.isnan(value) else value_text(value, error)
+
+
+def _cells(study, row, columns):
+    keys = (f"{row[key]:g}" if isinstance(row[key], float) else str(row[key]) for key in study.plan.keys)
+    numbers = (_number(row[name] * factor, row.get(error_of(name), math.nan) * factor) for name, _, factor in columns)
+    return [str(row["case"]), *keys, "ok" if row["status"] == "converged" else row["status"], *numbers]

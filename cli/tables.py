@@ -1,0 +1,92 @@
+"""Tables for people."""
+
+import os
+
+from tehl_cli.stdout import put
+
+MOST = 240  # columns of a table in a file
+NAME = 40  # characters of a first column that is not broken; sentences are
+
+
+def cell(text, keep=""):
+    """Text of a table as it is: [brackets] are no markup of rich's."""
+    from rich.text import Text
+
+    from tehl_taichi.values.escape import printable
+
+    return Text(printable(text, keep))
+
+
+def _table(title, rows):
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(title=cell(title), title_justify="left")
+    table.add_column("quantity")
+    table.add_column("value", justify="right")
+    for row in rows:
+        table.add_row(*map(cell, row))
+    Console().print(table)
+
+
+def summary_table(summary, said=()):
+    """Print the summary of a run; said: warnings that stand above already."""
+    from tehl_taichi.runs.summary.summary_rows import summary_rows, title
+
+    _table(title(summary), summary_rows(summary))
+    _answer(summary)
+    warning_lines([sentence for sentence in summary.get("warnings", []) if sentence not in said])
+
+
+def _answer(summary):
+    """Print what the report of a passage begins with."""
+    from tehl_taichi.report.verdict import of_fatigue
+
+    if "fatigue" in summary:
+        question, answer, *_ = of_fatigue(summary["fatigue"])
+        put(f"{question} {answer}")
+
+
+def warning_lines(sentences):
+    """Print warnings below a table, a line each."""
+    for sentence in sentences:
+        put(f"warning: {sentence}")
+
+
+def wrapped(sentence):
+    """Print a sentence within the width of the terminal, further lines indented."""
+    import shutil
+    import textwrap
+
+    width = max(shutil.get_terminal_size().columns, NAME)
+    put(textwrap.fill(sentence, width, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False), "\n")
+
+
+def list_table(title, columns, rows, whole=False):
+    """Print rows under column names; whole: as wide as they are, where there is no terminal whose width counts."""
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(title=cell(title, "\n"), title_justify="left")
+    names = all(len(row[0]) <= NAME for row in rows)
+    for n, column in enumerate(columns):
+        table.add_column(cell(column), no_wrap=n == 0 and names, overflow="fold")
+    for row in rows:
+        table.add_row(*map(cell, row))
+    console = Console()
+    if whole and not console.is_terminal and "COLUMNS" not in os.environ:
+        console = Console(width=max(console.width, Console(width=MOST).measure(table).maximum))
+    console.print(table)
+
+
+# scalar in the store -> column, factor, format
+HISTORY = (("step", "step", 1, ".0f"), ("p_max_Pa", "p_max GPa", 1e-9, ".4f"), ("h_min_m", "h_min um", 1e6, ".4f"),
+           ("residual", "residual", 1, ".0e"), ("load_error", "load", 1, ".0e"), ("mass_error", "mass", 1, ".0e"),
+           ("newton", "newton", 1, ".0f"), ("cycles", "cycles", 1, ".0f"))
+
+
+def history_table(scalar, entries):
+    """Print scalars of some entries of a store; scalar(name) -> its values."""
+    columns = [(scalar(name), factor, form) for name, _, factor, form in HISTORY]
+    list_table("history", [title for _, title, _, _ in HISTORY],
+               [[format(float(values[n]) * factor, form) for values, factor, form in columns] for n in entries])

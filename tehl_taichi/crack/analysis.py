@@ -1,0 +1,164 @@
+"""The whole answer: on both sides of the feature the trajectory, the crack's path and what drives it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl_taichi.crack.fillings import FILLINGS
+from tehl_taichi.crack.growth import WHY, CrackPath, grow, loaded
+from tehl_taichi.crack.symmetry_plane import SymmetryPlane, plane_of
+from tehl_taichi.crack.trajectory import CrackStart, start, trajectory
+from tehl_taichi.errors import SceneError
+from tehl_taichi.fatigue.assessment import PIT_ANGLES, Snapshots
+
+DEPTHS = (10e-6, 20e-6, 40e-6)  # m, at which the chord from the mouth is measured
+FAR = 2.0                       # lengths of the crack that its trajectory is followed
+CLEAR = 0.05                    # a larger difference between the grids of a crack is said
+
+
+@dataclass(frozen=True)
+class CrackSide:
+    """One side: its :class:`CrackStart`, the trajectory (m, complex) with the tension (Pa) along it, and the crack's path."""
+
+    begun: CrackStart
+    trajectory: np.ndarray
+    tension: np.ndarray
+    path: CrackPath
+
+    def __repr__(self):
+        return f"<Side from x = {self.begun.x * 1e6:.1f} um: {self.path.points.size} points, stopped by {self.path.why}>"
+
+
+@dataclass(frozen=True)
+class CrackResult:
+    """Crack paths on both sides of a feature.
+
+    Attributes
+    ----------
+    summary : dict
+        Numbers in SI units.
+    sides : dict
+        {"entry" or "exit": :class:`CrackSide`} of the sides where the surface is in tension.
+    plane : Plane
+        Stresses in the plane below the feature.
+    wanted : Wanted
+        The options.
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> tehl.CrackResult({}, {}, None, None)
+    <tehl.CrackResult: no side opens>
+    """
+
+    summary: dict
+    sides: dict
+    plane: SymmetryPlane
+    options: object
+
+    def __repr__(self):
+        each = [f"{name} to {side.path.points.imag.max() * 1e6:.0f} um deep" for name, side in self.sides.items()]
+        return f"<tehl.CrackResult: {', '.join(each) or 'no side opens'}>"
+
+
+def run(scene, reader, options):
+    """:class:`CrackResult` of a passage of `scene`; reader: see :func:`plane_of`, or a list of snapshots. Raises SceneError."""
+    reader = Snapshots(reader) if isinstance(reader, list) else reader
+    plane = plane_of(scene, reader, options.residual, check=lambda *extent: _check_places(*extent, options))
+    return follow(plane, scene, options)
+
+
+def follow(plane, scene, options):
+    """:class:`CrackResult` in a given plane of stresses."""
+    _check_places(plane.x, plane.depths[-1], options)
+    E_star, sides, told = scene.body_a.E / (1 - scene.body_a.nu**2), {}, {}
+    for name in options.sides:
+        begun = start(plane, name, options.start)
+        told[name] = {"opens": begun is not None}
+        if begun:
+            sides[name] = CrackSide(begun, *trajectory(plane, begun, FAR * options.length), grow(plane, begun, options, E_star))
+            told[name] |= _summary(plane, sides[name], options, E_star)
+        else:
+            told[name]["why"] = _why_not(plane, name)
+    return CrackResult({"sides": told, **_common(scene, options)}, sides, plane, options)
+
+
+def _why_not(plane, side):
+    """Why no crack starts on that side."""
+    if not ((plane.centres < 0) if side == "entry" else (plane.centres > 0)).any():
+        return "the passage has no moment with the feature on this side of the contact"
+    return "the surface is never in tension on this side, so a crack would not open"
+
+
+def _check_places(places, deepest, options):
+    """Refuse a mouth or a first piece outside the stresses at these x' (m), down to `deepest` (m)."""
+    (low, high), x = places[[0, -1]], options.start
+    if x is not None and not low <= x <= high:
+        raise SceneError(f"start = {x:g} m is outside the computed stresses; allowed: {low:.3g} to {high:.3g} m")
+    tip = (x or 0.0) + options.first * np.exp(1j * np.radians(options.angle))
+    if not (low <= tip.real <= high and tip.imag <= deepest):
+        mouth = f" from start = {x:g} m" if x is not None else ""
+        raise SceneError(f"first = {options.first:g} m{mouth} leads out of the computed stresses (to {high:.3g} m along x, "
+                         f"{deepest:.3g} m deep)")
+
+
+def _common(scene, options):
+    return {"srr": scene.operation.srr, "thermal_stress": scene.has_thermal_stress, "face_friction": options.face_friction,
+            "oil": options.filling, "oil_is": FILLINGS[options.filling].says,
+            "oil_share": options.oil_share if options.filling == "film" else None, "threshold": options.threshold,
+            "distance_m": options.distance, "pit_angles_deg": list(PIT_ANGLES)}
+
+
+def _summary(plane, side, options, E_star):
+    begun, path = side.begun, side.path
+    out = {"start_x_m": begun.x, "start_angle_deg": options.angle, "sigma1_surface_Pa": begun.sigma1,
+           "moment_x_m": float(plane.centres[begun.moment]), "trajectory": _shape(side.trajectory),
+           "tension_depth_m": _pulled(side.trajectory, side.tension), "path": _shape(path.points),
+           "K": path.steps, "K_I_max": max((step["K_I_max"] for step in path.steps), default=0.0),
+           "stopped": path.why, "why": WHY[path.why]}
+    if path.last:
+        out["length_m"] = path.steps[-1]["length_m"]
+        out |= _doubts(plane, path, options, E_star)
+    return out
+
+
+def _shape(points):
+    """Lean and chord angles (degrees to the surface) of a path."""
+    mouth, tip = points[0], points[-1]
+    chords = {f"{depth * 1e6:g}": _chord(points, depth) for depth in DEPTHS}
+    return {"lean": "with rolling" if tip.real < mouth.real else "against rolling", "deepest_m": float(points.imag.max()),
+            "chord_deg_at_um": chords}
+
+
+def _chord(points, depth):
+    """Angle to the surface of the line from the mouth to where the path first reaches the depth; None where it does not."""
+    below = np.flatnonzero(points.imag >= depth)
+    if below.size == 0:
+        return None
+    after = points[below[0]]
+    before = points[max(below[0] - 1, 0)]
+    part = (depth - before.imag) / max(after.imag - before.imag, 1e-30)
+    across = (before + part * (after - before)).real - points[0].real
+    return float(np.degrees(np.arctan2(depth, abs(across))))
+
+
+def _pulled(points, tension):
+    """Depth (m) down to which the trajectory is pulled at its moment."""
+    pressed = np.flatnonzero(tension <= 0)
+    return float(points[pressed[0] if pressed.size else -1].imag)
+
+
+def _doubts(plane, path, options, E_star):
+    """What twice as many elements say of K_I, and sentences about what is doubtful."""
+    fine = loaded(plane, path.points, options, E_star, 2 * options.elements)
+    K, finer = path.last.K, fine.K
+    largest = max(np.abs(finer).max(), 1e-30)
+    error = {"K_I_max": float(abs(K[0].max() - finer[0].max())), "K_II_range": float(abs(np.ptp(K[1]) - np.ptp(finer[1])))}
+    doubts, missed = [], sum(step["unsettled"] for step in path.steps)
+    if max(error.values()) > CLEAR * largest:
+        doubts.append(f"twice as many elements change the stress intensities by {max(error.values()) / largest:.0%}")
+    if missed > CLEAR * len(path.steps) * K.shape[1]:
+        doubts.append(f"{missed} moments did not converge between sticking and sliding")
+    if path.points.size > 2 and path.points[2:].imag.min() < 2 * options.distance:
+        doubts.append("the crack is closer to the surface than twice `--distance`, at which its direction is found")
+    return {"error_at_last_length": error, "unsettled": missed, "doubts": doubts}

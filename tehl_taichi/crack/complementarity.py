@@ -1,0 +1,68 @@
+"""Forces between bounds whose displacements are zero, or press them against a bound (a mixed linear complementarity problem).
+
+The matrix is symmetric and positive, so there is one answer and exchanging whole sets of unknowns finds it, one unknown at a
+time where that does not get on (Judice & Pires 1994; Murty 1974).
+"""
+
+import numpy as np
+
+LOW, FREE, HIGH = -1, 0, 1
+TRIES = 8      # exchanges of whole sets without fewer wrong unknowns
+ROUND = 1e-11  # of the largest displacement: less is rounding
+YIELD = 1e-12  # of the largest displacement by a unit force: what each unknown gets besides where several mean the same
+
+
+def bounded(M, gap, low, high, at):
+    """(r, where r stands: LOW, FREE or HIGH): low <= r <= high, w = gap + M r >= 0 at LOW, 0 where FREE, <= 0 at HIGH.
+
+    at: first guess.
+    """
+    fewest, left, small, seen = gap.size + 1, TRIES, ROUND * np.abs(gap).max(), {}
+    while True:
+        r = _forces(M, gap, low, high, at)
+        new = _next(r, gap + M @ r, low, high, at, small)
+        wrong = np.flatnonzero(new != at)
+        if wrong.size == 0:
+            return r, at
+        if at.tobytes() in seen:
+            return _least(seen, at.tobytes())
+        if wrong.size < fewest:
+            fewest, left = wrong.size, TRIES
+        elif left > 0:
+            left -= 1
+        else:  # one at a time: finite for a positive matrix, but for rounding
+            wrong = wrong[-1:]
+            seen[at.tobytes()] = np.clip(r, low, high), at
+        at = at.copy()
+        at[wrong] = new[wrong]
+
+
+def _least(seen, again):
+    """Of the states that follow each other for ever from `again` on, all wrong by rounding, the one with the least forces."""
+    states = list(seen)
+    return min((seen[state] for state in states[states.index(again) :]), key=lambda found: np.abs(found[0]).max())
+
+
+def _forces(M, gap, low, high, at):
+    """r with no displacement where FREE."""
+    r, free = np.where(at == LOW, low, np.where(at == HIGH, high, 0.0)), at == FREE
+    r[free] = solved(M[np.ix_(free, free)], -(gap + M @ r)[free])
+    return r
+
+
+def solved(M, right_side):
+    """Forces for the displacements `right_side`. Those of faces that touch and of the oil between them may mean the same: each
+    gives way a little then, which shares the force out, or makes it large where displacements contradict each other."""
+    try:
+        return np.linalg.solve(M, right_side)
+    except np.linalg.LinAlgError:
+        return np.linalg.solve(M + YIELD * np.abs(M).max() * np.eye(len(M)), right_side)
+
+
+def _next(r, w, low, high, at, small):
+    """Where r should rather stand."""
+    new = at.copy()
+    free = at == FREE
+    new[free & (r < low)], new[free & (r > high)] = LOW, HIGH
+    new[((at == LOW) & (w < -small)) | ((at == HIGH) & (w > small))] = FREE
+    return new

@@ -1,0 +1,148 @@
+"""Closed faces with Coulomb friction, moment after moment: they stick, or slide against a force of mu times the contact force.
+
+Slip has a history, so the passage is gone through twice and the second time counts. In a moment whole sets of
+states are exchanged; where that goes round in circles, the friction is bounded by mu times the contact force of the round
+before (a positive problem with one answer) until both agree (Haslinger 1983). States last for several moments, so some are
+solved at once; the second passage ends where it meets the first one.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl_taichi.crack.closure import shut
+from tehl_taichi.crack.complementarity import FREE, HIGH, LOW, bounded, solved
+
+TRIES, ROUNDS = 6, 60  # exchanges of states, rounds of bounds in a moment; then it counts as not settled
+SAME = 1e-8            # of the largest contact force: two rounds agree
+OPEN, STUCK, UP, DOWN = 0, 1, 2, 3  # UP: the slip grows
+ROUND = 1e-7    # of the largest opening, slip or force: less decides nothing
+AHEAD = 8       # moments tried at once with one state (4 and 16: as fast)
+FORGOT = 1e-12  # of the largest slip: passages that differ by less, in the same state, go on alike
+
+
+@dataclass
+class FrictionHistory:
+    """A passage: forces (contacts + rough, moments), states (contacts, moments), slip (rough, moments), settled (moments,)."""
+
+    forces: np.ndarray
+    state: np.ndarray
+    slip: np.ndarray
+    settled: np.ndarray
+
+    @classmethod
+    def none(cls, contacts, rough, moments):
+        return cls(np.zeros((contacts + rough, moments)), np.zeros((contacts, moments), int), np.zeros((rough, moments)),
+                   np.ones(moments, bool))
+
+    def put(self, at, r, state, slip, settled):
+        """Moments `at`; all of them in one state (contacts,)."""
+        self.forces[:, at], self.state[:, at], self.slip[:, at], self.settled[at] = r, state[:, None], slip, settled
+
+    def meets(self, other, at):
+        """Whether both stand alike after this moment."""
+        apart = np.abs(self.slip[:, at] - other.slip[:, at]).max()
+        return (self.state[:, at] == other.state[:, at]).all() and apart <= FORGOT * np.abs(other.slip).max()
+
+    def follow(self, other, begin):
+        """Go on as the other one."""
+        rest = slice(begin, None)
+        self.forces[:, rest], self.state[:, rest] = other.forces[:, rest], other.state[:, rest]
+        self.slip[:, rest], self.settled[rest] = other.slip[:, rest], other.settled[rest]
+
+
+def with_friction(faces, forces, mu):
+    """(nodal values (2 nodes, moments), contact forces (contacts, moments), number of moments that did not settle)."""
+    G, contacts = faces.contact, len(faces.contact) - faces.rough
+    S, free = G @ faces.compliance @ G.T, G @ faces.compliance @ forces
+    first = _passage(S, free, mu, np.full(contacts, OPEN), np.zeros(faces.rough))
+    gone = _passage(S, free, mu, first.state[:, -1], first.slip[:, -1], first)
+    held = gone.forces[:contacts]
+    return shut(faces, faces.compliance @ (forces + G.T @ gone.forces), held), held, int((~gone.settled).sum())
+
+
+def _passage(S, free, mu, state, slip, before=None):
+    """The passage :class:`FrictionHistory` through from a state (contacts,) and slip (rough,) on, until it meets the one
+    before."""
+    moments = free.shape[1]
+    gone, now = FrictionHistory.none(state.size, slip.size, moments), 0
+    while now < moments:
+        *done, then = some(S, free[:, now : now + AHEAD], mu, state, slip)
+        gone.put(slice(now, now + done[0].shape[1]), *done)
+        now, state = now + done[0].shape[1], then
+        slip = gone.slip[:, now - 1]
+        if before and gone.meets(before, now - 1):
+            gone.follow(before, now)
+            break
+    return gone
+
+
+def some(S, free, mu, state, slip):
+    """(forces (contacts + rough, n), their one state, slip (rough, n), settled, a guess of the next state) of the first n
+    moments of `free`, at least one."""
+    contacts, r = state.size, None
+    for _ in range(TRIES):
+        r = _forces(S, free, mu, state, slip)
+        moved = free + S @ r
+        new = _next(state, r, moved, mu, slip)
+        n = _fitting(state, new)
+        if n:
+            return r[:, :n], state, moved[contacts:, :n], True, new[:, min(n, new.shape[1] - 1)]
+        state = new[:, 0]
+    state, r, settled = by_bounds(S, free[:, 0], mu, slip, np.maximum(r[:contacts, 0], 0.0))
+    return r[:, None], state, (free[:, :1] + S @ r[:, None])[contacts:], settled, state
+
+
+def _fitting(state, new):
+    """How many moments, from the first one on, are in this state."""
+    wrong = np.flatnonzero((new != state[:, None]).any(axis=0))
+    return wrong[0] if wrong.size else new.shape[1]
+
+
+def by_bounds(S, free, mu, slip, q):
+    """(state, forces, whether they settled) at one moment, from contact forces q (contacts,) on; slip: before it."""
+    rough, gap = slip.size, free - np.concatenate([0 * q, slip])
+    at = np.where(np.concatenate([q, q[:rough]]) > 0, FREE, LOW)
+    for _ in range(ROUNDS):
+        bound = mu * q[:rough]
+        r, at = bounded(S, gap, np.concatenate([0 * q, -bound]), np.concatenate([0 * q + np.inf, bound]), at)
+        change, q = np.abs(r[: q.size] - q).max(), r[: q.size]
+        if change <= SAME * q.max():
+            break
+    state = np.where(q > 0, UP, OPEN)
+    sticking = at[q.size :]
+    state[:rough] = np.select([q[:rough] <= 0, sticking == LOW, sticking == HIGH], [OPEN, UP, DOWN], STUCK)
+    return state, r, bool(change <= SAME * q.max())
+
+
+def _forces(S, free, mu, state, slip):
+    """Contact and friction forces (contacts + rough, moments) in one state."""
+    contacts, rough, r = state.size, slip.size, np.zeros_like(free)
+    touching, stuck = np.flatnonzero(state != OPEN), np.flatnonzero(state[:rough] == STUCK)
+    rub = mu * ((state[:rough] == DOWN) * 1.0 - (state[:rough] == UP))
+    rows = np.concatenate([touching, contacts + stuck])
+    columns, sliding = S[:, rows], np.flatnonzero(rub)
+    columns[:, np.searchsorted(touching, sliding)] += S[:, contacts + sliding] * rub[sliding]
+    right_side = -free[rows]
+    right_side[touching.size :] += slip[stuck, None]
+    found = solved(columns[rows], right_side)
+    r[touching] = found[: touching.size]
+    r[contacts:] = rub[:, None] * r[:rough]
+    r[contacts + stuck] = found[touching.size :]
+    return r
+
+
+def _next(state, r, moved, mu, slip):
+    """States (contacts, moments) that suit these forces and openings and slips `moved` better."""
+    contacts, rough, rubs = state.size, slip.size, state[: slip.size, None]
+    q, f, opening = r[:contacts], r[contacts:], moved[:contacts]
+    growth = moved[contacts:] - np.concatenate([slip[:, None], moved[contacts:, :-1]], axis=1)
+    small, weak = ROUND * np.abs(moved).max(axis=0), ROUND * np.abs(q).max(axis=0)
+    new = np.repeat(state[:, None], r.shape[1], axis=1)
+    over = (rubs == STUCK) & (np.abs(f) > mu * (q[:rough] + weak))
+    back = ((rubs == UP) & (growth < -small)) | ((rubs == DOWN) & (growth > small))
+    new[:rough] = np.where(over, np.where(f < 0, UP, DOWN), np.where(back, STUCK, new[:rough]))
+    new[(state[:, None] != OPEN) & (q < -weak)] = OPEN
+    new[(state[:, None] == OPEN) & (opening < -small)] = STUCK
+    new[rough:][new[rough:] == STUCK] = UP  # without friction of its own
+    return new

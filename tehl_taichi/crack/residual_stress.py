@@ -1,0 +1,103 @@
+"""Residual stress along the surface: a number, or rows of depth and stress, linear between them and constant beyond."""
+
+import csv
+from pathlib import Path
+
+import numpy as np
+
+from tehl_taichi.errors import SceneError
+from tehl_taichi.values.coerce import plain
+from tehl_taichi.values.quantity import Number
+
+LARGEST = 5e9  # Pa
+STRESS = Number("", "Pa", -LARGEST, LARGEST, usual=-2e8, least=1e5)
+DEPTH = Number("", "m", 0.0, 0.03, usual=1e-4)
+WANTED = "lines with depth in m and stress in Pa; a header line may name the columns"
+MARKS = (";", "\t", ",")  # what may stand between the two, the first that the file has; else blanks
+
+
+class ResidualStress:
+    """Function of the depth (m) that gives Pa. given: Pa, or rows (depth m, Pa), depths increasing from 0 or more.
+
+    Raises SceneError where it is neither, or numbers that make sense in another unit only.
+    """
+
+    def __init__(self, given):
+        given = plain(given)
+        if isinstance(given, (int, float)):
+            STRESS.check("residual", given)
+            given = [(0.0, given)]
+        try:
+            table = np.array(given, float)
+        except (TypeError, ValueError):
+            table = np.zeros(0)
+        if table.ndim != 2 or table.shape[1] != 2 or not np.isfinite(table).all():
+            raise SceneError("residual must be a stress in Pa, or rows of two numbers: depth in m, stress in Pa")
+        self.depth, self.stress = table.T
+        if self.depth[0] < 0 or (np.diff(self.depth) <= 0).any():
+            raise SceneError("the depths of the residual stress must increase, from 0 m or more")
+        DEPTH.check("the deepest residual stress", float(self.depth[-1]))
+        STRESS.check("the largest residual stress", float(self.stress[np.argmax(np.abs(self.stress))]))
+
+    def __call__(self, depth):
+        return np.interp(depth, self.depth, self.stress)
+
+
+def read(text):
+    """What `--residual` gives: a number in Pa, or the rows of a CSV file (depth in m, stress in Pa). Raises SceneError."""
+    try:
+        return float(text)
+    except ValueError:
+        pass
+    path = Path(text)
+    if not path.is_file():
+        raise SceneError(f"--residual {text!r} is neither a stress in Pa nor a file")
+    try:
+        return _rows(_words(path.read_text(encoding="utf-8-sig")))
+    except (ValueError, OSError, csv.Error) as error:
+        raise SceneError(f"--residual {text}: {error}; allowed: {WANTED}") from None
+
+
+def _words(text):
+    """[(line, its columns)] of what says something."""
+    lines = [(n, line.split("#")[0].strip()) for n, line in enumerate(text.splitlines(), 1)]
+    lines = [(n, line) for n, line in lines if line]
+    mark = next((mark for mark in MARKS if any(mark in line for _, line in lines)), None)
+    split = (lambda line: next(csv.reader([line], delimiter=mark))) if mark else str.split
+    return [(n, [word.strip() for word in split(line)]) for n, line in lines]
+
+
+def _rows(lines):
+    """Rows (depth, stress) of such lines; a line of words at their head says in which columns these are. Raises ValueError."""
+    if not lines:
+        raise ValueError("it is empty")
+    columns = (0, 1)
+    if not all(map(_is_number, lines[0][1])):
+        columns, lines = _named(lines[0][1]), lines[1:]
+    elif len(lines[0][1]) != 2:
+        raise ValueError(f"line {lines[0][0]} has {len(lines[0][1])} columns, not two")
+    try:
+        return np.array([[float(words[column]) for column in columns] for _, words in lines], float).reshape(-1, 2)
+    except (ValueError, IndexError) as error:
+        raise ValueError(f"its lines differ in length or are not numbers ({error})") from None
+
+
+def _named(head):
+    """(column of the depth, column of the stress) by their names. Raises ValueError; also for another unit than SI."""
+    found = [[n for n, word in enumerate(head) if any(part in word.lower() for part in parts)]
+             for parts in (("depth",), ("stress", "sigma", "residual"))]
+    if [len(columns) for columns in found] != [1, 1]:
+        raise ValueError(f"its first line, {', '.join(head)[:80]!r}, names no depth and stress")
+    for (column,), unit in zip(found, ("m", "Pa")):
+        said = head[column].replace("(", " ").replace("[", " ").replace("_", " ").rstrip(" )]").split()[-1]
+        if said.lower().endswith(unit.lower()) and said.lower() != unit.lower() and len(said) <= len(unit) + 1:
+            raise ValueError(f"its column {head[column]!r} is in {said}, not in {unit}")
+    return tuple(columns[0] for columns in found)
+
+
+def _is_number(word):
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True

@@ -1,0 +1,108 @@
+"""Stresses in the plane of symmetry below the feature, over the whole passage: a table over x', depth and moments."""
+
+import copy
+
+import numpy as np
+
+from tehl_taichi.crack.filling import Fluid
+from tehl_taichi.crack.residual_stress import ResidualStress
+from tehl_taichi.errors import SceneError
+from tehl_taichi.fatigue.stress.histories import StressHistories
+from tehl_taichi.fatigue.stress.row_histories import histories_of
+from tehl_taichi.values.interpolation import lagrange
+
+WINDOW = 1.3    # a: half width of the table; a path of 100 um turns out to half of that
+SKIN = 0.05     # of the feature's half width (or of a, if that is less): depths are even below it, and grow beyond
+GROWTH = 1.3    # of the steps between depths
+DEEPEST = 1.0   # a
+KEPT = (0, 2, 4)  # xx, zz, xz
+
+
+class SymmetryPlane:
+    """x: (x',) m, even; depths: skin (GROWTH^n - 1) m; centres: the feature's (m) at every moment, the last one (unloaded) nan;
+    stress: (x', depths, moments, 3) Pa: xx, zz, xz, residual stress counted; a: m; reach: the feature's half width, m; times:
+    of the moments, s; fluid: :class:`tehl_taichi.crack.filling.Fluid` (both for oil that flows)."""
+
+    def __init__(self, x, skin, stress, centres, a, reach, residual=None, times=None, fluid=None):
+        self.x, self.skin, self.stress, self.centres, self.a, self.reach = x, skin, stress, centres, a, reach
+        self.depths = skin * (GROWTH ** np.arange(stress.shape[1]) - 1)
+        self.residual, self.scale, self.times, self.fluid = residual, float(np.abs(stress).max()), times, fluid
+
+    def having(self, residual):
+        """The same loads with a residual stress (Pa, or rows of depth and Pa; None: as it is)."""
+        if residual is None:
+            return self
+        other = copy.copy(self)
+        other.residual = ResidualStress(residual)
+        return other
+
+    def holds(self, points):
+        """(points,) whether the table has x + i depth (m)."""
+        points = np.asarray(points)
+        return (points.real >= self.x[0]) & (points.real <= self.x[-1]) & (points.imag >= 0) & (points.imag <= self.depths[-1])
+
+    def at(self, points, moments=slice(None)):
+        """(points, moments, 3) Pa at x + i depth within the table: the cubic through four nodes each way."""
+        points = np.asarray(points)
+        i, along = _cubic((points.real - self.x[0]) / (self.x[1] - self.x[0]), self.x.size)
+        j, down = _cubic(np.log1p(points.imag / self.skin) / np.log(GROWTH), self.depths.size)
+        table, found = self.stress[:, :, moments], 0.0
+        for p in range(4):
+            for q in range(4):
+                found = found + (along[p] * down[q])[:, None, None] * table[i + p, j + q]
+        if self.residual:
+            found[..., 0] += self.residual(points.imag)[:, None]
+        return found
+
+    def sigma1(self):
+        """(x', depths) the largest principal stress (in the plane) of the passage."""
+        found = principal(self.stress)[0]
+        return found.max(axis=2) + (self.residual(self.depths) if self.residual else 0.0)
+
+
+def _cubic(at, count):
+    """(first of four nodes, their weights (4, points)) for places `at` in nodes."""
+    first = np.clip(np.floor(at).astype(int) - 1, 0, count - 4)
+    return first, np.array(lagrange(range(4), at - first))
+
+
+def principal(stress):
+    """(largest principal stress, angle of its direction from x to depth) of stresses (..., 3)."""
+    xx, zz, xz = np.moveaxis(stress, -1, 0)
+    return (xx + zz) / 2 + np.hypot((xx - zz) / 2, xz), 0.5 * np.arctan2(2 * xz, xx - zz)
+
+
+def plane_of(scene, reader, residual=None, check=None):
+    """The :class:`SymmetryPlane` of a stored passage; reader: see
+    :class:`tehl_taichi.fatigue.stress.histories.StressHistories`.
+
+    residual: Pa or (depth, Pa) rows, instead of the scene's fatigue.residual_xx. check(x', deepest): called with its extent
+    (m) before any stress is computed. Raises SceneError where nothing passes, y = 0
+    is no plane of symmetry, or a stress is no number.
+    """
+    feature, centres = _checked(scene, reader)
+    scene = scene if residual is None else scene.replace(**{"fatigue.residual_xx": 0.0})
+    passage = StressHistories(scene, reader, centres, WINDOW)
+    skin = SKIN * min(feature.reach, passage.a)
+    count = int(np.ceil(np.log1p(DEEPEST * passage.a / skin) / np.log(GROWTH))) + 1
+    depths = skin * (GROWTH ** np.arange(count) - 1)
+    if check:
+        check(passage.x, depths[-1])
+    stress = histories_of(passage, depths, [(0, False)])[0][..., KEPT].swapaxes(0, 1)
+    if not np.isfinite(stress).all():
+        raise SceneError("some stored tractions are not numbers, so the stresses are not known")
+    times, centres = passage.centres / scene.operation.u_a, np.append(passage.centres, np.nan)
+    times = np.append(times, 2 * times[-1] - times[0])  # unloaded as long after
+    return SymmetryPlane(passage.x, skin, np.ascontiguousarray(stress), centres, passage.a, feature.reach, None, times,
+                 Fluid.of(scene)).having(residual)
+
+
+def _checked(scene, reader):
+    centres = np.array([reader.feature_x(n) for n in range(len(reader))])
+    if len(reader) < 2 or not np.isfinite(centres).all():
+        raise SceneError("a crack needs the passage of a feature: a scene with a feature and at least one time step")
+    feature = scene.features[0]
+    if reader.y[0] < 0 or any(not one.symmetric for one in scene.features):
+        raise SceneError(f"y = 0 is not a plane of symmetry of this scene (feature.y = {feature.y:g} m, or a surface that is "
+                         "not even in y), so a crack would leave it; allowed: features on y = 0 that are even in y")
+    return feature, centres

@@ -1,0 +1,110 @@
+"""Files that a command writes for people: figures, films, pages, tables. One rule for every --out.
+
+An existing file stays, unless --force is given; --force replaces a file that tehl wrote, known by its content, and nothing
+else; nothing is written inside a store, a study or a flank, nor through a link.
+"""
+
+import contextlib
+import mmap
+import os
+import re
+
+from tehl_taichi.disk import links
+from tehl_taichi.disk.drafts import Draft, exists
+from tehl_taichi.disk.files import blamed
+from tehl_taichi.disk.locks import Lock
+from tehl_taichi.errors import StoreError
+
+PROGRAM, COMMENT = "tehl_taichi", "<!-- tehl_taichi -->"
+COLUMN = re.compile(rb'"?[^\[\],]+ \[[^\[\]]*\]"?')
+# {kind: (how a file of it begins, what it has somewhere if tehl wrote it)}
+SIGNS = {"png": (b"\x89PNG", b"Software\0tehl_taichi"), "pdf": (b"%PDF-", b"/Creator (tehl_taichi)"),
+         "svg": (b"<?xml", b"<dc:title>tehl_taichi</dc:title>"), "gif": (b"GIF8", b"tehl_taichi"), "mp4": (b"", b"tehl_taichi"),
+         "html": (b"<!doctype html>", b'<meta name="generator" content="tehl_taichi">'), "nc": (b"\x89HDF", b"tehl_taichi"),
+         "vti": (b"<?xml", COMMENT.encode()), "pvd": (b"<?xml", COMMENT.encode()),
+         "json": (b"{", b'"program": "tehl_taichi"'), "md": (b"", COMMENT.encode())}
+
+
+class UserFile(Draft):
+    """A file or folder at `path` that is made as `draft` and appears with :meth:`publish`; see :func:`check` for the rest."""
+
+    def __init__(self, path, force=False, kind="", parts="", of=None):
+        self.wanted = kind, parts, of
+        super().__init__(path, force)
+        self.draft = self.folder / "made"
+        if parts:
+            self.draft.mkdir()
+
+    def allowed(self, replace):
+        check(self.path, replace, *self.wanted)
+        return Lock(self.path) if links.is_folder(self.path) else None
+
+    def publish(self, made=None):
+        super().publish(made or self.draft)
+
+
+def check(path, force=False, kind="", parts="", of=None):
+    """Raises StoreError where a command may not write to `path`.
+
+    force: whether a file of ours is replaced; kind: of the file, as its usual suffix (default: as `path` has it); parts: where
+    it is a folder, a regular expression of the names in it; of: the flank's folder where the file is its own figure.
+    """
+    check_outside(path, of)
+    if not os.path.lexists(path):
+        return
+    if what := links.strange(os.lstat(path)):
+        raise StoreError(f"{path} is {what}, and tehl does not write through links; remove it or choose another --out")
+    if links.is_folder(path) != bool(parts):
+        what = "not a folder" if parts else "a folder"
+        raise StoreError(f"{path} exists and is {what}; --out takes the name of a {'folder' if parts else 'file'}")
+    if not force:
+        raise StoreError(exists(path))
+    _check_parts(path, parts) if parts else _check_ours(path, kind)
+
+
+def check_outside(path, of=None):
+    """Raises StoreError where `path` lies inside a store, a study or a flank other than `of`."""
+    for folder in links.around(path):
+        if not (of and os.path.samefile(folder, of)):
+            raise StoreError(f"{path} lies in {folder}, which is a store, a study or a flank; choose another --out")
+
+
+def _check_parts(path, parts):
+    for part in sorted(path.iterdir()):
+        if not re.fullmatch(parts, part.name) or links.strange(os.lstat(part)):
+            raise StoreError(f"{path} holds {part.name}, which is not part of an export; move it away, or choose another --out")
+        _check_ours(part)
+
+
+def _check_ours(path, kind=""):
+    if not is_ours(path, kind):
+        raise StoreError(f"{path} was not written by tehl, and --force replaces only files of tehl; move it away, or choose "
+                         "another --out")
+
+
+def is_ours(path, kind=""):
+    """Whether a file was written by a command of tehl, by its content; kind: as :func:`check` has it."""
+    kind = kind or path.suffix[1:].lower()
+    with open(path, "rb") as file:
+        if kind == "csv":
+            return all(map(COLUMN.fullmatch, file.readline(100_000).strip().split(b",")))
+        begins, has = SIGNS.get(kind, (b"", None))
+        if has is None or not os.path.getsize(path) or file.read(len(begins)).lower() != begins.lower():
+            return False
+        with mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as content:
+            return content.find(has) >= 0
+
+
+@contextlib.contextmanager
+def made(path, force=False, **what):
+    """Where to write what appears at `path` at the end of the block, whole or not at all; what: as :func:`check` has it. Raises
+    StoreError, also for what the disk refuses."""
+    with blamed(path), UserFile(path, force, **what) as output:
+        yield output.draft
+        output.publish()
+
+
+def text(path, content, force=False, **what):
+    """Write text to `path`, as :func:`made`."""
+    with made(path, force, **what) as draft:
+        draft.write_text(content, encoding="utf-8")

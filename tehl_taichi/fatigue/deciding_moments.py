@@ -1,0 +1,39 @@
+"""Fewer moments of a stress history, for planes near one: those that may have the largest shear or normal stress there.
+
+A plane that turns by an angle changes the shear and the normal stress of a moment by no more than that angle times the range of
+its principal stresses (Mohr's circle). What is below the best by more than both change is below it on all planes around, and a
+circle around the others' shear about the same centre is a circle around it.
+"""
+
+from tehl_taichi.engine.language import ti
+from tehl_taichi.fatigue.plane_components import stress, traction
+
+
+@ti.func
+def deciding(S: ti.template(), some: ti.template(), row, count, n, middle, reach):
+    """Sort the moments some[row, :count] so that those come first which may count on planes within `reach` (rad) of n, with
+    shear from that of the stress `middle`; returns how many."""
+    far, top = -1e300, -1e300
+    for q in range(count):
+        shear, normal, turned = ends(stress(S, row, some[row, q]) - middle, n, reach)
+        far, top = ti.max(far, shear - turned), ti.max(top, normal - turned)
+    q, left = 0, count
+    while q < left:
+        t = some[row, q]
+        shear, normal, turned = ends(stress(S, row, t) - middle, n, reach)
+        if shear + turned >= far or normal + turned >= top:
+            q += 1
+        else:
+            left -= 1
+            some[row, q], some[row, left] = some[row, left], t
+    return left
+
+
+@ti.func
+def ends(s, n, reach):
+    """Shear and normal stress of s on the plane n, and what both may change by on planes within `reach`."""
+    a, b, c, normal = traction(s, n[0], n[1], n[2])
+    mean = (s[0] + s[1] + s[2]) / 3
+    x, y, z = s[0] - mean, s[1] - mean, s[2] - mean
+    size = x * x + y * y + z * z + 2 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5])  # the range is at most the root of twice that
+    return ti.sqrt(ti.max(a * a + b * b + c * c - normal * normal, 0.0)), normal, reach * ti.sqrt(2 * size)

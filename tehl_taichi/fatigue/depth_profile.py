@@ -1,0 +1,103 @@
+"""The worst depth below the surface: under one row of material points, from a ladder of depths and between its rungs.
+
+Stresses change smoothly with the logarithm of the depth, so those between the rungs are interpolated (four rungs, cubic) and
+the depth is refined without going back to the loads.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl_taichi.fatigue import findley
+from tehl_taichi.fatigue.stress.row_histories import histories_of
+from tehl_taichi.fatigue.worst_point import WorstPoint
+from tehl_taichi.values.interpolation import lagrange
+
+RATIO = 1.5      # of neighbouring depths
+SHALLOWEST = 0.5  # cells: nearer to the surface the rectangles of the loads are seen
+DEEPEST = 0.9    # a: the contact alone is worst at about a half
+HALVINGS = 6     # of the step in log depth, from a rung: 1.5^(1/64), 0.6 %
+CLOSE = 0.9      # points within this of the worst of a rung are followed between the rungs
+
+
+@dataclass(frozen=True)
+class Profile:
+    """Findley stress f (depths, x') Pa at depths (m) and the worst point of all depths; alone: of the contact alone."""
+
+    depths: np.ndarray
+    f: np.ndarray
+    worst: WorstPoint
+    alone: bool
+
+
+def ladder(passage):
+    """Depths (m) searched, from half a cell to 0.9 a."""
+    first, last = SHALLOWEST * passage.dx, DEEPEST * passage.a
+    count = max(5, int(np.ceil(np.log(last / first) / np.log(RATIO))) + 1)
+    return np.geomspace(first, last, count)
+
+
+def profiles(passage, rows, alone=False, windows=(slice(None),), notify=lambda done, total: None):
+    """:class:`Profile` of a passage under every one of these rows of its reader, for each of `windows`: moments that count.
+
+    alone=True: and under one point of the last row with the loads there as an endless line: the contact without its feature.
+    notify: called with (done, total) parts of the stresses, then of the searches.
+    """
+    depths, middle = ladder(passage), passage.x.size // 2
+    kinds = [(row, False) for row in rows] + [(passage.reader.y.size - 1, True)] * alone
+    found = []
+    for n, (kind, histories) in enumerate(zip(kinds, histories_of(passage, depths, kinds, notify)), 1):
+        points = slice(middle, middle + 1) if kind[1] else slice(None)
+        found += _profiles(passage, depths, histories[:, points], windows, passage.x[points], kind)
+        notify(n, len(kinds))
+    return found
+
+
+def _profiles(passage, depths, histories, windows, x, kind):
+    """The Profile of each window; kind: row, and whether it is of one point of the contact alone. Windows of some moments of
+    the first one keep its planes where they have as much there."""
+    found, all_, known = [], np.arange(histories.shape[2]), None
+    first = all_[windows[0]]
+    for moments in windows:
+        some, fewer = histories[:, :, moments], np.isin(all_[moments], first).all()
+        searched = findley.search(some.reshape(-1, *some.shape[2:]), *_rule(passage), known=known if fewer else None)
+        known = known if found else searched
+        found.append(_profile(passage, depths, some, searched[0].reshape(some.shape[:2]), x, *kind))
+    return found
+
+
+def _profile(passage, depths, histories, f, x, row, single):
+    depth, point, *rest = _refined(passage, np.log(depths), histories, f)
+    return Profile(depths, f, WorstPoint(depth, float(x[point]), float(passage.reader.y[row]), *rest), single)
+
+
+def _rule(passage):
+    fatigue = passage.scene.fatigue
+    return fatigue.kappa, True, fatigue.criterion
+
+
+def _refined(passage, logs, histories, f):
+    """(depth, point, f, stress, normal) of the worst point, between the rungs too: the step halved around the best."""
+    best = int(np.argmax(f.max(axis=1)))
+    follow = np.flatnonzero(f[best] >= CLOSE * f[best].max())
+
+    def at(log):
+        stress = _between(logs, histories[:, follow], log)
+        values, normals = findley.search(stress, *_rule(passage))
+        top = int(np.argmax(values))
+        return float(values[top]), log, int(follow[top]), stress[top], normals[top]
+
+    top, step = at(logs[best]), logs[1] - logs[0]
+    for _ in range(HALVINGS):
+        step *= 0.5
+        sides = [at(log) for log in (top[1] - step, top[1] + step) if logs[0] <= log <= logs[-1]]
+        top = max([top, *sides], key=lambda found: found[0])
+    worst, log, point, stress, normal = top
+    return float(np.exp(log)), point, worst, stress, normal
+
+
+def _between(logs, histories, log):
+    """Histories (points, moments, 6) at the depth exp(log): the cubic through the four nearest rungs."""
+    first = int(np.clip(np.searchsorted(logs, log) - 2, 0, logs.size - 4))
+    weights = lagrange(logs[first : first + 4], log)
+    return np.tensordot(weights, histories[first : first + 4], axes=1)

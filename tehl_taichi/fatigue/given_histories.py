@@ -1,0 +1,71 @@
+"""Fatigue of stress histories that come from elsewhere: a finite element model, a strain gauge, another contact program."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl_taichi.fatigue import findley
+from tehl_taichi.scene import SceneError
+from tehl_taichi.values.quantity import Number
+
+LARGEST = Number("", "Pa", -1e12, 1e12, usual=4e8, least=1e5)
+
+
+@dataclass(frozen=True)
+class Points:
+    """What was found at every point: f (points,) Pa, unit normals (points, 3) of the critical planes (n_z >= 0; nan where there
+    is none), and the limit (Pa) at which the index is 1."""
+
+    f: np.ndarray
+    normals: np.ndarray
+    limit: float
+
+    def __repr__(self):
+        return f"<tehl.Points: {self.f.size} points, Fi_max {self.Fi.max():.3g} at point {self.worst}>"
+
+    @property
+    def Fi(self):
+        """Index (points,)."""
+        return self.f / self.limit
+
+    @property
+    def theta(self):
+        """Degrees (points,) between the critical plane and the surface (the plane z = 0)."""
+        return findley.angles(self.normals)[0]
+
+    @property
+    def phi(self):
+        """Degrees (points,) from x to the direction in the surface of the critical plane's normal."""
+        return findley.angles(self.normals)[1]
+
+    @property
+    def worst(self):
+        """Number of the point with the largest f."""
+        return int(np.argmax(self.f))
+
+
+def are_stresses(of):
+    """Whether `of` is an array, or what numpy takes for one (not a run, a reader or snapshots)."""
+    if isinstance(of, (list, tuple)):
+        return bool(of) and not hasattr(of[0], "fields")
+    return hasattr(of, "__array__")
+
+
+def _check_size(stresses):
+    """Refuse stresses that make sense in another unit only: whoever has a load has some MPa. Raises SceneError."""
+    if stresses.size and np.isfinite(stresses).all():
+        LARGEST.check("the largest of the given stresses", float(stresses.flat[np.argmax(np.abs(stresses))]))
+
+
+def search(stresses, constants):
+    """:class:`Points` of stresses (points, times, 6) or (times, 6) Pa; constants: a scene's
+    :class:`tehl_taichi.scene.sections.Fatigue`. Raises SceneError for another shape, or for what is no number."""
+    try:
+        stresses = np.asarray(stresses, float)
+        _check_size(stresses)
+        f, normals = findley.search(stresses[None] if stresses.ndim == 2 else stresses, constants.kappa,
+                                    criterion=constants.criterion)
+    except (ValueError, TypeError) as error:
+        raise SceneError(f"given stresses: {error}") from None
+    nowhere = ~(np.isfinite(f) & np.isfinite(normals).all(axis=1))  # no plane of it is ever sheared or pulled
+    return Points(np.where(nowhere, 0.0, f), np.where(nowhere[:, None], np.nan, normals), constants.endurance)

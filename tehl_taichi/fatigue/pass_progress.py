@@ -1,0 +1,34 @@
+"""How far a fatigue search is: its passes follow each other, and are told of as one count."""
+
+from tehl_taichi.fatigue.depth_search import passes
+
+
+class PassProgress:
+    """Called with (done, total) parts of one of `passes` passes after another; tells progress(done, total) of all of them: in
+    hundredths of a pass, from 0 to the same total, never less than before. progress: or None."""
+
+    EACH = 100
+
+    def __init__(self, progress, passes):
+        self.progress, self.total, self.through = progress, self.EACH * passes, 0
+        self._report(0)
+
+    @classmethod
+    def of(cls, progress, scene, passage, early=None):
+        """Of a :func:`tehl_taichi.fatigue.assessment.run`: stresses and search of every block of rows at every depth asked
+        for, then those under rows where the worst depth is looked for."""
+        ladder = bool(scene.fatigue.depths)
+        layers = 1 + len(scene.fatigue.listed)
+        return cls(progress, 2 * layers * len(passage.row_blocks()) + (2 + passes(passage, early)) * ladder)
+
+    def __call__(self, done, total):
+        self._report(self.through + self.EACH * done // total)
+        self.through += self.EACH * (done == total)
+
+    def end(self):
+        """All is done, also what was not needed."""
+        self._report(self.total)
+
+    def _report(self, done):
+        if self.progress:
+            self.progress(done, self.total)

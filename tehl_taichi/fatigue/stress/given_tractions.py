@@ -1,0 +1,72 @@
+"""Stresses in a half-space under tractions given on a grid: :func:`tehl_taichi.stresses`."""
+
+import numpy as np
+
+from tehl_taichi.errors import SceneError
+from tehl_taichi.fatigue.stress.half_space import COMPONENTS, HalfSpaceStress
+from tehl_taichi.values.checks import number
+from tehl_taichi.values.coerce import plain, shown
+
+LARGEST, FARTHEST = 1e12, 1e3  # Pa, m: no load and no distance of nodes is larger
+
+
+def stresses(pressure, traction_x, traction_y, dx, dy, depths, nu):
+    """As :func:`tehl_taichi.stresses`."""
+    loads = _loads(pressure, traction_x, traction_y)
+    line = loads.ndim == 2
+    dx, dy = _step("dx", dx), 1.0 if line else _step("dy", dx if dy is None else dy)
+    number("nu", plain(nu), "", 0.0, 0.5)
+    z = _depths(depths)
+    fields = loads[:, :, None] if line else loads
+    x, y = np.arange(fields.shape[1]) * dx, np.arange(fields.shape[2]) * dy
+    found = np.stack([_at(fields, x, y, float(nu), line, depth) for depth in z.ravel()], axis=2)
+    found = found[:, 0] if line else found
+    return found if z.ndim else found[..., 0, :]
+
+
+def _at(fields, x, y, nu, line, depth):
+    """(nx, ny, 6) at one depth."""
+    found = HalfSpaceStress(x, y, nu, line=line, mirrored=False, depth=float(depth))(*fields)
+    return np.stack([found[name] for name in COMPONENTS], axis=-1)
+
+
+def _loads(pressure, traction_x, traction_y):
+    """(3, nx) or (3, nx, ny): pressure and both shear tractions."""
+    pressure = _array("pressure", pressure)
+    if pressure.ndim not in (1, 2) or min(pressure.shape) < 2:
+        raise SceneError(f"pressure has the shape {pressure.shape}; allowed: (nx,) or (nx, ny) with at least 2 nodes each")
+    if pressure.ndim == 1 and traction_y is not None:
+        raise SceneError("traction_y needs a pressure of shape (nx, ny): a line contact has none")
+    shear = [np.zeros_like(pressure) if values is None else _array(name, values)
+             for name, values in (("traction_x", traction_x), ("traction_y", traction_y))]
+    for name, values in zip(("traction_x", "traction_y"), shear):
+        if values.shape != pressure.shape:
+            raise SceneError(f"{name} has the shape {values.shape}, pressure {pressure.shape}: they must agree")
+    return np.stack([pressure, *shear])
+
+
+def _array(name, values):
+    try:
+        values = np.asarray(values, float)
+    except (ValueError, TypeError):
+        raise SceneError(f"{name} = {shown(values)} must be an array of numbers in Pa") from None
+    if not (np.abs(values) <= LARGEST).all():
+        raise SceneError(f"{name} must be finite and at most {LARGEST:g} Pa in size")
+    return values
+
+
+def _step(name, value):
+    if value is None:
+        raise SceneError(f"{name} is missing: the distance of the nodes in m")
+    number(name, plain(value), "m", 0.0, FARTHEST, strict=True)
+    return float(value)
+
+
+def _depths(depths):
+    try:
+        found = np.asarray(depths, float)
+    except (ValueError, TypeError):
+        raise SceneError(f"depths = {shown(depths)} must be numbers in m") from None
+    if found.ndim > 1 or found.size == 0 or not ((found >= 0) & np.isfinite(found)).all():
+        raise SceneError(f"depths = {shown(depths)} must be one or more finite numbers >= 0 in m")
+    return found

@@ -1,0 +1,224 @@
+"""Stress histories of material points of body a around a feature, from the snapshots of its passage.
+
+Material points keep their place in the frame of the feature, x' = x - x_a(t). Before the first and after the last
+snapshot (feature outside the contact) they move through the steady field, so every history begins and ends unloaded.
+"""
+
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+
+from tehl_taichi.engine.fftw import SINGLE
+from tehl_taichi.fatigue.stress.half_space import COMPONENTS, HalfSpaceStress
+from tehl_taichi.fatigue.stress.thermal_depth import ThermalBelow
+from tehl_taichi.fatigue.stress.thermal_stress import WORKERS
+from tehl_taichi.scene.scales import Scales
+
+WINDOW = 0.6       # half width (in a) of the part searched around one small feature: farther out its stress has died out
+MARGIN = 0.3       # (in a) searched beyond the rim of larger features
+LOADED = 1.5       # material points are followed while within this distance (in a) of the centre of the contact
+BLOCK_BYTES = 1e9  # histories held at once; more points than fit are done in blocks of y rows, each from the loads again
+BLOCK = 16         # entries whose stresses are found at once
+LOADS = ("pressure", "traction_x_a", "traction_y_a")
+
+
+class StressHistories:
+    """The window of material points and where they are at every moment that counts (fatigue.from_x to to_x).
+
+    reader: x, y (m), time (s), len, feature_x(n) (m), fields(n, names) in SI; entry 0 is the steady start; centres (m): the
+    feature's at every entry; window: half width (in a) of the part around one small feature.
+    """
+
+    def __init__(self, scene, reader, centres, window=WINDOW):
+        self.scene, self.reader, self.window, self.last_below = scene, reader, window, None
+        self.a = Scales.of(scene).a
+        self.dx = float(reader.x[-1] - reader.x[0]) / (reader.x.size - 1)
+        low, high = (max(1, int(side / self.dx + 1e-9)) for side in self._window("x"))
+        # material points on nodes of the grid at entry 0: steps of whole cells then need no interpolation
+        offset = (reader.x[0] - centres[0]) / self.dx
+        self.x = (np.arange(-low, high + 1) + offset - round(offset)) * self.dx
+        low, high = self._window("y")
+        rows = np.flatnonzero((reader.y >= -low * (1 + 1e-9)) & (reader.y <= high * (1 + 1e-9)))
+        self.rows = slice(rows[0], rows[-1] + 1)
+        self.y = reader.y[self.rows]
+        # centre of the feature and entry of the reader at every moment
+        before, after = self._lead_in(centres[0]), self._lead_out(centres[-1])
+        self.centres = np.concatenate([before, centres, after])
+        self.entries = np.concatenate([0 * before, np.arange(len(centres)), 0 * after]).astype(int)
+        self._widen()
+        self._choose_moments()
+
+    def _window(self, axis):
+        """Distances (m) searched on the negative and the positive side of the first feature's centre."""
+        reach = [(getattr(f, axis), f.reach if axis == "x" else f.reach_y) for f in self.scene.features]
+        sides = (max(sign * at + r for at, r in reach) + MARGIN * self.a for sign in (-1, 1))
+        return [max(self.window * self.a, side) for side in sides]
+
+    def _lead_in(self, first):
+        if first > -self.a:
+            return np.zeros(0)
+        steps = int(np.ceil((first + self.x[-1] + LOADED * self.a) / self.dx))
+        return first - np.arange(max(steps, 0), 0, -1) * self.dx
+
+    def _lead_out(self, last):
+        if last < self.a:
+            return np.zeros(0)
+        steps = int(np.ceil((LOADED * self.a - last - self.x[0]) / self.dx))
+        return last + np.arange(1, max(steps, 0) + 1) * self.dx
+
+    def _widen(self):
+        """Unloaded columns on both sides, so that no material point leaves the grid."""
+        x0, x1 = self.reader.x[0], self.reader.x[-1]
+        low, high = self.centres.min() + self.x[0], self.centres.max() + self.x[-1]
+        self.pad = tuple(max(0, int(np.ceil(gap / self.dx)) + 2) for gap in (x0 - low, high - x1))
+        self.grid_x = x0 + (np.arange(self.reader.x.size + sum(self.pad)) - self.pad[0]) * self.dx
+        # a line contact is mirrored about its first row, in the plane of symmetry or (whole domain) far away
+        self.line = self.scene.contact.kind == "line"
+        self.mirrored = self.line or self.reader.y[0] == 0
+
+    def _choose_moments(self):
+        """Only those with the feature between fatigue.from_x and to_x (a)."""
+        fatigue = self.scene.fatigue
+        counts = (self.centres >= fatigue.from_x * self.a) & (self.centres <= fatigue.to_x * self.a)
+        self.centres, self.entries = self.centres[counts], self.entries[counts]
+
+    def places(self, depth, rows):
+        """Function of a point's number among those of some rows that gives its depth, x and y (m)."""
+        def place(n):
+            i, j = divmod(int(n), rows.stop - rows.start)
+            return depth, self.x[i], self.y[j + rows.start]
+
+        return place
+
+    def operator(self, depth):
+        """Stress operator for a depth in m, on the rows of the window."""
+        y = self.reader.y
+        return HalfSpaceStress(self.grid_x, y - y[0], self.scene.body_a.nu, self.line, self.mirrored, depth, self.rows, SINGLE)
+
+    def stresses(self, depth):
+        """Stress operator for a depth in m below the surface, and the thermal stress where the scene wants it (else None)."""
+        return self.operator(depth), self.below(depth).at(depth) if self.scene.has_thermal_stress else None
+
+    def below(self, depth):
+        """The ThermalBelow of this passage from a depth (m) on: the last one where it reaches up to there, since to make it
+        takes every temperature and its transform."""
+        if self.last_below is None or self.last_below.shallowest > depth:
+            self.last_below = self.heat(ThermalBelow, depth)
+        return self.last_below
+
+    def heat(self, kind, *more):
+        """ThermalStress, or ThermalBelow (and its shallowest depth), of this passage."""
+        r, ambient = self.reader, self.scene.operation.temperature
+        self.ticks, dt = equal_steps(np.asarray(r.time))
+        rises = (np.asarray(r.fields(n, ("temperature_a",))["temperature_a"], float) - ambient for n in range(len(r)))
+        return kind(self.scene.body_a, self.scene.operation.u_a, between(rises, self.ticks), dt, r.x, r.y, self.pad[0],
+                    self.grid_x.size, self.a, self.mirrored, *more)
+
+    def row_blocks(self):
+        """Slices of y rows whose histories fit into BLOCK_BYTES."""
+        row_bytes = 8.0 * self.x.size * (self.centres.size + 1) * (len(COMPONENTS) + 2)
+        rows = max(1, int(BLOCK_BYTES / row_bytes))
+        return [slice(j, min(j + rows, self.y.size)) for j in range(0, self.y.size, rows)]
+
+    def history(self, rows, operators, notify=lambda done, total: None, meanwhile=lambda: None):
+        """(points, times + 1, 6) Pa below the surface; points run over x', then rows; the last moment is the unloaded state.
+
+        operators: of :meth:`stresses`; tell, meanwhile: as for :meth:`gathered`.
+        """
+        def stresses(block):
+            return (self._stress_field(int(entry), rows, *operators) for entry in block)
+
+        out = self.gathered((rows.stop - rows.start,), stresses, notify, meanwhile)
+        return self.resting(out).reshape(-1, *out.shape[2:])
+
+    @property
+    def blocks(self):
+        """The entries that count, by their numbers: one has its place in the same block, and so the same bits, whatever moments
+        are searched."""
+        entries = np.unique(self.entries)
+        return np.split(entries, np.flatnonzero(np.diff(entries // BLOCK)) + 1)
+
+    def gathered(self, shape, stresses, notify, meanwhile):
+        """Histories (x', *shape, times + 1, 6) Pa from the fields (columns, *shape, 6) that stresses(block) gives of each entry
+        of a block. notify: called with (done, total) blocks; meanwhile: what this thread does while others find the
+        stresses."""
+        out, blocks = np.zeros((self.x.size, *shape, self.centres.size + 1, len(COMPONENTS))), self.blocks
+
+        def fill(block):
+            for entry, fields in zip(block, stresses(block)):
+                self.follow(out, int(entry), fields)
+
+        with ThreadPoolExecutor(WORKERS) as pool:
+            tasks = [pool.submit(fill, block) for block in blocks]
+            meanwhile()
+            for done, task in enumerate(tasks, 1):
+                task.result()
+                notify(done, len(blocks))
+        return out
+
+    def resting(self, stress):
+        """The same stress (..., 6) with the constant residual one."""
+        stress[..., 0] += self.scene.fatigue.residual_xx
+        stress[..., 1] += self.scene.fatigue.residual_yy
+        return stress
+
+    def follow(self, out, entry, fields):
+        """Stress fields (x, ..., 6) of an entry, at all its moments, into the histories `out` (x', ..., moments, 6)."""
+        for t in np.flatnonzero(self.entries == entry):
+            out[..., t, :] = self._at(fields, t)
+
+    def under(self, fields, t):
+        """Those of fields (x, rows, parts) at the material points at moment t: (parts, x', rows)."""
+        return np.moveaxis(self._at(fields, t), -1, 0)
+
+    def _at(self, fields, t):
+        start = (self.centres[t] + self.x[0] - self.grid_x[0]) / self.dx
+        return _shifted(fields, start, self.x.size)
+
+    def loads(self, entry):
+        """p, q_x and q_y (3, x, y) Pa of an entry; the shear is zero where it is not to count."""
+        given, front = self.reader.fields(entry, LOADS), self.pad[0]
+        out = np.zeros((3, self.grid_x.size, self.reader.y.size))
+        for load, name in zip(out, LOADS if self.scene.fatigue.shear else LOADS[:1]):
+            load[front : front + self.reader.x.size] = given[name]
+        return out
+
+    def _stress_field(self, entry, rows, stress, thermal):
+        found = stress(*self.loads(entry))
+        if thermal:
+            for name, values in zip(COMPONENTS, thermal(self.ticks[entry], self.rows)):
+                found[name] += values
+        return np.stack([found[name][:, rows] for name in COMPONENTS], axis=-1)
+
+
+def equal_steps(times):
+    """(numbers of the times, step) on the coarsest series of equal steps that all of them lie on."""
+    gaps = np.diff(times)
+    step, rest = gaps[0], gaps[1:]
+    for gap in rest:  # Euclid's algorithm
+        while gap > 1e-6 * gaps[0]:
+            step, gap = gap, step % gap
+            gap = 0.0 if step - gap < 1e-6 * gaps[0] else gap
+    ticks = np.rint((times - times[0]) / step).astype(int)
+    return ticks, float(times[-1] - times[0]) / int(ticks[-1])
+
+
+def between(fields, ticks):
+    """The fields at every tick from the first to the last, linear in time where there is none."""
+    before = None
+    for at, field in zip(ticks, fields):
+        for n in range(before[0] + 1 if before else at, at):
+            part = (n - before[0]) / (at - before[0])
+            yield (1 - part) * before[1] + part * field
+        yield field
+        before = at, field
+
+
+def _shifted(fields, start, count):
+    """`count` columns of fields (x, ..., 6) from column `start`; exact for whole numbers, else linear in x."""
+    whole = int(np.round(start))
+    if abs(start - whole) < 1e-6:
+        return fields[whole: whole + count]
+    whole = int(np.floor(start))
+    part = start - whole
+    return (1 - part) * fields[whole: whole + count] + part * fields[whole + 1: whole + 1 + count]

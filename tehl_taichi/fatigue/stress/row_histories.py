@@ -1,0 +1,105 @@
+"""Stress histories of points in rows of a body: under some rows at many depths, and of all rows of its surface."""
+
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+
+from tehl_taichi.engine.fftw import DOUBLE, SINGLE, real_of
+from tehl_taichi.fatigue.stress.histories import BLOCK
+from tehl_taichi.fatigue.stress.row_stress import RowStress
+from tehl_taichi.fatigue.stress.thermal_stress import WORKERS, ThermalStress
+from tehl_taichi.fatigue.stress.unit_loads import HELD
+
+
+def _no_progress(done, total):
+    """Is told and does nothing."""
+
+
+def at_the_surface(passage):
+    """Function of rows of the window (a slice), `notify` and `meanwhile` that gives the stress histories of their points at the
+    surface, as :meth:`tehl_taichi.fatigue.stress.histories.StressHistories.history` does those below it."""
+    first, thermal = passage.rows.start, _thermal(passage)
+
+    def histories(rows, notify=_no_progress, meanwhile=lambda: None):
+        kinds = [(row, False) for row in range(first + rows.start, first + rows.stop)]
+        out = _histories(passage, [0.0], kinds, notify, thermal, meanwhile)
+        return out.reshape(-1, *out.shape[3:])
+
+    return histories
+
+
+def histories_of(passage, depths, kinds, notify=_no_progress):
+    """A list of (depths, x', moments, 6) Pa, one for each kind: (row, whether its loads go on as an endless line), those last.
+
+    passage: a :class:`tehl_taichi.fatigue.stress.histories.StressHistories`; depths: m, increasing. The last moment is the
+    unloaded state. notify: called with (done, total): blocks of entries, and depths where there is heat.
+    """
+    thermal = None if depths[0] else _thermal(passage)
+    return list(_histories(passage, depths, kinds, notify, thermal).transpose(1, 2, 0, 3, 4))
+
+
+def _thermal(passage):
+    """Its ThermalStress, where the scene wants it."""
+    return passage.heat(ThermalStress) if passage.scene.has_thermal_stress else None
+
+
+def _histories(passage, depths, kinds, notify, thermal, meanwhile=lambda: None):
+    """(x', kinds, depths, moments, 6) Pa; thermal: that of the surface, if it is among the depths; meanwhile: what this thread
+    does while others find stresses."""
+    deep = [n for n, depth in enumerate(depths) if depth] if passage.scene.has_thermal_stress else []
+    blocks, stresses = len(passage.blocks), _Stresses(passage, depths, kinds, thermal)
+    out = passage.gathered((len(kinds), len(depths)), stresses, lambda done, _: notify(done, blocks + len(deep)), meanwhile)
+    if deep:
+        _heat(passage, depths, deep, [row for row, _ in kinds], out, lambda n: notify(blocks + n, blocks + len(deep)))
+    return passage.resting(out)
+
+
+class _Stresses:
+    """Those of some entries of a passage, with the heat of points at the surface; arguments as for :func:`_histories`."""
+
+    def __init__(self, passage, depths, kinds, thermal):
+        self.passage, self.operators = passage, _operators(passage, depths, kinds)
+        self.heat = thermal.on([row for row, _ in kinds]) if thermal else None
+
+    def __call__(self, block):
+        """(entries, columns, kinds, depths, 6) Pa of entries that have a place in one block."""
+        passage, at = self.passage, block % BLOCK
+        loads = np.zeros((3, BLOCK, passage.grid_x.size, passage.reader.y.size), real_of(_kind(passage)))
+        for entry in block:
+            loads[:, entry % BLOCK] = passage.loads(int(entry))
+        found = [operator(*loads[..., rows]) for operator, rows in self.operators]
+        out = (np.concatenate(found, axis=2) if len(found) > 1 else found[0])[at]
+        for fields, tick in zip(out, passage.ticks[block] if self.heat else []):
+            fields[:, :, 0][..., HELD] += self.heat(tick)
+        return out
+
+
+def _kind(passage):
+    """Precision: a single row is plane strain alone, and quick."""
+    return SINGLE if passage.reader.y.size > 1 else DOUBLE
+
+
+def _operators(passage, depths, kinds):
+    """[(RowStress, rows of loads that it takes)]: one of all loads for all rows, one of each row whose loads go on."""
+    def made(y, rows):
+        return RowStress(passage.grid_x, y, passage.scene.body_a.nu, passage.line, passage.mirrored, depths, rows,
+                         _kind(passage))
+
+    y = passage.reader.y
+    plain = [row for row, endless in kinds if not endless]
+    out = [(made(y, plain), slice(None))] if plain else []
+    return out + [(made(np.zeros(1), [0]), [row]) for row, endless in kinds if endless]
+
+
+def _heat(passage, depths, deep, rows, out, notify):
+    """Thermal stress below the surface added to the histories `out` (x', kinds, depths, moments, 6); deep: numbers of the
+    depths there; notify: called with those done."""
+    thermal, part = passage.below(min(depths[n] for n in deep)), np.zeros_like(out[:, 0, 0])
+    entries = np.unique(passage.entries)
+    with ThreadPoolExecutor(WORKERS) as pool:
+        for done, (n, found) in enumerate(zip(deep, pool.map(lambda n: thermal.rows(depths[n], rows), deep)), 1):
+            for kind, stresses in enumerate(found):
+                for entry in entries:
+                    passage.follow(part, entry, stresses[passage.ticks[entry]])
+                out[:, kind, n] += part
+            notify(done)

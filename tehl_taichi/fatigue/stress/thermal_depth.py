@@ -1,0 +1,182 @@
+"""Thermal stress below the surface: all six components at any depth of a body that heats from its surface.
+
+Each wave exp(i k s) of the surface temperature (s along the wave, t across) goes down as T(z). With phi'' - k^2 phi = T,
+phi = 0 at the surface (Goodier's potential) and the shear that it leaves there taken away (Airy's function -Theta z exp(-k z),
+Theta = int T exp(-k z) dz; Timoshenko & Goodier, sections 17 and 151), in units of E alpha/(1 - nu):
+
+    ss = -k^2 phi - T + (2 k - k^2 z) e Theta,   tt = -T + 2 nu k e Theta,   e = exp(-k z),
+    zz = k^2 phi + k^2 z e Theta,                sz = i k (phi' + (1 - k z) e Theta).
+
+After a sudden surface temperature T(z, t) = (A + B)/2 with A, B = exp(-+k z) erfc(z/(2 r) -+ k r), r = sqrt(D t) (Carslaw &
+Jaeger, appendix V); phi follows from its integral over time. A passage is a sum of such steps, in the frame of the body.
+"""
+
+import math
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+
+from tehl_taichi.engine.fftw import half_back, transform, transform_back
+from tehl_taichi.fatigue.stress.thermal_stress import WORKERS, SurfaceHeat, depth_after, erfcx, fast_length
+from tehl_taichi.fatigue.stress.wave_table import WaveTable
+
+LEAD = 4.0  # a: the contact stands at its first state for this way of the body, which is cold before
+REACH = 9.0  # waves with k z beyond this do not reach the depth z (exp(-9) = 1e-4)
+WEAK = 1e-4  # waves below this share of the strongest are left out
+CHUNK = 256  # waves convolved at once
+PARTS = np.array([0, 1 / 64, 1 / 16, 1 / 4, 1])  # of the newest step: near the surface the answer to it is quick
+
+
+def step_stresses(k, z, diffusivity, nu, t):
+    """(ss, tt, zz, sz/(i k)) over E alpha T/(1 - nu) at depth z (m) a time t (s) after a sudden surface temperature
+    T exp(i k s); k (1/m) and t broadcast; zero at t = 0."""
+    late, k0 = np.where(t > 0, t, 1.0), np.where(k > 0, k, 1.0)
+    r2 = diffusivity * late
+    r, e = np.sqrt(r2), np.exp(-k * z)
+    eta, kappa = z / (2 * r), k * r
+    g = np.exp(-eta * eta - kappa * kappa)
+    B, near = g * erfcx(eta + kappa), g * erfcx(np.abs(eta - kappa))
+    A = np.where(eta > kappa, near, 2 * e - near)
+    rest = np.where(eta > kappa, near - 2 * e, -near)  # A - 2 e without the loss of digits
+    T, Theta = 0.5 * (A + B), depth_after(k, diffusivity, late)
+    phi = 0.5 * (r2 * (rest + B) - z / (2 * k0) * (A - B))
+    slope = 0.5 * ((B - A) / (2 * k0) + k * r2 * (B - rest) + 0.5 * z * (A + B) - 2 * r / math.sqrt(math.pi) * g)
+    turn = e * Theta
+    found = (-k * k * phi - T + (2 - k * z) * k * turn, -T + 2 * nu * k * turn, k * k * (phi + z * turn),
+             slope + (1 - k * z) * turn)
+    return np.stack([np.where(t > 0, part, 0.0) for part in found])
+
+
+class ThermalBelow(SurfaceHeat):
+    """The six stresses (Pa) at depths of a body, at every entry of a passage: :meth:`rows` on some rows, :meth:`at` on all.
+
+    Arguments as for :class:`tehl_taichi.fatigue.stress.thermal_stress.ThermalStress`; shallowest: depth (m) of the first layer
+    wanted, waves that do not reach it are left out. The body was cold until the contact had come LEAD a near, and has had the
+    state of entry 0 since. Holds one complex number of single precision per entry (with the way before) and wave number.
+    """
+
+    def __init__(self, body, speed, rises, dt, x, y, front, columns, a, mirrored, shallowest):
+        super().__init__(body, rises, x, y, front, columns, a, mirrored)
+        self.diffusivity, self.speed, self.dt = body.k / (body.rho * body.c), speed, dt
+        self.lead, self.entries = math.ceil(LEAD * a / (speed * dt)), len(self.rises)
+        self.size = fast_length(2 * self.entries + self.lead)
+        spectra = self.spectra()
+        self.rises = None
+        strength = np.abs(spectra).max(axis=0) * np.exp(-self.waves.k * shallowest)
+        self.ix, self.iy = np.nonzero((strength > WEAK * strength.max()) & (self.waves.k * shallowest < REACH))
+        self.kx, self.ky = self.waves.kx[self.ix, 0], self.waves.ky[0, self.iy]
+        self.k = np.hypot(self.kx, self.ky)
+        self.shallowest = shallowest
+        self.passed = self._passed(spectra[:, self.ix, self.iy].T)
+
+    def _passed(self, waves):
+        """Transform in time of the temperatures in the frame of the body, before which the contact moves on."""
+        n = np.concatenate([np.zeros(self.lead, int), np.arange(self.entries)])
+        turn = np.exp(1j * np.outer(self._angle, np.arange(n.size))).astype(np.complex64)
+        return transform(waves[:, n] * turn, self.size)
+
+    @property
+    def _angle(self):
+        """How far each wave moves over the body in a step, rad."""
+        return self.kx * self.speed * self.dt
+
+    def _responses(self, depth, each=map):
+        """(cut, (waves, 4, size)): transforms in time of ss, tt, zz, sz of some waves (without their way back), those of one kx
+        together; each: applies a function to the items of a list."""
+        reached = np.flatnonzero(self.k * depth < REACH)
+        reached = reached[np.argsort(self.k[reached], kind="stable")]  # waves of one cut take few rows of the table
+        cuts = [np.sort(reached[start : start + CHUNK]) for start in range(0, reached.size, CHUNK)]
+        table = WaveTable.of(self.k[reached], lambda k: self._answers(k, depth))
+        for first in range(0, len(cuts), WORKERS):  # not more of them at once: there may be 100, of 8 MB each
+            some = cuts[first : first + WORKERS]
+            # each wave's four in one piece, as :meth:`rows` takes them
+            yield from zip(some, each(lambda cut: np.multiply(self._kernels(table, cut).swapaxes(0, 1),
+                                                              self.passed[cut][:, None], order="C"), some))
+
+    def _kernels(self, table, cut):
+        """(4, waves, size): what temperatures, linear over a step in the frame of the contact, do from then on; within the
+        newest step the parts PARTS of it count by their age."""
+        (out, newest), angle = table(self.k[cut]), self._angle[cut, None]
+        later = np.exp(-2j * np.pi * np.arange(self.size) / self.size).astype(np.complex64)
+        before, now = _means(angle, 0.0, 1.0)
+        out *= before * later + now
+        before, now = (sum(newest[..., [n]] * means for n, means in enumerate(parts))
+                       for parts in zip(*(_means(angle, *ends) for ends in zip(PARTS[:-1], PARTS[1:]))))
+        out += before * later + now
+        return out
+
+    def _answers(self, k, depth):
+        """Of waves k (n,) to a temperature that changes by 1: (4, n, size), the transform in time of what each step adds after
+        the newest, and (4, n, parts), what the parts of that one add."""
+        count, k = self.lead + self.entries, k[:, None]
+        stress = step_stresses(k, depth, self.diffusivity, self.nu, np.append(np.arange(count), PARTS) * self.dt)
+        stress[3] *= k
+        reach = np.diff(stress[..., :count], axis=2, append=stress[..., count - 1 : count])
+        reach[..., 0] = 0.0
+        return transform(reach, self.size), np.diff(stress[..., count:], axis=2).astype(np.float32)
+
+    def _turns(self, cut):
+        """(waves, 4, 6): what ss, tt, zz, sz of waves add to xx, yy, zz, xy, xz, yz."""
+        k = np.where(self.k[cut] > 0, self.k[cut], 1.0)
+        cos, sin = np.where(self.k[cut] > 0, self.kx[cut] / k, 1.0), np.where(self.k[cut] > 0, self.ky[cut] / k, 0.0)
+        none, one = 0 * cos, 1 + 0 * cos
+        turns = [[cos**2, sin**2, none, cos * sin, none, none], [sin**2, cos**2, none, -cos * sin, none, none],
+                 [none, none, one, none, none, none], [none, none, none, none, 1j * cos, 1j * sin]]
+        return np.array(turns).transpose(2, 0, 1).astype(np.complex64)
+
+    def _back(self, spectra, kx):
+        """Entries of transforms in time (..., waves or kx, size), in the frame of the contact again."""
+        back = np.exp(-1j * np.outer(kx * self.speed * self.dt, np.arange(self.lead, self.lead + self.entries)))
+        return transform_back(spectra)[..., self.lead : self.lead + self.entries] * back.astype(np.complex64)
+
+    def rows(self, depth, rows):
+        """(rows, entries, columns, 6) Pa at `depth` on some rows."""
+        w, columns = self.waves, int(self.ix.max()) + 1
+        out = np.zeros((columns, len(rows) * 6, self.size), np.complex64)
+        both = np.array([[w.row_weights(row, odd)[self.iy] for odd in (False, True)] for row in rows])
+        weights = both[:, np.array(ODD, int)].astype(np.complex64).transpose(2, 0, 1)  # (waves, rows, 6)
+        for cut, parts in self._responses(depth):
+            adds = (self._turns(cut)[:, :, None] * weights[cut][:, None]).reshape(cut.size, 4, -1)
+            ends = [*np.flatnonzero(np.diff(self.ix[cut], prepend=-1)), cut.size]
+            for first, end in zip(ends[:-1], ends[1:]):  # the waves of one kx
+                out[self.ix[cut[first]]] += _rows_of(adds[first:end]).T @ _rows_of(parts[first:end])
+        out = out.reshape(columns, len(rows), 6, self.size).transpose(1, 2, 0, 3)
+        spectra = np.zeros((len(rows), 6, w.kx.size, self.entries), np.complex64)
+        spectra[:, :, :columns] = self._back(out, w.kx[:columns, 0])
+        return self.stiffness / w.nx * half_back(spectra, w.nx, 2)[:, :, : self.columns].transpose(0, 3, 2, 1)
+
+    def at(self, depth):
+        """Function of the entry (and of the rows that are wanted) that gives sxx, syy, szz, sxy, sxz, syz, each (columns,
+        ny+1), at `depth`."""
+        w, held = self.waves, np.zeros((6, self.k.size, self.entries), np.complex64)
+        with ThreadPoolExecutor(WORKERS) as pool:
+            for cut, parts in self._responses(depth, pool.map):
+                held[:, cut] = self._back((self._turns(cut).swapaxes(1, 2) @ parts).swapaxes(0, 1), self.kx[cut])
+
+        def fields(entry, rows=slice(None)):
+            out = []
+            for n in range(6):
+                spectrum = np.zeros(w.k.shape, np.complex64)
+                spectrum[self.ix, self.iy] = held[n, :, entry]
+                out.append(self.stiffness * w.values(spectrum, ODD[n], rows=rows)[: self.columns])
+            return out
+
+        return fields
+
+
+ODD = (False, False, False, True, False, True)  # about the first row of a mirrored domain: xy and yz
+
+
+def _rows_of(array):
+    """(n, 4, m) as (n 4, m)."""
+    return array.reshape(-1, array.shape[-1])
+
+
+def _means(angle, low, high):
+    """Means over the ages from low to high (of a step) of what is left of the temperature before the step, and of the one at
+    its end, in the phase of its end: (waves, 1)."""
+    nodes, weights = np.polynomial.legendre.leggauss(3)
+    age = low + (high - low) * (nodes + 1) / 2
+    turn = np.exp(-1j * angle * age) * weights / 2
+    found = (age * turn).sum(axis=1, keepdims=True) * np.exp(1j * angle), ((1 - age) * turn).sum(axis=1, keepdims=True)
+    return [means.astype(np.complex64) for means in found]

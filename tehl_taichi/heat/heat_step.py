@@ -1,0 +1,30 @@
+"""Numbers of a time step that the kernels of the energy equation take (see :mod:`tehl_taichi.engine.records`)."""
+
+from tehl_taichi.engine.language import ti
+
+
+@ti.dataclass
+class HeatStep:
+    """Of a time step."""
+
+    rate: ti.f64  # 1/s, weight of the new state in d/dt
+    inv_x: ti.f64  # 1/m, 1/dx
+    inv_y: ti.f64  # 1/m, 1/dy
+    B_a: ti.f64  # K m2/W, B of T_s = A + B q, of body a
+    B_b: ti.f64  # and of body b
+    tolerance: ti.f64  # K, of the Newton steps of a column
+    iterations: ti.f64  # of these at most
+    back: ti.f64  # s, dt
+    back_2: ti.f64  # s, dt and that of the step before
+    near: ti.f64  # weight of the state dt ago in d/dt,
+    far: ti.f64  # and of that back_2 ago: together 1
+    hold: ti.f64  # 1: columns without a solution keep the temperatures of the oil that came in, those without load may change
+
+
+@ti.dataclass
+class Drift:
+    """Of a body in a time step: where its material strips lie."""
+
+    shift: ti.f64  # whole cells that the grid overtakes the strips by
+    rest: ti.f64  # cells that strip i lies ahead of column i afterwards
+    B_last: ti.f64  # K m2/W, of the flux of the last step

@@ -1,0 +1,8 @@
+"""Density laws, a file each: a new file here is a new choice of `oil.density`.
+
+Over rho_0, the density at p = 0 and 40 deg C; p in Pa, Gamma in deg C. May import what `laws` may.
+"""
+
+from tehl_taichi.values.quantity import quantity
+
+RHO0 = quantity(853.0, "kg/m3", "density at p = 0 and 40 deg C", 100, 5000)

@@ -1,0 +1,94 @@
+"""What a film of one viscosity carries by pressure while its walls slide, by the law that a scene chose.
+
+Each gives the flow over that of Newtonian oil and its derivatives by ln wall, ln newtonian and p (1/Pa), see
+:class:`tehl_taichi.laws.law.ShearLaw`. Along the sliding it is exact; across it what the law leaves of the viscosity at the
+stress of the sliding (exact for small gradients), times the flow without sliding.
+"""
+
+from tehl_taichi.engine.pointwise import pointwise, unrolled
+from tehl_taichi.laws.rheology import DP, LARGEST, LAWS, secant
+from tehl_taichi.laws.tangent_circle import touching_flow, touching_slip, touching_stress
+
+RISE = 1e-5  # of a difference quotient by a stress, a part of it
+
+
+@unrolled
+def flow(rheology, wall, newtonian, p):
+    """Along the sliding, what Newton's method may take as it is."""
+    return (LAWS[rheology.law].flow or touching_flow)(rheology, wall, newtonian, p)
+
+
+@unrolled
+def beyond(rheology, wall, newtonian, p):
+    """And the steep rest."""
+    law, nothing = LAWS[rheology.law].beyond, 0.0 * wall
+    return law(rheology, wall, newtonian, p) if law else (nothing, nothing, nothing, nothing)
+
+
+@unrolled
+def mean_stress(rheology, wall, newtonian, p):
+    """Stress in the middle of the film, Pa."""
+    return (LAWS[rheology.law].mean_stress or touching_stress)(rheology, wall, newtonian, p)
+
+
+@unrolled
+def wall_slip(rheology, wall, newtonian, p):
+    """Part of the sliding that the oil slips along a wall."""
+    law = LAWS[rheology.law]
+    none = None if law.flow else touching_slip
+    return (law.slip or none)(rheology, wall, newtonian, p) if law.slip or none else 0.0 * wall
+
+
+@unrolled
+def wall_limit(rheology, p):
+    """Stress that no wall holds more than, Pa."""
+    law = LAWS[rheology.law].limit
+    return law(rheology, p) if law else 0.0 * p + LARGEST
+
+
+@pointwise
+def left_of(rheology, newtonian, p):
+    """What the law leaves of the viscosity, and the derivatives of minus its logarithm by ln newtonian and p. (A loop, so that
+    kernels hold the law once.)"""
+    here, more, behind = 0.0 * newtonian, 0.0 * newtonian, 0.0 * newtonian
+    for n in range(3):
+        first, second = n * (2 - n), 0.5 * (n * (n - 1))
+        b = secant(rheology, newtonian * (1.0 + RISE * first), p + DP * second)
+        here, more, behind = here + b * (1.0 - first - second), more + b * first, behind + b * second
+    return here, (here / more - 1.0) / RISE, (here / behind - 1.0) / DP
+
+
+@pointwise
+def sheared(rheology, b, by_newtonian, by_p, part, part_by_wall, part_by_p):
+    """A flow without sliding, as it is across it."""
+    return part / b, part_by_wall / b, part / b * by_newtonian, (part_by_p + part * by_p) / b
+
+
+@unrolled
+def across(rheology, wall, yielding, newtonian, p):
+    """Both across the sliding: the smooth part by a stress of the walls, the steep one by another."""
+    left, none = left_of(rheology, newtonian, p), 0.0 * newtonian
+    parts = flow(rheology, wall, none, p), beyond(rheology, yielding, none, p)
+    return tuple(sheared(rheology, *left, part, by_wall, by_p) for part, by_wall, _, by_p in parts)
+
+
+@unrolled
+def flow_across(rheology, wall, newtonian, p):
+    return across(rheology, wall, 0.0 * wall, newtonian, p)[0]
+
+
+@unrolled
+def beyond_across(rheology, wall, newtonian, p):
+    return across(rheology, 0.0 * wall, wall, newtonian, p)[1]
+
+
+@unrolled
+def along(rheology, wall, yielding, newtonian, p):
+    """Both along it."""
+    return flow(rheology, wall, newtonian, p), beyond(rheology, yielding, newtonian, p)
+
+
+@unrolled
+def either(rheology, slides, wall, yielding, newtonian, p):
+    """Both along the sliding, or across it."""
+    return (along if slides else across)(rheology, wall, yielding, newtonian, p)

@@ -1,0 +1,216 @@
+"""Companions of a run: the same passage on grids with a half and a quarter of the cells, whose numbers tell its errors.
+
+They take about a seventh of its time, after it, in its tables and by its compiled kernels, or beside it where a core is idle
+(:mod:`tehl_taichi.runs.background_errors`). What happens to them never hurts the run: a companion that is refused or does not
+converge means that a bar is not known, and why.
+"""
+
+import itertools
+from dataclasses import asdict, replace
+from types import SimpleNamespace
+
+import numpy as np
+
+from tehl_taichi.engine import runtime
+from tehl_taichi.errors import Error
+from tehl_taichi.fatigue.pressure_alone import searched
+from tehl_taichi.march import quantities
+from tehl_taichi.march.accuracy import readings
+from tehl_taichi.march.accuracy.domain_error import DomainError, widened
+from tehl_taichi.march.accuracy.error_bars import GridReading, bars
+from tehl_taichi.march.accuracy.peaks import LEAST
+from tehl_taichi.scene.resolution import HALVED, MULTIPLES
+from tehl_taichi.scene.scales import Scales
+from tehl_taichi.scene.timeline import total_steps
+
+COMPANIONS = HALVED  # with the run itself three grids; 1/8 and 1/64 of its cells and steps
+FI, BELOW = "Fi_max", "below_Fi_max"  # names of the largest index of the surface, and below it
+RESOLVED, RESOLVED_BELOW = "resolved_Fi_max", "resolved_below_Fi_max"  # of both as long as the grid resolves the pressure
+CONTACT = "contact_load_fraction_max"
+PART = 0.1  # a
+SHALLOW = "it is largest at the smallest searched depth (half a cell), which no grid resolves"
+SHALLOWEST = 1.5  # of that depth: up to the next one that is searched
+WORTH = 3e5  # nodes times steps of a run: below, it is a try, on a grid whose companions tell little
+
+
+def scenes(scene):
+    """([scenes with half and a quarter of the cells, coarsest first], [why others are left out]); steps grow with the cells."""
+    out, refused = [], []
+    for level in range(1, COMPANIONS + 1):
+        nx, ny = scene.grid.nx // 2**level, scene.grid.ny // 2**level
+        steps = min(scene.time.steps, max(1, scene.time.steps // 2**level))  # -1 is all
+        try:
+            out.append(scene.replace(**{"grid.nx": nx, "grid.ny": ny, "time.steps": steps, "output.profiles": False}))
+        except Error as error:
+            refused.append(f"a coarse-grid run on {nx} x {ny} cells is refused: {error}")
+    return out[::-1], [*refused, *_all_of_them(scene)] if refused else []
+
+
+def _all_of_them(scene):
+    """Which cells have every companion, where those of a scene have not."""
+    nx, ny = (least << COMPANIONS for least, _ in MULTIPLES.values())
+    if scene.grid.nx % nx or scene.grid.ny % ny:
+        yield f"use a grid.nx that is a multiple of {nx} and a grid.ny that is a multiple of {ny}"
+
+
+def passage_readings(scene, reader, scalar, fatigue=None):
+    """{name: Reading} of the numbers of a passage.
+
+    reader: entries as :class:`tehl_taichi.fatigue.stress.histories.StressHistories` takes them, the steady start first;
+    scalar(name): array of the entries' values; fatigue: summary of its search or None.
+    """
+    p, h, a = *(scalar(name)[1:] for name in ("p_max_Pa", "h_min_m")), Scales.of(scene).a
+    bars_of = [entry for entry in quantities.of_part("transient") if entry.error]
+    out = {entry.key: _reading(entry, scalar, scene) for entry in bars_of if entry.exists(scene)}
+    out["p_max_Pa"] = readings.highest(_moment(reader, int(np.argmax(p)) + 1), a)
+    out["h_min_m"] = readings.lowest(_moment(reader, int(np.argmin(h)) + 1), scene)
+    out |= {name: GridReading(float(part["Fi_max"]), doubt=_shallow(name, fatigue))
+            for name, part in indices(fatigue or {}).items()}
+    # a peak that the grid does not resolve at some moment: neither its pressure is known nor what it does to oil and steel
+    why = readings.unresolved(reader, _high(p), p.max(), a)
+    pressures = course(p, [reader.feature_x(n) / a for n in range(1, p.size + 1)], scene.path)
+    of = {kind: [entry.key for entry in bars_of if entry.error == kind] for kind in (quantities.SWAYED, quantities.SHARP)}
+    out |= {name: replace(out[name], swayed=bool(why)) for name in of[quantities.SWAYED] if name in out}
+    return out | {name: _doubted(out[name], why, pressures) for name in (*of[quantities.SHARP], FI, BELOW) if name in out}
+
+
+def _reading(entry, scalar, scene):
+    """Of a number that is no extreme over the nodes."""
+    value = entry.of(scalar(entry.series), None)
+    return readings.hottest(value, scene) if entry.key in quantities.HEAT else GridReading(value, positive=entry.positive)
+
+
+def _doubted(reading, why, pressures):
+    """The reading of a number that depends on the highest pressures (a :func:`course`), where `why` is not known."""
+    return replace(reading, doubt=why or reading.doubt, course=() if reading.doubt == SHALLOW else pressures)
+
+
+def course(p, at, path):
+    """Largest of the pressures p while the feature, `at` these places (a), is in each PART of its path; nan: never there."""
+    parts = np.floor((np.asarray(at) - path[0]) / PART + 1e-9).astype(int)
+    count = int(np.floor((path[1] - path[0]) / PART + 1e-9)) + 1
+    return tuple(float(p[parts == n].max()) if (parts == n).any() else np.nan for n in range(count))
+
+
+def _shallow(name, fatigue):
+    """Why an index below the surface is not known where it grows towards the surface as far as the grid can look, beyond what
+    the surface itself has; "" of others."""
+    found, above = indices(fatigue), {BELOW: FI, RESOLVED_BELOW: RESOLVED}
+    if name not in above or not near_the_surface(found[name], fatigue):
+        return ""
+    return SHALLOW if found[name]["Fi_max"] > found[above[name]]["Fi_max"] else ""
+
+
+def near_the_surface(deep, fatigue):
+    """Whether the worst depth of a part below lies as near to it as the search looks; fatigue: the summary of that."""
+    return deep["depth_m"] < SHALLOWEST * fatigue["below"].get("searched_m", [0.0])[0]
+
+
+def indices(fatigue):
+    """{name of its largest index among the readings: part of the summary of a search}, of the parts that there are."""
+    found = searched(fatigue)
+    part = found.get("resolved", {})
+    found = {FI: found, BELOW: found.get("below"), RESOLVED: part, RESOLVED_BELOW: part.get("below")}
+    return {name: part for name, part in found.items() if part}
+
+
+def resolved(scene, reader, scalar):
+    """Position (a) of the feature up to which the grid resolves every peak of the pressure; None where it always does."""
+    p, a = scalar("p_max_Pa")[1:], Scales.of(scene).a
+    first = next((n for n in _high(p) if readings.unresolved(reader, [n], p.max(), a)), None)
+    return None if first is None else float(reader.feature_x(first - 1)) / a
+
+
+def _high(p):
+    """Entries with pressures high enough for a peak that leaves the largest unknown; p: theirs from entry 1 on."""
+    return [int(n) + 1 for n in np.flatnonzero(p >= LEAST * p.max())]
+
+
+def values(scene, notify=lambda: None, until=lambda: None):
+    """{name: Reading} of one companion; notify() after each step; until(): see :func:`answers`. Raises NotConverged."""
+    from tehl_taichi.fatigue import assessment
+    from tehl_taichi.march.passage import march
+
+    shots = []
+    for shot in march(scene):
+        shots.append(replace(shot, make_state=None))  # it holds the tables, which the next companion needs
+        notify()
+    wanted = scene.has_fatigue and len(shots) > 2
+    found = assessment.run(scene, shots, until=until()).summary if wanted else None
+    return passage_readings(scene, assessment.Snapshots(shots),
+                            lambda name: np.array([shot.scalars[name] for shot in shots]), found)
+
+
+def _moment(reader, n):
+    return SimpleNamespace(x=reader.x, feature_x=reader.feature_x(n), fields=reader.fields(n, ("pressure", "film")))
+
+
+def errors(scene, reader, fatigue, told, domain=DomainError()):
+    """{"passage_error": {name: error bar or None}, "passage_unknown": {name: why it is None}, "passage_parts": {name: {"grid",
+    "domain"}}} of the numbers of a run; {} of one without a passage, doubts alone where there are no companions.
+
+    reader: its store; fatigue: summary of its search or None; told(): what :func:`answers` gives of the scene; domain: the
+    Share that its start told.
+    """
+    if len(reader) < 2:
+        return {}
+    own = passage_readings(scene, reader, reader.scalar, fatigue)
+    if not has_coarse_runs(scene):
+        touches = own[CONTACT].value > 0
+        doubts = {name: reading.doubt for name, reading in own.items() if reading.doubt}
+        doubts |= {CONTACT: readings.TOUCH} if touches else {}
+        return {"passage_error": {} if touches else {CONTACT: 0.0}, "passage_unknown": doubts}
+    values = {name: reading.value for name, reading in own.items()}
+    found, unknown, parts = widened(*judged(told(), own), values, domain, scene.operation.temperature, passing=True)
+    return {"passage_error": found, "passage_unknown": unknown, "passage_parts": parts}
+
+
+def has_coarse_runs(scene):
+    """Whether a run has companions: where they are asked for, and where nobody says and the run is worth it."""
+    asked = scene.numerics.estimate_error
+    return asked is True or asked is not False and work(scene) >= WORTH
+
+
+def work(scene):
+    """Nodes times steps of a run."""
+    return nodes(scene) * total_steps(scene)
+
+
+def nodes(scene):
+    """Nodes of a grid."""
+    return (scene.grid.nx + 1) * (scene.rows + 1)
+
+
+def answers(scene, notify=lambda done, total: None, until=lambda: None):
+    """What the companions of a scene tell, coarsest first, for :func:`judged`. The finest runs first: where it fails, no
+    coarser one is of use. until(): what :func:`resolved` gives of the run itself, asked for when it is needed."""
+    (coarser, reasons), out, done = scenes(scene), [], itertools.count()
+    total = sum(total_steps(one) + 1 for one in coarser)  # with their starts
+    for one in reversed(coarser):
+        with runtime.grown(nodes(scene) / nodes(one)):  # by the kernels of the run: to trace theirs takes 0.2 s of 18
+            out.insert(0, answer(one, lambda: notify(next(done), total), until))
+        if "reason" in out[0]:
+            break
+    notify(total, total)
+    return [{"reason": reason} for reason in reasons] + out
+
+
+def judged(told, own):
+    """({name: error bar or None}, {name: why it is None}) of own {name: Reading}; told: by the companions, coarsest first,
+    {"values": {name: a Reading's values}} or {"reason": why there are none}."""
+    grids, reasons = [], []
+    for one in told:
+        if "reason" in one:  # too coarse a grid: neither it nor the coarser ones tell anything
+            grids, reasons = [], [*reasons, one["reason"]]
+        else:
+            grids.append({name: GridReading(**values) for name, values in one["values"].items()})
+    found, unknown = bars([*grids, own])
+    return found, unknown if grids else dict.fromkeys(unknown, "; ".join(reasons) or "no coarser grid is possible")
+
+
+def answer(scene, notify=lambda: None, until=lambda: None):
+    """What a companion tells, for :func:`judged`; notify() after each step; until(): see :func:`answers`."""
+    try:
+        return {"values": {name: asdict(reading) for name, reading in values(scene, notify, until).items()}}
+    except Error as error:
+        return {"reason": f"a coarse-grid run on {scene.grid.nx} x {scene.grid.ny} cells failed: {error}"}

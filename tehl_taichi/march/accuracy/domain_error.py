@@ -1,0 +1,127 @@
+"""What the end of the domain may cost the numbers of a run: a share of the film, from the steady start.
+
+A border without pressure in a flooded inlet takes alpha q (0.73 + 0.15 |X|/(alpha p_H)) of the film, q the reduced pressure
+that the oil beyond it would have there and 0.73 Grubin's exponent 8/11 (99 lines of M 5 to 100, L 2 to 20: 0.82 to 1.14 of what
+is measured); a point contact 0.73 alpha q and, by its sides, (gap there/0.7 films)^(-3/2). Of that a border with the pressure
+of the oil beyond leaves a part. What the oil beyond bears is missing in the load.
+"""
+
+import math
+from dataclasses import asdict, dataclass
+from dataclasses import fields as of_class
+
+import numpy as np
+
+from tehl_taichi.march.accuracy.error_bars import WHOLE
+from tehl_taichi.march.quantities import HEAT
+from tehl_taichi.pressure import fields
+from tehl_taichi.pressure.inlet import Inlet, far
+from tehl_taichi.scene.domain import LEFT, PASSAGE, SIDE
+from tehl_taichi.scene.film_formula import load_power
+
+GRUBIN, LONG = 0.73, 0.15
+# Of that the bar has, where the border has the pressure of the oil beyond: of a line STIFF and SOFT/(alpha p_H) (nine lines
+# held out, M 2.5 to 50, from -2.5 and -4.5 a: films err by 0.07 to 0.99 of the bar), of a point contact LEFT;
+# with temperatures HOT/gap more, HOTTEST at most: oil that flows in at the border is taken to be cold (smooth line at 0.5 GPa,
+# 20 m/s, 60 deg C, SRR -0.5 and -0.1: 0.17 and 0.22 of it with a gap of 2 films, 0.10 and 0.11 with 12)
+STIFF, SOFT, HOT, HOTTEST = 0.03, 0.15, 2.0, 0.2
+THINNEST = 2.0  # times as much of the smallest film of a point contact, by its sides
+PRESSURE, SLIDING, HEATING = 2.0, 3.0, 2.0  # of the share of the film: of the largest pressure, friction, rises of temperature
+
+
+@dataclass(frozen=True)
+class DomainError:
+    """Relative errors by the domain, film: of the central film, thinnest: of the smallest, friction: of its coefficient;
+    before: that of the coefficient by the oil before the domain; gap: at the inlet, over the film; lost: relative error of the
+    film that a border without pressure has."""
+
+    film: float = 0.0
+    thinnest: float = 0.0
+    friction: float = 0.0
+    before: float = 0.0
+    gap: float = 0.0
+    lost: float = 0.0
+
+    @classmethod
+    def from_values(cls, values):
+        """Of what :meth:`values` gave; of a store that has none: nothing is known to be off."""
+        return cls(**{field.name: values[field.name] for field in of_class(cls) if field.name in values})
+
+    def values(self):
+        return asdict(self)
+
+    def of(self, name, value, inlet, passing):
+        """What a number of a steady start or, passing, of a passage may be off by; inlet: deg C."""
+        if name.startswith("friction"):
+            return self.friction * abs(value) + self.before
+        if name in HEAT:
+            return (PASSAGE if passing else HEATING) * self.film * abs(value - inlet)
+        steady = {"h_c_m": self.film, "h_min_m": self.thinnest, "p_max_Pa": PRESSURE * self.film}
+        return (PASSAGE * self.film if passing else steady[name]) * abs(value)
+
+
+def domain_error(solver):
+    """The Share of the steady film in the table."""
+    v, inlet = solver.levels, Inlet(solver.levels)
+    H = v.get(fields.H)
+    gap = float(H[v.middle, 0] / np.interp(0.0, v.X, H[v.middle]))
+    if not inlet.flooded:
+        return DomainError(gap=gap, lost=_lost(v, inlet, H, _raised(v, inlet, H)))
+    lost, miss = _lost(v, inlet, H, 0.0), np.abs(inlet.beyond() - inlet.now()).max() / inlet.q[-1]
+    film = _left(v, inlet, gap) * lost + GRUBIN * float(miss) + (_load(v, inlet, H) * load_power(v.scene) if v.line else 0.0)
+    # the inlet has a part in friction that even p = 0 changes little
+    friction = max(SLIDING * film, lost if v.scene.isothermal else 0.0)
+    return DomainError(film, film * (1.0 if v.line else THINNEST), friction, _before(v, H), gap, lost)
+
+
+def _left(v, inlet, gap):
+    """Part of what a border without pressure takes that one with it leaves."""
+    left = STIFF + SOFT * inlet.q[-1] / v.scales.p_H if v.line else LEFT[v.scales.kind]
+    return left + (0.0 if v.scene.isothermal else min(HOT / gap, HOTTEST))
+
+
+def _raised(v, inlet, H):
+    """Part of its film that a starved one would gain."""
+    gain = 0.0
+    for _ in range(40):
+        lost = min(_lost(v, inlet, H, gain), 0.9)
+        gain = 0.5 * (gain + lost / (1 - lost))
+    return gain
+
+
+def _lost(v, inlet, H, gain):
+    """Share of the film that a border without pressure takes, of a film that is thicker by `gain` of itself than H."""
+    film = np.interp(0.0, v.X, H[v.middle])
+    q = inlet.without_heat(H + gain * film, (1 + gain) * inlet.carried(H)) / inlet.q[-1]
+    if v.line:
+        return float(q.max() * (GRUBIN + LONG * abs(v.X[0]) * inlet.q[-1] / v.scales.p_H))
+    side = np.interp(0.0, v.X, H[-1]) / film + gain
+    return float(q.max() * GRUBIN + (side / SIDE) ** -1.5)
+
+
+def _load(v, inlet, H):
+    """Share of the load that the oil beyond the border of a line bears."""
+    X, gap, weights = far(v.X[0], H[v.middle, 0], 1.0)
+    shape = np.sum(weights * (np.abs(X) - abs(v.X[0])) * (gap - inlet.carried(H)) / gap**3)
+    return max(float(shape), 0.0) / v.numbers.inv_lambda / v.scales.load
+
+
+def _before(v, H):
+    """Friction coefficient of the sheared oil before the domain; a point contact's as wide as its grid."""
+    X, gap, weights = far(v.X[0], H[v.middle, 0], float(v.line))
+    wide = 1.0 if v.line else 2 * abs(v.Y[-1])
+    sheared = v.conditions["eta0"] * abs(v.conditions["u_s"]) / (v.scales.h * v.scales.p_H)
+    return sheared * float(np.sum(weights / gap)) * wide / v.scales.load
+
+
+def widened(errors, unknown, values, found, inlet, passing=False):
+    """(bars, why some are unknown, {name: {"grid", "domain"}}) of bars by the grid, {name: size or None}, and of what the Share
+    `found` adds to them, whose causes are independent: in quadrature; values: {name: the number}; inlet: deg C."""
+    parts = {name: {"grid": size, "domain": found.of(name, values[name], inlet, passing)} for name, size in errors.items()}
+    whole = {name: None if part["grid"] is None else math.hypot(part["grid"], part["domain"]) for name, part in parts.items()}
+    lost = [name for name, size in whole.items() if size is not None and _positive(name) and size >= values[name]]
+    return {**whole, **dict.fromkeys(lost)}, {**unknown, **dict.fromkeys(lost, WHOLE)}, parts
+
+
+def _positive(name):
+    return name.startswith(("h_", "p_")) or name.endswith("Fi_max")

@@ -1,0 +1,161 @@
+"""Error bars: how far a number may lie from its limit, from what grids each twice as fine as the one before gave.
+
+Where the differences between grids fall evenly, Richardson's extrapolation with the order observed (Roache 1994), at most
+log2 3, and a factor of safety. They do so for the central film of thick films; thin films are not there yet on the coarse
+grids (differences fall by 10, not 4), extremes over nodes jump about with the places of the nodes, and a pressure spike is
+as high as its grid is fine. So the last difference bounds the error where they do not, a part of the earlier ones bounds it
+anyway, and a number that neither its grid nor three together can know has no bar. The factors are measured on 1000 bars of
+random scenes: `tehl bench accuracy`, docs/performance.md.
+"""
+
+import math
+from dataclasses import dataclass
+from itertools import zip_longest
+
+EVENLY, STEEPEST = 1.5, 3.0  # differences that fall by less from grid to grid show no order, by more no higher one
+# of the error by Richardson's extrapolation, and of the last difference where there is none; the blur of an extreme adds to it
+SAFETY, UNEVEN = {False: 2.0, True: 1.75}, {False: 1.75, True: 1.25}
+EARLIER = (0.1, 0.01)  # of the difference before the last, and the one before that: left as error, at most
+ALONE = 1.5  # of the only difference there is
+ACCIDENT = 1e-3  # of a number, no extreme: two grids may agree by accident
+BLURRED = 1.5  # of the distance between an extreme over nodes and that of the parabola through them
+HOPELESS = 0.5  # a number that changes by more than this part of itself from grid to grid is not resolved
+WHOLE = "its error may be as large as its value"  # of one that is positive: nothing is known of it but that
+MOVED = 4.0  # cells of the coarser grid that the place of an extreme may move: more is another extreme
+# A number of a peak too narrow for one grid is told by three whose differences halve at least (those of a singular peak grow by
+# 1.41); its bar is no smaller than the last difference, and than a quarter of the one before
+HALVES, BEFORE = 2.0, 0.25
+# Of what such a peak sways, but does not decide, three times the larger of the last two differences (20 passages with exits in
+# one dimension, `tehl bench accuracy --only exits`: bars of surface temperatures and mean friction that hold 64 -> 94 %)
+SWAY = 3.0
+# Parts of a course go on as a geometric series, for so many of the last difference at most; they may exceed the largest by so
+# much of it, which then is part of the bar
+GROWS_ON, EXCEEDS = 4.0, 0.1
+RIVAL = "the pressure in another part of the passage ({}) grows with grid refinement and may become the largest"
+
+
+@dataclass(frozen=True)
+class GridReading:
+    """A number on one grid.
+
+    blur: how far the true extreme may lie from the one over nodes on this grid; place: where that is, in each frame in which it
+    may rest, and cell: the spacing there, () and nan for a number that is no extreme; doubt: why this grid cannot know the
+    number ("" where it can); lost: whether its value is not even a step towards that of the next grid; settled: how far the
+    iterations may have left it from the solution of this grid; positive: whether the number is so by nature, as a film is;
+    course: where grids together may settle a doubt, the largest pressures by parts of the passage (nan: none), else ();
+    swayed: whether a pressure that this grid does not know has a part in it.
+    """
+
+    value: float
+    blur: float = 0.0
+    place: tuple = ()
+    cell: float = math.nan
+    doubt: str = ""
+    lost: bool = False
+    settled: float = 0.0
+    positive: bool = False
+    course: tuple = ()
+    swayed: bool = False
+
+
+def bar(readings):
+    """(error bar of the last of `readings`, coarsest first, or None where it is not known; why it is not, or "").
+
+    Lost readings, and those before them, do not count.
+    """
+    last = readings[-1]
+    known = readings[max((n + 1 for n, r in enumerate(readings) if r.lost), default=0) :]
+    least, doubt = _bar_of_passage(known) if known else (0.0, last.doubt)
+    if doubt:
+        return None, doubt
+    if len(known) < 2:
+        return None, "no coarser grid gives it"
+    before = known[-2]
+    if last.positive and last.value == 0 and not last.place:  # a film that carries all here does so on finer grids, too
+        return 0.0, ""
+    if last.place and all(abs(a - b) > MOVED * before.cell for a, b in zip(last.place, before.place)):
+        return None, "its place differs from that on the next coarser grid"
+    steps = [b.value - a.value for a, b in zip(known[:-1], known[1:])][::-1]
+    if abs(steps[0]) > HOPELESS * abs(last.value):
+        return None, f"it still changes by {abs(steps[0] / last.value):.0%} from grid to grid"
+    accident = ACCIDENT * abs(last.value) if len(steps) == 1 and not last.place else 0.0
+    sway = SWAY * max(map(abs, steps[:2])) if last.swayed else 0.0
+    size = max(accident, last.settled, BLURRED * last.blur, _left(steps, bool(last.place)), least, sway)
+    return (None, WHOLE) if last.positive and size >= last.value else (size, "")
+
+
+def _left(steps, extreme):
+    """What may be left as error after the differences between grids, the newest first; extreme: of an extreme over nodes."""
+    last, *earlier = (abs(step) for step in steps)
+    if not earlier:
+        return ALONE * last
+    even = steps[0] * steps[1] > 0 and earlier[0] >= EVENLY * last
+    part = SAFETY[extreme] / (min(earlier[0] / last, STEEPEST) - 1) if even else UNEVEN[extreme]
+    return max(part * last, *(share * step for share, step in zip(EARLIER, earlier)))
+
+
+def _bar_of_passage(known):
+    """(what the bar is at least, why there is none or "") of a number that depends on the highest pressures of a passage."""
+    last, parts = known[-1], _parts([reading.course for reading in known[-3:]])
+    if not parts:
+        return 0.0, last.doubt
+    top, rival = max(parts, key=lambda part: part[2]), max(parts, key=lambda part: _may_reach(*part))
+    excess = max(0.0, _may_reach(*rival) / max(top[2] + abs(top[2] - top[1]), _may_reach(*top)) - 1)
+    if excess > EXCEEDS:
+        return 0.0, last.doubt or RIVAL.format(", ".join(f"{p / 1e9:.2f}" for p in rival) + " GPa")
+    values, least = [reading.value for reading in known[-3:]], excess * abs(last.value)
+    if not last.doubt:
+        return least, ""
+    if not (_halves(*values) and _halves(*top)):  # what follows from a pressure settles no earlier than that does
+        return 0.0, last.doubt
+    return max(least, abs(values[2] - values[1]), BEFORE * abs(values[1] - values[0])), ""
+
+
+def _parts(courses):
+    """The pressures of three grids in every part of a passage that all of them tell of; [] where they are not three."""
+    if len(courses) < 3 or not courses[-1] or len({len(course) for course in courses}) > 1:
+        return []
+    return [part for part in zip(*courses) if not any(map(math.isnan, part))]
+
+
+def _halves(first, second, third):
+    """Whether the differences of three grids halve, at least."""
+    return abs(second - first) >= HALVES * abs(third - second)
+
+
+def _may_reach(first, second, third):
+    """What a pressure may become beyond three grids: its differences go on as they fall, for GROWS_ON of the last at most."""
+    before, last = abs(second - first), abs(third - second)
+    return third + min(last / (before / last - 1) if before > last > 0 else math.inf, GROWS_ON * last)
+
+
+def bars(grids):
+    """({name: error bar or None}, {name: why it is None}) of the numbers of the last of `grids`, each {name: Reading}."""
+    found = {name: bar([grid[name] for grid in grids if name in grid]) for name in grids[-1]}
+    return {name: size for name, (size, _) in found.items()}, {name: why for name, (size, why) in found.items() if size is None}
+
+
+def estimated_error(values, doubt="", courses=()):
+    """(bar of plain numbers on grids each twice as fine as the one before, or nan, why it is not known or ""); doubt: about the
+    last of them, courses: of all (see :class:`GridReading`), where there are any."""
+    pairs = zip_longest(values, courses, fillvalue=())
+    size, why = bar([GridReading(value, doubt=doubt, course=course) for value, course in pairs])
+    return (math.nan if size is None else size), why
+
+
+def observed_order(values):
+    """Order by which the last three of `values` (each grid twice as fine as the one before) approach their limit; nan with
+    fewer, or where they do not."""
+    if len(values) < 3 or values[-1] == values[-2]:
+        return math.nan
+    ratio = (values[-2] - values[-3]) / (values[-1] - values[-2])
+    return math.log2(ratio) if ratio > 0 else math.nan
+
+
+def parabola_offset(profile, i):
+    """Distance of the extreme of a parabola through three nodes from the value at the middle one, which is an extreme."""
+    if not 0 < i < len(profile) - 1:
+        return 0.0
+    left, middle, right = (float(v) for v in profile[i - 1 : i + 2])
+    bend = left - 2 * middle + right
+    return (right - left) ** 2 / (8 * abs(bend)) if bend else 0.0

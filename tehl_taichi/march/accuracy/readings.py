@@ -1,0 +1,81 @@
+"""What a grid tells of the numbers of a run, for their error bars: values, how far an extreme may lie between the nodes, and
+whether the grid resolves them at all."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from tehl_taichi.march.accuracy.error_bars import GridReading, parabola_offset
+from tehl_taichi.march.accuracy.peaks import peak, sharpest
+from tehl_taichi.march.quantities import HEAT
+from tehl_taichi.scene.scales import Scales
+
+SETTLED = 0.1  # of thermal.tolerance: rounds end when another one would move temperatures by less; usual are 0.01 to 0.1 of it
+SPIKE = "a pressure peak of {:.0%} of the largest is only a few cells wide and may grow on finer grids"
+EXIT, EXITS = "exit not resolved: ", 0.5  # where the feature, or the oil that it let in, leaves the film: beyond so many a
+TOUCH = "the surfaces touch on this grid, which is too coarse for such a thin film"
+ON_FLOOR = 1.01  # of rheology.film_floor: the residual and a store's single precision leave less, a film that flows more
+
+
+def steady(shot, scene):
+    """{name: Reading} of a snapshot of a steady smooth contact."""
+    out = {"h_c_m": GridReading(shot.scalars["h_c_m"], positive=True), "h_min_m": lowest(shot, scene),
+           "p_max_Pa": highest(shot, Scales.of(scene).a),
+           "friction_coefficient": GridReading(shot.scalars["friction_coefficient"]),
+           **{name: hottest(shot.scalars[name], scene) for name in HEAT if name in shot.scalars}}
+    if "film_max_C" in out:  # a narrow peak of pressure may be the hottest place
+        out["film_max_C"] = replace(out["film_max_C"], doubt=out["p_max_Pa"].doubt)
+    if shot.fields["contact"].any():  # nothing is known of a film that this grid does not have, nor of what it does
+        out = {name: replace(reading, doubt=TOUCH, lost=True) for name, reading in out.items()}
+    return out
+
+
+def hottest(value, scene):
+    """Reading of a temperature (deg C)."""
+    return GridReading(float(value), settled=SETTLED * scene.thermal.tolerance)
+
+
+def highest(shot, a):
+    """Reading of the largest pressure of a snapshot, Pa and m; a: half-width of the contact, m."""
+    p = shot.fields["pressure"]
+    i, j = peak(p)
+    cell, why = float(shot.x[1] - shot.x[0]), doubt(shot.x, *sharpest(p), a)
+    return GridReading(float(p[i, j]), _between(p, i, j), _place(shot, i), cell, why)
+
+
+def doubt(x, height, i, a):
+    """Why a grid with nodes at x (m) cannot know the largest pressure, from :func:`tehl_taichi.march.accuracy.peaks.sharpest`;
+    or ""."""
+    return exits(x[i], a) + SPIKE.format(height) if height else ""
+
+
+def exits(x, a):
+    """What is said first of a peak or ripple at x (m) of a contact of half-width a."""
+    return EXIT if x > EXITS * a else ""
+
+
+def unresolved(reader, entries, largest, a):
+    """The :func:`doubt` about these entries, by the worst peak of all; largest: pressure of them, Pa."""
+    return doubt(reader.x, *max(sharpest(reader.fields(n, ("pressure",))["pressure"], largest) for n in entries), a)
+
+
+def lowest(shot, scene):
+    """Reading of the smallest film of a snapshot, m; one that lies on the floor is the floor's height on every grid."""
+    h = shot.fields["film"]
+    i, j = np.unravel_index(h.argmin(), h.shape)
+    touches = bool(h[i, j] <= ON_FLOOR * scene.rheology.film_floor * Scales.of(scene).h)
+    return GridReading(float(h[i, j]), _between(h, i, j), _place(shot, i), float(shot.x[1] - shot.x[0]),
+                       TOUCH if touches else "",
+                   touches, positive=True)
+
+
+def _place(shot, i):
+    """Position of a node in m, seen from the contact and from the feature, if there is one."""
+    seen = (shot.x[i], shot.x[i] - shot.feature_x)
+    return tuple(float(x) for x in seen if np.isfinite(x))
+
+
+def _between(values, i, j):
+    """How far the extreme of `values` between the nodes may be from that at the node (i, j); rows may end in a mirror."""
+    across = np.concatenate([values[i, 1:2], values[i]])
+    return parabola_offset(values[:, j], i) + parabola_offset(across, j + 1)

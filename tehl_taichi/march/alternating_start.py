@@ -1,0 +1,90 @@
+"""The steady state of a film with temperatures: pressure and temperature by turns until neither moves."""
+
+import math
+
+import numpy as np
+
+from tehl_taichi.heat.energy import LIGHT
+from tehl_taichi.pressure import fields
+from tehl_taichi.scene.timeline import step_cells
+
+TRANSITS, STRIDE = 1.2, 3  # of the domain by the slower surface in the first steps towards the steady state; their length
+SLOW, SLOW_STRIDE = 4, 8  # ratio of the speeds from which on the slower surface needs longer steps, and those
+BLOCK = 6  # later blocks: this fraction of the columns
+SETTLED = 0.05  # K
+# K, that a single block may lie off the mean of its run. Blocks of scenes that settle flutter by up to 0.6 K; without a limit
+# an oscillation passes: 603 deg C while blocks differed by 30 K, where a march in time gives 255
+FLUTTER = 0.7
+BLOCKS, USUAL = 40, 16  # at most; 8 to 12 are usual
+LONGEST_RUN = 8  # blocks that are averaged
+
+
+def time_step(scene, scales, dx):
+    """Time step in s on cells of dx (Hertz units): that of the passage, or a cell of the faster surface."""
+    o = scene.operation
+    if scene.transient:
+        return step_cells(scene) * dx * scales.a / o.u_a
+    return dx * scales.a / max(o.u_a, o.u_b)
+
+
+def settle(levels, heat, solve, T=None):
+    """Steady pressure and temperature by turns: a block of time steps with the pressure at rest, then the pressure anew by
+    solve() -> Report. T: temperatures to begin with, from a coarser grid.
+
+    Settled when the mean temperatures under load of two blocks, or of two runs of 2 to 8 blocks, differ by less than SETTLED
+    (material strips lie between nodes now and on them then: single moments differ by 0.2 K on 64 columns, blocks by up to
+    0.6 K where the surfaces slip fast, back and forth about the same mean). A state with columns that did not converge, or
+    temperatures held in their range, is none. Returns the pressure's Report, with converged = False if that is not reached, and
+    whether it took more than USUAL blocks.
+    """
+    heat.start(T)
+    speeds = [body.speed for body in heat.bodies.each]
+    moving = [speed for speed in speeds if speed]
+    ratio = max(moving) / min(moving)
+    first, later = (STRIDE, 1) if ratio < SLOW else (SLOW_STRIDE, SLOW_STRIDE // 2)
+    cell = max(heat.dt, levels.dx * levels.scales.a / max(speeds))  # s; shorter steps would settle for less
+    steps, dt = math.ceil(TRANSITS * levels.nx * ratio / first), first * cell
+    means, blocks = [heat.T], 0
+    for _ in range(BLOCKS):
+        means = [_march(heat, steps, dt), *means[: 2 * LONGEST_RUN - 1]]
+        change = unsettled(means, levels.get(fields.P) > LIGHT)
+        report, blocks = solve(), blocks + 1
+        steps, dt = _whole_cells(levels.nx / BLOCK * (1 if ratio < SLOW else ratio) / later, later / ratio), later * cell
+        if not report.converged or change < SETTLED and heat.sound:
+            break
+    else:
+        report.converged, heat.report.change = False, change
+    heat.bodies.warm_resting()
+    return report, blocks > USUAL
+
+
+def unsettled(means, loaded):
+    """Smallest difference (K) between the last run of blocks and the one before, over runs of 1, 2, 3 ... blocks (a flutter
+    of three blocks, 0.5 K at the outlet of cold oil, would differ by 0.09 K over runs of 2, 4 and 8 for ever); means: newest
+    first. Of runs with a block that lies more than FLUTTER off their mean, what it lies off."""
+    loads = [T[:, loaded] for T in means]
+    return min(_difference(loads[: 2 * n]) for n in range(1, min(LONGEST_RUN, len(loads) // 2) + 1))
+
+
+def _difference(blocks):
+    """Largest between the means of the newer and the older half of `blocks`; or how far one lies off the newer, where far."""
+    half = len(blocks) // 2
+    mean = np.mean(blocks[:half], axis=0)
+    flutter = max(float(np.abs(T - mean).max()) for T in blocks) if half > 1 else 0.0
+    return flutter if flutter > FLUTTER else float(np.abs(mean - np.mean(blocks[half:], axis=0)).max())
+
+
+def _whole_cells(steps, cells):
+    """About so many steps of `cells` each, that together are nearly whole cells."""
+    return max(1, round(max(1, round(steps * cells)) / cells))
+
+
+def _march(heat, steps, dt):
+    """So many time steps with the pressure at rest; returns the mean temperatures over them."""
+    total = 0.0
+    for _ in range(steps):
+        heat.begin(dt)
+        heat.solve()
+        heat.accept()
+        total = total + heat.T
+    return total / steps

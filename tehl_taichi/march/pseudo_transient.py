@@ -1,0 +1,164 @@
+"""Where pressure and temperatures by turns find no steady state: both together in time, as a passage has them.
+
+By turns, oil and bodies warm for a sixth of the domain under a film that does not answer: a thick one with a cold inlet
+overshoots, 30 to 80 K back and forth, or collapses. In time it answers within a step. Stages, see :func:`march_to_rest`: the
+slip grows (all at once, it would heat cold oil by 200 K in a step), blocks of steps until the temperatures rest, and the steady
+equations from there; where a step fails for good all of it again, with a slip that grows more slowly.
+"""
+
+import math
+
+import numpy as np
+
+from tehl_taichi.heat.energy import LIGHT
+from tehl_taichi.march.alternating_start import FLUTTER, LONGEST_RUN, SETTLED, unsettled
+from tehl_taichi.march.coupling import carefully, exchange
+from tehl_taichi.march.isothermal_start import again, put
+from tehl_taichi.march.substeps import Substeps
+from tehl_taichi.pressure import fields
+from tehl_taichi.pressure.storage_term import Storage
+
+# Transits of the domain by the slower surface: of the growing slip, and of the second attempt, in which the film thins in step
+# with it (gear at 20 deg C, SRR -0.12, 256 columns: within half a transit cold thick oil is heated by 180 K, and no step
+# converges any more; within two it rests, after 1000 steps); of a block
+ONSETS, BLOCK = (0.5, 2.0), 0.25
+BLOCKS, MOST_STEPS = 40, 4000  # at most; scenes that rest do so after 4 to 18 blocks, the gear at 50 m/s after more than 24
+
+
+def march_to_rest(solver, heat, P, H0):
+    """From the isothermal P and H0, a cold film and cold bodies. Returns the Report of the steady pressure; converged = False
+    where the temperatures do not rest: then the newest state in time is left, and heat.report.change (K) is what its last two
+    blocks differ by, inf where there are none."""
+    for onset in ONSETS:
+        put(solver, P, H0)
+        heat.start()
+        together = PseudoTransient(solver, heat)
+        together.slip_in(onset)
+        change = together.rest()
+        if not together.lost:
+            break
+    if change < SETTLED and not together.lost:
+        return _judged(together, together.checked(), FLUTTER)
+    return _judged(together, change, 0.0)
+
+
+def check(solver, heat):
+    """A block from what counts as settled. Returns the Report of the steady pressure; converged = False where the block moves
+    the temperatures by more than FLUTTER."""
+    heat.bodies.steady = True
+    together = PseudoTransient(solver, heat)
+    together.mean = heat.T
+    return _judged(together, together.checked(), FLUTTER)
+
+
+def _judged(together, change, most):
+    heat, report = together.heat, together.report
+    if not (change < most and heat.sound):
+        report.converged, heat.report.change = False, change
+    heat.bodies.warm_resting()
+    together.levels.numbers.strain(1.0)
+    return report
+
+
+class PseudoTransient:
+    """A smooth contact in time, from the pressure in the solver's table and the state of `heat`; its walls bear all that the
+    pressure asks for: a smooth contact hardly strains them, but the oil that a start at 20 deg C heaps up yields by GPa a cell.
+
+    report: of the last solve; lost: whether a step failed for good; mean: temperatures of the last block.
+    """
+
+    def __init__(self, solver, heat):
+        self.solver, self.heat, self.levels = solver, heat, solver.levels
+        self.parts, self.lost, self.P = Substeps(), False, solver.levels.get(fields.P)
+        speeds = [body.speed for body in heat.bodies.each if body.speed]
+        self.dt = self.levels.dx * self.levels.scales.a / max(speeds)  # s: a cell of the faster surface
+        self.transit = self.levels.nx * max(speeds) / min(speeds)  # steps
+        self.levels.set_film(solver.H0)
+        heat.values()
+        self.storage = Storage(self.levels)
+
+    def slip_in(self, onset):
+        """The slip grows from nothing, within `onset` transits."""
+        self.levels.numbers.strain(0.0)
+        whole, steps = self.levels.conditions["u_s"], min(math.ceil(onset * self.transit), MOST_STEPS // 4)
+        for n in range(steps):
+            self._slip(whole, (n + 1) / steps)
+            self._step()
+        self._slip(whole, 1.0)
+        self.storage.centre()
+
+    def _slip(self, whole, part):
+        self.levels.conditions.set(u_s=part * whole)
+        self.levels.numbers.slip(part)
+
+    def rest(self):
+        """Blocks of steps until runs of them differ by less than SETTLED, or there were enough. Returns the last difference, K,
+        as :func:`tehl_taichi.march.alternating_start.unsettled` measures it."""
+        self.mean, change = self.heat.T, math.inf
+        means = [self.mean]
+        for _ in range(min(BLOCKS, MOST_STEPS // self._block_steps)):
+            self.block()
+            if self.lost:  # what it reached before is a state in time
+                break
+            means = [self.mean, *means[: 2 * LONGEST_RUN - 1]]
+            change = unsettled(means, self.P > LIGHT)
+            if change < SETTLED and self.heat.sound:
+                break
+        return change
+
+    def checked(self):
+        """The steady pressure from here, a block of steps, the steady pressure again. Returns what the block changed, K."""
+        self.at_rest()
+        change = self.block() if self.report.converged else math.inf
+        if not self.lost:
+            self.at_rest()
+        return change
+
+    @property
+    def _block_steps(self):
+        return math.ceil(BLOCK * self.transit)
+
+    def block(self):
+        """So many steps. Returns by how much their mean temperatures differ from those of the last block under load, K; inf
+        where a step failed for good."""
+        self.levels.numbers.strain(0.0)
+        before, total = self.mean, 0.0
+        for _ in range(self._block_steps):
+            self._step()
+            total = total + self.heat.T
+        self.storage.centre()
+        self.mean = total / self._block_steps
+        return math.inf if self.lost else float(np.abs(self.mean - before).max(axis=0)[self.P > LIGHT].max())
+
+    def at_rest(self):
+        """The steady equations, at the temperatures of the film."""
+        self.levels.numbers.strain(1.0)
+        self.levels.numbers.set_rate(0.0)
+        self.levels.put(fields.QOLD, 0.0)
+        self.report = again(self.solver)
+
+    def _step(self):
+        """A step, in parts where it does not converge."""
+        done = 0.0
+        while done < 1.0 and not self.lost:
+            part = self.parts.next(done)
+            if self._try(part * self.dt):
+                done += part
+                self.parts.accept(part)
+            else:
+                self.lost = not self.parts.reject(part)
+
+    def _try(self, dt):
+        """Accept the state dt s later, or leave the last one; whether it converged."""
+        v, dT, H0 = self.levels, dt / self.levels.scales.t, self.solver.H0
+        self.storage.begin(dT)
+        self.heat.begin(dt)
+        self.report = exchange(self.solver, self.heat, lambda: carefully(self.solver, self.P))
+        if self.report.converged:
+            self.storage.accept(dT)
+            self.heat.accept()
+            self.P = v.get(fields.P)
+        else:
+            put(self.solver, self.P, H0)
+            self.heat.set_temperature(self.heat.T)
+        return self.report.converged

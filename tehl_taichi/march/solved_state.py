@@ -1,0 +1,84 @@
+"""What the solver holds after a step, as the entries of `march/outputs/` see it: each value is taken from its table once."""
+
+import functools
+import time
+from dataclasses import dataclass
+from typing import Optional
+
+from tehl_taichi.heat.temperatures import FilmHeat
+from tehl_taichi.march.steady import scalars
+from tehl_taichi.pressure import fields
+from tehl_taichi.pressure.grids import load_weights
+from tehl_taichi.pressure.newton import PressureSolver, SolveReport
+
+
+@dataclass(frozen=True, eq=False)
+class SolvedState:
+    """An accepted state, dimensionless. report: of its solve; started: time.perf_counter() when the step began; heat: None
+    without temperatures; rejected: attempts; dt: of the step, s."""
+
+    solver: PressureSolver
+    heat: Optional[FilmHeat]
+    report: SolveReport
+    started: float
+    rejected: int = 0
+    dt: float = 0.0
+
+    @property
+    def scene(self):
+        return self.solver.levels.scene
+
+    @property
+    def scales(self):
+        """Hertz units (:class:`tehl_taichi.scene.scales.Scales`)."""
+        return self.solver.levels.scales
+
+    @functools.cached_property
+    def P(self):
+        """Pressure (ny+1, nx+1)."""
+        return self.solver.levels.get(fields.P)
+
+    @functools.cached_property
+    def H(self):
+        """Film (ny+1, nx+1)."""
+        return self.solver.levels.get(fields.H)
+
+    @functools.cached_property
+    def touch(self):
+        """1 where the surfaces touch (ny+1, nx+1)."""
+        return self.solver.levels.get(fields.TOUCH)
+
+    @property
+    def T(self):
+        """Temperatures (nodes across the film, ny+1, nx+1) in deg C, from surface a to b."""
+        return self.heat.T
+
+    @functools.cached_property
+    def weights(self):
+        """Of the nodes in the load (ny+1, nx+1)."""
+        return load_weights(self.solver.levels)
+
+    @functools.cached_property
+    def extremes(self):
+        """h_c, h_min, p_max."""
+        return scalars(self.solver.levels, self.P, self.H)
+
+    @property
+    def H0(self):
+        """Rigid approach."""
+        return self.solver.H0
+
+    @property
+    def load(self):
+        """What the pressure bears."""
+        return self.solver.load
+
+    @property
+    def wall(self):
+        """Run time of the step so far, s."""
+        return time.perf_counter() - self.started
+
+    @functools.cached_property
+    def stress(self):
+        """Shear (4, ny+1, nx+1) in Pa on body a along x, y and on body b along x, y."""
+        return (self.heat or self.solver.equations.film).tractions()

@@ -1,0 +1,52 @@
+"""How much of a time step is taken at once: halves of what does not converge, and twice as much again after a while."""
+
+# Of a step that does not converge: it is taken in halves down to this part. With 1/16 the asperity of 100 um stops at 1.12 a on
+# 128 columns, where it touches
+SMALLEST = 1 / 64
+# Parts that are taken before twice as much is tried again, and twice as many where that fails: on a rough surface whole steps
+# fail one after the other, each at four times the work of its two halves
+FIRST_PAUSE, LONGEST_PAUSE = 2, 128
+
+
+class Substeps:
+    """Parts 1, 1/2, 1/4 ... of the steps of a march.
+
+    part: the largest that is tried next; left: parts to take before it grows; pause: of these after the next failure; failing:
+    whether the last one failed.
+    """
+
+    def __init__(self, part=1.0, left=0, pause=FIRST_PAUSE, failing=False):
+        self.part, self.left, self.pause, self.failing = float(part), int(left), int(pause), bool(failing)
+
+    @classmethod
+    def of(cls, state):
+        """Those of a saved state, where there are any."""
+        return cls(*state["parts"]) if "parts" in state else cls()
+
+    def state(self):
+        """To go on from."""
+        return {"parts": [self.part, self.left, self.pause, self.failing]}
+
+    def next(self, done):
+        """What to try where `done` of the step is."""
+        return min(1.0 - done, self.part)
+
+    def accept(self, part):
+        """What was tried, `part` of a step, converged; the rest of a step that is smaller than others tells nothing."""
+        whole, self.failing = part == self.part, False
+        if whole and not self.left:
+            self.pause = max(FIRST_PAUSE, self.pause // 2)
+        self.left = max(0, self.left - 1)
+        if whole and not self.left:
+            self.part = min(1.0, 2 * self.part)
+
+    def retry(self):
+        """Try the smallest part again."""
+        self.part = SMALLEST
+
+    def reject(self, part):
+        """What was tried, `part` of a step, did not converge. Returns whether half of it is worth a try."""
+        if not self.failing:
+            self.left, self.pause = self.pause, min(2 * self.pause, LONGEST_PAUSE)
+        self.part, self.failing = part / 2, True
+        return self.part >= SMALLEST

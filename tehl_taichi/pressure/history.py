@@ -1,0 +1,89 @@
+"""Past states as rows of a table of the finest grid, and what was moved along x since."""
+
+import functools
+import math
+
+import numpy as np
+
+from tehl_taichi.engine import field_pool, simd
+from tehl_taichi.engine.language import ti
+from tehl_taichi.engine.simd import L
+from tehl_taichi.engine.taichi_patches.prebound import Carriers
+from tehl_taichi.values.interpolation import lagrange
+
+REACH = 6  # nodes of an interpolation along x
+BACK, BEGIN, END = range(REACH, REACH + 3)  # columns of a way behind its weights: where its first node is, which nodes count
+WAY = REACH + 3
+WHOLE = 1e-9  # cells
+
+
+def shift(cells):
+    """(back, weights) of what is moved by `cells` towards +x: at node i the sum of weights[k] times the value at i - back + k.
+    Whole cells have a single weight, 1."""
+    whole = math.floor(cells + WHOLE)
+    part = cells - whole
+    return whole + 3, _weights(0.0 if part < WHOLE else part)
+
+
+@functools.lru_cache(maxsize=16)
+def _weights(part):
+    """Of the nodes -3 ... 2 for the value at -part."""
+    return lagrange(range(-3, 3), -part)
+
+
+def carried(q, cells):
+    """q (..., nx+1) moved by `cells` towards +x, outside of kernels; what comes in is as at the border."""
+    (back, weights), n = shift(cells), q.shape[-1]
+    padded = np.pad(q, [(0, 0)] * (q.ndim - 1) + [(back, 2)], mode="edge")
+    return sum(weight * padded[..., k : k + n] for k, weight in enumerate(weights) if weight)
+
+
+def set_way(way, cells, weight=1.0):
+    """A row (WAY) of the ways that kernels go: :func:`shift` by so many cells, times a weight."""
+    way[BACK], weights = shift(cells)
+    way[:REACH] = np.multiply(weights, weight)
+    way[BEGIN:] = (3, 4) if 1.0 in weights else (0, REACH)
+
+
+@ti.func
+def nodes(ways: ti.template(), way):
+    """The nodes of an interpolation: first and behind the last, one where features move by whole cells."""
+    return int(ways[way, BEGIN]), int(ways[way, END])
+
+
+@ti.func
+def source(i, nx, ways: ti.template(), way, m):
+    """Column that the node m of an interpolation is at; what comes in is as at the border."""
+    return ti.min(ti.max(i - int(ways[way, BACK]) + m, 0), nx)
+
+
+@ti.func
+def moved(F: ti.template(), row, first, i, nx, ways: ti.template(), way, each, n):
+    """Number n of `each` in column i of a block that begins with column `first`, moved by way number `way`."""
+    out = L(F, 0.0)
+    begin, end = nodes(ways, way)
+    for m in range(begin, end):
+        out += ti.cast(ways[way, m], F.dtype) * F[row, (first + source(i, nx, ways, way, m)) * each + n]
+    return out
+
+
+class StateHistory:
+    """A table of so many rows on the finest grid of `levels`, column s (NX + 1) + i; not cleared."""
+
+    def __init__(self, levels, rows, precision="f64"):
+        self.levels, self.carriers = levels, Carriers()
+        self.field = field_pool.lease(self, rows, simd.W, levels.most_columns, precision=precision, clean=False)
+        self.place = levels.G[:1].copy()
+        self.place[0, simd.OFF] = 0
+
+    def get(self, row):
+        """Row as a new array (ny+1, nx+1)."""
+        return self._carry(simd.get, row, (self.levels.nx + 1, self.levels.ny + 1)).copy().T
+
+    def put(self, row, values):
+        """Set a row from an array that broadcasts to (ny+1, nx+1)."""
+        self._carry(simd.put, row, (self.levels.ny + 1, self.levels.nx + 1), values)
+
+    def _carry(self, kernel, row, shape, values=None):
+        return self.carriers.carry((kernel, row), shape,
+                                   lambda array: self.levels.launch(kernel, self.field, self.place, 0, row, array), values)

@@ -1,0 +1,300 @@
+"""The deflection K and the distribution K^-1 as convolutions inside kernels: for a pair of blocks, or a group of their waves.
+
+Along x a real transform of period 2 M >= twice the cells (K; of the cells for K^-1, which is periodic), done as a complex one
+of half the length on two blocks of W rows side by side in lanes. Along y Toeplitz plus Hankel matrices, rows being mirrored
+at y = 0: Y(k) = A(k) X(k) + B(k) X(-k), by complex transforms of length N >= 2 ny over the waves along x, as many in lanes. A
+is the transform of the even kernel t(0), t(1), ..., B that of t(0 ... 2 ny - 1) for the mirror images (0 for a whole domain,
+A where the other end is a mirror, too), the rows on a mirror count half. A line contact continues its outermost row for ever:
+that is subtracted, and what the strip answers is added. Cosine transforms from running sums would lose digits: 1e-5 in single
+precision for 512 rows.
+"""
+
+import functools
+import itertools
+
+import numpy as np
+
+from tehl_taichi.engine import simd
+from tehl_taichi.engine.fft import Lengths, fast_length, transform
+from tehl_taichi.engine.language import ti
+from tehl_taichi.engine.simd import W, cells
+from tehl_taichi.engine.task_pool import team_size
+from tehl_taichi.pressure import influence
+
+GROUP = 2 * W  # rows that go along x side by side, and waves along x that go along y: one transform in the code serves both
+THERE, ACROSS, BACK = range(3)  # ways of transforms: along x to the waves, along y to the symbol and back, back along x
+_column = itertools.count()
+LEVEL, M, N, NY, PAIRS, GROUPS, STEP = (next(_column) for _ in range(7))  # STEP: entries from row to row of the spectra
+SPECTRA, SYMBOL, STRIP, SPLIT = (next(_column) for _ in range(4))  # first entries: in the field Y; of the twiddle factors
+X_ROW, X_ROWS, Y_ROW, Y_ROWS = (next(_column) for _ in range(4))  # passes of both transforms
+HALF_FIRST, HALF_LAST, ENDLESS = (next(_column) for _ in range(3))  # rows on a mirror; an outermost row that goes on
+WORK, SIZE = (next(_column) for _ in range(2))  # first entry and size of the buffers, two of each worker
+COLUMNS = next(_column)
+
+
+class TransformSize:
+    """Lengths of one convolution: nx, ny: cells; least: period along x that it needs; M, N: of the complex transforms."""
+
+    def __init__(self, level, nx, ny, least):
+        self.level, self.nx, self.ny = level, nx, ny
+        self.M, self.further = fast_length(-(-least // 2)), fast_length(max(ny, 1))
+        self.N, self.groups, self.pairs = 2 * self.further, -(-(self.M + 1) // GROUP), ny // GROUP + 1
+        self.step = 2 * self.groups
+
+
+def transform_sizes(sizes, lines):
+    """Of the deflection on the finest grid and the distributions on `lines`. The latter are periodic over the cells, those of
+    profiles over twice as many: no further radices, and less work (Newton / Krylov of 20 steps of furrow-line 25/92, with one
+    cell between the ends 26/96)."""
+    periods = [nx * (1 if ny else 2) for nx, ny in sizes]
+    return [TransformSize(0, *sizes[0], 2 * sizes[0][0]), *(TransformSize(l, *sizes[l], periods[l]) for l in lines)]
+
+
+class Layout:
+    """Table of convolutions and places in the fields (Y: spectra, symbols, buffers; T: twiddle factors); `y`, `t`: their sizes.
+
+    shapes: see :func:`transform_sizes`; every worker, or job, has buffers of its own.
+    """
+
+    def __init__(self, shapes):
+        self.lengths, self.table = Lengths(), np.zeros((len(shapes), COLUMNS), np.int32)
+        sizes = (n for c in shapes for n in (c.pairs * GROUP * c.step, self.symbols(c), c.groups))
+        entries = itertools.accumulate(sizes, initial=0)
+        for row, c in zip(self.table, shapes):
+            places = next(entries), next(entries), next(entries)
+            split = self.lengths.turns(np.arange(c.M // 2 + 1), 2 * c.M)
+            row[: WORK] = (c.level, c.M, c.N, c.ny, c.pairs, c.groups, c.step, *places, split, *self.lengths.place(c.M),
+                           *self.lengths.place(c.N), 0, 0, 0)
+        size = max(2 * max(c.groups * GROUP, c.N) for c in shapes) + 2
+        self.table[:, WORK:] = next(entries), size
+        workers = team_size(max(sum(c.pairs for c in shapes), sum(c.groups for c in shapes)))
+        self.y, self.t = int(self.table[0, WORK]) + 2 * workers * size, len(self.lengths.twiddles())
+
+    @staticmethod
+    def symbols(c):
+        return 3 * c.groups * (c.N // 2 + 1)
+
+
+class Symbols:
+    """Symbols of one convolution: A, B (N//2+1, M+1), strip (M+1,); mirrors: whether the first and the last row are; endless:
+    whether the outermost row goes on for ever."""
+
+    def __init__(self, shape, A, B, strip, mirrors, endless):
+        self.shape, self.A, self.B, self.strip, self.mirrors, self.endless = shape, A, B, strip, mirrors, endless
+
+    def entries(self):
+        """Entries (., GROUP): A, Re B, Im B of group after group, then the strip; with the transforms' factors 1/M, 1/N."""
+        c = self.shape
+        parts = np.zeros((3, c.N // 2 + 1, c.groups * GROUP))
+        parts[:, :, : c.M + 1] = np.stack([self.A, self.B.real, self.B.imag]) / (c.M * c.N)
+        strip = np.zeros(c.groups * GROUP)
+        strip[: c.M + 1] = self.strip / c.M
+        by_group = parts.reshape(3, c.N // 2 + 1, c.groups, GROUP).transpose(2, 1, 0, 3)
+        return np.concatenate([by_group.reshape(-1, GROUP), strip.reshape(-1, GROUP)])
+
+    def near(self, length):
+        """What a unit in row 0 causes in rows 0 and 1 at distances 0 .. length-1 along x, both ends mirrors: (2, length)."""
+        rows = np.vstack([self.strip, 0 * self.strip])
+        if self.shape.ny:
+            rows = np.fft.ifft(np.vstack([self.A, self.A[-2:0:-1]]), axis=0)[:2].real
+        return np.fft.irfft(rows, 2 * self.shape.M, axis=1)[:, :length]
+
+
+def deflection(shape, levels):
+    """K of the finest level."""
+    nx, ny, dx, dy = levels.grid(0)
+    A, B = _deflection_symbols(nx, ny, dx, dy, levels.scales.compliance, levels.mirrored, 2 * shape.M, shape.N)
+    strip = waves(influence.strip(nx, dx)[None, :], 2 * shape.M)[0] if levels.line else np.zeros(shape.M + 1)
+    return Symbols(shape, A, B, strip, (levels.mirrored and ny > 0, False), levels.line)
+
+
+@functools.lru_cache(maxsize=2)  # a grid is solved in single and in double precision
+def _deflection_symbols(nx, ny, dx, dy, compliance, mirrored, period, N):
+    if ny == 0:
+        return (np.zeros((N // 2 + 1, period // 2 + 1)),) * 2
+    t = waves(influence.rectangle(nx, 2 * ny, dx, dy, compliance).T, period)
+    even, later = np.zeros((2, N, period // 2 + 1))
+    even[: ny + 1], even[N - ny :] = t[: ny + 1], t[ny:0:-1]
+    later[: 2 * ny] = mirrored * t[: 2 * ny]
+    return np.fft.rfft(even, axis=0).real, np.fft.rfft(later, axis=0)
+
+
+def distribution(shape, levels):
+    """K^-1 of the level, with mirrors at both ends (the further one beyond the grid where its number of rows is unwieldy)."""
+    nx, ny, dx, dy = levels.grid(shape.level)
+    A = 1 / influence.symbol(2 * shape.M, shape.further if ny else 0, dx, dy, levels.scales.compliance)
+    if ny == 0:
+        return Symbols(shape, np.zeros((2, shape.M + 1)), np.zeros((2, shape.M + 1)), A[0], (False, False), False)
+    return Symbols(shape, A, A, np.zeros(shape.M + 1), (True, ny == shape.further), False)
+
+
+def prepare(table, symbols, fields, lengths, dtype):
+    """Put what the convolutions of a :class:`Layout` need into its `table` and the first two of `fields`, Y and T. symbols: of
+    each; fields: all that the caller fills."""
+    Y, T, *_ = fields
+    simd.fill(*simd.one_of(fields, T), 0, 0, lengths.twiddles().astype(dtype))
+    for row, one in zip(table, symbols):
+        row[[HALF_FIRST, HALF_LAST, ENDLESS]] = *one.mirrors, one.endless
+        simd.fill(*simd.one_of(fields, Y), 0, int(row[SYMBOL]), one.entries().astype(dtype))
+
+
+def waves(coefficients, period):
+    """Real transforms along x of kernels of which the offsets 0 .. nx are given (rows, nx+1); even."""
+    rows, n2 = coefficients.shape
+    out = np.zeros((rows, period))
+    out[:, :n2] = coefficients
+    out[:, period - n2 + 1 :] = coefficients[:, :0:-1]  # with a period of twice the cells both ends are the same one
+    return np.fft.rfft(out, axis=1).real
+
+
+@ti.func
+def other(a, start, size):
+    """The other one of two buffers of `size` entries from `start` on."""
+    return 2 * start + size - a
+
+
+@ti.func
+def pair(G: ti.template(), l, j):
+    """Both blocks of pair j of level l: their first columns in the table of all levels, and how many they have. The last pair
+    may be one block twice: then what is done for the first counts, and is done last."""
+    nx, ny, off = cells(G, l)
+    return off + 2 * j * (nx + 1), off + ti.min(2 * j + 1, ny // W) * (nx + 1), nx + 1
+
+
+@ti.func
+def side_by_side(a, b):
+    """Lanes of two blocks as those of their pair."""
+    return ti.Vector([a[u] for u in ti.static(range(W))] + [b[u] for u in ti.static(range(W))])
+
+
+@ti.func
+def first_of(pair):
+    return ti.Vector([pair[u] for u in ti.static(range(W))])
+
+
+@ti.func
+def second_of(pair):
+    return ti.Vector([pair[W + u] for u in ti.static(range(W))])
+
+
+@ti.func
+def clear(Y: ti.template(), first, end):
+    """Zero in the entries from `first` to before `end`."""
+    for i in range(first, end):
+        Y[0, i] = ti.Vector([ti.cast(0.0, Y.dtype) for _ in ti.static(range(GROUP))])
+
+
+@ti.func
+def split(Y: ti.template(), z, o, T: ti.template(), C: ti.template(), c):
+    """Real transforms at o, waves 0 .. M, from the complex ones at z of which even numbers are the real part, odd ones the
+    imaginary."""
+    half, m, turns = ti.cast(0.5, Y.dtype), C[c, M], C[c, SPLIT]
+    for k in range(m // 2 + 1):
+        k1, k2 = m - k, (m - k) % m
+        ar, ai, br, bi = Y[0, z + 2 * k], Y[0, z + 2 * k + 1], Y[0, z + 2 * k2], Y[0, z + 2 * k2 + 1]
+        er, ei, dr, di = half * (ar + br), half * (ai - bi), half * (ai + bi), half * (br - ar)
+        w = T[0, turns + k]
+        tr, tj = dr * w[0] - di * w[1], dr * w[1] + di * w[0]
+        Y[0, o + 2 * k1], Y[0, o + 2 * k1 + 1] = er - tr, tj - ei
+        Y[0, o + 2 * k], Y[0, o + 2 * k + 1] = er + tr, ei + tj
+
+
+@ti.func
+def merge(Y: ti.template(), o, z, T: ti.template(), C: ti.template(), c):
+    """The inverse of :func:`split`."""
+    half, m, turns = ti.cast(0.5, Y.dtype), C[c, M], C[c, SPLIT]
+    for k in range(m // 2 + 1):
+        k1, k2 = m - k, (m - k) % m
+        pr, pi, qr, qi = Y[0, o + 2 * k], Y[0, o + 2 * k + 1], Y[0, o + 2 * k1], Y[0, o + 2 * k1 + 1]
+        er, ei, dr, di = half * (pr + qr), half * (pi - qi), half * (pr - qr), half * (pi + qi)
+        w = T[0, turns + k]
+        tr, tj = dr * w[0] + di * w[1], di * w[0] - dr * w[1]
+        Y[0, z + 2 * k2], Y[0, z + 2 * k2 + 1] = er + tj, tr - ei
+        Y[0, z + 2 * k], Y[0, z + 2 * k + 1] = er - tj, ei + tr
+
+
+@ti.func
+def exchange(Y: ti.template(), o, C: ti.template(), c, j, way):
+    """Between the waves of pair j at o, rows in lanes, and the spectra, waves in lanes: GROUP vectors become as many others."""
+    step = C[c, STEP]
+    first = C[c, SPECTRA] + j * GROUP * step
+    for n in range(step):
+        waves, spectra = o + 2 * GROUP * (n >> 1) + (n & 1), first + n
+        source, by, target, to = waves, 2, spectra, step
+        if way == BACK:
+            source, by, target, to = spectra, step, waves, 2
+        given = [Y[0, source + t * by] for t in ti.static(range(GROUP))]
+        for u in ti.static(range(GROUP)):
+            Y[0, target + u * to] = ti.Vector([given[t][u] for t in ti.static(range(GROUP))])
+
+
+@ti.func
+def buffer(C: ti.template(), w):
+    """First entry of the rows that worker w transforms."""
+    return C[0, WORK] + 2 * w * C[0, SIZE]
+
+
+@ti.func
+def load_waves(Y: ti.template(), C: ti.template(), c, e, a):
+    """Group of waves from entry e of the spectra to the buffer at a, less an endless outermost row, zero behind."""
+    ny, step = C[c, NY], C[c, STEP]
+    rest = ti.cast(C[c, ENDLESS], Y.dtype)
+    lr, li = rest * Y[0, e + ny * step], rest * Y[0, e + ny * step + 1]
+    for j in range(ny + 1):
+        Y[0, a + 2 * j], Y[0, a + 2 * j + 1] = Y[0, e + j * step] - lr, Y[0, e + j * step + 1] - li
+    clear(Y, a + 2 * (ny + 1), a + 2 * C[c, N])
+    half = ti.cast(0.5, Y.dtype)
+    if C[c, HALF_FIRST] == 1:
+        Y[0, a], Y[0, a + 1] = half * Y[0, a], half * Y[0, a + 1]
+    if C[c, HALF_LAST] == 1:
+        Y[0, a + 2 * ny], Y[0, a + 2 * ny + 1] = half * Y[0, a + 2 * ny], half * Y[0, a + 2 * ny + 1]
+
+
+@ti.func
+def multiply(Y: ti.template(), z, C: ti.template(), c, g):
+    """Y(k) = A(k) X(k) + B(k) X(-k), in place."""
+    n = C[c, N]
+    first = C[c, SYMBOL] + g * (n // 2 + 1) * 3
+    for k in range(n // 2 + 1):
+        k1, k2, q = z + 2 * k, z + 2 * ((n - k) % n), first + 3 * k
+        pr, pi, qr, qi = Y[0, k1], Y[0, k1 + 1], Y[0, k2], Y[0, k2 + 1]
+        A, Br, Bi = Y[0, q], Y[0, q + 1], Y[0, q + 2]
+        Y[0, k2], Y[0, k2 + 1] = A * qr + Br * pr + Bi * pi, A * qi + Br * pi - Bi * pr
+        Y[0, k1], Y[0, k1 + 1] = A * pr + Br * qr - Bi * qi, A * pi + Br * qi + Bi * qr
+
+
+@ti.func
+def store_waves(Y: ti.template(), z, C: ti.template(), c, e, g):
+    """And back to the spectra, plus the answer of the strip to the outermost row."""
+    ny, step, strip = C[c, NY], C[c, STEP], Y[0, C[c, STRIP] + g]
+    lr, li = strip * Y[0, e + ny * step], strip * Y[0, e + ny * step + 1]
+    for j in range(ny + 1):
+        Y[0, e + j * step], Y[0, e + j * step + 1] = Y[0, z + 2 * j] + lr, Y[0, z + 2 * j + 1] + li
+
+
+@ti.func
+def transformed(Y: ti.template(), T: ti.template(), Q: ti.template(), odd: ti.template(), C: ti.template(), c, j, w, way):
+    """Pair j of blocks, whose rows are in the buffer of worker w, to the spectra; group j of waves times the symbol; or pair j
+    from the spectra. Returns the first entry of its rows then."""
+    a, size, row, rows = buffer(C, w), C[c, SIZE], C[c, X_ROW], C[c, X_ROWS]
+    z, o, e = a, a, C[c, SPECTRA] + 2 * j
+    for half in range(2):  # so that `exchange`, a fifth of the code, stands here once
+        if way == (BACK if half == 0 else THERE):
+            exchange(Y, o, C, c, j, way)
+        if half == 0:
+            if way == ACROSS:
+                row, rows = C[c, Y_ROW], C[c, Y_ROWS]
+                load_waves(Y, C, c, e, a)
+            elif way == BACK:
+                z = a + size
+                merge(Y, a, z, T, C, c)
+            for turn in range(2 if way == ACROSS else 1):
+                z = transform(Y, z, other(z, a, size), T, Q, odd, row, rows, turn + way // BACK)
+                if way == ACROSS and turn == 0:
+                    multiply(Y, z, C, c, j)
+            if way == ACROSS:
+                store_waves(Y, z, C, c, e, j)
+            elif way == THERE:
+                o = other(z, a, size)
+                split(Y, z, o, T, C, c)
+    return z

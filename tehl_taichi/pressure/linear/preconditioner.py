@@ -1,0 +1,84 @@
+"""Additive line multigrid: one parallel line solve on every second level, summed from coarse to fine.
+
+Inside a Krylov method one undamped parallel sweep per level beats alternating colours and V cycles per transform
+(measured: 6-8 iterations a Newton step at any grid, load and contact); it must be rebuilt at every Newton step.
+"""
+
+import numpy as np
+
+from tehl_taichi.engine import simd
+from tehl_taichi.engine.taichi_patches.prebound import bind
+from tehl_taichi.pressure import fields, influence
+from tehl_taichi.pressure.levels import HEAVY
+from tehl_taichi.pressure.linear import line_solver
+
+# Switch between the two kinds of columns where time passes. Krylov iterations a step with 1 / 10 / 30 / 1000, gear at SRR
+# -0.12: whole passages on 128 columns 15.8 / 15.1 / 14.9 / 16.0, on 256 15.0 / 14.2 / 14.0 / 15.2 (with temperatures 18.1 and,
+# with 30, 15.8); the feature coming in, on 512 15.1 and 12.6, 1024 29.5 / 17.0 / 16.6 / 17.1, 2048 some 41 / 30 / 20.5 / 21.1.
+THETA = 30.0
+# At rest, of one row and of several. Krylov iterations on the finest grid of steady point contacts, 0.5 / 2 / 4 / 8 / 16 / 32:
+# 18 on 128 and 256 columns 1345 / 1156 / 1085 / 1127 / 1201 / -, 5 on 512 columns 396 / 315 / 289 / 311 / 289 / 288. One row:
+# with 2 starts on 2048 columns do not converge
+REST_LINE, REST = 0.5, 8.0
+
+
+class AdditiveLines:
+    """Prepares M^-1 of the linearised problem in the tables of `levels` (see :class:`Levels`) for `solver` (see
+    :class:`Krylov`), which applies it."""
+
+    def __init__(self, levels, krylov):
+        self.levels = levels
+        self.near, self.inverse = (np.zeros((2 * len(levels.sizes), line_solver.NEAR), levels.linear) for _ in range(2))
+        for symbols in krylov.symbols[1:]:
+            l = symbols.shape.level
+            self.near[2 * l : 2 * l + 2] = levels.near_kernel(l, line_solver.NEAR)
+            self.inverse[2 * l : 2 * l + 2] = symbols.near(line_solver.NEAR)
+        self.count = sum(levels.sizes[l][1] // simd.W + 1 for l in levels.lines)
+        self.coarsest = Coarsest(levels, krylov) if levels.dense else None
+        self._bind()
+
+    def _bind(self):
+        v, bounds = self.levels, (REST if self.levels.ny else REST_LINE, THETA)
+        self._classify = [v.launch(line_solver.classify, v.S, v.J, v.G, v.blocks, *cut, touching, *bounds)
+                          for touching in (0, 1)
+                          for cut in ((0, v.fine), (v.fine, len(v.blocks)))]
+        self._build_lines = v.launch(line_solver.build_lines, v.J, v.G, v.blocks, self.count, self.near, self.inverse,
+                                     work=HEAVY)
+
+    def build(self, touching, anew=True):
+        """Factorise every level, which must be linearised; with anew = False the coarsest one stays what it was, for small
+        changes."""
+        fine, coarse = self._classify[2:] if touching else self._classify[:2]
+        fine()
+        coarse()
+        self._build_lines()
+        if self.coarsest and anew:
+            self.coarsest.build()
+
+
+class Coarsest:
+    """The coarsest level as a dense matrix: its Jacobian with the full deflection, inverted at every Newton step."""
+
+    def __init__(self, levels, krylov):
+        self.krylov, self.l = krylov, len(levels.sizes) - 1
+        nx, ny = levels.sizes[-1]
+        j, i = (q.ravel() for q in np.mgrid[: ny + 1, : nx + 1])
+        self.place = (j // simd.W * (nx + 1) + i) * simd.W + j % simd.W
+        self.neighbours = self._neighbours(i, j, nx, ny)
+        bent = influence.matrix(*levels.deflection_key(self.l))
+        self.influence = np.stack([bent[q] for q in self.neighbours])
+        self.rows = np.zeros((len(fields.STENCIL), i.size), levels.linear)
+        self._export = bind(line_solver.export_rows, levels.J, levels.G, self.l, self.rows, True)
+
+    def _neighbours(self, i, j, nx, ny):
+        """Node numbers of i-2, i-1, i, i+1, j+1, j-1; those outside have no weight."""
+        steps = ((-2, 0), (-1, 0), (0, 0), (1, 0), (0, 1), (0, -1))
+        return [np.clip(j + q, 0, ny) * (nx + 1) + np.clip(i + p, 0, nx) for p, q in steps]
+
+    def build(self):
+        self._export()
+        half, nodes = len(fields.STENCIL) // 2, np.arange(self.place.size)
+        J = np.einsum("qn,qnm->nm", self.rows[half:], self.influence)
+        for a, q in zip(self.rows[:half], self.neighbours):
+            J[nodes, q] += a
+        self.krylov.set_dense(np.linalg.inv(J), self.place)

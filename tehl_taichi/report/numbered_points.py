@@ -1,0 +1,100 @@
+"""The worst places of a surface with many heights, by number: in the maps of the index and in a table."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl_taichi.fatigue.index_peaks import around, worst_places
+from tehl_taichi.report.document import table
+from tehl_taichi.report.number_text import value_text
+from tehl_taichi.report.run_tables import in_file
+from tehl_taichi.scene.feature_wording import passing
+from tehl_taichi.scene.scales import Scales
+from tehl_taichi.view.figures.height_profile import height_at
+from tehl_taichi.view.figures.index_text import index_text
+from tehl_taichi.view.figures.palette import LIMIT
+
+MOST = 8
+UNBROKEN = "\u00a0"  # a space between a number and its unit, where columns are narrow
+APART = 0.25  # half-widths between two of them: asperities nearer to each other are one
+
+
+@dataclass(frozen=True)
+class NumberedPoint:
+    """x, y: m, from the feature's centre; Fi: at the surface, below: at the worst depth (None: not searched at all points),
+    each the largest around it; height: m."""
+
+    x: float
+    y: float
+    Fi: float
+    below: float | None
+    height: float
+
+
+def places(search):
+    """A list of :class:`NumberedPoint`, the worst first; [] of a single asperity, dent or ridge, whose worst point tells
+    enough."""
+    Fi, scene = search.map("Fi"), search.scene
+    if Fi is None or Fi.shape[1] == 1 or not _many(scene):
+        return []
+    x, y = (search.map(f"feature_frame_{axis}") for axis in "xy")
+    deep, apart = _below(search), APART * Scales.of(scene).a
+    found = worst_places(x, y, Fi if deep is None else np.maximum(Fi, deep), apart, MOST)
+    i, j = np.array(found).T
+    heights = height_at(scene, x[i], y[j])
+
+    def largest(values, place):
+        return None if values is None else around(x, y, values, place, apart / 2)
+
+    return [NumberedPoint(float(x[at[0]]), float(y[at[1]]), largest(Fi, at), largest(deep, at), float(height))
+            for at, height in zip(found, heights)]
+
+
+def _many(scene):
+    """Whether more than one height passes: several features, or patches of them."""
+    return len(scene.features) > 1 or any("extent_x" in f.kind.uses for f in scene.features)
+
+
+def _below(search):
+    stress = search.map("findley_stress_at_worst_depth")
+    return None if stress is None else stress / search.found["sigma_eF_Pa"]
+
+
+def numbered(search):
+    """[trace] of their numbers on a map."""
+    found = search.places
+    text = [str(n) for n in range(1, len(found) + 1)]
+    font = {"color": LIMIT, "size": 13, "shadow": "auto"}  # readable on light colours, too
+    return [{"type": "scatter", "mode": "text", "x": [p.x * 1e6 for p in found], "y": [p.y * 1e6 for p in found], "text": text,
+             "textposition": "top right", "textfont": font, "name": "points of the table",
+             "showlegend": False, "hoverinfo": "skip", "cliponaxis": False}] if found else []
+
+
+def rows(search):
+    """The table of them, None where there are none."""
+    found, scene = search.places, search.scene
+    if not found:
+        return None
+    head, cells = zip(*_columns(search, scene, found))
+    caption = (f"Points of the {passing(scene)} with the largest index, numbered as on the maps. x, y: from its centre; Fi: "
+               f"largest value within {value_text(APART / 2 * Scales.of(scene).a, unit='m', digits=3)}.")
+    return table(("critical point", *head), [(str(n), *row) for n, row in enumerate(zip(*cells), 1)], caption)
+
+
+def _columns(search, scene, found):
+    """(heading, cells) of each column that has something to tell."""
+    for axis in ("x", "y", "height"):
+        yield axis, [value_text(getattr(p, axis), unit="m", digits=3).replace(" ", UNBROKEN) for p in found]
+    yield "Fi at the surface", [index_text(p.Fi) for p in found]
+    if found[0].below is not None:
+        depth = value_text(float(search.map("worst_depth")[0]), unit="m", digits=3)
+        yield f"Fi {depth} below", [index_text(p.below) for p in found]
+    if passing(scene) == "scan":
+        yield "in the file, counted from 1", [_in_file(scene, p) for p in found]
+
+
+def _in_file(scene, p):
+    """Row and column, and whether heights fade out there."""
+    first = scene.features[0]
+    fades = min(first.to_rim(p.x - first.x, p.y - first.y)) < first.taper
+    return in_file(scene, p.x, p.y) + ", fading out at the rim" * fades

@@ -1,0 +1,106 @@
+"""The page of a run whose fatigue is searched again, with other constants or moments."""
+
+import dataclasses
+
+from tehl_taichi.errors import StoreError
+from tehl_taichi.fatigue.overrides import changed
+from tehl_taichi.report import run_page
+from tehl_taichi.report.number_text import value_text
+from tehl_taichi.report.scene_text import moments
+from tehl_taichi.report.verdict import FATIGUE
+from tehl_taichi.runs.open_results import INSIDE, RUN, kind, open_run
+from tehl_taichi.runs.summary import result_warnings
+from tehl_taichi.scene import fatigue_limits, scene_file
+from tehl_taichi.scene.feature_wording import where
+from tehl_taichi.scene.timeline import total_steps
+
+
+class RenewedSearch:
+    """Another question to the run in `folder`: its scene with these constants of fatigue (None: as they are), see
+    :func:`tehl_taichi.fatigue`. Raises StoreError of a study or a flank, SceneError."""
+
+    def __init__(self, folder, constants):
+        if (found := kind(folder)) != RUN:
+            given = ", ".join(key for key, value in constants.items() if value is not None)
+            raise StoreError(f"{folder} is a {found}; {given} applies to one of its runs, as {folder / INSIDE[found][1]}")
+        self.run, self.constants = open_run(folder), constants
+        scene = changed(self.run.scene, constants)
+        self.scene = scene.replace(**{"fatigue.on": True, "fatigue.source": _source(scene.fatigue, self.run, constants)})
+
+    @property
+    def differs(self):
+        """[(what, as it is asked, as the run has it)], in words."""
+        pairs = zip(_words(self.scene), _words(self.run.scene))
+        return [(what, asked, own) for (what, asked), (_, own) in pairs if asked != own]
+
+    @property
+    def is_answered(self):
+        """Whether it is the question whose answer is stored."""
+        return not self.differs and "fatigue" in self.run.summary
+
+    def page(self, progress=None, threads=None):
+        """Search, and the :class:`tehl_taichi.report.document.Page` of what was found. Raises SceneError."""
+        found = self.run.fatigue(**self.constants, progress=progress, threads=threads)
+        page = run_page.page(SearchedStore(self.run.store, self.scene, found))
+        answer = dataclasses.replace(page.answer, question=self._question(), doubts=(*self._doubts(), *page.answer.doubts))
+        return dataclasses.replace(page, title=f"{self.scene.name}: report, fatigue with other constants", answer=answer,
+                                   about=f"{page.about}, with a new fatigue search")
+
+    def _question(self):
+        asked = ", ".join(f"{what} {value}" for what, value, _ in self.differs)
+        return f"{FATIGUE.removesuffix('?')}, with {asked}?" if asked else FATIGUE
+
+    def _doubts(self):
+        """What the run itself was asked, and how much of it there is."""
+        own, store = ", ".join(f"{what} {value}" for what, _, value in self.differs), self.run.store
+        if own:
+            yield f"The run was stored with other constants: {own}."
+        if not store.finished:
+            yield (f"The run is not finished: {store.last_step} of {total_steps(store.scene)} time steps are stored, and only "
+                   "these count.")
+
+
+class SearchedStore:
+    """The store of a run with the scene and the result of another search in place of its own; nothing is written."""
+
+    def __init__(self, store, scene, found):
+        self.store, self.scene, self.found = store, scene, found
+        self.attrs = {**store.attrs, "scene_toml": scene_file.dumps(scene)}
+        self.summary = {**store.summary, "left_out": scene.left_out(), "fatigue": found.summary}
+        self.warnings = result_warnings.warnings(self, self.summary)
+
+    def __getattr__(self, name):
+        return getattr(self.store, name)
+
+    def __len__(self):
+        return len(self.store)
+
+    def map(self, name):
+        """One of the maps of the search, or None."""
+        return self.found.maps[name][0] if name in self.found.maps else None
+
+
+def _source(fatigue, run, constants):
+    """Where its constants come from: that of the run's is not that of others."""
+    own = run.scene.fatigue
+    if constants.get("source") is not None or (fatigue.kappa, fatigue.endurance) == (own.kappa, own.endurance):
+        return fatigue.source
+    return fatigue_limits.words(fatigue) or type(fatigue)().source
+
+
+def _words(scene):
+    """[(what, value)] of all that the answer depends on, the same in number and order for every scene."""
+    f = scene.fatigue
+    return [("κ =", f"{f.kappa:.5g}"), ("σ_eF =", value_text(f.endurance, unit="Pa", digits=5)), ("the criterion", f.criterion),
+            ("depths searched:", _depths(f.depths)), ("moments with the", moments(scene) or f"{where(scene)} anywhere"),
+            ("shear tractions", "counted" if f.shear else "left out"),
+            ("thermal stress", "counted" if scene.has_thermal_stress else "left out"),
+            *((f"residual stress along {axis}", f"{getattr(f, f'residual_{axis}{axis}') / 1e6:g} MPa") for axis in "xy")]
+
+
+def _depths(depths):
+    if not depths:
+        return "the surface alone"
+    points = [] if isinstance(depths, str) else ["all points at "
+                                                 + " and ".join(value_text(depth, unit="m") for depth in depths)]
+    return ", ".join(["the worst", *points])

@@ -1,0 +1,161 @@
+"""A scene in words and in numbers."""
+
+import math
+import os
+
+from tehl_taichi.laws import viscosity
+from tehl_taichi.laws.rheology import LAWS
+from tehl_taichi.report.number_text import value_text
+from tehl_taichi.scene import data_sheet, fatigue_limits, mineral_alpha
+from tehl_taichi.scene.feature_wording import between, passing, where
+from tehl_taichi.scene.named_oils import NO_SOURCE
+from tehl_taichi.scene.scales import Scales
+from tehl_taichi.values.quantity import Number, Switch, Text, kinds
+
+WHOLE = "over the whole passage"
+LONG = 60  # letters of a word that is shown
+
+
+def words(scene):
+    """Sentences: note, contact, motion, oil, heat, features."""
+    note = [f"Note: {scene.note}"] if scene.note else []
+    return [*note, _contact(scene), _motion(scene), _oil(scene), _heat(scene), *_features(scene)]
+
+
+def _contact(scene):
+    c, s = scene.contact, Scales.of(scene)
+    side = "" if c.kind != "elliptic" else f" along x and {value_text(c.radius_y, unit='m')} across"
+    return (f"A {c.kind} contact of reduced radius "
+            f"{value_text(c.radius_x, unit='m')}{side} carries {_load(scene)}: Hertz pressure "
+            f"{value_text(s.p_H, unit='Pa')}, {_half_axes(s)}. {_bodies(scene)}")
+
+
+def _half_axes(s):
+    """Of the dry contact: along x, and across where it ends there."""
+    if s.line:
+        return f"half-width {value_text(s.a, unit='m')}"
+    return f"half-axes {value_text(s.a, unit='m')} along x and {value_text(s.b, unit='m')} across"
+
+
+def _load(scene):
+    return f"{scene.load / 1e3:.4g} N/mm" if scene.contact.kind == "line" else f"{scene.load:.4g} N"
+
+
+def _bodies(scene):
+    a, b = (body.material or f"E = {body.E / 1e9:.4g} GPa, ν = {body.nu:g}" for body in (scene.body_a, scene.body_b))
+    return f"Both bodies: {a}." if a == b else f"Body a: {a}; body b: {b}."
+
+
+def _motion(scene):
+    o = scene.operation
+    if o.srr == 0:
+        return f"The surfaces roll at {o.u_m:.4g} m/s without slip."
+    kind = "slower" if o.u_a < o.u_b else "faster"
+    carries = f"; the {passing(scene)} is on the {kind} surface, a" if scene.features else ""
+    return (f"The surfaces move at {o.u_a:.4g} m/s (a) and {o.u_b:.4g} m/s (b): mean {o.u_m:.4g} m/s, slide-to-roll ratio "
+            f"{o.srr:+.3g}{carries}.")
+
+
+def _oil(scene):
+    law = LAWS[scene.rheology.law]
+    source = "source not given" if scene.oil.source == NO_SOURCE else scene.oil.source
+    return (f"The oil is {scene.oil.name} ({source}) and enters at {scene.operation.temperature:g} °C. Its shear law is "
+            f"{law.name}: {law.says}.")
+
+
+def _heat(scene):
+    if scene.isothermal:
+        return "The film has the inlet temperature everywhere."
+    return "The temperatures of the film and of both surfaces are computed."
+
+
+def _features(scene):
+    if not scene.transient:
+        return ["No feature passes: steady contact of smooth surfaces." if scene.features else "The surfaces are smooth."]
+    return [f"Surface a (body a) carries a feature of the shape {f.shape} ({f.kind.says}): {', '.join(_sizes(f))}."
+            for f in scene.features]
+
+
+def _sizes(f):
+    """What its shape looks at, where it says something."""
+    own = kinds(type(f))
+    alone = kinds(f.kind.keys) if f.kind.keys else {}
+    keys = [key for key in own if key in f.kind.uses or key in alone] + ["x", "y"]
+    for key in dict.fromkeys(keys):
+        value, kind = getattr(f, key), own[key]
+        if kind.unit == "-" and value == getattr(type(f), key):
+            continue  # a factor that changes nothing
+        if isinstance(kind, Number) and isinstance(value, (int, float)) and value:
+            yield f"{key} {value_text(value, unit=kind.unit.replace('-', '1'))}"
+        elif isinstance(kind, Text) and 0 < len(name := os.path.basename(value)) < LONG:  # a file without its folders
+            yield f"{key} {name}"
+        elif isinstance(kind, Switch) and value:
+            yield key
+
+
+def moments(scene):
+    """'feature up to 0.5 a': the moments of a passage that count, '' where all do."""
+    f = scene.fatigue
+    ends = between(f.from_x, f.to_x)
+    return f"{where(scene)} {ends}" if ends else ""
+
+
+def when(scene):
+    """What a search was over, in words."""
+    counted = moments(scene)
+    return f"over all moments that count ({counted})" if counted else WHOLE
+
+
+def material(fatigue):
+    """Where kappa and the fatigue limit come from: examples must not pass for a material's numbers."""
+    default, said = type(fatigue)(), fatigue.source.strip().rstrip(".")
+    if said.lower() not in ("", "example", "examples", default.source):
+        limits = fatigue_limits.words(fatigue)
+        return fatigue.source if limits in ("", fatigue.source) else f"{limits} ({said})"
+    if said == default.source and (fatigue.kappa, fatigue.endurance) != (default.kappa, default.endurance):
+        return "no source is given (fatigue.source)"
+    return "example values, replace them by those of your material and name the source (fatigue.source)"
+
+
+def numbers(scene):
+    """(what, value) of what a reader compares first."""
+    s, oil = Scales.of(scene), scene.oil
+    rows = [("Hertz pressure p_H", value_text(s.p_H, unit="Pa")), ("half-width a", value_text(s.a, unit="m")),
+            *([] if s.line else [("half-axis b, across", value_text(s.b, unit="m"))]), ("load", _load(scene)),
+            ("reduced radius R'", value_text(s.R, unit="m")), ("reduced modulus E'", value_text(s.E, unit="Pa")),
+            ("mean speed u_m", f"{scene.operation.u_m:.4g} m/s"), ("slide-to-roll ratio", f"{scene.operation.srr:g}"),
+            ("inlet temperature", f"{scene.operation.temperature:g} °C"), ("viscosity at the inlet (p = 0)", _inlet(scene)),
+            *_of_sheet(oil), ("viscosity law", oil.viscosity), *_of_oil(oil)]
+    return rows
+
+
+def _inlet(scene):
+    """Of the oil as it comes in."""
+    eta = math.exp(float(viscosity.ln_eta(scene.oil, 0.0, scene.operation.temperature)))
+    return f"{eta * 1e3:.4g} mPa s"
+
+
+def _of_sheet(oil):
+    """The data sheet that the numbers of the law follow from, in its units; nothing of an oil without one."""
+    if not data_sheet.is_given(vars(oil)):
+        return []
+    rows = [(f"data sheet: kinematic viscosity at {at} °C", f"{nu * 1e6:.4g} mm²/s") for at, nu in
+            ((40, oil.nu_40), (100, oil.nu_100))]
+    density = [("data sheet: density at 15 °C", f"{oil.rho_15:g} kg/m³")] if oil.rho_15 else []
+    return [*rows, *density, _alpha(oil)]
+
+
+def _alpha(oil):
+    """Of the sheet, or what it was estimated as."""
+    if not data_sheet.estimated(oil):
+        return "data sheet: α at 40 °C", f"{oil.alpha_40 * 1e9:.4g} 1/GPa"
+    alpha = data_sheet.alpha_40(oil.nu_40, oil.rho0, oil.Dz)
+    return ("α at 40 °C, not on the data sheet", f"{alpha * 1e9:.3g} 1/GPa, estimated as for a mineral oil, within "
+            f"{mineral_alpha.WITHIN * 100:g} %")
+
+
+def _of_oil(oil):
+    """The numbers of its viscosity law, with their meaning."""
+    declared = {key: one.metadata["kind"] for key, one in viscosity.LAWS[oil.viscosity].numbers.items()}
+    return [(f"{key}: {kind.about}", f"{getattr(oil, key):.6g} {kind.unit}".rstrip(" -"))
+            for key, kind in declared.items() if isinstance(kind, Number)]

@@ -1,0 +1,112 @@
+"""Companions beside their run: in a process of their own, on cores that a long run leaves idle; else after it, in its process.
+
+Default gear on one of two cores, s, medians of three in turn: 45.5 without bars, 49.2 with them after it, 43.1 beside it; on
+both cores a process beside the run takes more than they do after it (67.5 against 59.7).
+"""
+
+import contextlib
+import functools
+import json
+import os
+import pickle
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+
+from tehl_taichi.engine import cores, runtime
+from tehl_taichi.march.accuracy import coarse_runs
+from tehl_taichi.runs.sweep import job
+
+WATCH = 0.5  # s between looks at whether the run is still there
+TELL = 1.0  # s between two words that the run waits for it
+# nodes times steps from which on a run is long: the process loads its kernels first, some 4 s. A coarse case of a sweep in a
+# warm process takes 5.0 s with a process beside it, and 3.8 s with companions after it, by kernels that are there
+LONG, HEAVIER = 5e6, 5.0  # with temperatures a step takes so many times as long
+
+
+def idle():
+    """Cores that nobody has given work: none in a worker of a study, beside which others work."""
+    return 0 if job.working() else cores.available() - runtime.ensure()["threads"]
+
+
+def lasts(scene):
+    """Whether a run is long."""
+    return coarse_runs.work(scene) * (1.0 if scene.isothermal else HEAVIER) >= LONG
+
+
+@contextlib.contextmanager
+def background_answers(scene):
+    """A function of `until` (what :func:`tehl_taichi.march.accuracy.coarse_runs.resolved` gives of the run, once it is known)
+    for the function of notify(done, total) that waits for what :func:`tehl_taichi.march.accuracy.coarse_runs.answers` gives of
+    a scene. They begin now where the run is long and a core idle, and end with the context."""
+    if not (coarse_runs.has_coarse_runs(scene) and lasts(scene) and idle() > 0):
+        yield lambda until: functools.partial(coarse_runs.answers, scene, until=lambda: until)
+        return
+    read, write = os.pipe()
+    with open(write, "wb", 0) as word, _started(scene, read, min(idle(), runtime.ensure()["threads"])) as process:
+        os.close(read)
+        try:
+            yield functools.partial(_begun, process, word, scene)
+        finally:
+            process.kill()
+
+
+def _started(scene, read, threads):
+    """On no more threads than the run: with one beside 8 of 16 cores the run waited for them."""
+    with tempfile.TemporaryFile() as scenes:
+        pickle.dump((os.getpid(), read, scene, threads), scenes)
+        scenes.seek(0)
+        # a session of its own: Ctrl-C is for the run, which ends it
+        return subprocess.Popen([sys.executable, "-c", "from tehl_taichi.runs.background_errors import serve; serve()"],
+                                stdin=scenes,
+                                stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, start_new_session=True, pass_fds=(read,))
+
+
+def _begun(process, word, scene, until):
+    """What waits for their answers; they are told `until` now."""
+    with contextlib.suppress(OSError):  # they died
+        word.write(json.dumps(until).encode())
+    word.close()
+    return functools.partial(_ready, process, scene, until)
+
+
+def _ready(process, scene, until, notify=lambda done, total: None):
+    """Their answers; where their process died, worked out here."""
+    notify(0, 1)
+    while (text := _output_of(process)) is None:
+        notify(0, 1)
+    if process.returncode:
+        return coarse_runs.answers(scene, notify, lambda: until)
+    notify(1, 1)
+    return json.loads(text)
+
+
+def _output_of(process):
+    """What a process wrote, once it is over; None while it is not."""
+    try:
+        return process.communicate(timeout=TELL)[0]
+    except subprocess.TimeoutExpired:  # nothing is lost: the next call goes on
+        return None
+
+
+def serve():
+    """The process: the number of the run's process, that of the pipe by which `until` comes once it is known, the scene and the
+    number of threads come by stdin, the answers go to stdout."""
+    run, pipe, scene, threads = pickle.load(sys.stdin.buffer)
+    threading.Thread(target=_end_with, args=(run,), daemon=True).start()
+    runtime.start(threads=threads)
+    print(json.dumps(coarse_runs.answers(scene, until=functools.cache(functools.partial(_heard, pipe)))), flush=True)
+    runtime.leave(0)
+
+
+def _heard(pipe):
+    with open(pipe, "rb") as words:
+        return json.loads(words.read())
+
+
+def _end_with(run):
+    while os.getppid() == run:
+        time.sleep(WATCH)
+    os._exit(1)

@@ -1,0 +1,66 @@
+"""What differs of the results of runs, in the words of their summaries: rows with a value for each run."""
+
+from dataclasses import dataclass
+
+from tehl_taichi.runs.summary.summary_rows import rows_of
+
+MANY = 9.0  # relative change from which a factor is read better than per cent
+NONE = "-"  # of a run that has no such value (yet)
+
+
+@dataclass(frozen=True)
+class ComparisonRow:
+    """what: the quantity; values: a text for each run; change: of two runs, "" where it means nothing."""
+
+    what: str
+    values: tuple
+    change: str = ""
+
+    @property
+    def same(self):
+        return len(set(self.values)) == 1
+
+
+def lines(summaries):
+    """A list of :class:`ComparisonRow` of the summaries of runs ({} of one that is not finished), in the order of `tehl
+    show`."""
+    runs = [{(row.part, row.what): row for row in rows_of(summary)} if summary else {} for summary in summaries]
+    keys = _in_order([list(run) for run in runs])
+    return [_line(what, [run.get(key) for run in runs]) for key, what in zip(keys, _distinguished(keys))]
+
+
+def _distinguished(keys):
+    """Quantities of (part, quantity), with the part where the same stood before."""
+    seen = set()
+    for part, what in keys:
+        yield f"{what}, {part}" if what in seen else what
+        seen.add(what)
+
+
+def _in_order(lists):
+    """Every key once: those of the first list, and others behind the key that they follow in theirs."""
+    out = list(lists[0])
+    for keys in lists[1:]:
+        for n, key in enumerate(keys):
+            if key not in out:
+                out.insert(out.index(keys[n - 1]) + 1 if n else 0, key)
+    return out
+
+
+def _line(what, rows):
+    """rows: a Row for each run, or None; where their values lie is told once where it is the same."""
+    places = {row.where for row in rows if row}
+    once = places.pop() if len(places) == 1 else None
+    values = tuple(NONE if row is None else row.value + ("" if once is not None else row.where) for row in rows)
+    return ComparisonRow(what + (once or ""), values, _change(rows))
+
+
+def _change(rows):
+    """Of the second number from the first: in %, or how many times as much it is."""
+    numbers = [row.number if row else None for row in rows]
+    if len(rows) != 2 or None in numbers or not numbers[0]:
+        return ""
+    part = (numbers[1] - numbers[0]) / abs(numbers[0])
+    if part >= MANY:
+        return f"x {numbers[1] / numbers[0]:.0f}"
+    return f"{part:+.0%}" if abs(part) >= 0.1 else f"{100 * part:+.2g}%"

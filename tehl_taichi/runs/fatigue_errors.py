@@ -1,0 +1,35 @@
+"""Error bars of a run's fatigue that is searched again.
+
+The companions of a run answered the run's own question: their bars are not those of another kappa, criterion, window or stress.
+The fatigue limit is no part of the search, the index is the stress over it: with another one the relative error stays. So it
+does with other depths, where the same point is the worst.
+"""
+
+from dataclasses import asdict
+
+from tehl_taichi.march.accuracy.coarse_runs import FI, indices
+
+OTHER = "the coarse-grid runs used the constants and moments of the run, not these"
+# of the section [fatigue]: they change no stress of a point (limits do by kappa, which is compared)
+FREE = ("on", "endurance", "bending_limit", "torsion_limit", "source", "depths")
+SAME = 1e-6  # of the stress: the stored search and this one are the same
+
+
+def add_errors(summary, asked, store):
+    """Put "error" and "unknown" into the parts of the summary of a search. asked: the section [fatigue] that it was made with;
+    store: of the run."""
+    own, stored = store.scene.fatigue, indices(store.summary.get("fatigue", {}))
+    alike = all(getattr(asked, key) == value for key, value in asdict(own).items() if key not in FREE)
+    for name, part in indices(summary).items():
+        before = stored.get(name, {}) if alike else {}
+        part["error"], part["unknown"] = _scaled(part, before)
+
+
+def _scaled(part, before):
+    """({FI: bar or None}, {FI: why there is none}) of a part of a search from that of the stored search, {} of another."""
+    stress = "findley_stress_max_Pa"
+    if not before or abs(part[stress] - before[stress]) > SAME * abs(before[stress]):
+        return {FI: None}, {FI: OTHER}
+    bar = before.get("error", {}).get(FI)
+    scaled = None if bar is None else abs(bar * part[FI] / before[FI])
+    return {FI: scaled}, dict(before.get("unknown", {}))

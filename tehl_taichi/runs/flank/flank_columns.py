@@ -1,0 +1,103 @@
+"""What is told of a position, a column each: for the table on the screen, the CSV file and the figure."""
+
+import csv
+import io
+from dataclasses import dataclass
+from typing import Callable
+
+from tehl_taichi.march import quantities
+from tehl_taichi.values.digits import with_error
+from tehl_taichi.values.escape import cell
+
+
+@dataclass(frozen=True)
+class TableColumn:
+    """name: with its SI unit, of the CSV file; head, factor, form: of the printed table `table`; value, error: of (position,
+    p_H, summary), None where there is none."""
+
+    name: str
+    head: str
+    factor: float
+    form: str
+    value: Callable
+    table: str
+
+    def error(self, *row):
+        return self.value.error(*row) if isinstance(self.value, _Of) else None
+
+    def shown(self, *row):
+        value, error = self.value(*row), self.error(*row)
+        if value is None or isinstance(value, str):
+            return value or ""
+        value *= self.factor
+        return format(value, self.form) if error is None else with_error(value, error * self.factor)
+
+
+def dig(summary, *keys):
+    """A value deep in a summary, None where it is not there (or where there is no summary)."""
+    for key in keys:
+        summary = (summary or {}).get(key)
+    return summary
+
+
+def error_of(summary, *keys):
+    """The error bar of a value deep in a summary, None where there is none."""
+    return dig(summary, *keys[:-1], "error", keys[-1])
+
+
+class _Of:
+    """A number of the summary, with its error bar."""
+
+    def __init__(self, *keys):
+        self.keys = keys
+
+    def __call__(self, position, p_H, summary):
+        return dig(summary, *self.keys)
+
+    def error(self, position, p_H, summary):
+        return error_of(summary, *self.keys)
+
+
+CONTACT, STEADY, PASSAGE = TABLES = ("contact", "steady film", "while the feature passes")
+TITLES = {"steady": STEADY, "transient": PASSAGE, "fatigue": PASSAGE, "fatigue.below": PASSAGE}  # of the parts of a summary
+COLUMNS = (
+    TableColumn("point", "at", 1, "", lambda at, *_: at.point, CONTACT),
+    TableColumn("x_pl_m", "x_pl mm", 1e3, ".3f", lambda at, *_: at.x_pl, CONTACT),
+    TableColumn("arc_m", "arc mm", 1e3, ".3f", lambda at, *_: at.arc, CONTACT),
+    TableColumn("R_m", "R' mm", 1e3, ".3f", lambda at, *_: at.R, CONTACT),
+    TableColumn("u_m_m_s", "u_m m/s", 1, ".3f", lambda at, *_: at.u_m, CONTACT),
+    TableColumn("srr", "SRR", 1, ".3f", lambda at, *_: at.srr, CONTACT),
+    TableColumn("load_N_m", "N/mm", 1e-3, ".1f", lambda at, *_: at.load, CONTACT),
+    TableColumn("p_Hertz_Pa", "p_H GPa", 1e-9, ".3f", lambda at, p_H, _: p_H, CONTACT),
+    *(TableColumn(one.column, one.head, one.factor, one.form, _Of(*one.part.split("."), one.key), TITLES[one.part])
+      for one in quantities.ENTRIES if one.column),
+)
+
+
+def used(rows):
+    """The columns that have a value in any of the rows, (position, p_H, summary) each."""
+    return [column for column in COLUMNS if any(column.value(*row) not in (None, "") for row in rows)]
+
+
+def tables(rows):
+    """{title: (heads, lines)} of the tables that have values, each with the positions in its first columns."""
+    columns, out = used(rows), {}
+    for title in TABLES:
+        found = [column for column in columns if column.table == title]
+        if title != CONTACT and found:
+            found = [column for column in COLUMNS[:2] if column in columns] + found
+        if found:
+            out[title] = [column.head for column in found], [[column.shown(*row) for column in found] for row in rows]
+    return out
+
+
+def csv_text(rows):
+    """The table as CSV in SI units; after that the error bars, and what a table of positions brought along."""
+    columns, more = used(rows), list(dict.fromkeys(key for at, *_ in rows for key in at.more))
+    known = [column for column in columns if any(column.error(*row) is not None for row in rows)]
+    text = io.StringIO()
+    out = csv.writer(text)
+    out.writerow(map(cell, [*(column.name for column in columns), *(f"error_{column.name}" for column in known), *more]))
+    out.writerows(map(cell, [*(column.value(*row) for column in columns), *(column.error(*row) for column in known),
+                             *(row[0].more.get(key) for key in more)]) for row in rows)
+    return text.getvalue()

@@ -1,0 +1,97 @@
+"""Film, pressure, temperature and fatigue over the flank: dedendum left of the pitch line, addendum right of it."""
+
+import os
+
+import numpy as np
+
+from tehl_taichi.disk import links
+from tehl_taichi.runs.flank.flank_columns import dig, error_of
+from tehl_taichi.view.figures import palette
+from tehl_taichi.view.figures.figure_style import drawing, made
+
+# panel: label, factor, {legend: keys in the summary}; "p_H" is the Hertz pressure
+PANELS = (("film (µm)", 1e6, {"steady, centre": ("steady", "h_c_m"), "steady, smallest": ("steady", "h_min_m"),
+                              "smallest, feature passes": ("transient", "h_min_m")}),
+          ("largest pressure (GPa)", 1e-9, {"Hertz": "p_H", "steady": ("steady", "p_max_Pa"),
+                                            "feature passes": ("transient", "p_max_Pa")}),
+          ("temperature (°C)", 1, {"film, steady": ("steady", "film_max_C"),
+                                   "film, feature passes": ("transient", "film_max_C"),
+                                   "surface a, feature passes": ("transient", "surface_a_max_C")}),
+          ("Fi", 1, {"at the surface": ("fatigue", "Fi_max"), "largest below the surface": ("fatigue", "below", "Fi_max")}),
+          ("friction coefficient", 1, {"steady": ("steady", "friction_coefficient"),
+                                       "mean, feature passes": ("transient", "friction_coefficient_mean")}),
+          ("SRR", 1, {"(u_a − u_b)/u_m": "srr"}))
+LAST = 5  # panels: friction and slip fill up what a steady or isothermal flank leaves free
+
+
+def check(folder, page):
+    """Raises StoreError where no figure could be drawn, nor written into the folder (None: a new one) of a flank to come."""
+    drawing()
+    if folder is not None and os.path.lexists(folder):
+        links.refuse(folder)
+        page.check(folder / f"flank.{page.format}", folder)
+
+
+def write(flank, path, page):
+    """Write the figure of a Flank, as the :class:`Page` wants it; returns the path."""
+    page, path = page.of_file(path)
+    if os.path.realpath(path.parent) == os.path.realpath(flank.folder):
+        links.refuse(path.parent)
+    page.check(path, flank.folder)
+    made(path.parent)
+    return page.save(lambda: _drawn(page, flank), path, of=flank.folder)
+
+
+def _drawn(page, flank):
+    shown = [panel for panel in PANELS if any(_series(flank, what) for what in panel[2].values())][:LAST]
+    figure, axes = page.figure(len(shown), sharex=True)
+    for ax, (label, factor, lines) in zip(axes[:, 0], shown):
+        _panel(ax, flank, label, factor, lines)
+    _marks(axes[:, 0], flank)
+    axes[-1, 0].set_xlabel("x_pl, along the line of action from the pitch point (mm)")
+    page.title(figure, flank.title)
+    return figure
+
+
+def _panel(ax, flank, label, factor, lines):
+    for n, (name, what) in enumerate(lines.items()):
+        if series := _series(flank, what):
+            x, y, error = np.array(series, float).T
+            error = error * factor if np.isfinite(error).any() else None
+            ax.errorbar(x * 1e3, y * factor, error, fmt=".-", color=palette.LINES[n], label=name, **palette.BARS)
+    ax.set_ylabel(label)
+    ax.grid()
+    ax.legend()
+
+
+def _series(flank, what):
+    """[(x_pl, value, its error bar or None)] of the positions that have it; nan between the two sides of a jump, where the line
+    breaks."""
+    out = []
+    for at, p_H, summary in flank.rows:
+        value = p_H if what == "p_H" else at.srr if what == "srr" else dig(summary, *what)
+        if value is None:
+            continue
+        if out and out[-1][0] == at.x_pl:
+            out.append((at.x_pl, np.nan, np.nan))
+        out.append((at.x_pl, value, error_of(summary, *what) if isinstance(what, tuple) else None))
+    return out
+
+
+def _marks(axes, flank):
+    """A to E as far as they are shown, and the dedendum shaded."""
+    low, high = axes[0].get_xlim()
+    points = flank.points or {at.point: at.x_pl for at in flank.positions if at.point}
+    shown = {name: x * 1e3 for name, x in points.items() if low <= x * 1e3 <= high}
+    for ax in axes:
+        if low < 0:
+            ax.axvspan(low, min(0.0, high), color=palette.SHADE, zorder=-2)
+        for x in shown.values():
+            ax.axvline(x, color=palette.GREY, lw=0.8, ls=":", zorder=-1)
+        ax.set_xlim(low, high)
+    small = dict(fontsize="small", color=palette.GREY, xycoords=("data", "axes fraction"), textcoords="offset points")
+    for name, x in shown.items():
+        axes[0].annotate(name, (x, 1), xytext=(3, -11), **small)
+    if low < 0 < high:
+        axes[-1].annotate("dedendum", (0, 0), xytext=(-4, 3), ha="right", **small)
+        axes[-1].annotate("addendum", (0, 0), xytext=(4, 3), **small)

@@ -1,0 +1,100 @@
+"""A whole flank: its positions, their runs, and what is told of them."""
+
+import dataclasses
+import math
+import os
+from collections.abc import Sequence
+from os import PathLike
+from pathlib import Path
+
+from tehl_taichi.errors import stopped
+from tehl_taichi.runs.flank.flank_source import flank_source
+from tehl_taichi.runs.flank.line_contacts import scene_at
+from tehl_taichi.runs.flank.mesh import Mesh
+from tehl_taichi.runs.flank.outcomes import Outcome, summaries
+from tehl_taichi.runs.flank.stored_flank import Flank, check_writable
+from tehl_taichi.runs.progress import Progress
+from tehl_taichi.scene import Scene
+from tehl_taichi.scene.aliases import settled, words
+from tehl_taichi.scene.gear_pair import GearPair
+from tehl_taichi.scene.scales import Scales
+from tehl_taichi.store.json_values import plain
+from tehl_taichi.store.load_scene import find
+from tehl_taichi.values.path_arguments import path_of
+
+ASSUMPTION = ("each position is a separate contact with constant load and speeds during the passage (a passage takes about "
+              "0.1 ms, a mesh a few ms)")
+SHARING = {"table": "of the table", "given": "gear.load_share",
+           "spur": "trapezoid: 1/3 to 2/3 from A to B, 1 from B to D, 2/3 to 1/3 from D to E",
+           "helical": "normal force over the mean length of the contact lines, b eps_alpha/cos beta_b"}
+WAITING = "it has not run yet; repeat the tehl flank command with --out to resume"
+
+
+def flank(gear: str | PathLike | GearPair = "fzg-c", *, torque: float | None = None, speed: float | None = None,
+          on: str | None = None, positions: int | None = None, at: Sequence[str | float] = (), scene: Scene | None = None,
+          changes: dict | None = None, steady: bool = False, folder: str | PathLike | None = None,
+          workers: int | None = None, threads: int | None = None, progress: Progress | None = None) -> Flank:
+    """As :func:`tehl_taichi.flank`."""
+    found, scene = flank_source(gear).changed(torque, speed), None if scene is None else find(scene)
+    changes = _settled(changes or {}, steady)
+    places = found.positions(on, positions, at)
+    scenes = [scene_at(scene or found.scene, changes, found.name, n, place) for n, place in enumerate(places, 1)]
+    folder = path_of("folder", folder) if folder else fresh(found.name)
+    check_writable(folder)
+    subject = about(found, folder, (on or "pinion") if found.pair else "")
+    outcomes = [Outcome(folder / f"{one.name}.zarr", reason=WAITING) for one in scenes]
+    try:
+        for n, outcome in summaries(scenes, folder, workers, threads, progress):
+            outcomes[n] = outcome
+            whole = Flank(folder, flank_record(subject, places, scenes, outcomes))
+            whole.write()
+    except KeyboardInterrupt as stop:
+        done = sum(outcome.reason != WAITING for outcome in outcomes)
+        raise KeyboardInterrupt(f"{stopped(stop)} after {done} of {len(scenes)} positions; repeat the tehl flank command with "
+                                f"--out {folder} to resume") from None
+    return whole
+
+
+def _settled(changes, steady):
+    """{full key: value} of all that is changed. Raises SceneError where steady and a change contradict each other."""
+    return settled([*((words(key, value), key, value) for key, value in changes.items()),
+                    *[("steady = True", "time.steady_only", True)] * steady])
+
+
+def flank_record(subject, places, scenes, outcomes):
+    """The JSON object of a flank: what it is :func:`about`, and its positions with their scenes and outcomes."""
+    return plain({**subject, "positions": [_position(*one) for one in zip(places, scenes, outcomes)]})
+
+
+def about(found, folder, on):
+    """What a flank says of itself; found: as :func:`flank_source` gives it; on: whose flank, "" of a table."""
+    return {"name": found.name, "folder": str(folder), "assumption": ASSUMPTION, "load_sharing": _sharing(found.pair),
+            "geometry": _geometry(found.pair, on) if found.pair else {"table": found.source}}
+
+
+def _sharing(pair):
+    """How the load is shared, in words."""
+    return SHARING["table" if not pair else "given" if pair.load_share else "helical" if pair.beta else "spur"]
+
+
+def _geometry(pair, on):
+    mesh, sign = Mesh(pair), -1 if on == "gear" else 1
+    return {**dataclasses.asdict(pair), "on": on, "alpha_w_deg": math.degrees(mesh.alpha_w), "d_a1": mesh.d_a(1),
+            "d_a2": mesh.d_a(2), "eps_alpha": mesh.eps_alpha, "p_bt_m": mesh.p_bt, "s_C_m": mesh.rho_C(1),
+            "rho_C1_m": mesh.rho_C(1), "rho_C2_m": mesh.rho_C(2), "u_C_m_s": mesh.speeds(0.0)[0], "F_bt_N": mesh.F_bt,
+            "points_x_pl_m": {name: sign * x + 0.0 for name, x in mesh.points.items()}}
+
+
+def _position(at, scene, outcome):
+    return {"point": at.point, "x_pl_m": at.x_pl, "arc_m": at.arc, "rho_a_m": at.rho_a, "rho_b_m": at.rho_b, "R_m": at.R,
+            "u_a_m_s": at.u_a, "u_b_m_s": at.u_b, "srr": at.srr, "load_N_m": at.load, "p_Hertz_Pa": Scales.of(scene).p_H,
+            **at.more, "store": str(outcome.store), "converged": outcome.summary is not None, "reason": outcome.reason,
+            "summary": outcome.summary}
+
+
+def fresh(name):
+    """The first of runs/NAME-1, runs/NAME-2 ... that does not exist."""
+    n = 1
+    while os.path.lexists(folder := Path("runs") / f"{name}-{n}"):
+        n += 1
+    return folder

@@ -1,0 +1,94 @@
+"""A flank by whatever names it: a built-in pair, a TOML file, a table (CSV), or a GearPair."""
+
+import dataclasses
+from dataclasses import dataclass
+
+from tehl_taichi.errors import SceneError
+from tehl_taichi.runs.flank import load_table, positions
+from tehl_taichi.runs.flank.mesh import Mesh
+from tehl_taichi.scene import scene, toml_file
+from tehl_taichi.scene.description import Scene
+from tehl_taichi.scene.gear_pair import PAIRS, GearPair, gear_pair
+from tehl_taichi.values.checks import build, file_name, nearest
+from tehl_taichi.values.coerce import shown
+from tehl_taichi.values.file_ending import ending
+from tehl_taichi.values.path_arguments import path_of
+
+KEYS = ("name", "base", "gear", "table", "scene")
+SCENE = "gear"  # built-in scene that gives oil, bodies, feature and numerics where none is named
+
+
+@dataclass(frozen=True)
+class FlankSource:
+    """name: of the stores; pair: its gears, or None with the rows of a table; scene: everything but contact and speeds."""
+
+    name: str
+    scene: Scene
+    pair: GearPair | None = None
+    table: tuple = ()
+    source: str = ""
+
+    def __post_init__(self):
+        file_name("name", self.name)
+
+    def changed(self, torque=None, speed=None):
+        """With another torque (N m) and speed (1/min) of the pinion. Raises SceneError."""
+        given = {key: value for key, value in (("torque", torque), ("n1", speed)) if value is not None}
+        if given and not self.pair:
+            raise SceneError(f"{self.name} is a table with its own loads and speeds; torque and speed apply to gear pairs only")
+        return dataclasses.replace(self, pair=dataclasses.replace(self.pair, **given)) if given else self
+
+    def positions(self, on=None, count=None, at=()):
+        """Positions on the flank of `on` (pinion unless told): see :func:`tehl_taichi.runs.flank.positions.along`. A table has
+        its own. Raises SceneError."""
+        if count is not None and at:
+            raise SceneError(f"positions = {shown(count)} and at = {shown(list(at))} contradict each other: give one of them")
+        if self.pair:
+            return positions.along(Mesh(self.pair), on or "pinion", 9 if count is None else count, at)
+        for word, value in (("on", on), ("positions", count), ("at", at or None)):
+            if value is not None:
+                raise SceneError(f"{word} = {shown(value)} has no effect: the rows of a table define the positions, and body a "
+                                 "carries the feature")
+        return list(self.table)
+
+
+def flank_source(what):
+    """The Described behind a name, a path or a GearPair. Raises SceneError."""
+    if isinstance(what, GearPair):
+        return FlankSource("flank", scene(SCENE), what)
+    if isinstance(what, str) and what in PAIRS:
+        return FlankSource(what, scene(SCENE), gear_pair(what), source=PAIRS[what][1])
+    path = path_of("gear", what)
+    if ending(path) == ".csv":
+        return FlankSource(path.stem, scene(SCENE), table=tuple(load_table.load(path)), source=str(what))
+    if ending(path) == ".toml" or path.exists():
+        return _from_file(path)
+    return FlankSource(str(what), scene(SCENE), gear_pair(str(what)))
+
+
+def _from_file(path):
+    """keys: name; gear (a table, with `base` a built-in pair for what is not given) or table (a CSV file); scene (a built-in
+    one or a scene file); files beside this one."""
+    from tehl_taichi.store.load_scene import find
+
+    data = toml_file.read(path, "flank")
+    for key in data:
+        if key not in KEYS:
+            raise SceneError(f"unknown key {shown(key)} in {path}{nearest(key, KEYS)}; known: {', '.join(KEYS)}")
+    if ("table" in data) == bool({"gear", "base"} & data.keys()):
+        raise SceneError(f"{path} needs either a gear pair ([gear], base) or a table = \"file.csv\"")
+    named = _text(data, "scene", SCENE)
+    beside = path.parent / named
+    given = dict(name=data.get("name", path.stem), scene=find(str(beside) if beside.is_file() else named), source=str(path))
+    if "table" in data:
+        return FlankSource(**given, table=tuple(load_table.load(path.parent / _text(data, "table"))))
+    base = dataclasses.asdict(gear_pair(_text(data, "base"))) if "base" in data else {}
+    gear = data.get("gear", {})
+    return FlankSource(**given, pair=build(GearPair, {**base, **gear} if isinstance(gear, dict) else gear, "gear"))
+
+
+def _text(data, key, default=""):
+    value = data.get(key, default)
+    if not isinstance(value, str):
+        raise SceneError(f"{key} = {shown(value)} must be text")
+    return value

@@ -1,0 +1,68 @@
+"""The scene of a position: the line contact there, everything else from the scene of the flank."""
+
+import math
+
+from tehl_taichi.errors import SceneError
+from tehl_taichi.scene import hertz
+from tehl_taichi.scene.aliases import BY_SURFACE, full_name
+from tehl_taichi.scene.scales import reduced_modulus
+
+AROUND = 2.0  # domain along y over the reach of the features: the contact is narrower towards A and E, the feature is not
+SPARE = 1.2  # gap at the ends of the domain over the height of the features, which enter and leave there
+
+
+def scene_at(base, changes, name, n, position):
+    """The scene of a position, the n-th of a flank called `name`: `base` with `changes` (as Scene.replace takes them) and the
+    contact there. Raises SceneError that says where.
+
+    Temperatures are computed at all positions unless switched off: rolling at the pitch point is in the same table then.
+    """
+    try:
+        given = {full_name(key): value for key, value in changes.items()}
+        _check_free(given)
+        plain = _without_passage(base, given)
+        room = {} if given.get("time.steady_only", base.time.steady_only) else _room(plain, position)
+        return base.replace(**{**_own(plain, name, n, position), **given, **room})
+    except SceneError as error:
+        raise SceneError(f"position {where(position)}: {error}") from None
+
+
+def _check_free(given):
+    for key in given:
+        if key.startswith("contact.") or key in ("operation.u_m", "operation.srr", *BY_SURFACE):
+            raise SceneError(f"{key} has no effect: the gears or the table set it at every position")
+
+
+def _without_passage(base, given):
+    """The changed scene before anything of its features is checked, which depends on the contact."""
+    return base.replace(**{key: value for key, value in given.items() if key != "time.steps"} | {"time.steady_only": True})
+
+
+def _own(plain, name, n, position):
+    """What a position says of its scene."""
+    return {"name": store_name(name, n, position), "contact.kind": "line", "contact.radius_y": math.inf,
+            "contact.radius_x": position.R, "contact.load": position.load, "operation.u_m": position.u_m,
+            "operation.srr": position.srr, "thermal.on": plain.thermal.on is not False}
+
+
+def _room(plain, position):
+    """A domain that features fit into which are large beside this contact: where it ends along x the gap is higher than they
+    are, along y it is wider."""
+    if not plain.features:
+        return {}
+    a, _ = hertz.line(position.load, position.R, reduced_modulus(plain))
+    end = hertz.gap_reaches(SPARE * max(f.top for f in plain.features) * position.R / a**2)
+    reach, grid = max(abs(f.y) + f.reach_y for f in plain.features), plain.grid
+    side = min(AROUND * reach / a, 20.0) if math.isfinite(reach) else 0.0
+    ends = {"grid.x_min": (-end, end), "grid.x_max": (end, end), "grid.y_max": (side, side)}
+    return {key: value for key, (value, far) in ends.items() if far > abs(getattr(grid, key.partition(".")[2]))}
+
+
+def store_name(name, n, position):
+    """As in fzg-c-03-C: a name that folders can have."""
+    return f"{name}-{n:02d}" + (f"-{position.point}" if position.point else "")
+
+
+def where(position):
+    """A position in words."""
+    return f"{position.point}{' ' * bool(position.point)}(x_pl = {position.x_pl * 1e3:.4g} mm)"

@@ -1,0 +1,77 @@
+"""Positions from the table of a loaded tooth contact analysis (CSV)."""
+
+import csv
+import io
+import math
+from pathlib import Path
+
+from tehl_taichi.disk import files
+from tehl_taichi.errors import SceneError
+from tehl_taichi.runs.flank.positions import Position
+from tehl_taichi.values.checks import nearest
+from tehl_taichi.values.quantity import Number
+from tehl_taichi.values.unit_hints import meant
+
+RADIUS, SPEED = Number("", "mm", 0.1, 1e6, usual=20.0), Number("", "m/s", 0.0, 1e3, usual=10.0)
+# column: (factor to SI, its declaration)
+NEEDED = {"x_pl_mm": (1e-3, Number("", "mm", -1e3, 1e3, usual=5.0)), "R_a_mm": (1e-3, RADIUS), "R_b_mm": (1e-3, RADIUS),
+          "load_N_per_mm": (1e3, Number("", "N/mm", 1e-3, 1e5, usual=300.0)), "u_a_m_s": (1.0, SPEED), "u_b_m_s": (1.0, SPEED)}
+SHORTEST = 0.02  # mm, of the farthest way of a flank
+POINT = "point"  # column with A to E, where there is one
+MOST = 1000  # rows
+
+
+def load(path):
+    """Positions of a CSV file with the columns of NEEDED, dedendum of body a (x_pl < 0) first; other columns are kept in
+    `more`, a column `point` names positions. Raises SceneError."""
+    path = Path(path)
+    try:
+        with io.StringIO(files.content(path).decode("utf-8-sig"), newline="") as file:
+            rows = csv.DictReader(file, skipinitialspace=True)
+            found = [_position(path, n, row) for n, row in enumerate(_complete(path, rows), 2)]
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise SceneError(f"cannot read table {path}: {getattr(error, 'strerror', None) or error}") from None
+    if not 1 <= len(found) <= MOST:
+        raise SceneError(f"table {path} has {len(found)} rows; allowed: 1 to {MOST}")
+    _check_ways(path, found)
+    return sorted(found, key=lambda p: p.x_pl)
+
+
+def _check_ways(path, found):
+    """Refuse ways that are nothing beside any tooth: they were meant in another unit. Raises SceneError."""
+    way = max(found, key=lambda p: abs(p.x_pl)).x_pl * 1e3
+    if 0 < abs(way) < SHORTEST:
+        raise SceneError(f"table {path}: x_pl_mm = {way:g} mm is the largest distance from the pitch point, too small for a "
+                         f"tooth{meant(way, 'mm', lambda other: SHORTEST <= abs(other) <= 1e3, NEEDED['x_pl_mm'][1].usual)}")
+
+
+def _complete(path, rows):
+    """The rows, once their header is seen to have every needed column."""
+    names = [name.strip() for name in rows.fieldnames or ()]
+    if twice := sorted({name for name in names if name and names.count(name) > 1}):
+        raise SceneError(f"table {path} has the column {twice[0]} twice; remove one of them")
+    missing = [name for name in NEEDED if name not in names]
+    if missing:
+        told = ", ".join(f"{name}{nearest(name, [n for n in names if n not in NEEDED])}" for name in missing)
+        raise SceneError(f"table {path} has no column {told}; needed: {', '.join(NEEDED)}")
+    rows.fieldnames = names
+    return rows
+
+
+def _position(path, n, row):
+    SI = {name: _value(f"table {path}, row {n}: {name}", row[name], *limits) for name, limits in NEEDED.items()}
+    if SI["u_a_m_s"] + SI["u_b_m_s"] == 0:
+        raise SceneError(f"table {path}, row {n}: u_a_m_s and u_b_m_s are both 0 m/s: without entrainment there is no film")
+    more = {name: value for name, value in row.items() if name and name not in (*NEEDED, POINT)}
+    return Position(x_pl=SI["x_pl_mm"], rho_a=SI["R_a_mm"], rho_b=SI["R_b_mm"], u_a=SI["u_a_m_s"], u_b=SI["u_b_m_s"],
+                    load=SI["load_N_per_mm"], slip=SI["u_a_m_s"] - SI["u_b_m_s"], point=(row.get(POINT) or "").strip(),
+                    more=more)
+
+
+def _value(where, text, factor, declared):
+    try:
+        value = float(text)
+    except (TypeError, ValueError):
+        raise SceneError(f"{where} = {text!r} is not a number; allowed: {declared.allowed} {declared.unit}") from None
+    declared.check(where, value if math.isfinite(value) else math.nan)
+    return value * factor

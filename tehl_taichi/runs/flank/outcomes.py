@@ -1,0 +1,108 @@
+"""The scenes of a flank as jobs of the pool, side by side or here; what their stores hold already is taken from there."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from tehl_taichi.errors import StoreError
+from tehl_taichi.runs import single_run
+from tehl_taichi.runs.progress import Progress
+from tehl_taichi.runs.single_run import check_version
+from tehl_taichi.runs.sweep import case, pool
+
+STAGE = "positions"
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """summary: as `tehl run --json`, None where there is none; reason: why not; store: its path."""
+
+    store: Path
+    summary: dict | None = None
+    reason: str = ""
+
+
+def summaries(scenes, folder, workers=None, threads=None, progress=None):
+    """Generator of (number of the scene, its Outcome) as they end, each with a store NAME.zarr in `folder`.
+
+    A scene that does not converge, or loses its worker twice, does not stop the others. A store that is there already is gone
+    on with. workers, threads: as :func:`tehl_taichi.runs.sweep.pool.sizes`. Raises StoreError where a store is of another
+    scene; KeyboardInterrupt leaves what is stored.
+    """
+    places = [(scene, Path(folder) / f"{scene.name}.zarr") for scene in scenes]
+    done = {n: outcome for n, place in enumerate(places) if (outcome := _before(*place))}
+    todo = [n for n in range(len(places)) if n not in done]
+    workers, threads = pool.sizes(workers, threads, jobs=len(todo))
+    pool.check(workers, threads)
+    yield from done.items()
+    progress = progress or Progress()
+    yield from _run(places, todo, workers, threads, progress)
+    progress.stage(STAGE, len(places), len(places))
+
+
+def _before(scene, path):
+    """The Outcome that a finished store has, None where the scene has to run. Raises StoreError."""
+    if not path.exists():
+        return None
+    stored = single_run.open(path)
+    check_version(path, stored)
+    if stored.scene != scene:
+        raise StoreError(f"{path} holds another scene ({stored.scene.name} with other values); choose another folder")
+    return Outcome(path, stored.summary) if stored.finished else None
+
+
+def _run(places, todo, workers, threads, progress):
+    """Generator of what :func:`summaries` yields of the scenes that have to run."""
+    alone, count = workers == 1, len(places)
+    jobs = (case.CaseJob(places[n][0], str(places[n][1].absolute()), threads, shared=not alone) for n in todo)
+    work = _Here(progress, len(todo)) if alone else case.work
+    if not alone:
+        progress.say(f"{len(todo)} positions on {workers} workers")
+    for ended, (place, answer) in enumerate(pool.results(work, jobs, workers=workers), count - len(todo)):
+        n = todo[place]
+        scene, path = places[n]
+        outcome = _outcome(path, answer)
+        if not alone:
+            _report(progress, scene, outcome, f"{ended + 1} of {count}")
+        progress.stage(STAGE, ended + 1, count)
+        yield n, outcome
+
+
+def _outcome(path, answer):
+    if isinstance(answer, pool.LostJob):
+        return Outcome(path, reason=answer.reason)
+    return Outcome(path, answer["summary"], answer["reason"])
+
+
+def _report(progress, scene, outcome, which):
+    """What another process could tell nobody."""
+    progress.say(f"{which}: {scene.name}: {outcome.reason or 'done'}")
+    for sentence in scene.warnings():
+        progress.warn(f"{scene.name}: {sentence}")
+
+
+class _Here:
+    """Works in this process and lets the listener hear of each run."""
+
+    def __init__(self, progress, count):
+        self.progress, self.count, self.n = progress, count, 0
+
+    def __call__(self, job):
+        self.n += 1
+        self.progress.say(f"{self.n} of {self.count}: {job.scene.name}")
+        return case.work(job, _Named(self.progress, job.scene.name))
+
+
+class _Named(Progress):
+    """Passes on what one of many runs tells: its stages and steps, and its warnings with its name."""
+
+    def __init__(self, listener, name):
+        self.listener, self.name = listener, name
+
+    def warn(self, sentence):
+        self.listener.warn(f"{self.name}: {sentence}")
+
+    def step(self, snapshot):
+        self.listener.step(snapshot)
+
+    def stage(self, name, done, total):
+        self.listener.stage(name, done, total)

@@ -1,0 +1,106 @@
+"""What a run tells while it works: the protocol, silent as it stands, and one that prints lines."""
+
+import contextlib
+import sys
+import time
+
+from tehl_taichi.runs.pace import Pace
+
+STEADY, PASSAGE, FATIGUE, ERRORS = STAGES = ("steady start", "passage", "stresses and fatigue", "coarse-grid runs")
+LATE = FATIGUE, ERRORS  # stages after the last step, of minutes on fine grids
+TOLD = 0.1  # of such a stage, from which on the time left is told: its first parts, tables, take longer than the others
+
+
+class Progress:
+    """Receives the progress of a run and ignores it; derive from it and override what you need.
+
+    Every method is called in the thread that runs; an exception in one of them ends the run like Ctrl-C.
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> class Bar(tehl.Progress):
+    ...     def stage(self, name, done, total):
+    ...         print(f"{name} {done}/{total}")
+    >>> Bar().stage("passage", 3, 192)
+    passage 3/192
+    """
+
+    def say(self, text):
+        """A sentence about what is done: what the scene leaves out, what was read, what comes next."""
+
+    def warn(self, sentence):
+        """What is doubtful in the scene, known before the run (those of its results are in :attr:`Run.warnings`)."""
+
+    def stage(self, name, done, total):
+        """`done` of `total` parts of a stage (one of STAGES) are through; it begins with done = 0, a resumed passage with the
+        steps that are stored."""
+
+    def step(self, snapshot):
+        """An accepted time step, a :class:`tehl_taichi.march.snapshot.Snapshot`, right after its stage."""
+
+
+class Lines(Progress):
+    """Prints progress as lines: messages at once, steps and parts of later stages every few seconds, with the time left.
+
+    Parameters
+    ----------
+    stream : file, optional
+        Where to print; default: stderr.
+
+    Examples
+    --------
+    >>> import sys
+    >>> import tehl_taichi as tehl
+    >>> tehl.Lines(sys.stdout).warn("passage cut at -1.37 a")
+    warning: passage cut at -1.37 a
+    """
+
+    EVERY = 5.0  # seconds between the lines of steps and parts
+
+    def __init__(self, stream=None):
+        self.stream, self.total, self.last, self.pace, self.yielded = stream, 0, time.perf_counter(), Pace(), False
+
+    def say(self, text):
+        with contextlib.suppress(BrokenPipeError):  # a run goes on where nobody reads it
+            print(text, file=self.stream or sys.stderr, flush=True)
+
+    def warn(self, sentence):
+        self.say(f"warning: {sentence}")
+
+    def stage(self, name, done, total):
+        if name == PASSAGE:
+            self.total = total
+            self.pace.at(done)
+        elif name in LATE:
+            self.pace.at(done)
+            share = done / total if total else 1.0  # companions may all be refused
+            left = self.pace.left(total) if share >= TOLD else ""
+            self._say_at_intervals(f"{name}: {share:.0%}{f', {left}' if left else ''}")
+
+    def step(self, snapshot):
+        self.beyond_steel(snapshot)
+        left = self.pace.left(self.total)
+        self._say_at_intervals(f"step {snapshot.step}/{self.total}  {line(snapshot)}{f'  {left}' if left else ''}")
+
+    def beyond_steel(self, snapshot):
+        """Say it once, as soon as a pressure is more than steel bears: whoever waits may want to stop."""
+        from tehl_taichi.scene.yield_pressure import STEEL, YIELDS
+
+        p = snapshot.scalars["p_max_Pa"]
+        if p > YIELDS and not self.yielded:
+            self.yielded = True
+            self.say(f"step {snapshot.step}: p_max {p / 1e9:.2f} GPa; {STEEL}, and both bodies are elastic here. The run "
+                     "continues (Ctrl-C stops it). Reduce the load, or set feature.cutoff for a rough scan")
+
+    def _say_at_intervals(self, text):
+        if time.perf_counter() - self.last > self.EVERY:
+            self.last = time.perf_counter()
+            self.say(text)
+
+
+def line(snapshot):
+    """The numbers of a step that are worth a line."""
+    s = snapshot.scalars
+    return (f"p_max {s['p_max_Pa'] / 1e9:.3f} GPa  h_min {s['h_min_m'] * 1e6:.4f} um  residual {s['residual']:.0e}  "
+            f"cycles {s['cycles']:.0f}" + (f"  film {s['film_max_C']:.0f} °C" if "film_max_C" in s else ""))

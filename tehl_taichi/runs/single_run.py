@@ -1,0 +1,247 @@
+"""One whole run: steady start, passage, stresses and fatigue, error bars, summary, all into a store; and going on with one."""
+
+import contextlib
+import functools
+import json
+import time
+from os import PathLike
+from pathlib import Path
+
+from tehl_taichi.errors import StoreError, stopped
+from tehl_taichi.runs.progress import ERRORS, PASSAGE, STEADY, Progress
+from tehl_taichi.runs.stored_run import Run
+from tehl_taichi.scene import Scene
+from tehl_taichi.store.load_scene import find
+from tehl_taichi.values.coded_warning import texts
+from tehl_taichi.values.path_arguments import folder_of, path_of
+
+
+def run(scene: Scene | str | PathLike, path: str | PathLike | None = None, *, force: bool = False, threads: int | None = None,
+        arch: str = "cpu", progress: Progress | None = None) -> Run:
+    """As :func:`tehl_taichi.run`."""
+    return _run(find(scene), path, force, threads, arch, progress or Progress())
+
+
+def _run(scene, path, force, threads, arch, progress, case=False):
+    """As :func:`run`; case: the store is part of a study or a flank and lies in it."""
+    began = time.perf_counter()
+    from tehl_taichi.engine import runtime
+    from tehl_taichi.scene import memory_demand
+    from tehl_taichi.store.store_draft import CaseDraft, StoreDraft
+
+    runtime.check(arch, threads)
+    path = None if path is None else path_of("path", path)
+    memory_demand.check(scene)
+    place = (CaseDraft(path) if case else StoreDraft(path, force) if path is not None
+             else StoreDraft.fresh(Path("runs"), scene.name))
+    with place, _stoppable(place.path, place):
+        runtime.start_or_join(arch, threads)
+        return _begin(scene, place, _Clock(began), progress)
+
+
+def open(path: str | PathLike) -> Run:
+    """The run in the store at `path`: finished, running or broken off. Raises StoreError where there is none, or a damaged
+    one."""
+    from tehl_taichi.store.store import Store
+
+    return Run(Store.open(folder_of(path)))
+
+
+def resume(path: str | PathLike, *, steps: int | None = None, threads: int | None = None,
+           progress: Progress | None = None) -> Run:
+    """As :func:`tehl_taichi.resume`."""
+    began = time.perf_counter()
+    from tehl_taichi.engine import runtime
+    from tehl_taichi.values.checks import integer
+
+    if steps is not None:
+        integer("steps", steps, 1, 10**7)
+    before, progress = open(path), progress or Progress()
+    path = before.path
+    rest = before.rest(steps)
+    if rest is None:
+        return before
+    runtime.check(threads=threads)
+    return _continue(path, rest, threads, began, progress)
+
+
+def completed(scene: Scene, path: str | PathLike, *, threads: int | None = None, progress: Progress | None = None) -> Run:
+    """The finished run of `scene` in the store at `path`: as it lies there, gone on with, or run now.
+
+    Raises StoreError where the store there is of another scene, and what :func:`run` and :func:`resume` raise.
+    """
+    from tehl_taichi.store.integrity import is_store
+
+    if not is_store(path):
+        return _run(scene, path, False, threads, "cpu", progress or Progress(), case=True)
+    there = open(path)
+    check_version(path, there)
+    if there.scene != scene:
+        raise StoreError(f"{path} holds a run of another scene; choose another folder or remove it")
+    return there if there.finished else resume(path, threads=threads, progress=progress)
+
+
+def check_version(path, run):
+    """Refuse a run of another version as part of what this one computes. Raises StoreError."""
+    if run.store.other_version:
+        raise StoreError(f"{path} was {run.store.other_version}: results of two versions are not mixed; choose another folder "
+                         "or remove it")
+
+
+def _continue(path, scene, threads, began, progress):
+    """Go on with the store at `path` to the end of `scene`."""
+    from tehl_taichi.engine import runtime
+    from tehl_taichi.scene import memory_demand
+    from tehl_taichi.store.store import Store
+
+    memory_demand.check(scene)
+    with _stoppable(path), Store.write(path) as saved:
+        steady = {name: saved.needed(name) for name in ("steady_error", "steady_unknown")}
+        steady |= {name: saved.known(name) for name in ("steady_parts", "steady_domain")}
+        runtime.start_or_join(threads=threads)
+        state = saved.go_back()
+        clock = _Clock(began, _spent(saved))
+        if scene != saved.scene:
+            saved.extend(scene)
+        return _finish(saved, state, steady, clock, progress)
+
+
+def _spent(saved):
+    """Seconds that a store took so far: as its run's end told them, else the steps that it keeps, with the steady start."""
+    return saved.summary.get("wall_s", float(saved.scalar("wall_s").sum()))
+
+
+def _begin(scene, place, clock, progress):
+    """The steady start into a new store, and all that follows."""
+    from tehl_taichi.march.passage import march
+    from tehl_taichi.runs.provenance import provenance
+    from tehl_taichi.scene.timeline import most_steps
+    from tehl_taichi.store.json_values import plain
+    from tehl_taichi.store.store import Store
+
+    _announce(scene, progress)
+    progress.stage(STEADY, 0, 1)
+    first = next(march(scene))
+    progress.stage(STEADY, 1, 1)
+    if first.unsettled:
+        progress.warn(f"{first.unsettled}; the passage starts from an unsteady state")
+    steady = {"steady_error": plain(first.error), "steady_unknown": first.unknown, "steady_parts": plain(first.parts),
+              "steady_domain": first.domain.values()}
+    attrs = {**texts(scene.warnings()), **{name: json.dumps(value) for name, value in steady.items()},
+             **provenance(scene)}
+    with Store.create(place, scene, first, most_steps(scene) + 1, attrs) as saved:
+        return _finish(saved, saved.go_back(), steady, clock, progress)
+
+
+def _announce(scene, progress):
+    from tehl_taichi.scene.scene_warnings import preview
+
+    for said in (*(f"left out: {what}" for what in scene.left_out(cut=False)), *preview(scene)):
+        progress.say(said)
+    for sentence in scene.warnings():
+        progress.warn(sentence)
+
+
+def _finish(saved, state, steady, clock, progress):
+    """From a state of the store to its summary."""
+    from tehl_taichi.fatigue.pressure_alone import why_none
+    from tehl_taichi.march.accuracy import coarse_runs
+    from tehl_taichi.march.accuracy.domain_error import DomainError
+    from tehl_taichi.runs import background_errors
+    from tehl_taichi.runs.summary.summary import summarise
+
+    with background_errors.background_answers(saved.scene) as begun:
+        _march(saved, state, progress)
+        until = _resolved(saved)
+        told = begun(until)
+        fatigue, maps = _fatigue(saved, until, progress)
+        sure = fatigue if fatigue and not why_none(fatigue) else None
+        domain = DomainError.from_values(steady["steady_domain"])
+        notify = functools.partial(progress.stage, ERRORS)
+        passage = coarse_runs.errors(saved.scene, saved, sure, lambda: told(notify), domain)
+    saved.finish(summarise(saved, {**clock.times(), **steady, **passage}, fatigue), maps)
+    return Run(saved)
+
+
+class _Clock:
+    """Time since a run began (s), with what earlier pieces of it took (`spent`), what of it went into kernels, launches that
+    lost a worker; made when Taichi runs."""
+
+    def __init__(self, began, spent=0.0):
+        from tehl_taichi.engine.taichi_patches.prebound import binding_seconds
+        from tehl_taichi.engine.task_pool import crowding
+
+        self.began, self.bound, self.crowding = began - spent, binding_seconds, crowding
+        self.before = binding_seconds(), crowding()
+
+    def times(self):
+        bound, crowded = self.before
+        return {"wall_s": time.perf_counter() - self.began, "compile_s": self.bound() - bound,
+                "crowding": (self.crowding() - crowded).tolist()}
+
+
+def _march(saved, state, progress):
+    from tehl_taichi.runs.recorder import march_on
+    from tehl_taichi.scene.timeline import total_steps
+
+    total = total_steps(saved.scene)
+
+    def notify(snapshot):
+        progress.stage(PASSAGE, snapshot.step, total)
+        progress.step(snapshot)
+
+    progress.stage(PASSAGE, saved.last_step, total)
+    march_on(saved, state, notify)
+
+
+def _searched(saved):
+    """Whether there is a fatigue search."""
+    return saved.scene.has_fatigue and saved.steps >= 3
+
+
+def _resolved(saved):
+    """Up to where the index is told apart, for pressures that the grid does not resolve later; None: nowhere."""
+    from tehl_taichi.march.accuracy import coarse_runs
+
+    return coarse_runs.resolved(saved.scene, saved, saved.scalar) if _searched(saved) else None
+
+
+def _fatigue(saved, until, progress):
+    """(summary, maps) of the fatigue search, None twice where there is none."""
+    from tehl_taichi.runs.stored_fatigue import assessed
+
+    if not _searched(saved):
+        return None, None
+    progress.say("stresses and Findley search")
+    result = assessed(saved, saved.scene, progress, until)
+    return result.summary, result.maps
+
+
+@contextlib.contextmanager
+def _stoppable(path, place=None):
+    """Ctrl-C (or the signal that its text names) anywhere inside says what is stored at `path`."""
+    try:
+        yield
+    except KeyboardInterrupt as stop:
+        if place and not place.published:
+            raise KeyboardInterrupt(f"{stopped(stop)} before anything was stored") from None
+        raise KeyboardInterrupt(stopped(stop) + _what_is_left(path)) from None
+
+
+def _what_is_left(path):
+    try:
+        left = open(path)
+    except StoreError:
+        return f"; {path} can no longer be read"
+    if left.finished:
+        return f"; {path} is finished"
+    return f" after {left.store.last_step} steps{_missing(left)}; resume with: tehl resume {path}"
+
+
+def _missing(left):
+    """What a whole passage still lacks, in words."""
+    from tehl_taichi.scene.timeline import total_steps
+
+    if left.store.last_step < total_steps(left.scene):
+        return ""
+    return ", the whole passage; stresses and errors are missing" if left.scene.has_fatigue else ""

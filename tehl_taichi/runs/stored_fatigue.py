@@ -1,0 +1,15 @@
+"""The fatigue of a stored passage, as far as its tractions allow an index."""
+
+from dataclasses import replace
+
+from tehl_taichi.fatigue import fatigue
+from tehl_taichi.fatigue.pressure_alone import WITHOUT, without_index
+from tehl_taichi.runs.summary.film_warnings import no_index
+
+
+def assessed(store, scene, progress=None, until=None, threads=None):
+    """:class:`tehl_taichi.fatigue.assessment.FatigueResult` of a stored passage by the constants of `scene`; of the pressure
+    alone where the film has more shear than any oil. progress, until, threads: as of :func:`tehl_taichi.fatigue`."""
+    why = no_index(store) if scene.fatigue.shear else ""
+    found = fatigue(store, scene.replace(**WITHOUT) if why else scene, progress=progress, threads=threads, until=until)
+    return replace(found, summary=without_index(found.summary, why)) if why else found

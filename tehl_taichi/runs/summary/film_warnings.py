@@ -1,0 +1,125 @@
+"""What is doubtful in the film and the pressure of a stored run: friction, peaks and ripples; functions of (store, summary)
+that give their sentences."""
+
+import numpy as np
+
+from tehl_taichi.fatigue.pressure_alone import searched
+from tehl_taichi.march.accuracy import readings
+from tehl_taichi.march.accuracy.peaks import peak, ripple, sharpest
+from tehl_taichi.scene import refinement
+from tehl_taichi.scene.feature_wording import where
+from tehl_taichi.scene.scales import Scales
+from tehl_taichi.values.coded_warning import with_data
+
+MOST_FRICTION = 0.2  # of a film: no oil is known to bear more than about 0.12 of the pressure, traction fluids included
+MOST_RIPPLE = 0.005  # of the largest pressure: a tenth of what a passing feature changes, ten times what resolved passages show
+NO_VALUE = "oil without a shear limit has no finite value here; use --thermal or a limiting law (rheology.law)"
+
+
+def too_much_friction(store):
+    """["when value", ...] where the friction coefficient of the film alone is beyond that of any oil: the least that it may be,
+    as solid contact has at most the coefficient that the scene gives it."""
+    film = store.scalar("friction_coefficient") - store.scene.rheology.mu_boundary * store.scalar("contact_load_fraction")
+    parts = ("steady", slice(0, 1)), ("in the passage up to", slice(1, None))
+    return [f"{when} {film[part].max():.3g}" for when, part in parts if film[part].size and film[part].max() > MOST_FRICTION]
+
+
+def no_index(store):
+    """Why no index of fatigue follows from the tractions of a run, "" where one does."""
+    found = too_much_friction(store)
+    return (f"the friction coefficient of the film ({', '.join(found)}) is more than {MOST_FRICTION:g}, which no oil reaches"
+            if found else "")
+
+
+def friction(store, summary):
+    """Shear that no oil has."""
+    rheology, found = store.scene.rheology, too_much_friction(store)
+    if found:
+        law = (f"a Newtonian film (rheology.law = {rheology.law}) has no limit; its film is valid, its friction is not"
+               if not rheology.thins else f"the constants of the law {rheology.law!r} allow this")
+        text = f"the friction coefficient ({', '.join(found)}) is more than {MOST_FRICTION:g}, which no oil reaches: {law}"
+        most = float(store.scalar("friction_coefficient").max())
+        yield with_data(text + _follow(store.scene, summary), friction_coefficient_max=most, limit=MOST_FRICTION)
+
+
+def _follow(scene, summary):
+    """What follows from such a shear, in words: it loads the surface, and heats the film."""
+    said = ["the fatigue index is that of the pressure alone"] * ("fatigue" in summary and scene.fatigue.shear)
+    said += ["the temperatures that follow have no meaning"] * (not scene.isothermal)
+    return f"; {' and '.join(said)}" if said else ""
+
+
+def unresolved(store, summary):
+    """Of the steady state, and of the moment with the largest pressure of the passage, unless grids together know it."""
+    known = summary.get("transient", {}).get("error", {}).get("p_max_Pa") is not None
+    for n in dict.fromkeys((0,) if known else (0, int(np.argmax(store.scalar("p_max_Pa"))))):
+        p = store.fields(n, ("pressure",))["pressure"]
+        height, i = sharpest(p)
+        if height >= 1.0:  # of lower peaks the bars tell, which they leave unknown
+            yield readings.exits(store.x[i], Scales.of(store.scene).a) + _where(store, n, p, i) + _because(store, i)
+
+
+def first_unresolved(store, summary):
+    """Where the resolved part of a passage ends, if not at the outlet, of which the bars tell."""
+    part, a = searched(summary.get("fatigue", {})).get("resolved"), Scales.of(store.scene).a
+    later = [n for n in range(1, len(store)) if part and store.feature_x(n) > (part["to_x_a"] + 1e-9) * a]
+    if later:
+        p = store.fields(later[0], ("pressure",))["pressure"]
+        i, row = sharpest(p, store.scalar("p_max_Pa").max())[1], peak(p)[1]
+        if i and not readings.exits(store.x[i], a):
+            at = f"X = {store.x[i] / a:.2f}, y = {store.y[row] * 1e6:.0f} um"
+            yield (f"the resolved part of the passage ends before the {_moment(store, later[0])}: its pressure peak of "
+                   f"{p[i, row] / 1e9:.2f} GPa at {at} is only a few cells wide; a finer grid may resolve it: "
+                   f"{refinement.finer_grid_option(store.scene)}")
+
+
+def _where(store, n, p, i):
+    when = f"of the passage ({_moment(store, n)})" if n else "of the steady state"
+    return f"p_max {p.max() / 1e9:.2f} GPa {when}, at X = {store.x[i] / Scales.of(store.scene).a:.2f}, is only a few cells wide"
+
+
+def _moment(store, n):
+    return f"{where(store.scene)} at {store.feature_x(n) / Scales.of(store.scene).a:.2f} a"
+
+
+def _because(store, i):
+    """At the outlet the frozen film ends in a free edge: an inverse square root, which only a shear limit makes finite."""
+    if store.x[i] > 0 and _endless(store.scene):
+        return f" and grows like 1/sqrt(cell); {NO_VALUE}"
+    at_exit = readings.exits(store.x[i], Scales.of(store.scene).a)
+    return (f"; a finer grid may resolve it: "
+            f"{refinement.along(store.scene) if at_exit else refinement.finer_grid_option(store.scene)}")
+
+
+def finer_exit(scene, why):
+    """What to try where the error of a passage is not known for this reason, if that is its exit and a grid may help."""
+    helps = why.startswith(readings.EXIT) and scene.transient and not _endless(scene)
+    return f"; try a grid that is finer along x: {refinement.along(scene)}" if helps else ""
+
+
+def _endless(scene):
+    """Whether nothing bounds the pressure at a free edge of frozen oil."""
+    return scene.isothermal and not scene.rheology.thins
+
+
+def worst_ripple(store, entries):
+    """((Pa, node), entry) of the largest :func:`tehl_taichi.march.accuracy.peaks.ripple` of the pressure among these
+    entries."""
+    return max((ripple(store.fields(n, ("pressure",))["pressure"]), n) for n in entries)
+
+
+def ripples(store, summary):
+    """From node to node along x, at any moment."""
+    numbers = ("steady", "ripple_Pa"), ("transient", "ripple_max_Pa")
+    size = max(summary.get(part, {}).get(name, 0.0) for part, name in numbers)
+    if size > MOST_RIPPLE * float(store.scalar("p_max_Pa").max()):
+        (_, i), n = worst_ripple(store, range(len(store)))
+        a, at_edge = Scales.of(store.scene).a, store.x[i] > 0 and _endless(store.scene)
+        when = f"{_moment(store, n)}, " if n else ""
+        text = (f"{readings.EXIT if at_edge else ''}the pressure ripples from node to node along x by up to {size / 1e9:.3f} "
+                f"GPa ({when}X = {store.x[i] / a:.2f}), an artefact of the grid; ")
+        remedy = NO_VALUE if at_edge else f"try another time.courant or {refinement.finer_grid_option(store.scene)}"
+        yield with_data(text + remedy, ripple_Pa=size, x_m=float(store.x[i]), entry=int(n))
+
+
+CHECKS = {friction: "friction", unresolved: "peak", first_unresolved: "resolved", ripples: "ripple"}

@@ -1,0 +1,104 @@
+"""What is doubtful in the results of a run, a sentence each: the scene's own warnings and what its store shows."""
+
+import numpy as np
+
+from tehl_taichi.fatigue.pressure_alone import searched, why_none
+from tehl_taichi.laws import conduction
+from tehl_taichi.laws.law import beyond
+from tehl_taichi.march.accuracy.coarse_runs import near_the_surface
+from tehl_taichi.runs.summary import domain_warnings, film_warnings, rim_warnings
+from tehl_taichi.scene.yield_pressure import STEEL, YIELDS
+from tehl_taichi.values.coded_warning import coded_warning, once, with_data
+from tehl_taichi.values.digits import micrometres
+
+CROWDED = 0.1  # of the launches; a machine of one's own loses a core for a moment now and then, which costs nothing to speak of
+
+
+def warnings(store, summary):
+    """All warnings of a run, without repetition. store: of the run; summary: its numbers so far (see io.summary)."""
+    return once([*store.scene.warnings(), *coded_warning(CHECKS, store, summary)])
+
+
+def reached(store):
+    """Largest pressure (Pa) and film temperature (deg C) of a run with temperatures."""
+    return tuple(float(np.max(store.scalar(name))) for name in ("p_max_Pa", "film_max_C"))
+
+
+def beyond_measured(store, summary):
+    """Pressures and temperatures of the film beyond those at which its conductivity and heat capacity were measured."""
+    if store.scene.isothermal or not beyond(conduction.LAWS, *reached(store)):
+        return []
+    p, T = reached(store)
+    text = (f"the film reaches {p / 1e9:.2f} GPa and {T:.0f} deg C; {' and '.join(conduction.LAWS)} were measured up to "
+            f"{conduction.P_MEASURED / 1e9:g} GPa and {conduction.GAMMA_MEASURED:g} deg C; beyond that range they keep their "
+            "last values")
+    return [with_data(text, p_max_Pa=p, film_max_C=T)]
+
+
+def held_temperatures(store, summary):
+    """Temperatures that the solver had to hold inside the allowed range."""
+    held = 0 if store.scene.isothermal else int(np.nansum(store.scalar("clamped")))
+    text = (f"temperatures were limited at {held} nodes, to the allowed range or (in columns without a solution) to the inlet "
+            "temperature of the oil")
+    return [with_data(text, nodes=held)] if held else []
+
+
+def crowded(store, summary):
+    """Linear solves that fell back to one worker because others used the cores of the run."""
+    done, fewer = summary.get("crowding", (0, 0))
+    if fewer <= CROWDED * done:
+        return []
+    text = (f"another program used the cores of this run: {fewer} of {done} linear-solve launches ran with one worker. The "
+            "results are equal but slower; use fewer --threads")
+    return [with_data(text, launches=int(done), with_one_worker=int(fewer))]
+
+
+def unknown_errors(store, summary):
+    """Numbers of which no error can be told, with the reason; one sentence for all that share it."""
+    fatigue, deep = searched(summary.get("fatigue", {})), " below the surface"
+    early, of_it = fatigue.get("resolved", {}), " of the resolved part"
+    reasons = {}
+    for part, when, behind in ((summary.get("steady", {}), "steady ", ""), (summary.get("transient", {}), "passage ", ""),
+                               (fatigue, "", ""), (fatigue.get("below", {}), "", deep), (early, "", of_it),
+                               (early.get("below", {}), "", deep + of_it)):
+        for name, why in part.get("unknown", {}).items():
+            reasons.setdefault(why, []).append(f"{when}{name}{behind}")
+    return [with_data(f"the error of {', '.join(names)} is not known: {why}{film_warnings.finer_exit(store.scene, why)}",
+                      numbers=names, reason=str(why)) for why, names in reasons.items()]
+
+
+def largest_pressure(summary):
+    """Pa, of the steady start and of the passage."""
+    return max(summary.get(part, {}).get("p_max_Pa", 0.0) for part in ("steady", "transient"))
+
+
+def yielding(store, summary):
+    """Pressures that no steel bears without yielding, while the bodies here stay elastic."""
+    p = largest_pressure(summary)
+    if p > YIELDS:
+        text = (f"p_max {p / 1e9:.2f} GPa: {STEEL}; both bodies are elastic here, while real bodies would flatten such a peak "
+                "in the first passages")
+        yield with_data(text, p_max_Pa=p, yields_Pa=YIELDS)
+
+
+def worst_below(store, summary):
+    """The surface is not where the body is worst loaded."""
+    fatigue = searched(summary.get("fatigue", {}))
+    deep = fatigue.get("below")
+    if not deep or deep["Fi_max"] <= fatigue["Fi_max"]:
+        return []
+    alone_of = "from the pressure alone " * bool(why_none(summary["fatigue"]))
+    said = (f"{alone_of}the critical point lies below the surface: Fi {deep['Fi_max']:.2f} at {micrometres(deep['depth_m'])} "
+            f"um, {fatigue['Fi_max']:.2f} at the surface")
+    alone = deep.get("contact_alone")
+    if alone and alone["Fi_max"] > fatigue["Fi_max"]:
+        said += f"; the contact without its feature has {alone['Fi_max']:.2f} at {micrometres(alone['depth_m'])} um"
+    if near_the_surface(deep, fatigue):
+        said += "; this grid resolves nothing closer to the surface (half a cell): use a finer grid"
+    return [with_data(said, Fi_max=fatigue["Fi_max"], below_Fi_max=deep["Fi_max"], depth_m=deep["depth_m"])]
+
+
+# functions of (store, summary) that give their sentences, with the code of these
+CHECKS = {domain_warnings.short: "domain", domain_warnings.starved: "starved", worst_below: "below", rim_warnings.rims: "rim",
+          yielding: "yield", **film_warnings.CHECKS, beyond_measured: "measured", held_temperatures: "held",
+          unknown_errors: "unknown", crowded: "crowded"}

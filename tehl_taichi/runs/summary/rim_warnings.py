@@ -1,0 +1,45 @@
+"""Worst points that lie where a measured map ends: what is worst there may be the rim's, not the surface's."""
+
+from tehl_taichi.fatigue.pressure_alone import searched
+from tehl_taichi.scene.feature_wording import passing
+from tehl_taichi.scene.scales import Scales
+
+NEAR = 2  # cells of the grid: so near to an edge that a stress is of both its sides
+
+
+def rims(store, summary):
+    """A sentence for every worst point at the rim of a map; of those of the resolved part first, each place once."""
+    found = searched(summary.get("fatigue", {}))
+    seen = set()
+    for part, of in ((found.get("resolved", {}), " of the resolved part"), (found, "")):
+        for point, where in ((part, "at the surface"), (part.get("below", {}), "below the surface")):
+            place = point.get("x_m"), point.get("y_m"), where
+            if None not in place and place not in seen:
+                yield from _of_point(store.scene, point, f"the critical point {where}{of}")
+            seen.add(place)
+
+
+def _of_point(scene, point, name):
+    near = NEAR * max(Scales.of(scene).cell(scene.grid))
+    for f in (f for f in scene.features if f.kind.measured):
+        distance, axis = min(zip(f.to_rim(point["x_m"] - f.x, point["y_m"] - f.y), "xy"))
+        if -near <= distance <= max(f.taper, near):
+            yield f"{name} lies {_side(f, distance, passing(scene))}; {_advice(f, axis)}"
+
+
+def _side(f, distance, whose):
+    """How far it lies from the rim, and what is there."""
+    rim = f"{abs(distance) * 1e6:.0f} um {'inside' if distance >= 0 else 'outside'} the rim along which the {whose} ends"
+    if 0 <= distance <= f.taper:
+        return (f"{rim}, within its taper of {f.taper * 1e6:.3g} um: the heights fade out there, so its index is not that of "
+                "the surface")
+    taper = f"after a taper of {f.taper * 1e6:.3g} um" if f.taper else "in a step, without a taper"
+    return f"{rim}, {taper}: its index may be caused by the edge"
+
+
+def _advice(f, axis):
+    """What moves the rim away: a wider patch, where the file has one."""
+    n = "xy".index(axis)
+    if f.patch[n] < f.size[n] * (1 - 1e-9):
+        return f"a larger feature.extent_{axis} moves the rim away (the file has {f.size[n] * 1e3:.3g} mm)"
+    return f"the file ends there; use a scan that is longer along {axis}"

@@ -1,0 +1,133 @@
+"""The summary of a run, assembled from its store: the JSON object of `tehl run --json` (SI units in the names)."""
+
+import numpy as np
+
+from tehl_taichi import __version__
+from tehl_taichi.laws import conduction
+from tehl_taichi.laws.law import beyond
+from tehl_taichi.march import quantities
+from tehl_taichi.march.accuracy.coarse_runs import FI, indices
+from tehl_taichi.runs.summary import result_warnings
+from tehl_taichi.runs.summary.film_warnings import worst_ripple
+from tehl_taichi.scene.film_formula import central_film, formula_words, spread
+from tehl_taichi.scene.scales import Scales, peclet
+from tehl_taichi.store import attributes
+from tehl_taichi.values.automatic import AutomaticValue
+from tehl_taichi.values.coded_warning import lists
+
+
+def summarise(store, extra, fatigue=None):
+    """Summary dictionary. extra: wall_s, compile_s (kernels traced, compiled or loaded), crowding (see
+    :func:`tehl_taichi.engine.task_pool.crowding`, here of this run; optional), steady_error, steady_unknown, steady_parts and
+    steady_domain (see :class:`tehl_taichi.march.snapshot.Snapshot`), passage_error, passage_unknown and passage_parts alike;
+    fatigue: its own dictionary or None."""
+    scene = store.scene
+    scales = Scales.of(scene)
+    out = {"scene": scene.name, "version": __version__, "store": str(store.path), "converged": True,
+           "wall_s": extra["wall_s"], "compile_s": extra["compile_s"], "steps": int(store.series["step"][len(store) - 1]),
+           **counts(store),
+           "hertz": _hertz(scales), **_peclet(scene, scales), "domain": domain_of(scene),
+           "left_out": scene.left_out(),
+           "steady": _steady(store, extra)}
+    if len(store) > 1:
+        out["transient"] = _transient(store)
+    if fatigue:
+        out["fatigue"] = fatigue
+    known, unknown, of_it = (extra.get(f"passage_{what}", {}) for what in ("error", "unknown", "parts"))
+    for part, names in _parts(out):
+        part["error"] = {name: known.get(told) for name, told in names.items()}
+        part["error_parts"] = {name: of_it[told] for name, told in names.items() if told in of_it}
+        part["unknown"] = {name: unknown[told] for name, told in names.items() if told in unknown}
+    out["work"] = _work(store)
+    out["crowding"] = extra.get("crowding", [0, 0])
+    out["clamps"] = _clamps(store)
+    found = result_warnings.warnings(store, out)
+    out |= {**lists(found), "warnings": found}
+    return out
+
+
+def _peclet(scene, scales):
+    """Peclet numbers u a/alpha of both surfaces, where temperatures are computed."""
+    o = scene.operation
+    each = (("a", scene.body_a, o.u_a), ("b", scene.body_b, o.u_b))
+    return {} if scene.isothermal else {"peclet": {name: peclet(body, u, scales) for name, body, u in each}}
+
+
+def so_far(store):
+    """What is known of a run without a summary, as JSON has it: it is not finished, or being written at this moment."""
+    return {"scene": store.scene.name, "version": attributes.text(store.attrs, "version"), "store": str(store.path),
+            "finished": False, "written_by": store.writer, "steps": store.last_step, **counts(store),
+            "left_out": store.scene.left_out(), "warnings": store.warnings}
+
+
+def counts(store):
+    """grid: nodes that were computed, nz of them across the film; cells: as [grid] of the scene and --grid count them, ny of
+    the half domain y >= 0 (on the whole domain that is 2 ny + 1 nodes), 0 where nothing varies across (one row of nodes)."""
+    scene, grid = store.scene, store.scene.grid
+    return {"grid": {"nx": store.x.size, "ny": store.y.size, "nz": 1 if scene.isothermal else scene.thermal.nodes},
+            "cells": {"nx": grid.nx, "ny": 0 if scene.one_dimensional else grid.ny}}
+
+
+def domain_of(scene):
+    """Ends of the domain in half-widths of the contact, and whether the program chose where it begins."""
+    g = scene.grid
+    ends = {"x_min_a": float(g.x_min), "x_max_a": float(g.x_max), "y_max_b": float(g.y_max)}
+    return {**ends, "auto": isinstance(g.x_min, AutomaticValue)}
+
+
+def _clamps(store):
+    """Where laws left their measured range or values were held: {what: count or largest value}."""
+    if store.scene.isothermal:
+        return {}
+    held = int(np.nansum(store.scalar("clamped")))
+    return {**beyond(conduction.LAWS, *result_warnings.reached(store)),
+            **({"temperatures limited to the allowed range": held} if held else {})}
+
+
+def _hertz(scales):
+    """Half-axes and pressure of the dry contact; b along y where it ends there."""
+    across = {} if scales.line else {"b_m": scales.b}
+    return {"a_m": scales.a, **across, "p_Pa": scales.p_H}
+
+
+def _steady(store, extra):
+    out = _numbers(store, "steady")
+    out["film_formula_m"], out["ripple_Pa"] = central_film(store.scene), worst_ripple(store, [0])[0][0]
+    out["film_formula"], out["film_formula_spread"] = formula_words(store.scene), spread(store.scene)
+    out["error"], out["unknown"] = extra["steady_error"], extra.get("steady_unknown", {})
+    out["error_parts"] = extra.get("steady_parts", {})
+    return {**out, **_before(extra.get("steady_domain", {}))}
+
+
+def _before(known):
+    """What is known of the inlet: the gap there over the film, the share of it that a border without pressure would take."""
+    return {"inlet_gap": known["gap"], "inlet_lost": known["lost"]} if known else {}
+
+
+def _parts(out):
+    """[(part of the summary after the start, {its number that has an error bar: that number's name among the errors})]."""
+    parts = [(out.get("transient"), {entry.key: entry.key for entry in quantities.of_part("transient") if entry.error}),
+             *((part, {FI: name}) for name, part in indices(out.get("fatigue", {})).items())]
+    return [(part, {name: told for name, told in names.items() if name in part}) for part, names in parts if part]
+
+
+def _transient(store):
+    return {**_numbers(store, "transient"), "ripple_max_Pa": worst_ripple(store, range(1, len(store)))[0][0]}
+
+
+def _numbers(store, part):
+    """{key: value} of the numbers of a part that :mod:`tehl_taichi.march.quantities` declares."""
+    return {entry.key: entry.of(store.scalar(entry.series), _steps_of(store))
+            for entry in quantities.of_part(part, store.scene)}
+
+
+def _steps_of(store):
+    """Time steps that every entry after the first stands for."""
+    return np.diff(store.scalar("step"))
+
+
+def _work(store):
+    cycles = store.scalar("cycles")
+    worst = int(np.ceil(np.max(cycles[1:] / _steps_of(store)))) if len(store) > 1 else 0  # with output.every: of their means
+    return {"pressure_cycles": int(cycles.sum()), "cycles_per_step_max": worst,
+            "newton_steps": int(store.scalar("newton").sum()), "rejected_steps": int(store.scalar("rejected").sum())}

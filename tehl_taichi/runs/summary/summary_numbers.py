@@ -1,0 +1,58 @@
+"""Every number of a summary by its full name, with its error, unit and the reason where the error is not known."""
+
+from tehl_taichi.errors import UnknownName
+from tehl_taichi.values.checks import nearest
+from tehl_taichi.values.coerce import shown
+from tehl_taichi.values.estimate import Quantity
+from tehl_taichi.values.summary_units import unit_of
+
+FIRST = ("transient", "steady", "fatigue")  # parts whose numbers are meant by a name without its part, in this order
+BARS = ("error", "unknown", "error_parts")  # of a part: not numbers themselves
+
+
+def every(summary):
+    """{full name, as "transient.p_max_Pa": Quantity} of all numbers of a summary."""
+    return dict(_numbers(summary, ""))
+
+
+def _numbers(values, above):
+    for key, value in values.items():
+        if isinstance(value, dict) and key not in BARS:
+            yield from _numbers(value, f"{above}{key}.")
+        elif isinstance(value, (int, float)) and not isinstance(value, bool):
+            error, why = values.get("error", {}).get(key), ""
+            if error is None and key in values.get("error", {}):
+                why = values.get("unknown", {}).get(key, "not estimated")
+            yield above + key, Quantity(value, error, unit_of(key), why, above + key)
+
+
+def find(summary, name):
+    """The Quantity of that name, with or without its part and its unit. Raises UnknownName."""
+    known = every(summary)
+    fitting = [full for full in known if name in _names(full)]
+    if not fitting:
+        raise UnknownName(f"{shown(name)} is no number of this run{nearest(name, _short(known))}; it has {', '.join(known)}")
+    return known[min(fitting, key=_order)]
+
+
+def _names(full):
+    """All names by which a full one is known."""
+    part, _, key = full.rpartition(".")
+    keys = {key, _bare(key)}
+    return keys | {f"{part}.{one}" for one in keys}
+
+
+def _bare(key):
+    """A key without its unit."""
+    head, _, end = key.rpartition("_")
+    return head if head and unit_of(key) else key
+
+
+def _short(known):
+    return {_bare(full.rpartition(".")[2]) for full in known}
+
+
+def _order(full):
+    """Parts in the order of FIRST, numbers of a part before those of parts inside it."""
+    parts = full.split(".")
+    return FIRST.index(parts[0]) if parts[0] in FIRST else len(FIRST), len(parts)

@@ -1,0 +1,209 @@
+"""The summary of a run as people read it: rows of (quantity, value with its error and unit). Needs no taichi."""
+
+import math
+from dataclasses import dataclass, replace
+
+from tehl_taichi.fatigue.pressure_alone import searched, why_none
+from tehl_taichi.march import quantities
+from tehl_taichi.march.accuracy.coarse_runs import CONTACT
+from tehl_taichi.march.quantities import HEAT
+from tehl_taichi.scene.feature_wording import between
+from tehl_taichi.values.digits import micrometres, with_error
+
+SURFACE, BELOW, RESOLVED = "at the surface", "below it", "while resolved"  # parts of a search
+
+
+@dataclass(frozen=True)
+class SummaryRow:
+    """what: the quantity, the same words for every run; value: with error and unit; number: the value alone where it is one
+    whose relative change means something; where: place of this run's value, which completes `what`; note: behind the value;
+    part: of the fatigue search that it is of, else ""."""
+
+    what: str
+    value: str
+    number: float | None = None
+    where: str = ""
+    note: str = ""
+    part: str = ""
+
+    @property
+    def text_pair(self):
+        """(quantity, value) in words."""
+        return self.what + self.where, self.value + self.note
+
+
+def title(summary):
+    """Heading of its table."""
+    return f"{summary['scene']}: {summary['steps']} steps, store {summary['store']}"
+
+
+def summary_rows(summary):
+    """(quantity, value) of the summary of a finished run."""
+    return [row.text_pair for row in rows_of(summary)]
+
+
+def fatigue_rows(f):
+    """(quantity, value) of a fatigue summary."""
+    return [row.text_pair for row in rows_of_fatigue(f)]
+
+
+def rows_of(summary):
+    """A list of :class:`SummaryRow` of the summary of a finished run."""
+    steady, hertz = summary["steady"], summary["hertz"]
+    rows = [SummaryRow("Hertz half-width a", f"{hertz['a_m'] * 1e3:.4f} mm", hertz["a_m"]),
+            *([SummaryRow("Hertz half-axis b, across", f"{hertz['b_m'] * 1e3:.4f} mm", hertz["b_m"])] if "b_m" in hertz
+              else []),
+            SummaryRow("Hertz pressure p_H", f"{hertz['p_Pa'] / 1e9:.4f} GPa", hertz["p_Pa"]),
+            *_labelled("steady", steady)]
+    if "film_formula_m" in steady:
+        formula = steady["film_formula_m"]
+        by = steady.get("film_formula", "isothermal, Newtonian")
+        rows.append(SummaryRow(f"h_c by formula ({by})", f"{formula * 1e6:.4f} um", formula))
+    rows += _peclet_rows(summary) + _heat_rows("steady", steady) + _passage_rows(summary)
+    rows.append(SummaryRow("run time", f"{summary['wall_s']:.1f} s (kernels {summary['compile_s']:.1f} s)", summary["wall_s"]))
+    return rows
+
+
+def _labelled(part, values):
+    """The rows of the numbers of a part that have a label; not of those that its run did not know."""
+    return [_of(values, entry.key, entry.label, entry.factor, entry.shown)
+            for entry in quantities.of_part(part) if entry.label and entry.key in values]
+
+
+def _of(values, key, what, factor=1, unit="", **more):
+    """The Row of one of the values with its error; what may be 0 by its error has no relative change."""
+    known = abs(values[key]) > (values.get("error", {}).get(key) or 0.0)
+    return SummaryRow(what, quantity(values, key, factor, unit), values[key] if known else None, **more)
+
+
+def quantity(values, name, factor=1, unit=""):
+    """'value ± error unit' of one of the values; three digits where the error is not known."""
+    value, error = values[name] * factor, values.get("error", {}).get(name)
+    if error is None:
+        return f"{with_error(value, None, unit, 3)} (error unknown)"
+    return with_error(value, error * factor, unit)
+
+
+def _peclet_rows(summary):
+    if "peclet" not in summary:
+        return []
+    return [SummaryRow("Péclet number of surface a / b", " / ".join(f"{summary['peclet'][which]:.3g}" for which in "ab"))]
+
+
+def _heat_rows(when, values):
+    if "film_max_C" not in values:
+        return []
+    errors = [values.get("error", {}).get(key) for key in HEAT]
+    each, once = (" (error unknown)", "") if any(error is not None for error in errors) else ("", " (errors unknown)")
+    largest = " / ".join(_temperature(values[key], error, each) for key, error in zip(HEAT, errors))
+    return [SummaryRow(f"{when} film / surface a / surface b, largest", f"{largest} °C{once}")]
+
+
+def _temperature(value, error, unknown):
+    """A temperature (deg C) with its error; unknown: what stands in place of that where it is None."""
+    return f"{value:.1f}{unknown}" if error is None else with_error(value, error)
+
+
+def _passage_rows(summary):
+    rows = []
+    if "transient" in summary:
+        t = summary["transient"]
+        rows += _heat_rows("passage", t)
+        rows += [*_labelled("transient", t), SummaryRow("load carried by solid contact", contact_share(t)),
+                 SummaryRow("worst residual / load / mass error",
+                     f"{t['residual_max']:.1e} / {t['load_error_max']:.1e} / {t['mass_error_max']:.1e}")]
+    if "fatigue" in summary:
+        rows += rows_of_fatigue(summary["fatigue"])
+    return rows
+
+
+def rows_of_fatigue(f):
+    """A list of :class:`SummaryRow` of a fatigue summary (see :func:`_rows_of_search`); where the tractions give no index, the
+    reason, then the rows of the pressure alone."""
+    why = why_none(f)
+    rows = _rows_of_search(searched(f))
+    if not why:
+        return rows
+    return [SummaryRow("Fi_max", f"no value: {why}"), *(replace(row, what=f"{row.what}, pressure alone") for row in rows)]
+
+
+def _rows_of_search(f):
+    """A list of :class:`SummaryRow` of what a search found: the worst point of the surface, then of what lies below; where the
+    grid does not resolve every pressure first those of the part before, on which the answer rests."""
+    rows = [_of(f, "Fi_max", "Fi_max at the surface", where=_whole(f)),
+            _stress(f"{f['criterion']} stress", f["findley_stress_max_Pa"]), *_point_rows(f),
+            _stress("largest principal stress at the surface", f["sigma1_max_Pa"]),
+            SummaryRow("with kappa, sigma_eF", f"{f['kappa_F']:g}, {f['sigma_eF_Pa'] / 1e6:.4g} MPa"),
+            *(SummaryRow(f"from the limit in reversed {way}", f"{f[key] / 1e6:g} MPa")
+              for way in ("bending", "torsion") if (key := f"{way}_limit_Pa") in f),
+            SummaryRow("thermal stress", "counted" if f["thermal_stress"] else "left out")]
+    rows += [_stress(f"largest at {_depth(layer)}", layer["findley_stress_max_Pa"]) for layer in f.get("by_depth", [])]
+    return _resolved_rows(f) + [replace(row, part=SURFACE) for row in rows] + _below_rows(f)
+
+
+def _whole(f):
+    """Behind what is of all moments that count, where some of them stand beside it, or others were left out."""
+    said = between(f.get("from_x_a", -math.inf), f.get("to_x_a", math.inf)) or "whole passage" * ("resolved" in f)
+    return f", {said}" if said else ""
+
+
+def _resolved_rows(f):
+    """What is known as long as the grid resolves the pressure, where it does not always do so."""
+    if "resolved" not in f:
+        return []
+    part, deep = f["resolved"], f["resolved"].get("below")
+    rows = [_of(part, "Fi_max", "Fi_max while resolved", where=f" (to {part['to_x_a']:.2f} a)"),
+            *_placed(part, "while resolved")]
+    if deep:
+        rows += [_of(deep, "Fi_max", "below the surface while "
+                                     "resolved", where=_at(deep)), *_placed(deep, "below while resolved")]
+    return [replace(row, part=RESOLVED) for row in rows]
+
+
+def _placed(point, when):
+    """Place and plane of a worst point."""
+    return [replace(row, what=f"{row.what}, {when}") for row in _point_rows(point)[:2]]
+
+
+def _point_rows(f):
+    """The worst point of the surface or below it."""
+    low, high = f.get("pit_angles_deg", (None, None))
+    pits = "" if low is None else f" (pits begin at {low:g} to {high:g})"
+    rows = [SummaryRow("at x, y from the feature centre", f"{f['x_m'] * 1e6:.1f}, {f['y_m'] * 1e6:.1f} um"),
+            SummaryRow("critical plane, angle to the surface", f"{f['surface_angle_deg']:.1f} deg", note=pits),
+            SummaryRow("shear amplitude, largest normal stress",
+                       f"{f['tau_amp_Pa'] / 1e6:.1f}, {f['sigma_n_max_Pa'] / 1e6:.1f} MPa")]
+    own = f.get("sigma1_worst_Pa")  # not in stores before 0.2
+    return rows + ([_stress("largest principal stress there", own)] if own is not None else [])
+
+
+def _below_rows(f):
+    if "below" not in f:
+        return []
+    deep = f["below"]
+    rows = [_of(deep, "Fi_max", "Fi_max below the surface", where=_at(deep) + _whole(f)),
+            _stress(f"{f['criterion']} stress", deep["findley_stress_max_Pa"]), *_point_rows(deep)]
+    if "contact_alone" in deep:
+        alone = deep["contact_alone"]
+        rows.append(SummaryRow("Fi of the contact alone", f"{alone['Fi_max']:.4f}", alone["Fi_max"], where=_at(alone)))
+    return [replace(row, part=BELOW) for row in rows]
+
+
+def contact_share(t):
+    """The largest share of the load on solid contact: none, with its error, or as no more than what this grid has."""
+    share, error = t[CONTACT], t.get("error", {}).get(CONTACT)
+    if share == 0:
+        return "none"
+    return f"{share:.2%} at most, not resolved" if error is None else f"{quantity(t, CONTACT, 100)} % at most"
+
+
+def _stress(what, value):
+    return SummaryRow(what, f"{value / 1e6:.1f} MPa", value)
+
+
+def _at(values):
+    return f", at {_depth(values)}"
+
+
+def _depth(values):
+    return f"{micrometres(values['depth_m'])} um"

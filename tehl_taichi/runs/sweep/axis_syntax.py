@@ -1,0 +1,182 @@
+"""What `--over` says: keys and their values, as lists, ranges and spans, and keys that change together."""
+
+import json
+import math
+import os
+import re
+import tomllib
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl_taichi.errors import SceneError
+from tehl_taichi.values.coerce import plain, shown
+
+FORMS = "as in srr=-0.3:0.3:7, srr=-0.1,0,0.1 or speed=0.1:10:5:log"
+NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+RANGE = re.compile(rf"\s*({NUMBER}):({NUMBER})(?::(\d+))?(:log)?\s*")
+NEXT_KEY = re.compile(r"\s+(?=[A-Za-z_][\w.]*\s*=)")
+MOST = 100_000  # values of a range
+DIGITS = 12  # of the values of a range: 0.1 * 3 is 0.3 there
+
+
+@dataclass(frozen=True)
+class Axis:
+    """Keys (as the user wrote them) that change together, and a row of values, one a key, for each of their steps."""
+
+    keys: tuple
+    rows: tuple
+
+    def changes(self, n):
+        """{key: value} of step n."""
+        return dict(zip(self.keys, self.rows[n]))
+
+
+@dataclass(frozen=True)
+class Span:
+    """Everything from low to high, for samples; log: evenly in the logarithm."""
+
+    low: float
+    high: float
+    log: bool = False
+
+    def at(self, share):
+        """Value at a share 0..1 of it."""
+        if self.log:
+            return math.exp(math.log(self.low) + share * math.log(self.high / self.low))
+        return self.low + share * (self.high - self.low)
+
+
+def axis_of(text):
+    """Axis of one --over: 'key=values', or several of them with blanks between, which change together. Raises SceneError."""
+    pairs = _pairs(text)
+    return axis([key for key, _ in pairs], [parsed(values) for _, values in pairs])
+
+
+def _pairs(text):
+    """[(key, text of its values)] of one --over. Raises SceneError."""
+    parts = [part.partition("=") for part in NEXT_KEY.split(text.strip())]
+    for key, equals, values in parts:
+        if not equals or not key.strip() or not values.strip():
+            raise SceneError(f"--over {text!r} must look like key=values, {FORMS}")
+    return [(key.strip(), values) for key, _, values in parts]
+
+
+def axis(keys, columns):
+    """Axis of keys with a column of values each. Raises SceneError where columns differ in length or a row comes twice."""
+    if any(isinstance(column, Span) for column in columns):
+        key, span = next((k, c) for k, c in zip(keys, columns) if isinstance(c, Span))
+        raise SceneError(f"{key} = {span.low:g}:{span.high:g} has no number of values; use {span.low:g}:{span.high:g}:N, or "
+                         "--samples N for all keys")
+    lengths = {key: len(column) for key, column in zip(keys, columns)}
+    if len(set(lengths.values())) > 1:
+        raise SceneError("keys that change together need equally many values: "
+                         + ", ".join(f"{key} has {count}" for key, count in lengths.items()))
+    rows = tuple(zip(*columns))
+    seen = set()
+    for row in rows:
+        if repr(row) in seen:
+            raise SceneError(f"{', '.join(keys)} = {', '.join(map(shown, row))} is given twice")
+        seen.add(repr(row))
+    if not rows:
+        raise SceneError(f"{', '.join(keys)} has no values")
+    return Axis(tuple(keys), rows)
+
+
+def parsed(text):
+    """List of values, or Span, of 'a,b,c', 'a:b:n', 'a:b:n:log' or 'a:b'. Raises SceneError."""
+    if (match := RANGE.fullmatch(text)):
+        return _range(text.strip(), *match.groups())
+    return [value for item in _items(text) for value in _listed(item)]
+
+
+def column(values):
+    """The same of what Python gives: an array, a list, or text as above; a number is a list of one."""
+    if isinstance(values, (Span, list)):
+        return values if isinstance(values, Span) else [plain(value) for value in values]
+    if isinstance(values, str):
+        return parsed(values)
+    values = plain(values)
+    return list(values) if isinstance(values, tuple) else [values]
+
+
+def _listed(item):
+    match = RANGE.fullmatch(item)
+    found = _range(item, *match.groups()) if match else [_value(item)]
+    if isinstance(found, Span):
+        raise SceneError(f"{item} in a list has no number of values, {FORMS}")
+    return found
+
+
+def _range(text, low, high, count, log):
+    a, b = float(low), float(high)
+    if log and not (a > 0 and b > 0):
+        raise SceneError(f"{text}: a logarithmic range needs positive ends")
+    if count is None:
+        if not a < b:
+            raise SceneError(f"{text}: the first end must be smaller than the second")
+        return Span(a, b, bool(log))
+    if not 1 <= int(count) <= MOST or (int(count) == 1 and a != b):
+        raise SceneError(f"{text} must have 2 to {MOST} values, {FORMS}")
+    values = np.geomspace(a, b, int(count)) if log else np.linspace(a, b, int(count))
+    clean = [_rounded(value, abs(b - a)) for value in values.tolist()]
+    whole = all(value.is_integer() for value in clean) and all(re.fullmatch(r"[-+]?\d+", end) for end in (low, high))
+    return [int(value) for value in clean] if whole else clean
+
+
+def _rounded(value, length):
+    """A value of a range as people write it, and 0 where it is 0: SRR 5e-17 is a scene with slip."""
+    return 0.0 if abs(value) < 10**-DIGITS * length else float(f"{value:.{DIGITS}g}")
+
+
+def _items(text):
+    """Text cut at commas that are not inside brackets or quotes."""
+    items, depth, quote, start = [], 0, "", 0
+    for n, letter in enumerate(text):
+        if quote:
+            quote = "" if letter == quote else quote
+        elif letter in "\"'":
+            quote = letter
+        elif letter in "[]{}":
+            depth += 1 if letter in "[{" else -1
+        elif letter == "," and not depth:
+            items.append(text[start:n])
+            start = n + 1
+    return [item.strip() for item in (*items, text[start:])]
+
+
+def _value(text):
+    """A value as TOML reads it; what is no TOML value is text."""
+    if not text:
+        raise SceneError(f"a value is missing between two commas, {FORMS}")
+    try:
+        return plain(tomllib.loads(f"v = {text}")["v"])
+    except (ValueError, RecursionError):
+        return text
+
+
+def over_of(texts, sampled=False):
+    """{key, or tuple of keys that change together: values} of several --over, for :func:`tehl_taichi.runs.sweep.plan.plan`.
+    Raises SceneError. sampled: values may be spans."""
+    out = {}
+    for text in texts:
+        pairs = _pairs(text)
+        if sampled and len(pairs) == 1:
+            keys, values = pairs[0][0], parsed(pairs[0][1])
+        else:
+            found = axis_of(text)
+            keys, values = (found.keys[0], [row[0] for row in found.rows]) if len(found.keys) == 1 else (found.keys, found.rows)
+        if keys in out:
+            raise SceneError(f"{keys} is swept twice: give all its values in one --over")
+        out[keys] = values
+    return out
+
+
+def all_numbers(values):
+    """Whether a key's values are numbers, not words or switches."""
+    return all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in values)
+
+
+def word(value):
+    """A value as text."""
+    return value if isinstance(value, str) else os.fspath(value) if isinstance(value, os.PathLike) else json.dumps(value)

@@ -1,0 +1,69 @@
+"""One case of a sweep, as a worker runs it: into its store, from where an earlier attempt stopped, to a record."""
+
+import contextlib
+import socket
+import tempfile
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from tehl_taichi.errors import Error, NotConverged
+from tehl_taichi.scene import Scene
+
+
+@dataclass(frozen=True)
+class CaseJob:
+    """scene: of the case; store: path of its store, None to keep its summary alone; threads: of the engine (None: as it runs,
+    else all); shared: whether other workers of this machine want the same kernels."""
+
+    scene: Scene
+    store: str | None
+    threads: int | None = None
+    shared: bool = False
+
+
+def work(job, progress=None):
+    """{"status", "reason", "summary", "seconds"} of a case; what the disk or the machine refuses is a failed one.
+
+    progress: who listens to the run, a :class:`tehl_taichi.runs.progress.Progress`."""
+    began = time.perf_counter()
+    status, reason, summary = "converged", "", None
+    try:
+        summary = _summary(job, progress)
+    except NotConverged as error:
+        status, reason = "not converged", str(error)
+    except Exception as error:  # noqa: BLE001  whatever it is, the other cases go on
+        status, reason = "failed", str(error) if isinstance(error, Error) else f"{type(error).__name__}: {error}"
+    return {"status": status, "reason": reason, "summary": summary, "seconds": time.perf_counter() - began}
+
+
+def _summary(job, progress):
+    from tehl_taichi.runs.sweep import warm_cache
+
+    if job.shared:
+        warm_cache.once(job.scene)
+    if job.store is None:
+        with tempfile.TemporaryDirectory(prefix="tehl-") as folder:
+            return {**_run(job, Path(folder) / "case.zarr", progress), "store": None}
+    return _run(job, Path(job.store), progress)
+
+
+def _run(job, path, progress):
+    """Summary of the run in the store at `path`: begun, gone on with, or done before."""
+    from tehl_taichi.runs import single_run
+
+    _free(path)
+    return single_run.completed(job.scene, path, threads=job.threads, progress=progress).summary
+
+
+def _free(path):
+    """Take over what a worker of another machine left locked: it is gone, else the case were still its own."""
+    from tehl_taichi.disk.drafts import PART, staging_path
+    from tehl_taichi.disk.links import is_folder
+    from tehl_taichi.disk.locks import LOCK, lock_content
+
+    for folder in (path, staging_path(path, PART)):
+        said = lock_content(folder)
+        if is_folder(folder) and said and said["host"] != socket.gethostname():
+            with contextlib.suppress(OSError):
+                (folder / LOCK).unlink()

@@ -1,0 +1,48 @@
+"""What a study knows of its cases, one JSON line each as they end: a line is whole or was never written."""
+
+import io
+import json
+
+from tehl_taichi.disk import files
+from tehl_taichi.errors import StoreError
+from tehl_taichi.store.json_values import plain
+
+FILE = "cases.jsonl"
+MOST = 2e9  # bytes: 100 000 cases have a quarter of them
+# of a case; the number stands in the study's table
+STATUS = {"waiting": 0, "converged": 1, "not converged": 2, "refused": 3, "failed": 4}
+FINAL = ("converged", "not converged", "refused")  # would end the same again; a failed one lost its worker or its disk
+
+
+def append(folder, record):
+    """Add one record, a dictionary with its "case" and "status" among others."""
+    line = (json.dumps(plain(record), allow_nan=False) + "\n").encode()
+    files.append(folder / FILE, line)
+
+
+def read(folder):
+    """Generator of records in the order in which they came (a case that ran again comes again). Raises StoreError."""
+    try:
+        for line in io.BytesIO(files.content(folder / FILE, MOST)):
+            if line.endswith(b"\n") and (record := _record(line)):
+                yield record
+    except FileNotFoundError:
+        return
+    except OSError as error:
+        raise StoreError(f"cannot read {folder / FILE}: {error.strerror}") from None
+
+
+def mend(folder):
+    """Cut off a line whose writer was killed in its middle, so that the next one begins where a line begins."""
+    path = folder / FILE
+    content = files.content(path, MOST) if path.exists() else b""
+    if content and not content.endswith(b"\n"):
+        files.cut(path, content.rfind(b"\n") + 1)
+
+
+def _record(line):
+    try:
+        record = json.loads(line)
+        return record if isinstance(record, dict) and record["status"] in STATUS and isinstance(record["case"], int) else None
+    except (ValueError, KeyError, TypeError, RecursionError):
+        return None

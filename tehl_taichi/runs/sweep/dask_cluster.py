@@ -1,0 +1,89 @@
+"""Dask underneath: the workers of a scheduler that runs already."""
+
+import contextlib
+import itertools
+import uuid
+
+from tehl_taichi.errors import RuntimeUnavailable, StoreError, brief, extra
+from tehl_taichi.runs.sweep.job import LostJob, in_one_thread
+
+AHEAD, LEAST = 3, 16  # jobs that the scheduler knows, for each worker and at least: memory stays bounded, nobody waits
+PATIENCE = 30  # s to find a scheduler
+AGAIN = ("pending", "lost")  # its worker died with the answer that nobody had fetched yet: another one works it out again
+SETTINGS = {"distributed.comm.timeouts.connect": f"{PATIENCE}s"}
+
+
+def results(work, jobs, scheduler, say_line):
+    """As :func:`tehl_taichi.runs.sweep.pool.results`."""
+    distributed = _distributed()
+    with _client(distributed, scheduler) as client:
+        if not client.nthreads():
+            say_line("no worker is connected yet; start one (on any machine: dask worker ADDRESS --nthreads 1)")
+        waiting, running, run = iter(enumerate(jobs)), {}, uuid.uuid4().hex[:8]
+        ended = distributed.as_completed()
+
+        def submit():
+            room = max(LEAST, AHEAD * len(client.nthreads())) - len(running)
+            for number, job in itertools.islice(waiting, max(0, room)):
+                future = client.submit(in_one_thread, work, job, pure=False, key=f"tehl-{run}-{number}")
+                running[future] = number
+                ended.add(future)
+
+        submit()
+        for future in ended:
+            if future.status in AGAIN:
+                ended.add(future)
+                continue
+            answer = _answer(future)
+            number = running.pop(future)
+            future.release()
+            submit()
+            yield number, answer
+
+
+def check(scheduler):
+    """Raise what :func:`results` would raise before its first job."""
+    distributed = _distributed()
+    if isinstance(scheduler, str):
+        _connected(distributed, scheduler).close()
+
+
+def _answer(future):
+    """What became of a job."""
+    if future.status == "finished":
+        return future.result()
+    if future.status != "error":
+        return LostJob("the scheduler lost this case (it was restarted or stopped)")
+    error = future.exception()
+    if type(error).__name__ == "KilledWorker":
+        return LostJob("its worker died, also at the second attempt (killed, or out of memory)")
+    return LostJob(f"{type(error).__name__}: {error}")
+
+
+@contextlib.contextmanager
+def _client(distributed, scheduler):
+    """The client of that scheduler, or the one that is given."""
+    import dask
+
+    if not isinstance(scheduler, str):
+        yield scheduler
+        return
+    with dask.config.set(SETTINGS), contextlib.closing(_connected(distributed, scheduler)) as client:
+        yield client
+
+
+def _connected(distributed, scheduler):
+    try:
+        return distributed.Client(scheduler, timeout=PATIENCE)
+    except Exception as error:  # whatever answers there need not be Dask, and what it says is read as lengths of messages
+        raise StoreError(f"no scheduler answers at {scheduler}: {brief(error)}; `dask scheduler` starts one "
+                         "and prints its address") from None
+
+
+def _distributed():
+    try:
+        import distributed
+    except ImportError:
+        raise RuntimeUnavailable(f"a scheduler needs Dask: {extra('sweep')}; --workers uses processes of this machine without "
+                                 "Dask") from None
+    return distributed

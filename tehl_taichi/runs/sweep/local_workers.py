@@ -1,0 +1,142 @@
+"""Workers of our own: processes on this machine that hear of jobs by pipes. No port is opened: nobody else can send one.
+
+A job whose worker died is given to a new one, once; a worker that takes more than its share of the memory is ended.
+"""
+
+import contextlib
+import multiprocessing
+import os
+import signal
+import sys
+import threading
+from multiprocessing.connection import wait
+from pathlib import Path
+
+from tehl_taichi.disk import memory_limit
+from tehl_taichi.runs.sweep.job import LostJob, in_one_thread
+
+SHARE = 0.95  # of the part of a worker in the memory that is available
+PAUSE = 1.0  # s between two looks at that
+TRIES = 2
+DIED = "its worker died, also at the second attempt (killed, or out of memory)"
+
+
+def results(work, jobs, workers):
+    """As :func:`tehl_taichi.runs.sweep.pool.results`."""
+    crew = LocalWorkers(workers)
+    try:
+        yield from crew.results(work, iter(enumerate(jobs)))
+        crew.leave()
+    finally:
+        crew.stop()
+
+
+class LocalWorkers:
+    """So many workers, started as there are jobs for them."""
+
+    def __init__(self, count):
+        self.count, self.room, self.busy, self.idle = count, SHARE * memory_limit.available() / count, {}, []
+
+    def results(self, work, waiting):
+        """Generator of (number of the job, its answer) as they end."""
+        self._hand_out(work, waiting)
+        while self.busy:
+            for pipe in wait(list(self.busy), PAUSE):
+                worker = self.busy.pop(pipe)
+                number = worker.job[0]
+                if (answer := worker.answer()) is not None:
+                    self.idle.append(worker)
+                elif worker.tries < TRIES:
+                    self._give(Worker(), work, *worker.job, worker.tries + 1)
+                    continue
+                else:
+                    answer = LostJob(DIED)
+                self._hand_out(work, waiting)
+                yield number, answer
+            self._end_the_greedy()
+
+    def _hand_out(self, work, waiting):
+        while len(self.busy) < self.count and (job := next(waiting, None)):
+            self._give(self.idle.pop() if self.idle else Worker(), work, *job)
+
+    def _give(self, worker, work, number, job, tries=1):
+        worker.give(work, number, job, tries)
+        self.busy[worker.pipe] = worker
+
+    def _end_the_greedy(self):
+        for worker in self.busy.values():
+            if worker.memory() > self.room:
+                worker.process.kill()
+
+    def leave(self):
+        """Let the workers end by themselves: Taichi then keeps what it compiled."""
+        for worker in self.idle:
+            worker.pipe.close()
+        for worker in self.idle:
+            worker.process.join(10)
+
+    def stop(self):
+        """End all workers at once."""
+        for worker in (*self.busy.values(), *self.idle):
+            if worker.process.is_alive():
+                worker.process.terminate()
+        for worker in (*self.busy.values(), *self.idle):
+            worker.process.join()
+
+
+class Worker:
+    """A process, the end of its pipe and the job that it has."""
+
+    def __init__(self):
+        context = multiprocessing.get_context("spawn")  # a forked one would have Taichi, but none of its threads
+        self.pipe, theirs = context.Pipe()
+        self.process = context.Process(target=_serve, args=(theirs,), daemon=True, name="tehl worker")
+        self.process.start()
+        theirs.close()
+
+    def give(self, work, number, job, tries):
+        """Send a job; one that is dead already answers with nothing."""
+        self.job, self.tries = (number, job), tries
+        with contextlib.suppress(OSError):
+            self.pipe.send((work, job))
+
+    def answer(self):
+        """What became of its job: the answer, a :class:`LostJob`, or None where the process died."""
+        try:
+            return self.pipe.recv()
+        except (EOFError, OSError):
+            self.process.join()
+            return None
+
+    def memory(self):
+        """Bytes that the process has in memory, 0 where that cannot be known."""
+        with contextlib.suppress(OSError, ValueError):
+            return int(Path(f"/proc/{self.process.pid}/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+        return 0
+
+
+def _serve(pipe):
+    """The process: job after job, until nobody is left to send one."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the sweep, which then ends its workers
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    threading.Thread(target=_end_with_the_sweep, daemon=True).start()
+    with contextlib.suppress(EOFError, OSError):
+        while True:
+            work, job = pipe.recv()
+            pipe.send(_done(work, job))
+    leave = getattr(sys.modules.get("tehl_taichi.engine.runtime"), "leave", None)
+    if leave:
+        leave(0)
+
+
+def _done(work, job):
+    try:
+        return in_one_thread(work, job)
+    except Exception as error:  # noqa: BLE001  whatever it is, the other jobs go on
+        return LostJob(f"{type(error).__name__}: {error}")
+
+
+def _end_with_the_sweep():
+    """A sweep that was killed has nobody to answer to; its cases go on from their stores."""
+    wait([multiprocessing.parent_process().sentinel])
+    os._exit(1)

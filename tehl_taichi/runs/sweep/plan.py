@@ -1,0 +1,257 @@
+"""What a sweep varies: a scene, the keys that change and their values; its cases, and which of them the scene refuses."""
+
+import contextlib
+import hashlib
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from tehl_taichi.errors import SceneError
+from tehl_taichi.runs.sweep import axis_syntax
+from tehl_taichi.runs.sweep.sampling import latin_hypercube
+from tehl_taichi.scene import Scene, aliases, idle_keys
+from tehl_taichi.values.coerce import shown
+from tehl_taichi.values.quantity import kinds
+
+LOOKED_AT = 100  # cases among which equal ones are looked for, 10 ms each
+MOST = 100_000  # cases: more are a mistake in a range
+ONE = "case"  # the dimension of a study whose keys change together
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Cases are numbered from 0 in the order of the axes, the last one fastest.
+
+    scene: that of every case but for its changes; axes: tuple of :class:`tehl_taichi.runs.sweep.axis_syntax.Axis`; drawn: how
+    they were sampled ({"samples", "seed"}), if they were. Raises SceneError.
+    """
+
+    scene: Scene
+    axes: tuple
+    drawn: dict = field(default_factory=dict)
+
+    def __post_init__(self):
+        if not self.axes:
+            raise SceneError("a sweep needs a key: --over key=values, as in --over srr=-0.3:0.3:7")
+        names = [aliases.full_name(key) for key in self.keys]
+        for key, name in zip(self.keys, names):
+            if names.count(name) > 1:
+                raise SceneError(f"{key} is swept twice: give all its values in one --over")
+        if self.count > MOST:
+            raise SceneError(f"{self.count} cases are too many; allowed: at most {MOST}")
+
+    @property
+    def keys(self):
+        """All keys, as the user wrote them."""
+        return tuple(key for axis in self.axes for key in axis.keys)
+
+    @property
+    def gridded(self):
+        """Whether each key has a dimension of its own; else all cases lie along one, `case`."""
+        return not self.drawn and all(len(axis.keys) == 1 for axis in self.axes)
+
+    @property
+    def dims(self):
+        return self.keys if self.gridded else (ONE,)
+
+    @property
+    def shape(self):
+        return tuple(len(axis.rows) for axis in self.axes) if self.gridded else (self.count,)
+
+    @property
+    def count(self):
+        return math.prod(len(axis.rows) for axis in self.axes)
+
+    @property
+    def name(self):
+        """The same for the same plan: scene and six digits of what it is."""
+        return f"{self.scene.name}-sweep-{hashlib.sha256(self._text(note='').encode()).hexdigest()[:6]}"
+
+    @property
+    def text(self):
+        """All of it as JSON."""
+        return self._text()
+
+    def _text(self, **other):
+        """The same with other values of the scene."""
+        axes = [{"keys": axis.keys, "rows": axis.rows} for axis in self.axes]
+        return json.dumps({"scene": {**self.scene.to_dict(), **other}, "axes": axes, "drawn": self.drawn}, sort_keys=True)
+
+    def matches(self, text):
+        """Whether such a text is of this plan; another note makes no other plan, nor do keys that came after it was written."""
+        try:
+            return type(self).from_text(text) == self
+        except (ValueError, KeyError, TypeError):
+            return False
+
+    @classmethod
+    def from_text(cls, text):
+        """The plan of such a text. Raises SceneError."""
+        data = json.loads(text)
+        axes = tuple(axis_syntax.Axis(tuple(axis["keys"]), _tuples(axis["rows"])) for axis in data["axes"])
+        return cls(Scene.from_dict(data["scene"]), axes, data["drawn"])
+
+    def positions(self, number):
+        """Step of each axis in a case."""
+        out = []
+        for axis in reversed(self.axes):
+            number, position = divmod(number, len(axis.rows))
+            out.append(position)
+        return out[::-1]
+
+    def changes(self, number):
+        """{key: value} of a case."""
+        return {key: value for axis, n in zip(self.axes, self.positions(number)) for key, value in axis.changes(n).items()}
+
+    def case(self, number):
+        """Scene of a case. Raises SceneError."""
+        return self.scene.replace(**self.changes(number))
+
+    def coordinate(self, key):
+        """(dimension, values along it) of a key."""
+        axis = next(axis for axis in self.axes if key in axis.keys)
+        if self.gridded:
+            return key, [row[0] for row in axis.rows]
+        return ONE, [self.changes(n)[key] for n in range(self.count)]
+
+    def refused(self):
+        """{case: reason} of those that the scene refuses. Raises SceneError where a value is refused whatever the other keys
+        are: that is a mistake, not a corner of the sweep that cannot be run."""
+        found = {}
+        for number in range(self.count):
+            try:
+                self.case(number)
+            except SceneError as error:
+                found[number] = str(error)
+        for axis in self.axes if found and self.gridded else ():
+            self._check_values(axis, found)
+        if len(found) == self.count:
+            raise SceneError(found[0])
+        self._check_effect(found)
+        return found
+
+    def _check_effect(self, refused):
+        """Raises SceneError for a key that changes nothing in any case: all its rows would be equal."""
+        for key in self.keys:
+            if len({repr(self.changes(number)[key]) for number in range(self.count)}) > 1 and (why := self._idle(key, refused)):
+                raise SceneError(f"{key} has no effect here: {why}; the cases would be equal")
+
+    def _idle(self, key, refused):
+        """Why a key changes nothing, where it does so in every case that can run; else ""."""
+        why = ""
+        for number in (n for n in range(self.count) if n not in refused):
+            scene = self.case(number)
+            why = idle_keys.idle(scene).get(aliases.full_name(key), "")
+            if not why:
+                break
+        return why
+
+    def doubts(self):
+        """Sentences about keys, set or swept, that have no effect in any case; of a large plan about those that are set."""
+        if self.count > LOOKED_AT:
+            return list(idle_keys.doubts(self.scene))
+        every = []
+        for number in range(self.count):
+            with contextlib.suppress(SceneError):
+                every.append(list(idle_keys.doubts(self.case(number))))
+        return [sentence for sentence in every[0] if all(sentence in other for other in every)] if every else []
+
+    def equal(self):
+        """{case: earlier case} of cases that differ in keys without effect alone, of a plan that is not too large to look."""
+        seen, found = {}, {}
+        for number in range(self.count if self.count <= LOOKED_AT else 0):
+            with contextlib.suppress(SceneError):
+                first = seen.setdefault(repr(idle_keys.signature(self.case(number))), number)
+                if first != number:
+                    found[number] = first
+        return found
+
+    def without_temperatures(self):
+        """Numbers of the cases whose film has one temperature while other cases compute theirs; [] where all do alike, or of a
+        plan too large to look."""
+        found = {}
+        for number in range(self.count if self.count <= LOOKED_AT else 0):
+            with contextlib.suppress(SceneError):
+                found.setdefault(self.case(number).isothermal, []).append(number)
+        return found.get(True, []) if len(found) > 1 else []
+
+    def _check_values(self, axis, found):
+        place = self.axes.index(axis)
+        bad = [self.positions(number)[place] for number in found]
+        for n in dict.fromkeys(bad):
+            if bad.count(n) == self.count // len(axis.rows):
+                raise SceneError(next(reason for number, reason in found.items() if self.positions(number)[place] == n))
+
+
+def plan(scene, over, samples=None, seed=None):
+    """Plan of `over`: {key: values}; a key that is a tuple of keys has rows of values, which change together.
+
+    values: a list, an array, a text as --over has it; with `samples` (so many drawn by a Latin hypercube) "low:high",
+    "low:high:log" or a tuple (low, high), or a list to choose from. Raises SceneError.
+
+    >>> from tehl_taichi.scene import scene
+    >>> found = plan(scene("gear"), {"srr": [-0.1, 0.1], "feature.height": "0.5e-6:1.5e-6:3"})
+    >>> found.dims, found.shape, found.changes(5)
+    (('srr', 'feature.height'), (2, 3), {'srr': 0.1, 'feature.height': 1.5e-06})
+    """
+    if not isinstance(over, Mapping):
+        raise SceneError(f"over = {shown(over)} must be a dictionary {{key: values}}, as in {{'srr': [0.0, 0.1]}}")
+    if samples is None and seed is not None:
+        raise SceneError(f"seed = {shown(seed)} has no effect without samples")
+    seed = 0 if seed is None else seed
+    if samples is None:
+        return Plan(scene, tuple(_axis(keys, rows) for keys, rows in over.items()))
+    columns = {key: _choices(key, found) for key, found in over.items()}
+    whole = {key for key in columns if isinstance(_present(scene, key), int)}
+    axes = (latin_hypercube(columns, samples, seed, whole),) if columns else ()
+    return Plan(scene, axes, {"samples": int(samples), "seed": int(seed)})
+
+
+def _axis(keys, rows):
+    if isinstance(keys, str):
+        return axis_syntax.axis([keys], [axis_syntax.column(rows)])
+    rows = [axis_syntax.column(list(row)) for row in rows]
+    if any(len(row) != len(keys) for row in rows):
+        raise SceneError(f"{', '.join(keys)}: every row needs {len(keys)} values")
+    return axis_syntax.axis(list(keys), list(zip(*rows)))
+
+
+def _choices(key, found):
+    if not isinstance(key, str):
+        raise SceneError(f"{', '.join(key)} change together; samples need independent keys")
+    if isinstance(found, tuple) and len(found) == 2:
+        return axis_syntax.column(f"{float(found[0])!r}:{float(found[1])!r}")
+    return axis_syntax.column(found)
+
+
+def unit(scene, key):
+    """Unit of a key, "1" where it has none."""
+    section, _, name = aliases.full_name(key).partition(".")
+    if (section, name) == ("contact", "load"):
+        return "N/m" if scene.contact.kind == "line" else "N"
+    if section + "." + name in aliases.BY_SURFACE:
+        return "m/s"
+    try:
+        return (kinds(type(_part(scene, section, name)))[name.rpartition(".")[2]].unit or "1").replace("-", "1")
+    except (KeyError, AttributeError, TypeError, ValueError, IndexError):
+        return "1"
+
+
+def _part(scene, section, name):
+    if section == "feature":
+        return scene.features[int(name.partition(".")[0])]
+    return getattr(scene, f"body_{name[0]}") if section == "bodies" else getattr(scene, section)
+
+
+def _present(scene, key):
+    """What the scene has for a key, None where it says it in other words."""
+    section, _, name = aliases.full_name(key).partition(".")
+    try:
+        return getattr(_part(scene, section, name), name.rpartition(".")[2])
+    except (AttributeError, ValueError, IndexError):
+        return None
+
+
+def _tuples(row):
+    return tuple(_tuples(value) if isinstance(value, list) else value for value in row)

@@ -1,0 +1,30 @@
+"""Latin hypercube: N samples of several keys, each key's range in N equal parts with one sample in each."""
+
+import numpy as np
+
+from tehl_taichi.errors import SceneError
+from tehl_taichi.runs.sweep.axis_syntax import DIGITS, Axis, Span
+
+
+def latin_hypercube(columns, samples, seed=0, whole=()):
+    """Axis of `samples` rows.
+
+    columns: {key: Span, or a list of values of which each comes about equally often}; whole: keys whose samples are rounded to
+    whole numbers. Raises SceneError. Source: McKay, Beckman, Conover, Technometrics 21 (1979) 239.
+    """
+    for name, value, least in (("samples", samples, 1), ("seed", seed, 0)):
+        if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
+            raise SceneError(f"{name} = {value!r} must be a whole number of at least {least}")
+    rng = np.random.default_rng(int(seed))
+    drawn = []
+    for key, values in columns.items():
+        shares = (rng.permutation(samples) + rng.random(samples)) / samples
+        drawn.append([_picked(values, share, key in whole) for share in shares.tolist()])
+    return Axis(tuple(columns), tuple(zip(*drawn)))
+
+
+def _picked(values, share, whole):
+    if not isinstance(values, Span):
+        return values[int(share * len(values))]
+    value = float(f"{values.at(share):.{DIGITS}g}")
+    return round(value) if whole else value

@@ -1,0 +1,216 @@
+"""Figures of a study (matplotlib, the `plot` extra): a result over one swept key or two, and Fi against the film."""
+
+import itertools
+from functools import partial
+
+import numpy as np
+
+from tehl_taichi.errors import StoreError
+from tehl_taichi.runs.sweep.axis_syntax import all_numbers, word
+from tehl_taichi.runs.sweep.plan import unit
+from tehl_taichi.runs.sweep.summary_columns import error_of, unit_of
+from tehl_taichi.values.checks import nearest
+from tehl_taichi.values.digits import fitting
+from tehl_taichi.view.figures import palette
+from tehl_taichi.view.figures.field_maps import bar
+from tehl_taichi.view.figures.figure_style import FigureStyle, drawing
+
+# drawn where nobody chooses: the first of each line that the study has
+USUAL = (("fatigue_Fi_max",), ("transient_h_min_m", "steady_h_c_m"), ("transient_p_max_Pa", "steady_p_max_Pa"))
+INDEX, FILM = "fatigue_Fi_max", "transient_h_min_m"
+TOLD = 120  # cells of a map with their values in them
+TICKS = 12
+HIGH = 1.7  # rows of lines: height of a figure with one panel
+
+
+def write_all(study, folder, quantity=None, page=None):
+    """Write the figures of a study into `folder`, of one quantity (a column of its table) or of the usual ones, as the
+    :class:`FigureStyle` wants them; returns the paths. Raises StoreError where there is no such column, or nothing to draw."""
+    chosen = [_known(study, quantity)] if quantity else usual(study)
+    if not chosen:
+        raise StoreError(f"{study.path} has no result to draw yet")
+    page = page or FigureStyle()
+    return page.write(folder, {name: partial(draw, page, study, *of) for name, draw, *of in _figures(study, chosen)})
+
+
+def _figures(study, chosen):
+    """Generator of (name, function that draws it, quantity that it draws)."""
+    for name in chosen:
+        if study.plan.gridded and len(study.plan.dims) <= 2:
+            yield f"{name}_lines", lines, name
+            if len(study.plan.dims) == 2:
+                yield f"{name}_map", heat_map, name
+        else:
+            yield f"{name}_points", points, name
+    if INDEX in chosen and FILM in study.values:
+        yield "Fi_over_h_min", index_over_film
+
+
+def usual(study):
+    found = (next((name for name in names if name in study.values), None) for names in USUAL)
+    return [name for name in found if name]
+
+
+def _known(study, quantity):
+    if quantity not in study.values:
+        raise StoreError(f"{study.path} has no column {quantity!r}{nearest(quantity, study.values)}; it has "
+                         f"{', '.join(study.values) or 'no results yet'}")
+    return quantity
+
+
+def lines(page, study, name):
+    """The quantity with its error over the first key, a line for each value of the second."""
+    values, errors, label = with_errors(study, name)
+    shape = study.plan.shape[0], -1
+    values, errors = values.reshape(shape).T, errors.reshape(shape).T
+    figure, ((ax,),) = page.figure(height=HIGH * page.row())
+    x, x_label, ticks = along(study, study.plan.keys[0])
+    second = along(study, study.plan.keys[1]) if len(study.plan.keys) > 1 else None
+    colours = drawing().colormaps[palette.RESULT](np.linspace(0.0, 0.9, len(values)))
+    for n, (row, bars) in enumerate(zip(values, errors)):
+        ax.errorbar(x, row, bars, fmt="o-", color=colours[n], label=second and second[2][n], **palette.BARS)
+        _hollow(ax, x, row, bars)
+    if second:
+        page.legend(figure, title=second[1])
+    _dress(ax, x_label, x, ticks, numeric(study, study.plan.keys[0]))
+    ax.set_ylabel(label)
+    page.title(figure, f"{study.plan.scene.name}: {name}{_unknown(values, errors)}")
+    return figure
+
+
+def heat_map(page, study, name):
+    """The quantity over two keys, a cell a case; cases without a result are hatched."""
+    values, label = scaled(study.values[name], unit_of(name), name)
+    values = values.reshape(study.plan.shape).T
+    figure, ((ax,),) = page.figure(height=HIGH * page.row())
+    ax.set_facecolor(palette.SHADE)
+    ax.patch.set_hatch("//")
+    image = ax.imshow(values, origin="lower", aspect="auto", cmap=palette.RESULT)
+    bar(figure, image, ax, label)
+    for axis, key, at in zip("xy", study.plan.keys, (ax.xaxis, ax.yaxis)):
+        _, key_label, ticks = along(study, key)
+        shown = range(0, len(ticks), -(-len(ticks) // (TICKS // 2 if page.narrow else TICKS)))
+        at.set_ticks(list(shown), [ticks[n] for n in shown])
+        ax.set(**{f"{axis}label": key_label})
+    if values.size <= TOLD and 3 * values.shape[1] * page.text < 47 * page.inches:
+        _write_values(ax, values)
+    page.title(figure, f"{study.plan.scene.name}: {name}")
+    return figure
+
+
+def _write_values(ax, values):
+    """Write its value into each cell, light on dark."""
+    middle = 0.5 * (np.nanmin(values) + np.nanmax(values))
+    for (row, column), value in np.ndenumerate(values):
+        if np.isfinite(value):
+            ax.text(column, row, f"{value:.3g}", ha="center", va="center", fontsize="small",
+                    color="white" if value < middle else palette.BLACK)
+
+
+def points(page, study, name):
+    """The quantity of all cases with its error against each key."""
+    values, errors, label = with_errors(study, name)
+    keys = study.plan.keys
+    most = 1 if page.narrow else 3
+    rows, columns = -(-len(keys) // most), min(most, len(keys))
+    figure, axes = page.figure(rows, columns, 1.2 * page.row(columns) * rows, sharey=True)
+    for ax, key in itertools.zip_longest(axes.flat, keys):
+        if key is None:
+            ax.set_visible(False)
+            continue
+        x, x_label, ticks = along(study, key, per_case=True)
+        ax.errorbar(x, values, errors, fmt="o", alpha=0.7, **palette.BARS)
+        _hollow(ax, x, values, errors)
+        _dress(ax, x_label, x, ticks, numeric(study, key))
+        if ax.get_xscale() == "linear" and numeric(study, key):
+            ax.locator_params(axis="x", nbins=5)
+    for ax in axes[:, 0]:
+        ax.set_ylabel(label)
+    page.title(figure, f"{study.plan.scene.name}: {name}{_unknown(values, errors)}")
+    return figure
+
+
+def index_over_film(page, study):
+    """Fi of every case against the thinnest film of its passage, both with their errors, coloured by the first key."""
+    film, film_error, film_label = with_errors(study, FILM, "smallest film of the passage")
+    Fi, Fi_error, _ = with_errors(study, INDEX)
+    key = study.plan.keys[0]
+    colour, colour_label, ticks = along(study, key, per_case=True)
+    figure, ((ax,),) = page.figure(height=HIGH * page.row())
+    ax.errorbar(film, Fi, Fi_error, film_error, fmt="none", ecolor=palette.GREY, **palette.BARS)
+    drawn = ax.scatter(film, Fi, c=colour, cmap=palette.RESULT, s=0.3 * page.text**2, zorder=3)
+    _hollow(ax, film, Fi, Fi_error)
+    scale = bar(figure, drawn, ax, colour_label)
+    if not numeric(study, key):
+        places = dict(zip(colour.tolist(), ticks))
+        scale.set_ticks(list(places), labels=list(places.values()))
+    ax.axhline(1.0, color=palette.GREY, ls="--")
+    ax.set(xlabel=film_label, ylabel="fatigue index Fi")
+    ax.grid()
+    page.title(figure, f"{study.plan.scene.name}: Fi over the smallest film, {_count(study)}{_unknown(Fi, Fi_error)}")
+    return figure
+
+
+def _hollow(ax, x, y, errors):
+    """Points whose error is not known: not to be taken for exact ones."""
+    unknown = ~np.isfinite(errors)
+    ax.plot(x[unknown], y[unknown], ".", color="white", markersize=3, zorder=4)
+
+
+def _unknown(values, errors):
+    return " (hollow: error unknown)" if (np.isfinite(values) & ~np.isfinite(errors)).any() else ""
+
+
+def _count(study):
+    return f"{int(np.isfinite(study.values[INDEX]).sum())} of {len(study)} cases"
+
+
+def _dress(ax, x_label, x, ticks, in_numbers):
+    ax.set(xlabel=x_label)
+    ax.grid()
+    if not in_numbers:
+        places = dict(zip(x.tolist(), ticks))
+        ax.set_xticks(list(places), list(places.values()))
+    elif len(x) > 2 and (x > 0).all() and x.max() > 30 * x.min():
+        ax.set_xscale("log")
+        ax.xaxis.set_major_formatter("{x:g}")  # plain numbers: no text is read as mathematics
+        ax.xaxis.set_minor_formatter("")
+
+
+def numeric(study, key):
+    return all_numbers(study.plan.coordinate(key)[1])
+
+
+def along(study, key, per_case=False):
+    """(numbers along a key, its label with unit, the numbers in words); words stand at 0, 1, 2 ..."""
+    values = [study.plan.changes(n)[key] for n in range(len(study))] if per_case else study.plan.coordinate(key)[1]
+    if not numeric(study, key):
+        known = list(dict.fromkeys(map(word, study.plan.coordinate(key)[1])))
+        words = [word(value) for value in values]
+        return np.array([known.index(one) for one in words], float), key, words
+    found, label = scaled(np.array(values, float), unit(study.plan.scene, key), key)
+    return found, label, [f"{value:.4g}" for value in found]
+
+
+def with_errors(study, name, text=None):
+    """(values of a column, their error bars, both in a unit that people read, label); a bar is nan where it is not known."""
+    values, errors = study.values[name], study.values.get(error_of(name), np.full(len(study), np.nan))
+    factor, shown = _scale(values, unit_of(name))
+    return values * factor, errors * factor, _label(text or name, unit_of(name), shown)
+
+
+def scaled(values, unit_, text):
+    """(values in a unit that people read, label)."""
+    factor, shown = _scale(values, unit_)
+    return values * factor, _label(text, unit_, shown)
+
+
+def _scale(values, unit_):
+    """(factor, its unit) for what people read."""
+    top = np.nanmax(np.abs(values)) if np.isfinite(values).any() else 0.0
+    return fitting(unit_, top)
+
+
+def _label(text, unit_, shown):
+    text = text.removesuffix(f"_{unit_}")  # h_min_m (µm)
+    return text if shown == "1" else f"{text} ({shown})"

@@ -1,0 +1,76 @@
+"""Study files (TOML): a scene, what is changed in all its cases, and what is swept."""
+
+import tomllib
+from pathlib import Path
+
+from tehl_taichi.disk import files
+from tehl_taichi.errors import SceneError
+from tehl_taichi.runs.sweep.plan import plan
+from tehl_taichi.scene import BUILT_INS, toml_file
+from tehl_taichi.scene.aliases import check_swept
+from tehl_taichi.store.load_scene import find_changed
+from tehl_taichi.values.checks import nearest
+from tehl_taichi.values.coerce import shown
+from tehl_taichi.values.file_ending import ending
+
+KNOWN = ("scene", "set", "over", "together", "samples", "seed")
+
+
+def is_study_file(path):
+    """Whether it is TOML that sweeps: a scene file has no table [over] or [[together]]."""
+    path = Path(path)
+    if ending(path) != ".toml" or not path.is_file():
+        return False
+    try:
+        return bool({"over", "together"} & tomllib.loads(files.text(path)).keys())
+    except (OSError, ValueError, RecursionError):
+        return False
+
+
+def load(path):
+    """Plan of a study file. Raises SceneError (also where the scene is refused).
+
+    [over] has a line key = values for each key, [[together]] tables of keys that change together, [set] what all cases have;
+    keys with dots may be quoted or not. scene: a built-in, or a scene file beside this one.
+    """
+    path = Path(path)
+    data = toml_file.read(path, "study")
+    for key in data:
+        if key not in KNOWN:
+            raise SceneError(f"unknown key {shown(key)} in {path}{nearest(key, KNOWN)}; known: {', '.join(KNOWN)}")
+    toml_file.check_brackets(path, data, one=("set", "over"), several=("together",))
+    over = {key: _listed(key, values) for key, values in _flat(data.get("over", {})).items()}
+    for group in data.get("together", []):
+        columns = {key: _listed(key, values) for key, values in _flat(group).items()}
+        over[tuple(columns)] = _rows(columns)
+    changes = _flat(data.get("set", {}))
+    check_swept(changes, [key for keys in over for key in ((keys,) if isinstance(keys, str) else keys)])
+    scene = find_changed(_scene_name(data.get("scene", "gear"), path.parent), changes)
+    return plan(scene, over, data.get("samples"), data.get("seed"))
+
+
+def _flat(table, above=""):
+    """{dotted key: value} of nested tables: TOML reads feature.height = 1 as one."""
+    out = {}
+    for key, value in table.items():
+        out |= _flat(value, f"{above}{key}.") if isinstance(value, dict) else {above + key: value}
+    return out
+
+
+def _listed(key, values):
+    if not isinstance(values, (list, str)):
+        raise SceneError(f"{key} = {shown(values)} must be a list of values or a range, as in \"-0.3:0.3:7\"")
+    return values
+
+
+def _rows(columns):
+    from tehl_taichi.runs.sweep import axis_syntax
+
+    return [list(row) for row in axis_syntax.axis(list(columns),
+                                                  [axis_syntax.column(found) for found in columns.values()]).rows]
+
+
+def _scene_name(name, folder):
+    if not isinstance(name, str):
+        raise SceneError(f"scene = {shown(name)} must be the name of a built-in scene or of a scene file")
+    return name if name in BUILT_INS else str(folder / name) if ending(name) == ".toml" else name

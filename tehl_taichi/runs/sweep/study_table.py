@@ -1,0 +1,298 @@
+"""A study on disk: a folder that is a zarr group (xarray opens it, the swept keys are its dimensions), a CSV and the cases.
+
+    STUDY/zarr.json, STUDY/srr/ ...   coordinates, status, and every number of the summaries over them
+    STUDY/table.csv                   the same, a line a case
+    STUDY/cases.jsonl                 every case that ended, with its summary: what the other two are made of
+    STUDY/cases/0001.zarr             the store of a case
+"""
+
+import contextlib
+import csv
+import io
+import json
+import time
+from pathlib import Path
+
+import numpy as np
+import zarr
+
+from tehl_taichi import __version__
+from tehl_taichi.commit import commit
+from tehl_taichi.disk.files import blamed, json_of, reason, replace
+from tehl_taichi.disk.locked_folder import LockedFolder, locked_folder
+from tehl_taichi.disk.user_files import check_outside
+from tehl_taichi.errors import SceneError, StoreError, extra
+from tehl_taichi.runs.sweep import case_records as records
+from tehl_taichi.runs.sweep import summary_columns
+from tehl_taichi.runs.sweep.axis_syntax import all_numbers, word
+from tehl_taichi.runs.sweep.plan import ONE, Plan, unit
+from tehl_taichi.store.integrity import ROOT, lacking
+from tehl_taichi.values.coerce import shown
+from tehl_taichi.values.escape import cell
+
+TABLE, CASES, PLAN = "table.csv", "cases", "study"  # PLAN: the attribute that makes a group a study
+SHARE = 0.05  # of the time, at most, goes into writing table and arrays
+EVERY = 1.0  # s between two writes, at least
+
+
+class Study(LockedFolder):
+    """A sweep on disk: its cases, their status and a table of all numbers of their summaries.
+
+    :func:`tehl_taichi.sweep` and :func:`tehl_taichi.open` give one; `xarray.open_zarr(study.path)` reads it with the swept
+    keys as dimensions.
+
+    Attributes
+    ----------
+    path : pathlib.Path
+        Its folder.
+    plan : Plan
+        Scene, keys and values, :class:`tehl_taichi.runs.sweep.plan.Plan`.
+    status : array (cases,)
+        Numbers of `case_records.STATUS`.
+    values : dict
+        {name: array (cases,)}, for instance "fatigue_Fi_max"; nan where a case has no such number.
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> line = tehl.scene("smooth-line").replace(**{"grid.nx": 32, "thermal.on": False})
+    >>> study = tehl.sweep(line, {"srr": [0.0, 0.1]}, "small.zarr", workers=1)
+    >>> study, study.counts["converged"], len(study)
+    (<Study small.zarr: 2 cases, 2 converged>, 2, 2)
+    """
+
+    def __init__(self, path, plan, lock=None):
+        self.path, self.plan, self.lock = Path(path), plan, lock
+        self.status = np.zeros(plan.count, "i1")
+        self.values, self.written, self.due = {}, {}, 0.0
+        for record in records.read(self.path):
+            if record["case"] < plan.count:
+                self._take(record)
+
+    @classmethod
+    def open(cls, path):
+        """An existing study, to read. Raises StoreError."""
+        attrs = attributes(path)
+        if attrs is None:
+            raise StoreError(f"{path} is not a study of tehl sweep")
+        try:
+            return cls(path, Plan.from_text(attrs[PLAN]))
+        except (ValueError, KeyError, TypeError, AttributeError, IndexError) as error:
+            if said := lacking(_scene_text(attrs[PLAN])):
+                raise StoreError(f"{path} needs {said}") from None
+            said = error if isinstance(error, SceneError) else f"{shown(attrs[PLAN])} is not written by tehl"
+            raise StoreError(f"{path} is damaged: its plan cannot be read ({said})") from None
+
+    @classmethod
+    def write(cls, path, plan):
+        """The study of `plan` at `path`, made where there is none. Raises StoreError where something else is there, Busy where
+        another sweep writes it."""
+        path = Path(path)
+        attrs = attributes(path)
+        check_outside(path)
+        if attrs is None and (path.is_file() or path.is_dir() and any(path.iterdir())):
+            raise StoreError(f"{path} exists already and is not a study; choose another --out")
+        if attrs is not None and (version := attrs.get("version", "unknown")) != __version__:
+            raise StoreError(f"{path} was written by version {version}, this is {__version__}; cases of two versions are not "
+                             f"mixed. Choose another --out, or use version {version}")
+        if attrs is not None and not plan.matches(attrs[PLAN]):
+            raise StoreError(f"{path} holds another study; choose another --out or remove it")
+        with blamed(path, "cannot write to"):
+            path.mkdir(parents=True, exist_ok=True)
+        return locked_folder(path, lambda lock: cls._locked(path, plan, lock))
+
+    @classmethod
+    def _locked(cls, path, plan, lock):
+        records.mend(path)
+        study = cls(path, plan, lock)
+        with study._disk_errors():
+            if attributes(path) is None:
+                study._publish()  # whatever ends the rest, the same command knows it for its own
+            (path / CASES).mkdir(exist_ok=True)
+        study.flush()
+        return study
+
+    @contextlib.contextmanager
+    def _disk_errors(self):
+        """What a disk refuses (full, read-only), as a StoreError."""
+        try:
+            yield
+        except OSError as error:
+            raise StoreError(f"cannot write to {self.path}: {reason(error)}; stored cases are kept, and the same command "
+                             "resumes") \
+                from None
+
+    def close(self):
+        """Write what is not written yet, and let others write."""
+        try:
+            if self.lock:
+                self.flush()
+        finally:
+            super().close()
+
+    def __len__(self):
+        return self.plan.count
+
+    def __repr__(self):
+        counts = ", ".join(f"{count} {word}" for word, count in self.counts.items() if count)
+        return f"<Study {self.path}: {len(self)} cases, {counts}>"
+
+    @property
+    def counts(self):
+        """{status: number of cases}."""
+        return {word: int(np.sum(self.status == number)) for word, number in records.STATUS.items()}
+
+    @property
+    def open_cases(self):
+        """Numbers of the cases that have no final result yet."""
+        final = [records.STATUS[word] for word in records.FINAL]
+        return np.flatnonzero(~np.isin(self.status, final)).tolist()
+
+    @property
+    def table(self):
+        """Path of the CSV."""
+        return self.path / TABLE
+
+    def store_of(self, number):
+        """Where the store of a case lies, made or not."""
+        return self.path / CASES / f"{number:04d}.zarr"
+
+    def results(self):
+        """List of the last record of every case that ended, in the order of their numbers: "case", "changes", "status",
+        "converged", "reason", "store", "seconds", "summary"."""
+        last = {record["case"]: record for record in records.read(self.path) if record["case"] < len(self)}
+        return [{**last[n], "converged": last[n]["status"] == "converged", "store": self._full(last[n].get("store"))}
+                for n in sorted(last)]
+
+    def _full(self, store):
+        return str(self.path / store) if store else None
+
+    def rows(self):
+        """Generator of one dictionary a case: its number, keys, status and numbers."""
+        words = {number: word for word, number in records.STATUS.items()}
+        for n in range(len(self)):
+            yield {"case": n, **self.plan.changes(n), "status": words[int(self.status[n])],
+                   **{name: float(column[n]) for name, column in self.values.items()}}
+
+    def add(self, record):
+        """Keep the record of a case that ended; the table follows now and then. Raises StoreError."""
+        with self._disk_errors():
+            records.append(self.path, record)
+        self._take(record)
+        if time.monotonic() >= self.due:
+            self.flush()
+
+    def _take(self, record):
+        n = record["case"]
+        self.status[n] = records.STATUS[record["status"]]
+        for column in self.values.values():
+            column[n] = np.nan
+        for name, value in summary_columns.numbers(record.get("summary") or {}).items():
+            self.values.setdefault(name, np.full(len(self), np.nan))[n] = value
+
+    def flush(self):
+        """Write arrays and CSV as they are now. Raises StoreError."""
+        with self._disk_errors():
+            self._flush()
+
+    def _flush(self):
+        started = time.monotonic()
+        group = zarr.open_group(str(self.path), mode="a", zarr_format=3)
+        if not self.written:
+            self._write_coordinates(group)
+        for name, values in self.values.items():
+            self._write(group, name, values, summary_columns.unit_of(name), name.replace("_", " "))
+        self._write(group, "status", self.status, "1", "status of the case", flag_values=list(records.STATUS.values()),
+                    flag_meanings=" ".join(word.replace(" ", "_") for word in records.STATUS))
+        self._publish()
+        replace(self.table, self._csv().encode())
+        self.due = time.monotonic() + max(EVERY, (time.monotonic() - started) / SHARE)
+
+    def _write_coordinates(self, group):
+        for key in self.plan.keys:
+            dim, values = self.plan.coordinate(key)
+            values = np.array(values) if all_numbers(values) else np.array([word(value) for value in values], dtype=object)
+            dtype = str if values.dtype == object else values.dtype
+            self._make(group, key, values.shape, dtype, [dim], unit(self.plan.scene, key), key)[:] = values
+        if ONE not in self.plan.keys:
+            numbers = np.arange(len(self)).reshape(self.plan.shape)
+            self._make(group, ONE, numbers.shape, "i4", self.plan.dims, "1", f"number of the case: its store is "
+                       f"{CASES}/NUMBER.zarr")[...] = numbers
+
+    def _write(self, group, name, values, unit_, text, **attrs):
+        if name not in self.written:
+            self._make(group, name, self.plan.shape, values.dtype, self.plan.dims, unit_, text, **attrs)
+        self.written[name][...] = values.reshape(self.plan.shape)
+
+    def _make(self, group, name, shape, dtype, dims, unit_, text, **attrs):
+        fill = "" if dtype is str else float("nan") if np.dtype(dtype).kind == "f" else 0
+        array = group.create_array(name, shape=shape, chunks=shape, dtype=dtype, dimension_names=list(dims), fill_value=fill,
+                                   overwrite=True)
+        array.attrs.update({"units": unit_, "long_name": text, **attrs})
+        self.written[name] = array
+        return array
+
+    def _publish(self):
+        """The group's metadata with those of its arrays, replaced as a whole."""
+        arrays = {name: json_of(self.path / name / ROOT) for name in self.written}
+        coordinates = [key for key in (*self.plan.keys, ONE) if key in arrays and key not in self.plan.dims]
+        attrs = {PLAN: self.plan.text, "version": __version__, "commit": commit(), "coordinates": " ".join(coordinates)}
+        root = {"zarr_format": 3, "node_type": "group", "attributes": attrs,
+                "consolidated_metadata": {"kind": "inline", "must_understand": False, "metadata": arrays}}
+        replace(self.path / ROOT, json.dumps(root).encode())
+
+    def _csv(self):
+        text = io.StringIO()
+        out = csv.DictWriter(text, ["case", *self.plan.keys, "status", *self.values], restval="", lineterminator="\n")
+        out.writerow({key: cell(key) for key in out.fieldnames})
+        for row in self.rows():
+            out.writerow({key: "" if value != value else cell(value) for key, value in row.items()})
+        return text.getvalue()
+
+    def to_dict(self):
+        """The JSON object of `tehl sweep --json`."""
+        converged = self.counts["converged"]
+        return {"cases": len(self), "converged": converged, "failed": len(self) - converged, "study": str(self.path),
+                "table": str(self.table), "results": self.results()}
+
+    def to_xarray(self):
+        """The table as an xarray.Dataset over the swept keys. Raises StoreError where xarray is not installed."""
+        try:
+            import xarray
+        except ImportError:
+            raise StoreError(f"xarray is not installed: {extra('xarray')}") from None
+        return xarray.open_zarr(self.path).load()
+
+    def plot(self, folder=None, quantity=None, dpi=160, format="png", width=17.0, force=False):
+        """Write its figures into `folder` (default: beside the study): of one column of the table or of the usual ones.
+
+        dpi, format, width, force: as :meth:`Run.plot`. Returns their paths. Raises SceneError, or StoreError without
+        matplotlib, for an unknown column, or where it cannot write.
+        """
+        from tehl_taichi.runs.sweep import study_figures
+        from tehl_taichi.view.figures.figure_style import FigureStyle, default_folder
+
+        return study_figures.write_all(self, folder or default_folder(self.path), quantity,
+                                       FigureStyle(format, dpi, width, force))
+
+
+def _scene_text(plan):
+    """The scene in the text of a plan, as JSON; "" where there is none."""
+    try:
+        return json.dumps(json.loads(plan)["scene"])
+    except (TypeError, ValueError, KeyError):
+        return ""
+
+
+def is_study(path):
+    """Whether a study lies at `path`."""
+    return attributes(path) is not None
+
+
+def attributes(path):
+    """Attributes of the study at `path`, or None."""
+    try:
+        attrs = json_of(Path(path) / ROOT)["attributes"]
+        return attrs if PLAN in attrs else None
+    except (OSError, ValueError, KeyError, TypeError):
+        return None

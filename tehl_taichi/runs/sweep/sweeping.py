@@ -1,0 +1,103 @@
+"""Many runs of one scene with changes: case by case into a study, side by side, again from where it stopped."""
+
+from collections.abc import Callable, Mapping
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from tehl_taichi.runs.sweep.job import LostJob
+from tehl_taichi.scene import Scene
+from tehl_taichi.values.path_arguments import path_of
+
+if TYPE_CHECKING:
+    from tehl_taichi.runs.sweep.study_table import Study
+
+KEEP = ("stores", "summary")
+
+
+def sweep(scene: Scene | str | PathLike, over: Mapping, path: str | PathLike | None = None, *, samples: int | None = None,
+          seed: int | None = None, workers: int | None = None, threads_per_worker: int | None = None, scheduler: Any = None,
+          keep: str = "stores", progress: Callable | None = None) -> "Study":
+    """As :func:`tehl_taichi.sweep`."""
+    from tehl_taichi.runs.sweep.plan import plan
+    from tehl_taichi.store.load_scene import find
+
+    return run(plan(find(scene), over, samples, seed), path, workers=workers, threads_per_worker=threads_per_worker,
+               scheduler=scheduler, keep=keep, progress=progress)
+
+
+def run(plan, path=None, *, workers=None, threads_per_worker=None, scheduler=None, keep="stores", progress=None, say_line=None,
+        work=None):
+    """The cases of `plan` that its study at `path` has no result of; as :func:`sweep`. work: what runs a
+    :class:`tehl_taichi.runs.sweep.case.CaseJob` (default: :func:`tehl_taichi.runs.sweep.case.work`)."""
+    from tehl_taichi.runs.sweep import case, pool
+    from tehl_taichi.runs.sweep.study_table import Study
+    from tehl_taichi.store.store_draft import check_room
+
+    workers, threads = checked(workers, threads_per_worker, scheduler, keep)
+    refused = plan.refused()
+    path = path_of("path", path) if path is not None else default_path(plan)
+    if keep == "stores":
+        check_room(_nearest_folder(path))
+    with Study.write(path, plan) as study:
+        _report_refused(study, refused)
+        todo = study.open_cases
+        workers = workers and min(workers, max(1, len(todo)))
+        if progress:
+            progress(study, None)
+        jobs = (_job(study, number, keep, threads, shared=workers != 1) for number in todo)
+        found = pool.results(work or case.work, jobs, workers=workers, scheduler=scheduler, say_line=say_line)
+        for place, answer in found if todo else ():
+            _keep(study, todo[place], answer, keep, progress)
+    return study
+
+
+def checked(workers=None, threads_per_worker=None, scheduler=None, keep="stores", connect=True):
+    """(processes, threads of each) of a sweep, as :func:`tehl_taichi.runs.sweep.pool.sizes` gives them; connect: a scheduler is
+    asked whether it is there. Raises SceneError and RuntimeUnavailable where no sweep can have them."""
+    from tehl_taichi.runs.sweep import pool
+    from tehl_taichi.values.checks import choice
+
+    choice("--keep", keep, KEEP)
+    workers, threads = pool.sizes(workers, threads_per_worker, scheduler)
+    if connect or scheduler is None:
+        pool.check(workers, threads, scheduler)
+    return workers, threads
+
+
+def _nearest_folder(path):
+    """The folder at `path`, or the first above it that there is."""
+    return next(folder for folder in (path.absolute(), *path.absolute().parents) if folder.is_dir())
+
+
+def default_path(plan):
+    """The same for the same sweep, so that the same command goes on with it."""
+    return Path("runs") / f"{plan.name}.zarr"
+
+
+def _job(study, number, keep, threads, shared):
+    from tehl_taichi.runs.sweep.case import CaseJob
+
+    store = str(study.store_of(number).absolute()) if keep == "stores" else None
+    return CaseJob(study.plan.case(number), store, threads, shared)
+
+
+def _report_refused(study, refused):
+    done = set(study.open_cases)
+    for number, reason in refused.items():
+        if number in done:
+            study.add({"case": number, "changes": study.plan.changes(number), "status": "refused", "reason": reason,
+                       "store": None, "seconds": 0.0, "summary": None})
+
+
+def _keep(study, number, answer, keep, progress):
+    if isinstance(answer, LostJob):
+        answer = {"status": "failed", "reason": answer.reason, "summary": None, "seconds": 0.0}
+    store = study.store_of(number)
+    there = keep == "stores" and store.exists()
+    record = {"case": number, "changes": study.plan.changes(number), **answer,
+              "store": str(store.relative_to(study.path)) if there else None}
+    study.add(record)
+    if progress:
+        progress(study, record)
+

@@ -1,0 +1,71 @@
+"""The first worker of a machine compiles the kernels, the others wait for it and load them.
+
+Taichi keeps compiled kernels when its process ends properly, which workers rarely do: so a short passage runs in a process of
+its own, once for a kind of scene, version and machine (more exactly: folder of kernels).
+"""
+
+import contextlib
+import hashlib
+import json
+import os
+import pickle
+import subprocess
+import sys
+
+from tehl_taichi.commit import commit
+from tehl_taichi.disk import files
+from tehl_taichi.errors import Error
+
+STEPS = 3  # the fewest with a fatigue search
+
+
+def once(scene):
+    """See that the kernels of such a scene are in the cache; waits while another process sees to it."""
+    from tehl_taichi.engine.runtime import preferred_cache
+
+    stamp = preferred_cache() / f"warm-{_kind(scene)}"
+    if stamp.exists():
+        return
+    with contextlib.suppress(OSError):  # a folder that nobody can write to has no new kernels
+        stamp.parent.mkdir(parents=True, exist_ok=True)
+        with os.fdopen(files.opened(stamp.with_suffix(".lock"), os.O_RDWR | os.O_CREAT), "r+b") as lock:
+            _wait_for(lock)
+            if not stamp.exists():
+                _compile(scene)
+                files.append(stamp, b"")
+
+
+def _kind(scene):
+    """What decides which kernels a scene has, as a short word."""
+    kind = [commit(), scene.isothermal, scene.one_dimensional, scene.symmetric, scene.transient, scene.has_fatigue,
+            scene.shear_law.law, scene.oil.viscosity, scene.numerics.precision, scene.contact.kind]
+    return hashlib.sha256(json.dumps(kind).encode()).hexdigest()[:10]
+
+
+def _wait_for(lock):
+    with contextlib.suppress(ImportError):
+        import fcntl
+
+        fcntl.flock(lock, fcntl.LOCK_EX)
+
+
+def _compile(scene):
+    """Run a few steps of the scene in a process that ends properly, whatever comes out."""
+    subprocess.run([sys.executable, "-c", "from tehl_taichi.runs.sweep.warm_cache import serve; serve()"],
+                   input=pickle.dumps(scene),
+                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env={**os.environ, "OMP_NUM_THREADS": "1"})
+
+
+def serve():
+    """The process: a scene comes by stdin."""
+    from tehl_taichi.engine import runtime
+    from tehl_taichi.fatigue import assessment
+    from tehl_taichi.march.passage import march
+
+    scene = pickle.load(sys.stdin.buffer)
+    runtime.start(threads=1)
+    with contextlib.suppress(Error):
+        short = scene.replace(**{"time.steps": STEPS}) if scene.transient else scene
+        shots = list(march(short))
+        if short.has_fatigue:
+            assessment.run(short, shots)

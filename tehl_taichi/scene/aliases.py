@@ -1,0 +1,68 @@
+"""What is given together for a change of a scene: keys by their full names, and which of them contradict each other."""
+
+from tehl_taichi.errors import SceneError
+from tehl_taichi.values.coerce import plain, shown
+
+SHORT = {"srr": "operation.srr", "load": "contact.load", "hertz_pressure": "contact.hertz_pressure",
+         "speed": "operation.u_m", "temperature": "operation.temperature", "height": "feature.height",
+         "width": "feature.width", "kappa": "fatigue.kappa", "endurance": "fatigue.endurance",
+         "bending_limit": "fatigue.bending_limit", "torsion_limit": "fatigue.torsion_limit"}
+LOADS = ("contact.load", "contact.hertz_pressure", "contact.moes_M", "contact.moes_L")
+BY_SURFACE = ("operation.u_a", "operation.u_b")
+# keys of one line say the same in different ways: only those of one of its groups can be given
+EXCLUSIVE = ((LOADS[:1], LOADS[1:2], LOADS[2:]), (BY_SURFACE, ("operation.u_m", "operation.srr")),
+             (LOADS[2:], ("operation.u_m", *BY_SURFACE)), (("time.steady_only",), ("time.steps",)),
+             (("oil.nu_40", "oil.nu_100", "oil.alpha_40"), ("oil.G0", "oil.S0", "oil.Dz", "oil.Cz")),
+             (("oil.rho_15",), ("oil.rho0",)),
+             (("fatigue.endurance",), ("fatigue.torsion_limit", "fatigue.bending_limit")))
+
+
+def full_name(key):
+    """The dotted key behind a short one; that of the first feature with its number."""
+    key = SHORT.get(key, key)
+    section, _, rest = key.partition(".")
+    return f"feature.0.{rest}" if section == "feature" and rest and not rest[0].isdigit() else key
+
+
+def settled(given):
+    """{full key: value} of (words, key, value), the words being what the user wrote. Raises SceneError, with the words of
+    both, where two of them contradict each other."""
+    found = {}
+    for words, key, value in given:
+        key, value = full_name(key), plain(value)
+        if key in found and found[key][1] != value:
+            _contradict(found[key][0], words)
+        found[key] = words, value
+    for groups in EXCLUSIVE:
+        spoken = [[found[key][0] for key in group if key in found and _is_given(key, found[key][1])] for group in groups]
+        spoken = [words[0] for words in spoken if words]
+        if len(spoken) > 1:
+            _contradict(*spoken[:2])
+    return {key: value for key, (_, value) in found.items()}
+
+
+def check_swept(changes, keys):
+    """Refuse changes {key: value} of all cases that a sweep over these keys overrules or contradicts. Raises SceneError."""
+    settled([*((f"{words(key, value)} in all cases", key, value) for key, value in changes.items()),
+             *((f"the sweep over {key}", key, f"swept {key}") for key in keys)])
+
+
+def named(changes):
+    """{full key: value} of changes {key: value}. Raises SceneError, as :func:`settled`."""
+    return settled([(words(key, value), key, value) for key, value in changes.items()])
+
+
+def words(key, value):
+    """A change as a sentence shows it."""
+    return f"{key} = {shown(value)}"
+
+
+def _is_given(key, value):
+    """A load of 0 is none given, no positive number of steps, steady_only = false are no wishes; a speed or slip of 0 is."""
+    if key == "time.steps":
+        return not isinstance(value, int) or value > 0
+    return key.startswith("operation.") or bool(value)
+
+
+def _contradict(one, other):
+    raise SceneError(f"{one} and {other} contradict each other: give one of them")

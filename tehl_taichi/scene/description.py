@@ -1,0 +1,426 @@
+"""The whole scene: its parts, the checks between them, changes, and the way to and from plain dictionaries."""
+
+import dataclasses
+import math
+from dataclasses import dataclass, field
+from typing import Any
+
+from tehl_taichi.errors import SceneError
+from tehl_taichi.laws.shear.newtonian import NEWTONIAN
+from tehl_taichi.scene import (
+    aliases,
+    domain,
+    domain_warnings,
+    film_formula,
+    idle_keys,
+    named_oils,
+    oil,
+    oil_range,
+    overrides,
+    resolution,
+    scales,
+    scene_warnings,
+)
+from tehl_taichi.scene.feature import Feature
+from tehl_taichi.scene.named_steels import completed
+from tehl_taichi.scene.oil import Oil
+from tehl_taichi.scene.sections import (
+    AUTO,
+    SECTIONS,
+    Body,
+    Contact,
+    Fatigue,
+    Grid,
+    Numerics,
+    Operation,
+    Output,
+    Rheology,
+    Thermal,
+    Time,
+)
+from tehl_taichi.scene.speeds import of_surfaces
+from tehl_taichi.scene.surface.maps import map_warnings
+from tehl_taichi.scene.timeline import LATEST, cut_at, moments, total_steps
+from tehl_taichi.values.checks import build, file_name, nearest, number
+from tehl_taichi.values.coerce import shown
+from tehl_taichi.values.quantity import Text
+from tehl_taichi.values.unit_hints import meant
+
+TOP = {"name": Text("name of the scene and its stores", 100),  # the keys above all tables
+       "note": Text("free text on one line, stored and shown with the run")}
+FIRST, LAST = -1.6, 1.4  # of the path of a small feature, in a
+CLEAR = 1.3  # distance in a of a feature's front from X = 0 at an automatic start
+BEYOND = 1.2  # half-widths, at least, from the centre to the edge of the grid
+AT_REST = 0.01  # of the mean speed
+MAX_HERTZ, MIN_HERTZ = 6e9, 1e7  # Pa: outside this range the laws say nothing
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A contact, its bodies, oil and motion, and how it is computed; SI units.
+
+    Immutable: :meth:`replace` gives a changed copy. :func:`tehl_taichi.scene` loads one by name, file or store.
+
+    Parameters
+    ----------
+    name : str
+        Stores are named after it.
+    contact, operation, rheology, thermal, fatigue, grid, time, numerics, output
+        The sections, classes of these names (:class:`tehl_taichi.Contact` ...).
+    body_a, body_b : Body
+        Body a carries the features.
+    oil : Oil
+        The lubricant.
+    features : sequence of Feature
+        None: a smooth contact.
+    note : str
+        Free words, stored with the run.
+
+    Raises
+    ------
+    SceneError
+        The sections contradict each other, or a value is out of range.
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> scene = tehl.Scene(contact=tehl.Contact(load=1.1e6), grid=tehl.Grid(nx=128, ny=32))
+    >>> scene
+    <tehl.Scene gear: line contact, p_H 1.93 GPa, u_m 8.5 m/s, SRR -0.12, 1 feature, 128 x 32 cells>
+    >>> scene.replace(hertz_pressure=1.5e9, **{"feature.height": -1e-6}).features[0].height
+    -1e-06
+    """
+
+    name: str = "gear"
+    contact: Contact = field(default_factory=lambda: Contact(load=1.1e6))
+    body_a: Body = Body()
+    body_b: Body = Body()
+    operation: Operation = Operation()
+    oil: Oil = Oil()
+    rheology: Rheology = Rheology()
+    features: tuple = (Feature(),)
+    thermal: Thermal = Thermal()
+    fatigue: Fatigue = Fatigue()
+    grid: Grid = Grid()
+    time: Time = Time()
+    numerics: Numerics = Numerics()
+    output: Output = Output()
+    note: str = field(default="", compare=False)
+    user_keys = None  # full keys that the user gave: of these, what has no effect is told; None: those of unusual values
+
+    def __repr__(self):
+        s, o, count = scales.Scales.of(self), self.operation, len(self.features)
+        cells = f"{self.grid.nx} cells" if self.one_dimensional else f"{self.grid.nx} x {self.grid.ny} cells"
+        return (f"<tehl.Scene {self.name}: {self.contact.kind} contact, p_H {s.p_H / 1e9:.2f} GPa, u_m {o.u_m:.3g} m/s, "
+                f"SRR {o.srr:g}, {count} feature{'s' * (count != 1)}, {cells}>")
+
+    def __post_init__(self):
+        file_name("name", self.name)
+        TOP["note"].check("note", self.note)
+        self._check_kinds()
+        if self.contact.moes_M > 0:
+            object.__setattr__(self, "operation", dataclasses.replace(self.operation, u_m=self._moes_speed()))
+        if self.fatigue.thermal_stress is True and self.isothermal:
+            raise SceneError("fatigue.thermal_stress = true needs temperatures: use --thermal, or \"auto\"")
+        self._check_pressure()
+        oil_range.check(self)
+        object.__setattr__(self, "grid", domain.chosen(self))
+        self._check_motion()
+        self._check_path()
+        self._check_room()
+        resolution.check(self)
+        self._check_window()
+
+    def _check_kinds(self):
+        """Each part of its own kind, the features a tuple."""
+        if isinstance(self.features, list):
+            object.__setattr__(self, "features", tuple(self.features))
+        kinds = {**SECTIONS, "body_a": Body, "body_b": Body, "oil": Oil}
+        for key, kind in kinds.items():
+            if not isinstance(getattr(self, key), kind):
+                raise SceneError(f"{key} = {shown(getattr(self, key))} must be of the class {kind.__name__}")
+        if not isinstance(self.features, tuple) or not all(isinstance(f, Feature) for f in self.features):
+            raise SceneError(f"features = {shown(self.features)} must be a list of the class Feature")
+
+    def _moes_speed(self):
+        u_m = scales.moes_speed(self)
+        number(f"contact.moes_L = {self.contact.moes_L:g}: the mean speed that gives it", u_m, "m/s", 1e-6, 1e3)
+        return u_m
+
+    def _check_pressure(self):
+        p_H = scales.Scales.of(self).p_H
+        if not MIN_HERTZ <= p_H <= MAX_HERTZ:
+            raise SceneError(f"{self._load_words()} gives a Hertz pressure of {p_H:.3g} Pa; allowed: {MIN_HERTZ:.0e} to "
+                             f"{MAX_HERTZ:.0e} Pa{self.load_meant()}")
+
+    def _check_path(self):
+        start, end = self.path
+        if end <= start:
+            raise SceneError(f"time.x_end = {end:g} a must be more than x_start = {start:g} a")
+        front = start + max((f.x + f.reach for f in self.features), default=-10.0) / scales.Scales.of(self).a
+        if self.transient and front > -LATEST:
+            raise SceneError(f"time.x_start = {start:g} a: the features reach up to {front:.2f} a at the start, but the steady "
+                             f"start needs a smooth contact; allowed: at most {start - front - LATEST:.2f} a (or -inf)")
+
+    def _check_room(self):
+        """A point contact must fit into the grid, and a feature into the gap at its ends, where it comes in and leaves."""
+        if self.contact.kind != "line" and self.grid.y_max < BEYOND:
+            raise SceneError(f"grid.y_max = {self.grid.y_max:g} b: a {self.contact.kind} contact extends to 1 b; allowed: at "
+                             f"least {BEYOND:g} b")
+        highest, s = max((f.top for f in self.features), default=0.0), scales.Scales.of(self)
+        need = math.sqrt(2 * max(highest, 0.0) / s.h)
+        for key, end in (("x_min", self.grid.x_min), ("x_max", self.grid.x_max)):
+            if self.transient and abs(end) < need:
+                gap = 0.5 * end**2 * s.h
+                farther = f", or a wider domain: {words}" if (words := domain_warnings.domain_words(self)) else ""
+                raise SceneError(f"{self._load_words()} gives a half-width a of {s.a:.3g} m and so, at grid.{key} = {end:g} "
+                                 "a, an "
+                                 f"undeformed gap of {gap:.3g} m, smaller than the height of a feature, {highest:.3g} m; "
+                                 f"allowed: a height of at most {gap:.2g} m, more load{farther}"
+                                 f"{self.load_meant(need / min(abs(end), domain.INLETS[0])) or self._form_words()}")
+
+    def _check_window(self):
+        """Some moments must be left of the passage."""
+        if not self.has_fatigue or total_steps(self) == 0:
+            return
+        count, start, end = moments(self)
+        if count < 2:
+            f = self.fatigue
+            raise SceneError(f"fatigue.from_x = {f.from_x:g} a to fatigue.to_x = {f.to_x:g} a leaves {count} stored moments of "
+                             f"the passage, which extends from {start:.2f} to {end:.2f} a; allowed: a window of at least two")
+
+    def _form_words(self):
+        """What is said of the form of a measured feature, which makes it higher than it need be."""
+        said = (sentence for f in self.features if f.kind.measured for sentence in map_warnings.form(f))
+        return "".join(f". {sentence}" for sentence in said)
+
+    def _load_words(self):
+        """The load as it was given."""
+        key, value, unit = self._load_given()
+        return f"contact.{key} = {value:g}{' ' * bool(unit)}{unit}"
+
+    def _load_given(self):
+        """(key, value, unit) of the load."""
+        key = next(key for key in ("load", "hertz_pressure", "moes_M") if getattr(self.contact, key) > 0)
+        unit = {"load": self.load_unit, "hertz_pressure": "Pa", "moes_M": ""}[key]
+        return key, getattr(self.contact, key), unit
+
+    @property
+    def load_unit(self):
+        """Of contact.load."""
+        return "N/m" if self.contact.kind == "line" else "N"
+
+    def load_meant(self, wider=0.0, least=MIN_HERTZ):
+        """What the load was perhaps meant as, where it makes no contact, or one that has to be so many times wider, or with
+        that Hertz pressure (Pa) at least. Width and Hertz pressure grow alike with it."""
+        key, value, unit = self._load_given()
+        power = 1.0 if key == "hertz_pressure" else 1 / 2 if self.contact.kind == "line" else 1 / 3
+        p_H = scales.Scales.of(self).p_H
+
+        def fits(other):
+            times = (other / value) ** power
+            return times >= wider and least <= times * p_H <= MAX_HERTZ
+
+        return meant(value, unit, fits)
+
+    def _check_motion(self):
+        if self.transient and self.operation.u_a < 1e-3 * self.operation.u_m:
+            raise SceneError(f"operation.srr = {self.operation.srr:g} leaves surface a, which carries the feature, at "
+                             f"{self.operation.u_a:g} m/s, so it never passes; allowed with a feature: srr > -1.998, or use "
+                             "--steady")
+
+    @property
+    def load(self):
+        """N/m (line) or N (point), however the contact was described."""
+        return scales.load_of(self)
+
+    @property
+    def transient(self):
+        """True when a feature passes."""
+        return bool(self.features) and not self.time.steady_only
+
+    @property
+    def at_rest(self):
+        """Of the surfaces a and b: whether it moves at less than a hundredth of the mean speed, for heat not at all."""
+        o = self.operation
+        return o.u_a < AT_REST * o.u_m, o.u_b < AT_REST * o.u_m
+
+    @property
+    def path(self):
+        """Start and end of the first feature's centre, in a: long features start earlier and end later."""
+        if not self.features:
+            return FIRST, LAST
+        a = scales.Scales.of(self).a
+        ahead, behind = max(f.x + f.reach for f in self.features) / a, max(f.reach - f.x for f in self.features) / a
+        start = self.time.x_start if self.time.x_start > -math.inf else min(FIRST, -CLEAR - ahead)
+        return start, self.time.x_end if self.time.x_end < math.inf else max(LAST, LATEST + behind)
+
+    @property
+    def one_dimensional(self):
+        """True for a line contact in which nothing varies across."""
+        return self.contact.kind == "line" and (not self.transient or all(f.transverse for f in self.features))
+
+    @property
+    def symmetric(self):
+        """True when the half domain y >= 0 says it all."""
+        return not self.transient or all(f.symmetric for f in self.features)
+
+    @property
+    def rows(self):
+        """Cells across: none in one dimension, grid.ny on the half domain, twice as many on the whole."""
+        return 0 if self.one_dimensional else self.grid.ny * (1 if self.symmetric else 2)
+
+    @property
+    def isothermal(self):
+        if self.thermal.on == AUTO:
+            return self.operation.srr == 0 or self.contact.moes_M > 0
+        return not self.thermal.on
+
+    @property
+    def shear_law(self):
+        """The rheology that the flow of a film with one temperature obeys: Newtonian where no surface slips."""
+        return self.rheology if self.operation.u_s != 0 else dataclasses.replace(self.rheology, law=NEWTONIAN.name)
+
+    @property
+    def keeps_expansion(self):
+        """Whether the density of a film with one temperature keeps its thermal factor, at the inlet temperature: where the
+        user leaves the choice and nothing slips, so that films with and without slip are of one oil."""
+        return self.thermal.on == AUTO and self.contact.moes_M == 0
+
+    @property
+    def film_oil(self):
+        """The oil of a film with one temperature."""
+        expansion = oil.in_one_temperature(self.oil.expansion, self.keeps_expansion)
+        return dataclasses.replace(self.oil, expansion=expansion) if expansion != self.oil.expansion else self.oil
+
+    @property
+    def has_thermal_stress(self):
+        """Whether the heat of the surface counts in its stress."""
+        wanted = self.fatigue.thermal_stress
+        return not self.isothermal if wanted == AUTO else bool(wanted)
+
+    def left_out(self, cut=True):
+        """What this scene does not need and therefore does not compute, each with its reason; cut: and the rest of a passage
+        that is cut, of which a warning tells, too."""
+        out = []
+        if self.isothermal:
+            why = "isothermal film" if self.thermal.on is False else "no slip" if self.operation.srr == 0 else "a Moes pair"
+            out.append(f"energy equation and temperatures ({why}; --thermal computes them{film_formula.heat_words(self)})")
+        if self.isothermal and self.film_oil.expansion == "thermal" and self.oil.expands:
+            out.append("thermal expansion of the oil (isothermal film; oil.expansion = 'always' includes it)")
+        if self.one_dimensional:
+            out.append("y direction (nothing varies along y in this line contact)")
+        elif self.symmetric:
+            out.append("half of the domain (symmetric in y)")
+        if not self.transient:
+            out.append("march in time (steady)" if self.features else "march in time (no feature)")
+        elif cut and (end := cut_at(self)) is not None:
+            out.append(f"rest of the passage (cut at {end:.2f} a by time.steps or time.x_end; `tehl resume` continues)")
+        if not self.has_fatigue:
+            out.append(self.without_fatigue)
+        if self.operation.u_s == 0:
+            out.append("sliding friction (SRR = 0)")
+        if not self.rheology.thins:
+            out.append(f"shear law of the film (rheology.law = {self.rheology.law!r})")
+        return out
+
+    def warnings(self):
+        """What is doubtful in this scene, a sentence each (see :mod:`tehl_taichi.scene.scene_warnings`)."""
+        return scene_warnings.warnings(self)
+
+    @property
+    def has_fatigue(self):
+        """Fatigue needs a passage: the stress history of material points."""
+        return self.fatigue.on and self.transient
+
+    @property
+    def without_fatigue(self):
+        """Why it has no fatigue index, as :meth:`left_out` lists it; "" where it has one."""
+        why = "" if self.has_fatigue else "no passage" if self.fatigue.on else "switched off"
+        return f"stresses and fatigue ({why})" if why else ""
+
+    def replace(self, **changes: Any) -> "Scene":
+        """Return a changed copy.
+
+        Parameters
+        ----------
+        **changes
+            Short names (srr, load, hertz_pressure, speed, temperature, height, width, kappa, endurance, torsion_limit,
+            bending_limit, name), or full keys as in a scene file: "grid.nx", "bodies.a.E", "feature.height" (the first
+            feature), "feature.1.height" (the second).
+
+        Returns
+        -------
+        Scene
+
+        Raises
+        ------
+        SceneError
+            The key is unknown (the message proposes the nearest one), the value is out of range, it has no effect on this
+            scene, or two changes contradict each other.
+
+        Examples
+        --------
+        >>> import tehl_taichi as tehl
+        >>> tehl.scene("gear").replace(srr=0.2, **{"grid.nx": 128}).operation.srr
+        0.2
+        >>> tehl.scene("gear").replace(nx=128)
+        Traceback (most recent call last):
+        ...
+        tehl_taichi.errors.SceneError: unknown key nx (did you mean 'grid.nx'?); known: ...
+        """
+        changes = aliases.named(changes)
+        changed = Scene.from_dict(overrides.applied(self.to_dict(), changes))
+        overrides.check_effect(changed, changes)
+        return changed.with_user_keys(idle_keys.user_keys(self) | changes.keys())
+
+    def with_user_keys(self, keys):
+        """Itself, as one of which the user gave these keys (see :mod:`tehl_taichi.scene.idle_keys`)."""
+        object.__setattr__(self, "user_keys", frozenset(keys))
+        return self
+
+    def to_dict(self):
+        """Plain nested dictionary with every value, defaults included; the sections of a scene file."""
+        data = {"name": self.name, "note": self.note}
+        for key in SECTIONS:
+            data[key] = domain.with_auto(dataclasses.asdict(getattr(self, key)))
+        data["bodies"] = {"a": dataclasses.asdict(self.body_a), "b": dataclasses.asdict(self.body_b)}
+        data["oil"] = dataclasses.asdict(self.oil)
+        data["feature"] = [dataclasses.asdict(f) for f in self.features]
+        return data
+
+    @classmethod
+    def from_dict(cls, data):
+        """Scene from such a dictionary; missing values take their defaults, unknown keys are refused. None of them
+        counts as given by the user."""
+        known = {*TOP, "bodies", "oil", "feature", *SECTIONS}
+        if not isinstance(data, dict):
+            raise SceneError(f"a scene must be a table of sections, not {shown(data)}")
+        for key in data:
+            if key not in known:
+                raise SceneError(f"unknown section or key {shown(key)}{nearest(key, known)}; known: {', '.join(sorted(known))}")
+        parts = {key: build(kind, data[key], key) for key, kind in SECTIONS.items() if key in data
+                 and key not in ("operation", "fatigue")}
+        if "operation" in data:
+            parts["operation"] = build(Operation, of_surfaces(data["operation"]), "operation")
+        if "fatigue" in data:
+            parts["fatigue"] = Fatigue.from_values(data["fatigue"])
+        parts.update(_bodies(data.get("bodies", {})))
+        if "oil" in data:
+            parts["oil"] = named_oils.from_values(data["oil"])
+        if "feature" in data:
+            parts["features"] = _features(data["feature"])
+        return cls(name=data.get("name", "gear"), note=data.get("note", ""), **parts).with_user_keys(())
+
+
+def _bodies(values):
+    if not isinstance(values, dict) or set(values) - {"a", "b"}:
+        raise SceneError(f"[bodies] may only hold the tables [bodies.a] and [bodies.b], not {shown(values)}")
+    return {f"body_{key}": build(Body, completed(value), f"bodies.{key}", "bodies") for key, value in values.items()}
+
+
+def _features(values):
+    if not isinstance(values, (list, tuple)):
+        raise SceneError(f"features are written as [[feature]] tables, not {shown(values)}")
+    names = ["feature"] if len(values) == 1 else [f"feature.{n}" for n in range(len(values))]
+    return tuple(build(Feature, value, name, "feature") for name, value in zip(names, values))

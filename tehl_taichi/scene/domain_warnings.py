@@ -1,0 +1,93 @@
+"""Whether features find room in the domain: in the gap at its ends, where they come in and leave, and between its sides; and
+the domain in which they do, all at once."""
+
+import math
+
+from tehl_taichi.scene import hertz, resolution
+from tehl_taichi.scene.scales import Scales
+
+FARTHEST = 9.5  # half-widths to which a grid may well reach
+AMPLE = 1.02  # of the distance at which the gap is just as high as a feature, then the next tenth of a half-width
+WIDER = 1.05  # times that cells may grow with a domain before it gets more of them
+
+
+def warnings(scene):
+    """One sentence on features that are higher than the gap that the dry contact leaves at an end of the grid (the film adds to
+    it), or wider than the grid, with what gives all of them room."""
+    reasons = [*_low_ends(scene), *_narrow(scene)] if scene.transient else []
+    if reasons:
+        yield "; ".join([*reasons, *(f"use {words}" for words in [domain_words(scene)] if words)])
+
+
+def domain_words(scene):
+    """Options that give the scene a domain with room for its features, on cells as large as before; "" where none does."""
+    ends = {key: end for key, _, _, end in _low(scene)} | _sides(scene)
+    if not ends or max(map(abs, ends.values())) > FARTHEST:
+        return ""
+    return " ".join([*(f"--set grid.{key}={end:g}" for key, end in ends.items()), *_grid(scene, ends)])
+
+
+def _low(scene):
+    """(key, end (a), gap (m), an end that is far enough) of each end of the grid where the gap is too low."""
+    s, top = Scales.of(scene), max((f.top for f in scene.features), default=0.0)
+    gap = hertz.line_gap if s.line else hertz.point_gap
+    for key in ("x_min", "x_max"):
+        end = getattr(scene.grid, key)
+        room = gap(max(abs(end), 1.0)) * s.h
+        if top > room:
+            yield key, end, room, math.copysign(math.ceil(10 * AMPLE * hertz.gap_reaches(top / s.h, gap)) / 10, end)
+
+
+def _low_ends(scene):
+    top = max((f.top for f in scene.features), default=0.0)
+    for key, end, room, _ in _low(scene):
+        yield (f"a feature of {top:.3g} m passes grid.{key} = {end:g} a, where the dry gap is {room:.3g} m; the run stops "
+               "there unless the film is thick enough")
+
+
+def _wide(scene):
+    """{number: how far (m) it reaches along y} of features that the sides of the domain cut."""
+    s = Scales.of(scene)
+    edge = scene.grid.y_max * s.b
+    reached = {n: abs(f.y) + f.reach_y for n, f in enumerate(scene.features)
+               if not (f.transverse or resolution.misses_contact(f, s))}
+    return {n: far for n, far in reached.items() if edge * (1 + 1e-9) < far < math.inf}
+
+
+def _sides(scene):
+    """{"y_max": width in b that takes all of them in}; {} where none is cut."""
+    wide = _wide(scene)
+    return {"y_max": math.ceil(10 * max(wide.values()) / Scales.of(scene).b - 1e-9) / 10} if wide else {}
+
+
+def _narrow(scene):
+    """The feature that reaches farthest beyond the sides of the domain."""
+    if wide := _wide(scene):
+        n = max(wide, key=wide.get)
+        yield (f"{resolution.label(scene, n)} reaches to "
+               f"{wide[n]:.3g} m along y, the domain to grid.y_max = {scene.grid.y_max:g} "
+               f"b ({scene.grid.y_max * Scales.of(scene).b:.3g} m); heights beyond are cut off{_smaller(scene, n)}")
+
+
+def _smaller(scene, n):
+    """How a patch fits between the sides as they are, in words."""
+    f, s = scene.features[n], Scales.of(scene)
+    room = 2 * (scene.grid.y_max * s.b - abs(f.y))
+    if "extent_y" not in f.kind.uses or room < s.b / 10:
+        return ""
+    return f" ({resolution.label(scene, n)}.extent_y = {math.floor(room * 1e6) * 1e-6:.4g} makes the patch smaller)"
+
+
+def _grid(scene, ends):
+    """--grid with the cells that keep their size in a domain with these ends, where it needs more of them."""
+    g = scene.grid
+    x_min, x_max, y_max = (ends.get(key, getattr(g, key)) for key in ("x_min", "x_max", "y_max"))
+    nx, ny = cells("nx", g.nx, (x_max - x_min) / (g.x_max - g.x_min)), cells("ny", g.ny, y_max / g.y_max)
+    if (nx, ny) != (g.nx, g.ny):
+        yield f"--grid {nx}" + ("" if scene.one_dimensional else f"x{ny}")
+
+
+def cells(key, count, times):
+    """Of the axis "nx" or "ny" that becomes so many times as long: about as large as before, in multiples that a grid takes."""
+    multiple = resolution.kept_multiple(key, count)
+    return count if 1 <= times <= WIDER else math.ceil(count * times / WIDER / multiple - 1e-9) * multiple

@@ -1,0 +1,80 @@
+"""The grid that a wanted error needs, from what `tehl bench accuracy` measured on the built-in scenes."""
+
+import functools
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+
+from tehl_taichi.errors import SceneError
+from tehl_taichi.scene import domain, refinement
+from tehl_taichi.scene.scales import Scales
+from tehl_taichi.scene.surface.maps import map_warnings
+
+# Written by `tehl bench accuracy --keep`: {"machine", "families": {name: {"columns_per_width": columns for one cell per
+# half-width or width of the feature, "errors": {columns: largest relative error of film, pressure and Findley index}}}}
+FILE = Path(__file__).with_name("grid_errors.json")
+MOST = 2048  # columns
+MULTIPLE = 32  # of columns: the coarser grids of the solver need halves of halves
+
+
+def reaching(description, target):
+    """The scene on a grid and a domain with which the largest error of film, pressure and Findley index is about `target`: up
+    to half of it by the domain, which may end nearer where that is less. Raises SceneError."""
+    wide = domain.within(description, target / 2)
+    nx, ny = grid_for(wide, target)
+    return wide.replace(**{"grid.nx": nx, "grid.ny": ny})
+
+
+def grid_for(description, target):
+    """(nx, ny) cells with which the largest error of film, pressure and Findley index is about `target` (relative).
+
+    The resolution counts: cells per contact half-width of a steady scene, per feature width of a passage; measured maps must be
+    seen, too (:mod:`tehl_taichi.scene.surface.maps.map_warnings`). Beyond the finest measured grid the error is taken to fall
+    in proportion to the cells. Raises SceneError where that needs too fine a grid.
+    """
+    measured = families()[family_of(description)]
+    errors = {int(nx): error for nx, error in measured["errors"].items()}
+    needed = _columns(errors, target) * columns_per_width(description) / measured["columns_per_width"]
+    nx = math.ceil(needed / MULTIPLE - 1e-9) * MULTIPLE
+    if nx > MOST:
+        finest = target * nx / MOST
+        raise SceneError(f"a target error of {100 * target:.3g} % would need {nx} columns; allowed: at most {MOST}, which give "
+                         f"{100 * finest:.2g} % for this scene (see `tehl bench accuracy`)")
+    return _seeing_maps(description, nx, max(8, round(nx * description.grid.ny / description.grid.nx / 8) * 8))
+
+
+def _seeing_maps(description, nx, ny):
+    """This grid, or the first of twice its columns and rows, four times ... that sees the measured maps; where none of up to
+    MOST columns does, this one: the scene's warnings tell."""
+    return refinement.first(description.replace(**{"grid.nx": nx, "grid.ny": ny}), map_warnings.carried, MOST) or (nx, ny)
+
+
+@functools.cache
+def families():
+    """What was measured, by family of scenes."""
+    return json.loads(FILE.read_text())["families"]
+
+
+def family_of(description):
+    """Which of the measured families a scene belongs to."""
+    if description.transient:
+        return "passage" if description.isothermal else "thermal passage"
+    return "steady line" if description.contact.kind == "line" else "steady circle"
+
+
+def columns_per_width(description):
+    """Columns for one cell per contact half-width, or per feature width where features pass."""
+    g, a = description.grid, Scales.of(description).a
+    widths = [f.width for f in description.features if f.width] if description.transient else []
+    return (g.x_max - g.x_min) * a / min([a, *widths])
+
+
+def _columns(errors, target):
+    """Columns at which the measured error is the target: power laws between the grids, first order beyond the finest."""
+    grids = sorted(errors)
+    if target < errors[grids[-1]]:
+        return grids[-1] * errors[grids[-1]] / target
+    values = [math.log(errors[nx]) for nx in grids]
+    return float(np.exp(np.interp(-math.log(target), [-v for v in values], np.log(grids))))

@@ -1,0 +1,265 @@
+"""Which keys of a scene change nothing in it, and why: for options, --set, --over, files and Python alike.
+
+Found from what declares keys (laws, shapes, criteria) and from what a scene leaves out (heat, a passage, slip, a dimension): a
+new law or shape needs no line here.
+"""
+
+from types import SimpleNamespace
+
+import numpy as np
+
+from tehl_taichi.laws import conduction, density, rheology
+from tehl_taichi.laws.law import declared
+from tehl_taichi.laws.solid_friction import BOUNDARY, boundary_stress
+from tehl_taichi.laws.viscosity import ln_eta
+from tehl_taichi.scene import aliases, data_sheet, fatigue_limits, keys
+from tehl_taichi.scene.feature import USED_BY
+from tehl_taichi.scene.named_oils import OILS
+from tehl_taichi.scene.named_steels import STEELS
+from tehl_taichi.scene.oil import Oil, in_one_temperature
+from tehl_taichi.scene.scales import Scales
+from tehl_taichi.scene.sections import Fatigue, Time
+from tehl_taichi.values.automatic import AutomaticValue
+from tehl_taichi.values.quantity import kinds
+
+MOES = ("oil.eta0", "oil.alpha")  # numbers of the oil that a Moes pair uses
+LABELS = ("oil.name", "oil.source", "fatigue.source", "bodies.a.material", "bodies.b.material")  # nothing follows from them
+FOLLOW = {"oil": data_sheet.follows, "fatigue": fatigue_limits.follows}  # names of the numbers that others of a part give
+PARTS = (0.0, 0.1, 0.5, 1.0, 2.0)  # of the Hertz pressure, at which laws are asked
+WARMER = (0.0, 20.0, 80.0)  # K above the inlet, of a film with temperatures
+NUDGE = 0.01  # of a number, by which it is changed to see whether a law takes it
+
+
+def idle(scene):
+    """{full key: why it changes nothing} in this scene."""
+    return {**resting(scene), **idle_warnings(scene)}
+
+
+def idle_warnings(scene):
+    """Of these the keys that another law, shape or description takes: whoever gives one means that."""
+    return dict([*_overruled(scene), *_other_laws(scene), *_other_shapes(scene)])
+
+
+def resting(scene):
+    """Of these the keys of what this scene leaves out."""
+    return dict(found for rule in RULES for found in rule(scene))
+
+
+def signature(scene):
+    """{full key: value} of what acts: equal for scenes that give the same results."""
+    without = idle(scene)
+    return {key: value for key, kind, value in keys.every(scene) if key not in without and key not in LABELS}
+
+
+def doubts(scene):
+    """A sentence about every key that the user gave although it has no effect."""
+    found, own = idle(scene), user_keys(scene)
+    beside = {"time.steady_only", *["grid.ny"] * ("grid.nx" in own)}  # says what is so; --grid gives both
+    beside |= {"time.steps"} if scene.time.steps <= 0 else set()  # all of none, none
+    for key in sorted(own & found.keys() - beside):
+        yield f"{shown(key, scene)} has no effect here: {found[key]}"
+    yield from (f"rheology.{key} has no effect on the film: the law {scene.rheology.law!r} does not use it; it only "
+                "limits the friction of solid contact" for key in BOUNDARY.numbers
+                if f"rheology.{key}" in own - found.keys() and _only_solid(scene, key))
+
+
+def user_keys(scene):
+    """Full keys that the user gave; of a scene made of its parts in Python those of another value than the declared one,
+    without what follows from names, sheets and other keys."""
+    return _unusual(scene) if scene.user_keys is None else scene.user_keys
+
+
+def _unusual(scene):
+    return frozenset(f"{name}.{key}" for name, part in keys.parts(scene).items() for key, usual in _usual(scene, name, part)
+                     if usual is not None and getattr(part, key) != usual
+                     and not isinstance(getattr(part, key), AutomaticValue))
+
+
+def _usual(scene, name, part):
+    """(key, its value if the user gives none) of a part; None where it follows from others."""
+    follow = FOLLOW[name](vars(part)) if name in FOLLOW else ()
+    follow += ("u_m",) * (name == "operation" and scene.contact.moes_M > 0)
+    brought = vars(OILS.get(part.name, Oil())) if name == "oil" else {}
+    if name.startswith("bodies") and part.material:
+        brought = STEELS[part.material].numbers
+    for key in kinds(type(part)):
+        yield key, None if key in follow else brought.get(key, getattr(type(part), key))
+
+
+def shown(key, scene):
+    """A full key as people write it: the only feature needs no number."""
+    return key.replace("feature.0.", "feature.") if len(scene.features) == 1 else key
+
+
+def _only_solid(scene, key):
+    return key not in rheology.LAWS[scene.rheology.law].numbers and any(key in law.numbers for law in rheology.LAWS.values())
+
+
+def _overruled(scene):
+    if scene.contact.moes_M > 0:
+        for key in ("operation.u_m", *aliases.BY_SURFACE):
+            yield key, (f"contact.moes_L = {scene.contact.moes_L:g} sets the mean speed, {scene.operation.u_m:.4g} m/s")
+
+
+def _other_laws(scene):
+    laws = "; ".join(f"{law.name}: {', '.join(law.numbers)}" for law in scene.oil.laws[:2])
+    used = MOES if scene.contact.moes_M > 0 else ()
+    for key in scene.oil.unused:
+        if f"oil.{key}" not in used:
+            yield f"oil.{key}", f"the laws of this oil ({laws}) do not use it"
+
+
+def _other_shapes(scene):
+    for n, feature in enumerate(scene.features):
+        for key, names in USED_BY.items():
+            if feature.shape not in names:
+                yield f"feature.{n}.{key}", f"shape {feature.shape!r} does not use it; it belongs to {', '.join(names)}"
+
+
+def _rheology(scene):
+    """Numbers of shear laws that were not chosen, and of friction where nothing slips."""
+    law = rheology.LAWS[scene.rheology.law]
+    for key in declared({**rheology.LAWS, BOUNDARY.name: BOUNDARY}):
+        if key not in law.numbers and key not in BOUNDARY.numbers:
+            yield f"rheology.{key}", f"the shear law {law.name!r} does not use it"
+        elif key not in law.numbers and scene.operation.u_s == 0 and _changes(_friction, scene.rheology, key):
+            yield f"rheology.{key}", "nothing slips where the surfaces could touch (SRR = 0)"
+
+
+def _friction(values):
+    return [boundary_stress(values, p) for p in (1e6, 1e8, 1e9)]
+
+
+def _changes(function, values, key):
+    """Whether a function of these values gives anything else when the number `key` is another one."""
+    number = getattr(values, key)
+    if isinstance(number, tuple):
+        return True
+    other = SimpleNamespace(**{**vars(values), key: number + NUDGE * (abs(number) or 1.0)})
+    return not np.array_equal(function(values), function(other))
+
+
+def _oil(scene):
+    """Numbers that no law takes at the one temperature of an isothermal film, and where expansion makes no difference."""
+    laws = _laws(scene)
+    now, sheet = laws(scene.oil), data_sheet.follows(vars(scene.oil))
+    for key in declared({law.name: law for law in scene.oil.laws}):
+        used = f"oil.{key}" in MOES and scene.contact.moes_M > 0 or key in (*sheet, *["rho0"] * bool(sheet))
+        if not used and not _changes(laws, scene.oil, key):
+            yield f"oil.{key}", _why_not_heat(scene)
+    if all(np.array_equal(now, laws(SimpleNamespace(**{**vars(scene.oil), "expansion": word})))
+           for word in kinds(type(scene.oil))["expansion"].words):
+        yield "oil.expansion", "this oil does not expand at the film temperatures"
+
+
+def _laws(scene):
+    """Function of an oil: what its laws give where the film of this scene may be."""
+    p, inlet = np.array(PARTS) * Scales.of(scene).p_H, scene.operation.temperature
+    if scene.isothermal:
+        return lambda oil: _values((ln_eta, _density_of(scene)), oil, p, inlet + 0 * p)
+    laws = ln_eta, density.rho_film, conduction.heat_capacity, lambda oil, p, Gamma: conduction.conductivity(oil, p)
+    return lambda oil: _values(laws, oil, *(one.ravel() for one in np.meshgrid(p, inlet + np.array(WARMER))))
+
+
+def _values(laws, oil, p, Gamma):
+    """Of laws at all places, a row each."""
+    return np.array([law(oil, p, Gamma) + 0 * p for law in laws])
+
+
+def _density_of(scene):
+    """The density law of an isothermal film of this scene."""
+    def law(oil, p, Gamma):
+        expansion = in_one_temperature(oil.expansion, scene.keeps_expansion)
+        return density.rho_ratio(SimpleNamespace(**{**vars(oil), "expansion": expansion}), p, Gamma)
+
+    return law
+
+
+def _why_not_heat(scene):
+    return "the film keeps the inlet temperature (isothermal)" if scene.isothermal else ("the laws of this oil give an equal "
+                                                                                         "result")
+
+
+def _temperature(scene):
+    laws, o = _laws(scene), scene.operation
+    if scene.isothermal and np.array_equal(laws(scene.oil), _laws(_warmer(scene))(scene.oil)):
+        yield "operation.temperature", f"the oil {scene.oil.name} does not depend on it (isothermal, {o.temperature:g} deg C)"
+
+
+def _warmer(scene):
+    """As :func:`_laws` asks it, at another inlet temperature."""
+    return SimpleNamespace(contact=scene.contact, load=scene.load, body_a=scene.body_a, body_b=scene.body_b, isothermal=True,
+                           keeps_expansion=scene.keeps_expansion, operation=SimpleNamespace(
+                               u_m=scene.operation.u_m, temperature=scene.operation.temperature + 1.0))
+
+
+def _heat(scene):
+    if not scene.isothermal:
+        return
+    idle = ("thermal.nodes", "thermal.tolerance", "thermal.rounds", "output.profiles", "fatigue.thermal_stress",
+            *(f"bodies.{which}.{key}" for which in "ab" for key in ("k", "rho", "c")))
+    yield from ((key, "no temperatures are computed (isothermal)") for key in idle)
+
+
+def _expansion_of_bodies(scene):
+    yield "bodies.b.alpha", "stresses are those of body a"
+    if not (scene.has_fatigue and scene.has_thermal_stress):
+        yield "bodies.a.alpha", "no thermal stress is computed"
+
+
+def _passage(scene):
+    """What needs a feature that passes."""
+    if scene.transient:
+        return
+    if not scene.features:
+        yield "time.steady_only", "nothing passes (no feature)"
+    why = "nothing passes (steady)" if scene.features else "nothing passes (no feature)"
+    yield from ((f"time.{key}", why) for key in kinds(Time) if key != "steady_only")
+    yield "output.every", why
+    for n, feature in enumerate(scene.features):
+        yield from ((f"feature.{n}.{key}", why) for key in kinds(type(feature)))
+    if scene.fatigue.on:
+        yield "fatigue.on", why
+
+
+def _fatigue(scene):
+    if not scene.has_fatigue:
+        why = "fatigue.on = false" if scene.transient else "fatigue needs a passage"
+        yield from ((f"fatigue.{key}", why) for key in kinds(Fatigue) if key not in ("on", "source"))
+
+
+def _across(scene):
+    if scene.rows == 0:
+        yield from ((f"grid.{key}", "nothing varies along y in this line contact") for key in ("ny", "y_max"))
+    for n, feature in enumerate(scene.features):
+        if scene.transient and feature.transverse:
+            yield f"feature.{n}.y", "the feature does not vary along y"
+
+
+RULES = (_rheology, _oil, _temperature, _heat, _expansion_of_bodies, _passage, _fatigue, _across)
+
+
+def given_keys(scene, tables):
+    """Names of the keys that the nested tables of a scene file give: of a section with all its keys (written by tehl) those
+    with another value than the default and than every built-in scene."""
+    from tehl_taichi.scene.builtin import BUILT_INS
+
+    usual = [{key: value for key, _, value in keys.every(one)} for one, _ in BUILT_INS.values()]
+    values = {key: value for key, _, value in keys.every(scene)}
+    found = set()
+    for name, part in keys.parts(scene).items():
+        table = _table(tables, name)
+        whole = set(kinds(type(part))) <= set(table)
+        found |= {f"{name}.{key}" for key in table if f"{name}.{key}" in values and not (
+            whole and any(one.get(f"{name}.{key}") == values[f"{name}.{key}"] for one in usual))}
+    return found
+
+
+def _table(tables, name):
+    section, _, rest = name.partition(".")
+    found = tables.get(section, {})
+    if section == "feature":
+        found = found[int(rest)] if isinstance(found, list) else {}
+    elif rest:
+        found = found.get(rest, {})
+    return found if isinstance(found, dict) else {}

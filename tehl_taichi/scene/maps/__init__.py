@@ -1,1 +1,0 @@
-"""Measured heights: reading, levelling, filtering, judging."""

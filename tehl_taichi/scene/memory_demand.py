@@ -1,0 +1,18 @@
+"""How much memory a run asks for."""
+
+from tehl_taichi.disk import memory_limit
+
+BASE = 80e6  # bytes of kernels and libraries that are not loaded yet, measured on 64x16 cells
+NODE, ACROSS = 2000.0, 400.0  # bytes of a node, and of each of its places across the film: 512x128 and 2048x512 cells
+
+
+def needed(scene):
+    """Bytes that a run of the scene needs, within a quarter."""
+    places = 0 if scene.isothermal else scene.thermal.nodes
+    return BASE + (scene.grid.nx + 1) * (scene.rows + 1) * (NODE + ACROSS * places)
+
+
+def check(scene):
+    """Raises SceneError where this process cannot have the memory that a run of the scene needs."""
+    cells = f"{scene.grid.nx}" + (f" x {scene.grid.ny}" if scene.rows else "")
+    memory_limit.check(needed(scene), f"a run on {cells} cells")

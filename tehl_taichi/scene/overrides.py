@@ -1,0 +1,175 @@
+"""Changes of a scene, on its description as a nested dictionary."""
+
+import dataclasses
+
+from tehl_taichi.errors import SceneError
+from tehl_taichi.scene import aliases, data_sheet, fatigue_limits, idle_keys, keys
+from tehl_taichi.scene import named_oils as oils
+from tehl_taichi.scene.named_steels import STEELS
+from tehl_taichi.scene.sections import SECTIONS
+from tehl_taichi.scene.speeds import of_surfaces
+from tehl_taichi.scene.timeline import ALL
+from tehl_taichi.values.checks import key_shown, nearest
+from tehl_taichi.values.coerce import plain
+from tehl_taichi.values.quantity import kinds
+
+TABLES = (*SECTIONS, "bodies", "oil")
+BODIES = ("bodies.a", "bodies.b")
+NESTED, TOP = (*TABLES, *BODIES), (*TABLES, "feature", "name", "note")
+
+
+def applied(data, changes):
+    """`data` with changes {full key: value}; what they replace is cleared. Raises SceneError.
+
+    data: a scene as nested dictionary, changed in place; where it stands in a file, sections and keys may be missing, and what
+    is no table is left to whoever makes a scene of it.
+    """
+    _clear(data, changes)
+    _name_oil(data, changes)
+    _read_sheet(_table(data, "oil"), changes)
+    _name_steels(data, changes)
+    fatigue_limits.changed(_table(data, "fatigue"), _of("fatigue", changes))
+    for key in sorted(changes, key=lambda key: key.count(".")):  # whole tables before single values
+        _assign(data, key, changes[key])
+    return data
+
+
+def merged(base, data):
+    """`base` (every value of a scene, as nested dictionary) with the tables of a scene file over it, as changes. Raises
+    SceneError."""
+    known = {key: value for key, value in data.items() if key in TOP}
+    return {**applied(base, dict(_as_changes(known))), **{key: data[key] for key in data.keys() - known.keys()}}
+
+
+def _as_changes(tables, above=""):
+    """(full key, value) of the tables of a file. An oil or a body of its own name, or of a data sheet, is a whole value: the
+    numbers of the base are not its own."""
+    for key, value in tables.items():
+        if isinstance(value, dict) and above + key in NESTED and not _brings_its_numbers(above + key, value):
+            yield from _as_changes(value, f"{above}{key}.")
+        else:
+            yield above + key, value
+
+
+def _brings_its_numbers(key, table):
+    if key == "oil":
+        return "name" in table or data_sheet.is_given(table)
+    return key in BODIES and isinstance(table.get("material"), str) and table["material"] != ""
+
+
+def _table(data, key):
+    """The table of that key, made where there is none; one that is thrown away in place of what is no table."""
+    found = data.setdefault(key, {})
+    return found if isinstance(found, dict) else {}
+
+
+def check_effect(scene, changes):
+    """Refuse changes that the rest of the changed scene overrules, or that are of another law or shape. Raises SceneError."""
+    strange = idle_keys.idle_warnings(scene)
+    for key in changes:
+        if key in strange:
+            raise SceneError(f"{aliases.words(idle_keys.shown(key, scene), changes[key])} has no effect: {strange[key]}")
+
+
+def _clear(data, changes):
+    """Clear what the changes replace: another description of the load or of the speeds, a number of steps."""
+    loads = [key for key in aliases.LOADS if changes.get(key)]
+    if loads:
+        pair = aliases.LOADS[2:]
+        kept = pair if loads[0] in pair else loads
+        _table(data, "contact").update({key.partition(".")[2]: 0.0 for key in aliases.LOADS if key not in kept})
+    speeds = _table(data, "operation")
+    if any(key in changes for key in aliases.BY_SURFACE):
+        for key in ("u_m", "srr"):
+            speeds.pop(key, None)
+    elif {"operation.u_m", "operation.srr"} & changes.keys():
+        data["operation"] = of_surfaces(data["operation"])
+    if changes.get("time.steady_only"):
+        _table(data, "time")["steps"] = ALL
+
+
+def _name_oil(data, changes):
+    """A known name brings the numbers of its oil; a new one must come with numbers, or a data sheet."""
+    oil = _table(data, "oil")
+    name = changes.get("oil.name")
+    if isinstance(name, str) and name in oils.OILS:
+        data["oil"] = dataclasses.asdict(oils.OILS[name])
+    elif "oil.name" in changes and name != plain(oil.get("name")):
+        new = _of("oil", changes)
+        if not data_sheet.is_given(new):
+            oils.check_new(name, new)
+            oil.update(dict.fromkeys(data_sheet.KEYS, 0.0))
+        oil["source"] = "" if data_sheet.is_given(new) else oils.NO_SOURCE
+
+
+def _of(section, changes):
+    return {key.partition(".")[2]: value for key, value in changes.items() if key.startswith(f"{section}.")}
+
+
+def _read_sheet(oil, changes):
+    """A data sheet makes another oil of one that had none; what follows from it is found anew, its source, too, unless that is
+    the user's own."""
+    new, source = _of("oil", changes), str(oil.get("source", ""))
+    sheet = {**{key: oil.get(key, 0.0) for key in data_sheet.KEYS}, **new}
+    if data_sheet.is_given(sheet) and not data_sheet.is_given(oil):
+        oil.update(name=changes.get("oil.name", data_sheet.NAME), viscosity=data_sheet.LAW, source="")
+    elif data_sheet.KEYS.keys() & new.keys() and (source.startswith(data_sheet.FROM) or oil.get("name") in tuple(oils.OILS)):
+        oil["source"] = "" if data_sheet.is_given(sheet) else oils.NO_SOURCE
+    if new:
+        oil.update(dict.fromkeys(data_sheet.follows(sheet)))
+
+
+def _name_steels(data, changes):
+    """A known name brings the numbers of its steel."""
+    for which in ("a", "b"):
+        name = changes.get(f"bodies.{which}.material")
+        if isinstance(name, str) and name in STEELS:
+            _table(_table(data, "bodies"), which).update(STEELS[name].numbers)
+
+
+def _assign(data, dotted, value):
+    """Set the dotted key. Raises SceneError where no scene has its section; of a section's keys whoever makes it knows."""
+    *path, last = dotted.split(".")
+    known = (*TOP, *aliases.SHORT)
+    if not path and last not in known:
+        raise _unknown(dotted, last, known)
+    target = _place(data, path, dotted) if path else data
+    if last == "file":
+        target["sha256"] = ""  # another file, other heights
+    target[last] = value
+
+
+def _place(data, path, dotted):
+    """The table in which the keys with that path stand. Raises SceneError."""
+    section, *rest = path
+    if section == "feature" and rest and rest[0].isdecimal():
+        target, rest = _feature(data, rest[0], dotted), rest[1:]
+    elif section == "bodies" and rest and rest[0] in ("a", "b"):
+        target, rest = _table(_table(data, section), rest[0]), rest[1:]
+    elif section in TABLES:
+        target = _table(data, section)
+    else:
+        raise _unknown(dotted, section, TABLES)
+    if rest:
+        raise _unknown(dotted, rest[0], ("a", "b") if section == "bodies" else target)
+    return target
+
+
+def _feature(data, number, dotted):
+    """The table of a feature."""
+    features = data.get("feature", [])
+    if not isinstance(features, list) or len(number) > 6 or int(number) >= len(features):
+        count = len(features) if isinstance(features, list) else 0
+        raise SceneError(f"{key_shown(dotted)}: scene {data.get('name')!r} has {count} features")
+    return features[int(number)] if isinstance(features[int(number)], dict) else {}
+
+
+def _unknown(dotted, key, known):
+    meant = _with_section(dotted) or nearest(key, known)
+    return SceneError(f"unknown key {key_shown(dotted)}{meant}; known: {', '.join(map(str, known))}")
+
+
+def _with_section(key):
+    """' (did you mean ...?)' for the full keys that end in a key given without its section, or nothing."""
+    full = [f"{name}.{own}" for name, kind in keys.CLASSES.items() for own in kinds(kind) if own.lower() == str(key).lower()]
+    return f" (did you mean {' or '.join(map(repr, full))}?)" if full else ""

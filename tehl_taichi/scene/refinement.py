@@ -1,0 +1,27 @@
+"""The next finer grids of a scene, and what the first costs."""
+
+
+def doubled(scene):
+    """The scene on the grid with twice the cells each way."""
+    return scene.replace(**{"grid.nx": 2 * scene.grid.nx, "grid.ny": 2 * scene.grid.ny})
+
+
+def first(scene, enough, most):
+    """(nx, ny) of the first grid, of its own, with twice, four times ... the cells, on which enough(scene); None where none of
+    up to `most` columns is."""
+    while not enough(scene):
+        if 2 * scene.grid.nx > most:
+            return None
+        scene = doubled(scene)
+    return scene.grid.nx, scene.grid.ny
+
+
+def finer_grid_option(scene):
+    """'--grid 512x128 (8 times the work)': a passage has twice the steps, too."""
+    work = 2 ** (1 + (not scene.one_dimensional) + scene.transient)
+    return f"--grid {2 * scene.grid.nx}x{2 * scene.grid.ny} ({work} times the work)"
+
+
+def along(scene):
+    """'--grid 512x64 (4 times the work)': finer along x alone, which is what an exit needs (docs/exit.md)."""
+    return f"--grid {2 * scene.grid.nx}x{scene.grid.ny} ({2 ** (1 + scene.transient)} times the work)"

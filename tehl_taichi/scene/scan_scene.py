@@ -1,0 +1,120 @@
+"""A short scene file for a scan: what a user has to say of his contact, and nothing else."""
+
+import os
+import tomllib
+from itertools import islice
+from pathlib import Path
+
+from tehl_taichi.disk import user_files
+from tehl_taichi.scene import scene, scene_file
+from tehl_taichi.scene.scene_file import toml_value
+from tehl_taichi.scene.sections import Body
+from tehl_taichi.scene.surface.maps import height_map
+
+LINES, LETTERS = 20, 100  # of the header of a file, shown
+TAPER, SHARE = 40e-6, 8  # m, and of the shorter side
+LINE = "N/m: of a line of contact, 280 N/mm are 280e3"
+PIXEL_Y = "pixel_y = {:<13}  # m: distance between rows\n"
+NO_PIXEL_Y = "# pixel_y = 2e-6         # m: distance between rows, if it differs from pixel\n"
+
+HEAD = """\
+# A scan passes through a contact. Replace the numbers of the built-in scene {base} by yours; SI units,
+# temperatures in deg C. Other values are those of {base}; `tehl new all.toml` writes every key with unit and range.
+base = "{base}"
+
+[contact]
+radius_x = {radius:<12}  # m: reduced radius 1/(1/R_a + 1/R_b), 7.5e-3 of 12 and 20 mm
+{radius_y}\
+load = {load:<16}  # {load_about}
+
+[operation]
+u_a = {u_a:<17}  # m/s: speed of the scanned surface, relative to the contact
+u_b = {u_b:<17}  # m/s: speed of the other surface (or give u_m, the mean, and srr = (u_a - u_b)/u_m)
+temperature = {temperature:<9}  # deg C: of oil and bodies at the inlet
+
+[bodies]                   # by name (`tehl steels`), or your own E, nu, k, rho, c, alpha
+{body_a}a.material = "100Cr6"      # the scanned body
+{body_b}b.material = "100Cr6"      # the other body
+
+# [oil]                    # your oil by its data sheet; without: {oil}
+# name = "our gear oil"
+# nu_40 = 220e-6           # m2/s: at 40 deg C
+# nu_100 = 19e-6           # m2/s: at 100 deg C
+# rho_15 = 890             # kg/m3: at 15 deg C
+# source = "data sheet"
+
+[fatigue]
+kappa = {kappa:<15}  # of your steel, as the next value
+torsion_limit = {limit:<7}  # Pa: fatigue limit in reversed torsion (or bending_limit, or both, which also give kappa)
+source = "example values, set your own"
+
+[[feature]]
+shape = "map"
+file = {file}
+{header}\
+unit = {unit:<16}  # unit of the heights: nm, um, mm or m
+pixel = {pixel:<15}  # m: distance between points in a row of the file; rows run along x, the rolling direction
+{pixel_y}\
+# mirror_x = true        # if the last columns of the scan enter the contact first
+level = "form"           # removes plane and curvature of the body ("plane": only the plane)
+taper = {taper:<15}  # m: width over which the heights fade out at the rim
+# cutoff = 25e-6         # m: Gaussian low-pass for roughness that the grid does not resolve
+"""
+
+
+def new(path, base, scan, unit="", pixel=0.0, pixel_y=0.0):
+    """Write a scene file for the heights in the file `scan` on the contact of the built-in scene `base`; returns (what of the
+    scan was read, keys that are still to be filled in). Raises SceneError where it cannot, or the scene would be refused."""
+    path, scan = Path(path), Path(scan)
+    scene_file.check_new(path)
+    table = height_map.table_of(scan)
+    text = _text(path, scene(base), base, scan, table, unit, pixel, pixel_y)
+    missing = [key for key, value in (("unit", unit), ("pixel", pixel)) if not value]
+    if not missing:
+        scene_file.from_data(scene_file.with_map_folder(tomllib.loads(text), path.absolute().parent), path.stem)
+    user_files.text(path, text)
+    rows, columns = table.values.shape
+    return f"{rows} rows of {columns} points{f', {table.skipped}' if table.skipped else ''}", missing
+
+
+def _text(path, f, base, scan, table, unit, pixel, pixel_y):
+    place = Path(os.path.relpath(scan, path.absolute().parent)).as_posix()
+    numbers = dict(radius=f.contact.radius_x, load=float(f"{f.load:.4g}"), u_a=round(f.operation.u_a, 6),
+                   u_b=round(f.operation.u_b, 6), temperature=f.operation.temperature, kappa=f.fatigue.kappa, file=place,
+                   unit=unit, pixel=pixel, taper=_taper(table.values.shape, pixel, pixel_y or pixel))
+    return HEAD.format(base=base, oil=f.oil.name, limit="380e6", header=_header(scan, table), radius_y=_radius_y(f.contact),
+                       body_a=_unless_steel(f.body_a), body_b=_unless_steel(f.body_b),
+                       load_about=LINE if f.contact.kind == "line" else "N",
+                       pixel_y=PIXEL_Y.format(toml_value(pixel_y)) if pixel_y else NO_PIXEL_Y,
+                       **{key: toml_value(value) for key, value in numbers.items()})
+
+
+def _unless_steel(body):
+    """Begins the line of a body: a comment where the base has another one than steel, as the disc of glass."""
+    return "" if body == Body() else "# "
+
+
+def _radius_y(contact):
+    if contact.kind == "line":
+        return ""
+    return f"radius_y = {toml_value(contact.radius_y):<12}  # m: reduced radius across\n"
+
+
+def _taper(shape, pixel, pixel_y):
+    """Micrometres, at most an eighth of the shorter side."""
+    side = min((count - 1) * step for count, step in zip(shape[::-1], (pixel, pixel_y)))
+    return round(max(int(min(TAPER, side / SHARE) * 1e6), 1) * 1e-6, 9) if side else TAPER
+
+
+def _header(scan, table):
+    """The lines before the first row, as comments: instruments tell unit and distances there."""
+    if not table.header:
+        return ""
+    with scan.open(encoding="utf-8-sig", errors="replace") as file:
+        lines = islice(filter(None, map(str.strip, file)), min(table.header, LINES))
+        return "".join(f"#   its header: {_plain(line)}\n" for line in lines)
+
+
+def _plain(line):
+    """Without what TOML does not take in a comment."""
+    return "".join(letter if letter.isprintable() else " " for letter in line)[:LETTERS]

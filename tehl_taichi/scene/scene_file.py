@@ -1,0 +1,152 @@
+"""Scene files (TOML): reading with a base scene, writing with every value, the commented template."""
+
+import dataclasses
+import json
+import math
+import os
+from pathlib import Path
+
+from tehl_taichi.disk import user_files
+from tehl_taichi.scene import Scene, SceneError, aliases, idle_keys, named_oils, named_steels, overrides, scene, toml_file
+from tehl_taichi.scene.description import SECTIONS, TOP
+from tehl_taichi.scene.feature import Feature
+from tehl_taichi.scene.oil import Oil
+from tehl_taichi.scene.sections import Body, Fatigue
+from tehl_taichi.values.checks import text
+from tehl_taichi.values.quantity import kinds
+
+HEADER = "# A tehl_taichi scene. SI units (m, s, N, Pa, kg), temperatures in deg C; [grid] and [time] in half-widths."
+CARRIES = {"bodies.a": "Surface a carries the feature. ", "bodies.b": "The other surface. "}
+COLUMN = 26  # where the comments of short lines begin
+
+
+def load(path, changes=()):
+    """Scene from a TOML file; `base = "gear"` fills what is not given. changes: {key: value}, as if they stood in it.
+    Raises SceneError (also for broken TOML)."""
+    path = Path(path)
+    data = toml_file.read(path, "scene")
+    toml_file.check_brackets(path, data, ("contact", "bodies", "operation", "oil", *SECTIONS), ("feature",))
+    return from_data(with_map_folder(data, path.absolute().parent), path.stem, changes)
+
+
+def new(path, base):
+    """Write the built-in scene `base` with every value, under the name of the file. Raises SceneError where it cannot."""
+    path = Path(path)
+    check_new(path)
+    user_files.text(path, dumps(scene(base).replace(name=path.stem)))
+
+
+def check_new(path):
+    """Raises SceneError where no file can be written at `path` without overwriting one."""
+    if os.path.lexists(path):
+        raise SceneError(f"{path} exists already; choose another name")
+    if not path.absolute().parent.is_dir():
+        raise SceneError(f"{path.absolute().parent} is not a folder")
+
+
+def with_map_folder(data, folder):
+    """The same with the paths of height maps starting at `folder`, whatever folder the command runs in."""
+    features = data.get("feature", [])
+    for feature in features if isinstance(features, list) else []:
+        if isinstance(feature, dict) and isinstance(feature.get("file"), str) and feature["file"]:
+            feature["file"] = str(folder / feature["file"])
+    return data
+
+
+def from_data(data, name, changes=()):
+    """Scene from a parsed file with changes {key: value}, which are made before anything is judged. Raises SceneError."""
+    base, changes = data.pop("base", None), aliases.named(dict(changes))
+    own = _tables(data)
+    told = data["operation"].get("u_m") if isinstance(data.get("operation"), dict) else None
+    described = _spelled_out(_on_base(base, {"name": name, **data}))
+    found = Scene.from_dict(overrides.applied(described, changes))
+    overrides.check_effect(found, changes)
+    if not changes.keys() & set(aliases.LOADS):
+        _check_speed(found, told)
+    return found.with_user_keys(idle_keys.given_keys(found, own) | changes.keys())
+
+
+def _tables(data):
+    """The tables that a file gives, as they are now: what follows from them is written into them later."""
+    lists = {key: [dict(one) if isinstance(one, dict) else {} for one in value] for key, value in data.items()
+             if isinstance(value, list)}
+    return lists | {key: {name: dict(one) if isinstance(one, dict) else one for name, one in value.items()}
+                    for key, value in data.items() if isinstance(value, dict)}
+
+
+def _on_base(base, data):
+    """The nested dictionary of a scene: `data`, and what it leaves to its base."""
+    if base is None:
+        return {"feature": [], **data}
+    text("base", base)
+    return overrides.merged(scene(base).to_dict(), data)
+
+
+def _spelled_out(data):
+    """The same with what follows from the names of its oil and steels, from a data sheet and from fatigue limits: a change that
+    takes these away leaves the numbers."""
+    for key, make in (("oil", named_oils.from_values), ("fatigue", Fatigue.from_values)):
+        if key in data:
+            data[key] = _every_number(make, data[key])
+    if isinstance(data.get("bodies"), dict):
+        data["bodies"] = {which: named_steels.completed(body) for which, body in data["bodies"].items()}
+    return data
+
+
+def _every_number(make, values):
+    """The table of a section with every number; one that is refused, as it is: what mends it may be still to come."""
+    try:
+        return dataclasses.asdict(make(values))
+    except SceneError:
+        return values
+
+
+def _check_speed(found, told):
+    """Refuse a mean speed (m/s, or None) beside a Moes pair, unless it is the one that the pair gives (as files written by tehl
+    have it)."""
+    if told is not None and found.contact.moes_M > 0 and not math.isclose(told, found.operation.u_m, rel_tol=1e-6):
+        raise SceneError(f"operation.u_m = {told:g} m/s and contact.moes_L = {found.contact.moes_L:g} contradict each other: "
+                         f"the pair gives {found.operation.u_m:.4g} m/s; leave u_m out")
+
+
+def dumps(description):
+    """TOML text of a scene, every value written out with unit, range and meaning; reading it back gives an equal scene."""
+    data = description.to_dict()
+    lines = [HEADER, *_commented((key, data[key], declared) for key, declared in TOP.items()), ""]
+    for key in ("contact", "bodies.a", "bodies.b", "operation", "oil", "rheology"):
+        table, kind = (data["bodies"][key[-1]], Body) if key in CARRIES else (data[key], {**SECTIONS, "oil": Oil}[key])
+        lines += _table(f"[{key}]", table, kind, CARRIES.get(key, ""))
+    for feature in data["feature"]:
+        lines += _table("[[feature]]", feature, Feature)
+    for key in SECTIONS:
+        if key not in ("contact", "operation", "rheology"):
+            lines += _table(f"[{key}]", data[key], SECTIONS[key])
+    return "\n".join(lines)
+
+
+def _table(head, values, kind, first=""):
+    """The lines of a section, commented from its declarations (see tehl_taichi.values.quantity)."""
+    about = first + (kind.__doc__ or "").partition("\n")[0]
+    keys = ((key, values[key], declared) for key, declared in kinds(kind).items())
+    return [f"{head:<{COLUMN}}  # {about}", *_commented(keys), ""]
+
+
+def _commented(keys):
+    """A line each of (key, value, its declaration)."""
+    return [f"{f'{key} = {toml_value(value)}':<{COLUMN}}  # {declared.sentence}" for key, value, declared in keys]
+
+
+def toml_value(value):
+    """A value of a scene as TOML has it."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")  # JSON's escapes are TOML's
+    if isinstance(value, (tuple, list)):
+        return "[" + ", ".join(toml_value(v) for v in value) + "]"
+    if isinstance(value, float) and math.isinf(value):
+        return "inf" if value > 0 else "-inf"
+    if isinstance(value, float) and float(f"{value:g}") == value:
+        short = f"{value:g}"
+        return short if set(short) & set(".e") else short + ".0"
+    return repr(value)

@@ -1,0 +1,80 @@
+"""What is doubtful in a scene although it can be simulated, a sentence each: the warnings that are known before a run."""
+
+from tehl_taichi.scene import (
+    domain,
+    domain_warnings,
+    idle_keys,
+    keys,
+    named_steels,
+    oil_range,
+    resolution,
+    scales,
+    stiff_oil,
+    thin_film,
+    timeline,
+)
+from tehl_taichi.values.coded_warning import coded_warning, once, with_data
+from tehl_taichi.values.quantity import Number
+
+
+def warnings(scene):
+    """Sentences with the value, the unit and what would be better, each once, with the code of their kind; [] for a scene
+    without doubts."""
+    return coded_warning(CHECKS, scene)
+
+
+def preview(scene):
+    """Lines about its features, printed before a run, each once."""
+    return once(line for feature in scene.features for line in feature.kind.preview(feature, scene))
+
+
+def doubtful_features(scene):
+    """What their shapes doubt."""
+    return [sentence for feature in scene.features for sentence in feature.kind.doubts(feature, scene)]
+
+
+def cut_passage(scene):
+    """A passage that ends although the feature still is in the contact; not one of no steps, where nobody wants any."""
+    end = timeline.cut_at(scene)
+    if end is not None and scene.time.steps != 0:
+        whole = timeline.uncut(scene).path[1]
+        yield with_data(f"passage cut at {end:.2f} a: its extremes and fatigue cover only a part; the whole passage ends at "
+                        f"{whole:.2f} a; `tehl resume STORE` continues", end_a=end, whole_a=whole)
+
+
+MISSED = 0.35  # of Fi, per a between moments: at most 2, 3.6 and 7 % at 0.06, 0.125 and 0.19 a (gear, every choice of moments)
+
+
+def thinned(scene):
+    """Moments that a fatigue search misses where not every step is stored."""
+    every, apart = scene.output.every, scene.output.every * timeline.step_length(scene)
+    if every > 1 and scene.has_fatigue:
+        text = (f"output.every = {every} leaves {apart:.3f} a between the moments of the fatigue search, so Fi can be "
+                f"{MISSED * apart:.0%} too small; use a distance of about 0.01 a at entry and exit (every step has "
+                f"{apart / every:.3f} a)")
+        yield with_data(text, every=every, apart_a=apart)
+
+
+FAINT, PRESSED = 1e8, 3e8  # Pa: steel under less hardly needs this program; what a load in another unit gives at least
+
+
+def unusual(scene):
+    """Values that were perhaps meant in another unit."""
+    for key, kind, value in keys.every(scene):
+        if isinstance(kind, Number) and isinstance(value, float) and (said := kind.doubted(key, value)):
+            yield said
+    p_H = scales.Scales.of(scene).p_H
+    if scene.contact.load and p_H < FAINT and (said := scene.load_meant(least=PRESSED)):
+        yield (f"contact.load = {scene.contact.load:g} {scene.load_unit} gives a Hertz pressure of only {p_H / 1e6:.0f} "
+               f"MPa{said}")
+
+
+def wide_domain(scene):
+    """Where auto moved the inlet away from a thick film."""
+    return filter(None, [domain.moved(scene)])
+
+
+# functions of a scene that give its sentences, with the code of these
+CHECKS = {resolution.warnings: "cells", domain_warnings.warnings: "room", thin_film.warnings: "film", oil_range.warnings: "oil",
+          named_steels.doubts: "steel", cut_passage: "cut", thinned: "moments", doubtful_features: "feature",
+          unusual: "unit", idle_keys.doubts: "idle", wide_domain: "inlet", stiff_oil.warnings: "frozen"}

@@ -1,0 +1,22 @@
+"""Films without temperatures whose oil is far too stiff to slide: what they tell rests on a viscosity that nobody measured."""
+
+import math
+
+from tehl_taichi.laws.circular_law import MOST_R
+from tehl_taichi.laws.rheology import secant
+from tehl_taichi.laws.viscosity import ln_eta
+from tehl_taichi.scene.film_formula import central_film
+from tehl_taichi.scene.scales import Scales
+
+
+def warnings(scene):
+    """Where oil at the inlet's temperature and the Hertz pressure would need many times the stress that its law leaves."""
+    if not (scene.isothermal and scene.shear_law.thins):
+        return
+    p_H, operation = Scales.of(scene).p_H, scene.operation
+    eta = math.exp(float(ln_eta(scene.oil, p_H, operation.temperature)))
+    times = 1 / float(secant(scene.rheology, eta * abs(operation.u_s) / central_film(scene), p_H))
+    if times > MOST_R:
+        yield (f"isothermal oil of {eta:.2g} Pa s at {p_H / 1e9:.3g} GPa: its sliding would need {times:.2g} times the stress "
+               f"that rheology.law = {scene.rheology.law} allows, and more under a feature. The film follows an extrapolated "
+               "viscosity (plug flow); use --thermal to include shear heating")

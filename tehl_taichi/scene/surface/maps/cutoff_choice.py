@@ -1,0 +1,65 @@
+"""Whether the grid, the film equation and steel bear what a measured map has, and the cutoff with which they do."""
+
+import bisect
+import math
+
+from tehl_taichi.scene.scales import Scales
+from tehl_taichi.scene.surface.maps import flattening_pressure, gaussian_filter
+from tehl_taichi.scene.surface.maps.height_map import Measures, missed
+from tehl_taichi.scene.yield_pressure import YIELDS
+
+STEEP = 10.0  # degrees: the film equation takes slopes for small (tan 10 deg = 0.18)
+SHARE = 0.1  # of the rms that a grid, or the map's own points, may miss: a wave of six cells
+JUDGED = 1024  # points along each side, from the middle, that are judged
+SURELY = 1.1  # times what steel bears: such an estimate is no better
+FINER = 1.05  # one cutoff that is tried over the next: two digits
+
+
+def middle(heights):
+    """The middle of a large map."""
+    cut = [max(0, (n - JUDGED) // 2) for n in heights.shape]
+    return heights[cut[0]:heights.shape[0] - cut[0], cut[1]:heights.shape[1] - cut[1]]
+
+
+def points_in_a_cell(f, scene):
+    """[along x, along y] of the map; they need not be whole."""
+    return [size / step for size, step in zip(Scales.of(scene).cell(scene.grid), f.steps)]
+
+
+def pressed(heights, f, scene):
+    """Highest pressure (Pa) of a contact in which such heights of the map are pressed flat: that of the dry contact and theirs.
+
+    A ground flank under 1.3 GPa had, until it came to the outlet, 4.9 GPa where this says 4.8 (cutoff 25 um) and 4.2 where it
+    says 4.0 (45 um); at the outlet there were peaks of 6.4 and 6.7 that its grid did not resolve.
+    """
+    scales = Scales.of(scene)
+    return scales.p_H + flattening_pressure.highest(heights, f.steps, scales.E)
+
+
+def yields(heights, f, scene, margin=1.0):
+    """Whether that is more (than so many times) what steel bears, because of the heights: without them it would bear it."""
+    return Scales.of(scene).p_H < YIELDS < pressed(heights, f, scene) / margin
+
+
+def helping(f, scene):
+    """The smallest cutoff (m) with which the grid sees the map, its slopes are small and steel bears it; 0: there is none."""
+    key = Scales.of(scene), scene.grid
+    if key not in f.cutoffs:
+        f.cutoffs[key] = _searched(f, scene)
+    return f.cutoffs[key]
+
+
+def _searched(f, scene):
+    least, most = gaussian_filter.limits(f)
+    least = max(least, f.cutoff)
+    count = math.floor(math.log(most / least) / math.log(FINER)) + 1
+    tried = sorted({cutoff for n in range(1, count) if least < (cutoff := float(f"{least * FINER**n:.1e}")) < most})
+    found = bisect.bisect_left(tried, True, key=lambda cutoff: _taken(f, scene, cutoff))
+    return tried[found] if found < len(tried) else 0.0
+
+
+def _taken(f, scene, cutoff):
+    """Whether the map with this cutoff (m) is long, flat and low enough."""
+    measured = middle(f.inside(f.filtered(cutoff)))
+    return (Measures.of(measured, f.steps).slope <= STEEP and not yields(heights := middle(f.passing(cutoff)), f, scene)
+            and missed(heights, *points_in_a_cell(f, scene)) <= SHARE)

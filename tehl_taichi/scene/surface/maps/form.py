@@ -1,0 +1,42 @@
+"""The form that a measured map has: one curvature along x and one along y, that of the body it was measured on or none."""
+
+from dataclasses import dataclass
+
+from tehl_taichi.scene.surface.maps.height_map import curvature, levelled
+
+FLAT = 1e-9  # m rms: a tenth of a percent of the thinnest films of this kind (1 um), and less than one molecule
+CURVED = 0.25  # of the rms, left without the curvature: less is taken for the form of a body (a ridge as wide leaves 0.28)
+
+
+@dataclass(frozen=True)
+class SurfaceForm:
+    """flat, left: rms in m without a plane, and without the curvature either; bent: curvature in 1/m, positive where convex, of
+    the axis ("x" or "y") along which it counts most."""
+
+    flat: float
+    left: float
+    bent: float
+    axis: str
+
+    @classmethod
+    def of(cls, raw, steps, sizes):
+        """Of heights (rows, columns) as they were measured; steps: of their points, sizes: of all, along x and y; all in m."""
+        sags = [(abs(c) * size**2, c, axis) for c, size, axis in zip(curvature(raw, steps), sizes, "xy")]
+        _, bent, axis = max(sags)
+        return cls(*(float(levelled(raw, level).std()) for level in ("plane", "form")), float(bent), axis)
+
+    @property
+    def dominant(self):
+        """Whether next to nothing of the map is left without it."""
+        return self.flat >= FLAT and self.left < CURVED * self.flat
+
+    @property
+    def convex(self):
+        return self.bent >= 0
+
+    @property
+    def says(self):
+        """In words."""
+        if self.bent == 0:
+            return "flat"
+        return f"{'convex' if self.convex else 'concave'} with a radius of {1e3 / abs(self.bent):.3g} mm along {self.axis}"

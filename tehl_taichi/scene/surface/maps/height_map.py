@@ -1,0 +1,231 @@
+"""Measured height maps: reading, levelling, measuring. Rows run along y, columns along x.
+
+Heights are known by the sha256 of their numbers, not by the name of their file: a file that changes does not change a
+feature that was made from it, and a store that holds the heights needs no file.
+"""
+
+import hashlib
+import math
+import weakref
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from tehl_taichi.disk import memory_limit, npy
+from tehl_taichi.errors import SceneError, brief, extra
+from tehl_taichi.scene.surface.maps import coordinates, hole_filling, text_heights
+from tehl_taichi.values.coerce import shown
+from tehl_taichi.values.file_ending import ending
+
+UNITS = {"nm": 1e-9, "um": 1e-6, "mm": 1e-3, "m": 1.0}  # of the heights in a file, m
+LEVELS = {"none": "nothing", "mean": "mean", "plane": "plane", "form": "plane and curvature"}  # level: what it takes off
+MICRO = str.maketrans({"\u00b5": "u", "\u03bc": "u"})  # micro sign and Greek mu, as in µm
+_known = weakref.WeakValueDictionary()  # sha256 -> heights, as long as a feature holds them
+_skipped = {}  # sha256 -> what of its file was no height, in words
+_spacing = {}  # sha256 -> distances of the coordinates in its file
+UNKNOWN_FILE = ("CannotDetectFileFormat", "UnknownFileFormat")  # errors of SurfaceTopography that list every reader
+TEXT = (".csv", ".txt", ".asc")  # endings of files of text
+POINTS = f"a list of x, y and z is not supported; export the heights as a grid, one row per line ({', '.join(TEXT)}, .npy)"
+
+
+def keep(values):
+    """(sha256, heights): heights known by their hash for as long as the caller holds them. values: (rows, columns)."""
+    values = np.array(values, "<f8", order="C")
+    values.setflags(write=False)
+    digest = hashlib.sha256(repr(values.shape).encode() + values.tobytes()).hexdigest()
+    return digest, _known.setdefault(digest, values)
+
+
+def fetch(file, sha256=""):
+    """(sha256, heights in the unit of the file) of the file, or of what is known under `sha256`.
+
+    Raises SceneError when there is no such file, it is no regular grid of at least 4 x 4 numbers or lacks too many, or its
+    heights are other than those of `sha256`.
+    """
+    known = _known.get(sha256)
+    if known is not None:
+        return sha256, known
+    table = table_of(file)
+    found, values = keep(table.values)
+    _skipped[found], _spacing[found] = table.skipped, table.spacing
+    if sha256 and found != sha256:
+        raise SceneError(f"feature.file = {file!r} has changed since this scene was made (feature.sha256 = {sha256[:12]}..., "
+                         f"not {found[:12]}...); remove feature.sha256 to use the present file")
+    return found, values
+
+
+def of_array(values):
+    """(sha256, heights) of heights in memory. Raises SceneError where they are no grid of heights."""
+    try:
+        values = np.array(values, float)
+    except (ValueError, TypeError):
+        raise SceneError(f"heights = {shown(values)} must be an array of numbers") from None
+    if values.ndim != 2 or min(values.shape) < 4:
+        raise SceneError(f"heights have the shape {values.shape}; allowed: (rows, columns), at least 4 x 4")
+    _check_holes("heights", values)
+    return keep(values)
+
+
+def skipped(sha256):
+    """What of the file of these heights was skipped, in words; "" where nothing, or where no file was read (a store)."""
+    return _skipped.get(sha256, "")
+
+
+def spacing(sha256):
+    """(along a row of the file, from row to row): distances of the coordinates that stood in it, None where there are none."""
+    return _spacing.get(sha256, (None, None))
+
+
+def read(file):
+    """Heights (rows, columns) in the unit of the file; nan where nothing was measured. Raises SceneError."""
+    return table_of(file).values
+
+
+def table_of(file):
+    """The same as a :class:`tehl_taichi.scene.surface.maps.text_heights.Table`, which knows what it skipped."""
+    path = Path(file)
+    if not file:
+        raise SceneError("feature.file is missing: shape 'map' needs a file of heights (.csv, .txt, .asc, .npy)")
+    if not path.is_file():
+        raise SceneError(f"feature.file = {str(file)!r} does not exist")
+    table = _load(path)
+    if coordinates.is_list(table.values):
+        raise SceneError(f"feature.file = {str(file)!r} has {' x '.join(map(str, table.values.shape))} numbers, which is not a "
+                         f"grid of heights ({POINTS})")
+    table = table.without_coordinates()
+    values = table.values
+    if values.ndim != 2 or min(values.shape) < 4:
+        raise SceneError(f"feature.file = {str(file)!r} must hold a grid of at least 4 x 4 heights, not one of shape "
+                         f"{values.shape}{f' ({POINTS})' if values.shape[-1:] == (3,) else ''}")
+    _check_holes(f"feature.file = {str(file)!r}", values)
+    return table
+
+
+def _check_holes(where, values):
+    holes = hole_filling.missing(values)
+    share, deep = holes.mean(), hole_filling.depth(holes)
+    if share > hole_filling.MOST or deep > hole_filling.DEEPEST:
+        raise SceneError(f"{where} lacks {share:.2g} of its {values.size} heights, in holes of up to "
+                         f"{2 * deep} points across; allowed: "
+                         f"{hole_filling.MOST:g}, holes of {2 * hole_filling.DEEPEST} (they are "
+                         "filled from their neighbours); use a part with fewer holes, or fill them in the measuring software")
+
+
+def _load(path):
+    # 2 letters a number, 3 copies
+    memory_limit.check(12 * path.stat().st_size * (ending(path) in TEXT), f"{path}, read as heights,")
+    try:
+        if ending(path) == ".npy":
+            values = npy.load(path)
+            if values.dtype.kind not in "fiu":
+                raise ValueError(f"it holds {values.dtype}, not numbers")
+            return text_heights.Table(values.astype(float))
+        if ending(path) in TEXT:
+            return text_heights.read(path)
+    except (ValueError, OSError, EOFError) as error:
+        raise SceneError(f"cannot read heights from {path}: {brief(error)}") from None
+    return text_heights.Table(_surface_topography(path))
+
+
+def _surface_topography(path):
+    try:
+        import SurfaceTopography
+    except ImportError:
+        raise SceneError(f"{path.name} does not end in {', '.join(TEXT)} or .npy; other formats need SurfaceTopography: "
+                         f"{extra('topography')}{_points(path)}") from None
+    try:
+        return np.ma.filled(np.ma.asarray(SurfaceTopography.read_topography(str(path)).heights(), float), math.nan).T
+    except Exception as error:
+        raise SceneError(f"cannot read heights from {path}: {_reader_error(error, path)}{_points(path)}") from None
+
+
+def _reader_error(error, path):
+    """What a reader of instruments' files says; where none knows the file, all that it tried is of no use to anybody."""
+    if type(error).__name__ in UNKNOWN_FILE:
+        return f"SurfaceTopography does not read this format; export the heights as text ({', '.join(TEXT)}) or .npy"
+    return brief(error)
+
+
+def _points(path):
+    return f"; {POINTS}" if ending(path) == ".xyz" else ""
+
+
+def levelled(values, level):
+    """Heights less what a level of LEVELS says, by least squares; form: all second-order terms."""
+    if level == "none":
+        return values
+    centred = values - values.mean()
+    if level == "mean":
+        return centred
+    y, x = (np.arange(n) - (n - 1) / 2 for n in values.shape)
+    along, across = x * (x @ values.mean(axis=0)) / (x @ x), y * (y @ values.mean(axis=1)) / (y @ y)
+    flat = centred - along - across[:, None]
+    return flat if level == "plane" else flat - _curved(flat, x, y)
+
+
+def _curved(values, x, y):
+    """Part that is x^2, y^2 or x y of heights (rows, columns) without a plane; none has any of the others."""
+    twist = (y @ values @ x) / ((x @ x) * (y @ y))
+    return _bent(values.mean(axis=0), x)[0] + _bent(values.mean(axis=1), y)[0][:, None] + twist * np.outer(y, x)
+
+
+def _bent(profile, x):
+    """(parabola of a profile without a slope, its second derivative)."""
+    bent = x * x - (x * x).mean()
+    share = (bent @ profile) / (bent @ bent)
+    return share * bent, 2 * share
+
+
+def curvature(values, steps):
+    """(along x, along y) of heights (rows, columns) in m, points so far apart (m): 1/m, positive where the middle is high."""
+    flat = levelled(values, "plane")
+    return tuple(-_bent(flat.mean(axis=axis), np.arange(n) - (n - 1) / 2)[1] / step**2
+                 for axis, n, step in zip((0, 1), values.shape[::-1], steps))
+
+
+@dataclass(frozen=True)
+class Measures:
+    """Lowest and highest height, rms about their mean (m) and largest slope between neighbours (degrees)."""
+
+    low: float
+    high: float
+    rms: float
+    slope: float
+
+    @classmethod
+    def of(cls, heights, steps):
+        """heights: (rows, columns) in m, points so far apart along x and along y (m)."""
+        along, across = np.diff(heights, axis=1)[:-1] / steps[0], np.diff(heights, axis=0)[:, :-1] / steps[1]
+        slope = math.degrees(math.atan(float(np.hypot(along, across).max())))
+        return cls(float(heights.min()), float(heights.max()), float(heights.std()), slope)
+
+    @property
+    def range(self):
+        return self.high - self.low
+
+
+def missed(heights, along, across):
+    """Share of the rms of `heights` that is lost when only every `along`-th point along x and `across`-th along y (need not be
+    whole) is kept and the rest taken as linear between: what a grid of such cells does not see."""
+    rms = float(heights.std())
+    seen = _through(_through(heights, along).T, across).T
+    return float((heights - seen).std()) / rms if rms > 0 else 0.0
+
+
+def _through(values, step):
+    """Rows of `values` by way of points `step` apart; the last stretch, where there is none, as it is."""
+    count = int((values.shape[1] - 1) / step) if step > 1 else 0
+    if count == 0:
+        return values
+    whole = np.arange(int(count * step) + 1)
+    coarse = _linear(values, np.minimum(np.arange(count + 1) * step, values.shape[1] - 1))
+    out = values.copy()
+    out[:, whole] = _linear(coarse, np.minimum(whole / step, count))
+    return out
+
+
+def _linear(values, at):
+    """Rows of `values` at the positions `at` (in points), linear between."""
+    low = np.minimum(at.astype(int), values.shape[1] - 2)
+    return values[:, low] * (1 - (at - low)) + values[:, low + 1] * (at - low)

@@ -1,0 +1,187 @@
+"""What a measured height map is and whether unit, pixel and grid suit it: lines printed before a run, and doubts."""
+
+import os
+
+import numpy as np
+
+from tehl_taichi.scene.resolution import MULTIPLES
+from tehl_taichi.scene.scales import Scales
+from tehl_taichi.scene.surface.maps import height_map
+from tehl_taichi.scene.surface.maps.cutoff_choice import (
+    SHARE,
+    STEEP,
+    SURELY,
+    helping,
+    middle,
+    points_in_a_cell,
+    pressed,
+    yields,
+)
+from tehl_taichi.scene.surface.maps.form import FLAT
+from tehl_taichi.scene.surface.maps.height_map import LEVELS, missed
+from tehl_taichi.scene.yield_pressure import STEEL
+
+TURNED = "Heights point out of the metal and most bodies are convex; if the map is upside down, set feature.scale = -1"
+LEFT = 0.5  # of the rms that a taper ought to leave
+RIM = 0.1  # of the rms: a step at the rim below that is roughness like the rest
+
+
+def doubts(f, scene):
+    """Sentences about a map that has holes, has the form of its body, is flat or rough, finer or coarser than the grid, ends in
+    a step, or fades out over much of it."""
+    return [*_holes(f), *form(f), *_across(f, scene), *_size(f), *_rough(f, scene), *_grid(f, scene), *_rim(f), *_faded(f)]
+
+
+def lines(f, scene):
+    """Two lines: what was read, and what passes through the contact."""
+    steps = points_in_a_cell(f, scene)
+    (along, across), m, name = f.points, f.measures, f"map {os.path.basename(f.file)}"
+    heights = f"heights in {f.unit}" + (f" times {f.scale:g}" if f.scale != 1 else "")
+    turned = f"{f.orientation.says}, " if f.orientation.says else ""
+    off = f"{LEVELS[f.level]} removed{form_taken(f, scene)}"
+    skipped = f"{found}, " if (found := height_map.skipped(f.sha256)) else ""
+    yield (f"{name}: {skipped}{along} x {across} points {_apart(f)} um apart, {_um(f.patch[0])} x {_um(f.patch[1])} um of them "
+           f"used{_taper(f)}, {turned}{heights}, {off}{_filter(f)}")
+    yield (f"{name}: {_um(m.low)} to {_um(m.high)} um (range {_um(m.range)} um), rms {_um(m.rms)} um, largest slope "
+           f"{m.slope:.2g} deg; a cell of the grid has {steps[0]:.3g} x {steps[1]:.3g} points")
+
+
+def _filter(f):
+    return f", low-pass with a cutoff of {_um(f.cutoff)} um (Gaussian)" if f.cutoff else ""
+
+
+def _taper(f):
+    return f", fading out over {_um(f.taper)} um at the rim" if f.taper else ""
+
+
+def _apart(f):
+    """Distances of its points, in um: one number where they are one."""
+    return " x ".join(dict.fromkeys(map(_um, f.steps)))
+
+
+def _um(value):
+    return f"{value * 1e6:.4g}"
+
+
+def _holes(f):
+    holes = f.inside(f.holes)  # what is cut off does not pass
+    if holes.any():
+        cut = " used" if holes.size < f.heights.size else ""
+        yield (f"{_name(f)}: {holes.sum()} of its {holes.size}{cut} points were not measured and are filled smoothly from "
+               "their neighbours; results there are not reliable")
+
+
+def form(f):
+    """Sentences about a map that is mostly the form of a body."""
+    found = f.form
+    if not found.dominant:
+        return
+    turned = "" if found.convex else f". {TURNED}"
+    if f.level != "form":
+        yield (f"{_name(f)}: all but {_um(found.left)} um of its rms of {_um(found.flat)} um are one curvature, {found.says}. "
+               "If this is the curvature of the body, which the scene already has, set feature.level = 'form' to remove "
+               f"it{turned}")
+    elif turned:
+        yield f"{_name(f)}: the removed form is {found.says}{turned}"
+
+
+def form_taken(f, scene):
+    """' (convex with a radius of ...)': the form that was taken off; "" where only a plane was."""
+    return f" ({f.form.says}{_mate(f, scene)})" if f.level == "form" else ""
+
+
+def _mate(f, scene):
+    """What the form taken off tells of the other body, if it is that of the one that was scanned: whoever knows that one sees
+    whether radii and scan belong together."""
+    if not f.form.dominant or not f.form.convex or f.form.axis != "x":
+        return ""
+    other = 1 / scene.contact.radius_x - f.form.bent
+    radius = f"radius of {1e3 / abs(other):.3g} mm" if other else "plane"
+    return (f"; with contact.radius_x = {scene.contact.radius_x * 1e3:.4g} mm the other body has a"
+            f"{'' if other >= 0 else ' concave'} {radius}")
+
+
+def _across(f, scene):
+    """A form that is not that of the bodies: those of a line contact are curved along x alone."""
+    if scene.contact.kind == "line" and f.form.dominant and f.form.axis == "y":
+        yield (f"{_name(f)}: its form is {f.form.says}, across the rolling direction, but the bodies of a line contact are "
+               f"curved along x only. If the scan lies across, set feature.transpose = {str(not f.transpose).lower()}")
+
+
+def _size(f):
+    m = f.measures
+    if m.rms < FLAT:
+        yield (f"{_name(f)}: heights in {f.unit} have an rms of {m.rms * 1e9:.2g} nm, far below the film thickness; check "
+               f"feature.unit = {f.unit!r}")
+
+
+def _rough(f, scene):
+    """One sentence for slopes that the film equation, and heights that steel does not bear: one cutoff helps against both."""
+    why = [*_steep(f), *_hard(f, scene)]
+    if why:
+        helps = f", or roughness? {found}" if (found := _cutoff(f, scene)) else "?"
+        yield f"{_name(f)}: heights in {f.unit} {', and '.join(why)}: spikes of the measurement{helps}"
+
+
+def _steep(f):
+    if (slope := f.measures.slope) > STEEP:
+        yield f"have slopes up to {slope:.3g} deg; the film equation assumes slopes below {STEEP:g} deg"
+
+
+def _hard(f, scene):
+    if yields(heights := middle(f.used), f, scene, SURELY):
+        yield f"need about {pressed(heights, f, scene) / 1e9:.2g} GPa to be flattened in this contact; {STEEL}"
+
+
+def _name(f):
+    return f"feature.file = {os.path.basename(f.file)!r}"
+
+
+def _grid(f, scene):
+    steps, heights = points_in_a_cell(f, scene), middle(f.used)
+    lost, own = missed(heights, *steps), missed(heights, 2, 2)
+    if lost > SHARE:
+        yield (f"{_name(f)}: the grid loses {lost:.0%} of the rms of the map "
+               f"({_finer(heights, steps, scene.grid)}{f'; {found}' if (found := _cutoff(f, scene)) else ''})")
+    if min(steps) < 1 and own > SHARE:
+        yield (f"{_name(f)}: points {_apart(f)} um apart are {1 / min(steps):.2g} cells and do not resolve the roughness "
+               f"({own:.0%} of the rms changes without every second point); heights are interpolated linearly")
+
+
+def carried(scene):
+    """Whether the grid sees every map of the scene."""
+    return all(missed(middle(f.used), *points_in_a_cell(f, scene)) <= SHARE for f in scene.features if f.kind.measured)
+
+
+def _cutoff(f, scene):
+    """The cutoff with which the doubts about grid, slopes and pressure are gone, in words; "" where there is none."""
+    if not (cutoff := helping(f, scene)):
+        return ""
+    cells, left = cutoff / max(Scales.of(scene).cell(scene.grid)), np.ptp(f.passing(cutoff))
+    return (f"feature.cutoff = {cutoff:g} (m; {_um(cutoff)} um, {cells:.2g} cells) removes finer waves and reduces the range "
+            f"from {_um(f.measures.range)} to {_um(left)} um")
+
+
+def _finer(heights, steps, grid):
+    """The grid that would see it, in words."""
+    factor = 2
+    while missed(heights, steps[0] / factor, steps[1] / factor) > SHARE:  # ends at the map's own points
+        factor *= 2
+    (nx, ny), most = (grid.nx * factor, grid.ny * factor), [cells for _, cells in MULTIPLES.values()]
+    return (f"--grid {nx}x{ny} resolves it" if nx <= most[0] and ny <= most[1] else
+            f"so does every grid up to {most[0]} x {most[1]}; filter the map")
+
+
+def _rim(f):
+    used = f.used
+    step = max(float(np.abs(edge).max()) for edge in (used[0], used[-1], used[:, 0], used[:, -1]))
+    formed = f.level != "form" and f.form.dominant  # the step is the form's, of which _form tells
+    if f.taper == 0 and step > RIM * f.measures.rms and not formed:
+        yield f"{_name(f)} ends in a step of up to {_um(step)} um at its rim; set feature.taper (m) to fade it out"
+
+
+def _faded(f):
+    whole = f.unfaded.rms
+    if f.taper and f.measures.rms < LEFT * whole:
+        yield (f"{_name(f)}: feature.taper = {f.taper:g} m leaves {f.measures.rms / whole:.0%} of the rms of its patch, "
+               f"{_um(f.patch[0])} x {_um(f.patch[1])} um")

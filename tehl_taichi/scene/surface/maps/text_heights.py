@@ -1,0 +1,135 @@
+"""Heights in a text file as instruments export them: header, marks of points that were not measured, columns between marks."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from tehl_taichi.scene.surface.maps import coordinates
+
+COLUMNS = (";", "\t", ",", None)  # what may stand between two heights, the first that a row has; None: blanks
+UNMEASURED = ("bad", "bad data", "nan", "na", "n/a", "no data", "no_data", "nodata", "null")  # also nothing, and * or - alone
+MARKS = "bad, nan, no data, ***, --- or an empty field"
+SPLIT = {"no data": "nodata", "bad data": "bad"}  # marks of two words, which blanks would part
+
+
+@dataclass(frozen=True)
+class Table:
+    """values: heights (rows, columns) in the unit of the file, nan where nothing was measured; header: lines before the first
+    row; inside: lines that begin with # after it (none of files that are no text)."""
+
+    values: np.ndarray
+    header: int = 0
+    inside: int = 0
+    beside: tuple = ()
+    spacing: tuple = (None, None)
+
+    def without_coordinates(self):
+        """The same with the heights alone; beside: the coordinates that were taken off, in words; spacing: theirs, (along a
+        row, from row to row), None where there are none."""
+        found = coordinates.without(self.values)
+        return replace(self, values=found.heights, beside=found.found_lines, spacing=(found.x, found.y))
+
+    @property
+    def skipped(self):
+        """What was not read, in words; "" where all was."""
+        told = ((self.header, "header line", "skipped"), (self.inside, "line", "with # among the heights skipped"))
+        lines = [f"{count} {what}{'s' * (count > 1)} {why}" for count, what, why in told if count]
+        return ", ".join([*lines, *(f"{what} skipped" for what in self.beside)])
+
+
+def read(path):
+    """The :class:`Table` of a text file. Raises ValueError that names the line: a word among the heights, a row with more or
+    fewer columns than the first, no row at all."""
+    with path.open(encoding="utf-8-sig", errors="replace") as file:  # headers have other encodings of a micro sign
+        lines = [(number, line.rstrip("\r\n ")) for number, line in enumerate(file, 1) if line.strip(" \r\n")]
+    told = [(number, line.split("#")[0]) for number, line in lines if not line.startswith("#")]
+    header, mark = _first_row(told)
+    _check_header(told[:header], told[header], mark)
+    rows, ended = _rows(told[header:], mark)
+    first = told[header][0]
+    before = sum(number < first for number, _ in lines)
+    values = np.array(rows)
+    return Table(values[:, :-1] if ended else values, before, len(lines) - before - len(rows))
+
+
+def _first_row(lines):
+    """(index of the first line that is a row of heights, mark between its columns)."""
+    for index, (_, line) in enumerate(lines):
+        mark = next(mark for mark in COLUMNS if mark is None or mark in line)
+        words = _words(line, mark)
+        if all(map(_is_height, words)) and (len(words) > 1 or not _unmeasured(words[0])):
+            return index, mark
+    raise ValueError("no line is a row of numbers")
+
+
+def _check_header(header, first, mark):
+    """Raises ValueError for a line with as many columns as the first row and numbers in most: a row with a wrong word."""
+    columns = len(_words(first[1], mark))
+    for number, line in header:
+        words = _words(line, mark)
+        if len(words) == columns and 2 * sum(map(_is_height, words)) > columns:
+            _row(number, words)
+
+
+def _rows(lines, mark):
+    """(rows of heights, whether the mark ends every one of them: nothing is behind it then)."""
+    rows, ended = [], mark is not None
+    for number, line in lines:
+        rows.append(_row(number, _words(line, mark)))
+        ended = ended and line.endswith(mark)
+        if len(rows[-1]) != len(rows[0]):
+            raise ValueError(f"line {number} has {len(rows[-1])} columns, the first row (line {lines[0][0]}) {len(rows[0])}")
+    return rows, ended
+
+
+def _words(line, mark):
+    """Columns of a line; with semicolons or tabs numbers may have decimal commas."""
+    words = _joined(line).split() if mark is None else (line if mark == "," else line.replace(",", ".")).split(mark)
+    return ["nan", *words[1:]] if _has_corner(words) else words
+
+
+def _has_corner(words):
+    """Whether they are coordinates behind the name of their corner, as 'y/x, 0, 1, 2, ...'."""
+    if len(words) < 5 or _is_height(words[0]):
+        return False
+    try:
+        return coordinates.rises(np.array(words[1:], float))
+    except ValueError:
+        return False
+
+
+def _joined(line):
+    """The line, with marks of two words as one."""
+    low = line.lower()
+    for two, one in SPLIT.items():
+        low = low.replace(two, one)
+    return low
+
+
+def _row(number, words):
+    """Heights of the columns of line `number`. Raises ValueError."""
+    try:
+        return np.array(words, dtype=float)
+    except ValueError:
+        return np.array([_height(number, word) for word in words])
+
+
+def _height(number, word):
+    if _unmeasured(word):
+        return np.nan
+    if not _is_height(word):
+        raise ValueError(f"line {number}: {word.strip()[:40]!r} is neither a number nor a mark of an unmeasured point "
+                         f"({MARKS})")
+    return float(word)
+
+
+def _unmeasured(word):
+    return word.strip().lower().strip("*-") in ("", *UNMEASURED)
+
+
+def _is_height(word):
+    try:
+        float(word)
+    except ValueError:
+        return _unmeasured(word)
+    return True

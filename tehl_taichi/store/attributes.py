@@ -1,0 +1,82 @@
+"""What stands in the attributes of a store: tables that were edited inside are refused before anybody stumbles over them."""
+
+import json
+
+from tehl_taichi.values.coerce import shown
+
+NUMBERS = "_m", "_Pa", "_C", "_K", "_s", "_deg", "_error", "_fraction", "Fi_max", "ripple", "steps", "cycles", "kappa_F"
+LISTS = ("warnings", "warning_codes", "results", "outputs")  # of texts
+KINDS = {dict: "a table", list: "a list", str: "text", int: "a whole number", float: "a number", bool: "true or false"}
+SUMMARY = {"scene": str, "version": str, "wall_s": float, "compile_s": float, "steps": int, "grid": dict, "cells": dict,
+           "hertz": dict, "left_out": list, "steady": dict, "work": dict, "crowding": list, "clamps": dict, "warnings": list,
+           "transient": dict, "fatigue": dict, "error": dict, "unknown": dict, "below": dict, "contact_alone": dict,
+           "searched_m": list, "pit_angles_deg": list, "criterion": str, "domain": dict, "error_parts": dict, "peclet": dict,
+           "warning_codes": list, "warning_data": list}
+PARTS = {"transient", "fatigue", "cells", "crowding", "error", "unknown", "below", "contact_alone", "searched_m",
+         "pit_angles_deg", "criterion", "domain", "error_parts", "peclet", "warning_codes",
+         "warning_data"}  # that some runs do not have
+TABLES = ("", "hertz.", "steady.", "transient.", "fatigue.", "fatigue.below.", "fatigue.below.contact_alone.")
+STEADY = ("h_c_m", "h_min_m", "p_max_Pa", "error", "unknown")
+
+
+def wrong(attrs, whole):
+    """What of a store's attributes is not as this program writes it, in words, or "". whole: of this version, so that nothing
+    may be missing."""
+    for name in LISTS:
+        found = _parsed(attrs.get(name, "[]"))
+        if isinstance(found, list) and (odd := [one for one in found if not isinstance(one, str)]):
+            return f"its attribute {name!r} holds {shown(odd[0])}, not only texts"
+    found = _parsed(attrs.get("summary", "{}"))
+    known = isinstance(found, dict) and found  # else there is none: readers do without
+    of_ours = known and whole and {"scene", "steady"} & found.keys()
+    said = (_missing(found) if of_ours else "") or _wrong_numbers(found) if known else ""
+    return said and f"of its attribute 'summary' {said}"
+
+
+def text(attrs, name, default="unknown"):
+    """An attribute that is text; `default` where it is missing or something else."""
+    found = attrs.get(name)
+    return found if isinstance(found, str) else default
+
+
+def _parsed(text):
+    try:
+        return json.loads(text)
+    except (TypeError, ValueError):
+        return None
+
+
+def _missing(summary):
+    if missing := [name for name in SUMMARY if name not in PARTS and name not in summary]:
+        return f"{missing[0]!r} is missing"
+    steady = summary["steady"]
+    missing = [name for name in STEADY if name not in steady] if isinstance(steady, dict) else []
+    return f"'steady.{missing[0]}' is missing" if missing else ""
+
+
+def _wrong_numbers(table, above=""):
+    """The first entry of a (nested) table that is of another kind, in words, or ""."""
+    for name, value in table.items():
+        kind = _kind(name, above)
+        if kind and not _is(value, kind):
+            return f"'{above}{name}' is {shown(value)}, not {KINDS[kind]}"
+        if isinstance(value, dict) and (said := _wrong_numbers(value, f"{above}{name}.")):
+            return said
+    return ""
+
+
+def _kind(name, above):
+    """The kind of an entry, None where any will do: what later versions add."""
+    if above.endswith(("unknown.", "error.")):
+        return str if above.endswith("unknown.") else float
+    if "error_parts." in above:
+        return dict if above.endswith("error_parts.") else float
+    if above not in TABLES:
+        return None
+    return SUMMARY.get(name, float if name.endswith(NUMBERS) else None)
+
+
+def _is(value, kind):
+    if kind is float:
+        return value is None or isinstance(value, (int, float)) and not isinstance(value, bool)
+    return isinstance(value, kind) and (kind is not int or not isinstance(value, bool))

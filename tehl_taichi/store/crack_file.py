@@ -1,0 +1,67 @@
+"""The answer of `tehl crack` kept beside the store of its run, for the report: STORE with .crack.json."""
+
+import json
+
+import numpy as np
+
+from tehl_taichi.disk import files, user_files
+from tehl_taichi.errors import StoreError
+from tehl_taichi.store.json_values import plain
+
+DEPTHS = 60  # of the section that is kept
+
+
+def place(store):
+    """Where the answer of the run in the store at this path is kept."""
+    path = store.absolute()
+    return path.with_name(f"{path.stem if path.suffix == '.zarr' else path.name}.crack.json")
+
+
+def check(store):
+    """Raises StoreError where the answer of the run in the store at this path cannot be kept."""
+    user_files.check(place(store), force=True)
+
+
+def keep(result, store):
+    """Write a :class:`tehl_taichi.crack.analysis.CrackResult` beside the store it is of, in place of an earlier one; returns
+    the path. Raises StoreError."""
+    path = place(store.path)
+    content = {"run": store.attrs.get("date"), "summary": result.summary, "drawn": _drawn(result)}
+    user_files.text(path, json.dumps({"program": user_files.PROGRAM, **plain(content)}), force=True)
+    return path
+
+
+def kept(store):
+    """{"summary", "drawn"} of what is kept of this run, or None. Raises StoreError where it is damaged."""
+    path = place(store.path)
+    if not path.is_file():
+        return None
+    try:
+        content = files.json_of(path)
+        return content if content["run"] == store.attrs.get("date") else None  # else of a run that was here before
+    except (ValueError, KeyError, TypeError, RecursionError, OSError) as error:
+        raise StoreError(f"{path} is damaged ({error}); remove it, or write it again with `tehl crack --keep`") from None
+
+
+def _drawn(result):
+    """What figures need: m, Pa; the tension of the section on even depths, every line as rows (x', depth)."""
+    plane, lines = result.plane, [line for side in result.sides.values() for line in (side.trajectory, side.path.points)]
+    even = np.linspace(0.0, min(1.3 * max([40e-6, *(line.imag.max() for line in lines)]), plane.depths[-1]), DEPTHS)
+    wide = max([plane.reach, *(np.abs(side.path.points.real).max() for side in result.sides.values())])
+    near = np.abs(plane.x) <= 1.3 * wide  # trajectories may lead out of it
+    tension = [np.interp(even, plane.depths, row) for row in np.maximum(plane.sigma1()[near], 0.0)]
+    sides = {name: _side(side) for name, side in result.sides.items()}
+    return {"x": plane.x[near], "depth": even, "tension": np.round(tension, -4), "position": plane.centres[:-1] / plane.a,
+            "sides": sides}
+
+
+def _side(side):
+    path = side.path
+    cracks = [] if path.last is None else [path.last] if path.first is path.last else [path.first, path.last]
+    K = [{"length": crack.faces.a, "K_I": crack.K[0, :-1], "K_II": crack.K[1, :-1], "oil": crack.pressure[:-1]}
+         for crack in cracks]
+    return {"trajectory": _rows(side.trajectory), "path": _rows(path.points), "K": K}
+
+
+def _rows(points):
+    return np.stack([points.real, points.imag], axis=1)

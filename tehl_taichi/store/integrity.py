@@ -1,0 +1,199 @@
+"""Whether what lies on the disk is a whole store of this program, and what is wrong with it, in a sentence."""
+
+import contextlib
+import json
+import re
+from pathlib import Path
+
+from tehl_taichi import __version__
+from tehl_taichi.disk import files
+from tehl_taichi.disk.files import TEMPORARY
+from tehl_taichi.disk.links import ROOT
+from tehl_taichi.disk.locks import LOCK
+from tehl_taichi.errors import SceneError, StoreError
+from tehl_taichi.laws.choices import CHOICES
+from tehl_taichi.laws.criteria import CRITERIA
+from tehl_taichi.scene.description import SECTIONS
+from tehl_taichi.scene.feature import SHAPES
+from tehl_taichi.store import attributes, stored_maps
+from tehl_taichi.values.coerce import shown
+
+FORMAT = 3  # 1: version 0.1, without checksums; 2: to 0.6.1, every entry of a field in folders of its own
+CHECKPOINTS = ".checkpoints"
+OURS = {ROOT, f"{ROOT}.tmp", CHECKPOINTS, LOCK}  # .tmp: to version 0.8
+
+
+def is_store(path):
+    """Whether a store of this program, whole or damaged, is at `path`."""
+    try:
+        return {"scene", "steps"} <= files.json_of(Path(path) / ROOT)["attributes"].keys()
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        return False
+
+
+def strangers(path):
+    """Names in the folder of a store that are no part of it."""
+    return sorted(child.name for child in path.iterdir() if child.name not in OURS and not TEMPORARY.fullmatch(child.name)
+                  and (child.is_symlink() or not _of_array(child)))
+
+
+def _of_array(folder):
+    """Whether it is that of an array, also of one that a killed process had only begun: zarr writes its metadata first, under
+    another name until they are whole."""
+    if (folder / ROOT).is_file():
+        return True
+    return folder.is_dir() and all(part.name.endswith(".partial") for part in folder.iterdir())
+
+
+def root_of(path):
+    """(attributes, {name: metadata of an array}) of the store at `path`. Raises StoreError."""
+    path = Path(path)
+    try:
+        root = files.json_of(path / ROOT)
+        attrs = root["attributes"]
+        arrays = root["consolidated_metadata"]["metadata"]
+    except FileNotFoundError:
+        raise StoreError(f"{path} is not a store of tehl run: " +
+                         (f"it has no {ROOT}" if path.is_dir() else "the folder does not exist")) from None
+    except OSError as error:
+        raise StoreError(f"{path} is not a store of tehl run: {error.strerror or error}") from None
+    except (ValueError, KeyError, TypeError, RecursionError):
+        raise StoreError(f"{path} is not a store of tehl run: its {ROOT} is not that of a store") from None
+    if not isinstance(attrs, dict) or "scene" not in attrs or not isinstance(arrays, dict):
+        raise StoreError(f"{path} is not a store of tehl run: its {ROOT} describes no scene")
+    if any(name != Path(name).name for name in arrays):
+        raise damaged(path, "one of its arrays lies outside")
+    return attrs, arrays
+
+
+def scene_of(path, attrs):
+    """The scene that a store was run with. Raises StoreError."""
+    try:
+        data = _scene_data(attrs["scene"])
+        if attrs.get("format", 1) == 1 and data["time"]["steps"] == 0:  # meant all in version 0.1
+            data["time"]["steps"] = -1
+        return stored_maps.scene_of(path, data)
+    except (SceneError, ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
+        if said := lacking(attrs["scene"]):
+            raise StoreError(f"{path} needs {said}") from None
+        said = error if type(error) in (SceneError, ValueError, StoreError) else "a key is missing or has a wrong value"
+        raise StoreError(f"{path} is damaged: the scene in its {ROOT} cannot be read ({said})") from None
+
+
+def _scene_data(text):
+    """The nested dictionary of a scene as stores keep it. Raises ValueError."""
+    try:
+        data = json.loads(text)
+    except (TypeError, ValueError):
+        raise ValueError(f"{shown(text)} is not JSON") from None
+    if not isinstance(data, dict) or not SECTIONS.keys() <= data.keys():
+        raise ValueError("sections are missing")
+    features = data.get("feature")
+    if not isinstance(features, list) or not all(isinstance(one, dict) for one in features):
+        raise ValueError(f"feature = {shown(features)} must be a list of tables")
+    return data
+
+
+def lacking(text):
+    """The law, criterion or shape of a scene (as JSON) that is not installed here, in words, or ""."""
+    try:
+        data = json.loads(text)
+        chosen = {**{key: (_entry(data, key), names) for key, names in CHOICES.items()},
+                  "fatigue.criterion": (_entry(data, "fatigue.criterion"), CRITERIA)}
+        shapes = [("feature.shape", (one.get("shape"), SHAPES)) for one in data["feature"]]
+    except (TypeError, ValueError, KeyError, AttributeError):
+        return ""
+    for key, (name, known) in (*chosen.items(), *shapes):
+        if isinstance(name, str) and name not in known:
+            return f"{key} = {shown(name)}, which is not installed here; known: {', '.join(known)}"
+    return ""
+
+
+def _entry(data, key):
+    section, _, name = key.partition(".")
+    return data[section].get(name)
+
+
+def check(path, attrs, arrays, scene, needed):
+    """Refuse attributes and arrays that do not belong together. needed: {name: dimensions behind the time} of
+    the arrays of every entry."""
+    steps = attrs.get("steps")
+    if not isinstance(steps, int) or isinstance(steps, bool) or steps < 1:
+        raise damaged(path, f"'steps', the number of its entries, is {steps!r}")
+    if not isinstance(attrs.get("finished"), bool):
+        raise damaged(path, f"'finished' is {attrs.get('finished')!r}, neither true nor false")
+    if said := attributes.wrong(attrs, written_by(attrs) is None):
+        raise damaged(path, said)
+    grid = {"x": scene.grid.nx + 1, "y": scene.rows + 1}
+    for name, dimensions in needed.items():
+        wanted = [steps] + [grid[key] for key in dimensions]
+        shape = _shape(arrays.get(name))
+        if shape is None:
+            raise damaged(path, f"it has no array {name!r}")
+        if shape[: len(wanted)] != wanted:
+            raise damaged(path, f"{name} has the shape {shape}, but its scene and entries need {wanted}")
+
+
+def _shape(metadata):
+    try:
+        return list(metadata["shape"])
+    except (TypeError, KeyError):
+        return None
+
+
+def attribute(path, attrs, name):
+    """A table (as JSON) among the attributes that going on needs. Raises StoreError."""
+    value = optional(attrs, name, {})
+    if not value and attrs.get(name) != "{}":
+        raise damaged(path, f"its attribute {name!r} is missing or unreadable")
+    return value
+
+
+def optional(attrs, name, default):
+    """A JSON attribute that only readers miss; `default` where it is missing or no value of that kind."""
+    try:
+        value = json.loads(attrs[name])
+    except (KeyError, TypeError, ValueError, RecursionError):
+        return default
+    return value if isinstance(value, type(default)) else default
+
+
+def written_by(attrs):
+    """Version that wrote a store, in words, where it is another one, else None."""
+    version, layout = attrs.get("version", "unknown"), attrs.get("format", 1)
+    if version == __version__ and layout == FORMAT:
+        return None
+    return f"written by version {version} (layout {layout}), this is {__version__} (layout {FORMAT})"
+
+
+@contextlib.contextmanager
+def blamed_on_newer(path, attrs):
+    """What this version cannot read of a store that a newer one wrote is no damage: the StoreError says which to install."""
+    try:
+        yield
+    except StoreError:
+        version = attrs.get("version")
+        if release(version) <= release(__version__):
+            raise
+        raise StoreError(f"{path} was written by version {version}, this is {__version__}: install {version} or newer"
+                         ) from None
+
+
+def release(version):
+    """The numbers of a version (without what a developer's build adds, nor zeros at the end), () of what is none."""
+    found = re.match(r"\d+(\.\d+)*", version if isinstance(version, str) else "")
+    numbers = [int(part) for part in found[0].split(".")] if found else []
+    while numbers and not numbers[-1]:
+        numbers.pop()
+    return tuple(numbers)
+
+
+def check_version(path, attrs):
+    """Refuse to go on where another version began."""
+    if said := written_by(attrs):
+        raise StoreError(f"{path} was {said}: it can be read but not resumed; `tehl run {path} --out NEW` repeats the run")
+
+
+def damaged(path, what):
+    """The error that says so."""
+    return StoreError(f"{path} is damaged: {what}; `tehl run {path} --out NEW` repeats the run")

@@ -1,0 +1,42 @@
+"""A scene by whatever names it, on the command line and in Python: `tehl_taichi.scene` is this. Importing it costs nothing."""
+
+import os
+from pathlib import Path
+
+from tehl_taichi.scene import BUILT_INS, Scene, SceneError
+from tehl_taichi.scene.builtin import scene as built_in
+from tehl_taichi.values.coerce import shown
+from tehl_taichi.values.file_ending import ending
+
+
+def find(name: str | os.PathLike | Scene = "gear") -> Scene:
+    """As :func:`tehl_taichi.scene`."""
+    return find_changed(name, {})
+
+
+def find_changed(name, changes):
+    """The scene by its name with changes {key: value}, which count as if they stood in its file: one that is refused by itself
+    may need them. Raises SceneError."""
+    from tehl_taichi.scene import scene_file
+
+    if not isinstance(name, (str, os.PathLike, Scene)):
+        raise SceneError(f"{shown(name)} is not a scene; allowed: a Scene, a built-in name, a TOML file or a store")
+    if not isinstance(name, Scene) and name not in BUILT_INS and _is_file(Path(name)):
+        return scene_file.load(name, changes)
+    found = name if isinstance(name, Scene) else _stored(Path(name)) or built_in(str(name))
+    return found.replace(**changes) if changes else found
+
+
+def _is_file(path):
+    return ending(path) == ".toml" or path.exists() and not _is_store(path)
+
+
+def _is_store(path):
+    return path.is_dir() and (path / "zarr.json").exists()
+
+
+def _stored(path):
+    """Scene of the store at `path`, None where there is none. Raises StoreError for a damaged one."""
+    from tehl_taichi.store import integrity
+
+    return integrity.scene_of(path, integrity.root_of(path)[0]) if _is_store(path) else None

@@ -1,0 +1,148 @@
+"""Reading a store: its scene, series, fields, maps and summary; nothing here writes but the undoing of half a replacement."""
+
+import math
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from tehl_taichi.disk.drafts import put_back, unmade
+from tehl_taichi.disk.locks import holder
+from tehl_taichi.errors import StoreError
+from tehl_taichi.march.step_output import fields_of, names, scalars_of
+from tehl_taichi.scene.timeline import cut_at
+from tehl_taichi.store import chunks, integrity
+from tehl_taichi.store.layout import OWN
+from tehl_taichi.values.coded_warning import of_lists
+
+
+class Reader:
+    """One run on disk, to read; entry 0 is the steady start."""
+
+    def __init__(self, path, lock=None):
+        self.path, self.lock = Path(path), lock
+        self.attrs, self.metadata = integrity.root_of(self.path)
+        with integrity.blamed_on_newer(self.path, self.attrs):
+            self.scene = integrity.scene_of(self.path, self.attrs)
+        known = integrity.optional(self.attrs, "outputs", names())  # to the program that began it
+        self.stored = {name: field.dtype for name, field in fields_of(self.scene).items() if name in known}
+        self.names = [*(name for name in scalars_of(self.scene) if name in known), *OWN]
+        self.steps = self.attrs.get("steps")
+
+    @classmethod
+    def open(cls, path):
+        """Existing store, to read. Raises StoreError if `path` is none, or a damaged one."""
+        return cls._opened(Path(path), None)
+
+    @classmethod
+    def _opened(cls, path, lock):
+        put_back(path)
+        if not path.exists() and (why := unmade(path)):
+            raise why
+        store = cls(path, lock)
+        needed = {name: ["x", "y"] for name in store.stored} | {name: [] for name in store.names}
+        with integrity.blamed_on_newer(path, store.attrs):
+            integrity.check(path, store.attrs, store.metadata, store.scene, needed)
+            store.series = {name: store._read_series(name) for name in store.names}
+        return store
+
+    def __len__(self):
+        return self.steps
+
+    @property
+    def finished(self):
+        return self.attrs["finished"]
+
+    @property
+    def writer(self):
+        """Who writes to it at this moment, in words, or None."""
+        return holder(self.path)
+
+    @property
+    def other_version(self):
+        """Which version wrote it, in words, where that is not this one, else None."""
+        return integrity.written_by(self.attrs)
+
+    @property
+    def cut(self):
+        """Position (a) where its passage was cut inside the contact, or None."""
+        return cut_at(self.scene)
+
+    @property
+    def last_step(self):
+        """Number of the last stored time step."""
+        return int(self.series["step"][self.steps - 1])
+
+    @property
+    def summary(self):
+        """The summary of a finished run, or {}."""
+        found = integrity.optional(self.attrs, "summary", {})
+        return {**found, "store": str(self.path)} if found else {}
+
+    @property
+    def warnings(self):
+        """What is doubtful, a :class:`tehl_taichi.values.coded_warning.CodedWarning` each: of the run where it is finished,
+        else of its scene."""
+        names = "warnings", "warning_codes", "warning_data"
+        return of_lists(*(integrity.optional(self.attrs, name, []) for name in names))
+
+    def needed(self, name):
+        """The table among the attributes of that name, which going on needs. Raises StoreError."""
+        return integrity.attribute(self.path, self.attrs, name)
+
+    def known(self, name):
+        """The table among the attributes of that name, {} in stores of versions that had none."""
+        return integrity.optional(self.attrs, name, {})
+
+    @cached_property
+    def x(self):  # opening the group takes 2 ms, and a fatigue search asks for every entry
+        return self._whole("x")
+
+    @cached_property
+    def y(self):
+        return self._whole("y")
+
+    @property
+    def time(self):
+        return self.series["time"][: self.steps]
+
+    def scalar(self, name):
+        """Values of one scalar series, one per stored entry (with output.every: see `cell_methods`)."""
+        return self.series[name][: self.steps]
+
+    def feature_x(self, n):
+        """Centre of the first feature (m) at entry n."""
+        return float(self.series["feature_x"][n])
+
+    def fields(self, n, names=None):
+        """{name: (nx+1, ny+1) array} of entry n, by default of every field that is stored."""
+        return {name: self._values(name, n) for name in (self.stored if names is None else names)}
+
+    def _values(self, name, n):
+        """One chunk, read as it was written: a tenth of the time of the general way, which a fatigue search feels."""
+        shape = self.metadata[name]["shape"][1:]
+        return chunks.read(self._file(name, n), "<" + self.stored[name], math.prod(shape)).reshape(shape)
+
+    def _file(self, name, n):
+        """Where entry n of a field lies; before layout 3 each in folders of its own."""
+        array = self.metadata[name]
+        between = array["chunk_key_encoding"].get("configuration", {}).get("separator", "/")
+        return self.path / name / between.join(["c", str(n)] + ["0"] * (len(array["shape"]) - 1))
+
+    def _read_series(self, name):
+        """A scalar series with the room behind its last entry."""
+        file, whole = self.path / name / "c" / "0", self.metadata[name]["chunk_grid"]["configuration"]["chunk_shape"][0]
+        dtype, old = "<i8" if name == "step" else "<f8", self.attrs.get("format", 1) == 1
+        values = self._whole(name) if old else chunks.read(file, dtype, whole)
+        if values.size < self.steps or (name in ("step", "time") and not np.all(np.diff(values[: self.steps]) > 0)):
+            raise StoreError(f"{file} is damaged: it has no {self.steps} entries")
+        out = np.full(whole, np.nan if name != "step" else -1, values.dtype)
+        out[: values.size] = values
+        return out
+
+    def _whole(self, name):
+        return chunks.read_whole(self.path / name)
+
+    def map(self, name):
+        """One of the maps that :meth:`finish` stored, or None."""
+        return self._whole(name) if name in self.metadata else None

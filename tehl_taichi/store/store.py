@@ -1,0 +1,172 @@
+"""The result store: one zarr v3 group that xarray opens as it is, written step by step.
+
+Arrays are laid out for the whole run at once; what a reader sees is the consolidated metadata in the group's own
+`zarr.json`, whose shapes end at the last complete step that was shown. That one file is replaced atomically after all chunks of
+these steps and a checkpoint are written, so steps become visible as a whole, and a killed run leaves a store that opens.
+The store itself appears with its first entry (:mod:`tehl_taichi.store.store_draft`) and has one writer at a time
+(:mod:`tehl_taichi.disk.locks`); every chunk and checkpoint carries a checksum.
+"""
+
+import contextlib
+import json
+from pathlib import Path
+
+import numpy as np
+import zarr
+
+from tehl_taichi import __version__
+from tehl_taichi.disk import files
+from tehl_taichi.disk.files import reason
+from tehl_taichi.disk.locked_folder import LockedFolder, locked_folder
+from tehl_taichi.errors import Error, Interrupted
+from tehl_taichi.march.step_output import names
+from tehl_taichi.scene import scene_file
+from tehl_taichi.store import checkpoint, chunks, integrity, layout, stored_maps
+from tehl_taichi.store.integrity import CHECKPOINTS, FORMAT
+from tehl_taichi.store.json_values import plain
+from tehl_taichi.store.layout import OWN
+from tehl_taichi.store.reader import Reader
+from tehl_taichi.store.store_draft import CaseDraft, StoreDraft
+from tehl_taichi.values.coded_warning import texts
+
+
+class Store(LockedFolder, Reader):
+    """One run on disk: :meth:`create` and :meth:`write` give one that may be written, :meth:`open` one to read.
+
+    A writer holds the lock of its folder until :meth:`close` (or the end of a `with`).
+    """
+
+    @classmethod
+    def create(cls, path, scene, snapshot, capacity, attrs=None):
+        """New store on the grid of `snapshot`, which becomes its first entry; room for `capacity` entries.
+
+        path: a :class:`StoreDraft`, or a path that is reserved now. Raises StoreError if it exists or cannot be written.
+        """
+        place = path if isinstance(path, StoreDraft) else CaseDraft(path)
+        try:
+            with _disk_errors(place.folder, "nothing is stored", Error):
+                store = cls._begun(place, scene, snapshot, capacity, attrs or {})
+                store._append(snapshot, snapshot.state)
+            place.publish()
+        except BaseException:
+            place.give_up()
+            raise
+        store.path = place.path
+        return store
+
+    @classmethod
+    def _begun(cls, place, scene, snapshot, capacity, attrs):
+        """A store without entries, which nobody sees yet."""
+        group = zarr.open_group(str(place.folder), mode="a", zarr_format=3)
+        layout.lay_out(group, capacity, scene, snapshot)
+        stored_maps.write(group, scene)
+        (place.folder / CHECKPOINTS).mkdir()
+        attrs = {"Conventions": "CF-1.10", "format": FORMAT, "version": __version__, "scene": json.dumps(scene.to_dict()),
+                 "scene_toml": scene_file.dumps(scene), **attrs, "outputs": json.dumps(names()), "steps": 0, "finished": False}
+        layout.publish(place.folder, attrs, layout.metadata(place.folder))
+        store = cls(place.folder, place.lock)
+        store.series = {name: np.full(capacity, -1) if name == "step" else np.full(capacity, np.nan) for name in store.names}
+        for name in store.series:
+            (place.folder / name / "c").mkdir()
+        return store
+
+    @classmethod
+    def write(cls, path):
+        """Existing store, to go on with. Raises StoreError as :meth:`open`, or where another version wrote it; Busy where
+        somebody else writes."""
+        path = Path(path)
+        cls.open(path)  # nothing is locked that is no store
+        return locked_folder(path, lambda lock: cls._to_resume(path, lock))
+
+    @classmethod
+    def _to_resume(cls, path, lock):
+        store = cls._opened(path, lock)
+        integrity.check_version(path, store.attrs)
+        return store
+
+    def append(self, snapshot, state=None, shown=True):
+        """Write one snapshot, and its `state` as the checkpoint to go on from, then make it visible; shown = False: not yet,
+        unless it has a state. Raises Interrupted where the disk does not take it: what was shown before stays."""
+        with self._safe():
+            self._append(snapshot, state, shown)
+
+    def show(self):
+        """Make visible what was appended. Raises as :meth:`append`."""
+        with self._safe():
+            if self.steps > self.attrs["steps"]:
+                self._show()
+
+    def _append(self, snapshot, state, shown=True):
+        n = self.steps
+        for name, dtype in self.stored.items():  # what nobody sees yet needs no care
+            files.write(self._file(name, n), chunks.packed(snapshot.fields[name], "<" + dtype))
+        values = {**snapshot.scalars, **{name: getattr(snapshot, name) for name in OWN}}
+        for name, series in self.series.items():
+            series[n] = values[name]
+        self.steps = n + 1
+        if state:
+            checkpoint.write(self.path / CHECKPOINTS, n + 1, state)
+        if state or shown:
+            self._show()
+        if state:
+            checkpoint.forget(self.path / CHECKPOINTS, n + 1)
+
+    def _show(self):
+        for name, series in self.series.items():
+            files.replace(self.path / name / "c" / "0", chunks.packed(series, "<" + series.dtype.str[1:]))
+        self._commit(steps=self.steps)
+
+    def _safe(self):
+        """What a disk refuses while a passage is written."""
+        return _disk_errors(self.path, f"{self.attrs['steps']} entries are stored; then use: tehl resume {self.path}")
+
+    def _commit(self, **attrs):
+        attrs = {**self.attrs, **attrs}
+        layout.publish(self.path, attrs, self.metadata)
+        self.attrs, self.steps = attrs, attrs["steps"]
+
+    def go_back(self):
+        """The state of the last checkpoint, for :func:`tehl_taichi.march.passage.march`. Entries after it are taken back: they
+        come again, the same. Raises StoreError where there is none."""
+        shape = self.scene.rows + 1, self.scene.grid.nx + 1
+        number, state = checkpoint.last(self.path, self.path / CHECKPOINTS, self.steps, shape)
+        if int(state["step"]) != self.series["step"][number - 1]:
+            raise integrity.damaged(self.path, "its checkpoint is of another step")
+        if number < self.steps:
+            with _disk_errors(self.path, f"then use: tehl resume {self.path}"):
+                self._commit(steps=number)
+        return state
+
+    def extend(self, scene):
+        """Go on behind the end of a finished run, with a scene that differs in that end only; its results are taken back."""
+        for name in integrity.optional(self.attrs, "results", []):
+            self.metadata.pop(name, None)
+        self.scene = scene
+        self.attrs.pop("summary", None)
+        with _disk_errors(self.path, f"then use: tehl resume {self.path}"):
+            self._commit(scene=json.dumps(scene.to_dict()), scene_toml=scene_file.dumps(scene), results="[]", finished=False,
+                         **texts(scene.warnings()))
+
+    def finish(self, summary, maps=None):
+        """Store the summary (and maps {name: (values, dims, units, text)}) and mark the run as finished."""
+        with _disk_errors(self.path, f"every step is stored; then use: tehl resume {self.path}"):
+            group = zarr.open_group(str(self.path), mode="r+", use_consolidated=False)
+            for name, (values, dims, units, text) in (maps or {}).items():
+                if name in group:
+                    del group[name]
+                values = np.asarray(values, "f8")
+                layout.array(group, name, values.shape, values.shape, "f8", dims, units, text, float("nan"))[...] = values
+            written = layout.metadata(self.path)
+            self.metadata |= {name: written[name] for name in maps or {}}
+            self._commit(summary=json.dumps(plain(summary)), results=json.dumps(list(maps or {})), finished=True,
+                         **texts(summary.get("warnings", self.warnings)))
+
+
+@contextlib.contextmanager
+def _disk_errors(path, what_is_left, kind=Interrupted):
+    """What a disk refuses (full, read-only, moved away), as a sentence and an error of that kind."""
+    try:
+        yield
+    except OSError as error:
+        why = reason(error) if Path(path).exists() else "it was moved or removed"
+        raise kind(f"cannot write to {path}: {why}; {what_is_left}") from None

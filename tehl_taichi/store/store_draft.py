@@ -1,0 +1,91 @@
+"""The place of a new store: a :class:`tehl_taichi.disk.drafts.Draft` that replaces nothing but a store."""
+
+import os
+import shutil
+from pathlib import Path
+
+from tehl_taichi.disk import links, user_files
+from tehl_taichi.disk.drafts import Draft, exists, remove
+from tehl_taichi.disk.files import reason
+from tehl_taichi.disk.locks import Busy, Lock
+from tehl_taichi.errors import Error, StoreError
+from tehl_taichi.store import integrity
+
+ROOM = 50e6  # bytes
+
+
+class StoreDraft(Draft):
+    """The name `path`, reserved for a store; replace: also where one stands. Raises StoreError, Busy."""
+
+    @classmethod
+    def fresh(cls, folder, name):
+        """The first of NAME-1.zarr, NAME-2.zarr ... in `folder` that nobody has or makes."""
+        number = 1
+        while True:
+            try:
+                if not os.path.lexists(path := Path(folder) / f"{name}-{number}.zarr"):
+                    return cls(path)
+            except Busy:
+                pass
+            number += 1
+
+    def allowed(self, replace):
+        self.check_outside()
+        if replace and os.path.lexists(self.path):
+            return replaceable(self.path)
+        _check_free(self.path)
+        return None
+
+
+    def check_outside(self):
+        user_files.check_outside(self.path)
+
+
+class CaseDraft(StoreDraft):
+    """The place of the store of a case, which is a part of its study or flank."""
+
+    def check_outside(self):
+        pass
+
+
+def removed(path):
+    """Remove the store at `path`. Raises StoreError where there is none, or something else in it; Busy."""
+    remove(path, replaceable(path))
+
+
+def _check_free(path):
+    if path.is_symlink() and not path.exists():
+        raise StoreError(f"{path} is a broken link; remove it or choose another --out")
+    if path.exists():
+        if integrity.is_store(path):
+            raise StoreError(exists(path))
+        raise StoreError(f"{path} exists already and is not a store; choose another --out")
+    parent = path.absolute().parent
+    while not os.path.lexists(parent):
+        parent = parent.parent
+    if not parent.is_dir() or not os.access(parent, os.W_OK):
+        raise StoreError(f"cannot write to {parent}: no permission, read-only or not a folder")
+    check_room(parent)
+
+
+def check_room(folder):
+    """Raises Error where the disk of an existing folder has no room for a run."""
+    free = shutil.disk_usage(folder).free
+    if free < ROOM:
+        raise Error(f"{folder} has only {free / 1e6:.0f} MB left; a run needs at least {ROOM / 1e6:.0f} MB")
+
+
+def replaceable(path):
+    """The lock of the store at `path`, which may be replaced. Raises StoreError where it may not."""
+    if path.is_symlink():
+        raise StoreError(f"{path} is a link, and --force replaces only stores; remove the link or choose another --out")
+    if not integrity.is_store(path):
+        raise StoreError(f"{path} is not a store of tehl run, and --force replaces only stores; choose another --out")
+    if strangers := integrity.strangers(path):
+        raise StoreError(f"{path} holds {strangers[0]}, which is not part of a store; move it away, or choose another --out")
+    links.refuse(path)
+    check_room(path)
+    try:
+        return Lock(path)
+    except OSError as error:
+        raise StoreError(f"cannot replace {path}: {reason(error)}") from None

@@ -1,0 +1,57 @@
+"""The height maps of a scene inside its store: what a store needs to be shown, resumed and run again without their files."""
+
+from tehl_taichi.errors import StoreError, brief
+from tehl_taichi.scene import Scene
+from tehl_taichi.scene.feature import SHAPES
+from tehl_taichi.scene.surface.maps import height_map
+from tehl_taichi.store import chunks
+
+
+def write(group, scene):
+    """Store the heights of the scene's maps, as they were read, each once, under the hash that its feature names."""
+    for feature in scene.features:
+        if feature.kind.measured and _name(feature.sha256) not in group:
+            name = _name(feature.sha256)
+            array = group.create_array(name, shape=feature.heights.shape, dtype="f8",
+                                       dimension_names=[f"{name}_row", f"{name}_column"])
+            array.attrs.update({"units": feature.unit, "long_name": "heights as in the file, neither turned nor levelled",
+                                "sha256": feature.sha256, "pixel_m": list(feature.file_steps), "file": feature.file})
+            array[...] = feature.heights
+
+
+def scene_of(path, data):
+    """The scene (nested dictionary) of the store at `path`; its maps come from the store, whatever has become of their files.
+
+    Raises StoreError when stored heights are not those of their hash. A store of version 0.1.0 has only the name of the file.
+    """
+    maps = [feature for feature in data["feature"] if SHAPES[feature["shape"]].measured]
+    held = [_heights(path, feature["sha256"]) for feature in maps if "sha256" in feature]  # known until the scene has them
+    for feature in data["feature"]:
+        if "unit" not in feature:
+            _upgrade(feature)
+    scene = Scene.from_dict(data)
+    del held
+    return scene
+
+
+def _upgrade(feature):
+    """A feature of version 0.1.0, in place: there height was m per unit of a map's file, and every feature had a pixel."""
+    if SHAPES[feature["shape"]].measured:
+        feature.update(unit="m", scale=feature.pop("height"))
+    else:
+        feature.pop("pixel", None)
+
+
+def _heights(path, sha256):
+    try:
+        found, values = height_map.keep(chunks.read_whole(path / _name(sha256)))
+    except Exception as error:
+        raise StoreError(f"{path / _name(sha256)}: the stored height map cannot be read: {brief(error)}") from None
+    if found != sha256:
+        raise StoreError(f"{path / _name(sha256)}: the stored height map is damaged (its sha256 begins with {found[:12]}, not "
+                         f"{sha256[:12]})")
+    return values
+
+
+def _name(sha256):
+    return f"map_{sha256[:16]}"

@@ -1,5 +1,0 @@
-"""A number that the program chose where a scene says "auto"."""
-
-
-class Chosen(float):
-    """A float like any other; a description of the scene says "auto" in its place."""

@@ -1,0 +1,22 @@
+"""What Python callers give in place of a path, or of what lies at one."""
+
+from os import PathLike
+from pathlib import Path
+
+from tehl_taichi.errors import SceneError, StoreError
+from tehl_taichi.values.coerce import shown
+
+
+def path_of(name, value):
+    """The Path that an argument means. Raises SceneError where it is no text and no path."""
+    if not isinstance(value, (str, PathLike)) or isinstance(value, bytes):
+        raise SceneError(f"{name} = {shown(value)} is not a path; allowed: text or a pathlib.Path")
+    return Path(value)
+
+
+def folder_of(of):
+    """Where a Run, a Study or a Flank lies, or the path itself. Raises StoreError where it is none of them."""
+    for found in (of, getattr(of, "path", None), getattr(of, "folder", None)):
+        if isinstance(found, (str, PathLike)):
+            return Path(found)
+    raise StoreError(f"{shown(of)} is not a run, study or flank; allowed: its path, or the result of tehl_taichi.open")

@@ -1,0 +1,134 @@
+"""A run as a film: GIF with what the `plot` extra brings, MP4 where ffmpeg is at hand."""
+
+import contextlib
+import shutil
+import subprocess
+from os import PathLike
+from pathlib import Path
+from typing import Any, Callable
+
+import numpy as np
+
+from tehl_taichi.disk import user_files
+from tehl_taichi.errors import SceneError, StoreError
+from tehl_taichi.values.checks import choice, integer
+from tehl_taichi.values.path_arguments import folder_of
+from tehl_taichi.view.figures.figure_style import FigureStyle, drawing
+from tehl_taichi.view.figures.frames import SHOWN, Frames
+from tehl_taichi.view.figures.moments import Moments
+
+FORMATS = ("gif", "mp4")
+FRAMES, FPS, DPI, WIDTH = 120, 15, 110, 17.0
+EVEN = "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white"  # numbers of rows and columns, which MP4 asks for
+NEARLY = 248  # of 255: Pillow tells colours apart in steps of 4, and takes the nearest below
+SAMPLES = 5  # frames that the colours of a GIF are taken from
+
+
+def animate(source: str | PathLike | Any, out: str | PathLike | None = None, *, format: str | None = None, frames: int = FRAMES,
+            fps: int = FPS, dpi: int = DPI, width: float = WIDTH, shown: str = "film", force: bool = False,
+            progress: Callable[[int, int], None] | None = None) -> Path:
+    """As :func:`tehl_taichi.animate`."""
+    from tehl_taichi.store.store import Store
+
+    integer("frames", frames, 2, 2000)
+    integer("fps", fps, 1, 50)
+    choice("map", shown, SHOWN)
+    page, store = FigureStyle(dpi=dpi, width=width), Store.open(folder_of(source))
+    path, format = _file(store, out, format, force)
+    _check(store, shown)
+    drawing()
+    write = {"gif": _gif, "mp4": _mp4}[format]
+    tool = _ffmpeg() if format == "mp4" else None
+    entries = np.unique(np.linspace(0, store.steps - 1, frames).round().astype(int)).tolist()
+    with page.style(), user_files.made(path, force, kind=format) as draft:
+        write(draft, Frames(page, Moments(store), entries, shown if store.y.size > 1 else None), fps,
+              progress or (lambda done, total: None), tool)
+    return path
+
+
+def _file(store, out, format, force):
+    """(path, format) of the file to write. Raises SceneError, or StoreError where something is in the way."""
+    path = Path(out) if out else store.path.with_name(store.path.name.removesuffix(".zarr"))
+    if out and path.is_dir():
+        raise StoreError(f"{path} is a folder; --out takes the name of a file")
+    told = path.suffix[1:].lower() if out else ""
+    format = format or told or "gif"
+    choice("format", format, FORMATS)
+    if told in FORMATS and told != format:
+        raise SceneError(f"out = {path} does not end in .{format}; omit --format, or choose another --out")
+    path = path if told == format else path.with_name(f"{path.name}.{format}")
+    user_files.check(path, force, format)
+    return path, format
+
+
+def _check(store, shown):
+    """Raise StoreError where there is nothing to animate."""
+    if store.steps < 2:
+        raise StoreError(f"{store.path} has only a steady state, so there is no passage to animate; use `tehl plot`")
+    if shown == "temperature" and store.scene.isothermal:
+        raise StoreError(f"{store.path} is isothermal and has no temperatures; use --map film or --map pressure")
+
+
+def _with_progress(frames, progress):
+    """Generator of the pictures, which tells of each."""
+    for done, n in enumerate(frames.entries):
+        progress(done, len(frames.entries))
+        yield frames.picture(n)
+    progress(len(frames.entries), len(frames.entries))
+
+
+def _gif(path, frames, fps, progress, _):
+    """Written as the frames come, all in one set of colours: they must not flicker."""
+    from PIL import Image
+
+    some = [frames.entries[n] for n in np.linspace(0, len(frames.entries) - 1, SAMPLES).astype(int)]
+    colours = _kept_white(Image.fromarray(np.concatenate([frames.picture(n) for n in some])).quantize(256))
+    plain = Image.Dither.NONE
+    pictures = (Image.fromarray(picture).quantize(palette=colours, dither=plain)
+                for picture in _with_progress(frames, progress))
+    next(pictures).save(path, "GIF", save_all=True, append_images=pictures, duration=10 * round(100 / fps), loop=0,
+                        comment=user_files.PROGRAM.encode())
+
+
+def _kept_white(image):
+    """The same with a white page: of 256 colours, some means of the whole are not quite white."""
+    colours = np.array(image.getpalette()).reshape(-1, 3)
+    colours[(colours >= NEARLY).all(axis=1)] = 255
+    image.putpalette(colours.ravel().tolist())
+    return image
+
+
+def _ffmpeg():
+    """The program. Raises StoreError where there is none."""
+    found = shutil.which("ffmpeg")
+    if not found:
+        raise StoreError("MP4 needs the program ffmpeg, which was not found; install it, or use --format gif")
+    return found
+
+
+def _mp4(path, frames, fps, progress, ffmpeg):
+    """Pictures go to ffmpeg one by one; Ctrl-C is for us, not for it. Raises StoreError with what it says."""
+    rows, columns, _ = frames.picture(frames.entries[0]).shape
+    raw = f"-f rawvideo -pix_fmt rgb24 -s {columns}x{rows} -r {fps} -i -"
+    film = f"-an -vf {EVEN} -pix_fmt yuv420p -movflags +faststart -metadata comment={user_files.PROGRAM} -f mp4"
+    command = [ffmpeg, "-y", "-loglevel", "error", *raw.split(), *film.split(), str(path)]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True) as process:
+        try:
+            said = _fed(process, _with_progress(frames, progress))
+        except BaseException:
+            process.kill()
+            raise
+    if process.returncode:
+        raise StoreError(f"ffmpeg failed: {' '.join(said.decode(errors='replace').split()) or process.returncode}")
+
+
+def _fed(process, pictures):
+    """Errors that the program tells; it may end before it has seen all."""
+    try:
+        for picture in pictures:
+            process.stdin.write(picture.tobytes())
+    except BrokenPipeError:
+        pass
+    with contextlib.suppress(BrokenPipeError):
+        process.stdin.close()
+    return process.stderr.read()

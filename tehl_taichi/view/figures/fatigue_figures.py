@@ -1,0 +1,244 @@
+"""Figures of a fatigue result: index of the surface and over depth, stress of the worst points, paths on their planes."""
+
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from tehl_taichi.errors import SceneError
+from tehl_taichi.fatigue.findley import largest_principal, shear_path
+from tehl_taichi.fatigue.worst_point import on_circle
+from tehl_taichi.values.checks import number
+from tehl_taichi.values.coerce import plain
+from tehl_taichi.values.digits import micrometres
+from tehl_taichi.view.figures import palette
+from tehl_taichi.view.figures.field_maps import bar, mirrored, shade
+from tehl_taichi.view.figures.index_text import error_of, index_text, largest, mpa
+from tehl_taichi.view.figures.limit_line import crossed, explained, handle, limit_line
+from tehl_taichi.view.figures.searched_depths import beside_worst, under_row
+
+EVEN = 200  # depths drawn of a section
+FLOW = ", flow to the right"
+LEAST = 8.0  # cm that a map needs to stand beside another
+
+
+@dataclass(frozen=True)
+class DrawnLayer:
+    """where: in words; Fi: (x, y); at: its worst point, m; angle: of the critical plane there to the surface, deg, with
+    normal and error of the largest Fi: where they are known; when: moments in words, "" where all count alike."""
+
+    where: str
+    Fi: Any
+    at: tuple
+    angle: float | None = None
+    normal: Any = None
+    error: float | None = None
+    when: str = ""
+
+    @property
+    def flat(self):
+        """Part of the critical plane's normal in the layer: without any the plane has no trace in it."""
+        return 0.0 if self.normal is None else float(np.hypot(self.normal[0], self.normal[1]))
+
+    @property
+    def traced(self):
+        return self.flat > 1e-6
+
+    @property
+    def legend_text(self):
+        plane = "" if self.angle is None else f", plane at {self.angle:.0f}° to the surface"
+        return f"largest, Fi = {index_text(self.Fi.max(), self.error)}{plane}"
+
+    @property
+    def title(self):
+        """With its moments, in lines that a panel has room for."""
+        return "\n".join([*filter(None, [self.when.replace(" (", "\n(")]), self.legend_text])
+
+
+NAMES = ("fatigue", "fatigue_depth", "fatigue_point", "fatigue_depth_whole", "fatigue_point_whole")  # at most
+
+
+def all_figures(page, found):
+    """{name: function that draws it}: without more in its name of what the answer rests on. Raises SceneError where the depth
+    that is wanted was not searched."""
+    layers = [_layers(one) for one in found.each]
+    figures = {"fatigue": lambda: index_figure(page, found, layers)}
+    for one, more in zip(found.each, ("", "_whole")):
+        if "findley_stress_under_row" in one.maps:
+            figures[f"fatigue_depth{more}"] = partial(depth_figure, page, one)
+        figures[f"fatigue_point{more}"] = partial(worst_points, page, one)
+    return figures
+
+
+def _layers(found):
+    """The surface, and the layer below it that is wanted, or the worst where all its points were searched."""
+    top = _worst(found, "surface", found.maps["Fi"], found.summary, found.points["surface"])
+    below, plane = _searched(found), found.maps.get("findley_stress_at_worst_depth")
+    if found.depth is None and plane is not None:
+        return [top, _layer(found, float(found.maps["worst_depth"][0]), plane)]
+    if below is None or (found.depth is None and "findley_stress_at_depth" not in found.maps):
+        return [top]
+    depths, worst = found.maps["fatigue_depth"], found.summary["below"]["depth_m"]
+    n = beside_worst(depths, worst) if found.depth is None else int(np.argmin(np.abs(depths - found.depth * 1e-6)))
+    return [top, _layer(found, depths[n], below[n])]
+
+
+def _layer(found, depth, stress):
+    """One depth (m) with its Findley stress (x, y): with the worst point where that lies there, else with its own largest."""
+    where, Fi, deep = f"{depth * 1e6:.3g} µm below", stress / found.summary["sigma_eF_Pa"], found.summary["below"]
+    if np.isclose(depth, deep["depth_m"]):
+        return _worst(found, where, Fi, deep, found.points["below"])
+    i, j = np.unravel_index(int(np.argmax(Fi)), Fi.shape)
+    return DrawnLayer(where, Fi, (found.maps["feature_frame_x"][i], found.maps["feature_frame_y"][j]), when=found.when)
+
+
+def _worst(found, where, Fi, summary, history):
+    return DrawnLayer(where, Fi, (summary["x_m"], summary["y_m"]), summary["surface_angle_deg"], history["normal"],
+                 error_of(summary), found.when)
+
+
+def _searched(found):
+    """Findley stress (depth, x, y) of whole layers, or None. Raises SceneError where one is wanted that is not there."""
+    layers, row = (found.maps.get(f"findley_stress_{name}") for name in ("at_depth", "under_row"))
+    if layers is None and found.one_row and row is not None:
+        layers = row[:, :, None]
+    if layers is None and found.depth is not None:
+        raise SceneError(f"depth = {found.depth:g} µm: this depth was not searched at all points; use `tehl fatigue STORE "
+                         f"--depths {found.depth * 1e-6:g} --figures FOLDER`")
+    if found.depth is not None:
+        depths = found.maps["fatigue_depth"] * 1e6
+        number("depth", plain(found.depth), "µm", float(depths[0]), float(depths[-1]), usual=100.0)
+    return layers
+
+
+def index_figure(page, found, layers):
+    """Index around the feature in every layer, a row for each of `found.each`; lines where nothing varies across."""
+    shown, most = [layer for row in layers for layer in row], len(layers[0])
+    if found.one_row:
+        return index_lines(page, found, shown)
+    beside = page.width / most >= LEAST
+    rows, columns = (len(layers), most) if beside else (len(shown), 1)
+    height = 1.3 * page.inches / columns * rows  # more than enough
+    figure, axes = page.figure(rows, columns, height, True, sharey=True, sharex=True)
+    for ax, layer in zip(axes.ravel(), shown):
+        index_map(figure, ax, found.maps, layer, beside and most > 1)
+    for ax in axes[-1]:
+        ax.set_xlabel(found.along + FLOW * (columns == 1))
+    for ax in axes[:, 0]:
+        ax.set_ylabel("y (µm)")
+    lines = explained(any(layer.traced for layer in shown), any(crossed(layer.Fi) for layer in shown))
+    page.title(figure, replace(found, when="").constants + lines)
+    return figure
+
+
+def index_lines(page, found, layers):
+    """Index over x, a line for each layer with its worst point."""
+    figure, ((ax,),) = page.figure(height=1.6 * page.row())
+    for layer, colour in zip(layers, palette.LINES):
+        where = ": ".join(filter(None, (layer.when, layer.where)))
+        ax.plot(found.maps["feature_frame_x"] * 1e6, layer.Fi[:, 0], color=colour, label=where)
+        ax.plot(layer.at[0] * 1e6, layer.Fi.max(), "+", color=colour, ms=page.text, mew=0.2 * page.text,
+                label=layer.legend_text)
+    ax.set(xlabel=found.along + FLOW, ylabel="Fi")
+    ax.grid()
+    page.legend(figure)
+    page.title(figure, replace(found, when="").constants)
+    return figure
+
+
+def index_map(figure, ax, maps, layer, beside):
+    """Index of one layer; at its worst point the trace of the critical plane in the layer and its dip."""
+    x, (y, Fi) = maps["feature_frame_x"], mirrored(maps["feature_frame_y"] * 1e6, layer.Fi)
+    image = shade(ax, x * 1e6, y, Fi, cmap=palette.INDEX)
+    bar(figure, image, ax, f"Fi, {layer.where}", beside)
+    at = np.array(layer.at) * 1e6
+    limit_line(ax, x * 1e6, y, Fi)
+    _mark(ax, *at)
+    if layer.traced:
+        trace = np.array([-layer.normal[1], layer.normal[0]]) / layer.flat * 0.12 * np.ptp(x) * 1e6
+        ax.plot(*np.stack([at - trace, at + trace]).T, "-", color=palette.MARK)
+    ax.set(aspect="equal", title=layer.title, xlim=(x[0] * 1e6, x[-1] * 1e6), ylim=(y[0], y[-1]))
+
+
+def _mark(ax, x, y):
+    import matplotlib
+
+    text = matplotlib.rcParams["font.size"]
+    ax.plot(x, y, "+", color=palette.MARK, ms=text, mew=0.2 * text, clip_on=False)  # whole at the rim, too
+
+
+def depth_figure(page, found):
+    """Index in the section under the row of the worst point below the surface, and its largest value over depth."""
+    depth, Fi = under_row(found.maps.get) * 1e6, found.maps["findley_stress_under_row"] / found.summary["sigma_eF_Pa"]
+    sizes = dict(height_ratios=(1, 1)) if page.narrow else dict(width_ratios=(3, 2))
+    panels, height = ((2, 1), 3.2 * page.row()) if page.narrow else ((1, 2), 2.3 * page.row(2))
+    figure, axes = page.figure(*panels, height=height, **sizes)
+    section, over = axes.ravel()
+    _section(page, figure, section, found, Fi, depth)
+    _over_depth(over, found, Fi, depth)
+    for ax in (section, over):  # each with its own numbers
+        ax.set(ylabel="below the surface (µm)", ylim=(depth[-1], 0))
+    page.legend(figure, over.get_legend_handles_labels()[0] + ([handle()] if crossed(Fi) else []))
+    page.title(figure, found.constants)
+    return figure
+
+
+def _section(page, figure, ax, found, Fi, depth):
+    """Index (depth, x) on even depths, with its worst point."""
+    x, deep, even = found.maps["feature_frame_x"] * 1e6, found.summary["below"], np.linspace(0, depth[-1], EVEN)
+    shown = np.stack([np.interp(even, depth, column) for column in Fi.T])
+    bar(figure, shade(ax, x, even, shown, cmap=palette.INDEX), ax, f"Fi at y = {deep['y_m'] * 1e6:.0f} µm", not page.narrow)
+    limit_line(ax, x, even, shown)
+    _mark(ax, deep["x_m"] * 1e6, deep["depth_m"] * 1e6)
+    ax.set_xlabel(found.along + FLOW * page.narrow)
+
+
+def _over_depth(ax, found, Fi, depth):
+    deep, limit = found.summary["below"], found.summary["sigma_eF_Pa"]
+    line, = ax.plot(Fi.max(axis=1), depth, ".-", label=f"under the {found.whose}")
+    ax.plot(deep["Fi_max"], deep["depth_m"] * 1e6, "+", color=line.get_color(), ms=2.5 * line.get_markersize(),
+            mew=line.get_linewidth(), label=f"largest, Fi = {largest(deep)} at {micrometres(deep['depth_m'])} µm")
+    if "findley_stress_contact_alone" in found.maps:
+        ax.plot(found.maps["findley_stress_contact_alone"] / limit, depth, "--", color=palette.GREY,
+                label=f"contact without its {found.whose}")
+    ax.plot(found.summary["Fi_max"], 0.0, "o", color=palette.VERMILLION, clip_on=False,
+            label=f"surface, Fi = {largest(found.summary)}")
+    ax.set_xlabel("largest Fi")
+    ax.grid()
+
+
+def worst_points(page, found):
+    """Of the worst point of the surface and of the one below it: see :func:`worst_point`."""
+    shown = [("critical point at the surface", found.points["surface"])]
+    if found.points.get("below"):
+        shown.append((f"critical point below, {micrometres(found.summary['below']['depth_m'])} µm", found.points["below"]))
+    columns = 1 if page.narrow else 2
+    height = 1.6 * page.row(columns) * len(shown) * (2 / columns)
+    figure, axes = page.figure(len(shown) * 2 // columns, columns, height)
+    for (left, right), (name, history) in zip(axes.reshape(-1, 2), shown):
+        worst_point(left, right, name, history, found.a)
+    page.legend(figure)
+    page.title(figure, found.constants)
+    return figure
+
+
+def worst_point(left, right, title, worst, a):
+    """Largest principal stress over the feature's position, and the shear path on the critical plane with its circle."""
+    from matplotlib.patches import Circle
+
+    position, stress = worst["x_a"][:-1] / a, worst["stress"]
+    dip, strike, normal = shear_path(stress, worst["normal"])
+    u, v, radius = worst["circle"]
+    ends = on_circle(dip, strike, worst["circle"])
+    left.axhline(0, color=palette.RULE, lw=0.8, zorder=0)
+    left.plot(position, largest_principal(stress)[:-1] / 1e6, label="largest principal stress σ₁")
+    left.plot(position, normal[:-1] / 1e6, label="stress normal to the critical plane")
+    left.set(xlabel="feature position x_a / a", ylabel="stress (MPa)", title=title)
+    right.plot(dip / 1e6, strike / 1e6, ".-", ms=0.2 * left.xaxis.label.get_size(), lw=0.8)
+    right.add_patch(Circle((u / 1e6, v / 1e6), radius / 1e6, fill=False, color=palette.VERMILLION))
+    right.plot(dip[ends] / 1e6, strike[ends] / 1e6, "o", color=palette.VERMILLION)
+    right.set(xlabel="critical plane: shear along dip (MPa)", ylabel="along strike (MPa)", aspect="equal",
+              title=f"τ_amp = {mpa(radius)}, σ_n,max = {mpa(normal.max())} MPa")
+    right.margins(0.15)
+    right.autoscale_view()

@@ -1,0 +1,42 @@
+"""The line Fi = 1 on a map of the index, and what explains the lines on such a map."""
+
+from tehl_taichi.view.figures import palette
+
+SAID = "Fi = 1"
+TRACE = "trace of the critical plane (at 0° it lies in the surface)"
+
+
+def crossed(Fi):
+    """Whether a map of the index goes through the fatigue limit."""
+    return bool(Fi.min() < 1 < Fi.max())
+
+
+def limit_line(ax, x, y, Fi):
+    """Draw Fi (x, y) = 1 where the map crosses it: white with a black rim, seen on every colour of the map."""
+    if crossed(Fi):
+        ax.contour(x, y, Fi.T, [1.0], colors=[palette.LIMIT], linewidths=[_width()], path_effects=_rim())
+
+
+def _width():
+    import matplotlib
+
+    return 0.8 * matplotlib.rcParams["lines.linewidth"]
+
+
+def _rim():
+    from matplotlib.patheffects import Normal, Stroke
+
+    return [Stroke(linewidth=2.6 * _width(), foreground=palette.RIM), Normal()]
+
+
+def handle():
+    """It in a legend."""
+    from matplotlib.lines import Line2D
+
+    return Line2D([], [], color=palette.LIMIT, lw=_width(), path_effects=_rim(), label=SAID)
+
+
+def explained(traced, limited):
+    """The lines on maps, in words; traced, limited: whether there is such a line."""
+    said = ([f"blue line: {TRACE}"] if traced else []) + ([f"white line: {SAID}"] if limited else [])
+    return f"; {', '.join(said)}" if said else ""

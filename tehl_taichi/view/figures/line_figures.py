@@ -1,0 +1,78 @@
+"""Lines along x in the row :attr:`Moments.line`: pressure and film, temperatures, and temperatures across the film."""
+
+import numpy as np
+
+from tehl_taichi.scene.feature_wording import passing
+from tehl_taichi.view.figures import palette
+
+ALONG = "x / a (flow to the right)"
+SURFACES = (("temperature_mid", "mid-film", "-"), ("temperature_a", "surface a", "--"), ("temperature_b", "surface b", ":"))
+ACROSS = (-1.0, -0.5, 0.0, 0.5, 1.0)  # x / a at which profiles are drawn
+
+
+def carrier(scene):
+    """Which of both surfaces has what passes, in words; nothing where nothing does."""
+    return f"surface a carries the {passing(scene)}" if scene.transient else ""
+
+
+def headed(page, figure, moments, what, shown, more=""):
+    """Title with scene and, where there is one, the moment; more: said last."""
+    alone = f", {moments.says(shown[0])}" if len(shown) == 1 else ""
+    page.title(figure, f"{moments.store.scene.name}: {what}{alone}{'; ' * bool(more)}{more}")
+
+
+def _start(colour):
+    """The steady start (grey) is dashed, and above the other moments: they cover it where nothing has changed."""
+    return dict(ls="--", zorder=3) if colour == palette.GREY else dict(ls="-", zorder=2)
+
+
+def centreline(page, moments):
+    """Pressure and film for several feature positions."""
+    store, row, shown = moments.store, moments.line, moments.several()
+    figure, ((top,), (low,)) = page.figure(2, sharex=True)
+    for n, (colour, said) in shown.items():
+        f = store.fields(n, ("pressure", "film"))
+        style = dict(label=said, color=colour, **_start(colour))
+        top.plot(moments.x, f["pressure"][:, row] / 1e9, **style)
+        low.plot(moments.x, f["film"][:, row] * 1e6, **style)
+    top.set(ylabel="pressure (GPa)")
+    low.set(ylabel="film (µm)", xlabel=ALONG, ylim=(0, 1e6 * moments.film_top(shown)), xlim=moments.window)
+    for ax in (top, low):
+        ax.grid()
+    if len(shown) > 1:
+        page.legend(figure)
+    headed(page, figure, moments, moments.along, list(shown))
+    return figure
+
+
+def temperature(page, moments):
+    """Mid-film and both surfaces for several feature positions: a colour each, a kind of line each."""
+    from matplotlib.lines import Line2D
+
+    store, row, shown = moments.store, moments.line, moments.several()
+    figure, ((ax,),) = page.figure(height=1.6 * page.row())
+    for n, (colour, _) in shown.items():
+        f = store.fields(n, [name for name, *_ in SURFACES])
+        for name, _, style in SURFACES:
+            ax.plot(moments.x, f[name][:, row], ls=style, color=colour, zorder=_start(colour)["zorder"])
+    ax.set(xlabel=ALONG, ylabel="temperature (°C)", xlim=moments.window)
+    ax.grid()
+    when = [Line2D([], [], color=colour, label=said) for colour, said in shown.values()]
+    kinds = [Line2D([], [], color=palette.BLACK, ls=style, label=text) for _, text, style in SURFACES]
+    page.legend(figure, (when if len(shown) > 1 else []) + kinds)
+    headed(page, figure, moments, f"temperatures {moments.along}", list(shown), carrier(store.scene))
+    return figure
+
+
+def profiles(page, moments):
+    """Temperature across the film at several x."""
+    store, n = moments.store, moments.one()
+    T = store.fields(n, ["temperature"])["temperature"][:, moments.line]
+    figure, ((ax,),) = page.figure(height=1.6 * page.row())
+    for X in ACROSS:
+        ax.plot(T[int(np.argmin(np.abs(moments.x - X)))], store.map("zeta"), "o-", label=f"x = {X:+.1f} a")
+    ax.set(xlabel="temperature (°C)", ylabel="z / h (0: surface a, 1: surface b)")
+    ax.grid()
+    page.legend(figure)
+    headed(page, figure, moments, "across the film" + ("" if moments.half else f" {moments.along}"), [n], carrier(store.scene))
+    return figure

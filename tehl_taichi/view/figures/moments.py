@@ -1,0 +1,158 @@
+"""Which moments of a run figures show, and what they are called."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from tehl_taichi.errors import SceneError
+from tehl_taichi.scene.feature_wording import where
+from tehl_taichi.scene.scales import Scales
+from tehl_taichi.values.checks import number
+from tehl_taichi.values.coerce import plain
+from tehl_taichi.view.figures import palette
+
+POSITIONS = (-0.8, 0.0, 0.8)  # of the feature, a: shown where nobody chooses
+NEAR, ALIKE = 0.1, 0.95       # a, and of the largest pressure: a moment so close to it, with so much of it, shows it
+BEYOND = 0.05                 # a: as far beyond the stored positions a moment may be asked for
+WINDOW = (-1.6, 1.4)          # x / a shown: the contact and what is close to it
+INSIDE = 0.9                  # a: there the film's axis shows all of the film
+ROOM = 2.5                    # of the central film: upper end of the film's axis, below the gap outside
+
+
+@dataclass(frozen=True)
+class Moments:
+    """Of the run in `store`; at: the only position of the feature that is wanted, in a, or None.
+
+    Raises SceneError where the feature was never there.
+    """
+
+    store: object
+    at: float | None = None
+
+    def __post_init__(self):
+        if self.at is None:
+            return
+        if self.store.steps < 2:
+            raise SceneError(f"at = {self.at} a is a position of the feature, but {self.store.path} has only a steady state")
+        low, high = self.moved.min(), self.moved.max()
+        number("at", plain(self.at), "a", round(low - BEYOND, 2), round(high + BEYOND, 2))
+
+    @cached_property
+    def a(self):
+        """Half-width of the contact, m."""
+        return Scales.of(self.store.scene).a
+
+    @cached_property
+    def moved(self):
+        """Centre of the feature over a, at every entry after the steady start."""
+        return self.store.scalar("feature_x")[1 : self.store.steps] / self.a
+
+    @cached_property
+    def x(self):
+        """x / a."""
+        return self.store.x / self.a
+
+    @property
+    def row(self):
+        """Row of y = 0, in which runs are compared."""
+        return int(np.argmin(np.abs(self.store.y)))
+
+    @property
+    def worst(self):
+        """Entry with the largest pressure: of the passage, where there is one."""
+        p = self.store.scalar("p_max_Pa")
+        return int(np.argmax(p[1:])) + 1 if len(p) > 1 else 0
+
+    @property
+    def half(self):
+        """Whether y = 0 says it all: in one dimension, on a half domain, and in a steady contact of smooth surfaces."""
+        return self.store.y[0] >= 0 or self.store.steps < 2
+
+    @cached_property
+    def line(self):
+        """Row of the lines along x: y = 0, but of a passage on the whole domain that of its largest pressure, which may lie
+        anywhere: along y = 0 a measured surface would often show its second-best peaks only. No row at the rim of a map."""
+        if self.half:
+            return self.row
+        p = self._pressures
+        return int(np.argmax(np.where(self._away, p, -1.0))) if self._away.any() else int(np.argmax(p))
+
+    @cached_property
+    def _pressures(self):
+        """Largest one of every row at the moment of the largest pressure, Pa."""
+        return self.store.fields(self.worst, ["pressure"])["pressure"].max(axis=0)
+
+    @cached_property
+    def _away(self):
+        """Rows that do not lie where a measured map fades out: what is there is not the surface's own."""
+        rims = [(f, f.to_rim(0.0, self.store.y - f.y)[1]) for f in self.store.scene.features if f.kind.measured]
+        return np.all([np.full(self.store.y.size, True), *((rim < 0) | (rim > f.taper) for f, rim in rims)], axis=0)
+
+    @property
+    def along(self):
+        """Where that is, in words."""
+        store = self.store
+        if store.y.size == 1:
+            return "along x"
+        if self.half:
+            return "along y = 0"
+        rest = "" if self._away.all() or self._pressures[self.line] >= self._pressures.max() else " away from the scan's rim"
+        return f"along y = {round(float(store.y[self.line]) * 1e6)} µm, through the largest pressure{rest}"
+
+    @property
+    def window(self):
+        """(left, right) in a of what is shown along x, the feature among it."""
+        at = 0.0 if self.at is None else self.at
+        return max(min(WINDOW[0], at - 0.4), self.x[0]), min(max(WINDOW[1], at + 0.4), self.x[-1])
+
+    def nearest(self, position):
+        """Entry with the feature nearest to `position` (a); the steady one where nothing passes."""
+        return 1 + int(np.argmin(np.abs(self.moved - position))) if self.store.steps > 1 else 0
+
+    @cached_property
+    def placed(self):
+        """Entries with the feature at the positions."""
+        wanted = POSITIONS if self.at is None else (self.at,)
+        low, high = self.moved.min() - BEYOND, self.moved.max() + BEYOND
+        return list(dict.fromkeys(self.nearest(position) for position in wanted if low <= position <= high))
+
+    @cached_property
+    def missed(self):
+        """The entry of the largest pressure where none of those shows its peak; none where somebody chose a position."""
+        p, at = self.store.scalar("p_max_Pa"), self.moved
+        shown = any(abs(at[n - 1] - at[self.worst - 1]) <= NEAR and p[n] >= ALIKE * p[self.worst] for n in self.placed)
+        return [] if shown or self.at is not None else [self.worst]
+
+    def several(self):
+        """{entry: (colour, what it shows in words)} for lines: the steady start in grey, then the positions and the largest
+        pressure; the same in every figure."""
+        if self.store.steps < 2:
+            return {0: (palette.LINES[0], self.says(0))}
+        colours = {0: palette.GREY, **dict(zip([*self.placed, *self.missed], palette.LINES))}
+        return {n: (colour, "largest pressure: " * (n in self.missed) + self.says(n)) for n, colour in colours.items()}
+
+    def one(self):
+        """The entry of maps: that with the feature nearest to the middle, or where it is wanted."""
+        return self.nearest(0.0 if self.at is None else self.at)
+
+    def says(self, n):
+        """What entry n shows, in words."""
+        if n == 0:
+            return "steady start" if self.store.steps > 1 else "steady"
+        return f"{where(self.store.scene)} at {self._position(n)}"
+
+    def _position(self, n):
+        return f"{self.moved[n - 1]:+.2f} a".replace("-0.00", "+0.00")
+
+    def peak(self, n):
+        """What entry n shows, with its largest pressure and, where another moment has a larger one, that of the passage."""
+        p, worst = (round(float(self.store.fields(k, ["pressure"])["pressure"].max()) / 1e9, 2) for k in (n, self.worst))
+        more = f" ({worst:.2f} at {self._position(self.worst)})" if worst > p else ""
+        return f"{self.says(n)}, p_max {p:.2f} GPa{more}"
+
+    def film_top(self, entries):
+        """Upper end (m) of the film's axis: well above the film of the contact, and above what a feature leaves inside."""
+        inside = np.abs(self.x) < INSIDE
+        deepest = max(float(self.store.fields(n, ["film"])["film"][inside, self.line].max()) for n in entries)
+        return max(ROOM * float(self.store.scalar("h_c_m")[0]), 1.1 * deepest)

@@ -1,0 +1,59 @@
+"""The figures of a stored run, and those of a fatigue result (matplotlib, the `plot` extra)."""
+
+from functools import partial
+
+from tehl_taichi.errors import SceneError
+from tehl_taichi.view.figures import fatigue_figures, field_maps, line_figures, search_data, surface_figure
+from tehl_taichi.view.figures.figure_style import FigureStyle
+from tehl_taichi.view.figures.moments import Moments
+from tehl_taichi.view.figures.notebook_figures import Figures
+
+
+def write_all(store, folder, page=None, at=None, depth=None):
+    """Write every figure the store has data for into `folder`; returns the paths.
+
+    page: a :class:`FigureStyle`; at: position of the feature to show, a (default: some); depth: µm, of the fatigue to show
+    beside that of the surface (default: the worst). Raises SceneError for a moment or a depth that the store has not,
+    StoreError.
+    """
+    page = page or FigureStyle()
+    return page.write(folder, _all_of(store, page, at, depth))
+
+
+def draw_all(store, page=None, at=None, depth=None):
+    """{name: matplotlib Figure} of the same figures. Raises SceneError, StoreError."""
+    page = page or FigureStyle()
+    return Figures({name: page.drawn(draw) for name, draw in _all_of(store, page, at, depth).items()}, page.dpi)
+
+
+def _all_of(store, page, at, depth):
+    """{name: function that draws the figure}."""
+    figures = {name: partial(draw, page, Moments(store, at)) for name, draw in _of_the_film(store).items()}
+    if store.map("worst_stress") is not None:
+        return figures | fatigue_figures.all_figures(page, _fatigue(store, depth))
+    if depth is not None:
+        raise SceneError(f"depth = {depth:g} µm needs a fatigue search, and {store.path} has none")
+    return figures
+
+
+def _of_the_film(store):
+    """{name: function} of what the store has."""
+    wide, warm = store.y.size > 1, not store.scene.isothermal
+    has = {"surface": (surface_figure.surface, store.scene.transient),
+           "centreline": (line_figures.centreline, True), "maps": (field_maps.maps, wide),
+           "temperature": (line_figures.temperature, warm), "temperature_maps": (field_maps.temperature_maps, warm and wide),
+           "profiles": (line_figures.profiles, "temperature" in store.stored)}
+    return {name: draw for name, (draw, there) in has.items() if there}
+
+
+def _fatigue(store, depth):
+    maps = {name: values for name in search_data.MAPS if (values := store.map(name)) is not None}
+    return search_data.DrawnSearch.of(store.scene, maps, store.summary["fatigue"], depth)
+
+
+def write_fatigue(result, scene, folder, page=None, depth=None):
+    """Write the figures of a FatigueResult of a scene into `folder`; returns the paths. Raises SceneError, StoreError."""
+    page = page or FigureStyle()
+    maps = {name: value[0] for name, value in result.maps.items()}
+    found = search_data.DrawnSearch.of(scene, maps, result.summary, depth)
+    return page.write(folder, fatigue_figures.all_figures(page, found))

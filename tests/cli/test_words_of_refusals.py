@@ -1,0 +1,368 @@
+"""What people run into first: brackets, endings, full disks, edited stores, other types in Python: one sentence each."""
+
+import errno
+import json
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from commands import CALL, here
+from small_stores import store
+
+import tehl_taichi as tehl
+from tehl_taichi.errors import brief
+from tehl_taichi.runs.sweep import case_records, study_file, sweeping
+from tehl_taichi.runs.sweep.plan import plan
+from tehl_taichi.runs.sweep.study_table import Study
+from tehl_taichi.scene import scene_file
+from tehl_taichi.scene.surface.maps import height_map
+from tehl_taichi.store import attributes, integrity
+
+PYTHON = re.compile(r"NoneType|object is|object has|subscriptable|indices must|Errno|Traceback|iterable|argument|Expecting")
+
+
+def one_sentence(text):
+    """Whether a message is one for people: short, without what Python says of its own insides."""
+    return 0 < len(text) < 400 and not PYTHON.search(text)
+
+
+@pytest.mark.parametrize("text, said", [
+    ("[together]\nsrr = [0.1, 0.2]", r"[together] in FILE must be [[together]]"),
+    ("together = 3", r"together = 3 in FILE must be [[together]]"),
+    ("[[over]]\nsrr = [0.1, 0.2]", r"[[over]] in FILE must be [over]"),
+    ("[[set]]\nsrr = 0.1\n[over]\nspeed = [1.0, 2.0]", r"[[set]] in FILE must be [set]"),
+    ("over = []", r"over = [] in FILE must be [over]"),
+])
+def test_brackets_of_a_study_file(tmp_path, text, said):
+    file = tmp_path / "study.toml"
+    file.write_text(text)
+    with pytest.raises(tehl.SceneError) as found:
+        study_file.load(file)
+    assert str(found.value).startswith(said.replace("FILE", str(file)))
+
+
+@pytest.mark.parametrize("text, said", [
+    ("[feature]\nheight = 1e-6", "[feature] in FILE must be [[feature]]"),
+    ("feature = 'ridge'", "feature = 'ridge' in FILE must be [[feature]]"),
+    ("[[grid]]\nnx = 64", "[[grid]] in FILE must be [grid]"), ("oil = 'pao'", "oil = 'pao' in FILE must be [oil]"),
+])
+def test_brackets_of_a_scene_file(tmp_path, text, said):
+    file = tmp_path / "mine.toml"
+    file.write_text(f'base = "gear"\n{text}' if text[0] == "[" else f'{text}\nbase = "gear"')
+    with pytest.raises(tehl.SceneError) as found:
+        scene_file.load(file)
+    assert str(found.value).startswith(said.replace("FILE", str(file)))
+
+
+@pytest.mark.parametrize("ending", [".csv", ".txt", ".asc", ".npy"])
+def test_endings_of_heights_in_capitals(tmp_path, ending):
+    heights = np.arange(30.0).reshape(5, 6)
+    names = [f"scan{form(ending)}" for form in (str.lower, str.upper, str.title)]
+    for name in names:
+        if ending == ".npy":
+            with open(tmp_path / name, "wb") as file:
+                np.save(file, heights)
+        else:
+            np.savetxt(tmp_path / name, heights, delimiter="," if ending == ".csv" else " ")
+        assert np.array_equal(height_map.read(tmp_path / name), heights), name
+
+
+def test_endings_of_scenes_studies_tables_and_pictures_in_capitals(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("MINE.TOML").write_text('base = "gear"\n[operation]\nsrr = 0.07')
+    assert tehl.scene("MINE.TOML").operation.srr == pytest.approx(0.07)
+    Path("STUDY.TOML").write_text('scene = "MINE.TOML"\n[over]\nspeed = [1.0, 2.0]')
+    assert study_file.is_study_file("STUDY.TOML") and study_file.load("STUDY.TOML").count == 2
+    assert study_file.load("STUDY.TOML").scene.operation.srr == pytest.approx(0.07)
+    from tehl_taichi.runs.flank.flank_source import flank_source
+    from tehl_taichi.view.figures.figure_style import FigureStyle
+
+    Path("TABLE.CSV").write_text("x_pl_mm,R_a_mm,R_b_mm,u_a_m_s,u_b_m_s,load_N_per_mm\n1,9,8,8,9,200\n2,8,9,9,8,200\n")
+    assert len(flank_source("TABLE.CSV").table) == 2
+    Path("PAIR.TOML").write_text('base = "fzg-c"')
+    assert flank_source("PAIR.TOML").pair is not None
+    assert FigureStyle("png").of_file("a.PDF")[0].format == "pdf"
+    with pytest.raises(tehl.SceneError, match="NOTHING.TOML"):
+        tehl.scene("NOTHING.TOML")
+
+
+def test_a_reader_of_instruments_that_dumps_all_it_tried(tmp_path, monkeypatch):
+    """Sixty lines of every format that SurfaceTopography knows are of no use to anybody."""
+    dump = "\n".join(["No reader found for the file.", *(f"  Format{n}: Traceback: not mine" for n in range(60))])
+
+    def reader(kind):
+        def read(path):
+            raise kind(dump)
+
+        return SimpleNamespace(read_topography=read)
+
+    file = tmp_path / "scan.X3P"
+    file.write_bytes(b"PK rubbish")
+    for kind, said in ((type("CannotDetectFileFormat", (Exception,), {}), "does not read this format"),
+                       (RuntimeError, "No reader found for the file.")):
+        monkeypatch.setitem(sys.modules, "SurfaceTopography", reader(kind))
+        with pytest.raises(tehl.SceneError) as found:
+            height_map.read(file)
+        assert said in str(found.value) and str(file) in str(found.value) and one_sentence(str(found.value))
+    assert brief(ValueError("\n\n  first \n second")) == "first" and brief(KeyError()) == "KeyError"
+    assert len(brief(ValueError("long " * 300))) < 210
+
+
+def full(*_, **__):
+    raise OSError(errno.ENOSPC, "No space left on device")
+
+
+@pytest.mark.parametrize("scan", [False, True])
+def test_new_where_nothing_can_be_written(tmp_path, monkeypatch, scan):
+    """Read-only, or full in the middle of the file: said in a sentence, nothing is left."""
+    np.savetxt(tmp_path / "scan.csv", np.arange(30.0).reshape(5, 6), delimiter=",")
+    words = ("new", tmp_path / "my.toml", *(("--scan", tmp_path / "scan.csv") if scan else ()))
+    for method, error in (("mkdir", OSError(errno.EROFS, "Read-only file system")),
+                          ("write_text", OSError(errno.ENOSPC, "No space left on device"))):
+        def fail(*_, error=error, **__):
+            raise error
+
+        with monkeypatch.context() as disk:
+            disk.setattr(Path, method, fail)
+            found = here(*words)
+        assert found.returncode == 2 and found.stdout == "" and one_sentence(found.stderr)
+        assert str(tmp_path) in found.stderr and error.strerror in found.stderr
+        assert {path.name for path in tmp_path.iterdir()} == {"scan.csv"}
+
+
+GEAR = tehl.scene("gear").replace(**{"thermal.on": False, "grid.nx": 64, "grid.ny": 16})
+
+
+def made_up(job, progress=None):
+    return {"status": "converged", "reason": "", "summary": {"steady": {"h_c_m": 1e-7}}, "seconds": 1.0}
+
+
+@pytest.mark.parametrize("where", ["tehl_taichi.runs.sweep.study_table.replace", "tehl_taichi.runs.sweep.case_records.append",
+                                   "tehl_taichi.runs.sweep.study_table.Study._make",
+                                   "tehl_taichi.runs.sweep.study_table.Study._csv"])
+def test_a_sweep_into_a_full_disk(tmp_path, monkeypatch, where):
+    """The sentence, not the number of the error; and the same command goes on."""
+    path = tmp_path / "s.zarr"
+    with monkeypatch.context() as disk:
+        disk.setattr(where, full)
+        with pytest.raises(tehl.StoreError, match="No space left on device; stored cases are kept"):
+            sweeping.run(plan(GEAR, {"srr": [0.1, 0.2]}), path, workers=1, work=made_up)
+    study = sweeping.run(plan(GEAR, {"srr": [0.1, 0.2]}), path, workers=1, work=made_up)
+    assert study.counts["converged"] == 2 and Study.open(path).counts == study.counts
+
+
+def test_a_sweep_without_room_for_its_runs_does_not_begin(tmp_path, monkeypatch):
+    usage = SimpleNamespace(free=3e6)
+    monkeypatch.setattr("shutil.disk_usage", lambda folder: usage)
+    words = ("--over", "srr=0.1,0.2", "--workers", 1, "--threads-per-worker", 2, "--out", tmp_path / "new" / "s")
+    found = here("sweep", "gear", *words)
+    assert found.returncode == 1 and "only 3 MB left" in found.stderr and list(tmp_path.iterdir()) == []
+
+
+def test_the_systems_refusals_are_told_without_their_numbers(tmp_path, monkeypatch):
+    for error, said in ((OSError(errno.ENOSPC, "No space left on device"), "tehl: No space left on device\n"),
+                        (PermissionError(errno.EACCES, "Permission denied", "/x/y"), "tehl: /x/y: Permission denied\n"),
+                        (MemoryError(), "tehl: MemoryError\n")):
+        def fail(path, error=error):
+            raise error
+
+        monkeypatch.setattr("tehl_taichi.runs.open_results.kind", fail)
+        found = here("show", tmp_path)
+        assert found.returncode == 1 and found.stderr == said
+
+
+@pytest.mark.parametrize("words, said", [
+    (("--workers", 0), "--workers = 0"), (("--threads-per-worker", 0), "--threads-per-worker = 0"),
+    (("--keep", "all"), "--keep = 'all'"), (("--workers", 2, "--scheduler", "tcp://10.0.0.1:8786"), "contradict each other")])
+def test_a_dry_run_refuses_what_the_run_would(words, said):
+    for dry in ((), ("--dry-run",)):
+        found = here("sweep", "gear", "--over", "srr=0.1,0.2", *words, *dry)
+        assert found.returncode == 2 and said in found.stderr and found.stdout == ""
+
+
+CALLS = {"march": lambda one: tehl.march(one), "run": lambda one: tehl.run(one, "x.zarr"), "simulate": tehl.simulate,
+         "sweep": lambda one: tehl.sweep(one, {"srr": [0.1]}, "s.zarr", workers=1),
+         "over": lambda one: tehl.sweep("gear", one, "s.zarr", workers=1), "flank": lambda one: tehl.flank(one, folder="f"),
+         "scene of a flank": lambda one: tehl.flank(scene=one or 3, folder="f"), "open": tehl.open, "resume": tehl.resume,
+         "report": tehl.report, "export": tehl.export, "animate": tehl.animate, "compare": lambda one: tehl.compare(one, one),
+         "crack": tehl.crack, "fatigue": tehl.fatigue, "path": lambda one: tehl.run("gear", one or 3),
+         "folder": lambda one: tehl.flank(folder=one or 3), "scene of stresses": lambda one: tehl.crack([], one or 3)}
+
+
+@pytest.mark.parametrize("call", CALLS)
+@pytest.mark.parametrize("given", [None, 3, {"grid": 1}, b"gear", ["gear"], np.float64(2.0)], ids=repr)
+def test_python_calls_with_something_else(call, given, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(tehl.Error) as found:
+        CALLS[call](given)
+    assert one_sentence(str(found.value)) and list(tmp_path.iterdir()) == []
+
+
+def test_march_takes_the_name_of_a_built_in_scene(taichi_cpu):
+    with pytest.raises(tehl.SceneError, match="unknown scene 'gaer' .did you mean 'gear'"):
+        tehl.march("gaer")
+    assert next(tehl.march("smooth-line")).fields["film"].shape == (tehl.scene("smooth-line").grid.nx + 1, 1)
+
+
+def test_importing_what_python_m_runs_runs_nothing():
+    code = "import sys; sys.argv = ['x', '--version']; import tehl_taichi.__main__; print('still here')"
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout == "still here\n"
+    told = subprocess.run([sys.executable, "-m", "tehl_taichi", "--version"], capture_output=True, text=True)
+    assert told.returncode == 0 and told.stdout.startswith("tehl_taichi ")
+
+
+def test_an_interrupt_is_named_by_its_signal_never_by_an_exit_code(monkeypatch, capsys):
+    """Wherever Ctrl-C comes: typer makes 130 of it."""
+    from tehl_cli import entry
+
+    monkeypatch.setattr(entry.atexit, "register", lambda *_: None)  # or pytest itself would end with the code of this command
+    monkeypatch.setattr(entry, "_stop_as_ctrl_c_does", lambda: None)
+    for raised, said in ((KeyboardInterrupt(), "interrupted"), (KeyboardInterrupt("SIGTERM"), "stopped by SIGTERM")):
+        def ended(raised=raised):
+            try:
+                try:
+                    raise raised
+                except KeyboardInterrupt:
+                    raise RuntimeError(130) from None
+            except RuntimeError:
+                raise SystemExit(130) from None
+
+        monkeypatch.setattr("tehl_cli.main.app", ended)
+        with pytest.raises(SystemExit) as end:
+            entry.main()
+        assert end.value.code == 4 and f"tehl: {said}; all stored data are kept" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGHUP])
+def test_signals_in_the_first_moments(number, tmp_path):
+    """As soon as the program has begun: 4 and a sentence."""
+    path = store(tmp_path / "a.zarr").path
+    code = CALL[2].replace("main()", "print('begun', flush=True); main()")
+    for wait in (0.05, 0.2):
+        run = subprocess.Popen([sys.executable, "-c", code, "show", path], text=True, stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE)
+        assert run.stdout.readline() == "begun\n"
+        time.sleep(wait)
+        run.send_signal(number)
+        _, said = run.communicate()
+        assert run.returncode in (0, 4) and "130" not in said and "Traceback" not in said
+        if run.returncode == 4:
+            assert said.strip().splitlines()[-1].endswith("all stored data are kept")
+
+
+WRONG = (None, 3, "x", [], "null", "3", '{"a": 1}', '[1]')
+THRICE = {f"{name} {what}" for name in ("summary", "warnings", "date", "version", "outputs") for what in ("removed", "= 3")}
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    import made_results
+
+    return made_results.run(tmp_path_factory.mktemp("edited") / "whole.zarr", search=made_results.fatigue())
+
+
+def edits(attrs):
+    """(what, attributes) with each attribute in turn removed or of another type."""
+    for name in attrs:
+        yield f"{name} removed", {key: value for key, value in attrs.items() if key != name}
+        yield from ((f"{name} = {wrong!r}", {**attrs, name: wrong}) for wrong in WRONG if wrong != attrs[name])
+
+
+def test_a_store_with_an_edited_attribute_is_read_or_refused_in_a_sentence(whole, tmp_path):
+    path = tmp_path / "edited.zarr"
+    shutil.copytree(whole, path)
+    root = json.loads((path / "zarr.json").read_text())
+    refused = 0
+    for what, attrs in edits(root["attributes"]):
+        (path / "zarr.json").write_text(json.dumps({**root, "attributes": attrs}))
+        try:
+            tehl.open(path)
+        except tehl.StoreError as error:
+            assert one_sentence(str(error)), (what, error)
+            refused += 1
+        for words in (("show", path), ("show", path, "--json"), ("compare", path, whole)) if what in THRICE else ():
+            found = here(*words)
+            assert found.returncode in (0, 2), (what, words, found.stderr)
+            assert found.returncode == 0 or one_sentence(found.stderr), (what, words, found.stderr)
+    assert refused > 20
+
+
+@pytest.mark.parametrize("part", ["steady", "grid", "fatigue.below", "transient.error", "wall_s", "steady.h_c_m", "work",
+                                  "fatigue.Fi_max", "warnings", "left_out", "clamps", "domain", "warning_codes",
+                                  "steady.error_parts", "steady.error_parts.h_c_m", "steady.error_parts.h_c_m.domain"])
+def test_a_summary_with_an_edited_part(whole, tmp_path, part):
+    path = tmp_path / "edited.zarr"
+    shutil.copytree(whole, path)
+    root = json.loads((path / "zarr.json").read_text())
+    for wrong in ("x", [1], {"a": 1}, 3):
+        summary = json.loads(root["attributes"]["summary"])
+        *above, name = part.split(".")
+        table = summary
+        for one in above:
+            table = table[one]
+        if type(table[name]) is type(wrong) or (isinstance(table[name], float) and wrong == 3):
+            continue
+        table[name] = wrong
+        attrs = {**root["attributes"], "summary": json.dumps(summary)}
+        (path / "zarr.json").write_text(json.dumps({**root, "attributes": attrs}))
+        found = here("show", path)
+        assert found.returncode == 2 and f"'{part}'" in found.stderr and one_sentence(found.stderr), (part, wrong, found.stderr)
+
+
+def test_the_summary_of_a_run_is_whole(whole):
+    from tehl_taichi.store.reader import Reader
+
+    attrs = Reader.open(whole).attrs
+    assert attributes.wrong(attrs, True) == ""
+    assert "'steady' is missing" in attributes.wrong({**attrs, "summary": '{"scene": "gear", "version": "1", "wall_s": 1, '
+                                                      '"compile_s": 1, "steps": 3, "grid": {}, "cells": {}, "hertz": {}, '
+                                                      '"left_out": []}'}, True)
+
+
+@pytest.mark.parametrize("key, name", [("rheology.law", "mine"), ("oil.viscosity", "cameron"), ("fatigue.criterion", "ellipse"),
+                                       ("feature.shape", "plateau")])
+def test_what_is_not_installed_is_no_damage(tmp_path, key, name):
+    """A store of somebody with a law of his own names the law."""
+    path = store(tmp_path / "a.zarr").path
+    root = json.loads((path / "zarr.json").read_text())
+    data, (section, entry) = json.loads(root["attributes"]["scene"]), key.split(".")
+    (data[section][0] if section == "feature" else data[section])[entry] = name
+    root["attributes"]["scene"] = json.dumps(data)
+    (path / "zarr.json").write_text(json.dumps(root))
+    found = here("show", path)
+    assert found.returncode == 2 and f"needs {key} = '{name}', which is not installed here; known: " in found.stderr
+    assert "damaged" not in found.stderr
+    assert integrity.lacking(json.dumps(data)) and integrity.lacking(json.dumps(tehl.scene("gear").to_dict())) == ""
+
+
+def test_the_plan_of_a_study_with_an_edited_attribute(tmp_path):
+    sweeping.run(plan(GEAR, {"srr": [0.1, 0.2]}), tmp_path / "s.zarr", workers=1, work=made_up)
+    file = tmp_path / "s.zarr" / "zarr.json"
+    root = json.loads(file.read_text())
+    told = json.loads(root["attributes"]["study"])
+    plans = [*WRONG, *(json.dumps({**told, name: wrong}) for name in told for wrong in (None, 3, "x", [], [1], {"a": 1}))]
+    for wrong in plans:
+        file.write_text(json.dumps({**root, "attributes": {"study": wrong}}))
+        found = here("show", tmp_path / "s.zarr")
+        assert found.returncode in (0, 2) and (found.returncode == 0 or one_sentence(found.stderr)), (wrong, found.stderr)
+    told["scene"]["rheology"]["law"] = "mine"
+    file.write_text(json.dumps({**root, "attributes": {"study": json.dumps(told)}}))
+    assert "needs rheology.law = 'mine'" in here("show", tmp_path / "s.zarr").stderr
+
+
+def test_records_of_cases_that_were_edited_are_left_out(tmp_path):
+    sweeping.run(plan(GEAR, {"srr": [0.1, 0.2]}), tmp_path / "s.zarr", workers=1, work=made_up)
+    file = tmp_path / "s.zarr" / "cases.jsonl"
+    lines = [json.loads(line) for line in file.read_text().splitlines()]
+    assert len(lines) == 2
+    for wrong in ("null", "3", "[]", '{"case": "0"}', '{"case": 0, "status": "odd"}', '{"case": true}', "{"):
+        file.write_text(f"{json.dumps(lines[0])}\n{wrong}\n")
+        assert [one["case"] for one in case_records.read(tmp_path / "s.zarr")] == [0]
+        assert here("show", tmp_path / "s.zarr").returncode == 0

@@ -1,0 +1,335 @@
+"""Where cracks go: trajectories, growth and why it stops, what is refused, the command. In planes of made-up stresses."""
+
+import json
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from read_pages import Seen, numbers
+from rolling import Rolling
+from small_stores import SMALL, shot
+
+import tehl_taichi as tehl
+from tehl_taichi.crack import growth
+from tehl_taichi.crack.analysis import follow, run
+from tehl_taichi.crack.crack_options import CrackOptions
+from tehl_taichi.crack.residual_stress import ResidualStress, read
+from tehl_taichi.crack.symmetry_plane import GROWTH, SymmetryPlane, plane_of, principal
+from tehl_taichi.crack.trajectory import start, trajectory
+from tehl_taichi.errors import StoreError
+from tehl_taichi.laws.viscosity import ln_eta
+from tehl_taichi.scene import SceneError
+
+MICRO, E_STAR, SCENE = 1e-6, 206e9 / 0.91, tehl.scene("gear")
+
+
+def plane(xx, zz=0.0, xz=0.0, residual=None):
+    """Stresses as functions of x' and depth (m), or numbers, at three moments (the feature before, in and behind the middle) of
+    which the second one has all of it, the others a tenth; the fourth is unloaded."""
+    x, depths = np.arange(-60, 61) * 5 * MICRO, 5 * MICRO * (GROWTH ** np.arange(17) - 1)
+    field = [part(x[:, None], depths) if callable(part) else part + 0 * x[:, None] * depths for part in (xx, zz, xz)]
+    stress = np.stack(field, axis=-1)[:, :, None] * np.array([0.1, 1.0, 0.1, 0.0])[:, None]
+    return SymmetryPlane(x, 5 * MICRO, stress, np.array([-1, -0.5, 1, np.nan]) * 360 * MICRO, 360 * MICRO, 100 * MICRO,
+                         residual)
+
+
+def grown(stresses, **wanted):
+    return growth.grow(stresses, start(stresses, "entry", -30 * MICRO), CrackOptions(**wanted), E_STAR)
+
+
+def test_stresses_between_the_nodes():
+    """A cubic along x and in the logarithm of the depth is met exactly; on nodes it is the table."""
+    table = plane(lambda x, z: 1e6 * ((x / 100e-6) ** 3 + np.log1p(z / 5e-6) ** 3 - x / 100e-6 * np.log1p(z / 5e-6)))
+    points = np.array([-33.3 + 7.7j, 120.1 + 0j, 299.9 + 200j, -300 + 0.3j]) * MICRO
+    u, v = points.real / 100e-6, np.log1p(points.imag / 5e-6)
+    np.testing.assert_allclose(table.at(points)[:, 1, 0], 1e6 * (u**3 + v**3 - u * v), rtol=1e-9)
+    np.testing.assert_array_equal(table.at(points, slice(1, 2)), table.at(points)[:, 1:2])
+    assert list(table.holds(np.array([0, 301e-6, 0 - 1e-9j, 1j * table.depths[-1]]))) == [True, False, False, True]
+
+
+def test_principal_stresses():
+    value, angle = principal(np.array([[1.0, 1.0, 0.5], [3.0, 1.0, 0.0], [1.0, 3.0, 0.0]]))
+    np.testing.assert_allclose(value, (1.5, 3.0, 3.0))
+    np.testing.assert_allclose(np.degrees(angle), (45.0, 0.0, 90.0))
+
+
+def test_a_trajectory_is_normal_to_the_largest_tension():
+    """Uniform tension across a line at 60 degrees: that line. And where the direction turns with depth, its slope is
+    tan(direction) everywhere: x = z^2/(2 R) for principal directions that turn as z/R."""
+    angle = np.radians(-30.0)
+    uniform = plane(2e8 * np.cos(angle) ** 2, 2e8 * np.sin(angle) ** 2, 2e8 * np.sin(angle) * np.cos(angle))
+    line, tension = trajectory(uniform, start(uniform, "entry"), 50 * MICRO)
+    np.testing.assert_allclose(np.degrees(np.angle(line[1:] - line[0])), 60.0, atol=1e-6)
+    assert tension == pytest.approx(2e8) and abs(line[-1] - line[0]) == pytest.approx(50 * MICRO, rel=0.01)
+
+    def part(first, second):
+        return lambda x, z: 1e8 * first(np.arctan(-z / 100e-6)) * second(np.arctan(-z / 100e-6)) + 0 * x
+
+    turning = plane(part(np.cos, np.cos), part(np.sin, np.sin), part(np.sin, np.cos))
+    line, _ = trajectory(turning, start(turning, "entry", -30 * MICRO), 60 * MICRO)
+    np.testing.assert_allclose(line.real + 30 * MICRO, line.imag**2 / (2 * 100e-6), atol=0.05 * MICRO)
+
+
+def test_the_start_is_the_largest_tension_of_its_side_and_time():
+    def humps(x, z):
+        return 3e8 * np.exp(-(((x + 40e-6) / 20e-6) ** 2) - z / 10e-6) + 1e8 * np.exp(-(((x - 25e-6) / 10e-6) ** 2))
+
+    hump = plane(humps)
+    entry, exit_ = start(hump, "entry"), start(hump, "exit")
+    assert (entry.x, entry.moment) == (pytest.approx(-40e-6), 1) and entry.sigma1 == pytest.approx(3e8, rel=1e-3)
+    assert (exit_.x, exit_.moment) == (pytest.approx(25e-6), 2) and exit_.sigma1 == pytest.approx(1e7, rel=0.01)
+    assert start(plane(-1e8), "entry") is None
+
+
+def test_in_pure_tension_it_goes_straight_down():
+    """K_I = 1.1215 sigma sqrt(pi a) at every length, no K_II beyond rounding."""
+    path = grown(plane(1e8), length=40 * MICRO)
+    np.testing.assert_allclose(path.points, -30 * MICRO + 1j * np.arange(0, 41, 5) * MICRO, atol=1e-9 * MICRO)
+    K = [step["K_I_max"] for step in path.steps]
+    np.testing.assert_allclose(K, 1.1215e8 * np.sqrt(np.pi * np.arange(5, 41, 5) * MICRO), rtol=1e-3)
+    assert path.why == "length" and max(step["K_II_range"] for step in path.steps) < 1e-6 * K[0]
+
+
+def test_the_first_kink_is_that_of_the_largest_tangential_stress():
+    """A crack at 45 degrees in tension, asked near its tip: cos(t/2) (K_I sin t + K_II (3 cos t - 1)) = 0 (Erdogan & Sih)."""
+    path = grown(plane(1e8), angle=45.0, first=50 * MICRO, step=MICRO, length=51 * MICRO, distance=0.02 * MICRO, elements=48)
+    K_I, K_II = path.first.K[:, 1]
+    t = 2 * np.arctan(0.25 * (K_I / K_II - np.sign(K_II) * np.hypot(K_I / K_II, np.sqrt(8.0))))
+    turn = np.angle((path.points[2] - path.points[1]) / (path.points[1] - path.points[0]))
+    assert abs(np.degrees(t)) > 30 and np.degrees(turn) == pytest.approx(abs(np.degrees(t)), abs=0.8)
+
+
+UP = 2e8 * np.sin(np.radians(20)) ** 2, 2e8 * np.cos(np.radians(20)) ** 2, 1e8 * np.sin(np.radians(40))
+
+
+@pytest.mark.parametrize("stresses,wanted,why", [
+    ((1e8,), {"length": 20 * MICRO}, "length"), ((1e8,), {"threshold": 1e6}, "threshold"),
+    ((lambda x, z: 1e8 - 2e8 * (z > 12e-6) + 0 * x,), {"threshold": 0.3e6}, "threshold"),
+    ((lambda x, z: 1e8 - 9e8 * (z > 0) + 0 * x,), {}, "closed"),
+    ((1e8,), {"length": 500 * MICRO, "step": 50 * MICRO}, "window"), (UP, {"angle": 20.0, "length": 400 * MICRO}, "surface")])
+def test_why_it_stops(stresses, wanted, why):
+    """UP: pulled across a line that rises at 20 degrees."""
+    path = grown(plane(*stresses), **wanted)
+    assert path.why == why in growth.WHY
+    assert path.points.imag.min() >= 0 and path.steps[-1]["length_m"] == pytest.approx(np.abs(np.diff(path.points)).sum())
+    assert (path.steps[-1]["K_I_max"] == 0) == (why == "closed")
+
+
+def test_a_threshold_of_nothing_is_none():
+    free, zero = (grown(plane(1e8), threshold=threshold, length=20 * MICRO) for threshold in (None, 0.0))
+    np.testing.assert_array_equal(free.points, zero.points)
+
+
+def test_residual_stress_by_number_and_by_table(tmp_path):
+    """A pull of -sigma at a depth takes away the load's there; the table is linear between its rows."""
+    table = ResidualStress([(0.0, -2e8), (20 * MICRO, 1e8)])
+    np.testing.assert_allclose(table(np.array([0, 10, 20, 90]) * MICRO), (-2e8, -0.5e8, 1e8, 1e8))
+    (tmp_path / "depths.csv").write_text("0, -2e8\n20e-6, 1e8\n")
+    np.testing.assert_array_equal(read(str(tmp_path / "depths.csv")), ((0, -2e8), (20e-6, 1e8)))
+    assert read("-1e8") == -1e8
+    with_it = plane(3e8, residual=table)
+    np.testing.assert_allclose(with_it.at(np.array([0j, 10j]) * MICRO)[:, 1, 0], (1e8, 2.5e8))
+    assert with_it.sigma1()[0, 0] == pytest.approx(1e8)
+    whole, half = (grown(plane(1e8 + more, residual=ResidualStress(-more)), length=10 * MICRO).steps for more in (0.0, 5e7))
+    assert half[0]["K_I_max"] == pytest.approx(whole[0]["K_I_max"], rel=1e-9)
+
+
+@pytest.mark.parametrize("given", [float("nan"), "much", [1.0, 2.0], [(0, 1e8), (0, 2e8)], [(-1e-6, 1e8)], [(0, float("inf"))],
+                                   1e12, [(1e-6, 1e8), (0, 2e8)]])
+def test_bad_residual_stress_is_refused(given):
+    with pytest.raises(SceneError, match="residual"):
+        ResidualStress(given)
+
+
+def test_oil_inside_adds_its_pressure_to_the_faces():
+    """Pulled along x by 1e8, half of a pressure of 1e8 inside: as tension reaches 1.5e8."""
+    pressed = plane(1e8, -1e8)
+    dry, wet = (grown(pressed, oil=oil, length=5 * MICRO).steps[0]["K_I_max"] for oil in (0.0, 0.5))
+    assert wet == pytest.approx(1.5 * dry, rel=1e-9)
+
+
+@pytest.mark.parametrize("wanted,said", [
+    ({"side": "left"}, "entry"), ({"angle": 14.0}, "15 degrees"), ({"angle": 166.0}, "165"), ({"step": 0.0}, "more than|1e-08"),
+    ({"step": 2e-4}, "longer than"), ({"first": 2e-4}, "longer than"), ({"threshold": -1.0}, "0, or at least 1000 Pa"),
+    ({"face_friction": -0.1}, "at least 0"), ({"oil": 1.5}, "at most 1"), ({"oil": float("nan")}, "not a number"),
+    ({"oil": "flwo"}, "did you mean 'flow'"), ({"oil": "much"}, "dry, film, flow, sealed, a share"),
+    ({"elements": 3}, "6 to 200"), ({"distance": -1e-6}, "1e-08"), ({"length": "long"}, "not a number")])
+def test_what_is_out_of_range_is_refused(wanted, said):
+    with pytest.raises(SceneError, match=said):
+        CrackOptions(**wanted)
+
+
+def test_a_start_outside_is_refused():
+    with pytest.raises(SceneError, match="start = 0.001 m is outside"):
+        follow(plane(1e8), SCENE, CrackOptions(start=1e-3))
+    with pytest.raises(SceneError, match="leads out of"):
+        follow(plane(1e8), SCENE, CrackOptions(start=299e-6, angle=15.0, first=50e-6))
+
+
+class Still(Rolling):
+    def feature_x(self, n):
+        return np.nan
+
+
+class Broken(Rolling):
+    def fields(self, n, names):
+        return {name: np.where(n == 3, np.nan, values) for name, values in super().fields(n, names).items()}
+
+
+class Whole(Rolling):
+    def __init__(self, *args):
+        super().__init__(*args)
+        self.y = self.y - self.y[-1] / 2
+
+
+@pytest.mark.parametrize("reader,changes,said", [
+    (Still, {}, "passage of a feature"), (Broken, {}, "not numbers"), (Whole, {}, "not a plane of symmetry"),
+    (Rolling, {"feature.y": 0.1e-3}, "feature.y = 0.0001 m")])
+def test_what_has_no_plane_of_symmetry_is_refused(taichi_cpu, reader, changes, said):
+    scene = SCENE.replace(**{"thermal.on": False, **changes})
+    with pytest.raises(SceneError, match=said):
+        plane_of(scene, reader(scene))
+
+
+@pytest.fixture(scope="module")
+def rolled(taichi_cpu):
+    """Of a Hertz line over which a bump of pressure passes."""
+    scene = SCENE.replace(**{"thermal.on": False})
+    return run(scene, Rolling(scene), CrackOptions(length=30 * MICRO))
+
+
+def test_the_answer(rolled):
+    found = rolled.summary["sides"]
+    entry = found["entry"]
+    assert entry["opens"] and entry["start_x_m"] < 0 and entry["moment_x_m"] < 0 and entry["sigma1_surface_Pa"] > 1e8
+    assert entry["trajectory"]["lean"] == "with rolling" and rolled.summary["pit_angles_deg"] == [18.0, 50.0]
+    chords = entry["trajectory"]["chord_deg_at_um"]
+    assert 0 < chords["20"] < chords["10"] < 90
+    assert [step["length_m"] for step in entry["K"]] == pytest.approx(np.arange(5, 31, 5) * MICRO)
+    assert entry["K_I_max"] == max(step["K_I_max"] for step in entry["K"]) and entry["unsettled"] == 0
+    assert 0 < entry["error_at_last_length"]["K_I_max"] < 0.1 * entry["K_I_max"]
+    line = rolled.sides["entry"].trajectory
+    across = np.interp(20 * MICRO, line.imag, line.real) - line[0].real
+    assert chords["20"] == pytest.approx(np.degrees(np.arctan2(20 * MICRO, -across)), abs=1e-6)
+    assert not found["exit"]["opens"] and "never in tension" in found["exit"]["why"] and "exit" not in rolled.sides
+
+
+def test_oil_flows_with_the_oil_and_the_speed_of_the_scene(rolled):
+    """Between nothing and the film's pressure; and times and viscosity that it goes with."""
+    plane, u_a = rolled.plane, SCENE.operation.u_a
+    np.testing.assert_allclose(np.diff(plane.times[:-1]) * u_a, np.diff(plane.centres[:-1]), rtol=1e-9)
+    assert np.log(plane.fluid.viscosity(1e8)) == pytest.approx(ln_eta(SCENE.oil, 1e8, SCENE.operation.temperature))
+    path = rolled.sides["entry"].begun.x + np.array([0, 20 * MICRO * np.exp(0.8j)])
+    dry, flow, film = (growth.loaded(plane, path, CrackOptions(oil=oil), E_STAR) for oil in ("dry", "flow", "film"))
+    assert flow.missed == 0 and 0 < flow.pressure.max() < film.pressure.max()
+    assert dry.K[0].max() * (1 - 1e-9) <= flow.K[0].max() < film.K[0].max()
+
+
+def test_shallow_closed_cracks_settle_and_hardly_depend_on_the_elements(rolled):
+    """Largest K_I and range of K_II through the passage with 12 against 48 elements: 1 %."""
+    x = rolled.sides["entry"].begun.x
+    for degrees in (15, 45, 90, 135, 165):
+        path = x + np.array([0, 20 * MICRO * np.exp(1j * np.radians(degrees))])
+        coarse, fine = (growth.loaded(rolled.plane, path, CrackOptions(), E_STAR, count) for count in (12, 48))
+        assert coarse.missed == fine.missed == 0 and fine.touching.max() > 0.5
+        scale = np.ptp(fine.K[1])
+        assert coarse.K[0].max() == pytest.approx(fine.K[0].max(), abs=0.01 * scale)
+        assert np.ptp(coarse.K[1]) == pytest.approx(scale, rel=0.01)
+
+
+def test_pressed_together_it_stays_closed(taichi_cpu):
+    scene = SCENE.replace(**{"thermal.on": False})
+    result = run(scene, Rolling(scene), CrackOptions(residual=-2e9, start=-60 * MICRO))
+    assert result.summary["sides"]["entry"]["opens"] is False
+    result = run(scene, Rolling(scene), CrackOptions(residual=[(0.0, 0.0), (1 * MICRO, -2e9)], length=30 * MICRO, side="entry"))
+    entry = result.summary["sides"]["entry"]
+    assert entry["K_I_max"] == 0.0 and entry["stopped"] == "closed" and len(entry["K"]) == 1
+
+
+def test_residual_stress_of_the_scene_counts(taichi_cpu, rolled):
+    scene = SCENE.replace(**{"thermal.on": False, "fatigue.residual_xx": 1e8})
+    given = run(scene, Rolling(scene), CrackOptions(length=5 * MICRO, side="entry")).summary["sides"]["entry"]
+    bare = SCENE.replace(**{"thermal.on": False})
+    asked = run(bare, Rolling(bare), CrackOptions(length=5 * MICRO, residual=1e8, side="entry")).summary["sides"]["entry"]
+    assert given["K_I_max"] == pytest.approx(asked["K_I_max"], rel=1e-6)
+    assert given["K_I_max"] > 1.2 * rolled.summary["sides"]["entry"]["K"][0]["K_I_max"]
+
+
+def test_figure(rolled, tmp_path):
+    from tehl_taichi.view.figures import crack_figures
+    from tehl_taichi.view.figures.figure_style import FigureStyle
+
+    pytest.importorskip("matplotlib")
+    figure = crack_figures.crack_figure(FigureStyle(), rolled, "rolling")
+    section, entry, _ = figure.axes  # the third: its scale of colours
+    drawn = [line.get_xydata() for line in section.lines]
+    path = rolled.sides["entry"].path.points / MICRO
+    assert any(len(line) == path.size and np.allclose(line, np.stack([path.real, path.imag], axis=1)) for line in drawn)
+    top = max(line.get_ydata().max() for line in entry.lines)
+    assert top == pytest.approx(max(rolled.sides["entry"].path.first.K.max(), rolled.sides["entry"].path.last.K.max()) / 1e6)
+    assert figure.get_suptitle().endswith("no crack on the exit side") and "entry" in entry.get_ylabel()
+
+
+def rolling_store(path):
+    """A store of :class:`Rolling` on the small scene's grid."""
+    from tehl_taichi.store.store import Store
+
+    reader = Rolling(SMALL, 8, SMALL.rows + 1)
+    shots = [shot(n) for n in range(len(reader))]
+    for n, one in enumerate(shots):
+        one.x, one.y, one.time, one.feature_x = reader.x, reader.y, float(reader.time[n]), float(reader.centres[n])
+        found = reader.fields(n, ("pressure", "traction_x_a", "traction_y_a"))
+        one.fields = {name: found.get(name, np.zeros_like(found["pressure"])) for name in one.fields}
+        one.state["P"] = np.zeros((reader.y.size, reader.x.size))
+    attrs = {"runtime": '{"precision": "f64"}', "steady_error": "{}", "date": "2026-01-31"}
+    with Store.create(path, SMALL, shots[0], len(shots), attrs) as made:
+        for one in shots[1:]:
+            made.append(one, one.state)
+    return made
+
+
+def test_the_command(taichi_cpu, tmp_path, capsys):
+    from tehl_cli.crack_command import crack
+
+    rolling_store(tmp_path / "r.zarr")
+    (tmp_path / "depths.csv").write_text("0, 0\n50e-6, -1e8\n")
+    options = dict(side="entry", start=None, angle=90.0, first=5e-6, step=5e-6, length=15e-6, distance=3e-6, threshold=None,
+                   residual=str(tmp_path / "depths.csv"), face_friction=0.1, oil="0", thermal_stress=None, elements=12,
+                   threads=None)
+    crack(tmp_path / "r.zarr", **options, figures=tmp_path / "figures", as_json=True, keep=False)
+    assert not (tmp_path / "r.crack.json").exists()
+    summary = json.loads(capsys.readouterr().out)
+    assert summary["sides"]["entry"]["opens"] and summary["face_friction"] == 0.1
+    assert (tmp_path / "figures" / "crack.png").stat().st_size > 10000
+    crack(tmp_path / "r.zarr", **options, figures=None, as_json=False, keep=True)
+    shown = capsys.readouterr().out
+    assert "with rolling" in shown and "MPa sqrt(m)" in shown
+    _in_the_report(tmp_path / "r.zarr", summary)
+
+
+def _in_the_report(store, summary):
+    """What was kept stands there, and its path is drawn; not with another run in that place, nor if it is damaged."""
+    go = pytest.importorskip("plotly.graph_objects")
+    page = Seen(tehl.report(store).read_text(encoding="utf-8"))
+    entry, K = summary["sides"]["entry"], page.figures["K-entry"]["data"]
+    assert "Cracks" in page.headings and "friction of closed faces\n0.1\n" in page.text and "None" not in page.text
+    assert f"tension reaches {entry['sigma1_surface_Pa'] / 1e6:.4g} MPa" in page.text and entry["why"] in page.text
+    assert max(numbers(K[0])) == pytest.approx(entry["K"][0]["K_I_max"] / 1e6, rel=1e-3) and len(K) == 4
+    for name in ("cracks", "K-entry"):
+        go.Figure({key: page.figures[name][key] for key in ("data", "layout")})  # refuses what plotly does not know
+    path = next(trace for trace in page.figures["cracks"]["data"] if trace.get("name") == "entry: crack")
+    assert numbers(path)[-1] == pytest.approx(entry["path"]["deepest_m"] * 1e6, rel=1e-3)
+    kept = store.with_name("r.crack.json")
+    kept.write_text(kept.read_text().replace('"run": "', '"run": "another'))
+    assert "Cracks" not in Seen(tehl.report(store, force=True).read_text(encoding="utf-8")).headings
+    kept.write_text("{")
+    with pytest.raises(StoreError, match="crack.json is damaged"):
+        tehl.report(store, force=True)
+
+
+def test_the_command_refuses_in_a_sentence(tmp_path):
+    command = [sys.executable, "-m", "tehl_taichi", "crack", str(tmp_path / "none.zarr"), "--angle", "5"]
+    done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, "OMP_NUM_THREADS": "1"})
+    assert done.returncode == 2 and done.stdout == "" and len(done.stderr.strip().splitlines()) == 1

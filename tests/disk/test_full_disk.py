@@ -1,0 +1,104 @@
+"""A disk that fills up while a file is written: a sentence, nothing half is left, what was there stays."""
+
+import errno
+import os
+import shutil
+import subprocess
+
+import made_results
+import numpy as np
+import pytest
+from commands import process
+from small_stores import SMALL
+
+import tehl_taichi as tehl
+from tehl_taichi.errors import StoreError
+
+
+@pytest.fixture(scope="module")
+def noise(tmp_path_factory):
+    """A store of numbers that no codec packs."""
+    from small_stores import shot
+
+    from tehl_taichi.store.store import Store
+
+    path, draw = tmp_path_factory.mktemp("runs") / "a.zarr", np.random.default_rng(0)
+
+    def noisy(step):
+        made = shot(step, SMALL)
+        made.fields = {name: draw.random(field.shape) * (name != "contact") for name, field in made.fields.items()}
+        return made
+
+    with Store.create(path, SMALL, noisy(0), 50, {"runtime": "{}"}) as made:
+        for step in range(1, 6):
+            made.append(noisy(step), noisy(step).state)
+    return path
+
+
+@pytest.fixture(params=[0, 40_000, 60_000, 90_000])
+def disk(request, monkeypatch):
+    """A disk with room for so many bytes, so far as Python's own files go."""
+    from tehl_taichi.view.export.netcdf_file import _Patient
+
+    left, some = [request.param], _Patient.some
+
+    def full(self, data):
+        if not left[0]:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        taken = data[: left[0]]
+        left[0] -= len(taken)
+        return some(self, taken)
+
+    monkeypatch.setattr(_Patient, "some", full)
+
+
+def test_netcdf_on_a_full_disk(noise, tmp_path, disk):
+    pytest.importorskip("h5netcdf")
+    with pytest.raises(StoreError, match=r"cannot write .*a\.nc: No space left on device"):
+        tehl.export(noise, "netcdf", tmp_path / "a.nc")
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.fixture
+def small_disk(tmp_path):
+    """A file system of 40 kB, where one may be mounted."""
+    folder = tmp_path / "disk"
+    folder.mkdir()
+    mounted = shutil.which("mount") and subprocess.run(["mount", "-t", "tmpfs", "-o", "size=40k", "none", folder],
+                                                       capture_output=True).returncode == 0
+    if not mounted:
+        pytest.skip("no file system can be mounted here")
+    yield folder
+    subprocess.run(["umount", folder], check=True)
+
+
+SLOW = [pytest.param(words, marks=pytest.mark.slow)
+        for words in (("plot", "--dpi", 600), ("report",), ("animate", "--dpi", 300))]
+
+
+@pytest.mark.parametrize("command", [("export", "--format", "netcdf"), ("export", "--format", "vtk"), *SLOW])
+def test_commands_on_a_full_disk(noise, small_disk, command):
+    for module in ("h5netcdf", "matplotlib", "plotly"):
+        pytest.importorskip(module)
+    name, *more = command
+    out = small_disk / ("a" if name in ("export", "plot") else "a.html" if name == "report" else "a.gif")
+    done = process(name, noise, "--out", out, *more)
+    assert done.returncode in (1, 2) and "No space left on device" in done.stderr and "Traceback" not in done.stderr
+    assert not out.is_file() and not [path for path in small_disk.rglob("*") if path.name.startswith(".")]
+
+
+def test_a_result_that_is_there_stays(tmp_path, monkeypatch):
+    pytest.importorskip("matplotlib")
+    from matplotlib.figure import Figure
+
+    path = made_results.run(tmp_path / "a.zarr", SMALL, 3)
+    before = {file: file.read_bytes() for file in tehl.open(path).save_figures(dpi=40)}
+
+    def full(self, target, **_):
+        target.write_bytes(b"half")
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(Figure, "savefig", full)
+    with pytest.raises(StoreError, match="No space left on device"):
+        tehl.open(path).save_figures(dpi=40, force=True)
+    assert {file: file.read_bytes() for file in before} == before and len(list((tmp_path / "a").iterdir())) == len(before)

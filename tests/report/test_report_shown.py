@@ -1,0 +1,134 @@
+"""Reports in a headless Chromium: they draw without a complaint, the slider moves, phones and paper hold them."""
+
+import made_results
+import pytest
+from browser import CHROMIUM, Browser
+from fake_cases import formula
+
+import tehl_taichi as tehl
+from tehl_taichi.runs.sweep import sweeping
+from tehl_taichi.runs.sweep.plan import plan
+from tehl_taichi.scene import scene
+
+pytest.importorskip("plotly")
+pytest.importorskip("jinja2")
+pytestmark = pytest.mark.skipif(not CHROMIUM, reason="no Chromium is installed, which shows the reports")
+LINE = scene("furrow-line").replace(**{"grid.nx": 32})
+SHOWN = "Array.from(document.querySelector('[data-figure=centreline]').data[1].y)"
+
+
+DRAWN = "[...document.querySelectorAll('.plot .main-svg')]"
+# what the page's own policy stops, whether there is a network or not
+REFUSED = """new Promise(done => {
+  document.addEventListener("securitypolicyviolation", event => done(event.blockedURI));
+  fetch("https://example.org/").catch(() => 0);
+  setTimeout(() => done("nothing"), 3000);
+})"""
+
+
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory):
+    with Browser(tmp_path_factory.mktemp("profile")) as opened:
+        yield opened
+
+
+@pytest.fixture(scope="module")
+def line(browser, tmp_path_factory):
+    """The browser with the page of a line, which has few figures."""
+    browser.open(tehl.report(made_results.run(tmp_path_factory.mktemp("line") / "a.zarr", LINE, 4)))
+    return browser
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    """The page of a run with everything."""
+    return tehl.report(made_results.run(tmp_path_factory.mktemp("whole") / "a.zarr", search=made_results.fatigue()))
+
+
+@pytest.fixture(scope="module")
+def others(tmp_path_factory):
+    """Pages of a study and of a flank."""
+    folder = tmp_path_factory.mktemp("others")
+    planned = plan(LINE, {"srr": "-0.1:0.1:3", "feature.width": [4e-4, 5e-4]})
+    study = sweeping.run(planned, folder / "s.zarr", workers=1, work=formula)
+    return tehl.report(study), tehl.report(made_results.flank(folder / "flank"))
+
+
+def test_the_slider_moves_the_lines_and_nothing_complains(line):
+    assert line.run("document.getElementById('slide').value") == "3"
+    last, said = line.run(SHOWN), line.run("document.querySelector('output').value")
+    line.run("document.getElementById('slide').focus()")
+    line.press("ArrowLeft")
+    assert line.run("document.getElementById('slide').value") == "2"
+    one_before = line.run(SHOWN)
+    assert max(one_before) == pytest.approx(max(last) - 0.1 * 2.0034, rel=1e-3)
+    now = line.run("document.querySelector('output').value")
+    assert said.startswith("feature at +0.00 a") and now.startswith("feature at -0.50")
+    shape = "document.querySelector('[data-figure=centreline]').layout.shapes[0].x0"
+    assert line.run(shape) == pytest.approx(-0.5)
+    assert line.complaints() == []
+
+
+def test_a_rectangle_zooms(line):
+    place = "document.querySelector('[data-figure=centreline] .nsewdrag')"
+    line.run(f"{place}.scrollIntoView({{block: 'center'}})")
+    left, top, width, height = line.run(f"(box => [box.x, box.y, box.width, box.height])({place}.getBoundingClientRect())")
+    before = line.run("document.querySelector('[data-figure=centreline]').layout.xaxis.range")
+    line.drag((left + 0.25 * width, top + 0.2 * height), (left + 0.75 * width, top + 0.8 * height))
+    after = line.run("document.querySelector('[data-figure=centreline]').layout.xaxis.range")
+    assert after[1] - after[0] == pytest.approx(0.5 * (before[1] - before[0]), rel=0.02)
+
+
+def test_no_button_sends_data_away(line):
+    buttons = line.run("[...document.querySelectorAll('.modebar-btn')].map(button => button.dataset.title)")
+    assert set(buttons) == {"Download plot as a PNG", "Zoom", "Pan", "Zoom in", "Zoom out", "Reset axes"}
+    assert line.run(REFUSED) == "https://example.org/"
+
+
+@pytest.mark.slow
+def test_every_kind_of_page_draws_all_its_figures(browser, whole, others):
+    for path in (whole, *others):
+        browser.open(path)
+        assert browser.complaints() == []
+        assert browser.run("[...document.querySelectorAll('.plot')].every(place => place.querySelector('.main-svg'))")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_a_phone_scrolls_down_only_and_every_text_is_legible(browser, whole, others, scheme):
+    for path in (whole, *others):
+        browser.open(path, 360, 740, phone=True, scheme=scheme)
+        assert browser.run("document.documentElement.scrollWidth") <= 360, path
+        assert max(browser.run(f"{DRAWN}.map(svg => svg.getBoundingClientRect().right)")) <= 360
+        assert browser.run(CONTRAST) >= 4.5
+
+
+# smallest ratio of luminances (WCAG) of texts on their backgrounds
+CONTRAST = """(() => {
+  const numbers = text => text.match(/[\\d.]+/g).map(Number);
+  const light = text => numbers(text).slice(0, 3).map(v => v / 255)
+    .map(v => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
+    .reduce((sum, v, n) => sum + v * [0.2126, 0.7152, 0.0722][n], 0);
+  const behind = place => { const c = getComputedStyle(place).backgroundColor;
+    return place.parentElement && (numbers(c)[3] === 0) ? behind(place.parentElement) : c; };
+  const ratio = (a, b) => (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
+  const texts = [...document.querySelectorAll("p, li, dt, dd, th, td, a, h1, h2, b, figcaption, output, summary")];
+  const axes = [...document.querySelectorAll(".xtick text, .ytick text, .legendtext, .ytitle")];
+  return Math.min(...texts.map(place => ratio(light(getComputedStyle(place).color), light(behind(place)))),
+                  ...axes.map(place => ratio(light(getComputedStyle(place).fill), light(behind(document.body)))));
+})()"""
+
+
+@pytest.mark.slow
+def test_paper_is_light_and_holds_every_figure(browser, whole, tmp_path):
+    browser.open(whole, scheme="dark")
+    browser.run("dispatchEvent(new Event('beforeprint')); new Promise(done => setTimeout(done, 500))")
+    widths = browser.run(f"{DRAWN}.map(svg => svg.getBoundingClientRect().width)")
+    assert 300 <= min(widths) and max(widths) <= 660
+    assert browser.run("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"
+    assert browser.run(CONTRAST) >= 4.5
+    browser.run("dispatchEvent(new Event('afterprint')); new Promise(done => setTimeout(done, 500))")
+    assert browser.run("getComputedStyle(document.body).backgroundColor") == "rgb(20, 24, 28)"
+    assert browser.run("document.querySelector('[data-figure=centreline] .main-svg').getBoundingClientRect().width") > 900
+    browser.paper(tmp_path / "a.pdf")
+    assert (tmp_path / "a.pdf").read_bytes()[:4] == b"%PDF" and browser.complaints() == []

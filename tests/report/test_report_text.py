@@ -1,0 +1,100 @@
+"""Words and digits of reports."""
+
+import made_results
+import numpy as np
+import pytest
+
+from tehl_taichi.report import number_text, plain_language, scene_text, verdict
+from tehl_taichi.scene import scene
+
+
+def test_a_scale_that_changes_nothing_is_not_told(tmp_path):
+    np.save(tmp_path / "m.npy", 1e-7 * np.sin(np.arange(20))[:, None] * np.ones(20))
+    of_map = scene("gear").replace(**{"feature.shape": "map", "feature.file": str(tmp_path / "m.npy"), "feature.unit": "m",
+                                      "feature.pixel": 1e-5})
+    assert "scale" not in scene_text.words(of_map)[-1] and "pixel 10 µm" in scene_text.words(of_map)[-1]
+    assert "scale -1" in scene_text.words(of_map.replace(**{"feature.scale": -1.0}))[-1]
+
+
+@pytest.mark.parametrize("keys, said", [
+    ({}, "example values, replace them by those of your material"), ({"source": "Example."}, "example values, replace"),
+    ({"source": "DIN 50100, 42CrMo4"}, "DIN 50100, 42CrMo4"), ({"endurance": 450e6}, "no source is given")])
+def test_example_values_do_not_pass_for_those_of_a_material(keys, said):
+    changed = scene("gear").replace(**{f"fatigue.{key}": value for key, value in keys.items()})
+    assert scene_text.material(changed.fatigue).startswith(said)
+
+
+@pytest.mark.parametrize("Fi, error, tone, said", [
+    (1.2, 0.1, "yes", "Yes: the fatigue limit is exceeded at the surface."), (1.05, 0.1, "open", "Not decided"),
+    (0.95, 0.1, "open", "Not decided"), (0.8, 0.1, "no", "No: the index stays below 1."), (0.8, None, "no", "Probably not"),
+    (1.2, None, "yes", "Probably yes")])
+def test_the_answer_knows_how_sure_it_is(Fi, error, tone, said):
+    _, headline, found, _ = verdict.of_fatigue({**made_results.fatigue(Fi, None), "error": {"Fi_max": error}})
+    assert found == tone and headline.startswith(said)
+
+
+def test_a_surface_that_holds_over_a_depth_that_does_not():
+    layers = verdict.layers(made_results.fatigue(0.5, 1.2))
+    assert [where for where, *_ in layers] == ["at the surface", "25 µm below the surface"]
+
+
+def test_digits_follow_the_error():
+    assert number_text.value_text(1.00812, 0.0231) == "1.008 ± 0.023" and number_text.value_text(4.0247e9, 1.767e7,
+                                                                                                 "Pa") == "4.025 ± 0.018 GPa"
+    assert number_text.value_text(3.944e-7, None, "m") == "0.3944 µm" and number_text.value_text(2.5, 0.0) == "2.5 ± 0"
+    assert number_text.value_text(2.286e11, 1e12) == "(0.2 ± 1.0)e+12" and number_text.share(0.5, -50.0) == "1 %"
+    assert [number_text.roughly(Fi) for Fi in (1.645, 0.911, 1.03, 0.996, 1.004)] == ["1.6", "0.91", "1.03", "0.996", "1.004"]
+
+
+def test_the_oil_in_words_and_numbers():
+    """Of the own law alone: which other laws take a number says nothing about this scene."""
+    own = scene("gear").replace(oil={"name": "VG220", "viscosity": "barus", "eta0": 0.2, "alpha": 2e-8})
+    assert "The oil is VG220 (source not given) and enters" in " ".join(scene_text.words(own))
+    rows = dict(scene_text.numbers(own))
+    assert rows["eta0: viscosity at p = 0"] == "0.2 Pa s" and not any("roelands" in what for what in rows)
+
+
+def test_an_oil_by_its_data_sheet_is_told_as_the_sheet_has_it():
+    sheet = {"name": "ours", "nu_40": 220e-6, "nu_100": 18.9e-6, "rho_15": 893.0}
+    hot = scene("gear").replace(oil=sheet, temperature=100.0)
+    rows = dict(scene_text.numbers(hot))
+    assert rows["data sheet: kinematic viscosity at 40 °C"] == "220 mm²/s"
+    assert rows["data sheet: kinematic viscosity at 100 °C"] == "18.9 mm²/s"
+    assert rows["data sheet: density at 15 °C"] == "893 kg/m³"
+    assert rows["α at 40 °C, not on the data sheet"].startswith("27 1/GPa, estimated")
+    eta, unit = rows["viscosity at the inlet (p = 0)"].split(maxsplit=1)
+    assert unit == "mPa s" and 0.93 < float(eta) / (18.9e-6 * 893e3) < 0.95  # 85 K expand it by 6 %
+    known = dict(scene_text.numbers(scene("gear").replace(oil={**sheet, "alpha_40": 21e-9})))
+    assert known["data sheet: α at 40 °C"] == "21 1/GPa"
+    assert not any("sheet" in what for what in dict(scene_text.numbers(scene("gear"))))
+
+
+def test_a_scene_in_words():
+    text = " ".join(scene_text.words(scene("gear").replace(srr=-0.12)))
+    for said in ("A line contact of reduced radius 10.6 mm carries 1100 N/mm", "the feature is on the slower surface",
+                 "height 1.5 µm", "width 200 µm", "enters at 90 °C"):
+        assert said in text, said
+    assert "faster surface" in " ".join(scene_text.words(scene("gear").replace(srr=0.12)))
+    assert "without slip" in " ".join(scene_text.words(scene("gear").replace(srr=0.0)))
+
+
+def test_warnings_lose_what_only_a_terminal_takes():
+    from tehl_taichi.scene import refinement
+
+    of_grid = f"a finer grid may resolve it: {refinement.finer_grid_option(scene('gear'))}"
+    assert plain_language.plain_sentence(of_grid) == "a finer grid may resolve it: a grid of 512 × 128 cells (8 times the work)"
+    room = plain_language.plain_sentence("use --set grid.y_max=1.3 --grid 128x48")
+    assert room == "use grid.y_max=1.3 and a grid of 128 × 48 cells"
+    left_out = scene("gear").replace(**{"thermal.on": False}).left_out()
+    assert any("--thermal" in one for one in left_out) and not any("--" in plain_language.plain_sentence(one)
+                                                                   for one in left_out)
+    assert plain_language.plain_sentence("feature.taper = 4e-05 (m)") == "feature.taper = 4e-05 (m)"
+
+
+def test_ticks_have_no_prefix_without_a_unit():
+    """plotly writes 150e-6 as 150µ unless told otherwise."""
+    from tehl_taichi.report.plots import axis, field_map
+
+    made = field_map("map", "A map.", [0, 1], [0, 1], np.zeros((2, 2)), "Viridis", "1", "x", "y")
+    parts = [axis("oil.nu_40 (m2/s)"), made.layout["xaxis"], made.layout["yaxis"], made.traces[0]["colorbar"]]
+    assert {part.get("exponentformat") for part in parts} == {"power"}

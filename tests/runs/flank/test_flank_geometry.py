@@ -1,0 +1,200 @@
+"""Gear geometry along the path of contact: the published FZG numbers, closed forms, and what is refused."""
+
+import dataclasses
+import math
+
+import pytest
+
+from tehl_taichi.runs.flank.mesh import Mesh
+from tehl_taichi.runs.flank.positions import along
+from tehl_taichi.scene import SceneError
+from tehl_taichi.scene.gear_pair import GearPair, angle_of, gear_pair, inv
+
+STEEL = 206e9 / (1 - 0.3**2)  # E' in Pa
+
+
+def at_point(name, point, **options):
+    return along(Mesh(gear_pair(name)), at=(point,), **options)[0]
+
+
+def hertz(position):
+    return math.sqrt(position.load * STEEL / (2 * math.pi * position.R))
+
+
+@pytest.mark.parametrize("name, eps_alpha, d_a1, d_a2", [("fzg-c", 1.438, 82.46e-3, 118.36e-3),
+                                                         ("fzg-a", 1.361, 88.77e-3, 112.50e-3)])
+def test_the_fzg_gears_have_their_published_geometry(name, eps_alpha, d_a1, d_a2):
+    mesh = Mesh(gear_pair(name))
+    assert math.degrees(mesh.alpha_w) == pytest.approx(22.44, abs=0.005)
+    assert mesh.pair.distance_of_shifts == pytest.approx(91.5e-3, abs=1e-6)
+    assert mesh.rho_C(1) == pytest.approx(13.97e-3, abs=5e-6) and mesh.rho_C(2) == pytest.approx(20.96e-3, abs=5.1e-6)
+    assert at_point(name, "C").R == pytest.approx(8.38e-3, abs=5e-6)
+    assert mesh.eps_alpha == pytest.approx(eps_alpha, abs=5e-4)
+    assert (mesh.d_a(1), mesh.d_a(2)) == pytest.approx((d_a1, d_a2), abs=5.1e-6)
+
+
+@pytest.mark.parametrize("torque, p_H", [(265.1, 1547e6), (215.6, 1395e6), (171.6, 1245e6), (70.0, 795e6)])
+def test_type_c_has_its_published_hertz_pressures(torque, p_H):
+    mesh = Mesh(dataclasses.replace(gear_pair("fzg-c"), torque=torque))
+    assert hertz(along(mesh, at=("C",))[0]) == pytest.approx(p_H, rel=5e-3)
+
+
+@pytest.mark.parametrize("torque, p_H", [(372.6, 1539e6), (534.5, 1841e6)])
+def test_type_a_has_its_published_hertz_pressures_with_one_pair(torque, p_H):
+    mesh = Mesh(dataclasses.replace(gear_pair("fzg-a"), torque=torque, load_share=((-0.02, 1.0), (0.02, 1.0))))
+    assert hertz(along(mesh, at=("C",))[0]) == pytest.approx(p_H, rel=1e-2)
+
+
+@pytest.mark.parametrize("name", ["fzg-c", "fzg-a"])
+@pytest.mark.parametrize("on", ["pinion", "gear"])
+def test_the_pitch_point_rolls(name, on):
+    at = at_point(name, "C", on=on)
+    mesh = Mesh(gear_pair(name))
+    assert at.srr == 0 and at.u_a == at.u_b == mesh.omega[0] * mesh.rho_C(1) and at.x_pl == at.arc == 0
+
+
+def test_a_driving_pinion_slides_from_root_to_tip_and_the_gear_mirrors_it():
+    pinion, gear = (along(Mesh(gear_pair("fzg-c")), on, 12) for on in ("pinion", "gear"))
+    assert pinion[0].point == "A" and pinion[0].srr < 0 < pinion[-1].srr and pinion[-1].point == "E"
+    assert gear[0].point == "E" and gear[0].srr < 0 < gear[-1].srr and gear[-1].point == "A"
+    for one, other in zip(pinion, reversed(gear)):
+        assert (one.point, one.srr, one.x_pl, one.R, one.load) == (other.point, -other.srr, -other.x_pl, other.R, other.load)
+        assert (one.u_a, one.rho_a) == (other.u_b, other.rho_b)
+    assert all(low.x_pl <= high.x_pl and low.arc <= high.arc for low, high in zip(pinion, pinion[1:]))
+
+
+def test_radii_and_speeds_follow_the_line_of_action():
+    pair = gear_pair("fzg-c")
+    mesh, omega = Mesh(pair), 2 * math.pi * pair.n1 / 60
+    line = pair.a_w * math.sin(mesh.alpha_w)  # between the interference points
+    for at in along(mesh, count=20):
+        s = mesh.rho_C(1) + at.x_pl
+        assert at.rho_a == pytest.approx(s) and at.rho_b == pytest.approx(line - s)
+        assert at.R == pytest.approx(s * (line - s) / line)
+        assert at.u_a == pytest.approx(omega * s) and at.u_b == pytest.approx(omega * 16 / 24 * (line - s))
+        assert at.srr == pytest.approx((at.u_a - at.u_b) / at.u_m)
+        assert at.arc == pytest.approx((s**2 - mesh.rho_C(1) ** 2) / (2 * mesh.r_b(1)), abs=1e-12)
+
+
+def test_the_points_are_where_the_tips_and_the_base_pitch_put_them():
+    mesh = Mesh(gear_pair("fzg-c"))
+    s = {name: mesh.rho_C(1) + x for name, x in mesh.points.items()}
+    line = mesh.rho_C(1) + mesh.rho_C(2)
+    assert list(s) == ["A", "B", "C", "D", "E"]
+    assert s["A"] == pytest.approx(line - math.sqrt((mesh.d_a(2) / 2) ** 2 - mesh.r_b(2) ** 2))
+    assert s["E"] == pytest.approx(math.sqrt((mesh.d_a(1) / 2) ** 2 - mesh.r_b(1) ** 2))
+    assert s["E"] - s["B"] == pytest.approx(math.pi * 4.5e-3 * math.cos(math.radians(20))) == s["D"] - s["A"]
+
+
+def test_the_load_is_the_trapezoid_with_both_sides_of_its_jumps():
+    mesh = Mesh(gear_pair("fzg-c"))
+    full = 265.1 / (8 * 4.5e-3 * math.cos(math.radians(20))) / 14e-3
+    load = {at.point: at.load / full for at in along(mesh, count=7)}
+    assert load == pytest.approx({"A": 1 / 3, "B-": 2 / 3, "B+": 1, "C": 1, "D-": 1, "D+": 2 / 3, "E": 1 / 3})
+    A, B = mesh.points["A"], mesh.points["B"]
+    assert along(mesh, at=(0.5 * (A + B),))[0].load == pytest.approx(full / 2)
+
+
+def test_a_table_of_shares_takes_the_place_of_the_trapezoid():
+    table = ((-0.0096, 0.2), (-0.002, 0.4), (-0.002, 0.9), (0.0097, 0.5))
+    mesh = Mesh(dataclasses.replace(gear_pair("fzg-c"), load_share=table))
+    at = along(mesh, at=(-0.002, 0.0))
+    assert [round(p.load / mesh.full_load, 12) for p in at] == [0.4, 0.9, round(0.9 - 0.4 * 0.002 / 0.0117, 12)]
+
+
+def test_positions_fill_the_widest_gaps_evenly():
+    at = along(Mesh(gear_pair("fzg-c")), count=40)
+    ways = sorted({p.x_pl for p in at})
+    steps = [high - low for low, high in zip(ways, ways[1:])]
+    assert len(at) == 40 and max(steps) < 2 * min(steps) and {"A", "B-", "B+", "C", "D-", "D+", "E"} <= {p.point for p in at}
+
+
+def test_shifts_and_centre_distance_give_each_other():
+    both = GearPair(x1=0.1817, x2=0.1715)
+    assert both.a_w == pytest.approx(91.5e-3, abs=1e-6)
+    assert GearPair(x1=0.1817, a_w=both.a_w).x2 == pytest.approx(0.1715, abs=1e-9)
+    assert GearPair(x2=0.1715, a_w=both.a_w).x1 == pytest.approx(0.1817, abs=1e-9)
+    assert GearPair().a_w == pytest.approx(0.5 * 40 * 4.5e-3)
+    for angle in (0.05, 0.35, 0.9):
+        assert angle_of(inv(angle)) == pytest.approx(angle, abs=1e-14)
+
+
+def test_tips_thin_out_to_a_point_where_the_refusal_says():
+    mesh = Mesh(GearPair())
+    assert mesh.tip_thickness(1, 16 * 4.5e-3) == pytest.approx(math.pi * 4.5e-3 / 2)  # half a pitch on the pitch circle
+    with pytest.raises(SceneError, match="pointed.*less than 0.0853") as error:
+        Mesh(GearPair(d_a1=0.088))
+    limit = float(str(error.value).split("less than ")[1].split()[0])
+    assert mesh.tip_thickness(1, limit) == pytest.approx(0, abs=1e-7)
+
+
+def test_helical_gears_by_the_transverse_section():
+    pair = GearPair(z1=20, z2=60, m_n=3e-3, beta=20.0, x1=0.2, x2=0.1, b=30e-3, torque=500.0)
+    mesh = Mesh(pair)
+    beta_b = math.atan(math.tan(math.radians(20)) * math.cos(pair.alpha_t))  # the other formula of ISO 21771
+    assert mesh.beta_b == pytest.approx(beta_b)
+    rho_1, rho_2 = mesh.rho_C(1), mesh.rho_C(2)
+    at = along(mesh, at=("C",))[0]
+    assert at.R == pytest.approx(rho_1 * rho_2 / (rho_1 + rho_2) / math.cos(beta_b))
+    F_bn, length = 500.0 / mesh.r_b(1) / math.cos(beta_b), 30e-3 * mesh.eps_alpha / math.cos(beta_b)
+    assert {p.load for p in along(mesh, count=8)} == {at.load} and at.load == pytest.approx(F_bn / length)
+
+
+@pytest.mark.parametrize("values, why", [
+    ({"torque": 0}, "gear.torque = 0 N m is out of range; allowed: more than 0 N m"),
+    ({"n1": -5.0}, "gear.n1 = -5 1/min is out of range"),
+    ({"z1": 16.5}, "gear.z1 = 16.5 is not a whole number; allowed: 5 to 1000"),
+    ({"x1": 0.2}, "gear.x1 alone does not determine the profile shifts; allowed: x1 and x2, or a_w with one of them"),
+    ({"a_w": 91.5e-3}, "gear.a_w = 0.0915 m alone does not determine"),
+    ({"a_w": 0.05, "x1": 0.1}, "gear.a_w = 0.05 m leaves no line of action; allowed: more than 0.0845"),
+    ({"a_w": 0.093, "x1": 0.1817, "x2": 0.1715}, "contradict each other: without backlash they give 0.0915"),
+    ({"x1": -2.0, "x2": -2.0}, "gear.x1 . x2 = -4 leaves no centre distance"),
+    ({"beta": 20.0, "load_share": ((-1, 1), (1, 1))}, "gear.load_share applies to spur gears"),
+    ({"load_share": ((1, 0.5), (-1, 0.5))}, "gear.load_share has 2 pairs; allowed: 2 to 1000 .*rising, or the same twice"),
+    ({"load_share": ((-1, 0.5), (0, 0.5), (0, 0.6), (0, 0.7))}, "gear.load_share has 4 pairs"),
+    ({"load_share": ((-1, 0.5), (1, 1.5))}, "a share of 1.5 is out of range; allowed: more than 0 and at most 1"),
+])
+def test_pairs_that_cannot_be_are_refused(values, why):
+    with pytest.raises(SceneError, match=why):
+        GearPair(**values)
+
+
+@pytest.mark.parametrize("values, why", [
+    ({"d_a2": 0.12}, "gear.d_a2 = 0.12 m: the tips of the gear reach .* beyond the involute .*less than 0.11"),
+    ({"d_a1": 0.0735, "d_a2": 0.1095}, "contact ratio eps_alpha of 0.[0-9]+: the teeth lose contact; allowed: at least 1"),
+    ({"d_a1": 0.06}, "gear.d_a1 = 0.06 m: the tips of the pinion lie inside its base circle; allowed: more than 0.0676"),
+    ({"x1": 1.5, "x2": -0.5}, "teeth of the pinion are pointed"),
+    ({"z1": 8}, "gear.d_a2 = .* m: the tips of the gear reach .*undercut"),
+])
+def test_teeth_that_do_not_mesh_are_refused(values, why):
+    with pytest.raises(SceneError, match=why):
+        Mesh(GearPair(**values))
+
+
+def test_the_limits_of_the_refusals_hold():
+    """Just inside the limit that a refusal names it meshes."""
+    with pytest.raises(SceneError) as error:
+        Mesh(GearPair(d_a2=0.12))
+    limit = float(str(error.value).split("less than ")[1].split()[0])
+    assert Mesh(GearPair(d_a2=limit - 1e-6)).points["A"] + Mesh(GearPair()).rho_C(1) == pytest.approx(0, abs=1e-5)
+    high = GearPair(z1=60, z2=80, alpha_n=15.0, d_a1=0.285, d_a2=0.375)
+    with pytest.raises(SceneError, match="eps_alpha = 3.38: .*less than 2, or give gear.load_share"):
+        Mesh(high)
+    assert Mesh(dataclasses.replace(high, load_share=((-0.1, 0.5), (0.1, 0.5)))).eps_alpha > 2
+
+
+@pytest.mark.parametrize("options, why", [
+    ({"on": "wheel"}, "on = 'wheel' is not known"),
+    ({"count": 3}, "positions = 3 is out of range; allowed: 7 to 1000"),
+    ({"at": ("F",)}, "the point 'F' is not on this flank; known: A, B, C, D, E"),
+    ({"at": ("C+",)}, "the point 'C.' is not on this flank"),
+    ({"at": (0.02,)}, "0.02 m is out of range; allowed: at least -0.0095.* m and at most 0.0095"),
+])
+def test_positions_that_are_not_on_the_flank_are_refused(options, why):
+    with pytest.raises(SceneError, match=why):
+        along(Mesh(gear_pair("fzg-c")), **options)
+
+
+def test_unknown_pairs_are_refused_with_the_nearest():
+    with pytest.raises(SceneError, match="unknown gear pair 'fzg-b'.*did you mean 'fzg-[ac]'"):
+        gear_pair("fzg-b")

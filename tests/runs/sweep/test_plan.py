@@ -1,0 +1,102 @@
+"""What a sweep varies: values as they are typed, cases in order, what is refused before anything runs."""
+
+import numpy as np
+import pytest
+
+from tehl_taichi.runs.sweep import axis_syntax, study_file
+from tehl_taichi.runs.sweep.plan import Plan, plan, unit
+from tehl_taichi.scene import SceneError, scene
+
+GEAR = scene("gear").replace(**{"thermal.on": False})
+
+
+@pytest.mark.parametrize("text, rows", [
+    ("-0.3:0.3:7", [-0.3, -0.2, -0.1, 0.0, 0.1, 0.2, 0.3]), ("0.5e-6,1e-6", [0.5e-6, 1e-6]), ("64:256:4", [64, 128, 192, 256]),
+    ("-0.9:0.9:7", [-0.9, -0.6, -0.3, 0.0, 0.3, 0.6, 0.9]),
+    ("1.0:100:3:log", [1.0, 10.0, 100.0]), ("eyring, newtonian", ["eyring", "newtonian"]), ("true,false", [True, False]),
+    ("[1e-6, 2e-6],[3e-6]", [(1e-6, 2e-6), (3e-6,)]), ("0,1:2:3", [0, 1.0, 1.5, 2.0]), ("'a,b'", ["a,b"]),
+])
+def test_values_as_they_are_typed(text, rows):
+    found = axis_syntax.axis_of(f"key={text}").rows
+    assert [row[0] for row in found] == rows and [type(row[0]) for row in found] == [type(value) for value in rows]
+
+
+def test_keys_that_change_together():
+    found = axis_syntax.axis_of("srr=-0.1,0,0.1 speed=5:15:3")
+    assert found.keys == ("srr", "speed") and found.rows == ((-0.1, 5), (0, 10), (0.1, 15))
+    made = plan(GEAR, {("srr", "speed"): [(-0.1, 5), (0.1, 15)], "height": [1e-6, 2e-6]})
+    assert made.dims == ("case",) and made.shape == (4,) and made.changes(2) == {"srr": 0.1, "speed": 15, "height": 1e-6}
+
+
+@pytest.mark.parametrize("text, said", [
+    ("srr", "must look like"), ("srr=", "must look like"), ("srr=0:1", "has no number of values"), ("srr=0,,1", "missing"),
+    ("srr=0.1,0.1", "given twice"), ("speed=0:1:5:log", "positive ends"), ("srr=0,1 speed=5", "srr has 2, speed has 1"),
+    ("srr=0:1:0", "2 to 100000 values"), ("srr=1:0", "smaller than the second"),
+])
+def test_what_is_no_values_is_told(text, said):
+    with pytest.raises(SceneError, match=said):
+        axis_syntax.axis_of(text)
+
+
+def test_cases_in_the_order_of_the_keys():
+    made = plan(GEAR, {"srr": "-0.1:0.1:3", "feature.height": [0.5e-6, 1e-6]})
+    assert made.dims == ("srr", "feature.height") and made.shape == (3, 2) and made.count == 6 and made.gridded
+    assert [tuple(made.changes(n).values()) for n in (0, 1, 5)] == [(-0.1, 0.5e-6), (-0.1, 1e-6), (0.1, 1e-6)]
+    assert made.case(5) == GEAR.replace(srr=0.1, height=1e-6) and made.coordinate("srr") == ("srr", [-0.1, 0.0, 0.1])
+    assert Plan.from_text(made.text) == made and made.name == plan(GEAR, {"srr": "-0.1:0.1:3",
+                                                                          "feature.height": [0.5e-6, 1e-6]}).name
+    assert made.name != plan(GEAR, {"srr": "-0.1:0.1:3", "feature.height": [0.5e-6, 2e-6]}).name
+
+
+@pytest.mark.parametrize("over, said", [
+    ({"sr": [0.1]}, "did you mean 'srr'"), ({"feature.hight": [1e-6]}, "height"), ({"srr": [-2.0, 0.1]}, "never passes"),
+    ({"height": [1e-6, 2.0]}, "height = 2 m"), ({"srr": [0.1], "operation.srr": [0.2]}, "swept twice"), ({}, "--over"),
+    ({"load": [1e6], "hertz_pressure": [1e9]}, "contradict"), ({"srr": "0:1:400", "speed": "1:2:400"}, "at most 100000"),
+    ({"srr": []}, "has no values"), ({("srr", "speed"): [(0.1, 5), (0.2,)]}, "needs 2 values"),
+])
+def test_what_no_case_can_run_with_is_refused(over, said):
+    with pytest.raises(SceneError, match=said):
+        plan(GEAR, over).refused()
+
+
+def test_a_corner_that_cannot_run_is_told_of_and_the_others_stay():
+    made = plan(GEAR, {"grid.x_max": [1.5, 3.0], "height": [1e-6, 20e-6]})  # the higher one needs a wider grid
+    found = made.refused()
+    assert list(found) == [1] and "half-width" in found[1]
+
+
+def test_a_latin_hypercube_has_a_sample_in_every_part():
+    over = {"srr": (-0.3, 0.3), "speed": "1:20:log", "rheology.law": ["eyring", "newtonian"], "thermal.nodes": "5:13"}
+    made = plan(GEAR, over, samples=20, seed=3)
+    assert made.dims == ("case",) and made.count == 20
+    columns = {key: made.coordinate(key)[1] for key in over}
+    assert sorted(np.floor((np.array(columns["srr"]) + 0.3) / 0.03).astype(int)) == list(range(20))
+    assert sorted(np.floor(20 * np.log(columns["speed"]) / np.log(20)).astype(int)) == list(range(20))
+    assert columns["rheology.law"].count("eyring") == 10 and {type(value) for value in columns["thermal.nodes"]} == {int}
+    assert plan(GEAR, over, samples=20, seed=3) == made != plan(GEAR, over, samples=20, seed=4)
+    for wrong in ({"samples": 0}, {"samples": 2.5}, {"samples": 2, "seed": -1}):
+        with pytest.raises(SceneError, match="whole number"):
+            plan(GEAR, over, **wrong)
+
+
+def test_units_of_keys():
+    keys = {"srr": "1", "height": "m", "speed": "m/s", "load": "N/m", "bodies.b.E": "Pa", "operation.u_a": "m/s",
+            "rheology.law": "1", "feature.0.x": "m", "hertz_pressure": "Pa"}
+    assert {key: unit(GEAR, key) for key in keys} == keys
+
+
+def test_a_study_file(tmp_path):
+    path = tmp_path / "study.toml"
+    path.write_text('scene = "gear"\n[set]\ngrid.nx = 64\n"grid.ny" = 16\n[over]\nsrr = "-0.1:0.1:3"\n'
+                    "feature.height = [5e-7, 1e-6]\n[[together]]\nspeed = [5, 10]\ntemperature = [90, 100]\n")
+    made = study_file.load(path)
+    assert study_file.is_study_file(path) and made.keys == ("srr", "feature.height", "speed", "temperature")
+    assert made.count == 12 and made.case(11).grid.nx == 64
+    assert made.changes(11) == {"srr": 0.1, "feature.height": 1e-6, "speed": 10, "temperature": 100}
+    path.write_text("samples = 5\n[over]\nsrr = \"-0.1:0.1\"\nspeed = [5, 10]\n")
+    assert study_file.load(path).count == 5
+    for text, said in (("ower = 1\n[over]\nsrr = [1]", "did you mean 'over'"), ("[over]\nsrr = 1", "must be a list"),
+                       ("scene = 1\n[over]\nsrr = [1]", "name of a built-in")):
+        path.write_text(text)
+        with pytest.raises(SceneError, match=said):
+            study_file.load(path)

@@ -1,0 +1,139 @@
+"""Companions beside their run: where a core is idle, the same answers, and nothing left behind."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+from tehl_taichi.march.accuracy import coarse_runs
+from tehl_taichi.runs import background_errors
+from tehl_taichi.runs.sweep import job
+from tehl_taichi.scene import scene
+
+SHORT = scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16, "thermal.on": False, "time.steps": 4, "fatigue.depths": (),
+                                 "numerics.estimate_error": True})
+
+
+@pytest.fixture
+def idle_core(taichi_cpu, monkeypatch):
+    monkeypatch.setattr(background_errors.cores, "available", lambda: background_errors.runtime.ensure()["threads"] + 1)
+    monkeypatch.setattr(background_errors, "LONG", 0.0)
+
+
+@pytest.fixture
+def nowhere(monkeypatch):
+    """No companions in this process."""
+    def refused(*_):
+        raise AssertionError("worked out here")
+
+    monkeypatch.setattr(coarse_runs, "answers", refused)
+
+
+def test_they_tell_what_they_tell_after_the_run(idle_core, monkeypatch):
+    here, parts = coarse_runs.answers(SHORT), []
+    monkeypatch.setattr(coarse_runs, "answers", None)
+    with background_errors.background_answers(SHORT) as told:
+        there = told(None)(lambda *part: parts.append(part))
+    assert [one.keys() for one in there] == [one.keys() for one in here]
+    assert list(dict.fromkeys(parts)) == [(0, 1), (1, 1)] and parts[-1] == (1, 1)
+    values, expected = there[-1]["values"], here[-1]["values"]
+    assert values.keys() == expected.keys() and {n: one["value"] for n, one in values.items()} == {
+        n: one["value"] for n, one in expected.items()}
+    own = {name: coarse_runs.GridReading(**one) for name, one in expected.items()}
+    assert coarse_runs.judged(there, own) == coarse_runs.judged(here, own)
+
+
+def test_they_hear_up_to_where_the_run_is_resolved(idle_core, nowhere):
+    passing = SHORT.replace(**{"time.steps": -1})
+    with background_errors.background_answers(passing) as told:
+        there = told(-0.5)()
+    found = there[-1]["values"]
+    assert 0 < found[coarse_runs.RESOLVED]["value"] < found["Fi_max"]["value"]
+
+
+def test_only_an_idle_core_has_them_beside(taichi_cpu, monkeypatch):
+    threads = background_errors.runtime.ensure()["threads"]
+    monkeypatch.setattr(background_errors, "LONG", 0.0)
+    for cores, working, expected in ((threads, [], 0), (threads + 1, [], 1), (threads + 1, ["a lane"], 0)):
+        monkeypatch.setattr(background_errors.cores, "available", lambda cores=cores: cores)
+        monkeypatch.setattr(job, "_lane", working)
+        assert max(0, background_errors.idle()) == expected
+        monkeypatch.setattr(background_errors, "_started", sleeper if expected else no_process)
+        with background_errors.background_answers(SHORT) as told:
+            assert (told(None).func is coarse_runs.answers) == (not expected)
+
+
+@pytest.mark.parametrize("idle", (1, 2, 7))
+def test_they_have_the_idle_cores_and_no_more_threads_than_the_run(taichi_cpu, monkeypatch, idle):
+    threads = background_errors.runtime.ensure()["threads"]
+    monkeypatch.setattr(background_errors, "LONG", 0.0)
+    monkeypatch.setattr(background_errors.cores, "available", lambda: threads + idle)
+    monkeypatch.setattr(background_errors, "_started", lambda scene, pipe, count: given.append(count) or sleeper())
+    given = []
+    with background_errors.background_answers(SHORT):
+        assert given == [min(idle, threads)]
+
+
+def no_process(*_):
+    pytest.fail("a process")
+
+
+def sleeper(*_):
+    return subprocess.Popen([sys.executable, "-c", "import time; time.sleep(60)"], stdout=subprocess.PIPE)
+
+
+def test_only_long_runs_have_them_beside():
+    gear = scene("gear")
+    assert background_errors.lasts(gear) and not background_errors.lasts(gear.replace(**{"thermal.on": False}))
+    assert background_errors.lasts(gear.replace(**{"thermal.on": False, "grid.nx": 512,
+                                                   "grid.ny": 128})) and not background_errors.lasts(SHORT)
+
+
+def test_who_wants_none_has_no_process(idle_core, monkeypatch):
+    monkeypatch.setattr(background_errors, "_started", no_process)
+    with background_errors.background_answers(SHORT.replace(**{"numerics.estimate_error": False})) as told:
+        assert told(None).func is coarse_runs.answers
+
+
+def test_they_end_with_their_run(idle_core, nowhere, monkeypatch):
+    processes, started = [], background_errors._started
+    monkeypatch.setattr(background_errors, "_started", lambda *of: processes.append(started(*of)) or processes[0])
+    with pytest.raises(KeyboardInterrupt), background_errors.background_answers(SHORT):
+        raise KeyboardInterrupt
+    assert processes[0].returncode == -signal.SIGKILL
+
+
+def test_where_they_die_they_are_worked_out_here(idle_core, monkeypatch):
+    monkeypatch.setattr(background_errors, "_started", lambda *_: subprocess.Popen(
+        [sys.executable, "-c", "print('[half an ans'); raise SystemExit(1)"], stdout=subprocess.PIPE))
+    monkeypatch.setattr(coarse_runs, "answers", lambda one, notify, until: [one.name, until()])
+    with background_errors.background_answers(SHORT) as told:
+        assert told(0.25)() == ["gear", 0.25]
+
+
+LONG = ("import sys, time; from tehl_taichi.engine import runtime; from tehl_taichi.runs import background_errors as beside; "
+        "from tehl_taichi.scene import scene; runtime.start(threads=1); beside.cores.available = lambda: 2; "
+        "one = scene('gear').replace(**{'grid.nx': 512, 'grid.ny': 128, 'numerics.estimate_error': True}); "
+        "found = beside._started(one, 0, 1); print(found.pid, flush=True); time.sleep(100)")
+
+
+def test_they_end_where_their_run_is_killed(taichi_cpu):
+    with subprocess.Popen([sys.executable, "-c", LONG], stdout=subprocess.PIPE, text=True) as run:
+        found = int(run.stdout.readline())
+        assert alive(found)
+        run.kill()
+    deadline = time.monotonic() + 30
+    while alive(found) and time.monotonic() < deadline:
+        time.sleep(0.1)
+    assert not alive(found)
+
+
+def alive(process):
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    return open(f"/proc/{process}/stat").read().rsplit(")", 1)[1].split()[0] != "Z" if os.path.exists("/proc") else True

@@ -1,0 +1,128 @@
+"""Shapes of surface features at points where their heights follow by hand, and where a passage puts them."""
+
+import math
+
+import numpy as np
+import pytest
+
+from tehl_taichi.laws.gap import undeformed
+from tehl_taichi.scene import Scene, scene
+from tehl_taichi.scene.feature import Feature
+
+UM = 1e-6
+
+
+def height(feature, x, y):
+    """um, at x, y in um."""
+    return float(feature.height_at(np.array([x * UM]), np.array([y * UM]))[0]) / UM
+
+
+def test_round_cosine():
+    """(1.5/2)(1 + cos(2 pi r/200)): all of it in the middle, half at r = 50, a quarter at r = 200/3, none from r = 100 on."""
+    bump = Feature(height=1.5 * UM, width=200 * UM)
+    for x, y, share in ((0, 0, 1), (50, 0, 0.5), (0, -50, 0.5), (30, 40, 0.5), (-200 / 3, 0, 0.25), (80, 60, 0), (90, 90, 0)):
+        assert height(bump, x, y) == pytest.approx(1.5 * share, abs=1e-12)
+
+
+def test_elliptic_cosine():
+    """Twice as long across as it is wide: y = 80 counts as 40."""
+    bump = Feature(height=-2 * UM, width=200 * UM, length=400 * UM)
+    for x, y, share in ((0, 0, 1), (50, 0, 0.5), (0, 100, 0.5), (30, 80, 0.5), (0, 150, 0.5 - math.sqrt(0.125)), (0, 200, 0),
+                        (100, 0, 0), (60, 160, 0)):
+        assert height(bump, x, y) == pytest.approx(-2 * share, abs=1e-12)
+    assert bump.reach == pytest.approx(100 * UM) and bump.reach_y == pytest.approx(200 * UM)
+
+
+def test_a_cosine_without_end_is_transverse():
+    """Half of it at a quarter of its width for every y: the scene is 1-D."""
+    bump = Feature(height=-2 * UM, width=200 * UM, length=math.inf)
+    for y in (0, 80, 1e6):
+        assert height(bump, 50, y) == pytest.approx(-1.0, abs=1e-12) and height(bump, 100, y) == 0
+    assert bump.transverse and bump.symmetric and bump.reach_y == 0
+    assert scene("gear").replace(**{"feature.length": math.inf}).one_dimensional
+
+
+def test_ridge_and_furrow():
+    """10^(-10 xi^2) cos(2 pi xi): xi = 0.1: 10^-0.1 cos 36 deg = 0.642626; 0.25: 0; 0.5: -10^-2.5; the same for every y."""
+    for shape, size in (("ridge", 0.2), ("furrow", -2.0)):
+        line = Feature(shape=shape, height=size * UM, width=500 * UM)
+        for x, share in ((0, 1), (50, 0.642626), (-50, 0.642626), (125, 0), (250, -(10**-2.5)), (350, 0)):
+            assert height(line, x, 0) == pytest.approx(size * share, abs=2e-5 * abs(size))
+            assert height(line, x, 777) == height(line, x, 0)
+
+
+def test_waviness_along_and_across():
+    """cos(2 pi x/60) cos(2 pi y/90): half of a wave turns the sign, a sixth leaves a half; both together multiply."""
+    waves = Feature(shape="waviness", height=0.3 * UM, width=60 * UM, length=90 * UM, extent_x=600 * UM, extent_y=600 * UM)
+    for x, y, share in ((0, 0, 1), (30, 0, -1), (0, 45, -1), (30, 45, 1), (10, 0, 0.5), (0, 15, 0.5), (10, 15, 0.25),
+                        (0, 30, -0.5), (20, 0, -0.5), (0, 301, 0), (301, 0, 0)):
+        assert height(waves, x, y) == pytest.approx(0.3 * share, abs=1e-12)
+    assert (waves.reach, waves.reach_y) == pytest.approx((300 * UM, 300 * UM))
+    transverse = Feature(shape="waviness", height=0.3 * UM, width=60 * UM, extent_x=600 * UM)
+    assert height(transverse, 10, 1e4) == pytest.approx(0.15) and transverse.transverse and not waves.transverse
+
+
+def test_patches_fade_out_over_their_taper():
+    """Rim at 300 um, 100 um of half a cosine inside it: half at 250, (1 - cos 45 deg)/2 at 275, whole at 200."""
+    waves = Feature(shape="waviness", height=1 * UM, width=1e4 * UM, extent_x=600 * UM, extent_y=400 * UM, taper=100 * UM)
+    quarter = 0.5 * (1 - math.sqrt(0.5))
+    for x, y, share in ((200, 0, 1), (250, 0, 0.5), (-275, 0, quarter), (300, 0, 0), (0, 100, 1), (0, -150, 0.5),
+                        (0, 175, quarter), (250, 150, 0.25)):
+        assert height(waves, x, y) == pytest.approx(share * math.cos(2 * math.pi * x / 1e4), abs=1e-9)
+
+
+def test_rough_patches_have_their_rms_on_average():
+    """Of 60 patches: the mean of their squares at places far from each other is the square of the rms; even in y."""
+    x, y = np.meshgrid(np.linspace(-200, 200, 21) * UM, np.linspace(-200, 200, 21) * UM)
+    squares = []
+    for seed in range(60):
+        patch = Feature(shape="rough", height=0.2 * UM, width=40 * UM, extent_x=500 * UM, extent_y=500 * UM, seed=seed)
+        z = patch.height_at(x, y)
+        squares.append(np.mean(z**2))
+        assert np.allclose(z, z[::-1])
+    assert math.sqrt(np.mean(squares)) == pytest.approx(0.2 * UM, rel=0.1)
+
+
+def test_the_undeformed_gap():
+    """x^2/2 R_x + y^2/2 R_y in units of a^2/R_x: X^2/2 + (R_x/R_y) Y^2/2."""
+    assert undeformed(np.array([3.0]), np.array([2.0]), 0.0)[0] == 4.5
+    assert undeformed(np.array([3.0]), np.array([2.0]), 0.25)[0] == pytest.approx(5.0)
+
+
+@pytest.fixture(scope="module")
+def two_ridges(taichi_cpu):
+    """Three steps of two ridges, the second 150 um ahead and twice as high; pure rolling, nothing across."""
+    from tehl_taichi.march.passage import march
+
+    base = scene("gear").replace(**{"thermal.on": False, "rheology.law": "newtonian", "srr": -0.4, "grid.nx": 128,
+                                    "grid.x_min": -3.5, "time.steps": 3, "time.x_start": -2.6})
+    data = base.to_dict()
+    data["feature"] = [{"shape": "ridge", "height": 0.2 * UM, "width": 120 * UM},
+                       {"shape": "ridge", "height": 0.4 * UM, "width": 80 * UM, "x": 150 * UM}]
+    description = Scene.from_dict(data)
+    return description, list(march(description))
+
+
+def test_features_move_with_surface_a(two_ridges):
+    """u_a = 8.5 (1 - 0.4/2) = 6.8 m/s, a cell of 5 a/128 per step."""
+    from tehl_taichi.scene.scales import Scales
+
+    description, shots = two_ridges
+    a = Scales.of(description).a
+    assert shots[0].feature_x == pytest.approx(-2.6 * a)
+    for before, after in zip(shots, shots[1:]):
+        assert after.feature_x - before.feature_x == pytest.approx(5 * a / 128, rel=1e-9)
+        assert after.feature_x - before.feature_x == pytest.approx(6.8 * (after.time - before.time), rel=1e-9)
+
+
+def test_the_film_is_thinner_by_the_height_of_the_features(two_ridges):
+    """Far in the inlet, where nothing presses yet, the film loses the height where the ridges stand, and nothing elsewhere."""
+    description, shots = two_ridges
+    for shot in shots[1:]:
+        inlet = shot.x < -1.7 * abs(shots[0].feature_x) / 2.6
+        x = (shot.x[inlet] - shot.feature_x) / UM
+        lost = (shots[0].fields["film"] - shot.fields["film"])[inlet, 0] / UM
+        own = [0.2 * 10 ** (-10 * (x / 120) ** 2) * np.cos(2 * np.pi * x / 120),
+               0.4 * 10 ** (-10 * ((x - 150) / 80) ** 2) * np.cos(2 * np.pi * (x - 150) / 80)]
+        np.testing.assert_allclose(lost, sum(own), atol=0.004)
+        assert lost.max() > 0.3

@@ -1,0 +1,261 @@
+"""Keys without effect: whatever is given either changes what a run takes, or is said to have none."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import tehl_taichi as tehl
+from tehl_taichi.errors import SceneError
+from tehl_taichi.laws import conduction, density, rheology, sheared_flow
+from tehl_taichi.laws.criteria import CRITERIA
+from tehl_taichi.laws.solid_friction import boundary_stress
+from tehl_taichi.laws.viscosity import ln_eta
+from tehl_taichi.pressure.conditions import conditions
+from tehl_taichi.runs.sweep.plan import plan
+from tehl_taichi.scene import BUILT_INS, Scene, data_sheet, idle_keys, keys, named_oils, scene_file
+from tehl_taichi.scene.feature import Feature
+from tehl_taichi.scene.named_oils import OILS
+from tehl_taichi.scene.named_steels import STEELS
+from tehl_taichi.scene.scales import Scales
+from tehl_taichi.scene.sections import Body, Contact, Fatigue, Rheology, Thermal, Time
+from tehl_taichi.scene.timeline import step_length, total_steps
+from tehl_taichi.values.quantity import Choice, Count, Numbers, Pairs, Switch, Text
+
+GEAR = tehl.scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16})
+SCENES = {
+    "gear": GEAR, "steady": GEAR.replace(**{"time.steady_only": True}), "pure rolling": GEAR.replace(srr=0.0),
+    "isothermal": GEAR.replace(**{"thermal.on": False}), "without fatigue": GEAR.replace(**{"fatigue.on": False}),
+    "smooth": tehl.scene("smooth-line"), "ball": tehl.scene("ball-on-disc"), "ridge on ball": tehl.scene("ridge-on-ball"),
+    "furrow": tehl.scene("furrow-line"), "rough": tehl.scene("rough"),
+    "two": dataclasses.replace(GEAR, features=(Feature(), Feature(shape="ridge", height=-5e-7, x=-4e-4))),
+    "waves": dataclasses.replace(GEAR, features=(Feature(shape="waviness", height=1e-7, width=1e-4, extent_x=3e-4,
+                                                         taper=5e-5),)),
+    "eyring": GEAR.replace(**{"rheology.law": "eyring", "thermal.on": False}),
+    "newtonian": tehl.scene("smooth-line").replace(**{"rheology.law": "newtonian"}),
+    "data sheet": tehl.scene("smooth-line").replace(**{"oil.nu_40": 220e-6, "oil.nu_100": 19e-6, "thermal.on": False}),
+    "moes": tehl.scene("smooth-line").replace(**{"contact.moes_M": 20.0, "contact.moes_L": 10.0}),
+    "tait": GEAR.replace(**{"oil.density": "tait"})}
+CASES = [(name, key) for name, scene in SCENES.items() for key, kind, _ in keys.every(scene) if not isinstance(kind, Text)]
+
+
+def prepared(scene):
+    """The numbers that a run of the scene takes, in no order that a user knows of."""
+    s, g = Scales.of(scene), scene.grid
+    x, y = np.linspace(g.x_min, g.x_max, 97), np.linspace(-1, 1, 9) * g.y_max if scene.rows else np.zeros(1)
+    found = [s, _speeds(conditions(scene, s, x)), g.nx, g.x_min, g.x_max, g.inlet, scene.rows, scene.numerics, scene.at_rest,
+             scene.rows and (g.y_max, s.curvature)]
+    return repr([*found, *_laws(scene, s), *_heat(scene), *_passage(scene, s, x, y), *_fatigue(scene)])
+
+
+def _speeds(record):
+    return [record[name] for name in record.places if name != "inlet"]  # which acts by way of laws alone
+
+
+def _laws(scene, s):
+    inlet, warmer = scene.operation.temperature, (0,) if scene.isothermal else (0, 9, 50)
+    places = [(p * s.p_H, inlet + T) for p in (0, 0.3, 1) for T in warmer]
+    rho, r = density.rho_ratio if scene.isothermal else density.rho_film, scene.rheology
+    oil = scene.film_oil if scene.isothermal else scene.oil
+    yield [(float(ln_eta(oil, *at)), float(rho(oil, *at))) for at in places]
+    tau, p = (one.ravel() for one in np.meshgrid((1e6, 1e8), [p for p, _ in places]))
+    yield [one.tolist() for one in (rheology.shear_stress(r, tau, p), *_flows(r, tau, p), sheared_flow.wall_limit(r, p))]
+    yield r.film_floor, r.law
+    if scene.operation.u_s:
+        yield [boundary_stress(r, p) for p in (1e6, 1e8, 1e9)]
+
+
+def _flows(r, tau, p):
+    """What the film carries by pressure, along the sliding and across it, and the stress that it shears at."""
+    yield from (part for along in (True, False) for law in sheared_flow.either(r, along, 0.3 * tau, 0.3 * tau, tau, p)
+                for part in law)
+    yield from (sheared_flow.mean_stress(r, 0.3 * tau, tau, p), sheared_flow.wall_slip(r, 0.3 * tau, tau, p))
+
+
+def _heat(scene):
+    if not scene.isothermal:
+        yield [(b.k, b.rho * b.c, b.k * b.rho) for b in (scene.body_a, scene.body_b)], scene.thermal.nodes, scene.thermal.rounds
+        yield scene.thermal.tolerance, scene.output.profiles
+        yield [(conduction.conductivity(scene.oil, p), conduction.heat_capacity(scene.oil, p, T)) for p in (0, 5e8)
+               for T in (30, 60, 90)]
+
+
+def _passage(scene, s, x, y):
+    if not scene.transient:
+        return
+    yield step_length(scene), total_steps(scene), scene.path, scene.output.every, scene.symmetric
+    for at in np.linspace(*scene.path, 7):
+        yield [hash((f.height_at((x[None] - at) * s.a - f.x, y[:, None] * s.b - f.y) + 0.0).tobytes()) for f in scene.features]
+
+
+def _fatigue(scene):
+    f = scene.fatigue
+    if scene.has_fatigue:
+        yield [CRITERIA[f.criterion].value(1e8, n + f.residual_xx - f.residual_yy / 3, n + f.residual_xx / 3 + f.residual_yy,
+                                           f.kappa) / f.endurance for n in (3e8, 1e9)], f.criterion
+        yield scene.body_a.nu, f.depths, f.shear, f.from_x, f.to_x, scene.has_thermal_stress
+        yield scene.has_thermal_stress and scene.body_a.alpha
+
+
+def others(kind, value):
+    """Other values of a key."""
+    if isinstance(kind, Switch):
+        return [other for other in (True, False) if other != value]
+    if isinstance(kind, Choice):
+        return [word for word in kind.words if word != value]
+    if isinstance(kind, Count):
+        return [value + (kind.multiple if kind.multiple > 1 else 2), kind.low]
+    if isinstance(kind, Numbers):
+        return [(50e-6,)]
+    if isinstance(kind, Pairs):
+        return []
+    size = kind.usual or 1.0
+    return [value * 1.02 if value and math.isfinite(value) else size, value * 0.9, size, -1.0, 1.0, 1.3]
+
+
+def changed(scene, key, value):
+    """The scene with another value there, without the rules of changes; None where it is refused."""
+    name, _, last = key.rpartition(".")
+    part = dataclasses.replace(keys.parts(scene)[name], **{last: value})
+    section, _, number = name.partition(".")
+    if section == "feature":
+        features = list(scene.features)
+        features[int(number)] = part
+        return dataclasses.replace(scene, features=tuple(features))
+    return dataclasses.replace(scene, **{f"body_{number}" if section == "bodies" else section: part})
+
+
+def neighbours(scene, key):
+    kind, value = next((kind, value) for name, kind, value in keys.every(scene) if name == key)
+    for other in others(kind, value):
+        try:
+            if other != value:
+                yield changed(scene, key, other)
+        except SceneError:
+            continue
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_a_key_changes_what_a_run_takes_or_is_said_to_have_no_effect(name):
+    scene, tried = SCENES[name], 0
+    idle, now = idle_keys.idle(scene), prepared(scene)
+    follow = [f"oil.{key}" for key in data_sheet.follows(vars(scene.oil))]
+    for key in (key for one, key in CASES if one == name):
+        if key in (*idle_keys.LABELS, "contact.kind", *follow):  # a circle by either name
+            continue
+        differ = (prepared(other) != now for other in neighbours(scene, key))
+        first = next(differ, None)
+        tried += first is not None
+        assert first is None or (first or any(differ)) == (key not in idle), (key, idle.get(key, "acts"))
+    assert tried > 60
+
+
+def test_what_has_no_effect_is_of_every_kind():
+    """The property above would hold if nothing were ever idle."""
+    found = {key.replace("feature.0.", "feature.") for scene in SCENES.values() for key in idle_keys.idle(scene)}
+    assert found >= {"rheology.tau_0", "rheology.mu_boundary", "thermal.nodes", "oil.k0", "oil.beta0", "oil.eta0", "bodies.a.k",
+                     "bodies.b.alpha", "grid.ny", "time.courant", "feature.height", "feature.length", "feature.taper",
+                     "feature.y", "fatigue.kappa", "fatigue.thermal_stress", "output.profiles", "operation.u_m",
+                     "operation.temperature"}
+
+
+SAID = [("smooth-line", {"rheology.tau_0": 1e6}, "rheology.tau_0 has no effect here: the shear law 'limiting'"),
+        ("smooth-line", {"rheology.law": "newtonian", "rheology.gamma": 0.05}, "rheology.gamma has no effect on the film"),
+        ("gear", {"thermal.on": False, "thermal.nodes": 7}, "thermal.nodes has no effect here: no temperatures"),
+        ("gear", {"time.steady_only": True, "height": 1e-6}, "feature.height has no effect here: nothing passes (steady)"),
+        ("smooth-line", {"grid.ny": 32}, "grid.ny has no effect here: nothing varies"),
+        ("pitch-line", {"bodies.b.k": 20.0}, "bodies.b.k has no effect here"),
+        ("gear", {"fatigue.on": False, "kappa": 0.2}, "fatigue.kappa has no effect here: fatigue.on = false"),
+        ("smooth-line", {"thermal.on": False, "fatigue.criterion": "matake"}, "fatigue.criterion has no effect")]
+
+
+@pytest.mark.parametrize("base, changes, said", SAID)
+def test_changes_files_and_copies_say_it_alike(tmp_path, base, changes, said):
+    scene = tehl.scene(base).replace(**changes)
+    assert any(sentence.startswith(said) for sentence in scene.warnings())
+    assert any(sentence.startswith(said) for sentence in scene.replace(srr=scene.operation.srr).warnings())
+    lines = [f"{key.replace('height', 'feature.height') if key == 'height' else key} = {scene_file.toml_value(value)}"
+             for key, value in changes.items() if key not in ("height", "kappa")]
+    if len(lines) == len(changes):
+        (tmp_path / "a.toml").write_text(f'base = "{base}"\n' + "\n".join(lines))
+        assert any(sentence.startswith(said) for sentence in tehl.scene(tmp_path / "a.toml").warnings())
+
+
+def test_a_scene_with_every_value_is_not_asked_about_them(tmp_path):
+    for name in ("gear", "smooth-line", "ball-on-disc"):
+        path = tmp_path / f"{name}.toml"
+        path.write_text(scene_file.dumps(tehl.scene(name)))
+        assert not [sentence for sentence in tehl.scene(path).warnings() if "no effect" in sentence]
+    path.write_text(path.read_text().replace("nodes = 9", "nodes = 7"))
+    assert any("thermal.nodes has no effect" in sentence for sentence in tehl.scene(path).warnings())
+
+
+@pytest.mark.parametrize("scene, over, key", [
+    (SCENES["smooth"], {"rheology.tau_0": [1e6, 1e8]}, "rheology.tau_0"),
+    (SCENES["steady"], {"height": [1e-6, 2e-6]}, "height"),
+    (SCENES["isothermal"], {"srr": [0.1, 0.2], "thermal.nodes": [5, 9]}, "thermal.nodes"),
+    (SCENES["smooth"], {("srr", "kappa"): [(0.1, 0.2), (0.2, 0.3)]}, "kappa")])
+def test_a_sweep_of_equal_rows_is_refused(scene, over, key):
+    with pytest.raises(SceneError, match=f"{key} has no effect here.*the cases would be equal"):
+        plan(scene, over).refused()
+
+
+def test_a_sweep_says_which_cases_are_equal():
+    found = plan(GEAR, {"srr": [0.1, 0.0], "thermal.nodes": [5, 9]})
+    assert found.refused() == {} and found.equal() == {3: 2}
+    law = plan(SCENES["smooth"], {"rheology.law": ["limiting", "eyring"], "rheology.tau_0": [1e6, 1e8]})
+    assert law.refused() == {} and law.equal() == {1: 0}
+
+
+def test_a_sweep_tells_what_has_no_effect_in_any_case():
+    found = plan(SCENES["newtonian"].replace(kappa=0.2), {"rheology.gamma": [0.05, 0.08], "srr": [0.1, 0.0]})
+    assert [sentence.split()[0] for sentence in found.doubts()] == ["fatigue.kappa"]  # friction of solid contact needs slip
+    slips = plan(SCENES["newtonian"], {"rheology.gamma": [0.05, 0.08], "srr": [0.1, 0.2]})
+    assert [sentence.split()[0] for sentence in slips.doubts()] == ["rheology.gamma"]
+
+
+def test_fatigue_asked_again_says_it_too():
+    from tehl_cli.fatigue_command import _doubts
+
+    scene = SCENES["isothermal"].replace(**{"fatigue.on": False})
+    assert list(_doubts(scene, {"kappa": 0.2, "thermal_stress": None})) == []
+    assert [said.split()[0] for said in _doubts(scene, {"kappa": 0.2, "thermal_stress": False})] == ["fatigue.thermal_stress"]
+
+
+def test_a_seed_of_no_samples_is_refused(tmp_path):
+    with pytest.raises(SceneError, match="seed = 3 has no effect without samples"):
+        plan(GEAR, {"srr": [0.1, 0.2]}, seed=3)
+    (tmp_path / "a.toml").write_text("seed = 3\n[over]\nsrr = [0.1, 0.2]\n")
+    from tehl_taichi.runs.sweep import study_file
+
+    with pytest.raises(SceneError, match="seed = 3"):
+        study_file.load(tmp_path / "a.toml")
+
+
+def test_the_command_says_it_before_it_sweeps():
+    from tehl_cli.main import app
+
+    done = CliRunner().invoke(app, ["sweep", "smooth-line", "--set", "fatigue.kappa=0.4", "--over", "srr=0.1,0.2", "--dry-run"])
+    assert done.exit_code == 0 and "warning: fatigue.kappa has no effect here" in done.output
+
+
+def test_a_scene_of_parts_says_it_of_unusual_values():
+    still = Scene(features=[], thermal=Thermal(on=False, nodes=7), rheology=Rheology(law="newtonian", gamma=0.05),
+                  oil=OILS["ridge-test-fluid"], body_a=Body(**STEELS["16MnCr5"].numbers, material="16MnCr5"))
+    said = [sentence.split()[0] for sentence in still.warnings() if "no effect" in sentence]
+    assert said == ["thermal.nodes", "rheology.gamma"]
+    assert [one.split()[0] for one in still.replace(srr=-0.2).warnings() if "no effect" in one] == said
+    assert [one.split()[0] for one in idle_keys.doubts(Scene(time=Time(steady_only=True),
+                                                             features=(Feature(height=1e-6),)))] == [
+        "feature.height"]
+
+
+def test_what_follows_from_other_keys_was_not_given():
+    limits, sheet = Fatigue.from_values({"bending_limit": 4e8}), named_oils.from_values({"nu_40": 220e-6, "nu_100": 19e-6})
+    scene = Scene(features=(), contact=Contact(moes_M=20.0, moes_L=10.0), fatigue=limits, oil=sheet)
+    assert not {"operation.u_m", "fatigue.endurance", "oil.G0", "oil.S0", "grid.x_min"} & idle_keys.user_keys(scene)
+    assert {"contact.moes_M", "fatigue.bending_limit", "oil.nu_40"} <= idle_keys.user_keys(scene)
+    assert list(idle_keys.doubts(scene)) == ["fatigue.bending_limit has no effect here: fatigue needs a passage"]
+    assert all(not list(idle_keys.doubts(tehl.scene(name))) for name in BUILT_INS)

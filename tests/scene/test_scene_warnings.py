@@ -1,0 +1,112 @@
+"""What is doubtful although it can be simulated: a sentence each, known before or after the run."""
+
+import dataclasses
+import json
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from tehl_taichi.runs.summary import result_warnings
+from tehl_taichi.scene import BUILT_INS, scene, thin_film
+from tehl_taichi.scene.named_oils import OILS
+from tehl_taichi.scene.oil import Oil
+
+GEAR = scene("gear")
+NEW = {"oil.name": "mine", "oil.viscosity": "roelands", "oil.eta0": 0.1, "oil.alpha": 2e-8, "oil.Z": 0.6}
+YASUTOMI = Oil(name="glass", viscosity="yasutomi", rho0=900.0)
+TABLE = Oil(name="list", viscosity="table", table=((0.0, -3.0), (1e9, 10.0)), rho0=900.0)
+BARUS = Oil(name="thin", viscosity="barus", alpha=1e-8, beta_eta=0.03, rho0=900.0)
+
+
+def of_oil(oil, **changes):
+    return dataclasses.replace(GEAR.replace(**changes) if changes else GEAR, oil=oil).warnings()
+
+
+@pytest.mark.parametrize("warnings, words", [
+    (lambda: GEAR.replace(**{"oil.k0": 0.2}).warnings(), ("reference-pao", "other numbers", "(k0)")),
+    (lambda: scene("ball-on-disc").replace(**{"oil.alpha": 2e-8, "oil.eta0": 1.0}).warnings(), ("(eta0, alpha)",)),
+    (lambda: GEAR.replace(**NEW).warnings(), ("oil.name = mine", "density, conductivity and heat capacity", "reference-pao")),
+    (lambda: of_oil(Oil(name="typo")), ("oil.name = typo", "all its numbers", "reference-pao")),
+    (lambda: of_oil(BARUS), ("barus", "1.93 GPa", "0.5 GPa")),
+    (lambda: of_oil(TABLE), ("oil.table ends at 1 GPa", "1.93 GPa", "slope")),
+    (lambda: of_oil(YASUTOMI), ("yasutomi", "135 deg C", "inlet temperature of 90 deg C")),
+    (lambda: GEAR.replace(**{"oil.name": "moes-test-fluid"}).warnings(), ("roelands", "temperature")),
+    (lambda: scene("ball-on-disc").replace(temperature=40.0).warnings(), ("roelands", "inlet temperature")),
+    (lambda: of_oil(dataclasses.replace(BARUS, beta_eta=0.0)), ("barus, beta_eta = 0", "temperature")),
+    (lambda: scene("smooth-line").replace(**{"contact.moes_M": 100.0, "contact.moes_L": 10.0}).warnings(),
+     ("contact.moes_L uses oil.eta0 and oil.alpha", "roelands-temperature")),
+])
+def test_doubts_about_the_oil(warnings, words):
+    found = warnings()
+    assert any(all(word in line for word in words) for line in found), found
+
+
+@pytest.mark.parametrize("name", BUILT_INS)
+def test_built_in_scenes_have_no_doubts_about_their_oils(name):
+    assert not [line for line in scene(name).warnings() if "oil" in line]
+
+
+def test_a_film_too_thin_for_the_grid_is_doubted_before_the_run():
+    """Thinner than 0.4 of the gap one cell before the edge; the heat of the inlet counts."""
+    line = scene("smooth-line").replace(**{"grid.nx": 64, "grid.ny": 16})
+    assert not line.warnings()
+    said, = line.replace(**{"speed": 0.3, "thermal.on": False}).warnings()
+    assert "4.6e-08 m at the centre, 0.63 of what 64 columns resolve" in said and "--grid 128x32" in said
+    said, = line.replace(speed=0.002).warnings()
+    assert "1.5 nm" in said and "polished steel (10 nm)" in said
+    said, = line.replace(**{"contact.hertz_pressure": 4e9, "contact.radius_x": 0.3, "speed": 0.02}).warnings()
+    assert "no grid up to 2048 columns" in said
+    hot, cold = (line.replace(**{"speed": 50.0, "thermal.on": on}) for on in (True, False))
+    assert thin_film.carried(hot) < 0.5 * thin_film.carried(cold)
+
+
+def test_no_doubts_about_laws_within_their_range():
+    mild = {"hertz_pressure": 0.4e9, "height": 1e-8}
+    for oil in (BARUS, TABLE, dataclasses.replace(YASUTOMI, A1=20.0)):
+        assert not [line for line in of_oil(oil, **mild) if "range" in line or "slope" in line]
+    assert [oil.name for oil in OILS.values()] == list(OILS)
+
+
+def store(p, T, held=0, **changes):
+    """A store as far as judges look: the scene and three entries of its series."""
+    series = {"p_max_Pa": p, "film_max_C": T, "clamped": held}
+    return SimpleNamespace(scene=GEAR.replace(**changes) if changes else GEAR, steps=3,
+                           scalar=lambda name: np.array([1.0, 2.0, series[name]]))
+
+
+def test_films_beyond_what_was_measured():
+    said, = result_warnings.beyond_measured(store(4.01e9, 202.0), {})
+    assert "4.01 GPa and 202 deg C" in said and "1.1 GPa and 107 deg C" in said
+    assert result_warnings.beyond_measured(store(1.2e9, 20.0), {}) and result_warnings.beyond_measured(store(1e9, 108.0), {})
+    assert result_warnings.beyond_measured(store(1.09e9, 106.0), {}) == []
+    # its laws of heat are not used
+    assert result_warnings.beyond_measured(store(4e9, 300.0, **{"thermal.on": False}), {}) == []
+    assert "at 8 nodes" in result_warnings.held_temperatures(store(1e9, 50.0, held=5), {})[0]  # 1 + 2 + 5
+    assert {result_warnings.beyond_measured, result_warnings.held_temperatures} <= set(result_warnings.CHECKS)
+
+
+def test_a_crowded_machine_is_told():
+    """Where more than a tenth of the launches lost a worker; old summaries have no such count."""
+    from tehl_taichi.runs.summary import result_warnings
+
+    assert result_warnings.crowded(None, {}) == [] == result_warnings.crowded(None, {"crowding": [0, 0]})
+    assert result_warnings.crowded(None, {"crowding": [30, 3]}) == []
+    said, = result_warnings.crowded(None, {"crowding": [30, 4]})
+    assert "4 of 30" in said and result_warnings.crowded in result_warnings.CHECKS
+
+
+def test_doubts_reach_the_store_and_its_summary(taichi_cpu, tmp_path):
+    """Of a steady start: the pressure and temperature of its warning are those of its summary."""
+    from tehl_taichi.march.passage import march
+    from tehl_taichi.runs.summary.summary import summarise
+    from tehl_taichi.store.store import Store
+
+    description = scene("gear").replace(**{"thermal.on": True, "grid.nx": 64, "grid.ny": 16})
+    first = next(march(description))
+    saved = Store.create(tmp_path / "s.zarr", description, first, 1, {"warnings": json.dumps(description.warnings())})
+    summary = summarise(saved, {"wall_s": 0.0, "compile_s": 0.0, "steady_error": {}, "crowding": [7, 5]})
+    hot = f"{summary['steady']['p_max_Pa'] / 1e9:.2f} GPa and {summary['steady']['film_max_C']:.0f} deg C"
+    assert any(hot in line for line in summary["warnings"]) and any("8.8 cells" in line for line in summary["warnings"])
+    assert any("5 of 7" in line for line in summary["warnings"]) and summary["crowding"] == [7, 5]
+    assert any("8.8 cells" in line for line in Store.open(tmp_path / "s.zarr").warnings)

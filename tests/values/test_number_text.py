@@ -1,0 +1,36 @@
+"""A number with its error has one form in the whole project."""
+
+import math
+import re
+from pathlib import Path
+
+import pytest
+
+from tehl_taichi.values.digits import with_error
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.mark.parametrize("value, error, shown", [
+    (1.00812, 0.0231, "1.008 ± 0.023 u"), (0.3947, 0.0005, "0.39470 ± 0.00050 u"), (123.4, 0.99, "123.40 ± 0.99 u"),
+    (-1.23, 0.0456, "-1.230 ± 0.046 u"), (0.0004, 0.0123, "0.000 ± 0.012 u"), (0.5, 0.0999, "0.50 ± 0.10 u"),
+    (12345.0, 678.0, "12340 ± 680 u"), (2.286e11, 1e12, "(0.2 ± 1.0)e+12 u"), (3.2e-7, 1e-8, "(3.20 ± 0.10)e-07 u"),
+    (1e-20, 1.5e-19, "0 ± 0 u"), (0.3947, 1e-12, "0.3947 ± 0 u"), (2.5, 0.0, "2.5 ± 0 u"), (1.0, math.nan, "1 u"),
+    (0.39441, None, "0.3944 u"), (4.0247e9, None, "4.025e+09 u")])
+def test_two_digits_of_the_error_and_as_many_decimals_of_the_value(value, error, shown):
+    assert with_error(value, error, "u") == shown
+
+
+def test_value_and_error_have_the_same_decimals():
+    for power in range(-11, 12):
+        for ratio in (1e-7, 3.3e-5, 0.0099, 0.5, 7.0):
+            text = with_error(1.2345 * 10.0**power, 1.2345 * ratio * 10.0**power)
+            found = re.match(r"\(?(-?\d+(?:\.(\d+))?) ± (\d+(?:\.(\d+))?)", text)
+            assert found and found[2] == found[4] or len(found[2]) == len(found[4]), found
+
+
+def test_nothing_else_writes_a_plus_minus():
+    """But what has several errors, or says by what."""
+    code = re.compile(r"\} ± \{")
+    sources = [*(ROOT / "tehl_taichi").rglob("*.py"), *(ROOT / "cli").rglob("*.py")]
+    assert [path.name for path in sources if code.search(path.read_text(encoding="utf-8"))] == ["digits.py"]

@@ -1,0 +1,81 @@
+"""Figures as files: pages, formats and sizes, and what the commands refuse."""
+
+import re
+
+import pytest
+from made_figures import Made, drawn, made
+from small_stores import store
+
+from tehl_taichi.errors import SceneError, StoreError
+from tehl_taichi.scene import scene
+from tehl_taichi.view.figures.figure_style import INCH, FigureStyle
+
+matplotlib = pytest.importorskip("matplotlib")
+
+
+@pytest.mark.parametrize("wrong, said", [(dict(format="jpg"), "format = 'jpg'.*allowed: png, pdf, svg"),
+                                         (dict(dpi=5), "dpi = 5 is out of range; allowed: 40 to 1200"),
+                                         (dict(width=3), "width = 3 cm is out of range; allowed: at least 5 cm and at most 60"),
+                                         (dict(width=50, dpi=1200), "width = 50 cm with dpi = 1200 gives 23622 dots")])
+def test_pages_that_nobody_can_print_are_refused(wrong, said):
+    with pytest.raises(SceneError, match=said):
+        FigureStyle(**wrong)
+
+
+def test_files_are_of_the_format_and_size_as_asked_and_the_same_each_time(tmp_path):
+    from tehl_taichi.view.figures.run_figures import write_all
+
+    line = Made(scene("smooth-line").replace(**{"thermal.on": False}))
+    first, again = ({path.name: path.read_bytes() for format in ("pdf", "svg")
+                     for path in write_all(line, tmp_path / name, FigureStyle(format, 50, 10.0))} for name in "ab")
+    assert first == again and set(first) == {"centreline.pdf", "centreline.svg"}
+    box = re.search(rb"MediaBox \[ 0 0 ([\d.]+)", first["centreline.pdf"])
+    assert float(box[1]) == pytest.approx(10 / INCH * 72, abs=0.01)
+    assert first["centreline.pdf"].startswith(b"%PDF") and b"<svg" in first["centreline.svg"]
+
+
+def test_the_suffix_of_a_file_tells_its_format(tmp_path):
+    assert FigureStyle("pdf").of_file("a.svg") == (FigureStyle("svg"), tmp_path.__class__("a.svg"))
+    assert FigureStyle("pdf").of_file("a")[1].name == "a.pdf"
+    with pytest.raises(SceneError, match="format of a.doc = 'doc'"):
+        FigureStyle().of_file("a.doc")
+    (tmp_path / "none").touch()
+    with pytest.raises(StoreError, match="cannot write"):
+        FigureStyle().save(lambda: drawn("centreline", made()), tmp_path / "none" / "a.png")
+
+
+def test_drawing_leaves_the_settings_of_others_alone(tmp_path):
+    before = dict(matplotlib.rcParams), matplotlib.get_backend()
+    FigureStyle().save(lambda: drawn("centreline", made()), tmp_path / "a.png")
+    assert (dict(matplotlib.rcParams), matplotlib.get_backend()) == before
+
+
+def test_options_of_the_command_are_checked(tmp_path):
+    from tehl_cli.main import app
+    from typer.testing import CliRunner
+
+    path = str(store(tmp_path / "a.zarr").path)
+    for option, value, said in (("dpi", "5", "allowed: 40 to 1200"), ("quantity", "x", "--quantity x applies to a study"),
+                                ("at", "9", "at = 9 a is out of range"), ("depth", "20", "depth = 20 µm needs a fatigue"),
+                                ("format", "gif", "format = 'gif'"), ("width", "1", "width = 1")):
+        found = CliRunner().invoke(app, ["plot", path, f"--{option}", value]).exception
+        assert isinstance(found, SceneError) and said in str(found)
+
+
+def test_comparisons_are_drawn_as_asked(tmp_path):
+    from tehl_cli.main import app
+    from typer.testing import CliRunner
+
+    pair = [str(store(tmp_path / name).path) for name in ("a.zarr", "b.zarr")]
+    assert CliRunner().invoke(app, ["compare", *pair, "--format", "svg", "--width", "8.5"]).exit_code == 0
+    size = re.search(r'width="([\d.]+)pt"', (tmp_path / "compare.svg").read_text())
+    assert float(size[1]) == pytest.approx(8.5 / INCH * 72, abs=0.01)
+
+
+@pytest.mark.parametrize("command", ["fatigue", "crack", "flank"])
+def test_pages_are_refused_before_anything_is_searched(command):
+    from tehl_cli.main import app
+    from typer.testing import CliRunner
+
+    found = CliRunner().invoke(app, [command, "nothing.zarr", "--dpi", "5"]).exception
+    assert isinstance(found, SceneError) and "dpi = 5 is out of range" in str(found)
