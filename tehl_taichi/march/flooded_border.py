@@ -22,8 +22,8 @@ def between_blocks(solver, border):
     blocks = itertools.count()
 
     def solve():
-        if border is not None and FIRST <= next(blocks) < LAST:
-            border.follow(BETWEEN)
+        if border is not None and FIRST <= next(blocks) < LAST and not border.agrees():
+            border.move(BETWEEN)
         return again(solver)
 
     return solve

@@ -20,6 +20,7 @@ T = T + 0.5  # X = X_border/T beyond the border
 PRESSURES = np.concatenate([[0.0], np.geomspace(1e2, 3e9, 800)])  # Pa
 MOST = 0.95  # of the reduced pressure that the oil reaches at all
 AGREES = 1e-4  # of the same: border and film, which a border changes by its share of it
+LEAST = 0.5  # of a miss that a move makes up for: thick films answer a border by up to -1.4 times its move, back and forth
 
 
 @functools.lru_cache(maxsize=16)
@@ -57,6 +58,7 @@ class Inlet:
             self.border[-1, v.X < 0] = True
             self.border[0, v.X < 0] |= not v.mirrored
         self.p, self.q = reduced(v.scene.oil, v.scene.operation.temperature)
+        self.part, self.before = 1.0, None  # of the last move, and the miss before it
 
     def now(self):
         """Reduced pressure (Pa) at the border nodes of the table."""
@@ -68,22 +70,40 @@ class Inlet:
         P[self.border] = np.interp(np.minimum(q, MOST * self.q[-1]), self.q, self.p) / self.levels.scales.p_H
         self.levels.put(fields.P, P)
 
-    def follow(self, part=1.0):
-        """Move the border by this part of the way to the pressure of the oil beyond it. Returns whether it had to."""
-        moved = not self.agrees()
+    def follow(self):
+        """Move the border towards the pressure of the oil beyond it, by a part of the way that allows for what the film
+        answered to the last move (Aitken). Returns whether it had to."""
+        miss = self.miss()
+        moved = not self._small(miss)
         if moved:
-            now = self.now()
-            self.put(now + part * (self.beyond() - now))
+            self.part, self.before = self._part(miss), miss
+            self.move(self.part)
         return moved
+
+    def _part(self, miss):
+        if self.before is None or not (step := miss - self.before).any():
+            return self.part
+        return float(np.clip(-self.part * (self.before @ step) / (step @ step), LEAST, 1.0))
+
+    def move(self, part):
+        """Move the border by this part of the way to the pressure of the oil beyond it."""
+        self.put(self.now() + part * self.miss())
+
+    def miss(self):
+        """Reduced pressure (Pa) that the border lacks."""
+        return np.minimum(self.beyond(), MOST * self.q[-1]) - self.now()
 
     def agrees(self):
         """Whether border and film agree."""
-        miss = np.minimum(self.beyond(), MOST * self.q[-1]) - self.now()
+        return self._small(self.miss())
+
+    def _small(self, miss):
         return bool(np.abs(miss).max() <= AGREES * self.q[-1])
 
     def begin(self, gap):
         """Give the border what it has beside a film by formula; gap: of the dry contact."""
         film = central_film(self.levels.scene) / self.levels.scales.h
+        self.part, self.before = 1.0, None
         self.put(self.without_heat(gap + film, film))
 
     def beyond(self):
