@@ -12,7 +12,7 @@ from tehl_taichi.pressure import fields
 # names in :mod:`tehl_taichi.pressure.fields`: of the linear problem (table J), and of the state (S)
 IN_J = ("A", "AU", "AD", "B", "BU", "BD", "EPS", "SCALE", "KIND", "RES", "SOL", "COR", "TRIAL", "FILM", "BAND")
 IN_S = ("P", "H", "GAP0", "QOLD", "MASK", "WEIGHT", "RHO", "LE", "IE", "ROOT", "GAP", "DLE", "DRP", "QP", "R", "D", "DRY",
-        "TOUCH", "RHOC", "QCP", "SKEW", "DSKEW")
+        "TOUCH", "BASE", "RISE", "RHOC", "QCP", "SKEW", "DSKEW")
 IN_Z = ("T", "TN", "TNN", "U", "VY", "MX", "MY", "MS", "MSN", "MSNN", "NIE", "NRHO", "TS", "PS", "LAST",
         "KEPT")  # per node of zeta; the last one stands for those of the viscosity
 IN_C = ("PN", "PNN", "QA", "QB", "AA", "AB", "TAU", "PX", "PY", "XA", "YA", "XB", "YB", "PL", "HL", "STILL", "MOVING",

@@ -23,7 +23,8 @@ def of(store):
     found = of_fatigue(summary["fatigue"], store.scene) if "fatigue" in summary else _of_film(summary, store.scene)
     question, headline, tone, tells = found
     yields, rims = _yielding(summary), list(rim_warnings.rims(store, summary))
-    warnings = [one for one in store.warnings if one.code not in ("rim", "yield")]  # those stand first already
+    stated = {"yield": yields, "rim": rims}  # before the other doubts
+    warnings = [one for one in store.warnings if not stated.get(one.code)]
     at_rim = [f"{said[0].upper()}{said[1:]}." for said in rims]
     doubts = (*yields, *at_rim, *_cut(store), *_constants(store, summary), *_version(store))
     return Answer(question, headline, tone, (*tells, *_read_first(warnings)), doubts, tuple(warnings))

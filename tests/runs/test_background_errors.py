@@ -17,6 +17,12 @@ SHORT = scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16, "thermal.on": Fal
                                  "numerics.estimate_error": True})
 
 
+@pytest.fixture(autouse=True)
+def no_worker(monkeypatch):
+    """A sweep in the process of the tests leaves it a worker."""
+    monkeypatch.setattr(job, "_lane", [])
+
+
 @pytest.fixture
 def idle_core(taichi_cpu, monkeypatch):
     monkeypatch.setattr(background_errors.cores, "available", lambda: background_errors.runtime.ensure()["threads"] + 1)

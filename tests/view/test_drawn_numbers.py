@@ -165,7 +165,7 @@ def test_room_is_asked_for_an_array_and_one_of_its_chunks(tmp_path, monkeypatch)
                                                                   compressors=chunks.codecs())
     array[:] = np.arange(30.0).reshape(6, 5)
     asked = []
-    monkeypatch.setattr(chunks.sizes, "check", lambda size, what, kind=None: asked.append(size))
+    monkeypatch.setattr(chunks.memory_limit, "check", lambda size, what, kind=None: asked.append(size))
     chunks.check(tmp_path / "a")
     assert asked[0] == 8 * (30 + 20)
 
