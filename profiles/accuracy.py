@@ -15,7 +15,7 @@ from tehl_taichi.scene.scales import Scales
 TARGETS = (0.05, 0.01, 0.001)
 COLUMNS = {"steady line": (64, 128, 256, 512, 1024), "steady circle": (64, 128, 256),
            "passage": (64, 128, 256, 512), "thermal passage": (64, 128, 256)}
-QUICK = {"steady line": (64, 128, 256), "steady circle": (16, 32, 64), "passage": (32, 64, 128)}
+QUICK = {"steady line": (64, 128, 256), "steady circle": (32, 64, 128), "passage": (32, 64, 128)}
 QUANTITIES = ("h_c_m", "h_min_m", "p_max_Pa", "film_max_C", "Fi_max")
 # of a thermal passage on one grid, against REFERENCE. Not in it: the time step. Steps of whole cells carry the film nearly from
 # node to node; shorter ones interpolate it more often, which costs film where 128 columns hardly resolve it (256: 0.5 %)

@@ -134,3 +134,9 @@ def test_times_of_the_bench_leave_compiling_out(monkeypatch):
 
 def test_orders_that_do_not_exist_are_none():
     assert accuracy.extrapolated([1.0, 1.1, 1.05])[1] is None
+
+
+@pytest.mark.parametrize("columns", ["COLUMNS", "QUICK"])
+def test_every_grid_of_the_accuracy_suite_is_allowed(columns):
+    for family, counts in getattr(accuracy, columns).items():
+        assert [accuracy.scene_of(family, nx).grid.nx for nx in counts] == list(counts)
