@@ -79,7 +79,8 @@ def test_companion_runs_tell_the_error_of_a_passage(tmp_path):
     assert done.returncode == 0, done.stderr
     summary = json.loads(done.stdout)
     error = summary["transient"]["error"]
-    assert set(error) == {"p_max_Pa", "h_min_m", "friction_coefficient_mean"} and summary["fatigue"]["error"]["Fi_max"] > 0
+    assert set(error) == {"p_max_Pa", "h_min_m", "friction_coefficient_mean", "contact_load_fraction_max"}
+    assert summary["fatigue"]["error"]["Fi_max"] > 0
     assert 0 < error["friction_coefficient_mean"] < summary["transient"]["friction_coefficient_mean"]
     assert "±" in tehl("show", "e.zarr", cwd=tmp_path).stdout
 
