@@ -22,7 +22,7 @@ def between_blocks(solver, border):
     blocks = itertools.count()
 
     def solve():
-        if border is not None and FIRST <= next(blocks) < LAST and not border.agrees():
+        if border is not None and FIRST <= next(blocks) < LAST:
             border.move(BETWEEN)
         return again(solver)
 
@@ -30,7 +30,7 @@ def between_blocks(solver, border):
 
 
 def agreed(solver, border, report):
-    """From a steady film to that whose border agrees, at the same temperatures. Returns the Report of the last solve that
+    """From a steady film to that whose border agrees, at the same temperatures. Returns the SolveReport of the last solve that
     converged, whose state is left in the table."""
     if border is None or not report.converged or border.agrees():
         return report

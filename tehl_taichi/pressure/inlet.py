@@ -73,21 +73,28 @@ class Inlet:
     def follow(self):
         """Move the border towards the pressure of the oil beyond it, by a part of the way that allows for what the film
         answered to the last move (Aitken). Returns whether it had to."""
+        return self._move(self._aitken)
+
+    def move(self, part):
+        """The same by this part of the way."""
+        return self._move(lambda miss: part)
+
+    def _move(self, part_of):
+        """Move the border by part_of(what it misses) of the way, unless it agrees."""
         miss = self.miss()
         moved = not self._small(miss)
         if moved:
-            self.part, self.before = self._part(miss), miss
-            self.move(self.part)
+            self.put(self.now() + part_of(miss) * miss)
         return moved
+
+    def _aitken(self, miss):
+        self.part, self.before = self._part(miss), miss
+        return self.part
 
     def _part(self, miss):
         if self.before is None or not (step := miss - self.before).any():
             return self.part
         return float(np.clip(-self.part * (self.before @ step) / (step @ step), LEAST, 1.0))
-
-    def move(self, part):
-        """Move the border by this part of the way to the pressure of the oil beyond it."""
-        self.put(self.now() + part * self.miss())
 
     def miss(self):
         """Reduced pressure (Pa) that the border lacks."""
