@@ -91,7 +91,7 @@ ENTRIES = (
           label="passage friction coefficient, mean"),
     Entry(part="fatigue", key="Fi_max", error=SHARP, says="fatigue index Fi at the surface, largest", column="Fi_max",
           head="Fi"),
-    Entry(part="fatigue.below", key="Fi_max", error=SHARP, says="fatigue index Fi at the surface, largest",
+    Entry(part="fatigue.below", key="Fi_max", error=SHARP, says="fatigue index Fi below the surface, largest",
           column="Fi_max_below", head="Fi below"))
 
 
@@ -100,7 +100,6 @@ def of_part(part, scene=None):
     return [entry for entry in ENTRIES if entry.part == part and (scene is None or entry.exists(scene))]
 
 
-def of_key(key, part=""):
-    """The first entry with that key (of that part, where one has it), or None."""
-    found = [entry for entry in ENTRIES if entry.key == key]
-    return next((entry for entry in found if entry.part == part), found[0] if found else None)
+def of_key(key):
+    """The first entry with that key, or None."""
+    return next((entry for entry in ENTRIES if entry.key == key), None)
