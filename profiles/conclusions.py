@@ -77,7 +77,7 @@ def grids_of(name, quick=False):
 
 
 def row(name, description, folder, grids, progress=None):
-    """One Row from runs on `grids`; one that does not converge is too coarse, and no step of the error."""
+    """One ConclusionRow from runs on `grids`; one that does not converge is too coarse, and no step of the error."""
     told, reason = [], ""
     for nx, ny in grids:
         if progress:

@@ -183,7 +183,8 @@ def starts(chosen):
 
 
 def run(chosen, precision=AUTO, workers=1, threads=None):
-    """Generator of an Outcome for each of `chosen` (pairs of a name and a scene or SceneError), in the order in which they end.
+    """Generator of a CaseOutcome for each of `chosen` (pairs of a name and a scene or SceneError), in the order in which they
+    end.
 
     workers: processes side by side, each on `threads` threads (None: all that are left).
     """

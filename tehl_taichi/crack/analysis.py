@@ -39,9 +39,9 @@ class CrackResult:
         Numbers in SI units.
     sides : dict
         {"entry" or "exit": :class:`CrackSide`} of the sides where the surface is in tension.
-    plane : Plane
+    plane : SymmetryPlane
         Stresses in the plane below the feature.
-    wanted : Wanted
+    wanted : CrackOptions
         The options.
 
     Examples

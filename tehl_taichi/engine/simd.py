@@ -68,7 +68,7 @@ class LaneBlock:
 
 @ti.func
 def block_at(G: ti.template(), c, i):
-    """The Place at i along x in tile c."""
+    """The LaneBlock at i along x in tile c."""
     nx, ny, off = cells(G, 0)
     s = tile(c, nx)[0]
     return LaneBlock(k=off + s * (nx + 1) + i, q=s * (nx + 1) + i, c=c, i=i, s=s, nx=nx, ny=ny)

@@ -37,9 +37,9 @@ class DepthResult:
 
 
 def search(scene, passage, layers, early, progress):
-    """The Deep below the rows of the feature and of the worst points of `layers` (Layer), and below the contact alone; on a
-    whole domain at all points of the worst depth, too, and below the rows of what is worst there; early moments have a worst
-    depth of their own."""
+    """The DepthResult below the rows of the feature and of the worst points of `layers` (Layer), and below the contact alone;
+    on a whole domain at all points of the worst depth, too, and below the rows of what is worst there; early moments have a
+    worst depth of their own."""
     rows = _rows(passage, (scene.features[0].y, *(place for found in layers for place in _worst(found))))
     if passes(passage):
         rows = list(dict.fromkeys(rows + candidate_rows.rows(passage, depth_profile.ladder(passage), _windows(early),

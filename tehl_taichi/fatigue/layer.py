@@ -25,7 +25,8 @@ class EarlyLayer:
 
 @dataclass(frozen=True)
 class Layer:
-    """What was found at one depth: maps (nx, rows), the worst point, and the Part of the early moments where it is wanted."""
+    """What was found at one depth: maps (nx, rows), the worst point, and the EarlyLayer of the early moments where it is
+    wanted."""
 
     depth: float
     f: np.ndarray
@@ -49,7 +50,7 @@ def layer(scene, passage, depth, progress, early):
 
 
 def early_layer(scene, passage, depth, progress, early):
-    """The Part of these moments alone at a depth (m)."""
+    """The EarlyLayer of these moments alone at a depth (m)."""
     sooner = _Early(scene, passage, depth, early)
     for rows, history in _blocks(scene, passage, depth, progress):
         sooner.add(rows, history)
@@ -64,7 +65,7 @@ def _blocks(scene, passage, depth, progress):
 
 
 class _Early:
-    """Gathers the Part of the early moments, block by block; early None: there is none."""
+    """Gathers the EarlyLayer of the early moments, block by block; early None: there is none."""
 
     def __init__(self, scene, passage, depth, early):
         self.scene, self.passage, self.depth, self.early = scene, passage, depth, early

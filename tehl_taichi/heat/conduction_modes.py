@@ -51,7 +51,7 @@ def widths(peclet, a, b):
 
 
 def memory(dt, effusivity, base_dt, depth=math.inf, spread=NONE):
-    """The Memory for a step of dt s with a flux linear in time, fitted for steps of base_dt s.
+    """The ModeMemory for a step of dt s with a flux linear in time, fitted for steps of base_dt s.
 
     effusivity: sqrt(k rho c) of the body, SI; depth: that of a slab over sqrt(diffusivity base_dt), infinite for a half-space;
     spread: w^2/(4 alpha base_dt) of both :func:`widths`, infinite where no heat is lost sideways.

@@ -138,7 +138,7 @@ def thinning(Z: ti.template(), q, nz, oil: ti.template(), p, ln_eta0):
 @ti.func
 def heated(S: ti.template(), C: ti.template(), G: ti.template(), at: ti.template(), oil: ti.template(),
            rheology: ti.template(), scene: ti.template()):
-    """The Heated of a place."""
+    """The EnergyColumn of a place."""
     p, h = pressure_and_film(S, G, at.k, scene)
     fade = V(1.0)
     if at.i > scene.centre:

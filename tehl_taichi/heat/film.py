@@ -45,7 +45,7 @@ def pressure_and_film(S: ti.template(), G: ti.template(), k, scene: ti.template(
 
 @ti.func
 def column(S: ti.template(), G: ti.template(), at: ti.template(), scene: ti.template()):
-    """The Column of a place, from pressure and film."""
+    """The FilmColumn of a place, from pressure and film."""
     px, py = limited_gradient(S, G, at)
     p, h = pressure_and_film(S, G, at.k, scene)
     slope = scene.p_H / scene.a

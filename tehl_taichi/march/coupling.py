@@ -17,9 +17,9 @@ ROUGH = 3e-4
 
 
 def exchange(solver, heat, solve, most=None, sparing=False):
-    """Rounds until another one would change the temperatures by less than thermal.tolerance; solve() -> Report of the pressure;
-    at most `most` of them (thermal.rounds).
-    Storage and heat have begun the step. Returns a Report with the work of all rounds, converged = False without success.
+    """Rounds until another one would change the temperatures by less than thermal.tolerance; solve() -> SolveReport of the
+    pressure; at most `most` of them (thermal.rounds).
+    Storage and heat have begun the step. Returns a SolveReport with the work of all rounds, converged = False without success.
 
     The first round takes one Newton step only: its pressure belongs to guessed temperatures anyway. sparing: that of later ones
     is solved for roughly while temperatures are far off, and takes over what hardly changes. Not for a start, where a state of
@@ -60,7 +60,7 @@ def _pressure(solver, solve, first, sparing, far):
 
 def carefully(solver, P):
     """The pressure of a step; where it does not converge at once, again from P, the last one accepted, with more care.
-    Returns a Report with the work of both."""
+    Returns a SolveReport with the work of both."""
     H0, report = solver.H0, solver.solve()
     if report.converged:
         return report

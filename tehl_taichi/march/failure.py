@@ -81,7 +81,7 @@ def _too_high(scene):
     measured = any(f.kind.measured for f in scene.features)
     asked = " (check feature.unit, and remove the form with feature.level)" if measured else ""
     return (f"a feature rises {top:.2g} m{asked} where the film formula has {film:.2g} m; use a lower feature, or try "
-            f"{refinement.finer_grid_option(scene)} may")
+            f"{refinement.finer_grid_option(scene)}")
 
 
 def _finer(scene):

@@ -1,6 +1,6 @@
 """Ways to a steady film of a solver: from Hertz' pressure, through parts of the slip, lower speeds or steps of time.
 
-Each leaves what it found in the solver's table and returns the Report of its last solve.
+Each leaves what it found in the solver's table and returns the SolveReport of its last solve.
 """
 
 import numpy as np

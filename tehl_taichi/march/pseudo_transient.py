@@ -26,9 +26,9 @@ BLOCKS, MOST_STEPS = 40, 4000  # at most; scenes that rest do so after 4 to 18 b
 
 
 def march_to_rest(solver, heat, P, H0):
-    """From the isothermal P and H0, a cold film and cold bodies. Returns the Report of the steady pressure; converged = False
-    where the temperatures do not rest: then the newest state in time is left, and heat.report.change (K) is what its last two
-    blocks differ by, inf where there are none."""
+    """From the isothermal P and H0, a cold film and cold bodies. Returns the SolveReport of the steady pressure; converged =
+    False where the temperatures do not rest: then the newest state in time is left, and heat.report.change (K) is what its last
+    two blocks differ by, inf where there are none."""
     for onset in ONSETS:
         put(solver, P, H0)
         heat.start()
@@ -43,8 +43,8 @@ def march_to_rest(solver, heat, P, H0):
 
 
 def check(solver, heat):
-    """A block from what counts as settled. Returns the Report of the steady pressure; converged = False where the block moves
-    the temperatures by more than FLUTTER."""
+    """A block from what counts as settled. Returns the SolveReport of the steady pressure; converged = False where the block
+    moves the temperatures by more than FLUTTER."""
     heat.bodies.steady = True
     together = PseudoTransient(solver, heat)
     together.mean = heat.T

@@ -34,8 +34,8 @@ class Snapshot:
     error, unknown, parts : dict
         Of a steady start: error bars of its numbers (None where unknown), why they are unknown, and {"grid", "domain"} of each.
     grids : list
-        Of a steady start: {name: Reading} of every grid that it visited.
-    domain : Share
+        Of a steady start: {name: GridReading} of every grid that it visited.
+    domain : DomainError
         Of a steady start: the share of the inlet, :class:`tehl_taichi.march.accuracy.domain_error.DomainError`.
     unsettled : str
         Why a steady start is only a state in time; "": it is steady.

@@ -77,8 +77,8 @@ def solve_steady(scene, scales, nx, ny, look=None):
 
 
 def _with_temperatures(solver, heat, T, finest):
-    """By turns, from the temperatures T of a coarser grid; on the finest grid in time, where that fails. Returns the Report,
-    and whether what did not settle is a state in time."""
+    """By turns, from the temperatures T of a coarser grid; on the finest grid in time, where that fails. Returns the
+    SolveReport, and whether what did not settle is a state in time."""
     P, H0, resolved = solver.levels.get(fields.P), solver.H0, finest and not _touches(solver)
     border, solver.border = solver.border, None
     report, trouble = settle(solver.levels, heat, between_blocks(solver, border), T)

@@ -103,7 +103,7 @@ def neighbour_row(S: ti.template(), row: ti.template(), k, n2, up: ti.template()
 
 @ti.func
 def node(S: ti.template(), k, n2, up: ti.template(), skew: ti.template()):
-    """The Node at row j + up; skew: its row, or -1 of a film of one viscosity."""
+    """The FlowNode at row j + up; skew: its row, or -1 of a film of one viscosity."""
     f = V(1.0)
     if ti.static(skew >= 0):
         f = neighbour_row(S, skew, k, n2, up)
@@ -113,7 +113,7 @@ def node(S: ti.template(), k, n2, up: ti.template(), skew: ti.template()):
 
 @ti.func
 def mobility(a):
-    """Of the oil at the Node a."""
+    """Of the oil at the FlowNode a."""
     return a.root * a.root * a.gap * a.gap * a.gap * a.ie
 
 

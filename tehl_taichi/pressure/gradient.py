@@ -28,7 +28,7 @@ def along_y(S: ti.template(), at: ti.template()):
 
 @ti.func
 def central_gradient(S: ti.template(), G: ti.template(), at: ti.template()):
-    """For tractions. at: the :class:`Place` of the nodes."""
+    """For tractions. at: the :class:`LaneBlock` of the nodes."""
     behind, ahead = along_x(S, at)
     below_it, above_it = along_y(S, at)
     return 0.5 * (behind + ahead) / G[0, DX], 0.5 * (below_it + above_it) / G[0, DY]

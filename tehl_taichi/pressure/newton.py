@@ -129,7 +129,7 @@ class PressureSolver:
     @or_not_converged
     def solve(self, krylov_tolerance=None, tolerance=None, newton_max=None, enough=0.0):
         """Newton iteration from the pressure in the table and H0; leaves the solution there; at the residual `enough` it
-        stops without convergence. Returns a Report."""
+        stops without convergence. Returns a SolveReport."""
         numerics = self.levels.scene.numerics
         tolerance = tolerance or numerics.tolerance
         merit, cycles = self._begin(self.kept), 0
@@ -150,7 +150,7 @@ class PressureSolver:
     @or_not_converged
     def improve(self, keeps=False):
         """One Newton step from a good guess, not checked where it is small: what follows checks, and keeps (if wanted) what is
-        dear to prepare and not much different there: the coarsest level, the lift. Returns a Report."""
+        dear to prepare and not much different there: the coarsest level, the lift. Returns a SolveReport."""
         numerics, merit = self.levels.scene.numerics, self._begin()
         step, cycles = self._direction(FIRST_ROUND)
         self.change = float(np.abs(step[:-1]).max())

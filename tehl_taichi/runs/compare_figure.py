@@ -42,7 +42,7 @@ class Curve:
 
 
 def write(comparison, path, at, page):
-    """Write the figure, as the :class:`Page` wants it; returns the path. at: position of the features, a."""
+    """Write the figure, as the :class:`FigureStyle` wants it; returns the path. at: position of the features, a."""
     page, path = page.of_file(path)
     page.check(path)
     moments = [Moments(store) for store in comparison.stores]

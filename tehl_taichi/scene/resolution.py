@@ -78,7 +78,7 @@ def _check_y(scene, scales, name, feature):
 
 
 def sights(scene):
-    """A Sight for each feature and axis along which it has a size; none where its shape names none."""
+    """An AxisResolution for each feature and axis along which it has a size; none where its shape names none."""
     g = scene.grid
     cell = dict(zip(MULTIPLES, Scales.of(scene).cell(g)))
     out = []

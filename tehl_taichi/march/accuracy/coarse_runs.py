@@ -54,7 +54,7 @@ def _all_of_them(scene):
 
 
 def passage_readings(scene, reader, scalar, fatigue=None):
-    """{name: Reading} of the numbers of a passage.
+    """{name: GridReading} of the numbers of a passage.
 
     reader: entries as :class:`tehl_taichi.fatigue.stress.histories.StressHistories` takes them, the steady start first;
     scalar(name): array of the entries' values; fatigue: summary of its search or None.
@@ -127,7 +127,7 @@ def _high(p):
 
 
 def values(scene, notify=lambda: None, until=lambda: None):
-    """{name: Reading} of one companion; notify() after each step; until(): see :func:`answers`. Raises NotConverged."""
+    """{name: GridReading} of one companion; notify() after each step; until(): see :func:`answers`. Raises NotConverged."""
     from tehl_taichi.fatigue import assessment
     from tehl_taichi.march.passage import march
 
@@ -196,8 +196,8 @@ def answers(scene, notify=lambda done, total: None, until=lambda: None):
 
 
 def judged(told, own):
-    """({name: error bar or None}, {name: why it is None}) of own {name: Reading}; told: by the companions, coarsest first,
-    {"values": {name: a Reading's values}} or {"reason": why there are none}."""
+    """({name: error bar or None}, {name: why it is None}) of own {name: GridReading}; told: by the companions, coarsest first,
+    {"values": {name: a GridReading's values}} or {"reason": why there are none}."""
     grids, reasons = [], []
     for one in told:
         if "reason" in one:  # too coarse a grid: neither it nor the coarser ones tell anything

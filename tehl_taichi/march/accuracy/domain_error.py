@@ -61,7 +61,7 @@ class DomainError:
 
 
 def domain_error(solver):
-    """The Share of the steady film in the table."""
+    """The DomainError of the steady film in the table."""
     v, inlet = solver.levels, Inlet(solver.levels)
     H = v.get(fields.H)
     gap = float(H[v.middle, 0] / np.interp(0.0, v.X, H[v.middle]))
@@ -115,8 +115,8 @@ def _before(v, H):
 
 
 def widened(errors, unknown, values, found, inlet, passing=False):
-    """(bars, why some are unknown, {name: {"grid", "domain"}}) of bars by the grid, {name: size or None}, and of what the Share
-    `found` adds to them, whose causes are independent: in quadrature; values: {name: the number}; inlet: deg C."""
+    """(bars, why some are unknown, {name: {"grid", "domain"}}) of bars by the grid, {name: size or None}, and of what the
+    DomainError `found` adds to them, whose causes are independent: in quadrature; values: {name: the number}; inlet: deg C."""
     parts = {name: {"grid": size, "domain": found.of(name, values[name], inlet, passing)} for name, size in errors.items()}
     whole = {name: None if part["grid"] is None else math.hypot(part["grid"], part["domain"]) for name, part in parts.items()}
     lost = [name for name, size in whole.items() if size is not None and _positive(name) and size >= values[name]]

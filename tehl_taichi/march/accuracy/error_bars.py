@@ -130,7 +130,7 @@ def _may_reach(first, second, third):
 
 
 def bars(grids):
-    """({name: error bar or None}, {name: why it is None}) of the numbers of the last of `grids`, each {name: Reading}."""
+    """({name: error bar or None}, {name: why it is None}) of the numbers of the last of `grids`, each {name: GridReading}."""
     found = {name: bar([grid[name] for grid in grids if name in grid]) for name in grids[-1]}
     return {name: size for name, (size, _) in found.items()}, {name: why for name, (size, why) in found.items() if size is None}
 

@@ -18,7 +18,7 @@ ON_FLOOR = 1.01  # of rheology.film_floor: the residual and a store's single pre
 
 
 def steady(shot, scene):
-    """{name: Reading} of a snapshot of a steady smooth contact."""
+    """{name: GridReading} of a snapshot of a steady smooth contact."""
     out = {"h_c_m": GridReading(shot.scalars["h_c_m"], positive=True), "h_min_m": lowest(shot, scene),
            "p_max_Pa": highest(shot, Scales.of(scene).a),
            "friction_coefficient": GridReading(shot.scalars["friction_coefficient"]),

@@ -33,7 +33,7 @@ def check(folder, page):
 
 
 def write(flank, path, page):
-    """Write the figure of a Flank, as the :class:`Page` wants it; returns the path."""
+    """Write the figure of a Flank, as the :class:`FigureStyle` wants it; returns the path."""
     page, path = page.of_file(path)
     if os.path.realpath(path.parent) == os.path.realpath(flank.folder):
         links.refuse(path.parent)

@@ -53,7 +53,7 @@ class FlankSource:
 
 
 def flank_source(what):
-    """The Described behind a name, a path or a GearPair. Raises SceneError."""
+    """The FlankSource behind a name, a path or a GearPair. Raises SceneError."""
     if isinstance(what, GearPair):
         return FlankSource("flank", scene(SCENE), what)
     if isinstance(what, str) and what in PAIRS:

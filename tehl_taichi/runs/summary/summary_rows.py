@@ -71,7 +71,7 @@ def _labelled(part, values):
 
 
 def _of(values, key, what, factor=1, unit="", **more):
-    """The Row of one of the values with its error; what may be 0 by its error has no relative change."""
+    """The SummaryRow of one of the values with its error; what may be 0 by its error has no relative change."""
     known = abs(values[key]) > (values.get("error", {}).get(key) or 0.0)
     return SummaryRow(what, quantity(values, key, factor, unit), values[key] if known else None, **more)
 

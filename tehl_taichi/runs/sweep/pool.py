@@ -14,7 +14,7 @@ MOST = 1024  # processes, and threads of one
 
 
 def results(work, jobs, *, workers=1, scheduler=None, say_line=None):
-    """Generator of (number of the job, work(job) or Lost), in the order in which they end.
+    """Generator of (number of the job, work(job) or LostJob), in the order in which they end.
 
     work: a function that other processes can import; it starts the engine itself; jobs: an iterable, drawn from as workers
     come free; workers: processes, 1 is this one, None those of the scheduler: its address, or a distributed.Client; say_line:

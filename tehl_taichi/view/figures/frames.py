@@ -19,7 +19,7 @@ OVER = 1.05  # of the largest value: upper end of an axis
 class Frames:
     """Of the entries of a run; :meth:`picture` draws one.
 
-    page: a :class:`Page`; moments: of the run; entries: all that will be drawn: the axes have room for each of them;
+    page: a :class:`FigureStyle`; moments: of the run; entries: all that will be drawn: the axes have room for each of them;
     shown: a key of SHOWN, or None for no map.
     """
 

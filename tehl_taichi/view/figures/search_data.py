@@ -24,8 +24,8 @@ CONSTANTS = ("criterion", "kappa_F", "sigma_eF_Pa")
 class DrawnSearch:
     """title: the scene's name; maps: {name of MAPS: array} found; points: {"surface": history, "below": the same or None};
     summary: of a FatigueResult; a: m; along: title of the axis along x; depth: µm, of the layer that is wanted beside the
-    surface, or None (the worst one); whose: what passes, in words; part: the Found of the resolved part, on which the answer
-    rests, None where it is all or has no maps; when: the moments in words, "" where there is no part."""
+    surface, or None (the worst one); whose: what passes, in words; part: the DrawnSearch of the resolved part, on which the
+    answer rests, None where it is all or has no maps; when: the moments in words, "" where there is no part."""
 
     title: str
     maps: dict
