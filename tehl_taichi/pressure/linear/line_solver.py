@@ -16,6 +16,7 @@ from tehl_taichi.pressure.fields import (
     BU,
     CT,
     DRY,
+    DX,
     EPS,
     FRAME,
     JN,
@@ -68,9 +69,9 @@ def dry_rows(J: ti.template(), k):
 
 
 @ti.func
-def kind_of(S: ti.template(), J: ti.template(), G: ti.template(), l, k, n2, i, up, down, rest, theta):
+def kind_of(S: ti.template(), J: ti.template(), G: ti.template(), l, k, n2, i, up, down, rest, narrow, wide):
     dry = S[DRY, k - 1] + S[DRY, k + 1] + up * above(S, DRY, k, n2) + down * below(S, DRY, k, n2)
-    bound = G[l, K0] * (rest * (1.0 - G[l, FRAME]) + theta * G[l, CT])
+    bound = G[l, K0] * (rest * (1.0 - G[l, FRAME]) + (narrow + wide / G[l, DX]) * G[l, CT])
     if i == 1 or i == n2 - 2:
         bound = -1.0
     strong = ti.select(J[EPS, k] > bound, V(1.0), V(0.0)) + dry
@@ -81,10 +82,11 @@ def kind_of(S: ti.template(), J: ti.template(), G: ti.template(), l, k, n2, i, u
 
 @ti.kernel
 def classify(S: ti.template(), J: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: ti.i32, touching: ti.i32,
-             rest: ti.f64, theta: ti.f64, alone: ti.template()):
+             rest: ti.f64, narrow: ti.f64, wide: ti.f64, alone: ti.template()):
     """KIND of every node in the blocks first..last-1; rows of dry and touching nodes replaced by their own equations.
 
-    rest, theta: of what the film carries and stores, beyond which the pressure drives it and lines solve for that.
+    rest, narrow, wide: of what the film carries, and stores within so many cells and half-widths, beyond which the pressure
+    drives it and lines solve for that.
     """
     ti.loop_config(block_dim=1, serialize=alone)
     for b in range(first, last):
@@ -94,7 +96,7 @@ def classify(S: ti.template(), J: ti.template(), G: Table, blocks: Blocks, first
         up, down = neighbour_masks(G, l, s)
         for i in range(n2):
             k = off + s * n2 + i
-            J[KIND, k] = kind_of(S, J, G, l, k, n2, i, up, down, rest, theta)
+            J[KIND, k] = kind_of(S, J, G, l, k, n2, i, up, down, rest, narrow, wide)
             if touching == 1:
                 contact_rows(S, J, G, l, k, i)
             dry_rows(J, k)

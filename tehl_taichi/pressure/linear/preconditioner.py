@@ -12,10 +12,13 @@ from tehl_taichi.pressure import fields, influence
 from tehl_taichi.pressure.levels import HEAVY
 from tehl_taichi.pressure.linear import line_solver
 
-# Switch between the two kinds of columns where time passes. Krylov iterations a step with 1 / 10 / 30 / 1000, gear at SRR
-# -0.12: whole passages on 128 columns 15.8 / 15.1 / 14.9 / 16.0, on 256 15.0 / 14.2 / 14.0 / 15.2 (with temperatures 18.1 and,
-# with 30, 15.8); the feature coming in, on 512 15.1 and 12.6, 1024 29.5 / 17.0 / 16.6 / 17.1, 2048 some 41 / 30 / 20.5 / 21.1.
-THETA = 30.0
+# Switch between the two kinds of columns where time passes, in cells and in half-widths. Krylov iterations a step with 0,
+# 0.5 / 1 / 2 / 4, gear at SRR -0.12: whole passages on 128 columns 14.3 / 14.2 / 14.2 / 14.5, on 256 - / - / 13.3 / 13.4,
+# on 512 - / - / 15.3 / 15.4; the feature coming in, on 512 15.9 / 13.9 / 12.1 / 12.2, on 1024 - / 25 / 21 / 18 (with 6 18).
+# With 30 cells instead (until the exact flow, which is stronger along the lines than across them) 14.2, 15.9, 22.7; 17.6,
+# 27. One row, a ridge that leaves on 1024 columns: with 30 cells 12.5, with half-widths 0.25 26
+STORED_LINE = 30.0, 0.0
+STORED = 0.0, 4.0
 # At rest, of one row and of several. Krylov iterations on the finest grid of steady point contacts, 0.5 / 2 / 4 / 8 / 16 / 32:
 # 18 on 128 and 256 columns 1345 / 1156 / 1085 / 1127 / 1201 / -, 5 on 512 columns 396 / 315 / 289 / 311 / 289 / 288. One row:
 # with 2 starts on 2048 columns do not converge
@@ -38,7 +41,7 @@ class AdditiveLines:
         self._bind()
 
     def _bind(self):
-        v, bounds = self.levels, (REST if self.levels.ny else REST_LINE, THETA)
+        v, bounds = self.levels, (REST, *STORED) if self.levels.ny else (REST_LINE, *STORED_LINE)
         self._classify = [v.launch(line_solver.classify, v.S, v.J, v.G, v.blocks, *cut, touching, *bounds)
                           for touching in (0, 1)
                           for cut in ((0, v.fine), (v.fine, len(v.blocks)))]
