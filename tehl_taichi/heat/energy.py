@@ -42,7 +42,7 @@ from tehl_taichi.heat.film_tables import (
 )
 from tehl_taichi.heat.heat_step import HeatStep
 from tehl_taichi.heat.node_table import Nodes, second, slope, weight, zeta
-from tehl_taichi.heat.sliding import couette, sheared
+from tehl_taichi.heat.sliding import couette, sheared, wall_stress
 from tehl_taichi.laws.conduction import conductivity, heat_capacity
 from tehl_taichi.laws.density import expansivity
 from tehl_taichi.laws.sheared_flow import mean_stress, wall_slip
@@ -152,8 +152,8 @@ def heated(S: ti.template(), C: ti.template(), G: ti.template(), at: ti.template
 @ti.dataclass
 class Work:
     """What the shear of a column does, over its 1/eta: stresses (Pa) by the sliding, and by lever times the gradients along it
-    and across; the first's square by ln of the Newtonian stress; and heat of the slip along walls, W/m2, with its derivative by
-    e0."""
+    and across; the first's square by ln of the Newtonian stress; heat of the slip along one wall, W/m2, with its derivative by
+    e0, and along both."""
 
     sliding: V
     along: V
@@ -161,14 +161,14 @@ class Work:
     bend: V
     slip: V
     slip_e0: V
+    both: V
 
 
 @ti.func
-def sheared_through(rheology: ti.template(), col: ti.template(), newtonian):
+def sheared_through(rheology: ti.template(), col: ti.template(), wall, newtonian):
     """Work of the sliding inside the film, over 1/eta: of what does not slip along a wall; and the part that does."""
-    x = 0.5 * col.h * ti.abs(col.px) * col.skew
-    slip = wall_slip(rheology, x, newtonian, col.p)
-    return mean_stress(rheology, x, newtonian, col.p) * newtonian * (1.0 - slip), slip
+    slip = wall_slip(rheology, wall * col.skew, newtonian, col.p)
+    return mean_stress(rheology, wall * col.skew, newtonian, col.p) * newtonian * (1.0 - slip), slip
 
 
 @ti.func
@@ -177,12 +177,15 @@ def work(rheology: ti.template(), col: ti.template(), flow: ti.template(), scene
     bend is that of a rate which stays: at a stress that stays Newton steps swing between films that slip and those that do not.
     """
     law = sheared(rheology, col, flow, scene)
-    inside, part = sheared_through(rheology, col, flow.newtonian)
-    more, _ = sheared_through(rheology, col, flow.newtonian * (1.0 + RISE))
-    held = law.tau + 0.5 * col.h * ti.abs(col.px)
+    wall = wall_stress(col, col.px, scene)
+    inside, part = sheared_through(rheology, col, wall, flow.newtonian)
+    more, _ = sheared_through(rheology, col, wall, flow.newtonian * (1.0 + RISE))
+    held = law.tau + wall
     return Work(sliding=flow.sign * ti.sqrt(inside), along=ti.sqrt(law.along), across=ti.sqrt(law.across),
                 bend=ti.select(part > 0.0, inside, (more - inside) / RISE), slip=held * ti.abs(scene.u_s) * part,
-                slip_e0=held * ti.abs(scene.u_s) * ti.select(part > 0.0, 1.0 - part, V(0.0)) / flow.e0)
+                slip_e0=held * ti.abs(scene.u_s) * ti.select(part > 0.0, 1.0 - part, V(0.0)) / flow.e0,
+                both=col.h**3 * flow.e0 * col.skew / (12.0 * scene.eta0) * (
+                    law.more_x * col.px * col.px + law.more_y * col.py * col.py))
 
 
 @ti.func
@@ -251,12 +254,14 @@ def assemble(Z: ti.template(), C: ti.template(), X: ti.template(), N: ti.templat
 @ti.func
 def assemble_slip(X: ti.template(), C: ti.template(), N: ti.template(), at: ti.template(), col: ti.template(),
                   flow: ti.template(), done: ti.template(), step: ti.template()):
-    """Heat of the oil that slips along the wall where the stress is largest, into the equation of that wall; kept in C."""
+    """Heat of the oil that slips along the wall where the stress is largest, or along both, into the equations of those; kept
+    in C."""
     c, q, nz, last = at.c, at.q, N.shape[1], N.shape[1] - 1
     counts = ti.select(col.touch > 0.0, V(0.0), col.fade)
     at_b = ti.select(flow.sign * col.px > 0.0, V(1.0), V(0.0))
     to_a, to_b = (1.0 - at_b) * counts, at_b * counts
-    C[q, SA], C[q, SB] = to_a * done.slip, to_b * done.slip
+    shared = 0.5 * counts * done.both
+    C[q, SA], C[q, SB] = to_a * done.slip + shared, to_b * done.slip + shared
     for m in range(nz):
         falls = done.slip_e0 * X[c, nz * (nz + 1) + m]
         X[c, m], X[c, last * nz + m] = step.B_a * to_a * falls, step.B_b * to_b * falls

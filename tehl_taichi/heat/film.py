@@ -126,7 +126,8 @@ def store_velocities(Z: ti.template(), N: ti.template(), q, col: ti.template(), 
                      scene: ti.template()):
     """u and v at the nodes; needs their 1/eta."""
     nz, poiseuille = N.shape[1], col.h * col.h / scene.eta0
-    along, across = poiseuille * (law.along + law.slips) * col.px, poiseuille * law.across * col.py
+    along = poiseuille * (law.along + law.slips + law.more_x) * col.px
+    across = poiseuille * (law.across + law.more_y) * col.py
     for n in range(nz):
         turn, driven = V(0.0), V(0.0)  # int_0^zeta of 1/eta, and of (zeta - zeta_c)/eta
         for m in range(nz):

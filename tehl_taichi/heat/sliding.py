@@ -32,6 +32,8 @@ class Sheared:
     slips: V  # and what slips along a wall,
     across: V  # and across the sliding
     slip: V  # part of the sliding that the oil slips along a wall
+    more_x: V  # flow by pressure along the sliding of a film that slips along both walls,
+    more_y: V  # and across it
 
 
 @ti.func
@@ -47,6 +49,12 @@ def couette(Z: ti.template(), N: ti.template(), q, h, scene: ti.template()):
 
 
 @ti.func
+def wall_stress(col: ti.template(), slope, scene: ti.template()):
+    """Of a gradient (Pa/m) of the pressure, as the shear law sees it, Pa."""
+    return 0.5 * col.h * ti.abs(slope) * scene.strain
+
+
+@ti.func
 def eased(more, col: ti.template(), slope, fluidity, power: ti.template(), scene: ti.template()):
     """What is left at a node of the steep rest of a flow, as the faces ease it."""
     share = V(1.0)
@@ -57,17 +65,34 @@ def eased(more, col: ti.template(), slope, fluidity, power: ti.template(), scene
 
 
 @ti.func
+def flow_across(rheology: ti.template(), y, col: ti.template(), newtonian):
+    """Smooth and steep part of the flow across the sliding by a stress y on the walls."""
+    smooth, steep = either(rheology, False, y * col.skew, y, newtonian, col.p)
+    return smooth[0], steep[0]
+
+
+@ti.func
+def flow_along(rheology: ti.template(), x, col: ti.template(), newtonian, scene: ti.template()):
+    """And along it; as across it where walls bear all (:func:`tehl_taichi.pressure.fluxes.yielding`)."""
+    smooth, steep = V(0.0), V(0.0)
+    if scene.strain > 0.0:
+        exact = either(rheology, True, x * col.skew, x, newtonian, col.p)
+        smooth, steep = exact[0][0], exact[1][0]
+    else:
+        smooth, steep = flow_across(rheology, x, col, newtonian)
+    return smooth, steep
+
+
+@ti.func
 def sheared(rheology: ti.template(), col: ti.template(), couette: ti.template(), scene: ti.template()):
     """The Sheared of a column; col: its p, h, px, py, skew."""
     newtonian, fluidity = couette.newtonian, couette.e0 * col.skew
-    x, y = 0.5 * col.h * ti.abs(col.px), 0.5 * col.h * ti.abs(col.py)
+    x, y = wall_stress(col, col.px, scene), wall_stress(col, col.py, scene)
     slip = wall_slip(rheology, x * col.skew, newtonian, col.p)
-    smooth_x, steep_x = either(rheology, True, x * col.skew, x, newtonian, col.p)
-    smooth_y, steep_y = either(rheology, False, y * col.skew, y, newtonian, col.p)
-    along, across = smooth_x[0], smooth_y[0]
+    along, steep_x = flow_along(rheology, x, col, newtonian, scene)
+    across, steep_y = flow_across(rheology, y, col, newtonian)
     slips = minimum(3.0 * slip * newtonian / maximum(x * col.skew, SMALL), along)
-    along -= slips
-    along += eased(steep_x[0], col, col.px, fluidity, rheology.power, scene)
-    across += eased(steep_y[0], col, col.py, fluidity, rheology.power, scene)
+    more_x = eased(steep_x, col, col.px, fluidity, rheology.power, scene)
+    more_y = eased(steep_y, col, col.py, fluidity, rheology.power, scene)
     tau = mean_stress(rheology, x * col.skew, newtonian, col.p)
-    return Sheared(tau=tau, along=along, slips=slips, across=across, slip=slip)
+    return Sheared(tau=tau, along=along - slips, slips=slips, across=across, slip=slip, more_x=more_x, more_y=more_y)

@@ -2,8 +2,9 @@
 
 By turns, oil and bodies warm for a sixth of the domain under a film that does not answer: a thick one with a cold inlet
 overshoots, 30 to 80 K back and forth, or collapses. In time it answers within a step. Stages, see :func:`march_to_rest`: the
-slip grows (all at once, it would heat cold oil by 200 K in a step), blocks of steps until the temperatures rest, and the steady
-equations from there; where a step fails for good all of it again, with a slip that grows more slowly.
+slip grows (all at once, it would heat cold oil by 200 K in a step), blocks of steps until the temperatures rest, first with
+walls that bear all, then with those of the scene, and the steady equations from there; where a step fails for good all of it
+again, with a slip that grows more slowly.
 """
 
 import math
@@ -23,6 +24,8 @@ from tehl_taichi.pressure.storage_term import Storage
 # converges any more; within two it rests, after 1000 steps); of a block
 ONSETS, BLOCK = (0.5, 2.0), 0.25
 BLOCKS, MOST_STEPS = 40, 4000  # at most; scenes that rest do so after 4 to 18 blocks, the gear at 50 m/s after more than 24
+ON_THE_WAY = 8  # blocks at most with walls that bear all: by those, thick films of cold oil flutter at the outlet for ever
+STILL = 0.3  # K, of what is at rest after all blocks: the outlet of cold thick films flutters by that much, without an end
 
 
 def march_to_rest(solver, heat, P, H0):
@@ -34,10 +37,11 @@ def march_to_rest(solver, heat, P, H0):
         heat.start()
         together = PseudoTransient(solver, heat)
         together.slip_in(onset)
+        together.rest(walls=0.0, most=ON_THE_WAY)
         change = together.rest()
         if not together.lost:
             break
-    if change < SETTLED and not together.lost:
+    if change < STILL and not together.lost:
         return _judged(together, together.checked(), FLUTTER)
     return _judged(together, change, 0.0)
 
@@ -61,8 +65,9 @@ def _judged(together, change, most):
 
 
 class PseudoTransient:
-    """A smooth contact in time, from the pressure in the solver's table and the state of `heat`; its walls bear all that the
-    pressure asks for: a smooth contact hardly strains them, but the oil that a start at 20 deg C heaps up yields by GPa a cell.
+    """A smooth contact in time, from the pressure in the solver's table and the state of `heat`. On the way its walls bear all
+    that the pressure asks for: a smooth contact hardly strains them, but the oil that a start at 20 deg C heaps up yields by
+    GPa a cell.
 
     report: of the last solve; lost: whether a step failed for good; mean: temperatures of the last block.
     """
@@ -91,13 +96,13 @@ class PseudoTransient:
         self.levels.conditions.set(u_s=part * whole)
         self.levels.numbers.slip(part)
 
-    def rest(self):
-        """Blocks of steps until runs of them differ by less than SETTLED, or there were enough. Returns the last difference, K,
-        as :func:`tehl_taichi.march.alternating_start.unsettled` measures it."""
+    def rest(self, walls=1.0, most=BLOCKS):
+        """Blocks of steps, with this part of what strains the walls, until runs of them differ by less than SETTLED, or there
+        were enough. Returns the last difference, K, as :func:`tehl_taichi.march.alternating_start.unsettled` measures it."""
         self.mean, change = self.heat.T, math.inf
         means = [self.mean]
-        for _ in range(min(BLOCKS, MOST_STEPS // self._block_steps)):
-            self.block()
+        for _ in range(min(most, MOST_STEPS // self._block_steps)):
+            self.block(walls)
             if self.lost:  # what it reached before is a state in time
                 break
             means = [self.mean, *means[: 2 * LONGEST_RUN - 1]]
@@ -118,10 +123,10 @@ class PseudoTransient:
     def _block_steps(self):
         return math.ceil(BLOCK * self.transit)
 
-    def block(self):
-        """So many steps. Returns by how much their mean temperatures differ from those of the last block under load, K; inf
-        where a step failed for good."""
-        self.levels.numbers.strain(0.0)
+    def block(self, walls=1.0):
+        """So many steps, with this part of what strains the walls. Returns by how much their mean temperatures differ from
+        those of the last block under load, K; inf where a step failed for good."""
+        self.levels.numbers.strain(walls)
         before, total = self.mean, 0.0
         for _ in range(self._block_steps):
             self._step()

@@ -23,6 +23,7 @@ class Conditions:
     u_s: ti.f64  # m/s, slip u_a - u_b
     u_m: ti.f64  # m/s, mean speed
     centre: ti.f64  # column of X = 0
+    strain: ti.f64  # part of the stress that the pressure puts on the walls which the shear law sees
 
 
 def conditions(scene, scales, X):
@@ -30,4 +31,5 @@ def conditions(scene, scales, X):
     o, inlet = scene.operation, scene.operation.temperature
     ln_eta0 = float(ln_eta(scene.oil, 0.0, inlet))
     return Record(Conditions, p_H=scales.p_H, h=scales.h, a=scales.a, inlet=inlet, ln_eta0=ln_eta0, eta0=math.exp(ln_eta0),
-                  u_a=o.u_a, u_s=o.u_s, u_m=o.u_m, centre=np.searchsorted(X, 0.0))
+                  u_a=o.u_a, u_s=o.u_s, u_m=o.u_m, centre=np.searchsorted(X, 0.0),
+                  strain=1.0)

@@ -143,12 +143,41 @@ def strain(a, b, mean, wall):
     return wall.stress * film * ti.abs(b.p - a.p), 0.5 * wall.p_H * (a.p + b.p), sliding, skew
 
 
+@ti.dataclass
+class Sheared:
+    """Flow by the shear law over that of Newtonian oil, and its derivatives by the logarithms of both stresses and by p."""
+
+    part: V
+    strained: V
+    slid: V
+    by_p: V
+
+
 @ti.func
-def yielding(rheology: ti.template(), stress, p, sliding, skew, along: ti.template()):
+def none():
+    return Sheared(part=V(0.0), strained=V(0.0), slid=V(0.0), by_p=V(0.0))
+
+
+@ti.func
+def parts(both: ti.template()):
+    """Smooth and steep part of :func:`either` as :class:`Sheared`."""
+    return Sheared(*both[0]), Sheared(*both[1])
+
+
+@ti.func
+def yielding(rheology: ti.template(), stress, p, sliding, skew, wall, along: ti.template()):
     """What the shear law makes of the flow along the sliding, or across it: what Newton's method may take as it is, and the
-    steep rest; each with its derivatives by the logarithms of both stresses and by p. A film with temperatures feels a gradient
-    as one of the viscosity that slides would feel `skew` of it: so that what slips carries at most u_s/2."""
-    return either(rheology, along, stress * skew, stress, sliding, p)
+    steep rest. A film with temperatures feels a gradient as one of the viscosity that slides would feel `skew` of it: so that
+    what slips carries at most u_s/2. Where walls bear all, on the way to a start, oil flows as it does across the sliding:
+    along it frozen oil, whose slip the walls do not end, would heap up."""
+    smooth, steep = none(), none()
+    if ti.static(not along):
+        smooth, steep = parts(either(rheology, False, stress * skew, stress, sliding, p))
+    elif wall.stress > 0.0:
+        smooth, steep = parts(either(rheology, True, stress * skew, stress, sliding, p))
+    else:
+        smooth, steep = parts(either(rheology, False, stress * skew, stress, sliding, p))
+    return smooth, steep
 
 
 @ti.func
@@ -182,9 +211,9 @@ def driven(a, b, rheology: ti.template(), wall, along: ti.template()):
     out = flux(a, b)
     if ti.static(rheology.thins):
         stress, p, sliding, skew = strain(a, b, log_mean(a.le, b.le, a.ie, b.ie)[0], wall)
-        smooth, steep = yielding(rheology, stress, p, sliding, skew, along)
-        more = out * steep[0]
-        out = out * smooth[0] + more * eased(a, b, wall, more, rheology.power)[0]
+        smooth, steep = yielding(rheology, stress, p, sliding, skew, wall, along)
+        more = out * steep.part
+        out = out * smooth.part + more * eased(a, b, wall, more, rheology.power)[0]
     return out
 
 
@@ -223,12 +252,13 @@ def yield_of(a, b, mean, eps, rheology: ti.template(), wall, along: ti.template(
     out = Yield(part=V(1.0), along=V(1.0), by_p=V(0.0), by_h=V(0.0), by_le=V(0.0), by_skew=V(0.0))
     if ti.static(rheology.thins):
         stress, p, sliding, skew = strain(a, b, mean, wall)
-        smooth, steep = yielding(rheology, stress, p, sliding, skew, along)
-        _, own, by_film = eased(a, b, wall, eps * (b.p - a.p) * steep[0], rheology.power)
-        part, strained, slid = smooth[0] + own * steep[0], smooth[1] + own * steep[1], smooth[2] + own * steep[2]
-        out = Yield(part=part, along=part + strained, by_p=0.5 * wall.p_H * (smooth[3] + own * steep[3]),
-                    by_h=(strained - slid + by_film * steep[0]) / (a.gap + b.gap), by_le=slid,
-                    by_skew=(smooth[1] + slid) / (2.0 * skew))
+        smooth, steep = yielding(rheology, stress, p, sliding, skew, wall, along)
+        _, own, by_film = eased(a, b, wall, eps * (b.p - a.p) * steep.part, rheology.power)
+        part, strained = smooth.part + own * steep.part, smooth.strained + own * steep.strained
+        slid = smooth.slid + own * steep.slid
+        out = Yield(part=part, along=part + strained, by_p=0.5 * wall.p_H * (smooth.by_p + own * steep.by_p),
+                    by_h=(strained - slid + by_film * steep.part) / (a.gap + b.gap), by_le=slid,
+                    by_skew=(smooth.strained + slid) / (2.0 * skew))
     return out
 
 

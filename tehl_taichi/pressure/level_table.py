@@ -22,7 +22,7 @@ class LevelNumbers:
                           fields.LINES: l in grids.lines, fields.P_H: s.p_H})
             off += columns(nx, ny)
         self.inv_lambda = 1 / (12 * conditions["eta0"] * s.u_m * s.R**2 / (s.a**3 * s.p_H))
-        self.shear = -conditions["u_s"] * conditions["eta0"] / s.h
+        self.conditions, self.shear = conditions, -conditions["u_s"] * conditions["eta0"] / s.h
         self.wall = s.p_H * s.h / (2 * s.a)
         self.slow_down(1.0)
         self.slip(1.0)
@@ -43,8 +43,10 @@ class LevelNumbers:
         self.G[:, fields.SHEAR] = part * self.shear
 
     def strain(self, part):
-        """Take the stress that the pressure puts on the walls to be this part of it; 0: walls that bear all."""
+        """Take the stress that the pressure puts on the walls to be this part of it, in the flow and in its heat; 0: walls that
+        bear all."""
         self.G[:, fields.WALL] = part * self.wall / self.G[:, fields.DX]
+        self.conditions.set(strain=part)
 
     def set_rate(self, weight, frame=0.0):
         """Weight of the newest level in d/dT, 1/T units (0: steady), scaled with dx on every level; frame: speed over u_m of

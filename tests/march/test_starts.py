@@ -286,13 +286,13 @@ def settled(**changes):
     from tehl_taichi.march.passage import march
 
     gear = {"time.steady_only": True, "grid.ny": 16, "thermal.on": True}
-    return next(march(scene("gear").replace(**{**gear, **changes}))).scalars
+    return next(march(scene("gear").replace(**{**gear, **changes})))
 
 
 def test_oil_of_40_degrees_between_surfaces_that_slip_settles():
     """Its hot band meets cold oil at the outlet, where the pressure falls by 1 GPa within a cell: until 0.5.3 columns without a
     solution, on 64 to 256 columns. Finer grids: 1.389 um (128), 1.392 (256), 192.0 deg C."""
-    found = settled(**{"temperature": 40.0, "srr": -0.5, "grid.nx": 64})
+    found = settled(**{"temperature": 40.0, "srr": -0.5, "grid.nx": 64}).scalars
     assert found["h_c_m"] == pytest.approx(1.390e-6, rel=0.015) and found["film_max_C"] == pytest.approx(192.0, abs=1.0)
 
 
@@ -314,16 +314,18 @@ def test_a_thin_film_comes_down_from_a_high_speed():
 @pytest.mark.slow  # two minutes
 @pytest.mark.parametrize("temperature, srr", [(20.0, -0.12), (30.0, -0.3)])
 def test_cold_inlets_settle_on_two_grids(temperature, srr):
-    coarse, fine = (settled(temperature=temperature, srr=srr, **{"grid.nx": nx}) for nx in (64, 128))
-    assert fine["h_c_m"] == pytest.approx(coarse["h_c_m"], rel=0.01)
-    assert fine["film_max_C"] == pytest.approx(coarse["film_max_C"], abs=4.0)
+    """On a domain of 6 a. The hottest place, at the outlet's spike, grows with the grid."""
+    coarse, fine = (settled(temperature=temperature, srr=srr, **{"grid.nx": nx}) for nx in (96, 192))
+    assert fine.scalars["h_c_m"] == pytest.approx(coarse.scalars["h_c_m"], rel=0.01)
+    middle = [np.interp(0.0, shot.x, shot.fields["temperature_mid"][:, 0]) for shot in (coarse, fine)]
+    assert middle[0] == pytest.approx(middle[1], abs=1.0) and middle[0] > temperature + 80
 
 
 @pytest.mark.slow  # a minute
 def test_a_cold_inlet_settles_where_a_quick_slip_is_lost():
-    """256 columns; 2.337 um on 64, 2.350 on 128. The outlet's spike, and with it the hottest place, grows with the grid."""
-    found = settled(temperature=20.0, srr=-0.12, **{"grid.nx": 256})
-    assert found["h_c_m"] == pytest.approx(2.343e-6, rel=0.01) and found["film_max_C"] < 200.0
+    """256 columns; 2.432 um on 96, 2.436 on 192."""
+    found = settled(temperature=20.0, srr=-0.12, **{"grid.nx": 256}).scalars
+    assert found["h_c_m"] == pytest.approx(2.437e-6, rel=0.005) and found["film_max_C"] < 200.0
     assert found["mass_error"] < 1e-6
 
 

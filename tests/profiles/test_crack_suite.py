@@ -58,7 +58,7 @@ ROWS = {  # side: tension (Pa) and its tolerance, place (m), moment (a), lean, c
     0.12: ("exit", 495e6, 0.10, 36e-6, 0.96, "against rolling", {"10": 42, "20": 30, "40": 22}, 0.71e6)}
 
 
-@pytest.fixture(scope="module", params=[(-0.12, 128), (0.12, 128), (-0.12, 256)], ids=str)
+@pytest.fixture(scope="module", params=[(-0.12, 128), (0.12, 256), (-0.12, 256)], ids=str)
 def stored(request, taichi_cpu, tmp_path_factory):
     """(slip, store) of the reference scene without thermal stress, as the rows are."""
     srr, nx = request.param
