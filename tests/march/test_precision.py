@@ -72,14 +72,14 @@ def test_a_run_of_a_thin_film_in_single_writes_nothing(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-SCRAMBLED = """
+SCRAMBLED = f"""
 import importlib, pkgutil, random
 import tehl_taichi as tehl
 names = [m.name for m in pkgutil.walk_packages(tehl.__path__, "tehl_taichi.") if not m.name.endswith("__main__")]
 random.Random(5).shuffle(names)
 for name in names:
     importlib.import_module(name)
-line = tehl.scene("smooth-line").replace(**{"thermal.on": False, "rheology.law": "newtonian", "grid.nx": 32})
+line = tehl.scene("smooth-line").replace(**{NEWTONIAN | {"grid.nx": 32}})
 for precision in ("f64", "f32"):
     print(next(tehl.march(line, precision=precision)).scalars["h_c_m"].hex())
 """

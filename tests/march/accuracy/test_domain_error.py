@@ -219,12 +219,12 @@ def test_a_passage_holds_the_pressure_of_its_start():
 @pytest.mark.slow
 @pytest.mark.usefixtures("taichi_cpu")
 def test_the_peak_under_an_asperity_in_a_thick_film_is_that_of_a_long_domain():
-    """5.33 GPa with p = 0 at -2.5 a, 3.53 at -8.5."""
+    """1.68 GPa at -8.5 a, 2.01 with p = 0 at -2.5. (3.53 and 5.33 with the flow by the secant of the law.)"""
     from tehl_taichi.march.passage import march
 
     asperity = {"height": 0.8e-6, "width": 50e-6, "grid.ny": 32, "time.x_start": -2.4, "time.x_end": 2.4}
     shots = list(march(scene("gear").replace(**{**THICK_PASSAGE, **asperity})))
-    assert max(shot.scalars["p_max_Pa"] for shot in shots) == pytest.approx(3.5e9, rel=0.04)
+    assert max(shot.scalars["p_max_Pa"] for shot in shots) == pytest.approx(1.684e9, rel=0.025)
 
 
 @pytest.mark.usefixtures("taichi_cpu")
