@@ -96,12 +96,12 @@ class PseudoTransient:
         self.levels.conditions.set(u_s=part * whole)
         self.levels.numbers.slip(part)
 
-    def rest(self, walls=1.0, most=BLOCKS):
+    def rest(self, walls=1.0, most=None):
         """Blocks of steps, with this part of what strains the walls, until runs of them differ by less than SETTLED, or there
         were enough. Returns the last difference, K, as :func:`tehl_taichi.march.alternating_start.unsettled` measures it."""
         self.mean, change = self.heat.T, math.inf
         means = [self.mean]
-        for _ in range(min(most, MOST_STEPS // self._block_steps)):
+        for _ in range(min(most or BLOCKS, MOST_STEPS // self._block_steps)):
             self.block(walls)
             if self.lost:  # what it reached before is a state in time
                 break
