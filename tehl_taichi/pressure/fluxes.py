@@ -144,7 +144,7 @@ def strain(a, b, mean, wall):
 
 
 @ti.dataclass
-class Sheared:
+class LawFlow:
     """Flow by the shear law over that of Newtonian oil, and its derivatives by the logarithms of both stresses and by p."""
 
     part: V
@@ -154,14 +154,14 @@ class Sheared:
 
 
 @ti.func
-def none():
-    return Sheared(part=V(0.0), strained=V(0.0), slid=V(0.0), by_p=V(0.0))
+def no_flow():
+    return LawFlow(part=V(0.0), strained=V(0.0), slid=V(0.0), by_p=V(0.0))
 
 
 @ti.func
-def parts(both: ti.template()):
-    """Smooth and steep part of :func:`either` as :class:`Sheared`."""
-    return Sheared(*both[0]), Sheared(*both[1])
+def law_flows(both: ti.template()):
+    """Smooth and steep part of :func:`either` as :class:`LawFlow`."""
+    return LawFlow(*both[0]), LawFlow(*both[1])
 
 
 @ti.func
@@ -170,13 +170,13 @@ def yielding(rheology: ti.template(), stress, p, sliding, skew, wall, along: ti.
     steep rest. A film with temperatures feels a gradient as one of the viscosity that slides would feel `skew` of it: so that
     what slips carries at most u_s/2. Where walls bear all, on the way to a start, oil flows as it does across the sliding:
     along it frozen oil, whose slip the walls do not end, would heap up."""
-    smooth, steep = none(), none()
+    smooth, steep = no_flow(), no_flow()
     if ti.static(not along):
-        smooth, steep = parts(either(rheology, False, stress * skew, stress, sliding, p))
+        smooth, steep = law_flows(either(rheology, False, stress * skew, stress, sliding, p))
     elif wall.stress > 0.0:
-        smooth, steep = parts(either(rheology, True, stress * skew, stress, sliding, p))
+        smooth, steep = law_flows(either(rheology, True, stress * skew, stress, sliding, p))
     else:
-        smooth, steep = parts(either(rheology, False, stress * skew, stress, sliding, p))
+        smooth, steep = law_flows(either(rheology, False, stress * skew, stress, sliding, p))
     return smooth, steep
 
 

@@ -95,6 +95,26 @@ def test_a_wall_along_which_oil_slips_takes_the_heat_of_that(slope):
     assert np.all(hot[inner] > 3 * cold[inner])
 
 
+def test_both_walls_take_the_heat_of_oil_that_slips_along_both():
+    """No sliding, walls strained by 1.1 times a low limit: the work of the pressure, half into each wall, and a film that stays
+    colder than one that dissipates it."""
+    from tehl_taichi.heat import film_tables
+
+    heat, levels = film(srr=0.0, **{"rheology.tau_L0": 1e6, "rheology.gamma": 0.0})
+    X, h, s = levels.X, 1e-6, levels.scales
+    P = 1.2 + 1.1 * 2e6 / h * s.a / s.p_H * X
+    flux = step_between_walls(heat, levels, P, np.full(X.size, h), 0 * X)
+    heat._velocities()
+    u, px = heat.columns.nodes(film_tables.U)[:, 0], heat.columns.single(film_tables.PX)[0]
+    work = -h * px * (np.tensordot(heat.across.C[-1], u, axes=1) - levels.scene.operation.u_m)
+    inner = slice(4, int(np.searchsorted(X, 0.0)) - 2)
+    np.testing.assert_allclose(0.5 * h * px[inner], 1.1e6, rtol=1e-3)
+    np.testing.assert_allclose(flux.sum(axis=0)[inner], work[inner], rtol=5e-3)
+    np.testing.assert_allclose(flux[0][inner], flux[1][inner], rtol=1e-3)
+    k = 0.154 * (1 + 1.4e-9 * P * s.p_H / (1 + 0.34e-9 * P * s.p_H))
+    assert np.all((heat.temperature()[:, 0].max(axis=0) - 90)[inner] < 0.3 * (work * h / 8 / k)[inner])
+
+
 def test_oil_that_is_compressed_warms():
     """20 MPa more in a thick film, which conducts nothing: rho c dT = (T + 273.15) beta dp.
 
