@@ -165,10 +165,9 @@ class Work:
 
 
 @ti.func
-def sheared_through(rheology: ti.template(), col: ti.template(), wall, newtonian):
-    """Work of the sliding inside the film, over 1/eta: of what does not slip along a wall; and the part that does."""
-    slip = wall_slip(rheology, wall * col.skew, newtonian, col.p)
-    return mean_stress(rheology, wall * col.skew, newtonian, col.p) * newtonian * (1.0 - slip), slip
+def inside_film(tau, newtonian, slip):
+    """Work of the sliding inside the film, over 1/eta: of what does not slip along a wall."""
+    return tau * newtonian * (1.0 - slip)
 
 
 @ti.func
@@ -178,9 +177,10 @@ def work(rheology: ti.template(), col: ti.template(), flow: ti.template(), scene
     """
     law = sheared(rheology, col, flow, scene)
     wall = wall_stress(col, col.px, scene)
-    inside, part = sheared_through(rheology, col, wall, flow.newtonian)
-    more, _ = sheared_through(rheology, col, wall, flow.newtonian * (1.0 + RISE))
-    held = law.tau + wall
+    strain, raised = wall * col.skew, flow.newtonian * (1.0 + RISE)
+    inside = inside_film(law.tau, flow.newtonian, law.slip)
+    more = inside_film(mean_stress(rheology, strain, raised, col.p), raised, wall_slip(rheology, strain, raised, col.p))
+    held, part = law.tau + wall, law.slip
     return Work(sliding=flow.sign * ti.sqrt(inside), along=ti.sqrt(law.along), across=ti.sqrt(law.across),
                 bend=ti.select(part > 0.0, inside, (more - inside) / RISE), slip=held * ti.abs(scene.u_s) * part,
                 slip_e0=held * ti.abs(scene.u_s) * ti.select(part > 0.0, 1.0 - part, V(0.0)) / flow.e0,
