@@ -10,6 +10,7 @@ True
 import importlib
 import os
 import sys
+import warnings
 from types import ModuleType
 from typing import TYPE_CHECKING
 
@@ -49,7 +50,7 @@ from tehl_taichi.errors import Error, Interrupted, NotConverged, RuntimeUnavaila
 
 if TYPE_CHECKING:
     from tehl_taichi.crack.analysis import CrackResult
-    from tehl_taichi.fatigue.assessment import FatigueResult
+    from tehl_taichi.fatigue.search_result import SearchResult
     from tehl_taichi.march.snapshot import Snapshot
     from tehl_taichi.runs.compare import Comparison
     from tehl_taichi.runs.flank.stored_flank import Flank
@@ -69,17 +70,21 @@ CLASSES = {"Scene": "scene.description", "Feature": "scene.feature", "Oil": "sce
                             "Time"), "scene.sections"),
            "Run": "runs.stored_run", "Study": "runs.sweep.study_table", "Flank": "runs.flank.stored_flank",
            "Comparison": "runs.compare",
-           "Snapshot": "march.snapshot", "FatigueResult": "fatigue.assessment", "CrackResult": "crack.analysis",
+           "Snapshot": "march.snapshot", "SearchResult": "fatigue.search_result", "CrackResult": "crack.analysis",
            "Lines": "runs.progress", "Progress": "runs.progress", "Quantity": "values.estimate"}
+OLD_NAMES = {"FatigueResult": "SearchResult"}  # to 0.8
 # not `open`: `from tehl_taichi import *` leaves the builtin alone
-__all__ = ["Body", "Comparison", "Contact", "CrackResult", "Error", "Fatigue", "FatigueResult", "Feature", "Flank", "GearPair",
+__all__ = ["Body", "Comparison", "Contact", "CrackResult", "Error", "Fatigue", "Feature", "Flank", "GearPair",
            "Grid", "Interrupted", "Lines", "NotConverged", "Numerics", "Oil", "Operation", "Output", "Progress", "Quantity",
-           "Rheology", "Run", "RuntimeUnavailable", "Scene", "SceneError", "Snapshot", "StoreError", "Study", "Thermal",
-           "Time", "UnknownName", "__version__", "animate", "compare", "crack", "export", "fatigue", "flank", "march",
-           "report", "resume", "run", "scene", "simulate", "stresses", "sweep"]
+           "Rheology", "Run", "RuntimeUnavailable", "Scene", "SceneError", "SearchResult", "Snapshot", "StoreError", "Study",
+           "Thermal", "Time", "UnknownName", "__version__", "animate", "compare", "crack", "export", "fatigue", "flank",
+           "march", "report", "resume", "run", "scene", "simulate", "stresses", "sweep"]
 
 
 def __getattr__(name):
+    if name in OLD_NAMES:
+        warnings.warn(f"tehl.{name} is tehl.{OLD_NAMES[name]} from version 0.9 on", DeprecationWarning, stacklevel=2)
+        name = OLD_NAMES[name]
     if name not in CLASSES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     value = getattr(importlib.import_module(f"{__name__}.{CLASSES[name]}"), name)

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     import numpy as np
 
     from tehl_taichi.crack.analysis import CrackResult
-    from tehl_taichi.fatigue.assessment import FatigueResult
     from tehl_taichi.fatigue.given_histories import Points
+    from tehl_taichi.fatigue.search_result import SearchResult
     from tehl_taichi.march.snapshot import Snapshot
     from tehl_taichi.runs.compare import Comparison
     from tehl_taichi.runs.flank.stored_flank import Flank
@@ -256,7 +256,7 @@ def simulate(scene: "Scene | str", precision: str | None = None) -> "list[Snapsh
 
 
 def fatigue(of: Any, scene: "Scene | None" = None, *, progress: Any = None, threads: int | None = None,
-            until: float | None = None, **constants: Any) -> "FatigueResult | Points":
+            until: float | None = None, **constants: Any) -> "SearchResult | Points":
     """Recompute the fatigue of a run with other constants, or compute that of snapshots or of given stress histories.
 
     Parameters
@@ -279,7 +279,7 @@ def fatigue(of: Any, scene: "Scene | None" = None, *, progress: Any = None, thre
 
     Returns
     -------
-    FatigueResult or Points
+    SearchResult or Points
         Points for given stresses.
 
     Raises

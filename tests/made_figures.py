@@ -1,7 +1,10 @@
 """A store of made-up fields and a made-up fatigue search, their figures, and what stands in these."""
 
+import dataclasses
+
 import numpy as np
 
+from tehl_taichi.fatigue.search_result import SearchResult
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.view.figures.figure_style import FigureStyle
@@ -45,8 +48,9 @@ def made(name="gear"):
     return Made(scene(name).replace(**{"thermal.on": True}))
 
 
-def searched(one_row=False, y_worst=0.0, **more):
-    """What a search of the surface and of two depths found: a hill of Fi at each, highest at 60 um."""
+def searched(one_row=False, y_worst=0.0, arrays=lambda found: {}, **more):
+    """What a search of the surface and of two depths found: a hill of Fi at each, highest at 60 um; arrays: others, made from
+    the SearchResult."""
     x, y = np.linspace(-1e-4, 1e-4, 21), np.zeros(1) if one_row else np.linspace(-1e-4, 1e-4, 11)
     hill = np.exp(-((x[:, None] - 2e-5) ** 2 + y**2) / 1e-9) * 4e8
     layers = np.stack([hill, 0.5 * hill, 1.5 * hill])
@@ -56,9 +60,10 @@ def searched(one_row=False, y_worst=0.0, **more):
     turn = np.linspace(0, 2 * np.pi, 30)
     history = {"x_a": np.linspace(-5e-4, 5e-4, 30), "normal": np.array([0.6, 0.0, 0.8]), "circle": (0.0, 0.0, 1e8),
                "stress": np.outer(np.sin(turn), [1e8, 0, 2e8, 0, 5e7, 0])}
-    maps = {"feature_frame_x": x, "feature_frame_y": y, "Fi": hill / 4e8, "fatigue_depth": np.array([0.0, 2e-5, 6e-5])}
-    maps |= {"findley_stress_under_row": layers[:, :, 0]} if one_row else {"findley_stress_at_depth": layers}
-    return DrawnSearch("made up", maps, {"surface": history, "below": history}, summary, 3.6e-4, "x (µm)", **more)
+    stress = {"findley_stress_under_row": layers[:, :, 0]} if one_row else {"findley_stress_at_depth": layers}
+    found = SearchResult(summary, x, y, Fi=hill / 4e8, fatigue_depth=np.array([0.0, 2e-5, 6e-5]), worst=history,
+                         worst_below=history, **stress)
+    return DrawnSearch("made up", dataclasses.replace(found, **arrays(found)), 3.6e-4, "x (µm)", **more)
 
 
 def drawn(name, store, page=None, at=None):

@@ -3,6 +3,7 @@
 import numpy as np
 from small_stores import SMALL, shot
 
+from tehl_taichi.fatigue.search_result import SearchResult
 from tehl_taichi.scene.scales import Scales
 
 THERMAL = SMALL.replace(**{"thermal.on": True})
@@ -36,6 +37,12 @@ def maps(columns=9, rows=5, moments=12):
         found |= {f"{name}_x_a": np.linspace(-1e-3, 1e-3, moments), f"{name}_stress": stress,
                   f"{name}_normal": np.array([0.6, 0.0, 0.8]), f"{name}_circle": np.array([0.0, 0.0, 3e8])}
     return {name: (values, [f"{name}_{n}" for n in range(values.ndim)], "1", name) for name, values in found.items()}
+
+
+def result(summary, arrays=None):
+    """The SearchResult of such a summary and arrays."""
+    arrays = maps() if arrays is None else arrays
+    return SearchResult.from_arrays(summary, lambda name: arrays[name][0] if name in arrays else None)
 
 
 def smooth(step, scene):

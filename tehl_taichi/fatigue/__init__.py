@@ -8,15 +8,15 @@ from the scene. May import: engine, values, laws, scene.
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from tehl_taichi.fatigue.assessment import FatigueResult
     from tehl_taichi.fatigue.given_histories import Points
+    from tehl_taichi.fatigue.search_result import SearchResult
     from tehl_taichi.scene import Scene
 
 __all__ = ["fatigue"]
 
 
 def fatigue(of: Any, scene: "Scene | None" = None, *, progress: Any = None, threads: int | None = None,
-            until: float | None = None, **constants: Any) -> "FatigueResult | Points":
+            until: float | None = None, **constants: Any) -> "SearchResult | Points":
     """As :func:`tehl_taichi.fatigue`."""
     if scene is None and hasattr(of, "store"):  # a Run knows up to where its grid resolves the pressure, and its error bars
         return of.fatigue(progress=progress, threads=threads, until=until, **constants)

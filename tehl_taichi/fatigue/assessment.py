@@ -1,48 +1,17 @@
 """Fatigue of the material around a feature: stress histories, critical planes, the index."""
 
-from dataclasses import dataclass
+from dataclasses import replace
 
 import numpy as np
 
-from tehl_taichi.fatigue import depth_search, resolved_part, result_maps
+from tehl_taichi.fatigue import depth_search, resolved_part, result_arrays
 from tehl_taichi.fatigue.layer import layer
 from tehl_taichi.fatigue.pass_progress import PassProgress
+from tehl_taichi.fatigue.search_result import SearchResult
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.scene import SceneError, fatigue_limits
 
 PIT_ANGLES = (18.0, 50.0)  # degrees to the surface at which pits begin (Everitt 2018)
-
-
-@dataclass(frozen=True)
-class FatigueResult:
-    """Fatigue of a passage.
-
-    Attributes
-    ----------
-    summary : dict
-        Numbers in SI units, of the surface, and below it in its "below".
-    maps : dict
-        {name: (values, dimensions, units, text)} in the frame of the feature.
-    worst, worst_below : dict
-        Stress history of the critical point of the surface, and of that below (None where only the surface was searched):
-        x_a (m), stress (times, 6) Pa, the last one unloaded, normal (3,), circle around the shear path (centre along dip and
-        strike, radius; Pa).
-
-    Examples
-    --------
-    >>> import tehl_taichi as tehl
-    >>> tehl.FatigueResult({"Fi_max": 0.97, "below": {"Fi_max": 1.21}}, {}, {}, None)
-    <tehl.FatigueResult: Fi_max 0.97 at the surface, 1.21 below, 0 maps>
-    """
-
-    summary: dict
-    maps: dict
-    worst: dict
-    worst_below: dict
-
-    def __repr__(self):
-        below = f", {self.summary['below']['Fi_max']:.3g} below" if "below" in self.summary else ""
-        return f"<tehl.FatigueResult: Fi_max {self.summary['Fi_max']:.3g} at the surface{below}, {len(self.maps)} maps>"
 
 
 class Snapshots:
@@ -93,11 +62,10 @@ def run(scene, reader, progress=None, until=None):
     deep = depth_search.search(scene, passage, layers, early, progress) if wanted else depth_search.DepthResult([], [])
     progress.end()
     result = _result(scene, passage, layers, deep)
-    if early is not None:
-        part = resolved_part.part(scene, passage, early, until, layers, deep)
-        result.summary["resolved"] = part.summary
-        result.maps.update(part.maps)
-    return result
+    if early is None:
+        return result
+    part = resolved_part.part(scene, passage, early, until, layers, deep)
+    return replace(result, summary={**result.summary, "resolved": part.summary}, resolved=part)
 
 
 def _early(passage, until):
@@ -115,23 +83,22 @@ def _result(scene, passage, layers, below):
                **_cut(scene.fatigue), **surface.worst.moments(centres),
                "criterion": scene.fatigue.criterion, "thermal_stress": scene.has_thermal_stress,
                "pit_angles_deg": list(PIT_ANGLES)}
-    maps, worst, deep = result_maps.of_surface(surface, passage, limit), surface.worst.history(centres), None
-    maps |= result_maps.of_history(worst, "worst", "the critical point at the surface")
+    arrays = {**result_arrays.of_surface(surface, passage, limit), "worst": surface.worst.history(centres)}
     points = [found.worst for found in layers[1:]] + below.worst
     if points:
         point = max(points, key=lambda point: point.f)
-        summary["below"], deep = {"depth_m": point.depth, **point.summary(limit)}, point.history(centres)
-        maps |= result_maps.of_history(deep, "worst_below", "the critical point below the surface")
+        summary["below"] = {"depth_m": point.depth, **point.summary(limit)}
+        arrays["worst_below"] = point.history(centres)
     if below.profiles:
         depths = below.profiles[0].depths
         summary["below"] |= {"searched_m": [float(depths[0]), float(depths[-1])], **_alone(below.profiles, limit)}
-        maps |= result_maps.of_profiles(surface.f, passage, below.profiles, len(layers) > 1)
-        maps |= result_maps.of_plane(below.plane) if below.plane else {}
+        arrays |= result_arrays.of_profiles(surface.f, passage, below.profiles, len(layers) > 1)
+        arrays |= result_arrays.of_plane(below.plane) if below.plane else {}
     if len(layers) > 1:
         summary["by_depth"] = [{"depth_m": layer.depth, "findley_stress_max_Pa": float(layer.f.max()),
                                 "sigma1_max_Pa": float(layer.sigma1.max())} for layer in layers]
-        maps |= result_maps.of_layers(layers)
-    return FatigueResult(summary, maps, worst, deep)
+        arrays |= result_arrays.of_layers(layers)
+    return SearchResult(summary, **arrays)
 
 
 def _cut(fatigue):

@@ -14,7 +14,7 @@ from tehl_taichi.view.figures.field_maps import mirrored
 from tehl_taichi.view.figures.index_text import index_text, largest
 from tehl_taichi.view.figures.limit_line import crossed, explained
 from tehl_taichi.view.figures.palette import GREY, INDEX, MARK
-from tehl_taichi.view.figures.searched_depths import beside_worst, under_row
+from tehl_taichi.view.figures.search_data import beside_worst
 
 EVEN = 100  # depths drawn of a section
 POINTS = {"surface": ("worst", "critical point at the surface"), "below": ("worst_below", "critical point below the surface")}
@@ -22,16 +22,16 @@ POINTS = {"surface": ("worst", "critical point at the surface"), "below": ("wors
 
 def index(search):
     """Fi of the surface and of the worst depth, with the worst points; lines over x where there is one row only."""
-    f, Fi = search.found, search.map("Fi")
+    f, Fi = search.result.numbers, search.result.Fi
     if Fi is None:
         return []
     if Fi.shape[1] == 1:
         return [_over_x(search, f, Fi)]
     found = [_map(search, "surface", "at the surface", Fi, f)]
-    deep = search.map("findley_stress_at_depth")
-    plane = search.map("findley_stress_at_worst_depth")
+    deep = search.result.findley_stress_at_depth
+    plane = search.result.findley_stress_at_worst_depth
     if plane is not None:
-        found.append(_layer(search, float(search.map("worst_depth")[0]), plane / f["sigma_eF_Pa"], f["below"]))
+        found.append(_layer(search, float(search.result.worst_depth[0]), plane / f["sigma_eF_Pa"], f["below"]))
     elif deep is not None and "below" in f:
         found.append(_listed(search, deep / f["sigma_eF_Pa"], f["below"]))
     return found
@@ -39,7 +39,7 @@ def index(search):
 
 def _listed(search, Fi, worst):
     """Of the depths that were listed the one next to the worst; Fi (depth, x, y)."""
-    depths = search.map("fatigue_depth")
+    depths = search.result.fatigue_depth
     n = beside_worst(depths, worst["depth_m"])
     return _layer(search, depths[n], Fi[n], worst)
 
@@ -61,7 +61,7 @@ def _depth(depth):
 def _map(search, which, where, Fi, found, more=""):
     """One layer with the line of the fatigue limit, its worst point with the trace of the critical plane in it (found: its
     summary; None: the largest value is no worst point); more: at the end of the caption."""
-    x, (y, full) = search.map("feature_frame_x") * 1e6, mirrored(search.map("feature_frame_y") * 1e6, Fi)
+    x, (y, full) = search.result.feature_frame_x * 1e6, mirrored(search.result.feature_frame_y * 1e6, Fi)
     trace = _trace(search, which, found, 0.12 * np.ptp(x)) if found else []
     marked = [*_limit(x, y, full), _marked(search, Fi, found), *trace, *numbered(search)]
     caption = f"Index Fi {where}, {search.when}{explained(bool(trace), crossed(full))}{more}."
@@ -74,15 +74,16 @@ def _marked(search, Fi, found):
     if found:
         return marks([found["x_m"] * 1e6], [found["y_m"] * 1e6], f"critical point, Fi = {largest(found)}", MARK)
     i, j = np.unravel_index(int(np.argmax(Fi)), Fi.shape)
-    x, y = (search.map(f"feature_frame_{axis}") * 1e6 for axis in "xy")
+    x, y = search.result.feature_frame_x * 1e6, search.result.feature_frame_y * 1e6
     return marks([x[i]], [y[j]], f"largest at this depth, Fi = {index_text(Fi[i, j])}", MARK)
 
 
 def _trace(search, which, found, length):
     """[line] where the critical plane of the worst point cuts the layer, `length` µm to both sides; [] where it does not."""
-    normal = search.map(f"{POINTS[which][0]}_normal")
-    if normal is None or (flat := np.hypot(*normal[:2])) <= 1e-6:
+    history = getattr(search.result, POINTS[which][0])
+    if not history or (flat := np.hypot(*history["normal"][:2])) <= 1e-6:
         return []
+    normal = history["normal"]
     at, along = np.array([found["x_m"], found["y_m"]]) * 1e6, np.array([-normal[1], normal[0]]) / flat * length
     ends = np.stack([at - along, at + along])
     return [line(ends[:, 0], ends[:, 1], f"critical plane, {found['surface_angle_deg']:.0f}° to the surface", MARK)]
@@ -108,7 +109,7 @@ def _around(found):
 
 
 def _over_x(search, f, Fi):
-    x = search.map("feature_frame_x") * 1e6
+    x = search.result.feature_frame_x * 1e6
     worst = marks([f["x_m"] * 1e6], [f["Fi_max"]], f"largest, plane {f['surface_angle_deg']:.0f}° to the surface", colour(1))
     return stacked(f"{search.on}index", f"Index Fi of the surface, {search.when}.", from_centre(search.scene),
                    [("Fi", [line(x, Fi[:, 0], "at the surface", colour(0)), worst], {})], height=440)
@@ -116,11 +117,11 @@ def _over_x(search, f, Fi):
 
 def depth(search):
     """[section under the feature, largest index over depth]; [] where nothing was searched below."""
-    f, under = search.found, search.map("findley_stress_under_row")
+    f, under = search.result.numbers, search.result.findley_stress_under_row
     if under is None or "below" not in f:
         return []
     deep, Fi = f["below"], under / f["sigma_eF_Pa"]
-    x, z = search.map("feature_frame_x") * 1e6, under_row(search.map) * 1e6
+    x, z = search.result.feature_frame_x * 1e6, search.result.row_depths * 1e6
     even = np.linspace(0, z[-1], EVEN)
     section = np.stack([np.interp(even, z, column) for column in Fi.T])
     worst = marks([deep["x_m"] * 1e6], [deep["depth_m"] * 1e6], f"critical point, Fi = {largest(deep)}", MARK)
@@ -136,7 +137,7 @@ def _over_depth(search, f, deep, z, Fi):
     traces = [line(Fi.max(axis=1), z, f"under the {passing(search.scene)}", colour(0)),
               marks([deep["Fi_max"]], [deep["depth_m"] * 1e6], "largest below", colour(0)),
               marks([f["Fi_max"]], [0.0], "surface", colour(1), symbol="circle")]
-    alone = search.map("findley_stress_contact_alone")
+    alone = search.result.findley_stress_contact_alone
     if alone is not None:
         same = ", same moments" if moments(search.scene) else ""
         name = f"contact without its {passing(search.scene)}{same}"
@@ -149,8 +150,7 @@ def worst_points(search):
     """[(stresses over the passage, shear path on the critical plane)] of the worst point of the surface and of that below."""
     out = []
     for which, (name, text) in POINTS.items():
-        if search.map(f"{name}_stress") is not None:
-            history = {part: search.map(f"{name}_{part}") for part in ("x_a", "stress", "normal", "circle")}
+        if history := getattr(search.result, name):
             out.append((_stresses(search, which, text, history), _path(search, which, text, history)))
     return out
 

@@ -34,10 +34,10 @@ class NumberedPoint:
 def places(search):
     """A list of :class:`NumberedPoint`, the worst first; [] of a single asperity, dent or ridge, whose worst point tells
     enough."""
-    Fi, scene = search.map("Fi"), search.scene
+    Fi, scene = search.result.Fi, search.scene
     if Fi is None or Fi.shape[1] == 1 or not _many(scene):
         return []
-    x, y = (search.map(f"feature_frame_{axis}") for axis in "xy")
+    x, y = search.result.feature_frame_x, search.result.feature_frame_y
     deep, apart = _below(search), APART * Scales.of(scene).a
     found = worst_places(x, y, Fi if deep is None else np.maximum(Fi, deep), apart, MOST)
     i, j = np.array(found).T
@@ -56,8 +56,8 @@ def _many(scene):
 
 
 def _below(search):
-    stress = search.map("findley_stress_at_worst_depth")
-    return None if stress is None else stress / search.found["sigma_eF_Pa"]
+    stress = search.result.findley_stress_at_worst_depth
+    return None if stress is None else stress / search.result.numbers["sigma_eF_Pa"]
 
 
 def numbered(search):
@@ -87,7 +87,7 @@ def _columns(search, scene, found):
         yield axis, [value_text(getattr(p, axis), unit="m", digits=3).replace(" ", UNBROKEN) for p in found]
     yield "Fi at the surface", [index_text(p.Fi) for p in found]
     if found[0].below is not None:
-        depth = value_text(float(search.map("worst_depth")[0]), unit="m", digits=3)
+        depth = value_text(float(search.result.worst_depth[0]), unit="m", digits=3)
         yield f"Fi {depth} below", [index_text(p.below) for p in found]
     if passing(scene) == "scan":
         yield "in the file, counted from 1", [_in_file(scene, p) for p in found]

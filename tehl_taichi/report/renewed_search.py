@@ -41,7 +41,7 @@ class RenewedSearch:
     def page(self, progress=None, threads=None):
         """Search, and the :class:`tehl_taichi.report.document.Page` of what was found. Raises SceneError."""
         found = self.run.fatigue(**self.constants, progress=progress, threads=threads)
-        page = run_page.page(SearchedStore(self.run.store, self.scene, found))
+        page = run_page.page(SearchedStore(self.run.store, self.scene, found.summary), found)
         answer = dataclasses.replace(page.answer, question=self._question(), doubts=(*self._doubts(), *page.answer.doubts))
         return dataclasses.replace(page, title=f"{self.scene.name}: report, fatigue with other constants", answer=answer,
                                    about=f"{page.about}, with a new fatigue search")
@@ -61,12 +61,12 @@ class RenewedSearch:
 
 
 class SearchedStore:
-    """The store of a run with the scene and the result of another search in place of its own; nothing is written."""
+    """The store of a run with the scene and the summary of another search in place of its own; nothing is written."""
 
-    def __init__(self, store, scene, found):
-        self.store, self.scene, self.found = store, scene, found
+    def __init__(self, store, scene, fatigue):
+        self.store, self.scene = store, scene
         self.attrs = {**store.attrs, "scene_toml": scene_file.dumps(scene)}
-        self.summary = {**store.summary, "left_out": scene.left_out(), "fatigue": found.summary}
+        self.summary = {**store.summary, "left_out": scene.left_out(), "fatigue": fatigue}
         self.warnings = result_warnings.warnings(self, self.summary)
 
     def __getattr__(self, name):
@@ -74,10 +74,6 @@ class SearchedStore:
 
     def __len__(self):
         return len(self.store)
-
-    def map(self, name):
-        """One of the maps of the search, or None."""
-        return self.found.maps[name][0] if name in self.found.maps else None
 
 
 def _source(fatigue, run, constants):

@@ -30,11 +30,11 @@ def of(folder):
     return page(Reader.open(folder))
 
 
-def page(store):
-    """The same of a :class:`tehl_taichi.store.reader.Reader`."""
+def page(store, result=None):
+    """The page of a :class:`tehl_taichi.store.reader.Reader`; result: the SearchResult, by default that of the store."""
     about = f"{store.scene.name}: a run of tehl_taichi {text(store.attrs, 'version')}"
     sections = (scene_section(store.scene, text(store.attrs, "scene_toml", "")), *surface_plots.section(store.scene),
-                *_film(store), *_fatigue(store), *crack_plots.section(store), *_made(store))
+                *_film(store), *_fatigue(store, result), *crack_plots.section(store), *_made(store))
     answer = dataclasses.replace(verdict.of(store), known_before=tuple(store.scene.warnings()))
     return Page(f"{store.scene.name}: report", about, answer, sections)
 
@@ -59,22 +59,22 @@ def _film(store):
             Section("Moment of the largest pressure", (maps,)))
 
 
-def _fatigue(store):
+def _fatigue(store, result):
     """The index and the worst points, those on which the answer rests first."""
     if "fatigue" not in store.summary:
         return ()
-    found = searches(store)
+    found = searches(store, result)
     return tuple(section for search, of in zip(found, OF[len(found) - 1 :]) for section in _of_search(search, *of))
 
 
 def _of_search(search, of, lead):
     """Two sections; of: said in their headings; lead: begins the words on its moments, where there are two searches."""
     shown = drawn(*fatigue_plots.index(search), *fatigue_plots.depth(search))
-    behind = NO_MAPS if shown is None else DARK if search.of else ""
-    words = [_sentence(f"{lead}{search.when}.") + behind] * bool(search.short)
+    behind = NO_MAPS if shown is None else DARK if search.on else ""
+    words, numbers = [_sentence(f"{lead}{search.when}.") + behind] * bool(search.short), search.result.numbers
     return (Section(f"Fatigue{of}", (PageBlock("text", {"sentences": words}) if words else None, shown,
                                      numbered_points.rows(search),
-                                     run_tables.worst_points(search.found, search.scene), run_tables.tension(search.found))),
+                                     run_tables.worst_points(numbers, search.scene), run_tables.tension(numbers))),
             Section(f"Stresses at the critical points{of}", tuple(drawn(*pair) for pair in fatigue_plots.worst_points(search))))
 
 

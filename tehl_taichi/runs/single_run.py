@@ -214,7 +214,7 @@ def _fatigue(saved, until, progress):
         return None, None
     progress.say("stresses and Findley search")
     result = assessed(saved, saved.scene, progress, until)
-    return result.summary, result.maps
+    return result.summary, result.to_arrays()
 
 
 @contextlib.contextmanager

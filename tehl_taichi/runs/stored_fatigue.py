@@ -8,7 +8,7 @@ from tehl_taichi.runs.summary.film_warnings import no_index
 
 
 def assessed(store, scene, progress=None, until=None, threads=None):
-    """:class:`tehl_taichi.fatigue.assessment.FatigueResult` of a stored passage by the constants of `scene`; of the pressure
+    """:class:`tehl_taichi.fatigue.search_result.SearchResult` of a stored passage by the constants of `scene`; of the pressure
     alone where the film has more shear than any oil. progress, until, threads: as of :func:`tehl_taichi.fatigue`."""
     why = no_index(store) if scene.fatigue.shear else ""
     found = fatigue(store, scene.replace(**WITHOUT) if why else scene, progress=progress, threads=threads, until=until)

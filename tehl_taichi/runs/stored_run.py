@@ -98,7 +98,7 @@ class Run:
 
         Returns
         -------
-        FatigueResult
+        SearchResult
             With the error bars of the index, where they hold for these constants too.
         """
         from tehl_taichi.fatigue.overrides import changed

@@ -9,7 +9,8 @@ from made_results import fatigue
 from rolling import Rolling
 
 import tehl_taichi as tehl
-from tehl_taichi.fatigue import assessment, resolved_part
+from tehl_taichi.fatigue import assessment
+from tehl_taichi.fatigue.search_result import PART
 from tehl_taichi.march.accuracy import coarse_runs
 from tehl_taichi.report import scene_text, verdict
 from tehl_taichi.runs.summary import result_warnings, summary, summary_rows
@@ -33,8 +34,7 @@ def test_the_early_moments_are_those_of_a_search_up_to_there(taichi_cpu, changes
     deep, other = early.pop("below", {}), part.get("below", {})
     assert early == {key: pytest.approx(part[key], rel=1e-9) for key in early} and early["Fi_max"] < whole.summary["Fi_max"]
     assert deep == {key: pytest.approx(other[key], rel=1e-9) for key in deep} and bool(deep) == bool(other)
-    maps = {name.removeprefix(resolved_part.NAME): values[0] for name,
-            values in both.maps.items() if resolved_part.NAME in name}
+    maps = {name.removeprefix(PART): values[0] for name, values in both.maps.items() if name.startswith(PART)}
     own = set(alone.maps) & {"Fi", "worst_stress", "worst_below_normal", "worst_depth", "findley_stress_at_worst_depth",
                              "findley_stress_at_depth", "findley_stress_under_row"}
     assert "Fi" in own and own <= set(maps)

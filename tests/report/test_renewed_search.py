@@ -41,7 +41,7 @@ def search(monkeypatch):
         deep = 1.392 if scene.fatigue.depths else None
         found = {**fatigue(0.5, deep), "kappa_F": scene.fatigue.kappa, "sigma_eF_Pa": scene.fatigue.endurance}
         maps = {name: one for name, one in made_results.maps().items() if deep or "worst_below" not in name}
-        return assessment.FatigueResult(found, maps, {}, {})
+        return made_results.result(found, maps)
 
     monkeypatch.setattr(assessment, "run", run)
     monkeypatch.setattr(coarse_runs, "resolved", lambda *_: None)

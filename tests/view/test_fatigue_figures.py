@@ -1,5 +1,7 @@
 """Figures of a fatigue search, which is made up: depths, digits, lines and what explains them."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 from made_figures import legend, searched, title, titles
@@ -9,6 +11,11 @@ from tehl_taichi.view.figures import fatigue_figures, palette
 from tehl_taichi.view.figures.figure_style import FigureStyle
 
 matplotlib = pytest.importorskip("matplotlib")
+
+
+def middle_row(found):
+    """Stresses below the middle row of layers."""
+    return {"findley_stress_under_row": found.findley_stress_at_depth[:, :, 5]}
 
 
 def test_fatigue_is_shown_at_the_depth_that_is_wanted():
@@ -37,7 +44,7 @@ def test_an_index_has_the_digits_that_its_error_leaves_and_stresses_have_no_expo
     found.summary["error"] = {"Fi_max": 0.004}
     figures = fatigue_figures.all_figures(FigureStyle(dpi=40), found)
     assert "largest, Fi = 1.0000, plane at 50° to the surface" in titles(figures["fatigue"]())
-    found.maps["findley_stress_under_row"] = found.maps["findley_stress_at_depth"][:, :, 5]
+    found = dataclasses.replace(found, result=dataclasses.replace(found.result, **middle_row(found.result)))
     depth = fatigue_figures.all_figures(FigureStyle(dpi=40), found)["fatigue_depth"]()
     assert {"largest, Fi = 1.50 at 60 µm", "surface, Fi = 1.0000"} <= set(legend(depth))
 
@@ -46,9 +53,7 @@ def test_the_lines_on_maps_of_the_index_are_explained():
     from matplotlib.colors import to_hex
 
     def lines(Fi):
-        found = searched()
-        found.maps["Fi"] = Fi * found.maps["Fi"]
-        del found.maps["findley_stress_at_depth"]
+        found = searched(arrays=lambda found: {"Fi": Fi * found.Fi, "findley_stress_at_depth": None})
         figure = fatigue_figures.all_figures(FigureStyle(dpi=40), found)["fatigue"]()
         return figure, [one for one in figure.axes[0].collections if isinstance(one, matplotlib.contour.ContourSet)]
 
@@ -64,8 +69,7 @@ def test_the_lines_on_maps_of_the_index_are_explained():
 
 @pytest.mark.parametrize("width", [8.5, 17.0])
 def test_both_panels_of_the_depth_have_numbers_at_their_axis(width):
-    found = searched()
-    found.maps["findley_stress_under_row"] = found.maps["findley_stress_at_depth"][:, :, 5]
+    found = searched(arrays=middle_row)
     page = FigureStyle(width=width)
     with page.style():
         figure = page.fitted(fatigue_figures.all_figures(page, found)["fatigue_depth"]())
@@ -88,17 +92,17 @@ def test_a_worst_point_at_the_rim_leaves_no_white_around_the_map():
 def test_a_depth_that_was_not_searched_is_refused(depth):
     with pytest.raises(SceneError, match=f"depth = {depth:g} µm is out of range; allowed: at least 0 µm and at most 60 µm"):
         fatigue_figures.all_figures(FigureStyle(), searched(depth=depth))
-    found = searched(depth=20.0)
-    del found.maps["findley_stress_at_depth"]
+    found = searched(depth=20.0, arrays=lambda found: {"findley_stress_at_depth": None})
     with pytest.raises(SceneError, match="tehl fatigue STORE --depths 2e-05"):
         fatigue_figures.all_figures(FigureStyle(), found)
 
 
 def test_a_plane_that_is_not_at_the_worst_depth_has_its_own_mark():
     """The worst depth is looked for once more under the row of what is worst in the plane, which then lies beside it."""
-    found = searched()
-    x, plane = found.maps["feature_frame_x"], np.roll(found.maps.pop("findley_stress_at_depth")[1], -4, axis=0)
-    found.maps.update({"findley_stress_at_worst_depth": plane, "worst_depth": np.array([5e-5])})
+    plane = np.roll(searched().result.findley_stress_at_depth[1], -4, axis=0)
+    found = searched(arrays=lambda found: {"findley_stress_at_depth": None, "findley_stress_at_worst_depth": plane,
+                                           "worst_depth": np.array([5e-5])})
+    x = found.result.feature_frame_x
     ax = [ax for ax in fatigue_figures.all_figures(FigureStyle(dpi=40), found)["fatigue"]().axes if ax.get_title()][1]
     assert ax.get_title() == "largest, Fi = 0.50" and ax.collections[0].colorbar.ax.get_xlabel() == "Fi, 50 µm below"
     assert ax.lines[0].get_xdata() == pytest.approx([1e6 * x[np.unravel_index(plane.argmax(), plane.shape)[0]]])

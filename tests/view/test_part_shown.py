@@ -1,20 +1,18 @@
 """What pages and figures show where a grid does not resolve every pressure: first the part on which the answer rests."""
 
-import dataclasses
-
 import made_results
 import numpy as np
 import pytest
 from made_figures import searched, title, titles
 from read_pages import numbers, page
 
-from tehl_taichi.fatigue import resolved_part
+from tehl_taichi.fatigue import search_result
 from tehl_taichi.view.figures import fatigue_figures, search_data
 from tehl_taichi.view.figures.figure_style import FigureStyle
 
 ALONE = "findley_stress_contact_alone"
 PART = {"to_x_a": 0.6, **made_results.fatigue(0.8, 0.9)}
-PLACES = set(search_data.SHARED) - {ALONE}
+PLACES = set(search_result.SHARED) - {ALONE}
 SEARCH = {**made_results.fatigue(1.6, 1.7), "resolved": PART}
 
 
@@ -23,31 +21,29 @@ def maps(of_part=True):
     whole = made_results.maps()
     whole |= {"worst_depth": (np.array([25e-6]), ["d"], "m", "depth"),
               "findley_stress_at_worst_depth": (4e8 * whole["Fi"][0], ["x", "y"], "Pa", "stress")}
-    part = {resolved_part.NAME + name: (0.8 * values if "stress" in name or name == "Fi" else values, *rest)
+    part = {search_result.PART + name: (0.8 * values if "stress" in name or name == "Fi" else values, *rest)
             for name, (values, *rest) in whole.items() if name not in PLACES}
     return whole | part if of_part else whole
 
 
 def test_figures_of_a_stored_run_know_the_part():
-    assert search_data.OF_PART == resolved_part.NAME
-    arrays = {name: values[0] for name, values in maps().items()}
-    found = search_data.DrawnSearch.of(made_results.THERMAL, arrays, SEARCH)
+    found = search_data.DrawnSearch.of(made_results.THERMAL, made_results.result(SEARCH, maps()))
     part, whole = found.each
     assert whole is found and part.summary["Fi_max"] == 0.8 and part.summary["criterion"] == "findley"
-    np.testing.assert_allclose(part.maps["Fi"], 0.8 * found.maps["Fi"])
-    np.testing.assert_allclose(part.points["below"]["stress"], 0.8 * found.points["below"]["stress"])
-    np.testing.assert_array_equal(part.maps[ALONE], found.maps[ALONE])  # of a part of the passage it would say nothing
+    np.testing.assert_allclose(part.result.Fi, 0.8 * found.result.Fi)
+    np.testing.assert_allclose(part.result.worst_below["stress"], 0.8 * found.result.worst_below["stress"])
+    # of a part of the passage it would say nothing
+    np.testing.assert_array_equal(getattr(part.result, ALONE), getattr(found.result, ALONE))
     assert "feature up to 0.60 a" in part.constants
     assert found.constants.endswith("whole passage, later pressures not resolved")
-    older = search_data.DrawnSearch.of(made_results.THERMAL, {name: values[0] for name, values in maps(False).items()}, SEARCH)
+    older = search_data.DrawnSearch.of(made_results.THERMAL, made_results.result(SEARCH, maps(False)))
     assert older.each == [older] and older.when == ""
 
 
 @pytest.mark.parametrize("width", [17.0, 8.5])
 def test_the_map_of_the_part_comes_first(width):
     pytest.importorskip("matplotlib")
-    part = dataclasses.replace(searched(), when="as long as it is (up to 0.6 a)")
-    part.maps["Fi"] = 0.8 * part.maps["Fi"]
+    part = searched(arrays=lambda found: {"Fi": 0.8 * found.Fi}, when="as long as it is (up to 0.6 a)")
     figures = fatigue_figures.all_figures(FigureStyle(dpi=40, width=width), searched(part=part, when="all"))
     figure = figures["fatigue"]()
     said = [text for text in titles(figure)[1:] if text]

@@ -16,7 +16,7 @@ from tehl_taichi.view.figures import palette
 from tehl_taichi.view.figures.field_maps import bar, mirrored, shade
 from tehl_taichi.view.figures.index_text import error_of, index_text, largest, mpa
 from tehl_taichi.view.figures.limit_line import crossed, explained, handle, limit_line
-from tehl_taichi.view.figures.searched_depths import beside_worst, under_row
+from tehl_taichi.view.figures.search_data import beside_worst
 
 EVEN = 200  # depths drawn of a section
 FLOW = ", flow to the right"
@@ -65,7 +65,7 @@ def all_figures(page, found):
     layers = [_layers(one) for one in found.each]
     figures = {"fatigue": lambda: index_figure(page, found, layers)}
     for one, more in zip(found.each, ("", "_whole")):
-        if "findley_stress_under_row" in one.maps:
+        if one.result.findley_stress_under_row is not None:
             figures[f"fatigue_depth{more}"] = partial(depth_figure, page, one)
         figures[f"fatigue_point{more}"] = partial(worst_points, page, one)
     return figures
@@ -73,13 +73,13 @@ def all_figures(page, found):
 
 def _layers(found):
     """The surface, and the layer below it that is wanted, or the worst where all its points were searched."""
-    top = _worst(found, "surface", found.maps["Fi"], found.summary, found.points["surface"])
-    below, plane = _searched(found), found.maps.get("findley_stress_at_worst_depth")
+    top = _worst(found, "surface", found.result.Fi, found.summary, found.result.worst)
+    below, plane = _searched(found), found.result.findley_stress_at_worst_depth
     if found.depth is None and plane is not None:
-        return [top, _layer(found, float(found.maps["worst_depth"][0]), plane)]
-    if below is None or (found.depth is None and "findley_stress_at_depth" not in found.maps):
+        return [top, _layer(found, float(found.result.worst_depth[0]), plane)]
+    if below is None or (found.depth is None and found.result.findley_stress_at_depth is None):
         return [top]
-    depths, worst = found.maps["fatigue_depth"], found.summary["below"]["depth_m"]
+    depths, worst = found.result.fatigue_depth, found.summary["below"]["depth_m"]
     n = beside_worst(depths, worst) if found.depth is None else int(np.argmin(np.abs(depths - found.depth * 1e-6)))
     return [top, _layer(found, depths[n], below[n])]
 
@@ -88,9 +88,9 @@ def _layer(found, depth, stress):
     """One depth (m) with its Findley stress (x, y): with the worst point where that lies there, else with its own largest."""
     where, Fi, deep = f"{depth * 1e6:.3g} µm below", stress / found.summary["sigma_eF_Pa"], found.summary["below"]
     if np.isclose(depth, deep["depth_m"]):
-        return _worst(found, where, Fi, deep, found.points["below"])
+        return _worst(found, where, Fi, deep, found.result.worst_below)
     i, j = np.unravel_index(int(np.argmax(Fi)), Fi.shape)
-    return DrawnLayer(where, Fi, (found.maps["feature_frame_x"][i], found.maps["feature_frame_y"][j]), when=found.when)
+    return DrawnLayer(where, Fi, (found.result.feature_frame_x[i], found.result.feature_frame_y[j]), when=found.when)
 
 
 def _worst(found, where, Fi, summary, history):
@@ -100,14 +100,14 @@ def _worst(found, where, Fi, summary, history):
 
 def _searched(found):
     """Findley stress (depth, x, y) of whole layers, or None. Raises SceneError where one is wanted that is not there."""
-    layers, row = (found.maps.get(f"findley_stress_{name}") for name in ("at_depth", "under_row"))
+    layers, row = found.result.findley_stress_at_depth, found.result.findley_stress_under_row
     if layers is None and found.one_row and row is not None:
         layers = row[:, :, None]
     if layers is None and found.depth is not None:
         raise SceneError(f"depth = {found.depth:g} µm: this depth was not searched at all points; use `tehl fatigue STORE "
                          f"--depths {found.depth * 1e-6:g} --figures FOLDER`")
     if found.depth is not None:
-        depths = found.maps["fatigue_depth"] * 1e6
+        depths = found.result.fatigue_depth * 1e6
         number("depth", plain(found.depth), "µm", float(depths[0]), float(depths[-1]), usual=100.0)
     return layers
 
@@ -122,7 +122,7 @@ def index_figure(page, found, layers):
     height = 1.3 * page.inches / columns * rows  # more than enough
     figure, axes = page.figure(rows, columns, height, True, sharey=True, sharex=True)
     for ax, layer in zip(axes.ravel(), shown):
-        index_map(figure, ax, found.maps, layer, beside and most > 1)
+        index_map(figure, ax, found.result, layer, beside and most > 1)
     for ax in axes[-1]:
         ax.set_xlabel(found.along + FLOW * (columns == 1))
     for ax in axes[:, 0]:
@@ -137,7 +137,7 @@ def index_lines(page, found, layers):
     figure, ((ax,),) = page.figure(height=1.6 * page.row())
     for layer, colour in zip(layers, palette.LINES):
         where = ": ".join(filter(None, (layer.when, layer.where)))
-        ax.plot(found.maps["feature_frame_x"] * 1e6, layer.Fi[:, 0], color=colour, label=where)
+        ax.plot(found.result.feature_frame_x * 1e6, layer.Fi[:, 0], color=colour, label=where)
         ax.plot(layer.at[0] * 1e6, layer.Fi.max(), "+", color=colour, ms=page.text, mew=0.2 * page.text,
                 label=layer.legend_text)
     ax.set(xlabel=found.along + FLOW, ylabel="Fi")
@@ -147,9 +147,9 @@ def index_lines(page, found, layers):
     return figure
 
 
-def index_map(figure, ax, maps, layer, beside):
+def index_map(figure, ax, result, layer, beside):
     """Index of one layer; at its worst point the trace of the critical plane in the layer and its dip."""
-    x, (y, Fi) = maps["feature_frame_x"], mirrored(maps["feature_frame_y"] * 1e6, layer.Fi)
+    x, (y, Fi) = result.feature_frame_x, mirrored(result.feature_frame_y * 1e6, layer.Fi)
     image = shade(ax, x * 1e6, y, Fi, cmap=palette.INDEX)
     bar(figure, image, ax, f"Fi, {layer.where}", beside)
     at = np.array(layer.at) * 1e6
@@ -170,7 +170,7 @@ def _mark(ax, x, y):
 
 def depth_figure(page, found):
     """Index in the section under the row of the worst point below the surface, and its largest value over depth."""
-    depth, Fi = under_row(found.maps.get) * 1e6, found.maps["findley_stress_under_row"] / found.summary["sigma_eF_Pa"]
+    depth, Fi = found.result.row_depths * 1e6, found.result.findley_stress_under_row / found.summary["sigma_eF_Pa"]
     sizes = dict(height_ratios=(1, 1)) if page.narrow else dict(width_ratios=(3, 2))
     panels, height = ((2, 1), 3.2 * page.row()) if page.narrow else ((1, 2), 2.3 * page.row(2))
     figure, axes = page.figure(*panels, height=height, **sizes)
@@ -186,7 +186,7 @@ def depth_figure(page, found):
 
 def _section(page, figure, ax, found, Fi, depth):
     """Index (depth, x) on even depths, with its worst point."""
-    x, deep, even = found.maps["feature_frame_x"] * 1e6, found.summary["below"], np.linspace(0, depth[-1], EVEN)
+    x, deep, even = found.result.feature_frame_x * 1e6, found.summary["below"], np.linspace(0, depth[-1], EVEN)
     shown = np.stack([np.interp(even, depth, column) for column in Fi.T])
     bar(figure, shade(ax, x, even, shown, cmap=palette.INDEX), ax, f"Fi at y = {deep['y_m'] * 1e6:.0f} µm", not page.narrow)
     limit_line(ax, x, even, shown)
@@ -199,8 +199,8 @@ def _over_depth(ax, found, Fi, depth):
     line, = ax.plot(Fi.max(axis=1), depth, ".-", label=f"under the {found.whose}")
     ax.plot(deep["Fi_max"], deep["depth_m"] * 1e6, "+", color=line.get_color(), ms=2.5 * line.get_markersize(),
             mew=line.get_linewidth(), label=f"largest, Fi = {largest(deep)} at {micrometres(deep['depth_m'])} µm")
-    if "findley_stress_contact_alone" in found.maps:
-        ax.plot(found.maps["findley_stress_contact_alone"] / limit, depth, "--", color=palette.GREY,
+    if found.result.findley_stress_contact_alone is not None:
+        ax.plot(found.result.findley_stress_contact_alone / limit, depth, "--", color=palette.GREY,
                 label=f"contact without its {found.whose}")
     ax.plot(found.summary["Fi_max"], 0.0, "o", color=palette.VERMILLION, clip_on=False,
             label=f"surface, Fi = {largest(found.summary)}")
@@ -210,9 +210,9 @@ def _over_depth(ax, found, Fi, depth):
 
 def worst_points(page, found):
     """Of the worst point of the surface and of the one below it: see :func:`worst_point`."""
-    shown = [("critical point at the surface", found.points["surface"])]
-    if found.points.get("below"):
-        shown.append((f"critical point below, {micrometres(found.summary['below']['depth_m'])} µm", found.points["below"]))
+    shown = [("critical point at the surface", found.result.worst)]
+    if found.result.worst_below:
+        shown.append((f"critical point below, {micrometres(found.summary['below']['depth_m'])} µm", found.result.worst_below))
     columns = 1 if page.narrow else 2
     height = 1.6 * page.row(columns) * len(shown) * (2 / columns)
     figure, axes = page.figure(len(shown) * 2 // columns, columns, height)

@@ -3,6 +3,7 @@
 from functools import partial
 
 from tehl_taichi.errors import SceneError
+from tehl_taichi.fatigue.search_result import SearchResult
 from tehl_taichi.view.figures import fatigue_figures, field_maps, line_figures, search_data, surface_figure
 from tehl_taichi.view.figures.figure_style import FigureStyle
 from tehl_taichi.view.figures.moments import Moments
@@ -47,13 +48,10 @@ def _of_the_film(store):
 
 
 def _fatigue(store, depth):
-    maps = {name: values for name in search_data.MAPS if (values := store.map(name)) is not None}
-    return search_data.DrawnSearch.of(store.scene, maps, store.summary["fatigue"], depth)
+    return search_data.DrawnSearch.of(store.scene, SearchResult.from_arrays(store.summary["fatigue"], store.map), depth)
 
 
 def write_fatigue(result, scene, folder, page=None, depth=None):
-    """Write the figures of a FatigueResult of a scene into `folder`; returns the paths. Raises SceneError, StoreError."""
+    """Write the figures of a SearchResult of a scene into `folder`; returns the paths. Raises SceneError, StoreError."""
     page = page or FigureStyle()
-    maps = {name: value[0] for name, value in result.maps.items()}
-    found = search_data.DrawnSearch.of(scene, maps, result.summary, depth)
-    return page.write(folder, fatigue_figures.all_figures(page, found))
+    return page.write(folder, fatigue_figures.all_figures(page, search_data.DrawnSearch.of(scene, result, depth)))

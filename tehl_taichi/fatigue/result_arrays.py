@@ -1,0 +1,43 @@
+"""Arrays of a :class:`tehl_taichi.fatigue.search_result.SearchResult`, by its fields."""
+
+import numpy as np
+
+
+def of_surface(surface, passage, limit):
+    """Of all points of the surface; limit: sigma_eF, Pa."""
+    return {"feature_frame_x": passage.x, "feature_frame_y": passage.y, "findley_stress": surface.f, "Fi": surface.f / limit,
+            "sigma1_max": surface.sigma1, "plane_theta": surface.theta, "plane_phi": surface.phi}
+
+
+def of_plane(plane):
+    """Of the plane below that was searched at all its points."""
+    return {"worst_depth": np.array([plane.depth]), "findley_stress_at_worst_depth": plane.f}
+
+
+def of_layers(layers):
+    """Of all points at every listed depth."""
+    return {"fatigue_depth": np.array([layer.depth for layer in layers]),
+            "findley_stress_at_depth": at_depths(layers)}
+
+
+def at_depths(layers):
+    """Findley stress (depth, x, y) of layers."""
+    return np.stack([layer.f for layer in layers])
+
+
+def under_row(f, passage, profiles):
+    """Findley stress (depth, x) under the row with the critical point; f (nx, rows): that of the surface, the first depth."""
+    under = max((profile for profile in profiles if not profile.alone), key=lambda profile: profile.worst.f)
+    row = f[:, [int(np.argmin(np.abs(passage.y - under.worst.y)))]].T
+    return np.concatenate([row, under.f])
+
+
+def of_profiles(f, passage, profiles, listed):
+    """Over the depth, under the row with the critical point and of the contact alone; f: as for :func:`under_row`; listed:
+    whether other depths are listed."""
+    out = {"under_row_depth" if listed else "fatigue_depth": np.append(0.0, profiles[0].depths),
+           "findley_stress_under_row": under_row(f, passage, profiles)}
+    for profile in profiles:
+        if profile.alone:
+            out["findley_stress_contact_alone"] = np.append(np.nan, profile.f.max(axis=1))
+    return out

@@ -1,0 +1,152 @@
+"""The result of a fatigue search: its numbers and its arrays, and how a store names these."""
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+from tehl_taichi.fatigue.pressure_alone import searched
+
+BOTH = ("feature_frame_x", "feature_frame_y")
+ROWS = "depths of rows"  # stands for fatigue_depth, or under_row_depth where depths are listed
+ARRAYS = {  # {name: (dimensions, unit, text)}, in the order of a store
+    "feature_frame_x": (BOTH[:1], "m", "along rolling, from the centre of the feature"),
+    "feature_frame_y": (BOTH[1:], "m", "across, from the centre of the contact"),
+    "findley_stress": (BOTH, "Pa", "Findley stress"),
+    "Fi": (BOTH, "1", "Findley index"),
+    "sigma1_max": (BOTH, "Pa", "largest principal stress of the passage"),
+    "plane_theta": (BOTH, "degree", "angle of the critical plane's normal from the surface normal"),
+    "plane_phi": (BOTH, "degree", "direction of the critical plane's normal in the surface, from x"),
+    "under_row_depth": (("under_row_depth",), "m", "below the surface"),
+    "fatigue_depth": (("fatigue_depth",), "m", "below the surface"),
+    "findley_stress_under_row": ((ROWS, BOTH[0]), "Pa", "Findley stress below the row of the critical point below the surface"),
+    "findley_stress_contact_alone": ((ROWS,), "Pa", "Findley stress of the contact without its feature"),
+    "worst_depth": (("worst_depth",), "m", "below the surface, searched at all points"),
+    "findley_stress_at_worst_depth": (BOTH, "Pa", "Findley stress at that depth"),
+    "findley_stress_at_depth": (("fatigue_depth", *BOTH), "Pa", "Findley stress")}
+HISTORIES = {"worst": "the critical point at the surface", "worst_below": "the critical point below the surface"}
+HISTORY = {  # {key: (dimensions, unit, text)} of a stress history
+    "x_a": (("moment",), "m", "centre of the feature; the last moment is unloaded"),
+    "stress": (("moment", "component"), "Pa", "xx, yy, zz, xy, xz, yz at {point}"),
+    "normal": (("direction",), "1", "unit normal of its critical plane"),
+    "circle": (("of_circle",), "Pa", "around its shear path: centre along dip, strike; radius")}
+PART, PART_TEXT = "resolved_", " while the grid resolves the pressure"  # of arrays of the resolved part
+OWN = ("moment", "worst_depth")  # dimensions that the resolved part does not share with the whole passage
+SHARED = (*BOTH, "under_row_depth", "fatigue_depth", "findley_stress_contact_alone")  # arrays of the whole that it shares
+CONSTANTS = ("criterion", "kappa_F", "sigma_eF_Pa")
+
+
+@dataclass(frozen=True)
+class SearchResult:
+    """Result of a fatigue search; an array is None where it was not computed.
+
+    Attributes
+    ----------
+    summary : dict
+        Numbers in SI units, of the surface, and below it in its "below".
+    feature_frame_x, feature_frame_y : numpy.ndarray
+        Points of the surface in the frame of the feature, m.
+    findley_stress, Fi, sigma1_max, plane_theta, plane_phi : numpy.ndarray
+        At the surface, (x, y).
+    fatigue_depth, under_row_depth : numpy.ndarray
+        Depths searched, m; `under_row_depth`: those under a row, where other depths were listed.
+    findley_stress_under_row, findley_stress_contact_alone : numpy.ndarray
+        Over `row_depths`: under the row of the critical point (depth, x), and of the contact without its feature (depth,).
+    worst_depth, findley_stress_at_worst_depth : numpy.ndarray
+        The depth (1,) whose points were all searched, and the stress there (x, y).
+    findley_stress_at_depth : numpy.ndarray
+        At all points of the depths listed, (depth, x, y).
+    worst, worst_below : dict
+        Stress history of the critical point of the surface, and of that below: x_a (m), stress (times, 6) Pa, the last one
+        unloaded, normal (3,), circle around the shear path (centre along dip and strike, radius; Pa).
+    resolved : SearchResult
+        Search of the moments while the grid resolves the pressure; None where these are all.
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> tehl.SearchResult({"Fi_max": 0.97, "below": {"Fi_max": 1.21}})
+    <tehl.SearchResult: Fi_max 0.97 at the surface, 1.21 below>
+    """
+
+    summary: dict
+    feature_frame_x: Any = None
+    feature_frame_y: Any = None
+    findley_stress: Any = None
+    Fi: Any = None
+    sigma1_max: Any = None
+    plane_theta: Any = None
+    plane_phi: Any = None
+    under_row_depth: Any = None
+    fatigue_depth: Any = None
+    findley_stress_under_row: Any = None
+    findley_stress_contact_alone: Any = None
+    worst_depth: Any = None
+    findley_stress_at_worst_depth: Any = None
+    findley_stress_at_depth: Any = None
+    worst: dict | None = None
+    worst_below: dict | None = None
+    resolved: "SearchResult | None" = None
+
+    @classmethod
+    def from_arrays(cls, summary, array):
+        """Of a store: its summary, and array(name): an array or None."""
+        known = searched(summary).get("resolved")
+        return cls(summary, **_named(array, ""), resolved=cls(known, **_named(array, PART)) if known else None)
+
+    def to_arrays(self):
+        """{name: (values, dimensions, unit, text)}, as a store keeps them."""
+        rows = "fatigue_depth" if self.under_row_depth is None else "under_row_depth"
+        return _arrays(self, rows) | (_of_part(_arrays(self.resolved, rows)) if self.resolved else {})
+
+    @property
+    def maps(self):
+        """The same as :meth:`to_arrays`."""
+        return self.to_arrays()
+
+    @property
+    def numbers(self):
+        """Numbers of this search, also where the summary gives no index: there of the pressure alone."""
+        return searched(self.summary)
+
+    @property
+    def row_depths(self):
+        """Depths (m) of the stresses under a row."""
+        return self.fatigue_depth if self.under_row_depth is None else self.under_row_depth
+
+    @property
+    def part(self):
+        """The resolved part with the constants and places of the whole passage, or None."""
+        if self.resolved is None:
+            return None
+        constants = {key: self.numbers[key] for key in CONSTANTS}
+        return replace(self.resolved, summary={**constants, **self.numbers["resolved"]},
+                       **{name: getattr(self, name) for name in SHARED})
+
+    def __repr__(self):
+        found = self.numbers
+        below = f", {found['below']['Fi_max']:.3g} below" if "below" in found else ""
+        return f"<tehl.SearchResult: Fi_max {found['Fi_max']:.3g} at the surface{below}>"
+
+
+def _named(array, first):
+    """{field: value} of arrays whose names begin with `first`."""
+    found = {name: array(first + name) for name in ARRAYS}
+    for point in HISTORIES:
+        history = {key: array(f"{first}{point}_{key}") for key in HISTORY}
+        found[point] = None if history["stress"] is None else history
+    return found
+
+
+def _arrays(result, rows):
+    """Arrays of a result by name, without those of its resolved part; rows: dimension of what lies under a row."""
+    found = {name: (getattr(result, name), [rows if dim == ROWS else dim for dim in dims], unit, text)
+             for name, (dims, unit, text) in ARRAYS.items()}
+    for point, words in HISTORIES.items():
+        found |= {f"{point}_{key}": (history[key], list(dims), unit, text.format(point=words))
+                  for key, (dims, unit, text) in HISTORY.items() if (history := getattr(result, point))}
+    return {name: array for name, array in found.items() if array[0] is not None}
+
+
+def _of_part(arrays):
+    """The arrays of a resolved part by their names in a store."""
+    return {PART + name: (values, [PART + dim if dim in OWN else dim for dim in dims], unit, text + PART_TEXT)
+            for name, (values, dims, unit, text) in arrays.items()}
