@@ -25,8 +25,8 @@ def main():
         code = _run()
         sys.stdout.flush()
     except KeyboardInterrupt as stop:
-        by = f"stopped by {stop}" if str(stop) else "interrupted"
-        _print_last(f"{by}; all stored data are kept")
+        name = getattr(stop, "signal", "")
+        _print_last(f"{f'stopped by {name}' if name else 'interrupted'}; all stored data are kept")
         code = INTERRUPTED
     except BrokenPipeError:  # as in `tehl show STORE | head`: the reader has seen enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
@@ -89,15 +89,22 @@ def _code(stop):
     if isinstance(stop.__context__, BrokenPipeError):
         raise BrokenPipeError
     if stop.code == 128 + signal.SIGINT:
-        raise KeyboardInterrupt(*_signal_of(stop))
+        raise _by(_signal_of(stop))
     return stop.code or 0
 
 
 def _signal_of(error):
-    """(name of the signal,) that a KeyboardInterrupt behind an error has, () of Ctrl-C; a number is an exit code of typer."""
+    """Name of the signal of the KeyboardInterrupt behind an error, "" of Ctrl-C."""
     while error is not None and not isinstance(error, KeyboardInterrupt):
         error = error.__context__
-    return tuple(part for part in getattr(error, "args", ()) if isinstance(part, str))
+    return getattr(error, "signal", "")
+
+
+def _by(name):
+    """A KeyboardInterrupt by a signal of that name, "" of Ctrl-C."""
+    made = KeyboardInterrupt()
+    made.signal = name
+    return made
 
 
 def _stop_as_ctrl_c_does():
@@ -110,7 +117,7 @@ def _stop_as_ctrl_c_does():
 
 
 def _stop(number, _):
-    raise KeyboardInterrupt(signal.Signals(number).name)
+    raise _by(signal.Signals(number).name)
 
 
 def _print_in_any_encoding():

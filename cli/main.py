@@ -61,8 +61,8 @@ def _printable():
 
 
 def _sentence(stop):
-    """What a KeyboardInterrupt says; where it names a signal at most, what is stored."""
-    return str(stop) if " " in str(stop) else f"{stopped(stop)}; all stored data are kept"
+    """The sentence of a KeyboardInterrupt; of one without, what is stored."""
+    return str(stop) or f"{stopped(stop)}; all stored data are kept"
 
 
 def _with_value(error):

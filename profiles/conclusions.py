@@ -11,10 +11,10 @@ from tehl_taichi.profiles import measure, passage_stresses
 from tehl_taichi.profiles.passage_stresses import ALONE, DEEP, DEPTHS, LOADS, WINDOWS
 
 from tehl_taichi.errors import NotConverged
-from tehl_taichi.march.accuracy import readings
-from tehl_taichi.march.accuracy.error_bars import RIVAL, estimated_error
+from tehl_taichi.march.accuracy.error_bars import estimated_error
 from tehl_taichi.runs.sweep import pool
 from tehl_taichi.scene import scene
+from tehl_taichi.values.coded_text import code_of
 
 # cells along x more than across: that is what an exit asks for (docs/exit.md); those that decide have four times as many
 GRIDS, FINE_GRIDS, QUICK_GRIDS = ((128, 16), (256, 32), (512, 64)), ((512, 16), (1024, 32), (2048, 64)), ((32, 8), (64, 16))
@@ -22,9 +22,8 @@ EVERY = 1024  # columns of which each moment is stored; every second of twice as
 DECIDE = "asperity 1.5 um", "dent 1.5 um"
 SLIPS = (-0.12, 0.0, 0.12)
 NEAR_ONE = 0.9
-# what a table says of an error that is not known, by the beginning of the reason
-UNKNOWN = {reason.partition("{")[0]: short for reason, short in (
-    (readings.EXIT, "exit not resolved"), (readings.SPIKE, "peak not resolved"), (RIVAL, "a rival grows"))}
+# what a table says of an error that is not known, by the code of the reason
+UNKNOWN = {"exit": "exit not resolved", "peak": "peak not resolved", "rival": "a rival grows"}
 BARE = {"fatigue.on": False, "numerics.estimate_error": False}  # both are worked out here, for all grids and loads together
 
 
@@ -159,7 +158,7 @@ def _pair(one, other):
 def _with_error(f, error, doubt=""):
     if np.isfinite(error):
         return f"{f / 1e6:.0f} ± {error / 1e6:.0f}"
-    return f"{f / 1e6:.0f} ({next((short for begins, short in UNKNOWN.items() if doubt.startswith(begins)), 'error unknown')})"
+    return f"{f / 1e6:.0f} ({UNKNOWN.get(code_of(doubt), 'error unknown')})"
 
 
 def _slug(name):

@@ -15,6 +15,7 @@ from tehl_taichi.runs.single_run import completed
 from tehl_taichi.scene import Scene
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.store.store_draft import removed
+from tehl_taichi.values.coded_text import Reason, code_of
 
 WINDOWS = {"entry": (-np.inf, -0.5), "inside": (-0.5, 0.5), "exit": (0.5, np.inf), "to 0.5 a": (-np.inf, 0.5),
            "whole": (-np.inf, np.inf)}
@@ -52,6 +53,7 @@ def read_passage(description, store):
         if description.grid.nx * description.grid.ny <= LARGE:
             return found
         content = {name: list(part.items()) if isinstance(part, dict) else part for name, part in asdict(found).items()}
+        content["doubts"] = [(key, [why, code_of(why)]) for key, why in found.doubts.items()]
         files.replace(kept, json.dumps({"scene": description.to_dict(), **content}).encode())
     found = _kept(kept, description)
     if store.exists():  # still, where an earlier end of the suite left a part of it
@@ -63,7 +65,8 @@ def _kept(path, description):
     content = json.loads(path.read_text())
     if Scene.from_dict(content.pop("scene")) != description:
         raise StoreError(f"{path} tells of another scene; choose another folder or remove it")
-    values, doubts = ({tuple(key): value for key, value in content[name]} for name in ("values", "doubts"))
+    values = {tuple(key): value for key, value in content["values"]}
+    doubts = {tuple(key): Reason(*([why] if isinstance(why, str) else why)) for key, why in content["doubts"]}
     courses = {window: tuple(pressures) for window, pressures in content["courses"]}
     return PassageStresses(values, courses, tuple(content["friction"]), doubts)
 

@@ -1,7 +1,5 @@
 """Everything that tehl_taichi refuses or gives up is an Error: one or two sentences, and the exit code of the command line."""
 
-import re
-
 FAILED, BAD_INPUT, NOT_CONVERGED, INTERRUPTED = 1, 2, 3, 4
 
 
@@ -78,7 +76,13 @@ def brief(error, most=200):
 
 
 def stopped(stop):
-    """How a sentence about a KeyboardInterrupt begins: "interrupted" (Ctrl-C), or by which signal it was stopped, where that
-    is its text (as the command line has it: "SIGTERM") or begins it ("stopped by SIGTERM after 2 steps")."""
-    found = re.match(r"(?:stopped by )?(SIG[A-Z]+)\b", str(stop))
-    return f"stopped by {found[1]}" if found else "interrupted"
+    """How a sentence about a KeyboardInterrupt begins: "interrupted" (Ctrl-C), or its signal, where it has one."""
+    name = getattr(stop, "signal", "")
+    return f"stopped by {name}" if name else "interrupted"
+
+
+def interrupt(stop, more):
+    """A KeyboardInterrupt by the signal of `stop` with the sentence about it; more: how that goes on."""
+    made = KeyboardInterrupt(f"{stopped(stop)}{more}")
+    made.signal = getattr(stop, "signal", "")
+    return made

@@ -13,6 +13,7 @@ from tehl_taichi.march.accuracy.error_bars import bars
 from tehl_taichi.march.failure import not_converged
 from tehl_taichi.march.solved_state import SolvedState
 from tehl_taichi.march.steady import solve_steady
+from tehl_taichi.values.coded_text import Reason
 
 
 class StartReadings:
@@ -67,7 +68,8 @@ def _bars(first, scene):
 
 def _unknown(first, scene):
     """Bars of a state in time: none, and why."""
-    return tuple(dict.fromkeys(readings.steady(first, scene), said) for said in (None, f"not converged: {first.unsettled}"))
+    why = Reason(f"not converged: {first.unsettled}", "unsettled")
+    return tuple(dict.fromkeys(readings.steady(first, scene), each) for each in (None, why))
 
 
 def _spread(first, scene, scales):

@@ -3,8 +3,8 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from tehl_taichi.report import plain_language
 from tehl_taichi.report.embed import as_json, library, packed
+from tehl_taichi.values.coded_text import without_options
 from tehl_taichi.values.escape import label, printable
 
 TEMPLATES = Path(__file__).parent / "templates"
@@ -57,8 +57,8 @@ class Answer:
     def groups(self):
         """[(heading, warnings)]: those of the result first, which the answer hangs on; none that is empty.
         In words for readers."""
-        found = [plain_language.plain_sentence(one) for one in self.warnings if one not in self.known_before]
-        known = [plain_language.plain_sentence(one) for one in self.warnings if one in self.known_before]
+        found = [without_options(one) for one in self.warnings if one not in self.known_before]
+        known = [without_options(one) for one in self.warnings if one in self.known_before]
         return [group for group in (("About the result", found), ("About the scene", known)) if group[1]]
 
 

@@ -8,7 +8,6 @@ from tehl_taichi.report import (
     map_plots,
     numbered_points,
     passage_plots,
-    plain_language,
     run_tables,
     scene_text,
     surface_plots,
@@ -19,6 +18,7 @@ from tehl_taichi.report.searches import searches
 from tehl_taichi.scene.feature_wording import where
 from tehl_taichi.store.attributes import text
 from tehl_taichi.store.reader import Reader
+from tehl_taichi.values.coded_text import without_options
 
 DARK = " Points that have not passed the contact by then are dark on the maps: they are not loaded yet."
 OF = (("", ""), (", resolved part", "The answer uses this part: "), (", whole passage", ""))  # of one search; of two
@@ -41,7 +41,7 @@ def page(store, result=None):
 
 def scene_section(scene, source):
     """A scene in words and numbers, and all of its values."""
-    left_out = [plain_language.plain_sentence(one) for one in scene.left_out(cut=False)]
+    left_out = [without_options(one) for one in scene.left_out(cut=False)]
     whole = PageBlock("source", {"title": "every value, as a scene file", "text": source}) if source else None
     return Section("Scene", (PageBlock("text", {"sentences": scene_text.words(scene)}), facts(scene_text.numbers(scene)),
                              sentences(left_out, "Left out, because the scene does not need these parts"), whole))

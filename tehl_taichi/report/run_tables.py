@@ -8,10 +8,12 @@ from tehl_taichi.report.number_text import FEW, apart, index, roughly, share, va
 from tehl_taichi.runs.summary.summary_rows import contact_share
 from tehl_taichi.scene.feature_wording import passing
 from tehl_taichi.store import integrity
+from tehl_taichi.values.coded_text import Reason, reasons_of
 from tehl_taichi.view.figures.index_text import resolved
 
 PARTS = (("steady", "steady start"), ("transient", "passage"), ("fatigue", "fatigue"))
 SHORT = 30  # letters of a reason that stands in the row itself
+BRIEF = {"exit": "exit not resolved", "peak": "peak not resolved", "unsettled": "not converged"}  # {code: a long reason}
 RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -50,19 +52,18 @@ def _with_errors(values, reasons):
         says, unit = _meaning(name)
         value, shown, scale = apart(values[name], error, unit, FEW)
         value = roughly(values[name]) if name == "Fi_max" and error is None else value
-        why = values.get("unknown", {}).get(name, "not estimated")
+        why = reasons_of(values).get(name, Reason("not estimated"))
         yield (says, f"{value} {scale}".strip(), _in_row(why, reasons) if error is None else f"{shown} {scale}".strip(),
                "" if error is None else share(error, values[name]))
 
 
 def _in_row(why, reasons):
-    """A reason as its row has it: a long one by its first words, or as no more than that, with its mark behind the tables."""
+    """A reason as its row has it: a long one in brief, with the mark of its note behind the tables."""
     if len(why) <= SHORT:
         return why
     if why not in reasons:
         reasons.append(why)
-    first = why.partition(": ")[0]
-    return f"{first if len(first) <= SHORT else 'not known'} {_mark(reasons.index(why))}"
+    return f"{BRIEF.get(why.code, 'not known')} {_mark(reasons.index(why))}"
 
 
 def _mark(n):

@@ -58,7 +58,7 @@ def of_fatigue(fatigue, scene=None):
         return FATIGUE, f"No verdict: {why}.", "open", _from_pressure(searched(fatigue))
     over = when(scene) if scene else WHOLE
     worst, places, known, tells = _judged(fatigue)
-    said, tells = headline(worst, places, known), [*tells, *_alone(fatigue, over, feature_wording.passing(scene))]
+    said, tells = headline(worst, places, known), [*tells, *_alone(fatigue, scene, feature_wording.passing(scene))]
     if "resolved" in fatigue:
         said, tells = _by_what_is_known(fatigue["resolved"], worst, tells, over, feature_wording.where(scene))
     return FATIGUE, *said, (*tells, *_plane(fatigue))
@@ -124,12 +124,12 @@ def headline(worst, places, known, when=""):
     return f"{no}: the index stays below 1{when}{more}.", "no"
 
 
-def _alone(fatigue, over, what):
+def _alone(fatigue, scene, what):
     alone = fatigue.get("below", {}).get("contact_alone")
     if not alone:
         return ()
     more = f": the material is overloaded even without the {what}" if alone["Fi_max"] > 1 else ""
-    where = f"{micrometres(alone['depth_m'])} µm" + ("" if over == WHOLE else ", over the same moments")
+    where = f"{micrometres(alone['depth_m'])} µm" + ", over the same moments" * bool(scene and moments(scene))
     return (f"The contact without its {what} has Fi = {index(alone['Fi_max'])} at {where}{more}.",)
 
 

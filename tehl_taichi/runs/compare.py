@@ -11,7 +11,8 @@ from tehl_taichi.values.path_arguments import folder_of
 
 MOST = 8  # stores: more lines than that nobody tells apart
 # of a summary: words, or what every run has of its own
-OWN = ("store", "version", "scene", "left_out", "warnings", "warning_codes", "warning_data", "error_parts", "unknown")
+OWN = ("store", "version", "scene", "left_out", "warnings", "warning_codes", "warning_data", "error_parts", "unknown",
+       "unknown_codes")
 
 
 @dataclass(frozen=True)

@@ -8,8 +8,9 @@ does with other depths, where the same point is the worst.
 from dataclasses import asdict
 
 from tehl_taichi.march.accuracy.coarse_runs import FI, indices
+from tehl_taichi.values.coded_text import Reason, reasons_of, unknown_of
 
-OTHER = "the coarse-grid runs used the constants and moments of the run, not these"
+OTHER = Reason("the coarse-grid runs used the constants and moments of the run, not these", "other")
 # of the section [fatigue]: they change no stress of a point (limits do by kappa, which is compared)
 FREE = ("on", "endurance", "bending_limit", "torsion_limit", "source", "depths")
 SAME = 1e-6  # of the stress: the stored search and this one are the same
@@ -22,14 +23,15 @@ def add_errors(summary, asked, store):
     alike = all(getattr(asked, key) == value for key, value in asdict(own).items() if key not in FREE)
     for name, part in indices(summary).items():
         before = stored.get(name, {}) if alike else {}
-        part["error"], part["unknown"] = _scaled(part, before)
+        part["error"], reasons = _scaled(part, before)
+        part |= unknown_of(reasons)
 
 
 def _scaled(part, before):
-    """({FI: bar or None}, {FI: why there is none}) of a part of a search from that of the stored search, {} of another."""
+    """({FI: bar or None}, {FI: why there is none}) of a part of a search; before: that of the stored search, {} of another."""
     stress = "findley_stress_max_Pa"
     if not before or abs(part[stress] - before[stress]) > SAME * abs(before[stress]):
         return {FI: None}, {FI: OTHER}
     bar = before.get("error", {}).get(FI)
     scaled = None if bar is None else abs(bar * part[FI] / before[FI])
-    return {FI: scaled}, dict(before.get("unknown", {}))
+    return {FI: scaled}, reasons_of(before)

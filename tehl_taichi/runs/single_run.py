@@ -7,7 +7,7 @@ import time
 from os import PathLike
 from pathlib import Path
 
-from tehl_taichi.errors import StoreError, stopped
+from tehl_taichi.errors import StoreError, interrupt
 from tehl_taichi.runs.progress import ERRORS, PASSAGE, STEADY, Progress
 from tehl_taichi.runs.stored_run import Run
 from tehl_taichi.scene import Scene
@@ -97,7 +97,7 @@ def _continue(path, scene, threads, began, progress):
     memory_demand.check(scene)
     with _stoppable(path), Store.write(path) as saved:
         steady = {name: saved.needed(name) for name in ("steady_error", "steady_unknown")}
-        steady |= {name: saved.known(name) for name in ("steady_parts", "steady_domain")}
+        steady |= {name: saved.known(name) for name in ("steady_parts", "steady_domain", "steady_unknown_codes")}
         runtime.start_or_join(threads=threads)
         state = saved.go_back()
         clock = _Clock(began, _spent(saved))
@@ -118,6 +118,7 @@ def _begin(scene, place, clock, progress):
     from tehl_taichi.scene.timeline import most_steps
     from tehl_taichi.store.json_values import plain
     from tehl_taichi.store.store import Store
+    from tehl_taichi.values.coded_text import unknown_of
 
     _announce(scene, progress)
     progress.stage(STEADY, 0, 1)
@@ -125,8 +126,8 @@ def _begin(scene, place, clock, progress):
     progress.stage(STEADY, 1, 1)
     if first.unsettled:
         progress.warn(f"{first.unsettled}; the passage starts from an unsteady state")
-    steady = {"steady_error": plain(first.error), "steady_unknown": first.unknown, "steady_parts": plain(first.parts),
-              "steady_domain": first.domain.values()}
+    steady = {"steady_error": plain(first.error), "steady_parts": plain(first.parts), "steady_domain": first.domain.values(),
+              **{f"steady_{name}": values for name, values in unknown_of(first.unknown).items()}}
     attrs = {**texts(scene.warnings()), **{name: json.dumps(value) for name, value in steady.items()},
              **provenance(scene)}
     with Store.create(place, scene, first, most_steps(scene) + 1, attrs) as saved:
@@ -224,8 +225,8 @@ def _stoppable(path, place=None):
         yield
     except KeyboardInterrupt as stop:
         if place and not place.published:
-            raise KeyboardInterrupt(f"{stopped(stop)} before anything was stored") from None
-        raise KeyboardInterrupt(stopped(stop) + _what_is_left(path)) from None
+            raise interrupt(stop, " before anything was stored") from None
+        raise interrupt(stop, _what_is_left(path)) from None
 
 
 def _what_is_left(path):

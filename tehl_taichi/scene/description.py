@@ -42,6 +42,7 @@ from tehl_taichi.scene.speeds import of_surfaces
 from tehl_taichi.scene.surface.maps import map_warnings
 from tehl_taichi.scene.timeline import LATEST, cut_at, moments, total_steps
 from tehl_taichi.values.checks import build, file_name, nearest, number
+from tehl_taichi.values.coded_text import CodedText, Option, options_of
 from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.quantity import Text
 from tehl_taichi.values.unit_hints import meant
@@ -305,7 +306,9 @@ class Scene:
         out = []
         if self.isothermal:
             why = "isothermal film" if self.thermal.on is False else "no slip" if self.operation.srr == 0 else "a Moes pair"
-            out.append(f"energy equation and temperatures ({why}; --thermal computes them{film_formula.heat_words(self)})")
+            option = Option("; --thermal computes them", "")
+            text = f"energy equation and temperatures ({why}{option}{film_formula.heat_words(self)})"
+            out.append(CodedText(text, "isothermal", options_of(option)))
         if self.isothermal and self.film_oil.expansion == "thermal" and self.oil.expands:
             out.append("thermal expansion of the oil (isothermal film; oil.expansion = 'always' includes it)")
         if self.one_dimensional:
@@ -315,7 +318,9 @@ class Scene:
         if not self.transient:
             out.append("march in time (steady)" if self.features else "march in time (no feature)")
         elif cut and (end := cut_at(self)) is not None:
-            out.append(f"rest of the passage (cut at {end:.2f} a by time.steps or time.x_end; `tehl resume` continues)")
+            option = Option("; `tehl resume` continues", "")
+            text = f"rest of the passage (cut at {end:.2f} a by time.steps or time.x_end{option})"
+            out.append(CodedText(text, "cut", options_of(option)))
         if not self.has_fatigue:
             out.append(self.without_fatigue)
         if self.operation.u_s == 0:

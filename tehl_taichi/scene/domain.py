@@ -12,6 +12,8 @@ from tehl_taichi.scene import hertz
 from tehl_taichi.scene.film_formula import heated_film
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.values.automatic import AutomaticValue
+from tehl_taichi.values.coded_text import grid_option
+from tehl_taichi.values.coded_warning import with_data
 from tehl_taichi.values.quantity import AUTO
 
 OUTLET, LINE_SIDE = 1.5, 1.0  # a; b, where nothing depends on it
@@ -110,13 +112,14 @@ def moved(scene):
         return ""
     per_a = g.nx / (g.x_max - g.x_min)
     as_fine = math.ceil(g.nx * (g.x_max - g.x_min) / (g.x_max + INLETS[0]) / 16 - 1e-9) * 16
-    return (f"thick film: the domain begins at {-g.x_min:g} a (grid.x_min = \"auto\"), its {g.nx} columns give {per_a:.3g} per "
-            f"half-width; --grid {as_fine}{'' if scene.one_dimensional else f'x{g.ny}'} makes them as fine as for 2.5 a")
+    grid = grid_option(as_fine, None if scene.one_dimensional else g.ny)
+    return with_data(f"thick film: the domain begins at {-g.x_min:g} a (grid.x_min = \"auto\"), its {g.nx} columns give "
+                     f"{per_a:.3g} per half-width; {grid} makes them as fine as for 2.5 a", grid, x_min_a=float(g.x_min))
 
 
 def same_cells(scene, x_min=None, y_max=None):
-    """Columns, and rows where there are any, that keep their size on a domain with other ends."""
+    """The Option with cells that keep their size on a domain with other ends."""
     g = scene.grid
     nx = math.ceil(g.nx * (g.x_max - (x_min or g.x_min)) / (g.x_max - g.x_min) / 16 - 1e-9) * 16
     ny = math.ceil(g.ny * (y_max or g.y_max) / g.y_max / 4 - 1e-9) * 4
-    return f"{nx}" if scene.one_dimensional else f"{nx}x{ny}"
+    return grid_option(nx, None if scene.one_dimensional else ny)

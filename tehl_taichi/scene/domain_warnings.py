@@ -5,6 +5,8 @@ import math
 
 from tehl_taichi.scene import hertz, resolution
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.values.coded_text import Option, grid_option
+from tehl_taichi.values.coded_warning import with_data
 
 FARTHEST = 9.5  # half-widths to which a grid may well reach
 AMPLE = 1.02  # of the distance at which the gap is just as high as a feature, then the next tenth of a half-width
@@ -16,7 +18,8 @@ def warnings(scene):
     it), or wider than the grid, with what gives all of them room."""
     reasons = [*_low_ends(scene), *_narrow(scene)] if scene.transient else []
     if reasons:
-        yield "; ".join([*reasons, *(f"use {words}" for words in [domain_words(scene)] if words)])
+        option = domain_words(scene)
+        yield with_data("; ".join([*reasons, *[f"use {option}"] * bool(option)]), option)
 
 
 def domain_words(scene):
@@ -24,7 +27,8 @@ def domain_words(scene):
     ends = {key: end for key, _, _, end in _low(scene)} | _sides(scene)
     if not ends or max(map(abs, ends.values())) > FARTHEST:
         return ""
-    return " ".join([*(f"--set grid.{key}={end:g}" for key, end in ends.items()), *_grid(scene, ends)])
+    sets, grid = [f"grid.{key}={end:g}" for key, end in ends.items()], _grid(scene, ends)
+    return Option(" ".join([*(f"--set {one}" for one in sets), *grid]), " and ".join([*sets, *(one.words for one in grid)]))
 
 
 def _low(scene):
@@ -79,12 +83,11 @@ def _smaller(scene, n):
 
 
 def _grid(scene, ends):
-    """--grid with the cells that keep their size in a domain with these ends, where it needs more of them."""
+    """[--grid with the cells that keep their size in a domain with these ends]; [] where it needs no more of them."""
     g = scene.grid
     x_min, x_max, y_max = (ends.get(key, getattr(g, key)) for key in ("x_min", "x_max", "y_max"))
     nx, ny = cells("nx", g.nx, (x_max - x_min) / (g.x_max - g.x_min)), cells("ny", g.ny, y_max / g.y_max)
-    if (nx, ny) != (g.nx, g.ny):
-        yield f"--grid {nx}" + ("" if scene.one_dimensional else f"x{ny}")
+    return [grid_option(nx, None if scene.one_dimensional else ny)] if (nx, ny) != (g.nx, g.ny) else []
 
 
 def cells(key, count, times):

@@ -1,5 +1,7 @@
 """The next finer grids of a scene, and what the first costs."""
 
+from tehl_taichi.values.coded_text import Option, grid_option
+
 
 def doubled(scene):
     """The scene on the grid with twice the cells each way."""
@@ -19,9 +21,13 @@ def first(scene, enough, most):
 def finer_grid_option(scene):
     """'--grid 512x128 (8 times the work)': a passage has twice the steps, too."""
     work = 2 ** (1 + (not scene.one_dimensional) + scene.transient)
-    return f"--grid {2 * scene.grid.nx}x{2 * scene.grid.ny} ({work} times the work)"
+    return _with_work(grid_option(2 * scene.grid.nx, 2 * scene.grid.ny), work)
 
 
 def along(scene):
     """'--grid 512x64 (4 times the work)': finer along x alone, which is what an exit needs (docs/exit.md)."""
-    return f"--grid {2 * scene.grid.nx}x{scene.grid.ny} ({2 ** (1 + scene.transient)} times the work)"
+    return _with_work(grid_option(2 * scene.grid.nx, scene.grid.ny), 2 ** (1 + scene.transient))
+
+
+def _with_work(option, work):
+    return Option(f"{option} ({work} times the work)", f"{option.words} ({work} times the work)")

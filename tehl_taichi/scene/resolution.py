@@ -5,6 +5,8 @@ from dataclasses import dataclass
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.values.coded_text import grid_option
+from tehl_taichi.values.coded_warning import with_data
 
 # Cells per width of a feature. Measured on passages of bumps, ridges, furrows and roughness (isothermal, against grids four
 # times finer): film under it and largest pressure off by 20 to 40 % with 3 to 4 cells, 5 to 20 % with 6 to 9, 2 to 5 % with
@@ -97,7 +99,7 @@ def _remedy(scene, cells, worst):
     need = {count: max([getattr(scene.grid, count), *(s.grid_for(cells) for s in sights(scene) if s.count == count)])
             for count in MULTIPLES}
     if all(need[count] <= most for count, (_, most) in MULTIPLES.items()):
-        return f"--grid {need['nx']}x{need['ny']}"
+        return grid_option(need["nx"], need["ny"])
     return f"no grid is fine enough; {worst.key} of {worst.length * cells / worst.cells:.2g} m is enough on this one"
 
 
@@ -112,9 +114,11 @@ def _coarse(scene):
     worst = min(sights(scene), key=lambda sight: sight.cells, default=None)
     if worst is None or worst.cells >= ENOUGH:
         return []
-    return [f"{worst.key} = {worst.length:.3g} m is {worst.cells:.1f} cells of grid.{worst.count} = {worst.grid}; with fewer "
+    remedy = _remedy(scene, ENOUGH, worst)
+    text = (f"{worst.key} = {worst.length:.3g} m is {worst.cells:.1f} cells of grid.{worst.count} = {worst.grid}; with fewer "
             f"than {ENOUGH} the film and pressure at a feature have errors above 5 % (about 20 % with 8, 40 % with 4); "
-            f"{_remedy(scene, ENOUGH, worst)}"]
+            f"{remedy}")
+    return [with_data(text, remedy, length_m=worst.length, cells=worst.cells)]
 
 
 def misses_contact(f, scales):

@@ -13,6 +13,7 @@ from tehl_taichi.scene import (
     thin_film,
     timeline,
 )
+from tehl_taichi.values.coded_text import Option
 from tehl_taichi.values.coded_warning import coded_warning, once, with_data
 from tehl_taichi.values.quantity import Number
 
@@ -38,8 +39,9 @@ def cut_passage(scene):
     end = timeline.cut_at(scene)
     if end is not None and scene.time.steps != 0:
         whole = timeline.uncut(scene).path[1]
+        option = Option("; `tehl resume STORE` continues", "")
         yield with_data(f"passage cut at {end:.2f} a: its extremes and fatigue cover only a part; the whole passage ends at "
-                        f"{whole:.2f} a; `tehl resume STORE` continues", end_a=end, whole_a=whole)
+                        f"{whole:.2f} a{option}", option, end_a=end, whole_a=whole)
 
 
 MISSED = 0.35  # of Fi, per a between moments: at most 2, 3.6 and 7 % at 0.06, 0.125 and 0.19 a (gear, every choice of moments)

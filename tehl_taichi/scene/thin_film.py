@@ -3,6 +3,8 @@
 from tehl_taichi.scene import hertz, refinement
 from tehl_taichi.scene.film_formula import heated_film, thinnest_film
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.values.coded_text import Option, grid_option
+from tehl_taichi.values.coded_warning import with_data
 
 # Of the gap of the dry contact one cell before its edge, that a film must have: what flows in is found between these two
 # nodes. 61 random thermal lines on 64 columns: with 0.45 and more of it all films lie above their floor, with 0.30 one touches
@@ -33,11 +35,15 @@ def warnings(scene):
                f"({SMOOTHEST * 1e9:g} nm); real surfaces touch there, but this model is smooth")
     elif part < 1:
         where = "at the centre" if thinnest == film else "in the side lobes"
-        yield (f"the film formula has {thinnest:.2g} m {where}, {part:.2g} of what {scene.grid.nx} columns resolve; the "
-               f"surfaces may touch on this grid and the start may not converge; {remedy(scene)}")
+        text = (f"the film formula has {thinnest:.2g} m {where}, {part:.2g} of what {scene.grid.nx} columns resolve; the "
+                f"surfaces may touch on this grid and the start may not converge; {remedy(scene)}")
+        yield with_data(text, remedy(scene), film_m=thinnest, carried=part)
 
 
 def remedy(scene):
     """The grid that carries the film, in words."""
     size = needed(scene)
-    return f"use --grid {size[0]}x{size[1]}" if size else f"no grid up to {FINEST} columns resolves it"
+    if size:
+        grid = grid_option(*size)
+        return Option(f"use {grid}", f"use {grid.words}")
+    return f"no grid up to {FINEST} columns resolves it"

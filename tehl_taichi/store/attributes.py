@@ -11,10 +11,10 @@ SUMMARY = {"scene": str, "version": str, "wall_s": float, "compile_s": float, "s
            "hertz": dict, "left_out": list, "steady": dict, "work": dict, "crowding": list, "clamps": dict, "warnings": list,
            "transient": dict, "fatigue": dict, "error": dict, "unknown": dict, "below": dict, "contact_alone": dict,
            "searched_m": list, "pit_angles_deg": list, "criterion": str, "domain": dict, "error_parts": dict, "peclet": dict,
-           "warning_codes": list, "warning_data": list}
+           "warning_codes": list, "warning_data": list, "unknown_codes": dict}
 PARTS = {"transient", "fatigue", "cells", "crowding", "error", "unknown", "below", "contact_alone", "searched_m",
          "pit_angles_deg", "criterion", "domain", "error_parts", "peclet", "warning_codes",
-         "warning_data"}  # that some runs do not have
+         "warning_data", "unknown_codes"}  # that some runs do not have
 TABLES = ("", "hertz.", "steady.", "transient.", "fatigue.", "fatigue.below.", "fatigue.below.contact_alone.")
 STEADY = ("h_c_m", "h_min_m", "p_max_Pa", "error", "unknown")
 
@@ -67,8 +67,8 @@ def _wrong_numbers(table, above=""):
 
 def _kind(name, above):
     """The kind of an entry, None where any will do: what later versions add."""
-    if above.endswith(("unknown.", "error.")):
-        return str if above.endswith("unknown.") else float
+    if above.endswith(("unknown.", "unknown_codes.", "error.")):
+        return float if above.endswith("error.") else str
     if "error_parts." in above:
         return dict if above.endswith("error_parts.") else float
     if above not in TABLES:

@@ -1,23 +1,17 @@
-"""A warning: its sentence, a short word for its kind, and the numbers in it, for scripts."""
+"""Warnings: sentences with a short word for their kind, and the numbers in them, for scripts."""
 
 import json
 
-
-class CodedWarning(str):
-    """The sentence; code: the word of its kind, "" where it is unknown; data: {name with its SI unit: value}."""
-
-    def __new__(cls, text, code="", data=None):
-        made = super().__new__(cls, text)
-        made.code, made.data = code, data or {}
-        return made
-
-    def __getnewargs__(self):
-        return str(self), self.code, self.data
+from tehl_taichi.values.coded_text import CodedText, options_of
 
 
-def with_data(text, **data):
-    """The sentence of a check with the values in it."""
-    return CodedWarning(text, data=data)
+class CodedWarning(CodedText):
+    """What is doubtful in a scene or a result."""
+
+
+def with_data(text, *options, **data):
+    """The sentence of a check with the values in it; options: those parts of it that are options of the command line."""
+    return CodedWarning(text, data=data | options_of(*options))
 
 
 def coded_warning(checks, *args):

@@ -224,7 +224,7 @@ def test_an_interrupt_is_named_by_its_signal_never_by_an_exit_code(monkeypatch, 
 
     monkeypatch.setattr(entry.atexit, "register", lambda *_: None)  # or pytest itself would end with the code of this command
     monkeypatch.setattr(entry, "_stop_as_ctrl_c_does", lambda: None)
-    for raised, said in ((KeyboardInterrupt(), "interrupted"), (KeyboardInterrupt("SIGTERM"), "stopped by SIGTERM")):
+    for raised, said in ((KeyboardInterrupt(), "interrupted"), (entry._by("SIGTERM"), "stopped by SIGTERM")):
         def ended(raised=raised):
             try:
                 try:

@@ -15,6 +15,7 @@ from tehl_taichi.march.accuracy import coarse_runs
 from tehl_taichi.report import scene_text, verdict
 from tehl_taichi.runs.summary import result_warnings, summary, summary_rows
 from tehl_taichi.runs.sweep import summary_columns
+from tehl_taichi.values.coded_text import Reason
 
 GEAR = tehl.scene("gear").replace(**{"thermal.on": False, "srr": 0.0})
 
@@ -118,10 +119,10 @@ def test_the_summary_and_the_table_have_it():
 
 
 def test_one_reason_is_said_once():
-    why = {"Fi_max": "exit not resolved: a narrow peak"}
+    why = {"Fi_max": Reason("exit not resolved: a narrow peak", "exit")}
     told = {"transient": {"unknown": {"p_max_Pa": why["Fi_max"], "h_min_m": "it still changes"}},
             "fatigue": {"unknown": why, "resolved": {"unknown": why, "below": {"unknown": why}}}}
-    assert result_warnings.unknown_errors(SimpleNamespace(scene=GEAR), told) == [
+    assert list(result_warnings.unknown_errors(SimpleNamespace(scene=GEAR), told)) == [
         "the error of passage p_max_Pa, Fi_max, Fi_max of the resolved part, Fi_max below the surface of the resolved part "
         "is not known: exit not resolved: a narrow peak; try a grid that is finer along x: --grid 512x64 (4 times the work)",
         "the error of passage h_min_m is not known: it still changes"]

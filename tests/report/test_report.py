@@ -13,11 +13,12 @@ from tehl_cli.main import app
 from typer.testing import CliRunner
 
 import tehl_taichi as tehl
-from tehl_taichi.report import number_text, plain_language, verdict
+from tehl_taichi.report import number_text, verdict
 from tehl_taichi.runs.sweep import sweeping
 from tehl_taichi.runs.sweep.plan import plan
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.timeline import total_steps
+from tehl_taichi.values.coded_text import without_options
 
 go = pytest.importorskip("plotly.graph_objects")
 pytest.importorskip("jinja2")
@@ -174,7 +175,7 @@ def test_warnings_of_the_result_stand_before_those_of_the_scene(pages, tmp_path)
     assert known
     made = made_results.run(tmp_path / "a.zarr", cut, 5, made_results.fatigue(), said=[*known, *found])
     text = page(made, tmp_path).text
-    shown = [plain_language.plain_sentence(sentence) for sentence in known]
+    shown = [without_options(sentence) for sentence in known]
     assert any("`tehl resume" in sentence for sentence in known) and "tehl resume" not in " ".join(shown)
     places = [text.index(sentence) for sentence in ("About the result", *found, "About the scene", *shown)]
     assert places == sorted(places) and text.count("Warning:") == len(known) + 2

@@ -7,6 +7,7 @@ from made_results import THERMAL
 from read_pages import numbers, page
 
 from tehl_taichi.march.accuracy import readings
+from tehl_taichi.values.coded_text import Reason
 
 pytest.importorskip("plotly")
 pytest.importorskip("jinja2")
@@ -59,7 +60,8 @@ def test_a_plane_that_is_not_at_the_worst_depth_has_its_own_mark(tmp_path):
 
 
 def test_a_long_reason_why_an_error_is_not_known_stands_once_behind_the_tables(tmp_path, monkeypatch):
-    why, other = "exit not resolved: " + readings.SPIKE.format(0.9), "its place differs from that on the next coarser grid"
+    why = Reason("exit not resolved: " + readings.SPIKE.format(0.9), "exit")
+    other = Reason("its place differs from that on the next coarser grid", "place")
     monkeypatch.setitem(made_results.EXTRA, "passage_error", {"p_max_Pa": None, "Fi_max": None, "below_Fi_max": None})
     monkeypatch.setitem(made_results.EXTRA, "passage_unknown", {"p_max_Pa": why, "Fi_max": why, "below_Fi_max": other})
     seen = page(made_results.run(tmp_path / "a.zarr", search=made_results.fatigue()), tmp_path).text

@@ -4,8 +4,10 @@ import made_results
 import numpy as np
 import pytest
 
-from tehl_taichi.report import number_text, plain_language, scene_text, verdict
+from tehl_taichi.report import number_text, scene_text, verdict
 from tehl_taichi.scene import scene
+from tehl_taichi.values.coded_text import without_options
+from tehl_taichi.values.coded_warning import with_data
 
 
 def test_a_scale_that_changes_nothing_is_not_told(tmp_path):
@@ -81,14 +83,16 @@ def test_a_scene_in_words():
 def test_warnings_lose_what_only_a_terminal_takes():
     from tehl_taichi.scene import refinement
 
-    of_grid = f"a finer grid may resolve it: {refinement.finer_grid_option(scene('gear'))}"
-    assert plain_language.plain_sentence(of_grid) == "a finer grid may resolve it: a grid of 512 × 128 cells (8 times the work)"
-    room = plain_language.plain_sentence("use --set grid.y_max=1.3 --grid 128x48")
-    assert room == "use grid.y_max=1.3 and a grid of 128 × 48 cells"
+    grid = refinement.finer_grid_option(scene("gear"))
+    text = without_options(with_data(f"a finer grid may resolve it: {grid}", grid))
+    assert text == "a finer grid may resolve it: a grid of 512 × 128 cells (8 times the work)"
+    wide = scene("gear").replace(**{"feature.y": 0.3e-3, "grid.nx": 128, "grid.ny": 32})
+    room, = (one for one in wide.warnings() if one.code == "room")
+    assert "use --set grid.y_max=1.2 --grid 128x" in room
+    assert "use grid.y_max=1.2 and a grid of 128 × " in without_options(room) and "--" not in without_options(room)
     left_out = scene("gear").replace(**{"thermal.on": False}).left_out()
-    assert any("--thermal" in one for one in left_out) and not any("--" in plain_language.plain_sentence(one)
-                                                                   for one in left_out)
-    assert plain_language.plain_sentence("feature.taper = 4e-05 (m)") == "feature.taper = 4e-05 (m)"
+    assert any("--thermal" in one for one in left_out) and not any("--" in without_options(one) for one in left_out)
+    assert without_options("feature.taper = 4e-05 (m)") == "feature.taper = 4e-05 (m)"
 
 
 def test_ticks_have_no_prefix_without_a_unit():

@@ -3,10 +3,13 @@
 import json
 import pickle
 
+import made_results
 import pytest
 from small_stores import store
 
 import tehl_taichi as tehl
+from tehl_taichi.store.store import Store
+from tehl_taichi.values.coded_text import Reason, grid_option, reasons_of, unknown_of, without_options
 from tehl_taichi.values.coded_warning import CodedWarning, coded_warning, lists, of_lists, texts, with_data
 
 
@@ -46,3 +49,39 @@ def test_a_summary_has_sentences_codes_and_numbers_in_one_order(tmp_path):
     assert list(known) == summary["warnings"] and [one.data for one in known] == summary["warning_data"]
     friction = known[summary["warning_codes"].index("friction")]
     assert friction.data["friction_coefficient_max"] > friction.data["limit"] == 0.2
+
+
+def test_reasons_keep_their_code_in_a_summary_and_older_summaries_have_none():
+    reasons = {"p_max_Pa": Reason("exit not resolved: a peak", "exit"), "Fi_max": Reason("its place differs", "place")}
+    part = json.loads(json.dumps(unknown_of(reasons)))
+    assert part["unknown"] == {"p_max_Pa": "exit not resolved: a peak", "Fi_max": "its place differs"}
+    back = reasons_of(part)
+    assert back == reasons and [one.code for one in back.values()] == ["exit", "place"]
+    old = reasons_of({"unknown": part["unknown"]})
+    assert old == reasons and {one.code for one in old.values()} == {""}
+    assert reasons_of({}) == {} and [one.code for one in reasons_of({"unknown": reasons}).values()] == ["exit", "place"]
+
+
+def test_options_are_replaced_by_the_words_that_come_with_them():
+    grid = grid_option(512, 128)
+    made = with_data(f"too coarse; {grid}", grid, cells=3)
+    assert made.data == {"cells": 3, "options": {"--grid 512x128": "a grid of 512 × 128 cells"}}
+    back, = of_lists(*map(json.loads, texts([made]).values()))
+    assert without_options(back) == "too coarse; a grid of 512 × 128 cells"
+    assert without_options("of an older store: --grid 512x128") == "of an older store: --grid 512x128"
+
+
+def test_a_store_without_codes_opens_and_is_reported(tmp_path):
+    """As version 0.8 wrote it."""
+    def bare(values):
+        return {key: bare(value) if isinstance(value, dict) else value for key, value in values.items()
+                if key not in ("unknown_codes", "warning_codes", "warning_data")}
+
+    path = made_results.run(tmp_path / "a.zarr", search=made_results.fatigue())
+    with Store.write(path) as saved:
+        summary = bare({key: value for key, value in saved.summary.items() if key != "store"})
+        assert "unknown_codes" in saved.summary["steady"] and "unknown_codes" not in summary["steady"]
+        saved._commit(summary=json.dumps(summary), warning_codes="[]", warning_data="[]")
+    old = tehl.open(path)
+    assert old.summary["steady"]["unknown"] == {"h_min_m": "no coarser grid"} and old["h_min"].reason
+    assert [one.code for one in old.warnings] == [""] and tehl.report(path).exists()

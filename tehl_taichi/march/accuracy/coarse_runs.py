@@ -22,13 +22,14 @@ from tehl_taichi.march.accuracy.peaks import LEAST
 from tehl_taichi.scene.resolution import HALVED, MULTIPLES
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.timeline import total_steps
+from tehl_taichi.values.coded_text import Reason, code_of
 
 COMPANIONS = HALVED  # with the run itself three grids; 1/8 and 1/64 of its cells and steps
 FI, BELOW = "Fi_max", "below_Fi_max"  # names of the largest index of the surface, and below it
 RESOLVED, RESOLVED_BELOW = "resolved_Fi_max", "resolved_below_Fi_max"  # of both as long as the grid resolves the pressure
 CONTACT = "contact_load_fraction_max"
 PART = 0.1  # a
-SHALLOW = "it is largest at the smallest searched depth (half a cell), which no grid resolves"
+SHALLOW = Reason("it is largest at the smallest searched depth (half a cell), which no grid resolves", "shallow")
 SHALLOWEST = 1.5  # of that depth: up to the next one that is searched
 WORTH = 3e5  # nodes times steps of a run: below, it is a try, on a grid whose companions tell little
 
@@ -82,7 +83,7 @@ def _reading(entry, scalar, scene):
 
 def _doubted(reading, why, pressures):
     """The reading of a number that depends on the highest pressures (a :func:`course`), where `why` is not known."""
-    return replace(reading, doubt=why or reading.doubt, course=() if reading.doubt == SHALLOW else pressures)
+    return replace(reading, doubt=why or reading.doubt, course=() if code_of(reading.doubt) == SHALLOW.code else pressures)
 
 
 def course(p, at, path):
@@ -205,7 +206,8 @@ def judged(told, own):
         else:
             grids.append({name: GridReading(**values) for name, values in one["values"].items()})
     found, unknown = bars([*grids, own])
-    return found, unknown if grids else dict.fromkeys(unknown, "; ".join(reasons) or "no coarser grid is possible")
+    none = Reason("; ".join(reasons) or "no coarser grid is possible", "coarse")
+    return found, unknown if grids else dict.fromkeys(unknown, none)
 
 
 def answer(scene, notify=lambda: None, until=lambda: None):

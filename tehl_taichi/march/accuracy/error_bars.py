@@ -12,6 +12,8 @@ import math
 from dataclasses import dataclass
 from itertools import zip_longest
 
+from tehl_taichi.values.coded_text import Reason
+
 EVENLY, STEEPEST = 1.5, 3.0  # differences that fall by less from grid to grid show no order, by more no higher one
 # of the error by Richardson's extrapolation, and of the last difference where there is none; the blur of an extreme adds to it
 SAFETY, UNEVEN = {False: 2.0, True: 1.75}, {False: 1.75, True: 1.25}
@@ -20,7 +22,7 @@ ALONE = 1.5  # of the only difference there is
 ACCIDENT = 1e-3  # of a number, no extreme: two grids may agree by accident
 BLURRED = 1.5  # of the distance between an extreme over nodes and that of the parabola through them
 HOPELESS = 0.5  # a number that changes by more than this part of itself from grid to grid is not resolved
-WHOLE = "its error may be as large as its value"  # of one that is positive: nothing is known of it but that
+WHOLE = Reason("its error may be as large as its value", "value")  # of one that is positive: nothing is known of it but that
 MOVED = 4.0  # cells of the coarser grid that the place of an extreme may move: more is another extreme
 # A number of a peak too narrow for one grid is told by three whose differences halve at least (those of a singular peak grow by
 # 1.41); its bar is no smaller than the last difference, and than a quarter of the one before
@@ -31,7 +33,6 @@ SWAY = 3.0
 # Parts of a course go on as a geometric series, for so many of the last difference at most; they may exceed the largest by so
 # much of it, which then is part of the bar
 GROWS_ON, EXCEEDS = 4.0, 0.1
-RIVAL = "the pressure in another part of the passage ({}) grows with grid refinement and may become the largest"
 
 
 @dataclass(frozen=True)
@@ -69,15 +70,15 @@ def bar(readings):
     if doubt:
         return None, doubt
     if len(known) < 2:
-        return None, "no coarser grid gives it"
+        return None, Reason("no coarser grid gives it", "alone")
     before = known[-2]
     if last.positive and last.value == 0 and not last.place:  # a film that carries all here does so on finer grids, too
         return 0.0, ""
     if last.place and all(abs(a - b) > MOVED * before.cell for a, b in zip(last.place, before.place)):
-        return None, "its place differs from that on the next coarser grid"
+        return None, Reason("its place differs from that on the next coarser grid", "place")
     steps = [b.value - a.value for a, b in zip(known[:-1], known[1:])][::-1]
     if abs(steps[0]) > HOPELESS * abs(last.value):
-        return None, f"it still changes by {abs(steps[0] / last.value):.0%} from grid to grid"
+        return None, Reason(f"it still changes by {abs(steps[0] / last.value):.0%} from grid to grid", "changes")
     accident = ACCIDENT * abs(last.value) if len(steps) == 1 and not last.place else 0.0
     sway = SWAY * max(map(abs, steps[:2])) if last.swayed else 0.0
     size = max(accident, last.settled, BLURRED * last.blur, _left(steps, bool(last.place)), least, sway)
@@ -102,13 +103,20 @@ def _bar_of_passage(known):
     top, rival = max(parts, key=lambda part: part[2]), max(parts, key=lambda part: _may_reach(*part))
     excess = max(0.0, _may_reach(*rival) / max(top[2] + abs(top[2] - top[1]), _may_reach(*top)) - 1)
     if excess > EXCEEDS:
-        return 0.0, last.doubt or RIVAL.format(", ".join(f"{p / 1e9:.2f}" for p in rival) + " GPa")
+        return 0.0, last.doubt or _rival(rival)
     values, least = [reading.value for reading in known[-3:]], excess * abs(last.value)
     if not last.doubt:
         return least, ""
     if not (_halves(*values) and _halves(*top)):  # what follows from a pressure settles no earlier than that does
         return 0.0, last.doubt
     return max(least, abs(values[2] - values[1]), BEFORE * abs(values[1] - values[0])), ""
+
+
+def _rival(pressures):
+    """Why another part of the passage leaves a number unknown; pressures: Pa there on three grids."""
+    grown = ", ".join(f"{p / 1e9:.2f}" for p in pressures)
+    return Reason(f"the pressure in another part of the passage ({grown} GPa) grows with grid refinement and may become the "
+                  "largest", "rival")
 
 
 def _parts(courses):

@@ -9,11 +9,12 @@ from tehl_taichi.march.accuracy.error_bars import GridReading, parabola_offset
 from tehl_taichi.march.accuracy.peaks import peak, sharpest
 from tehl_taichi.march.quantities import HEAT
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.values.coded_text import Reason
 
 SETTLED = 0.1  # of thermal.tolerance: rounds end when another one would move temperatures by less; usual are 0.01 to 0.1 of it
 SPIKE = "a pressure peak of {:.0%} of the largest is only a few cells wide and may grow on finer grids"
 EXIT, EXITS = "exit not resolved: ", 0.5  # where the feature, or the oil that it let in, leaves the film: beyond so many a
-TOUCH = "the surfaces touch on this grid, which is too coarse for such a thin film"
+TOUCH = Reason("the surfaces touch on this grid, which is too coarse for such a thin film", "touch")
 ON_FLOOR = 1.01  # of rheology.film_floor: the residual and a store's single precision leave less, a film that flows more
 
 
@@ -46,12 +47,15 @@ def highest(shot, a):
 def doubt(x, height, i, a):
     """Why a grid with nodes at x (m) cannot know the largest pressure, from :func:`tehl_taichi.march.accuracy.peaks.sharpest`;
     or ""."""
-    return exits(x[i], a) + SPIKE.format(height) if height else ""
+    if not height:
+        return ""
+    at_exit = exits(x[i], a)
+    return Reason(EXIT * at_exit + SPIKE.format(height), "exit" if at_exit else "peak")
 
 
 def exits(x, a):
-    """What is said first of a peak or ripple at x (m) of a contact of half-width a."""
-    return EXIT if x > EXITS * a else ""
+    """Whether a peak or ripple at x (m) of a contact of half-width a is at its exit."""
+    return bool(x > EXITS * a)
 
 
 def unresolved(reader, entries, largest, a):

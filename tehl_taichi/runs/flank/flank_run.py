@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from os import PathLike
 from pathlib import Path
 
-from tehl_taichi.errors import stopped
+from tehl_taichi.errors import interrupt
 from tehl_taichi.runs.flank.flank_source import flank_source
 from tehl_taichi.runs.flank.line_contacts import scene_at
 from tehl_taichi.runs.flank.mesh import Mesh
@@ -43,15 +43,15 @@ def flank(gear: str | PathLike | GearPair = "fzg-c", *, torque: float | None = N
     check_writable(folder)
     subject = about(found, folder, (on or "pinion") if found.pair else "")
     outcomes = [Outcome(folder / f"{one.name}.zarr", reason=WAITING) for one in scenes]
+    done = 0
     try:
         for n, outcome in summaries(scenes, folder, workers, threads, progress):
-            outcomes[n] = outcome
+            outcomes[n], done = outcome, done + 1
             whole = Flank(folder, flank_record(subject, places, scenes, outcomes))
             whole.write()
     except KeyboardInterrupt as stop:
-        done = sum(outcome.reason != WAITING for outcome in outcomes)
-        raise KeyboardInterrupt(f"{stopped(stop)} after {done} of {len(scenes)} positions; repeat the tehl flank command with "
-                                f"--out {folder} to resume") from None
+        raise interrupt(stop, f" after {done} of {len(scenes)} positions; repeat the tehl flank command with --out {folder} to "
+                              "resume") from None
     return whole
 
 

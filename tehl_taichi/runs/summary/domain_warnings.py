@@ -2,6 +2,8 @@
 
 from tehl_taichi.scene import domain
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.values.coded_text import Option
+from tehl_taichi.values.coded_warning import with_data
 
 MUCH, SOME = 0.01, 3e-3  # of the film: told always; told of ends that the user fixed where the grid is better than that
 
@@ -14,8 +16,9 @@ def short(store, summary):
         return
     part, grid = parts["domain"] / steady["h_c_m"], (parts["grid"] or 0.0) / steady["h_c_m"]
     if part > MUCH or part > max(grid, SOME) and not summary.get("domain", {}).get("auto"):
-        yield (f"the domain begins at {-g.x_min:g} a, where the gap is {steady['inlet_gap']:.2g} times the film; the oil "
-               f"before it may change the film by {part:.1%}{_farther(store.scene, steady)}")
+        option = _farther(store.scene, steady)
+        yield with_data(f"the domain begins at {-g.x_min:g} a, where the gap is {steady['inlet_gap']:.2g} times the film; the "
+                        f"oil before it may change the film by {part:.1%}{option}", option, part=part)
 
 
 def starved(store, summary):
@@ -33,5 +36,6 @@ def _farther(scene, steady):
     asked = {key: end for key, end in found.items() if abs(end) > abs(getattr(g, key)) * (1 + 1e-9)}
     if not asked:
         return ""
-    sets = " ".join(f"--set grid.{key}={end:g}" for key, end in asked.items())
-    return f"; {sets} --grid {domain.same_cells(scene, **asked)} (same cells)"
+    sets, grid = [f"grid.{key}={end:g}" for key, end in asked.items()], domain.same_cells(scene, **asked)
+    return Option(f"; {' '.join(f'--set {one}' for one in sets)} {grid} (same cells)",
+                  f"; {' and '.join([*sets, grid.words])} (same cells)")

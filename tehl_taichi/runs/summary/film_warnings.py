@@ -9,11 +9,13 @@ from tehl_taichi.march.accuracy.peaks import peak, ripple, sharpest
 from tehl_taichi.scene import refinement
 from tehl_taichi.scene.feature_wording import where
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.values.coded_text import Option, code_of
 from tehl_taichi.values.coded_warning import with_data
 
 MOST_FRICTION = 0.2  # of a film: no oil is known to bear more than about 0.12 of the pressure, traction fluids included
 MOST_RIPPLE = 0.005  # of the largest pressure: a tenth of what a passing feature changes, ten times what resolved passages show
-NO_VALUE = "oil without a shear limit has no finite value here; use --thermal or a limiting law (rheology.law)"
+NO_VALUE = Option("oil without a shear limit has no finite value here; use --thermal or a limiting law (rheology.law)",
+                  "oil without a shear limit has no finite value here; temperatures or a limiting law would give one")
 
 
 def too_much_friction(store):
@@ -56,7 +58,9 @@ def unresolved(store, summary):
         p = store.fields(n, ("pressure",))["pressure"]
         height, i = sharpest(p)
         if height >= 1.0:  # of lower peaks the bars tell, which they leave unknown
-            yield readings.exits(store.x[i], Scales.of(store.scene).a) + _where(store, n, p, i) + _because(store, i)
+            at_exit, remedy = readings.exits(store.x[i], Scales.of(store.scene).a), _remedy(store, i)
+            yield with_data(readings.EXIT * at_exit + _where(store, n, p, i) + _because(store, i, remedy), remedy,
+                            p_max_Pa=float(p.max()), x_m=float(store.x[i]), entry=int(n))
 
 
 def first_unresolved(store, summary):
@@ -68,9 +72,10 @@ def first_unresolved(store, summary):
         i, row = sharpest(p, store.scalar("p_max_Pa").max())[1], peak(p)[1]
         if i and not readings.exits(store.x[i], a):
             at = f"X = {store.x[i] / a:.2f}, y = {store.y[row] * 1e6:.0f} um"
-            yield (f"the resolved part of the passage ends before the {_moment(store, later[0])}: its pressure peak of "
-                   f"{p[i, row] / 1e9:.2f} GPa at {at} is only a few cells wide; a finer grid may resolve it: "
-                   f"{refinement.finer_grid_option(store.scene)}")
+            grid = refinement.finer_grid_option(store.scene)
+            yield with_data(f"the resolved part of the passage ends before the {_moment(store, later[0])}: its pressure peak "
+                            f"of {p[i, row] / 1e9:.2f} GPa at {at} is only a few cells wide; a finer grid may resolve it: "
+                            f"{grid}", grid, p_Pa=float(p[i, row]), x_m=float(store.x[i]), y_m=float(store.y[row]))
 
 
 def _where(store, n, p, i):
@@ -82,19 +87,25 @@ def _moment(store, n):
     return f"{where(store.scene)} at {store.feature_x(n) / Scales.of(store.scene).a:.2f} a"
 
 
-def _because(store, i):
-    """At the outlet the frozen film ends in a free edge: an inverse square root, which only a shear limit makes finite."""
+def _remedy(store, i):
+    """The Option that may resolve a peak at node i."""
     if store.x[i] > 0 and _endless(store.scene):
-        return f" and grows like 1/sqrt(cell); {NO_VALUE}"
+        return NO_VALUE
     at_exit = readings.exits(store.x[i], Scales.of(store.scene).a)
-    return (f"; a finer grid may resolve it: "
-            f"{refinement.along(store.scene) if at_exit else refinement.finer_grid_option(store.scene)}")
+    return refinement.along(store.scene) if at_exit else refinement.finer_grid_option(store.scene)
+
+
+def _because(store, i, remedy):
+    """At the outlet the frozen film ends in a free edge: an inverse square root, which only a shear limit makes finite."""
+    endless = store.x[i] > 0 and _endless(store.scene)
+    return f" and grows like 1/sqrt(cell); {remedy}" if endless else f"; a finer grid may resolve it: {remedy}"
 
 
 def finer_exit(scene, why):
-    """What to try where the error of a passage is not known for this reason, if that is its exit and a grid may help."""
-    helps = why.startswith(readings.EXIT) and scene.transient and not _endless(scene)
-    return f"; try a grid that is finer along x: {refinement.along(scene)}" if helps else ""
+    """The grid to try where the error of a passage is unknown for this Reason, if that is its exit and a grid may help, or
+    ""."""
+    helps = code_of(why) == "exit" and scene.transient and not _endless(scene)
+    return refinement.along(scene) if helps else ""
 
 
 def _endless(scene):
@@ -114,12 +125,13 @@ def ripples(store, summary):
     size = max(summary.get(part, {}).get(name, 0.0) for part, name in numbers)
     if size > MOST_RIPPLE * float(store.scalar("p_max_Pa").max()):
         (_, i), n = worst_ripple(store, range(len(store)))
-        a, at_edge = Scales.of(store.scene).a, store.x[i] > 0 and _endless(store.scene)
+        a, at_edge = Scales.of(store.scene).a, bool(store.x[i] > 0) and _endless(store.scene)
         when = f"{_moment(store, n)}, " if n else ""
-        text = (f"{readings.EXIT if at_edge else ''}the pressure ripples from node to node along x by up to {size / 1e9:.3f} "
+        text = (f"{readings.EXIT * at_edge}the pressure ripples from node to node along x by up to {size / 1e9:.3f} "
                 f"GPa ({when}X = {store.x[i] / a:.2f}), an artefact of the grid; ")
-        remedy = NO_VALUE if at_edge else f"try another time.courant or {refinement.finer_grid_option(store.scene)}"
-        yield with_data(text + remedy, ripple_Pa=size, x_m=float(store.x[i]), entry=int(n))
+        grid = refinement.finer_grid_option(store.scene)
+        remedy = NO_VALUE if at_edge else f"try another time.courant or {grid}"
+        yield with_data(text + remedy, NO_VALUE if at_edge else grid, ripple_Pa=size, x_m=float(store.x[i]), entry=int(n))
 
 
 CHECKS = {friction: "friction", unresolved: "peak", first_unresolved: "resolved", ripples: "ripple"}

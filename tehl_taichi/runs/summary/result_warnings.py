@@ -8,6 +8,7 @@ from tehl_taichi.laws.law import beyond
 from tehl_taichi.march.accuracy.coarse_runs import near_the_surface
 from tehl_taichi.runs.summary import domain_warnings, film_warnings, rim_warnings
 from tehl_taichi.scene.yield_pressure import STEEL, YIELDS
+from tehl_taichi.values.coded_text import reasons_of
 from tehl_taichi.values.coded_warning import coded_warning, once, with_data
 from tehl_taichi.values.digits import micrometres
 
@@ -54,17 +55,20 @@ def crowded(store, summary):
 
 
 def unknown_errors(store, summary):
-    """Numbers of which no error can be told, with the reason; one sentence for all that share it."""
+    """Numbers whose error is unknown, with the reason; one sentence for all that share it."""
     fatigue, deep = searched(summary.get("fatigue", {})), " below the surface"
     early, of_it = fatigue.get("resolved", {}), " of the resolved part"
     reasons = {}
     for part, when, behind in ((summary.get("steady", {}), "steady ", ""), (summary.get("transient", {}), "passage ", ""),
                                (fatigue, "", ""), (fatigue.get("below", {}), "", deep), (early, "", of_it),
                                (early.get("below", {}), "", deep + of_it)):
-        for name, why in part.get("unknown", {}).items():
+        for name, why in reasons_of(part).items():
             reasons.setdefault(why, []).append(f"{when}{name}{behind}")
-    return [with_data(f"the error of {', '.join(names)} is not known: {why}{film_warnings.finer_exit(store.scene, why)}",
-                      numbers=names, reason=str(why)) for why, names in reasons.items()]
+    for why, names in reasons.items():
+        grid = film_warnings.finer_exit(store.scene, why)
+        more = f"; try a grid that is finer along x: {grid}" if grid else ""
+        yield with_data(f"the error of {', '.join(names)} is not known: {why}{more}", grid, numbers=names, reason=str(why),
+                        reason_code=why.code)
 
 
 def largest_pressure(summary):

@@ -13,6 +13,7 @@ from tehl_taichi.scene.film_formula import central_film, formula_words, spread
 from tehl_taichi.scene.scales import Scales, peclet
 from tehl_taichi.store import attributes
 from tehl_taichi.values.automatic import AutomaticValue
+from tehl_taichi.values.coded_text import reasons_of, unknown_of
 from tehl_taichi.values.coded_warning import lists
 
 
@@ -35,9 +36,9 @@ def summarise(store, extra, fatigue=None):
         out["fatigue"] = fatigue
     known, unknown, of_it = (extra.get(f"passage_{what}", {}) for what in ("error", "unknown", "parts"))
     for part, names in _parts(out):
-        part["error"] = {name: known.get(told) for name, told in names.items()}
-        part["error_parts"] = {name: of_it[told] for name, told in names.items() if told in of_it}
-        part["unknown"] = {name: unknown[told] for name, told in names.items() if told in unknown}
+        part["error"] = {name: known.get(bar) for name, bar in names.items()}
+        part["error_parts"] = {name: of_it[bar] for name, bar in names.items() if bar in of_it}
+        part |= unknown_of({name: unknown[bar] for name, bar in names.items() if bar in unknown})
     out["work"] = _work(store)
     out["crowding"] = extra.get("crowding", [0, 0])
     out["clamps"] = _clamps(store)
@@ -94,9 +95,9 @@ def _steady(store, extra):
     out = _numbers(store, "steady")
     out["film_formula_m"], out["ripple_Pa"] = central_film(store.scene), worst_ripple(store, [0])[0][0]
     out["film_formula"], out["film_formula_spread"] = formula_words(store.scene), spread(store.scene)
-    out["error"], out["unknown"] = extra["steady_error"], extra.get("steady_unknown", {})
-    out["error_parts"] = extra.get("steady_parts", {})
-    return {**out, **_before(extra.get("steady_domain", {}))}
+    out["error"], out["error_parts"] = extra["steady_error"], extra.get("steady_parts", {})
+    reasons = {"unknown": extra.get("steady_unknown", {}), "unknown_codes": extra.get("steady_unknown_codes", {})}
+    return {**out, **unknown_of(reasons_of(reasons)), **_before(extra.get("steady_domain", {}))}
 
 
 def _before(known):
@@ -108,7 +109,7 @@ def _parts(out):
     """[(part of the summary after the start, {its number that has an error bar: that number's name among the errors})]."""
     parts = [(out.get("transient"), {entry.key: entry.key for entry in quantities.of_part("transient") if entry.error}),
              *((part, {FI: name}) for name, part in indices(out.get("fatigue", {})).items())]
-    return [(part, {name: told for name, told in names.items() if name in part}) for part, names in parts if part]
+    return [(part, {name: bar for name, bar in names.items() if name in part}) for part, names in parts if part]
 
 
 def _transient(store):

@@ -7,7 +7,7 @@ from tehl_taichi.values.estimate import Quantity
 from tehl_taichi.values.summary_units import unit_of
 
 FIRST = ("transient", "steady", "fatigue")  # parts whose numbers are meant by a name without its part, in this order
-BARS = ("error", "unknown", "error_parts")  # of a part: not numbers themselves
+BARS = ("error", "unknown", "unknown_codes", "error_parts")  # of a part: not numbers themselves
 
 
 def every(summary):

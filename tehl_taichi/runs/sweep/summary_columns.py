@@ -7,7 +7,7 @@ from tehl_taichi.values import summary_units
 
 # what a case has of its own, or what is no number of its result
 LEFT_OUT = {"store", "scene", "version", "left_out", "warnings", "warning_codes", "warning_data", "domain", "error_parts",
-            "converged", "unknown", "clamps", "grid", "cells"}
+            "converged", "unknown", "unknown_codes", "clamps", "grid", "cells"}
 NAME = re.compile(r"\w[\w.+-]*")  # of an array and its folder, a column and a label
 PARTS = ("fatigue_resolved_below", "fatigue_resolved", "fatigue_below")  # of a summary, inside others
 

@@ -100,7 +100,7 @@ def test_another_part_of_the_passage_may_overtake(doubt):
     """An island of oil behind an asperity: 1.93, 2.25, 3.07 GPa beside 4.04, 4.03, 4.03; and one that stays below."""
     own, p = (4.04e9, 4.03e9, 4.03e9), (4.04, 4.03, 4.03)
     size, why = bar(narrow(p, own, (1.93e9, 2.25e9, 3.07e9), doubt=doubt))
-    assert size is None and why == (doubt or error_bars.RIVAL.format("1.93, 2.25, 3.07 GPa"))
+    assert size is None and why == (doubt or error_bars._rival((1.93e9, 2.25e9, 3.07e9)))
     assert bar(narrow(p, own, (1.9e9, 2.6e9, 2.8e9), doubt=doubt))[0] == pytest.approx(0.0025 if doubt else 0.001)
     near = bar(narrow(p, own, (3.2e9, 3.8e9, 4.0e9), doubt=doubt))[0]  # goes on to 4.1
     assert near == pytest.approx(4.03 * (4.1 / 4.03 - 1))

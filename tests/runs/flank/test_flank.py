@@ -3,6 +3,7 @@
 import csv
 import json
 import math
+from types import SimpleNamespace
 
 import pytest
 from fake_cases import position
@@ -10,6 +11,7 @@ from tehl_cli.main import app
 from typer.testing import CliRunner
 
 import tehl_taichi as tehl
+from tehl_taichi.errors import interrupt
 from tehl_taichi.runs.flank import flank_columns, flank_figure
 from tehl_taichi.runs.flank.flank_source import flank_source
 from tehl_taichi.runs.flank.line_contacts import scene_at
@@ -119,11 +121,11 @@ def test_positions_run_side_by_side_and_those_without_a_result_are_listed(tmp_pa
     assert tehl.open(found.folder).record == found.record
 
 
-@pytest.mark.parametrize("said, by", [("", "interrupted"), ("stopped by SIGTERM after 2 steps", "stopped by SIGTERM")])
-def test_an_interrupted_flank_says_how_far_it_is(tmp_path, monkeypatch, said, by):
+@pytest.mark.parametrize("name, by", [("", "interrupted"), ("SIGTERM", "stopped by SIGTERM")])
+def test_an_interrupted_flank_says_how_far_it_is(tmp_path, monkeypatch, name, by):
     def until_c(job, progress):
         if job.scene.name.endswith("-C"):
-            raise KeyboardInterrupt(said)
+            raise interrupt(SimpleNamespace(signal=name), " after 2 steps")
         return position(job)
 
     monkeypatch.setattr(case, "work", until_c)

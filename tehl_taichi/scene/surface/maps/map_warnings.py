@@ -20,6 +20,8 @@ from tehl_taichi.scene.surface.maps.cutoff_choice import (
 from tehl_taichi.scene.surface.maps.form import FLAT
 from tehl_taichi.scene.surface.maps.height_map import LEVELS, missed
 from tehl_taichi.scene.yield_pressure import STEEL
+from tehl_taichi.values.coded_text import Option, grid_option
+from tehl_taichi.values.coded_warning import with_data
 
 TURNED = "Heights point out of the metal and most bodies are convex; if the map is upside down, set feature.scale = -1"
 LEFT = 0.5  # of the rms that a taper ought to leave
@@ -141,8 +143,9 @@ def _grid(f, scene):
     steps, heights = points_in_a_cell(f, scene), middle(f.used)
     lost, own = missed(heights, *steps), missed(heights, 2, 2)
     if lost > SHARE:
-        yield (f"{_name(f)}: the grid loses {lost:.0%} of the rms of the map "
-               f"({_finer(heights, steps, scene.grid)}{f'; {found}' if (found := _cutoff(f, scene)) else ''})")
+        remedy, cutoff = _finer(heights, steps, scene.grid), _cutoff(f, scene)
+        yield with_data(f"{_name(f)}: the grid loses {lost:.0%} of the rms of the map ({remedy}{f'; {cutoff}' * bool(cutoff)})",
+                        remedy, lost=float(lost))
     if min(steps) < 1 and own > SHARE:
         yield (f"{_name(f)}: points {_apart(f)} um apart are {1 / min(steps):.2g} cells and do not resolve the roughness "
                f"({own:.0%} of the rms changes without every second point); heights are interpolated linearly")
@@ -168,8 +171,10 @@ def _finer(heights, steps, grid):
     while missed(heights, steps[0] / factor, steps[1] / factor) > SHARE:  # ends at the map's own points
         factor *= 2
     (nx, ny), most = (grid.nx * factor, grid.ny * factor), [cells for _, cells in MULTIPLES.values()]
-    return (f"--grid {nx}x{ny} resolves it" if nx <= most[0] and ny <= most[1] else
-            f"so does every grid up to {most[0]} x {most[1]}; filter the map")
+    if nx <= most[0] and ny <= most[1]:
+        grid = grid_option(nx, ny)
+        return Option(f"{grid} resolves it", f"{grid.words} resolves it")
+    return f"so does every grid up to {most[0]} x {most[1]}; filter the map"
 
 
 def _rim(f):

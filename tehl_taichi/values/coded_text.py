@@ -1,0 +1,66 @@
+"""A sentence with a short word for its kind and the numbers in it: programs read these, never the sentence."""
+
+
+class CodedText(str):
+    """The sentence; code: the word of its kind, "" where it is unknown; data: {name with its SI unit: value}.
+
+    "options" of the data: {an option of the command line in the sentence: the same in words, for a report}.
+    """
+
+    def __new__(cls, text, code="", data=None):
+        made = super().__new__(cls, text)
+        made.code, made.data = code, data or {}
+        return made
+
+    def __getnewargs__(self):
+        return str(self), self.code, self.data
+
+
+class Reason(CodedText):
+    """Why a number or its error is not known."""
+
+
+def code_of(text):
+    """Code of a sentence, "" of one without."""
+    return getattr(text, "code", "")
+
+
+def unknown_of(reasons):
+    """{"unknown": {name: reason}, "unknown_codes": {name: code}}, as a summary has them."""
+    return {"unknown": dict(reasons), "unknown_codes": {name: code_of(reason) for name, reason in reasons.items()}}
+
+
+def reasons_of(part):
+    """{name: Reason} of a part of a summary; without codes where an older version wrote it."""
+    codes = part.get("unknown_codes", {})
+    return {name: Reason(text, codes.get(name, code_of(text))) for name, text in part.get("unknown", {}).items()}
+
+
+class Option(str):
+    """Options of the command line inside a sentence; words: the same for a report, which has no command line."""
+
+    def __new__(cls, text, words):
+        made = super().__new__(cls, text)
+        made.words = words
+        return made
+
+
+def grid_option(nx, ny=None):
+    """--grid with these cells; ny: None where nothing varies across."""
+    if ny is None:
+        return Option(f"--grid {nx}", f"a grid of {nx} columns")
+    return Option(f"--grid {nx}x{ny}", f"a grid of {nx} × {ny} cells")
+
+
+def options_of(*parts):
+    """{"options": {text: words}} of those parts that are options; {} without any."""
+    found = {str(part): part.words for part in parts if isinstance(part, Option)}
+    return {"options": found} if found else {}
+
+
+def without_options(sentence):
+    """The sentence with its options in words."""
+    text = str(sentence)
+    for option, words in getattr(sentence, "data", {}).get("options", {}).items():
+        text = text.replace(option, words)
+    return text
