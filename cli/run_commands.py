@@ -47,7 +47,7 @@ def run(
     out: Optional[Path] = typer.Option(None, help="store to write (default: runs/SCENE-N.zarr)"),
     force: bool = typer.Option(False, "--force", help="replace an existing store once the new one has its first entry"),
     dry_run: bool = typer.Option(False, "--dry-run", help="print what would run, and stop"),
-    arch: str = typer.Option("cpu", help="cpu, or cuda (graphics card, slower at present)"),
+    arch: Optional[str] = typer.Option(None, hidden=True),  # cpu; cuda is experimental, see TEHL_ARCH
     threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
     precision: Optional[str] = typer.Option(None, help="precision of the linear solves: f32, f64 or auto (f32 for thick "
                                                        "films); the state and its residual are always double"),

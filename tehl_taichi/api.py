@@ -63,7 +63,7 @@ def scene(name: "Name | Scene" = "gear") -> "Scene":
 
 
 def run(scene: "Scene | Name", path: Name | None = None, *, force: bool = False, threads: int | None = None,
-        arch: str = "cpu", progress: "Progress | None" = None) -> "Run":
+        arch: str | None = None, progress: "Progress | None" = None) -> "Run":
     """Run a scene into a new store, as `tehl run` does: steady start, passage, stresses, fatigue, error bars, summary.
 
     Parameters
@@ -76,8 +76,8 @@ def run(scene: "Scene | Name", path: Name | None = None, *, force: bool = False,
         Replace the store at `path`, once the new one has its first entry.
     threads : int, optional
         Threads of the CPU; default: those of an earlier start in this process, otherwise all.
-    arch : str
-        "cpu".
+    arch : str, optional
+        "cpu"; "cuda" is experimental and slower. Default: the environment variable TEHL_ARCH, otherwise "cpu".
     progress : Progress, optional
         Receives stages, steps and warnings while the run lasts; default: silent.
 

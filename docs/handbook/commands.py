@@ -17,8 +17,8 @@ def command(before, name, found):
     """Heading, help and a table; of a group its commands follow."""
     words = f"{before} {name}"
     parts = [f"{'#' * len(words.split())} {code(words)} {{ #{words.replace(' ', '-')} }}", helped(found)]
-    if found.params:
-        parts.append(table(("argument or option", "default", "meaning"), map(row, found.params)))
+    if shown := [one for one in found.params if not getattr(one, "hidden", False)]:
+        parts.append(table(("argument or option", "default", "meaning"), map(row, shown)))
     inner = getattr(found, "commands", {})
     return "\n\n".join([*parts, *(command(words, name, each) for name, each in inner.items())])
 

@@ -68,9 +68,15 @@ def _give_up(folder):
     shutil.rmtree(folder, ignore_errors=True)
 
 
-def check(arch="cpu", threads=None):
+def chosen(arch=None):
+    """The arch that counts: this one, else that of a start before, else the environment variable TEHL_ARCH, else "cpu"."""
+    return arch or _started.get("arch") or os.environ.get("TEHL_ARCH") or "cpu"
+
+
+def check(arch=None, threads=None):
     """Refuse what no process of this machine can have, or this one no more, without starting anything. Raises
     RuntimeUnavailable."""
+    arch = chosen(arch)
     if arch not in ARCHES:
         raise RuntimeUnavailable(f"arch = {arch!r} is not available in this version: {', '.join(map(repr, ARCHES))} is")
     if arch == "cuda":
@@ -90,16 +96,17 @@ def _driven():
                                  "'cpu'") from None
 
 
-def start(arch="cpu", threads=None):
+def start(arch=None, threads=None):
     """Start Taichi and say what was really started.
 
-    arch: "cpu", or "cuda", which is slower by now (docs/performance.md); threads: number of CPU threads, or None for all cores
-    that this process may use. Returns a dict with arch, threads, taichi (version) and cache (folder).
+    arch: "cpu", or "cuda" (experimental, slower at present: docs/performance.md), by default see :func:`chosen`; threads:
+    number of CPU threads, or None for all cores that this process may use. Returns a dict with arch, threads, taichi (version)
+    and cache (folder).
     Raises RuntimeUnavailable when arch or threads cannot be had, another start is already active, or Taichi runs in another
     thread or in the process that this one was forked from.
     """
     check(arch, threads)
-    threads = int(threads or cores.available())
+    arch, threads = chosen(arch), int(threads or cores.available())
     if _started:
         return _same_start(arch, threads)
     _start(arch, threads)
@@ -128,8 +135,8 @@ def _start(arch, threads):
         attempt(rolled_loops.keep_rolled)
         attempt(functools.partial(float_mode.launching, ti.lang.impl.get_runtime().prog, float_mode.now()))
     if arch == "cuda":
-        warnings.warn("arch = 'cuda' gives equal results but is slower: a step of 512x128 took an H200 six times as long as "
-                      "one core; see docs/performance.md", RuntimeWarning, stacklevel=2)
+        warnings.warn("arch = 'cuda' is experimental: it gives equal results but is slower, a step of 512x128 took an H200 six times as "
+                      "long as one core; see docs/performance.md", RuntimeWarning, stacklevel=2)
     _started.update(arch=arch, threads=threads, taichi=".".join(map(str, ti.__version__)), cache=cache)
     _home = os.getpid(), threading.get_ident()
 
@@ -142,7 +149,7 @@ def ensure():
     return dict(_started)
 
 
-def start_or_join(arch="cpu", threads=None):
+def start_or_join(arch=None, threads=None):
     """As :func:`start`; threads = None: those of a start before, if there was one."""
     return start(arch, threads if threads is not None or not _started else _started["threads"])
 

@@ -17,7 +17,7 @@ from tehl_taichi.values.path_arguments import folder_of, path_of
 
 
 def run(scene: Scene | str | PathLike, path: str | PathLike | None = None, *, force: bool = False, threads: int | None = None,
-        arch: str = "cpu", progress: Progress | None = None) -> Run:
+        arch: str | None = None, progress: Progress | None = None) -> Run:
     """As :func:`tehl_taichi.run`."""
     return _run(find(scene), path, force, threads, arch, progress or Progress())
 
@@ -73,7 +73,7 @@ def completed(scene: Scene, path: str | PathLike, *, threads: int | None = None,
     from tehl_taichi.store.integrity import is_store
 
     if not is_store(path):
-        return _run(scene, path, False, threads, "cpu", progress or Progress(), case=True)
+        return _run(scene, path, False, threads, None, progress or Progress(), case=True)
     there = open(path)
     check_version(path, there)
     if there.scene != scene:

@@ -85,6 +85,18 @@ def test_a_card_that_is_not_there_is_refused(driver, said):
     assert "'cuda' is not available" in error and said in error and arch == "cpu", done.stderr
 
 
+def test_the_environment_chooses_where_no_arch_is_given(monkeypatch):
+    monkeypatch.setattr(runtime, "_started", {})
+    monkeypatch.delenv("TEHL_ARCH", raising=False)
+    assert runtime.chosen() == "cpu"
+    monkeypatch.setenv("TEHL_ARCH", "metal")
+    assert (runtime.chosen(), runtime.chosen("cpu")) == ("metal", "cpu")
+    with pytest.raises(RuntimeUnavailable, match="arch = 'metal' is not available"):
+        runtime.check()
+    monkeypatch.setattr(runtime, "_started", {"arch": "cpu", "threads": 2})
+    assert runtime.chosen() == "cpu"
+
+
 def test_a_forked_process_is_told_instead_of_waiting_for_ever(taichi_cpu):
     first_film()
     with warnings.catch_warnings():
