@@ -10,7 +10,7 @@ import typer
 from tehl_cli.idle_options import say_idle
 from tehl_cli.live_display import say
 from tehl_cli.stdout import print_json
-from tehl_cli.suite_results import Results, table
+from tehl_cli.suite_results import Results, table, texts
 
 
 def register(app):
@@ -38,7 +38,10 @@ FORCE = typer.Option(False, "--force", help="replace the results of an earlier r
 QUICK = typer.Option(False, "--quick", help="small grids and few steps")
 JSON = typer.Option(False, "--json", help="print the JSON object of the file to stdout instead of tables")
 THREADS = typer.Option(None, help="CPU threads (default: all)")
+WRITE = typer.Option(False, "--write", help="replace the suite's table in docs/performance.md (of the current folder)")
 WORKERS = typer.Option(1, help="number of processes, which share the cores")
+
+BARS = ("bars", "null", "hold, %", "ratio", "bar", "error")
 
 
 def stability(
@@ -60,6 +63,7 @@ def stability(
                                                     "(point contacts: 512)"),
     as_json: bool = JSON,
     force: bool = FORCE,
+    write: bool = WRITE,
     threads: Optional[int] = THREADS,
     workers: int = WORKERS,
     precision: str = typer.Option("auto", help="precision of the linear solves: f32, f64 or auto (chosen for each scene)"),
@@ -68,9 +72,10 @@ def stability(
     from tehl_taichi.profiles import stability as suite
     from tehl_taichi.profiles.stability import carried, cases, random_cases, run, starts
 
-    results = Results(out, "starts" if confirm else "stability", force)
+    results = Results(out, "starts" if confirm else "stability", force, write=write and not confirm)
     if confirm:
         say_idle(context, "--confirm takes all starts, each in its own precision", "only_starts", "precision")
+        say_idle(context, "docs/performance.md has no table that --confirm writes", "write")
     else:
         say_idle(context, "it applies to --confirm only", "again")
     if not random:
@@ -87,7 +92,10 @@ def stability(
         found.append(outcome)
         say(f"{outcome.name}: {outcome.verdict} {outcome.reason}")
     found.sort(key=lambda outcome: list(chosen).index(outcome.name))
-    counts = {verdict: sum(o.verdict == verdict for o in found) for verdict in ("converged", "refused", "stopped", "failed")}
+    counts = _verdicts(found)
+    results.documented(("scenes", *counts), [(kind, *map(str, _verdicts(part).values())) for kind, part in
+                                             (("table", [o for o in found if o.name in dict(listed)]),
+                                              ("random", [o for o in found if o.name not in dict(listed)])) if part])
     counts["unsettled"] = sum(o.unsettled for o in found)
     counts["carried"] = sum(o.carried for o in found)
     counts["carried_converged"] = sum(o.carried and o.verdict == "converged" for o in found)
@@ -99,6 +107,11 @@ def stability(
         "{failed} failed; {carried_converged} of {carried} whose film the grid carries converged".format(**counts))
     results.finish([vars(o) for o in found], lambda plt: suite.chart(plt, found), as_json, **counts)
     raise typer.Exit(1 if counts["failed"] else 0)
+
+
+def _verdicts(outcomes):
+    """{verdict: how many scenes end so}."""
+    return {verdict: sum(o.verdict == verdict for o in outcomes) for verdict in ("converged", "refused", "stopped", "failed")}
 
 
 def _confirm(results, chosen, as_json, workers, threads, again):
@@ -174,7 +187,8 @@ def cracks(
 
 def accuracy(
     context: typer.Context,
-    out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: bool = FORCE, threads: Optional[int] = THREADS,
+    out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: bool = FORCE, write: bool = WRITE,
+    threads: Optional[int] = THREADS,
     only: Optional[str] = typer.Option(None, help="run only one part: errors (against run time), coverage (of the error bars) "
                                                   "or exits (error bars of exits)"),
     seed: int = typer.Option(4, help="seed of the random scenes that check the error bars"),
@@ -199,8 +213,8 @@ def accuracy(
         say_idle(context, "no error bars are judged", "judge")
     runtime.start(threads=threads)
     found, name = {}, "exits" if only == "exits" else "coverage"
-    errors = Results(out, "accuracy", force) if only in (None, "errors") and not judge else None
-    bars = Results(out, name, force, kept=("json",) if judge else ()) if only != "errors" else None
+    errors = Results(out, "accuracy", force, write=write) if only in (None, "errors") and not judge else None
+    bars = Results(out, name, force, kept=("json",) if judge else (), write=write) if only != "errors" else None
     if errors:
         found["errors"] = _accuracy(errors, quick, as_json, keep)
     if bars:
@@ -224,8 +238,10 @@ def _accuracy(results, quick, as_json, keep):
     from tehl_taichi.profiles import measure
 
     rows = suite.run(quick, say)
+    columns, runs = _errors(rows)
+    results.documented(columns, runs)
     if not as_json:
-        _errors(rows)
+        list_table("error, % (* no faster run has a smaller one)", columns, runs)
         list_table("columns needed for each "
                    "error", ("family", "quantity", "order", *(f"{target:g}" for target in suite.TARGETS)),
                    [(family, quantity, "none" if order is None else f"{order:.1f}", *(str(nx or "finer") for nx in grids))
@@ -255,12 +271,11 @@ def _coverage(results, seed, quick, judge, threads, as_json):
         raise StoreError(f"--judge: {path} does not exist. Run `tehl bench accuracy --only {name}` first")
     stored = json.loads(path.read_text())
     found = suite.table(stored["rows"])
+    results.documented(("quantity", *BARS), [(f"{part} {what}", *_of_bars(*numbers)) for part, what, *numbers in found])
     for part, rows in () if as_json else itertools.groupby(found, lambda row: row[0]):
         list_table(f"{part}: error bars of random scenes (seed {stored['seed']}), checked on grids {suite.FINER} times as "
                    "fine;\nmedians of bar/error, bar and error (relative, or in K)",
-                   ("quantity", "bars", "null", "hold, %", "ratio", "bar", "error"),
-                   [(name, str(known), str(unknown), *(_short(value, factor) for value, factor in zip(numbers, (100, 1, 1, 1))))
-                    for _, name, known, unknown, *numbers in rows])
+                   ("quantity", *BARS), [(what, *_of_bars(*numbers)) for _, what, *numbers in rows])
     for one in stored["rows"]:
         if "reason" in one:
             say(f"{one['kind']} skipped: {one['reason']}")
@@ -269,49 +284,55 @@ def _coverage(results, seed, quick, judge, threads, as_json):
     return [dict(zip(suite.COLUMNS, row)) for row in found]
 
 
+def _of_bars(known, unknown, *numbers):
+    """Texts of the columns BARS."""
+    return str(known), str(unknown), *(_short(value, factor) for value, factor in zip(numbers, (100, 1, 1, 1)))
+
+
 def _short(value, factor):
     return "" if value is None else f"{factor * value:.2g}" if factor == 1 else f"{factor * value:.1f}"
 
 
 def _errors(rows):
-    """A line per run, its error in each quantity; * where no faster run of the family has a smaller one."""
-    from tehl_cli.tables import list_table
-
+    """(columns, a line per run with its error in each quantity; * where no faster run of the family has a smaller one)."""
     quantities, runs = list(dict.fromkeys(row["quantity"] for row in rows)), {}
     for row in rows:
         run = runs.setdefault((row["family"], row.get("setting", row["columns"])), {"s": f"{row['seconds']:.2f}"})
         run[row["quantity"]] = f"{100 * row['error']:.2g}{'*' if row['front'] else ' '}"
-    list_table("error, % (* no faster run has a smaller one)", ("family", "run", "s", *quantities),
-               [(family, str(name), *(run.get(key, "") for key in ("s", *quantities))) for (family, name), run in runs.items()])
+    return ("family", "run", "s", *quantities), [(family, str(name), *(run.get(key, "") for key in ("s", *quantities)))
+                                                 for (family, name), run in runs.items()]
 
 
-def speed(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: bool = FORCE,
+def speed(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: bool = FORCE, write: bool = WRITE,
           threads: Optional[int] = THREADS):
     """Measure run times against their targets, and reference loops to compare machines. Example: `tehl bench speed --quick`"""
     from tehl_taichi.profiles import speed as suite
 
-    results = Results(out, "speed", force)
+    results = Results(out, "speed", force, write=write)
     rows = suite.run(quick, threads or _cores(), say)
     details = {"step_ms": "step {:.1f} ms", "convolutions": "{:.0f} convolutions", "cycles": "{:.1f} Krylov",
                "memory_mb": "{:.0f} MB", "planes_per_s_core": "{:.2g} planes/s core"}
+    shown = [{**row, "detail": ", ".join(form.format(row[key]) for key, form in details.items() if key in row)} for row in rows]
+    columns = {"what": "{}", "seconds": "{:.3f}", "target": "{:g}", "detail": "{}"}
     if not as_json:
-        table("speed", [{**row, "detail": ", ".join(form.format(row[key]) for key, form in details.items() if key in row)}
-                        for row in rows], {"what": "{}", "seconds": "{:.3f}", "target": "{:g}", "detail": "{}"})
+        table("speed", shown, columns)
+    results.documented(columns, texts(shown, columns))
     results.finish(rows, lambda plt: suite.chart(plt, rows), as_json)
 
 
-def scaling(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: bool = FORCE,
+def scaling(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: bool = FORCE, write: bool = WRITE,
             threads: Optional[int] = THREADS,
             thermal: bool = typer.Option(False, "--thermal/--isothermal", help="with or without temperatures")):
     """Measure time and memory against grid size and threads. Example: `tehl bench scaling --quick`"""
     from tehl_taichi.profiles import scaling as suite
 
-    results = Results(out, "scaling", force)
+    results = Results(out, "scaling", force, write=write)
     rows = suite.run(quick, threads or _cores(), thermal, say)
+    columns = {"nx": "{}", "ny": "{}", "threads": "{}", "step_ms": "{:.1f}", "speed_up": "{:.2f}", "node_ns": "{:.0f}",
+               "newton": "{:.1f}", "cycles": "{:.1f}", "memory_mb": "{:.0f}", "node_B": "{:.0f}"}
     if not as_json:
-        table("scaling", rows, {"nx": "{}", "ny": "{}", "threads": "{}", "step_ms": "{:.1f}", "speed_up": "{:.2f}",
-                                "node_ns": "{:.0f}", "newton": "{:.1f}", "cycles": "{:.1f}", "memory_mb": "{:.0f}",
-                                "node_B": "{:.0f}"})
+        table("scaling", rows, columns)
+    results.documented(columns, texts(rows, columns))
     results.finish(rows, lambda plt: suite.chart(plt, rows), as_json)
 
 
@@ -327,17 +348,18 @@ def sweep(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: boo
     results.finish(rows, lambda plt: suite.chart(plt, rows), as_json)
 
 
-def profile(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: bool = FORCE,
+def profile(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: bool = FORCE, write: bool = WRITE,
             threads: Optional[int] = THREADS,
             thermal: bool = typer.Option(True, "--thermal/--isothermal", help="with or without temperatures")):
     """Measure the time of a step per stage and per kernel. Example: `tehl bench profile --isothermal`"""
     from tehl_taichi.profiles import measure
     from tehl_taichi.profiles import profile as suite
 
-    results = Results(out, "profile", force)
+    results = Results(out, "profile", force, write=write)
     stages, kernels, numbers = measure.fresh(threads or _cores(), suite.run, *(suite.QUICK if quick else suite.FULL), thermal)
+    columns = {"what": "{}", "calls": "{:.1f}", "ms": "{:.2f}", "limit_ms": "{:.2f}", "MB": "{:.1f}"}
+    results.documented(columns, texts(stages, columns))
     if not as_json:
-        columns = {"what": "{}", "calls": "{:.1f}", "ms": "{:.2f}", "limit_ms": "{:.2f}", "MB": "{:.1f}"}
         table("stages, per step (a stage may contain others)", stages, columns)
         table("kernels, per step", kernels, columns)
     say(", ".join(f"{key} {value:.3f}" for key, value in numbers.items()))

@@ -1,5 +1,6 @@
 """What a suite gives: tables for people or one JSON object, both in files beside a picture."""
 
+from tehl_cli import bench_page
 from tehl_cli.live_display import say
 from tehl_cli.stdout import print_json
 
@@ -8,20 +9,27 @@ def table(title, rows, columns):
     """Print rows (dictionaries) as {key: format} says; a value that is not known is left empty."""
     from tehl_cli.tables import list_table
 
-    list_table(title, columns, [[form.format(row[key]) if row.get(key) is not None else "" for key, form in columns.items()]
-                                for row in rows])
+    list_table(title, columns, texts(rows, columns))
+
+
+def texts(rows, columns):
+    """Rows (dictionaries) as lists of texts."""
+    return [[form.format(row[key]) if row.get(key) is not None else "" for key, form in columns.items()] for row in rows]
 
 
 class Results:
     """The files NAME.json, NAME.png and others (`more`: their endings) of a suite in a folder.
 
-    force: replace those of an earlier run. Raises StoreError, before the work, where they may not be written.
+    force: replace those of an earlier run; write: replace the suite's table in docs/performance.md, too. Raises StoreError,
+    before the work, where they may not be written.
     """
 
-    def __init__(self, folder, name, force, more=(), kept=()):
+    def __init__(self, folder, name, force, more=(), kept=(), write=False):
         from tehl_taichi.disk import links, user_files
 
-        self.folder, self.name = folder, name
+        self.folder, self.name, self.write = folder, name, write
+        if write:
+            bench_page.check(name)
         links.refuse_itself(folder)
         for ending in ("json", "png", *more):
             if ending not in kept:
@@ -43,6 +51,12 @@ class Results:
         self.picture(chart)
         if as_json:
             print_json(found)
+
+    def documented(self, columns, rows):
+        """Write the suite's table into docs/performance.md where that is wanted; rows: lists of texts."""
+        if self.write:
+            bench_page.write(self.name, columns, rows)
+            say(f"wrote {bench_page.PAGE}")
 
     def page(self, text):
         """Write NAME.md."""

@@ -135,8 +135,8 @@ def _start(arch, threads):
         attempt(rolled_loops.keep_rolled)
         attempt(functools.partial(float_mode.launching, ti.lang.impl.get_runtime().prog, float_mode.now()))
     if arch == "cuda":
-        warnings.warn("arch = 'cuda' is experimental: it gives equal results but is slower, a step of 512x128 took an H200 six times as "
-                      "long as one core; see docs/performance.md", RuntimeWarning, stacklevel=2)
+        warnings.warn("arch = 'cuda' is experimental: it gives equal results but is slower (a step of 512x128 took an H200 six "
+                      "times as long as one core); see docs/performance.md", RuntimeWarning, stacklevel=2)
     _started.update(arch=arch, threads=threads, taichi=".".join(map(str, ti.__version__)), cache=cache)
     _home = os.getpid(), threading.get_ident()
 

@@ -5,9 +5,11 @@ Fast: in this process, where a suite would start others, on its smallest grids. 
 
 import json
 import math
+from pathlib import Path
 
 import pytest
 from commands import here, process
+from tehl_cli import bench_page
 from tehl_taichi.profiles import (
     accuracy,
     conclusions,
@@ -24,6 +26,7 @@ from tehl_taichi.profiles import (
 from tehl_taichi.runs.sweep import sweeping, warm_cache
 from tehl_taichi.scene import SceneError, scene
 
+ROOT = Path(__file__).parents[2]
 PNG = b"\x89PNG\r\n\x1a\n"
 
 
@@ -95,6 +98,43 @@ def test_profile(tmp_path, monkeypatch):
     limits = {row["what"]: row["limit_ms"] for row in found["rows"] if "limit_ms" in row}
     assert {"pressure: deflection", "linearise"} <= limits.keys() and min(limits.values()) > 0
     assert len(profile.gaps(stages, kernels, 3)) == 3
+
+
+def test_a_suite_replaces_its_table_in_the_page_and_nothing_else(tmp_path, monkeypatch):
+    row = {"nx": 64, "ny": 16, "threads": 1, "step_ms": 7.13, "speed_up": 1.0, "node_ns": 6450.0, "newton": 2.0, "cycles": 15.5,
+           "memory_mb": 180.0, "node_B": None}  # as test_scaling computes them
+    monkeypatch.setattr(scaling, "run", lambda *_: [row, {**row, "threads": 2}])
+    words = ("bench", "scaling", "--quick", "--threads", 2, "--write", "--out", tmp_path / "out")
+    refused = here(*words, cwd=tmp_path)
+    assert refused.returncode == 2 and "cannot read docs/performance.md" in refused.stderr and not (tmp_path / "out").exists()
+    page = tmp_path / "docs" / "performance.md"
+    page.parent.mkdir()
+    before = (ROOT / "docs" / "performance.md").read_text(encoding="utf-8")
+    page.write_text(before.replace("<!-- bench: scaling -->", ""), encoding="utf-8")
+    refused = here(*words, cwd=tmp_path)
+    assert refused.returncode == 2 and "has no table of this suite: <!-- bench: scaling -->" in refused.stderr
+    page.write_text(before, encoding="utf-8")
+    done = here(*words, cwd=tmp_path)
+    assert done.returncode == 0 and "wrote docs/performance.md" in done.stderr, done.stderr
+    (head, old, tail), (new_head, new, new_tail) = (parted(text) for text in (before, page.read_text(encoding="utf-8")))
+    assert (head, tail) == (new_head, new_tail) and old != new
+    assert new.startswith("\n`tehl bench scaling --quick --threads 2 --out ") and "commit" in new
+    titles, _, *lines = (line for line in new.splitlines() if line.startswith("|"))
+    assert titles.startswith("| nx | ny | threads | step_ms |")
+    assert lines == [f"| 64 | 16 | {threads} | 7.1 | 1.00 | 6450 | 2.0 | 15.5 | 180 |  |" for threads in (1, 2)]
+
+
+def parted(text):
+    """What stands before, in and behind the table of the suite `scaling` in the page."""
+    head, rest = text.split("<!-- bench: scaling -->")
+    old, tail = rest.split("<!-- bench end -->", 1)
+    return head, old, tail
+
+
+@pytest.mark.parametrize("name", ["accuracy", "coverage", "stability", "speed", "scaling", "profile"])
+def test_the_page_has_a_place_for_every_suite_that_writes_one(name, monkeypatch):
+    monkeypatch.chdir(ROOT)
+    bench_page.check(name)
 
 
 def test_scaling(tmp_path, monkeypatch, direct):

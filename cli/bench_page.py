@@ -1,0 +1,56 @@
+"""The tables of docs/performance.md: a suite replaces its own, between two marks, and nothing else."""
+
+import shlex
+import sys
+import textwrap
+from pathlib import Path
+
+PAGE = Path("docs/performance.md")  # in the current folder
+END, WIDTH = "<!-- bench end -->", 130
+OWN = ("--write", "--force", "--json", "--quiet")  # options that change no figure
+
+
+def check(name):
+    """Raises StoreError where the page has no place for the table of a suite."""
+    _around(name)
+
+
+def write(name, columns, rows):
+    """Replace the table of a suite; rows: texts. Raises StoreError."""
+    from tehl_taichi.disk import files
+
+    before, after = _around(name)
+    lines = [columns, ["---"] * len(columns), *rows]
+    table = "\n".join(f"| {' | '.join(map(_cell, line))} |" for line in lines)
+    with files.blamed(PAGE):
+        files.replace(PAGE, f"{before}\n{_caption()}\n\n{table}\n{after}".encode())
+
+
+def _cell(text):
+    return " ".join(str(text).replace("|", "\\|").split())
+
+
+def _around(name):
+    """The page up to the mark at which the table of a suite begins, and from that at which it ends."""
+    from tehl_taichi.disk import files
+    from tehl_taichi.errors import StoreError
+
+    mark = f"<!-- bench: {name} -->"
+    with files.blamed(PAGE, "cannot read"):
+        text = files.text(PAGE)
+    before, begins, rest = text.partition(mark)
+    _, ends, after = rest.partition(END)
+    if not (begins and ends):
+        raise StoreError(f"{PAGE} has no table of this suite: {mark} ... {END}")
+    return before + mark, END + after
+
+
+def _caption():
+    """Command, version, commit, machine and date."""
+    from tehl_taichi.profiles import measure
+
+    from tehl_taichi import __version__
+    from tehl_taichi.commit import commit
+
+    command = shlex.join(["tehl", *(word for word in sys.argv[1:] if word not in OWN)])
+    return textwrap.fill(f"`{command}`, version {__version__}, commit {commit()}; {measure.machine()}.", WIDTH)
