@@ -2,9 +2,12 @@ import os
 import signal
 import sys
 
+import kernel_files
 import pytest
 
 MOST = 4  # processes of the whole suite: each needs 1.5 GB
+KERNELS = ("tests/march/", "tests/heat/", "tests/pressure/")  # that mostly compile the same ones
+WITHOUT = ("tests/crack/", "tests/disk/", "tests/report/", "tests/values/", "tests/view/")  # that compile none
 
 
 def pytest_configure():
@@ -24,6 +27,30 @@ def pytest_cmdline_main(config):
     o, asked = config.option, getattr(config.option, "numprocesses", 0)
     if asked is None and "PYTEST_XDIST_WORKER" not in os.environ and any(map(os.path.isdir, config.args)) and not o.usepdb:
         o.numprocesses, o.dist, o.loadscopereorder = min(len(os.sched_getaffinity(0)), MOST), "loadfile", False
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config, log):
+    """One of two processes compiles the kernels of the solvers, which take longest, the other one does the rest and finds
+    those kernels on disk when it needs them; of more processes each has its files."""
+    if config.option.dist == "loadfile" and config.option.numprocesses == 2:
+        from xdist.scheduler import LoadFileScheduling
+
+        class Rooms(LoadFileScheduling):
+            def _split_scope(self, nodeid):
+                return "kernels" if nodeid.startswith(KERNELS) else super()._split_scope(nodeid)
+
+        return Rooms(config, log)
+
+
+def pytest_collection_modifyitems(items):
+    """The longest part first, last what starts Taichi, which learns what is on disk when it starts."""
+    items.sort(key=lambda item: (*(item.nodeid.startswith(room) for room in KERNELS), item.nodeid.startswith(WITHOUT)), reverse=True)
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_runtest_teardown():
+    kernel_files.write()
 
 
 @pytest.fixture(scope="session")

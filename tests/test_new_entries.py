@@ -25,7 +25,7 @@ data = tehl.scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16, "oil.name": "
                                      "fatigue.criterion": "ellipse", "fatigue.depths": [], "numerics.estimate_error": False})
 data = {**data.to_dict(), "feature": [{"shape": "plateau", "height": 1e-6, "flat": 0.25}]}
 scene = tehl.Scene.from_dict(data)
-run = tehl.run(scene, "new.zarr", threads=1)
+run = tehl.run(scene, "new.zarr", threads=2)
 bending = np.zeros((1, 36, 6))
 bending[0, :, 0] = 100 * np.cos(np.arange(36) * np.pi / 18)
 out = {"checked": {kind: [one.compute() / one.expected for one in entry.checked] for kind, entry in made.items()},

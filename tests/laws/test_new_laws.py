@@ -196,7 +196,7 @@ film = {"oil.name": "mine", "oil.viscosity": "cameron", "oil.eta0": 0.02, "oil.a
         "oil.cameron_n": 4.0, "temperature": 60.0}
 scenes = {"limiting": base, "rounded": base.replace(**{"rheology.law": "rounded"}),
           "sharp": base.replace(**{"rheology.law": "rounded", "rheology.limit_n": 4.0}), "film": base.replace(**film)}
-runtime.start(threads=1)
+runtime.start(threads=2)
 out = {"checked": {law.name: [one.compute() / one.expected for one in law.checked] for laws in CHOICES.values()
                    for law in laws.values()},
        "template": scene_file.dumps(scenes["sharp"]), "suite": list(stability.cases()),

@@ -18,8 +18,7 @@ from tehl_taichi.disk import files
 from tehl_taichi.store.store import Store
 
 # a ridge: one dimension, 51 steps in a second
-RIDGE = ("run", "gear", "--set", "feature.shape=ridge", "--grid", "64x8", "--isothermal", "--quiet", "--threads", "2",
-         "--precision", "f64")
+RIDGE = ("run", "gear", "--set", "feature.shape=ridge", "--grid", "64x8", "--isothermal", "--quiet", "--threads", "2")
 
 
 @pytest.fixture
@@ -159,8 +158,7 @@ def test_a_run_that_still_goes_is_left_alone(tehl, tmp_path):
 
 
 def test_a_finished_steady_run_gives_valid_json(tehl):
-    steady = ("run", "smooth-line", "--steady", "--isothermal", "--grid", "32x8", "--threads", 2, "--precision", "f64", "--out",
-              "s.zarr")
+    steady = ("run", "smooth-line", "--steady", "--isothermal", "--grid", "32x8", "--threads", 2, "--out", "s.zarr")
     code, first, _ = tehl(*steady, "--json")
     assert code == 0
     for words in (("resume", "s.zarr", "--json"),):
@@ -259,7 +257,7 @@ def test_a_kill_and_a_closed_terminal_are_named(tmp_path, stop):
 
 
 def test_a_stopped_run_says_by_what_and_how_it_goes_on(tmp_path):
-    run = process("run", "gear", "--threads", "1", "--grid", "64x16", "--isothermal", "--out", "a.zarr", cwd=tmp_path)
+    run = process("run", "gear", "--threads", "2", "--grid", "64x16", "--isothermal", "--out", "a.zarr", cwd=tmp_path)
     while not (tmp_path / "a.zarr").exists():
         time.sleep(0.01)
     os.kill(run.pid, signal.SIGTERM)
@@ -270,7 +268,7 @@ def test_a_stopped_run_says_by_what_and_how_it_goes_on(tmp_path):
 def test_a_closed_terminal_takes_no_last_word_and_changes_no_exit_code(tmp_path):
     """In the passage, with a bar in a terminal that is gone when the signal comes."""
     ours, theirs = os.openpty()
-    words = ("run", "gear", "--threads", "1", "--grid", "64x16", "--isothermal", "--no-live", "--out", "a.zarr")
+    words = ("run", "gear", "--threads", "2", "--grid", "64x16", "--isothermal", "--no-live", "--out", "a.zarr")
     run = subprocess.Popen([*CALL, *words], cwd=tmp_path, stdout=theirs, stderr=theirs,
                            env={**os.environ, "TERM": "xterm", "COLUMNS": "120"})
     os.close(theirs)
