@@ -119,6 +119,7 @@ def test_heights_in_an_array_are_those_of_a_file(tmp_path):
     assert by_array == by_file and (by_array.surface == by_file.surface).all()
     scene = tehl.Scene(features=[by_array])
     assert scene.replace(srr=0.1).features[0].heights is by_array.heights
+    assert tehl.scene("gear").replace(feature=[by_array]).features == (by_array,)
 
 
 @pytest.mark.parametrize("heights, said", [(np.zeros((3, 9)), "at least 4 x 4"), (np.zeros(9), r"\(rows, columns\)"),

@@ -428,4 +428,5 @@ def _features(values):
     if not isinstance(values, (list, tuple)):
         raise SceneError(f"features are written as [[feature]] tables, not {shown(values)}")
     names = ["feature"] if len(values) == 1 else [f"feature.{n}" for n in range(len(values))]
-    return tuple(build(Feature, value, name, "feature") for name, value in zip(names, values))
+    return tuple(value if isinstance(value, Feature) else build(Feature, value, name, "feature")
+                 for name, value in zip(names, values))

@@ -1,5 +1,6 @@
 """The scripts of profiles/examples run, on small grids and for a few steps."""
 
+import re
 import runpy
 import sys
 from pathlib import Path
@@ -47,6 +48,17 @@ def test_own_stresses(taichi_cpu, script):
 
 def test_own_loop(taichi_cpu, script):
     assert script("own_loop.py", 1).splitlines()[1].startswith("step 1: dent at -0.557 mm, 1.9")
+
+
+def test_five_jobs(taichi_cpu, script):
+    text = (EXAMPLES / "five_jobs.py").read_text(encoding="utf-8")
+    assert text.count("# %% [markdown]\n# ## ") == 5 and text.count("\n# %%\n") == 6
+    lines = script("five_jobs.py").splitlines()
+    assert re.match(r"steady.h_c: 0\.4\d+ ± 0\.\d+ µm$", lines[0]) and "scan: range 0.80 um, Fi 0." in "\n".join(lines)
+    assert sum(line.startswith("{'srr': ") for line in lines) == 4
+    tension, shear = map(int, re.findall(r"(\d+) MPa", lines[-1]))
+    assert 0.85 < tension / (2 * 0.1 * 1500) < 1  # at the trailing edge 2 mu p0, a square root between the nodes
+    assert shear == pytest.approx(0.3003 * 1500, rel=0.03)  # Johnson, without friction
 
 
 @pytest.mark.slow
