@@ -1,3 +1,4 @@
+import importlib
 import os
 import signal
 import sys
@@ -7,7 +8,7 @@ import pytest
 
 MOST = 4  # processes of the whole suite: each needs 1.5 GB
 KERNELS = ("tests/march/", "tests/heat/", "tests/pressure/")  # that mostly compile the same ones
-WITHOUT = ("tests/crack/", "tests/disk/", "tests/report/", "tests/values/", "tests/view/")  # that compile none
+WITHOUT = ("tests/crack/", "tests/disk/", "tests/report/", "tests/view/")  # that compile none
 
 
 def pytest_configure():
@@ -60,6 +61,13 @@ def taichi_cpu():
     from tehl_taichi.engine import runtime
 
     return runtime.start(threads=2)
+
+
+@pytest.fixture
+def without_library(monkeypatch):
+    """Reports without plotly.js, of which each takes 0.2 s to write."""
+    document = importlib.import_module("tehl_taichi.report.document")
+    monkeypatch.setattr(document, "library", lambda: document.packed("none"))
 
 
 @pytest.fixture(params=("f32", "f64"))

@@ -24,6 +24,7 @@ SMALL = "--grid 64x16 --isothermal --no-fatigue --no-estimate-error --quiet"
 SHORT = {"run": f"{SMALL} --steps 0 --force --out made.zarr", "sweep": "--dry-run",
          "flank": "--grid 64 --isothermal --steady --no-figure",
          "resume": "--steps 1 --quiet", "animate": "--frames 2 --dpi 40 --force", "plot": "--dpi 40 --force",
+         "crack": "--dpi 40", "fatigue": "--dpi 40",
          "report": "--force", "export": "--force"}
 AT_REST = "--isothermal --steps 0 --no-fatigue --no-estimate-error --quiet --force --set time.steady_only=true"
 FENCED = re.compile(r"^```\w*\n(.*?)^```", re.M | re.S)

@@ -9,6 +9,7 @@ from disk.test_hostile_archives import cli, flanked, snapshot, stored, swept
 from small_stores import SMALL, store
 
 pytest.importorskip("matplotlib")
+pytestmark = pytest.mark.usefixtures("without_library")
 FAST = ("--dpi", 40)
 
 

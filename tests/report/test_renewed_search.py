@@ -22,6 +22,7 @@ from tehl_taichi.scene import scene
 
 pytest.importorskip("plotly")
 pytest.importorskip("jinja2")
+pytestmark = pytest.mark.usefixtures("without_library")
 
 
 @pytest.fixture

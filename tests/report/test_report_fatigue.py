@@ -11,6 +11,7 @@ from tehl_taichi.values.coded_text import Reason
 
 pytest.importorskip("plotly")
 pytest.importorskip("jinja2")
+pytestmark = pytest.mark.usefixtures("without_library")
 
 
 def test_maps_of_the_index_have_a_line_where_it_is_one(thermal, tmp_path):

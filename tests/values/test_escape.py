@@ -17,6 +17,7 @@ import tehl_taichi as tehl
 from tehl_taichi.runs.sweep import sweeping
 from tehl_taichi.values.escape import cell, label, printable
 
+pytestmark = pytest.mark.usefixtures("without_library")
 ESC = "\x1b]0;owned\x07\x1b[2J"
 NAMES = ["[bold red]x[/] [/y]", "$\\frac{$", "$x^2$", "=HYPERLINK(1)", "<b>bold</b><script>", "_under", "100 % {x}", "a&amp;b"]
 CONTROL = [f"e{ESC}", "two\nlines", "a\rb", "turned\u202egnp", "c1\x9b31m"]
