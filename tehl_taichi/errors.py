@@ -56,6 +56,12 @@ class Interrupted(Error):
     exit_code = INTERRUPTED
 
 
+class SignalInterrupt(KeyboardInterrupt):
+    """An interrupt with the name of its signal, "" of Ctrl-C."""
+
+    signal: str = ""
+
+
 class UnknownName(Error, KeyError):
     """A run has no quantity of this name."""
 
@@ -83,6 +89,6 @@ def stopped(stop):
 
 def interrupt(stop, more):
     """A KeyboardInterrupt by the signal of `stop` with the sentence about it; more: how that goes on."""
-    made = KeyboardInterrupt(f"{stopped(stop)}{more}")
+    made = SignalInterrupt(f"{stopped(stop)}{more}")
     made.signal = getattr(stop, "signal", "")
     return made

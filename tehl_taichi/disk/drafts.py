@@ -12,6 +12,7 @@ import contextlib
 import os
 import shutil
 from pathlib import Path
+from typing import Any
 
 from tehl_taichi.disk.files import reason
 from tehl_taichi.disk.links import ROOT, is_folder
@@ -33,7 +34,8 @@ class Draft:
     """
 
     def __init__(self, path, replace=False):
-        self.path, self.made, self.old, self.lock, self.published = Path(path), [], None, None, False
+        self.path, self.made, self.old, self.published = Path(path), [], None, False
+        self.lock: Any = None
         if not self.path.name:
             raise StoreError(f"{path} is not a possible name of a store or file; choose another --out")
         self.folder, self.replaces = staging_path(self.path, PART), replace

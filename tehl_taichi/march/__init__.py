@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 __all__ = ["march"]
 
 
-def march(scene: "Scene", state: dict | None = None, precision: str | None = None) -> "Iterator[Snapshot]":
+def march(scene: "Scene | str", state: dict | None = None, precision: str | None = None) -> "Iterator[Snapshot]":
     """As :func:`tehl_taichi.march`."""
     from tehl_taichi.errors import SceneError
     from tehl_taichi.march.passage import march as run

@@ -77,8 +77,8 @@ def _band(name, side, pits, in_legend):
 
 def _lines(name, side, n):
     along, path = (1e6 * np.array(side[key]).T for key in ("trajectory", "path"))
-    return (line(*along, f"{name}: normal to the largest tension", colour(n), dash="dash"),
-            line(*path, f"{name}: crack", colour(n)))
+    return (line(along[0], along[1], f"{name}: normal to the largest tension", colour(n), dash="dash"),
+            line(path[0], path[1], f"{name}: crack", colour(n)))
 
 
 def _histories(shown):
@@ -87,8 +87,10 @@ def _histories(shown):
 
 
 def _history(name, cracks, position):
-    panels = [(f"{kind} (MPa√m)", [line(position, 1e-6 * np.array(crack[key]), f"at {1e6 * crack['length']:.0f} µm", colour(n),
-                                        panel, in_legend=panel == 1) for n, crack in enumerate(cracks)], {})
-              for panel, (kind, key) in enumerate((("K_I", "K_I"), ("K_II", "K_II")), 1)]
+    panels: list[tuple] = []
+    for panel, key in enumerate(("K_I", "K_II"), 1):
+        lines = [line(position, 1e-6 * np.array(crack[key]), f"at {1e6 * crack['length']:.0f} µm", colour(n), panel,
+                      in_legend=panel == 1) for n, crack in enumerate(cracks)]
+        panels.append((f"{key} (MPa√m)", lines, {}))
     caption = f"Stress intensities of the crack on the {name} side while the feature passes."
     return stacked(f"K-{name}", caption, POSITION, panels, height=440)

@@ -48,4 +48,4 @@ def typed(value):
     if not isinstance(value, np.ndarray):
         return plain(value)
     shape = {"shape": ", ".join(map(str, value.shape))} if value.ndim > 1 else {}
-    return {"dtype": "f4", "bdata": base64.b64encode(np.ascontiguousarray(value, "<f4")).decode(), **shape}
+    return {"dtype": "f4", "bdata": base64.b64encode(np.ascontiguousarray(value, "<f4").data).decode(), **shape}

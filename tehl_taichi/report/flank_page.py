@@ -117,7 +117,8 @@ def _lines(flank, lines, factor):
 
 def _series(flank, what):
     """(x_pl, values) of the positions that have it; None where the load jumps: the line breaks there."""
-    x, y = [], []
+    x: list[float | None] = []
+    y: list[float | None] = []
     for at, p_H, summary in flank.rows:
         value = p_H if what == "p_H" else at.srr if what == "srr" else dig(summary, *what)
         if value is not None and x and x[-1] == at.x_pl:
@@ -141,7 +142,7 @@ def _value(key, value, declared):
 
 def warnings(flank):
     """Those of all positions, each once with where it was said."""
-    said = {}
+    said: dict[str, list[str]] = {}
     for at, _, summary in flank.rows:
         for sentence in (summary or {}).get("warnings", []):
             said.setdefault(sentence, []).append(at.point or f"{at.x_pl * 1e3:.3g} mm")

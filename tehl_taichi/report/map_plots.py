@@ -39,7 +39,7 @@ def _styles(store):
     """{field: (title, colours, unit, factor, ends of the colours)}."""
     top = film_top(store) * 1e6
     whose = {"surface a": f", which carries the {passing(store.scene)}"} if store.scene.transient else {}
-    heat = {name: (f"Temperature, {text}{whose.get(text, '')}", TEMPERATURE, "°C", 1.0, {})
+    heat: dict[str, tuple] = {name: (f"Temperature, {text}{whose.get(text, '')}", TEMPERATURE, "°C", 1.0, {})
             for name, text, _ in SURFACES if name in store.stored}
     film = f"Film, thicker than {top:.2g} µm in the last colour", FILM, "µm", 1e6, {"zmin": 0.0, "zmax": top}
     return {"pressure": ("Pressure", PRESSURE, "GPa", 1e-9, {}), "film": film, **heat}

@@ -37,7 +37,8 @@ def centreline(store):
     """Pressure, film and temperatures along x; with several entries a slider moves through them."""
     shown, where = moments(store), columns(store)
     lines = _lines(store, shown, where)
-    X, panels = store.x[where] / Scales.of(store.scene).a, []
+    X = store.x[where] / Scales.of(store.scene).a
+    panels: list[tuple] = []
     for title, _, names in FIELDS:
         if found := {name: text for name, text in names.items() if name in lines}:
             traces = [trace for name, text in found.items() for trace in _traces(X, lines[name], name, text, len(panels) + 1)]
@@ -127,7 +128,8 @@ def histories(store):
     """Extremes and friction over the position of the feature; None without a passage."""
     if store.steps < 3:
         return None
-    x, panels = store.scalar("feature_x")[1:] / Scales.of(store.scene).a, []
+    x = store.scalar("feature_x")[1:] / Scales.of(store.scene).a
+    panels: list[tuple] = []
     for title, factor, names in HISTORIES:
         found = {name: text for name, text in names.items() if name in store.series and np.ptp(store.scalar(name)[1:]) > 0}
         lines = [line(x, store.scalar(name)[1:] * factor, text, colour(n + bool(text)), len(panels) + 1, in_legend=bool(text))

@@ -19,7 +19,8 @@ RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 def errors(summary):
     """Tables of the numbers that have an error or a reason why it is not known; behind them the long reasons, once each."""
-    head, reasons = ("what", "value", "error", "relative"), []
+    head: tuple = ("what", "value", "error", "relative")
+    reasons: list[str] = []
     tables = [table(head, [row for found in _in_order(summary.get(part, {})) for row in _with_below(reasons, *found)], when)
               for part, when in PARTS]
     return [*tables, sentences([f"{_mark(n)} {why}" for n, why in enumerate(reasons)], "Why an error is unknown")]

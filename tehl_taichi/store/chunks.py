@@ -8,6 +8,7 @@ import math
 import numpy as np
 import zarr
 from numcodecs import zstd
+from zarr.codecs import ZstdCodec
 
 from tehl_taichi.disk import files, memory_limit
 from tehl_taichi.disk.links import ROOT
@@ -21,7 +22,7 @@ SLACK = 1000  # bytes by which a chunk that does not shrink may grow, beside a h
 
 def codecs():
     """As a new array is told."""
-    return zarr.codecs.ZstdCodec(level=LEVEL, checksum=True)
+    return ZstdCodec(level=LEVEL, checksum=True)
 
 
 def read(path, dtype, count):

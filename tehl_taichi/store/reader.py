@@ -19,6 +19,8 @@ from tehl_taichi.values.coded_warning import of_lists
 class Reader:
     """One run on disk, to read; entry 0 is the steady start."""
 
+    series: dict[str, np.ndarray]
+
     def __init__(self, path, lock=None):
         self.path, self.lock = Path(path), lock
         self.attrs, self.metadata = integrity.root_of(self.path)

@@ -7,6 +7,9 @@ class CodedText(str):
     "options" of the data: {an option of the command line in the sentence: the same in words, for a report}.
     """
 
+    code: str
+    data: dict
+
     def __new__(cls, text, code="", data=None):
         made = super().__new__(cls, text)
         made.code, made.data = code, data or {}
@@ -38,6 +41,8 @@ def reasons_of(part):
 
 class Option(str):
     """Options of the command line inside a sentence; words: the same for a report, which has no command line."""
+
+    words: str
 
     def __new__(cls, text, words):
         made = super().__new__(cls, text)

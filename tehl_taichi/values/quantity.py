@@ -18,7 +18,12 @@ AUTO = "auto"
 class Kind:
     """Base of what a value can be. about: its meaning; unit: '' where it has none; allowed: its range in words."""
 
-    unit = allowed = ""
+    about: str
+    unit: str = ""
+
+    @property
+    def allowed(self):
+        return ""
 
     @property
     def sentence(self):

@@ -8,6 +8,7 @@ import importlib
 import pkgutil
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 
 @dataclass(frozen=True)
@@ -36,7 +37,7 @@ def collect(folder, kind):
 
     Raises ValueError when two entries have one name.
     """
-    found = {}
+    found: dict[str, Any] = {}
     for module in sorted(name for _, name, _ in pkgutil.iter_modules(folder.__path__)):
         for entry in vars(importlib.import_module(f"{folder.__name__}.{module}")).values():
             if isinstance(entry, kind) and found.setdefault(entry.name, entry) is not entry:

@@ -8,7 +8,7 @@ from tehl_taichi.laws.law import beyond
 from tehl_taichi.march.accuracy.coarse_runs import near_the_surface
 from tehl_taichi.runs.summary import domain_warnings, film_warnings, rim_warnings
 from tehl_taichi.scene.yield_pressure import STEEL, YIELDS
-from tehl_taichi.values.coded_text import reasons_of
+from tehl_taichi.values.coded_text import Reason, reasons_of
 from tehl_taichi.values.coded_warning import coded_warning, once, with_data
 from tehl_taichi.values.digits import micrometres
 
@@ -58,7 +58,7 @@ def unknown_errors(store, summary):
     """Numbers whose error is unknown, with the reason; one sentence for all that share it."""
     fatigue, deep = searched(summary.get("fatigue", {})), " below the surface"
     early, of_it = fatigue.get("resolved", {}), " of the resolved part"
-    reasons = {}
+    reasons: dict[Reason, list[str]] = {}
     for part, when, behind in ((summary.get("steady", {}), "steady ", ""), (summary.get("transient", {}), "passage ", ""),
                                (fatigue, "", ""), (fatigue.get("below", {}), "", deep), (early, "", of_it),
                                (early.get("below", {}), "", deep + of_it)):

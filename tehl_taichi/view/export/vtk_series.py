@@ -27,7 +27,7 @@ def write(reader, folder, places):
     found = "feature_frame_x", "feature_frame_y"
     if maps := [name for name, array in reader.metadata.items() if tuple(array["dimension_names"]) == found]:
         fields = {_named(reader, name): reader.map(name) for name in maps}
-        (folder / "fatigue.vti").write_text(image(*map(reader.map, found), fields, {}))
+        (folder / "fatigue.vti").write_text(image(reader.map(found[0]), reader.map(found[1]), fields, {}))
     (folder / "passage.pvd").write_text(collection(zip(reader.time, names)))
 
 

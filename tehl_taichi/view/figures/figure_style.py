@@ -4,6 +4,7 @@ import os
 import textwrap
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -73,7 +74,7 @@ class FigureStyle:
         of x and y, and the height becomes what they need."""
         from matplotlib.figure import Figure
 
-        figure = Figure((self.inches, height or self.row(columns) * rows + 0.06 * self.text),
+        figure: Any = Figure((self.inches, height or self.row(columns) * rows + 0.06 * self.text),
                         layout="compressed" if equal else "constrained")
         figure.to_fit = equal
         return figure, figure.subplots(rows, columns, squeeze=False, **options)
@@ -162,7 +163,7 @@ class FigureStyle:
 
 
 def _cycle():
-    from matplotlib import cycler
+    from cycler import cycler
 
     return cycler(color=palette.LINES)
 

@@ -1,5 +1,7 @@
 """The pictures of an animation: pressure, film and temperatures along the centreline and a map, on axes that do not move."""
 
+from typing import Any
+
 import numpy as np
 
 from tehl_taichi.view.figures import palette
@@ -10,8 +12,9 @@ from tehl_taichi.view.figures.line_figures import ALONG, SURFACES
 SHOWN = {"film": ("film", 1e6, "film (µm)", palette.FILM), "pressure": ("pressure", 1e-9, "pressure (GPa)", palette.PRESSURE),
          "temperature": ("temperature_mid", 1.0, "mid-film (°C)", palette.TEMPERATURE)}
 # panels of lines: label, factor, {field: (kind of line, label)}
-PANELS = {"pressure": ("pressure (GPa)", 1e-9, {"pressure": ("-", None)}), "film": ("film (µm)", 1e6, {"film": ("-", None)}),
-          "temperature": ("temperature (°C)", 1.0, {name: (style, text) for name, text, style in SURFACES})}
+PANELS: dict[str, Any] = {
+    "pressure": ("pressure (GPa)", 1e-9, {"pressure": ("-", None)}), "film": ("film (µm)", 1e6, {"film": ("-", None)}),
+    "temperature": ("temperature (°C)", 1.0, {name: (style, text) for name, text, style in SURFACES})}
 TALL = 0.9   # height over width of a map that stands beside the lines
 OVER = 1.05  # of the largest value: upper end of an axis
 
@@ -42,7 +45,7 @@ class Frames:
         left, right = self.moments.window
         tall = np.ptp(mirrored(self.store.y, self.store.y[None])[0]) / self.moments.a / (right - left)
         beside, heights = self.shown and tall > TALL, [0.7 * self.page.row()] * len(self.panels)
-        rows = [[name, "map"] if beside else [name] for name in self.panels]
+        rows: list[Any] = [[name, "map"] if beside else [name] for name in self.panels]
         if self.shown and not beside:
             rows.append(["map"])
             heights.append(tall * (self.page.inches - 0.08 * self.page.text) + 0.11 * self.page.text)
@@ -51,7 +54,7 @@ class Frames:
 
     def _limits(self):
         """({field: least}, {field: largest}) of all entries; of the film as much as there is in the contact."""
-        ends = {name: [] for name in self.fields}
+        ends: dict[str, list[float]] = {name: [] for name in self.fields}
         for n in self.entries:
             for name, values in self.store.fields(n, self.fields).items():
                 ends[name] += [float(values.min()), float(values.max())]

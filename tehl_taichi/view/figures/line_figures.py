@@ -6,7 +6,8 @@ from tehl_taichi.scene.feature_wording import passing
 from tehl_taichi.view.figures import palette
 
 ALONG = "x / a (flow to the right)"
-SURFACES = (("temperature_mid", "mid-film", "-"), ("temperature_a", "surface a", "--"), ("temperature_b", "surface b", ":"))
+SURFACES: tuple[tuple[str, str, str], ...] = (
+    ("temperature_mid", "mid-film", "-"), ("temperature_a", "surface a", "--"), ("temperature_b", "surface b", ":"))
 ACROSS = (-1.0, -0.5, 0.0, 0.5, 1.0)  # x / a at which profiles are drawn
 
 

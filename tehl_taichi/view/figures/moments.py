@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -27,7 +28,7 @@ class Moments:
     Raises SceneError where the feature was never there.
     """
 
-    store: object
+    store: Any
     at: float | None = None
 
     def __post_init__(self):
