@@ -2,7 +2,7 @@
 what they were then, another solution would not move them either.
 
 Gear at SRR -0.12, 256x64x9: of the second rounds' tiles 87 % rest; solved all the same they would change by at most 0.014 K
-(thermal.tolerance: 0.05 K), without the limits of pressure and film by 0.019 K. 128 columns: see the CHANGELOG.
+(thermal.tolerance: 0.05 K), without the limits of pressure and film by 0.019 K. On 128x32x9 about a half rest.
 """
 
 from tehl_taichi.engine.elementary import maximum
