@@ -113,11 +113,11 @@ def resume(
     _print(done, as_json)
 
 
-def _print(run, as_json, said=()):
+def _print(run, as_json, printed=()):
     """said: warnings that were told before the run."""
     from tehl_cli.tables import summary_table
 
-    print_json(run.summary) if as_json else summary_table(run.summary, said)
+    print_json(run.summary) if as_json else summary_table(run.summary, printed)
 
 
 def _print_scene(scene):

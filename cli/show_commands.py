@@ -78,8 +78,8 @@ def new(
         return put(f"wrote {file}; run it with: tehl run {file}")
     read, missing = scan_scene.new(file, base, scan, unit, pixel, pixel_y)
     fill = f"fill in feature.{' and feature.'.join(missing)} and " if missing else ""
-    said = f"wrote {file} for {scan} ({read}); {fill}enter the values of your contact, oil and steel, then run: "
-    put(f"{said}tehl run {file} --grid coarse --steps 0")
+    text = f"wrote {file} for {scan} ({read}); {fill}enter the values of your contact, oil and steel, then run: "
+    put(f"{text}tehl run {file} --grid coarse --steps 0")
 
 
 def _only_with_scan(**options):

@@ -23,7 +23,7 @@ class SweepLive:
 
     def __init__(self, quiet=False):
         self.quiet, self.live, self.rows, self.study = quiet, None, deque(maxlen=LAST), None
-        self.ended, self.first, self.told = 0, None, 0.0  # first: when the first case ended
+        self.ended, self.first, self.printed_at = 0, None, 0.0  # first: when the first case ended
 
     def __enter__(self):
         return self
@@ -42,8 +42,8 @@ class SweepLive:
         self.rows.append(record)
         if self.live:
             self.live.update(self._view())
-        elif not self.quiet and (record["status"] != "converged" or time.monotonic() - self.told > self.EVERY):
-            self.told = time.monotonic()
+        elif not self.quiet and (record["status"] != "converged" or time.monotonic() - self.printed_at > self.EVERY):
+            self.printed_at = time.monotonic()
             say(f"{self._headline()}  {case_words(record)}: {record['status']} {record['reason']}".rstrip())
 
     def _start(self):

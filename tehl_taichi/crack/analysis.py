@@ -71,16 +71,16 @@ def run(scene, reader, options):
 def follow(plane, scene, options):
     """:class:`CrackResult` in a given plane of stresses."""
     _check_places(plane.x, plane.depths[-1], options)
-    E_star, sides, told = scene.body_a.E / (1 - scene.body_a.nu**2), {}, {}
+    E_star, sides, summaries = scene.body_a.E / (1 - scene.body_a.nu**2), {}, {}
     for name in options.sides:
         begun = start(plane, name, options.start)
-        told[name] = {"opens": begun is not None}
+        summaries[name] = {"opens": begun is not None}
         if begun:
             sides[name] = CrackSide(begun, *trajectory(plane, begun, FAR * options.length), grow(plane, begun, options, E_star))
-            told[name] |= _summary(plane, sides[name], options, E_star)
+            summaries[name] |= _summary(plane, sides[name], options, E_star)
         else:
-            told[name]["why"] = _why_not(plane, name)
-    return CrackResult({"sides": told, **_common(scene, options)}, sides, plane, options)
+            summaries[name]["why"] = _why_not(plane, name)
+    return CrackResult({"sides": summaries, **_common(scene, options)}, sides, plane, options)
 
 
 def _why_not(plane, side):

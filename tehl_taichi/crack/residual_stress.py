@@ -89,9 +89,9 @@ def _named(head):
     if [len(columns) for columns in found] != [1, 1]:
         raise ValueError(f"its first line, {', '.join(head)[:80]!r}, names no depth and stress")
     for (column,), unit in zip(found, ("m", "Pa")):
-        said = head[column].replace("(", " ").replace("[", " ").replace("_", " ").rstrip(" )]").split()[-1]
-        if said.lower().endswith(unit.lower()) and said.lower() != unit.lower() and len(said) <= len(unit) + 1:
-            raise ValueError(f"its column {head[column]!r} is in {said}, not in {unit}")
+        own = head[column].replace("(", " ").replace("[", " ").replace("_", " ").rstrip(" )]").split()[-1]
+        if own.lower().endswith(unit.lower()) and own.lower() != unit.lower() and len(own) <= len(unit) + 1:
+            raise ValueError(f"its column {head[column]!r} is in {own}, not in {unit}")
     return tuple(columns[0] for columns in found)
 
 

@@ -77,8 +77,8 @@ def abandoned(folder):
     """Whether `folder` has a lock of this program that nobody on this host holds any more."""
     try:
         with _to_read(folder) as file:
-            said = _read(file)
-            return bool(said) and said["host"] == socket.gethostname() and _lock(file, shared=True)
+            content = _read(file)
+            return bool(content) and content["host"] == socket.gethostname() and _lock(file, shared=True)
     except OSError:
         return False
 
@@ -94,10 +94,10 @@ def _taken(path, name):
         file = os.fdopen(files.opened(path, os.O_RDWR | os.O_CREAT), "r+")
         if _lock(file) and _same(file, path):
             return file
-        said = _read(file)
+        content = _read(file)
         file.close()
         if time.monotonic() > until:
-            raise Busy(f"{name} is still being written by {_words(said)}; wait for it or stop it")
+            raise Busy(f"{name} is still being written by {_words(content)}; wait for it or stop it")
         time.sleep(0.01)
 
 
@@ -111,8 +111,8 @@ def _lock(file, shared=False):
     except BlockingIOError:
         return False
     except (ImportError, OSError):
-        said = _read(file)
-        return not said or said["host"] != socket.gethostname() or not _alive(said["pid"])
+        content = _read(file)
+        return not content or content["host"] != socket.gethostname() or not _alive(content["pid"])
 
 
 def _alive(pid):
@@ -139,15 +139,15 @@ def _read(file):
     """What a lock file says, {} where that is nothing of this program."""
     try:
         file.seek(0)
-        said = json.load(file)
-        known = said["program"] == PROGRAM and isinstance(said["pid"], int) and isinstance(said["host"], str)
-        return said if known else {}
+        content = json.load(file)
+        known = content["program"] == PROGRAM and isinstance(content["pid"], int) and isinstance(content["host"], str)
+        return content if known else {}
     except (ValueError, KeyError, TypeError, RecursionError, OSError):
         return {}
 
 
-def _words(said):
-    if not said:
+def _words(content):
+    if not content:
         return "another process"
-    since = time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(said.get("since", 0)))
-    return f"process {said['pid']} on {said['host']} (since {since})"
+    since = time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(content.get("since", 0)))
+    return f"process {content['pid']} on {content['host']} (since {since})"

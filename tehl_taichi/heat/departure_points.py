@@ -118,13 +118,13 @@ def origin(Z: ti.template(), C: ti.template(), nz, at: ti.template(), past: ti.t
 
 @ti.kernel
 def departures(S: ti.template(), Z: ti.template(), C: ti.template(), G: Table, nz: ti.i32, conditions: Flat, numbers: Flat,
-               told: Table):
+               report: Table):
     """Temperature and pressure where the oil of each node was one and two steps ago (BDF2 along its path): cubic along x,
     quadratic along y with a limited bend; in tiles that do not rest."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for c in range(tiles(nx, ny)):
-        if told[c, RESTS] > 0.0:
+        if report[c, RESTS] > 0.0:
             continue
         s, first, last = tile(c, nx)
         scene, step = read(Conditions, conditions), read(HeatStep, numbers)

@@ -381,13 +381,13 @@ def keep_departed(Z: ti.template(), at: ti.template(), nz, oil: ti.template()):
 
 @ti.kernel
 def energy(S: ti.template(), Z: ti.template(), C: ti.template(), X: ti.template(), G: Table, N: Nodes, oil: ti.template(),
-           rheology: ti.template(), conditions: Flat, numbers: Flat, told: Table):
-    """One implicit step of every column of the tiles that do not rest, by Newton, after velocities and departures; told: see
+           rheology: ti.template(), conditions: Flat, numbers: Flat, report: Table):
+    """One implicit step of every column of the tiles that do not rest, by Newton, after velocities and departures; report: see
     :mod:`tehl_taichi.heat.film_tables`."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for c in range(tiles(nx, ny)):
-        if told[c, RESTS] > 0.0:
+        if report[c, RESTS] > 0.0:
             continue
         s, first, last = tile(c, nx)
         scene, step, nz = read(Conditions, conditions), read(HeatStep, numbers), N.shape[1]
@@ -407,4 +407,4 @@ def energy(S: ti.template(), Z: ti.template(), C: ti.template(), X: ti.template(
             flux_a, flux_b = wall_slopes(Z, N, at.q)
             C[at.q, QA], C[at.q, QB] = transfer * flux_a + C[at.q, SA], C[at.q, SB] - transfer * flux_b
             C[at.q, PL], C[at.q, HL] = col.p, col.h
-        told[c, CHANGE], told[c, FAILED], told[c, HELD] = change, failed, clamped
+        report[c, CHANGE], report[c, FAILED], report[c, HELD] = change, failed, clamped

@@ -174,13 +174,13 @@ def store_shear(C: ti.template(), q, col: ti.template(), flow: ti.template(), la
 
 @ti.kernel
 def velocities(S: ti.template(), Z: ti.template(), C: ti.template(), G: Table, N: Nodes, oil: ti.template(),
-               rheology: ti.template(), conditions: Flat, told: Table, flows: ti.i32):
+               rheology: ti.template(), conditions: Flat, report: Table, flows: ti.i32):
     """Mass below each node and the shear on both walls, which a state is remembered by, and where it `flows` (1) velocities and
     mass fluxes, in tiles that do not rest."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for c in range(tiles(nx, ny)):
-        if told[c, RESTS] > 0.0:
+        if report[c, RESTS] > 0.0:
             continue
         s, first, last = tile(c, nx)
         scene, nz = read(Conditions, conditions), N.shape[1]

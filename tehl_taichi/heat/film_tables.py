@@ -24,7 +24,7 @@ KEPT = 15  # and from here on what of the viscosity depends on the temperature a
 # what extrapolations would have missed, in the frame of the contact and in that of the feature; heat of the slip along walls
 PN, PNN, QA, QB, AA, AB, TAU, PX, PY, XA, YA, XB, YB, PL, HL, STILL, MOVING, SA, SB = range(19)
 SINGLES = 19
-# told[tile, ...]: largest change of T against the last iterate (K), columns that did not converge, nodes held in range, and 1
+# report[tile, ...]: largest change of T against the last iterate (K), columns that did not converge, nodes held in range, and 1
 # where the tile rests (:mod:`tehl_taichi.heat.skip_tiles`)
 CHANGE, FAILED, HELD, RESTS = range(4)
 TOLD = 4

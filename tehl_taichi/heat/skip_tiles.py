@@ -27,7 +27,7 @@ def moved(S: ti.template(), C: ti.template(), G: ti.template(), at: ti.template(
 
 
 @ti.kernel
-def choose_tiles(S: ti.template(), C: ti.template(), G: Table, conditions: Flat, most: ti.f64, told: Table):
+def choose_tiles(S: ti.template(), C: ti.template(), G: Table, conditions: Flat, most: ti.f64, report: Table):
     """RESTS of every tile: 1 where its last change is below `most` K."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
@@ -37,4 +37,4 @@ def choose_tiles(S: ti.template(), C: ti.template(), G: Table, conditions: Flat,
         for i in range(first, last):
             at = block_at(G, c, i)
             most_moved = ti.max(most_moved, moved(S, C, G, at, scene))
-        told[c, RESTS] = float(told[c, CHANGE] < most and most_moved < 1.0)
+        report[c, RESTS] = float(report[c, CHANGE] < most and most_moved < 1.0)

@@ -34,11 +34,11 @@ def exchange(solver, heat, solve, most=None, sparing=False):
         work += reports
         if not (rough or work[-1].converged):
             break
-        told = heat.solve(again=sparing and turn > 0)
-        change = told.change
+        step = heat.solve(again=sparing and turn > 0)
+        change = step.change
         if alternates:  # they contract: the next one changes about as much less as this one did
-            told.change *= min(change / before, 1.0)
-        settled = told.change < thermal.tolerance and not (told.failed or rough)
+            step.change *= min(change / before, 1.0)
+        settled = step.change < thermal.tolerance and not (step.failed or rough)
         if not first and (settled or not alternates):
             break
         if change > SLUGGISH * before:

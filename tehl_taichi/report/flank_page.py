@@ -54,10 +54,10 @@ def worst(flank):
 def _answer(flank):
     found = worst(flank)
     left = f"{len(flank.failed)} of {len(flank.rows)} positions did not converge and are not part of this answer."
-    said = f"Number of warnings, listed below: {len(warnings(flank))}."
+    count = f"Number of warnings, listed below: {len(warnings(flank))}."
     none = [f"No verdict at {_where(at)}: {why_none(part)}." for at, _, summary in flank.rows
             if (part := dig(summary, "fatigue")) and why_none(part)]
-    doubts = (*none, *[left] * bool(flank.failed), f"Assumed: {flank.record['assumption']}.", *[said] * bool(warnings(flank)))
+    doubts = (*none, *[left] * bool(flank.failed), f"Assumed: {flank.record['assumption']}.", *[count] * bool(warnings(flank)))
     if not found and none:
         return Answer(QUESTION, "No verdict: at all positions the film has more friction than any oil.", "open", (), doubts)
     if not found:
@@ -142,11 +142,11 @@ def _value(key, value, declared):
 
 def warnings(flank):
     """Those of all positions, each once with where it was said."""
-    said: dict[str, list[str]] = {}
+    places_of: dict[str, list[str]] = {}
     for at, _, summary in flank.rows:
         for sentence in (summary or {}).get("warnings", []):
-            said.setdefault(sentence, []).append(at.point or f"{at.x_pl * 1e3:.3g} mm")
-    return [f"{', '.join(places)}: {sentence}" for sentence, places in said.items()]
+            places_of.setdefault(sentence, []).append(at.point or f"{at.x_pl * 1e3:.3g} mm")
+    return [f"{', '.join(places)}: {sentence}" for sentence, places in places_of.items()]
 
 
 def _provenance(flank):

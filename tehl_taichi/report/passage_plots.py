@@ -110,11 +110,11 @@ def _carries(store):
 
 def _caption(store, shown):
     along = Moments(store).along
-    said = f"{along[0].upper()}{along[1:]}.{_carries(store)}"
+    caption = f"{along[0].upper()}{along[1:]}.{_carries(store)}"
     if len(shown) > 1:
-        said += f" Grey: the steady start; dotted: the centre of the {passing(store.scene)}."
+        caption += f" Grey: the steady start; dotted: the centre of the {passing(store.scene)}."
     left = [f"{len(shown)} of {store.steps} stored moments"] * (len(shown) < store.steps)
-    return said + (f" {left[0]} are kept in this page." if left else "")
+    return caption + (f" {left[0]} are kept in this page." if left else "")
 
 
 HISTORIES = (("largest pressure (GPa)", 1e-9, {"p_max_Pa": ""}), ("smallest film (µm)", 1e6, {"h_min_m": ""}),

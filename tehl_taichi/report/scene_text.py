@@ -108,11 +108,11 @@ def when(scene):
 
 def material(fatigue):
     """Where kappa and the fatigue limit come from: examples must not pass for a material's numbers."""
-    default, said = type(fatigue)(), fatigue.source.strip().rstrip(".")
-    if said.lower() not in ("", "example", "examples", default.source):
+    default, own_source = type(fatigue)(), fatigue.source.strip().rstrip(".")
+    if own_source.lower() not in ("", "example", "examples", default.source):
         limits = fatigue_limits.words(fatigue)
-        return fatigue.source if limits in ("", fatigue.source) else f"{limits} ({said})"
-    if said == default.source and (fatigue.kappa, fatigue.endurance) != (default.kappa, default.endurance):
+        return fatigue.source if limits in ("", fatigue.source) else f"{limits} ({own_source})"
+    if own_source == default.source and (fatigue.kappa, fatigue.endurance) != (default.kappa, default.endurance):
         return "no source is given (fatigue.source)"
     return "example values, replace them by those of your material and name the source (fatigue.source)"
 

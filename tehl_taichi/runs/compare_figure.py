@@ -87,8 +87,8 @@ def _moment(curves, at):
     if not any(c.passes for c in curves):
         return "steady"
     off = max(abs(c.moments.moved[c.entry - 1] - at) for c in curves if c.passes)
-    told = f"feature at {at:+.2f} a" + (f" (up to {off:.2f} a away)" if off > 0.05 else "")
-    return told + ("" if all(c.passes for c in curves) else ", steady for runs without a passage")
+    where = f"feature at {at:+.2f} a" + (f" (up to {off:.2f} a away)" if off > 0.05 else "")
+    return where + ("" if all(c.passes for c in curves) else ", steady for runs without a passage")
 
 
 def _legend(page, figure, curves):

@@ -27,11 +27,11 @@ def lines(run, coarse):
     if not run.scene.transient or pace is None:
         return []
     most = _most(scene) * total * pace
-    said = (f"the whole passage: {total} steps, {about(total * pace)} at the speed of the first steps ({pace:.2g} s each); "
+    line = (f"the whole passage: {total} steps, {about(total * pace)} at the speed of the first steps ({pace:.2g} s each); "
             f"with {'a rough surface' if _scans(scene) else 'features'} in the contact steps take up to {_most(scene)} times "
             f"as long: up to {about(most)}; stresses and error bars "
             f"follow{', which take as long again for a wide scan' if _scans(scene) else ''}")
-    return [said, *(_faster(scene, coarse, most) if most > LONG else ())]
+    return [line, *(_faster(scene, coarse, most) if most > LONG else ())]
 
 
 def _pace(path, scene):
@@ -58,10 +58,10 @@ def _most(scene):
 def _faster(scene, coarse, seconds):
     """One sentence on what takes less time, from the nodes times the steps of it."""
     ways = (("--grid {}x{}".format(*coarse), dict(zip(("grid.nx", "grid.ny"), coarse))), _middle(scene))
-    told = [f"{words} up to {about(seconds * share)}" for words, changes in ways
+    faster = [f"{words} up to {about(seconds * share)}" for words, changes in ways
             if changes and (share := _share(scene, changes)) < 0.8]
-    if told:
-        yield f"faster: {'; '.join(told)}"
+    if faster:
+        yield f"faster: {'; '.join(faster)}"
 
 
 def _middle(scene):

@@ -58,11 +58,11 @@ def check_free(given, fatigue):
 
 def words(fatigue, kappa=None):
     """'from the fatigue limit 400 MPa in reversed torsion with kappa = 0.3', '' without limits; kappa: other than its own."""
-    said = [f"{getattr(fatigue, key) / 1e6:g} MPa in {'reversed ' * (n == 0)}{key.partition('_')[0]}"
+    limits = [f"{getattr(fatigue, key) / 1e6:g} MPa in {'reversed ' * (n == 0)}{key.partition('_')[0]}"
             for n, key in enumerate(given_limits(vars(fatigue)))]
-    if len(said) == 1:
-        return f"{FROM} {said[0]} with kappa = {fatigue.kappa if kappa is None else kappa:g}"
-    return f"{FROM}s {' and '.join(said)}" if said else ""
+    if len(limits) == 1:
+        return f"{FROM} {limits[0]} with kappa = {fatigue.kappa if kappa is None else kappa:g}"
+    return f"{FROM}s {' and '.join(limits)}" if limits else ""
 
 
 def changed(table, new):

@@ -57,12 +57,12 @@ def from_data(data, name, changes=()):
     """Scene from a parsed file with changes {key: value}, which are made before anything is judged. Raises SceneError."""
     base, changes = data.pop("base", None), aliases.named(dict(changes))
     own = _tables(data)
-    told = data["operation"].get("u_m") if isinstance(data.get("operation"), dict) else None
+    u_m = data["operation"].get("u_m") if isinstance(data.get("operation"), dict) else None
     described = _spelled_out(_on_base(base, {"name": name, **data}))
     found = Scene.from_dict(overrides.applied(described, changes))
     overrides.check_effect(found, changes)
     if not changes.keys() & set(aliases.LOADS):
-        _check_speed(found, told)
+        _check_speed(found, u_m)
     return found.with_user_keys(idle_keys.given_keys(found, own) | changes.keys())
 
 
@@ -101,11 +101,11 @@ def _every_number(make, values):
         return values
 
 
-def _check_speed(found, told):
+def _check_speed(found, u_m):
     """Refuse a mean speed (m/s, or None) beside a Moes pair, unless it is the one that the pair gives (as files written by tehl
     have it)."""
-    if told is not None and found.contact.moes_M > 0 and not math.isclose(told, found.operation.u_m, rel_tol=1e-6):
-        raise SceneError(f"operation.u_m = {told:g} m/s and contact.moes_L = {found.contact.moes_L:g} contradict each other: "
+    if u_m is not None and found.contact.moes_M > 0 and not math.isclose(u_m, found.operation.u_m, rel_tol=1e-6):
+        raise SceneError(f"operation.u_m = {u_m:g} m/s and contact.moes_L = {found.contact.moes_L:g} contradict each other: "
                          f"the pair gives {found.operation.u_m:.4g} m/s; leave u_m out")
 
 

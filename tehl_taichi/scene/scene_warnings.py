@@ -63,12 +63,12 @@ FAINT, PRESSED = 1e8, 3e8  # Pa: steel under less hardly needs this program; wha
 def unusual(scene):
     """Values that were perhaps meant in another unit."""
     for key, kind, value in keys.every(scene):
-        if isinstance(kind, Number) and isinstance(value, float) and (said := kind.doubted(key, value)):
-            yield said
+        if isinstance(kind, Number) and isinstance(value, float) and (hint := kind.doubted(key, value)):
+            yield hint
     p_H = scales.Scales.of(scene).p_H
-    if scene.contact.load and p_H < FAINT and (said := scene.load_meant(least=PRESSED)):
+    if scene.contact.load and p_H < FAINT and (hint := scene.load_meant(least=PRESSED)):
         yield (f"contact.load = {scene.contact.load:g} {scene.load_unit} gives a Hertz pressure of only {p_H / 1e6:.0f} "
-               f"MPa{said}")
+               f"MPa{hint}")
 
 
 def wide_domain(scene):

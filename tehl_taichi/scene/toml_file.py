@@ -34,8 +34,8 @@ def check_brackets(path, data, one=(), several=()):
             if found is None or _is_kind(found, name in several):
                 continue
             brackets = isinstance(found, dict) or found and _is_kind(found, True)
-            said = other.format(name) if brackets else f"{name} = {shown(found)}"
-            raise SceneError(f"{said} in {path} must be {wanted.format(name)}, the header of a table of keys and "
+            written = other.format(name) if brackets else f"{name} = {shown(found)}"
+            raise SceneError(f"{written} in {path} must be {wanted.format(name)}, the header of a table of keys and "
                              f"values{' (each with its own header)' if name in several else ''}")
 
 

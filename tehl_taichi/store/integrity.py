@@ -74,10 +74,10 @@ def scene_of(path, attrs):
             data["time"]["steps"] = -1
         return stored_maps.scene_of(path, data)
     except (SceneError, ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
-        if said := lacking(attrs["scene"]):
-            raise StoreError(f"{path} needs {said}") from None
-        said = error if type(error) in (SceneError, ValueError, StoreError) else "a key is missing or has a wrong value"
-        raise StoreError(f"{path} is damaged: the scene in its {ROOT} cannot be read ({said})") from None
+        if fault := lacking(attrs["scene"]):
+            raise StoreError(f"{path} needs {fault}") from None
+        fault = error if type(error) in (SceneError, ValueError, StoreError) else "a key is missing or has a wrong value"
+        raise StoreError(f"{path} is damaged: the scene in its {ROOT} cannot be read ({fault})") from None
 
 
 def _scene_data(text):
@@ -122,8 +122,8 @@ def check(path, attrs, arrays, scene, needed):
         raise damaged(path, f"'steps', the number of its entries, is {steps!r}")
     if not isinstance(attrs.get("finished"), bool):
         raise damaged(path, f"'finished' is {attrs.get('finished')!r}, neither true nor false")
-    if said := attributes.wrong(attrs, written_by(attrs) is None):
-        raise damaged(path, said)
+    if fault := attributes.wrong(attrs, written_by(attrs) is None):
+        raise damaged(path, fault)
     grid = {"x": scene.grid.nx + 1, "y": scene.rows + 1}
     for name, dimensions in needed.items():
         wanted = [steps] + [grid[key] for key in dimensions]
@@ -190,8 +190,8 @@ def release(version):
 
 def check_version(path, attrs):
     """Refuse to go on where another version began."""
-    if said := written_by(attrs):
-        raise StoreError(f"{path} was {said}: it can be read but not resumed; `tehl run {path} --out NEW` repeats the run")
+    if version := written_by(attrs):
+        raise StoreError(f"{path} was {version}: it can be read but not resumed; `tehl run {path} --out NEW` repeats the run")
 
 
 def damaged(path, what):

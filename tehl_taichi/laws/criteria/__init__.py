@@ -14,7 +14,7 @@ CRITERIA = collect(sys.modules[__name__], Criterion)
 
 def sensitivities():
     """What kappa is the sensitivity to, and for which criteria."""
-    said = {}
+    names_of = {}
     for name, criterion in CRITERIA.items():
-        said.setdefault(criterion.sensitivity, []).append(name)
-    return "; ".join(f"{', '.join(names)}: {meaning}" for meaning, names in said.items())
+        names_of.setdefault(criterion.sensitivity, []).append(name)
+    return "; ".join(f"{', '.join(names)}: {meaning}" for meaning, names in names_of.items())

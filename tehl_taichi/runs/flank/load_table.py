@@ -52,8 +52,8 @@ def _complete(path, rows):
         raise SceneError(f"table {path} has the column {twice[0]} twice; remove one of them")
     missing = [name for name in NEEDED if name not in names]
     if missing:
-        told = ", ".join(f"{name}{nearest(name, [n for n in names if n not in NEEDED])}" for name in missing)
-        raise SceneError(f"table {path} has no column {told}; needed: {', '.join(NEEDED)}")
+        named = ", ".join(f"{name}{nearest(name, [n for n in names if n not in NEEDED])}" for name in missing)
+        raise SceneError(f"table {path} has no column {named}; needed: {', '.join(NEEDED)}")
     rows.fieldnames = names
     return rows
 

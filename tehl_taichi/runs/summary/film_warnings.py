@@ -46,9 +46,9 @@ def friction(store, summary):
 
 def _follow(scene, summary):
     """What follows from such a shear, in words: it loads the surface, and heats the film."""
-    said = ["the fatigue index is that of the pressure alone"] * ("fatigue" in summary and scene.fatigue.shear)
-    said += ["the temperatures that follow have no meaning"] * (not scene.isothermal)
-    return f"; {' and '.join(said)}" if said else ""
+    effects = ["the fatigue index is that of the pressure alone"] * ("fatigue" in summary and scene.fatigue.shear)
+    effects += ["the temperatures that follow have no meaning"] * (not scene.isothermal)
+    return f"; {' and '.join(effects)}" if effects else ""
 
 
 def unresolved(store, summary):

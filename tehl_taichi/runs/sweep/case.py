@@ -63,7 +63,7 @@ def _free(path):
     from tehl_taichi.disk.locks import LOCK, lock_content
 
     for folder in (path, staging_path(path, PART)):
-        said = lock_content(folder)
-        if is_folder(folder) and said and said["host"] != socket.gethostname():
+        content = lock_content(folder)
+        if is_folder(folder) and content and content["host"] != socket.gethostname():
             with contextlib.suppress(OSError):
                 (folder / LOCK).unlink()

@@ -78,10 +78,10 @@ class Study(LockedFolder):
         try:
             return cls(path, Plan.from_text(attrs[PLAN]))
         except (ValueError, KeyError, TypeError, AttributeError, IndexError) as error:
-            if said := lacking(_scene_text(attrs[PLAN])):
-                raise StoreError(f"{path} needs {said}") from None
-            said = error if isinstance(error, SceneError) else f"{shown(attrs[PLAN])} is not written by tehl"
-            raise StoreError(f"{path} is damaged: its plan cannot be read ({said})") from None
+            if fault := lacking(_scene_text(attrs[PLAN])):
+                raise StoreError(f"{path} needs {fault}") from None
+            fault = error if isinstance(error, SceneError) else f"{shown(attrs[PLAN])} is not written by tehl"
+            raise StoreError(f"{path} is damaged: its plan cannot be read ({fault})") from None
 
     @classmethod
     def write(cls, path, plan):

@@ -51,12 +51,12 @@ def _file(store, out, format, force):
     path = Path(out) if out else store.path.with_name(store.path.name.removesuffix(".zarr"))
     if out and path.is_dir():
         raise StoreError(f"{path} is a folder; --out takes the name of a file")
-    told = path.suffix[1:].lower() if out else ""
-    format = format or told or "gif"
+    ending = path.suffix[1:].lower() if out else ""
+    format = format or ending or "gif"
     choice("format", format, FORMATS)
-    if told in FORMATS and told != format:
+    if ending in FORMATS and ending != format:
         raise SceneError(f"out = {path} does not end in .{format}; omit --format, or choose another --out")
-    path = path if told == format else path.with_name(f"{path.name}.{format}")
+    path = path if ending == format else path.with_name(f"{path.name}.{format}")
     user_files.check(path, force, format)
     return path, format
 
@@ -114,12 +114,12 @@ def _mp4(path, frames, fps, progress, ffmpeg):
     command = [ffmpeg, "-y", "-loglevel", "error", *raw.split(), *film.split(), str(path)]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True) as process:
         try:
-            said = _fed(process, _with_progress(frames, progress))
+            output = _fed(process, _with_progress(frames, progress))
         except BaseException:
             process.kill()
             raise
     if process.returncode:
-        raise StoreError(f"ffmpeg failed: {' '.join(said.decode(errors='replace').split()) or process.returncode}")
+        raise StoreError(f"ffmpeg failed: {' '.join(output.decode(errors='replace').split()) or process.returncode}")
 
 
 def _fed(process, pictures):

@@ -182,8 +182,8 @@ def spelled(figure):
     from matplotlib.text import Text
 
     for text in figure.findobj(Text):
-        if text.get_text() != (said := printable(text.get_text(), "\n")):
-            text.set_text(said)
+        if text.get_text() != (plain_text := printable(text.get_text(), "\n")):
+            text.set_text(plain_text)
     return figure
 
 

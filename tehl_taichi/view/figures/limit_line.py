@@ -38,5 +38,5 @@ def handle():
 
 def explained(traced, limited):
     """The lines on maps, in words; traced, limited: whether there is such a line."""
-    said = ([f"blue line: {TRACE}"] if traced else []) + ([f"white line: {SAID}"] if limited else [])
-    return f"; {', '.join(said)}" if said else ""
+    parts = ([f"blue line: {TRACE}"] if traced else []) + ([f"white line: {SAID}"] if limited else [])
+    return f"; {', '.join(parts)}" if parts else ""

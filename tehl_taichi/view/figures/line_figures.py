@@ -31,9 +31,9 @@ def centreline(page, moments):
     """Pressure and film for several feature positions."""
     store, row, shown = moments.store, moments.line, moments.several()
     figure, ((top,), (low,)) = page.figure(2, sharex=True)
-    for n, (colour, said) in shown.items():
+    for n, (colour, label) in shown.items():
         f = store.fields(n, ("pressure", "film"))
-        style = dict(label=said, color=colour, **_start(colour))
+        style = dict(label=label, color=colour, **_start(colour))
         top.plot(moments.x, f["pressure"][:, row] / 1e9, **style)
         low.plot(moments.x, f["film"][:, row] * 1e6, **style)
     top.set(ylabel="pressure (GPa)")
@@ -58,7 +58,7 @@ def temperature(page, moments):
             ax.plot(moments.x, f[name][:, row], ls=style, color=colour, zorder=_start(colour)["zorder"])
     ax.set(xlabel=ALONG, ylabel="temperature (°C)", xlim=moments.window)
     ax.grid()
-    when = [Line2D([], [], color=colour, label=said) for colour, said in shown.values()]
+    when = [Line2D([], [], color=colour, label=label) for colour, label in shown.values()]
     kinds = [Line2D([], [], color=palette.BLACK, ls=style, label=text) for _, text, style in SURFACES]
     page.legend(figure, (when if len(shown) > 1 else []) + kinds)
     headed(page, figure, moments, f"temperatures {moments.along}", list(shown), carrier(store.scene))
