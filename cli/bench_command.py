@@ -81,8 +81,9 @@ def stability(
     if not random:
         say_idle(context, "--random 0 draws no scenes", "seed")
     listed = list(cases(thermal).items())
-    chosen = [*listed[:: 6 if quick else 1], *random_cases(min(random, 8) if quick else random, seed).items()]
-    chosen = {name: description for name, description in chosen if match.lower() in name.lower()}
+    drawn = random_cases(min(random, 8) if quick else random, seed)
+    chosen = {name: description for name, description in (*listed[:: 6 if quick else 1], *drawn.items())
+              if match.lower() in name.lower()}
     chosen = starts(chosen) if only_starts or confirm else chosen
     chosen, found = carried(chosen) if by_film else chosen, []
     chosen = suite.finer(chosen, finer)
@@ -295,7 +296,8 @@ def _short(value, factor):
 
 def _errors(rows):
     """(columns, a line per run with its error in each quantity; * where no faster run of the family has a smaller one)."""
-    quantities, runs = list(dict.fromkeys(row["quantity"] for row in rows)), {}
+    quantities = list(dict.fromkeys(row["quantity"] for row in rows))
+    runs: dict[tuple, dict] = {}
     for row in rows:
         run = runs.setdefault((row["family"], row.get("setting", row["columns"])), {"s": f"{row['seconds']:.2f}"})
         run[row["quantity"]] = f"{100 * row['error']:.2g}{'*' if row['front'] else ' '}"

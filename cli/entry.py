@@ -100,9 +100,14 @@ def _signal_of(error):
     return getattr(error, "signal", "")
 
 
+class _Stopped(KeyboardInterrupt):
+    """By a signal of that name, "" of Ctrl-C."""
+
+    signal: str
+
+
 def _by(name):
-    """A KeyboardInterrupt by a signal of that name, "" of Ctrl-C."""
-    made = KeyboardInterrupt()
+    made = _Stopped()
     made.signal = name
     return made
 

@@ -2,7 +2,7 @@
 
 import functools
 import inspect
-from typing import Annotated, Optional
+from typing import Annotated, Any, Optional
 
 import typer
 
@@ -45,9 +45,10 @@ def with_fatigue_options(command):
         return command(*first, **given, **{**asked, "depths": _depths(asked["depths"])})
 
     named = [one.replace(kind=inspect.Parameter.KEYWORD_ONLY) for one in (own[0], *options.values(), *own[1:])]
-    asking.__signature__ = inspect.Signature(named)
-    asking.__annotations__ = {one.name: one.annotation for one in named}
-    return asking
+    wrapped: Any = asking
+    wrapped.__signature__ = inspect.Signature(named)
+    wrapped.__annotations__ = {one.name: one.annotation for one in named}
+    return wrapped
 
 
 def _depths(text):

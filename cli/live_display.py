@@ -3,6 +3,7 @@
 import contextlib
 import sys
 import time
+from typing import Any
 
 from tehl_cli.stdout import put
 
@@ -24,7 +25,9 @@ class Live(Lines):
 
     def __init__(self, quiet=False, curves=True):
         super().__init__()
-        self.quiet, self.bar, self.curves, self.due, self.shown = quiet, None, None, 0.0, ""
+        self.quiet, self.due, self.shown = quiet, 0.0, ""
+        self.bar: Any = None
+        self.curves: Any = None
         self.shows_curves = curves and not quiet and sys.stdout.isatty() and sys.stderr.isatty()
 
     def __enter__(self):

@@ -1,6 +1,7 @@
 """The commands."""
 
 import contextlib
+from typing import Any
 
 import typer
 import typer.core
@@ -26,7 +27,7 @@ from tehl_taichi.errors import Interrupted, stopped
 __all__ = ["app", "main"]
 
 
-USAGE = typer.BadParameter.__mro__[2]  # of typer's own errors, which it does not give a name
+USAGE: Any = typer.BadParameter.__mro__[2]  # of typer's own errors, which it does not give a name
 
 
 class Commands(typer.core.TyperGroup):
@@ -67,7 +68,7 @@ def _sentence(stop):
 
 def _with_value(error):
     """The message of a BadParameter with the value, which typer's own checks (pydantic's) leave out."""
-    found = getattr(error.__cause__, "errors", list)()
+    found: Any = getattr(error.__cause__, "errors", list)()
     return f"{found[0]['input']!r}; {error.message[0].lower()}{error.message[1:]}" if found else error.message
 
 

@@ -1,7 +1,7 @@
 """Commands that look: scenes, oils, laws, new, show, plot, doctor."""
 
 from pathlib import Path
-from typing import Optional
+from typing import Any, Optional
 
 import typer
 from tehl_cli.figure_options import Dpi, Force, Format, Width
@@ -101,7 +101,7 @@ def show(
     import tehl_taichi as tehl
     from tehl_taichi.runs.open_results import RUN, kind
 
-    found = tehl.open(store)
+    found: Any = tehl.open(store)
     _show_run(found.store, as_json) if kind(store) == RUN else _show_table(found, as_json)
 
 
@@ -183,7 +183,8 @@ def _draw(store, out, wanted, page):
         if value is not None and name not in OPTIONS[which]:
             whose = next(other for other, options in OPTIONS.items() if name in options)
             raise SceneError(f"--{name} {value} applies to a {whose}, but {store} is a {which}")
-    found, mine = tehl.open(store), {name: wanted[name] for name in OPTIONS[which]}
+    found: Any = tehl.open(store)
+    mine = {name: wanted[name] for name in OPTIONS[which]}
     if which == FLANK:
         return [found.plot(out and out / "flank", **page)]
     return (found.save_figures if which == RUN else found.plot)(out, **mine, **page)

@@ -5,6 +5,7 @@ import math
 import sys
 import time
 from collections import deque
+from typing import Any
 
 from tehl_cli.live_display import say
 from tehl_cli.stdout import put
@@ -22,8 +23,11 @@ class SweepLive:
     EVERY = 5.0  # s between plain lines; what fails is told at once
 
     def __init__(self, quiet=False):
-        self.quiet, self.live, self.rows, self.study = quiet, None, deque(maxlen=LAST), None
-        self.ended, self.first, self.printed_at = 0, None, 0.0  # first: when the first case ended
+        self.quiet, self.ended, self.printed_at = quiet, 0, 0.0
+        self.first: float = 0.0  # when the first case ended
+        self.rows: deque[dict] = deque(maxlen=LAST)
+        self.live: Any = None
+        self.study: Any = None
 
     def __enter__(self):
         return self
