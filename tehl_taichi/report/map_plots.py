@@ -9,7 +9,7 @@ from tehl_taichi.view.figures.line_figures import ALONG, SURFACES
 from tehl_taichi.view.figures.moments import Moments
 from tehl_taichi.view.figures.palette import FILM, PRESSURE, TEMPERATURE
 
-BODIES = tuple(f"map-{name}" for name, text, _ in SURFACES if text.startswith("surface"))
+BODIES = ("map-temperature_a", "map-temperature_b")  # one scale of colours for both
 ROWS = 101  # of a half domain, at most
 
 
