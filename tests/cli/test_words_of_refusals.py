@@ -208,7 +208,7 @@ def test_python_calls_with_something_else(call, given, tmp_path, monkeypatch):
 def test_march_takes_the_name_of_a_built_in_scene(taichi_cpu):
     with pytest.raises(tehl.SceneError, match="unknown scene 'gaer' .did you mean 'gear'"):
         tehl.march("gaer")
-    assert next(tehl.march("smooth-line")).fields["film"].shape == (tehl.scene("smooth-line").grid.nx + 1, 1)
+    assert next(tehl.march("furrow-line")).fields["film"].shape == (tehl.scene("furrow-line").grid.nx + 1, 1)
 
 
 def test_importing_what_python_m_runs_runs_nothing():

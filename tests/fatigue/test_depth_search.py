@@ -55,7 +55,7 @@ def test_one_row_alone_is_plane_strain():
 
 def result(heat=False, **changes):
     scene = tehl.scene("gear").replace(**{"thermal.on": heat, **changes})
-    return scene, assessment.run(scene, Rolling(scene, 8, 5))
+    return scene, assessment.run(scene, Rolling(scene, *((12, 9) if heat else (8, 5))))
 
 
 @pytest.fixture(scope="module")

@@ -221,7 +221,7 @@ def test_angles():
 SURFACE = {"thermal.on": False, "fatigue.depths": []}
 
 
-def moving(scene, cells=16, rows=9, stride=1.0):
+def moving(scene, cells=8, rows=5, stride=1.0):
     return Rolling(scene, cells, rows, stride, begin=-1.6)
 
 

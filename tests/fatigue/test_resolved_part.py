@@ -24,7 +24,7 @@ GEAR = tehl.scene("gear").replace(**{"thermal.on": False, "srr": 0.0})
                                      {"fatigue.depths": []}])
 def test_the_early_moments_are_those_of_a_search_up_to_there(taichi_cpu, changes):
     scene = GEAR.replace(**changes)
-    reader = Rolling(scene)
+    reader = Rolling(scene, 8, 5)
     both, whole = assessment.run(scene, reader, until=-0.3), assessment.run(scene, reader)
     early, alone = both.summary.pop("resolved"), assessment.run(scene.replace(**{"fatigue.to_x": -0.3}), reader)
     part = alone.summary
