@@ -67,7 +67,7 @@ class Run:
         >>> import tehl_taichi as tehl
         >>> cut, = (one for one in tehl.scene("gear").replace(**{"time.steps": 1}).warnings() if one.code == "cut")
         >>> cut[:11], sorted(cut.data)
-        ('passage cut', ['end_a', 'whole_a'])
+        ('passage cut', ['end_a', 'options', 'whole_a'])
         """
         return self.store.warnings
 
