@@ -40,10 +40,11 @@ def summary_table(summary, said=()):
 
 def _answer(summary):
     """Print what the report of a passage begins with."""
+    from tehl_taichi.fatigue.judged_surfaces import others
     from tehl_taichi.report.verdict import of_fatigue
 
     if "fatigue" in summary:
-        question, answer, *_ = of_fatigue(summary["fatigue"])
+        question, answer, *_ = of_fatigue(summary["fatigue"], beside=others(summary))
         put(f"{question} {answer}")
 
 

@@ -91,7 +91,7 @@ def plane_of(scene, reader, residual=None, check=None):
     stress = histories_of(passage, depths, [(0, False)])[0][..., KEPT].swapaxes(0, 1)
     if not np.isfinite(stress).all():
         raise SceneError("some stored tractions are not numbers, so the stresses are not known")
-    times, centres = passage.centres / scene.operation.u_a, np.append(passage.centres, np.nan)
+    times, centres = passage.centres / passage.surface.speed, np.append(passage.centres, np.nan)
     times = np.append(times, 2 * times[-1] - times[0])  # unloaded as long after
     return SymmetryPlane(passage.x, skin, np.ascontiguousarray(stress), centres, passage.a, feature.reach, None, times,
                  Fluid.of(scene)).having(residual)

@@ -35,14 +35,15 @@ class Snapshots:
 
 
 def run(scene, reader, progress=None, until=None):
-    """Fatigue index of the points of body a within 0.6 a of the first feature (0.3 a beyond larger ones), over its passage.
+    """The SearchResult of the worse body of a passage, with that of the other (of those that the scene has `judged`).
 
-    At all points of the surface and, unless scene.fatigue.depths is empty, below it: under the row through the feature (and the
-    surface's worst row), the depth looked for (:mod:`tehl_taichi.fatigue.depth_profile`), on a whole domain at all points of
-    that depth, too (:mod:`tehl_taichi.fatigue.depth_search`); where depths are listed also at all points at these.
+    Of the points within 0.6 a of the first feature (0.3 a beyond larger ones), and of what features slide over. At all points
+    of the surface and, unless scene.fatigue.depths is empty, below it: under the row through the feature (and the surface's
+    worst row), the depth looked for (:mod:`tehl_taichi.fatigue.depth_profile`), on a whole domain at all points of that depth,
+    too (:mod:`tehl_taichi.fatigue.depth_search`); where depths are listed also at all points at these.
     Between its from_x and to_x, by its criterion. reader: see :class:`tehl_taichi.fatigue.stress.histories.StressHistories`; or
     a list of snapshots. progress: called with (done, total) parts. until: position (a) of the feature; the worst points of the
-    moments up to there are told, too ("resolved" of the summary).
+    moments up to there are reported, too ("resolved" of the summary).
     On the rows of the reader (where they begin with y = 0, the others are its mirror). Memory: one block of histories
     (1 GB at most), with thermal stress 8 bytes more per entry and wave number (4 nodes of the grid).
     Raises SceneError when no feature passes.
@@ -51,7 +52,30 @@ def run(scene, reader, progress=None, until=None):
     centres = np.array([reader.feature_x(n) for n in range(len(reader))])
     if len(reader) < 2 or not np.isfinite(centres).all():
         raise SceneError("fatigue needs the passage of a feature: a scene with a feature and at least one time step")
-    passage = StressHistories(scene, reader, centres)
+    count = len(scene.judged)
+    return worse_of([_of_surface(scene, surface, reader, centres, _share(progress, n, count), until)
+                     for n, surface in enumerate(scene.judged)])
+
+
+def worse_of(results):
+    """The SearchResult of one or two bodies with the largest index, with the other one in it."""
+    worst, *others = sorted(results, key=lambda found: -largest(found.summary))
+    return replace(worst, other=others[0] if others else None)
+
+
+def largest(summary):
+    """The largest index of a search, at the surface or below it."""
+    return max(summary["Fi_max"], summary.get("below", summary)["Fi_max"])
+
+
+def _share(progress, n, count):
+    """What the search of the n-th of so many surfaces calls with its (done, total)."""
+    return progress and (lambda done, total: progress(n * total + done, count * total))
+
+
+def _of_surface(scene, surface, reader, centres, progress, until):
+    """The SearchResult of one body."""
+    passage = StressHistories(scene, reader, centres, surface=surface)
     if passage.centres.size < 2:
         f = scene.fatigue
         raise SceneError(f"no stored moment has the feature between fatigue.from_x = {f.from_x:g} a and to_x = {f.to_x:g} a; "
@@ -72,13 +96,14 @@ def _early(passage, until):
     """Moments with the feature up to `until` (a) and the unloaded one; None where nobody asks, or these are all or none."""
     if until is None:
         return None
-    first = np.flatnonzero(passage.centres <= (until + 1e-9) * passage.a)
-    return np.append(first, passage.centres.size) if 1 < first.size < passage.centres.size else None
+    first = np.flatnonzero(passage.positions <= (until + 1e-9) * passage.a)
+    return np.append(first, passage.positions.size) if 1 < first.size < passage.positions.size else None
 
 
 def _result(scene, passage, layers, below):
-    surface, limit, centres = layers[0], scene.fatigue.endurance, passage.centres
-    summary = {**surface.worst.summary(limit), "sigma1_max_Pa": float(surface.sigma1.max()),
+    surface, limit, centres = layers[0], scene.fatigue.endurance, passage.positions
+    summary = {"surface": passage.surface.name, "carries_feature": bool(passage.surface.features),
+               **surface.worst.summary(limit), "sigma1_max_Pa": float(surface.sigma1.max()),
                "kappa_F": float(scene.fatigue.kappa), "sigma_eF_Pa": float(limit), **_limits(scene.fatigue),
                **_cut(scene.fatigue), **surface.worst.moments(centres),
                "criterion": scene.fatigue.criterion, "thermal_stress": scene.has_thermal_stress,

@@ -1,6 +1,6 @@
 """Fatigue of a run whose film carries more shear than any oil: no index, and the index of its pressure alone."""
 
-CONSTANTS = ("kappa_F", "sigma_eF_Pa", "criterion")
+CONSTANTS = ("surface", "carries_feature", "kappa_F", "sigma_eF_Pa", "criterion")
 WITHOUT = {"fatigue.shear": False, "fatigue.thermal_stress": False}  # changes of a scene: no shear on the surface, nor its heat
 
 

@@ -10,7 +10,7 @@ def part(scene, passage, early, until, layers, deep):
     layers: at the listed depths, the surface first, each with its `early`; deep:
     :class:`tehl_taichi.fatigue.depth_search.DepthResult`.
     """
-    limit, centres = scene.fatigue.endurance, passage.centres[early[:-1]]
+    limit, centres = scene.fatigue.endurance, passage.positions[early[:-1]]
     top, points = layers[0].early, [found.early.worst for found in layers[1:]] + deep.early
     summary = {"to_x_a": float(until), **top.worst.summary(limit)}
     arrays = {"Fi": top.f / limit, "worst": top.worst.history(centres), **_below(passage, layers, deep)}

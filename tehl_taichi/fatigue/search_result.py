@@ -31,7 +31,8 @@ HISTORY = {  # {key: (dimensions, unit, text)} of a stress history
 PART, PART_TEXT = "resolved_", " while the grid resolves the pressure"  # of arrays of the resolved part
 OWN = ("moment", "worst_depth")  # dimensions that the resolved part does not share with the whole passage
 SHARED = (*BOTH, "under_row_depth", "fatigue_depth", "findley_stress_contact_alone")  # arrays of the whole that it shares
-CONSTANTS = ("criterion", "kappa_F", "sigma_eF_Pa")
+OTHER, EQUAL = "other_", ("component", "direction", "of_circle")  # of arrays of the other body; dimensions equal in both
+CONSTANTS = ("surface", "carries_feature", "criterion", "kappa_F", "sigma_eF_Pa")
 
 
 @dataclass(frozen=True)
@@ -41,9 +42,9 @@ class SearchResult:
     Attributes
     ----------
     summary : dict
-        Numbers in SI units, of the surface, and below it in its "below".
+        Numbers in SI units, at the surface, and below it in its "below"; "surface": "a" or "b", whose they are.
     feature_frame_x, feature_frame_y : numpy.ndarray
-        Points of the surface in the frame of the feature, m.
+        Points of the surface, m: from the centre of the feature that it carries, or from the place that meets this at X = 0.
     findley_stress, Fi, sigma1_max, plane_theta, plane_phi : numpy.ndarray
         At the surface, (x, y).
     fatigue_depth, under_row_depth : numpy.ndarray
@@ -59,6 +60,8 @@ class SearchResult:
         unloaded, normal (3,), circle around the shear path (centre along dip and strike, radius; Pa).
     resolved : SearchResult
         Search of the moments while the grid resolves the pressure; None where these are all.
+    other : SearchResult
+        Search of the other body, which is not worse; None where one body was searched.
 
     Examples
     --------
@@ -85,17 +88,32 @@ class SearchResult:
     worst: dict | None = None
     worst_below: dict | None = None
     resolved: "SearchResult | None" = None
+    other: "SearchResult | None" = None
 
     @classmethod
-    def from_arrays(cls, summary, array):
-        """Of a store: its summary, and array(name): an array or None."""
+    def from_arrays(cls, searches, array, first=""):
+        """Of a store: {surface: summary of its search}, the worse first, and array(name): an array or None."""
+        summary, *others = searches.values()
         known = searched(summary).get("resolved")
-        return cls(summary, **_named(array, ""), resolved=cls(known, **_named(array, PART)) if known else None)
+        part = cls(known, **_named(array, first + PART)) if known else None
+        other = cls.from_arrays({"": others[0]}, array, OTHER) if others else None
+        return cls(summary, **_named(array, first), resolved=part, other=other)
 
     def to_arrays(self):
         """{name: (values, dimensions, unit, text)}, as a store keeps them."""
         rows = "fatigue_depth" if self.under_row_depth is None else "under_row_depth"
-        return _arrays(self, rows) | (_of_part(_arrays(self.resolved, rows)) if self.resolved else {})
+        own = _arrays(self, rows) | (_of_part(_arrays(self.resolved, rows)) if self.resolved else {})
+        return own | (_of_other(self.other.to_arrays()) if self.other else {})
+
+    @property
+    def by_surface(self):
+        """{"a" or "b": SearchResult} of each body that was searched, this one first."""
+        return {one.summary.get("surface", "a"): one for one in (self, self.other) if one}
+
+    @property
+    def summaries(self):
+        """{"a" or "b": summary} of each body that was searched, this one first."""
+        return {name: one.summary for name, one in self.by_surface.items()}
 
     @property
     def maps(self):
@@ -117,7 +135,7 @@ class SearchResult:
         """The resolved part with the constants and places of the whole passage, or None."""
         if self.resolved is None:
             return None
-        constants = {key: self.numbers[key] for key in CONSTANTS}
+        constants = {key: self.numbers[key] for key in CONSTANTS if key in self.numbers}
         return replace(self.resolved, summary={**constants, **self.numbers["resolved"]},
                        **{name: getattr(self, name) for name in SHARED})
 
@@ -149,4 +167,10 @@ def _arrays(result, rows):
 def _of_part(arrays):
     """The arrays of a resolved part by their names in a store."""
     return {PART + name: (values, [PART + dim if dim in OWN else dim for dim in dims], unit, text + PART_TEXT)
+            for name, (values, dims, unit, text) in arrays.items()}
+
+
+def _of_other(arrays):
+    """The arrays of the other body by their names in a store."""
+    return {OTHER + name: (values, [dim if dim in EQUAL else OTHER + dim for dim in dims], unit, f"{text}; other body")
             for name, (values, dims, unit, text) in arrays.items()}

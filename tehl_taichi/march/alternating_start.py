@@ -23,7 +23,7 @@ def time_step(scene, scales, dx):
     """Time step in s on cells of dx (Hertz units): that of the passage, or a cell of the faster surface."""
     o = scene.operation
     if scene.transient:
-        return step_cells(scene) * dx * scales.a / o.u_a
+        return step_cells(scene) * dx * scales.a / scene.reference.speed
     return dx * scales.a / max(o.u_a, o.u_b)
 
 

@@ -69,7 +69,7 @@ class Passage:
         self.levels = Levels(scene, scales, scene.grid.nx, scene.rows, full=not scene.symmetric)
         self.smooth, self.border = self.levels.smooth_gap(), self.levels.get(fields.MASK).T == 0
         self.step_x = step_cells(scene) * self.levels.dx
-        self.dT = self.step_x * scene.operation.u_m / scene.operation.u_a
+        self.dT = self.step_x * scene.operation.u_m / scene.reference.speed
         self.heat = None if scene.isothermal else FilmHeat(self.levels, self.dT * scales.t)
         # the film whose density and viscosity the pressure is solved for: they follow the temperatures, where there are any
         self.film = self.heat or OneTemperature(self.levels)
@@ -124,14 +124,20 @@ class Passage:
         return report
 
     def _move_feature(self, step):
-        v, s, gap = self.levels, self.scales, self.smooth.copy()
-        for feature in self.scene.features:
-            x, y = (v.X - self.position(step)) * s.a - feature.x, v.Y[:, None] * s.a - feature.y
-            under = np.abs(x) <= feature.reach
-            if feature.transverse:  # cheap, and a ridge does not quite end
-                under, y = slice(None), y[:1]
-            gap[:, under] -= feature.height_at(x[under], y) / s.h
-        v.put(fields.GAP0, gap)
+        gap = self.smooth.copy()
+        for surface in self.scene.surfaces:
+            for feature in surface.features:
+                self._fill_gap(gap, feature, surface.pace * self.position(step))
+        self.levels.put(fields.GAP0, gap)
+
+    def _fill_gap(self, gap, feature, at):
+        """Take the heights of a feature off the gap; at: how far its surface has moved, a."""
+        v, s = self.levels, self.scales
+        x, y = (v.X - at) * s.a - feature.x, v.Y[:, None] * s.a - feature.y
+        under = np.abs(x) <= feature.reach
+        if feature.transverse:  # cheap, and a ridge does not quite end
+            under, y = slice(None), y[:1]
+        gap[:, under] -= feature.height_at(x[under], y) / s.h
 
     def _predict(self, at):
         """Start values for the state with the feature `at` cells from its start."""

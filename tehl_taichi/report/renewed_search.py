@@ -41,7 +41,7 @@ class RenewedSearch:
     def page(self, progress=None, threads=None):
         """Search, and the :class:`tehl_taichi.report.document.Page` of what was found. Raises SceneError."""
         found = self.run.fatigue(**self.constants, progress=progress, threads=threads)
-        page = run_page.page(SearchedStore(self.run.store, self.scene, found.summary), found)
+        page = run_page.page(SearchedStore(self.run.store, self.scene, found.summaries), found)
         answer = dataclasses.replace(page.answer, question=self._question(), doubts=(*self._doubts(), *page.answer.doubts))
         return dataclasses.replace(page, title=f"{self.scene.name}: report, fatigue with other constants", answer=answer,
                                    about=f"{page.about}, with a new fatigue search")
@@ -63,10 +63,11 @@ class RenewedSearch:
 class SearchedStore:
     """The store of a run with the scene and the summary of another search in place of its own; nothing is written."""
 
-    def __init__(self, store, scene, fatigue):
+    def __init__(self, store, scene, searches):
         self.store, self.scene = store, scene
         self.attrs = {**store.attrs, "scene_toml": scene_file.dumps(scene)}
-        self.summary = {**store.summary, "left_out": scene.left_out(), "fatigue": fatigue}
+        self.summary = {**store.summary, "left_out": scene.left_out(),
+                        "fatigue": next(iter(searches.values())), "fatigue_by_surface": searches}
         self.warnings = result_warnings.warnings(self, self.summary)
 
     def __getattr__(self, name):
@@ -88,7 +89,9 @@ def _words(scene):
     """[(what, value)] of all that the answer depends on, the same in number and order for every scene."""
     f = scene.fatigue
     return [("κ =", f"{f.kappa:.5g}"), ("σ_eF =", value_text(f.endurance, unit="Pa", digits=5)), ("the criterion", f.criterion),
-            ("depths searched:", _depths(f.depths)), ("moments with the", moments(scene) or f"{where(scene)} anywhere"),
+            ("depths searched:", _depths(f.depths)),
+            ("bodies searched:", " and ".join(surface.name for surface in scene.judged)),
+            ("moments with the", moments(scene) or f"{where(scene)} anywhere"),
             ("shear tractions", "counted" if f.shear else "left out"),
             ("thermal stress", "counted" if scene.has_thermal_stress else "left out"),
             *((f"residual stress along {axis}", f"{getattr(f, f'residual_{axis}{axis}') / 1e6:g} MPa") for axis in "xy")]

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from functools import cached_property
 
+from tehl_taichi.fatigue.judged_surfaces import by_surface
 from tehl_taichi.fatigue.pressure_alone import why_none
 from tehl_taichi.fatigue.search_result import SearchResult
 from tehl_taichi.report import numbered_points
@@ -32,7 +33,7 @@ class Search:
 def searches(store, result=None):
     """One :class:`Search`, or two: where the grid does not resolve every pressure first that of the part before, on which the
     answer rests. result: of the search, by default that of the store."""
-    scene, result = store.scene, result or SearchResult.from_arrays(store.summary["fatigue"], store.map)
+    scene, result = store.scene, result or SearchResult.from_arrays(by_surface(store.summary), store.map)
     over = when(scene) + ", pressure alone" * bool(why_none(result.summary))
     if not (part := result.part):
         return [Search(scene, result, over)]

@@ -1,5 +1,8 @@
 """The answer of a run, in a sentence, and what it rests on."""
 
+from types import MappingProxyType
+
+from tehl_taichi.fatigue.judged_surfaces import others
 from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.report.document import Answer
 from tehl_taichi.report.number_text import index, value_text
@@ -20,7 +23,8 @@ def of(store):
     summary = store.summary
     if not summary:
         return _none_yet(store)
-    found = of_fatigue(summary["fatigue"], store.scene) if "fatigue" in summary else _of_film(summary, store.scene)
+    found = (of_fatigue(summary["fatigue"], store.scene, others(summary)) if "fatigue" in summary else
+             _of_film(summary, store.scene))
     question, headline, tone, tells = found
     yields, rims = _yielding(summary), list(rim_warnings.rims(store, summary))
     stated = {"yield": yields, "rim": rims}  # before the other doubts
@@ -42,54 +46,59 @@ def judged(Fi, error=None):
     return ABOVE if Fi > 1 else BELOW
 
 
-def layers(fatigue):
+def layers(fatigue, surface="the surface"):
     """[(where in words, Fi, its error or None)] of the surface and of what lies below it; of a search or of its part."""
     fatigue = searched(fatigue)
-    found = [("at the surface", fatigue)]
+    found = [(f"at {surface}", fatigue)]
     if "below" in fatigue:
-        found.append((f"{micrometres(fatigue['below']['depth_m'])} µm below the surface", fatigue["below"]))
+        found.append((f"{micrometres(fatigue['below']['depth_m'])} µm below {surface}", fatigue["below"]))
     return [(where, part["Fi_max"], part.get("error", {}).get("Fi_max")) for where, part in found]
 
 
-def of_fatigue(fatigue, scene=None):
-    """(question, headline, tone, sentences) of the summary of a search; scene: whose, which tells the moments and what passes;
-    None: nobody knows it, all moments of a feature."""
+def of_fatigue(fatigue, scene=None, beside=MappingProxyType({})):
+    """(question, headline, tone, sentences) of the summary of the search of the worse body, and of those of the other in
+    `beside` {surface: summary}; scene: whose, which tells the moments and what passes; None: nobody knows it, all moments of a
+    feature."""
+    searches = {fatigue.get("surface"): fatigue, **beside}
     if why := why_none(fatigue):
-        return FATIGUE, f"No verdict: {why}.", "open", _from_pressure(searched(fatigue))
+        return FATIGUE, f"No verdict: {why}.", "open", _from_pressure(searches)
     over = when(scene) if scene else WHOLE
-    worst, places, known, tells = _judged(fatigue)
+    worst, places, known, tells = _judged(searches)
     said, tells = headline(worst, places, known), [*tells, *_alone(fatigue, scene, feature_wording.passing(scene))]
-    if "resolved" in fatigue:
-        said, tells = _by_what_is_known(fatigue["resolved"], worst, tells, over, feature_wording.where(scene))
+    if all("resolved" in one for one in searches.values()):
+        early = {name: one["resolved"] for name, one in searches.items()}
+        said, tells = _by_what_is_known(early, worst, tells, over, feature_wording.where(scene))
     return FATIGUE, *said, (*tells, *_plane(fatigue))
 
 
-def _from_pressure(found):
+def _from_pressure(searches):
     """Sentences on the index of the pressure alone."""
-    told_of = (_index_sentence(*layer) for layer in _judged_layers(found))
+    told_of = (_index_sentence(*layer) for layer in _judged_layers(searches))
     return ("From the pressure alone, without surface shear and frictional heat:", *told_of)
 
 
-def _judged(fatigue):
+def _judged(searches):
     """(the worst of what is judged, where, whether the errors behind it are known, sentences)."""
-    found = _judged_layers(fatigue)
+    found = _judged_layers(searches)
     worst = max(said for *_, said in found)
     places = " and ".join(where for where, _, _, said in found if said == worst)
     known = all(error is not None for _, _, error, said in found if said == worst)
     return worst, places, known, [_index_sentence(*layer) for layer in found]
 
 
-def _judged_layers(fatigue):
-    """[(where, Fi, its error or None, what is said of it)], see :func:`layers`."""
-    return [(where, Fi, error, judged(Fi, error)) for where, Fi, error in layers(fatigue)]
+def _judged_layers(searches):
+    """[(where, Fi, its error or None, what is said of it)] of each {surface: summary}, see :func:`layers`."""
+    one = len(searches) == 1
+    return [(where, Fi, error, judged(Fi, error)) for name, found in searches.items()
+            for where, Fi, error in layers(found, "the surface" if one else f"surface {name}")]
 
 
-def _by_what_is_known(part, whole, tells, over, whose):
+def _by_what_is_known(parts, whole, tells, over, whose):
     """(headline and tone, sentences) where the grid does not resolve every pressure: by the part of the passage before that, to
-    which the rest can only add. whole: the worst of what is judged of the whole search, over these moments; whose: position
-    ends that part, in words."""
-    worst, places, known, early = _judged(part)
-    end = f"{whose} up to {_place(part['to_x_a'])}"
+    which the rest can only add. parts: {surface: summary of that}; whole: the worst of what is judged of the whole search, over
+    these moments; whose: position ends that part, in words."""
+    worst, places, known, early = _judged(parts)
+    end = f"{whose} up to {_place(next(iter(parts.values()))['to_x_a'])}"
     tells = [f"While the grid resolves the pressure ({end}; the rest can only add):", *early,
              f"{over[0].upper()}{over[1:]}, where the grid does not resolve the pressure:", *tells]
     if worst != BELOW:

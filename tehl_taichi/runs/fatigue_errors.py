@@ -7,21 +7,22 @@ does with other depths, where the same point is the worst.
 
 from dataclasses import asdict
 
+from tehl_taichi.fatigue.judged_surfaces import by_surface
 from tehl_taichi.march.accuracy.coarse_runs import FI, indices
 from tehl_taichi.values.coded_text import Reason, reasons_of, unknown_of
 
 OTHER = Reason("the coarse-grid runs used the constants and moments of the run, not these", "other")
 # of the section [fatigue]: they change no stress of a point (limits do by kappa, which is compared)
-FREE = ("on", "endurance", "bending_limit", "torsion_limit", "source", "depths")
+FREE = ("on", "endurance", "bending_limit", "torsion_limit", "source", "depths", "surfaces")
 SAME = 1e-6  # of the stress: the stored search and this one are the same
 
 
-def add_errors(summary, asked, store):
-    """Put "error" and "unknown" into the parts of the summary of a search. asked: the section [fatigue] that it was made with;
-    store: of the run."""
-    own, stored = store.scene.fatigue, indices(store.summary.get("fatigue", {}))
+def add_errors(searches, asked, store):
+    """Put "error" and "unknown" into the parts of the summaries of searches, {surface: summary}. asked: the section [fatigue]
+    that they were made with; store: of the run."""
+    own, stored = store.scene.fatigue, indices(by_surface(store.summary))
     alike = all(getattr(asked, key) == value for key, value in asdict(own).items() if key not in FREE)
-    for name, part in indices(summary).items():
+    for name, part in indices(searches).items():
         before = stored.get(name, {}) if alike else {}
         part["error"], reasons = _scaled(part, before)
         part |= unknown_of(reasons)

@@ -155,12 +155,12 @@ def _finish(saved, state, steady, clock, progress):
         _march(saved, state, progress)
         until = _resolved(saved)
         told = begun(until)
-        fatigue, maps = _fatigue(saved, until, progress)
-        sure = fatigue if fatigue and not why_none(fatigue) else None
+        found, arrays = _fatigue(saved, until, progress)
+        sure = {name: one for name, one in found.items() if not why_none(one)}
         domain = DomainError.from_values(steady["steady_domain"])
         notify = functools.partial(progress.stage, ERRORS)
         passage = coarse_runs.errors(saved.scene, saved, sure, lambda: told(notify), domain)
-    saved.finish(summarise(saved, {**clock.times(), **steady, **passage}, fatigue), maps)
+    saved.finish(summarise(saved, {**clock.times(), **steady, **passage}, found), arrays)
     return Run(saved)
 
 
@@ -208,14 +208,14 @@ def _resolved(saved):
 
 
 def _fatigue(saved, until, progress):
-    """(summary, maps) of the fatigue search, None twice where there is none."""
+    """({surface: summary}, arrays) of the fatigue search, the worse first; empty and None where there is none."""
     from tehl_taichi.runs.stored_fatigue import assessed
 
     if not _searched(saved):
-        return None, None
+        return {}, None
     progress.say("stresses and Findley search")
     result = assessed(saved, saved.scene, progress, until)
-    return result.summary, result.to_arrays()
+    return result.summaries, result.to_arrays()
 
 
 @contextlib.contextmanager

@@ -12,4 +12,7 @@ def assessed(store, scene, progress=None, until=None, threads=None):
     alone where the film has more shear than any oil. progress, until, threads: as of :func:`tehl_taichi.fatigue`."""
     why = no_index(store) if scene.fatigue.shear else ""
     found = fatigue(store, scene.replace(**WITHOUT) if why else scene, progress=progress, threads=threads, until=until)
-    return replace(found, summary=without_index(found.summary, why)) if why else found
+    if not why:
+        return found
+    worst, *others = (replace(one, summary=without_index(one.summary, why)) for one in found.by_surface.values())
+    return replace(worst, other=others[0] if others else None)

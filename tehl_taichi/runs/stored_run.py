@@ -110,7 +110,7 @@ class Run:
         if until is None and len(self.store) > 1:
             until = coarse_runs.resolved(self.scene, self.store, self.store.scalar)
         found = assessed(self.store, scene, progress, until, threads)
-        fatigue_errors.add_errors(found.summary, scene.fatigue, self.store)
+        fatigue_errors.add_errors(found.summaries, scene.fatigue, self.store)
         return found
 
     def crack(self, **wanted: Any) -> Any:

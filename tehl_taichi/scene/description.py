@@ -13,6 +13,7 @@ from tehl_taichi.scene import (
     domain_warnings,
     film_formula,
     idle_keys,
+    moving_surfaces,
     named_oils,
     oil,
     oil_range,
@@ -26,6 +27,7 @@ from tehl_taichi.scene.named_steels import completed
 from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.sections import (
     AUTO,
+    BOTH,
     SECTIONS,
     Body,
     Contact,
@@ -158,7 +160,8 @@ class Scene:
         start, end = self.path
         if end <= start:
             raise SceneError(f"time.x_end = {end:g} a must be more than x_start = {start:g} a")
-        front = start + max((f.x + f.reach for f in self.features), default=-10.0) / scales.Scales.of(self).a
+        a = scales.Scales.of(self).a
+        front = max((s.pace * start + (f.x + f.reach) / a for s in self.surfaces for f in s.features), default=-10.0)
         if self.transient and front > -LATEST:
             raise SceneError(f"time.x_start = {start:g} a: the features reach up to {front:.2f} a at the start, but the steady "
                              f"start needs a smooth contact; allowed: at most {start - front - LATEST:.2f} a (or -inf)")
@@ -225,10 +228,12 @@ class Scene:
         return meant(value, unit, fits)
 
     def _check_motion(self):
-        if self.transient and self.operation.u_a < 1e-3 * self.operation.u_m:
-            raise SceneError(f"operation.srr = {self.operation.srr:g} leaves surface a, which carries the feature, at "
-                             f"{self.operation.u_a:g} m/s, so it never passes; allowed with a feature: srr > -1.998, or use "
-                             "--steady")
+        slow = next((s for s in self.surfaces if s.features and s.speed < 1e-3 * self.operation.u_m), None)
+        if self.transient and slow:
+            least = {"a": "srr > -1.998", "b": "srr < 1.998"}[slow.name]
+            raise SceneError(f"operation.srr = {self.operation.srr:g} leaves surface {slow.name}, which carries the feature, "
+                             f"at {slow.speed:g} m/s, so it never passes; allowed with a feature on surface {slow.name}: {least}, "
+                             "or use --steady")
 
     @property
     def load(self):
@@ -247,14 +252,26 @@ class Scene:
         return o.u_a < AT_REST * o.u_m, o.u_b < AT_REST * o.u_m
 
     @property
+    def surfaces(self):
+        """Both, a first (:class:`tehl_taichi.scene.moving_surfaces.MovingSurface`)."""
+        return moving_surfaces.surfaces(self)
+
+    @property
+    def reference(self):
+        """The surface of the first feature, whose place is the clock of a passage; a where there is none."""
+        return next(s for s in self.surfaces if s.name == moving_surfaces.reference_name(self))
+
+    @property
     def path(self):
         """Start and end of the first feature's centre, in a: long features start earlier and end later."""
         if not self.features:
             return FIRST, LAST
         a = scales.Scales.of(self).a
-        ahead, behind = max(f.x + f.reach for f in self.features) / a, max(f.reach - f.x for f in self.features) / a
-        start = self.time.x_start if self.time.x_start > -math.inf else min(FIRST, -CLEAR - ahead)
-        return start, self.time.x_end if self.time.x_end < math.inf else max(LAST, LATEST + behind)
+        carried = [(s.pace, f) for s in self.surfaces for f in s.features if s.pace > 0]
+        start = min((min(FIRST, -CLEAR - (f.x + f.reach) / a) / pace for pace, f in carried), default=FIRST)
+        end = max((max(LAST, LATEST + (f.reach - f.x) / a) / pace for pace, f in carried), default=LAST)
+        return (self.time.x_start if self.time.x_start > -math.inf else start,
+                self.time.x_end if self.time.x_end < math.inf else end)
 
     @property
     def one_dimensional(self):
@@ -336,12 +353,19 @@ class Scene:
     @property
     def has_fatigue(self):
         """Fatigue needs a passage: the stress history of material points."""
-        return self.fatigue.on and self.transient
+        return self.fatigue.on and self.transient and bool(self.judged)
+
+    @property
+    def judged(self):
+        """The surfaces whose material is searched: those of fatigue.surfaces that move (one at rest is always under load)."""
+        asked = moving_surfaces.NAMES if self.fatigue.surfaces == BOTH else (self.fatigue.surfaces,)
+        return tuple(s for s, rests in zip(self.surfaces, self.at_rest) if s.name in asked and not rests)
 
     @property
     def without_fatigue(self):
         """Why it has no fatigue index, as :meth:`left_out` lists it; "" where it has one."""
-        why = "" if self.has_fatigue else "no passage" if self.fatigue.on else "switched off"
+        why = ("" if self.has_fatigue else "switched off" if not self.fatigue.on else "no passage" if not self.transient else
+               f"surface {self.fatigue.surfaces} is at rest")
         return f"stresses and fatigue ({why})" if why else ""
 
     def replace(self, **changes: Any) -> "Scene":

@@ -1,4 +1,4 @@
-"""Surface features of body a: the keys that shapes share, those of single shapes, and what the shape makes of them."""
+"""Surface features: the keys that shapes share, those of single shapes, and what the shape makes of them."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -28,6 +28,7 @@ class SharedKeys:
     """Keys that shapes share."""
 
     shape: str = choice("cosine", "what it is", tuple(SHAPES))
+    surface: str = choice("a", "surface that carries it", ("a", "b"))
     height: float = quantity(1.5e-6, "m", _about("height", "height"), -1e-3, 1e-3)
     width: float = quantity(200e-6, "m", _about("width", "along x"), 1e-6, LARGEST)
     length: float = quantity(0.0, "m", _about("length", "along y"), 0.0, LARGEST, infinite=True, usual=5e-4)
@@ -43,7 +44,8 @@ class SharedKeys:
 @documented
 @dataclass(frozen=True, repr=False)
 class Feature(*OWN, SharedKeys):
-    """Feature of surface a; x and y of further features are measured from the first.
+    """Feature of a surface; x and y of further features are measured from the first (of the other surface: from where that
+    is when the first is at X = 0).
 
     `tehl scenes` lists the shapes and their keys. Heights in an array: :meth:`from_heights`.
 

@@ -202,9 +202,12 @@ def _heat(scene):
 
 
 def _expansion_of_bodies(scene):
-    yield "bodies.b.alpha", "stresses are those of body a"
-    if not (scene.has_fatigue and scene.has_thermal_stress):
-        yield "bodies.a.alpha", "no thermal stress is computed"
+    heated = scene.has_fatigue and scene.has_thermal_stress
+    for name in "ab":
+        if not heated:
+            yield f"bodies.{name}.alpha", "no thermal stress is computed"
+        elif name not in (surface.name for surface in scene.judged):
+            yield f"bodies.{name}.alpha", f"the stresses of body {name} are not searched"
 
 
 def _passage(scene):

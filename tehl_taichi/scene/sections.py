@@ -117,7 +117,7 @@ class Operation:
     """
 
     u_m: float = quantity(8.5, "m/s", "mean speed (u_a + u_b)/2", 1e-6, 1e3, common=(1e-4, 200.0))
-    srr: float = quantity(-0.12, "", "slip (u_a - u_b)/u_m; negative: the feature is on the slower surface", -2.0, 2.0)
+    srr: float = quantity(-0.12, "", "slip (u_a - u_b)/u_m; negative: surface a is the slower one", -2.0, 2.0)
     temperature: float = quantity(90.0, "deg C", "temperature of oil and bodies at the inlet", -50.0, 300.0)
 
     def __post_init__(self):
@@ -200,6 +200,9 @@ class Thermal:
             raise SceneError(f"thermal.nodes = {self.nodes} must be odd, so that one node lies at mid-film")
 
 
+BOTH = "both"  # as fatigue.surfaces
+
+
 @documented
 @dataclass(frozen=True, repr=False)
 class Fatigue:
@@ -223,6 +226,7 @@ class Fatigue:
     torsion_limit: float = quantity(0.0, "Pa", "fatigue limit in reversed torsion; 0: not given", 0.0, LARGEST_LIMIT,
                                     usual=USUAL_LIMIT, least=LEAST_LIMIT)
     source: str = text("example values, set your own", "source of kappa and endurance", one_line=False)
+    surfaces: str = choice(BOTH, "surfaces whose material is searched", (BOTH, "a", "b"))
     criterion: str = choice("findley", "fatigue criterion", tuple(CRITERIA))
     depths: Union[tuple, str] = quantities(AUTO, "m", "depths to search; auto: the critical depth under the feature; a list "
                                                       "as [50e-6, 100e-6]: these depths for all points", 1e-7, DEEPEST,

@@ -10,16 +10,17 @@ ALL = -1  # as time.steps
 
 
 def step_cells(scene):
-    """Cells that the feature moves in a time step: time.courant; with temperatures a whole fraction of it where the other
-    surface is much faster."""
+    """Cells that the first feature moves in a time step: the fastest one moves time.courant; with temperatures a whole fraction
+    of it where the other surface is much faster."""
+    cells = scene.time.courant / max(s.pace for s in scene.surfaces if s.features)
     if scene.isothermal:
-        return scene.time.courant
-    o = scene.operation
-    return scene.time.courant / max(1, math.ceil(scene.time.courant * o.u_b / o.u_a / OIL_CELLS - 1e-9))
+        return cells
+    other = next(s for s in scene.surfaces if s.name != scene.reference.name)
+    return cells / max(1, math.ceil(cells * other.pace / OIL_CELLS - 1e-9))
 
 
 def step_length(scene):
-    """Way of the feature in a time step, a."""
+    """Way of the first feature in a time step, a."""
     return step_cells(scene) * (scene.grid.x_max - scene.grid.x_min) / scene.grid.nx
 
 
@@ -53,7 +54,7 @@ def cut_at(scene):
 def clear(scene):
     """Position of the first feature (a) from which on all of them are behind the contact."""
     a = Scales.of(scene).a
-    return LATEST + max(f.reach - f.x for f in scene.features) / a
+    return max((LATEST + (f.reach - f.x) / a) / s.pace for s in scene.surfaces for f in s.features)
 
 
 def uncut(scene):

@@ -9,10 +9,12 @@ LISTS = ("warnings", "warning_codes", "results", "outputs")  # of texts
 KINDS = {dict: "a table", list: "a list", str: "text", int: "a whole number", float: "a number", bool: "true or false"}
 SUMMARY = {"scene": str, "version": str, "wall_s": float, "compile_s": float, "steps": int, "grid": dict, "cells": dict,
            "hertz": dict, "left_out": list, "steady": dict, "work": dict, "crowding": list, "clamps": dict, "warnings": list,
-           "transient": dict, "fatigue": dict, "error": dict, "unknown": dict, "below": dict, "contact_alone": dict,
+           "transient": dict, "fatigue": dict, "fatigue_by_surface": dict, "surface": str, "error": dict,
+           "unknown": dict, "below": dict, "contact_alone": dict,
            "searched_m": list, "pit_angles_deg": list, "criterion": str, "domain": dict, "error_parts": dict, "peclet": dict,
            "warning_codes": list, "warning_data": list, "unknown_codes": dict}
-PARTS = {"transient", "fatigue", "cells", "crowding", "error", "unknown", "below", "contact_alone", "searched_m",
+PARTS = {"transient", "fatigue", "fatigue_by_surface", "surface", "cells", "crowding", "error", "unknown", "below",
+         "contact_alone", "searched_m",
          "pit_angles_deg", "criterion", "domain", "error_parts", "peclet", "warning_codes",
          "warning_data", "unknown_codes"}  # that some runs do not have
 TABLES = ("", "hertz.", "steady.", "transient.", "fatigue.", "fatigue.below.", "fatigue.below.contact_alone.")

@@ -1,7 +1,9 @@
-"""Stress histories of material points of body a around a feature, from the snapshots of its passage.
+"""Stress histories of material points of a body around a feature, from the snapshots of its passage.
 
-Material points keep their place in the frame of the feature, x' = x - x_a(t). Before the first and after the last
-snapshot (feature outside the contact) they move through the steady field, so every history begins and ends unloaded.
+Material points keep their place x' = x - x_i(t) on their surface, whose frame x_i has moved by its pace times the way of the
+first feature's centre: on the surface that carries this, x' is the distance from it, on the other from the place that it meets
+at X = 0. Before the first and after the last snapshot (feature outside the contact) points move through the steady field, so
+every history begins and ends unloaded.
 """
 
 from concurrent.futures import ThreadPoolExecutor
@@ -13,25 +15,30 @@ from tehl_taichi.fatigue.stress.half_space import COMPONENTS, HalfSpaceStress
 from tehl_taichi.fatigue.stress.thermal_depth import ThermalBelow
 from tehl_taichi.fatigue.stress.thermal_stress import WORKERS
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.values.interpolation import lagrange
 
 WINDOW = 0.6       # half width (in a) of the part searched around one small feature: farther out its stress has died out
 MARGIN = 0.3       # (in a) searched beyond the rim of larger features
 LOADED = 1.5       # material points are followed while within this distance (in a) of the centre of the contact
 BLOCK_BYTES = 1e9  # histories held at once; more points than fit are done in blocks of y rows, each from the loads again
 BLOCK = 16         # entries whose stresses are found at once
-LOADS = ("pressure", "traction_x_a", "traction_y_a")
+NODES = range(-2, 4)  # of the interpolation between cells, from the node before the point
 
 
 class StressHistories:
-    """The window of material points and where they are at every moment that counts (fatigue.from_x to to_x).
+    """The window of material points and where they are at every moment that counts (fatigue.from_x to to_x): `positions` of the
+    first feature, `centres` of the frame of the surface (m).
 
-    reader: x, y (m), time (s), len, feature_x(n) (m), fields(n, names) in SI; entry 0 is the steady start; centres (m): the
-    feature's at every entry; window: half width (in a) of the part around one small feature.
+    reader: x, y (m), time (s), len, feature_x(n) (m), fields(n, names) in SI; entry 0 is the steady start; positions (m): the
+    first feature's at every entry; window: half width (in a) of the part around one small feature; surface: whose points
+    (:class:`tehl_taichi.scene.moving_surfaces.MovingSurface`), that of the first feature where nothing else is said.
     """
 
-    def __init__(self, scene, reader, centres, window=WINDOW):
+    def __init__(self, scene, reader, positions, window=WINDOW, surface=None):
         self.scene, self.reader, self.window, self.last_below = scene, reader, window, None
-        self.a = Scales.of(scene).a
+        self.surface, self.a = surface or scene.reference, Scales.of(scene).a
+        self.loads_of = ("pressure", *(f"traction_{axis}_{self.surface.name}" for axis in "xy"))
+        self.path, centres = (float(positions[0]), float(positions[-1])), self.surface.pace * positions
         self.dx = float(reader.x[-1] - reader.x[0]) / (reader.x.size - 1)
         low, high = (max(1, int(side / self.dx + 1e-9)) for side in self._window("x"))
         # material points on nodes of the grid at entry 0: steps of whole cells then need no interpolation
@@ -44,24 +51,39 @@ class StressHistories:
         # centre of the feature and entry of the reader at every moment
         before, after = self._lead_in(centres[0]), self._lead_out(centres[-1])
         self.centres = np.concatenate([before, centres, after])
+        pace = self.surface.pace
+        self.positions = np.concatenate([positions[0] + (before - centres[0]) / pace, positions,
+                                         positions[-1] + (after - centres[-1]) / pace])
         self.entries = np.concatenate([0 * before, np.arange(len(centres)), 0 * after]).astype(int)
         self._widen()
         self._choose_moments()
 
     def _window(self, axis):
-        """Distances (m) searched on the negative and the positive side of the first feature's centre."""
-        reach = [(getattr(f, axis), f.reach if axis == "x" else f.reach_y) for f in self.scene.features]
+        """Distances (m) searched on the negative and the positive side of the frame's origin."""
+        reach = [(at, f.reach if axis == "x" else f.reach_y) for f in self.scene.features
+                 for at in (self._passed(f) if axis == "x" else (f.y,))]
         sides = (max(sign * at + r for at, r in reach) + MARGIN * self.a for sign in (-1, 1))
-        return [max(self.window * self.a, side) for side in sides]
+        first = self._passed(self.scene.features[0]) if axis == "x" else (0.0,)
+        least = (self.window * self.a + max(0.0, *(sign * at for at in first)) for sign in (-1, 1))
+        return [max(*both) for both in zip(least, sides)]
+
+    def _passed(self, feature):
+        """Places (m) of this surface that lie under the centre of a feature as it comes into the contact and as it leaves: one
+        and the same of a feature of its own."""
+        carrier = next(s for s in self.scene.surfaces if s.name == feature.surface)
+        if carrier.name == self.surface.name:
+            return (feature.x,)
+        ends = ((side * self.a - feature.x) / carrier.pace for side in (-1, 1))
+        return tuple(feature.x + (carrier.pace - self.surface.pace) * np.clip(at, *self.path) for at in ends)
 
     def _lead_in(self, first):
-        if first > -self.a:
+        if self.path[0] > -self.a:
             return np.zeros(0)
         steps = int(np.ceil((first + self.x[-1] + LOADED * self.a) / self.dx))
         return first - np.arange(max(steps, 0), 0, -1) * self.dx
 
     def _lead_out(self, last):
-        if last < self.a:
+        if self.path[1] < self.a:
             return np.zeros(0)
         steps = int(np.ceil((LOADED * self.a - last - self.x[0]) / self.dx))
         return last + np.arange(1, max(steps, 0) + 1) * self.dx
@@ -79,8 +101,8 @@ class StressHistories:
     def _choose_moments(self):
         """Only those with the feature between fatigue.from_x and to_x (a)."""
         fatigue = self.scene.fatigue
-        counts = (self.centres >= fatigue.from_x * self.a) & (self.centres <= fatigue.to_x * self.a)
-        self.centres, self.entries = self.centres[counts], self.entries[counts]
+        counts = (self.positions >= fatigue.from_x * self.a) & (self.positions <= fatigue.to_x * self.a)
+        self.centres, self.positions, self.entries = self.centres[counts], self.positions[counts], self.entries[counts]
 
     def places(self, depth, rows):
         """Function of a point's number among those of some rows that gives its depth, x and y (m)."""
@@ -93,7 +115,7 @@ class StressHistories:
     def operator(self, depth):
         """Stress operator for a depth in m, on the rows of the window."""
         y = self.reader.y
-        return HalfSpaceStress(self.grid_x, y - y[0], self.scene.body_a.nu, self.line, self.mirrored, depth, self.rows, SINGLE)
+        return HalfSpaceStress(self.grid_x, y - y[0], self.surface.body.nu, self.line, self.mirrored, depth, self.rows, SINGLE)
 
     def stresses(self, depth):
         """Stress operator for a depth in m below the surface, and the thermal stress where the scene wants it (else None)."""
@@ -110,8 +132,9 @@ class StressHistories:
         """ThermalStress, or ThermalBelow (and its shallowest depth), of this passage."""
         r, ambient = self.reader, self.scene.operation.temperature
         self.ticks, dt = equal_steps(np.asarray(r.time))
-        rises = (np.asarray(r.fields(n, ("temperature_a",))["temperature_a"], float) - ambient for n in range(len(r)))
-        return kind(self.scene.body_a, self.scene.operation.u_a, between(rises, self.ticks), dt, r.x, r.y, self.pad[0],
+        name = f"temperature_{self.surface.name}"
+        rises = (np.asarray(r.fields(n, (name,))[name], float) - ambient for n in range(len(r)))
+        return kind(self.surface.body, self.surface.speed, between(rises, self.ticks), dt, r.x, r.y, self.pad[0],
                     self.grid_x.size, self.a, self.mirrored, *more)
 
     def row_blocks(self):
@@ -177,9 +200,9 @@ class StressHistories:
 
     def loads(self, entry):
         """p, q_x and q_y (3, x, y) Pa of an entry; the shear is zero where it is not to count."""
-        given, front = self.reader.fields(entry, LOADS), self.pad[0]
+        given, front = self.reader.fields(entry, self.loads_of), self.pad[0]
         out = np.zeros((3, self.grid_x.size, self.reader.y.size))
-        for load, name in zip(out, LOADS if self.scene.fatigue.shear else LOADS[:1]):
+        for load, name in zip(out, self.loads_of if self.scene.fatigue.shear else self.loads_of[:1]):
             load[front : front + self.reader.x.size] = given[name]
         return out
 
@@ -215,10 +238,11 @@ def between(fields, ticks):
 
 
 def _shifted(fields, start, count):
-    """`count` columns of fields (x, ..., 6) from column `start`; exact for whole numbers, else linear in x."""
+    """`count` columns of fields (x, ..., 6) from column `start`; exact for whole numbers, else by the polynomial through six
+    nodes."""
     whole = int(np.round(start))
     if abs(start - whole) < 1e-6:
         return fields[whole: whole + count]
     whole = int(np.floor(start))
-    part = start - whole
-    return (1 - part) * fields[whole: whole + count] + part * fields[whole + 1: whole + 1 + count]
+    weights = lagrange(NODES, start - whole)
+    return sum(w * fields[whole + n : whole + n + count] for n, w in zip(NODES, weights))

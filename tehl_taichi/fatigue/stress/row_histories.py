@@ -82,7 +82,7 @@ def _kind(passage):
 def _operators(passage, depths, kinds):
     """[(RowStress, rows of loads that it takes)]: one of all loads for all rows, one of each row whose loads go on."""
     def made(y, rows):
-        return RowStress(passage.grid_x, y, passage.scene.body_a.nu, passage.line, passage.mirrored, depths, rows,
+        return RowStress(passage.grid_x, y, passage.surface.body.nu, passage.line, passage.mirrored, depths, rows,
                          _kind(passage))
 
     y = passage.reader.y

@@ -54,25 +54,25 @@ def _all_of_them(scene):
         yield f"use a grid.nx that is a multiple of {nx} and a grid.ny that is a multiple of {ny}"
 
 
-def passage_readings(scene, reader, scalar, fatigue=None):
+def passage_readings(scene, reader, scalar, searches=None):
     """{name: GridReading} of the numbers of a passage.
 
     reader: entries as :class:`tehl_taichi.fatigue.stress.histories.StressHistories` takes them, the steady start first;
-    scalar(name): array of the entries' values; fatigue: summary of its search or None.
+    scalar(name): array of the entries' values; searches: {surface: summary of its search}, or None.
     """
     p, h, a = *(scalar(name)[1:] for name in ("p_max_Pa", "h_min_m")), Scales.of(scene).a
     bars_of = [entry for entry in quantities.of_part("transient") if entry.error]
     out = {entry.key: _reading(entry, scalar, scene) for entry in bars_of if entry.exists(scene)}
     out["p_max_Pa"] = readings.highest(_moment(reader, int(np.argmax(p)) + 1), a)
     out["h_min_m"] = readings.lowest(_moment(reader, int(np.argmin(h)) + 1), scene)
-    out |= {name: GridReading(float(part["Fi_max"]), doubt=_shallow(name, fatigue))
-            for name, part in indices(fatigue or {}).items()}
+    found = indices(searches or {})
+    out |= {name: GridReading(float(part["Fi_max"]), doubt=_shallow(name, found)) for name, part in found.items()}
     # a peak that the grid does not resolve at some moment: neither its pressure is known nor what it does to oil and steel
     why = readings.unresolved(reader, _high(p), p.max(), a)
     pressures = course(p, [reader.feature_x(n) / a for n in range(1, p.size + 1)], scene.path)
     of = {kind: [entry.key for entry in bars_of if entry.error == kind] for kind in (quantities.SWAYED, quantities.SHARP)}
     out |= {name: replace(out[name], swayed=bool(why)) for name in of[quantities.SWAYED] if name in out}
-    return out | {name: _doubted(out[name], why, pressures) for name in (*of[quantities.SHARP], FI, BELOW) if name in out}
+    return out | {name: _doubted(out[name], why, pressures) for name in (*of[quantities.SHARP], *whole(found)) if name in out}
 
 
 def _reading(entry, scalar, scene):
@@ -93,13 +93,13 @@ def course(p, at, path):
     return tuple(float(p[parts == n].max()) if (parts == n).any() else np.nan for n in range(count))
 
 
-def _shallow(name, fatigue):
+def _shallow(name, found):
     """Why an index below the surface is not known where it grows towards the surface as far as the grid can look, beyond what
-    the surface itself has; "" of others."""
-    found, above = indices(fatigue), {BELOW: FI, RESOLVED_BELOW: RESOLVED}
-    if name not in above or not near_the_surface(found[name], fatigue):
+    the surface itself has; "" of others. found: see :func:`indices`."""
+    (surface, part), above = name.split(":"), {BELOW: FI, RESOLVED_BELOW: RESOLVED}
+    if part not in above or not near_the_surface(found[name], found[of_surface(surface, FI)]):
         return ""
-    return SHALLOW if found[name]["Fi_max"] > found[above[name]]["Fi_max"] else ""
+    return SHALLOW if found[name]["Fi_max"] > found[of_surface(surface, above[part])]["Fi_max"] else ""
 
 
 def near_the_surface(deep, fatigue):
@@ -107,12 +107,26 @@ def near_the_surface(deep, fatigue):
     return deep["depth_m"] < SHALLOWEST * fatigue["below"].get("searched_m", [0.0])[0]
 
 
-def indices(fatigue):
-    """{name of its largest index among the readings: part of the summary of a search}, of the parts that there are."""
-    found = searched(fatigue)
-    part = found.get("resolved", {})
-    found = {FI: found, BELOW: found.get("below"), RESOLVED: part, RESOLVED_BELOW: part.get("below")}
-    return {name: part for name, part in found.items() if part}
+def indices(searches):
+    """{name of its largest index among the readings: part of the summary of a search}, of the parts that there are; searches:
+    {surface: summary of its search}."""
+    found = {}
+    for surface, summary in searches.items():
+        whole = searched(summary)
+        early = whole.get("resolved", {})
+        parts = {FI: whole, BELOW: whole.get("below"), RESOLVED: early, RESOLVED_BELOW: early.get("below")}
+        found |= {of_surface(surface, name): part for name, part in parts.items() if part}
+    return found
+
+
+def of_surface(surface, name):
+    """Name, among the readings, of an index of a surface."""
+    return f"{surface}:{name}"
+
+
+def whole(found):
+    """Those of the names in `found` (see :func:`indices`) that are of all moments."""
+    return [name for name in found if name.split(":")[1] in (FI, BELOW)]
 
 
 def resolved(scene, reader, scalar):
@@ -137,7 +151,7 @@ def values(scene, notify=lambda: None, until=lambda: None):
         shots.append(replace(shot, make_state=None))  # it holds the tables, which the next companion needs
         notify()
     wanted = scene.has_fatigue and len(shots) > 2
-    found = assessment.run(scene, shots, until=until()).summary if wanted else None
+    found = assessment.run(scene, shots, until=until()).summaries if wanted else None
     return passage_readings(scene, assessment.Snapshots(shots),
                             lambda name: np.array([shot.scalars[name] for shot in shots]), found)
 
@@ -146,16 +160,16 @@ def _moment(reader, n):
     return SimpleNamespace(x=reader.x, feature_x=reader.feature_x(n), fields=reader.fields(n, ("pressure", "film")))
 
 
-def errors(scene, reader, fatigue, told, domain=DomainError()):
+def errors(scene, reader, searches, told, domain=DomainError()):
     """{"passage_error": {name: error bar or None}, "passage_unknown": {name: why it is None}, "passage_parts": {name: {"grid",
     "domain"}}} of the numbers of a run; {} of one without a passage, doubts alone where there are no companions.
 
-    reader: its store; fatigue: summary of its search or None; told(): what :func:`answers` gives of the scene; domain: the
-    Share that its start told.
+    reader: its store; searches: {surface: summary of its search} or None; told(): what :func:`answers` gives of the scene;
+    domain: the Share that its start told.
     """
     if len(reader) < 2:
         return {}
-    own = passage_readings(scene, reader, reader.scalar, fatigue)
+    own = passage_readings(scene, reader, reader.scalar, searches)
     if not has_coarse_runs(scene):
         touches = own[CONTACT].value > 0
         doubts = {name: reading.doubt for name, reading in own.items() if reading.doubt}

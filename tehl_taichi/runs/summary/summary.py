@@ -17,11 +17,11 @@ from tehl_taichi.values.coded_text import reasons_of, unknown_of
 from tehl_taichi.values.coded_warning import lists
 
 
-def summarise(store, extra, fatigue=None):
+def summarise(store, extra, searches=None):
     """Summary dictionary. extra: wall_s, compile_s (kernels traced, compiled or loaded), crowding (see
     :func:`tehl_taichi.engine.task_pool.crowding`, here of this run; optional), steady_error, steady_unknown, steady_parts and
     steady_domain (see :class:`tehl_taichi.march.snapshot.Snapshot`), passage_error, passage_unknown and passage_parts alike;
-    fatigue: its own dictionary or None."""
+    searches: {surface: summary of its fatigue search}, the worse one first, or None."""
     scene = store.scene
     scales = Scales.of(scene)
     out = {"scene": scene.name, "version": __version__, "store": str(store.path), "converged": True,
@@ -32,8 +32,8 @@ def summarise(store, extra, fatigue=None):
            "steady": _steady(store, extra)}
     if len(store) > 1:
         out["transient"] = _transient(store)
-    if fatigue:
-        out["fatigue"] = fatigue
+    if searches:
+        out["fatigue"], out["fatigue_by_surface"] = next(iter(searches.values())), searches
     known, unknown, of_it = (extra.get(f"passage_{what}", {}) for what in ("error", "unknown", "parts"))
     for part, names in _parts(out):
         part["error"] = {name: known.get(bar) for name, bar in names.items()}
@@ -108,7 +108,7 @@ def _before(known):
 def _parts(out):
     """[(part of the summary after the start, {its number that has an error bar: that number's name among the errors})]."""
     parts = [(out.get("transient"), {entry.key: entry.key for entry in quantities.of_part("transient") if entry.error}),
-             *((part, {FI: name}) for name, part in indices(out.get("fatigue", {})).items())]
+             *((part, {FI: name}) for name, part in indices(out.get("fatigue_by_surface", {})).items())]
     return [(part, {name: bar for name, bar in names.items() if name in part}) for part, names in parts if part]
 
 

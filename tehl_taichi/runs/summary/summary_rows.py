@@ -2,7 +2,9 @@
 
 import math
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 
+from tehl_taichi.fatigue.judged_surfaces import others
 from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.march import quantities
 from tehl_taichi.march.accuracy.coarse_runs import CONTACT
@@ -42,9 +44,9 @@ def summary_rows(summary):
     return [row.text_pair for row in rows_of(summary)]
 
 
-def fatigue_rows(f):
+def fatigue_rows(f, beside=MappingProxyType({})):
     """(quantity, value) of a fatigue summary."""
-    return [row.text_pair for row in rows_of_fatigue(f)]
+    return [row.text_pair for row in rows_of_fatigue(f, beside)]
 
 
 def rows_of(summary):
@@ -113,25 +115,38 @@ def _passage_rows(summary):
                  SummaryRow("worst residual / load / mass error",
                      f"{t['residual_max']:.1e} / {t['load_error_max']:.1e} / {t['mass_error_max']:.1e}")]
     if "fatigue" in summary:
-        rows += rows_of_fatigue(summary["fatigue"])
+        rows += rows_of_fatigue(summary["fatigue"], others(summary))
     return rows
 
 
-def rows_of_fatigue(f):
-    """A list of :class:`SummaryRow` of a fatigue summary (see :func:`_rows_of_search`); where the tractions give no index, the
-    reason, then the rows of the pressure alone."""
+def rows_of_fatigue(f, beside=MappingProxyType({})):
+    """A list of :class:`SummaryRow` of a fatigue summary (see :func:`_rows_of_search`), and the indices of the other body in
+    `beside` {surface: summary}; where the tractions give no index, the reason, then the rows of the pressure alone."""
     why = why_none(f)
-    rows = _rows_of_search(searched(f))
+    rows = [*_worse(f, beside), *_rows_of_search(searched(f)),
+            *(row for name, other in beside.items() for row in _rows_of_other(name, searched(other)))]
     if not why:
         return rows
     return [SummaryRow("Fi_max", f"no value: {why}"), *(replace(row, what=f"{row.what}, pressure alone") for row in rows)]
+
+
+def _worse(f, beside):
+    return [SummaryRow("worse body", f["surface"], part=SURFACE)] if beside else []
+
+
+def _rows_of_other(name, f):
+    """The largest indices of the other body."""
+    deep = f.get("below")
+    rows = [_of(f, "Fi_max", "Fi_max of the other body", where=f" ({name}), at its surface", part=SURFACE)]
+    return rows + ([_of(deep, "Fi_max", "Fi_max of the other body, below", where=f" ({name}){_at(deep)}", part=BELOW)]
+                   if deep else [])
 
 
 def _rows_of_search(f):
     """A list of :class:`SummaryRow` of what a search found: the worst point of the surface, then of what lies below; where the
     grid does not resolve every pressure first those of the part before, on which the answer rests."""
     rows = [_of(f, "Fi_max", "Fi_max at the surface", where=_whole(f)),
-            _stress(f"{f['criterion']} stress", f["findley_stress_max_Pa"]), *_point_rows(f),
+            _stress(f"{f['criterion']} stress", f["findley_stress_max_Pa"]), *_point_rows(f, _frame(f)),
             _stress("largest principal stress at the surface", f["sigma1_max_Pa"]),
             SummaryRow("with kappa, sigma_eF", f"{f['kappa_F']:g}, {f['sigma_eF_Pa'] / 1e6:.4g} MPa"),
             *(SummaryRow(f"from the limit in reversed {way}", f"{f[key] / 1e6:g} MPa")
@@ -165,11 +180,16 @@ def _placed(point, when):
     return [replace(row, what=f"{row.what}, {when}") for row in _point_rows(point)[:2]]
 
 
-def _point_rows(f):
+def _frame(f):
+    """Behind a place of a body without the feature: its frame moves against that of the feature."""
+    return "" if f.get("carries_feature", True) else " (with this at X = 0)"
+
+
+def _point_rows(f, frame=""):
     """The worst point of the surface or below it."""
     low, high = f.get("pit_angles_deg", (None, None))
     pits = "" if low is None else f" (pits begin at {low:g} to {high:g})"
-    rows = [SummaryRow("at x, y from the feature centre", f"{f['x_m'] * 1e6:.1f}, {f['y_m'] * 1e6:.1f} um"),
+    rows = [SummaryRow("at x, y from the feature centre", f"{f['x_m'] * 1e6:.1f}, {f['y_m'] * 1e6:.1f} um", note=frame),
             SummaryRow("critical plane, angle to the surface", f"{f['surface_angle_deg']:.1f} deg", note=pits),
             SummaryRow("shear amplitude, largest normal stress",
                        f"{f['tau_amp_Pa'] / 1e6:.1f}, {f['sigma_n_max_Pa'] / 1e6:.1f} MPa")]
@@ -182,7 +202,7 @@ def _below_rows(f):
         return []
     deep = f["below"]
     rows = [_of(deep, "Fi_max", "Fi_max below the surface", where=_at(deep) + _whole(f)),
-            _stress(f"{f['criterion']} stress", deep["findley_stress_max_Pa"]), *_point_rows(deep)]
+            _stress(f"{f['criterion']} stress", deep["findley_stress_max_Pa"]), *_point_rows(deep, _frame(f))]
     if "contact_alone" in deep:
         alone = deep["contact_alone"]
         rows.append(SummaryRow("Fi of the contact alone", f"{alone['Fi_max']:.4f}", alone["Fi_max"], where=_at(alone)))

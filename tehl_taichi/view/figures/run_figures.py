@@ -3,6 +3,7 @@
 from functools import partial
 
 from tehl_taichi.errors import SceneError
+from tehl_taichi.fatigue.judged_surfaces import by_surface
 from tehl_taichi.fatigue.search_result import SearchResult
 from tehl_taichi.view.figures import fatigue_figures, field_maps, line_figures, search_data, surface_figure
 from tehl_taichi.view.figures.figure_style import FigureStyle
@@ -48,7 +49,7 @@ def _of_the_film(store):
 
 
 def _fatigue(store, depth):
-    return search_data.DrawnSearch.of(store.scene, SearchResult.from_arrays(store.summary["fatigue"], store.map), depth)
+    return search_data.DrawnSearch.of(store.scene, SearchResult.from_arrays(by_surface(store.summary), store.map), depth)
 
 
 def write_fatigue(result, scene, folder, page=None, depth=None):

@@ -1,0 +1,13 @@
+"""What a summary has of each body that was searched, the worse one first."""
+
+
+def by_surface(summary):
+    """{surface: summary of its search} of a run's summary, {} of one without; runs before 0.9 searched body a alone."""
+    if "fatigue" not in summary:
+        return {}
+    return summary.get("fatigue_by_surface", {summary["fatigue"].get("surface", "a"): summary["fatigue"]})
+
+
+def others(summary):
+    """The same without the worse body, whose search is the "fatigue" of the summary."""
+    return {name: found for name, found in by_surface(summary).items() if name != summary["fatigue"].get("surface", "a")}
