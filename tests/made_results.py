@@ -16,7 +16,7 @@ from tehl_taichi.scene.scales import Scales
 THERMAL = SMALL.replace(**{"thermal.on": True})
 EXTRA = {"wall_s": 12.5, "compile_s": 2.5, "steady_error": {"h_c_m": 1e-9, "h_min_m": None},
          "steady_unknown": {"h_min_m": "no coarser grid"}, "steady_parts": {"h_c_m": {"grid": 1e-9, "domain": 0.0}},
-         "passage_error": {"Fi_max": 0.023, "p_max_Pa": 2e7}, "passage_unknown": {}}
+         "passage_error": {"a:Fi_max": 0.023, "p_max_Pa": 2e7}, "passage_unknown": {}}
 
 
 def fatigue(Fi=1.008, below=1.392):
@@ -24,7 +24,7 @@ def fatigue(Fi=1.008, below=1.392):
     point = {"x_m": 8e-6, "y_m": 0.0, "surface_angle_deg": 57.0, "tau_amp_Pa": 4e8, "sigma_n_max_Pa": 2e7,
              "sigma1_worst_Pa": 6e7}
     found = {"Fi_max": Fi, "findley_stress_max_Pa": Fi * 4e8, **point, "sigma1_max_Pa": 3e8, "kappa_F": 0.3, "sigma_eF_Pa": 4e8,
-             "criterion": "findley", "thermal_stress": True, "pit_angles_deg": [18.0, 50.0]}
+             "criterion": "findley", "thermal_stress": True, "pit_angles_deg": [18.0, 50.0], "surface": "a", "carries_feature": True}
     if below:
         found["below"] = {"depth_m": 25e-6, "Fi_max": below, "findley_stress_max_Pa": below * 4e8, **point,
                           "searched_m": [3e-6, 3e-4],
@@ -93,7 +93,7 @@ def _made(path, scene, entries, search, found, said):
     with Store.create(path, scene, smooth(0, scene), 50, attrs) as made:
         for step in range(1, entries):
             made.append(smooth(step, scene), shot(step, scene).state)
-        summary = summarise(made, EXTRA, search)
+        summary = summarise(made, EXTRA, {"a": search} if search else None)
         made.finish({**summary, "warnings": list(said)}, (found or maps()) if search else None)
     return path
 

@@ -27,4 +27,5 @@ class Rolling:
         bump = np.exp(-((x - self.centres[n] / self.s.a) ** 2 + y**2) / 0.04) if n else 0 * hertz
         p = self.s.p_H * hertz * (1 + bump)
         found = {"pressure": p, "traction_x_a": 0.05 * p, "traction_y_a": 0 * p, "temperature_a": 90 + 40 * hertz * (1 + bump)}
+        found |= {"traction_x_b": -found["traction_x_a"], "traction_y_b": 0 * p, "temperature_b": found["temperature_a"]}
         return {name: found[name] for name in names}

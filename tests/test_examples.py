@@ -116,7 +116,7 @@ def test_heights_in_an_array_are_those_of_a_file(tmp_path):
     keys = dict(pixel=5e-6, pixel_y=6e-6, level="plane", taper=1e-5)
     by_array = tehl.Feature.from_heights(z, **keys)
     by_file = tehl.Feature(shape="map", file=str(tmp_path / "z.npy"), unit="m", **keys)
-    assert by_array == by_file and (by_array.surface == by_file.surface).all()
+    assert by_array == by_file and (by_array.whole_heights == by_file.whole_heights).all()
     scene = tehl.Scene(features=[by_array])
     assert scene.replace(srr=0.1).features[0].heights is by_array.heights
     assert tehl.scene("gear").replace(feature=[by_array]).features == (by_array,)

@@ -7,7 +7,7 @@ WITHOUT = {"fatigue.shear": False, "fatigue.thermal_stress": False}  # changes o
 def without_index(found, why):
     """The summary of such a run. found: summary of the search with the changes WITHOUT; why: there is no index, in words."""
     index = {"Fi_max": None, "findley_stress_max_Pa": None}
-    return {**index, "unknown": dict.fromkeys(index, why), **{key: found[key] for key in CONSTANTS},
+    return {**index, "unknown": dict.fromkeys(index, why), **{key: found[key] for key in CONSTANTS if key in found},
             "thermal_stress": False, "pressure_alone": found}
 
 

@@ -232,8 +232,8 @@ class Scene:
         if self.transient and slow:
             least = {"a": "srr > -1.998", "b": "srr < 1.998"}[slow.name]
             raise SceneError(f"operation.srr = {self.operation.srr:g} leaves surface {slow.name}, which carries the feature, "
-                             f"at {slow.speed:g} m/s, so it never passes; allowed with a feature on surface {slow.name}: {least}, "
-                             "or use --steady")
+                             f"at {slow.speed:g} m/s, so it never passes; allowed with a feature on surface {slow.name}: "
+                             f"{least}, or use --steady")
 
     @property
     def load(self):

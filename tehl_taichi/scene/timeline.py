@@ -12,7 +12,7 @@ ALL = -1  # as time.steps
 def step_cells(scene):
     """Cells that the first feature moves in a time step: the fastest one moves time.courant; with temperatures a whole fraction
     of it where the other surface is much faster."""
-    cells = scene.time.courant / max(s.pace for s in scene.surfaces if s.features)
+    cells = scene.time.courant / max((s.pace for s in scene.surfaces if s.features), default=1.0)
     if scene.isothermal:
         return cells
     other = next(s for s in scene.surfaces if s.name != scene.reference.name)

@@ -195,7 +195,7 @@ class Beside(Rolling):
 @pytest.mark.parametrize("until", [None, 0.4])
 def test_on_a_whole_domain_the_worst_row_below_is_found(taichi_cpu, until):
     """Neither the row of the feature, 0, nor that of the worst point of the surface, -0.5 a."""
-    scene = tehl.scene("gear").replace(**{"thermal.on": False, "fatigue.kappa": 0.0})
+    scene = tehl.scene("gear").replace(**{"thermal.on": False, "fatigue.kappa": 0.0, "fatigue.surfaces": "a"})
     told = []
     found = assessment.run(scene, reader := Beside(scene), lambda *parts: told.append(parts), until)
     deep, a = found.summary["below"], reader.s.a

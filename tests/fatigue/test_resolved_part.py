@@ -17,7 +17,8 @@ from tehl_taichi.runs.summary import result_warnings, summary, summary_rows
 from tehl_taichi.runs.sweep import summary_columns
 from tehl_taichi.values.coded_text import Reason
 
-GEAR = tehl.scene("gear").replace(**{"thermal.on": False, "srr": 0.0})
+INDICES = (coarse_runs.FI, coarse_runs.BELOW, coarse_runs.RESOLVED, coarse_runs.RESOLVED_BELOW)
+GEAR = tehl.scene("gear").replace(**{"thermal.on": False, "srr": 0.0, "fatigue.surfaces": "a"})
 
 
 @pytest.mark.parametrize("changes", [{}, {"thermal.on": True}, {"fatigue.depths": [30e-6]}, {"feature.y": 0.25e-3},
@@ -86,9 +87,10 @@ def test_moments_of_low_pressure_are_not_looked_at():
 def test_its_numbers_are_not_in_doubt():
     reader = Peaked(GEAR, 1.0)
     search = {**fatigue(), "resolved": {"to_x_a": 0.6, **fatigue(0.8, 0.9)}}
-    own = coarse_runs.passage_readings(GEAR, reader, reader.scalar, search)
-    assert own["Fi_max"].doubt and own[coarse_runs.BELOW].doubt
-    part, below = own[coarse_runs.RESOLVED], own[coarse_runs.RESOLVED_BELOW]
+    own = coarse_runs.passage_readings(GEAR, reader, reader.scalar, {"b": search})
+    of_b = {name: own[coarse_runs.of_surface("b", name)] for name in INDICES}
+    assert of_b["Fi_max"].doubt and of_b[coarse_runs.BELOW].doubt
+    part, below = of_b[coarse_runs.RESOLVED], of_b[coarse_runs.RESOLVED_BELOW]
     assert (part.value, below.value, part.doubt, below.doubt) == (0.8, 0.9, "", "")
 
 
@@ -97,15 +99,16 @@ def test_companions_search_up_to_where_the_run_is_resolved(taichi_cpu):
     coarse = GEAR.replace(**{"grid.nx": 64, "grid.ny": 16, "fatigue.depths": []})
     asked = []
     found = coarse_runs.values(coarse, until=lambda: asked.append(1) or -0.5)
-    assert asked == [1] and 0 < found[coarse_runs.RESOLVED].value < found["Fi_max"].value
-    assert coarse_runs.RESOLVED not in coarse_runs.values(coarse.replace(**{"time.steps": 4}))
+    part, whole = (coarse_runs.of_surface("a", name) for name in (coarse_runs.RESOLVED, coarse_runs.FI))
+    assert asked == [1] and 0 < found[part].value < found[whole].value
+    assert part not in coarse_runs.values(coarse.replace(**{"time.steps": 4}))
 
 
 def test_the_summary_and_the_table_have_it():
     search = {**fatigue(), "resolved": {"to_x_a": 0.6, **fatigue(0.8, 0.9)}}
-    *_, (part, names), (deep, below) = summary._parts({"transient": {}, "fatigue": search})
-    assert part is search["resolved"] and names == {"Fi_max": coarse_runs.RESOLVED}
-    assert deep is part["below"] and below == {"Fi_max": coarse_runs.RESOLVED_BELOW}
+    *_, (part, names), (deep, below) = summary._parts({"transient": {}, "fatigue_by_surface": {"a": search}})
+    assert part is search["resolved"] and names == {"Fi_max": "a:" + coarse_runs.RESOLVED}
+    assert deep is part["below"] and below == {"Fi_max": "a:" + coarse_runs.RESOLVED_BELOW}
     part["error"], part["unknown"] = {"Fi_max": 0.02}, {}
     rows = dict(summary_rows.fatigue_rows(search))
     assert list(rows)[0] == "Fi_max while resolved (to 0.60 a)"

@@ -152,7 +152,7 @@ def test_the_command_takes_the_options_of_fatigue(made, search):
 def told(asked, stored, found):
     """The summary `found` of a search with the section `asked` of a run that has stored this one."""
     of_run = type("Store", (), {"scene": scene("gear"), "summary": {"fatigue": stored}})
-    fatigue_errors.add_errors(found, asked, of_run)
+    fatigue_errors.add_errors({"a": found}, asked, of_run)
     return found
 
 
@@ -161,7 +161,7 @@ def test_the_error_stays_where_only_the_limit_is_another():
     stored |= {"error": {"Fi_max": 0.04}, "resolved": {"to_x_a": 0.5, **fatigue(0.6), "error": {"Fi_max": 0.03}}}
     stored["below"] |= {"error": {"Fi_max": None}, "unknown": {"Fi_max": "a peak"}}
     halved = copy.deepcopy(stored)
-    for part in coarse_runs.indices(halved).values():
+    for part in coarse_runs.indices({"a": halved}).values():
         part["Fi_max"] /= 2
         part["error"] = {}
     found = told(dataclasses.replace(own, endurance=2 * own.endurance, source="mine", depths=[5e-5]), stored, halved)

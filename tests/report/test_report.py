@@ -131,7 +131,7 @@ def test_what_carries_the_feature_is_said_where_temperatures_are(pages):
 
 
 def test_tables_have_the_error_below_the_surface_and_what_no_figure_shows(pages, tmp_path, monkeypatch):
-    monkeypatch.setitem(made_results.EXTRA["passage_error"], "below_Fi_max", 0.041)
+    monkeypatch.setitem(made_results.EXTRA["passage_error"], "a:below_Fi_max", 0.041)
     seen = page(made_results.run(tmp_path / "a.zarr", search=made_results.fatigue()), tmp_path).text
     assert "fatigue index Fi 25 µm below the surface, largest\n1.392\n0.041\n2.9 %" in seen
     assert "fatigue index Fi 25 µm below the surface, largest\n1.4\nnot estimated\n" in pages["thermal"].text

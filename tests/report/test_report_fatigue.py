@@ -63,8 +63,8 @@ def test_a_plane_that_is_not_at_the_worst_depth_has_its_own_mark(tmp_path):
 def test_a_long_reason_why_an_error_is_not_known_stands_once_behind_the_tables(tmp_path, monkeypatch):
     why = Reason("exit not resolved: " + readings.SPIKE.format(0.9), "exit")
     other = Reason("its place differs from that on the next coarser grid", "place")
-    monkeypatch.setitem(made_results.EXTRA, "passage_error", {"p_max_Pa": None, "Fi_max": None, "below_Fi_max": None})
-    monkeypatch.setitem(made_results.EXTRA, "passage_unknown", {"p_max_Pa": why, "Fi_max": why, "below_Fi_max": other})
+    monkeypatch.setitem(made_results.EXTRA, "passage_error", {"p_max_Pa": None, "a:Fi_max": None, "a:below_Fi_max": None})
+    monkeypatch.setitem(made_results.EXTRA, "passage_unknown", {"p_max_Pa": why, "a:Fi_max": why, "a:below_Fi_max": other})
     seen = page(made_results.run(tmp_path / "a.zarr", search=made_results.fatigue()), tmp_path).text
     assert seen.count(why) == 1 and seen.count("\nexit not resolved ¹\n") == 2 and seen.count("\nnot known ²\n") == 1
     assert f"\nWhy an error is unknown\n¹ {why}\n² {other}\n" in seen

@@ -58,7 +58,7 @@ def test_they_hear_up_to_where_the_run_is_resolved(idle_core, nowhere):
     with background_errors.background_answers(passing) as told:
         there = told(-0.5)()
     found = there[-1]["values"]
-    assert 0 < found[coarse_runs.RESOLVED]["value"] < found["Fi_max"]["value"]
+    assert 0 < found["a:resolved_Fi_max"]["value"] < found["a:Fi_max"]["value"]
 
 
 def test_only_an_idle_core_has_them_beside(taichi_cpu, monkeypatch):

@@ -56,7 +56,7 @@ def test_a_run_tells_its_stages_and_steps(done):
 
 def test_the_fatigue_search_tells_how_far_it_is_below_the_surface_too(done):
     """From 0 to one total, never back; the halves of its passes are those of the surface and of what lies below."""
-    for run, passes, changes in ((done[0], 4, {}), (done[0], 8, {"depths": [20e-6, 50e-6]})):
+    for run, passes, changes in ((done[0], 8, {}), (done[0], 8, {"depths": [20e-6, 50e-6], "surfaces": "a"})):
         heard = Heard()
         run.fatigue(progress=heard, **changes)
         parts = [n for _, n, _ in heard.stages]

@@ -8,7 +8,7 @@ import pytest
 import tehl_taichi as tehl
 from tehl_taichi.errors import SceneError
 
-SCENE = tehl.scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16, "thermal.on": False, "time.steps": 3})
+SCENE = tehl.scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16, "thermal.on": False, "time.steps": 3, "fatigue.surfaces": "a"})
 
 
 def bending(amplitude=200e6):

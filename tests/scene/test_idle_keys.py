@@ -85,9 +85,11 @@ def _heat(scene):
 def _passage(scene, s, x, y):
     if not scene.transient:
         return
+    yield [(s.name, s.speed, len(s.features)) for s in scene.surfaces]
     yield step_length(scene), total_steps(scene), scene.path, scene.output.every, scene.symmetric
     for at in np.linspace(*scene.path, 7):
-        yield [hash((f.height_at((x[None] - at) * s.a - f.x, y[:, None] * s.b - f.y) + 0.0).tobytes()) for f in scene.features]
+        yield [hash((f.height_at((x[None] - one.pace * at) * s.a - f.x, y[:, None] * s.b - f.y) + 0.0).tobytes())
+               for one in scene.surfaces for f in one.features]
 
 
 def _fatigue(scene):
@@ -95,8 +97,8 @@ def _fatigue(scene):
     if scene.has_fatigue:
         yield [CRITERIA[f.criterion].value(1e8, n + f.residual_xx - f.residual_yy / 3, n + f.residual_xx / 3 + f.residual_yy,
                                            f.kappa) / f.endurance for n in (3e8, 1e9)], f.criterion
-        yield scene.body_a.nu, f.depths, f.shear, f.from_x, f.to_x, scene.has_thermal_stress
-        yield scene.has_thermal_stress and scene.body_a.alpha
+        yield f.depths, f.shear, f.from_x, f.to_x, scene.has_thermal_stress
+        yield [(s.name, s.body.nu, scene.has_thermal_stress and s.body.alpha) for s in scene.judged]
 
 
 def others(kind, value):

@@ -46,11 +46,11 @@ def test_a_map_is_shown_on_its_own_points(tmp_path):
     made, f = scanned(tmp_path)
     found = heights(made)
     assert np.diff(found.x) == pytest.approx(f.steps[0]) and np.diff(found.y) == pytest.approx(f.steps[1])
-    np.testing.assert_allclose(found.values.T, f.surface, atol=1e-15)
+    np.testing.assert_allclose(found.values.T, f.whole_heights, atol=1e-15)
     part = heights(made.replace(**{"feature.extent_x": 66e-6, "feature.extent_y": 51e-6}))
-    np.testing.assert_allclose(part.values.T, f.surface[10:20, 4:16], atol=1e-15)  # 9 x 5 and 11 x 6 um inside
+    np.testing.assert_allclose(part.values.T, f.whole_heights[10:20, 4:16], atol=1e-15)  # 9 x 5 and 11 x 6 um inside
     faded = heights(made.replace(**{"feature.taper": 20e-6})).values
-    assert max(np.abs(faded[0]).max(), np.abs(faded[:, -1]).max()) < 1e-15 < np.abs(f.surface[:, 0]).max()
+    assert max(np.abs(faded[0]).max(), np.abs(faded[:, -1]).max()) < 1e-15 < np.abs(f.whole_heights[:, 0]).max()
 
 
 def test_all_features_pass_together():
@@ -72,7 +72,7 @@ def test_the_figure_shows_heights_in_micrometres(tmp_path):
     made, f = scanned(tmp_path)
     ax, bar = drawn(made).axes
     image, = ax.images
-    np.testing.assert_allclose(image.get_array(), f.surface * 1e6, atol=1e-9)
+    np.testing.assert_allclose(image.get_array(), f.whole_heights * 1e6, atol=1e-9)
     assert image.get_extent() == pytest.approx([-60, 60, -75, 75]) and ax.get_aspect() == 1.0  # a dot around every point
     assert bar.get_ylabel() == "height (µm)" and image.cmap.name == palette.HEIGHT and ax.get_ylabel() == "y (µm)"
     low, high = f.measures.low * 1e6, f.measures.high * 1e6

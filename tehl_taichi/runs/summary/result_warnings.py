@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from tehl_taichi.fatigue.judged_surfaces import by_surface, others
 from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.laws import conduction
 from tehl_taichi.laws.law import beyond
@@ -56,12 +57,12 @@ def crowded(store, summary):
 
 def unknown_errors(store, summary):
     """Numbers whose error is unknown, with the reason; one sentence for all that share it."""
-    fatigue, deep = searched(summary.get("fatigue", {})), " below the surface"
-    early, of_it = fatigue.get("resolved", {}), " of the resolved part"
+    searches = by_surface(summary)
     reasons: dict[Reason, list[str]] = {}
-    for part, when, behind in ((summary.get("steady", {}), "steady ", ""), (summary.get("transient", {}), "passage ", ""),
-                               (fatigue, "", ""), (fatigue.get("below", {}), "", deep), (early, "", of_it),
-                               (early.get("below", {}), "", deep + of_it)):
+    parts = [(summary.get("steady", {}), "steady ", ""), (summary.get("transient", {}), "passage ", "")]
+    for body, fatigue in searches.items():
+        parts += _of_search(searched(fatigue), f" of body {body}" * (len(searches) > 1))
+    for part, when, behind in parts:
         for name, why in reasons_of(part).items():
             reasons.setdefault(why, []).append(f"{when}{name}{behind}")
     for why, names in reasons.items():
@@ -69,6 +70,13 @@ def unknown_errors(store, summary):
         more = f"; try a grid that is finer along x: {grid}" if grid else ""
         yield with_data(f"the error of {', '.join(names)} is not known: {why}{more}", grid, numbers=names, reason=str(why),
                         reason_code=why.code)
+
+
+def _of_search(fatigue, body):
+    """[(part, "", words behind its numbers)] of a fatigue search; body: whose, in words."""
+    early, deep, of_it = fatigue.get("resolved", {}), " below the surface", " of the resolved part"
+    return [(fatigue, "", body), (fatigue.get("below", {}), "", deep + body), (early, "", of_it + body),
+            (early.get("below", {}), "", deep + of_it + body)]
 
 
 def largest_pressure(summary):
@@ -92,7 +100,8 @@ def worst_below(store, summary):
     if not deep or deep["Fi_max"] <= fatigue["Fi_max"]:
         return []
     alone_of = "from the pressure alone " * bool(why_none(summary["fatigue"]))
-    said = (f"{alone_of}the critical point lies below the surface: Fi {deep['Fi_max']:.2f} at {micrometres(deep['depth_m'])} "
+    body = f" of body {summary['fatigue']['surface']}" * bool(others(summary))
+    said = (f"{alone_of}the critical point lies below the surface{body}: Fi {deep['Fi_max']:.2f} at {micrometres(deep['depth_m'])} "
             f"um, {fatigue['Fi_max']:.2f} at the surface")
     alone = deep.get("contact_alone")
     if alone and alone["Fi_max"] > fatigue["Fi_max"]:

@@ -60,7 +60,7 @@ def height_at(scene, x, y):
 def _own(f):
     """Points of a map inside its patch."""
     sides = []
-    for count, step, size, at in zip(f.surface.shape[::-1], f.steps, f.patch, (f.x, f.y)):
+    for count, step, size, at in zip(f.whole_heights.shape[::-1], f.steps, f.patch, (f.x, f.y)):
         points = (np.arange(count) - (count - 1) / 2) * step
         inside = np.abs(points) <= size / 2 * (1 + 1e-9)
         sides.append(np.clip(points[inside], -size / 2, size / 2) + at)  # rounding must not cut the rim off

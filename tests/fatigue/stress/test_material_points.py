@@ -48,11 +48,12 @@ class Formula:
         p, wide = self.pressure(n, self.x)[:, None], np.ones((1, self.y.size))
         found = {"pressure": p * wide, "traction_x_a": 0.05 * p * wide, "traction_y_a": 0 * p * wide,
                  "temperature_a": self.temperature(n, self.x)[:, None] * wide}
+        found |= {"traction_x_b": -found["traction_x_a"], "traction_y_b": 0 * p * wide, "temperature_b": found["temperature_a"]}
         return {name: found[name] for name in names} if names else found
 
 
 def gear(**changes):
-    return tehl.scene("gear").replace(**{"thermal.on": False, **changes})
+    return tehl.scene("gear").replace(**{"thermal.on": False, "fatigue.surfaces": "a", **changes})
 
 
 @pytest.fixture(scope="module", params=[AHEAD, BEHIND], ids=["ahead", "behind"])

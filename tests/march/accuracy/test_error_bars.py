@@ -253,10 +253,10 @@ def passage(taichi_cpu):
 
 def test_companions_give_the_bars_of_a_passage(passage):
     told = []
-    found = coarse_runs.errors(short(), passage, {"Fi_max": 0.5},
+    found = coarse_runs.errors(short(), passage, {"a": {"Fi_max": 0.5}},
                               lambda: coarse_runs.answers(short(), lambda *part: told.append(part)))
     bars = found["passage_error"]
-    assert bars.keys() == {"p_max_Pa", "h_min_m", "friction_coefficient_mean", "contact_load_fraction_max", "Fi_max"}
+    assert bars.keys() == {"p_max_Pa", "h_min_m", "friction_coefficient_mean", "contact_load_fraction_max", "a:Fi_max"}
     assert bars.pop("contact_load_fraction_max") == 0.0  # nothing touches
     assert all(size > 0 for size in bars.values() if size is not None)
     assert found["passage_error"]["friction_coefficient_mean"] is not None
@@ -266,11 +266,12 @@ def test_companions_give_the_bars_of_a_passage(passage):
 def test_the_index_below_the_surface_has_a_bar_of_its_own():
     deep = short(**{"grid.nx": 128, "grid.ny": 32, "time.steps": 8, "fatigue.depths": "auto"})
     known = coarse_runs.values(coarse_runs.scenes(deep)[0][-1])
-    assert known[coarse_runs.BELOW].value > 0 and known[coarse_runs.BELOW] != known["Fi_max"]
-    out = {"transient": {"p_max_Pa": 2e9}, "fatigue": {"Fi_max": 0.5, "below": {"Fi_max": 0.7}}}
+    below = coarse_runs.of_surface("a", coarse_runs.BELOW)
+    assert known[below].value > 0 and known[below] != known["a:Fi_max"]
+    out = {"transient": {"p_max_Pa": 2e9}, "fatigue_by_surface": {"a": {"Fi_max": 0.5, "below": {"Fi_max": 0.7}}}}
     _, (surface, of_surface), (below, of_below) = summary._parts(out)
-    assert surface is out["fatigue"] and of_surface == {"Fi_max": "Fi_max"}
-    assert below is out["fatigue"]["below"] and of_below == {"Fi_max": coarse_runs.BELOW}
+    assert surface is out["fatigue_by_surface"]["a"] and of_surface == {"Fi_max": "a:Fi_max"}
+    assert below is surface["below"] and of_below == {"Fi_max": coarse_runs.of_surface("a", coarse_runs.BELOW)}
     deep = {"fatigue": {"below": {"unknown": {"Fi_max": "it still changes"}}}}
     said, = result_warnings.unknown_errors(SimpleNamespace(scene=short()), deep)
     assert said == "the error of Fi_max below the surface is not known: it still changes"
@@ -280,9 +281,9 @@ def test_the_index_below_the_surface_has_a_bar_of_its_own():
 def test_an_index_that_grows_towards_the_surface_as_far_as_a_grid_sees_is_not_known(depth, surface, known):
     part = {"Fi_max": surface, "below": {"Fi_max": 0.7, "depth_m": depth, "searched_m": [3e-6, 3e-4]}}
     early = {"Fi_max": surface, "below": {"Fi_max": 0.7, "depth_m": depth}}
-    found = {**part, "resolved": early}
-    assert [coarse_runs._shallow(name, found) == "" for name in coarse_runs.indices(found)] == [True, known, True, known]
-    assert coarse_runs._shallow(coarse_runs.FI, {"Fi_max": 0.7}) == ""
+    found = coarse_runs.indices({"a": {**part, "resolved": early}})
+    assert [coarse_runs._shallow(name, found) == "" for name in found] == [True, known, True, known]
+    assert coarse_runs._shallow("a:Fi_max", coarse_runs.indices({"a": {"Fi_max": 0.7}})) == ""
 
 
 def test_companions_use_the_tables_of_the_run(passage):
@@ -361,19 +362,19 @@ def test_a_narrow_peak_at_any_moment_leaves_pressure_and_fatigue_unknown(passage
     try:
         for shot in passage.items:
             shot.fields["pressure"][...] = smooth
-        before = coarse_runs.passage_readings(short(), passage, passage.scalar, {"Fi_max": 0.5})
+        before = coarse_runs.passage_readings(short(), passage, passage.scalar, {"a": {"Fi_max": 0.5}})
         assert not any(reading.doubt for reading in before.values())
         i = int(np.searchsorted(passage.x, 0.8 * 0.3622e-3))
         passage.items[2].fields["pressure"][i] = 0.9 * passage.scalar("p_max_Pa")[1:].max()
         passage.items[2].fields["pressure"][i + 1 :] = 0.0
-        after = coarse_runs.passage_readings(short(), passage, passage.scalar, {"Fi_max": 0.5})
+        after = coarse_runs.passage_readings(short(), passage, passage.scalar, {"a": {"Fi_max": 0.5}})
         nobody = short(**{"numerics.estimate_error": False})
-        alone = coarse_runs.errors(nobody, passage, {"Fi_max": 0.5}, None)["passage_unknown"]
+        alone = coarse_runs.errors(nobody, passage, {"a": {"Fi_max": 0.5}}, None)["passage_unknown"]
     finally:
         for shot, field in zip(passage.items, kept):
             shot.fields["pressure"][...] = field
-    assert "exit not resolved: a pressure peak of 90% of the largest" in after["p_max_Pa"].doubt and after["Fi_max"].doubt
-    assert not after["h_min_m"].doubt and alone == {name: after[name].doubt for name in ("p_max_Pa", "Fi_max")}
+    assert "exit not resolved: a pressure peak of 90% of the largest" in after["p_max_Pa"].doubt and after["a:Fi_max"].doubt
+    assert not after["h_min_m"].doubt and alone == {name: after[name].doubt for name in ("p_max_Pa", "a:Fi_max")}
 
 
 @pytest.mark.parametrize("shares, size", [((0.05, 0.02, 0.0), 0.0),  # the finest film carries all: so do finer ones

@@ -32,8 +32,8 @@ def test_waves_pass_as_the_standard_says(tmp_path, times, share, axis):
     plain, found = (feature(file, **STEPS, level="none", cutoff=cutoff) for cutoff in (0.0, CUTOFF))
     inside = np.s_[40:-40, 40:-40]
     crest = np.s_[120, 150]
-    assert found.surface[crest] / plain.surface[crest] == pytest.approx(share, abs=1e-3)
-    np.testing.assert_allclose(found.surface[inside], share * plain.surface[inside], atol=1e-3 * 0.2e-6)
+    assert found.whole_heights[crest] / plain.whole_heights[crest] == pytest.approx(share, abs=1e-3)
+    np.testing.assert_allclose(found.whole_heights[inside], share * plain.whole_heights[inside], atol=1e-3 * 0.2e-6)
     assert gaussian_filter.passes(times * CUTOFF, CUTOFF) == pytest.approx(share, abs=5e-4)
 
 
@@ -41,7 +41,7 @@ def test_a_plane_is_kept_up_to_the_rim(tmp_path):
     tilted = feature(waves(tmp_path, CUTOFF, 0, tilt=0.01), **STEPS, level="none", cutoff=CUTOFF)
     flat = feature(waves(tmp_path, CUTOFF, 0), **STEPS, level="none", cutoff=CUTOFF)
     x, y = (np.arange(301) - 150) * 2e-6, (np.arange(241) - 120)[:, None] * 2.5e-6
-    np.testing.assert_allclose(tilted.surface - flat.surface, 0.01 * (x - 2 * y), atol=1e-14)
+    np.testing.assert_allclose(tilted.whole_heights - flat.whole_heights, 0.01 * (x - 2 * y), atol=1e-14)
 
 
 def test_at_the_rim_the_mean_is_of_the_points_there_are():
@@ -59,7 +59,7 @@ def test_a_filtered_scan_is_turned_like_any(tmp_path):
     np.save(tmp_path / "hand.npy", values.T[::-1])
     one = feature(tmp_path / "scan.npy", **STEPS, transpose=True, mirror_y=True, cutoff=CUTOFF)
     hand = feature(tmp_path / "hand.npy", pixel=2.5e-6, pixel_y=2e-6, cutoff=CUTOFF)
-    np.testing.assert_array_equal(one.surface, hand.surface)
+    np.testing.assert_array_equal(one.whole_heights, hand.whole_heights)
     assert one.measures.rms < 0.9 * feature(tmp_path / "hand.npy", pixel=2.5e-6, pixel_y=2e-6).measures.rms
     assert one.sha256 == feature(tmp_path / "scan.npy", **STEPS).sha256
 
@@ -75,7 +75,7 @@ def test_a_store_has_the_heights_of_the_file_and_filters_them_once(tmp_path):
     (tmp_path / "waves.npy").unlink()
     again, = stored_maps.scene_of(tmp_path / "a.zarr", described.to_dict()).features
     assert again == f and again.cutoff == CUTOFF
-    np.testing.assert_array_equal(again.surface, f.surface)
+    np.testing.assert_array_equal(again.whole_heights, f.whole_heights)
     np.testing.assert_array_equal(again.heights, f.heights)
 
 

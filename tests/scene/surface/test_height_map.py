@@ -39,10 +39,10 @@ def test_the_same_surface_in_another_unit_is_the_same_surface(tmp_path):
     um, nm = wave(tmp_path), wave(tmp_path, name="nm.npy")
     np.save(nm, np.load(um) * 1e3)
     one, other = feature(um), feature(nm, unit="nm")
-    np.testing.assert_allclose(one.surface, other.surface, atol=1e-18)
-    assert one.unfaded.rms == pytest.approx(np.std(one.surface)) and 0.05e-6 < one.measures.rms < 0.2e-6
+    np.testing.assert_allclose(one.whole_heights, other.whole_heights, atol=1e-18)
+    assert one.unfaded.rms == pytest.approx(np.std(one.whole_heights)) and 0.05e-6 < one.measures.rms < 0.2e-6
     assert feature(um, unit="\u00b5m").unit == "um"
-    np.testing.assert_allclose(feature(um, scale=-2.0).surface, -2 * one.surface)
+    np.testing.assert_allclose(feature(um, scale=-2.0).whole_heights, -2 * one.whole_heights)
 
 
 def test_a_map_gives_the_feature_it_was_sampled_from(tmp_path):
@@ -58,7 +58,7 @@ def test_a_map_gives_the_feature_it_was_sampled_from(tmp_path):
 def test_a_tilted_map_is_levelled_and_a_broken_one_refused(tmp_path):
     y, x = np.mgrid[:20, :30]
     np.savetxt(tmp_path / "tilt.csv", 3.0 + 0.2 * x - 0.1 * y, delimiter=",")
-    assert np.abs(feature(tmp_path / "tilt.csv", taper=5e-6).surface).max() < 1e-18
+    assert np.abs(feature(tmp_path / "tilt.csv", taper=5e-6).whole_heights).max() < 1e-18
     mean = feature(tmp_path / "tilt.csv", level="mean", taper=5e-6)
     assert mean.unfaded.low == pytest.approx(-(0.2 * 14.5 + 0.1 * 9.5) * 1e-6)
     (tmp_path / "broken.csv").write_text("1,2\n3,4\n")
@@ -92,7 +92,7 @@ def test_small_holes_are_filled_from_their_neighbours_and_told_of(tmp_path):
     heights[3:10, 20:27] = heights[30, 5:9] = np.nan
     np.save(tmp_path / "holes.npy", heights)
     whole, holed = (feature(tmp_path / f"{name}.npy", unit="nm", level="none", taper=5e-6) for name in ("whole", "holes"))
-    np.testing.assert_allclose(holed.surface, whole.surface, atol=1e-6 * 20e-9)  # a plane solves Laplace's equation
+    np.testing.assert_allclose(holed.whole_heights, whole.whole_heights, atol=1e-6 * 20e-9)  # a plane solves Laplace's equation
     said = [one for one in with_map(tmp_path / "holes.npy").warnings() if "not measured" in one]
     assert len(said) == 1 and "53 of its 2000 points" in said[0]
     assert height_map.fetch("", holed.sha256)[0] == holed.sha256 != whole.sha256
@@ -284,7 +284,7 @@ def test_a_moved_store_goes_on_without_the_map_file(moved, elsewhere):
 
     description, broken, whole = moved
     assert Store.open(broken).scene == description
-    np.testing.assert_array_equal(Store.open(broken).scene.features[0].surface, description.features[0].surface)  # turned once
+    np.testing.assert_array_equal(Store.open(broken).scene.features[0].whole_heights, description.features[0].whole_heights)  # turned once
     a, b = completed(description, broken).store, Store.open(whole)  # resumes
     assert len(a) == len(b) == 5 and np.array_equal(a.fields(4)["film"], b.fields(4)["film"])
 
@@ -348,6 +348,6 @@ def test_a_store_of_the_first_version_stays_readable(tmp_path):
     data = with_map(wave(tmp_path)).to_dict()
     old = {key: value for key, value in data["feature"][0].items() if key not in ("unit", "scale", "sha256")}
     found = scene_of(tmp_path, {**data, "feature": [{**old, "height": 1e-6}]}).features[0]
-    np.testing.assert_allclose(found.surface, feature(tmp_path / "scan.npy").surface, rtol=1e-12)
+    np.testing.assert_allclose(found.whole_heights, feature(tmp_path / "scan.npy").whole_heights, rtol=1e-12)
     bump = {key: value for key, value in scene("gear").to_dict()["feature"][0].items() if key in old}
     assert scene_of(tmp_path, {**scene("gear").to_dict(), "feature": [{**bump, "pixel": 1e-6}]}) == scene("gear")

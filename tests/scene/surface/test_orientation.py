@@ -36,7 +36,7 @@ def test_a_turned_file_is_the_file_turned_by_hand(scan, keys):
     np.save(scan.with_name("hand.npy"), turned(keys, np.load(scan)))
     steps = dict(zip(STEPS, reversed(STEPS.values()))) if "transpose" in keys else STEPS
     one, hand = feature(scan, **STEPS, **dict.fromkeys(keys, True)), feature(scan.with_name("hand.npy"), **steps)
-    np.testing.assert_array_equal(one.surface, hand.surface)
+    np.testing.assert_array_equal(one.whole_heights, hand.whole_heights)
     assert (one.steps, one.size, one.patch, one.measures) == (hand.steps, hand.size, hand.patch, hand.measures)
     x, y = np.linspace(-40e-6, 40e-6, 33)[:, None], np.linspace(-40e-6, 40e-6, 27)
     np.testing.assert_array_equal(one.height_at(x, y), hand.height_at(x, y))
@@ -93,7 +93,7 @@ def test_the_file_s_row_and_column_of_a_place_are_told(tmp_path, keys):
     values[10, 4] = np.nan
     np.save(tmp_path / "peak.npy", values)
     f = feature(tmp_path / "peak.npy", **STEPS, level="none", **keys)
-    j, i = np.unravel_index(f.surface.argmax(), f.surface.shape)
+    j, i = np.unravel_index(f.whole_heights.argmax(), f.whole_heights.shape)
     x, y = ((at - (count - 1) / 2) * step for at, count, step in zip((i, j), f.points, f.steps))
     assert f.position_in_file(x + 0.4 * f.steps[0], y - 0.4 * f.steps[1]) == "row 3, column 26"
     assert f.position_in_file(f.size[0] / 2 + 1e-9, 0.0) == "" == f.position_in_file(0.0, -f.size[1] / 2 - 1e-9)

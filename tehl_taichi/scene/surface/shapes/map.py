@@ -87,7 +87,7 @@ class Measured:
         return f"row {row + 1}, column {column + 1}" + ", not measured" * bool(self.holes[nearest])
 
     @cached_property
-    def surface(self):
+    def whole_heights(self):
         """The same levelled and filtered: what passes through the contact."""
         return self.filtered(self.cutoff)
 
@@ -141,8 +141,8 @@ class Measured:
 
     @property
     def used(self):
-        """What passes through the contact: the part of `surface` inside the patch, faded out at its rim."""
-        return self.faded(self.inside(self.surface))
+        """What passes through the contact: the part of `whole_heights` inside the patch, faded out at its rim."""
+        return self.faded(self.inside(self.whole_heights))
 
     def passing(self, cutoff):
         """The same with another cutoff (m; 0: none)."""
@@ -167,7 +167,7 @@ class Measured:
     @cached_property
     def unfaded(self):
         """Range, rms and largest slope of its patch, not faded out."""
-        return Measures.of(self.inside(self.surface), self.steps)
+        return Measures.of(self.inside(self.whole_heights), self.steps)
 
 
 class Map(Patch):
@@ -175,7 +175,7 @@ class Map(Patch):
 
     def height(self, f, x, y):
         """Levelled, linear between its points, within its patch."""
-        values = f.surface
+        values = f.whole_heights
         rows, columns = values.shape
         i = np.clip(x / f.steps[0] + (columns - 1) / 2, 0, columns - 1) + 0 * y
         j = np.clip(y / f.steps[1] + (rows - 1) / 2, 0, rows - 1) + 0 * x
