@@ -24,7 +24,8 @@ def fatigue(Fi=1.008, below=1.392):
     point = {"x_m": 8e-6, "y_m": 0.0, "surface_angle_deg": 57.0, "tau_amp_Pa": 4e8, "sigma_n_max_Pa": 2e7,
              "sigma1_worst_Pa": 6e7}
     found = {"Fi_max": Fi, "findley_stress_max_Pa": Fi * 4e8, **point, "sigma1_max_Pa": 3e8, "kappa_F": 0.3, "sigma_eF_Pa": 4e8,
-             "criterion": "findley", "thermal_stress": True, "pit_angles_deg": [18.0, 50.0], "surface": "a", "carries_feature": True}
+             "criterion": "findley", "thermal_stress": True, "pit_angles_deg": [18.0, 50.0], "surface": "a",
+             "carries_feature": True}
     if below:
         found["below"] = {"depth_m": 25e-6, "Fi_max": below, "findley_stress_max_Pa": below * 4e8, **point,
                           "searched_m": [3e-6, 3e-4],
@@ -49,7 +50,7 @@ def maps(columns=9, rows=5, moments=12):
 def result(summary, arrays=None):
     """The SearchResult of such a summary and arrays."""
     arrays = maps() if arrays is None else arrays
-    return SearchResult.from_arrays(summary, lambda name: arrays[name][0] if name in arrays else None)
+    return SearchResult.from_arrays({"a": summary}, lambda name: arrays[name][0] if name in arrays else None)
 
 
 def smooth(step, scene):

@@ -174,7 +174,7 @@ def test_the_report_says_which_moments_count():
 def test_fatigue_of_a_run_is_told_apart_like_the_run(tmp_path, monkeypatch):
     """With other constants, up to the same position; a run that resolves everything has no such part."""
     asked = []
-    monkeypatch.setattr(assessment, "run", lambda *args: asked.append(args[3]) or SimpleNamespace(summary={}))
+    monkeypatch.setattr(assessment, "run", lambda *args: asked.append(args[3]) or SimpleNamespace(summaries={}))
     done = tehl.open(made_results.run(tmp_path / "made.zarr", search=fatigue()))
     for until in (-0.25, None):
         monkeypatch.setattr(coarse_runs, "resolved", lambda *_, until=until: until)

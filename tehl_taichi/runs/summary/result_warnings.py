@@ -100,9 +100,9 @@ def worst_below(store, summary):
     if not deep or deep["Fi_max"] <= fatigue["Fi_max"]:
         return []
     alone_of = "from the pressure alone " * bool(why_none(summary["fatigue"]))
-    body = f" of body {summary['fatigue']['surface']}" * bool(others(summary))
-    said = (f"{alone_of}the critical point lies below the surface{body}: Fi {deep['Fi_max']:.2f} at {micrometres(deep['depth_m'])} "
-            f"um, {fatigue['Fi_max']:.2f} at the surface")
+    body = f" of body {summary['fatigue']['surface']}" if others(summary) else ""
+    said = (f"{alone_of}the critical point lies below the surface{body}: Fi {deep['Fi_max']:.2f} at "
+            f"{micrometres(deep['depth_m'])} um, {fatigue['Fi_max']:.2f} at the surface")
     alone = deep.get("contact_alone")
     if alone and alone["Fi_max"] > fatigue["Fi_max"]:
         said += f"; the contact without its feature has {alone['Fi_max']:.2f} at {micrometres(alone['depth_m'])} um"

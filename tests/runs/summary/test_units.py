@@ -42,8 +42,8 @@ def run(folder, *words):
 @pytest.fixture(scope="module")
 def gear(taichi_cpu, tmp_path_factory):
     """Ten steps of the gear with temperatures, on 64 x 16 cells, the asperity entering."""
-    return run(tmp_path_factory.mktemp("units"), "gear", "--grid", "64x16", "--steps", 10, "--set", "time.x_start=-1.4", "--set",
-               "fatigue.surfaces=a")
+    return run(tmp_path_factory.mktemp("units"), "gear", "--grid", "64x16", "--steps", 10, "--set", "time.x_start=-1.4",
+               "--set", "fatigue.surfaces=a")
 
 
 @pytest.fixture(scope="module")

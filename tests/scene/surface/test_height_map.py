@@ -284,7 +284,8 @@ def test_a_moved_store_goes_on_without_the_map_file(moved, elsewhere):
 
     description, broken, whole = moved
     assert Store.open(broken).scene == description
-    np.testing.assert_array_equal(Store.open(broken).scene.features[0].whole_heights, description.features[0].whole_heights)  # turned once
+    again = Store.open(broken).scene.features[0].whole_heights
+    np.testing.assert_array_equal(again, description.features[0].whole_heights)  # turned once
     a, b = completed(description, broken).store, Store.open(whole)  # resumes
     assert len(a) == len(b) == 5 and np.array_equal(a.fields(4)["film"], b.fields(4)["film"])
 

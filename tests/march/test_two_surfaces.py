@@ -1,0 +1,92 @@
+"""Features on either surface: mirrored, shared between both, counted from either, the passage is the same."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+import tehl_taichi as tehl
+from tehl_taichi.errors import SceneError
+from tehl_taichi.fatigue import assessment
+from tehl_taichi.scene.feature import Feature
+from tehl_taichi.scene.scales import Scales
+from tehl_taichi.scene.timeline import step_cells, step_length
+
+pytestmark = pytest.mark.usefixtures("taichi_cpu")
+SWAPPED = {"pressure": "pressure", "film": "film", "traction_x_a": "traction_x_b", "traction_x_b": "traction_x_a"}
+
+
+def line(srr=-0.12, surface="a", steps=24, **changes):
+    """The gear with a ridge on that surface, in one dimension and isothermal."""
+    return tehl.scene("gear").replace(**{"srr": srr, "grid.nx": 64, "feature.shape": "ridge", "feature.surface": surface,
+                                         "thermal.on": False, "time.steps": steps, "fatigue.depths": [], **changes})
+
+
+def marched(scene):
+    return list(tehl.march(scene))
+
+
+def test_a_feature_on_b_is_one_on_a_with_the_slip_turned_bit_for_bit():
+    one, other = marched(line()), marched(line(0.12, "b"))
+    for a, b in zip(one, other):
+        for name, turned in SWAPPED.items():
+            np.testing.assert_array_equal(a.fields[name], b.fields[turned], err_msg=name)
+    found, turned = assessment.run(line(), one).summaries, assessment.run(line(0.12, "b"), other).summaries
+    for name, mirror in (("a", "b"), ("b", "a")):
+        assert found[name].pop("surface") == name and turned[mirror].pop("surface") == mirror
+        assert found[name] == turned[mirror]
+    assert found["a"]["carries_feature"] and not found["b"]["carries_feature"]
+    assert abs(found["a"]["Fi_max"] / found["b"]["Fi_max"] - 1) > 0.01  # it is not the same body twice
+
+
+def test_the_mirror_holds_with_temperatures_to_what_is_solved():
+    changes = {"thermal.on": True, "steps": 12}
+    for a, b in zip(marched(line(**changes)), marched(line(0.12, "b", **changes))):
+        for name, turned in {**SWAPPED, "temperature_a": "temperature_b", "temperature_b": "temperature_a"}.items():
+            assert np.abs(a.fields[name] - b.fields[turned]).max() < 1e-6 * np.abs(a.fields[name]).max(), name
+
+
+def test_half_the_height_on_both_is_the_height_on_one_in_rolling():
+    whole = line(0.0)
+    half = dataclasses.replace(whole.features[0], height=0.5 * whole.features[0].height)
+    both = dataclasses.replace(whole, features=(half, dataclasses.replace(half, surface="b")))
+    for a, b in zip(marched(whole), marched(both)):  # h - s/2 - s/2 is rounded twice
+        np.testing.assert_allclose(a.fields["pressure"], b.fields["pressure"], atol=1e-8 * a.fields["pressure"].max())
+
+
+def two(first, second, **changes):
+    """Ridges on both surfaces that meet at X = 0.1 a, with much slip; each (surface, x in a)."""
+    scene = line(0.5, steps=16, **changes)
+    a = Scales.of(scene).a
+    ridges = [Feature(shape="ridge", height=5e-7, surface=surface, x=x * a) for surface, x in (first, second)]
+    return dataclasses.replace(scene, features=tuple(ridges))
+
+
+def test_it_does_not_matter_which_surface_is_the_clock():
+    by_a = two(("a", 0.0), ("b", 0.1))
+    pace = 0.75 / 1.25
+    by_b = two(("b", 0.1), ("a", 0.0), **{"time.x_start": pace * by_a.path[0]})
+    assert step_length(by_b) == pytest.approx(pace * step_length(by_a)) and step_cells(by_a) == by_a.time.courant
+    for a, b in zip(marched(by_a), marched(by_b)):
+        assert a.time == pytest.approx(b.time, rel=1e-12)
+        np.testing.assert_allclose(a.fields["pressure"], b.fields["pressure"], atol=1e-5 * a.fields["pressure"].max())
+
+
+def test_a_path_lasts_until_the_slower_feature_has_left():
+    scene = two(("a", 0.0), ("b", 0.1))
+    alone = dataclasses.replace(scene, features=scene.features[:1])
+    pace = 0.75 / 1.25
+    assert scene.path[0] == pytest.approx(alone.path[0] / pace, rel=0.15) and scene.path[1] > 1.3 * alone.path[1]
+
+
+def test_a_carrier_that_rests_is_refused_by_its_name():
+    with pytest.raises(SceneError, match=r"leaves surface b, .* at 0 m/s, .* surface b: srr < 1.998"):
+        line(2.0, "b")
+    with pytest.raises(SceneError, match="leaves surface a"):
+        line(-2.0, "a")
+
+
+def test_bodies_that_rest_are_not_judged():
+    assert [s.name for s in line(2.0).judged] == ["a"] and [s.name for s in line().judged] == ["a", "b"]
+    resting = line(2.0, **{"fatigue.surfaces": "b"})
+    assert not resting.has_fatigue and "surface b is at rest" in resting.without_fatigue
