@@ -8,7 +8,7 @@ from tehl_taichi.report.number_text import value_text
 from tehl_taichi.report.numbered_points import numbered
 from tehl_taichi.report.plots import colour, field_map, level, line, marks, stacked
 from tehl_taichi.report.scene_text import moments
-from tehl_taichi.scene.feature_wording import from_centre, passing, position
+from tehl_taichi.scene.feature_wording import passing, position
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.view.figures.field_maps import mirrored
 from tehl_taichi.view.figures.index_text import index_text, largest
@@ -65,7 +65,7 @@ def _map(search, which, where, Fi, found, more=""):
     trace = _trace(search, which, found, 0.12 * np.ptp(x)) if found else []
     marked = [*_limit(x, y, full), _marked(search, Fi, found), *trace, *numbered(search)]
     caption = f"Index Fi {where}, {search.when}{explained(bool(trace), crossed(full))}{more}."
-    return field_map(f"{search.on}index-{which}", caption, x, y, full, INDEX, "Fi", from_centre(search.scene), "y (µm)", marked,
+    return field_map(f"{search.on}index-{which}", caption, x, y, full, INDEX, "Fi", search.along, "y (µm)", marked,
                      height=440)
 
 
@@ -111,7 +111,7 @@ def _around(found):
 def _over_x(search, f, Fi):
     x = search.result.feature_frame_x * 1e6
     worst = marks([f["x_m"] * 1e6], [f["Fi_max"]], f"largest, plane {f['surface_angle_deg']:.0f}° to the surface", colour(1))
-    return stacked(f"{search.on}index", f"Index Fi of the surface, {search.when}.", from_centre(search.scene),
+    return stacked(f"{search.on}index", f"Index Fi of the surface, {search.when}.", search.along,
                    [("Fi", [line(x, Fi[:, 0], "at the surface", colour(0)), worst], {})], height=440)
 
 
@@ -127,7 +127,7 @@ def depth(search):
     worst = marks([deep["x_m"] * 1e6], [deep["depth_m"] * 1e6], f"critical point, Fi = {largest(deep)}", MARK)
     caption = (f"Index Fi in the section y = {deep['y_m'] * 1e6:.0f} µm under the {passing(search.scene)}{_briefly(search)}"
                f"{explained(False, crossed(section))}.")
-    figure = field_map(f"{search.on}section", caption, x, even, section, INDEX, "Fi", from_centre(search.scene),
+    figure = field_map(f"{search.on}section", caption, x, even, section, INDEX, "Fi", search.along,
                        "below the surface (µm)", [*_limit(x, even, section), worst], true=False, height=440)
     figure.layout["yaxis"]["autorange"] = "reversed"
     return [figure, _over_depth(search, f, deep, z, Fi)]

@@ -38,7 +38,8 @@ def _when(moments):
 def _styles(store):
     """{field: (title, colours, unit, factor, ends of the colours)}."""
     top = film_top(store) * 1e6
-    whose = {"surface a": f", which carries the {passing(store.scene)}"} if store.scene.transient else {}
+    whose = {f"surface {one.name}": f", which carries the {passing(store.scene)}" for one in store.scene.surfaces
+             if one.features and store.scene.transient}
     heat: dict[str, tuple] = {name: (f"Temperature, {text}{whose.get(text, '')}", TEMPERATURE, "°C", 1.0, {})
             for name, text, _ in SURFACES if name in store.stored}
     film = f"Film, thicker than {top:.2g} µm in the last colour", FILM, "µm", 1e6, {"zmin": 0.0, "zmax": top}

@@ -50,8 +50,8 @@ def _motion(scene):
     o = scene.operation
     if o.srr == 0:
         return f"The surfaces roll at {o.u_m:.4g} m/s without slip."
-    kind = "slower" if o.u_a < o.u_b else "faster"
-    carries = f"; the {passing(scene)} is on the {kind} surface, a" if scene.features else ""
+    kind = "slower" if scene.reference.speed < o.u_m else "faster"
+    carries = f"; the {passing(scene)} is on the {kind} surface, {scene.reference.name}" if scene.features else ""
     return (f"The surfaces move at {o.u_a:.4g} m/s (a) and {o.u_b:.4g} m/s (b): mean {o.u_m:.4g} m/s, slide-to-roll ratio "
             f"{o.srr:+.3g}{carries}.")
 
@@ -72,8 +72,8 @@ def _heat(scene):
 def _features(scene):
     if not scene.transient:
         return ["No feature passes: steady contact of smooth surfaces." if scene.features else "The surfaces are smooth."]
-    return [f"Surface a (body a) carries a feature of the shape {f.shape} ({f.kind.says}): {', '.join(_sizes(f))}."
-            for f in scene.features]
+    return [f"Surface {f.surface} (body {f.surface}) carries a feature of the shape {f.shape} ({f.kind.says}): "
+            f"{', '.join(_sizes(f))}." for f in scene.features]
 
 
 def _sizes(f):

@@ -9,7 +9,7 @@ from tehl_taichi.fatigue.search_result import SearchResult
 from tehl_taichi.report import numbered_points
 from tehl_taichi.report.scene_text import when
 from tehl_taichi.scene import Scene
-from tehl_taichi.scene.feature_wording import where
+from tehl_taichi.scene.feature_wording import from_centre, where
 from tehl_taichi.view.figures.index_text import PART, resolved
 
 
@@ -24,6 +24,11 @@ class Search:
     on: str = ""
     short: str = ""
 
+    @property
+    def along(self):
+        """Title of the axis along its surface."""
+        return from_centre(self.scene, self.result.numbers.get("carries_feature", True))
+
     @cached_property
     def places(self):
         """Its worst places, see :func:`tehl_taichi.report.numbered_points.places`: in two maps and a table."""
@@ -34,7 +39,8 @@ def searches(store, result=None):
     """One :class:`Search`, or two: where the grid does not resolve every pressure first that of the part before, on which the
     answer rests. result: of the search, by default that of the store."""
     scene, result = store.scene, result or SearchResult.from_arrays(by_surface(store.summary), store.map)
-    over = when(scene) + ", pressure alone" * bool(why_none(result.summary))
+    body = f", body {result.numbers['surface']}, the worse one" if result.other else ""
+    over = when(scene) + body + ", pressure alone" * bool(why_none(result.summary))
     if not (part := result.part):
         return [Search(scene, result, over)]
     return [Search(scene, part, resolved(part.summary, where(scene)), "resolved-", PART),

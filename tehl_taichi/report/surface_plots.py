@@ -9,7 +9,7 @@ from tehl_taichi.report.document import Section, drawn, facts
 from tehl_taichi.report.number_text import value_text
 from tehl_taichi.report.passage_plots import thinned
 from tehl_taichi.report.plots import colour, field_map, line, stacked
-from tehl_taichi.scene.feature_wording import from_centre
+from tehl_taichi.scene.feature_wording import carriers, from_centre
 from tehl_taichi.scene.surface.maps.height_map import LEVELS
 from tehl_taichi.scene.surface.maps.map_warnings import form_taken
 from tehl_taichi.view.figures.height_profile import heights
@@ -34,7 +34,7 @@ def picture(scene):
     i, j = (thinned(at.size, MOST) for at in (found.x, found.y))
     x, y, values = found.x[i] * 1e6, found.y[j] * 1e6, found.values[i][:, j] * 1e6
     along = from_centre(scene)
-    caption = "Heights of the features, all on surface a (body a)."
+    caption = f"Heights of the features, on {carriers(scene)}."
     if found.line:
         drawn_line = line(x, values[:, 0], "height", colour(0), in_legend=False)
         return stacked("surface", caption, along, [("height (µm)", [drawn_line], {})], height=330)

@@ -81,9 +81,14 @@ def _judged(searches):
     """(the worst of what is judged, where, whether the errors behind it are known, sentences)."""
     found = _judged_layers(searches)
     worst = max(said for *_, said in found)
-    places = " and ".join(where for where, _, _, said in found if said == worst)
+    places = _listed([where for where, _, _, said in found if said == worst])
     known = all(error is not None for _, _, error, said in found if said == worst)
     return worst, places, known, [_index_sentence(*layer) for layer in found]
+
+
+def _listed(words):
+    """'A, B and C'."""
+    return " and ".join(filter(None, (", ".join(words[:-1]), words[-1])))
 
 
 def _judged_layers(searches):

@@ -19,11 +19,17 @@ def between(low, high):
     return " ".join(f"{word} {x:g} a" for word, x in (("from", low), ("up to", high)) if math.isfinite(x))
 
 
-def from_centre(scene):
-    """Title of an axis that goes with it."""
-    return f"x from the {passing(scene)}'s centre (µm)"
+def from_centre(scene, carries=True):
+    """Title of an axis along a surface; carries: whether that has the feature, so that its centre stands still there."""
+    return f"x from the {passing(scene)}'s centre{'' if carries else ' at X = 0'} (µm)"
 
 
 def position(scene):
     """Title of an axis of moments."""
     return f"position of the {where(scene)} x / a"
+
+
+def carriers(scene):
+    """'surface a', 'surfaces a and b': what carries features."""
+    names = [surface.name for surface in scene.surfaces if surface.features]
+    return f"surface{'s' * (len(names) > 1)} {' and '.join(names)}"

@@ -1,4 +1,4 @@
-"""Heights that pass through the contact: all features of surface a together, about the centre of the first."""
+"""Heights that pass through the contact: all features together, about the centre of the first."""
 
 import math
 from dataclasses import dataclass

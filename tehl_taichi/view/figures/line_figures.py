@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tehl_taichi.scene.feature_wording import passing
+from tehl_taichi.scene.feature_wording import carriers, passing
 from tehl_taichi.view.figures import palette
 
 ALONG = "x / a (flow to the right)"
@@ -13,7 +13,8 @@ ACROSS = (-1.0, -0.5, 0.0, 0.5, 1.0)  # x / a at which profiles are drawn
 
 def carrier(scene):
     """Which of both surfaces has what passes, in words; nothing where nothing does."""
-    return f"surface a carries the {passing(scene)}" if scene.transient else ""
+    verb = "carry" if all(surface.features for surface in scene.surfaces) else "carries"
+    return f"{carriers(scene)} {verb} the {passing(scene)}" if scene.transient else ""
 
 
 def headed(page, figure, moments, what, shown, more=""):

@@ -31,8 +31,9 @@ class DrawnSearch:
     @classmethod
     def of(cls, scene, result, depth=None):
         """Of a search of a scene, with its resolved part."""
-        name = f"{scene.name}, pressure alone" if why_none(result.summary) else scene.name
-        a, along, whose = Scales.of(scene).a, from_centre(scene), passing(scene)
+        body = f", body {result.numbers['surface']}" if result.other else ""
+        name = scene.name + body + ", pressure alone" * bool(why_none(result.summary))
+        a, along, whose = Scales.of(scene).a, from_centre(scene, result.numbers.get("carries_feature", True)), passing(scene)
         known = result.part
         part = cls(name, known, a, along, depth, whose, when=resolved(known.summary, where(scene))
                    ) if known and known.Fi is not None else None
