@@ -67,7 +67,9 @@ def _show(result, as_json):
 
     from tehl_taichi.runs.summary.summary_rows import fatigue_rows
 
+    _, *rest = result.summaries.items()  # the worse one first
+    beside = dict(rest)
     if as_json:
-        print_json(result.summary)
+        print_json({**result.summary, "by_surface": result.summaries})
     else:
-        list_table("fatigue", ("quantity", "value"), fatigue_rows(result.summary))
+        list_table("fatigue", ("quantity", "value"), fatigue_rows(result.summary, beside))
