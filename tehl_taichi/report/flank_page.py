@@ -47,7 +47,7 @@ def _has_index(summary):
 def worst(flank):
     """[(Fi, where in words, its error or None)] of every position, the largest first."""
     found = [(Fi, f"{layer} at {_where(at)}", error) for at, _, summary in flank.rows if _has_index(summary)
-             for layer, Fi, error in verdict.layers(summary["fatigue"])]
+             for layer, Fi, error in verdict.all_layers(summary)]
     return sorted(found, key=lambda entry: -entry[0])
 
 
@@ -65,7 +65,7 @@ def _answer(flank):
     Fi, where, error = found[0]
     headline, tone = verdict.headline(verdict.judged(Fi, error), where, error is not None)
     above = [summary for *_, summary in flank.rows if _has_index(summary)
-             and max(value for _, value, _ in verdict.layers(summary["fatigue"])) > 1]
+             and max(value for _, value, _ in verdict.all_layers(summary)) > 1]
     return Answer(QUESTION, headline, tone, (
         f"The largest index is Fi = {index(Fi, error)}, {where}.",
         f"It is above 1 at {len(above)} of {len(flank.rows)} positions."), doubts)

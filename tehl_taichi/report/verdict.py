@@ -2,7 +2,7 @@
 
 from types import MappingProxyType
 
-from tehl_taichi.fatigue.judged_surfaces import others
+from tehl_taichi.fatigue.judged_surfaces import by_surface, others
 from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.report.document import Answer
 from tehl_taichi.report.number_text import index, value_text
@@ -44,6 +44,13 @@ def judged(Fi, error=None):
     if abs(Fi - 1) <= (error or 0.0):
         return WITHIN
     return ABOVE if Fi > 1 else BELOW
+
+
+def all_layers(summary):
+    """The same as :func:`layers` of each body that a run has searched."""
+    searches = by_surface(summary)
+    return [layer for name, found in searches.items()
+            for layer in layers(found, "the surface" if len(searches) == 1 else f"surface {name}")]
 
 
 def layers(fatigue, surface="the surface"):
