@@ -163,7 +163,7 @@ class FigureStyle:
 
 
 def _cycle():
-    from cycler import cycler
+    from matplotlib.rcsetup import cycler
 
     return cycler(color=palette.LINES)
 
