@@ -54,7 +54,7 @@ def test_one_row_alone_is_plane_strain():
 
 
 def result(heat=False, **changes):
-    scene = tehl.scene("gear").replace(**{"thermal.on": heat, **changes})
+    scene = tehl.scene("gear").replace(**{"thermal.on": heat, "fatigue.surfaces": "a", **changes})
     return scene, assessment.run(scene, Rolling(scene, *((12, 9) if heat else (8, 5))))
 
 

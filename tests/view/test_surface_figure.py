@@ -99,7 +99,7 @@ def test_the_report_shows_the_map_and_what_was_read(tmp_path):
     assert seen.headings.index("The surface") == seen.headings.index("Scene") + 1
     for text in ("file\nscan.npy\n", "20 × 30", "6 µm × 5 µm", "nm", "plane", f"{f.measures.rms * 1e6:.4g} µm",
                  f"{f.measures.slope:.2g}°", "114 µm × 145 µm, fading out over 20 µm at its rim",
-                 "all on surface a (body a)"):
+                 "features, on surface a"):
         assert text in seen.text, text
     assert "file scan.npy, " in seen.text  # in words: without its folders
     trace, = seen.figures["surface"]["data"]
