@@ -98,7 +98,7 @@ def passage_values(description):
     at = np.array([shot.feature_x for shot in shots[1:]]) / Scales.of(description).a
     middle = {key: float(np.interp(0.0, at, [shot.scalars[key] for shot in shots[1:]]))
               for key in ("h_min_m", "p_max_Pa", "film_max_C") if key in shots[0].scalars}
-    return {**middle, "Fi_max": assessment.run(description, shots).summary["Fi_max"]}
+    return {**middle, "Fi_max": assessment.run(description.replace(**{"fatigue.surfaces": "a"}), shots).summary["Fi_max"]}
 
 
 def _numbers(description):
