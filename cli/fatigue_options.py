@@ -19,6 +19,7 @@ def _options(
     criterion: Annotated[Optional[str], typer.Option(help="criterion: " + ", ".join(CRITERIA))] = None,
     depths: Annotated[Optional[str], typer.Option(help="depths to search: auto (critical depth under the feature), none, or a "
                                                        "list in m for all points, as 50e-6,100e-6")] = None,
+    surfaces: Annotated[Optional[str], typer.Option(help="bodies to search: both, a or b")] = None,
     from_x: Annotated[Optional[float], typer.Option(help="use only moments with the feature after this position, in "
                                                          "half-widths a")] = None,
     to_x: Annotated[Optional[float], typer.Option(help="use only moments with the feature before this position, in "

@@ -52,7 +52,9 @@ def run(scene, reader, progress=None, until=None):
     centres = np.array([reader.feature_x(n) for n in range(len(reader))])
     if len(reader) < 2 or not np.isfinite(centres).all():
         raise SceneError("fatigue needs the passage of a feature: a scene with a feature and at least one time step")
-    count = len(scene.judged)
+    if not (count := len(scene.judged)):
+        raise SceneError(f"surface {scene.fatigue.surfaces} is at rest: its points are always under load and have no cycle; "
+                         "allowed: the other one")
     return worse_of([_of_surface(scene, surface, reader, centres, _share(progress, n, count), until)
                      for n, surface in enumerate(scene.judged)])
 

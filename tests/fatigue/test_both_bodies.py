@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from fatigue.stress.test_material_points import CELLS, Formula, gear
 
+from tehl_taichi.errors import SceneError
 from tehl_taichi.fatigue import assessment
 from tehl_taichi.fatigue.judged_surfaces import by_surface, others
 from tehl_taichi.fatigue.stress import histories
@@ -73,6 +74,12 @@ def test_equal_bodies_with_equal_loads_have_equal_answers():
     one, other = found.summaries.values()
     drop = {"surface", "carries_feature"}
     assert {k: v for k, v in one.items() if k not in drop} == {k: v for k, v in other.items() if k not in drop}
+
+
+def test_a_body_at_rest_is_refused_by_its_name():
+    scene = gear(**{"srr": 2.0, "fatigue.surfaces": "b"})
+    with pytest.raises(SceneError, match="surface b is at rest"):
+        assessment.run(scene, Formula(scene))
 
 
 def test_the_worse_body_leads_and_the_other_is_kept():
