@@ -3,7 +3,6 @@ import os
 import signal
 import sys
 
-import kernel_files
 import pytest
 
 MOST = 4  # processes of the whole suite: each needs 1.5 GB
@@ -32,8 +31,8 @@ def pytest_cmdline_main(config):
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config, log):
-    """One of two processes compiles the kernels of the solvers, which take longest, the other one does the rest and finds
-    those kernels on disk when it needs them; of more processes each has its files."""
+    """One of two processes compiles the kernels of the solvers, which take longest, and the other one does the rest; of more
+    processes each has its files."""
     if config.option.dist == "loadfile" and config.option.numprocesses == 2:
         from xdist.scheduler import LoadFileScheduling
 
@@ -45,14 +44,9 @@ def pytest_xdist_make_scheduler(config, log):
 
 
 def pytest_collection_modifyitems(items):
-    """The longest part first, last what starts Taichi, which learns what is on disk when it starts."""
+    """The longest part first."""
     rooms = *KERNELS, WITHOUT
     items.sort(key=lambda item: [item.nodeid.startswith(room) for room in rooms], reverse=True)
-
-
-@pytest.hookimpl(trylast=True)
-def pytest_runtest_teardown():
-    kernel_files.write()
 
 
 @pytest.fixture(scope="session")
