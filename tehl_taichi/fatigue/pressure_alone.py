@@ -4,10 +4,15 @@ CONSTANTS = ("surface", "carries_feature", "kappa_F", "sigma_eF_Pa", "criterion"
 WITHOUT = {"fatigue.shear": False, "fatigue.thermal_stress": False}  # changes of a scene: no shear on the surface, nor its heat
 
 
+def constants_of(found):
+    """What any part of a search has in common with its summary `found`: whose body, by which criterion and limits."""
+    return {key: found[key] for key in CONSTANTS if key in found}
+
+
 def without_index(found, why):
     """The summary of such a run. found: summary of the search with the changes WITHOUT; why: there is no index, in words."""
     index = {"Fi_max": None, "findley_stress_max_Pa": None}
-    return {**index, "unknown": dict.fromkeys(index, why), **{key: found[key] for key in CONSTANTS if key in found},
+    return {**index, "unknown": dict.fromkeys(index, why), **constants_of(found),
             "thermal_stress": False, "pressure_alone": found}
 
 

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 from typing import Any
 
-from tehl_taichi.fatigue.pressure_alone import searched
+from tehl_taichi.fatigue.pressure_alone import constants_of, searched
 
 BOTH = ("feature_frame_x", "feature_frame_y")
 ROWS = "depths of rows"  # stands for fatigue_depth, or under_row_depth where depths are listed
@@ -32,7 +32,6 @@ PART, PART_TEXT = "resolved_", " while the grid resolves the pressure"  # of arr
 OWN = ("moment", "worst_depth")  # dimensions that the resolved part does not share with the whole passage
 SHARED = (*BOTH, "under_row_depth", "fatigue_depth", "findley_stress_contact_alone")  # arrays of the whole that it shares
 OTHER, EQUAL = "other_", ("component", "direction", "of_circle")  # of arrays of the other body; dimensions equal in both
-CONSTANTS = ("surface", "carries_feature", "criterion", "kappa_F", "sigma_eF_Pa")
 
 
 @dataclass(frozen=True)
@@ -135,8 +134,7 @@ class SearchResult:
         """The resolved part with the constants and places of the whole passage, or None."""
         if self.resolved is None:
             return None
-        constants = {key: self.numbers[key] for key in CONSTANTS if key in self.numbers}
-        return replace(self.resolved, summary={**constants, **self.numbers["resolved"]},
+        return replace(self.resolved, summary={**constants_of(self.numbers), **self.numbers["resolved"]},
                        **{name: getattr(self, name) for name in SHARED})
 
     def __repr__(self):

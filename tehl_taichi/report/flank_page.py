@@ -1,5 +1,6 @@
 """The page of a flank: where along it a crack would start, from what its folder keeps."""
 
+from tehl_taichi.fatigue.judged_surfaces import by_surface
 from tehl_taichi.fatigue.pressure_alone import why_none
 from tehl_taichi.report import verdict
 from tehl_taichi.report.document import Answer, Page, Section, drawn, facts, sentences, table
@@ -47,7 +48,7 @@ def _has_index(summary):
 def worst(flank):
     """[(Fi, where in words, its error or None)] of every position, the largest first."""
     found = [(Fi, f"{layer} at {_where(at)}", error) for at, _, summary in flank.rows if _has_index(summary)
-             for layer, Fi, error in verdict.all_layers(summary)]
+             for layer, Fi, error in verdict.all_layers(by_surface(summary))]
     return sorted(found, key=lambda entry: -entry[0])
 
 
@@ -65,7 +66,7 @@ def _answer(flank):
     Fi, where, error = found[0]
     headline, tone = verdict.headline(verdict.judged(Fi, error), where, error is not None)
     above = [summary for *_, summary in flank.rows if _has_index(summary)
-             and max(value for _, value, _ in verdict.all_layers(summary)) > 1]
+             and max(value for _, value, _ in verdict.all_layers(by_surface(summary))) > 1]
     return Answer(QUESTION, headline, tone, (
         f"The largest index is Fi = {index(Fi, error)}, {where}.",
         f"It is above 1 at {len(above)} of {len(flank.rows)} positions."), doubts)

@@ -2,7 +2,7 @@
 
 from types import MappingProxyType
 
-from tehl_taichi.fatigue.judged_surfaces import by_surface, others
+from tehl_taichi.fatigue.judged_surfaces import others
 from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.report.document import Answer
 from tehl_taichi.report.number_text import index, value_text
@@ -46,11 +46,10 @@ def judged(Fi, error=None):
     return ABOVE if Fi > 1 else BELOW
 
 
-def all_layers(summary):
-    """The same as :func:`layers` of each body that a run has searched."""
-    searches = by_surface(summary)
-    return [layer for name, found in searches.items()
-            for layer in layers(found, "the surface" if len(searches) == 1 else f"surface {name}")]
+def all_layers(searches):
+    """The same as :func:`layers` of each {surface: summary of its search}; surfaces are named where there are two."""
+    one = len(searches) == 1
+    return [layer for name, found in searches.items() for layer in layers(found, "the surface" if one else f"surface {name}")]
 
 
 def layers(fatigue, surface="the surface"):
@@ -64,7 +63,7 @@ def layers(fatigue, surface="the surface"):
 
 def of_fatigue(fatigue, scene=None, beside=MappingProxyType({})):
     """(question, headline, tone, sentences) of the summary of the search of the worse body, and of those of the other in
-    `beside` {surface: summary}; scene: whose, which tells the moments and what passes; None: nobody knows it, all moments of a
+    `beside` {surface: summary}; scene: whose, which tells the moments and what passes; None: unknown, all moments of a
     feature."""
     searches = {fatigue.get("surface"): fatigue, **beside}
     if why := why_none(fatigue):
@@ -99,10 +98,8 @@ def _listed(words):
 
 
 def _judged_layers(searches):
-    """[(where, Fi, its error or None, what is said of it)] of each {surface: summary}, see :func:`layers`."""
-    one = len(searches) == 1
-    return [(where, Fi, error, judged(Fi, error)) for name, found in searches.items()
-            for where, Fi, error in layers(found, "the surface" if one else f"surface {name}")]
+    """[(where, Fi, its error or None, what is said of it)] of each {surface: summary}, see :func:`all_layers`."""
+    return [(where, Fi, error, judged(Fi, error)) for where, Fi, error in all_layers(searches)]
 
 
 def _by_what_is_known(parts, whole, tells, over, whose):
