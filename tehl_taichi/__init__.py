@@ -23,6 +23,8 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 os.environ.setdefault("ENABLE_TAICHI_HEADER_PRINT", "0")
 # in a notebook every launch would look for what its kernel printed: ours print nothing
 os.environ.setdefault("TI_ENABLE_PYBUF", "0")
+# a thread would ask its makers for a newer version at every start of a day, from users' machines, and be cut off at a short end
+os.environ.setdefault("TI_SKIP_VERSION_CHECK", "ON")
 
 __version__ = "0.8.0"  # the only place; CITATION.cff repeats it, which a test compares
 __released__ = "2026-11-24"

@@ -64,3 +64,12 @@ def test_affinity_counts():
     code = ("import os; from tehl_taichi.engine import cores; os.sched_setaffinity(0, {cores.allowed()[-1]}); "
             "from tehl_taichi.engine import runtime; print(runtime.start()['threads'])")
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.strip() == "1"
+
+
+def test_no_request_leaves_the_machine(tmp_path):
+    """Taichi would ask for a newer version in a thread of its own, which was still at it when short programs ended."""
+    code = ("from tehl_taichi.engine import runtime; import taichi._version_check as check; "
+            "check.try_check_version = lambda: print('asked'); runtime.start()")
+    own = {**os.environ, "HOME": str(tmp_path)}
+    own.pop("TI_SKIP_VERSION_CHECK", None)
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, env=own).stdout == ""
