@@ -7,7 +7,6 @@ import pytest
 
 MOST = 4  # processes of the whole suite: each needs 1.5 GB
 KERNELS = ("tests/march/", "tests/heat/", "tests/pressure/")  # that mostly compile the same ones
-WITHOUT = ("tests/crack/", "tests/disk/", "tests/report/", "tests/view/")  # that compile none
 
 
 def pytest_configure():
@@ -45,8 +44,7 @@ def pytest_xdist_make_scheduler(config, log):
 
 def pytest_collection_modifyitems(items):
     """The longest part first."""
-    rooms = *KERNELS, WITHOUT
-    items.sort(key=lambda item: [item.nodeid.startswith(room) for room in rooms], reverse=True)
+    items.sort(key=lambda item: [item.nodeid.startswith(room) for room in KERNELS], reverse=True)
 
 
 @pytest.fixture(scope="session")
