@@ -18,9 +18,11 @@ def register(app):
 def crack(
     store: Path = typer.Argument(..., help="store of a run with a feature on y = 0, finished or not"),
     context: typer.Context = None,
+    surface: str = typer.Option("worse", help="body to follow cracks in: a, b or worse (that of the verdict on fatigue)"),
     side: str = typer.Option("both", help="side of the feature: entry, exit or both"),
     start: Optional[float] = typer.Option(None, help="x' of the crack mouth, m (default: place of the largest surface "
-                                                     "tension)"),
+                                                     "tension); on the body without the feature, from "
+                                                     "the place below it at X = 0"),
     angle: float = typer.Option(90.0, help="angle of the first segment, degrees; 90 is straight down, more leans with "
                                            "rolling"),
     first: float = typer.Option(5e-6, help="length of the first segment, m"),
@@ -47,7 +49,7 @@ def crack(
     threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
     as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout"),
 ):
-    """Compute crack paths from both sides of the feature, in the plane y = 0. The store does not change.
+    """Compute crack paths in one body from both sides of the feature, in the plane y = 0. The store does not change.
 
     Example: `tehl crack runs/gear-1.zarr --residual -100e6 --figures runs/crack`
     """
@@ -61,9 +63,10 @@ def crack(
     run = open_run(store)
     if keep:
         crack_file.check(store)
-    result = run.crack(side=side, start=start, angle=angle, first=first, step=step, length=length, distance=distance,
-                       threshold=threshold, residual=None if residual is None else read(residual), face_friction=face_friction,
-                       oil=_share(oil), elements=elements, thermal_stress=thermal_stress, threads=threads)
+    result = run.crack(surface=surface, side=side, start=start, angle=angle, first=first, step=step, length=length,
+                       distance=distance, threshold=threshold, residual=None if residual is None else read(residual),
+                       face_friction=face_friction, oil=_share(oil), elements=elements, thermal_stress=thermal_stress,
+                       threads=threads)
     _show(result.summary, as_json)
     if keep:
         say(str(crack_file.keep(result, run.store)))
@@ -88,7 +91,8 @@ def _show(summary, as_json):
         print_json(summary)
         return
     for side, found in summary["sides"].items():
-        list_table(f"crack on the {side} side", ("quantity", "value"), _rows(found, summary["pit_angles_deg"]))
+        title = f"crack in body {summary['surface']} on the {side} side"
+        list_table(title, ("quantity", "value"), _rows(found, summary["pit_angles_deg"]))
         for doubt in found.get("doubts", []):
             put(f"warning: {doubt}")
 

@@ -361,7 +361,7 @@ def stresses(pressure: Any, traction_x: Any = None, traction_y: Any = None, dx: 
 
 def crack(of: Any, scene: "Scene | None" = None, *, thermal_stress: bool | None = None, threads: int | None = None,
           **options: Any) -> "CrackResult":
-    """Follow cracks from both sides of the feature under the loads of its passage.
+    """Follow cracks of one body from both sides of the feature under the loads of its passage.
 
     Parameters
     ----------
@@ -374,8 +374,9 @@ def crack(of: Any, scene: "Scene | None" = None, *, thermal_stress: bool | None 
     threads : int, optional
         As for :func:`tehl_taichi.run`.
     **options
-        side ("entry", "exit", "both"), start (m), angle (degrees), first, step, length, distance (m), threshold
-        (Pa sqrt(m)), residual (Pa), face_friction, oil, elements; see :class:`tehl_taichi.crack.crack_options.CrackOptions`.
+        surface ("a", "b", "worse": the body of the verdict on fatigue), side ("entry", "exit", "both"), start (m), angle
+        (degrees), first, step, length, distance (m), threshold (Pa sqrt(m)), residual (Pa), face_friction, oil,
+        elements; see :class:`tehl_taichi.crack.crack_options.CrackOptions`.
 
     Returns
     -------
@@ -385,7 +386,7 @@ def crack(of: Any, scene: "Scene | None" = None, *, thermal_stress: bool | None 
     Raises
     ------
     SceneError
-        No feature passes, y = 0 is no plane of symmetry, or an option is out of range.
+        No feature passes, y = 0 is no plane of symmetry, the body is at rest, or an option is out of range.
 
     Notes
     -----

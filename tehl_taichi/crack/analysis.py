@@ -1,12 +1,13 @@
-"""The whole answer: on both sides of the feature the trajectory, the crack's path and what drives it."""
+"""The whole answer, in one body: on both sides of the feature the trajectory, the crack's path and what drives it."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
+from tehl_taichi.crack import body
 from tehl_taichi.crack.fillings import FILLINGS
 from tehl_taichi.crack.growth import WHY, CrackPath, grow, loaded
-from tehl_taichi.crack.symmetry_plane import SymmetryPlane, plane_of
+from tehl_taichi.crack.symmetry_plane import SymmetryPlane, passing, plane_of
 from tehl_taichi.crack.trajectory import CrackStart, start, trajectory
 from tehl_taichi.errors import SceneError
 from tehl_taichi.fatigue.assessment import PIT_ANGLES, Snapshots
@@ -36,11 +37,11 @@ class CrackResult:
     Attributes
     ----------
     summary : dict
-        Numbers in SI units.
+        Numbers in SI units; "surface": "a" or "b", whose cracks these are.
     sides : dict
         {"entry" or "exit": :class:`CrackSide`} of the sides where the surface is in tension.
     plane : SymmetryPlane
-        Stresses in the plane below the feature.
+        Stresses of that body in the plane below the feature.
     wanted : CrackOptions
         The options.
 
@@ -64,14 +65,17 @@ class CrackResult:
 def run(scene, reader, options):
     """:class:`CrackResult` of a passage of `scene`; reader: see :func:`plane_of`, or a list of snapshots. Raises SceneError."""
     reader = Snapshots(reader) if isinstance(reader, list) else reader
-    plane = plane_of(scene, reader, options.residual, check=lambda *extent: _check_places(*extent, options))
+    passing(scene, reader)
+    surface = body.chosen(scene, reader, options.surface)
+    plane = plane_of(scene, reader, options.residual, check=lambda *extent: _check_places(*extent, options), surface=surface)
     return follow(plane, scene, options)
 
 
 def follow(plane, scene, options):
     """:class:`CrackResult` in a given plane of stresses."""
     _check_places(plane.x, plane.depths[-1], options)
-    E_star, sides, summaries = scene.body_a.E / (1 - scene.body_a.nu**2), {}, {}
+    surface = plane.surface or scene.reference
+    E_star, sides, summaries = surface.body.E / (1 - surface.body.nu**2), {}, {}
     for name in options.sides:
         begun = start(plane, name, options.start)
         summaries[name] = {"opens": begun is not None}
@@ -80,7 +84,8 @@ def follow(plane, scene, options):
             summaries[name] |= _summary(plane, sides[name], options, E_star)
         else:
             summaries[name]["why"] = _why_not(plane, name)
-    return CrackResult({"sides": summaries, **_common(scene, options)}, sides, plane, options)
+    whose = {"surface": surface.name, "carries_feature": bool(surface.features)}
+    return CrackResult({**whose, "sides": summaries, **_common(scene, options)}, sides, plane, options)
 
 
 def _why_not(plane, side):

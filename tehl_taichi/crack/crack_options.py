@@ -6,24 +6,28 @@ from typing import Union
 from tehl_taichi.crack.fillings import FILLINGS
 from tehl_taichi.crack.residual_stress import ResidualStress
 from tehl_taichi.errors import SceneError
+from tehl_taichi.scene.moving_surfaces import NAMES
 from tehl_taichi.values.quantity import Choice, Number, check, choice, count, quantity
 
 SIDES = ("entry", "exit")
+WORSE = "worse"  # body: that with the largest fatigue index
 FLATTEST = 15.0  # degrees to the surface: flatter cracks have not been compared with anything
 LONGEST, PIECE = 0.03, 1e-3  # m, a crack and a piece of it: a contact is a millimetre wide, 0.05 was meant in mm
 
 
 @dataclass(frozen=True)
 class CrackOptions:
-    """side: entry, exit or both (of the feature: ahead of its centre is the exit). start: x' of the mouth, m (None: where the
-    surface is pulled most on that side); angle: of the first piece, degrees from +x' into the body (90: straight down, more:
-    leaning with rolling); first: its length, step: of the others, length: of the whole, m. distance: ahead of the tip, m, at
-    which the largest tension around it is looked for. threshold: of K_I, Pa sqrt(m), below which it stops (None: it has
-    none). residual: stress along x, Pa or rows (depth, Pa); None: fatigue.residual_xx of the scene. face_friction: of closed
-    faces. oil: a name of :data:`tehl_taichi.crack.fillings.FILLINGS`, or the share of the film's pressure at the mouth that
-    acts on both faces (an upper bound). elements: of a straight crack. Raises SceneError for values out of range.
+    """surface: a, b or worse (that of the verdict on fatigue). side: entry, exit or both (of the feature: ahead of its centre
+    is the exit). start: x' of the mouth, m (None: where the surface is pulled most on that side); angle: of the first piece,
+    degrees from +x' into the body (90: straight down, more: leaning with rolling); first: its length, step: of the others,
+    length: of the whole, m. distance: ahead of the tip, m, at which the largest tension around it is looked for. threshold: of
+    K_I, Pa sqrt(m), below which it stops (None: it has none). residual: stress along x, Pa or rows (depth, Pa); None:
+    fatigue.residual_xx of the scene. face_friction: of closed faces. oil: a name of
+    :data:`tehl_taichi.crack.fillings.FILLINGS`, or the share of the film's pressure at the mouth that acts on both faces (an
+    upper bound). elements: of a straight crack. Raises SceneError for values out of range.
     """
 
+    surface: str = choice(WORSE, "body that has the crack", (WORSE, *NAMES))
     side: str = choice("both", "of the feature", (*SIDES, "both"))
     start: Union[float, None] = quantity(None, "m", "x' of the mouth", -LONGEST, LONGEST, usual=5e-5)
     angle: float = quantity(90.0, "degrees", "of the first piece", FLATTEST, 180 - FLATTEST)

@@ -1,4 +1,4 @@
-"""Stresses in the plane of symmetry below the feature, over the whole passage: a table over x', depth and moments."""
+"""Stresses of a body in the plane of symmetry of its contact, over the whole passage: a table over x', depth and moments."""
 
 import copy
 
@@ -21,9 +21,11 @@ KEPT = (0, 2, 4)  # xx, zz, xz
 class SymmetryPlane:
     """x: (x',) m, even; depths: skin (GROWTH^n - 1) m; centres: the feature's (m) at every moment, the last one (unloaded) nan;
     stress: (x', depths, moments, 3) Pa: xx, zz, xz, residual stress counted; a: m; reach: the feature's half width, m; times:
-    of the moments, s; fluid: :class:`tehl_taichi.crack.filling.Fluid` (both for oil that flows)."""
+    of the moments, s; fluid: :class:`tehl_taichi.crack.filling.Fluid` (both for oil that flows); surface: the
+    :class:`tehl_taichi.scene.moving_surfaces.MovingSurface` whose points these are."""
 
-    def __init__(self, x, skin, stress, centres, a, reach, residual=None, times=None, fluid=None):
+    def __init__(self, x, skin, stress, centres, a, reach, residual=None, times=None, fluid=None, surface=None):
+        self.surface = surface
         self.x, self.skin, self.stress, self.centres, self.a, self.reach = x, skin, stress, centres, a, reach
         self.depths = skin * (GROWTH ** np.arange(stress.shape[1]) - 1)
         self.residual, self.scale, self.times, self.fluid = residual, float(np.abs(stress).max()), times, fluid
@@ -35,6 +37,12 @@ class SymmetryPlane:
         other = copy.copy(self)
         other.residual = ResidualStress(residual)
         return other
+
+    @property
+    def distance(self):
+        """(x', moments) from the feature's centre (m): x' itself on the surface that carries the feature."""
+        slide = self.surface.pace - 1 if self.surface else 0.0
+        return self.x[:, None] + slide * self.centres
 
     def holds(self, points):
         """(points,) whether the table has x + i depth (m)."""
@@ -72,17 +80,17 @@ def principal(stress):
     return (xx + zz) / 2 + np.hypot((xx - zz) / 2, xz), 0.5 * np.arctan2(2 * xz, xx - zz)
 
 
-def plane_of(scene, reader, residual=None, check=None):
-    """The :class:`SymmetryPlane` of a stored passage; reader: see
+def plane_of(scene, reader, residual=None, check=None, surface=None):
+    """The :class:`SymmetryPlane` of a surface of a stored passage (None: that of the first feature); reader: see
     :class:`tehl_taichi.fatigue.stress.histories.StressHistories`.
 
     residual: Pa or (depth, Pa) rows, instead of the scene's fatigue.residual_xx. check(x', deepest): called with its extent
     (m) before any stress is computed. Raises SceneError where nothing passes, y = 0
     is no plane of symmetry, or a stress is no number.
     """
-    feature, centres = _checked(scene, reader)
+    feature, centres = passing(scene, reader)
     scene = scene if residual is None else scene.replace(**{"fatigue.residual_xx": 0.0})
-    passage = StressHistories(scene, reader, centres, WINDOW)
+    passage = StressHistories(scene, reader, centres, WINDOW, surface)
     skin = SKIN * min(feature.reach, passage.a)
     count = int(np.ceil(np.log1p(DEEPEST * passage.a / skin) / np.log(GROWTH))) + 1
     depths = skin * (GROWTH ** np.arange(count) - 1)
@@ -91,13 +99,14 @@ def plane_of(scene, reader, residual=None, check=None):
     stress = histories_of(passage, depths, [(0, False)])[0][..., KEPT].swapaxes(0, 1)
     if not np.isfinite(stress).all():
         raise SceneError("some stored tractions are not numbers, so the stresses are not known")
-    times, centres = passage.centres / passage.surface.speed, np.append(passage.centres, np.nan)
+    times, centres = passage.centres / passage.surface.speed, np.append(passage.positions, np.nan)
     times = np.append(times, 2 * times[-1] - times[0])  # unloaded as long after
     return SymmetryPlane(passage.x, skin, np.ascontiguousarray(stress), centres, passage.a, feature.reach, None, times,
-                 Fluid.of(scene)).having(residual)
+                         Fluid.of(scene), passage.surface).having(residual)
 
 
-def _checked(scene, reader):
+def passing(scene, reader):
+    """(the first feature, where its centre is at every entry, m). Raises SceneError, see :func:`plane_of`."""
     centres = np.array([reader.feature_x(n) for n in range(len(reader))])
     if len(reader) < 2 or not np.isfinite(centres).all():
         raise SceneError("a crack needs the passage of a feature: a scene with a feature and at least one time step")

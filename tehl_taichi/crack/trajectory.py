@@ -24,14 +24,17 @@ class CrackStart:
 
 
 def start(plane, side, x=None):
-    """The :class:`CrackStart` on the "entry" side (x' < 0, while the feature is before the middle of the contact) or on the
-    "exit" side, or at x (m) in that part of the passage; None where the surface is nowhere pulled then."""
+    """The :class:`CrackStart` on the "entry" side (behind the feature's centre, while that is before the middle of the contact)
+    or on the "exit" side, or at x (m) in that part of the passage; None where the surface is nowhere pulled then."""
     sign = -1 if side == "entry" else 1
-    places = plane.x[(sign * plane.x > 0) & (np.abs(plane.x) < NEAR * plane.reach)] if x is None else np.array([x])
     moments = np.flatnonzero(sign * plane.centres > 0)  # not the unloaded one
-    if not (places.size and moments.size):
+    from_feature = sign * plane.distance[:, moments]
+    near = (from_feature > 0) & (from_feature < NEAR * plane.reach) if x is None else np.ones((1, moments.size), bool)
+    rows = near.any(axis=1)
+    if not rows.any():
         return None
-    tension = principal(plane.at(places + 0j, moments))[0]
+    places = plane.x[rows] if x is None else np.array([x])
+    tension = np.where(near[rows], principal(plane.at(places + 0j, moments))[0], -np.inf)
     at, moment = np.unravel_index(int(np.argmax(tension)), tension.shape)
     largest = float(tension[at, moment])
     return CrackStart(float(places[at]), largest, int(moments[moment])) if largest > NOTHING * plane.scale else None

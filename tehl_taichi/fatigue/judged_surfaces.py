@@ -1,4 +1,6 @@
-"""What a summary has of each body that was searched, the worse one first."""
+"""What a summary has of each body that was searched, the worse one first; the body that is not searched."""
+
+from tehl_taichi.errors import SceneError
 
 
 def by_surface(summary):
@@ -6,6 +8,11 @@ def by_surface(summary):
     if "fatigue" not in summary:
         return {}
     return summary.get("fatigue_by_surface", {summary["fatigue"].get("surface", "a"): summary["fatigue"]})
+
+
+def resting(name):
+    """The SceneError of a surface at rest."""
+    return SceneError(f"surface {name} is at rest: its points are always under load and have no cycle; allowed: the other one")
 
 
 def others(summary):

@@ -6,11 +6,10 @@ from tehl_taichi.report.document import PageBlock, Section, drawn, facts, senten
 from tehl_taichi.report.number_text import value_text
 from tehl_taichi.report.plots import colour, field_map, line, stacked
 from tehl_taichi.store.crack_file import kept
-from tehl_taichi.view.figures.crack_figures import BAND, SHOWN
+from tehl_taichi.view.figures.crack_figures import BAND, SHOWN, along
 from tehl_taichi.view.figures.palette import GREY, TENSION
 
 POSITION = "position of the feature x / a"
-OF = "x' from the feature's centre (µm), rolling to the left"
 
 
 def section(store):
@@ -51,8 +50,9 @@ def _options(summary):
     """What acts on the cracks."""
     oil = summary["oil_is"] + (f", {summary['oil_share']:g} of it" if summary["oil_share"] not in (None, 1) else "")
     threshold = "none" if summary["threshold"] is None else f"{summary['threshold'] / 1e6:g} MPa√m"
-    return [("inside", oil), ("friction of closed faces", f"{summary['face_friction']:g}"), ("threshold of K_I", threshold),
-            ("thermal stress", "counts" if summary["thermal_stress"] else "does not count")]
+    body = f"{summary.get('surface', 'a')} ({'with' if summary.get('carries_feature', True) else 'without'} the feature)"
+    return [("body", body), ("inside", oil), ("friction of closed faces", f"{summary['face_friction']:g}"),
+            ("threshold of K_I", threshold), ("thermal stress", "counts" if summary["thermal_stress"] else "does not count")]
 
 
 def _map(summary, shown):
@@ -60,8 +60,9 @@ def _map(summary, shown):
     x, depth, tension = (np.array(shown[key]) for key in ("x", "depth", "tension"))
     marked = [one for n, (name, side) in enumerate(shown["sides"].items())
               for one in (*_band(name, side, summary["pit_angles_deg"], n == 0), *_lines(name, side, n))]
-    figure = field_map("cracks", "Section below the feature: largest tension of the passage, σ₁ trajectories (dashed), crack "
-                       "paths; grey: the pits of the thesis.", x * 1e6, depth * 1e6, tension / 1e6, TENSION, "MPa", OF,
+    caption = (f"Section of body {summary.get('surface', 'a')}: largest tension of the passage, σ₁ trajectories (dashed), "
+               "crack paths; grey: the pits of the thesis.")
+    figure = field_map("cracks", caption, x * 1e6, depth * 1e6, tension / 1e6, TENSION, "MPa", along(summary),
                        "below the surface (µm)", marked, height=440, zmin=0.0, zmax=SHOWN / 1e6)
     figure.layout["yaxis"]["range"], figure.layout["xaxis"]["range"] = [1e6 * depth[-1], 0.0], [1e6 * x[0], 1e6 * x[-1]]
     return figure

@@ -101,9 +101,9 @@ def test_every_option_of_animate_and_export_arrives(monkeypatch, small, tmp_path
 
 
 def test_every_option_of_crack_arrives(monkeypatch, small):
-    words, wanted = typed({"--side": "exit", "--start": 1.5e-5, "--angle": 41.0, "--first": 4e-6, "--step": 3e-6,
-                           "--length": 33e-6, "--distance": 7e-6, "--threshold": 2.1e6, "--face-friction": 0.12, "--oil": 0.4,
-                           "--elements": 17, "--threads": 2})
+    words, wanted = typed({"--surface": "b", "--side": "exit", "--start": 1.5e-5, "--angle": 41.0, "--first": 4e-6,
+                           "--step": 3e-6, "--length": 33e-6, "--distance": 7e-6, "--threshold": 2.1e6, "--face-friction": 0.12,
+                           "--oil": 0.4, "--elements": 17, "--threads": 2})
     named = caught(monkeypatch, "tehl_taichi.runs.stored_run.Run.crack", ["crack", small, *words, "--residual", "-1.3e8"])[1]
     assert {key: named[key] for key in wanted} == wanted and named["residual"] == -1.3e8
 

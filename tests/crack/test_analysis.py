@@ -12,13 +12,14 @@ from rolling import Rolling
 from small_stores import SMALL, shot
 
 import tehl_taichi as tehl
-from tehl_taichi.crack import growth
+from tehl_taichi.crack import body, growth
 from tehl_taichi.crack.analysis import follow, run
 from tehl_taichi.crack.crack_options import CrackOptions
 from tehl_taichi.crack.residual_stress import ResidualStress, read
 from tehl_taichi.crack.symmetry_plane import GROWTH, SymmetryPlane, plane_of, principal
 from tehl_taichi.crack.trajectory import start, trajectory
 from tehl_taichi.errors import StoreError
+from tehl_taichi.fatigue import assessment
 from tehl_taichi.laws.viscosity import ln_eta
 from tehl_taichi.scene import SceneError
 
@@ -168,6 +169,11 @@ def test_a_start_outside_is_refused():
         follow(plane(1e8), SCENE, CrackOptions(start=299e-6, angle=15.0, first=50e-6))
 
 
+def of_a(**wanted):
+    """Of cracks below the bump, which the reader has on surface a."""
+    return CrackOptions(surface="a", **wanted)
+
+
 class Still(Rolling):
     def feature_x(self, n):
         return np.nan
@@ -197,7 +203,7 @@ def test_what_has_no_plane_of_symmetry_is_refused(taichi_cpu, reader, changes, s
 def rolled(taichi_cpu):
     """Of a Hertz line over which a bump of pressure passes."""
     scene = SCENE.replace(**{"thermal.on": False})
-    return run(scene, Rolling(scene), CrackOptions(length=30 * MICRO))
+    return run(scene, Rolling(scene), of_a(length=30 * MICRO))
 
 
 def test_the_answer(rolled):
@@ -214,6 +220,53 @@ def test_the_answer(rolled):
     across = np.interp(20 * MICRO, line.imag, line.real) - line[0].real
     assert chords["20"] == pytest.approx(np.degrees(np.arctan2(20 * MICRO, -across)), abs=1e-6)
     assert not found["exit"]["opens"] and "never in tension" in found["exit"]["why"] and "exit" not in rolled.sides
+
+
+class Turned(Rolling):
+    """The same passage with the bodies in exchange."""
+
+    def fields(self, n, names):
+        other = {name: f"{name[:-1]}{'ba'['ab'.index(name[-1])]}" if name[-2] == "_" else name for name in names}
+        found = super().fields(n, other.values())
+        return {name: found[own] for name, own in other.items()}
+
+
+@pytest.mark.parametrize("surface,mirror", ["ab", "ba"])
+def test_a_crack_in_b_is_one_in_a_with_the_slip_turned(taichi_cpu, surface, mirror):
+    """Of the body that carries the feature, and of the other one, whose elastic constants are others."""
+    scene, wanted = SCENE.replace(**{"thermal.on": False, "bodies.b.E": 150e9}), {"length": 15 * MICRO}
+    turned = SCENE.replace(**{"thermal.on": False, "bodies.a.E": 150e9, "srr": 0.12, "feature.surface": "b"})
+    one = run(scene, Rolling(scene), CrackOptions(surface=surface, **wanted))
+    other = run(turned, Turned(turned), CrackOptions(surface=mirror, **wanted))
+    assert one.summary.pop("surface") == surface and other.summary.pop("surface") == mirror
+    assert one.summary["carries_feature"] == (surface == "a") and one.summary.pop("srr") == -other.summary.pop("srr")
+    assert one.sides and repr(one.summary) == repr(other.summary)
+
+
+def test_the_body_is_that_of_the_verdict(taichi_cpu):
+    scene = SCENE.replace(**{"thermal.on": False})
+    reader, worse = Rolling(scene, 6, 5), {"surface": "b", "Fi_max": 0.9, "below": {"Fi_max": 1.2}}
+    assert body.chosen(scene, reader, "worse").name == assessment.run(scene, reader).summary["surface"]
+    reader.summary = {"fatigue": worse, "fatigue_by_surface": {"a": {"Fi_max": 1.1}, "b": worse}}
+    assert body.chosen(scene, reader, "worse").name == "b" and body.chosen(scene, reader, "a").name == "a"
+    reader.summary = {"fatigue": {"Fi_max": 1.1}}  # of a version that searched body a alone
+    assert body.chosen(scene, reader, "worse").name == "a"
+    rest = scene.replace(srr=2.0)
+    assert body.chosen(rest, Rolling(rest), "worse").name == "a"
+    with pytest.raises(SceneError, match="surface b is at rest"):
+        body.chosen(rest, reader, "b")
+
+
+def test_sides_of_the_other_body_are_those_of_the_feature_as_it_slides(taichi_cpu):
+    """At SRR -0.5 surface b moves 5/3 as far: the feature is at x' = -2/3 X on it."""
+    scene = SCENE.replace(**{"thermal.on": False, "srr": -0.5})
+    plane = plane_of(scene, Rolling(scene), surface=scene.surfaces[1])
+    for side, sign in (("entry", -1), ("exit", 1)):
+        if begun := start(plane, side):
+            X = plane.centres[begun.moment]
+            ahead = begun.x + 5 / 3 * X - X
+            assert sign * X > 0 and 0 < sign * ahead < 1.5 * plane.reach
+    assert start(plane, "entry") or start(plane, "exit")
 
 
 def test_oil_flows_with_the_oil_and_the_speed_of_the_scene(rolled):
@@ -241,18 +294,18 @@ def test_shallow_closed_cracks_settle_and_hardly_depend_on_the_elements(rolled):
 
 def test_pressed_together_it_stays_closed(taichi_cpu):
     scene = SCENE.replace(**{"thermal.on": False})
-    result = run(scene, Rolling(scene), CrackOptions(residual=-2e9, start=-60 * MICRO))
+    result = run(scene, Rolling(scene), of_a(residual=-2e9, start=-60 * MICRO))
     assert result.summary["sides"]["entry"]["opens"] is False
-    result = run(scene, Rolling(scene), CrackOptions(residual=[(0.0, 0.0), (1 * MICRO, -2e9)], length=30 * MICRO, side="entry"))
+    result = run(scene, Rolling(scene), of_a(residual=[(0.0, 0.0), (1 * MICRO, -2e9)], length=30 * MICRO, side="entry"))
     entry = result.summary["sides"]["entry"]
     assert entry["K_I_max"] == 0.0 and entry["stopped"] == "closed" and len(entry["K"]) == 1
 
 
 def test_residual_stress_of_the_scene_counts(taichi_cpu, rolled):
     scene = SCENE.replace(**{"thermal.on": False, "fatigue.residual_xx": 1e8})
-    given = run(scene, Rolling(scene), CrackOptions(length=5 * MICRO, side="entry")).summary["sides"]["entry"]
+    given = run(scene, Rolling(scene), of_a(length=5 * MICRO, side="entry")).summary["sides"]["entry"]
     bare = SCENE.replace(**{"thermal.on": False})
-    asked = run(bare, Rolling(bare), CrackOptions(length=5 * MICRO, residual=1e8, side="entry")).summary["sides"]["entry"]
+    asked = run(bare, Rolling(bare), of_a(length=5 * MICRO, residual=1e8, side="entry")).summary["sides"]["entry"]
     assert given["K_I_max"] == pytest.approx(asked["K_I_max"], rel=1e-6)
     assert given["K_I_max"] > 1.2 * rolled.summary["sides"]["entry"]["K"][0]["K_I_max"]
 
@@ -269,6 +322,7 @@ def test_figure(rolled, tmp_path):
     assert any(len(line) == path.size and np.allclose(line, np.stack([path.real, path.imag], axis=1)) for line in drawn)
     top = max(line.get_ydata().max() for line in entry.lines)
     assert top == pytest.approx(max(rolled.sides["entry"].path.first.K.max(), rolled.sides["entry"].path.last.K.max()) / 1e6)
+    assert ", body a" in figure.get_suptitle() and section.get_xlabel().startswith("x' from the feature's centre")
     assert figure.get_suptitle().endswith("no crack on the exit side") and "entry" in entry.get_ylabel()
 
 
@@ -295,9 +349,9 @@ def test_the_command(taichi_cpu, tmp_path, capsys):
 
     rolling_store(tmp_path / "r.zarr")
     (tmp_path / "depths.csv").write_text("0, 0\n50e-6, -1e8\n")
-    options = dict(side="entry", start=None, angle=90.0, first=5e-6, step=5e-6, length=15e-6, distance=3e-6, threshold=None,
-                   residual=str(tmp_path / "depths.csv"), face_friction=0.1, oil="0", thermal_stress=None, elements=12,
-                   threads=None)
+    options = dict(surface="a", side="entry", start=None, angle=90.0, first=5e-6, step=5e-6, length=15e-6, distance=3e-6,
+                   threshold=None, residual=str(tmp_path / "depths.csv"), face_friction=0.1, oil="0", thermal_stress=None,
+                   elements=12, threads=None)
     crack(tmp_path / "r.zarr", **options, figures=tmp_path / "figures", as_json=True, keep=False)
     assert not (tmp_path / "r.crack.json").exists()
     summary = json.loads(capsys.readouterr().out)
@@ -305,7 +359,7 @@ def test_the_command(taichi_cpu, tmp_path, capsys):
     assert (tmp_path / "figures" / "crack.png").stat().st_size > 10000
     crack(tmp_path / "r.zarr", **options, figures=None, as_json=False, keep=True)
     shown = capsys.readouterr().out
-    assert "with rolling" in shown and "MPa sqrt(m)" in shown
+    assert "crack in body a" in shown and "with rolling" in shown and "MPa sqrt(m)" in shown
     _in_the_report(tmp_path / "r.zarr", summary)
 
 
@@ -314,7 +368,8 @@ def _in_the_report(store, summary):
     go = pytest.importorskip("plotly.graph_objects")
     page = Seen(tehl.report(store).read_text(encoding="utf-8"))
     entry, K = summary["sides"]["entry"], page.figures["K-entry"]["data"]
-    assert "Cracks" in page.headings and "friction of closed faces\n0.1\n" in page.text and "None" not in page.text
+    assert "Cracks" in page.headings and "body\na (with the feature)\n" in page.text
+    assert "friction of closed faces\n0.1\n" in page.text and "None" not in page.text
     assert f"tension reaches {entry['sigma1_surface_Pa'] / 1e6:.4g} MPa" in page.text and entry["why"] in page.text
     assert max(numbers(K[0])) == pytest.approx(entry["K"][0]["K_I_max"] / 1e6, rel=1e-3) and len(K) == 4
     for name in ("cracks", "K-entry"):

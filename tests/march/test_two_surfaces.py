@@ -37,6 +37,10 @@ def test_a_feature_on_b_is_one_on_a_with_the_slip_turned_bit_for_bit():
         assert found[name] == turned[mirror]
     assert found["a"]["carries_feature"] and not found["b"]["carries_feature"]
     assert abs(found["a"]["Fi_max"] / found["b"]["Fi_max"] - 1) > 0.01  # it is not the same body twice
+    first, mirrored = (tehl.crack(shots, scene, length=10e-6).summary for shots, scene in ((one, line()),
+                                                                                         (other, line(0.12, "b"))))
+    assert {first.pop("surface"), mirrored.pop("surface")} == {"a", "b"} and first.pop("srr") == -mirrored.pop("srr")
+    assert first["sides"]["entry"]["opens"] and repr(first) == repr(mirrored)
 
 
 def test_the_mirror_holds_with_temperatures_to_what_is_solved():

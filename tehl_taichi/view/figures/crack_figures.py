@@ -32,10 +32,17 @@ def crack_figure(page, result, title):
     axes = figure.subplot_mosaic([["section"] * max(map(len, below), default=1), *below], height_ratios=heights)
     _section(page, figure, axes["section"], result)
     without = "".join(f", no crack on the {name} side" for name in result.options.sides if name not in cracked)
-    page.title(figure, f"{title}, SRR {result.summary['srr']:+g}{_conditions(result.summary)}{without}")
+    page.title(figure, f"{title}, SRR {result.summary['srr']:+g}, body {result.summary['surface']}"
+                       f"{_conditions(result.summary)}{without}")
     for name in cracked:
         _history(axes[name], result, name)
     return figure
+
+
+def along(summary):
+    """What x' is, as an axis says it."""
+    origin = "the feature's centre" if summary.get("carries_feature", True) else "the place below the feature at X = 0"
+    return f"x' from {origin} (µm), rolling to the left"
 
 
 def _conditions(summary):
@@ -54,11 +61,12 @@ def _section(page, figure, ax, result):
     image = shade(ax, plane.x * 1e6, even * 1e6, np.array([np.interp(even, plane.depths, row) for row in tension]) / 1e6,
                   cmap=palette.TENSION, vmin=0, vmax=SHOWN / 1e6)
     bar(figure, image, ax, "largest tension (MPa)")
-    ax.plot(np.array([-1, 1]) * plane.reach * 1e6, [-2, -2], color=palette.BLACK, lw=0.3 * page.text, clip_on=False)
+    if result.summary["carries_feature"]:
+        ax.plot(np.array([-1, 1]) * plane.reach * 1e6, [-2, -2], color=palette.BLACK, lw=0.3 * page.text, clip_on=False)
     for name, side in result.sides.items():
         _lines(ax, name, side, result.summary["pit_angles_deg"])
     width = 1.3 * max([plane.reach, *(float(np.abs(side.path.points.real).max()) for side in result.sides.values())])
-    ax.set(xlabel="x' from the feature's centre (µm), rolling to the left", ylabel="below the surface (µm)",
+    ax.set(xlabel=along(result.summary), ylabel="below the surface (µm)",
            xlim=(-width * 1e6, width * 1e6), ylim=(even[-1] * 1e6, -3.5))
     if result.sides:
         ax.legend(**BELOW)

@@ -1,0 +1,22 @@
+"""Which of the two bodies has the crack."""
+
+from tehl_taichi.crack.crack_options import WORSE
+from tehl_taichi.fatigue import assessment
+from tehl_taichi.fatigue.judged_surfaces import by_surface, resting
+
+
+def chosen(scene, reader, name):
+    """The :class:`tehl_taichi.scene.moving_surfaces.MovingSurface` of that name, or of the worse body. Raises SceneError."""
+    name = _worse(scene, reader) if name == WORSE else name
+    if name in (s.name for s, rests in zip(scene.surfaces, scene.at_rest) if rests):
+        raise resting(name)
+    return next(s for s in scene.surfaces if s.name == name)
+
+
+def _worse(scene, reader):
+    """That of the verdict of a finished run; without one, the surface with the largest index at the surface."""
+    if found := by_surface(getattr(reader, "summary", {})):
+        return max(found, key=lambda one: assessment.largest(found[one]))
+    if len(scene.judged) < 2:
+        return next((s.name for s in scene.judged), scene.reference.name)
+    return assessment.run(scene.replace(**{"fatigue.depths": []}), reader).summary["surface"]
