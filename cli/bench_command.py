@@ -138,12 +138,14 @@ def _confirm(results, chosen, as_json, workers, threads, again):
 def conclusions(
     out: Path = _folder("runs/conclusions", "folder of the stores and results (existing stores are reused)"),
     quick: bool = typer.Option(False, "--quick", help="run the reference asperity and dent on coarse grids"),
+    columns: int = typer.Option(0, help="columns of the finest grid (128, 256, 512 for all cases; default: 512, the asperities "
+                                        "and dents of 1.5 um 2048)", min=0),
     as_json: bool = JSON,
     force: bool = FORCE,
     threads: Optional[int] = THREADS,
     workers: int = WORKERS,
 ):
-    """Check the conclusions of the thesis: Findley stress by slip, feature, pressure and part of the passage, with errors.
+    """Check the conclusions of the thesis: Findley stress of both bodies by slip, feature, pressure and part of the passage.
 
     Example: `tehl bench conclusions --quick`
     """
@@ -153,11 +155,12 @@ def conclusions(
     from tehl_taichi.scene import scene
 
     results = Results(out, "conclusions", force, more=("md",))
-    rows = suite.run(out, quick, say, workers, threads)
+    rows = suite.run(out, quick, say, workers, threads, columns)
     base = scene("gear")
     judged = suite.verdicts(rows, base.fatigue.endurance)
     if not as_json:
-        list_table("Findley stress, MPa", ("case", *suite.WINDOWS), [(r.name, *suite.cells(r)) for r in rows])
+        list_table("Findley stress, MPa", ("case", "body", *suite.WINDOWS),
+                   [(r.name, r.body, *suite.cells(r)) for r in rows])
         list_table("the thesis' conclusions", ("statement", "verdict", "figures"), judged)
     results.page(suite.page(rows, judged, base))
     results.finish([suite.plain_row(r) for r in rows], lambda plt: suite.chart(plt, rows), as_json,

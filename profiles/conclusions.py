@@ -1,4 +1,4 @@
-"""The conclusions of the thesis (Everitt 2018) as a table of Findley stresses with errors, and a verdict on each.
+"""The conclusions of the thesis (Everitt 2018): Findley stresses of both bodies with errors, and a verdict on each.
 
 Every case runs on three grids, each twice as fine (time steps shrink with the cells); errors as a run with companions has them.
 """
@@ -10,7 +10,7 @@ import numpy as np
 from tehl_taichi.profiles import measure, passage_stresses
 from tehl_taichi.profiles.passage_stresses import ALONE, DEEP, DEPTHS, LOADS, WINDOWS
 
-from tehl_taichi.errors import NotConverged
+from tehl_taichi.errors import NotConverged, SceneError
 from tehl_taichi.march.accuracy.error_bars import estimated_error
 from tehl_taichi.runs.sweep import pool
 from tehl_taichi.scene import scene
@@ -29,9 +29,9 @@ BARE = {"fatigue.on": False, "numerics.estimate_error": False}  # both are worke
 
 @dataclass(frozen=True)
 class ConclusionRow:
-    """One case: Findley stress in Pa by (loads, window) and its error, DEEP and ALONE (Pa) and their depths (m) among them;
-    friction over load on the footprint at x_a = -0.5 and 0.5 a; doubts: why errors are not known; reason: why it has no
-    values."""
+    """One body of one case: Findley stress in Pa by (loads, window) and its error, DEEP and ALONE (Pa) and their depths (m)
+    among them; friction over load on the footprint at x_a = -0.5 and 0.5 a; doubts: why errors are not known; reason: why it
+    has no values; body: "a" carries the feature; grid: the finest one."""
 
     name: str
     srr: float
@@ -40,6 +40,8 @@ class ConclusionRow:
     friction: tuple
     doubts: dict = field(default_factory=dict)
     reason: str = ""
+    body: str = "a"
+    grid: str = ""
 
 
 def cases(quick=False):
@@ -53,30 +55,34 @@ def cases(quick=False):
     return {f"{kind}, SRR {srr:+g}": base.replace(srr=srr, **changes) for kind, changes in kinds.items() for srr in SLIPS}
 
 
-def run(folder, quick=False, progress=None, workers=1, threads=None):
-    """Rows of all cases; their stores lie in `folder` and are used again. progress: called with a line of text; workers:
-    processes side by side, each on `threads` threads (None: all that are left)."""
+def run(folder, quick=False, progress=None, workers=1, threads=None, columns=0):
+    """Rows of all cases, two each; their stores lie in `folder` and are used again. progress: called with a line of text;
+    workers: processes side by side, each on `threads` threads (None: all that are left); columns: of the finest grid of all
+    cases (0: see :func:`grids_of`)."""
     folder = Path(folder).absolute()
     notify = progress if workers == 1 else None  # other processes have nobody to tell
-    jobs = [(name, description, folder, grids_of(name, quick), notify) for name, description in cases(quick).items()]
+    jobs = [(name, description, folder, grids_of(name, quick, columns), notify) for name, description in cases(quick).items()]
     found = {}
-    for number, answer in measure.side_by_side(row, jobs, workers, threads):
+    for number, answer in measure.side_by_side(rows, jobs, workers, threads):
         name, description = jobs[number][:2]
         lost = isinstance(answer, pool.LostJob)
-        found[name] = ConclusionRow(name, description.operation.srr, {}, {}, (np.nan, np.nan),
-                                    reason=answer.reason) if lost else answer
+        found[name] = [_without(name, description, answer.reason)] if lost else answer
         if progress:
-            progress(f"{name}: {found[name].reason or 'done'}")
-    return [found[name] for name in cases(quick)]
+            progress(f"{name}: {found[name][0].reason or 'done'}")
+    return [one for name in cases(quick) for one in found[name]]
 
 
-def grids_of(name, quick=False):
+def grids_of(name, quick=False, columns=0):
     """Grids of a case, from coarse to fine."""
-    return QUICK_GRIDS if quick else FINE_GRIDS if name.startswith(DECIDE) else GRIDS
+    usual = QUICK_GRIDS if quick else FINE_GRIDS if name.startswith(DECIDE) and not columns else GRIDS
+    found = tuple(grid for grid in usual if grid[0] <= columns) if columns else usual
+    if not found:
+        raise SceneError(f"columns = {columns} leaves no grid; allowed: at least {usual[0][0]}")
+    return found
 
 
-def row(name, description, folder, grids, progress=None):
-    """One ConclusionRow from runs on `grids`; one that does not converge is too coarse, and no step of the error."""
+def rows(name, description, folder, grids, progress=None):
+    """ConclusionRows of both bodies from runs on `grids`; a grid that does not converge is too coarse, no step of the error."""
     told, reason = [], ""
     for nx, ny in grids:
         if progress:
@@ -86,58 +92,95 @@ def row(name, description, folder, grids, progress=None):
         except NotConverged as error:
             told, reason = [], f"{nx} x {ny} cells: {error}"
     if not told:
-        return ConclusionRow(name, description.operation.srr, {}, {}, (np.nan, np.nan), reason=reason)
-    last = told[-1]
-    known = {key: error_of(key, told) for key in last.values}
+        return [_without(name, description, reason)]
+    return [_of_body(name, description, body, told, f"{nx}x{ny}") for body in told[-1].values]
+
+
+def _without(name, description, reason):
+    return ConclusionRow(name, description.operation.srr, {}, {}, (np.nan, np.nan), reason=reason)
+
+
+def _of_body(name, description, body, told, grid):
+    values = told[-1].values[body]
+    known = {key: error_of(key, told, body) for key in values}
     errors, doubts = ({key: pair[n] for key, pair in known.items()} for n in (0, 1))
-    return ConclusionRow(name, description.operation.srr, last.values, errors, last.friction, doubts)
+    return ConclusionRow(name, description.operation.srr, values, errors, told[-1].friction, doubts, body=body, grid=grid)
 
 
 def _sized(description, nx, ny):
     return description.replace(**{"grid.nx": nx, "grid.ny": ny, "output.every": max(1, nx // EVERY), **BARE})
 
 
-def error_of(key, told):
+def error_of(key, told, body="a"):
     """(error of a value of the last grid or nan, why it is not known); told: by each grid, from coarse to fine."""
     follows = key[0] in LOADS or key in DEEP.values()  # a number that depends on the highest pressures of its window
     courses = [one.courses[key[1]] for one in told] if follows else ()
-    return estimated_error([one.values[key] for one in told], told[-1].doubts.get(key, ""), courses)
+    return estimated_error([one.values[body][key] for one in told], told[-1].doubts.get(key, ""), courses)
 
 
 def verdicts(rows, limit):
-    """[(statement, verdict, figures)] from the rows; limit: sigma_eF, Pa."""
-    by_name = {r.name: r for r in rows if not r.reason}
-    out = []
+    """[(statement, verdict, figures)] from the rows; limit: sigma_eF, Pa. First of body a, which the thesis judges, then of the
+    worse body and of the mating one."""
+    of_a = {r.name: r for r in rows if not r.reason and r.body == "a"}
+    of_b = {r.name: r for r in rows if not r.reason and r.body == "b"}
+    kinds = [kind for kind in dict.fromkeys(r.name.rsplit(", SRR", 1)[0] for r in rows) if kind.startswith("asperity")]
+    out = [*_thesis(_reader(of_a), kinds, limit, ""), *_deeper(of_a, "")]
+    if r := of_a.get("asperity 1.5 um, SRR -0.12"):
+        out.append(("friction on the asperity is larger near the inlet than near the outlet",
+                    "follows" if r.friction[0] > r.friction[1] else "does not follow",
+                    f"{r.friction[0]:.4f} at -0.5 a, {r.friction[1]:.4f} at 0.5 a"))
+    if not of_b:
+        return out
+    both = _thesis(lambda *case: larger(_reader(of_a)(*case), _reader(of_b)(*case)), kinds, limit, "worse body: ")
+    return out + [*both, *_deeper(of_b, "body b: "), *_mating(of_a, of_b)]
 
+
+def _reader(by_name):
+    """Function (kind, SRR, key) that gives (value, error)."""
     def get(kind, srr, key=("all", "whole")):
         r = by_name.get(f"{kind}, SRR {srr:+g}")
         return (r.values[key], r.errors[key]) if r else (np.nan, np.nan)
 
+    return get
+
+
+def larger(one, other):
+    """(value, error) of the larger of two; unknown where either is."""
+    (f, e), (g, d) = sorted((one, other), reverse=True)
+    return f, e if f - e > g + d else max(e, d) if np.isfinite(e + d) else np.nan
+
+
+def _thesis(get, kinds, limit, whose):
+    """Statements about the level without slip, dents, and the sign of the slip."""
     for window in ("to 0.5 a", "whole"):
         f, e = get("asperity 1.5 um", 0.0, ("all", window))
-        out.append((f"an asperity brings Fi near or over 1 (>= {NEAR_ONE:g}) at about 2 GPa without slip; {window}",
-                    decide(f - NEAR_ONE * limit, e), _pair((f, e), (NEAR_ONE * limit, 0.0))))
+        yield (f"{whose}an asperity brings Fi near or over 1 (>= {NEAR_ONE:g}) at about 2 GPa without slip; {window}",
+               decide(f - NEAR_ONE * limit, e), _pair((f, e), (NEAR_ONE * limit, 0.0)))
         for srr in SLIPS:
-            one, other = (get(kind, srr, ("all", window)) for kind in ("asperity 1.5 um", "dent 1.5 um"))
-            out.append((f"a dent gives less than an asperity of the same size (SRR {srr:+g}); {window}",
-                        *_compared(one, other)))
+            pair = [get(kind, srr, ("all", window)) for kind in ("asperity 1.5 um", "dent 1.5 um")]
+            yield f"{whose}a dent gives less than an asperity of the same size (SRR {srr:+g}); {window}", *_compared(*pair)
     for loads, window in (("all", "to 0.5 a"), ("all", "whole"), ("no thermal stress", "whole"), ("pressure", "whole")):
-        for kind in dict.fromkeys(r.name.rsplit(", SRR", 1)[0] for r in rows):
-            if kind.startswith("asperity") and (kind == "asperity 1.5 um" or loads == "all"):
-                one, other = (get(kind, srr, (loads, window)) for srr in (-0.12, 0.12))
-                out.append((f"Fi(SRR -0.12) > Fi(SRR +0.12): {kind}; {loads}; {window}", *_compared(one, other)))
-    for name in by_name:
+        for kind in kinds:
+            if kind == "asperity 1.5 um" or loads == "all":
+                pair = [get(kind, srr, (loads, window)) for srr in (-0.12, 0.12)]
+                yield f"{whose}Fi(SRR -0.12) > Fi(SRR +0.12): {kind}; {loads}; {window}", *_compared(*pair)
+
+
+def _deeper(by_name, whose):
+    """Whether the critical point of the reference asperity lies below the surface."""
+    for name, r in by_name.items():
         if name.startswith("asperity 1.5 um"):
-            f, e = by_name[name].values, by_name[name].errors
             for window, key in DEEP.items():
-                one, other = ((f[each], e[each]) for each in (key, ("all", window)))
-                out.append((f"the critical point lies below the surface: {name}; {window}", *_compared(one, other)))
-    r = by_name.get("asperity 1.5 um, SRR -0.12")
-    if r:
-        out.append(("friction on the asperity is larger near the inlet than near the outlet",
-                    "follows" if r.friction[0] > r.friction[1] else "does not follow",
-                    f"{r.friction[0]:.4f} at -0.5 a, {r.friction[1]:.4f} at 0.5 a"))
-    return out
+                pair = [(r.values[each], r.errors[each]) for each in (key, ("all", window))]
+                yield f"{whose}the critical point lies below the surface: {name}; {window}", *_compared(*pair)
+
+
+def _mating(of_a, of_b, window="to 0.5 a"):
+    """Whether body b has the larger stress, at the surface or below it."""
+    for name in of_b:
+        pair = [larger(*((r.values[key], r.errors[key]) for key in (("all", window), DEEP[window])))
+                for r in (of_b[name], of_a[name])]
+        yield f"body b has a larger stress than body a (surface or below): {name}; {window}", *_compared(*pair)
 
 
 def decide(difference, error):
@@ -186,10 +229,10 @@ def page(rows, judged, scene_):
     """Markdown of the table and the verdicts."""
     columns = [("all", window) for window in WINDOWS] + [("no thermal stress", "whole"), ("pressure", "whole")]
     columns += [*DEEP.values(), ALONE]
-    lines = ["| case | " + " | ".join(_title(*column) for column in columns) + " |",
-             "|---" * (len(columns) + 1) + "|"]
+    lines = ["| case | body | grid | " + " | ".join(_title(*column) for column in columns) + " |",
+             "|---" * (len(columns) + 3) + "|"]
     for r in rows:
-        lines.append(f"| {r.name} | " + " | ".join(cells(r, columns)) + " |")
+        lines.append(f"| {r.name} | {r.body} | {r.grid} | " + " | ".join(cells(r, columns)) + " |")
     lines += ["", "| statement | verdict | figures |", "|---|---|---|"]
     lines += [f"| {statement} | **{verdict}** | {figures} |" for statement, verdict, figures in judged]
     f = scene_.fatigue
@@ -198,8 +241,9 @@ def page(rows, judged, scene_):
 
 def plain_row(row):
     """A row as its JSON has it."""
-    return {"case": row.name, "reason": row.reason, "friction": row.friction, "findley_stress_Pa": {
-        "; ".join(key): (value, row.errors[key]) for key, value in row.values.items()}}
+    found = {"; ".join(key): (value, row.errors[key]) for key, value in row.values.items()}
+    return {"case": row.name, "body": row.body, "grid": row.grid, "reason": row.reason, "friction": row.friction,
+            "findley_stress_Pa": found}
 
 
 def chart(plt, rows):
@@ -210,7 +254,8 @@ def chart(plt, rows):
     for shift, key, label in ((-0.15, ("all", "whole"), "surface"), (0.15, DEEP["whole"], "below it")):
         errors = [row.errors[key] / 1e6 for row in shown]
         ax.errorbar([row.values[key] / 1e6 for row in shown], at + shift, xerr=errors, fmt="o", ms=4, label=label)
-    ax.set(xlabel="Findley stress, MPa (no bar: error not known)", yticks=at, yticklabels=[row.name for row in shown])
+    ax.set(xlabel="Findley stress, MPa (no bar: error not known)", yticks=at)
+    ax.set_yticklabels([f"{row.name}, {row.body}" for row in shown])
     ax.invert_yaxis()
     ax.legend()
     return figure

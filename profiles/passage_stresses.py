@@ -1,4 +1,5 @@
-"""What one stored passage tells: Findley stresses by loads and by part of the passage, and which its grid does not know."""
+"""What one stored passage gives: Findley stresses of both bodies by loads and by part of the passage, and which its grid does
+not know."""
 
 import json
 from dataclasses import asdict, dataclass
@@ -31,9 +32,9 @@ LARGE = 100_000  # cells of a passage whose store is not kept: of 2048x64 it has
 
 @dataclass(frozen=True)
 class PassageStresses:
-    """values: {(loads, window): largest Findley stress, Pa}, DEEP and ALONE (Pa) and their DEPTHS (m) among them; courses:
-    {window: the pressures' :func:`course`}; friction: :func:`footprint_friction` at FRICTION_AT; doubts: {(loads, window): why
-    the grid does not know it}."""
+    """values: {body: {(loads, window): largest Findley stress, Pa}}, DEEP and ALONE (Pa) and their DEPTHS (m) among them;
+    courses: {window: the pressures' :func:`course`}; friction: :func:`footprint_friction` at FRICTION_AT; doubts: {(loads,
+    window): why the grid does not know it}."""
 
     values: dict
     courses: dict
@@ -52,7 +53,8 @@ def read_passage(description, store):
         found = of(completed(description, store).store)
         if description.grid.nx * description.grid.ny <= LARGE:
             return found
-        content = {name: list(part.items()) if isinstance(part, dict) else part for name, part in asdict(found).items()}
+        content = {**asdict(found), "courses": list(found.courses.items())}
+        content["values"] = {body: list(values.items()) for body, values in found.values.items()}
         content["doubts"] = [(key, [why, code_of(why)]) for key, why in found.doubts.items()]
         files.replace(kept, json.dumps({"scene": description.to_dict(), **content}).encode())
     found = _kept(kept, description)
@@ -65,7 +67,9 @@ def _kept(path, description):
     content = json.loads(path.read_text())
     if Scene.from_dict(content.pop("scene")) != description:
         raise StoreError(f"{path} tells of another scene; choose another folder or remove it")
-    values = {tuple(key): value for key, value in content["values"]}
+    if not isinstance(content["values"], dict):
+        raise StoreError(f"{path} is of version 0.8, which judged body a alone; choose another folder or remove it")
+    values = {body: {tuple(key): value for key, value in part} for body, part in content["values"].items()}
     doubts = {tuple(key): Reason(*([why] if isinstance(why, str) else why)) for key, why in content["doubts"]}
     courses = {window: tuple(pressures) for window, pressures in content["courses"]}
     return PassageStresses(values, courses, tuple(content["friction"]), doubts)
@@ -73,8 +77,9 @@ def _kept(path, description):
 
 def of(saved):
     """The :class:`PassageStresses` of a finished store."""
-    return PassageStresses(stresses(saved), {window: course(saved, *ends) for window, ends in WINDOWS.items()},
-                tuple(footprint_friction(saved, at) for at in FRICTION_AT), unresolved(saved))
+    values = {surface.name: stresses(saved, surface) for surface in saved.scene.surfaces}
+    return PassageStresses(values, {window: course(saved, *ends) for window, ends in WINDOWS.items()},
+                           tuple(footprint_friction(saved, at) for at in FRICTION_AT), unresolved(saved))
 
 
 def _largest(saved):
@@ -100,22 +105,27 @@ def unresolved(saved):
     return {key: doubts[key[1]] for key in keys if doubts.get(key[1])}
 
 
-def stresses(saved):
-    """{(loads, window): largest Findley stress, Pa}; windows with every load, the other loads over the whole passage."""
+def stresses(saved, surface):
+    """{(loads, window): largest Findley stress of a body, Pa}; windows with every load, others over the whole passage."""
     out = {}
     for loads, changes in LOADS.items():
-        passage = StressHistories(saved.scene.replace(**changes) if changes else saved.scene, saved, saved.scalar("feature_x"))
+        passage = _histories(saved, surface, changes)
         history = at_the_surface(passage)(slice(0, passage.y.size))
         for window, (low, high) in WINDOWS.items():
             if loads == "all" or window == "whole":
                 inside = _moments(passage, low, high)
                 out[loads, window] = float(findley.search(history[:, inside], saved.scene.fatigue.kappa)[0].max())
-    return out | deep_stresses(StressHistories(saved.scene, saved, saved.scalar("feature_x")))
+    return out | deep_stresses(_histories(saved, surface))
+
+
+def _histories(saved, surface, changes=None):
+    scene = saved.scene.replace(**changes) if changes else saved.scene
+    return StressHistories(scene, saved, saved.scalar("feature_x"), surface=surface)
 
 
 def _moments(passage, low, high):
     """Those of a history with the feature between `low` and `high` (in a), and the one without load."""
-    return np.append((passage.centres >= low * passage.a) & (passage.centres <= high * passage.a), True)
+    return np.append((passage.positions >= low * passage.a) & (passage.positions <= high * passage.a), True)
 
 
 def deep_stresses(passage):

@@ -254,10 +254,11 @@ def test_conclusions(tmp_path, monkeypatch):
     monkeypatch.setattr(conclusions, "SLIPS", (-0.12,))
     monkeypatch.setattr(conclusions, "QUICK_GRIDS", ((32, 8),))
     text, found = done(tmp_path, "conclusions", "conclusions", "--quick", "--threads", 2)
-    assert [row["case"] for row in found["rows"]] == [f"{kind}, SRR -0.12" for kind in conclusions.DECIDE]
+    cases = [(row["case"], row["body"]) for row in found["rows"]]
+    assert cases == [(f"{kind}, SRR -0.12", body) for kind in conclusions.DECIDE for body in "ab"]
     assert {one["verdict"] for one in found["verdicts"]} <= {"follows", "does not follow", "not decided"}
     for row in found["rows"]:
-        line, = lines_with(text, row["case"])
+        line = lines_with(text, row["case"])["ab".index(row["body"])]
         value, error = row["findley_stress_Pa"]["all; whole"]
         assert error is None and any(cell.startswith(f"{value / 1e6:.0f} (") for cell in line)
     assert "| follows |" not in text and (tmp_path / "conclusions.md").read_text().count("| asperity") >= 1

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from tehl_taichi.profiles import conclusions, passage_stresses
 
-from tehl_taichi.errors import StoreError
+from tehl_taichi.errors import SceneError, StoreError
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 
@@ -17,11 +17,12 @@ def test_verdicts_need_more_than_the_error():
     assert conclusions.decide(2.0, 3.0) == conclusions.decide(np.nan, 1.0) == conclusions.decide(5.0, np.nan) == "not decided"
 
 
-def make(name, f, error):
+def make(name, f, error, body="a"):
     keys = [("all", window) for window in conclusions.WINDOWS] + [("no thermal stress", "whole"), ("pressure", "whole")]
     deep = {key: 1.4 * f for key in conclusions.DEEP.values()} | {conclusions.ALONE: 1.2 * f}
     values = {key: f for key in keys} | deep | {depth: 25e-6 for depth in conclusions.DEPTHS.values()}
-    return conclusions.ConclusionRow(name, 0.0, values, {key: error for key in [*keys, *deep]}, (0.06, 0.05))
+    errors = {key: error for key in [*keys, *deep]}
+    return conclusions.ConclusionRow(name, 0.0, values, errors, (0.06, 0.05), body=body, grid="512x64")
 
 
 def test_the_statements_follow_from_the_rows():
@@ -37,6 +38,34 @@ def test_the_statements_follow_from_the_rows():
     assert "400 ± 5" in text and "560 ± 5 at 25 um" in text and "**follows**" in text
     for window in conclusions.DEEP:
         assert judged[f"the critical point lies below the surface: asperity 1.5 um, SRR -0.12; {window}"] == "follows"
+
+
+def test_the_mating_body_has_its_rows_and_its_statements():
+    """It is worse at -0.12 (b 450 against a 400), equal in rolling, and turns the statement about the slip round at +0.12."""
+    f = {"-0.12": (400e6, 450e6), "+0": (370e6, 370e6), "+0.12": (380e6, 500e6)}
+    rows = [make(f"asperity 1.5 um, SRR {srr}", one, 5e6, body) for srr, both in f.items() for body, one in zip("ab", both)]
+    judged = {statement: verdict for statement, verdict, _ in conclusions.verdicts(rows, 400e6)}
+    said = "Fi(SRR -0.12) > Fi(SRR +0.12): asperity 1.5 um; all; to 0.5 a"
+    assert judged[said] == "follows" and judged["worse body: " + said] == "does not follow"
+    mating = "body b has a larger stress than body a (surface or below): asperity 1.5 um, SRR {}; to 0.5 a"
+    assert [judged[mating.format(srr)] for srr in f] == ["follows", "not decided", "follows"]
+    text = conclusions.page(rows, conclusions.verdicts(rows, 400e6), scene("gear"))
+    assert "| asperity 1.5 um, SRR -0.12 | a | 512x64 | 400 ± 5 |" in text
+    assert "| asperity 1.5 um, SRR -0.12 | b | 512x64 | 450 ± 5 |" in text
+
+
+def test_the_larger_of_two_is_known_where_both_are():
+    assert conclusions.larger((400, 5), (450, 7)) == (450, 7) and conclusions.larger((449, 9), (450, 7)) == (450, 9)
+    f, error = conclusions.larger((400, np.nan), (450, 7))
+    assert f == 450 and np.isnan(error)
+
+
+def test_columns_leave_out_finer_grids():
+    name = conclusions.DECIDE[0]
+    assert conclusions.grids_of(name)[-1] == (2048, 64) and conclusions.grids_of(name, columns=512) == conclusions.GRIDS
+    assert conclusions.grids_of(name, columns=256) == conclusions.GRIDS[:2]
+    with pytest.raises(SceneError, match="columns = 100 leaves no grid; allowed: at least 128"):
+        conclusions.grids_of(name, columns=100)
 
 
 class Spiked:
@@ -74,7 +103,7 @@ def test_an_exit_that_is_not_resolved_has_no_error():
 
 
 def told_by(values, courses, doubts):
-    return [passage_stresses.PassageStresses(one, course, (0.06, 0.05), doubts) for one, course in zip(values, courses)]
+    return [passage_stresses.PassageStresses({"a": one}, course, (0.06, 0.05), doubts) for one, course in zip(values, courses)]
 
 
 def test_three_grids_may_tell_a_peak_that_one_does_not():
@@ -112,16 +141,19 @@ def test_every_case_has_its_own_store():
 def test_a_row_is_computed_once_and_kept(taichi_cpu, tmp_path):
     short = scene("gear").replace(**{"thermal.on": False, "time.steps": 8})
     lines = []
-    one, deep = conclusions.row("short", short, tmp_path, ((64, 16), (96, 16)), lines.append), conclusions.DEEP["whole"]
-    assert len(lines) == 2 and one.values["all", "whole"] > 1e8 and one.errors["all", "whole"] > 0
-    assert one.values[deep] > 1e8 and 1e-6 < one.values[conclusions.DEPTHS[deep]] < 0.3e-3
+    found, deep = conclusions.rows("short", short, tmp_path, ((64, 16), (96, 16)), lines.append), conclusions.DEEP["whole"]
+    assert len(lines) == 2 and [one.body for one in found] == ["a", "b"] and {one.grid for one in found} == {"96x16"}
+    for one in found:
+        assert one.values["all", "whole"] > 1e8 and one.errors["all", "whole"] > 0
+        assert one.values[deep] > 1e8 and 1e-6 < one.values[conclusions.DEPTHS[deep]] < 0.3e-3
+    assert found[0].values["all", "whole"] != found[1].values["all", "whole"]
     before = {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*") if path.is_file()}
-    assert conclusions.row("short", short, tmp_path, ((64, 16), (96, 16))) == one
+    assert conclusions.rows("short", short, tmp_path, ((64, 16), (96, 16))) == found
     assert before == {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*") if path.is_file()}
     with pytest.raises(StoreError, match="another scene"):
-        conclusions.row("short", short.replace(srr=0.1), tmp_path, ((64, 16),))
+        conclusions.rows("short", short.replace(srr=0.1), tmp_path, ((64, 16),))
     hopeless = short.replace(**{"numerics.newton_max": 1, "numerics.krylov_max": 5})
-    assert "did not converge" in conclusions.row("hopeless", hopeless, tmp_path, ((64, 16),)).reason
+    assert "did not converge" in conclusions.rows("hopeless", hopeless, tmp_path, ((64, 16),))[0].reason
 
 
 def test_a_large_store_goes_when_it_has_told(taichi_cpu, tmp_path, monkeypatch):
