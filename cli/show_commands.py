@@ -60,23 +60,26 @@ def laws():
 def new(
     file: Path = typer.Argument(..., help="scene file to write, for example my.toml"),
     base: str = typer.Option("gear", help="built-in scene to start from"),
-    scan: Optional[Path] = typer.Option(None, help="file of measured heights; writes a short scene with the values that you "
-                                                   "must give"),
+    scan: Optional[Path] = typer.Option(None, help="file of measured heights, on a grid or along a line; writes a "
+                                                   "short scene with the values that you must give"),
     unit: str = typer.Option("", help="unit of the heights: nm, um, mm or m"),
     pixel: float = typer.Option(0.0, help="distance between points of a row, m"),
     pixel_y: float = typer.Option(0.0, help="distance between rows, m (default: --pixel)"),
+    lay: str = typer.Option("", help="line profile: direction of the marks, transverse (heights over x, the rolling direction; "
+                                     "default) or longitudinal (heights over y)"),
 ):
     """Write a commented scene file with every value, or a short one for a scan.
 
-    Examples: `tehl new my.toml` · `tehl new my_flank.toml --scan scan.csv --unit um --pixel 1.8e-6`
+    Examples: `tehl new my.toml` · `tehl new my_flank.toml --scan scan.csv --unit um --pixel 1.8e-6` ·
+    `tehl new my_profile.toml --scan profile.txt --unit um --pixel 0.5e-6 --lay longitudinal`
     """
     from tehl_taichi.scene import scan_scene, scene_file
 
     if scan is None:
-        _only_with_scan(unit=unit, pixel=pixel, pixel_y=pixel_y)
+        _only_with_scan(unit=unit, pixel=pixel, pixel_y=pixel_y, lay=lay)
         scene_file.new(file, base)
         return put(f"wrote {file}; run it with: tehl run {file}")
-    read, missing = scan_scene.new(file, base, scan, unit, pixel, pixel_y)
+    read, missing = scan_scene.new(file, base, scan, unit, pixel, pixel_y, lay)
     fill = f"fill in feature.{' and feature.'.join(missing)} and " if missing else ""
     text = f"wrote {file} for {scan} ({read}); {fill}enter the values of your contact, oil and steel, then run: "
     put(f"{text}tehl run {file} --grid coarse --steps 0")

@@ -69,17 +69,17 @@ def _kept(found, i, j):
 
 def measured(f, scene):
     """(what, value) of a map: of its file, and of the heights that pass."""
-    (along, across), m, (length, width) = f.points, f.measures, f.patch
+    m, sides = f.measures, [size for size, count in zip(f.patch, f.points) if count > 1]
     turned = f", times {f.scale:g}" if f.scale != 1 else ""
     rim = f", fading out over {value_text(f.taper, unit='m')} at its rim" if f.taper else ""
-    return [("file", os.path.basename(f.file)), ("points", f"{along} × {across}"),
+    return [("file", os.path.basename(f.file)), ("points", " × ".join(str(n) for n in f.points if n > 1)),
             *([("not measured", _missing(f))] if f.holes.any() else []),
-            *([("turned", f.orientation.says)] if f.orientation.says else []),
-            ("distance between points", " × ".join(value_text(step, unit="m") for step in f.steps)),
+            *([(f.kind.lies_name, f.kind.lies(f))] if f.kind.lies(f) else []),
+            ("distance between points", " × ".join(value_text(s, unit="m") for s, n in zip(f.steps, f.points) if n > 1)),
             ("unit of the heights", f"{f.unit.replace('um', 'µm')}{turned}"),
             ("removed form", LEVELS[f.level] + form_taken(f, scene)),
             *([("low-pass", f"Gaussian, cutoff {value_text(f.cutoff, unit='m')}")] if f.cutoff else []),
-            ("patch used", f"{value_text(length, unit='m')} × {value_text(width, unit='m')}{rim}"),
+            ("patch used", " × ".join(value_text(size, unit="m") for size in sides) + rim),
             ("range", f"{value_text(m.range, unit='m')}: {_signed(m.low)} to {_signed(m.high)}"),
             ("rms", value_text(m.rms, unit="m")), ("largest slope", f"{m.slope:.2g}°")]
 

@@ -1,6 +1,7 @@
 """What a look at a scene (its steady start alone) tells of the time that its whole passage would take."""
 
 import itertools
+import math
 import time
 
 from tehl_taichi.errors import Error
@@ -69,7 +70,7 @@ def _middle(scene):
     s, g, changes = Scales.of(scene), scene.grid, {}
     for n in _scans(scene):
         for key, size, half in zip(("extent_x", "extent_y"), scene.features[n].patch, (s.a, s.b)):
-            if size > 2 * half:
+            if 2 * half < size < math.inf:
                 changes[f"feature.{key}" if len(scene.features) == 1 else f"feature.{n}.{key}"] = float(f"{2 * half:.2g}")
     if changes and g.y_max > SIDE:
         changes |= {"grid.y_max": SIDE, "grid.ny": domain_warnings.cells("ny", g.ny, SIDE / g.y_max)}

@@ -15,7 +15,8 @@ OWN = tuple(shape.keys for shape in SHAPES.values() if shape.keys)
 # {key that not every shape has: names of those that look at it}; the others ignore it
 USED_BY = {key: tuple(name for name, shape in SHAPES.items() if key in shape.uses)
            for key in dict.fromkeys(key for shape in SHAPES.values() for key in shape.uses)}
-USED_BY |= {key: (name,) for name, shape in SHAPES.items() if shape.keys for key in kinds(shape.keys)}
+for owner, shape in SHAPES.items():
+    USED_BY |= {key: (owner, *USED_BY.get(key, ())) for key in (kinds(shape.keys) if shape.keys else ())}
 LARGEST = 0.03  # m: contacts are a millimetre wide, 0.05 was meant in mm
 
 
@@ -60,18 +61,18 @@ class Feature(*OWN, SharedKeys):
 
     @classmethod
     def from_heights(cls, heights: Any, pixel: float, pixel_y: float = 0.0, *, unit: str = "m", **keys: Any) -> "Feature":
-        """Make a feature (shape "map") of heights in an array.
+        """Make a feature (shape "map" or "profile") of heights in an array.
 
         Parameters
         ----------
-        heights : array (rows, columns)
-            At least 4 x 4, a row per line of points along x; nan where nothing was measured.
+        heights : array (rows, columns) or (points,)
+            At least 4 x 4, a row per line of points along x, or a line profile; nan where nothing was measured.
         pixel, pixel_y : float
             Distances in m of the points in a row, and of the rows (default: pixel).
         unit : {"m", "mm", "um", "nm"}
             Unit of the heights.
         **keys
-            Further keys of a map: level, cutoff, scale, taper, x, y ...
+            Further keys of a map or profile: level, cutoff, scale, taper, lay, x, y ...
 
         Returns
         -------
@@ -93,7 +94,8 @@ class Feature(*OWN, SharedKeys):
         '1.00 um, 252 x 188 um'
         """
         sha256, held = height_map.of_array(heights)
-        made = cls(shape="map", sha256=sha256, unit=unit, pixel=pixel, pixel_y=pixel_y, **keys)
+        shape = "profile" if height_map.is_profile(held) else "map"
+        made = cls(shape=shape, sha256=sha256, unit=unit, pixel=pixel, pixel_y=pixel_y, **keys)
         del held  # the feature holds them now
         return made
 
@@ -108,8 +110,8 @@ class Feature(*OWN, SharedKeys):
         """Refuse words and switches that only another shape takes: whoever gives them means that shape."""
         for key in (key for keys in OWN for key, kind in kinds(keys).items() if isinstance(kind, (Text, Choice, Switch))):
             if self.shape not in USED_BY[key] and getattr(self, key) and not getattr(type(self), key):
-                raise SceneError(f"feature.{key} = {getattr(self, key)!r} needs shape = {USED_BY[key][0]!r}, not "
-                                 f"{self.shape!r}")
+                needed = " or ".join(map(repr, USED_BY[key]))
+                raise SceneError(f"feature.{key} = {getattr(self, key)!r} needs shape = {needed}, not {self.shape!r}")
 
     @property
     def kind(self):

@@ -6,16 +6,22 @@ from itertools import islice
 from pathlib import Path
 
 from tehl_taichi.disk import user_files
+from tehl_taichi.errors import SceneError
 from tehl_taichi.scene import scene, scene_file
 from tehl_taichi.scene.scene_file import toml_value
 from tehl_taichi.scene.sections import Body
 from tehl_taichi.scene.surface.maps import height_map
+from tehl_taichi.scene.surface.shapes.profile import LAYS
 
 LINES, LETTERS = 20, 100  # of the header of a file, shown
 TAPER, SHARE = 40e-6, 8  # m, and of the shorter side
 LINE = "N/m: of a line of contact, 280 N/mm are 280e3"
+ROWS = " in a row of the file; rows run along x, the rolling direction"
 PIXEL_Y = "pixel_y = {:<13}  # m: distance between rows\n"
 NO_PIXEL_Y = "# pixel_y = 2e-6         # m: distance between rows, if it differs from pixel\n"
+KINDS = {False: "heights on a grid", True: "heights along a line"}
+MIRROR = "# mirror_{:<16}  # if the first {} enters the contact first\n"
+LAY = "lay = {:<17}  # direction of the marks; {}\n"
 
 HEAD = """\
 # A scan passes through a contact. Replace the numbers of the built-in scene {base} by yours; SI units,
@@ -49,43 +55,64 @@ torsion_limit = {limit:<7}  # Pa: fatigue limit in reversed torsion (or bending_
 source = "example values, set your own"
 
 [[feature]]
-shape = "map"
+shape = {shape:<15}  # {shape_about}
 file = {file}
 {header}\
 unit = {unit:<16}  # unit of the heights: nm, um, mm or m
-pixel = {pixel:<15}  # m: distance between points in a row of the file; rows run along x, the rolling direction
-{pixel_y}\
-# mirror_x = true        # if the last columns of the scan enter the contact first
+pixel = {pixel:<15}  # m: distance between points{rows}
+{direction}\
 level = "form"           # removes plane and curvature of the body ("plane": only the plane)
 taper = {taper:<15}  # m: width over which the heights fade out at the rim
 # cutoff = 25e-6         # m: Gaussian low-pass for roughness that the grid does not resolve
 """
 
 
-def new(path, base, scan, unit="", pixel=0.0, pixel_y=0.0):
+def new(path, base, scan, unit="", pixel=0.0, pixel_y=0.0, lay=""):
     """Write a scene file for the heights in the file `scan` on the contact of the built-in scene `base`; returns (what of the
     scan was read, keys that are still to be filled in). Raises SceneError where it cannot, or the scene would be refused."""
     path, scan = Path(path), Path(scan)
     scene_file.check_new(path)
     table = height_map.table_of(scan)
-    text = _text(path, scene(base), base, scan, table, unit, pixel, pixel_y)
+    _check_options(scan, height_map.is_profile(table.values), pixel_y, lay)
+    text = _text(path, scene(base), base, scan, table, unit, pixel, pixel_y, lay or "transverse")
     missing = [key for key, value in (("unit", unit), ("pixel", pixel)) if not value]
     if not missing:
         scene_file.from_data(scene_file.with_map_folder(tomllib.loads(text), path.absolute().parent), path.stem)
     user_files.text(path, text)
     rows, columns = table.values.shape
-    return f"{rows} rows of {columns} points{f', {table.skipped}' if table.skipped else ''}", missing
+    found = f"{rows} rows of {columns} points" if rows > 1 else f"a line profile of {columns} points"
+    return f"{found}{f', {table.skipped}' if table.skipped else ''}", missing
 
 
-def _text(path, f, base, scan, table, unit, pixel, pixel_y):
-    place = Path(os.path.relpath(scan, path.absolute().parent)).as_posix()
+def _check_options(scan, profile, pixel_y, lay):
+    """Refuse options of another kind of file; lay is checked with the scene."""
+    if pixel_y and profile:
+        raise SceneError(f"--pixel-y {pixel_y:g} has no effect: {scan} is a line profile")
+    if lay and not profile:
+        raise SceneError(f"--lay {lay} has no effect: {scan} is a map; feature.transpose turns it")
+    if lay and lay not in LAYS:
+        raise SceneError(f"--lay {lay!r} is not known; allowed: {', '.join(LAYS)}")
+
+
+def _direction(profile, pixel_y, lay):
+    """Lines of the distance of rows and of how the heights lie."""
+    if not profile:
+        spacing = PIXEL_Y.format(toml_value(pixel_y)) if pixel_y else NO_PIXEL_Y
+        return spacing + MIRROR.format("x = true", "column")
+    mirror = MIRROR.format("x = true", "point") if lay == "transverse" else ""
+    return LAY.format(toml_value(lay), "; ".join(map(": ".join, LAYS.items()))) + mirror
+
+
+def _text(path, f, base, scan, table, unit, pixel, pixel_y, lay):
+    profile, place = height_map.is_profile(table.values), Path(os.path.relpath(scan, path.absolute().parent)).as_posix()
     numbers = dict(radius=f.contact.radius_x, load=float(f"{f.load:.4g}"), u_a=round(f.operation.u_a, 6),
                    u_b=round(f.operation.u_b, 6), temperature=f.operation.temperature, kappa=f.fatigue.kappa, file=place,
-                   unit=unit, pixel=pixel, taper=_taper(table.values.shape, pixel, pixel_y or pixel))
+                   shape="profile" if profile else "map", unit=unit, pixel=pixel,
+                   taper=_taper(table.values.shape, pixel, pixel_y or pixel))
     return HEAD.format(base=base, oil=f.oil.name, limit="380e6", header=_header(scan, table), radius_y=_radius_y(f.contact),
                        body_a=_unless_steel(f.body_a), body_b=_unless_steel(f.body_b),
                        load_about=LINE if f.contact.kind == "line" else "N",
-                       pixel_y=PIXEL_Y.format(toml_value(pixel_y)) if pixel_y else NO_PIXEL_Y,
+                       rows="" if profile else ROWS, shape_about=KINDS[profile], direction=_direction(profile, pixel_y, lay),
                        **{key: toml_value(value) for key, value in numbers.items()})
 
 
@@ -102,7 +129,7 @@ def _radius_y(contact):
 
 def _taper(shape, pixel, pixel_y):
     """Micrometres, at most an eighth of the shorter side."""
-    side = min((count - 1) * step for count, step in zip(shape[::-1], (pixel, pixel_y)))
+    side = min((count - 1) * step for count, step in zip(shape[::-1], (pixel, pixel_y)) if count > 1)
     return round(max(int(min(TAPER, side / SHARE) * 1e6), 1) * 1e-6, 9) if side else TAPER
 
 

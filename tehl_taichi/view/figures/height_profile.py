@@ -43,7 +43,7 @@ def heights(scene):
     features = scene.features
     if all(f.transverse for f in features):
         x, y = _even(features, "x", ALONG), np.zeros(1)
-    elif len(features) == 1 and features[0].kind.measured:
+    elif len(features) == 1 and features[0].kind.measured and min(features[0].points) > 1:
         x, y = _own(features[0])
     else:
         edge = scene.grid.y_max * Scales.of(scene).b

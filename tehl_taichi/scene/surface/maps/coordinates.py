@@ -31,7 +31,7 @@ def without(values):
     heights = values[int(row is not None):, int(column is not None):]
     found_lines = [f"a {what} of coordinates ({many[0]:g} to {many[-1]:g})" for what, many in (("row", row), ("column", column))
             if many is not None]
-    return Coordinates(heights, _step(row), _step(column), tuple(found_lines))
+    return Coordinates(heights, step(row), step(column), tuple(found_lines))
 
 
 def _along(values):
@@ -64,7 +64,7 @@ def rises(many):
     return _even(many) is not None
 
 
-def _step(many):
+def step(many):
     """Distance of coordinates; None where there are none or they count from 0 or 1."""
     if many is None or many[0] in (0, 1) and _even(many) == 1:
         return None

@@ -22,8 +22,9 @@ def middle(heights):
 
 
 def points_in_a_cell(f, scene):
-    """[along x, along y] of the map; they need not be whole."""
-    return [size / step for size, step in zip(Scales.of(scene).cell(scene.grid), f.steps)]
+    """[along x, along y] of the map; they need not be whole. An axis of one point has no others: there as along the other."""
+    found = [size / step for size, step in zip(Scales.of(scene).cell(scene.grid), f.steps)]
+    return [found[axis if count > 1 else 1 - axis] for axis, count in enumerate(f.points)]
 
 
 def pressed(heights, f, scene):

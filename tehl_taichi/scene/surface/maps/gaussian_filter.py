@@ -18,7 +18,8 @@ def lowpass(values, steps, cutoff):
 
 def limits(f):
     """(smallest, largest) cutoff of a map, m: its points and its size allow no other."""
-    return FEWEST * max(f.steps) * (1 - 1e-9), min(f.size) * (1 + 1e-9)
+    lines = [(step, size) for step, size, count in zip(f.steps, f.size, f.points) if count > 1]
+    return FEWEST * max(step for step, _ in lines) * (1 - 1e-9), min(size for _, size in lines) * (1 + 1e-9)
 
 
 def passes(wavelength, cutoff):

@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 
 from tehl_taichi.disk import memory_limit, npy
-from tehl_taichi.errors import SceneError, brief, extra
-from tehl_taichi.scene.surface.maps import coordinates, hole_filling, text_heights
+from tehl_taichi.errors import SceneError, brief
+from tehl_taichi.scene.surface.maps import coordinates, hole_filling, instrument_files, line_profiles, text_heights
 from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.file_ending import ending
 
@@ -24,7 +24,6 @@ MICRO = str.maketrans({"\u00b5": "u", "\u03bc": "u"})  # micro sign and Greek mu
 _known = weakref.WeakValueDictionary()  # sha256 -> heights, as long as a feature holds them
 _skipped = {}  # sha256 -> what of its file was no height, in words
 _spacing = {}  # sha256 -> distances of the coordinates in its file
-UNKNOWN_FILE = ("CannotDetectFileFormat", "UnknownFileFormat")  # errors of SurfaceTopography that list every reader
 TEXT = (".csv", ".txt", ".asc")  # endings of files of text
 POINTS = f"a list of x, y and z is not supported; export the heights as a grid, one row per line ({', '.join(TEXT)}, .npy)"
 
@@ -61,8 +60,10 @@ def of_array(values):
         values = np.array(values, float)
     except (ValueError, TypeError):
         raise SceneError(f"heights = {shown(values)} must be an array of numbers") from None
-    if values.ndim != 2 or min(values.shape) < 4:
-        raise SceneError(f"heights have the shape {values.shape}; allowed: (rows, columns), at least 4 x 4")
+    values = values[None] if values.ndim == 1 else values
+    if not is_profile(values) and (values.ndim != 2 or min(values.shape) < 4):
+        raise SceneError(f"heights have the shape {values.shape}; allowed: (rows, columns), at least 4 x 4, or a line profile "
+                         f"of at least {line_profiles.FEWEST} points")
     _check_holes("heights", values)
     return keep(values)
 
@@ -90,16 +91,21 @@ def table_of(file):
     if not path.is_file():
         raise SceneError(f"feature.file = {str(file)!r} does not exist")
     table = _load(path)
-    if coordinates.is_list(table.values):
+    if line_profiles.heights_of(table.values) is None and coordinates.is_list(table.values):
         raise SceneError(f"feature.file = {str(file)!r} has {' x '.join(map(str, table.values.shape))} numbers, which is not a "
                          f"grid of heights ({POINTS})")
     table = table.without_coordinates()
     values = table.values
-    if values.ndim != 2 or min(values.shape) < 4:
+    if not is_profile(values) and (values.ndim != 2 or min(values.shape) < 4):
         raise SceneError(f"feature.file = {str(file)!r} must hold a grid of at least 4 x 4 heights, not one of shape "
                          f"{values.shape}{f' ({POINTS})' if values.shape[-1:] == (3,) else ''}")
     _check_holes(f"feature.file = {str(file)!r}", values)
     return table
+
+
+def is_profile(values):
+    """Whether heights (rows, columns) are a line profile: one row."""
+    return values.ndim == 2 and values.shape[0] == 1 and values.shape[1] >= line_profiles.FEWEST
 
 
 def _check_holes(where, values):
@@ -125,30 +131,9 @@ def _load(path):
             return text_heights.read(path)
     except (ValueError, OSError, EOFError) as error:
         raise SceneError(f"cannot read heights from {path}: {brief(error)}") from None
-    return text_heights.Table(_surface_topography(path))
-
-
-def _surface_topography(path):
-    try:
-        import SurfaceTopography
-    except ImportError:
-        raise SceneError(f"{path.name} does not end in {', '.join(TEXT)} or .npy; other formats need SurfaceTopography: "
-                         f"{extra('topography')}{_points(path)}") from None
-    try:
-        return np.ma.filled(np.ma.asarray(SurfaceTopography.read_topography(str(path)).heights(), float), math.nan).T
-    except Exception as error:
-        raise SceneError(f"cannot read heights from {path}: {_reader_error(error, path)}{_points(path)}") from None
-
-
-def _reader_error(error, path):
-    """What a reader of instruments' files says; where none knows the file, all that it tried is of no use to anybody."""
-    if type(error).__name__ in UNKNOWN_FILE:
-        return f"SurfaceTopography does not read this format; export the heights as text ({', '.join(TEXT)}) or .npy"
-    return brief(error)
-
-
-def _points(path):
-    return f"; {POINTS}" if ending(path) == ".xyz" else ""
+    if ending(path) == ".xyz":
+        raise SceneError(f"cannot read heights from {path}: {POINTS}")
+    return text_heights.Table(instrument_files.heights(path, f"{', '.join(TEXT)} or .npy"))
 
 
 def levelled(values, level):
@@ -159,21 +144,25 @@ def levelled(values, level):
     if level == "mean":
         return centred
     y, x = (np.arange(n) - (n - 1) / 2 for n in values.shape)
-    along, across = x * (x @ values.mean(axis=0)) / (x @ x), y * (y @ values.mean(axis=1)) / (y @ y)
-    flat = centred - along - across[:, None]
+    flat = centred - _slanted(values.mean(axis=0), x) - _slanted(values.mean(axis=1), y)[:, None]
     return flat if level == "plane" else flat - _curved(flat, x, y)
+
+
+def _slanted(profile, x):
+    """Straight line of a profile; none of one point."""
+    return x * (x @ profile) / max(x @ x, 0.5)
 
 
 def _curved(values, x, y):
     """Part that is x^2, y^2 or x y of heights (rows, columns) without a plane; none has any of the others."""
-    twist = (y @ values @ x) / ((x @ x) * (y @ y))
+    twist = (y @ values @ x) / max((x @ x) * (y @ y), 0.25)
     return _bent(values.mean(axis=0), x)[0] + _bent(values.mean(axis=1), y)[0][:, None] + twist * np.outer(y, x)
 
 
 def _bent(profile, x):
     """(parabola of a profile without a slope, its second derivative)."""
     bent = x * x - (x * x).mean()
-    share = (bent @ profile) / (bent @ bent)
+    share = (bent @ profile) / (bent @ bent) if x.size > 2 else 0.0
     return share * bent, 2 * share
 
 
@@ -196,13 +185,20 @@ class Measures:
     @classmethod
     def of(cls, heights, steps):
         """heights: (rows, columns) in m, points so far apart along x and along y (m)."""
-        along, across = np.diff(heights, axis=1)[:-1] / steps[0], np.diff(heights, axis=0)[:, :-1] / steps[1]
-        slope = math.degrees(math.atan(float(np.hypot(along, across).max())))
+        slope = math.degrees(math.atan(float(np.hypot(*gradients(heights, steps)).max())))
         return cls(float(heights.min()), float(heights.max()), float(heights.std()), slope)
 
     @property
     def range(self):
         return self.high - self.low
+
+
+def gradients(heights, steps):
+    """(along x, along y) between neighbours, of all points that have one on either axis; 0 along an axis of one point."""
+    along, across = (np.diff(heights, axis=axis) / step for axis, step in zip((1, 0), steps))
+    along = along[:-1] if len(heights) > 1 else along
+    across = across[:, :-1] if heights.shape[1] > 1 else across
+    return (along if along.size else 0 * across), (across if across.size else 0 * along)
 
 
 def missed(heights, along, across):

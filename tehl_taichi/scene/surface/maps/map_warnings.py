@@ -37,15 +37,21 @@ def doubts(f, scene):
 def lines(f, scene):
     """Two lines: what was read, and what passes through the contact."""
     steps = points_in_a_cell(f, scene)
-    (along, across), m, name = f.points, f.measures, f"map {os.path.basename(f.file)}"
+    m, name = f.measures, f"{f.shape} {os.path.basename(f.file)}"
     heights = f"heights in {f.unit}" + (f" times {f.scale:g}" if f.scale != 1 else "")
-    turned = f"{f.orientation.says}, " if f.orientation.says else ""
+    turned = f"{said}, " if (said := f.kind.lies(f)) else ""
     off = f"{LEVELS[f.level]} removed{form_taken(f, scene)}"
     skipped = f"{found}, " if (found := height_map.skipped(f.sha256)) else ""
-    yield (f"{name}: {skipped}{along} x {across} points {_apart(f)} um apart, {_um(f.patch[0])} x {_um(f.patch[1])} um of them "
-           f"used{_taper(f)}, {turned}{heights}, {off}{_filter(f)}")
+    yield (f"{name}: {skipped}{f.kind.points_words(f)} {_apart(f)} um apart, {_patch(f)} of them used{_taper(f)}, {turned}"
+           f"{heights}, {off}{_filter(f)}")
+    cells = " x ".join(f"{count:.3g}" for count, many in zip(steps, f.points) if many > 1)
     yield (f"{name}: {_um(m.low)} to {_um(m.high)} um (range {_um(m.range)} um), rms {_um(m.rms)} um, largest slope "
-           f"{m.slope:.2g} deg; a cell of the grid has {steps[0]:.3g} x {steps[1]:.3g} points")
+           f"{m.slope:.2g} deg; a cell of the grid has {cells} points")
+
+
+def _patch(f):
+    """What is used of it along the axes on which it has points."""
+    return " x ".join(_um(size) for size, count in zip(f.patch, f.points) if count > 1) + " um"
 
 
 def _filter(f):
@@ -144,8 +150,8 @@ def _grid(f, scene):
     lost, own = missed(heights, *steps), missed(heights, 2, 2)
     if lost > SHARE:
         remedy, cutoff = _finer(heights, steps, scene.grid), _cutoff(f, scene)
-        yield with_data(f"{_name(f)}: the grid loses {lost:.0%} of the rms of the map ({remedy}{f'; {cutoff}' * bool(cutoff)})",
-                        remedy, lost=float(lost))
+        yield with_data(f"{_name(f)}: the grid loses {lost:.0%} of the rms of the {f.shape} "
+                        f"({remedy}{f'; {cutoff}' * bool(cutoff)})", remedy, lost=float(lost))
     if min(steps) < 1 and own > SHARE:
         yield (f"{_name(f)}: points {_apart(f)} um apart are {1 / min(steps):.2g} cells and do not resolve the roughness "
                f"({own:.0%} of the rms changes without every second point); heights are interpolated linearly")

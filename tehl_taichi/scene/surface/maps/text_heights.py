@@ -1,15 +1,18 @@
 """Heights in a text file as instruments export them: header, marks of points that were not measured, columns between marks."""
 
+import re
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tehl_taichi.scene.surface.maps import coordinates
+from tehl_taichi.scene.surface.maps import coordinates, line_profiles
 
 COLUMNS = (";", "\t", ",", None)  # what may stand between two heights, the first that a row has; None: blanks
 UNMEASURED = ("bad", "bad data", "nan", "na", "n/a", "no data", "no_data", "nodata", "null")  # also nothing, and * or - alone
 MARKS = "bad, nan, no data, ***, --- or an empty field"
 SPLIT = {"no data": "nodata", "bad data": "bad"}  # marks of two words, which blanks would part
+SECTION = "[profile_values]"  # below it every line has the number of its point and an = before the values
+NUMBER = re.compile(r"^\s*\d+\s*=")
 
 
 @dataclass(frozen=True)
@@ -24,6 +27,14 @@ class Table:
     spacing: tuple = (None, None)
 
     def without_coordinates(self):
+        """The same with the heights alone, of a line profile in one row; beside, spacing: as of a grid."""
+        found = line_profiles.heights_of(self.values)
+        if found is None:
+            return self._grid()
+        heights, step, beside = found
+        return replace(self, values=heights, beside=beside, spacing=(step, None))
+
+    def _grid(self):
         """The same with the heights alone; beside: the coordinates that were taken off, in words; spacing: theirs, (along a
         row, from row to row), None where there are none."""
         found = coordinates.without(self.values)
@@ -42,24 +53,44 @@ def read(path):
     fewer columns than the first, no row at all."""
     with path.open(encoding="utf-8-sig", errors="replace") as file:  # headers have other encodings of a micro sign
         lines = [(number, line.rstrip("\r\n ")) for number, line in enumerate(file, 1) if line.strip(" \r\n")]
-    told = [(number, line.split("#")[0]) for number, line in lines if not line.startswith("#")]
+    told = _section([(number, line.split("#")[0]) for number, line in lines if not line.startswith("#")])
     header, mark = _first_row(told)
     _check_header(told[:header], told[header], mark)
     rows, ended = _rows(told[header:], mark)
     first = told[header][0]
-    before = sum(number < first for number, _ in lines)
+    before, after = sum(number < first for number, _ in lines), [line for number, line in lines if number > first]
     values = np.array(rows)
-    return Table(values[:, :-1] if ended else values, before, len(lines) - before - len(rows))
+    return Table(values[:, :-1] if ended else values, before, sum(line.startswith("#") for line in after))
+
+
+def _section(lines):
+    """The same; of a file with a section of the values of a profile these, without their numbers, and the header before."""
+    begins = next((index for index, (_, line) in enumerate(lines) if line.strip().lower() == SECTION), None)
+    if begins is None:
+        return lines
+    values = [(number, NUMBER.sub("", line)) for number, line in lines[begins + 1:] if NUMBER.match(line)]
+    return lines[:begins + 1] + values
 
 
 def _first_row(lines):
     """(index of the first line that is a row of heights, mark between its columns)."""
     for index, (_, line) in enumerate(lines):
-        mark = next(mark for mark in COLUMNS if mark is None or mark in line)
-        words = _words(line, mark)
-        if all(map(_is_height, words)) and (len(words) > 1 or not _unmeasured(words[0])):
-            return index, mark
+        for mark in (mark for mark in COLUMNS if mark is None or mark in line):
+            words = _words(line, mark)
+            if all(map(_is_height, words)) and (len(words) > 1 or not _unmeasured(words[0])):
+                return index, _between(lines[index:], mark)
     raise ValueError("no line is a row of numbers")
+
+
+def _between(lines, mark):
+    """None for a comma that is the decimal comma of a column: whole numbers before and behind it that do not rise."""
+    if mark != ",":
+        return mark
+    pairs = [line.split(",") for _, line in lines]
+    if any(len(pair) != 2 or not all(word.strip().lstrip("-+").isdigit() for word in pair) for pair in pairs):
+        return mark
+    first = [float(whole) for whole, _ in pairs]
+    return mark if all(a < b for a, b in zip(first, first[1:])) else None
 
 
 def _check_header(header, first, mark):
@@ -83,8 +114,9 @@ def _rows(lines, mark):
 
 
 def _words(line, mark):
-    """Columns of a line; with semicolons or tabs numbers may have decimal commas."""
-    words = _joined(line).split() if mark is None else (line if mark == "," else line.replace(",", ".")).split(mark)
+    """Columns of a line; with semicolons, tabs or blanks numbers may have decimal commas."""
+    line = line if mark == "," else line.replace(",", ".")
+    words = line.split(mark) if mark else _joined(line).split()
     return ["nan", *words[1:]] if _has_corner(words) else words
 
 

@@ -1,0 +1,163 @@
+"""Keys of the shapes whose heights come from a file, and what follows from them."""
+
+import dataclasses
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from tehl_taichi.scene.surface.maps import gaussian_filter, height_map, hole_filling
+from tehl_taichi.scene.surface.maps.form import SurfaceForm
+from tehl_taichi.scene.surface.maps.height_map import LEVELS, UNITS, Measures
+from tehl_taichi.scene.surface.maps.orientation import Orientation
+from tehl_taichi.values.quantity import choice, quantity, switch, text
+
+FARTHEST = 5e-4  # m, between points of a map: 0.001 was meant in mm
+
+
+@dataclass(frozen=True)
+class Measured:
+    """Keys of a map or a line profile, and what follows from them."""
+
+    file: str = text("", "map, profile: CSV or NPY file (others with the `topography` extra); of a map each row is a line of "
+                         "points along x; paths are relative to the scene file", most=4096, compare=False)
+    unit: str = choice("", "map, profile: unit of the heights in the file", ("", *UNITS))
+    scale: float = quantity(1.0, "", "map, profile: factor for the heights; -1 inverts them, as for a replica", -1e3, 1e3)
+    pixel: float = quantity(0.0, "m", "map, profile: distance between points in a row of the file; 0: not given", 0.0, FARTHEST,
+                            usual=1e-6)
+    pixel_y: float = quantity(0.0, "m", "map: distance between rows of the file; 0: equal to pixel", 0.0,
+                              FARTHEST, usual=1e-6)
+    transpose: bool = switch(False, "map: the rows of the file run along y (across); pixel and pixel_y remain those of the "
+                                    "file")
+    mirror_x: bool = switch(False, "map, profile: reverse the heights along x (after transpose)")
+    mirror_y: bool = switch(False, "map, profile: reverse the heights along y (after transpose)")
+    level: str = choice("plane", "map, profile: shape removed from the heights; form: plane and curvature", tuple(LEVELS))
+    cutoff: float = quantity(0.0, "m", "map, profile: Gaussian low-pass (ISO 16610-61, -21), wavelength reduced to half its "
+                                       "amplitude; 0: none", 0.0, 1e-2, usual=2e-5)
+    sha256: str = text("", "map, profile: checksum of the heights, set when they are read; a file with other heights is then "
+                           "refused")
+
+    def __setstate__(self, state):
+        """A copy in another process brings its heights along."""
+        self.__dict__.update(state)
+        if "heights" in state:
+            self.__dict__["heights"] = height_map.keep(self.heights)[1]
+
+    @cached_property
+    def heights(self):
+        """Heights (rows, columns; one row of a profile) in the unit of its file, as when the feature was made; nan in its
+        holes."""
+        return height_map.fetch(self.file, self.sha256)[1]
+
+    @property
+    def orientation(self):
+        """The :class:`tehl_taichi.scene.surface.maps.orientation.Orientation` of its file."""
+        return Orientation(self.kind.across(self), self.mirror_x, self.mirror_y)
+
+    @property
+    def raw(self):
+        """Heights (points along y, along x) of a map in m as they lie in the contact, its holes filled, scaled, with the form
+        that they were measured with."""
+        return hole_filling.filled(self.orientation.turned(self.heights)) * (UNITS[self.unit] * self.scale)
+
+    @property
+    def holes(self):
+        """Points (along y, along x) that were not measured: what passes there is filled in."""
+        return self.orientation.turned(hole_filling.missing(self.heights))
+
+    def nearest(self, x, y):
+        """Its points (along y, along x) that are nearest to x, y (m, from its centre), arrays or numbers."""
+        i, j = (np.clip(np.rint(at / step + (count - 1) / 2).astype(int), 0, count - 1)
+                for at, step, count in zip((np.asarray(x), np.asarray(y)), self.steps, self.points))
+        return j, i
+
+    def position_in_file(self, x, y):
+        """Where in its file the nearest point to x, y (m, from its centre) stands, in words; "" beyond its patch."""
+        if any(abs(at) > size / 2 for at, size in zip((x, y), self.patch)):
+            return ""
+        nearest = self.nearest(x, y)
+        row, column = self.orientation.in_file(self.heights.shape, *nearest)
+        return self.kind.place_words(row + 1, column + 1) + ", not measured" * bool(self.holes[nearest])
+
+    @cached_property
+    def whole_heights(self):
+        """The same levelled and filtered: what passes through the contact."""
+        return self.filtered(self.cutoff)
+
+    def filtered(self, cutoff):
+        """The same levelled, low-pass with that cutoff (m; 0: none). A plane that was left passes as it is, up to the rim."""
+        flat = height_map.levelled(self.raw, self.level)
+        if not cutoff:
+            return flat
+        rest = height_map.levelled(flat, "plane")
+        return flat - rest + gaussian_filter.lowpass(rest, self.steps, cutoff)
+
+    @cached_property
+    def form(self):
+        """The :class:`tehl_taichi.scene.surface.maps.form.SurfaceForm` that it was measured with."""
+        return SurfaceForm.of(self.raw, self.steps, self.size)
+
+    @cached_property
+    def cutoffs(self):
+        """{(scales, grid): cutoff that helps there}, kept by `scene.map_cutoff`, where each try is a filter."""
+        return {}
+
+    @property
+    def file_steps(self):
+        """(along a row of the file, from row to row): distances of its points in m."""
+        return self.pixel, self.pixel_y or self.pixel
+
+    @property
+    def steps(self):
+        """(along x, along y): distances of its points in m."""
+        return self.orientation.swapped(self.file_steps)
+
+    @property
+    def points(self):
+        """How many it has (along x, along y)."""
+        return self.orientation.swapped(self.heights.shape[::-1])
+
+    @property
+    def size(self):
+        """(length, width) of the whole map in m; 0 along an axis of one point."""
+        return tuple((count - 1) * step for count, step in zip(self.points, self.steps))
+
+    @property
+    def patch(self):
+        """(length along x, along y) in m of the part of a map that is used; of a profile inf along y where it has no end."""
+        return self.kind.patch(self)
+
+    def to_rim(self, x, y):
+        """(along x, along y): distances (m) of a point x, y (m, from its centre) from the rim of the patch, < 0 beyond it."""
+        return tuple(size / 2 - abs(at) for size, at in zip(self.patch, (x, y)))
+
+    @property
+    def used(self):
+        """What passes through the contact: the part of `whole_heights` inside the patch, faded out at its rim."""
+        return self.faded(self.inside(self.whole_heights))
+
+    def passing(self, cutoff):
+        """The same with another cutoff (m; 0: none)."""
+        return self.faded(self.inside(self.filtered(cutoff)))
+
+    def faded(self, values):
+        """Values (points along y, along x) of the patch, faded out at its rim."""
+        y, x = ((np.arange(count) - (count - 1) / 2) * step for count, step in zip(values.shape, self.steps[::-1]))
+        return values * self.kind.window(self, x, y[:, None]) if self.taper else values
+
+    def inside(self, values):
+        """The part of such an array inside the patch."""
+        rows, columns = values.shape
+        cut = [int((n - 1 - round(size / step)) // 2) if n > 1 else 0
+               for n, size, step in zip((columns, rows), self.patch, self.steps)]
+        return values[cut[1]:rows - cut[1], cut[0]:columns - cut[0]]
+
+    @cached_property
+    def measures(self):
+        """Range and rms of what passes of a map; the largest slope is that of its patch as it was measured."""
+        return dataclasses.replace(Measures.of(self.used, self.steps), slope=self.unfaded.slope)
+
+    @cached_property
+    def unfaded(self):
+        """Range, rms and largest slope of its patch, not faded out."""
+        return Measures.of(self.inside(self.whole_heights), self.steps)
