@@ -25,11 +25,11 @@ def fatigue(Fi=1.008, below=1.392):
              "sigma1_worst_Pa": 6e7}
     found = {"Fi_max": Fi, "findley_stress_max_Pa": Fi * 4e8, **point, "sigma1_max_Pa": 3e8, "kappa_F": 0.3, "sigma_eF_Pa": 4e8,
              "criterion": "findley", "thermal_stress": True, "pit_angles_deg": [18.0, 50.0], "surface": "a",
-             "carries_feature": True}
+             "carries_feature": True, "contact_alone": {"Fi_max": 0.9, "findley_stress_max_Pa": 3.6e8, "depth_m": 180e-6,
+                                                        "surface_Fi_max": 0.6, "shear_counted": True}}
     if below:
         found["below"] = {"depth_m": 25e-6, "Fi_max": below, "findley_stress_max_Pa": below * 4e8, **point,
-                          "searched_m": [3e-6, 3e-4],
-                          "contact_alone": {"Fi_max": 0.9, "findley_stress_max_Pa": 3.6e8, "depth_m": 180e-6}}
+                          "searched_m": [3e-6, 3e-4]}
     return found
 
 

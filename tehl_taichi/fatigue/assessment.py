@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from tehl_taichi.fatigue import depth_search, resolved_part, result_arrays
+from tehl_taichi.fatigue import contact_alone, depth_search, resolved_part, result_arrays
 from tehl_taichi.fatigue.layer import layer
 from tehl_taichi.fatigue.pass_progress import PassProgress
 from tehl_taichi.fatigue.search_result import SearchResult
@@ -34,7 +34,7 @@ class Snapshots:
         return {name: self.items[n].fields[name] for name in names}
 
 
-def run(scene, reader, progress=None, until=None):
+def run(scene, reader, progress=None, until=None, alone=True):
     """The SearchResult of the worse body of a passage, with that of the other (of those that the scene has `judged`).
 
     Of the points within 0.6 a of the first feature (0.3 a beyond larger ones), and of what features slide over. At all points
@@ -43,7 +43,7 @@ def run(scene, reader, progress=None, until=None):
     too (:mod:`tehl_taichi.fatigue.depth_search`); where depths are listed also at all points at these.
     Between its from_x and to_x, by its criterion. reader: see :class:`tehl_taichi.fatigue.stress.histories.StressHistories`; or
     a list of snapshots. progress: called with (done, total) parts. until: position (a) of the feature; the worst points of the
-    moments up to there are reported, too ("resolved" of the summary).
+    moments up to there are reported, too ("resolved" of the summary). alone: whether the smooth contact is searched, too.
     On the rows of the reader (where they begin with y = 0, the others are its mirror). Memory: one block of histories
     (1 GB at most), with thermal stress 8 bytes more per entry and wave number (4 nodes of the grid).
     Raises SceneError when no feature passes.
@@ -55,7 +55,7 @@ def run(scene, reader, progress=None, until=None):
     if not (count := len(scene.judged)):
         raise SceneError(f"surface {scene.fatigue.surfaces} is at rest: its points are always under load and have no cycle; "
                          "allowed: the other one")
-    return worse_of([_of_surface(scene, surface, reader, centres, _share(progress, n, count), until)
+    return worse_of([_of_surface(scene, surface, reader, centres, _share(progress, n, count), until, alone)
                      for n, surface in enumerate(scene.judged)])
 
 
@@ -75,7 +75,7 @@ def _share(progress, n, count):
     return progress and (lambda done, total: progress(n * total + done, count * total))
 
 
-def _of_surface(scene, surface, reader, centres, progress, until):
+def _of_surface(scene, surface, reader, centres, progress, until, alone):
     """The SearchResult of one body."""
     passage = StressHistories(scene, reader, centres, surface=surface)
     if passage.centres.size < 2:
@@ -87,7 +87,7 @@ def _of_surface(scene, surface, reader, centres, progress, until):
     layers = [layer(scene, passage, depth, progress, early) for depth in (0.0, *scene.fatigue.listed)]
     deep = depth_search.search(scene, passage, layers, early, progress) if wanted else depth_search.DepthResult([], [])
     progress.end()
-    result = _result(scene, passage, layers, deep)
+    result = _result(scene, passage, layers, deep, contact_alone.search(scene, reader, surface) if alone else None)
     if early is None:
         return result
     part = resolved_part.part(scene, passage, early, until, layers, deep)
@@ -102,14 +102,14 @@ def _early(passage, until):
     return np.append(first, passage.positions.size) if 1 < first.size < passage.positions.size else None
 
 
-def _result(scene, passage, layers, below):
+def _result(scene, passage, layers, below, alone):
     surface, limit, centres = layers[0], scene.fatigue.endurance, passage.positions
     summary = {"surface": passage.surface.name, "carries_feature": bool(passage.surface.features),
                **surface.worst.summary(limit), "sigma1_max_Pa": float(surface.sigma1.max()),
                "kappa_F": float(scene.fatigue.kappa), "sigma_eF_Pa": float(limit), **_limits(scene.fatigue),
                **_cut(scene.fatigue), **surface.worst.moments(centres),
                "criterion": scene.fatigue.criterion, "thermal_stress": scene.has_thermal_stress,
-               "pit_angles_deg": list(PIT_ANGLES)}
+               "pit_angles_deg": list(PIT_ANGLES), **({"contact_alone": alone.summary} if alone else {})}
     arrays = {**result_arrays.of_surface(surface, passage, limit), "worst": surface.worst.history(centres)}
     points = [found.worst for found in layers[1:]] + below.worst
     if points:
@@ -118,8 +118,9 @@ def _result(scene, passage, layers, below):
         arrays["worst_below"] = point.history(centres)
     if below.profiles:
         depths = below.profiles[0].depths
-        summary["below"] |= {"searched_m": [float(depths[0]), float(depths[-1])], **_alone(below.profiles, limit)}
+        summary["below"] |= {"searched_m": [float(depths[0]), float(depths[-1])]}
         arrays |= result_arrays.of_profiles(surface.f, passage, below.profiles, len(layers) > 1)
+        arrays |= {"findley_stress_contact_alone": alone.f} if alone else {}
         arrays |= result_arrays.of_plane(below.plane) if below.plane else {}
     if len(layers) > 1:
         summary["by_depth"] = [{"depth_m": layer.depth, "findley_stress_max_Pa": float(layer.f.max()),
@@ -138,11 +139,3 @@ def _limits(fatigue):
     """The limits that its constants follow from, Pa; {} where they were given themselves."""
     return {f"{key}_Pa": float(getattr(fatigue, key)) for key in fatigue_limits.given_limits(vars(fatigue))}
 
-
-def _alone(profiles, limit):
-    """What the contact has below it without its feature, where that was looked for."""
-    for profile in profiles:
-        if profile.alone:
-            f = profile.worst.f
-            return {"contact_alone": {"Fi_max": f / limit, "findley_stress_max_Pa": f, "depth_m": profile.worst.depth}}
-    return {}

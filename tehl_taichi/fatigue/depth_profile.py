@@ -22,12 +22,11 @@ CLOSE = 0.9      # points within this of the worst of a rung are followed betwee
 
 @dataclass(frozen=True)
 class Profile:
-    """Findley stress f (depths, x') Pa at depths (m) and the worst point of all depths; alone: of the contact alone."""
+    """Findley stress f (depths, x') Pa at depths (m) and the worst point of all depths."""
 
     depths: np.ndarray
     f: np.ndarray
     worst: WorstPoint
-    alone: bool
 
 
 def ladder(passage):
@@ -37,38 +36,39 @@ def ladder(passage):
     return np.geomspace(first, last, count)
 
 
-def profiles(passage, rows, alone=False, windows=(slice(None),), notify=lambda done, total: None):
+def profiles(passage, rows, windows=(slice(None),), notify=lambda done, total: None):
     """:class:`Profile` of a passage under every one of these rows of its reader, for each of `windows`: moments that count.
 
-    alone=True: and under one point of the last row with the loads there as an endless line: the contact without its feature.
     notify: called with (done, total) parts of the stresses, then of the searches.
     """
-    depths, middle = ladder(passage), passage.x.size // 2
-    kinds = [(row, False) for row in rows] + [(passage.reader.y.size - 1, True)] * alone
-    found = []
-    for n, (kind, histories) in enumerate(zip(kinds, histories_of(passage, depths, kinds, notify)), 1):
-        points = slice(middle, middle + 1) if kind[1] else slice(None)
-        found += _profiles(passage, depths, histories[:, points], windows, passage.x[points], kind)
+    depths, found = ladder(passage), []
+    kinds = [(row, False) for row in rows]
+    for n, (row, histories) in enumerate(zip(rows, histories_of(passage, depths, kinds, notify)), 1):
+        found += _profiles(passage, depths, histories, windows, row)
         notify(n, len(kinds))
     return found
 
 
-def _profiles(passage, depths, histories, windows, x, kind):
-    """The Profile of each window; kind: row, and whether it is of one point of the contact alone. Windows of some moments of
-    the first one keep its planes where they have as much there."""
+def _profiles(passage, depths, histories, windows, row):
+    """The Profile of each window. Windows of some moments of the first one keep its planes where they have as much there."""
     found, all_, known = [], np.arange(histories.shape[2]), None
     first = all_[windows[0]]
     for moments in windows:
         some, fewer = histories[:, :, moments], np.isin(all_[moments], first).all()
         searched = findley.search(some.reshape(-1, *some.shape[2:]), *_rule(passage), known=known if fewer else None)
         known = known if found else searched
-        found.append(_profile(passage, depths, some, searched[0].reshape(some.shape[:2]), x, *kind))
+        found.append(_profile(passage, depths, some, searched[0].reshape(some.shape[:2]), row))
     return found
 
 
-def _profile(passage, depths, histories, f, x, row, single):
+def of_row(passage, depths, histories, row):
+    """The Profile of histories (depths, x', moments, 6) Pa of the points under a row."""
+    return _profiles(passage, depths, histories, (slice(None),), row)[0]
+
+
+def _profile(passage, depths, histories, f, row):
     depth, point, *rest = _refined(passage, np.log(depths), histories, f)
-    return Profile(depths, f, WorstPoint(depth, float(x[point]), float(passage.reader.y[row]), *rest), single)
+    return Profile(depths, f, WorstPoint(depth, float(passage.x[point]), float(passage.reader.y[row]), *rest))
 
 
 def _rule(passage):

@@ -37,20 +37,19 @@ class DepthResult:
 
 
 def search(scene, passage, layers, early, progress):
-    """The DepthResult below the rows of the feature and of the worst points of `layers` (Layer), and below the contact alone;
-    on a whole domain at all points of the worst depth, too, and below the rows of what is worst there; early moments have a
-    worst depth of their own."""
+    """The DepthResult below the rows of the feature and of the worst points of `layers` (Layer); on a whole domain at all
+    points of the worst depth, too, and below the rows of what is worst there; early moments have a worst depth of their own."""
     rows = _rows(passage, (scene.features[0].y, *(place for found in layers for place in _worst(found))))
     if passes(passage):
         rows = list(dict.fromkeys(rows + candidate_rows.rows(passage, depth_profile.ladder(passage), _windows(early),
                                                              progress)))
-    profiles, before = _under(passage, rows, _has_far_row(scene, passage.reader.y), early, progress)
+    profiles, before = _under(passage, rows, early, progress)
     if not passes(passage):
         return DepthResult(profiles, before)
     plane, sooner = _planes(scene, passage, profiles, before, early, progress)
     places = _worst(plane) + ([sooner.worst.y] if sooner else [])
     more = [row for row in _rows(passage, places) if row not in rows]
-    others, earlier = _under(passage, more, False, early, progress) if more else ([], [])
+    others, earlier = _under(passage, more, early, progress) if more else ([], [])
     return DepthResult(profiles + others, before + earlier, plane, sooner)
 
 
@@ -84,10 +83,10 @@ def _rows(passage, places):
     return list(dict.fromkeys(int(np.argmin(np.abs(passage.reader.y - at))) for at in places))
 
 
-def _under(passage, rows, alone, early, progress):
+def _under(passage, rows, early, progress):
     """([profiles of the whole passage], [of its early moments])."""
     windows = _windows(early)
-    found = depth_profile.profiles(passage, rows, alone, windows, progress)
+    found = depth_profile.profiles(passage, rows, windows, progress)
     return found[:: len(windows)], found[1::2] if len(windows) > 1 else []
 
 
@@ -97,11 +96,5 @@ def _windows(early):
 
 
 def _points(profiles):
-    """Worst points of those that lie under the feature."""
-    return [profile.worst for profile in profiles if not profile.alone]
-
-
-def _has_far_row(scene, y):
-    """Whether the last row of a line contact is beyond all features."""
-    beyond = all(0 < f.reach_y and abs(f.y) + f.reach_y < y[-1] for f in scene.features)
-    return scene.contact.kind == "line" and y.size > 1 and beyond
+    """Their worst points."""
+    return [profile.worst for profile in profiles]

@@ -27,17 +27,13 @@ def at_depths(layers):
 
 def under_row(f, passage, profiles):
     """Findley stress (depth, x) under the row with the critical point; f (nx, rows): that of the surface, the first depth."""
-    under = max((profile for profile in profiles if not profile.alone), key=lambda profile: profile.worst.f)
+    under = max(profiles, key=lambda profile: profile.worst.f)
     row = f[:, [int(np.argmin(np.abs(passage.y - under.worst.y)))]].T
     return np.concatenate([row, under.f])
 
 
 def of_profiles(f, passage, profiles, listed):
-    """Over the depth, under the row with the critical point and of the contact alone; f: as for :func:`under_row`; listed:
-    whether other depths are listed."""
-    out = {"under_row_depth" if listed else "fatigue_depth": np.append(0.0, profiles[0].depths),
-           "findley_stress_under_row": under_row(f, passage, profiles)}
-    for profile in profiles:
-        if profile.alone:
-            out["findley_stress_contact_alone"] = np.append(np.nan, profile.f.max(axis=1))
-    return out
+    """Over the depth, under the row with the critical point; f: as for :func:`under_row`; listed: whether other depths are
+    listed."""
+    return {"under_row_depth" if listed else "fatigue_depth": np.append(0.0, profiles[0].depths),
+            "findley_stress_under_row": under_row(f, passage, profiles)}

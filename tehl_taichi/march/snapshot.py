@@ -37,6 +37,8 @@ class Snapshot:
         Of a steady start: {name: GridReading} of every grid that it visited.
     domain : DomainError
         Of a steady start: the share of the inlet, :class:`tehl_taichi.march.accuracy.domain_error.DomainError`.
+    coarser : list
+        Of a steady start: snapshots of the two coarser grids that it went over, for error bars.
     unsettled : str
         Why a steady start is only a state in time; "": it is steady.
 
@@ -60,6 +62,7 @@ class Snapshot:
     unknown: dict = field(default_factory=dict)
     parts: dict = field(default_factory=dict)
     domain: Any = None
+    coarser: list = field(default_factory=list)
     unsettled: str = ""
 
     def __repr__(self):

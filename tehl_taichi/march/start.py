@@ -17,16 +17,22 @@ from tehl_taichi.values.coded_text import Reason
 
 
 class StartReadings:
-    """What is seen of the grids of a start, from now on; newest: the snapshot of the last one that converged."""
+    """What is seen of the grids of a start, from now on; newest: the snapshot of the last one that converged; by_columns: those
+    of all grids, by their columns."""
 
     def __init__(self, scene):
-        self.scene, self.started, self.newest = scene, time.perf_counter(), None
+        self.scene, self.started, self.newest, self.by_columns = scene, time.perf_counter(), None, {}
 
     def __call__(self, solver, heat, report):
         if not report.converged:
             return None
         self.newest = self.taken(solver, heat, report)
+        self.by_columns[self.newest.x.size] = self.newest
         return readings.steady(self.newest, self.scene)
+
+    def coarser(self, first):
+        """Snapshots of the two grids before that of `first`, the coarser one first."""
+        return [found for columns, found in sorted(self.by_columns.items()) if columns < first.x.size][-2:]
 
     def taken(self, solver, heat, report):
         """The snapshot of what is in the solver's table."""
@@ -45,6 +51,7 @@ def steady_snapshot(scene, scales):
     first.scalars["cycles"], first.unsettled = float(result.work), unsettled
     first.grids, first.domain = result.values, DomainError() if unsettled else domain_error(result.solver)
     first.error, first.unknown, first.parts = _bars(first, scene)
+    first.coarser = looks.coarser(first)
     return _spread(first, scene, scales)
 
 

@@ -7,7 +7,6 @@ from tehl_taichi.fatigue.worst_point import on_circle
 from tehl_taichi.report.number_text import value_text
 from tehl_taichi.report.numbered_points import numbered
 from tehl_taichi.report.plots import colour, field_map, level, line, marks, stacked
-from tehl_taichi.report.scene_text import moments
 from tehl_taichi.scene.feature_wording import passing, position
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.view.figures.field_maps import mirrored
@@ -139,9 +138,7 @@ def _over_depth(search, f, deep, z, Fi):
               marks([f["Fi_max"]], [0.0], "surface", colour(1), symbol="circle")]
     alone = search.result.findley_stress_contact_alone
     if alone is not None:
-        same = ", same moments" if moments(search.scene) else ""
-        name = f"contact without its {passing(search.scene)}{same}"
-        traces.append(line(alone / f["sigma_eF_Pa"], z, name, GREY, dash="dash"))
+        traces.append(line(alone / f["sigma_eF_Pa"], z, "smooth contact", GREY, dash="dash"))
     return stacked(f"{search.on}over-depth", f"Largest index Fi at each depth{_briefly(search)}.", "largest Fi",
                    [("below the surface (µm)", traces, {"autorange": "reversed"})], height=440)
 

@@ -70,11 +70,11 @@ def of_fatigue(fatigue, scene=None, beside=MappingProxyType({})):
         return FATIGUE, f"No verdict: {why}.", "open", _from_pressure(searches)
     over = when(scene) if scene else WHOLE
     worst, places, known, tells = _judged(searches)
-    said, tells = headline(worst, places, known), [*tells, *_alone(fatigue, scene, feature_wording.passing(scene))]
+    said = headline(worst, places, known)
     if all("resolved" in one for one in searches.values()):
         early = {name: one["resolved"] for name, one in searches.items()}
         said, tells = _by_what_is_known(early, worst, tells, over, feature_wording.where(scene))
-    return FATIGUE, *said, (*tells, *_plane(fatigue))
+    return FATIGUE, *_load_too(*said, searches), (*_alone_words(searches), *tells, *_plane(fatigue))
 
 
 def _from_pressure(searches):
@@ -142,13 +142,36 @@ def headline(worst, places, known, when=""):
     return f"{no}: the index stays below 1{when}{more}.", "no"
 
 
-def _alone(fatigue, scene, what):
-    alone = fatigue.get("below", {}).get("contact_alone")
-    if not alone:
+def _load_too(said, tone, searches):
+    """(headline, tone) of a limit that the load alone exceeds, too."""
+    alone = _worst_alone(searches)
+    if tone != "yes" or not alone or judged(alone[1]["Fi_max"], error_of(alone[1], "Fi_max")) != ABOVE:
+        return said, tone
+    return f"{said.removesuffix('.')}; the load alone exceeds it, without any feature.", tone
+
+
+def _worst_alone(searches):
+    """(surface, numbers) of the smooth body that bears more, None where none is known."""
+    found = [(name, part) for name, one in searches.items() if (part := searched(one).get("contact_alone"))]
+    return max(found, key=lambda one: one[1]["Fi_max"], default=None)
+
+
+def _alone_words(searches):
+    """What the smooth contact bears, in a sentence."""
+    if not (worst := _worst_alone(searches)):
         return ()
-    more = f": the material is overloaded even without the {what}" if alone["Fi_max"] > 1 else ""
-    where = f"{micrometres(alone['depth_m'])} µm" + ", over the same moments" * bool(scene and moments(scene))
-    return (f"The contact without its {what} has Fi = {index(alone['Fi_max'])} at {where}{more}.",)
+    name, alone = worst
+    Fi, top = (index(alone[key], error_of(alone, key)) for key in ("Fi_max", "surface_Fi_max"))
+    body, over = f"surface {name}" if name else "the surface", judged(alone["Fi_max"], error_of(alone, "Fi_max"))
+    if not alone["depth_m"]:
+        return (f"The smooth contact alone: Fi = {Fi} at {body}, {SAID[over]}.",)
+    where = f"{micrometres(alone['depth_m'])} µm below {body}"
+    return (f"The smooth contact alone: Fi = {Fi} {where}, {SAID[over]}, and {top} at {body}.",)
+
+
+def error_of(part, key):
+    """Error bar of a number of a part, None where it is unknown."""
+    return part.get("error", {}).get(key)
 
 
 def _plane(fatigue):
@@ -164,9 +187,10 @@ def _of_film(summary, scene):
     part, when = (summary["transient"], "least") if "transient" in summary else (summary["steady"], "smallest")
     film, pressure = (_with_error(part, key, unit) for key, unit in (("h_min_m", "m"), ("p_max_Pa", "Pa")))
     centre = _with_error(summary["steady"], "h_c_m", "m")
-    why = f"No fatigue index: {scene.without_fatigue}." if scene.without_fatigue else ""
+    why = f"Left out: {scene.without_fatigue}." if scene.without_fatigue else ""
+    alone = {name: {"contact_alone": found} for name, found in summary.get("contact_alone_by_surface", {}).items()}
     return FILM, f"The {when} film is {film}, the largest pressure {pressure}.", "none", tuple(filter(None, (
-        f"The film in the middle of the steady contact is {centre}.", why)))
+        f"The film in the middle of the steady contact is {centre}.", *_alone_words(alone), why)))
 
 
 def _with_error(part, key, unit):
@@ -205,12 +229,21 @@ def _counted(scene):
 
 def _constants(store, summary):
     if "fatigue" not in summary:
-        return ()
+        return _limit_words(store.scene) if "contact_alone" in summary else ()
     f = searched(summary["fatigue"])
-    said = (f"Fi = 1 is the fatigue limit σ_eF = {f['sigma_eF_Pa'] / 1e6:.4g} MPa with κ = {f['kappa_F']:g} "
-            f"({f['criterion']}): {material(store.scene.fatigue)}.")
+    said = _limit(f["sigma_eF_Pa"], f["kappa_F"], f["criterion"], store.scene.fatigue)
     stress = "counts" if f["thermal_stress"] else "does not count"
     return said, f"Thermal stress {stress} in the index.", *_counted(store.scene)
+
+
+def _limit_words(scene):
+    f = scene.fatigue
+    return (_limit(f.endurance, f.kappa, f.criterion, f),)
+
+
+def _limit(stress, kappa, criterion, known):
+    """What Fi = 1 stands for; known: the section [fatigue], which has the source."""
+    return f"Fi = 1 is the fatigue limit σ_eF = {stress / 1e6:.4g} MPa with κ = {kappa:g} ({criterion}): {material(known)}."
 
 
 def _version(store):

@@ -8,6 +8,7 @@ does with other depths, where the same point is the worst.
 from dataclasses import asdict
 
 from tehl_taichi.fatigue.judged_surfaces import by_surface
+from tehl_taichi.fatigue.pressure_alone import searched
 from tehl_taichi.march.accuracy.coarse_runs import FI, indices
 from tehl_taichi.values.coded_text import Reason, reasons_of, unknown_of
 
@@ -20,12 +21,18 @@ SAME = 1e-6  # of the stress: the stored search and this one are the same
 def add_errors(searches, asked, store):
     """Put "error" and "unknown" into the parts of the summaries of searches, {surface: summary}. asked: the section [fatigue]
     that they were made with; store: of the run."""
-    own, stored = store.scene.fatigue, indices(by_surface(store.summary))
+    own, stored = store.scene.fatigue, _parts(by_surface(store.summary))
     alike = all(getattr(asked, key) == value for key, value in asdict(own).items() if key not in FREE)
-    for name, part in indices(searches).items():
+    for name, part in _parts(searches).items():
         before = stored.get(name, {}) if alike else {}
         part["error"], reasons = _scaled(part, before)
         part |= unknown_of(reasons)
+
+
+def _parts(searches):
+    """{name: part of a summary with an index} of {surface: summary of its search}."""
+    alone = {name: searched(found).get("contact_alone") for name, found in searches.items()}
+    return {**indices(searches), **{f"{name}:contact_alone": part for name, part in alone.items() if part}}
 
 
 def _scaled(part, before):

@@ -8,6 +8,7 @@ from os import PathLike
 from pathlib import Path
 
 from tehl_taichi.errors import StoreError, interrupt
+from tehl_taichi.fatigue.pressure_alone import WITHOUT, why_none
 from tehl_taichi.runs.progress import ERRORS, PASSAGE, STEADY, Progress
 from tehl_taichi.runs.stored_run import Run
 from tehl_taichi.scene import Scene
@@ -97,7 +98,8 @@ def _continue(path, scene, threads, began, progress):
     memory_demand.check(scene)
     with _stoppable(path), Store.write(path) as saved:
         steady = {name: saved.needed(name) for name in ("steady_error", "steady_unknown")}
-        steady |= {name: saved.known(name) for name in ("steady_parts", "steady_domain", "steady_unknown_codes")}
+        steady |= {name: saved.known(name) for name in ("steady_parts", "steady_domain", "steady_unknown_codes",
+                                                   "steady_contact_alone")}
         runtime.start_or_join(threads=threads)
         state = saved.go_back()
         clock = _Clock(began, _spent(saved))
@@ -127,11 +129,21 @@ def _begin(scene, place, clock, progress):
     if first.unsettled:
         progress.warn(f"{first.unsettled}; the passage starts from an unsteady state")
     steady = {"steady_error": plain(first.error), "steady_parts": plain(first.parts), "steady_domain": first.domain.values(),
+              "steady_contact_alone": plain(_contact_alone(scene, first)),
               **{f"steady_{name}": values for name, values in unknown_of(first.unknown).items()}}
     attrs = {**texts(scene.warnings()), **{name: json.dumps(value) for name, value in steady.items()},
              **provenance(scene)}
     with Store.create(place, scene, first, most_steps(scene) + 1, attrs) as saved:
         return _finish(saved, saved.go_back(), steady, clock, progress)
+
+
+def _contact_alone(scene, first):
+    """{surface: fatigue of its smooth body under the start}; without the shear of a film that has more than any oil."""
+    from tehl_taichi.march.accuracy import contact_alone_bars
+    from tehl_taichi.runs.summary.film_warnings import MOST_FRICTION
+
+    too_much = first.scalars["friction_coefficient"] > MOST_FRICTION
+    return contact_alone_bars.searches(scene.replace(**WITHOUT) if too_much else scene, first)
 
 
 def _announce(scene, progress):
@@ -145,7 +157,6 @@ def _announce(scene, progress):
 
 def _finish(saved, state, steady, clock, progress):
     """From a state of the store to its summary."""
-    from tehl_taichi.fatigue.pressure_alone import why_none
     from tehl_taichi.march.accuracy import coarse_runs
     from tehl_taichi.march.accuracy.domain_error import DomainError
     from tehl_taichi.runs import background_errors
@@ -156,6 +167,7 @@ def _finish(saved, state, steady, clock, progress):
         until = _resolved(saved)
         told = begun(until)
         found, arrays = _fatigue(saved, until, progress)
+        _add_contact_alone(found, steady["steady_contact_alone"])
         sure = {name: one for name, one in found.items() if not why_none(one)}
         domain = DomainError.from_values(steady["steady_domain"])
         notify = functools.partial(progress.stage, ERRORS)
@@ -216,6 +228,14 @@ def _fatigue(saved, until, progress):
     progress.say("stresses and Findley search")
     result = assessed(saved, saved.scene, progress, until)
     return result.summaries, result.to_arrays()
+
+
+def _add_contact_alone(found, alone):
+    """Into {surface: summary} what the start found, with its error bars; alone: {surface: numbers of the smooth body}, {} of
+    runs before 0.9. An index of the pressure alone keeps its own."""
+    for name in found.keys() & alone.keys():
+        if not why_none(found[name]):
+            found[name]["contact_alone"] = alone[name]
 
 
 @contextlib.contextmanager

@@ -364,9 +364,11 @@ class Scene:
     @property
     def without_fatigue(self):
         """Why it has no fatigue index, as :meth:`left_out` lists it; "" where it has one."""
-        why = ("" if self.has_fatigue else "switched off" if not self.fatigue.on else "no passage" if not self.transient else
-               f"surface {self.fatigue.surfaces} is at rest")
-        return f"stresses and fatigue ({why})" if why else ""
+        if self.has_fatigue:
+            return ""
+        if self.fatigue.on and not self.transient:
+            return "fatigue around features (none passes)"
+        return f"stresses and fatigue ({f'surface {self.fatigue.surfaces} is at rest' if self.fatigue.on else 'switched off'})"
 
     def replace(self, **changes: Any) -> "Scene":
         """Return a changed copy.

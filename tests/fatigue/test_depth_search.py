@@ -16,7 +16,6 @@ from tehl_taichi.fatigue.stress.row_stress import RowStress
 from tehl_taichi.fatigue.stress.thermal_stress import ThermalStress
 from tehl_taichi.runs.summary import result_warnings, summary_rows
 from tehl_taichi.scene import SceneError
-from tehl_taichi.scene.scales import Scales
 from tehl_taichi.view.figures.figure_style import FigureStyle
 from tehl_taichi.view.figures.run_figures import write_fatigue
 
@@ -118,25 +117,16 @@ def test_it_is_searched_under_the_surface_s_worst_row_too(taichi_cpu):
 
 
 def test_the_surface_answers_as_it_did(found):
-    _, alone = result(**{"fatigue.depths": []})
-    assert "below" not in alone.summary and alone.worst_below is None
-    assert {**alone.summary, "below": 0} == {**found.summary, "below": 0}
-    for name, (values, *_) in alone.maps.items():
+    _, top = result(**{"fatigue.depths": []})
+    assert "below" not in top.summary and top.worst_below is None
+    assert {**top.summary, "below": 0, "contact_alone": 0} == {**found.summary, "below": 0, "contact_alone": 0}
+    for name, (values, *_) in top.maps.items():
         np.testing.assert_array_equal(values, found.maps[name][0])
-
-
-def test_the_contact_alone_is_worst_where_a_line_contact_is(taichi_cpu):
-    """Hertz line without shear: the shear along the surface goes from -p_H/4 to p_H/4 at 0.5 a (Johnson, section 4.2)."""
-    scene, found = result(**{"fatigue.shear": False, "fatigue.kappa": 0.0})
-    alone, scales = found.summary["below"]["contact_alone"], Scales.of(scene)
-    assert alone["findley_stress_max_Pa"] == pytest.approx(0.25 * scales.p_H, rel=0.01)
-    assert alone["depth_m"] == pytest.approx(0.5 * scales.a, rel=0.06)
 
 
 def test_of_a_row_alone_the_profile_is_that_of_the_row(taichi_cpu):
     scene = tehl.scene("furrow-line").replace(**{"thermal.on": False})
     found = assessment.run(scene, Rolling(scene, 12, 1))
-    assert "contact_alone" not in found.summary["below"]
     under = found.maps["findley_stress_under_row"][0]
     np.testing.assert_array_equal(under[0], found.maps["findley_stress"][0][:, 0])
     assert found.summary["below"]["findley_stress_max_Pa"] >= under[1:].max() * (1 - 1e-9)
@@ -217,11 +207,11 @@ def test_windows_know_planes_of_more_moments_alone(taichi_cpu, low_first):
     scene = tehl.scene("gear").replace(**{"thermal.on": False})
     passage = StressHistories(scene, reader := Rolling(scene), reader.centres)
     windows = [np.append(passage.centres < 0, True), slice(None)][:: 1 if low_first else -1]
-    together = depth_profile.profiles(passage, [0], True, windows)
-    alone = [found for window in windows for found in depth_profile.profiles(passage, [0], True, [window])]
-    for one, other in zip(together, [alone[0], alone[2], alone[1], alone[3]]):
+    together = depth_profile.profiles(passage, [0, 3], windows)
+    apart = [found for window in windows for found in depth_profile.profiles(passage, [0, 3], [window])]
+    for one, other in zip(together, [apart[0], apart[2], apart[1], apart[3]]):
         np.testing.assert_allclose(one.f, other.f, rtol=1e-7)
-        assert one.alone == other.alone and one.worst.f == pytest.approx(other.worst.f, rel=1e-7)
+        assert one.worst.y == other.worst.y and one.worst.f == pytest.approx(other.worst.f, rel=1e-7)
     assert max(together[0].f.max(), together[1].f.max()) > 1.02 * min(together[0].f.max(), together[1].f.max())
 
 
@@ -255,8 +245,8 @@ def test_depths_beyond_the_rungs_are_interpolated_well(taichi_cpu):
 
 
 def test_a_worst_point_below_is_said():
-    fatigue_ = {"Fi_max": 1.008, "below": {"Fi_max": 1.39, "depth_m": 24.8e-6,
-                                           "contact_alone": {"Fi_max": 1.195, "depth_m": 183e-6}}}
+    fatigue_ = {"Fi_max": 1.008, "below": {"Fi_max": 1.39, "depth_m": 24.8e-6},
+                "contact_alone": {"Fi_max": 1.195, "depth_m": 183e-6}}
     said, = result_warnings.worst_below(None, {"fatigue": fatigue_})
     assert "Fi 1.39 at 25 um, 1.01 at the surface" in said and "1.20 at 183 um" in said
     assert result_warnings.worst_below in result_warnings.CHECKS and "finer" not in said

@@ -21,7 +21,6 @@ WINDOW = 0.6       # half width (in a) of the part searched around one small fea
 MARGIN = 0.3       # (in a) searched beyond the rim of larger features
 LOADED = 1.5       # material points are followed while within this distance (in a) of the centre of the contact
 BLOCK_BYTES = 1e9  # histories held at once; more points than fit are done in blocks of y rows, each from the loads again
-BLOCK = 16         # entries whose stresses are found at once
 NODES = range(-2, 4)  # of the interpolation between cells, from the node before the point
 
 
@@ -34,10 +33,12 @@ class StressHistories:
     (:class:`tehl_taichi.scene.moving_surfaces.MovingSurface`), that of the first feature where nothing else is said.
     """
 
+    block = 16  # entries whose stresses are found at once
+
     def __init__(self, scene, reader, positions, window=WINDOW, surface=None):
         self.scene, self.reader, self.window, self.last_below = scene, reader, window, None
         self.surface, self.a = surface or scene.reference, Scales.of(scene).a
-        self.loads_of = ("pressure", *(f"traction_{axis}_{self.surface.name}" for axis in "xy"))
+        self.loads_of = self._names()
         self.path, centres = (float(positions[0]), float(positions[-1])), self.surface.pace * positions
         self.dx = float(reader.x[-1] - reader.x[0]) / (reader.x.size - 1)
         low, high = (max(1, int(side / self.dx + 1e-9)) for side in self._window("x"))
@@ -57,6 +58,10 @@ class StressHistories:
         self.entries = np.concatenate([0 * before, np.arange(len(centres)), 0 * after]).astype(int)
         self._widen()
         self._choose_moments()
+
+    def _names(self):
+        """Names of p, q_x and q_y of the surface."""
+        return "pressure", *(f"traction_{axis}_{self.surface.name}" for axis in "xy")
 
     def _window(self, axis):
         """Distances (m) searched on the negative and the positive side of the frame's origin."""
@@ -159,7 +164,7 @@ class StressHistories:
         """The entries that count, by their numbers: one has its place in the same block, and so the same bits, whatever moments
         are searched."""
         entries = np.unique(self.entries)
-        return np.split(entries, np.flatnonzero(np.diff(entries // BLOCK)) + 1)
+        return np.split(entries, np.flatnonzero(np.diff(entries // self.block)) + 1)
 
     def gathered(self, shape, stresses, notify, meanwhile):
         """Histories (x', *shape, times + 1, 6) Pa from the fields (columns, *shape, 6) that stresses(block) gives of each entry

@@ -5,7 +5,6 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from tehl_taichi.engine.fftw import DOUBLE, SINGLE, real_of
-from tehl_taichi.fatigue.stress.histories import BLOCK
 from tehl_taichi.fatigue.stress.row_stress import RowStress
 from tehl_taichi.fatigue.stress.thermal_stress import WORKERS, ThermalStress
 from tehl_taichi.fatigue.stress.unit_loads import HELD
@@ -63,12 +62,12 @@ class _Stresses:
 
     def __call__(self, block):
         """(entries, columns, kinds, depths, 6) Pa of entries that have a place in one block."""
-        passage, at = self.passage, block % BLOCK
-        loads = np.zeros((3, BLOCK, passage.grid_x.size, passage.reader.y.size), real_of(_kind(passage)))
+        passage, size = self.passage, self.passage.block
+        loads = np.zeros((3, size, passage.grid_x.size, passage.reader.y.size), real_of(_kind(passage)))
         for entry in block:
-            loads[:, entry % BLOCK] = passage.loads(int(entry))
+            loads[:, entry % size] = passage.loads(int(entry))
         found = [operator(*loads[..., rows]) for operator, rows in self.operators]
-        out = (np.concatenate(found, axis=2) if len(found) > 1 else found[0])[at]
+        out = (np.concatenate(found, axis=2) if len(found) > 1 else found[0])[block % size]
         for fields, tick in zip(out, passage.ticks[block] if self.heat else []):
             fields[:, :, 0][..., HELD] += self.heat(tick)
         return out

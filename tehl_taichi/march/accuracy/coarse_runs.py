@@ -151,7 +151,7 @@ def values(scene, notify=lambda: None, until=lambda: None):
         shots.append(replace(shot, make_state=None))  # it holds the tables, which the next companion needs
         notify()
     wanted = scene.has_fatigue and len(shots) > 2
-    found = assessment.run(scene, shots, until=until()).summaries if wanted else None
+    found = assessment.run(scene, shots, until=until(), alone=False).summaries if wanted else None
     return passage_readings(scene, assessment.Snapshots(shots),
                             lambda name: np.array([shot.scalars[name] for shot in shots]), found)
 

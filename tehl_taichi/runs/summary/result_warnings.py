@@ -59,7 +59,8 @@ def unknown_errors(store, summary):
     """Numbers whose error is unknown, with the reason; one sentence for all that share it."""
     searches = by_surface(summary)
     reasons: dict[Reason, list[str]] = {}
-    parts = [(summary.get("steady", {}), "steady ", ""), (summary.get("transient", {}), "passage ", "")]
+    parts = [(summary.get("steady", {}), "steady ", ""), (summary.get("transient", {}), "passage ", ""),
+             (summary.get("contact_alone", {}), "", " of the smooth contact")]
     for body, fatigue in searches.items():
         parts += _of_search(searched(fatigue), f" of body {body}" * (len(searches) > 1))
     for part, when, behind in parts:
@@ -75,7 +76,8 @@ def unknown_errors(store, summary):
 def _of_search(fatigue, body):
     """[(part, "", words behind its numbers)] of a fatigue search; body: whose, in words."""
     early, deep, of_it = fatigue.get("resolved", {}), " below the surface", " of the resolved part"
-    return [(fatigue, "", body), (fatigue.get("below", {}), "", deep + body), (early, "", of_it + body),
+    return [(fatigue.get("contact_alone", {}), "", f" of the smooth contact{body}"), (fatigue, "", body),
+            (fatigue.get("below", {}), "", deep + body), (early, "", of_it + body),
             (early.get("below", {}), "", deep + of_it + body)]
 
 
@@ -103,9 +105,9 @@ def worst_below(store, summary):
     body = f" of body {summary['fatigue']['surface']}" if others(summary) else ""
     said = (f"{alone_of}the critical point lies below the surface{body}: Fi {deep['Fi_max']:.2f} at "
             f"{micrometres(deep['depth_m'])} um, {fatigue['Fi_max']:.2f} at the surface")
-    alone = deep.get("contact_alone")
+    alone = fatigue.get("contact_alone")
     if alone and alone["Fi_max"] > fatigue["Fi_max"]:
-        said += f"; the contact without its feature has {alone['Fi_max']:.2f} at {micrometres(alone['depth_m'])} um"
+        said += f"; the smooth contact has {alone['Fi_max']:.2f} at {micrometres(alone['depth_m'])} um"
     if near_the_surface(deep, fatigue):
         said += "; this grid resolves nothing closer to the surface (half a cell): use a finer grid"
     return [with_data(said, Fi_max=fatigue["Fi_max"], below_Fi_max=deep["Fi_max"], depth_m=deep["depth_m"])]

@@ -20,7 +20,8 @@ from tehl_taichi.values.coded_warning import lists
 def summarise(store, extra, searches=None):
     """Summary dictionary. extra: wall_s, compile_s (kernels traced, compiled or loaded), crowding (see
     :func:`tehl_taichi.engine.task_pool.crowding`, here of this run; optional), steady_error, steady_unknown, steady_parts and
-    steady_domain (see :class:`tehl_taichi.march.snapshot.Snapshot`), passage_error, passage_unknown and passage_parts alike;
+    steady_domain (see :class:`tehl_taichi.march.snapshot.Snapshot`), steady_contact_alone (see
+    :func:`tehl_taichi.march.accuracy.contact_alone_bars.searches`), passage_error, passage_unknown and passage_parts alike;
     searches: {surface: summary of its fatigue search}, the worse one first, or None."""
     scene = store.scene
     scales = Scales.of(scene)
@@ -32,6 +33,9 @@ def summarise(store, extra, searches=None):
            "steady": _steady(store, extra)}
     if len(store) > 1:
         out["transient"] = _transient(store)
+    elif alone := extra.get("steady_contact_alone"):
+        worse = next(iter(alone))
+        out["contact_alone"], out["contact_alone_by_surface"] = {"surface": worse, **alone[worse]}, alone
     if searches:
         out["fatigue"], out["fatigue_by_surface"] = next(iter(searches.values())), searches
     known, unknown, of_it = (extra.get(f"passage_{what}", {}) for what in ("error", "unknown", "parts"))

@@ -115,15 +115,15 @@ def _passage_rows(summary):
                  SummaryRow("worst residual / load / mass error",
                      f"{t['residual_max']:.1e} / {t['load_error_max']:.1e} / {t['mass_error_max']:.1e}")]
     if "fatigue" in summary:
-        rows += rows_of_fatigue(summary["fatigue"], others(summary))
-    return rows
+        return rows + rows_of_fatigue(summary["fatigue"], others(summary))
+    return rows + (_alone_rows(summary["contact_alone"]) if "contact_alone" in summary else [])
 
 
 def rows_of_fatigue(f, beside=MappingProxyType({})):
     """A list of :class:`SummaryRow` of a fatigue summary (see :func:`_rows_of_search`), and the indices of the other body in
     `beside` {surface: summary}; where the tractions give no index, the reason, then the rows of the pressure alone."""
     why = why_none(f)
-    rows = [*_worse(f, beside), *_rows_of_search(searched(f)),
+    rows = [*_worse(f, beside), *_alone_rows(searched(f).get("contact_alone")), *_rows_of_search(searched(f)),
             *(row for name, other in beside.items() for row in _rows_of_other(name, searched(other)))]
     if not why:
         return rows
@@ -132,6 +132,15 @@ def rows_of_fatigue(f, beside=MappingProxyType({})):
 
 def _worse(f, beside):
     return [SummaryRow("worse body", f["surface"], part=SURFACE)] if beside else []
+
+
+def _alone_rows(alone):
+    """Indices of the smooth body; none of a search by an older version."""
+    if not alone:
+        return []
+    where = _at(alone) if alone["depth_m"] else ", at the surface"
+    return [_of(alone, "Fi_max", "Fi_max of the smooth contact", where=where, part=BELOW),
+            _of(alone, "surface_Fi_max", "Fi_max of the smooth contact at the surface", part=SURFACE)]
 
 
 def _rows_of_other(name, f):
@@ -203,9 +212,6 @@ def _below_rows(f):
     deep = f["below"]
     rows = [_of(deep, "Fi_max", "Fi_max below the surface", where=_at(deep) + _whole(f)),
             _stress(f"{f['criterion']} stress", deep["findley_stress_max_Pa"]), *_point_rows(deep, _frame(f))]
-    if "contact_alone" in deep:
-        alone = deep["contact_alone"]
-        rows.append(SummaryRow("Fi of the contact alone", f"{alone['Fi_max']:.4f}", alone["Fi_max"], where=_at(alone)))
     return [replace(row, part=BELOW) for row in rows]
 
 

@@ -201,7 +201,7 @@ def _over_depth(ax, found, Fi, depth):
             mew=line.get_linewidth(), label=f"largest, Fi = {largest(deep)} at {micrometres(deep['depth_m'])} µm")
     if found.result.findley_stress_contact_alone is not None:
         ax.plot(found.result.findley_stress_contact_alone / limit, depth, "--", color=palette.GREY,
-                label=f"contact without its {found.whose}")
+                label="smooth contact")
     ax.plot(found.summary["Fi_max"], 0.0, "o", color=palette.VERMILLION, clip_on=False,
             label=f"surface, Fi = {largest(found.summary)}")
     ax.set_xlabel("largest Fi")

@@ -1,0 +1,48 @@
+"""The contact alone: what the smooth bodies bear under the steady start, at the surface and below, wherever they pass it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl_taichi.fatigue import depth_profile, findley
+from tehl_taichi.fatigue.stress.row_histories import histories_of
+from tehl_taichi.fatigue.stress.steady_sweep import SteadySweep
+
+
+@dataclass(frozen=True)
+class ContactAlone:
+    """Numbers of one body without features ("Fi_max", "findley_stress_max_Pa", "depth_m", "surface_Fi_max" of its surface, and
+    whether the shear of the film counts: "shear_counted") and Findley stress f (Pa) over depths (m), the surface first."""
+
+    summary: dict
+    depths: np.ndarray
+    f: np.ndarray
+
+
+def search(scene, reader, surface):
+    """The :class:`ContactAlone` of the body of `surface`, of the middle row of the contact, over the whole way through it.
+
+    scene: its constants count, its moments and features do not; reader: of a run, of which entry 0 is the steady start. Below
+    the surface where fatigue.depths is not empty.
+    """
+    sweep = SteadySweep(scene, reader, surface)
+    surface_f, _ = findley.search(_histories(sweep, [0.0])[0], *_rule(scene))
+    f, depth, depths = surface_f, 0.0, np.zeros(1)
+    worst = float(f[0])
+    if scene.fatigue.depths:
+        under = depth_profile.ladder(sweep)
+        profile = depth_profile.of_row(sweep, under, _histories(sweep, under), sweep.middle)
+        depths, f = np.append(0.0, under), np.append(surface_f, profile.f[:, 0])
+        worst, depth = max((worst, 0.0), (profile.worst.f, profile.worst.depth))
+    limit = scene.fatigue.endurance
+    return ContactAlone({"Fi_max": worst / limit, "findley_stress_max_Pa": worst, "depth_m": depth,
+                         "surface_Fi_max": float(surface_f[0]) / limit, "shear_counted": scene.fatigue.shear}, depths, f)
+
+
+def _histories(sweep, depths):
+    """(depths, 1, moments, 6) Pa; of a line contact by its row as an endless line."""
+    return histories_of(sweep, depths, [(sweep.middle, sweep.line)])[0]
+
+
+def _rule(scene):
+    return scene.fatigue.kappa, True, scene.fatigue.criterion

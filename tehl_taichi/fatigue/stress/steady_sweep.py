@@ -1,0 +1,44 @@
+"""Stress history of a point of a smooth body that passes through the steady contact, at half the width of it or across."""
+
+import numpy as np
+
+from tehl_taichi.fatigue.stress.histories import LOADED, StressHistories
+from tehl_taichi.scene.scales import Scales
+
+
+class Steady:
+    """The steady start of a run twice, as the reader of a passage in which nothing changes.
+
+    reader: as for :class:`tehl_taichi.fatigue.stress.histories.StressHistories`; apart: s.
+    """
+
+    def __init__(self, reader, apart):
+        self.reader, self.x, self.y, self.time = reader, reader.x, reader.y, np.array([0.0, apart])
+
+    def __len__(self):
+        return 2
+
+    def fields(self, n, names):
+        """{name: (nx+1, ny+1) array} of the steady start."""
+        return self.reader.fields(0, names)
+
+
+class SteadySweep(StressHistories):
+    """Histories of one material point on the middle row, as it moves by a cell from moment to moment, `positions` (m) of it,
+    through the steady fields. scene, reader, surface: as for the class above."""
+
+    block = 1  # one entry, which every moment reads
+
+    def __init__(self, scene, reader, surface):
+        self.scene, self.surface, self.last_below, self.a = scene, surface, None, Scales.of(scene).a
+        self.loads_of = self._names()
+        self.dx = float(reader.x[-1] - reader.x[0]) / (reader.x.size - 1)
+        self.reader = Steady(reader, self.dx / surface.speed)
+        self.middle = int(np.argmin(np.abs(reader.y)))
+        self.rows, self.x = slice(self.middle, self.middle + 1), np.zeros(1)
+        self.y = reader.y[self.rows]
+        first = int(np.ceil((-LOADED * self.a - reader.x[0]) / self.dx))  # on nodes: no interpolation
+        count = int(2 * LOADED * self.a / self.dx) + 1
+        self.centres = self.positions = reader.x[0] + (first + np.arange(count)) * self.dx
+        self.entries = np.zeros(count, int)
+        self._widen()

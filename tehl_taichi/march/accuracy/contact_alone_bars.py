@@ -1,0 +1,30 @@
+"""Fatigue of the contact alone on the grids that the start visited: its numbers and their error bars."""
+
+from tehl_taichi.fatigue import contact_alone
+from tehl_taichi.fatigue.assessment import Snapshots
+from tehl_taichi.march.accuracy.domain_error import widened
+from tehl_taichi.march.accuracy.error_bars import GridReading, bars
+from tehl_taichi.values.coded_text import Reason, unknown_of
+
+INDICES = ("Fi_max", "surface_Fi_max")
+
+
+def searches(scene, first):
+    """{surface: numbers of :func:`tehl_taichi.fatigue.contact_alone.search`, with "error" and "unknown"}, of the bodies that
+    move, the worse one first; {} where fatigue is off.
+
+    first: snapshot of the steady start, see :class:`tehl_taichi.march.snapshot.Snapshot`.
+    """
+    if not scene.fatigue.on:
+        return {}
+    found = {surface.name: _searched(scene, surface, first) for surface in scene.judged}
+    return dict(sorted(found.items(), key=lambda one: -one[1]["Fi_max"]))
+
+
+def _searched(scene, surface, first):
+    each = [contact_alone.search(scene, Snapshots([grid]), surface).summary for grid in (*first.coarser, first)]
+    known = bars([{name: GridReading(one[name], positive=True) for name in INDICES} for one in each])
+    if first.unsettled:
+        known = tuple(dict.fromkeys(INDICES, one) for one in (None, Reason(first.unsettled, "unsettled")))
+    errors, unknown, _ = widened(*known, each[-1], first.domain, scene.operation.temperature, passing=True)
+    return {**each[-1], "error": errors, **unknown_of(unknown)}
