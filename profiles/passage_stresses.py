@@ -8,7 +8,7 @@ import numpy as np
 
 from tehl_taichi.disk import files
 from tehl_taichi.errors import StoreError
-from tehl_taichi.fatigue import depth_profile, findley
+from tehl_taichi.fatigue import contact_alone, depth_profile, findley
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.fatigue.stress.row_histories import at_the_surface
 from tehl_taichi.march.accuracy import coarse_runs, readings
@@ -131,9 +131,11 @@ def _moments(passage, low, high):
 def deep_stresses(passage):
     """DEEP, ALONE and their depths."""
     row = int(np.argmin(np.abs(passage.reader.y - passage.scene.features[0].y)))
-    *deep, _, alone = depth_profile.profiles(passage, [row], True, [_moments(passage, *WINDOWS[window]) for window in DEEP])
-    return {key: value for stress, profile in zip(DEPTHS, (*deep, alone))
-            for key, value in ((stress, profile.worst.f), (DEPTHS[stress], profile.worst.depth))}
+    deep = depth_profile.profiles(passage, [row], [_moments(passage, *WINDOWS[window]) for window in DEEP])
+    alone = contact_alone.search(passage.scene, passage.reader, passage.surface).summary
+    found = [(profile.worst.f, profile.worst.depth) for profile in deep]
+    return {key: value for stress, pair in zip(DEPTHS, [*found, (alone["findley_stress_max_Pa"], alone["depth_m"])])
+            for key, value in zip((stress, DEPTHS[stress]), pair)}
 
 
 def footprint_friction(saved, at):
