@@ -79,10 +79,12 @@ def new(
         _only_with_scan(unit=unit, pixel=pixel, pixel_y=pixel_y, lay=lay)
         scene_file.new(file, base)
         return put(f"wrote {file}; run it with: tehl run {file}")
-    read, missing = scan_scene.new(file, base, scan, unit, pixel, pixel_y, lay)
+    read, missing, refused = scan_scene.new(file, base, scan, unit, pixel, pixel_y, lay)
     fill = f"fill in feature.{' and feature.'.join(missing)} and " if missing else ""
     text = f"wrote {file} for {scan} ({read}); {fill}enter the values of your contact, oil and steel, then run: "
     put(f"{text}tehl run {file} --grid coarse --steps 0")
+    if refused:
+        put(f"warning: the scene is refused until you change it: {refused}")
 
 
 def _only_with_scan(**options):

@@ -2,7 +2,6 @@
 
 import os
 import tomllib
-from itertools import islice
 from pathlib import Path
 
 from tehl_taichi.disk import user_files
@@ -10,7 +9,8 @@ from tehl_taichi.errors import SceneError
 from tehl_taichi.scene import scene, scene_file
 from tehl_taichi.scene.scene_file import toml_value
 from tehl_taichi.scene.sections import Body
-from tehl_taichi.scene.surface.maps import height_map
+from tehl_taichi.scene.surface.maps import height_map, stated_keys
+from tehl_taichi.scene.surface.maps.refusals import HeightsRefused, KeyMissing
 from tehl_taichi.scene.surface.shapes.profile import LAYS
 
 LINES, LETTERS = 20, 100  # of the header of a file, shown
@@ -69,19 +69,39 @@ taper = {taper:<15}  # m: width over which the heights fade out at the rim
 
 def new(path, base, scan, unit="", pixel=0.0, pixel_y=0.0, lay=""):
     """Write a scene file for the heights in the file `scan` on the contact of the built-in scene `base`; returns (what of the
-    scan was read, keys that are still to be filled in). Raises SceneError where it cannot, or the scene would be refused."""
+    scan was read, keys that are still to be filled in, why the scene is refused as it is or ""). What is not given is taken
+    from the file. Raises SceneError where nothing can be written, or the file contradicts what is given."""
     path, scan = Path(path), Path(scan)
     scene_file.check_new(path)
     table = height_map.table_of(scan)
     _check_options(scan, height_map.is_profile(table.values), pixel_y, lay)
+    unit, pixel = unit or table.stated.unit, pixel or stated_keys.usable(table.stated.x)
     text = _text(path, scene(base), base, scan, table, unit, pixel, pixel_y, lay or "transverse")
-    missing = [key for key, value in (("unit", unit), ("pixel", pixel)) if not value]
-    if not missing:
-        scene_file.from_data(scene_file.with_map_folder(tomllib.loads(text), path.absolute().parent), path.stem)
+    refused = _refusal(path, text)
     user_files.text(path, text)
+    return _read(table), [key for key, value in (("unit", unit), ("pixel", pixel)) if not value], refused
+
+
+def _refusal(path, text):
+    """Why the scene cannot run as it is although every key may be meant; "" where it can, or where a key is still missing.
+    Raises SceneError for keys that cannot be meant."""
+    try:
+        scene_file.from_data(scene_file.with_map_folder(tomllib.loads(text), path.absolute().parent), path.stem)
+    except KeyMissing:
+        return ""
+    except HeightsRefused as error:
+        return str(error)
+    return ""
+
+
+def _read(table):
+    """What was read, in words."""
     rows, columns = table.values.shape
     found = f"{rows} rows of {columns} points" if rows > 1 else f"a line profile of {columns} points"
-    return f"{found}{f', {table.skipped}' if table.skipped else ''}", missing
+    steps = [f"{step * 1e6:.4g} um" for step in map(stated_keys.usable, (table.stated.x, table.stated.y)) if step]
+    unit = [f"heights in {table.stated.unit}"] if table.stated.unit else []
+    said = unit + ([f"points {' x '.join(dict.fromkeys(steps))} apart"] if steps else [])
+    return ", ".join([found, *filter(None, [table.skipped]), *([f"{', '.join(said)} as the file says"] if said else [])])
 
 
 def _check_options(scan, profile, pixel_y, lay):
@@ -109,7 +129,7 @@ def _text(path, f, base, scan, table, unit, pixel, pixel_y, lay):
                    u_b=round(f.operation.u_b, 6), temperature=f.operation.temperature, kappa=f.fatigue.kappa, file=place,
                    shape="profile" if profile else "map", unit=unit, pixel=pixel,
                    taper=_taper(table.values.shape, pixel, pixel_y or pixel))
-    return HEAD.format(base=base, oil=f.oil.name, limit="380e6", header=_header(scan, table), radius_y=_radius_y(f.contact),
+    return HEAD.format(base=base, oil=f.oil.name, limit="380e6", header=_header(table), radius_y=_radius_y(f.contact),
                        body_a=_unless_steel(f.body_a), body_b=_unless_steel(f.body_b),
                        load_about=LINE if f.contact.kind == "line" else "N",
                        rows="" if profile else ROWS, shape_about=KINDS[profile], direction=_direction(profile, pixel_y, lay),
@@ -133,13 +153,9 @@ def _taper(shape, pixel, pixel_y):
     return round(max(int(min(TAPER, side / SHARE) * 1e6), 1) * 1e-6, 9) if side else TAPER
 
 
-def _header(scan, table):
+def _header(table):
     """The lines before the first row, as comments: instruments tell unit and distances there."""
-    if not table.header:
-        return ""
-    with scan.open(encoding="utf-8-sig", errors="replace") as file:
-        lines = islice(filter(None, map(str.strip, file)), min(table.header, LINES))
-        return "".join(f"#   its header: {_plain(line)}\n" for line in lines)
+    return "".join(f"#   its header: {_plain(line.strip())}\n" for line in table.header_lines[:LINES])
 
 
 def _plain(line):

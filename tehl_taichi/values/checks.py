@@ -129,7 +129,7 @@ def speaking_of(section, general):
     try:
         yield
     except SceneError as error:
-        raise SceneError(str(error).replace(f"{general}.", f"{section}.")) from None
+        raise type(error)(str(error).replace(f"{general}.", f"{section}.")) from None
 
 
 def key_shown(key):

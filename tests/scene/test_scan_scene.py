@@ -22,8 +22,8 @@ def scan(tmp_path):
 
 def test_a_scene_for_a_scan(scan, tmp_path):
     file = tmp_path / "mine.toml"
-    read, missing = scan_scene.new(file, "gear", scan, "um", 8e-6, 10e-6)
-    assert read == "21 rows of 41 points, 2 header lines skipped" and missing == []
+    read, missing, refused = scan_scene.new(file, "gear", scan, "um", 8e-6, 10e-6)
+    assert read == "21 rows of 41 points, 2 header lines skipped" and missing == [] and refused == ""
     text = file.read_text(encoding="utf-8")
     assert '#   its header: Instrument;"50x" \n#   its header: Abstand x [um];1,8\nunit' in text
     found, gear = scene_file.load(file), scene_file.scene("gear")

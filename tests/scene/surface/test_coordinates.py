@@ -72,7 +72,7 @@ def test_csv_as_data_frames_write_it(tmp_path, head, index):
     (tmp_path / "scan.csv").write_text("\n".join([*[head] * bool(head), *lines]) + "\n")
     assert np.array_equal(height_map.read(tmp_path / "scan.csv"), HEIGHTS)
     f = feature(tmp_path / "scan.csv", pixel=2e-6, pixel_y=3e-6, taper=1e-6)
-    assert f.heights.shape == HEIGHTS.shape and ("skipped" in height_map.skipped(f.sha256))
+    assert f.heights.shape == HEIGHTS.shape and ("skipped" in height_map.facts(f).skipped)
 
 
 def test_arrays_too_and_their_spacing_is_compared(tmp_path):

@@ -15,17 +15,26 @@ import numpy as np
 from tehl_taichi.disk import memory_limit, npy
 from tehl_taichi.errors import SceneError, brief
 from tehl_taichi.scene.surface.maps import coordinates, hole_filling, instrument_files, line_profiles, text_heights
+from tehl_taichi.scene.surface.maps.stated_values import Stated
 from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.file_ending import ending
 
-UNITS = {"nm": 1e-9, "um": 1e-6, "mm": 1e-3, "m": 1.0}  # of the heights in a file, m
 LEVELS = {"none": "nothing", "mean": "mean", "plane": "plane", "form": "plane and curvature"}  # level: what it takes off
-MICRO = str.maketrans({"\u00b5": "u", "\u03bc": "u"})  # micro sign and Greek mu, as in µm
 _known = weakref.WeakValueDictionary()  # sha256 -> heights, as long as a feature holds them
-_skipped = {}  # sha256 -> what of its file was no height, in words
-_spacing = {}  # sha256 -> distances of the coordinates in its file
+_facts = {}  # (file, sha256) -> its Facts
 TEXT = (".csv", ".txt", ".asc")  # endings of files of text
 POINTS = f"a list of x, y and z is not supported; export the heights as a grid, one row per line ({', '.join(TEXT)}, .npy)"
+
+
+@dataclass(frozen=True)
+class Facts:
+    """What a file says besides its heights; empty where no file was read (a store, an array). skipped: what of it was skipped,
+    in words; spacing: (along a row, from row to row) distances of its coordinates, None where there are none; stated: its unit
+    and distances in m."""
+
+    skipped: str = ""
+    spacing: tuple = (None, None)
+    stated: Stated = Stated()
 
 
 def keep(values):
@@ -47,7 +56,7 @@ def fetch(file, sha256=""):
         return sha256, known
     table = table_of(file)
     found, values = keep(table.values)
-    _skipped[found], _spacing[found] = table.skipped, table.spacing
+    _facts[str(file), found] = Facts(table.skipped, table.spacing, table.stated)
     if sha256 and found != sha256:
         raise SceneError(f"feature.file = {file!r} has changed since this scene was made (feature.sha256 = {sha256[:12]}..., "
                          f"not {found[:12]}...); remove feature.sha256 to use the present file")
@@ -68,14 +77,9 @@ def of_array(values):
     return keep(values)
 
 
-def skipped(sha256):
-    """What of the file of these heights was skipped, in words; "" where nothing, or where no file was read (a store)."""
-    return _skipped.get(sha256, "")
-
-
-def spacing(sha256):
-    """(along a row of the file, from row to row): distances of the coordinates that stood in it, None where there are none."""
-    return _spacing.get(sha256, (None, None))
+def facts(f):
+    """The :class:`Facts` of the file of a feature."""
+    return _facts.get((str(f.file), f.sha256), Facts())
 
 
 def read(file):
@@ -133,7 +137,7 @@ def _load(path):
         raise SceneError(f"cannot read heights from {path}: {brief(error)}") from None
     if ending(path) == ".xyz":
         raise SceneError(f"cannot read heights from {path}: {POINTS}")
-    return text_heights.Table(instrument_files.heights(path, f"{', '.join(TEXT)} or .npy"))
+    return text_heights.Table(*instrument_files.read(path, f"{', '.join(TEXT)} or .npy"))
 
 
 def levelled(values, level):

@@ -5,13 +5,15 @@ import math
 import numpy as np
 
 from tehl_taichi.errors import SceneError, brief, extra
+from tehl_taichi.scene.surface.maps.length_units import UNITS
+from tehl_taichi.scene.surface.maps.stated_values import Stated
 
 UNKNOWN_FILE = ("CannotDetectFileFormat", "UnknownFileFormat")  # its errors that list every reader
 
 
-def heights(path, readable):
-    """Numbers of the file as a table of text has them: a grid (rows, columns), or columns of places and heights of a line.
-    readable: endings of what is read without the extra, in words. Raises SceneError."""
+def read(path, readable):
+    """(numbers of the file as a table of text has them: a grid (rows, columns), or columns of places and heights of a line;
+    what it says of its unit and distances). readable: endings of what is read without the extra, in words. SceneError."""
     try:
         import SurfaceTopography
     except ImportError:
@@ -24,8 +26,21 @@ def heights(path, readable):
 
 
 def _table(found):
+    found = found if found.unit is None or found.unit in UNITS else found.to_unit("um")
     heights = np.ma.filled(np.ma.asarray(found.heights(), float), math.nan)
-    return np.column_stack([found.positions(), heights]) if found.dim == 1 else heights.T
+    if found.dim == 1:
+        unit = found.unit or ""
+        return np.column_stack([found.positions(), heights]), Stated(unit, place_unit=unit)
+    return heights.T, _stated(found)
+
+
+def _stated(found):
+    """Of a grid; its sizes are nothing where no unit is known."""
+    if found.unit is None:
+        return Stated()
+    sizes = found.physical_sizes or (0, 0)
+    steps = ((size * UNITS[found.unit] / count,) if size else () for size, count in zip(sizes, found.nb_grid_pts))
+    return Stated(found.unit, *steps)
 
 
 def _reader_error(error, readable):

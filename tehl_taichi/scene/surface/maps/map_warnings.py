@@ -6,7 +6,7 @@ import numpy as np
 
 from tehl_taichi.scene.resolution import MULTIPLES
 from tehl_taichi.scene.scales import Scales
-from tehl_taichi.scene.surface.maps import height_map
+from tehl_taichi.scene.surface.maps import height_map, stated_keys
 from tehl_taichi.scene.surface.maps.cutoff_choice import (
     SHARE,
     STEEP,
@@ -38,12 +38,13 @@ def lines(f, scene):
     """Two lines: what was read, and what passes through the contact."""
     steps = points_in_a_cell(f, scene)
     m, name = f.measures, f"{f.shape} {os.path.basename(f.file)}"
-    heights = f"heights in {f.unit}" + (f" times {f.scale:g}" if f.scale != 1 else "")
+    unit_said, steps_said = stated_keys.words(f)
+    heights = f"heights in {f.unit}{unit_said}" + (f" times {f.scale:g}" if f.scale != 1 else "")
     turned = f"{said}, " if (said := f.kind.lies(f)) else ""
     off = f"{LEVELS[f.level]} removed{form_taken(f, scene)}"
-    skipped = f"{found}, " if (found := height_map.skipped(f.sha256)) else ""
-    yield (f"{name}: {skipped}{f.kind.points_words(f)} {_apart(f)} um apart, {_patch(f)} of them used{_taper(f)}, {turned}"
-           f"{heights}, {off}{_filter(f)}")
+    skipped = f"{found}, " if (found := height_map.facts(f).skipped) else ""
+    yield (f"{name}: {skipped}{f.kind.points_words(f)} {_apart(f)} um apart{steps_said}, {_patch(f)} of them used{_taper(f)}, "
+           f"{turned}{heights}, {off}{_filter(f)}")
     cells = " x ".join(f"{count:.3g}" for count, many in zip(steps, f.points) if many > 1)
     yield (f"{name}: {_um(m.low)} to {_um(m.high)} um (range {_um(m.range)} um), rms {_um(m.rms)} um, largest slope "
            f"{m.slope:.2g} deg; a cell of the grid has {cells} points")

@@ -8,11 +8,12 @@ import numpy as np
 
 from tehl_taichi.scene.surface.maps import gaussian_filter, height_map, hole_filling
 from tehl_taichi.scene.surface.maps.form import SurfaceForm
-from tehl_taichi.scene.surface.maps.height_map import LEVELS, UNITS, Measures
+from tehl_taichi.scene.surface.maps.height_map import LEVELS, Measures
+from tehl_taichi.scene.surface.maps.length_units import UNITS
 from tehl_taichi.scene.surface.maps.orientation import Orientation
 from tehl_taichi.values.quantity import choice, quantity, switch, text
 
-FARTHEST = 5e-4  # m, between points of a map: 0.001 was meant in mm
+NEAREST, FARTHEST = 1e-10, 5e-4  # m, between points of a map: 0.001 was meant in mm
 
 
 @dataclass(frozen=True)
@@ -21,11 +22,11 @@ class Measured:
 
     file: str = text("", "map, profile: CSV or NPY file (others with the `topography` extra); of a map each row is a line of "
                          "points along x; paths are relative to the scene file", most=4096, compare=False)
-    unit: str = choice("", "map, profile: unit of the heights in the file", ("", *UNITS))
+    unit: str = choice("", "map, profile: unit of the heights in the file; not given: as the file says", ("", *UNITS))
     scale: float = quantity(1.0, "", "map, profile: factor for the heights; -1 inverts them, as for a replica", -1e3, 1e3)
-    pixel: float = quantity(0.0, "m", "map, profile: distance between points in a row of the file; 0: not given", 0.0, FARTHEST,
-                            usual=1e-6)
-    pixel_y: float = quantity(0.0, "m", "map: distance between rows of the file; 0: equal to pixel", 0.0,
+    pixel: float = quantity(0.0, "m", "map, profile: distance between points in a row of the file; 0: as the file says", 0.0,
+                            FARTHEST, usual=1e-6)
+    pixel_y: float = quantity(0.0, "m", "map: distance between rows of the file; 0: as the file says, or equal to pixel", 0.0,
                               FARTHEST, usual=1e-6)
     transpose: bool = switch(False, "map: the rows of the file run along y (across); pixel and pixel_y remain those of the "
                                     "file")

@@ -5,7 +5,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tehl_taichi.scene.surface.maps import coordinates, line_profiles
+from tehl_taichi.scene.surface.maps import coordinates, line_profiles, stated_values
+from tehl_taichi.scene.surface.maps.stated_values import Stated
 
 COLUMNS = (";", "\t", ",", None)  # what may stand between two heights, the first that a row has; None: blanks
 UNMEASURED = ("bad", "bad data", "nan", "na", "n/a", "no data", "no_data", "nodata", "null")  # also nothing, and * or - alone
@@ -17,11 +18,13 @@ NUMBER = re.compile(r"^\s*\d+\s*=")
 
 @dataclass(frozen=True)
 class Table:
-    """values: heights (rows, columns) in the unit of the file, nan where nothing was measured; header: lines before the first
-    row; inside: lines that begin with # after it (none of files that are no text)."""
+    """values: heights (rows, columns) in the unit of the file, nan where nothing was measured; stated: what the file says of
+    its unit and distances; header_lines: lines before the first row; inside: number of lines that begin with # after it (none
+    of files that are no text)."""
 
     values: np.ndarray
-    header: int = 0
+    stated: Stated = Stated()
+    header_lines: tuple = ()
     inside: int = 0
     beside: tuple = ()
     spacing: tuple = (None, None)
@@ -32,18 +35,23 @@ class Table:
         if found is None:
             return self._grid()
         heights, step, beside = found
-        return replace(self, values=heights, beside=beside, spacing=(step, None))
+        return replace(self, values=heights, beside=beside, spacing=(step, None))._with_stated()
 
     def _grid(self):
         """The same with the heights alone; beside: the coordinates that were taken off, in words; spacing: theirs, (along a
         row, from row to row), None where there are none."""
         found = coordinates.without(self.values)
-        return replace(self, values=found.heights, beside=found.found_lines, spacing=(found.x, found.y))
+        return replace(self, values=found.heights, beside=found.found_lines, spacing=(found.x, found.y))._with_stated()
+
+    def _with_stated(self):
+        """The same with what its header says, if it has one."""
+        stated = stated_values.in_header(self.header_lines, self.values.shape) if self.header_lines else self.stated
+        return replace(self, stated=stated.with_spacing(self.spacing))
 
     @property
     def skipped(self):
         """What was not read, in words; "" where all was."""
-        told = ((self.header, "header line", "skipped"), (self.inside, "line", "with # among the heights skipped"))
+        told = ((len(self.header_lines), "header line", "skipped"), (self.inside, "line", "with # among the heights skipped"))
         lines = [f"{count} {what}{'s' * (count > 1)} {why}" for count, what, why in told if count]
         return ", ".join([*lines, *(f"{what} skipped" for what in self.beside)])
 
@@ -58,9 +66,9 @@ def read(path):
     _check_header(told[:header], told[header], mark)
     rows, ended = _rows(told[header:], mark)
     first = told[header][0]
-    before, after = sum(number < first for number, _ in lines), [line for number, line in lines if number > first]
+    before, after = ([line for number, line in lines if (number < first) == early and number != first] for early in (1, 0))
     values = np.array(rows)
-    return Table(values[:, :-1] if ended else values, before, sum(line.startswith("#") for line in after))
+    return Table(values[:, :-1] if ended else values, header_lines=tuple(before), inside=sum(line[0] == "#" for line in after))
 
 
 def _section(lines):

@@ -1,20 +1,19 @@
 """Heights measured on a grid."""
 
-import math
 import os
 
 import numpy as np
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene.surface.maps import gaussian_filter, height_map, map_warnings
-from tehl_taichi.scene.surface.maps.height_map import MICRO, UNITS
+from tehl_taichi.scene.surface.maps import gaussian_filter, height_map, map_warnings, stated_keys
+from tehl_taichi.scene.surface.maps.length_units import MICRO, UNITS
 from tehl_taichi.scene.surface.maps.measured import Measured
+from tehl_taichi.scene.surface.maps.refusals import HeightsRefused, KeyMissing
 from tehl_taichi.scene.surface.shape import share
 from tehl_taichi.scene.surface.shapes.patch import Patch
 from tehl_taichi.values.checks import number
 
 MAX_RANGE, MAX_SLOPE = 1e-4, 45.0  # m, degrees, of a map: beyond them no film, or a wrong unit or pixel
-SAME = 0.02  # relative difference of a pixel and the distance of rounded coordinates
 
 
 class Map(Patch):
@@ -79,6 +78,7 @@ class Map(Patch):
         object.__setattr__(f, "sha256", sha256)
         f.__dict__["heights"] = heights
         self.check_rows(f)
+        stated_keys.settle(f)
         _check_keys(f)
         _check_heights(f)
         super().check(f)
@@ -98,11 +98,11 @@ class Map(Patch):
 
 def _check_keys(f):
     if not f.unit:
-        raise SceneError(f"feature.unit is missing: shape {f.shape!r} needs the unit of the heights in its file; allowed: "
+        raise KeyMissing(f"feature.unit is missing: shape {f.shape!r} needs the unit of the heights in its file; allowed: "
                          f"{', '.join(UNITS)} (feature.height, m per unit of the file in version 0.1.0, is not used)")
     if f.pixel == 0:
-        raise SceneError(f"feature.pixel is missing: shape {f.shape!r} needs the distance of its points in m, as pixel = 1e-6")
-    _check_spacing(f)
+        raise KeyMissing(f"feature.pixel is missing: shape {f.shape!r} needs the distance of its points in m, as pixel = "
+                         f"1e-6{stated_keys.pixel_meant(f)}")
     if f.height not in (0, type(f).height):
         raise SceneError(f"feature.height = {f.height:g} m has no effect on a {f.shape}, whose heights are in its file; "
                          "allowed: 0 or not given (feature.scale multiplies the heights)")
@@ -114,21 +114,13 @@ def _check_keys(f):
         number("feature.cutoff", f.cutoff, "m", *gaussian_filter.limits(f))
 
 
-def _check_spacing(f):
-    """Refuse a pixel that the coordinates in the file contradict, whatever unit they have."""
-    for key, step, told in zip(("pixel", "pixel_y" if f.pixel_y else "pixel"), f.file_steps, height_map.spacing(f.sha256)):
-        if told is not None and not any(math.isclose(told * unit, step, rel_tol=SAME) for unit in UNITS.values()):
-            raise SceneError(f"feature.{key} = {step:g} m does not match the coordinates in feature.file = {f.file!r}, which "
-                             f"are {told:g} apart in {', '.join(UNITS)}")
-
-
 def _check_heights(f):
     found, where = f.unfaded, f"feature.file = {f.file!r}, in {f.unit} with level = {f.level!r},"
     if found.range > MAX_RANGE:
-        raise SceneError(f"{where} ranges over {found.range:.3g} m; allowed: at most {MAX_RANGE:g} m. Is feature.unit = "
+        raise HeightsRefused(f"{where} ranges over {found.range:.3g} m; allowed: at most {MAX_RANGE:g} m. Is feature.unit = "
                          f"{f.unit!r} right?")
     if found.slope > MAX_SLOPE:
-        raise SceneError(f"{where} has slopes of {found.slope:.1f} deg; allowed: at most {MAX_SLOPE:g} deg. Are "
+        raise HeightsRefused(f"{where} has slopes of {found.slope:.1f} deg; allowed: at most {MAX_SLOPE:g} deg. Are "
                          f"feature.unit = {f.unit!r} and feature.pixel = {f.pixel:g} m"
                          f"{f', feature.pixel_y = {f.pixel_y:g} m' if f.pixel_y else ''} right?")
 

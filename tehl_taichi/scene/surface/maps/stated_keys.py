@@ -1,0 +1,79 @@
+"""Unit and distances of a feature and of its file: one fills in the other, and both must agree."""
+
+import math
+import os
+
+from tehl_taichi.errors import SceneError
+from tehl_taichi.scene.surface.maps import height_map
+from tehl_taichi.scene.surface.maps.length_units import UNITS
+from tehl_taichi.scene.surface.maps.measured import FARTHEST, NEAREST
+from tehl_taichi.scene.surface.maps.refusals import KeyMissing
+
+SAME = 0.02  # relative difference of distances that are one: of rounded coordinates, and numbers in headers
+KEYS = {"x": "pixel", "y": "pixel_y"}
+
+
+def settle(f):
+    """Set the keys that are not given to what the file says. Raises SceneError where the file contradicts those that are, or
+    says what cannot be."""
+    facts = height_map.facts(f)
+    _unit(f, facts.stated.unit)
+    for axis in "xy" if f.heights.shape[0] > 1 else "x":
+        _distance(f, KEYS[axis], getattr(facts.stated, axis))
+    for key, step, found in zip(KEYS.values(), f.file_steps, facts.spacing):
+        if found is not None and f.pixel:
+            _check_spacing(f, key if getattr(f, key) else "pixel", step, found)
+
+
+def _unit(f, unit):
+    if f.unit and unit and f.unit != unit:
+        raise SceneError(f"feature.unit = {f.unit!r} contradicts feature.file = {f.file!r}, which says {unit!r}; remove "
+                         "feature.unit, or correct the file")
+    if unit and not f.unit:
+        object.__setattr__(f, "unit", unit)
+
+
+def usable(said):
+    """The likeliest of such distances (m) in six digits, 0 where there is none or it cannot be."""
+    return float(f"{said[0]:.6g}") if said and NEAREST <= said[0] <= FARTHEST else 0.0
+
+
+def _distance(f, key, said):
+    """said: distances in m, the likeliest first."""
+    if not said:
+        return
+    value, possible = getattr(f, key), usable(said)
+    missing = not value and (key == "pixel" or not _like(f.pixel, said))
+    if missing and possible:
+        object.__setattr__(f, key, possible)
+    elif not value and key == "pixel":
+        raise KeyMissing(f"feature.file = {os.path.basename(f.file)!r} says that its points are {said[0]:.4g} m apart; "
+                         f"allowed: {NEAREST:g} to {FARTHEST:g} m. Set feature.{key} to the true distance")
+    elif value and possible and not _like(value, said):
+        raise SceneError(f"feature.{key} = {value:g} m contradicts feature.file = {f.file!r}, which says {said[0]:.4g} m; "
+                         f"remove feature.{key}, or correct the file")
+
+
+def _like(value, said):
+    return any(math.isclose(value, one, rel_tol=SAME) for one in said)
+
+
+def _check_spacing(f, key, step, found):
+    """Refuse a pixel that the coordinates in the file contradict, whatever unit they have."""
+    if not any(math.isclose(found * unit, step, rel_tol=SAME) for unit in UNITS.values()):
+        raise SceneError(f"feature.{key} = {step:g} m does not match the coordinates in feature.file = {f.file!r}, which are "
+                         f"{found:g} apart in {', '.join(UNITS)}")
+
+
+def pixel_meant(f):
+    """Distances that the coordinates of the file have in units that make sense of them, for the end of a sentence."""
+    found = height_map.facts(f).spacing[0]
+    each = [f"{found * size:.4g} m if they are in {unit}" for unit, size in UNITS.items()
+            if found and NEAREST <= found * size <= FARTHEST]
+    return f"; its coordinates are {found:g} apart: {', '.join(each)}" if each else ""
+
+
+def words(f):
+    """(what of a feature's unit and distances its file says, too) in words: for its unit, for its distances; "" else."""
+    stated, same = height_map.facts(f).stated, " (as the file says)"
+    return same * (stated.unit == f.unit), same * bool(stated.x and _like(f.pixel, stated.x))

@@ -1,0 +1,123 @@
+"""Unit and distances of points that a file of heights states: in the header of a text file, or as its format has them."""
+
+import math
+import re
+from dataclasses import dataclass
+
+from tehl_taichi.scene.surface.maps.length_units import MICRO, UNITS
+
+NAMES = {"nanomet": "nm", "micromet": "um", "micron": "um", "millimet": "mm", "meter": "m", "metre": "m"}  # beginnings
+NUMBER = re.compile(r"[-+]?\d+(?:[.,]\d+)?(?:e[-+]?\d+)?")
+BRACKET = re.compile(r"[\[(]\s*([^\])]+?)\s*[\])]")
+HEIGHT_UNIT = re.compile(r"(value|z|heights?|data|z data)?[ _-]*units?( z| of (the )?heights?)?$")
+PLACE_UNIT = re.compile(r"(xy?|lateral|length)[ _-]*units?( xy?)?$")
+STEP = "(pixel |point |sampling |sample |data )?(size|width|distance|spacing|step|increment|pitch|interval|calibration)"
+STEPS = {axis: re.compile(f"({axis}|xy)[ _-]*{STEP}$|{STEP}[ _-]*({axis}|xy)$|d{axis}$|delta {axis}$") for axis in "xy"}
+BOTH = re.compile("(pixel|point|sampling|sample|data)[ _-]*(size|width|distance|spacing|step|increment|pitch|interval)$")
+EXTENT = "(length|range|extent|width)"
+EXTENTS = {"x": re.compile(f"width$|(x|scan|field|profile|trace)[ _-]*{EXTENT}$|{EXTENT}[ _-]*x$"),
+           "y": re.compile(f"height$|y[ _-]*{EXTENT}$|{EXTENT}[ _-]*y$")}
+ROUND = 2  # digits of a distance that somebody has set
+
+
+@dataclass(frozen=True)
+class Stated:
+    """unit: of the heights, "" where the file says none; x, y: distances of the points in a row and of the rows, m,
+    the likeliest first, () where none is said; place_unit: of coordinates, "" where none is said."""
+
+    unit: str = ""
+    x: tuple = ()
+    y: tuple = ()
+    place_unit: str = ""
+
+    def with_spacing(self, spacing):
+        """The same with the distances of coordinates, where their unit is known; spacing: in that unit, None: none."""
+        if not self.place_unit:
+            return self
+        x, y = (() if step is None else (step * UNITS[self.place_unit],) for step in spacing)
+        return Stated(self.unit, x or self.x, y or self.y, self.place_unit)
+
+
+def in_header(lines, shape):
+    """What the header lines of a text file say; shape: (rows, columns) of its heights."""
+    found, sizes = {}, {}
+    for key, values in filter(None, map(_parts, lines)):
+        _note(found, sizes, key, values)
+    for axis, count in zip("xy", shape[::-1]):
+        if axis in sizes and axis not in found and count > 1:
+            found[axis] = _steps(*sizes[axis], count)
+    whole = found.pop("all", "")
+    return Stated(found.get("z", whole), found.get("x", ()), found.get("y", ()), found.get("places", whole))
+
+
+def unit_of(text):
+    """Key of UNITS for a unit in words, "" where it is none."""
+    word = text.strip().strip("\"'[]().").replace("\ufffdm", "um").translate(MICRO)  # a micro sign of another encoding
+    known = next((unit for name, unit in NAMES.items() if word.lower().startswith(name)), word)
+    return known if known in UNITS else ""
+
+
+def _parts(line):
+    """(key, values) of a line of a header in lower case (units keep theirs); None of one without values."""
+    text = line.lstrip("#/ ").strip()
+    parts = [part.strip().strip("\"'").strip() for part in re.split(r"[;\t:=]", text) if part.strip()]
+    if len(parts) == 1:
+        parts = [part.strip().strip("\"'").strip() for part in text.split(",") if part.strip()]
+    return (parts[0], parts[1:] or parts) if parts else None
+
+
+def _note(found, sizes, key, values):
+    """Enter what a line says; the first one counts."""
+    name, unit = BRACKET.sub("", key).strip().lower(), _unit_in(key, values)
+    if not unit:
+        return
+    if HEIGHT_UNIT.match(name):
+        found.setdefault("all" if name.startswith("unit") else "z", unit)
+    elif PLACE_UNIT.match(name):
+        found.setdefault("places", unit)
+    elif (number := _number(values)) is None:
+        _heads(found, [key, *values])
+    else:
+        _length(found, sizes, name, number, unit)
+
+
+def _length(found, sizes, name, number, unit):
+    for axis in "xy":
+        if STEPS[axis].match(name) or BOTH.match(name):
+            found.setdefault(axis, (float(number.replace(",", ".")) * UNITS[unit],))
+        elif EXTENTS[axis].match(name):
+            sizes.setdefault(axis, (number, UNITS[unit]))
+
+
+def _heads(found, words):
+    """Units in the names of columns, as in x [mm], z [um]."""
+    for word in words:
+        unit, name = _unit_in(word, ()), BRACKET.sub("", word).strip().lower()
+        if unit and name in ("x", "position", "distance", "length", "lateral"):
+            found.setdefault("places", unit)
+        elif unit and name in ("z", "height", "heights", "profile"):
+            found.setdefault("z", unit)
+
+
+def _unit_in(key, values):
+    """The unit in the brackets of a key, behind a number or alone among the values; ""."""
+    inside = BRACKET.search(key)
+    words = [inside[1]] if inside else [NUMBER.sub("", value.translate(MICRO), count=1) for value in values]
+    return next(filter(None, map(unit_of, words)), "")
+
+
+def _number(values):
+    return next((match[0] for value in values if (match := NUMBER.match(value))), None)
+
+
+def _steps(number, unit, count):
+    """Distances (m) of so many points on a length: an interval for each of them, or one less where that one is rounder."""
+    length = float(number.replace(",", "."))
+    each, between = length / count, length / (count - 1)
+    spread = 10.0 ** -len(re.sub(r"e.*|\D", "", number.lower()).lstrip("0") or "0")
+    return tuple(step * unit for step in sorted((each, between), key=lambda step: _digits(step, spread)))
+
+
+def _digits(value, spread):
+    """How many digits it has, as far as a length with that relative error says; ROUND + 1 of more."""
+    return next((n for n in range(1, ROUND + 1) if math.isclose(float(f"{value:.{n - 1}e}"), value, rel_tol=spread)), ROUND + 1)
