@@ -86,8 +86,9 @@ def measured(f, scene):
 
 def _missing(f):
     """Points that were not measured: of the part that is used, and of the file where that is more."""
-    used, all_ = int(f.inside(f.holes).sum()), int(f.holes.sum())
-    return f"{used}, filled in" + f" ({all_} in the whole file)" * (used < all_)
+    used, spikes = int(f.holes.sum()), int(f.spikes.sum())
+    all_ = int((~np.isfinite(f.heights)).sum())
+    return f"{used}, filled in" + f", {spikes} of them spikes" * bool(spikes) + f" ({all_} in the whole file)" * (used < all_)
 
 
 def _signed(height):

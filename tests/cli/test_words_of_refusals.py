@@ -103,7 +103,7 @@ def test_a_reader_of_instruments_that_dumps_all_it_tried(tmp_path, monkeypatch):
 
         return SimpleNamespace(read_topography=read)
 
-    file = tmp_path / "scan.X3P"
+    file = tmp_path / "scan.SUR"
     file.write_bytes(b"PK rubbish")
     for kind, said in ((type("CannotDetectFileFormat", (Exception,), {}), "does not read this format"),
                        (RuntimeError, "No reader found for the file.")):

@@ -96,16 +96,30 @@ def listed(order, more=0):
 @pytest.mark.parametrize("order", ["xyz", "yxz", "zxy", "xzy"])
 @pytest.mark.parametrize("more", [0, 1, 3])
 @pytest.mark.parametrize("turned", [False, True])
-def test_lists_of_points_are_refused(tmp_path, order, more, turned):
-    table = listed(order, more)
+def test_lists_of_points_become_a_grid(tmp_path, order, more, turned):
+    """x is the first column of coordinates, unless names say otherwise."""
+    table = np.random.default_rng(2).permutation(listed(order, more))
     np.save(tmp_path / "scan.npy", table.T if turned else table)
-    np.savetxt(tmp_path / "scan.csv", table, delimiter=",", header="X,Y,Z,more", comments="")
-    for name in ("scan.npy", "scan.csv"):
-        with pytest.raises(SceneError, match="a list of x, y and z is not supported; export the heights as a grid"):
-            feature(tmp_path / name)
+    found = height_map.table_of(tmp_path / "scan.npy")
+    swapped = order.index("y") < order.index("x")
+    np.testing.assert_array_equal(found.values, HEIGHTS.T if swapped else HEIGHTS)
+    assert found.spacing == ((3.0, 2.0) if swapped else (2.0, 3.0)) and "x and y of a list of points skipped" in found.skipped
+    names = ",".join([*(f"{name.upper()} [um]" for name in order), *"more"[:more]])
+    np.savetxt(tmp_path / "scan.csv", table, delimiter=",", header=names, comments="")
+    named = height_map.table_of(tmp_path / "scan.csv")
+    np.testing.assert_array_equal(named.values, HEIGHTS)
+    assert (named.stated.unit, *named.stated.x, *named.stated.y) == ("um", pytest.approx(2e-6), pytest.approx(3e-6))
 
 
-def test_a_list_of_scattered_points_is_refused(tmp_path):
-    np.save(tmp_path / "scan.npy", np.random.default_rng(1).random((400, 4)))
-    with pytest.raises(SceneError, match="a list of x, y and z"):
+def test_points_that_a_list_lacks_were_not_measured(tmp_path):
+    table = np.delete(listed("xyz"), [40, 41, 100], axis=0)
+    (tmp_path / "scan.xyz").write_text("\n".join(" ".join(map(str, row)) for row in table))
+    found = height_map.read(tmp_path / "scan.xyz")
+    assert np.isnan(found).sum() == 3 and np.array_equal(found[~np.isnan(found)], HEIGHTS[~np.isnan(found)])
+
+
+@pytest.mark.parametrize("points", [np.random.default_rng(1).random((400, 4)), np.repeat(listed("xyz"), 2, axis=0)])
+def test_a_list_of_scattered_points_is_refused(tmp_path, points):
+    np.save(tmp_path / "scan.npy", points)
+    with pytest.raises(SceneError, match="is a list of points that lie on no regular grid; export the heights as a grid"):
         feature(tmp_path / "scan.npy")

@@ -62,7 +62,7 @@ def test_a_tilted_map_is_levelled_and_a_broken_one_refused(tmp_path):
     mean = feature(tmp_path / "tilt.csv", level="mean", taper=5e-6)
     assert mean.unfaded.low == pytest.approx(-(0.2 * 14.5 + 0.1 * 9.5) * 1e-6)
     (tmp_path / "broken.csv").write_text("1,2\n3,4\n")
-    with pytest.raises(SceneError, match=r"4 x 4 heights, not one of shape \(2, 2\)"):
+    with pytest.raises(SceneError, match=r"4 x 4 heights, or a line profile of 8, not numbers of shape \(2, 2\)"):
         feature(tmp_path / "broken.csv")
     (tmp_path / "scan.sur").write_text("x")
     with pytest.raises(SceneError, match="topography"):

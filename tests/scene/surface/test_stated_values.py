@@ -125,3 +125,19 @@ def test_a_new_scene_has_them(scan, tmp_path):
     with pytest.raises(SceneError, match="contradicts"):
         scan_scene.new(tmp_path / "b.toml", "gear", scan, "nm")
     assert not (tmp_path / "b.toml").exists()
+
+
+@pytest.mark.parametrize("kind", ["surface", "profile"])
+def test_x3p(tmp_path, kind):
+    """As x3pio writes it, with a point that was not measured; m."""
+    x3pio = pytest.importorskip("x3pio")
+    heights = 1e-6 * (HEIGHTS if kind == "surface" else HEIGHTS[0])
+    heights[..., 7] = np.where(np.arange(heights[..., 7].size).reshape(heights[..., 7].shape) == 0, np.nan, heights[..., 7])
+    x3pio.write(tmp_path / "a.x3p", heights, x_scale=2e-6, **({"y_scale": 3e-6} if kind == "surface" else {}))
+    f = feature(tmp_path / "a.x3p", shape="map" if kind == "surface" else "profile", unit="", pixel=0.0, taper=5e-6)
+    np.testing.assert_allclose(f.heights, np.atleast_2d(heights), rtol=1e-12)
+    assert (f.unit, f.pixel, f.pixel_y) == ("m", 2e-6, 3e-6 if kind == "surface" else 0.0)
+    (tmp_path / "b.x3p").write_bytes(b"PK\x03\x04 nothing")
+    with pytest.raises(SceneError, match="cannot read heights from .*b.x3p: ") as caught:
+        feature(tmp_path / "b.x3p")
+    assert len(str(caught.value)) < 300 and "\n" not in str(caught.value)

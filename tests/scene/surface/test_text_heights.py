@@ -59,11 +59,12 @@ def test_what_is_wrong_below_the_header_is_named_by_its_line(tmp_path, at, row, 
         height_map.read(written(tmp_path, [*ROWS[:at], row, *ROWS[at + 1:]]))
 
 
-def test_words_alone_and_lists_of_points_are_refused_in_words(tmp_path):
+def test_words_alone_are_refused(tmp_path):
     with pytest.raises(SceneError, match="no line is a row of numbers"):
         height_map.read(written(tmp_path, WYKO))
-    points = [f"{i} {j} 0.1" for i in range(5) for j in range(5)]
-    with pytest.raises(SceneError, match="a list of x, y and z is not supported; export the heights as a grid"):
-        height_map.read(written(tmp_path, points))
-    with pytest.raises(SceneError, match=r"a list of x, y and z is not supported; .*\(.csv, .txt, .asc, .npy\)"):
-        height_map.read(written(tmp_path, points, "scan.xyz"))
+
+
+@pytest.mark.parametrize("encoding", ["utf-16", "utf-16-le", "utf-16-be", "utf-8-sig"])
+def test_encodings_of_windows(tmp_path, encoding):
+    table = height_map.table_of(written(tmp_path, ["Height units\t\u00b5m", *ROWS], encoding=encoding))
+    assert table.values.shape == (40, 6) and table.values[3, 2] == 0.05 and table.stated.unit == "um"

@@ -71,14 +71,17 @@ def step(many):
     return abs(float((many[-1] - many[0]) / (many.size - 1)))
 
 
+def is_narrow(values):
+    """Whether a table has so few columns (or rows) that it may be such a list."""
+    return values.ndim == 2 and 2 < min(values.shape) <= LISTED and max(values.shape) > 2 * min(values.shape)
+
+
 def is_list(values):
     """Whether a table (rows, columns) is a list of points, x and y beside z (in any order, more columns beside them)."""
-    if values.ndim != 2:
+    if not is_narrow(values):
         return False
     long = values if values.shape[0] >= values.shape[1] else values.T
     rows, columns = long.shape
-    if not 2 < columns <= LISTED or rows <= 2 * columns:
-        return False
     return rows >= NARROW * columns or any(map(_stays, long.T)) and any(map(_cycles, long.T))
 
 

@@ -61,6 +61,6 @@ def _searched(f, scene):
 
 def _taken(f, scene, cutoff):
     """Whether the map with this cutoff (m) is long, flat and low enough."""
-    measured = middle(f.inside(f.filtered(cutoff)))
+    measured = middle(f.filtered(cutoff))
     return (Measures.of(measured, f.steps).slope <= STEEP and not yields(heights := middle(f.passing(cutoff)), f, scene)
             and missed(heights, *points_in_a_cell(f, scene)) <= SHARE)

@@ -17,8 +17,8 @@ def lowpass(values, steps, cutoff):
 
 
 def limits(f):
-    """(smallest, largest) cutoff of a map, m: its points and its size allow no other."""
-    lines = [(step, size) for step, size, count in zip(f.steps, f.size, f.points) if count > 1]
+    """(smallest, largest) cutoff of a map, m: its points and the size of its part allow no other."""
+    lines = [(step, size) for step, size, count in zip(f.steps, f.part_size, f.points) if count > 1]
     return FEWEST * max(step for step, _ in lines) * (1 - 1e-9), min(size for _, size in lines) * (1 + 1e-9)
 
 

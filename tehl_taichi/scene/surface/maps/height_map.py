@@ -14,16 +14,18 @@ import numpy as np
 
 from tehl_taichi.disk import memory_limit, npy
 from tehl_taichi.errors import SceneError, brief
-from tehl_taichi.scene.surface.maps import coordinates, hole_filling, instrument_files, line_profiles, text_heights
+from tehl_taichi.scene.surface.maps import coordinates, instrument_files, line_profiles, text_heights
 from tehl_taichi.scene.surface.maps.stated_values import Stated
 from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.file_ending import ending
 
-LEVELS = {"none": "nothing", "mean": "mean", "plane": "plane", "form": "plane and curvature"}  # level: what it takes off
+ROWS = "rows"
+LEVELS = {"none": "nothing", "mean": "mean", "plane": "plane", "form": "plane and curvature",  # level: what it takes off
+          ROWS: "plane and median of each row"}
 _known = weakref.WeakValueDictionary()  # sha256 -> heights, as long as a feature holds them
 _facts = {}  # (file, sha256) -> its Facts
-TEXT = (".csv", ".txt", ".asc")  # endings of files of text
-POINTS = f"a list of x, y and z is not supported; export the heights as a grid, one row per line ({', '.join(TEXT)}, .npy)"
+TEXT = (".csv", ".txt", ".asc", ".xyz")  # endings of files of text
+
 
 
 @dataclass(frozen=True)
@@ -73,7 +75,6 @@ def of_array(values):
     if not is_profile(values) and (values.ndim != 2 or min(values.shape) < 4):
         raise SceneError(f"heights have the shape {values.shape}; allowed: (rows, columns), at least 4 x 4, or a line profile "
                          f"of at least {line_profiles.FEWEST} points")
-    _check_holes("heights", values)
     return keep(values)
 
 
@@ -95,31 +96,22 @@ def table_of(file):
     if not path.is_file():
         raise SceneError(f"feature.file = {str(file)!r} does not exist")
     table = _load(path)
-    if line_profiles.heights_of(table.values) is None and coordinates.is_list(table.values):
-        raise SceneError(f"feature.file = {str(file)!r} has {' x '.join(map(str, table.values.shape))} numbers, which is not a "
-                         f"grid of heights ({POINTS})")
-    table = table.without_coordinates()
+    profile = line_profiles.heights_of(table.values) is not None
+    found = table.of_points() if not profile and coordinates.is_narrow(table.values) else None
+    if found is None and not profile and coordinates.is_list(table.values):
+        raise SceneError(f"feature.file = {str(file)!r} is a list of points that lie on no regular grid; export the heights as "
+                         f"a grid, one row per line ({', '.join(TEXT)}, .npy)")
+    table = found or table.without_coordinates()
     values = table.values
     if not is_profile(values) and (values.ndim != 2 or min(values.shape) < 4):
-        raise SceneError(f"feature.file = {str(file)!r} must hold a grid of at least 4 x 4 heights, not one of shape "
-                         f"{values.shape}{f' ({POINTS})' if values.shape[-1:] == (3,) else ''}")
-    _check_holes(f"feature.file = {str(file)!r}", values)
+        raise SceneError(f"feature.file = {str(file)!r} must hold a grid of at least 4 x 4 heights, or a line profile of "
+                         f"{line_profiles.FEWEST}, not numbers of shape {values.shape}")
     return table
 
 
 def is_profile(values):
     """Whether heights (rows, columns) are a line profile: one row."""
     return values.ndim == 2 and values.shape[0] == 1 and values.shape[1] >= line_profiles.FEWEST
-
-
-def _check_holes(where, values):
-    holes = hole_filling.missing(values)
-    share, deep = holes.mean(), hole_filling.depth(holes)
-    if share > hole_filling.MOST or deep > hole_filling.DEEPEST:
-        raise SceneError(f"{where} lacks {share:.2g} of its {values.size} heights, in holes of up to "
-                         f"{2 * deep} points across; allowed: "
-                         f"{hole_filling.MOST:g}, holes of {2 * hole_filling.DEEPEST} (they are "
-                         "filled from their neighbours); use a part with fewer holes, or fill them in the measuring software")
 
 
 def _load(path):
@@ -135,8 +127,6 @@ def _load(path):
             return text_heights.read(path)
     except (ValueError, OSError, EOFError) as error:
         raise SceneError(f"cannot read heights from {path}: {brief(error)}") from None
-    if ending(path) == ".xyz":
-        raise SceneError(f"cannot read heights from {path}: {POINTS}")
     return text_heights.Table(*instrument_files.read(path, f"{', '.join(TEXT)} or .npy"))
 
 

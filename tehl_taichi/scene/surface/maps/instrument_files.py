@@ -1,5 +1,6 @@
-"""Files of instruments, read by SurfaceTopography (the extra `topography`)."""
+"""Files of instruments, read by SurfaceTopography and x3pio (the extra `topography`)."""
 
+import importlib.util
 import math
 
 import numpy as np
@@ -7,6 +8,7 @@ import numpy as np
 from tehl_taichi.errors import SceneError, brief, extra
 from tehl_taichi.scene.surface.maps.length_units import UNITS
 from tehl_taichi.scene.surface.maps.stated_values import Stated
+from tehl_taichi.values.file_ending import ending
 
 UNKNOWN_FILE = ("CannotDetectFileFormat", "UnknownFileFormat")  # its errors that list every reader
 
@@ -14,6 +16,8 @@ UNKNOWN_FILE = ("CannotDetectFileFormat", "UnknownFileFormat")  # its errors tha
 def read(path, readable):
     """(numbers of the file as a table of text has them: a grid (rows, columns), or columns of places and heights of a line;
     what it says of its unit and distances). readable: endings of what is read without the extra, in words. SceneError."""
+    if ending(path) == ".x3p" and importlib.util.find_spec("x3pio"):
+        return _x3p(path)
     try:
         import SurfaceTopography
     except ImportError:
@@ -23,6 +27,21 @@ def read(path, readable):
         return _table(SurfaceTopography.read_topography(str(path)))
     except Exception as error:
         raise SceneError(f"cannot read heights from {path}: {_reader_error(error, readable)}") from None
+
+
+def _x3p(path):
+    """The same of an x3p file (ISO 25178-72), whose first layer counts; its numbers are m."""
+    import x3pio
+
+    try:
+        found = x3pio.read(path)
+        if not isinstance(found, (x3pio.Surface, x3pio.Profile)):
+            return np.asarray(found.layers[0].points(), float), Stated("m", place_unit="m")
+        heights = np.ma.filled(np.ma.asarray(found.layers[0].z, float), math.nan)
+        steps = [(float(axis.increment),) if axis.is_incremental else () for axis in (found.header.x, found.header.y)]
+    except Exception as error:
+        raise SceneError(f"cannot read heights from {path}: {brief(error)}") from None
+    return heights, Stated("m", steps[0], steps[1] if heights.ndim > 1 else ())
 
 
 def _table(found):

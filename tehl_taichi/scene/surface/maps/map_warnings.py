@@ -18,7 +18,7 @@ from tehl_taichi.scene.surface.maps.cutoff_choice import (
     yields,
 )
 from tehl_taichi.scene.surface.maps.form import FLAT
-from tehl_taichi.scene.surface.maps.height_map import LEVELS, missed
+from tehl_taichi.scene.surface.maps.height_map import LEVELS, ROWS, missed
 from tehl_taichi.scene.yield_pressure import STEEL
 from tehl_taichi.values.coded_text import Option, grid_option
 from tehl_taichi.values.coded_warning import with_data
@@ -29,9 +29,10 @@ RIM = 0.1  # of the rms: a step at the rim below that is roughness like the rest
 
 
 def doubts(f, scene):
-    """Sentences about a map that has holes, has the form of its body, is flat or rough, finer or coarser than the grid, ends in
-    a step, or fades out over much of it."""
-    return [*_holes(f), *form(f), *_across(f, scene), *_size(f), *_rough(f, scene), *_grid(f, scene), *_rim(f), *_faded(f)]
+    """Sentences about a map that has holes or spikes, has the form of its body, is flat or rough, finer or coarser than the
+    grid, ends in a step, or fades out over much of it."""
+    return [*_holes(f), *_spikes(f), *_row_offsets(f), *form(f), *_across(f, scene), *_size(f), *_rough(f, scene),
+            *_grid(f, scene), *_rim(f), *_faded(f)]
 
 
 def lines(f, scene):
@@ -43,8 +44,8 @@ def lines(f, scene):
     turned = f"{said}, " if (said := f.kind.lies(f)) else ""
     off = f"{LEVELS[f.level]} removed{form_taken(f, scene)}"
     skipped = f"{found}, " if (found := height_map.facts(f).skipped) else ""
-    yield (f"{name}: {skipped}{f.kind.points_words(f)} {_apart(f)} um apart{steps_said}, {_patch(f)} of them used{_taper(f)}, "
-           f"{turned}{heights}, {off}{_filter(f)}")
+    yield (f"{name}: {skipped}{f.kind.points_words(f)} {_apart(f)} um apart{steps_said}, {_patch(f)} of them used{_offset(f)}"
+           f"{_taper(f)}, {turned}{heights}, {off}{_filter(f)}")
     cells = " x ".join(f"{count:.3g}" for count, many in zip(steps, f.points) if many > 1)
     yield (f"{name}: {_um(m.low)} to {_um(m.high)} um (range {_um(m.range)} um), rms {_um(m.rms)} um, largest slope "
            f"{m.slope:.2g} deg; a cell of the grid has {cells} points")
@@ -53,6 +54,12 @@ def lines(f, scene):
 def _patch(f):
     """What is used of it along the axes on which it has points."""
     return " x ".join(_um(size) for size, count in zip(f.patch, f.points) if count > 1) + " um"
+
+
+def _offset(f):
+    """Where the part lies in the scan."""
+    moved = [f"{axis} = {_um(offset)} um" for axis, offset in (("x", f.offset_x), ("y", f.offset_y)) if offset]
+    return f" around {', '.join(moved)}" if moved else ""
 
 
 def _filter(f):
@@ -73,11 +80,31 @@ def _um(value):
 
 
 def _holes(f):
-    holes = f.inside(f.holes)  # what is cut off does not pass
+    holes = f.holes & ~f.spikes
     if holes.any():
         cut = " used" if holes.size < f.heights.size else ""
         yield (f"{_name(f)}: {holes.sum()} of its {holes.size}{cut} points were not measured and are filled smoothly from "
                "their neighbours; results there are not reliable")
+
+
+def _spikes(f):
+    """How many there are, and where the largest stands."""
+    if count := int(f.spikes.sum()):
+        away = np.where(f.spikes, np.abs(f.part - f.raw), 0.0)
+        largest = np.unravel_index(int(away.argmax()), away.shape)
+        many = "1 point is a spike" if count == 1 else f"{count} points are spikes"
+        text = (f"{_name(f)}: {many} of the measurement and filled from the neighbours like points that were not measured; the "
+                f"largest, {_um(away.max())} um, is at {f.place_in_file(*largest)}")
+        yield with_data(text, spikes=count, largest_m=float(away.max()))
+
+
+def _row_offsets(f):
+    found = f.row_offsets if f.level != ROWS else None
+    if found:
+        which = f"at {found.rows} place{'s' * (found.rows > 1)} rows" if found.rows else "the rows"
+        yield (f"{_name(f)}: {which} of the file are offset by about {_um(found.size)} um against the next one, more than "
+               "roughness explains (a stitched scan, or one measured line by line); feature.level = 'rows' removes the median "
+               "of each row, and with it marks along the rows")
 
 
 def form(f):

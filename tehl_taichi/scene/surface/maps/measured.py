@@ -6,13 +6,14 @@ from functools import cached_property
 
 import numpy as np
 
-from tehl_taichi.scene.surface.maps import gaussian_filter, height_map, hole_filling
+from tehl_taichi.scene.surface.maps import gaussian_filter, height_map, hole_filling, outliers, row_offsets
 from tehl_taichi.scene.surface.maps.form import SurfaceForm
-from tehl_taichi.scene.surface.maps.height_map import LEVELS, Measures
+from tehl_taichi.scene.surface.maps.height_map import LEVELS, ROWS, Measures
 from tehl_taichi.scene.surface.maps.length_units import UNITS
 from tehl_taichi.scene.surface.maps.orientation import Orientation
 from tehl_taichi.values.quantity import choice, quantity, switch, text
 
+OFFSET = 0.03  # m
 NEAREST, FARTHEST = 1e-10, 5e-4  # m, between points of a map: 0.001 was meant in mm
 
 
@@ -33,6 +34,9 @@ class Measured:
     mirror_x: bool = switch(False, "map, profile: reverse the heights along x (after transpose)")
     mirror_y: bool = switch(False, "map, profile: reverse the heights along y (after transpose)")
     level: str = choice("plane", "map, profile: shape removed from the heights; form: plane and curvature", tuple(LEVELS))
+    offset_x: float = quantity(0.0, "m", "map, profile: centre of the part used, from the centre of all heights; extent_x, "
+                                         "extent_y: its size", -OFFSET, OFFSET, usual=1e-4)
+    offset_y: float = quantity(0.0, "m", "map, profile: the same along y", -OFFSET, OFFSET, usual=1e-4)
     cutoff: float = quantity(0.0, "m", "map, profile: Gaussian low-pass (ISO 16610-61, -21), wavelength reduced to half its "
                                        "amplitude; 0: none", 0.0, 1e-2, usual=2e-5)
     sha256: str = text("", "map, profile: checksum of the heights, set when they are read; a file with other heights is then "
@@ -55,39 +59,79 @@ class Measured:
         """The :class:`tehl_taichi.scene.surface.maps.orientation.Orientation` of its file."""
         return Orientation(self.kind.across(self), self.mirror_x, self.mirror_y)
 
-    @property
+    @cached_property
+    def part(self):
+        """Heights (points along y, along x) in m of the part that is used, as they lie in the contact, scaled; nan in its
+        holes."""
+        (low_x, high_x), (low_y, high_y) = self.ends
+        turned = self.orientation.turned(self.heights)[low_y:high_y, low_x:high_x]
+        return np.ascontiguousarray(turned) * (UNITS[self.unit] * self.scale)
+
+    @cached_property
+    def ends(self):
+        """((first, after last) along x, along y) of the points of the part among all of them, as they lie in the contact."""
+        return tuple(_ends(*each) for each in zip(self.points, self.steps, self.patch, (self.offset_x, self.offset_y)))
+
+    @cached_property
+    def spikes(self):
+        """Points of the part that are spikes of the measurement: they count as not measured."""
+        return outliers.spikes(self.part, self.steps)
+
+    @cached_property
     def raw(self):
-        """Heights (points along y, along x) of a map in m as they lie in the contact, its holes filled, scaled, with the form
-        that they were measured with."""
-        return hole_filling.filled(self.orientation.turned(self.heights)) * (UNITS[self.unit] * self.scale)
+        """The part with its holes filled and with the form that it was measured with."""
+        return hole_filling.filled(np.where(self.spikes, np.nan, self.part))
 
     @property
     def holes(self):
-        """Points (along y, along x) that were not measured: what passes there is filled in."""
-        return self.orientation.turned(hole_filling.missing(self.heights))
+        """Points (along y, along x) of the part that were not measured: what passes there is filled in."""
+        return hole_filling.missing(self.part) | self.spikes
 
     def nearest(self, x, y):
-        """Its points (along y, along x) that are nearest to x, y (m, from its centre), arrays or numbers."""
+        """Points (along y, along x) of the part that are nearest to x, y (m, from its centre), arrays or numbers."""
         i, j = (np.clip(np.rint(at / step + (count - 1) / 2).astype(int), 0, count - 1)
-                for at, step, count in zip((np.asarray(x), np.asarray(y)), self.steps, self.points))
+                for at, step, count in zip((np.asarray(x), np.asarray(y)), self.steps, self.part.shape[::-1]))
         return j, i
+
+    def place_in_file(self, j, i):
+        """Where the point (j along y, i along x) of the part stands in its file, in words."""
+        (low_x, _), (low_y, _) = self.ends
+        row, column = self.orientation.in_file(self.heights.shape, j + low_y, i + low_x)
+        return self.kind.place_words(row + 1, column + 1)
 
     def position_in_file(self, x, y):
         """Where in its file the nearest point to x, y (m, from its centre) stands, in words; "" beyond its patch."""
         if any(abs(at) > size / 2 for at, size in zip((x, y), self.patch)):
             return ""
         nearest = self.nearest(x, y)
-        row, column = self.orientation.in_file(self.heights.shape, *nearest)
-        return self.kind.place_words(row + 1, column + 1) + ", not measured" * bool(self.holes[nearest])
+        return self.place_in_file(*nearest) + ", not measured" * bool(self.holes[nearest])
 
     @cached_property
     def whole_heights(self):
-        """The same levelled and filtered: what passes through the contact."""
+        """The part levelled and filtered: what passes through the contact, not faded out."""
         return self.filtered(self.cutoff)
+
+    @cached_property
+    def levelled(self):
+        """The part without what `level` removes."""
+        return height_map.levelled(self.raw, self.level) if self.level != ROWS else height_map.levelled(self.even_rows, "plane")
+
+    @property
+    def even_rows(self):
+        """The part without the offsets of the rows of its file."""
+        rows = self.raw.T if self.orientation.transpose else self.raw
+        rows = row_offsets.removed(rows)
+        return rows.T if self.orientation.transpose else rows
+
+    @cached_property
+    def row_offsets(self):
+        """The :class:`tehl_taichi.scene.surface.maps.row_offsets.RowOffsets` that the rows of its file have, or None."""
+        flat = height_map.levelled(self.raw, "plane")
+        return row_offsets.found(flat.T if self.orientation.transpose else flat)
 
     def filtered(self, cutoff):
         """The same levelled, low-pass with that cutoff (m; 0: none). A plane that was left passes as it is, up to the rim."""
-        flat = height_map.levelled(self.raw, self.level)
+        flat = self.levelled
         if not cutoff:
             return flat
         rest = height_map.levelled(flat, "plane")
@@ -96,7 +140,7 @@ class Measured:
     @cached_property
     def form(self):
         """The :class:`tehl_taichi.scene.surface.maps.form.SurfaceForm` that it was measured with."""
-        return SurfaceForm.of(self.raw, self.steps, self.size)
+        return SurfaceForm.of(self.raw, self.steps, self.part_size)
 
     @cached_property
     def cutoffs(self):
@@ -124,6 +168,11 @@ class Measured:
         return tuple((count - 1) * step for count, step in zip(self.points, self.steps))
 
     @property
+    def part_size(self):
+        """The same of the part that is used."""
+        return tuple((count - 1) * step for count, step in zip(self.part.shape[::-1], self.steps))
+
+    @property
     def patch(self):
         """(length along x, along y) in m of the part of a map that is used; of a profile inf along y where it has no end."""
         return self.kind.patch(self)
@@ -134,24 +183,17 @@ class Measured:
 
     @property
     def used(self):
-        """What passes through the contact: the part of `whole_heights` inside the patch, faded out at its rim."""
-        return self.faded(self.inside(self.whole_heights))
+        """What passes through the contact: `whole_heights`, faded out at the rim of the patch."""
+        return self.faded(self.whole_heights)
 
     def passing(self, cutoff):
         """The same with another cutoff (m; 0: none)."""
-        return self.faded(self.inside(self.filtered(cutoff)))
+        return self.faded(self.filtered(cutoff))
 
     def faded(self, values):
         """Values (points along y, along x) of the patch, faded out at its rim."""
         y, x = ((np.arange(count) - (count - 1) / 2) * step for count, step in zip(values.shape, self.steps[::-1]))
         return values * self.kind.window(self, x, y[:, None]) if self.taper else values
-
-    def inside(self, values):
-        """The part of such an array inside the patch."""
-        rows, columns = values.shape
-        cut = [int((n - 1 - round(size / step)) // 2) if n > 1 else 0
-               for n, size, step in zip((columns, rows), self.patch, self.steps)]
-        return values[cut[1]:rows - cut[1], cut[0]:columns - cut[0]]
 
     @cached_property
     def measures(self):
@@ -161,4 +203,11 @@ class Measured:
     @cached_property
     def unfaded(self):
         """Range, rms and largest slope of its patch, not faded out."""
-        return Measures.of(self.inside(self.whole_heights), self.steps)
+        return Measures.of(self.whole_heights, self.steps)
+
+
+def _ends(count, step, size, offset):
+    """(first, after last) of the points of a part of that size, its centre moved by `offset` in whole points, m."""
+    cut = (count - 1 - round(size / step)) // 2 if count > 1 else 0
+    moved = min(max(round(offset / step), -cut), cut)
+    return cut + moved, count - cut + moved

@@ -17,6 +17,8 @@ BOTH = re.compile("(pixel|point|sampling|sample|data)[ _-]*(size|width|distance|
 EXTENT = "(length|range|extent|width)"
 EXTENTS = {"x": re.compile(f"width$|(x|scan|field|profile|trace)[ _-]*{EXTENT}$|{EXTENT}[ _-]*x$"),
            "y": re.compile(f"height$|y[ _-]*{EXTENT}$|{EXTENT}[ _-]*y$")}
+PLACES = {"x", "position", "distance", "length", "lateral"}  # names of columns
+HEIGHTS = {"z", "height", "heights", "profile"}
 ROUND = 2  # digits of a distance that somebody has set
 
 
@@ -48,6 +50,12 @@ def in_header(lines, shape):
             found[axis] = _steps(*sizes[axis], count)
     whole = found.pop("all", "")
     return Stated(found.get("z", whole), found.get("x", ()), found.get("y", ()), found.get("places", whole))
+
+
+def column_names(lines):
+    """First letters of the names of columns in the last header line, () where there is none."""
+    words = re.split(r"[;,\t ]+", BRACKET.sub("", lines[-1].lstrip("#/ ")).strip()) if lines else ()
+    return tuple(word.strip("\"'")[:1].lower() for word in words)
 
 
 def unit_of(text):
@@ -93,9 +101,9 @@ def _heads(found, words):
     """Units in the names of columns, as in x [mm], z [um]."""
     for word in words:
         unit, name = _unit_in(word, ()), BRACKET.sub("", word).strip().lower()
-        if unit and name in ("x", "position", "distance", "length", "lateral"):
+        if unit and name in PLACES:
             found.setdefault("places", unit)
-        elif unit and name in ("z", "height", "heights", "profile"):
+        elif unit and name in HEIGHTS:
             found.setdefault("z", unit)
 
 

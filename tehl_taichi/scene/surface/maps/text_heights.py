@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tehl_taichi.scene.surface.maps import coordinates, line_profiles, stated_values
+from tehl_taichi.scene.surface.maps import coordinates, line_profiles, point_lists, stated_values
 from tehl_taichi.scene.surface.maps.stated_values import Stated
 
 COLUMNS = (";", "\t", ",", None)  # what may stand between two heights, the first that a row has; None: blanks
@@ -37,6 +37,14 @@ class Table:
         heights, step, beside = found
         return replace(self, values=heights, beside=beside, spacing=(step, None))._with_stated()
 
+    def of_points(self):
+        """The same of a list of points, as a grid; None where they lie on none."""
+        found = point_lists.grid_of(self.values, stated_values.column_names(self.header_lines))
+        if found is None:
+            return None
+        heights, x, y = found
+        return replace(self, values=heights, beside=("x and y of a list of points",), spacing=(x, y))._with_stated()
+
     def _grid(self):
         """The same with the heights alone; beside: the coordinates that were taken off, in words; spacing: theirs, (along a
         row, from row to row), None where there are none."""
@@ -59,7 +67,7 @@ class Table:
 def read(path):
     """The :class:`Table` of a text file. Raises ValueError that names the line: a word among the heights, a row with more or
     fewer columns than the first, no row at all."""
-    with path.open(encoding="utf-8-sig", errors="replace") as file:  # headers have other encodings of a micro sign
+    with path.open(encoding=_encoding(path), errors="replace") as file:  # headers have other encodings of a micro sign
         lines = [(number, line.rstrip("\r\n ")) for number, line in enumerate(file, 1) if line.strip(" \r\n")]
     told = _section([(number, line.split("#")[0]) for number, line in lines if not line.startswith("#")])
     header, mark = _first_row(told)
@@ -69,6 +77,15 @@ def read(path):
     before, after = ([line for number, line in lines if (number < first) == early and number != first] for early in (1, 0))
     values = np.array(rows)
     return Table(values[:, :-1] if ended else values, header_lines=tuple(before), inside=sum(line[0] == "#" for line in after))
+
+
+def _encoding(path):
+    """By the first letters: UTF-16 has a mark, or every second of them is zero."""
+    with path.open("rb") as file:
+        first = file.read(4)
+    if first[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        return "utf-16"
+    return "utf-16-le" if first[1::2] == b"\0\0" else "utf-16-be" if first[::2] == b"\0\0" else "utf-8-sig"
 
 
 def _section(lines):

@@ -5,7 +5,7 @@ import os
 import numpy as np
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene.surface.maps import gaussian_filter, height_map, map_warnings, stated_keys
+from tehl_taichi.scene.surface.maps import gaussian_filter, height_map, map_warnings, part_choice, stated_keys
 from tehl_taichi.scene.surface.maps.length_units import MICRO, UNITS
 from tehl_taichi.scene.surface.maps.measured import Measured
 from tehl_taichi.scene.surface.maps.refusals import HeightsRefused, KeyMissing
@@ -110,19 +110,30 @@ def _check_keys(f):
     for key, size, extent, step, count in zip(("extent_x", "extent_y"), f.size, f.patch, f.steps, f.points):
         if count > 1:
             number(f"feature.{key}", extent, "m", 3 * step, size * (1 + 1e-9))
+            _check_offset(f, key.replace("extent", "offset"), size - extent)
     if f.cutoff:
         number("feature.cutoff", f.cutoff, "m", *gaussian_filter.limits(f))
 
 
+def _check_offset(f, key, room):
+    """Refuse a part that reaches beyond the heights; room: their size less that of the part, m."""
+    if abs(getattr(f, key)) > room / 2 + 1e-9:
+        raise SceneError(f"feature.{key} = {getattr(f, key):g} m moves the part beyond the heights of the file; allowed: at "
+                         f"most {max(room, 0.0) / 2:.4g} m to each side (feature.{key.replace('offset', 'extent')} makes the "
+                         "part smaller)")
+
+
 def _check_heights(f):
+    part_choice.check(f)
     found, where = f.unfaded, f"feature.file = {f.file!r}, in {f.unit} with level = {f.level!r},"
     if found.range > MAX_RANGE:
         raise HeightsRefused(f"{where} ranges over {found.range:.3g} m; allowed: at most {MAX_RANGE:g} m. Is feature.unit = "
-                         f"{f.unit!r} right?")
+                             f"{f.unit!r} right?")
     if found.slope > MAX_SLOPE:
         raise HeightsRefused(f"{where} has slopes of {found.slope:.1f} deg; allowed: at most {MAX_SLOPE:g} deg. Are "
-                         f"feature.unit = {f.unit!r} and feature.pixel = {f.pixel:g} m"
-                         f"{f', feature.pixel_y = {f.pixel_y:g} m' if f.pixel_y else ''} right?")
+                             f"feature.unit = {f.unit!r} and feature.pixel = {f.pixel:g} m"
+                             f"{f', feature.pixel_y = {f.pixel_y:g} m' if f.pixel_y else ''} right? If so, set feature.cutoff, "
+                             "or use another part (feature.offset_x, extent_x ...)")
 
 
 TENT = 1 - np.abs(np.arange(33) - 16) / 16

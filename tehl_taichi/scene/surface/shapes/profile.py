@@ -7,6 +7,7 @@ import numpy as np
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene.surface.maps import height_map
+from tehl_taichi.scene.surface.maps.height_map import ROWS
 from tehl_taichi.scene.surface.shape import Shape, share
 from tehl_taichi.scene.surface.shapes.map import EXAMPLE as MAP_EXAMPLE
 from tehl_taichi.scene.surface.shapes.map import TENT, Map
@@ -59,6 +60,8 @@ class Profile(Map):
         return f"{max(f.points)} points"
 
     def check_rows(self, f):
+        if f.level == ROWS:
+            raise SceneError("feature.level = 'rows' needs shape = 'map': a line profile has no rows")
         if not height_map.is_profile(f.heights):
             rows, columns = f.heights.shape
             raise SceneError(f"feature.file = {f.file!r} has {rows} x {columns} heights, no line profile; set feature.shape = "
@@ -67,7 +70,8 @@ class Profile(Map):
 
 HELD = height_map.keep(0.3 * TENT[None])  # held here, so that it is known by its sha256
 EXAMPLE = {**MAP_EXAMPLE, "shape": "profile", "sha256": HELD[0]}
-ANY = dict.fromkeys(("file", "unit", "scale", "pixel", "mirror_x", "mirror_y", "level", "cutoff", "sha256"), "")
+ANY = dict.fromkeys(("file", "unit", "scale", "pixel", "mirror_x", "mirror_y", "level", "cutoff", "offset_x", "offset_y",
+                     "sha256"), "")
 PROFILE = Profile(
     name="profile", says="heights measured along a line, constant across it (stylus profiles)", source="the file", keys=Lay,
     uses={**ANY, "height": "0 or not given", "extent_x": "0: the whole profile", "extent_y": "0: no end; longitudinal: the "

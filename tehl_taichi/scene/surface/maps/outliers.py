@@ -1,0 +1,82 @@
+"""Spikes of a measurement: few points far above or below their neighbours, as optical instruments make them."""
+
+import math
+
+import numpy as np
+
+STEEP = math.tan(math.radians(20.0))  # between neighbours, at least: a feature as narrow as a spike and flatter is left
+FAR = 8.0  # standard deviations of what points differ from their neighbours
+FEW = 0.05  # of the points may have a steep side: of a rough surface, or in a wrong unit, more have
+LARGEST = 25  # points of a spike: larger and longer ones are scratches, steps or dirt
+SAMPLE = 20000  # points that give the standard deviation
+NORMAL = 1.4826  # standard deviation over the median of the sizes
+NEAR = np.array([(j, i) for j in (-1, 0, 1) for i in (-1, 0, 1) if (j, i) != (0, 0)])
+
+
+def spikes(heights, steps):
+    """Where `heights` (points along y, along x; m, nan where not measured), steps (m, along x, along y) apart, are spikes."""
+    steep, none = _steep(heights, steps), np.zeros(heights.shape, bool)
+    if not steep.any() or steep.mean() > FEW:
+        return none
+    reach = (3, 3) if min(heights.shape) > 1 else _along(heights.shape)
+    padded = np.pad(heights, [(r, r) for r in reach], constant_values=np.nan)
+    at = np.argwhere(steep)
+    limit = max(FAR * _usual(padded, heights.shape, reach), STEEP * _least(heights.shape, steps))
+    found = at[np.abs(_differences(padded, at, reach)) > limit]
+    return _small(found, none)
+
+
+def _along(shape):
+    return (4, 0) if shape[1] == 1 else (0, 4)
+
+
+def _least(shape, steps):
+    """The smaller distance of neighbours."""
+    return min(step for step, count in zip(steps, shape[::-1]) if count > 1)
+
+
+def _steep(heights, steps):
+    """Points with a steep side."""
+    out = np.zeros(heights.shape, bool)
+    for axis, step in zip((1, 0), steps):
+        over = np.abs(np.diff(heights, axis=axis)) > STEEP * step  # not beside what was not measured
+        first, second = ((slice(None),) * axis + (part,) for part in (slice(None, -1), slice(1, None)))
+        out[first] |= over
+        out[second] |= over
+    return out
+
+
+def _usual(padded, shape, reach):
+    """Standard deviation of what points differ from their neighbours."""
+    every = max(1, math.prod(shape) // SAMPLE)
+    at = np.stack(np.unravel_index(np.arange(0, math.prod(shape), every), shape), axis=1)
+    found = np.abs(_differences(padded, at, reach))
+    return NORMAL * float(np.median(found[np.isfinite(found)]))
+
+
+def _differences(padded, at, reach):
+    """Heights at the points less the median of those around; nan where there are none."""
+    around = [(j, i) for j in range(-reach[0], reach[0] + 1) for i in range(-reach[1], reach[1] + 1) if (j, i) != (0, 0)]
+    places = at + np.array(reach)
+    values = np.stack([padded[places[:, 0] + j, places[:, 1] + i] for j, i in around])
+    values.sort(axis=0)  # nan last
+    count = np.isfinite(values).sum(axis=0)
+    low, high = (np.take_along_axis(values, np.maximum(index, 0)[None], axis=0)[0] for index in ((count - 1) // 2, count // 2))
+    return padded[places[:, 0], places[:, 1]] - 0.5 * (low + high)
+
+
+def _small(found, out):
+    """Of these points those that lie in groups of at most LARGEST."""
+    left = set(map(tuple, found.tolist()))
+    while left:
+        group, new = [], [left.pop()]
+        while new:
+            j, i = new.pop()
+            group.append((j, i))
+            for beside in ((j + dj, i + di) for dj, di in NEAR.tolist()):
+                if beside in left:
+                    left.remove(beside)
+                    new.append(beside)
+        if len(group) <= LARGEST:
+            out[tuple(zip(*group))] = True
+    return out

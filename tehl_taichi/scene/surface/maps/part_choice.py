@@ -1,0 +1,58 @@
+"""Whether the part of a scan that is used was measured, and another part that was."""
+
+import numpy as np
+
+from tehl_taichi.scene.surface.maps import hole_filling
+from tehl_taichi.scene.surface.maps.refusals import HeightsRefused
+
+
+def check(f):
+    """Refuse a part that lacks too many heights. Raises HeightsRefused, which names a part that does not."""
+    holes = f.holes
+    if _enough(holes):
+        return
+    where = f"feature.file = {f.file!r}" if f.file else "heights"
+    raise HeightsRefused(f"{where} lacks {holes.mean():.2g} of its {holes.size} heights, in holes of up to "
+                         f"{2 * hole_filling.depth(holes)} points across; allowed: {hole_filling.MOST:g}, holes of "
+                         f"{2 * hole_filling.DEEPEST} (they are filled from their neighbours); {_remedy(f)}")
+
+
+def _enough(holes):
+    return holes.mean() <= hole_filling.MOST and hole_filling.depth(holes) <= hole_filling.DEEPEST
+
+
+def _remedy(f):
+    holes = hole_filling.missing(f.orientation.turned(f.heights))
+    low_y, high_y, low_x, high_x = ends = measured_part(holes)
+    if not _large(ends) or not _enough(holes[low_y:high_y, low_x:high_x]):
+        return "use a part with fewer holes (feature.offset_x, extent_x ...), or fill them in the measuring software"
+    keys = [f"feature.{name}_{axis} = {value:.4g}" for axis, low, high, count, step in
+            zip("xy", (low_x, low_y), (high_x, high_y), f.points, f.steps) if high - low < count
+            for name, value in (("extent", (high - 1 - low) * step), ("offset", (low + high - count) / 2 * step))]
+    return f"this part has fewer: {', '.join(keys)}"
+
+
+def _large(ends):
+    low_y, high_y, low_x, high_x = ends
+    return high_y - low_y >= 4 and high_x - low_x >= 4 or min(high_y - low_y, high_x - low_x) == 1
+
+
+def measured_part(holes):
+    """(first, after last row, first, after last column) of what is left where the edge that lacks the largest share is cut off
+    until none lacks more than hole_filling.MOST."""
+    total = np.pad(np.cumsum(np.cumsum(holes, axis=0, dtype=int), axis=1), ((1, 0), (1, 0)))
+    ends = [0, holes.shape[0], 0, holes.shape[1]]
+
+    def lacking(a, b, c, d):
+        """Share of the points in these rows and columns."""
+        return (total[b, d] - total[a, d] - total[b, c] + total[a, c]) / max((b - a) * (d - c), 1)
+
+    while ends[1] - ends[0] > 1 or ends[3] - ends[2] > 1:
+        a, b, c, d = ends
+        edges = [lacking(a, a + 1, c, d), lacking(b - 1, b, c, d), lacking(a, b, c, c + 1), lacking(a, b, d - 1, d)]
+        edges = [share if ends[n // 2 * 2 + 1] - ends[n // 2 * 2] > 1 else -1.0 for n, share in enumerate(edges)]
+        worst = int(np.argmax(edges))
+        if edges[worst] <= hole_filling.MOST:
+            break
+        ends[worst] += 1 if worst in (0, 2) else -1
+    return tuple(ends)
