@@ -206,8 +206,9 @@ class Passage:
 
     def _describe(self, report, started):
         time_s = self.step * self.dT * self.scales.t
-        solved = SolvedState(self.solver, self.heat, report, started, self.rejected, self.dT * self.scales.t)
-        return snapshot.take(solved, self.step, time_s, self.position(self.step) * self.scales.a,
+        X = self.position(self.step)
+        solved = SolvedState(self.solver, self.heat, report, started, self.rejected, self.dT * self.scales.t, X)
+        return snapshot.take(solved, self.step, time_s, X * self.scales.a,
                              functools.partial(self._state, self.step))
 
     def _state(self, step):

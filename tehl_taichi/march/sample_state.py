@@ -14,4 +14,5 @@ SAMPLE = SimpleNamespace(
                 [[90.0, 94.0, 90.0], [90.0, 91.0, 90.0]]]),  # parabolas across the film: largest between its nodes
     extremes={"h_c": 1.0, "h_min": 1.0, "p_max": 1.0}, H0=-0.25, load=0.75,
     report=SimpleNamespace(load_error=-2e-7, mass_error=1e-8, residual=3e-7, newton=3, cycles=11),
-    heat=SimpleNamespace(report=SimpleNamespace(change=0.02, clamped=1)), rejected=1, dt=2e-6, wall=0.25)
+    heat=SimpleNamespace(report=SimpleNamespace(change=0.02, clamped=1)), rejected=1, dt=2e-6, wall=0.25,
+    displacements=(-1.5e-4, -1.8e-4))

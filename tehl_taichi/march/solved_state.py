@@ -15,7 +15,7 @@ from tehl_taichi.pressure.newton import PressureSolver, SolveReport
 @dataclass(frozen=True, eq=False)
 class SolvedState:
     """An accepted state, dimensionless. report: of its solve; started: time.perf_counter() when the step began; heat: None
-    without temperatures; rejected: attempts; dt: of the step, s."""
+    without temperatures; rejected: attempts; dt: of the step, s; moved: X, the clock of the passage, in a (None: its start)."""
 
     solver: PressureSolver
     heat: Optional[FilmHeat]
@@ -23,6 +23,7 @@ class SolvedState:
     started: float
     rejected: int = 0
     dt: float = 0.0
+    moved: Optional[float] = None
 
     @property
     def scene(self):
@@ -32,6 +33,12 @@ class SolvedState:
     def scales(self):
         """Hertz units (:class:`tehl_taichi.scene.scales.Scales`)."""
         return self.solver.levels.scales
+
+    @property
+    def displacements(self):
+        """Of surfaces a and b since X = 0, m."""
+        X = self.scene.path[0] if self.moved is None else self.moved
+        return tuple(surface.pace * X * self.scales.a for surface in self.scene.surfaces)
 
     @functools.cached_property
     def P(self):

@@ -25,6 +25,11 @@ def thermal(scene):
     return not scene.isothermal
 
 
+def passing(scene):
+    """With a passage."""
+    return scene.transient
+
+
 @dataclass(frozen=True, kw_only=True)
 class StepOutput(Entry):
     """One value of a step. says: its long name; of(solved): from a :class:`tehl_taichi.march.solved_state.SolvedState`;

@@ -116,6 +116,14 @@ class Reader:
         """Centre of the first feature (m) at entry n."""
         return float(self.series["feature_x"][n])
 
+    def displacement(self, surface):
+        """How far surface "a" or "b" has moved since X = 0 (m), one number per stored entry; nan without a passage."""
+        name = f"displacement_{surface}_m"
+        if name in self.series:
+            return self.scalar(name)
+        pace = next(s.pace for s in self.scene.surfaces if s.name == surface)  # stores before 0.9, all features on one
+        return pace * self.scalar("feature_x")
+
     def fields(self, n, names=None):
         """{name: (nx+1, ny+1) array} of entry n, by default of every field that is stored."""
         return {name: self._values(name, n) for name in (self.stored if names is None else names)}

@@ -94,3 +94,15 @@ def test_bodies_that_rest_are_not_judged():
     assert [s.name for s in line(2.0).judged] == ["a"] and [s.name for s in line().judged] == ["a", "b"]
     resting = line(2.0, **{"fatigue.surfaces": "b"})
     assert not resting.has_fatigue and "surface b is at rest" in resting.without_fatigue
+
+
+def test_a_store_keeps_how_far_each_surface_has_moved(tmp_path):
+    scene = line(steps=3, **{"numerics.estimate_error": False, "output.every": 2})
+    store = tehl.run(scene, tmp_path / "moved.zarr").store
+    X, u_a, u_b = store.scalar("feature_x"), scene.operation.u_a, scene.operation.u_b
+    np.testing.assert_allclose(store.displacement("a"), X, rtol=1e-14)
+    np.testing.assert_allclose(store.displacement("b"), X * u_b / u_a, rtol=1e-14)
+    np.testing.assert_allclose(np.diff(store.displacement("b")), u_b * np.diff(store.time), rtol=1e-9)
+    assert len(X) == 3 and X[0] == pytest.approx(scene.path[0] * Scales.of(scene).a)
+    del store.series["displacement_b_m"]  # as in stores of older versions
+    np.testing.assert_allclose(store.displacement("b"), X * u_b / u_a, rtol=1e-14)
