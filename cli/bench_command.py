@@ -50,6 +50,7 @@ def stability(
     match: str = typer.Option("", help="run only the cases with this text in their name"),
     thermal: bool = typer.Option(False, "--thermal/--isothermal", help="run the table with temperatures"),
     random: int = typer.Option(200, help="number of random scenes after the table"),
+    rough: int = typer.Option(0, help="number of random contacts of two ground surfaces, with temperatures, after them"),
     seed: int = typer.Option(0, help="seed of the random scenes"),
     quick: bool = typer.Option(False, "--quick", help="run every sixth case and eight random scenes"),
     only_starts: bool = typer.Option(False, "--starts", help="run only scenes with temperatures: the steady start and one "
@@ -70,7 +71,7 @@ def stability(
 ):
     """Run stiff and extreme scenes; each converges, is refused, stops or fails. Example: `tehl bench stability`"""
     from tehl_taichi.profiles import stability as suite
-    from tehl_taichi.profiles.stability import carried, cases, random_cases, run, starts
+    from tehl_taichi.profiles.stability import carried, cases, random_cases, rough_cases, run, starts
 
     results = Results(out, "starts" if confirm else "stability", force, write=write and not confirm)
     if confirm:
@@ -78,10 +79,10 @@ def stability(
         say_idle(context, "docs/performance.md has no table that --confirm writes", "write")
     else:
         say_idle(context, "it applies to --confirm only", "again")
-    if not random:
+    if not (random or rough):
         say_idle(context, "--random 0 draws no scenes", "seed")
     listed = list(cases(thermal).items())
-    drawn = random_cases(min(random, 8) if quick else random, seed)
+    drawn = random_cases(min(random, 8) if quick else random, seed) | rough_cases(min(rough, 2) if quick else rough, seed)
     chosen = {name: description for name, description in (*listed[:: 6 if quick else 1], *drawn.items())
               if match.lower() in name.lower()}
     chosen = starts(chosen) if only_starts or confirm else chosen
@@ -96,7 +97,9 @@ def stability(
     counts = _verdicts(found)
     results.documented(("scenes", *counts), [(kind, *map(str, _verdicts(part).values())) for kind, part in
                                              (("table", [o for o in found if o.name in dict(listed)]),
-                                              ("random", [o for o in found if o.name not in dict(listed)])) if part])
+                                              ("random", [o for o in found if o.name not in dict(listed)
+                                                          and not o.name.startswith("rough ")]),
+                                              ("rough", [o for o in found if o.name.startswith("rough ")])) if part])
     counts["unsettled"] = sum(o.unsettled for o in found)
     counts["carried"] = sum(o.carried for o in found)
     counts["carried_converged"] = sum(o.carried and o.verdict == "converged" for o in found)

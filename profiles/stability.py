@@ -2,6 +2,7 @@
 or a hang."""
 
 import dataclasses
+import functools
 import time
 from dataclasses import dataclass
 from typing import Optional
@@ -27,6 +28,7 @@ FINEST = {"line": 1024, "point": 256}  # columns, of scenes on the grid that the
 MOST = {True: 2048, False: 512}  # columns of lines, of points, that are made finer
 CONFIRMED = {True: 2048, False: 512}  # the same, of those that are made finer until twice the columns confirm them
 FILM_HOLDS, HOLDS_K = 0.01, 1.0  # what half a step and a finer grid may change of a start that they confirm
+ROUGH_LINE = {"grid.nx": 128, "grid.ny": 32, "thermal.on": True, "time.x_end": -0.4}  # until the patches reach the middle
 RANDOM_LINE, RANDOM_POINT, RANDOM_STEPS = {"grid.nx": 64, "grid.ny": 16}, {"grid.nx": 64, "grid.ny": 16, "grid.y_max": 2.0}, 12
 COLOURS = {"converged": palette.GREEN, "refused": palette.GREY, "stopped": palette.ORANGE, "failed": palette.VERMILLION}
 # the default first, then in the order that the published figures were drawn in
@@ -135,9 +137,7 @@ def random_cases(count, seed=0):
 
 
 def _drawn(rng):
-    def log_uniform(low, high):
-        return float(np.exp(rng.uniform(np.log(low), np.log(high))))
-
+    log_uniform = functools.partial(_log_uniform, rng)
     point = rng.random() < 0.3
     contact = {"hertz_pressure": log_uniform(0.3e9, 2e9 if point else 4e9)}
     if point:
@@ -153,6 +153,38 @@ def _drawn(rng):
                       width=log_uniform(max(20e-6, 1.01 * FEWEST * cell), max(400e-6, 2 * FEWEST * cell)),
                       shape=str(rng.choice([name for name, shape in SHAPES.items() if shape.drawn])))
     return dataclasses.replace(smooth, features=(feature,))
+
+
+def rough_cases(count, seed=0):
+    """{name: scene or SceneError}: `count` gear contacts with temperatures and two ground surfaces: Ra 0.1 to 0.5 um and lay of
+    each, SRR of both signs, pressure, speed and oil temperature at random; the first steps of the passage."""
+    rng, out = np.random.default_rng(seed), {}
+    for n in range(count):
+        smooth = scene("gear").replace(**ROUGH_LINE, **{"temperature": float(rng.uniform(40, 120)),
+                                                        "hertz_pressure": _log_uniform(rng, 0.8e9, 2.5e9),
+                                                        "srr": float(rng.choice([-1, 1])) * _log_uniform(rng, 0.02, 0.5),
+                                                        "speed": _log_uniform(rng, 2.0, 20.0)})
+        pair = [_ground(rng, smooth, name) for name in "ab"]
+        try:
+            out[f"rough {seed}-{n} {', '.join(marks for marks, _ in pair)}"] = dataclasses.replace(
+                smooth, features=tuple(feature for _, feature in pair))
+        except SceneError as error:
+            out[f"rough {seed}-{n}"] = error
+    return out
+
+
+def _ground(rng, smooth, surface):
+    """(lay, ground Feature) of one surface, whose shortest wave the grid of the scene sees."""
+    s = Scales.of(smooth)
+    shortest, lay = _log_uniform(rng, 1.01, 3.0) * FEWEST * max(s.cell(smooth.grid)), str(rng.choice(["across", "along"]))
+    along = shortest * _log_uniform(rng, 3.0, 20.0)
+    width, length = (shortest, along) if lay == "across" else (along, shortest)
+    return lay, Feature(shape="ground", surface=surface, height=_log_uniform(rng, 0.1e-6, 0.5e-6), width=width, length=length,
+                        seed=int(rng.integers(1000)), extent_x=s.a, taper=0.15 * s.a)
+
+
+def _log_uniform(rng, low, high):
+    return float(np.exp(rng.uniform(np.log(low), np.log(high))))
 
 
 def edited(base, changes):

@@ -178,13 +178,14 @@ def test_speed_with_targets_is_drawn_in_units_of_them():
 def test_stability(tmp_path, monkeypatch):
     once(monkeypatch, stability)
     small = scene("gear").replace(**{"thermal.on": False, "grid.nx": 64, "grid.ny": 16, "time.steps": 2})
-    drawn = {"line 2 5": small, "line": SceneError("no")}
+    drawn, rough = {"drawn 2 5": small, "drawn": SceneError("no")}, {"rough drawn": small.replace(height=1e-6)}
     monkeypatch.setattr(stability, "random_cases", lambda count, seed: drawn if (count, seed) == (2, 5) else {})
-    words = ("stability", "--quick", "--match", "line", "--random", 2, "--seed", 5, "--threads", 2)
+    monkeypatch.setattr(stability, "rough_cases", lambda count, seed: rough if (count, seed) == (1, 5) else {})
+    words = ("stability", "--quick", "--match", "drawn", "--random", 2, "--rough", 1, "--seed", 5, "--threads", 2)
     text, found = done(tmp_path, "stability", *words)
     verdicts = {row["name"]: row["verdict"] for row in found["rows"]}
-    assert verdicts.pop("line 2 5") == "converged" and verdicts and set(verdicts.values()) == {"refused"}
-    assert all("line" in name for name in verdicts)
+    assert verdicts.pop("drawn 2 5") == verdicts.pop("rough drawn") == "converged"
+    assert verdicts == {"drawn": "refused"}
     assert found["converged"] + found["refused"] + found["stopped"] == len(found["rows"]) and found["failed"] == 0
     for row in found["rows"]:
         assert lines_with(text, row["name"], row["verdict"], str(row["steps"]), f"{row['newton']:.1f}", f"{row['seconds']:.1f}")

@@ -51,6 +51,20 @@ def test_random_scenes_repeat_and_cover_the_range():
     assert {s.isothermal for s in scenes} == {True, False} and len({s.rheology.law for s in scenes}) == 4
 
 
+def test_rough_scenes_have_two_ground_surfaces():
+    found = stability.rough_cases(20, 3)
+    assert found == stability.rough_cases(20, 3) != stability.rough_cases(20, 4) and len(found) == 20
+    for name, one in found.items():
+        assert [f.surface for f in one.features] == ["a", "b"] and not one.isothermal and 0.02 <= abs(one.operation.srr) <= 0.5
+        assert all(0.1e-6 <= f.height <= 0.5e-6 for f in one.features)
+        lays = ["across" if f.length > f.width else "along" for f in one.features]
+        assert name.endswith(", ".join(lays)) and one.features[0].seed != one.features[1].seed
+        assert one.path[1] > -one.features[0].reach / Scales.of(one).a  # the front of the patch is behind the middle
+    assert {one.operation.srr > 0 for one in found.values()} == {True, False}
+    assert {name.partition(" 3-")[2].split(maxsplit=1)[1] for name in found} == {
+        f"{a}, {b}" for a in ("across", "along") for b in ("across", "along")}
+
+
 def test_starts_are_scenes_with_temperatures(monkeypatch):
     drawn = stability.starts(stability.random_cases(20, 3))
     assert len(drawn) > 4 and all(not s.isothermal and s.time.steps == 1 for s in drawn.values())

@@ -83,6 +83,28 @@ def test_rough_patches_have_their_rms_on_average():
     assert math.sqrt(np.mean(squares)) == pytest.approx(0.2 * UM, rel=0.1)
 
 
+GROUND = {"shape": "ground", "height": 0.3 * UM, "width": 40 * UM, "length": 400 * UM, "extent_x": 600 * UM}
+
+
+@pytest.mark.parametrize("lay", [{}, {"width": 400 * UM, "length": 40 * UM}, {"length": 0.0}, {"length": math.inf}])
+def test_ground_patches_have_their_Ra_on_average(lay):
+    """Of 60 patches, also on y = 0, about which they are even."""
+    x, y, found = np.linspace(-250, 250, 101)[:, None] * UM, np.linspace(-300, 300, 61) * UM, []
+    for seed in range(60):
+        z = Feature(**{**GROUND, **lay, "seed": seed}).height_at(x, y)
+        assert np.allclose(z, z[:, ::-1])
+        found.append((np.mean(np.abs(z)), np.mean(np.abs(z[:, 30]))))
+    assert np.mean(found, axis=0) == pytest.approx(0.3 * UM, rel=0.08)
+
+
+def test_marks_lie_along_the_longer_of_width_and_length():
+    x, y = np.linspace(-250, 250, 251)[:, None] * UM, np.linspace(50, 550, 251) * UM
+    across, along = (Feature(**{**GROUND, **lay}).height_at(x, y) for lay in ({}, {"width": 400 * UM, "length": 40 * UM}))
+    for z, quick, slow in ((across, 0, 1), (along, 1, 0)):
+        assert np.abs(np.diff(z, axis=quick)).mean() > 5 * np.abs(np.diff(z, axis=slow)).mean()
+    assert Feature(**{**GROUND, "length": math.inf}).transverse and not Feature(**GROUND).transverse
+
+
 def test_the_undeformed_gap():
     """x^2/2 R_x + y^2/2 R_y in units of a^2/R_x: X^2/2 + (R_x/R_y) Y^2/2."""
     assert undeformed(np.array([3.0]), np.array([2.0]), 0.0)[0] == 4.5

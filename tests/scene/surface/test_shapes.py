@@ -29,7 +29,7 @@ def test_every_example_is_of_its_shape_and_ends_where_it_reaches(name):
     x = np.linspace(-2 * f.reach, 2 * f.reach, 801)
     y = np.linspace(-2, 2, 401) * (f.reach_y if 0 < f.reach_y < 1 else 1e-3)
     heights = f.height_at(x[None, :], y[:, None])
-    assert np.abs(heights).max() <= abs(f.top) * (1 + 1e-9) or name == "rough"  # whose height is an rms
+    assert np.abs(heights).max() <= abs(f.top) * (1 + 1e-9) or name in ("rough", "ground")  # rms, Ra
     assert np.abs(heights[:, np.abs(x) > f.reach]).max() <= 1.1e-5 * np.abs(heights).max()
     assert f.transverse == (np.ptp(heights, axis=0).max() == 0) and (not f.symmetric or np.allclose(heights, heights[::-1]))
     if f.reach_y > 0:
