@@ -17,6 +17,7 @@ BALL = dict(**NEWTONIAN, contact=Contact(kind="point", radius_x=12.7e-3, radius_
 RIDGE = Feature(shape="ridge", height=0.2e-6, width=128.9e-6)
 FURROW = Feature(shape="furrow", height=-2e-6, width=500e-6)
 ROUGH = Feature(shape="rough", height=0.15e-6, width=40e-6, extent_x=500e-6, extent_y=500e-6, taper=50e-6)
+GROUND = dict(shape="ground", height=0.3e-6, width=80e-6, length=480e-6, extent_x=500e-6, taper=60e-6)  # marks across
 
 BUILT_INS = {
     "gear": (Scene(), "dedendum of a driving gear: 1.5 um asperity on the slower surface (SRR -0.12), 1.93 GPa"),
@@ -27,6 +28,9 @@ BUILT_INS = {
     "touching-asperity": (Scene(name="touching-asperity", features=(Feature(height=3e-6),)),
                           "3 um asperity: the surfaces touch"),
     "rough": (Scene(name="rough", features=(ROUGH,)), "gear contact with a patch of random roughness, rms 0.15 um"),
+    "rough-pair": (Scene(name="rough-pair", features=(Feature(seed=1, **GROUND), Feature(seed=2, surface="b", **GROUND)),
+                         grid=Grid(nx=160, ny=40)),
+                   "two ground flanks, Ra 0.3 um each, marks across rolling (exchange width and length of both: along)"),
     "ball-on-disc": (Scene(name="ball-on-disc", features=(), operation=Operation(u_m=0.01075, srr=0.0), **BALL),
                      "steel ball on glass, 0.54 GPa: steady circular contact, Newtonian oil"),
     "ridge-on-ball": (Scene(name="ridge-on-ball", features=(RIDGE,), operation=Operation(u_m=0.01075, srr=0.0), **BALL),
