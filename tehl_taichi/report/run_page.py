@@ -33,8 +33,9 @@ def of(folder):
 def page(store, result=None):
     """The page of a :class:`tehl_taichi.store.reader.Reader`; result: the SearchResult, by default that of the store."""
     about = f"{store.scene.name}: a run of tehl_taichi {text(store.attrs, 'version')}"
-    sections = (scene_section(store.scene, text(store.attrs, "scene_toml", "")), *surface_plots.section(store.scene),
-                *_film(store), *_fatigue(store, result), *crack_plots.section(store), *_made(store))
+    sections = (scene_section(store.scene, text(store.attrs, "scene_toml", "")),
+                *surface_plots.section(store.scene, store.summary), *_film(store), *_fatigue(store, result),
+                *crack_plots.section(store), *_made(store))
     answer = dataclasses.replace(verdict.of(store), known_before=tuple(store.scene.warnings()))
     return Page(f"{store.scene.name}: report", about, answer, sections)
 

@@ -5,13 +5,15 @@ import os
 
 import numpy as np
 
-from tehl_taichi.report.document import Section, drawn, facts
+from tehl_taichi.report.document import Section, drawn, facts, table
 from tehl_taichi.report.number_text import value_text
 from tehl_taichi.report.passage_plots import thinned
 from tehl_taichi.report.plots import colour, field_map, line, stacked
+from tehl_taichi.scene import surface_roughness
 from tehl_taichi.scene.feature_wording import carriers, from_centre
 from tehl_taichi.scene.surface.maps.height_map import LEVELS
 from tehl_taichi.scene.surface.maps.map_warnings import form_taken
+from tehl_taichi.values.digits import with_error
 from tehl_taichi.view.figures.height_profile import heights
 from tehl_taichi.view.figures.palette import HEIGHT, SHADE
 
@@ -20,12 +22,39 @@ HOLES = " Light: points that were not measured and were filled smoothly from the
 MOST = 400  # columns and rows kept: what a screen shows
 
 
-def section(scene):
+ROUGHNESS = (("mean height (Sa, Ra)", ("Sa_m", "Ra_m"), "m"), ("rms height (Sq, Rq)", ("Sq_m", "Rq_m"), "m"),
+             ("range (Sz, Rz)", ("Sz_m", "Rz_m"), "m"), ("skewness", ("skewness",), "1"), ("rms slope", ("Rq_slope",), "1"),
+             ("autocorrelation length along x", ("length_x_m",), "m"), ("along y", ("length_y_m",), "m"))
+
+
+def section(scene, summary):
     """(:class:`Section`,), or () where nothing passes."""
     if not scene.transient:
         return ()
     maps = [f for f in scene.features if f.kind.measured]
-    return (Section("The surface", (drawn(picture(scene)), *(facts(measured(f, scene)) for f in maps))),)
+    parts = drawn(picture(scene)), *(facts(measured(f, scene)) for f in maps), *roughness(scene, summary)
+    return (Section("The surface", parts),)
+
+
+def roughness(scene, summary):
+    """(table of the roughness of each surface and of both together, film over it) where surfaces are rough."""
+    columns = {}
+    for name, numbers in surface_roughness.to_dict(scene).items():
+        columns["both together" if name == "combined" else f"surface {name}"] = numbers
+        if "before_filters" in numbers:
+            columns[f"surface {name} before its filter"] = numbers["before_filters"]
+    if not columns:
+        return ()
+    rows = [(what, *(_rough_value(numbers, keys, unit) for numbers in columns.values())) for what, keys, unit in ROUGHNESS]
+    return table(("roughness", *columns), rows), _film_over(summary) if "lambda" in summary else None
+
+
+def _film_over(summary):
+    return facts([("λ = h_c/Sq", with_error(summary["lambda"], summary["error"]["lambda"], "", 3))])
+
+
+def _rough_value(numbers, keys, unit):
+    return next((value_text(numbers[key], unit=unit) for key in keys if key in numbers), "")
 
 
 def picture(scene):

@@ -3,6 +3,7 @@
 from tehl_taichi.scene import (
     domain,
     domain_warnings,
+    film_formula,
     idle_keys,
     keys,
     named_steels,
@@ -10,6 +11,7 @@ from tehl_taichi.scene import (
     resolution,
     scales,
     stiff_oil,
+    surface_roughness,
     thin_film,
     timeline,
 )
@@ -26,7 +28,17 @@ def warnings(scene):
 
 def preview(scene):
     """Lines about its features, printed before a run, each once."""
-    return once(line for feature in scene.features for line in feature.kind.preview(feature, scene))
+    return once([*(line for feature in scene.features for line in feature.kind.preview(feature, scene)), *_roughness(scene)])
+
+
+def _roughness(scene):
+    """A line for each rough surface, and the film by formula over their roughness."""
+    found = surface_roughness.by_surface(scene)
+    for name, one in found.items():
+        before = f" (before the filter {one.before.words})" if one.before else ""
+        yield f"surface {name}: {one.used.words}{before}"
+    if found and (Sq := surface_roughness.combined(found)[0]):
+        yield f"lambda = h_c/Sq by formula: {film_formula.central_film(scene) / Sq:.2g}"
 
 
 def doubtful_features(scene):

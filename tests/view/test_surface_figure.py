@@ -114,7 +114,7 @@ def test_the_report_thins_large_maps_and_leaves_out_what_does_not_pass(tmp_path)
 
     picture = surface_plots.picture(scanned(tmp_path, 401, 900, pixel=1e-6, pixel_y=1e-6)[0])
     assert picture.traces[0]["z"].shape == (400, 400) and "400 × 400 of 900 × 401 points" in picture.caption
-    assert surface_plots.section(scene("smooth-line")) == ()
+    assert surface_plots.section(scene("smooth-line"), {}) == ()
     seen = page(made_results.run(tmp_path / "a.zarr", SMALL), tmp_path)
     assert "The surface" in seen.headings and "largest slope" not in seen.text and tehl.open(tmp_path / "a.zarr")
 

@@ -71,6 +71,7 @@ COLUMNS = (
     TableColumn("p_Hertz_Pa", "p_H GPa", 1e-9, ".3f", lambda at, p_H, _: p_H, CONTACT),
     *(TableColumn(one.column, one.head, one.factor, one.form, _Of(*one.part.split("."), one.key), TITLES[one.part])
       for one in quantities.ENTRIES if one.column),
+    TableColumn("lambda", "lambda", 1, ".2f", _Of("lambda"), STEADY),
     TableColumn("worse_body", "body", 1, "", lambda at, p_H, summary: dig(summary, "fatigue", "surface"), PASSAGE),
 )
 

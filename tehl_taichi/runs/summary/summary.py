@@ -9,6 +9,7 @@ from tehl_taichi.march import quantities
 from tehl_taichi.march.accuracy.coarse_runs import FI, indices
 from tehl_taichi.runs.summary import result_warnings
 from tehl_taichi.runs.summary.film_warnings import worst_ripple
+from tehl_taichi.scene import surface_roughness
 from tehl_taichi.scene.film_formula import central_film, formula_words, spread
 from tehl_taichi.scene.scales import Scales, peclet
 from tehl_taichi.store import attributes
@@ -31,6 +32,7 @@ def summarise(store, extra, searches=None):
            "hertz": _hertz(scales), **_peclet(scene, scales), "domain": domain_of(scene),
            "left_out": scene.left_out(),
            "steady": _steady(store, extra)}
+    out |= _roughness(scene, out["steady"])
     if len(store) > 1:
         out["transient"] = _transient(store)
     elif alone := extra.get("steady_contact_alone"):
@@ -107,6 +109,18 @@ def _steady(store, extra):
 def _before(known):
     """What is known of the inlet: the gap there over the film, the share of it that a border without pressure would take."""
     return {"inlet_gap": known["gap"], "inlet_lost": known["lost"]} if known else {}
+
+
+def _roughness(scene, steady):
+    """Numbers of the rough surfaces, and lambda: the central film without them over the rms height of both together."""
+    found = surface_roughness.by_surface(scene)
+    if not found:
+        return {}
+    Sq, error = surface_roughness.combined(found)[0], steady["error"].get("h_c_m")
+    out = {"roughness": surface_roughness.to_dict(scene)}
+    if Sq > 0:
+        out |= {"lambda": steady["h_c_m"] / Sq, "error": {"lambda": None if error is None else error / Sq}}
+    return out
 
 
 def _parts(out):

@@ -12,6 +12,7 @@ from tehl_taichi.march.quantities import HEAT
 from tehl_taichi.scene.feature_wording import between
 from tehl_taichi.values.digits import micrometres, with_error
 
+HEIGHTS = ("Sa_m", "Sq_m", "Sz_m", "Ra_m", "Rq_m", "Rz_m")
 SURFACE, BELOW, RESOLVED = "at the surface", "below it", "while resolved"  # parts of a search
 
 
@@ -61,6 +62,7 @@ def rows_of(summary):
         formula = steady["film_formula_m"]
         by = steady.get("film_formula", "isothermal, Newtonian")
         rows.append(SummaryRow(f"h_c by formula ({by})", f"{formula * 1e6:.4f} um", formula))
+    rows += _roughness_rows(summary)
     rows += _peclet_rows(summary) + _heat_rows("steady", steady) + _passage_rows(summary)
     rows.append(SummaryRow("run time", f"{summary['wall_s']:.1f} s (kernels {summary['compile_s']:.1f} s)", summary["wall_s"]))
     return rows
@@ -84,6 +86,29 @@ def quantity(values, name, factor=1, unit=""):
     if error is None:
         return f"{with_error(value, None, unit, 3)} (error unknown)"
     return with_error(value, error * factor, unit)
+
+
+def _roughness_rows(summary):
+    """Of each surface, before its filters too, and the film over them."""
+    out = []
+    for name, numbers in summary.get("roughness", {}).items():
+        of = "both surfaces" if name == "combined" else f"surface {name}"
+        out += [*_heights(of, numbers), *_shape(of, numbers), *_heights(f"{of} before filters", numbers.get("before_filters"))]
+    return out + ([_of(summary, "lambda", "lambda = h_c/Sq")] if "lambda" in summary else [])
+
+
+def _heights(of, numbers):
+    """Mean, rms and range, as far as known."""
+    known = [key for key in (numbers or {}) if key in HEIGHTS]
+    values = " / ".join(f"{numbers[key] * 1e6:.3g}" for key in known)
+    rms = next((numbers[key] for key in known if key in ("Sq_m", "Rq_m")), None)
+    return [SummaryRow(f"{' / '.join(key[:-2] for key in known)} of {of}", f"{values} um", rms)] if known else []
+
+
+def _shape(of, numbers):
+    lengths = [f"{numbers[key] * 1e6:.3g} um along {key[7]}" for key in ("length_x_m", "length_y_m") if key in numbers]
+    return [SummaryRow(f"skewness / rms slope of {of}", f"{numbers['skewness']:.2f} / {numbers['Rq_slope']:.3g}"),
+            *([SummaryRow(f"autocorrelation length of {of}", ", ".join(lengths))] if lengths else [])]
 
 
 def _peclet_rows(summary):

@@ -29,6 +29,8 @@ def numbers(summary, above=""):
 def error_of(name):
     """Name of the error bar of a number: "fatigue_error_Fi_max" is that of "fatigue_Fi_max"."""
     part = PART.match(f"{name}_")[0]
+    if part == f"{name}_":  # of no part
+        return f"error_{name}"
     return f"{part}error_{name.removeprefix(part)}"
 
 

@@ -9,6 +9,8 @@ import numpy as np
 from tehl_taichi.errors import SceneError
 from tehl_taichi.values.registry import Checked, Entry
 
+FINE = 24  # points of a wave that show it
+
 
 @dataclass(frozen=True, kw_only=True)
 class Shape(Entry):
@@ -25,6 +27,7 @@ class Shape(Entry):
     drawn: bool = False
 
     measured = False  # whether its heights come from a file: a store keeps them
+    rough = False  # whether its heights fill its patch, so that it has a roughness; it has `patch` and `finest` then
 
     def height(self, f, x, y):
         """Height (positive: out of the surface) at x, y from its centre; arrays that broadcast, and so does the result."""

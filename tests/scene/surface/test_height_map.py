@@ -150,7 +150,7 @@ def test_what_is_no_grid_of_numbers_is_refused(tmp_path):
 
 
 def test_the_preview_tells_points_range_rms_slope_and_points_per_cell(tmp_path):
-    first, second = preview(with_map(wave(tmp_path)))
+    first, second, *_ = preview(with_map(wave(tmp_path)))
     assert "121 x 61 points 1 um apart, 120 x 60 um" in first and "heights in um, plane removed" in first
     f = with_map(wave(tmp_path)).features[0]
     assert f"range {f.measures.range * 1e6:.4g} um" in second and f"rms {f.measures.rms * 1e6:.4g} um" in second
@@ -312,6 +312,17 @@ def test_on_the_whole_domain_cells_are_still_those_of_the_scene(moved):
 
     found = counts(Store.open(moved[2]))
     assert found == {"grid": {"nx": 65, "ny": 33, "nz": 1}, "cells": {"nx": 64, "ny": 16}}
+
+
+def test_its_summary_has_the_roughness_that_passed_and_the_film_over_it(moved):
+    from tehl_taichi.store.store import Store
+
+    f, found = moved[0].features[0], Store.open(moved[2]).summary
+    z = f.whole_heights - f.whole_heights.mean()
+    numbers = found["roughness"]["a"]
+    assert (numbers["Sa_m"], numbers["Sq_m"], numbers["Sz_m"]) == pytest.approx((np.abs(z).mean(), z.std(), np.ptp(z)))
+    assert numbers.keys() >= {"skewness", "Rq_slope", "length_x_m", "length_y_m"} and "combined" not in found["roughness"]
+    assert found["lambda"] == pytest.approx(found["steady"]["h_c_m"] / z.std()) and "lambda" in found["error"]
 
 
 def test_another_file_of_the_same_name_does_not_change_a_store(moved, elsewhere):

@@ -60,7 +60,7 @@ def test_holes_and_steep_places_elsewhere_do_not_count(scan, tmp_path):
     with pytest.raises(SceneError, match="slopes of.*set feature.cutoff, or use another part"):
         feature(tmp_path / "a.npy", extent_x=81e-6, offset_x=9e-6)
     np.testing.assert_array_equal(feature(tmp_path / "a.npy", **PART).whole_heights, feature(scan, **PART).whole_heights)
-    first, _ = preview(dataclasses.replace(scene("gear"), features=(feature(tmp_path / "a.npy", **PART),)))
+    first, *_ = preview(dataclasses.replace(scene("gear"), features=(feature(tmp_path / "a.npy", **PART),)))
     assert "100 x 60 points 1 um apart, 40 x 20 um of them used around x = 12 um, y = -15 um" in first
 
 

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from tehl_taichi.scene.surface.shape import needs_patch
+from tehl_taichi.scene.surface.shape import FINE, needs_patch
 from tehl_taichi.scene.surface.shapes.patch import Patch
 from tehl_taichi.values.registry import Checked
 
@@ -16,6 +16,11 @@ BEND = 0.25  # of the shortest wave across: how far from y = 0 the mirror is rou
 
 
 class Ground(Patch):
+    rough = True
+
+    def finest(self, f):
+        return f.width / FINE, (f.length or f.width) / FINE
+
     def height(self, f, x, y):
         return self.waves(f, x, y) * self.window(f, x, y)
 

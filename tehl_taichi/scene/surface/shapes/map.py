@@ -1,5 +1,6 @@
 """Heights measured on a grid."""
 
+import math
 import os
 
 import numpy as np
@@ -17,7 +18,7 @@ MAX_RANGE, MAX_SLOPE = 1e-4, 45.0  # m, degrees, of a map: beyond them no film, 
 
 
 class Map(Patch):
-    measured = True
+    measured = rough = True
     lies_name = "turned"  # heading of what `lies` says
 
     def height(self, f, x, y):
@@ -38,6 +39,10 @@ class Map(Patch):
 
     def patch(self, f):
         return tuple(extent or size for extent, size in zip((f.extent_x, f.extent_y), f.size))
+
+    def finest(self, f):
+        """(along x, along y): distances of points that show all of it, inf where nothing varies."""
+        return tuple(step if count > 1 else math.inf for step, count in zip(f.steps, f.points))
 
     def across(self, f):
         """Whether the rows of the file lie along y."""

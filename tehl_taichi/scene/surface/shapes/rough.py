@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from tehl_taichi.scene.surface.shape import needs_patch
+from tehl_taichi.scene.surface.shape import FINE, needs_patch
 from tehl_taichi.scene.surface.shapes.patch import Patch
 from tehl_taichi.values.quantity import count
 from tehl_taichi.values.registry import Checked
@@ -19,6 +19,11 @@ class Random:
 
 
 class Rough(Patch):
+    rough = True
+
+    def finest(self, f):
+        return f.width / FINE, f.width / FINE
+
     def height(self, f, x, y):
         return self.waves(f, x, y) * self.window(f, x, y)
 

@@ -5,11 +5,16 @@ import math
 import numpy as np
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene.surface.shape import needs_patch, share
+from tehl_taichi.scene.surface.shape import FINE, needs_patch, share
 from tehl_taichi.scene.surface.shapes.patch import Patch
 
 
 class Waviness(Patch):
+    rough = True
+
+    def finest(self, f):
+        return f.width / FINE, f.length / FINE or math.inf
+
     def height(self, f, x, y):
         """height cos(2 pi x/width) cos(2 pi y/length) within its patch."""
         across = np.cos(2 * np.pi * y / f.length) if f.length else 1.0
