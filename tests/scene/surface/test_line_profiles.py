@@ -130,12 +130,13 @@ def test_what_the_reader_of_instruments_gives(tmp_path, monkeypatch, dim):
     """A line as places and heights, a grid with x first."""
     grid = np.outer(HEIGHTS[:30], np.cos(np.arange(9.0) ** 2))
     grid = np.ma.masked_equal(grid, grid.max())
-    read = SimpleNamespace(dim=dim, unit=None, heights=lambda: HEIGHTS if dim == 1 else grid, positions=lambda: X)
+    read = SimpleNamespace(dim=dim, unit=None, heights=lambda: HEIGHTS if dim == 1 else grid, positions=lambda: X,
+                           physical_sizes=None, nb_grid_pts=grid.shape)
     monkeypatch.setitem(sys.modules, "SurfaceTopography", SimpleNamespace(read_topography=lambda name: read))
     (tmp_path / "a.sur").write_bytes(b"x")
     table = height_map.table_of(tmp_path / "a.sur")
     np.testing.assert_array_equal(table.values, HEIGHTS[None] if dim == 1 else grid.filled(np.nan).T)
-    assert table.spacing == ((2.0, None) if dim == 1 else (None, None))
+    assert table.spacing == ((2.0, None) if dim == 1 else (None, None)) and table.stated.unit == ""
 
 
 def test_a_map_is_no_profile(tmp_path):

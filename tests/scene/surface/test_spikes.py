@@ -35,6 +35,19 @@ def test_every_spike_and_nothing_else_is_found():
     assert not (found & ~at).any() and (found | np.isnan(heights))[at].all()
 
 
+@pytest.mark.parametrize("size", [(1, 1), (3, 3), (3, 4), (4, 4)])
+def test_a_spike_of_many_points_is_found_with_its_middle(size):
+    heights, at = surface(), np.zeros((90, 120), bool)
+    at[40:40 + size[0], 60:60 + size[1]] = True
+    np.testing.assert_array_equal(outliers.spikes(heights + 6e-6 * at, STEPS), at)
+
+
+def plateau():
+    """Heights above the middle pressed to a tenth: valleys are far from the usual differences."""
+    heights = surface(height=0.4e-6, across=2.0, along=20.0)
+    return np.where(heights > 0, 0.1 * heights, heights)
+
+
 def scratched():
     heights = surface()
     heights[40, 10:90] -= 8e-6
@@ -42,7 +55,7 @@ def scratched():
 
 
 LEFT = {"rough": surface(height=2e-6, across=2.0, along=2.0), "marks": surface(height=2e-6, across=2.0, along=60.0),
-        "step": surface() + 10e-6 * (np.arange(120) > 50), "scratch": scratched(),
+        "plateau": plateau(), "step": surface() + 10e-6 * (np.arange(120) > 50), "scratch": scratched(),
         "noise": 3e-6 * np.random.default_rng(1).standard_normal((90, 120)), "flat": np.zeros((90, 120)),
         "narrow bump": 1e-6 * np.exp(-np.add.outer((np.arange(90) - 40.0) ** 2, (np.arange(120) - 40.0) ** 2) / 8)}
 

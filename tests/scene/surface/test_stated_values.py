@@ -117,6 +117,28 @@ def test_the_reader_of_instruments(tmp_path, monkeypatch, unit, sizes, steps):
     assert (*found.x, *found.y) == pytest.approx(steps) and found.unit == {"nm": "nm", None: ""}.get(unit, "um")
 
 
+def test_a_line_whose_places_count_has_its_distance_too(tmp_path, monkeypatch):
+    read = SimpleNamespace(dim=1, unit="um", heights=lambda: HEIGHTS[0], positions=lambda: 1.0 * np.arange(COLUMNS))
+    monkeypatch.setitem(sys.modules, "SurfaceTopography", SimpleNamespace(read_topography=lambda name: read))
+    (tmp_path / "a.sur").write_bytes(b"x")
+    assert height_map.table_of(tmp_path / "a.sur").stated.x == pytest.approx((1e-6,))
+
+
+def test_a_reader_that_wants_sizes_and_prints(tmp_path, monkeypatch, capsys):
+    """Sizes of a file without any are nothing; the scene has to give the pixel."""
+    def read(name, physical_sizes=None):
+        print("could not reshape data")
+        if physical_sizes is None:
+            raise ValueError("`physical_sizes` could not be extracted")
+        return SimpleNamespace(dim=2, unit="um", heights=lambda: HEIGHTS.T, physical_sizes=physical_sizes,
+                               nb_grid_pts=(COLUMNS, ROWS))
+
+    monkeypatch.setitem(sys.modules, "SurfaceTopography", SimpleNamespace(read_topography=read))
+    (tmp_path / "a.sur").write_bytes(b"x")
+    assert height_map.table_of(tmp_path / "a.sur").stated == stated_values.Stated("um")
+    assert "".join(capsys.readouterr()) == ""
+
+
 def test_a_new_scene_has_them(scan, tmp_path):
     done = tehl("new", "mine.toml", "--scan", "a.txt", cwd=tmp_path)
     assert "heights in um, points 2 um apart as the file says" in done.stdout and "fill in" not in done.stdout, done.stderr

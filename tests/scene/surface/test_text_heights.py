@@ -60,6 +60,9 @@ def test_what_is_wrong_below_the_header_is_named_by_its_line(tmp_path, at, row, 
 
 
 def test_words_alone_are_refused(tmp_path):
+    (tmp_path / "scan.txt").write_bytes(bytes(range(256)) * 20)
+    with pytest.raises(SceneError, match="cannot read heights from"):
+        height_map.read(tmp_path / "scan.txt")
     with pytest.raises(SceneError, match="no line is a row of numbers"):
         height_map.read(written(tmp_path, WYKO))
 

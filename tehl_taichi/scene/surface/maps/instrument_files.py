@@ -1,6 +1,8 @@
 """Files of instruments, read by SurfaceTopography and x3pio (the extra `topography`)."""
 
+import contextlib
 import importlib.util
+import io
 import math
 
 import numpy as np
@@ -10,56 +12,69 @@ from tehl_taichi.scene.surface.maps.length_units import UNITS
 from tehl_taichi.scene.surface.maps.stated_values import Stated
 from tehl_taichi.values.file_ending import ending
 
-UNKNOWN_FILE = ("CannotDetectFileFormat", "UnknownFileFormat")  # its errors that list every reader
+UNKNOWN_FILE = ("CannotDetectFileFormat", "UnknownFileFormat")  # errors of SurfaceTopography that list every reader
 
 
 def read(path, readable):
     """(numbers of the file as a table of text has them: a grid (rows, columns), or columns of places and heights of a line;
     what it says of its unit and distances). readable: endings of what is read without the extra, in words. SceneError."""
-    if ending(path) == ".x3p" and importlib.util.find_spec("x3pio"):
-        return _x3p(path)
+    readers = [_x3p] * (ending(path) == ".x3p" and _installed("x3pio")) + [_topography] * _installed("SurfaceTopography")
+    if not readers:
+        raise SceneError(f"{path.name} does not end in {readable}; other formats need SurfaceTopography: {extra('topography')}")
+    errors = []
+    for reader in readers:  # some x3p files are read by one of them only
+        try:
+            with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):  # they print
+                return reader(path)
+        except Exception as error:
+            errors.append(error)
+    raise SceneError(f"cannot read heights from {path}: {_reader_error(errors[0], readable)}")
+
+
+def _installed(name):
     try:
-        import SurfaceTopography
-    except ImportError:
-        raise SceneError(f"{path.name} does not end in {readable}; other formats need SurfaceTopography: "
-                         f"{extra('topography')}") from None
-    try:
-        return _table(SurfaceTopography.read_topography(str(path)))
-    except Exception as error:
-        raise SceneError(f"cannot read heights from {path}: {_reader_error(error, readable)}") from None
+        return importlib.util.find_spec(name) is not None
+    except ValueError:  # a module that was made in memory
+        return True
 
 
 def _x3p(path):
-    """The same of an x3p file (ISO 25178-72), whose first layer counts; its numbers are m."""
+    """Of an x3p file (ISO 25178-72), whose first layer counts; its numbers are m."""
     import x3pio
 
+    found = x3pio.read(path)
+    if not isinstance(found, (x3pio.Surface, x3pio.Profile)):
+        return np.asarray(found.layers[0].points(), float), Stated("m", place_unit="m")
+    heights = np.ma.filled(np.ma.asarray(found.layers[0].z, float), math.nan)
+    x, y = ((float(axis.increment),) if axis.is_incremental else () for axis in (found.header.x, found.header.y))
+    return heights, Stated("m", x, y if heights.ndim > 1 else ())
+
+
+def _topography(path):
+    import SurfaceTopography
+
     try:
-        found = x3pio.read(path)
-        if not isinstance(found, (x3pio.Surface, x3pio.Profile)):
-            return np.asarray(found.layers[0].points(), float), Stated("m", place_unit="m")
-        heights = np.ma.filled(np.ma.asarray(found.layers[0].z, float), math.nan)
-        steps = [(float(axis.increment),) if axis.is_incremental else () for axis in (found.header.x, found.header.y)]
-    except Exception as error:
-        raise SceneError(f"cannot read heights from {path}: {brief(error)}") from None
-    return heights, Stated("m", steps[0], steps[1] if heights.ndim > 1 else ())
+        return _table(SurfaceTopography.read_topography(str(path)), True)
+    except ValueError as error:
+        with contextlib.suppress(Exception):  # of a file without sizes, which it wants
+            return _table(SurfaceTopography.read_topography(str(path), physical_sizes=(1.0, 1.0)), False)
+        raise error
 
 
-def _table(found):
+def _table(found, sized):
+    """sized: whether its sizes mean anything."""
     found = found if found.unit is None or found.unit in UNITS else found.to_unit("um")
-    heights = np.ma.filled(np.ma.asarray(found.heights(), float), math.nan)
+    heights, unit = np.ma.filled(np.ma.asarray(found.heights(), float), math.nan), found.unit or ""
     if found.dim == 1:
-        unit = found.unit or ""
-        return np.column_stack([found.positions(), heights]), Stated(unit, place_unit=unit)
-    return heights.T, _stated(found)
+        x = np.asarray(found.positions(), float)
+        return np.column_stack([x, heights]), Stated(unit, _steps(unit, np.ptp(x), x.size - 1))
+    sizes = found.physical_sizes if sized and found.physical_sizes else (0, 0)
+    return heights.T, Stated(unit, *(_steps(unit, size, count) for size, count in zip(sizes, found.nb_grid_pts)))
 
 
-def _stated(found):
-    """Of a grid; its sizes are nothing where no unit is known."""
-    if found.unit is None:
-        return Stated()
-    sizes = found.physical_sizes or (0, 0)
-    steps = ((size * UNITS[found.unit] / count,) if size else () for size, count in zip(sizes, found.nb_grid_pts))
-    return Stated(found.unit, *steps)
+def _steps(unit, size, count):
+    """Distance in m of so many intervals; () where the unit is not known."""
+    return (float(size) * UNITS[unit] / count,) if unit and size and count else ()
 
 
 def _reader_error(error, readable):

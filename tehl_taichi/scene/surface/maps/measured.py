@@ -42,6 +42,11 @@ class Measured:
     sha256: str = text("", "map, profile: checksum of the heights, set when they are read; a file with other heights is then "
                            "refused")
 
+    def __getstate__(self):
+        """Without what follows from the heights."""
+        return {key: value for key, value in self.__dict__.items()
+                if key == "heights" or not isinstance(getattr(type(self), key, None), cached_property)}
+
     def __setstate__(self, state):
         """A copy in another process brings its heights along."""
         self.__dict__.update(state)

@@ -7,7 +7,9 @@ import numpy as np
 STEEP = math.tan(math.radians(20.0))  # between neighbours, at least: a feature as narrow as a spike and flatter is left
 FAR = 8.0  # standard deviations of what points differ from their neighbours
 FEW = 0.05  # of the points may have a steep side: of a rough surface, or in a wrong unit, more have
-LARGEST = 25  # points of a spike: larger and longer ones are scratches, steps or dirt
+LARGEST = 16  # points of a spike: larger and longer ones are scratches, steps or dirt
+INSIDE = 2  # points from the rim of a spike to its middle, at most
+MOST, MOST_NORMAL = 0.99, 2.576  # of the differences; that many standard deviations of normal ones
 SAMPLE = 20000  # points that give the standard deviation
 NORMAL = 1.4826  # standard deviation over the median of the sizes
 NEAR = np.array([(j, i) for j in (-1, 0, 1) for i in (-1, 0, 1) if (j, i) != (0, 0)])
@@ -20,6 +22,8 @@ def spikes(heights, steps):
         return none
     reach = (3, 3) if min(heights.shape) > 1 else _along(heights.shape)
     padded = np.pad(heights, [(r, r) for r in reach], constant_values=np.nan)
+    for _ in range(INSIDE):
+        steep = _wider(steep)
     at = np.argwhere(steep)
     limit = max(FAR * _usual(padded, heights.shape, reach), STEEP * _least(heights.shape, steps))
     found = at[np.abs(_differences(padded, at, reach)) > limit]
@@ -46,12 +50,25 @@ def _steep(heights, steps):
     return out
 
 
+def _wider(points):
+    """These points and their eight neighbours."""
+    for axis in (0, 1):
+        out, first, second = points.copy(), np.moveaxis(points, axis, 0)[:-1], np.moveaxis(points, axis, 0)[1:]
+        moved = np.moveaxis(out, axis, 0)
+        moved[1:] |= first
+        moved[:-1] |= second
+        points = out
+    return points
+
+
 def _usual(padded, shape, reach):
-    """Standard deviation of what points differ from their neighbours."""
+    """Standard deviation of what points differ from their neighbours, by the middle of them and by all but a hundredth:
+    plateaus with valleys differ little in the middle."""
     every = max(1, math.prod(shape) // SAMPLE)
     at = np.stack(np.unravel_index(np.arange(0, math.prod(shape), every), shape), axis=1)
     found = np.abs(_differences(padded, at, reach))
-    return NORMAL * float(np.median(found[np.isfinite(found)]))
+    middle, most = np.quantile(found[np.isfinite(found)], (0.5, MOST))
+    return max(NORMAL * float(middle), float(most) / MOST_NORMAL)
 
 
 def _differences(padded, at, reach):

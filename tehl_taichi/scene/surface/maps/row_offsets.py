@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 NORMAL = 1.4826  # standard deviation over the median of the sizes
-MORE = 3.0  # times what heights change from row to row: less is roughness
+MORE = 2.0  # times what heights change from row to row: less is roughness
 JUMP = 8.0  # times the usual jump of rows: a stitch
 ALIKE, LOOSE = 0.5, 0.3  # correlation of neighbouring rows without their offsets, at least, and of the offsets, at most
 FEWEST = 8  # rows

@@ -102,7 +102,7 @@ def _first_row(lines):
     for index, (_, line) in enumerate(lines):
         for mark in (mark for mark in COLUMNS if mark is None or mark in line):
             words = _words(line, mark)
-            if all(map(_is_height, words)) and (len(words) > 1 or not _unmeasured(words[0])):
+            if words and all(map(_is_height, words)) and (len(words) > 1 or not _unmeasured(words[0])):
                 return index, _between(lines[index:], mark)
     raise ValueError("no line is a row of numbers")
 
