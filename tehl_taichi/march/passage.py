@@ -14,6 +14,7 @@ from tehl_taichi.heat.temperatures import FilmHeat
 from tehl_taichi.march import snapshot
 from tehl_taichi.march.coupling import carefully, exchange
 from tehl_taichi.march.failure import crossed, not_converged
+from tehl_taichi.march.feature_gap import take_off
 from tehl_taichi.march.prediction import Prediction
 from tehl_taichi.march.snapshot import Snapshot
 from tehl_taichi.march.solved_state import SolvedState
@@ -127,17 +128,8 @@ class Passage:
         gap = self.smooth.copy()
         for surface in self.scene.surfaces:
             for feature in surface.features:
-                self._fill_gap(gap, feature, surface.pace * self.position(step))
+                take_off(gap, self.levels, feature, surface.pace * self.position(step))
         self.levels.put(fields.GAP0, gap)
-
-    def _fill_gap(self, gap, feature, at):
-        """Take the heights of a feature off the gap; at: how far its surface has moved, a."""
-        v, s = self.levels, self.scales
-        x, y = (v.X - at) * s.a - feature.x, v.Y[:, None] * s.a - feature.y
-        under = np.abs(x) <= feature.reach
-        if feature.transverse:  # cheap, and a ridge does not quite end
-            under, y = slice(None), y[:1]
-        gap[:, under] -= feature.height_at(x[under], y) / s.h
 
     def _predict(self, at):
         """Start values for the state with the feature `at` cells from its start."""

@@ -42,8 +42,8 @@ class StartReadings:
 def steady_snapshot(scene, scales):
     """Snapshot 0 with the error bars of its numbers; of a passage whose temperatures do not settle, a state in time, with the
     reason why none of its numbers is known. Raises NotConverged where there is neither."""
-    looks = StartReadings(scene)
-    result = solve_steady(scene, scales, scene.grid.nx, 0 if scales.line else scene.grid.ny, looks)
+    looks, (rows, full) = StartReadings(scene), _across(scene, scales)
+    result = solve_steady(scene, scales, scene.grid.nx, rows, looks, full)
     unsettled = _unsettled(result, scene)
     first = looks.taken(result.solver, result.heat, result.report) if unsettled else looks.newest
     state = snapshot.state_of(result.solver, result.heat, 0)
@@ -53,6 +53,13 @@ def steady_snapshot(scene, scales):
     first.error, first.unknown, first.parts = _bars(first, scene)
     first.coarser = looks.coarser(first)
     return _spread(first, scene, scales)
+
+
+def _across(scene, scales):
+    """(cells across, whether they are those of the whole domain): features at rest that vary across need the passage's."""
+    if all(f.transverse and scales.line or f.symmetric and not scales.line for f in scene.standing):
+        return 0 if scales.line else scene.grid.ny, False
+    return scene.rows, not scene.symmetric
 
 
 def _unsettled(result, scene):

@@ -11,6 +11,7 @@ import numpy as np
 
 from tehl_taichi.heat.temperatures import FilmHeat
 from tehl_taichi.march.alternating_start import settle, time_step
+from tehl_taichi.march.feature_gap import smooth_with
 from tehl_taichi.march.flooded_border import agreed, between_blocks, border_of
 from tehl_taichi.march.isothermal_start import from_here, from_nothing, in_time, put
 from tehl_taichi.march.pseudo_transient import check, march_to_rest
@@ -46,15 +47,16 @@ def grid_sequence(nx, ny):
     return sizes[::-1]
 
 
-def solve_steady(scene, scales, nx, ny, look=None):
-    """Steady smooth contact on nx x ny cells (ny = 0: line). look(solver, heat, report): what to keep of each grid, by default
+def solve_steady(scene, scales, nx, ny, look=None, full=False):
+    """Steady contact on nx x ny cells (ny = 0: line; full: of the whole domain), smooth but for the features of a surface at
+    rest. look(solver, heat, report): what to keep of each grid, by default
     its :func:`scalars`. Returns a SteadyResult; check `report.converged`."""
     look = look or (lambda solver, heat, report: scalars(solver.levels, *map(solver.levels.get, (fields.P, fields.H))))
     P, H0, T, values, work, moving = None, 0.0, None, [], 0, False
     for size in grid_sequence(nx, ny):
         solver = heat = levels = None  # give their tables to the next grid
-        finest, levels = size[0] == nx, Levels(scene, scales, *size)
-        levels.put(fields.GAP0, levels.smooth_gap())
+        finest, levels = size[0] == nx, Levels(scene, scales, *size, full)
+        levels.put(fields.GAP0, smooth_with(levels, scene.standing))
         solver = PressureSolver(levels, OneTemperature(levels))
         solver.border = border_of(levels)
         report = from_nothing(solver) if P is None else _from_coarser(solver, P, H0)

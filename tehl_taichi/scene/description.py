@@ -161,7 +161,7 @@ class Scene:
         if end <= start:
             raise SceneError(f"time.x_end = {end:g} a must be more than x_start = {start:g} a")
         a = scales.Scales.of(self).a
-        front = max((s.pace * start + (f.x + f.reach) / a for s in self.surfaces for f in s.features), default=-10.0)
+        front = max((s.pace * start + (f.x + f.reach) / a for s, f in self.passing), default=-10.0)
         if self.transient and front > -LATEST:
             raise SceneError(f"time.x_start = {start:g} a: the features reach up to {front:.2f} a at the start, but the steady "
                              f"start needs a smooth contact; allowed: at most {start - front - LATEST:.2f} a (or -inf)")
@@ -228,12 +228,13 @@ class Scene:
         return meant(value, unit, fits)
 
     def _check_motion(self):
-        slow = next((s for s in self.surfaces if s.features and s.speed < 1e-3 * self.operation.u_m), None)
-        if self.transient and slow:
-            least = {"a": "srr > -1.998", "b": "srr < 1.998"}[slow.name]
-            raise SceneError(f"operation.srr = {self.operation.srr:g} leaves surface {slow.name}, which carries the feature, "
-                             f"at {slow.speed:g} m/s, so it never passes; allowed with a feature on surface {slow.name}: "
-                             f"{least}, or use --steady")
+        slow = self.reference
+        if self.transient and slow.stands:
+            least, other = {"a": ("srr > -1.998", "b"), "b": ("srr < 1.998", "a")}[slow.name]
+            first = "the first feature" if self.features[1:] else "the feature"
+            raise SceneError(f"operation.srr = {self.operation.srr:g} leaves surface {slow.name}, which carries {first}, "
+                             f"at {slow.speed:g} m/s, so it never passes; allowed: {least}, a feature of surface {other} "
+                             f"as the first one, whose way is the clock, or use --steady")
 
     @property
     def load(self):
@@ -262,12 +263,22 @@ class Scene:
         return next(s for s in self.surfaces if s.name == moving_surfaces.reference_name(self))
 
     @property
+    def passing(self):
+        """[(surface, feature)] of the features that pass."""
+        return [(s, f) for s in self.surfaces for f in s.features if not s.stands]
+
+    @property
+    def standing(self):
+        """The features of a surface at rest; they are in the contact from the steady start on."""
+        return tuple(f for s in self.surfaces for f in s.features if s.stands and self.transient)
+
+    @property
     def path(self):
         """Start and end of the first feature's centre, in a: long features start earlier and end later."""
         if not self.features:
             return FIRST, LAST
         a = scales.Scales.of(self).a
-        carried = [(s.pace, f) for s in self.surfaces for f in s.features if s.pace > 0]
+        carried = [(s.pace, f) for s, f in self.passing]
         start = min((min(FIRST, -CLEAR - (f.x + f.reach) / a) / pace for pace, f in carried), default=FIRST)
         end = max((max(LAST, LATEST + (f.reach - f.x) / a) / pace for pace, f in carried), default=LAST)
         return (self.time.x_start if self.time.x_start > -math.inf else start,

@@ -9,17 +9,20 @@ from dataclasses import dataclass
 from tehl_taichi.scene.sections import Body
 
 NAMES = ("a", "b")
+STANDS = 1e-3  # of the mean speed: a slower surface does not pass
 
 
 @dataclass(frozen=True)
 class MovingSurface:
-    """name ("a" or "b"), body, speed (m/s), pace (speed over that of the reference), the features that it carries."""
+    """name ("a" or "b"), body, speed (m/s), pace (speed over that of the reference), the features that it carries, and whether
+    it stands: these are in the contact from the start on."""
 
     name: str
     body: Body
     speed: float
     pace: float
     features: tuple
+    stands: bool = False
 
 
 def surfaces(scene):
@@ -27,7 +30,12 @@ def surfaces(scene):
     o = scene.operation
     speeds, reference = {"a": o.u_a, "b": o.u_b}, reference_name(scene)
     return tuple(MovingSurface(name, getattr(scene, f"body_{name}"), speeds[name], _pace(speeds, name, reference),
-                               tuple(f for f in scene.features if f.surface == name)) for name in NAMES)
+                               tuple(f for f in scene.features if f.surface == name), _stands(speeds[name], o))
+                 for name in NAMES)
+
+
+def _stands(speed, operation):
+    return speed < STANDS * operation.u_m
 
 
 def reference_name(scene):

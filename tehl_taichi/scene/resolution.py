@@ -63,7 +63,8 @@ def label(scene, n):
 
 
 def _check_x(scene, scales, name, feature):
-    low, high = (p + (feature.x + sign * feature.reach) / scales.a for p, sign in zip(scene.path, (-1, 1)))
+    pace = next(s.pace for s in scene.surfaces if s.name == feature.surface)
+    low, high = (pace * p + (feature.x + sign * feature.reach) / scales.a for p, sign in zip(scene.path, (-1, 1)))
     if high <= scene.grid.x_min or low >= scene.grid.x_max:
         raise SceneError(f"{name}: no part of it passes through the domain: from time.x_start = {scene.path[0]:g} a to x_end "
                          f"= {scene.path[1]:g} a it covers {low:.3g} to {high:.3g} a, the domain grid.x_min = "

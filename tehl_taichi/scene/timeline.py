@@ -54,7 +54,7 @@ def cut_at(scene):
 def clear(scene):
     """Position of the first feature (a) from which on all of them are behind the contact."""
     a = Scales.of(scene).a
-    return max((LATEST + (f.reach - f.x) / a) / s.pace for s in scene.surfaces for f in s.features)
+    return max((LATEST + (f.reach - f.x) / a) / s.pace for s, f in scene.passing)
 
 
 def uncut(scene):

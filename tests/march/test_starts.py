@@ -371,14 +371,14 @@ def test_a_grid_is_looked_at_once_and_only_where_it_converged(monkeypatch, conve
 
     seen, report = [], SimpleNamespace(converged=converged)
 
-    def steady(scene, scales, nx, ny, look):
+    def steady(scene, scales, nx, ny, look, full):
         look("solver", None, SimpleNamespace(converged=False))
         return SimpleNamespace(solver="solver", heat=None, report=report, moving=False, work=0,
                                values=[look("solver", None, report)])
 
     monkeypatch.setattr(start, "solve_steady", steady)
     monkeypatch.setattr(start, "not_converged", lambda *_: NotConverged("stopped"))
-    monkeypatch.setattr(start.snapshot, "take", lambda *_: seen.append(SimpleNamespace(scalars={})) or seen[-1])
+    monkeypatch.setattr(start.snapshot, "take", lambda *_: seen.append(SimpleNamespace(scalars={}, x=np.zeros(3))) or seen[-1])
     monkeypatch.setattr(start.snapshot, "state_of", lambda *_: {"P": 1.0})
     monkeypatch.setattr(start.readings, "steady", lambda *_: {})
     monkeypatch.setattr(start, "bars", lambda values: ({}, {}))

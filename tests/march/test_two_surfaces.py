@@ -83,8 +83,45 @@ def test_a_path_lasts_until_the_slower_feature_has_left():
     assert scene.path[0] == pytest.approx(alone.path[0] / pace, rel=0.15) and scene.path[1] > 1.3 * alone.path[1]
 
 
-def test_a_carrier_that_rests_is_refused_by_its_name():
-    with pytest.raises(SceneError, match=r"leaves surface b, .* at 0 m/s, .* surface b: srr < 1.998"):
+def resting(srr, moving, **ridge):
+    """A ridge on the surface that moves, and one at 0.2 a on the other, at rest; or another feature there."""
+    scene = tehl.scene("smooth-line").replace(**{"srr": srr, "grid.nx": 64, "grid.ny": 16, "thermal.on": False,
+                                                 "fatigue.on": False})
+    at, still = 0.2 * Scales.of(scene).a, {"a": "b", "b": "a"}[moving]
+    keys = {"shape": "ridge", "height": 5e-7, **ridge}
+    features = Feature(shape="ridge", height=5e-7, surface=moving), Feature(surface=still, x=at, **keys)
+    return dataclasses.replace(scene, features=features, time=dataclasses.replace(scene.time, steps=16))
+
+
+def test_a_feature_at_rest_is_in_the_contact_from_the_start_on():
+    """It makes a steady state of its own: nothing changes until the other ridge, here one of nothing, comes."""
+    scene = resting(2.0, "a")
+    alone = dataclasses.replace(scene, features=(dataclasses.replace(scene.features[0], height=1e-12), scene.features[1]))
+    P = [shot.fields["pressure"] for shot in marched(dataclasses.replace(alone, time=dataclasses.replace(alone.time, steps=4)))]
+    smooth = next(tehl.march(tehl.scene("smooth-line").replace(**{"srr": 2.0, "grid.nx": 64, "thermal.on": False})))
+    assert np.abs(P[0] - smooth.fields["pressure"]).max() > 0.05 * P[0].max()
+    assert max(np.abs(p - P[0]).max() for p in P[1:]) < 1e-4 * P[0].max()
+
+
+def test_a_feature_at_rest_on_a_is_one_on_b_with_the_slip_turned():
+    """But for the order in which heights are taken off the gap."""
+    one, other = marched(resting(2.0, "a")), marched(resting(-2.0, "b"))
+    for a, b in zip(one, other):
+        for name, turned in SWAPPED.items():
+            scale = np.abs(a.fields[name]).max()
+            np.testing.assert_allclose(a.fields[name], b.fields[turned], atol=1e-9 * scale, err_msg=name)
+    assert np.abs(one[-1].fields["pressure"] - one[0].fields["pressure"]).max() > 0.01 * one[0].fields["pressure"].max()
+
+
+def test_one_that_varies_across_starts_on_the_rows_of_its_passage():
+    scene = resting(2.0, "a", shape="cosine", width=400e-6)
+    first = next(tehl.march(scene))
+    p = first.fields["pressure"]
+    assert p.shape == (65, 17) and np.ptp(p, axis=1).max() > 0.02 * p.max()
+
+
+def test_a_clock_that_rests_is_refused_by_its_name():
+    with pytest.raises(SceneError, match=r"leaves surface b, .* at 0 m/s, .* allowed: srr < 1.998, a feature of surface a"):
         line(2.0, "b")
     with pytest.raises(SceneError, match="leaves surface a"):
         line(-2.0, "a")

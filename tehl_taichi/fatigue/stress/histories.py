@@ -78,6 +78,8 @@ class StressHistories:
         carrier = next(s for s in self.scene.surfaces if s.name == feature.surface)
         if carrier.name == self.surface.name:
             return (feature.x,)
+        if carrier.stands:  # every point passes it in the same way
+            return ()
         ends = ((side * self.a - feature.x) / carrier.pace for side in (-1, 1))
         return tuple(feature.x + (carrier.pace - self.surface.pace) * np.clip(at, *self.path) for at in ends)
 

@@ -1,0 +1,23 @@
+"""What features take off the gap."""
+
+import numpy as np
+
+
+def smooth_with(levels, features):
+    """The undeformed gap (ny+1, nx+1) with features of surfaces at rest in it."""
+    gap = levels.smooth_gap()
+    if features:
+        gap = gap.copy()
+        for feature in features:
+            take_off(gap, levels, feature, 0.0)
+    return gap
+
+
+def take_off(gap, levels, feature, at):
+    """Take the heights of a feature off the gap; at: how far its surface has moved, a."""
+    s = levels.scales
+    x, y = (levels.X - at) * s.a - feature.x, levels.Y[:, None] * s.a - feature.y
+    under = np.abs(x) <= feature.reach
+    if feature.transverse:  # cheap, and a ridge does not quite end
+        under, y = slice(None), y[:1]
+    gap[:, under] -= feature.height_at(x[under], y) / s.h
