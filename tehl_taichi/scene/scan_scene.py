@@ -7,11 +7,13 @@ from pathlib import Path
 from tehl_taichi.disk import user_files
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene import scene, scene_file
+from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.scene_file import toml_value
 from tehl_taichi.scene.sections import Body
 from tehl_taichi.scene.surface.maps import height_map, stated_keys
 from tehl_taichi.scene.surface.maps.refusals import HeightsRefused, KeyMissing
 from tehl_taichi.scene.surface.shapes.profile import LAYS
+from tehl_taichi.values.checks import build
 
 LINES, LETTERS = 20, 100  # of the header of a file, shown
 TAPER, SHARE = 40e-6, 8  # m, and of the shorter side
@@ -85,11 +87,16 @@ def new(path, base, scan, unit="", pixel=0.0, pixel_y=0.0, lay=""):
 def _refusal(path, text):
     """Why the scene cannot run as it is although every key may be meant; "" where it can, or where a key is still missing.
     Raises SceneError for keys that cannot be meant."""
+    data = scene_file.with_map_folder(tomllib.loads(text), path.absolute().parent)
     try:
-        scene_file.from_data(scene_file.with_map_folder(tomllib.loads(text), path.absolute().parent), path.stem)
+        build(Feature, data["feature"][0], "feature", "feature")
     except KeyMissing:
         return ""
     except HeightsRefused as error:
+        return str(error)
+    try:
+        scene_file.from_data(data, path.stem)
+    except SceneError as error:  # in the contact of the base, which is another one than the user's
         return str(error)
     return ""
 

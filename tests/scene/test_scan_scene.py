@@ -73,6 +73,14 @@ def test_nothing_is_written_of_what_is_refused(scan, tmp_path, words, said):
     assert done.returncode == 2 and said in done.stderr and not (tmp_path / "mine.toml").exists()
 
 
+def test_a_scan_that_does_not_fit_the_contact_of_the_base(tmp_path):
+    """The file is written: radii and load are those of the user."""
+    y, x = np.mgrid[-40:41, -60:61] * 4.0
+    np.savetxt(tmp_path / "high.csv", 60 * np.exp(-(x**2 + y**2) / 1e4), delimiter=",")
+    missing, refused = scan_scene.new(tmp_path / "mine.toml", "gear", tmp_path / "high.csv", "um", 8e-6)[1:]
+    assert missing == [] and "smaller than the height of a feature" in refused and (tmp_path / "mine.toml").exists()
+
+
 def test_the_command_says_what_is_left_to_do(scan, tmp_path):
     done = tehl("new", "mine.toml", "--scan", "scans/a.csv", "--unit", "um", cwd=tmp_path)
     assert done.returncode == 0 and "fill in feature.pixel and enter the values of your contact" in done.stdout

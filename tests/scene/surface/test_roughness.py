@@ -8,6 +8,7 @@ import pytest
 from map_feature import feature
 
 from tehl_taichi.report import surface_plots
+from tehl_taichi.runs.flank import flank_columns
 from tehl_taichi.runs.summary import summary_numbers
 from tehl_taichi.runs.summary.summary_rows import rows_of
 from tehl_taichi.runs.sweep import summary_columns
@@ -151,4 +152,6 @@ def test_rows_and_page():
     assert table.data["head"] == ("roughness", "surface a", "surface b", "both together")
     number = summary_numbers.every(summary)["lambda"]
     assert (number.value, number.error, summary_columns.error_of("lambda")) == (4.0, 0.1, "error_lambda")
+    column, = (one for one in flank_columns.COLUMNS if one.name == "lambda")
+    assert column.shown(None, None, summary) == "4.00 ± 0.10" and column.shown(None, None, {}) == ""
     assert film.data["rows"] == [("λ = h_c/Sq", "4.00 ± 0.10")]
