@@ -122,7 +122,8 @@ def test_heights_in_an_array_are_those_of_a_file(tmp_path):
     assert tehl.scene("gear").replace(feature=[by_array]).features == (by_array,)
 
 
-@pytest.mark.parametrize("heights, said", [(np.zeros((3, 9)), "at least 4 x 4"), (np.zeros(9), r"\(rows, columns\)"),
+@pytest.mark.parametrize("heights, said", [(np.zeros((3, 9)), "at least 4 x 4"),
+                                           (np.zeros(7), r"\(rows, columns\), .* or a line profile of at least 8 points"),
                                            ("abc", "array of numbers"), (np.full((9, 9), np.nan), "heights lacks 1 of its 81")])
 def test_what_is_no_grid_of_heights_is_refused(heights, said):
     with pytest.raises(tehl.SceneError, match=said):

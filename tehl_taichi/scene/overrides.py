@@ -73,7 +73,7 @@ def check_effect(scene, changes):
 
 def _clear(data, changes):
     """Clear what the changes replace: another description of the load or of the speeds, a number of steps."""
-    loads = [key for key in aliases.LOADS if changes.get(key)]
+    loads = [key for key in aliases.LOADS if _is_given(changes.get(key))]
     if loads:
         pair = aliases.LOADS[2:]
         kept = pair if loads[0] in pair else loads
@@ -84,8 +84,13 @@ def _clear(data, changes):
             speeds.pop(key, None)
     elif {"operation.u_m", "operation.srr"} & changes.keys():
         data["operation"] = of_surfaces(data["operation"])
-    if changes.get("time.steady_only"):
+    if _is_given(changes.get("time.steady_only")):
         _table(data, "time")["steps"] = ALL
+
+
+def _is_given(value):
+    """Whether a value is more than 0, false or nothing; what is no single value is refused later."""
+    return bool(value) if value is None or isinstance(value, (int, float, str)) else True
 
 
 def _name_oil(data, changes):
