@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from tehl_taichi.fatigue import contact_alone, depth_search, resolved_part, result_arrays
+from tehl_taichi.fatigue import contact_alone, depth_search, index_statistics, resolved_part, result_arrays, stress_cycles
 from tehl_taichi.fatigue.layer import layer
 from tehl_taichi.fatigue.pass_progress import PassProgress
 from tehl_taichi.fatigue.search_result import SearchResult
 from tehl_taichi.fatigue.stress.histories import StressHistories
-from tehl_taichi.scene import SceneError, fatigue_limits
+from tehl_taichi.scene import SceneError, fatigue_limits, rough_surfaces
 
 PIT_ANGLES = (18.0, 50.0)  # degrees to the surface at which pits begin (Everitt 2018)
 
@@ -105,16 +105,21 @@ def _early(passage, until):
 def _result(scene, passage, layers, below, alone):
     surface, limit, centres = layers[0], scene.fatigue.endurance, passage.positions
     summary = {"surface": passage.surface.name, "carries_feature": bool(passage.surface.features),
+               "rough": rough_surfaces.is_rough(scene),
                **surface.worst.summary(limit), "sigma1_max_Pa": float(surface.sigma1.max()),
                "kappa_F": float(scene.fatigue.kappa), "sigma_eF_Pa": float(limit), **_limits(scene.fatigue),
                **_cut(scene.fatigue), **surface.worst.moments(centres),
                "criterion": scene.fatigue.criterion, "thermal_stress": scene.has_thermal_stress,
                "pit_angles_deg": list(PIT_ANGLES), **({"contact_alone": alone.summary} if alone else {})}
-    arrays = {**result_arrays.of_surface(surface, passage, limit), "worst": surface.worst.history(centres)}
+    counts = index_statistics.weights(passage)
+    arrays = {**result_arrays.of_surface(surface, passage, limit, counts), "worst": surface.worst.history(centres)}
+    summary |= {"cycles_above_1": stress_cycles.above(surface.worst.stress, surface.worst.normal, scene.fatigue),
+                "statistics": _statistics(surface, counts, limit)}
     points = [found.worst for found in layers[1:]] + below.worst
     if points:
         point = max(points, key=lambda point: point.f)
-        summary["below"] = {"depth_m": point.depth, **point.summary(limit)}
+        summary["below"] = {"depth_m": point.depth, **point.summary(limit),
+                            "cycles_above_1": stress_cycles.above(point.stress, point.normal, scene.fatigue)}
         arrays["worst_below"] = point.history(centres)
     if below.profiles:
         depths = below.profiles[0].depths
@@ -122,11 +127,26 @@ def _result(scene, passage, layers, below, alone):
         arrays |= result_arrays.of_profiles(surface.f, passage, below.profiles, len(layers) > 1)
         arrays |= {"findley_stress_contact_alone": alone.f} if alone else {}
         arrays |= result_arrays.of_plane(below.plane) if below.plane else {}
+        summary["below"]["statistics"] = _statistics_below(below, counts, passage, limit)
     if len(layers) > 1:
         summary["by_depth"] = [{"depth_m": layer.depth, "findley_stress_max_Pa": float(layer.f.max()),
                                 "sigma1_max_Pa": float(layer.sigma1.max())} for layer in layers]
         arrays |= result_arrays.of_layers(layers)
     return SearchResult(summary, **arrays)
+
+
+def _statistics(layer, counts, limit):
+    """Of all points of a layer that features pass, with the mean number of their cycles above the limit."""
+    return {**index_statistics.statistics(layer.f / limit, counts), "cycles_above_1": float(np.nanmean(layer.cycles))}
+
+
+def _statistics_below(below, counts, passage, limit):
+    """Of the points under the searched rows, at the depth with the largest 99th percentile, and "by_depth"; "plane": of the
+    plane that was searched at all its points, where there is one."""
+    found = index_statistics.below(passage, below.profiles, counts, limit)
+    if below.plane:
+        found["plane"] = {"depth_m": below.plane.depth, **_statistics(below.plane, counts, limit)}
+    return found
 
 
 def _cut(fatigue):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl_taichi.fatigue import findley
+from tehl_taichi.fatigue import findley, index_statistics, stress_cycles
 from tehl_taichi.fatigue.stress.row_histories import at_the_surface
 from tehl_taichi.fatigue.stress.thermal_stress import WORKERS
 from tehl_taichi.fatigue.worst_point import WorstPoint, over_some, worse
@@ -26,13 +26,14 @@ class EarlyLayer:
 @dataclass(frozen=True)
 class Layer:
     """What was found at one depth: maps (nx, rows), the worst point, and the EarlyLayer of the early moments where it is
-    wanted."""
+    wanted. cycles: above the limit per passage, nan at points that are not in the sample."""
 
     depth: float
     f: np.ndarray
     theta: np.ndarray
     phi: np.ndarray
     sigma1: np.ndarray
+    cycles: np.ndarray
     worst: WorstPoint
     early: EarlyLayer | None
 
@@ -40,10 +41,12 @@ class Layer:
 def layer(scene, passage, depth, progress, early):
     """Find a Layer: stresses and search of all points at a depth (m). early: moments that are searched apart, or None."""
     parts, worst, sooner = [], None, _Early(scene, passage, depth, early)
+    counted = index_statistics.sample(index_statistics.weights(passage))
     for rows, history in _blocks(scene, passage, depth, progress):
         f, normals = findley.search(history, scene.fatigue.kappa, criterion=scene.fatigue.criterion, notify=progress)
         shape = passage.x.size, rows.stop - rows.start
-        parts.append([v.reshape(shape) for v in (f, *findley.angles(normals), _tension(history))])
+        cycles = _cycles(history, normals, counted[:, rows].ravel(), scene.fatigue)
+        parts.append([v.reshape(shape) for v in (f, *findley.angles(normals), _tension(history), cycles)])
         worst = worse(worst, passage.places(depth, rows), history, f, normals)
         sooner.add(rows, history, (f, normals))
     return Layer(depth, *(np.concatenate(part, axis=1) for part in zip(*parts)), worst, sooner.found)
@@ -82,6 +85,14 @@ class _Early:
     @property
     def found(self):
         return EarlyLayer(self.depth, np.concatenate(self.parts, axis=1), self.worst) if self.parts else None
+
+
+def _cycles(history, normals, counted, fatigue):
+    """Cycles above the limit at the points that are counted, else nan; (points,)."""
+    out = np.full(len(history), np.nan)
+    for n in np.flatnonzero(counted):
+        out[n] = stress_cycles.above(history[n], normals[n], fatigue)
+    return out
 
 
 def _tension(history):

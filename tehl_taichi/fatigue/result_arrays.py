@@ -3,10 +3,11 @@
 import numpy as np
 
 
-def of_surface(surface, passage, limit):
-    """Of all points of the surface; limit: sigma_eF, Pa."""
+def of_surface(surface, passage, limit, counts):
+    """Of all points of the surface; limit: sigma_eF, Pa; counts: see :func:`tehl_taichi.fatigue.index_statistics.weights`."""
     return {"feature_frame_x": passage.x, "feature_frame_y": passage.y, "findley_stress": surface.f, "Fi": surface.f / limit,
-            "sigma1_max": surface.sigma1, "plane_theta": surface.theta, "plane_phi": surface.phi}
+            "sigma1_max": surface.sigma1, "plane_theta": surface.theta, "plane_phi": surface.phi,
+            "passed": counts}
 
 
 def of_plane(plane):

@@ -15,6 +15,7 @@ ARRAYS = {  # {name: (dimensions, unit, text)}, in the order of a store
     "sigma1_max": (BOTH, "Pa", "largest principal stress of the passage"),
     "plane_theta": (BOTH, "degree", "angle of the critical plane's normal from the surface normal"),
     "plane_phi": (BOTH, "degree", "direction of the critical plane's normal in the surface, from x"),
+    "passed": (BOTH, "1", "points of the whole surface that this one stands for, 0 where no feature passes"),
     "under_row_depth": (("under_row_depth",), "m", "below the surface"),
     "fatigue_depth": (("fatigue_depth",), "m", "below the surface"),
     "findley_stress_under_row": ((ROWS, BOTH[0]), "Pa", "Findley stress below the row of the critical point below the surface"),
@@ -30,7 +31,8 @@ HISTORY = {  # {key: (dimensions, unit, text)} of a stress history
     "circle": (("of_circle",), "Pa", "around its shear path: centre along dip, strike; radius")}
 PART, PART_TEXT = "resolved_", " while the grid resolves the pressure"  # of arrays of the resolved part
 OWN = ("moment", "worst_depth")  # dimensions that the resolved part does not share with the whole passage
-SHARED = (*BOTH, "under_row_depth", "fatigue_depth", "findley_stress_contact_alone")  # arrays of the whole that it shares
+SHARED = (*BOTH, "passed", "under_row_depth", "fatigue_depth",
+          "findley_stress_contact_alone")  # arrays of the whole that it shares
 OTHER, EQUAL = "other_", ("component", "direction", "of_circle")  # of arrays of the other body; dimensions equal in both
 
 
@@ -46,6 +48,8 @@ class SearchResult:
         Points of the surface, m: from the centre of the feature that it carries, or from the place that meets this at X = 0.
     findley_stress, Fi, sigma1_max, plane_theta, plane_phi : numpy.ndarray
         At the surface, (x, y).
+    passed : numpy.ndarray
+        Points of the whole surface that this one stands for in statistics, (x, y); 0 where no feature passes.
     fatigue_depth, under_row_depth : numpy.ndarray
         Depths searched, m; `under_row_depth`: those under a row, where other depths were listed.
     findley_stress_under_row, findley_stress_contact_alone : numpy.ndarray
@@ -77,6 +81,7 @@ class SearchResult:
     sigma1_max: Any = None
     plane_theta: Any = None
     plane_phi: Any = None
+    passed: Any = None
     under_row_depth: Any = None
     fatigue_depth: Any = None
     findley_stress_under_row: Any = None

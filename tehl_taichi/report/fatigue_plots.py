@@ -9,6 +9,7 @@ from tehl_taichi.report.numbered_points import numbered
 from tehl_taichi.report.plots import colour, field_map, level, line, marks, stacked
 from tehl_taichi.scene.feature_wording import passing, position
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.view.figures import distribution_figure
 from tehl_taichi.view.figures.field_maps import mirrored
 from tehl_taichi.view.figures.index_text import index_text, largest
 from tehl_taichi.view.figures.limit_line import crossed, explained
@@ -112,6 +113,16 @@ def _over_x(search, f, Fi):
     worst = marks([f["x_m"] * 1e6], [f["Fi_max"]], f"largest, plane {f['surface_angle_deg']:.0f}° to the surface", colour(1))
     return stacked(f"{search.on}index", f"Index Fi of the surface, {search.when}.", search.along,
                    [("Fi", [line(x, Fi[:, 0], "at the surface", colour(0)), worst], {})], height=440)
+
+
+def distribution(search):
+    """Share of rough surfaces above an index."""
+    if not distribution_figure.shown(search.result):
+        return []
+    traces = [line(Fi, 100 * share, label, colour(n))
+              for n, (label, Fi, share) in enumerate(distribution_figure.curves(search.result))]
+    return [stacked(f"{search.on}distribution", "Share of the surface above an index.", "index Fi",
+                    [("share above (%)", traces, {"type": "log"})], height=360)]
 
 
 def depth(search):

@@ -70,7 +70,7 @@ def _fatigue(store, result):
 
 def _of_search(search, of, lead):
     """Two sections; of: said in their headings; lead: begins the words on its moments, where there are two searches."""
-    shown = drawn(*fatigue_plots.index(search), *fatigue_plots.depth(search))
+    shown = drawn(*fatigue_plots.distribution(search), *fatigue_plots.index(search), *fatigue_plots.depth(search))
     behind = NO_MAPS if shown is None else DARK if search.on else ""
     words, numbers = [_sentence(f"{lead}{search.when}.") + behind] * bool(search.short), search.result.numbers
     return (Section(f"Fatigue{of}", (PageBlock("text", {"sentences": words}) if words else None, shown,

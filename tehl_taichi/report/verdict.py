@@ -11,7 +11,7 @@ from tehl_taichi.runs.summary import rim_warnings
 from tehl_taichi.runs.summary.result_warnings import STEEL, YIELDS, largest_pressure
 from tehl_taichi.scene import feature_wording
 from tehl_taichi.scene.timeline import total_steps
-from tehl_taichi.values.digits import micrometres
+from tehl_taichi.values.digits import micrometres, with_error
 
 ABOVE, WITHIN, BELOW = 1, 0, -1
 SAID = {ABOVE: "above 1", WITHIN: "1 lies within the error", BELOW: "below 1"}
@@ -53,12 +53,35 @@ def all_layers(searches):
 
 
 def layers(fatigue, surface="the surface"):
-    """[(where in words, Fi, its error or None)] of the surface and of what lies below it; of a search or of its part."""
+    """[(where in words, Fi, its error or None)] of the surface and of what lies below it; of a search or of its part. Of rough
+    surfaces the 99th percentile."""
     fatigue = searched(fatigue)
+    if fatigue.get("rough"):
+        return _percentile_layers(fatigue, surface)
     found = [(f"at {surface}", fatigue)]
     if "below" in fatigue:
         found.append((f"{micrometres(fatigue['below']['depth_m'])} µm below {surface}", fatigue["below"]))
     return [(where, part["Fi_max"], part.get("error", {}).get("Fi_max")) for where, part in found]
+
+
+def _percentile_layers(fatigue, surface):
+    top, deep = fatigue["statistics"], fatigue.get("below", {}).get("statistics")
+    found = [(f"at {surface}", top["p99"], error_of(top, "p99"))]
+    if deep:
+        found.append((f"{micrometres(deep['depth_m'])} µm below {surface}", deep["p99"], error_of(deep, "p99")))
+    return found
+
+
+def _spread(searches):
+    """Of rough surfaces: the share above the limit, and the largest index with the number of points that it is of."""
+    out = []
+    for name, found in ((name, searched(one)) for name, one in searches.items()):
+        if found.get("rough"):
+            top, error = found["statistics"], error_of(found["statistics"], "share_above_1")
+            share = with_error(100 * top["share_above_1"], None if error is None else 100 * error, "%", 2)
+            largest = index(found["Fi_max"], error_of(found, "Fi_max"))
+            out.append(f"Surface {name}: {share} of it has Fi > 1; the largest of {top['points']} points is {largest}.")
+    return out
 
 
 def of_fatigue(fatigue, scene=None, beside=MappingProxyType({})):
@@ -70,8 +93,11 @@ def of_fatigue(fatigue, scene=None, beside=MappingProxyType({})):
         return FATIGUE, f"No verdict: {why}.", "open", _from_pressure(searches)
     over = when(scene) if scene else WHOLE
     worst, places, known, tells = _judged(searches)
-    said = headline(worst, places, known)
-    if all("resolved" in one for one in searches.values()):
+    rough = any(searched(one).get("rough") for one in searches.values())
+    said = headline(worst, places, known, ", by the 99th percentile of the index" * rough)
+    if rough:
+        tells = ["99th percentile of the index:", *tells, *_spread(searches)]
+    elif all("resolved" in one for one in searches.values()):
         early = {name: one["resolved"] for name, one in searches.items()}
         said, tells = _by_what_is_known(early, worst, tells, over, feature_wording.where(scene))
     return FATIGUE, *_load_too(*said, searches), (*_alone_words(searches), *tells, *_plane(fatigue))
@@ -147,7 +173,7 @@ def _load_too(said, tone, searches):
     alone = _worst_alone(searches)
     if tone != "yes" or not alone or judged(alone[1]["Fi_max"], error_of(alone[1], "Fi_max")) != ABOVE:
         return said, tone
-    return f"{said.removesuffix('.')}; the load alone exceeds it, without any feature.", tone
+    return f"{said.removesuffix('.')}. The load alone exceeds it, without any feature.", tone
 
 
 def _worst_alone(searches):

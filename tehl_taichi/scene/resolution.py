@@ -19,8 +19,10 @@ MOST_FEATURES = 256  # each costs a time step 1 ms on 256 x 64 cells: with 60 of
 
 @dataclass(frozen=True)
 class AxisResolution:
-    """What the grid sees of a feature along one axis: the key of its length there (m), cells of it and of the grid."""
+    """What the grid sees of a feature, by its number, along one axis: the key of its length there (m), cells of it and of the
+    grid."""
 
+    feature: int
     key: str
     length: float
     count: str
@@ -91,8 +93,14 @@ def sights(scene):
             if lengths:
                 key = min(lengths, key=lengths.get)
                 name, length = f"{label(scene, n)}.{key}", lengths[key]
-                out.append(AxisResolution(name, length, count, length / cell[count], getattr(g, count)))
+                out.append(AxisResolution(n, name, length, count, length / cell[count], getattr(g, count)))
     return out
+
+
+def resolved_features(scene, times):
+    """The features that a grid with 1/times as many cells along each axis still resolves."""
+    lost = {sight.feature for sight in sights(scene) if sight.cells < FEWEST * times}
+    return tuple(f for n, f in enumerate(scene.features) if n not in lost)
 
 
 def _remedy(scene, cells, worst):

@@ -112,7 +112,7 @@ def test_a_steady_run_says_what_its_smooth_bodies_bear(tmp_path):
     assert "contact_alone" not in off
 
 
-@pytest.mark.parametrize("Fi, tail", [(1.2, "; the load alone exceeds it, without any feature."), (1.005, "."), (0.9, ".")])
+@pytest.mark.parametrize("Fi, tail", [(1.2, ". The load alone exceeds it, without any feature."), (1.005, "."), (0.9, ".")])
 def test_the_verdict_begins_with_the_load(Fi, tail):
     alone = {"Fi_max": Fi, "depth_m": 183e-6, "surface_Fi_max": 0.6, "error": {"Fi_max": 0.01, "surface_Fi_max": 0.01}}
     found = {"surface": "a", "Fi_max": 1.4, "error": {"Fi_max": 0.05}, "surface_angle_deg": 60.0, "contact_alone": alone}

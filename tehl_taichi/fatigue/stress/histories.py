@@ -66,13 +66,13 @@ class StressHistories:
     def _window(self, axis):
         """Distances (m) searched on the negative and the positive side of the frame's origin."""
         reach = [(at, f.reach if axis == "x" else f.reach_y) for f in self.scene.features
-                 for at in (self._passed(f) if axis == "x" else (f.y,))]
+                 for at in (self.passed(f) if axis == "x" else (f.y,))]
         sides = (max(sign * at + r for at, r in reach) + MARGIN * self.a for sign in (-1, 1))
-        first = self._passed(self.scene.features[0]) if axis == "x" else (0.0,)
+        first = self.passed(self.scene.features[0]) if axis == "x" else (0.0,)
         least = (self.window * self.a + max(0.0, *(sign * at for at in first)) for sign in (-1, 1))
         return [max(*both) for both in zip(least, sides)]
 
-    def _passed(self, feature):
+    def passed(self, feature):
         """Places (m) of this surface that lie under the centre of a feature as it comes into the contact and as it leaves: one
         and the same of a feature of its own."""
         carrier = next(s for s in self.scene.surfaces if s.name == feature.surface)

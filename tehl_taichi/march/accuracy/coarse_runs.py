@@ -13,13 +13,16 @@ import numpy as np
 
 from tehl_taichi.engine import runtime
 from tehl_taichi.errors import Error
+from tehl_taichi.fatigue import index_statistics
 from tehl_taichi.fatigue.pressure_alone import searched
 from tehl_taichi.march import quantities
 from tehl_taichi.march.accuracy import readings
 from tehl_taichi.march.accuracy.domain_error import DomainError, widened
 from tehl_taichi.march.accuracy.error_bars import GridReading, bars
 from tehl_taichi.march.accuracy.peaks import LEAST
+from tehl_taichi.scene import resolution
 from tehl_taichi.scene.resolution import HALVED, MULTIPLES
+from tehl_taichi.scene.rough_surfaces import is_rough
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.timeline import total_steps
 from tehl_taichi.values.coded_text import Reason, code_of
@@ -29,6 +32,7 @@ FI, BELOW = "Fi_max", "below_Fi_max"  # names of the largest index of the surfac
 RESOLVED, RESOLVED_BELOW = "resolved_Fi_max", "resolved_below_Fi_max"  # of both as long as the grid resolves the pressure
 CONTACT = "contact_load_fraction_max"
 PART = 0.1  # a
+FEW = 2.0  # points; a bar has 1.5 times as many
 SHALLOW = Reason("it is largest at the smallest searched depth (half a cell), which no grid resolves", "shallow")
 SHALLOWEST = 1.5  # of that depth: up to the next one that is searched
 WORTH = 3e5  # nodes times steps of a run: below, it is a try, on a grid whose companions tell little
@@ -41,10 +45,18 @@ def scenes(scene):
         nx, ny = scene.grid.nx // 2**level, scene.grid.ny // 2**level
         steps = min(scene.time.steps, max(1, scene.time.steps // 2**level))  # -1 is all
         try:
-            out.append(scene.replace(**{"grid.nx": nx, "grid.ny": ny, "time.steps": steps, "output.profiles": False}))
+            out.append(_rough_as_seen(scene, 2**level).replace(**{"grid.nx": nx, "grid.ny": ny, "time.steps": steps,
+                                                                  "output.profiles": False}))
         except Error as error:
             refused.append(f"a coarse-grid run on {nx} x {ny} cells is refused: {error}")
     return out[::-1], [*refused, *_all_of_them(scene)] if refused else []
+
+
+def _rough_as_seen(scene, times):
+    """The scene without those of its features that a grid with 1/times of the columns would not resolve; with all where it
+    resolves none. Of roughness the long waves are left, whose effect is part of what grids differ by."""
+    seen = resolution.resolved_features(scene, times)
+    return replace(scene, features=seen) if seen else scene
 
 
 def _all_of_them(scene):
@@ -67,6 +79,8 @@ def passage_readings(scene, reader, scalar, searches=None):
     out["h_min_m"] = readings.lowest(_moment(reader, int(np.argmin(h)) + 1), scene)
     found = indices(searches or {})
     out |= {name: GridReading(float(part["Fi_max"]), doubt=_shallow(name, found)) for name, part in found.items()}
+    out |= {f"{name}.{key}": _spread_reading(part, key)
+            for name, part in distributions(searches or {}) for key in index_statistics.NUMBERS}
     # a peak that the grid does not resolve at some moment: neither its pressure is known nor what it does to oil and steel
     why = readings.unresolved(reader, _high(p), p.max(), a)
     pressures = course(p, [reader.feature_x(n) / a for n in range(1, p.size + 1)], scene.path)
@@ -79,6 +93,11 @@ def _reading(entry, scalar, scene):
     """Of a number that is no extreme over the nodes."""
     value = entry.of(scalar(entry.series), None)
     return readings.hottest(value, scene) if entry.key in quantities.HEAT else GridReading(value, positive=entry.positive)
+
+
+def _spread_reading(part, key):
+    """Of a number of a distribution; a share of so few points may be off by three of them (95 %) where it is none."""
+    return GridReading(float(part[key]), blur=FEW / part["points"] if key == "share_above_1" else 0.0, spread=True)
 
 
 def _doubted(reading, why, pressures):
@@ -117,6 +136,17 @@ def indices(searches):
         parts = {FI: whole, BELOW: whole.get("below"), RESOLVED: early, RESOLVED_BELOW: early.get("below")}
         found |= {of_surface(surface, name): part for name, part in parts.items() if part}
     return found
+
+
+def distributions(searches):
+    """[(name among the readings, statistics of a search)], at the surface and at every depth; as :func:`indices`."""
+    out = []
+    for surface, summary in searches.items():
+        found = searched(summary)
+        deep = found.get("below", {}).get("statistics", {})
+        parts = [part for part in (found.get("statistics"), deep, *deep.get("by_depth", [])) if part]
+        out += [(of_surface(surface, f"{part.get('depth_m', 0.0) * 1e6:.4g} um"), part) for part in parts]
+    return out
 
 
 def of_surface(surface, name):
@@ -181,9 +211,10 @@ def errors(scene, reader, searches, told, domain=DomainError()):
 
 
 def has_coarse_runs(scene):
-    """Whether a run has companions: where they are asked for, and where nobody says and the run is worth it."""
+    """Whether a run has companions: where they are asked for, and where nobody says and the run is worth it, or the surfaces
+    are rough, of which one grid says little."""
     asked = scene.numerics.estimate_error
-    return asked is True or asked is not False and work(scene) >= WORTH
+    return asked is True or asked is not False and (work(scene) >= WORTH or scene.has_fatigue and is_rough(scene))
 
 
 def work(scene):

@@ -44,7 +44,8 @@ class GridReading:
     number ("" where it can); lost: whether its value is not even a step towards that of the next grid; settled: how far the
     iterations may have left it from the solution of this grid; positive: whether the number is so by nature, as a film is;
     course: where grids together may settle a doubt, the largest pressures by parts of the passage (nan: none), else ();
-    swayed: whether a pressure that this grid does not know has a part in it.
+    swayed: whether a pressure that this grid does not know has a part in it; spread: whether it is of the distribution over
+    many points, which each finer grid samples anew, with more of the short waves.
     """
 
     value: float
@@ -57,6 +58,7 @@ class GridReading:
     positive: bool = False
     course: tuple = ()
     swayed: bool = False
+    spread: bool = False
 
 
 def bar(readings):
@@ -77,10 +79,10 @@ def bar(readings):
     if last.place and all(abs(a - b) > MOVED * before.cell for a, b in zip(last.place, before.place)):
         return None, Reason("its place differs from that on the next coarser grid", "place")
     steps = [b.value - a.value for a, b in zip(known[:-1], known[1:])][::-1]
-    if abs(steps[0]) > HOPELESS * abs(last.value):
+    if abs(steps[0]) > HOPELESS * abs(last.value) and not last.spread:
         return None, Reason(f"it still changes by {abs(steps[0] / last.value):.0%} from grid to grid", "changes")
     accident = ACCIDENT * abs(last.value) if len(steps) == 1 and not last.place else 0.0
-    sway = SWAY * max(map(abs, steps[:2])) if last.swayed else 0.0
+    sway = (SWAY if last.swayed else 1.0) * max(map(abs, steps[:2])) if last.swayed or last.spread else 0.0
     size = max(accident, last.settled, BLURRED * last.blur, _left(steps, bool(last.place)), least, sway)
     return (None, WHOLE) if last.positive and size >= last.value else (size, "")
 

@@ -8,6 +8,7 @@ from tehl_taichi.laws import conduction
 from tehl_taichi.laws.law import beyond
 from tehl_taichi.march.accuracy.coarse_runs import near_the_surface
 from tehl_taichi.runs.summary import domain_warnings, film_warnings, rim_warnings
+from tehl_taichi.scene.refinement import finer_grid_option
 from tehl_taichi.scene.yield_pressure import STEEL, YIELDS
 from tehl_taichi.values.coded_text import Reason, reasons_of
 from tehl_taichi.values.coded_warning import coded_warning, once, with_data
@@ -18,7 +19,8 @@ CROWDED = 0.1  # of the launches; a machine of one's own loses a core for a mome
 
 def warnings(store, summary):
     """All warnings of a run, without repetition. store: of the run; summary: its numbers so far (see io.summary)."""
-    return once([*store.scene.warnings(), *coded_warning(CHECKS, store, summary)])
+    checks = ROUGH_CHECKS if searched(summary.get("fatigue", {})).get("rough") else CHECKS
+    return once([*store.scene.warnings(), *coded_warning(checks, store, summary)])
 
 
 def reached(store):
@@ -55,8 +57,27 @@ def crowded(store, summary):
     return [with_data(text, launches=int(done), with_one_worker=int(fewer))]
 
 
+def of_single_peaks(store, summary):
+    """Of rough surfaces, in one sentence: the extremes belong to single peaks, and which of them have no error bar."""
+    names = [name for names in _unknown(summary).values() for name in names]
+    grid = finer_grid_option(store.scene)
+    if names:
+        text = (f"the largest and smallest values of rough surfaces belong to single peaks, and may not settle on any grid (no "
+                f"error bar: {', '.join(names)}); judge by percentiles and shares, or try {grid}")
+        yield with_data(text, grid, numbers=names)
+
+
 def unknown_errors(store, summary):
     """Numbers whose error is unknown, with the reason; one sentence for all that share it."""
+    for why, names in _unknown(summary).items():
+        grid = film_warnings.finer_exit(store.scene, why)
+        more = f"; try a grid that is finer along x: {grid}" if grid else ""
+        yield with_data(f"the error of {', '.join(names)} is not known: {why}{more}", grid, numbers=names, reason=str(why),
+                        reason_code=why.code)
+
+
+def _unknown(summary):
+    """{reason: names of the numbers whose error it leaves unknown}."""
     searches = by_surface(summary)
     reasons: dict[Reason, list[str]] = {}
     parts = [(summary.get("steady", {}), "steady ", ""), (summary.get("transient", {}), "passage ", ""),
@@ -66,11 +87,7 @@ def unknown_errors(store, summary):
     for part, when, behind in parts:
         for name, why in reasons_of(part).items():
             reasons.setdefault(why, []).append(f"{when}{name}{behind}")
-    for why, names in reasons.items():
-        grid = film_warnings.finer_exit(store.scene, why)
-        more = f"; try a grid that is finer along x: {grid}" if grid else ""
-        yield with_data(f"the error of {', '.join(names)} is not known: {why}{more}", grid, numbers=names, reason=str(why),
-                        reason_code=why.code)
+    return reasons
 
 
 def _of_search(fatigue, body):
@@ -117,3 +134,5 @@ def worst_below(store, summary):
 CHECKS = {domain_warnings.short: "domain", domain_warnings.starved: "starved", worst_below: "below", rim_warnings.rims: "rim",
           yielding: "yield", **film_warnings.CHECKS, beyond_measured: "measured", held_temperatures: "held",
           unknown_errors: "unknown", crowded: "crowded"}
+ROUGH_CHECKS = {check: code for check, code in CHECKS.items() if code not in ("below", "peak", "resolved", "unknown")}
+ROUGH_CHECKS |= {of_single_peaks: "rough"}

@@ -3,10 +3,11 @@
 import numpy as np
 
 from tehl_taichi import __version__
+from tehl_taichi.fatigue import index_statistics
 from tehl_taichi.laws import conduction
 from tehl_taichi.laws.law import beyond
 from tehl_taichi.march import quantities
-from tehl_taichi.march.accuracy.coarse_runs import FI, indices
+from tehl_taichi.march.accuracy.coarse_runs import FI, distributions, indices
 from tehl_taichi.runs.summary import result_warnings
 from tehl_taichi.runs.summary.film_warnings import worst_ripple
 from tehl_taichi.scene import surface_roughness
@@ -126,7 +127,9 @@ def _roughness(scene, steady):
 def _parts(out):
     """[(part of the summary after the start, {its number that has an error bar: that number's name among the errors})]."""
     parts = [(out.get("transient"), {entry.key: entry.key for entry in quantities.of_part("transient") if entry.error}),
-             *((part, {FI: name}) for name, part in indices(out.get("fatigue_by_surface", {})).items())]
+             *((part, {FI: name}) for name, part in indices(out.get("fatigue_by_surface", {})).items()),
+             *((part, {key: f"{name}.{key}" for key in index_statistics.NUMBERS})
+               for name, part in distributions(out.get("fatigue_by_surface", {})))]
     return [(part, {name: bar for name, bar in names.items() if name in part}) for part, names in parts if part]
 
 

@@ -148,7 +148,8 @@ def rows_of_fatigue(f, beside=MappingProxyType({})):
     """A list of :class:`SummaryRow` of a fatigue summary (see :func:`_rows_of_search`), and the indices of the other body in
     `beside` {surface: summary}; where the tractions give no index, the reason, then the rows of the pressure alone."""
     why = why_none(f)
-    rows = [*_worse(f, beside), *_alone_rows(searched(f).get("contact_alone")), *_rows_of_search(searched(f)),
+    rows = [*_worse(f, beside), *_alone_rows(searched(f).get("contact_alone")), *_distribution_rows(searched(f)),
+            *_rows_of_search(searched(f)),
             *(row for name, other in beside.items() for row in _rows_of_other(name, searched(other)))]
     if not why:
         return rows
@@ -157,6 +158,27 @@ def rows_of_fatigue(f, beside=MappingProxyType({})):
 
 def _worse(f, beside):
     return [SummaryRow("worse body", f["surface"], part=SURFACE)] if beside else []
+
+
+def _distribution_rows(f):
+    """Statistics of the index: of a rough surface and below it, of the share above 1 under a single feature."""
+    if "statistics" not in f:
+        return []
+    top, deep = f["statistics"], f.get("below", {}).get("statistics")
+    share = _of(top, "share_above_1", "share of the surface with Fi > 1", 100, "%", part=SURFACE)
+    if not f.get("rough"):
+        return [replace(share, what="share of the surface under the feature with Fi > 1")]
+    return [*_percentiles(top, "surface", "", SURFACE), share,
+            SummaryRow("cycles with Fi > 1, mean of a passage", f"{top['cycles_above_1']:.3g}", top["cycles_above_1"],
+                       part=SURFACE),
+            *(_percentiles(deep, "below", _at(deep), BELOW) if deep else [])]
+
+
+def _percentiles(part, where, at, of):
+    points = f" ({part['points']} points)"
+    return [_of(part, "p99", f"Fi {where}, 99th percentile", where=at, note=points, part=of),
+            _of(part, "p90", f"Fi {where}, 90th percentile", where=at, part=of),
+            _of(part, "median", f"Fi {where}, median", where=at, part=of)]
 
 
 def _alone_rows(alone):
@@ -187,7 +209,8 @@ def _rows_of_search(f):
               for way in ("bending", "torsion") if (key := f"{way}_limit_Pa") in f),
             SummaryRow("thermal stress", "counted" if f["thermal_stress"] else "left out")]
     rows += [_stress(f"largest at {_depth(layer)}", layer["findley_stress_max_Pa"]) for layer in f.get("by_depth", [])]
-    return _resolved_rows(f) + [replace(row, part=SURFACE) for row in rows] + _below_rows(f)
+    early = [] if f.get("rough") else _resolved_rows(f)
+    return early + [replace(row, part=SURFACE) for row in rows] + _below_rows(f)
 
 
 def _whole(f):

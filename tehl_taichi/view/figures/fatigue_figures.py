@@ -12,7 +12,7 @@ from tehl_taichi.fatigue.worst_point import on_circle
 from tehl_taichi.values.checks import number
 from tehl_taichi.values.coerce import plain
 from tehl_taichi.values.digits import micrometres
-from tehl_taichi.view.figures import palette
+from tehl_taichi.view.figures import distribution_figure, palette
 from tehl_taichi.view.figures.field_maps import bar, mirrored, shade
 from tehl_taichi.view.figures.index_text import error_of, index_text, largest, mpa
 from tehl_taichi.view.figures.limit_line import crossed, explained, handle, limit_line
@@ -56,7 +56,8 @@ class DrawnLayer:
         return "\n".join([*filter(None, [self.when.replace(" (", "\n(")]), self.legend_text])
 
 
-NAMES = ("fatigue", "fatigue_depth", "fatigue_point", "fatigue_depth_whole", "fatigue_point_whole")  # at most
+NAMES = ("fatigue", "fatigue_distribution", "fatigue_depth", "fatigue_point", "fatigue_depth_whole",
+         "fatigue_point_whole")  # at most
 
 
 def all_figures(page, found):
@@ -64,6 +65,8 @@ def all_figures(page, found):
     that is wanted was not searched."""
     layers = [_layers(one) for one in found.each]
     figures = {"fatigue": lambda: index_figure(page, found, layers)}
+    if distribution_figure.shown(found.result):
+        figures["fatigue_distribution"] = partial(distribution_figure.distribution_figure, page, found)
     for one, more in zip(found.each, ("", "_whole")):
         if one.result.findley_stress_under_row is not None:
             figures[f"fatigue_depth{more}"] = partial(depth_figure, page, one)

@@ -1,0 +1,73 @@
+"""How the index is distributed over the points of a body that features pass: it settles where the largest one does not."""
+
+import numpy as np
+
+QUANTILES = {"median": 0.5, "p90": 0.9, "p99": 0.99}
+NUMBERS = ("share_above_1", *QUANTILES)
+SAMPLE = 256  # points whose cycles are counted
+DEPTHS = (0.02, 0.05, 0.1, 0.2, 0.5)  # a: the same on every grid, for error bars
+
+
+def weights(passage):
+    """(x', rows): how many points of the whole surface each point of the window stands for: 0 beside what features pass, 2 on
+    the half that is its mirror. All of the window where features are smaller than a cell."""
+    inside = np.zeros((passage.x.size, passage.y.size))
+    for feature in passage.scene.features:
+        inside[np.ix_(*_under(passage, feature))] = 1.0
+    inside = inside if inside.any() else np.ones_like(inside)
+    both = passage.reader.y[0] == 0 and passage.reader.y.size > 1
+    return inside * np.where(both & (passage.y > 0), 2.0, 1.0)
+
+
+def _under(passage, feature):
+    """(columns, rows) that lie under a feature at some moment in the contact."""
+    ends = passage.passed(feature)
+    x, y = passage.x, passage.y
+    across = np.full(y.size, True) if feature.transverse else np.abs(y - feature.y) <= feature.reach_y
+    return (x >= min(ends) - feature.reach) & (x <= max(ends) + feature.reach), across
+
+
+def statistics(Fi, counts):
+    """{number: value} of NUMBERS and "points"; Fi, counts: arrays of one shape, see :func:`weights`."""
+    chosen = counts > 0
+    values, each = Fi[chosen], counts[chosen]
+    order = np.argsort(values)
+    values, each = values[order], each[order]
+    at = (np.cumsum(each) - 0.5 * each) / each.sum()
+    return {"share_above_1": float(each[values > 1].sum() / each.sum()), "points": int(values.size),
+            **{name: float(np.interp(share, at, values)) for name, share in QUANTILES.items()}}
+
+
+def exceeded(Fi, counts):
+    """(values in ascending order, share of the surface above each of them)."""
+    chosen = counts > 0
+    order = np.argsort(Fi[chosen])
+    each = counts[chosen][order]
+    return Fi[chosen][order], 1 - np.cumsum(each) / each.sum()
+
+
+def sample(counts):
+    """(x', rows): whether the cycles of a point are counted: SAMPLE of them at most, evenly spread."""
+    points = np.flatnonzero(counts)
+    out = np.zeros(counts.size, bool)
+    out[points[:: max(1, -(-points.size // SAMPLE))]] = True
+    return out.reshape(counts.shape)
+
+
+def below(passage, profiles, counts, limit):
+    """Statistics at DEPTHS of the points under the rows of `profiles` (:class:`tehl_taichi.fatigue.depth_profile.Profile`):
+    "by_depth", and those of the depth with the largest 99th percentile; between the searched depths linear in their
+    logarithm."""
+    rows = [int(np.argmin(np.abs(passage.y - profile.worst.y))) for profile in profiles]
+    each = np.concatenate([counts[:, row] if counts[:, row].any() else np.ones(len(counts)) for row in rows])
+    logs, f = np.log(profiles[0].depths), np.concatenate([profile.f for profile in profiles], axis=1) / limit
+    depths = [share * passage.a for share in DEPTHS if logs[0] <= np.log(share * passage.a) <= logs[-1]]
+    out = [{"depth_m": depth, **statistics(_at(logs, f, np.log(depth)), each)} for depth in depths]
+    return {**max(out, key=lambda one: one["p99"]), "by_depth": out}
+
+
+def _at(logs, f, log):
+    """f (depths, points) between two of the depths."""
+    upper = int(np.clip(np.searchsorted(logs, log), 1, logs.size - 1))
+    part = (log - logs[upper - 1]) / (logs[upper] - logs[upper - 1])
+    return (1 - part) * f[upper - 1] + part * f[upper]

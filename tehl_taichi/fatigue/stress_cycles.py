@@ -1,0 +1,67 @@
+"""Cycles of a passage on the critical plane: rainflow counting of the shear there, and how many exceed the fatigue limit.
+
+The shear on the plane is taken along the direction in which it ranges most. Passages repeat, so that a history is counted as
+one that repeats (ASTM E1049-85, section 5.4.5): from its largest value on, which leaves whole cycles only.
+"""
+
+import numpy as np
+
+from tehl_taichi.fatigue import findley
+from tehl_taichi.laws.criteria import CRITERIA
+
+DIRECTIONS = 90  # of the plane: the range is right to 2e-4
+LEAST = 0.05  # of the limit: smaller cycles are noise of the grid
+
+
+def rainflow(values):
+    """Cycles of a history that repeats, (n, 4): the indices of both ends and of the first and last value of the time that the
+    cycle takes, counted from the largest value on (see :func:`from_largest`)."""
+    stack, out = [], []
+    for n in _turns(values):
+        stack.append(n)
+        while len(stack) > 2 and abs(values[stack[-1]] - values[stack[-2]]) >= abs(values[stack[-2]] - values[stack[-3]]):
+            out.append((stack[-3], stack[-2], stack[-3], n))
+            del stack[-3:-1]
+    return np.array(out, int).reshape(-1, 4)
+
+
+def from_largest(values):
+    """A history that repeats, from its largest value to that again."""
+    top = int(np.argmax(values))
+    return np.append(np.roll(values, -top), values[top])
+
+
+def _turns(values):
+    """Indices of the first and last value and of those at which it turns."""
+    moves = np.flatnonzero(np.diff(values)) + 1  # equal neighbours are one
+    kept = np.append(0, moves)
+    steps = np.diff(values[kept])
+    return [0, *kept[1:-1][steps[:-1] * steps[1:] < 0], kept[-1]] if kept.size > 1 else [0]
+
+
+def above(history, normal, fatigue):
+    """Cycles per passage whose stress exceeds the limit, of a point; history (times, 6) Pa, the last moment unloaded; normal
+    (3,) of its critical plane; fatigue: the section of the scene.
+
+    The stress of a cycle is that of the criterion with half its range as amplitude, with the largest normal and mean stress of
+    the time that it takes.
+    """
+    dip, strike, normal_stress = findley.shear_path(history, normal)
+    mean = history[:, :3].mean(axis=1)
+    shear = _along_the_largest(dip, strike)
+    top = int(np.argmax(shear))
+    shear, normal_stress, mean = (np.append(np.roll(one, -top), one[top]) for one in (shear, normal_stress, mean))
+    rule, count = CRITERIA[fatigue.criterion], 0
+    for one, other, first, last in rainflow(shear):
+        amplitude = 0.5 * abs(shear[one] - shear[other])
+        time = slice(first, last + 1)
+        stress = rule.value(amplitude, normal_stress[time].max(), mean[time].max(), fatigue.kappa)
+        count += amplitude >= LEAST * fatigue.endurance and stress > fatigue.endurance
+    return int(count)
+
+
+def _along_the_largest(u, v):
+    """The path (u, v) along the direction in which it ranges most."""
+    angles = np.pi * np.arange(DIRECTIONS) / DIRECTIONS
+    along = np.outer(np.cos(angles), u) + np.outer(np.sin(angles), v)
+    return along[int(np.argmax(np.ptp(along, axis=1)))]

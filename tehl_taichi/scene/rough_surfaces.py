@@ -1,0 +1,43 @@
+"""Whether the surfaces of a scene are rough: many peaks pass through the contact, no single one decides."""
+
+import numpy as np
+
+from tehl_taichi.scene.scales import Scales
+
+PEAKS = 5  # along a line that count as many
+HIGH = 0.3  # of the largest height: lower ones are no peaks
+POINTS, LINES = 801, 9  # sampled of a surface, along lines of each direction
+
+
+def is_rough(scene):
+    """Whether a surface has PEAKS peaks, or pits, along a line in rolling direction or across it."""
+    return any(_peaks(scene, surface.features) >= PEAKS for surface in scene.surfaces if surface.features)
+
+
+def _peaks(scene, features):
+    """Most peaks along a line of a surface."""
+    s, first = Scales.of(scene), features[0]
+    wide = scene.grid.y_max * s.b if np.isfinite(s.b) else scene.grid.y_max * s.a
+    reach = [f.reach for f in features if np.isfinite(f.reach)]
+    ends = [(f.x - first.x - r, f.x - first.x + r) for f, r in zip(features, reach)] or [(-s.a, s.a)]
+    x = np.linspace(min(low for low, _ in ends), max(high for _, high in ends), POINTS)
+    y = np.linspace(-wide, wide, POINTS)
+    along = _heights(features, x[:, None], np.linspace(-wide, wide, LINES)[None])
+    across = _heights(features, np.linspace(x[0], x[-1], LINES)[None], y[:, None])
+    return max(_most(np.abs(heights)) for heights in (along, across))
+
+
+def _heights(features, x, y):
+    """(points, lines) m, of places from the centre of the first of the features."""
+    first = features[0]
+    out = np.zeros(np.broadcast(x, y).shape)
+    for f in features:
+        out = out + f.height_at(x + first.x - f.x, y + first.y - f.y)
+    return out
+
+
+def _most(heights):
+    """The most peaks of one of the columns, between points that are higher than their neighbours."""
+    inner = heights[1:-1]
+    tops = (inner > heights[:-2]) & (inner >= heights[2:]) & (inner > HIGH * heights.max())
+    return int(tops.sum(axis=0).max())

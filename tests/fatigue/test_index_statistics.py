@@ -1,0 +1,142 @@
+"""Distribution of the index over what features pass: numbers, points, error bars, and what is said of rough surfaces."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from rolling import Rolling
+
+import tehl_taichi as tehl
+from tehl_taichi.fatigue import assessment, index_statistics
+from tehl_taichi.fatigue.stress.histories import StressHistories
+from tehl_taichi.march.accuracy import coarse_runs
+from tehl_taichi.march.accuracy.error_bars import GridReading, bar
+from tehl_taichi.report import verdict
+from tehl_taichi.runs.summary import result_warnings, summary, summary_rows
+from tehl_taichi.scene.feature import Feature
+from tehl_taichi.scene.rough_surfaces import is_rough
+
+WAVES = [{"shape": "waviness", "height": 0.1e-6, "width": width, "x": x, "extent_x": 500e-6, "taper": 60e-6}
+         for width, x in ((60e-6, 5e-6), (80e-6, -7e-6), (110e-6, 0.0), (200e-6, 3e-6))]
+
+
+def rough_line(**changes):
+    features = tuple(Feature(**wave) for wave in WAVES)
+    return replace(tehl.scene("gear"), features=features).replace(**{"thermal.on": False, **changes})
+
+
+def test_numbers_are_those_of_the_points_as_often_as_they_stand_for():
+    rng = np.random.default_rng(1)
+    Fi, counts = rng.normal(1, 0.3, (40, 7)), rng.integers(0, 3, (40, 7)).astype(float)
+    found = index_statistics.statistics(Fi, counts)
+    every = np.repeat(Fi.ravel(), counts.ravel().astype(int))
+    assert found["share_above_1"] == pytest.approx((every > 1).mean()) and found["points"] == (counts > 0).sum()
+    for name, share in index_statistics.QUANTILES.items():
+        assert found[name] == pytest.approx(np.quantile(every, share, method="hazen"), abs=0.02)
+    alike = index_statistics.statistics(Fi, np.ones_like(Fi))
+    assert alike["p90"] == pytest.approx(np.quantile(Fi, 0.9, method="hazen"), rel=1e-12)
+
+
+@pytest.mark.parametrize("half", [True, False])
+def test_points_are_those_that_the_feature_passes(half):
+    """A round feature of 0.2 a radius: a half domain's points off its edge stand for two."""
+    scene = tehl.scene("gear").replace(**{"thermal.on": False, "feature.width": 0.4 * 0.36216e-3, "fatigue.surfaces": "a"})
+    reader = Rolling(scene, 32, 33)
+    if not half:
+        reader.y = np.linspace(-1, 1, 65) * reader.s.a
+    passage = StressHistories(scene, reader, reader.centres)
+    counts, cell = index_statistics.weights(passage), np.diff(reader.x[:2])[0] * np.diff(reader.y[:2])[0]
+    assert counts.sum() * cell == pytest.approx((0.4 * reader.s.a) ** 2, rel=0.15)  # the square around it
+    assert (counts[:, passage.y == 0] <= 1).all() and counts.max() == (2 if half else 1)
+    other = next(s for s in scene.replace(srr=-0.5).surfaces if s.name == "b")
+    slid = index_statistics.weights(StressHistories(scene.replace(srr=-0.5), reader, reader.centres, surface=other))
+    assert slid.sum() > 1.5 * counts.sum()  # what it slides over is longer
+
+
+def test_a_search_has_them_at_the_surface_and_below(taichi_cpu):
+    scene = rough_line()
+    found = assessment.run(scene, Rolling(scene, 16, 1)).summary
+    top, deep = found["statistics"], found["below"]["statistics"]
+    assert found["rough"] and top["median"] <= top["p90"] <= top["p99"] <= found["Fi_max"]
+    assert deep["p99"] == max(one["p99"] for one in deep["by_depth"]) <= found["below"]["Fi_max"] * 1.001
+    a = Rolling(scene).s.a
+    assert [one["depth_m"] for one in deep["by_depth"]] == pytest.approx([0.05 * a, 0.1 * a, 0.2 * a, 0.5 * a])
+    at_p90 = scene.replace(**{"fatigue.endurance": scene.fatigue.endurance * top["p90"]})
+    at_limit = assessment.run(at_p90, Rolling(scene, 16, 1)).summary
+    assert at_limit["statistics"]["share_above_1"] == pytest.approx(0.1, abs=0.02)
+    assert at_limit["cycles_above_1"] >= 1 and 0 < at_limit["statistics"]["cycles_above_1"] < 3
+
+
+def test_bars_of_a_distribution_have_the_larger_of_the_last_two_steps():
+    def size(values, **more):
+        return bar([GridReading(value, spread=True, **more) for value in values])[0]
+
+    assert size([0.7, 1.2, 1.21]) == pytest.approx(0.5) and size([1.2, 1.21, 1.0]) >= 0.21
+    assert size([0.02, 0.03, 0.0]) >= 0.03  # a share of none is known as well as others
+    assert bar([GridReading(1.0), GridReading(0.02)])[0] is None  # of other numbers such a change says that nothing is known
+
+
+def test_coarse_grids_take_the_waves_that_they_resolve():
+    scene = rough_line(**{"grid.nx": 256})
+    (coarsest, coarse), refused = coarse_runs.scenes(scene)
+    assert not refused and [f.width for f in coarse.features] == [w["width"] for w in WAVES]
+    assert [f.width for f in coarsest.features] == [110e-6, 200e-6]
+    single = tehl.scene("gear").replace(**{"feature.width": 30e-6, "grid.nx": 256, "thermal.on": False})
+    assert coarse_runs.scenes(single)[1]  # nothing would be left: refused
+
+
+def test_the_summary_has_bars_and_the_table_leads_with_them(taichi_cpu):
+    part = {"share_above_1": 0.12, "median": 0.7, "p90": 1.0, "p99": 1.2, "points": 130, "cycles_above_1": 0.2}
+    search = {"surface": "b", "rough": True, "Fi_max": 1.3, "statistics": dict(part),
+              "below": {"Fi_max": 1.5, "statistics": {**part, "depth_m": 7e-6, "by_depth": []}}}
+    names = [bars for _, bars in summary._parts({"transient": {}, "fatigue_by_surface": {"b": search}})]
+    assert {"p99": "b:0 um.p99"}.items() <= names[2].items() and names[3]["share_above_1"] == "b:7 um.share_above_1"
+    search["statistics"]["error"] = {"p99": 0.1, "share_above_1": 0.05}
+    rows = dict(row.text_pair for row in summary_rows._distribution_rows(search))
+    assert rows["Fi surface, 99th percentile"] == "1.20 ± 0.10 (130 points)"
+    assert rows["share of the surface with Fi > 1"] == "12.0 ± 5.0 %" and "Fi below, median, at 7 um" in rows
+    plain = [row.what for row in summary_rows._distribution_rows({**search, "rough": False})]
+    assert plain == ["share of the surface under the feature with Fi > 1"]
+
+
+@pytest.mark.parametrize("p99, error, tone", [(1.3, 0.1, "yes"), (1.05, 0.1, "open"), (0.8, 0.1, "no")])
+def test_the_verdict_of_rough_surfaces_is_by_the_percentile(p99, error, tone):
+    top = {"p99": p99, "share_above_1": 0.12, "points": 130, "error": {"p99": error, "share_above_1": 0.05}}
+    found = {"surface": "b", "rough": True, "Fi_max": 1.9, "statistics": top, "surface_angle_deg": 60.0,
+             "resolved": {"Fi_max": 1.7, "to_x_a": 0.5, "surface_angle_deg": 61.0}}
+    _, headline, known, said = verdict.of_fatigue(found)
+    assert known == tone and "by the 99th percentile of the index" in headline or tone == "no"
+    assert any(one.startswith("Surface b: 12.0 ± 5.0 % of it has Fi > 1; the largest of 130 points is 1.9") for one in said)
+
+
+def test_one_warning_for_what_single_peaks_leave_unknown():
+    why = {"unknown": {"p_max_Pa": "narrow"}, "unknown_codes": {"p_max_Pa": "peak"}}
+    search = {"rough": True, "Fi_max": 1.3, "unknown": {"Fi_max": "narrow"}, "below": {"Fi_max": 2.0, "depth_m": 1e-5}}
+    told = {"steady": {}, "transient": why, "fatigue": search, "fatigue_by_surface": {"b": search}}
+    said, = result_warnings.of_single_peaks(SimpleNamespace(scene=tehl.scene("rough")), told)
+    assert "passage p_max_Pa, Fi_max" in said and said.data["numbers"] == ["passage p_max_Pa", "Fi_max"]
+    assert not {"peak", "resolved", "unknown"} & set(result_warnings.ROUGH_CHECKS.values())
+
+
+@pytest.mark.parametrize("name, rough", [("gear", False), ("dent", False), ("rough", True), ("rough-pair", True),
+                                         ("ridge-on-ball", False), ("smooth-line", False)])
+def test_scenes_are_rough_by_their_peaks(name, rough):
+    assert is_rough(tehl.scene(name)) == rough
+    assert is_rough(rough_line())
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("srr", [-0.12, 0.12])
+def test_bars_of_a_rough_line_cover_a_grid_four_times_finer(srr, tmp_path):
+    """Every number of the distribution at the surface and below, of both bodies."""
+    coarse, fine = (tehl.run(rough_line(**{"grid.nx": nx, "srr": srr}), tmp_path / f"{nx}.zarr").summary["fatigue_by_surface"]
+                    for nx in (128, 512))
+    for name, found in coarse.items():
+        deep = {one["depth_m"]: one for one in fine[name]["below"]["statistics"]["by_depth"]}
+        pairs = [(one, deep[one["depth_m"]]) for one in found["below"]["statistics"]["by_depth"]]
+        known = [pair for pair in pairs if pair[0]["error"]["p99"] is not None]  # not where one grid alone reaches that near
+        assert len(known) >= 4
+        for one, other in ((found["statistics"], fine[name]["statistics"]), *known):
+            for key in index_statistics.NUMBERS:
+                assert abs(one[key] - other[key]) <= one["error"][key], (name, key, one.get("depth_m"))
