@@ -93,9 +93,12 @@ class Passage:
         return Storage(self.levels)
 
     def steps(self):
-        """Generator of the snapshots that follow."""
+        """Generator of the snapshots that follow. The next march has the tables of this one, and so its kernels, although
+        snapshots are kept."""
         for _ in range(self.step, total_steps(self.scene)):
-            yield self.advance()
+            shot = self.advance()
+            yield shot
+            shot.let_go(keep=self.step == total_steps(self.scene))
 
     def advance(self):
         """One time step; where it does not converge, in parts."""
@@ -205,7 +208,7 @@ class Passage:
 
     def _state(self, step):
         if step != self.step:
-            raise RuntimeError(f"the state of step {step} is no longer available; read it before the next step")
+            snapshot.gone(step)
         return {**self._accepted(), **self.parts.state(), **({"double": True} if self.doubled else {})}
 
     def _accepted(self):

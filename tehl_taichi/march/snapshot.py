@@ -75,6 +75,16 @@ class Snapshot:
         """All that a march needs to continue from here."""
         return self.make_state()
 
+    def let_go(self, keep):
+        """Hold no solver any more, and keep the state or not."""
+        if keep:
+            self.state  # noqa: B018 - it is cached
+        self.make_state = functools.partial(gone, self.step)
+
+
+def gone(step):
+    raise RuntimeError(f"the state of step {step} is no longer available; read it before the next step")
+
 
 def take(solved, step, time_s, feature_x, make_state):
     """Snapshot of a :class:`tehl_taichi.march.solved_state.SolvedState`: every output that its scene has (`march/outputs/`);

@@ -178,7 +178,7 @@ def values(scene, notify=lambda: None, until=lambda: None):
 
     shots = []
     for shot in march(scene):
-        shots.append(replace(shot, make_state=None))  # it holds the tables, which the next companion needs
+        shots.append(shot)
         notify()
     wanted = scene.has_fatigue and len(shots) > 2
     found = assessment.run(scene, shots, until=until(), alone=False).summaries if wanted else None
