@@ -1,3 +1,5 @@
+import functools
+import gc
 import importlib
 import os
 import signal
@@ -6,7 +8,10 @@ import sys
 import pytest
 
 MOST = 4  # processes of the whole suite: each needs 1.5 GB
-KERNELS = ("tests/march/", "tests/heat/", "tests/pressure/")  # that mostly compile the same ones
+# that compile the kernels of the solvers, half of a cold suite
+KERNELS = tuple(f"tests/{name}" for name in (
+    "march/", "heat/", "pressure/", "engine/test_float", "profiles/", "scene/test_given", "scene/test_scene_p", "cli/test_c",
+    "runs/", "store/test_store_runs", "test_examples"))
 
 
 def pytest_configure():
@@ -30,21 +35,38 @@ def pytest_cmdline_main(config):
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config, log):
-    """One of two processes compiles the kernels of the solvers, which take longest, and the other one does the rest; of more
-    processes each has its files."""
-    if config.option.dist == "loadfile" and config.option.numprocesses == 2:
+    """One process takes files from the front, where the kernels of the solvers are compiled, others take them from the back:
+    most are compiled once."""
+    if config.option.dist == "loadfile":
         from xdist.scheduler import LoadFileScheduling
 
-        class Rooms(LoadFileScheduling):
-            def _split_scope(self, nodeid):
-                return "kernels" if nodeid.startswith(KERNELS) else super()._split_scope(nodeid)
+        class BothEnds(LoadFileScheduling):
+            def _assign_work_unit(self, node):
+                if node is not self.nodes[0]:
+                    self.workqueue.move_to_end(next(reversed(self.workqueue)), last=False)
+                super()._assign_work_unit(node)
 
-        return Rooms(config, log)
+        return BothEnds(config, log)
 
 
 def pytest_collection_modifyitems(items):
-    """The longest part first."""
-    items.sort(key=lambda item: [item.nodeid.startswith(room) for room in KERNELS], reverse=True)
+    """Files that compile the kernels of the solvers first."""
+    items.sort(key=lambda item: not item.nodeid.startswith(KERNELS))
+
+
+def pytest_collection_finish():
+    """Searches for garbage, of which every solver may ask for one, leave out the thousands of tests."""
+    gc.collect()
+    gc.freeze()
+
+
+@pytest.fixture(scope="session", autouse=True)
+def commands_once():
+    """typer builds its commands at every call, 16 ms: some thousand calls of the tests share one tree."""
+    import typer.main
+    import typer.testing
+
+    typer.main.get_command = typer.testing._get_command = functools.cache(typer.main.get_command)
 
 
 @pytest.fixture(scope="session")
