@@ -128,3 +128,10 @@ def test_heights_in_an_array_are_those_of_a_file(tmp_path):
 def test_what_is_no_grid_of_heights_is_refused(heights, said):
     with pytest.raises(tehl.SceneError, match=said):
         tehl.Feature.from_heights(heights, pixel=1e-6)
+
+
+def test_readme_python_example_runs(taichi_cpu, capsys, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    text = (ROOT / "README.md").read_text()
+    exec(compile(text.split("```python\n")[1].split("```")[0], "README.md", "exec"), {})
+    assert len(capsys.readouterr().out.splitlines()) == 5

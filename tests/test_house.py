@@ -1,6 +1,7 @@
 """The house: layers, light imports, the README's commands."""
 
 import ast
+import functools
 import re
 import subprocess
 import sys
@@ -39,6 +40,7 @@ def layer_of(module):
     return parts[0] if top == "tehl_taichi" and parts and parts[0] in modules_on_top() else None
 
 
+@functools.cache
 def modules_on_top():
     """Names directly below the package, as they are on the disk (a public function may be imported from it, too)."""
     return {path.stem for path in PACKAGE.iterdir() if path.suffix in ("", ".py")} - ENTRIES | {"profiles"}
@@ -49,13 +51,22 @@ def module_of(path):
     return ".".join((FOLDERS[base], *path.relative_to(base).with_suffix("").parts))
 
 
+@functools.cache
+def nodes(path):
+    """Of the syntax tree of a file."""
+    return tuple(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
+
+
+@functools.cache
 def imports(path):
-    for node in ast.walk(ast.parse(path.read_text())):
+    """Names that a module imports."""
+    found = []
+    for node in nodes(path):
         if isinstance(node, ast.ImportFrom) and node.module:
-            yield node.module
-            yield from (f"{node.module}.{alias.name}" for alias in node.names)
+            found += [node.module, *(f"{node.module}.{alias.name}" for alias in node.names)]
         elif isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names)
+            found += [alias.name for alias in node.names]
+    return found
 
 
 SOURCES = sorted(path for folder in FOLDERS for path in folder.rglob("*.py"))
@@ -86,7 +97,7 @@ def test_a_room_says_what_lives_there(room):
 
 def names_in(path):
     """All names that a module defines or imports somewhere."""
-    for node in ast.walk(ast.parse(path.read_text())):
+    for node in nodes(path):
         if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
             yield node.name
         elif isinstance(node, ast.alias):
@@ -160,10 +171,3 @@ def test_solvers_import_neither_dask_nor_pandas():
     """FFTW's package would, where they are installed."""
     code = "import sys; from tehl_taichi.march import passage; sys.exit(bool({'dask', 'pandas', 'scipy'} & set(sys.modules)))"
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0
-
-
-def test_readme_python_example_runs(taichi_cpu, capsys, monkeypatch, tmp_path):
-    monkeypatch.chdir(tmp_path)
-    text = (ROOT / "README.md").read_text()
-    exec(compile(text.split("```python\n")[1].split("```")[0], "README.md", "exec"), {})
-    assert len(capsys.readouterr().out.splitlines()) == 5
