@@ -55,8 +55,22 @@ print({name: kept for name, kept in told.items() if not kept}, len(told))
 """
 
 
-@pytest.mark.parametrize("threads", [pytest.param(1, marks=pytest.mark.slow), 2])
-def test_every_call_leaves_subnormal_numbers(tmp_path, threads):
+def test_every_call_leaves_subnormal_numbers(taichi_cpu, tmp_path, monkeypatch, capsys):
+    """In this process, where kernels of other tests serve."""
+    monkeypatch.chdir(tmp_path)
+    exec(compile(CALLS.replace("THREADS", "None"), "calls", "exec"), {})
+    assert capsys.readouterr().out.strip() == "{} 16"
+
+
+def test_a_start_leaves_subnormal_numbers():
+    code = ("import numpy as np; from tehl_taichi.engine import runtime; runtime.start(threads=2); "
+            "print((np.full(9, 1e-310) * 0.5 > 0).all())")
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "True\n"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("threads", [1, 2])
+def test_every_call_of_a_new_process_leaves_subnormal_numbers(tmp_path, threads):
     code = CALLS.replace("THREADS", "None").replace("import threading\n", (
         f"import threading\nfrom tehl_taichi.engine import runtime\nruntime.start(threads={threads})\n"), 1)
     done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, timeout=300)
