@@ -1,10 +1,102 @@
-"""A new shape, criterion, oil and output field are one file each: those of CONTRIBUTING.md, in a copy of the package."""
+"""A new law, shape, criterion, oil and output field are one file each: those of CONTRIBUTING.md, in a copy of the package."""
 
 import json
+import math
+import shutil
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
-from laws.test_new_laws import extended, shown
+
+ROOT = Path(__file__).parents[1]
+
+
+def shown(title):
+    """The file below `### title` in CONTRIBUTING.md: its path and its text."""
+    text = (ROOT / "CONTRIBUTING.md").read_text().split(f"### {title}\n")[1]
+    return text.split("`")[1], text.split("```python\n")[1].split("```")[0]
+
+
+def extended(copy, files, script):
+    """Run `script` in the folder `copy` with a copy of the package and `files` (path, text) more."""
+    for source, target in (("tehl_taichi", "tehl_taichi"), ("profiles", "tehl_taichi/profiles")):
+        shutil.copytree(ROOT / source, copy / target)
+    for path, text in files:
+        assert not (copy / path).exists()
+        (copy / path).write_text(text)
+    subprocess.run([sys.executable, "-c", script], cwd=copy, check=True)
+
+
+TAIT = '''"""Density of Tait's form, at one temperature."""
+
+import math
+
+from tehl_taichi.engine.pointwise import log, pointwise
+from tehl_taichi.laws.densities import RHO0
+from tehl_taichi.laws.law import DensityLaw
+from tehl_taichi.values.registry import Checked
+from tehl_taichi.values.quantity import quantity
+
+
+@pointwise
+def compression(oil, p):
+    """1/(1 - ln(1 + (1 + K1) p/K)/(1 + K1))."""
+    return 1 / (1 - log(1 + (1 + oil.cold_K1) * p / oil.cold_K) / (1 + oil.cold_K1))
+
+
+@pointwise
+def expansion(oil, p, Gamma):
+    return 1.0 + 0.0 * p
+
+
+@pointwise
+def expansivity(oil, p, Gamma):
+    return 0.0 * p
+
+
+LAW = DensityLaw(
+    name="cold-tait", says="1/(1 - ln(1 + (1 + K1) p/K)/(1 + K1))", source="after Tait 1888",
+    compression=compression, expansion=expansion, expansivity=expansivity,
+    numbers={"rho0": RHO0, "cold_K": quantity(1.4e9, "Pa", "bulk modulus at p = 0", 1e8, 1e11),
+             "cold_K1": quantity(10.0, "", "its rise with pressure", 1, 30)},
+    checked=(Checked("by hand", 1 / (1 - math.log(2) / 11), lambda: compression(LAW.having(cold_K=11e9), 1e9)),))
+'''
+
+LAWS = '''
+import json, sys
+import tehl_taichi as tehl
+from tehl_taichi.engine import runtime
+from tehl_taichi.scene import scene_file
+from tehl_taichi.store.store import Store
+from tehl_taichi.runs.summary.summary import summarise
+from tehl_taichi.laws.choices import CHOICES
+from tehl_taichi.laws.density import rho_ratio
+from tehl_taichi.laws.viscosity import ln_eta
+from tehl_taichi.profiles import stability
+
+base = tehl.scene("smooth-line").replace(**{"grid.nx": 32, "thermal.on": False})
+film = {"oil.name": "mine", "oil.viscosity": "cameron", "oil.eta0": 0.02, "oil.alpha": 1e-8, "oil.density": "cold-tait",
+        "oil.cameron_n": 4.0, "temperature": 60.0}
+scenes = {"limiting": base, "rounded": base.replace(**{"rheology.law": "rounded"}),
+          "sharp": base.replace(**{"rheology.law": "rounded", "rheology.limit_n": 4.0}), "film": base.replace(**film)}
+runtime.start(threads=2)
+out = {"checked": {law.name: [one.compute() / one.expected for one in law.checked] for laws in CHOICES.values()
+                   for law in laws.values()},
+       "template": scene_file.dumps(scenes["sharp"]), "suite": list(stability.cases()),
+       "back": scene_file.from_data(__import__("tomllib").loads(scene_file.dumps(scenes["film"])), "x") == scenes["film"]}
+out["ln_eta"], out["rho"] = (float(law(scenes["film"].oil, 1e9, 60.0)) for law in (ln_eta, rho_ratio))
+for name, scene in scenes.items():
+    shot = next(tehl.march(scene))
+    store = Store.create(f"{name}.zarr", scene, shot, 1, {"warnings": "[]"})
+    out[name] = summarise(store, {"wall_s": 0.0, "compile_s": 0.0, "steady_error": {}})
+try:
+    base.replace(**{"rheology.law": "rounded", "rheology.limit_n": 20.0})
+except tehl.Error as error:
+    out["refused"] = str(error)
+json.dump(out, open("laws.json", "w"))
+'''
 
 RUN = '''
 import json, tomllib
@@ -47,15 +139,47 @@ json.dump(out, open("out.json", "w"))
 
 @pytest.fixture(scope="module")
 def new(tmp_path_factory):
-    """The folder with a copy of the package and four files more in which :data:`RUN` ran."""
+    """The folder with a copy of the package and seven files more in which :data:`LAWS` and :data:`RUN` ran, in one process."""
     copy = tmp_path_factory.mktemp("package")
-    extended(copy, map(shown, ("A feature shape", "A fatigue criterion", "An oil", "An output field")), RUN)
+    names = "A shear law", "A viscosity law", "A feature shape", "A fatigue criterion", "An oil", "An output field"
+    extended(copy, [*map(shown, names), ("tehl_taichi/laws/densities/cold_tait.py", TAIT)], LAWS + RUN)
     return copy
+
+
+@pytest.fixture(scope="module")
+def laws(new):
+    return json.loads((new / "laws.json").read_text())
 
 
 @pytest.fixture(scope="module")
 def out(new):
     return json.loads((new / "out.json").read_text())
+
+
+def test_a_file_is_a_shear_law(laws):
+    """Choice, template, range, suite, checked number, kernel and summary: with exponent 2 it is the limiting law."""
+    out = laws
+    assert "limit_n = 4.0               # -: rounded: exponent (2: limiting) [0.5 to 10]" in out["template"]
+    assert "law = \"rounded\"" in out["template"] and "limiting, newtonian, rounded]" in out["template"]
+    assert "rheology.limit_n = 20" in out["refused"] and "at most 10" in out["refused"]
+    assert "shear law rounded" in out["suite"] and out["checked"]["rounded"] == pytest.approx([1.0])
+    same, limiting, sharp = (out[name]["steady"] for name in ("rounded", "limiting", "sharp"))
+    for key in ("h_c_m", "p_max_Pa", "friction_coefficient"):
+        assert same[key] == pytest.approx(limiting[key], rel=1e-6)
+    assert sharp["friction_coefficient"] > 1.001 * limiting["friction_coefficient"]
+
+
+def test_a_file_is_a_law_of_viscosity_or_density(laws):
+    """The film formula takes the new viscosity, too, and the film of the kernels is near it."""
+    out = laws
+    assert out["checked"]["cameron"] == pytest.approx([1.0]) and out["checked"]["cold-tait"] == pytest.approx([1.0])
+    assert out["back"] and "cameron" in out["template"] and "cold-tait: bulk modulus" in out["template"]
+    assert out["ln_eta"] == pytest.approx(math.log(0.02) + 4 * math.log(1 + 10 / 4))
+    assert out["rho"] == pytest.approx(1 / (1 - math.log(1 + 11 / 1.4) / 11))
+    film = out["film"]["steady"]
+    assert film["h_c_m"] == pytest.approx(film["film_formula_m"], rel=0.25)
+    assert abs(film["h_c_m"] / out["limiting"]["steady"]["h_c_m"] - 1) > 0.05
+    assert any("depends neither on the inlet temperature" in line for line in out["film"]["warnings"])
 
 
 @pytest.mark.parametrize("kind", ["shape", "criterion", "oil", "field"])
