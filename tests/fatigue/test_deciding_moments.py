@@ -95,7 +95,7 @@ def test_the_same_planes_without_leaving_any_out(taichi_cpu, criterion):
     np.testing.assert_allclose(np.abs((normals * others).sum(axis=1)), 1.0, atol=1e-6)
 
 
-@pytest.mark.parametrize("reach", [0.0, 1e-3])
+@pytest.mark.parametrize("reach", [0.0, pytest.param(1e-3, marks=pytest.mark.slow)])
 def test_too_few_are_not_taken(taichi_cpu, monkeypatch, reach):
     """Shear that turns in a circle, not quite round: which moments are farthest changes from plane to plane."""
     monkeypatch.setattr(critical_planes, "REACH", reach)
