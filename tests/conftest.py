@@ -10,8 +10,8 @@ import pytest
 MOST = 4  # processes of the whole suite: each needs 1.5 GB
 # that compile the kernels of the solvers, half of a cold suite
 KERNELS = tuple(f"tests/{name}" for name in (
-    "march/", "heat/", "pressure/", "engine/test_float", "profiles/", "scene/test_given", "scene/test_scene_p", "cli/test_c",
-    "runs/", "store/test_store_runs", "test_examples"))
+    "cli/", "engine/test_float", "heat/", "march/", "pressure/", "profiles/", "runs/", "scene/", "store/", "test_examples",
+    "values/test_coded", "values/test_unit"))
 
 
 def pytest_configure():

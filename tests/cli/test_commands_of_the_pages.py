@@ -66,7 +66,7 @@ def folder(tmp_path_factory, taichi_cpu):
     import made_results
 
     place = tmp_path_factory.mktemp("pages")
-    run = ("run", "gear", *SMALL.replace(" --no-fatigue", "").split(), "--steps", 24)  # as searches take by their moments
+    run = ("run", "gear", *SMALL.replace(" --no-fatigue", "").split(), "--set", "time.courant=2")  # half of the moments
     assert here(*run, "--out", "runs/gear-1.zarr", cwd=place).returncode == 0
     shutil.copytree(place / "runs" / "gear-1.zarr", place / "runs" / "gear.zarr")
     deep = ("--steps", 3, "--set", "fatigue.depths=[40e-6]", "--out", "runs/furrow.zarr")

@@ -148,10 +148,10 @@ def test_results_come_side_by_side_and_errors_stay_with_their_job(client):
 
 
 def test_many_small_cases_on_a_cluster_cost_little(client, tmp_path):
-    made = plan(GEAR, {"srr": "-0.3:0.3:15", "feature.height": "0.5e-6:1.1e-6:10"})
+    made = plan(GEAR, {"srr": "-0.3:0.3:15", "feature.height": "0.5e-6:1.1e-6:4"})
     began = time.perf_counter()
     study = sweeping.run(made, tmp_path / "s.zarr", scheduler=client, work=formula)
-    assert study.counts["converged"] == 150 and time.perf_counter() - began < 150 * 0.3  # 0.01 s each
+    assert study.counts["converged"] == 60 and time.perf_counter() - began < 60 * 0.3  # 0.01 s each
     here = sweeping.run(made, tmp_path / "here.zarr", workers=1, work=formula)
     assert all(np.array_equal(study.values[name], values, equal_nan=True) for name, values in here.values.items())
 
