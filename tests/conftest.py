@@ -11,7 +11,7 @@ MOST = 4  # processes of the whole suite: each needs 1.5 GB
 # that compile the kernels of the solvers, half of a cold suite
 KERNELS = tuple(f"tests/{name}" for name in (
     "cli/", "engine/test_float", "heat/", "march/", "pressure/", "profiles/", "runs/", "scene/", "store/", "test_examples",
-    "values/test_coded", "values/test_unit"))
+    "test_new", "values/test_coded", "values/test_unit"))
 
 
 def pytest_configure():
