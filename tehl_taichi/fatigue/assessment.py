@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from tehl_taichi.fatigue import contact_alone, depth_search, index_statistics, resolved_part, result_arrays, stress_cycles
+from tehl_taichi.fatigue.judged_surfaces import resting
 from tehl_taichi.fatigue.layer import layer
 from tehl_taichi.fatigue.pass_progress import PassProgress
 from tehl_taichi.fatigue.search_result import SearchResult
@@ -53,8 +54,7 @@ def run(scene, reader, progress=None, until=None, alone=True):
     if len(reader) < 2 or not np.isfinite(centres).all():
         raise SceneError("fatigue needs the passage of a feature: a scene with a feature and at least one time step")
     if not (count := len(scene.judged)):
-        raise SceneError(f"surface {scene.fatigue.surfaces} is at rest: its points are always under load and have no cycle; "
-                         "allowed: the other one")
+        raise resting(scene.fatigue.surfaces)
     return worse_of([_of_surface(scene, surface, reader, centres, _share(progress, n, count), until, alone)
                      for n, surface in enumerate(scene.judged)])
 
