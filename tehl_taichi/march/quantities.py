@@ -84,6 +84,8 @@ ENTRIES = (
     Entry(part="transient", key="temperature_change_K", series="temperature_change_K", over="maximum", exists=thermal),
     Entry(part="transient", key="contact_load_fraction_max", series="contact_load_fraction", over="maximum", error="plain",
           positive=True),
+    Entry(part="transient", key="contact_area_share_max", series="contact_area_share", over="maximum", error="plain",
+          positive=True),
     *(Entry(part="transient", key=f"{key}_max", series=key, over="maximum")
       for key in ("load_error", "mass_error", "residual")),
     Entry(part="transient", key="dt_s", series="dt_s", over="maximum", says="time step"),

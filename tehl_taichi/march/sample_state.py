@@ -7,7 +7,7 @@ import numpy as np
 P = np.array([[0.0, 1.0, 0.0], [0.0, 0.5, 0.0]])
 H = np.array([[2.0, 1.0, 2.0], [2.0, 1.5, 2.5]])
 SAMPLE = SimpleNamespace(
-    scales=SimpleNamespace(p_H=1e9, h=1e-6, a=1e-4),
+    scales=SimpleNamespace(p_H=1e9, h=1e-6, a=1e-4, line=True),
     P=P, H=H, touch=np.array([[0, 1, 0], [0, 0, 0]]), weights=np.full((2, 3), 0.5),
     stress=np.array([2e7 * P, 1e6 * P, -2e7 * P, 3e6 * P]),  # on a along x, y, on b along x, y; Pa
     T=np.array([[[90.0, 95.0, 90.0], [90.0, 92.0, 90.0]], [[90.0, 110.0, 90.0], [90.0, 100.0, 90.0]],

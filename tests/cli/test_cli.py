@@ -49,7 +49,8 @@ def test_json_summary_has_the_keys_of_the_interface(finished):
     assert (summary["crowding"][0] > 0) == (cores.available() > 1)  # two threads, five blocks of rows
     assert set(summary["steady"]["error"]) == {"h_c_m", "h_min_m", "p_max_Pa", "friction_coefficient"}
     errors, nothing = dict(summary["transient"]["error"]), summary["transient"]["contact_load_fraction_max"] == 0.0
-    assert errors.pop("contact_load_fraction_max") == (0.0 if nothing else None)  # where nothing touches, that is known
+    for share in ("contact_load_fraction_max", "contact_area_share_max"):
+        assert errors.pop(share) == (0.0 if nothing else None)  # where nothing touches, that is known
     assert set(errors.values()) == {None}  # so short a run has no companions, and nobody asked for them
     assert summary["steady"]["film_formula_m"] == pytest.approx(summary["steady"]["h_c_m"], rel=0.2)
     assert {"Fi_max", "findley_stress_max_Pa", "x_m", "y_m", "plane_theta_deg", "plane_phi_deg", "surface_angle_deg",
@@ -80,7 +81,8 @@ def test_companion_runs_tell_the_error_of_a_passage(tmp_path):
     assert done.returncode == 0, done.stderr
     summary = json.loads(done.stdout)
     error = summary["transient"]["error"]
-    assert set(error) == {"p_max_Pa", "h_min_m", "friction_coefficient_mean", "contact_load_fraction_max"}
+    assert set(error) == {"p_max_Pa", "h_min_m", "friction_coefficient_mean", "contact_load_fraction_max",
+                          "contact_area_share_max"}
     assert summary["fatigue"]["error"]["Fi_max"] > 0
     assert 0 < error["friction_coefficient_mean"] < summary["transient"]["friction_coefficient_mean"]
     assert "±" in tehl("show", "e.zarr", cwd=tmp_path).stdout

@@ -139,6 +139,8 @@ def test_load_carried_by_solid_contact(slower):
     carried = np.where(shot.fields["contact"] > 0, shot.fields["pressure"], 0.0)
     share = np.trapezoid(np.trapezoid(carried, shot.y, axis=1), shot.x) / shot.y[-1] / slower.scene.load
     assert shot.scalars["contact_load_fraction"] == pytest.approx(share, rel=1e-9) and share > 0
+    area = np.trapezoid(np.trapezoid(shot.fields["contact"].astype(float), shot.y, axis=1), shot.x) / shot.y[-1]
+    assert shot.scalars["contact_area_share"] == pytest.approx(area / (2 * Scales.of(slower.scene).a), rel=1e-9)
     assert shot.scalars["h_min_m"] == pytest.approx(5e-6 * Scales.of(slower.scene).h, rel=1e-6)  # the floor
 
 

@@ -30,7 +30,7 @@ from tehl_taichi.values.coded_text import Reason, code_of
 COMPANIONS = HALVED  # with the run itself three grids; 1/8 and 1/64 of its cells and steps
 FI, BELOW = "Fi_max", "below_Fi_max"  # names of the largest index of the surface, and below it
 RESOLVED, RESOLVED_BELOW = "resolved_Fi_max", "resolved_below_Fi_max"  # of both as long as the grid resolves the pressure
-CONTACT = "contact_load_fraction_max"
+CONTACT, AREA = "contact_load_fraction_max", "contact_area_share_max"
 PART = 0.1  # a
 FEW = 2.0  # points; a bar has 1.5 times as many
 SHALLOW = Reason("it is largest at the smallest searched depth (half a cell), which no grid resolves", "shallow")
@@ -203,8 +203,8 @@ def errors(scene, reader, searches, told, domain=DomainError()):
     if not has_coarse_runs(scene):
         touches = own[CONTACT].value > 0
         doubts = {name: reading.doubt for name, reading in own.items() if reading.doubt}
-        doubts |= {CONTACT: readings.TOUCH} if touches else {}
-        return {"passage_error": {} if touches else {CONTACT: 0.0}, "passage_unknown": doubts}
+        doubts |= dict.fromkeys((CONTACT, AREA), readings.TOUCH) if touches else {}
+        return {"passage_error": {} if touches else dict.fromkeys((CONTACT, AREA), 0.0), "passage_unknown": doubts}
     values = {name: reading.value for name, reading in own.items()}
     found, unknown, parts = widened(*judged(told(), own), values, domain, scene.operation.temperature, passing=True)
     return {"passage_error": found, "passage_unknown": unknown, "passage_parts": parts}

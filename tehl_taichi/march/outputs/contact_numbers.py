@@ -15,6 +15,12 @@ def touching(s):
     return float(np.sum(s.weights * s.P * s.touch)) if s.touch.any() else 0.0
 
 
+def touched(s):
+    """Area where the surfaces touch over that of the dry contact, whose mean pressure is pi/4 of its largest (point: 2/3)."""
+    dry = s.load / (np.pi / 4 if s.scales.line else 2 / 3)
+    return float(np.sum(s.weights * (s.touch > 0))) / dry
+
+
 H0 = Scalar(name="h0_m", unit="m", says="rigid approach", over="point", source="load balance (pressure/newton)",
             of=lambda s: s.H0 * s.scales.h, by_hand=-0.25e-6)
 P_MAX = Scalar(name="p_max_Pa", unit="Pa", says="largest pressure", over="maximum", source="largest at the nodes",
@@ -26,5 +32,8 @@ H_C = Scalar(name="h_c_m", unit="m", says="film at x = 0, far edge", over="point
 TOUCHING = Scalar(name="contact_load_fraction", unit="1", says="load carried by solid contact", over="maximum",
                   source="pressure where the surfaces touch, over the load",
                   of=lambda s: touching(s) / s.load, by_hand=0.5 / 0.75)
+AREA = Scalar(name="contact_area_share", unit="1", says="area of solid contact", over="maximum",
+              source="area where the surfaces touch, over that of the dry contact", of=touched,
+              by_hand=0.5 / (0.75 * 4 / np.pi))
 FRICTION = Scalar(name="friction_coefficient", unit="1", says="friction coefficient", over="mean",
                   source="mean friction of both bodies over the load", of=lambda s: drag(s) / s.load, by_hand=0.02)

@@ -7,7 +7,7 @@ from types import MappingProxyType
 from tehl_taichi.fatigue.judged_surfaces import others
 from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.march import quantities
-from tehl_taichi.march.accuracy.coarse_runs import CONTACT
+from tehl_taichi.march.accuracy.coarse_runs import AREA, CONTACT
 from tehl_taichi.march.quantities import HEAT
 from tehl_taichi.scene.feature_wording import between
 from tehl_taichi.values.digits import micrometres, with_error
@@ -137,6 +137,7 @@ def _passage_rows(summary):
         t = summary["transient"]
         rows += _heat_rows("passage", t)
         rows += [*_labelled("transient", t), SummaryRow("load carried by solid contact", contact_share(t)),
+                 *([SummaryRow("area of solid contact, of the dry one", contact_share(t, AREA))] if t.get(AREA) else []),
                  SummaryRow("worst residual / load / mass error",
                      f"{t['residual_max']:.1e} / {t['load_error_max']:.1e} / {t['mass_error_max']:.1e}")]
     if "fatigue" in summary:
@@ -263,12 +264,13 @@ def _below_rows(f):
     return [replace(row, part=BELOW) for row in rows]
 
 
-def contact_share(t):
-    """The largest share of the load on solid contact: none, with its error, or as no more than what this grid has."""
-    share, error = t[CONTACT], t.get("error", {}).get(CONTACT)
+def contact_share(t, key=CONTACT):
+    """The largest share of solid contact in the load, or (key AREA) in the area: none, with its error, or as no more than what
+    this grid has."""
+    share, error = t[key], t.get("error", {}).get(key)
     if share == 0:
         return "none"
-    return f"{share:.2%} at most, not resolved" if error is None else f"{quantity(t, CONTACT, 100)} % at most"
+    return f"{share:.2%} at most, not resolved" if error is None else f"{quantity(t, key, 100)} % at most"
 
 
 def _stress(what, value):

@@ -256,8 +256,9 @@ def test_companions_give_the_bars_of_a_passage(passage):
     found = coarse_runs.errors(short(), passage, {"a": {"Fi_max": 0.5}},
                               lambda: coarse_runs.answers(short(), lambda *part: told.append(part)))
     bars = found["passage_error"]
-    assert bars.keys() == {"p_max_Pa", "h_min_m", "friction_coefficient_mean", "contact_load_fraction_max", "a:Fi_max"}
-    assert bars.pop("contact_load_fraction_max") == 0.0  # nothing touches
+    assert bars.keys() == {"p_max_Pa", "h_min_m", "friction_coefficient_mean", "contact_load_fraction_max",
+                           "contact_area_share_max", "a:Fi_max"}
+    assert bars.pop("contact_load_fraction_max") == bars.pop("contact_area_share_max") == 0.0  # nothing touches
     assert all(size > 0 for size in bars.values() if size is not None)
     assert found["passage_error"]["friction_coefficient_mean"] is not None
     assert told == [(0, 3), (1, 3), (2, 3), (3, 3)]  # 16 columns are refused, 32 have a start and two steps
@@ -335,7 +336,7 @@ def test_who_gets_companions():
 def test_a_run_without_a_passage_or_companions_has_no_bars(passage):
     assert coarse_runs.errors(short(), passage.items[:1], None, None) == {}
     assert coarse_runs.errors(short(**{"numerics.estimate_error": False}), passage, None, None) == {
-        "passage_error": {"contact_load_fraction_max": 0.0}, "passage_unknown": {}}
+        "passage_error": {"contact_load_fraction_max": 0.0, "contact_area_share_max": 0.0}, "passage_unknown": {}}
 
 
 def test_a_summary_has_numbers_or_null():
