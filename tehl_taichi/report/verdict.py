@@ -100,7 +100,8 @@ def of_fatigue(fatigue, scene=None, beside=MappingProxyType({})):
     elif all("resolved" in one for one in searches.values()):
         early = {name: one["resolved"] for name, one in searches.items()}
         said, tells = _by_what_is_known(early, worst, tells, over, feature_wording.where(scene))
-    return FATIGUE, *_load_too(*said, searches), (*_alone_words(searches), *tells, *_plane(fatigue))
+    text, tone = _load_too(said, searches)
+    return FATIGUE, text, tone, (*_alone_words(searches), *tells, *_plane(fatigue))
 
 
 def _from_pressure(searches):
@@ -168,12 +169,12 @@ def headline(worst, places, known, when=""):
     return f"{no}: the index stays below 1{when}{more}.", "no"
 
 
-def _load_too(said, tone, searches):
-    """(headline, tone) of a limit that the load alone exceeds, too."""
-    alone = _worst_alone(searches)
+def _load_too(said, searches):
+    """(headline, tone), with the words that the load alone exceeds the limit, too."""
+    (text, tone), alone = said, _worst_alone(searches)
     if tone != "yes" or not alone or judged(alone[1]["Fi_max"], error_of(alone[1], "Fi_max")) != ABOVE:
-        return said, tone
-    return f"{said.removesuffix('.')}. The load alone exceeds it, without any feature.", tone
+        return text, tone
+    return f"{text.removesuffix('.')}. The load alone exceeds it, without any feature.", tone
 
 
 def _worst_alone(searches):
