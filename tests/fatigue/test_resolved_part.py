@@ -120,7 +120,9 @@ def test_the_summary_and_the_table_have_it():
     assert rows["below the surface while resolved, at 25 um"] == "0.9 (error unknown)"
     assert summary_columns.error_of("fatigue_resolved_Fi_max") in summary_columns.numbers({"fatigue": search})
     assert summary_columns.error_of("fatigue_below_Fi_max") == "fatigue_below_error_Fi_max"
-    for part in ("contact_alone", "fatigue_contact_alone", "fatigue_by_surface_b_below", "transient"):
+    assert summary_columns.error_of("lambda") == "error_lambda"
+    for part in ("fatigue_statistics", "fatigue_by_surface_a_below_statistics", "contact_alone", "fatigue_contact_alone",
+                 "fatigue_by_surface_b_below", "transient"):
         assert summary_columns.error_of(f"{part}_Fi_max") == f"{part}_error_Fi_max"
 
 

@@ -9,8 +9,8 @@ from tehl_taichi.values import summary_units
 LEFT_OUT = {"store", "scene", "version", "left_out", "warnings", "warning_codes", "warning_data", "domain", "error_parts",
             "converged", "unknown", "unknown_codes", "clamps", "grid", "cells"}
 NAME = re.compile(r"\w[\w.+-]*")  # of an array and its folder, a column and a label
-PART = re.compile(r"(fatigue(_by_surface_[ab])?(_resolved)?(_below|_contact_alone)?|contact_alone(_by_surface_[ab])?"
-                  r"|[^_]+)_")  # of a summary, inside others
+PART = re.compile(r"(fatigue(_by_surface_[ab])?(_resolved)?(_below|_contact_alone)?(_statistics)?"
+                  r"|contact_alone(_by_surface_[ab])?|[^_]+)_")  # of a summary, inside others
 
 
 def numbers(summary, above=""):
@@ -28,6 +28,8 @@ def numbers(summary, above=""):
 
 def error_of(name):
     """Name of the error bar of a number: "fatigue_error_Fi_max" is that of "fatigue_Fi_max"."""
+    if "_" not in name:
+        return f"error_{name}"
     part = PART.match(f"{name}_")[0]
     if part == f"{name}_":  # of no part
         return f"error_{name}"
