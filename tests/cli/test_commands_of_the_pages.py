@@ -75,6 +75,7 @@ def folder(tmp_path_factory, taichi_cpu):
     _study(place)
     heights = 1e-1 * np.sin(np.arange(60) / 9.0)[:, None] * np.cos(np.arange(80) / 7.0)
     np.savetxt(place / "scan.csv", heights, delimiter=",")
+    np.savetxt(place / "profile.csv", 1e-1 * np.sin(np.arange(300) / 40.0))
     pair = tehl.flank("fzg-c", at=["C"], steady=True, changes={"grid.nx": 64, "thermal.on": False}, folder=place / "one")
     p = pair.positions[0]
     (place / "table.csv").write_text("x_pl_mm,R_a_mm,R_b_mm,u_a_m_s,u_b_m_s,load_N_per_mm\n"
@@ -100,9 +101,9 @@ def shortened(words, folder):
     """The command in the form that takes a second, with the files that its page has made before."""
     if words[0] == "new":
         (folder / words[1]).unlink(missing_ok=True)
-    for name in ("my.toml", "my_flank.toml"):
+    for name, file in (("my.toml", ""), ("my_flank.toml", "scan.csv"), ("my_profile.toml", "profile.csv")):
         if name in words[1:2] and words[0] != "new" and not (folder / name).exists():
-            scan = ("--scan", "scan.csv", "--unit", "um", "--pixel", "1.8e-6") if "flank" in name else ()
+            scan = ("--scan", file, "--unit", "um", "--pixel", "1.8e-6") if file else ()
             assert here("new", name, *scan, cwd=folder).returncode == 0
     if "my_flank.zarr" in words and words[0] != "run" and not (folder / "my_flank.zarr").exists():
         shutil.copytree(folder / "runs" / "gear-1.zarr", folder / "my_flank.zarr")
