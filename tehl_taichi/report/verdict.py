@@ -192,7 +192,7 @@ def _alone_words(searches):
     body, over = f"surface {name}" if name else "the surface", judged(alone["Fi_max"], error_of(alone, "Fi_max"))
     if not alone["depth_m"]:
         return (f"The smooth contact alone: Fi = {Fi} at {body}, {SAID[over]}.",)
-    where = f"{micrometres(alone['depth_m'])} µm below {body}"
+    where = f"at {micrometres(alone['depth_m'])} µm below {body}"
     return (f"The smooth contact alone: Fi = {Fi} {where}, {SAID[over]}, and {top} at {body}.",)
 
 

@@ -118,5 +118,5 @@ def test_the_verdict_begins_with_the_load(Fi, tail):
     found = {"surface": "a", "Fi_max": 1.4, "error": {"Fi_max": 0.05}, "surface_angle_deg": 60.0, "contact_alone": alone}
     _, headline, tone, said = verdict.of_fatigue(found)
     assert tone == "yes" and headline == "Yes: the fatigue limit is exceeded at the surface" + tail
-    assert said[0].startswith(f"The smooth contact alone: Fi = {Fi:.3f} ± 0.010 183 µm below surface a, ")
+    assert said[0].startswith(f"The smooth contact alone: Fi = {Fi:.3f} ± 0.010 at 183 µm below surface a, ")
     assert said[1].startswith("At the surface: Fi = 1.400 ± 0.050")
