@@ -158,4 +158,3 @@ def _cut(fatigue):
 def _limits(fatigue):
     """The limits that its constants follow from, Pa; {} where they were given themselves."""
     return {f"{key}_Pa": float(getattr(fatigue, key)) for key in fatigue_limits.given_limits(vars(fatigue))}
-

@@ -12,10 +12,10 @@ from tehl_taichi.fatigue.stress.steady_sweep import SteadySweep
 @dataclass(frozen=True)
 class ContactAlone:
     """Numbers of one body without features ("Fi_max", "findley_stress_max_Pa", "depth_m", "surface_Fi_max" of its surface, and
-    whether the shear of the film counts: "shear_counted") and Findley stress f (Pa) over depths (m), the surface first."""
+    whether the shear of the film counts: "shear_counted") and Findley stress f (Pa) at the surface and at the depths of
+    :func:`tehl_taichi.fatigue.depth_profile.ladder`."""
 
     summary: dict
-    depths: np.ndarray
     f: np.ndarray
 
 
@@ -26,23 +26,18 @@ def search(scene, reader, surface):
     the surface where fatigue.depths is not empty.
     """
     sweep = SteadySweep(scene, reader, surface)
-    surface_f, _ = findley.search(_histories(sweep, [0.0])[0], *_rule(scene))
-    f, depth, depths = surface_f, 0.0, np.zeros(1)
-    worst = float(f[0])
+    surface_f, _ = findley.search(_histories(sweep, [0.0])[0], *depth_profile.rule(sweep))
+    f, worst, depth = surface_f, float(surface_f[0]), 0.0
     if scene.fatigue.depths:
         under = depth_profile.ladder(sweep)
         profile = depth_profile.of_row(sweep, under, _histories(sweep, under), sweep.middle)
-        depths, f = np.append(0.0, under), np.append(surface_f, profile.f[:, 0])
+        f = np.append(surface_f, profile.f[:, 0])
         worst, depth = max((worst, 0.0), (profile.worst.f, profile.worst.depth))
     limit = scene.fatigue.endurance
     return ContactAlone({"Fi_max": worst / limit, "findley_stress_max_Pa": worst, "depth_m": depth,
-                         "surface_Fi_max": float(surface_f[0]) / limit, "shear_counted": scene.fatigue.shear}, depths, f)
+                         "surface_Fi_max": float(surface_f[0]) / limit, "shear_counted": scene.fatigue.shear}, f)
 
 
 def _histories(sweep, depths):
     """(depths, 1, moments, 6) Pa; of a line contact by its row as an endless line."""
     return histories_of(sweep, depths, [(sweep.middle, sweep.line)])[0]
-
-
-def _rule(scene):
-    return scene.fatigue.kappa, True, scene.fatigue.criterion

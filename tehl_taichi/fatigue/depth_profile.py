@@ -55,7 +55,7 @@ def _profiles(passage, depths, histories, windows, row):
     first = all_[windows[0]]
     for moments in windows:
         some, fewer = histories[:, :, moments], np.isin(all_[moments], first).all()
-        searched = findley.search(some.reshape(-1, *some.shape[2:]), *_rule(passage), known=known if fewer else None)
+        searched = findley.search(some.reshape(-1, *some.shape[2:]), *rule(passage), known=known if fewer else None)
         known = known if found else searched
         found.append(_profile(passage, depths, some, searched[0].reshape(some.shape[:2]), row))
     return found
@@ -71,7 +71,8 @@ def _profile(passage, depths, histories, f, row):
     return Profile(depths, f, WorstPoint(depth, float(passage.x[point]), float(passage.reader.y[row]), *rest))
 
 
-def _rule(passage):
+def rule(passage):
+    """Arguments of the search that follow from the scene of a passage."""
     fatigue = passage.scene.fatigue
     return fatigue.kappa, True, fatigue.criterion
 
@@ -83,7 +84,7 @@ def _refined(passage, logs, histories, f):
 
     def at(log):
         stress = _between(logs, histories[:, follow], log)
-        values, normals = findley.search(stress, *_rule(passage))
+        values, normals = findley.search(stress, *rule(passage))
         top = int(np.argmax(values))
         return float(values[top]), log, int(follow[top]), stress[top], normals[top]
 

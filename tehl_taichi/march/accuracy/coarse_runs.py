@@ -211,7 +211,7 @@ def errors(scene, reader, searches, told, domain=DomainError()):
 
 
 def has_coarse_runs(scene):
-    """Whether a run has companions: where they are asked for, and where nobody says and the run is worth it, or the surfaces
+    """Whether a run has companions: where they are asked for, and, if not refused, where the run is worth it or the surfaces
     are rough, of which one grid says little."""
     asked = scene.numerics.estimate_error
     return asked is True or asked is not False and (work(scene) >= WORTH or scene.has_fatigue and is_rough(scene))
