@@ -69,3 +69,12 @@ def greedy(megabytes):
         held[n] = 1
     time.sleep(2 if megabytes > 100 else 0)
     return megabytes
+
+
+def rough_search(p99=1.2):
+    """A made-up summary of the search of a rough surface."""
+    top = {"share_above_1": 0.12, "median": 0.7, "p90": 1.0, "p99": p99, "points": 130, "cycles_above_1": 0.2,
+           "error": {"p99": 0.1, "share_above_1": 0.05}}
+    deep = {**top, "p99": 1.4, "depth_m": 7e-6, "by_depth": [], "error": {}}
+    return {"surface": "b", "rough": True, "Fi_max": 1.7, "statistics": top,
+            "below": {"Fi_max": 2.0, "depth_m": 5e-6, "statistics": deep}}

@@ -6,7 +6,7 @@ from tehl_taichi.report import verdict
 from tehl_taichi.report.document import Answer, Page, Section, drawn, facts, sentences, table
 from tehl_taichi.report.number_text import FEW, index, value_text
 from tehl_taichi.report.plots import colour, line, stacked
-from tehl_taichi.runs.flank.flank_columns import dig, tables
+from tehl_taichi.runs.flank.flank_columns import dig, known, tables
 from tehl_taichi.runs.flank.flank_figure import PANELS
 from tehl_taichi.runs.flank.stored_flank import Flank
 from tehl_taichi.scene.gear_pair import GearPair
@@ -68,8 +68,14 @@ def _answer(flank):
     above = [summary for *_, summary in flank.rows if _has_index(summary)
              and max(value for _, value, _ in verdict.all_layers(by_surface(summary))) > 1]
     return Answer(QUESTION, headline, tone, (
-        f"The largest index is Fi = {index(Fi, error)}, {where}.",
+        f"The largest {_number_of(flank)} is Fi = {index(Fi, error)}, {where}.",
         f"It is above 1 at {len(above)} of {len(flank.rows)} positions."), doubts)
+
+
+def _number_of(flank):
+    """What is judged, in words."""
+    rough = any(dig(summary, "fatigue", "rough") for *_, summary in flank.rows)
+    return "99th percentile of the index" if rough else "index"
 
 
 def _of_films(flank, doubts):
@@ -108,11 +114,11 @@ def _mark(x):
 def _lines(flank, lines, factor):
     """Those of a panel that have values."""
     out = []
-    for n, (name, what) in enumerate(lines.items()):
+    for name, what in lines.items():
         x, y = _series(flank, what)
         if x:
             y = [value if value is None else value * factor for value in y]
-            out.append(line([value * 1e3 for value in x], y, name, colour(n), mode="lines+markers"))
+            out.append(line([value * 1e3 for value in x], y, name, colour(len(out)), mode="lines+markers"))
     return out
 
 
@@ -121,7 +127,7 @@ def _series(flank, what):
     x: list[float | None] = []
     y: list[float | None] = []
     for at, p_H, summary in flank.rows:
-        value = p_H if what == "p_H" else at.srr if what == "srr" else dig(summary, *what)
+        value = p_H if what == "p_H" else at.srr if what == "srr" else known(summary, *what)
         if value is not None and x and x[-1] == at.x_pl:
             x, y = [*x, at.x_pl], [*y, None]
         if value is not None:

@@ -49,6 +49,12 @@ def to_dict(scene):
     return out
 
 
+def rms_of(numbers):
+    """The rms height (m) of both surfaces together, of the part `roughness` of a summary; None where that has none."""
+    whole = (numbers or {}).get("combined") or next(iter((numbers or {}).values()), {})
+    return whole.get("Sq_m", whole.get("Rq_m"))
+
+
 def _of(features, edge):
     """Of the features of one surface, of endless ones up to the edge (m) of the domain along y; None where there are none, or
     they overlap nowhere."""

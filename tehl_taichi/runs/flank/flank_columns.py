@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Callable
 
 from tehl_taichi.march import quantities
+from tehl_taichi.scene import surface_roughness
 from tehl_taichi.values.digits import with_error
 from tehl_taichi.values.escape import cell
 
@@ -45,6 +46,14 @@ def error_of(summary, *keys):
     return dig(summary, *keys[:-1], "error", keys[-1])
 
 
+def known(summary, *keys):
+    """The value that tables and figures have of these keys: none of a distribution over a single feature, whose largest index
+    says more."""
+    if "statistics" in keys and not dig(summary, "fatigue", "rough"):
+        return None
+    return dig(summary, *keys)
+
+
 class _Of:
     """A number of the summary, with its error bar."""
 
@@ -52,14 +61,16 @@ class _Of:
         self.keys = keys
 
     def __call__(self, position, p_H, summary):
-        return dig(summary, *self.keys)
+        return known(summary, *self.keys)
 
     def error(self, position, p_H, summary):
         return error_of(summary, *self.keys)
 
 
 CONTACT, STEADY, PASSAGE = TABLES = ("contact", "steady film", "while the feature passes")
-TITLES = {"steady": STEADY, "transient": PASSAGE, "fatigue": PASSAGE, "fatigue.below": PASSAGE}  # of the parts of a summary
+# of the parts of a summary
+TITLES = {"steady": STEADY, **dict.fromkeys(("transient", "fatigue", "fatigue.statistics", "fatigue.below",
+                                             "fatigue.below.statistics"), PASSAGE)}
 COLUMNS = (
     TableColumn("point", "at", 1, "", lambda at, *_: at.point, CONTACT),
     TableColumn("x_pl_m", "x_pl mm", 1e3, ".3f", lambda at, *_: at.x_pl, CONTACT),
@@ -71,6 +82,7 @@ COLUMNS = (
     TableColumn("p_Hertz_Pa", "p_H GPa", 1e-9, ".3f", lambda at, p_H, _: p_H, CONTACT),
     *(TableColumn(one.column, one.head, one.factor, one.form, _Of(*one.part.split("."), one.key), TITLES[one.part])
       for one in quantities.ENTRIES if one.column),
+    TableColumn("Sq_m", "Sq um", 1e6, ".3f", lambda at, p_H, found: surface_roughness.rms_of(dig(found, "roughness")), STEADY),
     TableColumn("lambda", "lambda", 1, ".2f", _Of("lambda"), STEADY),
     TableColumn("worse_body", "body", 1, "", lambda at, p_H, summary: dig(summary, "fatigue", "surface"), PASSAGE),
 )
@@ -96,10 +108,10 @@ def tables(rows):
 def csv_text(rows):
     """The table as CSV in SI units; after that the error bars, and what a table of positions brought along."""
     columns, more = used(rows), list(dict.fromkeys(key for at, *_ in rows for key in at.more))
-    known = [column for column in columns if any(column.error(*row) is not None for row in rows)]
+    with_bars = [column for column in columns if any(column.error(*row) is not None for row in rows)]
     text = io.StringIO()
     out = csv.writer(text)
-    out.writerow(map(cell, [*(column.name for column in columns), *(f"error_{column.name}" for column in known), *more]))
-    out.writerows(map(cell, [*(column.value(*row) for column in columns), *(column.error(*row) for column in known),
+    out.writerow(map(cell, [*(column.name for column in columns), *(f"error_{column.name}" for column in with_bars), *more]))
+    out.writerows(map(cell, [*(column.value(*row) for column in columns), *(column.error(*row) for column in with_bars),
                              *(row[0].more.get(key) for key in more)]) for row in rows)
     return text.getvalue()

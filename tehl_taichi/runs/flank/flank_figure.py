@@ -5,7 +5,7 @@ import os
 import numpy as np
 
 from tehl_taichi.disk import links
-from tehl_taichi.runs.flank.flank_columns import dig, error_of
+from tehl_taichi.runs.flank.flank_columns import error_of, known
 from tehl_taichi.view.figures import palette
 from tehl_taichi.view.figures.figure_style import drawing, made
 
@@ -17,11 +17,16 @@ PANELS = (("film (µm)", 1e6, {"steady, centre": ("steady", "h_c_m"), "steady, s
           ("temperature (°C)", 1, {"film, steady": ("steady", "film_max_C"),
                                    "film, feature passes": ("transient", "film_max_C"),
                                    "surface a, feature passes": ("transient", "surface_a_max_C")}),
-          ("Fi", 1, {"at the surface": ("fatigue", "Fi_max"), "largest below the surface": ("fatigue", "below", "Fi_max")}),
+          ("Fi", 1, {"99th percentile at the surface": ("fatigue", "statistics", "p99"),
+                     "median at the surface": ("fatigue", "statistics", "median"),
+                     "99th percentile below it": ("fatigue", "below", "statistics", "p99"),
+                     "largest at the surface": ("fatigue", "Fi_max"), "largest below it": ("fatigue", "below", "Fi_max")}),
+          ("surface with Fi > 1 (%)", 100, {"of the worse body": ("fatigue", "statistics", "share_above_1")}),
           ("friction coefficient", 1, {"steady": ("steady", "friction_coefficient"),
                                        "mean, feature passes": ("transient", "friction_coefficient_mean")}),
+          ("λ", 1, {"h_c/Sq": ("lambda",)}),
           ("SRR", 1, {"(u_a − u_b)/u_m": "srr"}))
-LAST = 5  # panels: friction and slip fill up what a steady or isothermal flank leaves free
+LAST = 5  # panels: friction, λ and slip fill up what a steady or isothermal flank leaves free
 
 
 def check(folder, page):
@@ -54,11 +59,11 @@ def _drawn(page, flank):
 
 
 def _panel(ax, flank, label, factor, lines):
-    for n, (name, what) in enumerate(lines.items()):
-        if series := _series(flank, what):
-            x, y, error = np.array(series, float).T
-            error = error * factor if np.isfinite(error).any() else None
-            ax.errorbar(x * 1e3, y * factor, error, fmt=".-", color=palette.LINES[n], label=name, **palette.BARS)
+    found = {name: series for name, what in lines.items() if (series := _series(flank, what))}
+    for (name, series), colour in zip(found.items(), palette.LINES):
+        x, y, error = np.array(series, float).T
+        error = error * factor if np.isfinite(error).any() else None
+        ax.errorbar(x * 1e3, y * factor, error, fmt=".-", color=colour, label=name, **palette.BARS)
     ax.set_ylabel(label)
     ax.grid()
     ax.legend()
@@ -69,7 +74,7 @@ def _series(flank, what):
     breaks."""
     out = []
     for at, p_H, summary in flank.rows:
-        value = p_H if what == "p_H" else at.srr if what == "srr" else dig(summary, *what)
+        value = p_H if what == "p_H" else at.srr if what == "srr" else known(summary, *what)
         if value is None:
             continue
         if out and out[-1][0] == at.x_pl:
