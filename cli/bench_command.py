@@ -196,8 +196,9 @@ def accuracy(
     context: typer.Context,
     out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: bool = FORCE, write: bool = WRITE,
     threads: Optional[int] = THREADS,
-    only: Optional[str] = typer.Option(None, help="run only one part: errors (against run time), coverage (of the error bars) "
-                                                  "or exits (error bars of exits)"),
+    only: Optional[str] = typer.Option(None, help="run only one part: errors (against run time), coverage (of the error bars), "
+                                                  "exits (error bars of exits) or roughness (of rough surfaces, part of "
+                                                  "coverage)"),
     seed: int = typer.Option(4, help="seed of the random scenes that check the error bars"),
     judge: bool = typer.Option(False, "--judge", help="evaluate the runs that `--out` already holds"),
     keep: bool = typer.Option(False, "--keep", help="write the errors into the package, for `--target-error`"),
@@ -209,7 +210,7 @@ def accuracy(
     from tehl_taichi.engine import runtime
     from tehl_taichi.values.checks import choice
 
-    choice("--only", only, (None, "errors", "coverage", "exits"))
+    choice("--only", only, (None, "errors", "coverage", "exits", "roughness"))
     if judge or only not in (None, "errors"):
         say_idle(context, "no errors are computed", "keep")
     elif keep:
@@ -219,7 +220,7 @@ def accuracy(
     if only == "errors":
         say_idle(context, "no error bars are judged", "judge")
     runtime.start(threads=threads)
-    found, name = {}, "exits" if only == "exits" else "coverage"
+    found, name = {}, only if only in ("exits", "roughness") else "coverage"
     errors = Results(out, "accuracy", force, write=write) if only in (None, "errors") and not judge else None
     bars = Results(out, name, force, kept=("json",) if judge else (), write=write) if only != "errors" else None
     if errors:
@@ -273,7 +274,7 @@ def _coverage(results, seed, quick, judge, threads, as_json):
 
     path, name = results.file("json"), results.name
     if not judge:
-        measure.fresh(threads, suite.run, path, seed, quick, say, name == "exits")
+        measure.fresh(threads, suite.run, path, seed, quick, say, name)
     elif not path.exists():
         raise StoreError(f"--judge: {path} does not exist. Run `tehl bench accuracy --only {name}` first")
     stored = json.loads(path.read_text())
@@ -281,7 +282,7 @@ def _coverage(results, seed, quick, judge, threads, as_json):
     results.documented(("quantity", *BARS), [(f"{part} {what}", *_of_bars(*numbers)) for part, what, *numbers in found])
     for part, rows in () if as_json else itertools.groupby(found, lambda row: row[0]):
         list_table(f"{part}: error bars of random scenes (seed {stored['seed']}), checked on grids {suite.FINER} times as "
-                   "fine;\nmedians of bar/error, bar and error (relative, or in K)",
+                   "fine;\nmedians of bar/error, bar and error (relative, in K, or of shares themselves)",
                    ("quantity", *BARS), [(what, *_of_bars(*numbers)) for _, what, *numbers in rows])
     for one in stored["rows"]:
         if "reason" in one:

@@ -3,17 +3,23 @@ four times as long."""
 
 import contextlib
 import json
-from dataclasses import asdict
+import math
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import numpy as np
 
 from tehl_taichi.disk import user_files
 from tehl_taichi.errors import Error
+from tehl_taichi.fatigue.index_statistics import NUMBERS
 from tehl_taichi.march.accuracy import coarse_runs
 from tehl_taichi.march.accuracy.domain_error import DomainError, widened
 from tehl_taichi.march.accuracy.error_bars import GridReading, bars
 from tehl_taichi.scene import Scene, SceneError, scene
+from tehl_taichi.scene.feature import Feature
+from tehl_taichi.scene.resolution import FEWEST
+from tehl_taichi.scene.rough_surfaces import is_rough
+from tehl_taichi.scene.scales import Scales
 
 FINER = LONGER = 4
 FARTHEST, WIDEST = 20.0, 12.0  # a, b: ends of the longer domains
@@ -25,32 +31,47 @@ STEADY = {"line, Moes": (12, (64, 128, 256)), "line": (10, (64, 128, 256)), "lin
 PASSAGES = {"ridge": 1, "ridge, thermal": 1, "asperity": 2, "asperity, thermal": 1, "ridge on ball": 1}
 EXITS = {"exit": 10, "exit, thermal": 10}  # of endless features, in one dimension: grids four times as fine are within reach
 QUICK = {"line, Moes": (2, (64,)), "line": (1, (64,)), "line, thermal": (1, (64,)), "circle": (1, (32,))}
-QUICK_EXITS = {"exit": 1}
-QUICK_EXIT_COLUMNS, EXIT_COLUMNS = (128,), (256, 512)
+ROUGH = {"rough": 6, "rough pair": 6, "rough pair, thermal": 2}  # line contacts; one surface ground across, or both
+MOVING = {"exits": EXITS, "roughness": ROUGH}  # parts that have no steady scenes
+QUICK_MOVING = {"exits": {"exit": 1}, "roughness": {"rough": 1}}
+QUICK_COLUMNS, COLUMNS_OF = 128, {"exits": (256, 512), "roughness": (128,)}
+PARTS = ("coverage", *MOVING)
 DRAWS = 100  # until one is admissible
+LIKE_ONE = ("share", "contact")  # shares of a whole, which may be 0
 COLUMNS = ("part", "quantity", "bars", "null", "hold", "ratio", "bar", "error")  # of the table
 RELATIVE_TO = {"C": 1.0}  # K: temperatures have no natural zero
 
 
-def battery(seed, quick=False, exits=False):
-    """[(kind, scene)]: steady scenes and passages, or exits, the same for the same seed; quick: a few on coarse grids."""
-    rng = np.random.default_rng(seed)
+def battery(seed, quick=False, part="coverage"):
+    """[(kind, scene)] of one of the PARTS, the same for the same seed; coverage: steady scenes, passages and rough surfaces;
+    quick: a few on coarse grids."""
+    rng, whole = np.random.default_rng(seed), part == "coverage"
+    kinds = _at_rest(quick) if whole else _moving(part, quick)
+    drawn = [(kind, _admissible(rng, kind, columns)) for kind, columns in kinds]
+    return drawn + (battery(seed, quick, "roughness") if whole and not quick else [])
+
+
+def _at_rest(quick):
+    """(kind, columns to choose from) of steady scenes and of passages, which choose them themselves."""
     steady, passages = (QUICK, {}) if quick else (STEADY, PASSAGES)
-    kinds = [(kind, columns) for kind, (count, columns) in steady.items() for _ in range(count) if not exits]
-    moving = (QUICK_EXITS if quick else EXITS) if exits else passages
-    of_exits = QUICK_EXIT_COLUMNS if quick else EXIT_COLUMNS
-    kinds += [(kind, of_exits if exits else None) for kind, count in moving.items() for _ in range(count)]
-    return [(kind, _admissible(rng, kind, columns)) for kind, columns in kinds]
+    kinds = [(kind, columns) for kind, (count, columns) in steady.items() for _ in range(count)]
+    return kinds + [(kind, None) for kind, count in passages.items() for _ in range(count)]
+
+
+def _moving(part, quick):
+    columns = (QUICK_COLUMNS,) if quick else COLUMNS_OF[part]
+    return [(kind, columns) for kind, count in (QUICK_MOVING if quick else MOVING)[part].items() for _ in range(count)]
 
 
 def _admissible(rng, kind, columns):
     """The first scene drawn that is not refused."""
+    moving = {"exit": _exit, "roug": _rough}.get(kind[:4])
     for _ in range(DRAWS):
         with contextlib.suppress(SceneError):
             if columns is None:
                 return _passage(rng, kind)
             nx = int(rng.choice(columns))
-            return _exit(rng, "thermal" in kind, nx) if kind.startswith("exit") else _steady(rng, kind, nx)
+            return moving(rng, kind, nx) if moving else _steady(rng, kind, nx)
     raise SceneError(f"none of {DRAWS} scenes drawn as {kind!r} is admissible")
 
 
@@ -107,19 +128,32 @@ def _passage(rng, kind):
         "grid.ny": nx // 4, "time.x_end": float("inf") if ridge else 0.0})
 
 
-def _exit(rng, thermal, nx):
+def _rough(rng, kind, nx):
+    """Ground surfaces of Ra 0.1 to 0.5 um across, in one dimension; both signs of slip."""
+    smooth = scene("gear").replace(**{
+        "srr": float(rng.choice([-1.0, 1.0])) * _log_uniform(rng, 0.03, 0.3), "hertz_pressure": _log_uniform(rng, 1e9, 2.2e9),
+        "temperature": float(rng.uniform(60, 100)), "speed": _log_uniform(rng, 3.0, 15.0), "thermal.on": "thermal" in kind,
+        "grid.nx": nx, "grid.ny": nx // 4})
+    s = Scales.of(smooth)
+    shortest, surfaces = _log_uniform(rng, 1.05, 2.0) * FEWEST * s.cell(smooth.grid)[0], "ab" if "pair" in kind else "a"
+    ground = {"shape": "ground", "height": _log_uniform(rng, 0.1e-6, 0.5e-6), "width": shortest, "length": math.inf,
+              "extent_x": 1.5 * s.a, "taper": 0.15 * s.a}
+    return replace(smooth, features=tuple(Feature(surface=name, seed=int(rng.integers(1000)), **ground) for name in surfaces))
+
+
+def _exit(rng, kind, nx):
     """An asperity or a dent that nothing ends across, until it has left."""
     return scene("gear").replace(**{
         "feature.length": float("inf"), "height": float(rng.choice([-1.0, 1.0])) * _log_uniform(rng, 0.5e-6, 1.5e-6),
         "width": _log_uniform(rng, 150e-6, 300e-6), "srr": float(rng.choice([0.0, rng.uniform(-0.4, 0.4)], p=[0.2, 0.8])),
-        "thermal.on": thermal, "hertz_pressure": _log_uniform(rng, 1e9, 2.2e9), "temperature": float(rng.uniform(60, 100)),
-        "grid.nx": nx, "grid.ny": nx // 4})
+        "thermal.on": "thermal" in kind, "hertz_pressure": _log_uniform(rng, 1e9, 2.2e9),
+        "temperature": float(rng.uniform(60, 100)), "grid.nx": nx, "grid.ny": nx // 4})
 
 
-def run(path, seed, quick=False, progress=None, exits=False):
+def run(path, seed, quick=False, progress=None, part="coverage"):
     """Rows of all scenes of a battery (see :func:`row`), kept in the JSON file `path` as they come."""
     rows, path = [], Path(path)
-    for n, (kind, description) in enumerate(battery(seed, quick, exits)):
+    for n, (kind, description) in enumerate(battery(seed, quick, part)):
         if progress:
             progress(f"{n + 1}: {kind}, {description.grid.nx} columns")
         rows.append({"kind": kind, "columns": description.grid.nx, **row(description)})
@@ -157,6 +191,8 @@ def truth(description, values):
     numbers that a domain with the pressure of the oil beyond it moves."""
     if description.isothermal and description.contact.kind == "line" and not description.transient:
         return values(on_longer(on_finer(description)))
+    if is_rough(description):  # the domain hardly moves what single peaks decide, and its runs take as long as the finer ones
+        return values(on_finer(description))
     own, fine, far = (values(one) for one in (description, on_finer(description), on_longer(description)))
     return {name: value + far[name] - own[name] for name, value in fine.items()}
 
@@ -184,16 +220,30 @@ def _row_of_passage(description):
 
 
 def judged(rows):
-    """[(part, quantity, value, error bar or None, real error)] of rows of a battery."""
+    """[(part, quantity, value, error bar or None, real error)] of rows of a battery; of rough surfaces the numbers that
+    settle."""
     out = []
     for one in rows:
         if "reason" in one:
             continue
-        part = "steady" if "answers" not in one else "exit" if one["kind"].startswith("exit") else "passage"
+        part = "steady" if "answers" not in one else {"exit": "exit", "roug": "roughness"}.get(one["kind"][:4], "passage")
         own, found = _bars(one, part)
-        out += [(part, name, own[name].value, size, abs(one["finer"][name] - own[name].value)) for name, size in found.items()
-                if own[name].value != 0]  # friction without slip
+        out += [(part, _quantity(name), own[name].value, size, abs(one["finer"][name] - own[name].value))
+                for name, size in found.items() if _counts(part, name, own[name].value)]
     return out
+
+
+def _counts(part, name, value):
+    """Whether a bar is judged: of rough surfaces those of what settles, elsewhere not of friction without slip."""
+    return name.startswith("contact") or name.rpartition(".")[2] in NUMBERS if part == "roughness" else value != 0
+
+
+def _quantity(name):
+    """The same name for all bodies and depths: "p99, surface" is "a:0 um.p99"."""
+    where, _, key = name.rpartition(".")
+    if key not in NUMBERS:
+        return name
+    return f"{key}, {'surface' if where.endswith(':0 um') else 'below'}"
 
 
 def _bars(one, part):
@@ -220,13 +270,18 @@ def table(rows):
 
 
 def _line(group):
-    stated = [(size, real, RELATIVE_TO.get(name[-1], abs(value))) for _, name, value, size, real in group if size is not None]
+    stated = [(size, real, _unit(name, value)) for _, name, value, size, real in group if size is not None]
     if not stated:
         return 0, len(group), *[None] * 4
     size, real, unit = (np.array(column) for column in zip(*stated))
     width = size / np.maximum(real, 1e-300)
     return (len(stated), len(group) - len(stated), float(np.mean(real <= size)), float(np.median(width)),
             float(np.median(size / unit)), float(np.median(real / unit)))
+
+
+def _unit(name, value):
+    """What a bar and an error of a number are parts of."""
+    return 1.0 if name.startswith(LIKE_ONE) else RELATIVE_TO.get(name[-1], abs(value))
 
 
 def chart(plt, lines):

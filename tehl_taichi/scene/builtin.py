@@ -29,7 +29,7 @@ BUILT_INS = {
                           "3 um asperity: the surfaces touch"),
     "rough": (Scene(name="rough", features=(ROUGH,)), "gear contact with a patch of random roughness, rms 0.15 um"),
     "rough-pair": (Scene(name="rough-pair", features=(Feature(seed=1, **GROUND), Feature(seed=2, surface="b", **GROUND)),
-                         grid=Grid(nx=160, ny=40)),
+                         grid=Grid(nx=192, ny=48)),
                    "two ground flanks, Ra 0.3 um each, marks across rolling (exchange width and length of both: along)"),
     "ball-on-disc": (Scene(name="ball-on-disc", features=(), operation=Operation(u_m=0.01075, srr=0.0), **BALL),
                      "steel ball on glass, 0.54 GPa: steady circular contact, Newtonian oil"),

@@ -1,7 +1,7 @@
 """Whether features pass through the domain, and whether the grid sees them."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene.scales import Scales
@@ -98,9 +98,13 @@ def sights(scene):
 
 
 def resolved_features(scene, times):
-    """The features that a grid with 1/times as many cells along each axis still resolves."""
-    lost = {sight.feature for sight in sights(scene) if sight.cells < FEWEST * times}
-    return tuple(f for n, f in enumerate(scene.features) if n not in lost)
+    """What of the features a grid with 1/times as many cells along each axis still resolves: of those that are sums of waves
+    the long ones, of the others those of its size."""
+    cells = [FEWEST * times * cell for cell in Scales.of(scene).cell(scene.grid)]
+    seen = [f.kind.coarser(f, *cells) for f in scene.features]
+    seen = replace(scene, features=tuple(f for f in seen if f is not None))
+    lost = {sight.feature for sight in sights(seen) if sight.cells < FEWEST * times}
+    return tuple(f for n, f in enumerate(seen.features) if n not in lost)
 
 
 def _remedy(scene, cells, worst):

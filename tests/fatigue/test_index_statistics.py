@@ -86,6 +86,18 @@ def test_coarse_grids_take_the_waves_that_they_resolve():
     assert coarse_runs.scenes(single)[1]  # nothing would be left: refused
 
 
+@pytest.mark.parametrize("name, waves", [("rough-pair", (11, 12)), ("rough", (8, 11))])
+def test_coarse_grids_take_the_long_waves_of_a_random_surface(name, waves):
+    """Those of at least four of their cells of 5 a/nx, at the heights and phases that the whole has."""
+    scene = tehl.scene(name).replace(**{"grid.nx": 256, "grid.ny": 64})
+    found, refused = coarse_runs.scenes(scene)
+    assert not refused
+    for (least, count), coarse in zip(zip((90.5, 45.3), waves), found):
+        assert [len(f.kind.kept(f)[0]) for f in coarse.features] == [count] * len(scene.features)
+        assert all(f.shortest_x == pytest.approx(least * 1e-6, rel=0.01) for f in coarse.features)
+        assert [f.seed for f in coarse.features] == [f.seed for f in scene.features]
+
+
 def test_the_summary_has_bars_and_the_table_leads_with_them(taichi_cpu):
     part = {"share_above_1": 0.12, "median": 0.7, "p90": 1.0, "p99": 1.2, "points": 130, "cycles_above_1": 0.2}
     search = {"surface": "b", "rough": True, "Fi_max": 1.3, "statistics": dict(part),

@@ -86,7 +86,7 @@ def test_enough_cells_carry_no_warning():
 
 def test_which_built_in_scenes_are_coarse():
     coarse = {name for name in BUILT_INS if any("cells of grid" in line for line in scene(name).warnings())}
-    assert coarse == {"rough", "rough-pair"}  # 7.1 and 8.8 cells per shortest wave; 592 x 148 would be enough for rough
+    assert coarse == {"rough", "rough-pair"}  # 7.1 and 10.6 cells per shortest wave; 592 x 148 would be enough for rough
 
 
 @pytest.mark.parametrize("feature, words", [

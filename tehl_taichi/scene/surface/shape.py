@@ -61,6 +61,11 @@ class Shape(Entry):
         """({key: length along x}, {key: length along y}) that the cells of a grid must be able to see."""
         return {"width": f.width}, {}
 
+    def coarser(self, f, x, y):
+        """What of it a grid sees that needs waves of x, y (m): without those of a sum of many that are shorter; None where
+        nothing of that is left."""
+        return f
+
     def tidy(self, f):
         """Give its own keys the form in which they are checked (they may be of any type yet)."""
 

@@ -14,6 +14,7 @@ from tehl_taichi.march.accuracy import coarse_runs, error_bars, readings
 from tehl_taichi.march.accuracy.error_bars import GridReading, bar, bars, estimated_error, parabola_offset
 from tehl_taichi.runs.summary import result_warnings, summary, summary_rows
 from tehl_taichi.scene import scene
+from tehl_taichi.scene.rough_surfaces import is_rough
 from tehl_taichi.scene.scales import Scales
 
 LIMIT = 2.0
@@ -222,7 +223,7 @@ def test_the_table_of_a_battery_is_counted_right():
 
 
 def test_a_battery_of_exits_leaves_the_contact_in_one_dimension():
-    drawn = coverage.battery(3, exits=True)
+    drawn = coverage.battery(3, part="exits")
     assert [kind for kind, _ in drawn] == ["exit"] * 10 + ["exit, thermal"] * 10
     for kind, one in drawn:
         assert one.one_dimensional and one.path[1] > 1.2 and one.grid.nx in (256, 512) and one.isothermal == (kind == "exit")
@@ -230,6 +231,30 @@ def test_a_battery_of_exits_leaves_the_contact_in_one_dimension():
     own, coarser = ({"p_max_Pa": vars(GridReading(value))} for value in (4.0, 3.9))
     row = {"own": own, "answers": [{"values": coarser}], "finer": {"p_max_Pa": 4.05}}
     assert [coverage.judged([{"kind": kind, **row}])[0][0] for kind in ("exit, thermal", "ridge")] == ["exit", "passage"]
+
+
+def test_a_battery_of_rough_surfaces_has_both_slips_and_bodies():
+    drawn = coverage.battery(1, part="roughness")
+    assert [kind for kind, _ in drawn] == ["rough"] * 6 + ["rough pair"] * 6 + ["rough pair, thermal"] * 2
+    for kind, one in drawn:
+        assert one.one_dimensional and is_rough(one) and one.isothermal == ("thermal" not in kind)
+        assert [f.surface for f in one.features] == (["a", "b"] if "pair" in kind else ["a"])
+        assert len(coverage.coarse_runs.scenes(one)[0]) == 2 and all(1e-7 <= f.height <= 5e-7 for f in one.features)
+    assert {one.operation.srr > 0 for _, one in drawn} == {True, False}
+    assert coverage.battery(4)[-14][0] == "rough" and len(coverage.battery(4)) == 62 + 6 + 14
+
+
+def test_the_numbers_of_rough_surfaces_that_settle_are_judged():
+    """Of all bodies and depths together; shares are parts of nothing and count where there are none."""
+    own = {name: vars(GridReading(value, spread=True)) for name, value in (("a:0 um.p99", 1.0), ("b:0 um.p99", 1.2),
+                                                                          ("a:7 um.share_above_1", 0.0), ("b:Fi_max", 2.0))}
+    coarser = {name: {**reading, "value": reading["value"] + 0.1} for name, reading in own.items()}
+    answers = [{"values": one} for one in (coarser, coarser)]
+    row = {"kind": "rough", "own": own, "answers": answers,
+           "finer": {"a:0 um.p99": 1.05, "b:0 um.p99": 2.0, "a:7 um.share_above_1": 0.02, "b:Fi_max": 9.0}}
+    share, percentile, everything = sorted(coverage.table([row]), key=lambda line: line[2])
+    assert share[:5] == ("roughness", "share_above_1, below", 1, 0, 1.0) and share[7] == pytest.approx(0.02)
+    assert percentile[:5] == ("roughness", "p99, surface", 2, 0, 0.5) and everything[2] == 3
 
 
 def short(**changes):

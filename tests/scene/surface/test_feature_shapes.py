@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tehl_taichi.laws.gap import undeformed
-from tehl_taichi.scene import Scene, scene
+from tehl_taichi.scene import Scene, SceneError, scene
 from tehl_taichi.scene.feature import Feature
 
 UM = 1e-6
@@ -103,6 +103,40 @@ def test_marks_lie_along_the_longer_of_width_and_length():
     for z, quick, slow in ((across, 0, 1), (along, 1, 0)):
         assert np.abs(np.diff(z, axis=quick)).mean() > 5 * np.abs(np.diff(z, axis=slow)).mean()
     assert Feature(**{**GROUND, "length": math.inf}).transverse and not Feature(**GROUND).transverse
+
+
+BANDS = [(GROUND, 40, 160), ({**GROUND, "width": 400 * UM, "length": 40 * UM}, 400, 1600),
+         ({"shape": "rough", "height": 0.3 * UM, "width": 40 * UM, "extent_x": 600 * UM, "extent_y": 600 * UM}, 40, 600)]
+
+
+@pytest.mark.parametrize("keys, finest, longest", BANDS)
+def test_a_band_keeps_its_waves_as_they_are(keys, finest, longest):
+    """With the shortest wave as its limit nothing is lost; what limits leave and what they take share the mean square."""
+    x, y = np.random.default_rng(5).uniform(-0.02, 0.02, (2, 20000))
+    wave = {**keys, "extent_x": 0.03, "extent_y": 0.0} if keys["shape"] == "ground" else keys
+
+    def waves(least):
+        f = Feature(**{**wave, "shortest_x": least * UM})
+        return f.kind.waves(f, x, y)
+
+    whole, part = waves(0), waves(1.7 * finest)
+    assert np.array_equal(whole, waves(finest)) and not np.array_equal(whole, part)
+    assert np.mean(part**2) + np.mean((whole - part) ** 2) == pytest.approx(np.mean(whole**2), rel=0.05)
+    alone = Feature(**{**wave, "shortest_x": longest * UM})  # a single wave is left
+    at = np.linspace(-50, 50, 9) * UM
+    assert alone.kind.waves(alone, at + longest / 2 * UM, 0.0) == pytest.approx(-alone.kind.waves(alone, at, 0.0), abs=1e-15)
+    assert alone.kind.sizes(alone)[0]["width"] == pytest.approx(longest * UM)
+    with pytest.raises(SceneError, match=f"shortest_x = .* leaves no wave along x; allowed: at most {longest * UM:g} m"):
+        Feature(**{**keys, "shortest_x": 1.1 * longest * UM})
+
+
+def test_a_limit_across_takes_waves_across():
+    """Along y the longest of four waves of 100 um is 400 um; the others are left out."""
+    f = Feature(**{**GROUND, "length": 100 * UM, "extent_y": 2e-3, "shortest_y": 400 * UM})
+    y = np.linspace(100, 180, 9) * UM
+    ahead, behind = (f.kind.waves(f, 30 * UM, np.hypot(at, 0)) for at in (y, y + 400 * UM))
+    assert behind == pytest.approx(ahead, abs=0.02 * UM) and np.ptp(ahead) > 0.05 * UM
+    assert f.kind.sizes(f)[1]["length"] == pytest.approx(400 * UM)
 
 
 def test_the_undeformed_gap():

@@ -45,7 +45,7 @@ def test_features_go_to_other_processes(name):
 def test_keys_of_one_shape_are_refused_on_others():
     own = [key for keys in OWN for key in kinds(keys)]
     turns = {"transpose", "mirror_x", "mirror_y"}
-    turns |= {"lay", "offset_x", "offset_y"}
+    turns |= {"lay", "offset_x", "offset_y", "shortest_x", "shortest_y"}
     assert {"seed", "file", "unit", "scale", "pixel", "pixel_y", "level", "cutoff", "sha256", *turns} == set(own)
     for key in ("scale", "pixel", "seed"):
         with pytest.raises(SceneError, match=f"feature.{key} .*has no effect: shape 'cosine' .* belongs to {USED_BY[key][0]}"):

@@ -1,55 +1,36 @@
 """Random roughness."""
 
-from dataclasses import dataclass
 from types import SimpleNamespace
 
 import numpy as np
 
-from tehl_taichi.scene.surface.shape import FINE, needs_patch
-from tehl_taichi.scene.surface.shapes.patch import Patch
-from tehl_taichi.values.quantity import count
+from tehl_taichi.scene.surface.shapes.random_waves import MODES, Random, RandomWaves
 from tehl_taichi.values.registry import Checked
 
-MODES = 12  # per direction
 
-
-@dataclass(frozen=True)
-class Random:
-    seed: int = count(1, "rough: seed of the random numbers", 0, 2**31)
-
-
-class Rough(Patch):
-    rough = True
-
-    def finest(self, f):
-        return f.width / FINE, f.width / FINE
-
-    def height(self, f, x, y):
-        return self.waves(f, x, y) * self.window(f, x, y)
+class Rough(RandomWaves):
+    def lengths(self, f):
+        """Up to the length of the patch."""
+        return (np.geomspace(max(f.extent_x, 2 * f.width), f.width, MODES),) * 2
 
     def waves(self, f, x, y):
         """Sum of cosines of equal power per octave with random phases in x, even in y; rms = height."""
         rng = np.random.default_rng(f.seed)
-        longest = max(f.extent_x, 2 * f.width)
-        k = 2 * np.pi / np.geomspace(longest, f.width, MODES)
+        k, (along_x, along_y) = 2 * np.pi / self.lengths(f)[0], self.kept(f)
         phase, size = rng.uniform(0, 2 * np.pi, (MODES, MODES)), rng.standard_normal((MODES, MODES))
         size *= 2 * f.height / np.sqrt((size**2).sum())
-        along = [sum(size[p, q] * np.cos(k[p] * x + phase[p, q]) for p in range(MODES)) for q in range(MODES)]
-        return sum(along[q] * np.cos(k[q] * y) for q in range(MODES))
-
-    def check(self, f):
-        needs_patch(f)
-        super().check(f)
+        return sum(sum(size[p, q] * np.cos(k[p] * x + phase[p, q]) for p in along_x) * np.cos(k[q] * y) for q in along_y)
 
     def sizes(self, f):
-        across = {"width": f.width} | ({"extent_y": f.extent_y} if f.extent_y > 0 else {})
-        return {"width": f.width, "extent_x": f.extent_x}, across
+        along, across = self.shortest(f)
+        return ({"width": along, "extent_x": f.extent_x},
+                {"width": across} | ({"extent_y": f.extent_y} if f.extent_y > 0 else {}))
 
 
 def rms_of_many():
     """rms at 20 000 places far apart of waves that go on without end."""
     places = np.random.default_rng(3).uniform(-1.0, 1.0, (2, 20000))
-    f = SimpleNamespace(seed=1, extent_x=500e-6, width=40e-6, height=0.2e-6)
+    f = SimpleNamespace(seed=1, extent_x=500e-6, width=40e-6, height=0.2e-6, shortest_x=0.0, shortest_y=0.0)
     return float(np.sqrt(np.mean(ROUGH.waves(f, *places) ** 2)))
 
 

@@ -1,0 +1,66 @@
+"""Base of the shapes that are sums of many waves with random phases, of which a coarse grid sees the long ones."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from tehl_taichi.errors import SceneError
+from tehl_taichi.scene.surface.shape import FINE, needs_patch
+from tehl_taichi.scene.surface.shapes.patch import Patch
+from tehl_taichi.values.quantity import count, quantity
+
+MODES = 12  # per direction
+LONGEST = 0.03  # m
+SLACK = 1 + 1e-9  # a wave of exactly the shortest length stays
+
+
+@dataclass(frozen=True)
+class Random:
+    """Keys of their own."""
+
+    seed: int = count(1, "rough, ground: seed of the random numbers", 0, 2**31)
+    shortest_x: float = quantity(0.0, "m", "rough, ground: waves along x shorter than this are left out; the others keep their "
+                                           "heights and phases", 0.0, LONGEST, usual=1e-4)
+    shortest_y: float = quantity(0.0, "m", "rough, ground: the same along y", 0.0, LONGEST, usual=1e-4)
+
+
+class RandomWaves(Patch):
+    rough = True
+
+    def lengths(self, f):
+        """Wavelengths along x, along y, the longest first; inf of one that does not vary."""
+        raise NotImplementedError(f"{self.name} has no waves")
+
+    def waves(self, f, x, y):
+        """Heights without the rim of the patch."""
+        raise NotImplementedError(f"{self.name} has no waves")
+
+    def height(self, f, x, y):
+        return self.waves(f, x, y) * self.window(f, x, y)
+
+    def kept(self, f):
+        """(indices along x, along y) of the waves that are not left out."""
+        return [np.flatnonzero(lengths * SLACK >= least)
+                for lengths, least in zip(self.lengths(f), (f.shortest_x, f.shortest_y))]
+
+    def shortest(self, f):
+        """The shortest waves that are left along x, along y."""
+        return [float(lengths[kept].min()) for lengths, kept in zip(self.lengths(f), self.kept(f))]
+
+    def finest(self, f):
+        return tuple(length / FINE for length in self.shortest(f))
+
+    def coarser(self, f, x, y):
+        lengths = self.lengths(f)
+        if lengths[0].max() * SLACK < x or lengths[1].max() * SLACK < y:
+            return None
+        return replace(f, shortest_x=max(f.shortest_x, x), shortest_y=max(f.shortest_y, y))
+
+    def check(self, f):
+        """Refuse a patch without a length, and one that no wave is left of."""
+        needs_patch(f)
+        for name, lengths in zip("xy", self.lengths(f)):
+            if getattr(f, f"shortest_{name}") > lengths.max() * SLACK:
+                raise SceneError(f"feature.shortest_{name} = {getattr(f, f'shortest_{name}'):g} m leaves no wave along {name}; "
+                                 f"allowed: at most {lengths.max():.4g} m, its longest")
+        super().check(f)
