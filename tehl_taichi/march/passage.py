@@ -69,7 +69,7 @@ class Passage:
         self.scene, scales = scene, self.scales
         self.levels = Levels(scene, scales, scene.grid.nx, scene.rows, full=not scene.symmetric)
         self.smooth, self.border = self.levels.smooth_gap(), self.levels.get(fields.MASK).T == 0
-        self.step_x = step_cells(scene) * self.levels.dx
+        self.first, self.step_x = scene.path[0], step_cells(scene) * self.levels.dx
         self.dT = self.step_x * scene.operation.u_m / scene.reference.speed
         self.heat = None if scene.isothermal else FilmHeat(self.levels, self.dT * scales.t)
         # the film whose density and viscosity the pressure is solved for: they follow the temperatures, where there are any
@@ -128,10 +128,10 @@ class Passage:
         return report
 
     def _move_feature(self, step):
-        gap = self.smooth.copy()
+        gap, at = self.smooth.copy(), self.position(step)
         for surface in self.scene.surfaces:
             for feature in surface.features:
-                take_off(gap, self.levels, feature, surface.pace * self.position(step))
+                take_off(gap, self.levels, feature, surface.pace * at)
         self.levels.put(fields.GAP0, gap)
 
     def _predict(self, at):
@@ -187,7 +187,7 @@ class Passage:
 
     def position(self, step):
         """Centre of the first feature in units of a."""
-        return self.scene.path[0] + step * self.step_x
+        return self.first + step * self.step_x
 
     def _moved(self, step):
         """Cells that the features have moved after so many steps."""

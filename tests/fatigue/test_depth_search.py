@@ -161,7 +161,7 @@ def test_histories_at_the_surface_are_those_of_whole_planes(taichi_cpu, heat, ki
             fields["sxx"] += (held + w.values((w.kx**2 + nu * w.ky**2) * spectrum))[window]
             fields["syy"] += (held + w.values((w.ky**2 + nu * w.kx**2) * spectrum))[window]
             fields["sxy"] += w.values((1 - nu) * w.kx * w.ky * spectrum, odd=True)[window]
-        passage.follow(wanted, entry, np.stack(list(fields.values()), axis=-1))
+        passage.follow(wanted, {entry: np.stack(list(fields.values()), axis=-1)})
     np.testing.assert_allclose(found, passage.resting(wanted), atol=2e-6 * np.abs(wanted).max())
 
 

@@ -175,8 +175,7 @@ class StressHistories:
         out, blocks = np.zeros((self.x.size, *shape, self.centres.size + 1, len(COMPONENTS))), self.blocks
 
         def fill(block):
-            for entry, fields in zip(block, stresses(block)):
-                self.follow(out, int(entry), fields)
+            self.follow(out, dict(zip(block.tolist(), stresses(block))))
 
         with ThreadPoolExecutor(WORKERS) as pool:
             tasks = [pool.submit(fill, block) for block in blocks]
@@ -192,10 +191,17 @@ class StressHistories:
         stress[..., 1] += self.scene.fatigue.residual_yy
         return stress
 
-    def follow(self, out, entry, fields):
-        """Stress fields (x, ..., 6) of an entry, at all its moments, into the histories `out` (x', ..., moments, 6)."""
-        for t in np.flatnonzero(self.entries == entry):
-            out[..., t, :] = self._at(fields, t)
+    def follow(self, out, fields):
+        """Stress fields {entry: (x, ..., 6)}, at all their moments, into the histories `out` (x', ..., moments, 6): some
+        moments at once, since those of a point are neighbours in memory."""
+        for some in self._neighbours(list(fields)):
+            out[..., some[0] : some[-1] + 1, :] = np.stack([self._at(fields[self.entries[t]], t) for t in some], axis=-2)
+
+    def _neighbours(self, entries):
+        """The moments of some entries, as arrays of consecutive ones, no more than a block has entries."""
+        moments = np.flatnonzero(np.isin(self.entries, entries))
+        ends = np.flatnonzero((np.diff(moments) > 1) | (moments[1:] % self.block == 0)) + 1
+        return [some for some in np.split(moments, ends) if some.size]
 
     def under(self, fields, t):
         """Those of fields (x, rows, parts) at the material points at moment t: (parts, x', rows)."""

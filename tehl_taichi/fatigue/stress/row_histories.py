@@ -98,7 +98,6 @@ def _heat(passage, depths, deep, rows, out, notify):
     with ThreadPoolExecutor(WORKERS) as pool:
         for done, (n, found) in enumerate(zip(deep, pool.map(lambda n: thermal.rows(depths[n], rows), deep)), 1):
             for kind, stresses in enumerate(found):
-                for entry in entries:
-                    passage.follow(part, entry, stresses[passage.ticks[entry]])
+                passage.follow(part, {entry: stresses[passage.ticks[entry]] for entry in entries})
                 out[:, kind, n] += part
             notify(done)

@@ -14,8 +14,8 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from tehl_taichi.engine.fftw import DOUBLE, even_fast_length, half, half_back, real_of
-from tehl_taichi.fatigue.stress import rectangle
 from tehl_taichi.fatigue.stress.half_space import spacing
+from tehl_taichi.fatigue.stress.strip_stress import StripStress
 from tehl_taichi.fatigue.stress.thermal_stress import WORKERS
 from tehl_taichi.fatigue.stress.unit_loads import ACROSS, CARRIED, HELD, SIGNS, TURNED, along, unit_load, wrapped
 
@@ -32,18 +32,19 @@ class RowStress:
         self.n, self.size, self.rows_used, self.kind = self.x.size, even_fast_length(2 * self.x.size - 1), list(rows), kind
         self.depths, self.found = depths, list(range(6) if np.any(depths) else HELD)
         lags = np.arange(self.n) * spacing(self.x)
-        self.strips = np.stack([self._strips(lags, z) for z in depths], axis=1) if line else None
+        self.strips = StripStress(self.x, self.nu, depths) if line else None
         self.rows = self._rows(lags, mirrored) if self.y.size > 1 else None
 
     def __call__(self, p, qx, qy):
         """(entries, nx+1, rows, depths, 6) Pa from loads (entries, nx+1, ny+1) Pa."""
-        far, found = [load[..., -1] if self.line else 0.0 * load[..., -1] for load in (p, qx)], 0.0
-        if self.rows is not None:
-            found = self._carried(self._waves(zip(p, qx, qy), np.stack(far, axis=-1)))
+        far = [load[..., -1] if self.line else 0.0 * load[..., -1] for load in (p, qx)]
+        if self.rows is None:
+            return self.strips(*far)[:, :, None]
+        waves = self._carried(self._waves(zip(p, qx, qy), np.stack(far, axis=-1)))
+        found = half_back(waves, self.size, 0, self.kind)[: self.n].swapaxes(0, 1) / self.size
         if self.line:
-            strips = np.fft.rfft(np.stack(far, axis=2), self.size, axis=1)
-            found = found + np.einsum("ewl,ldwc->wedc", strips, self.strips)[:, :, None].astype(self.kind)
-        return self._whole(half_back(found, self.size, 0, self.kind)[: self.n].swapaxes(0, 1) / self.size, (p, qx, qy))
+            found += self.strips(*far)[:, :, None, :, self.found]
+        return self._whole(found, (p, qx, qy))
 
     def _whole(self, found, loads):
         """All six components; those that the surface bears are its loads."""
@@ -88,14 +89,6 @@ class RowStress:
         with ThreadPoolExecutor(WORKERS) as pool:
             list(pool.map(put, itertools.product(range(3), range(len(self.depths)))))
         return out.reshape(shape[0], 3 * self.y.size, -1)
-
-    def _strips(self, lags, depth):
-        """(2, waves, components): plane strain from unit pressure and unit q_x on one strip."""
-        out = np.zeros((2, lags.size, 6))
-        for load, parts in enumerate(rectangle.strip(lags, depth, spacing(self.x) / 2)):
-            out[load][:, [0, 2, 4]] = np.transpose(parts)
-        out[..., 1] = self.nu * (out[..., 0] + out[..., 2])
-        return np.stack([np.fft.rfft(wrapped(out[load], self.size, along(load)), axis=0) for load in (0, 1)])[..., self.found]
 
     def _rectangles(self, lags, load, depth, mirrored):
         """(waves, rows, rows wanted, components), real: from a unit load on one rectangle of each row and its image."""
