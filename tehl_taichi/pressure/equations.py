@@ -3,7 +3,7 @@
 import numpy as np
 
 from tehl_taichi.engine.simd import W
-from tehl_taichi.pressure import fields, reynolds
+from tehl_taichi.pressure import active_sets, fields, reynolds
 from tehl_taichi.pressure.levels import HEAVY
 from tehl_taichi.pressure.linear import transfer
 
@@ -26,6 +26,7 @@ class Equations:
             v.launch(reynolds.linearise, v.S, v.J, v.G, v.blocks, *cut, self.known, rows.couette, rows.slope, rows.skew,
                      rheology, work=HEAVY)
             for cut in ((0, v.fine), (v.fine, len(v.blocks))))
+        self._replace = [v.launch(active_sets.replace_rows, v.S, v.J, v.G, v.blocks, touching) for touching in (0, 1)]
 
     def residual(self, H0):
         """H, laws and R of the pressure in the table with the rigid approach H0."""
@@ -45,3 +46,7 @@ class Equations:
         """The same on the coarser levels that solve, about the injected state and with its laws."""
         self.inject()
         self._rows_coarse()
+
+    def replace_rows(self, touching):
+        """Rows of dry nodes and (touching) of those in solid contact, on all levels, by their own equations."""
+        self._replace[touching]()

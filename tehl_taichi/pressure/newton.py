@@ -12,8 +12,8 @@ import numpy as np
 
 from tehl_taichi.pressure import balances, fields, reynolds
 from tehl_taichi.pressure.equations import Equations
-from tehl_taichi.pressure.linear.preconditioner import AdditiveLines
-from tehl_taichi.pressure.linear.solver import Krylov
+from tehl_taichi.pressure.linear.interface import RightHandSide
+from tehl_taichi.pressure.linear.multigrid_gmres import MultigridGmres
 
 SHORTEST_STEP = 0.05  # of a Newton step; below it a step is taken as it is and the next linearisation decides
 SMALL_CHANGE = 0.05  # in P/p_H: near the solution full steps are taken although the merit may rise for a moment
@@ -77,14 +77,13 @@ def or_not_converged(solve):
 
 
 class PressureSolver:
-    """Solves one step of `film` on `levels` (see :class:`Levels`, :class:`Equations`); owns the Krylov memory and the
-    preconditioner."""
+    """Solves one step of `film` on `levels` (see :class:`Levels`, :class:`Equations`); linear: class of its linear solver, made
+    for `levels` (:class:`tehl_taichi.pressure.linear.interface.LinearSolver`)."""
 
-    def __init__(self, levels, film, most_rises=np.inf):
+    def __init__(self, levels, film, most_rises=np.inf, linear=MultigridGmres):
         self.levels, self.most_rises = levels, most_rises
         self.take(film)
-        self.krylov = Krylov(levels)
-        self.preconditioner = AdditiveLines(levels, self.krylov)
+        self.linear = linear(levels)
         self.inside = levels.inside.astype(levels.linear)
         self.load = levels.scales.load
         self.H0, self.kept = 0.0, False
@@ -93,7 +92,7 @@ class PressureSolver:
 
     def _bind(self):
         v = self.levels
-        self.b, self.mass_row, self.step = self.krylov.right, self.krylov.outflow, np.zeros(v.n, v.linear)
+        self.b, self.mass_row, self.step = (np.zeros(v.n, v.linear) for _ in range(3))
         self.partial, self.touching = np.zeros((v.fine, balances.SUMS)), np.zeros((v.fine, 1))
         self.old, self.part = np.zeros(v.n), np.ones(1)
         self._keep_pressure = v.launch(balances.save, v.S, v.G, fields.P, self.old)
@@ -150,7 +149,7 @@ class PressureSolver:
     @or_not_converged
     def improve(self, keeps=False):
         """One Newton step from a good guess, not checked where it is small: what follows checks, and keeps (if wanted) what is
-        dear to prepare and not much different there: the coarsest level, the lift. Returns a SolveReport."""
+        dear to prepare and not much different there, see `RightHandSide.change`. Returns a SolveReport."""
         numerics, merit = self.levels.scene.numerics, self._begin()
         step, cycles = self._direction(FIRST_ROUND)
         self.change = float(np.abs(step[:-1]).max())
@@ -174,7 +173,7 @@ class PressureSolver:
         self.equations.linearise(kept and self.change < SAME_SLOPES)
         self.before, self.kept, self.rises = None, kept, 0
         if not kept:
-            self.lifted, self.change = False, np.inf
+            self.change = np.inf
         return self.measure()
 
     def _follow(self):
@@ -206,18 +205,15 @@ class PressureSolver:
 
     def _direction(self, krylov_tolerance):
         self._choose_sets()
-        touching = self.touching.sum() > 0
+        touching = bool(self.touching.sum() > 0)
         self.equations.linearise_coarse()
-        self.preconditioner.build(touching, self.change > SMALL_CHANGE)
+        self.equations.replace_rows(touching)
         if touching:
             self._contact()
-        if not self.lifted:  # kept for the whole step
-            self.krylov.lift()
-            self.lifted = True
         self._scale_mass(self.b)
-        mass = float(self.mass_row @ self.b)
-        rise, used, _ = self.krylov.solve(-self.load_error * self.load, mass, krylov_tolerance)
-        return np.append(self.krylov.out * self.inside, self.levels.linear.type(rise)), used
+        load = -self.load_error * self.load
+        found = self.linear.solve(RightHandSide(self.b, self.mass_row, load, krylov_tolerance, self.change))
+        return np.append(found.pressure * self.inside, self.levels.linear.type(found.approach)), found.iterations
 
     def _scale_mass(self, b):
         """Scale the mass component like the sum of all rows, but at most to the norm of the rows: above it, a solve would

@@ -43,7 +43,7 @@ def mismatch(description, warm=None, step=1e-5):
         solver.measure()
         solver._choose_sets()
         levels.put(fields.P, change)  # in the order of the table
-        rows = solver.krylov.apply(levels.vector(fields.P) * inside, approach)
+        rows = solver.linear.krylov.apply(levels.vector(fields.P) * inside, approach)
         scale = np.where(levels.vector(fields.DRY) > 0, 1.0, np.minimum(levels.vector(fields.D), ROW_CAP))
         product = rows * scale
         worst = max(worst, float(np.abs(product - exact)[inside].max() / np.abs(exact)[inside].max()))

@@ -10,7 +10,7 @@ MASS_ERROR = Scalar(name="mass_error", unit="1", says="net mass defect over the 
 RESIDUAL = Scalar(name="residual", unit="1", says="rms residual of the discrete equations", over="maximum", source=NEWTON,
                   of=lambda s: s.report.residual, by_hand=3e-7)
 STEPS = Scalar(name="newton", unit="1", says="Newton steps", over="sum", source=NEWTON, of=lambda s: s.report.newton, by_hand=3)
-CYCLES = Scalar(name="cycles", unit="1", says="Krylov iterations", over="sum", source="linear solves (pressure/krylov)",
+CYCLES = Scalar(name="cycles", unit="1", says="Krylov iterations", over="sum", source="linear solves (pressure/linear)",
                 of=lambda s: s.report.cycles, by_hand=11)
 REJECTED = Scalar(name="rejected", unit="1", says="rejected attempts", over="sum", source="parts of a step (march/passage)",
                   of=lambda s: s.rejected, by_hand=1)

@@ -8,29 +8,7 @@ a unit at one node and the rows become banded transport.
 
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.simd import Blocks, L, LinearTable, Table, V, W, above, below, cells, neighbour_masks
-from tehl_taichi.pressure.fields import (
-    AD,
-    AU,
-    BAND,
-    BD,
-    BU,
-    CT,
-    DRY,
-    DX,
-    EPS,
-    FRAME,
-    JN,
-    K0,
-    KIND,
-    RES,
-    RHO,
-    SOL,
-    STENCIL,
-    TOUCH,
-    A,
-    B,
-)
-from tehl_taichi.pressure.upwind import couette_weights
+from tehl_taichi.pressure.fields import AD, AU, BAND, CT, DRY, DX, EPS, FRAME, JN, K0, KIND, RES, SOL, STENCIL, TOUCH, A, B
 
 HALF = 3  # half bandwidth; 2 converges slower, 1 diverges, 4..6 gain nothing
 TINY_PIVOT = 1e-14
@@ -42,30 +20,6 @@ DRY_KIND, LOCAL, DISTRIBUTED = 0.0, 1.0, 2.0  # values of KIND
 @ti.func
 def is_kind(J: ti.template(), k, kind: ti.template()):
     return J[KIND, k] == L(J, kind)
-
-
-@ti.func
-def contact_rows(S: ti.template(), J: ti.template(), G: ti.template(), l, k, i):
-    """Rows of touching nodes: the transport operator on rho W of the touching nodes (equivalent to W = 0 there)."""
-    w, touch = couette_weights(i), S[TOUCH, k] > 0.0
-    for t in ti.static(range(4)):
-        c = (1.0 - G[l, FRAME]) * w[t]
-        if ti.static(t == 2):
-            c += G[l, CT]
-        mass = ti.cast(c * S[RHO, k + t - 2] * S[TOUCH, k + t - 2], J.dtype)
-        J[A[t], k] = ti.select(touch, L(J, 0.0), J[A[t], k])
-        J[B[t], k] = ti.select(touch, mass, J[B[t], k])
-    for row in ti.static((AU, AD, BU, BD)):
-        J[row, k] = ti.select(touch, L(J, 0.0), J[row, k])
-
-
-@ti.func
-def dry_rows(J: ti.template(), k):
-    """Rows of dry nodes: the identity."""
-    dry = is_kind(J, k, DRY_KIND)
-    for row in ti.static(STENCIL):
-        J[row, k] = ti.select(dry, L(J, 0.0), J[row, k])
-    J[A[2], k] = ti.select(dry, L(J, 1.0), J[A[2], k])
 
 
 @ti.func
@@ -81,15 +35,15 @@ def kind_of(S: ti.template(), J: ti.template(), G: ti.template(), l, k, n2, i, u
 
 
 @ti.kernel
-def classify(S: ti.template(), J: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: ti.i32, touching: ti.i32,
-             rest: ti.f64, narrow: ti.f64, wide: ti.f64, alone: ti.template()):
-    """KIND of every node in the blocks first..last-1; rows of dry and touching nodes replaced by their own equations.
+def classify(S: ti.template(), J: ti.template(), G: Table, blocks: Blocks, rest: ti.f64, narrow: ti.f64, wide: ti.f64,
+             alone: ti.template()):
+    """KIND of every node in the blocks.
 
     rest, narrow, wide: of what the film carries, and stores within so many cells and half-widths, beyond which the pressure
     drives it and lines solve for that.
     """
     ti.loop_config(block_dim=1, serialize=alone)
-    for b in range(first, last):
+    for b in range(blocks.shape[0]):
         l, s = blocks[b, 0], blocks[b, 1]
         nx, ny, off = cells(G, l)
         n2 = nx + 1
@@ -97,9 +51,6 @@ def classify(S: ti.template(), J: ti.template(), G: Table, blocks: Blocks, first
         for i in range(n2):
             k = off + s * n2 + i
             J[KIND, k] = kind_of(S, J, G, l, k, n2, i, up, down, rest, narrow, wide)
-            if touching == 1:
-                contact_rows(S, J, G, l, k, i)
-            dry_rows(J, k)
 
 
 @ti.func

@@ -42,20 +42,15 @@ class AdditiveLines:
 
     def _bind(self):
         v, bounds = self.levels, (REST, *STORED) if self.levels.ny else (REST_LINE, *STORED_LINE)
-        self._classify = [v.launch(line_solver.classify, v.S, v.J, v.G, v.blocks, *cut, touching, *bounds)
-                          for touching in (0, 1)
-                          for cut in ((0, v.fine), (v.fine, len(v.blocks)))]
+        self._classify = v.launch(line_solver.classify, v.S, v.J, v.G, v.blocks, *bounds)
         self._build_lines = v.launch(line_solver.build_lines, v.J, v.G, v.blocks, self.count, self.near, self.inverse,
                                      work=HEAVY)
 
-    def build(self, touching, anew=True):
-        """Factorise every level, which must be linearised; with anew = False the coarsest one stays what it was, for small
-        changes."""
-        fine, coarse = self._classify[2:] if touching else self._classify[:2]
-        fine()
-        coarse()
+    def build(self, coarsest=True):
+        """Factorise every level, which must be linearised; coarsest: that one too."""
+        self._classify()
         self._build_lines()
-        if self.coarsest and anew:
+        if self.coarsest and coarsest:
             self.coarsest.build()
 
 

@@ -45,7 +45,7 @@ def both(taichi_cpu):
     from tehl_taichi.pressure.linear.solver import Krylov
 
     solver = pressed("f64", "jacobi")
-    one, v = solver.krylov, solver.levels
+    one, v = solver.linear.krylov, solver.levels
     right, rows = one.right.copy(), np.arange(v.n) // W // (v.nx + 1) * W + np.arange(v.n) % W
     v.scene = dataclasses.replace(v.scene, numerics=dataclasses.replace(v.scene.numerics, sweep="red-black"))
     two = Krylov(v)

@@ -29,7 +29,7 @@ def pressed(precision, sweep):
 @pytest.fixture(scope="module", params=(("f32", "jacobi"), ("f64", "jacobi"), ("f64", "red-black")), ids="-".join)
 def problem(request, taichi_cpu):
     """A linear problem: (its solver, right-hand side)."""
-    krylov = pressed(*request.param).krylov
+    krylov = pressed(*request.param).linear.krylov
     return krylov, krylov.right.copy()
 
 
@@ -66,7 +66,7 @@ def test_each_phase_as_a_launch_of_its_own_gives_the_same_bits(problem, monkeypa
     """As a graphics card does it, from the first film on."""
     krylov, right = problem
     monkeypatch.setattr(runtime, "by_phases", lambda: True)
-    other = pressed(krylov.levels.precision, krylov.levels.scene.numerics.sweep).krylov
+    other = pressed(krylov.levels.precision, krylov.levels.scene.numerics.sweep).linear.krylov
     ran, launch = [], other._launch
     other._launch = lambda: (ran.append(int(other.team.sync[task_pool.TICKET])), launch())
     assert other.right.tobytes() == right.tobytes()
