@@ -27,7 +27,7 @@ def fatigue(
     force: Force = False,
     threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
     as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout"),
-    **asked,
+    **constants,
 ):
     """Evaluate the fatigue of a stored passage with other constants. The store does not change.
 
@@ -42,10 +42,10 @@ def fatigue(
     page = FigureStyle(format, dpi, width, force)
     page.check_all(figures, fatigue_figures.NAMES) if figures else say_idle(context, "it needs --figures", *DRAWS)
     run = open_run(store)
-    for sentence in _doubts(run.scene, asked):
+    for sentence in _doubts(run.scene, constants):
         say(f"warning: {sentence}")
     with Live() as live:
-        result = run.fatigue(**asked, threads=threads, progress=live)
+        result = run.fatigue(**constants, threads=threads, progress=live)
     _show(result, as_json)
     if figures:
         from tehl_taichi.view.figures.run_figures import write_fatigue
@@ -54,12 +54,12 @@ def fatigue(
             say(str(path))
 
 
-def _doubts(scene, asked):
-    """Of what is asked, what has no effect on this passage."""
+def _doubts(scene, constants):
+    """Constants that have no effect on this passage."""
     from tehl_taichi.fatigue.overrides import changed
     from tehl_taichi.scene import idle_keys
 
-    return idle_keys.doubts(changed(scene, {**asked, "on": True}))
+    return idle_keys.doubts(changed(scene, {**constants, "on": True}))
 
 
 def _show(result, as_json):

@@ -35,18 +35,18 @@ def _options(
 
 
 def with_fatigue_options(command):
-    """The command with these options in place of its `**asked`: the constants that :func:`tehl_taichi.fatigue` takes, None
+    """The command with these options in place of its `**constants`: those that :func:`tehl_taichi.fatigue` takes, None
     where they are not given."""
     options = inspect.signature(_options).parameters
     own = [one for one in inspect.signature(command).parameters.values() if one.kind != inspect.Parameter.VAR_KEYWORD]
 
     @functools.wraps(command)
-    def asking(*first, **given):
-        asked = {name: given.pop(name, None) for name in options}
-        return command(*first, **given, **{**asked, "depths": _depths(asked["depths"])})
+    def with_constants(*first, **given):
+        constants = {name: given.pop(name, None) for name in options}
+        return command(*first, **given, **{**constants, "depths": _depths(constants["depths"])})
 
     named = [one.replace(kind=inspect.Parameter.KEYWORD_ONLY) for one in (own[0], *options.values(), *own[1:])]
-    wrapped: Any = asking
+    wrapped: Any = with_constants
     wrapped.__signature__ = inspect.Signature(named)
     wrapped.__annotations__ = {one.name: one.annotation for one in named}
     return wrapped

@@ -1,4 +1,4 @@
-"""Options that were typed and change nothing beside the others: said, as of the keys of a scene."""
+"""Options that were typed and change nothing beside the others: they are reported, as keys of a scene are."""
 
 from tehl_cli.live_display import say
 

@@ -11,7 +11,7 @@ from tehl_taichi.runs.progress import LATE, PASSAGE, Lines, line
 
 
 def say(text):
-    """One line on stderr; a run goes on where nobody reads it."""
+    """One line on stderr; a run continues where its output is closed."""
     with contextlib.suppress(BrokenPipeError):
         put(text, file=sys.stderr)
 
@@ -36,7 +36,7 @@ class Live(Lines):
     def __exit__(self, *_):
         if self.bar:
             self.curves.clear()
-            with contextlib.suppress(OSError):  # a terminal that was closed: what ended the run is still to be told
+            with contextlib.suppress(OSError):  # a terminal that was closed: the reason for the end is still to be printed
                 self.bar.stop()
             self.bar = None
 

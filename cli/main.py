@@ -78,7 +78,7 @@ app = typer.Typer(cls=Commands, no_args_is_help=True, add_completion=False, pret
 
 @app.callback()
 def options(version: bool = typer.Option(False, "--version", help="print the versions and the commit",
-                                         callback=lambda wanted: wanted and _print_version(), is_eager=True)):
+                                         callback=lambda given: given and _print_version(), is_eager=True)):
     """Simulate lubricated contacts with surface features: film, pressure, stresses and fatigue.
 
     Example: tehl run --srr -0.12

@@ -24,7 +24,7 @@ def report(
     force: bool = typer.Option(False, "--force", help="replace an existing file that tehl wrote"),
     open_: bool = typer.Option(False, "--open/--no-open", help="open the report in the browser"),
     threads: Optional[int] = typer.Option(None, help="CPU threads for a search with other constants (default: all)"),
-    **asked,
+    **constants,
 ):
     """Write one HTML page to send to a colleague: verdict, scene, interactive figures, errors and origin.
 
@@ -36,11 +36,11 @@ def report(
     import tehl_taichi as tehl
     from tehl_taichi.engine import runtime
 
-    if all(value is None for value in asked.values()):
+    if all(value is None for value in constants.values()):
         say_idle(context, "only a search with other constants computes", "threads")
     runtime.check(threads=threads)
     with Live() as live:
-        path = tehl.report(store, out, force=force, progress=live, threads=threads, **asked)
+        path = tehl.report(store, out, force=force, progress=live, threads=threads, **constants)
     put(path)
     if open_:
         typer.launch(path.absolute().as_uri())

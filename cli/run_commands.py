@@ -114,7 +114,7 @@ def resume(
 
 
 def _print(run, as_json, printed=()):
-    """said: warnings that were told before the run."""
+    """printed: warnings that were printed before the run."""
     from tehl_cli.tables import summary_table
 
     print_json(run.summary) if as_json else summary_table(run.summary, printed)
@@ -136,7 +136,7 @@ def _print_scene(scene):
 
 
 def _print_time(done):
-    """How long the passage would take of which the steady start alone was asked for."""
+    """How long the passage would take of which the steady start alone was requested."""
     from tehl_taichi.runs import time_estimate
 
     for sentence in time_estimate.lines(done, GRIDS["coarse"]):

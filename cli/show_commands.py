@@ -177,19 +177,19 @@ def plot(store: Path = typer.Argument(..., help="store of a run, a study, or the
 OPTIONS = {"run": ("at", "depth"), "study": ("quantity",), "flank": ()}  # of tehl plot: what only such a one can show
 
 
-def _draw(store, out, wanted, page):
-    """Paths of the figures of whatever lies at `store`; wanted: {option: value} of OPTIONS, None where not wanted."""
+def _draw(store, out, options, page):
+    """Paths of the figures of whatever lies at `store`; options: {option: value} of OPTIONS, None where not given."""
     import tehl_taichi as tehl
     from tehl_taichi.errors import SceneError
     from tehl_taichi.runs.open_results import FLANK, RUN, kind
 
     which = kind(store)
-    for name, value in wanted.items():
+    for name, value in options.items():
         if value is not None and name not in OPTIONS[which]:
             whose = next(other for other, options in OPTIONS.items() if name in options)
             raise SceneError(f"--{name} {value} applies to a {whose}, but {store} is a {which}")
     found: Any = tehl.open(store)
-    mine = {name: wanted[name] for name in OPTIONS[which]}
+    mine = {name: options[name] for name in OPTIONS[which]}
     if which == FLANK:
         return [found.plot(out and out / "flank", **page)]
     return (found.save_figures if which == RUN else found.plot)(out, **mine, **page)

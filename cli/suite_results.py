@@ -40,7 +40,7 @@ class Results:
         return self.folder / f"{self.name}.{ending}"
 
     def finish(self, rows, chart, as_json, **more):
-        """Write NAME.json (machine, rows and what else is given) and NAME.png; print the JSON object where it is asked for.
+        """Write NAME.json (machine, rows and what else is given) and NAME.png; print the JSON object where it is requested.
 
         chart(plt): the figure.
         """

@@ -9,7 +9,7 @@ from tehl_cli.live_display import say
 from tehl_cli.scene_options import check_rows, given_by
 from tehl_cli.stdout import print_json, put
 
-MANY = 1000  # cases that nobody starts by mistake
+MANY = 1000  # more cases than this need --yes
 
 
 def register(app):

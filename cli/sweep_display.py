@@ -20,7 +20,7 @@ LAST, MOST_ROWS = 8, 60
 class SweepLive:
     """Listens to a sweep: called with (study, record of the case that ended, or None at the start)."""
 
-    EVERY = 5.0  # s between plain lines; what fails is told at once
+    EVERY = 5.0  # s between plain lines; failures are printed at once
 
     def __init__(self, quiet=False):
         self.quiet, self.ended, self.printed_at = quiet, 0, 0.0
@@ -70,7 +70,7 @@ class SweepLive:
         text = f"{len(study) - left}/{len(study)} cases"
         bad = sum(count for word, count in study.counts.items() if word not in ("converged", "waiting"))
         text += f", {bad} without a result" if bad else ""
-        if self.ended > 2 and left:  # the start of the workers is in nobody's pace
+        if self.ended > 2 and left:  # the start of the workers does not count in the pace
             text += f", {duration((time.monotonic() - self.first) / (self.ended - 1) * left)} left"
         return text
 

@@ -29,13 +29,13 @@ def _table(title, rows):
     Console().print(table)
 
 
-def summary_table(summary, said=()):
-    """Print the summary of a run; said: warnings that stand above already."""
+def summary_table(summary, printed=()):
+    """Print the summary of a run; printed: warnings that stand above already."""
     from tehl_taichi.runs.summary.summary_rows import summary_rows, title
 
     _table(title(summary), summary_rows(summary))
     _answer(summary)
-    warning_lines([sentence for sentence in summary.get("warnings", []) if sentence not in said])
+    warning_lines([sentence for sentence in summary.get("warnings", []) if sentence not in printed])
 
 
 def _answer(summary):

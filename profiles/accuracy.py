@@ -156,7 +156,7 @@ def _coarsest(own, target):
 
 
 def chart(plt, rows):
-    """Error over run time, a panel per family; points bear their columns or the setting that was changed."""
+    """Error over run time, a panel per family; points carry their columns or the setting that was changed."""
     families = list(dict.fromkeys(row["family"] for row in rows))
     figure, axes = plt.subplots(1, len(families), figsize=(3.6 * len(families), 3.8), constrained_layout=True, squeeze=False)
     for ax, family in zip(axes[0], families):

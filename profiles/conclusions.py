@@ -1,6 +1,7 @@
 """The conclusions of the thesis (Everitt 2018): Findley stresses of both bodies with errors, and a verdict on each.
 
-Every case runs on three grids, each twice as fine (time steps shrink with the cells); errors as a run with companions has them.
+Every case runs on three grids, each twice as fine (time steps shrink with the cells); errors as a run with coarse-grid runs has
+them.
 """
 
 from dataclasses import dataclass, field
@@ -16,7 +17,7 @@ from tehl_taichi.runs.sweep import pool
 from tehl_taichi.scene import scene
 from tehl_taichi.values.coded_text import code_of
 
-# cells along x more than across: that is what an exit asks for (docs/exit.md); those that decide have four times as many
+# cells along x more than across: that is what an exit needs (docs/exit.md); those that decide have four times as many
 GRIDS, FINE_GRIDS, QUICK_GRIDS = ((128, 16), (256, 32), (512, 64)), ((512, 16), (1024, 32), (2048, 64)), ((32, 8), (64, 16))
 EVERY = 1024  # columns of which each moment is stored; every second of twice as many changes Findley stresses by 0.03 %
 DECIDE = "asperity 1.5 um", "dent 1.5 um"
@@ -60,7 +61,7 @@ def run(folder, quick=False, progress=None, workers=1, threads=None, columns=0):
     workers: processes side by side, each on `threads` threads (None: all that are left); columns: of the finest grid of all
     cases (0: see :func:`grids_of`)."""
     folder = Path(folder).absolute()
-    notify = progress if workers == 1 else None  # other processes have nobody to tell
+    notify = progress if workers == 1 else None  # other processes do not print
     jobs = [(name, description, folder, grids_of(name, quick, columns), notify) for name, description in cases(quick).items()]
     found = {}
     for number, answer in measure.side_by_side(rows, jobs, workers, threads):
@@ -83,39 +84,41 @@ def grids_of(name, quick=False, columns=0):
 
 def rows(name, description, folder, grids, progress=None):
     """ConclusionRows of both bodies from runs on `grids`; a grid that does not converge is too coarse, no step of the error."""
-    told, reason = [], ""
+    passages, reason = [], ""
     for nx, ny in grids:
         if progress:
             progress(f"{name}: {nx} x {ny} cells")
         try:
-            told.append(passage_stresses.read_passage(_sized(description, nx, ny), folder / f"{_slug(name)}-{nx}x{ny}.zarr"))
+            store = folder / f"{_slug(name)}-{nx}x{ny}.zarr"
+            passages.append(passage_stresses.read_passage(_sized(description, nx, ny), store))
         except NotConverged as error:
-            told, reason = [], f"{nx} x {ny} cells: {error}"
-    if not told:
+            passages, reason = [], f"{nx} x {ny} cells: {error}"
+    if not passages:
         return [_without(name, description, reason)]
-    return [_of_body(name, description, body, told, f"{nx}x{ny}") for body in told[-1].values]
+    return [_of_body(name, description, body, passages, f"{nx}x{ny}") for body in passages[-1].values]
 
 
 def _without(name, description, reason):
     return ConclusionRow(name, description.operation.srr, {}, {}, (np.nan, np.nan), reason=reason)
 
 
-def _of_body(name, description, body, told, grid):
-    values = told[-1].values[body]
-    known = {key: error_of(key, told, body) for key in values}
+def _of_body(name, description, body, passages, grid):
+    values = passages[-1].values[body]
+    known = {key: error_of(key, passages, body) for key in values}
     errors, doubts = ({key: pair[n] for key, pair in known.items()} for n in (0, 1))
-    return ConclusionRow(name, description.operation.srr, values, errors, told[-1].friction, doubts, body=body, grid=grid)
+    return ConclusionRow(name, description.operation.srr, values, errors, passages[-1].friction, doubts, body=body, grid=grid)
 
 
 def _sized(description, nx, ny):
     return description.replace(**{"grid.nx": nx, "grid.ny": ny, "output.every": max(1, nx // EVERY), **BARE})
 
 
-def error_of(key, told, body="a"):
-    """(error of a value of the last grid or nan, why it is not known); told: by each grid, from coarse to fine."""
+def error_of(key, passages, body="a"):
+    """(error of a value of the last grid or nan, why it is not known); passages: PassageStresses on each grid, from coarse to
+    fine."""
     follows = key[0] in LOADS or key in DEEP.values()  # a number that depends on the highest pressures of its window
-    courses = [one.courses[key[1]] for one in told] if follows else ()
-    return estimated_error([one.values[body][key] for one in told], told[-1].doubts.get(key, ""), courses)
+    courses = [one.courses[key[1]] for one in passages] if follows else ()
+    return estimated_error([one.values[body][key] for one in passages], passages[-1].doubts.get(key, ""), courses)
 
 
 def verdicts(rows, limit):

@@ -162,8 +162,8 @@ def run(path, seed, quick=False, progress=None, part="coverage"):
 
 
 def row(description):
-    """{"own": readings per grid or of companions, "finer": {name: value}, "domain": values of its DomainError, "inlet": deg C}
-    of one scene, or the reason why it has none; finer: on FINER cells and a LONGER domain."""
+    """{"own": readings per grid or of coarse-grid runs, "finer": {name: value}, "domain": values of its DomainError, "inlet":
+    deg C} of one scene, or the reason why it has none; finer: on FINER cells and a LONGER domain."""
     try:
         return _row_of_passage(description) if description.transient else _row_of_start(description)
     except Error as error:

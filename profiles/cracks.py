@@ -55,7 +55,7 @@ def cases(quick=False):
 def run(folder, quick=False, progress=None, workers=1, threads=None):
     """Generator of all rows so far, after every case; stores lie in `folder` and are used again. progress: called with a line
     of text; workers: processes side by side, each on `threads` threads (None: all that are left)."""
-    notify = progress if workers == 1 else None  # other processes have nobody to tell
+    notify = progress if workers == 1 else None  # other processes do not print
     grids, conditions = (QUICK_GRIDS, QUICK_CONDITIONS) if quick else (GRIDS, CONDITIONS)
     jobs = [(name, description, Path(folder).absolute(), grids, conditions if name.startswith(REFERENCE) else {"": {}}, notify)
             for name, description in cases(quick).items()]
@@ -92,10 +92,10 @@ def rows_of(name, stores, conditions):
     """The rows of a case from its stores, the finest last: two sides under every condition."""
     planes, rows = [plane_of(one.scene, one) for one in stores], []
     for condition, options in conditions.items():
-        asked = CrackOptions(**options)
-        half = replace(asked, elements=asked.elements // 2)
+        chosen = CrackOptions(**options)
+        half = replace(chosen, elements=chosen.elements // 2)
         found = [_sides(plane, store, options) for plane, store, options in
-                 ((planes[-1], stores[-1], half), *((plane, store, asked) for plane, store in zip(planes, stores)))]
+                 ((planes[-1], stores[-1], half), *((plane, store, chosen) for plane, store in zip(planes, stores)))]
         rows += [_row(", ".join(filter(None, (name, condition))), side, *(one[side] for one in found)) for side in SIDES]
     return rows
 

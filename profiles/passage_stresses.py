@@ -43,10 +43,10 @@ class PassageStresses:
 
 
 def read_passage(description, store):
-    """The :class:`PassageStresses` of a scene by its run in the store at this path: as it lies there, gone on with, or run now.
+    """The :class:`PassageStresses` of a scene by its run in the store at this path: as it lies there, resumed, or run now.
 
-    A LARGE one goes when it has told; its answers, in a file beside it, serve the next time. Raises StoreError where the store
-    or the file is of another scene, NotConverged.
+    A LARGE one is removed after it was read; its answers, in a file beside it, serve the next time. Raises StoreError where the
+    store or the file is of another scene, NotConverged.
     """
     kept = store.with_suffix(".json")
     if not kept.exists():
@@ -66,7 +66,7 @@ def read_passage(description, store):
 def _kept(path, description):
     content = json.loads(path.read_text())
     if Scene.from_dict(content.pop("scene")) != description:
-        raise StoreError(f"{path} tells of another scene; choose another folder or remove it")
+        raise StoreError(f"{path} belongs to another scene; choose another folder or remove it")
     if not isinstance(content["values"], dict):
         raise StoreError(f"{path} is of version 0.8, which judged body a alone; choose another folder or remove it")
     values = {body: {tuple(key): value for key, value in part} for body, part in content["values"].items()}

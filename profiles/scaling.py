@@ -46,7 +46,7 @@ def row(nx, threads, thermal, steps, progress=None):
 
 
 def modelled(speed_up, at, jobs, cores):
-    """Speed-up on `cores` of a step of equal jobs and a serial part, which `speed_up` on `at` cores tells (0 < it <= at).
+    """Speed-up on `cores` of a step of equal jobs and a serial part, from the `speed_up` on `at` cores (0 < it <= at).
 
     Bound by the jobs of a phase, pairs of blocks of rows, and by what is serial; not by memory, which cores share.
     """

@@ -24,7 +24,7 @@ from tehl_taichi.view.figures import palette
 LINE, POINT = {"grid.nx": 128, "grid.ny": 32}, {"grid.nx": 64, "grid.ny": 32}
 NARROW = {"grid.nx": 304, "grid.ny": 76}  # 20 um are four cells, the fewest that are taken
 MOST_STEPS = 600  # of a passage; with temperatures SRR -1.99 would need 25 536, the feature hardly moves in one
-FINEST = {"line": 1024, "point": 256}  # columns, of scenes on the grid that their film asks for
+FINEST = {"line": 1024, "point": 256}  # columns, of scenes on the grid that their film needs
 MOST = {True: 2048, False: 512}  # columns of lines, of points, that are made finer
 CONFIRMED = {True: 2048, False: 512}  # the same, of those that are made finer until twice the columns confirm them
 FILM_HOLDS, HOLDS_K = 0.01, 1.0  # what half a step and a finer grid may change of a start that they confirm
@@ -125,7 +125,7 @@ def cases(thermal=False):
 
 def random_cases(count, seed=0):
     """{name: scene or SceneError}: `count` scenes drawn from the whole admissible range, on small grids, the first steps of
-    the passage (the feature enters: it starts just in front of the contact). Names of scenes tell line from point."""
+    the passage (the feature enters: it starts just in front of the contact). Names of scenes begin with line or point."""
     rng, out = np.random.default_rng(seed), {}
     for n in range(count):
         try:
@@ -195,7 +195,7 @@ def edited(base, changes):
 
 
 def carried(chosen):
-    """`chosen`, {name: scene or SceneError}, with as many columns as the warning of a film too thin for the grid asks for (of
+    """`chosen`, {name: scene or SceneError}, with as many columns as the warning of a film too thin for the grid needs (of
     lines the rows stay), at most FINEST."""
     return {name: description if isinstance(description, SceneError) else _carried(description)
             for name, description in chosen.items()}

@@ -1,4 +1,4 @@
-"""Which commit this is, as far as anybody can know. Nothing but the standard library: the build of a wheel runs this file."""
+"""Which commit this is, as far as it can be known. Nothing but the standard library: the build of a wheel runs this file."""
 
 import functools
 import subprocess
@@ -15,7 +15,7 @@ def commit():
 
 
 def _written():
-    """What is in the file, if somebody filled it in."""
+    """Content of the file, if it was filled in."""
     text = FILE.read_text().strip() if FILE.is_file() else "$"
     return None if text.startswith("$") or text == UNKNOWN else text[:LENGTH] + CHANGED * text.endswith(CHANGED)
 

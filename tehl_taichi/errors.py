@@ -75,7 +75,7 @@ def extra(name):
 
 
 def brief(error, most=200):
-    """Somebody else's error in one sentence: the first line that says something, without what a dump shows below it."""
+    """An error of another library in one sentence: the first line that says something, without what a dump shows below it."""
     lines = [line.strip() for line in str(error).splitlines() if line.strip()]
     text = " ".join(lines[0].split()) if lines else type(error).__name__
     return text if len(text) <= most else f"{text[:most].rsplit(' ', 1)[0]} ..."
@@ -88,7 +88,7 @@ def stopped(stop):
 
 
 def interrupt(stop, more):
-    """A KeyboardInterrupt by the signal of `stop` with the sentence about it; more: how that goes on."""
+    """A KeyboardInterrupt by the signal of `stop` with the sentence about it; more: how that continues."""
     made = SignalInterrupt(f"{stopped(stop)}{more}")
     made.signal = getattr(stop, "signal", "")
     return made

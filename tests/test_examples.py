@@ -50,6 +50,16 @@ def test_public_functions_are_plain_typed_and_say_what_goes_in_and_out(name):
     assert pydoc.render_doc(f"tehl_taichi.{name}", renderer=pydoc.plaintext).startswith("Python Library Documentation: func")
 
 
+@pytest.mark.parametrize("name", CLASSES)
+def test_documented_attributes_of_a_class_exist(name):
+    thing = getattr(tehl, name)
+    section = inspect.getdoc(thing).partition("Attributes\n----------\n")[2].partition("\n\n")[0]
+    documented = [each for line in section.splitlines() if line[:1].strip() for each in line.partition(" : ")[0].split(", ")]
+    known = {*dir(thing), *(key for base in thing.__mro__ for key in vars(base).get("__annotations__", ())),
+             *getattr(getattr(thing.__init__, "__code__", None), "co_names", ())}
+    assert set(documented) <= known
+
+
 def test_the_package_is_typed():
     declared = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["setuptools"]["package-data"]["tehl_taichi"]
     assert "py.typed" in declared and (ROOT / "tehl_taichi" / "py.typed").exists()

@@ -1,7 +1,9 @@
-"""Words that readers of a second language do not find in a manual stand in no help, message or page."""
+"""Words that readers of a second language do not find in a manual stand in no help, message, page, docstring or comment."""
 
 import ast
+import io
 import re
+import tokenize
 from pathlib import Path
 
 import pytest
@@ -12,11 +14,16 @@ from tehl_cli.main import app
 ROOT = Path(__file__).parents[1]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
 SOURCES = sorted(path for folder in ("tehl_taichi", "cli") for path in (ROOT / folder).rglob("*.py"))
+CODE = [*SOURCES, *sorted(path for folder in ("profiles", "docs") for path in (ROOT / folder).rglob("*.py"))]
 HOUSE = re.compile(r"""\b(
     tells? | told | telling | (?:go|goes|going|gone|went)\son | bears? | borne | by\sturns | nobody | somebody | anybody |
     ask(?:s|ed)?\sfor | at\shand | what\sthere\sis | as\sit\sstands | (?:take|takes|taken|took)\soff | (?:worst|bad)\soff |
     companions? | anew | all\sthe\ssame | that\s(?:is|are)\sthere | the\ssame\sof | side\sby\sside | to\sbe\shad
     )\b""", re.VERBOSE | re.IGNORECASE)
+# of things that lie beside each other, in lanes and on pages, a docstring may say so
+IN_CODE = {"side by side"}
+# local names and parameters are nouns of their subject
+NO_NAMES = {"told", "told_of", "tells", "tell", "said", "wanted", "asked", "begun", "gone"}
 # a word in its definition
 DEFINED = {"docs/numerics.md": "coarse-grid runs (companion runs)"}
 
@@ -79,6 +86,57 @@ def test_texts_are_those_that_users_read():
     assert list(own_texts(tree)) == [(2, "the … file is told"), (2, "a {0} that bears it")]
 
 
+def suspects(paths, words=HOUSE):
+    """(path, its source) of the files that have such words anywhere; only these are parsed."""
+    for path in paths:
+        source = path.read_text(encoding="utf-8")
+        if words.search(" ".join(re.sub(r"\n\s*#", " ", source).split())):
+            yield path, source
+
+
 def test_no_house_word_in_messages():
-    texts = ((path, *one) for path in SOURCES for one in own_texts(ast.parse(path.read_text(encoding="utf-8"))))
+    texts = ((path, *one) for path, source in suspects(SOURCES) for one in own_texts(ast.parse(source)))
     assert [f"{path.relative_to(ROOT)}:{line}: {words}" for path, line, text in texts if (words := found(text))] == []
+
+
+def prose(source):
+    """(line, text) of the docstrings and comments of a module; comments on consecutive lines are one text."""
+    docstrings = {node.body[0].lineno for node in ast.walk(ast.parse(source))
+                  if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)) and ast.get_docstring(node) is not None}
+    lines, text = [0], ""
+    for token in tokenize.generate_tokens(io.StringIO(source).readline):
+        if token.type == tokenize.STRING and token.start[0] in docstrings:
+            yield token.start[0], token.string
+        elif token.type == tokenize.COMMENT:
+            if token.start[0] != lines[-1] + 1:
+                yield lines[0], text
+                lines, text = [token.start[0]], ""
+            lines.append(token.start[0])
+            text += token.string.lstrip("#")
+    yield lines[0], text
+
+
+def test_prose_is_what_readers_of_the_code_read():
+    found_in = dict(prose('"""Told."""\na = "told"  # it bears\n# it goes\n# on\nb = f(a)\n'))
+    assert {line: found(text) for line, text in found_in.items() if text} == {1: ["Told"], 2: ["bears", "goes on"]}
+
+
+def test_no_house_word_in_docstrings_and_comments():
+    texts = ((path, *one) for path, source in suspects(CODE) for one in prose(source))
+    assert [f"{path.relative_to(ROOT)}:{line}: {words}" for path, line, text in texts
+            if (words := [word for word in found(text) if word not in IN_CODE])] == []
+
+
+def names(tree):
+    """(line, name) of every parameter and every name that is set."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.arg):
+            yield node.lineno, node.arg
+        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            yield node.lineno, node.id
+
+
+def test_no_verb_as_a_name():
+    words = re.compile(rf"\b({'|'.join(NO_NAMES)})\b")
+    every = ((path, *one) for path, source in suspects(CODE, words) for one in names(ast.parse(source)))
+    assert [f"{path.relative_to(ROOT)}:{line}: {name}" for path, line, name in every if name in NO_NAMES] == []

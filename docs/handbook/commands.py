@@ -24,7 +24,7 @@ def command(before, name, found):
 
 
 def helped(found):
-    """The help of a command; Markdown as it stands there, long and short options in it untouched."""
+    """The help of a command; Markdown unchanged, long and short options in it untouched."""
     return textwrap.dedent(found.help or "").strip()
 
 

@@ -13,19 +13,19 @@ import numpy as np
 import tehl_taichi as tehl
 from tehl_taichi.scene import BUILT_INS
 
-COLUMNS = ("scene", "p_H, GPa", "steady h_c, um", "steady h_min, um", "passage p_max, GPa", "passage h_min, um",
-           "film, deg C", "Fi_max", "load on solids")
+COLUMNS = ("scene", "p_H, GPa", "steady h_c, µm", "steady h_min, µm", "passage p_max, GPa", "passage h_min, µm",
+           "film, °C", "Fi_max", "load on solids")
 
 
 def described(name, grid, steps):
-    """The built-in scene on this grid ("128x32"), without companion runs."""
+    """The built-in scene on this grid ("128x32"), without coarse-grid runs."""
     nx, ny = (int(part) for part in grid.split("x"))
     changes = {"grid.nx": nx, "grid.ny": ny, "numerics.estimate_error": False}
     return tehl.scene(name).replace(**changes, **({"time.steps": steps} if steps is not None else {}))
 
 
 def row(run):
-    """What its summary says, as text in the order of COLUMNS."""
+    """Numbers of its summary, as text in the order of COLUMNS."""
     s, p = run.summary["steady"], run.summary.get("transient", {})
     heat, Fi = {**s, **p}.get("film_max_C"), run.summary.get("fatigue", {}).get("Fi_max")  # None: too much friction
     values = (run.summary["hertz"]["p_Pa"] / 1e9, s["h_c_m"] * 1e6, s["h_min_m"] * 1e6, p.get("p_max_Pa", np.nan) / 1e9,
@@ -40,7 +40,7 @@ def in_the_middle(store):
 
 
 def centreline(axes, run):
-    """Pressure (GPa) and film (um) along y = 0, the feature in the middle."""
+    """Pressure (GPa) and film (µm) along y = 0, the feature in the middle."""
     store, a = run.store, run.summary["hertz"]["a_m"]
     fields = store.fields(in_the_middle(store), ("pressure", "film"))
     middle, X, film = int(np.argmin(np.abs(store.y))), store.x / a, axes.twinx()
@@ -65,8 +65,8 @@ def sheet(runs, file):
         axes.set_axis_off()
     for axes, run in zip(all_axes.flat, runs):
         centreline(axes, run)
-    figure.supxlabel("X = x/a, rolling to the right", fontsize=9)
-    figure.supylabel("pressure, GPa (blue, left); film, um (orange, right)", fontsize=9)
+    figure.supxlabel("x / a (flow to the right)", fontsize=9)
+    figure.supylabel("pressure, GPa (blue, left); film, µm (orange, right)", fontsize=9)
     figure.savefig(file, dpi=110)
     plt.close(figure)
 

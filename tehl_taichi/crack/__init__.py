@@ -23,7 +23,7 @@ def crack(of: Any, scene: "Scene | None" = None, *, thermal_stress: bool | None 
     from tehl_taichi.engine import runtime
     from tehl_taichi.fatigue.overrides import agreed, changed, reader_of
 
-    asked, reader = CrackOptions(**options), reader_of(of, "crack")
+    chosen, reader = CrackOptions(**options), reader_of(of, "crack")
     scene = changed(agreed(scene, reader), {"thermal_stress": thermal_stress})
     runtime.start_or_join(threads=threads)
-    return run(scene, reader, asked)
+    return run(scene, reader, chosen)

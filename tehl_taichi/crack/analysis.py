@@ -21,13 +21,13 @@ CLEAR = 0.05                    # a larger difference between the grids of a cra
 class CrackSide:
     """One side: its :class:`CrackStart`, the trajectory (m, complex) with the tension (Pa) along it, and the crack's path."""
 
-    begun: CrackStart
+    start: CrackStart
     trajectory: np.ndarray
     tension: np.ndarray
     path: CrackPath
 
     def __repr__(self):
-        return f"<Side from x = {self.begun.x * 1e6:.1f} um: {self.path.points.size} points, stopped by {self.path.why}>"
+        return f"<Side from x = {self.start.x * 1e6:.1f} um: {self.path.points.size} points, stopped by {self.path.why}>"
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class CrackResult:
         {"entry" or "exit": :class:`CrackSide`} of the sides where the surface is in tension.
     plane : SymmetryPlane
         Stresses of that body in the plane below the feature.
-    wanted : CrackOptions
+    options : CrackOptions
         The options.
 
     Examples
@@ -77,10 +77,11 @@ def follow(plane, scene, options):
     surface = plane.surface or scene.reference
     E_star, sides, summaries = surface.body.E / (1 - surface.body.nu**2), {}, {}
     for name in options.sides:
-        begun = start(plane, name, options.start)
-        summaries[name] = {"opens": begun is not None}
-        if begun:
-            sides[name] = CrackSide(begun, *trajectory(plane, begun, FAR * options.length), grow(plane, begun, options, E_star))
+        origin = start(plane, name, options.start)
+        summaries[name] = {"opens": origin is not None}
+        if origin:
+            path = grow(plane, origin, options, E_star)
+            sides[name] = CrackSide(origin, *trajectory(plane, origin, FAR * options.length), path)
             summaries[name] |= _summary(plane, sides[name], options, E_star)
         else:
             summaries[name]["why"] = _why_not(plane, name)
@@ -115,9 +116,9 @@ def _common(scene, options):
 
 
 def _summary(plane, side, options, E_star):
-    begun, path = side.begun, side.path
-    out = {"start_x_m": begun.x, "start_angle_deg": options.angle, "sigma1_surface_Pa": begun.sigma1,
-           "moment_x_m": float(plane.centres[begun.moment]), "trajectory": _shape(side.trajectory),
+    origin, path = side.start, side.path
+    out = {"start_x_m": origin.x, "start_angle_deg": options.angle, "sigma1_surface_Pa": origin.sigma1,
+           "moment_x_m": float(plane.centres[origin.moment]), "trajectory": _shape(side.trajectory),
            "tension_depth_m": _pulled(side.trajectory, side.tension), "path": _shape(path.points),
            "K": path.steps, "K_I_max": max((step["K_I_max"] for step in path.steps), default=0.0),
            "stopped": path.why, "why": WHY[path.why]}

@@ -18,7 +18,7 @@ SAME = 1e-8            # of the largest contact force: two rounds agree
 OPEN, STUCK, UP, DOWN = 0, 1, 2, 3  # UP: the slip grows
 ROUND = 1e-7    # of the largest opening, slip or force: less decides nothing
 AHEAD = 8       # moments tried at once with one state (4 and 16: as fast)
-FORGOT = 1e-12  # of the largest slip: passages that differ by less, in the same state, go on alike
+FORGOT = 1e-12  # of the largest slip: passages that differ by less, in the same state, continue alike
 
 
 @dataclass
@@ -45,7 +45,7 @@ class FrictionHistory:
         return (self.state[:, at] == other.state[:, at]).all() and apart <= FORGOT * np.abs(other.slip).max()
 
     def follow(self, other, begin):
-        """Go on as the other one."""
+        """Continue as the other one."""
         rest = slice(begin, None)
         self.forces[:, rest], self.state[:, rest] = other.forces[:, rest], other.state[:, rest]
         self.slip[:, rest], self.settled[rest] = other.slip[:, rest], other.settled[rest]
@@ -56,25 +56,25 @@ def with_friction(faces, forces, mu):
     G, contacts = faces.contact, len(faces.contact) - faces.rough
     S, free = G @ faces.compliance @ G.T, G @ faces.compliance @ forces
     first = _passage(S, free, mu, np.full(contacts, OPEN), np.zeros(faces.rough))
-    gone = _passage(S, free, mu, first.state[:, -1], first.slip[:, -1], first)
-    held = gone.forces[:contacts]
-    return shut(faces, faces.compliance @ (forces + G.T @ gone.forces), held), held, int((~gone.settled).sum())
+    history = _passage(S, free, mu, first.state[:, -1], first.slip[:, -1], first)
+    held = history.forces[:contacts]
+    return shut(faces, faces.compliance @ (forces + G.T @ history.forces), held), held, int((~history.settled).sum())
 
 
 def _passage(S, free, mu, state, slip, before=None):
     """The passage :class:`FrictionHistory` through from a state (contacts,) and slip (rough,) on, until it meets the one
     before."""
     moments = free.shape[1]
-    gone, now = FrictionHistory.none(state.size, slip.size, moments), 0
+    history, now = FrictionHistory.none(state.size, slip.size, moments), 0
     while now < moments:
         *done, then = some(S, free[:, now : now + AHEAD], mu, state, slip)
-        gone.put(slice(now, now + done[0].shape[1]), *done)
+        history.put(slice(now, now + done[0].shape[1]), *done)
         now, state = now + done[0].shape[1], then
-        slip = gone.slip[:, now - 1]
-        if before and gone.meets(before, now - 1):
-            gone.follow(before, now)
+        slip = history.slip[:, now - 1]
+        if before and history.meets(before, now - 1):
+            history.follow(before, now)
             break
-    return gone
+    return history
 
 
 def some(S, free, mu, state, slip):

@@ -47,13 +47,13 @@ class FluidFilledCrack:
         found = with_friction(self.faces, forces, self.friction) if self.friction > 0 else (*opened(self.faces, forces), 0)
         return FluidState(*found, pressure)
 
-    def marched(self, count, begun, step):
-        """:class:`FluidState` of a march with `count` cells. begun(march): (:class:`MomentState`, contents (cells,)) at the
+    def marched(self, count, first, step):
+        """:class:`FluidState` of a march with `count` cells. first(march): (:class:`MomentState`, contents (cells,)) at the
         first moment; step(march, n, found, contents): the same at moment n. With friction it goes twice, as slip has a
         history."""
         march = CrackMarch(self, count)
         for _ in range(2 if self.friction > 0 else 1):
-            kept = [march.took(*begun(march))]
+            kept = [march.took(*first(march))]
             for n in range(1, self.mouth.size):
                 kept.append(march.took(*step(march, n, *kept[-1])))
         return march.inside(*zip(*kept))

@@ -64,10 +64,10 @@ def loaded(plane, points, options, E_star, elements=None):
     return LoadedCrack(faces, inside.values, K, touching, inside.missed, inside.pressure, mouth)
 
 
-def grow(plane, begun, options, E_star):
+def grow(plane, origin, options, E_star):
     """The :class:`CrackPath` from a :class:`tehl_taichi.crack.trajectory.CrackStart`."""
     first = options.first * np.exp(1j * np.radians(options.angle))
-    path = CrackPath(np.array([begun.x, begun.x + first]))
+    path = CrackPath(np.array([origin.x, origin.x + first]))
     while not _stopped(plane, path, options, E_star):
         z, tip = path.points, path.points[-1]
         da = min(options.step, options.length - path.steps[-1]["length_m"])

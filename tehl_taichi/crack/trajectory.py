@@ -40,23 +40,23 @@ def start(plane, side, x=None):
     return CrackStart(float(places[at]), largest, int(moments[moment])) if largest > NOTHING * plane.scale else None
 
 
-def trajectory(plane, begun, length):
+def trajectory(plane, origin, length):
     """(points (m, complex), largest principal stress (Pa) at them) from the mouth on, by midpoint steps."""
-    da, z, way, points, tension = STEP * length, complex(begun.x, 0.0), 1j, [], []
+    da, z, way, points, tension = STEP * length, complex(origin.x, 0.0), 1j, [], []
     while len(points) * da <= length and plane.holds(z):
-        value, direction = _across(plane, z, begun.moment, way)
+        value, direction = _across(plane, z, origin.moment, way)
         points.append(z)
         tension.append(value)
         middle = z + da / 2 * direction
         if not plane.holds(middle):
             break
-        way = _across(plane, middle, begun.moment, direction)[1]
+        way = _across(plane, middle, origin.moment, direction)[1]
         z = z + da * way
     return np.array(points), np.array(tension)
 
 
 def _across(plane, z, moment, way):
-    """(largest principal stress, unit direction normal to its own) at z, the one of both that goes on along `way`."""
+    """(largest principal stress, unit direction normal to its own) at z, the one of both that continues along `way`."""
     stress = plane.at(np.array([z]), slice(moment, moment + 1))[0, 0]
     value, angle = principal(stress)
     direction = 1j * np.exp(1j * angle)

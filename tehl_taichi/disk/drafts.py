@@ -5,7 +5,7 @@ behind it:
   .part  what is being made, or what a killed process left of it: cleaned up by the next draft in that folder
   .old   the folder that --force replaces, for the moment between two renames: put back if the second never came
   .gone  one that is being removed
-Each is a folder with a lock; one whose lock does not say that it is ours is nobody's to touch.
+Each is a folder with a lock; one whose lock does not say that it is ours is left alone.
 """
 
 import contextlib
@@ -99,9 +99,9 @@ class Draft:
         else:
             self.lock.moved(self.path)
         if self.old:
-            gone = staging_path(self.path, GONE)
-            os.rename(aside, gone)
-            remove(gone, self.old)
+            trash = staging_path(self.path, GONE)
+            os.rename(aside, trash)
+            remove(trash, self.old)
 
     def give_up(self):
         """Remove what was made so far, unless it is published; what stood at the name before stays."""
@@ -144,7 +144,7 @@ def clean(folder):
         for leftover in folder.glob(f".*.{what}"):
             new = folder / leftover.name[1 : -len(what) - 1]
             if _ours(leftover) and abandoned(leftover) and (what != OLD or _replaced(leftover, new)):
-                with contextlib.suppress(Busy, OSError):  # somebody takes it over, or cleans too
+                with contextlib.suppress(Busy, OSError):  # another process takes it over, or cleans too
                     remove(leftover, Lock(leftover))
 
 
@@ -166,8 +166,8 @@ def _check_ours(folder):
     """Raises Busy where a hidden folder is nothing that a killed process of ours left."""
     with contextlib.suppress(FileNotFoundError):  # its owner removes it now
         left = set(os.listdir(folder)) if is_folder(folder) else None
-        begun = left == set() or left == {LOCK} and not os.path.getsize(folder / LOCK)
-        if not _ours(folder) and not (begun and _own(folder)):
+        new = left == set() or left == {LOCK} and not os.path.getsize(folder / LOCK)
+        if not _ours(folder) and not (new and _own(folder)):
             what = "a link" if os.path.islink(folder) else "not written by tehl"
             raise Busy(f"{folder} is in the way and is {what}: move it away, or choose another --out")
 

@@ -10,7 +10,7 @@ import stat
 
 from tehl_taichi.errors import StoreError
 
-TEMPORARY = re.compile(r"\..+\.[0-9a-f]{16}\.tmp")  # unguessable: nobody can have put a link there before
+TEMPORARY = re.compile(r"\..+\.[0-9a-f]{16}\.tmp")  # unguessable: no link can be there before
 LINK = "it is a link, and tehl does not write through links"
 TEXT = 2e8  # bytes: no attributes, tables or scenes of ours are larger
 UNWAITING = getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)  # the reader of a FIFO would wait for its writer
@@ -24,7 +24,7 @@ def replace(path, content):
 
 
 def write(path, content):
-    """Write bytes to a path that nobody reads yet, in place of what has that name. Raises OSError, and then may leave half of
+    """Write bytes to a path that has no reader yet, in place of what has that name. Raises OSError, and then may leave half of
     them."""
     try:
         file = open(path, "xb")

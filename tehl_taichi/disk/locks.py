@@ -18,7 +18,7 @@ PATIENCE = 0.25  # s: whoever only looks whether a lock is held keeps it for mic
 
 
 class Busy(StoreError):
-    """Somebody else writes there, or may do so."""
+    """Another process writes there, or may do so."""
 
 
 class Lock:
@@ -74,7 +74,7 @@ def lock_content(folder):
 
 
 def abandoned(folder):
-    """Whether `folder` has a lock of this program that nobody on this host holds any more."""
+    """Whether `folder` has a lock of this program that no process on this host holds any more."""
     try:
         with _to_read(folder) as file:
             content = _read(file)

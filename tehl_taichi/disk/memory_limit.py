@@ -1,4 +1,4 @@
-"""Memory: how much this process can have, and a refusal before more than that is asked for."""
+"""Memory: how much this process can have, and a refusal before more than that is requested."""
 
 import contextlib
 import math

@@ -29,14 +29,14 @@ class UserFile(Draft):
     """A file or folder at `path` that is made as `draft` and appears with :meth:`publish`; see :func:`check` for the rest."""
 
     def __init__(self, path, force=False, kind="", parts="", of=None):
-        self.wanted = kind, parts, of
+        self.kind_parts_of = kind, parts, of
         super().__init__(path, force)
         self.draft = self.folder / "made"
         if parts:
             self.draft.mkdir()
 
     def allowed(self, replace):
-        check(self.path, replace, *self.wanted)
+        check(self.path, replace, *self.kind_parts_of)
         return Lock(self.path) if links.is_folder(self.path) else None
 
     def publish(self, made=None):

@@ -53,7 +53,7 @@ def _granted(folder):
 def pinned(threads):
     """Give each of the last `threads` threads that start inside (Taichi's pool; those before them compile) a core of its own,
     where they take all cores of this process: left alone, one often wakes on the core of another and waits for it. With
-    fewer threads than cores they stay free, so that several runs side by side spread."""
+    fewer threads than cores they stay free, so that several runs at once spread."""
     cores, before = allowed(), _running()
     yield
     new = sorted(_running() - before)[-threads:]

@@ -1,5 +1,5 @@
-"""Complex Fourier transforms inside kernels: lengths with factors 2, 3 and 5, known at run time; lanes are transformed side by
-side.
+"""Complex Fourier transforms inside kernels: lengths with factors 2, 3 and 5, known at run time; lanes are transformed
+together.
 
 Stockham's passes (radix 4, 2, 3, 5) between two buffers of a field of vectors, number k of a transform in the entries 2 k and
 2 k + 1 (real, imaginary part). A field, not an array: loops over arrays do not become vector instructions (0.225 against 0.060
@@ -48,7 +48,7 @@ def radices(n):
 
 
 class Lengths:
-    """Tables of passes and of twiddle factors for all lengths asked for."""
+    """Tables of passes and of twiddle factors for all lengths requested."""
 
     def __init__(self):
         self.passes, self.factors, self.known = [], [], {}

@@ -1,7 +1,7 @@
 """FFTW, as every module takes it: `from tehl_taichi.engine.fftw import pyfftw`.
 
 Its package offers transforms to dask and to scipy, too, and imports both where they are installed: 0.9 s of every start, for
-what nobody here calls.
+functions that are not called here.
 """
 
 import contextlib

@@ -1,4 +1,4 @@
-"""Fields that are handed from one owner to the next: Taichi never frees them, and a new one compiles its kernels anew."""
+"""Fields that are handed from one owner to the next: Taichi never frees them, and a new one compiles its kernels again."""
 
 import gc
 import itertools
@@ -8,7 +8,7 @@ from tehl_taichi.engine import runtime
 
 _tables = []  # [field, weak reference to its owner]
 SMALLEST_TABLE = 6600  # columns, of 256 x 64 cells with their coarse levels; sizes are 1, 1.5, 2, 3, 4, 6, ... times this: each
-# compiles its kernels anew, and what is too large is emptied at every start (513 x 257: 0.13 of 3 s by fours)
+# compiles its kernels again, and what is too large is emptied at every start (513 x 257: 0.13 of 3 s by fours)
 # columns more, so that rows do not lie a multiple of 4096 bytes apart: all that a loop reads would share a few cache sets then.
 # Whole cache lines in both precisions. Isothermal step on 512x128, ms on one / two threads, medians of three: none 113 / 94, 12
 # columns 109 / 86, 13 columns 139 / 91
@@ -22,8 +22,8 @@ def lease(owner, rows, lanes, columns, slots=0, each=1, precision="f64", clean=T
     That of a former owner is used again where there is one; with clean = False as he left it.
     """
     runtime.ensure()
-    wanted = (lanes, precision), (rows, columns * each, slots)
-    fitting = [entry for entry in _tables if _fits(entry[0], *wanted)]
+    needed = (lanes, precision), (rows, columns * each, slots)
+    fitting = [entry for entry in _tables if _fits(entry[0], *needed)]
     if fitting and not _free(fitting):
         gc.collect()  # 28 ms; an owner that is only held by a reference cycle is gone then
     if entry := _free(fitting):

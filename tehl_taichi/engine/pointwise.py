@@ -18,9 +18,9 @@ def in_kernel():
 
 
 class Pointwise:
-    """function(*arguments) outside of kernels; inside them what traced() gives, asked for once."""
+    """function(*arguments) outside of kernels; inside them what traced() gives, requested once."""
 
-    _is_taichi_function = False  # that it is there at all tells Taichi that it may be called in kernels
+    _is_taichi_function = False  # its existence marks the object as callable in kernels for Taichi
 
     def __init__(self, function, traced):
         functools.update_wrapper(self, function)

@@ -195,7 +195,7 @@ def by_phases():
 
 @contextlib.contextmanager
 def grown(times):
-    """Inside, loops run as those of so many times their work do: by kernels that are there, in place of others."""
+    """Inside, loops run as those of so many times their work do: by existing kernels, in place of others."""
     global _grown
     before, _grown = _grown, times
     try:

@@ -1,7 +1,7 @@
 """Workers of one kernel that share the jobs of one phase after another: no launch and no sleeping thread in between.
 
 A ticket is (round, phase, job) in one number, taken by an atomic addition. Who finishes the last job of a phase decides what
-follows (serially, alone) and publishes the next round; the others wait for it, spinning. Nobody waits for a worker without a
+follows (serially, alone) and publishes the next round; the others wait for it, spinning. No worker waits for a worker without a
 job: one that starts late, or never, is not missed, so that no number of workers can hang. Who has waited for long (his mate has
 lost its core in the middle of a job) leaves the kernel; the mate finishes alone. Jobs do not depend on who does them, and
 sums are added in their order: the bits are the same for any number of workers.
@@ -38,7 +38,7 @@ def job_of(ticket):
 
 @ti.func
 def last_one(sync: ti.template(), jobs):
-    """Count a finished job; whether it was the last of `jobs`. If so, nobody else works until :func:`publish`."""
+    """Count a finished job; whether it was the last of `jobs`. If so, no other worker works until :func:`publish`."""
     return ti.atomic_add(sync[DONE], ti.cast(1, ti.i64)) == jobs - 1
 
 
@@ -46,9 +46,9 @@ def last_one(sync: ti.template(), jobs):
 def publish(sync: ti.template(), ticket, phase):
     """Begin `phase` after that of `ticket`; negative: it was the last."""
     ti.atomic_and(sync[DONE], ti.cast(0, ti.i64))
-    begun = ((ticket >> (JOB_BITS + PHASE_BITS)) + 1) << PHASE_BITS
-    begun |= ti.cast(NO_PHASE if phase < 0 else phase, ti.i64)
-    ti.atomic_max(sync[TICKET], begun << JOB_BITS)  # larger than any ticket before
+    ticket_of_phase = ((ticket >> (JOB_BITS + PHASE_BITS)) + 1) << PHASE_BITS
+    ticket_of_phase |= ti.cast(NO_PHASE if phase < 0 else phase, ti.i64)
+    ti.atomic_max(sync[TICKET], ticket_of_phase << JOB_BITS)  # larger than any ticket before
 
 
 @ti.func
@@ -67,7 +67,7 @@ _launches = np.zeros(2, int)  # of teams of several, and those of them that fewe
 
 def crowding():
     """Launches by several workers in this process so far, and how many of them fewer finished, or were asked to, because one
-    had lost its core to somebody else: an array of two."""
+    had lost its core to another process: an array of two."""
     return _launches.copy()
 
 

@@ -82,10 +82,10 @@ def _of_surface(scene, surface, reader, centres, progress, until, alone):
         f = scene.fatigue
         raise SceneError(f"no stored moment has the feature between fatigue.from_x = {f.from_x:g} a and to_x = {f.to_x:g} a; "
                          f"it moves from {centres[0] / passage.a:.2f} to {centres[-1] / passage.a:.2f} a")
-    early, wanted = _early(passage, until), bool(scene.fatigue.depths)
+    early, in_depth = _early(passage, until), bool(scene.fatigue.depths)
     progress = PassProgress.of(progress, scene, passage, early)
     layers = [layer(scene, passage, depth, progress, early) for depth in (0.0, *scene.fatigue.listed)]
-    deep = depth_search.search(scene, passage, layers, early, progress) if wanted else depth_search.DepthResult([], [])
+    deep = depth_search.search(scene, passage, layers, early, progress) if in_depth else depth_search.DepthResult([], [])
     progress.end()
     result = _result(scene, passage, layers, deep, contact_alone.search(scene, reader, surface) if alone else None)
     if early is None:
@@ -95,7 +95,8 @@ def _of_surface(scene, surface, reader, centres, progress, until, alone):
 
 
 def _early(passage, until):
-    """Moments with the feature up to `until` (a) and the unloaded one; None where nobody asks, or these are all or none."""
+    """Moments with the feature up to `until` (a) and the unloaded one; None where they are not wanted, or these are all or
+    none."""
     if until is None:
         return None
     first = np.flatnonzero(passage.positions <= (until + 1e-9) * passage.a)

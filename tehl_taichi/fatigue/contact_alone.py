@@ -1,4 +1,4 @@
-"""The contact alone: what the smooth bodies bear under the steady start, at the surface and below, wherever they pass it."""
+"""The contact alone: what the smooth bodies carry under the steady start, at the surface and below, wherever they pass it."""
 
 from dataclasses import dataclass
 

@@ -29,7 +29,7 @@ SAME = 0.9998  # the same (1 degree) for peaks after the first halvings
 TIE = 2.0  # weight of the normal stress over the step, rad: a pattern then follows a ridge of equal shear at every step
 SLACK = 1e-11  # relative rounding of a bound
 KEPT = 1e-12  # relative rounding of a value that fewer moments leave as it is
-REACH = 2.0   # steps that a pattern moves before the moments that decide are chosen anew: the same values at 1473 points of a
+REACH = 2.0   # steps that a pattern moves before the moments that decide are chosen again: the same values at 1473 points of a
               # passage of 539 moments with 0.5 and with 8
 
 LANES = 8     # planes bounded at once: the ring of a pattern search

@@ -13,7 +13,7 @@ GRID = 10.0  # degrees between the planes the search begins with
 # halvings of the step: 5 degrees -> 2e-5 rad, error of a smooth maximum about 1e-9; a sum on the plane of the largest shear
 # is not largest there, so it errs by as much as the plane's angle
 SHRINKS, SHEARED_SHRINKS = 12, 22
-SLICE = 1000  # points of a launch, then it is told how far the search is: 0.7 s of 411 moments on a thread, no slower than all
+SLICE = 1000  # points of a launch, then progress is reported: 0.7 s of 411 moments on a thread, no slower than all
 
 
 def planes(degrees=GRID):

@@ -1,5 +1,5 @@
-"""Where on a surface an index is largest: its peaks, apart from each other. The worst point alone does not tell of a rough
-surface whether the asperity that one asks about is harmless."""
+"""Where on a surface an index is largest: its peaks, apart from each other. The critical point alone does not show, on a rough
+surface, whether the asperity that one asks about is harmless."""
 
 import numpy as np
 

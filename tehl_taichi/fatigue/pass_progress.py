@@ -1,10 +1,10 @@
-"""How far a fatigue search is: its passes follow each other, and are told of as one count."""
+"""Progress of a fatigue search: its consecutive passes are reported as one count."""
 
 from tehl_taichi.fatigue.depth_search import passes
 
 
 class PassProgress:
-    """Called with (done, total) parts of one of `passes` passes after another; tells progress(done, total) of all of them: in
+    """Called with (done, total) parts of one of `passes` passes after another; calls progress(done, total) for all of them: in
     hundredths of a pass, from 0 to the same total, never less than before. progress: or None."""
 
     EACH = 100
@@ -15,8 +15,8 @@ class PassProgress:
 
     @classmethod
     def of(cls, progress, scene, passage, early=None):
-        """Of a :func:`tehl_taichi.fatigue.assessment.run`: stresses and search of every block of rows at every depth asked
-        for, then those under rows where the worst depth is looked for."""
+        """Of a :func:`tehl_taichi.fatigue.assessment.run`: stresses and search of every block of rows at every depth listed,
+        then those under rows where the worst depth is looked for."""
         ladder = bool(scene.fatigue.depths)
         layers = 1 + len(scene.fatigue.listed)
         return cls(progress, 2 * layers * len(passage.row_blocks()) + (2 + passes(passage, early)) * ladder)

@@ -106,6 +106,6 @@ class ConductingBodies:
         return self.table.get(0, strips.kept(conduction_modes.MODES))
 
     def restore(self, memory, offset):
-        """Go on from :meth:`memory` and the cells that each body has moved since the start."""
+        """Continue from :meth:`memory` and the cells that each body has moved since the start."""
         self.table.put(0, memory)
         self.offset = np.array(offset)

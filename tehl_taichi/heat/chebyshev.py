@@ -6,7 +6,7 @@ import numpy as np
 from numpy.polynomial import chebyshev as series
 
 NEAR = 0.05  # of the rise: between nodes a profile is higher than at them by far less
-FINE = 33  # places that tell which profile is the highest; its own maximum is exact
+FINE = 33  # places that show which profile is the highest; its own maximum is exact
 
 # rows of the table of nodes, and the matrices (a row per node each) that follow them
 ZETA, WEIGHT, MATRICES = range(3)
@@ -43,8 +43,8 @@ def chebyshev(count):
 
 
 def largest(T):
-    """Largest value of the polynomials through T (nz, ...): the hottest place of a film lies between nodes, where 9 of them
-    tell up to 2 K less than 17."""
+    """Largest value of the polynomials through T (nz, ...): the hottest place of a film lies between nodes, where 9 nodes give
+    up to 2 K less than 17."""
     columns = np.asarray(T).reshape(len(T), -1)
     top = columns.max(axis=0)
     near = columns[:, top >= top.max() - NEAR * (top.max() - columns.min())]

@@ -79,7 +79,7 @@ def along_y(at: ti.template(), here, before, behind, moved):
     """Change of a value by flow along y: quadratic, linear where the value is an extreme; before, behind: in the blocks beside.
 
     Quadratic alone, two steps of BDF2 leave a sawtooth of rows as it is, however far the oil moves: the row beside the border
-    rested at 257 deg C between rows of 113 and 106, in oil that bears nothing and conducts slowly. So a bend counts up to the
+    rested at 257 deg C between rows of 113 and 106, in oil that carries nothing and conducts slowly. So a bend counts up to the
     smaller of both differences only, as in limiters of slopes (van Leer 1977).
     """
     lower, upper = rows_around(at, here, before, behind)
@@ -93,7 +93,7 @@ def along_y(at: ti.template(), here, before, behind, moved):
 
 # Rows that the oil moves along y in the two steps of BDF2, at most. Where it is swifter, thick oil that flows out at the sides
 # (in a slender contact 2 % of the columns above 0.01 p_H, with steps of one column), both of its places are nearer by the same
-# factor. With only the older place held back waves from row to row grow, by up to 1.5 a step: to 900 deg C in oil that bears
+# factor. With only the older place held back waves from row to row grow, by up to 1.5 a step: to 900 deg C in oil that carries
 # nothing (radii of 12.7 and 2.3 mm, 0.6 GPa, 1024 columns). Half of it changes that contact by 3e-5 of its film, by 1e-4 K
 FARTHEST = 1.0
 

@@ -21,7 +21,7 @@ STATES = 3  # that must be known before differences in time count: the first of 
 class Trend:
     """From the last two states to the next one."""
 
-    slope: ti.f64  # of the last difference, so much goes on
+    slope: ti.f64  # of the last difference, so much continues
     lowest: ti.f64  # deg C, that nothing is guessed below,
     highest: ti.f64  # or above
 
@@ -90,7 +90,7 @@ def foresee(Z: ti.template(), C: ti.template(), G: Table, nz: ti.i32, oil: ti.te
 
 class TemperatureExtrapolation:
     """Of the temperatures of `heat`, a :class:`tehl_taichi.heat.temperatures.FilmHeat`, from its last two states; at: how far
-    the feature has moved in the last one, in cells; state: what :meth:`state` gave is gone on from, if it is in there."""
+    the feature has moved in the last one, in cells; state: what :meth:`state` gave is continued from, if it is in there."""
 
     def __init__(self, heat, at, state):
         self.heat, self.at, self.edge_before = heat, [at], heat.columns.nodes(TNN)[:, -1]
@@ -115,18 +115,18 @@ class TemperatureExtrapolation:
         self._foresee()
 
     def accept(self, at):
-        """What is in the table is the newest state; to be told before the table's last states move on."""
+        """What is in the table is the newest state; call it before the table's last states move on."""
         self._look(at)
         self._judge()
         self.at, self.edge_before = [at, *self.at[: STATES - 1]], self.heat.T[:, -1]
 
     def state(self):
-        """Arrays to go on from: where the feature was, squares (2, ny+1, nx+1) of what was missed, the start."""
+        """Arrays to continue from: where the feature was, squares (2, ny+1, nx+1) of what was missed, the start."""
         start = {} if self.start is None else {"T_start": self.start}
         return {"T_moved": np.array(self.at), "T_missed": self.heat.columns.singles.get(STILL, 2), **start}
 
     def _look(self, to):
-        """How the last states go on to `to`."""
+        """How the last states continue to `to`."""
         T, before = self.heat.T, self.at[min(1, len(self.at) - 1)]
         slope = (to - self.at[0]) / (self.at[0] - before) if len(self.at) == STATES else 0.0
         self.ahead.set(slope=slope)

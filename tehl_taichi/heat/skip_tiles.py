@@ -1,7 +1,7 @@
 """Tiles of a film that rest in a round: where the round before hardly changed the temperatures, and pressure and film are still
 what they were then, another solution would not move them either.
 
-Gear at SRR -0.12, 256x64x9: of the second rounds' tiles 87 % rest; solved all the same they would change by at most 0.014 K
+Gear at SRR -0.12, 256x64x9: of the second rounds' tiles 87 % rest; solved anyway they would change by at most 0.014 K
 (thermal.tolerance: 0.05 K), without the limits of pressure and film by 0.019 K. On 128x32x9 about a half rest.
 """
 

@@ -73,7 +73,7 @@ def flow_across(rheology: ti.template(), y, col: ti.template(), newtonian):
 
 @ti.func
 def flow_along(rheology: ti.template(), x, col: ti.template(), newtonian, scene: ti.template()):
-    """And along it; as across it where walls bear all (:func:`tehl_taichi.pressure.fluxes.yielding`)."""
+    """And along it; as across it where walls carry all (:func:`tehl_taichi.pressure.fluxes.yielding`)."""
     smooth, steep = V(0.0), V(0.0)
     if scene.strain > 0.0:
         exact = either(rheology, True, x * col.skew, x, newtonian, col.p)

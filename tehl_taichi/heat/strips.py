@@ -17,7 +17,7 @@ WEIGHT, DECAY, GAIN, GAIN_LAST = range(4)
 
 @ti.pyfunc
 def kept(count):
-    """Slots that go on to the next step."""
+    """Slots that continue to the next step."""
     return 2 * count + 2
 
 

@@ -23,7 +23,7 @@ from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.storage_term import bdf
 
 COLUMN_TOLERANCE = 0.1  # of the tolerance of a round
-FEW = 8  # columns without a solution that a passage goes on with
+FEW = 8  # columns without a solution that a passage continues with
 RESTING = 0.4  # of the tolerance of a round: what the one before changed where the next rests
 COLUMN_ITERATIONS = 40  # Newton steps of a column; 2 are usual, 6 to 8 the most seen where none is halved
 
@@ -124,7 +124,7 @@ class FilmHeat:
 
     def hold(self):
         """Let columns without a solution keep the temperatures of the oil that came in until the step is accepted: a few
-        are left beside solid contact or a front that the grid does not resolve; those that bear nothing may change with
+        are left beside solid contact or a front that the grid does not resolve; those that carry nothing may change with
         the rounds. Returns whether that is worth a try."""
         worth, self.holding = not self.holding and self.report.failed <= FEW, True
         return worth
@@ -148,14 +148,14 @@ class FilmHeat:
         self.T = self.temperature()
 
     def state(self):
-        """All that is needed to go on, as arrays."""
+        """All that is needed to continue, as arrays."""
         return {"heat_T": self.T, "heat_T_before": self.columns.nodes(film_tables.TNN),
                 "heat_below": self.columns.nodes(film_tables.MSN), "heat_below_before": self.columns.nodes(film_tables.MSNN),
                 "heat_p_before": self.columns.single(film_tables.PNN)[None], "heat_memory": self.bodies.memory(),
                 "heat_offset": self.bodies.offset, "heat_dt_before": self.dt_before}
 
     def restore(self, state):
-        """Go on from a state; the pressure of the last step must be in the table."""
+        """Continue from a state; the pressure of the last step must be in the table."""
         v = self.levels
         for kind, name in ((film_tables.T, "heat_T"), (film_tables.TN, "heat_T"), (film_tables.TNN, "heat_T_before"),
                            (film_tables.MSN, "heat_below"), (film_tables.MSNN, "heat_below_before")):

@@ -37,16 +37,16 @@ class Law(Entry):
 
 @dataclass(frozen=True, kw_only=True)
 class ShearLaw(Law):
-    """stress(rheology, newtonian, p): the stress (Pa) that a film bears for the Newtonian stress eta * (shear rate); odd in it,
-    and equal to it where it is small. thins: whether it ever is another one.
+    """stress(rheology, newtonian, p): the stress (Pa) that a film carries for the Newtonian stress eta * (shear rate); odd in
+    it, and equal to it where it is small. thins: whether it ever is another one.
 
     What a film of one viscosity carries under a gradient of the pressure along the sliding, with wall = h |grad p|/2 >= 0, the
     stress that it puts on both walls, and newtonian >= 0, that of the sliding:
 
     flow(rheology, wall, newtonian, p): over what Newtonian oil carries; and its derivatives by ln wall, ln newtonian and p.
-    beyond: the same of what comes on top and is too steep in `wall` for Newton's method; power: of the wall that what is
-    carried then grows with. mean_stress: in the middle of the film. slip: part of the sliding that the oil slips along a wall.
-    limit(rheology, p): what no wall holds more than.
+    beyond: stress and derivatives of the part on top, which is too steep in `wall` for Newton's method; power: of the wall that
+    what is carried then grows with. mean_stress: in the middle of the film. slip: part of the sliding that the oil slips along
+    a wall. limit(rheology, p): what no wall holds more than.
 
     None: of the stress alone, by the circular law that touches it (:mod:`tehl_taichi.laws.tangent_circle`), or none such.
     """

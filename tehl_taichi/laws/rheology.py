@@ -12,7 +12,7 @@ DP = 1e3  # Pa, step of the difference quotients of laws: their scale is 1e8 Pa,
 
 @unrolled
 def shear_stress(rheology, newtonian, p):
-    """Stress that a film bears for a given Newtonian stress eta * (shear rate)."""
+    """Stress that a film carries for a given Newtonian stress eta * (shear rate)."""
     return LAWS[rheology.law].stress(rheology, newtonian, p)
 
 

@@ -23,8 +23,8 @@ def march(scene: "Scene | str", state: dict | None = None, precision: str | None
     from tehl_taichi.scene.builtin import given
 
     scene = given(scene)
-    if state is not None and (found := tuple(state["P"].shape)) != (wanted := (scene.rows + 1, scene.grid.nx + 1)):
-        raise SceneError(f"the state has {found[1]} x {found[0]} nodes, the scene {wanted[1]} x {wanted[0]}; it belongs to "
+    if state is not None and (found := tuple(state["P"].shape)) != (nodes := (scene.rows + 1, scene.grid.nx + 1)):
+        raise SceneError(f"the state has {found[1]} x {found[0]} nodes, the scene {nodes[1]} x {nodes[0]}; it belongs to "
                          "another scene")
     return run(scene if precision is None else scene.replace(**{"numerics.precision": precision}), state)
 

@@ -1,4 +1,4 @@
-"""The steady state of a film with temperatures: pressure and temperature by turns until neither moves."""
+"""The steady state of a film with temperatures: pressure and temperature alternately until neither moves."""
 
 import math
 
@@ -28,7 +28,7 @@ def time_step(scene, scales, dx):
 
 
 def settle(levels, heat, solve, T=None):
-    """Steady pressure and temperature by turns: a block of time steps with the pressure at rest, then the pressure anew by
+    """Steady pressure and temperature alternately: a block of time steps with the pressure at rest, then the pressure again by
     solve() -> Report. T: temperatures to begin with, from a coarser grid.
 
     Settled when the mean temperatures under load of two blocks, or of two runs of 2 to 8 blocks, differ by less than SETTLED

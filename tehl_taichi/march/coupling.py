@@ -8,7 +8,7 @@ from tehl_taichi.pressure.newton import SMALL_CHANGE
 RETRY_KRYLOV = 3e-3  # of a solve that failed: ten times tighter
 SLUGGISH = 0.2  # rounds that leave more of the last change are relaxed; usual is 0.01 to 0.1
 # While temperatures change by more (K) a pressure is solved for to the residual ROUGH only: it belongs to none of them. And
-# where the first Newton step is a large one (SMALL_CHANGE) it is gone on with so far before temperatures are solved for at all.
+# where the first Newton step is large (SMALL_CHANGE), Newton continues to this residual before the first temperature solve.
 # Newton steps and rounds a step: last quarter of the gear's passage on 256x64x9 at SRR -0.12 and 0.12, all with a ridge on
 # 128 columns. Without 5.42/3.19, 6.58/3.87, 4.22/2.18; 6 K and 1e-3 4.60/2.98, 5.31/3.89, 3.84/2.84; 12 K and 1e-3 4.81/2.96,
 # 5.37/3.87, 3.98/2.29; 12 K and 3e-4 4.58/2.64, 5.65/3.90, 4.25/2.20; 12 K and 3e-3 5.15/3.17, 5.44/3.87, 3.99/2.41
@@ -23,7 +23,7 @@ def exchange(solver, heat, solve, most=None, sparing=False):
 
     The first round takes one Newton step only: its pressure belongs to guessed temperatures anyway. sparing: that of later ones
     is solved for roughly while temperatures are far off, and takes over what hardly changes. Not for a start, where a state of
-    cold oil, with eddies in its inlet, is told from none by what is left over after blocks of steps: gear at 20 deg C, SRR
+    cold oil, with eddies in its inlet, shows only in what is left over after blocks of steps: gear at 20 deg C, SRR
     -0.12, 64 columns, rested with 1.6 K instead of 0.05.
     """
     thermal, work, change = solver.levels.scene.thermal, [], math.inf

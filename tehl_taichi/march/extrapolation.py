@@ -33,7 +33,7 @@ from tehl_taichi.values.interpolation import lagrange
 
 WORK = 2  # of a column, in units of a copy
 NOTHING = 1e-14  # squared error that is as good as none
-START = 0  # row of the pressure of the start, where that tells what does not move
+START = 0  # row of the pressure of the start, where that shows what does not move
 MADE = 1  # and of the first of 2 * order guesses, frame after frame; behind them squares of what they missed, and the states
 
 
@@ -138,9 +138,10 @@ class StateExtrapolation:
     """The last pressures of `levels` and what comes next.
 
     order: highest order of extrapolation; the newest pressure is that in the table; at: how far the feature has moved, in cells
-    (it moves at a constant speed, so this is the time, too); state: what :meth:`state` gave is gone on from, if it is in there.
+    (it moves at a constant speed, so this is the time, too); state: what :meth:`state` gave is continued from, if it is in
+    there.
 
-    What does not move is told by the outermost row of a line contact, which knows nothing of the feature. A single row, and a
+    The outermost row of a line contact, which the feature does not reach, shows what does not move. A single row, and a
     point contact, whose pressure ends before that row, remember their start instead. Newton steps by the outermost row and by
     the start: `furrow-line` 3.49, 3.01; a ridge 3.08, 2.51; `ridge-on-ball` on 64 columns 2.84, 2.67; `gear` on 128 2.64, 2.82.
     """
@@ -178,7 +179,7 @@ class StateExtrapolation:
         self.accept(at)
 
     def state(self):
-        """Arrays to go on from: the pressures, where the feature was, and the start where it is remembered."""
+        """Arrays to continue from: the pressures, where the feature was, and the start where it is remembered."""
         start = {} if self.by_edge else {"P_start": self.past.get(START).astype(np.float32)}
         history = np.stack([self.past.get(row) for row in self.rows[: len(self.at)]]).astype(np.float32)
         return {"P_history": history, "P_moved": np.array(self.at), **start}
@@ -204,7 +205,7 @@ class StateExtrapolation:
         self._trust()
 
     def _look(self, rows, at, to):
-        """How the states in these rows, known at the places `at`, go on to `to`."""
+        """How the states in these rows, known at the places `at`, continue to `to`."""
         self.weights[:] = 0.0
         for n, (row, where) in enumerate(zip(rows, at)):
             self.places[n] = row

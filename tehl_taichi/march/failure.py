@@ -79,12 +79,12 @@ def _too_high(scene):
     if (top := max(f.top for f in scene.features)) <= HIGH * (film := heated_film(scene)):
         return ""
     measured = any(f.kind.measured for f in scene.features)
-    asked = " (check feature.unit, and remove the form with feature.level)" if measured else ""
-    return (f"a feature rises {top:.2g} m{asked} where the film formula has {film:.2g} m; use a lower feature, or try "
+    remedy = " (check feature.unit, and remove the form with feature.level)" if measured else ""
+    return (f"a feature rises {top:.2g} m{remedy} where the film formula has {film:.2g} m; use a lower feature, or try "
             f"{refinement.finer_grid_option(scene)}")
 
 
 def _finer(scene):
-    """The next grid, or the one that the film formula asks for."""
+    """The next grid, or the one that the film formula needs."""
     return (thin_film.remedy(scene) if thin_film.carried(scene) < 1
             else f"use a finer one, {refinement.finer_grid_option(scene)}")

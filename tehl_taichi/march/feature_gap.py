@@ -1,4 +1,4 @@
-"""What features take off the gap."""
+"""What features remove the gap."""
 
 import numpy as np
 

@@ -13,8 +13,8 @@ FIRST_FILM = 0.05  # central film of the first guess, Hertz units: thick enough 
 START_TRIES = (1.0, 0.3, 3.0)  # times FIRST_FILM
 SLIPS = (1.0,), (1e-3, 1e-2, 0.1, 0.3, 1.0)  # parts of the slip that a start goes through, and again where it fails
 # Times the speed of the scene, that a start comes from. Down from high ones, where films are thick: thin ones are near to those
-# of three times their speed. Up from a low one a film touches on its grid, and may go on touching (lines of 15 and 50 nm on 512
-# and 1024 columns, which carry them): for grids that do not carry it
+# of three times their speed. Up from a low one a film touches on its grid, and may continue touching (lines of 15 and 50 nm on
+# 512 and 1024 columns, which carry them): for grids that do not carry it
 SPEEDS = 10.0, 100.0, 1000.0, 1 / 300
 LARGEST_STEP, SMALLEST_STEP = 3.0, 1.05  # ratio of two speeds on the way
 # Steps of time towards a steady state that Newton does not reach at once, in cells that the oil moves: films of a thousandth
@@ -87,7 +87,7 @@ def from_here(solver, krylov_tolerance=None):
 
 
 def put(solver, P, H0):
-    """Go on from this pressure and rigid approach."""
+    """Continue from this pressure and rigid approach."""
     solver.levels.put(fields.P, P)
     solver.H0 = H0
 
@@ -105,7 +105,7 @@ def _through_speeds(solver):
 
 def _from_speed(solver, speed):
     """From the state in the table at `speed` times that of the scene to it, in smaller steps where one fails. Surfaces that
-    touch on the way down would go on touching."""
+    touch on the way down would continue touching."""
     v, step, down, known = solver.levels, LARGEST_STEP, speed > 1.0, None  # known: speed of the last film
     state = v.get(fields.P), solver.H0
     while True:

@@ -1,6 +1,6 @@
 """The passage of a feature through the contact: steady start, then a march in time that yields snapshots.
 
-A time step: move the feature, predict, solve pressure (film, cavitation, contact and load at once) and temperature by turns,
+A time step: move the feature, predict, solve pressure (film, cavitation, contact and load at once) and temperature alternately,
 accept. All of it is in :class:`Passage`; a step that does not converge is taken in parts.
 """
 
@@ -41,7 +41,7 @@ MORE_ROUNDS = 4
 
 def march(scene, state=None):
     """Yield a Snapshot per time step, from the steady start or after the snapshot whose `state` is given (to be taken from it
-    before the next one is asked for).
+    before the next one is requested).
 
     Raises SceneError where there is no room for the grid, NotConverged when a step fails for good. The same state gives the
     same following steps, bit for bit.
@@ -168,9 +168,9 @@ class Passage:
                                 passing=True)
 
     def _double(self, done):
-        """Go on in double precision from the last accepted state, `done` of a step after the last whole one: single is chosen
-        by the smooth film, and under roughness that may be on its floor. Returns False where it is double already, or the
-        user's choice."""
+        """Continue in double precision from the last accepted state, `done` of a step after the last whole one: single is
+        chosen by the smooth film, and under roughness that may be on its floor. Returns False where it is double already, or
+        the user's choice."""
         if self.levels.precision == "f64" or self.scene.numerics.precision != AUTO:
             return False
         state, self.doubled = self._accepted(), True
@@ -179,7 +179,7 @@ class Passage:
         return True
 
     def _hold(self):
-        """Go on with few columns of the film that have no temperatures; False where that does not help."""
+        """Continue with few columns of the film that have no temperatures; False where that does not help."""
         if not (self.heat and self.heat.hold()):
             return False
         self.parts.retry()

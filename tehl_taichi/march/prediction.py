@@ -10,7 +10,7 @@ ORDER = 3  # of the extrapolation in time of the pressure
 
 class Prediction:
     """Of the state in the tables of `solver` and `heat` (or None), with the features moved by `at` cells; state: that a run
-    goes on from, with what :meth:`state` gave in it, or of a start."""
+    continues from, with what :meth:`state` gave in it, or of a start."""
 
     def __init__(self, solver, heat, at, state):
         self.solver, self.heat = solver, heat
@@ -26,13 +26,13 @@ class Prediction:
             self.temperature.put(at)
 
     def accept(self, at):
-        """The state in the tables, with the features at `at`, is the newest; to be told before `heat` accepts it."""
+        """The state in the tables, with the features at `at`, is the newest; call it before `heat` accepts that."""
         self.pressure.accept(at)
         self.heights = [self.solver.H0, *self.heights[:ORDER]]
         if self.heat:
             self.temperature.accept(at)
 
     def state(self):
-        """Arrays to go on from."""
+        """Arrays to continue from."""
         return {**self.pressure.state(), "H0_history": np.array(self.heights),
                 **(self.temperature.state() if self.heat else {})}

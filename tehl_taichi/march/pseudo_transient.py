@@ -1,9 +1,9 @@
-"""Where pressure and temperatures by turns find no steady state: both together in time, as a passage has them.
+"""Where pressure and temperatures alternately find no steady state: both together in time, as a passage has them.
 
-By turns, oil and bodies warm for a sixth of the domain under a film that does not answer: a thick one with a cold inlet
+In alternation, oil and bodies warm for a sixth of the domain under a film that does not answer: a thick one with a cold inlet
 overshoots, 30 to 80 K back and forth, or collapses. In time it answers within a step. Stages, see :func:`march_to_rest`: the
 slip grows (all at once, it would heat cold oil by 200 K in a step), blocks of steps until the temperatures rest, first with
-walls that bear all, then with those of the scene, and the steady equations from there; where a step fails for good all of it
+walls that carry all, then with those of the scene, and the steady equations from there; where a step fails for good all of it
 again, with a slip that grows more slowly.
 """
 
@@ -24,7 +24,7 @@ from tehl_taichi.pressure.storage_term import Storage
 # converges any more; within two it rests, after 1000 steps); of a block
 ONSETS, BLOCK = (0.5, 2.0), 0.25
 BLOCKS, MOST_STEPS = 40, 4000  # at most; scenes that rest do so after 4 to 18 blocks, the gear at 50 m/s after more than 24
-ON_THE_WAY = 8  # blocks at most with walls that bear all: by those, thick films of cold oil flutter at the outlet for ever
+ON_THE_WAY = 8  # blocks at most with walls that carry all: by those, thick films of cold oil flutter at the outlet for ever
 STILL = 0.3  # K, of what is at rest after all blocks: the outlet of cold thick films flutters by that much, without an end
 
 
@@ -65,8 +65,8 @@ def _judged(together, change, most):
 
 
 class PseudoTransient:
-    """A smooth contact in time, from the pressure in the solver's table and the state of `heat`. On the way its walls bear all
-    that the pressure asks for: a smooth contact hardly strains them, but the oil that a start at 20 deg C heaps up yields by
+    """A smooth contact in time, from the pressure in the solver's table and the state of `heat`. On the way its walls carry all
+    that the pressure needs: a smooth contact hardly strains them, but the oil that a start at 20 deg C heaps up yields by
     GPa a cell.
 
     report: of the last solve; lost: whether a step failed for good; mean: temperatures of the last block.

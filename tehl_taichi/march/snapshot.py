@@ -1,4 +1,4 @@
-"""A snapshot: one accepted state of a run in SI units; while it is the newest, all that is needed to go on from it."""
+"""A snapshot: one accepted state of a run in SI units; while it is the newest, all that is needed to continue from it."""
 
 import functools
 from dataclasses import dataclass, field
@@ -96,5 +96,5 @@ def take(solved, step, time_s, feature_x, make_state):
 
 
 def state_of(solver, heat, step):
-    """What is in the solver's table, as arrays to go on from."""
+    """What is in the solver's table, as arrays to continue from."""
     return {"step": step, "P": solver.levels.get(fields.P), "H0": solver.H0, **(heat.state() if heat else {})}

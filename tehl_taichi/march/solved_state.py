@@ -77,7 +77,7 @@ class SolvedState:
 
     @property
     def load(self):
-        """What the pressure bears."""
+        """What the pressure carries."""
         return self.solver.load
 
     @property

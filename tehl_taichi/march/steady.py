@@ -1,6 +1,6 @@
 """Steady contact from nothing: Hertz pressure on a coarse grid, then every finer grid from the one before.
 
-What the coarser grids gave tells the error of the finest (error_bars).
+The results of the coarser grids give the error of the finest (error_bars).
 """
 
 import math
@@ -79,7 +79,7 @@ def solve_steady(scene, scales, nx, ny, look=None, full=False):
 
 
 def _with_temperatures(solver, heat, T, finest):
-    """By turns, from the temperatures T of a coarser grid; on the finest grid in time, where that fails. Returns the
+    """Alternately, from the temperatures T of a coarser grid; on the finest grid in time, where that fails. Returns the
     SolveReport, and whether what did not settle is a state in time."""
     P, H0, resolved = solver.levels.get(fields.P), solver.H0, finest and not _touches(solver)
     border, solver.border = solver.border, None

@@ -60,7 +60,7 @@ class Field(StepOutput):
 
 @dataclass(frozen=True, kw_only=True)
 class Scalar(StepOutput):
-    """A number. over: what it tells of several steps where only every n-th is stored (CF's cell methods)."""
+    """A number. over: how it stands for several steps where only every n-th is stored (CF's cell methods)."""
 
     over: str
 

@@ -24,7 +24,7 @@ class Substeps:
         return cls(*state["parts"]) if "parts" in state else cls()
 
     def state(self):
-        """To go on from."""
+        """To continue from."""
         return {"parts": [self.part, self.left, self.pause, self.failing]}
 
     def next(self, done):
@@ -32,7 +32,7 @@ class Substeps:
         return min(1.0 - done, self.part)
 
     def accept(self, part):
-        """What was tried, `part` of a step, converged; the rest of a step that is smaller than others tells nothing."""
+        """What was tried, `part` of a step, converged; the rest of a step, smaller than others, shows nothing."""
         whole, self.failing = part == self.part, False
         if whole and not self.left:
             self.pause = max(FIRST_PAUSE, self.pause // 2)

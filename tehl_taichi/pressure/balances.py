@@ -4,7 +4,7 @@ from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.simd import Flat, LinearFlat, Table, V, W, cells, face_weights, lanes_in, lanes_out
 from tehl_taichi.pressure.fields import DRY, FLOOR, K0, MASK, RHO, SCALE, TOUCH, WEIGHT, D, H, P, R
 
-PHI2, LOAD, OUTFLOW, COUETTE = range(4)  # columns of what `sums` tells of each block
+PHI2, LOAD, OUTFLOW, COUETTE = range(4)  # columns of the sums of each block
 SUMS = 4
 
 

@@ -35,7 +35,7 @@ class Equations:
         self.evaluate()
 
     def linearise(self, kept=False, again=False):
-        """Slopes of the laws (kept: those that are there), Jacobian rows and the diagonal of the finest level; needs
+        """Slopes of the laws (kept: the existing ones), Jacobian rows and the diagonal of the finest level; needs
         :meth:`residual`. again: after a Newton step of the same solve."""
         self.known[0] = again
         if not kept:

@@ -168,7 +168,7 @@ def law_flows(both: ti.template()):
 def yielding(rheology: ti.template(), stress, p, sliding, skew, wall, along: ti.template()):
     """What the shear law makes of the flow along the sliding, or across it: what Newton's method may take as it is, and the
     steep rest. A film with temperatures feels a gradient as one of the viscosity that slides would feel `skew` of it: so that
-    what slips carries at most u_s/2. Where walls bear all, on the way to a start, oil flows as it does across the sliding:
+    what slips carries at most u_s/2. Where walls carry all, on the way to a start, oil flows as it does across the sliding:
     along it frozen oil, whose slip the walls do not end, would heap up."""
     smooth, steep = no_flow(), no_flow()
     if ti.static(not along):

@@ -53,7 +53,7 @@ class Grids:
         if ny == 0:
             return np.vstack([strip, strip])
         inner = influence.rectangle(length, 1, dx, dy, self.scales.compliance)[:length, 0]
-        # the outermost row of a line contact goes on to infinity on one side only
+        # the outermost row of a line contact continues to infinity on one side only
         return np.vstack([inner, 0.5 * (inner + strip) if self.line else inner])
 
     def deflection_key(self, l):

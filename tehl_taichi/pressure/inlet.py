@@ -1,4 +1,4 @@
-"""The pressure of the oil beyond the border of the grid, where a flooded inlet goes on for ever.
+"""The pressure of the oil beyond the border of the grid, where a flooded inlet continues for ever.
 
 Far before the contact bodies hardly bend under it, so the Reynolds equation can be integrated: with the reduced pressure
 q(p) = int_0^p eta_0/eta dp, a line has q = 12 eta_0 u_m int (h - h*)/h^3 dx beyond the border, h* what the film carries (its

@@ -44,7 +44,7 @@ class LevelNumbers:
 
     def strain(self, part):
         """Take the stress that the pressure puts on the walls to be this part of it, in the flow and in its heat; 0: walls that
-        bear all."""
+        carry all."""
         self.G[:, fields.WALL] = part * self.wall / self.G[:, fields.DX]
         self.conditions.set(strain=part)
 

@@ -30,8 +30,8 @@ SAME_SLOPES = 3e-3
 # step over the inlet (256x64, to a mass error of 1e-6): no cap 4.2/32, at most 10/111; cap 1 3.7/38, at most 4/50; without
 # the mass component of the norm and cap 0.03 3.7/58. A cap in the merit too does not converge from Hertz.
 ROW_CAP = 1.0
-# Share of what convergence still needs that a linear solve is asked for: Newton / Krylov per step over the passage 3.98/24.2
-# without, 3.45/24.3 with 0.3, 3.39/22.7 with 0.6 (the latter two with the mass component never above the rows' norm).
+# Accuracy of a linear solve as a share of the reduction that convergence still needs: Newton / Krylov per step over the passage
+# 3.98/24.2 without, 3.45/24.3 with 0.3, 3.39/22.7 with 0.6 (the latter two with the mass component never above the rows' norm).
 FORCING = 0.6
 # And of what a Newton step is likely to gain: its nonlinear rest is about NONLINEAR times the square of the merit; later in a
 # solve, gains repeat themselves (Eisenstat & Walker 1996, choice 2). At most numerics.krylov_tolerance. Newton / Krylov, the
@@ -40,8 +40,8 @@ FORCING = 0.6
 # 6/52, at most 0.3 2.38/18.4 and 7/47
 NONLINEAR = 30.0
 GAIN, GAIN_POWER = 0.9, 1.618
-# A linear solve reduces the mass error some ten times as much as the norm of the rows: asked for less, Newton / Krylov per step
-# are 2.31/16.2 (2.31/18.2 without, 2.47/15.7 with 30), with temperatures 2.97/19.6 (2.91/24.6, 3.13/18.9)
+# A linear solve reduces the mass error some ten times as much as the norm of the rows. With this factor, Newton / Krylov per
+# step are 2.31/16.2 (2.31/18.2 without, 2.47/15.7 with 30), with temperatures 2.97/19.6 (2.91/24.6, 3.13/18.9)
 MASS_GAIN = 10.0
 FIRST_ROUND = 0.1  # of :meth:`PressureSolver.improve`: 0.2 and 0.05 cost 3 % more
 

@@ -12,7 +12,7 @@ THICK = 0.01
 
 
 def of(scene):
-    """"f32" or "f64": what the scene asks for, or what suits it. Raises SceneError for f32 and a film too thin for it."""
+    """"f32" or "f64": what the scene needs, or what suits it. Raises SceneError for f32 and a film too thin for it."""
     requested = scene.numerics.precision
     if requested == "f32" and suited(scene) != "f32":
         h = central_film(scene)

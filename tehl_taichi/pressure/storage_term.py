@@ -69,7 +69,7 @@ def third_order(q):
 _row = itertools.count()
 START, COUETTE, LOST = (next(_row) for _ in range(3))  # rows: rho H that counts as resting, dx d/dX of it, what is damped
 OLD = [next(_row) for _ in range(ORDER)]  # and of the last steps
-ROW, SHARE = range(2)  # what is told of an old state: its row, share of the shortest wave that is lost on its way
+ROW, SHARE = range(2)  # columns of an old state: its row, share of the shortest wave that is lost on its way
 
 
 @ti.dataclass
@@ -172,7 +172,7 @@ class Storage:
         self.past.put(COUETTE, third_order(start))
 
     def state(self):
-        """Arrays to go on from: mass (start, newest, ...), lengths of the steps between the latter."""
+        """Arrays to continue from: mass (start, newest, ...), lengths of the steps between the latter."""
         rows = START, *self.old[: self.known]
         return {"mass": np.stack([self.past.get(row) for row in rows]), "lengths": np.array(self.lengths)}
 

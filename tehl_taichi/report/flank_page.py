@@ -157,7 +157,7 @@ def warnings(flank):
 
 
 def _provenance(flank):
-    """Versions that the summaries tell."""
+    """Versions in the summaries."""
     versions = sorted({summary["version"] for *_, summary in flank.rows if summary})
     seconds = sum(summary["wall_s"] for *_, summary in flank.rows if summary)
     return [("folder", flank.folder.name), ("version", ", ".join(versions)), ("run time of all positions", f"{seconds:.0f} s")]

@@ -12,7 +12,7 @@ def value_text(value, error=None, unit="1", digits=4):
 
 
 def apart(value, error, unit, digits=4):
-    """(value, error, unit) in words: two digits of the error say how many of the value are told; `digits` of it, and '' for
+    """(value, error, unit) in words: two digits of the error set the digits of the value; `digits` of it, and '' for
     the error, where that is not known."""
     factor, scale = fitting(UNITS.get(unit, unit), value)
     text, rest, power = parted(value * factor, None if error is None else error * factor, digits)

@@ -32,7 +32,7 @@ class NumberedPoint:
 
 
 def places(search):
-    """A list of :class:`NumberedPoint`, the worst first; [] of a single asperity, dent or ridge, whose worst point tells
+    """A list of :class:`NumberedPoint`, the worst first; [] of a single asperity, dent or ridge, whose critical point is
     enough."""
     Fi, scene = search.result.Fi, search.scene
     if Fi is None or Fi.shape[1] == 1 or not _many(scene):
@@ -82,7 +82,7 @@ def rows(search):
 
 
 def _columns(search, scene, found):
-    """(heading, cells) of each column that has something to tell."""
+    """(heading, cells) of each column that has values."""
     for axis in ("x", "y", "height"):
         yield axis, [value_text(getattr(p, axis), unit="m", digits=3).replace(" ", UNBROKEN) for p in found]
     yield "Fi at the surface", [index_text(p.Fi) for p in found]

@@ -29,13 +29,13 @@ class RenewedSearch:
 
     @property
     def differs(self):
-        """[(what, as it is asked, as the run has it)], in words."""
+        """[(constant, its value in this search, in the run)], in words."""
         pairs = zip(_words(self.scene), _words(self.run.scene))
-        return [(what, asked, own) for (what, asked), (_, own) in pairs if asked != own]
+        return [(what, new, stored) for (what, new), (_, stored) in pairs if new != stored]
 
     @property
     def is_answered(self):
-        """Whether it is the question whose answer is stored."""
+        """Whether the stored search has these constants."""
         return not self.differs and "fatigue" in self.run.summary
 
     def page(self, progress=None, threads=None):
@@ -47,11 +47,11 @@ class RenewedSearch:
                                    about=f"{page.about}, with a new fatigue search")
 
     def _question(self):
-        asked = ", ".join(f"{what} {value}" for what, value, _ in self.differs)
-        return f"{FATIGUE.removesuffix('?')}, with {asked}?" if asked else FATIGUE
+        changes = ", ".join(f"{what} {value}" for what, value, _ in self.differs)
+        return f"{FATIGUE.removesuffix('?')}, with {changes}?" if changes else FATIGUE
 
     def _doubts(self):
-        """What the run itself was asked, and how much of it there is."""
+        """Constants of the run itself, and how much of it is stored."""
         own, store = ", ".join(f"{what} {value}" for what, _, value in self.differs), self.run.store
         if own:
             yield f"The run was stored with other constants: {own}."

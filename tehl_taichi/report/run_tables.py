@@ -40,7 +40,7 @@ def _with_below(reasons, found, more):
 
 
 def _of_below(deep, reasons):
-    """The same of what lies below the surface."""
+    """Rows of the layers below the surface."""
     for says, *rest in _with_errors(deep, reasons):
         yield says.replace("at the surface", f"{value_text(deep['depth_m'], unit='m')} below the surface"), *rest
 
@@ -112,7 +112,7 @@ def _of_point(point, key, unit):
 
 
 def tension(fatigue):
-    """What the worst point does not tell of the surface; None where it was not kept."""
+    """Rows of the whole surface beside the critical point; None where it was not kept."""
     most = fatigue.get("sigma1_max_Pa")
     return facts([("largest principal stress at the surface", value_text(most, unit="Pa"))] if most is not None else [])
 
@@ -150,7 +150,7 @@ FROM = ("command", "date", "version", "commit", "python", "numpy", "pyfftw", "za
 
 
 def provenance(store):
-    """Who computed it: what its attributes tell, and the runtime's own."""
+    """Provenance: attributes of the store, and the runtime of this process."""
     runtime = integrity.optional(store.attrs, "runtime", {})
     rows = [(key, str(store.attrs[key])) for key in FROM if key in store.attrs]
     return facts([("store", store.path.name), *rows, *((key, _word(runtime[key])) for key in ("taichi", "arch", "threads")

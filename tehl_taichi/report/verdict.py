@@ -25,13 +25,13 @@ def of(store):
         return _none_yet(store)
     found = (of_fatigue(summary["fatigue"], store.scene, others(summary)) if "fatigue" in summary else
              _of_film(summary, store.scene))
-    question, headline, tone, tells = found
+    question, headline, tone, sentences = found
     yields, rims = _yielding(summary), list(rim_warnings.rims(store, summary))
     stated = {"yield": yields, "rim": rims}  # before the other doubts
     warnings = [one for one in store.warnings if not stated.get(one.code)]
-    at_rim = [f"{said[0].upper()}{said[1:]}." for said in rims]
+    at_rim = [f"{rim[0].upper()}{rim[1:]}." for rim in rims]
     doubts = (*yields, *at_rim, *_cut(store), *_constants(store, summary), *_version(store))
-    return Answer(question, headline, tone, (*tells, *_read_first(warnings)), doubts, tuple(warnings))
+    return Answer(question, headline, tone, (*sentences, *_read_first(warnings)), doubts, tuple(warnings))
 
 
 def _read_first(warnings):
@@ -86,36 +86,36 @@ def _spread(searches):
 
 def of_fatigue(fatigue, scene=None, beside=MappingProxyType({})):
     """(question, headline, tone, sentences) of the summary of the search of the worse body, and of those of the other in
-    `beside` {surface: summary}; scene: whose, which tells the moments and what passes; None: unknown, all moments of a
+    `beside` {surface: summary}; scene: of the run: its moments, what passes; None: unknown, all moments of a
     feature."""
     searches = {fatigue.get("surface"): fatigue, **beside}
     if why := why_none(fatigue):
         return FATIGUE, f"No verdict: {why}.", "open", _from_pressure(searches)
     over = when(scene) if scene else WHOLE
-    worst, places, known, tells = _judged(searches)
+    worst, places, known, sentences = _judged(searches)
     rough = any(searched(one).get("rough") for one in searches.values())
-    said = headline(worst, places, known, ", by the 99th percentile of the index" * rough)
+    verdict = headline(worst, places, known, ", by the 99th percentile of the index" * rough)
     if rough:
-        tells = ["99th percentile of the index:", *tells, *_spread(searches)]
+        sentences = ["99th percentile of the index:", *sentences, *_spread(searches)]
     elif all("resolved" in one for one in searches.values()):
         early = {name: one["resolved"] for name, one in searches.items()}
-        said, tells = _by_what_is_known(early, worst, tells, over, feature_wording.where(scene))
-    text, tone = _load_too(said, searches)
-    return FATIGUE, text, tone, (*_alone_words(searches), *tells, *_plane(fatigue))
+        verdict, sentences = _by_what_is_known(early, worst, sentences, over, feature_wording.where(scene))
+    text, tone = _load_too(verdict, searches)
+    return FATIGUE, text, tone, (*_alone_words(searches), *sentences, *_plane(fatigue))
 
 
 def _from_pressure(searches):
     """Sentences on the index of the pressure alone."""
-    told_of = (_index_sentence(*layer) for layer in _judged_layers(searches))
-    return ("From the pressure alone, without surface shear and frictional heat:", *told_of)
+    sentences = (_index_sentence(*layer) for layer in _judged_layers(searches))
+    return ("From the pressure alone, without surface shear and frictional heat:", *sentences)
 
 
 def _judged(searches):
     """(the worst of what is judged, where, whether the errors behind it are known, sentences)."""
     found = _judged_layers(searches)
-    worst = max(said for *_, said in found)
-    places = _listed([where for where, _, _, said in found if said == worst])
-    known = all(error is not None for _, _, error, said in found if said == worst)
+    worst = max(state for *_, state in found)
+    places = _listed([where for where, _, _, state in found if state == worst])
+    known = all(error is not None for _, _, error, state in found if state == worst)
     return worst, places, known, [_index_sentence(*layer) for layer in found]
 
 
@@ -125,38 +125,38 @@ def _listed(words):
 
 
 def _judged_layers(searches):
-    """[(where, Fi, its error or None, what is said of it)] of each {surface: summary}, see :func:`all_layers`."""
+    """[(where, Fi, its error or None, its state)] of each {surface: summary}, see :func:`all_layers`."""
     return [(where, Fi, error, judged(Fi, error)) for where, Fi, error in all_layers(searches)]
 
 
-def _by_what_is_known(parts, whole, tells, over, whose):
+def _by_what_is_known(parts, whole, sentences, over, whose):
     """(headline and tone, sentences) where the grid does not resolve every pressure: by the part of the passage before that, to
     which the rest can only add. parts: {surface: summary of that}; whole: the worst of what is judged of the whole search, over
     these moments; whose: position ends that part, in words."""
     worst, places, known, early = _judged(parts)
     end = f"{whose} up to {_place(next(iter(parts.values()))['to_x_a'])}"
-    tells = [f"While the grid resolves the pressure ({end}; the rest can only add):", *early,
-             f"{over[0].upper()}{over[1:]}, where the grid does not resolve the pressure:", *tells]
+    sentences = [f"While the grid resolves the pressure ({end}; the rest can only add):", *early,
+                 f"{over[0].upper()}{over[1:]}, where the grid does not resolve the pressure:", *sentences]
     if worst != BELOW:
         even = "even " if worst == ABOVE else ""
-        return headline(worst, places, known, f", {even}without the pressures that the grid does not resolve"), tells
+        return headline(worst, places, known, f", {even}without the pressures that the grid does not resolve"), sentences
     if whole == BELOW:
-        return (f"Probably not: the index stays below 1, but {over} its error is unknown.", "no"), tells
+        return (f"Probably not: the index stays below 1, but {over} its error is unknown.", "no"), sentences
     text = "Not decided: the index stays below 1 while the grid resolves the pressure, and exceeds 1 later."
-    return (text, "open"), tells
+    return (text, "open"), sentences
 
 
 def _place(x):
-    """A position of the feature (a) for who does not know the frame."""
+    """A position of the feature (a) for readers who do not know the frame."""
     if round(x, 2) == 0:
         return "the middle of the contact"
     side = "before" if x < 0 else "behind"
     return f"{x:.2f} a, that is {abs(x):.2f} half-widths {side} the middle of the contact"
 
 
-def _index_sentence(where, Fi, error, said):
+def _index_sentence(where, Fi, error, state):
     unknown = "" if error is not None else " (error unknown)"
-    return f"{where[0].upper()}{where[1:]}: Fi = {index(Fi, error)}{unknown}, {SAID[said]}."
+    return f"{where[0].upper()}{where[1:]}: Fi = {index(Fi, error)}{unknown}, {SAID[state]}."
 
 
 def headline(worst, places, known, when=""):
@@ -169,22 +169,22 @@ def headline(worst, places, known, when=""):
     return f"{no}: the index stays below 1{when}{more}.", "no"
 
 
-def _load_too(said, searches):
+def _load_too(verdict, searches):
     """(headline, tone), with the words that the load alone exceeds the limit, too."""
-    (text, tone), alone = said, _worst_alone(searches)
+    (text, tone), alone = verdict, _worst_alone(searches)
     if tone != "yes" or not alone or judged(alone[1]["Fi_max"], error_of(alone[1], "Fi_max")) != ABOVE:
         return text, tone
     return f"{text.removesuffix('.')}. The load alone exceeds it, without any feature.", tone
 
 
 def _worst_alone(searches):
-    """(surface, numbers) of the smooth body that bears more, None where none is known."""
+    """(surface, numbers) of the smooth body that carries more, None where none is known."""
     found = [(name, part) for name, one in searches.items() if (part := searched(one).get("contact_alone"))]
     return max(found, key=lambda one: one[1]["Fi_max"], default=None)
 
 
 def _alone_words(searches):
-    """What the smooth contact bears, in a sentence."""
+    """What the smooth contact carries, in a sentence."""
     if not (worst := _worst_alone(searches)):
         return ()
     name, alone = worst
@@ -258,9 +258,9 @@ def _constants(store, summary):
     if "fatigue" not in summary:
         return _limit_words(store.scene) if "contact_alone" in summary else ()
     f = searched(summary["fatigue"])
-    said = _limit(f["sigma_eF_Pa"], f["kappa_F"], f["criterion"], store.scene.fatigue)
+    limit = _limit(f["sigma_eF_Pa"], f["kappa_F"], f["criterion"], store.scene.fatigue)
     stress = "counts" if f["thermal_stress"] else "does not count"
-    return said, f"Thermal stress {stress} in the index.", *_counted(store.scene)
+    return limit, f"Thermal stress {stress} in the index.", *_counted(store.scene)
 
 
 def _limit_words(scene):

@@ -14,28 +14,28 @@ def report(of: str | PathLike | Any, out: str | PathLike | None = None, *, force
     from tehl_taichi.report import document, embed
 
     folder = folder_of(of)
-    asked = _renewed_search(folder, constants)
-    out = Path(out) if out else default_page(folder, "-fatigue" if asked else "")
+    search = _renewed_search(folder, constants)
+    out = Path(out) if out else default_page(folder, "-fatigue" if search else "")
     user_files.check(out, force, "html")
     embed.check_installed()
-    page = asked.page(progress, threads) if asked else page_of(folder)
+    page = search.page(progress, threads) if search else page_of(folder)
     user_files.text(out, document.rendered(page), force, kind="html")
     return out
 
 
 def _renewed_search(folder, constants):
-    """The question that these constants ask of the run in `folder`; None where it is the one whose answer is stored. Raises
+    """Search of the run in `folder` with these constants; None where that search is stored. Raises
     StoreError, SceneError."""
     if all(value is None for value in constants.values()):
         return None
     from tehl_taichi.report.renewed_search import RenewedSearch
 
-    asked = RenewedSearch(folder, constants)
-    return None if asked.is_answered else asked
+    search = RenewedSearch(folder, constants)
+    return None if search.is_answered else search
 
 
 def default_page(folder, end=""):
-    """The file of the page of `folder` where no other is wanted; end: of its name."""
+    """The file of the page of `folder` by default; end: of its name."""
     folder = folder.absolute() if not folder.name else folder
     return folder.with_name(f"{folder.stem if folder.suffix else folder.name}{end}.html")
 

@@ -1,4 +1,5 @@
-"""Companions beside their run: in a process of their own, on cores that a long run leaves idle; else after it, in its process.
+"""Coarse-grid runs beside their run: in a process of their own, on cores that a long run leaves idle; else after it, in its
+process.
 
 Default gear on one of two cores, s, medians of three in turn: 45.5 without bars, 49.2 with them after it, 43.1 beside it; on
 both cores a process beside the run takes more than they do after it (67.5 against 59.7).
@@ -22,12 +23,12 @@ from tehl_taichi.runs.sweep import job
 WATCH = 0.5  # s between looks at whether the run is still there
 TELL = 1.0  # s between two words that the run waits for it
 # nodes times steps from which on a run is long: the process loads its kernels first, some 4 s. A coarse case of a sweep in a
-# warm process takes 5.0 s with a process beside it, and 3.8 s with companions after it, by kernels that are there
+# warm process takes 5.0 s with a process beside it, and 3.8 s with coarse-grid runs after it, by existing kernels
 LONG, HEAVIER = 5e6, 5.0  # with temperatures a step takes so many times as long
 
 
 def idle():
-    """Cores that nobody has given work: none in a worker of a study, beside which others work."""
+    """Cores without work: none in a worker of a study, beside which others work."""
     return 0 if job.working() else cores.available() - runtime.ensure()["threads"]
 
 
@@ -48,7 +49,7 @@ def background_answers(scene):
     with open(write, "wb", 0) as word, _started(scene, read, min(idle(), runtime.ensure()["threads"])) as process:
         os.close(read)
         try:
-            yield functools.partial(_begun, process, word, scene)
+            yield functools.partial(_wait_for, process, word, scene)
         finally:
             process.kill()
 
@@ -64,9 +65,9 @@ def _started(scene, read, threads):
                                 stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, start_new_session=True, pass_fds=(read,))
 
 
-def _begun(process, word, scene, until):
-    """What waits for their answers; they are told `until` now."""
-    with contextlib.suppress(OSError):  # they died
+def _wait_for(process, word, scene, until):
+    """Wait for the results of the process; it gets `until` first."""
+    with contextlib.suppress(OSError):  # it died
         word.write(json.dumps(until).encode())
     word.close()
     return functools.partial(_ready, process, scene, until)
@@ -87,7 +88,7 @@ def _output_of(process):
     """What a process wrote, once it is over; None while it is not."""
     try:
         return process.communicate(timeout=TELL)[0]
-    except subprocess.TimeoutExpired:  # nothing is lost: the next call goes on
+    except subprocess.TimeoutExpired:  # nothing is lost: the next call continues
         return None
 
 

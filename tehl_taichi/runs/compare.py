@@ -3,13 +3,14 @@
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
+from typing import Any
 
 from tehl_taichi.errors import SceneError, StoreError
 from tehl_taichi.runs.stored_run import Run
 from tehl_taichi.values.coerce import plain
 from tehl_taichi.values.path_arguments import folder_of
 
-MOST = 8  # stores: more lines than that nobody tells apart
+MOST = 8  # stores: more lines cannot be distinguished
 # of a summary: words, or what every run has of its own
 OWN = ("store", "version", "scene", "left_out", "warnings", "warning_codes", "warning_data", "error_parts", "unknown",
        "unknown_codes")
@@ -38,7 +39,7 @@ class Comparison:
 
     @property
     def names(self):
-        """Folder names, with as much of the path before as tells them apart."""
+        """Folder names, with as much of the path before as makes them differ."""
         paths = [Path(store.path).absolute() for store in self.stores]
         for parts in range(1, 20):
             names = ["/".join(path.parts[-parts:]) for path in paths]
@@ -60,7 +61,8 @@ class Comparison:
 
     @property
     def lines(self):
-        """What `tehl show` tells of the summaries, a :class:`tehl_taichi.runs.compare_rows.ComparisonRow` for each quantity."""
+        """The rows of `tehl show` for the summaries, a :class:`tehl_taichi.runs.compare_rows.ComparisonRow` for each
+        quantity."""
         from tehl_taichi.runs.compare_rows import lines
 
         return lines([store.summary for store in self.stores])
@@ -82,7 +84,7 @@ class Comparison:
              force: bool = False) -> Path:
         """The figure, with the feature at `at` half-widths where runs have one; returns its path.
 
-        dpi, format (where the path has no suffix that tells it), width, force: as :meth:`Run.plot`. Raises SceneError,
+        dpi, format (where the path has no suffix), width, force: as :meth:`Run.plot`. Raises SceneError,
         StoreError.
         """
         from tehl_taichi.runs import compare_figure
@@ -109,7 +111,7 @@ def _twice(paths):
 
 def flat(nested, above=""):
     """{dotted key: value} of tables in tables; the tables of a list are numbered, other lists are values."""
-    out = {}
+    out: dict[str, Any] = {}
     for key, value in nested.items():
         if isinstance(value, list) and value and isinstance(value[0], dict):
             value = {str(n): item for n, item in enumerate(value)}
@@ -120,10 +122,10 @@ def flat(nested, above=""):
     return out
 
 
-def _side_by_side(rows, wanted):
+def _side_by_side(rows, kept):
     keys = dict.fromkeys(key for row in rows for key in row)
     found = {key: [row.get(key) for row in rows] for key in keys}
-    return {key: values for key, values in found.items() if wanted(key, values)}
+    return {key: values for key, values in found.items() if kept(key, values)}
 
 
 def _follows(key, differs):
@@ -133,7 +135,7 @@ def _follows(key, differs):
 
 
 def _of_no_matter(key):
-    """Names, and files whose heights are told by their sum."""
+    """Names, and files whose heights are identified by their checksum."""
     return key == "name" or key.endswith(".file")
 
 

@@ -48,7 +48,7 @@ def _in_order(lists):
 
 
 def _line(what, rows):
-    """rows: a SummaryRow for each run, or None; where their values lie is told once where it is the same."""
+    """rows: a SummaryRow for each run, or None; the position of their values is printed once where it is the same."""
     places = {row.where for row in rows if row}
     once = places.pop() if len(places) == 1 else None
     values = tuple(NONE if row is None else row.value + ("" if once is not None else row.where) for row in rows)

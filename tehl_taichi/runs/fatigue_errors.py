@@ -1,8 +1,8 @@
 """Error bars of a run's fatigue that is searched again.
 
-The companions of a run answered the run's own question: their bars are not those of another kappa, criterion, window or stress.
-The fatigue limit is no part of the search, the index is the stress over it: with another one the relative error stays. So it
-does with other depths, where the same point is the worst.
+The coarse-grid runs of a run answered the run's own question: their bars are not those of another kappa, criterion, window or
+stress. The fatigue limit is no part of the search, the index is the stress over it: with another one the relative error stays.
+So it does with other depths, where the same point is the worst.
 """
 
 from dataclasses import asdict
@@ -18,11 +18,11 @@ FREE = ("on", "endurance", "bending_limit", "torsion_limit", "source", "depths",
 SAME = 1e-6  # of the stress: the stored search and this one are the same
 
 
-def add_errors(searches, asked, store):
-    """Put "error" and "unknown" into the parts of the summaries of searches, {surface: summary}. asked: the section [fatigue]
+def add_errors(searches, section, store):
+    """Put "error" and "unknown" into the parts of the summaries of searches, {surface: summary}. section: [fatigue]
     that they were made with; store: of the run."""
     own, stored = store.scene.fatigue, _parts(by_surface(store.summary))
-    alike = all(getattr(asked, key) == value for key, value in asdict(own).items() if key not in FREE)
+    alike = all(getattr(section, key) == value for key, value in asdict(own).items() if key not in FREE)
     for name, part in _parts(searches).items():
         before = stored.get(name, {}) if alike else {}
         part["error"], reasons = _scaled(part, before)

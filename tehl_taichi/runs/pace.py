@@ -4,14 +4,14 @@ import time
 from collections import deque
 
 LAST = 20  # steps whose mean is the pace: those of a rough scan take twenty times as long once it is in the contact
-FEWEST = 3  # steps that tell one
+FEWEST = 3  # steps needed for one
 
 
 class Pace:
-    """The clock of a passage: told each step as it ends."""
+    """The clock of a passage; `at` marks the end of each step."""
 
     def __init__(self):
-        self.passed = deque(maxlen=LAST + 1)
+        self.passed: deque[tuple[int, float]] = deque(maxlen=LAST + 1)
 
     def at(self, done):
         """`done` steps are through, now; as many as before, or fewer, is another passage."""
@@ -20,7 +20,7 @@ class Pace:
         self.passed.append((done, time.perf_counter()))
 
     def left(self, total):
-        """Words for the time to the end of `total` steps; "" while nobody knows."""
+        """Words for the time to the end of `total` steps; "" while it is unknown."""
         steps, seconds = (last - first for first, last in zip(self.passed[0], self.passed[-1])) if self.passed else (0, 0.0)
         rest = total - self.passed[-1][0] if self.passed else 0
         return f"{about(rest * seconds / steps)} left" if steps >= FEWEST and rest else ""

@@ -1,4 +1,4 @@
-"""What a run tells while it works: the protocol, silent as it stands, and one that prints lines."""
+"""Progress of a run: the protocol, silent by default, and one that prints lines."""
 
 import contextlib
 import sys
@@ -8,7 +8,7 @@ from tehl_taichi.runs.pace import Pace
 
 STEADY, PASSAGE, FATIGUE, ERRORS = STAGES = ("steady start", "passage", "stresses and fatigue", "coarse-grid runs")
 LATE = FATIGUE, ERRORS  # stages after the last step, of minutes on fine grids
-TOLD = 0.1  # of such a stage, from which on the time left is told: its first parts, tables, take longer than the others
+TOLD = 0.1  # of such a stage, from which on the time left is shown: its first parts, tables, take longer than the others
 
 
 class Progress:
@@ -62,7 +62,7 @@ class Lines(Progress):
         self.stream, self.total, self.last, self.pace, self.yielded = stream, 0, time.perf_counter(), Pace(), False
 
     def say(self, text):
-        with contextlib.suppress(BrokenPipeError):  # a run goes on where nobody reads it
+        with contextlib.suppress(BrokenPipeError):  # a run continues where its output is closed
             print(text, file=self.stream or sys.stderr, flush=True)
 
     def warn(self, sentence):
@@ -74,7 +74,7 @@ class Lines(Progress):
             self.pace.at(done)
         elif name in LATE:
             self.pace.at(done)
-            share = done / total if total else 1.0  # companions may all be refused
+            share = done / total if total else 1.0  # coarse-grid runs may all be refused
             left = self.pace.left(total) if share >= TOLD else ""
             self._say_at_intervals(f"{name}: {share:.0%}{f', {left}' if left else ''}")
 
@@ -84,7 +84,7 @@ class Lines(Progress):
         self._say_at_intervals(f"step {snapshot.step}/{self.total}  {line(snapshot)}{f'  {left}' if left else ''}")
 
     def beyond_steel(self, snapshot):
-        """Say it once, as soon as a pressure is more than steel bears: whoever waits may want to stop."""
+        """Say it once, as soon as a pressure is more than steel carries: whoever waits may want to stop."""
         from tehl_taichi.scene.yield_pressure import STEEL, YIELDS
 
         p = snapshot.scalars["p_max_Pa"]

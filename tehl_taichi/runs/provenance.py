@@ -30,7 +30,7 @@ def versions():
 
 
 def machine():
-    """Operating system, architecture and, where it is told, the processor."""
+    """Operating system, architecture and, where it is known, the processor."""
     return ", ".join(part for part in (platform.platform(), _processor()) if part)
 
 

@@ -1,12 +1,13 @@
 """The steps of a run into its store: one is written while the next one is computed, not every one with its state, nor shown.
 
-To show a step means to write every number's series anew, thrice the work of its fields: with both at every step writing took
+To show a step means to write every number's series again, thrice the work of its fields: with both at every step writing took
 3.3 of the 33 CPU s of the gear passage, and a quarter of the time of its steps, since threads share the interpreter.
 """
 
 import dataclasses
 import sys
 import time
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 
 from tehl_taichi.march.passage import march
@@ -14,8 +15,8 @@ from tehl_taichi.march.step_output import Scalar, entries
 from tehl_taichi.scene.timeline import total_steps
 
 SWITCH = 1e-4  # s, interpreter switch interval while a thread writes
-EVERY = 2.0  # s between the states that a run can go on from; a thermal one has 11 MB at 257x65x9, a tenth of a step's time
-SHOWN = 1.0  # s between the steps that readers see, at 30 ms each: nobody looks more often, nor does a run go on from one
+EVERY = 2.0  # s between the states that a run can continue from; a thermal one has 11 MB at 257x65x9, a tenth of a step's time
+SHOWN = 1.0  # s between the steps that readers see, at 30 ms each: readers look no more often, and no run resumes from one
 
 
 class Interval:
@@ -35,8 +36,9 @@ class Interval:
 class Thinned:
     """Every n-th snapshot and the last (step `total`), with scalars that speak for the steps left out (see :class:`Scalar`)."""
 
-    METHODS = {"maximum": max, "minimum": min, "sum": sum, "mean": lambda values: sum(values) / len(values),
-               "point": lambda values: values[-1]}
+    METHODS: dict[str, Callable[[Sequence[float]], float]] = {
+        "maximum": max, "minimum": min, "sum": sum, "mean": lambda values: sum(values) / len(values),
+        "point": lambda values: values[-1]}
 
     def __init__(self, every, total):
         self.every, self.total, self.waiting = every, total, []

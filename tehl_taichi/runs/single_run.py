@@ -1,4 +1,4 @@
-"""One whole run: steady start, passage, stresses and fatigue, error bars, summary, all into a store; and going on with one."""
+"""One whole run: steady start, passage, stresses and fatigue, error bars, summary, all into a store; and resuming one."""
 
 import contextlib
 import functools
@@ -67,7 +67,7 @@ def resume(path: str | PathLike, *, steps: int | None = None, threads: int | Non
 
 
 def completed(scene: Scene, path: str | PathLike, *, threads: int | None = None, progress: Progress | None = None) -> Run:
-    """The finished run of `scene` in the store at `path`: as it lies there, gone on with, or run now.
+    """The finished run of `scene` in the store at `path`: as it lies there, resumed, or run now.
 
     Raises StoreError where the store there is of another scene, and what :func:`run` and :func:`resume` raise.
     """
@@ -90,7 +90,7 @@ def check_version(path, run):
 
 
 def _continue(path, scene, threads, began, progress):
-    """Go on with the store at `path` to the end of `scene`."""
+    """Continue with the store at `path` to the end of `scene`."""
     from tehl_taichi.engine import runtime
     from tehl_taichi.scene import memory_demand
     from tehl_taichi.store.store import Store
@@ -109,7 +109,7 @@ def _continue(path, scene, threads, began, progress):
 
 
 def _spent(saved):
-    """Seconds that a store took so far: as its run's end told them, else the steps that it keeps, with the steady start."""
+    """Seconds that a store took so far: as recorded at its end, else the steps that it keeps, with the steady start."""
     return saved.summary.get("wall_s", float(saved.scalar("wall_s").sum()))
 
 
@@ -149,8 +149,8 @@ def _contact_alone(scene, first):
 def _announce(scene, progress):
     from tehl_taichi.scene.scene_warnings import preview
 
-    for said in (*(f"left out: {what}" for what in scene.left_out(cut=False)), *preview(scene)):
-        progress.say(said)
+    for sentence in (*(f"left out: {what}" for what in scene.left_out(cut=False)), *preview(scene)):
+        progress.say(sentence)
     for sentence in scene.warnings():
         progress.warn(sentence)
 
@@ -162,16 +162,16 @@ def _finish(saved, state, steady, clock, progress):
     from tehl_taichi.runs import background_errors
     from tehl_taichi.runs.summary.summary import summarise
 
-    with background_errors.background_answers(saved.scene) as begun:
+    with background_errors.background_answers(saved.scene) as start_coarse:
         _march(saved, state, progress)
         until = _resolved(saved)
-        told = begun(until)
+        coarse_answers = start_coarse(until)
         found, arrays = _fatigue(saved, until, progress)
         _add_contact_alone(found, steady["steady_contact_alone"])
         sure = {name: one for name, one in found.items() if not why_none(one)}
         domain = DomainError.from_values(steady["steady_domain"])
         notify = functools.partial(progress.stage, ERRORS)
-        passage = coarse_runs.errors(saved.scene, saved, sure, lambda: told(notify), domain)
+        passage = coarse_runs.errors(saved.scene, saved, sure, lambda: coarse_answers(notify), domain)
     saved.finish(summarise(saved, {**clock.times(), **steady, **passage}, found), arrays)
     return Run(saved)
 
@@ -213,7 +213,7 @@ def _searched(saved):
 
 
 def _resolved(saved):
-    """Up to where the index is told apart, for pressures that the grid does not resolve later; None: nowhere."""
+    """Position up to which the index is searched separately, where the grid does not resolve later pressures; or None."""
     from tehl_taichi.march.accuracy import coarse_runs
 
     return coarse_runs.resolved(saved.scene, saved, saved.scalar) if _searched(saved) else None

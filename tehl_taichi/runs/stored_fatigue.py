@@ -1,9 +1,11 @@
 """The fatigue of a stored passage, as far as its tractions allow an index."""
 
 from dataclasses import replace
+from typing import cast
 
 from tehl_taichi.fatigue import fatigue
 from tehl_taichi.fatigue.pressure_alone import WITHOUT, without_index
+from tehl_taichi.fatigue.search_result import SearchResult
 from tehl_taichi.runs.summary.film_warnings import no_index
 
 
@@ -11,7 +13,8 @@ def assessed(store, scene, progress=None, until=None, threads=None):
     """:class:`tehl_taichi.fatigue.search_result.SearchResult` of a stored passage by the constants of `scene`; of the pressure
     alone where the film has more shear than any oil. progress, until, threads: as of :func:`tehl_taichi.fatigue`."""
     why = no_index(store) if scene.fatigue.shear else ""
-    found = fatigue(store, scene.replace(**WITHOUT) if why else scene, progress=progress, threads=threads, until=until)
+    searched = fatigue(store, scene.replace(**WITHOUT) if why else scene, progress=progress, threads=threads, until=until)
+    found = cast(SearchResult, searched)  # of a store, not of single points
     if not why:
         return found
     worst, *others = (replace(one, summary=without_index(one.summary, why)) for one in found.by_surface.values())

@@ -113,11 +113,11 @@ class Run:
         fatigue_errors.add_errors(found.summaries, scene.fatigue, self.store)
         return found
 
-    def crack(self, **wanted: Any) -> Any:
+    def crack(self, **options: Any) -> Any:
         """Follow cracks under its loads, see :func:`tehl_taichi.crack`."""
         from tehl_taichi.crack import crack
 
-        return crack(self, **wanted)
+        return crack(self, **options)
 
     def to_xarray(self) -> Any:
         """Open every array of the store as an `xarray.Dataset` that loads data when they are used.
@@ -145,7 +145,7 @@ class Run:
         return dataset(self.path)
 
     def plot(self, folder: str | PathLike | None = None, *, at: float | None = None, depth: float | None = None,
-             width: float = 17.0, dpi: int = 160, **written: Any) -> dict:
+             width: float = 17.0, dpi: int = 160, **written: Any) -> dict | list:
         """Draw its figures, those of `tehl plot`; :meth:`save_figures` writes them.
 
         Parameters

@@ -1,4 +1,4 @@
-"""What a look at a scene (its steady start alone) tells of the time that its whole passage would take."""
+"""Estimated time of a passage, from the steady start of its scene alone."""
 
 import itertools
 import math

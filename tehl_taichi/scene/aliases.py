@@ -1,5 +1,7 @@
 """What is given together for a change of a scene: keys by their full names, and which of them contradict each other."""
 
+from typing import Any
+
 from tehl_taichi.errors import SceneError
 from tehl_taichi.values.coerce import plain, shown
 
@@ -27,15 +29,15 @@ def full_name(key):
 def settled(given):
     """{full key: value} of (words, key, value), the words being what the user wrote. Raises SceneError, with the words of
     both, where two of them contradict each other."""
-    found = {}
+    found: dict[str, tuple[str, Any]] = {}
     for words, key, value in given:
         key, value = full_name(key), plain(value)
         if key in found and found[key][1] != value:
             _contradict(found[key][0], words)
         found[key] = words, value
     for groups in EXCLUSIVE:
-        spoken = [[found[key][0] for key in group if key in found and _is_given(key, found[key][1])] for group in groups]
-        spoken = [words[0] for words in spoken if words]
+        chosen = [[found[key][0] for key in group if key in found and _is_given(key, found[key][1])] for group in groups]
+        spoken = [texts[0] for texts in chosen if texts]
         if len(spoken) > 1:
             _contradict(*spoken[:2])
     return {key: value for key, (_, value) in found.items()}

@@ -1,5 +1,7 @@
 """Built-in scenes."""
 
+from typing import Any
+
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene.description import Scene
 from tehl_taichi.scene.feature import Feature
@@ -11,13 +13,15 @@ from tehl_taichi.values.coerce import shown
 # ball of steel on glass, R = 12.7 mm: E' = 117 GPa; oil with alpha = 2.2e-8 1/Pa (spec: the ridge of Venner & Lubrecht)
 GLASS = Body(E=75.06e9, nu=0.22, k=1.1, rho=2510.0, c=800.0)
 # of the sources behind the ball and the furrow: their curves are of Newtonian oil (the law matters wherever surfaces slip)
-NEWTONIAN = dict(thermal=Thermal(on=False), rheology=Rheology(law="newtonian"))
-BALL = dict(**NEWTONIAN, contact=Contact(kind="point", radius_x=12.7e-3, radius_y=12.7e-3, load=38.35), body_b=GLASS,
-            oil=OILS["ridge-test-fluid"], grid=Grid(nx=256, ny=128, x_min=-2.5, x_max=1.5, y_max=2.0))
+NEWTONIAN: dict[str, Any] = dict(thermal=Thermal(on=False), rheology=Rheology(law="newtonian"))
+BALL: dict[str, Any] = dict(
+    **NEWTONIAN, contact=Contact(kind="point", radius_x=12.7e-3, radius_y=12.7e-3, load=38.35), body_b=GLASS,
+    oil=OILS["ridge-test-fluid"], grid=Grid(nx=256, ny=128, x_min=-2.5, x_max=1.5, y_max=2.0))
 RIDGE = Feature(shape="ridge", height=0.2e-6, width=128.9e-6)
 FURROW = Feature(shape="furrow", height=-2e-6, width=500e-6)
 ROUGH = Feature(shape="rough", height=0.15e-6, width=40e-6, extent_x=500e-6, extent_y=500e-6, taper=50e-6)
-GROUND = dict(shape="ground", height=0.3e-6, width=80e-6, length=480e-6, extent_x=500e-6, taper=60e-6)  # marks across
+# marks across rolling
+GROUND: dict[str, Any] = dict(shape="ground", height=0.3e-6, width=80e-6, length=480e-6, extent_x=500e-6, taper=60e-6)
 
 BUILT_INS = {
     "gear": (Scene(), "dedendum of a driving gear: 1.5 um asperity on the slower surface (SRR -0.12), 1.93 GPa"),

@@ -109,7 +109,7 @@ class Scene:
     numerics: Numerics = Numerics()
     output: Output = Output()
     note: str = field(default="", compare=False)
-    user_keys = None  # full keys that the user gave: of these, what has no effect is told; None: those of unusual values
+    user_keys = None  # full keys that the user gave: those without effect are reported; None: those of unusual values
 
     def __repr__(self):
         s, o, count = scales.Scales.of(self), self.operation, len(self.features)
@@ -168,12 +168,13 @@ class Scene:
 
     def _check_room(self):
         """A point contact must fit into the grid, and a feature into the gap at its ends, where it comes in and leaves."""
-        if self.contact.kind != "line" and self.grid.y_max < BEYOND:
-            raise SceneError(f"grid.y_max = {self.grid.y_max:g} b: a {self.contact.kind} contact extends to 1 b; allowed: at "
+        side = float(self.grid.y_max)
+        if self.contact.kind != "line" and side < BEYOND:
+            raise SceneError(f"grid.y_max = {side:g} b: a {self.contact.kind} contact extends to 1 b; allowed: at "
                              f"least {BEYOND:g} b")
         highest, s = max((f.top for f in self.features), default=0.0), scales.Scales.of(self)
         need = math.sqrt(2 * max(highest, 0.0) / s.h)
-        for key, end in (("x_min", self.grid.x_min), ("x_max", self.grid.x_max)):
+        for key, end in (("x_min", float(self.grid.x_min)), ("x_max", float(self.grid.x_max))):
             if self.transient and abs(end) < need:
                 gap = 0.5 * end**2 * s.h
                 farther = f", or a wider domain: {words}" if (words := domain_warnings.domain_words(self)) else ""
@@ -194,9 +195,9 @@ class Scene:
                              f"the passage, which extends from {start:.2f} to {end:.2f} a; allowed: a window of at least two")
 
     def _form_words(self):
-        """What is said of the form of a measured feature, which makes it higher than it need be."""
-        said = (sentence for f in self.features if f.kind.measured for sentence in map_warnings.form(f))
-        return "".join(f". {sentence}" for sentence in said)
+        """Sentences about the form of a measured feature, which makes it higher than necessary."""
+        sentences = (sentence for f in self.features if f.kind.measured for sentence in map_warnings.form(f))
+        return "".join(f". {sentence}" for sentence in sentences)
 
     def _load_words(self):
         """The load as it was given."""
@@ -325,13 +326,13 @@ class Scene:
     @property
     def has_thermal_stress(self):
         """Whether the heat of the surface counts in its stress."""
-        wanted = self.fatigue.thermal_stress
-        return not self.isothermal if wanted == AUTO else bool(wanted)
+        counts = self.fatigue.thermal_stress
+        return not self.isothermal if counts == AUTO else bool(counts)
 
     def left_out(self, cut=True):
         """What this scene does not need and therefore does not compute, each with its reason; cut: and the rest of a passage
-        that is cut, of which a warning tells, too."""
-        out = []
+        that is cut, which a warning reports, too."""
+        out: list[str] = []
         if self.isothermal:
             why = "isothermal film" if self.thermal.on is False else "no slip" if self.operation.srr == 0 else "a Moes pair"
             option = Option("; --thermal computes them", "")
@@ -369,8 +370,8 @@ class Scene:
     @property
     def judged(self):
         """The surfaces whose material is searched: those of fatigue.surfaces that move (one at rest is always under load)."""
-        asked = moving_surfaces.NAMES if self.fatigue.surfaces == BOTH else (self.fatigue.surfaces,)
-        return tuple(s for s, rests in zip(self.surfaces, self.at_rest) if s.name in asked and not rests)
+        names = moving_surfaces.NAMES if self.fatigue.surfaces == BOTH else (self.fatigue.surfaces,)
+        return tuple(s for s, rests in zip(self.surfaces, self.at_rest) if s.name in names and not rests)
 
     @property
     def without_fatigue(self):
@@ -423,7 +424,7 @@ class Scene:
 
     def to_dict(self):
         """Plain nested dictionary with every value, defaults included; the sections of a scene file."""
-        data = {"name": self.name, "note": self.note}
+        data: dict[str, Any] = {"name": self.name, "note": self.note}
         for key in SECTIONS:
             data[key] = domain.with_auto(dataclasses.asdict(getattr(self, key)))
         data["bodies"] = {"a": dataclasses.asdict(self.body_a), "b": dataclasses.asdict(self.body_b)}

@@ -33,15 +33,15 @@ ENDS = "x_min", "x_max", "y_max"
 def chosen(scene):
     """The grid of a scene with a number for every end that is "auto"."""
     grid = scene.grid
-    asked = [key for key in ENDS if _auto(getattr(grid, key))]
-    if not asked:
+    automatic = [key for key in ENDS if _auto(getattr(grid, key))]
+    if not automatic:
         return grid
     found = {"x_min": lambda s, film: -_first(INLETS, lambda X: inlet_gap(s, X) / film, _least(scene)),
              "x_max": lambda s, film: OUTLET,
              "y_max": lambda s, film: LINE_SIDE if s.line else _first(SIDES, lambda Y: side_gap(s, Y) / film, GAPS)}
     s = Scales.of(scene)
-    film = heated_film(scene) / s.h if {"x_min", "y_max"} & set(asked) else 1.0
-    return replace(grid, **{key: AutomaticValue(found[key](s, film)) for key in asked})
+    film = heated_film(scene) / s.h if {"x_min", "y_max"} & set(automatic) else 1.0
+    return replace(grid, **{key: AutomaticValue(found[key](s, film)) for key in automatic})
 
 
 def with_auto(values):

@@ -42,9 +42,12 @@ class SharedKeys:
                             usual=5e-5)
 
 
+_KEYS: Any = type("_KEYS", (*OWN, SharedKeys), {})  # those of every shape
+
+
 @documented
 @dataclass(frozen=True, repr=False)
-class Feature(*OWN, SharedKeys):
+class Feature(_KEYS):
     """Feature of a surface; x and y of further features are measured from the first (of the other surface: from where that
     is when the first is at X = 0).
 

@@ -5,12 +5,12 @@ import math
 
 
 def passing(scene):
-    """The word for it; scene: None where nobody knows it."""
+    """The word for it; scene: None where it is unknown."""
     return "scan" if scene and scene.features and scene.features[0].kind.measured else "feature"
 
 
 def where(scene):
-    """Of what a position is told: of a scan, which is as long as the contact, it must be its centre."""
+    """The part of a feature whose position is given: of a scan, which is as long as the contact, it must be its centre."""
     return "scan centre" if passing(scene) == "scan" else "feature"
 
 

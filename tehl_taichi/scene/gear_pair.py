@@ -109,7 +109,7 @@ class GearPair:
         return self.a_0 * math.cos(self.alpha_t) / math.cos(angle_of(inv(self.alpha_t) + rise))
 
     def _sum_of_shifts(self):
-        """x1 + x2 that the centre distance asks for."""
+        """x1 + x2 that the centre distance needs."""
         cosine = self.a_0 * math.cos(self.alpha_t) / self.a_w
         if cosine >= 1:
             raise SceneError(f"gear.a_w = {self.a_w:g} m leaves no line of action; allowed: more than "

@@ -1,4 +1,4 @@
-"""The grid that a wanted error needs, from what `tehl bench accuracy` measured on the built-in scenes."""
+"""The grid that reaches a target error, from what `tehl bench accuracy` measured on the built-in scenes."""
 
 import functools
 import json
@@ -47,7 +47,7 @@ def grid_for(description, target):
 
 def _seeing_maps(description, nx, ny):
     """This grid, or the first of twice its columns and rows, four times ... that sees the measured maps; where none of up to
-    MOST columns does, this one: the scene's warnings tell."""
+    MOST columns does, this one, with the scene's warnings."""
     return refinement.first(description.replace(**{"grid.nx": nx, "grid.ny": ny}), map_warnings.carried, MOST) or (nx, ny)
 
 

@@ -1,4 +1,4 @@
-"""How much memory a run asks for."""
+"""How much memory a run needs."""
 
 from tehl_taichi.disk import memory_limit
 

@@ -1,13 +1,14 @@
 """Lubricants: laws and their numbers."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 from tehl_taichi.laws import conduction, density, viscosity
 from tehl_taichi.laws.law import declared, section
 from tehl_taichi.scene import data_sheet
 from tehl_taichi.values.quantity import check, choice, documented, kinds, text
 
-_OIL = section(
+_OIL: Any = section(
     "_OIL", name=text("reference-pao", "`tehl oils` lists the named ones"),
     source=text("PAO of Everitt, licentiate thesis 2018; density after Larsson et al. 2000", "source of the numbers",
                 one_line=False),
@@ -39,6 +40,9 @@ class Oil(_OIL):
     >>> tehl.Oil(eta0=0.02).eta0
     0.02
     """
+
+    if TYPE_CHECKING:  # keys come from the registries
+        expansion: str
 
     def __post_init__(self):
         check(self, "oil")

@@ -112,7 +112,7 @@ def _of(section, changes):
 
 
 def _read_sheet(oil, changes):
-    """A data sheet makes another oil of one that had none; what follows from it is found anew, its source, too, unless that is
+    """A data sheet makes another oil of one that had none; what follows from it is found again, its source, too, unless that is
     the user's own."""
     new, source = _of("oil", changes), str(oil.get("source", ""))
     sheet = {**{key: oil.get(key, 0.0) for key in data_sheet.KEYS}, **new}

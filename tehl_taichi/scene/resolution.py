@@ -13,7 +13,7 @@ from tehl_taichi.values.coded_warning import with_data
 # 12 to 18, 1 % with 35.
 FEWEST, ENOUGH = 4, 16
 MULTIPLES = {"nx": (16, 8192), "ny": (4, 4096)}  # that a grid must keep to, and its most cells
-HALVED = 2  # times: by the coarser grids that tell the errors of a run
+HALVED = 2  # times: by the coarse-grid runs for the errors of a run
 MOST_FEATURES = 256  # each costs a time step 1 ms on 256 x 64 cells: with 60 of them a step takes twice as long
 
 
@@ -91,8 +91,8 @@ def sights(scene):
         along, across = f.kind.sizes(f)
         for count, lengths in (("nx", along), ("ny", {} if scene.one_dimensional else across)):
             if lengths:
-                key = min(lengths, key=lengths.get)
-                name, length = f"{label(scene, n)}.{key}", lengths[key]
+                key, length = min(lengths.items(), key=lambda one: one[1])
+                name = f"{label(scene, n)}.{key}"
                 out.append(AxisResolution(n, name, length, count, length / cell[count], getattr(g, count)))
     return out
 

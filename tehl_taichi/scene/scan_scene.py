@@ -107,8 +107,8 @@ def _read(table):
     found = f"{rows} rows of {columns} points" if rows > 1 else f"a line profile of {columns} points"
     steps = [f"{step * 1e6:.4g} um" for step in map(stated_keys.usable, (table.stated.x, table.stated.y)) if step]
     unit = [f"heights in {table.stated.unit}"] if table.stated.unit else []
-    said = unit + ([f"points {' x '.join(dict.fromkeys(steps))} apart"] if steps else [])
-    return ", ".join([found, *filter(None, [table.skipped]), *([f"{', '.join(said)} as the file says"] if said else [])])
+    stated = unit + ([f"points {' x '.join(dict.fromkeys(steps))} apart"] if steps else [])
+    return ", ".join([found, *filter(None, [table.skipped]), *([f"{', '.join(stated)} as the file says"] if stated else [])])
 
 
 def _check_options(scan, profile, pixel_y, lay):
@@ -161,7 +161,7 @@ def _taper(shape, pixel, pixel_y):
 
 
 def _header(table):
-    """The lines before the first row, as comments: instruments tell unit and distances there."""
+    """The lines before the first row, as comments: instruments write unit and distances there."""
     return "".join(f"#   its header: {_plain(line.strip())}\n" for line in table.header_lines[:LINES])
 
 

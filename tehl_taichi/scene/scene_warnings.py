@@ -47,7 +47,7 @@ def doubtful_features(scene):
 
 
 def cut_passage(scene):
-    """A passage that ends although the feature still is in the contact; not one of no steps, where nobody wants any."""
+    """A passage that ends although the feature still is in the contact; not one of no steps, which was chosen."""
     end = timeline.cut_at(scene)
     if end is not None and scene.time.steps != 0:
         whole = timeline.uncut(scene).path[1]

@@ -3,7 +3,7 @@
 import math
 import numbers
 from dataclasses import dataclass
-from typing import Union
+from typing import TYPE_CHECKING, Any, Union
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.laws import rheology
@@ -140,7 +140,7 @@ class Operation:
         return self.u_m * (1 - self.srr / 2)
 
 
-_RHEOLOGY = section("_RHEOLOGY", law=choice("limiting", "shear law of the film (`tehl laws`)", tuple(rheology.LAWS)),
+_RHEOLOGY: Any = section("_RHEOLOGY", law=choice("limiting", "shear law of the film (`tehl laws`)", tuple(rheology.LAWS)),
                     **declared({**rheology.LAWS, BOUNDARY.name: BOUNDARY}))
 
 
@@ -159,6 +159,9 @@ class Rheology(_RHEOLOGY):
     >>> tehl.Rheology(law="newtonian").thins
     False
     """
+
+    if TYPE_CHECKING:  # keys come from the registries
+        law: str
 
     def __post_init__(self):
         check(self, "rheology")

@@ -1,4 +1,4 @@
-"""Films without temperatures whose oil is far too stiff to slide: what they tell rests on a viscosity that nobody measured."""
+"""Films without temperatures whose oil is far too stiff to slide: their results rest on viscosities that were not measured."""
 
 import math
 

@@ -64,7 +64,7 @@ def uncut(scene):
 
 
 def most_steps(scene):
-    """Time steps that a run of this scene may ever have, also when a cut passage goes on to its end."""
+    """Time steps that a run of this scene may ever have, also when a cut passage continues to its end."""
     return total_steps(uncut(scene))
 
 

@@ -28,14 +28,14 @@ def read(path, what):
 def check_brackets(path, data, one=(), several=()):
     """Refuse [NAME] where [[NAME]] is meant, and the other way round. one, several: names of tables that stand once, and of
     those that may stand several times. Raises SceneError."""
-    for names, wanted, other in ((one, "[{}]", "[[{}]]"), (several, "[[{}]]", "[{}]")):
+    for names, required, other in ((one, "[{}]", "[[{}]]"), (several, "[[{}]]", "[{}]")):
         for name in names:
             found = data.get(name)
             if found is None or _is_kind(found, name in several):
                 continue
             brackets = isinstance(found, dict) or found and _is_kind(found, True)
             written = other.format(name) if brackets else f"{name} = {shown(found)}"
-            raise SceneError(f"{written} in {path} must be {wanted.format(name)}, the header of a table of keys and "
+            raise SceneError(f"{written} in {path} must be {required.format(name)}, the header of a table of keys and "
                              f"values{' (each with its own header)' if name in several else ''}")
 
 

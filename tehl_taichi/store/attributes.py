@@ -1,4 +1,4 @@
-"""What stands in the attributes of a store: tables that were edited inside are refused before anybody stumbles over them."""
+"""What stands in the attributes of a store: tables that were edited inside are refused before they are used."""
 
 import json
 
@@ -31,8 +31,8 @@ def wrong(attrs, whole):
     found = _parsed(attrs.get("summary", "{}"))
     known = isinstance(found, dict) and found  # else there is none: readers do without
     of_ours = known and whole and {"scene", "steady"} & found.keys()
-    said = (_missing(found) if of_ours else "") or _wrong_numbers(found) if known else ""
-    return said and f"of its attribute 'summary' {said}"
+    reason = (_missing(found) if of_ours else "") or _wrong_numbers(found) if known else ""
+    return reason and f"of its attribute 'summary' {reason}"
 
 
 def text(attrs, name, default="unknown"):
@@ -62,8 +62,8 @@ def _wrong_numbers(table, above=""):
         kind = _kind(name, above)
         if kind and not _is(value, kind):
             return f"'{above}{name}' is {shown(value)}, not {KINDS[kind]}"
-        if isinstance(value, dict) and (said := _wrong_numbers(value, f"{above}{name}.")):
-            return said
+        if isinstance(value, dict) and (reason := _wrong_numbers(value, f"{above}{name}.")):
+            return reason
     return ""
 
 

@@ -1,4 +1,4 @@
-"""The states that a run can go on from, one .npz each (whose members carry checksums), named by the entries before it."""
+"""The states that a run can continue from, one .npz each (whose members carry checksums), named by the entries before it."""
 
 import zipfile
 import zlib

@@ -1,6 +1,6 @@
 """One chunk of an array: a file in the codecs that the array declares, bytes and zstd with a checksum; and whole arrays.
 
-What a file declares is compared with what its array holds before memory is asked for: a few bytes can declare terabytes.
+What a file declares is compared with what its array holds before memory is requested: a few bytes can declare terabytes.
 """
 
 import math
@@ -21,7 +21,7 @@ SLACK = 1000  # bytes by which a chunk that does not shrink may grow, beside a h
 
 
 def codecs():
-    """As a new array is told."""
+    """Compression of the chunks of a new array."""
     return ZstdCodec(level=LEVEL, checksum=True)
 
 

@@ -126,12 +126,12 @@ def check(path, attrs, arrays, scene, needed):
         raise damaged(path, fault)
     grid = {"x": scene.grid.nx + 1, "y": scene.rows + 1}
     for name, dimensions in needed.items():
-        wanted = [steps] + [grid[key] for key in dimensions]
+        needed = [steps] + [grid[key] for key in dimensions]
         shape = _shape(arrays.get(name))
         if shape is None:
             raise damaged(path, f"it has no array {name!r}")
-        if shape[: len(wanted)] != wanted:
-            raise damaged(path, f"{name} has the shape {shape}, but its scene and entries need {wanted}")
+        if shape[: len(needed)] != needed:
+            raise damaged(path, f"{name} has the shape {shape}, but its scene and entries need {needed}")
 
 
 def _shape(metadata):
@@ -142,7 +142,7 @@ def _shape(metadata):
 
 
 def attribute(path, attrs, name):
-    """A table (as JSON) among the attributes that going on needs. Raises StoreError."""
+    """A table (as JSON) among the attributes that resuming needs. Raises StoreError."""
     value = optional(attrs, name, {})
     if not value and attrs.get(name) != "{}":
         raise damaged(path, f"its attribute {name!r} is missing or unreadable")
@@ -189,7 +189,7 @@ def release(version):
 
 
 def check_version(path, attrs):
-    """Refuse to go on where another version began."""
+    """Refuse to continue where another version began."""
     if version := written_by(attrs):
         raise StoreError(f"{path} was {version}: it can be read but not resumed; `tehl run {path} --out NEW` repeats the run")
 

@@ -7,7 +7,7 @@ from tehl_taichi.march.step_output import fields_of, scalars_of
 from tehl_taichi.store import chunks
 from tehl_taichi.store.integrity import ROOT
 
-# series of the snapshot itself: (dtype, units, text, what is not written yet, how they tell of several steps)
+# series of the snapshot itself: (dtype, units, text, what is not written yet, how they stand for several steps)
 OWN = {"step": ("i8", "1", "step number", -1, ""), "time": ("f8", "s", "time since the steady start", float("nan"), ""),
        "feature_x": ("f8", "m", "centre of the first feature", float("nan"), "point")}
 

@@ -89,7 +89,7 @@ class Reader:
         return of_lists(*(integrity.optional(self.attrs, name, []) for name in names))
 
     def needed(self, name):
-        """The table among the attributes of that name, which going on needs. Raises StoreError."""
+        """The table among the attributes of that name, which resuming needs. Raises StoreError."""
         return integrity.attribute(self.path, self.attrs, name)
 
     def known(self, name):
@@ -97,7 +97,7 @@ class Reader:
         return integrity.optional(self.attrs, name, {})
 
     @cached_property
-    def x(self):  # opening the group takes 2 ms, and a fatigue search asks for every entry
+    def x(self):  # opening the group takes 2 ms, and a fatigue search needs every entry
         return self._whole("x")
 
     @cached_property

@@ -45,7 +45,7 @@ class Store(LockedFolder, Reader):
         place = path if isinstance(path, StoreDraft) else CaseDraft(path)
         try:
             with _disk_errors(place.folder, "nothing is stored", Error):
-                store = cls._begun(place, scene, snapshot, capacity, attrs or {})
+                store = cls._create(place, scene, snapshot, capacity, attrs or {})
                 store._append(snapshot, snapshot.state)
             place.publish()
         except BaseException:
@@ -55,8 +55,8 @@ class Store(LockedFolder, Reader):
         return store
 
     @classmethod
-    def _begun(cls, place, scene, snapshot, capacity, attrs):
-        """A store without entries, which nobody sees yet."""
+    def _create(cls, place, scene, snapshot, capacity, attrs):
+        """A store without entries, which readers do not see yet."""
         group = zarr.open_group(str(place.folder), mode="a", zarr_format=3)
         layout.lay_out(group, capacity, scene, snapshot)
         stored_maps.write(group, scene)
@@ -72,8 +72,8 @@ class Store(LockedFolder, Reader):
 
     @classmethod
     def write(cls, path):
-        """Existing store, to go on with. Raises StoreError as :meth:`open`, or where another version wrote it; Busy where
-        somebody else writes."""
+        """Existing store, to continue with. Raises StoreError as :meth:`open`, or where another version wrote it; Busy where
+        another process writes."""
         path = Path(path)
         cls.open(path)  # nothing is locked that is no store
         return locked_folder(path, lambda lock: cls._to_resume(path, lock))
@@ -85,7 +85,7 @@ class Store(LockedFolder, Reader):
         return store
 
     def append(self, snapshot, state=None, shown=True):
-        """Write one snapshot, and its `state` as the checkpoint to go on from, then make it visible; shown = False: not yet,
+        """Write one snapshot, and its `state` as the checkpoint to continue from, then make it visible; shown = False: not yet,
         unless it has a state. Raises Interrupted where the disk does not take it: what was shown before stays."""
         with self._safe():
             self._append(snapshot, state, shown)
@@ -98,7 +98,7 @@ class Store(LockedFolder, Reader):
 
     def _append(self, snapshot, state, shown=True):
         n = self.steps
-        for name, dtype in self.stored.items():  # what nobody sees yet needs no care
+        for name, dtype in self.stored.items():  # what readers do not see yet needs no care
             files.write(self._file(name, n), chunks.packed(snapshot.fields[name], "<" + dtype))
         values = {**snapshot.scalars, **{name: getattr(snapshot, name) for name in OWN}}
         for name, series in self.series.items():
@@ -138,7 +138,7 @@ class Store(LockedFolder, Reader):
         return state
 
     def extend(self, scene):
-        """Go on behind the end of a finished run, with a scene that differs in that end only; its results are taken back."""
+        """Continue behind the end of a finished run, with a scene that differs in that end only; its results are taken back."""
         for name in integrity.optional(self.attrs, "results", []):
             self.metadata.pop(name, None)
         self.scene = scene

@@ -19,7 +19,7 @@ class StoreDraft(Draft):
 
     @classmethod
     def fresh(cls, folder, name):
-        """The first of NAME-1.zarr, NAME-2.zarr ... in `folder` that nobody has or makes."""
+        """The first of NAME-1.zarr, NAME-2.zarr ... in `folder` that no process has or makes."""
         number = 1
         while True:
             try:

@@ -1,4 +1,4 @@
-"""In which units numbers are read, how many digits of them are told, and an error leaves."""
+"""Units of numbers for readers, and how many digits they get, with and without an error."""
 
 import math
 

@@ -35,7 +35,7 @@ class Kind:
 class Number(Kind):
     """A number in its unit; strict: `low` itself is refused; infinite: inf is allowed; usual: one of its order (0: unknown);
     least: the smallest size of one that is not 0, below which it was meant in another unit; common: (low, high), what is
-    allowed beyond them is doubted where another unit makes a common value of it; auto: the scene itself decides unless told."""
+    allowed beyond them is doubted where another unit makes a common value of it; auto: the scene itself decides by default."""
 
     about: str
     unit: str = "-"
@@ -75,7 +75,7 @@ class Number(Kind):
 
 @dataclass(frozen=True)
 class Numbers(Number):
-    """A list of such numbers; with `auto`: the scene itself decides unless told."""
+    """A list of such numbers; with `auto`: the scene itself decides by default."""
 
     def check(self, where, value):
         if self.auto and isinstance(value, str) and value == AUTO:
@@ -123,7 +123,7 @@ class Choice(Kind):
 
 @dataclass(frozen=True)
 class Switch(Kind):
-    """true or false; with `auto`: the scene itself decides unless told."""
+    """true or false; with `auto`: the scene itself decides by default."""
 
     about: str
     auto: bool = False

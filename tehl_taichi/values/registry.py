@@ -24,7 +24,7 @@ class Checked:
 @dataclass(frozen=True, kw_only=True)
 class Entry:
     """What every entry has: its name in scenes, one line of what it is (with units and range where it has numbers of its own),
-    its source, and at least one number that a test computes anew."""
+    its source, and at least one number that a test computes again."""
 
     name: str
     says: str

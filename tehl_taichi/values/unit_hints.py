@@ -14,7 +14,7 @@ KELVIN = 273.15  # of 0 deg C
 def meant(value, unit, fits, usual=0.0):
     """'; did you mean 400e6 Pa (400 MPa)?', or '' where no unit that people write makes sense of it.
 
-    fits: function of a value in `unit`, whether it is allowed; usual: one of its order (0: unknown), the nearest is told.
+    fits: function of a value in `unit`, whether it is allowed; usual: one of its order (0: unknown), the nearest is named.
 
     >>> meant(206, "Pa", lambda value: value > 1e6, usual=2e11)
     '; did you mean 206e9 Pa (206 GPa)?'

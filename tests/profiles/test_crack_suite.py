@@ -26,7 +26,7 @@ def test_rows_have_the_errors_of_two_grids_and_of_two_discretisations(taichi_cpu
                                  CrackOptions(**wanted, side="entry", elements=elements))
                           .sides["entry"] for cells, elements in ((8, 12), (12, 12), (12, 6)))
     value, grid, elements = entry.numbers["sigma1"]
-    assert value == fine.begun.sigma1 and grid == pytest.approx(abs(value - coarse.begun.sigma1)) and grid > 0 == elements
+    assert value == fine.start.sigma1 and grid == pytest.approx(abs(value - coarse.start.sigma1)) and grid > 0 == elements
     value, grid, elements = entry.numbers["K_first"]
     assert [value, grid, elements] == pytest.approx([fine.path.steps[0]["K_I_max"], *(
         abs(fine.path.steps[0]["K_I_max"] - other.path.steps[0]["K_I_max"]) for other in (coarse, half))])

@@ -1,6 +1,6 @@
 """Kernels traced faster: what Taichi asks Python again and again, and what only its messages need, is left out.
 
-Every function is traced anew wherever it is called: 1700 functions, 95 000 nodes of syntax and 80 000 expressions before the
+Every function is traced again wherever it is called: 1700 functions, 95 000 nodes of syntax and 80 000 expressions before the
 first step of a thermal run, so small things count. Of 1.25 s of a core before that step (kernels in the cache) functions cut
 out by their code save 0.14, expressions made straight away 0.1. Before that, of a coarse run (64x16): the source of
 a function, read and cut into lines at every call in a kernel, 0.6 s, parsed, 0.3; the position of every node (Findley search

@@ -14,7 +14,7 @@ def bind(kernel, *args):
     """A launch of `kernel` with these very arguments, to be called without any, as often as wanted.
 
     Arrays are bound by address: they must stay alive (they are held here) and their contents may change. Taichi's own
-    call inspects every argument anew, some 40 us an array, more than most kernels run; here the argument record is made
+    call inspects every argument again, some 40 us an array, more than most kernels run; here the argument record is made
     once. Where the pinned Taichi's internals are not found, the launch is the plain call; and on a graphics card, which puts
     addresses of its own into the record.
     """
@@ -50,7 +50,7 @@ class Carriers:
     def carry(self, key, shape, make_launch, values=None):
         """Fill the array of `key` with `values`, if any, and launch. Returns that array: a buffer.
 
-        make_launch(array) is asked for the launch at the first use of the key.
+        make_launch(array) makes the launch at the first use of the key.
         """
         if key not in self.bound:
             array = np.empty(shape)
@@ -70,7 +70,7 @@ def binding_seconds():
     return _binding
 
 
-_watched = None  # {kernel: [launches, seconds, bytes]} once somebody wants to know
+_watched = None  # {kernel: [launches, seconds, bytes]} while launches are watched
 _bytes_of = None
 
 

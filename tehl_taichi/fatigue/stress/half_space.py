@@ -18,7 +18,7 @@ class HalfSpaceStress:
     x (nx+1,), y (ny+1,) in m, y[0] = 0; one row of y means plane strain. nu: Poisson's ratio. mirrored=False: nothing acts
     at y < 0. depth: m below the surface. rows: slice of those that are wanted (default: all). kind: precision of the
     transforms; single is 3e-7 of the largest stress.
-    line=True: p and q_x of the last y row go on to infinity; that part is plane strain (analytic strips), the deviation
+    line=True: p and q_x of the last y row continue to infinity; that part is plane strain (analytic strips), the deviation
     from it a convolution over the rectangles around the nodes. line=False: nothing acts outside the domain.
     Raises ValueError for a grid that is not uniform, or a single row without line=True.
     """

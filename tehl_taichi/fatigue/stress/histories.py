@@ -74,7 +74,7 @@ class StressHistories:
 
     def passed(self, feature):
         """Places (m) of this surface that lie under the centre of a feature as it comes into the contact and as it leaves: one
-        and the same of a feature of its own."""
+        step for a feature of its own."""
         carrier = next(s for s in self.scene.surfaces if s.name == feature.surface)
         if carrier.name == self.surface.name:
             return (feature.x,)
@@ -153,7 +153,7 @@ class StressHistories:
     def history(self, rows, operators, notify=lambda done, total: None, meanwhile=lambda: None):
         """(points, times + 1, 6) Pa below the surface; points run over x', then rows; the last moment is the unloaded state.
 
-        operators: of :meth:`stresses`; tell, meanwhile: as for :meth:`gathered`.
+        operators: of :meth:`stresses`; notify, meanwhile: as for :meth:`gathered`.
         """
         def stresses(block):
             return (self._stress_field(int(entry), rows, *operators) for entry in block)

@@ -11,7 +11,7 @@ from tehl_taichi.fatigue.stress.unit_loads import HELD
 
 
 def _no_progress(done, total):
-    """Is told and does nothing."""
+    """Report nothing."""
 
 
 def at_the_surface(passage):
@@ -28,7 +28,8 @@ def at_the_surface(passage):
 
 
 def histories_of(passage, depths, kinds, notify=_no_progress):
-    """A list of (depths, x', moments, 6) Pa, one for each kind: (row, whether its loads go on as an endless line), those last.
+    """A list of (depths, x', moments, 6) Pa, one for each kind: (row, whether its loads continue as an endless line), those
+    last.
 
     passage: a :class:`tehl_taichi.fatigue.stress.histories.StressHistories`; depths: m, increasing. The last moment is the
     unloaded state. notify: called with (done, total): blocks of entries, and depths where there is heat.
@@ -79,7 +80,7 @@ def _kind(passage):
 
 
 def _operators(passage, depths, kinds):
-    """[(RowStress, rows of loads that it takes)]: one of all loads for all rows, one of each row whose loads go on."""
+    """[(RowStress, rows of loads that it takes)]: one of all loads for all rows, one of each row whose loads continue."""
     def made(y, rows):
         return RowStress(passage.grid_x, y, passage.surface.body.nu, passage.line, passage.mirrored, depths, rows,
                          _kind(passage))

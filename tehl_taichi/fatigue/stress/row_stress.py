@@ -5,7 +5,7 @@ depth a fiftieth of the work on 64 rows, since only transforms along x are left 
 
 Along x the stress of a rectangle is even or odd, its transform real or imaginary, and with i q_x in place of q_x all loads go
 with real numbers into a component, and i times them into sxy and sxz: half the work of complex matrices. Across it is even or
-odd too, so that one quarter of the plane around a rectangle tells all.
+odd too, so that one quarter of the plane around a rectangle is enough.
 """
 
 import itertools
@@ -47,7 +47,7 @@ class RowStress:
         return self._whole(found, (p, qx, qy))
 
     def _whole(self, found, loads):
-        """All six components; those that the surface bears are its loads."""
+        """All six components; those that the surface carries are its loads."""
         if len(self.found) == 6:
             return found
         out = np.empty((*found.shape[:-1], 6), found.dtype)
@@ -57,8 +57,8 @@ class RowStress:
         return out
 
     def _waves(self, entries, far):
-        """(waves, real and imaginary part, entries, loads of all rows) of p, i q_x, q_y, less those (entries, nx+1, 2) that go
-        on. One entry at once: two threads transform 16 of 512 x 128 cells in 39 ms so, all together in 94."""
+        """(waves, real and imaginary part, entries, loads of all rows) of p, i q_x, q_y, less those (entries, nx+1, 2) that
+        continue. One entry at once: two threads transform 16 of 512 x 128 cells in 39 ms so, all together in 94."""
         out = np.empty((self.size // 2 + 1, 2, len(far), 3 * self.y.size), real_of(self.kind))
         shear = slice(self.y.size, 2 * self.y.size)
         for n, (p, qx, qy) in enumerate(entries):

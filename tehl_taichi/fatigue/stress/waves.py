@@ -29,7 +29,7 @@ class Waves:
         return half_back(across[:, rows], self.nx, 0, self.kind)[: self.columns]
 
     def _whole(self, part, odd, factor):
-        """(waves, ny) of what there is from the first row or mode on: zeros behind it, its image at the end."""
+        """(waves, ny) of the values from the first row or mode on: zeros behind it, its image at the end."""
         out, size = pyfftw.empty_aligned((part.shape[0], self.ny), self.kind), part.shape[1]
         image = min(size - 1, self.ny - size) if self.mirrored else 0
         np.multiply(part, factor, out=out[:, :size])

@@ -1,4 +1,4 @@
-"""Tait's equation of state: density that goes on rising where Dowson & Higginson's form stands still."""
+"""Tait's equation of state: density that continues rising where Dowson & Higginson's form stands still."""
 
 import math
 

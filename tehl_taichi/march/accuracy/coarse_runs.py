@@ -1,8 +1,8 @@
-"""Companions of a run: the same passage on grids with a half and a quarter of the cells, whose numbers tell its errors.
+"""Coarse-grid runs: the passage of a run on grids with a half and a quarter of the cells, for error bars.
 
 They take about a seventh of its time, after it, in its tables and by its compiled kernels, or beside it where a core is idle
-(:mod:`tehl_taichi.runs.background_errors`). What happens to them never hurts the run: a companion that is refused or does not
-converge means that a bar is not known, and why.
+(:mod:`tehl_taichi.runs.background_errors`). What happens to them never hurts the run: a coarse-grid run that is refused or does
+not converge means that a bar is not known, and why.
 """
 
 import itertools
@@ -35,7 +35,7 @@ PART = 0.1  # a
 FEW = 2.0  # points; a bar has 1.5 times as many
 SHALLOW = Reason("it is largest at the smallest searched depth (half a cell), which no grid resolves", "shallow")
 SHALLOWEST = 1.5  # of that depth: up to the next one that is searched
-WORTH = 3e5  # nodes times steps of a run: below, it is a try, on a grid whose companions tell little
+WORTH = 3e5  # nodes times steps of a run: below, it is a try, on a grid whose coarse-grid runs say little
 
 
 def scenes(scene):
@@ -60,7 +60,7 @@ def _rough_as_seen(scene, times):
 
 
 def _all_of_them(scene):
-    """Which cells have every companion, where those of a scene have not."""
+    """Which cells have every coarse-grid run, where those of a scene have not."""
     nx, ny = (least << COMPANIONS for least, _ in MULTIPLES.values())
     if scene.grid.nx % nx or scene.grid.ny % ny:
         yield f"use a grid.nx that is a multiple of {nx} and a grid.ny that is a multiple of {ny}"
@@ -172,7 +172,8 @@ def _high(p):
 
 
 def values(scene, notify=lambda: None, until=lambda: None):
-    """{name: GridReading} of one companion; notify() after each step; until(): see :func:`answers`. Raises NotConverged."""
+    """{name: GridReading} of one coarse-grid run; notify() after each step; until(): see :func:`answers`. Raises
+    NotConverged."""
     from tehl_taichi.fatigue import assessment
     from tehl_taichi.march.passage import march
 
@@ -180,8 +181,8 @@ def values(scene, notify=lambda: None, until=lambda: None):
     for shot in march(scene):
         shots.append(shot)
         notify()
-    wanted = scene.has_fatigue and len(shots) > 2
-    found = assessment.run(scene, shots, until=until(), alone=False).summaries if wanted else None
+    with_fatigue = scene.has_fatigue and len(shots) > 2
+    found = assessment.run(scene, shots, until=until(), alone=False).summaries if with_fatigue else None
     return passage_readings(scene, assessment.Snapshots(shots),
                             lambda name: np.array([shot.scalars[name] for shot in shots]), found)
 
@@ -190,12 +191,12 @@ def _moment(reader, n):
     return SimpleNamespace(x=reader.x, feature_x=reader.feature_x(n), fields=reader.fields(n, ("pressure", "film")))
 
 
-def errors(scene, reader, searches, told, domain=DomainError()):
+def errors(scene, reader, searches, coarse, domain=DomainError()):
     """{"passage_error": {name: error bar or None}, "passage_unknown": {name: why it is None}, "passage_parts": {name: {"grid",
-    "domain"}}} of the numbers of a run; {} of one without a passage, doubts alone where there are no companions.
+    "domain"}}} of the numbers of a run; {} of one without a passage, doubts alone where there are no coarse-grid runs.
 
-    reader: its store; searches: {surface: summary of its search} or None; told(): what :func:`answers` gives of the scene;
-    domain: the Share that its start told.
+    reader: its store; searches: {surface: summary of its search} or None; coarse(): the answers of the scene's coarse-grid runs
+    (:func:`answers`); domain: the DomainError of its start.
     """
     if len(reader) < 2:
         return {}
@@ -206,15 +207,15 @@ def errors(scene, reader, searches, told, domain=DomainError()):
         doubts |= dict.fromkeys((CONTACT, AREA), readings.TOUCH) if touches else {}
         return {"passage_error": {} if touches else dict.fromkeys((CONTACT, AREA), 0.0), "passage_unknown": doubts}
     values = {name: reading.value for name, reading in own.items()}
-    found, unknown, parts = widened(*judged(told(), own), values, domain, scene.operation.temperature, passing=True)
+    found, unknown, parts = widened(*judged(coarse(), own), values, domain, scene.operation.temperature, passing=True)
     return {"passage_error": found, "passage_unknown": unknown, "passage_parts": parts}
 
 
 def has_coarse_runs(scene):
-    """Whether a run has companions: where they are asked for, and, if not refused, where the run is worth it or the surfaces
-    are rough, of which one grid says little."""
-    asked = scene.numerics.estimate_error
-    return asked is True or asked is not False and (work(scene) >= WORTH or scene.has_fatigue and is_rough(scene))
+    """Whether a run has coarse-grid runs: where they are requested, and, if not refused, where the run is worth it or the
+    surfaces are rough, of which one grid says little."""
+    choice = scene.numerics.estimate_error
+    return choice is True or choice is not False and (work(scene) >= WORTH or scene.has_fatigue and is_rough(scene))
 
 
 def work(scene):
@@ -228,8 +229,8 @@ def nodes(scene):
 
 
 def answers(scene, notify=lambda done, total: None, until=lambda: None):
-    """What the companions of a scene tell, coarsest first, for :func:`judged`. The finest runs first: where it fails, no
-    coarser one is of use. until(): what :func:`resolved` gives of the run itself, asked for when it is needed."""
+    """Results of the coarse-grid runs of a scene, coarsest first, for :func:`judged`. The finest runs first: where it fails, no
+    coarser one is of use. until(): what :func:`resolved` gives of the run itself, requested when it is needed."""
     (coarser, reasons), out, done = scenes(scene), [], itertools.count()
     total = sum(total_steps(one) + 1 for one in coarser)  # with their starts
     for one in reversed(coarser):
@@ -241,12 +242,12 @@ def answers(scene, notify=lambda done, total: None, until=lambda: None):
     return [{"reason": reason} for reason in reasons] + out
 
 
-def judged(told, own):
-    """({name: error bar or None}, {name: why it is None}) of own {name: GridReading}; told: by the companions, coarsest first,
-    {"values": {name: a GridReading's values}} or {"reason": why there are none}."""
+def judged(coarse, own):
+    """({name: error bar or None}, {name: why it is None}) of own {name: GridReading}; coarse: results of the coarse-grid runs,
+    coarsest first, {"values": {name: a GridReading's values}} or {"reason": why there are none}."""
     grids, reasons = [], []
-    for one in told:
-        if "reason" in one:  # too coarse a grid: neither it nor the coarser ones tell anything
+    for one in coarse:
+        if "reason" in one:  # too coarse a grid: neither it nor the coarser ones are of use
             grids, reasons = [], [*reasons, one["reason"]]
         else:
             grids.append({name: GridReading(**values) for name, values in one["values"].items()})
@@ -256,7 +257,7 @@ def judged(told, own):
 
 
 def answer(scene, notify=lambda: None, until=lambda: None):
-    """What a companion tells, for :func:`judged`; notify() after each step; until(): see :func:`answers`."""
+    """Result of a coarse-grid run, for :func:`judged`; notify() after each step; until(): see :func:`answers`."""
     try:
         return {"values": {name: asdict(reading) for name, reading in values(scene, notify, until).items()}}
     except Error as error:

@@ -3,7 +3,7 @@
 A border without pressure in a flooded inlet takes alpha q (0.73 + 0.15 |X|/(alpha p_H)) of the film, q the reduced pressure
 that the oil beyond it would have there and 0.73 Grubin's exponent 8/11 (99 lines of M 5 to 100, L 2 to 20: 0.82 to 1.14 of what
 is measured); a point contact 0.73 alpha q and, by its sides, (gap there/0.7 films)^(-3/2). Of that a border with the pressure
-of the oil beyond leaves a part. What the oil beyond bears is missing in the load.
+of the oil beyond leaves a part. What the oil beyond carries is missing in the load.
 """
 
 import math
@@ -100,7 +100,7 @@ def _lost(v, inlet, H, gain):
 
 
 def _load(v, inlet, H):
-    """Share of the load that the oil beyond the border of a line bears."""
+    """Share of the load that the oil beyond the border of a line carries."""
     X, gap, weights = far(v.X[0], H[v.middle, 0], 1.0)
     shape = np.sum(weights * (np.abs(X) - abs(v.X[0])) * (gap - inlet.carried(H)) / gap**3)
     return max(float(shape), 0.0) / v.numbers.inv_lambda / v.scales.load

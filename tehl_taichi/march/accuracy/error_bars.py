@@ -24,14 +24,14 @@ BLURRED = 1.5  # of the distance between an extreme over nodes and that of the p
 HOPELESS = 0.5  # a number that changes by more than this part of itself from grid to grid is not resolved
 WHOLE = Reason("its error may be as large as its value", "value")  # of one that is positive: nothing is known of it but that
 MOVED = 4.0  # cells of the coarser grid that the place of an extreme may move: more is another extreme
-# A number of a peak too narrow for one grid is told by three whose differences halve at least (those of a singular peak grow by
-# 1.41); its bar is no smaller than the last difference, and than a quarter of the one before
+# A number of a peak too narrow for one grid is known from three whose differences halve at least (those of a singular peak grow
+# by 1.41); its bar is no smaller than the last difference, and than a quarter of the one before
 HALVES, BEFORE = 2.0, 0.25
 # Of what such a peak sways, but does not decide, three times the larger of the last two differences (20 passages with exits in
 # one dimension, `tehl bench accuracy --only exits`: bars of surface temperatures and mean friction that hold 64 -> 94 %)
 SWAY = 3.0
-# Parts of a course go on as a geometric series, for so many of the last difference at most; they may exceed the largest by so
-# much of it, which then is part of the bar
+# Parts of a course continue as a geometric series, for so many of the last difference at most; they may exceed the largest by
+# so much of it, which then is part of the bar
 GROWS_ON, EXCEEDS = 4.0, 0.1
 
 
@@ -45,7 +45,7 @@ class GridReading:
     iterations may have left it from the solution of this grid; positive: whether the number is so by nature, as a film is;
     course: where grids together may settle a doubt, the largest pressures by parts of the passage (nan: none), else ();
     swayed: whether a pressure that this grid does not know has a part in it; spread: whether it is of the distribution over
-    many points, which each finer grid samples anew, with more of the short waves.
+    many points, which each finer grid samples again, with more of the short waves.
     """
 
     value: float
@@ -122,7 +122,7 @@ def _rival(pressures):
 
 
 def _parts(courses):
-    """The pressures of three grids in every part of a passage that all of them tell of; [] where they are not three."""
+    """The pressures of three grids in every part of a passage that all of them have; [] where they are not three."""
     if len(courses) < 3 or not courses[-1] or len({len(course) for course in courses}) > 1:
         return []
     return [part for part in zip(*courses) if not any(map(math.isnan, part))]
@@ -134,7 +134,8 @@ def _halves(first, second, third):
 
 
 def _may_reach(first, second, third):
-    """What a pressure may become beyond three grids: its differences go on as they fall, for GROWS_ON of the last at most."""
+    """What a pressure may become beyond three grids: its differences continue as they fall, for GROWS_ON of the last at
+    most."""
     before, last = abs(second - first), abs(third - second)
     return third + min(last / (before / last - 1) if before > last > 0 else math.inf, GROWS_ON * last)
 

@@ -1,4 +1,4 @@
-"""What a grid tells of the numbers of a run, for their error bars: values, how far an extreme may lie between the nodes, and
+"""Numbers of a run on one grid, for their error bars: values, how far an extreme may lie between the nodes, and
 whether the grid resolves them at all."""
 
 from dataclasses import replace

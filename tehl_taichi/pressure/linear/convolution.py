@@ -1,7 +1,7 @@
 """The deflection K and the distribution K^-1 as convolutions inside kernels: for a pair of blocks, or a group of their waves.
 
 Along x a real transform of period 2 M >= twice the cells (K; of the cells for K^-1, which is periodic), done as a complex one
-of half the length on two blocks of W rows side by side in lanes. Along y Toeplitz plus Hankel matrices, rows being mirrored
+of half the length on two blocks of W rows, in neighbouring lanes. Along y Toeplitz plus Hankel matrices, rows being mirrored
 at y = 0: Y(k) = A(k) X(k) + B(k) X(-k), by complex transforms of length N >= 2 ny over the waves along x, as many in lanes. A
 is the transform of the even kernel t(0), t(1), ..., B that of t(0 ... 2 ny - 1) for the mirror images (0 for a whole domain,
 A where the other end is a mirror, too), the rows on a mirror count half. A line contact continues its outermost row for ever:
@@ -21,13 +21,13 @@ from tehl_taichi.engine.simd import W, cells
 from tehl_taichi.engine.task_pool import team_size
 from tehl_taichi.pressure import influence
 
-GROUP = 2 * W  # rows that go along x side by side, and waves along x that go along y: one transform in the code serves both
+GROUP = 2 * W  # rows along x at once, and waves along x that are transformed along y: one transform in the code serves both
 THERE, ACROSS, BACK = range(3)  # ways of transforms: along x to the waves, along y to the symbol and back, back along x
 _column = itertools.count()
 LEVEL, M, N, NY, PAIRS, GROUPS, STEP = (next(_column) for _ in range(7))  # STEP: entries from row to row of the spectra
 SPECTRA, SYMBOL, STRIP, SPLIT = (next(_column) for _ in range(4))  # first entries: in the field Y; of the twiddle factors
 X_ROW, X_ROWS, Y_ROW, Y_ROWS = (next(_column) for _ in range(4))  # passes of both transforms
-HALF_FIRST, HALF_LAST, ENDLESS = (next(_column) for _ in range(3))  # rows on a mirror; an outermost row that goes on
+HALF_FIRST, HALF_LAST, ENDLESS = (next(_column) for _ in range(3))  # rows on a mirror; an outermost row that continues
 WORK, SIZE = (next(_column) for _ in range(2))  # first entry and size of the buffers, two of each worker
 COLUMNS = next(_column)
 
@@ -77,7 +77,7 @@ class Layout:
 
 class Symbols:
     """Symbols of one convolution: A, B (N//2+1, M+1), strip (M+1,); mirrors: whether the first and the last row are; endless:
-    whether the outermost row goes on for ever."""
+    whether the outermost row continues for ever."""
 
     def __init__(self, shape, A, B, strip, mirrors, endless):
         self.shape, self.A, self.B, self.strip, self.mirrors, self.endless = shape, A, B, strip, mirrors, endless

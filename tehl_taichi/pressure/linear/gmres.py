@@ -17,7 +17,7 @@ INVERSE, LOADS, MASSES, RISES = (next(_row) for _ in range(4))  # of each vector
 RIGHT, COSINE, SINE, WEIGHTS, COLUMN, SCALARS, TRIANGLE = (next(_row) for _ in range(7))  # TRIANGLE: the first of its rows
 _entry = itertools.count()  # of SCALARS
 COUNT, LOAD, MASS, NORM, BETA, TOLERANCE, LIFT_LOAD, RISE, LEFT = (next(_entry) for _ in range(9))
-PORTION, NEXT = (next(_entry) for _ in range(2))  # iterations of a launch; the phase that the next launch goes on with, or -1
+PORTION, NEXT = (next(_entry) for _ in range(2))  # iterations of a launch; the phase that the next launch continues with, or -1
 SQUARE_SUM, MASS_SUM, LOAD_SUM, DOT_SUM = range(4)  # columns of the partial sums; DOT_SUM: the first of those with the basis
 
 
@@ -104,7 +104,7 @@ def solution(N: ti.template(), count):
 
 @ti.func
 def extend(N: ti.template(), partial: ti.template(), k, most, once):
-    """Take the newest vector into the basis: 0: go on, 1: this was enough, -1: project again."""
+    """Take the newest vector into the basis: 0: continue, 1: this was enough, -1: project again."""
     load, mass, before = N[SCALARS, LOAD], N[SCALARS, MASS], N[SCALARS, NORM]
     norm, out = ti.sqrt(total(partial, SQUARE_SUM) + load * load + mass * mass), -1
     N[SCALARS, NORM] = norm
@@ -114,7 +114,7 @@ def extend(N: ti.template(), partial: ti.template(), k, most, once):
         rotate(N, k, norm)
         left, limit = ti.abs(N[RIGHT, k + 1]), N[SCALARS, TOLERANCE] * N[SCALARS, BETA]
         N[SCALARS, COUNT], N[SCALARS, LEFT], N[SCALARS, NORM] = k + 1.0, left, -1.0
-        out = 0 if left > limit and k + 1 < most else 1  # not a number is no reason to go on
+        out = 0 if left > limit and k + 1 < most else 1  # not a number is no reason to continue
         if out == 1:
             solution(N, k + 1)
     return out
@@ -122,7 +122,7 @@ def extend(N: ti.template(), partial: ti.template(), k, most, once):
 
 @ti.func
 def decide(N: ti.template(), partial: ti.template(), phases: ti.template(), phase, decision, most):
-    """What follows when all jobs of `phase` are done: the next phase, or -1, where NEXT says whether another launch goes on.
+    """What follows when all jobs of `phase` are done: the next phase, or -1, where NEXT says whether another launch continues.
     most: iterations."""
     k, out = ti.cast(N[SCALARS, COUNT], ti.i32), phase + 1
     if decision == BEGIN:

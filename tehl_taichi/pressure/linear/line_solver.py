@@ -134,7 +134,7 @@ def build_lines(J: ti.template(), G: Table, blocks: Blocks, count: ti.i32, near:
     """Fill and factorise the bands of the first `count` blocks; needs `classify`.
 
     near[2 l + (0 or 1), m]: deflection at distance m in x on level l (1: the outermost row of a line contact, which
-    goes on to infinity); inverse[2 l + (0 or 1), m]: pressure of a unit film change, in its own and in the next row.
+    continues to infinity); inverse[2 l + (0 or 1), m]: pressure of a unit film change, in its own and in the next row.
     """
     ti.loop_config(block_dim=1, serialize=alone)
     for b in range(count):

@@ -209,7 +209,7 @@ def changes(F: ti.template(), C: ti.template(), G: ti.template(), N: ti.template
 
 @ti.func
 def given(F: ti.template(), C: ti.template(), G: ti.template(), j, w, right: ti.template()):
-    """A direction that somebody else chose."""
+    """A given direction."""
     first, second, n2 = pair(G, 0, j)
     a, off = buffer(C, w), cells(G, 0)[2]
     for i in range(n2):
@@ -261,7 +261,7 @@ def rows(F: ti.template(), G: ti.template(), N: ti.template(), partial: ti.templ
 
 @ti.func
 def dots(F: ti.template(), G: ti.template(), N: ti.template(), partial: ti.template(), s):
-    """Products of the newest vector with those before; AT_ONCE of them, further ones than there are go to nobody."""
+    """Products of the newest vector with those before; AT_ONCE of them, surplus products are ignored."""
     first, end, off = block(G, s)
     k = ti.cast(N[SCALARS, COUNT], ti.i32)
     for n in range((k + AT_ONCE) // AT_ONCE):

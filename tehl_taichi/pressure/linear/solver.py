@@ -16,8 +16,8 @@ from tehl_taichi.pressure.linear import convolution, gmres, operations
 from tehl_taichi.pressure.linear.gmres import SCALARS
 from tehl_taichi.pressure.linear.schedule import DECISION, FIRST_JOB, JOBS, Program
 
-# vectors of lanes that the iterations of one launch go through, each some 0.25 us on one core: while a kernel runs nobody hears
-# Ctrl-C, nor do other threads of Python get on
+# vectors of lanes that the iterations of one launch go through, each some 0.25 us on one core: while a kernel runs, Python does
+# not see Ctrl-C, nor do other threads of Python get on
 PORTION = 500_000
 SMALLEST = 80_000  # entries of the fields D and Y: all grids up to 256x64, and their starts, share one compiled kernel
 

@@ -1,4 +1,4 @@
-"""What is told of a position, a column each: for the table on the screen, the CSV file and the figure."""
+"""The columns of a position: for the table on the screen, the CSV file and the figure."""
 
 import csv
 import io

@@ -72,7 +72,7 @@ def _panel(ax, flank, label, factor, lines):
 def _series(flank, what):
     """[(x_pl, value, its error bar or None)] of the positions that have it; nan between the two sides of a jump, where the line
     breaks."""
-    out = []
+    out: list[tuple[float, float, float | None]] = []
     for at, p_H, summary in flank.rows:
         value = p_H if what == "p_H" else at.srr if what == "srr" else known(summary, *what)
         if value is None:

@@ -1,4 +1,4 @@
-"""A whole flank: its positions, their runs, and what is told of them."""
+"""A whole flank: its positions, their runs, and the record of both."""
 
 import dataclasses
 import math
@@ -39,20 +39,20 @@ def flank(gear: str | PathLike | GearPair = "fzg-c", *, torque: float | None = N
     changes = _settled(changes or {}, steady)
     places = found.positions(on, positions, at)
     scenes = [scene_at(scene or found.scene, changes, found.name, n, place) for n, place in enumerate(places, 1)]
-    folder = path_of("folder", folder) if folder else fresh(found.name)
-    check_writable(folder)
-    subject = about(found, folder, (on or "pinion") if found.pair else "")
-    outcomes = [Outcome(folder / f"{one.name}.zarr", reason=WAITING) for one in scenes]
+    target = path_of("folder", folder) if folder else fresh(found.name)
+    check_writable(target)
+    subject = about(found, target, (on or "pinion") if found.pair else "")
+    outcomes = [Outcome(target / f"{one.name}.zarr", reason=WAITING) for one in scenes]
     done = 0
     try:
-        for n, outcome in summaries(scenes, folder, workers, threads, progress):
+        for n, outcome in summaries(scenes, target, workers, threads, progress):
             outcomes[n], done = outcome, done + 1
-            whole = Flank(folder, flank_record(subject, places, scenes, outcomes))
-            whole.write()
+            result = Flank(target, flank_record(subject, places, scenes, outcomes))
+            result.write()
     except KeyboardInterrupt as stop:
-        raise interrupt(stop, f" after {done} of {len(scenes)} positions; repeat the tehl flank command with --out {folder} to "
+        raise interrupt(stop, f" after {done} of {len(scenes)} positions; repeat the tehl flank command with --out {target} to "
                               "resume") from None
-    return whole
+    return result
 
 
 def _settled(changes, steady):

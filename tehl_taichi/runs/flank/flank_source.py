@@ -34,12 +34,14 @@ class FlankSource:
     def changed(self, torque=None, speed=None):
         """With another torque (N m) and speed (1/min) of the pinion. Raises SceneError."""
         given = {key: value for key, value in (("torque", torque), ("n1", speed)) if value is not None}
-        if given and not self.pair:
+        if not given:
+            return self
+        if not self.pair:
             raise SceneError(f"{self.name} is a table with its own loads and speeds; torque and speed apply to gear pairs only")
-        return dataclasses.replace(self, pair=dataclasses.replace(self.pair, **given)) if given else self
+        return dataclasses.replace(self, pair=dataclasses.replace(self.pair, **given))
 
     def positions(self, on=None, count=None, at=()):
-        """Positions on the flank of `on` (pinion unless told): see :func:`tehl_taichi.runs.flank.positions.along`. A table has
+        """Positions on the flank of `on` (pinion by default): see :func:`tehl_taichi.runs.flank.positions.along`. A table has
         its own. Raises SceneError."""
         if count is not None and at:
             raise SceneError(f"positions = {shown(count)} and at = {shown(list(at))} contradict each other: give one of them")

@@ -1,4 +1,4 @@
-"""The scenes of a flank as jobs of the pool, side by side or here; what their stores hold already is taken from there."""
+"""The scenes of a flank as jobs of the pool, several at once or here; what their stores hold already is taken from there."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -24,9 +24,9 @@ class Outcome:
 def summaries(scenes, folder, workers=None, threads=None, progress=None):
     """Generator of (number of the scene, its Outcome) as they end, each with a store NAME.zarr in `folder`.
 
-    A scene that does not converge, or loses its worker twice, does not stop the others. A store that is there already is gone
-    on with. workers, threads: as :func:`tehl_taichi.runs.sweep.pool.sizes`. Raises StoreError where a store is of another
-    scene; KeyboardInterrupt leaves what is stored.
+    A scene that does not converge, or loses its worker twice, does not stop the others. An existing store is resumed. workers,
+    threads: as :func:`tehl_taichi.runs.sweep.pool.sizes`. Raises StoreError where a store is of another scene;
+    KeyboardInterrupt leaves what is stored.
     """
     places = [(scene, Path(folder) / f"{scene.name}.zarr") for scene in scenes]
     done = {n: outcome for n, place in enumerate(places) if (outcome := _before(*place))}
@@ -74,7 +74,7 @@ def _outcome(path, answer):
 
 
 def _report(progress, scene, outcome, which):
-    """What another process could tell nobody."""
+    """Words that another process could not print."""
     progress.say(f"{which}: {scene.name}: {outcome.reason or 'done'}")
     for sentence in scene.warnings():
         progress.warn(f"{scene.name}: {sentence}")
@@ -93,7 +93,7 @@ class _Here:
 
 
 class _Named(Progress):
-    """Passes on what one of many runs tells: its stages and steps, and its warnings with its name."""
+    """Passes on the progress of one of many runs: its stages and steps, and its warnings with its name."""
 
     def __init__(self, listener, name):
         self.listener, self.name = listener, name

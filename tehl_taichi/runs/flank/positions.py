@@ -7,7 +7,7 @@ from tehl_taichi.values.checks import integer, nearest, number
 
 ONS = ("pinion", "gear")
 BEYOND = 20  # lengths of the path of contact within which a table of shares ends
-JUMPED = 1e-12  # m: nearer than this, a position asked for is at a jump of the load
+JUMPED = 1e-12  # m: nearer than this, a position requested is at a jump of the load
 
 
 @dataclass(frozen=True)
@@ -114,7 +114,7 @@ def _spread(mesh, table, count):
 
 
 def _requested(mesh, table, place, on):
-    """(x, side)s of a point or way that somebody asked for."""
+    """(x, side)s of a requested point or path."""
     towards_tip = 1 if on == "pinion" else -1
     if isinstance(place, str):
         name, side = place.strip("+-"), place[len(place.strip("+-")):]

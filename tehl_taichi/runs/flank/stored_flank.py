@@ -25,7 +25,7 @@ class Flank:
     ----------
     folder : pathlib.Path
         Its folder.
-    told : dict
+    record : dict
         The JSON object of `tehl flank --json`.
 
     Examples
@@ -104,7 +104,7 @@ class Flank:
              force: bool = False) -> Path:
         """The figure (default: flank.png in the folder, or flank.pdf, flank.svg); returns its path.
 
-        dpi, format (where the path has no suffix that tells it), width, force: as :meth:`Run.plot`. Raises SceneError, or
+        dpi, format (where the path has no suffix), width, force: as :meth:`Run.plot`. Raises SceneError, or
         StoreError without matplotlib, or where something is in the way.
         """
         from tehl_taichi.runs.flank import flank_figure
@@ -118,7 +118,7 @@ class Flank:
 
 
 def check_writable(folder):
-    """Raises StoreError where no flank can be made in `folder`, nor one in it be gone on with."""
+    """Raises StoreError where no flank can be made in `folder`, nor one in it be resumed."""
     user_files.check_outside(folder)
     if not os.path.lexists(folder):
         return

@@ -5,7 +5,7 @@ from tehl_taichi.scene.scales import Scales
 from tehl_taichi.values.coded_text import Option
 from tehl_taichi.values.coded_warning import with_data
 
-MUCH, SOME = 0.01, 3e-3  # of the film: told always; told of ends that the user fixed where the grid is better than that
+MUCH, SOME = 0.01, 3e-3  # of the film: reported always; reported for ends that the user fixed on a grid with smaller errors
 
 
 def short(store, summary):
@@ -33,9 +33,9 @@ def _farther(scene, steady):
     """Options of a domain that reaches far enough, on cells as large as before."""
     s, g = Scales.of(scene), scene.grid
     found = domain.remedy(scene, steady["h_c_m"] / s.h)
-    asked = {key: end for key, end in found.items() if abs(end) > abs(getattr(g, key)) * (1 + 1e-9)}
-    if not asked:
+    farther = {key: end for key, end in found.items() if abs(end) > abs(getattr(g, key)) * (1 + 1e-9)}
+    if not farther:
         return ""
-    sets, grid = [f"grid.{key}={end:g}" for key, end in asked.items()], domain.same_cells(scene, **asked)
+    sets, grid = [f"grid.{key}={end:g}" for key, end in farther.items()], domain.same_cells(scene, **farther)
     return Option(f"; {' '.join(f'--set {one}' for one in sets)} {grid} (same cells)",
                   f"; {' and '.join([*sets, grid.words])} (same cells)")

@@ -12,7 +12,7 @@ from tehl_taichi.scene.scales import Scales
 from tehl_taichi.values.coded_text import Option, code_of
 from tehl_taichi.values.coded_warning import with_data
 
-MOST_FRICTION = 0.2  # of a film: no oil is known to bear more than about 0.12 of the pressure, traction fluids included
+MOST_FRICTION = 0.2  # of a film: no oil is known to carry more than about 0.12 of the pressure, traction fluids included
 MOST_RIPPLE = 0.005  # of the largest pressure: a tenth of what a passing feature changes, ten times what resolved passages show
 NO_VALUE = Option("oil without a shear limit has no finite value here; use --thermal or a limiting law (rheology.law)",
                   "oil without a shear limit has no finite value here; temperatures or a limiting law would give one")
@@ -57,14 +57,14 @@ def unresolved(store, summary):
     for n in dict.fromkeys((0,) if known else (0, int(np.argmax(store.scalar("p_max_Pa"))))):
         p = store.fields(n, ("pressure",))["pressure"]
         height, i = sharpest(p)
-        if height >= 1.0:  # of lower peaks the bars tell, which they leave unknown
+        if height >= 1.0:  # lower peaks show in the error bars, which are unknown then
             at_exit, remedy = readings.exits(store.x[i], Scales.of(store.scene).a), _remedy(store, i)
             yield with_data(readings.EXIT * at_exit + _where(store, n, p, i) + _because(store, i, remedy), remedy,
                             p_max_Pa=float(p.max()), x_m=float(store.x[i]), entry=int(n))
 
 
 def first_unresolved(store, summary):
-    """Where the resolved part of a passage ends, if not at the outlet, of which the bars tell."""
+    """Where the resolved part of a passage ends, if not at the outlet, which the error bars cover."""
     part, a = searched(summary.get("fatigue", {})).get("resolved"), Scales.of(store.scene).a
     later = [n for n in range(1, len(store)) if part and store.feature_x(n) > (part["to_x_a"] + 1e-9) * a]
     if later:

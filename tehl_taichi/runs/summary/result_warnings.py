@@ -104,7 +104,7 @@ def largest_pressure(summary):
 
 
 def yielding(store, summary):
-    """Pressures that no steel bears without yielding, while the bodies here stay elastic."""
+    """Pressures that no steel carries without yielding, while the bodies here stay elastic."""
     p = largest_pressure(summary)
     if p > YIELDS:
         text = (f"p_max {p / 1e9:.2f} GPa: {STEEL}; both bodies are elastic here, while real bodies would flatten such a peak "
@@ -120,14 +120,14 @@ def worst_below(store, summary):
         return []
     alone_of = "from the pressure alone " * bool(why_none(summary["fatigue"]))
     body = f" of body {summary['fatigue']['surface']}" if others(summary) else ""
-    said = (f"{alone_of}the critical point lies below the surface{body}: Fi {deep['Fi_max']:.2f} at "
+    text = (f"{alone_of}the critical point lies below the surface{body}: Fi {deep['Fi_max']:.2f} at "
             f"{micrometres(deep['depth_m'])} um, {fatigue['Fi_max']:.2f} at the surface")
     alone = fatigue.get("contact_alone")
     if alone and alone["Fi_max"] > fatigue["Fi_max"]:
-        said += f"; the smooth contact has {alone['Fi_max']:.2f} at {micrometres(alone['depth_m'])} um"
+        text += f"; the smooth contact has {alone['Fi_max']:.2f} at {micrometres(alone['depth_m'])} um"
     if near_the_surface(deep, fatigue):
-        said += "; this grid resolves nothing closer to the surface (half a cell): use a finer grid"
-    return [with_data(said, Fi_max=fatigue["Fi_max"], below_Fi_max=deep["Fi_max"], depth_m=deep["depth_m"])]
+        text += "; this grid resolves nothing closer to the surface (half a cell): use a finer grid"
+    return [with_data(text, Fi_max=fatigue["Fi_max"], below_Fi_max=deep["Fi_max"], depth_m=deep["depth_m"])]
 
 
 # functions of (store, summary) that give their sentences, with the code of these

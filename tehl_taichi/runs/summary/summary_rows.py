@@ -216,8 +216,8 @@ def _rows_of_search(f):
 
 def _whole(f):
     """Behind what is of all moments that count, where some of them stand beside it, or others were left out."""
-    said = between(f.get("from_x_a", -math.inf), f.get("to_x_a", math.inf)) or "whole passage" * ("resolved" in f)
-    return f", {said}" if said else ""
+    part = between(f.get("from_x_a", -math.inf), f.get("to_x_a", math.inf)) or "whole passage" * ("resolved" in f)
+    return f", {part}" if part else ""
 
 
 def _resolved_rows(f):

@@ -91,7 +91,7 @@ def parsed(text):
 
 
 def column(values):
-    """The same of what Python gives: an array, a list, or text as above; a number is a list of one."""
+    """An axis from Python: an array, a list, or text as above; a number is a list of one."""
     if isinstance(values, (Span, list)):
         return values if isinstance(values, Span) else [plain(value) for value in values]
     if isinstance(values, str):

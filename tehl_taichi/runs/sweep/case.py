@@ -32,7 +32,7 @@ def work(job, progress=None):
         summary = _summary(job, progress)
     except NotConverged as error:
         status, reason = "not converged", str(error)
-    except Exception as error:  # noqa: BLE001  whatever it is, the other cases go on
+    except Exception as error:  # noqa: BLE001  whatever it is, the other cases continue
         status, reason = "failed", str(error) if isinstance(error, Error) else f"{type(error).__name__}: {error}"
     return {"status": status, "reason": reason, "summary": summary, "seconds": time.perf_counter() - began}
 
@@ -49,7 +49,7 @@ def _summary(job, progress):
 
 
 def _run(job, path, progress):
-    """Summary of the run in the store at `path`: begun, gone on with, or done before."""
+    """Summary of the run in the store at `path`: begun, resumed, or done before."""
     from tehl_taichi.runs import single_run
 
     _free(path)

@@ -3,13 +3,14 @@
 import contextlib
 import itertools
 import uuid
+from typing import Any
 
 from tehl_taichi.errors import RuntimeUnavailable, StoreError, brief, extra
 from tehl_taichi.runs.sweep.job import LostJob, in_one_thread
 
-AHEAD, LEAST = 3, 16  # jobs that the scheduler knows, for each worker and at least: memory stays bounded, nobody waits
+AHEAD, LEAST = 3, 16  # jobs that the scheduler knows, for each worker and at least: memory stays bounded, no worker waits
 PATIENCE = 30  # s to find a scheduler
-AGAIN = ("pending", "lost")  # its worker died with the answer that nobody had fetched yet: another one works it out again
+AGAIN = ("pending", "lost")  # its worker died with an answer that was not fetched yet: another one works it out again
 SETTINGS = {"distributed.comm.timeouts.connect": f"{PATIENCE}s"}
 
 
@@ -19,7 +20,8 @@ def results(work, jobs, scheduler, say_line):
     with _client(distributed, scheduler) as client:
         if not client.nthreads():
             say_line("no worker is connected yet; start one (on any machine: dask worker ADDRESS --nthreads 1)")
-        waiting, running, run = iter(enumerate(jobs)), {}, uuid.uuid4().hex[:8]
+        waiting, run = iter(enumerate(jobs)), uuid.uuid4().hex[:8]
+        running: dict[Any, int] = {}
         ended = distributed.as_completed()
 
         def submit():

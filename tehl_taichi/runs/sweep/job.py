@@ -12,7 +12,8 @@ class LostJob:
     reason: str
 
 
-_lane, _guard = [], threading.Lock()
+_lane: list[ThreadPoolExecutor] = []
+_guard = threading.Lock()
 
 
 def working():

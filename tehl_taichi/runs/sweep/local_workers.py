@@ -1,4 +1,4 @@
-"""Workers of our own: processes on this machine that hear of jobs by pipes. No port is opened: nobody else can send one.
+"""Workers of our own: processes on this machine that hear of jobs by pipes. No port is opened: no other program can send one.
 
 A job whose worker died is given to a new one, once; a worker that takes more than its share of the memory is ended.
 """
@@ -11,6 +11,7 @@ import sys
 import threading
 from multiprocessing.connection import wait
 from pathlib import Path
+from typing import Any
 
 from tehl_taichi.disk import memory_limit
 from tehl_taichi.runs.sweep.job import LostJob, in_one_thread
@@ -43,11 +44,11 @@ class LocalWorkers:
         while self.busy:
             for pipe in wait(list(self.busy), PAUSE):
                 worker = self.busy.pop(pipe)
-                number = worker.job[0]
+                number, job = worker.job
                 if (answer := worker.answer()) is not None:
                     self.idle.append(worker)
                 elif worker.tries < TRIES:
-                    self._give(Worker(), work, *worker.job, worker.tries + 1)
+                    self._give(Worker(), work, number, job, worker.tries + 1)
                     continue
                 else:
                     answer = LostJob(DIED)
@@ -87,6 +88,9 @@ class LocalWorkers:
 class Worker:
     """A process, the end of its pipe and the job that it has."""
 
+    job: tuple[int, Any]
+    tries: int
+
     def __init__(self):
         context = multiprocessing.get_context("spawn")  # a forked one would have Taichi, but none of its threads
         self.pipe, theirs = context.Pipe()
@@ -116,7 +120,7 @@ class Worker:
 
 
 def _serve(pipe):
-    """The process: job after job, until nobody is left to send one."""
+    """The process: job after job, until the sweep ends."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the sweep, which then ends its workers
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     threading.Thread(target=_end_with_the_sweep, daemon=True).start()
@@ -132,11 +136,12 @@ def _serve(pipe):
 def _done(work, job):
     try:
         return in_one_thread(work, job)
-    except Exception as error:  # noqa: BLE001  whatever it is, the other jobs go on
+    except Exception as error:  # noqa: BLE001  whatever it is, the other jobs continue
         return LostJob(f"{type(error).__name__}: {error}")
 
 
 def _end_with_the_sweep():
-    """A sweep that was killed has nobody to answer to; its cases go on from their stores."""
-    wait([multiprocessing.parent_process().sentinel])
-    os._exit(1)
+    """End with a sweep that was killed; its cases continue from their stores."""
+    if sweep := multiprocessing.parent_process():
+        wait([sweep.sentinel])
+        os._exit(1)

@@ -159,7 +159,8 @@ class Plan:
 
     def equal(self):
         """{case: earlier case} of cases that differ in keys without effect alone, of a plan that is not too large to look."""
-        seen, found = {}, {}
+        seen: dict[str, int] = {}
+        found = {}
         for number in range(self.count if self.count <= LOOKED_AT else 0):
             with contextlib.suppress(SceneError):
                 first = seen.setdefault(repr(idle_keys.signature(self.case(number))), number)
@@ -170,7 +171,7 @@ class Plan:
     def without_temperatures(self):
         """Numbers of the cases whose film has one temperature while other cases compute theirs; [] where all do alike, or of a
         plan too large to look."""
-        found = {}
+        found: dict[bool, list[int]] = {}
         for number in range(self.count if self.count <= LOOKED_AT else 0):
             with contextlib.suppress(SceneError):
                 found.setdefault(self.case(number).isothermal, []).append(number)

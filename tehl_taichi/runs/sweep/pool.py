@@ -1,4 +1,4 @@
-"""Jobs side by side: a list of jobs goes in, what became of each comes out as soon as it is known.
+"""Jobs in parallel: a list of jobs goes in, what became of each comes out as soon as it is known.
 
 One worker is this process. More of them are processes of our own (:mod:`tehl_taichi.runs.sweep.local_workers`), a scheduler
 somewhere else is Dask's (:mod:`tehl_taichi.runs.sweep.dask_cluster`).

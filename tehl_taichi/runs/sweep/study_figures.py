@@ -15,7 +15,7 @@ from tehl_taichi.view.figures import palette
 from tehl_taichi.view.figures.field_maps import bar
 from tehl_taichi.view.figures.figure_style import FigureStyle, drawing
 
-# drawn where nobody chooses: the first of each line that the study has
+# drawn by default: the first of each line that the study has
 USUAL = (("fatigue_Fi_max",), ("transient_h_min_m", "steady_h_c_m"), ("transient_p_max_Pa", "steady_p_max_Pa"))
 INDEX, FILM = "fatigue_Fi_max", "transient_h_min_m"
 TOLD = 120  # cells of a map with their values in them

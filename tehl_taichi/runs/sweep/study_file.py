@@ -2,6 +2,7 @@
 
 import tomllib
 from pathlib import Path
+from typing import Any
 
 from tehl_taichi.disk import files
 from tehl_taichi.errors import SceneError
@@ -51,7 +52,7 @@ def load(path):
 
 def _flat(table, above=""):
     """{dotted key: value} of nested tables: TOML reads feature.height = 1 as one."""
-    out = {}
+    out: dict[str, Any] = {}
     for key, value in table.items():
         out |= _flat(value, f"{above}{key}.") if isinstance(value, dict) else {above + key: value}
     return out

@@ -15,7 +15,7 @@ PART = re.compile(r"(fatigue(_by_surface_[ab])?(_resolved)?(_below|_contact_alon
 
 def numbers(summary, above=""):
     """{name: number} of a nested summary: "fatigue_Fi_max" is summary["fatigue"]["Fi_max"]; lists and words are left out."""
-    out = {}
+    out: dict[str, float] = {}
     for key, value in summary.items():
         if key in LEFT_OUT or not NAME.fullmatch(key):
             continue
@@ -30,10 +30,10 @@ def error_of(name):
     """Name of the error bar of a number: "fatigue_error_Fi_max" is that of "fatigue_Fi_max"."""
     if "_" not in name:
         return f"error_{name}"
-    part = PART.match(f"{name}_")[0]
-    if part == f"{name}_":  # of no part
+    found = PART.match(f"{name}_")
+    if found is None or found[0] == f"{name}_":  # of no part
         return f"error_{name}"
-    return f"{part}error_{name.removeprefix(part)}"
+    return f"{found[0]}error_{name.removeprefix(found[0])}"
 
 
 def unit_of(name):

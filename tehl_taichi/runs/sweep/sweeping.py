@@ -1,4 +1,4 @@
-"""Many runs of one scene with changes: case by case into a study, side by side, again from where it stopped."""
+"""Many runs of one scene with changes: case by case into a study, in parallel, resumed where it stopped."""
 
 from collections.abc import Callable, Mapping
 from os import PathLike
@@ -71,7 +71,7 @@ def _nearest_folder(path):
 
 
 def default_path(plan):
-    """The same for the same sweep, so that the same command goes on with it."""
+    """The same for the same sweep, so that the same command continues with it."""
     return Path("runs") / f"{plan.name}.zarr"
 
 

@@ -26,7 +26,7 @@ def once(scene):
     stamp = preferred_cache() / f"warm-{_kind(scene)}"
     if stamp.exists():
         return
-    with contextlib.suppress(OSError):  # a folder that nobody can write to has no new kernels
+    with contextlib.suppress(OSError):  # a read-only folder has no new kernels
         stamp.parent.mkdir(parents=True, exist_ok=True)
         with os.fdopen(files.opened(stamp.with_suffix(".lock"), os.O_RDWR | os.O_CREAT), "r+b") as lock:
             _wait_for(lock)

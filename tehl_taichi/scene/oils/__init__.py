@@ -3,6 +3,7 @@
 Numbers that a source gives stand there with that source, no others. May import what `scene.oil` may.
 """
 
+import functools
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -26,7 +27,7 @@ class NamedOil(Entry):
     checked: tuple[Checked, ...] = ()
 
     def __post_init__(self):
-        states = tuple(Checked(where, eta, lambda p=p, Gamma=Gamma: self.viscosity(p, Gamma), rel)
+        states = tuple(Checked(where, eta, functools.partial(self.viscosity, p, Gamma), rel)
                        for p, Gamma, eta, rel, where in self.known)
         object.__setattr__(self, "checked", (*states, *self.checked))
 

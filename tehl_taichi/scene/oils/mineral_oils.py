@@ -1,8 +1,10 @@
 """Mineral oils of a handbook's table: viscosity and its rise with pressure at 30, 60 and 100 deg C.
 
 G0, S0, Dz, Cz are fitted to these six numbers (straight lines of ln(log10 eta + 4.2) and of Z over ln(1 + Gamma/135)); the
-table tells no density: the ISO VG of a name holds for any from 850 to 880 kg/m3.
+table has no density: the ISO VG of a name holds for any from 850 to 880 kg/m3.
 """
+
+import functools
 
 from tehl_taichi.scene.oils import NamedOil
 from tehl_taichi.values.registry import Checked
@@ -22,7 +24,7 @@ def _mineral(name, says, row, eta, alpha, numbers):
         name=name, says=says, numbers=dict(zip(("G0", "S0", "Dz", "Cz"), numbers)),
         source=f"{TABLE} ({row}), fitted within 3 %; density, conductivity and heat capacity are those of the reference PAO",
         known=tuple((0.0, Gamma, value, FITTED, f"{TABLE}, {Gamma:g} deg C") for Gamma, value in zip(AT, eta)),
-        checked=tuple(Checked(f"pressure coefficient, {TABLE}, {Gamma:g} deg C", value, lambda Gamma=Gamma: rise(Gamma), FITTED)
+        checked=tuple(Checked(f"pressure coefficient, {TABLE}, {Gamma:g} deg C", value, functools.partial(rise, Gamma), FITTED)
                       for Gamma, value in zip(AT, alpha)))
     return entry
 

@@ -3,7 +3,7 @@
 from tehl_taichi.scene.steels import Steel
 from tehl_taichi.values.registry import Checked
 
-STEEL_20MNCR5 = Steel(
+STEEL_20MNCR5: Steel = Steel(
     name="20MnCr5", says="case-hardening gear steel (1.7147)",
     source="data sheet 16MnCr5/20MnCr5 (EN 10084), round-steel.com: E, nu, rho, c (0 to 100 deg C), k (97 deg C), alpha",
     numbers=dict(E=209e9, nu=0.28, k=42.0, rho=7870.0, c=477.0, alpha=13.05e-6),

@@ -90,7 +90,7 @@ def shared_key_meaning(shapes, key, about):
 
 
 def share(where, expected, x, y, **keys):
-    """A number of a shape: of its height, what there is at x, y (m)."""
+    """A number of a shape: its height at x, y (m)."""
     def compute():
         from tehl_taichi.scene.feature import Feature  # which is made of all shapes
 

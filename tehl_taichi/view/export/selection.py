@@ -1,4 +1,4 @@
-"""Which moments and which surface points of a run are asked for."""
+"""Which moments and which surface points of a run are requested."""
 
 from dataclasses import dataclass
 
@@ -14,7 +14,7 @@ BEYOND = 0.5  # steps that a position may lie beyond the stored passage: its nea
 
 @dataclass(frozen=True)
 class Selection:
-    """at: {position asked for (a): entry of the store nearest to it}; points: (x, y) of surface points, m, x from the centre of
+    """at: {position requested (a): entry of the store nearest to it}; points: (x, y) of surface points, m, x from the centre of
     the feature (of the contact where nothing passes), y from that of the contact, as in the summary of a fatigue search."""
 
     at: dict

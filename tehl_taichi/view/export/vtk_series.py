@@ -1,6 +1,6 @@
 """A stored run for ParaView: passage.pvd, a time series of images over x and y, and the fatigue map around the feature.
 
-Written here: the XML of VTK's image data is shorter than what a library would ask for. Blocks are compressed by zlib and in
+Written here: the XML of VTK's image data is shorter than what a library would need. Blocks are compressed by zlib and in
 base64 inside their element, so that the files are XML. Source: "VTK File Formats", docs.vtk.org.
 """
 

@@ -1,4 +1,4 @@
-"""A run as a film: GIF with what the `plot` extra brings, MP4 where ffmpeg is at hand."""
+"""A run as a film: GIF with what the `plot` extra brings, MP4 where ffmpeg is available."""
 
 import contextlib
 import shutil
@@ -19,8 +19,8 @@ from tehl_taichi.view.figures.moments import Moments
 
 FORMATS = ("gif", "mp4")
 FRAMES, FPS, DPI, WIDTH = 120, 15, 110, 17.0
-EVEN = "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white"  # numbers of rows and columns, which MP4 asks for
-NEARLY = 248  # of 255: Pillow tells colours apart in steps of 4, and takes the nearest below
+EVEN = "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white"  # numbers of rows and columns, which MP4 needs
+NEARLY = 248  # of 255: Pillow distinguishes colours in steps of 4, and takes the nearest below
 SAMPLES = 5  # frames that the colours of a GIF are taken from
 
 
@@ -70,7 +70,7 @@ def _check(store, shown):
 
 
 def _with_progress(frames, progress):
-    """Generator of the pictures, which tells of each."""
+    """Generator of the pictures, which reports each."""
     for done, n in enumerate(frames.entries):
         progress(done, len(frames.entries))
         yield frames.picture(n)
@@ -123,7 +123,7 @@ def _mp4(path, frames, fps, progress, ffmpeg):
 
 
 def _fed(process, pictures):
-    """Errors that the program tells; it may end before it has seen all."""
+    """Errors that the program prints; it may end before it has seen all."""
     try:
         for picture in pictures:
             process.stdin.write(picture.tobytes())

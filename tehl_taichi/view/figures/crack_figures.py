@@ -74,12 +74,12 @@ def _section(page, figure, ax, result):
 
 def _lines(ax, name, side, pits):
     """Trajectory, path, and the band of the pits, which lean with rolling."""
-    mouth, colour = side.begun.x * 1e6, COLOURS[name]
+    mouth, colour = side.start.x * 1e6, COLOURS[name]
     low, high = (np.tan(np.radians(angle)) * BAND * 1e6 for angle in pits)
     ax.fill([mouth, mouth - BAND * 1e6, mouth - BAND * 1e6], [0, low, high], color=palette.GREY, alpha=0.25, lw=0,
             label=f"pits, {pits[0]:g} to {pits[1]:g}°" if name == "entry" else None)
     ax.plot(side.trajectory.real * 1e6, side.trajectory.imag * 1e6, "--", color=colour,
-            label=f"{name}: normal to the largest tension ({side.begun.sigma1 / 1e6:.0f} MPa)")
+            label=f"{name}: normal to the largest tension ({side.start.sigma1 / 1e6:.0f} MPa)")
     if side.path.last:
         points = side.path.points * 1e6
         ax.plot(points.real, points.imag, ".-", color=colour, lw=2,

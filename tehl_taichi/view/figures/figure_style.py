@@ -32,7 +32,7 @@ SAID = {"png": {"Software": user_files.PROGRAM}, "pdf": {"Creator": user_files.P
 @dataclass(frozen=True)
 class FigureStyle:
     """format: png, pdf or svg; dpi: dots per inch, of the maps inside pdf and svg too; width: of the figure, cm; force:
-    whether figures of ours that are there are replaced.
+    whether existing figures of ours are replaced.
 
     Raises SceneError for what no figure can have.
     """
@@ -130,7 +130,7 @@ class FigureStyle:
         user_files.check(path, self.force, self.format, of=of)
 
     def save(self, draw, path, of=None):
-        """Write the figure that `draw()` makes to `path`, whose suffix tells the format; returns it. Raises StoreError."""
+        """Write the figure that `draw()` makes to `path`, whose suffix sets the format; returns it. Raises StoreError."""
         self.check(path, of)
         with self.style():
             figure = self._finished(draw)

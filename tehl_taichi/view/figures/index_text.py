@@ -1,4 +1,4 @@
-"""How figures tell an index of fatigue and a stress: with as many digits as are known, and without an exponent."""
+"""Text of an index of fatigue and of a stress in figures: with as many digits as are known, and without an exponent."""
 
 import math
 

@@ -13,9 +13,9 @@ from tehl_taichi.values.checks import number
 from tehl_taichi.values.coerce import plain
 from tehl_taichi.view.figures import palette
 
-POSITIONS = (-0.8, 0.0, 0.8)  # of the feature, a: shown where nobody chooses
+POSITIONS = (-0.8, 0.0, 0.8)  # of the feature, a: shown by default
 NEAR, ALIKE = 0.1, 0.95       # a, and of the largest pressure: a moment so close to it, with so much of it, shows it
-BEYOND = 0.05                 # a: as far beyond the stored positions a moment may be asked for
+BEYOND = 0.05                 # a: as far beyond the stored positions a moment may be requested
 WINDOW = (-1.6, 1.4)          # x / a shown: the contact and what is close to it
 INSIDE = 0.9                  # a: there the film's axis shows all of the film
 ROOM = 2.5                    # of the central film: upper end of the film's axis, below the gap outside
@@ -114,13 +114,13 @@ class Moments:
     @cached_property
     def placed(self):
         """Entries with the feature at the positions."""
-        wanted = POSITIONS if self.at is None else (self.at,)
+        positions = POSITIONS if self.at is None else (self.at,)
         low, high = self.moved.min() - BEYOND, self.moved.max() + BEYOND
-        return list(dict.fromkeys(self.nearest(position) for position in wanted if low <= position <= high))
+        return list(dict.fromkeys(self.nearest(position) for position in positions if low <= position <= high))
 
     @cached_property
     def missed(self):
-        """The entry of the largest pressure where none of those shows its peak; none where somebody chose a position."""
+        """The entry of the largest pressure where none of those shows its peak; none where a position was chosen."""
         p, at = self.store.scalar("p_max_Pa"), self.moved
         shown = any(abs(at[n - 1] - at[self.worst - 1]) <= NEAR and p[n] >= ALIKE * p[self.worst] for n in self.placed)
         return [] if shown or self.at is not None else [self.worst]

@@ -1,4 +1,4 @@
-"""One palette: the colours of every figure, animation and report, told apart by colour-blind readers too.
+"""One palette: the colours of every figure, animation and report, distinguished by colour-blind readers too.
 
 Lines: Okabe & Ito 2008, Color Universal Design. Maps: of one direction of lightness, so that they are read in grey as well;
 matplotlib and plotly both know them by these names.

@@ -35,7 +35,7 @@ def without(values):
 
 
 def _along(values):
-    """Whether the first row is one of coordinates: even, and not what the heights below it go on to."""
+    """Whether the first row is one of coordinates: even, and not what the heights below it continue to."""
     if values.ndim != 2 or min(values.shape) < 5:
         return False
     first, second, third = (_even(row[1:]) for row in values[:3])

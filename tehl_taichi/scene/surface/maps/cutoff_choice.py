@@ -1,4 +1,4 @@
-"""Whether the grid, the film equation and steel bear what a measured map has, and the cutoff with which they do."""
+"""Whether the grid, the film equation and steel carry what a measured map has, and the cutoff with which they do."""
 
 import bisect
 import math
@@ -11,7 +11,7 @@ from tehl_taichi.scene.yield_pressure import YIELDS
 STEEP = 10.0  # degrees: the film equation takes slopes for small (tan 10 deg = 0.18)
 SHARE = 0.1  # of the rms that a grid, or the map's own points, may miss: a wave of six cells
 JUDGED = 1024  # points along each side, from the middle, that are judged
-SURELY = 1.1  # times what steel bears: such an estimate is no better
+SURELY = 1.1  # times what steel carries: such an estimate is no better
 FINER = 1.05  # one cutoff that is tried over the next: two digits
 
 
@@ -38,12 +38,12 @@ def pressed(heights, f, scene):
 
 
 def yields(heights, f, scene, margin=1.0):
-    """Whether that is more (than so many times) what steel bears, because of the heights: without them it would bear it."""
+    """Whether that is more (than so many times) what steel carries, because of the heights: without them it would carry it."""
     return Scales.of(scene).p_H < YIELDS < pressed(heights, f, scene) / margin
 
 
 def helping(f, scene):
-    """The smallest cutoff (m) with which the grid sees the map, its slopes are small and steel bears it; 0: there is none."""
+    """The smallest cutoff (m) with which the grid sees the map, its slopes are small and steel carries it; 0: there is none."""
     key = Scales.of(scene), scene.grid
     if key not in f.cutoffs:
         f.cutoffs[key] = _searched(f, scene)

@@ -23,7 +23,8 @@ class SurfaceForm:
         """Of heights (rows, columns) as they were measured; steps: of their points, sizes: of all, along x and y; all in m."""
         sags = [(abs(c) * size**2, c, axis) for c, size, axis in zip(curvature(raw, steps), sizes, "xy")]
         _, bent, axis = max(sags)
-        return cls(*(float(levelled(raw, level).std()) for level in ("plane", "form")), float(bent), axis)
+        flat, left = (float(levelled(raw, level).std()) for level in ("plane", "form"))
+        return cls(flat, left, float(bent), axis)
 
     @property
     def dominant(self):

@@ -1,4 +1,4 @@
-"""Areal Gaussian filter of heights (ISO 16610-61): what is finer than a cutoff wavelength is taken off."""
+"""Areal Gaussian filter of heights (ISO 16610-61): what is finer than a cutoff wavelength is removed."""
 
 import math
 

@@ -9,6 +9,7 @@ import math
 import weakref
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -20,10 +21,10 @@ from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.file_ending import ending
 
 ROWS = "rows"
-LEVELS = {"none": "nothing", "mean": "mean", "plane": "plane", "form": "plane and curvature",  # level: what it takes off
+LEVELS = {"none": "nothing", "mean": "mean", "plane": "plane", "form": "plane and curvature",  # level: what it removes
           ROWS: "plane and median of each row"}
-_known = weakref.WeakValueDictionary()  # sha256 -> heights, as long as a feature holds them
-_facts = {}  # (file, sha256) -> its Facts
+_known: weakref.WeakValueDictionary[str, Any] = weakref.WeakValueDictionary()  # sha256 -> heights, while a feature holds them
+_facts: dict[tuple[str, str], Any] = {}  # (file, sha256) -> its Facts
 TEXT = (".csv", ".txt", ".asc", ".xyz")  # endings of files of text
 
 

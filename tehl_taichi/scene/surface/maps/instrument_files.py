@@ -4,6 +4,7 @@ import contextlib
 import importlib.util
 import io
 import math
+from typing import Any
 
 import numpy as np
 
@@ -45,7 +46,7 @@ def _x3p(path):
     found = x3pio.read(path)
     if not isinstance(found, (x3pio.Surface, x3pio.Profile)):
         return np.asarray(found.layers[0].points(), float), Stated("m", place_unit="m")
-    heights = np.ma.filled(np.ma.asarray(found.layers[0].z, float), math.nan)
+    heights: Any = np.ma.filled(np.ma.asarray(found.layers[0].z, float), math.nan)
     x, y = ((float(axis.increment),) if axis.is_incremental else () for axis in (found.header.x, found.header.y))
     return heights, Stated("m", x, y if heights.ndim > 1 else ())
 
@@ -64,7 +65,8 @@ def _topography(path):
 def _table(found, sized):
     """sized: whether its sizes mean anything."""
     found = found if found.unit is None or found.unit in UNITS else found.to_unit("um")
-    heights, unit = np.ma.filled(np.ma.asarray(found.heights(), float), math.nan), found.unit or ""
+    heights: Any = np.ma.filled(np.ma.asarray(found.heights(), float), math.nan)
+    unit = found.unit or ""
     if found.dim == 1:
         x = np.asarray(found.positions(), float)
         return np.column_stack([x, heights]), Stated(unit, _steps(unit, np.ptp(x), x.size - 1))
@@ -78,7 +80,7 @@ def _steps(unit, size, count):
 
 
 def _reader_error(error, readable):
-    """What a reader of instruments' files says; where none knows the file, all that it tried is of no use to anybody."""
+    """What a reader of instruments' files says; where none knows the file, its list of attempts is of no use."""
     if type(error).__name__ in UNKNOWN_FILE:
         return f"SurfaceTopography does not read this format; export the heights as text ({readable})"
     return brief(error)

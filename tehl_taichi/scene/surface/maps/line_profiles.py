@@ -23,7 +23,7 @@ def heights_of(values):
 
 
 def _placed(x, z):
-    """The same of heights z at the places x; None where these neither rise nor fall."""
+    """Profile of heights z at the places x; None where these neither rise nor fall."""
     if not np.isfinite(x).all() or x[0] == x[-1]:
         return None
     found, even = f"a column of coordinates ({x[0]:g} to {x[-1]:g})", np.linspace(x[0], x[-1], x.size)

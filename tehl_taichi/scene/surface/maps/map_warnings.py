@@ -41,7 +41,7 @@ def lines(f, scene):
     m, name = f.measures, f"{f.shape} {os.path.basename(f.file)}"
     unit_said, steps_said = stated_keys.words(f)
     heights = f"heights in {f.unit}{unit_said}" + (f" times {f.scale:g}" if f.scale != 1 else "")
-    turned = f"{said}, " if (said := f.kind.lies(f)) else ""
+    turned = f"{lay}, " if (lay := f.kind.lies(f)) else ""
     off = f"{LEVELS[f.level]} removed{form_taken(f, scene)}"
     skipped = f"{found}, " if (found := height_map.facts(f).skipped) else ""
     yield (f"{name}: {skipped}{f.kind.points_words(f)} {_apart(f)} um apart{steps_said}, {_patch(f)} of them used{_offset(f)}"
@@ -122,12 +122,12 @@ def form(f):
 
 
 def form_taken(f, scene):
-    """' (convex with a radius of ...)': the form that was taken off; "" where only a plane was."""
+    """' (convex with a radius of ...)': the form that was removed; "" where only a plane was."""
     return f" ({f.form.says}{_mate(f, scene)})" if f.level == "form" else ""
 
 
 def _mate(f, scene):
-    """What the form taken off tells of the other body, if it is that of the one that was scanned: whoever knows that one sees
+    """What the removed form means for the other body, if it is the form of the scanned one: whoever knows that one sees
     whether radii and scan belong together."""
     if not f.form.dominant or not f.form.convex or f.form.axis != "x":
         return ""
@@ -152,7 +152,7 @@ def _size(f):
 
 
 def _rough(f, scene):
-    """One sentence for slopes that the film equation, and heights that steel does not bear: one cutoff helps against both."""
+    """One sentence for slopes that the film equation, and heights that steel does not carry: one cutoff helps against both."""
     why = [*_steep(f), *_hard(f, scene)]
     if why:
         helps = f", or roughness? {found}" if (found := _cutoff(f, scene)) else "?"
@@ -214,7 +214,7 @@ def _finer(heights, steps, grid):
 def _rim(f):
     used = f.used
     step = max(float(np.abs(edge).max()) for edge in (used[0], used[-1], used[:, 0], used[:, -1]))
-    formed = f.level != "form" and f.form.dominant  # the step is the form's, of which _form tells
+    formed = f.level != "form" and f.form.dominant  # the step belongs to the form, which _form reports
     if f.taper == 0 and step > RIM * f.measures.rms and not formed:
         yield f"{_name(f)} ends in a step of up to {_um(step)} um at its rim; set feature.taper (m) to fade it out"
 

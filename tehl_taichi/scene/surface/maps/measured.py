@@ -3,6 +3,7 @@
 import dataclasses
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -21,6 +22,9 @@ NEAREST, FARTHEST = 1e-10, 5e-4  # m, between points of a map: 0.001 was meant i
 class Measured:
     """Keys of a map or a line profile, and what follows from them."""
 
+    if TYPE_CHECKING:  # of the feature that has these keys
+        kind: Any
+        taper: float
     file: str = text("", "map, profile: CSV or NPY file (others with the `topography` extra); of a map each row is a line of "
                          "points along x; paths are relative to the scene file", most=4096, compare=False)
     unit: str = choice("", "map, profile: unit of the heights in the file; not given: as the file says", ("", *UNITS))
@@ -174,7 +178,7 @@ class Measured:
 
     @property
     def part_size(self):
-        """The same of the part that is used."""
+        """(length, width) of the part that is used, m."""
         return tuple((count - 1) * step for count, step in zip(self.part.shape[::-1], self.steps))
 
     @property

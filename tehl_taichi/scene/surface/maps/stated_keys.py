@@ -33,29 +33,29 @@ def _unit(f, unit):
         object.__setattr__(f, "unit", unit)
 
 
-def usable(said):
+def usable(distances):
     """The likeliest of such distances (m) in six digits, 0 where there is none or it cannot be."""
-    return float(f"{said[0]:.6g}") if said and NEAREST <= said[0] <= FARTHEST else 0.0
+    return float(f"{distances[0]:.6g}") if distances and NEAREST <= distances[0] <= FARTHEST else 0.0
 
 
-def _distance(f, key, said):
-    """said: distances in m, the likeliest first."""
-    if not said:
+def _distance(f, key, distances):
+    """distances: that the file states, m, the likeliest first."""
+    if not distances:
         return
-    value, possible = getattr(f, key), usable(said)
-    missing = not value and (key == "pixel" or not _like(f.pixel, said))
+    value, possible = getattr(f, key), usable(distances)
+    missing = not value and (key == "pixel" or not _like(f.pixel, distances))
     if missing and possible:
         object.__setattr__(f, key, possible)
     elif not value and key == "pixel":
-        raise KeyMissing(f"feature.file = {os.path.basename(f.file)!r} says that its points are {said[0]:.4g} m apart; "
+        raise KeyMissing(f"feature.file = {os.path.basename(f.file)!r} says that its points are {distances[0]:.4g} m apart; "
                          f"allowed: {NEAREST:g} to {FARTHEST:g} m. Set feature.{key} to the true distance")
-    elif value and possible and not _like(value, said):
-        raise SceneError(f"feature.{key} = {value:g} m contradicts feature.file = {f.file!r}, which says {said[0]:.4g} m; "
+    elif value and possible and not _like(value, distances):
+        raise SceneError(f"feature.{key} = {value:g} m contradicts feature.file = {f.file!r}, which says {distances[0]:.4g} m; "
                          f"remove feature.{key}, or correct the file")
 
 
-def _like(value, said):
-    return any(math.isclose(value, one, rel_tol=SAME) for one in said)
+def _like(value, distances):
+    return any(math.isclose(value, one, rel_tol=SAME) for one in distances)
 
 
 def _check_spacing(f, key, step, found):
@@ -74,6 +74,6 @@ def pixel_meant(f):
 
 
 def words(f):
-    """(what of a feature's unit and distances its file says, too) in words: for its unit, for its distances; "" else."""
+    """(for its unit, for its distances): words where the file states the value of the feature, "" else."""
     stated, same = height_map.facts(f).stated, " (as the file says)"
     return same * (stated.unit == f.unit), same * bool(stated.x and _like(f.pixel, stated.x))

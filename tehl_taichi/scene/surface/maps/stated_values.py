@@ -3,6 +3,7 @@
 import math
 import re
 from dataclasses import dataclass
+from typing import Any
 
 from tehl_taichi.scene.surface.maps.length_units import MICRO, UNITS
 
@@ -19,7 +20,7 @@ EXTENTS = {"x": re.compile(f"width$|(x|scan|field|profile|trace)[ _-]*{EXTENT}$|
            "y": re.compile(f"height$|y[ _-]*{EXTENT}$|{EXTENT}[ _-]*y$")}
 PLACES = {"x", "position", "distance", "length", "lateral"}  # names of columns
 HEIGHTS = {"z", "height", "heights", "profile"}
-ROUND = 2  # digits of a distance that somebody has set
+ROUND = 2  # digits of a distance that a person has set
 
 
 @dataclass(frozen=True)
@@ -42,7 +43,8 @@ class Stated:
 
 def in_header(lines, shape):
     """What the header lines of a text file say; shape: (rows, columns) of its heights."""
-    found, sizes = {}, {}
+    found: dict[str, Any] = {}
+    sizes: dict[str, tuple[str, float]] = {}
     for key, values in filter(None, map(_parts, lines)):
         _note(found, sizes, key, values)
     for axis, count in zip("xy", shape[::-1]):

@@ -38,7 +38,7 @@ class Table:
         return replace(self, values=heights, beside=beside, spacing=(step, None))._with_stated()
 
     def of_points(self):
-        """The same of a list of points, as a grid; None where they lie on none."""
+        """Heights of a list of points, as a grid; None where they lie on none."""
         found = point_lists.grid_of(self.values, stated_values.column_names(self.header_lines))
         if found is None:
             return None
@@ -46,7 +46,7 @@ class Table:
         return replace(self, values=heights, beside=("x and y of a list of points",), spacing=(x, y))._with_stated()
 
     def _grid(self):
-        """The same with the heights alone; beside: the coordinates that were taken off, in words; spacing: theirs, (along a
+        """The same with the heights alone; beside: the coordinates that were removed, in words; spacing: theirs, (along a
         row, from row to row), None where there are none."""
         found = coordinates.without(self.values)
         return replace(self, values=found.heights, beside=found.found_lines, spacing=(found.x, found.y))._with_stated()
@@ -59,8 +59,8 @@ class Table:
     @property
     def skipped(self):
         """What was not read, in words; "" where all was."""
-        told = ((len(self.header_lines), "header line", "skipped"), (self.inside, "line", "with # among the heights skipped"))
-        lines = [f"{count} {what}{'s' * (count > 1)} {why}" for count, what, why in told if count]
+        counts = ((len(self.header_lines), "header line", "skipped"), (self.inside, "line", "with # among the heights skipped"))
+        lines = [f"{count} {what}{'s' * (count > 1)} {why}" for count, what, why in counts if count]
         return ", ".join([*lines, *(f"{what} skipped" for what in self.beside)])
 
 
@@ -69,11 +69,11 @@ def read(path):
     fewer columns than the first, no row at all."""
     with path.open(encoding=_encoding(path), errors="replace") as file:  # headers have other encodings of a micro sign
         lines = [(number, line.rstrip("\r\n ")) for number, line in enumerate(file, 1) if line.strip(" \r\n")]
-    told = _section([(number, line.split("#")[0]) for number, line in lines if not line.startswith("#")])
-    header, mark = _first_row(told)
-    _check_header(told[:header], told[header], mark)
-    rows, ended = _rows(told[header:], mark)
-    first = told[header][0]
+    numbered = _section([(number, line.split("#")[0]) for number, line in lines if not line.startswith("#")])
+    header, mark = _first_row(numbered)
+    _check_header(numbered[:header], numbered[header], mark)
+    rows, ended = _rows(numbered[header:], mark)
+    first = numbered[header][0]
     before, after = ([line for number, line in lines if (number < first) == early and number != first] for early in (1, 0))
     values = np.array(rows)
     return Table(values[:, :-1] if ended else values, header_lines=tuple(before), inside=sum(line[0] == "#" for line in after))

@@ -44,7 +44,7 @@ def _lengths(shortest):
 
 
 def Ra_of_many(**keys):
-    """Mean of |z| at 20 000 places far apart of waves that go on without end."""
+    """Mean of |z| at 20 000 places far apart of waves that continue without end."""
     x, y = np.random.default_rng(3).uniform(-1.0, 1.0, (2, 20000))
     f = SimpleNamespace(seed=1, width=40e-6, height=0.3e-6, shortest_x=0.0, shortest_y=0.0, **keys)
     return float(np.mean(np.abs(GROUND.waves(f, x, y))))

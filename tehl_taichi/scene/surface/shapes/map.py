@@ -67,7 +67,7 @@ class Map(Patch):
         return f.measures.high
 
     def sizes(self, f):
-        return {}, {}  # its own points tell
+        return {}, {}  # its own points show it
 
     def tidy(self, f):
         if isinstance(f.file, os.PathLike):
