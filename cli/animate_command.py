@@ -53,7 +53,7 @@ class FrameBar:
             self.bar.stop()
 
     def show(self, done, total):
-        """Of `total` frames so many are drawn."""
+        """Print that `done` of `total` frames are drawn."""
         if self.quiet:
             return
         if not sys.stderr.isatty():

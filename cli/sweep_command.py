@@ -124,7 +124,7 @@ def _report(plan, out):
 
 
 def _doubts(plan):
-    """Of keys without effect: in all cases, and in some of them."""
+    """Sentences on keys without effect: in all cases, and in some of them."""
     yield from (f"warning: {sentence}" for sentence in plan.doubts())
     yield from (f"warning: case {number} equals case {first}: the keys that differ have no effect there"
                 for number, first in plan.equal().items())

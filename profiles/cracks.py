@@ -75,7 +75,7 @@ def case(name, description, folder, grids, conditions, progress=None):
 
 
 def _stores(name, description, folder, grids, progress):
-    """Those that converge, the finest last."""
+    """Stores of the runs that converge, the finest last."""
     found = []
     for nx, ny in grids:
         progress(f"{name}: {nx} x {ny} cells")

@@ -19,7 +19,7 @@ from tehl_taichi.store.json_values import plain
 
 @dataclass(frozen=True)
 class Timing:
-    """Of one passage: steady start, median step and whole passage in s, Newton and Krylov a step, MB of memory."""
+    """Times of one passage: steady start, median step and whole passage in s, Newton and Krylov a step, MB of memory."""
 
     start_s: float
     step_s: float

@@ -124,7 +124,7 @@ def _histories(saved, surface, changes=None):
 
 
 def _moments(passage, low, high):
-    """Those of a history with the feature between `low` and `high` (in a), and the one without load."""
+    """Moments of a history with the feature between `low` and `high` (in a), and the one without load."""
     return np.append((passage.positions >= low * passage.a) & (passage.positions <= high * passage.a), True)
 
 

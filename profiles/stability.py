@@ -209,7 +209,7 @@ def _carried(description):
 
 
 def starts(chosen):
-    """Of {name: scene or SceneError} those with temperatures, each to be run for a step after its start."""
+    """The scenes with temperatures of {name: scene or SceneError}, each to be run for a step after its start."""
     return {name: description.replace(**{"time.steps": 1} if description.transient else {})
             for name, description in chosen.items() if isinstance(description, Scene) and not description.isothermal}
 

@@ -21,7 +21,7 @@ def _written():
 
 
 def _of_checkout(root):
-    """Of git, where the package lies at the top of a checkout (not merely inside one, as in a virtual environment)."""
+    """Commit from git, where the package lies at the top of a checkout (not merely inside one, as in a virtual environment)."""
     if not (root / ".git").exists():
         return None
     try:

@@ -1,7 +1,9 @@
-"""A new law, shape, criterion, oil and output field are one file each: those of CONTRIBUTING.md, in a copy of the package."""
+"""A new law, shape, criterion, oil and output field are one file each: those of CONTRIBUTING.md, in a copy of the package and
+in a folder of the user."""
 
 import json
 import math
+import os
 import shutil
 import subprocess
 import sys
@@ -11,6 +13,7 @@ import numpy as np
 import pytest
 
 ROOT = Path(__file__).parents[1]
+OWN = {"shear", "shapes", "oils"}
 
 
 def shown(title):
@@ -20,13 +23,17 @@ def shown(title):
 
 
 def extended(copy, files, script):
-    """Run `script` in the folder `copy` with a copy of the package and `files` (path, text) more."""
+    """Run `script` in the folder `copy` with a copy of the package and `files` (path, text) more; those of OWN lie in a folder
+    of the user."""
     for source, target in (("tehl_taichi", "tehl_taichi"), ("profiles", "tehl_taichi/profiles")):
         shutil.copytree(ROOT / source, copy / target)
     for path, text in files:
         assert not (copy / path).exists()
-        (copy / path).write_text(text)
-    subprocess.run([sys.executable, "-c", script], cwd=copy, check=True)
+        folder, name = Path(path).parent.name, Path(path).name
+        place = copy / "my_entries" / folder / name if folder in OWN else copy / path
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.write_text(text)
+    subprocess.run([sys.executable, "-c", script], cwd=copy, check=True, env={**os.environ, "TEHL_ENTRIES": "my_entries"})
 
 
 TAIT = '''"""Density of Tait's form, at one temperature."""

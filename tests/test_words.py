@@ -140,3 +140,9 @@ def test_no_verb_as_a_name():
     words = re.compile(rf"\b({'|'.join(NO_NAMES)})\b")
     every = ((path, *one) for path, source in suspects(CODE, words) for one in names(ast.parse(source)))
     assert [f"{path.relative_to(ROOT)}:{line}: {name}" for path, line, name in every if name in NO_NAMES] == []
+
+
+def test_docstrings_begin_with_a_noun_or_a_verb():
+    opening = re.compile(r'"""(Of|Those|That|And|It|The same)\b.*')
+    assert [f"{path.relative_to(ROOT)}: {match[0]}" for path in CODE
+            for match in opening.finditer(path.read_text(encoding="utf-8"))] == []

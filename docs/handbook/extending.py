@@ -7,7 +7,7 @@ HEADING = "## One file for one idea\n"
 
 
 def text():
-    """That section, without its heading."""
+    """Text of that section, without its heading."""
     _, _, after = SOURCE.read_text(encoding="utf-8").partition(HEADING)
     if not after:
         raise ValueError(f"{SOURCE.name} has no section {HEADING.strip()!r}")

@@ -14,7 +14,7 @@ def chosen(scene, reader, name):
 
 
 def _worse(scene, reader):
-    """That of the verdict of a finished run; without one, the surface with the largest index at the surface."""
+    """Surface of the verdict of a finished run; without one, the surface with the largest index at the surface."""
     if found := by_surface(getattr(reader, "summary", {})):
         return max(found, key=lambda one: assessment.largest(found[one]))
     if len(scene.judged) < 2:

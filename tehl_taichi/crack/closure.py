@@ -24,7 +24,7 @@ def opened(faces, forces):
 
 
 def shut(faces, values, held):
-    """The same nodal values without what rounding leaves open at a closed tip."""
+    """Nodal values without what rounding leaves open at a closed tip."""
     values[faces.nodes - 1][held[faces.rough - 1] > 0] = 0.0
     return values
 

@@ -38,7 +38,7 @@ def bounded(M, gap, low, high, at):
 
 
 def _least(seen, again):
-    """Of the states that follow each other for ever from `again` on, all wrong by rounding, the one with the least forces."""
+    """The state with the least forces, of those that follow each other for ever from `again` on, all wrong by rounding."""
     states = list(seen)
     return min((seen[state] for state in states[states.index(again) :]), key=lambda found: np.abs(found[0]).max())
 

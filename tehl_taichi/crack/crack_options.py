@@ -62,7 +62,7 @@ class CrackOptions:
 
     @property
     def oil_share(self):
-        """Of the film's pressure at the mouth, where all of the crack has it."""
+        """Share of the film's pressure at the mouth, where all of the crack has it."""
         return 1.0 if isinstance(self.oil, str) else self.oil
 
     @property

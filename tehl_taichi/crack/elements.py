@@ -44,7 +44,7 @@ class Elements:
         self.origin, self.offset = self.path[piece], starts[piece]
 
     def at(self, k, xi):
-        """Of elements k at xi = 0..1 in u: u, z, both shape functions (without u) and d/dxi of both (with it)."""
+        """Quantities of elements k at xi = 0..1 in u: u, z, both shape functions (without u) and d/dxi of both (with it)."""
         turn = np.diff(self.u)[k]
         u = self.u[k] + turn * xi
         s = self.a - u * u

@@ -73,7 +73,7 @@ class MomentState:
     settled: bool
 
     def unsettled(self):
-        """The same, marked so."""
+        """This state, marked as not settled."""
         return replace(self, settled=False)
 
 

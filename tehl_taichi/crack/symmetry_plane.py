@@ -31,7 +31,7 @@ class SymmetryPlane:
         self.residual, self.scale, self.times, self.fluid = residual, float(np.abs(stress).max()), times, fluid
 
     def having(self, residual):
-        """The same loads with a residual stress (Pa, or rows of depth and Pa; None: as it is)."""
+        """These loads with a residual stress (Pa, or rows of depth and Pa; None: as it is)."""
         if residual is None:
             return self
         other = copy.copy(self)

@@ -207,5 +207,5 @@ def _remove(path):
 
 
 def exists(path):
-    """That something stands at `path`, in words."""
+    """Words: something exists at `path`."""
     return f"{path} exists already; choose another --out, or use --force to replace it"

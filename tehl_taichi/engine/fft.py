@@ -18,7 +18,7 @@ Passes = ti.types.ndarray(dtype=ti.i32, ndim=2)
 
 
 def odd_radices(*lengths):
-    """Those of the passes of all these :class:`Lengths`: what no pass has is not compiled."""
+    """Odd radices of the passes of all these :class:`Lengths`: what no pass has is not compiled."""
     return tuple(sorted({code for one in lengths for code, *_ in one.passes if code % 2}))
 
 

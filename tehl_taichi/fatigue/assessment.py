@@ -137,13 +137,13 @@ def _result(scene, passage, layers, below, alone):
 
 
 def _statistics(layer, counts, limit):
-    """Of all points of a layer that features pass, with the mean number of their cycles above the limit."""
+    """Statistics of all points of a layer that features pass, with the mean number of their cycles above the limit."""
     return {**index_statistics.statistics(layer.f / limit, counts), "cycles_above_1": float(np.nanmean(layer.cycles))}
 
 
 def _statistics_below(below, counts, passage, limit):
-    """Of the points under the searched rows, at the depth with the largest 99th percentile, and "by_depth"; "plane": of the
-    plane that was searched at all its points, where there is one."""
+    """Statistics of the points under the searched rows, at the depth with the largest 99th percentile, and "by_depth"; "plane":
+    of the plane that was searched at all its points, where there is one."""
     found = index_statistics.below(passage, below.profiles, counts, limit)
     if below.plane:
         found["plane"] = {"depth_m": below.plane.depth, **_statistics(below.plane, counts, limit)}

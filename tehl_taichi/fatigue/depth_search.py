@@ -63,7 +63,7 @@ def _planes(scene, passage, profiles, before, early, progress):
 
 
 def _depth(profiles):
-    """That of the worst of their points, m."""
+    """Depth of the worst of their points, m."""
     return max(_points(profiles), key=lambda point: point.f).depth
 
 

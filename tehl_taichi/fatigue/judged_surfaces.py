@@ -16,5 +16,5 @@ def resting(name):
 
 
 def others(summary):
-    """The same without the worse body, whose search is the "fatigue" of the summary."""
+    """Searches without that of the worse body, whose search is the "fatigue" of the summary."""
     return {name: found for name, found in by_surface(summary).items() if name != summary["fatigue"].get("surface", "a")}

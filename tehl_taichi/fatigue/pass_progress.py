@@ -15,8 +15,8 @@ class PassProgress:
 
     @classmethod
     def of(cls, progress, scene, passage, early=None):
-        """Of a :func:`tehl_taichi.fatigue.assessment.run`: stresses and search of every block of rows at every depth listed,
-        then those under rows where the worst depth is looked for."""
+        """Progress of a :func:`tehl_taichi.fatigue.assessment.run`: stresses and search of every block of rows at every depth
+        listed, then those under rows where the worst depth is looked for."""
         ladder = bool(scene.fatigue.depths)
         layers = 1 + len(scene.fatigue.listed)
         return cls(progress, 2 * layers * len(passage.row_blocks()) + (2 + passes(passage, early)) * ladder)

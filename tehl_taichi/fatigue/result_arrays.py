@@ -4,19 +4,20 @@ import numpy as np
 
 
 def of_surface(surface, passage, limit, counts):
-    """Of all points of the surface; limit: sigma_eF, Pa; counts: see :func:`tehl_taichi.fatigue.index_statistics.weights`."""
+    """Arrays of all points of the surface; limit: sigma_eF, Pa; counts: see
+    :func:`tehl_taichi.fatigue.index_statistics.weights`."""
     return {"feature_frame_x": passage.x, "feature_frame_y": passage.y, "findley_stress": surface.f, "Fi": surface.f / limit,
             "sigma1_max": surface.sigma1, "plane_theta": surface.theta, "plane_phi": surface.phi,
             "passed": counts}
 
 
 def of_plane(plane):
-    """Of the plane below that was searched at all its points."""
+    """Arrays of the plane below that was searched at all its points."""
     return {"worst_depth": np.array([plane.depth]), "findley_stress_at_worst_depth": plane.f}
 
 
 def of_layers(layers):
-    """Of all points at every listed depth."""
+    """Arrays of all points at every listed depth."""
     return {"fatigue_depth": np.array([layer.depth for layer in layers]),
             "findley_stress_at_depth": at_depths(layers)}
 

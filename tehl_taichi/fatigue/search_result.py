@@ -96,7 +96,7 @@ class SearchResult:
 
     @classmethod
     def from_arrays(cls, searches, array, first=""):
-        """Of a store: {surface: summary of its search}, the worse first, and array(name): an array or None."""
+        """SearchResult of a store: {surface: summary of its search}, the worse first, and array(name): an array or None."""
         summary, *others = searches.values()
         known = searched(summary).get("resolved")
         part = cls(known, **_named(array, first + PART)) if known else None
@@ -121,7 +121,7 @@ class SearchResult:
 
     @property
     def maps(self):
-        """The same as :meth:`to_arrays`."""
+        """Same as :meth:`to_arrays`."""
         return self.to_arrays()
 
     @property

@@ -53,7 +53,7 @@ def largest(T):
 
 
 def _maximum(coefficients):
-    """Of one Chebyshev series on [-1, 1]: at an end, or where its slope is 0."""
+    """Maximum of one Chebyshev series on [-1, 1]: at an end, or where its slope is 0."""
     slope = np.trim_zeros(series.chebder(coefficients), "b")
     turns = series.chebroots(slope) if slope.size > 1 else np.zeros(0)
     inside = turns.real[np.abs(turns.imag) < 1e-6]

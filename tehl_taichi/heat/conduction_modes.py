@@ -30,7 +30,7 @@ POINTS, WEIGHTS = np.polynomial.legendre.leggauss(12)
 
 
 class ModeMemory(NamedTuple):
-    """Of a body in a step: of each mode (MODES,) its weight, its decay over the step, what it gains by the new flux and by the
+    """Modes of a body in a step: of each (MODES,) its weight, its decay over the step, what it gains by the new flux and by the
     last one; B of T_s = A + B q, and B of the last flux, which is in A."""
 
     weight: np.ndarray

@@ -50,7 +50,7 @@ def along_x(Z: ti.template(), C: ti.template(), nz, at: ti.template(), past: ti.
 
 @ti.func
 def from_cell(Z: ti.template(), C: ti.template(), nz, at: ti.template(), past: ti.template(), i0, f, inflow):
-    """The same for all rows from the cell behind column i0, at the fractions f of it."""
+    """Departure value for all rows from the cell behind column i0, at the fractions f of it."""
     T4, p4 = [V(inflow) for _ in range(4)], [V(0.0) for _ in range(4)]
     first = at.q - at.i
     for t in ti.static(range(4)):

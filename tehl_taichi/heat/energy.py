@@ -309,7 +309,7 @@ def update(Z: ti.template(), X: ti.template(), at: ti.template(), nz, coldest, p
 
 @ti.func
 def largest_row(values, at: ti.template()):
-    """Of values >= 0 in the rows that are no ghosts."""
+    """Row of the largest of values >= 0, in the rows that are no ghosts."""
     out = 0.0
     for u in ti.static(range(W)):
         if at.s * W + u <= at.ny:

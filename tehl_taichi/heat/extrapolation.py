@@ -89,8 +89,9 @@ def foresee(Z: ti.template(), C: ti.template(), G: Table, nz: ti.i32, oil: ti.te
 
 
 class TemperatureExtrapolation:
-    """Of the temperatures of `heat`, a :class:`tehl_taichi.heat.temperatures.FilmHeat`, from its last two states; at: how far
-    the feature has moved in the last one, in cells; state: what :meth:`state` gave is continued from, if it is in there."""
+    """Extrapolation of the temperatures of `heat`, a :class:`tehl_taichi.heat.temperatures.FilmHeat`, from its last two states;
+    at: how far the feature has moved in the last one, in cells; state: what :meth:`state` gave is continued from, if it is in
+    there."""
 
     def __init__(self, heat, at, state):
         self.heat, self.at, self.edge_before = heat, [at], heat.columns.nodes(TNN)[:, -1]

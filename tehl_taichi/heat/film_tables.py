@@ -32,7 +32,7 @@ TOLD = 4
 
 @ti.func
 def nodes_around(Z: ti.template(), at: ti.template(), kind: ti.template(), nz, n):
-    """Those of a kind at node n of the place `at` at j - 1 and j + 1."""
+    """Values of a kind at node n of the place `at` at j - 1 and j + 1."""
     before, behind = columns_around(at, at.q)
     return rows_around(at, Z[kind, at.q * nz + n], Z[kind, before * nz + n], Z[kind, behind * nz + n])
 

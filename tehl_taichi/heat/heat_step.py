@@ -5,7 +5,7 @@ from tehl_taichi.engine.language import ti
 
 @ti.dataclass
 class HeatStep:
-    """Of a time step."""
+    """Heat in a time step."""
 
     rate: ti.f64  # 1/s, weight of the new state in d/dt
     inv_x: ti.f64  # 1/m, 1/dx
@@ -23,7 +23,7 @@ class HeatStep:
 
 @ti.dataclass
 class Drift:
-    """Of a body in a time step: where its material strips lie."""
+    """Motion of a body in a time step: where its material strips lie."""
 
     shift: ti.f64  # whole cells that the grid overtakes the strips by
     rest: ti.f64  # cells that strip i lies ahead of column i afterwards

@@ -14,7 +14,7 @@ def zeta(N: ti.template(), n):
 
 @ti.func
 def weight(N: ti.template(), n):
-    """Of node n in int_0^1 dzeta."""
+    """Weight of node n in int_0^1 dzeta."""
     return N[WEIGHT, n]
 
 
@@ -31,17 +31,17 @@ def integral(N: ti.template(), n, m):
 
 @ti.func
 def slope(N: ti.template(), n, m):
-    """Of node m in d/dzeta at node n."""
+    """Weight of node m in d/dzeta at node n."""
     return entry(N, SLOPE, n, m)
 
 
 @ti.func
 def second(N: ti.template(), n, m):
-    """Of node m in d2/dzeta2 at node n."""
+    """Weight of node m in d2/dzeta2 at node n."""
     return entry(N, SECOND, n, m)
 
 
 @ti.func
 def beyond(N: ti.template(), m, n):
-    """Of node n in the integral from node m to 1."""
+    """Weight of node n in the integral from node m to 1."""
     return entry(N, BEYOND, n, m)

@@ -50,7 +50,7 @@ def couette(Z: ti.template(), N: ti.template(), q, h, scene: ti.template()):
 
 @ti.func
 def wall_stress(col: ti.template(), slope, scene: ti.template()):
-    """Of a gradient (Pa/m) of the pressure, as the shear law sees it, Pa."""
+    """Stress on the walls by a gradient (Pa/m) of the pressure, as the shear law sees it, Pa."""
     return 0.5 * col.h * ti.abs(slope) * scene.strain
 
 
@@ -73,7 +73,7 @@ def flow_across(rheology: ti.template(), y, col: ti.template(), newtonian):
 
 @ti.func
 def flow_along(rheology: ti.template(), x, col: ti.template(), newtonian, scene: ti.template()):
-    """And along it; as across it where walls carry all (:func:`tehl_taichi.pressure.fluxes.yielding`)."""
+    """Flow along the sliding; as across it where walls carry all (:func:`tehl_taichi.pressure.fluxes.yielding`)."""
     smooth, steep = V(0.0), V(0.0)
     if scene.strain > 0.0:
         exact = either(rheology, True, x * col.skew, x, newtonian, col.p)

@@ -18,13 +18,13 @@ def _density(oil, p, Gamma, expands):
 
 @unrolled
 def rho_film(oil, p, Gamma):
-    """Of a film with temperatures; the thermal factor acts unless `oil.expansion` is "never"."""
+    """Density of a film with temperatures; the thermal factor acts unless `oil.expansion` is "never"."""
     return _density(oil, p, Gamma, oil.expansion != "never")
 
 
 @unrolled
 def rho_ratio(oil, p, Gamma):
-    """Of a film with one temperature; the thermal factor acts when `oil.expansion` is "always" (see Scene.film_oil)."""
+    """Density of a film with one temperature; the thermal factor acts when `oil.expansion` is "always" (see Scene.film_oil)."""
     return _density(oil, p, Gamma, oil.expansion == "always")
 
 

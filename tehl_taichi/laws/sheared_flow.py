@@ -20,7 +20,7 @@ def flow(rheology, wall, newtonian, p):
 
 @unrolled
 def beyond(rheology, wall, newtonian, p):
-    """And the steep rest."""
+    """The steep rest."""
     law, nothing = LAWS[rheology.law].beyond, 0.0 * wall
     return law(rheology, wall, newtonian, p) if law else (nothing, nothing, nothing, nothing)
 

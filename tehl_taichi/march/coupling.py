@@ -49,7 +49,7 @@ def exchange(solver, heat, solve, most=None, sparing=False):
 
 
 def _pressure(solver, solve, first, sparing, far):
-    """That of a round: the reports of its solves, and whether it is a rough one, since temperatures are still far off."""
+    """Pressure of a round: the reports of its solves, and whether it is a rough one, since temperatures are still far off."""
     work = [solver.improve(sparing)] if first else []
     if far and not (first and (solver.change < SMALL_CHANGE or work[0].residual < ROUGH)):
         work.append(solver.solve(enough=ROUGH))

@@ -144,7 +144,7 @@ class Passage:
         return exchange(self.solver, self.heat, self._solve, self._rounds(part), sparing=True)
 
     def _rounds(self, part):
-        """Of pressure and temperature, at most: more for a part of a step, but for a user who wants one lagged round."""
+        """Rounds of pressure and temperature, at most: more for a part of a step, but for a user who wants one lagged round."""
         most = self.scene.thermal.rounds
         return most if part == 1.0 or most == 1 else MORE_ROUNDS * most
 

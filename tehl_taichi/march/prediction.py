@@ -9,8 +9,8 @@ ORDER = 3  # of the extrapolation in time of the pressure
 
 
 class Prediction:
-    """Of the state in the tables of `solver` and `heat` (or None), with the features moved by `at` cells; state: that a run
-    continues from, with what :meth:`state` gave in it, or of a start."""
+    """Prediction of the state in the tables of `solver` and `heat` (or None), with the features moved by `at` cells; state:
+    that a run continues from, with what :meth:`state` gave in it, or of a start."""
 
     def __init__(self, solver, heat, at, state):
         self.solver, self.heat = solver, heat

@@ -36,7 +36,7 @@ class SolvedState:
 
     @property
     def displacements(self):
-        """Of surfaces a and b since X = 0, m."""
+        """Displacements of surfaces a and b since X = 0, m."""
         X = self.scene.path[0] if self.moved is None else self.moved
         return tuple(surface.pace * X * self.scales.a for surface in self.scene.surfaces)
 
@@ -62,7 +62,7 @@ class SolvedState:
 
     @functools.cached_property
     def weights(self):
-        """Of the nodes in the load (ny+1, nx+1)."""
+        """Weights of the nodes in the load (ny+1, nx+1)."""
         return load_weights(self.solver.levels)
 
     @functools.cached_property

@@ -16,7 +16,7 @@ from tehl_taichi.values.registry import Checked, Entry, collect
 
 
 def always(scene):
-    """Of every scene."""
+    """True: an output of every scene."""
     return True
 
 
@@ -72,7 +72,7 @@ def entries(kind):
 
 
 def names():
-    """Of all outputs, whether a scene has them or not."""
+    """Names of all outputs, whether a scene has them or not."""
     return [*entries(Field), *entries(Scalar)]
 
 

@@ -20,7 +20,7 @@ class Substeps:
 
     @classmethod
     def of(cls, state):
-        """Those of a saved state, where there are any."""
+        """Substeps of a saved state, where it has any."""
         return cls(*state["parts"]) if "parts" in state else cls()
 
     def state(self):

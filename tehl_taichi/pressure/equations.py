@@ -43,7 +43,7 @@ class Equations:
         self._rows()
 
     def linearise_coarse(self):
-        """The same on the coarser levels that solve, about the injected state and with its laws."""
+        """Linearise on the coarser levels that solve, about the injected state and with its laws."""
         self.inject()
         self._rows_coarse()
 

@@ -43,8 +43,8 @@ class Slopes:
 
 @ti.dataclass
 class Wall:
-    """Of a level and a direction: Pa on both walls of a film H = 1 by a difference of P of 1, Pa of P = 1, the distance of the
-    nodes, and Pa of the sliding of oil at p = 0 in a film H = 1."""
+    """Scales of a level and a direction: Pa on both walls of a film H = 1 by a difference of P of 1, Pa of P = 1, the distance
+    of the nodes, and Pa of the sliding of oil at p = 0 in a film H = 1."""
 
     stress: ti.f64
     p_H: ti.f64
@@ -113,7 +113,7 @@ def node(S: ti.template(), k, n2, up: ti.template(), skew: ti.template()):
 
 @ti.func
 def mobility(a):
-    """Of the oil at the FlowNode a."""
+    """Mobility of the oil at the FlowNode a."""
     return a.root * a.root * a.gap * a.gap * a.gap * a.ie
 
 

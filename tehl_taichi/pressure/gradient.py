@@ -17,7 +17,7 @@ def along_x(S: ti.template(), at: ti.template()):
 
 @ti.func
 def along_y(S: ti.template(), at: ti.template()):
-    """The same across; none in the first and the last row: a plane of symmetry, and the edge where nothing changes any more."""
+    """Gradient across; none in the first and the last row: a plane of symmetry, and the edge where nothing changes any more."""
     here, n2 = S[P, at.k], at.nx + 1
     below_it, above_it = here - below(S, P, at.k, n2), above(S, P, at.k, n2) - here
     for u in ti.static(range(W)):
@@ -62,7 +62,7 @@ def driving_x(S: ti.template(), at: ti.template()):
 
 @ti.func
 def driving_y(S: ti.template(), at: ti.template()):
-    """The same across."""
+    """Driving gradient across."""
     n2 = at.nx + 1
     here = node(S, at.k, n2, 0, -1)
     return 0.5 * (flux(node(S, at.k, n2, -1, -1), here) + flux(here, node(S, at.k, n2, 1, -1))) / mobility(here)

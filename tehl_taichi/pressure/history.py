@@ -27,7 +27,7 @@ def shift(cells):
 
 @functools.lru_cache(maxsize=16)
 def _weights(part):
-    """Of the nodes -3 ... 2 for the value at -part."""
+    """Weights of the nodes -3 ... 2 for the value at -part."""
     return lagrange(range(-3, 3), -part)
 
 

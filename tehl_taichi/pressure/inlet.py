@@ -76,7 +76,7 @@ class Inlet:
         return self._move(self._aitken)
 
     def move(self, part):
-        """The same by this part of the way."""
+        """Move the border by this part of the way."""
         return self._move(lambda miss: part)
 
     def _move(self, part_of):
@@ -119,7 +119,7 @@ class Inlet:
         return self.without_heat(H, self.carried(H)) * self.warmth()
 
     def without_heat(self, H, carried):
-        """The same by the film H, that carries so much, of oil as it comes in."""
+        """Pressure of the border by the film H, that carries so much, of oil as it comes in."""
         v = self.levels
         if v.line:
             shape = np.full(v.ny + 1, integral(v.X[0], H[v.middle, 0], carried, 1.0))

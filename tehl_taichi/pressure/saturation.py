@@ -28,7 +28,7 @@ def unknown():
 
 @ti.func
 def share(line, flux, g, bend):
-    """Of the tangent in the slope of the flux, the rest is the secant's. bend: tangent less secant."""
+    """Share of the tangent in the slope of the flux, the rest is the secant's. bend: tangent less secant."""
     out = V(1.0)
     if line.known > 0.0:
         expected = line.base + line.rise * g

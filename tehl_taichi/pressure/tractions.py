@@ -73,7 +73,7 @@ def on_bodies(S: ti.template(), G: ti.template(), at: ti.template(), rheology: t
 
 @ti.func
 def store(out: ti.template(), at: ti.template(), a_x, a_y, b_x, b_y):
-    """Those of a place into a Stack."""
+    """Store the tractions of a place in a Stack."""
     for u in ti.static(range(W)):
         j = at.s * W + u
         if j <= at.ny:

@@ -122,7 +122,7 @@ LABELS = ("text", "name", "ticktext", "legendgroup")
 
 
 def _labelled(spec, key=""):
-    """The same description of a figure with its labels as plotly.js shows them."""
+    """Description of a figure with its labels as plotly.js shows them."""
     if isinstance(spec, dict):
         return {name: _labelled(value, name) for name, value in spec.items()}
     if isinstance(spec, (list, tuple)):

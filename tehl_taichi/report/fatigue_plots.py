@@ -38,7 +38,7 @@ def index(search):
 
 
 def _listed(search, Fi, worst):
-    """Of the depths that were listed the one next to the worst; Fi (depth, x, y)."""
+    """The listed depth next to the worst; Fi (depth, x, y)."""
     depths = search.result.fatigue_depth
     n = beside_worst(depths, worst["depth_m"])
     return _layer(search, depths[n], Fi[n], worst)

@@ -112,7 +112,7 @@ def _mark(x):
 
 
 def _lines(flank, lines, factor):
-    """Those of a panel that have values."""
+    """Lines of a panel that have values."""
     out = []
     for name, what in lines.items():
         x, y = _series(flank, what)
@@ -148,7 +148,7 @@ def _value(key, value, declared):
 
 
 def warnings(flank):
-    """Those of all positions, each once with where it was said."""
+    """Warnings of all positions, each once with its positions."""
     places_of: dict[str, list[str]] = {}
     for at, _, summary in flank.rows:
         for sentence in (summary or {}).get("warnings", []):

@@ -31,7 +31,7 @@ def _contact(scene):
 
 
 def _half_axes(s):
-    """Of the dry contact: along x, and across where it ends there."""
+    """Half-axes of the dry contact: along x, and across where it ends there."""
     if s.line:
         return f"half-width {value_text(s.a, unit='m')}"
     return f"half-axes {value_text(s.a, unit='m')} along x and {value_text(s.b, unit='m')} across"
@@ -130,7 +130,7 @@ def numbers(scene):
 
 
 def _inlet(scene):
-    """Of the oil as it comes in."""
+    """Oil at the inlet."""
     eta = math.exp(float(viscosity.ln_eta(scene.oil, 0.0, scene.operation.temperature)))
     return f"{eta * 1e3:.4g} mPa s"
 
@@ -146,7 +146,7 @@ def _of_sheet(oil):
 
 
 def _alpha(oil):
-    """Of the sheet, or what it was estimated as."""
+    """Pressure coefficient of the data sheet, or its estimate."""
     if not data_sheet.estimated(oil):
         return "data sheet: α at 40 °C", f"{oil.alpha_40 * 1e9:.4g} 1/GPa"
     alpha = data_sheet.alpha_40(oil.nu_40, oil.rho0, oil.Dz)

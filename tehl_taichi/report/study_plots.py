@@ -11,7 +11,7 @@ MOST_LINES = 12
 
 
 def figures(study):
-    """Of each usual result: lines over the first key and a map over two, or points where the cases lie anywhere."""
+    """Figures of each usual result: lines over the first key and a map over two, or points where the cases lie anywhere."""
     out = []
     for name in usual(study):
         if study.plan.gridded and len(study.plan.dims) <= 2:

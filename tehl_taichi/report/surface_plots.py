@@ -82,7 +82,7 @@ def _holes(found, i, j):
 
 
 def _stepped(values):
-    """The same in steps of less than a thousandth of their range, a power of two: a screen has fewer colours, and roughness in
+    """Heights in steps of less than a thousandth of their range, a power of two: a screen has fewer colours, and roughness in
     all digits would be a megabyte of the page."""
     size = float(np.ptp(values))
     step = 2.0 ** math.floor(math.log2(size / STEPS)) if size > 0 else 1.0

@@ -47,7 +47,7 @@ def judged(Fi, error=None):
 
 
 def all_layers(searches):
-    """The same as :func:`layers` of each {surface: summary of its search}; surfaces are named where there are two."""
+    """The :func:`layers` of each {surface: summary of its search}; surfaces are named where there are two."""
     one = len(searches) == 1
     return [layer for name, found in searches.items() for layer in layers(found, "the surface" if one else f"surface {name}")]
 
@@ -73,7 +73,7 @@ def _percentile_layers(fatigue, surface):
 
 
 def _spread(searches):
-    """Of rough surfaces: the share above the limit, and the largest index with the number of points that it is of."""
+    """Sentences on rough surfaces: the share above the limit, and the largest index with the number of points that it is of."""
     out = []
     for name, found in ((name, searched(one)) for name, one in searches.items()):
         if found.get("rough"):

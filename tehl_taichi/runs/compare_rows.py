@@ -56,7 +56,7 @@ def _line(what, rows):
 
 
 def _change(rows):
-    """Of the second number from the first: in %, or how many times as much it is."""
+    """Change from the first number to the second: in %, or how many times as much it is."""
     numbers = [row.number if row else None for row in rows]
     if len(rows) != 2 or None in numbers or not numbers[0]:
         return ""

@@ -212,7 +212,7 @@ class Scene:
 
     @property
     def load_unit(self):
-        """Of contact.load."""
+        """Unit of contact.load."""
         return "N/m" if self.contact.kind == "line" else "N"
 
     def load_meant(self, wider=0.0, least=MIN_HERTZ):
@@ -249,7 +249,7 @@ class Scene:
 
     @property
     def at_rest(self):
-        """Of the surfaces a and b: whether it moves at less than a hundredth of the mean speed, for heat not at all."""
+        """Whether surface a, and surface b, moves at less than a hundredth of the mean speed, for heat not at all."""
         o = self.operation
         return o.u_a < AT_REST * o.u_m, o.u_b < AT_REST * o.u_m
 

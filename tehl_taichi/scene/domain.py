@@ -68,7 +68,7 @@ def inlet_gap(s, X):
 
 
 def side_gap(s, Y):
-    """The same Y b beside the centre of a point contact: exact for a circle, and far from an ellipse."""
+    """Gap Y b beside the centre of a point contact: exact for a circle, and far from an ellipse."""
     return s.curvature * (s.b / s.a) ** 2 * hertz.point_gap(Y)
 
 

@@ -91,6 +91,7 @@ def _grid(scene, ends):
 
 
 def cells(key, count, times):
-    """Of the axis "nx" or "ny" that becomes so many times as long: about as large as before, in multiples that a grid takes."""
+    """Cells of the axis "nx" or "ny" that becomes so many times as long: about as large as before, in multiples that a grid
+    takes."""
     multiple = resolution.kept_multiple(key, count)
     return count if 1 <= times <= WIDER else math.ceil(count * times / WIDER / multiple - 1e-9) * multiple

@@ -137,7 +137,7 @@ class Feature(_KEYS):
 
     @property
     def reach_y(self):
-        """The same along y; 0 for transverse features, which are the same for every y."""
+        """Distance along y; 0 for transverse features, which do not vary along y."""
         return self.kind.reach_y(self)
 
     @property

@@ -58,7 +58,7 @@ def load_power(scene):
 
 
 def heated_film(scene):
-    """The same (m) with what the oil's own heat in the inlet leaves of it; isothermal scenes: all.
+    """Central film by formula (m), with what the oil's own heat in the inlet leaves of it; isothermal scenes: all.
 
     Computed central films of 25 random thermal lines (0.3 to 2.4 GPa, SRR -1.6 to 1.7, factor 0.07 to 1) are 0.68 to 1.20 of
     it, half of them 0.87 to 1.0.
@@ -67,7 +67,7 @@ def heated_film(scene):
 
 
 def thinnest_film(scene):
-    """The same (m) where it is thinnest: in the side lobes of a point contact; of a line, which has none, the central film."""
+    """Smallest film by formula (m): in the side lobes of a point contact; of a line, which has none, the central film."""
     return heated_film(scene) * (1.0 if Scales.of(scene).line else side_lobes(scene))
 
 

@@ -21,7 +21,7 @@ def line_gap(X):
 
 
 def point_gap(X):
-    """The same beside a circular contact (Johnson, section 3.4, Eq 3.42)."""
+    """Gap beside a circular contact (Johnson, section 3.4, Eq 3.42)."""
     return X * X / 2 - 1 + ((2 - X * X) * math.asin(1 / X) + math.sqrt(X * X - 1)) / math.pi
 
 

@@ -36,12 +36,12 @@ def idle(scene):
 
 
 def idle_warnings(scene):
-    """Of these the keys that another law, shape or description takes: whoever gives one means that."""
+    """Warnings about keys that another law, shape or description takes: whoever gives one means that."""
     return dict([*_overruled(scene), *_other_laws(scene), *_other_shapes(scene)])
 
 
 def resting(scene):
-    """Of these the keys of what this scene leaves out."""
+    """Keys of what this scene leaves out."""
     return dict(found for rule in RULES for found in rule(scene))
 
 
@@ -162,7 +162,7 @@ def _laws(scene):
 
 
 def _values(laws, oil, p, Gamma):
-    """Of laws at all places, a row each."""
+    """Values of laws at all places, a row each."""
     return np.array([law(oil, p, Gamma) + 0 * p for law in laws])
 
 

@@ -45,7 +45,7 @@ def check_new(path):
 
 
 def with_map_folder(data, folder):
-    """The same with the paths of height maps starting at `folder`, whatever folder the command runs in."""
+    """Data with the paths of height maps starting at `folder`, whatever folder the command runs in."""
     features = data.get("feature", [])
     for feature in features if isinstance(features, list) else []:
         if isinstance(feature, dict) and isinstance(feature.get("file"), str) and feature["file"]:
@@ -83,7 +83,7 @@ def _on_base(base, data):
 
 
 def _spelled_out(data):
-    """The same with what follows from the names of its oil and steels, from a data sheet and from fatigue limits: a change that
+    """Data with what follows from the names of its oil and steels, from a data sheet and from fatigue limits: a change that
     takes these away leaves the numbers."""
     for key, make in (("oil", named_oils.from_values), ("fatigue", Fatigue.from_values)):
         if key in data:

@@ -173,7 +173,7 @@ class Rheology(_RHEOLOGY):
 
     @property
     def power(self):
-        """Of the stress on the walls, that what a gradient of the pressure drives beyond Newtonian oil grows with, at most."""
+        """Power of the stress on the walls with which the flow beyond Newtonian oil grows, at most."""
         return rheology.LAWS[self.law].power
 
 
@@ -264,8 +264,8 @@ class Fatigue:
 
     @classmethod
     def from_values(cls, values):
-        """Of a table, with unknown keys refused, and constants beside limits unless they are those that follow; None stands for
-        one that does. Raises SceneError."""
+        """Section from a table, with unknown keys refused, and constants beside limits unless they are those that follow; None
+        stands for one that does. Raises SceneError."""
         free = fatigue_limits.follows(values) if isinstance(values, dict) else ()
         made = build(cls, {key: value for key, value in values.items() if key not in free} if free else values, "fatigue")
         fatigue_limits.check_free({key: plain(values[key]) for key in free if values.get(key) is not None}, made)

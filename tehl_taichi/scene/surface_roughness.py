@@ -56,8 +56,8 @@ def rms_of(numbers):
 
 
 def _of(features, edge):
-    """Of the features of one surface, of endless ones up to the edge (m) of the domain along y; None where there are none, or
-    they overlap nowhere."""
+    """Roughness of the features of one surface, of endless ones up to the edge (m) of the domain along y; None where there are
+    none, or they overlap nowhere."""
     if len(features) == 1 and features[0].kind.measured:
         f = features[0]
         before = Roughness.of(f.filtered(0.0), f.steps) if f.cutoff else None

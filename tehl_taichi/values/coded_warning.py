@@ -33,7 +33,7 @@ def lists(warnings):
 
 
 def texts(warnings):
-    """The same as JSON texts."""
+    """The lists of :func:`lists` as JSON texts."""
     return {name: json.dumps(values) for name, values in lists(warnings).items()}
 
 

@@ -5,10 +5,13 @@ file in that folder is a new choice.
 """
 
 import importlib
+import itertools
 import pkgutil
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
+
+from tehl_taichi.values import own_entries
 
 
 @dataclass(frozen=True)
@@ -33,13 +36,16 @@ class Entry:
 
 
 def collect(folder, kind):
-    """{name: entry} of all entries of this kind that the modules of a folder (a package) declare, in the order of their names.
+    """{name: entry} of all entries of this kind that the modules of a folder (a package), and those of the user
+    (:mod:`tehl_taichi.values.own_entries`), declare, in the order of their names.
 
     Raises ValueError when two entries have one name.
     """
     found: dict[str, Any] = {}
-    for module in sorted(name for _, name, _ in pkgutil.iter_modules(folder.__path__)):
-        for entry in vars(importlib.import_module(f"{folder.__name__}.{module}")).values():
+    names = sorted(name for _, name, _ in pkgutil.iter_modules(folder.__path__))
+    own = (importlib.import_module(f"{folder.__name__}.{name}") for name in names)
+    for module in itertools.chain(own, own_entries.modules(folder.__name__.rpartition(".")[2])):
+        for entry in vars(module).values():
             if isinstance(entry, kind) and found.setdefault(entry.name, entry) is not entry:
                 raise ValueError(f"{folder.__name__} has two entries named {entry.name!r}")
     return dict(sorted(found.items()))

@@ -186,7 +186,7 @@ class StressHistories:
         return out
 
     def resting(self, stress):
-        """The same stress (..., 6) with the constant residual one."""
+        """The stress (..., 6) with the constant residual one."""
         stress[..., 0] += self.scene.fatigue.residual_xx
         stress[..., 1] += self.scene.fatigue.residual_yy
         return stress
@@ -204,7 +204,7 @@ class StressHistories:
         return [some for some in np.split(moments, ends) if some.size]
 
     def under(self, fields, t):
-        """Those of fields (x, rows, parts) at the material points at moment t: (parts, x', rows)."""
+        """Values of fields (x, rows, parts) at the material points at moment t: (parts, x', rows)."""
         return np.moveaxis(self._at(fields, t), -1, 0)
 
     def _at(self, fields, t):

@@ -71,7 +71,7 @@ def shear_x_at_depth(x, y, z, a, b, nu):
 
 
 def shear_y_at_depth(x, y, z, a, b, nu):
-    """The same from unit q_y: the q_x case with x and y exchanged."""
+    """Stress from unit q_y: the q_x case with x and y exchanged."""
     syy, sxx, szz, sxy, syz, sxz = shear_x_at_depth(y, x, z, b, a, nu)
     return sxx, syy, szz, sxy, sxz, syz
 

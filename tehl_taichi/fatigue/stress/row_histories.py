@@ -55,7 +55,7 @@ def _histories(passage, depths, kinds, notify, thermal, meanwhile=lambda: None):
 
 
 class _Stresses:
-    """Those of some entries of a passage, with the heat of points at the surface; arguments as for :func:`_histories`."""
+    """Stresses of some entries of a passage, with the heat of points at the surface; arguments as for :func:`_histories`."""
 
     def __init__(self, passage, depths, kinds, thermal):
         self.passage, self.operators = passage, _operators(passage, depths, kinds)

@@ -106,8 +106,8 @@ class ThermalBelow(SurfaceHeat):
         return out
 
     def _answers(self, k, depth):
-        """Of waves k (n,) to a temperature that changes by 1: (4, n, size), the transform in time of what each step adds after
-        the newest, and (4, n, parts), what the parts of that one add."""
+        """Stresses of waves k (n,) from a temperature that changes by 1: (4, n, size), the transform in time of what each step
+        adds after the newest, and (4, n, parts), what the parts of that one add."""
         count, k = self.lead + self.entries, k[:, None]
         stress = step_stresses(k, depth, self.diffusivity, self.nu, np.append(np.arange(count), PARTS) * self.dt)
         stress[3] *= k

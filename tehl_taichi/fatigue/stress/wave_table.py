@@ -12,7 +12,8 @@ WORTH = 2  # times as many waves as in the table: fewer are found each by itself
 
 
 class WaveTable:
-    """Of wave numbers k (n,) 1/m: the arrays (4, n, ...) that find(k) gives, of single precision; :meth:`of` chooses how."""
+    """Table over wave numbers k (n,) 1/m: the arrays (4, n, ...) that find(k) gives, of single precision; :meth:`of` chooses
+    how."""
 
     def __init__(self, low, high, find):
         self.first, self.count = np.log(low), max(4, int(np.ceil(np.log(high / low) * DENSE)) + 1)

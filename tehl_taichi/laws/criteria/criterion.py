@@ -63,7 +63,7 @@ class Criterion(Entry):
         return self._worst(0.5 * S * np.sin(2 * angles), S * np.cos(angles) ** 2, S / 3, kappa)
 
     def in_torsion(self, S, kappa):
-        """The same in pure shear of amplitude S, over planes that turn away from its direction."""
+        """Value in pure shear of amplitude S, over planes that turn away from its direction."""
         np, angles = _planes()
         return self._worst(S * np.abs(np.cos(2 * angles)), S * np.sin(2 * angles), 0.0, kappa)
 

@@ -40,7 +40,7 @@ def expansivity(oil, p, Gamma):
 
 
 def refused(oil, Gamma, p):
-    """It must leave some volume at the largest pressures that a feature makes."""
+    """The law must leave some volume at the largest pressures that a feature makes."""
     left = compressed(oil, PEAK * p, max(Gamma, 40.0))
     return "" if left >= SPARE else (
         f"oil.tait_K00 = {oil.tait_K00:g} Pa with tait_beta_K = {oil.tait_beta_K:g} 1/K and tait_K1 = {oil.tait_K1:g} leaves "

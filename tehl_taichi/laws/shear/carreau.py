@@ -42,8 +42,9 @@ def rate(rheology, tau):
 
 @pointwise
 def summed(rheology, s, r):
-    """Of walls and sliding over tau_0: stress in the middle of the film over tau_0, by Newton from that of oil as thin as the
-    gradient makes it, and means across the film of the rate times z (-1 to 1) and of its slope times 1, z, z^2."""
+    """Sums over nodes for walls and sliding over tau_0: stress in the middle of the film over tau_0, by Newton from that of oil
+    as thin as the gradient makes it, and means across the film of the rate times z (-1 to 1) and of its slope times 1, z,
+    z^2."""
     n = rheology.carreau_n
     thin = exp(0.5 * (1 - 1 / n) * log(1 + 0.5 * s * s))
     mean = stress(rheology, r * rheology.tau_0 * thin, 0.0) / rheology.tau_0

@@ -90,13 +90,13 @@ def passage_readings(scene, reader, scalar, searches=None):
 
 
 def _reading(entry, scalar, scene):
-    """Of a number that is no extreme over the nodes."""
+    """Reading of a number that is no extreme over the nodes."""
     value = entry.of(scalar(entry.series), None)
     return readings.hottest(value, scene) if entry.key in quantities.HEAT else GridReading(value, positive=entry.positive)
 
 
 def _spread_reading(part, key):
-    """Of a number of a distribution; a share of so few points may be off by three of them (95 %) where it is none."""
+    """Reading of a number of a distribution; a share of so few points may be off by three of them (95 %) where it is none."""
     return GridReading(float(part[key]), blur=FEW / part["points"] if key == "share_above_1" else 0.0, spread=True)
 
 
@@ -155,7 +155,7 @@ def of_surface(surface, name):
 
 
 def whole(found):
-    """Those of the names in `found` (see :func:`indices`) that are of all moments."""
+    """The names in `found` (see :func:`indices`) that are of all moments."""
     return [name for name in found if name.split(":")[1] in (FI, BELOW)]
 
 

@@ -44,7 +44,7 @@ class DomainError:
 
     @classmethod
     def from_values(cls, values):
-        """Of what :meth:`values` gave; of a store that has none: nothing is known to be off."""
+        """DomainError from what :meth:`values` gave; of a store that has none: nothing is known to be off."""
         return cls(**{field.name: values[field.name] for field in of_class(cls) if field.name in values})
 
     def values(self):

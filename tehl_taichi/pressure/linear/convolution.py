@@ -43,9 +43,9 @@ class TransformSize:
 
 
 def transform_sizes(sizes, lines):
-    """Of the deflection on the finest grid and the distributions on `lines`. The latter are periodic over the cells, those of
-    profiles over twice as many: no further radices, and less work (Newton / Krylov of 20 steps of furrow-line 25/92, with one
-    cell between the ends 26/96)."""
+    """Sizes for the deflection on the finest grid and the distributions on `lines`. The latter are periodic over the cells,
+    those of profiles over twice as many: no further radices, and less work (Newton / Krylov of 20 steps of furrow-line 25/92,
+    with one cell between the ends 26/96)."""
     periods = [nx * (1 if ny else 2) for nx, ny in sizes]
     return [TransformSize(0, *sizes[0], 2 * sizes[0][0]), *(TransformSize(l, *sizes[l], periods[l]) for l in lines)]
 
@@ -265,7 +265,7 @@ def multiply(Y: ti.template(), z, C: ti.template(), c, g):
 
 @ti.func
 def store_waves(Y: ti.template(), z, C: ti.template(), c, e, g):
-    """And back to the spectra, plus the answer of the strip to the outermost row."""
+    """Store a group of waves back in the spectra, plus the answer of the strip to the outermost row."""
     ny, step, strip = C[c, NY], C[c, STEP], Y[0, C[c, STRIP] + g]
     lr, li = strip * Y[0, e + ny * step], strip * Y[0, e + ny * step + 1]
     for j in range(ny + 1):

@@ -52,7 +52,8 @@ def _follow(scene, summary):
 
 
 def unresolved(store, summary):
-    """Of the steady state, and of the moment with the largest pressure of the passage, unless grids together know it."""
+    """Unresolved peaks of the steady state, and of the moment with the largest pressure of the passage, unless grids together
+    know it."""
     known = summary.get("transient", {}).get("error", {}).get("p_max_Pa") is not None
     for n in dict.fromkeys((0,) if known else (0, int(np.argmax(store.scalar("p_max_Pa"))))):
         p = store.fields(n, ("pressure",))["pressure"]

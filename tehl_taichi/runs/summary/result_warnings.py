@@ -58,7 +58,7 @@ def crowded(store, summary):
 
 
 def of_single_peaks(store, summary):
-    """Of rough surfaces, in one sentence: the extremes belong to single peaks, and which of them have no error bar."""
+    """One sentence on rough surfaces: the extremes belong to single peaks, and which of them have no error bar."""
     names = [name for names in _unknown(summary).values() for name in names]
     grid = finer_grid_option(store.scene)
     if names:

@@ -89,7 +89,7 @@ def quantity(values, name, factor=1, unit=""):
 
 
 def _roughness_rows(summary):
-    """Of each surface, before its filters too, and the film over them."""
+    """Roughness of each surface, before its filters too, and the film over them."""
     out = []
     for name, numbers in summary.get("roughness", {}).items():
         of = "both surfaces" if name == "combined" else f"surface {name}"

@@ -65,7 +65,7 @@ class Plan:
 
     @property
     def name(self):
-        """The same for the same plan: scene and six digits of what it is."""
+        """Scene and six digits that identify the plan."""
         return f"{self.scene.name}-sweep-{hashlib.sha256(self._text(note='').encode()).hexdigest()[:6]}"
 
     @property
@@ -74,7 +74,7 @@ class Plan:
         return self._text()
 
     def _text(self, **other):
-        """The same with other values of the scene."""
+        """Text of the plan with other values of the scene."""
         axes = [{"keys": axis.keys, "rows": axis.rows} for axis in self.axes]
         return json.dumps({"scene": {**self.scene.to_dict(), **other}, "axes": axes, "drawn": self.drawn}, sort_keys=True)
 

@@ -71,7 +71,7 @@ def _nearest_folder(path):
 
 
 def default_path(plan):
-    """The same for the same sweep, so that the same command continues with it."""
+    """One path for one sweep, so that a repeated command resumes it."""
     return Path("runs") / f"{plan.name}.zarr"
 
 

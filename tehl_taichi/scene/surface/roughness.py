@@ -25,7 +25,8 @@ class Roughness:
 
     @classmethod
     def of(cls, heights, steps):
-        """Of heights (points along y, along x; m), steps (m, along x, along y) apart; a profile has one point along an axis."""
+        """Roughness of heights (points along y, along x; m), steps (m, along x, along y) apart; a profile has one point along
+        an axis."""
         z = heights - heights.mean()
         Sq, line = float(np.sqrt(np.mean(z**2))), min(z.shape) == 1
         slopes = [float(np.mean((np.diff(z, axis=axis) / step) ** 2)) for axis, step in zip((1, 0), steps) if z.shape[axis] > 1]

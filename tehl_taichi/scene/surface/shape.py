@@ -42,7 +42,7 @@ class Shape(Entry):
         return f.width / 2
 
     def reach_y(self, f):
-        """The same along y; 0 where it is the same for every y."""
+        """Distance along y; 0 where nothing varies along y."""
         return 0.0
 
     def transverse(self, f):

@@ -91,7 +91,7 @@ def _gif(path, frames, fps, progress, _):
 
 
 def _kept_white(image):
-    """The same with a white page: of 256 colours, some means of the whole are not quite white."""
+    """Picture with a white page: of 256 colours, some means of the whole are not quite white."""
     colours = np.array(image.getpalette()).reshape(-1, 3)
     colours[(colours >= NEARLY).all(axis=1)] = 255
     image.putpalette(colours.ravel().tolist())

@@ -212,7 +212,7 @@ def _over_depth(ax, found, Fi, depth):
 
 
 def worst_points(page, found):
-    """Of the worst point of the surface and of the one below it: see :func:`worst_point`."""
+    """Critical points at the surface and below it: see :func:`worst_point`."""
     shown = [("critical point at the surface", found.result.worst)]
     if found.result.worst_below:
         shown.append((f"critical point below, {micrometres(found.summary['below']['depth_m'])} µm", found.result.worst_below))

@@ -84,8 +84,8 @@ class FigureStyle:
         figure.suptitle(textwrap.fill(text, int(self.inches * 72 / (1.1 * WIDEST * self.text))))
 
     def legend(self, figure, handles=None, **options):
-        """Of lines (default: of the first panel), below the panels, where it covers nothing, as wide as there is room for; a
-        long one makes the figure higher."""
+        """Legend of lines (default: of the first panel), below the panels, where it covers nothing, as wide as there is room
+        for; a long one makes the figure higher."""
         handles = handles or figure.axes[0].get_legend_handles_labels()[0]
         for handle in handles:
             if handle.get_label().startswith("_"):  # which matplotlib would leave out

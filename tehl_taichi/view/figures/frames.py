@@ -20,7 +20,7 @@ OVER = 1.05  # of the largest value: upper end of an axis
 
 
 class Frames:
-    """Of the entries of a run; :meth:`picture` draws one.
+    """Frames of the entries of a run; :meth:`picture` draws one.
 
     page: a :class:`FigureStyle`; moments: of the run; entries: all that will be drawn: the axes have room for each of them;
     shown: a key of SHOWN, or None for no map.
@@ -62,7 +62,7 @@ class Frames:
         return {name: min(values) for name, values in ends.items()}, top
 
     def _lines(self, name):
-        """Of a panel, still empty, as (line, field, factor)."""
+        """Lines of a panel, still empty, as (line, field, factor)."""
         ax, (label, factor, fields) = self.axes[name], self.panels[name]
         colour = palette.LINES[list(PANELS).index(name)]
         lines = [(ax.plot([], [], style, color=colour, label=text, animated=True)[0], field, factor)

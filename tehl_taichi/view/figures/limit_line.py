@@ -30,7 +30,7 @@ def _rim():
 
 
 def handle():
-    """It in a legend."""
+    """Line for the legend."""
     from matplotlib.lines import Line2D
 
     return Line2D([], [], color=palette.LIMIT, lw=_width(), path_effects=_rim(), label=SAID)

@@ -23,7 +23,7 @@ ROOM = 2.5                    # of the central film: upper end of the film's axi
 
 @dataclass(frozen=True)
 class Moments:
-    """Of the run in `store`; at: the only position of the feature that is wanted, in a, or None.
+    """Moments of the run in `store`; at: the only position of the feature that is wanted, in a, or None.
 
     Raises SceneError where the feature was never there.
     """

@@ -30,7 +30,7 @@ class DrawnSearch:
 
     @classmethod
     def of(cls, scene, result, depth=None):
-        """Of a search of a scene, with its resolved part."""
+        """Data of a search of a scene, with its resolved part."""
         body = f", body {result.numbers['surface']}" if result.other else ""
         name = scene.name + body + ", pressure alone" * bool(why_none(result.summary))
         a, along, whose = Scales.of(scene).a, from_centre(scene, result.numbers.get("carries_feature", True)), passing(scene)

@@ -40,7 +40,7 @@ def _map(page, found):
 
 
 def _picture(ax, found):
-    """Of a million points, too, which a mesh of triangles would take minutes for; a point stands in the middle of its dot."""
+    """Heights as a picture: a mesh of triangles of a million points takes minutes. A point stands in the middle of its dot."""
     ends = [end * 1e6 for at in (found.x, found.y)
             for end in (at[0] - (at[1] - at[0]) / 2, at[-1] + (at[1] - at[0]) / 2)]
     between = "bilinear" if max(found.values.shape) <= COARSE else "antialiased"

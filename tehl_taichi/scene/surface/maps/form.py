@@ -20,7 +20,8 @@ class SurfaceForm:
 
     @classmethod
     def of(cls, raw, steps, sizes):
-        """Of heights (rows, columns) as they were measured; steps: of their points, sizes: of all, along x and y; all in m."""
+        """Form of heights (rows, columns) as they were measured; steps: of their points, sizes: of all, along x and y; all in
+        m."""
         sags = [(abs(c) * size**2, c, axis) for c, size, axis in zip(curvature(raw, steps), sizes, "xy")]
         _, bent, axis = max(sags)
         flat, left = (float(levelled(raw, level).std()) for level in ("plane", "form"))

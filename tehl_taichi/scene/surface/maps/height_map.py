@@ -90,7 +90,7 @@ def read(file):
 
 
 def table_of(file):
-    """The same as a :class:`tehl_taichi.scene.surface.maps.text_heights.Table`, which knows what it skipped."""
+    """Heights as a :class:`tehl_taichi.scene.surface.maps.text_heights.Table`, which knows what it skipped."""
     path = Path(file)
     if not file:
         raise SceneError("feature.file is missing: shape 'map' needs a file of heights (.csv, .txt, .asc, .npy)")

@@ -40,7 +40,7 @@ def filled(values):
 
 
 def _sum(values):
-    """Of the values at the four neighbours; there are none beyond the edge."""
+    """Sum of the values at the four neighbours; there are none beyond the edge."""
     out = np.zeros(values.shape)
     out[1:] += values[:-1]
     out[:-1] += values[1:]

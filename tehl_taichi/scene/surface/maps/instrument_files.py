@@ -40,7 +40,7 @@ def _installed(name):
 
 
 def _x3p(path):
-    """Of an x3p file (ISO 25178-72), whose first layer counts; its numbers are m."""
+    """Heights of an x3p file (ISO 25178-72), whose first layer counts; its numbers are m."""
     import x3pio
 
     found = x3pio.read(path)

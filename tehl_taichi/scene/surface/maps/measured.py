@@ -139,7 +139,7 @@ class Measured:
         return row_offsets.found(flat.T if self.orientation.transpose else flat)
 
     def filtered(self, cutoff):
-        """The same levelled, low-pass with that cutoff (m; 0: none). A plane that was left passes as it is, up to the rim."""
+        """Heights levelled, low-pass with that cutoff (m; 0: none). A plane that was left passes as it is, up to the rim."""
         flat = self.levelled
         if not cutoff:
             return flat
@@ -196,7 +196,7 @@ class Measured:
         return self.faded(self.whole_heights)
 
     def passing(self, cutoff):
-        """The same with another cutoff (m; 0: none)."""
+        """Heights that pass with another cutoff (m; 0: none)."""
         return self.faded(self.filtered(cutoff))
 
     def faded(self, values):

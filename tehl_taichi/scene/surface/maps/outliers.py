@@ -83,7 +83,7 @@ def _differences(padded, at, reach):
 
 
 def _small(found, out):
-    """Of these points those that lie in groups of at most LARGEST."""
+    """The points that lie in groups of at most LARGEST."""
     left = set(map(tuple, found.tolist()))
     while left:
         group, new = [], [left.pop()]

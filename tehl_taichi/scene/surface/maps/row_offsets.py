@@ -41,7 +41,7 @@ def found(values):
 
 
 def _correlation(values):
-    """Of neighbouring rows."""
+    """Correlation of neighbouring rows."""
     first, second = values[:-1] - values[:-1].mean(), values[1:] - values[1:].mean()
     size = float(np.sqrt((first**2).sum() * (second**2).sum()))
     return float((first * second).sum()) / size if size > 0 else 0.0

@@ -34,7 +34,7 @@ class Stated:
     place_unit: str = ""
 
     def with_spacing(self, spacing):
-        """The same with the distances of coordinates, where their unit is known; spacing: in that unit, None: none."""
+        """Stated values with the distances of coordinates, where their unit is known; spacing: in that unit, None: none."""
         if not self.place_unit:
             return self
         x, y = (() if step is None else (step * UNITS[self.place_unit],) for step in spacing)

@@ -30,7 +30,7 @@ class Table:
     spacing: tuple = (None, None)
 
     def without_coordinates(self):
-        """The same with the heights alone, of a line profile in one row; beside, spacing: as of a grid."""
+        """Table with the heights alone, of a line profile in one row; beside, spacing: as of a grid."""
         found = line_profiles.heights_of(self.values)
         if found is None:
             return self._grid()
@@ -46,13 +46,13 @@ class Table:
         return replace(self, values=heights, beside=("x and y of a list of points",), spacing=(x, y))._with_stated()
 
     def _grid(self):
-        """The same with the heights alone; beside: the coordinates that were removed, in words; spacing: theirs, (along a
+        """Table with the heights alone; beside: the coordinates that were removed, in words; spacing: theirs, (along a
         row, from row to row), None where there are none."""
         found = coordinates.without(self.values)
         return replace(self, values=found.heights, beside=found.found_lines, spacing=(found.x, found.y))._with_stated()
 
     def _with_stated(self):
-        """The same with what its header says, if it has one."""
+        """Table with what its header says, if it has one."""
         stated = stated_values.in_header(self.header_lines, self.values.shape) if self.header_lines else self.stated
         return replace(self, stated=stated.with_spacing(self.spacing))
 
@@ -89,7 +89,8 @@ def _encoding(path):
 
 
 def _section(lines):
-    """The same; of a file with a section of the values of a profile these, without their numbers, and the header before."""
+    """Lines of a file; of one with a section of the values of a profile these lines, without their numbers, and the header
+    before."""
     begins = next((index for index, (_, line) in enumerate(lines) if line.strip().lower() == SECTION), None)
     if begins is None:
         return lines
