@@ -10,7 +10,8 @@ from handbook.tables import code, plain, table
 
 def text():
     """Every command with its arguments and options."""
-    return "\n\n".join(command("tehl", name, found) for name, found in typer.main.get_command(app).commands.items())
+    commands = getattr(typer.main.get_command(app), "commands", {})
+    return "\n\n".join(command("tehl", name, found) for name, found in commands.items())
 
 
 def command(before, name, found):

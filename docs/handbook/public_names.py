@@ -23,7 +23,7 @@ def section(name):
     head = [f"## `tehl.{name}`"]
     if not inspect.isclass(thing):
         head.append(f"```python\n{name}{inspect.signature(thing)}\n```")
-    return "\n\n".join([*head, *parts(ROLE.sub("", inspect.getdoc(thing)))])
+    return "\n\n".join([*head, *parts(ROLE.sub("", inspect.getdoc(thing) or ""))])
 
 
 def parts(words):

@@ -38,7 +38,8 @@ def section(heading, first, kind):
     """Heading, what the section is, and a row a key."""
     head = "[[feature]]" if heading == "feature" else " and ".join(f"[{name}]" for name in heading.split(" and "))
     title = f"## {code(head)} {{ #{first} }}"
-    return "\n\n".join([title, plain(inspect.getdoc(kind).partition("\n\nParameters\n")[0]), table(COLUMNS, rows(first, kind))])
+    about = (inspect.getdoc(kind) or "").partition("\n\nParameters\n")[0]
+    return "\n\n".join([title, plain(about), table(COLUMNS, rows(first, kind))])
 
 
 def rows(first, kind):

@@ -67,7 +67,11 @@ def run(scene, reader, options):
     reader = Snapshots(reader) if isinstance(reader, list) else reader
     passing(scene, reader)
     surface = body.chosen(scene, reader, options.surface)
-    plane = plane_of(scene, reader, options.residual, check=lambda *extent: _check_places(*extent, options), surface=surface)
+
+    def check(places, deepest):
+        _check_places(places, deepest, options)
+
+    plane = plane_of(scene, reader, options.residual, check=check, surface=surface)
     return follow(plane, scene, options)
 
 
@@ -81,7 +85,8 @@ def follow(plane, scene, options):
         summaries[name] = {"opens": origin is not None}
         if origin:
             path = grow(plane, origin, options, E_star)
-            sides[name] = CrackSide(origin, *trajectory(plane, origin, FAR * options.length), path)
+            points, tension = trajectory(plane, origin, FAR * options.length)
+            sides[name] = CrackSide(origin, points, tension, path)
             summaries[name] |= _summary(plane, sides[name], options, E_star)
         else:
             summaries[name]["why"] = _why_not(plane, name)

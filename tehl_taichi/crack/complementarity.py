@@ -4,6 +4,8 @@ The matrix is symmetric and positive, so there is one answer and exchanging whol
 time where that does not get on (Judice & Pires 1994; Murty 1974).
 """
 
+from typing import Any
+
 import numpy as np
 
 LOW, FREE, HIGH = -1, 0, 1
@@ -17,7 +19,8 @@ def bounded(M, gap, low, high, at):
 
     at: first guess.
     """
-    fewest, left, small, seen = gap.size + 1, TRIES, ROUND * np.abs(gap).max(), {}
+    fewest, left, small = gap.size + 1, TRIES, ROUND * np.abs(gap).max()
+    seen: dict[bytes, Any] = {}
     while True:
         r = _forces(M, gap, low, high, at)
         new = _next(r, gap + M @ r, low, high, at, small)

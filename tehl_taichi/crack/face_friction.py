@@ -80,7 +80,7 @@ def _passage(S, free, mu, state, slip, before=None):
 def some(S, free, mu, state, slip):
     """(forces (contacts + rough, n), their one state, slip (rough, n), settled, a guess of the next state) of the first n
     moments of `free`, at least one."""
-    contacts, r = state.size, None
+    contacts, r = state.size, np.zeros(0)
     for _ in range(TRIES):
         r = _forces(S, free, mu, state, slip)
         moved = free + S @ r

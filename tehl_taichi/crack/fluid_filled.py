@@ -6,6 +6,7 @@ together, and the matrix stays symmetric and positive.
 """
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -23,7 +24,7 @@ class FluidState:
     held: np.ndarray
     missed: int
     pressure: np.ndarray
-    content: np.ndarray = None
+    content: np.ndarray | None = None
 
 
 @dataclass(frozen=True)
@@ -32,7 +33,7 @@ class FluidFilledCrack:
     (moments,): pressure of the film at the mouth, Pa; share: of it for fillings that take one; times (moments,): s; friction:
     of the faces; fluid: :class:`Fluid`; cells: along the crack, for pressures that differ there."""
 
-    faces: object
+    faces: Any
     forces: np.ndarray
     mouth: np.ndarray
     share: float
@@ -44,8 +45,11 @@ class FluidFilledCrack:
     def under(self, pressure):
         """:class:`FluidState` of one given pressure (moments,) everywhere in the crack."""
         forces = self.forces + self.faces.pushed()[:, None] * pressure
-        found = with_friction(self.faces, forces, self.friction) if self.friction > 0 else (*opened(self.faces, forces), 0)
-        return FluidState(*found, pressure)
+        if self.friction > 0:
+            values, held, missed = with_friction(self.faces, forces, self.friction)
+        else:
+            (values, held), missed = opened(self.faces, forces), 0
+        return FluidState(values, held, missed, pressure)
 
     def marched(self, count, first, step):
         """:class:`FluidState` of a march with `count` cells. first(march): (:class:`MomentState`, contents (cells,)) at the

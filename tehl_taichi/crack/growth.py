@@ -44,8 +44,8 @@ class CrackPath:
     points: np.ndarray
     steps: list = field(default_factory=list)
     why: str = "length"
-    first: LoadedCrack = None
-    last: LoadedCrack = None
+    first: LoadedCrack | None = None
+    last: LoadedCrack | None = None
 
     def __repr__(self):
         return f"<Path of {self.points.size} points, stopped by {self.why}>"

@@ -1,6 +1,7 @@
 """Stresses of a body in the plane of symmetry of its contact, over the whole passage: a table over x', depth and moments."""
 
 import copy
+from typing import Any
 
 import numpy as np
 
@@ -54,10 +55,8 @@ class SymmetryPlane:
         points = np.asarray(points)
         i, along = _cubic((points.real - self.x[0]) / (self.x[1] - self.x[0]), self.x.size)
         j, down = _cubic(np.log1p(points.imag / self.skin) / np.log(GROWTH), self.depths.size)
-        table, found = self.stress[:, :, moments], 0.0
-        for p in range(4):
-            for q in range(4):
-                found = found + (along[p] * down[q])[:, None, None] * table[i + p, j + q]
+        table = self.stress[:, :, moments]
+        found: Any = sum((along[p] * down[q])[:, None, None] * table[i + p, j + q] for p in range(4) for q in range(4))
         if self.residual:
             found[..., 0] += self.residual(points.imag)[:, None]
         return found

@@ -42,7 +42,9 @@ def start(plane, side, x=None):
 
 def trajectory(plane, origin, length):
     """(points (m, complex), largest principal stress (Pa) at them) from the mouth on, by midpoint steps."""
-    da, z, way, points, tension = STEP * length, complex(origin.x, 0.0), 1j, [], []
+    da, z, way = STEP * length, complex(origin.x, 0.0), 1j
+    points: list[complex] = []
+    tension: list[float] = []
     while len(points) * da <= length and plane.holds(z):
         value, direction = _across(plane, z, origin.moment, way)
         points.append(z)

@@ -57,7 +57,7 @@ def _conductance(resistance):
     return np.diag(g + np.append(g[1:], 0.0)) - np.diag(g[1:], 1) - np.diag(g[1:], -1)
 
 
-ALONG = Filling(
+ALONG: Filling = Filling(
     name="flow", says="oil flows along the crack, in and out at the mouth: Reynolds equation in the crack opening",
     source="Reynolds 1886; cavities after Elrod 1981", inside=inside,
     checked=(Checked("normal edge crack, tension 1, pressure 3 at the mouth for long: four times that of the tension",

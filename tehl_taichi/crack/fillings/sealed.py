@@ -65,7 +65,7 @@ def _let_out(march, n, high):
     return found
 
 
-SEALED = Filling(
+SEALED: Filling = Filling(
     name="sealed", says="film pressure while the mouth is open; oil inside is trapped when it closes",
     source="Keer & Bryant 1983; Bower 1988 (J. Tribol. 110)", inside=inside,
     checked=(Checked("normal edge crack, tension 1 and pressure 3 at a mouth that stays open: four times that of the tension",

@@ -8,6 +8,7 @@ not converge means that a bar is not known, and why.
 import itertools
 from dataclasses import asdict, replace
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 
@@ -129,7 +130,7 @@ def near_the_surface(deep, fatigue):
 def indices(searches):
     """{name of its largest index among the readings: part of the summary of a search}, of the parts that there are; searches:
     {surface: summary of its search}."""
-    found = {}
+    found: dict[str, Any] = {}
     for surface, summary in searches.items():
         whole = searched(summary)
         early = whole.get("resolved", {})
@@ -207,7 +208,8 @@ def errors(scene, reader, searches, coarse, domain=DomainError()):
         doubts |= dict.fromkeys((CONTACT, AREA), readings.TOUCH) if touches else {}
         return {"passage_error": {} if touches else dict.fromkeys((CONTACT, AREA), 0.0), "passage_unknown": doubts}
     values = {name: reading.value for name, reading in own.items()}
-    found, unknown, parts = widened(*judged(coarse(), own), values, domain, scene.operation.temperature, passing=True)
+    bars_of, reasons = judged(coarse(), own)
+    found, unknown, parts = widened(bars_of, reasons, values, domain, scene.operation.temperature, passing=True)
     return {"passage_error": found, "passage_unknown": unknown, "passage_parts": parts}
 
 
@@ -231,7 +233,8 @@ def nodes(scene):
 def answers(scene, notify=lambda done, total: None, until=lambda: None):
     """Results of the coarse-grid runs of a scene, coarsest first, for :func:`judged`. The finest runs first: where it fails, no
     coarser one is of use. until(): what :func:`resolved` gives of the run itself, requested when it is needed."""
-    (coarser, reasons), out, done = scenes(scene), [], itertools.count()
+    (coarser, reasons), done = scenes(scene), itertools.count()
+    out: list[dict[str, Any]] = []
     total = sum(total_steps(one) + 1 for one in coarser)  # with their starts
     for one in reversed(coarser):
         with runtime.grown(nodes(scene) / nodes(one)):  # by the kernels of the run: to trace theirs takes 0.2 s of 18
@@ -245,7 +248,8 @@ def answers(scene, notify=lambda done, total: None, until=lambda: None):
 def judged(coarse, own):
     """({name: error bar or None}, {name: why it is None}) of own {name: GridReading}; coarse: results of the coarse-grid runs,
     coarsest first, {"values": {name: a GridReading's values}} or {"reason": why there are none}."""
-    grids, reasons = [], []
+    grids: list[dict[str, GridReading]] = []
+    reasons: list[str] = []
     for one in coarse:
         if "reason" in one:  # too coarse a grid: neither it nor the coarser ones are of use
             grids, reasons = [], [*reasons, one["reason"]]

@@ -23,8 +23,8 @@ def searches(scene, first):
 
 def _searched(scene, surface, first):
     each = [contact_alone.search(scene, Snapshots([grid]), surface).summary for grid in (*first.coarser, first)]
-    known = bars([{name: GridReading(one[name], positive=True) for name in INDICES} for one in each])
+    found, reasons = bars([{name: GridReading(one[name], positive=True) for name in INDICES} for one in each])
     if first.unsettled:
-        known = tuple(dict.fromkeys(INDICES, one) for one in (None, Reason(first.unsettled, "unsettled")))
-    errors, unknown, _ = widened(*known, each[-1], first.domain, scene.operation.temperature, passing=True)
+        found, reasons = (dict.fromkeys(INDICES, one) for one in (None, Reason(first.unsettled, "unsettled")))
+    errors, unknown, _ = widened(found, reasons, each[-1], first.domain, scene.operation.temperature, passing=True)
     return {**each[-1], "error": errors, **unknown_of(unknown)}

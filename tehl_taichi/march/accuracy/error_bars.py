@@ -11,6 +11,7 @@ random scenes: `tehl bench accuracy`, docs/performance.md.
 import math
 from dataclasses import dataclass
 from itertools import zip_longest
+from typing import Any
 
 from tehl_taichi.values.coded_text import Reason
 
@@ -149,7 +150,7 @@ def bars(grids):
 def estimated_error(values, doubt="", courses=()):
     """(bar of plain numbers on grids each twice as fine as the one before, or nan, why it is not known or ""); doubt: about the
     last of them, courses: of all (see :class:`GridReading`), where there are any."""
-    pairs = zip_longest(values, courses, fillvalue=())
+    pairs: Any = zip_longest(values, courses, fillvalue=())
     size, why = bar([GridReading(value, doubt=doubt, course=course) for value, course in pairs])
     return (math.nan if size is None else size), why
 

@@ -40,7 +40,8 @@ def highest(shot, a):
     """Reading of the largest pressure of a snapshot, Pa and m; a: half-width of the contact, m."""
     p = shot.fields["pressure"]
     i, j = peak(p)
-    cell, why = float(shot.x[1] - shot.x[0]), doubt(shot.x, *sharpest(p), a)
+    height, at = sharpest(p)
+    cell, why = float(shot.x[1] - shot.x[0]), doubt(shot.x, height, at, a)
     return GridReading(float(p[i, j]), _between(p, i, j), _place(shot, i), cell, why)
 
 
@@ -60,7 +61,8 @@ def exits(x, a):
 
 def unresolved(reader, entries, largest, a):
     """The :func:`doubt` about these entries, by the worst peak of all; largest: pressure of them, Pa."""
-    return doubt(reader.x, *max(sharpest(reader.fields(n, ("pressure",))["pressure"], largest) for n in entries), a)
+    height, at = max(sharpest(reader.fields(n, ("pressure",))["pressure"], largest) for n in entries)
+    return doubt(reader.x, height, at, a)
 
 
 def lowest(shot, scene):
