@@ -274,7 +274,7 @@ def test_oil_flows_with_the_oil_and_the_speed_of_the_scene(rolled):
     plane, u_a = rolled.plane, SCENE.operation.u_a
     np.testing.assert_allclose(np.diff(plane.times[:-1]) * u_a, np.diff(plane.centres[:-1]), rtol=1e-9)
     assert np.log(plane.fluid.viscosity(1e8)) == pytest.approx(ln_eta(SCENE.oil, 1e8, SCENE.operation.temperature))
-    path = rolled.sides["entry"].begun.x + np.array([0, 20 * MICRO * np.exp(0.8j)])
+    path = rolled.sides["entry"].start.x + np.array([0, 20 * MICRO * np.exp(0.8j)])
     dry, flow, film = (growth.loaded(plane, path, CrackOptions(oil=oil), E_STAR) for oil in ("dry", "flow", "film"))
     assert flow.missed == 0 and 0 < flow.pressure.max() < film.pressure.max()
     assert dry.K[0].max() * (1 - 1e-9) <= flow.K[0].max() < film.K[0].max()
@@ -282,7 +282,7 @@ def test_oil_flows_with_the_oil_and_the_speed_of_the_scene(rolled):
 
 def test_shallow_closed_cracks_settle_and_hardly_depend_on_the_elements(rolled):
     """Largest K_I and range of K_II through the passage with 12 against 48 elements: 1 %."""
-    x = rolled.sides["entry"].begun.x
+    x = rolled.sides["entry"].start.x
     for degrees in (15, 45, 90, 135, 165):
         path = x + np.array([0, 20 * MICRO * np.exp(1j * np.radians(degrees))])
         coarse, fine = (growth.loaded(rolled.plane, path, CrackOptions(), E_STAR, count) for count in (12, 48))
