@@ -28,6 +28,8 @@ def _options(
                                                                                                         "stress (default: if "
                                                                                                         "temperatures were "
                                                                                                         "computed)")] = None,
+    length: Annotated[Optional[float], typer.Option(help="length over which stresses are averaged for a second index, m (0: "
+                                                         "none)")] = None,
     residual_xx: Annotated[Optional[float], typer.Option(help="constant residual stress along x, Pa")] = None,
     residual_yy: Annotated[Optional[float], typer.Option(help="constant residual stress along y, Pa")] = None,
 ):

@@ -4,7 +4,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from tehl_taichi.fatigue import contact_alone, depth_search, index_statistics, resolved_part, result_arrays, stress_cycles
+from tehl_taichi.fatigue import (
+    contact_alone,
+    depth_search,
+    index_statistics,
+    material_length,
+    resolved_part,
+    result_arrays,
+    stress_cycles,
+)
 from tehl_taichi.fatigue.judged_surfaces import resting
 from tehl_taichi.fatigue.layer import layer
 from tehl_taichi.fatigue.pass_progress import PassProgress
@@ -55,8 +63,19 @@ def run(scene, reader, progress=None, until=None, alone=True):
         raise SceneError("fatigue needs the passage of a feature: a scene with a feature and at least one time step")
     if not (count := len(scene.judged)):
         raise resting(scene.fatigue.surfaces)
-    return worse_of([_of_surface(scene, surface, reader, centres, _share(progress, n, count), until, alone)
-                     for n, surface in enumerate(scene.judged)])
+    wide, total = material_length.counts(scene, reader.x), count * (1 + material_length.counts(scene, reader.x))
+    results = [_of_surface(scene, surface, reader, centres, _share(progress, n, total), until, alone)
+               for n, surface in enumerate(scene.judged)]
+    if wide:
+        results = [_with_length(one, scene, surface, reader, centres, _share(progress, count + n, total))
+                   for n, (one, surface) in enumerate(zip(results, scene.judged))]
+    return worse_of(results)
+
+
+def _with_length(result, scene, surface, reader, centres, progress):
+    """The result with the index of stresses averaged over fatigue.length."""
+    found = material_length.part(scene, surface, reader, centres, progress)
+    return replace(result, summary={**result.summary, "averaged": found})
 
 
 def worse_of(results):

@@ -2,6 +2,7 @@
 
 from types import MappingProxyType
 
+from tehl_taichi.fatigue import material_length
 from tehl_taichi.fatigue.judged_surfaces import others
 from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.report.document import Answer
@@ -58,10 +59,17 @@ def layers(fatigue, surface="the surface"):
     fatigue = searched(fatigue)
     if fatigue.get("rough"):
         return _percentile_layers(fatigue, surface)
-    found = [(f"at {surface}", fatigue)]
-    if "below" in fatigue:
-        found.append((f"{micrometres(fatigue['below']['depth_m'])} µm below {surface}", fatigue["below"]))
-    return [(where, part["Fi_max"], part.get("error", {}).get("Fi_max")) for where, part in found]
+    return [(f"{_where(part, surface)}{_over(length)}", part["Fi_max"], error_of(part, "Fi_max"))
+            for part, length in material_length.leading(fatigue)]
+
+
+def _where(part, surface):
+    return f"{micrometres(part['depth_m'])} µm below {surface}" if "depth_m" in part else f"at {surface}"
+
+
+def _over(length):
+    """Behind a place whose stresses are averaged over a length (m; 0: not)."""
+    return f" (stresses averaged over {micrometres(length)} µm)" if length else ""
 
 
 def _percentile_layers(fatigue, surface):
@@ -97,11 +105,17 @@ def of_fatigue(fatigue, scene=None, beside=MappingProxyType({})):
     verdict = headline(worst, places, known, ", by the 99th percentile of the index" * rough)
     if rough:
         sentences = ["99th percentile of the index:", *sentences, *_spread(searches)]
-    elif all("resolved" in one for one in searches.values()):
+    elif all("resolved" in one for one in searches.values()) and not _settled(searches):
         early = {name: one["resolved"] for name, one in searches.items()}
         verdict, sentences = _by_what_is_known(early, worst, sentences, over, feature_wording.where(scene))
     text, tone = _load_too(verdict, searches)
     return FATIGUE, text, tone, (*_alone_words(searches), *sentences, *_plane(fatigue))
+
+
+def _settled(searches):
+    """Whether averaged stresses give what the pointwise ones do not: the errors of all that is judged."""
+    averaged = any(length for one in searches.values() for _, length in material_length.leading(searched(one)))
+    return averaged and all(error is not None for *_, error in all_layers(searches))
 
 
 def _from_pressure(searches):

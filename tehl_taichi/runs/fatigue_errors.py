@@ -13,8 +13,9 @@ from tehl_taichi.march.accuracy.coarse_runs import FI, indices
 from tehl_taichi.values.coded_text import Reason, reasons_of, unknown_of
 
 OTHER = Reason("the coarse-grid runs used the constants and moments of the run, not these", "other")
-# of the section [fatigue]: they change no stress of a point (limits do by kappa, which is compared)
-FREE = ("on", "endurance", "bending_limit", "torsion_limit", "source", "depths", "surfaces")
+# of the section [fatigue]: they change no stress of a point (limits do by kappa, which is compared; what a length averages is a
+# part of its own)
+FREE = ("on", "endurance", "bending_limit", "torsion_limit", "source", "depths", "surfaces", "length")
 SAME = 1e-6  # of the stress: the stored search and this one are the same
 
 

@@ -12,7 +12,7 @@ from tehl_taichi.laws import conduction, density, rheology
 from tehl_taichi.laws.law import declared
 from tehl_taichi.laws.solid_friction import BOUNDARY, boundary_stress
 from tehl_taichi.laws.viscosity import ln_eta
-from tehl_taichi.scene import aliases, data_sheet, fatigue_limits, keys
+from tehl_taichi.scene import aliases, data_sheet, fatigue_limits, keys, material_length
 from tehl_taichi.scene.feature import USED_BY
 from tehl_taichi.scene.named_oils import OILS
 from tehl_taichi.scene.named_steels import STEELS
@@ -229,6 +229,8 @@ def _fatigue(scene):
     if not scene.has_fatigue:
         why = "fatigue.on = false" if scene.transient else "fatigue needs a passage"
         yield from ((f"fatigue.{key}", why) for key in kinds(Fatigue) if key not in ("on", "source"))
+    elif why := material_length.why_not(scene, Scales.of(scene).a * (scene.grid.x_max - scene.grid.x_min) / scene.grid.nx):
+        yield "fatigue.length", why
 
 
 def _across(scene):

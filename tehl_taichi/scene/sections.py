@@ -234,6 +234,8 @@ class Fatigue:
     depths: Union[tuple, str] = quantities(AUTO, "m", "depths to search; auto: the critical depth under the feature; a list "
                                                       "as [50e-6, 100e-6]: these depths for all points", 1e-7, DEEPEST,
                                            auto=True, usual=1e-4)
+    length: float = quantity(10e-6, "m", "side of the square over which stresses are averaged for a second index (material "
+                                         "length); 0: only stresses at points", 0.0, 1e-3)
     shear: bool = switch(True, "include the shear tractions")
     thermal_stress: Union[bool, str] = switch(AUTO, "include thermal stress; auto: if temperatures are computed",
                                               auto=True)

@@ -97,6 +97,7 @@ def _fatigue(scene):
     if scene.has_fatigue:
         yield [CRITERIA[f.criterion].value(1e8, n + f.residual_xx - f.residual_yy / 3, n + f.residual_xx / 3 + f.residual_yy,
                                            f.kappa) / f.endurance for n in (3e8, 1e9)], f.criterion
+        yield f.length if f.length >= 2 * Scales.of(scene).a * (scene.grid.x_max - scene.grid.x_min) / scene.grid.nx else None
         yield f.depths, f.shear, f.from_x, f.to_x, scene.has_thermal_stress
         yield [(s.name, s.body.nu, scene.has_thermal_stress and s.body.alpha) for s in scene.judged]
 
@@ -170,6 +171,8 @@ SAID = [("smooth-line", {"rheology.tau_0": 1e6}, "rheology.tau_0 has no effect h
         ("smooth-line", {"grid.ny": 32}, "grid.ny has no effect here: nothing varies"),
         ("pitch-line", {"bodies.b.k": 20.0}, "bodies.b.k has no effect here"),
         ("gear", {"fatigue.on": False, "kappa": 0.2}, "fatigue.kappa has no effect here: fatigue.on = false"),
+        ("gear", {"fatigue.length": 5e-6}, "fatigue.length has no effect here: the grid averages by itself"),
+        ("rough", {"fatigue.length": 5e-5}, "fatigue.length has no effect here: the surfaces are rough"),
         ("smooth-line", {"thermal.on": False, "fatigue.criterion": "matake"}, "fatigue.criterion has no effect")]
 
 

@@ -31,6 +31,7 @@ from tehl_taichi.values.coded_text import Reason, code_of
 COMPANIONS = HALVED  # with the run itself three grids; 1/8 and 1/64 of its cells and steps
 FI, BELOW = "Fi_max", "below_Fi_max"  # names of the largest index of the surface, and below it
 RESOLVED, RESOLVED_BELOW = "resolved_Fi_max", "resolved_below_Fi_max"  # of both as long as the grid resolves the pressure
+AVERAGED, AVERAGED_BELOW = "averaged_Fi_max", "below_averaged_Fi_max"  # of both, of stresses over fatigue.length
 CONTACT, AREA = "contact_load_fraction_max", "contact_area_share_max"
 PART = 0.1  # a
 FEW = 2.0  # points; a bar has 1.5 times as many
@@ -80,6 +81,7 @@ def passage_readings(scene, reader, scalar, searches=None):
     out["h_min_m"] = readings.lowest(_moment(reader, int(np.argmin(h)) + 1), scene)
     found = indices(searches or {})
     out |= {name: GridReading(float(part["Fi_max"]), doubt=_shallow(name, found)) for name, part in found.items()}
+    out |= _of_cells(out, searches or {})
     out |= {f"{name}.{key}": _spread_reading(part, key)
             for name, part in distributions(searches or {}) for key in index_statistics.NUMBERS}
     # a peak that the grid does not resolve at some moment: neither its pressure is known nor what it does to oil and steel
@@ -101,6 +103,13 @@ def _spread_reading(part, key):
     return GridReading(float(part[key]), blur=FEW / part["points"] if key == "share_above_1" else 0.0, spread=True)
 
 
+def _of_cells(out, searches):
+    """Readings of the averaged index on a grid whose cells are as long as the length: those at its nodes."""
+    names = [(of_surface(surface, wide), of_surface(surface, own)) for surface in searches
+             for wide, own in ((AVERAGED, FI), (AVERAGED_BELOW, BELOW))]
+    return {wide: out[own] for wide, own in names if wide not in out and own in out}
+
+
 def _doubted(reading, why, pressures):
     """The reading of a number that depends on the highest pressures (a :func:`course`), where `why` is not known."""
     return replace(reading, doubt=why or reading.doubt, course=() if code_of(reading.doubt) == SHALLOW.code else pressures)
@@ -116,7 +125,7 @@ def course(p, at, path):
 def _shallow(name, found):
     """Why an index below the surface is not known where it grows towards the surface as far as the grid can look, beyond what
     the surface itself has; "" of others. found: see :func:`indices`."""
-    (surface, part), above = name.split(":"), {BELOW: FI, RESOLVED_BELOW: RESOLVED}
+    (surface, part), above = name.split(":"), {BELOW: FI, RESOLVED_BELOW: RESOLVED, AVERAGED_BELOW: AVERAGED}
     if part not in above or not near_the_surface(found[name], found[of_surface(surface, FI)]):
         return ""
     return SHALLOW if found[name]["Fi_max"] > found[of_surface(surface, above[part])]["Fi_max"] else ""
@@ -133,8 +142,9 @@ def indices(searches):
     found: dict[str, Any] = {}
     for surface, summary in searches.items():
         whole = searched(summary)
-        early = whole.get("resolved", {})
-        parts = {FI: whole, BELOW: whole.get("below"), RESOLVED: early, RESOLVED_BELOW: early.get("below")}
+        early, wide = whole.get("resolved", {}), whole.get("averaged", {})
+        parts = {FI: whole, BELOW: whole.get("below"), RESOLVED: early, RESOLVED_BELOW: early.get("below"),
+                 AVERAGED: wide, AVERAGED_BELOW: wide.get("below")}
         found |= {of_surface(surface, name): part for name, part in parts.items() if part}
     return found
 
@@ -156,7 +166,7 @@ def of_surface(surface, name):
 
 
 def whole(found):
-    """The names in `found` (see :func:`indices`) that are of all moments."""
+    """The names in `found` (see :func:`indices`) that are of all moments and of stresses at points."""
     return [name for name in found if name.split(":")[1] in (FI, BELOW)]
 
 

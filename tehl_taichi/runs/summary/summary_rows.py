@@ -211,7 +211,17 @@ def _rows_of_search(f):
             SummaryRow("thermal stress", "counted" if f["thermal_stress"] else "left out")]
     rows += [_stress(f"largest at {_depth(layer)}", layer["findley_stress_max_Pa"]) for layer in f.get("by_depth", [])]
     early = [] if f.get("rough") else _resolved_rows(f)
-    return early + [replace(row, part=SURFACE) for row in rows] + _below_rows(f)
+    return early + _averaged_rows(f) + [replace(row, part=SURFACE) for row in rows] + _below_rows(f)
+
+
+def _averaged_rows(f):
+    """Indices of stresses averaged over fatigue.length."""
+    if not (wide := f.get("averaged")):
+        return []
+    over, deep = f", over {micrometres(wide['length_m'])} um", wide.get("below")
+    rows = [_of(wide, "Fi_max", "Fi_max of averaged stresses, surface", where=over, part=SURFACE)]
+    return rows + ([_of(deep, "Fi_max", "Fi_max of averaged stresses, below", where=f"{over}{_at(deep)}", part=BELOW)]
+                   if deep else [])
 
 
 def _whole(f):

@@ -1,0 +1,47 @@
+"""The index of stresses averaged over fatigue.length, beside the pointwise one.
+
+A jump of the surface shear, as at the front of a rolling asperity, has no largest stress: pointwise it grows with every finer
+grid, averaged over a length it settles (docs/decisions/10-material-length.md).
+"""
+
+import numpy as np
+
+from tehl_taichi.fatigue import depth_search
+from tehl_taichi.fatigue.layer import layer
+from tehl_taichi.fatigue.pass_progress import PassProgress
+from tehl_taichi.fatigue.stress.averaging import AveragedReader
+from tehl_taichi.fatigue.stress.histories import StressHistories
+from tehl_taichi.scene import material_length
+
+
+def counts(scene, x):
+    """Whether such an index is given on nodes x (m)."""
+    return not material_length.why_not(scene, (x[-1] - x[0]) / (len(x) - 1))
+
+
+def part(scene, surface, reader, centres, progress):
+    """Numbers of the search of one body by averaged stresses, "averaged" of its summary; centres: of the first feature, m;
+    the others as those of :func:`tehl_taichi.fatigue.assessment.run`."""
+    passage = StressHistories(scene, AveragedReader(reader, scene.fatigue.length), np.asarray(centres), surface=surface)
+    progress = PassProgress.of(progress, scene, passage)
+    layers = [layer(scene, passage, depth, progress, None) for depth in (0.0, *scene.fatigue.listed)]
+    deep = depth_search.search(scene, passage, layers, None, progress).worst if scene.fatigue.depths else []
+    progress.end()
+    points, limit = [found.worst for found in layers[1:]] + deep, scene.fatigue.endurance
+    below = max(points, key=lambda point: point.f, default=None)
+    return {"length_m": scene.fatigue.length, **layers[0].worst.summary(limit),
+            **({"below": {"depth_m": below.depth, **below.summary(limit)}} if below else {})}
+
+
+def leading(found):
+    """Of a search's summary at the surface and below it: [(part, length in m that its stresses are averaged over, or 0)]; the
+    averaged one where its error alone is known."""
+    wide = found.get("averaged", {})
+    pairs = [(found, wide), (found.get("below"), wide.get("below"))]
+    return [(own, 0.0) if not _alone_known(own, other) else (other, wide["length_m"]) for own, other in pairs if own]
+
+
+def _alone_known(own, other):
+    """Whether the error of the averaged index is known, and that of the pointwise one is not."""
+    errors = [(part or {}).get("error", {}).get("Fi_max") for part in (own, other)]
+    return errors[0] is None and errors[1] is not None

@@ -1,0 +1,52 @@
+"""Loads averaged over a length.
+
+The half-space is the same everywhere, so their stresses, at the surface and at any depth, are the averages of the stresses of
+the loads themselves over that length. A material has one (Taylor, The Theory of Critical Distances, 2007): its fatigue follows
+a stress over a distance, not at a point; and at a jump of the surface shear sigma_xx is a logarithm of the distance.
+"""
+
+import numpy as np
+
+
+def weights(length, spacing):
+    """Parts of `length` (m) around a node that lie in the cells of its neighbours, from the farthest on one side to that on the
+    other; one weight where the length is no longer than a cell."""
+    reach = max(0, int(np.ceil(length / (2 * spacing) - 0.5 - 1e-9)))
+    if reach == 0:
+        return np.ones(1)
+    ends = np.clip((np.arange(-reach, reach + 2) - 0.5) * spacing, -length / 2, length / 2)
+    return np.diff(ends) / length
+
+
+def averaged(field, parts, axis=0, mirrored=False, odd=False):
+    """The averages of a field along `axis` by :func:`weights`. Beyond its ends it continues as at them; mirrored: before the
+    first row lies the mirror of what follows it; odd: with the other sign."""
+    if parts.size == 1:
+        return field
+    along, reach = np.moveaxis(np.asarray(field), axis, 0), parts.size // 2
+    before = along[reach:0:-1] * (-1 if odd else 1) if mirrored else np.repeat(along[:1], reach, axis=0)
+    wide = np.concatenate([before, along, np.repeat(along[-1:], reach, axis=0)])
+    out = sum(part * wide[n : n + len(along)] for n, part in enumerate(parts))
+    return np.moveaxis(out, 0, axis)
+
+
+class AveragedReader:
+    """A reader, as :class:`tehl_taichi.fatigue.stress.histories.StressHistories` takes it, whose fields are averages over a
+    square of `length` (m) parallel to the surface. Rows that begin with y = 0 have their mirror on the other side."""
+
+    def __init__(self, reader, length):
+        self.reader, self.x, self.y, self.time, self.feature_x = reader, reader.x, reader.y, reader.time, reader.feature_x
+        self.along, self.across = (weights(length, float(side[1] - side[0])) if len(side) > 1 else np.ones(1)
+                                   for side in (reader.x, reader.y))
+        self.mirrored = len(reader.y) > 1 and reader.y[0] == 0
+
+    def __len__(self):
+        return len(self.reader)
+
+    def fields(self, n, names):
+        """{name: (nx+1, ny+1) array} of entry n."""
+        return {name: self._averaged(name, field) for name, field in self.reader.fields(n, names).items()}
+
+    def _averaged(self, name, field):
+        odd = name.startswith("traction_y")
+        return averaged(averaged(field, self.along), self.across, 1, self.mirrored, odd)
