@@ -274,9 +274,10 @@ def _line(group):
     if not stated:
         return 0, len(group), *[None] * 4
     size, real, unit = (np.array(column) for column in zip(*stated))
-    width = size / np.maximum(real, 1e-300)
-    return (len(stated), len(group) - len(stated), float(np.mean(real <= size)), float(np.median(width)),
-            float(np.median(size / unit)), float(np.median(real / unit)))
+    width = size[real > 0] / real[real > 0]  # a share of none that stays so has no ratio
+    times = float(np.median(width)) if width.size else None
+    return (len(stated), len(group) - len(stated), float(np.mean(real <= size)), times, float(np.median(size / unit)),
+            float(np.median(real / unit)))
 
 
 def _unit(name, value):

@@ -82,9 +82,9 @@ ENTRIES = (
           column="passage_film_max_C", **DEGREES),
     *(Entry(part="transient", key=key, series=key, over="maximum", error=SWAYED, exists=thermal) for key in HEAT[1:]),
     Entry(part="transient", key="temperature_change_K", series="temperature_change_K", over="maximum", exists=thermal),
-    Entry(part="transient", key="contact_load_fraction_max", series="contact_load_fraction", over="maximum", error="plain",
+    Entry(part="transient", key="contact_load_fraction_max", series="contact_load_fraction", over="maximum", error=SWAYED,
           positive=True),
-    Entry(part="transient", key="contact_area_share_max", series="contact_area_share", over="maximum", error="plain",
+    Entry(part="transient", key="contact_area_share_max", series="contact_area_share", over="maximum", error=SWAYED,
           positive=True),
     *(Entry(part="transient", key=f"{key}_max", series=key, over="maximum")
       for key in ("load_error", "mass_error", "residual")),

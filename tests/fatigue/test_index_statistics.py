@@ -68,13 +68,22 @@ def test_a_search_has_them_at_the_surface_and_below(taichi_cpu):
     assert at_limit["cycles_above_1"] >= 1 and 0 < at_limit["statistics"]["cycles_above_1"] < 3
 
 
-def test_bars_of_a_distribution_have_the_larger_of_the_last_two_steps():
-    def size(values, **more):
-        return bar([GridReading(value, spread=True, **more) for value in values])[0]
+def test_bars_of_a_distribution_have_a_part_of_both_steps():
+    """1.75 of the last one; of the one before all at the top of a surface, else a half."""
+    def size(values, spread=0.5, **more):
+        return bar([GridReading(value, spread=spread, **more) for value in values])[0]
 
-    assert size([0.7, 1.2, 1.21]) == pytest.approx(0.5) and size([1.2, 1.21, 1.0]) >= 0.21
-    assert size([0.02, 0.03, 0.0]) >= 0.03  # a share of none is known as well as others
-    assert bar([GridReading(1.0), GridReading(0.02)])[0] is None  # of other numbers such a change says that nothing is known
+    assert size([0.7, 1.2, 1.21]) == pytest.approx(0.25) and size([0.7, 1.2, 1.21], 1.0) == pytest.approx(0.5)
+    assert size([1.2, 1.21, 1.0]) == pytest.approx(1.75 * 0.21) == size([1.21, 1.0])
+    assert size([0.02, 0.02, 0.0], blur=0.1) == pytest.approx(0.15)  # a share of none is known as well as others
+    assert size([0.1, 1.0, 0.02]) > 0.02  # of other numbers such a change says that nothing is known
+    assert bar([GridReading(1.0), GridReading(0.02)])[0] is None
+
+
+@pytest.mark.parametrize("key, depth, part", [("p99", {}, 1.0), ("p99", {"depth_m": 7e-6}, 0.5), ("median", {}, 0.5)])
+def test_the_top_of_a_surface_is_the_least_known(key, depth, part):
+    found = coarse_runs._spread_reading({"p99": 1.2, "median": 0.7, "points": 50, **depth}, key)
+    assert found.spread == part and found.blur == 0
 
 
 def test_coarse_grids_take_the_waves_that_they_resolve():

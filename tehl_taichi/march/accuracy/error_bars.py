@@ -31,6 +31,9 @@ HALVES, BEFORE = 2.0, 0.25
 # Of what such a peak sways, but does not decide, three times the larger of the last two differences (20 passages with exits in
 # one dimension, `tehl bench accuracy --only exits`: bars of surface temperatures and mean friction that hold 64 -> 94 %)
 SWAY = 3.0
+# Of a number of a distribution, which shows no order, since coarse grids have other waves: of the last difference, beside a
+# part of the one before (rough lines, `tehl bench accuracy --only roughness`: docs/decisions/09-rough-statistics.md)
+SPREAD = 1.75
 # Parts of a course continue as a geometric series, for so many of the last difference at most; they may exceed the largest by
 # so much of it, which then is part of the bar
 GROWS_ON, EXCEEDS = 4.0, 0.1
@@ -45,8 +48,9 @@ class GridReading:
     number ("" where it can); lost: whether its value is not even a step towards that of the next grid; settled: how far the
     iterations may have left it from the solution of this grid; positive: whether the number is so by nature, as a film is;
     course: where grids together may settle a doubt, the largest pressures by parts of the passage (nan: none), else ();
-    swayed: whether a pressure that this grid does not know has a part in it; spread: whether it is of the distribution over
-    many points, which each finer grid samples again, with more of the short waves.
+    swayed: whether a pressure that this grid does not know has a part in it; spread: of a number of the distribution over many
+    points, which each finer grid samples again, with more of the short waves: part of the difference before the last that may
+    be left as error, else 0.
     """
 
     value: float
@@ -59,7 +63,7 @@ class GridReading:
     positive: bool = False
     course: tuple = ()
     swayed: bool = False
-    spread: bool = False
+    spread: float = 0.0
 
 
 def bar(readings):
@@ -83,9 +87,16 @@ def bar(readings):
     if abs(steps[0]) > HOPELESS * abs(last.value) and not last.spread:
         return None, Reason(f"it still changes by {abs(steps[0] / last.value):.0%} from grid to grid", "changes")
     accident = ACCIDENT * abs(last.value) if len(steps) == 1 and not last.place else 0.0
-    sway = (SWAY if last.swayed else 1.0) * max(map(abs, steps[:2])) if last.swayed or last.spread else 0.0
-    size = max(accident, last.settled, BLURRED * last.blur, _left(steps, bool(last.place)), least, sway)
+    sway = SWAY * max(map(abs, steps[:2])) if last.swayed else 0.0
+    left = _left_of_spread(steps, last.spread) if last.spread else _left(steps, bool(last.place))
+    size = max(accident, last.settled, BLURRED * last.blur, left, least, sway)
     return (None, WHOLE) if last.positive and size >= last.value else (size, "")
+
+
+def _left_of_spread(steps, part):
+    """The same of a number of a distribution; part: see :class:`GridReading`."""
+    last, *earlier = (abs(step) for step in steps)
+    return max([SPREAD * last, *(part * step for step in earlier[:1])])
 
 
 def _left(steps, extreme):

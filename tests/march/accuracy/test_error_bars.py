@@ -246,7 +246,7 @@ def test_a_battery_of_rough_surfaces_has_both_slips_and_bodies():
 
 def test_the_numbers_of_rough_surfaces_that_settle_are_judged():
     """Of all bodies and depths together; shares are parts of nothing and count where there are none."""
-    own = {name: vars(GridReading(value, spread=True)) for name, value in (("a:0 um.p99", 1.0), ("b:0 um.p99", 1.2),
+    own = {name: vars(GridReading(value, spread=0.5)) for name, value in (("a:0 um.p99", 1.0), ("b:0 um.p99", 1.2),
                                                                           ("a:7 um.share_above_1", 0.0), ("b:Fi_max", 2.0))}
     coarser = {name: {**reading, "value": reading["value"] + 0.1} for name, reading in own.items()}
     answers = [{"values": one} for one in (coarser, coarser)]
