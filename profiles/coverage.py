@@ -239,7 +239,7 @@ def _counts(part, name, value):
 
 
 def _quantity(name):
-    """The same name for all bodies and depths: "p99, surface" is "a:0 um.p99"."""
+    """One name for all bodies and depths: "p99, surface" is "a:0 um.p99"."""
     where, _, key = name.rpartition(".")
     if key not in NUMBERS:
         return name

@@ -113,7 +113,7 @@ def _mark(x):
 
 def _lines(flank, lines, factor):
     """Lines of a panel that have values."""
-    out = []
+    out: list[dict] = []
     for name, what in lines.items():
         x, y = _series(flank, what)
         if x:

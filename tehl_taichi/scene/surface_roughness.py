@@ -51,8 +51,10 @@ def to_dict(scene):
 
 def rms_of(numbers):
     """The rms height (m) of both surfaces together, of the part `roughness` of a summary; None where that has none."""
-    whole = (numbers or {}).get("combined") or next(iter((numbers or {}).values()), {})
-    return whole.get("Sq_m", whole.get("Rq_m"))
+    if not numbers:
+        return None
+    both = numbers.get("combined") or next(iter(numbers.values()))
+    return both.get("Sq_m", both.get("Rq_m"))
 
 
 def _of(features, edge):
