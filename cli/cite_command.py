@@ -1,4 +1,4 @@
-"""How this program is cited."""
+"""Citation of this program."""
 
 from tehl_cli.stdout import put
 

@@ -1,4 +1,4 @@
-"""Where `tehl` starts: nothing heavy is imported before signals, pipes and encodings are seen to."""
+"""Entry point of `tehl`: nothing heavy is imported before signals, pipes and encodings are seen to."""
 
 import atexit
 import codecs

@@ -1,4 +1,4 @@
-"""What a suite gives: tables for people or one JSON object, both in files beside a picture."""
+"""Results of a suite: tables for people or one JSON object, both in files beside a picture."""
 
 from tehl_cli import bench_page
 from tehl_cli.live_display import say

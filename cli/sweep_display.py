@@ -1,4 +1,4 @@
-"""What a terminal shows of a sweep: a bar with the time left and the last cases, plain lines elsewhere; its table."""
+"""Display of a sweep in a terminal: a bar with the time left and the last cases, plain lines elsewhere; its table."""
 
 import itertools
 import math

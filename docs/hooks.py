@@ -1,4 +1,4 @@
-"""What MkDocs asks while it builds the pages: what the code itself says, and equations as MathML."""
+"""Hooks of MkDocs: generated parts of the pages, and equations as MathML."""
 
 from handbook import equations, lists, makers
 from mkdocs.exceptions import PluginError

@@ -1,4 +1,4 @@
-"""What the suites share: timings of a passage, fresh processes with a given number of threads, results as files."""
+"""Shared parts of the suites: timings of a passage, fresh processes with a given number of threads, results as files."""
 
 import json
 import multiprocessing

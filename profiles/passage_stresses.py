@@ -1,4 +1,4 @@
-"""What one stored passage gives: Findley stresses of both bodies by loads and by part of the passage, and which its grid does
+"""Results of one stored passage: Findley stresses of both bodies by loads and by part of the passage, and which its grid does
 not know."""
 
 import json

@@ -1,4 +1,4 @@
-"""Where the time of a step goes, and what it must at least take: stages by their calls, kernels by their launches.
+"""Time of a step by stages and kernels, and its lower limit: stages by their calls, kernels by their launches.
 
 The limit of a kernel is the time to copy the bytes that it must move (:mod:`tehl_taichi.profiles.traffic`), that of a
 transform the time which it takes alone, both measured in the same process on one thread.

@@ -1,4 +1,4 @@
-"""What several workers gain: the same sweep on 1, 2, 4 ... of them, one thread each."""
+"""Gain by several workers: the same sweep on 1, 2, 4 ... of them, one thread each."""
 
 import tempfile
 import time

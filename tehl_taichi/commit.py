@@ -1,4 +1,4 @@
-"""Which commit this is, as far as it can be known. Nothing but the standard library: the build of a wheel runs this file."""
+"""The commit of this code, as far as it can be known. Nothing but the standard library: the build of a wheel runs this file."""
 
 import functools
 import subprocess

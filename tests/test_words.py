@@ -143,6 +143,7 @@ def test_no_verb_as_a_name():
 
 
 def test_docstrings_begin_with_a_noun_or_a_verb():
-    opening = re.compile(r'"""(Of|Those|That|And|It|The same)\b.*')
+    """Those of modules also with no question."""
+    opening = re.compile(r'"""(Of|Those|That|And|It|The same)\b.*|\A"""(What|Which|Whether|How|Where|Why)\b.*')
     assert [f"{path.relative_to(ROOT)}: {match[0]}" for path in CODE
             for match in opening.finditer(path.read_text(encoding="utf-8"))] == []

@@ -1,4 +1,4 @@
-"""How to add a choice: the section of CONTRIBUTING.md whose files the tests add to a copy of the package and run."""
+"""Guide to new choices: the section of CONTRIBUTING.md whose files the tests add to a copy of the package and run."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""What a store holds of every step, from the entries of `march/outputs`."""
+"""Outputs of every step in a store, from the entries of `march/outputs`."""
 
 from handbook.tables import code, plain, table
 from tehl_taichi.march.step_output import Field, Scalar, always, entries

@@ -1,4 +1,4 @@
-"""What each built-in scene is, from the scene itself."""
+"""Description of each built-in scene, from the scene itself."""
 
 from handbook.tables import code, plain, sentence
 from tehl_taichi.scene import BUILT_INS

@@ -1,4 +1,4 @@
-"""Which of the two bodies has the crack."""
+"""The choice of the body that has the crack."""
 
 from tehl_taichi.crack.crack_options import WORSE
 from tehl_taichi.fatigue import assessment

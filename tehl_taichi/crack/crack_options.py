@@ -1,4 +1,4 @@
-"""What is asked of a crack: where it starts, how far it may grow, what acts on its faces."""
+"""Options of a crack: its start, its largest length, the loads on its faces."""
 
 from dataclasses import dataclass
 from typing import Union

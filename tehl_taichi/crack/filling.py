@@ -1,4 +1,4 @@
-"""What a filling of a crack is, and what it knows of the oil."""
+"""The kind of entry that fills a crack, and the oil in it."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Where a crack would go that is everywhere normal to the largest principal stress of the body without it, at one moment.
+"""Trajectory of a crack that is everywhere normal to the largest principal stress of the body without it, at one moment.
 
 After Hannes & Alfredsson 2011 (Eng. Fract. Mech. 78, 2848), who followed it in the plane of symmetry below an asperity.
 """

@@ -1,4 +1,4 @@
-"""Where something new is made: beside its name, hidden and locked, renamed to it when it is whole.
+"""Drafts of new files and folders: beside the final name, hidden and locked, renamed to it when it is whole.
 
 So a store, a figure, an export appears whole or not at all. Beside `NAME` there may be, with a dot before and one of these
 behind it:

@@ -1,4 +1,4 @@
-"""What is written under the lock of its folder: opened whole or let go, closed at the end of a `with`."""
+"""Folders that are written under a lock: opened whole or let go, closed at the end of a `with`."""
 
 
 from tehl_taichi.disk import links

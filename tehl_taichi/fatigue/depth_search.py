@@ -1,4 +1,4 @@
-"""Where below the surface the body is worst loaded: under some rows first, and where a surface is not symmetric under rows that
+"""Search of the critical depth below the surface: under some rows first, and where a surface is not symmetric under rows that
 look bad at any depth (:mod:`tehl_taichi.fatigue.candidate_rows`), too, and at all points of the depth found there.
 
 The row of the worst point below is not always that of the surface: of a scanned bump between two rows of 128x32 cells the one

@@ -1,4 +1,4 @@
-"""Where on a surface an index is largest: its peaks, apart from each other. The critical point alone does not show, on a rough
+"""Peaks of the index on a surface, apart from each other. The critical point alone does not show, on a rough
 surface, whether the asperity that one asks about is harmless."""
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""How the index is distributed over the points of a body that features pass: it settles where the largest one does not."""
+"""Distribution of the index over the points of a body that features pass: it settles where the largest one does not."""
 
 import numpy as np
 

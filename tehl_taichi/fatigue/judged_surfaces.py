@@ -1,4 +1,4 @@
-"""What a summary has of each body that was searched, the worse one first; the body that is not searched."""
+"""Parts of a summary of each body that was searched, the worse one first; the body that is not searched."""
 
 from tehl_taichi.errors import SceneError
 

@@ -1,4 +1,4 @@
-"""Where the oil of a film came from: values one and two steps ago at the departure points of its nodes."""
+"""Origin of the oil of a film: values one and two steps ago at the departure points of its nodes."""
 
 from tehl_taichi.engine.elementary import maximum, minimum, within
 from tehl_taichi.engine.language import ti

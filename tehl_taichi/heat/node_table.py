@@ -1,4 +1,4 @@
-"""What kernels read of the nodes across the film: the table of :class:`tehl_taichi.heat.chebyshev.ChebyshevNodes`, N."""
+"""Numbers of the nodes across the film for kernels: the table of :class:`tehl_taichi.heat.chebyshev.ChebyshevNodes`, N."""
 
 from tehl_taichi.engine.language import ti
 from tehl_taichi.heat.chebyshev import BEYOND, INTEGRAL, MATRICES, SECOND, SLOPE, WEIGHT, ZETA

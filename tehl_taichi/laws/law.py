@@ -1,4 +1,4 @@
-"""What laws of the lubricant are: entries of registries that bring a function, the numbers that it takes, and their range."""
+"""Entries of the laws of the lubricant: a function, the numbers that it takes, and their range."""
 
 import dataclasses
 import math

@@ -1,4 +1,4 @@
-"""What a film of one viscosity carries by pressure while its walls slide, by the law that a scene chose.
+"""Flow by pressure of a film of one viscosity whose walls slide, by the law that a scene chose.
 
 Each gives the flow over that of Newtonian oil and its derivatives by ln wall, ln newtonian and p (1/Pa), see
 :class:`tehl_taichi.laws.law.ShearLaw`. Along the sliding it is exact; across it what the law leaves of the viscosity at the

@@ -1,4 +1,4 @@
-"""Why a solve failed, in a sentence that says what to try."""
+"""The reason of a failed solve, in a sentence with a remedy."""
 
 import numpy as np
 

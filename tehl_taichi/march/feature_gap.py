@@ -1,4 +1,4 @@
-"""What features remove the gap."""
+"""The part of the gap that features fill."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Where pressure and temperatures alternately find no steady state: both together in time, as a passage has them.
+"""Pseudo-transient start, where the alternation of pressure and temperatures finds no steady state: both together in time.
 
 In alternation, oil and bodies warm for a sixth of the domain under a film that does not answer: a thick one with a cold inlet
 overshoots, 30 to 80 K back and forth, or collapses. In time it answers within a step. Stages, see :func:`march_to_rest`: the

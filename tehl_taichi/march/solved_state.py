@@ -1,4 +1,4 @@
-"""What the solver holds after a step, as the entries of `march/outputs/` see it: each value is taken from its table once."""
+"""State of the solver after a step, as the entries of `march/outputs/` see it: each value is taken from its table once."""
 
 import functools
 import time

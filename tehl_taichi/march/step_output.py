@@ -1,4 +1,4 @@
-"""What a run gives of every step: an entry of `march/outputs/` for each field and each number.
+"""Outputs of every step: an entry of `march/outputs/` for each field and each number.
 
 An entry says its unit, when there is one and how it follows from what the solver holds; snapshots are made of these entries
 and stores keep them. Nothing here imports taichi: stores are read without it.

@@ -1,4 +1,4 @@
-"""How much of a time step is taken at once: halves of what does not converge, and twice as much again after a while."""
+"""Parts of a time step: halves of what does not converge, and twice as much again after a while."""
 
 # Of a step that does not converge: it is taken in halves down to this part. With 1/16 the asperity of 100 um stops at 1.12 a on
 # 128 columns, where it touches

@@ -1,4 +1,4 @@
-"""What the kernels know of each level: one table of numbers, its columns by name in :mod:`tehl_taichi.pressure.fields`."""
+"""Numbers of each level for the kernels: one table, its columns by name in :mod:`tehl_taichi.pressure.fields`."""
 
 import numpy as np
 

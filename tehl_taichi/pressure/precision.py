@@ -1,4 +1,4 @@
-"""Which precision of the linear solves suits a scene."""
+"""Precision of the linear solves of a scene."""
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene.film_formula import central_film

@@ -1,4 +1,4 @@
-"""What a page is made of, and its HTML."""
+"""Parts of a page, and its HTML."""
 
 from dataclasses import dataclass, field
 from pathlib import Path

@@ -1,4 +1,5 @@
-"""What is large, packed into text: plotly.js and the numbers of the figures, as base64 of a gzip that the browser unpacks."""
+"""Large parts of a page, packed into text: plotly.js and the numbers of the figures, as base64 of a gzip that the browser
+unpacks."""
 
 import base64
 import functools

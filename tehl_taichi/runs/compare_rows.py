@@ -1,4 +1,4 @@
-"""What differs of the results of runs, in the words of their summaries: rows with a value for each run."""
+"""Differences of the results of runs, in the words of their summaries: rows with a value for each run."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""How long steps take, and what is left of a passage at that pace, in words."""
+"""Pace of the steps, and the time left of a passage at that pace, in words."""
 
 import time
 from collections import deque

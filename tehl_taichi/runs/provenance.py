@@ -1,4 +1,4 @@
-"""Where numbers come from: the code, what it stands on, the machine, the command and the moment."""
+"""Origin of the numbers: code, libraries, machine, command and time."""
 
 import importlib.metadata
 import json

@@ -1,4 +1,4 @@
-"""What is installed here, and whether it computes what it should."""
+"""Self-test of this installation: versions, and a contact with a known film."""
 
 import importlib.metadata
 import time

@@ -1,4 +1,4 @@
-"""What is given together for a change of a scene: keys by their full names, and which of them contradict each other."""
+"""Changes of a scene that are given together: keys by their full names, and which of them contradict each other."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""Where the domain of a scene ends: the gap at its border has to be some times the film, or the film feels the border.
+"""Ends of the domain of a scene: the gap at its border has to be some times the film, or the film feels the border.
 
 What a border that takes the pressure of the oil beyond it (:mod:`tehl_taichi.pressure.inlet`) still costs falls with that
 ratio; what one without pressure costs is about (ratio/1.4)^(-3/2) of the film.

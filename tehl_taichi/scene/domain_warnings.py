@@ -1,4 +1,4 @@
-"""Whether features find room in the domain: in the gap at its ends, where they come in and leave, and between its sides; and
+"""Room for features in the domain: in the gap at its ends, where they come in and leave, and between its sides; and
 the domain in which they do, all at once."""
 
 import math

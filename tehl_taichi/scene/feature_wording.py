@@ -1,4 +1,4 @@
-"""What passes through the contact, as its user calls it: his scan where the first feature, from which positions count, is a
+"""The word of the user for the feature that passes: his scan where the first feature, from which positions count, is a
 measured map."""
 
 import math

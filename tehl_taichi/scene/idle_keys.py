@@ -1,4 +1,4 @@
-"""Which keys of a scene change nothing in it, and why: for options, --set, --over, files and Python alike.
+"""Keys of a scene that change nothing in it, and why: for options, --set, --over, files and Python alike.
 
 Found from what declares keys (laws, shapes, criteria) and from what a scene leaves out (heat, a passage, slip, a dimension): a
 new law or shape needs no line here.

@@ -1,4 +1,4 @@
-"""How much memory a run needs."""
+"""Memory that a run needs."""
 
 from tehl_taichi.disk import memory_limit
 

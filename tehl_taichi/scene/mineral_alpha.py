@@ -1,4 +1,4 @@
-"""How the viscosity of a mineral oil rises with pressure, estimated from how it falls with temperature.
+"""Pressure coefficient of a mineral oil, estimated from its viscosities at two temperatures.
 
 Steep oils (naphthenic) stiffen more. Roelands' exponent of the 13 mineral oils of Stachowiak & Batchelor, Engineering
 Tribology, table 2.3, follows Z = 0.28 + 0.112 m with the slope m of ASTM D341; the pressure coefficients that it gives are

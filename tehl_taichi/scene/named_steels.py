@@ -1,4 +1,4 @@
-"""What the name of a steel means for a body of a scene."""
+"""Named steels for the bodies of a scene."""
 
 from tehl_taichi.scene import steels
 from tehl_taichi.values.registry import collect

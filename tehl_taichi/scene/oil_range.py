@@ -1,4 +1,4 @@
-"""Whether the laws of an oil have values at the pressures and the temperature of a scene, and what they leave out."""
+"""Check that the laws of an oil have values at the pressures and the temperature of a scene, and what they leave out."""
 
 import dataclasses
 

@@ -1,4 +1,4 @@
-"""Whether features pass through the domain, and whether the grid sees them."""
+"""Resolution of features by the grid, and their way through the domain."""
 
 import math
 from dataclasses import dataclass, replace

@@ -1,4 +1,4 @@
-"""Whether the surfaces of a scene are rough: many peaks pass through the contact, no single one decides."""
+"""Test for rough surfaces in a scene: many peaks pass through the contact, no single one decides."""
 
 import numpy as np
 

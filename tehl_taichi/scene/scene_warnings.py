@@ -1,4 +1,4 @@
-"""What is doubtful in a scene although it can be simulated, a sentence each: the warnings that are known before a run."""
+"""Warnings about a scene that can be simulated, a sentence each, known before a run."""
 
 from tehl_taichi.scene import (
     domain,

@@ -1,4 +1,4 @@
-"""Whether a grid can carry a film as thin as the film formula has it, and which grid can."""
+"""Grids for films as thin as the film formula has them."""
 
 from tehl_taichi.scene import hertz, refinement
 from tehl_taichi.scene.film_formula import heated_film, thinnest_film

@@ -1,4 +1,4 @@
-"""What stands in the attributes of a store: tables that were edited inside are refused before they are used."""
+"""Checks of the attributes of a store: tables that were edited inside are refused before they are used."""
 
 import json
 

@@ -1,4 +1,4 @@
-"""Whether what lies on the disk is a whole store of this program, and what is wrong with it, in a sentence."""
+"""Check that a folder is a whole store of this program; a sentence on what is wrong with it."""
 
 import contextlib
 import json

@@ -1,4 +1,4 @@
-"""What arrays a store has, and the one file that says which entries of them a reader sees."""
+"""Arrays of a store, and the one file that says which entries of them a reader sees."""
 
 import json
 

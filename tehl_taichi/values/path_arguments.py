@@ -1,4 +1,4 @@
-"""What Python callers give in place of a path, or of what lies at one."""
+"""Arguments of Python callers in place of a path."""
 
 from os import PathLike
 from pathlib import Path

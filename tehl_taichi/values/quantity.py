@@ -1,4 +1,4 @@
-"""What a value of a scene is, declared once where it stands: default, unit, meaning, range.
+"""Declaration of a value of a scene, once where it stands: default, unit, meaning, range.
 
 The checks at the door, the template of `tehl new` and the documents all read the same declaration:
 `width: float = quantity(200e-6, "m", "length along x", 1e-6, 0.1)`, and :func:`check` in `__post_init__`.

@@ -1,4 +1,4 @@
-"""What a number out of its range was probably meant as: the same digits in a unit that people write it in."""
+"""Likely meaning of a number out of its range: the same digits in a unit that people write it in."""
 
 import math
 

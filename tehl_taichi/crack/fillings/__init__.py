@@ -1,4 +1,4 @@
-"""What fills a crack, one file each: a new file here is a new choice of `--oil`.
+"""Fillings of a crack, one file each: a new file here is a new choice of `--oil`.
 
 A filling works on a :class:`tehl_taichi.crack.fluid_filled.FluidFilledCrack` crack and gives its
 :class:`tehl_taichi.crack.fluid_filled.FluidState`. May import what `crack` may.

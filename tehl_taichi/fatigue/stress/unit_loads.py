@@ -1,4 +1,4 @@
-"""What unit loads on one rectangle of a surface answer, component by component, and its symmetries: the loads p, q_x, q_y and
+"""Stresses by unit loads on one rectangle of a surface, component by component, and its symmetries: the loads p, q_x, q_y and
 the components xx, yy, zz, xy, xz, yz by number."""
 
 import numpy as np

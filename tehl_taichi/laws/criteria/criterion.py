@@ -1,4 +1,4 @@
-"""What a fatigue criterion is."""
+"""The entry of a fatigue criterion."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

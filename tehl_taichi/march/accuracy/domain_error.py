@@ -1,4 +1,4 @@
-"""What the end of the domain may cost the numbers of a run: a share of the film, from the steady start.
+"""Error of the numbers of a run by the end of the domain: a share of the film, from the steady start.
 
 A border without pressure in a flooded inlet takes alpha q (0.73 + 0.15 |X|/(alpha p_H)) of the film, q the reduced pressure
 that the oil beyond it would have there and 0.73 Grubin's exponent 8/11 (99 lines of M 5 to 100, L 2 to 20: 0.82 to 1.14 of what

@@ -1,4 +1,4 @@
-"""What the equations leave over, and what solving them took."""
+"""Residuals of the equations, and the work of solving them."""
 
 from tehl_taichi.march.step_output import Scalar, thermal
 

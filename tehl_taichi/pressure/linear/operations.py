@@ -1,20 +1,18 @@
-"""What the jobs of a linear solve do, each on one block of lanes or one group of waves; see :mod:`schedule`."""
+"""Operations of a linear solve, each job on one block of lanes or one group of waves; see :mod:`schedule`."""
 
 import itertools
 
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.simd import L, W, cells, lanes_in, lanes_out
 from tehl_taichi.pressure.fields import BD, BU, COR, FILM, RES, SCALE, SOL, TRIAL, B
-from tehl_taichi.pressure.linear import convolution
+from tehl_taichi.pressure.linear import convolution, red_black
+from tehl_taichi.pressure.linear.blocks import block, number, take
 from tehl_taichi.pressure.linear.convolution import LEVEL, M, buffer, clear, first_of, pair, second_of, side_by_side
 from tehl_taichi.pressure.linear.gmres import COUNT, DOT_SUM, INVERSE, LOAD_SUM, MASS_SUM, RISE, SCALARS, SQUARE_SUM, WEIGHTS
 from tehl_taichi.pressure.linear.line_solver import DISTRIBUTED, DRY_KIND, LOCAL, is_kind, substitute
 from tehl_taichi.pressure.linear.schedule import (
     ACROSS,
-    ADDED,
     BACK,
-    BENT,
-    BLACK,
     COLLECT,
     COPY,
     DENSE,
@@ -23,15 +21,12 @@ from tehl_taichi.pressure.linear.schedule import (
     FINISH,
     FORWARD,
     GIVEN,
-    LEFT,
     LIFT,
     LINES,
     ONES,
     PROLONG,
-    RED,
     RESTRICT,
     ROWS,
-    SPREAD,
     START,
     UPDATE,
 )
@@ -43,18 +38,6 @@ AT_ONCE = 4  # vectors of the basis that a loop over a block adds up
 _row = itertools.count()
 LIFTED, OUTFLOW, LOADING, BASIS = (next(_row) for _ in range(4))  # rows of the table of vectors: answer to a change of H0,
 # weights of the rows in the net outflow, of the pressure in the load; the basis, then what the preconditioner makes of it
-
-
-@ti.func
-def block(G: ti.template(), s):
-    """Columns of block s of the finest level: first and behind the last, in vectors; what the tables have in front."""
-    nx, ny, off = cells(G, 0)
-    return s * (nx + 1), (s + 1) * (nx + 1), off
-
-
-@ti.func
-def number(F: ti.template(), x):
-    return ti.cast(x, F.J.dtype)
 
 
 @ti.func
@@ -129,49 +112,6 @@ def distributed_part(F: ti.template(), k):
 
 
 @ti.func
-def keep_colour(F: ti.template(), first, n2, operation):
-    """SOL of the lines of the other colour is nothing: of every second row."""
-    kept = L(F.J, 0.0)
-    for u in ti.static(range(W)):
-        kept[u] = number(F, float((operation == RED) == (u % 2 == 0)))
-    for k in range(first, first + n2):
-        F.J[SOL, k] = F.J[SOL, k] * kept
-
-
-@ti.func
-def spread(F: ti.template(), C: ti.template(), G: ti.template(), j, w):
-    """The correction so far as a direction."""
-    first, second, n2 = pair(G, 0, j)
-    a = buffer(C, w)
-    for i in range(n2):
-        take(F, first + i, second + i, a + i, F.J[COR, first + i], F.J[COR, second + i])
-    clear(F.Y, a + n2, a + 2 * C[0, M])
-
-
-@ti.func
-def take(F: ti.template(), k, k2, row, y, z):
-    """Changes of the pressure of columns k and k2 as a direction, and to be transformed."""
-    F.J[TRIAL, k2], F.J[TRIAL, k], F.Y[0, row] = z, y, side_by_side(y, z)
-
-
-@ti.func
-def left(F: ti.template(), G: ti.template(), s):
-    """RES of the finest level less what the correction so far answers."""
-    first, end, off = block(G, s)
-    for k in range(off + first, off + end):
-        F.J[RES, k] = F.J[RES, k] - reynolds_row(F.J, k, end - first)
-
-
-@ti.func
-def added(F: ti.template(), G: ti.template(), partial: ti.template(), s):
-    """COR of both colours, and its load."""
-    first, end, off = block(G, s)
-    for k in range(off + first, off + end):
-        F.J[COR, k] = F.J[COR, k] + F.J[TRIAL, k]
-    finest(F, G, partial, 0, s)
-
-
-@ti.func
 def distributed(F: ti.template(), C: ti.template(), G: ti.template(), c, j, w, operation):
     """Line solutions of a pair, of one colour or of both; the rows of their distributed part."""
     first, second, n2 = pair(G, C[c, LEVEL], j)
@@ -180,7 +120,7 @@ def distributed(F: ti.template(), C: ti.template(), G: ti.template(), c, j, w, o
         substitute(F.J, first + h * n2, n2)
         if ti.static(F.colours):
             if operation != LINES:
-                keep_colour(F, first + h * n2, n2, operation)
+                red_black.keep_colour(F, first + h * n2, n2, operation)
     for i in range(ti.min(n2, period)):
         F.Y[0, a + i] = side_by_side(distributed_part(F, first + i), distributed_part(F, second + i))
     clear(F.Y, a + n2, a + period)
@@ -328,21 +268,21 @@ def transformed(F: ti.template(), G: ti.template(), C: ti.template(), Q: ti.temp
     way = convolution.THERE
     if operation == ACROSS:
         way = convolution.ACROSS
-    elif operation == COLLECT or operation == BACK or operation == BENT:
+    elif operation == COLLECT or operation == BACK or operation == red_black.BENT:
         way = convolution.BACK
-    elif operation == LINES or operation == RED or operation == BLACK:
+    elif operation == LINES or operation == red_black.RED or operation == red_black.BLACK:
         distributed(F, C, G, c, j, w, operation)
     elif operation == FORWARD:
         changes(F, C, G, N, j, w, most)
     elif operation == GIVEN:
         given(F, C, G, j, w, right)
     if ti.static(F.colours):
-        if operation == SPREAD:
-            spread(F, C, G, j, w)
+        if operation == red_black.SPREAD:
+            red_black.spread(F, C, G, j, w)
     x = convolution.transformed(F.Y, F.T, Q, F.odd, C, c, j, w, way)
     if operation == COLLECT:
         collect(F, C, G, c, j, x)
-    elif operation == BACK or operation == BENT:
+    elif operation == BACK or operation == red_black.BENT:
         film(F, G, j, x, N[SCALARS, RISE] if operation == BACK else 0.0)
 
 
@@ -367,10 +307,11 @@ def vectors(F: ti.template(), G: ti.template(), N: ti.template(), partial: ti.te
     elif operation == COPY:
         copy(F, G, N, s, out)
     if ti.static(F.colours):
-        if operation == LEFT:
-            left(F, G, s)
-        elif operation == ADDED:
-            added(F, G, partial, s)
+        if operation == red_black.LEFT:
+            red_black.left(F, G, s)
+        elif operation == red_black.ADDED:
+            red_black.add_first_colour(F, G, s)
+            finest(F, G, partial, 0, s)
     if operation == ROWS or operation == DOTS:
         dots(F, G, N, partial, s)
 
@@ -386,7 +327,8 @@ def work(F: ti.template(), G: ti.template(), C: ti.template(), Q: ti.template(),
     elif operation == DENSE:
         dense(F, G, a, s)
     elif (operation == LINES or operation == ACROSS or operation == COLLECT or operation == FORWARD or operation == BACK
-          or operation == GIVEN or operation == RED or operation == BLACK or operation == SPREAD or operation == BENT):
+          or operation == GIVEN or operation == red_black.RED or operation == red_black.BLACK or operation == red_black.SPREAD
+          or operation == red_black.BENT):
         transformed(F, G, C, Q, N, operation, a, s, w, most, right)
     else:
         vectors(F, G, N, partial, operation, a, s, most, right, outflow, out)

@@ -1,4 +1,4 @@
-"""What the linear solve does in which order: phases of jobs, as tables that the kernel of :mod:`solver` reads.
+"""Order of the linear solve: phases of jobs, as tables that the kernel of :mod:`solver` reads.
 
 A job is (operation, level or convolution, block, pair of blocks or group of waves); a phase is a number of jobs that may be
 done at once, and what is decided when all are done.
@@ -7,12 +7,11 @@ done at once, and what is decided when all are done.
 import numpy as np
 
 from tehl_taichi.engine.simd import W
+from tehl_taichi.pressure.linear import red_black
 
 # operations, see :mod:`operations`
 (START, RESTRICT, LINES, ACROSS, DENSE, COLLECT, PROLONG, FINEST, FORWARD, BACK, ROWS, DOTS, UPDATE, FINISH, ONES, LIFT, GIVEN,
  COPY) = range(18)
-RED, BLACK, SPREAD, BENT, LEFT, ADDED = range(18, 24)  # where the lines of the finest level are solved in two colours
-RED_BLACK = "red-black"  # choice of numerics.sweep
 # decisions, see :mod:`gmres`
 ON, BEGIN, BORDER, PROJECT, EXTEND, EXTEND_AGAIN, LIFTED, END = range(8)
 FIRST_JOB, JOBS, DECISION, LOOP, LEAVE = range(5)  # columns of a phase; LOOP, LEAVE: the phases of a next iteration, of the end
@@ -26,7 +25,7 @@ class Program:
 
     def __init__(self, levels, shapes):
         self.levels, self.shapes, self._jobs, self._phases = levels, shapes, [], []
-        self.colours = levels.scene.numerics.sweep == RED_BLACK
+        self.colours = levels.scene.numerics.sweep == red_black.SWEEP
         self.solve = self._solve()
         self.lift = self._lift()
         self.apply = self._apply()
@@ -83,23 +82,16 @@ class Program:
         for l in range(len(sizes) - 1):
             self._phase([(RESTRICT, l, s) for _, _, s in self._blocks(RESTRICT, l + 1)])
         lines = range(1, len(self.shapes))
-        self._phase(self._pairs(RED, 1) + self._pairs(LINES, *lines[1:]) if self.colours else self._pairs(LINES, *lines))
+        finest = red_black.RED if self.colours else LINES
+        self._phase(self._pairs(finest, 1) + self._pairs(LINES, *lines[1:]))
         self._phase([job for l in self.levels.dense for job in self._blocks(DENSE, l)] + self._groups(*lines))
         self._phase(self._pairs(COLLECT, *lines))
         for l in range(len(sizes) - 2, 0, -1):
             self._phase(self._blocks(PROLONG, l))
         self._phase(self._blocks(FINEST, 0, len(sizes) - 1), ON if self.colours else decision)
         if self.colours:
-            self._second_colour(decision)
+            red_black.second_colour(self, COLLECT, ON, decision)
         return first
-
-    def _second_colour(self, decision):
-        """The other lines of the finest level, with the film that the first ones leave."""
-        self._deflected(SPREAD, ON, BENT, LEFT)
-        self._phase(self._pairs(BLACK, 1))
-        self._phase(self._groups(1))
-        self._phase(self._pairs(COLLECT, 1))
-        self._fine(ADDED, decision)
 
     def _deflected(self, source, decision, back=BACK, rows=ROWS):
         """Change of the pressure -> rows of the Jacobian. Returns the first phase."""

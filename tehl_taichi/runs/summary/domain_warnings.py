@@ -1,4 +1,4 @@
-"""What a domain that ends too near costs: sentences of (store, summary)."""
+"""Warnings about a domain that ends too near: sentences of (store, summary)."""
 
 from tehl_taichi.scene import domain
 from tehl_taichi.scene.scales import Scales

@@ -1,4 +1,4 @@
-"""What is doubtful in the film and the pressure of a stored run: friction, peaks and ripples; functions of (store, summary)
+"""Warnings about the film and the pressure of a stored run: friction, peaks and ripples; functions of (store, summary)
 that give their sentences."""
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""What is doubtful in the results of a run, a sentence each: the scene's own warnings and what its store shows."""
+"""Warnings about the results of a run, a sentence each: the scene's own warnings and what its store shows."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""What `--over` says: keys and their values, as lists, ranges and spans, and keys that change together."""
+"""Syntax of `--over`: keys and their values, as lists, ranges and spans, and keys that change together."""
 
 import json
 import math

@@ -1,4 +1,4 @@
-"""What a study knows of its cases, one JSON line each as they end: a line is whole or was never written."""
+"""Records of the cases of a study, one JSON line each as they end: a line is whole or was never written."""
 
 import io
 import json

@@ -1,4 +1,4 @@
-"""What a sweep varies: a scene, the keys that change and their values; its cases, and which of them the scene refuses."""
+"""Plan of a sweep: a scene, the keys that change and their values; its cases, and which of them the scene refuses."""
 
 import contextlib
 import hashlib

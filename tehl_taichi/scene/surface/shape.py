@@ -1,4 +1,4 @@
-"""What a feature can be: each shape is an entry of `scene/surface/shapes/`, one file."""
+"""Base of the shapes of features: each shape is an entry of `scene/surface/shapes/`, one file."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field

@@ -1,4 +1,4 @@
-"""What a format is, and how a column of it is called."""
+"""Entry of a file format, and names of its columns."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

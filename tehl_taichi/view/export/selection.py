@@ -1,4 +1,4 @@
-"""Which moments and which surface points of a run are requested."""
+"""Selection of moments and of surface points of a run."""
 
 from dataclasses import dataclass
 

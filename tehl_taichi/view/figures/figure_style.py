@@ -1,4 +1,4 @@
-"""What figures are made for: file format, dots per inch and width of the column; text and lines follow from the width."""
+"""Style of figures: file format, dots per inch and width of the column; text and lines follow from the width."""
 
 import os
 import textwrap

@@ -1,4 +1,4 @@
-"""Which moments of a run figures show, and what they are called."""
+"""Moments of a run that figures show, and their names."""
 
 from dataclasses import dataclass
 from functools import cached_property

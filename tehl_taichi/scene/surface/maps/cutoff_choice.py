@@ -1,4 +1,4 @@
-"""Whether the grid, the film equation and steel carry what a measured map has, and the cutoff with which they do."""
+"""Choice of a cutoff with which grid, film equation and steel can carry a measured map."""
 
 import bisect
 import math

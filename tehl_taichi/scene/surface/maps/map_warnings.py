@@ -1,4 +1,4 @@
-"""What a measured height map is and whether unit, pixel and grid suit it: lines printed before a run, and doubts."""
+"""Description of a measured height map, and warnings about its unit, pixel and grid."""
 
 import os
 

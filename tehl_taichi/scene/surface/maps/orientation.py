@@ -1,4 +1,4 @@
-"""Which way round a scan lies: from the rows and columns of its file to y and x of the contact."""
+"""Orientation of a scan: from the rows and columns of its file to y and x of the contact."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""Whether the part of a scan that is used was measured, and another part that was."""
+"""Check that the used part of a scan was measured, and the choice of another part."""
 
 import numpy as np
 
