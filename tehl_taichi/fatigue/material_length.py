@@ -34,8 +34,8 @@ def part(scene, surface, reader, centres, progress):
 
 
 def leading(found):
-    """Of a search's summary at the surface and below it: [(part, length in m that its stresses are averaged over, or 0)]; the
-    averaged one where its error alone is known."""
+    """Parts of a search's summary at the surface and below it: [(part, length in m that its stresses are averaged over, or 0)];
+    the averaged one where its error alone is known."""
     wide = found.get("averaged", {})
     pairs = [(found, wide), (found.get("below"), wide.get("below"))]
     return [(own, 0.0) if not _alone_known(own, other) else (other, wide["length_m"]) for own, other in pairs if own]

@@ -1,4 +1,4 @@
-"""Where a second index, of stresses averaged over fatigue.length, is given."""
+"""Scenes with a second index, of stresses averaged over fatigue.length."""
 
 from tehl_taichi.scene.rough_surfaces import is_rough
 from tehl_taichi.values.digits import micrometres

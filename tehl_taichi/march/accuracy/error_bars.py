@@ -94,7 +94,7 @@ def bar(readings):
 
 
 def _left_of_spread(steps, part):
-    """The same of a number of a distribution; part: see :class:`GridReading`."""
+    """Distance from the limit for a number of a distribution; part: see :class:`GridReading`."""
     last, *earlier = (abs(step) for step in steps)
     return max([SPREAD * last, *(part * step for step in earlier[:1])])
 
