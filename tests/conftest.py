@@ -1,17 +1,23 @@
+import fcntl
 import functools
 import gc
 import importlib
 import os
 import signal
+import subprocess
 import sys
+import tempfile
+from pathlib import Path
 
 import pytest
 
 MOST = 4  # processes of the whole suite: each needs 1.5 GB
+LOCK = "TEHL_FIRST_KERNELS"  # a file that the process of `first_kernels` locks
 # that compile the kernels of the solvers, half of a cold suite
 KERNELS = tuple(f"tests/{name}" for name in (
-    "cli/", "engine/test_float", "heat/", "march/", "pressure/", "profiles/", "runs/", "scene/", "store/", "test_examples",
-    "test_new", "values/test_coded", "values/test_unit"))
+    "cli/", "engine/test_float", "heat/", "laws/test_criteria", "march/", "pressure/", "profiles/", "runs/", "scene/", "store/",
+    "test_examples", "test_new", "values/test_coded", "values/test_unit"))
+SOLVERS = (*KERNELS, "tests/crack/", "tests/engine/", "tests/fatigue/", "tests/laws/")  # that use Taichi at all
 
 
 def pytest_configure():
@@ -31,6 +37,38 @@ def pytest_cmdline_main(config):
     o, asked = config.option, getattr(config.option, "numprocesses", 0)
     if asked is None and "PYTEST_XDIST_WORKER" not in os.environ and any(map(os.path.isdir, config.args)) and not o.usepdb:
         o.numprocesses, o.dist, o.loadscopereorder = min(len(os.sched_getaffinity(0)), MOST), "loadfile", False
+        first_kernels(config)
+
+
+def first_kernels(config):
+    """Start to compile what most processes need, into an empty cache. Taichi writes its cache at the end of a process, so the
+    processes of the suite would compile it for themselves each, and so would the commands that they start."""
+    from tehl_taichi.engine import runtime
+
+    if any(runtime.preferred_cache().glob("*.tic")):
+        return
+    folder = tempfile.TemporaryDirectory()
+    config.add_cleanup(folder.cleanup)
+    os.environ[LOCK] = os.path.join(folder.name, "lock")
+    with open(os.environ[LOCK], "w") as held:
+        fcntl.flock(held, fcntl.LOCK_EX)
+        subprocess.Popen([sys.executable, Path(__file__).with_name("first_kernels.py")], pass_fds=[held.fileno()],
+                         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+
+@functools.cache
+def take_first_kernels():
+    """Once they are written, and by the same tables: Taichi knows a kernel by the number of its table."""
+    from first_kernels import run
+
+    with open(os.environ[LOCK]) as held:
+        fcntl.flock(held, fcntl.LOCK_SH)
+    run()
+
+
+def pytest_runtest_setup(item):
+    if LOCK in os.environ and item.nodeid.startswith(SOLVERS):
+        take_first_kernels()
 
 
 @pytest.hookimpl(optionalhook=True)

@@ -129,7 +129,7 @@ def test_the_command_tells_it_after_the_look_alone(taichi_cpu, tmp_path, monkeyp
     from tehl_cli.main import app
     from typer.testing import CliRunner
 
-    words = ["run", "gear", "--grid", "64x16", "--isothermal", "--no-fatigue", "--threads", "2", "--precision", "f64",
+    words = ["run", "gear", "--grid", "64x16", "--isothermal", "--no-fatigue", "--threads", "2",
              "--force", "--out", str(tmp_path / "a.zarr"), "--steps"]
     told = {steps: CliRunner().invoke(app, [*words, *steps]).output for steps in (("0",), ("1",), ("0", "--quiet"))}
     assert ["the whole passage: 48 steps" in output for output in told.values()] == [True, False, False], told
