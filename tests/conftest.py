@@ -115,6 +115,24 @@ def taichi_cpu():
     return runtime.start(threads=2)
 
 
+@pytest.fixture(autouse=True)
+def figures_built_alone(request, monkeypatch):
+    """Figures are built, but neither laid out nor rendered, 0.2 s each: files hold an empty one. Those of tests/view and of
+    tests marked `rendered` are whole."""
+    if request.node.nodeid.startswith("tests/view/") or request.node.get_closest_marker("rendered"):
+        return
+    style = importlib.import_module("tehl_taichi.view.figures.figure_style").FigureStyle
+    save = style.save
+
+    def empty(draw):
+        from matplotlib.figure import Figure
+
+        draw()
+        return Figure((1, 1))
+
+    monkeypatch.setattr(style, "save", lambda page, draw, path, of=None: save(page, lambda: empty(draw), path, of))
+
+
 @pytest.fixture
 def without_library(monkeypatch):
     """Reports without plotly.js, of which each takes 0.2 s to write."""

@@ -344,6 +344,7 @@ def rolling_store(path):
     return made
 
 
+@pytest.mark.rendered
 def test_the_command(taichi_cpu, tmp_path, capsys):
     from tehl_cli.crack_command import crack
 

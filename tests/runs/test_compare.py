@@ -29,7 +29,7 @@ def runs(taichi_cpu, tmp_path_factory):
     """Two finished short passages: the same asperity at two slips."""
     folder = tmp_path_factory.mktemp("runs")
     base = tehl.scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16, "thermal.on": False, "numerics.estimate_error": False,
-                                         "time.x_start": -1.4, "time.steps": 8})
+                                         "time.x_start": -1.4, "time.steps": 4, "fatigue.depths": ()})
     return [tehl.run(base.replace(srr=srr), folder / f"{name}.zarr") for name, srr in (("slow", -0.12), ("fast", 0.12))]
 
 
@@ -141,6 +141,7 @@ def test_runs_of_one_scene(tmp_path):
     assert "the scenes are identical" in told and "differences" not in told and "equal in all: Hertz" in told
 
 
+@pytest.mark.rendered
 def test_the_figure_shows_all_runs_at_one_position(runs, tmp_path, monkeypatch):
     shown = []
     monkeypatch.setattr(compare_figure, "_legend", lambda page, figure, curves: shown.append((figure, curves)))

@@ -70,6 +70,7 @@ def test_a_folder_of_another_flank_is_refused_before_anything_runs(steady):
         tehl.flank("fzg-c", torque=200.0, at=("A", "C"), steady=True, changes=SMALL, folder=steady.folder)
 
 
+@pytest.mark.rendered
 def test_files_and_figure_tell_the_same(steady):
     record = json.loads((steady.folder / "flank.json").read_text())
     assert record["positions"][0]["summary"]["steady"] == steady.rows[0][2]["steady"]

@@ -156,6 +156,7 @@ def test_many_small_cases_on_a_cluster_cost_little(client, tmp_path):
     assert all(np.array_equal(study.values[name], values, equal_nan=True) for name, values in here.values.items())
 
 
+@pytest.mark.rendered
 def test_pictures_of_a_study(study, tmp_path):
     pytest.importorskip("matplotlib")
     names = {path.name for path in study.plot(tmp_path, dpi=40)}
