@@ -125,11 +125,12 @@ def by_fifo(file, outside):
 @pytest.mark.parametrize("replaced", [by_symlink, by_hard_link, by_fifo])
 @pytest.mark.parametrize("kind", ARCHIVES)
 def test_no_file_of_an_archive_leads_writing_outside(tmp_path, kind, replaced):
-    """Every file in turn, through each door. What opens no more (a FIFO in place of the attributes) is refused for that."""
+    """Every file of the folder and every fourth of those below in turn, through each door. What opens no more (a FIFO in place
+    of the attributes) is refused for that."""
     path, kept, outside = ARCHIVES[kind][0](tmp_path / "made"), tmp_path / "kept", tmp_path / "outside"
     files = sorted(file for file in path.rglob("*") if file.is_file())
     assert len(files) > 4
-    for file in files:
+    for file in (one for n, one in enumerate(files) if one.parent == path or n % 4 == 0):
         shutil.copy2(file, kept)
         replaced(file, outside)
         before = snapshot(tmp_path)

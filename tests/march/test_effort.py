@@ -41,7 +41,10 @@ SCENES = {
 }
 
 
-@pytest.mark.parametrize("name", COUNTS)
+SLOW = ("ridge that leaves, with temperatures",)
+
+
+@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.slow] * (name in SLOW)) for name in COUNTS])
 def test_work_is_what_it_was(taichi_cpu, name):
     from tehl_taichi.march.passage import march
 

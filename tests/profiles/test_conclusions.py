@@ -139,7 +139,7 @@ def test_every_case_has_its_own_store():
 
 
 def test_a_row_is_computed_once_and_kept(taichi_cpu, tmp_path):
-    short = scene("gear").replace(**{"thermal.on": False, "time.steps": 8})
+    short = scene("gear").replace(**{"thermal.on": False, "time.steps": 4})
     lines = []
     found, deep = conclusions.rows("short", short, tmp_path, ((64, 16), (96, 16)), lines.append), conclusions.DEEP["whole"]
     assert len(lines) == 2 and [one.body for one in found] == ["a", "b"] and {one.grid for one in found} == {"96x16"}

@@ -73,8 +73,7 @@ def test_one_sentence_settles_ends_and_sides_at_once(taichi_cpu):
     assert not any("grid." in sentence and ("passes" in sentence or "cut off" in sentence) for sentence in fitting.warnings())
     cells = [np.array(s.cell(described.grid)) for described in (tight, fitting) for s in [Scales.of(described)]]
     assert (cells[1] <= 1.05 * cells[0]).all()
-    shots = list(tehl.march(fitting.replace(**{"time.steps": 2})))
-    assert len(shots) == 3 and shots[-1].y[-1] >= 450e-6
+    assert next(tehl.march(fitting)).y[-1] >= 450e-6
 
 
 def test_a_refused_feature_is_told_the_whole_domain():

@@ -19,7 +19,8 @@ from tehl_taichi.runs.summary.summary_numbers import BARS
 from tehl_taichi.store.store import Store
 
 # a ridge: one dimension, 51 steps in a second
-RIDGE = ("run", "gear", "--set", "feature.shape=ridge", "--grid", "64x8", "--isothermal", "--quiet", "--threads", "2")
+RIDGE = ("run", "gear", "--set", "feature.shape=ridge", "--grid", "64x8", "--isothermal", "--quiet", "--threads", "2",
+         "--set", "fatigue.depths=[]")
 
 
 @pytest.fixture

@@ -60,7 +60,7 @@ def test_the_same_bits_by_any_number_of_workers(problem, size, patience):
     assert x.tobytes() == y.tobytes() and rest == others and rest[1] > 5
 
 
-@pytest.mark.parametrize("problem", [("f32", "jacobi"), ("f64", "jacobi"),
+@pytest.mark.parametrize("problem", [("f64", "jacobi"), pytest.param(("f32", "jacobi"), marks=pytest.mark.slow),
                                      pytest.param(("f64", "red-black"), marks=pytest.mark.slow)], ids="-".join, indirect=True)
 def test_each_phase_as_a_launch_of_its_own_gives_the_same_bits(problem, monkeypatch):
     """As a graphics card does it, from the first film on."""

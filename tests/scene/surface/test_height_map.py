@@ -262,7 +262,7 @@ def moved(taichi_cpu, tmp_path_factory):
 
     home = tmp_path_factory.mktemp("home")
     turned = {"feature.transpose": True, "feature.mirror_x": True}
-    description = with_map(wave(home, length=60.0), **{"time.steps": 4}, **turned)
+    description = with_map(wave(home, length=60.0), **{"time.steps": 4, "fatigue.depths": ()}, **turned)
     whole = completed(description, home / "whole.zarr")
     run = march(description)
     broken = Store.create(home / "broken.zarr", description, next(run), 5, {"steady_error": "{}", "steady_unknown": "{}"})
