@@ -72,6 +72,12 @@ def _with_value(error):
     return f"{found[0]['input']!r}; {error.message[0].lower()}{error.message[1:]}" if found else error.message
 
 
+# {heading of the help: its commands}, in this order
+PANELS = {"Compute": ("run", "resume", "sweep", "flank", "fatigue", "crack"),
+          "Show results": ("show", "plot", "report", "compare", "animate", "export"),
+          "Scene files and choices": ("new", "scenes", "oils", "steels", "laws"),
+          "This program": ("doctor", "bench", "cite")}
+
 app = typer.Typer(cls=Commands, no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False,
                   rich_markup_mode="rich")
 
@@ -109,3 +115,18 @@ export_command.register(app)
 report_command.register(app)
 bench_command.register(app)
 cite_command.register(app)
+
+
+def _sort():
+    """Commands in the order of PANELS, each below its heading."""
+    panels = {name: panel for panel, names in PANELS.items() for name in names}
+    for command in app.registered_commands:
+        function: Any = command.callback
+        command.name = command.name or function.__name__
+        command.rich_help_panel = panels[command.name]
+    app.registered_commands.sort(key=lambda command: list(panels).index(str(command.name)))
+    for group in app.registered_groups:
+        group.rich_help_panel = panels[str(group.name)]
+
+
+_sort()
