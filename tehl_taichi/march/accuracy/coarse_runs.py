@@ -34,7 +34,7 @@ RESOLVED, RESOLVED_BELOW = "resolved_Fi_max", "resolved_below_Fi_max"  # of both
 AVERAGED, AVERAGED_BELOW = "averaged_Fi_max", "below_averaged_Fi_max"  # of both, of stresses over fatigue.length
 CONTACT, AREA = "contact_load_fraction_max", "contact_area_share_max"
 PART = 0.1  # a
-FEW = 2.0  # points; a bar has 1.5 times as many
+FEW = 4 / 3  # points; a bar has 1.5 times as many
 TOP, REST = 1.0, 0.5  # GridReading.spread of the 99th percentile at the surface, which short waves raise, and of all others
 SHALLOW = Reason("it is largest at the smallest searched depth (half a cell), which no grid resolves", "shallow")
 SHALLOWEST = 1.5  # of that depth: up to the next one that is searched
@@ -100,7 +100,7 @@ def _reading(entry, scalar, scene):
 
 
 def _spread_reading(part, key):
-    """Reading of a number of a distribution; a share of so few points may be off by three of them (95 %) where it is none."""
+    """Reading of a number of a distribution; a share may be off by two of its points where it is none."""
     blur = FEW / part["points"] if key == "share_above_1" else 0.0
     return GridReading(float(part[key]), blur=blur, spread=TOP if key == "p99" and "depth_m" not in part else REST)
 
