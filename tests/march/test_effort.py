@@ -161,6 +161,20 @@ def test_a_pressure_is_solved_for_roughly_while_temperatures_are_far_off(change,
     assert report.newton == 1 + 2 * sum(one in ("solve", "roughly") for one in solves.asked)
 
 
+@pytest.mark.parametrize("temperatures, rounds, settles", [
+    ([16.0, 7.4, 7.4, 3.6, 2.3, 7.1, 3.8, 5.8, 3.3] + [2.5] * 23, 9, False),  # one wall, the other wall
+    ([16.0, 3.2, 1.2, 0.86, 1.5, 0.9, 0.88, 0.8, 0.7, 0.5, 0.3, 0.1, 0.04], 12, True),  # smaller in time
+    ([16.0 * 0.8**n for n in range(32)], 26, True),
+    ([16.0 * 0.9**n for n in range(32)], 32, False),  # settles too late
+])
+def test_rounds_that_do_not_settle_are_given_up(temperatures, rounds, settles):
+    from tehl_taichi.march.coupling import exchange
+
+    solves = Solves(0.01, 1e-2, [1e-7] * 40, temperatures)
+    assert exchange(solves, solves, solves.solve, most=32, sparing=True).converged == settles
+    assert solves.asked.count("heat") == rounds
+
+
 def test_a_start_solves_every_pressure_to_the_end():
     from tehl_taichi.march.coupling import exchange
 
