@@ -69,12 +69,12 @@ def test_a_search_has_them_at_the_surface_and_below(taichi_cpu):
 
 
 def test_bars_of_a_distribution_have_a_part_of_both_steps():
-    """1.75 of the last one; of the one before all at the top of a surface, else a half."""
+    """1.5 of the last one; of the one before all at the top of a surface, else a half."""
     def size(values, spread=0.5, **more):
         return bar([GridReading(value, spread=spread, **more) for value in values])[0]
 
     assert size([0.7, 1.2, 1.21]) == pytest.approx(0.25) and size([0.7, 1.2, 1.21], 1.0) == pytest.approx(0.5)
-    assert size([1.2, 1.21, 1.0]) == pytest.approx(1.75 * 0.21) == size([1.21, 1.0])
+    assert size([1.2, 1.21, 1.0]) == pytest.approx(1.5 * 0.21) == size([1.21, 1.0])
     assert size([0.02, 0.02, 0.0], blur=0.1) == pytest.approx(0.15)  # a share of none is known as well as others
     assert size([0.1, 1.0, 0.02]) > 0.02  # of other numbers such a change says that nothing is known
     assert bar([GridReading(1.0), GridReading(0.02)])[0] is None

@@ -33,7 +33,7 @@ HALVES, BEFORE = 2.0, 0.25
 SWAY = 3.0
 # Of a number of a distribution, which shows no order, since coarse grids have other waves: of the last difference, beside a
 # part of the one before (rough lines, `tehl bench accuracy --only roughness`: docs/decisions/09-rough-statistics.md)
-SPREAD = 1.75
+SPREAD = 1.5
 # Parts of a course continue as a geometric series, for so many of the last difference at most; they may exceed the largest by
 # so much of it, which then is part of the bar
 GROWS_ON, EXCEEDS = 4.0, 0.1
