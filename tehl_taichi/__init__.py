@@ -26,8 +26,8 @@ os.environ.setdefault("TI_ENABLE_PYBUF", "0")
 # a thread would ask its makers for a newer version at every start of a day, from users' machines, and be cut off at a short end
 os.environ.setdefault("TI_SKIP_VERSION_CHECK", "ON")
 
-__version__ = "0.8.0"  # the only place; CITATION.cff repeats it, which a test compares
-__released__ = "2026-11-24"
+__version__ = "0.9.0"  # the only place; CITATION.cff repeats it, which a test compares
+__released__ = "2026-11-27"
 
 # after the settings above, which numpy reads
 from tehl_taichi.api import (  # noqa: E402
