@@ -6,6 +6,7 @@ QUANTILES = {"median": 0.5, "p90": 0.9, "p99": 0.99}
 NUMBERS = ("share_above_1", *QUANTILES)
 SAMPLE = 256  # points whose cycles are counted
 DEPTHS = (0.02, 0.05, 0.1, 0.2, 0.5)  # a: the same on every grid, for error bars
+SEEN = 2.0  # times the smallest searched depth, half a cell: nearer to the surface no coarser grid has a number to compare with
 
 
 def weights(passage):
@@ -56,14 +57,15 @@ def sample(counts):
 
 def below(passage, profiles, counts, limit):
     """Statistics at DEPTHS of the points under the rows of `profiles` (:class:`tehl_taichi.fatigue.depth_profile.Profile`):
-    "by_depth", and those of the depth with the largest 99th percentile; between the searched depths linear in their
-    logarithm."""
+    "by_depth", and those of the depth with the largest 99th percentile, of a cell at least; between the searched depths linear
+    in their logarithm."""
     rows = [int(np.argmin(np.abs(passage.y - profile.worst.y))) for profile in profiles]
     each = np.concatenate([counts[:, row] if counts[:, row].any() else np.ones(len(counts)) for row in rows])
     logs, f = np.log(profiles[0].depths), np.concatenate([profile.f for profile in profiles], axis=1) / limit
     depths = [share * passage.a for share in DEPTHS if logs[0] <= np.log(share * passage.a) <= logs[-1]]
     out = [{"depth_m": depth, **statistics(_at(logs, f, np.log(depth)), each)} for depth in depths]
-    return {**max(out, key=lambda one: one["p99"]), "by_depth": out}
+    seen = [one for one in out if one["depth_m"] >= SEEN * profiles[0].depths[0]]
+    return {**max(seen or out, key=lambda one: one["p99"]), "by_depth": out}
 
 
 def _at(logs, f, log):

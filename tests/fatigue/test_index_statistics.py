@@ -68,6 +68,16 @@ def test_a_search_has_them_at_the_surface_and_below(taichi_cpu):
     assert at_limit["cycles_above_1"] >= 1 and 0 < at_limit["statistics"]["cycles_above_1"] < 3
 
 
+@pytest.mark.parametrize("cell, chosen", [(0.03, 0.05), (0.01, 0.02), (0.6, 0.5)])
+def test_the_worst_depth_is_one_that_a_coarser_grid_sees(cell, chosen):
+    """Under an index that falls with depth, the first of a cell at least; all depths stay listed."""
+    depths = np.geomspace(0.5 * cell, 1.0, 12) * 1e-3
+    profile = SimpleNamespace(depths=depths, f=2e5 / depths[:, None] ** 1.0 * np.ones(40), worst=SimpleNamespace(y=0.0))
+    found = index_statistics.below(SimpleNamespace(a=1e-3, y=np.zeros(1)), [profile], np.ones((40, 1)), 4e8)
+    assert found["depth_m"] == pytest.approx(chosen * 1e-3)
+    assert max(one["p99"] for one in found["by_depth"]) >= found["p99"] and len(found["by_depth"]) > (chosen < 0.5)
+
+
 def test_bars_of_a_distribution_have_a_part_of_both_steps():
     """1.5 of the last one; of the one before all at the top of a surface, else a half."""
     def size(values, spread=0.5, **more):
