@@ -137,13 +137,14 @@ def test_ctrl_c_in_a_suite_ends_in_a_sentence(tmp_path):
     assert run.wait() == 4 and "tehl: interrupted; all stored data are kept" in run.stderr.read()
 
 
-@pytest.mark.parametrize("stop", [signal.SIGKILL, pytest.param(signal.SIGINT, marks=pytest.mark.slow)])
-def test_a_repeated_run_that_breaks_opens_and_resumes_to_the_same_result(finished, tmp_path, stop):
-    """Its first steps on one thread instead of two: the same numbers."""
+@pytest.mark.parametrize("stop, threads", [(signal.SIGKILL, 2), pytest.param(signal.SIGKILL, 1, marks=pytest.mark.slow),
+                                           pytest.param(signal.SIGINT, 1, marks=pytest.mark.slow)])
+def test_a_repeated_run_that_breaks_opens_and_resumes_to_the_same_result(finished, tmp_path, stop, threads):
+    """Whatever the threads of its first steps; `.ci/run` runs the wheel on one."""
     from tehl_taichi.store.store import Store
 
     path = tmp_path / "broken.zarr"
-    words = "run", str(finished[0]), "--threads", "1", "--out", str(path)
+    words = "run", str(finished[0]), "--threads", str(threads), "--out", str(path)
     run = subprocess.Popen([*CALL, *words], stderr=subprocess.DEVNULL)
     while not (path / ".checkpoints").exists() and run.poll() is None:
         time.sleep(0.02)

@@ -75,9 +75,10 @@ def test_with_temperatures_and_a_shear_limit(taichi_cpu):
 
 @pytest.mark.parametrize("srr", [0.0, -0.1])
 @pytest.mark.parametrize("law, step", [({"law": "limiting", "tau_L0": 1e5, "gamma": 5e-4}, 1e-8),
-                                       ({"law": "eyring", "tau_0": 3e4}, 1e-6),
+                                       # 4 and 10 s of compilation; tests/laws/test_sheared_flow.py has their derivatives
+                                       pytest.param({"law": "eyring", "tau_0": 3e4}, 1e-6, marks=pytest.mark.slow),
                                        pytest.param({"law": "carreau", "tau_0": 3e4, "carreau_n": 0.5}, 1e-6,
-                                                    marks=pytest.mark.slow)],  # 10 s of compilation
+                                                    marks=pytest.mark.slow)],
                          ids=lambda law: law["law"] if isinstance(law, dict) else "")
 def test_walls_that_yield_to_the_pressure(taichi_cpu, law, step, srr):
     """In pure rolling, where the law acts by the gradient of the pressure alone, and with some slip; limiting: a step that few
