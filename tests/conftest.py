@@ -15,8 +15,8 @@ MOST = 4  # processes of the whole suite: each needs 1.5 GB
 LOCK = "TEHL_FIRST_KERNELS"  # a file that the process of `first_kernels` locks
 # that compile the kernels of the solvers, half of a cold suite
 KERNELS = tuple(f"tests/{name}" for name in (
-    "cli/", "engine/test_float", "heat/", "laws/test_criteria", "march/", "pressure/", "profiles/", "runs/", "scene/", "store/",
-    "test_examples", "test_new", "values/test_coded", "values/test_unit"))
+    "cli/", "engine/test_float", "fatigue/test_findley", "heat/", "laws/test_criteria", "march/", "pressure/", "profiles/",
+    "runs/", "scene/", "store/", "test_examples", "test_new", "values/test_coded", "values/test_unit"))
 SOLVERS = (*KERNELS, "tests/crack/", "tests/engine/", "tests/fatigue/", "tests/laws/")  # that use Taichi at all
 
 
