@@ -183,7 +183,7 @@ def test_a_march_that_is_lost_is_no_state(monkeypatch):
     forced_in_time(monkeypatch)
     monkeypatch.setattr(pseudo_transient, "exchange", lambda *_: SolveReport(1e-9, 0.0, 1e-9, 3, 9, False))
     with pytest.raises(NotConverged, match="no further time step converges"):
-        first()
+        first("gear")
 
 
 def test_a_slip_that_no_step_follows_grows_more_slowly(monkeypatch):
