@@ -1,4 +1,4 @@
-"""A passage made of formulas, as a reader of stores."""
+"""A passage and a dry contact made of formulas, as readers of stores."""
 
 import numpy as np
 
@@ -28,4 +28,24 @@ class Rolling:
         p = self.s.p_H * hertz * (1 + bump)
         found = {"pressure": p, "traction_x_a": 0.05 * p, "traction_y_a": 0 * p, "temperature_a": 90 + 40 * hertz * (1 + bump)}
         found |= {"traction_x_b": -found["traction_x_a"], "traction_y_b": 0 * p, "temperature_b": found["temperature_a"]}
+        return {name: found[name] for name in names}
+
+
+class Dry:
+    """The dry contact of a scene, with shear and heat that the bodies share."""
+
+    def __init__(self, scene, cells=16, shear=0.0, heat=0.0):
+        s, self.shear, self.heat = Scales.of(scene), shear, heat
+        self.x = np.linspace(-2, 2, 4 * cells + 1) * s.a
+        self.y = np.zeros(1) if s.line else np.linspace(0, 1.5, 3 * cells // 2 + 1) * s.b
+        inside = 1 - (self.x[:, None] / s.a) ** 2 - (0 if s.line else (self.y[None] / s.b) ** 2)
+        self.p = s.p_H * np.sqrt(np.maximum(inside, 0.0))
+
+    def __len__(self):
+        return 1
+
+    def fields(self, n, names):
+        p = self.p
+        found = {"pressure": p, "traction_x_a": self.shear * p, "traction_y_a": 0 * p, "temperature_a": 40 + self.heat * p}
+        found |= {"traction_x_b": -self.shear * p, "traction_y_b": 0 * p, "temperature_b": found["temperature_a"]}
         return {name: found[name] for name in names}

@@ -12,6 +12,7 @@ from tehl_taichi.fatigue import (
     resolved_part,
     result_arrays,
     stress_cycles,
+    von_mises,
 )
 from tehl_taichi.fatigue.judged_surfaces import resting
 from tehl_taichi.fatigue.layer import layer
@@ -135,6 +136,8 @@ def _result(scene, passage, layers, below, alone):
     arrays = {**result_arrays.of_surface(surface, passage, limit, counts), "worst": surface.worst.history(centres)}
     summary |= {"cycles_above_1": stress_cycles.above(surface.worst.stress, surface.worst.normal, scene.fatigue),
                 "statistics": _statistics(surface, counts, limit)}
+    peaks = [found.mises for found in layers] + below.mises
+    summary["von_mises"] = von_mises.summary(peaks, surface.mises.value, passage.surface)
     points = [found.worst for found in layers[1:]] + below.worst
     if points:
         point = max(points, key=lambda point: point.f)

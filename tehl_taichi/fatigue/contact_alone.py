@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl_taichi.fatigue import depth_profile, findley
+from tehl_taichi.fatigue import depth_profile, findley, von_mises
 from tehl_taichi.fatigue.stress.row_histories import histories_of
 from tehl_taichi.fatigue.stress.steady_sweep import SteadySweep
 
@@ -26,16 +26,20 @@ def search(scene, reader, surface):
     the surface where fatigue.depths is not empty.
     """
     sweep = SteadySweep(scene, reader, surface)
-    surface_f, _ = findley.search(_histories(sweep, [0.0])[0], *depth_profile.rule(sweep))
+    history = _histories(sweep, [0.0])[0]
+    surface_f, _ = findley.search(history, *depth_profile.rule(sweep))
     f, worst, depth = surface_f, float(surface_f[0]), 0.0
+    peaks = [top := von_mises.peak(history, lambda n: (0.0, 0.0, 0.0))]
     if scene.fatigue.depths:
         under = depth_profile.ladder(sweep)
         profile = depth_profile.of_row(sweep, under, _histories(sweep, under), sweep.middle)
         f = np.append(surface_f, profile.f[:, 0])
+        peaks.append(profile.mises)
         worst, depth = max((worst, 0.0), (profile.worst.f, profile.worst.depth))
     limit = scene.fatigue.endurance
     return ContactAlone({"Fi_max": worst / limit, "findley_stress_max_Pa": worst, "depth_m": depth,
-                         "surface_Fi_max": float(surface_f[0]) / limit, "shear_counted": scene.fatigue.shear}, f)
+                         "surface_Fi_max": float(surface_f[0]) / limit, "shear_counted": scene.fatigue.shear,
+                         "von_mises": von_mises.summary(peaks, top.value, surface)}, f)
 
 
 def _histories(sweep, depths):

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl_taichi.fatigue import findley
+from tehl_taichi.fatigue import findley, von_mises
 from tehl_taichi.fatigue.stress.row_histories import histories_of
 from tehl_taichi.fatigue.worst_point import WorstPoint
 from tehl_taichi.values.interpolation import lagrange
@@ -22,11 +22,12 @@ CLOSE = 0.9      # points within this of the worst of a rung are followed betwee
 
 @dataclass(frozen=True)
 class Profile:
-    """Findley stress f (depths, x') Pa at depths (m) and the worst point of all depths."""
+    """Findley stress f (depths, x') Pa at depths (m), the worst point of all depths, the largest von Mises stress."""
 
     depths: np.ndarray
     f: np.ndarray
     worst: WorstPoint
+    mises: von_mises.VonMisesPeak
 
 
 def ladder(passage):
@@ -67,8 +68,16 @@ def of_row(passage, depths, histories, row):
 
 
 def _profile(passage, depths, histories, f, row):
-    depth, point, *rest = _refined(passage, np.log(depths), histories, f)
-    return Profile(depths, f, WorstPoint(depth, float(passage.x[point]), float(passage.reader.y[row]), *rest))
+    logs, y = np.log(depths), float(passage.reader.y[row])
+    depth, point, *rest = _refined(logs, histories, f, lambda stress: findley.search(stress, *rule(passage)))
+    return Profile(depths, f, WorstPoint(depth, float(passage.x[point]), y, *rest), _mises(passage, logs, histories, y))
+
+
+def _mises(passage, logs, histories, y):
+    """The largest von Mises stress of histories (depths, x', moments, 6) Pa of the points under the row at y (m)."""
+    values = np.stack([von_mises.largest(of_depth) for of_depth in histories])
+    depth, point, value, *_ = _refined(logs, histories, values, lambda stress: (von_mises.largest(stress),) * 2)
+    return von_mises.VonMisesPeak(value, depth, float(passage.x[point]), y)
 
 
 def rule(passage):
@@ -77,24 +86,25 @@ def rule(passage):
     return fatigue.kappa, True, fatigue.criterion
 
 
-def _refined(passage, logs, histories, f):
-    """(depth, point, f, stress, normal) of the worst point, between the rungs too: the step halved around the best."""
-    best = int(np.argmax(f.max(axis=1)))
-    follow = np.flatnonzero(f[best] >= CLOSE * f[best].max())
+def _refined(logs, histories, values, search):
+    """(depth, point, value, stress, more) of the largest of values (depths, x'), between the rungs too: the step halved around
+    the best. search(stress): the values of histories (points, moments, 6), and more of each."""
+    best = int(np.argmax(values.max(axis=1)))
+    follow = np.flatnonzero(values[best] >= CLOSE * values[best].max())
 
     def at(log):
         stress = _between(logs, histories[:, follow], log)
-        values, normals = findley.search(stress, *rule(passage))
-        top = int(np.argmax(values))
-        return float(values[top]), log, int(follow[top]), stress[top], normals[top]
+        found, more = search(stress)
+        top = int(np.argmax(found))
+        return float(found[top]), log, int(follow[top]), stress[top], more[top]
 
     top, step = at(logs[best]), logs[1] - logs[0]
     for _ in range(HALVINGS):
         step *= 0.5
         sides = [at(log) for log in (top[1] - step, top[1] + step) if logs[0] <= log <= logs[-1]]
         top = max([top, *sides], key=lambda found: found[0])
-    worst, log, point, stress, normal = top
-    return float(np.exp(log)), point, worst, stress, normal
+    largest, log, point, stress, more = top
+    return float(np.exp(log)), point, largest, stress, more
 
 
 def _between(logs, histories, log):

@@ -30,6 +30,11 @@ class DepthResult:
         return _points(self.profiles) + ([self.plane.worst] if self.plane else [])
 
     @property
+    def mises(self):
+        """Largest von Mises stresses of all that was searched."""
+        return [profile.mises for profile in self.profiles] + ([self.plane.mises] if self.plane else [])
+
+    @property
     def early(self):
         """Worst points of the early moments."""
         planes = [self.plane.early, self.early_plane] if self.early_plane else []

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl_taichi.fatigue import findley, index_statistics, stress_cycles
+from tehl_taichi.fatigue import findley, index_statistics, stress_cycles, von_mises
 from tehl_taichi.fatigue.stress.row_histories import at_the_surface
 from tehl_taichi.fatigue.stress.thermal_stress import WORKERS
 from tehl_taichi.fatigue.worst_point import WorstPoint, over_some, worse
@@ -25,8 +25,8 @@ class EarlyLayer:
 
 @dataclass(frozen=True)
 class Layer:
-    """What was found at one depth: maps (nx, rows), the worst point, and the EarlyLayer of the early moments where it is
-    wanted. cycles: above the limit per passage, nan at points that are not in the sample."""
+    """What was found at one depth: maps (nx, rows), the worst point, the largest von Mises stress, and the EarlyLayer of the
+    early moments where it is wanted. cycles: above the limit per passage, nan at points that are not in the sample."""
 
     depth: float
     f: np.ndarray
@@ -35,12 +35,13 @@ class Layer:
     sigma1: np.ndarray
     cycles: np.ndarray
     worst: WorstPoint
+    mises: von_mises.VonMisesPeak
     early: EarlyLayer | None
 
 
 def layer(scene, passage, depth, progress, early):
     """Find a Layer: stresses and search of all points at a depth (m). early: moments that are searched apart, or None."""
-    parts, worst, sooner = [], None, _Early(scene, passage, depth, early)
+    parts, worst, peaks, sooner = [], None, [], _Early(scene, passage, depth, early)
     counted = index_statistics.sample(index_statistics.weights(passage))
     for rows, history in _blocks(scene, passage, depth, progress):
         f, normals = findley.search(history, scene.fatigue.kappa, criterion=scene.fatigue.criterion, notify=progress)
@@ -48,8 +49,9 @@ def layer(scene, passage, depth, progress, early):
         cycles = _cycles(history, normals, counted[:, rows].ravel(), scene.fatigue)
         parts.append([v.reshape(shape) for v in (f, *findley.angles(normals), _tension(history), cycles)])
         worst = worse(worst, passage.places(depth, rows), history, f, normals)
+        peaks.append(von_mises.peak(history, passage.places(depth, rows)))
         sooner.add(rows, history, (f, normals))
-    return Layer(depth, *(np.concatenate(part, axis=1) for part in zip(*parts)), worst, sooner.found)
+    return Layer(depth, *(np.concatenate(part, axis=1) for part in zip(*parts)), worst, max(peaks), sooner.found)
 
 
 def early_layer(scene, passage, depth, progress, early):

@@ -9,8 +9,8 @@ from tehl_taichi.report.document import Answer
 from tehl_taichi.report.number_text import index, value_text
 from tehl_taichi.report.scene_text import WHOLE, material, moments, when
 from tehl_taichi.runs.summary import rim_warnings
-from tehl_taichi.runs.summary.result_warnings import STEEL, YIELDS, largest_pressure
-from tehl_taichi.scene import feature_wording
+from tehl_taichi.runs.summary.result_warnings import place
+from tehl_taichi.scene import feature_wording, yield_stress
 from tehl_taichi.scene.timeline import total_steps
 from tehl_taichi.values.digits import micrometres, with_error
 
@@ -254,12 +254,13 @@ def _cut(store):
 
 
 def _yielding(summary):
-    """What follows from pressures under which steel yields: first of all doubts, it changes what the index means."""
-    p = largest_pressure(summary)
-    if "fatigue" not in summary or p <= YIELDS:
+    """What follows where a body would yield: first of all doubts, it changes what the index means."""
+    found = summary.get("von_mises")
+    if "fatigue" not in summary or not found or not found["yields"]:
         return ()
-    return (f"The pressure reaches {p / 1e9:.1f} GPa, and {STEEL}. Both bodies are elastic here, while real bodies would "
-            "flatten such a peak; the index is that of elastic bodies.",)
+    return (f"The von Mises stress reaches {found['max_Pa'] / 1e9:.2f} GPa {place(found, 'µm')}, more than "
+            f"{yield_stress.words(found['yield_stress_Pa'])}. Both bodies are elastic here, while real ones would yield there "
+            "and flatten; the index is that of elastic bodies.",)
 
 
 def _counted(scene):

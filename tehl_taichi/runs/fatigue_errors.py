@@ -9,7 +9,7 @@ from dataclasses import asdict
 
 from tehl_taichi.fatigue.judged_surfaces import by_surface
 from tehl_taichi.fatigue.pressure_alone import searched
-from tehl_taichi.march.accuracy.coarse_runs import FI, indices
+from tehl_taichi.march.accuracy.coarse_runs import FI, indices, von_mises_parts
 from tehl_taichi.values.coded_text import Reason, reasons_of, unknown_of
 
 OTHER = Reason("the coarse-grid runs used the constants and moments of the run, not these", "other")
@@ -28,6 +28,17 @@ def add_errors(searches, section, store):
         before = stored.get(name, {}) if alike else {}
         part["error"], reasons = _scaled(part, before)
         part |= unknown_of(reasons)
+    _add_to_von_mises(searches, by_surface(store.summary))
+
+
+def _add_to_von_mises(searches, stored):
+    """The error of a von Mises stress, where it is that of the stored search."""
+    before = von_mises_parts(stored)
+    for name, part in von_mises_parts(searches).items():
+        known = before.get(name, {})
+        same = abs(part["max_Pa"] - known.get("max_Pa", 0.0)) <= SAME * part["max_Pa"]
+        error, reasons = (known["error"]["max_Pa"], reasons_of(known)) if same else (None, {"max_Pa": OTHER})
+        part |= {"error": {"max_Pa": error}, **unknown_of(reasons)}
 
 
 def _parts(searches):

@@ -1,6 +1,7 @@
 """Progress of a run: the protocol, silent by default, and one that prints lines."""
 
 import contextlib
+import math
 import sys
 import time
 
@@ -25,6 +26,9 @@ class Progress:
     >>> Bar().stage("passage", 3, 192)
     passage 3/192
     """
+
+    def begin(self, scene):
+        """The scene whose passage is marched from here on."""
 
     def say(self, text):
         """A sentence about what is done: what the scene leaves out, what was read, what comes next."""
@@ -60,6 +64,12 @@ class Lines(Progress):
 
     def __init__(self, stream=None):
         self.stream, self.total, self.last, self.pace, self.yielded = stream, 0, time.perf_counter(), Pace(), False
+        self.limit = math.inf  # Pa, of pressures: from it on a body of the scene may yield
+
+    def begin(self, scene):
+        from tehl_taichi.scene import yield_stress
+
+        self.limit = yield_stress.pressure(scene)
 
     def say(self, text):
         with contextlib.suppress(BrokenPipeError):  # a run continues where its output is closed
@@ -85,13 +95,12 @@ class Lines(Progress):
 
     def beyond_steel(self, snapshot):
         """Say it once, as soon as a pressure is more than steel carries: whoever waits may want to stop."""
-        from tehl_taichi.scene.yield_pressure import STEEL, YIELDS
-
         p = snapshot.scalars["p_max_Pa"]
-        if p > YIELDS and not self.yielded:
+        if p > self.limit and not self.yielded:
             self.yielded = True
-            self.say(f"step {snapshot.step}: p_max {p / 1e9:.2f} GPa; {STEEL}, and both bodies are elastic here. The run "
-                     "continues (Ctrl-C stops it). Reduce the load, or set feature.cutoff for a rough scan")
+            self.say(f"step {snapshot.step}: p_max {p / 1e9:.2f} GPa; bodies like these yield under asperities above about "
+                     f"{self.limit / 1e9:.1f} GPa, and both are elastic here. The run continues (Ctrl-C stops it). Reduce the "
+                     "load, or set feature.cutoff for a rough scan")
 
     def _say_at_intervals(self, text):
         if time.perf_counter() - self.last > self.EVERY:

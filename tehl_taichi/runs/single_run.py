@@ -198,6 +198,7 @@ def _march(saved, state, progress):
     from tehl_taichi.scene.timeline import total_steps
 
     total = total_steps(saved.scene)
+    progress.begin(saved.scene)
 
     def notify(snapshot):
         progress.stage(PASSAGE, snapshot.step, total)

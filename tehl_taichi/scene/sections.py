@@ -99,6 +99,8 @@ class Body:
     rho: float = quantity(7850.0, "kg/m3", "density", 100.0, 1e5)
     c: float = quantity(450.0, "J/kgK", "specific heat", 1.0, 1e5)
     alpha: float = quantity(12e-6, "1/K", "thermal expansion, for the thermal stress", 0.0, 1e-3)
+    yield_stress: float = quantity(0.0, "Pa", "uniaxial yield stress, with which the von Mises stress is compared; 0: not "
+                                              "given, 2.2 GPa of hardened bearing steel", 0.0, 1e11, usual=2.2e9, least=1e6)
 
     def __post_init__(self):
         check(self, "bodies")

@@ -142,13 +142,13 @@ def test_words_for_a_time():
 def test_a_pressure_beyond_steel_is_said_once():
     import io
 
-    from tehl_taichi.scene.yield_pressure import YIELDS
-
-    out = io.StringIO()
-    lines = Lines(out)
-    for p in (0.99 * YIELDS, 1.01 * YIELDS, 1.2 * YIELDS):
-        lines.beyond_steel(SimpleNamespace(step=4, scalars={"p_max_Pa": p}))
-        assert len(out.getvalue().splitlines()) == (p > YIELDS)
+    for limit, onset in ((0.0, 4.62e9), (1.5e9, 3.15e9)):
+        out = io.StringIO()
+        lines = Lines(out)
+        lines.begin(tehl.scene("gear").replace(**{"bodies.b.yield_stress": limit}))
+        for p in (0.99 * onset, 1.01 * onset, 1.2 * onset):
+            lines.beyond_steel(SimpleNamespace(step=4, scalars={"p_max_Pa": p}))
+            assert len(out.getvalue().splitlines()) == (p > onset)
 
 
 @pytest.mark.parametrize("total", [4, 100, 119])

@@ -60,6 +60,12 @@ def test_fractions_of_a_cell_are_exact_for_polynomials_of_degree_five():
     np.testing.assert_array_equal(histories._shifted(fields, 6.0, 5), fields[6:11])
 
 
+def without_names(found):
+    """A summary without the words that differ between bodies."""
+    return {key: without_names(value) if isinstance(value, dict) else value for key, value in found.items()
+            if key not in ("surface", "carries_feature")}
+
+
 def test_equal_bodies_with_equal_loads_have_equal_answers():
     """In rolling, with equal shear on both."""
     scene = gear(**{"srr": 0.0, "fatigue.surfaces": "both"})
@@ -71,9 +77,8 @@ def test_equal_bodies_with_equal_loads_have_equal_answers():
             return {name: found[name] for name in names} if names else found
 
     found = assessment.run(scene, Same(scene))
-    one, other = found.summaries.values()
-    drop = {"surface", "carries_feature"}
-    assert {k: v for k, v in one.items() if k not in drop} == {k: v for k, v in other.items() if k not in drop}
+    one, other = (without_names(summary) for summary in found.summaries.values())
+    assert one == other
 
 
 def test_a_body_at_rest_is_refused_by_its_name():

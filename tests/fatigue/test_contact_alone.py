@@ -1,8 +1,7 @@
 """The smooth contact alone: against Hertz, against passages in which nothing changes, its error bars, what is said of it."""
 
-import numpy as np
 import pytest
-from rolling import Rolling
+from rolling import Dry, Rolling
 
 import tehl_taichi as tehl
 from tehl_taichi.fatigue import assessment, contact_alone
@@ -13,26 +12,6 @@ from tehl_taichi.scene.scales import Scales
 
 pytestmark = pytest.mark.usefixtures("taichi_cpu")
 NO_SHEAR = {"fatigue.shear": False, "fatigue.kappa": 0.0, "thermal.on": False}
-
-
-class Dry:
-    """The dry contact of a scene, with shear and heat that the bodies share."""
-
-    def __init__(self, scene, cells=16, shear=0.0, heat=0.0):
-        s, self.shear, self.heat = Scales.of(scene), shear, heat
-        self.x = np.linspace(-2, 2, 4 * cells + 1) * s.a
-        self.y = np.zeros(1) if s.line else np.linspace(0, 1.5, 3 * cells // 2 + 1) * s.b
-        inside = 1 - (self.x[:, None] / s.a) ** 2 - (0 if s.line else (self.y[None] / s.b) ** 2)
-        self.p = s.p_H * np.sqrt(np.maximum(inside, 0.0))
-
-    def __len__(self):
-        return 1
-
-    def fields(self, n, names):
-        p = self.p
-        found = {"pressure": p, "traction_x_a": self.shear * p, "traction_y_a": 0 * p, "temperature_a": 40 + self.heat * p}
-        found |= {"traction_x_b": -self.shear * p, "traction_y_b": 0 * p, "temperature_b": found["temperature_a"]}
-        return {name: found[name] for name in names}
 
 
 @pytest.mark.parametrize("name, stress, depth", [("smooth-line", 0.25, 0.5), ("ball-on-disc", 0.214, 0.35)])

@@ -45,8 +45,8 @@ def prepared(scene):
     """The numbers that a run of the scene takes, in no order that a user knows of."""
     s, g = Scales.of(scene), scene.grid
     x, y = np.linspace(g.x_min, g.x_max, 97), np.linspace(-1, 1, 9) * g.y_max if scene.rows else np.zeros(1)
-    found = [s, _speeds(conditions(scene, s, x)), g.nx, g.x_min, g.x_max, g.inlet, scene.rows, scene.numerics, scene.at_rest,
-             scene.rows and (g.y_max, s.curvature)]
+    found = [s, scene.body_a.yield_stress, scene.body_b.yield_stress, _speeds(conditions(scene, s, x)), g.nx, g.x_min, g.x_max,
+             g.inlet, scene.rows, scene.numerics, scene.at_rest, scene.rows and (g.y_max, s.curvature)]
     return repr([*found, *_laws(scene, s), *_heat(scene), *_passage(scene, s, x, y), *_fatigue(scene)])
 
 

@@ -32,6 +32,7 @@ COMPANIONS = HALVED  # with the run itself three grids; 1/8 and 1/64 of its cell
 FI, BELOW = "Fi_max", "below_Fi_max"  # names of the largest index of the surface, and below it
 RESOLVED, RESOLVED_BELOW = "resolved_Fi_max", "resolved_below_Fi_max"  # of both as long as the grid resolves the pressure
 AVERAGED, AVERAGED_BELOW = "averaged_Fi_max", "below_averaged_Fi_max"  # of both, of stresses over fatigue.length
+MISES = "von_mises_max_Pa"  # of the von Mises stress
 CONTACT, AREA = "contact_load_fraction_max", "contact_area_share_max"
 PART = 0.1  # a
 FEW = 4 / 3  # points; a bar has 1.5 times as many
@@ -83,6 +84,8 @@ def passage_readings(scene, reader, scalar, searches=None):
     found = indices(searches or {})
     out |= {name: GridReading(float(part["Fi_max"]), doubt=_shallow(name, found)) for name, part in found.items()}
     out |= _of_cells(out, searches or {})
+    mises = von_mises_parts(searches or {})
+    out |= {name: GridReading(part["max_Pa"]) for name, part in mises.items()}
     out |= {f"{name}.{key}": _spread_reading(part, key)
             for name, part in distributions(searches or {}) for key in index_statistics.NUMBERS}
     # a peak that the grid does not resolve at some moment: neither its pressure is known nor what it does to oil and steel
@@ -90,7 +93,8 @@ def passage_readings(scene, reader, scalar, searches=None):
     pressures = course(p, [reader.feature_x(n) / a for n in range(1, p.size + 1)], scene.path)
     of = {kind: [entry.key for entry in bars_of if entry.error == kind] for kind in (quantities.SWAYED, quantities.SHARP)}
     out |= {name: replace(out[name], swayed=bool(why)) for name in of[quantities.SWAYED] if name in out}
-    return out | {name: _doubted(out[name], why, pressures) for name in (*of[quantities.SHARP], *whole(found)) if name in out}
+    return out | {name: _doubted(out[name], why, pressures) for name in (*of[quantities.SHARP], *whole(found), *mises)
+                  if name in out}
 
 
 def _reading(entry, scalar, scene):
@@ -160,6 +164,12 @@ def distributions(searches):
         parts = [part for part in (found.get("statistics"), deep, *deep.get("by_depth", [])) if part]
         out += [(of_surface(surface, f"{part.get('depth_m', 0.0) * 1e6:.4g} um"), part) for part in parts]
     return out
+
+
+def von_mises_parts(searches):
+    """{name among the readings: numbers of the von Mises stress} of searches; as :func:`indices`."""
+    found = {surface: searched(summary).get("von_mises") for surface, summary in searches.items()}
+    return {of_surface(surface, MISES): part for surface, part in found.items() if part}
 
 
 def of_surface(surface, name):

@@ -6,7 +6,7 @@ from tehl_taichi.march.accuracy.domain_error import widened
 from tehl_taichi.march.accuracy.error_bars import GridReading, bars
 from tehl_taichi.values.coded_text import Reason, unknown_of
 
-INDICES = ("Fi_max", "surface_Fi_max")
+INDICES, MISES = ("Fi_max", "surface_Fi_max"), "von_mises_max_Pa"
 
 
 def searches(scene, first):
@@ -23,8 +23,14 @@ def searches(scene, first):
 
 def _searched(scene, surface, first):
     each = [contact_alone.search(scene, Snapshots([grid]), surface).summary for grid in (*first.coarser, first)]
-    found, reasons = bars([{name: GridReading(one[name], positive=True) for name in INDICES} for one in each])
+    found, reasons = bars([{name: GridReading(value, positive=True) for name, value in _values(one).items()} for one in each])
     if first.unsettled:
-        found, reasons = (dict.fromkeys(INDICES, one) for one in (None, Reason(first.unsettled, "unsettled")))
-    errors, unknown, _ = widened(found, reasons, each[-1], first.domain, scene.operation.temperature, passing=True)
-    return {**each[-1], "error": errors, **unknown_of(unknown)}
+        found, reasons = (dict.fromkeys(found, one) for one in (None, Reason(first.unsettled, "unsettled")))
+    errors, unknown, _ = widened(found, reasons, _values(each[-1]), first.domain, scene.operation.temperature, passing=True)
+    mises = {"error": {"max_Pa": errors.pop(MISES)}, **unknown_of({"max_Pa": unknown.pop(MISES)} if MISES in unknown else {})}
+    return {**each[-1], "von_mises": {**each[-1]["von_mises"], **mises}, "error": errors, **unknown_of(unknown)}
+
+
+def _values(one):
+    """{name: number that has an error bar} of a search."""
+    return {**{name: one[name] for name in INDICES}, MISES: one["von_mises"]["max_Pa"]}

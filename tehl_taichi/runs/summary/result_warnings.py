@@ -8,8 +8,8 @@ from tehl_taichi.laws import conduction
 from tehl_taichi.laws.law import beyond
 from tehl_taichi.march.accuracy.coarse_runs import near_the_surface
 from tehl_taichi.runs.summary import domain_warnings, film_warnings, rim_warnings
+from tehl_taichi.scene import yield_stress
 from tehl_taichi.scene.refinement import finer_grid_option
-from tehl_taichi.scene.yield_pressure import STEEL, YIELDS
 from tehl_taichi.values.coded_text import Reason, reasons_of
 from tehl_taichi.values.coded_warning import coded_warning, once, with_data
 from tehl_taichi.values.digits import micrometres
@@ -104,12 +104,22 @@ def largest_pressure(summary):
 
 
 def yielding(store, summary):
-    """Pressures that no steel carries without yielding, while the bodies here stay elastic."""
-    p = largest_pressure(summary)
-    if p > YIELDS:
-        text = (f"p_max {p / 1e9:.2f} GPa: {STEEL}; both bodies are elastic here, while real bodies would flatten such a peak "
-                "in the first passages")
-        yield with_data(text, p_max_Pa=p, yields_Pa=YIELDS)
+    """Stresses under which a body would yield, while both stay elastic here; where none were searched, such pressures."""
+    elastic = "both bodies are elastic here, while real ones would yield and flatten in the first passages"
+    p, found = largest_pressure(summary), summary.get("von_mises")
+    if found and found["yields"]:
+        text = (f"the von Mises stress reaches {found['max_Pa'] / 1e9:.2f} GPa {place(found)}, more than "
+                f"{yield_stress.words(found['yield_stress_Pa'])}; {elastic}")
+        yield with_data(text, von_mises_Pa=found["max_Pa"], yield_stress_Pa=found["yield_stress_Pa"])
+    elif not found and p > (limit := yield_stress.pressure(store.scene)):
+        text = f"p_max {p / 1e9:.2f} GPa: under asperities bodies like these yield above about {limit / 1e9:.1f} GPa; {elastic}"
+        yield with_data(text, p_max_Pa=p, yields_Pa=limit)
+
+
+def place(found, um="um"):
+    """Where a von Mises stress is, in words."""
+    at = f"surface {found['surface']}"
+    return f"{micrometres(found['depth_m'])} {um} below {at}" if found["depth_m"] else f"at {at}"
 
 
 def worst_below(store, summary):

@@ -4,10 +4,11 @@ import numpy as np
 
 from tehl_taichi import __version__
 from tehl_taichi.fatigue import index_statistics
+from tehl_taichi.fatigue.pressure_alone import searched
 from tehl_taichi.laws import conduction
 from tehl_taichi.laws.law import beyond
 from tehl_taichi.march import quantities
-from tehl_taichi.march.accuracy.coarse_runs import FI, distributions, indices
+from tehl_taichi.march.accuracy.coarse_runs import FI, distributions, indices, von_mises_parts
 from tehl_taichi.runs.summary import result_warnings
 from tehl_taichi.runs.summary.film_warnings import worst_ripple
 from tehl_taichi.scene import surface_roughness
@@ -46,12 +47,21 @@ def summarise(store, extra, searches=None):
         part["error"] = {name: known.get(bar) for name, bar in names.items()}
         part["error_parts"] = {name: of_it[bar] for name, bar in names.items() if bar in of_it}
         part |= unknown_of({name: unknown[bar] for name, bar in names.items() if bar in unknown})
+    out |= _von_mises(out)
     out["work"] = _work(store)
     out["crowding"] = extra.get("crowding", [0, 0])
     out["clamps"] = _clamps(store)
     found = result_warnings.warnings(store, out)
     out |= {**lists(found), "warnings": found}
     return out
+
+
+def _von_mises(out):
+    """The largest von Mises stress of the body that is nearest to its yield stress, where stresses were searched."""
+    searches = out.get("fatigue_by_surface") or out.get("contact_alone_by_surface", {})
+    found = [part for one in searches.values() if (part := searched(one).get("von_mises"))]
+    worst = max(found, key=lambda part: part["max_Pa"] / part["yield_stress_Pa"], default=None)
+    return {"von_mises": dict(worst)} if worst else {}
 
 
 def _peclet(scene, scales):
@@ -128,6 +138,7 @@ def _parts(out):
     """[(part of the summary after the start, {its number that has an error bar: that number's name among the errors})]."""
     parts = [(out.get("transient"), {entry.key: entry.key for entry in quantities.of_part("transient") if entry.error}),
              *((part, {FI: name}) for name, part in indices(out.get("fatigue_by_surface", {})).items()),
+             *((part, {"max_Pa": name}) for name, part in von_mises_parts(out.get("fatigue_by_surface", {})).items()),
              *((part, {key: f"{name}.{key}" for key in index_statistics.NUMBERS})
                for name, part in distributions(out.get("fatigue_by_surface", {})))]
     return [(part, {name: bar for name, bar in names.items() if name in part}) for part, names in parts if part]

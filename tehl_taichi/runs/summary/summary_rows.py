@@ -211,7 +211,16 @@ def _rows_of_search(f):
             SummaryRow("thermal stress", "counted" if f["thermal_stress"] else "left out")]
     rows += [_stress(f"largest at {_depth(layer)}", layer["findley_stress_max_Pa"]) for layer in f.get("by_depth", [])]
     early = [] if f.get("rough") else _resolved_rows(f)
-    return early + _averaged_rows(f) + [replace(row, part=SURFACE) for row in rows] + _below_rows(f)
+    return early + _averaged_rows(f) + [replace(row, part=SURFACE) for row in rows] + _below_rows(f) + _von_mises_rows(f)
+
+
+def _von_mises_rows(f):
+    """The largest von Mises stress of the body, beside what it yields at."""
+    if not (found := f.get("von_mises")):
+        return []
+    where = _at(found) if found["depth_m"] else ", at the surface"
+    return [_of(found, "max_Pa", "largest von Mises stress", 1e-9, "GPa", where=f"{where} ({found['surface']})",
+                note=f" (yields at {found['yield_stress_Pa'] / 1e9:.3g})", part=BELOW)]
 
 
 def _averaged_rows(f):

@@ -9,8 +9,8 @@ from tehl_taichi.values import summary_units
 LEFT_OUT = {"store", "scene", "version", "left_out", "warnings", "warning_codes", "warning_data", "domain", "error_parts",
             "converged", "unknown", "unknown_codes", "clamps", "grid", "cells"}
 NAME = re.compile(r"\w[\w.+-]*")  # of an array and its folder, a column and a label
-PART = re.compile(r"(fatigue(_by_surface_[ab])?(_resolved|_averaged)?(_below|_contact_alone)?(_statistics)?"
-                  r"|contact_alone(_by_surface_[ab])?|[^_]+)_")  # of a summary, inside others
+PART = re.compile(r"(fatigue(_by_surface_[ab])?(_resolved|_averaged)?(_below|_contact_alone)?(_statistics|_von_mises)?"
+                  r"|contact_alone(_by_surface_[ab])?(_von_mises)?|von_mises|[^_]+)_")  # of a summary, inside others
 
 
 def numbers(summary, above=""):

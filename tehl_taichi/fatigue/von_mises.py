@@ -1,0 +1,49 @@
+"""Von Mises stress of stress histories: where the elastic bodies would yield."""
+
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl_taichi.fatigue.stress.thermal_stress import WORKERS
+from tehl_taichi.scene import yield_stress
+
+POINTS = 16  # whose stresses are found at once
+
+
+@dataclass(frozen=True, order=True)
+class VonMisesPeak:
+    """The largest von Mises stress of some points: value (Pa), depth, x, y (m, in the frame of the feature)."""
+
+    value: float
+    depth: float
+    x: float
+    y: float
+
+
+def von_mises(stress):
+    """Von Mises stress (...) of stress (..., 6): xx, yy, zz, xy, xz, yz."""
+    xx, yy, zz, xy, xz, yz = np.moveaxis(stress, -1, 0)
+    normal = 0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2)
+    return np.sqrt(normal + 3.0 * (xy * xy + xz * xz + yz * yz))
+
+
+def largest(history):
+    """(points,) Pa: of histories (points, times, 6)."""
+    with ThreadPoolExecutor(WORKERS) as pool:
+        parts = np.array_split(history, max(1, -(-len(history) // POINTS)))
+        return np.concatenate(list(pool.map(lambda part: von_mises(part).max(axis=1), parts)))
+
+
+def summary(peaks, at_the_surface, surface):
+    """The numbers of one body: of the largest of `peaks`, with that at its surface (Pa), and whether it yields there."""
+    top, limit = max(peaks), yield_stress.of(surface.body)
+    return {"max_Pa": top.value, "depth_m": top.depth, "x_m": top.x, "y_m": top.y, "surface": surface.name,
+            "surface_max_Pa": at_the_surface, "yield_stress_Pa": limit, "yields": top.value > limit}
+
+
+def peak(history, places):
+    """The :class:`VonMisesPeak` of histories (points, times, 6); places(n): depth, x and y (m) of one of them."""
+    values = largest(history)
+    top = int(np.argmax(values))
+    return VonMisesPeak(float(values[top]), *map(float, places(top)))
