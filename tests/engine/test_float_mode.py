@@ -55,6 +55,7 @@ print({name: kept for name, kept in told.items() if not kept}, len(told))
 """
 
 
+@pytest.mark.slow
 def test_every_call_leaves_subnormal_numbers(taichi_cpu, tmp_path, monkeypatch, capsys):
     """In this process, where kernels of other tests serve."""
     monkeypatch.chdir(tmp_path)

@@ -62,6 +62,7 @@ def test_the_feature_the_moments_and_the_listed_depths_have_no_part_in_it():
     assert (at_top["depth_m"], at_top["Fi_max"]) == (0.0, first["surface_Fi_max"])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name, columns", [("smooth-line", (64, 512)), ("ball-on-disc", (64, 128))])
 def test_the_bar_of_a_coarse_grid_covers_a_fine_one(name, columns):
     def found(nx):

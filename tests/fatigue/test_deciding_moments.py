@@ -86,7 +86,7 @@ def test_what_a_turn_changes_is_the_range_of_principal_stresses(taichi_cpu):
         assert 1 <= turned(vec6(*s), vec3(0, 0, 1)) / np.ptp(principal) <= 2 / np.sqrt(3) * (1 + 1e-12)
 
 
-@pytest.mark.parametrize("criterion", ["findley", "matake"])
+@pytest.mark.parametrize("criterion", ["findley", pytest.param("matake", marks=pytest.mark.slow)])
 def test_the_same_planes_without_leaving_any_out(taichi_cpu, criterion):
     history = passages(5, 120)
     f, normals = findley.search(history, 0.3, criterion=criterion)

@@ -119,7 +119,10 @@ def test_it_is_searched_under_the_surface_s_worst_row_too(taichi_cpu):
 def test_the_surface_answers_as_it_did(found):
     _, top = result(**{"fatigue.depths": []})
     assert "below" not in top.summary and top.worst_below is None
-    assert {**top.summary, "below": 0, "contact_alone": 0} == {**found.summary, "below": 0, "contact_alone": 0}
+    deeper = dict.fromkeys(("below", "contact_alone", "von_mises"), 0)
+    assert {**top.summary, **deeper} == {**found.summary, **deeper}
+    surface, both = top.summary["von_mises"], found.summary["von_mises"]
+    assert surface["max_Pa"] == surface["surface_max_Pa"] == both["surface_max_Pa"] < both["max_Pa"]
     for name, (values, *_) in top.maps.items():
         np.testing.assert_array_equal(values, found.maps[name][0])
 

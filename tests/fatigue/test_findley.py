@@ -229,8 +229,8 @@ def test_passage_in_the_frame_of_the_feature(taichi_cpu):
     scene = tehl.scene("gear").replace(**{"thermal.on": False})
     reader = moving(scene)
     result = assessment.run(scene, reader)
-    assert set(result.summary) == {"surface", "carries_feature", "contact_alone", "rough", "statistics", "cycles_above_1",
-                                   "Fi_max", "findley_stress_max_Pa",
+    assert set(result.summary) == {"surface", "von_mises", "carries_feature", "contact_alone", "rough", "statistics",
+                                   "cycles_above_1", "Fi_max", "findley_stress_max_Pa",
                                    "x_m", "y_m", "plane_theta_deg", "plane_phi_deg", "surface_angle_deg", "sigma1_max_Pa",
                                    "sigma1_worst_Pa", "kappa_F", "sigma_eF_Pa", "tau_amp_Pa", "sigma_n_max_Pa",
                                    "criterion", "thermal_stress", "pit_angles_deg", "below", "feature_x_at_normal_max_m",

@@ -162,10 +162,11 @@ def test_a_cut_search_is_not_called_whole():
 
 
 def test_the_report_says_first_that_steel_would_yield():
-    summary = {"steady": {"p_max_Pa": 1.9e9}, "transient": {"p_max_Pa": 6.3e9}, "fatigue": {}}
+    found = {"max_Pa": 2.9e9, "depth_m": 0.0, "surface": "a", "yield_stress_Pa": 2.2e9, "yields": True}
+    summary = {"transient": {"p_max_Pa": 6.3e9}, "von_mises": found, "fatigue": {}}
     said, = verdict._yielding(summary)
-    assert "reaches 6.3 GPa" in said and said.endswith("the index is that of elastic bodies.")
-    assert verdict._yielding({**summary, "transient": {"p_max_Pa": 3.9e9}}) == ()
+    assert "reaches 2.90 GPa at surface a" in said and said.endswith("the index is that of elastic bodies.")
+    assert verdict._yielding({**summary, "von_mises": {**found, "yields": False}}) == ()
     assert verdict._yielding({key: part for key, part in summary.items() if key != "fatigue"}) == ()
 
 
@@ -190,7 +191,8 @@ def test_fatigue_of_a_run_is_told_apart_like_the_run(tmp_path, monkeypatch):
 
 
 def test_steel_that_would_yield():
-    said, = result_warnings.yielding(None, {"steady": {"p_max_Pa": 1.9e9}, "transient": {"p_max_Pa": 4.7e9}})
-    assert "p_max 4.70 GPa" in said and "about 4 GPa" in said
-    assert list(result_warnings.yielding(None, {"steady": {"p_max_Pa": 1.9e9}, "transient": {"p_max_Pa": 3.9e9}})) == []
+    store = SimpleNamespace(scene=GEAR)
+    said, = result_warnings.yielding(store, {"steady": {"p_max_Pa": 1.9e9}, "transient": {"p_max_Pa": 4.7e9}})
+    assert "p_max 4.70 GPa" in said and "about 4.6 GPa" in said
+    assert list(result_warnings.yielding(store, {"steady": {"p_max_Pa": 1.9e9}, "transient": {"p_max_Pa": 4.5e9}})) == []
     assert result_warnings.yielding in result_warnings.CHECKS

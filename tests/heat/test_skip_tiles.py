@@ -14,6 +14,7 @@ from tehl_taichi.scene.scales import Scales
 GEAR = scene("gear").replace(**{"srr": -0.12, "grid.nx": 128, "grid.ny": 32, "time.x_start": -1.4, "time.x_end": -0.5})
 
 
+@pytest.mark.slow
 def test_what_rests_would_hardly_move(taichi_cpu, monkeypatch):
     """Every later round is solved for all tiles, too: it differs by less than a round may leave."""
     from tehl_taichi.march.passage import march

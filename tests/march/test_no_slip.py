@@ -13,6 +13,7 @@ def h_c(**changes):
     return next(march(scene("smooth-line").replace(**{"grid.nx": 128, **changes}))).scalars["h_c_m"]
 
 
+@pytest.mark.slow
 def test_the_film_has_no_step_where_slip_vanishes_but_for_the_heat_that_is_named(taichi_cpu):
     """Heat of the inlet by formula 8 %, computed 7.6 %; the density without its thermal factor would add 3.5 %."""
     cold, none, little = h_c(srr=0), h_c(srr=0, **{"thermal.on": True}), h_c(srr=1e-3)

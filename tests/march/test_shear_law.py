@@ -113,7 +113,8 @@ def cold(description):
     return dataclasses.replace(hot, thermal=dataclasses.replace(hot.thermal, on=True))
 
 
-@pytest.mark.parametrize("law", ["limiting", *(pytest.param(law, marks=pytest.mark.slow) for law in ("eyring", "carreau"))])
+@pytest.mark.slow
+@pytest.mark.parametrize("law", ["limiting", "eyring", "carreau"])
 def test_a_film_that_stays_cold_is_an_isothermal_one(law):
     """Steady and 12 steps into a passage, against the solver with temperatures; it warms by 0.1 K (carreau 0.6 K)."""
     from tehl_taichi.march.passage import march

@@ -175,6 +175,7 @@ def test_what_moves_in_time_is_not_settled(monkeypatch):
     assert caught.value.exit_code == 3
 
 
+@pytest.mark.slow
 def test_a_march_that_is_lost_is_no_state(monkeypatch):
     from tehl_taichi.errors import NotConverged
     from tehl_taichi.march import pseudo_transient
@@ -293,6 +294,7 @@ def settled(**changes):
     return next(march(scene("gear").replace(**{**gear, **changes})))
 
 
+@pytest.mark.slow
 def test_oil_of_40_degrees_between_surfaces_that_slip_settles():
     """Its hot band meets cold oil at the outlet, where the pressure falls by 1 GPa within a cell: until 0.5.3 columns without a
     solution, on 64 to 256 columns. Finer grids: 1.389 um (128), 1.392 (256), 192.0 deg C."""
@@ -392,6 +394,7 @@ def test_a_grid_is_looked_at_once_and_only_where_it_converged(monkeypatch, conve
     assert len(seen) == looks
 
 
+@pytest.mark.slow
 def test_a_film_too_thin_for_a_grid_comes_to_the_next_in_time(taichi_cpu, monkeypatch):
     """12 nm at 2.2 GPa: no way from nothing leads to it on 1024 columns, nor does Newton alone from 512."""
     from tehl_taichi.profiles import stability

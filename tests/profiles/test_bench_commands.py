@@ -77,6 +77,7 @@ def lines_with(text, *words):
     return [row for row in cells if all(word in row for word in words)]
 
 
+@pytest.mark.slow
 def test_profile(tmp_path, monkeypatch):
     """In a process of its own: kernels must be bound while they are watched."""
     once(monkeypatch, measure, "fresh")
@@ -209,6 +210,7 @@ def test_starts(tmp_path, monkeypatch):
     assert lines_with(text, row["name"], str(row["columns"]), "0.00", f"{100 * row['finer_film']:.2f}")
 
 
+@pytest.mark.slow
 def test_sweep(tmp_path, monkeypatch):
     """On the two threads of this process in place of one of a new one."""
     once(monkeypatch, side_by_side)
@@ -250,6 +252,7 @@ def test_accuracy_judges_only_what_is_there(tmp_path):
     assert refused.returncode == 2 and "exits.json" in refused.stderr and list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_conclusions(tmp_path, monkeypatch):
     once(monkeypatch, conclusions)
     monkeypatch.setattr(conclusions, "SLIPS", (-0.12,))

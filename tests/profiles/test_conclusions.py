@@ -138,6 +138,7 @@ def test_every_case_has_its_own_store():
     assert len(set(names)) == len(names) == 21
 
 
+@pytest.mark.slow
 def test_a_row_is_computed_once_and_kept(taichi_cpu, tmp_path):
     short = scene("gear").replace(**{"thermal.on": False, "time.steps": 4})
     lines = []
@@ -156,6 +157,7 @@ def test_a_row_is_computed_once_and_kept(taichi_cpu, tmp_path):
     assert "did not converge" in conclusions.rows("hopeless", hopeless, tmp_path, ((64, 16),))[0].reason
 
 
+@pytest.mark.slow
 def test_a_large_store_goes_when_it_has_told(taichi_cpu, tmp_path, monkeypatch):
     """What it told serves the next time, and only for the scene that it tells of."""
     short = scene("gear").replace(**{"thermal.on": False, "time.steps": 4, "grid.nx": 64, "grid.ny": 16, **conclusions.BARE})

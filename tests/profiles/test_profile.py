@@ -30,6 +30,7 @@ def test_a_cold_film_is_as_warm_as_it_is():
     assert largest(np.full((9, 3, 4), 90.0)) == pytest.approx(90.0, abs=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("taichi_cpu")
 def test_nine_nodes_tell_what_seventeen_do():
     """Gear, SRR -0.75: at the nodes 209.6 and 211.5 degC on 256 columns."""

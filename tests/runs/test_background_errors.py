@@ -39,6 +39,7 @@ def nowhere(monkeypatch):
     monkeypatch.setattr(coarse_runs, "answers", refused)
 
 
+@pytest.mark.slow
 def test_they_tell_what_they_tell_after_the_run(idle_core, monkeypatch):
     here, parts = coarse_runs.answers(SHORT), []
     monkeypatch.setattr(coarse_runs, "answers", None)

@@ -60,6 +60,7 @@ def test_surfaces_that_cross_at_the_border_end_the_run(taichi_cpu):
 WIDE = {"shape": "rough", "height": 1.5e-6, "width": 120e-6, "extent_x": 400e-6, "extent_y": 900e-6, "taper": 40e-6}
 
 
+@pytest.mark.slow
 def test_one_sentence_settles_ends_and_sides_at_once(taichi_cpu):
     """A wide, high patch under a small load; with the options of the sentence nothing is said of the domain, and it runs."""
     small = {"grid.nx": 64, "grid.ny": 16, "load": 300e3, "thermal.on": False}

@@ -104,6 +104,7 @@ def test_the_border_pressure_leaves_little_of_what_the_end_of_the_domain_costs(M
     assert border == pytest.approx(there, rel=0.05) and not short.state["P"][:, 0].any()
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("taichi_cpu")
 def test_of_a_circle_the_sides_have_a_pressure_too():
     """Its sides at 1.5 a cost more than its inlet at -2.5 a."""

@@ -183,6 +183,7 @@ def start(description):
     return next(march(description))
 
 
+@pytest.mark.slow
 def test_the_bar_of_a_thin_film_holds(taichi_cpu):
     """0.02 % was stated, 0.27 % real."""
     own, finer = start(moes(202.7, 9.427, 256)), start(moes(202.7, 9.427, 1024))
@@ -205,6 +206,7 @@ def test_a_film_that_the_grid_does_not_have_has_no_bar(taichi_cpu):
     assert set(shot.unknown.values()) == {readings.TOUCH}
 
 
+@pytest.mark.slow
 def test_random_scenes_are_covered(taichi_cpu):
     drawn = [one for kind, one in coverage.battery(5) if kind in ("line, Moes", "line") and one.grid.nx <= 128][:8]
     rows = [{"kind": "line", **coverage.row(one)} for one in drawn]
