@@ -94,6 +94,7 @@ def test_what_differs_from_the_start_moves_where_no_outermost_row_tells(rows, ke
     assert error < 0.015 * moved
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("taichi_cpu")
 def test_a_guess_is_judged_by_what_it_said_not_made_twice(monkeypatch):
     """From the fourth state on; the same bits as without the memory, also after a step that was taken in parts."""

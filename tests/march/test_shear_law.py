@@ -212,6 +212,7 @@ def test_walls_bear_no_more_than_the_shear_limit():
     np.testing.assert_allclose((yielding - stiff)[1:-1], -np.diff(extra), rtol=1e-5, atol=1e-6 * np.abs(extra).max())
 
 
+@pytest.mark.slow
 def test_the_exit_of_a_dent_in_rolling_is_held_by_the_walls():
     """1-D, 512 columns: without the bound a frozen front has 3.63 GPa here, and a third more on twice the columns; with it
     3.26, and 3.57, 3.70 on 1024 and 2048."""

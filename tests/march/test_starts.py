@@ -187,6 +187,7 @@ def test_a_march_that_is_lost_is_no_state(monkeypatch):
         first("gear")
 
 
+@pytest.mark.slow
 def test_a_slip_that_no_step_follows_grows_more_slowly(monkeypatch):
     """From the same cold start: the state of a march that was not lost, but for the way that it came."""
     from tehl_taichi.march import pseudo_transient
@@ -335,6 +336,7 @@ def test_a_cold_inlet_settles_where_a_quick_slip_is_lost():
     assert found["mass_error"] < 1e-6
 
 
+@pytest.mark.slow
 def test_a_march_from_nothing_forgets_what_the_bodies_remember(monkeypatch):
     """It begins with cold bodies and without an older step, whatever went before."""
     from tehl_taichi.march import pseudo_transient

@@ -28,6 +28,7 @@ def test_a_case_that_converges_and_one_that_stops():
     assert stopped.verdict == "stopped" and "did not converge" in stopped.reason
 
 
+@pytest.mark.slow
 def test_a_negative_film_is_a_failure():
     from tehl_taichi.march.passage import march
 

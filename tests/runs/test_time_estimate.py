@@ -92,6 +92,7 @@ def test_a_look_tells_steps_and_minutes_of_the_whole_passage(taichi_cpu, tmp_pat
     assert tehl.open(run.path).store.last_step == 0 and tehl.open(run.path).finished
 
 
+@pytest.mark.slow
 def test_what_is_long_is_told_something_faster(taichi_cpu, tmp_path, monkeypatch):
     """A scan of 1.2 mm: half of the cells, or its middle; what is named is taken as it stands, and is as much faster."""
     np.save(tmp_path / "scan.npy", 0.05 * np.cos(np.arange(241) / 10) * np.ones((201, 1)))

@@ -91,6 +91,7 @@ def test_table_and_figure_carry_the_errors(steady):
     assert bars[0][1, 1] - bars[0][0, 1] == pytest.approx(2e6 * film["error"]["h_c_m"])
 
 
+@pytest.mark.slow
 def test_a_feature_passes_at_every_position(taichi_cpu, tmp_path):
     whole = tehl.flank("fzg-c", at=("B+",), on="gear", folder=tmp_path / "gear", changes={**SMALL, "thermal.on": False})
     (_, _, summary), = whole.rows
