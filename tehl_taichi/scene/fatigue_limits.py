@@ -9,7 +9,7 @@ import math
 from tehl_taichi.errors import SceneError
 from tehl_taichi.laws.criteria import CRITERIA
 from tehl_taichi.values.checks import number
-from tehl_taichi.values.coerce import plain
+from tehl_taichi.values.coerce import plain, text_of
 
 KEYS = ("bending_limit", "torsion_limit")
 LEAST_LIMIT, LARGEST_LIMIT, USUAL_LIMIT = 1e6, 1e11, 4e8  # Pa
@@ -73,5 +73,5 @@ def changed(table, new):
         table.update(dict.fromkeys(set(KEYS) - set(given_limits(new)), 0.0))
     if {"kappa", "endurance", "criterion", *KEYS} & new.keys():
         table.update(dict.fromkeys(follows({**table, **new})))
-        if str(table.get("source", "")).startswith(FROM):
+        if text_of(table.get("source")).startswith(FROM):
             del table["source"]

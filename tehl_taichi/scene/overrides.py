@@ -10,7 +10,7 @@ from tehl_taichi.scene.sections import SECTIONS
 from tehl_taichi.scene.speeds import of_surfaces
 from tehl_taichi.scene.timeline import ALL
 from tehl_taichi.values.checks import key_shown, nearest
-from tehl_taichi.values.coerce import plain
+from tehl_taichi.values.coerce import plain, text_of
 from tehl_taichi.values.quantity import kinds
 
 TABLES = (*SECTIONS, "bodies", "oil")
@@ -114,7 +114,7 @@ def _of(section, changes):
 def _read_sheet(oil, changes):
     """A data sheet makes another oil of one that had none; what follows from it is found again, its source, too, unless that is
     the user's own."""
-    new, source = _of("oil", changes), str(oil.get("source", ""))
+    new, source = _of("oil", changes), text_of(oil.get("source"))
     sheet = {**{key: oil.get(key, 0.0) for key in data_sheet.KEYS}, **new}
     if data_sheet.is_given(sheet) and not data_sheet.is_given(oil):
         oil.update(name=changes.get("oil.name", data_sheet.NAME), viscosity=data_sheet.LAW, source="")

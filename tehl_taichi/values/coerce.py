@@ -25,6 +25,11 @@ def shown(value):
         return "a number of thousands of digits"
 
 
+def text_of(value):
+    """A value that is text, else ""; whoever needs text refuses the others with a sentence."""
+    return value if isinstance(value, str) else ""
+
+
 _short = reprlib.Repr()
 _short.maxstring = _short.maxother = 70
 _short.maxlevel = 3

@@ -226,3 +226,11 @@ def test_the_shear_law_that_an_own_oil_keeps_is_told(changes, what):
                                      {**SET, "rheology.law": "newtonian"}, {**SET, "rheology.law": "eyring"}])
 def test_a_shear_law_that_is_chosen_or_does_not_act_is_not(changes):
     assert not [line for line in GEAR.replace(**changes).warnings() if "shear law" in line]
+
+
+@pytest.mark.parametrize("changes", [{"oil.nu_40": 1e-4, "oil.source": 10**5000}, {"oil.nu_40": 1e-4, "oil.source": ["a"]},
+                                     {"fatigue.kappa": 0.2, "fatigue.source": 10**5000}])
+def test_a_source_that_is_no_text_is_refused_in_a_sentence(changes):
+    """A number of more than 4300 digits has no text at all."""
+    with pytest.raises(SceneError, match="source = .* must be text"):
+        scene("gear").replace(**changes)
