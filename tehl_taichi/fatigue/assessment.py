@@ -64,7 +64,8 @@ def run(scene, reader, progress=None, until=None, alone=True):
         raise SceneError("fatigue needs the passage of a feature: a scene with a feature and at least one time step")
     if not (count := len(scene.judged)):
         raise resting(scene.fatigue.surfaces)
-    wide, total = material_length.counts(scene, reader.x), count * (1 + material_length.counts(scene, reader.x))
+    wide = material_length.counts(scene, reader.x)
+    total = count * (1 + wide)
     results = [_of_surface(scene, surface, reader, centres, _share(progress, n, total), until, alone)
                for n, surface in enumerate(scene.judged)]
     if wide:

@@ -1,17 +1,13 @@
 """All material points at one depth: their stresses, their critical planes, the worst of them."""
 
 import functools
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
 
 from tehl_taichi.fatigue import findley, index_statistics, stress_cycles, von_mises
 from tehl_taichi.fatigue.stress.row_histories import at_the_surface
-from tehl_taichi.fatigue.stress.thermal_stress import WORKERS
 from tehl_taichi.fatigue.worst_point import WorstPoint, over_some, worse
-
-POINTS = 16  # whose largest principal stresses are found at once
 
 
 @dataclass(frozen=True)
@@ -47,7 +43,8 @@ def layer(scene, passage, depth, progress, early):
         f, normals = findley.search(history, scene.fatigue.kappa, criterion=scene.fatigue.criterion, notify=progress)
         shape = passage.x.size, rows.stop - rows.start
         cycles = _cycles(history, normals, counted[:, rows].ravel(), scene.fatigue)
-        parts.append([v.reshape(shape) for v in (f, *findley.angles(normals), _tension(history), cycles)])
+        tension = von_mises.largest(history, findley.largest_principal)
+        parts.append([v.reshape(shape) for v in (f, *findley.angles(normals), tension, cycles)])
         worst = worse(worst, passage.places(depth, rows), history, f, normals)
         peaks.append(von_mises.peak(history, passage.places(depth, rows)))
         sooner.add(rows, history, (f, normals))
@@ -95,12 +92,3 @@ def _cycles(history, normals, counted, fatigue):
     for n in np.flatnonzero(counted):
         out[n] = stress_cycles.above(history[n], normals[n], fatigue)
     return out
-
-
-def _tension(history):
-    """Largest principal stress of every point (points,), Pa, over its history."""
-    def of(points):
-        return findley.largest_principal(points).max(axis=1)
-
-    with ThreadPoolExecutor(WORKERS) as pool:
-        return np.concatenate(list(pool.map(of, np.array_split(history, -(-len(history) // POINTS)))))

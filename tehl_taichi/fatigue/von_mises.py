@@ -28,11 +28,11 @@ def von_mises(stress):
     return np.sqrt(normal + 3.0 * (xy * xy + xz * xz + yz * yz))
 
 
-def largest(history):
-    """(points,) Pa: of histories (points, times, 6)."""
+def largest(history, of=von_mises):
+    """(points,) Pa: the largest over the moments of histories (points, times, 6); of: stresses (..., 6) to what is compared."""
     with ThreadPoolExecutor(WORKERS) as pool:
         parts = np.array_split(history, max(1, -(-len(history) // POINTS)))
-        return np.concatenate(list(pool.map(lambda part: von_mises(part).max(axis=1), parts)))
+        return np.concatenate(list(pool.map(lambda part: of(part).max(axis=1), parts)))
 
 
 def summary(peaks, at_the_surface, surface):

@@ -2,11 +2,12 @@
 
 from tehl_taichi.fatigue import contact_alone
 from tehl_taichi.fatigue.assessment import Snapshots
+from tehl_taichi.march.accuracy.coarse_runs import MISES
 from tehl_taichi.march.accuracy.domain_error import widened
 from tehl_taichi.march.accuracy.error_bars import GridReading, bars
 from tehl_taichi.values.coded_text import Reason, unknown_of
 
-INDICES, MISES = ("Fi_max", "surface_Fi_max"), "von_mises_max_Pa"
+INDICES = ("Fi_max", "surface_Fi_max")
 
 
 def searches(scene, first):
