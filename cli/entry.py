@@ -1,5 +1,6 @@
 """Entry point of `tehl`: nothing heavy is imported before signals, pipes and encodings are seen to."""
 
+import _thread
 import atexit
 import codecs
 import contextlib
@@ -7,9 +8,11 @@ import gc
 import os
 import signal
 import sys
+import threading
 import warnings
 
 FAILED, INTERRUPTED = 1, 4  # as in tehl_taichi.errors, which takes longer to import than a hasty Ctrl-C
+AGAIN = 0.01  # s until a dropped stop comes again: by then the callback that dropped it has ended
 SELDOM = 50_000, 20, 100  # new objects between searches for garbage, of which imports and kernels make hardly any: 700, 10, 10
 PLAIN = {"±": "+-", "µ": "u", "μ": "u", "°": "deg ", "σ": "sigma", "τ": "tau", "κ": "kappa", "η": "eta", "ζ": "zeta",
          "₁": "1", "²": "^2", "³": "^3", "−": "-", "–": "-", "×": "x", "·": "-", "…": "...", "≤": "<=", "≥": ">=", "→": "->"}
@@ -119,10 +122,21 @@ def _stop_as_ctrl_c_does():
         with contextlib.suppress(ValueError):  # not the main thread
             if number and signal.getsignal(number) == signal.SIG_DFL:
                 signal.signal(number, _stop)
+    sys.unraisablehook = _stop_again
 
 
 def _stop(number, _):
     raise _by(signal.Signals(number).name)
+
+
+def _stop_again(dropped):
+    """A stop that came where Python drops errors (the callback of a weak reference, within an import) comes once more."""
+    if not isinstance(dropped.exc_value, KeyboardInterrupt):
+        return sys.__unraisablehook__(dropped)
+    number = getattr(signal, getattr(dropped.exc_value, "signal", "") or "SIGINT")
+    again = threading.Timer(AGAIN, _thread.interrupt_main, [number])
+    again.daemon = True
+    again.start()
 
 
 def _print_in_any_encoding():

@@ -257,6 +257,32 @@ def test_signals_in_the_first_moments(number, tmp_path):
             assert said.strip().splitlines()[-1].endswith("all stored data are kept")
 
 
+DROPPED = """
+import signal, sys, time, weakref
+import tehl_cli.main
+from tehl_cli.entry import main
+
+class Thing: pass
+
+def app():
+    thing = Thing()
+    kept = weakref.ref(thing, lambda _: signal.raise_signal(int(sys.argv[1])))
+    del thing
+    time.sleep(0.3)
+    for _ in range(100): time.sleep(0.05)
+
+tehl_cli.main.app = app
+main()
+"""
+
+
+@pytest.mark.parametrize("number, named", [(signal.SIGINT, "interrupted"), (signal.SIGTERM, "stopped by SIGTERM")])
+def test_a_stop_that_python_drops_comes_again(number, named):
+    """Errors of the callback of a weak reference are ignored, a Ctrl-C among them."""
+    run = subprocess.run([sys.executable, "-c", DROPPED, str(int(number))], text=True, capture_output=True)
+    assert (run.returncode, run.stderr) == (4, f"tehl: {named}; all stored data are kept\n")
+
+
 WRONG = (None, 3, "x", [], "null", "3", '{"a": 1}', '[1]')
 THRICE = {f"{name} {what}" for name in ("summary", "warnings", "date", "version", "outputs") for what in ("removed", "= 3")}
 
