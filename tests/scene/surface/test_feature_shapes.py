@@ -182,3 +182,22 @@ def test_the_film_is_thinner_by_the_height_of_the_features(two_ridges):
                0.4 * 10 ** (-10 * ((x - 150) / 80) ** 2) * np.cos(2 * np.pi * (x - 150) / 80)]
         np.testing.assert_allclose(lost, sum(own), atol=0.004)
         assert lost.max() > 0.3
+
+
+def test_a_dent_has_a_raised_rim_with_continuous_slopes():
+    """Depth 10 um, width 300 um, rim 1.2 um over 75 um: half of the depth at r = 75, none at 150, the rim's top at 187.5."""
+    dent = Feature(shape="dent", height=-10 * UM, width=300 * UM, rim=1.2 * UM)
+    for x, y, z in ((0, 0, -10), (75, 0, -5), (0, -75, -5), (90, 120, 0), (187.5, 0, 1.2), (112.5, 150, 1.2), (0, 168.75, 0.6),
+                    (225, 0, 0), (300, 300, 0)):
+        assert height(dent, x, y) == pytest.approx(z, abs=1e-9)
+    r = np.linspace(0, 260, 5201)
+    slope = np.gradient(dent.height_at(r * UM, 0 * r) / UM, r)
+    assert np.abs(np.diff(slope)).max() < 2.2e-4  # no kink: 0.05 um times the curvature of the rim, 1.2/2 (2 pi/75)^2
+    assert (dent.top, dent.reach, dent.reach_y) == pytest.approx((1.2 * UM, 225 * UM, 225 * UM)) and dent.symmetric
+
+
+@pytest.mark.parametrize("keys, said", [({"height": 1 * UM, "rim": 1 * UM}, "a dent has a negative height; allowed: less"),
+                                        ({"height": -1 * UM}, "needs the height of its rim, more than 0 m")])
+def test_a_dent_without_depth_or_rim_is_refused(keys, said):
+    with pytest.raises(SceneError, match=said):
+        Feature(shape="dent", **keys)

@@ -29,7 +29,8 @@ def test_every_example_is_of_its_shape_and_ends_where_it_reaches(name):
     x = np.linspace(-2 * f.reach, 2 * f.reach, 801)
     y = np.linspace(-2, 2, 401) * (f.reach_y if 0 < f.reach_y < 1 else 1e-3)
     heights = f.height_at(x[None, :], y[:, None])
-    assert np.abs(heights).max() <= abs(f.top) * (1 + 1e-9) or name in ("rough", "ground")  # rms, Ra
+    largest = max(abs(f.top), abs(f.height))  # a dent is deeper than its rim is high
+    assert np.abs(heights).max() <= largest * (1 + 1e-9) or name in ("rough", "ground")  # rms, Ra
     assert np.abs(heights[:, np.abs(x) > f.reach]).max() <= 1.1e-5 * np.abs(heights).max()
     assert f.transverse == (np.ptp(heights, axis=0).max() == 0) and (not f.symmetric or np.allclose(heights, heights[::-1]))
     if f.reach_y > 0:
@@ -45,7 +46,7 @@ def test_features_go_to_other_processes(name):
 def test_keys_of_one_shape_are_refused_on_others():
     own = [key for keys in OWN for key in kinds(keys)]
     turns = {"transpose", "mirror_x", "mirror_y"}
-    turns |= {"lay", "offset_x", "offset_y", "shortest_x", "shortest_y"}
+    turns |= {"lay", "offset_x", "offset_y", "shortest_x", "shortest_y", "rim", "rim_width"}
     assert {"seed", "file", "unit", "scale", "pixel", "pixel_y", "level", "cutoff", "sha256", *turns} == set(own)
     for key in ("scale", "pixel", "seed"):
         with pytest.raises(SceneError, match=f"feature.{key} .*has no effect: shape 'cosine' .* belongs to {USED_BY[key][0]}"):
