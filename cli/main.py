@@ -7,6 +7,7 @@ import typer
 import typer.core
 from tehl_cli import (
     animate_command,
+    bearing_command,
     bench_command,
     cite_command,
     compare_command,
@@ -73,7 +74,7 @@ def _with_value(error):
 
 
 # {heading of the help: its commands}, in this order
-PANELS = {"Compute": ("run", "resume", "sweep", "flank", "fatigue", "crack"),
+PANELS = {"Compute": ("run", "resume", "sweep", "flank", "bearing", "roller", "fatigue", "crack"),
           "Show results": ("show", "plot", "report", "compare", "animate", "export"),
           "Scene files and choices": ("new", "scenes", "oils", "steels", "laws"),
           "This program": ("doctor", "bench", "cite")}
@@ -110,6 +111,7 @@ steels_command.register(app)
 fatigue_command.register(app)
 crack_command.register(app)
 flank_command.register(app)
+bearing_command.register(app)
 compare_command.register(app)
 export_command.register(app)
 report_command.register(app)

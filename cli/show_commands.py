@@ -96,10 +96,11 @@ def _only_with_scan(**options):
 
 
 def show(
-    store: Path = typer.Argument(..., help="store of a run (finished, running or broken), a study, or the folder of a flank"),
+    store: Path = typer.Argument(..., help="store of a run (finished, running or broken), a study, or the folder of a "
+                                            "flank or bearing"),
     as_json: bool = typer.Option(False, "--json", help="print the summary as one JSON object, as `tehl run --json` does"),
 ):
-    """Print the summary and residual history of a run, or the table of a study or flank.
+    """Print the summary and residual history of a run, or the table of a study, flank or bearing.
 
     Example: `tehl show runs/gear-1.zarr --json | jq .fatigue`
     """
@@ -111,15 +112,18 @@ def show(
 
 
 def _show_table(found, as_json):
+    from tehl_cli.bearing_command import print_bearing
     from tehl_cli.flank_command import print_flank
     from tehl_cli.stdout import print_json
     from tehl_cli.sweep_display import print_study
 
+    from tehl_taichi.runs.bearing import Bearing
     from tehl_taichi.runs.flank import Flank
 
     if as_json:
         return print_json(found.to_dict())
-    print_flank(found) if isinstance(found, Flank) else print_study(found)
+    printed = {Flank: print_flank, Bearing: print_bearing}.get(type(found), print_study)
+    printed(found)
 
 
 def _show_run(saved, as_json):
@@ -153,18 +157,19 @@ def _state(saved):
     return "finished" if saved.cut is None else f"finished, cut at {saved.cut:.2f} a; extend with: tehl resume {saved.path}"
 
 
-def plot(store: Path = typer.Argument(..., help="store of a run, a study, or the folder of a flank"),
-         out: Path = typer.Option(None, help="folder for the figures (default: beside the store; for a flank: inside it)"),
+def plot(store: Path = typer.Argument(..., help="store of a run, a study, or the folder of a flank or bearing"),
+         out: Path = typer.Option(None, help="folder for the figures (default: beside the store; for a flank or bearing: "
+                                             "inside it)"),
          quantity: str = typer.Option(None, help="study: column of its table to draw, as fatigue_Fi_max"),
          format: Format = "png", dpi: Dpi = 160, width: Width = 17.0, force: Force = False,
          at: Optional[float] = typer.Option(None, help="run: position of the (first) feature to draw, in half-widths a "
                                                        "(default: -0.8, 0, 0.8 for curves, 0 for maps)"),
          depth: Optional[float] = typer.Option(None, help="run: depth of a second fatigue map, µm below the surface, among "
                                                           "those searched (default: the critical one)")):
-    """Draw the figures of a run, a study or a flank.
+    """Draw the figures of a run, a study, a flank or a bearing.
 
     Run: pressure and film along the centreline, maps, fatigue. Study: results over the swept keys. Flank: results along
-    the line of action.
+    the line of action. Bearing: loads of the elements, pressure and slip over both contacts.
 
     Examples: `tehl plot runs/gear-1.zarr --format pdf --width 8.5 --at 0.5` · `tehl plot runs/gear-1.zarr --dpi 300` ·
     `tehl plot runs/gear-sweep-0a1b2c.zarr --quantity steady_h_c_m`
@@ -174,14 +179,15 @@ def plot(store: Path = typer.Argument(..., help="store of a run, a study, or the
         put(path)
 
 
-OPTIONS = {"run": ("at", "depth"), "study": ("quantity",), "flank": ()}  # of tehl plot: what only such a one can show
+# of tehl plot: what only such a one can show
+OPTIONS = {"run": ("at", "depth"), "study": ("quantity",), "flank": (), "bearing": ()}
 
 
 def _draw(store, out, options, page):
     """Paths of the figures of whatever lies at `store`; options: {option: value} of OPTIONS, None where not given."""
     import tehl_taichi as tehl
     from tehl_taichi.errors import SceneError
-    from tehl_taichi.runs.open_results import FLANK, RUN, kind
+    from tehl_taichi.runs.open_results import BEARING, FLANK, RUN, kind
 
     which = kind(store)
     for name, value in options.items():
@@ -190,8 +196,8 @@ def _draw(store, out, options, page):
             raise SceneError(f"--{name} {value} applies to a {whose}, but {store} is a {which}")
     found: Any = tehl.open(store)
     mine = {name: options[name] for name in OPTIONS[which]}
-    if which == FLANK:
-        return [found.plot(out and out / "flank", **page)]
+    if which in (FLANK, BEARING):
+        return [found.plot(out and out / which, **page)]
     return (found.save_figures if which == RUN else found.plot)(out, **mine, **page)
 
 

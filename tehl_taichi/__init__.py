@@ -33,6 +33,7 @@ __released__ = "2026-11-27"
 from tehl_taichi.api import (  # noqa: E402
     FUNCTIONS,
     animate,
+    bearing,
     compare,
     crack,
     export,
@@ -54,6 +55,8 @@ if TYPE_CHECKING:
     from tehl_taichi.crack.analysis import CrackResult
     from tehl_taichi.fatigue.search_result import SearchResult
     from tehl_taichi.march.snapshot import Snapshot
+    from tehl_taichi.runs.bearing.rolling_bearing import RollingBearing
+    from tehl_taichi.runs.bearing.stored_bearing import Bearing
     from tehl_taichi.runs.compare import Comparison
     from tehl_taichi.runs.flank.stored_flank import Flank
     from tehl_taichi.runs.progress import Lines, Progress
@@ -71,16 +74,17 @@ CLASSES = {"Scene": "scene.description", "Feature": "scene.feature", "Oil": "sce
            **dict.fromkeys(("Body", "Contact", "Fatigue", "Grid", "Numerics", "Operation", "Output", "Rheology", "Thermal",
                             "Time"), "scene.sections"),
            "Run": "runs.stored_run", "Study": "runs.sweep.study_table", "Flank": "runs.flank.stored_flank",
+           "Bearing": "runs.bearing.stored_bearing", "RollingBearing": "runs.bearing.rolling_bearing",
            "Comparison": "runs.compare",
            "Snapshot": "march.snapshot", "SearchResult": "fatigue.search_result", "CrackResult": "crack.analysis",
            "Lines": "runs.progress", "Progress": "runs.progress", "Quantity": "values.estimate"}
 OLD_NAMES = {"FatigueResult": "SearchResult"}  # to 0.8
 # not `open`: `from tehl_taichi import *` leaves the builtin alone
-__all__ = ["Body", "Comparison", "Contact", "CrackResult", "Error", "Fatigue", "Feature", "Flank", "GearPair",
+__all__ = ["Bearing", "Body", "Comparison", "Contact", "CrackResult", "Error", "Fatigue", "Feature", "Flank", "GearPair",
            "Grid", "Interrupted", "Lines", "NotConverged", "Numerics", "Oil", "Operation", "Output", "Progress", "Quantity",
-           "Rheology", "Run", "RuntimeUnavailable", "Scene", "SceneError", "SearchResult", "Snapshot", "StoreError", "Study",
-           "Thermal", "Time", "UnknownName", "__version__", "animate", "compare", "crack", "export", "fatigue", "flank",
-           "march", "report", "resume", "run", "scene", "simulate", "stresses", "sweep"]
+           "Rheology", "RollingBearing", "Run", "RuntimeUnavailable", "Scene", "SceneError", "SearchResult", "Snapshot",
+           "StoreError", "Study", "Thermal", "Time", "UnknownName", "__version__", "animate", "bearing", "compare", "crack",
+           "export", "fatigue", "flank", "march", "report", "resume", "run", "scene", "simulate", "stresses", "sweep"]
 
 
 def __getattr__(name):

@@ -17,17 +17,20 @@ if TYPE_CHECKING:
     from tehl_taichi.fatigue.given_histories import Points
     from tehl_taichi.fatigue.search_result import SearchResult
     from tehl_taichi.march.snapshot import Snapshot
+    from tehl_taichi.runs.bearing.rolling_bearing import RollingBearing
+    from tehl_taichi.runs.bearing.stored_bearing import Bearing
     from tehl_taichi.runs.compare import Comparison
     from tehl_taichi.runs.flank.stored_flank import Flank
     from tehl_taichi.runs.progress import Progress
     from tehl_taichi.runs.stored_run import Run
     from tehl_taichi.runs.sweep.study_table import Study
     from tehl_taichi.scene.description import Scene
+    from tehl_taichi.scene.feature import Feature
     from tehl_taichi.scene.gear_pair import GearPair
 
 Name = str | PathLike
-FUNCTIONS = ("animate", "compare", "crack", "export", "fatigue", "flank", "march", "open", "report", "resume", "run", "scene",
-             "simulate", "stresses", "sweep")
+FUNCTIONS = ("animate", "bearing", "compare", "crack", "export", "fatigue", "flank", "march", "open", "report", "resume", "run",
+             "scene", "simulate", "stresses", "sweep")
 
 
 def scene(name: "Name | Scene" = "gear") -> "Scene":
@@ -154,8 +157,8 @@ def resume(path: Name, *, steps: int | None = None, threads: int | None = None, 
     return single_run.resume(path, steps=steps, threads=threads, progress=progress)
 
 
-def open(path: Name) -> "Run | Study | Flank":
-    """Open stored results: the store of a run, the folder of a sweep or of a flank, finished or not.
+def open(path: Name) -> "Run | Study | Flank | Bearing":
+    """Open stored results: the store of a run, the folder of a sweep, flank or bearing, finished or not.
 
     Parameters
     ----------
@@ -164,7 +167,7 @@ def open(path: Name) -> "Run | Study | Flank":
 
     Returns
     -------
-    Run, Study or Flank
+    Run, Study, Flank or Bearing
         Depending on what the folder holds.
 
     Raises
@@ -528,6 +531,72 @@ def flank(gear: "Name | GearPair" = "fzg-c", *, torque: float | None = None, spe
 
     return flank(gear, torque=torque, speed=speed, on=on, positions=positions, at=at, scene=scene, changes=changes,
                  steady=steady, folder=folder, workers=workers, threads=threads, progress=progress)
+
+
+def bearing(what: "Name | RollingBearing", *, load: float | None = None, axial: float | None = None, speed: float | None = None,
+            dimensions: dict | None = None, on: str = "inner", feature: "Feature | None" = None, roughness: float | None = None,
+            scene: "Scene | None" = None, changes: dict | None = None, steady: bool = False, run: bool = True,
+            folder: Name | None = None, workers: int | None = None, threads: int | None = None,
+            progress: "Progress | None" = None) -> "Bearing":
+    """Compute a rolling bearing: load of every element, contacts of the most loaded one with both rings, a run of each.
+
+    Workers import the calling script: put its calls below `if __name__ == "__main__":`.
+
+    Parameters
+    ----------
+    what : str, path or RollingBearing
+        A designation ("6206"), a TOML file, or a RollingBearing.
+    load, axial : float, optional
+        Radial and axial load in N.
+    speed : float, optional
+        Speed of the inner ring in 1/min.
+    dimensions : dict, optional
+        Further keys of :class:`tehl_taichi.RollingBearing`, in place of those of the designation.
+    on : {"inner", "outer"}
+        The ring that carries the features.
+    feature : Feature, optional
+        A dent or scan that passes; default: the features of `scene`, none without a scene.
+    roughness : float, optional
+        Rms height in m of both surfaces together, for lambda.
+    scene : Scene, optional
+        Oil, bodies, features and numerics; default: the scene that the file names, otherwise "gear" without its feature.
+    changes : dict, optional
+        Changes of that scene, as for :meth:`Scene.replace`.
+    steady : bool
+        Without features.
+    run : bool
+        False: loads, dry contacts and formulas only.
+    folder : path, optional
+        Folder of stores and results; default: runs/NAME-N. An existing bearing is resumed.
+    workers, threads : int, optional
+        As for :func:`tehl_taichi.flank`.
+    progress : Progress, optional
+        As for :func:`tehl_taichi.run`.
+
+    Returns
+    -------
+    Bearing
+        :attr:`Bearing.rings` holds the contacts with their summaries.
+
+    Raises
+    ------
+    SceneError, StoreError
+        The input is invalid; nothing was run.
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> found = tehl.bearing("6206", load=5000.0, speed=3000.0, run=False, folder="b6206")
+    >>> found
+    <tehl.Bearing 6206: p_H 3.06 GPa inner, 2.75 GPa outer, b6206>
+    >>> f"{found.record['ball_load_max_N']:.0f} N, static safety {found.record['inner']['static_safety']:.1f}"
+    '2436 N, static safety 2.6'
+    """
+    from tehl_taichi.runs.bearing.bearing_run import bearing
+
+    return bearing(what, load=load, axial=axial, speed=speed, dimensions=dimensions, on=on, feature=feature,
+                   roughness=roughness, scene=scene, changes=changes, steady=steady, run=run, folder=folder, workers=workers,
+                   threads=threads, progress=progress)
 
 
 def compare(*paths: "Name | Run") -> "Comparison":

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from tehl_taichi.errors import StoreError
 
-ROOT, FLANK = "zarr.json", "flank.json"  # what makes a folder a store or a study, and a flank
+ROOT, FLANK, BEARING = MARKS = "zarr.json", "flank.json", "bearing.json"  # of a store or a study, a flank, a bearing
 
 
 def refuse(folder):
@@ -43,10 +43,10 @@ def refuse_itself(path):
 
 
 def around(path):
-    """The stores, studies and flanks around a path, the innermost first, by its name and by where its links lead."""
+    """The stores, studies, flanks and bearings around a path, the innermost first, by its name and by where its links lead."""
     ways = path.absolute().parent, Path(os.path.realpath(path.absolute().parent))
     return [folder for way in ways for folder in (way, *way.parents)
-            if any(os.path.lexists(folder / mark) for mark in (ROOT, FLANK))]
+            if any(os.path.lexists(folder / mark) for mark in MARKS)]
 
 
 def _ways(folder):

@@ -84,6 +84,15 @@ def new(path, base, scan, unit="", pixel=0.0, pixel_y=0.0, lay=""):
     return _read(table), [key for key, value in (("unit", unit), ("pixel", pixel)) if not value], refused
 
 
+def scanned(scan, unit="", pixel=0.0):
+    """Keys of a feature of the heights in the file `scan`, as :func:`new` writes them: form removed, faded out at the rim; what
+    is not given is taken from the file. Raises SceneError."""
+    table = height_map.table_of(Path(scan))
+    pixel = pixel or stated_keys.usable(table.stated.x)
+    return dict(shape="profile" if height_map.is_profile(table.values) else "map", file=str(scan), pixel=pixel, level="form",
+                unit=unit or table.stated.unit, taper=_taper(table.values.shape, pixel, pixel))
+
+
 def _refusal(path, text):
     """Why the scene cannot run as it is although every key may be meant; "" where it can, or where a key is still missing.
     Raises SceneError for keys that cannot be meant."""

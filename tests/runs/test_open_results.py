@@ -38,7 +38,8 @@ def test_what_lies_there_is_what_comes_out(made):
 
 
 @pytest.mark.parametrize("name, said", [
-    (".", "is not a run, study or flank: it has neither zarr.json nor flank.json"), ("nothing", "the folder does not exist")])
+    (".", "is not a run, study, flank or bearing: it has none of zarr.json, flank.json and bearing.json"),
+    ("nothing", "the folder does not exist")])
 def test_what_is_nothing_of_ours_is_refused(made, name, said):
     with pytest.raises(StoreError, match=said):
         tehl.open(made / name)

@@ -9,6 +9,7 @@ import tehl_taichi as tehl
 from tehl_taichi.crack.crack_options import CrackOptions
 from tehl_taichi.crack.residual_stress import ResidualStress, read
 from tehl_taichi.errors import SceneError
+from tehl_taichi.runs.bearing.rolling_bearing import RollingBearing
 from tehl_taichi.runs.flank import load_table
 from tehl_taichi.runs.flank.mesh import Mesh
 from tehl_taichi.runs.flank.positions import along
@@ -19,11 +20,12 @@ from tehl_taichi.scene.sections import SECTIONS, Body
 from tehl_taichi.values.quantity import Number, Numbers, kinds
 from tehl_taichi.values.unit_hints import WRITTEN
 
-DECLARED = {**SECTIONS, "oil": Oil, "feature": Feature, "bodies": Body, "gear": GearPair, "crack": CrackOptions}
+DECLARED = {**SECTIONS, "oil": Oil, "feature": Feature, "bodies": Body, "gear": GearPair, "bearing": RollingBearing,
+            "crack": CrackOptions}
 TYPED = [(f"{section}.{key}", kind, power, name) for section, cls in DECLARED.items() for key, kind in kinds(cls).items()
          if isinstance(kind, Number) and kind.usual for power, name in WRITTEN.get(kind.unit, ())[:2]]
 # of which another unit cannot be told: any value between is one that somebody has
-EITHER = {"oil.eta_g", "gear.torque"}
+EITHER = {"oil.eta_g", "gear.torque", "bearing.load"}
 
 
 def test_every_unit_with_another_way_to_write_it_is_tried():

@@ -1,0 +1,42 @@
+"""Features of a raceway as `--dent` and `--scan` give them."""
+
+DENT = "DEPTH,WIDTH,rim=HEIGHT in m, as in 10e-6,0.3e-3,rim=1.2e-6"
+
+
+def dent_of(text):
+    """The Feature of a --dent. Raises SceneError."""
+    from tehl_taichi.scene.feature import Feature
+
+    plain, named = _parts(text)
+    rim = named.get("rim", 0.0)
+    keys = {"height": -abs(plain[0]), "width": plain[1]}
+    if not rim and "rim_width" not in named:
+        return Feature(**keys)
+    return Feature(shape="dent", **keys, **named)
+
+
+def _parts(text):
+    """([depth, width], {key: value}) of a --dent."""
+    from tehl_taichi.errors import SceneError
+
+    plain, named = [], {}
+    try:
+        for part in text.split(","):
+            key, equals, value = part.partition("=")
+            if equals:
+                named[key.strip()] = float(value)
+            else:
+                plain.append(float(part))
+    except ValueError:
+        plain = []
+    if len(plain) != 2 or named.keys() - {"rim", "rim_width"}:
+        raise SceneError(f"--dent {text!r} must have the form {DENT} (rim_width=WIDTH may follow)")
+    return plain, named
+
+
+def scan_of(path, unit, pixel):
+    """The Feature of a --scan: a map or a profile with its form removed and its rim faded out."""
+    from tehl_taichi.scene.feature import Feature
+    from tehl_taichi.scene.scan_scene import scanned
+
+    return Feature(**scanned(path, unit or "", pixel or 0.0))

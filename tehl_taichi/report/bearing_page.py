@@ -1,0 +1,106 @@
+"""The page of a rolling bearing: static safety and film first, then loads, contacts and slip, from what its folder keeps."""
+
+from tehl_taichi.fatigue.judged_surfaces import others
+from tehl_taichi.report.document import Answer, Page, Section, drawn, facts, sentences, table
+from tehl_taichi.report.number_text import FEW, value_text
+from tehl_taichi.report.plots import Figure, axis, colour, line, stacked
+from tehl_taichi.report.verdict import of_fatigue
+from tehl_taichi.runs.bearing import bearing_figure, bearing_table
+from tehl_taichi.runs.bearing.rolling_bearing import RollingBearing
+from tehl_taichi.runs.bearing.stored_bearing import Bearing
+from tehl_taichi.runs.flank.flank_columns import dig, error_of
+from tehl_taichi.values.quantity import kinds
+
+QUESTION = "Does the bearing carry its load, and how thick is the film?"
+
+
+def of(folder):
+    """The :class:`tehl_taichi.report.document.Page` of the bearing in `folder`. Raises StoreError."""
+    found = Bearing.open(folder)
+    heads, rows = bearing_table.elements(found)
+    return Page(f"{found.name}: report", found.title, _answer(found), (
+        Section("Loads and contacts", (facts(bearing_table.facts(found)), drawn(*figures(found)))),
+        Section("Both rings", tuple(table(["quantity", "inner ring", "outer ring"], rows, title)
+                                    for title, rows in bearing_table.tables(found).items())),
+        Section("Elements", (table(heads, rows),)),
+        Section("Not converged", (sentences([f"{ring} ring: {reason}" for ring, reason in found.failed.items()]),)),
+        Section("Bearing", (facts(_dimensions(found)), sentences(_sources(found)))),
+        Section("Warnings", (sentences(bearing_table.warnings(found)),)),
+        Section("Provenance", (facts(_provenance(found)),))))
+
+
+def _answer(found):
+    """Static safety, smallest film and ratio to the roughness; the fatigue of a feature that passes."""
+    ring, worst = min(found.rings.items(), key=lambda entry: entry[1]["static_safety"])
+    safe, limit = worst["static_safety"], found.record["static_limit_Pa"]
+    headline = f"{'Yes' if safe >= 1 else 'No'}: static safety {safe:.2f} at the {ring} ring. {_film(found)}"
+    why = [f"The Hertz pressure is {value_text(worst['p_Hertz_Pa'], unit='Pa', digits=FEW)}; ISO 76 allows "
+           f"{limit / 1e9:g} GPa, where the permanent deformation is 0.0001 of the diameter of an element.", *_fatigue(found)]
+    doubts = [f"Assumed: {'; '.join(found.record['assumptions'])}.",
+              *filter(None, [_sentence(bearing_table.estimated_words(found))]),
+              *[f"Number of warnings, listed below: {count}." for count in (len(bearing_table.warnings(found)),) if count]]
+    return Answer(QUESTION, headline, "none" if safe >= 1 else "yes", tuple(why), tuple(doubts))
+
+
+def _film(found):
+    """The thinner film of both contacts in a sentence."""
+    films = [(ring, *_central_film(one), bearing_table.film_ratio(found.record, one)) for ring, one in found.rings.items()]
+    ring, film, error, how, ratio = min(films, key=lambda entry: entry[1])
+    return f"The central film is {value_text(film, error, 'm', FEW)}{how} at the {ring} ring" + (
+        f", {ratio:.2g} times the roughness." if ratio else ".")
+
+
+def _central_film(one):
+    """(h_c in m, its error or None, " (by formula)" where it is not computed)."""
+    film = dig(one, "summary", "steady", "h_c_m")
+    return (one["film_formula_m"], None, " (by formula)") if film is None else (film, error_of(
+        one["summary"], "steady", "h_c_m"), "")
+
+
+def _fatigue(found):
+    for ring, one in found.rings.items():
+        if "fatigue" in (one["summary"] or {}):
+            question, answer, *_ = of_fatigue(one["summary"]["fatigue"], beside=others(one["summary"]))
+            yield f"{ring.capitalize()} ring: {question} {answer}"
+
+
+def _sentence(words):
+    return f"{words[0].upper()}{words[1:]}." if words else ""
+
+
+def figures(found):
+    """Loads around the ring; pressure and slip over both contacts."""
+    azimuth, loads = bearing_figure.azimuths(found)
+    bars = {"type": "bar", "x": azimuth.tolist(), "y": loads.tolist(), "marker": {"color": colour(0)}, "showlegend": False}
+    layout = {"xaxis": axis("azimuth from the direction of the load (degrees)"), "yaxis": axis(bearing_figure.LOADS),
+              "margin": {"l": 10, "r": 14, "t": 8, "b": 10}}
+    panels: list[tuple] = [("Hertz pressure (GPa)", _lines(bearing_figure.pressures(found), 1), {})]
+    if bearing_figure.has_slip(found):
+        panels.append(("slip (m/s)", _lines(bearing_figure.slip(found), 2, legend=False), {}))
+    return [Figure("bearing-loads", "Load of the elements around the ring.", [bars], layout, 330),
+            stacked("bearing-contacts", "Both contacts across rolling: Hertz pressure"
+                    f"{', and slip of the ring over the ball' * (len(panels) > 1)}.", bearing_figure.ACROSS, panels)]
+
+
+def _lines(found, panel, legend=True):
+    return [line(x.tolist(), y.tolist(), f"{ring} ring", colour(n), panel, in_legend=legend)
+            for n, (ring, (x, y)) in enumerate(found.items())]
+
+
+def _dimensions(found):
+    """Every value of the bearing with its meaning and unit."""
+    known = kinds(RollingBearing)
+    return [(f"{key}: {known[key].about}" if key in known else key,
+             f"{value:.6g} {known[key].unit}".rstrip(" -") if isinstance(value, float) and key in known else str(value))
+            for key, value in found.record["geometry"].items() if value is not None]
+
+
+def _sources(found):
+    return [f"Dimensions: {found.record['source']}.", *filter(None, [_sentence(bearing_table.estimated_words(found))])]
+
+
+def _provenance(found):
+    ran = [one["summary"] for one in found.rings.values() if one["summary"]]
+    versions = ", ".join(sorted({summary["version"] for summary in ran}))
+    return [("folder", found.folder.name), *([("version", versions)] if ran else []),
+            *([("run time of both contacts", f"{sum(summary['wall_s'] for summary in ran):.0f} s")] if ran else [])]

@@ -1,0 +1,166 @@
+"""A whole bearing: load of every element, contacts with both rings, their runs, and the record of all."""
+
+import dataclasses
+import math
+from os import PathLike
+from pathlib import Path
+
+from tehl_taichi.disk import files
+from tehl_taichi.errors import StoreError, interrupt
+from tehl_taichi.runs import single_run
+from tehl_taichi.runs.bearing import ellipse_slip, kinematics, load_distribution, ring_contacts, ring_scenes, stiffness
+from tehl_taichi.runs.bearing.bearing_source import bearing_source, default_scene
+from tehl_taichi.runs.bearing.dry_contact import dry_contact
+from tehl_taichi.runs.bearing.ring_contacts import RINGS
+from tehl_taichi.runs.bearing.rolling_bearing import RollingBearing
+from tehl_taichi.runs.bearing.static_safety import LIMITS, safety
+from tehl_taichi.runs.bearing.stored_bearing import Bearing, check_writable
+from tehl_taichi.runs.flank.flank_run import fresh
+from tehl_taichi.runs.flank.outcomes import summaries
+from tehl_taichi.runs.progress import Progress
+from tehl_taichi.scene import Scene, scene_file
+from tehl_taichi.scene.aliases import settled, words
+from tehl_taichi.scene.feature import Feature
+from tehl_taichi.scene.film_formula import formula_words, heated_film, spread
+from tehl_taichi.scene.scales import reduced_modulus
+from tehl_taichi.store.json_values import plain
+from tehl_taichi.store.load_scene import find
+from tehl_taichi.values.checks import choice, number
+from tehl_taichi.values.path_arguments import path_of
+
+ASSUMPTIONS = ("rings keep their shape and do not tilt", "elements roll without gross slip",
+               "centrifugal forces are left out")
+SPINS = "spin by outer raceway control (Jones 1959): all of it at the inner ring"
+NOTICED = 0.01  # of the largest load, of a centrifugal force
+SLIPPED = 41  # points of the slip over an ellipse that are kept
+
+
+@dataclasses.dataclass(frozen=True)
+class RingCase:
+    """One ring: its RingContact, DryContact, EllipseSlip (None: rollers) and scene."""
+
+    contact: object
+    dry: object
+    slip: object
+    scene: Scene
+
+
+def bearing(what: str | PathLike | RollingBearing, *, load: float | None = None, axial: float | None = None,
+            speed: float | None = None, dimensions: dict | None = None, on: str = "inner", feature: Feature | None = None,
+            roughness: float | None = None, scene: Scene | None = None, changes: dict | None = None, steady: bool = False,
+            run: bool = True, folder: str | PathLike | None = None, workers: int | None = None, threads: int | None = None,
+            progress: Progress | None = None) -> Bearing:
+    """As :func:`tehl_taichi.bearing`."""
+    choice("on", on, RINGS)
+    if roughness is not None:
+        number("roughness", roughness, "m", 1e-10, 1e-4, usual=1e-7)
+    found = bearing_source(what, {**(dimensions or {}), "load": load, "axial": axial, "speed": speed})
+    base = ring_scenes.base_of(find(scene) if scene is not None else found.scene or default_scene(), feature)
+    passing = bool(base.features) and not steady and (feature is not None or scene is not None or found.scene is not None)
+    changes = settled([(words(key, value), key, value) for key, value in (changes or {}).items()])
+    ring_scenes.check_free(changes)
+    loads, speeds, rings = solved(found, base, changes, on if passing else "")
+    target = path_of("folder", folder) if folder else fresh(found.name)
+    check_writable(target)
+    _check_stores(target, rings)
+    record = bearing_record(found, target, loads, speeds, rings, roughness)
+    made = Bearing(target, record)
+    made.write()
+    write_scenes(target, rings)
+    return _run(made, rings, workers, threads, progress) if run else made
+
+
+def solved(found, base, changes, on):
+    """(loads, speeds, {ring: :class:`RingCase`}) of a BearingSource; on: the ring that carries the features, "" for none."""
+    which, E = found.bearing, reduced_modulus(base.replace(**_bodies(changes)))
+    free = ring_contacts.contacts(which)
+    loads = load_distribution.distribution(which, stiffness.of_bearing(which, free, E))
+    contacts = free if which.rollers else ring_contacts.contacts(which, loads.angle)
+    speeds = kinematics.speeds(which, contacts)
+    return loads, speeds, {ring: _ring(found, base, changes, contacts[ring], loads, speeds, E, ring == on) for ring in RINGS}
+
+
+def _bodies(changes):
+    return {key: value for key, value in changes.items() if key.startswith("bodies")}
+
+
+def _ring(found, base, changes, contact, loads, speeds, E, passes):
+    dry = dry_contact(found.bearing, contact, loads.largest, E)
+    slip = None if found.bearing.rollers else ellipse_slip.slip_over(contact, dry.b, speeds.u_m, speeds.spin[contact.ring])
+    made = ring_scenes.ring_scene(base, changes, f"{found.name}-{contact.ring}", contact, dry, speeds.u_m,
+                                  slip.centre if slip else 0.0, passes)
+    return RingCase(contact, dry, slip, made)
+
+
+def bearing_record(found, folder, loads, speeds, rings, roughness):
+    """The JSON object of `tehl bearing --json`, before anything ran."""
+    which = found.bearing
+    return plain({
+        "name": found.name, "folder": str(folder), "source": found.source, "estimated": list(found.estimated),
+        "geometry": dataclasses.asdict(which), "oil": rings["inner"].scene.oil.name,
+        "temperature_C": rings["inner"].scene.operation.temperature, "roughness_Sq_m": roughness,
+        "assumptions": _assumptions(which, loads, speeds, rings), "ball_load_max_N": loads.largest, "loads_N": loads.loads,
+        "azimuths_deg": [math.degrees(one) for one in loads.azimuth],
+        "contact_angles_deg": [math.degrees(one) for one in loads.angles],
+        "loaded": loads.loaded, "axial_load_N": loads.axial_load, "radial_displacement_m": loads.radial,
+        "axial_displacement_m": loads.axial, "cage_speed_1_min": speeds.cage * 30 / math.pi,
+        "element_passes_per_s": speeds.element_passes, "static_limit_Pa": LIMITS[which.element],
+        **{ring: _ring_record(which, case, speeds, folder) for ring, case in rings.items()}})
+
+
+def _assumptions(which, loads, speeds, rings):
+    force = kinematics.centrifugal_force(which, speeds, rings["inner"].scene.body_b.rho)
+    out = list(ASSUMPTIONS[:2])
+    share = force / loads.largest
+    out.append(f"{ASSUMPTIONS[2]} ({force:.3g} N per element{f', {share:.0%} of the largest load' if share > NOTICED else ''})")
+    return [*out, SPINS] if any(speeds.spin.values()) else out
+
+
+def _ring_record(which, case, speeds, folder):
+    contact, dry, ring = case.contact, case.dry, case.contact.ring
+    line = dry.kind != "elliptic" and which.rollers and dry.b == which.length / 2
+    return {"R_x_m": contact.R_x, "R_y_m": contact.R_y, "a_m": dry.a, "b_m": dry.b, "p_Hertz_Pa": dry.p_H,
+            "u_m_m_s": speeds.u_m, "contact": dry.words, "load_N": dry.load, "passes_per_s": speeds.passes[ring],
+            "static_safety": safety(which, dry.p_H, line), **_slip_record(case.slip, speeds.spin[ring]),
+            **_formula(case.scene), "scene_file": str(Path(folder) / f"{ring}.toml"),
+            "store": str(Path(folder) / f"{case.scene.name}.zarr"), "converged": False, "reason": "", "summary": None}
+
+
+def _slip_record(slip, spin):
+    """Slip over the ellipse, at every so-manieth point."""
+    if slip is None:
+        return {"slip": None, "spin_rad_s": 0.0}
+    step = (slip.y.size - 1) // (SLIPPED - 1)
+    return {"slip": {"srr_centre": slip.centre, "srr_edge": slip.edge, "mean_m_s": slip.mean, "pure_rolling_y_b": slip.rolling,
+                     "y_m": slip.y[::step], "slip_m_s": slip.slip[::step]}, "spin_rad_s": spin}
+
+
+def _formula(made):
+    return {"film_formula_m": heated_film(made), "film_formula": formula_words(made), "film_formula_spread": spread(made)}
+
+
+def _check_stores(folder, rings):
+    """Refuse a folder whose stores are of other scenes, before anything of it is replaced. Raises StoreError."""
+    for case in rings.values():
+        store = Path(folder) / f"{case.scene.name}.zarr"
+        if store.exists() and single_run.open(store).scene != case.scene:
+            raise StoreError(f"{store} holds another scene ({case.scene.name} with other values); choose another folder")
+
+
+def write_scenes(folder, rings):
+    """Scene files with every value, to run and change: FOLDER/inner.toml and outer.toml. Raises StoreError."""
+    with files.blamed(folder, "cannot write to"):
+        for ring, case in rings.items():
+            files.replace(Path(folder) / f"{ring}.toml", scene_file.dumps(case.scene).encode())
+
+
+def _run(made, rings, workers, threads, progress):
+    """The bearing with the results of its two scenes."""
+    names = list(rings)
+    try:
+        for n, outcome in summaries([case.scene for case in rings.values()], made.folder, workers, threads, progress):
+            made = made.with_ring(names[n], outcome)
+            made.write()
+    except KeyboardInterrupt as stop:
+        raise interrupt(stop, f"; repeat the command with --out {made.folder} to resume") from None
+    return made

@@ -1,0 +1,155 @@
+"""The numbers of both rings: a row each, for the table on the screen, the page and the CSV file."""
+
+import csv
+import io
+from dataclasses import dataclass
+from typing import Callable
+
+from tehl_taichi.runs.bearing.ring_contacts import RINGS
+from tehl_taichi.runs.flank.flank_columns import dig, error_of
+from tehl_taichi.values.digits import with_error
+from tehl_taichi.values.escape import cell
+
+
+@dataclass(frozen=True)
+class RingRow:
+    """name: with its SI unit, of the CSV file; label, factor, form: of the printed table `part`; value: of (record of the
+    bearing, record of the ring), None where there is none; error: likewise."""
+
+    part: str
+    name: str
+    label: str
+    factor: float
+    form: str
+    value: Callable
+    error: Callable = lambda bearing, ring: None
+
+    def shown(self, bearing, ring):
+        value, error = self.value(bearing, ring), self.error(bearing, ring)
+        if value is None or isinstance(value, str):
+            return value or ""
+        value *= self.factor
+        return format(value, self.form) if error is None else with_error(value, error * self.factor)
+
+
+def of_ring(*keys):
+    """A value deep in the record of a ring."""
+    return lambda bearing, ring: dig(ring, *keys)
+
+
+def _result(part, name, label, factor, form, *keys):
+    """A row of a number in the summary of a ring, with its error bar."""
+    return RingRow(part, name, label, factor, form, of_ring("summary", *keys),
+                   lambda bearing, ring: error_of(ring["summary"], *keys))
+
+
+def film_ratio(bearing, ring):
+    """lambda: central film over the rms height of both surfaces together; the computed film where there is one."""
+    if (own := dig(ring, "summary", "lambda")) is not None:
+        return own
+    film = dig(ring, "summary", "steady", "h_c_m") or ring.get("film_formula_m")
+    Sq = bearing.get("roughness_Sq_m")
+    return film / Sq if film and Sq else None
+
+
+def sliding_loss(bearing, ring):
+    """Power (W) of the slip in the most loaded contact: friction coefficient x load x mean slip."""
+    friction, slip = dig(ring, "summary", "steady", "friction_coefficient"), dig(ring, "slip", "mean_m_s")
+    return None if friction is None or slip is None else friction * ring["load_N"] * slip
+
+
+CONTACT, MOTION, FILM, PASSAGE = PARTS = ("contact", "motion", "film", "while the feature passes")
+ROWS = (
+    RingRow(CONTACT, "contact", "contact", 1, "", of_ring("contact")),
+    RingRow(CONTACT, "load_N", "load, N", 1, ".1f", of_ring("load_N")),
+    RingRow(CONTACT, "R_x_m", "R_x, mm", 1e3, ".4g", of_ring("R_x_m")),
+    RingRow(CONTACT, "R_y_m", "R_y, mm", 1e3, ".4g", of_ring("R_y_m")),
+    RingRow(CONTACT, "a_m", "half-axis a along rolling, mm", 1e3, ".4g", of_ring("a_m")),
+    RingRow(CONTACT, "b_m", "half-axis b across, mm", 1e3, ".4g", of_ring("b_m")),
+    RingRow(CONTACT, "p_Hertz_Pa", "Hertz pressure, GPa", 1e-9, ".3f", of_ring("p_Hertz_Pa")),
+    RingRow(CONTACT, "static_safety", "static safety (ISO 76)", 1, ".2f", of_ring("static_safety")),
+    RingRow(MOTION, "u_m_m_s", "entrainment speed, m/s", 1, ".3f", of_ring("u_m_m_s")),
+    RingRow(MOTION, "srr_centre", "SRR at the centre", 1, ".5f", of_ring("slip", "srr_centre")),
+    RingRow(MOTION, "srr_edge", "SRR at the end of the ellipse", 1, ".4f", of_ring("slip", "srr_edge")),
+    RingRow(MOTION, "slip_mean_m_s", "mean slip, m/s", 1, ".4f", of_ring("slip", "mean_m_s")),
+    RingRow(MOTION, "spin_rad_s", "spin, rad/s", 1, ".1f", lambda bearing, ring: ring["spin_rad_s"] or None),
+    RingRow(MOTION, "passes_per_s", "passes of elements per second", 1, ".2f", of_ring("passes_per_s")),
+    RingRow(FILM, "film_formula_m", "h_c by formula, um", 1e6, ".3f", of_ring("film_formula_m")),
+    _result(FILM, "h_c_m", "h_c, um", 1e6, ".3f", "steady", "h_c_m"),
+    _result(FILM, "h_min_m", "h_min, um", 1e6, ".3f", "steady", "h_min_m"),
+    RingRow(FILM, "lambda", "lambda = h_c/Sq", 1, ".2f", film_ratio),
+    _result(FILM, "friction_coefficient", "friction coefficient at the slip of the centre", 1, ".4f", "steady",
+            "friction_coefficient"),
+    RingRow(FILM, "sliding_loss_W", "sliding loss of the most loaded contact, W", 1, ".3g", sliding_loss),
+    _result(FILM, "film_max_C", "film temperature, deg C", 1, ".1f", "steady", "film_max_C"),
+    _result(PASSAGE, "passage_p_max_Pa", "largest pressure, GPa", 1e-9, ".3f", "transient", "p_max_Pa"),
+    _result(PASSAGE, "passage_h_min_m", "smallest film, um", 1e6, ".3f", "transient", "h_min_m"),
+    _result(PASSAGE, "Fi_max", "Fi at the surface", 1, ".3f", "fatigue", "Fi_max"),
+    _result(PASSAGE, "Fi_max_below", "Fi below the surface", 1, ".3f", "fatigue", "below", "Fi_max"))
+
+
+def tables(bearing):
+    """{title: rows of (label, inner, outer)} of the parts that have values; bearing: a Bearing."""
+    out = {}
+    for part in PARTS:
+        found = [(row.label, *(row.shown(bearing.record, ring) for ring in bearing.rings.values()))
+                 for row in ROWS if row.part == part and _has(row, bearing)]
+        if found:
+            out[part] = found
+    return out
+
+
+def _has(row, bearing):
+    return any(row.value(bearing.record, ring) is not None for ring in bearing.rings.values())
+
+
+def elements(bearing):
+    """(heads, rows) of the loads of the elements."""
+    one = bearing.record
+    heads, columns = ["azimuth, deg", "load, N"], [one["azimuths_deg"], one["loads_N"]]
+    if any(one["contact_angles_deg"]):
+        heads, columns = [*heads, "contact angle, deg"], [*columns, one["contact_angles_deg"]]
+    return ["element", *heads], [[str(n), *(f"{value:.1f}" for value in row)] for n, row in enumerate(zip(*columns), 1)]
+
+
+def facts(bearing):
+    """[(what, value)] of the bearing as a whole."""
+    one, which = bearing.record, bearing.record["geometry"]
+    axial = [("axial load", f"{one['axial_load_N']:.1f} N")] if one["axial_load_N"] > 1e-6 * one["ball_load_max_N"] else []
+    return [("largest load of an element", f"{one['ball_load_max_N']:.1f} N"),
+            ("elements under load", f"{one['loaded']} of {which['count']}"), *axial,
+            ("radial displacement", f"{one['radial_displacement_m'] * 1e6:.2f} um"),
+            ("speed of the cage", f"{one['cage_speed_1_min']:.1f} 1/min"),
+            ("contacts per second of a point of an element", f"{one['element_passes_per_s']:.2f}")]
+
+
+def estimated_words(bearing):
+    """Sentence about dimensions that are not published; "" where all are."""
+    keys, which = bearing.record["estimated"], bearing.record["geometry"]
+    if not keys:
+        return ""
+    values = ", ".join(f"{key} = {which[key]:g}" for key in keys)
+    return f"estimated, because not published: {values} (osculations of the ratings of ISO 76); set them if you know them"
+
+
+def warnings(bearing):
+    """Warnings of both runs, each once, with its rings where only one has it."""
+    places: dict[str, list[str]] = {}
+    for name, ring in bearing.rings.items():
+        for sentence in (ring["summary"] or {}).get("warnings", []):
+            places.setdefault(sentence, []).append(name)
+    return [sentence if len(names) == len(RINGS) else f"{names[0]} ring: {sentence}" for sentence, names in places.items()]
+
+
+def csv_text(bearing):
+    """The table as CSV in SI units, a line per ring, error bars in columns of their own."""
+    rows = [row for row in ROWS if _has(row, bearing)]
+    barred = [row for row in rows if any(row.error(bearing.record, ring) is not None for ring in bearing.rings.values())]
+    text = io.StringIO()
+    out = csv.writer(text)
+    out.writerow(map(cell, ["ring", *(row.name for row in rows), *(f"error_{row.name}" for row in barred)]))
+    for name in RINGS:
+        ring = bearing.rings[name]
+        out.writerow(map(cell, [name, *(row.value(bearing.record, ring) for row in rows),
+                                *(row.error(bearing.record, ring) for row in barred)]))
+    return text.getvalue()

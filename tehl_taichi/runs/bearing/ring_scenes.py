@@ -1,0 +1,48 @@
+"""Scenes of the contacts of the most loaded element with both rings; body a is the ring, body b the element."""
+
+import dataclasses
+import math
+
+from tehl_taichi.errors import SceneError
+from tehl_taichi.runs.bearing.dry_contact import LINE
+from tehl_taichi.scene.aliases import BY_SURFACE, full_name
+from tehl_taichi.scene.description import Scene
+
+STEADY_GRID = {"grid.nx": 128, "grid.ny": 32}  # of steady contacts, unless the caller or the scene says otherwise
+SMALLEST = 1e-12  # of a slide-roll ratio that is rounding
+
+
+def base_of(scene, feature=None):
+    """The scene with the dent or scan `feature` as its only one (None: its own); nothing is judged before the contact is
+    set."""
+    data = scene.to_dict()
+    data["time"]["steady_only"] = True
+    if feature is not None:
+        data["feature"] = [feature]
+    return Scene.from_dict(data)
+
+
+def check_free(changes):
+    """Refuse changes of what the bearing sets. Raises SceneError."""
+    for key in map(full_name, changes):
+        if key.startswith("contact.") or key in ("operation.u_m", "operation.srr", *BY_SURFACE):
+            raise SceneError(f"{key} has no effect: dimensions, load and speed of the bearing set it")
+
+
+def ring_scene(base, changes, name, contact, dry, u_m, srr, passes):
+    """The scene called `name` of one ring; contact: its RingContact, dry: its DryContact, passes: whether features pass here.
+    Raises SceneError that says which ring."""
+    own = {"name": name, "contact.kind": dry.kind, "contact.radius_x": contact.R_x,
+           "contact.radius_y": math.inf if dry.kind == LINE else contact.R_y, "contact.load": dry.scene_load,
+           "operation.u_m": u_m, "operation.srr": srr if abs(srr) > SMALLEST else 0.0}
+    given = {full_name(key): value for key, value in changes.items()}
+    grid = {} if passes or any(key.startswith("grid.") for key in given) else STEADY_GRID
+    try:
+        return (base if passes else smooth(base)).replace(**{**own, **grid, **given, "time.steady_only": not passes})
+    except SceneError as error:
+        raise SceneError(f"{contact.ring} ring: {error}") from None
+
+
+def smooth(base):
+    """The scene without features."""
+    return dataclasses.replace(base, features=()).with_user_keys(())

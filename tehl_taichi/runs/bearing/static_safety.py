@@ -1,0 +1,15 @@
+"""Static safety: how much more load brings the Hertz pressure of ISO 76, at which the permanent deformation of element and
+raceway is about 0.0001 of the diameter of the element."""
+
+LIMITS = {"ball": 4.2e9, "roller": 4.0e9}  # Pa, ISO 76:2006, 3.2 (self-aligning ball bearings: 4.6e9)
+POINT, LINE = 3, 2  # the load grows with this power of the pressure
+
+
+def limit(bearing):
+    """Hertz pressure (Pa) of the static load rating."""
+    return LIMITS[bearing.element]
+
+
+def safety(bearing, p_H, line=False):
+    """Load of the limiting pressure over the load of the Hertz pressure p_H (Pa); line: of a line contact."""
+    return (limit(bearing) / p_H) ** (LINE if line else POINT)

@@ -1,0 +1,210 @@
+"""A whole bearing: what names it, its scenes and files, its page, and one that is computed."""
+
+import csv
+import json
+import math
+
+import pytest
+from commands import here
+from fake_cases import position
+
+import tehl_taichi as tehl
+from tehl_taichi.errors import SceneError, StoreError
+from tehl_taichi.report import bearing_page, document
+from tehl_taichi.runs.bearing import bearing_figure, bearing_table
+from tehl_taichi.runs.bearing.bearing_source import bearing_source
+from tehl_taichi.runs.open_results import kind
+from tehl_taichi.runs.sweep import case
+from tehl_taichi.scene.scales import Scales
+from tehl_taichi.view.figures.figure_style import FigureStyle
+
+NAMES = {"R_x_m", "R_y_m", "a_m", "b_m", "p_Hertz_Pa", "u_m_m_s", "summary"}
+DENT = dict(shape="dent", height=-2e-6, width=0.2e-3, rim=0.3e-6)
+DUTY = dict(load=3000.0, speed=1500.0)
+
+
+@pytest.fixture(scope="module")
+def dry(tmp_path_factory):
+    """A 6206 without runs."""
+    return tehl.bearing("6206", **DUTY, roughness=0.1e-6, run=False, folder=tmp_path_factory.mktemp("b") / "b6206")
+
+
+def test_the_record_has_the_keys_of_the_interface(dry):
+    record = dry.to_dict()
+    assert record["ball_load_max_N"] == max(record["loads_N"]) and len(record["loads_N"]) == 9
+    assert all(NAMES <= record[ring].keys() for ring in ("inner", "outer"))
+    assert json.loads((dry.folder / "bearing.json").read_text()) == record
+    assert record["estimated"] == ["osculation_inner", "osculation_outer"] and "SKF" in record["source"]
+
+
+def test_scene_files_have_the_contact_of_the_record(dry):
+    for ring, one in dry.rings.items():
+        scene = tehl.scene(one["scene_file"])
+        s = Scales.of(scene)
+        assert (s.p_H, s.a, s.b) == pytest.approx((one["p_Hertz_Pa"], one["a_m"], one["b_m"]))
+        assert scene.contact.kind == "elliptic" and scene.operation.u_m == pytest.approx(one["u_m_m_s"])
+        assert scene.operation.srr == pytest.approx(one["slip"]["srr_centre"]) and not scene.transient
+        assert scene.load == one["load_N"] and scene.name == f"6206-{ring}" and (scene.grid.nx, scene.grid.ny) == (128, 32)
+
+
+def test_files_of_a_bearing_open_again(dry):
+    again = tehl.open(dry.folder)
+    assert kind(dry.folder) == "bearing" and again.record == dry.record and repr(again) == repr(dry)
+    with (dry.folder / "bearing.csv").open() as file:
+        inner, outer = csv.DictReader(file)
+    assert inner["ring"] == "inner" and float(outer["p_Hertz_Pa"]) == dry.rings["outer"]["p_Hertz_Pa"]
+    assert float(inner["lambda"]) == pytest.approx(dry.rings["inner"]["film_formula_m"] / 0.1e-6) and "h_c_m" not in inner
+
+
+def test_the_page_begins_with_safety_and_film(dry):
+    page = bearing_page.of(dry.folder)
+    assert page.answer.headline.startswith("Yes: static safety ")
+    assert "(by formula) at the inner ring" in page.answer.headline
+    assert "times the roughness" in page.answer.headline and "4.2 GPa" in page.answer.sentences[0]
+    assert any("not published" in one for one in page.answer.doubts)
+    assert {"bearing-loads", "bearing-contacts"} <= page.figures.keys()
+    assert "diameter of a ball" in document.rendered(page)
+
+
+def test_the_page_of_too_much_load_says_no(tmp_path):
+    found = tehl.bearing("6206", load=20000.0, run=False, folder=tmp_path / "b")
+    assert bearing_page.of(found.folder).answer.headline.startswith("No: static safety 0.6")
+
+
+def test_the_figure_shows_loads_pressure_and_slip(dry):
+    pytest.importorskip("matplotlib")
+    axes = bearing_figure._drawn(FigureStyle(), dry).axes
+    assert [len(ax.patches) for ax in axes] == [9, 0, 0] and [len(ax.lines) for ax in axes] == [0, 2, 2]
+    assert max(axes[1].lines[0].get_ydata()) == pytest.approx(dry.rings["inner"]["p_Hertz_Pa"] / 1e9)
+
+
+def test_results_of_the_runs_come_into_record_and_tables(tmp_path, monkeypatch):
+    monkeypatch.setattr(case, "work", lambda job, *_: position(job))
+    found = tehl.bearing("6205", **DUTY, folder=tmp_path / "b", workers=1)
+    assert [one["summary"]["steady"]["h_c_m"] for one in found.rings.values()] == pytest.approx(
+        [one["R_x_m"] for one in found.rings.values()])
+    assert not found.failed and all(one["converged"] for one in found.rings.values())
+    rows = {label: (inner, outer) for label, inner, outer in bearing_table.tables(found)["film"]}
+    assert rows["h_c, um"][0] == f"{found.rings['inner']['R_x_m'] * 1e6:.3f}"
+
+
+def test_a_ring_without_a_result_is_named(tmp_path, monkeypatch):
+    def work(job, *_):
+        made = position(job)
+        if job.scene.name.endswith("inner"):
+            return {**made, "status": "not converged", "reason": "made up", "summary": None}
+        return {**made, "summary": {**made["summary"], "version": "0.9", "wall_s": 1.0}}
+
+    monkeypatch.setattr(case, "work", work)
+    found = tehl.bearing("6205", **DUTY, folder=tmp_path / "b", workers=1)
+    assert found.failed == {"inner": "made up"}
+    assert "Not converged" in [section.title for section in bearing_page.of(found.folder).shown]
+
+
+def test_a_dent_passes_on_one_ring(tmp_path):
+    found = tehl.bearing("6206", **DUTY, on="outer", feature=tehl.Feature(**DENT), run=False, folder=tmp_path / "b")
+    inner, outer = (tehl.scene(one["scene_file"]) for one in found.rings.values())
+    assert outer.transient and outer.features == (tehl.Feature(**DENT),) and outer.grid.nx == 256
+    assert not inner.transient and inner.features == ()
+
+
+def test_a_contact_angle_spins_at_the_inner_ring(tmp_path):
+    found = tehl.bearing("218", load=0.0, axial=17800.0, run=False, folder=tmp_path / "b")
+    assert found.rings["inner"]["spin_rad_s"] > 0 == found.rings["outer"]["spin_rad_s"]
+    assert any("outer raceway control" in one for one in found.record["assumptions"])
+    assert bearing_table.elements(found)[0][-1] == "contact angle, deg"
+
+
+def test_rollers_say_whether_they_touch_along_a_line(tmp_path):
+    keys = dict(element="roller", diameter=8e-3, count=18, pitch_diameter=60e-3, length=10e-3, contact_angle=15.0, taper=4.0)
+    found = tehl.bearing("tapered", **DUTY, dimensions={**keys, "crown": 2.5}, run=False, folder=tmp_path / "b")
+    inner = found.rings["inner"]
+    scene = tehl.scene(inner["scene_file"])
+    assert "line contact" in inner["contact"] and scene.contact.kind == "line" and math.isinf(scene.contact.radius_y)
+    assert Scales.of(scene).p_H == pytest.approx(inner["p_Hertz_Pa"]) and scene.operation.srr == 0 and inner["slip"] is None
+    straight = tehl.bearing("tapered", **DUTY, dimensions=keys, run=False, folder=tmp_path / "s")
+    assert straight.rings["inner"]["R_y_m"] is None and straight.rings["inner"]["b_m"] == 5e-3
+
+
+def test_a_file_names_a_bearing(tmp_path):
+    file = tmp_path / "mine.toml"
+    file.write_text('base = "6206"\nscene = "smooth-line"\n[bearing]\nclearance = 10e-6\nosculation_inner = 0.515\n')
+    found = bearing_source(file, {"load": 2000.0, "axial": None})
+    assert found.name == "mine" and found.bearing.count == 9 and found.bearing.load == 2000 and found.bearing.clearance == 10e-6
+    assert found.estimated == ("osculation_outer",) and found.scene.name == "smooth-line"
+    file.write_text('name = "b"\n[bearing]\nelement = "roller"\ndiameter = 8e-3\ncount = 18\npitch_diameter = 0.06\n'
+                    'length = 0.01\n')
+    assert bearing_source(file, {}).bearing.rollers and bearing_source(file, {}).estimated == ()
+
+
+@pytest.mark.parametrize("text, said", [("", "needs a table \\[bearing\\], or base = a designation"),
+                                        ("[bearing]\nballs = 9", "unknown key bearing.balls"),
+                                        ("colour = 1", "unknown key 'colour'"), ("base = 3", "base = 3 must be text"),
+                                        ('base = "6207x"', "not in the table of this program")])
+def test_a_wrong_file_is_refused_in_a_sentence(tmp_path, text, said):
+    file = tmp_path / "mine.toml"
+    file.write_text(text)
+    with pytest.raises(SceneError, match=said):
+        bearing_source(file, {})
+
+
+@pytest.mark.parametrize("options, said", [
+    (dict(what="6207"), "'6207' are not in the table .*did you mean '620[356]'.*give its elements by --ball-diameter"),
+    (dict(what=3), "bearing = 3 is not a path"),
+    (dict(on="left"), "on = 'left' is not known; allowed: inner, outer"),
+    (dict(roughness=0.1), "roughness = 0.1 m is out of range"),
+    (dict(changes={"srr": 0.1}), "operation.srr has no effect: dimensions, load and speed of the bearing set it"),
+    (dict(changes={"contact.load": 10.0}), "contact.load has no effect"),
+    (dict(dimensions={"balls": 9}), "unknown key bearing.balls"),
+    (dict(load=1e6), "inner ring: .*gives a Hertz pressure of .* allowed: 1e\\+07 to 6e\\+09 Pa")])
+def test_wrong_calls_are_refused_before_anything_is_written(tmp_path, options, said):
+    with pytest.raises(SceneError, match=said):
+        tehl.bearing(**{"what": "6206", **options}, run=False, folder=tmp_path / "b")
+    assert not (tmp_path / "b").exists()
+
+
+def test_a_folder_of_something_else_is_kept(tmp_path):
+    (tmp_path / "notes.txt").write_text("mine")
+    with pytest.raises(StoreError, match="is not the folder of a bearing"):
+        tehl.bearing("6206", run=False, folder=tmp_path)
+
+
+@pytest.mark.parametrize("words, said", [
+    (("6206", "--dent", "10e-6"), "--dent '10e-6' must have the form DEPTH,WIDTH,rim=HEIGHT"),
+    (("6206", "--dent", "1e-6,2e-4,edge=3"), "must have the form DEPTH,WIDTH,rim=HEIGHT"),
+    (("6206", "--dent", "1e-6,2e-4", "--scan", "a.csv"), "contradict each other"),
+    (("6206", "--pixel", "1e-6"), "--pixel 1e-06 has no effect without --scan"),
+    (("6206", "--scan", "none.csv"), "feature.file = 'none.csv' does not exist"),
+    (("nothing",), "the inner dimensions of bearing 'nothing' are not in the table")])
+def test_wrong_options_are_refused(tmp_path, words, said):
+    found = here("bearing", *words, "--no-run", "--no-figure", cwd=tmp_path)
+    assert found.returncode == 2 and said in " ".join(found.stderr.split())
+
+
+def test_commands_print_and_show_a_bearing(tmp_path):
+    quick = ("--no-run", "--no-figure")
+    found = here("bearing", "mine", "--ball-diameter", 12e-3, "--balls", 9, "--pitch-diameter", 60e-3, "--dent",
+                 "2e-6,2e-4,rim=3e-7", *quick, "--out", "b", "--json", cwd=tmp_path)
+    assert found.returncode == 0 and json.loads(found.stdout)["name"] == "mine"
+    shown = here("show", "b", cwd=tmp_path)
+    assert "static safety (ISO 76)" in shown.stdout and "estimated, because not published" in shown.stdout
+    own = ("--roller-diameter", 8e-3, "--rollers", 18, "--pitch-diameter", 60e-3, "--length", 10e-3)
+    roller = here("roller", "--json", *own, *quick, cwd=tmp_path)
+    assert json.loads(roller.stdout)["inner"]["contact"] == "line contact of a straight roller"
+    assert here("report", "b", cwd=tmp_path).returncode == 0 and (tmp_path / "b.html").stat().st_size > 1e6
+
+
+@pytest.mark.slow
+def test_a_bearing_is_computed(taichi_cpu, tmp_path):
+    """Steady films of both rings near those of the formula, with error bars; a repeated call reads them."""
+    keys = dict(changes={"oil.name": "mineral-vg100", "temperature": 70.0, "grid.nx": 64, "grid.ny": 16, "thermal.on": False},
+                folder=tmp_path / "b", workers=1)
+    found = tehl.bearing("6206", **DUTY, **keys)
+    for one in found.rings.values():
+        film = one["summary"]["steady"]
+        assert one["converged"] and film["h_c_m"] == pytest.approx(one["film_formula_m"], rel=0.25)
+        assert film["p_max_Pa"] == pytest.approx(one["p_Hertz_Pa"], rel=0.03) and 0 < film["friction_coefficient"] < 0.09
+    assert found.rings["inner"]["summary"]["steady"]["h_c_m"] < found.rings["outer"]["summary"]["steady"]["h_c_m"]
+    assert tehl.bearing("6206", **DUTY, **keys).record == found.record
+    with pytest.raises(StoreError, match="holds another scene"):
+        tehl.bearing("6206", load=2000.0, speed=1500.0, **keys)
