@@ -7,6 +7,7 @@ from typing import Annotated, Any, Optional
 import typer
 
 from tehl_taichi.laws.criteria import CRITERIA
+from tehl_taichi.laws.hardness import RELATIONS
 
 
 def _options(
@@ -17,6 +18,13 @@ def _options(
     torsion_limit: Annotated[Optional[float], typer.Option(help="fatigue limit in reversed torsion, Pa (one limit fixes "
                                                                 "sigma_eF; both limits also fix kappa)")] = None,
     criterion: Annotated[Optional[str], typer.Option(help="criterion: " + ", ".join(CRITERIA))] = None,
+    table: Annotated[Optional[str], typer.Option(help="strength over depth: a CSV file or a built-in table, as case-hardened "
+                                                      "('': none)")] = None,
+    table_b: Annotated[Optional[str], typer.Option(help="table of body b where it is another one; none: no table")] = None,
+    relation: Annotated[Optional[str], typer.Option(help="fatigue limit by the hardness of a table: "
+                                                         + ", ".join(RELATIONS))] = None,
+    inclusion: Annotated[Optional[float], typer.Option(help="root of the area of the largest inclusion, m, for the relation "
+                                                            "murakami")] = None,
     depths: Annotated[Optional[str], typer.Option(help="depths to search: auto (critical depth under the feature), none, or a "
                                                        "list in m for all points, as 50e-6,100e-6")] = None,
     surfaces: Annotated[Optional[str], typer.Option(help="bodies to search: both, a or b")] = None,

@@ -44,17 +44,20 @@ def oils():
 
 
 def laws():
-    """List the laws of oil and friction and the fatigue criteria, with their constants and sources."""
+    """List the laws of oil and friction, the fatigue criteria and relations to hardness, with their constants and sources."""
     from tehl_cli.tables import list_table
 
     from tehl_taichi.laws.choices import ALONE, CHOICES
     from tehl_taichi.laws.criteria import CRITERIA
+    from tehl_taichi.laws.hardness import RELATIONS
 
     for key, registry in {**CHOICES, "": ALONE}.items():
         list_table(f"--set {key}=NAME" if key else "always used", ("name", "law", "numbers", "source"),
                    [(law.name, law.says, ", ".join(law.numbers), law.source) for law in registry.values()])
     list_table("--set fatigue.criterion=NAME", ("name", "criterion", "kappa: sensitivity to", "source"),
                [(rule.name, rule.says, rule.sensitivity, rule.source) for rule in CRITERIA.values()])
+    list_table("--set fatigue.relation=NAME", ("name", "limit by hardness", "HV", "spread", "source"),
+               [(one.name, one.says, f"{one.low:g} to {one.high:g}", one.spread, one.source) for one in RELATIONS.values()])
 
 
 def new(

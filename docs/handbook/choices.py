@@ -7,6 +7,7 @@ from handbook.tables import code, plain, table
 from tehl_taichi.crack.fillings import FILLINGS
 from tehl_taichi.laws.choices import ALONE, CHOICES
 from tehl_taichi.laws.criteria import CRITERIA
+from tehl_taichi.laws.hardness import RELATIONS
 from tehl_taichi.scene.feature import SHAPES, USED_BY
 from tehl_taichi.scene.named_oils import NAMED
 from tehl_taichi.scene.named_steels import STEELS
@@ -15,7 +16,7 @@ from tehl_taichi.scene.named_steels import STEELS
 def text():
     """All registries, one after the other."""
     return "\n\n".join([*(laws(f"Choices of {code(key)}", registry) for key, registry in CHOICES.items()),
-                        laws("Laws without a choice", ALONE), shapes(), criteria(), fillings(), oils(), steels()])
+                        laws("Laws without a choice", ALONE), shapes(), criteria(), relations(), fillings(), oils(), steels()])
 
 
 def laws(title, registry):
@@ -47,6 +48,14 @@ def criteria():
             for rule in CRITERIA.values())
     return "## Criteria: `fatigue.criterion`\n\n" + table(("name", "criterion", "kappa: sensitivity to", "source",
                                                            "checked against"), rows)
+
+
+def relations():
+    """A relation between hardness and fatigue limit a row."""
+    rows = ((code(one.name), plain(one.says), f"{one.low:g} to {one.high:g}", plain(one.spread), plain(one.source),
+             _checked(one)) for one in RELATIONS.values())
+    return "## Fatigue limit by hardness: `fatigue.relation`\n\n" + table(("name", "relation", "HV", "spread", "source",
+                                                                           "checked against"), rows)
 
 
 def fillings():

@@ -17,6 +17,7 @@ SKIN = 0.05     # of the feature's half width (or of a, if that is less): depths
 GROWTH = 1.3    # of the steps between depths
 DEEPEST = 1.0   # a
 KEPT = (0, 2, 4)  # xx, zz, xz
+WITHOUT_RESIDUAL = {"fatigue.residual_xx": 0.0, "fatigue.table": "", "fatigue.table_b": ""}  # changes of a scene
 
 
 class SymmetryPlane:
@@ -83,12 +84,12 @@ def plane_of(scene, reader, residual=None, check=None, surface=None):
     """The :class:`SymmetryPlane` of a surface of a stored passage (None: that of the first feature); reader: see
     :class:`tehl_taichi.fatigue.stress.histories.StressHistories`.
 
-    residual: Pa or (depth, Pa) rows, instead of the scene's fatigue.residual_xx. check(x', deepest): called with its extent
-    (m) before any stress is computed. Raises SceneError where nothing passes, y = 0
-    is no plane of symmetry, or a stress is no number.
+    residual: Pa or (depth, Pa) rows, instead of the scene's fatigue.residual_xx and tables. check(x', deepest): called with its
+    extent (m) before any stress is computed. Raises SceneError where nothing passes, y = 0 is no plane of symmetry, or a stress
+    is no number.
     """
     feature, centres = passing(scene, reader)
-    scene = scene if residual is None else scene.replace(**{"fatigue.residual_xx": 0.0})
+    scene = scene if residual is None else scene.replace(**WITHOUT_RESIDUAL)
     passage = StressHistories(scene, reader, centres, WINDOW, surface)
     skin = SKIN * min(feature.reach, passage.a)
     count = int(np.ceil(np.log1p(DEEPEST * passage.a / skin) / np.log(GROWTH))) + 1

@@ -8,6 +8,7 @@ from tehl_taichi.fatigue import (
     contact_alone,
     depth_search,
     index_statistics,
+    local_strength,
     material_length,
     resolved_part,
     result_arrays,
@@ -19,6 +20,7 @@ from tehl_taichi.fatigue.layer import layer
 from tehl_taichi.fatigue.pass_progress import PassProgress
 from tehl_taichi.fatigue.search_result import SearchResult
 from tehl_taichi.fatigue.stress.histories import StressHistories
+from tehl_taichi.fatigue.worst_point import worst_of
 from tehl_taichi.scene import SceneError, fatigue_limits, rough_surfaces
 
 PIT_ANGLES = (18.0, 50.0)  # degrees to the surface at which pits begin (Everitt 2018)
@@ -125,25 +127,26 @@ def _early(passage, until):
 
 
 def _result(scene, passage, layers, below, alone):
-    surface, limit, centres = layers[0], scene.fatigue.endurance, passage.positions
+    surface, strength, centres = layers[0], passage.strength, passage.positions
+    local, limit = strength.at(0.0), strength.surface_limit
     summary = {"surface": passage.surface.name, "carries_feature": bool(passage.surface.features),
                "rough": rough_surfaces.is_rough(scene),
-               **surface.worst.summary(limit), "sigma1_max_Pa": float(surface.sigma1.max()),
-               "kappa_F": float(scene.fatigue.kappa), "sigma_eF_Pa": float(limit), **_limits(scene.fatigue),
+               **surface.worst.summary(), "sigma1_max_Pa": float(surface.sigma1.max()),
+               "kappa_F": float(local.kappa), "sigma_eF_Pa": float(limit), **_limits(scene.fatigue, strength),
                **_cut(scene.fatigue), **surface.worst.moments(centres),
                "criterion": scene.fatigue.criterion, "thermal_stress": scene.has_thermal_stress,
                "pit_angles_deg": list(PIT_ANGLES), **({"contact_alone": alone.summary} if alone else {})}
     counts = index_statistics.weights(passage)
     arrays = {**result_arrays.of_surface(surface, passage, limit, counts), "worst": surface.worst.history(centres)}
-    summary |= {"cycles_above_1": stress_cycles.above(surface.worst.stress, surface.worst.normal, scene.fatigue),
+    summary |= {"cycles_above_1": stress_cycles.above(surface.worst.stress, surface.worst.normal, local),
                 "statistics": _statistics(surface, counts, limit)}
     peaks = [found.mises for found in layers] + below.mises
-    summary["von_mises"] = von_mises.summary(peaks, surface.mises.value, passage.surface)
+    summary["von_mises"] = von_mises.summary(peaks, surface.mises.value, passage.surface, strength)
     points = [found.worst for found in layers[1:]] + below.worst
     if points:
-        point = max(points, key=lambda point: point.f)
-        summary["below"] = {"depth_m": point.depth, **point.summary(limit),
-                            "cycles_above_1": stress_cycles.above(point.stress, point.normal, scene.fatigue)}
+        point = worst_of(points)
+        summary["below"] = {"depth_m": point.depth, **point.summary(), **local_strength.of_point(strength, point),
+                            "cycles_above_1": stress_cycles.above(point.stress, point.normal, point.local)}
         arrays["worst_below"] = point.history(centres)
     if below.profiles:
         depths = below.profiles[0].depths
@@ -151,7 +154,8 @@ def _result(scene, passage, layers, below, alone):
         arrays |= result_arrays.of_profiles(surface.f, passage, below.profiles, len(layers) > 1)
         arrays |= {"findley_stress_contact_alone": alone.f} if alone else {}
         arrays |= result_arrays.of_plane(below.plane) if below.plane else {}
-        summary["below"]["statistics"] = _statistics_below(below, counts, passage, limit)
+        arrays |= result_arrays.of_limits(strength, depths, below.plane, layers)
+        summary["below"]["statistics"] = _statistics_below(below, counts, passage)
     if len(layers) > 1:
         summary["by_depth"] = [{"depth_m": layer.depth, "findley_stress_max_Pa": float(layer.f.max()),
                                 "sigma1_max_Pa": float(layer.sigma1.max())} for layer in layers]
@@ -164,12 +168,13 @@ def _statistics(layer, counts, limit):
     return {**index_statistics.statistics(layer.f / limit, counts), "cycles_above_1": float(np.nanmean(layer.cycles))}
 
 
-def _statistics_below(below, counts, passage, limit):
+def _statistics_below(below, counts, passage):
     """Statistics of the points under the searched rows, at the depth with the largest 99th percentile, and "by_depth"; "plane":
     of the plane that was searched at all its points, where there is one."""
-    found = index_statistics.below(passage, below.profiles, counts, limit)
+    found = index_statistics.below(passage, below.profiles, counts)
     if below.plane:
-        found["plane"] = {"depth_m": below.plane.depth, **_statistics(below.plane, counts, limit)}
+        found["plane"] = {"depth_m": below.plane.depth,
+                          **_statistics(below.plane, counts, passage.strength.at(below.plane.depth).endurance)}
     return found
 
 
@@ -179,6 +184,8 @@ def _cut(fatigue):
     return {key: float(x) for key, x in ends.items() if np.isfinite(x)}
 
 
-def _limits(fatigue):
-    """The limits that its constants follow from, Pa; {} where they were given themselves."""
+def _limits(fatigue, strength):
+    """The limits that its constants follow from, Pa; {} where they were given themselves, or by a table."""
+    if strength.table is not None:
+        return {}
     return {f"{key}_Pa": float(getattr(fatigue, key)) for key in fatigue_limits.given_limits(vars(fatigue))}

@@ -27,7 +27,7 @@ def rows(passage, depths, windows, notify=lambda done, total: None):
     some, worst = depths[::DEPTHS], [np.zeros((passage.x.size, passage.y.size)) for _ in windows]
     for done, depth in enumerate(some, 1):
         for n, found in enumerate(_ranges(passage, depth, windows)):
-            worst[n] = np.maximum(worst[n], found)
+            worst[n] = np.maximum(worst[n], found * passage.strength.at(depth).share)
         notify(done, len(some))
     return list(dict.fromkeys(row + int(passage.rows.start) for found in worst for row in _peaks(passage, found)))
 

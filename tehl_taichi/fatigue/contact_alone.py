@@ -27,7 +27,9 @@ def search(scene, reader, surface):
     """
     sweep = SteadySweep(scene, reader, surface)
     history = _histories(sweep, [0.0])[0]
-    surface_f, _ = findley.search(history, *depth_profile.rule(sweep))
+    strength = sweep.strength
+    local = strength.at(0.0)
+    surface_f, _ = findley.search(history, local.kappa, criterion=local.criterion)
     f, worst, depth = surface_f, float(surface_f[0]), 0.0
     peaks = [top := von_mises.peak(history, lambda n: (0.0, 0.0, 0.0))]
     if scene.fatigue.depths:
@@ -35,11 +37,13 @@ def search(scene, reader, surface):
         profile = depth_profile.of_row(sweep, under, _histories(sweep, under), sweep.middle)
         f = np.append(surface_f, profile.f[:, 0])
         peaks.append(profile.mises)
-        worst, depth = max((worst, 0.0), (profile.worst.f, profile.worst.depth))
-    limit = scene.fatigue.endurance
-    return ContactAlone({"Fi_max": worst / limit, "findley_stress_max_Pa": worst, "depth_m": depth,
-                         "surface_Fi_max": float(surface_f[0]) / limit, "shear_counted": scene.fatigue.shear,
-                         "von_mises": von_mises.summary(peaks, top.value, surface)}, f)
+        point = profile.worst
+        if (point.compared, point.depth) > (worst, 0.0):
+            worst, depth, local = point.f, point.depth, point.local
+    return ContactAlone({"Fi_max": worst / local.endurance, "findley_stress_max_Pa": worst, "depth_m": depth,
+                         "surface_Fi_max": float(surface_f[0]) / strength.surface_limit,
+                         "shear_counted": scene.fatigue.shear,
+                         "von_mises": von_mises.summary(peaks, top.value, surface, strength)}, f)
 
 
 def _histories(sweep, depths):

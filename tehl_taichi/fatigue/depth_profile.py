@@ -56,10 +56,23 @@ def _profiles(passage, depths, histories, windows, row):
     first = all_[windows[0]]
     for moments in windows:
         some, fewer = histories[:, :, moments], np.isin(all_[moments], first).all()
-        searched = findley.search(some.reshape(-1, *some.shape[2:]), *rule(passage), known=known if fewer else None)
+        searched = _searched(passage, depths, some, known if fewer else None)
         known = known if found else searched
         found.append(_profile(passage, depths, some, searched[0].reshape(some.shape[:2]), row))
     return found
+
+
+def _searched(passage, depths, histories, known):
+    """(f, normals) of all points of histories (depths, x', moments, 6) Pa, all at once where they have one kappa; known: see
+    :func:`tehl_taichi.fatigue.findley.search`."""
+    kappas, criterion = passage.strength.kappas(depths), passage.scene.fatigue.criterion
+    each, points = histories.shape[1], histories.reshape(-1, *histories.shape[2:])
+    if len(set(kappas)) == 1:
+        return findley.search(points, kappas[0], criterion=criterion, known=known)
+    parts = [slice(n * each, (n + 1) * each) for n in range(len(kappas))]
+    found = [findley.search(points[part], kappa, criterion=criterion, known=known and [values[part] for values in known])
+             for part, kappa in zip(parts, kappas)]
+    return tuple(np.concatenate(values) for values in zip(*found))
 
 
 def of_row(passage, depths, histories, row):
@@ -68,47 +81,63 @@ def of_row(passage, depths, histories, row):
 
 
 def _profile(passage, depths, histories, f, row):
-    logs, y = np.log(depths), float(passage.reader.y[row])
-    depth, point, *rest = _refined(logs, histories, f, lambda stress: findley.search(stress, *rule(passage)))
-    return Profile(depths, f, WorstPoint(depth, float(passage.x[point]), y, *rest), _mises(passage, logs, histories, y))
+    logs, y, strength = np.log(depths), float(passage.reader.y[row]), passage.strength
+
+    def search(stress, depth):
+        local = strength.at(depth)
+        found, normals = findley.search(stress, local.kappa, criterion=local.criterion)
+        return found * local.share, found, normals
+
+    compared = f * np.array(strength.shares(depths))[:, None]
+    depth, point, *rest = _refined(strength, logs, histories, compared, search)
+    worst = WorstPoint(depth, float(passage.x[point]), y, *rest, strength.at(depth))
+    return Profile(depths, f, worst, _mises(passage, logs, histories, y))
 
 
 def _mises(passage, logs, histories, y):
-    """The largest von Mises stress of histories (depths, x', moments, 6) Pa of the points under the row at y (m)."""
-    values = np.stack([von_mises.largest(of_depth) for of_depth in histories])
-    depth, point, value, *_ = _refined(logs, histories, values, lambda stress: (von_mises.largest(stress),) * 2)
+    """The largest von Mises stress of histories (depths, x', moments, 6) Pa of the points under the row at y (m), beside the
+    yield stress of its depth."""
+    share = von_mises.share_of(passage.strength)
+    shares = np.array([share(float(np.exp(log))) for log in logs])[:, None]
+    values = np.stack([von_mises.largest(of_depth) for of_depth in histories]) * shares
+
+    def search(stress, depth):
+        found = von_mises.largest(stress)
+        return found * share(depth), found, found
+
+    depth, point, value, *_ = _refined(passage.strength, logs, histories, values, search)
     return von_mises.VonMisesPeak(value, depth, float(passage.x[point]), y)
 
 
-def rule(passage):
-    """Arguments of the search that follow from the scene of a passage."""
-    fatigue = passage.scene.fatigue
-    return fatigue.kappa, True, fatigue.criterion
-
-
-def _refined(logs, histories, values, search):
+def _refined(strength, logs, histories, values, search):
     """(depth, point, value, stress, more) of the largest of values (depths, x'), between the rungs too: the step halved around
-    the best. search(stress): the values of histories (points, moments, 6), and more of each."""
+    the best. search(stress, depth): of histories (points, moments, 6) what is compared, the values and more of each."""
     best = int(np.argmax(values.max(axis=1)))
     follow = np.flatnonzero(values[best] >= CLOSE * values[best].max())
 
     def at(log):
-        stress = _between(logs, histories[:, follow], log)
-        found, more = search(stress)
-        top = int(np.argmax(found))
-        return float(found[top]), log, int(follow[top]), stress[top], more[top]
+        stress = _between(strength, logs, histories[:, follow], log)
+        compared, found, more = search(stress, float(np.exp(log)))
+        top = int(np.argmax(compared))
+        return float(compared[top]), log, int(follow[top]), float(found[top]), stress[top], more[top]
 
     top, step = at(logs[best]), logs[1] - logs[0]
     for _ in range(HALVINGS):
         step *= 0.5
         sides = [at(log) for log in (top[1] - step, top[1] + step) if logs[0] <= log <= logs[-1]]
         top = max([top, *sides], key=lambda found: found[0])
-    largest, log, point, stress, more = top
-    return float(np.exp(log)), point, largest, stress, more
+    _, log, point, value, stress, more = top
+    return float(np.exp(log)), point, value, stress, more
 
 
-def _between(logs, histories, log):
-    """Histories (points, moments, 6) at the depth exp(log): the cubic through the four nearest rungs."""
+def _between(strength, logs, histories, log):
+    """Histories (points, moments, 6) at the depth exp(log): the cubic through the four nearest rungs, with the residual stress
+    of that depth."""
     first = int(np.clip(np.searchsorted(logs, log) - 2, 0, logs.size - 4))
     weights = lagrange(logs[first : first + 4], log)
-    return np.tensordot(weights, histories[first : first + 4], axes=1)
+    out = np.tensordot(weights, histories[first : first + 4], axes=1)
+    if strength.varies_in_residual:  # its corners are none of a cubic
+        here, rungs = strength.residual(np.exp(log)), strength.residual(np.exp(logs[first : first + 4]))
+        for n, (there, those) in enumerate(zip(here, rungs)):
+            out[..., n] += np.dot(weights, there - those + np.zeros(4))
+    return out

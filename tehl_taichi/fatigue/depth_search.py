@@ -11,6 +11,7 @@ import numpy as np
 
 from tehl_taichi.fatigue import candidate_rows, depth_profile
 from tehl_taichi.fatigue.layer import EarlyLayer, Layer, early_layer, layer
+from tehl_taichi.fatigue.worst_point import worst_of
 
 
 @dataclass(frozen=True)
@@ -69,7 +70,7 @@ def _planes(scene, passage, profiles, before, early, progress):
 
 def _depth(profiles):
     """Depth of the worst of their points, m."""
-    return max(_points(profiles), key=lambda point: point.f).depth
+    return worst_of(_points(profiles)).depth
 
 
 def passes(passage, early=None):

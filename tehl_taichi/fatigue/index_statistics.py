@@ -55,13 +55,14 @@ def sample(counts):
     return out.reshape(counts.shape)
 
 
-def below(passage, profiles, counts, limit):
+def below(passage, profiles, counts):
     """Statistics at DEPTHS of the points under the rows of `profiles` (:class:`tehl_taichi.fatigue.depth_profile.Profile`):
     "by_depth", and those of the depth with the largest 99th percentile, of a cell at least; between the searched depths linear
     in their logarithm."""
     rows = [int(np.argmin(np.abs(passage.y - profile.worst.y))) for profile in profiles]
     each = np.concatenate([counts[:, row] if counts[:, row].any() else np.ones(len(counts)) for row in rows])
-    logs, f = np.log(profiles[0].depths), np.concatenate([profile.f for profile in profiles], axis=1) / limit
+    logs, f = np.log(profiles[0].depths), np.concatenate([profile.f for profile in profiles], axis=1)
+    f = f / np.array(passage.strength.limits(profiles[0].depths))[:, None]
     depths = [share * passage.a for share in DEPTHS if logs[0] <= np.log(share * passage.a) <= logs[-1]]
     out = [{"depth_m": depth, **statistics(_at(logs, f, np.log(depth)), each)} for depth in depths]
     seen = [one for one in out if one["depth_m"] >= SEEN * profiles[0].depths[0]]

@@ -39,13 +39,14 @@ def layer(scene, passage, depth, progress, early):
     """Find a Layer: stresses and search of all points at a depth (m). early: moments that are searched apart, or None."""
     parts, worst, peaks, sooner = [], None, [], _Early(scene, passage, depth, early)
     counted = index_statistics.sample(index_statistics.weights(passage))
+    local = passage.strength.at(depth)
     for rows, history in _blocks(scene, passage, depth, progress):
-        f, normals = findley.search(history, scene.fatigue.kappa, criterion=scene.fatigue.criterion, notify=progress)
+        f, normals = findley.search(history, local.kappa, criterion=local.criterion, notify=progress)
         shape = passage.x.size, rows.stop - rows.start
-        cycles = _cycles(history, normals, counted[:, rows].ravel(), scene.fatigue)
+        cycles = _cycles(history, normals, counted[:, rows].ravel(), local)
         tension = von_mises.largest(history, findley.largest_principal)
         parts.append([v.reshape(shape) for v in (f, *findley.angles(normals), tension, cycles)])
-        worst = worse(worst, passage.places(depth, rows), history, f, normals)
+        worst = worse(worst, passage.places(depth, rows), history, f, normals, local)
         peaks.append(von_mises.peak(history, passage.places(depth, rows)))
         sooner.add(rows, history, (f, normals))
     return Layer(depth, *(np.concatenate(part, axis=1) for part in zip(*parts)), worst, max(peaks), sooner.found)
@@ -61,7 +62,8 @@ def early_layer(scene, passage, depth, progress, early):
 
 def _blocks(scene, passage, depth, progress):
     """(rows, stress histories of their points at that depth), block by block."""
-    histories = functools.partial(passage.history, operators=passage.stresses(depth)) if depth else at_the_surface(passage)
+    histories = (functools.partial(passage.history, operators=passage.stresses(depth), depth=depth) if depth
+                 else at_the_surface(passage))
     for rows in passage.row_blocks():
         yield rows, histories(rows, notify=progress, meanwhile=lambda: findley.prepare(scene.fatigue.criterion))
 
@@ -78,7 +80,7 @@ class _Early:
         if self.early is None:
             return
         places = self.passage.places(self.depth, rows)
-        f, self.worst = over_some(history, self.early, self.scene.fatigue, places, known, self.worst)
+        f, self.worst = over_some(history, self.early, self.passage.strength.at(self.depth), places, known, self.worst)
         self.parts.append(f.reshape(self.passage.x.size, -1))
 
     @property
@@ -86,9 +88,9 @@ class _Early:
         return EarlyLayer(self.depth, np.concatenate(self.parts, axis=1), self.worst) if self.parts else None
 
 
-def _cycles(history, normals, counted, fatigue):
-    """Cycles above the limit at the points that are counted, else nan; (points,)."""
+def _cycles(history, normals, counted, local):
+    """Cycles above the limit at the points that are counted, else nan; (points,). local: LocalStrength there."""
     out = np.full(len(history), np.nan)
     for n in np.flatnonzero(counted):
-        out[n] = stress_cycles.above(history[n], normals[n], fatigue)
+        out[n] = stress_cycles.above(history[n], normals[n], local)
     return out

@@ -6,11 +6,12 @@ grid, averaged over a length it settles (docs/decisions/10-material-length.md).
 
 import numpy as np
 
-from tehl_taichi.fatigue import depth_search
+from tehl_taichi.fatigue import depth_search, local_strength
 from tehl_taichi.fatigue.layer import layer
 from tehl_taichi.fatigue.pass_progress import PassProgress
 from tehl_taichi.fatigue.stress.averaging import AveragedReader
 from tehl_taichi.fatigue.stress.histories import StressHistories
+from tehl_taichi.fatigue.worst_point import worst_of
 from tehl_taichi.scene import material_length
 
 
@@ -27,10 +28,9 @@ def part(scene, surface, reader, centres, progress):
     layers = [layer(scene, passage, depth, progress, None) for depth in (0.0, *scene.fatigue.listed)]
     deep = depth_search.search(scene, passage, layers, None, progress).worst if scene.fatigue.depths else []
     progress.end()
-    points, limit = [found.worst for found in layers[1:]] + deep, scene.fatigue.endurance
-    below = max(points, key=lambda point: point.f, default=None)
-    return {"length_m": scene.fatigue.length, **layers[0].worst.summary(limit),
-            **({"below": {"depth_m": below.depth, **below.summary(limit)}} if below else {})}
+    below, strength = worst_of([found.worst for found in layers[1:]] + deep), passage.strength
+    deepest = {"depth_m": below.depth, **below.summary(), **local_strength.of_point(strength, below)} if below else {}
+    return {"length_m": scene.fatigue.length, **layers[0].worst.summary(), **({"below": deepest} if below else {})}
 
 
 def leading(found):

@@ -1,7 +1,8 @@
 """Search of the early moments, before the grid no longer resolves the pressure: the answer rests on them."""
 
-from tehl_taichi.fatigue import result_arrays
+from tehl_taichi.fatigue import local_strength, result_arrays
 from tehl_taichi.fatigue.search_result import SearchResult
+from tehl_taichi.fatigue.worst_point import worst_of
 
 
 def part(scene, passage, early, until, layers, deep):
@@ -10,13 +11,13 @@ def part(scene, passage, early, until, layers, deep):
     layers: at the listed depths, the surface first, each with its `early`; deep:
     :class:`tehl_taichi.fatigue.depth_search.DepthResult`.
     """
-    limit, centres = scene.fatigue.endurance, passage.positions[early[:-1]]
+    limit, centres = passage.strength.surface_limit, passage.positions[early[:-1]]
     top, points = layers[0].early, [found.early.worst for found in layers[1:]] + deep.early
-    summary = {"to_x_a": float(until), **top.worst.summary(limit)}
+    summary = {"to_x_a": float(until), **top.worst.summary()}
     arrays = {"Fi": top.f / limit, "worst": top.worst.history(centres), **_below(passage, layers, deep)}
     if points:
-        worst = max(points, key=lambda point: point.f)
-        summary["below"] = {"depth_m": worst.depth, **worst.summary(limit)}
+        worst = worst_of(points)
+        summary["below"] = {"depth_m": worst.depth, **worst.summary(), **local_strength.of_point(passage.strength, worst)}
         arrays["worst_below"] = worst.history(centres)
     return SearchResult(summary, **arrays)
 
@@ -27,7 +28,7 @@ def _below(passage, layers, deep):
     if deep.before:
         arrays["findley_stress_under_row"] = result_arrays.under_row(layers[0].early.f, passage, deep.before)
     if deep.early_plane:
-        arrays |= result_arrays.of_plane(deep.early_plane)
+        arrays |= result_arrays.of_plane(deep.early_plane) | result_arrays.of_limit(passage.strength, deep.early_plane)
     if len(layers) > 1:
         arrays["findley_stress_at_depth"] = result_arrays.at_depths([found.early for found in layers])
     return arrays

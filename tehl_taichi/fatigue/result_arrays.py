@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from tehl_taichi.fatigue import local_strength
+
 
 def of_surface(surface, passage, limit, counts):
     """Arrays of all points of the surface; limit: sigma_eF, Pa; counts: see
@@ -20,6 +22,24 @@ def of_layers(layers):
     """Arrays of all points at every listed depth."""
     return {"fatigue_depth": np.array([layer.depth for layer in layers]),
             "findley_stress_at_depth": at_depths(layers)}
+
+
+def of_limits(strength, depths, plane, layers):
+    """The fatigue limit where stresses lie: under rows (the surface, then depths in m), of the plane (or None), of layers that
+    are listed; nothing without a table."""
+    if strength.table is None:
+        return {}
+    found = {"limit_under_row": local_strength.limits(strength, [0.0, *depths])}
+    found |= of_limit(strength, plane) if plane else {}
+    if len(layers) > 1:
+        found["limit_at_depth"] = local_strength.limits(strength, [layer.depth for layer in layers])
+    return found
+
+
+def of_limit(strength, plane):
+    """The fatigue limit of a plane; nothing without a table."""
+    found = local_strength.limits(strength, [plane.depth])
+    return {} if found is None else {"limit_at_worst_depth": found}
 
 
 def at_depths(layers):

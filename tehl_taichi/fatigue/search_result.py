@@ -22,7 +22,12 @@ ARRAYS = {  # {name: (dimensions, unit, text)}, in the order of a store
     "findley_stress_contact_alone": ((ROWS,), "Pa", "Findley stress of the contact without its feature"),
     "worst_depth": (("worst_depth",), "m", "below the surface, searched at all points"),
     "findley_stress_at_worst_depth": (BOTH, "Pa", "Findley stress at that depth"),
-    "findley_stress_at_depth": (("fatigue_depth", *BOTH), "Pa", "Findley stress")}
+    "findley_stress_at_depth": (("fatigue_depth", *BOTH), "Pa", "Findley stress"),
+    "limit_under_row": ((ROWS,), "Pa", "fatigue limit"),
+    "limit_at_worst_depth": (("worst_depth",), "Pa", "fatigue limit"),
+    "limit_at_depth": (("fatigue_depth",), "Pa", "fatigue limit")}
+LIMITS = {"findley_stress_under_row": "limit_under_row", "findley_stress_contact_alone": "limit_under_row",
+          "findley_stress_at_worst_depth": "limit_at_worst_depth", "findley_stress_at_depth": "limit_at_depth"}
 HISTORIES = {"worst": "the critical point at the surface", "worst_below": "the critical point below the surface"}
 HISTORY = {  # {key: (dimensions, unit, text)} of a stress history
     "x_a": (("moment",), "m", "centre of the feature; the last moment is unloaded"),
@@ -32,7 +37,7 @@ HISTORY = {  # {key: (dimensions, unit, text)} of a stress history
 PART, PART_TEXT = "resolved_", " while the grid resolves the pressure"  # of arrays of the resolved part
 OWN = ("moment", "worst_depth")  # dimensions that the resolved part does not share with the whole passage
 SHARED = (*BOTH, "passed", "under_row_depth", "fatigue_depth",
-          "findley_stress_contact_alone")  # arrays of the whole that it shares
+          "findley_stress_contact_alone", "limit_under_row", "limit_at_depth")  # arrays of the whole that it shares
 OTHER, EQUAL = "other_", ("component", "direction", "of_circle")  # of arrays of the other body; dimensions equal in both
 
 
@@ -58,6 +63,8 @@ class SearchResult:
         The depth (1,) whose points were all searched, and the stress there (x, y).
     findley_stress_at_depth : numpy.ndarray
         At all points of the depths listed, (depth, x, y).
+    limit_under_row, limit_at_worst_depth, limit_at_depth : numpy.ndarray
+        Fatigue limit at these depths, Pa; None where it is that of the summary.
     worst, worst_below : dict
         Stress history of the critical point of the surface, and of that below: x_a (m), stress (times, 6) Pa, the last one
         unloaded, normal (3,), circle around the shear path (centre along dip and strike, radius; Pa).
@@ -89,6 +96,9 @@ class SearchResult:
     worst_depth: Any = None
     findley_stress_at_worst_depth: Any = None
     findley_stress_at_depth: Any = None
+    limit_under_row: Any = None
+    limit_at_worst_depth: Any = None
+    limit_at_depth: Any = None
     worst: dict | None = None
     worst_below: dict | None = None
     resolved: "SearchResult | None" = None
@@ -128,6 +138,16 @@ class SearchResult:
     def numbers(self):
         """Numbers of this search, also where the summary gives no index: there of the pressure alone."""
         return searched(self.summary)
+
+    def index(self, name):
+        """Index of the stresses `name`, by the limit of their depth; None where there are none."""
+        stress, limits = getattr(self, name), getattr(self, LIMITS[name])
+        if stress is None:
+            return None
+        if limits is None:
+            return stress / self.numbers["sigma_eF_Pa"]
+        own = stress.reshape(len(limits), -1) / limits[:, None]
+        return own.reshape(stress.shape)
 
     @property
     def row_depths(self):

@@ -39,9 +39,9 @@ def _turns(values):
     return [0, *kept[1:-1][steps[:-1] * steps[1:] < 0], kept[-1]] if kept.size > 1 else [0]
 
 
-def above(history, normal, fatigue):
+def above(history, normal, local):
     """Cycles per passage whose stress exceeds the limit, of a point; history (times, 6) Pa, the last moment unloaded; normal
-    (3,) of its critical plane; fatigue: the section of the scene.
+    (3,) of its critical plane; local: the :class:`tehl_taichi.scene.strength.strength.LocalStrength` there.
 
     The stress of a cycle is that of the criterion with half its range as amplitude, with the largest normal and mean stress of
     the time that it takes.
@@ -51,12 +51,12 @@ def above(history, normal, fatigue):
     shear = _along_the_largest(dip, strike)
     top = int(np.argmax(shear))
     shear, normal_stress, mean = (np.append(np.roll(one, -top), one[top]) for one in (shear, normal_stress, mean))
-    rule, count = CRITERIA[fatigue.criterion], 0
+    rule, count = CRITERIA[local.criterion], 0
     for one, other, first, last in rainflow(shear):
         amplitude = 0.5 * abs(shear[one] - shear[other])
         time = slice(first, last + 1)
-        stress = rule.value(amplitude, normal_stress[time].max(), mean[time].max(), fatigue.kappa)
-        count += amplitude >= LEAST * fatigue.endurance and stress > fatigue.endurance
+        stress = rule.value(amplitude, normal_stress[time].max(), mean[time].max(), local.kappa)
+        count += amplitude >= LEAST * local.endurance and stress > local.endurance
     return int(count)
 
 

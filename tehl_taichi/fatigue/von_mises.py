@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tehl_taichi.fatigue import local_strength
 from tehl_taichi.fatigue.stress.thermal_stress import WORKERS
-from tehl_taichi.scene import yield_stress
 
 POINTS = 16  # whose stresses are found at once
 
@@ -35,9 +35,20 @@ def largest(history, of=von_mises):
         return np.concatenate(list(pool.map(lambda part: of(part).max(axis=1), parts)))
 
 
-def summary(peaks, at_the_surface, surface):
-    """The numbers of one body: of the largest of `peaks`, with that at its surface (Pa), and whether it yields there."""
-    top, limit = max(peaks), yield_stress.of(surface.body)
+def share_of(strength):
+    """Function of a depth (m): by what a von Mises stress there is multiplied to be compared with the yield stress at the
+    surface."""
+    if not local_strength.varies_in_yield(strength):
+        return lambda depth: 1.0
+    return lambda depth: strength.yield_stress(0.0) / strength.yield_stress(depth)
+
+
+def summary(peaks, at_the_surface, surface, strength):
+    """The numbers of one body: of that of `peaks` which is nearest to its yield stress, with that at its surface (Pa), and
+    whether it yields there."""
+    share = share_of(strength)
+    top = max(peaks, key=lambda peak: (peak.value * share(peak.depth), peak))
+    limit = strength.yield_stress(top.depth)
     return {"max_Pa": top.value, "depth_m": top.depth, "x_m": top.x, "y_m": top.y, "surface": surface.name,
             "surface_max_Pa": at_the_surface, "yield_stress_Pa": limit, "yields": top.value > limit}
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl_taichi.fatigue import findley
+from tehl_taichi.scene.strength.strength import LocalStrength
 
 AT_ONCE = 512  # points of which some moments are searched
 
@@ -12,7 +13,7 @@ AT_ONCE = 512  # points of which some moments are searched
 @dataclass(frozen=True)
 class WorstPoint:
     """depth, x, y (m, in the frame of the feature), Findley stress f (Pa), stress history (times, 6) Pa, the last one unloaded,
-    and the unit normal of its critical plane."""
+    the unit normal of its critical plane, and the LocalStrength there."""
 
     depth: float
     x: float
@@ -20,6 +21,12 @@ class WorstPoint:
     f: float
     stress: np.ndarray
     normal: np.ndarray
+    local: LocalStrength
+
+    @property
+    def compared(self):
+        """Its stress in the ratio of the limits at the surface and here, Pa: the largest one has the largest index."""
+        return self.f * self.local.share
 
     @property
     def path(self):
@@ -31,10 +38,10 @@ class WorstPoint:
         """Around the shear path: centre along dip and strike, radius; Pa."""
         return findley.smallest_circle(*self.path[:2])
 
-    def summary(self, limit):
-        """Its numbers in SI; limit: sigma_eF, Pa. sigma1_worst_Pa: its largest principal stress."""
+    def summary(self):
+        """Its numbers in SI. sigma1_worst_Pa: its largest principal stress."""
         theta, phi = (float(v[0]) for v in findley.angles(self.normal[None]))
-        numbers = {"Fi_max": self.f / limit, "findley_stress_max_Pa": self.f, "x_m": self.x, "y_m": self.y,
+        numbers = {"Fi_max": self.f / self.local.endurance, "findley_stress_max_Pa": self.f, "x_m": self.x, "y_m": self.y,
                    "plane_theta_deg": theta, "plane_phi_deg": phi, "surface_angle_deg": theta,
                    "tau_amp_Pa": self.circle[2], "sigma_n_max_Pa": self.path[2].max(),
                    "sigma1_worst_Pa": findley.largest_principal(self.stress).max()}
@@ -52,15 +59,21 @@ class WorstPoint:
         return {"x_a": np.append(centres, np.nan), "stress": self.stress, "normal": self.normal, "circle": self.circle}
 
 
-def worse(worst, places, history, f, normals):
-    """The worst of these points, or the one so far (or None); places(n): depth, x and y (m) of one of them."""
+def worst_of(points, default=None):
+    """The point with the largest index."""
+    return max(points, key=lambda point: point.compared, default=default)
+
+
+def worse(worst, places, history, f, normals, local):
+    """The worst of these points, all of one depth, or the one so far there (or None); places(n): depth, x and y (m) of one of
+    them; local: LocalStrength of the depth."""
     top = int(np.argmax(f))
     if worst is not None and f[top] <= worst.f:
         return worst
-    return WorstPoint(*places(top), f[top], history[top].copy(), normals[top])
+    return WorstPoint(*places(top), f[top], history[top].copy(), normals[top], local)
 
 
-def over_some(history, moments, fatigue, places, known, worst=None):
+def over_some(history, moments, local, places, known, worst=None):
     """(stress of every point, Pa, worst point or the one so far) of some of the moments; known: (f, normals) of all of them.
     Few points at once: a choice of moments is a copy of their histories."""
     f = np.empty(len(history))
@@ -68,8 +81,8 @@ def over_some(history, moments, fatigue, places, known, worst=None):
         points = slice(first, first + AT_ONCE)
         part = history[points, moments]
         whole = [values[points] for values in known] if known else None
-        f[points], normals = findley.search(part, fatigue.kappa, criterion=fatigue.criterion, known=whole)
-        worst = worse(worst, lambda n, first=first: places(first + n), part, f[points], normals)
+        f[points], normals = findley.search(part, local.kappa, criterion=local.criterion, known=whole)
+        worst = worse(worst, lambda n, first=first: places(first + n), part, f[points], normals, local)
     return f, worst
 
 

@@ -28,12 +28,11 @@ def index(search):
     if Fi.shape[1] == 1:
         return [_over_x(search, f, Fi)]
     found = [_map(search, "surface", "at the surface", Fi, f)]
-    deep = search.result.findley_stress_at_depth
-    plane = search.result.findley_stress_at_worst_depth
+    deep, plane = (search.result.index(f"findley_stress_at_{what}") for what in ("depth", "worst_depth"))
     if plane is not None:
-        found.append(_layer(search, float(search.result.worst_depth[0]), plane / f["sigma_eF_Pa"], f["below"]))
+        found.append(_layer(search, float(search.result.worst_depth[0]), plane, f["below"]))
     elif deep is not None and "below" in f:
-        found.append(_listed(search, deep / f["sigma_eF_Pa"], f["below"]))
+        found.append(_listed(search, deep, f["below"]))
     return found
 
 
@@ -127,10 +126,10 @@ def distribution(search):
 
 def depth(search):
     """[section under the feature, largest index over depth]; [] where nothing was searched below."""
-    f, under = search.result.numbers, search.result.findley_stress_under_row
-    if under is None or "below" not in f:
+    f, Fi = search.result.numbers, search.result.index("findley_stress_under_row")
+    if Fi is None or "below" not in f:
         return []
-    deep, Fi = f["below"], under / f["sigma_eF_Pa"]
+    deep = f["below"]
     x, z = search.result.feature_frame_x * 1e6, search.result.row_depths * 1e6
     even = np.linspace(0, z[-1], EVEN)
     section = np.stack([np.interp(even, z, column) for column in Fi.T])
@@ -147,9 +146,9 @@ def _over_depth(search, f, deep, z, Fi):
     traces = [line(Fi.max(axis=1), z, f"under the {passing(search.scene)}", colour(0)),
               marks([deep["Fi_max"]], [deep["depth_m"] * 1e6], "largest below", colour(0)),
               marks([f["Fi_max"]], [0.0], "surface", colour(1), symbol="circle")]
-    alone = search.result.findley_stress_contact_alone
+    alone = search.result.index("findley_stress_contact_alone")
     if alone is not None:
-        traces.append(line(alone / f["sigma_eF_Pa"], z, "smooth contact", GREY, dash="dash"))
+        traces.append(line(alone, z, "smooth contact", GREY, dash="dash"))
     return stacked(f"{search.on}over-depth", f"Largest index Fi at each depth{_briefly(search)}.", "largest Fi",
                    [("below the surface (µm)", traces, {"autorange": "reversed"})], height=440)
 

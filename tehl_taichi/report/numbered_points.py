@@ -56,8 +56,7 @@ def _many(scene):
 
 
 def _below(search):
-    stress = search.result.findley_stress_at_worst_depth
-    return None if stress is None else stress / search.result.numbers["sigma_eF_Pa"]
+    return search.result.index("findley_stress_at_worst_depth")
 
 
 def numbered(search):

@@ -12,6 +12,7 @@ from tehl_taichi.runs.open_results import INSIDE, RUN, kind, open_run
 from tehl_taichi.runs.summary import result_warnings
 from tehl_taichi.scene import fatigue_limits, scene_file
 from tehl_taichi.scene.feature_wording import where
+from tehl_taichi.scene.strength import scene_tables
 from tehl_taichi.scene.timeline import total_steps
 
 
@@ -89,6 +90,7 @@ def _words(scene):
     """[(what, value)] of all that the answer depends on, the same in number and order for every scene."""
     f = scene.fatigue
     return [("κ =", f"{f.kappa:.5g}"), ("σ_eF =", value_text(f.endurance, unit="Pa", digits=5)), ("the criterion", f.criterion),
+            *((f"the strength of body {name}", scene_tables.strength_words(f, name)) for name in "ab"),
             ("depths searched:", _depths(f.depths)),
             ("bodies searched:", " and ".join(surface.name for surface in scene.judged)),
             ("moments with the", moments(scene) or f"{where(scene)} anywhere"),

@@ -10,6 +10,7 @@ from tehl_taichi.scene import data_sheet, fatigue_limits, mineral_alpha
 from tehl_taichi.scene.feature_wording import between, passing, where
 from tehl_taichi.scene.named_oils import NO_SOURCE
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.scene.strength import scene_tables
 from tehl_taichi.values.quantity import Number, Switch, Text, kinds
 
 WHOLE = "over the whole passage"
@@ -108,6 +109,8 @@ def when(scene):
 
 def material(fatigue):
     """Where kappa and the fatigue limit come from: examples must not pass for a material's numbers."""
+    if tables := scene_tables.words(fatigue):
+        return tables
     default, own_source = type(fatigue)(), fatigue.source.strip().rstrip(".")
     if own_source.lower() not in ("", "example", "examples", default.source):
         limits = fatigue_limits.words(fatigue)

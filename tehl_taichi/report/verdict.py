@@ -8,9 +8,10 @@ from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.report.document import Answer
 from tehl_taichi.report.number_text import index, value_text
 from tehl_taichi.report.scene_text import WHOLE, material, moments, when
-from tehl_taichi.runs.summary import rim_warnings
+from tehl_taichi.runs.summary import limit_meaning, rim_warnings
 from tehl_taichi.runs.summary.result_warnings import place
 from tehl_taichi.scene import feature_wording, yield_stress
+from tehl_taichi.scene.strength.strength import Strength
 from tehl_taichi.scene.timeline import total_steps
 from tehl_taichi.values.digits import micrometres, with_error
 
@@ -271,21 +272,28 @@ def _counted(scene):
 
 def _constants(store, summary):
     if "fatigue" not in summary:
-        return _limit_words(store.scene) if "contact_alone" in summary else ()
+        return (*_limit_words(store.scene), *_meaning(store, summary)) if "contact_alone" in summary else ()
     f = searched(summary["fatigue"])
     limit = _limit(f["sigma_eF_Pa"], f["kappa_F"], f["criterion"], store.scene.fatigue)
     stress = "counts" if f["thermal_stress"] else "does not count"
-    return limit, f"Thermal stress {stress} in the index.", *_counted(store.scene)
+    return (limit, *_meaning(store, summary), f"Thermal stress {stress} in the index.", *_counted(store.scene))
+
+
+def _meaning(store, summary):
+    """What the limit means."""
+    return filter(None, [limit_meaning.sentence(summary, store.scene.fatigue)])
 
 
 def _limit_words(scene):
-    f = scene.fatigue
-    return (_limit(f.endurance, f.kappa, f.criterion, f),)
+    local = Strength(scene.fatigue, scene.surfaces[0]).at(0.0)
+    return (_limit(local.endurance, local.kappa, local.criterion, scene.fatigue),)
 
 
 def _limit(stress, kappa, criterion, known):
     """What Fi = 1 stands for; known: the section [fatigue], which has the source."""
-    return f"Fi = 1 is the fatigue limit σ_eF = {stress / 1e6:.4g} MPa with κ = {kappa:g} ({criterion}): {material(known)}."
+    where = " at the surface" if any(map(known.table_text, "ab")) else ""
+    return (f"Fi = 1 is the fatigue limit{where} σ_eF = {stress / 1e6:.4g} MPa with κ = {kappa:.4g} ({criterion}): "
+            f"{material(known)}.")
 
 
 def _version(store):

@@ -15,7 +15,9 @@ from tehl_taichi.values.coded_text import Reason, reasons_of, unknown_of
 OTHER = Reason("the coarse-grid runs used the constants and moments of the run, not these", "other")
 # of the section [fatigue]: they change no stress of a point (limits do by kappa, which is compared; what a length averages is a
 # part of its own)
-FREE = ("on", "endurance", "bending_limit", "torsion_limit", "source", "depths", "surfaces", "length")
+FREE = ("on", "endurance", "bending_limit", "torsion_limit", "source", "depths", "surfaces", "length", "limit_of", "table",
+        "table_b")
+OF_TABLES = ("relation", "inclusion")  # free where there is none
 SAME = 1e-6  # of the stress: the stored search and this one are the same
 
 
@@ -23,7 +25,8 @@ def add_errors(searches, section, store):
     """Put "error" and "unknown" into the parts of the summaries of searches, {surface: summary}. section: [fatigue]
     that they were made with; store: of the run."""
     own, stored = store.scene.fatigue, _parts(by_surface(store.summary))
-    alike = all(getattr(section, key) == value for key, value in asdict(own).items() if key not in FREE)
+    free = FREE if any(map(section.table_text, "ab")) else (*FREE, *OF_TABLES)
+    alike = all(getattr(section, key) == value for key, value in asdict(own).items() if key not in free)
     for name, part in _parts(searches).items():
         before = stored.get(name, {}) if alike else {}
         part["error"], reasons = _scaled(part, before)

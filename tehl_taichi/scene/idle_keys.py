@@ -9,6 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from tehl_taichi.laws import conduction, density, rheology
+from tehl_taichi.laws.hardness import RELATIONS
 from tehl_taichi.laws.law import declared
 from tehl_taichi.laws.solid_friction import BOUNDARY, boundary_stress
 from tehl_taichi.laws.viscosity import ln_eta
@@ -19,11 +20,14 @@ from tehl_taichi.scene.named_steels import STEELS
 from tehl_taichi.scene.oil import Oil, in_one_temperature
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.sections import Fatigue, Time
+from tehl_taichi.scene.strength.strength import Strength
+from tehl_taichi.scene.strength.table import HARDNESS, KAPPA, RESIDUAL
 from tehl_taichi.values.automatic import AutomaticValue
 from tehl_taichi.values.quantity import kinds
 
 MOES = ("oil.eta0", "oil.alpha")  # numbers of the oil that a Moes pair uses
-LABELS = ("oil.name", "oil.source", "fatigue.source", "bodies.a.material", "bodies.b.material")  # nothing follows from them
+LABELS = ("oil.name", "oil.source", "fatigue.source", "fatigue.limit_of", "fatigue.table", "fatigue.table_b",
+          "bodies.a.material", "bodies.b.material")  # nothing follows from them
 FOLLOW = {"oil": data_sheet.follows, "fatigue": fatigue_limits.follows}  # names of the numbers that others of a part give
 PARTS = (0.0, 0.1, 0.5, 1.0, 2.0)  # of the Hertz pressure, at which laws are asked
 WARMER = (0.0, 20.0, 80.0)  # K above the inlet, of a film with temperatures
@@ -233,6 +237,28 @@ def _fatigue(scene):
         yield "fatigue.length", why
 
 
+def _strength(scene):
+    """Constants that the tables of all bodies replace, and keys of tables that none has."""
+    if not scene.has_fatigue:
+        return
+    tables, f = [Strength(scene.fatigue, surface).table for surface in scene.judged], scene.fatigue
+    relation = RELATIONS[f.relation] if any(table and table.has(HARDNESS) for table in tables) else None
+    if relation is None:
+        yield "fatigue.relation", "no table of hardness is given"
+    if relation is None or not relation.inclusion:
+        yield "fatigue.inclusion", "the relation murakami is not used"
+    by_hardness = relation is not None and relation.findley is not None
+    own_kappa = all(table and (table.has(KAPPA) or table.has(HARDNESS) and by_hardness) for table in tables)
+    if own_kappa:
+        yield "fatigue.kappa", "the table gives kappa"
+    if all(tables):
+        limits = fatigue_limits.KEYS if own_kappa or len(fatigue_limits.given_limits(vars(f))) < 2 else ()  # two give kappa
+        yield from ((f"fatigue.{key}", "the table gives the limit") for key in ("endurance", *limits))
+    for name in RESIDUAL:
+        if all(table and table.has(name) for table in tables):
+            yield f"fatigue.{name.removesuffix('_Pa')}", "the table gives it"
+
+
 def _across(scene):
     if scene.rows == 0:
         yield from ((f"grid.{key}", "nothing varies along y in this line contact") for key in ("ny", "y_max"))
@@ -241,7 +267,7 @@ def _across(scene):
             yield f"feature.{n}.y", "the feature does not vary along y"
 
 
-RULES = (_rheology, _oil, _temperature, _heat, _expansion_of_bodies, _passage, _fatigue, _across)
+RULES = (_rheology, _oil, _temperature, _heat, _expansion_of_bodies, _passage, _fatigue, _strength, _across)
 
 
 def given_keys(scene, tables):

@@ -8,6 +8,7 @@ from tehl_taichi.scene import named_oils as oils
 from tehl_taichi.scene.named_steels import STEELS
 from tehl_taichi.scene.sections import SECTIONS
 from tehl_taichi.scene.speeds import of_surfaces
+from tehl_taichi.scene.strength import scene_tables
 from tehl_taichi.scene.timeline import ALL
 from tehl_taichi.values.checks import key_shown, nearest
 from tehl_taichi.values.coerce import plain, text_of
@@ -141,6 +142,8 @@ def _assign(data, dotted, value):
     target = _place(data, path, dotted) if path else data
     if last == "file":
         target["sha256"] = ""  # another file, other heights
+    if dotted in scene_tables.ROWS_OF:
+        target[scene_tables.ROWS_OF[dotted]] = ""
     target[last] = value
 
 

@@ -96,7 +96,7 @@ def scanned(scan, unit="", pixel=0.0):
 def _refusal(path, text):
     """Why the scene cannot run as it is although every key may be meant; "" where it can, or where a key is still missing.
     Raises SceneError for keys that cannot be meant."""
-    data = scene_file.with_map_folder(tomllib.loads(text), path.absolute().parent)
+    data = scene_file.with_folder(tomllib.loads(text), path.absolute().parent)
     try:
         build(Feature, data["feature"][0], "feature", "feature")
     except KeyMissing:

@@ -12,6 +12,7 @@ from tehl_taichi.scene.description import SECTIONS, TOP
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.sections import Body, Fatigue
+from tehl_taichi.scene.strength import scene_tables
 from tehl_taichi.values.checks import text
 from tehl_taichi.values.quantity import kinds
 
@@ -26,7 +27,7 @@ def load(path, changes=()):
     path = Path(path)
     data = toml_file.read(path, "scene")
     toml_file.check_brackets(path, data, ("contact", "bodies", "operation", "oil", *SECTIONS), ("feature",))
-    return from_data(with_map_folder(data, path.absolute().parent), path.stem, changes)
+    return from_data(with_folder(data, path.absolute().parent), path.stem, changes)
 
 
 def new(path, base):
@@ -44,12 +45,14 @@ def check_new(path):
         raise SceneError(f"{path.absolute().parent} is not a folder")
 
 
-def with_map_folder(data, folder):
-    """Data with the paths of height maps starting at `folder`, whatever folder the command runs in."""
+def with_folder(data, folder):
+    """Data with the paths of height maps and tables starting at `folder`, whatever folder the command runs in."""
     features = data.get("feature", [])
     for feature in features if isinstance(features, list) else []:
         if isinstance(feature, dict) and isinstance(feature.get("file"), str) and feature["file"]:
             feature["file"] = str(folder / feature["file"])
+    if isinstance(data.get("fatigue"), dict):
+        data["fatigue"] |= scene_tables.with_folder(data["fatigue"], folder)
     return data
 
 

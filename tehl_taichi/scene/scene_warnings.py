@@ -15,6 +15,7 @@ from tehl_taichi.scene import (
     thin_film,
     timeline,
 )
+from tehl_taichi.scene.strength.strength import Strength
 from tehl_taichi.values.coded_text import Option
 from tehl_taichi.values.coded_warning import coded_warning, once, with_data
 from tehl_taichi.values.quantity import Number
@@ -83,6 +84,17 @@ def unusual(scene):
                f"MPa{hint}")
 
 
+def counted_twice(scene):
+    """Residual stress beside a limit that contains it."""
+    f = scene.fatigue
+    if not scene.has_fatigue or f.limit_of != "contact":
+        return
+    strengths = [Strength(f, surface) for surface in scene.judged]
+    if f.residual_xx or f.residual_yy or any(one.varies_in_residual for one in strengths):
+        yield ("fatigue.limit_of = contact: such a limit contains the residual stress of the contact that it was measured on, "
+               "so the given residual stress counts twice; set limit_of = specimen, or no residual stress")
+
+
 def wide_domain(scene):
     """Where auto moved the inlet away from a thick film."""
     return filter(None, [domain.moved(scene)])
@@ -91,4 +103,5 @@ def wide_domain(scene):
 # functions of a scene that give its sentences, with the code of these
 CHECKS = {resolution.warnings: "cells", domain_warnings.warnings: "room", thin_film.warnings: "film", oil_range.warnings: "oil",
           named_steels.doubts: "steel", cut_passage: "cut", thinned: "moments", doubtful_features: "feature",
-          unusual: "unit", idle_keys.doubts: "idle", wide_domain: "inlet", stiff_oil.warnings: "frozen"}
+          unusual: "unit", idle_keys.doubts: "idle", wide_domain: "inlet", stiff_oil.warnings: "frozen",
+          counted_twice: "residual"}

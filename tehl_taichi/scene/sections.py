@@ -8,17 +8,21 @@ from typing import TYPE_CHECKING, Any, Union
 from tehl_taichi.errors import SceneError
 from tehl_taichi.laws import rheology
 from tehl_taichi.laws.criteria import CRITERIA, sensitivities
+from tehl_taichi.laws.hardness import RELATIONS
 from tehl_taichi.laws.law import declared, section
 from tehl_taichi.laws.solid_friction import BOUNDARY
 from tehl_taichi.scene import fatigue_limits
 from tehl_taichi.scene.fatigue_limits import LARGEST_LIMIT, LEAST_LIMIT, USUAL_LIMIT
 from tehl_taichi.scene.named_steels import STEELS
+from tehl_taichi.scene.strength import scene_tables
+from tehl_taichi.scene.strength.profiles import WORDS as PROFILES
 from tehl_taichi.values.checks import build
 from tehl_taichi.values.coerce import plain
 from tehl_taichi.values.quantity import AUTO, check, choice, count, documented, quantities, quantity, switch, text
 from tehl_taichi.values.unit_hints import meant
 
 LEAST_RESIDUAL, LARGEST_RESIDUAL = 1e5, 1e10  # Pa, in size: what is smaller does nothing, and was meant in MPa
+ROWS = 50000  # letters of a table of strength
 DEEPEST = 0.03  # m, of a depth: contacts are a millimetre wide, 0.05 was meant in mm
 LARGEST_RADIUS = 1.0  # m: the teeth of the largest gears have a fifth of it; a number beyond it was meant in mm
 LARGEST_RADIUS_Y = 100.0  # m: a roller is nearly straight
@@ -213,7 +217,8 @@ BOTH = "both"  # as fatigue.surfaces
 class Fatigue:
     """Fatigue index; kappa and endurance are example values, set those of your material.
 
-    One limit in reversed torsion or bending fixes endurance; both limits also fix kappa. depths = []: only the surface.
+    One limit in reversed torsion or bending fixes endurance; both limits also fix kappa. A table gives them over the depth.
+    depths = []: only the surface.
 
     Examples
     --------
@@ -231,6 +236,17 @@ class Fatigue:
     torsion_limit: float = quantity(0.0, "Pa", "fatigue limit in reversed torsion; 0: not given", 0.0, LARGEST_LIMIT,
                                     usual=USUAL_LIMIT, least=LEAST_LIMIT)
     source: str = text("example values, set your own", "source of kappa and endurance", one_line=False)
+    limit_of: str = choice("specimen", "what endured the limit; specimen: in bending or torsion, without residual stress; "
+                                       "contact: a smooth rolling contact, with its residual stress", ("specimen", "contact"))
+    table: str = text("", "strength over depth: CSV file (depth_mm, hardness_HV or limit_MPa; kappa, yield_stress_MPa, "
+                          "residual_xx_MPa, residual_yy_MPa), its path relative to the scene file, or a built-in one "
+                          f"({PROFILES})", most=4096, compare=False)
+    table_b: str = text("", "table of body b where it is another one; none: that body has no table", most=4096, compare=False)
+    table_rows: str = text("", "contents of the table, set when it is read; empty: read the file", most=ROWS, one_line=False)
+    table_rows_b: str = text("", "contents of the table of body b", most=ROWS, one_line=False)
+    relation: str = choice("ss2506", "fatigue limit by the hardness of a table (`tehl laws`)", tuple(RELATIONS))
+    inclusion: float = quantity(0.0, "m", "root of the area of the largest inclusion, for the relation murakami; 0: not given",
+                                0.0, 1e-3, usual=3e-5, least=1e-7)
     surfaces: str = choice(BOTH, "surfaces whose material is searched", (BOTH, "a", "b"))
     criterion: str = choice("findley", "fatigue criterion", tuple(CRITERIA))
     depths: Union[tuple, str] = quantities(AUTO, "m", "depths to search; auto: the critical depth under the feature; a list "
@@ -251,6 +267,7 @@ class Fatigue:
     def __post_init__(self):
         check(self, "fatigue")
         self._follow_limits()
+        scene_tables.read(self)
         if not self.from_x < self.to_x:
             raise SceneError(f"fatigue.from_x = {self.from_x!r} a must be less than to_x = {self.to_x!r} a")
         if self.depths != AUTO:
@@ -274,6 +291,10 @@ class Fatigue:
         made = build(cls, {key: value for key, value in values.items() if key not in free} if free else values, "fatigue")
         fatigue_limits.check_free({key: plain(values[key]) for key in free if values.get(key) is not None}, made)
         return made
+
+    def table_text(self, surface):
+        """Text of the table (see :mod:`tehl_taichi.scene.strength.table`) of body "a" or "b", "" without one."""
+        return scene_tables.text_of(self, surface)
 
     @property
     def listed(self):

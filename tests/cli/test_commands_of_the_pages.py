@@ -77,6 +77,7 @@ def folder(tmp_path_factory, taichi_cpu):
     _study(place)
     heights = 1e-1 * np.sin(np.arange(60) / 9.0)[:, None] * np.cos(np.arange(80) / 7.0)
     np.savetxt(place / "scan.csv", heights, delimiter=",")
+    (place / "case.csv").write_text("depth_mm,hardness_HV\n0,700\n1.5,400\n")
     np.savetxt(place / "profile.csv", 1e-1 * np.sin(np.arange(300) / 40.0))
     pair = tehl.flank("fzg-c", at=["C"], steady=True, changes={"grid.nx": 64, "thermal.on": False}, folder=place / "one")
     p = pair.positions[0]

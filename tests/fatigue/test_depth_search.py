@@ -165,7 +165,7 @@ def test_histories_at_the_surface_are_those_of_whole_planes(taichi_cpu, heat, ki
             fields["syy"] += (held + w.values((w.ky**2 + nu * w.kx**2) * spectrum))[window]
             fields["sxy"] += w.values((1 - nu) * w.kx * w.ky * spectrum, odd=True)[window]
         passage.follow(wanted, {entry: np.stack(list(fields.values()), axis=-1)})
-    np.testing.assert_allclose(found, passage.resting(wanted), atol=2e-6 * np.abs(wanted).max())
+    np.testing.assert_allclose(found, passage.resting(wanted, 0.0), atol=2e-6 * np.abs(wanted).max())
 
 
 class Beside(Rolling):
@@ -243,7 +243,7 @@ def test_depths_beyond_the_rungs_are_interpolated_well(taichi_cpu):
     depths = np.sort(np.append(rungs, between := np.sqrt(rungs[3] * rungs[4])))
     histories = histories_of(passage, depths, [(0, False)])[0]
     kept = depths != between
-    found = depth_profile._between(np.log(rungs), histories[kept], np.log(between))
+    found = depth_profile._between(passage.strength, np.log(rungs), histories[kept], np.log(between))
     np.testing.assert_allclose(found, histories[~kept][0], atol=5e-3 * np.abs(histories[~kept]).max())
 
 

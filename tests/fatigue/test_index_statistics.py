@@ -73,7 +73,8 @@ def test_the_worst_depth_is_one_that_a_coarser_grid_sees(cell, chosen):
     """Under an index that falls with depth, the first of a cell at least; all depths stay listed."""
     depths = np.geomspace(0.5 * cell, 1.0, 12) * 1e-3
     profile = SimpleNamespace(depths=depths, f=2e5 / depths[:, None] ** 1.0 * np.ones(40), worst=SimpleNamespace(y=0.0))
-    found = index_statistics.below(SimpleNamespace(a=1e-3, y=np.zeros(1)), [profile], np.ones((40, 1)), 4e8)
+    strength = SimpleNamespace(limits=lambda depths: [4e8] * len(depths))
+    found = index_statistics.below(SimpleNamespace(a=1e-3, y=np.zeros(1), strength=strength), [profile], np.ones((40, 1)))
     assert found["depth_m"] == pytest.approx(chosen * 1e-3)
     assert max(one["p99"] for one in found["by_depth"]) >= found["p99"] and len(found["by_depth"]) > (chosen < 0.5)
 

@@ -21,6 +21,7 @@ from tehl_taichi.scene.named_oils import OILS
 from tehl_taichi.scene.named_steels import STEELS
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.sections import Body, Contact, Fatigue, Rheology, Thermal, Time
+from tehl_taichi.scene.strength.strength import Strength
 from tehl_taichi.scene.timeline import step_length, total_steps
 from tehl_taichi.values.quantity import Choice, Count, Numbers, Pairs, Switch, Text
 
@@ -37,6 +38,13 @@ SCENES = {
     "newtonian": tehl.scene("smooth-line").replace(**{"rheology.law": "newtonian"}),
     "data sheet": tehl.scene("smooth-line").replace(**{"oil.nu_40": 220e-6, "oil.nu_100": 19e-6, "thermal.on": False}),
     "moes": tehl.scene("smooth-line").replace(**{"contact.moes_M": 20.0, "contact.moes_L": 10.0}),
+    "hardness": GEAR.replace(**{"fatigue.table": "case-hardened"}),
+    "bending": GEAR.replace(**{"fatigue.table": "case-hardened", "fatigue.relation": "rotating-bending"}),
+    "inclusions": GEAR.replace(**{"fatigue.table": "case-hardened", "fatigue.relation": "murakami",
+                                  "fatigue.inclusion": 3e-5, "fatigue.table_b": "none"}),
+    "whole table": GEAR.replace(**{"fatigue.table_rows": "depth_m,limit_Pa,kappa,residual_xx_Pa,residual_yy_Pa\n"
+                                                         "0.0,5e8,0.4,-4e8,-3e8\n0.001,4e8,0.3,1e8,1e8"}),
+    "one body": GEAR.replace(**{"fatigue.table_b": "case-hardened", "fatigue.surfaces": "a"}),
     "tait": GEAR.replace(**{"oil.density": "tait"})}
 CASES = [(name, key) for name, scene in SCENES.items() for key, kind, _ in keys.every(scene) if not isinstance(kind, Text)]
 
@@ -95,11 +103,18 @@ def _passage(scene, s, x, y):
 def _fatigue(scene):
     f = scene.fatigue
     if scene.has_fatigue:
-        yield [CRITERIA[f.criterion].value(1e8, n + f.residual_xx - f.residual_yy / 3, n + f.residual_xx / 3 + f.residual_yy,
-                                           f.kappa) / f.endurance for n in (3e8, 1e9)], f.criterion
+        yield [list(_index(Strength(f, s), depth)) for s in scene.judged for depth in (0.0, 1e-5, 3e-4)], f.criterion
         yield f.length if f.length >= 2 * Scales.of(scene).a * (scene.grid.x_max - scene.grid.x_min) / scene.grid.nx else None
         yield f.depths, f.shear, f.from_x, f.to_x, scene.has_thermal_stress
         yield [(s.name, s.body.nu, scene.has_thermal_stress and s.body.alpha) for s in scene.judged]
+
+
+def _index(strength, depth):
+    """Of two normal stresses at a depth, by what holds there."""
+    local, (along, across) = strength.at(depth), map(float, strength.residual(depth))
+    for n in (3e8, 1e9):
+        yield CRITERIA[local.criterion].value(1e8, n + along - across / 3, n + along / 3 + across,
+                                              local.kappa) / local.endurance
 
 
 def others(kind, value):

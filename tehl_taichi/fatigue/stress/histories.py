@@ -15,6 +15,7 @@ from tehl_taichi.fatigue.stress.half_space import COMPONENTS, HalfSpaceStress
 from tehl_taichi.fatigue.stress.thermal_depth import ThermalBelow
 from tehl_taichi.fatigue.stress.thermal_stress import WORKERS
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.scene.strength.strength import Strength
 from tehl_taichi.values.interpolation import lagrange
 
 WINDOW = 0.6       # half width (in a) of the part searched around one small feature: farther out its stress has died out
@@ -38,6 +39,7 @@ class StressHistories:
     def __init__(self, scene, reader, positions, window=WINDOW, surface=None):
         self.scene, self.reader, self.window, self.last_below = scene, reader, window, None
         self.surface, self.a = surface or scene.reference, Scales.of(scene).a
+        self.strength = Strength(scene.fatigue, self.surface)
         self.loads_of = self._names()
         self.path, centres = (float(positions[0]), float(positions[-1])), self.surface.pace * positions
         self.dx = float(reader.x[-1] - reader.x[0]) / (reader.x.size - 1)
@@ -150,16 +152,16 @@ class StressHistories:
         rows = max(1, int(BLOCK_BYTES / row_bytes))
         return [slice(j, min(j + rows, self.y.size)) for j in range(0, self.y.size, rows)]
 
-    def history(self, rows, operators, notify=lambda done, total: None, meanwhile=lambda: None):
-        """(points, times + 1, 6) Pa below the surface; points run over x', then rows; the last moment is the unloaded state.
+    def history(self, rows, operators, notify=lambda done, total: None, meanwhile=lambda: None, depth=0.0):
+        """(points, times + 1, 6) Pa at a depth (m); points run over x', then rows; the last moment is the unloaded state.
 
-        operators: of :meth:`stresses`; notify, meanwhile: as for :meth:`gathered`.
+        operators: of :meth:`stresses` there; notify, meanwhile: as for :meth:`gathered`.
         """
         def stresses(block):
             return (self._stress_field(int(entry), rows, *operators) for entry in block)
 
         out = self.gathered((rows.stop - rows.start,), stresses, notify, meanwhile)
-        return self.resting(out).reshape(-1, *out.shape[2:])
+        return self.resting(out, depth).reshape(-1, *out.shape[2:])
 
     @property
     def blocks(self):
@@ -185,10 +187,11 @@ class StressHistories:
                 notify(done, len(blocks))
         return out
 
-    def resting(self, stress):
-        """The stress (..., 6) with the constant residual one."""
-        stress[..., 0] += self.scene.fatigue.residual_xx
-        stress[..., 1] += self.scene.fatigue.residual_yy
+    def resting(self, stress, depths):
+        """The stress (..., 6) with the residual one at depths (m) that broadcast with (...)."""
+        along, across = self.strength.residual(depths)
+        stress[..., 0] += along
+        stress[..., 1] += across
         return stress
 
     def follow(self, out, fields):

@@ -4,6 +4,7 @@ import numpy as np
 
 from tehl_taichi.fatigue.stress.histories import LOADED, StressHistories
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.scene.strength.strength import Strength
 
 
 class Steady:
@@ -31,7 +32,7 @@ class SteadySweep(StressHistories):
 
     def __init__(self, scene, reader, surface):
         self.scene, self.surface, self.last_below, self.a = scene, surface, None, Scales.of(scene).a
-        self.loads_of = self._names()
+        self.loads_of, self.strength = self._names(), Strength(scene.fatigue, surface)
         self.dx = float(reader.x[-1] - reader.x[0]) / (reader.x.size - 1)
         self.reader = Steady(reader, self.dx / surface.speed)
         self.middle = int(np.argmin(np.abs(reader.y)))

@@ -9,6 +9,7 @@ from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.march import quantities
 from tehl_taichi.march.accuracy.coarse_runs import AREA, CONTACT
 from tehl_taichi.march.quantities import HEAT
+from tehl_taichi.runs.summary import limit_meaning
 from tehl_taichi.scene.feature_wording import between
 from tehl_taichi.values.digits import micrometres, with_error
 
@@ -141,8 +142,16 @@ def _passage_rows(summary):
                  SummaryRow("worst residual / load / mass error",
                      f"{t['residual_max']:.1e} / {t['load_error_max']:.1e} / {t['mass_error_max']:.1e}")]
     if "fatigue" in summary:
-        return rows + rows_of_fatigue(summary["fatigue"], others(summary))
+        return rows + rows_of_fatigue(summary["fatigue"], others(summary)) + _meaning_rows(summary)
     return rows + (_alone_rows(summary["contact_alone"]) if "contact_alone" in summary else [])
+
+
+def _meaning_rows(summary):
+    """The fatigue limit as the pressure of a smooth contact."""
+    if not (found := limit_meaning.smooth_pressure(summary)):
+        return []
+    p, error = found
+    return [SummaryRow("Fi = 1 of a smooth contact like this at about", with_error(p * 1e-9, error * 1e-9, "GPa"), p)]
 
 
 def rows_of_fatigue(f, beside=MappingProxyType({})):
@@ -205,7 +214,7 @@ def _rows_of_search(f):
     rows = [_of(f, "Fi_max", "Fi_max at the surface", where=_whole(f)),
             _stress(f"{f['criterion']} stress", f["findley_stress_max_Pa"]), *_point_rows(f, _frame(f)),
             _stress("largest principal stress at the surface", f["sigma1_max_Pa"]),
-            SummaryRow("with kappa, sigma_eF", f"{f['kappa_F']:g}, {f['sigma_eF_Pa'] / 1e6:.4g} MPa"),
+            _constants_row(f),
             *(SummaryRow(f"from the limit in reversed {way}", f"{f[key] / 1e6:g} MPa")
               for way in ("bending", "torsion") if (key := f"{way}_limit_Pa") in f),
             SummaryRow("thermal stress", "counted" if f["thermal_stress"] else "left out")]
@@ -279,8 +288,21 @@ def _below_rows(f):
         return []
     deep = f["below"]
     rows = [_of(deep, "Fi_max", "Fi_max below the surface", where=_at(deep) + _whole(f)),
-            _stress(f"{f['criterion']} stress", deep["findley_stress_max_Pa"]), *_point_rows(deep, _frame(f))]
+            _stress(f"{f['criterion']} stress", deep["findley_stress_max_Pa"]), *_point_rows(deep, _frame(f)),
+            *_local_rows(deep)]
     return [replace(row, part=BELOW) for row in rows]
+
+
+def _constants_row(f):
+    return SummaryRow("with kappa, sigma_eF", f"{f['kappa_F']:.4g}, {f['sigma_eF_Pa'] / 1e6:.4g} MPa")
+
+
+def _local_rows(deep):
+    """What the table of strength gives at the depth of the worst point; none without one."""
+    if "sigma_eF_Pa" not in deep:
+        return []
+    stress = " / ".join(f"{deep[f'residual_{axis}_Pa'] / 1e6:.4g}" for axis in ("xx", "yy"))
+    return [_constants_row(deep), SummaryRow("residual stress along x / y", f"{stress} MPa")]
 
 
 def contact_share(t, key=CONTACT):

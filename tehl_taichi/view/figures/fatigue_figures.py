@@ -77,7 +77,7 @@ def all_figures(page, found):
 def _layers(found):
     """The surface, and the layer below it that is wanted, or the worst where all its points were searched."""
     top = _worst(found, "surface", found.result.Fi, found.summary, found.result.worst)
-    below, plane = _searched(found), found.result.findley_stress_at_worst_depth
+    below, plane = _searched(found), found.result.index("findley_stress_at_worst_depth")
     if found.depth is None and plane is not None:
         return [top, _layer(found, float(found.result.worst_depth[0]), plane)]
     if below is None or (found.depth is None and found.result.findley_stress_at_depth is None):
@@ -87,9 +87,9 @@ def _layers(found):
     return [top, _layer(found, depths[n], below[n])]
 
 
-def _layer(found, depth, stress):
-    """One depth (m) with its Findley stress (x, y): with the worst point where that lies there, else with its own largest."""
-    where, Fi, deep = f"{depth * 1e6:.3g} µm below", stress / found.summary["sigma_eF_Pa"], found.summary["below"]
+def _layer(found, depth, Fi):
+    """One depth (m) with its index (x, y): with the worst point where that lies there, else with its own largest."""
+    where, deep = f"{depth * 1e6:.3g} µm below", found.summary["below"]
     if np.isclose(depth, deep["depth_m"]):
         return _worst(found, where, Fi, deep, found.result.worst_below)
     i, j = np.unravel_index(int(np.argmax(Fi)), Fi.shape)
@@ -102,8 +102,8 @@ def _worst(found, where, Fi, summary, history):
 
 
 def _searched(found):
-    """Findley stress (depth, x, y) of whole layers, or None. Raises SceneError where one is wanted that is not there."""
-    layers, row = found.result.findley_stress_at_depth, found.result.findley_stress_under_row
+    """Index (depth, x, y) of whole layers, or None. Raises SceneError where one is wanted that is not there."""
+    layers, row = (found.result.index(f"findley_stress_{what}") for what in ("at_depth", "under_row"))
     if layers is None and found.one_row and row is not None:
         layers = row[:, :, None]
     if layers is None and found.depth is not None:
@@ -173,7 +173,7 @@ def _mark(ax, x, y):
 
 def depth_figure(page, found):
     """Index in the section under the row of the worst point below the surface, and its largest value over depth."""
-    depth, Fi = found.result.row_depths * 1e6, found.result.findley_stress_under_row / found.summary["sigma_eF_Pa"]
+    depth, Fi = found.result.row_depths * 1e6, found.result.index("findley_stress_under_row")
     sizes = dict(height_ratios=(1, 1)) if page.narrow else dict(width_ratios=(3, 2))
     panels, height = ((2, 1), 3.2 * page.row()) if page.narrow else ((1, 2), 2.3 * page.row(2))
     figure, axes = page.figure(*panels, height=height, **sizes)
@@ -198,13 +198,12 @@ def _section(page, figure, ax, found, Fi, depth):
 
 
 def _over_depth(ax, found, Fi, depth):
-    deep, limit = found.summary["below"], found.summary["sigma_eF_Pa"]
+    deep, alone = found.summary["below"], found.result.index("findley_stress_contact_alone")
     line, = ax.plot(Fi.max(axis=1), depth, ".-", label=f"under the {found.whose}")
     ax.plot(deep["Fi_max"], deep["depth_m"] * 1e6, "+", color=line.get_color(), ms=2.5 * line.get_markersize(),
             mew=line.get_linewidth(), label=f"largest, Fi = {largest(deep)} at {micrometres(deep['depth_m'])} µm")
-    if found.result.findley_stress_contact_alone is not None:
-        ax.plot(found.result.findley_stress_contact_alone / limit, depth, "--", color=palette.GREY,
-                label="smooth contact")
+    if alone is not None:
+        ax.plot(alone, depth, "--", color=palette.GREY, label="smooth contact")
     ax.plot(found.summary["Fi_max"], 0.0, "o", color=palette.VERMILLION, clip_on=False,
             label=f"surface, Fi = {largest(found.summary)}")
     ax.set_xlabel("largest Fi")

@@ -47,7 +47,8 @@ class DrawnSearch:
     def constants(self):
         """Scene, criterion and its numbers, moments where not all count alike, in words."""
         f, when = self.summary, f"; {self.when}" if self.when else ""
-        return f"{self.title}: {f['criterion']}, κ = {f['kappa_F']:g}, σ_eF = {f['sigma_eF_Pa'] / 1e6:.4g} MPa{when}"
+        when = ", at the surface" * (self.result.limit_under_row is not None) + when
+        return f"{self.title}: {f['criterion']}, κ = {f['kappa_F']:.4g}, σ_eF = {f['sigma_eF_Pa'] / 1e6:.4g} MPa{when}"
 
     @property
     def each(self):

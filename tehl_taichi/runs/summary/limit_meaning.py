@@ -1,0 +1,43 @@
+"""Meaning of a fatigue limit: the pressure of a smooth contact, and limits of a specimen."""
+
+from tehl_taichi.fatigue.pressure_alone import searched
+from tehl_taichi.laws.criteria import CRITERIA
+from tehl_taichi.values.digits import with_error
+
+
+def smooth_pressure(summary):
+    """(Hertz pressure at which the smooth contact of a run would have the index 1, its error or None), Pa, in proportion; None
+    of a run without such an index."""
+    alone = _alone(summary)
+    if not alone or not alone["Fi_max"] > 0 or alone.get("error", {}).get("Fi_max") is None:
+        return None
+    found = summary["hertz"]["p_Pa"] / alone["Fi_max"]
+    return found, found * alone["error"]["Fi_max"] / alone["Fi_max"]
+
+
+def _alone(summary):
+    """Index of the worse smooth body, {} where none is known."""
+    bodies = summary.get("fatigue_by_surface") or {"": summary.get("fatigue", {})}
+    found = [part for one in bodies.values() if (part := searched(one).get("contact_alone"))]
+    found = found or [summary["contact_alone"]] * ("contact_alone" in summary)
+    return max(found, key=lambda part: part["Fi_max"], default={})
+
+
+def sentence(summary, fatigue):
+    """What the limit means, in one sentence, "" where no smooth contact is known; fatigue: the section of the scene."""
+    if not (found := smooth_pressure(summary)):
+        return ""
+    value, error = (one * 1e-9 for one in found)
+    contact = f"a smooth contact like this one has Fi = 1 at about {with_error(value, error, 'GPa')}"
+    if fatigue.limit_of == "contact":
+        return f"The limit is meant as that of a contact: {contact}."
+    return f"The limit is meant as that of a specimen{_in_tests(fatigue)}; {contact}."
+
+
+def _in_tests(fatigue):
+    """Its amplitudes in reversed bending and torsion, where one limit holds for every depth and body."""
+    if any(map(fatigue.table_text, "ab")):
+        return ""
+    rule, limit = CRITERIA[fatigue.criterion], fatigue.endurance
+    bending, torsion = (limit * limit / of(limit, fatigue.kappa) for of in (rule.in_bending, rule.in_torsion))
+    return f" ({bending / 1e6:.4g} MPa in reversed bending, {torsion / 1e6:.4g} MPa in torsion)"

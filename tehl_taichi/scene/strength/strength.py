@@ -1,0 +1,81 @@
+"""Strength at a depth of a body: constants of the criterion, residual stress, yield stress."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from tehl_taichi.laws.hardness import RELATIONS
+from tehl_taichi.scene import yield_stress
+from tehl_taichi.scene.strength.table import HARDNESS, KAPPA, LIMIT, RESIDUAL, YIELD, of_text
+
+
+@dataclass(frozen=True)
+class LocalStrength:
+    """kappa and endurance (sigma_eF, Pa) of a criterion at a depth (m); share: the limit at the surface over this one."""
+
+    depth: float
+    kappa: float
+    endurance: float
+    criterion: str
+    share: float
+
+
+class Strength:
+    """Over the depth of a body: by its table, without one as the section [fatigue] says for every depth.
+
+    fatigue: the section; surface: its :class:`tehl_taichi.scene.moving_surfaces.MovingSurface`.
+    """
+
+    def __init__(self, fatigue, surface):
+        self.fatigue, self.body = fatigue, surface.body
+        text = fatigue.table_text(surface.name)
+        self.table = of_text(text) if text else None
+
+    def at(self, depth):
+        """The :class:`LocalStrength` at a depth (m)."""
+        kappa, endurance = self._constants(depth)
+        return LocalStrength(depth, kappa, endurance, self.fatigue.criterion, self.surface_limit / endurance)
+
+    @cached_property
+    def surface_limit(self):
+        """sigma_eF at the surface, Pa."""
+        return self._constants(0.0)[1]
+
+    def limits(self, depths):
+        """List of sigma_eF (Pa) at depths (m)."""
+        return [self._constants(float(depth))[1] for depth in depths]
+
+    def shares(self, depths):
+        """List: by what stresses at depths (m) are multiplied to be compared with the limit at the surface."""
+        return [self.surface_limit / limit for limit in self.limits(depths)]
+
+    def kappas(self, depths):
+        """List of kappa at depths (m)."""
+        return [self._constants(float(depth))[0] for depth in depths]
+
+    def _constants(self, depth):
+        """(kappa, sigma_eF in Pa)."""
+        f, table = self.fatigue, self.table
+        if table is None:
+            return f.kappa, f.endurance
+        kappa = float(table.at(KAPPA, depth)) if table.has(KAPPA) else f.kappa
+        if table.has(LIMIT):
+            return kappa, float(table.at(LIMIT, depth))
+        found = RELATIONS[f.relation].constants(float(table.at(HARDNESS, depth)), f, kappa, depth > f.inclusion)
+        return (kappa, found[1]) if table.has(KAPPA) else found
+
+    @property
+    def varies_in_residual(self):
+        """Whether residual stress follows from a table."""
+        return self.table is not None and (self.table.has(RESIDUAL[0]) or self.table.has(RESIDUAL[1]))
+
+    def residual(self, depths):
+        """(along x, along y) at depths (m): arrays from a table, else the constant ones of the scene; Pa."""
+        constant = self.fatigue.residual_xx, self.fatigue.residual_yy
+        return tuple(self.table.at(name, depths) if self.table is not None and self.table.has(name) else value
+                     for name, value in zip(RESIDUAL, constant))
+
+    def yield_stress(self, depth):
+        """Pa: of the table, else of the body."""
+        if self.table is not None and self.table.has(YIELD):
+            return float(self.table.at(YIELD, depth))
+        return yield_stress.of(self.body)

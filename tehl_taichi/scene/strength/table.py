@@ -1,0 +1,40 @@
+"""A table of strength over depth: a text of numbers in SI units, which a scene and its store carry, and its columns."""
+
+import functools
+from dataclasses import dataclass
+
+DEPTH, HARDNESS, LIMIT, KAPPA = "depth_m", "hardness_HV", "limit_Pa", "kappa"
+YIELD, RESIDUAL = "yield_stress_Pa", ("residual_xx_Pa", "residual_yy_Pa")
+COLUMNS = (DEPTH, HARDNESS, LIMIT, KAPPA, YIELD, *RESIDUAL)
+
+
+@dataclass(frozen=True)
+class StrengthTable:
+    """columns: {name of COLUMNS: numbers, one for each depth}, those that the table has; depths rise."""
+
+    columns: dict
+
+    def has(self, *names):
+        return all(name in self.columns for name in names)
+
+    def at(self, name, depth):
+        """Linear between the depths (m) of the table, constant beyond its ends; a number or an array."""
+        import numpy as np
+
+        return np.interp(depth, self.columns[DEPTH], self.columns[name])
+
+
+def text_of(columns):
+    """The text of columns {name: numbers}: a line of names, then a line for each depth. Reading it gives equal numbers."""
+    lines = [",".join(columns), *(",".join(repr(float(value)) for value in row) for row in zip(*columns.values()))]
+    return "\n".join(lines)
+
+
+@functools.lru_cache(64)
+def of_text(text):
+    """The StrengthTable of such a text. Raises ValueError, KeyError where it is none."""
+    names, *rows = (line.split(",") for line in text.split("\n"))
+    numbers = [tuple(map(float, row)) for row in rows]
+    if not numbers or names[0] != DEPTH or set(names) - set(COLUMNS) or {len(row) for row in numbers} != {len(names)}:
+        raise ValueError("no table of strength")
+    return StrengthTable(dict(zip(names, zip(*numbers))))

@@ -1,0 +1,114 @@
+"""Tables of strength over depth that users write: CSV with names and units in the first line."""
+
+import csv
+import io
+import math
+from pathlib import Path
+
+from tehl_taichi.disk import files
+from tehl_taichi.errors import SceneError
+from tehl_taichi.scene.strength import table
+from tehl_taichi.scene.strength.profiles import PROFILES
+from tehl_taichi.scene.strength.table import DEPTH, HARDNESS, KAPPA, LIMIT, RESIDUAL, YIELD
+from tehl_taichi.values.checks import nearest
+from tehl_taichi.values.coerce import shown
+from tehl_taichi.values.quantity import Number
+
+MOST, LARGEST = 500, 1e6  # rows, bytes
+STRESS = {"Pa": 1.0, "MPa": 1e6}
+# {quantity of a column: (its name in SI units, {unit: factor}, declaration in SI units)}
+KNOWN = {"depth": (DEPTH, {"m": 1.0, "mm": 1e-3, "um": 1e-6}, Number("", "m", 0.0, 0.03, usual=5e-4)),
+         "hardness": (HARDNESS, {"HV": 1.0}, Number("", "HV", 50.0, 1200.0, usual=600.0)),
+         "limit": (LIMIT, STRESS, Number("", "Pa", 1e6, 1e11, usual=4e8)),
+         "kappa": (KAPPA, {"": 1.0}, Number("", "", 0.0, 5.0, usual=0.3)),
+         "yield_stress": (YIELD, STRESS, Number("", "Pa", 1e6, 1e11, usual=2e9)),
+         **{name[:-3]: (name, STRESS, Number("", "Pa", -1e10, 1e10, usual=-2e8, least=1e5)) for name in RESIDUAL}}
+NAMES = {"_".join(filter(None, (what, unit))): (what, unit) for what, (_, units, _) in KNOWN.items() for unit in units}
+NEEDED = "depth_mm (or _um, _m) and either hardness_HV or limit_MPa (or _Pa)"
+
+
+def text_of(place, key):
+    """The text (see :mod:`tehl_taichi.scene.strength.table`) of a built-in profile or of a file; key: of the scene that names
+    it. Raises SceneError."""
+    if place in PROFILES:
+        return PROFILES[place]
+    where = f"{key} = {shown(place)}"
+    return table.text_of(_columns(where, _rows(where, _read(where, Path(place), place))))
+
+
+def check(found):
+    """Refuse numbers of a StrengthTable that no file may have. Raises SceneError."""
+    declared = {key: kind for key, _, kind in KNOWN.values()}
+    for key, values in found.columns.items():
+        for value in values:
+            declared[key].check(f"fatigue.table_rows: {key}", value)
+    _check_depths("fatigue.table_rows", found.columns[DEPTH])
+    if found.has(HARDNESS) == found.has(LIMIT):
+        raise SceneError(f"fatigue.table_rows needs {HARDNESS} or {LIMIT}, not both of these")
+
+
+def _read(where, path, place):
+    """Text of the file. Raises SceneError."""
+    if not path.is_file():
+        raise SceneError(f"{where} is neither a file nor a built-in profile{nearest(place, PROFILES)}; built in: "
+                         f"{', '.join(PROFILES)}")
+    try:
+        return files.content(path, LARGEST).decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise SceneError(f"{where} is not a text file; allowed: CSV with the columns {NEEDED}") from None
+    except OSError as error:
+        raise SceneError(f"{where} cannot be read: {getattr(error, 'strerror', None) or error}") from None
+
+
+def _rows(where, content):
+    """Lists of words, without empty lines and those that begin with #. Raises SceneError."""
+    lines = [line for line in content.splitlines() if line.strip() and not line.lstrip().startswith("#")]
+    try:
+        rows = [[cell.strip() for cell in row] for row in csv.reader(io.StringIO("\n".join(lines)))]
+    except csv.Error as error:
+        raise SceneError(f"{where} cannot be read: {error}") from None
+    if not 2 <= len(rows) <= MOST + 1:
+        raise SceneError(f"{where} has {max(len(rows) - 1, 0)} rows of numbers; allowed: 1 to {MOST} below a line of names")
+    return rows
+
+
+def _columns(where, rows):
+    """{name in SI units: numbers} of rows of words, the names first. Raises SceneError."""
+    names, *lines = rows
+    _check_names(where, names)
+    out = {}
+    for n, name in enumerate(names):
+        what, unit = NAMES[name]
+        key, units, declared = KNOWN[what]
+        out[key] = [_number(f"{where}, row {at}: {name}", row, n, units[unit], declared) for at, row in enumerate(lines, 1)]
+    _check_depths(where, out[DEPTH])
+    return {DEPTH: out.pop(DEPTH), **out}
+
+
+def _check_names(where, names):
+    for name in names:
+        if name not in NAMES:
+            raise SceneError(f"{where} has a column {shown(name)}{nearest(name, NAMES)}; known: {', '.join(NAMES)}")
+    known = [NAMES[name][0] for name in names]
+    if twice := sorted({what for what in known if known.count(what) > 1}):
+        raise SceneError(f"{where} has two columns of {twice[0]}; remove one of them")
+    if "depth" not in known or ("hardness" in known) == ("limit" in known):
+        raise SceneError(f"{where} has the columns {', '.join(names)}; needed: {NEEDED}, not both of these")
+
+
+def _number(where, row, n, factor, declared):
+    """A number of a row in SI units. Raises SceneError."""
+    text = row[n] if n < len(row) else ""
+    try:
+        value = float(text) * factor
+    except ValueError:
+        raise SceneError(f"{where} = {shown(text)} is not a number; allowed: {declared.allowed} {declared.unit}") from None
+    declared.check(where, value if math.isfinite(value) else math.nan)
+    return value
+
+
+def _check_depths(where, depths):
+    for at, (above, below) in enumerate(zip(depths, depths[1:]), 2):
+        if not below > above:
+            raise SceneError(f"{where}, row {at}: the depth {below * 1e6:g} um does not exceed the one before, {above * 1e6:g} "
+                             "um; allowed: rising depths")
