@@ -34,7 +34,9 @@ def fatigue(
     Example: `tehl fatigue runs/gear-1.zarr --kappa 0.25 --endurance 450e6 --to-x 0.5`
     """
     from tehl_taichi.engine import runtime
+    from tehl_taichi.fatigue.overrides import changed
     from tehl_taichi.runs.open_results import open_run
+    from tehl_taichi.runs.summary import life
     from tehl_taichi.view.figures import fatigue_figures
     from tehl_taichi.view.figures.figure_style import FigureStyle
 
@@ -46,7 +48,7 @@ def fatigue(
         say(f"warning: {sentence}")
     with Live() as live:
         result = run.fatigue(**constants, threads=threads, progress=live)
-    _show(result, as_json)
+    _show(result, life.part(result.summaries, changed(run.scene, constants).fatigue), as_json)
     if figures:
         from tehl_taichi.view.figures.run_figures import write_fatigue
 
@@ -62,14 +64,14 @@ def _doubts(scene, constants):
     return idle_keys.doubts(changed(scene, {**constants, "on": True}))
 
 
-def _show(result, as_json):
+def _show(result, passages, as_json):
     from tehl_cli.tables import list_table
 
-    from tehl_taichi.runs.summary.summary_rows import fatigue_rows
+    from tehl_taichi.runs.summary.summary_rows import fatigue_rows, life_rows
 
     _, *rest = result.summaries.items()  # the worse one first
     beside = dict(rest)
     if as_json:
-        print_json({**result.summary, "by_surface": result.summaries})
+        print_json({**result.summary, **passages, "by_surface": result.summaries})
     else:
-        list_table("fatigue", ("quantity", "value"), fatigue_rows(result.summary, beside))
+        list_table("fatigue", ("quantity", "value"), [*fatigue_rows(result.summary, beside), *life_rows(passages)])

@@ -25,6 +25,9 @@ def _options(
                                                          + ", ".join(RELATIONS))] = None,
     inclusion: Annotated[Optional[float], typer.Option(help="root of the area of the largest inclusion, m, for the relation "
                                                             "murakami")] = None,
+    exponent: Annotated[Optional[float], typer.Option(help="exponent of the S-N curve, for the number of passages to "
+                                                           "initiation (0: none)")] = None,
+    limit_cycles: Annotated[Optional[float], typer.Option(help="passages that the fatigue limit stands for")] = None,
     depths: Annotated[Optional[str], typer.Option(help="depths to search: auto (critical depth under the feature), none, or a "
                                                        "list in m for all points, as 50e-6,100e-6")] = None,
     surfaces: Annotated[Optional[str], typer.Option(help="bodies to search: both, a or b")] = None,

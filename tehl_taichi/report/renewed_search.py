@@ -9,7 +9,7 @@ from tehl_taichi.report.number_text import value_text
 from tehl_taichi.report.scene_text import moments
 from tehl_taichi.report.verdict import FATIGUE
 from tehl_taichi.runs.open_results import INSIDE, RUN, kind, open_run
-from tehl_taichi.runs.summary import result_warnings
+from tehl_taichi.runs.summary import life, result_warnings
 from tehl_taichi.scene import fatigue_limits, scene_file
 from tehl_taichi.scene.feature_wording import where
 from tehl_taichi.scene.strength import scene_tables
@@ -67,8 +67,9 @@ class SearchedStore:
     def __init__(self, store, scene, searches):
         self.store, self.scene = store, scene
         self.attrs = {**store.attrs, "scene_toml": scene_file.dumps(scene)}
-        self.summary = {**store.summary, "left_out": scene.left_out(),
-                        "fatigue": next(iter(searches.values())), "fatigue_by_surface": searches}
+        stored = {key: value for key, value in store.summary.items() if key != "life"}
+        self.summary = {**stored, "left_out": scene.left_out(), "fatigue": next(iter(searches.values())),
+                        "fatigue_by_surface": searches, **life.part(searches, scene.fatigue)}
         self.warnings = result_warnings.warnings(self, self.summary)
 
     def __getattr__(self, name):
@@ -96,6 +97,7 @@ def _words(scene):
             ("moments with the", moments(scene) or f"{where(scene)} anywhere"),
             ("shear tractions", "counted" if f.shear else "left out"),
             ("thermal stress", "counted" if scene.has_thermal_stress else "left out"),
+            ("the exponent of the S-N curve", f"{f.exponent:g}" + f" ({f.limit_cycles:g} passages)" * bool(f.exponent)),
             *((f"residual stress along {axis}", f"{getattr(f, f'residual_{axis}{axis}') / 1e6:g} MPa") for axis in "xy")]
 
 

@@ -8,7 +8,7 @@ from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.report.document import Answer
 from tehl_taichi.report.number_text import index, value_text
 from tehl_taichi.report.scene_text import WHOLE, material, moments, when
-from tehl_taichi.runs.summary import limit_meaning, rim_warnings
+from tehl_taichi.runs.summary import life, limit_meaning, rim_warnings
 from tehl_taichi.runs.summary.result_warnings import place
 from tehl_taichi.scene import feature_wording, yield_stress
 from tehl_taichi.scene.strength.strength import Strength
@@ -33,7 +33,16 @@ def of(store):
     warnings = [one for one in store.warnings if not stated.get(one.code)]
     at_rim = [f"{rim[0].upper()}{rim[1:]}." for rim in rims]
     doubts = (*yields, *at_rim, *_cut(store), *_constants(store, summary), *_version(store))
-    return Answer(question, headline, tone, (*sentences, *_read_first(warnings)), doubts, tuple(warnings))
+    return Answer(question, headline, tone, (*sentences, *_life(summary), *_read_first(warnings)), doubts, tuple(warnings))
+
+
+def _life(summary):
+    """Passages to initiation, where an exponent is given."""
+    if "life" not in summary:
+        return ()
+    found = summary["life"]
+    where = f"{micrometres(found['depth_m'])} µm below surface" if found["depth_m"] else "at surface"
+    return (f"Initiation {where} {found['surface']}: {life.words(found)}.",)
 
 
 def _read_first(warnings):

@@ -248,6 +248,8 @@ def _strength(scene):
     if relation is None or not relation.inclusion:
         yield "fatigue.inclusion", "the relation murakami is not used"
     by_hardness = relation is not None and relation.findley is not None
+    if not f.exponent:
+        yield "fatigue.limit_cycles", "fatigue.exponent = 0: passages are not counted"
     own_kappa = all(table and (table.has(KAPPA) or table.has(HARDNESS) and by_hardness) for table in tables)
     if own_kappa:
         yield "fatigue.kappa", "the table gives kappa"

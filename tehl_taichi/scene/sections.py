@@ -247,6 +247,9 @@ class Fatigue:
     relation: str = choice("ss2506", "fatigue limit by the hardness of a table (`tehl laws`)", tuple(RELATIONS))
     inclusion: float = quantity(0.0, "m", "root of the area of the largest inclusion, for the relation murakami; 0: not given",
                                 0.0, 1e-3, usual=3e-5, least=1e-7)
+    exponent: float = quantity(0.0, "", "exponent m of the S-N curve: limit_cycles Fi^-m passages to initiation; 0: not "
+                                        "counted", 0.0, 100.0, usual=9.0)
+    limit_cycles: float = quantity(1e7, "", "passages that the fatigue limit stands for, with an exponent", 1e3, 1e12)
     surfaces: str = choice(BOTH, "surfaces whose material is searched", (BOTH, "a", "b"))
     criterion: str = choice("findley", "fatigue criterion", tuple(CRITERIA))
     depths: Union[tuple, str] = quantities(AUTO, "m", "depths to search; auto: the critical depth under the feature; a list "

@@ -84,6 +84,7 @@ COLUMNS = (
       for one in quantities.ENTRIES if one.column),
     TableColumn("Sq_m", "Sq um", 1e6, ".3f", lambda at, p_H, found: surface_roughness.rms_of(dig(found, "roughness")), STEADY),
     TableColumn("lambda", "lambda", 1, ".2f", _Of("lambda"), STEADY),
+    TableColumn("passages", "passages", 1, ".2g", _Of("life", "passages"), PASSAGE),
     TableColumn("worse_body", "body", 1, "", lambda at, p_H, summary: dig(summary, "fatigue", "surface"), PASSAGE),
 )
 

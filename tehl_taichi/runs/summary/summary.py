@@ -9,7 +9,7 @@ from tehl_taichi.laws import conduction
 from tehl_taichi.laws.law import beyond
 from tehl_taichi.march import quantities
 from tehl_taichi.march.accuracy.coarse_runs import FI, distributions, indices, von_mises_parts
-from tehl_taichi.runs.summary import result_warnings
+from tehl_taichi.runs.summary import life, result_warnings
 from tehl_taichi.runs.summary.film_warnings import worst_ripple
 from tehl_taichi.scene import surface_roughness
 from tehl_taichi.scene.film_formula import central_film, formula_words, spread
@@ -48,6 +48,7 @@ def summarise(store, extra, searches=None):
         part["error_parts"] = {name: of_it[bar] for name, bar in names.items() if bar in of_it}
         part |= unknown_of({name: unknown[bar] for name, bar in names.items() if bar in unknown})
     out |= _von_mises(out)
+    out |= life.part(out.get("fatigue_by_surface", {}), scene.fatigue)
     out["work"] = _work(store)
     out["crowding"] = extra.get("crowding", [0, 0])
     out["clamps"] = _clamps(store)

@@ -51,6 +51,11 @@ def fatigue_rows(f, beside=MappingProxyType({})):
     return [row.text_pair for row in rows_of_fatigue(f, beside)]
 
 
+def life_rows(passages):
+    """(quantity, value) of {"life": that part of a summary}, or of {}."""
+    return [row.text_pair for row in _life_rows(passages)]
+
+
 def rows_of(summary):
     """A list of :class:`SummaryRow` of the summary of a finished run."""
     steady, hertz = summary["steady"], summary["hertz"]
@@ -142,8 +147,16 @@ def _passage_rows(summary):
                  SummaryRow("worst residual / load / mass error",
                      f"{t['residual_max']:.1e} / {t['load_error_max']:.1e} / {t['mass_error_max']:.1e}")]
     if "fatigue" in summary:
-        return rows + rows_of_fatigue(summary["fatigue"], others(summary)) + _meaning_rows(summary)
+        return rows + rows_of_fatigue(summary["fatigue"], others(summary)) + _meaning_rows(summary) + _life_rows(summary)
     return rows + (_alone_rows(summary["contact_alone"]) if "contact_alone" in summary else [])
+
+
+def _life_rows(summary):
+    """Passages to initiation at the worst point."""
+    if not (found := summary.get("life")):
+        return []
+    where = (_at(found) if found["depth_m"] else ", at the surface") + f" ({found['surface']})"
+    return [_of(found, "passages", f"passages to initiation, exponent {found['exponent']:g}", where=where)]
 
 
 def _meaning_rows(summary):

@@ -1,0 +1,59 @@
+"""Passages to the initiation of a crack at the worst point, by the slope of the S-N curve."""
+
+import math
+
+from tehl_taichi.fatigue import material_length
+from tehl_taichi.fatigue.pressure_alone import searched, why_none
+from tehl_taichi.values.coded_text import reasons_of, unknown_of
+from tehl_taichi.values.digits import with_error
+
+LEAST = 1e-9  # of an index, below which no number of passages is of use
+
+
+def of_searches(searches, fatigue):
+    """The part "life" of a summary: {} without fatigue.exponent, or an index. searches: {surface: summary of its search}, with
+    their errors; fatigue: the section of the scene."""
+    found = [(name, *part) for name, one in searches.items() if not why_none(one) for part in _parts(searched(one))]
+    surface, worst, key = max(found, key=lambda one: one[1][one[2]], default=("", {}, ""))
+    Fi, error = worst.get(key, 0.0), worst.get("error", {}).get(key)
+    if not fatigue.exponent or Fi <= LEAST:
+        return {}
+    passages, reasons = fatigue.limit_cycles * Fi**-fatigue.exponent, reasons_of(worst)
+    return {"passages": passages, "exponent": fatigue.exponent, "limit_cycles": fatigue.limit_cycles, "Fi": Fi,
+            "surface": surface, "depth_m": worst.get("depth_m", 0.0),
+            "error": {"passages": bar(passages, Fi, error, fatigue.exponent)},
+            **unknown_of({"passages": reasons[key]} if key in reasons else {})}
+
+
+def part(searches, fatigue):
+    """{"life": that part}, {} where there is none."""
+    found = of_searches(searches, fatigue)
+    return {"life": found} if found else {}
+
+
+def bar(passages, Fi, error, exponent):
+    """The error of passages: the larger side of what the error of the index leaves; None where it leaves everything."""
+    if error is None or error >= Fi:
+        return None
+    try:
+        return passages * math.expm1(-exponent * math.log1p(-error / Fi))
+    except OverflowError:
+        return None
+
+
+def _parts(found):
+    """[(part of a search, its index)] at the surface and below it, as the verdict takes them."""
+    if found.get("rough"):
+        both = found["statistics"], found.get("below", {}).get("statistics")
+        return [(part, "p99") for part in both if part]
+    return [(part, "Fi_max") for part, _ in material_length.leading(found)]
+
+
+def words(life):
+    """'a crack begins after 5.3e5 ± 0.4e5 passages', in words without the subject, for a part "life" of a summary."""
+    number, error = life["passages"], life["error"]["passages"]
+    text = with_error(number, error, digits=2) + ("" if error is not None else " (error unknown)")
+    slope = f"by the exponent {life['exponent']:g} of the S-N curve"
+    if life["Fi"] < 1:
+        return f"below the limit, which stands for {life['limit_cycles']:.3g} passages; {slope} after {text}"
+    return f"after {text} passages, {slope}"

@@ -1,0 +1,64 @@
+"""Passages to initiation: closed form, error by the bar of the index, which index is taken, words and rows."""
+
+import pytest
+
+import tehl_taichi as tehl
+from tehl_taichi.report import verdict
+from tehl_taichi.runs.summary import life, summary_rows
+from tehl_taichi.runs.sweep.summary_columns import error_of, numbers
+from tehl_taichi.values.coded_text import Reason, unknown_of
+
+FATIGUE = tehl.scene("gear").replace(**{"fatigue.exponent": 9.0, "fatigue.limit_cycles": 2e6}).fatigue
+
+
+def search(top, deep, error=0.01, **more):
+    """Summary of a search with these indices at the surface and 25 um below."""
+    below = {"Fi_max": deep, "depth_m": 25e-6, "error": {"Fi_max": error}}
+    return {"Fi_max": top, "error": {"Fi_max": error}, "below": below, **more}
+
+
+def test_twice_the_limit_takes_2_to_the_minus_9_of_its_passages():
+    found = life.of_searches({"a": search(0.7, 2.0, 0.02), "b": search(1.9, 1.5)}, FATIGUE)
+    assert found["passages"] == pytest.approx(2e6 / 512) and (found["surface"], found["depth_m"]) == ("a", 25e-6)
+    assert found["error"]["passages"] == pytest.approx(2e6 * (1.98**-9 - 2.0**-9))
+    assert found["error"]["passages"] == pytest.approx(found["passages"] * 9 * 0.02 / 2, rel=0.06)
+    assert life.of_searches({"a": search(1.0, 0.9)}, FATIGUE)["passages"] == 2e6
+
+
+def test_the_bar_holds_every_index_within_that_of_the_index():
+    found = life.of_searches({"a": search(1.3, 1.2, 0.05)}, FATIGUE)
+    for Fi in (1.25, 1.28, 1.35):
+        assert abs(2e6 * Fi**-9.0 - found["passages"]) <= found["error"]["passages"] * (1 + 1e-12)
+
+
+@pytest.mark.parametrize("error", [None, 1.4])
+def test_without_a_bar_of_the_index_that_of_the_passages_is_unknown(error):
+    reason = unknown_of({"Fi_max": Reason("exit not resolved", "exit")}) if error is None else {}
+    found = life.of_searches({"a": search(1.3, 1.2, error, **reason)}, FATIGUE)
+    assert found["error"] == {"passages": None}
+    assert ("exit not resolved" in str(found.get("unknown"))) == (error is None)
+
+
+def test_none_without_an_exponent_or_an_index():
+    assert life.part({"a": search(1.3, 1.2)}, tehl.scene("gear").fatigue) == {}
+    assert life.part({}, FATIGUE) == {} == life.part({"a": search(-0.1, -0.2)}, FATIGUE)
+    alone = {"Fi_max": None, "unknown": {"Fi_max": "too much friction"}, "pressure_alone": search(1.3, 1.2)}
+    assert life.part({"a": alone}, FATIGUE) == {}
+
+
+def test_of_rough_surfaces_it_is_that_of_the_percentile_and_an_averaged_index_leads_where_its_error_alone_is_known():
+    rough = search(1.9, 1.8, rough=True, statistics={"p99": 1.1, "error": {"p99": 0.01}})
+    assert life.of_searches({"a": rough}, FATIGUE)["Fi"] == 1.1
+    wide = search(1.3, 0.5, None, averaged={"length_m": 1e-5, "Fi_max": 0.9, "error": {"Fi_max": 0.01}})
+    assert life.of_searches({"a": wide}, FATIGUE)["Fi"] == 0.9
+
+
+def test_it_is_said_and_printed_and_has_a_column_with_its_bar():
+    above, below = (life.of_searches({"a": search(*both)}, FATIGUE) for both in ((0.7, 2.0), (0.5, 0.5)))
+    assert verdict._life({"life": above})[0].startswith("Initiation 25 µm below surface a: after 3910 ± 180 passages")
+    assert "below the limit, which stands for 2e+06 passages" in verdict._life({"life": below})[0]
+    assert verdict._life({}) == ()
+    (what, value), = summary_rows.life_rows({"life": above})
+    assert what == "passages to initiation, exponent 9, at 25 um (a)" and value == "3910 ± 180"
+    columns = numbers({"life": above})
+    assert columns["life_passages"] == above["passages"] and error_of("life_passages") in columns
