@@ -18,8 +18,15 @@ def printable(text, keep=""):
     >>> printable("a\\x1b[2Jb\\n")
     'a\\\\x1b[2Jb\\\\n'
     """
-    return "".join(c if c.isprintable() or c in keep or unicodedata.category(c) == "Zs" else
-                   c.encode("unicode_escape").decode() for c in str(text))
+    text = str(text)
+    if text.isprintable():
+        return text
+    # a page has a million letters and a hundred kinds
+    return text.translate({ord(c): c.encode("unicode_escape").decode() for c in set(text) if not _prints(c, keep)})
+
+
+def _prints(c, keep):
+    return c.isprintable() or c in keep or unicodedata.category(c) == "Zs"
 
 
 def cell(value):

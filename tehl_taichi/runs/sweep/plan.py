@@ -30,6 +30,7 @@ class Plan:
     scene: Scene
     axes: tuple
     drawn: dict = field(default_factory=dict)
+    _cases: dict = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def __post_init__(self):
         if not self.axes:
@@ -105,8 +106,13 @@ class Plan:
         return {key: value for axis, n in zip(self.axes, self.positions(number)) for key, value in axis.changes(n).items()}
 
     def case(self, number):
-        """Scene of a case. Raises SceneError."""
-        return self.scene.replace(**self.changes(number))
+        """Scene of a case, one object for those of a plan that is looked through. Raises SceneError."""
+        if number not in self._cases:
+            found = self.scene.replace(**self.changes(number))
+            if self.count > LOOKED_AT:
+                return found
+            self._cases[number] = found
+        return self._cases[number]
 
     def coordinate(self, key):
         """(dimension, values along it) of a key."""
