@@ -9,7 +9,7 @@ class Rolling:
     """Reader of a Hertz line, shear 0.05 p along x, over which a bump of pressure and of heat passes:
     `stride` cells between two moments, the first at `begin` (in a)."""
 
-    def __init__(self, scene, cells=12, rows=9, stride=1.0, begin=-1.5):
+    def __init__(self, scene, cells=8, rows=5, stride=1.0, begin=-1.5):
         self.s = Scales.of(scene)
         self.x, self.y = (np.linspace(*ends) * self.s.a for ends in ((-2, 2, 4 * cells + 1), (0, 1, rows)))
         self.centres = (begin + np.arange(0, 3.0, stride / cells)) * self.s.a

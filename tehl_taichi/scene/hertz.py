@@ -1,5 +1,6 @@
 """Dry contacts after Hertz, in closed form (SI)."""
 
+import functools
 import math
 
 
@@ -52,6 +53,7 @@ def elliptic_integrals(m):
     return K, K * (1 - total)
 
 
+@functools.cache
 def axes_ratio(radius_ratio):
     """Ratio k >= 1 of the half-axes of the contact ellipse for reduced radii in the ratio R_long/R_short >= 1:
     (k^2 E - K)/(K - E) = R_long/R_short (Johnson, section 4.2)."""

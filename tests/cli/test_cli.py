@@ -106,11 +106,11 @@ def test_xarray_opens_the_store_as_it_is(finished):
     assert float(data.pressure.max()) == pytest.approx(finished[1]["transient"]["p_max_Pa"], rel=1e-6)
 
 
-@pytest.mark.rendered
 def test_show_and_plot(finished, tmp_path):
+    """Figures as they are rendered: tests/view."""
     assert "finished" in tehl("show", finished[0]).stdout
     drawn = tehl("plot", finished[0], "--out", tmp_path / "figures", "--dpi", 40)
-    assert drawn.returncode == 0 and (tmp_path / "figures" / "fatigue.png").stat().st_size > 5000
+    assert drawn.returncode == 0 and (tmp_path / "figures" / "fatigue.png").exists()
 
 
 def test_a_target_error_chooses_the_grid_of_the_run(tmp_path):
@@ -137,8 +137,8 @@ def test_ctrl_c_in_a_suite_ends_in_a_sentence(tmp_path):
     assert run.wait() == 4 and "tehl: interrupted; all stored data are kept" in run.stderr.read()
 
 
-@pytest.mark.parametrize("stop, threads", [(signal.SIGKILL, 2), pytest.param(signal.SIGKILL, 1, marks=pytest.mark.slow),
-                                           pytest.param(signal.SIGINT, 1, marks=pytest.mark.slow)])
+@pytest.mark.slow  # kills while it is written: tests/store/test_store_draft.py; signals in a passage: test_store_runs.py
+@pytest.mark.parametrize("stop, threads", [(signal.SIGKILL, 2), (signal.SIGKILL, 1), (signal.SIGINT, 1)])
 def test_a_repeated_run_that_breaks_opens_and_resumes_to_the_same_result(finished, tmp_path, stop, threads):
     """Whatever the threads of its first steps; `.ci/run` runs the wheel on one."""
     from tehl_taichi.store.store import Store

@@ -68,7 +68,8 @@ def folder(tmp_path_factory, taichi_cpu):
     import made_results
 
     place = tmp_path_factory.mktemp("pages")
-    run = ("run", "gear", *SMALL.replace(" --no-fatigue", "").split(), "--set", "time.courant=2")  # half of the moments
+    # a quarter of the moments
+    run = ("run", "gear", *SMALL.replace(" --no-fatigue", "").split(), *"--set time.courant=2 --set output.every=2".split())
     assert here(*run, "--out", "runs/gear-1.zarr", cwd=place).returncode == 0
     shutil.copytree(place / "runs" / "gear-1.zarr", place / "runs" / "gear.zarr")
     deep = ("--steps", 3, "--set", "fatigue.depths=[40e-6]", "--out", "runs/furrow.zarr")
@@ -124,7 +125,8 @@ def marked():
     seen = set()
     for page, words in SHOWN:
         drawn = words[0] if words[0] in ("plot", "crack", "animate") else "figures" if "--figures" in words else ""
-        slow = (pytest.mark.slow,) if drawn in seen else ()
+        sized = words[0] == "run" and "--target-error" in words  # kernels of its grid; tests/cli/test_cli.py chooses one
+        slow = (pytest.mark.slow,) if drawn in seen or sized else ()
         seen |= {drawn} - {""}
         if words[0] != "bench":
             yield pytest.param(words, marks=slow, id=f"{page}: {' '.join(words)}")

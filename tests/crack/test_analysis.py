@@ -294,7 +294,7 @@ def test_shallow_closed_cracks_settle_and_hardly_depend_on_the_elements(rolled):
 
 def test_pressed_together_it_stays_closed(taichi_cpu):
     scene = SCENE.replace(**{"thermal.on": False})
-    result = run(scene, Rolling(scene), of_a(residual=-2e9, start=-60 * MICRO))
+    result = run(scene, Rolling(scene, 12, 9), of_a(residual=-2e9, start=-60 * MICRO))
     assert result.summary["sides"]["entry"]["opens"] is False
     result = run(scene, Rolling(scene), of_a(residual=[(0.0, 0.0), (1 * MICRO, -2e9)], length=30 * MICRO, side="entry"))
     entry = result.summary["sides"]["entry"]

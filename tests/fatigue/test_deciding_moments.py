@@ -95,23 +95,39 @@ def test_the_same_planes_without_leaving_any_out(taichi_cpu, criterion):
     np.testing.assert_allclose(np.abs((normals * others).sum(axis=1)), 1.0, atol=1e-6)
 
 
-@pytest.mark.parametrize("reach", [0.0, pytest.param(1e-3, marks=pytest.mark.slow)])
-def test_too_few_are_not_taken(taichi_cpu, monkeypatch, reach):
+RULE = Criterion(name="mean", says="", source="", value=lambda tau, normal, mean, kappa: tau + kappa * mean, sensitivity="",
+                 checked=())
+
+
+@pytest.fixture
+def mean(monkeypatch):
+    """A law that asks for the mean stress, and too few moments: one kernel for both tests."""
+    monkeypatch.setattr(critical_planes, "REACH", 0.0)
+    monkeypatch.setitem(CRITERIA, "mean", RULE)
+
+
+def round_about(seed=7):
     """Shear that turns in a circle, not quite round: which moments are farthest changes from plane to plane."""
-    monkeypatch.setattr(critical_planes, "REACH", reach)
-    monkeypatch.setitem(CRITERIA, "short", dataclasses.replace(CRITERIA["findley"], name=f"short-{reach}"))
     turn, history = 2 * np.pi * np.arange(90) / 90, np.zeros((20, 90, 6))
     history[:, :, 4], history[:, :, 5] = 1e8 * np.cos(turn), 1e8 * np.sin(turn)
-    history += 3e6 * np.random.default_rng(7).standard_normal(history.shape)
-    f, exact = (findley.search(history, 0.3, criterion="short", prune=prune)[0] for prune in (True, False))
+    return history + 3e6 * np.random.default_rng(seed).standard_normal(history.shape)
+
+
+def test_too_few_are_not_taken(taichi_cpu, mean):
+    f, exact = (findley.search(round_about(), 0.3, criterion="mean", prune=prune)[0] for prune in (True, False))
     np.testing.assert_allclose(f, exact, rtol=1e-9)
 
 
-def test_a_moment_that_counts_otherwise_is_not_lost(taichi_cpu, monkeypatch):
-    """A law that asks for the mean stress: its largest is in a moment without shear or pull on the plane that is found."""
-    rule = Criterion(name="mean", says="", source="", value=lambda tau, normal, mean, kappa: tau + kappa * mean, sensitivity="",
-                     checked=())
-    monkeypatch.setitem(CRITERIA, "mean", rule)
+@pytest.mark.slow  # a kernel of its own: with a reach of nothing, above
+def test_a_few_are_enough(taichi_cpu, monkeypatch):
+    monkeypatch.setattr(critical_planes, "REACH", 1e-3)
+    monkeypatch.setitem(CRITERIA, "short", dataclasses.replace(CRITERIA["findley"], name="short"))
+    f, exact = (findley.search(round_about(), 0.3, criterion="short", prune=prune)[0] for prune in (True, False))
+    np.testing.assert_allclose(f, exact, rtol=1e-9)
+
+
+def test_a_moment_that_counts_otherwise_is_not_lost(taichi_cpu, mean):
+    """Its largest mean stress is in a moment without shear or pull on the plane that is found."""
     history = np.zeros((1, 60, 6))
     history[0, :30] = 1e8 * np.sin(np.arange(30))[:, None] * [0, 0, 0, 0, 1, 0] + [1e6, 0, 1e6, 0, 0, 0]
     history[0, 45, 1] = 6e7

@@ -96,7 +96,7 @@ def test_the_rows_of_the_worst_of_listed_depths_are_searched(taichi_cpu, monkeyp
     scene, asked = tehl.scene("gear").replace(**{"thermal.on": False}), []
     monkeypatch.setattr(depth_search, "_under", lambda passage, rows, *_: asked.append(rows) or ([], []))
     monkeypatch.setattr(depth_search, "passes", lambda passage: 0)
-    reader = Rolling(scene)
+    reader = Rolling(scene, rows=9)
     layers = [SimpleNamespace(worst=SimpleNamespace(y=y), early=None) for y in (reader.y[2], reader.y[5])]
     depth_search.search(scene, StressHistories(scene, reader, reader.centres), layers, None, None)
     assert asked == [[0, 2, 5]]
@@ -138,7 +138,7 @@ def test_of_a_row_alone_the_profile_is_that_of_the_row(taichi_cpu):
 @pytest.mark.parametrize("heat", [False, True])
 def test_a_row_s_histories_at_the_surface_are_those_of_all_points(taichi_cpu, heat):
     scene = tehl.scene("gear").replace(**{"thermal.on": heat, "fatigue.residual_xx": 3e6})
-    passage = StressHistories(scene, reader := Rolling(scene), reader.centres)
+    passage = StressHistories(scene, reader := Rolling(scene, rows=9), reader.centres)
     surface, deep = at_the_surface(passage)(slice(0, 4)).reshape(passage.x.size, 4, -1, 6), 40e-6
     for histories, row in zip(histories_of(passage, [0.0, deep], [(0, False), (3, False)]), (0, 3)):
         points = passage.history(slice(row, row + 1), passage.stresses(deep))

@@ -41,21 +41,21 @@ def step_between_walls(heat, levels, P, h, touch, rate=1e-6):
     return np.stack([heat.columns.single(name)[0] for name in (film_tables.QA, film_tables.QB)])
 
 
-def test_friction_heats_where_surfaces_touch():
+@pytest.mark.parametrize("srr", (-0.2, 0.2))
+def test_friction_heats_where_surfaces_touch(srr):
     """mu p |u_s| between walls at 90 deg C, half into each, whatever the film would dissipate; k dT = q h/8 in the middle.
     0.3 p is less than the limit of 10 MPa + 0.075 p up to 44 MPa, and more beyond."""
-    for srr in (-0.2, 0.2):
-        heat, levels = film(srr=srr)
-        X = levels.X
-        p = np.where(X < 0, 20e6, 200e6)
-        flux = step_between_walls(heat, levels, p / levels.scales.p_H, np.full(X.size, 0.2e-6), np.ones(X.size))
-        stress = np.where(X < 0, 6e6, 25e6)  # 0.3 * 20 MPa; 10 + 0.075 * 200 MPa
-        inner = slice(2, -2)
-        np.testing.assert_allclose(flux.sum(axis=0)[inner], (stress * 1.7)[inner], rtol=1e-6)  # |u_s| = 0.2 * 8.5 m/s
-        np.testing.assert_allclose(flux[0][inner], flux[1][inner], rtol=1e-6)
-        k = 0.154 * (1 + 1.4e-9 * p / (1 + 0.34e-9 * p))
-        middle = heat.temperature()[heat.nz // 2, 0] - 90
-        np.testing.assert_allclose(middle[inner], (stress * 1.7 * 0.2e-6 / 8 / k)[inner], rtol=1e-6)
+    heat, levels = film(srr=srr)
+    X = levels.X
+    p = np.where(X < 0, 20e6, 200e6)
+    flux = step_between_walls(heat, levels, p / levels.scales.p_H, np.full(X.size, 0.2e-6), np.ones(X.size))
+    stress = np.where(X < 0, 6e6, 25e6)  # 0.3 * 20 MPa; 10 + 0.075 * 200 MPa
+    inner = slice(2, -2)
+    np.testing.assert_allclose(flux.sum(axis=0)[inner], (stress * 1.7)[inner], rtol=1e-6)  # |u_s| = 0.2 * 8.5 m/s
+    np.testing.assert_allclose(flux[0][inner], flux[1][inner], rtol=1e-6)
+    k = 0.154 * (1 + 1.4e-9 * p / (1 + 0.34e-9 * p))
+    middle = heat.temperature()[heat.nz // 2, 0] - 90
+    np.testing.assert_allclose(middle[inner], (stress * 1.7 * 0.2e-6 / 8 / k)[inner], rtol=1e-6)
 
 
 def test_a_film_that_shears_heats_by_stress_times_slip():
@@ -95,6 +95,7 @@ def test_a_wall_along_which_oil_slips_takes_the_heat_of_that(slope):
     assert np.all(hot[inner] > 3 * cold[inner])
 
 
+@pytest.mark.slow  # each wall for itself: above
 def test_both_walls_take_the_heat_of_oil_that_slips_along_both():
     """No sliding, walls strained by 1.1 times a low limit: the work of the pressure, half into each wall, and a film that stays
     colder than one that dissipates it."""

@@ -22,7 +22,7 @@ def film(srr, ratio):
 
     steel = {f"bodies.{body}.{key}": value for body in "ab" for key, value in STEEL.items()}
     description = scene("ball-on-disc").replace(
-        srr=srr, speed=2.0, **{"thermal.on": True, "rheology.law": "limiting",
+        srr=srr, speed=2.0, **{"thermal.on": True, "rheology.law": "limiting", "oil.name": "reference-pao",
                                "contact.kind": "elliptic" if ratio != 1 else "point",
                                "contact.radius_x": 0.0127, "contact.radius_y": 0.0127 * ratio, "grid.nx": 64, "grid.ny": 24,
                                "grid.x_min": -2.0, "grid.x_max": 1.5, "grid.y_max": 1.5, **steel})

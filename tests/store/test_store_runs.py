@@ -258,13 +258,29 @@ def test_a_kill_and_a_closed_terminal_are_named(tmp_path, stop):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_stopped_run_says_by_what_and_how_it_goes_on(tmp_path):
-    run = process("run", "gear", "--threads", "2", "--grid", "64x16", "--isothermal", "--out", "a.zarr", cwd=tmp_path)
-    while not (tmp_path / "a.zarr").exists():
-        time.sleep(0.01)
-    os.kill(run.pid, signal.SIGTERM)
-    assert run.wait() == 4
-    assert re.search(r"^tehl: stopped by SIGTERM after \d+ steps; resume with: tehl resume a.zarr$", run.stderr.read(), re.M)
+def test_a_stopped_run_says_by_what_and_goes_on_to_the_same_result(tehl, unbroken, monkeypatch):
+    """A signal in the passage, by the handlers of the command; whole processes: the closed terminal below."""
+    from tehl_cli import entry
+
+    append, numbers = Store.append, iter(range(99))
+
+    def killed(*words, **options):
+        append(*words, **options)
+        if next(numbers) == 7:
+            os.kill(os.getpid(), signal.SIGTERM)
+
+    before = signal.signal(signal.SIGTERM, entry._stop)
+    try:
+        with monkeypatch.context() as patched:
+            patched.setattr(Store, "append", killed)
+            code, _, said = tehl(*RIDGE, "--out", "a.zarr")
+    finally:
+        signal.signal(signal.SIGTERM, before)
+    assert code == 4 and re.search(r"^tehl: stopped by SIGTERM after \d+ steps; resume with: tehl resume a.zarr$", said, re.M)
+    stopped = Store.open("a.zarr")
+    assert stopped.writer is None and 1 < len(stopped) < 52
+    assert tehl("resume", "a.zarr", "--threads", 2, "--quiet")[0] == 0
+    assert_same(Store.open("a.zarr"), unbroken, range(52))
 
 
 def test_a_closed_terminal_takes_no_last_word_and_changes_no_exit_code(tmp_path):

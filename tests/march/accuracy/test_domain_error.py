@@ -120,7 +120,7 @@ def test_of_a_circle_the_sides_have_a_pressure_too():
 
 @pytest.mark.usefixtures("taichi_cpu")
 def test_cells_that_are_not_square_see_the_same_border():
-    films = [steady(point(20.0, 10.0, -2.5, 1.5, 64, ny)) for ny in (24, 40)]
+    films = [steady(point(20.0, 10.0, -2.5, 1.5, 64, ny)) for ny in (32, 64)]
     one, other = (shot.scalars["h_c_m"] for shot in films)
     assert one == pytest.approx(other, rel=3e-3)
     np.testing.assert_allclose(films[0].state["P"][[0, -1], 0], films[1].state["P"][[0, -1], 0], rtol=0.01)
@@ -169,9 +169,9 @@ def effort(description, monkeypatch):
     # a film thicker than the gap at the border, which answers by 1.4 times its move
     ("ridge-on-ball", {"thermal.on": False, "contact.kind": "elliptic", "contact.radius_y": 0.0508, "speed": 3.0, "srr": -0.3,
                        "grid.x_min": -2.5, "grid.nx": 64, "grid.ny": 32}, (1, 1.1, 1)),
-    # its frozen first film, without temperatures, takes more on 32x16 cells
-    ("ball-on-disc", {"thermal.on": True, "rheology.law": "limiting", "hertz_pressure": 1e9, "speed": 0.5, "srr": -0.5,
-                      "grid.nx": 64, "grid.ny": 32}, (3, 5, 1.1))])
+    # its frozen first film, without temperatures, takes more on 32x16 cells; quick: the line above, with temperatures
+    pytest.param("ball-on-disc", {"thermal.on": True, "rheology.law": "limiting", "hertz_pressure": 1e9, "speed": 0.5,
+                                  "srr": -0.5, "grid.nx": 64, "grid.ny": 32}, (3, 5, 1.1), marks=pytest.mark.slow)])
 def test_a_flooded_start_takes_hardly_more_than_a_starved_one(monkeypatch, name, changes, more):
     """Border and film agree after it. The last one took 100 times the Newton steps until 0.8."""
     flooded = scene(name).replace(**changes)

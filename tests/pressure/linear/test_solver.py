@@ -6,7 +6,7 @@ import sys
 import numpy as np
 import pytest
 
-from tehl_taichi.engine import cores, runtime, task_pool
+from tehl_taichi.engine import cores
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 
@@ -58,23 +58,6 @@ def test_the_same_bits_by_any_number_of_workers(problem, size, patience):
     team.size, team.sync[PATIENCE] = before
     (x, *rest), (y, *others) = results
     assert x.tobytes() == y.tobytes() and rest == others and rest[1] > 5
-
-
-@pytest.mark.parametrize("problem", [("f64", "jacobi"), pytest.param(("f32", "jacobi"), marks=pytest.mark.slow),
-                                     pytest.param(("f64", "red-black"), marks=pytest.mark.slow)], ids="-".join, indirect=True)
-def test_each_phase_as_a_launch_of_its_own_gives_the_same_bits(problem, monkeypatch):
-    """As a graphics card does it, from the first film on."""
-    krylov, right = problem
-    monkeypatch.setattr(runtime, "by_phases", lambda: True)
-    other = pressed(krylov.levels.precision, krylov.levels.scene.numerics.sweep).linear.krylov
-    ran, launch = [], other._launch
-    other._launch = lambda: (ran.append(int(other.team.sync[task_pool.TICKET])), launch())
-    assert other.right.tobytes() == right.tobytes()
-    x, *rest = solved((other, right), 1e-3)
-    monkeypatch.undo()
-    y, *others = solved(problem, 1e-3)
-    assert x.tobytes() == y.tobytes() and rest == others and rest[1] > 5
-    assert len(ran) > 10 * rest[1] and len(set(ran)) <= len(krylov.program.phases)
 
 
 def test_the_same_bits_beside_others_on_all_cores(problem):
