@@ -9,6 +9,7 @@ from tehl_taichi.scene.aliases import BY_SURFACE, full_name
 from tehl_taichi.scene.description import Scene
 
 STEADY_GRID = {"grid.nx": 128, "grid.ny": 32}  # of steady contacts, unless the caller or the scene says otherwise
+OF_PASSAGES = ("time.", "feature.", "fatigue.")  # keys that say nothing of the ring without features
 SMALLEST = 1e-12  # of a slide-roll ratio that is rounding
 
 
@@ -36,6 +37,8 @@ def ring_scene(base, changes, name, contact, dry, u_m, srr, passes):
            "contact.radius_y": math.inf if dry.kind == LINE else contact.R_y, "contact.load": dry.scene_load,
            "operation.u_m": u_m, "operation.srr": srr if abs(srr) > SMALLEST else 0.0}
     given = {full_name(key): value for key, value in changes.items()}
+    if not passes:
+        given = {key: value for key, value in given.items() if not key.startswith(OF_PASSAGES)}
     grid = {} if passes or any(key.startswith("grid.") for key in given) else STEADY_GRID
     try:
         return (base if passes else smooth(base)).replace(**{**own, **grid, **given, "time.steady_only": not passes})

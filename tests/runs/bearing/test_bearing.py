@@ -102,7 +102,8 @@ def test_a_ring_without_a_result_is_named(tmp_path, monkeypatch):
 
 
 def test_a_dent_passes_on_one_ring(tmp_path):
-    found = tehl.bearing("6206", **DUTY, on="outer", feature=tehl.Feature(**DENT), run=False, folder=tmp_path / "b")
+    found = tehl.bearing("6206", **DUTY, on="outer", feature=tehl.Feature(**DENT), run=False, folder=tmp_path / "b",
+                         changes={"time.steps": 3, "kappa": 0.2})
     inner, outer = (tehl.scene(one["scene_file"]) for one in found.rings.values())
     assert outer.transient and outer.features == (tehl.Feature(**DENT),) and outer.grid.nx == 256
     assert not inner.transient and inner.features == ()
