@@ -20,6 +20,7 @@ from tehl_cli import (
     show_commands,
     steels_command,
     sweep_command,
+    traction_command,
 )
 from tehl_cli.entry import main
 
@@ -74,7 +75,7 @@ def _with_value(error):
 
 
 # {heading of the help: its commands}, in this order
-PANELS = {"Compute": ("run", "resume", "sweep", "flank", "bearing", "roller", "fatigue", "crack"),
+PANELS = {"Compute": ("run", "resume", "sweep", "traction", "flank", "bearing", "roller", "fatigue", "crack"),
           "Show results": ("show", "plot", "report", "compare", "animate", "export"),
           "Scene files and choices": ("new", "scenes", "oils", "steels", "laws"),
           "This program": ("doctor", "bench", "cite")}
@@ -105,6 +106,7 @@ def _print_version():
 
 run_commands.register(app)
 sweep_command.register(app)
+traction_command.register(app)
 show_commands.register(app)
 animate_command.register(app)
 steels_command.register(app)

@@ -47,6 +47,7 @@ from tehl_taichi.api import (  # noqa: E402
     simulate,
     stresses,
     sweep,
+    traction,
 )
 from tehl_taichi.api import open as open
 from tehl_taichi.errors import Error, Interrupted, NotConverged, RuntimeUnavailable, SceneError, StoreError, UnknownName  # noqa: E402
@@ -62,6 +63,7 @@ if TYPE_CHECKING:
     from tehl_taichi.runs.progress import Lines, Progress
     from tehl_taichi.runs.stored_run import Run
     from tehl_taichi.runs.sweep.study_table import Study
+    from tehl_taichi.runs.traction.traction_rows import Traction
     from tehl_taichi.scene.description import Scene
     from tehl_taichi.scene.feature import Feature
     from tehl_taichi.scene.gear_pair import GearPair
@@ -74,6 +76,7 @@ CLASSES = {"Scene": "scene.description", "Feature": "scene.feature", "Oil": "sce
            **dict.fromkeys(("Body", "Contact", "Fatigue", "Grid", "Numerics", "Operation", "Output", "Rheology", "Thermal",
                             "Time"), "scene.sections"),
            "Run": "runs.stored_run", "Study": "runs.sweep.study_table", "Flank": "runs.flank.stored_flank",
+           "Traction": "runs.traction.traction_rows",
            "Bearing": "runs.bearing.stored_bearing", "RollingBearing": "runs.bearing.rolling_bearing",
            "Comparison": "runs.compare",
            "Snapshot": "march.snapshot", "SearchResult": "fatigue.search_result", "CrackResult": "crack.analysis",
@@ -83,8 +86,9 @@ OLD_NAMES = {"FatigueResult": "SearchResult"}  # to 0.8
 __all__ = ["Bearing", "Body", "Comparison", "Contact", "CrackResult", "Error", "Fatigue", "Feature", "Flank", "GearPair",
            "Grid", "Interrupted", "Lines", "NotConverged", "Numerics", "Oil", "Operation", "Output", "Progress", "Quantity",
            "Rheology", "RollingBearing", "Run", "RuntimeUnavailable", "Scene", "SceneError", "SearchResult", "Snapshot",
-           "StoreError", "Study", "Thermal", "Time", "UnknownName", "__version__", "animate", "bearing", "compare", "crack",
-           "export", "fatigue", "flank", "march", "report", "resume", "run", "scene", "simulate", "stresses", "sweep"]
+           "StoreError", "Study", "Thermal", "Time", "Traction", "UnknownName", "__version__", "animate", "bearing", "compare",
+           "crack", "export", "fatigue", "flank", "march", "report", "resume", "run", "scene", "simulate", "stresses", "sweep",
+           "traction"]
 
 
 def __getattr__(name):

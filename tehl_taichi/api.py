@@ -24,13 +24,14 @@ if TYPE_CHECKING:
     from tehl_taichi.runs.progress import Progress
     from tehl_taichi.runs.stored_run import Run
     from tehl_taichi.runs.sweep.study_table import Study
+    from tehl_taichi.runs.traction.traction_rows import Traction
     from tehl_taichi.scene.description import Scene
     from tehl_taichi.scene.feature import Feature
     from tehl_taichi.scene.gear_pair import GearPair
 
 Name = str | PathLike
 FUNCTIONS = ("animate", "bearing", "compare", "crack", "export", "fatigue", "flank", "march", "open", "report", "resume", "run",
-             "scene", "simulate", "stresses", "sweep")
+             "scene", "simulate", "stresses", "sweep", "traction")
 
 
 def scene(name: "Name | Scene" = "gear") -> "Scene":
@@ -597,6 +598,52 @@ def bearing(what: "Name | RollingBearing", *, load: float | None = None, axial: 
     return bearing(what, load=load, axial=axial, speed=speed, dimensions=dimensions, on=on, feature=feature,
                    roughness=roughness, scene=scene, changes=changes, steady=steady, run=run, folder=folder, workers=workers,
                    threads=threads, progress=progress)
+
+
+def traction(scene: "Scene | Name", srr: Any = "0:0.5:11", temperature: Any = None, speed: Any = None, *,
+             changes: dict | None = None, path: Name | None = None, workers: int | None = None,
+             threads_per_worker: int | None = None, progress: "Callable | None" = None) -> "Traction":
+    """Compute traction curves of a steady contact: friction, film and temperature over slip, speed and inlet temperature.
+
+    Workers import the calling script: put its calls below `if __name__ == "__main__":`.
+
+    Parameters
+    ----------
+    scene : Scene, str or path
+        A Scene, or a name that :func:`tehl_taichi.scene` loads; its features are left out.
+    srr, temperature, speed : list or str, optional
+        Slide-roll ratios, inlet temperatures in deg C and mean speeds in m/s: lists, or text as "low:high:N",
+        "low:high:N:log" or "a,b,c"; default of temperature and speed: that of the scene.
+    changes : dict, optional
+        Changes of the scene, as for :meth:`Scene.replace`. Temperatures are computed in all cases unless "thermal.on" says
+        otherwise.
+    path : path, optional
+        The study; default: runs/NAME-traction-ID.zarr. An existing one is resumed.
+    workers, threads_per_worker, progress
+        As for :func:`tehl_taichi.sweep`.
+
+    Returns
+    -------
+    Traction
+        `rows`, `curves`, `plot(folder)`.
+
+    Raises
+    ------
+    SceneError, StoreError
+        The input is invalid; nothing was run.
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> line = tehl.scene("smooth-line").replace(**{"grid.nx": 32})
+    >>> found = tehl.traction(line, srr=[0.05, 0.1], path="curve.zarr", changes={"thermal.on": False}, workers=1)
+    >>> [f"{row['srr']}: {row['friction_coefficient']:.3f}" for row in found.rows]
+    ['0.05: 0.073', '0.1: 0.076']
+    """
+    from tehl_taichi.runs.traction.traction_run import traction
+
+    return traction(scene, srr, temperature, speed, changes=changes, path=path, workers=workers,
+                    threads_per_worker=threads_per_worker, progress=progress)
 
 
 def compare(*paths: "Name | Run") -> "Comparison":

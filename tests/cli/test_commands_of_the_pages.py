@@ -1,9 +1,9 @@
 """Every command that README.md and docs/*.md show runs through the command line.
 
 In a form that takes a second where the real one takes long (SHORT says which): a coarse grid and no step in time for `run`,
-the plan alone for `sweep`, one position at rest for `flank`, loads alone for `bearing`, one step for `resume`, two
-frames for `animate`. The suites of `bench` are stopped where they would begin to compute:
-tests/profiles/test_bench_commands.py lets them compute.
+the plan alone for `sweep`, one position at rest for `flank`, loads alone for `bearing`, a coarse
+grid for `traction`, one step for `resume`, two frames for `animate`. The suites of `bench` are stopped where they would begin
+to compute: tests/profiles/test_bench_commands.py lets them compute.
 """
 
 import re
@@ -24,6 +24,7 @@ PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 SMALL = "--grid 64x16 --isothermal --no-fatigue --no-estimate-error --quiet"
 SHORT = {"run": f"{SMALL} --steps 0 --force --out made.zarr", "sweep": "--dry-run",
          "flank": "--grid 64 --isothermal --steady --no-figure", "bearing": "--no-run --no-figure",
+         "traction": "--grid 64 --isothermal --no-figure --workers 1",
          "roller": "--no-run --no-figure",
          "resume": "--steps 1 --quiet", "animate": "--frames 2 --dpi 40 --force", "plot": "--dpi 40 --force",
          "crack": "--dpi 40", "fatigue": "--dpi 40",

@@ -1,0 +1,102 @@
+"""tehl traction: friction over slip, speed and temperature."""
+
+from pathlib import Path
+from typing import List, Optional
+
+import typer
+from tehl_cli.figure_options import Dpi, FigureWidth, Format
+from tehl_cli.idle_options import DRAWS, say_idle
+from tehl_cli.live_display import say
+from tehl_cli.scene_options import check_rows, given_by
+from tehl_cli.stdout import print_json, put
+
+LIST = "values a,b,c or low:high:N or low:high:N:log"
+
+
+def register(app):
+    """Add the command to the app."""
+    app.command()(traction)
+
+
+def traction(
+    scene: str = typer.Argument(..., help="built-in name, TOML scene or store; its features are left out"),
+    context: typer.Context = None,
+    srr: str = typer.Option("0:0.5:11", help=f"slide-roll ratios, {LIST}"),
+    temperature: Optional[str] = typer.Option(None, help=f"inlet temperatures, deg C, {LIST} (default: that of the scene)"),
+    speed: Optional[str] = typer.Option(None, help=f"mean speeds, m/s, {LIST}; with one --srr a Stribeck curve"),
+    load: Optional[float] = typer.Option(None, help="load, N (line: N/m)"),
+    hertz_pressure: Optional[float] = typer.Option(None, help="Hertz pressure instead of a load, Pa"),
+    thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="with (default) or without energy equation"),
+    set_: Optional[List[str]] = typer.Option(None, "--set", help="dotted.key=value in all cases, repeatable"),
+    grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY (NX alone if nothing varies along y)"),
+    out: Optional[Path] = typer.Option(None, help="study to write or resume (default: runs/NAME-traction-ID.zarr)"),
+    figure: bool = typer.Option(True, "--figure/--no-figure", help="draw traction.png (.pdf, .svg) beside the study"),
+    format: Format = "png",
+    dpi: Dpi = 160,
+    figure_width: FigureWidth = 17.0,
+    workers: Optional[int] = typer.Option(None, help="number of processes on this machine (default: one per core)"),
+    threads_per_worker: Optional[int] = typer.Option(None, help="CPU threads per case (default: 1, or the cores that "
+                                                                "--workers leaves)"),
+    as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout and all else to stderr"),
+    quiet: bool = typer.Option(False, "--quiet", help="print no progress"),
+):
+    """Compute traction curves of a steady contact: friction, film and temperature over slip, for several inlet temperatures or
+    speeds. Repeat the command to resume.
+
+    Examples: `tehl traction smooth-line --srr 0:0.5:11 --temperature 40,80,120` · `tehl traction ball-on-disc --srr 0.2 --speed
+    0.01:1:9:log --set rheology.law=limiting`
+    """
+    from tehl_cli.sweep_display import SweepLive
+
+    from tehl_taichi.errors import Interrupted, NotConverged, stopped
+    from tehl_taichi.runs import traction as room
+    from tehl_taichi.store.load_scene import find
+    from tehl_taichi.view.figures.figure_style import FigureStyle, drawing
+
+    page = FigureStyle(format, dpi, figure_width, force=True)
+    drawing() if figure else say_idle(context, "--no-figure draws none", *DRAWS)
+    changes = given_by({"load": load, "hertz_pressure": hertz_pressure, "thermal.on": thermal}, grid, set_ or [])
+    base = find(scene)
+    check_rows(grid, changes, lambda: base)
+    with SweepLive(quiet) as live:
+        try:
+            found = room.traction(base, srr, temperature, speed, changes=changes, path=out, workers=workers,
+                                  threads_per_worker=threads_per_worker, progress=live)
+        except KeyboardInterrupt as stop:
+            raise Interrupted(f"{stopped(stop)} {live.left()}") from None
+    if figure:
+        say(str(found.plot(**vars(page))))
+    print_json(found.to_dict()) if as_json else print_traction(found)
+    if found.failed:
+        raise NotConverged(f"{len(found.failed)} of {len(found.study)} cases have no result; the others are in "
+                           f"{found.study.path}. Try another --grid or --set with a new --out")
+
+
+def print_traction(found):
+    """Print the table of traction curves, the reasons of what has no result, warnings, and where it lies."""
+    from tehl_cli.tables import list_table, warning_lines
+
+    rows = found.rows
+    columns = [column for column in COLUMNS if any(row[column[0]] is not None for row in rows)]
+    list_table(f"{found.study.plan.scene.name}: traction", ("deg C", "u_m m/s", "SRR", *(head for _, head, _ in columns)),
+               [[f"{row['temperature_C']:g}", f"{row['u_m_m_s']:g}", f"{row['srr']:g}",
+                 *(_shown(row, key, factor) for key, _, factor in columns)] for row in rows], whole=True)
+    for row in found.failed:
+        put(f"no result: SRR {row['srr']:g}, {row['u_m_m_s']:g} m/s, {row['temperature_C']:g} deg C: {row['reason']}")
+    warning_lines(found.warnings)
+    put(f"table: {found.study.table}; study: {found.study.path}")
+
+
+ROUNDING = 1e-12  # of a friction coefficient in pure rolling
+COLUMNS = (("friction_coefficient", "friction", 1), ("h_c_m", "h_c um", 1e6), ("h_min_m", "h_min um", 1e6),
+           ("film_max_C", "film deg C", 1))
+
+
+def _shown(row, key, factor):
+    """A number with its error; "" without a result."""
+    from tehl_taichi.values.digits import with_error
+
+    value, error = row[key], row["error"][key]
+    if value is None or abs(value) < ROUNDING:
+        return "" if value is None else "0"
+    return with_error(value * factor, None if error is None else error * factor)

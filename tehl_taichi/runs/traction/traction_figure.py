@@ -1,0 +1,53 @@
+"""Friction, central film and temperature over slip (or speed), a curve per temperature, with error bars."""
+
+import numpy as np
+
+from tehl_taichi.runs.traction.traction_rows import AXES
+from tehl_taichi.values.digits import fitting
+from tehl_taichi.view.figures import palette
+
+PANELS = (("friction coefficient", "friction_coefficient", ""), ("central film", "h_c_m", "m"),
+          ("largest film temperature", "film_max_C", "°C"))
+DECADES = 30.0  # ratio of the ends of an axis that is logarithmic
+
+
+def drawn(page, found):
+    """The matplotlib Figure of a Traction in a :class:`FigureStyle`."""
+    panels = [panel for panel in PANELS if any(row[panel[1]] is not None for row in found.rows)] or PANELS[:1]
+    figure, axes = page.figure(len(panels), sharex=True)
+    for ax, (label, key, unit) in zip(axes[:, 0], panels):
+        _panel(ax, found, label, key, unit)
+    _along(axes[-1, 0], found)
+    page.title(figure, f"{found.study.plan.scene.name}: traction")
+    return figure
+
+
+def _panel(ax, found, label, key, unit):
+    largest = max((abs(row[key]) for row in found.rows if row[key] is not None), default=0.0)
+    factor, shown = fitting(unit, largest)
+    for (name, rows), colour in zip(found.curves.items(), [*palette.LINES] * len(found.rows)):
+        x, y, error = series(found, rows, key)
+        bars = error * factor if np.isfinite(error).any() else None
+        ax.errorbar(x, y * factor, bars, fmt=".-", color=colour, label=name or None, **palette.BARS)
+    ax.set_ylabel(f"{label} ({shown})" if shown else label)
+    ax.grid()
+    if len(found.curves) > 1:
+        ax.legend()
+
+
+def _along(ax, found):
+    _, name, unit, _ = AXES[found.across]
+    ax.set_xlabel(f"{name} ({unit})" if unit else name)
+    x = np.array([row[AXES[found.across][0]] for row in found.rows])
+    if x.min() > 0 and x.max() > DECADES * x.min():
+        ax.set_xscale("log")
+        ax.xaxis.set_major_formatter("{x:g}")  # plain numbers: no text is read as mathematics
+        ax.xaxis.set_minor_formatter("")
+
+
+def series(found, rows, key):
+    """(x, values, error bars) of the rows of a curve that have this number; nan: error not known."""
+    having = [row for row in rows if row[key] is not None]
+    x = [row[AXES[found.across][0]] for row in having]
+    bars = [np.nan if row["error"][key] is None else row["error"][key] for row in having]
+    return np.array(x, float), np.array([row[key] for row in having], float), np.array(bars, float)

@@ -1,0 +1,105 @@
+"""Results of traction curves: a row per case, and the curves that the rows make."""
+
+from pathlib import Path
+
+from tehl_taichi.runs.flank.flank_columns import dig, error_of
+
+TEMPERATURE, SPEED, SRR = "temperature", "speed", "srr"
+RESULTS = ("friction_coefficient", "h_c_m", "h_min_m", "film_max_C")
+# {key of the plan: (key of a row, name, unit, unit in a legend)}
+AXES = {SRR: ("srr", "slide-roll ratio SRR", "", ""), SPEED: ("u_m_m_s", "mean speed", "m/s", " m/s"),
+        TEMPERATURE: ("temperature_C", "inlet temperature", "°C", " °C")}
+
+
+class Traction:
+    """Friction, film and temperature over slip: :func:`tehl_taichi.traction` gives one.
+
+    Attributes
+    ----------
+    study : Study
+        The sweep behind it, with the summary of every case.
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> line = tehl.scene("smooth-line").replace(**{"grid.nx": 32})
+    >>> found = tehl.traction(line, srr=[0.1], path="t.zarr", changes={"thermal.on": False}, workers=1)
+    >>> found, f"{found.rows[0]['friction_coefficient']:.2f}"
+    (<tehl.Traction smooth-line: 1 of 1 cases, t.zarr>, '0.08')
+    """
+
+    def __init__(self, study):
+        self.study = study
+
+    @property
+    def rows(self) -> list:
+        """One dictionary per case: srr, temperature_C, u_m_m_s, friction_coefficient, h_c_m, h_min_m, film_max_C, their error
+        bars in "error", converged, reason; numbers are None where a case has no result."""
+        found = {record["case"]: record for record in self.study.results()}
+        return [self._row(number, found.get(number)) for number in range(len(self.study))]
+
+    def _row(self, number, record):
+        plan, record = self.study.plan, record or {"summary": None, "status": "waiting", "reason": "it has not run yet"}
+        changes, o = plan.changes(number), plan.scene.operation
+        own = {"srr": float(changes.get(SRR, o.srr)), "temperature_C": float(changes.get(TEMPERATURE, o.temperature)),
+               "u_m_m_s": float(changes.get(SPEED, o.u_m))}
+        results = {key: dig(record["summary"], "steady", key) for key in RESULTS}
+        error = {key: error_of(record["summary"], "steady", key) for key in RESULTS}
+        return {**own, **results, "error": error, "converged": record["status"] == "converged", "reason": record["reason"]}
+
+    @property
+    def failed(self) -> list:
+        """The rows without a result."""
+        return [row for row in self.rows if not row["converged"]]
+
+    @property
+    def across(self) -> str:
+        """The key along the curves: srr, or what alone has several values."""
+        several = [key for key in (SRR, SPEED, TEMPERATURE) if key in self.study.plan.keys
+                   and len(self.study.plan.coordinate(key)[1]) > 1]
+        return several[0] if several else SRR
+
+    @property
+    def curves(self) -> dict:
+        """{label: its rows} of the curves over :attr:`across`."""
+        others = [key for key in self.study.plan.keys if key != self.across]
+        out: dict[str, list] = {}
+        for row in self.rows:
+            label = ", ".join(f"SRR {row['srr']:g}" if key == SRR else f"{row[AXES[key][0]]:g}{AXES[key][3]}" for key in others)
+            out.setdefault(label, []).append(row)
+        return out
+
+    @property
+    def warnings(self) -> list:
+        """Warnings of the cases: of every kind the first, with the number of its cases."""
+        kinds: dict[str, list[str]] = {}
+        for record in self.study.results():
+            summary = record["summary"] or {}
+            sentences = summary.get("warnings", [])
+            for kind, sentence in dict(zip(summary.get("warning_codes", sentences), sentences)).items():
+                kinds.setdefault(kind, []).append(sentence)
+        return [f"{found[0]} ({'the first of ' * (len(set(found)) > 1)}{len(found)} of {len(self.study)} cases)"
+                for found in kinds.values()]
+
+    def to_dict(self) -> dict:
+        """The JSON object of `tehl traction --json`."""
+        return {"scene": self.study.plan.scene.name, "study": str(self.study.path), "table": str(self.study.table),
+                "rows": self.rows}
+
+    def plot(self, folder=None, dpi: int = 160, format: str = "png", width: float = 17.0, force: bool = False) -> Path:
+        """Write the figure traction.png into `folder` (default: beside the study); returns its path.
+
+        dpi, format, width, force: as :meth:`Run.plot`. Raises SceneError, or StoreError without matplotlib, or where something
+        is in the way.
+        """
+        from tehl_taichi.runs.traction import traction_figure
+        from tehl_taichi.view.figures.figure_style import FigureStyle, default_folder
+
+        page = FigureStyle(format, dpi, width, force)
+        (path,) = page.write(folder or default_folder(self.study.path), {
+            "traction": lambda: traction_figure.drawn(page, self)})
+        return path
+
+    def __repr__(self):
+        done = len(self.study) - len(self.failed)
+        return f"<tehl.Traction {self.study.plan.scene.name}: {done} of {len(self.study)} cases, {self.study.path}>"

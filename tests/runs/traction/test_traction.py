@@ -1,0 +1,103 @@
+"""Traction curves: their cases, rows and figure, and a curve that is computed."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+from commands import here
+
+import tehl_taichi as tehl
+from tehl_taichi.errors import SceneError
+from tehl_taichi.runs.traction import traction_figure
+from tehl_taichi.runs.traction.traction_run import default_path, traction, traction_plan
+from tehl_taichi.view.figures.figure_style import FigureStyle
+
+KEYS = {"srr", "temperature_C", "friction_coefficient", "h_c_m", "film_max_C", "error"}
+
+
+def made(job, progress=None):
+    """A made-up result: friction from slip and temperature; no result at SRR 0.4."""
+    o = job.scene.operation
+    if o.srr == 0.4:
+        return {"status": "not converged", "reason": "made up", "summary": None, "seconds": 0.1}
+    steady = {"friction_coefficient": 0.05 * math.tanh(20 * o.srr) * 60 / o.temperature, "h_c_m": 3e-7 / o.temperature * o.u_m,
+              "h_min_m": 2e-7, "film_max_C": o.temperature + 50 * o.srr, "error": {"h_c_m": 2e-8, "friction_coefficient": None}}
+    warnings = {"warnings": [f"{o.srr} is doubtful"], "warning_codes": ["doubt"]}
+    return {"status": "converged", "reason": "", "seconds": 0.1, "summary": {"steady": steady, **warnings}}
+
+
+@pytest.fixture(scope="module")
+def curves(tmp_path_factory):
+    path = tmp_path_factory.mktemp("traction") / "t.zarr"
+    return traction("gear", [0.0, 0.1, 0.2, 0.4], [60.0, 90.0], path=path, workers=1, work=made)
+
+
+def test_the_object_has_the_rows_of_the_interface(curves):
+    found = json.loads(json.dumps(curves.to_dict()))
+    assert all(KEYS <= row.keys() for row in found["rows"])
+    assert [row["srr"] for row in found["rows"]] == [0, 0.1, 0.2, 0.4] * 2
+    assert [row["temperature_C"] for row in found["rows"]] == [60] * 4 + [90] * 4
+    assert found["rows"][1]["friction_coefficient"] == pytest.approx(0.05 * math.tanh(2))
+    assert found["rows"][1]["error"] == {"friction_coefficient": None, "h_c_m": 2e-8, "h_min_m": None, "film_max_C": None}
+    assert found["rows"][1]["u_m_m_s"] == 8.5 and found["scene"] == "gear"
+
+
+def test_cases_without_a_result_are_listed(curves):
+    assert [(row["srr"], row["reason"], row["friction_coefficient"]) for row in curves.failed] == [(0.4, "made up", None)] * 2
+    assert curves.warnings == ["0.0 is doubtful (the first of 6 of 8 cases)"]
+
+
+def test_features_are_left_out_and_temperatures_computed_in_all_cases():
+    plan = traction_plan(tehl.scene("gear"), "0:0.2:3", changes={"oil.name": "mineral-vg100"})
+    scenes = [plan.case(n) for n in range(plan.count)]
+    assert all(not scene.features and not scene.isothermal and scene.oil.name == "mineral-vg100" for scene in scenes)
+    assert [scene.operation.srr for scene in scenes] == [0.0, 0.1, 0.2]
+    assert not traction_plan(tehl.scene("gear"), [0.1], changes={"thermal.on": False}).case(0).thermal.on
+    assert default_path(plan).name.startswith("gear-traction-")
+
+
+def test_the_curves_are_over_slip_or_over_speed(tmp_path, curves):
+    assert curves.across == "srr" and {name: len(rows) for name, rows in curves.curves.items()} == {"60 °C": 4, "90 °C": 4}
+    stribeck = traction("gear", [0.1], speed="0.1:10:3:log", path=tmp_path / "s.zarr", workers=1, work=made)
+    assert stribeck.across == "speed" and list(stribeck.curves) == ["SRR 0.1"]
+    assert [row["u_m_m_s"] for row in stribeck.rows] == pytest.approx([0.1, 1.0, 10.0])
+    both = traction("gear", [0.1, 0.2], speed=[1.0, 2.0], path=tmp_path / "b.zarr", workers=1, work=made)
+    assert both.across == "srr" and list(both.curves) == ["1 m/s", "2 m/s"]
+
+
+def test_the_figure_has_error_bars_and_a_logarithmic_axis_for_decades(tmp_path, curves):
+    pytest.importorskip("matplotlib")
+    axes = traction_figure.drawn(FigureStyle(), curves).axes
+    assert [ax.get_ylabel() for ax in axes] == ["friction coefficient", "central film (µm)", "largest film temperature (°C)"]
+    film = axes[1].containers[0]
+    assert list(film.lines[0].get_xdata()) == [0.0, 0.1, 0.2]
+    low, high = film.lines[2][0].get_segments()[0]
+    assert high[1] - low[1] == pytest.approx(2 * 0.02) and axes[2].get_xscale() == "linear"
+    wide = traction("gear", [0.1], speed="0.1:10:3:log", path=tmp_path / "w.zarr", workers=1, work=made)
+    assert traction_figure.drawn(FigureStyle(), wide).axes[-1].get_xscale() == "log"
+
+
+@pytest.mark.parametrize("options, said", [
+    (dict(srr="0:0.5"), "srr = 0:0.5 has no number of values"), (dict(srr=[3.0]), "operation.srr = 3 is out of range"),
+    (dict(temperature="x"), "operation.temperature = 'x' is not a number"),
+    (dict(srr=[0.1], changes={"srr": 0.2}), "srr is swept and operation.srr = 0.2 sets it"),
+    (dict(srr=[0.1, 0.1]), "srr = 0.1 is given twice"), (dict(srr=[]), "srr has no values")])
+def test_wrong_axes_are_refused_before_anything_is_written(tmp_path, options, said):
+    with pytest.raises(SceneError, match=said):
+        tehl.traction("gear", **options, path=tmp_path / "t.zarr")
+    assert not (tmp_path / "t.zarr").exists()
+
+
+@pytest.mark.slow
+@pytest.mark.rendered
+def test_friction_rises_with_slip_and_falls_with_temperature(taichi_cpu, tmp_path):
+    """The command on a small line: none in pure rolling, less once heat thins the oil, less in warmer oil."""
+    found = here("traction", "smooth-line", "--srr", "0,0.02,0.3", "--temperature", "60,110", "--grid", 64, "--workers", 1,
+                 "--json", "--quiet", "--out", "t.zarr", cwd=tmp_path)
+    assert found.returncode == 0, found.stderr
+    rows = json.loads(found.stdout)["rows"]
+    friction = np.array([row["friction_coefficient"] for row in rows]).reshape(2, 3)
+    assert np.all(friction[:, 0] < 1e-12) and np.all(friction[:, 1] > friction[:, 2]) and friction[0, 1] > friction[1, 1]
+    assert all(row["film_max_C"] > row["temperature_C"] and row["error"]["h_c_m"] > 0 for row in rows)
+    assert (tmp_path / "t" / "traction.png").stat().st_size > 10_000
