@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import List, Optional
 
 import typer
-from tehl_cli.bearing_features import dent_of, scan_of
+from tehl_cli.bearing_features import feature_of
 from tehl_cli.figure_options import Dpi, FigureWidth, Format
 from tehl_cli.idle_options import DRAWS, say_idle
 from tehl_cli.live_display import Live, say
@@ -77,7 +77,7 @@ def bearing(
     own = {"diameter": ball_diameter, "count": balls, "pitch_diameter": pitch_diameter, "osculation_inner": osculation,
            "osculation_outer": osculation_outer, "contact_angle": contact_angle, "clearance": clearance,
            "outer_speed": outer_speed}
-    _compute(**{**locals(), "own": own, "feature": _feature(dent, scan, unit, pixel)})
+    _compute(**{**locals(), "own": own, "feature": feature_of(dent, scan, unit, pixel)})
 
 
 def roller(
@@ -110,19 +110,7 @@ def roller(
     own = {"element": None if which.lower().endswith((".toml", "-roller")) else "roller", "diameter": roller_diameter,
            "count": rollers, "pitch_diameter": pitch_diameter, "length": length, "crown": crown, "taper": taper,
            "contact_angle": contact_angle, "clearance": clearance, "outer_speed": outer_speed}
-    _compute(**{**locals(), "own": own, "feature": _feature(dent, scan, unit, pixel)})
-
-
-def _feature(dent, scan, unit, pixel):
-    """The Feature of --dent or --scan, None without."""
-    from tehl_taichi.errors import SceneError
-
-    if dent is not None and scan is not None:
-        raise SceneError(f"--dent {dent} and --scan {scan} contradict each other: give one of them")
-    for word, value in (("--unit", unit), ("--pixel", pixel)):
-        if value is not None and scan is None:
-            raise SceneError(f"{word} {value} has no effect without --scan")
-    return dent_of(dent) if dent is not None else scan_of(scan, unit, pixel) if scan is not None else None
+    _compute(**{**locals(), "own": own, "feature": feature_of(dent, scan, unit, pixel)})
 
 
 def _compute(which, context, own, feature, oil, temperature, thermal, grid, set_, format, dpi, figure_width, figure, out, run,

@@ -1,4 +1,4 @@
-"""Features of a raceway as `--dent` and `--scan` give them."""
+"""Features of a raceway or a cam as `--dent` and `--scan` give them."""
 
 DENT = "DEPTH,WIDTH,rim=HEIGHT in m, as in 10e-6,0.3e-3,rim=1.2e-6"
 
@@ -40,3 +40,15 @@ def scan_of(path, unit, pixel):
     from tehl_taichi.scene.scan_scene import scanned
 
     return Feature(**scanned(path, unit or "", pixel or 0.0))
+
+
+def feature_of(dent, scan, unit, pixel):
+    """The Feature of --dent or --scan, None without."""
+    from tehl_taichi.errors import SceneError
+
+    if dent is not None and scan is not None:
+        raise SceneError(f"--dent {dent} and --scan {scan} contradict each other: give one of them")
+    for word, value in (("--unit", unit), ("--pixel", pixel)):
+        if value is not None and scan is None:
+            raise SceneError(f"{word} {value} has no effect without --scan")
+    return dent_of(dent) if dent is not None else scan_of(scan, unit, pixel) if scan is not None else None

@@ -9,6 +9,7 @@ from tehl_cli import (
     animate_command,
     bearing_command,
     bench_command,
+    cam_command,
     cite_command,
     compare_command,
     crack_command,
@@ -75,7 +76,7 @@ def _with_value(error):
 
 
 # {heading of the help: its commands}, in this order
-PANELS = {"Compute": ("run", "resume", "sweep", "traction", "flank", "bearing", "roller", "fatigue", "crack"),
+PANELS = {"Compute": ("run", "resume", "sweep", "traction", "flank", "bearing", "roller", "cam", "fatigue", "crack"),
           "Show results": ("show", "plot", "report", "compare", "animate", "export"),
           "Scene files and choices": ("new", "scenes", "oils", "steels", "laws"),
           "This program": ("doctor", "bench", "cite")}
@@ -114,6 +115,7 @@ fatigue_command.register(app)
 crack_command.register(app)
 flank_command.register(app)
 bearing_command.register(app)
+cam_command.register(app)
 compare_command.register(app)
 export_command.register(app)
 report_command.register(app)

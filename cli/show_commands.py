@@ -100,10 +100,10 @@ def _only_with_scan(**options):
 
 def show(
     store: Path = typer.Argument(..., help="store of a run (finished, running or broken), a study, or the folder of a "
-                                            "flank or bearing"),
+                                            "flank, bearing or cam"),
     as_json: bool = typer.Option(False, "--json", help="print the summary as one JSON object, as `tehl run --json` does"),
 ):
-    """Print the summary and residual history of a run, or the table of a study, flank or bearing.
+    """Print the summary and residual history of a run, or the table of a study, flank, bearing or cam.
 
     Example: `tehl show runs/gear-1.zarr --json | jq .fatigue`
     """
@@ -116,16 +116,18 @@ def show(
 
 def _show_table(found, as_json):
     from tehl_cli.bearing_command import print_bearing
+    from tehl_cli.cam_command import print_cam
     from tehl_cli.flank_command import print_flank
     from tehl_cli.stdout import print_json
     from tehl_cli.sweep_display import print_study
 
     from tehl_taichi.runs.bearing import Bearing
+    from tehl_taichi.runs.cam import Cam
     from tehl_taichi.runs.flank import Flank
 
     if as_json:
         return print_json(found.to_dict())
-    printed = {Flank: print_flank, Bearing: print_bearing}.get(type(found), print_study)
+    printed = {Flank: print_flank, Bearing: print_bearing, Cam: print_cam}.get(type(found), print_study)
     printed(found)
 
 
@@ -160,8 +162,8 @@ def _state(saved):
     return "finished" if saved.cut is None else f"finished, cut at {saved.cut:.2f} a; extend with: tehl resume {saved.path}"
 
 
-def plot(store: Path = typer.Argument(..., help="store of a run, a study, or the folder of a flank or bearing"),
-         out: Path = typer.Option(None, help="folder for the figures (default: beside the store; for a flank or bearing: "
+def plot(store: Path = typer.Argument(..., help="store of a run, a study, or the folder of a flank, bearing or cam"),
+         out: Path = typer.Option(None, help="folder for the figures (default: beside the store; for the others: "
                                              "inside it)"),
          quantity: str = typer.Option(None, help="study: column of its table to draw, as fatigue_Fi_max"),
          format: Format = "png", dpi: Dpi = 160, width: Width = 17.0, force: Force = False,
@@ -169,10 +171,11 @@ def plot(store: Path = typer.Argument(..., help="store of a run, a study, or the
                                                        "(default: -0.8, 0, 0.8 for curves, 0 for maps)"),
          depth: Optional[float] = typer.Option(None, help="run: depth of a second fatigue map, µm below the surface, among "
                                                           "those searched (default: the critical one)")):
-    """Draw the figures of a run, a study, a flank or a bearing.
+    """Draw the figures of a run, a study, a flank, a bearing or a cam.
 
     Run: pressure and film along the centreline, maps, fatigue. Study: results over the swept keys. Flank: results along
-    the line of action. Bearing: loads of the elements, pressure and slip over both contacts.
+    the line of action. Bearing: loads of the elements, pressure and slip over both contacts. Cam: results
+    over the angle.
 
     Examples: `tehl plot runs/gear-1.zarr --format pdf --width 8.5 --at 0.5` · `tehl plot runs/gear-1.zarr --dpi 300` ·
     `tehl plot runs/gear-sweep-0a1b2c.zarr --quantity steady_h_c_m`
@@ -183,14 +186,14 @@ def plot(store: Path = typer.Argument(..., help="store of a run, a study, or the
 
 
 # of tehl plot: what only such a one can show
-OPTIONS = {"run": ("at", "depth"), "study": ("quantity",), "flank": (), "bearing": ()}
+OPTIONS = {"run": ("at", "depth"), "study": ("quantity",), "flank": (), "bearing": (), "cam": ()}
 
 
 def _draw(store, out, options, page):
     """Paths of the figures of whatever lies at `store`; options: {option: value} of OPTIONS, None where not given."""
     import tehl_taichi as tehl
     from tehl_taichi.errors import SceneError
-    from tehl_taichi.runs.open_results import BEARING, FLANK, RUN, kind
+    from tehl_taichi.runs.open_results import BEARING, CAM, FLANK, RUN, kind
 
     which = kind(store)
     for name, value in options.items():
@@ -199,7 +202,7 @@ def _draw(store, out, options, page):
             raise SceneError(f"--{name} {value} applies to a {whose}, but {store} is a {which}")
     found: Any = tehl.open(store)
     mine = {name: options[name] for name in OPTIONS[which]}
-    if which in (FLANK, BEARING):
+    if which in (FLANK, BEARING, CAM):
         return [found.plot(out and out / which, **page)]
     return (found.save_figures if which == RUN else found.plot)(out, **mine, **page)
 

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from tehl_taichi.march.snapshot import Snapshot
     from tehl_taichi.runs.bearing.rolling_bearing import RollingBearing
     from tehl_taichi.runs.bearing.stored_bearing import Bearing
+    from tehl_taichi.runs.cam.stored_cam import Cam
     from tehl_taichi.runs.compare import Comparison
     from tehl_taichi.runs.flank.stored_flank import Flank
     from tehl_taichi.runs.progress import Progress
@@ -30,8 +31,8 @@ if TYPE_CHECKING:
     from tehl_taichi.scene.gear_pair import GearPair
 
 Name = str | PathLike
-FUNCTIONS = ("animate", "bearing", "compare", "crack", "export", "fatigue", "flank", "march", "open", "report", "resume", "run",
-             "scene", "simulate", "stresses", "sweep", "traction")
+FUNCTIONS = ("animate", "bearing", "cam", "compare", "crack", "export", "fatigue", "flank", "march", "open", "report", "resume",
+             "run", "scene", "simulate", "stresses", "sweep", "traction")
 
 
 def scene(name: "Name | Scene" = "gear") -> "Scene":
@@ -158,8 +159,8 @@ def resume(path: Name, *, steps: int | None = None, threads: int | None = None, 
     return single_run.resume(path, steps=steps, threads=threads, progress=progress)
 
 
-def open(path: Name) -> "Run | Study | Flank | Bearing":
-    """Open stored results: the store of a run, the folder of a sweep, flank or bearing, finished or not.
+def open(path: Name) -> "Run | Study | Flank | Bearing | Cam":
+    """Open stored results: the store of a run, the folder of a sweep, flank, bearing or cam, finished or not.
 
     Parameters
     ----------
@@ -168,7 +169,7 @@ def open(path: Name) -> "Run | Study | Flank | Bearing":
 
     Returns
     -------
-    Run, Study, Flank or Bearing
+    Run, Study, Flank, Bearing or Cam
         Depending on what the folder holds.
 
     Raises
@@ -598,6 +599,46 @@ def bearing(what: "Name | RollingBearing", *, load: float | None = None, axial: 
     return bearing(what, load=load, axial=axial, speed=speed, dimensions=dimensions, on=on, feature=feature,
                    roughness=roughness, scene=scene, changes=changes, steady=steady, run=run, folder=folder, workers=workers,
                    threads=threads, progress=progress)
+
+
+def cam(table: Name, *, feature: "Feature | None" = None, scene: "Scene | None" = None, changes: dict | None = None,
+        steady: bool = False, folder: Name | None = None, workers: int | None = None, threads: int | None = None,
+        progress: "Progress | None" = None) -> "Cam":
+    """Compute the line contacts of a cam and its follower at every angle of a table.
+
+    Workers import the calling script: put its calls below `if __name__ == "__main__":`.
+
+    Parameters
+    ----------
+    table : str or path
+        CSV with the columns angle_deg, load_N_per_mm, R_mm (or R_a_mm and R_b_mm), u_a_m_s, u_b_m_s.
+    feature : Feature, optional
+        A dent or scan of the cam that passes at every angle.
+    scene, changes, steady, folder, workers, threads, progress
+        As for :func:`tehl_taichi.bearing`.
+
+    Returns
+    -------
+    Cam
+        :attr:`Cam.failed` lists the angles without a result.
+
+    Raises
+    ------
+    SceneError, StoreError
+        The input is invalid; nothing was run.
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> tehl.cam("cycle.csv", changes={"oil.name": "mineral-vg100"})
+    Traceback (most recent call last):
+    ...
+    tehl_taichi.errors.SceneError: cannot read table cycle.csv: No such file or directory
+    """
+    from tehl_taichi.runs.cam.cam_run import cam
+
+    return cam(table, feature=feature, scene=scene, changes=changes, steady=steady, folder=folder, workers=workers,
+               threads=threads, progress=progress)
 
 
 def traction(scene: "Scene | Name", srr: Any = "0:0.5:11", temperature: Any = None, speed: Any = None, *,

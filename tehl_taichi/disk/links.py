@@ -6,7 +6,7 @@ from pathlib import Path
 
 from tehl_taichi.errors import StoreError
 
-ROOT, FLANK, BEARING = MARKS = "zarr.json", "flank.json", "bearing.json"  # of a store or a study, a flank, a bearing
+MARKS = ROOT, FLANK, *_ = "zarr.json", "flank.json", "bearing.json", "cam.json"  # of a store or a study, a flank ...
 
 
 def refuse(folder):
@@ -43,7 +43,7 @@ def refuse_itself(path):
 
 
 def around(path):
-    """The stores, studies, flanks and bearings around a path, the innermost first, by its name and by where its links lead."""
+    """Folders of results around a path (studies, flanks ...), the innermost first, by its name and by where its links lead."""
     ways = path.absolute().parent, Path(os.path.realpath(path.absolute().parent))
     return [folder for way in ways for folder in (way, *way.parents)
             if any(os.path.lexists(folder / mark) for mark in MARKS)]

@@ -1,8 +1,7 @@
-"""One self-contained HTML page of a run, study, flank or bearing: the verdict first, figures to zoom, no network.
+"""One self-contained HTML page of a run, study, flank, bearing or cam: the verdict first, figures to zoom, no network.
 
-`write` chooses the page of a folder; `run_page`, `study_page`, `flank_page` and `bearing_page` list its parts, `verdict`
-writes the answer.
-`document` renders templates, `embed` packs plotly.js and numbers into the page.
+`write` chooses the page of a folder; `run_page`, `study_page`, `flank_page`, `bearing_page` and `cam_page` list its parts,
+`verdict` writes the answer. `document` renders templates, `embed` packs plotly.js and numbers into the page.
 May import: every room but the commands.
 """
 

@@ -42,7 +42,8 @@ def default_page(folder, end=""):
 
 def page_of(folder):
     """The :class:`tehl_taichi.report.document.Page` of whatever lies in `folder`. Raises StoreError."""
-    from tehl_taichi.report import bearing_page, flank_page, run_page, study_page
-    from tehl_taichi.runs.open_results import BEARING, FLANK, RUN, STUDY, kind
+    from tehl_taichi.report import bearing_page, cam_page, flank_page, run_page, study_page
+    from tehl_taichi.runs.open_results import BEARING, CAM, FLANK, RUN, STUDY, kind
 
-    return {RUN: run_page, STUDY: study_page, FLANK: flank_page, BEARING: bearing_page}[kind(folder)].of(folder)
+    pages = {RUN: run_page, STUDY: study_page, FLANK: flank_page, BEARING: bearing_page, CAM: cam_page}
+    return pages[kind(folder)].of(folder)

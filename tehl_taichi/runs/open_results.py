@@ -1,4 +1,4 @@
-"""One word that opens everything: a run's store, a study, a flank, a bearing."""
+"""One word that opens everything: a run's store, a study, a flank, a bearing, a cam."""
 
 from os import PathLike
 from pathlib import Path
@@ -9,37 +9,40 @@ from tehl_taichi.values.path_arguments import folder_of
 
 if TYPE_CHECKING:
     from tehl_taichi.runs.bearing.stored_bearing import Bearing
+    from tehl_taichi.runs.cam.stored_cam import Cam
     from tehl_taichi.runs.flank.stored_flank import Flank
     from tehl_taichi.runs.stored_run import Run
     from tehl_taichi.runs.sweep.study_table import Study
 
-RUN, STUDY, FLANK, BEARING = "run", "study", "flank", "bearing"
+RUN, STUDY, FLANK, BEARING, CAM = "run", "study", "flank", "bearing", "cam"
 INSIDE = {STUDY: ("table.csv", "cases/NUMBER.zarr"), FLANK: ("flank.csv", "POSITION.zarr"),
-          BEARING: ("bearing.csv", "NAME-inner.zarr")}  # table, stores of its runs
+          BEARING: ("bearing.csv", "NAME-inner.zarr"), CAM: ("cam.csv", "ANGLE.zarr")}  # table, stores of its runs
 
 
 def kind(path: str | PathLike) -> str:
-    """What lies at `path`: "study", "flank", "bearing", or else "run", whether it is a good one or none at all."""
+    """What lies at `path`: "study", "flank", "bearing", "cam", or else "run", whether it is a good one or none at all."""
     from tehl_taichi.runs.bearing.stored_bearing import is_bearing
+    from tehl_taichi.runs.cam.stored_cam import is_cam
     from tehl_taichi.runs.flank.stored_flank import is_flank
     from tehl_taichi.runs.sweep.study_table import is_study
 
-    found = ((STUDY, is_study), (FLANK, is_flank), (BEARING, is_bearing))
+    found = ((STUDY, is_study), (FLANK, is_flank), (BEARING, is_bearing), (CAM, is_cam))
     return next((name for name, is_one in found if is_one(path)), RUN)
 
 
-def open(path: str | PathLike) -> "Run | Study | Flank | Bearing":
+def open(path: str | PathLike) -> "Run | Study | Flank | Bearing | Cam":
     """As :func:`tehl_taichi.open`."""
     from tehl_taichi.runs.bearing.stored_bearing import Bearing
+    from tehl_taichi.runs.cam.stored_cam import Cam
     from tehl_taichi.runs.flank.stored_flank import Flank
     from tehl_taichi.runs.sweep.study_table import Study
 
-    opened: dict = {STUDY: Study.open, FLANK: Flank.open, BEARING: Bearing.open, RUN: _run}
+    opened: dict = {STUDY: Study.open, FLANK: Flank.open, BEARING: Bearing.open, CAM: Cam.open, RUN: _run}
     return opened[kind(path := folder_of(path))](path)
 
 
 def open_run(path: str | PathLike) -> "Run":
-    """The run in the store at `path`. Raises StoreError, which says of a study, flank or bearing where its runs lie."""
+    """The run in the store at `path`. Raises StoreError, which says of a study, flank, bearing or cam where its runs lie."""
     if (found := kind(path)) == RUN:
         return _run(path)
     table, store = (Path(path) / part for part in INSIDE[found])
@@ -54,6 +57,6 @@ def _run(path):
         return single_run.open(path)
     except StoreError:
         if Path(path).is_dir() and not (Path(path) / ROOT).exists():
-            raise StoreError(f"{path} is not a run, study, flank or bearing: it has none of {ROOT}, "
-                             "flank.json and bearing.json") from None
+            raise StoreError(f"{path} is not a run, study, flank, bearing or cam: it has none of {ROOT}, "
+                             "flank.json, bearing.json and cam.json") from None
         raise

@@ -25,7 +25,7 @@ SMALL = "--grid 64x16 --isothermal --no-fatigue --no-estimate-error --quiet"
 SHORT = {"run": f"{SMALL} --steps 0 --force --out made.zarr", "sweep": "--dry-run",
          "flank": "--grid 64 --isothermal --steady --no-figure", "bearing": "--no-run --no-figure",
          "traction": "--grid 64 --isothermal --no-figure --workers 1",
-         "roller": "--no-run --no-figure",
+         "roller": "--no-run --no-figure", "cam": "--grid 64 --isothermal --no-figure --workers 1",
          "resume": "--steps 1 --quiet", "animate": "--frames 2 --dpi 40 --force", "plot": "--dpi 40 --force",
          "crack": "--dpi 40", "fatigue": "--dpi 40",
          "report": "--force", "export": "--force"}
@@ -81,6 +81,7 @@ def folder(tmp_path_factory, taichi_cpu):
     np.savetxt(place / "scan.csv", heights, delimiter=",")
     (place / "case.csv").write_text("depth_mm,hardness_HV\n0,700\n1.5,400\n")
     np.savetxt(place / "profile.csv", 1e-1 * np.sin(np.arange(300) / 40.0))
+    (place / "cam.csv").write_text("angle_deg,load_N_per_mm,R_mm,u_a_m_s,u_b_m_s\n0,150,12,3,1\n")
     pair = tehl.flank("fzg-c", at=["C"], steady=True, changes={"grid.nx": 64, "thermal.on": False}, folder=place / "one")
     p = pair.positions[0]
     (place / "table.csv").write_text("x_pl_mm,R_a_mm,R_b_mm,u_a_m_s,u_b_m_s,load_N_per_mm\n"

@@ -38,7 +38,7 @@ def test_what_lies_there_is_what_comes_out(made):
 
 
 @pytest.mark.parametrize("name, said", [
-    (".", "is not a run, study, flank or bearing: it has none of zarr.json, flank.json and bearing.json"),
+    (".", "is not a run, study, flank, bearing or cam: it has none of zarr.json, flank.json, bearing.json and cam"),
     ("nothing", "the folder does not exist")])
 def test_what_is_nothing_of_ours_is_refused(made, name, said):
     with pytest.raises(StoreError, match=said):

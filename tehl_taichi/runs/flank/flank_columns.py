@@ -89,26 +89,26 @@ COLUMNS = (
 )
 
 
-def used(rows):
+def used(rows, columns=COLUMNS):
     """The columns that have a value in any of the rows, (position, p_H, summary) each."""
-    return [column for column in COLUMNS if any(column.value(*row) not in (None, "") for row in rows)]
+    return [column for column in columns if any(column.value(*row) not in (None, "") for row in rows)]
 
 
-def tables(rows):
-    """{title: (heads, lines)} of the tables that have values, each with the positions in its first columns."""
-    columns, out = used(rows), {}
+def tables(rows, of=COLUMNS, places=2):
+    """{title: (heads, lines)} of the tables that have values, each with the positions, the first `places` columns."""
+    columns, out = used(rows, of), {}
     for title in TABLES:
         found = [column for column in columns if column.table == title]
         if title != CONTACT and found:
-            found = [column for column in COLUMNS[:2] if column in columns] + found
+            found = [column for column in of[:places] if column in columns] + found
         if found:
             out[title] = [column.head for column in found], [[column.shown(*row) for column in found] for row in rows]
     return out
 
 
-def csv_text(rows):
+def csv_text(rows, of=COLUMNS):
     """The table as CSV in SI units; after that the error bars, and what a table of positions brought along."""
-    columns, more = used(rows), list(dict.fromkeys(key for at, *_ in rows for key in at.more))
+    columns, more = used(rows, of), list(dict.fromkeys(key for at, *_ in rows for key in at.more))
     with_bars = [column for column in columns if any(column.error(*row) is not None for row in rows)]
     text = io.StringIO()
     out = csv.writer(text)

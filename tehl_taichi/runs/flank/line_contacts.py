@@ -65,4 +65,4 @@ def store_name(name, n, position):
 
 def where(position):
     """A position in words."""
-    return f"{position.point}{' ' * bool(position.point)}(x_pl = {position.x_pl * 1e3:.4g} mm)"
+    return f"{position.point}{' ' * bool(position.point)}({position.words})"

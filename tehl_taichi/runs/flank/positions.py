@@ -39,6 +39,11 @@ class Position:
         return 0.5 * (self.u_a + self.u_b)
 
     @property
+    def words(self):
+        """Where it is."""
+        return f"x_pl = {self.x_pl * 1e3:.4g} mm"
+
+    @property
     def srr(self):
         """Slip over mean speed; exactly 0 at the pitch point."""
         return self.slip / self.u_m

@@ -1,0 +1,85 @@
+"""tehl cam: the contact of a cam and its follower over the cycle."""
+
+from pathlib import Path
+from typing import List, Optional
+
+import typer
+from tehl_cli.bearing_features import feature_of
+from tehl_cli.figure_options import Dpi, FigureWidth, Format
+from tehl_cli.idle_options import DRAWS, say_idle
+from tehl_cli.live_display import Live, say
+from tehl_cli.scene_options import given_by
+from tehl_cli.stdout import print_json, put
+
+
+def register(app):
+    """Add the command to the app."""
+    app.command()(cam)
+
+
+def cam(
+    table: Path = typer.Argument(..., help="CSV: angle_deg, load_N_per_mm, R_mm (or R_a_mm and R_b_mm), u_a_m_s, u_b_m_s"),
+    context: typer.Context = None,
+    oil: Optional[str] = typer.Option(None, help="name of the oil (`tehl oils`)"),
+    temperature: Optional[float] = typer.Option(None, help="inlet temperature, deg C"),
+    dent: Optional[str] = typer.Option(None, help="dent of the cam that passes: DEPTH,WIDTH,rim=HEIGHT in m"),
+    scan: Optional[Path] = typer.Option(None, help="file of measured heights of the cam that pass"),
+    unit: Optional[str] = typer.Option(None, help="unit of the heights of --scan, where the file does not state it"),
+    pixel: Optional[float] = typer.Option(None, help="distance of the points of --scan in m, where the file does not state it"),
+    scene: Optional[str] = typer.Option(None, help="scene with oil, bodies, features and numerics: built-in name, TOML file or "
+                                                   "store"),
+    steady: bool = typer.Option(False, "--steady", help="steady contacts without the features of --scene"),
+    thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="with (default) or without energy equation"),
+    set_: Optional[List[str]] = typer.Option(None, "--set", help="dotted.key=value of the scenes, repeatable"),
+    grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY"),
+    out: Optional[Path] = typer.Option(None, help="folder to write (default: runs/NAME-N); an existing cam is resumed"),
+    figure: bool = typer.Option(True, "--figure/--no-figure", help="draw cam.png (.pdf, .svg) in that folder"),
+    format: Format = "png",
+    dpi: Dpi = 160,
+    figure_width: FigureWidth = 17.0,
+    workers: Optional[int] = typer.Option(None, help="number of angles computed at the same time (default: one per core)"),
+    threads: Optional[int] = typer.Option(None, help="CPU threads per angle (default: the cores that --workers leaves, or 1)"),
+    as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout and all else to stderr"),
+    quiet: bool = typer.Option(False, "--quiet", help="print no progress"),
+    curves: bool = typer.Option(True, "--live/--no-live", help="draw p, h and T along y = 0 in the terminal (with --workers "
+                                                               "1)"),
+):
+    """Compute the line contacts of a cam over its cycle: film, pressure, temperature and friction at each angle of a table.
+
+    Examples: `tehl cam cam.csv --oil mineral-vg100 --temperature 90` · `tehl cam cam.csv --dent 2e-6,0.2e-3,rim=0.3e-6`
+    """
+    import tehl_taichi as tehl
+    from tehl_taichi.runs.cam import cam_figure
+    from tehl_taichi.store.load_scene import find
+    from tehl_taichi.view.figures.figure_style import FigureStyle
+
+    feature = feature_of(dent, scan, unit, pixel)
+    page = FigureStyle(format, dpi, figure_width, force=True)
+    cam_figure.check(out, page) if figure else say_idle(context, "--no-figure draws none", *DRAWS)
+    changes = given_by({"oil.name": oil, "temperature": temperature, "thermal.on": thermal}, grid, set_ or [])
+    with Live(quiet, curves) as live:
+        found = tehl.cam(table, feature=feature, scene=find(scene) if scene else None, changes=changes, steady=steady,
+                         folder=out, workers=workers, threads=threads, progress=live)
+    if figure:
+        say(str(found.plot(**vars(page))))
+    print_json(found.to_dict()) if as_json else print_cam(found)
+    if found.not_converged:
+        from tehl_taichi.errors import NotConverged
+
+        raise NotConverged(f"{len(found.not_converged)} of {len(found.rows)} angles have no result; the others are in "
+                           f"{found.folder}. Try another --grid or --set with a new --out")
+
+
+def print_cam(found):
+    """Print the tables of a cam, the reasons of angles without a result, and where it lies."""
+    from tehl_cli.tables import list_table
+
+    from tehl_taichi.runs.cam.cam_columns import tables
+
+    put(found.title)
+    for title, (heads, lines) in tables(found.rows).items():
+        list_table(title, heads, lines, whole=True)
+    put(f"assumed: {found.record['assumption']}")
+    for at, reason in found.failed:
+        put(f"no result: {at.words}: {reason}")
+    put(f"stores, cam.csv, cam.json: {found.folder}")

@@ -1,0 +1,80 @@
+"""The page of a cam: thinnest film and largest index over the cycle, from what its folder keeps."""
+
+import numpy as np
+
+from tehl_taichi.fatigue.judged_surfaces import by_surface
+from tehl_taichi.fatigue.pressure_alone import why_none
+from tehl_taichi.report import verdict
+from tehl_taichi.report.document import Answer, Page, Section, drawn, facts, sentences, table
+from tehl_taichi.report.number_text import FEW, index, value_text
+from tehl_taichi.report.plots import colour, line, stacked
+from tehl_taichi.runs.cam import cam_columns, cam_figure
+from tehl_taichi.runs.cam.stored_cam import Cam
+from tehl_taichi.runs.flank.flank_columns import dig, error_of
+
+
+def of(folder):
+    """The :class:`tehl_taichi.report.document.Page` of the cam in `folder`. Raises StoreError."""
+    cam = Cam.open(folder)
+    return Page(f"{cam.name}: report", cam.title, _answer(cam), (
+        Section("Over the cycle", (drawn(*figures(cam)),)),
+        Section("Angles", tuple(table(heads, lines, title) for title, (heads, lines) in cam_columns.tables(cam.rows).items())),
+        Section("Without a result", (sentences([f"{at.words}: {reason}" for at, reason in cam.failed]),)),
+        Section("Warnings", (sentences(warnings(cam)),)),
+        Section("Provenance", (facts(_provenance(cam)),))))
+
+
+def _answer(cam):
+    """The thinnest film, or the largest index where features pass."""
+    left = f"{len(cam.failed)} of {len(cam.rows)} angles have no result and are not part of this answer."
+    doubts = (f"Assumed: {cam.record['assumption']}.", *[left] * bool(cam.failed))
+    thin = _thinnest(cam)
+    if found := _worst(cam):
+        Fi, where, error = found[0]
+        headline, tone = verdict.headline(verdict.judged(Fi, error), where, error is not None)
+        return Answer("At which angle does a fatigue crack start?", headline, tone,
+                      (f"The largest index is Fi = {index(Fi, error)}, {where}.", thin), doubts)
+    headline = thin or "No answer: no angle has a result."
+    return Answer("How thick is the film over the cycle?", headline, "none", (), doubts)
+
+
+def _thinnest(cam):
+    """The smallest steady film in a sentence; "" without results."""
+    films = [(dig(summary, "steady", "h_min_m"), error_of(summary, "steady", "h_min_m"), at) for at, _, summary in cam.rows
+             if summary]
+    if not films:
+        return ""
+    film, error, at = min(films, key=lambda entry: entry[0])
+    return f"The smallest film is {value_text(film, error, 'm', FEW)}, at {at.words}."
+
+
+def _worst(cam):
+    """[(Fi, where in words, its error or None)] of every angle, the largest first."""
+    found = [(Fi, f"{layer} at {at.words}", error) for at, _, summary in cam.rows
+             if (part := dig(summary, "fatigue")) and not why_none(part)
+             for layer, Fi, error in verdict.all_layers(by_surface(summary))]
+    return sorted(found, key=lambda entry: -entry[0])
+
+
+def figures(cam):
+    """The panels of the figure, as far as they have values."""
+    return [stacked(f"cam-{n}", f"{label[0].upper()}{label[1:]}.", cam_figure.ANGLE, [(label, [
+        line(x.tolist(), [None if np.isnan(value) else value * factor for value in y.tolist()], name, colour(m),
+             mode="lines+markers") for m, (name, (x, y, _)) in enumerate(lines.items())], {})], height=330)
+        for n, (label, factor, lines) in enumerate(cam_figure.panels(cam))]
+
+
+def warnings(cam):
+    """Warnings of all angles, each once with its angles."""
+    places: dict[str, list[str]] = {}
+    for at, _, summary in cam.rows:
+        for sentence in (summary or {}).get("warnings", []):
+            places.setdefault(sentence, []).append(at.words)
+    return [f"{', '.join(angles)}: {sentence}" for sentence, angles in places.items()]
+
+
+def _provenance(cam):
+    ran = [summary for *_, summary in cam.rows if summary]
+    return [("folder", cam.folder.name), ("table", cam.record["source"]),
+            ("version", ", ".join(sorted({summary["version"] for summary in ran}))),
+            ("run time of all angles", f"{sum(summary['wall_s'] for summary in ran):.0f} s")]

@@ -1,0 +1,69 @@
+"""Film, pressure, temperature, fatigue, friction and slip over the angle of the cam."""
+
+import os
+
+import numpy as np
+
+from tehl_taichi.disk import links
+from tehl_taichi.runs.flank.flank_columns import error_of, known
+from tehl_taichi.runs.flank.flank_figure import LAST, PANELS
+from tehl_taichi.view.figures import palette
+from tehl_taichi.view.figures.figure_style import drawing, made
+
+ANGLE = "angle of the cam (degrees)"
+
+
+def check(folder, page):
+    """Raises StoreError where no figure could be drawn, nor written into the folder (None: a new one) of a cam to come."""
+    drawing()
+    if folder is not None and os.path.lexists(folder):
+        links.refuse(folder)
+        page.check(folder / f"cam.{page.format}", folder)
+
+
+def write(cam, path, page):
+    """Write the figure of a Cam, as the :class:`FigureStyle` says; returns the path."""
+    page, path = page.of_file(path)
+    if os.path.realpath(path.parent) == os.path.realpath(cam.folder):
+        links.refuse(path.parent)
+    page.check(path, cam.folder)
+    made(path.parent)
+    return page.save(lambda: drawn(page, cam), path, of=cam.folder)
+
+
+def panels(cam):
+    """[(label, factor, {legend: series})] of the panels that have values."""
+    found = [(label, factor, {name: one for name, what in lines.items() if len((one := series(cam, what))[0])})
+             for label, factor, lines in PANELS]
+    return [panel for panel in found if panel[2]][:LAST]
+
+
+def drawn(page, cam):
+    """The matplotlib Figure of a Cam."""
+    shown = panels(cam)
+    figure, axes = page.figure(len(shown), sharex=True)
+    for ax, (label, factor, lines) in zip(axes[:, 0], shown):
+        for (name, (x, y, error)), colour in zip(lines.items(), palette.LINES):
+            bars = error * factor if np.isfinite(error).any() else None
+            ax.errorbar(x, y * factor, bars, fmt=".-", color=colour, label=name, **palette.BARS)
+        ax.set_ylabel(label)
+        ax.grid()
+        ax.legend()
+    axes[-1, 0].set_xlabel(ANGLE)
+    page.title(figure, cam.title)
+    return figure
+
+
+def series(cam, what):
+    """(angles, values, error bars) of the angles that have this number; an angle without one breaks the line (nan)."""
+    rows = [(at.angle, *_value(at, p_H, summary, what)) for at, p_H, summary in cam.rows]
+    if all(value is None for _, value, _ in rows):
+        return np.array([]), np.array([]), np.array([])
+    return tuple(np.array([np.nan if one is None else one for one in column], float) for column in zip(*rows))
+
+
+def _value(at, p_H, summary, what):
+    """(value, its error bar or None)."""
+    if isinstance(what, str):
+        return (p_H if what == "p_H" else at.srr if p_H else None), None
+    return known(summary, *what), error_of(summary, *what)

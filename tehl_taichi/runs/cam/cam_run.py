@@ -1,0 +1,72 @@
+"""A whole cycle of a cam: its angles, their runs, and the record of both."""
+
+from os import PathLike
+
+from tehl_taichi.errors import SceneError, interrupt
+from tehl_taichi.runs.bearing.ring_scenes import base_of, smooth
+from tehl_taichi.runs.cam import cam_table
+from tehl_taichi.runs.cam.stored_cam import Cam, check_writable
+from tehl_taichi.runs.flank.flank_run import fresh
+from tehl_taichi.runs.flank.line_contacts import scene_at
+from tehl_taichi.runs.flank.outcomes import summaries
+from tehl_taichi.runs.progress import Progress
+from tehl_taichi.scene import Scene
+from tehl_taichi.scene import scene as built_in
+from tehl_taichi.scene.aliases import settled, words
+from tehl_taichi.scene.feature import Feature
+from tehl_taichi.scene.scales import Scales
+from tehl_taichi.store.json_values import plain
+from tehl_taichi.store.load_scene import find
+from tehl_taichi.values.path_arguments import path_of
+
+ASSUMPTION = ("each angle is a separate contact with constant load and speeds: squeezing of the film over the cycle is not "
+              "computed")
+SCENE = "gear"  # built-in scene that gives oil, bodies and numerics where none is named
+WAITING = "it has not run yet; repeat the tehl cam command with --out to resume"
+
+
+def cam(table: str | PathLike, *, feature: Feature | None = None, scene: Scene | None = None, changes: dict | None = None,
+        steady: bool = False, folder: str | PathLike | None = None, workers: int | None = None, threads: int | None = None,
+        progress: Progress | None = None) -> Cam:
+    """As :func:`tehl_taichi.cam`."""
+    path = path_of("table", table)
+    places = cam_table.load(path)
+    base = base_of(find(scene) if scene is not None else smooth(built_in(SCENE)), feature)
+    changes = settled([(words(key, value), key, value) for key, value in (changes or {}).items()])
+    passes = {"time.steady_only": not base.features or steady}
+    scenes = {n: scene_at(base if base.features and not steady else smooth(base), {**changes, **passes}, path.stem, n + 1, at)
+              for n, at in enumerate(places) if not at.without_film}
+    if not scenes:
+        raise SceneError(f"table {path}: no angle has a film; the first one: {places[0].without_film}")
+    target = path_of("folder", folder) if folder else fresh(path.stem)
+    check_writable(target)
+    return _run(Cam(target, cam_record(path, target, places, scenes)), scenes, workers, threads, progress)
+
+
+def cam_record(path, folder, places, scenes):
+    """The JSON object of `tehl cam --json`, before anything ran."""
+    one = next(iter(scenes.values()))
+    return plain({"name": path.stem, "folder": str(folder), "source": str(path), "assumption": ASSUMPTION, "oil": one.oil.name,
+                  "temperature_C": one.operation.temperature,
+                  "positions": [_position(at, folder, scenes.get(n)) for n, at in enumerate(places)]})
+
+
+def _position(at, folder, scene):
+    return {"angle_deg": at.angle, "R_m": at.R, "load_N_m": at.load, "u_a_m_s": at.u_a, "u_b_m_s": at.u_b, "u_m_m_s": at.u_m,
+            "srr": at.srr, "p_Hertz_Pa": Scales.of(scene).p_H if scene else None, **at.more,
+            "store": str(folder / f"{scene.name}.zarr") if scene else None, "converged": False,
+            "reason": WAITING if scene else at.without_film, "summary": None}
+
+
+def _run(made, scenes, workers, threads, progress):
+    """The cam with the results of its scenes {number of the position: scene}."""
+    numbers, done = list(scenes), 0
+    try:
+        for n, outcome in summaries(list(scenes.values()), made.folder, workers, threads, progress):
+            made, done = made.with_position(numbers[n], outcome), done + 1
+            made.write()
+    except KeyboardInterrupt as stop:
+        raise interrupt(stop, f" after {done} of {len(scenes)} angles; repeat the tehl cam command with --out {made.folder} to "
+                              "resume") from None
+    return made
+

@@ -1,0 +1,111 @@
+"""Angles of a cycle from a table (CSV): load per length, radii and speeds of both surfaces relative to the contact."""
+
+import csv
+import io
+import math
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from tehl_taichi.disk import files
+from tehl_taichi.errors import SceneError
+from tehl_taichi.values.checks import nearest
+from tehl_taichi.values.quantity import Number
+
+RADIUS, SPEED = Number("", "mm", 0.1, 1e6, infinite=True, usual=20.0), Number("", "m/s", -1e3, 1e3, usual=5.0)
+# column: (factor to SI, its declaration)
+ALWAYS = {"angle_deg": (1.0, Number("", "deg", -720.0, 720.0)),
+          "load_N_per_mm": (1e3, Number("", "N/mm", 0.0, 1e5, usual=100.0)), "u_a_m_s": (1.0, SPEED), "u_b_m_s": (1.0, SPEED)}
+REDUCED, BOTH = {"R_mm": (1e-3, RADIUS)}, {"R_a_mm": (1e-3, RADIUS), "R_b_mm": (1e-3, RADIUS)}
+KNOWN = (*ALWAYS, *REDUCED, *BOTH)
+MOST = 1000  # rows
+SLOWEST = 1e-6  # m/s, of an entrainment speed
+OPPOSED = 2.0  # slide-roll ratio beyond which the surfaces move against each other
+
+
+@dataclass(frozen=True)
+class CamPosition:
+    """One angle in SI: angle (deg), R reduced radius (m), load (N/m), u_a, u_b surface speeds of cam and follower relative to
+    the contact (m/s); more: other columns of the table."""
+
+    angle: float
+    R: float
+    load: float
+    u_a: float
+    u_b: float
+    more: dict = field(default_factory=dict)
+
+    point = ""
+
+    @property
+    def words(self):
+        """Where it is."""
+        return f"{self.angle:g} deg"
+
+    @property
+    def u_m(self):
+        """Entrainment speed; a contact that moves the other way is its mirror image."""
+        return 0.5 * abs(self.u_a + self.u_b)
+
+    @property
+    def srr(self):
+        total = 0.5 * (self.u_a + self.u_b)
+        return (self.u_a - self.u_b) / total if total else math.inf
+
+    @property
+    def without_film(self):
+        """Why there is no steady film at this angle; "" where there is one."""
+        if self.load == 0:
+            return "no load"
+        if self.u_m < SLOWEST:
+            return f"entrainment speed {self.u_m:.2g} m/s: only squeezing keeps a film here, which is not computed"
+        if abs(self.srr) > OPPOSED:
+            return f"the surfaces move against each other (SRR {self.srr:.3g}); allowed: -{OPPOSED:g} to {OPPOSED:g}"
+        return ""
+
+
+def load(path):
+    """The :class:`CamPosition` of every row of a CSV file, by angle. Raises SceneError."""
+    path = Path(path)
+    try:
+        with io.StringIO(files.content(path).decode("utf-8-sig"), newline="") as file:
+            rows = csv.DictReader(file, skipinitialspace=True)
+            columns = _columns(path, rows)
+            found = [_position(path, n, row, columns) for n, row in enumerate(rows, 2)]
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise SceneError(f"cannot read table {path}: {getattr(error, 'strerror', None) or error}") from None
+    if not 1 <= len(found) <= MOST:
+        raise SceneError(f"table {path} has {len(found)} rows; allowed: 1 to {MOST}")
+    return sorted(found, key=lambda at: at.angle)
+
+
+def _columns(path, rows):
+    """{column: (factor, declaration)} of the table: the radii reduced, or those of both surfaces."""
+    names = [name.strip() for name in rows.fieldnames or ()]
+    rows.fieldnames = names
+    if twice := sorted({name for name in names if name and names.count(name) > 1}):
+        raise SceneError(f"table {path} has the column {twice[0]} twice; remove one of them")
+    radii = REDUCED if "R_mm" in names else BOTH
+    if missing := [name for name in (*ALWAYS, *radii) if name not in names]:
+        others = [name for name in names if name not in KNOWN]
+        named = ", ".join(f"{name}{nearest(name, others)}" for name in missing)
+        raise SceneError(f"table {path} has no column {named}; needed: {', '.join(ALWAYS)}, and R_mm or R_a_mm and R_b_mm")
+    return {**ALWAYS, **radii}
+
+
+def _position(path, n, row, columns):
+    SI = {name: _value(f"table {path}, row {n}: {name}", row[name], *known) for name, known in columns.items()}
+    R = SI.get("R_mm") or 1 / (1 / SI["R_a_mm"] + 1 / SI["R_b_mm"] or math.inf)
+    if not 0 < R < math.inf:
+        raise SceneError(f"table {path}, row {n}: a reduced radius of {R:g} m makes no contact; allowed: one curved surface at "
+                         "least")
+    more = {name: value for name, value in row.items() if name and name not in KNOWN}
+    return CamPosition(SI["angle_deg"], R, SI["load_N_per_mm"], SI["u_a_m_s"], SI["u_b_m_s"], more)
+
+
+def _value(where, text, factor, declared):
+    try:
+        value = float(text)
+    except (TypeError, ValueError):
+        raise SceneError(f"{where} = {text!r} is not a number; allowed: {declared.allowed} {declared.unit}") from None
+    declared.check(where, value)
+    return value * factor

@@ -1,0 +1,119 @@
+"""A cam: its table, its scenes, files, figure and page, and a cycle that is computed."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+from commands import here
+from fake_cases import position
+
+import tehl_taichi as tehl
+from tehl_taichi.errors import SceneError, StoreError
+from tehl_taichi.report import cam_page
+from tehl_taichi.runs.cam import cam_columns, cam_figure, cam_table
+from tehl_taichi.runs.open_results import kind
+from tehl_taichi.runs.sweep import case
+from tehl_taichi.view.figures.figure_style import FigureStyle
+
+HEAD = "angle_deg, load_N_per_mm, R_a_mm, R_b_mm, u_a_m_s, u_b_m_s, note\n"
+ROWS = "20, 100, 20, inf, 3.0, 1.0, right\n-20, 80, 12, 12, -1.5, -0.5, left\n0, 120, 18, inf, 2.0, -2.0, top\n" \
+       "40, 0, 18, inf, 2.0, 1.0, \n60, 50, 18, inf, 2.0, -1.0, \n"
+
+
+def table(folder, rows=ROWS, head=HEAD):
+    path = folder / "cam.csv"
+    path.write_text(head + rows)
+    return path
+
+
+@pytest.fixture(scope="module")
+def cycle(tmp_path_factory):
+    """A cam of five angles, two of which have a film, with made-up results."""
+    folder = tmp_path_factory.mktemp("cam")
+
+    def work(job, *_):
+        made = position(job)
+        steady = {"h_c_m": 2e-7, "h_min_m": 1e-5 * job.scene.contact.radius_x, "error": {"h_min_m": 1e-9}}
+        return {**made, "summary": {"steady": steady, "version": "0.9", "wall_s": 2.0, "warnings": ["thick film"]}}
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(case, "work", work)
+        return tehl.cam(table(folder), folder=folder / "c", changes={"oil.name": "mineral-vg100"}, workers=1)
+
+
+def test_angles_are_contacts_in_si_and_by_angle(tmp_path):
+    found = cam_table.load(table(tmp_path))
+    assert [at.angle for at in found] == [-20, 0, 20, 40, 60]
+    left, top, right = found[:3]
+    assert (left.R, right.R) == pytest.approx((6e-3, 20e-3)) and right.load == 1e5 and right.more["note"] == "right"
+    assert (right.u_m, right.srr) == (2.0, 1.0) and (left.u_m, left.srr) == (1.0, 1.0), "the mirror image has its slip"
+    assert top.u_m == 0 and math.isinf(top.srr)
+    reduced = cam_table.load(table(tmp_path, "0,100,6,1,1\n", "angle_deg,load_N_per_mm,R_mm,u_a_m_s,u_b_m_s\n"))
+    assert reduced[0].R == pytest.approx(left.R) and reduced[0].srr == 0
+
+
+def test_angles_without_a_film_say_why(cycle):
+    assert [(at.angle, reason.partition(":")[0].partition(" (")[0]) for at, reason in cycle.failed] == [
+        (0, "entrainment speed 0 m/s"), (40, "no load"), (60, "the surfaces move against each other")]
+    assert cycle.not_converged == [] and [at.angle for at, _, summary in cycle.rows if summary] == [-20, 20]
+
+
+def test_scenes_have_the_contact_of_the_angle(cycle):
+    for (at, p_H, summary), one in zip(cycle.rows, cycle.record["positions"]):
+        if summary:
+            assert p_H == pytest.approx(math.sqrt(at.load * 206e9 / 0.91 / (2 * math.pi * at.R)))
+            assert one["u_a_m_s"] == at.u_a and one["srr"] == pytest.approx(at.srr) and one["note"] == at.more["note"]
+
+
+def test_a_cam_opens_again(cycle):
+    again = tehl.open(cycle.folder)
+    assert kind(cycle.folder) == "cam" and again.record == cycle.record == json.loads((cycle.folder / "cam.json").read_text())
+    (heads, lines) = cam_columns.tables(again.rows)["steady film"]
+    assert heads[0] == "angle deg" and lines[0][:3] == ["-20.00", "0.200", "0.0600 ± 0.0010"]
+    assert (cycle.folder / "cam.csv").read_text().splitlines()[0].endswith("error_steady_h_min_m,note")
+
+
+def test_figure_and_page_follow_the_angle(cycle):
+    pytest.importorskip("matplotlib")
+    axes = cam_figure.drawn(FigureStyle(), cycle).axes
+    x, y = axes[0].containers[1].lines[0].get_data()
+    assert list(x) == [-20, 0, 20, 40, 60] and np.isnan(y[1]) and y[2] == pytest.approx(0.2)
+    page = cam_page.of(cycle.folder)
+    assert page.answer.headline == "The smallest film is 0.0600 ± 0.0010 µm, at -20 deg."
+    assert page.answer.doubts[1].startswith("3 of 5 angles have no result") and "cam-0" in page.figures
+    assert cam_page.warnings(cycle) == ["-20 deg, 20 deg: thick film"]
+
+
+@pytest.mark.parametrize("head, rows, said", [
+    (HEAD.replace("load_N_per_mm", "load_N_mm"), ROWS, "no column load_N_per_mm .did you mean .load_N_mm...; needed: angle"),
+    (HEAD, "0, x, 18, inf, 1, 1\n", "row 2: load_N_per_mm = 'x' is not a number; allowed: 0 to 100000 N/mm"),
+    (HEAD, "0, 100, inf, inf, 1, 1\n", "makes no contact; allowed: one curved surface"),
+    (HEAD, "0, 100, -3, inf, 1, 1\n", "R_a_mm = -3 mm is out of range"), (HEAD, "", "has 0 rows"),
+    (HEAD, "0, 0, 18, inf, 1, 1\n", "no angle has a film; the first one: no load"),
+    (HEAD.replace("note", "angle_deg"), ROWS, "has the column angle_deg twice")])
+def test_wrong_tables_are_refused_in_a_sentence(tmp_path, head, rows, said):
+    with pytest.raises(SceneError, match=said):
+        tehl.cam(table(tmp_path, rows, head), folder=tmp_path / "c")
+    assert not (tmp_path / "c").exists()
+
+
+def test_wrong_changes_and_folders_are_refused(tmp_path):
+    path = table(tmp_path)
+    with pytest.raises(SceneError, match="contact.load has no effect"):
+        tehl.cam(path, changes={"load": 1e5}, folder=tmp_path / "c")
+    with pytest.raises(StoreError, match="is not the folder of a cam"):
+        tehl.cam(path, folder=tmp_path)
+    assert "cannot read table" in here("cam", "none.csv", cwd=tmp_path).stderr
+
+
+@pytest.mark.slow
+def test_a_cycle_is_computed(taichi_cpu, tmp_path):
+    """The faster, rounder side has the thicker film; a mirrored contact equals its image."""
+    rows = "0, 100, 20, inf, 3.0, 1.0, a\n10, 100, 20, inf, -3.0, -1.0, b\n20, 100, 10, inf, 1.5, 0.5, c\n"
+    table(tmp_path, rows)
+    found = here("cam", "cam.csv", "--grid", "64", "--isothermal", "--workers", 1, "--json", "--quiet", "--no-figure", "--out",
+                 "c", cwd=tmp_path)
+    assert found.returncode == 0, found.stderr
+    first, image, slow = (one["summary"]["steady"] for one in json.loads(found.stdout)["positions"])
+    assert first["h_c_m"] == image["h_c_m"] > 1.5 * slow["h_c_m"] and first["friction_coefficient"] > 0
