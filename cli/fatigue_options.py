@@ -28,6 +28,8 @@ def _options(
     exponent: Annotated[Optional[float], typer.Option(help="exponent of the S-N curve, for the number of passages to "
                                                            "initiation (0: none)")] = None,
     limit_cycles: Annotated[Optional[float], typer.Option(help="passages that the fatigue limit stands for")] = None,
+    weibull: Annotated[Optional[float], typer.Option(help="Weibull exponent of the strength, for the stressed volume (0: "
+                                                          "none)")] = None,
     depths: Annotated[Optional[str], typer.Option(help="depths to search: auto (critical depth under the feature), none, or a "
                                                        "list in m for all points, as 50e-6,100e-6")] = None,
     surfaces: Annotated[Optional[str], typer.Option(help="bodies to search: both, a or b")] = None,

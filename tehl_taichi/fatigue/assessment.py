@@ -13,6 +13,7 @@ from tehl_taichi.fatigue import (
     resolved_part,
     result_arrays,
     stress_cycles,
+    stressed_volume,
     von_mises,
 )
 from tehl_taichi.fatigue.judged_surfaces import resting
@@ -110,11 +111,23 @@ def _of_surface(scene, surface, reader, centres, progress, until, alone):
     layers = [layer(scene, passage, depth, progress, early) for depth in (0.0, *scene.fatigue.listed)]
     deep = depth_search.search(scene, passage, layers, early, progress) if in_depth else depth_search.DepthResult([], [])
     progress.end()
-    result = _result(scene, passage, layers, deep, contact_alone.search(scene, reader, surface) if alone else None)
+    smooth = contact_alone.search(scene, reader, surface) if alone else None
+    result = _result(scene, passage, layers, deep, smooth)
+    if stressed := _stressed(scene, passage, layers[0], smooth):
+        result = replace(result, summary={**result.summary, "stressed": stressed})
     if early is None:
         return result
     part = resolved_part.part(scene, passage, early, until, layers, deep)
     return replace(result, summary={**result.summary, "resolved": part.summary}, resolved=part)
+
+
+def _stressed(scene, passage, surface, alone):
+    """Stressed volume and surface, {} where they are not wanted, or the smooth contact was not searched over the depth."""
+    f = scene.fatigue
+    if not f.weibull or not alone or not f.depths:
+        return {}
+    found = stressed_volume.part(passage, surface.f, alone)
+    return {**found, **stressed_volume.probabilities(found, f.reference_volume, f.reference_area)}
 
 
 def _early(passage, until):

@@ -16,7 +16,7 @@ OTHER = Reason("the coarse-grid runs used the constants and moments of the run, 
 # of the section [fatigue]: they change no stress of a point (limits do by kappa, which is compared; what a length averages is a
 # part of its own)
 FREE = ("on", "endurance", "bending_limit", "torsion_limit", "source", "depths", "surfaces", "length", "limit_of", "table",
-        "table_b", "exponent", "limit_cycles")
+        "table_b", "exponent", "limit_cycles", "weibull", "reference_volume", "reference_area")
 OF_TABLES = ("relation", "inclusion")  # free where there is none
 SAME = 1e-6  # of the stress: the stored search and this one are the same
 

@@ -250,6 +250,9 @@ def _strength(scene):
     by_hardness = relation is not None and relation.findley is not None
     if not f.exponent:
         yield "fatigue.limit_cycles", "fatigue.exponent = 0: passages are not counted"
+    if not f.weibull or not f.depths:
+        why = "no stressed volume is computed (fatigue.weibull = 0)" if not f.weibull else "fatigue.depths is empty"
+        yield from ((f"fatigue.{key}", why) for key in ("reference_volume", "reference_area", *["weibull"] * bool(f.weibull)))
     own_kappa = all(table and (table.has(KAPPA) or table.has(HARDNESS) and by_hardness) for table in tables)
     if own_kappa:
         yield "fatigue.kappa", "the table gives kappa"

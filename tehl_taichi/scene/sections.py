@@ -250,6 +250,11 @@ class Fatigue:
     exponent: float = quantity(0.0, "", "exponent m of the S-N curve: limit_cycles Fi^-m passages to initiation; 0: not "
                                         "counted", 0.0, 100.0, usual=9.0)
     limit_cycles: float = quantity(1e7, "", "passages that the fatigue limit stands for, with an exponent", 1e3, 1e12)
+    weibull: float = quantity(0.0, "", "Weibull exponent of the strength, for the stressed volume; 0: not computed", 0.0, 200.0,
+                              usual=24.0)
+    reference_volume: float = quantity(0.0, "m3", "stressed volume of a specimen that survives the limit in half of the cases; "
+                                                  "0: not given, no probability", 0.0, 1.0, usual=1e-7)
+    reference_area: float = quantity(0.0, "m2", "stressed surface of that specimen; 0: not given", 0.0, 1.0, usual=1e-4)
     surfaces: str = choice(BOTH, "surfaces whose material is searched", (BOTH, "a", "b"))
     criterion: str = choice("findley", "fatigue criterion", tuple(CRITERIA))
     depths: Union[tuple, str] = quantities(AUTO, "m", "depths to search; auto: the critical depth under the feature; a list "

@@ -22,7 +22,7 @@ ASKED = {"--kappa": 0.21, "--endurance": 411e6, "--criterion": "matake", "--dept
          "--from-x": -0.7, "--to-x": 0.6, "--length": 12e-6, "--residual-xx": -1.1e8, "--residual-yy": -1.2e8,
          "--bending-limit": 5.1e8, "--torsion-limit": 3.2e8, "--threads": 3, "--surfaces": "b",
          "--table": "case-hardened", "--table-b": "none", "--relation": "murakami", "--inclusion": 2e-5, "--exponent": 9.5,
-         "--limit-cycles": 3e7}
+         "--limit-cycles": 3e7, "--weibull": 24.5}
 
 
 def typed(options):

@@ -45,7 +45,7 @@ SCENES = {
                                   "fatigue.inclusion": 3e-5, "fatigue.table_b": "none"}),
     "whole table": GEAR.replace(**{"fatigue.table_rows": "depth_m,limit_Pa,kappa,residual_xx_Pa,residual_yy_Pa\n"
                                                          "0.0,5e8,0.4,-4e8,-3e8\n0.001,4e8,0.3,1e8,1e8"}),
-    "life": GEAR.replace(**{"fatigue.exponent": 9.0}),
+    "life": GEAR.replace(**{"fatigue.exponent": 9.0, "fatigue.weibull": 24.0}),
     "one body": GEAR.replace(**{"fatigue.table_b": "case-hardened", "fatigue.surfaces": "a"}),
     "tait": GEAR.replace(**{"oil.density": "tait"})}
 CASES = [(name, key) for name, scene in SCENES.items() for key, kind, _ in keys.every(scene) if not isinstance(kind, Text)]
@@ -113,6 +113,7 @@ def _fatigue(scene):
         yield [list(_index(Strength(f, s), depth)) for s in scene.judged for depth in (0.0, 1e-5, 3e-4)], f.criterion
         yield f.length if f.length >= 2 * Scales.of(scene).a * (scene.grid.x_max - scene.grid.x_min) / scene.grid.nx else None
         yield f.exponent and (f.exponent, f.limit_cycles)
+        yield f.weibull and f.depths and (f.weibull, f.reference_volume, f.reference_area)
         yield f.depths, f.shear, f.from_x, f.to_x, scene.has_thermal_stress
         yield [(s.name, s.body.nu, scene.has_thermal_stress and s.body.alpha) for s in scene.judged]
 

@@ -232,8 +232,22 @@ def _rows_of_search(f):
               for way in ("bending", "torsion") if (key := f"{way}_limit_Pa") in f),
             SummaryRow("thermal stress", "counted" if f["thermal_stress"] else "left out")]
     rows += [_stress(f"largest at {_depth(layer)}", layer["findley_stress_max_Pa"]) for layer in f.get("by_depth", [])]
+    rows += _stressed_rows(f)
     early = [] if f.get("rough") else _resolved_rows(f)
     return early + _averaged_rows(f) + [replace(row, part=SURFACE) for row in rows] + _below_rows(f) + _von_mises_rows(f)
+
+
+def _stressed_rows(f):
+    """Risk of the feature, as the area of the smooth track that has as much."""
+    if not (found := f.get("stressed")):
+        return []
+    areas = [(found[key], where) for key, where in (("track_equal_m2", "below the surface"),
+                                                    ("track_equal_surface_m2", "at the surface")) if key in found]
+    chances = [(found[key], where) for key, where in (("failure_volume", "below the surface"),
+                                                      ("failure_surface", "at the surface")) if key in found]
+    weighs = "the feature weighs as smooth track"
+    return [*(SummaryRow(f"{weighs}, {where}", f"{area * 1e6:.3g} mm2", area) for area, where in areas),
+            *(SummaryRow(f"probability of a crack {where}", f"{chance:.2g}", chance) for chance, where in chances)]
 
 
 def _von_mises_rows(f):

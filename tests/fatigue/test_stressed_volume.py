@@ -1,0 +1,74 @@
+"""Stressed volume: integrals in closed form, the smooth track, how it weighs a feature, probabilities."""
+
+import math
+
+import numpy as np
+import pytest
+from rolling import Rolling
+
+import tehl_taichi as tehl
+from tehl_taichi.fatigue import assessment, stressed_volume
+from tehl_taichi.runs.summary import summary_rows
+
+WEIBULL = {"thermal.on": False, "fatigue.surfaces": "a", "fatigue.length": 0.0, "fatigue.weibull": 12.0}
+
+
+def test_an_index_that_falls_with_depth_has_its_integral():
+    """(1 - z/Z)^m over z gives Z/(m + 1), whatever the rungs; pressure alone gives nothing."""
+    depths = np.append(0.0, np.geomspace(1e-6, 3e-4, 15))
+    linear = np.stack([1 - depths / 3e-4, 1 - depths / 3e-4, -np.ones(16)], axis=1)
+    found = stressed_volume.over_depth(linear, depths, 12.0)
+    assert found == pytest.approx([3e-4 / 13, 3e-4 / 13, 0.0], rel=1e-3)
+
+
+def test_areas_are_those_of_a_plane_and_of_a_row():
+    x, y = np.linspace(0, 2, 21), np.linspace(0, 3, 7)
+    assert stressed_volume.over_area(x[:, None] * y, 0.1, y) == pytest.approx(2 * 4.5)
+    assert stressed_volume.over_area(x[:, None], 0.1, np.zeros(1)) == pytest.approx(2.0)
+
+
+def test_half_of_the_specimens_survive_their_own_size():
+    found = stressed_volume.probabilities({"volume_m3": 2e-9, "area_m2": 1e-6}, 2e-9, 0.0)
+    assert found == {"failure_volume": pytest.approx(0.5)}
+    twice = stressed_volume.probabilities({"volume_m3": 4e-9, "area_m2": 1e-9}, 2e-9, 1e-6)
+    assert twice["failure_volume"] == pytest.approx(0.75)
+    assert twice["failure_surface"] == pytest.approx(math.log(2) * 1e-3, rel=1e-3)
+
+
+class Flat(Rolling):
+    """The same without the bump."""
+
+    def fields(self, n, names):
+        return super().fields(0, names)
+
+
+@pytest.mark.parametrize("rows", [1, 5])
+def test_a_passage_without_a_peak_weighs_nothing(taichi_cpu, rows):
+    """Every point of it has the index of the smooth contact."""
+    scene = tehl.scene("furrow-line" if rows == 1 else "gear").replace(**WEIBULL)
+    found = assessment.run(scene, Flat(scene, 12, rows)).summary["stressed"]
+    width = 1.0 if rows == 1 else 2 * 0.6 * Rolling(scene, 12, rows).s.a
+    length = found["volume_m3"] / found["track_depth_m"] / width
+    assert found["track_equal_m2"] <= 0.05 * length * width and found["track_depth_m"] > 0
+    assert found["area_m2"] == pytest.approx(found["track_share"] * length * width, rel=0.1)
+
+
+def test_a_peak_weighs_more_the_larger_the_exponent(taichi_cpu):
+    """Its index is larger than that of the track, in less material."""
+    equal = []
+    for m in (6.0, 24.0):
+        scene = tehl.scene("gear").replace(**{**WEIBULL, "fatigue.weibull": m, "fatigue.reference_volume": 1e-9})
+        summary = assessment.run(scene, Rolling(scene, 12, 5)).summary
+        found = summary["stressed"]
+        equal.append(found["track_equal_m2"])
+        assert found["volume_m3"] <= summary["below"]["Fi_max"] ** m * 1e-3**3 and 0 < found["failure_volume"] < 1
+    assert 0 < equal[0] < equal[1]
+    shown = [what for what, _ in summary_rows.fatigue_rows(summary)]
+    assert "the feature weighs as smooth track, below the surface" in shown
+
+
+def test_none_without_an_exponent_or_the_smooth_contact(taichi_cpu):
+    scene = tehl.scene("furrow-line").replace(**{**WEIBULL, "fatigue.weibull": 0.0})
+    assert "stressed" not in assessment.run(scene, Rolling(scene, 12, 1)).summary
+    scene = scene.replace(**{"fatigue.weibull": 9.0})
+    assert "stressed" not in assessment.run(scene, Rolling(scene, 12, 1), alone=False).summary
