@@ -1,14 +1,17 @@
 """The page of a rolling bearing: static safety and film first, then loads, contacts and slip, from what its folder keeps."""
 
+from pathlib import Path
+
 from tehl_taichi.fatigue.judged_surfaces import others
 from tehl_taichi.report.document import Answer, Page, Section, drawn, facts, sentences, table
 from tehl_taichi.report.number_text import FEW, value_text
 from tehl_taichi.report.plots import Figure, axis, colour, line, stacked
 from tehl_taichi.report.verdict import of_fatigue
 from tehl_taichi.runs.bearing import bearing_figure, bearing_table
-from tehl_taichi.runs.bearing.rolling_bearing import RollingBearing
+from tehl_taichi.runs.bearing.rolling_bearing import OF_BALLS, OF_ROLLERS, ROLLER, RollingBearing
 from tehl_taichi.runs.bearing.stored_bearing import Bearing
 from tehl_taichi.runs.flank.flank_columns import dig, error_of
+from tehl_taichi.values.digits import fitting
 from tehl_taichi.values.quantity import kinds
 
 QUESTION = "Does the bearing carry its load, and how thick is the film?"
@@ -88,15 +91,27 @@ def _lines(found, panel, legend=True):
 
 
 def _dimensions(found):
-    """Every value of the bearing with its meaning and unit."""
-    known = kinds(RollingBearing)
-    return [(f"{key}: {known[key].about}" if key in known else key,
-             f"{value:.6g} {known[key].unit}".rstrip(" -") if isinstance(value, float) and key in known else str(value))
-            for key, value in found.record["geometry"].items() if value is not None]
+    """Every value of the bearing that has a part in it, by its meaning, lengths in units that people read; oil and bodies."""
+    known, which = kinds(RollingBearing), found.record["geometry"]
+    idle = OF_BALLS if which["element"] == ROLLER else OF_ROLLERS
+    values = [(known[key].about.partition(";")[0], _value(value, known[key])) for key, value in which.items()
+              if key in known and key not in idle and value is not None]
+    return [*values, ("oil", found.record["oil"]), ("inlet temperature", f"{found.record['temperature_C']:g} °C"),
+            *((f"material of the {body}", words) for body, words in found.record["materials"].items())]
+
+
+def _value(value, declared):
+    if not isinstance(value, float):
+        return str(value)
+    factor, unit = fitting(declared.unit, value)
+    return f"{value * factor:.6g} {unit}".rstrip(" -")
 
 
 def _sources(found):
-    return [f"Dimensions: {found.record['source']}.", *filter(None, [_sentence(bearing_table.estimated_words(found))])]
+    """Source of the dimensions; files of both scenes."""
+    scenes = ", ".join(Path(one["scene_file"]).name for one in found.rings.values())
+    return [f"Dimensions: {found.record['source']}.", f"Scenes of both contacts, to run and change: {scenes}.",
+            *filter(None, [_sentence(bearing_table.estimated_words(found))])]
 
 
 def _provenance(found):

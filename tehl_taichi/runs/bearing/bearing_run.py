@@ -88,17 +88,17 @@ def _ring(found, base, changes, contact, loads, speeds, E, passes):
     dry = dry_contact(found.bearing, contact, loads.largest, E)
     slip = None if found.bearing.rollers else ellipse_slip.slip_over(contact, dry.b, speeds.u_m, speeds.spin[contact.ring])
     made = ring_scenes.ring_scene(base, changes, f"{found.name}-{contact.ring}", contact, dry, speeds.u_m,
-                                  slip.centre if slip else 0.0, passes)
+                                  slip.representative if slip else 0.0, passes)
     return RingCase(contact, dry, slip, made)
 
 
 def bearing_record(found, folder, loads, speeds, rings, roughness):
     """The JSON object of `tehl bearing --json`, before anything ran."""
-    which = found.bearing
+    which, one = found.bearing, rings["inner"].scene
     return plain({
         "name": found.name, "folder": str(folder), "source": found.source, "estimated": list(found.estimated),
-        "geometry": dataclasses.asdict(which), "oil": rings["inner"].scene.oil.name,
-        "temperature_C": rings["inner"].scene.operation.temperature, "roughness_Sq_m": roughness,
+        "geometry": dataclasses.asdict(which), "materials": _materials(one), "oil": one.oil.name,
+        "temperature_C": one.operation.temperature, "roughness_Sq_m": roughness,
         "assumptions": _assumptions(which, loads, speeds, rings), "ball_load_max_N": loads.largest, "loads_N": loads.loads,
         "azimuths_deg": [math.degrees(one) for one in loads.azimuth],
         "contact_angles_deg": [math.degrees(one) for one in loads.angles],
@@ -106,6 +106,13 @@ def bearing_record(found, folder, loads, speeds, rings, roughness):
         "axial_displacement_m": loads.axial, "cage_speed_1_min": speeds.cage * 30 / math.pi,
         "element_passes_per_s": speeds.element_passes, "static_limit_Pa": LIMITS[which.element],
         **{ring: _ring_record(which, case, speeds, folder) for ring, case in rings.items()}})
+
+
+def _materials(scene):
+    """{"ring", "element": material in words}."""
+    bodies = (("ring", scene.body_a), ("element", scene.body_b))
+    return {name: ", ".join(filter(None, [body.material, f"E = {body.E / 1e9:g} GPa, nu = {body.nu:g}"]))
+            for name, body in bodies}
 
 
 def _assumptions(which, loads, speeds, rings):
@@ -131,7 +138,8 @@ def _slip_record(slip, spin):
     if slip is None:
         return {"slip": None, "spin_rad_s": 0.0}
     step = (slip.y.size - 1) // (SLIPPED - 1)
-    return {"slip": {"srr_centre": slip.centre, "srr_edge": slip.edge, "mean_m_s": slip.mean, "pure_rolling_y_b": slip.rolling,
+    return {"slip": {"srr": slip.representative, "srr_centre": slip.centre, "srr_edge": slip.edge,
+                     "mean_m_s": slip.mean, "pure_rolling_y_b": slip.rolling,
                      "y_m": slip.y[::step], "slip_m_s": slip.slip[::step]}, "spin_rad_s": spin}
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 POINTS = 2001
+SPINNING = 1e-6  # of the largest slip: the difference of both sides that is spin
 
 
 @dataclass(frozen=True)
@@ -27,6 +28,13 @@ class EllipseSlip:
     def centre(self):
         """Slide-roll ratio at the centre."""
         return float(self.slip[POINTS // 2] / self.u_m)
+
+    @property
+    def representative(self):
+        """Slide-roll ratio of a run, which has one: that of the centre, where pressure and features are; with spin, which does
+        not act there, the mean size of the slip."""
+        profile = self.slip - self.slip[::-1]
+        return -self.mean / self.u_m if np.any(np.abs(profile) > SPINNING * np.abs(self.slip).max()) else self.centre
 
     @property
     def edge(self):

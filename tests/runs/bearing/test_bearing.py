@@ -43,7 +43,8 @@ def test_scene_files_have_the_contact_of_the_record(dry):
         s = Scales.of(scene)
         assert (s.p_H, s.a, s.b) == pytest.approx((one["p_Hertz_Pa"], one["a_m"], one["b_m"]))
         assert scene.contact.kind == "elliptic" and scene.operation.u_m == pytest.approx(one["u_m_m_s"])
-        assert scene.operation.srr == pytest.approx(one["slip"]["srr_centre"]) and not scene.transient
+        assert scene.operation.srr == pytest.approx(one["slip"]["srr_centre"]) and one["slip"]["srr"] == scene.operation.srr
+        assert not scene.transient
         assert scene.load == one["load_N"] and scene.name == f"6206-{ring}" and (scene.grid.nx, scene.grid.ny) == (128, 32)
 
 
@@ -63,7 +64,9 @@ def test_the_page_begins_with_safety_and_film(dry):
     assert "times the roughness" in page.answer.headline and "4.2 GPa" in page.answer.sentences[0]
     assert any("not published" in one for one in page.answer.doubts)
     assert {"bearing-loads", "bearing-contacts"} <= page.figures.keys()
-    assert "diameter of a ball" in document.rendered(page)
+    text = document.rendered(page)
+    assert all(words in text for words in ("9.525 mm", "E = 206 GPa, nu = 0.3", "reference-pao", "inner.toml"))
+    assert "profile of a roller" not in text
 
 
 def test_the_page_of_too_much_load_says_no(tmp_path):
@@ -113,6 +116,8 @@ def test_a_contact_angle_spins_at_the_inner_ring(tmp_path):
     found = tehl.bearing("218", load=0.0, axial=17800.0, run=False, folder=tmp_path / "b")
     assert found.rings["inner"]["spin_rad_s"] > 0 == found.rings["outer"]["spin_rad_s"]
     assert any("outer raceway control" in one for one in found.record["assumptions"])
+    slip = found.rings["inner"]["slip"]
+    assert slip["srr"] == pytest.approx(-slip["mean_m_s"] / found.rings["inner"]["u_m_m_s"]) and abs(slip["srr_centre"]) < 1e-3
     assert bearing_table.elements(found)[0][-1] == "contact angle, deg"
 
 
