@@ -37,6 +37,7 @@ def pytest_cmdline_main(config):
     o, asked = config.option, getattr(config.option, "numprocesses", 0)
     if asked is None and "PYTEST_XDIST_WORKER" not in os.environ and any(map(os.path.isdir, config.args)) and not o.usepdb:
         o.numprocesses, o.dist, o.loadscopereorder = min(len(os.sched_getaffinity(0)), MOST), "loadfile", False
+        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # small systems: threads that wait take the cores of other processes
         first_kernels(config)
 
 
@@ -64,6 +65,23 @@ def take_first_kernels():
     with open(os.environ[LOCK]) as held:
         fcntl.flock(held, fcntl.LOCK_SH)
     run()
+
+
+def tables_in_use():
+    """Tables of solvers that live, or whose failed run is held by a reference cycle."""
+    pool = sys.modules.get("tehl_taichi.engine.field_pool")
+    return sum(owner() is not None for _, owner in pool._tables) if pool else 0
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_protocol():
+    """A run that failed leaves its tables to the next one, with the kernels that they have."""
+    before = tables_in_use()
+    try:
+        return (yield)
+    finally:
+        if tables_in_use() > before:
+            gc.collect()
 
 
 def pytest_runtest_setup(item):

@@ -268,7 +268,8 @@ def test_isothermal_scenes_hold_nothing_of_it():
 
 
 def test_a_point_contact_heats_up():
-    data = thermal("ball-on-disc", **{"grid.nx": 64, "grid.ny": 32, "srr": -0.5, "rheology.law": "limiting"}).to_dict()
+    data = thermal("ball-on-disc", **{"grid.nx": 64, "grid.ny": 32, "srr": -0.5, "rheology.law": "limiting",
+                                      "oil.name": "reference-pao"}).to_dict()  # of other tests' kernels
     data["contact"].update(hertz_pressure=1.0e9, load=0.0)
     data["operation"].update(u_m=0.5)
     from tehl_taichi.march.passage import march
