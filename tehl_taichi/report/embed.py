@@ -12,10 +12,12 @@ import numpy as np
 from tehl_taichi.errors import StoreError, extra
 from tehl_taichi.store.json_values import plain
 
+LEVEL = 6  # 9 takes three times as long for the numbers of figures, for 2 % less
+
 
 def packed(text):
     """`text` (str) for a <script> that the page unpacks: a fifth to a half of its size."""
-    return base64.b64encode(gzip.compress(text.encode(), 9, mtime=0)).decode()
+    return base64.b64encode(gzip.compress(text.encode(), LEVEL, mtime=0)).decode()
 
 
 def check_installed():

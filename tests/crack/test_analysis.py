@@ -345,7 +345,7 @@ def rolling_store(path):
 
 
 @pytest.mark.rendered
-def test_the_command(taichi_cpu, tmp_path, capsys):
+def test_the_command(taichi_cpu, tmp_path, capsys, without_library):
     from tehl_cli.crack_command import crack
 
     rolling_store(tmp_path / "r.zarr")

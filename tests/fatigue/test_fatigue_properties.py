@@ -44,7 +44,7 @@ def assessed(beside, **how):
 
 
 def test_a_mirrored_passage_has_the_mirrored_answer():
-    right, left = assessed(0.25, wide=2.5), assessed(-0.25, wide=2.5, sideways=-0.03)
+    right, left = assessed(0.25, wide=1.75), assessed(-0.25, wide=1.75, sideways=-0.03)
     for part in (lambda s: s, lambda s: s["below"]):
         one, other = part(right[0]), part(left[0])
         assert one["Fi_max"] == pytest.approx(other["Fi_max"], rel=2e-4)  # images beyond the first row alone
@@ -58,7 +58,7 @@ def test_the_worst_point_lies_at_the_bump_whatever_rows_there_are():
     usual, _ = assessed(0.25)
     a = Formula(gear()).a
     assert abs(usual["y_m"] - 0.25 * a) < 0.13 * a and abs(usual["below"]["y_m"] - 0.25 * a) < 0.13 * a
-    for how in ({"wide": 1.75}, {"per_a": 16}):
+    for how in ({"wide": 1.5}, {"per_a": 16, "wide": 0.75}):
         other, _ = assessed(0.25, **how)
         assert other["Fi_max"] == pytest.approx(usual["Fi_max"], rel=0.01), how
         assert other["below"]["Fi_max"] == pytest.approx(usual["below"]["Fi_max"], rel=0.01), how

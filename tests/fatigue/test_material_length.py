@@ -47,11 +47,11 @@ def test_none_of_rough_surfaces():
 
 def test_coarser_grids_whose_cells_are_as_long_give_their_index_at_nodes():
     """So the error of the averaged one has the steps from grid to grid in it."""
-    scene = tehl.scene("gear").replace(**ISOTHERMAL, **{"fatigue.length": 60e-6})
-    fine, coarse = (coarse_runs.indices(found(60e-6, cells)) for cells in (24, 12))
+    scene = tehl.scene("gear").replace(**ISOTHERMAL, **{"fatigue.length": 80e-6})
+    fine, coarse = (coarse_runs.indices(found(80e-6, cells)) for cells in (16, 8))
     assert "a:averaged_Fi_max" in fine and "a:averaged_Fi_max" not in coarse
-    reader = Rolling(scene, 12, 5)
-    own = coarse_runs.passage_readings(scene, Scalars(reader), Scalars(reader).scalar, found(60e-6))
+    reader = Rolling(scene, 8, 5)
+    own = coarse_runs.passage_readings(scene, Scalars(reader), Scalars(reader).scalar, found(80e-6, 8))
     assert own["a:averaged_Fi_max"].value == own["a:Fi_max"].value
     assert own["b:below_averaged_Fi_max"].value == own["b:below_Fi_max"].value
 
