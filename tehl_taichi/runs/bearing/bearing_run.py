@@ -72,16 +72,12 @@ def bearing(what: str | PathLike | RollingBearing, *, load: float | None = None,
 
 def solved(found, base, changes, on):
     """(loads, speeds, {ring: :class:`RingCase`}) of a BearingSource; on: the ring that carries the features, "" for none."""
-    which, E = found.bearing, reduced_modulus(base.replace(**_bodies(changes)))
+    which, E = found.bearing, reduced_modulus(base.replace(**ring_scenes.bodies(changes)))
     free = ring_contacts.contacts(which)
     loads = load_distribution.distribution(which, stiffness.of_bearing(which, free, E))
     contacts = free if which.rollers else ring_contacts.contacts(which, loads.angle)
     speeds = kinematics.speeds(which, contacts)
     return loads, speeds, {ring: _ring(found, base, changes, contacts[ring], loads, speeds, E, ring == on) for ring in RINGS}
-
-
-def _bodies(changes):
-    return {key: value for key, value in changes.items() if key.startswith("bodies")}
 
 
 def _ring(found, base, changes, contact, loads, speeds, E, passes):

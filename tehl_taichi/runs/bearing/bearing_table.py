@@ -52,10 +52,15 @@ def film_ratio(bearing, ring):
     return film / Sq if film and Sq else None
 
 
+def sliding_friction(bearing, ring):
+    """Friction coefficient of the run; None of rollers, whose contacts do not slip."""
+    return dig(ring, "summary", "steady", "friction_coefficient") if ring["slip"] else None
+
+
 def sliding_loss(bearing, ring):
     """Power (W) of the slip in the most loaded contact: friction coefficient x load x mean slip."""
-    friction, slip = dig(ring, "summary", "steady", "friction_coefficient"), dig(ring, "slip", "mean_m_s")
-    return None if friction is None or slip is None else friction * ring["load_N"] * slip
+    friction = sliding_friction(bearing, ring)
+    return None if friction is None else friction * ring["load_N"] * ring["slip"]["mean_m_s"]
 
 
 CONTACT, MOTION, FILM, PASSAGE = PARTS = ("contact", "motion", "film", "while the feature passes")
@@ -79,8 +84,8 @@ ROWS = (
     _result(FILM, "h_c_m", "h_c, um", 1e6, ".3f", "steady", "h_c_m"),
     _result(FILM, "h_min_m", "h_min, um", 1e6, ".3f", "steady", "h_min_m"),
     RingRow(FILM, "lambda", "lambda = h_c/Sq", 1, ".2f", film_ratio),
-    _result(FILM, "friction_coefficient", "friction coefficient at the SRR of the run", 1, ".4f", "steady",
-            "friction_coefficient"),
+    RingRow(FILM, "friction_coefficient", "friction coefficient at the SRR of the run", 1, ".4f", sliding_friction,
+            lambda bearing, ring: error_of(ring["summary"], "steady", "friction_coefficient")),
     RingRow(FILM, "sliding_loss_W", "sliding loss of the most loaded contact, W", 1, ".3g", sliding_loss),
     _result(FILM, "film_max_C", "film temperature, deg C", 1, ".1f", "steady", "film_max_C"),
     _result(PASSAGE, "passage_p_max_Pa", "largest pressure, GPa", 1e-9, ".3f", "transient", "p_max_Pa"),

@@ -5,6 +5,7 @@ import math
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.runs.bearing.dry_contact import LINE
+from tehl_taichi.runs.flank.line_contacts import room
 from tehl_taichi.scene.aliases import BY_SURFACE, full_name
 from tehl_taichi.scene.description import Scene
 
@@ -41,9 +42,16 @@ def ring_scene(base, changes, name, contact, dry, u_m, srr, passes):
         given = {key: value for key, value in given.items() if not key.startswith(OF_PASSAGES)}
     grid = {} if passes or any(key.startswith("grid.") for key in given) else STEADY_GRID
     try:
-        return (base if passes else smooth(base)).replace(**{**own, **grid, **given, "time.steady_only": not passes})
+        wider = room(base.replace(**bodies(given)), dry.scene_load, contact.R_x) if passes and dry.kind == LINE else {}
+        kept = {key: value for key, value in wider.items() if key not in given}
+        return (base if passes else smooth(base)).replace(**{**own, **grid, **kept, **given, "time.steady_only": not passes})
     except SceneError as error:
         raise SceneError(f"{contact.ring} ring: {error}") from None
+
+
+def bodies(changes):
+    """Those changes that concern the bodies."""
+    return {key: value for key, value in changes.items() if key.startswith("bodies")}
 
 
 def smooth(base):

@@ -21,8 +21,9 @@ def scene_at(base, changes, name, n, position):
         given = {full_name(key): value for key, value in changes.items()}
         _check_free(given)
         plain = _without_passage(base, given)
-        room = {} if given.get("time.steady_only", base.time.steady_only) else _room(plain, position)
-        return base.replace(**{**_own(plain, name, n, position), **given, **room})
+        steady = given.get("time.steady_only", base.time.steady_only)
+        wider = {} if steady else room(plain, position.load, position.R)
+        return base.replace(**{**_own(plain, name, n, position), **given, **wider})
     except SceneError as error:
         raise SceneError(f"position {where(position)}: {error}") from None
 
@@ -45,13 +46,13 @@ def _own(plain, name, n, position):
             "operation.srr": position.srr, "thermal.on": plain.thermal.on is not False}
 
 
-def _room(plain, position):
-    """A domain that features fit into which are large beside this contact: where it ends along x the gap is higher than they
-    are, along y it is wider."""
+def room(plain, load, R):
+    """Keys of a domain that features fit into which are large beside a line contact (load in N/m, reduced radius R in m): where
+    it ends along x the gap is higher than they are, along y it is wider."""
     if not plain.features:
         return {}
-    a, _ = hertz.line(position.load, position.R, reduced_modulus(plain))
-    end = hertz.gap_reaches(SPARE * max(f.top for f in plain.features) * position.R / a**2)
+    a, _ = hertz.line(load, R, reduced_modulus(plain))
+    end = hertz.gap_reaches(SPARE * max(f.top for f in plain.features) * R / a**2)
     reach, grid = max(abs(f.y) + f.reach_y for f in plain.features), plain.grid
     side = min(AROUND * reach / a, 20.0) if math.isfinite(reach) else 0.0
     ends = {"grid.x_min": (-end, end), "grid.x_max": (end, end), "grid.y_max": (side, side)}

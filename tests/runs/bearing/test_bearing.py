@@ -4,6 +4,7 @@ import csv
 import json
 import math
 
+import numpy as np
 import pytest
 from commands import here
 from fake_cases import position
@@ -130,6 +131,27 @@ def test_rollers_say_whether_they_touch_along_a_line(tmp_path):
     assert Scales.of(scene).p_H == pytest.approx(inner["p_Hertz_Pa"]) and scene.operation.srr == 0 and inner["slip"] is None
     straight = tehl.bearing("tapered", **DUTY, dimensions=keys, run=False, folder=tmp_path / "s")
     assert straight.rings["inner"]["R_y_m"] is None and straight.rings["inner"]["b_m"] == 5e-3
+
+
+def test_the_domain_of_rollers_is_as_wide_as_their_features(tmp_path):
+    keys = dict(load=2000.0, feature=tehl.Feature(**{**DENT, "width": 0.4e-3}), run=False)
+    dented = tehl.bearing("209-roller", **keys, folder=tmp_path / "b").rings["inner"]
+    scene = tehl.scene(dented["scene_file"])
+    assert scene.transient and scene.grid.y_max * dented["a_m"] >= 2 * scene.features[0].reach_y
+    own = tehl.bearing("209-roller", **keys, changes={"grid.y_max": 5.0}, folder=tmp_path / "own").rings["inner"]
+    assert tehl.scene(own["scene_file"]).grid.y_max == 5.0
+
+
+def test_a_scan_passes_on_a_ring(tmp_path):
+    x, y = np.linspace(-3, 3, 80), np.linspace(-3, 3, 60)
+    np.savetxt(tmp_path / "scan.csv", -0.2 * np.exp(-(x**2 + y[:, None] ** 2)), delimiter=",")
+    quick = ("bearing", "6206", "--scan", "scan.csv", "--no-run", "--no-figure")
+    found = here(*quick, "--unit", "um", "--pixel", "4e-6", "--out", "b", cwd=tmp_path)
+    assert found.returncode == 0, found.stderr
+    (feature,) = tehl.scene(tmp_path / "b" / "inner.toml").features
+    assert feature.kind.measured and feature.pixel == 4e-6 and feature.level == "form" and feature.taper > 0
+    missing = here(*quick, cwd=tmp_path)
+    assert missing.returncode == 2 and "feature.unit is missing" in missing.stderr
 
 
 def test_a_file_names_a_bearing(tmp_path):
