@@ -160,7 +160,7 @@ def test_many_small_cases_on_a_cluster_cost_little(client, tmp_path):
 def test_pictures_of_a_quantity_are_no_empty_pages(study, tmp_path):
     pytest.importorskip("matplotlib")
     paths = study.plot(tmp_path, "fatigue_Fi_max", dpi=40)
-    assert len(paths) == 2 and min(path.stat().st_size for path in paths) > 3000
+    assert len(paths) == 3 and min(path.stat().st_size for path in paths) > 3000
 
 
 def test_pictures_of_a_study(study, tmp_path):
