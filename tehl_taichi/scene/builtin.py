@@ -23,6 +23,16 @@ ROUGH = Feature(shape="rough", height=0.15e-6, width=40e-6, extent_x=500e-6, ext
 # marks across rolling
 GROUND: dict[str, Any] = dict(shape="ground", height=0.3e-6, width=80e-6, length=480e-6, extent_x=500e-6, taper=60e-6)
 
+# machines and rigs: smooth steel contacts, steady; the bearings are the inner contacts of `tehl bearing 6206 --load 3000
+# --speed 3000` and `tehl roller 209-roller --load 4450 --speed 3000`
+VG100 = OILS["mineral-vg100"]
+POINT_GRID = Grid(nx=128, ny=32)
+MTM = Contact(kind="point", radius_x=9.525e-3, radius_y=9.525e-3, hertz_pressure=1e9)
+BALL_RACE = Contact(kind="elliptic", radius_x=3.776e-3, radius_y=123.8e-3, load=1462.0)
+ROLLER_RACE = Contact(radius_x=4.231e-3, load=204e3)
+DISCS = Contact(radius_x=20e-3, hertz_pressure=1e9)
+CAM = Contact(radius_x=18e-3, load=120e3)
+
 BUILT_INS = {
     "gear": (Scene(), "dedendum of a driving gear: 1.5 um asperity on the slower surface (SRR -0.12), 1.93 GPa"),
     "pitch-line": (Scene(name="pitch-line", operation=Operation(srr=0.0)), "1.5 um asperity in pure rolling"),
@@ -45,6 +55,21 @@ BUILT_INS = {
                           grid=Grid(x_min=-3.5, x_max=2.0)),
                     "2 um transverse furrow on the slower surface of a line contact (SRR -1), 2 GPa: 1-D, Newtonian oil "
                     "(ignore its friction)"),
+    "mtm": (Scene(name="mtm", contact=MTM, features=(), operation=Operation(u_m=1.0, srr=0.05, temperature=40.0), oil=VG100,
+                  grid=Grid(nx=192, ny=48)),
+            "traction rig: 3/4 inch steel ball on a steel disc, 1 GPa (base of traction curves)"),
+    "twin-disc": (Scene(name="twin-disc", contact=DISCS, features=(), operation=Operation(u_m=3.0, srr=0.05, temperature=60.0),
+                        oil=VG100, grid=Grid(nx=384)),
+                  "two steel discs of 80 mm diameter, 1 GPa: 1-D"),
+    "ball-bearing": (Scene(name="ball-bearing", contact=BALL_RACE, features=(), oil=VG100, grid=POINT_GRID,
+                           operation=Operation(u_m=3.458, srr=-0.0083, temperature=70.0)),
+                     "ball and inner ring of a 6206, 3 kN and 3000 1/min: slender ellipse, 2.6 GPa"),
+    "roller-bearing": (Scene(name="roller-bearing", contact=ROLLER_RACE, features=(), oil=VG100,
+                             operation=Operation(u_m=4.984, srr=0.0, temperature=70.0)),
+                       "roller and inner ring of a 209 roller bearing, 4.45 kN and 3000 1/min: pure rolling, 1-D"),
+    "cam": (Scene(name="cam", contact=CAM, features=(), operation=Operation(u_m=1.45, srr=1.03, temperature=90.0), oil=VG100,
+                  grid=Grid(nx=384)),
+            "nose of a cam on a flat follower (SRR 1.03), 0.5 GPa: 1-D"),
 }
 
 

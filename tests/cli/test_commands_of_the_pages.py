@@ -24,7 +24,7 @@ PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 SMALL = "--grid 64x16 --isothermal --no-fatigue --no-estimate-error --quiet"
 SHORT = {"run": f"{SMALL} --steps 0 --force --out made.zarr", "sweep": "--dry-run",
          "flank": "--grid 64 --isothermal --steady --no-figure", "bearing": "--no-run --no-figure",
-         "traction": "--grid 64 --isothermal --no-figure --workers 1",
+         "traction": "--grid 64x16 --isothermal --no-figure --workers 1",
          "roller": "--no-run --no-figure", "cam": "--grid 64 --isothermal --no-figure --workers 1",
          "resume": "--steps 1 --quiet", "animate": "--frames 2 --dpi 40 --force", "plot": "--dpi 40 --force",
          "crack": "--dpi 40", "fatigue": "--dpi 40",

@@ -191,3 +191,19 @@ def test_thick_films_are_solved_in_single_precision():
     ball = scene("ball-on-disc")
     assert central_film(ball) == pytest.approx(0.1356e-6, rel=0.03)  # computed
     assert central_film(ball.replace(speed=2 * ball.operation.u_m)) > 1.5 * central_film(ball)
+
+
+def test_contacts_of_machines_are_those_of_their_commands():
+    """Inner rings of the 6206 under 3 kN and of the 209 roller bearing under 4.45 kN at 3000 1/min; rigs at 1 GPa."""
+    from tehl_taichi.runs.bearing.bearing_run import solved
+    from tehl_taichi.runs.bearing.bearing_source import bearing_source, default_scene
+    from tehl_taichi.runs.bearing.ring_scenes import base_of
+
+    for name, which, load in (("ball-bearing", "6206", 3000.0), ("roller-bearing", "209-roller", 4450.0)):
+        _, _, rings = solved(bearing_source(which, {"load": load, "speed": 3000.0}), base_of(default_scene()), {}, "")
+        found, own = rings["inner"].scene, scene(name)
+        assert (own.contact.radius_x, own.load, own.operation.u_m, own.operation.srr) == pytest.approx(
+            (found.contact.radius_x, found.load, found.operation.u_m, found.operation.srr), rel=5e-3)
+    for name in ("mtm", "twin-disc"):
+        assert Scales.of(scene(name)).p_H == pytest.approx(1e9) and not scene(name).transient
+    assert not any(scene(name).warnings() for name in ("mtm", "twin-disc", "ball-bearing", "roller-bearing", "cam"))

@@ -50,7 +50,7 @@ def ring_scene(base, changes, name, contact, dry, u_m, srr, passes):
 
 
 def bodies(changes):
-    """Those changes that concern the bodies."""
+    """Changes of the bodies among all changes."""
     return {key: value for key, value in changes.items() if key.startswith("bodies")}
 
 
