@@ -15,8 +15,9 @@ MOST = 4  # processes of the whole suite: each needs 1.5 GB
 LOCK = "TEHL_FIRST_KERNELS"  # a file that the process of `first_kernels` locks
 # that compile the kernels of the solvers, half of a cold suite
 KERNELS = tuple(f"tests/{name}" for name in (
-    "cli/", "engine/test_float", "fatigue/test_findley", "heat/", "laws/test_criteria", "march/", "pressure/", "profiles/",
+    "cli/", "engine/test_float", "heat/", "march/", "pressure/", "profiles/",
     "runs/", "scene/", "store/", "test_examples", "test_new", "values/test_coded", "values/test_unit"))
+CRITERIA = tuple(f"tests/{name}" for name in ("fatigue/test_findley", "laws/test_criteria", "scene/test_given"))
 SOLVERS = (*KERNELS, "tests/crack/", "tests/engine/", "tests/fatigue/", "tests/laws/")  # that use Taichi at all
 
 
@@ -106,8 +107,8 @@ def pytest_xdist_make_scheduler(config, log):
 
 
 def pytest_collection_modifyitems(items):
-    """Files that compile the kernels of the solvers first."""
-    items.sort(key=lambda item: not item.nodeid.startswith(KERNELS))
+    """Files that compile the kernels of the solvers first, those of the criteria side by side."""
+    items.sort(key=lambda item: (not item.nodeid.startswith(CRITERIA), not item.nodeid.startswith(KERNELS)))
 
 
 def pytest_collection_finish():
