@@ -202,12 +202,12 @@ def test_a_flank_has_room_for_its_features(monkeypatch):
 
     position = flank_source("fzg-c").positions(None, None, ["C"])[0]
     plain = tehl.scene("gear").replace(height=8e-6, width=4e-4)
-    room = line_contacts._room(plain, position)
+    room = line_contacts.room(plain, position.load, position.R)
     a, _ = hertz.line(position.load, position.R, line_contacts.reduced_modulus(plain))
     gap = hertz.line_gap(room["grid.x_max"]) * a**2 / position.R
     assert gap == pytest.approx(line_contacts.SPARE * 8e-6, rel=1e-3) and room["grid.x_max"] > 1.5
     aside = plain.replace(**{"feature.y": 3e-4})
-    assert line_contacts._room(aside, position)["grid.y_max"] == pytest.approx(
+    assert line_contacts.room(aside, position.load, position.R)["grid.y_max"] == pytest.approx(
         line_contacts.AROUND * (3e-4 + plain.features[0].reach_y) / a)
 
 
