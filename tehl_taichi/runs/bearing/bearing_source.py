@@ -4,7 +4,7 @@ import dataclasses
 from dataclasses import dataclass
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.runs.bearing.designations import DESIGNATIONS, GROOVES, designation
+from tehl_taichi.runs.bearing.designations import GROOVES, designation, key_of
 from tehl_taichi.runs.bearing.rolling_bearing import BALL, RollingBearing
 from tehl_taichi.scene import scene, toml_file
 from tehl_taichi.scene.description import Scene
@@ -50,10 +50,11 @@ def bearing_source(what, given):
 
 def _named(name, given):
     """(name, keys, source, estimated) of a designation; one that is not in the table needs its own dimensions."""
-    if name.lower() not in DESIGNATIONS and given.keys() >= set(OWN):
+    key = key_of(name)
+    if not key and given.keys() >= set(OWN):
         return name, {}, "given", ()
     found = designation(name)
-    return name.lower(), found.keys, found.source, found.estimated
+    return key, found.keys, found.source, found.estimated
 
 
 def _made(name, keys, source, estimated, given, of_scene=None):

@@ -4,6 +4,7 @@ Catalogues give bore, outside diameter and ratings, not balls and grooves. `esti
 are those of the ratings of ISO 76 and ISO 281.
 """
 
+import re
 from dataclasses import dataclass
 
 from tehl_taichi.errors import SceneError
@@ -12,6 +13,7 @@ from tehl_taichi.values.checks import nearest
 INCH = 25.4e-3
 CASE = "Case Western Reserve University, Bearing Data Center, bearing information (SKF, inches)"
 HARRIS = "Harris & Kotzalas, Rolling Bearing Analysis, 5th ed. 2006, examples"
+SUFFIX = re.compile(r"[-/ ]")
 GROOVES = ("osculation_inner", "osculation_outer")
 
 
@@ -50,9 +52,16 @@ DESIGNATIONS = {
 MEANT = "give its elements by --ball-diameter, --balls and --pitch-diameter (rollers: tehl roller), or a TOML file"
 
 
+def key_of(name):
+    """The key of a designation in the table, without its suffixes for seals, cage and clearance (6206-2RS1, 6206 C3); "" where
+    it is not there."""
+    words = name.lower().replace("skf", "").strip()
+    return next((key for key in (words, *SUFFIX.split(words, maxsplit=1)[:1]) if key in DESIGNATIONS), "")
+
+
 def designation(name):
     """The :class:`Designation` of that name. Raises SceneError."""
-    if (key := name.lower()) not in DESIGNATIONS:
+    if not (key := key_of(name)):
         raise SceneError(f"the inner dimensions of bearing {name!r} are not in the table of this program"
-                         f"{nearest(key, DESIGNATIONS)}; known: {', '.join(DESIGNATIONS)}; or {MEANT}")
+                         f"{nearest(name.lower(), DESIGNATIONS)}; known: {', '.join(DESIGNATIONS)}; or {MEANT}")
     return DESIGNATIONS[key]

@@ -165,6 +165,14 @@ def test_a_file_names_a_bearing(tmp_path):
     assert bearing_source(file, {}).bearing.rollers and bearing_source(file, {}).estimated == ()
 
 
+@pytest.mark.parametrize("name", ["6206", "6206-2RS1", "6206 C3", "SKF 6206/C3", "6206-2Z"])
+def test_suffixes_of_seals_and_clearance_make_no_other_balls(name):
+    found = bearing_source(name, {})
+    assert found.name == "6206" and found.bearing.count == 9 and found.bearing.clearance == 0
+    own = bearing_source(name, {"clearance": 15e-6})
+    assert own.bearing.clearance == 15e-6 and bearing_source("209-ROLLER", {}).name == "209-roller"
+
+
 @pytest.mark.parametrize("text, said", [("", "needs a table \\[bearing\\], or base = a designation"),
                                         ("[bearing]\nballs = 9", "unknown key bearing.balls"),
                                         ("colour = 1", "unknown key 'colour'"), ("base = 3", "base = 3 must be text"),

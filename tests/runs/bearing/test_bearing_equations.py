@@ -42,11 +42,12 @@ def test_the_static_factors_of_iso_76_give_its_hertz_pressure(ratio, factor):
     assert safety(bearing, max(pressures)) == pytest.approx(1.0, abs=0.01)
 
 
-def test_the_balls_of_a_6206_have_its_static_rating():
-    """Catalogue: C0 = 11.2 kN; at C0/5 per ball and row, Q = 5 C0/Z, the inner ring has 4200 MPa."""
-    bearing = published("6206")
+@pytest.mark.parametrize("name, C0", [("6203", 4.75e3), ("6205", 7.8e3), ("6206", 11.2e3)])
+def test_published_balls_have_the_static_rating_of_the_catalogue(name, C0):
+    """SKF general catalogue, basic static load ratings: with Q = 5 C0/Z the inner ring has 4200 MPa."""
+    bearing = published(name)
     inner = ring_contacts.contacts(bearing)["inner"]
-    assert dry_contact(bearing, inner, 5 * 11.2e3 / 9, ISO_STEEL).p_H == pytest.approx(4.2e9, rel=5e-3)
+    assert dry_contact(bearing, inner, 5 * C0 / bearing.count, ISO_STEEL).p_H == pytest.approx(4.2e9, rel=5e-3)
 
 
 def test_curvatures_of_the_209_ball_bearing():
