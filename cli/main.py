@@ -76,7 +76,7 @@ def _with_value(error):
 
 
 # {heading of the help: its commands}, in this order
-PANELS = {"Compute": ("run", "resume", "sweep", "traction", "flank", "bearing", "roller", "cam", "fatigue", "crack"),
+PANELS = {"Compute": ("run", "resume", "zoom", "sweep", "traction", "flank", "bearing", "roller", "cam", "fatigue", "crack"),
           "Show results": ("show", "plot", "report", "compare", "animate", "export"),
           "Scene files and choices": ("new", "scenes", "oils", "steels", "laws"),
           "This program": ("doctor", "bench", "cite")}

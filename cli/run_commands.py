@@ -14,6 +14,7 @@ def register(app):
     """Add the commands to the app."""
     app.command()(run)
     app.command()(resume)
+    app.command()(zoom)
 
 
 def run(
@@ -34,6 +35,8 @@ def run(
     steady: bool = typer.Option(False, "--steady", help="compute the steady contact only"),
     thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="with or without the energy equation"),
     fatigue: Optional[bool] = typer.Option(None, "--fatigue/--no-fatigue", help="with or without stresses and fatigue index"),
+    zoom: Optional[int] = typer.Option(None, help="add a fine window that rides with the feature, 2, 4 or 8 times as fine as "
+                                                  "the grid (isothermal)"),
     estimate_error: Optional[bool] = typer.Option(None, "--estimate-error/--no-estimate-error",
                                                   help="estimate errors by coarse-grid runs (default: for all but very short "
                                                        "passages)"),
@@ -66,7 +69,7 @@ def run(
         {"srr": srr, "load": load, "hertz_pressure": hertz_pressure, "speed": speed, "temperature": temperature,
          "height": height, "width": width, "kappa": kappa, "endurance": endurance, "time.steps": steps, "thermal.on": thermal,
          "bending_limit": bending_limit, "torsion_limit": torsion_limit,
-         "fatigue.on": fatigue, "numerics.estimate_error": estimate_error, "numerics.precision": precision,
+         "fatigue.on": fatigue, "zoom.factor": zoom, "numerics.estimate_error": estimate_error, "numerics.precision": precision,
          "time.steady_only": steady or None},
         grid, set_ or [])
     description = find_changed(scene, changes)
@@ -110,6 +113,26 @@ def resume(
         return
     with Live(quiet, curves) as live:
         done = tehl.resume(store, steps=steps, threads=threads, progress=live)
+    _print(done, as_json)
+
+
+def zoom(
+    store: Path = typer.Argument(..., help="store of a finished isothermal run with a passage"),
+    factor: int = typer.Option(4, help="cells of the window in a cell of the grid: 2, 4 or 8; 0 removes the window"),
+    threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
+    as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout"),
+    quiet: bool = typer.Option(False, "--quiet", help="print no progress"),
+):
+    """Add a fine window that rides with the feature to a finished run; the steps of the run are kept.
+
+    Stresses, fatigue and error bars are computed again with the window.
+
+    Example: `tehl zoom runs/gear-1.zarr --factor 4`
+    """
+    import tehl_taichi as tehl
+
+    with Live(quiet, False) as live:
+        done = tehl.zoom(store, factor, threads=threads, progress=live)
     _print(done, as_json)
 
 

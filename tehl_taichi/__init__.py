@@ -49,6 +49,7 @@ from tehl_taichi.api import (  # noqa: E402
     stresses,
     sweep,
     traction,
+    zoom,
 )
 from tehl_taichi.api import open as open
 from tehl_taichi.errors import Error, Interrupted, NotConverged, RuntimeUnavailable, SceneError, StoreError, UnknownName  # noqa: E402
@@ -70,13 +71,25 @@ if TYPE_CHECKING:
     from tehl_taichi.scene.feature import Feature
     from tehl_taichi.scene.gear_pair import GearPair
     from tehl_taichi.scene.oil import Oil
-    from tehl_taichi.scene.sections import Body, Contact, Fatigue, Grid, Numerics, Operation, Output, Rheology, Thermal, Time
+    from tehl_taichi.scene.sections import (
+        Body,
+        Contact,
+        Fatigue,
+        Grid,
+        Numerics,
+        Operation,
+        Output,
+        Rheology,
+        Thermal,
+        Time,
+        Zoom,
+    )
     from tehl_taichi.values.estimate import Quantity
 
 # classes and the modules that hold them, loaded when they are used: the command line needs a few of them only
 CLASSES = {"Scene": "scene.description", "Feature": "scene.feature", "Oil": "scene.oil", "GearPair": "scene.gear_pair",
            **dict.fromkeys(("Body", "Contact", "Fatigue", "Grid", "Numerics", "Operation", "Output", "Rheology", "Thermal",
-                            "Time"), "scene.sections"),
+                            "Time", "Zoom"), "scene.sections"),
            "Run": "runs.stored_run", "Study": "runs.sweep.study_table", "Flank": "runs.flank.stored_flank",
            "Traction": "runs.traction.traction_rows", "Cam": "runs.cam.stored_cam",
            "Bearing": "runs.bearing.stored_bearing", "RollingBearing": "runs.bearing.rolling_bearing",
@@ -88,9 +101,9 @@ OLD_NAMES = {"FatigueResult": "SearchResult"}  # to 0.8
 __all__ = ["Bearing", "Body", "Cam", "Comparison", "Contact", "CrackResult", "Error", "Fatigue", "Feature", "Flank", "GearPair",
            "Grid", "Interrupted", "Lines", "NotConverged", "Numerics", "Oil", "Operation", "Output", "Progress", "Quantity",
            "Rheology", "RollingBearing", "Run", "RuntimeUnavailable", "Scene", "SceneError", "SearchResult", "Snapshot",
-           "StoreError", "Study", "Thermal", "Time", "Traction", "UnknownName", "__version__", "animate", "bearing", "cam",
-           "compare", "crack", "export", "fatigue", "flank", "march", "report", "resume", "run", "scene", "simulate",
-           "stresses", "sweep", "traction"]
+           "StoreError", "Study", "Thermal", "Time", "Traction", "UnknownName", "Zoom", "__version__", "animate", "bearing",
+           "cam", "compare", "crack", "export", "fatigue", "flank", "march", "report", "resume", "run", "scene", "simulate",
+           "stresses", "sweep", "traction", "zoom"]
 
 
 def __getattr__(name):

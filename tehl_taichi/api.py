@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 Name = str | PathLike
 FUNCTIONS = ("animate", "bearing", "cam", "compare", "crack", "export", "fatigue", "flank", "march", "open", "report", "resume",
-             "run", "scene", "simulate", "stresses", "sweep", "traction")
+             "run", "scene", "simulate", "stresses", "sweep", "traction", "zoom")
 
 
 def scene(name: "Name | Scene" = "gear") -> "Scene":
@@ -157,6 +157,45 @@ def resume(path: Name, *, steps: int | None = None, threads: int | None = None, 
     from tehl_taichi.runs import single_run
 
     return single_run.resume(path, steps=steps, threads=threads, progress=progress)
+
+
+def zoom(path: Name, factor: int = 4, *, threads: int | None = None, progress: "Progress | None" = None) -> "Run":
+    """Add a fine window that rides with the feature to a finished isothermal run; the steps of the run are kept.
+
+    Stresses, the fatigue search and error bars are computed again with the window. Interrupted, `resume` finishes it.
+
+    Parameters
+    ----------
+    path : path
+        Folder of the store.
+    factor : {4, 2, 8, 0}
+        Cells of the window in a cell of the grid, along each axis; 0 removes the window.
+    threads, progress
+        As for :func:`tehl_taichi.run`.
+
+    Returns
+    -------
+    Run
+        The run with the window; unchanged where it has this one already.
+
+    Raises
+    ------
+    SceneError
+        The scene has temperatures, no passage, or not every step is stored.
+    StoreError
+        No store, a damaged or unfinished one, one of another version, or another process writes it.
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> scene = tehl.scene("pitch-line").replace(**{"grid.nx": 64, "feature.length": float("inf"), "fatigue.on": False})
+    >>> run = tehl.zoom(tehl.run(scene, "coarse.zarr").path, 2)
+    >>> run.summary["zoom"]["factor"], run["p_max"].value > run.summary["zoom"]["base"]["p_max_Pa"]
+    (2, True)
+    """
+    from tehl_taichi.runs import single_run
+
+    return single_run.zoom(path, factor, threads=threads, progress=progress)
 
 
 def open(path: Name) -> "Run | Study | Flank | Bearing | Cam":

@@ -6,7 +6,7 @@ from tehl_taichi.engine import simd
 from tehl_taichi.laws.gap import undeformed
 from tehl_taichi.pressure import influence
 
-COARSEST_2D = 16  # cells along x below which no coarser grid is made
+COARSEST_2D = 16  # of Grids
 COARSEST_1D = 32
 DENSE_LIMIT = 700  # nodes up to which the coarsest grid is solved directly
 PAD = 4  # columns in front of the first and behind the last level that stencils may touch
@@ -16,10 +16,11 @@ class Grids:
     """Places, spacings and blocks of all levels, the finest first; dimensionless.
 
     description: the grid of a scene; scales: its Hertz units; nx, ny: cells (ny = 0: one-dimensional); full: from -y_max
-    instead of from the plane of symmetry (the lower edge of a line contact is then a mirror far away).
+    instead of from the plane of symmetry (the lower edge of a line contact is then a mirror far away); coarsest: cells along x
+    below which no coarser grid is made, in two dimensions.
     """
 
-    def __init__(self, description, scales, nx, ny, full=False):
+    def __init__(self, description, scales, nx, ny, full=False, coarsest=COARSEST_2D):
         self.scales, self.line, self.mirrored = scales, scales.line, scales.line or not full
         self.nx, self.ny, y_max = nx, ny, description.y_max * scales.b / scales.a
         self.X = np.linspace(description.x_min, description.x_max, nx + 1)
@@ -28,7 +29,7 @@ class Grids:
         self.dx = (description.x_max - description.x_min) / nx
         self.dy = (2 if full else 1) * y_max / ny if ny else 1.0
         self.middle = int(np.argmin(np.abs(self.Y))) if not self.line else ny  # row of a central film without feature
-        self.sizes = coarsen(nx, ny)
+        self.sizes = coarsen(nx, ny, coarsest)
         self.dense, self.lines = solved_by(self.sizes)
         self.blocks = self._blocks([*self.lines, *self.dense])
         self.fine = self.sizes[0][1] // simd.W + 1  # blocks of the finest grid
@@ -80,10 +81,10 @@ def load_weights(grids):
     return np.broadcast_to(w_y, (grids.ny + 1, grids.nx + 1))
 
 
-def coarsen(nx, ny):
+def coarsen(nx, ny, coarsest=COARSEST_2D):
     """Sizes of the grids from (nx, ny) down."""
     sizes = [(nx, ny)]
-    while _can_halve(*sizes[-1]):
+    while _can_halve(*sizes[-1], coarsest):
         sizes.append((sizes[-1][0] // 2, sizes[-1][1] // 2))
     return sizes
 
@@ -100,10 +101,10 @@ def solved_by(sizes):
     return [], [*range(0, last, 2), last]
 
 
-def _can_halve(nx, ny):
+def _can_halve(nx, ny, coarsest):
     if nx % 2 or ny % 2:
         return False
-    return nx // 2 >= COARSEST_1D if ny == 0 else nx // 2 >= COARSEST_2D and ny // 2 >= 3
+    return nx // 2 >= COARSEST_1D if ny == 0 else nx // 2 >= coarsest and ny // 2 >= 3
 
 
 def columns(nx, ny):
@@ -111,6 +112,6 @@ def columns(nx, ny):
     return (ny // simd.W + 1) * (nx + 1)
 
 
-def table_columns(nx, ny):
-    """Columns of all its grids, with what stencils touch in front and behind."""
-    return sum(columns(*size) for size in coarsen(nx, ny)) + 2 * (PAD + nx + 1)
+def table_columns(sizes):
+    """Columns of grids of these sizes, with what stencils touch in front and behind."""
+    return sum(columns(*size) for size in sizes) + 2 * (PAD + sizes[0][0] + 1)

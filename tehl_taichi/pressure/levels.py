@@ -7,7 +7,7 @@ from tehl_taichi.engine.taichi_patches.prebound import Carriers, bind
 from tehl_taichi.pressure import balances, fields, precision
 from tehl_taichi.pressure.conditions import conditions
 from tehl_taichi.pressure.deflection import Bending
-from tehl_taichi.pressure.grids import Grids, columns, load_weights, table_columns
+from tehl_taichi.pressure.grids import COARSEST_2D, Grids, coarsen, columns, load_weights, table_columns
 from tehl_taichi.pressure.level_table import LevelNumbers
 
 DTYPES = {"f32": np.float32, "f64": np.float64}  # of the linear solves
@@ -17,13 +17,14 @@ HEAVY = 4  # work of a column in the laws and in the linearisation, in units of 
 class Levels(Grids):
     """State table S, table of the linear problem J, numbers of the levels G and of the scene (conditions) on Grids.
 
-    scene: the description; scales, nx, ny, full: see :class:`Grids`. The fields of the finest grid are read and written as
+    scene: the description; scales, nx, ny, full, coarsest: see :class:`Grids`; domain: its extent, where that is not the
+    scene's. The fields of the finest grid are read and written as
     arrays (ny+1, nx+1) with :meth:`get` and :meth:`put`. Vectors of the Krylov solver are flat arrays of `n` numbers of type
     `linear` in the order of the table, ghosts included.
     """
 
-    def __init__(self, scene, scales, nx, ny, full=False):
-        super().__init__(scene.grid, scales, nx, ny, full)
+    def __init__(self, scene, scales, nx, ny, full=False, domain=None, coarsest=COARSEST_2D):
+        super().__init__(domain or scene.grid, scales, nx, ny, full, coarsest)
         self.scene, self.thins = scene, scene.shear_law.thins
         self.conditions = conditions(scene, scales, self.X)
         self.numbers = LevelNumbers(self, self.conditions, scene.rheology.film_floor)
@@ -36,13 +37,12 @@ class Levels(Grids):
         self.precision = precision.of(self.scene)
         self.linear = np.dtype(DTYPES[self.precision])
         rows = fields.NROWS if self.scene.isothermal else fields.NROWS_THERMAL
-        size = max(table_columns(self.nx, self.ny), _final_columns(self.scene))
+        size = max(table_columns(self.sizes), _final_columns(self.scene))
         self.S = field_pool.lease(self, rows, simd.W, size)
         self.J = field_pool.lease(self, fields.NROWS_LINEAR, simd.W, size, precision=self.precision)
 
     def _set_masks(self):
-        inside = np.zeros((self.ny + 1, self.nx + 1))
-        inside[0 if self.mirrored else 1 : int(self.G[0, fields.JN]), 1:-1] = 1.0
+        inside = self._unknown_nodes()
         self.unknowns = int(inside.sum())
         self.put(fields.MASK, inside)
         self.put(fields.WEIGHT, load_weights(self))
@@ -50,6 +50,12 @@ class Levels(Grids):
         self.inside = self.vector(fields.MASK)
         for l in range(len(self.sizes)):
             self._clear_level(l)
+
+    def _unknown_nodes(self):
+        """1 where the pressure is unknown (ny+1, nx+1), else 0."""
+        inside = np.zeros((self.ny + 1, self.nx + 1))
+        inside[0 if self.mirrored else 1 : int(self.G[0, fields.JN]), 1:-1] = 1.0
+        return inside
 
     def _clear_level(self, l):
         """Everything dry with a film of 1 and the diagonal 1, so that ghosts and borders stay finite."""
@@ -112,4 +118,4 @@ class Levels(Grids):
 
 def _final_columns(scene):
     """Columns of the finest grid of the scene: the steady start takes its smaller tables from the same memory."""
-    return table_columns(scene.grid.nx, scene.rows)
+    return table_columns(coarsen(scene.grid.nx, scene.rows))

@@ -78,10 +78,11 @@ def or_not_converged(solve):
 
 class PressureSolver:
     """Solves one step of `film` on `levels` (see :class:`Levels`, :class:`Equations`); linear: class of its linear solver, made
-    for `levels` (:class:`tehl_taichi.pressure.linear.interface.LinearSolver`)."""
+    for `levels` (:class:`tehl_taichi.pressure.linear.interface.LinearSolver`); carries_load: whether H0 follows from the load,
+    or is given."""
 
-    def __init__(self, levels, film, most_rises=np.inf, linear=MultigridGmres):
-        self.levels, self.most_rises = levels, most_rises
+    def __init__(self, levels, film, most_rises=np.inf, linear=MultigridGmres, carries_load=True):
+        self.levels, self.most_rises, self.carries_load = levels, most_rises, carries_load
         self.take(film)
         self.linear = linear(levels)
         self.inside = levels.inside.astype(levels.linear)
@@ -121,7 +122,7 @@ class PressureSolver:
         self._sums()
         sums = self.partial.sum(axis=0)
         self.couette = sums[balances.COUETTE]
-        self.load_error = sums[balances.LOAD] / self.load - 1
+        self.load_error = sums[balances.LOAD] / self.load - 1 if self.carries_load else 0.0
         self.mass_error = abs(sums[balances.OUTFLOW] / self.couette)
         return float(np.sqrt(sums[balances.PHI2] / self.levels.unknowns)) + abs(self.load_error)
 
@@ -187,7 +188,7 @@ class PressureSolver:
         """Relative accuracy of the linear solve: what the Newton step is likely to gain, not much more than convergence
         still needs."""
         mass = MASS_GAIN * self.levels.scene.numerics.mass_tolerance / max(self.mass_error, 1e-300)
-        needed = FORCING * min(tolerance / merit, mass)
+        needed = FORCING * min(tolerance / max(merit, 1e-300), mass)
         likely = NONLINEAR * merit if self.before is None else GAIN * (merit / self.before) ** GAIN_POWER
         self.before = merit
         return min(max(min(likely, krylov_tolerance), needed), 0.5)
@@ -211,7 +212,7 @@ class PressureSolver:
         if touching:
             self._contact()
         self._scale_mass(self.b)
-        load = -self.load_error * self.load
+        load = -self.load_error * self.load if self.carries_load else None
         found = self.linear.solve(RightHandSide(self.b, self.mass_row, load, krylov_tolerance, self.change))
         return np.append(found.pressure * self.inside, self.levels.linear.type(found.approach)), found.iterations
 

@@ -158,10 +158,8 @@ class Storage:
 
     def _restore(self, state):
         start, *old = state["mass"]
-        self._rest(start)
-        self.known, self.lengths = len(old), list(state["lengths"])
-        for row, q in zip(self.old, old):
-            self.past.put(row, q)
+        self.replace(start, old)
+        self.lengths = list(state["lengths"])
 
     def centre(self):
         """What counts as resting is the newest state from here on: one that does not change any more is then steady."""
@@ -170,6 +168,13 @@ class Storage:
     def _rest(self, start):
         self.past.put(START, start)
         self.past.put(COUETTE, third_order(start))
+
+    def replace(self, start, old):
+        """Take rho H to be `start` at rest and `old` in the last steps, the newest first: of a grid that has moved."""
+        self._rest(start)
+        self.known = len(old)
+        for row, q in zip(self.old, old):
+            self.past.put(row, q)
 
     def state(self):
         """Arrays to continue from: mass (start, newest, ...), lengths of the steps between the latter."""

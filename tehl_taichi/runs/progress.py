@@ -7,8 +7,9 @@ import time
 
 from tehl_taichi.runs.pace import Pace
 
-STEADY, PASSAGE, FATIGUE, ERRORS = STAGES = ("steady start", "passage", "stresses and fatigue", "coarse-grid runs")
-LATE = FATIGUE, ERRORS  # stages after the last step, of minutes on fine grids
+STAGES = "steady start", "passage", "zoom", "stresses and fatigue", "coarse-grid runs"
+STEADY, PASSAGE, ZOOM, FATIGUE, ERRORS = STAGES
+LATE = ZOOM, FATIGUE, ERRORS  # stages after the last step, of minutes on fine grids
 TOLD = 0.1  # of such a stage, from which on the time left is shown: its first parts, tables, take longer than the others
 
 

@@ -66,6 +66,21 @@ def resume(path: str | PathLike, *, steps: int | None = None, threads: int | Non
     return _continue(path, rest, threads, began, progress)
 
 
+def zoom(path: str | PathLike, factor: int = 4, *, threads: int | None = None, progress: Progress | None = None) -> Run:
+    """As :func:`tehl_taichi.zoom`."""
+    began = time.perf_counter()
+    from tehl_taichi.engine import runtime
+
+    before, progress = open(path), progress or Progress()
+    if not before.finished:
+        raise StoreError(f"{before.path} is not finished: use tehl resume {before.path} first")
+    scene = before.scene.replace(**{"zoom.factor": factor})
+    if scene == before.scene:
+        return before
+    runtime.check(threads=threads)
+    return _continue(before.path, scene, threads, began, progress)
+
+
 def completed(scene: Scene, path: str | PathLike, *, threads: int | None = None, progress: Progress | None = None) -> Run:
     """The finished run of `scene` in the store at `path`: as it lies there, resumed, or run now.
 
@@ -172,8 +187,23 @@ def _finish(saved, state, steady, clock, progress):
         domain = DomainError.from_values(steady["steady_domain"])
         notify = functools.partial(progress.stage, ERRORS)
         passage = coarse_runs.errors(saved.scene, saved, sure, lambda: coarse_answers(notify), domain)
+        if saved.scene.zooms and len(saved) > 2:
+            passage, found, arrays = _zoom(saved, passage, sure, domain, steady, progress)
     saved.finish(summarise(saved, {**clock.times(), **steady, **passage}, found), arrays)
     return Run(saved)
+
+
+def _zoom(saved, passage, sure, domain, steady, progress):
+    """(error bars and numbers, {surface: summary}, arrays) of a run with its fine window; passage, sure: bars and searches of
+    the run alone."""
+    from tehl_taichi.runs import zoomed_run
+
+    windows = zoomed_run.levels(saved, progress)
+    found, arrays = zoomed_run.search(saved, windows, progress) if sure else ({}, {})
+    _add_contact_alone(found, steady["steady_contact_alone"])
+    passage = zoomed_run.corrected(saved, windows, sure, passage, domain)
+    numbers = zoomed_run.summary(saved, windows, passage, found)
+    return {**passage, "zoom": numbers}, found, {**arrays, **zoomed_run.arrays(windows)}
 
 
 class _Clock:

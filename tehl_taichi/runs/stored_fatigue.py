@@ -9,11 +9,15 @@ from tehl_taichi.fatigue.search_result import SearchResult
 from tehl_taichi.runs.summary.film_warnings import no_index
 
 
-def assessed(store, scene, progress=None, until=None, threads=None):
+def assessed(store, scene, progress=None, until=None, threads=None, reader=None):
     """:class:`tehl_taichi.fatigue.search_result.SearchResult` of a stored passage by the constants of `scene`; of the pressure
-    alone where the film has more shear than any oil. progress, until, threads: as of :func:`tehl_taichi.fatigue`."""
+    alone where the film has more shear than any oil.
+
+    reader: what is searched, if not the store; progress, until, threads: as of :func:`tehl_taichi.fatigue`.
+    """
     why = no_index(store) if scene.fatigue.shear else ""
-    searched = fatigue(store, scene.replace(**WITHOUT) if why else scene, progress=progress, threads=threads, until=until)
+    counted = scene.replace(**WITHOUT) if why else scene
+    searched = fatigue(reader or store, counted, progress=progress, threads=threads, until=until)
     found = cast(SearchResult, searched)  # of a store, not of single points
     if not why:
         return found

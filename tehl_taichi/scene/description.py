@@ -39,6 +39,7 @@ from tehl_taichi.scene.sections import (
     Rheology,
     Thermal,
     Time,
+    Zoom,
 )
 from tehl_taichi.scene.speeds import of_surfaces
 from tehl_taichi.scene.surface.maps import map_warnings
@@ -68,7 +69,7 @@ class Scene:
     ----------
     name : str
         Stores are named after it.
-    contact, operation, rheology, thermal, fatigue, grid, time, numerics, output
+    contact, operation, rheology, thermal, fatigue, grid, time, numerics, output, zoom
         The sections, classes of these names (:class:`tehl_taichi.Contact` ...).
     body_a, body_b : Body
         Body a carries the features.
@@ -108,6 +109,7 @@ class Scene:
     time: Time = Time()
     numerics: Numerics = Numerics()
     output: Output = Output()
+    zoom: Zoom = Zoom()
     note: str = field(default="", compare=False)
     user_keys = None  # full keys that the user gave: those without effect are reported; None: those of unusual values
 
@@ -131,6 +133,7 @@ class Scene:
         self._check_motion()
         self._check_path()
         self._check_room()
+        self._check_zoom()
         resolution.check(self)
         self._check_window()
 
@@ -183,6 +186,17 @@ class Scene:
                                  f"undeformed gap of {gap:.3g} m, smaller than the height of a feature, {highest:.3g} m; "
                                  f"allowed: a height of at most {gap:.2g} m, more load{farther}"
                                  f"{self.load_meant(need / min(abs(end), domain.INLETS[0])) or self._form_words()}")
+
+    def _check_zoom(self):
+        """A window needs one temperature and every step."""
+        if not self.zooms:
+            return
+        if not self.isothermal:
+            raise SceneError(f"zoom.factor = {self.zoom.factor} needs a film of one temperature: use --isothermal, or "
+                             "zoom.factor = 0")
+        if self.output.every > 1:
+            raise SceneError(f"zoom.factor = {self.zoom.factor} needs every step: use output.every = 1 (it is "
+                             f"{self.output.every})")
 
     def _check_window(self):
         """Some moments must be left of the passage."""
@@ -246,6 +260,11 @@ class Scene:
     def transient(self):
         """True when a feature passes."""
         return bool(self.features) and not self.time.steady_only
+
+    @property
+    def zooms(self):
+        """Whether a fine window rides with its feature."""
+        return self.transient and self.zoom.factor > 0
 
     @property
     def at_rest(self):

@@ -19,7 +19,7 @@ from tehl_taichi.scene.named_oils import OILS
 from tehl_taichi.scene.named_steels import STEELS
 from tehl_taichi.scene.oil import Oil, in_one_temperature
 from tehl_taichi.scene.scales import Scales
-from tehl_taichi.scene.sections import Fatigue, Time
+from tehl_taichi.scene.sections import Fatigue, Time, Zoom
 from tehl_taichi.scene.strength.strength import Strength
 from tehl_taichi.scene.strength.table import HARDNESS, KAPPA, RESIDUAL
 from tehl_taichi.values.automatic import AutomaticValue
@@ -264,6 +264,14 @@ def _strength(scene):
             yield f"fatigue.{name.removesuffix('_Pa')}", "the table gives it"
 
 
+def _zoom(scene):
+    if not scene.transient:
+        yield "zoom.factor", "nothing passes"
+    if not scene.zooms:
+        why = "zoom.factor = 0" if scene.transient else "nothing passes"
+        yield from ((f"zoom.{key}", why) for key in kinds(Zoom) if key != "factor")
+
+
 def _across(scene):
     if scene.rows == 0:
         yield from ((f"grid.{key}", "nothing varies along y in this line contact") for key in ("ny", "y_max"))
@@ -272,7 +280,7 @@ def _across(scene):
             yield f"feature.{n}.y", "the feature does not vary along y"
 
 
-RULES = (_rheology, _oil, _temperature, _heat, _expansion_of_bodies, _passage, _fatigue, _strength, _across)
+RULES = (_rheology, _oil, _temperature, _heat, _expansion_of_bodies, _passage, _fatigue, _strength, _zoom, _across)
 
 
 def given_keys(scene, tables):

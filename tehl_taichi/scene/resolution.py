@@ -54,7 +54,7 @@ def check(scene):
         _check_x(scene, scales, label(scene, n), feature)
         _check_y(scene, scales, label(scene, n), feature)
     worst = min(sights(scene), key=lambda sight: sight.cells, default=None)
-    if worst and worst.cells < FEWEST:
+    if worst and worst.cells * max(scene.zoom.factor, 1) < FEWEST:
         raise SceneError(f"{worst.key} = {worst.length:.3g} m is {worst.cells:.2g} cells of grid.{worst.count} = {worst.grid}, "
                          f"too few to resolve it; allowed: at least {FEWEST} cells: {_remedy(scene, FEWEST, worst)}")
 
@@ -125,7 +125,7 @@ def warnings(scene):
 
 def _coarse(scene):
     worst = min(sights(scene), key=lambda sight: sight.cells, default=None)
-    if worst is None or worst.cells >= ENOUGH:
+    if worst is None or worst.cells * max(scene.zoom.factor, 1) >= ENOUGH:
         return []
     remedy = _remedy(scene, ENOUGH, worst)
     text = (f"{worst.key} = {worst.length:.3g} m is {worst.cells:.1f} cells of grid.{worst.count} = {worst.grid}; with fewer "

@@ -26,6 +26,7 @@ ROWS = 50000  # letters of a table of strength
 DEEPEST = 0.03  # m, of a depth: contacts are a millimetre wide, 0.05 was meant in mm
 LARGEST_RADIUS = 1.0  # m: the teeth of the largest gears have a fifth of it; a number beyond it was meant in mm
 LARGEST_RADIUS_Y = 100.0  # m: a roller is nearly straight
+FACTORS = (0, 2, 4, 8)  # of a zoom
 
 
 @documented
@@ -414,5 +415,34 @@ class Output:
         check(self, "output")
 
 
+@documented
+@dataclass(frozen=True, repr=False)
+class Zoom:
+    """A fine window that rides with the feature through the run.
+
+    Examples
+    --------
+    >>> import tehl_taichi as tehl
+    >>> tehl.Zoom(factor=4)
+    Zoom(factor=4)
+    """
+
+    factor: int = count(0, "cells of the window in a cell of the grid, along each axis: 2, 4 or 8; 0: no window", 0, 8)
+    width_x: float = quantity(0.0, "a", "width of the window along x; 0: of what the feature changes", 0.0, 4.0, usual=0.8,
+                              least=0.1)
+    width_y: float = quantity(0.0, "a", "width of the window along y; 0: of what the feature changes", 0.0, 8.0, usual=0.8,
+                              least=0.1)
+    from_x: float = quantity(-math.inf, "a", "first position of the feature with a window; -inf: its whole path", infinite=True)
+    to_x: float = quantity(math.inf, "a", "last position of the feature with a window; inf: its whole path", infinite=True)
+
+    def __post_init__(self):
+        check(self, "zoom")
+        if self.factor not in FACTORS:
+            raise SceneError(f"zoom.factor = {self.factor} is not one of {', '.join(map(str, FACTORS))} (0: no window)")
+        if not self.from_x < self.to_x:
+            raise SceneError(f"zoom.from_x = {self.from_x!r} a must be less than to_x = {self.to_x!r} a")
+
+
 SECTIONS = {"contact": Contact, "operation": Operation, "rheology": Rheology, "thermal": Thermal, "fatigue": Fatigue,
-            "grid": Grid, "time": Time, "numerics": Numerics, "output": Output}
+            "grid": Grid, "time": Time, "numerics": Numerics, "output": Output, "zoom": Zoom}
+NEWER = ("zoom",)  # sections that stores of earlier versions do not have

@@ -13,8 +13,8 @@ from tehl_taichi.disk.locks import LOCK
 from tehl_taichi.errors import SceneError, StoreError
 from tehl_taichi.laws.choices import CHOICES
 from tehl_taichi.laws.criteria import CRITERIA
-from tehl_taichi.scene.description import SECTIONS
 from tehl_taichi.scene.feature import SHAPES
+from tehl_taichi.scene.sections import NEWER, SECTIONS
 from tehl_taichi.store import attributes, stored_maps
 from tehl_taichi.values.coerce import shown
 
@@ -86,7 +86,7 @@ def _scene_data(text):
         data = json.loads(text)
     except (TypeError, ValueError):
         raise ValueError(f"{shown(text)} is not JSON") from None
-    if not isinstance(data, dict) or not SECTIONS.keys() <= data.keys():
+    if not isinstance(data, dict) or not SECTIONS.keys() - NEWER <= data.keys():
         raise ValueError("sections are missing")
     features = data.get("feature")
     if not isinstance(features, list) or not all(isinstance(one, dict) for one in features):

@@ -154,8 +154,9 @@ class Store(LockedFolder, Reader):
             for name, (values, dims, units, text) in (maps or {}).items():
                 if name in group:
                     del group[name]
-                values = np.asarray(values, "f8")
-                layout.array(group, name, values.shape, values.shape, "f8", dims, units, text, float("nan"))[...] = values
+                kind = "f4" if np.asarray(values).dtype == np.float32 else "f8"
+                values = np.asarray(values, kind)
+                layout.array(group, name, values.shape, values.shape, kind, dims, units, text, float("nan"))[...] = values
             written = layout.metadata(self.path)
             self.metadata |= {name: written[name] for name in maps or {}}
             self._commit(summary=json.dumps(plain(summary)), results=json.dumps(list(maps or {})), finished=True,

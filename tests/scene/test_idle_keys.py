@@ -102,6 +102,7 @@ def _passage(scene, s, x, y):
         return
     yield [(s.name, s.speed, len(s.features)) for s in scene.surfaces]
     yield step_length(scene), total_steps(scene), scene.path, scene.output.every, scene.symmetric
+    yield scene.zoom if scene.zooms else None
     for at in np.linspace(*scene.path, 7):
         yield [hash((f.height_at((x[None] - one.pace * at) * s.a - f.x, y[:, None] * s.b - f.y) + 0.0).tobytes())
                for one in scene.surfaces for f in one.features]

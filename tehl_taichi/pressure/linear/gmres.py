@@ -18,6 +18,7 @@ RIGHT, COSINE, SINE, WEIGHTS, COLUMN, SCALARS, TRIANGLE = (next(_row) for _ in r
 _entry = itertools.count()  # of SCALARS
 COUNT, LOAD, MASS, NORM, BETA, TOLERANCE, LIFT_LOAD, RISE, LEFT = (next(_entry) for _ in range(9))
 PORTION, NEXT = (next(_entry) for _ in range(2))  # iterations of a launch; the phase that the next launch continues with, or -1
+FIXED = next(_entry)  # 1 where H0 is given and nothing is asked of the load
 SQUARE_SUM, MASS_SUM, LOAD_SUM, DOT_SUM = range(4)  # columns of the partial sums; DOT_SUM: the first of those with the basis
 
 
@@ -47,7 +48,9 @@ def begin(N: ti.template(), partial: ti.template()):
 @ti.func
 def border(N: ti.template(), partial: ti.template(), k):
     """Change of H0 that goes with preconditioned vector k."""
-    N[RISES, k] = (total(partial, LOAD_SUM) * N[INVERSE, k] - N[LOADS, k]) / N[SCALARS, LIFT_LOAD]
+    N[RISES, k] = 0.0
+    if N[SCALARS, FIXED] == 0.0:
+        N[RISES, k] = (total(partial, LOAD_SUM) * N[INVERSE, k] - N[LOADS, k]) / N[SCALARS, LIFT_LOAD]
     N[SCALARS, RISE] = N[RISES, k]
 
 

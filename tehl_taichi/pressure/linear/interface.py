@@ -18,8 +18,8 @@ class RightHandSide:
         Right-hand side of the scaled rows (row scale: ``fields.SCALE``), in the order of the table.
     outflow : (levels.n,) of type levels.linear
         Weight of each scaled row in the net outflow. A multiple of the outflow that is left belongs to the residual.
-    load : float
-        Right-hand side of the load equation, ``sum(fields.WEIGHT * correction of P) = load``.
+    load : float or None
+        Right-hand side of the load equation, ``sum(fields.WEIGHT * correction of P) = load``. None: there is none, H0 stays.
     tolerance : float
         Norm of the residual to reach, relative to the norm of the right-hand side.
     change : float
@@ -28,7 +28,7 @@ class RightHandSide:
 
     rows: NDArray[Any]
     outflow: NDArray[Any]
-    load: float
+    load: float | None
     tolerance: float
     change: float
 

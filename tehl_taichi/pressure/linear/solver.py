@@ -149,9 +149,10 @@ class Krylov:
         self._run(self.program.lift)
 
     def solve(self, load, mass, tolerance):
-        """Solve for `right` and the components `load`, `mass` to a residual of `tolerance` times theirs, or as far as
-        iterations go, into `out`. Returns the change of H0, the iterations and the reduction reached."""
-        self.numbers[SCALARS, [gmres.LOAD, gmres.MASS, gmres.TOLERANCE]] = load, mass, tolerance
+        """Solve for `right` and the components `load` (None: H0 stays), `mass` to a residual of `tolerance` times theirs, or as
+        far as iterations go, into `out`. Returns the change of H0, the iterations and the reduction reached."""
+        self.numbers[SCALARS, [gmres.LOAD, gmres.MASS, gmres.TOLERANCE]] = load or 0.0, mass, tolerance
+        self.numbers[SCALARS, gmres.FIXED] = load is None
         self._run(self.program.solve)
         count, beta, left, rise = self.numbers[SCALARS, [gmres.COUNT, gmres.BETA, gmres.LEFT, gmres.RISE]]
         return float(rise), int(count), float(left / beta) if beta > 0 else 0.0

@@ -98,6 +98,15 @@ def _of_search(fatigue, body):
             (early.get("below", {}), "", deep + of_it + body)]
 
 
+def zoom_ended(store, summary):
+    """A window that did not reach the end of its path."""
+    zoom = summary.get("zoom", {})
+    if zoom.get("ended"):
+        to = "nowhere" if zoom["to_a"] is None else f"up to {zoom['to_a']:.2f} a"
+        text = f"the zoom window ended early: {zoom['ended']}; numbers are the window's {to}, then those of the run alone"
+        yield with_data(text, factor=zoom["factor"])
+
+
 def largest_pressure(summary):
     """Pa, of the steady start and of the passage."""
     return max(summary.get(part, {}).get("p_max_Pa", 0.0) for part in ("steady", "transient"))
@@ -143,6 +152,6 @@ def worst_below(store, summary):
 # functions of (store, summary) that give their sentences, with the code of these
 CHECKS = {domain_warnings.short: "domain", domain_warnings.starved: "starved", worst_below: "below", rim_warnings.rims: "rim",
           yielding: "yield", **film_warnings.CHECKS, beyond_measured: "measured", held_temperatures: "held",
-          unknown_errors: "unknown", crowded: "crowded"}
+          unknown_errors: "unknown", crowded: "crowded", zoom_ended: "zoom"}
 ROUGH_CHECKS = {check: code for check, code in CHECKS.items() if code not in ("below", "peak", "resolved", "unknown")}
 ROUGH_CHECKS |= {of_single_peaks: "rough"}

@@ -25,9 +25,10 @@ def summarise(store, extra, searches=None):
     :func:`tehl_taichi.engine.task_pool.crowding`, here of this run; optional), steady_error, steady_unknown, steady_parts and
     steady_domain (see :class:`tehl_taichi.march.snapshot.Snapshot`), steady_contact_alone (see
     :func:`tehl_taichi.march.accuracy.contact_alone_bars.searches`), passage_error, passage_unknown and passage_parts alike;
-    searches: {surface: summary of its fatigue search}, the worse one first, or None."""
+    zoom (see :func:`tehl_taichi.runs.zoomed_run.summary`; optional); searches: {surface: summary of its fatigue search}, the
+    worse one first, or None."""
     scene = store.scene
-    scales = Scales.of(scene)
+    scales, zoom = Scales.of(scene), extra.get("zoom", {})
     out = {"scene": scene.name, "version": __version__, "store": str(store.path), "converged": True,
            "wall_s": extra["wall_s"], "compile_s": extra["compile_s"], "steps": int(store.series["step"][len(store) - 1]),
            **counts(store),
@@ -36,7 +37,7 @@ def summarise(store, extra, searches=None):
            "steady": _steady(store, extra)}
     out |= _roughness(scene, out["steady"])
     if len(store) > 1:
-        out["transient"] = _transient(store)
+        out["transient"] = {**_transient(store), **{key: zoom[key] for key in zoom.get("base", {})}}
     elif alone := extra.get("steady_contact_alone"):
         worse = next(iter(alone))
         out["contact_alone"], out["contact_alone_by_surface"] = {"surface": worse, **alone[worse]}, alone
@@ -47,7 +48,7 @@ def summarise(store, extra, searches=None):
         part["error"] = {name: known.get(bar) for name, bar in names.items()}
         part["error_parts"] = {name: of_it[bar] for name, bar in names.items() if bar in of_it}
         part |= unknown_of({name: unknown[bar] for name, bar in names.items() if bar in unknown})
-    out |= _von_mises(out)
+    out |= {**_von_mises(out), **({"zoom": zoom} if zoom else {})}
     out |= life.part(out.get("fatigue_by_surface", {}), scene.fatigue)
     out["work"] = _work(store)
     out["crowding"] = extra.get("crowding", [0, 0])

@@ -146,6 +146,7 @@ def _passage_rows(summary):
                  *([SummaryRow("area of solid contact, of the dry one", contact_share(t, AREA))] if t.get(AREA) else []),
                  SummaryRow("worst residual / load / mass error",
                      f"{t['residual_max']:.1e} / {t['load_error_max']:.1e} / {t['mass_error_max']:.1e}")]
+    rows += _zoom_rows(summary.get("zoom"))
     if "fatigue" in summary:
         return rows + rows_of_fatigue(summary["fatigue"], others(summary)) + _meaning_rows(summary) + _life_rows(summary)
     return rows + (_alone_rows(summary["contact_alone"]) if "contact_alone" in summary else [])
@@ -165,6 +166,17 @@ def _meaning_rows(summary):
         return []
     p, error = found
     return [SummaryRow("Fi = 1 of a smooth contact like this at about", with_error(p * 1e-9, error * 1e-9, "GPa"), p)]
+
+
+def _zoom_rows(zoom):
+    """The window, and what the run has without it."""
+    if not zoom:
+        return []
+    wide, high = zoom["window_a"]
+    size = f"{wide:.2g} x {high:.2g} a" if high else f"{wide:.2g} a"
+    base = zoom["base"]
+    return [SummaryRow("zoom window", f"{zoom['factor']} times as fine, {size}"),
+            SummaryRow("p_max / h_min without the zoom", f"{base['p_max_Pa'] / 1e9:.4g} GPa / {base['h_min_m'] * 1e6:.3g} um")]
 
 
 def rows_of_fatigue(f, beside=MappingProxyType({})):

@@ -1,0 +1,76 @@
+"""States of a run at any moment between its stored steps, by polynomials in time at rest."""
+
+import functools
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl_taichi.laws.density import rho_ratio
+from tehl_taichi.march.feature_gap import smooth_with, take_off
+from tehl_taichi.pressure.grids import Grids
+from tehl_taichi.scene.scales import Scales
+from tehl_taichi.scene.timeline import step_length
+from tehl_taichi.values.interpolation import lagrange
+
+POINTS = 4  # states of a polynomial
+
+
+@dataclass(frozen=True)
+class BaseState:
+    """X: of the first feature, a; P, mass (rho H), bent (deflection of the bodies): (ny+1, nx+1); H0: rigid approach."""
+
+    X: float
+    P: np.ndarray
+    mass: np.ndarray
+    bent: np.ndarray
+    H0: float
+
+    def __mul__(self, weight):
+        return BaseState(*(weight * getattr(self, name) for name in self.__dataclass_fields__))
+
+    def __add__(self, other):
+        return BaseState(*(getattr(self, name) + getattr(other, name) for name in self.__dataclass_fields__))
+
+
+class BaseStates:
+    """States of the run of a scene that `reader` holds (every step, the steady start first)."""
+
+    def __init__(self, scene, reader):
+        self.scene, self.reader, self.scales = scene, reader, Scales.of(scene)
+        self.grid = Grids(scene.grid, self.scales, scene.grid.nx, scene.rows, not scene.symmetric)
+        self.mirrored = self.grid.ny > 0 and scene.symmetric
+        self.last, self.first_x, self.way = len(reader) - 1, scene.path[0], step_length(scene)
+        self.entry = functools.lru_cache(maxsize=2 * POINTS)(self._entry)
+
+    def position(self, step):
+        """Centre of the first feature, a, at a step (or between two)."""
+        return self.first_x + step * self.way
+
+    def at(self, step):
+        """The BaseState at a step, or between two."""
+        whole = round(step)
+        if abs(step - whole) < 1e-9:
+            return self.entry(whole)
+        points = min(POINTS, self.last + 1)
+        begin = min(max(int(step) - points // 2 + 1, 0), self.last + 1 - points)
+        places = range(begin, begin + points)
+        return functools.reduce(BaseState.__add__, (self.entry(n) * w for n, w in zip(places, lagrange(places, step))))
+
+    def _entry(self, n):
+        s, found = self.scales, self.reader.fields(n, ("pressure", "film"))
+        p, film = (np.asarray(found[name], float).T for name in ("pressure", "film"))
+        H, H0 = film / s.h, float(self.reader.scalar("h0_m")[n]) / s.h
+        gap = self._gap(n)
+        if n == 0:  # the start is smooth; features come into its film with the first step
+            H = H + gap - smooth_with(self.grid, self.scene.standing)
+        return BaseState(self.position(n), p / s.p_H, self._density(p) * H, H - gap - H0, H0)
+
+    def _density(self, p):
+        return rho_ratio(self.scene.film_oil, p, self.scene.operation.temperature)
+
+    def _gap(self, n):
+        gap, X = self.grid.smooth_gap().copy(), self.position(n)
+        for surface in self.scene.surfaces:
+            for feature in surface.features:
+                take_off(gap, self.grid, feature, surface.pace * X)
+        return gap

@@ -1,0 +1,126 @@
+"""A run with a fine window: the window's passages after that of the run, the fatigue with them, numbers and their bars.
+
+Windows of half the factor and of the whole one make three grids with the run itself: their bars are found as those of
+coarse-grid runs are.
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from tehl_taichi.march.accuracy import coarse_runs
+from tehl_taichi.march.accuracy.domain_error import widened
+from tehl_taichi.march.accuracy.error_bars import bars
+from tehl_taichi.march.zoom import zoomed_passage
+from tehl_taichi.march.zoom.zoomed_reader import EXTREMES, ZoomedReader
+from tehl_taichi.runs.progress import ZOOM
+from tehl_taichi.scene.scales import Scales
+
+FIELDS = {"pressure": ("Pa", "pressure in the zoom window"), "film": ("m", "film thickness in the zoom window"),
+          **{f"traction_{axis}_{body}": ("Pa", f"shear on body {body} along {axis} in the zoom window")
+             for body in "ab" for axis in "xy"}}
+DIMS = ["zoom_moment", "zoom_x", "zoom_y"]
+
+
+@dataclass
+class ZoomLevel:
+    """A window's passage, the run with it as a reader, and {surface: summary of its search}."""
+
+    passage: zoomed_passage.ZoomedPassage
+    reader: ZoomedReader
+    searches: dict = field(default_factory=dict)
+
+
+def levels(saved, progress):
+    """The ZoomLevels of the run in the store `saved`, coarsest first; [] where its scene has no zoom, or no step."""
+    scene = saved.scene
+    if not scene.zooms or len(saved) < 3:
+        return []
+    factors = [factor for factor in (scene.zoom.factor // 2, scene.zoom.factor) if factor > 1]
+    return [_level(scene, saved, factor, progress, n, len(factors)) for n, factor in enumerate(factors)]
+
+
+def _level(scene, saved, factor, progress, n, count):
+    """One level; it is part n of so many."""
+    def notify(done, total):
+        progress.stage(ZOOM, n * total + done, count * total)
+
+    progress.stage(ZOOM, n, count)
+    found = zoomed_passage.passage(scene, saved, factor, notify)
+    return ZoomLevel(found, ZoomedReader(saved, found, scene.symmetric))
+
+
+def search(saved, found, progress):
+    """Search the fatigue of every level. Returns ({surface: summary}, arrays) of the finest."""
+    from tehl_taichi.runs.stored_fatigue import assessed
+
+    for level in found:
+        until = coarse_runs.resolved(saved.scene, level.reader, level.reader.scalar)
+        result = assessed(saved, saved.scene, progress, until, reader=level.reader)
+        level.searches = result.summaries
+    return result.summaries, result.to_arrays()
+
+
+def corrected(saved, found, searches, passage, domain):
+    """The error bars `passage` (as of :func:`tehl_taichi.march.accuracy.coarse_runs.errors`) of a run with those of the numbers
+    that its windows change; searches: {surface: summary} of the run without them."""
+    grids = [coarse_runs.passage_readings(saved.scene, saved, saved.scalar, searches),
+             *(coarse_runs.passage_readings(saved.scene, level.reader, level.reader.scalar, level.searches) for level in found)]
+    changed = {name for name, reading in grids[-1].items()
+               if name not in grids[0] or reading.value != grids[0][name].value}
+    sizes, reasons = bars(grids)
+    sizes, reasons = ({name: one for name, one in part.items() if name in changed} for part in (sizes, reasons))
+    values = {name: grids[-1][name].value for name in changed}
+    known, unknown, parts = widened(sizes, reasons, values, domain, saved.scene.operation.temperature, passing=True)
+    kept = {name: why for name, why in passage.get("passage_unknown", {}).items() if name not in changed}
+    return {"passage_error": passage.get("passage_error", {}) | known, "passage_unknown": kept | unknown,
+            "passage_parts": passage.get("passage_parts", {}) | parts}
+
+
+def summary(saved, found, errors, searches):
+    """The part "zoom" of the summary: numbers of the finest level; errors: of :func:`corrected`; searches: {surface: summary}
+    of it."""
+    last = found[-1]
+    w, scene, keys = last.passage.window, saved.scene, list(EXTREMES)
+    out = {"factor": w.factor, "window_a": [w.nx * w.dx, _width(scene, w)], "cells": [w.nx, w.ny],
+           **{key: _extreme(last.reader, key) for key in keys}}
+    bars_of = {key: errors["passage_error"].get(key) for key in keys}
+    if searches:
+        out |= {"Fi_max": max(_largest(one) for one in searches.values())}
+    out |= {"error": bars_of, "base": {key: _extreme(saved, key) for key in keys},
+            "from_a": _position(saved, last.passage.entries[:1]), "to_a": _position(saved, last.passage.entries[-1:]),
+            "newton_per_step": last.passage.newton / max(last.passage.attempts, 1)}
+    return out | ({"ended": last.passage.ended} if last.passage.ended else {})
+
+
+def _largest(search):
+    from tehl_taichi.fatigue.assessment import largest
+    from tehl_taichi.fatigue.pressure_alone import searched
+
+    return largest(searched(search))
+
+
+def _width(scene, w):
+    """Width of the window along y, a; on a half domain that of both halves."""
+    return w.ny * w.dy * (2 if scene.symmetric and w.ny else 1)
+
+
+def _extreme(reader, key):
+    return float(EXTREMES[key][1](reader.scalar(key)[1:]))
+
+
+def _position(saved, entries):
+    a = Scales.of(saved.scene).a
+    return float(saved.feature_x(entries[0])) / a if entries else None
+
+
+def arrays(found):
+    """{name: (values, dims, units, text)} of the finest level for a store."""
+    last, w = found[-1].passage, found[-1].passage.window
+    out = {f"zoom_{name}": (np.stack(values), DIMS, *FIELDS[name]) for name, values in last.fields.items() if values}
+    x = found[-1].reader.x
+    out["zoom_entry"] = np.array(last.entries, float), DIMS[:1], "1", "entry of the run at each moment of the zoom"
+    out["zoom_left"] = x[np.array(last.origins, int)], DIMS[:1], "m", "x of the first column of the zoom window"
+    out["zoom_x"] = np.arange(w.nx + 1) * (x[1] - x[0]), ["zoom_x"], "m", "distance from the first column of the zoom window"
+    out["zoom_y"] = found[-1].reader.y[w.row : w.row + w.ny + 1], ["zoom_y"], "m", "across, in the zoom window"
+    return out

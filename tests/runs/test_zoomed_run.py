@@ -1,0 +1,121 @@
+"""Runs with a fine window: numbers, bars, what is stored, and windows that are added to a finished run."""
+
+import json
+import sys
+
+import numpy as np
+import pytest
+
+import tehl_taichi as tehl
+from tehl_taichi.store.reader import Reader
+
+LINE = tehl.scene("pitch-line").replace(**{"feature.length": float("inf"), "grid.nx": 64, "fatigue.surfaces": "a",
+                                           "time.x_end": 0.4, "numerics.estimate_error": False})
+ZOOMED = LINE.replace(**{"zoom.factor": 4})
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return tmp_path_factory.mktemp("zoom")
+
+
+@pytest.fixture(scope="module")
+def plain(folder):
+    return tehl.run(LINE, folder / "plain.zarr")
+
+
+@pytest.fixture(scope="module")
+def zoomed(folder):
+    return tehl.run(ZOOMED, folder / "zoomed.zarr")
+
+
+def numbers(summary):
+    """A summary without what belongs to one run."""
+    return json.dumps({key: value for key, value in summary.items() if key not in ("store", "wall_s", "compile_s", "crowding")})
+
+
+def test_its_numbers_are_those_of_the_window(plain, zoomed):
+    zoom, base = zoomed.summary["zoom"], plain.summary["transient"]
+    assert zoom["factor"] == 4 and len(zoom["window_a"]) == 2 and "ended" not in zoom
+    assert zoom["base"]["p_max_Pa"] == base["p_max_Pa"] != zoom["p_max_Pa"]
+    for key in ("p_max_Pa", "h_min_m"):
+        assert zoomed.summary["transient"][key] == zoom[key]
+        assert zoomed.summary["transient"]["error"][key] == zoom["error"][key]
+    deep = max(part["Fi_max"] for part in (zoomed.summary["fatigue"], zoomed.summary["fatigue"]["below"]))
+    assert zoom["Fi_max"] == deep != plain.summary["fatigue"]["Fi_max"]
+    assert zoomed["p_max"].value == zoom["p_max_Pa"]
+
+
+def test_its_bars_hold_the_numbers_of_a_run_four_times_finer(zoomed, folder):
+    fine = tehl.run(LINE.replace(**{"grid.nx": 256}), folder / "fine.zarr").summary
+    zoom, error = zoomed.summary["zoom"], zoomed.summary["zoom"]["error"]
+    assert abs(zoom["p_max_Pa"] - fine["transient"]["p_max_Pa"]) < min(error["p_max_Pa"], 0.003 * zoom["p_max_Pa"])
+    found, there = zoomed.summary["fatigue"], fine["fatigue"]
+    assert abs(found["Fi_max"] - there["Fi_max"]) < found["error"]["Fi_max"]
+    assert abs(found["below"]["Fi_max"] - there["below"]["Fi_max"]) < found["below"]["error"]["Fi_max"]
+
+
+def test_its_fields_are_stored_with_their_places(zoomed):
+    store = Reader.open(zoomed.path)
+    p, left, x, entries = (store.map(f"zoom_{name}") for name in ("pressure", "left", "x", "entry"))
+    assert p.shape == (len(entries), x.size, 1) and p.dtype == np.float32
+    assert p.max() == pytest.approx(zoomed.summary["zoom"]["p_max_Pa"], rel=1e-6)
+    step = x[1] - x[0]
+    assert step == pytest.approx((store.x[1] - store.x[0]) / 4)
+    last = int(entries[-1])
+    at = np.round((store.x - left[-1]) / step).astype(int)
+    shared = (at >= 0) & (at < x.size) & (np.abs(at * step + left[-1] - store.x) < 1e-9)
+    run = store.fields(last, ("pressure",))["pressure"][shared, 0]
+    assert np.abs(p[-1, at[shared], 0] - run)[[0, 1, -1]].max() < 1e-5 * run.max()  # the border of the window is the run's
+
+
+def test_a_window_that_is_added_later_is_the_same_and_can_be_removed(plain, zoomed, folder):
+    later = tehl.run(LINE, folder / "later.zarr")
+    later = tehl.zoom(later.path)
+    assert later.scene == ZOOMED and numbers(later.summary) == numbers(zoomed.summary)
+    assert tehl.zoom(later.path) is not later and numbers(tehl.open(later.path).summary) == numbers(zoomed.summary)
+    removed = tehl.zoom(later.path, 0)
+    assert numbers(removed.summary) == numbers(plain.summary) and Reader.open(later.path).map("zoom_pressure") is None
+
+
+def test_what_cannot_have_a_window(plain, folder):
+    with pytest.raises(tehl.SceneError, match="zoom.factor = 5 is not one of"):
+        tehl.zoom(plain.path, 5)
+    assert tehl.open(plain.path).finished
+    steady = tehl.run(tehl.scene("smooth-line").replace(**{"grid.nx": 64, "thermal.on": False}), folder / "steady.zarr")
+    with pytest.raises(tehl.SceneError, match="zoom.factor has no effect here: nothing passes"):
+        tehl.zoom(steady.path)
+    with pytest.raises(tehl.StoreError, match="nothing.zarr"):
+        tehl.zoom(folder / "nothing.zarr")
+
+
+def test_a_window_that_ends_early_is_a_warning(folder, monkeypatch):
+    from tehl_taichi.march.zoom import zoomed_passage
+
+    whole = zoomed_passage.passage
+
+    def ends(scene, reader, factor, notify):
+        found = whole(scene, reader, factor, notify)
+        for values in (found.entries, found.origins, *found.fields.values()):
+            del values[20:]
+        found.ended = "it did not converge with the feature at -0.37 a"
+        return found
+
+    monkeypatch.setattr(zoomed_passage, "passage", ends)
+    run = tehl.run(ZOOMED.replace(**{"fatigue.on": False}), folder / "ended.zarr")
+    warning = next(one for one in run.warnings if one.code == "zoom")
+    assert "ended early: it did not converge with the feature at -0.37 a" in warning
+    assert run.finished and run.summary["zoom"]["to_a"] < 0
+
+
+def test_without_a_window_nothing_of_it_is_loaded():
+    import subprocess
+
+    code = ("import sys, tehl_taichi as tehl; "
+            "tehl.run(tehl.scene('pitch-line').replace(**{'feature.length': float('inf'), 'grid.nx': 64, 'time.steps': 3}), "
+            "'a.zarr'); print([name for name in sys.modules if 'zoom' in name])")
+    import tempfile
+
+    with tempfile.TemporaryDirectory() as place:
+        done = subprocess.run([sys.executable, "-c", code], cwd=place, text=True, capture_output=True)
+    assert done.stdout.strip().splitlines()[-1] == "[]", done.stderr[-500:]
