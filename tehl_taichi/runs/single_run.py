@@ -7,7 +7,7 @@ import time
 from os import PathLike
 from pathlib import Path
 
-from tehl_taichi.errors import StoreError, interrupt
+from tehl_taichi.errors import SceneError, StoreError, interrupt
 from tehl_taichi.fatigue.pressure_alone import WITHOUT, why_none
 from tehl_taichi.runs.progress import ERRORS, PASSAGE, STEADY, Progress
 from tehl_taichi.runs.stored_run import Run
@@ -75,6 +75,8 @@ def zoom(path: str | PathLike, factor: int = 4, *, threads: int | None = None, p
     if not before.finished:
         raise StoreError(f"{before.path} is not finished: use tehl resume {before.path} first")
     scene = before.scene.replace(**{"zoom.factor": factor})
+    if factor and not scene.zooms:
+        raise SceneError(f"{before.path}: no feature passes in this run, so there is nothing to zoom in on")
     if scene == before.scene:
         return before
     runtime.check(threads=threads)

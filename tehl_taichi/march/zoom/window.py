@@ -1,4 +1,4 @@
-"""Where the window of a zoom lies: nodes of a grid that is `factor` times as fine as that of the run."""
+"""Place of the window of a zoom: nodes of a grid that is `factor` times as fine as that of the run."""
 
 import math
 from dataclasses import dataclass
