@@ -22,6 +22,7 @@ def register(app):
     bench.command()(cracks)
     bench.command()(accuracy)
     bench.command()(speed)
+    bench.command()(zoom)
     bench.command()(scaling)
     bench.command()(sweep)
     bench.command()(profile)
@@ -190,6 +191,30 @@ def cracks(
     if not as_json:
         list_table("crack paths", suite.COLUMNS, [(row.case, *suite.cells(row)) for row in rows])
     results.finish([vars(row) for row in rows], lambda plt: suite.chart(plt, rows), as_json)
+
+
+def zoom(
+    out: Path = _folder("runs/zoom", "folder of the stores and results (existing stores are reused)"),
+    quick: bool = typer.Option(False, "--quick", help="run one line contact on coarse grids"),
+    as_json: bool = JSON,
+    force: bool = FORCE,
+    write: bool = WRITE,
+    threads: Optional[int] = THREADS,
+):
+    """Compare runs with a fine window to runs that are as fine everywhere. Example: `tehl bench zoom --quick`"""
+    from tehl_cli.tables import list_table
+    from tehl_taichi.profiles import measure
+    from tehl_taichi.profiles import zoom as suite
+
+    results = Results(out, "zoom", force, write=write)
+    for rows in suite.run(out, quick, threads, say):  # those so far are kept, whatever comes
+        measure.save(out, "zoom", measure.result([vars(row) for row in rows]))
+    texts_of = [suite.cells(row) for row in rows]
+    if not as_json:
+        list_table("zoom: a fine window against a fine grid", suite.COLUMNS, texts_of)
+    results.documented(suite.COLUMNS, texts_of)
+    results.finish([{**vars(row), "off": row.off, "holds": row.holds} for row in rows], lambda plt: suite.chart(plt, rows),
+                   as_json)
 
 
 def accuracy(

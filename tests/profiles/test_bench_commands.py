@@ -21,6 +21,7 @@ from tehl_taichi.profiles import (
     side_by_side,
     speed,
     stability,
+    zoom,
 )
 
 from tehl_taichi.runs.sweep import sweeping, warm_cache
@@ -283,7 +284,23 @@ def test_cracks(tmp_path, monkeypatch):
             assert any(cell.startswith(f"{row['numbers']['sigma1'][0] / 1e6:.0f} ± ?") for cell in shown[0])
 
 
-QUICK = {"profile": 1, "scaling": 1, "speed": 1, "stability": 1, "sweep": None, "accuracy": 1, "conclusions": 1, "cracks": 1}
+def test_zoom(tmp_path, monkeypatch):
+    once(monkeypatch, zoom)
+    work = zoom.cases
+    monkeypatch.setattr(zoom, "cases", lambda quick: {
+        name: one.replace(**{"fatigue.surfaces": "a", "time.x_end": 0.2, "numerics.estimate_error": False})
+        for name, one in work(quick).items()})
+    text, found = done(tmp_path, "zoom", "zoom", "--quick", "--threads", 2)
+    assert [row["number"] for row in found["rows"]] == list(zoom.NUMBERS)
+    for row in found["rows"]:
+        line, = lines_with(text, row["case"], row["number"])
+        assert any(cell.startswith(f"{row['zoom']:.4g} ± {row['error']:.2g}") for cell in line)
+        assert row["off"] == pytest.approx(abs(row["zoom"] / row["fine"] - 1)) and row["holds"] is True
+    pressure = found["rows"][0]
+    assert pressure["off"] < 0.005 < abs(pressure["coarse"] / pressure["fine"] - 1)
+
+
+QUICK = {"profile": 1, "scaling": 1, "speed": 1, "stability": 1, "sweep": None, "accuracy": 1, "conclusions": 1, "cracks": 1, "zoom": 1}
 
 
 @pytest.mark.slow

@@ -1,0 +1,118 @@
+"""Zoom: runs with a fine window against runs that are as fine everywhere, and what both cost."""
+
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from tehl_taichi.runs.single_run import completed
+from tehl_taichi.scene import scene
+
+GRID, FACTOR = (128, 32), 4
+QUICK_GRID, QUICK_FACTOR = (64, 16), 2
+SLIPS = {"SRR -0.12": -0.12, "SRR 0": 0.0, "SRR +0.12": 0.12}
+FEATURES = {"asperity": 1.5e-6, "dent": -1.5e-6}
+# {number: (where it is in a summary, unit, that in SI)}
+NUMBERS = {"p_max": (("transient", "p_max_Pa"), "GPa", 1e9), "h_min": (("transient", "h_min_m"), "um", 1e-6),
+           "Fi surface": (("fatigue", "Fi_max"), "", 1.0), "Fi below": (("fatigue", "below", "Fi_max"), "", 1.0)}
+
+
+@dataclass(frozen=True)
+class ZoomRow:
+    """number of a case: of the coarse run, with its window (and the error bar of that), of the fine run; run times, s."""
+
+    case: str
+    number: str
+    unit: str
+    coarse: float
+    zoom: float
+    error: float | None
+    fine: float
+    coarse_s: float
+    zoom_s: float
+    fine_s: float
+
+    @property
+    def off(self):
+        """Distance of the zoomed number from that of the fine run, relative."""
+        return abs(self.zoom - self.fine) / abs(self.fine)
+
+    @property
+    def holds(self):
+        """Whether the error bar holds it; None without a bar."""
+        return None if self.error is None else abs(self.zoom - self.fine) <= self.error
+
+
+def cases(quick=False):
+    """{name: isothermal scene}; quick: one line contact."""
+    nx, ny = QUICK_GRID if quick else GRID
+    base = scene("gear").replace(**{"thermal.on": False, "grid.nx": nx, "grid.ny": ny})
+    if quick:
+        return {"line, SRR 0": base.replace(srr=0.0, **{"feature.length": np.inf})}
+    return {f"{kind}, {slip}": base.replace(srr=srr, height=height) for kind, height in FEATURES.items()
+            for slip, srr in SLIPS.items()}
+
+
+def run(folder, quick=False, threads=None, progress=None):
+    """Generator of all rows so far, after every case; stores lie in `folder` and are used again. progress: called with a line
+    of text."""
+    say, rows, factor = progress or (lambda text: None), [], QUICK_FACTOR if quick else FACTOR
+    for name, description in cases(quick).items():
+        say(f"{name}: coarse, with a window, fine")
+        g = description.grid
+        found = [_finished(one, Path(folder) / f"{_file(name)}-{kind}.zarr", threads) for kind, one in (
+            ("coarse", description), (f"zoom{factor}", description.replace(**{"zoom.factor": factor})),
+            ("fine", description.replace(**{"grid.nx": g.nx * factor, "grid.ny": g.ny * factor})))]
+        rows += [_row(name, number, *found) for number in NUMBERS]
+        yield rows
+
+
+def _file(name):
+    return name.replace(",", "").replace(" ", "-").replace("+", "plus").lower()
+
+
+def _finished(description, path, threads):
+    """(summary, s) of a run."""
+    began = time.perf_counter()
+    summary = completed(description, path, threads=threads).summary
+    return summary, max(time.perf_counter() - began, summary["wall_s"])
+
+
+def _row(case, number, coarse, zoomed, fine):
+    place, unit, si = NUMBERS[number]
+    values = [_value(summary, place) / si for summary, _ in (coarse, zoomed, fine)]
+    error = _value(zoomed[0], (*place[:-1], "error", place[-1]))
+    return ZoomRow(case, number, unit, *values[:2], None if error is None else error / si, values[2],
+                   *(seconds for _, seconds in (coarse, zoomed, fine)))
+
+
+def _value(summary, place):
+    for key in place:
+        summary = summary[key]
+    return summary
+
+
+COLUMNS = ("case", "number", "coarse", "with window", "fine", "off, %", "bar holds", "time s: coarse, window, fine")
+
+
+def cells(row):
+    """Texts of a row."""
+    unit = f" {row.unit}" if row.unit else ""
+    bar = "" if row.error is None else f" ± {row.error:.2g}"
+    holds = {None: "no bar", True: "yes", False: "no"}[row.holds]
+    return [row.case, row.number, f"{row.coarse:.4g}{unit}", f"{row.zoom:.4g}{bar}{unit}", f"{row.fine:.4g}{unit}",
+            f"{100 * row.off:.2f}", holds, f"{row.coarse_s:.0f}, {row.zoom_s:.0f}, {row.fine_s:.0f}"]
+
+
+def chart(plt, rows):
+    """Distance from the fine run, of the coarse run and with its window."""
+    figure, ax = plt.subplots(figsize=(8, 0.28 * len(rows) + 1.4), constrained_layout=True)
+    at = np.arange(len(rows))
+    for name, values in (("coarse", [abs(row.coarse / row.fine - 1) for row in rows]), ("with window", [row.off for row in rows])):
+        ax.plot(100 * np.maximum(values, 1e-6), at, "o", label=name)
+    ax.set(xscale="log", xlabel="distance from the fine run, %", yticks=at,
+           yticklabels=[f"{row.case}, {row.number}" for row in rows])
+    ax.invert_yaxis()
+    ax.legend()
+    return figure
