@@ -109,7 +109,8 @@ def chart(plt, rows):
     """Distance from the fine run, of the coarse run and with its window."""
     figure, ax = plt.subplots(figsize=(8, 0.28 * len(rows) + 1.4), constrained_layout=True)
     at = np.arange(len(rows))
-    for name, values in (("coarse", [abs(row.coarse / row.fine - 1) for row in rows]), ("with window", [row.off for row in rows])):
+    coarse = [abs(row.coarse / row.fine - 1) for row in rows]
+    for name, values in (("coarse", coarse), ("with window", [row.off for row in rows])):
         ax.plot(100 * np.maximum(values, 1e-6), at, "o", label=name)
     ax.set(xscale="log", xlabel="distance from the fine run, %", yticks=at,
            yticklabels=[f"{row.case}, {row.number}" for row in rows])

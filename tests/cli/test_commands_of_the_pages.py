@@ -26,7 +26,8 @@ SHORT = {"run": f"{SMALL} --steps 0 --force --out made.zarr", "sweep": "--dry-ru
          "flank": "--grid 64 --isothermal --steady --no-figure", "bearing": "--no-run --no-figure",
          "traction": "--grid 64x16 --isothermal --no-figure --workers 1",
          "roller": "--no-run --no-figure", "cam": "--grid 64 --isothermal --no-figure --workers 1",
-         "resume": "--steps 1 --quiet", "zoom": "--factor 0 --quiet", "animate": "--frames 2 --dpi 40 --force", "plot": "--dpi 40 --force",
+         "resume": "--steps 1 --quiet", "zoom": "--factor 0 --quiet", "animate": "--frames 2 --dpi 40 --force",
+         "plot": "--dpi 40 --force",
          "crack": "--dpi 40", "fatigue": "--dpi 40",
          "report": "--force", "export": "--force"}
 AT_REST = "--isothermal --steps 0 --no-fatigue --no-estimate-error --quiet --force --set time.steady_only=true"
@@ -35,7 +36,8 @@ FILLED = {"STORE": "runs/gear-1.zarr", "STUDY": "runs/gear-sweep-3219f7.zarr", "
           "K": "0.3", "COMMAND": "run"}
 WITH = {"mp4": shutil.which("ffmpeg"), "netcdf": find_spec("xarray"), "--scheduler": find_spec("distributed")}  # what they need
 SUITES = {"accuracy": "accuracy.run", "speed": "speed.run", "scaling": "scaling.run", "stability": "stability.run",
-          "conclusions": "conclusions.run", "cracks": "cracks.run", "zoom": "zoom.run", "sweep": "side_by_side.run", "profile": "measure.fresh"}
+          "conclusions": "conclusions.run", "cracks": "cracks.run", "zoom": "zoom.run", "sweep": "side_by_side.run",
+          "profile": "measure.fresh"}
 
 
 def commands_of(page):

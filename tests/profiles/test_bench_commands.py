@@ -300,7 +300,8 @@ def test_zoom(tmp_path, monkeypatch):
     assert pressure["off"] < 0.005 < abs(pressure["coarse"] / pressure["fine"] - 1)
 
 
-QUICK = {"profile": 1, "scaling": 1, "speed": 1, "stability": 1, "sweep": None, "accuracy": 1, "conclusions": 1, "cracks": 1, "zoom": 1}
+QUICK = {"profile": 1, "scaling": 1, "speed": 1, "stability": 1, "sweep": None, "accuracy": 1, "conclusions": 1, "cracks": 1,
+         "zoom": 1}
 
 
 @pytest.mark.slow
