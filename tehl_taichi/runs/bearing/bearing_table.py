@@ -2,6 +2,7 @@
 
 import csv
 import io
+import math
 from dataclasses import dataclass
 from typing import Callable
 
@@ -61,6 +62,20 @@ def sliding_loss(bearing, ring):
     """Power (W) of the slip in the most loaded contact: friction coefficient x load x mean slip."""
     friction = sliding_friction(bearing, ring)
     return None if friction is None else friction * ring["load_N"] * ring["slip"]["mean_m_s"]
+
+
+def slip_torque(bearing):
+    """(power in W, friction torque in N m) of the slip in all contacts of a bearing record; None without runs, or with spin.
+
+    The mean slip of a contact grows with b^2, that is with Q^(2/3), and its loss with Q^(5/3); the friction coefficient is
+    that of the most loaded contact.
+    """
+    losses = [sliding_loss(bearing, bearing[ring]) for ring in RINGS]
+    if None in losses or any(bearing[ring]["spin_rad_s"] for ring in RINGS):
+        return None
+    shares = sum((load / bearing["ball_load_max_N"]) ** (5 / 3) for load in bearing["loads_N"])
+    which, power = bearing["geometry"], sum(losses) * shares
+    return power, power / (abs(which["speed"] - which["outer_speed"]) * math.pi / 30)
 
 
 CONTACT, MOTION, FILM, PASSAGE = PARTS = ("contact", "motion", "film", "while the feature passes")
@@ -126,7 +141,15 @@ def facts(bearing):
             ("elements under load", f"{one['loaded']} of {which['count']}"), *axial,
             ("radial displacement", f"{one['radial_displacement_m'] * 1e6:.2f} um"),
             ("speed of the cage", f"{one['cage_speed_1_min']:.1f} 1/min"),
-            ("contacts per second of a point of an element", f"{one['element_passes_per_s']:.2f}")]
+            ("contacts per second of a point of an element", f"{one['element_passes_per_s']:.2f}"), *_torque(one)]
+
+
+def _torque(one):
+    """Rows of the power and torque of the slip, where they are known."""
+    if not (found := slip_torque(one)):
+        return []
+    power, torque = found
+    return [("sliding loss of all contacts", f"{power:.3g} W"), ("friction torque of the slip", f"{torque * 1e3:.3g} N mm")]
 
 
 def estimated_words(bearing):

@@ -92,6 +92,18 @@ def test_results_of_the_runs_come_into_record_and_tables(tmp_path, monkeypatch):
     assert rows["h_c, um"][0] == f"{found.rings['inner']['R_x_m'] * 1e6:.3f}"
 
 
+def test_the_torque_of_the_slip_sums_the_contacts(dry):
+    """By hand: of two loaded balls, one with an eighth of the load, 1 + 8^(-5/3) = 1.03125 of the loss of the first."""
+    ring = {"summary": {"steady": {"friction_coefficient": 0.05}}, "slip": {"mean_m_s": 0.02}, "load_N": 800.0,
+            "spin_rad_s": 0.0}
+    record = {"inner": ring, "outer": ring, "ball_load_max_N": 800.0, "loads_N": [800.0, 100.0, 0.0],
+              "geometry": {"speed": 3000 / math.pi, "outer_speed": 0.0}}
+    power, torque = bearing_table.slip_torque(record)
+    assert power == pytest.approx(2 * 0.8 * 1.03125) and torque == pytest.approx(power / 100)
+    assert bearing_table.slip_torque(dry.record) is None
+    assert bearing_table.slip_torque({**record, "inner": {**ring, "spin_rad_s": 5.0}}) is None
+
+
 def test_a_ring_without_a_result_is_named(tmp_path, monkeypatch):
     def work(job, *_):
         made = position(job)
