@@ -19,6 +19,7 @@ def register(app):
                                                    "numbers.")
     bench.command()(stability)
     bench.command()(conclusions)
+    bench.command()(verdict)
     bench.command()(cracks)
     bench.command()(accuracy)
     bench.command()(speed)
@@ -169,6 +170,27 @@ def conclusions(
     results.page(suite.page(rows, judged, base))
     results.finish([suite.plain_row(r) for r in rows], lambda plt: suite.chart(plt, rows), as_json,
                    verdicts=[dict(zip(("statement", "verdict", "figures"), one)) for one in judged])
+
+
+def verdict(
+    out: Path = _folder("runs/verdict", "folder of the stores and results (existing stores are reused)"),
+    quick: bool = typer.Option(False, "--quick", help="run the default asperity on 64 x 16 cells"),
+    as_json: bool = JSON,
+    force: bool = FORCE,
+    threads: Optional[int] = THREADS,
+    workers: int = WORKERS,
+):
+    """Compare the fatigue index without and with a case-hardened profile and residual stress. Example: `tehl bench verdict`"""
+    from tehl_cli.tables import list_table
+    from tehl_taichi.profiles import verdict as suite
+
+    results = Results(out, "verdict", force, more=("md",))
+    rows = suite.run(out, quick, say, workers, threads)
+    if not as_json:
+        list_table("fatigue index by strength", suite.COLUMNS, suite.texts(rows))
+    say(suite.LEFT_OUT)
+    results.page(suite.page(rows))
+    results.finish([suite.plain_row(row) for row in rows], lambda plt: suite.chart(plt, rows), as_json, left_out=suite.LEFT_OUT)
 
 
 def cracks(

@@ -8,6 +8,8 @@ from tehl_cli.figure_options import Dpi, Force, Format, Width
 from tehl_cli.live_display import say
 from tehl_cli.stdout import print_json, put
 
+LONG = 60  # letters of a value, as of the contents of a table
+
 
 def register(app):
     """Add the command to the app."""
@@ -65,4 +67,5 @@ def _results(found):
 
 
 def _shown(value):
-    return "-" if value is None else f"{value:.5g}" if isinstance(value, float) else str(value)
+    text = "-" if value is None else f"{value:.5g}" if isinstance(value, float) else " ".join(str(value).split())
+    return text if len(text) <= LONG else f"{text[:LONG]} ..."

@@ -57,7 +57,11 @@ def page(of, tmp_path):
 
 def numbers(trace):
     """The drawn values of a trace."""
-    values = trace.get("z", trace["y"])
-    if isinstance(values, dict):
-        return np.frombuffer(base64.b64decode(values["bdata"]), "<f4")
-    return np.array([value for value in values if value is not None], float)
+    return values(trace.get("z", trace["y"]))
+
+
+def values(drawn):
+    """Those of an axis."""
+    if isinstance(drawn, dict):
+        return np.frombuffer(base64.b64decode(drawn["bdata"]), "<f4")
+    return np.array([value for value in drawn if value is not None], float)

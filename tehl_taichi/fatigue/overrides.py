@@ -50,8 +50,8 @@ def of_points(constants, scene=None):
     values = {key.partition(".")[2]: value for key, value in _given(constants).items()}
     scene = None if scene is None else builtin.given(scene)
     own = scene.fatigue if scene is not None else Fatigue()
-    strange = [key for key in kinds(Fatigue) if key not in (*OF_POINTS, "on", "source") and getattr(own, key) != getattr(
-        Fatigue, key)]
+    free = *OF_POINTS, "on", "source", "limit_of"
+    strange = [key for key in kinds(Fatigue) if key not in free and getattr(own, key) != getattr(Fatigue, key)]
     if other := sorted(values.keys() - set(OF_POINTS)) or strange:
         raise SceneError(f"{other[0]} has no effect on given stresses; allowed: {', '.join(OF_POINTS)}")
     return Fatigue.from_values(values) if scene is None else changed(scene, constants).fatigue

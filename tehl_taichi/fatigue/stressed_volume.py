@@ -25,7 +25,7 @@ def part(passage, surface_f, alone):
     y, weight = passage.y[rows], 2.0 if passage.reader.y[0] == 0 and passage.reader.y.size > 1 else 1.0
     each = over_depth(f / limits[..., None], depths, m), np.maximum(f[0] / limits[0], 0.0) ** m
     volume, surface = (weight * over_area(values, passage.dx, y) for values in each)
-    smooth = over_depth(alone.f[:, None] / limits, depths, m)[0], max(float(alone.f[0] / limits[0, 0]), 0.0) ** m
+    smooth = float(over_depth(alone.f[:, None] / limits, depths, m)[0]), max(float(alone.f[0] / limits[0, 0]), 0.0) ** m
     area = weight * over_area(np.ones_like(each[0]), passage.dx, y)
     return {"exponent": m, "volume_m3": volume, "area_m2": surface, "track_depth_m": smooth[0], "track_share": smooth[1],
             **_equal("track_equal_m2", volume, smooth[0], area), **_equal("track_equal_surface_m2", surface, smooth[1], area)}

@@ -3,6 +3,7 @@
 import dataclasses
 
 from tehl_taichi.report import (
+    chain_plot,
     crack_plots,
     fatigue_plots,
     map_plots,
@@ -65,12 +66,13 @@ def _fatigue(store, result):
     if "fatigue" not in store.summary:
         return ()
     found = searches(store, result)
-    return tuple(section for search, of in zip(found, OF[len(found) - 1 :]) for section in _of_search(search, *of))
+    return tuple(section for search, of in zip(found, OF[len(found) - 1 :]) for section in _of_search(store, search, *of))
 
 
-def _of_search(search, of, lead):
+def _of_search(store, search, of, lead):
     """Two sections; of: said in their headings; lead: begins the words on its moments, where there are two searches."""
-    shown = drawn(*fatigue_plots.distribution(search), *fatigue_plots.index(search), *fatigue_plots.depth(search))
+    shown = drawn(*chain_plot.figures(store, search), *fatigue_plots.distribution(search), *fatigue_plots.index(search),
+                  *fatigue_plots.depth(search))
     behind = NO_MAPS if shown is None else DARK if search.on else ""
     words, numbers = [_sentence(f"{lead}{search.when}.") + behind] * bool(search.short), search.result.numbers
     return (Section(f"Fatigue{of}", (PageBlock("text", {"sentences": words}) if words else None, shown,

@@ -7,10 +7,12 @@ from typing import Any
 
 from tehl_taichi.errors import SceneError, StoreError
 from tehl_taichi.runs.stored_run import Run
+from tehl_taichi.scene.strength.scene_tables import ROWS_OF
 from tehl_taichi.values.coerce import plain
 from tehl_taichi.values.path_arguments import folder_of
 
 MOST = 8  # stores: more lines cannot be distinguished
+TABLES = {f"fatigue.{rows}": key for key, rows in ROWS_OF.items()}  # contents of a table: its name
 # of a summary: words, or what every run has of its own
 OWN = ("store", "version", "scene", "left_out", "warnings", "warning_codes", "warning_data", "error_parts", "unknown",
        "unknown_codes")
@@ -129,7 +131,9 @@ def _side_by_side(rows, kept):
 
 
 def _follows(key, differs):
-    """Numbers of oils and steels that their names bring."""
+    """Numbers of oils and steels that their names bring, contents of a table with another name."""
+    if TABLES.get(key) in differs:
+        return True
     named = f"{key.rpartition('.')[0]}.name", f"{key.rpartition('.')[0]}.material"
     return key not in named and any(name in differs for name in named)
 

@@ -36,8 +36,8 @@ FILLED = {"STORE": "runs/gear-1.zarr", "STUDY": "runs/gear-sweep-3219f7.zarr", "
           "K": "0.3", "COMMAND": "run"}
 WITH = {"mp4": shutil.which("ffmpeg"), "netcdf": find_spec("xarray"), "--scheduler": find_spec("distributed")}  # what they need
 SUITES = {"accuracy": "accuracy.run", "speed": "speed.run", "scaling": "scaling.run", "stability": "stability.run",
-          "conclusions": "conclusions.run", "cracks": "cracks.run", "zoom": "zoom.run", "sweep": "side_by_side.run",
-          "profile": "measure.fresh"}
+          "conclusions": "conclusions.run", "verdict": "verdict.run", "cracks": "cracks.run", "zoom": "zoom.run",
+          "sweep": "side_by_side.run", "profile": "measure.fresh"}
 
 
 def commands_of(page):

@@ -21,6 +21,7 @@ from tehl_taichi.profiles import (
     side_by_side,
     speed,
     stability,
+    verdict,
     zoom,
 )
 
@@ -254,6 +255,15 @@ def test_accuracy_judges_only_what_is_there(tmp_path):
 
 
 @pytest.mark.slow
+def test_verdict(tmp_path, monkeypatch):
+    once(monkeypatch, verdict)
+    monkeypatch.setattr(verdict, "QUICK", {"grid.nx": 32, "grid.ny": 8})
+    text, found = done(tmp_path, "verdict", "verdict", "--quick", "--threads", 2)
+    assert [row["variant"] for row in found["rows"]] == list(verdict.VARIANTS) and "case profile" in text
+    assert "run-in" in found["left_out"] and "| residual stress" in (tmp_path / "verdict.md").read_text()
+
+
+@pytest.mark.slow
 def test_conclusions(tmp_path, monkeypatch):
     once(monkeypatch, conclusions)
     monkeypatch.setattr(conclusions, "SLIPS", (-0.12,))
@@ -301,7 +311,7 @@ def test_zoom(tmp_path, monkeypatch):
 
 
 QUICK = {"profile": 1, "scaling": 1, "speed": 1, "stability": 1, "sweep": None, "accuracy": 1, "conclusions": 1, "cracks": 1,
-         "zoom": 1}
+         "zoom": 1, "verdict": 1}
 
 
 @pytest.mark.slow

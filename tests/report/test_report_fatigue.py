@@ -4,9 +4,10 @@ import made_results
 import numpy as np
 import pytest
 from made_results import THERMAL
-from read_pages import numbers, page
+from read_pages import numbers, page, values
 
 from tehl_taichi.march.accuracy import readings
+from tehl_taichi.scene.scales import Scales
 from tehl_taichi.values.coded_text import Reason
 
 pytest.importorskip("plotly")
@@ -44,6 +45,25 @@ def test_listed_depths_have_their_map_and_the_section(tmp_path, listed, shown):
     assert any("critical point" in trace.get("name", "") for trace in below) == (shown == 25)
     assert ("The critical depth is 25 µm, under the row y = 0 µm, with Fi = 1.39." in seen.text) == (shown != 25)
     assert numbers(seen.figures["over-depth"]["data"][0]) == pytest.approx(maps["under_row_depth"][0] * 1e6)
+
+
+@pytest.mark.parametrize("limits", [None, np.array([8e8, 4e8, 2e8])])
+def test_one_figure_leads_from_the_load_to_the_verdict(tmp_path, limits):
+    """Its last panel is the stress of the second over the strength of the third."""
+    maps = made_results.maps()
+    depths = maps["fatigue_depth"][0]
+    if limits is not None:
+        limits = np.resize(limits, depths.size)
+        maps |= {"limit_under_row": (limits, ["d"], "Pa", "limit")}
+    seen = page(made_results.run(tmp_path / "a.zarr", search=made_results.fatigue(), found=maps), tmp_path)
+    traces = seen.figures["chain"]["data"]
+    panel = {n: [one for one in traces if one["xaxis"] == ("x" if n == 1 else f"x{n}")] for n in (1, 2, 3, 4)}
+    x = {n: [values(one["x"]) for one in found] for n, found in panel.items()}
+    assert x[3][1] == pytest.approx(np.full(depths.size, 400.0) if limits is None else limits / 1e6, rel=1e-6)
+    stress = maps["findley_stress_under_row"][0].max(axis=1) / 1e6
+    assert x[2][0] == pytest.approx(stress, rel=1e-6) and x[4][0] == pytest.approx(stress / x[3][1], rel=1e-6)
+    least = [values(one["y"]).min() for one in panel[1]]  # in the middle, made up as p_H (1 + 0.1 step)
+    assert least == pytest.approx([1.4e-9 * Scales.of(THERMAL).p_H, 1e-9 * Scales.of(THERMAL).p_H], rel=0.01)
 
 
 def test_a_plane_that_is_not_at_the_worst_depth_has_its_own_mark(tmp_path):

@@ -206,3 +206,12 @@ def test_nothing_to_compare_is_refused(two, pick, why):
 def test_tables_in_tables_become_dotted_keys():
     nested = {"a": {"b": 1, "c": [1, 2]}, "f": [{"x": 1}, {"x": 2}], "e": []}
     assert flat(nested) == {"a.b": 1, "a.c": (1, 2), "f.0.x": 1, "f.1.x": 2, "e": ()}
+
+
+def test_a_table_of_strength_is_named_and_not_listed():
+    """Its contents follow from its name; where only these differ they are what differs."""
+    from tehl_taichi.runs.compare import _follows
+
+    assert _follows("fatigue.table_rows", {"fatigue.table": [], "fatigue.table_rows": []})
+    assert not _follows("fatigue.table_rows", {"fatigue.table_rows": []})
+    assert not _follows("fatigue.kappa", {"fatigue.table": []})

@@ -1,0 +1,206 @@
+"""The verdict by what a body is made of: the index with a case-hardened profile, with residual stress, and with both.
+
+Every scene runs once on each of three grids, without a search. Each variant is searched on all of them, so that its error bars
+are those of a run with coarse-grid runs.
+"""
+
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+
+from tehl_taichi.profiles import measure
+
+from tehl_taichi.errors import Error
+from tehl_taichi.fatigue import assessment, material_length
+from tehl_taichi.fatigue.pressure_alone import searched
+from tehl_taichi.march.accuracy import coarse_runs
+from tehl_taichi.march.accuracy.domain_error import DomainError
+from tehl_taichi.runs.single_run import completed
+from tehl_taichi.runs.sweep import pool
+from tehl_taichi.scene import scene
+from tehl_taichi.values.digits import micrometres, with_error
+
+SCENES = ("gear", "dent", "touching-asperity", "rough-pair")
+NAMES = {"gear": "1.5 µm asperity (default)", "dent": "1.5 µm dent", "touching-asperity": "3 µm asperity",
+         "rough-pair": "ground flanks, 99th percentile"}
+CASE = {"fatigue.table": "case-hardened"}
+RESIDUAL = {"fatigue.residual_xx": -4e8, "fatigue.residual_yy": -4e8}
+VARIANTS = {"default": {}, "case": CASE, "residual": RESIDUAL, "all": {**CASE, **RESIDUAL}}
+MEANS = {"default": "as it is", "case": "case profile", "residual": "residual stress -400 MPa", "all": "both"}
+LEFT_OUT = "run-in is not part of this version: its variant is left out, and `all` is without it"
+BARE = {"fatigue.on": False, "numerics.estimate_error": False}
+ALONE = {"fatigue.on": True, "numerics.estimate_error": True}
+QUICK = {"grid.nx": 64, "grid.ny": 16}
+FINER = {"dent": {"grid.nx": 512, "grid.ny": 32}}  # its exit is not resolved on 256 columns
+
+
+@dataclass(frozen=True)
+class VerdictRow:
+    """The worse body of a scene with a variant: index at its surface and below it (of rough surfaces the 99th percentile), the
+    depth (m) of the latter, errors (None: not known, see `unknown`), limits (Pa) at both; reason: why there are no numbers."""
+
+    scene: str
+    variant: str
+    Fi_surface: float | None = None
+    Fi_below: float | None = None
+    depth_m: float | None = None
+    error: dict | None = None
+    surface: str = ""
+    limits_Pa: tuple = ()
+    unknown: str = ""
+    reason: str = ""
+
+
+def run(folder, quick=False, progress=None, workers=1, threads=None):
+    """Rows of all variants of all scenes; their stores lie in `folder` and are used again. progress: called with a line of
+    text; workers, threads: as of :func:`tehl_taichi.profiles.measure.side_by_side`."""
+    folder, found, names = Path(folder).absolute(), {}, SCENES[:1] if quick else SCENES
+    notify = progress if workers == 1 else None  # other processes do not print
+    jobs = [(name, folder, quick, notify) for name in names]
+    for number, answer in measure.side_by_side(rows, jobs, workers, threads):
+        name = jobs[number][0]
+        lost = isinstance(answer, pool.LostJob)
+        found[name] = [VerdictRow(name, variant, reason=answer.reason) for variant in VARIANTS] if lost else answer
+    return [row for name in names for row in found[name]]
+
+
+def rows(name, folder, quick=False, progress=None):
+    """VerdictRows of a scene."""
+    base = scene(name).replace(**(QUICK if quick else FINER.get(name, {})))
+    try:
+        stores = _passages(base, folder, progress)
+    except Error as error:
+        return [VerdictRow(name, variant, reason=str(error)) for variant in VARIANTS]
+    out = []
+    for variant, changes in VARIANTS.items():
+        if progress:
+            progress(f"{name}: {MEANS[variant]}")
+        out.append(_row(name, variant, base.replace(**changes), *stores))
+    return out
+
+
+def _passages(base, folder, progress):
+    """(store of the passage, [(scene, store) of coarser grids that converge]), coarsest first."""
+    coarser, own = [], None
+    for one in [base, *reversed(coarse_runs.scenes(base)[0])]:
+        if progress:
+            progress(f"{base.name}: {one.grid.nx} x {one.grid.ny} cells")
+        try:
+            found = completed(one.replace(**BARE), folder / f"{base.name}-{one.grid.nx}x{one.grid.ny}.zarr").store
+        except Error:
+            if own is None:
+                raise
+            break  # no coarser one is of use either
+        if own is None:
+            own = found
+        else:
+            coarser.insert(0, (one, found))
+    return own, coarser
+
+
+def _row(name, variant, description, store, coarser):
+    """The VerdictRow of a variant of the scene whose passages are stored."""
+    description = description.replace(**ALONE)
+    until = coarse_runs.resolved(description, store, store.scalar)
+    found = assessment.run(description, store, until=until, alone=False).summaries
+    known, reasons = _errors(description, store, coarser, found, until)
+    worst = max(found, key=lambda body: max(value for _, value, *_ in _parts(body, searched(found[body]), known)))
+    (top, at_top, top_error), (deep, below, deep_error), *_ = _parts(worst, searched(found[worst]), known)
+    own = searched(found[worst])
+    limits = own["sigma_eF_Pa"], own["below"].get("sigma_eF_Pa", own["sigma_eF_Pa"])
+    unknown = next((str(why) for key, why in reasons.items() if key.startswith(f"{worst}:{coarse_runs.FI}")), "")
+    return VerdictRow(name, variant, at_top, below, deep["depth_m"], {"Fi_surface": top_error, "Fi_below": deep_error}, worst,
+                      limits, unknown if None in (top_error, deep_error) else "")
+
+
+def _errors(description, store, coarser, found, until):
+    """{name among the readings: error bar or None} of a search on the finest grid, and {name: why there is none}."""
+    changes = {f"fatigue.{key}": getattr(description.fatigue, key) for key in ("table", "residual_xx", "residual_yy")}
+
+    def answers():
+        return [_answer(one.replace(**ALONE, **changes), saved, until) for one, saved in coarser]
+
+    domain = DomainError.from_values(store.known("steady_domain"))
+    errors = coarse_runs.errors(description, store, found, answers, domain)
+    return errors["passage_error"], errors["passage_unknown"]
+
+
+def _answer(description, saved, until):
+    """Readings of a coarser grid, as :func:`tehl_taichi.march.accuracy.coarse_runs.answers` gives them."""
+    try:
+        found = assessment.run(description, saved, until=until, alone=False).summaries
+        readings = coarse_runs.passage_readings(description, saved, saved.scalar, found)
+    except Error as error:
+        return {"reason": str(error)}
+    return {"values": {key: asdict(reading) for key, reading in readings.items()}}
+
+
+def _parts(body, found, known):
+    """[(part of the summary, its index, error or None)] at the surface and below it, as the verdict of a run takes them."""
+    if found.get("rough"):
+        top, deep = found["statistics"], found["below"]["statistics"]
+        return [(top, top["p99"], known.get(f"{body}:0 um.p99")),
+                (deep, deep["p99"], known.get(f"{body}:{deep['depth_m'] * 1e6:.4g} um.p99"))]
+    errors = {"": coarse_runs.FI, "below": coarse_runs.BELOW, "averaged": coarse_runs.AVERAGED,
+              "averaged below": coarse_runs.AVERAGED_BELOW}
+    wide = found.get("averaged", {})
+    parts = {"": found, "below": found.get("below"), "averaged": wide, "averaged below": wide.get("below")}
+    with_bars = {what: {**part, "error": {"Fi_max": known.get(coarse_runs.of_surface(body, errors[what]))}}
+                 for what, part in parts.items() if part}
+    nested = _nested(with_bars)
+    return [(part, part["Fi_max"], part["error"]["Fi_max"]) for part, _ in material_length.leading(nested)]
+
+
+def _nested(parts):
+    """A summary of these parts, as a run has it."""
+    out = {**parts[""], "below": parts.get("below")}
+    if "averaged" in parts:
+        out["averaged"] = {**parts["averaged"], "below": parts.get("averaged below")}
+    return out
+
+
+COLUMNS = ("scene", "variant", "body", "Fi at the surface", "Fi below", "depth, um", "limit, MPa")
+
+
+def cells(row):
+    """A row as texts behind the scene and the variant."""
+    if row.reason:
+        return "", row.reason, "", "", ""
+    top, deep = (with_error(value, row.error[key], digits=3) for key, value in
+                 (("Fi_surface", row.Fi_surface), ("Fi_below", row.Fi_below)))
+    limit, inside = (f"{one / 1e6:.0f}" for one in row.limits_Pa)
+    return row.surface, top, deep, micrometres(row.depth_m), limit if limit == inside else f"{limit}, {inside}"
+
+
+def texts(rows):
+    """All rows as texts."""
+    return [(NAMES[row.scene], MEANS[row.variant], *cells(row)) for row in rows]
+
+
+def page(rows):
+    """Markdown of the table."""
+    lines = [f"| {' | '.join(COLUMNS)} |", "|" + "---|" * len(COLUMNS)]
+    lines += [f"| {' | '.join(line)} |" for line in texts(rows)]
+    notes = dict.fromkeys(f"{NAMES[row.scene]}: errors not known, {row.unknown}." for row in rows if row.unknown)
+    return "\n".join([*lines, "", *notes, f"{LEFT_OUT[0].upper()}{LEFT_OUT[1:]}."])
+
+
+def chart(plt, rows):
+    """Index at the surface and below it, by variant, a panel for each scene."""
+    names = [name for name in dict.fromkeys(row.scene for row in rows) if any(r.scene == name and not r.reason for r in rows)]
+    figure, axes = plt.subplots(1, max(len(names), 1), figsize=(3 * max(len(names), 1), 3), squeeze=False, sharey=True)
+    for ax, name in zip(axes[0], names):
+        own = [row for row in rows if row.scene == name and not row.reason]
+        for key, label in (("Fi_surface", "at the surface"), ("Fi_below", "below")):
+            ax.errorbar(range(len(own)), [getattr(row, key) for row in own], [row.error[key] or 0.0 for row in own], fmt="o",
+                        capsize=3, label=label)
+        ax.axhline(1.0, color="grey", lw=0.8)
+        ax.set(title=NAMES[name], xticks=range(len(own)), xticklabels=[row.variant for row in own])
+    axes[0, 0].set_ylabel("Fi")
+    axes[0, 0].legend()
+    figure.tight_layout()
+    return figure
+
+
+def plain_row(row):
+    """The row as JSON has it."""
+    return asdict(replace(row, limits_Pa=list(row.limits_Pa)))

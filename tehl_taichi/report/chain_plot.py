@@ -1,0 +1,94 @@
+"""The way to a verdict in one figure: load, stress, strength and index, the last three over the depth."""
+
+import numpy as np
+
+from tehl_taichi.report.plots import Figure, axis, colour, line, marks
+from tehl_taichi.scene.feature_wording import passing
+from tehl_taichi.scene.scales import Scales
+from tehl_taichi.scene.strength.strength import Strength
+from tehl_taichi.view.figures.index_text import largest
+from tehl_taichi.view.figures.moments import WINDOW, Moments
+from tehl_taichi.view.figures.palette import GREY
+
+LEFT, RIGHT, TOP, BOTTOM = [0.0, 0.44], [0.56, 1.0], [0.6, 1.0], [0.0, 0.4]
+TITLES = "1 load: pressure (GPa) over x/a", "2 stress (MPa)", "3 strength (MPa)", "4 verdict: index Fi = stress/limit"
+DEPTH = "below the surface (µm)"
+
+
+def figures(store, search):
+    """[the figure], [] where nothing was searched below the surface."""
+    if search.result.findley_stress_under_row is None or "below" not in search.result.numbers:
+        return []
+    panels = _load(store), _stress(search), _strength(search), _verdict(search)
+    traces = [trace for n, found in enumerate(panels, 1) for trace in _panel(n, found)]
+    body = search.result.numbers.get("surface", "a")
+    caption = (f"From the load to the verdict, body {body}: largest pressure of the passage, stress under the "
+               f"{passing(search.scene)} at each depth, limit and residual stress there, and stress over limit.")
+    return [Figure(f"{search.on}chain", caption, traces, _layout(), 640)]
+
+
+def _panel(n, traces):
+    """Traces in the n-th panel, whose axes have its number; names are repeated in the legend once."""
+    return [{**trace, "xaxis": f"x{n}" if n > 1 else "x", "yaxis": f"y{n}" if n > 1 else "y"} for trace in traces]
+
+
+def _layout():
+    """Two rows of two panels; those of depths have it downwards."""
+    places = ((LEFT, TOP), (RIGHT, TOP), (LEFT, BOTTOM), (RIGHT, BOTTOM))
+    out = {"margin": {"l": 10, "r": 14, "t": 60, "b": 10}, "hovermode": "closest",
+           "legend": {"orientation": "h", "x": 0, "y": 1.02, "yanchor": "bottom"}}
+    for n, (title, (x, y)) in enumerate(zip(TITLES, places), 1):
+        number = str(n) if n > 1 else ""
+        deep = {"autorange": "reversed"} if n > 1 else {"rangemode": "tozero"}
+        out[f"xaxis{number}"] = axis(title, domain=x, anchor=f"y{number}")
+        out[f"yaxis{number}"] = axis(DEPTH if n > 1 else "", domain=y, anchor=f"x{number}", **deep)
+    return out
+
+
+def _load(store):
+    """Pressure along the row of the lines at the moment of its largest value, and of the smooth contact."""
+    X, moments = store.x / Scales.of(store.scene).a, Moments(store)
+    shown = (X >= WINDOW[0]) & (X <= WINDOW[1])
+    p = {n: store.fields(n, ("pressure",))["pressure"][shown, moments.line] / 1e9 for n in (moments.worst, 0)}
+    return [line(X[shown], p[moments.worst], f"with the {passing(store.scene)}", colour(0)),
+            line(X[shown], p[0], "smooth contact", GREY, dash="dash")]
+
+
+def _stress(search):
+    result, z = search.result, search.result.row_depths * 1e6
+    alone = result.findley_stress_contact_alone
+    return [line(result.findley_stress_under_row.max(axis=1) / 1e6, z, f"with the {passing(search.scene)}", colour(0),
+                 in_legend=False),
+            *([] if alone is None else [line(alone / 1e6, z, "smooth contact", GREY, dash="dash", in_legend=False)])]
+
+
+def _strength(search):
+    """Fatigue limit beside the largest stress, and residual stress where there is any."""
+    result = search.result
+    strength, z = _of_body(search), result.row_depths * 1e6
+    limits = np.full(z.size, result.numbers["sigma_eF_Pa"]) if result.limit_under_row is None else result.limit_under_row
+    residual = [np.broadcast_to(one, z.shape) for one in strength.residual(result.row_depths)]
+    largest_stress = result.findley_stress_under_row.max(axis=1) / 1e6
+    return [line(largest_stress, z, "stress beside it", colour(0), dash="dot", in_legend=False),
+            line(limits / 1e6, z, "fatigue limit", colour(2)),
+            *(line(values / 1e6, z, f"residual stress along {axis_}", colour(3 + n), dash="dot")
+              for n, (axis_, values) in enumerate(zip("xy", residual)) if np.any(values))]
+
+
+def _of_body(search):
+    """Strength of the body that was searched."""
+    name = search.result.numbers.get("surface", "a")
+    return Strength(search.scene.fatigue, next(one for one in search.scene.surfaces if one.name == name))
+
+
+def _verdict(search):
+    """Index at each depth, its largest values and the limit."""
+    result, z = search.result, search.result.row_depths * 1e6
+    f, alone = result.numbers, result.index("findley_stress_contact_alone")
+    deep = f["below"]
+    return [line(result.index("findley_stress_under_row").max(axis=1), z, f"with the {passing(search.scene)}", colour(0),
+                 in_legend=False),
+            *([] if alone is None else [line(alone, z, "smooth contact", GREY, dash="dash", in_legend=False)]),
+            line([1.0, 1.0], [z[0], z[-1]], "Fi = 1", colour(2)),
+            marks([f["Fi_max"]], [0.0], f"at the surface: {largest(f)}", colour(1), symbol="circle"),
+            marks([deep["Fi_max"]], [deep["depth_m"] * 1e6], f"below: {largest(deep)}", colour(0))]

@@ -1,0 +1,77 @@
+"""The suite of verdicts by strength: a row is what a run with these constants has, stores are used again, texts with bars."""
+
+import math
+
+import pytest
+from tehl_taichi.profiles import verdict
+
+import tehl_taichi as tehl
+from tehl_taichi.errors import NotConverged
+
+ROW = verdict.VerdictRow("gear", "case", 0.79, 1.09, 34e-6, {"Fi_surface": 0.013, "Fi_below": None}, "b", (5.96e8, 5.95e8))
+
+
+def quick(monkeypatch, name, **changes):
+    """The suite of this scene alone with these changes; the scene itself."""
+    monkeypatch.setattr(verdict, "SCENES", (name,))
+    monkeypatch.setattr(verdict, "QUICK", changes)
+    return tehl.scene(name).replace(**changes)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("variant", verdict.VARIANTS)
+def test_a_row_is_the_summary_of_a_run_with_its_bars(tmp_path, monkeypatch, taichi_cpu, variant):
+    base = quick(monkeypatch, "gear", **{"grid.nx": 256, "feature.length": math.inf, "thermal.on": False})
+    monkeypatch.setattr(verdict, "VARIANTS", {variant: verdict.VARIANTS[variant]})
+    row, = verdict.run(tmp_path, quick=True)
+    scene = base.replace(**verdict.VARIANTS[variant], **{"numerics.estimate_error": True})
+    found = tehl.run(scene, tmp_path / "a.zarr").summary["fatigue"]
+    assert (row.surface, row.Fi_surface, row.Fi_below) == (found["surface"], found["Fi_max"], found["below"]["Fi_max"])
+    assert row.depth_m == found["below"]["depth_m"]
+    assert row.error == pytest.approx({"Fi_surface": found["error"]["Fi_max"], "Fi_below": found["below"]["error"]["Fi_max"]},
+                                      rel=1e-4)  # stored fields have single precision
+    assert any(error is not None for error in row.error.values())
+
+
+@pytest.mark.slow
+def test_rows_of_a_scene_and_its_stores_again(tmp_path, monkeypatch, taichi_cpu):
+    quick(monkeypatch, "gear", **{"grid.nx": 32, "grid.ny": 8, "thermal.on": False})
+    rows = {row.variant: row for row in verdict.run(tmp_path, quick=True)}
+    assert list(rows) == list(verdict.VARIANTS) and all(not row.reason for row in rows.values())
+    assert rows["case"].Fi_below < 0.8 * rows["default"].Fi_below and rows["all"].Fi_surface < rows["case"].Fi_surface
+    assert rows["default"].limits_Pa == (4e8, 4e8) and rows["case"].limits_Pa[1] < rows["case"].limits_Pa[0] < 6e8
+    made = (tmp_path / "gear-32x8.zarr" / "zarr.json").stat().st_mtime_ns
+    assert verdict.run(tmp_path, quick=True) == list(rows.values())
+    assert (tmp_path / "gear-32x8.zarr" / "zarr.json").stat().st_mtime_ns == made
+
+
+def test_a_scene_that_does_not_converge_says_why(tmp_path, monkeypatch):
+    def lost(*args):
+        raise NotConverged("step 3: residual 1e-2")
+
+    monkeypatch.setattr(verdict, "completed", lost)
+    rows = verdict.rows("dent", tmp_path)
+    assert [row.reason for row in rows] == ["step 3: residual 1e-2"] * len(verdict.VARIANTS)
+    assert "step 3" in verdict.page(rows)
+
+
+def search(top, deep, **more):
+    return {"Fi_max": top, "below": {"Fi_max": deep, "depth_m": 25e-6}, **more}
+
+
+def test_indices_are_taken_as_the_verdict_of_a_run_takes_them():
+    """The averaged one where its error alone is known, the 99th percentile of rough surfaces."""
+    known = {"a:Fi_max": None, "a:below_Fi_max": 0.02, "a:averaged_Fi_max": 0.01, "a:0 um.p99": 0.03, "a:12 um.p99": 0.04}
+    wide = search(1.3, 1.4, averaged={"length_m": 1e-5, **search(0.9, 1.3)})
+    assert [value[1:] for value in verdict._parts("a", wide, known)] == [(0.9, 0.01), (1.4, 0.02)]
+    assert [value[1:] for value in verdict._parts("a", search(1.3, 1.4), known)] == [(1.3, None), (1.4, 0.02)]
+    rough = search(1.3, 1.4, rough=True, statistics={"p99": 0.7})
+    rough["below"]["statistics"] = {"p99": 0.8, "depth_m": 12e-6}
+    assert [value[1:] for value in verdict._parts("a", rough, known)] == [(0.7, 0.03), (0.8, 0.04)]
+
+
+def test_the_table_has_bars_and_says_what_is_left_out():
+    text = verdict.page([ROW])
+    assert "| 1.5 µm asperity (default) | case profile | b | 0.790 ± 0.013 | 1.09 | 34 | 596, 595 |" in text
+    assert "Run-in is not part of this version" in text
+    assert {"scene", "variant", "Fi_surface", "Fi_below", "depth_m", "error"} <= verdict.plain_row(ROW).keys()
