@@ -63,10 +63,10 @@ def check(path, force=False, kind="", parts="", of=None):
 
 
 def check_outside(path, of=None):
-    """Raises StoreError where `path` lies inside a store, a study or a flank other than `of`."""
+    """Raises StoreError where `path` lies inside a store, study, flank, bearing or cam other than `of`."""
     for folder in links.around(path):
         if not (of and os.path.samefile(folder, of)):
-            raise StoreError(f"{path} lies in {folder}, which is a store, a study or a flank; choose another --out")
+            raise StoreError(f"{path} lies in {folder}, which holds results of tehl; choose another --out")
 
 
 def _check_parts(path, parts):

@@ -10,6 +10,7 @@ from commands import here
 from fake_cases import position
 
 import tehl_taichi as tehl
+from tehl_taichi.disk import user_files
 from tehl_taichi.errors import SceneError, StoreError
 from tehl_taichi.report import bearing_page, document
 from tehl_taichi.runs.bearing import bearing_figure, bearing_table
@@ -215,6 +216,19 @@ def test_a_folder_of_something_else_is_kept(tmp_path):
     (tmp_path / "notes.txt").write_text("mine")
     with pytest.raises(StoreError, match="is not the folder of a bearing"):
         tehl.bearing("6206", run=False, folder=tmp_path)
+
+
+@pytest.mark.parametrize("text", ["{", "[]", '{"name": "b", "geometry": 3}', '{"name": "b", "geometry": {}, "inner": 1}'])
+def test_a_damaged_folder_is_refused_in_a_sentence(tmp_path, text):
+    (tmp_path / "bearing.json").write_text(text)
+    with pytest.raises(StoreError, match="bearing.json is damaged .*; repeat the tehl bearing command to write it again"):
+        tehl.open(tmp_path)
+
+
+def test_nothing_else_is_written_into_the_folder_of_a_bearing(dry):
+    with pytest.raises(StoreError, match="lies in .*b6206"):
+        user_files.check(dry.folder / "other.png")
+    user_files.check(dry.folder / "other.png", of=dry.folder)
 
 
 @pytest.mark.parametrize("words, said", [

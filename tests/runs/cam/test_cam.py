@@ -107,6 +107,13 @@ def test_wrong_changes_and_folders_are_refused(tmp_path):
     assert "cannot read table" in here("cam", "none.csv", cwd=tmp_path).stderr
 
 
+@pytest.mark.parametrize("text", ["{", '{"name": 1}', '{"name": "c", "positions": [{"angle_deg": 1}]}'])
+def test_a_damaged_folder_is_refused_in_a_sentence(tmp_path, text):
+    (tmp_path / "cam.json").write_text(text)
+    with pytest.raises(StoreError, match="cam.json is damaged .*; repeat the tehl cam command to write it again"):
+        tehl.open(tmp_path)
+
+
 @pytest.mark.slow
 def test_a_cycle_is_computed(taichi_cpu, tmp_path):
     """The faster, rounder side has the thicker film; a mirrored contact equals its image."""
