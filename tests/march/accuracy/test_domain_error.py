@@ -196,7 +196,7 @@ def test_temperatures_settle_beside_the_border_of_their_film(monkeypatch):
 
 
 THICK_PASSAGE = {"hertz_pressure": 6e8, "speed": 20.0, "thermal.on": False, "grid.x_max": 3.5, "grid.x_min": -2.5,
-                 "grid.nx": 192, "numerics.estimate_error": False}
+                 "grid.nx": 256, "numerics.estimate_error": False}
 LOW_RIDGE = {"feature.shape": "ridge", "height": 0.4e-6, "width": 100e-6, "time.x_start": -2.2, "time.x_end": 0.0}
 
 

@@ -26,7 +26,10 @@ def pressed(precision, sweep):
     return solver
 
 
-@pytest.fixture(scope="module", params=(("f32", "jacobi"), ("f64", "jacobi"), ("f64", "red-black")), ids="-".join)
+TWO_COLOURS = pytest.param(("f64", "red-black"), marks=pytest.mark.slow)  # quick: what the second one answers, test_colours.py
+
+
+@pytest.fixture(scope="module", params=(("f32", "jacobi"), ("f64", "jacobi"), TWO_COLOURS), ids="-".join)
 def problem(request, taichi_cpu):
     """A linear problem: (its solver, right-hand side)."""
     krylov = pressed(*request.param).linear.krylov
