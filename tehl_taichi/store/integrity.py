@@ -13,6 +13,7 @@ from tehl_taichi.disk.locks import LOCK
 from tehl_taichi.errors import SceneError, StoreError
 from tehl_taichi.laws.choices import CHOICES
 from tehl_taichi.laws.criteria import CRITERIA
+from tehl_taichi.laws.hardness import RELATIONS
 from tehl_taichi.scene.feature import SHAPES
 from tehl_taichi.scene.sections import NEWER, SECTIONS
 from tehl_taichi.store import attributes, stored_maps
@@ -99,7 +100,8 @@ def lacking(text):
     try:
         data = json.loads(text)
         chosen = {**{key: (_entry(data, key), names) for key, names in CHOICES.items()},
-                  "fatigue.criterion": (_entry(data, "fatigue.criterion"), CRITERIA)}
+                  "fatigue.criterion": (_entry(data, "fatigue.criterion"), CRITERIA),
+                  "fatigue.relation": (_entry(data, "fatigue.relation"), RELATIONS)}
         shapes = [("feature.shape", (one.get("shape"), SHAPES)) for one in data["feature"]]
     except (TypeError, ValueError, KeyError, AttributeError):
         return ""

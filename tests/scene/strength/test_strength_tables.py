@@ -1,5 +1,6 @@
 """Tables of strength over depth: files, what is refused, what scenes and stores carry, what holds at a depth."""
 
+import json
 import pickle
 import tomllib
 
@@ -12,6 +13,7 @@ from tehl_taichi.laws.hardness import RELATIONS
 from tehl_taichi.scene import Scene, SceneError, scene, scene_file
 from tehl_taichi.scene.strength import profiles, table
 from tehl_taichi.scene.strength.strength import Strength
+from tehl_taichi.store import integrity
 from tehl_taichi.store.load_scene import find
 from tehl_taichi.store.store import Store
 
@@ -156,3 +158,10 @@ def test_a_limit_of_a_contact_beside_residual_stress_is_doubted():
 
     assert not doubted(limit_of="contact") and not doubted(residual_xx=-2e8)
     assert doubted(limit_of="contact", residual_xx=-2e8)
+
+
+def test_a_store_of_a_relation_that_is_not_installed_names_it():
+    data = GEAR.to_dict()
+    assert integrity.lacking(json.dumps(data)) == ""
+    data["fatigue"]["relation"] = "mine"
+    assert integrity.lacking(json.dumps(data)).startswith("fatigue.relation = 'mine', which is not installed here; known: mur")
