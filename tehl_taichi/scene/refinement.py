@@ -29,5 +29,11 @@ def along(scene):
     return _with_work(grid_option(2 * scene.grid.nx, scene.grid.ny), 2 ** (1 + scene.transient))
 
 
+def zoom_option(scene):
+    """'--zoom 4', where a fine window may be added to a passage; else ""."""
+    possible = scene.transient and scene.isothermal and not scene.zooms and scene.output.every == 1
+    return Option("--zoom 4", "a window four times as fine") if possible else ""
+
+
 def _with_work(option, work):
     return Option(f"{option} ({work} times the work)", f"{option.words} ({work} times the work)")

@@ -132,7 +132,8 @@ def test_one_reason_is_said_once():
             "fatigue": {"unknown": why, "resolved": {"unknown": why, "below": {"unknown": why}}}}
     assert list(result_warnings.unknown_errors(SimpleNamespace(scene=GEAR), told)) == [
         "the error of passage p_max_Pa, Fi_max, Fi_max of the resolved part, Fi_max below the surface of the resolved part "
-        "is not known: exit not resolved: a narrow peak; try a grid that is finer along x: --grid 512x64 (4 times the work)",
+        "is not known: exit not resolved: a narrow peak; try a grid that is finer along x: --grid 512x64 (4 times the work)"
+        + ", or --zoom 4" * GEAR.isothermal,
         "the error of passage h_min_m is not known: it still changes"]
 
 

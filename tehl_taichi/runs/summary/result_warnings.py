@@ -9,7 +9,7 @@ from tehl_taichi.laws.law import beyond
 from tehl_taichi.march.accuracy.coarse_runs import near_the_surface
 from tehl_taichi.runs.summary import domain_warnings, film_warnings, rim_warnings
 from tehl_taichi.scene import yield_stress
-from tehl_taichi.scene.refinement import finer_grid_option
+from tehl_taichi.scene.refinement import finer_grid_option, zoom_option
 from tehl_taichi.values.coded_text import Reason, reasons_of
 from tehl_taichi.values.coded_warning import coded_warning, once, with_data
 from tehl_taichi.values.digits import micrometres
@@ -71,9 +71,10 @@ def unknown_errors(store, summary):
     """Numbers whose error is unknown, with the reason; one sentence for all that share it."""
     for why, names in _unknown(summary).items():
         grid = film_warnings.finer_exit(store.scene, why)
-        more = f"; try a grid that is finer along x: {grid}" if grid else ""
-        yield with_data(f"the error of {', '.join(names)} is not known: {why}{more}", grid, numbers=names, reason=str(why),
-                        reason_code=why.code)
+        window = zoom_option(store.scene) if grid else ""
+        more = (f"; try a grid that is finer along x: {grid}" if grid else "") + (f", or {window}" if window else "")
+        yield with_data(f"the error of {', '.join(names)} is not known: {why}{more}", grid, window, numbers=names,
+                        reason=str(why), reason_code=why.code)
 
 
 def _unknown(summary):
