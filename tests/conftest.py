@@ -18,6 +18,7 @@ KERNELS = tuple(f"tests/{name}" for name in (
     "cli/", "engine/test_float", "heat/", "march/", "pressure/", "profiles/",
     "runs/", "scene/", "store/", "test_examples", "test_new", "values/test_coded", "values/test_unit"))
 CRITERIA = tuple(f"tests/{name}" for name in ("fatigue/test_findley", "laws/test_criteria", "scene/test_given"))
+FIGURES = "tests/view/test_figures", "tests/view/test_surface"  # about as long as the first kernels
 SOLVERS = (*KERNELS, "tests/crack/", "tests/engine/", "tests/fatigue/", "tests/laws/")  # that use Taichi at all
 
 
@@ -107,8 +108,9 @@ def pytest_xdist_make_scheduler(config, log):
 
 
 def pytest_collection_modifyitems(items):
-    """Files that compile the kernels of the solvers first, those of the criteria side by side."""
-    items.sort(key=lambda item: (not item.nodeid.startswith(CRITERIA), not item.nodeid.startswith(KERNELS)))
+    """Files that compile the kernels of the solvers first, those of the criteria side by side; before them some that need no
+    kernels, while the first ones are compiled."""
+    items.sort(key=lambda item: [not item.nodeid.startswith(part) for part in (FIGURES, CRITERIA, KERNELS)])
 
 
 def pytest_collection_finish():

@@ -126,6 +126,14 @@ def test_the_summary_and_the_table_have_it():
         assert summary_columns.error_of(f"{part}_Fi_max") == f"{part}_error_Fi_max"
 
 
+def test_a_smooth_contact_that_is_worst_at_its_surface_has_one_row():
+    deep = {"Fi_max": 1.2, "surface_Fi_max": 0.7, "depth_m": 180e-6}
+    for alone, count in ((deep, 2), ({**deep, "Fi_max": 0.7, "depth_m": 0.0}, 1)):
+        rows = dict(summary_rows.fatigue_rows({**fatigue(), "contact_alone": alone}))
+        assert len([what for what in rows if "smooth contact" in what]) == count
+        assert rows["Fi_max of the smooth contact at the surface"] == "0.7 (error unknown)"
+
+
 def test_one_reason_is_said_once():
     why = {"Fi_max": Reason("exit not resolved: a narrow peak", "exit")}
     told = {"transient": {"unknown": {"p_max_Pa": why["Fi_max"], "h_min_m": "it still changes"}},

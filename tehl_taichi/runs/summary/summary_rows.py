@@ -217,12 +217,12 @@ def _percentiles(part, where, at, of):
 
 
 def _alone_rows(alone):
-    """Indices of the smooth body; none of a search by an older version."""
+    """Indices of the smooth body, of which the surface may be the worst place; none of a search by an older version."""
     if not alone:
         return []
-    where = _at(alone) if alone["depth_m"] else ", at the surface"
-    return [_of(alone, "Fi_max", "Fi_max of the smooth contact", where=where, part=BELOW),
-            _of(alone, "surface_Fi_max", "Fi_max of the smooth contact at the surface", part=SURFACE)]
+    surface = _of(alone, "surface_Fi_max", "Fi_max of the smooth contact at the surface", part=SURFACE)
+    deep = _of(alone, "Fi_max", "Fi_max of the smooth contact", where=_at(alone), part=BELOW)
+    return [deep, surface] if alone["depth_m"] else [surface]
 
 
 def _rows_of_other(name, f):
