@@ -21,6 +21,7 @@ from tehl_taichi.scene import (
     resolution,
     scales,
     scene_warnings,
+    zoom_room,
 )
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.named_steels import completed
@@ -197,6 +198,7 @@ class Scene:
         if self.output.every > 1:
             raise SceneError(f"zoom.factor = {self.zoom.factor} needs every step: use output.every = 1 (it is "
                              f"{self.output.every})")
+        zoom_room.check(self)
 
     def _check_window(self):
         """Some moments must be left of the passage."""

@@ -79,10 +79,21 @@ def test_a_feature_off_the_axis_has_a_window_round_it():
     ({"zoom.factor": 2, "thermal.on": True}, "needs a film of one temperature"),
     ({"zoom.factor": 2, "output.every": 2}, "needs every step"),
     ({"zoom.factor": 2, "zoom.from_x": 0.5, "zoom.to_x": 0.2}, "must be less than to_x"),
-    ({"zoom.factor": 2, "zoom.width_x": 0.01}, "out of range")])
+    ({"zoom.factor": 2, "zoom.width_x": 0.01}, "out of range"),
+    ({"zoom.factor": 2, "zoom.width_x": 0.3}, "zoom.width_x = 0.3 a is less than the features of surface a; allowed: at least "
+                                              "0.552 a"),
+    ({"zoom.factor": 2, "zoom.width_y": 0.5}, "zoom.width_y = 0.5 a is less than"),
+    ({"zoom.factor": 2, "feature.width": 6e-4, "feature.length": 2e-4}, "extend over 1.66 a along x; allowed: at most 1.5 a"),
+    ({"zoom.factor": 2, "feature.length": 6e-4}, "reach to 0.828 a in y; allowed with grid.y_max = 1: at most 0.794 a"),
+    ({"zoom.factor": 2, "feature.y": 2.5e-4}, "reach to 0.966 a in y; allowed with grid.y_max = 1: at most 0.794 a")])
 def test_what_a_zoom_does_not_take(changes, said):
     with pytest.raises(tehl.SceneError, match=said):
         GEAR.replace(**changes)
+
+
+def test_a_ridge_across_a_ball_has_no_window():
+    with pytest.raises(tehl.SceneError, match="zoom.factor = 4 needs features that end in y, or a line contact"):
+        tehl.scene("ridge-on-ball").replace(**{"zoom.factor": 4})
 
 
 def test_cells_of_the_window_resolve_a_feature():

@@ -1,0 +1,48 @@
+"""Room of a zoom window round the features of a scene."""
+
+import math
+
+from tehl_taichi.errors import SceneError
+from tehl_taichi.scene.scales import Scales
+
+WIDEST = 1.5  # a, of the features along x
+BESIDE, CELLS = 0.05, 5  # a, and cells of the grid, at least, between the features and the end of the grid across
+
+
+def check(scene):
+    """Refuse a scene whose features leave no room for its window, or a window that does not hold them. Raises SceneError."""
+    extents = {axis: _extent(scene, axis) for axis in ("xy" if scene.rows else "x")}
+    _check_ends(scene, *extents.get("y", (0.0, 0.0)))
+    low, high = extents["x"]
+    if high - low > WIDEST:
+        raise SceneError(f"{_zoom(scene)}: the features of surface {scene.reference.name} extend over {high - low:.3g} a along "
+                         f"x; allowed: at most {WIDEST:g} a")
+    for axis, (low, high) in extents.items():
+        width = getattr(scene.zoom, f"width_{axis}")
+        if width and width < high - low:
+            raise SceneError(f"zoom.width_{axis} = {width:g} a is less than the features of surface {scene.reference.name}; "
+                             f"allowed: at least {high - low:.3g} a, or 0 for what they change")
+
+
+def _check_ends(scene, low, high):
+    """Across, the window ends on the grid."""
+    if not math.isfinite(high - low):
+        raise SceneError(f"{_zoom(scene)} needs features that end in y, or a line contact in which nothing varies along y")
+    s, grid = Scales.of(scene), scene.grid
+    edge = grid.y_max * s.b / s.a
+    room = edge - CELLS * edge / grid.ny - BESIDE
+    if (farthest := max(high, -low)) > room:
+        raise SceneError(f"{_zoom(scene)}: the features of surface {scene.reference.name} reach to {farthest:.3g} a in y; "
+                         f"allowed with grid.y_max = {grid.y_max:g}: at most {room:.3g} a")
+
+
+def _extent(scene, axis):
+    """From where to where (a) the features of the surface that the window follows reach along an axis."""
+    a = Scales.of(scene).a
+    sides = [(getattr(f, axis), f.reach if axis == "x" else math.inf if f.transverse else f.reach_y)
+             for f in scene.reference.features]
+    return min((at - reach) / a for at, reach in sides), max((at + reach) / a for at, reach in sides)
+
+
+def _zoom(scene):
+    return f"zoom.factor = {scene.zoom.factor}"
