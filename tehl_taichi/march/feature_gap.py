@@ -13,6 +13,15 @@ def smooth_with(levels, features):
     return gap
 
 
+def with_features(gap, levels, surfaces, X):
+    """A copy of the gap (ny+1, nx+1) with the features of both surfaces in it; X: way of the first one, a."""
+    gap = gap.copy()
+    for surface in surfaces:
+        for feature in surface.features:
+            take_off(gap, levels, feature, surface.pace * X)
+    return gap
+
+
 def take_off(gap, levels, feature, at):
     """Take the heights of a feature off the gap; at: how far its surface has moved, a."""
     s = levels.scales

@@ -14,7 +14,7 @@ from tehl_taichi.heat.temperatures import FilmHeat
 from tehl_taichi.march import snapshot
 from tehl_taichi.march.coupling import carefully, exchange
 from tehl_taichi.march.failure import crossed, not_converged
-from tehl_taichi.march.feature_gap import take_off
+from tehl_taichi.march.feature_gap import with_features
 from tehl_taichi.march.prediction import Prediction
 from tehl_taichi.march.snapshot import Snapshot
 from tehl_taichi.march.solved_state import SolvedState
@@ -128,11 +128,7 @@ class Passage:
         return report
 
     def _move_feature(self, step):
-        gap, at = self.smooth.copy(), self.position(step)
-        for surface in self.scene.surfaces:
-            for feature in surface.features:
-                take_off(gap, self.levels, feature, surface.pace * at)
-        self.levels.put(fields.GAP0, gap)
+        self.levels.put(fields.GAP0, with_features(self.smooth, self.levels, self.scene.surfaces, self.position(step)))
 
     def _predict(self, at):
         """Start values for the state with the feature `at` cells from its start."""

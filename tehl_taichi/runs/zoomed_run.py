@@ -32,10 +32,8 @@ class ZoomLevel:
 
 
 def levels(saved, progress):
-    """The ZoomLevels of the run in the store `saved`, coarsest first; [] where its scene has no zoom, or no step."""
+    """The ZoomLevels of the run in the store `saved`, coarsest first."""
     scene = saved.scene
-    if not scene.zooms or len(saved) < 3:
-        return []
     factors = [factor for factor in (scene.zoom.factor // 2, scene.zoom.factor) if factor > 1]
     return [_level(scene, saved, factor, progress, n, len(factors)) for n, factor in enumerate(factors)]
 

@@ -11,7 +11,7 @@ BESIDE, CELLS = 0.05, 5  # a, and cells of the grid, at least, between the featu
 
 def check(scene):
     """Refuse a scene whose features leave no room for its window, or a window that does not hold them. Raises SceneError."""
-    extents = {axis: _extent(scene, axis) for axis in ("xy" if scene.rows else "x")}
+    extents = {axis: extent(scene, axis) for axis in ("xy" if scene.rows else "x")}
     _check_ends(scene, *extents.get("y", (0.0, 0.0)))
     low, high = extents["x"]
     if high - low > WIDEST:
@@ -36,8 +36,8 @@ def _check_ends(scene, low, high):
                          f"allowed with grid.y_max = {grid.y_max:g}: at most {room:.3g} a")
 
 
-def _extent(scene, axis):
-    """From where to where (a) the features of the surface that the window follows reach along an axis."""
+def extent(scene, axis):
+    """From where to where (a) the features of the surface that a window follows reach along an axis."""
     a = Scales.of(scene).a
     sides = [(getattr(f, axis), f.reach if axis == "x" else math.inf if f.transverse else f.reach_y)
              for f in scene.reference.features]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl_taichi.laws.density import rho_ratio
-from tehl_taichi.march.feature_gap import smooth_with, take_off
+from tehl_taichi.march.feature_gap import smooth_with, with_features
 from tehl_taichi.pressure.grids import Grids
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.timeline import step_length
@@ -38,6 +38,7 @@ class BaseStates:
     def __init__(self, scene, reader):
         self.scene, self.reader, self.scales = scene, reader, Scales.of(scene)
         self.grid = Grids(scene.grid, self.scales, scene.grid.nx, scene.rows, not scene.symmetric)
+        self.smooth = self.grid.smooth_gap()
         self.mirrored = self.grid.ny > 0 and scene.symmetric
         self.last, self.first_x, self.way = len(reader) - 1, scene.path[0], step_length(scene)
         self.entry = functools.lru_cache(maxsize=2 * POINTS)(self._entry)
@@ -60,17 +61,10 @@ class BaseStates:
         s, found = self.scales, self.reader.fields(n, ("pressure", "film"))
         p, film = (np.asarray(found[name], float).T for name in ("pressure", "film"))
         H, H0 = film / s.h, float(self.reader.scalar("h0_m")[n]) / s.h
-        gap = self._gap(n)
+        gap = with_features(self.smooth, self.grid, self.scene.surfaces, self.position(n))
         if n == 0:  # the start is smooth; features come into its film with the first step
             H = H + gap - smooth_with(self.grid, self.scene.standing)
         return BaseState(self.position(n), p / s.p_H, self._density(p) * H, H - gap - H0, H0)
 
     def _density(self, p):
         return rho_ratio(self.scene.film_oil, p, self.scene.operation.temperature)
-
-    def _gap(self, n):
-        gap, X = self.grid.smooth_gap().copy(), self.position(n)
-        for surface in self.scene.surfaces:
-            for feature in surface.features:
-                take_off(gap, self.grid, feature, surface.pace * X)
-        return gap

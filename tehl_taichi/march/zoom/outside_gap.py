@@ -6,7 +6,7 @@ the nodes of the window, that by the pressure along its border, which the window
 
 import numpy as np
 
-from tehl_taichi.march.feature_gap import take_off
+from tehl_taichi.march.feature_gap import with_features
 from tehl_taichi.march.zoom.refining import Refining
 from tehl_taichi.pressure import fields, influence
 
@@ -46,15 +46,8 @@ class OutsideGap:
         """GAP0 of the window: undeformed gap, features, deflection from outside; ring: the pressure of the run at its nodes."""
         v = self.levels
         v.place(origin)
-        v.put(fields.GAP0, self._gap(state.X) + self._far(state, origin) - self._own(ring, origin))
-
-    def _gap(self, X):
-        v = self.levels
-        gap = v.smooth_gap().copy() * np.ones((v.ny + 1, 1))
-        for surface in v.scene.surfaces:
-            for feature in surface.features:
-                take_off(gap, v, feature, surface.pace * X)
-        return gap
+        gap = with_features(v.smooth_gap(), v, v.scene.surfaces, state.X)
+        v.put(fields.GAP0, gap + self._far(state, origin) - self._own(ring, origin))
 
     def _far(self, state, origin):
         """Deflection of the run without that by its own pressure in the core of the window, at the nodes of the window."""

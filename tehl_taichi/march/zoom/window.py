@@ -7,6 +7,7 @@ import numpy as np
 
 from tehl_taichi.pressure.grids import Grids
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.scene.zoom_room import extent
 
 GIVEN, LEAST = 2, 8  # cells of the run, and of the window at least, along its border where the pressure of the run is given:
 # three paths of oil begin there, with the nodes of their interpolation. Window of factor 1 on 128 columns (one dimension, pure
@@ -30,7 +31,7 @@ def smooth(t):
 @dataclass(frozen=True)
 class Window:
     """factor; cells `nx`, `ny` of the window and `all_nx`, `all_ny` of the whole fine grid (ny = 0: one row); `row`: its first
-    row; `back`: its cells behind the centre `offset` (a) + pace * X of what it follows; x_min, dx: of the fine grid, a; dy."""
+    row; `back`: its cells behind the centre of the first feature; x_min, y_min, dx, dy: of the fine grid, a."""
 
     factor: int
     nx: int
@@ -39,28 +40,26 @@ class Window:
     all_ny: int
     row: int
     back: int
-    offset: float
-    pace: float
     x_min: float
+    y_min: float
     dx: float
     dy: float
 
     @classmethod
     def of(cls, scene, factor):
         """The window of a scene round the features of the surface that carries its first one."""
-        scales = Scales.of(scene)
-        grid = Grids(scene.grid, scales, scene.grid.nx, scene.rows, not scene.symmetric)
-        low, high = _along(scene, scales, _blend(factor) * grid.dx / factor + BEYOND)
+        grid = Grids(scene.grid, Scales.of(scene), scene.grid.nx, scene.rows, not scene.symmetric)
+        low, high = _along(scene, _blend(factor) * grid.dx / factor + BEYOND)
         dx, all_nx = grid.dx / factor, grid.nx * factor
         nx = min(_multiple((high - low) / dx, COLUMNS), all_nx // COLUMNS * COLUMNS)
         spare = nx - (high - low) / dx
-        row, ny = _rows(scene, grid, factor, scales) if grid.ny else (0, 0)
-        return cls(factor, nx, ny, all_nx, grid.ny * factor, row, round(-low / dx + spare / 2), 0.0, scene.reference.pace,
-                   float(grid.X[0]), dx, grid.dy / factor)
+        row, ny = _rows(scene, grid, factor) if grid.ny else (0, 0)
+        return cls(factor, nx, ny, all_nx, grid.ny * factor, row, round(-low / dx + spare / 2),
+                   float(grid.X[0]), float(grid.Y[0]), dx, grid.dy / factor)
 
     def origin(self, X):
         """First fine column of the window with the first feature at X (a)."""
-        column = round((self.offset + self.pace * X - self.x_min) / self.dx) - self.back
+        column = round((X - self.x_min) / self.dx) - self.back
         return min(max(column, 0), self.all_nx - self.nx)
 
     def columns(self, origin):
@@ -90,24 +89,21 @@ def _multiple(cells, of):
     return max(1, math.ceil(cells / of - 1e-9)) * of
 
 
-def _along(scene, scales, beyond):
+def _along(scene, beyond):
     """From where to where (a, from the centre of the first feature) the window reaches along x: the oil that has passed over a
     feature is ahead of it or behind, by twice the half-width at most."""
-    surface, width = scene.reference, scene.zoom.width_x
-    if width:
+    if width := scene.zoom.width_x:
         return -width / 2, width / 2
-    lead = 2.0 * (scene.operation.u_m / surface.speed - 1.0)
-    low = min((f.x - f.reach) / scales.a for f in surface.features)
-    high = max((f.x + f.reach) / scales.a for f in surface.features)
+    lead = 2.0 * (scene.operation.u_m / scene.reference.speed - 1.0)
+    low, high = extent(scene, "x")
     return low + min(lead, 0.0) - beyond, high + max(lead, 0.0) + beyond
 
 
-def _rows(scene, grid, factor, scales):
+def _rows(scene, grid, factor):
     """First fine row and number of rows."""
-    dy = grid.dy / factor
+    dy, (low, high) = grid.dy / factor, extent(scene, "y")
     beyond = _blend(factor) * dy + BEYOND
-    high = max((f.y + f.reach_y) / scales.a for f in scene.reference.features) + beyond
-    low = min((f.y - f.reach_y) / scales.a for f in scene.reference.features) - beyond
+    low, high = low - beyond, high + beyond
     if width := scene.zoom.width_y:
         low, high = 0.5 * (low + high - width), 0.5 * (low + high + width)
     if scene.symmetric:

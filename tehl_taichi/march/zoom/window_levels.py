@@ -23,7 +23,7 @@ class WindowLevels(Levels):
         domain = SimpleNamespace(x_min=0.0, x_max=w.nx * w.dx, y_max=height)
         super().__init__(scene, scales, w.nx, w.ny, full, domain, COARSEST)
         if w.ny:
-            self.Y = self.Y - self.Y[0] + first_row(scene, scales, w)
+            self.Y = self.Y - self.Y[0] + w.y_min + w.row * w.dy
 
     def _unknown_nodes(self):
         ring, inside = given(self.window.factor), super()._unknown_nodes()
@@ -37,9 +37,3 @@ class WindowLevels(Levels):
     def place(self, origin):
         """Its columns begin with this one of the fine grid."""
         self.X = self.window.columns(origin)
-
-
-def first_row(scene, scales, window):
-    """Place (a) of the first row."""
-    edge = 0.0 if scene.symmetric else -scene.grid.y_max * scales.b / scales.a
-    return edge + window.row * window.dy

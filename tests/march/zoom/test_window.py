@@ -39,7 +39,7 @@ def test_the_oil_that_passed_over_the_feature_is_inside():
 def test_it_rides_with_its_surface_by_whole_cells():
     scene = dataclasses.replace(GEAR, features=(dataclasses.replace(GEAR.features[0], surface="b"),))
     w = Window.of(scene, 4)
-    assert w.pace == 1.0  # the first feature is the clock, whichever surface carries it
+    assert scene.reference.pace == 1.0  # the first feature is the clock, whichever surface carries it
     origins = [w.origin(X) for X in np.arange(-1.0, 0.5, w.dx)]
     assert set(np.diff(origins)) <= {0, 1, 2} and origins[-1] - origins[0] == round(1.5 / w.dx) - 1
 
