@@ -4,7 +4,7 @@ import numpy as np
 
 from tehl_taichi.fatigue.judged_surfaces import by_surface
 from tehl_taichi.fatigue.pressure_alone import why_none
-from tehl_taichi.report import verdict
+from tehl_taichi.report import place_warnings, verdict
 from tehl_taichi.report.document import Answer, Page, Section, drawn, facts, sentences, table
 from tehl_taichi.report.number_text import FEW, index, value_text
 from tehl_taichi.report.plots import colour, line, stacked
@@ -66,11 +66,7 @@ def figures(cam):
 
 def warnings(cam):
     """Warnings of all angles, each once with its angles."""
-    places: dict[str, list[str]] = {}
-    for at, _, summary in cam.rows:
-        for sentence in (summary or {}).get("warnings", []):
-            places.setdefault(sentence, []).append(at.words)
-    return [f"{', '.join(angles)}: {sentence}" for sentence, angles in places.items()]
+    return place_warnings.of(cam.rows, lambda at: at.words)
 
 
 def _provenance(cam):

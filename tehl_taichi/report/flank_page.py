@@ -2,7 +2,7 @@
 
 from tehl_taichi.fatigue.judged_surfaces import by_surface
 from tehl_taichi.fatigue.pressure_alone import why_none
-from tehl_taichi.report import verdict
+from tehl_taichi.report import place_warnings, verdict
 from tehl_taichi.report.document import Answer, Page, Section, drawn, facts, sentences, table
 from tehl_taichi.report.number_text import FEW, index, value_text
 from tehl_taichi.report.plots import colour, line, stacked
@@ -149,11 +149,7 @@ def _value(key, value, declared):
 
 def warnings(flank):
     """Warnings of all positions, each once with its positions."""
-    places_of: dict[str, list[str]] = {}
-    for at, _, summary in flank.rows:
-        for sentence in (summary or {}).get("warnings", []):
-            places_of.setdefault(sentence, []).append(at.point or f"{at.x_pl * 1e3:.3g} mm")
-    return [f"{', '.join(places)}: {sentence}" for sentence, places in places_of.items()]
+    return place_warnings.of(flank.rows, lambda at: at.point or f"{at.x_pl * 1e3:.3g} mm")
 
 
 def _provenance(flank):
