@@ -117,11 +117,11 @@ def _compute(which, context, own, feature, oil, temperature, thermal, grid, set_
              quiet, curves, as_json, load, axial, speed, on, roughness, scene, steady, workers, threads, **_):
     """Run the bearing and print it."""
     import tehl_taichi as tehl
-    from tehl_taichi.runs.bearing import bearing_figure
+    from tehl_taichi.view.figures import folder_figure
     from tehl_taichi.view.figures.figure_style import FigureStyle
 
     page = FigureStyle(format, dpi, figure_width, force=True)
-    bearing_figure.check(out, page) if figure else say_idle(context, "--no-figure draws none", *DRAWS)
+    folder_figure.check(out, page, "bearing") if figure else say_idle(context, "--no-figure draws none", *DRAWS)
     if feature is None and scene is None:
         say_idle(context, "nothing passes without --dent, --scan or --scene", "on", "steady")
     changes = given_by({"oil.name": oil, "temperature": temperature, "thermal.on": thermal}, grid, set_ or [])

@@ -49,13 +49,13 @@ def cam(
     Examples: `tehl cam cam.csv --oil mineral-vg100 --temperature 90` · `tehl cam cam.csv --dent 2e-6,0.2e-3,rim=0.3e-6`
     """
     import tehl_taichi as tehl
-    from tehl_taichi.runs.cam import cam_figure
     from tehl_taichi.store.load_scene import find
+    from tehl_taichi.view.figures import folder_figure
     from tehl_taichi.view.figures.figure_style import FigureStyle
 
     feature = feature_of(dent, scan, unit, pixel)
     page = FigureStyle(format, dpi, figure_width, force=True)
-    cam_figure.check(out, page) if figure else say_idle(context, "--no-figure draws none", *DRAWS)
+    folder_figure.check(out, page, "cam") if figure else say_idle(context, "--no-figure draws none", *DRAWS)
     changes = given_by({"oil.name": oil, "temperature": temperature, "thermal.on": thermal}, grid, set_ or [])
     with Live(quiet, curves) as live:
         found = tehl.cam(table, feature=feature, scene=find(scene) if scene else None, changes=changes, steady=steady,

@@ -53,12 +53,12 @@ def flank(
     Examples: `tehl flank fzg-c --torque 265.1` · `tehl flank my_gears.toml --on gear --steady` · `tehl flank table.csv`
     """
     import tehl_taichi as tehl
-    from tehl_taichi.runs.flank import flank_figure
     from tehl_taichi.store.load_scene import find
+    from tehl_taichi.view.figures import folder_figure
     from tehl_taichi.view.figures.figure_style import FigureStyle
 
     page = FigureStyle(format, dpi, figure_width, force=True)
-    flank_figure.check(out, page) if figure else say_idle(context, "--no-figure draws none", *DRAWS)
+    folder_figure.check(out, page, "flank") if figure else say_idle(context, "--no-figure draws none", *DRAWS)
     changes = given_by({"temperature": temperature, "height": height, "width": width, "thermal.on": thermal}, grid, set_ or [])
     base = find(scene) if scene else None
     check_rows(grid, changes, lambda: _line(gear, base, changes, steady))

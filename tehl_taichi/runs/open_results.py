@@ -21,23 +21,27 @@ INSIDE = {STUDY: ("table.csv", "cases/NUMBER.zarr"), FLANK: ("flank.csv", "POSIT
 
 def kind(path: str | PathLike) -> str:
     """What lies at `path`: "study", "flank", "bearing", "cam", or else "run", whether it is a good one or none at all."""
-    from tehl_taichi.runs.bearing.stored_bearing import is_bearing
-    from tehl_taichi.runs.cam.stored_cam import is_cam
-    from tehl_taichi.runs.flank.stored_flank import is_flank
     from tehl_taichi.runs.sweep.study_table import is_study
 
-    found = ((STUDY, is_study), (FLANK, is_flank), (BEARING, is_bearing), (CAM, is_cam))
-    return next((name for name, is_one in found if is_one(path)), RUN)
+    if is_study(path):
+        return STUDY
+    return next((name for name, one in _contact_sets().items() if one.lies_in(path)), RUN)
+
+
+def _contact_sets():
+    """{what it is: class} of results that lie in a folder of their own."""
+    from tehl_taichi.runs.bearing.stored_bearing import Bearing
+    from tehl_taichi.runs.cam.stored_cam import Cam
+    from tehl_taichi.runs.flank.stored_flank import Flank
+
+    return {FLANK: Flank, BEARING: Bearing, CAM: Cam}
 
 
 def open(path: str | PathLike) -> "Run | Study | Flank | Bearing | Cam":
     """As :func:`tehl_taichi.open`."""
-    from tehl_taichi.runs.bearing.stored_bearing import Bearing
-    from tehl_taichi.runs.cam.stored_cam import Cam
-    from tehl_taichi.runs.flank.stored_flank import Flank
     from tehl_taichi.runs.sweep.study_table import Study
 
-    opened: dict = {STUDY: Study.open, FLANK: Flank.open, BEARING: Bearing.open, CAM: Cam.open, RUN: _run}
+    opened: dict = {STUDY: Study.open, RUN: _run, **{name: one.open for name, one in _contact_sets().items()}}
     return opened[kind(path := folder_of(path))](path)
 
 

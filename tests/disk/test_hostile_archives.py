@@ -15,7 +15,7 @@ import tehl_taichi as tehl
 from tehl_taichi.disk.drafts import staging_path
 from tehl_taichi.errors import StoreError
 from tehl_taichi.runs.flank import flank
-from tehl_taichi.runs.flank.stored_flank import check_writable
+from tehl_taichi.runs.flank.stored_flank import Flank
 from tehl_taichi.runs.sweep import sweeping
 from tehl_taichi.runs.sweep.plan import plan
 from tehl_taichi.runs.sweep.study_table import Study
@@ -104,7 +104,7 @@ def write_to_flank(path):
 
 # the doors that these go through, without the work before
 DOORS = {"store": (lambda path: Store.write(path).close(), lambda path: StoreDraft(path, replace=True).give_up()),
-         "study": (lambda path: Study.write(path, TWO).close(),), "flank": (check_writable,)}
+         "study": (lambda path: Study.write(path, TWO).close(),), "flank": (Flank.check_writable,)}
 ARCHIVES = {"store": (stored, write_to_store), "study": (swept, write_to_study), "flank": (flanked, write_to_flank)}
 
 

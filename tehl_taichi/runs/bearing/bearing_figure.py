@@ -1,36 +1,15 @@
 """Loads of the elements around the ring, and over both ellipses Hertz pressure and slip."""
 
-import os
-
 import numpy as np
 
-from tehl_taichi.disk import links
 from tehl_taichi.view.figures import palette
-from tehl_taichi.view.figures.figure_style import drawing, made
 
 LOADS, ACROSS = "load of the elements (N)", "y across rolling (mm)"
 POINTS = 201
 
 
-def check(folder, page):
-    """Raises StoreError where no figure could be drawn, nor written into the folder (None: a new one) of a bearing to come."""
-    drawing()
-    if folder is not None and os.path.lexists(folder):
-        links.refuse(folder)
-        page.check(folder / f"bearing.{page.format}", folder)
-
-
-def write(bearing, path, page):
-    """Write the figure of a Bearing, as the :class:`FigureStyle` says; returns the path."""
-    page, path = page.of_file(path)
-    if os.path.realpath(path.parent) == os.path.realpath(bearing.folder):
-        links.refuse(path.parent)
-    page.check(path, bearing.folder)
-    made(path.parent)
-    return page.save(lambda: _drawn(page, bearing), path, of=bearing.folder)
-
-
-def _drawn(page, bearing):
+def drawn(page, bearing):
+    """The matplotlib Figure of a Bearing."""
     slips = has_slip(bearing)
     figure, axes = page.figure(3 if slips else 2)
     _loads(axes[0, 0], bearing)

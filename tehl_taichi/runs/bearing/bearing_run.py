@@ -14,7 +14,7 @@ from tehl_taichi.runs.bearing.dry_contact import dry_contact
 from tehl_taichi.runs.bearing.ring_contacts import RINGS
 from tehl_taichi.runs.bearing.rolling_bearing import RollingBearing
 from tehl_taichi.runs.bearing.static_safety import LIMITS, safety
-from tehl_taichi.runs.bearing.stored_bearing import Bearing, check_writable
+from tehl_taichi.runs.bearing.stored_bearing import Bearing
 from tehl_taichi.runs.flank.flank_run import fresh
 from tehl_taichi.runs.flank.outcomes import summaries
 from tehl_taichi.runs.progress import Progress
@@ -61,7 +61,7 @@ def bearing(what: str | PathLike | RollingBearing, *, load: float | None = None,
     ring_scenes.check_free(changes)
     loads, speeds, rings = solved(found, base, changes, on if passing else "")
     target = path_of("folder", folder) if folder else fresh(found.name)
-    check_writable(target)
+    Bearing.check_writable(target)
     _check_stores(target, rings)
     record = bearing_record(found, target, loads, speeds, rings, roughness)
     made = Bearing(target, record)

@@ -1,34 +1,12 @@
 """Film, pressure, temperature, fatigue, friction and slip over the angle of the cam."""
 
-import os
-
 import numpy as np
 
-from tehl_taichi.disk import links
 from tehl_taichi.runs.flank.flank_columns import error_of, known
 from tehl_taichi.runs.flank.flank_figure import LAST, PANELS
 from tehl_taichi.view.figures import palette
-from tehl_taichi.view.figures.figure_style import drawing, made
 
 ANGLE = "angle of the cam (degrees)"
-
-
-def check(folder, page):
-    """Raises StoreError where no figure could be drawn, nor written into the folder (None: a new one) of a cam to come."""
-    drawing()
-    if folder is not None and os.path.lexists(folder):
-        links.refuse(folder)
-        page.check(folder / f"cam.{page.format}", folder)
-
-
-def write(cam, path, page):
-    """Write the figure of a Cam, as the :class:`FigureStyle` says; returns the path."""
-    page, path = page.of_file(path)
-    if os.path.realpath(path.parent) == os.path.realpath(cam.folder):
-        links.refuse(path.parent)
-    page.check(path, cam.folder)
-    made(path.parent)
-    return page.save(lambda: drawn(page, cam), path, of=cam.folder)
 
 
 def panels(cam):

@@ -5,7 +5,7 @@ from os import PathLike
 from tehl_taichi.errors import SceneError, interrupt
 from tehl_taichi.runs.bearing.ring_scenes import base_of, smooth
 from tehl_taichi.runs.cam import cam_table
-from tehl_taichi.runs.cam.stored_cam import Cam, check_writable
+from tehl_taichi.runs.cam.stored_cam import Cam
 from tehl_taichi.runs.flank.flank_run import fresh
 from tehl_taichi.runs.flank.line_contacts import scene_at
 from tehl_taichi.runs.flank.outcomes import summaries
@@ -39,7 +39,7 @@ def cam(table: str | PathLike, *, feature: Feature | None = None, scene: Scene |
     if not scenes:
         raise SceneError(f"table {path}: no angle has a film; the first one: {places[0].without_film}")
     target = path_of("folder", folder) if folder else fresh(path.stem)
-    check_writable(target)
+    Cam.check_writable(target)
     return _run(Cam(target, cam_record(path, target, places, scenes)), scenes, workers, threads, progress)
 
 

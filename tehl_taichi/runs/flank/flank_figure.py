@@ -1,13 +1,9 @@
 """Film, pressure, temperature and fatigue over the flank: dedendum left of the pitch line, addendum right of it."""
 
-import os
-
 import numpy as np
 
-from tehl_taichi.disk import links
 from tehl_taichi.runs.flank.flank_columns import error_of, known
 from tehl_taichi.view.figures import palette
-from tehl_taichi.view.figures.figure_style import drawing, made
 
 # panel: label, factor, {legend: keys in the summary}; "p_H" is the Hertz pressure
 PANELS = (("film (µm)", 1e6, {"steady, centre": ("steady", "h_c_m"), "steady, smallest": ("steady", "h_min_m"),
@@ -29,25 +25,8 @@ PANELS = (("film (µm)", 1e6, {"steady, centre": ("steady", "h_c_m"), "steady, s
 LAST = 5  # panels: friction, λ and slip fill up what a steady or isothermal flank leaves free
 
 
-def check(folder, page):
-    """Raises StoreError where no figure could be drawn, nor written into the folder (None: a new one) of a flank to come."""
-    drawing()
-    if folder is not None and os.path.lexists(folder):
-        links.refuse(folder)
-        page.check(folder / f"flank.{page.format}", folder)
-
-
-def write(flank, path, page):
-    """Write the figure of a Flank, as the :class:`FigureStyle` wants it; returns the path."""
-    page, path = page.of_file(path)
-    if os.path.realpath(path.parent) == os.path.realpath(flank.folder):
-        links.refuse(path.parent)
-    page.check(path, flank.folder)
-    made(path.parent)
-    return page.save(lambda: _drawn(page, flank), path, of=flank.folder)
-
-
-def _drawn(page, flank):
+def drawn(page, flank):
+    """The matplotlib Figure of a Flank."""
     shown = [panel for panel in PANELS if any(_series(flank, what) for what in panel[2].values())][:LAST]
     figure, axes = page.figure(len(shown), sharex=True)
     for ax, (label, factor, lines) in zip(axes[:, 0], shown):

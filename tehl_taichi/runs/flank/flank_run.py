@@ -12,7 +12,7 @@ from tehl_taichi.runs.flank.flank_source import flank_source
 from tehl_taichi.runs.flank.line_contacts import scene_at
 from tehl_taichi.runs.flank.mesh import Mesh
 from tehl_taichi.runs.flank.outcomes import Outcome, summaries
-from tehl_taichi.runs.flank.stored_flank import Flank, check_writable
+from tehl_taichi.runs.flank.stored_flank import Flank
 from tehl_taichi.runs.progress import Progress
 from tehl_taichi.scene import Scene
 from tehl_taichi.scene.aliases import settled, words
@@ -40,7 +40,7 @@ def flank(gear: str | PathLike | GearPair = "fzg-c", *, torque: float | None = N
     places = found.positions(on, positions, at)
     scenes = [scene_at(scene or found.scene, changes, found.name, n, place) for n, place in enumerate(places, 1)]
     target = path_of("folder", folder) if folder else fresh(found.name)
-    check_writable(target)
+    Flank.check_writable(target)
     subject = about(found, target, (on or "pinion") if found.pair else "")
     outcomes = [Outcome(target / f"{one.name}.zarr", reason=WAITING) for one in scenes]
     done = 0

@@ -78,7 +78,7 @@ def test_the_page_of_too_much_load_says_no(tmp_path):
 
 def test_the_figure_shows_loads_pressure_and_slip(dry):
     pytest.importorskip("matplotlib")
-    axes = bearing_figure._drawn(FigureStyle(), dry).axes
+    axes = bearing_figure.drawn(FigureStyle(), dry).axes
     assert [len(ax.patches) for ax in axes] == [9, 0, 0] and [len(ax.lines) for ax in axes] == [0, 2, 2]
     assert max(axes[1].lines[0].get_ydata()) == pytest.approx(dry.rings["inner"]["p_Hertz_Pa"] / 1e9)
 

@@ -87,7 +87,7 @@ def test_table_and_figure_carry_the_errors(steady):
     (column,) = [c for c in flank_columns.COLUMNS if c.name == "steady_h_c_m"]
     film = steady.rows[0][2]["steady"]
     assert column.shown(*steady.rows[0]) == with_error(film["h_c_m"] * 1e6, film["error"]["h_c_m"] * 1e6)
-    bars = flank_figure._drawn(FigureStyle(), steady).axes[0].containers[0].lines[2][0].get_segments()
+    bars = flank_figure.drawn(FigureStyle(), steady).axes[0].containers[0].lines[2][0].get_segments()
     assert bars[0][1, 1] - bars[0][0, 1] == pytest.approx(2e6 * film["error"]["h_c_m"])
 
 
