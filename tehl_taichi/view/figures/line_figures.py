@@ -3,7 +3,8 @@
 import numpy as np
 
 from tehl_taichi.scene.feature_wording import carriers, passing
-from tehl_taichi.view.figures import palette, zoom_lines
+from tehl_taichi.view.figures import palette
+from tehl_taichi.view.figures.zoom_lines import ZoomLines
 
 ALONG = "x / a (flow to the right)"
 SURFACES: tuple[tuple[str, str, str], ...] = (
@@ -32,10 +33,10 @@ def centreline(page, moments):
     """Pressure and film for several feature positions."""
     store, row, shown = moments.store, moments.line, moments.several()
     figure, ((top,), (low,)) = page.figure(2, sharex=True)
-    zoomed = False
+    window, zoomed = ZoomLines(store, row), False
     for n, (colour, label) in shown.items():
         f = store.fields(n, ("pressure", "film"))
-        zoomed |= zoom_lines.draw((top, low), store, n, row, moments.a, colour)
+        zoomed |= window.draw((top, low), n, moments.a, colour)
         style = dict(label=label, color=colour, **_start(colour))
         top.plot(moments.x, f["pressure"][:, row] / 1e9, **style)
         low.plot(moments.x, f["film"][:, row] * 1e6, **style)
