@@ -1,10 +1,11 @@
-"""tehl compare: runs side by side."""
+"""tehl compare: runs, flanks, bearings, cams or studies side by side."""
 
 from pathlib import Path
-from typing import List, Optional
+from typing import Any, List, Optional
 
 import typer
 from tehl_cli.figure_options import Dpi, Force, Format, Width
+from tehl_cli.idle_options import say_idle
 from tehl_cli.live_display import say
 from tehl_cli.stdout import print_json, put
 
@@ -17,8 +18,10 @@ def register(app):
 
 
 def compare(
-    stores: List[Path] = typer.Argument(..., help="stores of two or more runs, finished or not"),
-    at: float = typer.Option(0.0, help="position of the feature in the centreline plots, in half-widths a"),
+    stores: List[Path] = typer.Argument(..., help="stores of two or more runs, finished or not; or folders of flanks, bearings "
+                                                  "or cams, or studies over the same keys"),
+    context: typer.Context = None,
+    at: float = typer.Option(0.0, help="runs: position of the feature in the centreline plots, in half-widths a"),
     out: Optional[Path] = typer.Option(None, help="figure to write: .png, .pdf or .svg (default: compare.png beside the first "
                                                   "store)"),
     format: Format = "png",
@@ -27,21 +30,29 @@ def compare(
     force: Force = False,
     as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout"),
 ):
-    """Compare runs: differences between scenes and results, and one figure of centrelines, histories and Fi.
+    """Compare results of one kind: differences between settings and results with their error bars, and one figure.
 
-    Example: `tehl compare runs/gear-1.zarr runs/gear-2.zarr`
+    Runs: centrelines, histories and Fi. Flanks, bearings, cams, studies: a table by position, curves over one axis.
+
+    Examples: `tehl compare runs/gear-1.zarr runs/gear-2.zarr` · `tehl compare runs/vg220 runs/vg320`
     """
+    from tehl_taichi.runs.compare import Comparison
     from tehl_taichi.runs.compare import compare as side_by_side
     from tehl_taichi.values.checks import number
 
     number("--at", at, "a", -20.0, 20.0)
-    found = side_by_side(*stores)
-    figure = found.plot(out or stores[0].parent / "compare", at, dpi, format, width, force)
+    found: Any = side_by_side(*stores)
+    place, page = out or stores[0].parent / "compare", dict(dpi=dpi, format=format, width=width, force=force)
+    if isinstance(found, Comparison):
+        figure = found.plot(place, at, **page)
+    else:
+        say_idle(context, f"it applies to runs, and {stores[0]} is a {found.kind}", "at")
+        figure = found.plot(place, **page)
     if as_json:
         print_json({**found.to_dict(), "figure": str(figure)})
         return
     _scenes(found)
-    _results(found)
+    _results(found) if isinstance(found, Comparison) else _places(found)
     say(str(figure))
 
 
@@ -49,9 +60,9 @@ def _scenes(found):
     from tehl_cli.tables import list_table
 
     if not found.differs:
-        return put("the scenes are identical")
+        return put("the settings are identical")
     rows = [(key, *map(_shown, values)) for key, values in found.differs.items()]
-    list_table("differences between the scenes", ("key", *found.names), rows, whole=True)
+    list_table("differences between the settings", ("key", *found.names), rows, whole=True)
 
 
 def _results(found):
@@ -62,8 +73,37 @@ def _results(found):
     rows = [(line.what, *line.values, *[line.change] * pair) for line in lines if not line.same]
     if rows:
         list_table("differences between the results", ("quantity", *found.names, *["change"] * pair), rows, whole=True)
+    _legend(row[-1] for row in rows if pair)
     if same := [f"{line.what} {line.values[0]}" for line in lines if line.same]:
         put(f"equal in all: {'; '.join(same)}")
+
+
+def _places(found):
+    """The quantities that differ somewhere, a row for each place; then those that do not, as a line."""
+    from tehl_cli.tables import list_table
+
+    pair, unequal = len(found.tables) == 2, found.unequal()
+    rows = [(row.quantity.heading, row.place.words, *row.texts, *[row.change] * pair)
+            for row in found.rows if row.name in unequal]
+    if rows:
+        heads = ("quantity", "at", *found.names, *["change"] * pair)
+        list_table("differences between the results", heads, _once(rows), whole=True)
+    _legend(row[-1] for row in rows if pair)
+    if same := [quantity.label for name, quantity in found.quantities.items() if name not in unequal]:
+        put(f"equal in all: {'; '.join(same)}")
+
+
+def _once(rows):
+    """Rows whose first word is printed where it changes."""
+    return [(row[0] if n == 0 or rows[n - 1][0] != row[0] else "", *row[1:]) for n, row in enumerate(rows)]
+
+
+def _legend(changes):
+    """What two words of the table mean."""
+    from tehl_taichi.runs.compare_change import NOT_SEPARATED
+
+    if NOT_SEPARATED in changes:
+        put(f"{NOT_SEPARATED}: the error bars overlap")
 
 
 def _shown(value):

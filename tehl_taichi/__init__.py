@@ -62,6 +62,7 @@ if TYPE_CHECKING:
     from tehl_taichi.runs.bearing.stored_bearing import Bearing
     from tehl_taichi.runs.cam.stored_cam import Cam
     from tehl_taichi.runs.compare import Comparison
+    from tehl_taichi.runs.compare_places import PlaceComparison
     from tehl_taichi.runs.flank.stored_flank import Flank
     from tehl_taichi.runs.progress import Lines, Progress
     from tehl_taichi.runs.stored_run import Run
@@ -93,17 +94,17 @@ CLASSES = {"Scene": "scene.description", "Feature": "scene.feature", "Oil": "sce
            "Run": "runs.stored_run", "Study": "runs.sweep.study_table", "Flank": "runs.flank.stored_flank",
            "Traction": "runs.traction.traction_rows", "Cam": "runs.cam.stored_cam",
            "Bearing": "runs.bearing.stored_bearing", "RollingBearing": "runs.bearing.rolling_bearing",
-           "Comparison": "runs.compare",
+           "Comparison": "runs.compare", "PlaceComparison": "runs.compare_places",
            "Snapshot": "march.snapshot", "SearchResult": "fatigue.search_result", "CrackResult": "crack.analysis",
            "Lines": "runs.progress", "Progress": "runs.progress", "Quantity": "values.estimate"}
 OLD_NAMES = {"FatigueResult": "SearchResult"}  # to 0.8
 # not `open`: `from tehl_taichi import *` leaves the builtin alone
 __all__ = ["Bearing", "Body", "Cam", "Comparison", "Contact", "CrackResult", "Error", "Fatigue", "Feature", "Flank", "GearPair",
-           "Grid", "Interrupted", "Lines", "NotConverged", "Numerics", "Oil", "Operation", "Output", "Progress", "Quantity",
-           "Rheology", "RollingBearing", "Run", "RuntimeUnavailable", "Scene", "SceneError", "SearchResult", "Snapshot",
-           "StoreError", "Study", "Thermal", "Time", "Traction", "UnknownName", "Zoom", "__version__", "animate", "bearing",
-           "cam", "compare", "crack", "export", "fatigue", "flank", "march", "report", "resume", "run", "scene", "simulate",
-           "stresses", "sweep", "traction", "zoom"]
+           "Grid", "Interrupted", "Lines", "NotConverged", "Numerics", "Oil", "Operation", "Output", "PlaceComparison",
+           "Progress", "Quantity", "Rheology", "RollingBearing", "Run", "RuntimeUnavailable", "Scene", "SceneError",
+           "SearchResult", "Snapshot", "StoreError", "Study", "Thermal", "Time", "Traction", "UnknownName", "Zoom",
+           "__version__", "animate", "bearing", "cam", "compare", "crack", "export", "fatigue", "flank", "march", "report",
+           "resume", "run", "scene", "simulate", "stresses", "sweep", "traction", "zoom"]
 
 
 def __getattr__(name):

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from tehl_taichi.runs.bearing.stored_bearing import Bearing
     from tehl_taichi.runs.cam.stored_cam import Cam
     from tehl_taichi.runs.compare import Comparison
+    from tehl_taichi.runs.compare_places import PlaceComparison
+    from tehl_taichi.runs.contact_set import ContactSet
     from tehl_taichi.runs.flank.stored_flank import Flank
     from tehl_taichi.runs.progress import Progress
     from tehl_taichi.runs.stored_run import Run
@@ -726,25 +728,25 @@ def traction(scene: "Scene | Name", srr: Any = "0:0.5:11", temperature: Any = No
                     threads_per_worker=threads_per_worker, progress=progress)
 
 
-def compare(*paths: "Name | Run") -> "Comparison":
-    """Compare two or more runs: differences of their scenes, their summaries side by side, one figure.
+def compare(*paths: "Name | Run | Study | ContactSet") -> "Comparison | PlaceComparison":
+    """Compare two or more results of one kind: differences of their settings, their numbers side by side, one figure.
 
     Parameters
     ----------
-    *paths : path or Run
-        Two to eight runs or their stores, finished or not.
+    *paths : path, Run, Study, Flank, Bearing or Cam
+        Two to eight runs, flanks, bearings, cams, or studies over the same keys; finished or not.
 
     Returns
     -------
-    Comparison
-        `differs`, `summaries`, `plot(path)`.
+    Comparison or PlaceComparison
+        `differs`, `plot(path)`; of runs `summaries`, of others `rows`, a quantity at a position each.
 
     Raises
     ------
     SceneError
-        Fewer than two runs, or too many.
+        Fewer than two, or too many; results of two kinds; studies over different keys.
     StoreError
-        A path is not a store, or is given twice.
+        A path has no result, or is given twice.
 
     Examples
     --------

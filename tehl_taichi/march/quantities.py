@@ -11,6 +11,7 @@ import numpy as np
 from tehl_taichi.march.step_output import Scalar, always, entries, thermal
 
 OVER = {"start": "", "maximum": ", largest", "minimum": ", smallest", "mean": ", mean"}
+SPOKEN = {"steady": "steady", "transient": "passage"}  # parts whose numbers have equal names
 SHARP, SWAYED = "sharp", "swayed"  # numbers that an unresolved pressure peak leaves unknown, or has a part in
 
 
@@ -40,6 +41,11 @@ class Entry:
     def name(self):
         """Long name."""
         return self.says or entries(Scalar)[self.series].says + self._ending
+
+    @property
+    def words(self):
+        """Short name with its part: "passage h_min"."""
+        return self.label or f"{SPOKEN.get(self.part, '')} {self.name}".strip().removeprefix("fatigue index ")
 
     @property
     def _ending(self):

@@ -2,15 +2,16 @@
 
 from dataclasses import dataclass
 
+from tehl_taichi.runs.compare_change import change
 from tehl_taichi.runs.summary.summary_rows import rows_of
 
-MANY = 9.0  # relative change from which a factor is read better than per cent
 NONE = "-"  # of a run that has no such value (yet)
 
 
 @dataclass(frozen=True)
 class ComparisonRow:
-    """what: the quantity; values: a text for each run; change: of two runs, "" where it means nothing."""
+    """what: the quantity; values: a text for each run; change: of two runs, "" where it means
+    nothing."""
 
     what: str
     values: tuple
@@ -25,7 +26,7 @@ def lines(summaries):
     """A list of :class:`ComparisonRow` of the summaries of runs ({} of one that is not finished), in the order of `tehl
     show`."""
     runs = [{(row.part, row.what): row for row in rows_of(summary)} if summary else {} for summary in summaries]
-    keys = _in_order([list(run) for run in runs])
+    keys = in_order([list(run) for run in runs])
     return [_line(what, [run.get(key) for run in runs]) for key, what in zip(keys, _distinguished(keys))]
 
 
@@ -37,7 +38,7 @@ def _distinguished(keys):
         seen.add(what)
 
 
-def _in_order(lists):
+def in_order(lists):
     """Every key once: those of the first list, and others behind the key that they follow in theirs."""
     out = list(lists[0])
     for keys in lists[1:]:
@@ -56,11 +57,8 @@ def _line(what, rows):
 
 
 def _change(rows):
-    """Change from the first number to the second: in %, or how many times as much it is."""
-    numbers = [row.number if row else None for row in rows]
-    if len(rows) != 2 or None in numbers or not numbers[0]:
+    """Change from the first number to the second, in words."""
+    if len(rows) != 2 or any(row is None or row.number is None for row in rows):
         return ""
-    part = (numbers[1] - numbers[0]) / abs(numbers[0])
-    if part >= MANY:
-        return f"x {numbers[1] / numbers[0]:.0f}"
-    return f"{part:+.0%}" if abs(part) >= 0.1 else f"{100 * part:+.2g}%"
+    first, second = rows
+    return change((first.number, first.error), (second.number, second.error), first.nothing)

@@ -1,5 +1,6 @@
 """Several contacts and their results as a folder keeps them: one JSON object, its table, its figure."""
 
+import contextlib
 import json
 import os
 from dataclasses import dataclass
@@ -81,6 +82,22 @@ class ContactSet:
     def name(self) -> str:
         return self.record["name"]
 
+    @property
+    def _contacts(self) -> list:
+        """Entries of the record, one for each contact, with its "store"."""
+        raise NotImplementedError
+
+    def stores(self) -> list:
+        """The readable :class:`tehl_taichi.store.store.Store` of each contact that has one, in the folder."""
+        from tehl_taichi.store.store import Store
+
+        found = []
+        for one in self._contacts:
+            path = self.folder / Path(one.get("store") or "none").name
+            with contextlib.suppress(StoreError):
+                found += [Store.open(path)] * path.is_dir()
+        return found
+
     def to_dict(self) -> dict:
         """The JSON object of the command with --json, in SI units."""
         return self.record
@@ -120,6 +137,10 @@ class PositionSet(ContactSet):
     def _position(one):
         """The position of an entry of the record."""
         raise NotImplementedError
+
+    @property
+    def _contacts(self):
+        return self.record["positions"]
 
     @property
     def rows(self) -> list:

@@ -6,3 +6,13 @@ UNITS = {"m": "m", "Pa": "Pa", "C": "degC", "K": "K", "s": "s", "deg": "degree",
 def unit_of(name):
     """Unit of a number: h_min_m is in m, load_error in nothing ("")."""
     return UNITS.get(name.rpartition("_")[2], "") if "_" in name else ""
+
+
+# sizes below which a number is nearly nothing, so that a change in per cent of it says nothing: a film of a few molecules of
+# oil, a pressure that moves nothing in a contact of steel, a thousandth of a coefficient, share or index
+NOTHING = {"m": 5e-9, "Pa": 1e6, "": 1e-3}
+
+
+def nothing_of(name):
+    """The size (SI) below which a number of that name is nearly nothing; 0 where any size counts."""
+    return NOTHING.get(unit_of(name), 0.0)

@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 
 import tehl_taichi as tehl
 from tehl_taichi.runs import compare_figure
-from tehl_taichi.runs.compare import flat
+from tehl_taichi.runs.compare_labels import flat
 
 OTHER = SMALL.replace(name="other", srr=0.12, height=1e-6)
 
@@ -138,7 +138,7 @@ def test_the_command_tells_what_differs_and_what_is_the_same(made):
 def test_runs_of_one_scene(tmp_path):
     made = [made_results.run(tmp_path / f"{n}.zarr", SMALL) for n in range(2)]
     told = CliRunner().invoke(app, ["compare", *map(str, made)]).stdout
-    assert "the scenes are identical" in told and "differences" not in told and "equal in all: Hertz" in told
+    assert "the settings are identical" in told and "differences" not in told and "equal in all: Hertz" in told
 
 
 @pytest.mark.rendered
@@ -210,8 +210,8 @@ def test_tables_in_tables_become_dotted_keys():
 
 def test_a_table_of_strength_is_named_and_not_listed():
     """Its contents follow from its name; where only these differ they are what differs."""
-    from tehl_taichi.runs.compare import _follows
+    from tehl_taichi.runs.compare_labels import follows
 
-    assert _follows("fatigue.table_rows", {"fatigue.table": [], "fatigue.table_rows": []})
-    assert not _follows("fatigue.table_rows", {"fatigue.table_rows": []})
-    assert not _follows("fatigue.kappa", {"fatigue.table": []})
+    assert follows("fatigue.table_rows", {"fatigue.table": [], "fatigue.table_rows": []})
+    assert not follows("fatigue.table_rows", {"fatigue.table_rows": []})
+    assert not follows("fatigue.kappa", {"fatigue.table": []})

@@ -32,6 +32,11 @@ class RingRow:
         value *= self.factor
         return format(value, self.form) if error is None else with_error(value, error * self.factor)
 
+    @property
+    def barred(self):
+        """Whether it is computed with an error bar, which may be unknown."""
+        return self.error is not RingRow.error
+
 
 def of_ring(*keys):
     """A value deep in the record of a ring."""

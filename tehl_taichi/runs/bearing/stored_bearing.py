@@ -32,6 +32,10 @@ class Bearing(ContactSet):
         return {ring: self.record[ring] for ring in RINGS}
 
     @property
+    def _contacts(self):
+        return list(self.rings.values())
+
+    @property
     def failed(self) -> dict:
         """{ring: reason} of those that ran and have no result."""
         return {ring: one["reason"] for ring, one in self.rings.items() if one["summary"] is None and one["reason"]}

@@ -12,6 +12,7 @@ from tehl_taichi.march.quantities import HEAT
 from tehl_taichi.runs.summary import limit_meaning
 from tehl_taichi.scene.feature_wording import between
 from tehl_taichi.values.digits import micrometres, with_error
+from tehl_taichi.values.summary_units import nothing_of
 
 HEIGHTS = ("Sa_m", "Sq_m", "Sz_m", "Ra_m", "Rq_m", "Rz_m")
 SURFACE, BELOW, RESOLVED = "at the surface", "below it", "while resolved"  # parts of a search
@@ -21,7 +22,8 @@ SURFACE, BELOW, RESOLVED = "at the surface", "below it", "while resolved"  # par
 class SummaryRow:
     """what: the quantity, the same words for every run; value: with error and unit; number: the value alone where it is one
     whose relative change means something; where: place of this run's value, which completes `what`; note: behind the value;
-    part: of the fatigue search that it is of, else ""."""
+    part: of the fatigue search that it is of, else ""; error: bar of the number; nothing: size below which that is nearly
+    nothing."""
 
     what: str
     value: str
@@ -29,6 +31,8 @@ class SummaryRow:
     where: str = ""
     note: str = ""
     part: str = ""
+    error: float | None = None
+    nothing: float = 0.0
 
     @property
     def text_pair(self):
@@ -81,9 +85,9 @@ def _labelled(part, values):
 
 
 def _of(values, key, what, factor=1, unit="", **more):
-    """The SummaryRow of one of the values with its error; what may be 0 by its error has no relative change."""
-    known = abs(values[key]) > (values.get("error", {}).get(key) or 0.0)
-    return SummaryRow(what, quantity(values, key, factor, unit), values[key] if known else None, **more)
+    """The SummaryRow of one of the values with its error."""
+    return SummaryRow(what, quantity(values, key, factor, unit), values[key], error=values.get("error", {}).get(key),
+                      nothing=nothing_of(key), **more)
 
 
 def quantity(values, name, factor=1, unit=""):
@@ -237,9 +241,8 @@ def _rows_of_search(f):
     """A list of :class:`SummaryRow` of what a search found: the worst point of the surface, then of what lies below; where the
     grid does not resolve every pressure first those of the part before, on which the answer rests."""
     rows = [_of(f, "Fi_max", "Fi_max at the surface", where=_whole(f)),
-            _stress(f"{f['criterion']} stress", f["findley_stress_max_Pa"]), *_point_rows(f, _frame(f)),
-            _stress("largest principal stress at the surface", f["sigma1_max_Pa"]),
-            _constants_row(f),
+            _judged_stress(f, f["criterion"]), *_point_rows(f, _frame(f)),
+            _stress("largest principal stress at the surface", f["sigma1_max_Pa"]), _constants_row(f),
             *(SummaryRow(f"from the limit in reversed {way}", f"{f[key] / 1e6:g} MPa")
               for way in ("bending", "torsion") if (key := f"{way}_limit_Pa") in f),
             SummaryRow("thermal stress", "counted" if f["thermal_stress"] else "left out")]
@@ -327,7 +330,7 @@ def _below_rows(f):
         return []
     deep = f["below"]
     rows = [_of(deep, "Fi_max", "Fi_max below the surface", where=_at(deep) + _whole(f)),
-            _stress(f"{f['criterion']} stress", deep["findley_stress_max_Pa"]), *_point_rows(deep, _frame(f)),
+            _judged_stress(deep, f["criterion"]), *_point_rows(deep, _frame(f)),
             *_local_rows(deep)]
     return [replace(row, part=BELOW) for row in rows]
 
@@ -351,6 +354,12 @@ def contact_share(t, key=CONTACT):
     if share == 0:
         return "none"
     return f"{share:.2%} at most, not resolved" if error is None else f"{quantity(t, key, 100)} % at most"
+
+
+def _judged_stress(part, criterion):
+    """The stress behind an index, which has the relative error of that."""
+    Fi, bar, stress = part["Fi_max"], part.get("error", {}).get("Fi_max"), part["findley_stress_max_Pa"]
+    return replace(_stress(f"{criterion} stress", stress), error=abs(bar / Fi) * stress if bar is not None and Fi else None)
 
 
 def _stress(what, value):

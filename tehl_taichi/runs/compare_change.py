@@ -1,0 +1,33 @@
+"""The change from one number to another, held against their error bars."""
+
+MANY = 9.0  # relative change from which a factor is read better than per cent
+NOT_SEPARATED = "not separated"  # the error bars of both numbers overlap
+
+
+def separated(first, second):
+    """Whether the error bars of two (value, error bar or None) leave a gap; None where neither bar is known."""
+    bars = [error for _, error in (first, second) if error is not None]
+    return abs(second[0] - first[0]) > sum(bars) if bars else None
+
+
+def change(first, second, nothing=0.0, unit=""):
+    """The change of two (value, error bar or None) in words: in %, as a factor, in K of temperatures (unit "degC").
+
+    NOT_SEPARATED where the bars overlap, "" where the first is nearly `nothing` or 0 within its bar, and of equal numbers.
+    """
+    (a, error), (b, _) = first, second
+    if a == b:
+        return ""
+    if separated(first, second) is False:
+        return NOT_SEPARATED
+    if unit == "degC":
+        return f"{b - a:+.1f} K"
+    if abs(a) <= max(error or 0.0, nothing):
+        return ""
+    return _relative((b - a) / abs(a), b / a)
+
+
+def _relative(part, factor):
+    if part >= MANY:
+        return f"x {factor:.0f}"
+    return f"{part:+.0%}" if abs(part) >= 0.1 else f"{100 * part:+.2g}%"

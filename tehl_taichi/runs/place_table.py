@@ -1,0 +1,186 @@
+"""Results at several places as one table of numbers with error bars: angles, positions, rings, cases of a study."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from tehl_taichi.errors import SceneError
+from tehl_taichi.march import quantities
+from tehl_taichi.runs.bearing import bearing_table
+from tehl_taichi.runs.bearing.ring_contacts import RINGS
+from tehl_taichi.runs.cam import cam_columns
+from tehl_taichi.runs.compare_labels import flat
+from tehl_taichi.runs.flank import flank_columns
+from tehl_taichi.runs.flank.line_contacts import where
+from tehl_taichi.runs.open_results import BEARING, CAM, FLANK, STUDY
+from tehl_taichi.runs.sweep import study_figures, summary_columns
+from tehl_taichi.runs.sweep.plan import unit
+from tehl_taichi.scene.gear_pair import GearPair
+from tehl_taichi.values.quantity import kinds
+
+SAME_WAY = 7  # decimals (m) to which two positions without a name are one: 0.1 um
+ALONG = "x_pl from the pitch point (mm)"
+OWN_KEYS = {*kinds(GearPair), "on", "table"}  # of a flank; others follow from these
+# label and unit of the columns that are no numbers of a summary with a name
+CONTACT = {"R_m": ("reduced radius R'", "mm"), "u_m_m_s": ("entrainment speed", "m/s"), "srr": ("SRR", ""),
+           "load_N_m": ("load", "N/mm"), "p_Hertz_Pa": ("Hertz pressure", "GPa"), "Sq_m": ("Sq of both surfaces", "um"),
+           "lambda": ("lambda", ""), "passages": ("passages to initiation", ""), "worse_body": ("worse body", "")}
+INDEX = (("Fi_p99", "Fi_max"), ("Fi_max_below",))
+# drawn: the first name of each line that has numbers
+OF_POSITIONS = (*INDEX, ("passage_h_min_m", "steady_h_min_m"), ("passage_p_max_Pa", "steady_p_max_Pa"),
+                ("passage_film_max_C", "steady_film_max_C"), ("steady_friction",), ("p_Hertz_Pa",))
+OF_RINGS = (("Fi_max",), ("Fi_max_below",), ("passage_h_min_m", "h_min_m", "film_formula_m"), ("p_Hertz_Pa",),
+            ("static_safety",), ("friction_coefficient",), ("lambda",))
+OF_CASES = (("fatigue_Fi_max",), ("fatigue_below_Fi_max",), ("transient_h_min_m", "steady_h_min_m", "steady_h_c_m"),
+            ("transient_p_max_Pa", "steady_p_max_Pa"), ("transient_film_max_C", "steady_film_max_C"),
+            ("steady_friction_coefficient",))
+
+
+@dataclass(frozen=True)
+class Place:
+    """key: by which places of two tables are one; words: for people; x: its number along the axis."""
+
+    key: object
+    words: str
+    x: float
+
+
+@dataclass(frozen=True)
+class PlaceQuantity:
+    """label, unit: for people; factor, form: from SI to the printed number; barred: whether it is computed with an error bar,
+    which may be unknown."""
+
+    label: str
+    unit: str
+    factor: float
+    form: str
+    barred: bool = False
+
+    @property
+    def heading(self):
+        """Label and unit."""
+        return f"{self.label}, {self.unit}" if self.unit else self.label
+
+
+@dataclass(frozen=True)
+class PlaceTable:
+    """One result. about: {dotted key: setting}; quantities: {name: :class:`PlaceQuantity`}; numbers: {(name, key of a place):
+    (value, error bar or None)}; across: label of the axis; drawn: names for the figure, the first of each line that has
+    numbers; ticks: whether places have names on the axis in place of numbers; x_unit: SI unit of these numbers, "" where they
+    are in the unit of the label."""
+
+    folder: Path
+    title: str
+    about: dict
+    places: tuple
+    quantities: dict
+    numbers: dict
+    across: str
+    drawn: tuple
+    ticks: bool = False
+    x_unit: str = ""
+
+
+def place_table(kind, found):
+    """The :class:`PlaceTable` of what :func:`tehl_taichi.open` returns for a folder of this kind. Raises SceneError."""
+    return {FLANK: _of_flank, CAM: _of_cam, BEARING: _of_bearing, STUDY: _of_study}[kind](found)
+
+
+def _of_flank(flank):
+    places = [Place(at.point or round(at.x_pl, SAME_WAY), where(at), at.x_pl * 1e3) for at, *_ in flank.rows]
+    about = {"name": flank.name,
+             **flat({key: value for key, value in flank.record["geometry"].items() if key in OWN_KEYS})}
+    return _of_positions(flank, places, flank_columns.COLUMNS, about, ALONG)
+
+
+def _of_cam(cam):
+    places = [Place(round(at.angle, 6), at.words, at.angle) for at, *_ in cam.rows]
+    about = {key: cam.record[key] for key in ("name", "source")}
+    return _of_positions(cam, places, cam_columns.COLUMNS, about, "angle of the cam (degrees)")
+
+
+def _of_positions(found, places, columns, about, across):
+    rows = {place.key: row for place, row in zip(places, found.rows)}
+    kept = [one for one in columns if one.name not in ("point", "x_pl_m", "arc_m", "angle_deg")]
+    numbers = {(one.name, key): (one.value(*row), one.error(*row)) for one in kept for key, row in rows.items()}
+    entries = {entry.column: _of_entry(entry) for entry in quantities.ENTRIES if entry.column}
+    known = {one.name: entries.get(one.name) or PlaceQuantity(*CONTACT[one.name], one.factor, one.form) for one in kept}
+    return PlaceTable(found.folder, found.title, {**about, **_shared(found)}, tuple(places), known, _real(numbers), across,
+                      OF_POSITIONS)
+
+
+def _of_bearing(bearing):
+    places = tuple(Place(ring, f"{ring} ring", float(n)) for n, ring in enumerate(RINGS))
+    numbers = {(row.name, ring): (row.value(bearing.record, one), row.error(bearing.record, one))
+               for row in bearing_table.ROWS for ring, one in bearing.rings.items()}
+    known = {row.name: _of_ring_row(row) for row in bearing_table.ROWS}
+    about = {key: bearing.record[key] for key in ("name", "oil", "temperature_C", "roughness_Sq_m") if key in bearing.record}
+    return PlaceTable(bearing.folder, bearing.title, {**about, **flat(bearing.record["geometry"]), **_shared(bearing)}, places,
+                      known, _real(numbers), "", OF_RINGS, ticks=True)
+
+
+def _of_study(study):
+    keys = sorted(study.plan.keys)
+    changes = [study.plan.changes(n) for n in range(len(study))]
+    one = len(keys) == 1 and study_figures.numeric(study, keys[0])
+    x = [change[keys[0]] for change in changes] if one else range(len(study))
+    places = [Place(tuple(map(repr, (change[key] for key in keys))), ", ".join(f"{key} = {_word(change[key])}" for key in keys),
+                    float(at)) for change, at in zip(changes, x)]
+    numbers = {(name, place.key): (float(column[n]), _bar(study, name, n)) for name, column in study.values.items()
+               for n, place in enumerate(places) if column[n] == column[n]}
+    known = {name: _of_entry(entry) for entry in quantities.ENTRIES
+             if entry.column and (name := f"{entry.part}_{entry.key}".replace(".", "_")) in study.values}
+    about = {key: value for key, value in flat(study.plan.scene.to_dict()).items() if key not in _full(keys)}
+    return PlaceTable(study.path, f"{study.plan.scene.name} over {', '.join(keys)}", {**about, "swept": ", ".join(keys)},
+                      tuple(places), known, numbers, keys[0] if one else "", OF_CASES, not one,
+                      unit(study.plan.scene, keys[0]) if one else "")
+
+
+def _full(keys):
+    """Dotted keys of a scene that swept ones set."""
+    from tehl_taichi.scene.aliases import full_name
+
+    return {full_name(key) for key in keys}
+
+
+def _word(value):
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def _bar(study, name, n):
+    """The error bar of a case, None where it is not known."""
+    column = study.values.get(summary_columns.error_of(name))
+    return None if column is None or column[n] != column[n] else float(column[n])
+
+
+def _of_entry(entry):
+    unit = entry.shown or {"degC": "deg C"}.get(entry.unit, "")
+    return PlaceQuantity(entry.words, unit, entry.factor, entry.form, bool(entry.error))
+
+
+def _of_ring_row(row):
+    label, _, unit = row.label.partition(", ")
+    return PlaceQuantity(label, unit, row.factor, row.form, row.barred)
+
+
+def _real(numbers):
+    """Values that are numbers."""
+    return {place: (value, error) for place, (value, error) in numbers.items() if isinstance(value, (int, float))}
+
+
+def _shared(found):
+    """Settings that the scenes of all stored contacts have in common."""
+    scenes = [flat(store.scene.to_dict()) for store in found.stores()]
+    first = scenes[0] if scenes else {}
+    return {key: value for key, value in first.items()
+            if key != "name" and all(repr(one.get(key)) == repr(value) for one in scenes)}
+
+
+def check_alike(tables):
+    """Raises SceneError where studies are not over the same keys."""
+    for other in tables[1:]:
+        first, second = (table.about.get("swept") for table in (tables[0], other))
+        if first != second:
+            raise SceneError(f"{tables[0].folder} is over {first} and {other.folder} over {second}; allowed: studies over the "
+                             "same keys")
+
+
