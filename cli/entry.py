@@ -49,7 +49,7 @@ def _run():
     debug = "--debug" in sys.argv
     if debug:
         sys.argv.remove("--debug")
-    warnings.showwarning = lambda message, *_: print(_in_a_line(f"warning: {message}"), file=sys.stderr)
+    warnings.showwarning = lambda message, *_: print(_in_a_line(f"warning: {message}", True), file=sys.stderr)
     gc.set_threshold(*SELDOM)
     try:
         from tehl_cli.main import app
@@ -71,7 +71,20 @@ def _sentence(error):
     """What to say of an error; of the system's refusals (a full disk) without their number, of the others at least the name."""
     if isinstance(error, OSError) and error.strerror:
         return f"{error.filename}: {error.strerror}" if error.filename else error.strerror
-    return str(error) or type(error).__name__
+    if hasattr(error, "exit_code"):
+        return str(error)
+    from tehl_taichi.values.escape import one_line
+
+    return (one_line(error) or type(error).__name__) + _own_entries_hint()
+
+
+def _own_entries_hint():
+    """The files of the user that may have raised an error which is not ours, "" where none is loaded."""
+    own = sys.modules.get("tehl_taichi.values.own_entries")
+    if own is None or not (files := [module.__file__ for module in own.loaded()]):
+        return ""
+    return (f". The cause may lie in {', '.join(files)}: functions of laws run in kernels and use only what "
+            "tehl_taichi.engine.pointwise offers; `tehl doctor` computes their known values")
 
 
 def _print_last(sentence):
@@ -80,11 +93,11 @@ def _print_last(sentence):
         print(_in_a_line(f"tehl: {sentence}"), file=sys.stderr)
 
 
-def _in_a_line(text):
-    """Letters that do not print (names may have escape sequences) are spelled."""
-    from tehl_taichi.values.escape import printable
+def _in_a_line(text, foreign=False):
+    """Letters that do not print (names may have escape sequences) are spelled; colours of a foreign text are removed."""
+    from tehl_taichi.values.escape import one_line, printable
 
-    return printable(text)
+    return printable(one_line(text) if foreign else text)
 
 
 def _code(stop):

@@ -95,8 +95,8 @@ def _words(scene):
             ("depths searched:", _depths(f.depths)),
             ("bodies searched:", " and ".join(surface.name for surface in scene.judged)),
             ("moments with the", moments(scene) or f"{where(scene)} anywhere"),
-            ("shear tractions", "counted" if f.shear else "left out"),
-            ("thermal stress", "counted" if scene.has_thermal_stress else "left out"),
+            ("shear tractions", "included" if f.shear else "not included"),
+            ("thermal stress", "included" if scene.has_thermal_stress else "not included"),
             ("the exponent of the S-N curve", f"{f.exponent:g}" + f" ({f.limit_cycles:g} passages)" * bool(f.exponent)),
             *((f"residual stress along {axis}", f"{getattr(f, f'residual_{axis}{axis}') / 1e6:g} MPa") for axis in "xy")]
 

@@ -1,13 +1,18 @@
-"""Self-test of this installation: versions, and a contact with a known film."""
+"""Self-test of this installation: versions, the entries of the user, and a contact with a known film."""
 
+import importlib
 import importlib.metadata
+import math
 import time
 
 from tehl_taichi import __version__
 from tehl_taichi.commit import commit
 from tehl_taichi.scene import scene
+from tehl_taichi.values import own_entries
+from tehl_taichi.values.registry import entries_of
 
 LIBRARIES = ("numpy", "pyfftw", "zarr", "rich", "typer")
+REGISTRIES = ("laws.choices", "laws.criteria", "laws.hardness", "scene.feature", "scene.named_oils", "scene.named_steels")
 FILM = 0.42e-6, 0.45e-6  # m, of the self-test, whose grid is good to 1 %
 
 
@@ -17,6 +22,24 @@ def installation():
 
     info = {"tehl_taichi": __version__, "commit": commit(), **{name: importlib.metadata.version(name) for name in LIBRARIES}}
     return info | {key: str(value) for key, value in runtime.start_or_join().items()} | {"cores": str(cores.available())}
+
+
+def own_entries_checked():
+    """List of (file, name of entry, known value, computed value as text, whether it is right) of the entries of the user."""
+    for registry in REGISTRIES:
+        importlib.import_module(f"tehl_taichi.{registry}")
+    return [(module.__file__, entry.name, *_checked(known)) for module in own_entries.loaded()
+            for entry in entries_of(module) for known in entry.checked]
+
+
+def _checked(known):
+    """(known value, computed value, whether it is right); an error of the user's function is the computed value."""
+    where = f"{known.where}: {known.expected:.6g}"
+    try:
+        computed = float(known.compute())
+    except Exception as error:  # noqa: BLE001  whatever a function of the user raises
+        return where, f"{type(error).__name__}: {error}", False
+    return where, f"{computed:.6g}", math.isclose(computed, known.expected, rel_tol=known.rel)
 
 
 def self_test():

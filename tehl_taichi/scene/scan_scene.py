@@ -117,7 +117,13 @@ def _read(table):
     steps = [f"{step * 1e6:.4g} um" for step in map(stated_keys.usable, (table.stated.x, table.stated.y)) if step]
     unit = [f"heights in {table.stated.unit}"] if table.stated.unit else []
     stated = unit + ([f"points {' x '.join(dict.fromkeys(steps))} apart"] if steps else [])
-    return ", ".join([found, *filter(None, [table.skipped]), *([f"{', '.join(stated)} as the file says"] if stated else [])])
+    return ", ".join([found, *filter(None, [table.skipped]), *([f"{', '.join(stated)} as the file says"] if stated else []),
+                      *([] if steps else _coordinates(table.spacing[0]))])
+
+
+def _coordinates(spacing):
+    """Distance of the coordinates of a file that has some without their unit."""
+    return [f"coordinates {spacing:g} apart: {stated_keys.in_units(spacing)}"] if spacing else []
 
 
 def _check_options(scan, profile, pixel_y, lay):

@@ -5,6 +5,7 @@ names of folders are checked (`checks.file_name`).
 """
 
 import html
+import re
 import unicodedata
 
 FORMULA = tuple("=+-@\t\r＝＋－＠")  # a spreadsheet computes what begins so
@@ -27,6 +28,15 @@ def printable(text, keep=""):
 
 def _prints(c, keep):
     return c.isprintable() or c in keep or unicodedata.category(c) == "Zs"
+
+
+def one_line(text):
+    """Without the colours and line breaks of another library's message.
+
+    >>> one_line("\\n\\x1b[31mwrong\\x1b[0m\\n  type")
+    'wrong type'
+    """
+    return " ".join(re.sub(r"\x1b\[[\d;]*m", "", str(text)).split())
 
 
 def cell(value):

@@ -1,4 +1,7 @@
-"""Entries of the user: files in the folder TEHL_ENTRIES, in subfolders named as the package's (shear, shapes, oils ...)."""
+"""Entries of the user: files in the folder TEHL_ENTRIES, in subfolders named as the package's (shear, shapes, oils ...).
+
+Files whose names begin with an underscore are not read.
+"""
 
 import importlib.util
 import os
@@ -7,7 +10,7 @@ from pathlib import Path
 
 from tehl_taichi.errors import SceneError
 
-VARIABLE = "TEHL_ENTRIES"
+VARIABLE, PREFIX = "TEHL_ENTRIES", "tehl_entries."
 
 
 def modules(subfolder):
@@ -17,8 +20,19 @@ def modules(subfolder):
         return
     if not Path(root).is_dir():
         raise SceneError(f"{VARIABLE} = {root!r} is not a folder; correct it, or unset it")
-    for path in sorted(Path(root, subfolder).glob("*.py")):
-        yield _loaded(f"tehl_entries.{subfolder}.{path.stem}", path)
+    for path in sorted(Path(root, subfolder).glob("[!_]*.py")):
+        yield _loaded(f"{PREFIX}{subfolder}.{path.stem}", path)
+
+
+def loaded():
+    """The modules of the user that were loaded so far."""
+    return [module for name, module in sorted(sys.modules.items()) if name.startswith(PREFIX)]
+
+
+def unread():
+    """Python files that lie in the user's folder itself, where none is read."""
+    root = os.environ.get(VARIABLE)
+    return sorted(Path(root).glob("*.py")) if root else []
 
 
 def _loaded(name, path):

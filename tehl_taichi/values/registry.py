@@ -11,6 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from tehl_taichi.errors import SceneError
 from tehl_taichi.values import own_entries
 
 
@@ -39,13 +40,28 @@ def collect(folder, kind):
     """{name: entry} of all entries of this kind that the modules of a folder (a package), and those of the user
     (:mod:`tehl_taichi.values.own_entries`), declare, in the order of their names.
 
-    Raises ValueError when two entries have one name.
+    Raises SceneError when two entries have one name, or a file of the user has no entry.
     """
     found: dict[str, Any] = {}
     names = sorted(name for _, name, _ in pkgutil.iter_modules(folder.__path__))
-    own = (importlib.import_module(f"{folder.__name__}.{name}") for name in names)
-    for module in itertools.chain(own, own_entries.modules(folder.__name__.rpartition(".")[2])):
-        for entry in vars(module).values():
-            if isinstance(entry, kind) and found.setdefault(entry.name, entry) is not entry:
-                raise ValueError(f"{folder.__name__} has two entries named {entry.name!r}")
+    installed = (importlib.import_module(f"{folder.__name__}.{name}") for name in names)
+    for module in itertools.chain(installed, _with_entries(folder.__name__.rpartition(".")[2], kind)):
+        for entry in entries_of(module, kind):
+            if found.setdefault(entry.name, entry) is not entry:
+                raise SceneError(f"{module.__file__}: name = {entry.name!r} belongs to another entry of {folder.__name__}; "
+                                 "choose another name")
     return dict(sorted(found.items()))
+
+
+def entries_of(module, kind=Entry):
+    """The entries of this kind that a module declares."""
+    return [entry for entry in vars(module).values() if isinstance(entry, kind)]
+
+
+def _with_entries(subfolder, kind):
+    """Generator of the modules of the user. Raises SceneError for one without an entry."""
+    for module in own_entries.modules(subfolder):
+        if not entries_of(module):
+            raise SceneError(f"{module.__file__} has no entry; assign a {kind.__name__}(name=...) to a name of the module, or "
+                             "begin the name of the file with an underscore")
+        yield module

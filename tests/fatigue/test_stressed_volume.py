@@ -64,7 +64,7 @@ def test_a_peak_weighs_more_the_larger_the_exponent(taichi_cpu):
         assert found["volume_m3"] <= summary["below"]["Fi_max"] ** m * 1e-3**3 and 0 < found["failure_volume"] < 1
     assert 0 < equal[0] < equal[1]
     shown = [what for what, _ in summary_rows.fatigue_rows(summary)]
-    assert "the feature weighs as smooth track, below the surface" in shown
+    assert "area of smooth track with the risk of the feature, below the surface" in shown
 
 
 def test_none_without_an_exponent_or_the_smooth_contact(taichi_cpu):

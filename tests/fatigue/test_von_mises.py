@@ -113,4 +113,4 @@ def test_without_a_search_pressures_are_compared_with_the_onset_under_asperities
 def test_it_is_printed_with_what_the_body_bears():
     fatigue = search()[2]
     row, = [row for row in summary_rows.rows_of_fatigue(fatigue) if row.what == "largest von Mises stress"]
-    assert row.number == fatigue["von_mises"]["max_Pa"] and row.note == " (yields at 2.2)" and "GPa" in row.value
+    assert row.number == fatigue["von_mises"]["max_Pa"] and row.note == ", yield stress 2.2 GPa" and "GPa" in row.value

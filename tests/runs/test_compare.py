@@ -95,7 +95,7 @@ def test_results_are_told_as_tehl_show_tells_them(made):
     assert found["Fi_max of the smooth contact, at 180 um"].values == ("0.9 (error unknown)",) * 2
     assert found["findley stress"].values == ("403.2 MPa", "480.0 MPa")
     assert found["findley stress, below it"].same and not found["findley stress"].same
-    assert found["critical plane, angle to the surface"].values[0] == "57.0 deg"  # without where pits begin
+    assert found["critical plane, angle to the surface"].values[0] == "57.0 deg"  # without the usual angles of pits
     order = list(found)
     assert order.index("passage p_max") < order.index("Fi_max at the surface") < order.index("findley stress, below it")
 

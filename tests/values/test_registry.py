@@ -5,6 +5,7 @@ import types
 
 import pytest
 
+from tehl_taichi.errors import SceneError
 from tehl_taichi.values.registry import Checked, Entry, collect
 
 
@@ -27,7 +28,7 @@ def test_a_file_is_an_entry(monkeypatch, tmp_path):
 
 def test_two_of_one_name_are_refused(monkeypatch, tmp_path):
     text = "ENTRY = Entry(name='same', says='', source='', checked=())\n"
-    with pytest.raises(ValueError, match="two entries named 'same'"):
+    with pytest.raises(SceneError, match=r"three\.py: name = 'same' belongs to another entry of folder_of_entries"):
         collect(folder_with(monkeypatch, tmp_path, three=text, four=text), Entry)
 
 

@@ -147,7 +147,7 @@ def _passage_rows(summary):
         t = summary["transient"]
         rows += _heat_rows("passage", t)
         rows += [*_labelled("transient", t), SummaryRow("load carried by solid contact", contact_share(t)),
-                 *([SummaryRow("area of solid contact, of the dry one", contact_share(t, AREA))] if t.get(AREA) else []),
+                 *([SummaryRow("area of solid contact / dry contact area", contact_share(t, AREA))] if t.get(AREA) else []),
                  SummaryRow("worst residual / load / mass error",
                      f"{t['residual_max']:.1e} / {t['load_error_max']:.1e} / {t['mass_error_max']:.1e}")]
     rows += _zoom_rows(summary.get("zoom"))
@@ -169,7 +169,7 @@ def _meaning_rows(summary):
     if not (found := limit_meaning.smooth_pressure(summary)):
         return []
     p, error = found
-    return [SummaryRow("Fi = 1 of a smooth contact like this at about", with_error(p * 1e-9, error * 1e-9, "GPa"), p)]
+    return [SummaryRow("Hertz pressure at which the smooth contact has Fi = 1", with_error(p * 1e-9, error * 1e-9, "GPa"), p)]
 
 
 def _zoom_rows(zoom):
@@ -245,7 +245,7 @@ def _rows_of_search(f):
             _stress("largest principal stress at the surface", f["sigma1_max_Pa"]), _constants_row(f),
             *(SummaryRow(f"from the limit in reversed {way}", f"{f[key] / 1e6:g} MPa")
               for way in ("bending", "torsion") if (key := f"{way}_limit_Pa") in f),
-            SummaryRow("thermal stress", "counted" if f["thermal_stress"] else "left out")]
+            SummaryRow("thermal stress", "included" if f["thermal_stress"] else "not included")]
     rows += [_stress(f"largest at {_depth(layer)}", layer["findley_stress_max_Pa"]) for layer in f.get("by_depth", [])]
     rows += _stressed_rows(f)
     early = [] if f.get("rough") else _resolved_rows(f)
@@ -260,18 +260,18 @@ def _stressed_rows(f):
                                                     ("track_equal_surface_m2", "at the surface")) if key in found]
     chances = [(found[key], where) for key, where in (("failure_volume", "below the surface"),
                                                       ("failure_surface", "at the surface")) if key in found]
-    weighs = "the feature weighs as smooth track"
+    weighs = "area of smooth track with the risk of the feature"
     return [*(SummaryRow(f"{weighs}, {where}", f"{area * 1e6:.3g} mm2", area) for area, where in areas),
             *(SummaryRow(f"probability of a crack {where}", f"{chance:.2g}", chance) for chance, where in chances)]
 
 
 def _von_mises_rows(f):
-    """The largest von Mises stress of the body, beside what it yields at."""
+    """The largest von Mises stress of the body, beside its yield stress."""
     if not (found := f.get("von_mises")):
         return []
     where = _at(found) if found["depth_m"] else ", at the surface"
     return [_of(found, "max_Pa", "largest von Mises stress", 1e-9, "GPa", where=f"{where} ({found['surface']})",
-                note=f" (yields at {found['yield_stress_Pa'] / 1e9:.3g})", part=BELOW)]
+                note=f", yield stress {found['yield_stress_Pa'] / 1e9:.3g} GPa", part=BELOW)]
 
 
 def _averaged_rows(f):
@@ -310,13 +310,13 @@ def _placed(point, when):
 
 def _frame(f):
     """Behind a place of a body without the feature: its frame moves against that of the feature."""
-    return "" if f.get("carries_feature", True) else " (with this at X = 0)"
+    return "" if f.get("carries_feature", True) else " (feature centre at X = 0)"
 
 
 def _point_rows(f, frame=""):
     """The worst point of the surface or below it."""
     low, high = f.get("pit_angles_deg", (None, None))
-    pits = "" if low is None else f" (pits begin at {low:g} to {high:g})"
+    pits = "" if low is None else f" (usual for pits: {low:g} to {high:g})"
     rows = [SummaryRow("at x, y from the feature centre", f"{f['x_m'] * 1e6:.1f}, {f['y_m'] * 1e6:.1f} um", note=frame),
             SummaryRow("critical plane, angle to the surface", f"{f['surface_angle_deg']:.1f} deg", note=pits),
             SummaryRow("shear amplitude, largest normal stress",

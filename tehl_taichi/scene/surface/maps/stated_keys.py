@@ -62,15 +62,20 @@ def _check_spacing(f, key, step, found):
     """Refuse a pixel that the coordinates in the file contradict, whatever unit they have."""
     if not any(math.isclose(found * unit, step, rel_tol=SAME) for unit in UNITS.values()):
         raise SceneError(f"feature.{key} = {step:g} m does not match the coordinates in feature.file = {f.file!r}, which are "
-                         f"{found:g} apart in {', '.join(UNITS)}")
+                         f"{found:g} apart: {in_units(found) or 'too near or too far in every unit'}")
 
 
 def pixel_meant(f):
     """Distances that the coordinates of the file have in units that make sense of them, for the end of a sentence."""
     found = height_map.facts(f).spacing[0]
-    each = [f"{found * size:.4g} m if they are in {unit}" for unit, size in UNITS.items()
-            if found and NEAREST <= found * size <= FARTHEST]
-    return f"; its coordinates are {found:g} apart: {', '.join(each)}" if each else ""
+    each = in_units(found)
+    return f"; its coordinates are {found:g} apart: {each}" if each else ""
+
+
+def in_units(found):
+    """The possible distances in m of coordinates that are `found` apart, "" where none is possible."""
+    return ", ".join(f"{found * size:.4g} m if they are in {unit}" for unit, size in UNITS.items()
+                     if found and NEAREST <= found * size <= FARTHEST)
 
 
 def words(f):
