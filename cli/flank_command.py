@@ -22,7 +22,8 @@ def flank(
     torque: Optional[float] = typer.Option(None, help="torque of the pinion, N m"),
     speed: Optional[float] = typer.Option(None, help="speed of the pinion, 1/min"),
     on: Optional[str] = typer.Option(None, help="flank that carries the feature: pinion (default) or gear"),
-    positions: Optional[int] = typer.Option(None, help="number of positions, including the points A to E (default: 9)"),
+    positions: Optional[int] = typer.Option(None, help="number of positions, including the points A to E and two beside C "
+                                                           "(default: 11)"),
     at: Optional[List[str]] = typer.Option(None, help="one position instead: a point (C, B-) or a distance past C in m; "
                                                       "repeatable"),
     scene: Optional[str] = typer.Option(None, help="scene with oil, bodies, feature and numerics: built-in name, TOML file or "
@@ -95,16 +96,23 @@ def _place(text):
 
 
 def print_flank(found):
-    """Print the tables of a flank, the reasons of what has no result, and where it lies."""
-    from tehl_cli.tables import list_table
+    """Print the tables of a flank, its answer, its warnings, the reasons of what has no result, and where it lies."""
+    from tehl_cli.tables import list_table, warning_lines
 
+    from tehl_taichi.report import flank_page
     from tehl_taichi.runs.flank.flank_columns import tables
 
     put(found.title)
     for title, (heads, lines) in tables(found.rows).items():
         list_table(title, heads, lines, whole=True)
+    if answer := flank_page.verdict(found):
+        question, headline, _, sentences = answer
+        put(f"{question} {headline}")
+        for sentence in sentences:
+            put(sentence)
     put(f"assumed: {found.record['assumption']}")
     put(f"load: {found.record['load_sharing']}")
     for at, reason in found.failed:
         put(f"no result: {at.point} (x_pl = {at.x_pl * 1e3:.3f} mm): {reason}")
+    warning_lines(flank_page.warnings(found))
     put(f"stores, flank.csv, flank.json: {found.folder}")

@@ -2,11 +2,9 @@
 
 import numpy as np
 
-from tehl_taichi.fatigue.judged_surfaces import by_surface
-from tehl_taichi.fatigue.pressure_alone import why_none
-from tehl_taichi.report import place_warnings, verdict
+from tehl_taichi.report import place_verdict, place_warnings
 from tehl_taichi.report.document import Answer, Page, Section, drawn, facts, sentences, table
-from tehl_taichi.report.number_text import FEW, index, value_text
+from tehl_taichi.report.number_text import FEW, value_text
 from tehl_taichi.report.plots import colour, line, stacked
 from tehl_taichi.runs.cam import cam_columns, cam_figure
 from tehl_taichi.runs.cam.stored_cam import Cam
@@ -29,11 +27,9 @@ def _answer(cam):
     left = f"{len(cam.failed)} of {len(cam.rows)} angles have no result and are not part of this answer."
     doubts = (f"Assumed: {cam.record['assumption']}.", *[left] * bool(cam.failed))
     thin = _thinnest(cam)
-    if found := _worst(cam):
-        Fi, where, error = found[0]
-        headline, tone = verdict.headline(verdict.judged(Fi, error), where, error is not None)
-        return Answer("At which angle does a fatigue crack start?", headline, tone,
-                      (f"The largest index is Fi = {index(Fi, error)}, {where}.", thin), doubts)
+    if places := place_verdict.judged_places(cam.rows, lambda at: at.words, lambda at: at.words):
+        headline, tone, sentences = place_verdict.answer(places, len(cam.rows))
+        return Answer("At which angle does a fatigue crack start?", headline, tone, (*sentences, thin), doubts)
     headline = thin or "No answer: no angle has a result."
     return Answer("How thick is the film over the cycle?", headline, "none", (), doubts)
 
@@ -46,14 +42,6 @@ def _thinnest(cam):
         return ""
     film, error, at = min(films, key=lambda entry: entry[0])
     return f"The smallest film is {value_text(film, error, 'm', FEW)}, at {at.words}."
-
-
-def _worst(cam):
-    """[(Fi, where in words, its error or None)] of every angle, the largest first."""
-    found = [(Fi, f"{layer} at {at.words}", error) for at, _, summary in cam.rows
-             if (part := dig(summary, "fatigue")) and not why_none(part)
-             for layer, Fi, error in verdict.all_layers(by_surface(summary))]
-    return sorted(found, key=lambda entry: -entry[0])
 
 
 def figures(cam):

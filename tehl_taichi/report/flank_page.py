@@ -1,10 +1,9 @@
 """The page of a flank: where along it a crack would start, from what its folder keeps."""
 
-from tehl_taichi.fatigue.judged_surfaces import by_surface
 from tehl_taichi.fatigue.pressure_alone import why_none
-from tehl_taichi.report import place_warnings, verdict
+from tehl_taichi.report import place_verdict, place_warnings
 from tehl_taichi.report.document import Answer, Page, Section, drawn, facts, sentences, table
-from tehl_taichi.report.number_text import FEW, index, value_text
+from tehl_taichi.report.number_text import FEW, value_text
 from tehl_taichi.report.plots import colour, line, stacked
 from tehl_taichi.runs.flank.flank_columns import dig, known, tables
 from tehl_taichi.runs.flank.flank_figure import PANELS
@@ -39,43 +38,34 @@ def _where(at):
     return f"{at.point}{', ' * bool(at.point)}x_pl = {at.x_pl * 1e3:.3f} mm"
 
 
-def _has_index(summary):
-    """Whether a fatigue search of this position gave an index."""
-    found = dig(summary, "fatigue")
-    return bool(found) and not why_none(found)
+def short_name(at):
+    """A position in few words."""
+    return at.point or f"{at.x_pl * 1e3:.3g} mm"
 
 
-def worst(flank):
-    """[(Fi, where in words, its error or None)] of every position, the largest first."""
-    found = [(Fi, f"{layer} at {_where(at)}", error) for at, _, summary in flank.rows if _has_index(summary)
-             for layer, Fi, error in verdict.all_layers(by_surface(summary))]
-    return sorted(found, key=lambda entry: -entry[0])
+def judged_places(flank):
+    """The :class:`tehl_taichi.report.place_verdict.JudgedPlace` of every position with an index."""
+    return place_verdict.judged_places(flank.rows, short_name, _where)
+
+
+def verdict(flank):
+    """(question, headline, tone, sentences) of a flank with an index somewhere, None of another one."""
+    places = judged_places(flank)
+    return (QUESTION, *place_verdict.answer(places, len(flank.rows))) if places else None
 
 
 def _answer(flank):
-    found = worst(flank)
     left = f"{len(flank.failed)} of {len(flank.rows)} positions did not converge and are not part of this answer."
     count = f"Number of warnings, listed below: {len(warnings(flank))}."
     none = [f"No verdict at {_where(at)}: {why_none(part)}." for at, _, summary in flank.rows
             if (part := dig(summary, "fatigue")) and why_none(part)]
     doubts = (*none, *[left] * bool(flank.failed), f"Assumed: {flank.record['assumption']}.", *[count] * bool(warnings(flank)))
-    if not found and none:
+    if found := verdict(flank):
+        question, headline, tone, sentences = found
+        return Answer(question, headline, tone, sentences, doubts)
+    if none:
         return Answer(QUESTION, "No verdict: at all positions the film has more friction than any oil.", "open", (), doubts)
-    if not found:
-        return _of_films(flank, doubts)
-    Fi, where, error = found[0]
-    headline, tone = verdict.headline(verdict.judged(Fi, error), where, error is not None)
-    above = [summary for *_, summary in flank.rows if _has_index(summary)
-             and max(value for _, value, _ in verdict.all_layers(by_surface(summary))) > 1]
-    return Answer(QUESTION, headline, tone, (
-        f"The largest {_number_of(flank)} is Fi = {index(Fi, error)}, {where}.",
-        f"It is above 1 at {len(above)} of {len(flank.rows)} positions."), doubts)
-
-
-def _number_of(flank):
-    """What is judged, in words."""
-    rough = any(dig(summary, "fatigue", "rough") for *_, summary in flank.rows)
-    return "99th percentile of the index" if rough else "index"
+    return _of_films(flank, doubts)
 
 
 def _of_films(flank, doubts):
@@ -149,7 +139,7 @@ def _value(key, value, declared):
 
 def warnings(flank):
     """Warnings of all positions, each once with its positions."""
-    return place_warnings.of(flank.rows, lambda at: at.point or f"{at.x_pl * 1e3:.3g} mm")
+    return place_warnings.of(flank.rows, short_name)
 
 
 def _provenance(flank):

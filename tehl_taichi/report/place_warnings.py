@@ -1,10 +1,27 @@
-"""Warnings of contacts along something, each once with its places."""
+"""Warnings of contacts along something, each kind once with its places."""
+
+from tehl_taichi.values.coded_warning import of_lists
 
 
 def of(rows, words):
-    """A list of sentences. rows: (position, Hertz pressure, summary or None) each; words(position): how a sentence calls it."""
-    places: dict[str, list[str]] = {}
+    """A list of sentences. rows: (position, Hertz pressure, summary or None) each; words(position): how a sentence calls it.
+
+    Warnings of one kind with other numbers are one sentence, that of the first place; the others follow as places.
+    """
+    kinds: dict[str, dict[str, list[str]]] = {}
     for at, _, summary in rows:
-        for sentence in (summary or {}).get("warnings", []):
-            places.setdefault(sentence, []).append(words(at))
-    return [f"{', '.join(names)}: {sentence}" for sentence, names in places.items()]
+        for one in _warnings(summary or {}):
+            kinds.setdefault(one.code or str(one), {}).setdefault(str(one), []).append(words(at))
+    return [_sentence(found) for found in kinds.values()]
+
+
+def _warnings(summary):
+    return of_lists(summary.get("warnings", []), summary.get("warning_codes", []), summary.get("warning_data", []))
+
+
+def _sentence(found):
+    """found: {sentence: its places} of one kind."""
+    (first, places), *rest = found.items()
+    others = list(dict.fromkeys(place for more in (places for _, places in rest) for place in more if place not in places))
+    alike = f" (likewise, with other numbers, at {', '.join(others)})" if others else ""
+    return f"{', '.join(places)}: {first}{alike}"

@@ -2,7 +2,7 @@
 
 from types import MappingProxyType
 
-from tehl_taichi.fatigue import material_length
+from tehl_taichi.fatigue.judged_layers import ABOVE, BELOW, WITHIN, all_layers, deciding, error_of, judged
 from tehl_taichi.fatigue.judged_surfaces import others
 from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.report.document import Answer
@@ -15,7 +15,6 @@ from tehl_taichi.scene.strength.strength import Strength
 from tehl_taichi.scene.timeline import total_steps
 from tehl_taichi.values.digits import micrometres, with_error
 
-ABOVE, WITHIN, BELOW = 1, 0, -1
 SAID = {ABOVE: "above 1", WITHIN: "1 lies within the error", BELOW: "below 1"}
 FATIGUE, FILM = "Does a fatigue crack start here?", "How thick is the film, and how large is the pressure?"
 
@@ -50,46 +49,6 @@ def _read_first(warnings):
     return (f"Read the {what} below first.",) if warnings else ()
 
 
-def judged(Fi, error=None):
-    """Whether an index is above 1, below it, or 1 within its error (None: not known)."""
-    if abs(Fi - 1) <= (error or 0.0):
-        return WITHIN
-    return ABOVE if Fi > 1 else BELOW
-
-
-def all_layers(searches):
-    """The :func:`layers` of each {surface: summary of its search}; surfaces are named where there are two."""
-    one = len(searches) == 1
-    return [layer for name, found in searches.items() for layer in layers(found, "the surface" if one else f"surface {name}")]
-
-
-def layers(fatigue, surface="the surface"):
-    """[(where in words, Fi, its error or None)] of the surface and of what lies below it; of a search or of its part. Of rough
-    surfaces the 99th percentile."""
-    fatigue = searched(fatigue)
-    if fatigue.get("rough"):
-        return _percentile_layers(fatigue, surface)
-    return [(f"{_where(part, surface)}{_over(length)}", part["Fi_max"], error_of(part, "Fi_max"))
-            for part, length in material_length.leading(fatigue)]
-
-
-def _where(part, surface):
-    return f"{micrometres(part['depth_m'])} µm below {surface}" if "depth_m" in part else f"at {surface}"
-
-
-def _over(length):
-    """Behind a place whose stresses are averaged over a length (m; 0: not)."""
-    return f" (stresses averaged over {micrometres(length)} µm)" if length else ""
-
-
-def _percentile_layers(fatigue, surface):
-    top, deep = fatigue["statistics"], fatigue.get("below", {}).get("statistics")
-    found = [(f"at {surface}", top["p99"], error_of(top, "p99"))]
-    if deep:
-        found.append((f"{micrometres(deep['depth_m'])} µm below {surface}", deep["p99"], error_of(deep, "p99")))
-    return found
-
-
 def _spread(searches):
     """Sentences on rough surfaces: the share above the limit, and the largest index with the number of points that it is of."""
     out = []
@@ -109,23 +68,16 @@ def of_fatigue(fatigue, scene=None, beside=MappingProxyType({})):
     searches = {fatigue.get("surface"): fatigue, **beside}
     if why := why_none(fatigue):
         return FATIGUE, f"No verdict: {why}.", "open", _from_pressure(searches)
-    over = when(scene) if scene else WHOLE
+    over, (parts, early) = when(scene) if scene else WHOLE, deciding(searches)
     worst, places, known, sentences = _judged(searches)
     rough = any(searched(one).get("rough") for one in searches.values())
     verdict = headline(worst, places, known, ", by the 99th percentile of the index" * rough)
     if rough:
         sentences = ["99th percentile of the index:", *sentences, *_spread(searches)]
-    elif all("resolved" in one for one in searches.values()) and not _settled(searches):
-        early = {name: one["resolved"] for name, one in searches.items()}
-        verdict, sentences = _by_what_is_known(early, worst, sentences, over, feature_wording.where(scene))
+    elif early:
+        verdict, sentences = _by_what_is_known(parts, worst, sentences, over, feature_wording.where(scene))
     text, tone = _load_too(verdict, searches)
     return FATIGUE, text, tone, (*_alone_words(searches), *sentences, *_plane(fatigue))
-
-
-def _settled(searches):
-    """Whether averaged stresses give what the pointwise ones do not: the errors of all that is judged."""
-    averaged = any(length for one in searches.values() for _, length in material_length.leading(searched(one)))
-    return averaged and all(error is not None for *_, error in all_layers(searches))
 
 
 def _from_pressure(searches):
@@ -218,11 +170,6 @@ def _alone_words(searches):
         return (f"The smooth contact alone: Fi = {Fi} at {body}, {SAID[over]}.",)
     where = f"at {micrometres(alone['depth_m'])} µm below {body}"
     return (f"The smooth contact alone: Fi = {Fi} {where}, {SAID[over]}, and {top} at {body}.",)
-
-
-def error_of(part, key):
-    """Error bar of a number of a part, None where it is unknown."""
-    return part.get("error", {}).get(key)
 
 
 def _plane(fatigue):

@@ -4,6 +4,7 @@ import made_results
 import numpy as np
 import pytest
 
+from tehl_taichi.fatigue import judged_layers
 from tehl_taichi.report import number_text, scene_text, verdict
 from tehl_taichi.scene import scene
 from tehl_taichi.values.coded_text import without_options
@@ -36,7 +37,7 @@ def test_the_answer_knows_how_sure_it_is(Fi, error, tone, said):
 
 
 def test_a_surface_that_holds_over_a_depth_that_does_not():
-    layers = verdict.layers(made_results.fatigue(0.5, 1.2))
+    layers = judged_layers.layers(made_results.fatigue(0.5, 1.2))
     assert [where for where, *_ in layers] == ["at the surface", "25 µm below the surface"]
 
 

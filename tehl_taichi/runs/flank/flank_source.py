@@ -15,6 +15,7 @@ from tehl_taichi.values.file_ending import ending
 from tehl_taichi.values.path_arguments import path_of
 
 KEYS = ("name", "base", "gear", "table", "scene")
+DEFAULT = 11  # positions
 SCENE = "gear"  # built-in scene that gives oil, bodies, feature and numerics where none is named
 
 
@@ -46,7 +47,7 @@ class FlankSource:
         if count is not None and at:
             raise SceneError(f"positions = {shown(count)} and at = {shown(list(at))} contradict each other: give one of them")
         if self.pair:
-            return positions.along(Mesh(self.pair), on or "pinion", 9 if count is None else count, at)
+            return positions.along(Mesh(self.pair), on or "pinion", DEFAULT if count is None else count, at)
         for word, value in (("on", on), ("positions", count), ("at", at or None)):
             if value is not None:
                 raise SceneError(f"{word} = {shown(value)} has no effect: the rows of a table define the positions, and body a "

@@ -8,6 +8,7 @@ from tehl_taichi.runs import single_run
 from tehl_taichi.runs.progress import Progress
 from tehl_taichi.runs.single_run import check_version
 from tehl_taichi.runs.sweep import case, pool
+from tehl_taichi.values.coded_text import code_of
 
 STAGE = "positions"
 
@@ -34,7 +35,7 @@ def summaries(scenes, folder, workers=None, threads=None, progress=None):
     workers, threads = pool.sizes(workers, threads, jobs=len(todo))
     pool.check(workers, threads)
     yield from done.items()
-    progress = progress or Progress()
+    progress = _Once(progress or Progress())
     yield from _run(places, todo, workers, threads, progress)
     progress.stage(STAGE, len(places), len(places))
 
@@ -77,7 +78,7 @@ def _report(progress, scene, outcome, which):
     """Words that another process could not print."""
     progress.say(f"{which}: {scene.name}: {outcome.reason or 'done'}")
     for sentence in scene.warnings():
-        progress.warn(f"{scene.name}: {sentence}")
+        progress.warn_at(scene.name, sentence)
 
 
 class _Here:
@@ -92,6 +93,32 @@ class _Here:
         return case.work(job, _Named(self.progress, job.scene.name))
 
 
+class _Once(Progress):
+    """Passes on the progress of a flank: a kind of warning once, as of the first position that has it."""
+
+    def __init__(self, listener):
+        self.listener, self.warned = listener, set()
+
+    def say(self, text):
+        self.listener.say(text)
+
+    def warn(self, sentence):
+        self.listener.warn(sentence)
+
+    def warn_at(self, name, sentence):
+        """A warning of the run called `name`."""
+        kind = code_of(sentence) or str(sentence)
+        if kind not in self.warned:
+            self.warned.add(kind)
+            self.listener.warn(f"{name}: {sentence}")
+
+    def step(self, snapshot):
+        self.listener.step(snapshot)
+
+    def stage(self, name, done, total):
+        self.listener.stage(name, done, total)
+
+
 class _Named(Progress):
     """Passes on the progress of one of many runs: its stages and steps, and its warnings with its name."""
 
@@ -99,7 +126,7 @@ class _Named(Progress):
         self.listener, self.name = listener, name
 
     def warn(self, sentence):
-        self.listener.warn(f"{self.name}: {sentence}")
+        self.listener.warn_at(self.name, sentence)
 
     def step(self, snapshot):
         self.listener.step(snapshot)

@@ -7,6 +7,7 @@ from tehl_taichi.values.checks import integer, nearest, number
 
 ONS = ("pinion", "gear")
 BEYOND = 20  # lengths of the path of contact within which a table of shares ends
+NEAR = 0.03  # slide-roll ratio beside the pitch point: friction has four fifths of its largest value there (fzg-c, 90 deg C)
 JUMPED = 1e-12  # m: nearer than this, a position requested is at a jump of the load
 
 
@@ -89,8 +90,8 @@ def jumps(mesh, table):
 def along(mesh, on="pinion", count=9, at=()):
     """Positions of a mesh, from the dedendum of body a (`on`: pinion or gear) to its addendum.
 
-    count: as many, A to E and both sides of every jump of the load among them, the others in the widest gaps between; at: in
-    their place, of these points ("A", "B-", "C") or ways x_pl in m. Raises SceneError.
+    count: as many, A to E and both sides of every jump of the load among them, then one on each side of C, the others in the
+    widest gaps between; at: in their place, of these points ("A", "B-", "C") or ways x_pl in m. Raises SceneError.
     """
     table = shares(mesh)
     if on not in ONS:
@@ -109,6 +110,8 @@ def _marks(mesh, table):
 def _spread(mesh, table, count):
     marks = _marks(mesh, table)
     integer("positions", count, len(marks), 1000)
+    if count >= len(marks) + 2:
+        marks += _beside_pitch_point(mesh, marks)
     ways = sorted({x for x, _ in marks})
     parts = [1] * (len(ways) - 1)
     for _ in range(count - len(marks)):
@@ -116,6 +119,17 @@ def _spread(mesh, table, count):
         parts[widest] += 1
     between = [(low + (high - low) * k / part, "") for low, high, part in zip(ways, ways[1:], parts) for k in range(1, part)]
     return marks + between
+
+
+def _beside_pitch_point(mesh, marks):
+    """A position on each side of C, where friction rises from 0 within a small slip: straight lines to the next points would
+    hide it; none where C is not between two of the marks or these are closer."""
+    way = NEAR * mesh.speeds(0.0)[0] / sum(mesh.omega)
+    ways = sorted({x for x, _ in marks})
+    if "C" not in mesh.points or not ways[0] < 0.0 < ways[-1]:
+        return []
+    n = ways.index(0.0)
+    return [(-way, ""), (way, "")] if ways[n - 1] < -2 * way and ways[n + 1] > 2 * way else []
 
 
 def _requested(mesh, table, place, on):

@@ -1,0 +1,68 @@
+"""Numbers by which searches are judged: the surface and what lies below it, of the whole passage or of its resolved part."""
+
+from tehl_taichi.fatigue import material_length
+from tehl_taichi.fatigue.pressure_alone import searched
+from tehl_taichi.values.digits import micrometres
+
+ABOVE, WITHIN, BELOW = 1, 0, -1
+
+
+def judged(Fi, error=None):
+    """Whether an index is above 1, below it, or 1 within its error (None: not known)."""
+    if abs(Fi - 1) <= (error or 0.0):
+        return WITHIN
+    return ABOVE if Fi > 1 else BELOW
+
+
+def deciding(searches):
+    """({surface: summary that decides}, whether these are of the resolved part) of {surface: summary of its search}: where the
+    grid does not resolve every pressure the part of the passage before that, unless averaged stresses settle the answer."""
+    if any(searched(one).get("rough") for one in searches.values()):
+        return searches, False
+    if all("resolved" in one for one in searches.values()) and not _settled(searches):
+        return {name: one["resolved"] for name, one in searches.items()}, True
+    return searches, False
+
+
+def _settled(searches):
+    """Whether averaged stresses give what the pointwise ones do not: the errors of all that is judged."""
+    averaged = any(length for one in searches.values() for _, length in material_length.leading(searched(one)))
+    return averaged and all(error is not None for *_, error in all_layers(searches))
+
+
+def all_layers(searches):
+    """The :func:`layers` of each {surface: summary of its search}; surfaces are named where there are two."""
+    one = len(searches) == 1
+    return [layer for name, found in searches.items() for layer in layers(found, "the surface" if one else f"surface {name}")]
+
+
+def layers(fatigue, surface="the surface"):
+    """[(where in words, Fi, its error or None)] of the surface and of what lies below it; of a search or of its part. Of rough
+    surfaces the 99th percentile."""
+    fatigue = searched(fatigue)
+    if fatigue.get("rough"):
+        return _percentile_layers(fatigue, surface)
+    return [(f"{_where(part, surface)}{_over(length)}", part["Fi_max"], error_of(part, "Fi_max"))
+            for part, length in material_length.leading(fatigue)]
+
+
+def _where(part, surface):
+    return f"{micrometres(part['depth_m'])} µm below {surface}" if "depth_m" in part else f"at {surface}"
+
+
+def _over(length):
+    """Behind a place whose stresses are averaged over a length (m; 0: not)."""
+    return f" (stresses averaged over {micrometres(length)} µm)" if length else ""
+
+
+def _percentile_layers(fatigue, surface):
+    top, deep = fatigue["statistics"], fatigue.get("below", {}).get("statistics")
+    found = [(f"at {surface}", top["p99"], error_of(top, "p99"))]
+    if deep:
+        found.append((f"{micrometres(deep['depth_m'])} µm below {surface}", deep["p99"], error_of(deep, "p99")))
+    return found
+
+
+def error_of(part, key):
+    """Error bar of a number of a part, None where it is unknown."""
+    return part.get("error", {}).get(key)

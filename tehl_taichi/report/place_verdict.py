@@ -1,0 +1,158 @@
+"""The answer on contacts along something: the place with the largest index, and those whose error bars overlap with it."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from tehl_taichi.fatigue.judged_layers import ABOVE, BELOW, WITHIN, all_layers, deciding, error_of, judged
+from tehl_taichi.fatigue.judged_surfaces import by_surface
+from tehl_taichi.fatigue.pressure_alone import searched, why_none
+from tehl_taichi.report.number_text import index
+from tehl_taichi.report.verdict import headline
+from tehl_taichi.values.digits import micrometres
+
+LATER = "Not decided: the index stays below 1 while the grid resolves the pressure, and exceeds 1 later {}."
+UNKNOWN_LATER = "Probably not: the index stays below 1, but over the whole passage its error is unknown."
+
+
+@dataclass(frozen=True)
+class JudgedPlace:
+    """A place with an index. number: along the path; name, words: short and whole; searches: {surface: summary of a search}."""
+
+    number: int
+    name: str
+    words: str
+    searches: dict
+
+    @property
+    def early(self):
+        """Whether it is judged by the resolved part of its passage."""
+        return deciding(self.searches)[1]
+
+    @cached_property
+    def layer(self):
+        """(where, Fi, its error or None) by which it is judged: the worst."""
+        return max(all_layers(deciding(self.searches)[0]), key=lambda one: (judged(*one[1:]), one[1]))
+
+    @property
+    def Fi(self):
+        return self.layer[1]
+
+    @property
+    def error(self):
+        return self.layer[2]
+
+    @property
+    def state(self):
+        return judged(self.Fi, self.error)
+
+    @property
+    def where(self):
+        """Where in the body and along the path."""
+        return f"{self.layer[0]} at {self.words}"
+
+    @cached_property
+    def whole(self):
+        """(where, Fi, error) of the whole passage: the largest."""
+        return max(all_layers(self.searches), key=lambda one: one[1])
+
+    @property
+    def rough(self):
+        return any(searched(one).get("rough") for one in self.searches.values())
+
+
+def judged_places(rows, name, words):
+    """A list of :class:`JudgedPlace` along the path. rows: (position, Hertz pressure, summary or None); name, words: functions
+    of a position."""
+    return [JudgedPlace(n, name(at), words(at), by_surface(summary)) for n, (at, _, summary) in enumerate(rows)
+            if (summary or {}).get("fatigue") and not why_none(summary["fatigue"])]
+
+
+def worst(places):
+    """The :class:`JudgedPlace` with the largest index."""
+    return max(places, key=lambda place: (place.state, place.Fi))
+
+
+def unseparated(places):
+    """The worst place and those whose error bars overlap with its bar, along the path."""
+    top = worst(places)
+    return [place for place in places if place is top or _overlap(place, top)]
+
+
+def _overlap(place, top):
+    return None not in (place.error, top.error) and abs(top.Fi - place.Fi) <= place.error + top.error
+
+
+def answer(places, count):
+    """(headline, tone, sentences); places: not empty; count: of all positions."""
+    top, group = worst(places), unseparated(places)
+    text, tone = _load_too(_headline(places, top, group), places)
+    return text, tone, _sentences(places, top, group, count)
+
+
+def _headline(places, top, group):
+    if top.state == BELOW and any(place.early for place in places):
+        later = [place for place in places if place.early and judged(*place.whole[1:]) != BELOW]
+        return (LATER.format(_among(later, places)), "open") if later else (UNKNOWN_LATER, "no")
+    where = top.where if len(group) == 1 else f"{_among(group, places)}, where the errors do not separate the positions"
+    even = "even " if top.state == ABOVE else ""
+    when = f", {even}without the pressures that the grid does not resolve" if top.early else ""
+    return headline(top.state, where, top.error is not None, when)
+
+
+def _among(group, places):
+    """'between A and C' of neighbours, 'at A and E' of others."""
+    neighbours = [places.index(place) for place in group]
+    if len(group) > 2 and neighbours == list(range(neighbours[0], neighbours[-1] + 1)):
+        return f"between {group[0].name} and {group[-1].name}"
+    return f"at {_listed([place.name for place in group])}"
+
+
+def _listed(words):
+    return " and ".join(filter(None, (", ".join(words[:-1]), words[-1])))
+
+
+def _sentences(places, top, group, count):
+    what = "99th percentile of the index" if top.rough else "index"
+    others = [place.name for place in group if place is not top]
+    apart = f"; its error does not separate it from {_listed(others)}" if others else ""
+    above, within = (sum(place.state == state for place in places) for state in (ABOVE, WITHIN))
+    doubtful = f"; 1 lies within the error at {within} more" if within else ""
+    return (*_alone(places), f"The largest {what} is Fi = {index(top.Fi, top.error)}, {top.where}{apart}.", *_whole(places),
+            f"It is above 1 at {above} of {count} positions{doubtful}.")
+
+
+def _whole(places):
+    """The largest index where the grid does not resolve the pressure."""
+    if not (early := [place for place in places if place.early]):
+        return ()
+    top = max(early, key=lambda place: place.whole[1])
+    where, Fi, error = top.whole
+    unknown = " (error unknown)" if error is None else ""
+    names = _listed([place.name for place in early])
+    return (f"At {names} the grid does not resolve the pressure of the whole passage: over it the largest index there is Fi = "
+            f"{index(Fi, error)}{unknown}, {where} at {top.words}.",)
+
+
+def _smooth(places):
+    """(place, numbers of its smooth contact) that carries most, None where none is known."""
+    found = [(place, part) for place in places for one in place.searches.values()
+             if (part := searched(one).get("contact_alone"))]
+    return max(found, key=lambda one: one[1]["Fi_max"], default=None)
+
+
+def _alone(places):
+    """What the smooth contacts carry, in a sentence."""
+    if not (found := _smooth(places)):
+        return ()
+    place, alone = found
+    depth = f"{micrometres(alone['depth_m'])} µm below the surface" if alone["depth_m"] else "at the surface"
+    return (f"The smooth contacts alone: Fi = {index(alone['Fi_max'], error_of(alone, 'Fi_max'))} at most, {depth} at "
+            f"{place.words}.",)
+
+
+def _load_too(verdict, places):
+    """(headline, tone), with the words that the load alone exceeds the limit, too."""
+    (text, tone), found = verdict, _smooth(places)
+    if tone != "yes" or not found or judged(found[1]["Fi_max"], error_of(found[1], "Fi_max")) != ABOVE:
+        return text, tone
+    return f"{text.removesuffix('.')}. The load alone exceeds it, without any feature.", tone

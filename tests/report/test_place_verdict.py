@@ -1,0 +1,71 @@
+"""The answer on contacts along a path: by the resolved part, with places that error bars do not separate."""
+
+import made_results
+import pytest
+
+from tehl_taichi.report import place_verdict, place_warnings
+
+
+def search(Fi, error=None, early=None, alone=0.9):
+    """Summary of a search at the surface; early: (Fi, error) of its resolved part."""
+    found = {**made_results.fatigue(Fi, None), "error": {"Fi_max": error}}
+    found["contact_alone"] |= {"Fi_max": alone, "error": {"Fi_max": 0.01}}
+    if early:
+        found["resolved"] = {**made_results.fatigue(early[0], None), "error": {"Fi_max": early[1]}, "to_x_a": -0.5}
+    return found
+
+
+def answer(**found):
+    """(headline, tone, sentences) of positions by name."""
+    rows = [(name, 1e9, one and {"fatigue": one}) for name, one in found.items()]
+    places = place_verdict.judged_places(rows, str, lambda name: f"point {name}")
+    return place_verdict.answer(places, len(rows))
+
+
+def test_the_largest_index_alone_is_named():
+    text, tone, sentences = answer(A=search(1.4, 0.1), B=search(1.1, 0.05), C=search(1.02, 0.05), E=None)
+    assert (text, tone) == ("Yes: the fatigue limit is exceeded at the surface at point A.", "yes")
+    assert sentences[1:] == ("The largest index is Fi = 1.40 ± 0.10, at the surface at point A.",
+                             "It is above 1 at 2 of 4 positions; 1 lies within the error at 1 more.")
+    assert sentences[0].startswith("The smooth contacts alone: Fi = 0.900 ± 0.010 at most, 180 µm below the surface at point A")
+
+
+def test_places_that_errors_do_not_separate_are_named_together():
+    text, _, sentences = answer(A=search(1.40, 0.1), B=search(1.45, 0.05), C=search(1.35, 0.06), E=search(1.2, 0.05))
+    assert text == "Yes: the fatigue limit is exceeded between A and C, where the errors do not separate the positions."
+    assert "at point B; its error does not separate it from A and C." in sentences[1]
+    apart, *_ = answer(A=search(1.40, 0.1), B=search(1.1, 0.05), E=search(1.45, 0.05))
+    assert "exceeded at A and E, where the errors do not separate" in apart
+    unknown, *_ = answer(A=search(1.40, 0.1), B=search(1.45))
+    assert unknown == "Probably yes: the fatigue limit is exceeded at the surface at point B; the error of this is unknown."
+
+
+def test_a_place_is_judged_by_its_resolved_part():
+    """The whole passage of D has the largest index, which its grid does not resolve; E decides."""
+    text, tone, sentences = answer(D=search(2.3, None, (1.25, 0.02)), E=search(1.9, None, (1.6, 0.03)))
+    assert tone == "yes" and text == ("Yes: the fatigue limit is exceeded at the surface at point E, even without the "
+                                      "pressures that the grid does not resolve.")
+    assert sentences[1] == "The largest index is Fi = 1.600 ± 0.030, at the surface at point E."
+    assert sentences[2].startswith("At D and E the grid does not resolve")
+    assert sentences[2].endswith("Fi = 2.3 (error unknown), at the surface at point D.")
+
+
+@pytest.mark.parametrize("whole, expected", [
+    (1.7, ("Not decided: the index stays below 1 while the grid resolves the pressure, and exceeds 1 later at D.", "open")),
+    (0.9, ("Probably not: the index stays below 1, but over the whole passage its error is unknown.", "no"))])
+def test_an_index_that_exceeds_1_only_later_decides_nothing(whole, expected):
+    assert answer(D=search(whole, None, (0.8, 0.02)), E=search(0.7, 0.02))[:2] == expected
+
+
+def test_the_load_alone_comes_first():
+    text, *_ = answer(A=search(1.4, 0.1, alone=1.2), B=search(0.7, 0.1))
+    assert text.endswith("at the surface at point A. The load alone exceeds it, without any feature.")
+
+
+def test_a_kind_of_warning_is_one_sentence():
+    def row(name, *texts):
+        lists = {"warnings": list(texts), "warning_codes": ["cells"] * len(texts), "warning_data": [{}] * len(texts)}
+        return name, 1e9, lists
+
+    rows = [row("A", "15 cells"), row("B", "14 cells"), row("C"), row("D", "15 cells"), ("E", 1e9, None)]
+    assert place_warnings.of(rows, str) == ["A, D: 15 cells (likewise, with other numbers, at B)"]
