@@ -19,10 +19,10 @@ def register(app):
 
 
 Load = typer.Option(None, help="radial load, N (default: 1000)")
-Axial = typer.Option(None, help="axial load, N (default: none; with a contact angle that of a purely radial displacement)")
+Axial = typer.Option(None, help="axial load, N (default: 0; with a contact angle the load at which the displacement is radial)")
 Speed = typer.Option(None, help="speed of the inner ring, 1/min (default: 1500)")
 OuterSpeed = typer.Option(None, help="speed of the outer ring, 1/min (default: 0; negative: against the inner ring)")
-Pitch = typer.Option(None, help="diameter of the circle of the centres of the elements, m")
+Pitch = typer.Option(None, help="pitch diameter: of the circle through the centres of the elements, m")
 Angle = typer.Option(None, help="contact angle without load, degrees (tapered rollers: of the outer ring)")
 Clearance = typer.Option(None, help="radial clearance in operation, m (default: 0)")
 Oil = typer.Option(None, help="name of the oil (`tehl oils`)")
@@ -36,9 +36,10 @@ On = typer.Option("inner", help="ring that carries the dent or scan: inner or ou
 Roughness = typer.Option(None, help="rms height of both surfaces together, m, for lambda = h_c/Sq")
 SceneFile = typer.Option(None, help="scene with oil, bodies, features and numerics: built-in name, TOML file or store")
 Steady = typer.Option(False, "--steady", help="steady contacts without the features of --scene")
-Thermal = typer.Option(None, "--thermal/--isothermal", help="with or without the energy equation (default: where balls slip)")
+Thermal = typer.Option(None, "--thermal/--isothermal", help="with or without the energy equation (default: with it if elements "
+                                                            "slip)")
 Settings = typer.Option(None, "--set", help="dotted.key=value of the scenes, repeatable")
-GridName = typer.Option(None, help="coarse, medium, fine or NXxNY (default: 128x32 of steady contacts)")
+GridName = typer.Option(None, help="coarse, medium, fine or NXxNY (default: 128x32 for steady contacts)")
 Run = typer.Option(True, "--run/--no-run", help="compute both contacts, or print loads, dry contacts and formulas only")
 Out = typer.Option(None, help="folder to write (default: runs/NAME-N); existing runs in it are resumed")
 Draw = typer.Option(True, "--figure/--no-figure", help="draw bearing.png (.pdf, .svg) in that folder")
@@ -50,8 +51,8 @@ Curves = typer.Option(True, "--live/--no-live", help="draw p, h and T along y = 
 
 
 def bearing(
-    which: str = typer.Argument(..., metavar="DESIGNATION", help="designation (6206), or a TOML file; with own dimensions any "
-                                                                 "name"),
+    which: str = typer.Argument(..., metavar="DESIGNATION", help="designation (6206), a TOML file, or any name with own "
+                                                                 "dimensions"),
     context: typer.Context = None,
     load: Optional[float] = Load, axial: Optional[float] = Axial, speed: Optional[float] = Speed,
     outer_speed: Optional[float] = OuterSpeed,
@@ -59,7 +60,7 @@ def bearing(
     balls: Optional[int] = typer.Option(None, help="number of balls"),
     pitch_diameter: Optional[float] = Pitch,
     osculation: Optional[float] = typer.Option(None, help="groove radius over ball diameter, inner ring (default: 0.52)"),
-    osculation_outer: Optional[float] = typer.Option(None, help="the same ratio of the outer ring (default: 0.53)"),
+    osculation_outer: Optional[float] = typer.Option(None, help="groove radius over ball diameter, outer ring (default: 0.53)"),
     contact_angle: Optional[float] = Angle, clearance: Optional[float] = Clearance,
     oil: Optional[str] = Oil, temperature: Optional[float] = Temperature, dent: Optional[str] = Dent,
     scan: Optional[Path] = Scan, unit: Optional[str] = Unit, pixel: Optional[float] = Pixel, on: str = On,
@@ -91,7 +92,7 @@ def roller(
     pitch_diameter: Optional[float] = Pitch,
     length: Optional[float] = typer.Option(None, help="effective length of a roller, m"),
     crown: Optional[float] = typer.Option(None, help="radius of the profile of a crowned roller, m (default: straight)"),
-    taper: Optional[float] = typer.Option(None, help="whole angle of a tapered roller, degrees (default: cylindrical)"),
+    taper: Optional[float] = typer.Option(None, help="full cone angle of a tapered roller, degrees (default: cylindrical)"),
     contact_angle: Optional[float] = Angle, clearance: Optional[float] = Clearance,
     oil: Optional[str] = Oil, temperature: Optional[float] = Temperature, dent: Optional[str] = Dent,
     scan: Optional[Path] = Scan, unit: Optional[str] = Unit, pixel: Optional[float] = Pixel, on: str = On,

@@ -99,7 +99,7 @@ def _once(rows):
 
 
 def _legend(changes):
-    """What two words of the table mean."""
+    """Meaning of two words of the table."""
     from tehl_taichi.runs.compare_change import NOT_SEPARATED
 
     if NOT_SEPARATED in changes:

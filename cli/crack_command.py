@@ -23,8 +23,8 @@ def crack(
     start: Optional[float] = typer.Option(None, help="x' of the crack mouth, m (default: place of the largest surface "
                                                      "tension); on the body without the feature, from "
                                                      "the place below it at X = 0"),
-    angle: float = typer.Option(90.0, help="angle of the first segment, degrees; 90 is straight down, more leans with "
-                                           "rolling"),
+    angle: float = typer.Option(90.0, help="angle of the first segment, degrees; 90 is straight down, larger "
+                                           "angles lean in the rolling direction"),
     first: float = typer.Option(5e-6, help="length of the first segment, m"),
     step: float = typer.Option(5e-6, help="length of the other segments, m"),
     length: float = typer.Option(100e-6, help="length at which the crack stops, m"),
@@ -115,7 +115,7 @@ def _chords(shape):
 
 
 def _growth(found):
-    """How K goes with the length."""
+    """Rows of K_I and K_II over the crack length."""
     rows = [(f"K_I up to, range of K_II at {step['length_m'] * 1e6:.1f} um",
              f"{step['K_I_max'] / 1e6:.3f}, {step['K_II_range'] / 1e6:.2f} MPa sqrt(m)") for step in _some(found["K"])]
     error = found.get("error_at_last_length")

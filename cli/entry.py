@@ -68,7 +68,7 @@ def _run():
 
 
 def _sentence(error):
-    """What to say of an error; of the system's refusals (a full disk) without their number, of the others at least the name."""
+    """Message of an error: system errors (a full disk) without their number; without a message the name."""
     if isinstance(error, OSError) and error.strerror:
         return f"{error.filename}: {error.strerror}" if error.filename else error.strerror
     if hasattr(error, "exit_code"):

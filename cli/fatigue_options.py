@@ -20,14 +20,14 @@ def _options(
     criterion: Annotated[Optional[str], typer.Option(help="criterion: " + ", ".join(CRITERIA))] = None,
     table: Annotated[Optional[str], typer.Option(help="strength over depth: a CSV file or a built-in table, as case-hardened "
                                                       "('': none)")] = None,
-    table_b: Annotated[Optional[str], typer.Option(help="table of body b where it is another one; none: no table")] = None,
+    table_b: Annotated[Optional[str], typer.Option(help="table of body b, if different; none: no table")] = None,
     relation: Annotated[Optional[str], typer.Option(help="fatigue limit by the hardness of a table: "
                                                          + ", ".join(RELATIONS))] = None,
     inclusion: Annotated[Optional[float], typer.Option(help="root of the area of the largest inclusion, m, for the relation "
                                                             "murakami")] = None,
     exponent: Annotated[Optional[float], typer.Option(help="exponent of the S-N curve, for the number of passages to "
                                                            "initiation (0: none)")] = None,
-    limit_cycles: Annotated[Optional[float], typer.Option(help="passages that the fatigue limit stands for")] = None,
+    limit_cycles: Annotated[Optional[float], typer.Option(help="number of passages at the fatigue limit")] = None,
     weibull: Annotated[Optional[float], typer.Option(help="Weibull exponent of the strength, for the stressed volume (0: "
                                                           "none)")] = None,
     depths: Annotated[Optional[str], typer.Option(help="depths to search: auto (critical depth under the feature), none, or a "

@@ -78,7 +78,7 @@ def flank(
 
 
 def _line(gear, base, changes, steady):
-    """What the scenes of all positions have in common: a line contact."""
+    """Scene changes of all positions: a line contact."""
     from math import inf
 
     from tehl_taichi.runs.flank.flank_source import flank_source

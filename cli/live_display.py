@@ -17,7 +17,7 @@ def say(text):
 
 
 class Live(Lines):
-    """What the command line shows of a run, warnings alone if `quiet`, a bar without curves if not `curves`; a context manager
+    """Progress of a run in the terminal: warnings alone if `quiet`, a bar without curves if not `curves`; a context manager
     that ends them."""
 
     DRAWN = 0.5  # s at least between two pictures

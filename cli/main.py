@@ -54,7 +54,7 @@ class Commands(typer.core.TyperGroup):
 
 @contextlib.contextmanager
 def _printable():
-    """What typer says of a refused word has its letters spelled that do not print."""
+    """Escape unprintable letters in the messages of typer."""
     try:
         yield
     except USAGE as error:

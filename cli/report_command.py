@@ -17,7 +17,8 @@ def register(app):
 
 @with_fatigue_options
 def report(
-    store: Path = typer.Argument(..., help="store of a run (finished or not), a study, or the folder of a flank"),
+    store: Path = typer.Argument(..., help="store of a run (finished or not), a study, or the folder of a flank, bearing "
+                                           "or cam"),
     context: typer.Context = None,
     out: Optional[Path] = typer.Option(None, help="HTML file to write (default: beside the store; with other fatigue "
                                                   "constants: STORE-fatigue.html)"),

@@ -144,7 +144,7 @@ def _print(run, as_json, printed=()):
 
 
 def _print_scene(scene):
-    """What would run: the contact, its film by formula, grid and steps, what passes, what is left out or doubtful."""
+    """Print the plan of a run: contact, film by formula, grid, steps, features, parts left out, warnings."""
     from tehl_taichi.scene.film_formula import central_film, formula_words
     from tehl_taichi.scene.scales import Scales
     from tehl_taichi.scene.scene_warnings import preview
@@ -159,7 +159,7 @@ def _print_scene(scene):
 
 
 def _print_time(done):
-    """How long the passage would take of which the steady start alone was requested."""
+    """Print the estimated time of the passage after a run with `--steps 0`."""
     from tehl_taichi.runs import time_estimate
 
     for sentence in time_estimate.lines(done, GRIDS["coarse"]):

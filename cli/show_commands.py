@@ -154,7 +154,7 @@ def _show_run(saved, as_json):
 
 
 def _state(saved):
-    """How far a run is, and what to do about it."""
+    """State of a run, and the command that finishes it."""
     if saved.writer:
         return f"still being written by {saved.writer}"
     if not saved.finished:

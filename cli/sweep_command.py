@@ -107,7 +107,7 @@ def _check_count(plan, yes):
 
 
 def _report(plan, out):
-    """What would run."""
+    """Print the plan of a sweep."""
     from tehl_taichi.scene.scales import Scales
 
     refused = plan.refused()

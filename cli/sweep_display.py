@@ -91,7 +91,7 @@ class SweepLive:
         return Group(table, foot)
 
     def left(self):
-        """What is left of a sweep that was stopped, the end of a sentence."""
+        """End of a sentence about a stopped sweep: cases done, and how to resume."""
         if self.study is None:
             return "before any result was stored"
         done = len(self.study) - len(self.study.open_cases)
@@ -99,7 +99,7 @@ class SweepLive:
 
 
 def changes_words(record):
-    """What makes a case, in words."""
+    """Keys and values of a case as text."""
     return ", ".join(f"{key} = {value:g}" if isinstance(value, float) else f"{key} = {value}"
                      for key, value in record["changes"].items())
 
@@ -132,7 +132,7 @@ def print_study(study):
 
 
 def _number(value, error):
-    """With its error where that is known, nothing where there is no value."""
+    """Value with its error if known; empty without a value."""
     from tehl_taichi.report.number_text import value_text
 
     return "" if math.isnan(value) else value_text(value, error)

@@ -80,7 +80,7 @@ def _log_uniform(rng, low, high):
 
 
 def _steady(rng, kind, nx):
-    """On the domain that the scene chooses, or on the usual one as if the user had fixed it."""
+    """Steady start on the domain that the scene chooses, or on the usual domain as if the user had set it."""
     line, grid = kind.startswith(("line", "flank")), {"grid.nx": nx}
     if not line:
         grid |= {"grid.ny": nx // 2, "grid.y_max": "auto", "grid.x_min": "auto"}
@@ -281,7 +281,7 @@ def _line(group):
 
 
 def _unit(name, value):
-    """What a bar and an error of a number are parts of."""
+    """Value by which the error bar and the error of a number are divided."""
     return 1.0 if name.startswith(LIKE_ONE) else RELATIVE_TO.get(name[-1], abs(value))
 
 

@@ -99,7 +99,7 @@ def machine():
 
 
 def result(rows, **more):
-    """What a suite gives, as JSON has it: the machine, its rows (dictionaries) and what else it counts."""
+    """JSON object of a suite: machine, rows (dictionaries) and further counts."""
     return plain({"program": user_files.PROGRAM, "machine": machine(), **more, "rows": rows})
 
 

@@ -57,7 +57,7 @@ class CaseOutcome:
 
 @dataclass(frozen=True)
 class Confirmed:
-    """What half the time step and twice the columns change of a start: central film (part of it), largest temperature (K);
+    """Changes of a start with half the time step and twice the columns: central film (part of it), largest temperature (K);
     None where that start stops. moving: whether one of the three is a state in time, none at rest; reason: why a case is lost
     altogether."""
 
@@ -361,7 +361,7 @@ def chart(plt, found):
 
 
 def changes_chart(plt, found):
-    """What half the time step and twice the columns change of every start, and what they may."""
+    """Changes of every start with half the time step and twice the columns, and the allowed changes."""
     figure, ax = plt.subplots(figsize=(5.4, 4.6), constrained_layout=True)
     for which, label in (("half", "half the time step"), ("finer", "twice the columns")):
         pairs = [(100 * one[f"{which}_film"], one[f"{which}_K"]) for one in found if one[f"{which}_film"] is not None]

@@ -70,7 +70,7 @@ class UnknownName(Error, KeyError):
 
 
 def extra(name):
-    """How an optional part is installed, for the end of a sentence about what is missing."""
+    """Command that installs an optional part, for the end of a sentence about a missing package."""
     return f"pip install 'tehl_taichi[{name}]' (in a checkout: pip install -e '.[{name}]')"
 
 
@@ -82,7 +82,7 @@ def brief(error, most=200):
 
 
 def stopped(stop):
-    """How a sentence about a KeyboardInterrupt begins: "interrupted" (Ctrl-C), or its signal, where it has one."""
+    """Beginning of a sentence about a KeyboardInterrupt: "interrupted" (Ctrl-C), or its signal."""
     name = getattr(stop, "signal", "")
     return f"stopped by {name}" if name else "interrupted"
 

@@ -171,3 +171,13 @@ def test_solvers_import_neither_dask_nor_pandas():
     """FFTW's package would, where they are installed."""
     code = "import sys; from tehl_taichi.march import passage; sys.exit(bool({'dask', 'pandas', 'scipy'} & set(sys.modules)))"
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0
+
+
+def test_docstrings_refer_to_modules_and_classes_that_exist():
+    """References break silently when a file is renamed."""
+    modules = {"tehl_cli", *(part for path in SOURCES for part in (*path.parts, path.stem))}
+    known = {"mod": modules, "class": modules | {name for path in SOURCES for name in names_in(path)}}
+    references = [(path, *found) for path in SOURCES
+                  for found in re.findall(r":(mod|class):`~?([\w.]+)`", path.read_text(encoding="utf-8"))]
+    assert len(references) > 100
+    assert [(path, name) for path, role, name in references if set(name.split(".")) - known[role]] == []

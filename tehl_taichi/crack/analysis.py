@@ -160,7 +160,7 @@ def _pulled(points, tension):
 
 
 def _doubts(plane, path, options, E_star):
-    """What twice as many elements say of K_I, and sentences about what is doubtful."""
+    """K_I with twice as many elements, and warnings."""
     fine = loaded(plane, path.points, options, E_star, 2 * options.elements)
     K, finer = path.last.K, fine.K
     largest = max(np.abs(finer).max(), 1e-30)

@@ -63,7 +63,7 @@ def solved(M, right_side):
 
 
 def _next(r, w, low, high, at, small):
-    """Where r should rather stand."""
+    """Next value of r."""
     new = at.copy()
     free = at == FREE
     new[free & (r < low)], new[free & (r > high)] = LOW, HIGH

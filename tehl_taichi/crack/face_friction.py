@@ -94,7 +94,7 @@ def some(S, free, mu, state, slip):
 
 
 def _fitting(state, new):
-    """How many moments, from the first one on, are in this state."""
+    """Number of moments, from the first one on, that are in this state."""
     wrong = np.flatnonzero((new != state[:, None]).any(axis=0))
     return wrong[0] if wrong.size else new.shape[1]
 

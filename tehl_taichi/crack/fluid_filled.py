@@ -125,7 +125,7 @@ class CrackMarch:
         return MomentState(forces, moved, pressed, values, forces[self.cells] / self.scale, state, settled)
 
     def took(self, found, content):
-        """Both, after the states and slips that they leave are those that the next moment begins with."""
+        """Both arguments, after their states and slips are kept for the next moment."""
         self.state, self.slip = found.state, found.moved[self.state.size :]
         return found, content
 

@@ -122,7 +122,7 @@ def _hoop(plane, crack, at, directions):
 
 
 def _top(values, n):
-    """Where between n - 1/2 and n + 1/2 the parabola through the three values around the largest one is highest."""
+    """Place between n - 1/2 and n + 1/2 of the top of the parabola through the three values around the largest one."""
     if not 0 < n < values.size - 1 or not np.isfinite(values[n - 1 : n + 2]).all():
         return 0.0
     bend = values[n - 1] - 2 * values[n] + values[n + 1]

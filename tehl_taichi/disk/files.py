@@ -93,7 +93,7 @@ def text(path):
 
 
 def json_of(path):
-    """What a JSON file says. Raises as :func:`content`; ValueError where it is none, or nested without end."""
+    """Content of a JSON file. Raises as :func:`content`; ValueError where it is none, or nested without end."""
     try:
         return json.loads(text(path))
     except RecursionError:
@@ -114,7 +114,7 @@ def reason(error):
 
 @contextlib.contextmanager
 def blamed(path, doing="cannot write"):
-    """What the disk refuses inside is a StoreError about `path`."""
+    """Context manager: OSErrors of the disk become a StoreError about `path`."""
     try:
         yield
     except OSError as error:

@@ -21,7 +21,7 @@ def refuse(folder):
 
 
 def strange(status):
-    """What makes an entry of this status (of os.lstat) one that nothing is written to, in words; "" for folders and files."""
+    """Kind of an entry (os.lstat) that is never written to, as text; "" for folders and files."""
     if stat.S_ISDIR(status.st_mode):
         return ""
     if stat.S_ISLNK(status.st_mode):
@@ -32,7 +32,7 @@ def strange(status):
 
 
 def is_folder(path):
-    """Whether there is a folder at `path` itself, not where a link leads."""
+    """Whether `path` itself is a folder, not a link to one."""
     return os.path.isdir(path) and not os.path.islink(path)
 
 

@@ -65,7 +65,7 @@ def holder(folder):
 
 
 def lock_content(folder):
-    """What the lock in `folder` says (program, pid, host, since), {} where there is none of this program."""
+    """Content of the lock in `folder` (program, pid, host, since); {} without a lock of this program."""
     try:
         with _to_read(folder) as file:
             return _read(file)
@@ -136,7 +136,7 @@ def _same(file, path):
 
 
 def _read(file):
-    """What a lock file says, {} where that is nothing of this program."""
+    """Content of a lock file; {} if this program did not write it."""
     try:
         file.seek(0)
         content = json.load(file)

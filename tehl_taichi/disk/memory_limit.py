@@ -25,7 +25,7 @@ def available():
 
 
 def words(number):
-    """So many bytes in words."""
+    """A number of bytes as text."""
     for unit, size in (("TB", 1e12), ("GB", 1e9), ("MB", 1e6)):
         if number >= size:
             return f"{number / size:.3g} {unit}"
@@ -37,7 +37,7 @@ def _of_machine():
 
 
 def _of_process():
-    """By the limits of `ulimit`: address space, and data."""
+    """Bytes left by the limits of `ulimit`: address space and data."""
     used = _table(STATUS)
     with contextlib.suppress(ImportError):
         import resource
@@ -57,7 +57,7 @@ def _table(path):
 
 
 def _of_groups():
-    """By the control groups of this process and those that these lie in (containers, batch systems)."""
+    """Bytes left by the control groups of this process and their parents (containers, batch systems)."""
     return min((_left(folder, *names) for folder in _folders() for names in LIMITS), default=math.inf)
 
 
@@ -72,7 +72,7 @@ def _folders():
 
 
 def _left(folder, limit, usage, idle):
-    """What a group may still take; files that it has read are given back when memory is wanted."""
+    """Bytes that a group may still take; cached files count as free."""
     with contextlib.suppress(OSError, ValueError):
         most = (folder / limit).read_text().strip()
         if most == "max" or float(most) > 2**60:

@@ -93,5 +93,5 @@ def _with(shape, axis, length):
 
 
 def _run(given, target, axis, direction="FFTW_FORWARD"):
-    """On one thread by an estimated plan for aligned numbers: the same plan, so the same bits, in every run."""
+    """Run on one thread by an estimated plan for aligned numbers: equal plans, and so equal bits, in every run."""
     pyfftw.FFTW(given, target, axes=(axis,), direction=direction, flags=("FFTW_ESTIMATE",), threads=1).execute()

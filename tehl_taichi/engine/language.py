@@ -1,8 +1,8 @@
 """Taichi, as every module takes it: `from tehl_taichi.engine.language import ti`. Another engine of the same language is named
-here and in :mod:`prebound`, nowhere else.
+here and in `taichi_patches`, nowhere else.
 
 Its decorators look for the class that a function stands in in the source of the module, at every one: 1.3 s of a coarse run
-(64x16), none here. What else is asked again and again: :mod:`fast_tracing`.
+(64x16), none here. What else is asked again and again: :mod:`tehl_taichi.engine.taichi_patches.fast_tracing`.
 """
 
 import contextlib

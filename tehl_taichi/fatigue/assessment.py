@@ -95,7 +95,7 @@ def largest(summary):
 
 
 def _share(progress, n, count):
-    """What the search of the n-th of so many surfaces calls with its (done, total)."""
+    """Progress function of the search on the n-th of `count` surfaces, called with its (done, total)."""
     return progress and (lambda done, total: progress(n * total + done, count * total))
 
 

@@ -74,7 +74,7 @@ def bounds(S: ti.template(), some: ti.template(), row, steps, x, y, z, middle, k
 @ti.func
 def plane_value(S: ti.template(), some: ti.template(), a: ti.template(), b: ti.template(), row, steps, n, kappa,
                 rule: ti.template()):
-    """What the rule gives for the plane n, and the mean stress whose shear is the centre of its circle."""
+    """Value of the criterion on plane n, and the mean stress whose shear is the centre of its circle."""
     e1, e2 = plane_frame(n)
     top, mean, la, ha, lb, hb = -1e300, -1e300, 1e300, -1e300, 1e300, -1e300
     ia, ja, ib, jb = 0, 0, 0, 0

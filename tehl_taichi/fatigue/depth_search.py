@@ -16,7 +16,7 @@ from tehl_taichi.fatigue.worst_point import worst_of
 
 @dataclass(frozen=True)
 class DepthResult:
-    """What was found: profiles under rows (:class:`tehl_taichi.fatigue.depth_profile.Profile`), those of the early moments
+    """Results of a search: profiles under rows (:class:`tehl_taichi.fatigue.depth_profile.Profile`), those of the early moments
     where they are wanted, the plane that was searched at all its points, and that of the early moments at their own worst depth
     (or None)."""
 

@@ -90,7 +90,7 @@ def normal_stress(history, normals):
 
 
 def shear_path(history, normal):
-    """On one plane of one point: shear along dip and along strike and normal stress, each (times,); history (times, 6) Pa,
+    """Stresses on one plane of one point: shear along dip and strike, normal stress, each (times,); history (times, 6) Pa,
     normal (3,) with n_z >= 0."""
     xx, yy, zz, xy, xz, yz = history.T
     tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])

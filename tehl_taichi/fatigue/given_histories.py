@@ -13,7 +13,7 @@ LARGEST = Number("", "Pa", -1e12, 1e12, usual=4e8, least=1e5)
 
 @dataclass(frozen=True)
 class Points:
-    """What was found at every point: f (points,) Pa, unit normals (points, 3) of the critical planes (n_z >= 0; nan where there
+    """Results at every point: f (points,) Pa, unit normals (points, 3) of the critical planes (n_z >= 0; nan where there
     is none), and the limit (Pa) at which the index is 1."""
 
     f: np.ndarray

@@ -22,7 +22,7 @@ def around(x, y, values, place, within):
 
 
 def _peaks(index):
-    """Where no neighbour is larger; those beyond the edge do not count."""
+    """Points without a larger neighbour; neighbours beyond the edge do not count."""
     wide = np.pad(index, 1, constant_values=-np.inf)
     nx, ny = index.shape
     return np.all([index >= wide[i : i + nx, j : j + ny] for i in range(3) for j in range(3)], axis=0)

@@ -12,7 +12,7 @@ from tehl_taichi.fatigue.worst_point import WorstPoint, over_some, worse
 
 @dataclass(frozen=True)
 class EarlyLayer:
-    """What the early moments have at one depth: Findley stress f (nx, rows) Pa, and the worst point."""
+    """Results of the early moments at one depth: Findley stress f (nx, rows) Pa, and the worst point."""
 
     depth: float
     f: np.ndarray
@@ -21,7 +21,7 @@ class EarlyLayer:
 
 @dataclass(frozen=True)
 class Layer:
-    """What was found at one depth: maps (nx, rows), the worst point, the largest von Mises stress, and the EarlyLayer of the
+    """Results at one depth: maps (nx, rows), the worst point, the largest von Mises stress, and the EarlyLayer of the
     early moments where it is wanted. cycles: above the limit per passage, nan at points that are not in the sample."""
 
     depth: float

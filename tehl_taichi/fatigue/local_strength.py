@@ -6,7 +6,7 @@ from tehl_taichi.scene.strength.table import YIELD
 
 
 def of_point(strength, point):
-    """What holds at a point below the surface: "sigma_eF_Pa", "kappa_F", "residual_xx_Pa", "residual_yy_Pa"."""
+    """Strength at a point below the surface: "sigma_eF_Pa", "kappa_F", "residual_xx_Pa", "residual_yy_Pa"."""
     if strength.table is None:
         return {}
     local, (along, across) = point.local, strength.residual(point.depth)

@@ -58,7 +58,7 @@ def of_points(constants, scene=None):
 
 
 def reader_of(of, function):
-    """What is read of a run, or the list of its snapshots. Raises SceneError for what is neither."""
+    """Reader of a run, or a list of snapshots. Raises SceneError for anything else."""
     reader = getattr(of, "store", of)
     if hasattr(reader, "fields"):
         return reader

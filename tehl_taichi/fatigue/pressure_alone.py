@@ -5,7 +5,7 @@ WITHOUT = {"fatigue.shear": False, "fatigue.thermal_stress": False}  # changes o
 
 
 def constants_of(found):
-    """What any part of a search has in common with its summary `found`: whose body, by which criterion and limits."""
+    """Entries that every part of a search shares with its summary `found`: body, criterion and limits."""
     return {key: found[key] for key in CONSTANTS if key in found}
 
 

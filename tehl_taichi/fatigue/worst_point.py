@@ -55,7 +55,7 @@ class WorstPoint:
         return {f"feature_x_at_{name}_m": float(centres[min(moment, loaded)]) for name, moment in at.items()}
 
     def history(self, centres):
-        """What figures and the store keep of it: x_a (m), stress, normal, circle."""
+        """Data for figures and the store: x_a (m), stress, normal, circle."""
         return {"x_a": np.append(centres, np.nan), "stress": self.stress, "normal": self.normal, "circle": self.circle}
 
 

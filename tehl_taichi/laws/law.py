@@ -31,7 +31,7 @@ class Law(Entry):
     doubted: Callable = _nothing
 
     def having(self, **changes):
-        """Its numbers, with their defaults but for the changes, as its functions take them."""
+        """Numbers of the law for its functions: the defaults with these changes."""
         return SimpleNamespace(**{**{key: declared.default for key, declared in self.numbers.items()}, **changes})
 
 
@@ -97,7 +97,7 @@ class DensityLaw(Law):
 
 
 def beyond(laws, p, Gamma):
-    """{what was measured up to where: that limit}: the limits of laws that a film of p (Pa) and Gamma (deg C) leaves behind."""
+    """{limit as text: its value} of the measured ranges that a film of p (Pa) and Gamma (deg C) exceeds."""
     found = {}
     for unit, reached, limit in (("Pa", p, "most_p"), ("degC", Gamma, "most_Gamma")):
         passed = {law.name: getattr(law, limit) for law in laws.values() if reached > getattr(law, limit)}

@@ -1,8 +1,8 @@
 """Flow by pressure of a film of one viscosity whose walls slide, by the law that a scene chose.
 
 Each gives the flow over that of Newtonian oil and its derivatives by ln wall, ln newtonian and p (1/Pa), see
-:class:`tehl_taichi.laws.law.ShearLaw`. Along the sliding it is exact; across it what the law leaves of the viscosity at the
-stress of the sliding (exact for small gradients), times the flow without sliding.
+:class:`tehl_taichi.laws.law.ShearLaw`. Along the sliding the flow is exact. Across it, it is the share of the viscosity that
+the law leaves at the stress of the sliding (exact for small gradients), times the flow without sliding.
 """
 
 from tehl_taichi.engine.pointwise import pointwise, unrolled
@@ -14,13 +14,13 @@ RISE = 1e-5  # of a difference quotient by a stress, a part of it
 
 @unrolled
 def flow(rheology, wall, newtonian, p):
-    """Along the sliding, what Newton's method may take as it is."""
+    """Flow along the sliding without its steep part, which Newton's method treats separately."""
     return (LAWS[rheology.law].flow or touching_flow)(rheology, wall, newtonian, p)
 
 
 @unrolled
 def beyond(rheology, wall, newtonian, p):
-    """The steep rest."""
+    """Steep part of the flow along the sliding."""
     law, nothing = LAWS[rheology.law].beyond, 0.0 * wall
     return law(rheology, wall, newtonian, p) if law else (nothing, nothing, nothing, nothing)
 
@@ -41,15 +41,15 @@ def wall_slip(rheology, wall, newtonian, p):
 
 @unrolled
 def wall_limit(rheology, p):
-    """Stress that no wall holds more than, Pa."""
+    """Largest stress that a wall can carry, Pa."""
     law = LAWS[rheology.law].limit
     return law(rheology, p) if law else 0.0 * p + LARGEST
 
 
 @pointwise
 def left_of(rheology, newtonian, p):
-    """What the law leaves of the viscosity, and the derivatives of minus its logarithm by ln newtonian and p. (A loop, so that
-    kernels hold the law once.)"""
+    """Share of the viscosity that the law leaves, and the derivatives of minus its logarithm by ln newtonian and p. (A loop, so
+    that kernels hold the law once.)"""
     here, more, behind = 0.0 * newtonian, 0.0 * newtonian, 0.0 * newtonian
     for n in range(3):
         first, second = n * (2 - n), 0.5 * (n * (n - 1))
@@ -60,13 +60,13 @@ def left_of(rheology, newtonian, p):
 
 @pointwise
 def sheared(rheology, b, by_newtonian, by_p, part, part_by_wall, part_by_p):
-    """A flow without sliding, as it is across it."""
+    """Flow across the sliding, from the flow without sliding."""
     return part / b, part_by_wall / b, part / b * by_newtonian, (part_by_p + part * by_p) / b
 
 
 @unrolled
 def across(rheology, wall, yielding, newtonian, p):
-    """Both across the sliding: the smooth part by a stress of the walls, the steep one by another."""
+    """Smooth and steep part of the flow across the sliding, each by its own stress of the walls."""
     left, none = left_of(rheology, newtonian, p), 0.0 * newtonian
     parts = flow(rheology, wall, none, p), beyond(rheology, yielding, none, p)
     return tuple(sheared(rheology, *left, part, by_wall, by_p) for part, by_wall, _, by_p in parts)
@@ -84,11 +84,11 @@ def beyond_across(rheology, wall, newtonian, p):
 
 @unrolled
 def along(rheology, wall, yielding, newtonian, p):
-    """Both along it."""
+    """Smooth and steep part of the flow along the sliding."""
     return flow(rheology, wall, newtonian, p), beyond(rheology, yielding, newtonian, p)
 
 
 @unrolled
 def either(rheology, slides, wall, yielding, newtonian, p):
-    """Both along the sliding, or across it."""
+    """Smooth and steep part of the flow along the sliding, or across it."""
     return (along if slides else across)(rheology, wall, yielding, newtonian, p)

@@ -29,7 +29,7 @@ def touching(rheology, wall, newtonian, p):
 
 @pointwise
 def touching_flow(rheology, wall, newtonian, p):
-    """As the flow of a :class:`tehl_taichi.laws.law.ShearLaw`, its derivatives by differences."""
+    """Flow as in a :class:`tehl_taichi.laws.law.ShearLaw`, its derivatives by differences."""
     here, by_wall, by_newtonian, by_p = 0.0 * wall, 0.0 * wall, 0.0 * wall, 0.0 * wall
     for n in range(4):
         first, second, third = where(n == 1, 1.0, 0.0), where(n == 2, 1.0, 0.0), where(n == 3, 1.0, 0.0)

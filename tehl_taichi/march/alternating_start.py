@@ -80,7 +80,7 @@ def _whole_cells(steps, cells):
 
 
 def _march(heat, steps, dt):
-    """So many time steps with the pressure at rest; returns the mean temperatures over them."""
+    """March `steps` time steps with the pressure at rest; returns the mean temperatures over them."""
     total = 0.0
     for _ in range(steps):
         heat.begin(dt)

@@ -39,7 +39,7 @@ MADE = 1  # and of the first of 2 * order guesses, frame after frame; behind the
 
 @ti.func
 def resting(F: ti.template(), at: ti.template(), edges: ti.template(), by_edge: ti.template(), state, i):
-    """What does not move with the feature, at column i."""
+    """Value at column i that does not move with the feature."""
     out = L(F, 0.0)
     if ti.static(by_edge):
         out += edges[state, i]
@@ -205,7 +205,7 @@ class StateExtrapolation:
         self._trust()
 
     def _look(self, rows, at, to):
-        """How the states in these rows, known at the places `at`, continue to `to`."""
+        """Extrapolate the states in these rows, known at the places `at`, to the place `to`."""
         self.weights[:] = 0.0
         for n, (row, where) in enumerate(zip(rows, at)):
             self.places[n] = row

@@ -56,7 +56,7 @@ def _worst(solver):
 
 
 def _heated(heat):
-    """What is wrong with the temperatures themselves, "" where nothing is."""
+    """Reason that lies in the temperatures, "" if none."""
     if not heat or heat.sound:
         return ""
     found = [f"limited to their range (up to {HOT:g} deg C) at {heat.held} nodes"] * bool(heat.held)
@@ -65,7 +65,7 @@ def _heated(heat):
 
 
 def _on_its_floor(solver, passing):
-    """What to do where the film is as thin as the equations have it, "" elsewhere."""
+    """Advice for a film as thin as the equations allow, "" otherwise."""
     v = solver.levels
     floor, nodes = v.G[0, fields.FLOOR], int((v.get(fields.H) < (1 + AT_FLOOR) * v.G[0, fields.FLOOR]).sum())
     if not nodes:

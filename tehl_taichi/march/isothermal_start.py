@@ -23,10 +23,10 @@ SHORTEST_TIME, LONGEST_TIME, TIME_STEPS, ROUGHLY = 1e-2, 1e4, 60, 1e-4
 
 
 def from_nothing(solver):
-    """From Hertz without slip, which then comes in parts where it does not at once. Sheared from the start, a film that Newton
-    makes too thin for a moment flows off like water: the surfaces touch all over, which may be a solution too. So it does
-    where the pressure of a first guess strains the walls: that comes with the slip, or before it where it does not come then
-    (thick films of cold oil)."""
+    """Start from Hertz' pressure without slip; then add the slip at once or in parts. Sheared from the start, a film that
+    Newton makes too thin for a moment flows off like water: the surfaces touch all over, which may be a solution too. So it
+    does where the pressure of a first guess strains the walls: that comes with the slip, or before it where it does not come
+    then (thick films of cold oil)."""
     for walls in (0.0, 1.0) if solver.levels.scene.rheology.thins else (1.0,):
         report = _with_slip(solver, walls)
         if report.converged:
@@ -77,7 +77,7 @@ def again(solver):
 
 
 def from_here(solver, krylov_tolerance=None):
-    """From the pressure in the table, carefully if need be."""
+    """Solve from the pressure in the table, with a smaller Krylov tolerance if the first solve fails."""
     P, H0 = solver.levels.get(fields.P), solver.H0
     report = solver.solve(krylov_tolerance)
     if not report.converged:
@@ -93,7 +93,7 @@ def put(solver, P, H0):
 
 
 def _through_speeds(solver):
-    """From Hertz at another speed to the speed of the scene, from the first of SPEEDS from which it gets there."""
+    """Start from Hertz' pressure at another speed and go to that of the scene; tries SPEEDS until one converges."""
     for speed in SPEEDS:
         _hertz(solver, FIRST_FILM * min(1.0, START_TRIES[-1] * speed**0.7))
         report = _from_speed(solver, speed)
@@ -104,8 +104,8 @@ def _through_speeds(solver):
 
 
 def _from_speed(solver, speed):
-    """From the state in the table at `speed` times that of the scene to it, in smaller steps where one fails. Surfaces that
-    touch on the way down would continue touching."""
+    """Go from the state in the table at `speed` times the scene's speed to that speed, in smaller steps after a failure.
+    Surfaces that touch on the way down would continue touching."""
     v, step, down, known = solver.levels, LARGEST_STEP, speed > 1.0, None  # known: speed of the last film
     state = v.get(fields.P), solver.H0
     while True:
@@ -123,14 +123,14 @@ def _from_speed(solver, speed):
 
 
 def _at_speed(solver, speed, P, H0):
-    """From P and H0 at `speed` times that of the scene; in time where that does not converge."""
+    """Solve from P and H0 at `speed` times that of the scene; in time if that does not converge."""
     solver.levels.numbers.slow_down(1 / speed)
     report = solver.solve(CAREFUL)
     return report if report.converged else in_time(solver, P, H0)
 
 
 def in_time(solver, P, H0):
-    """From P and H0 towards the steady state in implicit steps of time, longer and longer; then the steady equations."""
+    """March from P and H0 to the steady state in implicit time steps of growing length; then solve the steady equations."""
     v, step = solver.levels, 1.0
     for _ in range(TIME_STEPS):
         put(solver, P, H0)

@@ -149,7 +149,7 @@ class Passage:
         return carefully(self.solver, self.P)
 
     def _accept(self, at, part):
-        """What is in the tables is the newest state."""
+        """Accept the state in the tables as the newest one."""
         self.P = self.levels.get(fields.P)
         self.storage.accept(part * self.dT)
         self.prediction.accept(at)

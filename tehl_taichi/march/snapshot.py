@@ -72,7 +72,7 @@ class Snapshot:
 
     @functools.cached_property
     def state(self):
-        """All that a march needs to continue from here."""
+        """State from which a march continues."""
         return self.make_state()
 
     def let_go(self, keep):
@@ -96,5 +96,5 @@ def take(solved, step, time_s, feature_x, make_state):
 
 
 def state_of(solver, heat, step):
-    """What is in the solver's table, as arrays to continue from."""
+    """State in the solver's table, as arrays from which a march continues."""
     return {"step": step, "P": solver.levels.get(fields.P), "H0": solver.H0, **(heat.state() if heat else {})}

@@ -77,7 +77,7 @@ class SolvedState:
 
     @property
     def load(self):
-        """What the pressure carries."""
+        """Load that the pressure carries."""
         return self.solver.load
 
     @property

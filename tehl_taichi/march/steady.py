@@ -98,7 +98,7 @@ def _touches(solver):
 
 
 def _from_coarser(solver, P, H0):
-    """In time where Newton does not get there: in a film too thin for the coarser grid the way to the next is long."""
+    """Solve from the coarser grid; in time if Newton fails, as for a film too thin for the coarser grid."""
     P = refine(P)  # the border's, too
     put(solver, P, H0)
     for way in (from_here, lambda each: in_time(each, P, H0), from_nothing):

@@ -21,12 +21,12 @@ def always(scene):
 
 
 def thermal(scene):
-    """With temperatures."""
+    """Whether the scene has temperatures."""
     return not scene.isothermal
 
 
 def passing(scene):
-    """With a passage."""
+    """Whether the scene has a passage."""
     return scene.transient
 
 

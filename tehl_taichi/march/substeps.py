@@ -24,15 +24,15 @@ class Substeps:
         return cls(*state["parts"]) if "parts" in state else cls()
 
     def state(self):
-        """To continue from."""
+        """State from which a march continues."""
         return {"parts": [self.part, self.left, self.pause, self.failing]}
 
     def next(self, done):
-        """What to try where `done` of the step is."""
+        """Next part of the step to try, after `done` of it."""
         return min(1.0 - done, self.part)
 
     def accept(self, part):
-        """What was tried, `part` of a step, converged; the rest of a step, smaller than others, shows nothing."""
+        """Accept `part` of a step, which converged; the last part of a step, smaller than others, changes no step size."""
         whole, self.failing = part == self.part, False
         if whole and not self.left:
             self.pause = max(FIRST_PAUSE, self.pause // 2)
@@ -45,7 +45,7 @@ class Substeps:
         self.part = SMALLEST
 
     def reject(self, part):
-        """What was tried, `part` of a step, did not converge. Returns whether half of it is worth a try."""
+        """Reject `part` of a step, which did not converge. Returns whether half of it is worth a try."""
         if not self.failing:
             self.left, self.pause = self.pause, min(2 * self.pause, LONGEST_PAUSE)
         self.part, self.failing = part / 2, True

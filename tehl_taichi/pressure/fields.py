@@ -53,7 +53,7 @@ FILM_LAWS = (RHOC, QCP, SKEW, DSKEW)  # of a film with temperatures
 
 @dataclass(frozen=True)
 class LawRows:
-    """Where the laws of a film are, for its equations.
+    """Rows of the table with the law values of a film, for its equations.
 
     couette: density that the Couette flow carries, slope: its derivative by P, skew: of both fluidities, or -1 where they are
     one; follow: all that the coarser levels take over.

@@ -22,7 +22,7 @@ CARRIED = 0.1
 
 @ti.dataclass
 class FlowNode:
-    """What the flow feels at a node."""
+    """Values at a node that the flow depends on."""
 
     p: V  # pressure
     le: V  # ln eta
@@ -137,7 +137,7 @@ def wall_y(G: ti.template(), l):
 
 @ti.func
 def strain(a, b, mean, wall):
-    """At the face, Pa: stress on the walls, pressure, Newtonian stress of the sliding (mean: of 1/eta); and the skew."""
+    """Values at the face, Pa: stress on the walls, pressure, Newtonian stress of the sliding (mean: of 1/eta); and the skew."""
     film, skew = 0.5 * (a.gap + b.gap), 0.5 * (a.skew + b.skew)
     sliding = ti.min(wall.shear * skew / ti.max(film * mean, SMALLEST), LARGEST)
     return wall.stress * film * ti.abs(b.p - a.p), 0.5 * wall.p_H * (a.p + b.p), sliding, skew
@@ -166,7 +166,7 @@ def law_flows(both: ti.template()):
 
 @ti.func
 def yielding(rheology: ti.template(), stress, p, sliding, skew, wall, along: ti.template()):
-    """What the shear law makes of the flow along the sliding, or across it: what Newton's method may take as it is, and the
+    """Effect of the shear law on the flow along the sliding, or across it: the part that Newton's method takes whole, and the
     steep rest. A film with temperatures feels a gradient as one of the viscosity that slides would feel `skew` of it: so that
     what slips carries at most u_s/2. Where walls carry all, on the way to a start, oil flows as it does across the sliding:
     along it frozen oil, whose slip the walls do not end, would heap up."""
@@ -236,7 +236,7 @@ def net_driven_y(S: ti.template(), k, n2, up, down, skew: ti.template(), rheolog
 
 @ti.dataclass
 class Yield:
-    """How much more a shear law lets through than Newtonian oil, and what that changes with."""
+    """Flow by a shear law over that of Newtonian oil, and its derivatives."""
 
     part: V  # the flux over that of Newtonian oil, by the mobility
     along: V  # and by the difference of P

@@ -28,7 +28,7 @@ def along_y(S: ti.template(), at: ti.template()):
 
 @ti.func
 def central_gradient(S: ti.template(), G: ti.template(), at: ti.template()):
-    """For tractions. at: the :class:`LaneBlock` of the nodes."""
+    """Central gradient of the pressure, for tractions. at: the :class:`LaneBlock` of the nodes."""
     behind, ahead = along_x(S, at)
     below_it, above_it = along_y(S, at)
     return 0.5 * (behind + ahead) / G[0, DX], 0.5 * (below_it + above_it) / G[0, DY]
@@ -36,7 +36,7 @@ def central_gradient(S: ti.template(), G: ti.template(), at: ti.template()):
 
 @ti.func
 def limited_gradient(S: ti.template(), G: ti.template(), at: ti.template()):
-    """For velocities and heat: central differences at the cavitation edge heat by hundreds of K. None where P = 0.
+    """Limited gradient for velocities and heat (central ones heat the cavitation edge by hundreds of K); 0 where P = 0.
 
     At most what drives the fluxes of the Reynolds equation through oil as it is at the node: where thin oil meets thick, nearly
     all of the difference is needed in the thick one. Taken for both, a fall of 1 GPa within a cell heats the hot band of a cold

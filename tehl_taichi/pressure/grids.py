@@ -58,7 +58,7 @@ class Grids:
         return np.vstack([inner, 0.5 * (inner + strip) if self.line else inner])
 
     def deflection_key(self, l):
-        """What the deflection of level l depends on: cells, spacings, compliance, line, mirrored."""
+        """Values that the deflection of level l depends on: cells, spacings, compliance, line, mirrored."""
         return (*self.grid(l), self.scales.compliance, self.line, self.mirrored)
 
 

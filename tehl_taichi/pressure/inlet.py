@@ -46,7 +46,7 @@ def integral(X, H, carried, log):
 
 
 class Inlet:
-    """What the oil beyond the border presses on the grid of `levels`; its border nodes: the first column, and before the
+    """Pressure of the oil beyond the border of the grid of `levels`; its border nodes: the first column, and before the
     contact (X < 0) the sides of a point contact."""
 
     def __init__(self, levels):

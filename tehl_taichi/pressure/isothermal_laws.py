@@ -22,7 +22,7 @@ def store_laws(S: ti.template(), k, h, rho, le, ie, inv_lambda):
 
 @ti.func
 def store_slopes(S: ti.template(), k, rho, le, rate):
-    """By P at fixed H, from the values at P + DP; rate: 1/DP, times p_H."""
+    """Store derivatives by P at fixed H, from the values at P + DP; rate: 1/DP, times p_H."""
     S[DLE, k] = (le - S[LE, k]) * rate
     S[QP, k] = (rho - S[RHO, k]) * rate * S[H, k]
     S[DRP, k] = 0.5 * S[ROOT, k] * (rho / S[RHO, k] - 1.0) * rate

@@ -35,9 +35,9 @@ ROW_CAP = 1.0
 FORCING = 0.6
 # And of what a Newton step is likely to gain: its nonlinear rest is about NONLINEAR times the square of the merit; later in a
 # solve, gains repeat themselves (Eisenstat & Walker 1996, choice 2). At most numerics.krylov_tolerance. Newton / Krylov, the
-# passage (with the guesses of :mod:`guess`) and a steady circular contact of 512 columns: always 0.03 2.51/18.5 and, with 0.1,
-# 7/66; at first 100 times the merit, later 0.03 2.24/19.3; both, at most 0.1 2.31/18.8 and 7/63, at most 0.2 2.36/18.6 and
-# 6/52, at most 0.3 2.38/18.4 and 7/47
+# passage (with the guesses of :mod:`tehl_taichi.march.extrapolation`) and a steady circular contact of 512 columns: always 0.03
+# 2.51/18.5 and, with 0.1, 7/66; at first 100 times the merit, later 0.03 2.24/19.3; both, at most 0.1 2.31/18.8 and 7/63, at
+# most 0.2 2.36/18.6 and 6/52, at most 0.3 2.38/18.4 and 7/47
 NONLINEAR = 30.0
 GAIN, GAIN_POWER = 0.9, 1.618
 # A linear solve reduces the mass error some ten times as much as the norm of the rows. With this factor, Newton / Krylov per
@@ -48,7 +48,7 @@ FIRST_ROUND = 0.1  # of :meth:`PressureSolver.improve`: 0.2 and 0.05 cost 3 % mo
 
 @dataclass
 class SolveReport:
-    """What a solve did: residual reached, load and mass errors, Newton steps, Krylov iterations, converged."""
+    """Result of a solve: residual reached, load and mass errors, Newton steps, Krylov iterations, converged."""
 
     residual: float
     load_error: float

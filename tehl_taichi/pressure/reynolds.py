@@ -53,7 +53,7 @@ from tehl_taichi.pressure.upwind import couette_weights
 
 @ti.func
 def carried(S: ti.template(), row: ti.template(), density: ti.template(), k, frame):
-    """What the Couette flow of node k carries (`row`) in a frame that moves with `frame` u_m and takes `density` along."""
+    """Mass that the Couette flow of node k carries (`row`) in a frame that moves with `frame` u_m and takes `density` along."""
     out = S[row, k] - frame * S[density, k]
     if ti.static(row == density):
         out = (1.0 - frame) * S[row, k]

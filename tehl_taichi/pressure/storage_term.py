@@ -74,7 +74,7 @@ ROW, SHARE = range(2)  # columns of an old state: its row, share of the shortest
 
 @ti.dataclass
 class Frame:
-    """In which the old states are followed."""
+    """Frame in which the old states are followed."""
 
     states: ti.f64  # number of those that count
     speed: ti.f64  # of the oil's
@@ -84,7 +84,7 @@ class Frame:
 
 @ti.func
 def differences(O: ti.template(), first, i, nx, states: ti.template(), ways: ti.template(), count):
-    """What differs from the resting state, followed along the paths: its sum, and the sum whose shortest wave is lost."""
+    """Differences from the resting state along the paths: their sum, and the sum without its shortest wave."""
     out, lost = L(O, 0.0), L(O, 0.0)
     for n in range(count):
         row = int(states[n, ROW])
@@ -162,7 +162,7 @@ class Storage:
         self.lengths = list(state["lengths"])
 
     def centre(self):
-        """What counts as resting is the newest state from here on: one that does not change any more is then steady."""
+        """Take the newest state as the resting one: a state that no longer changes is then steady."""
         self._rest(self.past.get(self.old[0]))
 
     def _rest(self, start):

@@ -40,14 +40,14 @@ def _sentences(name, side, pits):
 
 
 def _angles(path, pits):
-    """How it leans, and the angle at the largest depth that has one."""
+    """Lean of the crack as text, and its angle at the largest depth."""
     chords = [(depth, angle) for depth, angle in path["chord_deg_at_um"].items() if angle is not None]
     at = f" at {chords[-1][1]:.0f}° to the surface at {chords[-1][0]} µm depth" if chords else ""
     return f"; the crack leans {path['lean']}{at} (pits: with rolling, {pits[0]:g} to {pits[1]:g}°)"
 
 
 def _options(summary):
-    """What acts on the cracks."""
+    """Loads and options of the cracks as text."""
     oil = summary["oil_is"] + (f", {summary['oil_share']:g} of it" if summary["oil_share"] not in (None, 1) else "")
     threshold = "none" if summary["threshold"] is None else f"{summary['threshold'] / 1e6:g} MPa√m"
     body = f"{summary.get('surface', 'a')} ({'with' if summary.get('carries_feature', True) else 'without'} the feature)"

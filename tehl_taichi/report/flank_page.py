@@ -126,7 +126,7 @@ def _series(flank, what):
 
 
 def _gears(flank):
-    """What its geometry says: of a pair each value with its meaning."""
+    """Rows of the geometry: each value of a pair with its meaning."""
     return [_value(key, value, kinds(GearPair).get(key)) for key, value in flank.record["geometry"].items()
             if isinstance(value, (int, float, str))]
 

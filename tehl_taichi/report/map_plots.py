@@ -47,7 +47,7 @@ def _styles(store):
 
 
 def _alike(figures):
-    """Both surfaces in one scale of colours, which is not that of the film: that is far hotter."""
+    """Both surfaces in one colour scale; the film, far hotter, has its own."""
     heat = [figure.traces[0] for figure in figures if figure.name in BODIES]
     for trace in heat:
         trace |= dict(zip(("zmin", "zmax"), ends([one["z"] for one in heat])))

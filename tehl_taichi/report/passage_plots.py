@@ -16,7 +16,7 @@ FIELDS = (("pressure (GPa)", 1e-9, {"pressure": ""}), ("film (µm)", 1e6, {"film
 
 
 def thinned(count, most):
-    """At most so many of the numbers 0 to count - 1, even, the first and the last among them."""
+    """At most `most` of the numbers 0 to count - 1, evenly spaced, with the first and the last."""
     return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))
 
 
@@ -87,7 +87,7 @@ def _ends(X):
 
 
 def _slides(store, shown, lines, panels):
-    """What the slider needs: the lines of every moment, which traces they are, the positions of the feature, words."""
+    """Data of the slider: the lines of every moment, which traces they are, the positions of the feature, words."""
     traces, found = [trace for _, group, _ in panels for trace in group], Moments(store)
     at = store.scalar("feature_x")[shown] / found.a
     return {"slides": {"lines": list(lines.values()), "traces": [n for n in range(len(traces)) if n % 2],
@@ -144,7 +144,7 @@ LEFT_OVER = {"residual": "residual", "load_error": "load", "mass_error": "mass"}
 
 
 def residual_plot(store):
-    """What the discrete equations leave over at every step; None without a passage."""
+    """Residual of the discrete equations at every step; None without a passage."""
     if store.steps < 3:
         return None
     x = store.scalar("step")

@@ -80,7 +80,7 @@ class SearchedStore:
 
 
 def _source(fatigue, run, constants):
-    """Where its constants come from: that of the run's is not that of others."""
+    """Source of the constants: the source of the run does not hold for other constants."""
     own = run.scene.fatigue
     if constants.get("source") is not None or (fatigue.kappa, fatigue.endurance) == (own.kappa, own.endurance):
         return fatigue.source

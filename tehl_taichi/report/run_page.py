@@ -86,7 +86,7 @@ def _sentence(words):
 
 
 def _made(store):
-    """How good the numbers are and where they come from."""
+    """Section about errors and origin of the numbers."""
     return (Section("Numbers and their errors", tuple(run_tables.errors(store.summary))),
             Section("Numerics", (run_tables.numerics(store), drawn(passage_plots.residual_plot(store)))),
             Section("Provenance", (run_tables.provenance(store),)))

@@ -99,7 +99,7 @@ def _in_file(scene, points):
 
 
 def in_file(scene, x, y):
-    """Where the point of a scan nearest to x, y (m, as in maps of the index) stands in its file, in words."""
+    """Row and column, as text, of the point of a scan nearest to x, y (m, as in maps of the index)."""
     first = scene.features[0]
     return first.position_in_file(x - first.x, y - first.y)
 

@@ -78,7 +78,7 @@ def _features(scene):
 
 
 def _sizes(f):
-    """What its shape looks at, where it says something."""
+    """Sizes of a feature that its shape uses, as text."""
     own = kinds(type(f))
     alone = kinds(f.kind.keys) if f.kind.keys else {}
     keys = [key for key in own if key in f.kind.uses or key in alone] + ["x", "y"]
@@ -102,13 +102,13 @@ def moments(scene):
 
 
 def when(scene):
-    """What a search was over, in words."""
+    """Moments of a search as text."""
     counted = moments(scene)
     return f"over all moments that count ({counted})" if counted else WHOLE
 
 
 def material(fatigue):
-    """Where kappa and the fatigue limit come from: examples must not pass for a material's numbers."""
+    """Source of kappa and the fatigue limit: example values are marked as such."""
     if tables := scene_tables.words(fatigue):
         return tables
     default, own_source = type(fatigue)(), fatigue.source.strip().rstrip(".")

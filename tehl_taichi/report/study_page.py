@@ -49,7 +49,7 @@ def _extreme(study, Fi, text, which):
 
 
 def _errors(study):
-    """In how many cases 1 is nearer to the index of the surface than its error, and in how many that is not known."""
+    """Sentences: number of cases whose error of the surface index includes 1, and of cases without an error."""
     Fi, error = _column(study, study_figures.INDEX), _column(study, ERROR)
     within, unknown = int((np.abs(Fi - 1) <= error).sum()), int((np.isfinite(Fi) & ~np.isfinite(error)).sum())
     return ([f"1 lies within the error of the index of the surface: {within} of {len(study)} cases."] * bool(within)

@@ -160,7 +160,7 @@ def _worst_alone(searches):
 
 
 def _alone_words(searches):
-    """What the smooth contact carries, in a sentence."""
+    """Sentence about the index of the smooth contact."""
     if not (worst := _worst_alone(searches)):
         return ()
     name, alone = worst
@@ -211,7 +211,7 @@ def _cut(store):
 
 
 def _yielding(summary):
-    """What follows where a body would yield: first of all doubts, it changes what the index means."""
+    """Warning that a body would yield; it stands first because it changes the meaning of the index."""
     found = summary.get("von_mises")
     if "fatigue" not in summary or not found or not found["yields"]:
         return ()
@@ -236,7 +236,7 @@ def _constants(store, summary):
 
 
 def _meaning(store, summary):
-    """What the limit means."""
+    """Sentence about the meaning of the limit."""
     return filter(None, [limit_meaning.sentence(summary, store.scene.fatigue)])
 
 
@@ -246,7 +246,7 @@ def _limit_words(scene):
 
 
 def _limit(stress, kappa, criterion, known):
-    """What Fi = 1 stands for; known: the section [fatigue], which has the source."""
+    """Meaning of Fi = 1; known: the section [fatigue], which has the source."""
     where = " at the surface" if any(map(known.table_text, "ab")) else ""
     return (f"Fi = 1 is the fatigue limit{where} σ_eF = {stress / 1e6:.4g} MPa with κ = {kappa:.4g} ({criterion}): "
             f"{material(known)}.")

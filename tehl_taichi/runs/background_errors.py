@@ -55,7 +55,7 @@ def background_answers(scene):
 
 
 def _started(scene, read, threads):
-    """On no more threads than the run: with one beside 8 of 16 cores the run waited for them."""
+    """Start the processes on no more threads than the run has: with more the run waited for them (8 of 16 cores)."""
     with tempfile.TemporaryFile() as scenes:
         pickle.dump((os.getpid(), read, scene, threads), scenes)
         scenes.seek(0)
@@ -85,7 +85,7 @@ def _ready(process, scene, until, notify=lambda done, total: None):
 
 
 def _output_of(process):
-    """What a process wrote, once it is over; None while it is not."""
+    """Output of a process that has ended; None while it runs."""
     try:
         return process.communicate(timeout=TELL)[0]
     except subprocess.TimeoutExpired:  # nothing is lost: the next call continues

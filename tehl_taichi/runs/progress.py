@@ -35,7 +35,7 @@ class Progress:
         """A sentence about what is done: what the scene leaves out, what was read, what comes next."""
 
     def warn(self, sentence):
-        """What is doubtful in the scene, known before the run (those of its results are in :attr:`Run.warnings`)."""
+        """Receive warnings about the scene, known before the run (those of its results are in :attr:`Run.warnings`)."""
 
     def stage(self, name, done, total):
         """`done` of `total` parts of a stage (one of STAGES) are through; it begins with done = 0, a resumed passage with the

@@ -24,7 +24,7 @@ def run(scene: Scene | str | PathLike, path: str | PathLike | None = None, *, fo
 
 
 def _run(scene, path, force, threads, arch, progress, case=False):
-    """As :func:`run`; case: the store is part of a study or a flank and lies in it."""
+    """Run as :func:`run`; case: the store is part of a study or a flank and lies in it."""
     began = time.perf_counter()
     from tehl_taichi.engine import runtime
     from tehl_taichi.scene import memory_demand
@@ -173,7 +173,7 @@ def _announce(scene, progress):
 
 
 def _finish(saved, state, steady, clock, progress):
-    """From a state of the store to its summary."""
+    """Compute everything from the last stored state to the summary."""
     from tehl_taichi.march.accuracy import coarse_runs
     from tehl_taichi.march.accuracy.domain_error import DomainError
     from tehl_taichi.runs import background_errors
@@ -241,7 +241,7 @@ def _march(saved, state, progress):
 
 
 def _searched(saved):
-    """Whether there is a fatigue search."""
+    """Whether the run has a fatigue search."""
     return saved.scene.has_fatigue and saved.steps >= 3
 
 
@@ -293,7 +293,7 @@ def _what_is_left(path):
 
 
 def _missing(left):
-    """What a whole passage still lacks, in words."""
+    """Missing part of a passage as text."""
     from tehl_taichi.scene.timeline import total_steps
 
     if left.store.last_step < total_steps(left.scene):

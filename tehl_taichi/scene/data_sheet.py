@@ -74,7 +74,7 @@ def alpha_40(nu_40, rho0, Z):
 
 
 def words(oil, found):
-    """Where the numbers of an oil with a sheet come from; found: what follows from it, and rho0."""
+    """Text: source of the numbers of an oil with a data sheet; found: the derived values and rho0."""
     rho0 = found["rho0"]
     density_ = f", {oil.rho_15:g} kg/m3 at 15 deg C" if oil.rho_15 else f"; {rho0:g} kg/m3 at 40 deg C, not from there"
     alpha = f"alpha {alpha_40(oil.nu_40, rho0, found['Dz']) * 1e9:.3g} 1/GPa at 40 deg C"
@@ -84,7 +84,7 @@ def words(oil, found):
 
 
 def _check(oil):
-    """Both viscosities, the first the larger, no other law, and one of which alpha is known."""
+    """Check a data sheet: both viscosities, the first the larger, no other law, alpha known or estimated."""
     if not (oil.nu_40 and oil.nu_100):
         known = next(key for key in KEYS if getattr(oil, key))
         missing = " and ".join(f"oil.{key}" for key in ("nu_40", "nu_100") if not getattr(oil, key))

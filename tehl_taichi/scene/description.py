@@ -276,7 +276,7 @@ class Scene:
 
     @property
     def surfaces(self):
-        """Both, a first (:class:`tehl_taichi.scene.moving_surfaces.MovingSurface`)."""
+        """Both surfaces, a first (:class:`tehl_taichi.scene.moving_surfaces.MovingSurface`)."""
         return moving_surfaces.surfaces(self)
 
     @property
@@ -351,7 +351,7 @@ class Scene:
         return not self.isothermal if counts == AUTO else bool(counts)
 
     def left_out(self, cut=True):
-        """What this scene does not need and therefore does not compute, each with its reason; cut: and the rest of a passage
+        """Parts that this scene does not need and does not compute, each with its reason; cut: and the rest of a passage
         that is cut, which a warning reports, too."""
         out: list[str] = []
         if self.isothermal:
@@ -380,7 +380,7 @@ class Scene:
         return out
 
     def warnings(self):
-        """What is doubtful in this scene, a sentence each (see :mod:`tehl_taichi.scene.scene_warnings`)."""
+        """Warnings about this scene, a sentence each (see :mod:`tehl_taichi.scene.scene_warnings`)."""
         return scene_warnings.warnings(self)
 
     @property

@@ -106,7 +106,7 @@ def remedy(scene, film):
 
 
 def moved(scene):
-    """What auto did beyond the usual inlet, in a sentence; "" where it did nothing."""
+    """Sentence about an inlet that `auto` moved away from the usual one; "" otherwise."""
     g = scene.grid
     if not (isinstance(g.x_min, AutomaticValue) and g.x_min < -INLETS[0]):
         return ""

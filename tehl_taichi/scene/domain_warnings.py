@@ -74,7 +74,7 @@ def _narrow(scene):
 
 
 def _smaller(scene, n):
-    """How a patch fits between the sides as they are, in words."""
+    """Advice that makes a patch fit into the present domain, as text."""
     f, s = scene.features[n], Scales.of(scene)
     room = 2 * (scene.grid.y_max * s.b - abs(f.y))
     if "extent_y" not in f.kind.uses or room < s.b / 10:

@@ -98,7 +98,7 @@ def inlet_heating(scene):
 
 
 def heat_words(scene):
-    """Behind what an isothermal film leaves out: how much thinner the heat of its inlet alone would make it, where that is
+    """Text after an omitted energy equation: the reduction of the film by inlet shear heating, where that is
     noticeable; "" elsewhere."""
     less = 1 - inlet_heating(scene)
     return f"; by formula inlet shear heating alone reduces h_c by {less:.0%}" if less > NOTICED else ""

@@ -53,7 +53,7 @@ def _seeing_maps(description, nx, ny):
 
 @functools.cache
 def families():
-    """What was measured, by family of scenes."""
+    """Measured errors by family of scenes."""
     return json.loads(FILE.read_text())["families"]
 
 

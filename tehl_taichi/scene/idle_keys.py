@@ -215,7 +215,7 @@ def _expansion_of_bodies(scene):
 
 
 def _passage(scene):
-    """What needs a feature that passes."""
+    """Keys that need a feature that passes."""
     if scene.transient:
         return
     if not scene.features:

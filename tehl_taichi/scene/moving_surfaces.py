@@ -26,7 +26,7 @@ class MovingSurface:
 
 
 def surfaces(scene):
-    """Both of a scene, a first."""
+    """Both surfaces of a scene, a first."""
     o = scene.operation
     speeds, reference = {"a": o.u_a, "b": o.u_b}, reference_name(scene)
     return tuple(MovingSurface(name, getattr(scene, f"body_{name}"), speeds[name], _pace(speeds, name, reference),

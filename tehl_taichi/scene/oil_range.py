@@ -28,7 +28,7 @@ def _law_warnings(scene, what):
 
 
 def warnings(scene):
-    """What is doubtful about the oil of a scene."""
+    """Warnings about the oil of a scene."""
     return [*_name(scene.oil), *_estimate(scene.oil), *_shear(scene), *_law_warnings(scene, "doubted"),
             *_without_temperature(scene), *_moes(scene)]
 
@@ -50,7 +50,7 @@ def _name(oil):
 
 
 def _same(oil, whole):
-    """What it has in common with known oils."""
+    """Text: values that the oil shares with known oils."""
     dense = "density, " if not oil.rho_15 else "density's rise with pressure, "
     return "all its numbers" if whole else f"its {dense}conductivity and heat capacity"
 

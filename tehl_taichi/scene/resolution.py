@@ -19,7 +19,7 @@ MOST_FEATURES = 256  # each costs a time step 1 ms on 256 x 64 cells: with 60 of
 
 @dataclass(frozen=True)
 class AxisResolution:
-    """What the grid sees of a feature, by its number, along one axis: the key of its length there (m), cells of it and of the
+    """Resolution of a feature, by its number, along one axis: the key of its length there (m), cells of it and of the
     grid."""
 
     feature: int
@@ -60,7 +60,7 @@ def check(scene):
 
 
 def label(scene, n):
-    """How sentences call feature n."""
+    """Name of feature n in sentences."""
     return "feature" if len(scene.features) == 1 else f"feature.{n}"
 
 
@@ -117,7 +117,7 @@ def _remedy(scene, cells, worst):
 
 
 def warnings(scene):
-    """What is doubtful about how the features of a scene are seen, and where they pass."""
+    """Warnings about the resolution of the features of a scene and about their paths."""
     if not scene.transient:
         return []
     return [*_coarse(scene), *_beside(scene)]

@@ -111,7 +111,7 @@ def _refusal(path, text):
 
 
 def _read(table):
-    """What was read, in words."""
+    """Description of the heights that were read."""
     rows, columns = table.values.shape
     found = f"{rows} rows of {columns} points" if rows > 1 else f"a line profile of {columns} points"
     steps = [f"{step * 1e6:.4g} um" for step in map(stated_keys.usable, (table.stated.x, table.stated.y)) if step]
@@ -181,5 +181,5 @@ def _header(table):
 
 
 def _plain(line):
-    """Without what TOML does not take in a comment."""
+    """Text without letters that TOML does not allow in a comment."""
     return "".join(letter if letter.isprintable() else " " for letter in line)[:LETTERS]

@@ -43,7 +43,7 @@ def _roughness(scene):
 
 
 def doubtful_features(scene):
-    """What their shapes doubt."""
+    """Warnings of the shapes of the features."""
     return [sentence for feature in scene.features for sentence in feature.kind.doubts(feature, scene)]
 
 
@@ -96,7 +96,7 @@ def counted_twice(scene):
 
 
 def wide_domain(scene):
-    """Where auto moved the inlet away from a thick film."""
+    """Warning: `auto` moved the inlet away from a thick film."""
     return filter(None, [domain.moved(scene)])
 
 

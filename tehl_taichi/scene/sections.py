@@ -242,7 +242,7 @@ class Fatigue:
     table: str = text("", "strength over depth: CSV file (depth_mm, hardness_HV or limit_MPa; kappa, yield_stress_MPa, "
                           "residual_xx_MPa, residual_yy_MPa), its path relative to the scene file, or a built-in one "
                           f"({PROFILES})", most=4096, compare=False)
-    table_b: str = text("", "table of body b where it is another one; none: that body has no table", most=4096, compare=False)
+    table_b: str = text("", "table of body b, if different; none: that body has no table", most=4096, compare=False)
     table_rows: str = text("", "contents of the table, set when it is read; empty: read the file", most=ROWS, one_line=False)
     table_rows_b: str = text("", "contents of the table of body b", most=ROWS, one_line=False)
     relation: str = choice("ss2506", "fatigue limit by the hardness of a table (`tehl laws`)", tuple(RELATIONS))
@@ -250,7 +250,7 @@ class Fatigue:
                                 0.0, 1e-3, usual=3e-5, least=1e-7)
     exponent: float = quantity(0.0, "", "exponent m of the S-N curve: limit_cycles Fi^-m passages to initiation; 0: not "
                                         "counted", 0.0, 100.0, usual=9.0)
-    limit_cycles: float = quantity(1e7, "", "passages that the fatigue limit stands for, with an exponent", 1e3, 1e12)
+    limit_cycles: float = quantity(1e7, "", "number of passages at the fatigue limit, used with an exponent", 1e3, 1e12)
     weibull: float = quantity(0.0, "", "Weibull exponent of the strength, for the stressed volume; 0: not computed", 0.0, 200.0,
                               usual=24.0)
     reference_volume: float = quantity(0.0, "m3", "stressed volume of a specimen that survives the limit in half of the cases; "

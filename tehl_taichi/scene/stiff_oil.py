@@ -12,7 +12,7 @@ from tehl_taichi.values.coded_warning import with_data
 
 
 def warnings(scene):
-    """Where oil at the inlet's temperature and the Hertz pressure would need many times the stress that its law leaves."""
+    """Warnings: oil at inlet temperature and Hertz pressure would need many times the stress that its law allows."""
     if not (scene.isothermal and scene.shear_law.thins):
         return
     p_H, operation = Scales.of(scene).p_H, scene.operation

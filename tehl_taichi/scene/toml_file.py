@@ -44,7 +44,7 @@ def _is_kind(found, several):
 
 
 def _with_point(text, error):
-    """What to say of a line with a decimal comma, None of other errors."""
+    """Message about a line with a decimal comma, None for other errors."""
     line = LINE.search(str(error))
     number = int(line[1]) if line else 0
     lines = text.split("\n")

@@ -23,8 +23,8 @@ STEADY = ("h_c_m", "h_min_m", "p_max_Pa", "error", "unknown")
 
 
 def wrong(attrs, whole):
-    """What of a store's attributes is not as this program writes it, in words, or "". whole: of this version, so that nothing
-    may be missing."""
+    """Description of a store attribute that this program did not write in this form, or "". whole: of this version, so that
+    nothing may be missing."""
     for name in LISTS:
         found = _parsed(attrs.get(name, "[]"))
         if isinstance(found, list) and (odd := [one for one in found if not isinstance(one, str)]):

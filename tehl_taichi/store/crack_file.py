@@ -12,7 +12,7 @@ DEPTHS = 60  # of the section that is kept
 
 
 def place(store):
-    """Where the answer of the run in the store at this path is kept."""
+    """Path of the crack result of the run in the store at this path."""
     path = store.absolute()
     return path.with_name(f"{path.stem if path.suffix == '.zarr' else path.name}.crack.json")
 
@@ -44,7 +44,7 @@ def kept(store):
 
 
 def _drawn(result):
-    """What figures need: m, Pa; the tension of the section on even depths, every line as rows (x', depth)."""
+    """Data of the figures: m, Pa; the tension of the section on even depths, every line as rows (x', depth)."""
     plane, lines = result.plane, [line for side in result.sides.values() for line in (side.trajectory, side.path.points)]
     even = np.linspace(0.0, min(1.3 * max([40e-6, *(line.imag.max() for line in lines)]), plane.depths[-1]), DEPTHS)
     wide = max([plane.reach, *(np.abs(side.path.points.real).max() for side in result.sides.values())])

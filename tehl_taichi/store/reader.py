@@ -83,7 +83,7 @@ class Reader:
 
     @property
     def warnings(self):
-        """What is doubtful, a :class:`tehl_taichi.values.coded_warning.CodedWarning` each: of the run where it is finished,
+        """Warnings, a :class:`tehl_taichi.values.coded_warning.CodedWarning` each: of the run where it is finished,
         else of its scene."""
         names = "warnings", "warning_codes", "warning_data"
         return of_lists(*(integrity.optional(self.attrs, name, []) for name in names))
@@ -134,7 +134,7 @@ class Reader:
         return chunks.read(self._file(name, n), "<" + self.stored[name], math.prod(shape)).reshape(shape)
 
     def _file(self, name, n):
-        """Where entry n of a field lies; before layout 3 each in folders of its own."""
+        """Path of entry n of a field; before layout 3 each entry is in a folder of its own."""
         array = self.metadata[name]
         between = array["chunk_key_encoding"].get("configuration", {}).get("separator", "/")
         return self.path / name / between.join(["c", str(n)] + ["0"] * (len(array["shape"]) - 1))

@@ -117,7 +117,7 @@ class Store(LockedFolder, Reader):
         self._commit(steps=self.steps)
 
     def _safe(self):
-        """What a disk refuses while a passage is written."""
+        """Context manager for errors of the disk while a passage is written."""
         return _disk_errors(self.path, f"{self.attrs['steps']} entries are stored; then use: tehl resume {self.path}")
 
     def _commit(self, **attrs):
@@ -165,7 +165,7 @@ class Store(LockedFolder, Reader):
 
 @contextlib.contextmanager
 def _disk_errors(path, what_is_left, kind=Interrupted):
-    """What a disk refuses (full, read-only, moved away), as a sentence and an error of that kind."""
+    """Context manager: errors of the disk (full, read-only, moved away) become a StoreError or Interrupted with a sentence."""
     try:
         yield
     except OSError as error:

@@ -6,7 +6,7 @@ from tehl_taichi.values.coded_text import CodedText, options_of
 
 
 class CodedWarning(CodedText):
-    """What is doubtful in a scene or a result."""
+    """A warning about a scene or a result."""
 
 
 def with_data(text, *options, **data):

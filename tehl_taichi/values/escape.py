@@ -13,7 +13,7 @@ LINES = "\n"
 
 
 def printable(text, keep=""):
-    """For a terminal, and for every page and figure: letters that do not print (escape sequences, line breaks but for those in
+    """Text for terminals, pages and figures: letters that do not print (escape sequences, line breaks but for those in
     `keep`, marks that turn the direction) are spelled.
 
     >>> printable("a\\x1b[2Jb\\n")
@@ -31,7 +31,7 @@ def _prints(c, keep):
 
 
 def one_line(text):
-    """Without the colours and line breaks of another library's message.
+    """Message of another library without its colours and line breaks.
 
     >>> one_line("\\n\\x1b[31mwrong\\x1b[0m\\n  type")
     'wrong type'
@@ -40,7 +40,7 @@ def one_line(text):
 
 
 def cell(value):
-    """For a table (CSV): text that a spreadsheet would compute begins with an apostrophe; numbers stay.
+    """Value for a table (CSV): text that a spreadsheet would compute begins with an apostrophe; numbers stay.
 
     >>> cell("=HYPERLINK(1)"), cell("-0.5"), cell(-0.5)
     ("'=HYPERLINK(1)", '-0.5', -0.5)
@@ -52,7 +52,7 @@ def cell(value):
 
 
 def label(text):
-    """For the labels of plotly.js, which knows some tags of HTML."""
+    """Text for the labels of plotly.js, which knows some tags of HTML."""
     return html.escape(printable(text), quote=False)
 
 

@@ -15,7 +15,7 @@ def path_of(name, value):
 
 
 def folder_of(of):
-    """Where a Run, a Study or a Flank lies, or the path itself. Raises StoreError where it is none of them."""
+    """Path of a Run, a Study or a Flank, or the path itself. Raises StoreError for anything else."""
     for found in (of, getattr(of, "path", None), getattr(of, "folder", None)):
         if isinstance(found, (str, PathLike)):
             return Path(found)

@@ -173,7 +173,7 @@ class Pairs(Kind):
         return firsts == sorted(firsts) and all(a < b for a, b in zip(firsts, firsts[apart:]))
 
     def refusal(self, where, value):
-        """What to say of the wrong number of pairs, and of none where some are needed."""
+        """Message about a wrong number of pairs, or about missing pairs."""
         return checks.SceneError(f"{where} has {len(value)} pairs; allowed: {self.allowed}")
 
     @property

@@ -27,7 +27,7 @@ class Checked:
 
 @dataclass(frozen=True, kw_only=True)
 class Entry:
-    """What every entry has: its name in scenes, one line of what it is (with units and range where it has numbers of its own),
+    """Fields of every entry: its name in scenes, a description of one line (with units and ranges of its own numbers),
     its source, and at least one number that a test computes again."""
 
     name: str

@@ -15,7 +15,7 @@ CALM = 20  # rounds after which half of a change of the resistances (of their lo
 
 
 def inside(wet):
-    """As many pressures as a straight crack has elements."""
+    """Pressures in the crack, one per element of a straight crack."""
     return wet.marched(wet.cells, lambda march: _full(march, march.under(0, wet.mouth[0])), _step)
 
 

@@ -18,12 +18,12 @@ def inside(wet):
 
 
 def _full(march, found):
-    """With the content of a crack that is full."""
+    """State with the content of a full crack."""
     return found, march.wet.fluid.compression(found.pressure) * (march.volume @ found.values)
 
 
 def _step(march, n, before, content):
-    """With the mouth shut the film stays outside, whatever its pressure, until the faces there part."""
+    """One moment: while the mouth is shut, the film stays outside, whatever its pressure, until the faces there part."""
     if before.pressed >= 0:
         inside = _shut_in(march, n, content)
         if inside.pressed >= 0:

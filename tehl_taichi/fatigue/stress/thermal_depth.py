@@ -77,7 +77,7 @@ class ThermalBelow(SurfaceHeat):
 
     @property
     def _angle(self):
-        """How far each wave moves over the body in a step, rad."""
+        """Phase by which each wave moves over the body in a step, rad."""
         return self.kx * self.speed * self.dt
 
     def _responses(self, depth, each=map):

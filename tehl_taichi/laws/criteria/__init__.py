@@ -1,7 +1,7 @@
 """Fatigue criteria, one file each: a new file here is a new choice of `fatigue.criterion` (see `criterion`).
 
-A criterion is a pointwise function of what happens on a plane; `fatigue` looks for the plane where it is largest. May import
-`engine.pointwise` and `values`; nothing here knows of scenes, nor needs taichi before a kernel asks.
+A criterion is a pointwise function of the stresses on a plane; `fatigue` finds the plane where it is largest. May import
+`engine.pointwise` and `values`; scenes are unknown here, and taichi is not needed outside kernels.
 """
 
 import sys
@@ -13,7 +13,7 @@ CRITERIA = collect(sys.modules[__name__], Criterion)
 
 
 def sensitivities():
-    """What kappa is the sensitivity to, and for which criteria."""
+    """Text: the stress to which kappa is the sensitivity, for each criterion."""
     names_of = {}
     for name, criterion in CRITERIA.items():
         names_of.setdefault(criterion.sensitivity, []).append(name)

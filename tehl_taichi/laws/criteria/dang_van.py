@@ -10,7 +10,7 @@ def value(tau, normal, mean, kappa):
 
 
 def constants(ratio):
-    """From f = b/2 + kappa b/3 in bending and t in torsion."""
+    """kappa and limit from f = b/2 + kappa b/3 in bending and t in torsion."""
     return 3 * ratio - 1.5, 1.0
 
 

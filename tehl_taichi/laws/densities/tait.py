@@ -20,7 +20,7 @@ def compressed(oil, p, Gamma):
 
 @pointwise
 def compression(oil, p):
-    """At 40 deg C."""
+    """rho/rho_0 at 40 deg C."""
     return 1 / compressed(oil, p, 40.0 + 0.0 * p)
 
 

@@ -1,6 +1,6 @@
 """Relations between hardness and fatigue limit, one file each: a new file here is a new choice of `fatigue.relation`.
 
-A relation is a formula of the Vickers hardness, with its source and the spread of what it was fitted to. May import
+A relation is a formula of the Vickers hardness, with its source and the spread of its data. May import
 `laws.criteria` and `values`.
 """
 

@@ -49,7 +49,7 @@ def flow(rheology, wall, newtonian, p):
 
 @pointwise
 def beyond(rheology, wall, newtonian, p):
-    """What the flow without sliding is more than Newton's."""
+    """Flow without sliding less that of Newton."""
     alone, rise, over, coth = shapes(rheology, wall)
     return alone - 1.0, rise, 0.0 * wall, 0.0 * wall
 

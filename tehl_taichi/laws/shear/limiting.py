@@ -16,7 +16,7 @@ def stress(rheology, newtonian, p):
 
 @pointwise
 def flow(rheology, wall, newtonian, p):
-    """The circular law's; tau_L, which both stresses are over, rises with the pressure."""
+    """Flow of the circular law; both stresses are divided by tau_L, which rises with the pressure."""
     limit = shear_limit(rheology, p)
     part, by_wall, by_newtonian = circular_flow(wall / limit, newtonian / limit)
     return part, by_wall, by_newtonian, -(by_wall + by_newtonian) * rheology.gamma / limit

@@ -7,7 +7,7 @@ from tehl_taichi.values.registry import Checked
 
 @pointwise
 def stress(rheology, newtonian, p):
-    """As it is."""
+    """The Newtonian stress itself."""
     return newtonian
 
 

@@ -24,7 +24,7 @@ def warmed(oil, p, factor):
 
 @pointwise
 def ln_eta(oil, p, Gamma):
-    """Both."""
+    """ln(eta): pressure and temperature part together."""
     return warmed(oil, p, warmth(oil, Gamma))
 
 

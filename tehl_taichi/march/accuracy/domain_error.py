@@ -51,7 +51,7 @@ class DomainError:
         return asdict(self)
 
     def of(self, name, value, inlet, passing):
-        """What a number of a steady start or, passing, of a passage may be off by; inlet: deg C."""
+        """Error of a number of a steady start (or a passage) by the size of the domain; inlet: deg C."""
         if name.startswith("friction"):
             return self.friction * abs(value) + self.before
         if name in HEAT:

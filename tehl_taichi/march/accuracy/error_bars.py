@@ -100,7 +100,7 @@ def _left_of_spread(steps, part):
 
 
 def _left(steps, extreme):
-    """What may be left as error after the differences between grids, the newest first; extreme: of an extreme over nodes."""
+    """Remaining error from the differences between grids, the newest first; extreme: of an extreme over nodes."""
     last, *earlier = (abs(step) for step in steps)
     if not earlier:
         return ALONE * last
@@ -146,8 +146,7 @@ def _halves(first, second, third):
 
 
 def _may_reach(first, second, third):
-    """What a pressure may become beyond three grids: its differences continue as they fall, for GROWS_ON of the last at
-    most."""
+    """Largest pressure expected beyond three grids: the differences continue to fall, by at most GROWS_ON of the last."""
     before, last = abs(second - first), abs(third - second)
     return third + min(last / (before / last - 1) if before > last > 0 else math.inf, GROWS_ON * last)
 

@@ -82,6 +82,6 @@ def _place(shot, i):
 
 
 def _between(values, i, j):
-    """How far the extreme of `values` between the nodes may be from that at the node (i, j); rows may end in a mirror."""
+    """Largest difference of the extreme of `values` between the nodes from that at node (i, j); rows may end in a mirror."""
     across = np.concatenate([values[i, 1:2], values[i]])
     return parabola_offset(values[:, j], i) + parabola_offset(across, j + 1)

@@ -1,3 +1,3 @@
-"""The fields and numbers of a step, an entry each (:class:`tehl_taichi.march.step_output.Field`, `Scalar`): a new one is a new
-entry here, in any file. May import `march.output` and what needs no taichi: what they compute from is given to them.
+"""Fields and numbers of a step, one entry each (:class:`tehl_taichi.march.step_output.Field`, `Scalar`): a new entry in any
+file here is a new output. May import `march.step_output` and rooms without taichi: an entry receives the solved state.
 """

@@ -8,7 +8,7 @@ CONDUCTION = "conduction into the moving bodies (heat/bodies)"
 
 
 def across(scene):
-    """With output.profiles."""
+    """Whether profiles across the film are stored."""
     return thermal(scene) and scene.output.profiles
 
 

@@ -93,7 +93,7 @@ class Symbols:
         return np.concatenate([by_group.reshape(-1, GROUP), strip.reshape(-1, GROUP)])
 
     def near(self, length):
-        """What a unit in row 0 causes in rows 0 and 1 at distances 0 .. length-1 along x, both ends mirrors: (2, length)."""
+        """Response in rows 0 and 1 to a unit in row 0 at distances 0 .. length-1 along x, both ends mirrors: (2, length)."""
         rows = np.vstack([self.strip, 0 * self.strip])
         if self.shape.ny:
             rows = np.fft.ifft(np.vstack([self.A, self.A[-2:0:-1]]), axis=0)[:2].real

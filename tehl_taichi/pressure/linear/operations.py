@@ -264,7 +264,7 @@ def copy(F: ti.template(), G: ti.template(), N: ti.template(), s, out: ti.templa
 @ti.func
 def transformed(F: ti.template(), G: ti.template(), C: ti.template(), Q: ti.template(), N: ti.template(), operation, c, j, w,
                 most, right: ti.template()):
-    """What is transformed, with what comes before and after."""
+    """The transforms, with the work before and after them."""
     way = convolution.THERE
     if operation == ACROSS:
         way = convolution.ACROSS
@@ -289,7 +289,7 @@ def transformed(F: ti.template(), G: ti.template(), C: ti.template(), Q: ti.temp
 @ti.func
 def vectors(F: ti.template(), G: ti.template(), N: ti.template(), partial: ti.template(), operation, a, s, most,
             right: ti.template(), outflow: ti.template(), out: ti.template()):
-    """What works on the blocks of the finest level alone."""
+    """Vector operations on the blocks of the finest level."""
     if operation == START:
         start(F, G, partial, s, right, outflow)
     elif operation == FINEST:

@@ -40,7 +40,7 @@ class SolverFields:
 
     @property
     def filled(self):
-        """What numbers are put into from outside, see :func:`tehl_taichi.engine.simd.fill`."""
+        """Tables that are filled from outside, see :func:`tehl_taichi.engine.simd.fill`."""
         return self.Y, self.T, self.V, self.D, self.J
 
 

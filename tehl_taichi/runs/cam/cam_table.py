@@ -38,7 +38,7 @@ class CamPosition:
 
     @property
     def words(self):
-        """Where it is."""
+        """Angle of the cam as text."""
         return f"{self.angle:g} deg"
 
     @property

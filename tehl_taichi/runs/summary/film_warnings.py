@@ -45,7 +45,7 @@ def friction(store, summary):
 
 
 def _follow(scene, summary):
-    """What follows from such a shear, in words: it loads the surface, and heats the film."""
+    """Consequence of such a shear stress as text: it loads the surface and heats the film."""
     effects = ["the fatigue index is that of the pressure alone"] * ("fatigue" in summary and scene.fatigue.shear)
     effects += ["the temperatures that follow have no meaning"] * (not scene.isothermal)
     return f"; {' and '.join(effects)}" if effects else ""
@@ -65,7 +65,7 @@ def unresolved(store, summary):
 
 
 def first_unresolved(store, summary):
-    """Where the resolved part of a passage ends, if not at the outlet, which the error bars cover."""
+    """Position at which the resolved part of a passage ends, if before the outlet, which the error bars cover."""
     part, a = searched(summary.get("fatigue", {})).get("resolved"), Scales.of(store.scene).a
     later = [n for n in range(1, len(store)) if part and store.feature_x(n) > (part["to_x_a"] + 1e-9) * a]
     if later:
@@ -97,7 +97,7 @@ def _remedy(store, i):
 
 
 def _because(store, i, remedy):
-    """At the outlet the frozen film ends in a free edge: an inverse square root, which only a shear limit makes finite."""
+    """Reason of an unresolved outlet: the frozen film ends in a free edge, a 1/sqrt that only a shear limit bounds."""
     endless = store.x[i] > 0 and _endless(store.scene)
     return f" and grows like 1/sqrt(cell); {remedy}" if endless else f"; a finer grid may resolve it: {remedy}"
 
@@ -121,7 +121,7 @@ def worst_ripple(store, entries):
 
 
 def ripples(store, summary):
-    """From node to node along x, at any moment."""
+    """Warnings about ripples from node to node along x, at any moment."""
     numbers = ("steady", "ripple_Pa"), ("transient", "ripple_max_Pa")
     size = max(summary.get(part, {}).get(name, 0.0) for part, name in numbers)
     if size > MOST_RIPPLE * float(store.scalar("p_max_Pa").max()):

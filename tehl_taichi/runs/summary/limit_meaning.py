@@ -24,7 +24,7 @@ def _alone(summary):
 
 
 def sentence(summary, fatigue):
-    """What the limit means, in one sentence, "" where no smooth contact is known; fatigue: the section of the scene."""
+    """Sentence about the meaning of the limit, "" where no smooth contact is known; fatigue: the section of the scene."""
     if not (found := smooth_pressure(summary)):
         return ""
     value, error = (one * 1e-9 for one in found)

@@ -127,7 +127,7 @@ def yielding(store, summary):
 
 
 def place(found, um="um"):
-    """Where a von Mises stress is, in words."""
+    """Place of a von Mises stress as text."""
     at = f"surface {found['surface']}"
     return f"{micrometres(found['depth_m'])} {um} below {at}" if found["depth_m"] else f"at {at}"
 

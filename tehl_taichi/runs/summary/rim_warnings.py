@@ -28,7 +28,7 @@ def _of_point(scene, point, name):
 
 
 def _side(f, distance, whose):
-    """How far it lies from the rim, and what is there."""
+    """Distance from the rim, and the surface beyond it, as text."""
     rim = f"{abs(distance) * 1e6:.0f} um {'inside' if distance >= 0 else 'outside'} the rim along which the {whose} ends"
     if 0 <= distance <= f.taper:
         return (f"{rim}, within its taper of {f.taper * 1e6:.3g} um: the heights fade out there, so its index is not that of "
@@ -38,7 +38,7 @@ def _side(f, distance, whose):
 
 
 def _advice(f, axis):
-    """What moves the rim away: a wider patch, where the file has one."""
+    """Advice that moves the rim away: a wider patch, if the file has one."""
     n = "xy".index(axis)
     if f.patch[n] < f.size[n] * (1 - 1e-9):
         return f"a larger feature.extent_{axis} moves the rim away (the file has {f.size[n] * 1e3:.3g} mm)"

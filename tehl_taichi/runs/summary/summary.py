@@ -74,7 +74,7 @@ def _peclet(scene, scales):
 
 
 def so_far(store):
-    """What is known of a run without a summary, as JSON has it: it is not finished, or being written at this moment."""
+    """JSON object of a run without a summary: not finished, or still being written."""
     return {"scene": store.scene.name, "version": attributes.text(store.attrs, "version"), "store": str(store.path),
             "finished": False, "written_by": store.writer, "steps": store.last_step, **counts(store),
             "left_out": store.scene.left_out(), "warnings": store.warnings}
@@ -96,7 +96,7 @@ def domain_of(scene):
 
 
 def _clamps(store):
-    """Where laws left their measured range or values were held: {what: count or largest value}."""
+    """Laws outside their measured range and held values: {name: count or largest value}."""
     if store.scene.isothermal:
         return {}
     held = int(np.nansum(store.scalar("clamped")))
@@ -120,7 +120,7 @@ def _steady(store, extra):
 
 
 def _before(known):
-    """What is known of the inlet: the gap there over the film, the share of it that a border without pressure would take."""
+    """Numbers of the inlet: the gap there over the film, the share of it that a border without pressure would take."""
     return {"inlet_gap": known["gap"], "inlet_lost": known["lost"]} if known else {}
 
 

@@ -285,13 +285,13 @@ def _averaged_rows(f):
 
 
 def _whole(f):
-    """Behind what is of all moments that count, where some of them stand beside it, or others were left out."""
+    """Text after a value of all counted moments, if a part of them has a row of its own or others are left out."""
     part = between(f.get("from_x_a", -math.inf), f.get("to_x_a", math.inf)) or "whole passage" * ("resolved" in f)
     return f", {part}" if part else ""
 
 
 def _resolved_rows(f):
-    """What is known as long as the grid resolves the pressure, where it does not always do so."""
+    """Rows of the moments at which the grid resolves the pressure, if it does not resolve all."""
     if "resolved" not in f:
         return []
     part, deep = f["resolved"], f["resolved"].get("below")
@@ -309,7 +309,7 @@ def _placed(point, when):
 
 
 def _frame(f):
-    """Behind a place of a body without the feature: its frame moves against that of the feature."""
+    """Text after a place on the body without the feature, whose frame moves against that of the feature."""
     return "" if f.get("carries_feature", True) else " (feature centre at X = 0)"
 
 
@@ -340,7 +340,7 @@ def _constants_row(f):
 
 
 def _local_rows(deep):
-    """What the table of strength gives at the depth of the worst point; none without one."""
+    """Rows of the strength table at the depth of the worst point; none without a table."""
     if "sigma_eF_Pa" not in deep:
         return []
     stress = " / ".join(f"{deep[f'residual_{axis}_Pa'] / 1e6:.4g}" for axis in ("xx", "yy"))

@@ -51,7 +51,7 @@ def check(scheduler):
 
 
 def _answer(future):
-    """What became of a job."""
+    """Result of a job."""
     if future.status == "finished":
         return future.result()
     if future.status != "error":

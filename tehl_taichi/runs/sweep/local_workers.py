@@ -33,7 +33,7 @@ def results(work, jobs, workers):
 
 
 class LocalWorkers:
-    """So many workers, started as there are jobs for them."""
+    """A number of workers, started when jobs are waiting."""
 
     def __init__(self, count):
         self.count, self.room, self.busy, self.idle = count, SHARE * memory_limit.available() / count, {}, []
@@ -105,7 +105,7 @@ class Worker:
             self.pipe.send((work, job))
 
     def answer(self):
-        """What became of its job: the answer, a :class:`LostJob`, or None where the process died."""
+        """Result of its job: the answer, a :class:`LostJob`, or None where the process died."""
         try:
             return self.pipe.recv()
         except (EOFError, OSError):

@@ -252,7 +252,7 @@ def _part(scene, section, name):
 
 
 def _present(scene, key):
-    """What the scene has for a key, None where it says it in other words."""
+    """Value of the scene for a key, None if the scene uses another key for it."""
     section, _, name = aliases.full_name(key).partition(".")
     try:
         return getattr(_part(scene, section, name), name.rpartition(".")[2])

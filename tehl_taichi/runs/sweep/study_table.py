@@ -114,7 +114,7 @@ class Study(LockedFolder):
 
     @contextlib.contextmanager
     def _disk_errors(self):
-        """What a disk refuses (full, read-only), as a StoreError."""
+        """Context manager: errors of the disk (full, read-only) become a StoreError."""
         try:
             yield
         except OSError as error:
@@ -154,7 +154,7 @@ class Study(LockedFolder):
         return self.path / TABLE
 
     def store_of(self, number):
-        """Where the store of a case lies, made or not."""
+        """Path of the store of a case, whether it exists or not."""
         return self.path / CASES / f"{number:04d}.zarr"
 
     def results(self):

@@ -36,7 +36,7 @@ def once(scene):
 
 
 def _kind(scene):
-    """What decides which kernels a scene has, as a short word."""
+    """Short word for the kernels of a scene: equal words, equal kernels."""
     kind = [commit(), scene.isothermal, scene.one_dimensional, scene.symmetric, scene.transient, scene.has_fatigue,
             scene.shear_law.law, scene.oil.viscosity, scene.numerics.precision, scene.contact.kind]
     return hashlib.sha256(json.dumps(kind).encode()).hexdigest()[:10]

@@ -1,6 +1,7 @@
 """The steels that have names, one file each: a new file here is a new name for `bodies.a.material`.
 
-Numbers that a source gives stand there with that source, no others. May import what `scene.parts` may, but not that.
+Numbers that a source gives stand there with that source, no others. May import what `scene.sections` may, but not
+`scene.sections` itself.
 """
 
 from collections.abc import Mapping

@@ -50,7 +50,7 @@ def name_of(fatigue, surface):
 
 
 def strength_words(fatigue, surface):
-    """What gives the strength of a body over its depth, in words: two different tables never have equal words."""
+    """Text: source of the strength of a body over its depth; different tables have different texts."""
     if not (text := text_of(fatigue, surface)):
         return "equal at every depth"
     by = f" by {fatigue.relation}" if table.of_text(text).has(HARDNESS) else ""

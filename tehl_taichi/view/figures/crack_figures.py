@@ -40,7 +40,7 @@ def crack_figure(page, result, title):
 
 
 def along(summary):
-    """What x' is, as an axis says it."""
+    """Label of the axis of x'."""
     origin = "the feature's centre" if summary.get("carries_feature", True) else "the place below the feature at X = 0"
     return f"x' from {origin} (µm), rolling to the left"
 

@@ -16,7 +16,7 @@ def curves(result):
 
 
 def shown(result):
-    """Whether there is something to draw: rough surfaces."""
+    """Whether the run has rough surfaces to draw."""
     return bool(result.numbers.get("rough")) and bool(curves(result))
 
 

@@ -52,7 +52,7 @@ class DrawnLayer:
 
     @property
     def title(self):
-        """With its moments, in lines that a panel has room for."""
+        """Title with its moments, in lines that fit the panel."""
         return "\n".join([*filter(None, [self.when.replace(" (", "\n(")]), self.legend_text])
 
 

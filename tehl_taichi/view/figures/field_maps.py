@@ -34,7 +34,7 @@ def panels(page, moments, count):
 
 
 def _half_axis(scene):
-    """Behind y / a: how long the half-axis b of an ellipse is."""
+    """Text after y / a: length of the half-axis b of an ellipse."""
     s = Scales.of(scene)
     return f" (b = {s.b / s.a:.3g} a)" if scene.contact.kind == "elliptic" else ""
 

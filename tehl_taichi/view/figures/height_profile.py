@@ -68,7 +68,7 @@ def _own(f):
 
 
 def _even(features, axis, count, edge=math.inf):
-    """So many points over what the features cover along an axis, within the domain."""
+    """Evenly spaced points over the features along an axis, within the domain."""
     reach = [(getattr(f, axis), f.reach if axis == "x" else f.reach_y) for f in features]
     low, high = min(at - r for at, r in reach), max(at + r for at, r in reach)
     more = AROUND * (high - low) if math.isfinite(high - low) else 0.0

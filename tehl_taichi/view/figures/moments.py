@@ -92,7 +92,7 @@ class Moments:
 
     @property
     def along(self):
-        """Where that is, in words."""
+        """Place of the line as text."""
         store = self.store
         if store.y.size == 1:
             return "along x"
@@ -138,7 +138,7 @@ class Moments:
         return self.nearest(0.0 if self.at is None else self.at)
 
     def says(self, n):
-        """What entry n shows, in words."""
+        """Description of entry n."""
         if n == 0:
             return "steady start" if self.store.steps > 1 else "steady"
         return f"{where(self.store.scene)} at {self._position(n)}"
@@ -147,7 +147,7 @@ class Moments:
         return f"{self.moved[n - 1]:+.2f} a".replace("-0.00", "+0.00")
 
     def peak(self, n):
-        """What entry n shows, with its largest pressure and, where another moment has a larger one, that of the passage."""
+        """Description of entry n with its largest pressure and, where another moment has a larger one, that of the passage."""
         p, worst = (round(float(self.store.fields(k, ["pressure"])["pressure"].max()) / 1e9, 2) for k in (n, self.worst))
         more = f" ({worst:.2f} at {self._position(self.worst)})" if worst > p else ""
         return f"{self.says(n)}, p_max {p:.2f} GPa{more}"

@@ -21,12 +21,12 @@ def flattening(heights, steps, E):
 
 
 def highest(heights, steps, E):
-    """What all but a thousandth of the points stay below, Pa."""
+    """Pressure below which all but a thousandth of the points stay, Pa."""
     return float(np.quantile(flattening(heights, steps, E), SHARE))
 
 
 def _window(count):
-    """1, but for half a cosine at both ends."""
+    """Window: 1 with half a cosine at both ends."""
     places = np.arange(count)
     inside = (np.minimum(places, places[::-1]) + 0.5) / (RIM * count)
     return 0.5 * (1 - np.cos(np.pi * np.minimum(inside, 1.0)))

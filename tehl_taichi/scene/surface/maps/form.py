@@ -38,7 +38,7 @@ class SurfaceForm:
 
     @property
     def says(self):
-        """In words."""
+        """Description of the removed form."""
         if self.bent == 0:
             return "flat"
         return f"{'convex' if self.convex else 'concave'} with a radius of {1e3 / abs(self.bent):.3g} mm along {self.axis}"

@@ -31,7 +31,7 @@ TEXT = (".csv", ".txt", ".asc", ".xyz")  # endings of files of text
 
 @dataclass(frozen=True)
 class Facts:
-    """What a file says besides its heights; empty where no file was read (a store, an array). skipped: what of it was skipped,
+    """Facts of a file besides its heights; empty where no file was read (a store, an array). skipped: what of it was skipped,
     in words; spacing: (along a row, from row to row) distances of its coordinates, None where there are none; stated: its unit
     and distances in m."""
 

@@ -7,7 +7,7 @@ SWEEPS = 20  # per point of depth: what is left of a hole's heights then is unde
 
 
 def missing(values):
-    """Where nothing was measured (nan, or infinite)."""
+    """Mask of the unmeasured points (nan or infinite)."""
     return ~np.isfinite(values)
 
 

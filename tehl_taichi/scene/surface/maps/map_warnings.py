@@ -52,12 +52,12 @@ def lines(f, scene):
 
 
 def _patch(f):
-    """What is used of it along the axes on which it has points."""
+    """Size of the used patch along the axes on which it has points."""
     return " x ".join(_um(size) for size, count in zip(f.patch, f.points) if count > 1) + " um"
 
 
 def _offset(f):
-    """Where the part lies in the scan."""
+    """Place of the part in the scan."""
     moved = [f"{axis} = {_um(offset)} um" for axis, offset in (("x", f.offset_x), ("y", f.offset_y)) if offset]
     return f" around {', '.join(moved)}" if moved else ""
 
@@ -88,7 +88,7 @@ def _holes(f):
 
 
 def _spikes(f):
-    """How many there are, and where the largest stands."""
+    """Number of spikes, and place of the largest."""
     if count := int(f.spikes.sum()):
         away = np.where(f.spikes, np.abs(f.part - f.raw), 0.0)
         largest = np.unravel_index(int(away.argmax()), away.shape)

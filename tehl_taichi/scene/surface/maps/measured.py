@@ -47,7 +47,7 @@ class Measured:
                            "refused")
 
     def __getstate__(self):
-        """Without what follows from the heights."""
+        """State without derived arrays."""
         return {key: value for key, value in self.__dict__.items()
                 if key == "heights" or not isinstance(getattr(type(self), key, None), cached_property)}
 
@@ -168,7 +168,7 @@ class Measured:
 
     @property
     def points(self):
-        """How many it has (along x, along y)."""
+        """Number of points (along x, along y)."""
         return self.orientation.swapped(self.heights.shape[::-1])
 
     @property

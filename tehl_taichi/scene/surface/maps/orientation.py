@@ -29,6 +29,6 @@ class Orientation:
 
     @property
     def says(self):
-        """In words; "" where nothing is done."""
+        """Description of the turns; "" without any."""
         axes = [axis for axis, mirrored in (("x", self.mirror_x), ("y", self.mirror_y)) if mirrored]
         return ", ".join(["transposed"] * self.transpose + [f"mirrored along {' and '.join(axes)}"] * bool(axes))

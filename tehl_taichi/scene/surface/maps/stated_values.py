@@ -42,7 +42,7 @@ class Stated:
 
 
 def in_header(lines, shape):
-    """What the header lines of a text file say; shape: (rows, columns) of its heights."""
+    """Values that the header lines of a text file state; shape: (rows, columns) of its heights."""
     found: dict[str, Any] = {}
     sizes: dict[str, tuple[str, float]] = {}
     for key, values in filter(None, map(_parts, lines)):

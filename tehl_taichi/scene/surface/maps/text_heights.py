@@ -58,7 +58,7 @@ class Table:
 
     @property
     def skipped(self):
-        """What was not read, in words; "" where all was."""
+        """Description of skipped parts; "" without any."""
         counts = ((len(self.header_lines), "header line", "skipped"), (self.inside, "line", "with # among the heights skipped"))
         lines = [f"{count} {what}{'s' * (count > 1)} {why}" for count, what, why in counts if count]
         return ", ".join([*lines, *(f"{what} skipped" for what in self.beside)])
@@ -80,7 +80,7 @@ def read(path):
 
 
 def _encoding(path):
-    """By the first letters: UTF-16 has a mark, or every second of them is zero."""
+    """Encoding by the first bytes: UTF-16 has a mark, or every second byte is zero."""
     with path.open("rb") as file:
         first = file.read(4)
     if first[:2] in (b"\xff\xfe", b"\xfe\xff"):

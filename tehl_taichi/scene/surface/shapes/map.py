@@ -34,7 +34,7 @@ class Map(Patch):
         return ((1 - v) * low + v * high) * self.window(f, x, y)
 
     def filled(self, f, x, y):
-        """Where the nearest of its points was not measured, within its patch."""
+        """Mask: the nearest point was not measured, within the patch."""
         return f.holes[f.nearest(x, y)] & (self.window(f, x, y) > 0)
 
     def patch(self, f):
@@ -49,15 +49,15 @@ class Map(Patch):
         return f.transpose
 
     def place_words(self, row, column):
-        """Where a point stands in its file."""
+        """Row and column of a point in its file, as text."""
         return f"row {row}, column {column}"
 
     def lies(self, f):
-        """How it was turned, in words."""
+        """Description of the turns of the map."""
         return f.orientation.says
 
     def points_words(self, f):
-        """How many points there are, of what is along x first."""
+        """Number of points as text, along x first."""
         return " x ".join(map(str, f.points)) + " points"
 
     def symmetric(self, f):
