@@ -1,10 +1,10 @@
-"""The options of every command that asks a run about its fatigue again."""
+"""The options of every command that searches the fatigue of a run again."""
 
 import functools
-import inspect
-from typing import Annotated, Any, Optional
+from typing import Annotated, Optional
 
 import typer
+from tehl_cli.shared_options import sharing
 
 from tehl_taichi.laws.criteria import CRITERIA
 from tehl_taichi.laws.hardness import RELATIONS
@@ -52,19 +52,11 @@ def _options(
 def with_fatigue_options(command):
     """The command with these options in place of its `**constants`: those that :func:`tehl_taichi.fatigue` takes, None
     where they are not given."""
-    options = inspect.signature(_options).parameters
-    own = [one for one in inspect.signature(command).parameters.values() if one.kind != inspect.Parameter.VAR_KEYWORD]
-
     @functools.wraps(command)
-    def with_constants(*first, **given):
-        constants = {name: given.pop(name, None) for name in options}
-        return command(*first, **given, **{**constants, "depths": _depths(constants["depths"])})
+    def with_depths(*first, depths, **given):
+        return command(*first, **given, depths=_depths(depths))
 
-    named = [one.replace(kind=inspect.Parameter.KEYWORD_ONLY) for one in (own[0], *options.values(), *own[1:])]
-    wrapped: Any = with_constants
-    wrapped.__signature__ = inspect.Signature(named)
-    wrapped.__annotations__ = {one.name: one.annotation for one in named}
-    return wrapped
+    return sharing(1, _options)(with_depths)
 
 
 def _depths(text):

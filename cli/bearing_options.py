@@ -1,0 +1,64 @@
+"""The options that `tehl bearing` and `tehl roller` share."""
+
+from pathlib import Path
+from typing import Annotated, List, Optional
+
+from tehl_cli.figure_options import Dpi, FigureWidth, Format
+from typer import Option
+
+DIMENSIONS = ("pitch_diameter", "contact_angle", "clearance", "outer_speed")  # of the bearing
+SCANNED = ("dent", "scan", "unit", "pixel")  # of the feature
+
+
+def loads(
+    load: Annotated[Optional[float], Option(help="radial load, N (default: 1000)")] = None,
+    axial: Annotated[Optional[float], Option(help="axial load, N (default: 0; with a contact angle the load at which the "
+                                                  "displacement is radial)")] = None,
+    speed: Annotated[Optional[float], Option(help="speed of the inner ring, 1/min (default: 1500)")] = None,
+    outer_speed: Annotated[Optional[float], Option(help="speed of the outer ring, 1/min (default: 0; negative: against the "
+                                                        "inner ring)")] = None,
+):
+    """Loads and speeds."""
+
+
+def contacts(
+    pitch_diameter: Annotated[Optional[float], Option(help="pitch diameter: of the circle through the centres of the elements, "
+                                                           "m")] = None,
+    contact_angle: Annotated[Optional[float], Option(help="contact angle without load, degrees (tapered rollers: of the outer "
+                                                          "ring)")] = None,
+    clearance: Annotated[Optional[float], Option(help="radial clearance in operation, m (default: 0)")] = None,
+    oil: Annotated[Optional[str], Option(help="name of the oil (`tehl oils`)")] = None,
+    temperature: Annotated[Optional[float], Option(help="inlet temperature, deg C")] = None,
+    dent: Annotated[Optional[str], Option(help="dent that passes: DEPTH,WIDTH,rim=HEIGHT in m, as 10e-6,0.3e-3,rim=1.2e-6; "
+                                               "rim_width=WIDTH may follow")] = None,
+    scan: Annotated[Optional[Path], Option(help="file of measured heights that pass, on a grid or along a line")] = None,
+    unit: Annotated[Optional[str], Option(help="unit of the heights of --scan, where the file does not state it")] = None,
+    pixel: Annotated[Optional[float], Option(help="distance of the points of --scan in m, where the file does not state "
+                                                  "it")] = None,
+    on: Annotated[str, Option(help="ring that carries the dent or scan: inner or outer")] = "inner",
+    roughness: Annotated[Optional[float], Option(help="rms height of both surfaces together, m, for lambda = h_c/Sq")] = None,
+    scene: Annotated[Optional[str], Option(help="scene with oil, bodies, features and numerics: built-in name, TOML file or "
+                                                "store")] = None,
+    steady: Annotated[bool, Option("--steady", help="steady contacts without the features of --scene")] = False,
+    thermal: Annotated[Optional[bool], Option("--thermal/--isothermal", help="with or without the energy equation (default: "
+                                                                             "with it if elements slip)")] = None,
+    set_: Annotated[Optional[List[str]], Option("--set", help="dotted.key=value of the scenes, repeatable")] = None,
+    grid: Annotated[Optional[str], Option(help="coarse, medium, fine or NXxNY (default: 128x32 for steady contacts)")] = None,
+    run: Annotated[bool, Option("--run/--no-run", help="compute both contacts, or print loads, dry contacts and formulas "
+                                                       "only")] = True,
+    out: Annotated[Optional[Path], Option(help="folder to write (default: runs/NAME-N); existing runs in it are "
+                                                "resumed")] = None,
+    figure: Annotated[bool, Option("--figure/--no-figure", help="draw bearing.png (.pdf, .svg) in that folder")] = True,
+    format: Format = "png",
+    dpi: Dpi = 160,
+    figure_width: FigureWidth = 17.0,
+    workers: Annotated[Optional[int], Option(help="number of contacts computed at the same time (default: one per "
+                                                   "core)")] = None,
+    threads: Annotated[Optional[int], Option(help="CPU threads per contact (default: the cores that --workers leaves, or "
+                                                  "1)")] = None,
+    as_json: Annotated[bool, Option("--json", help="print one JSON object to stdout and all else to stderr")] = False,
+    quiet: Annotated[bool, Option("--quiet", help="print no progress")] = False,
+    curves: Annotated[bool, Option("--live/--no-live", help="draw p, h and T along y = 0 in the terminal (with --workers "
+                                                            "1)")] = True,
+):
+    """Contacts, scenes, results and progress."""

@@ -1,0 +1,37 @@
+"""Options that several commands share are those of one function."""
+
+import typer
+from tehl_cli.main import app
+from tehl_cli.shared_options import sharing
+from typer.testing import CliRunner
+
+COMMANDS = typer.main.get_command(app).commands
+
+
+def loads(load: float = 1.0):
+    """An option."""
+
+
+def names(command):
+    return [one.name for one in COMMANDS[command].params]
+
+
+def test_shared_parameters_stand_at_their_place_and_arrive_with_their_values():
+    app, arrived = typer.Typer(), []
+
+    @app.command()
+    @sharing(1, loads, lambda on="inner": None)
+    def run(name: str, own: int = 2, **shared):
+        arrived.append((name, own, shared))
+
+    assert [one.name for one in typer.main.get_command(app).params] == ["name", "load", "own", "on"]
+    assert CliRunner().invoke(app, ["a", "--load", "3", "--on", "outer"]).exit_code == 0
+    run("b", own=5)
+    assert arrived == [("a", 2, {"load": 3.0, "on": "outer"}), ("b", 5, {"load": 1.0, "on": "inner"})]
+
+
+def test_balls_and_rollers_differ_in_their_dimensions_alone():
+    balls, rollers = ({"ball_diameter", "balls", "osculation", "osculation_outer"},
+                      {"roller_diameter", "rollers", "length", "crown", "taper"})
+    assert set(names("bearing")) - set(names("roller")) == balls and set(names("roller")) - set(names("bearing")) == rollers
+    assert [name for name in names("bearing") if name not in balls] == [name for name in names("roller") if name not in rollers]
