@@ -17,7 +17,7 @@ def names(command):
 
 
 def test_shared_parameters_stand_at_their_place_and_arrive_with_their_values():
-    app, arrived = typer.Typer(), []
+    app, arrived = typer.Typer(add_completion=False), []
 
     @app.command()
     @sharing(1, loads, lambda on="inner": None)
