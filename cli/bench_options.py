@@ -1,0 +1,26 @@
+"""Options that several suites of tehl bench share."""
+
+from pathlib import Path
+
+import typer
+
+
+def folder(usual, says):
+    """Option of a folder; one that is a file or cannot be written is refused before the work."""
+    return typer.Option(Path(usual), file_okay=False, writable=True, help=says)
+
+
+OUT = folder("runs/bench", "folder for the JSON file and the figure")
+FORCE = typer.Option(False, "--force", help="replace the results of an earlier run")
+QUICK = typer.Option(False, "--quick", help="small grids and few steps")
+JSON = typer.Option(False, "--json", help="print the JSON object of the file to stdout instead of tables")
+THREADS = typer.Option(None, help="CPU threads (default: all)")
+WRITE = typer.Option(False, "--write", help="replace the suite's table in docs/performance.md (of the current folder)")
+WORKERS = typer.Option(1, help="number of processes, which share the cores")
+
+
+def cores():
+    """Cores that this process may use."""
+    from tehl_taichi.engine.cores import available
+
+    return available()
