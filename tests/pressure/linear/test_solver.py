@@ -26,7 +26,7 @@ def pressed(precision, sweep):
     return solver
 
 
-TWO_COLOURS = pytest.param(("f64", "red-black"), marks=pytest.mark.slow)  # quick: what the second one answers, test_colours.py
+TWO_COLOURS = pytest.param(("f64", "red-black"), marks=pytest.mark.slow)  # the answers of the second: test_red_black.py
 
 
 @pytest.fixture(scope="module", params=(("f32", "jacobi"), ("f64", "jacobi"), TWO_COLOURS), ids="-".join)

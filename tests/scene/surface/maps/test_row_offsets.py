@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 from map_feature import feature
-from scene.surface.test_spikes import surface
+from scene.surface.maps.test_outliers import surface
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene import scene
