@@ -114,5 +114,5 @@ def print_flank(found):
     put(f"load: {found.record['load_sharing']}")
     for at, reason in found.failed:
         put(f"no result: {at.point} (x_pl = {at.x_pl * 1e3:.3f} mm): {reason}")
-    warning_lines(flank_page.warnings(found))
+    warning_lines(flank_page.warnings(found, str))
     put(f"stores, flank.csv, flank.json: {found.folder}")

@@ -1,4 +1,4 @@
-"""tehl report: one HTML page of a run, a study or a flank."""
+"""tehl report: one HTML page of a run, study, flank, bearing or cam."""
 
 from pathlib import Path
 from typing import Optional
@@ -24,6 +24,8 @@ def report(
                                                   "constants: STORE-fatigue.html)"),
     force: bool = typer.Option(False, "--force", help="replace an existing file that tehl wrote"),
     open_: bool = typer.Option(False, "--open/--no-open", help="open the report in the browser"),
+    pages: bool = typer.Option(False, "--pages", help="flank or cam: also write the page of every position, linked from this "
+                                                      "one (some MB each)"),
     threads: Optional[int] = typer.Option(None, help="CPU threads for a search with other constants (default: all)"),
     **constants,
 ):
@@ -41,7 +43,7 @@ def report(
         say_idle(context, "only a search with other constants computes", "threads")
     runtime.check(threads=threads)
     with Live() as live:
-        path = tehl.report(store, out, force=force, progress=live, threads=threads, **constants)
+        path = tehl.report(store, out, force=force, progress=live, threads=threads, pages=pages, **constants)
     put(path)
     if open_:
         typer.launch(path.absolute().as_uri())

@@ -62,7 +62,9 @@ def laws():
 
 def new(
     file: Path = typer.Argument(..., help="scene file to write, for example my.toml"),
-    base: str = typer.Option("gear", help="built-in scene to start from"),
+    base: Optional[str] = typer.Option(None, help="built-in scene to start from (default: gear); with --gears: built-in pair "
+                                                  "(default: fzg-c)"),
+    gears: bool = typer.Option(False, "--gears", help="write a gear pair for `tehl flank` in place of a scene"),
     scan: Optional[Path] = typer.Option(None, help="file of measured heights, on a grid or along a line; writes a "
                                                    "short scene with the values that you must give"),
     unit: str = typer.Option("", help="unit of the heights: nm, um, mm or m"),
@@ -71,15 +73,22 @@ def new(
     lay: str = typer.Option("", help="line profile: direction of the marks, transverse (heights over x, the rolling direction; "
                                      "default) or longitudinal (heights over y)"),
 ):
-    """Write a commented scene file with every value, or a short one for a scan.
+    """Write a commented scene file with every value, a short one for a scan, or a gear pair.
 
-    Examples: `tehl new my.toml` · `tehl new my_flank.toml --scan scan.csv --unit um --pixel 1.8e-6` ·
+    Examples: `tehl new my.toml` · `tehl new my_gears.toml --gears` ·
+    `tehl new my_flank.toml --scan scan.csv --unit um --pixel 1.8e-6` ·
     `tehl new my_profile.toml --scan profile.txt --unit um --pixel 0.5e-6 --lay longitudinal`
     """
-    from tehl_taichi.scene import scan_scene, scene_file
+    from tehl_taichi.scene import gear_file, scan_scene, scene_file
 
     if scan is None:
         _only_with_scan(unit=unit, pixel=pixel, pixel_y=pixel_y, lay=lay)
+    if gears:
+        _not_of_gears(scan)
+        gear_file.new(file, base or "fzg-c")
+        return put(f"wrote {file}; run it with: tehl flank {file}")
+    base = base or "gear"
+    if scan is None:
         scene_file.new(file, base)
         return put(f"wrote {file}; run it with: tehl run {file}")
     read, missing, refused = scan_scene.new(file, base, scan, unit, pixel, pixel_y, lay)
@@ -88,6 +97,13 @@ def new(
     put(f"{text}tehl run {file} --grid coarse --steps 0")
     if refused:
         put(f"warning: the scene is refused until you change it: {refused}")
+
+
+def _not_of_gears(scan):
+    from tehl_taichi.errors import SceneError
+
+    if scan is not None:
+        raise SceneError(f"--gears and --scan {scan} contradict each other: a gear file names a scene, which has the scan")
 
 
 def _only_with_scan(**options):

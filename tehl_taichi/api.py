@@ -812,15 +812,17 @@ def export(of: "Name | Run", format: str = "csv", path: Name | None = None, *, a
 
 
 def report(of: Any, out: Name | None = None, *, force: bool = False, progress: Any = None, threads: int | None = None,
-           **constants: Any) -> Path:
-    """Write one self-contained HTML page of a run, a study or a flank, as `tehl report` does.
+           pages: bool = False, **constants: Any) -> Path:
+    """Write one self-contained HTML page of a run, study, flank, bearing or cam, as `tehl report` does.
 
     Parameters
     ----------
-    of : Run, Study, Flank or path
+    of : Run, Study, Flank, Bearing, Cam or path
         The results or their folder.
     out : path, optional
         The file; default: beside the folder, with the ending .html.
+    pages : bool
+        Of a flank or a cam: also write the page of every position, beside its store.
     force : bool
         Replace an existing page.
     progress, threads
@@ -850,7 +852,7 @@ def report(of: Any, out: Name | None = None, *, force: bool = False, progress: A
     """
     from tehl_taichi.report.write import report
 
-    return report(of, out, force=force, progress=progress, threads=threads, **constants)
+    return report(of, out, force=force, progress=progress, threads=threads, pages=pages, **constants)
 
 
 def animate(source: "Name | Run", out: Name | None = None, *, format: str | None = None, frames: int = 120, fps: int = 15,

@@ -24,6 +24,11 @@ def deciding(searches):
     return searches, False
 
 
+def worst_layer(searches):
+    """The :func:`layers` entry by which {surface: summary of its search} are judged: the worst of what decides."""
+    return max(all_layers(deciding(searches)[0]), key=lambda one: (judged(*one[1:]), one[1]))
+
+
 def _settled(searches):
     """Whether averaged stresses give what the pointwise ones do not: the errors of all that is judged."""
     averaged = any(length for one in searches.values() for _, length in material_length.leading(searched(one)))

@@ -2,32 +2,47 @@
 
 import numpy as np
 
-from tehl_taichi.report import place_verdict, place_warnings
+from tehl_taichi.report import place_sections, place_verdict, place_warnings, position_pages
 from tehl_taichi.report.document import Answer, Page, Section, drawn, facts, sentences, table
-from tehl_taichi.report.number_text import FEW, value_text
+from tehl_taichi.report.number_text import FEW, unit_spelled, value_text
 from tehl_taichi.report.plots import colour, line, stacked
 from tehl_taichi.runs.cam import cam_columns, cam_figure
 from tehl_taichi.runs.cam.stored_cam import Cam
 from tehl_taichi.runs.flank.flank_columns import dig, error_of
+from tehl_taichi.values.coded_text import without_options
 
 
-def of(folder):
-    """The :class:`tehl_taichi.report.document.Page` of the cam in `folder`. Raises StoreError."""
+def of(folder, out=None):
+    """The :class:`tehl_taichi.report.document.Page` of the cam in `folder`; out: its file, for
+    links. Raises StoreError."""
     cam = Cam.open(folder)
-    return Page(f"{cam.name}: report", cam.title, _answer(cam), (
+    number = place_sections.critical_number(cam.rows, _places(cam))
+    store, words = (None, "") if number is None else (cam.store_of(number), _words(cam.rows[number][0]))
+    return Page(f"{cam.name}: report", cam.title, _answer(cam, store), (
         Section("Over the cycle", (drawn(*figures(cam)),)),
-        Section("Angles", tuple(table(heads, lines, title) for title, (heads, lines) in cam_columns.tables(cam.rows).items())),
+        Section("Angles", (*(table([unit_spelled(head) for head in heads], lines, title)
+                             for title, (heads, lines) in cam_columns.tables(cam.rows).items()),
+                           position_pages.line(cam, out, _words))),
+        *place_sections.critical(store, words), *place_sections.scene(store, words),
         Section("Without a result", (sentences([f"{at.words}: {reason}" for at, reason in cam.failed]),)),
         Section("Warnings", (sentences(warnings(cam)),)),
         Section("Provenance", (facts(_provenance(cam)),))))
 
 
-def _answer(cam):
+def _words(at):
+    return at.words
+
+
+def _places(cam):
+    return place_verdict.judged_places(cam.rows, _words, _words)
+
+
+def _answer(cam, store):
     """The thinnest film, or the largest index where features pass."""
     left = f"{len(cam.failed)} of {len(cam.rows)} angles have no result and are not part of this answer."
-    doubts = (f"Assumed: {cam.record['assumption']}.", *[left] * bool(cam.failed))
+    doubts = (*place_sections.limit(store), f"Assumed: {cam.record['assumption']}.", *[left] * bool(cam.failed))
     thin = _thinnest(cam)
-    if places := place_verdict.judged_places(cam.rows, lambda at: at.words, lambda at: at.words):
+    if places := _places(cam):
         headline, tone, sentences = place_verdict.answer(places, len(cam.rows))
         return Answer("At which angle does a fatigue crack start?", headline, tone, (*sentences, thin), doubts)
     headline = thin or "No answer: no angle has a result."
@@ -54,7 +69,7 @@ def figures(cam):
 
 def warnings(cam):
     """Warnings of all angles, each once with its angles."""
-    return place_warnings.of(cam.rows, lambda at: at.words)
+    return place_warnings.of(cam.rows, _words, without_options)
 
 
 def _provenance(cam):

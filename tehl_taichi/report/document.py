@@ -96,6 +96,11 @@ def sentences(items, title=""):
     return PageBlock("sentences", {"items": items, "title": title}) if items else None
 
 
+def links(rows, title):
+    """A line of (text, file beside the page); None without any."""
+    return PageBlock("links", {"rows": rows, "title": title}) if rows else None
+
+
 def drawn(*figures):
     """Figures beside each other where there is room; None without any."""
     found = [figure for figure in figures if figure]

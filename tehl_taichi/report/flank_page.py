@@ -1,31 +1,45 @@
 """The page of a flank: where along it a crack would start, from what its folder keeps."""
 
 from tehl_taichi.fatigue.pressure_alone import why_none
-from tehl_taichi.report import place_verdict, place_warnings
+from tehl_taichi.report import place_sections, place_verdict, place_warnings, position_pages
 from tehl_taichi.report.document import Answer, Page, Section, drawn, facts, sentences, table
-from tehl_taichi.report.number_text import FEW, value_text
+from tehl_taichi.report.number_text import FEW, unit_spelled, value_text
 from tehl_taichi.report.plots import colour, line, stacked
-from tehl_taichi.runs.flank.flank_columns import dig, known, tables
+from tehl_taichi.runs.flank import specific_film
+from tehl_taichi.runs.flank.flank_columns import dig, plotted, tables
 from tehl_taichi.runs.flank.flank_figure import PANELS
 from tehl_taichi.runs.flank.stored_flank import Flank
 from tehl_taichi.scene.gear_pair import GearPair
+from tehl_taichi.values.coded_text import without_options
+from tehl_taichi.values.digits import fitting
 from tehl_taichi.values.quantity import kinds
 from tehl_taichi.view.figures.palette import GREY
 
 ALONG = "x_pl from the pitch point (mm)"
+UNKNOWN = ("beta", "d_a1", "d_a2", "Ra1", "Ra2", "lambda_GFP")  # 0: not given, or a spur gear
+# of the geometry of a flank: name, unit
+DERIVED = {"alpha_w_deg": ("working pressure angle", "deg"), "eps_alpha": ("transverse contact ratio", ""),
+           "p_bt_m": ("transverse base pitch", "m"), "rho_C1_m": ("radius of curvature at C, pinion", "m"),
+           "rho_C2_m": ("radius of curvature at C, gear", "m"), "u_C_m_s": ("speed of both surfaces at C", "m/s"),
+           "F_bt_N": ("tooth force", "N"), "on": ("the feature is on the", ""), "table": ("table", "")}
+READ = {"deg": "°", "deg C": "°C"}
 
 
-def of(folder):
-    """The :class:`tehl_taichi.report.document.Page` of the flank in `folder`. Raises StoreError."""
+def of(folder, out=None):
+    """The :class:`tehl_taichi.report.document.Page` of the flank in `folder`; out: its file, for
+    links. Raises StoreError."""
     flank = Flank.open(folder)
-    name, geometry = flank.record["name"], flank.record["geometry"]
-    whose = f", flank of the {geometry['on']}, {geometry['torque']:g} N m and {geometry['n1']:g} 1/min at the pinion" \
-        if "torque" in geometry else ""
-    return Page(f"{name}: report", f"{name}: a flank of {len(flank.rows)} positions{whose}", _answer(flank), (
+    number = place_sections.critical_number(flank.rows, judged_places(flank))
+    store, words = (None, "") if number is None else (flank.store_of(number), _where(flank.rows[number][0]))
+    return Page(f"{flank.name}: report", f"{flank.title}, {len(flank.rows)} positions", _answer(flank, store), (
         Section("Along the flank", (drawn(*figures(flank)),)),
-        Section("Positions", tuple(table(heads, lines, title) for title, (heads, lines) in tables(flank.rows).items())),
+        Section("Positions", (*(table([unit_spelled(head) for head in heads], lines, title)
+                                for title, (heads, lines) in tables(flank.rows).items()),
+                              position_pages.line(flank, out, short_name))),
+        *place_sections.critical(store, words), *place_sections.scene(store, words),
         Section("Not converged", (sentences([f"{_where(at)}: {reason}" for at, reason in flank.failed]),)),
-        Section("Gears and load", (facts(_gears(flank)), sentences([f"Load: {flank.record['load_sharing']}."]))),
+        Section("Gears and load", (facts(gears(flank)),
+                                   sentences([f"Load: {flank.record['load_sharing']}.", *film_words(flank)]))),
         Section("Warnings", (sentences(warnings(flank)),)),
         Section("Provenance", (facts(_provenance(flank)),))))
 
@@ -54,12 +68,14 @@ def verdict(flank):
     return (QUESTION, *place_verdict.answer(places, len(flank.rows))) if places else None
 
 
-def _answer(flank):
+def _answer(flank, store):
+    """store: of the critical position, or None."""
     left = f"{len(flank.failed)} of {len(flank.rows)} positions did not converge and are not part of this answer."
     count = f"Number of warnings, listed below: {len(warnings(flank))}."
     none = [f"No verdict at {_where(at)}: {why_none(part)}." for at, _, summary in flank.rows
             if (part := dig(summary, "fatigue")) and why_none(part)]
-    doubts = (*none, *[left] * bool(flank.failed), f"Assumed: {flank.record['assumption']}.", *[count] * bool(warnings(flank)))
+    doubts = (*place_sections.limit(store), *none, *[left] * bool(flank.failed), f"Assumed: {flank.record['assumption']}.",
+              *[count] * bool(warnings(flank)))
     if found := verdict(flank):
         question, headline, tone, sentences = found
         return Answer(question, headline, tone, sentences, doubts)
@@ -117,7 +133,7 @@ def _series(flank, what):
     x: list[float | None] = []
     y: list[float | None] = []
     for at, p_H, summary in flank.rows:
-        value = p_H if what == "p_H" else at.srr if what == "srr" else known(summary, *what)
+        value, _ = plotted(at, p_H, summary, what)
         if value is not None and x and x[-1] == at.x_pl:
             x, y = [*x, at.x_pl], [*y, None]
         if value is not None:
@@ -125,21 +141,43 @@ def _series(flank, what):
     return x, y
 
 
-def _gears(flank):
-    """Rows of the geometry: each value of a pair with its meaning."""
-    return [_value(key, value, kinds(GearPair).get(key)) for key, value in flank.record["geometry"].items()
-            if isinstance(value, (int, float, str))]
+def gears(flank):
+    """Rows of the geometry, (what, value) each, lengths in units that people read."""
+    given, known = flank.record["geometry"], kinds(GearPair)
+    rows = [(known[key].about.partition(";")[0], value_in(known[key].unit, given[key]))
+            for key in known if _is_given(key, given)]
+    return rows + [(name, value_in(unit, given[key])) for key, (name, unit) in DERIVED.items() if key in given]
 
 
-def _value(key, value, declared):
-    """(what, number with its unit); declared: what the scene says of it, if it is one of its values."""
-    text = f"{value:.6g}" if isinstance(value, float) else str(value)
-    return (f"{key}: {declared.about}", f"{text} {declared.unit}".rstrip(" -")) if declared else (key, text)
+def _is_given(key, given):
+    value = given.get(key)
+    return isinstance(value, (int, float)) and bool(value or key not in UNKNOWN)
 
 
-def warnings(flank):
-    """Warnings of all positions, each once with its positions."""
-    return place_warnings.of(flank.rows, short_name)
+def value_in(unit, value):
+    """A number of the gears with its unit."""
+    if isinstance(value, (str, int)):
+        return str(value)
+    factor, shown = fitting(unit, value)
+    return f"{value * factor:.6g} {READ.get(shown, shown)}".rstrip(" -")
+
+
+def film_words(flank):
+    """Sentences on the specific film and the roughness."""
+    if not (least := specific_film.smallest(flank)):
+        rough = any(dig(summary, "lambda") is not None for *_, summary in flank.rows)
+        return () if rough else ("λ is not known: the surfaces are smooth, and no roughness of the flanks is given (gear.Ra1, "
+                                 "gear.Ra2).",)
+    ratio, at = least
+    safety = specific_film.safety(flank)
+    compared = f", S_λ = {safety:.3g} times the permissible one" if safety else "; its permissible value is not given"
+    return (f"Smallest specific film of ISO/TS 6336-22: λ_GF = {ratio:.3g}, at {_where(at)}{compared}. The film of the formula "
+            "(Dowson & Higginson) is that without a feature and with load factors of 1; h_min/Ra is the computed film.",)
+
+
+def warnings(flank, spelled=without_options):
+    """Warnings of all positions, each kind once with its positions; spelled: for a page by default."""
+    return place_warnings.of(flank.rows, short_name, spelled)
 
 
 def _provenance(flank):

@@ -36,3 +36,10 @@ def index(Fi, error=None):
 def share(part, whole):
     """'1.2 %' of a whole, '' where there is none."""
     return f"{abs(part / whole) * 100:.2g} %" if whole else ""
+
+
+def unit_spelled(text):
+    """Text with the units of a terminal as pages spell them."""
+    for plain, spelled in ((" um", " µm"), ("deg C", "°C"), ("lambda", "λ")):
+        text = text.replace(plain, spelled)
+    return text

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from functools import cached_property
 
-from tehl_taichi.fatigue.judged_layers import ABOVE, BELOW, WITHIN, all_layers, deciding, error_of, judged
+from tehl_taichi.fatigue.judged_layers import ABOVE, BELOW, WITHIN, all_layers, deciding, error_of, judged, worst_layer
 from tehl_taichi.fatigue.judged_surfaces import by_surface
 from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.report.number_text import index
@@ -31,7 +31,7 @@ class JudgedPlace:
     @cached_property
     def layer(self):
         """(where, Fi, its error or None) by which it is judged: the worst."""
-        return max(all_layers(deciding(self.searches)[0]), key=lambda one: (judged(*one[1:]), one[1]))
+        return worst_layer(self.searches)
 
     @property
     def Fi(self):

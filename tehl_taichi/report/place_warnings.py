@@ -3,15 +3,16 @@
 from tehl_taichi.values.coded_warning import of_lists
 
 
-def of(rows, words):
-    """A list of sentences. rows: (position, Hertz pressure, summary or None) each; words(position): how a sentence calls it.
+def of(rows, words, spelled=str):
+    """A list of sentences. rows: (position, Hertz pressure, summary or None) each; words(position): how a sentence calls it;
+    spelled(warning): its sentence.
 
     Warnings of one kind with other numbers are one sentence, that of the first place; the others follow as places.
     """
     kinds: dict[str, dict[str, list[str]]] = {}
     for at, _, summary in rows:
         for one in _warnings(summary or {}):
-            kinds.setdefault(one.code or str(one), {}).setdefault(str(one), []).append(words(at))
+            kinds.setdefault(one.code or str(one), {}).setdefault(spelled(one), []).append(words(at))
     return [_sentence(found) for found in kinds.values()]
 
 

@@ -23,6 +23,11 @@ def words(scene):
     return [*note, _contact(scene), _motion(scene), _oil(scene), _heat(scene), *_features(scene)]
 
 
+def shared_words(scene):
+    """Sentences on what contacts along something have in common: note, bodies, oil, heat, features."""
+    return [*([f"Note: {scene.note}"] if scene.note else []), _bodies(scene), _oil(scene), _heat(scene), *_features(scene)]
+
+
 def _contact(scene):
     c, s = scene.contact, Scales.of(scene)
     side = "" if c.kind != "elliptic" else f" along x and {value_text(c.radius_y, unit='m')} across"
@@ -122,14 +127,27 @@ def material(fatigue):
 
 def numbers(scene):
     """(what, value) of what a reader compares first."""
-    s, oil = Scales.of(scene), scene.oil
+    s = Scales.of(scene)
     rows = [("Hertz pressure p_H", value_text(s.p_H, unit="Pa")), ("half-width a", value_text(s.a, unit="m")),
             *([] if s.line else [("half-axis b, across", value_text(s.b, unit="m"))]), ("load", _load(scene)),
             ("reduced radius R'", value_text(s.R, unit="m")), ("reduced modulus E'", value_text(s.E, unit="Pa")),
             ("mean speed u_m", f"{scene.operation.u_m:.4g} m/s"), ("slide-to-roll ratio", f"{scene.operation.srr:g}"),
-            ("inlet temperature", f"{scene.operation.temperature:g} °C"), ("viscosity at the inlet (p = 0)", _inlet(scene)),
-            *_of_sheet(oil), ("viscosity law", oil.viscosity), *_of_oil(oil)]
+            *oil_numbers(scene)]
     return rows
+
+
+def oil_numbers(scene):
+    """(what, value) of the oil at the inlet, and of its law."""
+    oil = scene.oil
+    return [("inlet temperature", f"{scene.operation.temperature:g} °C"), ("viscosity at the inlet (p = 0)", _inlet(scene)),
+            *_of_sheet(oil), ("viscosity law", oil.viscosity), *_of_oil(oil)]
+
+
+def grid_numbers(scene):
+    """(what, value) of the grid."""
+    g, heat = scene.grid, "" if scene.isothermal else f" × {scene.thermal.nodes} nodes across the film"
+    across = "" if scene.one_dimensional else f" × {g.ny}"
+    return [("grid", f"{g.nx}{across} cells{heat}"), ("domain along x", f"{g.x_min:.3g} to {g.x_max:.3g} a")]
 
 
 def _inlet(scene):

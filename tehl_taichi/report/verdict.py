@@ -228,7 +228,7 @@ def _counted(scene):
 
 def _constants(store, summary):
     if "fatigue" not in summary:
-        return (*_limit_words(store.scene), *_meaning(store, summary)) if "contact_alone" in summary else ()
+        return (*limit_words(store.scene), *_meaning(store, summary)) if "contact_alone" in summary else ()
     f = searched(summary["fatigue"])
     limit = _limit(f["sigma_eF_Pa"], f["kappa_F"], f["criterion"], store.scene.fatigue)
     stress = "counts" if f["thermal_stress"] else "does not count"
@@ -240,7 +240,8 @@ def _meaning(store, summary):
     return filter(None, [limit_meaning.sentence(summary, store.scene.fatigue)])
 
 
-def _limit_words(scene):
+def limit_words(scene):
+    """The sentence on what Fi = 1 stands for: whose limit, from where."""
     local = Strength(scene.fatigue, scene.surfaces[0]).at(0.0)
     return (_limit(local.endurance, local.kappa, local.criterion, scene.fatigue),)
 

@@ -5,11 +5,12 @@ from pathlib import Path
 from typing import Any
 
 from tehl_taichi.disk import user_files
+from tehl_taichi.errors import SceneError
 from tehl_taichi.values.path_arguments import folder_of
 
 
 def report(of: str | PathLike | Any, out: str | PathLike | None = None, *, force: bool = False, progress: Any = None,
-           threads: int | None = None, **constants: Any) -> Path:
+           threads: int | None = None, pages: bool = False, **constants: Any) -> Path:
     """As :func:`tehl_taichi.report`."""
     from tehl_taichi.report import document, embed
 
@@ -18,7 +19,9 @@ def report(of: str | PathLike | Any, out: str | PathLike | None = None, *, force
     out = Path(out) if out else default_page(folder, "-fatigue" if search else "")
     user_files.check(out, force, "html")
     embed.check_installed()
-    page = search.page(progress, threads) if search else page_of(folder)
+    if pages:
+        _position_pages(folder, force)
+    page = search.page(progress, threads) if search else page_of(folder, out)
     user_files.text(out, document.rendered(page), force, kind="html")
     return out
 
@@ -34,16 +37,30 @@ def _renewed_search(folder, constants):
     return None if search.is_answered else search
 
 
+def _position_pages(folder, force):
+    """Write the pages of the positions of a flank or a cam. Raises SceneError of another result."""
+    from tehl_taichi.report import document, position_pages, run_page
+    from tehl_taichi.runs.open_results import CAM, FLANK, kind
+    from tehl_taichi.runs.open_results import open as opened
+
+    if (which := kind(folder)) not in (FLANK, CAM):
+        raise SceneError(f"pages of positions exist of a flank or a cam, and {folder} is a {which}")
+    position_pages.write(opened(folder), force, lambda store, path: user_files.text(
+        path, document.rendered(run_page.page(store)), force, kind="html", of=folder))
+
+
 def default_page(folder, end=""):
     """The file of the page of `folder` by default; end: of its name."""
     folder = folder.absolute() if not folder.name else folder
     return folder.with_name(f"{folder.stem if folder.suffix else folder.name}{end}.html")
 
 
-def page_of(folder):
-    """The :class:`tehl_taichi.report.document.Page` of whatever lies in `folder`. Raises StoreError."""
+def page_of(folder, out=None):
+    """The :class:`tehl_taichi.report.document.Page` of whatever lies in `folder`; out: its file, from where links start.
+    Raises StoreError."""
     from tehl_taichi.report import bearing_page, cam_page, flank_page, run_page, study_page
     from tehl_taichi.runs.open_results import BEARING, CAM, FLANK, RUN, STUDY, kind
 
     pages = {RUN: run_page, STUDY: study_page, FLANK: flank_page, BEARING: bearing_page, CAM: cam_page}
-    return pages[kind(folder)].of(folder)
+    which = kind(folder)
+    return pages[which].of(folder, out or default_page(folder)) if which in (FLANK, CAM) else pages[which].of(folder)

@@ -6,7 +6,7 @@ import os
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import ClassVar, Self
+from typing import Any, ClassVar, Self
 
 from tehl_taichi.disk import files, links, user_files
 from tehl_taichi.errors import StoreError
@@ -88,15 +88,17 @@ class ContactSet:
         raise NotImplementedError
 
     def stores(self) -> list:
-        """The readable :class:`tehl_taichi.store.store.Store` of each contact that has one, in the folder."""
+        """The :meth:`store_of` each contact that has one."""
+        return [store for n in range(len(self._contacts)) if (store := self.store_of(n))]
+
+    def store_of(self, number: int) -> Any:
+        """The readable :class:`tehl_taichi.store.store.Store` of a contact, None where it has none."""
         from tehl_taichi.store.store import Store
 
-        found = []
-        for one in self._contacts:
-            path = self.folder / Path(one.get("store") or "none").name
-            with contextlib.suppress(StoreError):
-                found += [Store.open(path)] * path.is_dir()
-        return found
+        path = self.folder / Path(self._contacts[number].get("store") or "none").name
+        with contextlib.suppress(StoreError):
+            return Store.open(path) if path.is_dir() else None
+        return None
 
     def to_dict(self) -> dict:
         """The JSON object of the command with --json, in SI units."""

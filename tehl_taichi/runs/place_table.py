@@ -23,7 +23,10 @@ OWN_KEYS = {*kinds(GearPair), "on", "table"}  # of a flank; others follow from t
 # label and unit of the columns that are no numbers of a summary with a name
 CONTACT = {"R_m": ("reduced radius R'", "mm"), "u_m_m_s": ("entrainment speed", "m/s"), "srr": ("SRR", ""),
            "load_N_m": ("load", "N/mm"), "p_Hertz_Pa": ("Hertz pressure", "GPa"), "Sq_m": ("Sq of both surfaces", "um"),
-           "lambda": ("lambda", ""), "passages": ("passages to initiation", ""), "worse_body": ("worse body", "")}
+           "lambda": ("lambda", ""), "lambda_GF": ("specific film lambda_GF", ""),
+           "h_min_Ra": ("h_min/Ra", ""), "bulk_C": ("bulk temperature", "deg C"),
+           "passages": ("passages to initiation", ""), "worse_body": ("worse body", ""),
+           "Fi_judged": ("Fi judged", "")}
 INDEX = (("Fi_p99", "Fi_max"), ("Fi_max_below",))
 # drawn: the first name of each line that has numbers
 OF_POSITIONS = (*INDEX, ("passage_h_min_m", "steady_h_min_m"), ("passage_p_max_Pa", "steady_p_max_Pa"),

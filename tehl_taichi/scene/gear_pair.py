@@ -44,8 +44,16 @@ class GearPair:
     load_share: tuple = pairs((), "[distance past C along the line of action from pinion root to tip in m, share of the tooth "
                                   "normal force]; a repeated distance is a jump", 2, 1000, jumps=True)
 
+    Ra1: float = quantity(0.0, "m", "mean roughness Ra of the pinion's flanks; 0: not given", 0.0, 1e-4, usual=4e-7)
+    Ra2: float = quantity(0.0, "m", "mean roughness Ra of the gear's flanks; 0: not given", 0.0, 1e-4, usual=4e-7)
+    lambda_GFP: float = quantity(0.0, "", "permissible specific film of the oil, from a micropitting test; 0: not given", 0.0,
+                                 100.0)
+    bulk_temperature: float = quantity(math.inf, "deg C", "temperature of the teeth and of the oil at the inlet; inf: that of "
+                                                          "the scene", -50.0, infinite=True)
+
     def __post_init__(self):
         check(self, "gear")
+        self._check_roughness()
         self._settle_shifts()
         self._check_share()
 
@@ -72,6 +80,13 @@ class GearPair:
                              f"backlash they give {tight:.6g} m; allowed: up to {tight + LOOSE * self.m_n:.6g} m, or omit one "
                              "of x1, x2 and a_w")
 
+    def _check_roughness(self):
+        if (self.Ra1 > 0) != (self.Ra2 > 0):
+            raise SceneError(f"gear.Ra1 = {self.Ra1:g} m and gear.Ra2 = {self.Ra2:g} m: the specific film needs both; "
+                             "give both, or none")
+        if self.lambda_GFP and not self.Ra1:
+            raise SceneError(f"gear.lambda_GFP = {self.lambda_GFP:g} has no effect without gear.Ra1 and gear.Ra2")
+
     def _check_share(self):
         if self.load_share and self.beta:
             raise SceneError(f"gear.load_share applies to spur gears, not to gear.beta = {self.beta:g} deg (mean load of its "
@@ -83,6 +98,16 @@ class GearPair:
     def _set(self, **values):
         for key, value in values.items():
             object.__setattr__(self, key, value)
+
+    @property
+    def Ra(self):
+        """Mean of the roughness of both flanks, m; 0: not given."""
+        return 0.5 * (self.Ra1 + self.Ra2)
+
+    @property
+    def bulk(self):
+        """Bulk temperature, deg C; None where it is not given."""
+        return self.bulk_temperature if math.isfinite(self.bulk_temperature) else None
 
     @property
     def alpha_t(self):

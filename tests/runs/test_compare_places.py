@@ -53,7 +53,7 @@ def test_flanks_are_compared_by_position(flanks):
     assert rows["steady_h_c_m", "A"].texts == ("0.100", "0.200") and rows["steady_h_c_m", "A"].change == "+100% (error unknown)"
     assert rows["Fi_max", "A"].change == NOT_SEPARATED, "1.4 of an unknown error, 1.5 ± 0.2"
     assert rows["Fi_max", "C"].change == "+29%" and ("Fi_max", "E") not in rows
-    assert rows["srr", "C"].change == "" and found.unequal() == ["steady_h_c_m", "steady_p_max_Pa", "Fi_max"]
+    assert rows["srr", "C"].change == "" and found.unequal() == ["steady_h_c_m", "steady_p_max_Pa", "Fi_max", "Fi_judged"]
     assert tehl.compare(*map(tehl.open, flanks)).differs == found.differs
 
 

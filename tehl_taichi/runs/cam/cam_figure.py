@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tehl_taichi.runs.flank.flank_columns import error_of, known
+from tehl_taichi.runs.flank.flank_columns import plotted
 from tehl_taichi.runs.flank.flank_figure import LAST, PANELS
 from tehl_taichi.view.figures import palette
 
@@ -34,14 +34,7 @@ def drawn(page, cam):
 
 def series(cam, what):
     """(angles, values, error bars) of the angles that have this number; an angle without one breaks the line (nan)."""
-    rows = [(at.angle, *_value(at, p_H, summary, what)) for at, p_H, summary in cam.rows]
+    rows = [(at.angle, *plotted(at, p_H, summary, what)) for at, p_H, summary in cam.rows]
     if all(value is None for _, value, _ in rows):
         return np.array([]), np.array([]), np.array([])
     return tuple(np.array([np.nan if one is None else one for one in column], float) for column in zip(*rows))
-
-
-def _value(at, p_H, summary, what):
-    """(value, its error bar or None)."""
-    if isinstance(what, str):
-        return (p_H if what == "p_H" else at.srr if p_H else None), None
-    return known(summary, *what), error_of(summary, *what)

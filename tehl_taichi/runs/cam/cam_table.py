@@ -5,6 +5,7 @@ import io
 import math
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import ClassVar
 
 from tehl_taichi.disk import files
 from tehl_taichi.errors import SceneError
@@ -34,7 +35,8 @@ class CamPosition:
     u_b: float
     more: dict = field(default_factory=dict)
 
-    point = ""
+    point, bulk = "", None
+    film_ratios: ClassVar[dict] = {}
 
     @property
     def words(self):

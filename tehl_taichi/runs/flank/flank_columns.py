@@ -5,6 +5,9 @@ import io
 from dataclasses import dataclass
 from typing import Callable
 
+from tehl_taichi.fatigue.judged_layers import worst_layer
+from tehl_taichi.fatigue.judged_surfaces import by_surface
+from tehl_taichi.fatigue.pressure_alone import why_none
 from tehl_taichi.march import quantities
 from tehl_taichi.scene import surface_roughness
 from tehl_taichi.values.digits import with_error
@@ -24,7 +27,7 @@ class TableColumn:
     table: str
 
     def error(self, *row):
-        return self.value.error(*row) if isinstance(self.value, _Of) else None
+        return self.value.error(*row) if isinstance(self.value, (_Of, _Judged)) else None
 
     def shown(self, *row):
         value, error = self.value(*row), self.error(*row)
@@ -54,6 +57,36 @@ def known(summary, *keys):
     return dig(summary, *keys)
 
 
+def plotted(at, p_H, summary, what):
+    """(value, error bar) of a series of a figure, None each where there is none; what: keys in the summary, or the name of a
+    number of the position."""
+    if isinstance(what, tuple):
+        return known(summary, *what), error_of(summary, *what)
+    if what == "judged":
+        return judged_index(summary)
+    return {"p_H": p_H, "srr": at.srr if p_H else None, **at.film_ratios}.get(what), None
+
+
+def judged_index(summary):
+    """(Fi, its error bar) by which a position is judged; None each without an index, and of rough surfaces, which are judged by
+    a percentile with a column of its own."""
+    found = dig(summary, "fatigue")
+    if not found or why_none(found) or found.get("rough"):
+        return None, None
+    _, Fi, error = worst_layer(by_surface(summary))
+    return Fi, error
+
+
+class _Judged:
+    """The index by which a position is judged, with its error bar."""
+
+    def __call__(self, position, p_H, summary):
+        return judged_index(summary)[0]
+
+    def error(self, position, p_H, summary):
+        return judged_index(summary)[1]
+
+
 class _Of:
     """A number of the summary, with its error bar."""
 
@@ -79,11 +112,15 @@ COLUMNS = (
     TableColumn("u_m_m_s", "u_m m/s", 1, ".3f", lambda at, *_: at.u_m, CONTACT),
     TableColumn("srr", "SRR", 1, ".3f", lambda at, *_: at.srr, CONTACT),
     TableColumn("load_N_m", "N/mm", 1e-3, ".1f", lambda at, *_: at.load, CONTACT),
+    TableColumn("bulk_C", "bulk deg C", 1, ".1f", lambda at, *_: at.bulk, CONTACT),
     TableColumn("p_Hertz_Pa", "p_H GPa", 1e-9, ".3f", lambda at, p_H, _: p_H, CONTACT),
     *(TableColumn(one.column, one.head, one.factor, one.form, _Of(*one.part.split("."), one.key), TITLES[one.part])
       for one in quantities.ENTRIES if one.column),
     TableColumn("Sq_m", "Sq um", 1e6, ".3f", lambda at, p_H, found: surface_roughness.rms_of(dig(found, "roughness")), STEADY),
     TableColumn("lambda", "lambda", 1, ".2f", _Of("lambda"), STEADY),
+    TableColumn("lambda_GF", "lambda_GF", 1, ".3f", lambda at, *_: at.film_ratios.get("lambda_GF"), STEADY),
+    TableColumn("h_min_Ra", "h_min/Ra", 1, ".3f", lambda at, *_: at.film_ratios.get("h_min_Ra"), STEADY),
+    TableColumn("Fi_judged", "Fi judged", 1, ".3f", _Judged(), PASSAGE),
     TableColumn("passages", "passages", 1, ".2g", _Of("life", "passages"), PASSAGE),
     TableColumn("worse_body", "body", 1, "", lambda at, p_H, summary: dig(summary, "fatigue", "surface"), PASSAGE),
 )

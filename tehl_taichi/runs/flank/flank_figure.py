@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from tehl_taichi.runs.flank.flank_columns import error_of, known
+from tehl_taichi.runs.flank.flank_columns import plotted
 from tehl_taichi.view.figures import palette
 
-# panel: label, factor, {legend: keys in the summary}; "p_H" is the Hertz pressure
+# panel: label, factor, {legend: keys in the summary}; "p_H", "judged" ...: see flank_columns.plotted
 PANELS = (("film (µm)", 1e6, {"steady, centre": ("steady", "h_c_m"), "steady, smallest": ("steady", "h_min_m"),
                               "smallest, feature passes": ("transient", "h_min_m")}),
           ("largest pressure (GPa)", 1e-9, {"Hertz": "p_H", "steady": ("steady", "p_max_Pa"),
@@ -16,13 +16,14 @@ PANELS = (("film (µm)", 1e6, {"steady, centre": ("steady", "h_c_m"), "steady, s
           ("Fi", 1, {"99th percentile at the surface": ("fatigue", "statistics", "p99"),
                      "median at the surface": ("fatigue", "statistics", "median"),
                      "99th percentile below it": ("fatigue", "below", "statistics", "p99"),
-                     "largest at the surface": ("fatigue", "Fi_max"), "largest below it": ("fatigue", "below", "Fi_max")}),
+                     "largest at the surface": ("fatigue", "Fi_max"), "largest below it": ("fatigue", "below", "Fi_max"),
+                     "judged": "judged"}),
           ("surface with Fi > 1 (%)", 100, {"of the worse body": ("fatigue", "statistics", "share_above_1")}),
+          ("λ", 1, {"h_c/Sq": ("lambda",), "λ_GF (formula)": "lambda_GF", "h_min/Ra": "h_min_Ra"}),
           ("friction coefficient", 1, {"steady": ("steady", "friction_coefficient"),
                                        "mean, feature passes": ("transient", "friction_coefficient_mean")}),
-          ("λ", 1, {"h_c/Sq": ("lambda",)}),
           ("SRR", 1, {"(u_a − u_b)/u_m": "srr"}))
-LAST = 5  # panels: friction, λ and slip fill up what a steady or isothermal flank leaves free
+LAST = 6  # panels: λ, friction and slip fill up what a steady or isothermal flank leaves free
 
 
 def drawn(page, flank):
@@ -53,12 +54,12 @@ def _series(flank, what):
     breaks."""
     out: list[tuple[float, float, float | None]] = []
     for at, p_H, summary in flank.rows:
-        value = p_H if what == "p_H" else at.srr if what == "srr" else known(summary, *what)
+        value, error = plotted(at, p_H, summary, what)
         if value is None:
             continue
         if out and out[-1][0] == at.x_pl:
             out.append((at.x_pl, np.nan, np.nan))
-        out.append((at.x_pl, value, error_of(summary, *what) if isinstance(what, tuple) else None))
+        out.append((at.x_pl, value, error))
     return out
 
 

@@ -12,6 +12,7 @@ from tehl_taichi.runs.flank.flank_source import flank_source
 from tehl_taichi.runs.flank.line_contacts import scene_at
 from tehl_taichi.runs.flank.mesh import Mesh
 from tehl_taichi.runs.flank.outcomes import Outcome, summaries
+from tehl_taichi.runs.flank.specific_film import film_ratios
 from tehl_taichi.runs.flank.stored_flank import Flank
 from tehl_taichi.runs.progress import Progress
 from tehl_taichi.scene import Scene
@@ -63,7 +64,8 @@ def _settled(changes, steady):
 
 def flank_record(subject, places, scenes, outcomes):
     """The JSON object of a flank: what it is :func:`about`, and its positions with their scenes and outcomes."""
-    return plain({**subject, "positions": [_position(*one) for one in zip(places, scenes, outcomes)]})
+    Ra = 0.5 * (subject["geometry"].get("Ra1", 0.0) + subject["geometry"].get("Ra2", 0.0))
+    return plain({**subject, "positions": [_position(*one, Ra) for one in zip(places, scenes, outcomes)]})
 
 
 def about(found, folder, on):
@@ -85,11 +87,13 @@ def _geometry(pair, on):
             "points_x_pl_m": {name: sign * x + 0.0 for name, x in mesh.points.items()}}
 
 
-def _position(at, scene, outcome):
+def _position(at, scene, outcome, Ra):
+    """The entry of a position; Ra: mean roughness of both flanks in m, 0: not given."""
+    bulk = None if at.bulk is None else scene.operation.temperature
     return {"point": at.point, "x_pl_m": at.x_pl, "arc_m": at.arc, "rho_a_m": at.rho_a, "rho_b_m": at.rho_b, "R_m": at.R,
             "u_a_m_s": at.u_a, "u_b_m_s": at.u_b, "srr": at.srr, "load_N_m": at.load, "p_Hertz_Pa": Scales.of(scene).p_H,
-            **at.more, "store": str(outcome.store), "converged": outcome.summary is not None, "reason": outcome.reason,
-            "summary": outcome.summary}
+            "bulk_C": bulk, "film_ratios": film_ratios(scene, outcome.summary, Ra), **at.more, "store": str(outcome.store),
+            "converged": outcome.summary is not None, "reason": outcome.reason, "summary": outcome.summary}
 
 
 def fresh(name):

@@ -22,8 +22,9 @@ def scene_at(base, changes, name, n, position):
         _check_free(given)
         plain = _without_passage(base, given)
         steady = given.get("time.steady_only", base.time.steady_only)
+        own = _own(plain, name, n, position, "operation.temperature" in given)
         wider = {} if steady else room(plain, position.load, position.R)
-        return base.replace(**{**_own(plain, name, n, position), **given, **wider})
+        return base.replace(**{**own, **given, **wider})
     except SceneError as error:
         raise SceneError(f"position {where(position)}: {error}") from None
 
@@ -39,9 +40,10 @@ def _without_passage(base, given):
     return base.replace(**{key: value for key, value in given.items() if key != "time.steps"} | {"time.steady_only": True})
 
 
-def _own(plain, name, n, position):
-    """What a position says of its scene."""
-    return {"name": store_name(name, n, position), "contact.kind": "line", "contact.radius_y": math.inf,
+def _own(plain, name, n, position, warm):
+    """What a position says of its scene; warm: whether a change sets the temperature, as an option does."""
+    heat = {} if position.bulk is None or warm else {"operation.temperature": position.bulk}
+    return {**heat, "name": store_name(name, n, position), "contact.kind": "line", "contact.radius_y": math.inf,
             "contact.radius_x": position.R, "contact.load": position.load, "operation.u_m": position.u_m,
             "operation.srr": position.srr, "thermal.on": plain.thermal.on is not False}
 

@@ -18,12 +18,14 @@ NEEDED = {"x_pl_mm": (1e-3, Number("", "mm", -1e3, 1e3, usual=5.0)), "R_a_mm": (
           "load_N_per_mm": (1e3, Number("", "N/mm", 1e-3, 1e5, usual=300.0)), "u_a_m_s": (1.0, SPEED), "u_b_m_s": (1.0, SPEED)}
 SHORTEST = 0.02  # mm, of the farthest way of a flank
 POINT = "point"  # column with A to E, where there is one
+BULK = "bulk_C"  # column with the bulk temperature of the teeth
+TEMPERATURE = Number("", "deg C", -50.0, 300.0, usual=90.0)
 MOST = 1000  # rows
 
 
 def load(path):
-    """Positions of a CSV file with the columns of NEEDED, dedendum of body a (x_pl < 0) first; other columns are kept in
-    `more`, a column `point` names positions. Raises SceneError."""
+    """Positions of a CSV file with the columns of NEEDED, dedendum of body a (x_pl < 0) first; a column `point` names
+    positions, a column `bulk_C` has the bulk temperature, other columns are kept in `more`. Raises SceneError."""
     path = Path(path)
     try:
         with io.StringIO(files.content(path).decode("utf-8-sig"), newline="") as file:
@@ -62,10 +64,11 @@ def _position(path, n, row):
     SI = {name: _value(f"table {path}, row {n}: {name}", row[name], *limits) for name, limits in NEEDED.items()}
     if SI["u_a_m_s"] + SI["u_b_m_s"] == 0:
         raise SceneError(f"table {path}, row {n}: u_a_m_s and u_b_m_s are both 0 m/s: without entrainment there is no film")
-    more = {name: value for name, value in row.items() if name and name not in (*NEEDED, POINT)}
+    more = {name: value for name, value in row.items() if name and name not in (*NEEDED, POINT, BULK)}
+    bulk = _value(f"table {path}, row {n}: {BULK}", row[BULK], 1.0, TEMPERATURE) if row.get(BULK) else None
     return Position(x_pl=SI["x_pl_mm"], rho_a=SI["R_a_mm"], rho_b=SI["R_b_mm"], u_a=SI["u_a_m_s"], u_b=SI["u_b_m_s"],
                     load=SI["load_N_per_mm"], slip=SI["u_a_m_s"] - SI["u_b_m_s"], point=(row.get(POINT) or "").strip(),
-                    more=more)
+                    more=more, bulk=bulk)
 
 
 def _value(where, text, factor, declared):

@@ -16,7 +16,8 @@ class Position:
     """One position in SI, body a with the feature.
 
     x_pl: way along the line of action from the pitch point, negative in the dedendum of body a; arc: the same along its flank
-    (None where it is not known); point: A to E, with - or + before and behind a jump of the load; slip: u_a - u_b.
+    (None where it is not known); point: A to E, with - or + before and behind a jump of the load; slip: u_a - u_b; bulk:
+    temperature of the teeth in deg C (None: that of the scene); film_ratios: see :mod:`tehl_taichi.runs.flank.specific_film`.
     """
 
     x_pl: float
@@ -29,6 +30,8 @@ class Position:
     arc: float | None = None
     point: str = ""
     more: dict = field(default_factory=dict)
+    bulk: float | None = None
+    film_ratios: dict = field(default_factory=dict)
 
     @property
     def R(self):
@@ -156,4 +159,4 @@ def _position(mesh, table, on, x, side):
     letter = next((name for name, way in mesh.points.items() if way == x), "")
     return Position(x_pl=sign * x + 0.0, rho_a=radii[wheel - 1], rho_b=radii[other - 1], u_a=speeds[wheel - 1],
                     u_b=speeds[other - 1], load=share(table, x, side or ("+" if x < mesh.ends[1] else "-")) * mesh.full_load,
-                    slip=sign * slip + 0.0, arc=mesh.arc(x, wheel) + 0.0, point=f"{letter}{side}")
+                    slip=sign * slip + 0.0, arc=mesh.arc(x, wheel) + 0.0, point=f"{letter}{side}", bulk=mesh.pair.bulk)

@@ -6,8 +6,8 @@ from tehl_taichi.runs.flank import flank_columns
 from tehl_taichi.runs.flank.positions import Position
 
 # of a position in flank.json; what else stands there came with a table of positions
-KEYS = {"point", "x_pl_m", "arc_m", "rho_a_m", "rho_b_m", "R_m", "u_a_m_s", "u_b_m_s", "srr", "load_N_m", "p_Hertz_Pa", "store",
-        "converged", "reason", "summary"}
+KEYS = {"point", "x_pl_m", "arc_m", "rho_a_m", "rho_b_m", "R_m", "u_a_m_s", "u_b_m_s", "srr", "load_N_m", "p_Hertz_Pa",
+        "bulk_C", "film_ratios", "store", "converged", "reason", "summary"}
 
 
 class Flank(PositionSet):
@@ -69,7 +69,7 @@ class Flank(PositionSet):
         u_m = 0.5 * (one["u_a_m_s"] + one["u_b_m_s"])
         more = {key: value for key, value in one.items() if key not in KEYS}
         return Position(one["x_pl_m"], one["rho_a_m"], one["rho_b_m"], one["u_a_m_s"], one["u_b_m_s"], one["load_N_m"],
-                        one["srr"] * u_m, one["arc_m"], one["point"], more)
+                        one["srr"] * u_m, one["arc_m"], one["point"], more, one.get("bulk_C"), one.get("film_ratios", {}))
 
     def __repr__(self):
         done = len(self.record["positions"]) - len(self.failed)

@@ -210,3 +210,28 @@ def test_positions_that_are_not_on_the_flank_are_refused(options, why):
 def test_unknown_pairs_are_refused_with_the_nearest():
     with pytest.raises(SceneError, match="unknown gear pair 'fzg-b'.*did you mean 'fzg-[ac]'"):
         gear_pair("fzg-b")
+
+
+def test_roughness_and_permissible_film_come_together():
+    assert GearPair(Ra1=0.4e-6, Ra2=0.6e-6, lambda_GFP=0.2).Ra == pytest.approx(0.5e-6)
+    with pytest.raises(SceneError, match="gear.Ra1 = 4e-07 m and gear.Ra2 = 0 m: the specific film needs both"):
+        GearPair(Ra1=0.4e-6)
+    with pytest.raises(SceneError, match="gear.lambda_GFP = 0.2 has no effect without gear.Ra1 and gear.Ra2"):
+        GearPair(lambda_GFP=0.2)
+
+
+def test_a_commented_gear_file_is_the_pair_again(tmp_path):
+    from commands import here
+
+    from tehl_taichi.runs.flank.flank_source import flank_source
+    from tehl_taichi.values.quantity import kinds
+
+    assert here("new", "pair.toml", "--gears", "--base", "fzg-a", cwd=tmp_path).returncode == 0
+    text = (tmp_path / "pair.toml").read_text()
+    assert flank_source(tmp_path / "pair.toml").pair == gear_pair("fzg-a")
+    assert all(f"\n{key} = " in text and declared.about in text for key, declared in kinds(GearPair).items())
+    assert here("new", "pair.toml", "--gears", cwd=tmp_path).returncode == 2, "it exists"
+    refused = here("new", "other.toml", "--gears", "--scan", "scan.csv", cwd=tmp_path)
+    assert refused.returncode == 2 and "--gears and --scan scan.csv contradict each other" in refused.stderr
+    unknown = here("new", "other.toml", "--gears", "--base", "gear", cwd=tmp_path)
+    assert unknown.returncode == 2 and "unknown gear pair 'gear'" in unknown.stderr

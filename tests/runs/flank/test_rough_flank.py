@@ -44,7 +44,7 @@ def test_the_files_have_them_with_their_errors(rough):
 def test_figure_and_page_show_them(rough):
     pytest.importorskip("matplotlib")
     labels = [ax.get_ylabel() for ax in flank_figure.drawn(FigureStyle(), rough).axes]
-    assert labels == ["film (µm)", "largest pressure (GPa)", "Fi", "surface with Fi > 1 (%)", "λ"]
+    assert labels == ["film (µm)", "largest pressure (GPa)", "Fi", "surface with Fi > 1 (%)", "λ", "SRR"]
     index, share = (figure.traces for figure in flank_page.figures(rough)[2:4])
     assert [line["name"] for line in index][:2] == ["99th percentile at the surface", "median at the surface"]
     assert share[0]["y"] == pytest.approx([12, 12])

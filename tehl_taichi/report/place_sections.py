@@ -1,0 +1,48 @@
+"""Sections on contacts along something: the critical position with its maps, the scene that all have in common, whose limit."""
+
+from tehl_taichi.report import fatigue_plots, map_plots, place_verdict, scene_text, surface_plots
+from tehl_taichi.report.document import PageBlock, Section, drawn, facts
+from tehl_taichi.report.searches import searches
+from tehl_taichi.report.verdict import limit_words
+from tehl_taichi.runs.flank.flank_columns import dig
+from tehl_taichi.runs.summary import limit_meaning
+from tehl_taichi.store.attributes import text
+
+MAPS = ("map-pressure", "map-film")
+
+
+def critical_number(rows, places):
+    """Number of the position that decides: the largest index, else the thinnest film; None without results. places: those with
+    an index (:class:`tehl_taichi.report.place_verdict.JudgedPlace`)."""
+    if places:
+        return place_verdict.worst(places).number
+    films = {n: film for n, (*_, summary) in enumerate(rows) if (film := dig(summary, "steady", "h_min_m")) is not None}
+    return min(films, key=lambda n: films[n], default=None)
+
+
+def critical(store, words):
+    """(:class:`Section`,) of the position of this store, called `words`; () without a store or maps."""
+    if not store or not store.finished:
+        return ()
+    maps = [figure for figure in map_plots.maps(store) if figure.name in MAPS]
+    index = fatigue_plots.index(searches(store)[0]) if "fatigue" in store.summary else []
+    parts = [part for part in (drawn(*index), drawn(*maps)) if part]
+    return (Section(f"Critical position: {words}", tuple(parts)),) if parts else ()
+
+
+def scene(store, words):
+    """Sections of the surface and the scene; words: which position the whole scene is of."""
+    if not store:
+        return ()
+    one, source = store.scene, text(store.attrs, "scene_toml", "")
+    whole = PageBlock("source", {"title": f"every value at {words}, as a scene file", "text": source}) if source else None
+    return (*surface_plots.section(one, store.summary),
+            Section("Scene", (PageBlock("text", {"sentences": scene_text.shared_words(one)}),
+                              facts([*scene_text.oil_numbers(one), *scene_text.grid_numbers(one)]), whole)))
+
+
+def limit(store):
+    """Sentences on what Fi = 1 stands for; () without an index."""
+    if not store or "fatigue" not in store.summary:
+        return ()
+    return (*limit_words(store.scene), *filter(None, [limit_meaning.sentence(store.summary, store.scene.fatigue)]))
