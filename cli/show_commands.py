@@ -49,6 +49,7 @@ def laws():
 
     from tehl_taichi.laws.choices import ALONE, CHOICES
     from tehl_taichi.laws.criteria import CRITERIA
+    from tehl_taichi.laws.hardening import HARDENINGS
     from tehl_taichi.laws.hardness import RELATIONS
 
     for key, registry in {**CHOICES, "": ALONE}.items():
@@ -58,6 +59,8 @@ def laws():
                [(rule.name, rule.says, rule.sensitivity, rule.source) for rule in CRITERIA.values()])
     list_table("--set fatigue.relation=NAME", ("name", "limit by hardness", "HV", "spread", "source"),
                [(one.name, one.says, f"{one.low:g} to {one.high:g}", one.spread, one.source) for one in RELATIONS.values()])
+    list_table("--set bodies.a.hardening=NAME (run-in)", ("name", "flow stress", "source"),
+               [(one.name, one.says, one.source) for one in HARDENINGS.values()])
 
 
 def new(

@@ -7,6 +7,7 @@ from handbook.tables import code, plain, table
 from tehl_taichi.crack.fillings import FILLINGS
 from tehl_taichi.laws.choices import ALONE, CHOICES
 from tehl_taichi.laws.criteria import CRITERIA
+from tehl_taichi.laws.hardening import HARDENINGS
 from tehl_taichi.laws.hardness import RELATIONS
 from tehl_taichi.scene.feature import SHAPES, USED_BY
 from tehl_taichi.scene.named_oils import NAMED
@@ -16,7 +17,8 @@ from tehl_taichi.scene.named_steels import STEELS
 def text():
     """All registries, one after the other."""
     return "\n\n".join([*(laws(f"Choices of {code(key)}", registry) for key, registry in CHOICES.items()),
-                        laws("Laws without a choice", ALONE), shapes(), criteria(), relations(), fillings(), oils(), steels()])
+                        laws("Laws without a choice", ALONE), shapes(), criteria(), relations(), hardenings(), fillings(),
+                        oils(), steels()])
 
 
 def laws(title, registry):
@@ -56,6 +58,13 @@ def relations():
              _checked(one)) for one in RELATIONS.values())
     return "## Fatigue limit by hardness: `fatigue.relation`\n\n" + table(("name", "relation", "HV", "spread", "source",
                                                                            "checked against"), rows)
+
+
+def hardenings():
+    """A hardening law a row."""
+    rows = ((code(one.name), plain(one.says), plain(one.source), _checked(one)) for one in HARDENINGS.values())
+    return "## Hardening of steel in run-in: `bodies.X.hardening`\n\n" + table(("name", "flow stress", "source",
+                                                                              "checked against"), rows)
 
 
 def fillings():

@@ -28,12 +28,13 @@ PIT_ANGLES = (18.0, 50.0)  # degrees to the surface at which pits begin (Everitt
 
 
 class Snapshots:
-    """A list of snapshots (all of one grid) as the reader that :func:`run` wants."""
+    """A list of snapshots (all of one grid) as the reader that :func:`run` wants; residual_fields: {surface: ResidualField}."""
 
-    def __init__(self, snapshots):
+    def __init__(self, snapshots, residual_fields=None):
         self.items = list(snapshots)
         self.x, self.y = self.items[0].x, self.items[0].y
         self.time = np.array([s.time for s in self.items])
+        self.residual_fields = residual_fields or {}
 
     def __len__(self):
         return len(self.items)

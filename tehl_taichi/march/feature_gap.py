@@ -22,6 +22,14 @@ def with_features(gap, levels, surfaces, X):
     return gap
 
 
+def sink(gap, levels, surfaces, changes, X):
+    """Add to the gap what plastic flow took from the surfaces; changes: each a
+    :class:`tehl_taichi.plastic.surface_change.SurfaceChange`; X: way of the first feature, a."""
+    s, paces = levels.scales, {surface.name: surface.pace for surface in surfaces}
+    for change in changes:
+        gap += change.at((levels.X - paces[change.surface] * X) * s.a, levels.Y * s.a) / s.h
+
+
 def take_off(gap, levels, feature, at):
     """Take the heights of a feature off the gap; at: how far its surface has moved, a."""
     s = levels.scales

@@ -14,7 +14,7 @@ from tehl_taichi.heat.temperatures import FilmHeat
 from tehl_taichi.march import snapshot
 from tehl_taichi.march.coupling import carefully, exchange
 from tehl_taichi.march.failure import crossed, not_converged
-from tehl_taichi.march.feature_gap import with_features
+from tehl_taichi.march.feature_gap import sink, with_features
 from tehl_taichi.march.prediction import Prediction
 from tehl_taichi.march.snapshot import Snapshot
 from tehl_taichi.march.solved_state import SolvedState
@@ -39,9 +39,10 @@ __all__ = ["NotConverged", "Passage", "Snapshot", "march", "total_steps"]
 MORE_ROUNDS = 4
 
 
-def march(scene, state=None):
+def march(scene, state=None, changes=()):
     """Yield a Snapshot per time step, from the steady start or after the snapshot whose `state` is given (to be taken from it
-    before the next one is requested).
+    before the next one is requested); changes: what plastic flow left of the surfaces
+    (:class:`tehl_taichi.plastic.surface_change.SurfaceChange`).
 
     Raises SceneError where there is no room for the grid, NotConverged when a step fails for good. The same state gives the
     same following steps, bit for bit.
@@ -53,14 +54,14 @@ def march(scene, state=None):
         yield first
         state = first.state
     if total_steps(scene) > state["step"]:
-        yield from Passage(scene, scales, state).steps()
+        yield from Passage(scene, scales, state, changes).steps()
 
 
 class Passage:
     """The march in time from a saved state."""
 
-    def __init__(self, scene, scales, state):
-        self.scales, self.doubled = scales, bool(state.get("double", False))
+    def __init__(self, scene, scales, state, changes=()):
+        self.scales, self.doubled, self.changes = scales, bool(state.get("double", False)), changes
         self._set_up(scene, state)
 
     def _set_up(self, scene, state, done=0.0):
@@ -128,7 +129,9 @@ class Passage:
         return report
 
     def _move_feature(self, step):
-        self.levels.put(fields.GAP0, with_features(self.smooth, self.levels, self.scene.surfaces, self.position(step)))
+        gap = with_features(self.smooth, self.levels, self.scene.surfaces, self.position(step))
+        sink(gap, self.levels, self.scene.surfaces, self.changes, self.position(step))
+        self.levels.put(fields.GAP0, gap)
 
     def _predict(self, at):
         """Start values for the state with the feature `at` cells from its start."""

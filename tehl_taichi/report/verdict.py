@@ -9,7 +9,7 @@ from tehl_taichi.report.document import Answer
 from tehl_taichi.report.number_text import index, value_text
 from tehl_taichi.report.scene_text import WHOLE, material, moments, when
 from tehl_taichi.runs.summary import life, limit_meaning, rim_warnings
-from tehl_taichi.runs.summary.result_warnings import place
+from tehl_taichi.runs.summary.result_warnings import place, steel_bodies
 from tehl_taichi.scene import feature_wording, yield_stress
 from tehl_taichi.scene.strength.strength import Strength
 from tehl_taichi.scene.timeline import total_steps
@@ -32,7 +32,8 @@ def of(store):
     warnings = [one for one in store.warnings if not stated.get(one.code)]
     at_rim = [f"{rim[0].upper()}{rim[1:]}." for rim in rims]
     doubts = (*yields, *at_rim, *_cut(store), *_constants(store, summary), *_version(store))
-    return Answer(question, headline, tone, (*sentences, *_life(summary), *_read_first(warnings)), doubts, tuple(warnings))
+    sentences = (*sentences, *_run_in(summary), *_life(summary), *_read_first(warnings))
+    return Answer(question, headline, tone, sentences, doubts, tuple(warnings))
 
 
 def _life(summary):
@@ -213,11 +214,28 @@ def _cut(store):
 def _yielding(summary):
     """Warning that a body would yield; it stands first because it changes the meaning of the index."""
     found = summary.get("von_mises")
-    if "fatigue" not in summary or not found or not found["yields"]:
+    if "fatigue" not in summary or not found or not found["yields"] or found["surface"] in steel_bodies(summary):
         return ()
+    elastic = ("Both bodies are elastic here, while real ones would yield there and flatten; the index is that of elastic "
+               "bodies.")
+    if "run_in" in summary:
+        elastic = "This body has no yield stress, so it is elastic here, while a real one would yield."
     return (f"The von Mises stress reaches {found['max_Pa'] / 1e9:.2f} GPa {place(found, 'µm')}, more than "
-            f"{yield_stress.words(found['yield_stress_Pa'])}. Both bodies are elastic here, while real ones would yield there "
-            "and flatten; the index is that of elastic bodies.",)
+            f"{yield_stress.words(found['yield_stress_Pa'])}. {elastic}",)
+
+
+def _run_in(summary):
+    """What run-in left, before which the index would be another one."""
+    if not (found := summary.get("run_in")):
+        return ()
+    if not found["plastic_strain_max"]:
+        return ("Run-in: no steel yields, so the passage is that of elastic bodies.",)
+    before, after = (found.get(f"height_{when}_m") for when in ("before", "after"))
+    height = "" if after is None else f"the height is {value_text(after, unit='m')} ({value_text(before, unit='m')} before), "
+    count = f"{found['passages']} passages" if found["passages"] > 1 else "one passage"
+    return (f"After {count} of run-in {height}the surface has changed by up to "
+            f"{value_text(found['surface_change_max_m'], unit='m')}, and the residual stress is "
+            f"{found['residual_min_Pa'] / 1e6:.0f} to {found['residual_max_Pa'] / 1e6:.0f} MPa; the index counts both.",)
 
 
 def _counted(scene):

@@ -54,9 +54,9 @@ class Thinned:
         return dataclasses.replace(snapshot, scalars=scalars)
 
 
-def march_on(saved, state, notify=None):
+def march_on(saved, state, notify=None, changes=()):
     """March on from the last checkpoint of the store, whose state :meth:`Store.go_back` gave, to the end of its scene;
-    notify(snapshot) after each step.
+    notify(snapshot) after each step; changes: of the surfaces, see :func:`tehl_taichi.march.passage.march`.
 
     One step is written while the next one is computed. The solver gives up the interpreter's lock thousands of times a step: it
     must not wait 5 ms for the writer each time.
@@ -66,7 +66,7 @@ def march_on(saved, state, notify=None):
     sys.setswitchinterval(SWITCH)
     try:
         with ThreadPoolExecutor(1) as writer:  # leaving it waits for the last write
-            for snapshot in march(saved.scene, state):
+            for snapshot in march(saved.scene, state, changes):
                 if (entry := thinned.of(snapshot)) is not None:
                     keep = entry.state if states.at(entry.step) else None
                     if pending:

@@ -8,7 +8,7 @@ from os import PathLike
 from pathlib import Path
 
 from tehl_taichi.errors import SceneError, StoreError, interrupt
-from tehl_taichi.fatigue.pressure_alone import WITHOUT, why_none
+from tehl_taichi.fatigue.pressure_alone import WITHOUT, searched, why_none
 from tehl_taichi.runs.progress import ERRORS, PASSAGE, STEADY, Progress
 from tehl_taichi.runs.stored_run import Run
 from tehl_taichi.scene import Scene
@@ -180,18 +180,19 @@ def _finish(saved, state, steady, clock, progress):
     from tehl_taichi.runs.summary.summary import summarise
 
     with background_errors.background_answers(saved.scene) as start_coarse:
-        _march(saved, state, progress)
+        run_in = _march(saved, state, progress)
         until = _resolved(saved)
         coarse_answers = start_coarse(until)
         found, arrays = _fatigue(saved, until, progress)
+        steel, arrays = _of_steel(saved.scene, run_in, found, arrays) if run_in else ({}, arrays)
         _add_contact_alone(found, steady["steady_contact_alone"])
         sure = {name: one for name, one in found.items() if not why_none(one)}
         domain = DomainError.from_values(steady["steady_domain"])
         notify = functools.partial(progress.stage, ERRORS)
-        passage = coarse_runs.errors(saved.scene, saved, sure, lambda: coarse_answers(notify), domain)
+        passage = coarse_runs.errors(saved.scene, saved, sure, lambda: coarse_answers(notify), domain, steel.get("run_in"))
         if saved.scene.zooms and len(saved) > 2:
             passage, found, arrays = _zoom(saved, passage, sure, domain, steady, progress)
-    saved.finish(summarise(saved, {**clock.times(), **steady, **passage}, found), arrays)
+    saved.finish(summarise(saved, {**clock.times(), **steady, **passage, **steel}, found), arrays)
     return Run(saved)
 
 
@@ -226,6 +227,27 @@ class _Clock:
 
 
 def _march(saved, state, progress):
+    """Every step that the store lacks; with run-in every passage, and its RunInState (else None)."""
+    once = functools.partial(_march_once, saved, progress)
+    if not saved.scene.runs_in:
+        return once(state)
+    from tehl_taichi.runs import run_in_passages
+
+    return run_in_passages.march(saved, state, progress, once)
+
+
+def _of_steel(scene, run_in, found, arrays):
+    """({"run_in": its numbers}, arrays with those of the run-in); found: {surface: summary}, which then say whether steel still
+    yields."""
+    from tehl_taichi.plastic import run_in_numbers
+
+    for name, new in run_in.records[-1]["new_by_surface"].items():
+        if part := searched(found.get(name, {})).get("von_mises"):
+            part["yields"] = new > 0
+    return {"run_in": run_in_numbers.numbers(scene, run_in)}, {**(arrays or {}), **run_in_numbers.arrays(run_in)}
+
+
+def _march_once(saved, progress, state, changes=()):
     from tehl_taichi.runs.recorder import march_on
     from tehl_taichi.scene.timeline import total_steps
 
@@ -237,7 +259,7 @@ def _march(saved, state, progress):
         progress.step(snapshot)
 
     progress.stage(PASSAGE, saved.last_step, total)
-    march_on(saved, state, notify)
+    march_on(saved, state, notify, changes)
 
 
 def _searched(saved):

@@ -19,6 +19,7 @@ from tehl_taichi.scene import (
     oil_range,
     overrides,
     resolution,
+    run_in,
     scales,
     scene_warnings,
     zoom_room,
@@ -137,6 +138,7 @@ class Scene:
         self._check_zoom()
         resolution.check(self)
         self._check_window()
+        run_in.check(self)
 
     def _check_kinds(self):
         """Each part of its own kind, the features a tuple."""
@@ -267,6 +269,11 @@ class Scene:
     def zooms(self):
         """Whether a fine window rides with its feature."""
         return self.transient and self.zoom.factor > 0
+
+    @property
+    def runs_in(self):
+        """Whether passages in which steel flows come before the one that is judged."""
+        return self.transient and self.time.run_in > 0
 
     @property
     def at_rest(self):

@@ -13,7 +13,7 @@ from tehl_taichi.laws.hardness import RELATIONS
 from tehl_taichi.laws.law import declared
 from tehl_taichi.laws.solid_friction import BOUNDARY, boundary_stress
 from tehl_taichi.laws.viscosity import ln_eta
-from tehl_taichi.scene import aliases, data_sheet, fatigue_limits, keys, material_length
+from tehl_taichi.scene import aliases, data_sheet, fatigue_limits, keys, material_length, run_in
 from tehl_taichi.scene.feature import USED_BY
 from tehl_taichi.scene.named_oils import OILS
 from tehl_taichi.scene.named_steels import STEELS
@@ -280,7 +280,16 @@ def _across(scene):
             yield f"feature.{n}.y", "the feature does not vary along y"
 
 
-RULES = (_rheology, _oil, _temperature, _heat, _expansion_of_bodies, _passage, _fatigue, _strength, _zoom, _across)
+def _steel(scene):
+    """Hardening of steel that does not flow."""
+    flow = {surface.name for surface in run_in.flowing(scene)} if scene.runs_in else ()
+    for name in "ab":
+        if name not in flow:
+            why = "it is at rest or has no yield stress" if scene.runs_in else "no run-in (time.run_in = 0)"
+            yield f"bodies.{name}.hardening", f"steel of body {name} does not flow: {why}"
+
+
+RULES = (_rheology, _oil, _temperature, _heat, _expansion_of_bodies, _passage, _fatigue, _strength, _zoom, _steel, _across)
 
 
 def given_keys(scene, tables):

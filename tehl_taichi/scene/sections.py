@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Union
 from tehl_taichi.errors import SceneError
 from tehl_taichi.laws import rheology
 from tehl_taichi.laws.criteria import CRITERIA, sensitivities
+from tehl_taichi.laws.hardening import HARDENINGS
 from tehl_taichi.laws.hardness import RELATIONS
 from tehl_taichi.laws.law import declared, section
 from tehl_taichi.laws.solid_friction import BOUNDARY
@@ -106,6 +107,7 @@ class Body:
     alpha: float = quantity(12e-6, "1/K", "thermal expansion, for the thermal stress", 0.0, 1e-3)
     yield_stress: float = quantity(0.0, "Pa", "uniaxial yield stress, with which the von Mises stress is compared; 0: not "
                                               "given, 2.2 GPa of hardened bearing steel", 0.0, 1e11, usual=2.2e9, least=1e6)
+    hardening: str = choice("perfect", "hardening of the steel that flows in run-in (`tehl laws`)", tuple(HARDENINGS))
 
     def __post_init__(self):
         check(self, "bodies")
@@ -358,6 +360,8 @@ class Time:
     x_end: float = quantity(math.inf, "a", "last position of the feature; inf: behind the contact", -20.0, infinite=True)
     courant: float = quantity(1.0, "cells", "distance that the feature moves in a step", 0.05, 4.0)
     steps: int = count(-1, "stop after this many steps; -1: all, 0: the steady start alone", -1, 10**7)
+    run_in: int = count(0, "run-in: passages in which the steel flows, before the one that is stored and judged, at most; 0: "
+                           "elastic bodies", 0, 100)
 
     def __post_init__(self):
         check(self, "time")

@@ -10,12 +10,12 @@ KINDS = {dict: "a table", list: "a list", str: "text", int: "a whole number", fl
 SUMMARY = {"scene": str, "version": str, "wall_s": float, "compile_s": float, "steps": int, "grid": dict, "cells": dict,
            "hertz": dict, "left_out": list, "steady": dict, "work": dict, "crowding": list, "clamps": dict, "warnings": list,
            "transient": dict, "fatigue": dict, "fatigue_by_surface": dict, "surface": str, "error": dict,
-           "unknown": dict, "below": dict, "averaged": dict, "von_mises": dict, "life": dict, "contact_alone": dict,
-           "contact_alone_by_surface": dict,
-           "searched_m": list, "pit_angles_deg": list, "criterion": str, "domain": dict, "error_parts": dict, "peclet": dict,
-           "warning_codes": list, "warning_data": list, "unknown_codes": dict}
-PARTS = {"transient", "fatigue", "fatigue_by_surface", "surface", "cells", "crowding", "error", "unknown", "below", "averaged",
-         "von_mises", "life", "contact_alone", "contact_alone_by_surface", "searched_m",
+           "unknown": dict, "run_in": dict, "below": dict, "averaged": dict, "von_mises": dict, "life": dict,
+           "contact_alone": dict, "contact_alone_by_surface": dict, "searched_m": list, "pit_angles_deg": list,
+           "criterion": str, "domain": dict, "error_parts": dict, "peclet": dict, "warning_codes": list, "warning_data": list,
+           "unknown_codes": dict}
+PARTS = {"transient", "run_in", "fatigue", "fatigue_by_surface", "surface", "cells", "crowding", "error", "unknown", "below",
+         "averaged", "von_mises", "life", "contact_alone", "contact_alone_by_surface", "searched_m",
          "pit_angles_deg", "criterion", "domain", "error_parts", "peclet", "warning_codes",
          "warning_data", "unknown_codes"}  # that some runs do not have
 TABLES = ("", "hertz.", "steady.", "transient.", "fatigue.", "fatigue.below.", "fatigue.contact_alone.", "contact_alone.")

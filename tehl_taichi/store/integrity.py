@@ -13,6 +13,7 @@ from tehl_taichi.disk.locks import LOCK
 from tehl_taichi.errors import SceneError, StoreError
 from tehl_taichi.laws.choices import CHOICES
 from tehl_taichi.laws.criteria import CRITERIA
+from tehl_taichi.laws.hardening import HARDENINGS
 from tehl_taichi.laws.hardness import RELATIONS
 from tehl_taichi.scene.feature import SHAPES
 from tehl_taichi.scene.sections import NEWER, SECTIONS
@@ -102,10 +103,11 @@ def lacking(text):
         chosen = {**{key: (_entry(data, key), names) for key, names in CHOICES.items()},
                   "fatigue.criterion": (_entry(data, "fatigue.criterion"), CRITERIA),
                   "fatigue.relation": (_entry(data, "fatigue.relation"), RELATIONS)}
-        shapes = [("feature.shape", (one.get("shape"), SHAPES)) for one in data["feature"]]
+        more = [*(("feature.shape", (one.get("shape"), SHAPES)) for one in data["feature"]),
+                *((f"bodies.{name}.hardening", (data["bodies"][name].get("hardening"), HARDENINGS)) for name in "ab")]
     except (TypeError, ValueError, KeyError, AttributeError):
         return ""
-    for key, (name, known) in (*chosen.items(), *shapes):
+    for key, (name, known) in (*chosen.items(), *more):
         if isinstance(name, str) and name not in known:
             return f"{key} = {shown(name)}, which is not installed here; known: {', '.join(known)}"
     return ""

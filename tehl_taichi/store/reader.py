@@ -153,6 +153,21 @@ class Reader:
     def _whole(self, name):
         return chunks.read_whole(self.path / name)
 
+    @property
+    def run_in(self):
+        """What run-in left so far (:class:`tehl_taichi.plastic.run_in.RunInState`); None of a scene without."""
+        if not self.scene.runs_in:
+            return None
+        from tehl_taichi.store import run_in_file
+
+        return run_in_file.read(self.path)
+
+    @property
+    def residual_fields(self):
+        """{surface: :class:`tehl_taichi.fatigue.stress.residual_field.ResidualField`} of its passage."""
+        found = self.run_in
+        return found.residual_fields if found else {}
+
     def map(self, name):
         """One of the maps that :meth:`finish` stored, or None."""
         return self._whole(name) if name in self.metadata else None

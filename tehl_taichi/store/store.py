@@ -87,14 +87,22 @@ class Store(LockedFolder, Reader):
     def append(self, snapshot, state=None, shown=True):
         """Write one snapshot, and its `state` as the checkpoint to continue from, then make it visible; shown = False: not yet,
         unless it has a state. Raises Interrupted where the disk does not take it: what was shown before stays."""
-        with self._safe():
+        with self.safely():
             self._append(snapshot, state, shown)
 
     def show(self):
         """Make visible what was appended. Raises as :meth:`append`."""
-        with self._safe():
+        with self.safely():
             if self.steps > self.attrs["steps"]:
                 self._show()
+
+    def rewind(self, state):
+        """Take back every entry after the steady start, from whose `state` the passage begins again. Raises as
+        :meth:`append`."""
+        with self.safely():
+            checkpoint.write(self.path / CHECKPOINTS, 1, state)
+            self._commit(steps=1)
+            checkpoint.forget(self.path / CHECKPOINTS, 1)
 
     def _append(self, snapshot, state, shown=True):
         n = self.steps
@@ -116,7 +124,7 @@ class Store(LockedFolder, Reader):
             files.replace(self.path / name / "c" / "0", chunks.packed(series, "<" + series.dtype.str[1:]))
         self._commit(steps=self.steps)
 
-    def _safe(self):
+    def safely(self):
         """Context manager for errors of the disk while a passage is written."""
         return _disk_errors(self.path, f"{self.attrs['steps']} entries are stored; then use: tehl resume {self.path}")
 

@@ -16,7 +16,7 @@ from tehl_taichi.laws.solid_friction import boundary_stress
 from tehl_taichi.laws.viscosity import ln_eta
 from tehl_taichi.pressure.conditions import conditions
 from tehl_taichi.runs.sweep.plan import plan
-from tehl_taichi.scene import BUILT_INS, Scene, data_sheet, idle_keys, keys, named_oils, scene_file
+from tehl_taichi.scene import BUILT_INS, Scene, data_sheet, idle_keys, keys, named_oils, run_in, scene_file
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.named_oils import OILS
 from tehl_taichi.scene.named_steels import STEELS
@@ -47,6 +47,7 @@ SCENES = {
                                                          "0.0,5e8,0.4,-4e8,-3e8\n0.001,4e8,0.3,1e8,1e8"}),
     "life": GEAR.replace(**{"fatigue.exponent": 9.0, "fatigue.weibull": 24.0}),
     "one body": GEAR.replace(**{"fatigue.table_b": "case-hardened", "fatigue.surfaces": "a"}),
+    "run-in": GEAR.replace(**{"time.run_in": 2, "bodies.a.yield_stress": 2.2e9}),
     "tait": GEAR.replace(**{"oil.density": "tait"})}
 CASES = [(name, key) for name, scene in SCENES.items() for key, kind, _ in keys.every(scene) if not isinstance(kind, Text)]
 
@@ -103,6 +104,7 @@ def _passage(scene, s, x, y):
     yield [(s.name, s.speed, len(s.features)) for s in scene.surfaces]
     yield step_length(scene), total_steps(scene), scene.path, scene.output.every, scene.symmetric
     yield scene.zoom if scene.zooms else None
+    yield scene.runs_in and (scene.time.run_in, [(s.name, s.body.hardening) for s in run_in.flowing(scene)])
     for at in np.linspace(*scene.path, 7):
         yield [hash((f.height_at((x[None] - one.pace * at) * s.a - f.x, y[:, None] * s.b - f.y) + 0.0).tobytes())
                for one in scene.surfaces for f in one.features]

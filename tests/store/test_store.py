@@ -65,7 +65,7 @@ def test_what_a_stopped_run_computed_is_shown(tmp_path, monkeypatch):
     from tehl_taichi.runs import recorder
     from tehl_taichi.store.store import Store
 
-    def stops(scene, state):
+    def stops(scene, state, changes):
         yield from (shot(step) for step in (1, 2, 3))
         raise ArithmeticError("step 4")
 

@@ -35,12 +35,14 @@ class StressHistories:
     """
 
     block = 16  # entries whose stresses are found at once
+    left = None  # by plastic flow: a :class:`tehl_taichi.fatigue.stress.residual_field.ResidualField`
 
     def __init__(self, scene, reader, positions, window=WINDOW, surface=None):
         self.scene, self.reader, self.window, self.last_below = scene, reader, window, None
         self.surface, self.a = surface or scene.reference, Scales.of(scene).a
         self.strength = Strength(scene.fatigue, self.surface)
         self.loads_of = self._names()
+        self.left = getattr(reader, "residual_fields", {}).get(self.surface.name)
         self.path, centres = (float(positions[0]), float(positions[-1])), self.surface.pace * positions
         self.dx = float(reader.x[-1] - reader.x[0]) / (reader.x.size - 1)
         low, high = (max(1, int(side / self.dx + 1e-9)) for side in self._window("x"))
@@ -161,7 +163,9 @@ class StressHistories:
             return (self._stress_field(int(entry), rows, *operators) for entry in block)
 
         out = self.gathered((rows.stop - rows.start,), stresses, notify, meanwhile)
-        return self.resting(out, depth).reshape(-1, *out.shape[2:])
+        first = self.rows.start
+        self.resting(out[:, :, None], np.array([depth])[:, None], range(first + rows.start, first + rows.stop))
+        return out.reshape(-1, *out.shape[2:])
 
     @property
     def blocks(self):
@@ -187,11 +191,14 @@ class StressHistories:
                 notify(done, len(blocks))
         return out
 
-    def resting(self, stress, depths):
-        """The stress (..., 6) with the residual one at depths (m) that broadcast with (...)."""
+    def resting(self, stress, depths, rows):
+        """The stress (x', rows, depths, moments, 6) with the residual one at depths (depths, 1) m under rows of the reader, by
+        their numbers."""
         along, across = self.strength.residual(depths)
         stress[..., 0] += along
         stress[..., 1] += across
+        if self.left is not None:
+            stress += self.left.at(self.x, np.asarray(self.reader.y)[list(rows)], depths[:, 0])[..., None, :]
         return stress
 
     def follow(self, out, fields):

@@ -51,7 +51,7 @@ def _histories(passage, depths, kinds, notify, thermal, meanwhile=lambda: None):
     out = passage.gathered((len(kinds), len(depths)), stresses, lambda done, _: notify(done, blocks + len(deep)), meanwhile)
     if deep:
         _heat(passage, depths, deep, [row for row, _ in kinds], out, lambda n: notify(blocks + n, blocks + len(deep)))
-    return passage.resting(out, np.asarray(depths)[:, None])
+    return passage.resting(out, np.asarray(depths)[:, None], [row for row, _ in kinds])
 
 
 class _Stresses:

@@ -37,6 +37,8 @@ CONTACT, AREA = "contact_load_fraction_max", "contact_area_share_max"
 PART = 0.1  # a
 FEW = 4 / 3  # points; a bar has 1.5 times as many
 TOP, REST = 1.0, 0.5  # GridReading.spread of the 99th percentile at the surface, which short waves raise, and of all others
+# of the run-in
+RUN_IN = "surface_change_max_m", "height_after_m", "plastic_strain_max", "residual_min_Pa", "residual_max_Pa"
 SHALLOW = Reason("it is largest at the smallest searched depth (half a cell), which no grid resolves", "shallow")
 SHALLOWEST = 1.5  # of that depth: up to the next one that is searched
 WORTH = 3e5  # nodes times steps of a run: below, it is a try, on a grid whose coarse-grid runs say little
@@ -70,11 +72,12 @@ def _all_of_them(scene):
         yield f"use a grid.nx that is a multiple of {nx} and a grid.ny that is a multiple of {ny}"
 
 
-def passage_readings(scene, reader, scalar, searches=None):
+def passage_readings(scene, reader, scalar, searches=None, run_in=None):
     """{name: GridReading} of the numbers of a passage.
 
     reader: entries as :class:`tehl_taichi.fatigue.stress.histories.StressHistories` takes them, the steady start first;
-    scalar(name): array of the entries' values; searches: {surface: summary of its search}, or None.
+    scalar(name): array of the entries' values; searches: {surface: summary of its search}, or None; run_in: numbers of its
+    run-in, or None.
     """
     p, h, a = *(scalar(name)[1:] for name in ("p_max_Pa", "h_min_m")), Scales.of(scene).a
     bars_of = [entry for entry in quantities.of_part("transient") if entry.error]
@@ -88,12 +91,14 @@ def passage_readings(scene, reader, scalar, searches=None):
     out |= {name: GridReading(part["max_Pa"]) for name, part in mises.items()}
     out |= {f"{name}.{key}": _spread_reading(part, key)
             for name, part in distributions(searches or {}) for key in index_statistics.NUMBERS}
+    steel = {of_run_in(key): GridReading(run_in[key]) for key in RUN_IN if key in (run_in or {})}
+    out |= steel
     # a peak that the grid does not resolve at some moment: neither its pressure is known nor what it does to oil and steel
     why = readings.unresolved(reader, _high(p), p.max(), a)
     pressures = course(p, [reader.feature_x(n) / a for n in range(1, p.size + 1)], scene.path)
     of = {kind: [entry.key for entry in bars_of if entry.error == kind] for kind in (quantities.SWAYED, quantities.SHARP)}
     out |= {name: replace(out[name], swayed=bool(why)) for name in of[quantities.SWAYED] if name in out}
-    return out | {name: _doubted(out[name], why, pressures) for name in (*of[quantities.SHARP], *whole(found), *mises)
+    return out | {name: _doubted(out[name], why, pressures) for name in (*of[quantities.SHARP], *whole(found), *mises, *steel)
                   if name in out}
 
 
@@ -177,6 +182,11 @@ def of_surface(surface, name):
     return f"{surface}:{name}"
 
 
+def of_run_in(key):
+    """Name, among the readings, of a number of the run-in."""
+    return f"run_in:{key}"
+
+
 def whole(found):
     """The names in `found` (see :func:`indices`) that are of all moments and of stresses at points."""
     return [name for name in found if name.split(":")[1] in (FI, BELOW)]
@@ -200,30 +210,51 @@ def values(scene, notify=lambda: None, until=lambda: None):
     from tehl_taichi.fatigue import assessment
     from tehl_taichi.march.passage import march
 
-    shots = []
-    for shot in march(scene):
-        shots.append(shot)
+    reader, run_in = _passages(scene, notify) if scene.runs_in else (assessment.Snapshots(_steps(march(scene), notify)), None)
+    with_fatigue = scene.has_fatigue and len(reader) > 2
+    found = assessment.run(scene, reader, until=until(), alone=False).summaries if with_fatigue else None
+    return passage_readings(scene, reader, lambda name: np.array([shot.scalars[name] for shot in reader.items]), found, run_in)
+
+
+def _steps(shots, notify):
+    """List of the snapshots of a march; notify() after each."""
+    out = []
+    for shot in shots:
+        out.append(shot)
         notify()
-    with_fatigue = scene.has_fatigue and len(shots) > 2
-    found = assessment.run(scene, shots, until=until(), alone=False).summaries if with_fatigue else None
-    return passage_readings(scene, assessment.Snapshots(shots),
-                            lambda name: np.array([shot.scalars[name] for shot in shots]), found)
+    return out
+
+
+def _passages(scene, notify):
+    """(Snapshots of the passage after the run-in of a scene, numbers of that); notify() after each step."""
+    from tehl_taichi.fatigue.assessment import Snapshots
+    from tehl_taichi.march.passage import march
+    from tehl_taichi.plastic import run_in, run_in_numbers
+
+    first, = _steps(itertools.islice(march(scene), 1), notify)
+    start = first.state
+
+    def passage(changes):
+        return Snapshots([first, *_steps(march(scene, start, changes), notify)])
+
+    reader, state = run_in.repeated(scene, passage)
+    return Snapshots(reader.items, state.residual_fields), run_in_numbers.numbers(scene, state)
 
 
 def _moment(reader, n):
     return SimpleNamespace(x=reader.x, feature_x=reader.feature_x(n), fields=reader.fields(n, ("pressure", "film")))
 
 
-def errors(scene, reader, searches, coarse, domain=DomainError()):
+def errors(scene, reader, searches, coarse, domain=DomainError(), run_in=None):
     """{"passage_error": {name: error bar or None}, "passage_unknown": {name: why it is None}, "passage_parts": {name: {"grid",
     "domain"}}} of the numbers of a run; {} of one without a passage, doubts alone where there are no coarse-grid runs.
 
     reader: its store; searches: {surface: summary of its search} or None; coarse(): the answers of the scene's coarse-grid runs
-    (:func:`answers`); domain: the DomainError of its start.
+    (:func:`answers`); domain: the DomainError of its start; run_in: numbers of its run-in, or None.
     """
     if len(reader) < 2:
         return {}
-    own = passage_readings(scene, reader, reader.scalar, searches)
+    own = passage_readings(scene, reader, reader.scalar, searches, run_in)
     if not has_coarse_runs(scene):
         touches = own[CONTACT].value > 0
         doubts = {name: reading.doubt for name, reading in own.items() if reading.doubt}
@@ -260,7 +291,7 @@ def answers(scene, notify=lambda done, total: None, until=lambda: None):
     total = sum(total_steps(one) + 1 for one in coarser)  # with their starts
     for one in reversed(coarser):
         with runtime.grown(nodes(scene) / nodes(one)):  # by the kernels of the run: to trace theirs takes 0.2 s of 18
-            out.insert(0, answer(one, lambda: notify(next(done), total), until))
+            out.insert(0, answer(one, lambda: notify(min(next(done), total), total), until))  # run-in makes more steps
         if "reason" in out[0]:
             break
     notify(total, total)

@@ -14,6 +14,7 @@ from tehl_taichi.values.coded_text import Reason, reasons_of
 from tehl_taichi.values.coded_warning import coded_warning, once, with_data
 from tehl_taichi.values.digits import micrometres
 
+STILL = 0.01  # of the largest plastic strain: a passage that adds less has run in
 CROWDED = 0.1  # of the launches; a machine of one's own loses a core for a moment now and then, which costs nothing to speak of
 
 
@@ -117,6 +118,10 @@ def yielding(store, summary):
     """Stresses under which a body would yield, while both stay elastic here; where none were searched, such pressures."""
     elastic = "both bodies are elastic here, while real ones would yield and flatten in the first passages"
     p, found = largest_pressure(summary), summary.get("von_mises")
+    if "run_in" in summary:
+        elastic = "this body has no yield stress, so it is elastic here, while a real one would yield and flatten"
+    if found and found["surface"] in steel_bodies(summary):  # `running_in` speaks of these
+        return
     if found and found["yields"]:
         text = (f"the von Mises stress reaches {found['max_Pa'] / 1e9:.2f} GPa {place(found)}, more than "
                 f"{yield_stress.words(found['yield_stress_Pa'])}; {elastic}")
@@ -124,6 +129,28 @@ def yielding(store, summary):
     elif not found and p > (limit := yield_stress.pressure(store.scene)):
         text = f"p_max {p / 1e9:.2f} GPa: under asperities bodies like these yield above about {limit / 1e9:.1f} GPa; {elastic}"
         yield with_data(text, p_max_Pa=p, yields_Pa=limit)
+
+
+def steel_bodies(summary):
+    """Names of the bodies whose steel flowed in run-in."""
+    return summary.get("run_in", {}).get("by_surface", {})
+
+
+def running_in(store, summary):
+    """What is doubtful about a run-in."""
+    if not (found := summary.get("run_in")):
+        return
+    new, before = found["new_plastic_strain"], found["plastic_strain_max"]
+    if new > STILL * before:
+        text = (f"steel still yields in the passage that is judged (plastic strain {new:.1e} more, {before:.1e} before): its "
+                f"index is not that of a cycle; use a larger time.run_in (it is {store.scene.time.run_in})")
+        yield with_data(text, new_plastic_strain=new)
+    if (rest := found["unsettled_m"]) > 0:
+        text = f"rounds of the first passage of run-in did not settle: its surface is known to {rest * 1e9:.0f} nm only"
+        yield with_data(text, unsettled_m=rest)
+    if not found["contained"]:
+        yield with_data("plastic flow of the run-in reaches the rim of the region around the features, or a depth of 1 a; "
+                        "surface and residual stress are wrong there")
 
 
 def place(found, um="um"):
@@ -152,7 +179,7 @@ def worst_below(store, summary):
 
 # functions of (store, summary) that give their sentences, with the code of these
 CHECKS = {domain_warnings.short: "domain", domain_warnings.starved: "starved", worst_below: "below", rim_warnings.rims: "rim",
-          yielding: "yield", **film_warnings.CHECKS, beyond_measured: "measured", held_temperatures: "held",
-          unknown_errors: "unknown", crowded: "crowded", zoom_ended: "zoom"}
+          yielding: "yield", running_in: "run-in", **film_warnings.CHECKS, beyond_measured: "measured",
+          held_temperatures: "held", unknown_errors: "unknown", crowded: "crowded", zoom_ended: "zoom"}
 ROUGH_CHECKS = {check: code for check, code in CHECKS.items() if code not in ("below", "peak", "resolved", "unknown")}
 ROUGH_CHECKS |= {of_single_peaks: "rough"}

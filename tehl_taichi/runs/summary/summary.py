@@ -8,7 +8,7 @@ from tehl_taichi.fatigue.pressure_alone import searched
 from tehl_taichi.laws import conduction
 from tehl_taichi.laws.law import beyond
 from tehl_taichi.march import quantities
-from tehl_taichi.march.accuracy.coarse_runs import FI, distributions, indices, von_mises_parts
+from tehl_taichi.march.accuracy.coarse_runs import FI, RUN_IN, distributions, indices, of_run_in, von_mises_parts
 from tehl_taichi.runs.summary import life, result_warnings
 from tehl_taichi.runs.summary.film_warnings import worst_ripple
 from tehl_taichi.scene import surface_roughness
@@ -25,7 +25,8 @@ def summarise(store, extra, searches=None):
     :func:`tehl_taichi.engine.task_pool.crowding`, here of this run; optional), steady_error, steady_unknown, steady_parts and
     steady_domain (see :class:`tehl_taichi.march.snapshot.Snapshot`), steady_contact_alone (see
     :func:`tehl_taichi.march.accuracy.contact_alone_bars.searches`), passage_error, passage_unknown and passage_parts alike;
-    zoom (see :func:`tehl_taichi.runs.zoomed_run.summary`; optional); searches: {surface: summary of its fatigue search}, the
+    zoom (see :func:`tehl_taichi.runs.zoomed_run.summary`) and run_in (see :mod:`tehl_taichi.plastic.run_in_numbers`; both
+    optional); searches: {surface: summary of its fatigue search}, the
     worse one first, or None."""
     scene = store.scene
     scales, zoom = Scales.of(scene), extra.get("zoom", {})
@@ -41,6 +42,8 @@ def summarise(store, extra, searches=None):
     elif alone := extra.get("steady_contact_alone"):
         worse = next(iter(alone))
         out["contact_alone"], out["contact_alone_by_surface"] = {"surface": worse, **alone[worse]}, alone
+    if "run_in" in extra:
+        out["run_in"] = extra["run_in"]
     if searches:
         out["fatigue"], out["fatigue_by_surface"] = next(iter(searches.values())), searches
     known, unknown, of_it = (extra.get(f"passage_{what}", {}) for what in ("error", "unknown", "parts"))
@@ -139,6 +142,7 @@ def _roughness(scene, steady):
 def _parts(out):
     """[(part of the summary after the start, {its number that has an error bar: that number's name among the errors})]."""
     parts = [(out.get("transient"), {entry.key: entry.key for entry in quantities.of_part("transient") if entry.error}),
+             (out.get("run_in"), {key: of_run_in(key) for key in RUN_IN}),
              *((part, {FI: name}) for name, part in indices(out.get("fatigue_by_surface", {})).items()),
              *((part, {"max_Pa": name}) for name, part in von_mises_parts(out.get("fatigue_by_surface", {})).items()),
              *((part, {key: f"{name}.{key}" for key in index_statistics.NUMBERS})

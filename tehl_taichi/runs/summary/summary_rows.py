@@ -150,7 +150,7 @@ def _passage_rows(summary):
                  *([SummaryRow("area of solid contact / dry contact area", contact_share(t, AREA))] if t.get(AREA) else []),
                  SummaryRow("worst residual / load / mass error",
                      f"{t['residual_max']:.1e} / {t['load_error_max']:.1e} / {t['mass_error_max']:.1e}")]
-    rows += _zoom_rows(summary.get("zoom"))
+    rows += _zoom_rows(summary.get("zoom")) + _run_in_rows(summary.get("run_in"))
     if "fatigue" in summary:
         return rows + rows_of_fatigue(summary["fatigue"], others(summary)) + _meaning_rows(summary) + _life_rows(summary)
     return rows + (_alone_rows(summary["contact_alone"]) if "contact_alone" in summary else [])
@@ -170,6 +170,21 @@ def _meaning_rows(summary):
         return []
     p, error = found
     return [SummaryRow("Hertz pressure at which the smooth contact has Fi = 1", with_error(p * 1e-9, error * 1e-9, "GPa"), p)]
+
+
+def _run_in_rows(found):
+    """What run-in left."""
+    if not found:
+        return []
+    made = SummaryRow("passages of run-in", f"{found['passages']}", found["passages"],
+                      note=f" ({found['rounds']} rounds of the first{', shaken down' if found['shaken_down'] else ''})")
+    rows = [_of(found, "surface_change_max_m", "surface change by run-in", 1e9, "nm"),
+            _of(found, "plastic_strain_max", "plastic strain by run-in, largest", 100, "%"),
+            *(_of(found, f"residual_{end}_Pa", f"residual stress by run-in, {says}", 1e-6, "MPa")
+              for end, says in (("min", "smallest"), ("max", "largest")))]
+    height = [_of(found, "height_after_m", "height after run-in", 1e6, "um",
+                  note=f" (before {found['height_before_m'] * 1e6:.4g})")] if "height_after_m" in found else []
+    return [made, *height, *rows] if found["plastic_strain_max"] else [made]
 
 
 def _zoom_rows(zoom):

@@ -1,0 +1,11 @@
+"""Hardening of steel, one file each: a new file here is a new choice of `bodies.X.hardening`.
+
+A law gives the flow stress by the yield stress and the plastic strain that a cell has had. May import `values`.
+"""
+
+import sys
+
+from tehl_taichi.laws.hardening.hardening_law import HardeningLaw
+from tehl_taichi.values.registry import collect
+
+HARDENINGS = collect(sys.modules[__name__], HardeningLaw)

@@ -1,0 +1,36 @@
+"""Layers of a body in which steel may flow, and those below that only carry it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+THINNEST = 0.025  # a: an asperity of 1 a makes steel yield first at 0.1 a
+EVEN = 0.2        # a: as far down layers are equally thick (or as far as eight of them go)
+GROWTH = 1.3      # of thicknesses below that
+REACH = 1.0       # a: no steel flows below it, where a smooth contact is worst
+DEEPEST, FASTER = 25.0, 1.5  # depth (a) of the fixed bottom, and growth of the elastic layers towards it
+
+
+@dataclass(frozen=True)
+class Layers:
+    """Thicknesses (m) of all layers from the surface down; steel may flow in the first `count`."""
+
+    thickness: np.ndarray
+    count: int
+
+    @property
+    def depths(self):
+        """Depths (m) of the middles of the layers in which steel may flow."""
+        return (np.cumsum(self.thickness) - self.thickness / 2)[: self.count]
+
+
+def layers(a, spacing):
+    """The Layers of a contact of half-width a (m) on cells of `spacing` (m)."""
+    first = min(spacing, THINNEST * a)
+    found = [first] * max(8, round(EVEN * a / first))
+    while sum(found) < REACH * a:
+        found.append(found[-1] * GROWTH)
+    count = len(found)
+    while sum(found) < DEEPEST * a:
+        found.append(found[-1] * FASTER)
+    return Layers(np.array(found), count)

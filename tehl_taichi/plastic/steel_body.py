@@ -1,0 +1,126 @@
+"""A body whose steel flows: plastic strain of its cells, carried through the moments of passages."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from tehl_taichi.fatigue.stress.unit_loads import ACROSS
+from tehl_taichi.plastic import flow
+from tehl_taichi.plastic.half_space import LayeredHalfSpace
+
+CLOSE = 1e-3     # of the flow stress: what a stress may lie above it, and what the last round of a moment may change
+RELAXED = 1.6    # cells yield into their surroundings: the strain that held surroundings would leave is too small
+ROUNDS = 60      # of a moment, at most
+
+
+@dataclass(frozen=True)
+class Cells:
+    """The cells of a region: layers of steel, x, y; body: of the scene; layers: :class:`tehl_taichi.plastic.layers.Layers`;
+    sides: dx, dy (m); mirrored: rows begin with y = 0 and have their image on the other side; flow_stress: function of cells'
+    layers (by number) and plastic strain, Pa."""
+
+    body: object
+    layers: object
+    sides: tuple
+    shape: tuple
+    mirrored: bool
+    flow_stress: object
+
+    def half_space(self, part=(slice(None), slice(None))):
+        """The :class:`LayeredHalfSpace` of a part of the region."""
+        nx, ny = (len(range(*one.indices(n))) for one, n in zip(part, self.shape))
+        return LayeredHalfSpace(self.body, (nx, 2 * ny - 1 if self.mirrored else ny), self.sides, self.layers)
+
+
+@dataclass(frozen=True)
+class SteelState:
+    """What passages left: plastic strain (layers, 6, x, y), equivalent plastic strain (layers, x, y), residual stress (layers,
+    6, x, y) Pa, sinking of the surface (x, y) m."""
+
+    strain: np.ndarray
+    hardened: np.ndarray
+    residual: np.ndarray
+    sinking: np.ndarray
+
+    @classmethod
+    def virgin(cls, cells):
+        """A body before its first passage."""
+        shape = cells.layers.count, 6, *cells.shape
+        return cls(np.zeros(shape), np.zeros((shape[0], *cells.shape)), np.zeros(shape), np.zeros(cells.shape))
+
+
+def after(cells, state, moments):
+    """The SteelState after moments [(cells that may yield: (layers, x, y) numbers, their elastic stress (n, 6) Pa)]."""
+    part = _region(cells, moments)
+    if part is None:
+        return state
+    zone = _Zone(cells, state, part)
+    for places, stress in moments:
+        zone.follow(places, stress)
+    return zone.left(state)
+
+
+def _region(cells, moments):
+    """Slices of x and y around all cells that may yield, from the first row on where that is mirrored; None without any."""
+    ends = [(places[1].min(), places[1].max() + 1, places[2].min(), places[2].max() + 1) for places, _ in moments
+            if places[0].size]
+    if not ends:
+        return None
+    first, last, left, right = zip(*ends)
+    return slice(min(first), max(last)), slice(0 if cells.mirrored else min(left), max(right))
+
+
+class _Zone:
+    """The part of a body in which cells may yield; stresses are found there alone. What flowed elsewhere before keeps its
+    residual stress here."""
+
+    def __init__(self, cells, state, part):
+        self.cells, self.part, self.space = cells, part, cells.half_space(part)
+        self.strain, self.hardened = state.strain[:, :, *part].copy(), state.hardened[:, *part].copy()
+        self.before, self.kept = self.strain.copy(), state.residual[:, :, *part]
+        self.residual, self.G = self.kept, self.space.G
+
+    def follow(self, places, stress):
+        """One moment: the elastic stress (n, 6) of cells (layers, x, y) that may yield."""
+        layer, x, y = places[0], places[1] - self.part[0].start, places[2] - self.part[1].start
+        at, kinds = (layer, x, y), (layer[:, None], np.arange(6), x[:, None], y[:, None])
+        hardened, strain = self.hardened[at], self.strain[kinds]
+        limit = self.cells.flow_stress(layer, hardened)
+        if not (self._size(stress, kinds) > limit * (1 + CLOSE)).any():
+            return
+        held, found = hardened, strain
+        for _ in range(ROUNDS):
+            trial = flow.deviator(stress + self.residual[kinds]) + 2 * self.G * (found - strain)
+            more, grown = flow.returned(trial, hardened, lambda eps: self.cells.flow_stress(layer, eps), self.G)
+            change = strain + more - found
+            found, held = found + RELAXED * change, hardened + grown
+            self.strain[kinds] = found
+            self.residual = self.kept + self._answer()[0]
+            if (2 * self.G * np.abs(change).max(axis=1, initial=0.0) < CLOSE * limit).all():
+                break
+        self.hardened[at] = held
+
+    def _size(self, stress, kinds):
+        """Von Mises stress of the elastic stress of cells and their residual one."""
+        return flow.equivalent(flow.deviator(stress + self.residual[kinds]))
+
+    def _answer(self):
+        """(residual stress, sinking) of the strain since the passage began."""
+        return _answer(self.cells, self.space, self.strain - self.before)
+
+    def left(self, state):
+        """The SteelState with what happened here."""
+        strain, hardened = state.strain.copy(), state.hardened.copy()
+        strain[:, :, *self.part], hardened[:, *self.part] = self.strain, self.hardened
+        residual, sinking = _answer(self.cells, self.cells.half_space(), strain)
+        return replace(state, strain=strain, hardened=hardened, residual=residual, sinking=sinking)
+
+
+def _answer(cells, space, strain):
+    """(residual stress, sinking) of plastic strain on the rows of the cells."""
+    if not cells.mirrored:
+        return space.answer(strain)
+    image = strain[..., :0:-1] * ACROSS[:, None, None]
+    stress, sinking = space.answer(np.concatenate([image, strain], axis=-1))
+    rows = strain.shape[-1]
+    return stress[..., rows - 1 :], sinking[:, rows - 1 :]

@@ -1,0 +1,183 @@
+"""Run-in over passages made of formulas: rounds of the first passage, the end of it, residual fields, surfaces, refusals."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from rolling import Rolling
+
+import tehl_taichi as tehl
+from tehl_taichi.errors import SceneError
+from tehl_taichi.fatigue.stress.histories import StressHistories
+from tehl_taichi.fatigue.stress.residual_field import ResidualField
+from tehl_taichi.fatigue.stress.row_histories import at_the_surface, histories_of
+from tehl_taichi.plastic import elastic_loads, run_in, run_in_numbers
+from tehl_taichi.plastic.layers import Layers
+from tehl_taichi.plastic.surface_change import SurfaceChange
+
+GEAR = tehl.scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16, "thermal.on": False})
+STEEL = GEAR.replace(**{"bodies.a.yield_stress": 1.5e9, "time.run_in": 3})
+
+
+class Flattened(Rolling):
+    """A passage whose bump of pressure falls with the surface, to nothing where that has sunk by `soft` (m)."""
+
+    soft = 400e-9
+
+    def __init__(self, scene, changes=()):
+        super().__init__(scene)
+        sunk = max((float(change.sinking.max()) for change in changes), default=0.0)
+        self.left = 1 - sunk / self.soft
+        self.items = list(range(len(self)))
+
+    def fields(self, n, names):
+        smooth, found = super().fields(0, names), super().fields(n, names)
+        return {name: smooth[name] + self.left * (found[name] - smooth[name]) for name in found}
+
+
+def repeated(scene, soft=400e-9):
+    seen, kept = [], []
+
+    def march(changes):
+        seen.append(changes)
+        return type("Reader", (Flattened,), {"soft": soft})(scene, changes)
+
+    return *run_in.repeated(scene, march, keep=kept.append), seen, kept
+
+
+@pytest.fixture(scope="module", autouse=True)
+def few_layers():
+    """Six of them: most time goes into what each of them needs."""
+    found = Layers(2.17e-4 * np.r_[np.full(6, 0.1), 0.1 * 1.7 ** np.arange(1, 10)], 6)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(run_in, "layers", lambda a, spacing: found)
+        yield
+
+
+@pytest.fixture(scope="module")
+def done(few_layers):
+    return repeated(STEEL)
+
+
+@pytest.fixture(scope="module")
+def both(few_layers):
+    """One passage, both bodies."""
+    return repeated(STEEL.replace(**{"bodies.b.yield_stress": 1.5e9, "time.run_in": 1}))[1]
+
+
+def test_the_first_passage_is_repeated_until_its_surface_is_the_one_that_it_leaves(done):
+    _, state, seen, kept = done
+    first = state.records[0]
+    assert not seen[0] and 3 <= first["rounds"] <= run_in.ROUNDS and state.unsettled == 0.0
+    before = seen[first["rounds"] - 1][0].sinking  # what the last round saw, and what it left
+    left = kept[first["rounds"] - 1].bodies["a"].start.sinking
+    assert np.abs(left - before).max() <= run_in.SAME * left.max() and left.max() > 10e-9
+    frozen = kept[0].rest.max()  # of the pressures of the elastic passage: too much
+    assert left.max() < 0.9 * frozen
+
+
+def test_passages_end_when_no_cell_yields_and_the_last_one_is_judged(done):
+    reader, state, seen, kept = done
+    last = state.records[-1]
+    assert state.done and kept[-1] is state and last["judged"] and last["new_plastic_strain"] == 0.0
+    assert state.passages <= 3 and np.array_equal(seen[-1][0].sinking, state.bodies["a"].start.sinking)
+    found = run_in_numbers.numbers(STEEL, state)
+    assert found["shaken_down"] and found["passages"] == state.passages and found["contained"]
+    assert found["height_before_m"] == pytest.approx(1.5e-6, rel=0.02)
+    assert found["height_before_m"] - found["height_after_m"] == pytest.approx(found["surface_change_max_m"], rel=0.3)
+    assert found["residual_min_Pa"] < 0 < found["residual_max_Pa"] < -found["residual_min_Pa"]
+    assert [one["passage"] for one in found["history"]] == list(range(1, state.passages + 2))
+
+
+def test_where_nothing_yields_it_is_one_look():
+    reader, state, seen, kept = repeated(STEEL.replace(**{"bodies.a.yield_stress": 2.6e9}))
+    assert len(seen) == 1 and kept == [state] and state.passages == 0 and not state.changes and not state.residual_fields
+    assert run_in_numbers.numbers(STEEL, state)["shaken_down"]
+
+
+def test_a_look_takes_every_third_layer_alone_where_nothing_comes_near(monkeypatch):
+    scene, depths = STEEL.replace(**{"bodies.a.yield_stress": 2.6e9}), []
+    stresses = StressHistories.stresses
+    monkeypatch.setattr(StressHistories, "stresses", lambda self, depth: depths.append(depth) or stresses(self, depth))
+    run_in.following(scene, Flattened(scene), run_in.RunInState())
+    assert len(depths) == 6 / elastic_loads.EVERY
+
+
+@pytest.mark.slow
+def test_one_passage_does_not_take_over_what_the_judged_one_adds(both):
+    assert both.passages == 1 and [one["judged"] for one in both.records] == [False, True]
+    assert run_in_numbers.numbers(STEEL, both)["new_plastic_strain"] == both.records[1]["new_plastic_strain"]
+    assert both.records[0]["plastic_strain"] == max(one.start.hardened.max() for one in both.bodies.values())
+
+
+@pytest.mark.slow
+def test_both_bodies_flow_where_both_have_a_yield_stress(both):
+    assert set(both.bodies) == {"a", "b"} and all(one.start.hardened.any() for one in both.bodies.values())
+    assert {change.surface for change in both.changes} == {"a", "b"} and set(both.residual_fields) == {"a", "b"}
+
+
+def test_a_surface_change_is_exact_at_its_nodes_and_cubic_along_x():
+    x, y = np.arange(12) * 2e-6, np.arange(5) * 3e-6
+    heights = 1e-9 * (x[:, None] / 1e-6) ** 3 * (1 + y / 3e-6)
+    change = SurfaceChange("a", x, y, heights, True)
+    assert_allclose(change.at(x, -y), heights.T, rtol=1e-12)
+    middle = x[2:-3] + 0.7e-6
+    assert_allclose(change.at(middle, y[:2]), 1e-9 * (middle / 1e-6) ** 3 * np.array([[1], [2]]), rtol=1e-9)
+    assert not change.at(np.array([-9e-6, 40e-6]), y).any() and not change.at(x, np.array([20e-6])).any()
+    line = SurfaceChange("a", x, np.zeros(1), heights[:, :1], False)
+    assert_allclose(line.at(x, np.linspace(-1, 1, 3)), np.tile(heights[:, 0], (3, 1)))
+
+
+def field(x, y):
+    """A field whose components are linear in x, y and depth."""
+    depths = np.array([2e-6, 6e-6, 12e-6])
+    part = np.arange(1, 7)[:, None, None]
+    stress = np.stack([1e12 * part * (z + 0.1 * x[:, None] + 0.2 * y) for z in depths])
+    return ResidualField(x, y, depths, stress)
+
+
+def test_residual_fields_are_linear_between_points_and_free_at_the_surface():
+    x, y = np.linspace(-1e-4, 1e-4, 9), np.linspace(0, 1e-4, 5)
+    at_x, at_y, deep = np.array([1.1e-5, -7e-5]), np.array([3e-5]), np.array([0.0, 1e-6, 4e-6, 12e-6, 30e-6])
+    found = field(x, y).at(at_x, at_y, deep)
+    wanted = 1e12 * (deep + 0.1 * at_x[:, None, None] + 0.2 * at_y[:, None])[..., None] * np.arange(1, 7)
+    wanted[..., [2, 4, 5]] *= np.minimum(deep / 2e-6, 1)[:, None]
+    assert_allclose(found[:, :, :4], wanted[:, :, :4], rtol=1e-9, atol=1.0)
+    assert not found[:, :, 4].any() and not field(x, y).at(np.array([2e-4]), at_y, deep).any()
+
+
+def test_histories_hold_the_residual_field_of_their_reader():
+    reader = Rolling(GEAR)
+    positions = np.array([reader.feature_x(n) for n in range(len(reader))])
+    plain = StressHistories(GEAR, reader, positions)
+    reader.residual_fields = {"a": field(plain.x, plain.y), "b": field(plain.x, 2 * plain.y)}
+    left = StressHistories(GEAR, reader, positions)
+    depths, rows = [5e-6, 9e-6], slice(1, 3)
+    wanted = reader.residual_fields["a"].at(plain.x, plain.y, np.array([0.0, *depths]))
+    kinds = [(row, False) for row in range(plain.rows.start, plain.rows.stop)]
+    more = [(one, two - one) for one, two in zip(*(np.stack(histories_of(one, depths, kinds)) for one in (plain, left)))]
+    for row, (_, added) in enumerate(more):
+        assert_allclose(added, np.broadcast_to(wanted[:, row, 1:].transpose(1, 0, 2)[:, :, None], added.shape), atol=1e3)
+    for depth, one in ((0.0, 0), (5e-6, 1)):
+        found = [p.history(rows, p.stresses(depth), depth=depth) if depth else at_the_surface(p)(rows) for p in (plain, left)]
+        added = (found[1] - found[0]).reshape(plain.x.size, 2, -1, 6)
+        assert_allclose(added, np.broadcast_to(wanted[:, rows, one, None], added.shape), atol=1e3)
+
+
+@pytest.mark.parametrize("changes, words", [
+    ({"time.run_in": 2}, "needs the yield stress of a body that moves"),
+    ({"time.run_in": 2, "bodies.a.yield_stress": 2e9, "zoom.factor": 2}, "exclude each other"),
+    ({"time.run_in": 2, "bodies.a.yield_stress": 2e9, "time.steps": 9}, "needs whole passages"),
+    ({"time.run_in": 2, "bodies.a.yield_stress": 2e9, "time.x_end": 0.0}, "needs whole passages"),
+    ({"time.run_in": 2, "bodies.a.yield_stress": 1e9}, "whole track would flow"),
+    ({"time.run_in": 2, "bodies.b.yield_stress": 1.8e9, "bodies.b.hardening": "swift-52100"}, "first flows at 1.03 GPa")])
+def test_scenes_without_an_answer_are_refused(changes, words):
+    with pytest.raises(SceneError, match=words):
+        GEAR.replace(**changes)
+
+
+def test_a_body_without_yield_stress_stays_elastic():
+    assert [one.name for one in run_in.flowing(STEEL)] == ["a"]
+    assert "bodies.b.hardening" in tehl.scene("gear").replace(**{"bodies.b.hardening": "swift-52100"}).warnings()[0]
+    assert not replace(STEEL, time=replace(STEEL.time, steady_only=True)).runs_in
