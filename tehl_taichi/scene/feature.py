@@ -28,11 +28,11 @@ def _about(key, general):
 class SharedKeys:
     """Keys that shapes share."""
 
-    shape: str = choice("cosine", "what it is", tuple(SHAPES))
+    shape: str = choice("cosine", "shape of the feature (`tehl scenes`)", tuple(SHAPES))
     surface: str = choice("a", "surface that carries it", ("a", "b"))
     height: float = quantity(1.5e-6, "m", _about("height", "height"), -1e-3, 1e-3)
-    width: float = quantity(200e-6, "m", _about("width", "along x"), 1e-6, LARGEST)
-    length: float = quantity(0.0, "m", _about("length", "along y"), 0.0, LARGEST, infinite=True, usual=5e-4)
+    width: float = quantity(200e-6, "m", _about("width", "size along x"), 1e-6, LARGEST)
+    length: float = quantity(0.0, "m", _about("length", "size along y"), 0.0, LARGEST, infinite=True, usual=5e-4)
     x: float = quantity(0.0, "m", "centre, ahead of the first feature", -LARGEST, LARGEST, usual=1e-4)
     y: float = quantity(0.0, "m", "centre", -LARGEST, LARGEST, usual=1e-4)
     extent_x: float = quantity(0.0, "m", _about("extent_x", "length of the patch"), 0.0, LARGEST, usual=5e-4)

@@ -9,7 +9,7 @@ from tehl_taichi.scene import data_sheet
 from tehl_taichi.values.quantity import check, choice, documented, kinds, text
 
 _OIL: Any = section(
-    "_OIL", name=text("reference-pao", "`tehl oils` lists the named ones"),
+    "_OIL", name=text("reference-pao", "name (`tehl oils` lists the named oils)"),
     source=text("PAO of Everitt, licentiate thesis 2018; density after Larsson et al. 2000", "source of the numbers",
                 one_line=False),
     **data_sheet.KEYS,

@@ -9,7 +9,7 @@ from tehl_taichi.values.quantity import quantity
 
 TAU_0 = quantity(10e6, "Pa", "stress where the oil begins to thin", 1e3, 1e10)
 TAU_L0 = quantity(10e6, "Pa", "limiting shear stress at p = 0", 1e3, 1e9)
-GAMMA = quantity(0.075, "", "its rise with pressure", 0.0, 1.0)
+GAMMA = quantity(0.075, "", "rise of the limiting shear stress with pressure", 0.0, 1.0)
 
 
 @pointwise

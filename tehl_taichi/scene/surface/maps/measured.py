@@ -40,7 +40,7 @@ class Measured:
     level: str = choice("plane", "map, profile: shape removed from the heights; form: plane and curvature", tuple(LEVELS))
     offset_x: float = quantity(0.0, "m", "map, profile: centre of the part used, from the centre of all heights; extent_x, "
                                          "extent_y: its size", -OFFSET, OFFSET, usual=1e-4)
-    offset_y: float = quantity(0.0, "m", "map, profile: the same along y", -OFFSET, OFFSET, usual=1e-4)
+    offset_y: float = quantity(0.0, "m", "map, profile: as offset_x, along y", -OFFSET, OFFSET, usual=1e-4)
     cutoff: float = quantity(0.0, "m", "map, profile: Gaussian low-pass (ISO 16610-61, -21), wavelength reduced to half its "
                                        "amplitude; 0: none", 0.0, 1e-2, usual=2e-5)
     sha256: str = text("", "map, profile: checksum of the heights, set when they are read; a file with other heights is then "

@@ -21,7 +21,7 @@ class Random:
     seed: int = count(1, "rough, ground: seed of the random numbers", 0, 2**31)
     shortest_x: float = quantity(0.0, "m", "rough, ground: waves along x shorter than this are left out; the others keep their "
                                            "heights and phases", 0.0, LONGEST, usual=1e-4)
-    shortest_y: float = quantity(0.0, "m", "rough, ground: the same along y", 0.0, LONGEST, usual=1e-4)
+    shortest_y: float = quantity(0.0, "m", "rough, ground: as shortest_x, along y", 0.0, LONGEST, usual=1e-4)
 
 
 class RandomWaves(Patch):
