@@ -110,6 +110,8 @@ def print_flank(found):
         put(f"{question} {headline}")
         for sentence in sentences:
             put(sentence)
+    for sentence in flank_page.film_words(found):
+        put(sentence)
     put(f"assumed: {found.record['assumption']}")
     put(f"load: {found.record['load_sharing']}")
     for at, reason in found.failed:

@@ -5,10 +5,11 @@ import numpy as np
 from tehl_taichi.report import place_sections, place_verdict, place_warnings, position_pages
 from tehl_taichi.report.document import Answer, Page, Section, drawn, facts, sentences, table
 from tehl_taichi.report.number_text import FEW, unit_spelled, value_text
-from tehl_taichi.report.plots import colour, line, stacked
+from tehl_taichi.report.plots import colour, line, rings, stacked
 from tehl_taichi.runs.cam import cam_columns, cam_figure
 from tehl_taichi.runs.cam.stored_cam import Cam
 from tehl_taichi.runs.flank.flank_columns import dig, error_of
+from tehl_taichi.runs.flank.flank_figure import JUDGED
 from tehl_taichi.values.coded_text import without_options
 
 
@@ -62,9 +63,13 @@ def _thinnest(cam):
 def figures(cam):
     """The panels of the figure, as far as they have values."""
     return [stacked(f"cam-{n}", f"{label[0].upper()}{label[1:]}.", cam_figure.ANGLE, [(label, [
-        line(x.tolist(), [None if np.isnan(value) else value * factor for value in y.tolist()], name, colour(m),
-             mode="lines+markers") for m, (name, (x, y, _)) in enumerate(lines.items())], {})], height=330)
-        for n, (label, factor, lines) in enumerate(cam_figure.panels(cam))]
+        _line(name, x.tolist(), y.tolist(), factor, colour(m)) for m, (name, (x, y, _)) in enumerate(lines.items())], {})],
+        height=330) for n, (label, factor, lines) in enumerate(cam_figure.panels(cam))]
+
+
+def _line(name, x, y, factor, shade):
+    y = [None if np.isnan(value) else value * factor for value in y]
+    return rings(x, y, name, shade) if name == JUDGED else line(x, y, name, shade, mode="lines+markers")
 
 
 def warnings(cam):

@@ -4,10 +4,10 @@ from tehl_taichi.fatigue.pressure_alone import why_none
 from tehl_taichi.report import place_sections, place_verdict, place_warnings, position_pages
 from tehl_taichi.report.document import Answer, Page, Section, drawn, facts, sentences, table
 from tehl_taichi.report.number_text import FEW, unit_spelled, value_text
-from tehl_taichi.report.plots import colour, line, stacked
+from tehl_taichi.report.plots import colour, line, rings, stacked
 from tehl_taichi.runs.flank import specific_film
 from tehl_taichi.runs.flank.flank_columns import dig, plotted, tables
-from tehl_taichi.runs.flank.flank_figure import PANELS
+from tehl_taichi.runs.flank.flank_figure import JUDGED, PANELS
 from tehl_taichi.runs.flank.stored_flank import Flank
 from tehl_taichi.scene.gear_pair import GearPair
 from tehl_taichi.values.coded_text import without_options
@@ -124,7 +124,9 @@ def _lines(flank, lines, factor):
         x, y = _series(flank, what)
         if x:
             y = [value if value is None else value * factor for value in y]
-            out.append(line([value * 1e3 for value in x], y, name, colour(len(out)), mode="lines+markers"))
+            x = [value * 1e3 for value in x]
+            out.append(rings(x, y, name, colour(len(out))) if name == JUDGED else
+                       line(x, y, name, colour(len(out)), mode="lines+markers"))
     return out
 
 

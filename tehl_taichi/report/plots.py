@@ -41,6 +41,13 @@ def marks(x, y, name, colour, panel=1, symbol="cross-thin", **more):
             **more}
 
 
+def rings(x, y, name, colour):
+    """Open circles around points of lines."""
+    found = marks(x, y, name, colour, symbol="circle-open")
+    found["marker"] |= {"size": 9, "line": {"width": 1.5, "color": colour}}
+    return found
+
+
 def _in(panel):
     return {} if panel == 1 else {"yaxis": f"y{panel}"}
 

@@ -126,8 +126,10 @@ class PlaceComparison:
         return [row for row in rows if any(row.numbers)]
 
     def unequal(self) -> list:
-        """Names of the quantities that differ somewhere, as they are printed."""
-        return list(dict.fromkeys(row.name for row in self.rows if len(set(row.texts)) > 1))
+        """Names of the quantities that differ somewhere, as they are printed, or that one of the results does not have."""
+        missing = {name for name in self.quantities for table in self.tables if name not in {one for one, _ in table.numbers}}
+        return list(dict.fromkeys(row.name for row in self.rows
+                                  if row.name in missing or len(set(row.texts) - {NONE}) > 1))
 
     def line(self, table, name):
         """(x, values, error bars or None), in the printed unit, of a quantity along a table; nan between both sides of a

@@ -3,7 +3,7 @@
 import numpy as np
 
 from tehl_taichi.runs.flank.flank_columns import plotted
-from tehl_taichi.runs.flank.flank_figure import LAST, PANELS
+from tehl_taichi.runs.flank.flank_figure import LAST, PANELS, style
 from tehl_taichi.view.figures import palette
 
 ANGLE = "angle of the cam (degrees)"
@@ -23,7 +23,7 @@ def drawn(page, cam):
     for ax, (label, factor, lines) in zip(axes[:, 0], shown):
         for (name, (x, y, error)), colour in zip(lines.items(), palette.LINES):
             bars = error * factor if np.isfinite(error).any() else None
-            ax.errorbar(x, y * factor, bars, fmt=".-", color=colour, label=name, **palette.BARS)
+            ax.errorbar(x, y * factor, bars, color=colour, label=name, **style(name), **palette.BARS)
         ax.set_ylabel(label)
         ax.grid()
         ax.legend()

@@ -5,6 +5,7 @@ import numpy as np
 from tehl_taichi.runs.flank.flank_columns import plotted
 from tehl_taichi.view.figures import palette
 
+JUDGED = "judged"
 # panel: label, factor, {legend: keys in the summary}; "p_H", "judged" ...: see flank_columns.plotted
 PANELS = (("film (µm)", 1e6, {"steady, centre": ("steady", "h_c_m"), "steady, smallest": ("steady", "h_min_m"),
                               "smallest, feature passes": ("transient", "h_min_m")}),
@@ -17,7 +18,7 @@ PANELS = (("film (µm)", 1e6, {"steady, centre": ("steady", "h_c_m"), "steady, s
                      "median at the surface": ("fatigue", "statistics", "median"),
                      "99th percentile below it": ("fatigue", "below", "statistics", "p99"),
                      "largest at the surface": ("fatigue", "Fi_max"), "largest below it": ("fatigue", "below", "Fi_max"),
-                     "judged": "judged"}),
+                     JUDGED: "judged"}),
           ("surface with Fi > 1 (%)", 100, {"of the worse body": ("fatigue", "statistics", "share_above_1")}),
           ("λ", 1, {"h_c/Sq": ("lambda",), "λ_GF (formula)": "lambda_GF", "h_min/Ra": "h_min_Ra"}),
           ("friction coefficient", 1, {"steady": ("steady", "friction_coefficient"),
@@ -43,10 +44,15 @@ def _panel(ax, flank, label, factor, lines):
     for (name, series), colour in zip(found.items(), palette.LINES):
         x, y, error = np.array(series, float).T
         error = error * factor if np.isfinite(error).any() else None
-        ax.errorbar(x * 1e3, y * factor, error, fmt=".-", color=colour, label=name, **palette.BARS)
+        ax.errorbar(x * 1e3, y * factor, error, color=colour, label=name, **style(name), **palette.BARS)
     ax.set_ylabel(label)
     ax.grid()
     ax.legend()
+
+
+def style(name):
+    """How a series is drawn: the number by which a position is judged, mostly one of the others, as a ring around that."""
+    return {"fmt": "o", "mfc": "none"} if name == JUDGED else {"fmt": ".-"}
 
 
 def _series(flank, what):
