@@ -71,8 +71,8 @@ class Curves:
 
 
 class CurvesBar:
-    """The curves above a bar of the steps, or of the parts of another stage, on stderr; drawn by :meth:`show` alone: no thread
-    needs it meanwhile. of: what it counts; the time left is shown of steps alone, which take about the same."""
+    """Curves above a progress bar of the steps, or of the parts of another stage, on stderr; only :meth:`show` draws them, so
+    that no thread is needed. of: what it counts; the time left is shown of steps alone, which take about the same."""
 
     def __init__(self, curves, total, done, of="step"):
         from rich.console import Console, Group

@@ -55,7 +55,7 @@ def warning_lines(sentences):
 
 
 def wrapped(sentence):
-    """Print a sentence within the width of the terminal, further lines indented."""
+    """Print a sentence within the width of the terminal, with further lines indented."""
     import shutil
     import textwrap
 

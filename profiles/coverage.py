@@ -151,7 +151,7 @@ def _exit(rng, kind, nx):
 
 
 def run(path, seed, quick=False, progress=None, part="coverage"):
-    """Rows of all scenes of a battery (see :func:`row`), kept in the JSON file `path` as they come."""
+    """Rows of all scenes of a battery (see :func:`row`), stored in the JSON file `path` one by one."""
     rows, path = [], Path(path)
     for n, (kind, description) in enumerate(battery(seed, quick, part)):
         if progress:

@@ -76,7 +76,7 @@ def steady(description, repeats):
 
 
 def median(function, repeats):
-    """Median time (s) of so many calls after one for warming up."""
+    """Median time (s) of a number of calls after one warm-up call."""
     seconds = []
     for _ in range(repeats + 1):
         started = time.perf_counter()

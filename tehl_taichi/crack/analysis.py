@@ -95,7 +95,7 @@ def follow(plane, scene, options):
 
 
 def _why_not(plane, side):
-    """Why no crack starts on that side."""
+    """Reason why no crack starts on that side."""
     if not ((plane.centres < 0) if side == "entry" else (plane.centres > 0)).any():
         return "the passage has no moment with the feature on this side of the contact"
     return "the surface is never in tension on this side, so a crack would not open"

@@ -30,7 +30,7 @@ def shut(faces, values, held):
 
 
 def _tried(M, gap, closed):
-    """(q (contacts, moments), at which moments it fits) when just these contacts touch."""
+    """(q (contacts, moments), moments at which it fits) if exactly these contacts touch."""
     q = np.zeros_like(gap)
     q[closed] = np.linalg.solve(M[np.ix_(closed, closed)], -gap[closed])
     wrong = np.where(closed[:, None], q < 0, gap + M @ q < -ROUND * np.abs(gap).max(axis=0))

@@ -67,7 +67,7 @@ def _normals(direction):
 
 
 def _contacts(direction, normal):
-    """(rows, number of those that rub): see :class:`CrackFaces`."""
+    """(rows, number of rubbing contacts): see :class:`CrackFaces`."""
     nodes, eye = normal.size, np.eye(2 * normal.size)
     kinks = 1 + np.flatnonzero(direction[1:] != direction[:-1])
     plain = np.setdiff1d(np.arange(nodes), kinks)

@@ -55,7 +55,7 @@ class CrackOptions:
 
     @property
     def filling(self):
-        """Name of what is inside."""
+        """Name of the filling."""
         if isinstance(self.oil, str):
             return self.oil
         return "film" if self.oil else "dry"

@@ -1,4 +1,4 @@
-"""The kind of entry that fills a crack, and the oil in it."""
+"""The entry of a crack filling, and the oil in it."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""A loaded crack with something inside, and its way through the passage where pressures of oil are unknowns.
+"""A loaded crack with a filling, and its passage if the oil pressures are unknowns.
 
 Oil in a part of the crack (a cell) is a contact, too: its pressure is not negative, the volume of the cell is not smaller than
 that of the oil, one of them fits (as Elrod 1981 has it for films that break). So pressures and contact forces are found

@@ -46,7 +46,7 @@ def transform(values, length, kind=SINGLE):
 
 
 def transform_back(spectra):
-    """The way back of :func:`transform`, in single precision."""
+    """Inverse of :func:`transform`, in single precision."""
     out = transformed(_padded(spectra, spectra.shape[-1], -1, SINGLE), "FFTW_BACKWARD")
     out /= spectra.shape[-1]
     return out
@@ -74,7 +74,7 @@ def half_back(spectra, length, axis, kind=SINGLE):
 
 
 def _padded(values, length, axis, kind):
-    """A buffer for FFTW with these values and zeros behind them, up to so many along `axis`."""
+    """A buffer for FFTW with these values, filled with zeros up to the given length along `axis`."""
     out = pyfftw.empty_aligned(_with(values.shape, axis, length), kind)
     along = np.moveaxis(out, axis, 0)
     along[: values.shape[axis]], along[values.shape[axis] :] = np.moveaxis(values, axis, 0), 0

@@ -88,7 +88,7 @@ def check(arch=None, threads=None):
 
 
 def _driven():
-    """Refuse a graphics card where there is none: Taichi would take the cores instead, in silence."""
+    """Refuse a missing graphics card: Taichi would use the cores without a message."""
     try:
         ctypes.CDLL(DRIVER)
     except OSError:
@@ -166,8 +166,8 @@ def _check_home():
 
 
 def leave(code):
-    """End this process now, with its kernels written: what Taichi frees piece by piece the system takes at once, which saves
-    0.2 of the 3 s of a steady circle. Returns where nothing was started here, or Taichi is another than expected."""
+    """End this process at once after its kernels are written: the system frees the memory faster than Taichi does (0.2 of the 3
+    s of a steady circle). Returns if nothing was started here, or if this Taichi is unknown."""
     if not _started or _home[0] != os.getpid():
         return
     from taichi.lang import impl

@@ -199,7 +199,7 @@ def _cut(fatigue):
 
 
 def _limits(fatigue, strength):
-    """The limits that its constants follow from, Pa; {} where they were given themselves, or by a table."""
+    """The limits that determine its constants, Pa; {} if the constants or a table were given."""
     if strength.table is not None:
         return {}
     return {f"{key}_Pa": float(getattr(fatigue, key)) for key in fatigue_limits.given_limits(vars(fatigue))}

@@ -47,7 +47,7 @@ def farthest(a: ti.template(), b: ti.template(), row, steps, c):
 
 @ti.func
 def pivot(px, py, m, fx, fy):
-    """Smallest circle around m <= 3 points and one outside point f, which lies on it: circle and the two partners."""
+    """Smallest circle through an outside point f around m <= 3 points and f: circle and the two other points on it."""
     best = vec3(0.0, 0.0, 1e300)
     bi, bj = -1, -1
     for i in ti.static(range(3)):

@@ -1,5 +1,5 @@
-"""Peaks of the index on a surface, apart from each other. The critical point alone does not show, on a rough
-surface, whether the asperity that one asks about is harmless."""
+"""Peaks of the index on a surface, apart from each other. On a rough surface the critical point alone does not show whether
+another asperity is harmless."""
 
 import numpy as np
 

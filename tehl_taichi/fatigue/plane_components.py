@@ -1,4 +1,4 @@
-"""A stress as kernels take it, and what it is on a plane."""
+"""A stress in the form of the kernels, and its components on a plane."""
 
 from tehl_taichi.engine.language import ti
 from tehl_taichi.fatigue.enclosing_circle import vec3

@@ -65,7 +65,7 @@ def worst_of(points, default=None):
 
 
 def worse(worst, places, history, f, normals, local):
-    """The worst of these points, all of one depth, or the one so far there (or None); places(n): depth, x and y (m) of one of
+    """The worst of these points, all of one depth, and the worst so far (or None); places(n): depth, x and y (m) of one of
     them; local: LocalStrength of the depth."""
     top = int(np.argmax(f))
     if worst is not None and f[top] <= worst.f:

@@ -51,7 +51,7 @@ def circular_flow(s, r):
 
 @pointwise
 def circular_stress(s, r):
-    """Stress in the middle of the film over tau_L; those of the walls are s more and less."""
+    """Stress in the middle of the film over tau_L; at the walls it is larger or smaller by s."""
     t = minimum(maximum(s, LEAST_S), 1.0)
     K2 = minimum(1.0 + r * r, 1.0 / t)
     return sqrt(maximum((K2 - 1.0) * (1.0 / K2 - t * t), 0.0))

@@ -17,11 +17,11 @@ def _nothing(oil, Gamma, p):
 
 @dataclass(frozen=True, kw_only=True)
 class Law(Entry):
-    """numbers: {key: declaration} of what the law takes from a scene (see :mod:`tehl_taichi.values.quantity`); most_p (Pa),
-    most_Gamma (deg C): up to where it was measured or is known to hold.
+    """numbers: {key: declaration} of the values that the law takes from a scene (see :mod:`tehl_taichi.values.quantity`);
+    most_p (Pa), most_Gamma (deg C): up to where it was measured or is known to hold.
 
-    refused, doubted(oil, Gamma, p): a sentence, or "", about the law in a contact of inlet temperature Gamma and Hertz pressure
-    p: why it has no value there; why it is doubtful.
+    refused, doubted(oil, Gamma, p): the reason (or "") why the law has no value, or is doubtful, in a contact of inlet
+    temperature Gamma and Hertz pressure p.
     """
 
     numbers: Mapping
@@ -38,17 +38,18 @@ class Law(Entry):
 @dataclass(frozen=True, kw_only=True)
 class ShearLaw(Law):
     """stress(rheology, newtonian, p): the stress (Pa) that a film carries for the Newtonian stress eta * (shear rate); odd in
-    it, and equal to it where it is small. thins: whether it ever is another one.
+    it, and equal to it where it is small. thins: whether it ever differs from the Newtonian stress.
 
-    What a film of one viscosity carries under a gradient of the pressure along the sliding, with wall = h |grad p|/2 >= 0, the
-    stress that it puts on both walls, and newtonian >= 0, that of the sliding:
+    Flow of a film of one viscosity under a pressure gradient along the sliding; wall = h |grad p|/2 >= 0 is the stress of the
+    gradient on both walls, newtonian >= 0 the Newtonian stress of the sliding:
 
-    flow(rheology, wall, newtonian, p): over what Newtonian oil carries; and its derivatives by ln wall, ln newtonian and p.
+    flow(rheology, wall, newtonian, p): flow over that of Newtonian oil, and its derivatives by ln wall, ln newtonian and p.
     beyond: stress and derivatives of the part on top, which is too steep in `wall` for Newton's method; power: of the wall that
     what is carried then grows with. mean_stress: in the middle of the film. slip: part of the sliding that the oil slips along
-    a wall. limit(rheology, p): what no wall holds more than.
+    a wall. limit(rheology, p): largest stress of a wall.
 
-    None: of the stress alone, by the circular law that touches it (:mod:`tehl_taichi.laws.tangent_circle`), or none such.
+    None: derived from the stress alone, by the circular law with an equal tangent (:mod:`tehl_taichi.laws.tangent_circle`),
+    or without effect.
     """
 
     stress: Callable

@@ -67,7 +67,7 @@ def unsettled(means, loaded):
 
 
 def _difference(blocks):
-    """Largest between the means of the newer and the older half of `blocks`; or how far one lies off the newer, where far."""
+    """Largest difference between the means of the newer and the older half of `blocks`, or of a block from the newer mean."""
     half = len(blocks) // 2
     mean = np.mean(blocks[:half], axis=0)
     flutter = max(float(np.abs(T - mean).max()) for T in blocks) if half > 1 else 0.0

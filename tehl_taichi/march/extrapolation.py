@@ -51,7 +51,7 @@ def resting(F: ti.template(), at: ti.template(), edges: ti.template(), by_edge: 
 @ti.func
 def with_feature(F: ti.template(), at: ti.template(), row, ways: ti.template(), edges: ti.template(), by_edge: ti.template(),
                  way):
-    """The state in a row where what differs from what does not move has gone its way."""
+    """The state in a row after its moving part has moved."""
     out = resting(F, at, edges, by_edge, row, at.i)
     begin, end = nodes(ways, way)
     for m in range(begin, end):
@@ -135,7 +135,7 @@ def trust(S: ti.template(), F: ti.template(), G: Table, order: ti.template(), co
 
 
 class StateExtrapolation:
-    """The last pressures of `levels` and what comes next.
+    """The last pressures of `levels`, and their extrapolation.
 
     order: highest order of extrapolation; the newest pressure is that in the table; at: how far the feature has moved, in cells
     (it moves at a constant speed, so this is the time, too); state: what :meth:`state` gave is continued from, if it is in

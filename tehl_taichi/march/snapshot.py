@@ -1,4 +1,4 @@
-"""A snapshot: one accepted state of a run in SI units; while it is the newest, all that is needed to continue from it."""
+"""A snapshot: one accepted state of a run in SI units; while it is the newest, a march can continue from it."""
 
 import functools
 from dataclasses import dataclass, field

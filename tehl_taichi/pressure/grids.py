@@ -113,5 +113,5 @@ def columns(nx, ny):
 
 
 def table_columns(sizes):
-    """Columns of grids of these sizes, with what stencils touch in front and behind."""
+    """Columns of grids of these sizes, with the columns in front and behind that stencils touch."""
     return sum(columns(*size) for size in sizes) + 2 * (PAD + sizes[0][0] + 1)

@@ -18,8 +18,8 @@ WHOLE = 1e-9  # cells
 
 
 def shift(cells):
-    """(back, weights) of what is moved by `cells` towards +x: at node i the sum of weights[k] times the value at i - back + k.
-    Whole cells have a single weight, 1."""
+    """(back, weights) of a field that is moved by `cells` towards +x: at node i the sum of weights[k] times the value at i -
+    back + k. Whole cells have a single weight, 1."""
     whole = math.floor(cells + WHOLE)
     part = cells - whole
     return whole + 3, _weights(0.0 if part < WHOLE else part)

@@ -168,8 +168,7 @@ class PressureSolver:
         return self._converged(self._begin(), self.levels.scene.numerics.tolerance)
 
     def _begin(self, kept=False):
-        """Linearise about the state in the table; kept: near the one that the last linear solve prepared for. Returns its
-        merit."""
+        """Linearise about the state in the table; kept: the state is near that of the last linear solve. Returns its merit."""
         self.residual()
         self.equations.linearise(kept and self.change < SAME_SLOPES)
         self.before, self.kept, self.rises = None, kept, 0

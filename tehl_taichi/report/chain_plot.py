@@ -33,7 +33,7 @@ def _panel(n, traces):
 
 
 def _layout():
-    """Two rows of two panels; those of depths have it downwards."""
+    """Layout of two rows of two panels; panels over the depth have it downwards."""
     places = ((LEFT, TOP), (RIGHT, TOP), (LEFT, BOTTOM), (RIGHT, BOTTOM))
     out = {"margin": {"l": 10, "r": 14, "t": 60, "b": 10}, "hovermode": "closest",
            "legend": {"orientation": "h", "x": 0, "y": 1.02, "yanchor": "bottom"}}

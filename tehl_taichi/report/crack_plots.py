@@ -1,4 +1,4 @@
-"""Cracks of a run, if `tehl crack --keep` was requested them: the answer, the section below the feature, K in the passage."""
+"""Cracks of a run, if `tehl crack --keep` stored them: the answer, the section below the feature, K in the passage."""
 
 import numpy as np
 

@@ -25,7 +25,7 @@ class PageBlock:
 
 @dataclass(frozen=True)
 class Section:
-    """A heading and its parts, None among them where there is nothing to show; without any it is left out."""
+    """A heading and its parts (None: nothing to show); a section without parts is left out."""
 
     title: str
     parts: tuple
@@ -102,7 +102,7 @@ def links(rows, title):
 
 
 def drawn(*figures):
-    """Figures beside each other where there is room; None without any."""
+    """Figures next to each other if the page is wide enough; None without figures."""
     found = [figure for figure in figures if figure]
     return PageBlock("figures", {"figures": found}) if found else None
 

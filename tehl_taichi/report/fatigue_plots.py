@@ -89,7 +89,7 @@ def _trace(search, which, found, length):
 
 
 def _briefly(search):
-    """Its moments behind a caption, where there are two searches."""
+    """Moments of a search, for the end of a caption if the page has two searches."""
     return f", {search.short}" if search.short else ""
 
 

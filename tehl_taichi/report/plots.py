@@ -76,7 +76,7 @@ def _frame(legend=True):
 
 
 def colours(scale):
-    """The colours of a map by the name that the palette has for them: plotly.js does not know them all."""
+    """The colours of a map by its name in the palette; plotly.js does not know all maps."""
     from plotly.colors import get_colorscale
 
     return get_colorscale(scale)

@@ -27,7 +27,7 @@ def errors(summary):
 
 
 def _in_order(values):
-    """[(numbers, behind what they are)]: those of the resolved part, on which an answer rests, first."""
+    """[(numbers, text after their names)]; the resolved part, which decides the verdict, stands first."""
     if "resolved" not in values:
         return [(values, "")]
     return [(values["resolved"], f", {resolved(values['resolved'])}"), (values, ", whole passage")]

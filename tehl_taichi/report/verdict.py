@@ -155,7 +155,7 @@ def _load_too(verdict, searches):
 
 
 def _worst_alone(searches):
-    """(surface, numbers) of the smooth body that carries more, None where none is known."""
+    """(surface, numbers) of the smooth body with the larger index, or None."""
     found = [(name, part) for name, one in searches.items() if (part := searched(one).get("contact_alone"))]
     return max(found, key=lambda one: one[1]["Fi_max"], default=None)
 

@@ -64,7 +64,7 @@ class Oil(_OIL):
 
     @property
     def expands(self):
-        """Whether heat takes something of its density, where `expansion` lets it."""
+        """Whether its density falls with temperature, if `expansion` allows it."""
         return density.LAWS[self.density].expansivity(self, 0.0, 40.0) > 0
 
     @property

@@ -83,7 +83,7 @@ def _shear(scene):
 
 
 def _without_temperature(scene):
-    """Laws without temperature where the user speaks of one."""
+    """Warning: laws without temperature although the scene gives one."""
     oil, T = scene.oil, scene.operation
     numbers = viscosity.LAWS[oil.viscosity].thinned_by
     if numbers is None or any(getattr(oil, key) for key in numbers):

@@ -9,8 +9,8 @@ def doubled(scene):
 
 
 def first(scene, enough, most):
-    """(nx, ny) of the first grid, of its own, with twice, four times ... the cells, on which enough(scene); None where none of
-    up to `most` columns is."""
+    """(nx, ny) of the first grid with once, twice, four times ... the cells for which enough(scene) holds; None if no grid up
+    to `most` columns does."""
     while not enough(scene):
         if 2 * scene.grid.nx > most:
             return None

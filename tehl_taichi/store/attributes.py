@@ -69,7 +69,7 @@ def _wrong_numbers(table, above=""):
 
 
 def _kind(name, above):
-    """The kind of an entry, None where any will do: what later versions add."""
+    """The kind of an entry; None: any kind, as for entries of later versions."""
     if above.endswith(("unknown.", "unknown_codes.", "error.")):
         return float if above.endswith("error.") else str
     if "error_parts." in above:

@@ -25,7 +25,7 @@ def forget(folder, number):
 
 
 def last(store, folder, steps, shape):
-    """(entries before it, state) of the last one among the first `steps` entries; shape: that its pressure must have.
+    """(entries before it, state) of the last checkpoint within the first `steps` entries; shape: of its pressure.
     Raises StoreError."""
     number = max((n for n in _numbers(folder) if n <= steps), default=None)
     if number is None:

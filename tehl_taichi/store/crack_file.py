@@ -18,7 +18,7 @@ def place(store):
 
 
 def check(store):
-    """Raises StoreError where the answer of the run in the store at this path cannot be kept."""
+    """Check that the crack result of the run in the store at this path can be written. Raises StoreError."""
     user_files.check(place(store), force=True)
 
 
@@ -32,7 +32,7 @@ def keep(result, store):
 
 
 def kept(store):
-    """{"summary", "drawn"} of what is kept of this run, or None. Raises StoreError where it is damaged."""
+    """{"summary", "drawn"} of the stored crack result of this run, or None. Raises StoreError where it is damaged."""
     path = place(store.path)
     if not path.is_file():
         return None

@@ -97,7 +97,7 @@ def _scene_data(text):
 
 
 def lacking(text):
-    """The law, criterion or shape of a scene (as JSON) that is not installed here, in words, or ""."""
+    """Name of a law, criterion or shape of a scene (as JSON) that is not installed here, or ""."""
     try:
         data = json.loads(text)
         chosen = {**{key: (_entry(data, key), names) for key, names in CHOICES.items()},

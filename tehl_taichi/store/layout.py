@@ -1,4 +1,4 @@
-"""Arrays of a store, and the one file that says which entries of them a reader sees."""
+"""Arrays of a store, and the file that lists the entries visible to a reader."""
 
 import json
 

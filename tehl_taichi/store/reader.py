@@ -57,7 +57,7 @@ class Reader:
 
     @property
     def writer(self):
-        """Who writes to it at this moment, in words, or None."""
+        """Description of the process that writes to it now, or None."""
         return holder(self.path)
 
     @property

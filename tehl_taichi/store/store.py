@@ -134,8 +134,8 @@ class Store(LockedFolder, Reader):
         self.attrs, self.steps = attrs, attrs["steps"]
 
     def go_back(self):
-        """The state of the last checkpoint, for :func:`tehl_taichi.march.passage.march`. Entries after it are taken back: they
-        come again, the same. Raises StoreError where there is none."""
+        """The state of the last checkpoint, for :func:`tehl_taichi.march.passage.march`. Later entries are removed; the march
+        computes them again with equal numbers. Raises StoreError where there is none."""
         shape = self.scene.rows + 1, self.scene.grid.nx + 1
         number, state = checkpoint.last(self.path, self.path / CHECKPOINTS, self.steps, shape)
         if int(state["step"]) != self.series["step"][number - 1]:

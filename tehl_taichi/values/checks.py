@@ -112,7 +112,7 @@ def normalise(part):
 
 
 def build(cls, values, section, general=None):
-    """cls(**values) with unknown keys refused; its sentences speak of `section` where cls says `general`."""
+    """cls(**values); unknown keys are refused, and messages name `section` in place of the `general` of cls."""
     if not isinstance(values, dict):
         raise SceneError(f"[{section}] must be a table of keys and values, not {shown(values)}")
     known = [f.name for f in dataclasses.fields(cls)]

@@ -14,7 +14,7 @@ def fitting(unit, size):
 
 
 def micrometres(length):
-    """A length (m) in micrometres: whole ones, below ten two digits."""
+    """A length (m) in whole micrometres, below ten with two digits."""
     return f"{length * 1e6:.0f}" if length >= 9.95e-6 else f"{length * 1e6:.2g}"
 
 

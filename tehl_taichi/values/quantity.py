@@ -151,7 +151,8 @@ class Text(Kind):
 
 @dataclass(frozen=True)
 class Pairs(Kind):
-    """A list of pairs of numbers, the first of each rising: none, or from `fewest` to `most`; jumps: it may stand twice."""
+    """A list of pairs of numbers with rising first numbers: empty, or `fewest` to `most` pairs; jumps: a first number may stand
+    twice."""
 
     about: str
     fewest: int
@@ -258,7 +259,7 @@ def _changed(part):
 
 
 def check(part, section="", **units):
-    """Check every value of `part` as it is declared; where its default is None, so can the value be. units: {key: unit} where a
+    """Check every value of `part` by its declaration; None is allowed where the default is None. units: {key: unit} where a
     unit depends on other values.
 
     Raises SceneError: one sentence with the value, the unit and what is allowed.

@@ -14,5 +14,5 @@ NOTHING = {"m": 5e-9, "Pa": 1e6, "": 1e-3}
 
 
 def nothing_of(name):
-    """The size (SI) below which a number of that name is nearly nothing; 0 where any size counts."""
+    """Size (SI) below which a number of that name counts as zero; 0: no such size."""
     return NOTHING.get(unit_of(name), 0.0)

@@ -1,4 +1,4 @@
-"""A mouth that seals: while it is open the film's pressure stands in the whole crack; when it shuts, the oil inside is shut in.
+"""A mouth that seals: while it is open, the pressure of the film acts in the whole crack; when it closes, the oil is trapped.
 
 Oil that its own pressure lets out as the faces at the mouth lose touch is gone, down to the pressure that just keeps them shut.
 """

@@ -36,7 +36,7 @@ def _headless(node):
 
 
 def trees():
-    """The lines of a function are those of its code, not looked for by tokens, and parsed once."""
+    """Take the source lines of a function from its code object, without a search by tokens, and parse them once."""
     from taichi.lang import kernel_impl
 
     own, names_of, context = kernel_impl._get_tree_and_ctx, kernel_impl._get_global_vars, kernel_impl.ASTTransformerContext
@@ -80,7 +80,7 @@ def nodes():
 
 
 def expressions():
-    """Expressions, variables and whole numbers are made straight away, without the places that messages name."""
+    """Make expressions, variables and whole numbers directly, without the source places for messages."""
     from taichi.lang import expr, impl
 
     core, Expr = impl._ti_core, expr.Expr

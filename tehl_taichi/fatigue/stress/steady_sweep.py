@@ -1,4 +1,4 @@
-"""Stress history of a point of a smooth body that passes through the steady contact, at half the width of it or across."""
+"""Stress history of a point on the middle row of a smooth body that passes through the steady contact."""
 
 import numpy as np
 

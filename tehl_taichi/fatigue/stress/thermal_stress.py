@@ -90,7 +90,7 @@ class SurfaceHeat:
         self.rises = [np.asarray(rise, np.float32) for rise in rises]
 
     def _extended(self, rise):
-        """The rise on the wide grid, fading out behind its last column."""
+        """Temperature rise on the wide grid; it fades out behind the last column."""
         out = np.zeros((self.waves.columns, rise.shape[1]), rise.dtype)
         end = self.front + rise.shape[0]
         out[self.front : end] = rise

@@ -17,7 +17,7 @@ def glass(oil, p):
 
 @pointwise
 def free_volume(oil, p):
-    """Expansivity F of the free volume at p over that at 0."""
+    """Expansivity F of the free volume at p, divided by its value at p = 0."""
     return 1 - oil.B1 * log(1 + oil.B2 * p)
 
 

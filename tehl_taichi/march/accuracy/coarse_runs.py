@@ -109,7 +109,7 @@ def _reading(entry, scalar, scene):
 
 
 def _spread_reading(part, key):
-    """Reading of a number of a distribution; a share may be off by two of its points where it is none."""
+    """Reading of a number of a distribution; a share of zero may be off by two of its points."""
     blur = FEW / part["points"] if key == "share_above_1" else 0.0
     return GridReading(float(part[key]), blur=blur, spread=TOP if key == "p99" and "depth_m" not in part else REST)
 

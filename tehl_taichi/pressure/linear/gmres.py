@@ -93,7 +93,7 @@ def rotate(N: ti.template(), k, norm):
 
 @ti.func
 def solution(N: ti.template(), count):
-    """Weights of the preconditioned vectors (a zero column gets none), and the change of H0."""
+    """Weights of the preconditioned vectors (0 for a zero column), and the change of H0."""
     rise = 0.0
     for r in range(count):
         i = count - 1 - r

@@ -46,7 +46,7 @@ def spread(F: ti.template(), C: ti.template(), G: ti.template(), j, w):
 
 @ti.func
 def left(F: ti.template(), G: ti.template(), s):
-    """RES of the finest level less what the correction so far answers."""
+    """RES of the finest level less the product of the Jacobian and the present correction."""
     first, end, off = block(G, s)
     for k in range(off + first, off + end):
         F.J[RES, k] = F.J[RES, k] - reynolds_row(F.J, k, end - first)

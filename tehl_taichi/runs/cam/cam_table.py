@@ -40,7 +40,7 @@ class CamPosition:
 
     @property
     def words(self):
-        """Angle of the cam as text."""
+        """Place of the contact as text."""
         return f"{self.angle:g} deg"
 
     @property

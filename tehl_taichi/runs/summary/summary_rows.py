@@ -268,7 +268,7 @@ def _rows_of_search(f):
 
 
 def _stressed_rows(f):
-    """Risk of the feature, as the area of the smooth track that has as much."""
+    """Rows of the stressed volume: area of the smooth track with the risk of the feature."""
     if not (found := f.get("stressed")):
         return []
     areas = [(found[key], where) for key, where in (("track_equal_m2", "below the surface"),

@@ -13,8 +13,8 @@ from tehl_taichi.scene import Scene
 
 @dataclass(frozen=True)
 class CaseJob:
-    """scene: of the case; store: path of its store, None to keep its summary alone; threads: of the engine (None: as it runs,
-    else all); shared: whether other workers of this machine want the same kernels."""
+    """scene: of the case; store: path of its store, None to keep its summary alone; threads: of the engine (None: those of a
+    running engine, otherwise all); shared: whether other workers of this machine want the same kernels."""
 
     scene: Scene
     store: str | None

@@ -61,8 +61,8 @@ NAMES = ("fatigue", "fatigue_distribution", "fatigue_depth", "fatigue_point", "f
 
 
 def all_figures(page, found):
-    """{name: function that draws it}: without more in its name of what the answer rests on. Raises SceneError where the depth
-    that is wanted was not searched."""
+    """{name: function that draws it}; the plain names show the search that decides the verdict. Raises SceneError if the chosen
+    depth was not searched."""
     layers = [_layers(one) for one in found.each]
     figures = {"fatigue": lambda: index_figure(page, found, layers)}
     if distribution_figure.shown(found.result):
@@ -102,7 +102,7 @@ def _worst(found, where, Fi, summary, history):
 
 
 def _searched(found):
-    """Index (depth, x, y) of whole layers, or None. Raises SceneError where one is wanted that is not there."""
+    """Index (depth, x, y) of whole layers, or None. Raises SceneError if the chosen layer does not exist."""
     layers, row = (found.result.index(f"findley_stress_{what}") for what in ("at_depth", "under_row"))
     if layers is None and found.one_row and row is not None:
         layers = row[:, :, None]

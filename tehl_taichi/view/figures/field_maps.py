@@ -40,7 +40,7 @@ def _half_axis(scene):
 
 
 def draw_map(ax, moments, values, title, **style):
-    """One field over x, y with its mirror image, as far as it is shown; returns what a colour bar needs."""
+    """Draw one field over x, y with its mirror image; returns the object for a colour bar."""
     left, right = moments.window
     step = moments.x[1] - moments.x[0]
     seen = (moments.x > left - step) & (moments.x < right + step)

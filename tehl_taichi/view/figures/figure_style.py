@@ -188,7 +188,7 @@ def spelled(figure):
 
 
 def default_folder(path):
-    """The folder of the figures of the store at `path` where no other is wanted."""
+    """Default folder of the figures of the store at `path`."""
     return path.with_suffix("") if path.suffix else path.with_name(f"{path.name}-figures")
 
 

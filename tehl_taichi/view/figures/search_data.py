@@ -52,7 +52,7 @@ class DrawnSearch:
 
     @property
     def each(self):
-        """The searches that are shown, that on which the answer rests first."""
+        """The searches that are shown; the search that decides the verdict stands first."""
         return [self.part, self] if self.part else [self]
 
     @property

@@ -1,4 +1,4 @@
-"""Areal Gaussian filter of heights (ISO 16610-61): what is finer than a cutoff wavelength is removed."""
+"""Areal Gaussian filter of heights (ISO 16610-61): waves shorter than a cutoff wavelength are removed."""
 
 import math
 

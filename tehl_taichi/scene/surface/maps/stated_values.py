@@ -77,7 +77,7 @@ def _parts(line):
 
 
 def _note(found, sizes, key, values):
-    """Enter what a line says; the first one counts."""
+    """Enter the value of a line; the first one counts."""
     name, unit = BRACKET.sub("", key).strip().lower(), _unit_in(key, values)
     if not unit:
         return

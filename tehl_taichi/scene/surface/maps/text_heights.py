@@ -52,7 +52,7 @@ class Table:
         return replace(self, values=found.heights, beside=found.found_lines, spacing=(found.x, found.y))._with_stated()
 
     def _with_stated(self):
-        """Table with what its header says, if it has one."""
+        """Table with the values that its header states, if it has one."""
         stated = stated_values.in_header(self.header_lines, self.values.shape) if self.header_lines else self.stated
         return replace(self, stated=stated.with_spacing(self.spacing))
 
