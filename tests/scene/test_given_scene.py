@@ -44,10 +44,15 @@ def run(tmp_path_factory):
     return tehl.run(SCENE, tmp_path_factory.mktemp("given") / "a.zarr")
 
 
+@pytest.fixture(scope="module")
+def shots():
+    return tehl.simulate(SCENE)
+
+
 def test_a_run_takes_a_scene_of_another_fatigue_alone(run):
-    by_scene = tehl.fatigue(run, SCENE.replace(kappa=0.9))
-    assert by_scene.summary["kappa_F"] == 0.9 == tehl.fatigue(run, kappa=0.9).summary["kappa_F"]
-    assert by_scene.summary["findley_stress_max_Pa"] == tehl.fatigue(run, kappa=0.9).summary["findley_stress_max_Pa"]
+    by_scene, by_hand = tehl.fatigue(run, SCENE.replace(kappa=0.9)), tehl.fatigue(run, kappa=0.9)
+    assert by_scene.summary["kappa_F"] == 0.9 == by_hand.summary["kappa_F"]
+    assert by_scene.summary["findley_stress_max_Pa"] == by_hand.summary["findley_stress_max_Pa"]
     for call in (tehl.fatigue, tehl.crack):
         for changes, key in (({"load": 1e6}, "contact.load is another"), ({"srr": 0.1}, "operation.srr is another"),
                              ({"bodies.a.nu": 0.2}, "bodies.a.nu is another"),
@@ -60,8 +65,8 @@ def test_a_run_takes_a_scene_of_another_fatigue_alone(run):
             call(run, 5)
 
 
-def test_snapshots_and_states_of_another_grid_are_refused():
-    shots, other = tehl.simulate(SCENE), SCENE.replace(**{"grid.nx": 128})
+def test_snapshots_and_states_of_another_grid_are_refused(shots):
+    other = SCENE.replace(**{"grid.nx": 128})
     for call in (tehl.fatigue, tehl.crack):
         with pytest.raises(SceneError, match="65 x 17 nodes, the given scene 129 x 17"):
             call(shots, other)
@@ -70,8 +75,7 @@ def test_snapshots_and_states_of_another_grid_are_refused():
     assert [shot.step for shot in tehl.march(SCENE.replace(**{"time.steps": 4}), shots[-1].state)] == [4]
 
 
-def test_snapshots_take_the_fatigue_of_the_scene():
-    shots = tehl.simulate(SCENE)
+def test_snapshots_take_the_fatigue_of_the_scene(shots):
     of_a = SCENE.replace(**{"fatigue.surfaces": "a"})
     scenes = [dataclasses.replace(SCENE, fatigue=of_a.replace(kappa=kappa).fatigue) for kappa in (0.2, 0.9)]
     found = [tehl.fatigue(shots, scene) for scene in scenes]
