@@ -68,9 +68,10 @@ def searched(one_row=False, y_worst=0.0, arrays=lambda found: {}, **more):
 
 def drawn(name, store, page=None, at=None):
     """One of the figures of a run."""
-    from tehl_taichi.view.figures import field_maps, line_figures, surface_figure
+    from tehl_taichi.view.figures import across_figure, field_maps, line_figures, surface_figure
 
-    draw = next(getattr(room, name) for room in (field_maps, line_figures, surface_figure) if hasattr(room, name))
+    rooms = (across_figure, field_maps, line_figures, surface_figure)
+    draw = next(getattr(room, name) for room in rooms if hasattr(room, name))
     return draw(page or FigureStyle(), Moments(store, at))
 
 

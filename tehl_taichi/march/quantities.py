@@ -44,8 +44,9 @@ class Entry:
 
     @property
     def words(self):
-        """Short name with its part: "passage h_min"."""
-        return self.label or f"{SPOKEN.get(self.part, '')} {self.name}".strip().removeprefix("fatigue index ")
+        """Short name with its part: "passage h_min", "largest film temperature, steady"."""
+        when = SPOKEN.get(self.part)
+        return self.label or self.name.removeprefix("fatigue index ") + (f", {when}" if when else "")
 
     @property
     def _ending(self):

@@ -3,8 +3,7 @@
 import numpy as np
 
 from tehl_taichi.report.plots import colour, field_map, line, marks, stacked
-from tehl_taichi.runs.sweep.study_figures import along, numeric, scaled, usual
-from tehl_taichi.runs.sweep.summary_columns import unit_of
+from tehl_taichi.runs.sweep.study_figures import along, numeric, usual, with_errors
 from tehl_taichi.view.figures.palette import RESULT
 
 MOST_LINES = 12
@@ -23,19 +22,27 @@ def figures(study):
 
 def column(study, name):
     """(values in a unit that people read, label) of a column of the table."""
-    return scaled(study.values[name], unit_of(name), name)
+    values, _, label = with_errors(study, name)
+    return values, label
 
 
 def _lines(study, name):
     """Over the first key, a line for each value of the second (some of many)."""
-    values, label = column(study, name)
+    values, errors, label = with_errors(study, name)
     x, x_label, words = along(study, study.plan.keys[0])
-    rows, seconds = values.reshape(len(x), -1).T, _seconds(study, label)
+    rows, bars, seconds = values.reshape(len(x), -1).T, errors.reshape(len(x), -1).T, _seconds(study, label)
     shown = np.unique(np.linspace(0, len(rows) - 1, min(len(rows), MOST_LINES)).astype(int))
-    traces = [line(x, rows[n], seconds[n], colour(k), in_legend=len(rows) > 1, mode="lines+markers") for k,
-              n in enumerate(shown)]
-    return stacked(f"{name}-lines", f"{label} over {x_label}.", x_label, [(label, traces, {})],
+    traces = [line(x, rows[n], seconds[n], colour(k), in_legend=len(rows) > 1, mode="lines+markers", **_bars(bars[n]))
+              for k, n in enumerate(shown)]
+    return stacked(f"{name}-lines", f"{label}, over {x_label}.", x_label, [(label, traces, {})],
                    _ticks(x, words, numeric(study, study.plan.keys[0])), height=400)
+
+
+def _bars(errors):
+    """Error bars of a trace; nothing where none is known."""
+    if not np.isfinite(errors).any():
+        return {}
+    return {"error_y": {"type": "data", "array": [None if np.isnan(one) else one for one in errors.tolist()], "thickness": 1}}
 
 
 def _seconds(study, label):
@@ -60,9 +67,9 @@ def _map(study, name):
 
 def _points(study, name, key):
     """All cases against one key."""
-    values, label = column(study, name)
+    values, errors, label = with_errors(study, name)
     x, x_label, words = along(study, key, per_case=True)
-    dots = marks(x, values, label, colour(0), symbol="circle", showlegend=False)
+    dots = marks(x, values, label, colour(0), symbol="circle", showlegend=False, **_bars(errors))
     dots["marker"] |= {"size": 6, "line": {"width": 0}}
     return stacked(f"{name}-{key}", f"{label} of all cases against {x_label}.", x_label, [(label, [dots], {})],
                    _ticks(x, words, numeric(study, key)), height=330)

@@ -6,13 +6,15 @@ import textwrap
 import numpy as np
 
 from tehl_taichi.errors import StoreError
+from tehl_taichi.runs.open_results import BEARING, CAM, FLANK, STUDY
 from tehl_taichi.values.digits import fitting
 from tehl_taichi.view.figures import palette
 
 MOST = 6  # panels
 TICKS = 6
-HIGH = 1.1  # rows of lines
-LETTERS = 24  # of a line of a label
+HIGH = 1.25  # rows of lines
+LETTERS = 20  # of a line of a label
+PLURAL = {FLANK: "flanks", BEARING: "bearings", CAM: "cams", STUDY: "studies"}
 SPELLED = (("(um)", "(µm)"), ("deg C", "°C"), ("lambda", "λ"))
 
 
@@ -42,7 +44,7 @@ def drawn(page, comparison, shown):
     for ax in axes[-1] if len(shown) == axes.size else (axes[-1, 0], axes[-2, -1]):
         _dress(ax, comparison)
     page.legend(figure)
-    page.title(figure, f"{comparison.kind}s {' and '.join(comparison.names)}")
+    page.title(figure, f"{PLURAL[comparison.kind]} {' and '.join(comparison.names)}")
     return figure
 
 

@@ -14,6 +14,7 @@ from tehl_taichi.runs.flank.line_contacts import where
 from tehl_taichi.runs.open_results import BEARING, CAM, FLANK, STUDY
 from tehl_taichi.runs.sweep import study_figures, summary_columns
 from tehl_taichi.runs.sweep.plan import unit
+from tehl_taichi.runs.sweep.study_labels import key_name
 from tehl_taichi.scene.gear_pair import GearPair
 from tehl_taichi.values.quantity import kinds
 
@@ -134,7 +135,7 @@ def _of_study(study):
              if entry.column and (name := f"{entry.part}_{entry.key}".replace(".", "_")) in study.values}
     about = {key: value for key, value in flat(study.plan.scene.to_dict()).items() if key not in _full(keys)}
     return PlaceTable(study.path, f"{study.plan.scene.name} over {', '.join(keys)}", {**about, "swept": ", ".join(keys)},
-                      tuple(places), known, numbers, keys[0] if one else "", OF_CASES, not one,
+                      tuple(places), known, numbers, key_name(keys[0]) if one else "", OF_CASES, not one,
                       unit(study.plan.scene, keys[0]) if one else "")
 
 

@@ -5,7 +5,7 @@ import pytest
 from rolling import Rolling
 
 import tehl_taichi as tehl
-from tehl_taichi.fatigue import assessment, material_length
+from tehl_taichi.fatigue import assessment, judged_layers, material_length
 from tehl_taichi.fatigue.stress.averaging import AveragedReader
 from tehl_taichi.march.accuracy import coarse_runs
 from tehl_taichi.report import verdict
@@ -86,7 +86,7 @@ def of(Fi, error, wide, wide_error):
 def test_it_leads_where_its_error_alone_is_known(error, wide_error, leads):
     """Pointwise 1.05 and averaged 0.76: the answer is no where the second leads."""
     fatigue = of(1.05, error, 0.76, wide_error)
-    (where, Fi, bar), = verdict.layers(fatigue)
+    (where, Fi, bar), = judged_layers.layers(fatigue)
     assert (Fi, bar) == ((0.76, 0.01) if leads else (1.05, error))
     assert ("averaged over 10 µm" in where) == leads
     tone = verdict.of_fatigue(fatigue)[2]

@@ -16,7 +16,7 @@ matplotlib = pytest.importorskip("matplotlib")
 def all_drawn(page, built_in):
     """Every figure of a run and of a search."""
     flat = scene(built_in).rows == 0
-    names = ("surface", "centreline", "temperature") + (() if flat else ("maps", "temperature_maps"))
+    names = ("surface", "centreline", "temperature") + (() if flat else ("centreline_y", "maps", "temperature_maps"))
     with page.style():
         for name in names:
             yield page.fitted(drawn(name, made(built_in), page))
@@ -64,6 +64,23 @@ def test_a_steady_run_is_no_start_and_figures_name_scene_and_moment():
     begun = made()
     begun.steps = 1
     assert "steady start" not in drawn("maps", begun).get_suptitle()
+
+
+def test_lines_along_y_pass_through_the_largest_pressure_of_each_moment():
+    """Of a half domain with its mirror image; of a steady one at x = 0."""
+    store = made()
+    figure = drawn("centreline_y", store)
+    top, low = figure.axes
+    shown = Moments(store).several()
+    for (n, _), line, film in zip(shown.items(), top.lines, low.lines):
+        fields = store.fields(n, ["pressure", "film"])
+        column = int(np.argmax(fields["pressure"].max(axis=1))) if n else int(np.argmin(np.abs(store.x)))
+        half = store.y.size - 1
+        assert line.get_ydata()[half:] == pytest.approx(fields["pressure"][column] / 1e9)
+        assert film.get_ydata()[half::-1] == pytest.approx(fields["film"][column] * 1e6)
+        assert f"x = {store.x[column] / Moments(store).a:+.2f} a" in line.get_label()
+    assert title(figure) == "gear: along y, through the largest pressure of each moment"
+    assert title(drawn("centreline_y", made("ball-on-disc"))) == "ball-on-disc: along y"
 
 
 def test_a_larger_pressure_elsewhere_is_told_where_it_reads_as_another():

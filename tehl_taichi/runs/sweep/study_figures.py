@@ -7,16 +7,16 @@ import numpy as np
 
 from tehl_taichi.errors import StoreError
 from tehl_taichi.runs.sweep.axis_syntax import all_numbers, word
-from tehl_taichi.runs.sweep.plan import unit
-from tehl_taichi.runs.sweep.summary_columns import error_of, unit_of
+from tehl_taichi.runs.sweep.study_labels import column_name, key_name, of_column, of_key
+from tehl_taichi.runs.sweep.summary_columns import error_of
 from tehl_taichi.values.checks import nearest
-from tehl_taichi.values.digits import fitting
 from tehl_taichi.view.figures import palette
 from tehl_taichi.view.figures.field_maps import bar
 from tehl_taichi.view.figures.figure_style import FigureStyle, drawing
 
 # drawn by default: the first of each line that the study has
-USUAL = (("fatigue_Fi_max",), ("transient_h_min_m", "steady_h_c_m"), ("transient_p_max_Pa", "steady_p_max_Pa"))
+USUAL = (("fatigue_Fi_max",), ("transient_h_min_m", "steady_h_c_m"), ("transient_p_max_Pa", "steady_p_max_Pa"),
+         ("transient_friction_coefficient_mean", "steady_friction_coefficient"), ("transient_film_max_C", "steady_film_max_C"))
 INDEX, FILM = "fatigue_Fi_max", "transient_h_min_m"
 TOLD = 120  # cells of a map with their values in them
 TICKS = 12
@@ -74,13 +74,13 @@ def lines(page, study, name):
         page.legend(figure, title=second[1])
     _dress(ax, x_label, x, ticks, numeric(study, study.plan.keys[0]))
     ax.set_ylabel(label)
-    page.title(figure, f"{study.plan.scene.name}: {name}{_unknown(values, errors)}")
+    page.title(figure, f"{study.plan.scene.name}: {column_name(name)}{_unknown(values, errors)}")
     return figure
 
 
 def heat_map(page, study, name):
     """The quantity over two keys, a cell a case; cases without a result are hatched."""
-    values, label = scaled(study.values[name], unit_of(name), name)
+    values, _, label = with_errors(study, name)
     values = values.reshape(study.plan.shape).T
     figure, ((ax,),) = page.figure(height=HIGH * page.row())
     ax.set_facecolor(palette.SHADE)
@@ -94,7 +94,7 @@ def heat_map(page, study, name):
         ax.set(**{f"{axis}label": key_label})
     if values.size <= TOLD and 3 * values.shape[1] * page.text < 47 * page.inches:
         _write_values(ax, values)
-    page.title(figure, f"{study.plan.scene.name}: {name}")
+    page.title(figure, f"{study.plan.scene.name}: {column_name(name)}")
     return figure
 
 
@@ -126,13 +126,13 @@ def points(page, study, name):
             ax.locator_params(axis="x", nbins=5)
     for ax in axes[:, 0]:
         ax.set_ylabel(label)
-    page.title(figure, f"{study.plan.scene.name}: {name}{_unknown(values, errors)}")
+    page.title(figure, f"{study.plan.scene.name}: {column_name(name)}{_unknown(values, errors)}")
     return figure
 
 
 def index_over_film(page, study):
     """Fi of every case against the thinnest film of its passage, both with their errors, coloured by the first key."""
-    film, film_error, film_label = with_errors(study, FILM, "smallest film of the passage")
+    film, film_error, film_label = with_errors(study, FILM)
     Fi, Fi_error, _ = with_errors(study, INDEX)
     key = study.plan.keys[0]
     colour, colour_label, ticks = along(study, key, per_case=True)
@@ -187,30 +187,20 @@ def along(study, key, per_case=False):
     if not numeric(study, key):
         known = list(dict.fromkeys(map(word, study.plan.coordinate(key)[1])))
         words = [word(value) for value in values]
-        return np.array([known.index(one) for one in words], float), key, words
-    found, label = scaled(np.array(values, float), unit(study.plan.scene, key), key)
+        return np.array([known.index(one) for one in words], float), key_name(key), words
+    numbers = np.array(values, float)
+    factor, label = of_key(study.plan.scene, key, largest(numbers))
+    found = numbers * factor
     return found, label, [f"{value:.4g}" for value in found]
 
 
-def with_errors(study, name, text=None):
+def with_errors(study, name):
     """(values of a column, their error bars, both in a unit that people read, label); a bar is nan where it is not known."""
     values, errors = study.values[name], study.values.get(error_of(name), np.full(len(study), np.nan))
-    factor, shown = _scale(values, unit_of(name))
-    return values * factor, errors * factor, _label(text or name, unit_of(name), shown)
+    factor, label = of_column(name, largest(values))
+    return values * factor, errors * factor, label
 
 
-def scaled(values, unit_, text):
-    """(values in a unit that people read, label)."""
-    factor, shown = _scale(values, unit_)
-    return values * factor, _label(text, unit_, shown)
-
-
-def _scale(values, unit_):
-    """(factor, its unit) for what people read."""
-    top = np.nanmax(np.abs(values)) if np.isfinite(values).any() else 0.0
-    return fitting(unit_, top)
-
-
-def _label(text, unit_, shown):
-    text = text.removesuffix(f"_{unit_}")  # h_min_m (µm)
-    return text if shown == "1" else f"{text} ({shown})"
+def largest(values):
+    """Size of the largest number, 0 without any."""
+    return float(np.nanmax(np.abs(values))) if np.isfinite(values).any() else 0.0

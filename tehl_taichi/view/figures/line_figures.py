@@ -24,7 +24,7 @@ def headed(page, figure, moments, what, shown, more=""):
     page.title(figure, f"{moments.store.scene.name}: {what}{alone}{'; ' * bool(more)}{more}")
 
 
-def _start(colour):
+def start_style(colour):
     """The steady start (grey) is dashed, and above the other moments: they cover it where nothing has changed."""
     return dict(ls="--", zorder=3) if colour == palette.GREY else dict(ls="-", zorder=2)
 
@@ -37,7 +37,7 @@ def centreline(page, moments):
     for n, (colour, label) in shown.items():
         f = store.fields(n, ("pressure", "film"))
         zoomed |= window.draw((top, low), n, moments.a, colour)
-        style = dict(label=label, color=colour, **_start(colour))
+        style = dict(label=label, color=colour, **start_style(colour))
         top.plot(moments.x, f["pressure"][:, row] / 1e9, **style)
         low.plot(moments.x, f["film"][:, row] * 1e6, **style)
     top.set(ylabel="pressure (GPa)")
@@ -59,7 +59,7 @@ def temperature(page, moments):
     for n, (colour, _) in shown.items():
         f = store.fields(n, [name for name, *_ in SURFACES])
         for name, _, style in SURFACES:
-            ax.plot(moments.x, f[name][:, row], ls=style, color=colour, zorder=_start(colour)["zorder"])
+            ax.plot(moments.x, f[name][:, row], ls=style, color=colour, zorder=start_style(colour)["zorder"])
     ax.set(xlabel=ALONG, ylabel="temperature (°C)", xlim=moments.window)
     ax.grid()
     when = [Line2D([], [], color=colour, label=label) for colour, label in shown.values()]

@@ -5,7 +5,7 @@ from functools import partial
 from tehl_taichi.errors import SceneError
 from tehl_taichi.fatigue.judged_surfaces import by_surface
 from tehl_taichi.fatigue.search_result import SearchResult
-from tehl_taichi.view.figures import fatigue_figures, field_maps, line_figures, search_data, surface_figure
+from tehl_taichi.view.figures import across_figure, fatigue_figures, field_maps, line_figures, search_data, surface_figure
 from tehl_taichi.view.figures.figure_style import FigureStyle
 from tehl_taichi.view.figures.moments import Moments
 from tehl_taichi.view.figures.notebook_figures import Figures
@@ -42,7 +42,8 @@ def _of_the_film(store):
     """{name: function} of what the store has."""
     wide, warm = store.y.size > 1, not store.scene.isothermal
     has = {"surface": (surface_figure.surface, store.scene.transient),
-           "centreline": (line_figures.centreline, True), "maps": (field_maps.maps, wide),
+           "centreline": (line_figures.centreline, True), "centreline_y": (across_figure.centreline_y, wide),
+           "maps": (field_maps.maps, wide),
            "temperature": (line_figures.temperature, warm), "temperature_maps": (field_maps.temperature_maps, warm and wide),
            "profiles": (line_figures.profiles, "temperature" in store.stored)}
     return {name: draw for name, (draw, there) in has.items() if there}

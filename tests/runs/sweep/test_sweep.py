@@ -17,7 +17,7 @@ from fake_cases import cubed, formula, greedy, square
 
 from tehl_taichi.errors import RuntimeUnavailable, StoreError
 from tehl_taichi.runs.sweep import case_records as records
-from tehl_taichi.runs.sweep import pool, sweeping
+from tehl_taichi.runs.sweep import pool, study_labels, sweeping
 from tehl_taichi.runs.sweep.plan import plan
 from tehl_taichi.runs.sweep.study_table import Study
 from tehl_taichi.scene import SceneError, scene
@@ -40,13 +40,23 @@ def study(tmp_path_factory):
     return sweeping.run(plan(GEAR, OVER), tmp_path_factory.mktemp("studies") / "made.zarr", workers=1, work=formula)
 
 
-@pytest.mark.parametrize("value, unit, shown", [(220e-6, "m2/s", "oil.nu_40 (mm²/s)"), (22e-9, "1/Pa", "oil.nu_40 (1/GPa)"),
-                                               (220e-6, "m", "oil.nu_40 (µm)")])
-def test_keys_are_drawn_in_the_units_of_data_sheets(value, unit, shown):
-    from tehl_taichi.runs.sweep.study_figures import scaled
+@pytest.mark.parametrize("key, value, shown", [
+    ("oil.nu_40", 220e-6, "kinematic viscosity at 40 °C (mm²/s)"), ("height", 220e-6, "feature height (µm)"),
+    ("oil.alpha_40", 22e-9, "pressure coefficient at 40 °C (1/GPa)"), ("feature.0.x", 30e-6, "feature x (µm)"),
+    ("srr", 30.0, "slide-to-roll ratio"), ("temperature", 90.0, "inlet temperature (°C)"), ("load", 100.0, "load (N/m)"),
+    ("rheology.tau_L0", 3e7, "rheology.tau_L0 (MPa)")])
+def test_keys_have_names_and_the_units_of_data_sheets(key, value, shown):
+    factor, label = study_labels.of_key(GEAR, key, value)
+    assert 20 < value * factor < 230 and label == shown
 
-    values, label = scaled(np.array([value]), unit, "oil.nu_40")
-    assert 20 < values[0] < 230 and label == shown
+
+@pytest.mark.parametrize("column, value, shown", [
+    ("transient_h_min_m", 2e-7, "passage h_min (µm)"), ("steady_film_max_C", 90.0, "largest film temperature, steady (°C)"),
+    ("fatigue_Fi_max", 1.2, "Fi at the surface, largest"), ("transient_friction_coefficient_mean", 0.05,
+                                                           "passage friction coefficient, mean"),
+    ("hertz_p_Pa", 1e9, "hertz p (GPa)"), ("fatigue_resolved_to_x_a", 1.0, "fatigue resolved to x a")])
+def test_columns_have_names_and_units(column, value, shown):
+    assert study_labels.of_column(column, value)[1] == shown
 
 
 def test_a_study_is_a_table_over_the_swept_keys(study):

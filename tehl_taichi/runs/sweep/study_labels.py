@@ -1,0 +1,51 @@
+"""Names of what a study varies and of what it gives, with the units that people read."""
+
+from tehl_taichi.march import quantities
+from tehl_taichi.runs.sweep.plan import unit
+from tehl_taichi.runs.sweep.summary_columns import unit_of
+from tehl_taichi.scene.aliases import full_name
+from tehl_taichi.values.digits import fitting
+
+# of keys that are swept often; others keep their name
+KEYS = {"operation.srr": "slide-to-roll ratio", "operation.u_m": "mean speed", "operation.temperature": "inlet temperature",
+        "operation.u_a": "speed of surface a", "operation.u_b": "speed of surface b", "contact.load": "load",
+        "contact.hertz_pressure": "Hertz pressure", "contact.radius_x": "reduced radius along x",
+        "contact.radius_y": "reduced radius across", "fatigue.kappa": "κ", "fatigue.endurance": "fatigue limit",
+        "oil.nu_40": "kinematic viscosity at 40 °C", "oil.alpha_40": "pressure coefficient at 40 °C",
+        "grid.nx": "cells along x", "grid.ny": "cells across"}
+READ = {"degC": "°C", "deg C": "°C", "deg": "°", "degree": "°", "1": ""}
+
+
+def key_name(key):
+    """Name of a swept key: "feature height" of feature.height, the key itself where it has no name."""
+    full = full_name(key)
+    section, _, rest = full.partition(".")
+    number, _, name = rest.partition(".")
+    if section == "feature" and name:
+        return f"feature {name}" if number == "0" else f"feature {number}, {name}"
+    return KEYS.get(full, key)
+
+
+def column_name(name):
+    """Name of a column of the table: "passage h_min" of transient_h_min_m, the words of the column where it has no name."""
+    entry = next((one for one in quantities.ENTRIES if f"{one.part}_{one.key}".replace(".", "_") == name), None)
+    return entry.words if entry and (entry.label or entry.says or entry.series) else \
+        name.removesuffix(f"_{unit_of(name)}").replace("_", " ")
+
+
+def with_unit(text, unit_):
+    """'load (N/mm)' of a text and a unit; text alone without one."""
+    shown = READ.get(unit_, unit_)
+    return f"{text} ({shown})" if shown else text
+
+
+def of_key(scene, key, size):
+    """(factor, label) of a key whose values in SI are of about this size."""
+    factor, shown = fitting(unit(scene, key), size)
+    return factor, with_unit(key_name(key), shown)
+
+
+def of_column(name, size):
+    """(factor, label) of a column of the table whose values in SI are of about this size."""
+    factor, shown = fitting(unit_of(name), size)
+    return factor, with_unit(column_name(name), shown)
