@@ -37,6 +37,8 @@ def run(
     fatigue: Optional[bool] = typer.Option(None, "--fatigue/--no-fatigue", help="with or without stresses and fatigue index"),
     zoom: Optional[int] = typer.Option(None, help="add a fine window that rides with the feature, 2, 4 or 8 times as fine as "
                                                   "the grid (isothermal)"),
+    run_in: Optional[int] = typer.Option(None, help="passages of run-in before the one that is stored, at most: steel of "
+                                                    "bodies with a yield stress flows"),
     estimate_error: Optional[bool] = typer.Option(None, "--estimate-error/--no-estimate-error",
                                                   help="estimate errors by coarse-grid runs (default: for all but very short "
                                                        "passages)"),
@@ -69,8 +71,8 @@ def run(
         {"srr": srr, "load": load, "hertz_pressure": hertz_pressure, "speed": speed, "temperature": temperature,
          "height": height, "width": width, "kappa": kappa, "endurance": endurance, "time.steps": steps, "thermal.on": thermal,
          "bending_limit": bending_limit, "torsion_limit": torsion_limit,
-         "fatigue.on": fatigue, "zoom.factor": zoom, "numerics.estimate_error": estimate_error, "numerics.precision": precision,
-         "time.steady_only": steady or None},
+         "fatigue.on": fatigue, "zoom.factor": zoom, "time.run_in": run_in,
+         "numerics.estimate_error": estimate_error, "numerics.precision": precision, "time.steady_only": steady or None},
         grid, set_ or [])
     description = find_changed(scene, changes)
     check_rows(grid, changes, lambda: description)

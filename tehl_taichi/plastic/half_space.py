@@ -80,17 +80,18 @@ class LayeredHalfSpace:
         return out
 
     def answer(self, strain):
-        """(residual stress, displacement of the surface into the body in m (x, y)) of plastic strain (layers, 6, x, y)."""
+        """(residual stress, displacement of the surface into the body in m (x, y)) of plastic strain (layers, 6, x, y); of its
+        first layers, where it has no more."""
         waves = self._waves(strain)
         u = self._solve(self._loads(waves))
-        found = np.stack([self.stress(self._strain(np.concatenate([u[n], u[n + 1]]), self.h[n]) - waves[n])
-                          for n in range(self.count)])
+        found = np.stack([self.stress(self._strain(np.concatenate([u[n], u[n + 1]]), self.h[n]) - wave)
+                          for n, wave in enumerate(waves)])
         found[:, 4:] *= 1j
         return self._fields(found), self._fields(u[0, 2])
 
     def pressed(self, p):
         """Stress (layers, 6, x, y) under a pressure p (x, y) on the surface."""
-        loads = np.zeros((len(self.h), 3, self.kx.size), complex)
+        loads = np.zeros((self.count + 1, 3, self.kx.size), complex)
         loads[0, 2] = np.fft.rfft2(p, self.size).ravel()
         u = self._solve(loads)
         found = np.stack([self.stress(self._strain(np.concatenate([u[n], u[n + 1]]), self.h[n])) for n in range(self.count)])
@@ -110,22 +111,21 @@ class LayeredHalfSpace:
         return np.fft.irfft2(waves.reshape(shape), self.size)[..., :nx, :ny]
 
     def _loads(self, waves):
-        """Forces (interfaces, 3, waves) that hold plastic strain."""
-        out = np.zeros((len(self.h), 3, self.kx.size), complex)
+        """Forces (interfaces, 3, waves) that hold plastic strain, down to its deepest layer."""
+        out = np.zeros((len(waves) + 1, 3, self.kx.size), complex)
         for n, wave in enumerate(waves):
             forces = self._forces(self.stress(wave), self.h[n])
             out[n] += forces[:3]
-            if n + 1 < len(self.h):
-                out[n + 1] += forces[3:]
+            out[n + 1] += forces[3:]
         return out
 
     def _solve(self, f):
-        """Displacements (interfaces and the bottom, 3, waves) under forces, which it takes."""
-        for n in range(len(self.h) - 1, 0, -1):
+        """Displacements (interfaces, 3, waves) under forces, which it takes; none act below."""
+        for n in range(len(f) - 1, 0, -1):
             f[n - 1] -= _times(self.below[n - 1], _times(self.inverse[n], f[n]))
-        u = np.zeros((len(self.h) + 1, *f.shape[1:]), complex)
+        u = np.empty_like(f)
         u[0] = _times(self.inverse[0], f[0])
-        for n in range(1, len(self.h)):
+        for n in range(1, len(f)):
             u[n] = _times(self.inverse[n], f[n] - _times(self.below[n - 1].transpose(1, 0, 2), u[n - 1]))
         return u
 

@@ -13,7 +13,7 @@ DEEPEST, FASTER = 25.0, 1.5  # depth (a) of the fixed bottom, and growth of the 
 
 @dataclass(frozen=True)
 class Layers:
-    """Thicknesses (m) of all layers from the surface down; steel may flow in the first `count`."""
+    """Thicknesses (m) of all layers from the surface down; steel may flow in the first `count`, which are not all."""
 
     thickness: np.ndarray
     count: int

@@ -11,6 +11,7 @@ from tehl_taichi.plastic.half_space import LayeredHalfSpace
 CLOSE = 1e-3     # of the flow stress: what a stress may lie above it, and what the last round of a moment may change
 RELAXED = 1.6    # cells yield into their surroundings: the strain that held surroundings would leave is too small
 ROUNDS = 60      # of a moment, at most
+ROOM, LEAST = 0.25, 2  # of the cells that flow by the load alone, on each side, and cells at least: others flow by these
 
 
 @dataclass(frozen=True)
@@ -51,23 +52,34 @@ class SteelState:
 
 def after(cells, state, moments):
     """The SteelState after moments [(cells that may yield: (layers, x, y) numbers, their elastic stress (n, 6) Pa)]."""
-    part = _region(cells, moments)
-    if part is None:
+    flowing = np.concatenate([_flowing(cells, state, *one) for one in moments], axis=1) if moments else np.zeros((3, 0), int)
+    if not flowing.size:
         return state
+    part = _around(flowing, cells)
     zone = _Zone(cells, state, part)
     for places, stress in moments:
-        zone.follow(places, stress)
+        inside = np.all([(one.start <= at) & (at < one.stop) for one, at in zip(part, places)], axis=0)
+        zone.follow([at[inside] for at in places], stress[inside])
     return zone.left(state)
 
 
-def _region(cells, moments):
-    """Slices of x and y around all cells that may yield, from the first row on where that is mirrored; None without any."""
-    ends = [(places[1].min(), places[1].max() + 1, places[2].min(), places[2].max() + 1) for places, _ in moments
-            if places[0].size]
-    if not ends:
-        return None
-    first, last, left, right = zip(*ends)
-    return slice(min(first), max(last)), slice(0 if cells.mirrored else min(left), max(right))
+def _flowing(cells, state, places, stress):
+    """Places (3, n) of the cells that flow by what the passages before left."""
+    layer, x, y = places
+    size = flow.equivalent(flow.deviator(stress + state.residual[layer, :, x, y]))
+    return np.stack(places)[:, size > cells.flow_stress(layer, state.hardened[layer, x, y]) * (1 + CLOSE)]
+
+
+def _around(places, cells):
+    """Slices of layers, x and y around places, with room for what flows by these; from the surface on, and from y = 0 on where
+    that mirrors."""
+    ends = [(int(at.min()), int(at.max()) + 1) for at in places]
+    if cells.mirrored:
+        ends[2] = 1 - ends[2][1], ends[2][1]
+    more = [max(LEAST, int(np.ceil(ROOM * (last - first)))) for first, last in ends]
+    low = [max(0, first - room) for (first, _), room in zip(ends, more)]  # 0 of rows that mirror
+    high = [min(size, last + room) for (_, last), room, size in zip(ends, more, (cells.layers.count, *cells.shape))]
+    return slice(0, high[0]), slice(low[1], high[1]), slice(low[2], high[2])
 
 
 class _Zone:
@@ -75,14 +87,15 @@ class _Zone:
     residual stress here."""
 
     def __init__(self, cells, state, part):
-        self.cells, self.part, self.space = cells, part, cells.half_space(part)
-        self.strain, self.hardened = state.strain[:, :, *part].copy(), state.hardened[:, *part].copy()
-        self.before, self.kept = self.strain.copy(), state.residual[:, :, *part]
+        layers, *sides = part
+        self.cells, self.part, self.whole, self.space = cells, part, (layers, slice(None), *sides), cells.half_space(sides)
+        self.strain, self.hardened = state.strain[self.whole].copy(), state.hardened[part].copy()
+        self.before, self.kept = self.strain.copy(), state.residual[self.whole]
         self.residual, self.G = self.kept, self.space.G
 
     def follow(self, places, stress):
         """One moment: the elastic stress (n, 6) of cells (layers, x, y) that may yield."""
-        layer, x, y = places[0], places[1] - self.part[0].start, places[2] - self.part[1].start
+        layer, x, y = (at - one.start for at, one in zip(places, self.part))
         at, kinds = (layer, x, y), (layer[:, None], np.arange(6), x[:, None], y[:, None])
         hardened, strain = self.hardened[at], self.strain[kinds]
         limit = self.cells.flow_stress(layer, hardened)
@@ -111,7 +124,7 @@ class _Zone:
     def left(self, state):
         """The SteelState with what happened here."""
         strain, hardened = state.strain.copy(), state.hardened.copy()
-        strain[:, :, *self.part], hardened[:, *self.part] = self.strain, self.hardened
+        strain[self.whole], hardened[self.part] = self.strain, self.hardened
         residual, sinking = _answer(self.cells, self.cells.half_space(), strain)
         return replace(state, strain=strain, hardened=hardened, residual=residual, sinking=sinking)
 

@@ -380,6 +380,7 @@ class Scene:
             out.append(CodedText(text, "cut", options_of(option)))
         if not self.has_fatigue:
             out.append(self.without_fatigue)
+        out += [f"run-in of body {name} ({why})" for name, why in run_in.elastic_bodies(self).items()]
         if self.operation.u_s == 0:
             out.append("sliding friction (SRR = 0)")
         if not self.rheology.thins:

@@ -282,11 +282,9 @@ def _across(scene):
 
 def _steel(scene):
     """Hardening of steel that does not flow."""
-    flow = {surface.name for surface in run_in.flowing(scene)} if scene.runs_in else ()
-    for name in "ab":
-        if name not in flow:
-            why = "it is at rest or has no yield stress" if scene.runs_in else "no run-in (time.run_in = 0)"
-            yield f"bodies.{name}.hardening", f"steel of body {name} does not flow: {why}"
+    reasons = run_in.elastic_bodies(scene) if scene.runs_in else dict.fromkeys("ab", "no run-in (time.run_in = 0)")
+    for name, why in reasons.items():
+        yield f"bodies.{name}.hardening", f"steel of body {name} does not flow: {why}"
 
 
 RULES = (_rheology, _oil, _temperature, _heat, _expansion_of_bodies, _passage, _fatigue, _strength, _zoom, _steel, _across)

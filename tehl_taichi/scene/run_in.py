@@ -22,6 +22,15 @@ def has_yield_stress(scene, surface):
     return surface.body.yield_stress > 0 or table is not None and table.has(YIELD)
 
 
+def elastic_bodies(scene):
+    """{name: why} of bodies that stay elastic in a scene with run-in."""
+    if not scene.runs_in:
+        return {}
+    flow = {surface.name for surface in flowing(scene)}
+    return {s.name: "at rest" if rests else "it has no yield stress" for s, rests in zip(scene.surfaces, scene.at_rest)
+            if s.name not in flow}
+
+
 def check(scene):
     """Refuse run-in that would have no answer. Raises SceneError."""
     count = scene.time.run_in

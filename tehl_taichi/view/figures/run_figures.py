@@ -5,7 +5,15 @@ from functools import partial
 from tehl_taichi.errors import SceneError
 from tehl_taichi.fatigue.judged_surfaces import by_surface
 from tehl_taichi.fatigue.search_result import SearchResult
-from tehl_taichi.view.figures import across_figure, fatigue_figures, field_maps, line_figures, search_data, surface_figure
+from tehl_taichi.view.figures import (
+    across_figure,
+    fatigue_figures,
+    field_maps,
+    line_figures,
+    run_in_figure,
+    search_data,
+    surface_figure,
+)
 from tehl_taichi.view.figures.figure_style import FigureStyle
 from tehl_taichi.view.figures.moments import Moments
 from tehl_taichi.view.figures.notebook_figures import Figures
@@ -45,7 +53,8 @@ def _of_the_film(store):
            "centreline": (line_figures.centreline, True), "centreline_y": (across_figure.centreline_y, wide),
            "maps": (field_maps.maps, wide),
            "temperature": (line_figures.temperature, warm), "temperature_maps": (field_maps.temperature_maps, warm and wide),
-           "profiles": (line_figures.profiles, "temperature" in store.stored)}
+           "profiles": (line_figures.profiles, "temperature" in store.stored),
+           "run_in": (run_in_figure.run_in, bool(store.scene.runs_in and store.finished and store.run_in.bodies))}
     return {name: draw for name, (draw, there) in has.items() if there}
 
 
