@@ -68,7 +68,10 @@ def verdict(
     threads: Optional[int] = THREADS,
     workers: int = WORKERS,
 ):
-    """Compare the fatigue index without and with a case-hardened profile and residual stress. Example: `tehl bench verdict`"""
+    """Compare the fatigue index without and with a case-hardened profile, residual stress and run-in.
+
+    Example: `tehl bench verdict`
+    """
     from tehl_cli.tables import list_table
     from tehl_taichi.profiles import verdict as suite
 
@@ -76,9 +79,9 @@ def verdict(
     rows = suite.run(out, quick, say, workers, threads)
     if not as_json:
         list_table("fatigue index by strength", suite.COLUMNS, suite.texts(rows))
-    say(suite.LEFT_OUT)
+    say(suite.NOTE)
     results.page(suite.page(rows))
-    results.finish([suite.plain_row(row) for row in rows], lambda plt: suite.chart(plt, rows), as_json, left_out=suite.LEFT_OUT)
+    results.finish([suite.plain_row(row) for row in rows], lambda plt: suite.chart(plt, rows), as_json, note=suite.NOTE)
 
 
 def cracks(

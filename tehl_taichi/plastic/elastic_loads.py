@@ -1,6 +1,6 @@
 """Elastic stresses of a passage in the cells that may yield, moment by moment.
 
-First a look at every third layer at the moments whose pressure may yield anything: where nothing comes near, that is all.
+First a look at some layers and some of the moments whose pressure may yield anything: where nothing comes near, that is all.
 """
 
 from concurrent.futures import ThreadPoolExecutor
@@ -15,7 +15,8 @@ from tehl_taichi.fatigue.von_mises import von_mises
 APART = 0.05    # a: moments that are followed are no closer
 NEAR = 0.8      # of the flow stress: cells with less do not yield by what flow around them adds
 PRESSED = 1.2   # of the flow stress: pressures below it flow nowhere (von Mises stresses are 0.65 of a pressure at most)
-EVERY = 3       # layers of the first look
+EVERY = 4       # layers of the first look
+SOME = 3        # moments of the first look, besides those of the highest pressures around
 
 
 @dataclass(frozen=True)
@@ -38,19 +39,20 @@ def find(passage, cells, state):
     """The :class:`ElasticLoads` of a passage over :class:`tehl_taichi.plastic.steel_body.Cells` in a SteelState."""
     look = _Look(passage, cells, state)
     count = cells.layers.count
-    first = {layer: look.at(layer, look.times) for layer in range(0, count, EVERY)}
-    near = [t for t in look.times if max(found[t].largest for found in first.values()) > NEAR]
-    for layer in range(count):
-        if layer not in first and near and max(_beside(first, layer)) > NEAR:
-            first[layer] = look.at(layer, near)
-    moments = [_joined([found[t] for found in first.values()]) for t in near]
-    return ElasticLoads(moments, max((one.largest for found in first.values() for one in found.values()), default=0.0))
+    found = {layer: look.at(layer, look.first) for layer in range(0, count, EVERY)}
+    near = look.around([t for t in look.first if max(seen[t].largest for seen in found.values()) > NEAR])
+    deep = [layer for layer in range(count) if near and max(_beside(found, layer)) > NEAR]
+    for layer in deep:
+        known = found.get(layer, {})
+        found[layer] = known | look.at(layer, [t for t in near if t not in known])
+    moments = [_joined([found[layer][t] for layer in deep]) for t in near]
+    return ElasticLoads(moments, max((seen.largest for each in found.values() for seen in each.values()), default=0.0))
 
 
 def _beside(found, layer):
-    """Largest von Mises stresses of the layers of the first look on both sides."""
-    sides = [n for n in (layer - layer % EVERY, layer - layer % EVERY + EVERY) if n in found]
-    return [max((one.largest for one in found[n].values()), default=0.0) for n in sides]
+    """Largest von Mises stresses of the layers of the first look at a layer and on both sides of it."""
+    sides = {layer - layer % EVERY, layer - layer % EVERY + EVERY * (layer % EVERY > 0)} & found.keys()
+    return [max((seen.largest for seen in found[n].values()), default=0.0) for n in sides]
 
 
 @dataclass(frozen=True)
@@ -69,15 +71,25 @@ class _Look:
         self.passage, self.state, self.depths = passage, state, cells.layers.depths
         self.limits = [cells.flow_stress(np.array(n), hard) for n, hard in enumerate(state.hardened)]
         self.rows = slice(0, passage.rows.stop - passage.rows.start)
-        self.times = self._moments(min(float(limit.min()) for limit in self.limits))
+        pressures = self._moments(min(float(limit.min()) for limit in self.limits))
+        self.times, p = list(pressures), np.array(list(pressures.values()))
+        top = [n for n in range(p.size) if p[n] == p[max(0, n - SOME) : n + SOME + 1].max()]
+        self.first = [self.times[n] for n in sorted({*range(0, p.size, SOME), *top})]
 
     def _moments(self, limit):
-        """Numbers of the moments that are pressed enough, and apart enough; none of the steady start, where nothing flows."""
+        """{number: largest pressure} of the moments that are pressed and apart enough; none of the steady start, where nothing
+        flows."""
         passage = self.passage
         stride = max(1, int(APART * passage.a / passage.dx + 1e-9))
         way = np.abs(passage.centres - passage.centres[0]) / passage.dx
         first = np.unique(np.floor(way / stride + 1e-6), return_index=True)[1]
-        return [int(t) for t in first if passage.entries[t] and self._pressure(passage.entries[t]) > PRESSED * limit]
+        pressures = {int(t): self._pressure(passage.entries[t]) for t in first if passage.entries[t]}
+        return {t: p for t, p in pressures.items() if p > PRESSED * limit}
+
+    def around(self, moments):
+        """All moments up to SOME away from these of the first look."""
+        places = {self.times.index(t) + n for t in moments for n in range(-SOME, SOME + 1)}
+        return [t for n, t in enumerate(self.times) if n in places]
 
     def _pressure(self, entry):
         return self.passage.reader.fields(int(entry), ("pressure",))["pressure"].max()

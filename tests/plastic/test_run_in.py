@@ -12,7 +12,7 @@ from tehl_taichi.errors import SceneError
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.fatigue.stress.residual_field import ResidualField
 from tehl_taichi.fatigue.stress.row_histories import at_the_surface, histories_of
-from tehl_taichi.plastic import elastic_loads, run_in, run_in_numbers
+from tehl_taichi.plastic import elastic_loads, run_in, run_in_numbers, steel_body
 from tehl_taichi.plastic.layers import Layers
 from tehl_taichi.plastic.surface_change import SurfaceChange
 
@@ -96,12 +96,25 @@ def test_where_nothing_yields_it_is_one_look():
     assert run_in_numbers.numbers(STEEL, state)["shaken_down"]
 
 
-def test_a_look_takes_every_third_layer_alone_where_nothing_comes_near(monkeypatch):
-    scene, depths = STEEL.replace(**{"bodies.a.yield_stress": 2.6e9}), []
+def test_a_look_takes_some_layers_alone_where_nothing_comes_near(monkeypatch):
+    scene, depths = STEEL.replace(**{"bodies.a.yield_stress": 2.9e9}), []
     stresses = StressHistories.stresses
     monkeypatch.setattr(StressHistories, "stresses", lambda self, depth: depths.append(depth) or stresses(self, depth))
     run_in.following(scene, Flattened(scene), run_in.RunInState())
-    assert len(depths) == 6 / elastic_loads.EVERY
+    assert len(depths) == -(-6 // elastic_loads.EVERY)
+
+
+def test_a_look_misses_no_cell_that_yields(monkeypatch):
+    """The first one takes some layers and moments; what flows is what flows with all of them."""
+    reader = Flattened(STEEL)
+    passage = elastic_loads.histories(STEEL, reader, STEEL.surfaces[0])
+    cells = run_in._cells(STEEL, passage)[1]
+    start, states = steel_body.SteelState.virgin(cells), []
+    for every, some in ((elastic_loads.EVERY, elastic_loads.SOME), (1, 1)):
+        monkeypatch.setattr(elastic_loads, "EVERY", every)
+        monkeypatch.setattr(elastic_loads, "SOME", some)
+        states.append(steel_body.after(cells, start, elastic_loads.find(passage, cells, start).moments))
+    assert states[0].hardened.any() and np.array_equal(states[0].hardened, states[1].hardened)
 
 
 @pytest.mark.slow

@@ -260,7 +260,7 @@ def test_verdict(tmp_path, monkeypatch):
     monkeypatch.setattr(verdict, "QUICK", {"grid.nx": 32, "grid.ny": 8})
     text, found = done(tmp_path, "verdict", "verdict", "--quick", "--threads", 2)
     assert [row["variant"] for row in found["rows"]] == list(verdict.VARIANTS) and "case profile" in text
-    assert "run-in" in found["left_out"] and "| residual stress" in (tmp_path / "verdict.md").read_text()
+    assert "run-in" in found["note"] and "| residual stress" in (tmp_path / "verdict.md").read_text()
 
 
 @pytest.mark.slow

@@ -40,6 +40,8 @@ def test_rows_of_a_scene_and_its_stores_again(tmp_path, monkeypatch, taichi_cpu)
     assert list(rows) == list(verdict.VARIANTS) and all(not row.reason for row in rows.values())
     assert rows["case"].Fi_below < 0.8 * rows["default"].Fi_below and rows["all"].Fi_surface < rows["case"].Fi_surface
     assert rows["default"].limits_Pa == (4e8, 4e8) and rows["case"].limits_Pa[1] < rows["case"].limits_Pa[0] < 6e8
+    assert {path.name for path in tmp_path.iterdir()} == {f"gear{own}-32x8.zarr" for own in ("", "-run-in", "-all")}
+    assert rows["run-in"].Fi_below == rows["default"].Fi_below  # on this grid nothing yields at 2.2 GPa
     made = (tmp_path / "gear-32x8.zarr" / "zarr.json").stat().st_mtime_ns
     assert verdict.run(tmp_path, quick=True) == list(rows.values())
     assert (tmp_path / "gear-32x8.zarr" / "zarr.json").stat().st_mtime_ns == made
@@ -70,8 +72,8 @@ def test_indices_are_taken_as_the_verdict_of_a_run_takes_them():
     assert [value[1:] for value in verdict._parts("a", rough, known)] == [(0.7, 0.03), (0.8, 0.04)]
 
 
-def test_the_table_has_bars_and_says_what_is_left_out():
+def test_the_table_has_bars_and_says_what_runs_in():
     text = verdict.page([ROW])
     assert "| 1.5 µm asperity (default) | case profile | b | 0.790 ± 0.013 | 1.09 | 34 | 596, 595 |" in text
-    assert "Run-in is not part of this version" in text
+    assert "Run-in: three passages at most, both bodies" in text
     assert {"scene", "variant", "Fi_surface", "Fi_below", "depth_m", "error"} <= verdict.plain_row(ROW).keys()
