@@ -69,6 +69,16 @@ def test_the_measured_surface_of_the_tutorial(taichi_cpu, script, tmp_path):
 
 
 @pytest.mark.slow
+def test_the_passage_of_the_tutorial_ends_and_its_film_holds(taichi_cpu, script, tmp_path):
+    """On the coarse grid that its page advises."""
+    script("make_scan.py", "scan.csv")
+    (tmp_path / "my_flank.toml").write_text((EXAMPLES / "my_flank.toml").read_text(encoding="utf-8"), encoding="utf-8")
+    states = list(tehl.march(tehl.scene("my_flank.toml").replace(**{"grid.nx": 128, "grid.ny": 32})))
+    assert len(states) == 114 and min(state.scalars["h_min_m"] for state in states) > 5e-8
+    assert max(state.scalars["p_max_Pa"] for state in states) == pytest.approx(3.69e9, rel=0.01)
+
+
+@pytest.mark.slow
 def test_the_gallery(taichi_cpu, script, tmp_path):
     pytest.importorskip("matplotlib")
     table = script("gallery.py", "smooth-line", "dent", "--grid", "64x16", "--steps", 3, "--out", tmp_path / "sheet.png")
