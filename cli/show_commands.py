@@ -130,7 +130,16 @@ def show(
     from tehl_taichi.runs.open_results import RUN, kind
 
     found: Any = tehl.open(store)
-    _show_run(found.store, as_json) if kind(store) == RUN else _show_table(found, as_json)
+    if kind(store) != RUN:
+        return _show_table(found, as_json)
+    _say_lacking(found)
+    _show_run(found.store, as_json)
+
+
+def _say_lacking(run):
+    """Warn that a law of the run is not installed here."""
+    if run.store.lacks:
+        say(f"warning: {run.store.lacks}")
 
 
 def _show_table(found, as_json):
@@ -220,6 +229,8 @@ def _draw(store, out, options, page):
             whose = next(other for other, options in OPTIONS.items() if name in options)
             raise SceneError(f"--{name} {value} applies to a {whose}, but {store} is a {which}")
     found: Any = tehl.open(store)
+    if which == RUN:
+        _say_lacking(found)
     mine = {name: options[name] for name in OPTIONS[which]}
     if which in (FLANK, BEARING, CAM):
         return [found.plot(out and out / which, **page)]

@@ -1,5 +1,6 @@
 """The numbers of a fatigue search that can be other ones than those of the scene."""
 
+from tehl_taichi.errors import StoreError
 from tehl_taichi.scene import SceneError, builtin, keys
 from tehl_taichi.scene.aliases import named
 from tehl_taichi.scene.sections import Fatigue
@@ -58,8 +59,11 @@ def of_points(constants, scene=None):
 
 
 def reader_of(of, function):
-    """Reader of a run, or a list of snapshots. Raises SceneError for anything else."""
+    """Reader of a run, or a list of snapshots. Raises SceneError for anything else, StoreError for a run whose law is not
+    installed here."""
     reader = getattr(of, "store", of)
+    if lacks := getattr(reader, "lacks", ""):
+        raise StoreError(lacks)
     if hasattr(reader, "fields"):
         return reader
     try:

@@ -1,5 +1,6 @@
 """One word that opens everything: a run's store, a study, a flank, a bearing, a cam."""
 
+from functools import partial
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -41,7 +42,8 @@ def open(path: str | PathLike) -> "Run | Study | Flank | Bearing | Cam":
     """As :func:`tehl_taichi.open`."""
     from tehl_taichi.runs.sweep.study_table import Study
 
-    opened: dict = {STUDY: Study.open, RUN: _run, **{name: one.open for name, one in _contact_sets().items()}}
+    opened: dict = {STUDY: Study.open, RUN: partial(_run, stand_in=True),
+                    **{name: one.open for name, one in _contact_sets().items()}}
     return opened[kind(path := folder_of(path))](path)
 
 
@@ -53,12 +55,12 @@ def open_run(path: str | PathLike) -> "Run":
     raise StoreError(f"{path} is a {found}: its table is {table}; use the store of one of its runs, {store}")
 
 
-def _run(path):
+def _run(path, stand_in=False):
     from tehl_taichi.runs import single_run
     from tehl_taichi.store.integrity import ROOT
 
     try:
-        return single_run.open(path)
+        return single_run.open(path, stand_in)
     except StoreError:
         if Path(path).is_dir() and not (Path(path) / ROOT).exists():
             raise StoreError(f"{path} is not a run, study, flank, bearing or cam: it has none of {ROOT}, "

@@ -40,12 +40,12 @@ def _run(scene, path, force, threads, arch, progress, case=False):
         return _begin(scene, place, _Clock(began), progress)
 
 
-def open(path: str | PathLike) -> Run:
-    """The run in the store at `path`: finished, running or broken off. Raises StoreError where there is none, or a damaged
-    one."""
+def open(path: str | PathLike, stand_in: bool = False) -> Run:
+    """The run in the store at `path`: finished, running or broken off; stand_in: also one whose law is not installed here, to
+    show and plot. Raises StoreError where there is none, or a damaged one."""
     from tehl_taichi.store.store import Store
 
-    return Run(Store.open(folder_of(path)))
+    return Run(Store.open(folder_of(path), stand_in))
 
 
 def resume(path: str | PathLike, *, steps: int | None = None, threads: int | None = None,

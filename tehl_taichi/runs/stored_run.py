@@ -6,7 +6,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from tehl_taichi.errors import UnknownName
+from tehl_taichi.errors import StoreError, UnknownName
 from tehl_taichi.runs.summary import summary_numbers
 from tehl_taichi.scene import Scene
 from tehl_taichi.values.estimate import Quantity
@@ -45,7 +45,9 @@ class Run:
 
     @property
     def scene(self) -> Scene:
-        """Its :class:`tehl_taichi.Scene`."""
+        """Its :class:`tehl_taichi.Scene`. Raises StoreError where a law of it is not installed here."""
+        if self.store.lacks:
+            raise StoreError(self.store.lacks)
         return self.store.scene
 
     @property
@@ -251,7 +253,7 @@ class Run:
 
     def __repr__(self):
         state = "finished" if self.finished else "not finished"
-        return f"<tehl.Run {self.scene.name}: {self.store.last_step} steps, {state}, {self.path}>"
+        return f"<tehl.Run {self.store.scene.name}: {self.store.last_step} steps, {state}, {self.path}>"
 
     def _repr_html_(self):
         """Its summary as a small table, for notebooks."""

@@ -12,6 +12,7 @@ from tehl_taichi.errors import StoreError
 from tehl_taichi.march.step_output import fields_of, names, scalars_of
 from tehl_taichi.scene.timeline import cut_at
 from tehl_taichi.store import chunks, integrity
+from tehl_taichi.store import stand_in as stand_in_scene
 from tehl_taichi.store.layout import OWN
 from tehl_taichi.values.coded_warning import of_lists
 
@@ -20,28 +21,31 @@ class Reader:
     """One run on disk, to read; entry 0 is the steady start."""
 
     series: dict[str, np.ndarray]
+    lacks: str
 
-    def __init__(self, path, lock=None):
+    def __init__(self, path, lock=None, stand_in=False):
         self.path, self.lock = Path(path), lock
         self.attrs, self.metadata = integrity.root_of(self.path)
         with integrity.blamed_on_newer(self.path, self.attrs):
-            self.scene = integrity.scene_of(self.path, self.attrs)
+            self.scene, self.lacks = (stand_in_scene.scene_of(self.path, self.attrs) if stand_in else
+                                      (integrity.scene_of(self.path, self.attrs), ""))
         known = integrity.optional(self.attrs, "outputs", names())  # to the program that began it
         self.stored = {name: field.dtype for name, field in fields_of(self.scene).items() if name in known}
         self.names = [*(name for name in scalars_of(self.scene) if name in known), *OWN]
         self.steps = self.attrs.get("steps")
 
     @classmethod
-    def open(cls, path):
-        """Existing store, to read. Raises StoreError if `path` is none, or a damaged one."""
-        return cls._opened(Path(path), None)
+    def open(cls, path, stand_in=False):
+        """Existing store, to read. stand_in: also one whose law is not installed here (`lacks` says which), to show and plot.
+        Raises StoreError if `path` is none, or a damaged one."""
+        return cls._opened(Path(path), None, stand_in)
 
     @classmethod
-    def _opened(cls, path, lock):
+    def _opened(cls, path, lock, stand_in=False):
         put_back(path)
         if not path.exists() and (why := unmade(path)):
             raise why
-        store = cls(path, lock)
+        store = cls(path, lock, stand_in)
         needed = {name: ["x", "y"] for name in store.stored} | {name: [] for name in store.names}
         with integrity.blamed_on_newer(path, store.attrs):
             integrity.check(path, store.attrs, store.metadata, store.scene, needed)

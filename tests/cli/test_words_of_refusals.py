@@ -355,14 +355,14 @@ def test_the_summary_of_a_run_is_whole(whole):
 @pytest.mark.parametrize("key, name", [("rheology.law", "mine"), ("oil.viscosity", "cameron"), ("fatigue.criterion", "ellipse"),
                                        ("feature.shape", "plateau")])
 def test_what_is_not_installed_is_no_damage(tmp_path, key, name):
-    """A store of somebody with a law of his own names the law."""
+    """A store with a law of its own names the law where something would be computed."""
     path = store(tmp_path / "a.zarr").path
     root = json.loads((path / "zarr.json").read_text())
     data, (section, entry) = json.loads(root["attributes"]["scene"]), key.split(".")
     (data[section][0] if section == "feature" else data[section])[entry] = name
     root["attributes"]["scene"] = json.dumps(data)
     (path / "zarr.json").write_text(json.dumps(root))
-    found = here("show", path)
+    found = here("resume", path)
     assert found.returncode == 2 and f"needs {key} = '{name}', which is not installed here; known: " in found.stderr
     assert "damaged" not in found.stderr
     assert integrity.lacking(json.dumps(data)) and integrity.lacking(json.dumps(tehl.scene("gear").to_dict())) == ""
