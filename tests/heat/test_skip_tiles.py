@@ -44,13 +44,20 @@ def test_what_rests_would_hardly_move(taichi_cpu, monkeypatch):
     assert max(differs) < 0.5 * GEAR.thermal.tolerance
 
 
-@pytest.fixture
-def heat(taichi_cpu):
-    """Temperatures of a film solved for, so that every tile may rest."""
-    from tehl_taichi.march.passage import Passage
+@pytest.fixture(scope="module")
+def start(taichi_cpu):
+    """State of the steady start."""
     from tehl_taichi.march.start import steady_snapshot
 
-    passage = Passage(GEAR, Scales.of(GEAR), steady_snapshot(GEAR, Scales.of(GEAR)).state)
+    return steady_snapshot(GEAR, Scales.of(GEAR)).state
+
+
+@pytest.fixture
+def heat(start):
+    """Temperatures of a film solved for, so that every tile may rest."""
+    from tehl_taichi.march.passage import Passage
+
+    passage = Passage(GEAR, Scales.of(GEAR), start)
     passage.advance()
     passage.heat.begin(passage.dT * passage.scales.t)
     passage.heat.solve()
