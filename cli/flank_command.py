@@ -110,7 +110,7 @@ def print_flank(found):
         put(f"{question} {headline}")
         for sentence in sentences:
             put(sentence)
-    for sentence in flank_page.film_words(found):
+    for sentence in (*flank_page.film_words(found), *flank_page.no_film_words(found)):
         put(sentence)
     put(f"assumed: {found.record['assumption']}")
     put(f"load: {found.record['load_sharing']}")

@@ -4,7 +4,7 @@ import numpy as np
 
 from tehl_taichi.report import place_sections, place_verdict, place_warnings, position_pages
 from tehl_taichi.report.document import Answer, Page, Section, drawn, facts, sentences, table
-from tehl_taichi.report.number_text import FEW, unit_spelled, value_text
+from tehl_taichi.report.number_text import FEW, sentence_case, unit_spelled, value_text
 from tehl_taichi.report.plots import colour, line, rings, stacked
 from tehl_taichi.runs.cam import cam_columns, cam_figure
 from tehl_taichi.runs.cam.stored_cam import Cam
@@ -62,7 +62,7 @@ def _thinnest(cam):
 
 def figures(cam):
     """The panels of the figure, as far as they have values."""
-    return [stacked(f"cam-{n}", f"{label[0].upper()}{label[1:]}.", cam_figure.ANGLE, [(label, [
+    return [stacked(f"cam-{n}", f"{sentence_case(label)}.", cam_figure.ANGLE, [(label, [
         _line(name, x.tolist(), y.tolist(), factor, colour(m)) for m, (name, (x, y, _)) in enumerate(lines.items())], {})],
         height=330) for n, (label, factor, lines) in enumerate(cam_figure.panels(cam))]
 

@@ -3,7 +3,7 @@
 from tehl_taichi.fatigue.pressure_alone import why_none
 from tehl_taichi.report import place_sections, place_verdict, place_warnings, position_pages
 from tehl_taichi.report.document import Answer, Page, Section, drawn, facts, sentences, table
-from tehl_taichi.report.number_text import FEW, unit_spelled, value_text
+from tehl_taichi.report.number_text import FEW, sentence_case, unit_spelled, value_text
 from tehl_taichi.report.plots import colour, line, rings, stacked
 from tehl_taichi.runs.flank import specific_film
 from tehl_taichi.runs.flank.flank_columns import dig, plotted, tables
@@ -39,7 +39,7 @@ def of(folder, out=None):
         *place_sections.critical(store, words), *place_sections.scene(store, words),
         Section("Not converged", (sentences([f"{_where(at)}: {reason}" for at, reason in flank.failed]),)),
         Section("Gears and load", (facts(gears(flank)),
-                                   sentences([f"Load: {flank.record['load_sharing']}.", *film_words(flank)]))),
+                                   sentences([f"Load: {flank.record['load_sharing']}.", *no_film_words(flank)]))),
         Section("Warnings", (sentences(warnings(flank)),)),
         Section("Provenance", (facts(_provenance(flank)),))))
 
@@ -78,7 +78,7 @@ def _answer(flank, store):
               *[count] * bool(warnings(flank)))
     if found := verdict(flank):
         question, headline, tone, sentences = found
-        return Answer(question, headline, tone, sentences, doubts)
+        return Answer(question, headline, tone, (*sentences, *film_words(flank)), doubts)
     if none:
         return Answer(QUESTION, "No verdict: at all positions the film has more friction than any oil.", "open", (), doubts)
     return _of_films(flank, doubts)
@@ -91,7 +91,7 @@ def _of_films(flank, doubts):
         return Answer(question, "No answer: no position converged.", "none", (), doubts)
     h, at = min(films, key=lambda entry: entry[0])
     return Answer(question, f"The smallest film is {value_text(h, unit='m', digits=FEW)}, at {_where(at)}.", "none",
-                  ("No feature passes, so the fatigue index is not computed.",), doubts)
+                  ("No feature passes, so the fatigue index is not computed.", *film_words(flank)), doubts)
 
 
 def figures(flank):
@@ -103,7 +103,7 @@ def figures(flank):
 def _figure(flank, n, title, lines):
     """One of them, with the points A to E."""
     letters = ", dotted: the points of the path of contact" if flank.points else ""
-    made = stacked(f"flank-{n}", f"{title[0].upper()}{title[1:]}; dedendum left of the pitch point{letters}.", ALONG,
+    made = stacked(f"flank-{n}", f"{sentence_case(title)}; dedendum left of the pitch point{letters}.", ALONG,
                    [(title, lines, {})], height=330)
     made.layout["shapes"] = [_mark(x * 1e3) for x in flank.points.values()]
     made.layout["annotations"] = [{"text": name, "x": x * 1e3, "xref": "x", "yref": "paper", "y": 1, "yanchor": "bottom",
@@ -165,16 +165,21 @@ def value_in(unit, value):
 
 
 def film_words(flank):
-    """Sentences on the specific film and the roughness."""
+    """(sentence,) on the smallest specific film, () without any."""
     if not (least := specific_film.smallest(flank)):
-        rough = any(dig(summary, "lambda") is not None for *_, summary in flank.rows)
-        return () if rough else ("λ is not known: the surfaces are smooth, and no roughness of the flanks is given (gear.Ra1, "
-                                 "gear.Ra2).",)
+        return ()
     ratio, at = least
     safety = specific_film.safety(flank)
     compared = f", S_λ = {safety:.3g} times the permissible one" if safety else "; its permissible value is not given"
     return (f"Smallest specific film of ISO/TS 6336-22: λ_GF = {ratio:.3g}, at {_where(at)}{compared}. The film of the formula "
             "(Dowson & Higginson) is that without a feature and with load factors of 1; h_min/Ra is the computed film.",)
+
+
+def no_film_words(flank):
+    """(sentence,) on why there is no film over the roughness, () where there is one."""
+    if specific_film.smallest(flank) or any(dig(summary, "lambda") is not None for *_, summary in flank.rows):
+        return ()
+    return ("λ is not known: the surfaces are smooth, and no roughness of the flanks is given (gear.Ra1, gear.Ra2).",)
 
 
 def warnings(flank, spelled=without_options):

@@ -43,3 +43,8 @@ def unit_spelled(text):
     for plain, spelled in ((" um", " µm"), ("deg C", "°C"), ("lambda", "λ")):
         text = text.replace(plain, spelled)
     return text
+
+
+def sentence_case(text):
+    """Text as it begins a sentence; Greek symbols stay as they are."""
+    return text[0].upper() + text[1:] if text[0].isascii() else text

@@ -15,6 +15,7 @@ from tehl_taichi.runs.open_results import BEARING, CAM, FLANK, STUDY
 from tehl_taichi.runs.sweep import study_figures, summary_columns
 from tehl_taichi.runs.sweep.plan import unit
 from tehl_taichi.runs.sweep.study_labels import key_name
+from tehl_taichi.scene.aliases import full_name
 from tehl_taichi.scene.gear_pair import GearPair
 from tehl_taichi.values.quantity import kinds
 
@@ -123,27 +124,25 @@ def _of_bearing(bearing):
 
 
 def _of_study(study):
-    keys = sorted(study.plan.keys)
-    changes = [study.plan.changes(n) for n in range(len(study))]
+    keys, scene = sorted(study.plan.keys), study.plan.scene
     one = len(keys) == 1 and study_figures.numeric(study, keys[0])
-    x = [change[keys[0]] for change in changes] if one else range(len(study))
-    places = [Place(tuple(map(repr, (change[key] for key in keys))), ", ".join(f"{key} = {_word(change[key])}" for key in keys),
-                    float(at)) for change, at in zip(changes, x)]
+    places = _cases(study, keys, one)
     numbers = {(name, place.key): (float(column[n]), _bar(study, name, n)) for name, column in study.values.items()
                for n, place in enumerate(places) if column[n] == column[n]}
     known = {name: _of_entry(entry) for entry in quantities.ENTRIES
              if entry.column and (name := f"{entry.part}_{entry.key}".replace(".", "_")) in study.values}
-    about = {key: value for key, value in flat(study.plan.scene.to_dict()).items() if key not in _full(keys)}
-    return PlaceTable(study.path, f"{study.plan.scene.name} over {', '.join(keys)}", {**about, "swept": ", ".join(keys)},
-                      tuple(places), known, numbers, key_name(keys[0]) if one else "", OF_CASES, not one,
-                      unit(study.plan.scene, keys[0]) if one else "")
+    swept = {full_name(key) for key in keys}
+    about = {key: value for key, value in flat(scene.to_dict()).items() if key not in swept} | {"swept": ", ".join(keys)}
+    axis = (key_name(keys[0]), OF_CASES, False, unit(scene, keys[0])) if one else ("", OF_CASES, True)
+    return PlaceTable(study.path, f"{scene.name} over {about['swept']}", about, places, known, numbers, *axis)
 
 
-def _full(keys):
-    """Dotted keys of a scene that swept ones set."""
-    from tehl_taichi.scene.aliases import full_name
-
-    return {full_name(key) for key in keys}
+def _cases(study, keys, one):
+    """The places of a study; one: whether its single key is a number, which is their axis."""
+    changes = [study.plan.changes(n) for n in range(len(study))]
+    return tuple(Place(tuple(map(repr, (change[key] for key in keys))),
+                       ", ".join(f"{key} = {_word(change[key])}" for key in keys), float(change[keys[0]] if one else n))
+                 for n, change in enumerate(changes))
 
 
 def _word(value):

@@ -41,13 +41,14 @@ def test_gears_are_named_in_units_that_people_read(flank):
 
 def test_lambda_or_why_there_is_none(flank):
     found = Flank.open(flank)
-    assert flank_page.film_words(found)[0].startswith("λ is not known: the surfaces are smooth")
+    assert flank_page.film_words(found) == () and flank_page.no_film_words(found)[0].startswith("λ is not known: the surfaces")
     record = found.to_dict()
     record["geometry"] |= {"Ra1": 4e-7, "Ra2": 6e-7, "lambda_GFP": 0.2}
     for one, ratio in zip(record["positions"], (0.3, 0.5)):
         one["film_ratios"] = {"lambda_GF": ratio, "h_min_Ra": 0.1}
     words, = flank_page.film_words(Flank(flank, record))
     assert "λ_GF = 0.3, at A, x_pl = -9.502 mm, S_λ = 1.5 times the permissible one" in words
+    assert flank_page.no_film_words(Flank(flank, record)) == ()
     del record["geometry"]["lambda_GFP"]
     assert "its permissible value is not given" in flank_page.film_words(Flank(flank, record))[0]
 
