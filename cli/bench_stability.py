@@ -36,17 +36,18 @@ def stability(
     precision: str = typer.Option("auto", help="precision of the linear solves: f32, f64 or auto (chosen for each scene)"),
 ):
     """Run stiff and extreme scenes; each converges, is refused, stops or fails. Example: `tehl bench stability`"""
+    from tehl_taichi.profiles import confirmed_starts, stability_scenes
     from tehl_taichi.profiles import stability as suite
 
     results = Results(out, "starts" if confirm else "stability", force, write=write and not confirm)
     _say_idle(context, confirm, random or rough)
-    listed = suite.cases(thermal)
-    drawn = (suite.random_cases(min(random, 8) if quick else random, seed)
-             | suite.rough_cases(min(rough, 2) if quick else rough, seed))
+    listed = stability_scenes.cases(thermal)
+    drawn = (stability_scenes.random_cases(min(random, 8) if quick else random, seed)
+             | stability_scenes.rough_cases(min(rough, 2) if quick else rough, seed))
     chosen = {name: description for name, description in (*list(listed.items())[:: 6 if quick else 1], *drawn.items())
               if match.lower() in name.lower()}
     chosen = suite.starts(chosen) if only_starts or confirm else chosen
-    chosen = suite.finer(suite.carried(chosen) if by_film else chosen, finer)
+    chosen = confirmed_starts.finer(suite.carried(chosen) if by_film else chosen, finer)
     if confirm:
         return _confirm(results, chosen, as_json, workers, threads, again)
     found = _outcomes(chosen, precision, workers, threads)
@@ -107,10 +108,11 @@ def _finish(results, found, title, as_json):
 
 
 def _confirm(results, chosen, as_json, workers, threads, again):
-    from tehl_taichi.profiles import stability as suite
+    from tehl_taichi.profiles import confirmed_starts
+
 
     found = []
-    for one in suite.confirm(chosen, workers, threads, again):
+    for one in confirmed_starts.confirm(chosen, workers, threads, again):
         found.append({**vars(one), "holds": one.holds})
         changes = ", ".join(f"{key} {value:.2g}" for key, value in vars(one).items() if isinstance(value, float))
         say(f"{one.name}: {one.reason or f'{one.columns} columns, ' + (changes or 'stops')}")
@@ -123,4 +125,4 @@ def _confirm(results, chosen, as_json, workers, threads, again):
               {"name": "{}", "columns": "{}", **dict.fromkeys(("half_film", "half_K", "finer_film", "finer_K"), "{:.2f}")})
     say("{holds} of {starts} starts hold: neither changes their film by more than 1 %, nor their temperature by more than 1 K "
         "({moving} of them states in time)".format(**counts))
-    results.finish(found, lambda plt: suite.changes_chart(plt, found), as_json, **counts)
+    results.finish(found, lambda plt: confirmed_starts.changes_chart(plt, found), as_json, **counts)

@@ -81,7 +81,7 @@ from tehl_taichi.laws.choices import CHOICES
 from tehl_taichi.laws.density import rho_ratio
 from tehl_taichi.laws.rheology import shear_stress
 from tehl_taichi.laws.viscosity import ln_eta
-from tehl_taichi.profiles import stability
+from tehl_taichi.profiles import stability_scenes
 
 base = tehl.scene("smooth-line").replace(**{"grid.nx": 64, "thermal.on": False})
 film = {"oil.name": "mine", "oil.viscosity": "cameron", "oil.eta0": 0.02, "oil.alpha": 1e-8, "oil.density": "cold-tait",
@@ -91,7 +91,7 @@ scenes = {"limiting": base, "rounded": base.replace(**{"rheology.law": "rounded"
 computed = {name: scenes[name] for name in ("limiting", "rounded", "film")}
 out = {"checked": {law.name: [one.compute() / one.expected for one in law.checked] for laws in CHOICES.values()
                    for law in laws.values()},
-       "template": scene_file.dumps(scenes["sharp"]), "suite": list(stability.cases()),
+       "template": scene_file.dumps(scenes["sharp"]), "suite": list(stability_scenes.cases()),
        "back": scene_file.from_data(__import__("tomllib").loads(scene_file.dumps(scenes["film"])), "x") == scenes["film"]}
 # kernels trace these very records: a number that acts here acts there
 out["stress"] = {name: float(shear_stress(scenes[name].rheology, 85e6, 1e9)) for name in ("rounded", "sharp")}
@@ -115,7 +115,7 @@ from tehl_taichi.laws.criteria import CRITERIA
 from tehl_taichi.fatigue import findley
 from tehl_taichi.scene import scene_file
 from tehl_taichi.march.step_output import Field, entries
-from tehl_taichi.profiles import stability
+from tehl_taichi.profiles import stability_scenes
 from tehl_taichi.scene.feature import SHAPES, Feature
 from tehl_taichi.scene.named_oils import NAMED
 
@@ -130,8 +130,9 @@ run = tehl.run(scene, "new.zarr", threads=2)  # first a gear, as in first_kernel
 bending = np.zeros((1, 36, 6))
 bending[0, :, 0] = 100 * np.cos(np.arange(36) * np.pi / 18)
 out = {"checked": {kind: [one.compute() / one.expected for one in entry.checked] for kind, entry in made.items()},
-       "template": scene_file.dumps(scene), "suite": list(stability.cases()),
-       "drawn": sum(s.features[0].shape == "plateau" for s in stability.random_cases(30).values() if hasattr(s, "features")),
+       "template": scene_file.dumps(scene), "suite": list(stability_scenes.cases()),
+       "drawn": sum(s.features[0].shape == "plateau" for s in stability_scenes.random_cases(30).values()
+                    if hasattr(s, "features")),
        "back": scene_file.from_data(tomllib.loads(scene_file.dumps(scene)), "x") == scene,
        "search": findley.search(bending, 0.25, criterion="ellipse")[0][0], "summary": run.summary}
 lost = run.store.fields(0)["film"] - run.store.fields(1)["film"]

@@ -153,11 +153,11 @@ def test_a_suite_of_the_pages_begins(words, tmp_path, monkeypatch):
     def begun(*args, **options):
         raise Error("it would compute now")
 
-    for place in (*SUITES.values(), "stability.confirm"):
+    for place in (*SUITES.values(), "confirmed_starts.confirm"):
         monkeypatch.setattr(f"tehl_taichi.profiles.{place}", begun)
     monkeypatch.setattr("tehl_taichi.engine.runtime.start", lambda **settings: None)
-    monkeypatch.setattr("tehl_taichi.profiles.stability.cases", lambda thermal=False: {})
+    monkeypatch.setattr("tehl_taichi.profiles.stability_scenes.cases", lambda thermal=False: {})
     drawn = {"random 0 line": tehl.scene("smooth-line")}
-    monkeypatch.setattr("tehl_taichi.profiles.stability.random_cases", lambda count, seed: drawn)
+    monkeypatch.setattr("tehl_taichi.profiles.stability_scenes.random_cases", lambda count, seed: drawn)
     found = here(*words, "--out", tmp_path)
     assert found.returncode == 1 and found.stderr.endswith("tehl: it would compute now\n")

@@ -245,7 +245,7 @@ def test_the_film_formula_knows_which_grid_carries_a_film():
 @pytest.mark.parametrize("ratio", [0.25, 1.0, 3.0])
 def test_the_side_lobes_of_a_point_contact_are_its_thinnest_film(ratio):
     """Formula against computed films on 64 columns; on 256 they are 0.1136, 0.2127 and 0.3056 um."""
-    from tehl_taichi.profiles.stability import edited
+    from tehl_taichi.profiles.stability_scenes import edited
 
     from tehl_taichi.march.passage import march
     from tehl_taichi.scene.film_formula import thinnest_film
@@ -307,11 +307,11 @@ def test_oil_of_40_degrees_between_surfaces_that_slip_settles():
 def test_a_thin_film_comes_down_from_a_high_speed():
     """15 nm at 3.7 GPa on 512 columns, which carry it: from Hertz at its own speed Newton does not find it, and up from low
     speeds the surfaces touch over the contact (until 0.5.3)."""
-    from tehl_taichi.profiles import stability
+    from tehl_taichi.profiles import stability, stability_scenes
 
     from tehl_taichi.march.passage import march
 
-    drawn = stability.carried(stability.starts(stability.random_cases(6, 2)))["random 2-5 line"]
+    drawn = stability.carried(stability.starts(stability_scenes.random_cases(6, 2)))["random 2-5 line"]
     assert drawn.grid.nx == 512 and thin_film.carried(drawn) > 1
     shot = next(march(drawn.replace(**{"thermal.on": False})))
     assert shot.scalars["residual"] < 1e-6 and shot.scalars["mass_error"] < 1e-6 and not shot.fields["contact"].any()
@@ -412,13 +412,14 @@ def test_a_grid_is_looked_at_once_and_only_where_it_converged(monkeypatch, conve
 @pytest.mark.slow
 def test_a_film_too_thin_for_a_grid_comes_to_the_next_in_time(taichi_cpu, monkeypatch):
     """12 nm at 2.2 GPa: no way from nothing leads to it on 1024 columns, nor does Newton alone from 512."""
-    from tehl_taichi.profiles import stability
+    from tehl_taichi.profiles import stability, stability_scenes
 
     from tehl_taichi.march import steady
 
     begun, from_nothing = [], steady.from_nothing
     monkeypatch.setattr(steady, "from_nothing", lambda solver: begun.append(solver.levels.dx) or from_nothing(solver))
-    (thin,) = stability.starts({name: one for name, one in stability.random_cases(35, 42).items() if "42-34" in name}).values()
+    drawn = stability_scenes.random_cases(35, 42)
+    (thin,) = stability.starts({name: one for name, one in drawn.items() if "42-34" in name}).values()
     thin = thin.replace(**{"thermal.on": False, "rheology.law": "newtonian"})  # by any law
     found = steady.solve_steady(thin, Scales.of(thin), 1024, 0)
     assert found.report.converged and begun == [4 / 64]

@@ -13,6 +13,7 @@ from tehl_cli import bench_page
 from tehl_taichi.profiles import (
     accuracy,
     conclusions,
+    confirmed_starts,
     coverage,
     cracks,
     measure,
@@ -21,6 +22,7 @@ from tehl_taichi.profiles import (
     side_by_side,
     speed,
     stability,
+    stability_scenes,
     verdict,
     zoom,
 )
@@ -182,8 +184,8 @@ def test_stability(tmp_path, monkeypatch):
     once(monkeypatch, stability)
     small = scene("gear").replace(**{"thermal.on": False, "grid.nx": 64, "grid.ny": 16, "time.steps": 2})
     drawn, rough = {"drawn 2 5": small, "drawn": SceneError("no")}, {"rough drawn": small.replace(height=1e-6)}
-    monkeypatch.setattr(stability, "random_cases", lambda count, seed: drawn if (count, seed) == (2, 5) else {})
-    monkeypatch.setattr(stability, "rough_cases", lambda count, seed: rough if (count, seed) == (1, 5) else {})
+    monkeypatch.setattr(stability_scenes, "random_cases", lambda count, seed: drawn if (count, seed) == (2, 5) else {})
+    monkeypatch.setattr(stability_scenes, "rough_cases", lambda count, seed: rough if (count, seed) == (1, 5) else {})
     words = ("stability", "--quick", "--match", "drawn", "--random", 2, "--rough", 1, "--seed", 5, "--threads", 2)
     text, found = done(tmp_path, "stability", *words)
     verdicts = {row["name"]: row["verdict"] for row in found["rows"]}
@@ -197,15 +199,15 @@ def test_stability(tmp_path, monkeypatch):
 def test_stability_ends_with_1_where_a_scene_fails(tmp_path, monkeypatch):
     bad = stability.CaseOutcome("bad one", "failed", "NaN at step 3", 3, 1.0, 5.0, 0.1)
     monkeypatch.setattr(stability, "run", lambda *words: [bad])
-    monkeypatch.setattr(stability, "random_cases", lambda count, seed: {"bad one": scene("gear")})
+    monkeypatch.setattr(stability_scenes, "random_cases", lambda count, seed: {"bad one": scene("gear")})
     found = here("bench", "stability", "--match", "bad", "--out", tmp_path, "--json")
     assert found.returncode == 1 and json.loads(found.stdout)["failed"] == 1 and (tmp_path / "stability.png").exists()
 
 
 def test_starts(tmp_path, monkeypatch):
-    once(monkeypatch, stability, "confirm")
+    once(monkeypatch, confirmed_starts, "confirm")
     monkeypatch.setattr(stability, "starts", lambda chosen: dict(list(chosen.items())[:1]))
-    monkeypatch.setattr(stability, "_start", lambda description: (1e-6 * (1 + 1.0 / description.grid.nx), 100.0, False))
+    monkeypatch.setattr(confirmed_starts, "_start", lambda description: (1e-6 * (1 + 1.0 / description.grid.nx), 100.0, False))
     text, found = done(tmp_path, "starts", "stability", "--confirm", "--quick", "--random", 0)
     row, = found["rows"]
     assert row["finer_film"] == pytest.approx(0.5 / row["columns"] / (1 + 1.0 / row["columns"])) and found["holds"] == 1

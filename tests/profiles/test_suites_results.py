@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from tehl_taichi.profiles import stability
+from tehl_taichi.profiles import confirmed_starts, stability, stability_scenes
 
 from tehl_taichi.march import passage
 from tehl_taichi.scene import Scene, SceneError, scene, thin_film
@@ -15,7 +15,7 @@ pytestmark = pytest.mark.usefixtures("taichi_cpu")
 
 
 def test_every_case_is_a_scene_or_refused_in_a_sentence():
-    found = stability.cases()
+    found = stability_scenes.cases()
     assert len(found) > 40 and all(isinstance(case, (Scene, SceneError)) for case in found.values())
     assert sum(isinstance(case, SceneError) for case in found.values()) < 3
 
@@ -41,7 +41,8 @@ def test_a_negative_film_is_a_failure():
 
 def test_random_scenes_repeat_and_cover_the_range():
     def drawn(seed):
-        return {name: case if isinstance(case, Scene) else str(case) for name, case in stability.random_cases(40, seed).items()}
+        return {name: case if isinstance(case, Scene) else str(case)
+                for name, case in stability_scenes.random_cases(40, seed).items()}
 
     found = drawn(3)
     assert found == drawn(3) != drawn(4)
@@ -53,8 +54,8 @@ def test_random_scenes_repeat_and_cover_the_range():
 
 
 def test_rough_scenes_have_two_ground_surfaces():
-    found = stability.rough_cases(20, 3)
-    assert found == stability.rough_cases(20, 3) != stability.rough_cases(20, 4) and len(found) == 20
+    found = stability_scenes.rough_cases(20, 3)
+    assert found == stability_scenes.rough_cases(20, 3) != stability_scenes.rough_cases(20, 4) and len(found) == 20
     for name, one in found.items():
         assert [f.surface for f in one.features] == ["a", "b"] and not one.isothermal and 0.02 <= abs(one.operation.srr) <= 0.5
         assert all(0.1e-6 <= f.height <= 0.5e-6 for f in one.features)
@@ -67,7 +68,7 @@ def test_rough_scenes_have_two_ground_surfaces():
 
 
 def test_starts_are_scenes_with_temperatures(monkeypatch):
-    drawn = stability.starts(stability.random_cases(20, 3))
+    drawn = stability.starts(stability_scenes.random_cases(20, 3))
     assert len(drawn) > 4 and all(not s.isothermal and s.time.steps == 1 for s in drawn.values())
     shot = SimpleNamespace(scalars={"newton": 1.0, "cycles": 2.0}, unsettled="it moves")
     monkeypatch.setattr(passage, "march", lambda description: iter([shot, shot]))
@@ -77,7 +78,7 @@ def test_starts_are_scenes_with_temperatures(monkeypatch):
 
 
 def test_random_scenes_on_the_grids_that_their_films_ask_for():
-    drawn = stability.random_cases(40, 1)
+    drawn = stability_scenes.random_cases(40, 1)
     fine, finer = stability.carried(drawn), 0
     for name, description in drawn.items():
         if isinstance(description, SceneError):
@@ -139,19 +140,19 @@ def test_starts_are_confirmed_by_half_a_step_and_twice_the_columns(monkeypatch):
 
     monkeypatch.setattr(passage, "march", march)
     coarse, fine = (scene("gear").replace(**{"grid.nx": nx, "grid.ny": 32}) for nx in (64, 128))
-    found, stopped = stability.confirm({"coarse": coarse, "fine": fine})
-    assert found == stability.Confirmed("coarse", 64, 0.0, 1.0, pytest.approx(2.28 / 1.64 - 1), 0.0, True)
+    found, stopped = confirmed_starts.confirm({"coarse": coarse, "fine": fine})
+    assert found == confirmed_starts.Confirmed("coarse", 64, 0.0, 1.0, pytest.approx(2.28 / 1.64 - 1), 0.0, True)
     assert not found.holds
     assert (stopped.half_film, stopped.half_K, stopped.finer_film, stopped.finer_K) == (0.0, 1.0, None, None)
     assert (found.moving, stopped.moving) == (True, True)  # 128 columns: 2.28 um
-    assert not stopped.holds and stability.Confirmed("near", 64, 0.0, 1.0, 0.01, 0.5, True).holds
+    assert not stopped.holds and confirmed_starts.Confirmed("near", 64, 0.0, 1.0, 0.01, 0.5, True).holds
     ball = scene("ridge-on-ball")
-    finest = stability.doubled(ball, 2).grid
+    finest = confirmed_starts.doubled(ball, 2).grid
     assert (finest.nx, finest.ny) == (4 * ball.grid.nx, 4 * ball.grid.ny)
-    assert (stability.doubled(coarse).grid.nx, stability.doubled(coarse).grid.ny) == (128, 32)
-    grids = stability.finer({"line": coarse, "ball": ball, "none": "refused"}, 6)
+    assert (confirmed_starts.doubled(coarse).grid.nx, confirmed_starts.doubled(coarse).grid.ny) == (128, 32)
+    grids = confirmed_starts.finer({"line": coarse, "ball": ball, "none": "refused"}, 6)
     assert (grids["line"].grid.nx, grids["ball"].grid.nx, grids["none"]) == (2048, 512, "refused")
-    assert stability.finer({"line": coarse}, 2)["line"].grid.nx == 256
+    assert confirmed_starts.finer({"line": coarse}, 2)["line"].grid.nx == 256
 
 
 def test_a_start_is_doubled_until_it_holds(monkeypatch):
@@ -170,12 +171,12 @@ def test_a_start_is_doubled_until_it_holds(monkeypatch):
 
     monkeypatch.setattr(passage, "march", march)
     coarse = scene("gear").replace(**{"grid.nx": 32, "grid.ny": 32})
-    found, = stability.confirm({"case": coarse}, again=6)
+    found, = confirmed_starts.confirm({"case": coarse}, again=6)
     assert found.holds and (found.columns, found.finer_K, found.half_K) == (128, 0.5, 0.0)
     assert run == [(32, False), (64, False), (128, False), (64, True), (256, False), (128, True)]
-    assert not next(stability.confirm({"case": coarse}, again=1)).holds
-    monkeypatch.setitem(stability.CONFIRMED, True, 64)
-    assert next(stability.confirm({"case": coarse}, again=6)).columns == 64
+    assert not next(confirmed_starts.confirm({"case": coarse}, again=1)).holds
+    monkeypatch.setitem(confirmed_starts.CONFIRMED, True, 64)
+    assert next(confirmed_starts.confirm({"case": coarse}, again=6)).columns == 64
 
 
 def test_a_start_that_is_lost_is_told(monkeypatch):
@@ -184,5 +185,5 @@ def test_a_start_that_is_lost_is_told(monkeypatch):
     from tehl_taichi.runs.sweep.pool import LostJob
 
     monkeypatch.setattr(measure, "side_by_side", lambda *args: iter([(0, LostJob("its worker died"))]))
-    lost, = stability.confirm({"case": scene("gear")})
+    lost, = confirmed_starts.confirm({"case": scene("gear")})
     assert (lost.name, lost.columns, lost.finer_K, lost.reason) == ("case", scene("gear").grid.nx, None, "its worker died")
