@@ -89,6 +89,8 @@ def _places(found):
         heads = ("quantity", "at", *found.names, *["change"] * pair)
         list_table("differences between the results", heads, _once(rows), whole=True)
     _legend(row[-1] for row in rows if pair)
+    for name, places in found.without_result().items():
+        put(f"no result in {name}: {', '.join(places)}")
     if same := [quantity.label for name, quantity in found.quantities.items() if name not in unequal]:
         put(f"equal in all: {'; '.join(same)}")
 

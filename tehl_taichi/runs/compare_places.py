@@ -93,7 +93,7 @@ class PlaceComparison:
     def differs(self) -> dict:
         """{dotted key: its value in each} of the settings that differ; contacts and speeds of single positions are in
         :attr:`rows`."""
-        return compare_labels.differs([table.about for table in self.tables])
+        return compare_labels.differs(place_table.settings(self.tables))
 
     def labels(self) -> list:
         """A name for each that says what is special about it: up to two values that differ, or its folder."""
@@ -131,6 +131,10 @@ class PlaceComparison:
         return list(dict.fromkeys(row.name for row in self.rows
                                   if row.name in missing or len(set(row.texts) - {NONE}) > 1))
 
+    def without_result(self) -> dict:
+        """{name of a result: words of its places without one} where there are any."""
+        return {name: list(table.failed) for name, table in zip(self.names, self.tables) if table.failed}
+
     def line(self, table, name):
         """(x, values, error bars or None), in the printed unit, of a quantity along a table; nan between both sides of a
         jump."""
@@ -146,7 +150,7 @@ class PlaceComparison:
     def to_dict(self) -> dict:
         """The JSON object of `tehl compare --json`, in SI units."""
         return {"kind": self.kind, "folders": [str(table.folder) for table in self.tables], "differs": self.differs,
-                "rows": [row.to_dict() for row in self.rows]}
+                "without_result": self.without_result(), "rows": [row.to_dict() for row in self.rows]}
 
     def plot(self, path: str | PathLike, dpi: int = 160, format: str = "png", width: float = 17.0,
              force: bool = False) -> Path:

@@ -13,6 +13,7 @@ from tehl_taichi.runs.flank import flank_columns
 from tehl_taichi.runs.flank.line_contacts import where
 from tehl_taichi.runs.open_results import BEARING, CAM, FLANK, STUDY
 from tehl_taichi.runs.sweep import study_figures, summary_columns
+from tehl_taichi.runs.sweep.case_records import STATUS
 from tehl_taichi.runs.sweep.plan import unit
 from tehl_taichi.runs.sweep.study_labels import key_name
 from tehl_taichi.scene.aliases import full_name
@@ -29,6 +30,7 @@ CONTACT = {"R_m": ("reduced radius R'", "mm"), "u_m_m_s": ("entrainment speed", 
            "h_min_Ra": ("h_min/Ra", ""), "bulk_C": ("bulk temperature", "deg C"),
            "passages": ("passages to initiation", ""), "worse_body": ("worse body", ""),
            "Fi_judged": ("Fi judged", "")}
+OF_A_POSITION = ("contact.", "operation.u_", "operation.srr", "grid.")  # keys that positions may set for themselves
 INDEX = (("Fi_p99", "Fi_max"), ("Fi_max_below",))
 # drawn: the first name of each line that has numbers
 OF_POSITIONS = (*INDEX, ("passage_h_min_m", "steady_h_min_m"), ("passage_p_max_Pa", "steady_p_max_Pa"),
@@ -68,14 +70,18 @@ class PlaceQuantity:
 
 @dataclass(frozen=True)
 class PlaceTable:
-    """One result. about: {dotted key: setting}; quantities: {name: :class:`PlaceQuantity`}; numbers: {(name, key of a place):
-    (value, error bar or None)}; across: label of the axis; drawn: names for the figure, the first of each line that has
-    numbers; ticks: whether places have names on the axis in place of numbers; x_unit: SI unit of these numbers, "" where they
-    are in the unit of the label."""
+    """One result.
+
+    about: {key: what it is}; scene: {dotted key: setting} that its scenes have in common, {} without stores; quantities: {name:
+    :class:`PlaceQuantity`}; numbers: {(name, key of a place): (value, error bar or None)}; across: label of the axis; drawn:
+    names for the figure, the first of each line that has numbers; ticks: whether places have names on the axis in place of
+    numbers; x_unit: SI unit of these, "" where they are in the unit of the label; failed: words of the places without a result.
+    """
 
     folder: Path
     title: str
     about: dict
+    scene: dict
     places: tuple
     quantities: dict
     numbers: dict
@@ -83,6 +89,7 @@ class PlaceTable:
     drawn: tuple
     ticks: bool = False
     x_unit: str = ""
+    failed: tuple = ()
 
 
 def place_table(kind, found):
@@ -108,9 +115,11 @@ def _of_positions(found, places, columns, about, across):
     kept = [one for one in columns if one.name not in ("point", "x_pl_m", "arc_m", "angle_deg")]
     numbers = {(one.name, key): (one.value(*row), one.error(*row)) for one in kept for key, row in rows.items()}
     entries = {entry.column: _of_entry(entry) for entry in quantities.ENTRIES if entry.column}
-    known = {one.name: entries.get(one.name) or PlaceQuantity(*CONTACT[one.name], one.factor, one.form) for one in kept}
-    return PlaceTable(found.folder, found.title, {**about, **_shared(found)}, tuple(places), known, _real(numbers), across,
-                      OF_POSITIONS)
+    known = {one.name: entries.get(one.name) or PlaceQuantity(*CONTACT[one.name], one.factor, one.form, one.barred)
+             for one in kept}
+    failed = tuple(place.words for place, (*_, summary) in zip(places, found.rows) if summary is None)
+    return PlaceTable(found.folder, found.title, about, _shared(found), tuple(places), known, _real(numbers), across,
+                      OF_POSITIONS, failed=failed)
 
 
 def _of_bearing(bearing):
@@ -119,8 +128,10 @@ def _of_bearing(bearing):
                for row in bearing_table.ROWS for ring, one in bearing.rings.items()}
     known = {row.name: _of_ring_row(row) for row in bearing_table.ROWS}
     about = {key: bearing.record[key] for key in ("name", "oil", "temperature_C", "roughness_Sq_m") if key in bearing.record}
-    return PlaceTable(bearing.folder, bearing.title, {**about, **flat(bearing.record["geometry"]), **_shared(bearing)}, places,
-                      known, _real(numbers), "", OF_RINGS, ticks=True)
+    about |= flat(bearing.record["geometry"])
+    failed = tuple(f"{ring} ring" for ring in bearing.failed)
+    return PlaceTable(bearing.folder, bearing.title, about, _shared(bearing), places, known, _real(numbers), "", OF_RINGS,
+                      ticks=True, failed=failed)
 
 
 def _of_study(study):
@@ -132,9 +143,11 @@ def _of_study(study):
     known = {name: _of_entry(entry) for entry in quantities.ENTRIES
              if entry.column and (name := f"{entry.part}_{entry.key}".replace(".", "_")) in study.values}
     swept = {full_name(key) for key in keys}
-    about = {key: value for key, value in flat(scene.to_dict()).items() if key not in swept} | {"swept": ", ".join(keys)}
-    axis = (key_name(keys[0]), OF_CASES, False, unit(scene, keys[0])) if one else ("", OF_CASES, True)
-    return PlaceTable(study.path, f"{scene.name} over {about['swept']}", about, places, known, numbers, *axis)
+    about, settings = {"swept": ", ".join(keys)}, {key: one for key, one in flat(scene.to_dict()).items() if key not in swept}
+    across, x_unit = (key_name(keys[0]), unit(scene, keys[0])) if one else ("", "")
+    failed = tuple(place.words for place, status in zip(places, study.status) if status != STATUS["converged"])
+    return PlaceTable(study.path, f"{scene.name} over {about['swept']}", about, settings, places, known, numbers, across,
+                      OF_CASES, not one, x_unit, failed)
 
 
 def _cases(study, keys, one):
@@ -176,6 +189,16 @@ def _shared(found):
     first = scenes[0] if scenes else {}
     return {key: value for key, value in first.items()
             if key != "name" and all(repr(one.get(key)) == repr(value) for one in scenes)}
+
+
+def settings(tables):
+    """[{key: value}] of the tables, to be compared: of scenes where all have some; of keys that positions may set by themselves
+    only those that all tables have."""
+    if not all(table.scene for table in tables):
+        return [table.about for table in tables]
+    common = set.intersection(*(set(table.scene) for table in tables))
+    return [{**table.about, **{key: value for key, value in table.scene.items()
+                               if key in common or not key.startswith(OF_A_POSITION)}} for table in tables]
 
 
 def check_alike(tables):

@@ -53,6 +53,7 @@ def test_flanks_are_compared_by_position(flanks):
     assert rows["steady_h_c_m", "A"].texts == ("0.100", "0.200") and rows["steady_h_c_m", "A"].change == "+100% (error unknown)"
     assert rows["Fi_max", "A"].change == NOT_SEPARATED, "1.4 of an unknown error, 1.5 ± 0.2"
     assert rows["Fi_max", "C"].change == "+29%" and ("Fi_max", "E") not in rows
+    assert found.without_result() == {"a": ["E (x_pl = 9.596 mm)"], "b": ["E (x_pl = 9.596 mm)"]}
     assert rows["srr", "C"].change == "" and found.unequal() == ["steady_h_c_m", "steady_p_max_Pa", "Fi_max", "Fi_judged"]
     assert tehl.compare(*map(tehl.open, flanks)).differs == found.differs
 
@@ -69,8 +70,11 @@ def test_positions_of_one_flank_alone_stand_in_their_place(flanks):
 def test_oils_of_the_stores_are_differences(flanks):
     """Of what all contacts of a flank have in common."""
     store(flanks[0] / "1.zarr", 2)
+    assert tehl.compare(*flanks).differs == {"torque": [265.1, 300.0]}, "the other one has no store"
     store(flanks[1] / "1.zarr", 2, SMALL.replace(**{"oil.name": "mineral-vg100"}))
+    store(flanks[1] / "2.zarr", 2, SMALL.replace(**{"oil.name": "mineral-vg100", "load": 1.2e6, "srr": 0.1}))
     found = tehl.compare(*flanks)
+    assert not any(key.startswith(("contact.", "operation.srr")) for key in found.differs), "positions have their own"
     assert found.differs["oil.name"] == ["reference-pao", "mineral-vg100"] and "oil.S0" in found.differs
     assert found.labels() == ["torque = 265.1, oil = reference-pao", "torque = 300, oil = mineral-vg100"]
 
@@ -82,6 +86,7 @@ def test_the_command_prints_a_table_by_position_and_one_figure(flanks, tmp_path)
     assert done.exit_code == 0 and (tmp_path / "c.png").exists()
     assert "not separated: the error bars overlap" in printed and "equal in all: reduced radius R'; " in printed
     assert "--at 0.5 has no effect here: it applies to runs" in done.output
+    assert "no result in b: E (x_pl = 9.596 mm)" in printed
     assert printed.index("torque") < printed.index("steady h_c, um") < printed.index("C (x_pl = 0 mm)")
     of = json.loads(CliRunner().invoke(app, ["compare", *map(str, flanks), "--json", "--force"]).stdout)
     assert of["kind"] == "flank" and of["figure"].endswith("compare.png")

@@ -26,6 +26,11 @@ class TableColumn:
     value: Callable
     table: str
 
+    @property
+    def barred(self):
+        """Whether it is computed with an error bar, which may be unknown."""
+        return isinstance(self.value, (_Of, _Judged))
+
     def error(self, *row):
         return self.value.error(*row) if isinstance(self.value, (_Of, _Judged)) else None
 
