@@ -229,7 +229,7 @@ class _Clock:
 def _march(saved, state, progress):
     """Every step that the store lacks; with run-in every passage, and its RunInState (else None)."""
     once = functools.partial(_march_once, saved, progress)
-    if not saved.scene.runs_in:
+    if not (saved.scene.runs_in and saved.scene.time.steps):
         return once(state)
     from tehl_taichi.runs import run_in_passages
 

@@ -16,6 +16,7 @@ TRIED, COUNTED = 5, 3  # first steps that are tried, and those that count: kerne
 # Mean time of the steps of whole passages over that of their first ones. Scans: 1.5 to 2.3 (slopes of 1 to 6 deg, 128 to 512
 # columns), 8 to 12 and 18 (4 and 10 deg, 128 columns, under 1.3 GPa with a film of 220 deg C); asperities: 1.3 to 2.5
 SCAN, OTHER = 20, 3
+MORE = 7  # passages of run-in more than those that are counted, at most: rounds of the first one
 LONG = 300.0  # s, from which on something faster is named
 SIDE = 1.2  # b, to the sides of a domain for the middle of a scan that is as wide as the contact
 
@@ -31,8 +32,14 @@ def lines(run, coarse):
     line = (f"the whole passage: {total} steps, {about(total * pace)} at the speed of the first steps ({pace:.2g} s each); "
             f"with {'a rough surface' if _scans(scene) else 'features'} in the contact steps take up to {_most(scene)} times "
             f"as long: up to {about(most)}; stresses and error bars "
-            f"follow{', which take as long again for a wide scan' if _scans(scene) else ''}")
+            f"follow{', which take as long again for a wide scan' if _scans(scene) else ''}"
+            f"{_repeated(scene)}")
     return [line, *(_faster(scene, coarse, most) if most > LONG else ())]
+
+
+def _repeated(scene):
+    """Words on the passages of run-in."""
+    return f"; run-in repeats the passage up to {scene.time.run_in + MORE} times" if scene.runs_in else ""
 
 
 def _pace(path, scene):

@@ -8,6 +8,7 @@ from numpy.testing import assert_allclose
 from rolling import Rolling
 
 import tehl_taichi as tehl
+from tehl_taichi.crack import symmetry_plane
 from tehl_taichi.errors import SceneError
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.fatigue.stress.residual_field import ResidualField
@@ -176,6 +177,18 @@ def test_histories_hold_the_residual_field_of_their_reader():
         found = [p.history(rows, p.stresses(depth), depth=depth) if depth else at_the_surface(p)(rows) for p in (plain, left)]
         added = (found[1] - found[0]).reshape(plain.x.size, 2, -1, 6)
         assert_allclose(added, np.broadcast_to(wanted[:, rows, one, None], added.shape), atol=1e3)
+
+
+def test_a_crack_has_the_residual_field_too():
+    """Also where the residual stress of the scene is replaced by another one."""
+    reader = Rolling(GEAR)
+    plain = symmetry_plane.plane_of(GEAR, reader)
+    reader.residual_fields = {"a": field(plain.x, np.linspace(0, 1e-4, 5))}
+    depths, xx = plain.skin * (symmetry_plane.GROWTH ** np.arange(plain.stress.shape[1]) - 1), plain.stress[..., 0]
+    wanted = reader.residual_fields["a"].at(plain.x, np.zeros(1), depths)[:, 0, :, None, 0]
+    for residual in (None, -1e8):
+        added = symmetry_plane.plane_of(GEAR, reader, residual).stress[..., 0] - xx
+        assert_allclose(added, np.broadcast_to(wanted, added.shape), atol=1e4)
 
 
 @pytest.mark.parametrize("changes, words", [

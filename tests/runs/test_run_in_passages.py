@@ -82,6 +82,13 @@ def test_a_killed_run_resumes_inside_its_passage_to_the_same_numbers(done, tmp_p
 
 
 @pytest.mark.slow
+def test_a_steady_start_that_is_resumed_runs_in(done, tmp_path):
+    start = tehl.run(STEEL.replace(**{"time.steps": 0}), tmp_path / "start.zarr", threads=2)
+    assert "run_in" not in start.summary and start.store.run_in.bodies == {}
+    assert tehl.resume(start.path, threads=2).summary["run_in"]["history"] == done.summary["run_in"]["history"]
+
+
+@pytest.mark.slow
 def test_where_nothing_yields_the_passage_is_the_elastic_one(tmp_path):
     hard = STEEL.replace(**{"bodies.a.yield_stress": 4e9})
     runs = [tehl.run(scene, tmp_path / f"{n}.zarr") for n, scene in enumerate((hard, hard.replace(**{"time.run_in": 0})))]
