@@ -12,6 +12,7 @@ from tehl_taichi.view.figures import palette
 
 MOST = 6  # panels
 TICKS = 6
+BESIDE = 0.15  # of the axis, free beside places with names
 HIGH = 1.25  # rows of lines
 LETTERS = 20  # of a line of a label
 PLURAL = {FLANK: "flanks", BEARING: "bearings", CAM: "cams", STUDY: "studies"}
@@ -54,9 +55,10 @@ def _panel(ax, comparison, name):
     for table, label, colour in zip(comparison.tables, comparison.labels(), palette.LINES):
         x, y, error = map(np.array, comparison.line(table, name))
         bars = error if np.isfinite(error).any() else None
-        ax.errorbar(x * factor, y, bars, fmt=".-", color=colour, label=label, **palette.BARS)
+        ax.errorbar(x * factor, y, bars, fmt="o" if table.ticks else ".-", color=colour, label=label, **palette.BARS)
     ax.set_ylabel(_label(comparison.quantities[name]))
     ax.grid()
+    ax.margins(x=BESIDE if comparison.tables[0].ticks else None)
 
 
 def _label(quantity):

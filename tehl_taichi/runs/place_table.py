@@ -30,7 +30,8 @@ CONTACT = {"R_m": ("reduced radius R'", "mm"), "u_m_m_s": ("entrainment speed", 
            "h_min_Ra": ("h_min/Ra", ""), "bulk_C": ("bulk temperature", "deg C"),
            "passages": ("passages to initiation", ""), "worse_body": ("worse body", ""),
            "Fi_judged": ("Fi judged", "")}
-OF_A_POSITION = ("contact.", "operation.u_", "operation.srr", "grid.")  # keys that positions may set for themselves
+OF_A_PLACE = ("contact.", "operation.u_", "operation.srr")  # keys of scenes that positions and rings set
+WIDER = "grid."  # begins keys that they may set
 INDEX = (("Fi_p99", "Fi_max"), ("Fi_max_below",))
 # drawn: the first name of each line that has numbers
 OF_POSITIONS = (*INDEX, ("passage_h_min_m", "steady_h_min_m"), ("passage_p_max_Pa", "steady_p_max_Pa"),
@@ -188,7 +189,7 @@ def _shared(found):
     scenes = [flat(store.scene.to_dict()) for store in found.stores()]
     first = scenes[0] if scenes else {}
     return {key: value for key, value in first.items()
-            if key != "name" and all(repr(one.get(key)) == repr(value) for one in scenes)}
+            if key != "name" and not key.startswith(OF_A_PLACE) and all(repr(one.get(key)) == repr(value) for one in scenes)}
 
 
 def settings(tables):
@@ -198,7 +199,7 @@ def settings(tables):
         return [table.about for table in tables]
     common = set.intersection(*(set(table.scene) for table in tables))
     return [{**table.about, **{key: value for key, value in table.scene.items()
-                               if key in common or not key.startswith(OF_A_POSITION)}} for table in tables]
+                               if key in common or not key.startswith(WIDER)}} for table in tables]
 
 
 def check_alike(tables):

@@ -152,6 +152,9 @@ def test_bearings_are_compared_by_ring(tmp_path):
     assert rows["p_Hertz_Pa", "inner ring"].change == "+26%", "the cube root of two"
     assert "R_x_m" not in found.unequal() and rows["R_x_m", "inner ring"].change == ""
     assert found.plot(tmp_path / "rings.png").exists()
+    for folder, load in zip(("low", "high"), (1.0, 2.0)):  # rings have the same load
+        store(tmp_path / folder / "6206-inner.zarr", 2, SMALL.replace(load=(1 + 0.05 * load) * 1e6))
+    assert tehl.compare(*made).differs == {"load": [2000.0, 4000.0]}
 
 
 def test_cams_are_compared_by_angle(tmp_path):
