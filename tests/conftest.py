@@ -48,7 +48,7 @@ def first_kernels(config):
     processes of the suite would compile it for themselves each, and so would the commands that they start."""
     from tehl_taichi.engine import runtime
 
-    if any(runtime.preferred_cache().glob("*.tic")):
+    if runtime.has_kernels():
         return
     folder = tempfile.TemporaryDirectory()
     config.add_cleanup(folder.cleanup)

@@ -35,6 +35,11 @@ def preferred_cache():
     return Path(os.environ.get("TEHL_CACHE") or os.path.join(root, "tehl_taichi")) / f"kernels-{__version__}"
 
 
+def has_kernels():
+    """Whether a process of this version has kept compiled kernels."""
+    return any(preferred_cache().glob("*.tic"))
+
+
 @functools.lru_cache(maxsize=1)
 def cache_dir():
     """Folder of compiled kernels that can be written to: the wanted one, or one for this process alone with what that holds

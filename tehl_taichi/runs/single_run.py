@@ -132,6 +132,7 @@ def _spent(saved):
 
 def _begin(scene, place, clock, progress):
     """The steady start into a new store, and all that follows."""
+    from tehl_taichi.engine import runtime
     from tehl_taichi.march.passage import march
     from tehl_taichi.runs.provenance import provenance
     from tehl_taichi.scene.timeline import most_steps
@@ -140,6 +141,8 @@ def _begin(scene, place, clock, progress):
     from tehl_taichi.values.coded_text import unknown_of
 
     _announce(scene, progress)
+    if not runtime.has_kernels():
+        progress.say("compiling kernels, once for this version: up to a minute; later runs load them")
     progress.stage(STEADY, 0, 1)
     first = next(march(scene))
     progress.stage(STEADY, 1, 1)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import tehl_taichi as tehl
+from tehl_taichi.engine import runtime
 from tehl_taichi.scene.timeline import total_steps
 from tehl_taichi.store.store import Store
 
@@ -41,6 +42,19 @@ def done(taichi_cpu, tmp_path_factory):
     """(run of four steps, what it told)."""
     heard = Heard()
     return tehl.run(RIDGE, tmp_path_factory.mktemp("run") / "a.zarr", progress=heard), heard
+
+
+@pytest.mark.parametrize("kept", [True, False])
+def test_the_first_run_of_a_version_says_that_it_compiles(taichi_cpu, tmp_path, monkeypatch, kept):
+    """Half a minute passes before its first step."""
+    monkeypatch.setenv("TEHL_CACHE", str(tmp_path))
+    assert not runtime.has_kernels()
+    if kept:
+        runtime.preferred_cache().mkdir()
+        (runtime.preferred_cache() / "one.tic").touch()
+    heard = Heard()
+    tehl.run(tehl.scene("smooth-line").replace(**{"grid.nx": 64, "thermal.on": False}), tmp_path / "a.zarr", progress=heard)
+    assert any(said.startswith("compiling kernels, once for this version") for said in heard.said) is not kept
 
 
 def test_a_run_tells_its_stages_and_steps(done):
