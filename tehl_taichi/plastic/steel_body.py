@@ -97,21 +97,24 @@ class _Zone:
         """One moment: the elastic stress (n, 6) of cells (layers, x, y) that may yield."""
         layer, x, y = (at - one.start for at, one in zip(places, self.part))
         at, kinds = (layer, x, y), (layer[:, None], np.arange(6), x[:, None], y[:, None])
+        limit = self.cells.flow_stress(layer, self.hardened[at])
+        if (self._size(stress, kinds) > limit * (1 + CLOSE)).any():
+            self._settle(stress, at, kinds, CLOSE * limit)
+
+    def _settle(self, stress, at, kinds, close):
+        """Find the plastic strain of these cells that returns them to the flow stress with its own residual stress, to `close`
+        (n,) Pa."""
         hardened, strain = self.hardened[at], self.strain[kinds]
-        limit = self.cells.flow_stress(layer, hardened)
-        if not (self._size(stress, kinds) > limit * (1 + CLOSE)).any():
-            return
-        held, found = hardened, strain
+        found = strain
         for _ in range(ROUNDS):
             trial = flow.deviator(stress + self.residual[kinds]) + 2 * self.G * (found - strain)
-            more, grown = flow.returned(trial, hardened, lambda eps: self.cells.flow_stress(layer, eps), self.G)
+            more, grown = flow.returned(trial, hardened, lambda eps: self.cells.flow_stress(at[0], eps), self.G)
             change = strain + more - found
-            found, held = found + RELAXED * change, hardened + grown
-            self.strain[kinds] = found
+            found = found + RELAXED * change
+            self.strain[kinds], self.hardened[at] = found, hardened + grown
             self.residual = self.kept + self._answer()[0]
-            if (2 * self.G * np.abs(change).max(axis=1, initial=0.0) < CLOSE * limit).all():
-                break
-        self.hardened[at] = held
+            if (2 * self.G * np.abs(change).max(axis=1, initial=0.0) < close).all():
+                return
 
     def _size(self, stress, kinds):
         """Von Mises stress of the elastic stress of cells and their residual one."""

@@ -164,7 +164,7 @@ class Reader:
             return None
         from tehl_taichi.store import run_in_file
 
-        return run_in_file.read(self.path)
+        return run_in_file.read(self.path, "run_in" in self.summary)
 
     @property
     def residual_fields(self):

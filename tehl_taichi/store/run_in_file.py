@@ -32,9 +32,10 @@ def write(path, state):
     checkpoint.write(path / CHECKPOINTS, LEFT, {**arrays, **numbers, "rest": state.rest})
 
 
-def read(path):
-    """The RunInState in the store at `path`; that of a first passage where none is kept. Raises StoreError."""
-    if not (path / CHECKPOINTS / f"{LEFT}.npz").is_file():
+def read(path, needed=False):
+    """The RunInState in the store at `path`; that of a first passage where none is kept, unless it is needed. Raises
+    StoreError."""
+    if not needed and not (path / CHECKPOINTS / f"{LEFT}.npz").is_file():
         return RunInState()
     found = _arrays(path, LEFT)
     try:
@@ -64,5 +65,5 @@ def _arrays(path, name):
 
 
 def _damaged(path, name):
-    return StoreError(f"{path / CHECKPOINTS / name}.npz is damaged, and the run-in in it; `tehl run {path} --out NEW` repeats "
-                      "the run")
+    return StoreError(f"{path / CHECKPOINTS / name}.npz is damaged or missing, and the run-in in it; `tehl run {path} --out NEW` "
+                      "repeats the run")

@@ -9,13 +9,15 @@ from rolling import Rolling
 
 import tehl_taichi as tehl
 from tehl_taichi.crack import symmetry_plane
-from tehl_taichi.errors import SceneError
+from tehl_taichi.errors import SceneError, StoreError
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.fatigue.stress.residual_field import ResidualField
 from tehl_taichi.fatigue.stress.row_histories import at_the_surface, histories_of
 from tehl_taichi.plastic import elastic_loads, run_in, run_in_numbers, steel_body
 from tehl_taichi.plastic.layers import Layers
 from tehl_taichi.plastic.surface_change import SurfaceChange
+from tehl_taichi.store import run_in_file
+from tehl_taichi.store.integrity import CHECKPOINTS
 
 GEAR = tehl.scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16, "thermal.on": False})
 STEEL = GEAR.replace(**{"bodies.a.yield_stress": 1.5e9, "time.run_in": 3})
@@ -207,3 +209,24 @@ def test_a_body_without_yield_stress_stays_elastic():
     assert [one.name for one in run_in.flowing(STEEL)] == ["a"]
     assert "bodies.b.hardening" in tehl.scene("gear").replace(**{"bodies.b.hardening": "swift-52100"}).warnings()[0]
     assert not replace(STEEL, time=replace(STEEL.time, steady_only=True)).runs_in
+
+
+def test_what_it_left_is_read_as_it_was_written_and_never_taken_for_nothing(done, tmp_path):
+    (tmp_path / CHECKPOINTS).mkdir()
+    for state in done[3]:
+        run_in_file.write(tmp_path, state)
+        again = run_in_file.read(tmp_path)
+        for name in ("passages", "rounds", "part", "records", "done", "contained", "unsettled"):
+            assert getattr(again, name) == getattr(state, name)
+        assert (again.rest is None) == (state.rest is None) and np.all(again.rest == state.rest)
+        one, two = again.bodies["a"], state.bodies["a"]
+        assert one.mirrored == two.mirrored and np.array_equal(one.surface, two.surface)
+        assert all(np.array_equal(getattr(one.start, part), value) for part, value in vars(two.start).items())
+    file = tmp_path / CHECKPOINTS / "run_in.npz"
+    file.write_bytes(file.read_bytes()[:-200])
+    with pytest.raises(StoreError, match="damaged or missing"):
+        run_in_file.read(tmp_path)
+    file.unlink()
+    assert run_in_file.read(tmp_path) == run_in.RunInState()
+    with pytest.raises(StoreError, match="damaged or missing"):
+        run_in_file.read(tmp_path, needed=True)
