@@ -65,5 +65,5 @@ def _arrays(path, name):
 
 
 def _damaged(path, name):
-    return StoreError(f"{path / CHECKPOINTS / name}.npz is damaged or missing, and the run-in in it; `tehl run {path} --out NEW` "
-                      "repeats the run")
+    return StoreError(f"{path / CHECKPOINTS / name}.npz is damaged or missing, and the run-in in it; `tehl run {path} --out "
+                      "NEW` repeats the run")
