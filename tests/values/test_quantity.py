@@ -46,7 +46,7 @@ def test_the_template_tells_unit_meaning_and_range_of_every_key():
         kind = kinds(PARTS[section])[key]
         found = [line for line in text.splitlines() if line.startswith(f"{key} = ") and kind.sentence in line]
         assert kind.about and found, (section, key, lines.get(key))
-    assert "# m: along x" in lines["width"] and "[1e-06 to 0.03]" in lines["width"]
+    assert "# m: size along x" in lines["width"] and "[1e-06 to 0.03]" in lines["width"]
     assert "[5 to 33]" in lines["nodes"] and "[true, false or auto]" in lines["thermal_stress"]
 
 
