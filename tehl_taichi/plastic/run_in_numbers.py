@@ -3,6 +3,7 @@
 import numpy as np
 
 ALONG, ACROSS = 0, 1  # the components xx and yy
+RISEN = 1e-9  # m: a dent with a lower rim has none
 
 
 def numbers(scene, state):
@@ -27,14 +28,15 @@ def _of_body(one, judged):
 
 
 def _heights(scene, state):
-    """Height of the features of the surface that carries the first one, before and after; {} where its steel does not flow."""
+    """Height of the highest point of the surface that carries the first feature, before and after, where nothing rises depth of
+    the lowest; {} where its steel does not flow."""
     name = scene.reference.name
     if name not in state.bodies:
         return {}
     one = state.bodies[name]
     before = sum(f.height_at(one.x[:, None] - f.x, one.y[None] - f.y) for f in scene.reference.features) + 0 * one.start.sinking
     after = before - one.start.sinking
-    extreme = np.max if before.max() >= -before.min() else np.min
+    extreme = np.max if before.max() > RISEN else np.min
     return {"height_before_m": float(extreme(before)), "height_after_m": float(extreme(after))}
 
 

@@ -93,6 +93,11 @@ def test_passages_end_when_no_cell_yields_and_the_last_one_is_judged(done):
     assert [one["passage"] for one in found["history"]] == list(range(1, state.passages + 2))
 
 
+def test_a_dent_has_a_depth(done):
+    found = run_in_numbers.numbers(STEEL.replace(height=-1e-6), done[1])
+    assert found["height_before_m"] == pytest.approx(-1e-6, rel=0.02) and found["height_after_m"] < found["height_before_m"]
+
+
 def test_where_nothing_yields_it_is_one_look():
     reader, state, seen, kept = repeated(STEEL.replace(**{"bodies.a.yield_stress": 2.6e9}))
     assert len(seen) == 1 and kept == [state] and state.passages == 0 and not state.changes and not state.residual_fields
