@@ -8,7 +8,7 @@ from tehl_taichi.engine.records import Record
 from tehl_taichi.engine.taichi_patches.prebound import bind
 from tehl_taichi.heat import conduction_modes, film_tables, strips
 from tehl_taichi.heat.heat_step import Drift
-from tehl_taichi.scene.scales import peclet
+from tehl_taichi.scene.scales import Scales, peclet
 
 
 class ConductingBody:
@@ -28,8 +28,8 @@ class ConductingBody:
         self.modes, self.drift = np.zeros((4, conduction_modes.MODES)), Record(Drift)
 
     def begin(self, dt, before, after, settled):
-        """Prepare a step of dt s in which the grid passes from `before` to `after`, in cells; settled: whether it has a memory
-        of a long time with the flux of the step itself. Returns B."""
+        """Prepare a step of dt s in which its surface passes over the grid from `before` to `after`, in cells; settled: whether it
+        has a memory of a long time with the flux of the step itself. Returns B."""
         known = conduction_modes.memory(dt, self.effusivity, self.dt, self.depth, self.spread)
         for row, values in ((strips.WEIGHT, known.weight), (strips.DECAY, known.decay), (strips.GAIN, known.gain),
                             (strips.GAIN_LAST, known.gain_last)):
@@ -55,7 +55,7 @@ class ConductingBodies:
         scene = levels.scene
         self.levels, self.columns, self.steady = levels, columns, False
         speeds = scene.operation.u_a, scene.operation.u_b
-        self.each = [ConductingBody(*one, dt, levels.scales)
+        self.each = [ConductingBody(*one, dt, Scales.of(scene))  # of the contact, also where the grid is a window of it
                      for one in zip((scene.body_a, scene.body_b), speeds, scene.at_rest)]
         self.table = film_tables.SlotTable(levels, strips.width(conduction_modes.MODES))
         self.offset = self.until = np.zeros(2)  # cells that each body has moved since the start, and will have
@@ -69,10 +69,11 @@ class ConductingBodies:
         self._remember = [bind(strips.remember, F, C, G, body.modes, body.drift.values, count, n, flux[n])
                           for n, body in enumerate(self.each)]
 
-    def begin(self, dt):
-        """A of both surfaces after a step of dt s, into the columns. Returns B of both."""
+    def begin(self, dt, moved=0):
+        """A of both surfaces after a step of dt s in which the grid moves by so many cells, into the columns. Returns B of
+        both."""
         v = self.levels
-        self.until = self.offset + np.array([body.speed for body in self.each]) * dt / (v.dx * v.scales.a)
+        self.until = self.offset + np.array([body.speed for body in self.each]) * dt / (v.dx * v.scales.a) - moved
         B = [body.begin(dt, *way, self.steady and body.rests) for body, *way in zip(self.each, self.offset, self.until)]
         for surface in self._surface:
             surface()

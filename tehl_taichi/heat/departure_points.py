@@ -19,12 +19,14 @@ def cubic(f):
 
 @ti.dataclass
 class EarlierState:
-    """The state of a node some time ago: kind of its temperature, its number, pressure of its column, and how long ago."""
+    """The state of a node some time ago: kind of its temperature, its number, pressure of its column, how long ago, and by how
+    many cells the grid has moved since."""
 
     warm: ti.i32
     node: ti.i32
     press: ti.i32
     seconds: ti.f64
+    moved: ti.f64
 
 
 @ti.func
@@ -101,7 +103,7 @@ FARTHEST = 1.0
 @ti.func
 def origin(Z: ti.template(), C: ti.template(), nz, at: ti.template(), past: ti.template(), u, v, step: ti.template(), inflow):
     """Temperature and pressure of the past at the place where the oil of a node, of the velocities u and v, was then."""
-    x = at.i - u * (past.seconds * step.inv_x)
+    x = at.i + past.moved - u * (past.seconds * step.inv_x)
     T0, p0 = along_x(Z, C, nz, at, past, x, inflow)
     if at.ny > 0:
         rows = minimum(maximum(v * (step.back_2 * step.inv_y), -FARTHEST), FARTHEST)  # in both steps
@@ -132,10 +134,10 @@ def departures(S: ti.template(), Z: ti.template(), C: ti.template(), G: Table, n
             at = block_at(G, c, i)
             for n in range(nz):
                 u, v = Z[U, at.q * nz + n], Z[VY, at.q * nz + n]
-                past = EarlierState(warm=TN, node=n, press=PN, seconds=step.back)
+                past = EarlierState(warm=TN, node=n, press=PN, seconds=step.back, moved=step.moved)
                 warm, press = origin(Z, C, nz, at, past, u, v, step, scene.inlet)
                 if step.far != 0.0:
-                    before = EarlierState(warm=TNN, node=n, press=PNN, seconds=step.back_2)
+                    before = EarlierState(warm=TNN, node=n, press=PNN, seconds=step.back_2, moved=step.moved_2)
                     warm_2, press_2 = origin(Z, C, nz, at, before, u, v, step, scene.inlet)
                     warm, press = step.near * warm + step.far * warm_2, step.near * press + step.far * press_2
                 Z[TS, at.q * nz + n] = warm

@@ -48,7 +48,7 @@ from tehl_taichi.laws.density import expansivity
 from tehl_taichi.laws.sheared_flow import mean_stress, wall_slip
 from tehl_taichi.laws.viscosity import ln_eta
 from tehl_taichi.pressure.conditions import Conditions
-from tehl_taichi.pressure.fields import SKEW, TOUCH, P
+from tehl_taichi.pressure.fields import MASK, SKEW, TOUCH, P
 from tehl_taichi.pressure.tractions import solid_friction
 
 DT = 1e-2  # K, step of the difference quotient in temperature
@@ -101,10 +101,17 @@ class Sources:
 
 
 @ti.func
+def same_place(at: ti.template(), moved):
+    """Column that was here when the grid had still to move so many cells."""
+    return at.q - at.i + ti.min(ti.max(at.i + int(moved), 0), at.nx)
+
+
+@ti.func
 def outflow(Z: ti.template(), at: ti.template(), nz, n, step: ti.template()):
     """rho w minus what the moving nodes take along: -(d/dt, d/dx, d/dy) of the mass (flux) below node n."""
     q, left, right = at.q, ti.min(at.i, 1), ti.min(at.nx - at.i, 1)
-    out = (Z[MS, q * nz + n] - step.near * Z[MSN, q * nz + n] - step.far * Z[MSNN, q * nz + n]) * step.rate
+    last, before = same_place(at, step.moved), same_place(at, step.moved_2)
+    out = (Z[MS, q * nz + n] - step.near * Z[MSN, last * nz + n] - step.far * Z[MSNN, before * nz + n]) * step.rate
     out += (Z[MX, (q + right) * nz + n] - Z[MX, (q - left) * nz + n]) * (step.inv_x / (left + right))
     if at.ny > 0:
         lower, upper = nodes_around(Z, at, MY, nz, n)
@@ -294,12 +301,12 @@ def assemble_walls(Z: ti.template(), C: ti.template(), X: ti.template(), N: ti.t
 
 
 @ti.func
-def update(Z: ti.template(), X: ti.template(), at: ti.template(), nz, coldest, part):
-    """Add this part of the Newton step to the temperatures. Returns the largest change (K) of the whole step, its sum over the
-    nodes of each row, and how many nodes were held in range."""
+def update(Z: ti.template(), X: ti.template(), at: ti.template(), nz, coldest, part, solved):
+    """Add this part of the Newton step to the temperatures of the rows that are `solved` (1, else 0). Returns the largest change
+    (K) of the whole step, its sum over the nodes of each row, and how many nodes were held in range."""
     moved, total, held = V(0.0), V(0.0), V(0.0)
     for n in range(nz):
-        change = minimum(maximum(X[at.c, nz * nz + n], -LONGEST), LONGEST)
+        change = ti.select(solved > 0.0, minimum(maximum(X[at.c, nz * nz + n], -LONGEST), LONGEST), V(0.0))
         t = Z[T, at.q * nz + n] + part * change
         Z[T, at.q * nz + n] = minimum(maximum(t, coldest), HOT)
         moved, total = maximum(moved, ti.abs(change)), total + change
@@ -343,9 +350,10 @@ def paced(part, turned):
 
 @ti.func
 def solve_column(Z: ti.template(), C: ti.template(), X: ti.template(), N: ti.template(), at: ti.template(),
-                 col: ti.template(), oil: ti.template(), rheology: ti.template(), scene: ti.template(), step: ti.template()):
-    """Temperatures of a column by Newton. Returns 1.0 if they did not converge under load and how many nodes were held in
-    range."""
+                 col: ti.template(), oil: ti.template(), rheology: ti.template(), scene: ti.template(), step: ti.template(),
+                 solved):
+    """Temperatures of a column by Newton, in the rows that are `solved` (1, else 0). Returns 1.0 if they did not converge under
+    load and how many nodes were held in range."""
     nz = N.shape[1]
     moved, expected, part, count, clamped, failed, went = 1e300, 1e300, 1.0, 0, 0.0, 0.0, V(0.0)
     while expected > step.tolerance and count < int(step.iterations):
@@ -358,14 +366,14 @@ def solve_column(Z: ti.template(), C: ti.template(), X: ti.template(), N: ti.tem
         assemble_walls(Z, C, X, N, at, col.k / col.h, step)
         eliminate(X, at.c, nz)
         previous, before = moved, went
-        moved, went, held = update(Z, X, at, nz, scene.inlet - WARM, part)
+        moved, went, held = update(Z, X, at, nz, scene.inlet - WARM, part, solved)
         keep_parts(Z, at.q, nz, oil)
         clamped += held
         if SLUGGISH * previous < moved and previous < LONGEST:
             part = paced(part, sum_of_rows(went * before, at))
         # of the next step: quadratic at first, then as the last two; saves the step that would only confirm
         expected = QUADRATIC * moved * moved if count == 1 else moved * ti.min(moved / previous, 1.0)
-    if expected > step.tolerance and largest_row(col.p, at) > LIGHT * scene.p_H:
+    if expected > step.tolerance and largest_row(col.p * solved, at) > LIGHT * scene.p_H:
         failed = 1.0
     return failed, clamped
 
@@ -396,7 +404,8 @@ def energy(S: ti.template(), Z: ti.template(), C: ti.template(), X: ti.template(
             at = block_at(G, c, i)
             col = heated(S, C, G, at, oil, rheology, scene)
             prepare(Z, at, nz, oil, col.p, scene.ln_eta0, step)
-            lost, held = solve_column(Z, C, X, N, at, col, oil, rheology, scene, step)
+            solved = 1.0 - step.given * (1.0 - S[MASK, at.k])
+            lost, held = solve_column(Z, C, X, N, at, col, oil, rheology, scene, step, solved)
             if lost * step.hold > 0.0:
                 lost, held = 0.0, keep_departed(Z, at, nz, oil)
             else:

@@ -19,12 +19,15 @@ class HeatStep:
     near: ti.f64  # weight of the state dt ago in d/dt,
     far: ti.f64  # and of that back_2 ago: together 1
     hold: ti.f64  # 1: columns without a solution keep the temperatures of the oil that came in, those without load may change
+    given: ti.f64  # 1: columns whose pressure is given have given temperatures, too
+    moved: ti.f64  # cells that the grid has moved since the last step,
+    moved_2: ti.f64  # and since the one before
 
 
 @ti.dataclass
 class Drift:
     """Motion of a body in a time step: where its material strips lie."""
 
-    shift: ti.f64  # whole cells that the grid overtakes the strips by
+    shift: ti.f64  # whole cells that the strips overtake the grid by
     rest: ti.f64  # cells that strip i lies ahead of column i afterwards
     B_last: ti.f64  # K m2/W, of the flux of the last step

@@ -1,7 +1,7 @@
 """Material strips of both bodies: heat that went in earlier, remembered in the bodies' own frames.
 
 F[column, slot]: the modes of body a and of body b (`count` each) and the flux of the last step into both; one scratch slot. A
-column belongs to a material strip, which the grid of the contact overtakes by whole cells and a rest (Drift).
+column belongs to a material strip; strips overtake the grid by whole cells and a rest (Drift), and come in cold from the left.
 """
 
 from tehl_taichi.engine.language import ti
@@ -55,9 +55,10 @@ def surface(F: ti.template(), C: ti.template(), G: Table, modes: Modes, drift: F
         for i in range(nx + 1):
             total = V(ambient)
             if i - shift >= 0:
-                total += lies.B_last * F[first + i - shift, flux_at]
+                strip = first + ti.min(i - shift, nx)
+                total += lies.B_last * F[strip, flux_at]
                 for m in range(count):
-                    total += modes[WEIGHT, m] * modes[DECAY, m] * F[first + i - shift, modes_at + m]
+                    total += modes[WEIGHT, m] * modes[DECAY, m] * F[strip, modes_at + m]
             F[first + i, scratch] = total
         for i in range(nx + 1):
             C[first + i, slot] = interpolate(F, first, i - 1, nx, scratch, 1.0 - lies.rest)
@@ -66,22 +67,23 @@ def surface(F: ti.template(), C: ti.template(), G: Table, modes: Modes, drift: F
 @ti.kernel
 def remember(F: ti.template(), C: ti.template(), G: Table, modes: Modes, drift: Flat, count: ti.i32, body: ti.i32,
              slot: ti.i32):
-    """The new memory of a body from the flux C[slot] of this step and that of the last; from the right, as strips come from
-    the left: none is overwritten that is still wanted."""
+    """The new memory of a body from the flux C[slot] of this step and that of the last; from the side that strips leave at, so
+    that none is overwritten before it is read."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
         first, lies = s * (nx + 1), read(Drift, drift)
         shift = int(lies.shift)
         modes_at, flux_at = memory(count, body)
-        for behind in range(nx + 1):
-            i = nx - behind
+        for n in range(nx + 1):
+            i = nx - n if shift >= 0 else n
+            strip = first + ti.min(i - shift, nx)
             q, last = interpolate(C, first, i, nx, slot, lies.rest), V(0.0)
             if i - shift >= 0:
-                last = F[first + i - shift, flux_at]
+                last = F[strip, flux_at]
             for m in range(count):
                 old = V(0.0)
                 if i - shift >= 0:
-                    old = F[first + i - shift, modes_at + m]
+                    old = F[strip, modes_at + m]
                 F[first + i, modes_at + m] = modes[DECAY, m] * old + modes[GAIN, m] * q + modes[GAIN_LAST, m] * last
             F[first + i, flux_at] = q

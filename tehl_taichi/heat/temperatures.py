@@ -41,6 +41,7 @@ class HeatReport:
 class FilmHeat:
     """Temperatures on the finest grid of `levels`: a film for :class:`tehl_taichi.pressure.newton.PressureSolver`, the laws of
     which follow them. dt_s: the time step (s) that the memory of the bodies is made for; shorter ones may be taken too.
+    given: whether columns whose pressure is given have given temperatures, too.
 
     values(), slopes(): density and viscosity of the film in the table, and their derivatives, into the table; rows: which.
     """
@@ -49,12 +50,13 @@ class FilmHeat:
     # of the state, (..., ny+1, nx+1)
     FIELDS = ("heat_T", "heat_T_before", "heat_below", "heat_below_before", "heat_p_before", "heat_memory")
 
-    def __init__(self, levels, dt_s):
+    def __init__(self, levels, dt_s, given=False):
         self.levels, self.dt, self.nz = levels, dt_s, levels.scene.thermal.nodes
         self.across, self.columns = ChebyshevNodes(self.nz), film_tables.FilmTables(levels, self.nz)
         self.bodies = ConductingBodies(levels, self.columns, dt_s)
         self.holding = False  # columns without a solution at the temperatures of the oil that came in, see :meth:`hold`
-        self.step, self.dt_now, self.dt_before = Record(HeatStep), 0.0, 0.0
+        self.step, self.dt_now, self.dt_before = Record(HeatStep, given=float(given)), 0.0, 0.0
+        self.moved = self.moved_before = 0  # cells that the grid moves in this step, and in the last
         self.report, self.rounds = HeatReport(math.nan, 0, 0), Relaxation()
         self._bind(levels.scene)
 
@@ -87,14 +89,23 @@ class FilmHeat:
         self.values()
         self._keep()
 
-    def begin(self, dt):
-        """Prepare a step of dt s: what the bodies remember, A and B of both surfaces."""
+    def continue_from(self, T, memory, offset):
+        """Continue from a film at T (nz, ny+1, nx+1), of the pressure and film in the table, without a step before, and from
+        bodies of a memory and offset (:meth:`ConductingBodies.restore`)."""
+        self.start(T)
+        self.bodies.steady = False
+        self.bodies.restore(memory, offset)
+
+    def begin(self, dt, moved=0):
+        """Prepare a step of dt s in which the grid moves by so many cells: what the bodies remember, A and B of both
+        surfaces."""
         v, a, self.dt_now, self.rounds = self.levels, self.levels.scales.a, dt, Relaxation()
-        B_a, B_b = self.bodies.begin(dt)
+        self.moved, (B_a, B_b) = moved, self.bodies.begin(dt, moved)
         rate, (near, *far) = bdf(*([dt, self.dt_before] if self.dt_before else [dt]))
         self.step.set(rate=rate, near=near, far=sum(far), back=dt, back_2=dt + self.dt_before, inv_x=1 / (v.dx * a),
                       inv_y=1 / (v.dy * a), B_a=B_a, B_b=B_b, tolerance=COLUMN_TOLERANCE * v.scene.thermal.tolerance,
-                      iterations=COLUMN_ITERATIONS, hold=float(self.holding))
+                      iterations=COLUMN_ITERATIONS, hold=float(self.holding), moved=moved,
+                      moved_2=moved + self.moved_before)
 
     def solve(self, again=False):
         """Temperatures of this step for the pressure and film in the table; again: of a step with temperatures already, which
@@ -138,7 +149,7 @@ class FilmHeat:
         """Make this step the last one."""
         self.bodies.accept()
         self.holding = False
-        self.dt_before = self.dt_now
+        self.dt_before, self.moved_before = self.dt_now, self.moved
         self._keep()
 
     def _keep(self):

@@ -12,7 +12,7 @@ import numpy as np
 from tehl_taichi.errors import NotConverged
 from tehl_taichi.heat.temperatures import FilmHeat
 from tehl_taichi.march import snapshot
-from tehl_taichi.march.coupling import carefully, exchange
+from tehl_taichi.march.coupling import carefully, exchange, rounds
 from tehl_taichi.march.failure import crossed, not_converged
 from tehl_taichi.march.feature_gap import sink, with_features
 from tehl_taichi.march.prediction import Prediction
@@ -32,11 +32,6 @@ from tehl_taichi.scene.sections import AUTO
 from tehl_taichi.scene.timeline import step_cells, total_steps
 
 __all__ = ["NotConverged", "Passage", "Snapshot", "march", "total_steps"]
-
-# A failed step is repeated in parts, with temperatures in so many times the rounds: at the outlet edge of a hot film a shorter
-# step changes as much from round to round (asperity of 100 um on 128 columns, SRR -0.12 and 0.12: by 100 K and more; with 8
-# rounds neither passes 1.15 a)
-MORE_ROUNDS = 4
 
 
 def march(scene, state=None, changes=()):
@@ -140,12 +135,7 @@ class Passage:
     def _exchange(self, part):
         """Pressure and temperatures of a part of a step."""
         self.heat.begin(part * self.dT * self.scales.t)
-        return exchange(self.solver, self.heat, self._solve, self._rounds(part), sparing=True)
-
-    def _rounds(self, part):
-        """Rounds of pressure and temperature, at most: more for a part of a step, but for a user who wants one lagged round."""
-        most = self.scene.thermal.rounds
-        return most if part == 1.0 or most == 1 else MORE_ROUNDS * most
+        return exchange(self.solver, self.heat, self._solve, rounds(self.scene, part), sparing=True)
 
     def _solve(self):
         """The pressure, and with it film, cavitation, solid contact and load; carefully where it does not converge at once."""

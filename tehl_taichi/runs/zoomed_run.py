@@ -4,6 +4,7 @@ Windows of half the factor and of the whole one make three grids with the run it
 coarse-grid runs are.
 """
 
+import functools
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -18,7 +19,9 @@ from tehl_taichi.scene.scales import Scales
 
 FIELDS = {"pressure": ("Pa", "pressure in the zoom window"), "film": ("m", "film thickness in the zoom window"),
           **{f"traction_{axis}_{body}": ("Pa", f"shear on body {body} along {axis} in the zoom window")
-             for body in "ab" for axis in "xy"}}
+             for body in "ab" for axis in "xy"},
+          "temperature_mid": ("degC", "mid-film temperature in the zoom window"),
+          **{f"temperature_{body}": ("degC", f"temperature of surface {body} in the zoom window") for body in "ab"}}
 DIMS = ["zoom_moment", "zoom_x", "zoom_y"]
 
 
@@ -35,17 +38,9 @@ def levels(saved, progress):
     """The ZoomLevels of the run in the store `saved`, coarsest first."""
     scene = saved.scene
     factors = [factor for factor in (scene.zoom.factor // 2, scene.zoom.factor) if factor > 1]
-    return [_level(scene, saved, factor, progress, n, len(factors)) for n, factor in enumerate(factors)]
-
-
-def _level(scene, saved, factor, progress, n, count):
-    """One level; it is part n of so many."""
-    def notify(done, total):
-        progress.stage(ZOOM, n * total + done, count * total)
-
-    progress.stage(ZOOM, n, count)
-    found = zoomed_passage.passage(scene, saved, factor, notify)
-    return ZoomLevel(found, ZoomedReader(saved, found, scene.symmetric))
+    progress.stage(ZOOM, 0, len(saved) - 1)
+    found = zoomed_passage.passages(scene, saved, factors, functools.partial(progress.stage, ZOOM))
+    return [ZoomLevel(one, ZoomedReader(saved, one, scene.symmetric)) for one in found]
 
 
 def search(saved, found, progress):

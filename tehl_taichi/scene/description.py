@@ -191,12 +191,9 @@ class Scene:
                                  f"{self.load_meant(need / min(abs(end), domain.INLETS[0])) or self._form_words()}")
 
     def _check_zoom(self):
-        """A window needs one temperature and every step."""
+        """A window needs every step."""
         if not self.zooms:
             return
-        if not self.isothermal:
-            raise SceneError(f"zoom.factor = {self.zoom.factor} needs a film of one temperature: use --isothermal, or "
-                             "zoom.factor = 0")
         if self.output.every > 1:
             raise SceneError(f"zoom.factor = {self.zoom.factor} needs every step: use output.every = 1 (it is "
                              f"{self.output.every})")

@@ -5,8 +5,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl_taichi.laws.density import rho_ratio
+from tehl_taichi.heat.chebyshev import ChebyshevNodes
+from tehl_taichi.laws.density import rho_film, rho_ratio
 from tehl_taichi.march.feature_gap import smooth_with, with_features
+from tehl_taichi.march.zoom.marched_heat import MarchedHeat
 from tehl_taichi.pressure.grids import Grids
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.timeline import step_length
@@ -17,13 +19,15 @@ POINTS = 4  # states of a polynomial
 
 @dataclass(frozen=True)
 class BaseState:
-    """X: of the first feature, a; P, mass (rho H), bent (deflection of the bodies): (ny+1, nx+1); H0: rigid approach."""
+    """X: of the first feature, a; P, mass (rho H), bent (deflection of the bodies): (ny+1, nx+1); H0: rigid approach; T: (nodes
+    across, ny+1, nx+1) deg C, or one number without temperatures."""
 
     X: float
     P: np.ndarray
     mass: np.ndarray
     bent: np.ndarray
     H0: float
+    T: np.ndarray | float
 
     def __mul__(self, weight):
         return BaseState(*(weight * getattr(self, name) for name in self.__dataclass_fields__))
@@ -41,6 +45,7 @@ class BaseStates:
         self.smooth = self.grid.smooth_gap()
         self.mirrored = self.grid.ny > 0 and scene.symmetric
         self.last, self.first_x, self.way = len(reader) - 1, scene.path[0], step_length(scene)
+        self.heat = None if scene.isothermal else MarchedHeat(scene)
         self.entry = functools.lru_cache(maxsize=2 * POINTS)(self._entry)
 
     def position(self, step):
@@ -64,7 +69,11 @@ class BaseStates:
         gap = with_features(self.smooth, self.grid, self.scene.surfaces, self.position(n))
         if n == 0:  # the start is smooth; features come into its film with the first step
             H = H + gap - smooth_with(self.grid, self.scene.standing)
-        return BaseState(self.position(n), p / s.p_H, self._density(p) * H, H - gap - H0, H0)
+        T = self.heat.at(n).T if self.heat else self.scene.operation.temperature
+        return BaseState(self.position(n), p / s.p_H, self._density(p, T) * H, H - gap - H0, H0, T)
 
-    def _density(self, p):
-        return rho_ratio(self.scene.film_oil, p, self.scene.operation.temperature)
+    def _density(self, p, T):
+        """Mean over the film."""
+        if not self.heat:
+            return rho_ratio(self.scene.film_oil, p, T)
+        return np.tensordot(ChebyshevNodes(len(T)).weights, rho_film(self.scene.oil, p, T), 1)

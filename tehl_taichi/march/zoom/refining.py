@@ -27,10 +27,12 @@ def matrix(factor, nodes, points, mirrored=False):
 
 
 class Refining:
-    """Fields (rows, columns) of a grid at the nodes of a window of fine ones: first and number of rows and of columns."""
+    """Fields (..., rows, columns) of a grid at the nodes of a window of fine ones: first and number of rows and of columns.
+    Those beyond an end of the grid count as that."""
 
     def __init__(self, first, count, factor, nodes, mirrored):
-        self.parts = [slice(begin, begin + number) for begin, number in zip(first, count)]
+        self.parts = [np.clip(np.arange(begin, begin + number), 0, (of - 1) * factor)
+                      for begin, number, of in zip(first, count, nodes)]
         self.factor, self.nodes, self.mirrored = factor, nodes, mirrored
 
     def smooth(self, field, points=6):

@@ -3,6 +3,8 @@
 import dataclasses
 from types import SimpleNamespace
 
+import numpy as np
+
 from tehl_taichi.march.zoom.window import given
 from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.scene.scales import Scales
@@ -37,3 +39,4 @@ class WindowLevels(Levels):
     def place(self, origin):
         """Its columns begin with this one of the fine grid."""
         self.X = self.window.columns(origin)
+        self.conditions.set(centre=np.searchsorted(self.X, 0.0))

@@ -1,16 +1,17 @@
 """The march in time of a window that rides with a feature: each of its steps as in a passage, driven by the states of the run.
 
-Pressure along its border, rigid approach, the film that is bent from outside and the history of rho H along the border are
-those of the run, between whose steps it takes `factor` of its own.
+Pressure and temperatures along its border, rigid approach, the film that is bent from outside and the history of rho H along
+the border are those of the run, between whose steps it takes `factor` of its own.
 """
 
 import numpy as np
 
-from tehl_taichi.march.coupling import carefully
+from tehl_taichi.march.coupling import carefully, exchange, rounds
 from tehl_taichi.march.substeps import Substeps
-from tehl_taichi.march.zoom.base_states import BaseStates
 from tehl_taichi.march.zoom.outside_gap import OutsideGap
 from tehl_taichi.march.zoom.refining import Refining
+from tehl_taichi.march.zoom.two_frames import TwoFrames
+from tehl_taichi.march.zoom.window_heat import WindowHeat
 from tehl_taichi.march.zoom.window_levels import WindowLevels
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.isothermal import OneTemperature
@@ -18,21 +19,26 @@ from tehl_taichi.pressure.newton import RISES, PressureSolver
 from tehl_taichi.pressure.storage_term import ORDER, Storage
 
 SHEAR = "traction_x_a", "traction_y_a", "traction_x_b", "traction_y_b"
+GUESSED = 2  # order of the guess of the pressure
 PAD = 4  # cells of the run beside the window whose history is kept: more than it moves and paths reach in ORDER steps
 
 
 class WindowPassage:
-    """The passage of `window` (:class:`tehl_taichi.march.zoom.window.Window`) through the run of `scene` in `reader`."""
+    """The passage of `window` (:class:`tehl_taichi.march.zoom.window.Window`) through the run whose states are `base`
+    (:class:`tehl_taichi.march.zoom.base_states.BaseStates`)."""
 
-    def __init__(self, scene, reader, window):
-        self.scene, self.window, self.base = scene, window, BaseStates(scene, reader)
-        self.levels = WindowLevels(scene, window)
+    def __init__(self, base, window):
+        self.scene, self.window, self.base = base.scene, window, base
+        self.levels = WindowLevels(self.scene, window)
         self.outside = OutsideGap(self.base, self.levels)
-        self.film = OneTemperature(self.levels)
-        self.solver = PressureSolver(self.levels, self.film, RISES, carries_load=False)
         self.given = self.levels.get(fields.MASK) == 0
-        self.parts, self.defects, self.old = Substeps(), [], []
-        self.dT = self.base.way * scene.operation.u_m / scene.reference.speed / window.factor
+        whole = self.base.way * self.scene.operation.u_m / self.scene.reference.speed
+        self.dT = whole / window.factor
+        self.heat = WindowHeat(base, self.levels, self._refining, self.given, whole * base.scales.t) if base.heat else None
+        self.film = self.heat.film if self.heat else OneTemperature(self.levels)
+        self.solver = PressureSolver(self.levels, self.film, RISES, carries_load=False)
+        self.guess = TwoFrames(GUESSED, lambda origin: self._fine_pressure(base.at(0), origin))
+        self.parts, self.old = Substeps(), []
         self.resting = 0, self._refining(0, window.all_nx + 1).smooth(self.base.at(0).mass)
         self.storage = None
 
@@ -40,7 +46,11 @@ class WindowPassage:
         """Take over the run at this step, with its history."""
         moments = [at for at in (step - n / self.window.factor for n in range(ORDER)) if at >= 0]
         self.old = [self._kept(state, self.window.origin(state.X)) for state in map(self.base.at, moments)]
-        self._put(self.base.at(step))
+        state = self.base.at(step)
+        origin, ring = self._put(state)
+        self.guess.accept(ring, origin, self._at(state))
+        if self.heat:
+            self.heat.take_over(step, origin, self._at(state))
         self.storage = Storage(self.levels)
         self.storage.lengths = [self.dT] * (len(self.old) - 1)
 
@@ -55,33 +65,57 @@ class WindowPassage:
             if report.converged:
                 done += part
                 self.parts.accept(part)
-            elif not self.parts.reject(part):
-                break
+            elif not self.parts.reject(part) and not self._hold():
+                return reports
+        if self.heat:
+            self.heat.refresh(step + 1)
         return reports
+
+    def _hold(self):
+        """Continue with few columns of the film that have no temperatures; False where that does not help."""
+        if not (self.heat and self.film.hold()):
+            return False
+        self.parts.retry()
+        return True
 
     def _try(self, at, part):
         """The state at a moment of the run, `part` of a step after the last accepted one; accepted if it converged."""
         state = self.base.at(at)
         origin, ring = self._put(state)
         self._follow(origin, part * self.dT)
-        guess = np.where(self.given, ring, np.maximum(ring + self._defect(), 0.0))
+        guess = np.where(self.given, ring, np.maximum(self.guess.next(origin, self._at(state)), 0.0))
         self.levels.put(fields.P, guess)
         self.solver.H0 = state.H0
-        report = carefully(self.solver, guess)
+        report = self._solve(guess, state, origin, part)
         if report.converged:
-            self._accept(state, origin, ring, part * self.dT)
+            self._accept(state, origin, part * self.dT)
         return report
+
+    def _solve(self, guess, state, origin, part):
+        """Pressure, and temperatures where there are any, of a step from this pressure on. Returns a SolveReport."""
+        def pressure():
+            return carefully(self.solver, guess)
+
+        if not self.heat:
+            return pressure()
+        self.heat.begin(state.T, origin, self._at(state), part * self.dT * self.base.scales.t)
+        return exchange(self.solver, self.film, pressure, rounds(self.scene, part), sparing=True)
 
     def fields(self):
         """{name: (ny+1, nx+1)} of the newest state, SI."""
         v, s = self.levels, self.levels.scales
         shear = dict(zip(SHEAR, self.film.tractions()))
-        return {"pressure": v.get(fields.P) * s.p_H, "film": v.get(fields.H) * s.h, **shear}
+        warm = self.heat.fields() if self.heat else {}
+        return {"pressure": v.get(fields.P) * s.p_H, "film": v.get(fields.H) * s.h, **shear, **warm}
+
+    def numbers(self, step):
+        """{name: number} of the run at a step with the window in it, that :meth:`fields` do not give."""
+        return self.heat.highest(self.base.at(step).T) if self.heat else {}
 
     def _put(self, state):
         """Gap and pressure of the run at a state into the tables. Returns the window's first column, and that pressure."""
         origin = self.window.origin(state.X)
-        ring = self._refining(origin, self.window.nx + 1).pressure(state.P)
+        ring = self._fine_pressure(state, origin)
         self.outside.put(state, origin, ring)
         self.levels.put(fields.P, ring)
         self.levels.set_film(state.H0)
@@ -98,18 +132,22 @@ class WindowPassage:
         self.storage.replace(self._under(origin, *self.resting), [self._under(origin, *kept) for kept in self.old])
         self.storage.begin(dT)
 
-    def _defect(self):
-        """What the window's pressure will differ from the run's by, in the frame of the window."""
-        if len(self.defects) < 2:
-            return self.defects[0] if self.defects else 0.0
-        return 2 * self.defects[0] - self.defects[1]
+    def _fine_pressure(self, state, origin):
+        """Pressure of the run at the nodes of the window."""
+        return self._refining(origin, self.window.nx + 1).pressure(state.P)
 
-    def _accept(self, state, origin, ring, dT):
+    def _at(self, state):
+        """Place of the first feature, columns of the fine grid."""
+        return state.X / self.window.dx
+
+    def _accept(self, state, origin, dT):
         v = self.levels
         self.origin = origin
         self.old = [self._kept(state, origin, v.get(fields.RHO) * v.get(fields.H)), *self.old[: ORDER - 1]]
-        self.defects = [v.get(fields.P) - ring, *self.defects[:1]]
+        self.guess.accept(v.get(fields.P), origin, self._at(state))
         self.storage.accept(dT)
+        if self.heat:
+            self.heat.accept(origin, self._at(state))
 
     def _kept(self, state, origin, mass=None):
         """(first column, rho H) of a state under the window and beside it: that of the run but where the window's is `mass`."""

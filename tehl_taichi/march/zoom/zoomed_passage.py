@@ -4,32 +4,35 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from tehl_taichi.march.zoom.base_states import BaseStates
 from tehl_taichi.march.zoom.window import Window
 from tehl_taichi.march.zoom.window_passage import WindowPassage
-
-NAMES = ("pressure", "film", "traction_x_a", "traction_y_a", "traction_x_b", "traction_y_b")
 
 
 @dataclass
 class ZoomedPassage:
     """window; entries of the run (from 1 on) and first fine columns of the window at each; fields {name: list of
-    (nx+1, ny+1) f4, SI}; ended: why it did not reach its last step, or ""; newton, cycles, attempts: work."""
+    (nx+1, ny+1) f4, SI}; numbers {name: list} of the run with the window in it; ended: why it did not reach its last step, or
+    ""; newton, cycles, attempts: work."""
 
     window: Window
     entries: list = field(default_factory=list)
     origins: list = field(default_factory=list)
-    fields: dict = field(default_factory=lambda: {name: [] for name in NAMES})
+    fields: dict = field(default_factory=dict)
+    numbers: dict = field(default_factory=dict)
     ended: str = ""
     newton: int = 0
     cycles: int = 0
     attempts: int = 0
 
-    def add(self, entry, origin, values):
+    def add(self, entry, origin, values, numbers):
         """One moment."""
         self.entries.append(entry)
         self.origins.append(origin)
         for name, value in values.items():
-            self.fields[name].append(np.ascontiguousarray(value.T, np.float32))
+            self.fields.setdefault(name, []).append(np.ascontiguousarray(value.T, np.float32))
+        for name, number in numbers.items():
+            self.numbers.setdefault(name, []).append(number)
 
     def count(self, reports):
         """Add the work of some steps."""
@@ -38,23 +41,34 @@ class ZoomedPassage:
         self.attempts += len(reports)
 
 
-def passage(scene, reader, factor, notify=lambda done, total: None):
-    """The ZoomedPassage of a scene through its run in `reader` (every step, the steady start first), with windows of `factor`.
+def passages(scene, reader, factors, notify=lambda done, total: None):
+    """The ZoomedPassages of windows of these factors through the run of a scene in `reader` (every step, the steady start first).
 
-    A step that fails for good ends it; notify(done, total) after each step of the run.
+    A step that fails for good ends one; notify(done, total) after each step of the run.
     """
-    march = WindowPassage(scene, reader, Window.of(scene, factor))
-    out, (first, last) = ZoomedPassage(march.window), steps_of(scene, march.base)
-    march.begin(first)
+    base = BaseStates(scene, reader)
+    marches = [WindowPassage(base, Window.of(scene, factor)) for factor in factors]
+    out, (first, last) = [ZoomedPassage(march.window) for march in marches], steps_of(scene, base)
+    for march in marches:
+        march.begin(first)
     for step in range(first, last):
-        reports = march.advance(step)
-        out.count(reports)
-        if not reports[-1].converged:
-            out.ended = f"it did not converge with the feature at {march.base.position(step + 1):.2f} a"
+        for march, found in zip(marches, out):
+            if not found.ended:
+                _advance(march, found, step)
+        if all(found.ended for found in out):
             break
-        out.add(step + 1, march.origin, march.fields())
         notify(step + 1 - first, last - first)
     return out
+
+
+def _advance(march, found, step):
+    """One window, from `step` to the next of the run."""
+    reports = march.advance(step)
+    found.count(reports)
+    if reports[-1].converged:
+        found.add(step + 1, march.origin, march.fields(), march.numbers(step + 1))
+    else:
+        found.ended = f"it did not converge with the feature at {march.base.position(step + 1):.2f} a"
 
 
 def steps_of(scene, base):

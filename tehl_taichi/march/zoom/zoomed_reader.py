@@ -21,6 +21,9 @@ class ZoomedReader:
         self.series = {name: np.array(reader.scalar(name), float) for name in EXTREMES}
         for entry in zoomed.entries:
             self._take_extremes(entry)
+        for name, values in zoomed.numbers.items():
+            self.series[name] = np.array(reader.scalar(name), float)
+            self.series[name][zoomed.entries] = values
 
     def __len__(self):
         return len(self.reader)

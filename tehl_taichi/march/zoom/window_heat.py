@@ -1,0 +1,81 @@
+"""Temperatures of a window: solved inside, those of the run along its border.
+
+The bodies move through the window; the memory of the strips that come in is that of the run.
+"""
+
+import numpy as np
+
+from tehl_taichi.heat import conduction_modes, strips
+from tehl_taichi.heat.chebyshev import largest
+from tehl_taichi.heat.temperatures import FilmHeat
+from tehl_taichi.march.zoom.two_frames import TwoFrames
+
+WHOLE = 1e-9  # cells
+HOTTER = 20.0  # K, that a film is guessed to become than it was
+ORDER = 1  # of the extrapolation in time
+HALF = 0.5  # of the core's weight: from there on a node is the window's
+
+
+class WindowHeat:
+    """The :class:`tehl_taichi.heat.temperatures.FilmHeat` (film) of a window on `levels` that `base`
+    (:class:`tehl_taichi.march.zoom.base_states.BaseStates`) drives; refining(first, columns): to its nodes; given: nodes of its
+    border; dt: step of the run, s."""
+
+    def __init__(self, base, levels, refining, given, dt):
+        self.base, self.window, self.refining, self.given = base, levels.window, refining, given
+        self.film, self.origin = FilmHeat(levels, dt, given=True), 0
+        self.guess = TwoFrames(ORDER, lambda origin: self._fine(base.at(0).T, origin))
+
+    def take_over(self, step, origin, at):
+        """The temperatures of the run at a step, with the window from column `origin` on and its feature `at`."""
+        state, self.origin = self.base.heat.at(step), origin
+        offset = self.window.factor * state.offset
+        self.film.continue_from(self._fine(state.T, origin), self._memory(state, origin), offset - np.floor(offset + WHOLE))
+        self.guess.accept(self.film.T, origin, at)
+
+    def begin(self, T, origin, at, dt):
+        """Prepare a step of dt s to temperatures T of the run, this place of the window and of its feature, in columns."""
+        self.film.begin(dt, origin - self.origin)
+        guess = np.clip(self.guess.next(origin, at), self.film.T.min(), self.film.T.max() + HOTTER)
+        self.film.set_temperature(np.where(self.given, self._fine(T, origin), guess))
+
+    def accept(self, origin, at):
+        """The step becomes the last one."""
+        self.film.accept()
+        self.guess.accept(self.film.T, origin, at)
+        self.origin = origin
+
+    def refresh(self, step):
+        """The memory of what lies along the border becomes that of the run at this step."""
+        bodies = self.film.bodies
+        memory = np.where(self.given, self._memory(self.base.heat.at(step), self.origin), bodies.memory())
+        bodies.restore(memory, bodies.offset)
+
+    def fields(self):
+        """{name: (ny+1, nx+1)} of the newest state, deg C."""
+        T = self.film.T
+        return {"temperature_mid": T[len(T) // 2], "temperature_a": T[0], "temperature_b": T[-1]}
+
+    def highest(self, T):
+        """{name: deg C} of the run at temperatures T with the window in it."""
+        w, grid = self.window, self.base.grid
+        here = w.core(self.origin + np.arange(w.nx + 1), w.row + np.arange(w.ny + 1), self.origin) >= HALF
+        there = w.core(w.factor * np.arange(grid.nx + 1), w.factor * np.arange(grid.ny + 1), self.origin) >= HALF
+        own, rest = self.film.T[:, here], T[:, ~there]
+        return {"film_max_C": max(largest(own), largest(rest)), "surface_a_max_C": max(own[0].max(), rest[0].max()),
+                "surface_b_max_C": max(own[-1].max(), rest[-1].max())}
+
+    def _fine(self, T, origin):
+        return self.refining(origin, self.window.nx + 1).smooth(T, 4)
+
+    def _memory(self, state, origin):
+        """Memory of the bodies of a HeatState at the strips of the window: strip i of the run is strip factor i + `ahead`."""
+        factor, count = self.window.factor, conduction_modes.MODES
+        whole = np.floor(factor * state.offset + WHOLE) - factor * np.floor(state.offset + WHOLE)
+        out = np.empty((len(state.memory), *self.given.shape))
+        for body, ahead in enumerate(whole.astype(int)):
+            first, flux = strips.memory(count, body)
+            fine = self.refining(origin - ahead, self.window.nx + 1)
+            for slots in (slice(first, first + count), slice(flux, flux + 1)):
+                out[slots] = fine.smooth(state.memory[slots], 4)
+        return out
