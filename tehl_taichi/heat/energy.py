@@ -48,7 +48,7 @@ from tehl_taichi.laws.density import expansivity
 from tehl_taichi.laws.sheared_flow import mean_stress, wall_slip
 from tehl_taichi.laws.viscosity import ln_eta
 from tehl_taichi.pressure.conditions import Conditions
-from tehl_taichi.pressure.fields import MASK, SKEW, TOUCH, P
+from tehl_taichi.pressure.fields import IE, MASK, SKEW, TOUCH, P
 from tehl_taichi.pressure.tractions import solid_friction
 
 DT = 1e-2  # K, step of the difference quotient in temperature
@@ -75,6 +75,7 @@ class EnergyColumn:
     px: V  # Pa/m
     py: V  # Pa/m
     skew: V  # fluidity for the flow by pressure over that of the Couette flow
+    e0: V  # int dzeta/eta over 1/eta0 of the temperatures that the pressure was solved for
     k: V  # W/mK, conductivity
     fade: V  # part of the film's heat sources that counts
     touch: V  # 1 where boundary friction heats instead of the film,
@@ -151,7 +152,7 @@ def heated(S: ti.template(), C: ti.template(), G: ti.template(), at: ti.template
     if at.i > scene.centre:
         fade = S[P, at.k] / (S[P, at.k] + FADE)
     friction = -scene.u_s * solid_friction(rheology, p, scene.u_s) / h
-    return EnergyColumn(p=p, h=h, px=C[at.q, PX], py=C[at.q, PY], skew=S[SKEW, at.k],
+    return EnergyColumn(p=p, h=h, px=C[at.q, PX], py=C[at.q, PY], skew=S[SKEW, at.k], e0=S[IE, at.k] / S[SKEW, at.k],
                   k=conductivity(oil, p), fade=fade, touch=S[TOUCH, at.k],
                   friction=friction)
 
@@ -181,17 +182,19 @@ def inside_film(tau, newtonian, slip):
 def work(rheology: ti.template(), col: ti.template(), flow: ti.template(), scene: ti.template()):
     """The Work of a column. Together its heats are tau u_s + p_x q, q: what the gradient carries. Where oil slips along a wall,
     bend is that of a rate which stays: at a stress that stays Newton steps swing between films that slip and those that do not.
+    What the pressure drives is the flow of its balance of mass, whatever the temperatures: with a flow that rises with them hot
+    walls would become hotter without an end.
     """
     law = sheared(rheology, col, flow, scene)
     wall = wall_stress(col, col.px, scene)
     strain, raised = wall * col.skew, flow.newtonian * (1.0 + RISE)
     inside = inside_film(law.tau, flow.newtonian, law.slip)
     more = inside_film(mean_stress(rheology, strain, raised, col.p), raised, wall_slip(rheology, strain, raised, col.p))
-    held, part = law.tau + wall, law.slip
-    return Work(sliding=flow.sign * ti.sqrt(inside), along=ti.sqrt(law.along), across=ti.sqrt(law.across),
+    held, part, driven = law.tau + wall, law.slip, col.e0 / flow.e0
+    return Work(sliding=flow.sign * ti.sqrt(inside), along=ti.sqrt(law.along * driven), across=ti.sqrt(law.across * driven),
                 bend=ti.select(part > 0.0, inside, (more - inside) / RISE), slip=held * ti.abs(scene.u_s) * part,
                 slip_e0=held * ti.abs(scene.u_s) * ti.select(part > 0.0, 1.0 - part, V(0.0)) / flow.e0,
-                both=col.h**3 * flow.e0 * col.skew / (12.0 * scene.eta0) * (
+                both=col.h**3 * col.e0 * col.skew / (12.0 * scene.eta0) * (
                     law.more_x * col.px * col.px + law.more_y * col.py * col.py))
 
 
@@ -199,9 +202,10 @@ def work(rheology: ti.template(), col: ti.template(), flow: ti.template(), scene
 def sources(node: ti.template(), col: ti.template(), flow: ti.template(), done: ti.template()):
     """The Sources at a node."""
     solid = col.touch > 0.0
-    tx, ty = done.sliding + node.lever * col.px * done.along, node.lever * col.py * done.across
-    viscous = ti.select(solid, V(0.0), (tx * tx + ty * ty) * node.ie * col.fade)
-    gain = node.ie * done.bend / flow.e0 * col.fade
+    along, across = node.lever * col.px * done.along, node.lever * col.py * done.across
+    tx, driven = done.sliding + along, along * along + across * across + done.sliding * along
+    viscous = ti.select(solid, V(0.0), (tx * tx + across * across) * node.ie * col.fade)
+    gain = node.ie * (done.bend + driven) / flow.e0 * col.fade
     return Sources(viscous=viscous, heat=ti.select(solid, col.friction, viscous),
                    squeeze=ti.select(solid, V(0.0), node.swell * col.fade), gain=ti.select(solid, V(0.0), gain))
 
