@@ -36,7 +36,7 @@ def run(
     thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="with or without the energy equation"),
     fatigue: Optional[bool] = typer.Option(None, "--fatigue/--no-fatigue", help="with or without stresses and fatigue index"),
     zoom: Optional[int] = typer.Option(None, help="add a fine window that rides with the feature, 2, 4 or 8 times as fine as "
-                                                  "the grid (isothermal)"),
+                                                  "the grid"),
     run_in: Optional[int] = typer.Option(None, help="passages of run-in before the one that is stored, at most: steel of "
                                                     "bodies with a yield stress flows"),
     estimate_error: Optional[bool] = typer.Option(None, "--estimate-error/--no-estimate-error",
@@ -119,7 +119,7 @@ def resume(
 
 
 def zoom(
-    store: Path = typer.Argument(..., help="store of a finished isothermal run with a passage"),
+    store: Path = typer.Argument(..., help="store of a finished run with a passage"),
     factor: int = typer.Option(4, help="cells of the window in a cell of the grid: 2, 4 or 8; 0 removes the window"),
     threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
     as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout"),

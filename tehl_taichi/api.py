@@ -162,7 +162,7 @@ def resume(path: Name, *, steps: int | None = None, threads: int | None = None, 
 
 
 def zoom(path: Name, factor: int = 4, *, threads: int | None = None, progress: "Progress | None" = None) -> "Run":
-    """Add a fine window that rides with the feature to a finished isothermal run; the steps of the run are kept.
+    """Add a fine window that rides with the feature to a finished run; the steps of the run are kept.
 
     Stresses, the fatigue search and error bars are computed again with the window. Interrupted, `resume` finishes it.
 
@@ -183,7 +183,7 @@ def zoom(path: Name, factor: int = 4, *, threads: int | None = None, progress: "
     Raises
     ------
     SceneError
-        The scene has temperatures, no passage, or not every step is stored.
+        The scene has no passage, or not every step is stored.
     StoreError
         No store, a damaged or unfinished one, one of another version, or another process writes it.
 

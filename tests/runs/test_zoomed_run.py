@@ -93,16 +93,17 @@ def test_what_cannot_have_a_window(plain, folder):
 def test_a_window_that_ends_early_is_a_warning(folder, monkeypatch):
     from tehl_taichi.march.zoom import zoomed_passage
 
-    whole = zoomed_passage.passage
+    whole = zoomed_passage.passages
 
-    def ends(scene, reader, factor, notify):
-        found = whole(scene, reader, factor, notify)
-        for values in (found.entries, found.origins, *found.fields.values()):
-            del values[20:]
-        found.ended = "it did not converge with the feature at -0.37 a"
-        return found
+    def end(scene, reader, factors, notify):
+        passages = whole(scene, reader, factors, notify)
+        for found in passages:
+            for values in (found.entries, found.origins, *found.fields.values()):
+                del values[20:]
+            found.ended = "it did not converge with the feature at -0.37 a"
+        return passages
 
-    monkeypatch.setattr(zoomed_passage, "passage", ends)
+    monkeypatch.setattr(zoomed_passage, "passages", end)
     run = tehl.run(ZOOMED.replace(**{"fatigue.on": False}), folder / "ended.zarr")
     warning = next(one for one in run.warnings if one.code == "zoom")
     assert "ended early: it did not converge with the feature at -0.37 a" in warning

@@ -24,25 +24,28 @@ class WindowHeat:
     def __init__(self, base, levels, refining, given, dt):
         self.base, self.window, self.refining, self.given = base, levels.window, refining, given
         self.film, self.origin = FilmHeat(levels, dt, given=True), 0
-        self.guess = TwoFrames(ORDER, lambda origin: self._fine(base.at(0).T, origin))
+        self.run = None  # temperatures of the run at the nodes of the window
+        self.guess = TwoFrames(ORDER, refining(0, self.window.all_nx + 1).smooth(base.at(0).T, 4))
 
     def take_over(self, step, origin, at):
         """The temperatures of the run at a step, with the window from column `origin` on and its feature `at`."""
         state, self.origin = self.base.heat.at(step), origin
         offset = self.window.factor * state.offset
-        self.film.continue_from(self._fine(state.T, origin), self._memory(state, origin), offset - np.floor(offset + WHOLE))
-        self.guess.accept(self.film.T, origin, at)
+        T = self._fine(state.T, origin)
+        self.film.continue_from(T, self._memory(state, origin), offset - np.floor(offset + WHOLE))
+        self.guess.accept(self.film.T, T, origin, at)
 
     def begin(self, T, origin, at, dt):
         """Prepare a step of dt s to temperatures T of the run, this place of the window and of its feature, in columns."""
         self.film.begin(dt, origin - self.origin)
-        guess = np.clip(self.guess.next(origin, at), self.film.T.min(), self.film.T.max() + HOTTER)
-        self.film.set_temperature(np.where(self.given, self._fine(T, origin), guess))
+        self.run = self._fine(T, origin)
+        guess = np.clip(self.guess.next(self.run, origin, at), self.film.T.min(), self.film.T.max() + HOTTER)
+        self.film.set_temperature(np.where(self.given, self.run, guess))
 
     def accept(self, origin, at):
         """The step becomes the last one."""
         self.film.accept()
-        self.guess.accept(self.film.T, origin, at)
+        self.guess.accept(self.film.T, self.run, origin, at)
         self.origin = origin
 
     def refresh(self, step):

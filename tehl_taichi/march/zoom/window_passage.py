@@ -37,7 +37,7 @@ class WindowPassage:
         self.heat = WindowHeat(base, self.levels, self._refining, self.given, whole * base.scales.t) if base.heat else None
         self.film = self.heat.film if self.heat else OneTemperature(self.levels)
         self.solver = PressureSolver(self.levels, self.film, RISES, carries_load=False)
-        self.guess = TwoFrames(GUESSED, lambda origin: self._fine_pressure(base.at(0), origin))
+        self.guess = TwoFrames(GUESSED, self._refining(0, window.all_nx + 1).pressure(base.at(0).P))
         self.parts, self.old = Substeps(), []
         self.resting = 0, self._refining(0, window.all_nx + 1).smooth(self.base.at(0).mass)
         self.storage = None
@@ -48,7 +48,7 @@ class WindowPassage:
         self.old = [self._kept(state, self.window.origin(state.X)) for state in map(self.base.at, moments)]
         state = self.base.at(step)
         origin, ring = self._put(state)
-        self.guess.accept(ring, origin, self._at(state))
+        self.guess.accept(ring, ring, origin, self._at(state))
         if self.heat:
             self.heat.take_over(step, origin, self._at(state))
         self.storage = Storage(self.levels)
@@ -83,12 +83,12 @@ class WindowPassage:
         state = self.base.at(at)
         origin, ring = self._put(state)
         self._follow(origin, part * self.dT)
-        guess = np.where(self.given, ring, np.maximum(self.guess.next(origin, self._at(state)), 0.0))
+        guess = np.where(self.given, ring, np.maximum(self.guess.next(ring, origin, self._at(state)), 0.0))
         self.levels.put(fields.P, guess)
         self.solver.H0 = state.H0
         report = self._solve(guess, state, origin, part)
         if report.converged:
-            self._accept(state, origin, part * self.dT)
+            self._accept(state, origin, ring, part * self.dT)
         return report
 
     def _solve(self, guess, state, origin, part):
@@ -115,7 +115,7 @@ class WindowPassage:
     def _put(self, state):
         """Gap and pressure of the run at a state into the tables. Returns the window's first column, and that pressure."""
         origin = self.window.origin(state.X)
-        ring = self._fine_pressure(state, origin)
+        ring = self._refining(origin, self.window.nx + 1).pressure(state.P)
         self.outside.put(state, origin, ring)
         self.levels.put(fields.P, ring)
         self.levels.set_film(state.H0)
@@ -132,19 +132,15 @@ class WindowPassage:
         self.storage.replace(self._under(origin, *self.resting), [self._under(origin, *kept) for kept in self.old])
         self.storage.begin(dT)
 
-    def _fine_pressure(self, state, origin):
-        """Pressure of the run at the nodes of the window."""
-        return self._refining(origin, self.window.nx + 1).pressure(state.P)
-
     def _at(self, state):
         """Place of the first feature, columns of the fine grid."""
         return state.X / self.window.dx
 
-    def _accept(self, state, origin, dT):
+    def _accept(self, state, origin, ring, dT):
         v = self.levels
         self.origin = origin
         self.old = [self._kept(state, origin, v.get(fields.RHO) * v.get(fields.H)), *self.old[: ORDER - 1]]
-        self.guess.accept(v.get(fields.P), origin, self._at(state))
+        self.guess.accept(v.get(fields.P), ring, origin, self._at(state))
         self.storage.accept(dT)
         if self.heat:
             self.heat.accept(origin, self._at(state))

@@ -8,9 +8,11 @@ import pytest
 
 import tehl_taichi as tehl
 from tehl_taichi.fatigue.assessment import Snapshots
-from tehl_taichi.march.zoom import window_passage, zoomed_passage
+from tehl_taichi.march.zoom import window_passage
+from tehl_taichi.march.zoom.base_states import BaseStates
 from tehl_taichi.march.zoom.window import Window
 from tehl_taichi.march.zoom.window_passage import WindowPassage
+from tehl_taichi.march.zoom.zoomed_passage import passages
 from tehl_taichi.march.zoom.zoomed_reader import ZoomedReader
 from tehl_taichi.pressure import fields
 from tehl_taichi.scene.scales import Scales
@@ -41,11 +43,16 @@ def runs():
     return of
 
 
+def passage(scene, reader, factor, *notify):
+    """Of one window."""
+    return passages(scene, reader, [factor], *notify)[0]
+
+
 @pytest.mark.parametrize("factor, within", [(1, 1e-12), (2, 3e-9)])
 def test_the_film_under_the_pressure_of_the_run_is_that_of_the_run(runs, factor, within):
     """Twice as fine, the pressure between the nodes bends the bodies by a part of 130 nm more or less."""
     scene, reader = runs(0.0)
-    march = WindowPassage(scene, reader, Window.of(scene, factor))
+    march = WindowPassage(BaseStates(scene, reader), Window.of(scene, factor))
     for entry in (1, 30, 50):
         march.begin(entry)
         origin = march.window.origin(march.base.position(entry))
@@ -57,7 +64,7 @@ def test_the_film_under_the_pressure_of_the_run_is_that_of_the_run(runs, factor,
 @pytest.mark.parametrize("srr", [0.0, -0.12])
 def test_a_window_as_coarse_as_the_run_gives_its_pressures(runs, srr):
     scene, reader = runs(srr)
-    found = zoomed_passage.passage(scene, reader, 1)
+    found = passage(scene, reader, 1)
     width = found.window.nx + 1
     for entry, origin, p in zip(found.entries, found.origins, found.fields["pressure"]):
         own = reader.items[entry].fields["pressure"][origin : origin + width]
@@ -68,7 +75,7 @@ def test_a_window_as_coarse_as_the_run_gives_its_pressures(runs, srr):
 @pytest.mark.parametrize("srr, within", [(0.0, 0.003), (-0.12, 0.003)])
 def test_a_window_twice_as_fine_gives_what_a_run_twice_as_fine_does(runs, srr, within):
     (scene, reader), (_, fine) = runs(srr), runs(srr, columns=256)
-    zoomed = ZoomedReader(reader, zoomed_passage.passage(scene, reader, 2), True)
+    zoomed = ZoomedReader(reader, passage(scene, reader, 2), True)
     now, there, before = (one.scalar("p_max_Pa")[1:].max() for one in (zoomed, fine, reader))
     assert abs(now - there) < within * there and abs(now - there) < 0.4 * abs(before - there) + 1e-4 * there
     entry = int(np.argmax(zoomed.scalar("p_max_Pa")))
@@ -78,7 +85,7 @@ def test_a_window_twice_as_fine_gives_what_a_run_twice_as_fine_does(runs, srr, w
 
 
 def test_a_feature_of_b_at_the_opposite_slip_has_the_same_window(runs):
-    first, other = (zoomed_passage.passage(*runs(srr, name), 2) for srr, name in ((-0.12, "a"), (0.12, "b")))
+    first, other = (passage(*runs(srr, name), 2) for srr, name in ((-0.12, "a"), (0.12, "b")))
     assert first.origins == other.origins
     assert np.array_equal(first.fields["pressure"], other.fields["pressure"])
     assert np.array_equal(first.fields["traction_x_a"], other.fields["traction_x_b"])
@@ -87,7 +94,7 @@ def test_a_feature_of_b_at_the_opposite_slip_has_the_same_window(runs):
 def test_a_window_may_begin_late_and_end_early(runs):
     scene, reader = runs(0.0)
     part = dataclasses.replace(scene, zoom=tehl.Zoom(factor=2, from_x=-0.4, to_x=-0.1))
-    whole, late = (zoomed_passage.passage(one, reader, 2) for one in (scene, part))
+    whole, late = (passage(one, reader, 2) for one in (scene, part))
     a = Scales.of(scene).a
     assert [-0.4 < shot.feature_x / a <= -0.1 for shot in reader.items[late.entries[0] - 1 : late.entries[-1] + 2]] == [
         False, *[True] * len(late.entries), False] or len(late.entries) == 9
@@ -108,15 +115,15 @@ def failing(monkeypatch, fails):
 
 def test_a_step_that_fails_for_good_ends_the_window(runs, monkeypatch):
     failing(monkeypatch, lambda n: n > 61)
-    found = zoomed_passage.passage(*runs(0.0), 2)
+    found = passage(*runs(0.0), 2)
     assert found.entries == list(range(1, 31)) and "did not converge with the feature at" in found.ended
 
 
 def test_a_step_that_fails_once_is_taken_in_halves(runs, monkeypatch):
     """A run whose step is halved there differs by 36 MPa in that step and by 2 MPa later."""
-    whole = zoomed_passage.passage(*runs(0.0), 2)
+    whole = passage(*runs(0.0), 2)
     failing(monkeypatch, lambda n: n == 61)
-    halved = zoomed_passage.passage(*runs(0.0), 2)
+    halved = passage(*runs(0.0), 2)
     assert halved.attempts > whole.attempts and not halved.ended and halved.entries == whole.entries
     assert max(np.abs(a - b).max() for a, b in zip(whole.fields["pressure"], halved.fields["pressure"])) < 5e6
 
@@ -124,6 +131,6 @@ def test_a_step_that_fails_once_is_taken_in_halves(runs, monkeypatch):
 def test_progress_counts_the_steps_of_the_run(runs):
     seen = []
     scene, reader = runs(0.0)
-    zoomed_passage.passage(scene, reader, 2, lambda *part: seen.append(part))
+    passage(scene, reader, 2, lambda *part: seen.append(part))
     last = len(reader) - 1
     assert seen == [(n, last) for n in range(1, last + 1)]

@@ -1,0 +1,78 @@
+"""Temperatures of a window."""
+
+import numpy as np
+import pytest
+
+import tehl_taichi as tehl
+from tehl_taichi.fatigue.assessment import Snapshots
+from tehl_taichi.march.zoom.refining import Refining
+from tehl_taichi.march.zoom.zoomed_passage import passages
+from tehl_taichi.march.zoom.zoomed_reader import ZoomedReader
+
+LINE = tehl.scene("gear").replace(**{"feature.length": float("inf"), "grid.nx": 64, "fatigue.on": False, "time.x_end": 0.4})
+FASTER = {"operation.srr": 0.12, "feature.surface": "b"}
+
+
+class InMemory(Snapshots):
+    """A run as zooms read it."""
+
+    def scalar(self, name):
+        return np.array([shot.scalars[name] for shot in self.items])
+
+
+def zoomed(factor, **changes):
+    """(run, its passage with a window of a factor)."""
+    scene = LINE.replace(**changes)
+    run = InMemory(tehl.march(scene))
+    return run, passages(scene, run, [factor])[0]
+
+
+@pytest.fixture(scope="module")
+def as_coarse():
+    return zoomed(1)
+
+
+@pytest.mark.parametrize("name, within", [("pressure", 2e6), ("temperature_mid", 0.5), ("temperature_a", 0.2),
+                                          ("temperature_b", 0.2)])
+def test_a_window_as_coarse_as_the_run_gives_its_fields(as_coarse, name, within):
+    run, found = as_coarse
+    assert not found.ended and found.attempts == len(run) - 1
+    for entry, origin, field in zip(found.entries, found.origins, found.fields[name]):
+        own = run.items[entry].fields[name][origin : origin + found.window.nx + 1]
+        assert np.abs(field - own).max() < within
+
+
+def test_the_hottest_place_is_that_of_the_window_or_of_the_run(as_coarse):
+    run, found = as_coarse
+    for name, within in (("film_max_C", 0.5), ("surface_a_max_C", 0.2), ("surface_b_max_C", 0.2)):
+        assert np.abs(np.array(found.numbers[name]) - run.scalar(name)[found.entries]).max() < within
+        assert np.array_equal(ZoomedReader(run, found, True).scalar(name)[found.entries], found.numbers[name])
+
+
+def test_a_feature_of_b_at_the_opposite_slip_has_the_same_temperatures(as_coarse):
+    (_, first), (_, other) = as_coarse, zoomed(1, **FASTER)
+    assert first.origins == other.origins
+    for name, turned in (("temperature_a", "temperature_b"), ("temperature_b", "temperature_a"), ("pressure", "pressure")):
+        for one, two in zip(first.fields[name], other.fields[turned]):
+            assert np.abs(one - two).max() < 2e-3 * np.abs(one).max()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("srr, feature", [(-0.12, 1.5e-6), (0.12, 1.5e-6), (0.12, -1.5e-6)])
+def test_a_window_four_times_as_fine_gives_what_a_run_four_times_as_fine_does(srr, feature):
+    changes = {"operation.srr": srr, "feature.height": feature, "grid.nx": 128, "time.x_end": 1.5}
+    run, found = zoomed(4, **changes)
+    reader, fine = ZoomedReader(run, found, True), InMemory(tehl.march(LINE.replace(**{**changes, "grid.nx": 512})))
+    for name, within in (("p_max_Pa", 0.02), ("film_max_C", 0.02), ("h_min_m", 0.02)):
+        extreme = np.min if name == "h_min_m" else np.max
+        now, there = (extreme(one.scalar(name)[1:]) for one in (reader, fine))
+        assert abs(now - there) < within * there, name
+
+
+def test_fields_with_several_numbers_at_a_node_are_refined_alike():
+    rng = np.random.default_rng(3)
+    fields = rng.random((4, 5, 9))
+    fine = Refining((0, -3), (9, 20), 2, (5, 9), True)
+    whole = fine.smooth(fields, 4)
+    assert np.allclose(whole, [fine.smooth(one, 4) for one in fields])
+    assert np.allclose(whole[:, ::2, 3::2][..., :9], fields) and np.array_equal(whole[..., 0], whole[..., 3])
