@@ -13,7 +13,7 @@ from tehl_taichi.march.accuracy import coarse_runs
 from tehl_taichi.march.accuracy.domain_error import widened
 from tehl_taichi.march.accuracy.error_bars import bars
 from tehl_taichi.march.zoom import zoomed_passage
-from tehl_taichi.march.zoom.zoomed_reader import EXTREMES, ZoomedReader
+from tehl_taichi.march.zoom.zoomed_reader import ZoomedReader, extreme
 from tehl_taichi.runs.progress import ZOOM
 from tehl_taichi.scene.scales import Scales
 
@@ -74,13 +74,13 @@ def summary(saved, found, errors, searches):
     """The part "zoom" of the summary: numbers of the finest level; errors: of :func:`corrected`; searches: {surface: summary}
     of it."""
     last = found[-1]
-    w, scene, keys = last.passage.window, saved.scene, list(EXTREMES)
+    w, scene, keys = last.passage.window, saved.scene, list(last.reader.series)
     out = {"factor": w.factor, "window_a": [w.nx * w.dx, _width(scene, w)], "cells": [w.nx, w.ny],
-           **{key: _extreme(last.reader, key) for key in keys}}
+           **{key: extreme(last.reader, key) for key in keys}}
     bars_of = {key: errors["passage_error"].get(key) for key in keys}
     if searches:
         out |= {"Fi_max": max(_largest(one) for one in searches.values())}
-    out |= {"error": bars_of, "base": {key: _extreme(saved, key) for key in keys},
+    out |= {"error": bars_of, "base": {key: extreme(saved, key) for key in keys},
             "from_a": _position(saved, last.passage.entries[:1]), "to_a": _position(saved, last.passage.entries[-1:]),
             "newton_per_step": last.passage.newton / max(last.passage.attempts, 1)}
     return out | ({"ended": last.passage.ended} if last.passage.ended else {})
@@ -96,10 +96,6 @@ def _largest(search):
 def _width(scene, w):
     """Width of the window along y, a; on a half domain that of both halves."""
     return w.ny * w.dy * (2 if scene.symmetric and w.ny else 1)
-
-
-def _extreme(reader, key):
-    return float(EXTREMES[key][1](reader.scalar(key)[1:]))
 
 
 def _position(saved, entries):

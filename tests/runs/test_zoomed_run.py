@@ -79,6 +79,23 @@ def test_a_window_that_is_added_later_is_the_same_and_can_be_removed(plain, zoom
     assert numbers(removed.summary) == numbers(plain.summary) and Reader.open(later.path).map("zoom_pressure") is None
 
 
+def test_a_window_with_temperatures_has_the_hottest_film(folder):
+    """Added to a finished run, which marches again for it, and with it."""
+    scene = tehl.scene("gear").replace(**{"feature.length": float("inf"), "grid.nx": 64, "fatigue.surfaces": "a",
+                                          "time.x_end": -0.2, "numerics.estimate_error": False})
+    run = tehl.run(scene, folder / "warm.zarr")
+    later = tehl.zoom(run.path, 2)
+    zoom, transient = later.summary["zoom"], later.summary["transient"]
+    for key in ("film_max_C", "surface_a_max_C", "surface_b_max_C"):
+        assert transient[key] == zoom[key] != zoom["base"][key] == run.summary["transient"][key]
+        assert transient["error"][key] == zoom["error"][key] >= 0.5 * abs(zoom[key] - zoom["base"][key])
+    store = Reader.open(later.path)
+    assert store.map("zoom_temperature_b").max() == pytest.approx(zoom["surface_b_max_C"], abs=0.01)
+    assert later.summary["fatigue"]["Fi_max"] != run.summary["fatigue"]["Fi_max"]
+    whole = tehl.run(scene.replace(**{"zoom.factor": 2}), folder / "warm_whole.zarr")
+    assert numbers(later.summary) == numbers(whole.summary)
+
+
 def test_what_cannot_have_a_window(plain, folder):
     with pytest.raises(tehl.SceneError, match="zoom.factor = 5 is not one of"):
         tehl.zoom(plain.path, 5)

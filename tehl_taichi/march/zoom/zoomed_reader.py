@@ -64,6 +64,12 @@ class ZoomedReader:
         own += part * (self.zoomed.fields[name][n].T - own)
 
 
+def extreme(reader, name):
+    """A number of the passage in a reader that windows change."""
+    reduce = EXTREMES[name][1] if name in EXTREMES else np.max
+    return float(reduce(reader.scalar(name)[1:]))
+
+
 def _between(places, factor):
     """Places with factor - 1 more between neighbours."""
     fine = np.arange((len(places) - 1) * factor + 1) / factor

@@ -194,8 +194,10 @@ def _zoom_rows(zoom):
     wide, high = zoom["window_a"]
     size = f"{wide:.2g} x {high:.2g} a" if high else f"{wide:.2g} a"
     base = zoom["base"]
+    film = f" / {base['film_max_C']:.4g} °C" if "film_max_C" in base else ""
     return [SummaryRow("zoom window", f"{zoom['factor']} times as fine, {size}"),
-            SummaryRow("p_max / h_min without the zoom", f"{base['p_max_Pa'] / 1e9:.4g} GPa / {base['h_min_m'] * 1e6:.3g} um")]
+            SummaryRow(f"p_max / h_min{' / hottest film' if film else ''} without the zoom",
+                       f"{base['p_max_Pa'] / 1e9:.4g} GPa / {base['h_min_m'] * 1e6:.3g} um{film}")]
 
 
 def rows_of_fatigue(f, beside=MappingProxyType({})):
