@@ -28,8 +28,8 @@ class ConductingBody:
         self.modes, self.drift = np.zeros((4, conduction_modes.MODES)), Record(Drift)
 
     def begin(self, dt, before, after, settled):
-        """Prepare a step of dt s in which its surface passes over the grid from `before` to `after`, in cells; settled: whether it
-        has a memory of a long time with the flux of the step itself. Returns B."""
+        """Prepare a step of dt s in which its surface passes over the grid from `before` to `after`, in cells; settled: whether
+        it has a memory of a long time with the flux of the step itself. Returns B."""
         known = conduction_modes.memory(dt, self.effusivity, self.dt, self.depth, self.spread)
         for row, values in ((strips.WEIGHT, known.weight), (strips.DECAY, known.decay), (strips.GAIN, known.gain),
                             (strips.GAIN_LAST, known.gain_last)):

@@ -306,8 +306,8 @@ def assemble_walls(Z: ti.template(), C: ti.template(), X: ti.template(), N: ti.t
 
 @ti.func
 def update(Z: ti.template(), X: ti.template(), at: ti.template(), nz, coldest, part, solved):
-    """Add this part of the Newton step to the temperatures of the rows that are `solved` (1, else 0). Returns the largest change
-    (K) of the whole step, its sum over the nodes of each row, and how many nodes were held in range."""
+    """Add this part of the Newton step to the temperatures of the rows that are `solved` (1, else 0). Returns the largest
+    change (K) of the whole step, its sum over the nodes of each row, and how many nodes were held in range."""
     moved, total, held = V(0.0), V(0.0), V(0.0)
     for n in range(nz):
         change = ti.select(solved > 0.0, minimum(maximum(X[at.c, nz * nz + n], -LONGEST), LONGEST), V(0.0))

@@ -31,7 +31,7 @@ def along(scene):
 
 def zoom_option(scene):
     """'--zoom 4', where a fine window may be added to a passage; else ""."""
-    possible = scene.transient and not scene.zooms and scene.output.every == 1
+    possible = scene.transient and not (scene.zooms or scene.runs_in) and scene.output.every == 1
     return Option("--zoom 4", "a window four times as fine") if possible else ""
 
 

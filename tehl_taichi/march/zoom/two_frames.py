@@ -36,8 +36,8 @@ class TwoFrames:
         self.made, self.missed = None, None
 
     def next(self, run, origin, at):
-        """The guess for the state with the window from column `origin` on and the feature `at`; run: the field of the run there.
-        Raises IndexError before the first :meth:`accept`."""
+        """The guess for the state with the window from column `origin` on and the feature `at`; run: the field of the run
+        there. Raises IndexError before the first :meth:`accept`."""
         self.made = self._guesses(run, origin, at)
         if self.missed is None:
             return self.made[0]
@@ -56,8 +56,8 @@ class TwoFrames:
         return self.start[..., origin : origin + like.shape[-1]]
 
     def _guesses(self, run, origin, at):
-        """What the run has with the last difference; of order 1 up to the highest, in both frames, or the newest state where it is
-        the only one."""
+        """The run with the last difference; of order 1 up to the highest, in both frames, or the newest state where it is the
+        only one."""
         rests, newest = self._rests(origin, run), self.states[0]
         back = [one.origin - origin for one in self.states]
         ride = [at - one.at + way for one, way in zip(self.states, back)]

@@ -42,7 +42,7 @@ class ZoomedPassage:
 
 
 def passages(scene, reader, factors, notify=lambda done, total: None):
-    """The ZoomedPassages of windows of these factors through the run of a scene in `reader` (every step, the steady start first).
+    """The ZoomedPassages of windows of these factors through the run of a scene in `reader` (every step, the start first).
 
     A step that fails for good ends one; notify(done, total) after each step of the run.
     """
