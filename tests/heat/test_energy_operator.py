@@ -116,6 +116,7 @@ def solved(cells, courant=0.8):
     levels.put(fields.H, thickness(exact.X, exact.Y, 0.0)[0] / s.h)
     truth = warmth(exact.X, exact.Y, exact.zeta, 0.0)
     heat.set_temperature(truth)
+    heat.values()  # what the pressure drives is the flow of these temperatures
     heat.dt_before = heat.dt
     heat.begin(heat.dt)
     heat.step.set(B_a=0.0, B_b=0.0, tolerance=1e-9)

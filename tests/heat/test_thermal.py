@@ -327,10 +327,9 @@ def test_heat_balance():
 @pytest.mark.parametrize("part, rounds, most", [(1.0, 8, 8), (0.5, 8, 32), (0.25, 1, 1)])
 def test_a_part_of_a_step_gets_more_rounds(part, rounds, most):
     """Not where one lagged round is wanted."""
-    from tehl_taichi.march.passage import Passage
+    from tehl_taichi.march import coupling
 
-    step = SimpleNamespace(scene=SimpleNamespace(thermal=Thermal(rounds=rounds)))
-    assert Passage._rounds(step, part) == most
+    assert coupling.rounds(SimpleNamespace(thermal=Thermal(rounds=rounds)), part) == most
 
 
 @pytest.mark.slow
