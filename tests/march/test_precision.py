@@ -135,9 +135,9 @@ def test_a_passage_and_its_effort(linear):
 
 @pytest.mark.parametrize("linear", ["f32", pytest.param("f64", marks=pytest.mark.slow)], indirect=True)
 def test_thermal_steps(linear):
-    steps = list(tehl.march(gear(**linear, **{"thermal.on": True, "rheology.law": "limiting"})))
+    steps = list(tehl.march(gear(**linear, **{"thermal.on": True, "rheology.law": "limiting", "time.steps": 20})))
     newton, cycles = effort(steps)
-    assert balanced(steps) and newton < 2.6 and cycles < 18.4  # 2.33, 16.7
+    assert balanced(steps) and newton < 3.2 and cycles < 20.9  # 2.90, 18.95
     assert steps[3].scalars["film_max_C"] == pytest.approx(141.93, abs=0.05)
 
 
