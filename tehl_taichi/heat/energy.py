@@ -42,10 +42,10 @@ from tehl_taichi.heat.film_tables import (
 )
 from tehl_taichi.heat.heat_step import HeatStep
 from tehl_taichi.heat.node_table import Nodes, second, slope, weight, zeta
-from tehl_taichi.heat.sliding import couette, sheared, wall_stress
+from tehl_taichi.heat.sliding import SMALL, couette, crest, sheared, slipping, wall_stress
 from tehl_taichi.laws.conduction import conductivity, heat_capacity
 from tehl_taichi.laws.density import expansivity
-from tehl_taichi.laws.sheared_flow import mean_stress, wall_slip
+from tehl_taichi.laws.sheared_flow import mean_stress
 from tehl_taichi.laws.viscosity import ln_eta
 from tehl_taichi.pressure.conditions import Conditions
 from tehl_taichi.pressure.fields import IE, MASK, SKEW, TOUCH, P
@@ -189,7 +189,7 @@ def work(rheology: ti.template(), col: ti.template(), flow: ti.template(), scene
     wall = wall_stress(col, col.px, scene)
     strain, raised = wall * col.skew, flow.newtonian * (1.0 + RISE)
     inside = inside_film(law.tau, flow.newtonian, law.slip)
-    more = inside_film(mean_stress(rheology, strain, raised, col.p), raised, wall_slip(rheology, strain, raised, col.p))
+    more = inside_film(mean_stress(rheology, strain, raised, col.p), raised, slipping(rheology, wall, col.skew, raised, col.p))
     held, part, driven = law.tau + wall, law.slip, col.e0 / flow.e0
     return Work(sliding=flow.sign * ti.sqrt(inside), along=ti.sqrt(law.along * driven), across=ti.sqrt(law.across * driven),
                 bend=ti.select(part > 0.0, inside, (more - inside) / RISE), slip=held * ti.abs(scene.u_s) * part,
@@ -259,17 +259,18 @@ def assemble(Z: ti.template(), C: ti.template(), X: ti.template(), N: ti.templat
         if ti.abs(turned).max() > 0.0:
             balance += turn_upstream(Z, X, N, at, n, turned)
         X[c, nz * nz + n] = -balance
-    assemble_slip(X, C, N, at, col, flow, done, step)
+    assemble_slip(X, C, N, at, col, flow, done, crest(rheology, col.p), step)
 
 
 @ti.func
 def assemble_slip(X: ti.template(), C: ti.template(), N: ti.template(), at: ti.template(), col: ti.template(),
-                  flow: ti.template(), done: ti.template(), step: ti.template()):
-    """Heat of the oil that slips along the wall where the stress is largest, or along both, into the equations of those; kept
-    in C."""
+                  flow: ti.template(), done: ti.template(), crest, step: ti.template()):
+    """Heat of the oil that slips along the wall where the stress is largest, at a crest of the pressure along both, into the
+    equations of those; kept in C."""
     c, q, nz, last = at.c, at.q, N.shape[1], N.shape[1] - 1
     counts = ti.select(col.touch > 0.0, V(0.0), col.fade)
-    at_b = ti.select(flow.sign * col.px > 0.0, V(1.0), V(0.0))
+    more_at_b = 0.5 * flow.sign * col.h * col.px / maximum(crest, SMALL)
+    at_b = minimum(maximum(0.5 + 0.5 * more_at_b, 0.0), 1.0)
     to_a, to_b = (1.0 - at_b) * counts, at_b * counts
     shared = 0.5 * counts * done.both
     C[q, SA], C[q, SB] = to_a * done.slip + shared, to_b * done.slip + shared

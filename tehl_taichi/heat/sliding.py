@@ -6,11 +6,14 @@ from tehl_taichi.engine.simd import V
 from tehl_taichi.heat.film_tables import NIE
 from tehl_taichi.heat.node_table import weight, zeta
 from tehl_taichi.laws.rheology import LARGEST
-from tehl_taichi.laws.sheared_flow import either, mean_stress, wall_slip
+from tehl_taichi.laws.sheared_flow import either, mean_stress, wall_limit, wall_slip
 from tehl_taichi.pressure.fluxes import CARRIED, easing
 from tehl_taichi.pressure.tractions import against
 
 SMALL = 1e-3  # Pa, of the Newtonian stress: no sliding to speak of
+# Of the limiting stress: where the gradient of the pressure puts less on the walls, both are so near their limit that the oil
+# slips along both. With one of them alone the hot layer at a crest changes sides from round to round (docs/decisions/15)
+CREST = 1e-3
 
 
 @ti.dataclass
@@ -84,11 +87,24 @@ def flow_along(rheology: ti.template(), x, col: ti.template(), newtonian, scene:
 
 
 @ti.func
+def crest(rheology: ti.template(), p):
+    """Stress on the walls by the gradient of the pressure, Pa, below which the oil slips along both."""
+    limit = wall_limit(rheology, p)
+    return ti.select(limit < LARGEST, CREST * limit, V(0.0))
+
+
+@ti.func
+def slipping(rheology: ti.template(), x, skew, newtonian, p):
+    """Part of the sliding that the oil slips along walls on which the gradient of the pressure puts x (Pa)."""
+    return wall_slip(rheology, maximum(x, crest(rheology, p)) * skew, newtonian, p)
+
+
+@ti.func
 def sheared(rheology: ti.template(), col: ti.template(), couette: ti.template(), scene: ti.template()):
     """The Sheared of a column; col: its p, h, px, py, skew."""
     newtonian, fluidity = couette.newtonian, couette.e0 * col.skew
     x, y = wall_stress(col, col.px, scene), wall_stress(col, col.py, scene)
-    slip = wall_slip(rheology, x * col.skew, newtonian, col.p)
+    slip = slipping(rheology, x, col.skew, newtonian, col.p)
     along, steep_x = flow_along(rheology, x, col, newtonian, scene)
     across, steep_y = flow_across(rheology, y, col, newtonian)
     slips = minimum(3.0 * slip * newtonian / maximum(x * col.skew, SMALL), along)

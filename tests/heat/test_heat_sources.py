@@ -78,7 +78,7 @@ def test_a_wall_along_which_oil_slips_takes_the_heat_of_that(slope):
     heats the wall where |tau| is the limit, which takes far more than the other one."""
     from tehl_taichi.heat import film_tables
 
-    heat, levels = film(srr=-0.2)
+    heat, levels = film(srr=-0.2, **{"contact.radius_x": 5e-4, "contact.load": 5e4})  # short, so steep
     X, h = levels.X, 0.05e-6
     P = 1.2 + 0.15 * slope * X
     flux = step_between_walls(heat, levels, P, np.full(X.size, h), 0 * X)
@@ -87,7 +87,7 @@ def test_a_wall_along_which_oil_slips_takes_the_heat_of_that(slope):
     a, b = (heat.columns.single(name)[0] for name in (film_tables.XA, film_tables.XB))
     operation, mean_u = levels.scene.operation, np.tensordot(heat.across.C[-1], u, axes=1)
     work = b * operation.u_b - a * operation.u_a - h * px * mean_u
-    inner = slice(4, int(np.searchsorted(X, 0.0)) - 2)
+    inner = slice(int(np.searchsorted(X, -2.4)), int(np.searchsorted(X, 0.0)) - 2)
     np.testing.assert_allclose(flux.sum(axis=0)[inner], work[inner], rtol=5e-3)
     limit = 10e6 + 0.075 * P * levels.scales.p_H
     hot, cold, held = (flux[1], flux[0], b) if slope > 0 else (flux[0], flux[1], a)
@@ -268,3 +268,28 @@ def test_few_columns_without_a_solution_are_held_once():
     assert heat.step["hold"] == 1.0
     heat.accept()
     assert not heat.holding
+
+
+def test_at_a_crest_oil_slips_along_both_walls():
+    """Frozen oil; beside the crest along the wall where the stress is larger, and no step is taken in parts."""
+    from tehl_taichi.heat import film_tables, sliding
+    from tehl_taichi.laws.sheared_flow import wall_limit
+    from tehl_taichi.march.passage import Passage
+    from tehl_taichi.march.start import steady_snapshot
+    from tehl_taichi.pressure import fields
+
+    stiff = scene("gear").replace(**{"feature.length": math.inf, "grid.nx": 64, "oil.name": "mineral-vg220"})
+    scales = Scales.of(stiff)
+    passage = Passage(stiff, scales, steady_snapshot(stiff, scales).state)
+    shots = [passage.advance() for _ in range(4)]
+    assert sum(shot.scalars["rejected"] for shot in shots) == 0
+    singles, v = passage.heat.columns.single, passage.levels
+    at_a, at_b, px = (singles(kind)[0] for kind in (film_tables.SA, film_tables.SB, film_tables.PX))
+    p, h = v.get(fields.P)[0] * scales.p_H, v.get(fields.H)[0] * scales.h
+    wall = 0.5 * h * px / (sliding.CREST * wall_limit(stiff.rheology, p))
+    loaded = p > 0.8 * scales.p_H
+    near, rises, falls = (loaded & part for part in (np.abs(wall) < 0.9, wall > 1.1, wall < -1.1))
+    assert near.any() and rises.any() and falls.any()
+    assert (at_a[near] > 0).all() and (at_b[near] > 0).all()
+    larger, smaller = (at_b, at_a) if stiff.operation.u_s < 0 else (at_a, at_b)
+    assert (smaller[rises] < 1e-6 * larger[rises]).all() and (larger[falls] < 1e-6 * smaller[falls]).all()
