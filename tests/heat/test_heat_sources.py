@@ -293,3 +293,30 @@ def test_at_a_crest_oil_slips_along_both_walls():
     assert (at_a[near] > 0).all() and (at_b[near] > 0).all()
     larger, smaller = (at_b, at_a) if stiff.operation.u_s < 0 else (at_a, at_b)
     assert (smaller[rises] < 1e-6 * larger[rises]).all() and (larger[falls] < 1e-6 * smaller[falls]).all()
+
+
+def test_a_grid_that_moves_has_the_temperatures_of_one_at_rest():
+    """States of the last two steps of a grid that has moved by 2 and by 3 columns since."""
+    from tehl_taichi.heat import film_tables
+    from tehl_taichi.pressure import fields
+
+    def solved(moved, before):
+        heat, levels = film(srr=-0.2)
+        X = levels.X
+        levels.put(fields.P, 0.5 + 0.1 * np.sin(3 * X))
+        levels.put(fields.H, (0.3e-6 + 0.05e-6 * np.cos(2 * X)) / levels.scales.h)
+        heat.start()
+        past = (film_tables.TN, film_tables.MSN, moved), (film_tables.TNN, film_tables.MSNN, moved + before)
+        for n, (warm, below, cells) in enumerate(past, 1):
+            T = 100 + 10 * np.sin(2 * X + n) + heat.across.zeta[:, None]
+            mass = heat.columns.nodes(film_tables.MS)[:, 0] * (1 + 0.3 * np.sin(X + n) * heat.across.zeta[:, None])
+            for kind, values in ((warm, T), (below, mass)):
+                heat.columns.put_nodes(kind, np.roll(values, cells, axis=-1)[:, None])
+            press = (film_tables.PN, film_tables.PNN)[n - 1]
+            heat.columns.put_single(press, np.roll(4e8 * (1 + 0.1 * np.cos(X + n)), cells)[None])
+        heat.dt_before, heat.moved_before = heat.dt, before
+        heat.begin(heat.dt, moved)
+        heat.solve()
+        return heat.temperature()[:, 0, 10:-10]
+
+    np.testing.assert_allclose(solved(2, 1), solved(0, 0), rtol=1e-9)
