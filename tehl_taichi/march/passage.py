@@ -151,7 +151,7 @@ class Passage:
 
     def _reject(self, report, part, done):
         self.rejected += 1
-        if not self.parts.reject(part) and not self._double(done) and not self._hold():
+        if not self.parts.reject(part) and not self._double(done) and not self.parts.hold(self.heat):
             at = f"{where(self.scene)} at {self.position(self.step + 1):.2f} a"
             raise not_converged(self.solver, self.heat, report, f"step {self.step + 1} ({at}), down to {part:g} of it,",
                                 passing=True)
@@ -165,13 +165,6 @@ class Passage:
         state, self.doubled = self._accepted(), True
         self.levels = self.solver = self.heat = self.film = self.prediction = self.storage = None  # they give up their tables
         self._set_up(self.scene, state, done)
-        return True
-
-    def _hold(self):
-        """Continue with few columns of the film that have no temperatures; False where that does not help."""
-        if not (self.heat and self.heat.hold()):
-            return False
-        self.parts.retry()
         return True
 
     def position(self, step):

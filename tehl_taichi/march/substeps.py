@@ -40,9 +40,13 @@ class Substeps:
         if whole and not self.left:
             self.part = min(1.0, 2 * self.part)
 
-    def retry(self):
-        """Try the smallest part again."""
+    def hold(self, heat):
+        """Try the smallest part again with few columns of a film (or None) that have no temperatures; False where that does not
+        help."""
+        if not (heat and heat.hold()):
+            return False
         self.part = SMALLEST
+        return True
 
     def reject(self, part):
         """Reject `part` of a step, which did not converge. Returns whether half of it is worth a try."""

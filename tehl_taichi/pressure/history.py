@@ -33,9 +33,9 @@ def _weights(part):
 
 def carried(q, cells):
     """q (..., nx+1) moved by `cells` towards +x, outside of kernels; what comes in is as at the border."""
-    (back, weights), n = shift(cells), q.shape[-1]
-    padded = np.pad(q, [(0, 0)] * (q.ndim - 1) + [(back, 2)], mode="edge")
-    return sum(weight * padded[..., k : k + n] for k, weight in enumerate(weights) if weight)
+    back, weights = shift(cells)
+    at, last = np.arange(q.shape[-1]), q.shape[-1] - 1
+    return sum(weight * np.take(q, np.clip(at - back + k, 0, last), -1) for k, weight in enumerate(weights) if weight)
 
 
 def set_way(way, cells, weight=1.0):

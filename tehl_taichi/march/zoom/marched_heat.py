@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tehl_taichi.march.passage import march
+
 KEPT = 12  # newest states; a window looks two steps ahead and three back
 
 
@@ -20,8 +22,6 @@ class MarchedHeat:
     """The HeatState of a step of the run of `scene`, in rising order."""
 
     def __init__(self, scene):
-        from tehl_taichi.march.passage import march
-
         self.shots, self.states, self.newest = march(scene), {}, -1
 
     def at(self, step):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl_taichi.pressure.history import shift
+from tehl_taichi.pressure.history import carried
 from tehl_taichi.values.interpolation import lagrange
 
 NOTHING = 1e-14  # squared error that is as good as none
@@ -41,7 +41,7 @@ class TwoFrames:
         self.made = self._guesses(run, origin, at)
         if self.missed is None:
             return self.made[0]
-        missed = [moved(one, self.states[0].origin - origin) for one in self.missed[: len(self.made)]]
+        missed = [carried(one, self.states[0].origin - origin) for one in self.missed[: len(self.made)]]
         weights = [1.0 / (one + NOTHING) for one in missed]
         return sum(weight * guess for weight, guess in zip(weights, self.made)) / sum(weights)
 
@@ -61,21 +61,14 @@ class TwoFrames:
         rests, newest = self._rests(origin, run), self.states[0]
         back = [one.origin - origin for one in self.states]
         ride = [at - one.at + way for one, way in zip(self.states, back)]
-        still = [moved(one.field, way) for one, way in zip(self.states, back)]
-        moving = [moved(one.passing, way) for one, way in zip(self.states, ride)]
+        still = [carried(one.field, way) for one, way in zip(self.states, back)]
+        moving = [carried(one.passing, way) for one, way in zip(self.states, ride)]
         places = [one.at for one in self.states]
-        out = [run + moved(newest.finer, ride[0])]
+        out = [run + carried(newest.finer, ride[0])]
         for count in range(2, len(places) + 1) if len(places) > 1 else [1]:
             weights = lagrange(places[:count], at)
             out += [rests + sum(w * one for w, one in zip(weights, moving)), sum(w * one for w, one in zip(weights, still))]
         return out
-
-
-def moved(q, cells):
-    """q (..., nx+1) moved by `cells` towards +x, what comes in as at the border."""
-    back, weights = shift(cells)
-    at, last = np.arange(q.shape[-1]), q.shape[-1] - 1
-    return sum(weight * np.take(q, np.clip(at - back + k, 0, last), -1) for k, weight in enumerate(weights) if weight)
 
 
 def _nearby(squares):

@@ -14,6 +14,7 @@ GIVEN, LEAST = 2, 8  # cells of the run, and of the window at least, along its b
 # rolling), largest difference from the run, GPa: 2 cells 0.096, 8 cells 3e-5
 MORE = 1  # cells of the run beyond these, over which the pressures of run and window give way to each other
 BEYOND = 0.05  # a, between that and what the feature does
+HALF = 0.5  # of the core's weight: from there on a node is the window's
 COLUMNS, ROWS = 32, 8  # the window has a multiple of so many cells: few sizes, few coarse levels
 
 
@@ -73,6 +74,15 @@ class Window:
         if not self.all_ny:
             return along[None, :]
         return self._along(np.asarray(rows) - self.row, self.ny, (self.row == 0, False))[:, None] * along
+
+    def inside(self, origin):
+        """(rows, columns): whether a node of the window is its own, not given way to the run."""
+        return self.core(origin + np.arange(self.nx + 1), self.row + np.arange(self.ny + 1), origin) >= HALF
+
+    def outside(self, origin):
+        """(rows, columns): whether a node of the whole grid of the run is not the window's."""
+        columns, rows = (self.factor * np.arange(cells // self.factor + 1) for cells in (self.all_nx, self.all_ny))
+        return self.core(columns, rows, origin) < HALF
 
     def _along(self, at, cells, ends):
         width = _blend(self.factor)

@@ -13,7 +13,6 @@ from tehl_taichi.march.zoom.two_frames import TwoFrames
 WHOLE = 1e-9  # cells
 HOTTER = 20.0  # K, that a film is guessed to become than it was
 ORDER = 1  # of the extrapolation in time
-HALF = 0.5  # of the core's weight: from there on a node is the window's
 
 
 class WindowHeat:
@@ -61,10 +60,7 @@ class WindowHeat:
 
     def highest(self, T):
         """{name: deg C} of the run at temperatures T with the window in it."""
-        w, grid = self.window, self.base.grid
-        here = w.core(self.origin + np.arange(w.nx + 1), w.row + np.arange(w.ny + 1), self.origin) >= HALF
-        there = w.core(w.factor * np.arange(grid.nx + 1), w.factor * np.arange(grid.ny + 1), self.origin) >= HALF
-        own, rest = self.film.T[:, here], T[:, ~there]
+        own, rest = self.film.T[:, self.window.inside(self.origin)], T[:, self.window.outside(self.origin)]
         return {"film_max_C": max(largest(own), largest(rest)), "surface_a_max_C": max(own[0].max(), rest[0].max()),
                 "surface_b_max_C": max(own[-1].max(), rest[-1].max())}
 

@@ -65,18 +65,11 @@ class WindowPassage:
             if report.converged:
                 done += part
                 self.parts.accept(part)
-            elif not self.parts.reject(part) and not self._hold():
+            elif not self.parts.reject(part) and not self.parts.hold(self.heat and self.film):
                 return reports
         if self.heat:
             self.heat.refresh(step + 1)
         return reports
-
-    def _hold(self):
-        """Continue with few columns of the film that have no temperatures; False where that does not help."""
-        if not (self.heat and self.film.hold()):
-            return False
-        self.parts.retry()
-        return True
 
     def _try(self, at, part):
         """The state at a moment of the run, `part` of a step after the last accepted one; accepted if it converged."""

@@ -5,7 +5,6 @@ import numpy as np
 from tehl_taichi.march.zoom.refining import Refining
 
 EXTREMES = {"p_max_Pa": ("pressure", np.max), "h_min_m": ("film", np.min)}  # numbers of an entry that the window changes
-HALF = 0.5  # of the core's weight: from there on a node is the window's
 
 
 class ZoomedReader:
@@ -34,12 +33,8 @@ class ZoomedReader:
 
     def _take_extremes(self, n):
         """The largest pressure and the least film of entry n: of the window in its core, of the run elsewhere."""
-        w, at = self.zoomed.window, self.place[n]
-        origin = self.zoomed.origins[at]
-        nodes = [np.arange(len(side)) * w.factor for side in (self.reader.x, self.reader.y)]
-        outside = w.core(*nodes, origin).T < HALF
-        columns, rows = np.arange(origin, origin + w.nx + 1), np.arange(w.row, w.row + w.ny + 1)
-        inside = w.core(columns, rows, origin).T >= HALF
+        at = self.place[n]
+        inside, outside = (of(self.zoomed.origins[at]).T for of in (self.zoomed.window.inside, self.zoomed.window.outside))
         run = self.reader.fields(n, tuple(field for field, _ in EXTREMES.values()))
         for name, (field, extreme) in EXTREMES.items():
             own = self.zoomed.fields[field][at]
