@@ -3,6 +3,7 @@
 from typing import Optional
 
 import typer
+from tehl_cli.amount import number
 from tehl_cli.bearing_features import feature_of
 from tehl_cli.bearing_options import DIMENSIONS, SCANNED, contacts, loads
 from tehl_cli.idle_options import DRAWS, say_idle
@@ -23,7 +24,7 @@ def bearing(
     which: str = typer.Argument(..., metavar="DESIGNATION", help="designation (6206), a TOML file, or any name with own "
                                                                  "dimensions"),
     context: typer.Context = None,
-    ball_diameter: Optional[float] = typer.Option(None, help="diameter of a ball, m"),
+    ball_diameter: Optional[float] = number("diameter of a ball, m"),
     balls: Optional[int] = typer.Option(None, help="number of balls"),
     osculation: Optional[float] = typer.Option(None, help="groove radius over ball diameter, inner ring (default: 0.52)"),
     osculation_outer: Optional[float] = typer.Option(None, help="groove radius over ball diameter, outer ring (default: 0.53)"),
@@ -43,11 +44,11 @@ def roller(
     which: str = typer.Argument("rollers", metavar="[DESIGNATION]", help="designation (209-roller), a TOML file, or any name "
                                                                          "with own dimensions"),
     context: typer.Context = None,
-    roller_diameter: Optional[float] = typer.Option(None, help="diameter of a roller at half its length, m"),
+    roller_diameter: Optional[float] = number("diameter of a roller at half its length, m"),
     rollers: Optional[int] = typer.Option(None, help="number of rollers"),
-    length: Optional[float] = typer.Option(None, help="effective length of a roller, m"),
-    crown: Optional[float] = typer.Option(None, help="radius of the profile of a crowned roller, m (default: straight)"),
-    taper: Optional[float] = typer.Option(None, help="full cone angle of a tapered roller, degrees (default: cylindrical)"),
+    length: Optional[float] = number("effective length of a roller, m"),
+    crown: Optional[float] = number("radius of the profile of a crowned roller, m (default: straight)"),
+    taper: Optional[float] = number("full cone angle of a tapered roller, degrees (default: cylindrical)"),
     **shared,
 ):
     """Compute a roller bearing, cylindrical or tapered; the output says whether crowned rollers touch along a line or in a

@@ -1,6 +1,8 @@
 """Features of a raceway or a cam as `--dent` and `--scan` give them."""
 
-DENT = "DEPTH,WIDTH,rim=HEIGHT in m, as in 10e-6,0.3e-3,rim=1.2e-6"
+from tehl_cli.amount import amount, metres
+
+DENT = "DEPTH,WIDTH,rim=HEIGHT in m, as in 10e-6,0.3e-3,rim=1.2e-6 or 10um,0.3mm,rim=1.2um"
 
 
 def dent_of(text):
@@ -19,16 +21,9 @@ def _parts(text):
     """([depth, width], {key: value}) of a --dent."""
     from tehl_taichi.errors import SceneError
 
-    plain, named = [], {}
-    try:
-        for part in text.split(","):
-            key, equals, value = part.partition("=")
-            if equals:
-                named[key.strip()] = float(value)
-            else:
-                plain.append(float(part))
-    except ValueError:
-        plain = []
+    pairs = [part.rpartition("=") for part in text.split(",")]
+    plain = [metres("--dent", amount(value)) for key, _, value in pairs if not key]
+    named = {key.strip(): metres("--dent", amount(value)) for key, _, value in pairs if key}
     if len(plain) != 2 or named.keys() - {"rim", "rim_width"}:
         raise SceneError(f"--dent {text!r} must have the form {DENT} (rim_width=WIDTH may follow)")
     return plain, named
@@ -39,7 +34,7 @@ def scan_of(path, unit, pixel):
     from tehl_taichi.scene.feature import Feature
     from tehl_taichi.scene.scan_scene import scanned
 
-    return Feature(**scanned(path, unit or "", pixel or 0.0))
+    return Feature(**scanned(path, unit or "", metres("--pixel", pixel)))
 
 
 def feature_of(dent, scan, unit, pixel):

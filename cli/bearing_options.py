@@ -3,6 +3,7 @@
 from pathlib import Path
 from typing import Annotated, List, Optional
 
+from tehl_cli.amount import also_number
 from tehl_cli.figure_options import Dpi, FigureWidth, Format
 from typer import Option
 
@@ -11,32 +12,32 @@ SCANNED = ("dent", "scan", "unit", "pixel")  # of the feature
 
 
 def loads(
-    load: Annotated[Optional[float], Option(help="radial load, N (default: 1000)")] = None,
-    axial: Annotated[Optional[float], Option(help="axial load, N (default: 0; with a contact angle the load at which the "
+    load: Annotated[Optional[float], also_number("radial load, N (default: 1000)")] = None,
+    axial: Annotated[Optional[float], also_number("axial load, N (default: 0; with a contact angle the load at which the "
                                                   "displacement is radial)")] = None,
-    speed: Annotated[Optional[float], Option(help="speed of the inner ring, 1/min (default: 1500)")] = None,
-    outer_speed: Annotated[Optional[float], Option(help="speed of the outer ring, 1/min (default: 0; negative: against the "
+    speed: Annotated[Optional[float], also_number("speed of the inner ring, 1/min (default: 1500)")] = None,
+    outer_speed: Annotated[Optional[float], also_number("speed of the outer ring, 1/min (default: 0; negative: against the "
                                                         "inner ring)")] = None,
 ):
     """Loads and speeds."""
 
 
 def contacts(
-    pitch_diameter: Annotated[Optional[float], Option(help="pitch diameter: of the circle through the centres of the elements, "
+    pitch_diameter: Annotated[Optional[float], also_number("pitch diameter: of the circle through the centres of the elements, "
                                                            "m")] = None,
-    contact_angle: Annotated[Optional[float], Option(help="contact angle without load, degrees (tapered rollers: of the outer "
+    contact_angle: Annotated[Optional[float], also_number("contact angle without load, degrees (tapered rollers: of the outer "
                                                           "ring)")] = None,
-    clearance: Annotated[Optional[float], Option(help="radial clearance in operation, m (default: 0)")] = None,
+    clearance: Annotated[Optional[float], also_number("radial clearance in operation, m (default: 0)")] = None,
     oil: Annotated[Optional[str], Option(help="name of the oil (`tehl oils`)")] = None,
-    temperature: Annotated[Optional[float], Option(help="inlet temperature, deg C")] = None,
+    temperature: Annotated[Optional[float], also_number("inlet temperature, deg C")] = None,
     dent: Annotated[Optional[str], Option(help="dent that passes: DEPTH,WIDTH,rim=HEIGHT in m, as 10e-6,0.3e-3,rim=1.2e-6; "
                                                "rim_width=WIDTH may follow")] = None,
     scan: Annotated[Optional[Path], Option(help="file of measured heights that pass, on a grid or along a line")] = None,
     unit: Annotated[Optional[str], Option(help="unit of the heights of --scan, where the file does not state it")] = None,
-    pixel: Annotated[Optional[float], Option(help="distance of the points of --scan in m, where the file does not state "
+    pixel: Annotated[Optional[float], also_number("distance of the points of --scan in m, where the file does not state "
                                                   "it")] = None,
     on: Annotated[str, Option(help="ring that carries the dent or scan: inner or outer")] = "inner",
-    roughness: Annotated[Optional[float], Option(help="rms height of both surfaces together, m, for lambda = h_c/Sq")] = None,
+    roughness: Annotated[Optional[float], also_number("rms height of both surfaces together, m, for lambda = h_c/Sq")] = None,
     scene: Annotated[Optional[str], Option(help="scene with oil, bodies, features and numerics: built-in name, TOML file or "
                                                 "store")] = None,
     steady: Annotated[bool, Option("--steady", help="steady contacts without the features of --scene")] = False,

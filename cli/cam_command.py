@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import List, Optional
 
 import typer
+from tehl_cli.amount import number
 from tehl_cli.bearing_features import feature_of
 from tehl_cli.figure_options import Dpi, FigureWidth, Format
 from tehl_cli.idle_options import DRAWS, say_idle
@@ -21,11 +22,11 @@ def cam(
     table: Path = typer.Argument(..., help="CSV: angle_deg, load_N_per_mm, R_mm (or R_a_mm and R_b_mm), u_a_m_s, u_b_m_s"),
     context: typer.Context = None,
     oil: Optional[str] = typer.Option(None, help="name of the oil (`tehl oils`)"),
-    temperature: Optional[float] = typer.Option(None, help="inlet temperature, deg C"),
+    temperature: Optional[float] = number("inlet temperature, deg C"),
     dent: Optional[str] = typer.Option(None, help="dent of the cam that passes: DEPTH,WIDTH,rim=HEIGHT in m"),
     scan: Optional[Path] = typer.Option(None, help="file of measured heights of the cam that pass"),
     unit: Optional[str] = typer.Option(None, help="unit of the heights of --scan, where the file does not state it"),
-    pixel: Optional[float] = typer.Option(None, help="distance of the points of --scan in m, where the file does not state it"),
+    pixel: Optional[float] = number("distance of the points of --scan in m, where the file does not state it"),
     scene: Optional[str] = typer.Option(None, help="scene with oil, bodies, features and numerics: built-in name, TOML file or "
                                                    "store"),
     steady: bool = typer.Option(False, "--steady", help="steady contacts without the features of --scene"),

@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Optional
 
 import typer
+from tehl_cli.amount import number
 from tehl_cli.figure_options import Dpi, Force, Format, Width
 from tehl_cli.idle_options import DRAWS, say_idle
 from tehl_cli.live_display import say
@@ -20,17 +21,17 @@ def crack(
     context: typer.Context = None,
     surface: str = typer.Option("worse", help="body to follow cracks in: a, b or worse (that of the verdict on fatigue)"),
     side: str = typer.Option("both", help="side of the feature: entry, exit or both"),
-    start: Optional[float] = typer.Option(None, help="x' of the crack mouth, m (default: place of the largest surface "
-                                                     "tension); on the body without the feature, from "
-                                                     "the place below it at X = 0"),
-    angle: float = typer.Option(90.0, help="angle of the first segment, degrees; 90 is straight down, larger "
-                                           "angles lean in the rolling direction"),
-    first: float = typer.Option(5e-6, help="length of the first segment, m"),
-    step: float = typer.Option(5e-6, help="length of the other segments, m"),
-    length: float = typer.Option(100e-6, help="length at which the crack stops, m"),
-    distance: float = typer.Option(3e-6, help="distance ahead of the tip, m, at which the largest tension sets the direction"),
-    threshold: Optional[float] = typer.Option(None, help="threshold of K_I, Pa sqrt(m); the crack stops below it (default: "
-                                                         "none)"),
+    start: Optional[float] = number("x' of the crack mouth, m (default: place of the largest surface "
+                                    "tension); on the body without the feature, from "
+                                    "the place below it at X = 0"),
+    angle: float = number("angle of the first segment, degrees; 90 is straight down, larger "
+                          "angles lean in the rolling direction", 90.0),
+    first: float = number("length of the first segment, m", 5e-6),
+    step: float = number("length of the other segments, m", 5e-6),
+    length: float = number("length at which the crack stops, m", 100e-6),
+    distance: float = number("distance ahead of the tip, m, at which the largest tension sets the direction", 3e-6),
+    threshold: Optional[float] = number("threshold of K_I, Pa sqrt(m); the crack stops below it (default: "
+                                        "none)"),
     residual: Optional[str] = typer.Option(None, help="residual stress along x, Pa, or a CSV file with depth (m) and stress "
                                                       "(Pa)"),
     face_friction: float = typer.Option(0.0, help="friction coefficient of the closed crack faces"),

@@ -4,6 +4,7 @@ import functools
 from typing import Annotated, Optional
 
 import typer
+from tehl_cli.amount import also_number
 from tehl_cli.shared_options import sharing
 
 from tehl_taichi.laws.criteria import CRITERIA
@@ -12,19 +13,19 @@ from tehl_taichi.laws.hardness import RELATIONS
 
 def _options(
     kappa: Annotated[Optional[float], typer.Option(help="sensitivity to normal stress kappa_F")] = None,
-    endurance: Annotated[Optional[float], typer.Option(help="fatigue limit sigma_eF, Pa")] = None,
-    bending_limit: Annotated[Optional[float], typer.Option(help="fatigue limit in reversed bending, Pa (replaces "
-                                                                "--endurance)")] = None,
-    torsion_limit: Annotated[Optional[float], typer.Option(help="fatigue limit in reversed torsion, Pa (one limit fixes "
-                                                                "sigma_eF; both limits also fix kappa)")] = None,
+    endurance: Annotated[Optional[float], also_number("fatigue limit sigma_eF, Pa")] = None,
+    bending_limit: Annotated[Optional[float], also_number("fatigue limit in reversed bending, Pa (replaces "
+                                                          "--endurance)")] = None,
+    torsion_limit: Annotated[Optional[float], also_number("fatigue limit in reversed torsion, Pa (one limit fixes "
+                                                          "sigma_eF; both limits also fix kappa)")] = None,
     criterion: Annotated[Optional[str], typer.Option(help="criterion: " + ", ".join(CRITERIA))] = None,
     table: Annotated[Optional[str], typer.Option(help="strength over depth: a CSV file or a built-in table, as case-hardened "
                                                       "('': none)")] = None,
     table_b: Annotated[Optional[str], typer.Option(help="table of body b, if different; none: no table")] = None,
     relation: Annotated[Optional[str], typer.Option(help="fatigue limit by the hardness of a table: "
                                                          + ", ".join(RELATIONS))] = None,
-    inclusion: Annotated[Optional[float], typer.Option(help="root of the area of the largest inclusion, m, for the relation "
-                                                            "murakami")] = None,
+    inclusion: Annotated[Optional[float], also_number("root of the area of the largest inclusion, m, for the relation "
+                                                      "murakami")] = None,
     exponent: Annotated[Optional[float], typer.Option(help="exponent of the S-N curve, for the number of passages to "
                                                            "initiation (0: none)")] = None,
     limit_cycles: Annotated[Optional[float], typer.Option(help="number of passages at the fatigue limit")] = None,

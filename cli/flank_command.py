@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import List, Optional
 
 import typer
+from tehl_cli.amount import amount, number
 from tehl_cli.figure_options import Dpi, FigureWidth, Format
 from tehl_cli.idle_options import DRAWS, say_idle
 from tehl_cli.live_display import Live, say
@@ -19,8 +20,8 @@ def register(app):
 def flank(
     gear: str = typer.Argument("fzg-c", help="fzg-c, fzg-a, a TOML file, or a table of positions (CSV)"),
     context: typer.Context = None,
-    torque: Optional[float] = typer.Option(None, help="torque of the pinion, N m"),
-    speed: Optional[float] = typer.Option(None, help="speed of the pinion, 1/min"),
+    torque: Optional[float] = number("torque of the pinion, N m"),
+    speed: Optional[float] = number("speed of the pinion, 1/min"),
     on: Optional[str] = typer.Option(None, help="flank that carries the feature: pinion (default) or gear"),
     positions: Optional[int] = typer.Option(None, help="number of positions, including the points A to E and two beside C "
                                                            "(default: 11)"),
@@ -29,9 +30,9 @@ def flank(
     scene: Optional[str] = typer.Option(None, help="scene with oil, bodies, feature and numerics: built-in name, TOML file or "
                                                    "store"),
     steady: bool = typer.Option(False, "--steady", help="steady contacts without a feature"),
-    temperature: Optional[float] = typer.Option(None, help="inlet temperature, deg C"),
-    height: Optional[float] = typer.Option(None, help="feature height, m (negative: dent)"),
-    width: Optional[float] = typer.Option(None, help="feature width, m"),
+    temperature: Optional[float] = number("inlet temperature, deg C"),
+    height: Optional[float] = number("feature height, m (negative: dent)"),
+    width: Optional[float] = number("feature width, m"),
     thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="with or without the energy equation"),
     set_: Optional[List[str]] = typer.Option(None, "--set", help="dotted.key=value of the scene, repeatable"),
     grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY (NX alone if nothing varies along y)"),
@@ -84,15 +85,16 @@ def _line(gear, base, changes, steady):
     from tehl_taichi.runs.flank.flank_source import flank_source
 
     passes = {"time.steady_only": True} if steady else {}
-    return (base or flank_source(gear).scene).replace(**{"contact.kind": "line", "contact.radius_y": inf, **changes, **passes})
+    found = base or flank_source(gear).scene
+    loaded = {} if found.contact.kind == "line" else {"contact.hertz_pressure": 1e9}  # each position has its own
+    return found.replace(**{"contact.kind": "line", "contact.radius_y": inf, **loaded, **changes, **passes})
 
 
 def _place(text):
     """A way in m, or the name of a point."""
-    try:
-        return float(text)
-    except ValueError:
-        return text
+    from tehl_taichi.values.units import in_unit
+
+    return in_unit("--at", amount(text), "m")
 
 
 def print_flank(found):

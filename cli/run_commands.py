@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import List, Optional
 
 import typer
+from tehl_cli.amount import number
 from tehl_cli.idle_options import say_idle
 from tehl_cli.live_display import Live, say
 from tehl_cli.scene_options import GRIDS, check_rows, given_by
@@ -20,13 +21,13 @@ def register(app):
 def run(
     scene: str = typer.Argument("gear", help="built-in name (see `tehl scenes`), TOML file, or store to repeat"),
     context: typer.Context = None,
-    srr: Optional[float] = typer.Option(None, help="slide-to-roll ratio (u_a - u_b)/u_m; negative in the dedendum"),
-    load: Optional[float] = typer.Option(None, help="load, N/m (line contact) or N (point contact)"),
-    hertz_pressure: Optional[float] = typer.Option(None, help="Hertz pressure, Pa (instead of a load)"),
-    speed: Optional[float] = typer.Option(None, help="mean surface speed u_m, m/s"),
-    temperature: Optional[float] = typer.Option(None, help="inlet temperature, deg C"),
-    height: Optional[float] = typer.Option(None, help="feature height, m (negative: dent)"),
-    width: Optional[float] = typer.Option(None, help="feature width, m"),
+    srr: Optional[float] = number("slide-to-roll ratio (u_a - u_b)/u_m; negative in the dedendum"),
+    load: Optional[float] = number("load, N/m (line contact) or N (point contact)"),
+    hertz_pressure: Optional[float] = number("Hertz pressure, Pa (instead of a load)"),
+    speed: Optional[float] = number("mean surface speed u_m, m/s"),
+    temperature: Optional[float] = number("inlet temperature, deg C"),
+    height: Optional[float] = number("feature height, m (negative: dent)"),
+    width: Optional[float] = number("feature width, m"),
     set_: Optional[List[str]] = typer.Option(None, "--set", help="any scene value, dotted.key=value; repeatable"),
     grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY (cells or nodes; NX alone if nothing varies "
                                                   "along y)"),
@@ -43,10 +44,10 @@ def run(
                                                   help="estimate errors by coarse-grid runs (default: for all but very short "
                                                        "passages)"),
     kappa: Optional[float] = typer.Option(None, help="sensitivity to normal stress kappa_F"),
-    endurance: Optional[float] = typer.Option(None, help="fatigue limit sigma_eF, Pa"),
-    bending_limit: Optional[float] = typer.Option(None, help="fatigue limit in reversed bending, Pa (replaces --endurance)"),
-    torsion_limit: Optional[float] = typer.Option(None, help="fatigue limit in reversed torsion, Pa (one limit fixes "
-                                                             "sigma_eF; both limits also fix kappa)"),
+    endurance: Optional[float] = number("fatigue limit sigma_eF, Pa"),
+    bending_limit: Optional[float] = number("fatigue limit in reversed bending, Pa (replaces --endurance)"),
+    torsion_limit: Optional[float] = number("fatigue limit in reversed torsion, Pa (one limit fixes "
+                                            "sigma_eF; both limits also fix kappa)"),
     steps: Optional[int] = typer.Option(None, help="stop after this many time steps (0: steady start and an estimate of the "
                                                    "run time); `tehl resume` continues"),
     out: Optional[Path] = typer.Option(None, help="store to write (default: runs/SCENE-N.zarr)"),
@@ -154,6 +155,8 @@ def _print_scene(scene):
 
     put(f"{scene.name}: {Scales.of(scene).words}")
     put(f"h_c by formula: {central_film(scene) * 1e6:.4f} um ({formula_words(scene)})")
+    a, b = (f"E = {body.E / 1e9:g} GPa, nu = {body.nu:g}" for body in (scene.body_a, scene.body_b))
+    put(f"bodies: {f'both {a}' if a == b else f'a {a}; b {b}'}; oil {scene.oil.name} at {scene.operation.temperature:g} deg C")
     put(f"{scene.grid.nx} x {scene.rows} cells, {total_steps(scene)} steps")
     for line in (*preview(scene), *(f"left out: {one}" for one in scene.left_out()), *(f"warning: {one}" for one in
                                                                                      scene.warnings())):

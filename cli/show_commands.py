@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Any, Optional
 
 import typer
+from tehl_cli.amount import metres, number
 from tehl_cli.figure_options import Dpi, Force, Format, Width
 from tehl_cli.live_display import say
 from tehl_cli.stdout import put
@@ -71,8 +72,8 @@ def new(
     scan: Optional[Path] = typer.Option(None, help="file of measured heights, on a grid or along a line; writes a "
                                                    "short scene with the values that you must give"),
     unit: str = typer.Option("", help="unit of the heights: nm, um, mm or m"),
-    pixel: float = typer.Option(0.0, help="distance between points of a row, m"),
-    pixel_y: float = typer.Option(0.0, help="distance between rows, m (default: --pixel)"),
+    pixel: Optional[float] = number("distance between points of a row, m"),
+    pixel_y: Optional[float] = number("distance between rows, m (default: --pixel)"),
     lay: str = typer.Option("", help="line profile: direction of the marks, transverse (heights over x, the rolling direction; "
                                      "default) or longitudinal (heights over y)"),
 ):
@@ -94,6 +95,7 @@ def new(
     if scan is None:
         scene_file.new(file, base)
         return put(f"wrote {file}; run it with: tehl run {file}")
+    pixel, pixel_y = (metres(option, value) for option, value in (("--pixel", pixel), ("--pixel-y", pixel_y)))
     read, missing, refused = scan_scene.new(file, base, scan, unit, pixel, pixel_y, lay)
     fill = f"fill in feature.{' and feature.'.join(missing)} and " if missing else ""
     text = f"wrote {file} for {scan} ({read}); {fill}enter the values of your contact, oil and steel, then run: "

@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import List, Optional
 
 import typer
+from tehl_cli.amount import number
 from tehl_cli.figure_options import Dpi, FigureWidth, Format
 from tehl_cli.idle_options import DRAWS, say_idle
 from tehl_cli.live_display import say
@@ -24,8 +25,8 @@ def traction(
     srr: str = typer.Option("0:0.5:11", help=f"slide-roll ratios, {LIST}"),
     temperature: Optional[str] = typer.Option(None, help=f"inlet temperatures, deg C, {LIST} (default: that of the scene)"),
     speed: Optional[str] = typer.Option(None, help=f"mean speeds, m/s, {LIST}; with one --srr a Stribeck curve"),
-    load: Optional[float] = typer.Option(None, help="load, N (line: N/m)"),
-    hertz_pressure: Optional[float] = typer.Option(None, help="Hertz pressure instead of a load, Pa"),
+    load: Optional[float] = number("load, N (line: N/m)"),
+    hertz_pressure: Optional[float] = number("Hertz pressure instead of a load, Pa"),
     thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="with (default) or without energy equation"),
     set_: Optional[List[str]] = typer.Option(None, "--set", help="dotted.key=value in all cases, repeatable"),
     grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY (NX alone if nothing varies along y)"),

@@ -3,6 +3,7 @@
 from typing import Any
 
 from tehl_taichi.errors import SceneError
+from tehl_taichi.scene.unit_texts import in_units
 from tehl_taichi.values.coerce import plain, shown
 
 SHORT = {"srr": "operation.srr", "load": "contact.load", "hertz_pressure": "contact.hertz_pressure",
@@ -31,7 +32,8 @@ def settled(given):
     both, where two of them contradict each other."""
     found: dict[str, tuple[str, Any]] = {}
     for words, key, value in given:
-        key, value = full_name(key), plain(value)
+        key = full_name(key)
+        value = in_units(plain(value), key)
         if key in found and found[key][1] != value:
             _contradict(found[key][0], words)
         found[key] = words, value

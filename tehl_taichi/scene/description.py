@@ -46,6 +46,7 @@ from tehl_taichi.scene.sections import (
 from tehl_taichi.scene.speeds import of_surfaces
 from tehl_taichi.scene.surface.maps import map_warnings
 from tehl_taichi.scene.timeline import LATEST, cut_at, moments, total_steps
+from tehl_taichi.scene.unit_texts import in_units
 from tehl_taichi.values.checks import build, file_name, nearest, number
 from tehl_taichi.values.coded_text import CodedText, Option, options_of
 from tehl_taichi.values.coerce import shown
@@ -468,6 +469,7 @@ class Scene:
         for key in data:
             if key not in known:
                 raise SceneError(f"unknown section or key {shown(key)}{nearest(key, known)}; known: {', '.join(sorted(known))}")
+        data = in_units(data)
         parts = {key: build(kind, data[key], key) for key, kind in SECTIONS.items() if key in data
                  and key not in ("operation", "fatigue")}
         if "operation" in data:

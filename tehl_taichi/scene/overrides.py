@@ -1,6 +1,7 @@
 """Changes of a scene, on its description as a nested dictionary."""
 
 import dataclasses
+import math
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene import aliases, data_sheet, fatigue_limits, idle_keys, keys
@@ -11,7 +12,7 @@ from tehl_taichi.scene.speeds import of_surfaces
 from tehl_taichi.scene.strength import scene_tables
 from tehl_taichi.scene.timeline import ALL
 from tehl_taichi.values.checks import key_shown, nearest
-from tehl_taichi.values.coerce import plain, text_of
+from tehl_taichi.values.coerce import plain, shown, text_of
 from tehl_taichi.values.quantity import kinds
 
 TABLES = (*SECTIONS, "bodies", "oil")
@@ -26,6 +27,8 @@ def applied(data, changes):
     is no table is left to whoever makes a scene of it.
     """
     _clear(data, changes)
+    if isinstance(data.get("contact"), dict):
+        _follow_kind(data["contact"], changes)
     _name_oil(data, changes)
     _read_sheet(_table(data, "oil"), changes)
     _name_steels(data, changes)
@@ -87,6 +90,19 @@ def _clear(data, changes):
         data["operation"] = of_surfaces(data["operation"])
     if _is_given(changes.get("time.steady_only")):
         _table(data, "time")["steps"] = ALL
+
+
+def _follow_kind(contact, changes):
+    """Clear a radius along y that another kind or another radius along x decides, and refuse a load in the unit of another
+    kind. Raises SceneError."""
+    before, kind = contact.get("kind", "line"), changes.get("contact.kind", contact.get("kind", "line"))
+    if "contact.radius_y" not in changes and (kind != before or (kind == "point" and "contact.radius_x" in changes)):
+        contact["radius_y"] = math.inf
+    turned = kind != before and "line" in (kind, before)
+    if turned and _is_given(contact.get("load")) and not changes.keys() & set(aliases.LOADS):
+        units = ("N/m", "N") if before == "line" else ("N", "N/m")
+        raise SceneError(f"contact.kind = {shown(kind)} needs a load of its own: that of the {before} contact is "
+                         f"{shown(contact['load'])} {units[0]}; give contact.load in {units[1]}, or contact.hertz_pressure")
 
 
 def _is_given(value):

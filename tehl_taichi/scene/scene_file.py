@@ -13,10 +13,12 @@ from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.sections import Body, Fatigue
 from tehl_taichi.scene.strength import scene_tables
+from tehl_taichi.scene.unit_texts import in_units
 from tehl_taichi.values.checks import text
 from tehl_taichi.values.quantity import kinds
 
-HEADER = "# A tehl_taichi scene. SI units (m, s, N, Pa, kg), temperatures in deg C; [grid] and [time] in half-widths."
+HEADER = """# A tehl_taichi scene. SI units (m, s, N, Pa, kg), temperatures in deg C; [grid] and [time] in half-widths.
+# Text with another unit is allowed: radius_x = "3.8 mm", temperature = "343 K"."""
 CARRIES = {"bodies.a": "Surface a carries the feature. ", "bodies.b": "The other surface. "}
 COLUMN = 26  # where the comments of short lines begin
 
@@ -58,7 +60,7 @@ def with_folder(data, folder):
 
 def from_data(data, name, changes=()):
     """Scene from a parsed file with changes {key: value}, which are made before anything is judged. Raises SceneError."""
-    base, changes = data.pop("base", None), aliases.named(dict(changes))
+    base, changes, data = data.pop("base", None), aliases.named(dict(changes)), in_units(data)
     own = _tables(data)
     u_m = data["operation"].get("u_m") if isinstance(data.get("operation"), dict) else None
     described = _spelled_out(_on_base(base, {"name": name, **data}))

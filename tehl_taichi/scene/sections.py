@@ -49,8 +49,8 @@ class Contact:
     kind: str = choice("line", "shape; point: circular", ("line", "point", "elliptic"))
     radius_x: float = quantity(10.6e-3, "m", "reduced radius along x, 1/R' = 1/r_a + 1/r_b", 1e-6, LARGEST_RADIUS,
                                common=(1e-4, 0.4))
-    radius_y: float = quantity(math.inf, "m", "reduced radius along y; line: inf", 1e-6, LARGEST_RADIUS_Y, infinite=True,
-                               usual=10e-3)
+    radius_y: float = quantity(math.inf, "m", "reduced radius along y; inf: line, or point with that along x", 1e-6,
+                               LARGEST_RADIUS_Y, infinite=True, usual=10e-3)
     load: float = quantity(0.0, "N/m or N", "line: N/m, point and elliptic: N; 0: not given", 0.0, 1e10)
     hertz_pressure: float = quantity(0.0, "Pa", "Hertz pressure instead of a load; 0: not "
                                                 "given", 0.0, 2e10, usual=1e9, least=1e7)
@@ -59,6 +59,8 @@ class Contact:
 
     def __post_init__(self):
         check(self, "contact", load="N/m" if isinstance(self.kind, str) and self.kind == "line" else "N")
+        if self.kind == "point" and math.isinf(self.radius_y):
+            object.__setattr__(self, "radius_y", self.radius_x)
         self._check_combination()
 
     def _check_combination(self):
@@ -69,9 +71,11 @@ class Contact:
         if (self.moes_M > 0) != (self.moes_L > 0):
             raise SceneError(f"contact.moes_M = {self.moes_M:g} and moes_L = {self.moes_L:g} must be given as a pair, both "
                              "more than 0")
-        if (self.kind == "line") != math.isinf(self.radius_y):
-            raise SceneError(f"contact.radius_y = {self.radius_y:g} m does not match kind {self.kind!r}; allowed: inf for a "
-                             "line contact, a length in m otherwise")
+        if self.kind == "line" and not math.isinf(self.radius_y):
+            raise SceneError(f"contact.radius_y = {self.radius_y:g} m does not match kind 'line'; allowed: inf, or kind "
+                             "'elliptic'")
+        if self.kind == "elliptic" and math.isinf(self.radius_y):
+            raise SceneError("contact.radius_y is not given; an elliptic contact needs its reduced radius along y in m")
         if self.kind == "point" and self.radius_y != self.radius_x:
             raise SceneError(f"contact.radius_y = {self.radius_y:g} m differs from radius_x = {self.radius_x:g} m, which needs "
                              "kind 'elliptic'")

@@ -4,6 +4,7 @@ import contextlib
 import dataclasses
 import difflib
 import math
+import os
 from typing import Union
 
 from tehl_taichi.errors import SceneError
@@ -97,8 +98,18 @@ def nearest(word, allowed):
     """' (did you mean ...?)' for the closest known word, or nothing."""
     word = word[:100] if isinstance(word, str) else shown(word)
     known = {str(a).lower(): str(a) for a in allowed}
-    close = difflib.get_close_matches(word.lower(), known, n=1, cutoff=0.5)
-    return f" (did you mean {known[close[0]]!r}?)" if close else ""
+    close = difflib.get_close_matches(word.lower(), known, n=5, cutoff=0.5) or _with(word.lower(), known)
+    return f" (did you mean {known[max(close, key=lambda one: _likeness(one, word.lower()))]!r}?)" if close else ""
+
+
+def _with(word, known):
+    """The names that contain a word of at least three letters."""
+    return [name for name in known if len(word) > 2 and word in name]
+
+
+def _likeness(one, word):
+    """How much a known name is like a word; of equally near names that with the longer common beginning."""
+    return difflib.SequenceMatcher(None, one, word).ratio(), len(os.path.commonprefix([one, word]))
 
 
 def normalise(part):

@@ -8,7 +8,7 @@ import dataclasses
 import math
 from dataclasses import dataclass
 
-from tehl_taichi.values import checks
+from tehl_taichi.values import checks, units
 from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.unit_hints import meant
 
@@ -24,6 +24,10 @@ class Kind:
     @property
     def allowed(self):
         return ""
+
+    def taken(self, where, value):
+        """A value as it is checked and kept; text with a unit becomes a number. Raises SceneError for another unit."""
+        return value
 
     @property
     def sentence(self):
@@ -56,6 +60,9 @@ class Number(Kind):
         other = meant(value, self.unit, lambda other: low <= other <= high, self.usual)
         return f"{where} = {value:g} {self.unit} is unusual{other}" if other else ""
 
+    def taken(self, where, value):
+        return units.in_unit(where, value, self.unit) if isinstance(value, str) else value
+
     def check(self, where, value):
         if self.auto and isinstance(value, str):
             return checks.word(where, value, AUTO, self)
@@ -76,6 +83,11 @@ class Number(Kind):
 @dataclass(frozen=True)
 class Numbers(Number):
     """A list of such numbers; with `auto`: the scene itself decides by default."""
+
+    def taken(self, where, value):
+        if not isinstance(value, (tuple, list)):
+            return value
+        return type(value)(super(Numbers, self).taken(where, entry) for entry in value)
 
     def check(self, where, value):
         if self.auto and isinstance(value, str) and value == AUTO:
@@ -258,15 +270,17 @@ def _changed(part):
     return f"{type(part).__name__}({', '.join(f'{k}={v!r}' for k, v in given if v != getattr(type(part), k, None))})"
 
 
-def check(part, section="", **units):
-    """Check every value of `part` by its declaration; None is allowed where the default is None. units: {key: unit} where a
-    unit depends on other values.
+def check(part, section="", **in_unit):
+    """Check every value of `part` by its declaration, and keep numbers in place of text with a unit; None is allowed where the
+    default is None. in_unit: {key: unit} where a unit depends on other values.
 
     Raises SceneError: one sentence with the value, the unit and what is allowed.
     """
     checks.normalise(part)
     for key, kind in kinds(type(part)).items():
-        kind = dataclasses.replace(kind, unit=units[key]) if key in units else kind
-        value = getattr(part, key)
+        kind = dataclasses.replace(kind, unit=in_unit[key]) if key in in_unit else kind
+        where, value = f"{section}.{key}".lstrip("."), getattr(part, key)
         if value is not None or getattr(type(part), key) is not None:
-            kind.check(f"{section}.{key}".lstrip("."), value)
+            if (found := kind.taken(where, value)) is not value:
+                object.__setattr__(part, key, found)
+            kind.check(where, found)

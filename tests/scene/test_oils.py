@@ -66,3 +66,9 @@ def test_the_list_has_numbers_of_the_laws():
     for number in (oil.viscosity(0.0, 40.0) * 1e3, oil.viscosity(0.0, 100.0) * 1e3, oil.alpha(40.0) * 1e9):
         assert f" {number:.3g} " in row
     assert max(map(len, table)) <= 100 and f"reference-pao: {oil.oil.source}" in done.stdout
+
+
+def test_the_nearest_name_of_an_oil_has_the_same_beginning():
+    """vg10 is as near to vg100 as to vg150: the first is meant."""
+    with pytest.raises(SceneError, match="did you mean 'mineral-vg100'"):
+        scene("gear").replace(**{"oil.name": "mineral-vg10"})

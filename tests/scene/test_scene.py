@@ -80,7 +80,7 @@ def test_a_named_oil_replaces_that_of_the_base(tmp_path):
     ("feature.y", 1.0, "at most 0.03 m"), ("srr", -2.0, "never passes"), ("load", 1e9, "Hertz pressure"),
     ("contact.radius_y", 0.01, "line"), ("feature.shape", "map", ".csv, .txt, .asc, .npy"),
     ("feature.shape", "waviness", "extent_x"),
-    ("time.x_start", -0.5, "steady start"), ("contact.kind", "elliptic", "a length in m"),
+    ("time.x_start", -0.5, "steady start"), ("contact.kind", "elliptic", "a load of its own"),
     ("hertz_pressure", 0.3e9, "undeformed gap"), ("time.courant", 0.0, "at least"), ("sr", 0.1, "srr"),
 ])
 def test_bad_values_are_refused_with_a_sentence(key, value, words):

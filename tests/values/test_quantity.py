@@ -9,6 +9,7 @@ from tehl_taichi.scene.description import SECTIONS
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.sections import Body, Contact
+from tehl_taichi.values.checks import nearest
 from tehl_taichi.values.quantity import Choice, Count, Number, Numbers, Switch, check, kinds, quantity
 
 PARTS = {**SECTIONS, "bodies": Body, "oil": Oil, "feature": Feature}
@@ -104,3 +105,9 @@ def test_a_load_that_makes_no_contact_is_asked_about(name, changes, said):
     with pytest.raises(SceneError) as error:
         scene(name).replace(**changes)
     assert str(error.value).endswith(said) and ("did you mean" in str(error.value)) == bool(said)
+
+
+def test_a_part_of_a_name_finds_it():
+    """Whoever asks for friction gets the column that has it in its name."""
+    assert nearest("friction", ["transient_friction_coefficient_mean", "x"]).endswith("'transient_friction_coefficient_mean'?)")
+    assert nearest("qqq", ["x", "steady"]) == nearest("st", ["xxxxxxxxxxxxxxxst"]) == ""

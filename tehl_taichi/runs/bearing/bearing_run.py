@@ -27,6 +27,7 @@ from tehl_taichi.store.json_values import plain
 from tehl_taichi.store.load_scene import find
 from tehl_taichi.values.checks import choice, number
 from tehl_taichi.values.path_arguments import path_of
+from tehl_taichi.values.units import in_unit
 
 ASSUMPTIONS = ("rings keep their shape and do not tilt", "elements roll without gross slip",
                "centrifugal forces are left out")
@@ -53,6 +54,7 @@ def bearing(what: str | PathLike | RollingBearing, *, load: float | None = None,
     """As :func:`tehl_taichi.bearing`."""
     choice("on", on, RINGS)
     if roughness is not None:
+        roughness = in_unit("roughness", roughness, "m")
         number("roughness", roughness, "m", 1e-10, 1e-4, usual=1e-7)
     found = bearing_source(what, {**(dimensions or {}), "load": load, "axial": axial, "speed": speed})
     base = ring_scenes.base_of(find(scene) if scene is not None else found.scene or default_scene(), feature)

@@ -11,6 +11,7 @@ from tehl_taichi.errors import SceneError
 from tehl_taichi.runs.sweep import axis_syntax
 from tehl_taichi.runs.sweep.sampling import latin_hypercube
 from tehl_taichi.scene import Scene, aliases, idle_keys
+from tehl_taichi.scene.unit_texts import column_in_units
 from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.quantity import kinds
 
@@ -208,20 +209,25 @@ def plan(scene, over, samples=None, seed=None):
         raise SceneError(f"seed = {shown(seed)} has no effect without samples")
     seed = 0 if seed is None else seed
     if samples is None:
-        return Plan(scene, tuple(_axis(keys, rows) for keys, rows in over.items()))
-    columns = {key: _choices(key, found) for key, found in over.items()}
+        return Plan(scene, tuple(_axis(scene, keys, rows) for keys, rows in over.items()))
+    columns = {key: _numbers(scene, key, _choices(key, found)) for key, found in over.items()}
     whole = {key for key in columns if isinstance(_present(scene, key), int)}
     axes = (latin_hypercube(columns, samples, seed, whole),) if columns else ()
     return Plan(scene, axes, {"samples": int(samples), "seed": int(seed)})
 
 
-def _axis(keys, rows):
+def _axis(scene, keys, rows):
     if isinstance(keys, str):
-        return axis_syntax.axis([keys], [axis_syntax.column(rows)])
+        return axis_syntax.axis([keys], [_numbers(scene, keys, axis_syntax.column(rows))])
     rows = [axis_syntax.column(list(row)) for row in rows]
     if any(len(row) != len(keys) for row in rows):
         raise SceneError(f"{', '.join(keys)}: every row needs {len(keys)} values")
-    return axis_syntax.axis(list(keys), list(zip(*rows)))
+    return axis_syntax.axis(list(keys), [_numbers(scene, key, list(column)) for key, column in zip(keys, zip(*rows))])
+
+
+def _numbers(scene, key, column):
+    """Values of a key, numbers in place of text with a unit. Raises SceneError."""
+    return column_in_units(scene, aliases.full_name(key), column)
 
 
 def _choices(key, found):

@@ -1,0 +1,54 @@
+"""Options of commands take numbers with a unit."""
+
+import json
+
+import pytest
+from tehl_cli.main import app
+from typer.testing import CliRunner
+
+
+def typed(command):
+    return CliRunner().invoke(app, command, prog_name="tehl")
+
+
+def refusal(command):
+    """The sentence of a command that is refused."""
+    done = typed(command)
+    assert done.exit_code != 0
+    return str(done.exception)
+
+
+def test_a_run_with_units():
+    """Equal to the run with bare numbers in SI units."""
+    units = typed("run gear --dry-run --load .9kN/mm --speed 10m/s --temperature 363.15K --height 1um --width 0.2mm".split())
+    bare = typed("run gear --dry-run --load 9e5 --speed 10 --temperature 90 --height 1e-6 --width 2e-4".split())
+    assert units.exit_code == 0 and units.output == bare.output != typed(["run", "gear", "--dry-run"]).output
+
+
+def test_a_bearing_with_units(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    common = "bearing mine --balls 9 --no-run --no-figure --quiet --json --ball-diameter".split()
+    found = [json.loads(typed([*common, *rest.split()]).stdout) for rest in
+             ("9.525mm --pitch-diameter 46mm --load 3kN --speed 50Hz --clearance 5um --temperature 343.15K --roughness 0.1um",
+              "9.525e-3 --pitch-diameter 46e-3 --load 3000 --speed 3000 --clearance 5e-6 --temperature 70 --roughness 1e-7")]
+    assert found[0]["loads_N"] == found[1]["loads_N"] and found[0]["inner"]["p_Hertz_Pa"] == found[1]["inner"]["p_Hertz_Pa"]
+    assert found[0]["inner"]["film_formula_m"] == found[1]["inner"]["film_formula_m"]
+
+
+def test_a_dent_with_units():
+    from tehl_cli.bearing_features import dent_of
+
+    assert dent_of("10um,0.3mm,rim=1.2um") == dent_of("10e-6,0.3e-3,rim=1.2e-6")
+
+
+@pytest.mark.parametrize("command, parts", [
+    ("run gear --dry-run --load 5kN", ("contact.load", "'kN'", "N/mm")),
+    ("run gear --dry-run --speed 1500rpm", ("operation.u_m", "radius")),
+    ("bearing 6206 --no-run --speed 3m", ("bearing.speed", "rpm")),
+    ("bearing 6206 --no-run --dent 10um,3K", ("--dent", "'K'")),
+    ("run gear --dry-run --load five", ("contact.load = 'five' is not a number",)),
+    ("flank fzg-c --torque 3kN", ("gear.torque", "kN m")),
+    ("sweep gear --dry-run --over temperature=70C,80Pa", ("operation.temperature", "'Pa'"))])
+def test_another_unit_is_refused(command, parts, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert all(part in refusal(command.split()) for part in parts)
