@@ -19,11 +19,13 @@ def figures(store, search):
     """[the figure], [] where nothing was searched below the surface."""
     if search.result.findley_stress_under_row is None or "below" not in search.result.numbers:
         return []
-    panels = _load(store), _stress(search), _strength(search), _verdict(search)
-    traces = [trace for n, found in enumerate(panels, 1) for trace in _panel(n, found)]
     body = search.result.numbers.get("surface", "a")
+    left = store.residual_fields.get(body)
+    panels = _load(store), _stress(search), _strength(search, left), _verdict(search)
+    traces = [trace for n, found in enumerate(panels, 1) for trace in _panel(n, found)]
     caption = (f"From the load to the verdict, body {body}: largest pressure of the passage, stress under the "
                f"{passing(search.scene)} at each depth, limit and residual stress there, and stress over limit.")
+    caption += " The residual stress with that of run-in is that under the critical point." * bool(left)
     return [Figure(f"{search.on}chain", caption, traces, _layout(), 640)]
 
 
@@ -62,12 +64,16 @@ def _stress(search):
             *([] if alone is None else [line(alone / 1e6, z, "smooth contact", GREY, dash="dash", in_legend=False)])]
 
 
-def _strength(search):
-    """Fatigue limit beside the largest stress, and residual stress where there is any."""
+def _strength(search, left=None):
+    """Fatigue limit beside the largest stress, and residual stress where there is any; left: the ResidualField of a run-in."""
     result = search.result
     strength, z = _of_body(search), result.row_depths * 1e6
     limits = np.full(z.size, result.numbers["sigma_eF_Pa"]) if result.limit_under_row is None else result.limit_under_row
     residual = [np.broadcast_to(one, z.shape) for one in strength.residual(result.row_depths)]
+    if left:
+        deep = result.numbers["below"]
+        under = left.at(deep["x_m"], deep["y_m"], result.row_depths)[0, 0]
+        residual = [one + under[:, n] for n, one in enumerate(residual)]
     largest_stress = result.findley_stress_under_row.max(axis=1) / 1e6
     return [line(largest_stress, z, "stress beside it", colour(0), dash="dot", in_legend=False),
             line(limits / 1e6, z, "fatigue limit", colour(2)),

@@ -9,6 +9,7 @@ from tehl_taichi.report import (
     map_plots,
     numbered_points,
     passage_plots,
+    run_in_plots,
     run_tables,
     scene_text,
     surface_plots,
@@ -35,8 +36,8 @@ def page(store, result=None):
     """The page of a :class:`tehl_taichi.store.reader.Reader`; result: the SearchResult, by default that of the store."""
     about = f"{store.scene.name}: a run of tehl_taichi {text(store.attrs, 'version')}"
     sections = (scene_section(store.scene, text(store.attrs, "scene_toml", "")),
-                *surface_plots.section(store.scene, store.summary), *_film(store), *_fatigue(store, result),
-                *crack_plots.section(store), *_made(store))
+                *surface_plots.section(store.scene, store.summary), *run_in_plots.section(store), *_film(store),
+                *_fatigue(store, result), *crack_plots.section(store), *_made(store))
     answer = dataclasses.replace(verdict.of(store), known_before=tuple(store.scene.warnings()))
     return Page(f"{store.scene.name}: report", about, answer, sections)
 
@@ -71,12 +72,11 @@ def _fatigue(store, result):
 
 def _of_search(store, search, of, lead):
     """Two sections; of: said in their headings; lead: begins the words on its moments, where there are two searches."""
-    shown = drawn(*chain_plot.figures(store, search), *fatigue_plots.distribution(search), *fatigue_plots.index(search),
-                  *fatigue_plots.depth(search))
+    shown = drawn(*fatigue_plots.distribution(search), *fatigue_plots.index(search), *fatigue_plots.depth(search))
     behind = NO_MAPS if shown is None else DARK if search.on else ""
     words, numbers = [_sentence(f"{lead}{search.when}.") + behind] * bool(search.short), search.result.numbers
-    return (Section(f"Fatigue{of}", (PageBlock("text", {"sentences": words}) if words else None, shown,
-                                     numbered_points.rows(search),
+    return (Section(f"Fatigue{of}", (PageBlock("text", {"sentences": words}) if words else None,
+                                     drawn(*chain_plot.figures(store, search)), shown, numbered_points.rows(search),
                                      run_tables.worst_points(numbers, search.scene), run_tables.tension(numbers))),
             Section(f"Stresses at the critical points{of}", tuple(drawn(*pair) for pair in fatigue_plots.worst_points(search))))
 
