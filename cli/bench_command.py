@@ -65,6 +65,7 @@ def verdict(
     quick: bool = typer.Option(False, "--quick", help="run the default asperity on 64 x 16 cells"),
     as_json: bool = JSON,
     force: bool = FORCE,
+    write: bool = typer.Option(False, "--write", help="replace the table in docs/strength.md (of the current folder)"),
     threads: Optional[int] = THREADS,
     workers: int = WORKERS,
 ):
@@ -73,14 +74,17 @@ def verdict(
     Example: `tehl bench verdict`
     """
     from tehl_cli.tables import list_table
+    from tehl_taichi.profiles import measure
     from tehl_taichi.profiles import verdict as suite
 
-    results = Results(out, "verdict", force, more=("md",))
-    rows = suite.run(out, quick, say, workers, threads)
+    results = Results(out, "verdict", force, more=("md",), write=write)
+    for rows in suite.run(out, quick, say, workers, threads):  # those so far are kept, whatever comes
+        measure.save(out, "verdict", measure.result([suite.plain_row(row) for row in rows], note=suite.NOTE))
+        results.page(suite.page(rows))
     if not as_json:
         list_table("fatigue index by strength", suite.COLUMNS, suite.texts(rows))
     say(suite.NOTE)
-    results.page(suite.page(rows))
+    results.documented(suite.COLUMNS, suite.texts(rows))
     results.finish([suite.plain_row(row) for row in rows], lambda plt: suite.chart(plt, rows), as_json, note=suite.NOTE)
 
 

@@ -1,13 +1,18 @@
-"""The tables of docs/performance.md: a suite replaces its own, between two marks, and nothing else."""
+"""The tables of the pages in docs: a suite replaces its own, between two marks, and nothing else."""
 
 import shlex
 import sys
 import textwrap
 from pathlib import Path
 
-PAGE = Path("docs/performance.md")  # in the current folder
+PAGE, PAGES = Path("docs/performance.md"), {"verdict": Path("docs/strength.md")}  # in the current folder; of other suites
 END, WIDTH = "<!-- bench end -->", 130
 OWN = ("--write", "--force", "--json", "--quiet")  # options that change no figure
+
+
+def of(name):
+    """The page with the table of a suite."""
+    return PAGES.get(name, PAGE)
 
 
 def check(name):
@@ -22,8 +27,8 @@ def write(name, columns, rows):
     before, after = _around(name)
     lines = [columns, ["---"] * len(columns), *rows]
     table = "\n".join(f"| {' | '.join(map(_cell, line))} |" for line in lines)
-    with files.blamed(PAGE):
-        files.replace(PAGE, f"{before}\n{_caption()}\n\n{table}\n{after}".encode())
+    with files.blamed(of(name)):
+        files.replace(of(name), f"{before}\n{_caption()}\n\n{table}\n{after}".encode())
 
 
 def _cell(text):
@@ -35,13 +40,13 @@ def _around(name):
     from tehl_taichi.disk import files
     from tehl_taichi.errors import StoreError
 
-    mark = f"<!-- bench: {name} -->"
-    with files.blamed(PAGE, "cannot read"):
-        text = files.text(PAGE)
+    mark, page = f"<!-- bench: {name} -->", of(name)
+    with files.blamed(page, "cannot read"):
+        text = files.text(page)
     before, begins, rest = text.partition(mark)
     _, ends, after = rest.partition(END)
     if not (begins and ends):
-        raise StoreError(f"{PAGE} has no table of this suite: {mark} ... {END}")
+        raise StoreError(f"{page} has no table of this suite: {mark} ... {END}")
     return before + mark, END + after
 
 

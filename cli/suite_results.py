@@ -20,7 +20,7 @@ def texts(rows, columns):
 class Results:
     """The files NAME.json, NAME.png and others (`more`: their endings) of a suite in a folder.
 
-    force: replace those of an earlier run; write: replace the suite's table in docs/performance.md, too. Raises StoreError,
+    force: replace those of an earlier run; write: replace the suite's table in its page in docs, too. Raises StoreError,
     before the work, where they may not be written.
     """
 
@@ -53,10 +53,10 @@ class Results:
             print_json(found)
 
     def documented(self, columns, rows):
-        """Write the suite's table into docs/performance.md where that is wanted; rows: lists of texts."""
+        """Write the suite's table into its page in docs where that is wanted; rows: lists of texts."""
         if self.write:
             bench_page.write(self.name, columns, rows)
-            say(f"wrote {bench_page.PAGE}")
+            say(f"wrote {bench_page.of(self.name)}")
 
     def page(self, text):
         """Write NAME.md."""

@@ -26,7 +26,7 @@ CASE = {"fatigue.table": "case-hardened"}
 RESIDUAL = {"fatigue.residual_xx": -4e8, "fatigue.residual_yy": -4e8}
 RUN_IN = {"time.run_in": 3, "bodies.a.yield_stress": 2.2e9, "bodies.b.yield_stress": 2.2e9}
 VARIANTS = {"default": {}, "case": CASE, "residual": RESIDUAL, "run-in": RUN_IN, "all": {**CASE, **RESIDUAL, **RUN_IN}}
-MEANS = {"default": "as it is", "case": "case profile", "residual": "residual stress -400 MPa",
+MEANS = {"default": "as it is", "case": "case profile", "residual": "residual stress −400 MPa",
          "run-in": "run-in, 2.2 GPa", "all": "all three"}
 NOTE = "run-in: three passages at most, both bodies of steel that flows at 2.2 GPa and does not harden"
 BARE = {"fatigue.on": False, "numerics.estimate_error": False}
@@ -53,31 +53,49 @@ class VerdictRow:
 
 
 def run(folder, quick=False, progress=None, workers=1, threads=None):
-    """Rows of all variants of all scenes; their stores lie in `folder` and are used again. progress: called with a line of
-    text; workers, threads: as of :func:`tehl_taichi.profiles.measure.side_by_side`."""
+    """Generator of the rows so far, in the order of scenes and variants: after each row, with several workers after each scene.
+
+    Stores lie in `folder` and are used again. progress: called with a line of text; workers, threads: as of
+    :func:`tehl_taichi.profiles.measure.side_by_side`.
+    """
     folder, found, names = Path(folder).absolute(), {}, SCENES[:1] if quick else SCENES
-    notify = progress if workers == 1 else None  # other processes do not print
-    jobs = [(name, folder, quick, notify) for name in names]
-    for number, answer in measure.side_by_side(rows, jobs, workers, threads):
-        name = jobs[number][0]
-        lost = isinstance(answer, pool.LostJob)
-        found[name] = [VerdictRow(name, variant, reason=answer.reason) for variant in VARIANTS] if lost else answer
-    return [row for name in names for row in found[name]]
+    alone = workers == 1
+    jobs = [(name, folder, quick, progress if alone else None) for name in names]  # other processes do not print
+    for number, answer in measure.side_by_side(rows if alone else _listed, jobs, workers, threads):
+        own = found[names[number]] = []
+        for row in _lost(names[number], answer.reason) if isinstance(answer, pool.LostJob) else answer:
+            own.append(row)
+            if alone:
+                yield _in_order(found, names)
+        if not alone:
+            yield _in_order(found, names)
+
+
+def _in_order(found, names):
+    return [row for name in names for row in found.get(name, [])]
+
+
+def _lost(name, reason):
+    return [VerdictRow(name, variant, reason=reason) for variant in VARIANTS]
+
+
+def _listed(*job):
+    """All rows of a scene, for another process."""
+    return list(rows(*job))
 
 
 def rows(name, folder, quick=False, progress=None):
-    """VerdictRows of a scene."""
-    base, stores, out = scene(name).replace(**(QUICK if quick else FINER.get(name, {}))), {}, []
+    """Generator of the VerdictRows of a scene."""
+    base, stores = scene(name).replace(**(QUICK if quick else FINER.get(name, {}))), {}
     for variant, changes in VARIANTS.items():
         described, own = base.replace(**changes), variant if "time.run_in" in changes else ""
         try:
             stores[own] = stores.get(own) or _passages(described if own else base, folder, progress, f"-{own}" if own else "")
             if progress:
                 progress(f"{name}: {MEANS[variant]}")
-            out.append(_row(name, variant, described, *stores[own]))
+            yield _row(name, variant, described, *stores[own])
         except Error as error:
-            out.append(VerdictRow(name, variant, reason=str(error)))
-    return out
+            yield VerdictRow(name, variant, reason=str(error))
 
 
 def _passages(base, folder, progress, variant=""):
@@ -161,7 +179,7 @@ def _nested(parts):
     return out
 
 
-COLUMNS = ("scene", "variant", "body", "Fi at the surface", "Fi below", "depth, um", "limit, MPa")
+COLUMNS = ("scene", "variant", "body", "Fi at the surface", "Fi below", "depth, µm", "limit, MPa")
 
 
 def cells(row):
@@ -183,8 +201,12 @@ def page(rows):
     """Markdown of the table."""
     lines = [f"| {' | '.join(COLUMNS)} |", "|" + "---|" * len(COLUMNS)]
     lines += [f"| {' | '.join(line)} |" for line in texts(rows)]
-    notes = dict.fromkeys(f"{NAMES[row.scene]}: errors not known, {row.unknown}." for row in rows if row.unknown)
-    return "\n".join([*lines, "", *notes, f"{NOTE[0].upper()}{NOTE[1:]}."])
+    return "\n".join([*lines, "", *notes(rows), f"{NOTE[0].upper()}{NOTE[1:]}."])
+
+
+def notes(rows):
+    """Sentences on bars that are not known, once each."""
+    return list(dict.fromkeys(f"{NAMES[row.scene]}: errors not known, {row.unknown}." for row in rows if row.unknown))
 
 
 def chart(plt, rows):

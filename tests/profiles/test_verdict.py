@@ -23,7 +23,7 @@ def quick(monkeypatch, name, **changes):
 def test_a_row_is_the_summary_of_a_run_with_its_bars(tmp_path, monkeypatch, taichi_cpu, variant):
     base = quick(monkeypatch, "gear", **{"grid.nx": 256, "feature.length": math.inf, "thermal.on": False})
     monkeypatch.setattr(verdict, "VARIANTS", {variant: verdict.VARIANTS[variant]})
-    row, = verdict.run(tmp_path, quick=True)
+    row, = list(verdict.run(tmp_path, quick=True))[-1]
     scene = base.replace(**verdict.VARIANTS[variant], **{"numerics.estimate_error": True})
     found = tehl.run(scene, tmp_path / "a.zarr").summary["fatigue"]
     assert (row.surface, row.Fi_surface, row.Fi_below) == (found["surface"], found["Fi_max"], found["below"]["Fi_max"])
@@ -36,14 +36,14 @@ def test_a_row_is_the_summary_of_a_run_with_its_bars(tmp_path, monkeypatch, taic
 @pytest.mark.slow
 def test_rows_of_a_scene_and_its_stores_again(tmp_path, monkeypatch, taichi_cpu):
     quick(monkeypatch, "gear", **{"grid.nx": 32, "grid.ny": 8, "thermal.on": False})
-    rows = {row.variant: row for row in verdict.run(tmp_path, quick=True)}
+    rows = {row.variant: row for row in list(verdict.run(tmp_path, quick=True))[-1]}
     assert list(rows) == list(verdict.VARIANTS) and all(not row.reason for row in rows.values())
     assert rows["case"].Fi_below < 0.8 * rows["default"].Fi_below and rows["all"].Fi_surface < rows["case"].Fi_surface
     assert rows["default"].limits_Pa == (4e8, 4e8) and rows["case"].limits_Pa[1] < rows["case"].limits_Pa[0] < 6e8
     assert {path.name for path in tmp_path.iterdir()} == {f"gear{own}-32x8.zarr" for own in ("", "-run-in", "-all")}
     assert rows["run-in"].Fi_below == rows["default"].Fi_below  # on this grid nothing yields at 2.2 GPa
     made = (tmp_path / "gear-32x8.zarr" / "zarr.json").stat().st_mtime_ns
-    assert verdict.run(tmp_path, quick=True) == list(rows.values())
+    assert list(verdict.run(tmp_path, quick=True))[-1] == list(rows.values())
     assert (tmp_path / "gear-32x8.zarr" / "zarr.json").stat().st_mtime_ns == made
 
 
@@ -52,9 +52,27 @@ def test_a_scene_that_does_not_converge_says_why(tmp_path, monkeypatch):
         raise NotConverged("step 3: residual 1e-2")
 
     monkeypatch.setattr(verdict, "completed", lost)
-    rows = verdict.rows("dent", tmp_path)
+    rows = list(verdict.rows("dent", tmp_path))
     assert [row.reason for row in rows] == ["step 3: residual 1e-2"] * len(verdict.VARIANTS)
     assert "step 3" in verdict.page(rows)
+
+
+def test_rows_are_handed_out_one_by_one(tmp_path, monkeypatch):
+    """What an interruption leaves: each row as soon as it is known, in the order of scenes and variants."""
+    made = []
+
+    def passages(described, *_):
+        made.append(described.name)
+        if len(made) == 3:  # its run-in
+            raise KeyboardInterrupt
+        return None, []
+
+    monkeypatch.setattr(verdict, "_passages", passages)
+    monkeypatch.setattr(verdict, "_row", lambda name, variant, *_: verdict.VerdictRow(name, variant))
+    so_far = []
+    with pytest.raises(KeyboardInterrupt):
+        so_far.extend(verdict.run(tmp_path, quick=True))
+    assert [len(rows) for rows in so_far] == [1, 2, 3, 4] and [row.variant for row in so_far[-1]] == list(verdict.VARIANTS)[:4]
 
 
 def search(top, deep, **more):
