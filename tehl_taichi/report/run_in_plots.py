@@ -1,4 +1,4 @@
-"""What run-in left: heights before and after, change of the surface by passage, residual stress."""
+"""Section of a report on run-in: heights before and after, change of the surface by passage, residual stress."""
 
 from tehl_taichi.report.document import Section, drawn
 from tehl_taichi.report.plots import axis, colour, field_map, line, stacked

@@ -1,4 +1,4 @@
-"""What run-in left along the middle of a body, as figures and reports show it."""
+"""Profile of a run-in along the middle of a body, as figures and reports show it."""
 
 from dataclasses import dataclass
 
