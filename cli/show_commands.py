@@ -200,7 +200,12 @@ def plot(store: Path = typer.Argument(..., help="store of a run, a study, or the
          at: Optional[float] = typer.Option(None, help="run: position of the (first) feature to draw, in half-widths a "
                                                        "(default: -0.8, 0, 0.8 for curves, 0 for maps)"),
          depth: Optional[float] = typer.Option(None, help="run: depth of a second fatigue map, µm below the surface, among "
-                                                          "those searched (default: the critical one)")):
+                                                          "those searched (default: the critical one)"),
+         interference: Optional[str] = typer.Option(None, help="run: also draw the interference colours of the film: chromatic "
+                                                               "(white light) or monochromatic"),
+         refractive_index: Optional[float] = typer.Option(None, help="of the oil without pressure, for --interference "
+                                                                     "(default: 1.47)"),
+         wavelength: Optional[float] = number("of monochromatic light, m (default: 589.3 nm)")):
     """Draw the figures of a run, a study, a flank, a bearing or a cam.
 
     Run: pressure and film along the centreline, maps, fatigue. Study: results over the swept keys. Flank: results along
@@ -208,15 +213,19 @@ def plot(store: Path = typer.Argument(..., help="store of a run, a study, or the
     over the angle.
 
     Examples: `tehl plot runs/gear-1.zarr --format pdf --width 8.5 --at 0.5` · `tehl plot runs/gear-1.zarr --dpi 300` ·
-    `tehl plot runs/gear-sweep-0a1b2c.zarr --quantity steady_h_c_m`
+    `tehl plot runs/gear-sweep-0a1b2c.zarr --quantity steady_h_c_m` ·
+    `tehl plot runs/ball-on-glass-1.zarr --interference chromatic`
     """
     page = dict(dpi=dpi, format=format, width=width, force=force)
-    for path in _draw(store, out, {"quantity": quantity, "at": at, "depth": depth}, page):
+    options = {"quantity": quantity, "at": at, "depth": depth, "interference": interference, "wavelength": wavelength,
+               "refractive_index": refractive_index}
+    for path in _draw(store, out, options, page):
         put(path)
 
 
 # of tehl plot: what only such a one can show
-OPTIONS = {"run": ("at", "depth"), "study": ("quantity",), "flank": (), "bearing": (), "cam": ()}
+OPTIONS = {"run": ("at", "depth", "interference", "refractive_index", "wavelength"),
+           "study": ("quantity",), "flank": (), "bearing": (), "cam": ()}
 
 
 def _draw(store, out, options, page):

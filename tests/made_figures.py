@@ -17,10 +17,12 @@ class Made:
     whole domain the pressure is largest at y = -a/2, where the feature is at 0."""
 
     def __init__(self, description, whole=False):
-        a = self.a = Scales.of(description).a
+        scales = Scales.of(description)
+        a, b = self.a, self.b = scales.a, scales.b
         self.scene, self.stored, self.path = description, {}, "made.zarr"
         self.x = np.linspace(description.grid.x_min, description.grid.x_max, 33) * a
-        self.y = np.linspace(-whole, 1, 13) * description.grid.y_max * a if description.rows else np.zeros(1)
+        side = description.grid.y_max * (a if np.isinf(b) else b)
+        self.y = np.linspace(-whole, 1, 13) * side if description.rows else np.zeros(1)
         self.at = np.array([-1.6, -0.8, 0.0, 0.8] if description.transient else [np.nan]) * a
         self.steps = len(self.at)
 

@@ -10,9 +10,9 @@ from tehl_taichi.report.plots import colour, field_map, level, line, marks, stac
 from tehl_taichi.scene.feature_wording import passing, position
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.view.figures import distribution_figure
-from tehl_taichi.view.figures.field_maps import mirrored
 from tehl_taichi.view.figures.index_text import index_text, largest
 from tehl_taichi.view.figures.limit_line import crossed, explained
+from tehl_taichi.view.figures.map_panels import mirrored
 from tehl_taichi.view.figures.palette import GREY, INDEX, MARK
 from tehl_taichi.view.figures.search_data import beside_worst
 

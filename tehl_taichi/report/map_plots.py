@@ -1,32 +1,76 @@
 """Fields over the contact at the worst moment of the passage."""
 
-from tehl_taichi.report.passage_plots import columns, film_top, thinned
+import numpy as np
+
+from tehl_taichi.report.passage_plots import columns, thinned
 from tehl_taichi.report.plots import field_map
 from tehl_taichi.scene.feature_wording import passing
 from tehl_taichi.scene.scales import Scales
-from tehl_taichi.view.figures.field_maps import ends, mirrored
+from tehl_taichi.view.figures.field_maps import ends, film_ends
 from tehl_taichi.view.figures.line_figures import ALONG, SURFACES
+from tehl_taichi.view.figures.map_panels import EDGE, MIDDLE, half_axis, lies, mirrored
 from tehl_taichi.view.figures.moments import Moments
 from tehl_taichi.view.figures.palette import FILM, PRESSURE, TEMPERATURE
 
 BODIES = ("map-temperature_a", "map-temperature_b")  # one scale of colours for both
 ROWS = 101  # of a half domain, at most
+SHORT = "-middle"  # ends the name of a map of the middle of a wide ellipse
+BELOW, BELOW_LYING = -0.25, -0.5  # place of the colour bar below a map, in its heights
+LYING = 230  # px: height of a map of a wide ellipse on its side
 
 
 def maps(store):
-    """Pressure, film and temperatures over x, y; none where nothing varies across."""
+    """Pressure, film, temperatures over x, y; none where nothing varies across. A wide ellipse lies with its long axis to the
+    right, and pressure and film have maps of its middle, too."""
     if store.y.size == 1:
         return []
-    moments, a, where = Moments(store), Scales.of(store.scene).a, columns(store)
+    moments, styles = Moments(store), _styles(store)
     n, when = moments.worst, _when(moments)
-    rows = thinned(store.y.size, ROWS if store.y[0] >= 0 else 2 * ROWS)
-    styles, out = _styles(store), []
-    for name, values in store.fields(n, list(styles)).items():
-        text, scale, unit, factor, keys = styles[name]
-        y, full = mirrored(store.y[rows] / a, values[where][:, rows] * factor)
-        out.append(field_map(f"map-{name}", f"{text}: {when}.", store.x[where] / a, y, full, scale, unit,
-                             ALONG, "y / a", **keys))
+    fields = store.fields(n, list(styles))
+    styles["film"] = _film(moments, fields["film"])
+    out = [_map(moments, name, values, styles[name], when) for name, values in fields.items()]
+    if lies(store.scene):
+        out += [_map(moments, name, fields[name], styles[name], when, MIDDLE) for name in ("pressure", "film")]
     return _alike(out)
+
+
+def rows(store):
+    """Lists of the same maps, each for a row of a page: a lying ellipse takes the whole width."""
+    found = maps(store)
+    if not found or not lies(store.scene):
+        return [found] if found else []
+    middles = [figure for figure in found if figure.name.endswith(SHORT)]
+    whole = [[figure] for figure in found if not figure.name.endswith(SHORT)]
+    return [*whole[:2], middles, *whole[2:]]
+
+
+def _map(moments, name, values, style, when, side=0.0):
+    """The map of a field; side: half-width in a of what is shown across (0: all of it, of a wide ellipse a little more than
+    it)."""
+    text, scale, unit, factor, keys = style
+    store, where = moments.store, columns(moments.store)
+    y, full = mirrored(store.y / moments.a, values[where] * factor)
+    x, lying = store.x[where] / moments.a, lies(store.scene)
+    if lying:
+        near = np.flatnonzero(np.abs(y) <= (side or EDGE * Scales.of(store.scene).b / moments.a))
+        y, full = y[near], full[:, near]
+    kept = thinned(y.size, 2 * ROWS)
+    y, full = y[kept], full[:, kept]
+    title = f"{text}{', middle of the contact' * bool(side)}: {when}."
+    across = f"y / a{half_axis(store.scene)}"
+    if not lying:
+        return field_map(f"map-{name}", title, x, y, full, scale, unit, ALONG, across, **keys)
+    found = field_map(f"map-{name}{SHORT * bool(side)}", title, y, x, full.T, scale, unit, f"{across}, flow downwards", "x / a",
+                      height=330 if side else LYING, **keys)
+    found.layout["yaxis"]["autorange"] = "reversed"
+    found.traces[0]["colorbar"]["y"] = BELOW if side else BELOW_LYING
+    return found
+
+
+def _film(moments, film):
+    """Style of the film: colours of its own range inside the contact."""
+    low, top = (round(end * 1e6, 4) for end in film_ends(moments, film))
+    return f"Film, thicker than {top:.3g} µm in the last colour", FILM, "µm", 1e6, {"zmin": low, "zmax": top}
 
 
 def _when(moments):
@@ -37,13 +81,11 @@ def _when(moments):
 
 def _styles(store):
     """{field: (title, colours, unit, factor, ends of the colours)}."""
-    top = film_top(store) * 1e6
     whose = {f"surface {one.name}": f", which carries the {passing(store.scene)}" for one in store.scene.surfaces
              if one.features and store.scene.transient}
     heat: dict[str, tuple] = {name: (f"Temperature, {text}{whose.get(text, '')}", TEMPERATURE, "°C", 1.0, {})
             for name, text, _ in SURFACES if name in store.stored}
-    film = f"Film, thicker than {top:.2g} µm in the last colour", FILM, "µm", 1e6, {"zmin": 0.0, "zmax": top}
-    return {"pressure": ("Pressure", PRESSURE, "GPa", 1e-9, {}), "film": film, **heat}
+    return {"pressure": ("Pressure", PRESSURE, "GPa", 1e-9, {}), "film": (), **heat}
 
 
 def _alike(figures):

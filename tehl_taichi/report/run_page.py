@@ -53,13 +53,13 @@ def scene_section(scene, source):
 def _film(store):
     """Pressure, film and temperatures."""
     line, histories = passage_plots.centreline(store), passage_plots.histories(store)
-    moved, maps = line.more.get("slides"), drawn(*map_plots.maps(store))
+    moved, maps = line.more.get("slides"), tuple(drawn(*row) for row in map_plots.rows(store))
     if not moved:
-        return Section("Film and pressure", (drawn(line), maps)),
+        return Section("Film and pressure", (drawn(line), *maps)),
     slider = PageBlock("slider", {"figures": [line], "first": moved["first"], "last": len(moved["at"]) - 1,
                              "what": where(store.scene)})
     return (Section("Passage", (slider,)), Section("Histories", (drawn(histories), run_tables.solid_contact(store.summary))),
-            Section("Moment of the largest pressure", (maps,)))
+            Section("Moment of the largest pressure", maps))
 
 
 def _fatigue(store, result):

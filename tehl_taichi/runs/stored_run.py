@@ -147,6 +147,7 @@ class Run:
         return dataset(self.path)
 
     def plot(self, folder: str | PathLike | None = None, *, at: float | None = None, depth: float | None = None,
+             interference: str | None = None, refractive_index: float | None = None, wavelength: float | None = None,
              width: float = 17.0, dpi: int = 160, **written: Any) -> dict | list:
         """Draw its figures, those of `tehl plot`; :meth:`save_figures` writes them.
 
@@ -156,6 +157,12 @@ class Run:
             Position of the feature to show, in half-widths a; default: a choice, see :mod:`tehl_taichi.view.figures.moments`.
         depth : float, optional
             Depth in µm of the fatigue map beside that of the surface; default: where the index is largest.
+        interference : {"chromatic", "monochromatic"}, optional
+            Also draw the interference colours of the film, as an optical rig shows it.
+        refractive_index : float, optional
+            Of the oil without pressure, default 1.47.
+        wavelength : float, optional
+            Of monochromatic light in m, default 589.3e-9.
         width : float
             Width in cm, 5 to 60.
         dpi : int
@@ -181,14 +188,17 @@ class Run:
         <tehl figures: centreline>
         """
         from tehl_taichi.view.figures.figure_style import FigureStyle
+        from tehl_taichi.view.figures.interference import light
         from tehl_taichi.view.figures.run_figures import draw_all
 
         if folder is not None or written:
             warnings.warn("run.plot(folder) is run.save_figures(folder) from version 0.9 on", DeprecationWarning, stacklevel=2)
             return self.save_figures(folder, at=at, depth=depth, width=width, dpi=dpi, **written)
-        return draw_all(self.store, FigureStyle(dpi=dpi, width=width), at, depth)
+        return draw_all(self.store, FigureStyle(dpi=dpi, width=width), at, depth,
+                        light(interference, refractive_index, wavelength))
 
     def save_figures(self, folder: str | PathLike | None = None, *, at: float | None = None, depth: float | None = None,
+                     interference: str | None = None, refractive_index: float | None = None, wavelength: float | None = None,
                      width: float = 17.0, dpi: int = 160, format: str = "png", force: bool = False) -> list:
         """Write its figures, as `tehl plot` does.
 
@@ -196,7 +206,7 @@ class Run:
         ----------
         folder : path, optional
             Default: beside the store.
-        at, depth, width, dpi
+        at, depth, interference, refractive_index, wavelength, width, dpi
             As for :meth:`plot`.
         format : {"png", "pdf", "svg"}
             File format.
@@ -220,9 +230,11 @@ class Run:
         ['centreline.png']
         """
         from tehl_taichi.view.figures.figure_style import FigureStyle, default_folder
+        from tehl_taichi.view.figures.interference import light
         from tehl_taichi.view.figures.run_figures import write_all
 
-        return write_all(self.store, folder or default_folder(self.path), FigureStyle(format, dpi, width, force), at, depth)
+        return write_all(self.store, folder or default_folder(self.path), FigureStyle(format, dpi, width, force), at, depth,
+                         light(interference, refractive_index, wavelength))
 
     def animate(self, out: str | PathLike | None = None, **options: Any) -> Path:
         """Write an animation of its passage, see :func:`tehl_taichi.animate`."""

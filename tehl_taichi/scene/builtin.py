@@ -28,6 +28,7 @@ GROUND: dict[str, Any] = dict(shape="ground", height=0.3e-6, width=80e-6, length
 VG100 = OILS["mineral-vg100"]
 POINT_GRID = Grid(nx=128, ny=32)
 MTM = Contact(kind="point", radius_x=9.525e-3, radius_y=9.525e-3, hertz_pressure=1e9)
+RIG = Contact(kind="point", radius_x=9.525e-3, radius_y=9.525e-3, load=20.0)
 BALL_RACE = Contact(kind="elliptic", radius_x=3.776e-3, radius_y=123.8e-3, load=1462.0)
 ROLLER_RACE = Contact(radius_x=4.231e-3, load=204e3)
 DISCS = Contact(radius_x=20e-3, hertz_pressure=1e9)
@@ -58,6 +59,10 @@ BUILT_INS = {
     "mtm": (Scene(name="mtm", contact=MTM, features=(), operation=Operation(u_m=1.0, srr=0.05, temperature=40.0), oil=VG100,
                   grid=Grid(nx=192, ny=48)),
             "traction rig: 3/4 inch steel ball on a steel disc, 1 GPa (base of traction curves)"),
+    "ball-on-glass": (Scene(name="ball-on-glass", contact=RIG, body_b=GLASS, features=(), oil=OILS["mineral-vg68"],
+                            operation=Operation(u_m=0.3, srr=0.0, temperature=40.0), grid=Grid(nx=192, ny=48)),
+                      "optical rig: 3/4 inch steel ball on a glass disc, 20 N, 0.54 GPa, pure rolling (interference colours: "
+                      "`tehl plot --interference chromatic`)"),
     "twin-disc": (Scene(name="twin-disc", contact=DISCS, features=(), operation=Operation(u_m=3.0, srr=0.05, temperature=60.0),
                         oil=VG100, grid=Grid(nx=384)),
                   "two steel discs of 80 mm diameter, 1 GPa: 1-D"),

@@ -67,6 +67,10 @@ class Oil(_OIL):
         """Whether its density falls with temperature, if `expansion` allows it."""
         return density.LAWS[self.density].expansivity(self, 0.0, 40.0) > 0
 
+    def density_ratio(self, p, Gamma, inlet):
+        """Density at p (Pa), Gamma (deg C), numbers or arrays, over that without pressure at the temperature `inlet`."""
+        return density.rho_film(self, p, Gamma) / density.rho_film(self, 0.0, inlet)
+
     @property
     def unused(self):
         """Names of the numbers that only laws take which it did not choose."""

@@ -11,7 +11,7 @@ from tehl_taichi.runs.summary.summary_rows import summary_rows
 from tehl_taichi.scene import film_formula, hertz
 from tehl_taichi.scene.film_formula import central_film, formula_words, moes_line, moes_numbers, nijenbanning, spread
 from tehl_taichi.scene.scales import Scales, reduced_modulus
-from tehl_taichi.view.figures import field_maps
+from tehl_taichi.view.figures import map_panels
 
 FILM = {"rheology.law": "newtonian", "thermal.on": False, "srr": 0.0}
 
@@ -109,7 +109,7 @@ def test_an_ellipse_says_its_half_axes_and_its_film(tmp_path):
     assert any(what.startswith("h_c by formula (Nijenbanning") and "elliptic" in what for what in rows)
     assert any("half-axis b" in what for what, _ in scene_text.numbers(scene))
     assert "across" in " ".join(scene_text.words(scene))
-    assert field_maps._half_axis(scene) == f" (b = {s.b / s.a:.3g} a)" and field_maps._half_axis(ellipse(1.0)) == ""
+    assert map_panels.half_axis(scene) == f" (b = {s.b / s.a:.3g} a)" and map_panels.half_axis(ellipse(1.0)) == ""
     assert run.save_figures(tmp_path / "p")
 
 

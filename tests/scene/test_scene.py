@@ -206,5 +206,8 @@ def test_contacts_of_machines_are_those_of_their_commands():
             (found.contact.radius_x, found.load, found.operation.u_m, found.operation.srr), rel=5e-3)
     for name in ("mtm", "twin-disc"):
         assert Scales.of(scene(name)).p_H == pytest.approx(1e9) and not scene(name).transient
-    doubts = [line for name in ("mtm", "twin-disc", "ball-bearing", "roller-bearing", "cam") for line in scene(name).warnings()]
+    glass = scene("ball-on-glass")
+    assert glass.body_b.E < 0.5 * glass.body_a.E and Scales.of(glass).p_H == pytest.approx(0.527e9, rel=2e-3)
+    rigs = ("mtm", "twin-disc", "ball-on-glass", "ball-bearing", "roller-bearing", "cam")
+    doubts = [line for name in rigs for line in scene(name).warnings()]
     assert all(line.startswith("thick film") for line in doubts)

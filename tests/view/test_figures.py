@@ -6,6 +6,7 @@ from made_figures import Made, drawn, legend, made, searched, title
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene import scene
+from tehl_taichi.scene.scales import Scales
 from tehl_taichi.view.figures import fatigue_figures, palette
 from tehl_taichi.view.figures.figure_style import INCH, FigureStyle
 from tehl_taichi.view.figures.moments import Moments
@@ -149,7 +150,33 @@ def test_the_film_colours_that_are_cut_end_in_an_arrow():
     images = [ax.collections[0] for ax in drawn("maps", made()).axes if ax.get_title()]
     assert [image.colorbar.extend for image in images] == ["neither", "max"]
     film = images[1]
-    assert film.get_clim()[1] < film.get_array().max() and film.get_clim()[1] == pytest.approx(1.1 * 0.2 * 4.81, rel=0.1)
+    assert film.get_clim()[1] < film.get_array().max() and film.get_clim()[1] == pytest.approx(0.2 * 5.34, rel=0.01)
+
+
+def test_the_film_has_the_colours_of_its_own_range_inside_the_contact():
+    """From the smallest film to the largest inside 0.9 of the ellipse: the gap outside does not take the colours."""
+    store = made("ball-on-disc")
+    film, s = store.fields(0, ["film"])["film"] * 1e6, Scales.of(store.scene)
+    inside = np.hypot(store.x[:, None] / s.a, store.y / s.b) < 0.9
+    shown = [ax.collections[0] for ax in drawn("maps", store).axes if ax.get_title() == "film"][0]
+    assert shown.get_clim() == pytest.approx((film.min(), film[inside].max())) and film[inside].max() < 0.8 * film.max()
+
+
+def test_a_wide_ellipse_lies_on_its_side_with_its_middle_below():
+    """Its long axis to the right, x downwards, as seen from above; the middle within 1.5 a, in the colours of the whole."""
+    store, b = made("ball-bearing"), 9.37
+    for name, count in (("maps", 2), ("temperature_maps", 3)):
+        axes = [ax for ax in drawn(name, store).axes if ax.get_title()]
+        whole, middle = axes[:count], axes[count:]
+        assert [ax.get_title() for ax in middle] == [f"{ax.get_title()}, middle" for ax in whole] and len(middle) == count
+        for ax, side in ((whole[0], 1.25 * b), (middle[0], 1.5)):
+            assert ax.get_xlim() == pytest.approx((-side, side), rel=0.01) and ax.get_ylim()[0] > 0 > ax.get_ylim()[1]
+        assert all(a.collections[0].get_clim() == m.collections[0].get_clim() for a, m in zip(whole, middle))
+        values = middle[0].collections[0].get_array()
+        first = store.fields(0, ["pressure" if name == "maps" else "temperature_mid"])
+        at_inlet = next(iter(first.values()))[np.searchsorted(store.x / store.a, -1.6), 0] * (1e-9 if name == "maps" else 1.0)
+        assert values.reshape(-1)[values.size // 2 % values.shape[-1]] == pytest.approx(at_inlet, rel=0.1)
+    assert len([ax for ax in drawn("maps", made("ball-on-disc")).axes if ax.get_title()]) == 2
 
 
 def test_both_surfaces_have_one_scale_of_colours_and_the_film_its_own():

@@ -11,8 +11,8 @@ from tehl_taichi.runs.sweep.study_labels import column_name, key_name, of_column
 from tehl_taichi.runs.sweep.summary_columns import error_of
 from tehl_taichi.values.checks import nearest
 from tehl_taichi.view.figures import palette
-from tehl_taichi.view.figures.field_maps import bar
 from tehl_taichi.view.figures.figure_style import FigureStyle, drawing
+from tehl_taichi.view.figures.map_panels import bar
 
 # drawn by default: the first of each line that the study has
 USUAL = (("fatigue_Fi_max",), ("transient_h_min_m", "steady_h_c_m"), ("transient_p_max_Pa", "steady_p_max_Pa"),

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from tehl_taichi.view.figures.field_maps import mirrored
 from tehl_taichi.view.figures.line_figures import headed, start_style
+from tehl_taichi.view.figures.map_panels import mirrored
 
 
 def centreline_y(page, moments):

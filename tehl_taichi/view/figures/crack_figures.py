@@ -3,8 +3,8 @@
 import numpy as np
 
 from tehl_taichi.view.figures import palette
-from tehl_taichi.view.figures.field_maps import bar, shade
 from tehl_taichi.view.figures.figure_style import FigureStyle
+from tehl_taichi.view.figures.map_panels import bar, shade
 
 COLOURS = {"entry": palette.BLUE, "exit": palette.BLACK}  # both stand out on the tension
 SHOWN = 150e6  # Pa: more tension has the same colour

@@ -13,9 +13,9 @@ from tehl_taichi.values.checks import number
 from tehl_taichi.values.coerce import plain
 from tehl_taichi.values.digits import micrometres
 from tehl_taichi.view.figures import distribution_figure, palette
-from tehl_taichi.view.figures.field_maps import bar, mirrored, shade
 from tehl_taichi.view.figures.index_text import error_of, index_text, largest, mpa
 from tehl_taichi.view.figures.limit_line import crossed, explained, handle, limit_line
+from tehl_taichi.view.figures.map_panels import bar, mirrored, shade
 from tehl_taichi.view.figures.search_data import beside_worst
 
 EVEN = 200  # depths drawn of a section

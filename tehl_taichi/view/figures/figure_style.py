@@ -72,12 +72,21 @@ class FigureStyle:
     def figure(self, rows=1, columns=1, height=None, equal=False, **options):
         """(figure, axes as an array of rows); height: inches (default: of panels of lines); equal: the panels have equal scales
         of x and y, and the height becomes what they need."""
+        figure = self._empty(height or self.row(columns) * rows + 0.06 * self.text, equal)
+        return figure, figure.subplots(rows, columns, squeeze=False, **options)
+
+    def mosaic(self, rows, height, **options):
+        """(figure, {name: axes}) of panels that may extend over several columns; rows: of names, as matplotlib takes them;
+        height: inches."""
+        figure = self._empty(height, False)
+        return figure, figure.subplot_mosaic(rows, **options)
+
+    def _empty(self, height, equal):
         from matplotlib.figure import Figure
 
-        figure: Any = Figure((self.inches, height or self.row(columns) * rows + 0.06 * self.text),
-                        layout="compressed" if equal else "constrained")
+        figure: Any = Figure((self.inches, height), layout="compressed" if equal else "constrained")
         figure.to_fit = equal
-        return figure, figure.subplots(rows, columns, squeeze=False, **options)
+        return figure
 
     def title(self, figure, text):
         """A title that is not wider than the page."""

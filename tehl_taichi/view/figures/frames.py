@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 
 from tehl_taichi.view.figures import palette
-from tehl_taichi.view.figures.field_maps import mirrored
 from tehl_taichi.view.figures.line_figures import ALONG, SURFACES
+from tehl_taichi.view.figures.map_panels import mirrored
 
 # maps: field, factor, label, colours
 SHOWN = {"film": ("film", 1e6, "film (µm)", palette.FILM), "pressure": ("pressure", 1e-9, "pressure (GPa)", palette.PRESSURE),

@@ -9,6 +9,7 @@ from tehl_taichi.view.figures import (
     across_figure,
     fatigue_figures,
     field_maps,
+    interference_figure,
     line_figures,
     run_in_figure,
     search_data,
@@ -19,26 +20,28 @@ from tehl_taichi.view.figures.moments import Moments
 from tehl_taichi.view.figures.notebook_figures import Figures
 
 
-def write_all(store, folder, page=None, at=None, depth=None):
+def write_all(store, folder, page=None, at=None, depth=None, light=None):
     """Write every figure the store has data for into `folder`; returns the paths.
 
     page: a :class:`FigureStyle`; at: position of the feature to show, a (default: some); depth: µm, of the fatigue to show
-    beside that of the surface (default: the worst). Raises SceneError for a moment or a depth that the store has not,
-    StoreError.
+    beside that of the surface (default: the worst); light: a :class:`tehl_taichi.view.figures.interference.Light` for a figure
+    of interference colours. Raises SceneError for a moment or a depth that the store has not, StoreError.
     """
     page = page or FigureStyle()
-    return page.write(folder, _all_of(store, page, at, depth))
+    return page.write(folder, _all_of(store, page, at, depth, light))
 
 
-def draw_all(store, page=None, at=None, depth=None):
+def draw_all(store, page=None, at=None, depth=None, light=None):
     """{name: matplotlib Figure} of the same figures. Raises SceneError, StoreError."""
     page = page or FigureStyle()
-    return Figures({name: page.drawn(draw) for name, draw in _all_of(store, page, at, depth).items()}, page.dpi)
+    return Figures({name: page.drawn(draw) for name, draw in _all_of(store, page, at, depth, light).items()}, page.dpi)
 
 
-def _all_of(store, page, at, depth):
+def _all_of(store, page, at, depth, light):
     """{name: function that draws the figure}."""
     figures = {name: partial(draw, page, Moments(store, at)) for name, draw in _of_the_film(store).items()}
+    if light is not None:
+        figures["interference"] = partial(_interference(store), page, Moments(store, at), light)
     if store.map("worst_stress") is not None:
         return figures | fatigue_figures.all_figures(page, _fatigue(store, depth))
     if depth is not None:
@@ -56,6 +59,13 @@ def _of_the_film(store):
            "profiles": (line_figures.profiles, "temperature" in store.stored),
            "run_in": (run_in_figure.run_in, bool(store.scene.runs_in and store.finished and store.run_in.bodies))}
     return {name: draw for name, (draw, there) in has.items() if there}
+
+
+def _interference(store):
+    """The function that draws interference colours. Raises SceneError for a store without a map."""
+    if store.y.size == 1:
+        raise SceneError(f"interference colours need a map over x and y, and {store.path} has only a line along x")
+    return interference_figure.interference
 
 
 def _fatigue(store, depth):

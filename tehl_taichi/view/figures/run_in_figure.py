@@ -1,7 +1,7 @@
 """Figure of a run-in: heights along the middle before and after, residual stress below them, what each passage changed."""
 
 from tehl_taichi.view.figures import palette, run_in_data
-from tehl_taichi.view.figures.field_maps import bar, shade
+from tehl_taichi.view.figures.map_panels import bar, shade
 
 
 def run_in(page, moments):

@@ -4,8 +4,8 @@ import numpy as np
 
 from tehl_taichi.scene.feature_wording import carriers, from_centre
 from tehl_taichi.view.figures import palette
-from tehl_taichi.view.figures.field_maps import bar
 from tehl_taichi.view.figures.height_profile import heights
+from tehl_taichi.view.figures.map_panels import bar
 
 LABEL = "height (µm)"
 COARSE = 400  # points: so few are joined by colours in between, as the heights are; of more, several share a dot

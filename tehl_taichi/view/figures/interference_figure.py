@@ -1,0 +1,64 @@
+"""The contact as an optical rig shows it: interference colours of the film, and the film of every colour."""
+
+import numpy as np
+
+from tehl_taichi.scene.scales import Scales
+from tehl_taichi.view.figures.line_figures import ALONG
+from tehl_taichi.view.figures.map_panels import EDGE, half_axis, lies, mirrored
+
+FILMS = 512  # of the scale
+FINE = 1200  # points of the picture along its longer side: the film is smooth, its fringes are finer than the grid
+
+
+def interference(page, moments, light):
+    """Colours over x, y; below them the scale of films for the refractive index at the middle of the contact. light: a
+    :class:`tehl_taichi.view.figures.interference.Light`."""
+    store, n = moments.store, moments.one()
+    f = store.fields(n, ["pressure", "film", *(name for name in ("temperature_mid",) if name in store.stored)])
+    inlet = store.scene.operation.temperature
+    index = light.index_at(store.scene.oil.density_ratio(f["pressure"], f.get("temperature_mid", inlet), inlet))
+    x, y, path = _picture(moments, index * f["film"])
+    figure, (ax, scale) = _panels(page, np.ptp(y) / np.ptp(x), lies(store.scene))
+    _draw(ax, store.scene, x, y, light.colours(path))
+    middle = float(index[int(np.argmin(np.abs(moments.x))), moments.row])
+    _draw_scale(scale, light, middle, moments.film_top([n]))
+    page.title(figure, f"{store.scene.name}: interference colours in {light.words}, {moments.peak(n)}")
+    return figure
+
+
+def _picture(moments, path):
+    """(x, y, optical paths) in a and m on points between those of the grid, of what a map shows."""
+    left, right = moments.window
+    y, path = mirrored(moments.store.y / moments.a, path)
+    s = Scales.of(moments.store.scene)
+    side = min(EDGE * s.b / s.a, y[-1]) if lies(moments.store.scene) else y[-1]
+    per_a = FINE / max(right - left, 2 * side)
+    x_fine, y_fine = (np.linspace(*ends, int(np.ptp(ends) * per_a)) for ends in ((left, right), (max(-side, y[0]), side)))
+    rows = np.array([np.interp(x_fine, moments.x, column) for column in path.T])
+    return x_fine, y_fine, np.array([np.interp(y_fine, y, row) for row in rows.T])
+
+
+def _panels(page, tall, lying):
+    """tall: height over width of a picture that does not lie."""
+    tall = 1 / tall if lying else tall
+    room = 0.8 * page.inches * tall
+    figure, axes = page.figure(2, height=room + 9 * page.text / 72 + 0.25, height_ratios=(room, 0.25))
+    return figure, axes.ravel()
+
+
+def _draw(ax, scene, x, y, colours):
+    """The picture; a wide ellipse lies on its side, as in other maps."""
+    across = f"y / a{half_axis(scene)}"
+    if lies(scene):
+        ax.imshow(colours, extent=(y[0], y[-1], x[-1], x[0]), interpolation="bilinear")
+        ax.set(xlabel=f"{across}, flow downwards", ylabel="x / a")
+    else:
+        ax.imshow(np.swapaxes(colours, 0, 1), extent=(x[0], x[-1], y[0], y[-1]), origin="lower", interpolation="bilinear")
+        ax.set(xlabel=ALONG, ylabel=across)
+
+
+def _draw_scale(ax, light, index, top):
+    """The colour of every film up to `top` (m)."""
+    h = np.linspace(0.0, top, FILMS)
+    ax.imshow(light.colours(index * h)[None], extent=(0.0, top * 1e6, 0.0, 1.0), aspect="auto")
+    ax.set(yticks=(), xlabel=f"film (µm) where the refractive index is {index:.3f}, as in the middle")
