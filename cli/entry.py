@@ -52,6 +52,7 @@ def _run():
     warnings.showwarning = lambda message, *_: print(_in_a_line(f"warning: {message}", True), file=sys.stderr)
     gc.set_threshold(*SELDOM)
     try:
+        _use_plugins()
         from tehl_cli.main import app
 
         app()
@@ -67,6 +68,16 @@ def _run():
     return 0
 
 
+def _use_plugins():
+    """The plugins of scene files in sys.argv, before any registry is read."""
+    files = [word.rpartition("=")[2] for word in sys.argv[1:] if word.lower().endswith(".toml")]
+    if files:
+        from tehl_taichi.values import plugins
+
+        for name in files:
+            plugins.of_file(name)
+
+
 def _sentence(error):
     """Message of an error: system errors (a full disk) without their number; without a message the name."""
     if isinstance(error, OSError) and error.strerror:
@@ -75,12 +86,12 @@ def _sentence(error):
         return str(error)
     from tehl_taichi.values.escape import one_line
 
-    return (one_line(error) or type(error).__name__) + _own_entries_hint()
+    return (one_line(error) or type(error).__name__) + _plugins_hint()
 
 
-def _own_entries_hint():
+def _plugins_hint():
     """The files of the user that may have raised an error which is not ours, "" where none is loaded."""
-    own = sys.modules.get("tehl_taichi.values.own_entries")
+    own = sys.modules.get("tehl_taichi.values.plugins")
     if own is None or not (files := [module.__file__ for module in own.loaded()]):
         return ""
     return (f". The cause may lie in {', '.join(files)}: functions of laws run in kernels and use only what "

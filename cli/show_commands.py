@@ -248,30 +248,32 @@ def _draw(store, out, options, page):
     return (found.save_figures if which == RUN else found.plot)(out, **mine, **page)
 
 
-def _show_own_entries():
-    """Table of the entries of the user; whether all compute their known values."""
+def _show_plugins():
+    """Tables of the plugins and of their entries; whether all compute their known values."""
     from tehl_cli.tables import list_table
 
     from tehl_taichi.runs import self_test
-    from tehl_taichi.values.own_entries import VARIABLE, unread
+    from tehl_taichi.values import plugins
 
-    found = self_test.own_entries_checked()
+    if named := plugins.folders():
+        list_table("plugins", ("folder", "named by"), [(str(folder), who) for folder, who in named.items()], whole=True)
+    found = self_test.plugins_checked()
     if found:
-        list_table(f"your entries ({VARIABLE})", ("file", "name", "known value", "computed", ""),
+        list_table("entries of plugins", ("file", "name", "known value", "computed", ""),
                    [(*row, "good" if right else "WRONG") for *row, right in found])
-    for path in unread():
+    for path in plugins.unread():
         put(f"warning: {path} is not read; move it to the subfolder of its kind, as shear")
     return all(right for *_, right in found)
 
 
 def doctor():
-    """Print versions, threads and cache, check your own entries (TEHL_ENTRIES), and run a short self-test."""
+    """Print versions, threads and cache, check your plugins (TEHL_PLUGINS), and run a short self-test."""
     from tehl_cli.tables import list_table
 
     from tehl_taichi.runs import self_test
 
     list_table("this installation", ("what", "value"), self_test.installation().items())
-    right = _show_own_entries()
+    right = _show_plugins()
     film, good, seconds = self_test.self_test()
     say(f"self-test: steady film of smooth-line {film * 1e6:.4f} um in {seconds:.1f} s: "
         f"{'good' if good else 'WRONG, expected 0.43 um'}")

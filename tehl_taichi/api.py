@@ -37,6 +37,16 @@ FUNCTIONS = ("animate", "bearing", "cam", "compare", "crack", "export", "fatigue
              "run", "scene", "simulate", "stresses", "sweep", "traction", "zoom")
 
 
+def _use_plugins(*names):
+    """The plugins of scene files, before any registry is read."""
+    files = [name for name in names if str(name).lower().endswith(".toml")]
+    if files:
+        from tehl_taichi.values import plugins
+
+        for name in files:
+            plugins.of_file(name)
+
+
 def scene(name: "Name | Scene" = "gear") -> "Scene":
     """Load a scene: a built-in one, a TOML file, or the scene of a stored run.
 
@@ -64,6 +74,7 @@ def scene(name: "Name | Scene" = "gear") -> "Scene":
     >>> f"{fast.operation.u_a:.2f} m/s, {fast.grid.nx} cells"
     '7.99 m/s, 128 cells'
     """
+    _use_plugins(name)
     from tehl_taichi.store.load_scene import find
 
     return find(name)
@@ -116,6 +127,7 @@ def run(scene: "Scene | Name", path: Name | None = None, *, force: bool = False,
     >>> f"{run.summary['steady']['h_c_m'] * 1e6:.2f} um"
     '0.43 um'
     """
+    _use_plugins(scene)
     from tehl_taichi.runs import single_run
 
     return single_run.run(scene, path, force=force, threads=threads, arch=arch, progress=progress)
@@ -507,6 +519,7 @@ def sweep(scene: "Scene | Name", over: Mapping, path: Name | None = None, *, sam
     >>> study.values["steady_h_c_m"].shape, study.results()[3]["changes"]
     ((4,), {'srr': 0.2, 'speed': 15})
     """
+    _use_plugins(scene)
     from tehl_taichi.runs.sweep import sweeping
 
     return sweeping.sweep(scene, over, path, samples=samples, seed=seed, workers=workers, threads_per_worker=threads_per_worker,
@@ -570,6 +583,7 @@ def flank(gear: "Name | GearPair" = "fzg-c", *, torque: float | None = None, spe
     ...
     tehl_taichi.errors.SceneError: gear.torque = 0 N m is out of range; allowed: more than 0 N m and at most 1e+08 N m
     """
+    _use_plugins(gear)
     from tehl_taichi.runs.flank.flank_run import flank
 
     return flank(gear, torque=torque, speed=speed, on=on, positions=positions, at=at, scene=scene, changes=changes,
@@ -635,6 +649,7 @@ def bearing(what: "Name | RollingBearing", *, load: float | None = None, axial: 
     >>> f"{found.record['ball_load_max_N']:.0f} N, static safety {found.record['inner']['static_safety']:.1f}"
     '2436 N, static safety 2.6'
     """
+    _use_plugins(what, scene)
     from tehl_taichi.runs.bearing.bearing_run import bearing
 
     return bearing(what, load=load, axial=axial, speed=speed, dimensions=dimensions, on=on, feature=feature,
@@ -722,6 +737,7 @@ def traction(scene: "Scene | Name", srr: Any = "0:0.5:11", temperature: Any = No
     >>> [f"{row['srr']}: {row['friction_coefficient']:.3f}" for row in found.rows]
     ['0.05: 0.073', '0.1: 0.076']
     """
+    _use_plugins(scene)
     from tehl_taichi.runs.traction.traction_run import traction
 
     return traction(scene, srr, temperature, speed, changes=changes, path=path, workers=workers,

@@ -33,7 +33,7 @@ def extended(copy, files, script):
         place = copy / "my_entries" / folder / name if folder in OWN else copy / path
         place.parent.mkdir(parents=True, exist_ok=True)
         place.write_text(text)
-    subprocess.run([sys.executable, "-c", script], cwd=copy, check=True, env={**os.environ, "TEHL_ENTRIES": "my_entries"})
+    subprocess.run([sys.executable, "-c", script], cwd=copy, check=True, env={**os.environ, "TEHL_PLUGINS": "my_entries"})
 
 
 TAIT = '''"""Density of Tait's form, at one temperature."""

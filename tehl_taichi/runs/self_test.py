@@ -1,4 +1,4 @@
-"""Self-test of this installation: versions, the entries of the user, and a contact with a known film."""
+"""Self-test of this installation: versions, the entries of plugins, and a contact with a known film."""
 
 import importlib
 import importlib.metadata
@@ -8,11 +8,12 @@ import time
 from tehl_taichi import __version__
 from tehl_taichi.commit import commit
 from tehl_taichi.scene import scene
-from tehl_taichi.values import own_entries
+from tehl_taichi.values import plugins
 from tehl_taichi.values.registry import entries_of
 
 LIBRARIES = ("numpy", "pyfftw", "zarr", "rich", "typer")
-REGISTRIES = ("laws.choices", "laws.criteria", "laws.hardness", "scene.feature", "scene.named_oils", "scene.named_steels")
+REGISTRIES = ("laws.choices", "laws.criteria", "laws.hardness", "laws.hardening", "scene.feature", "scene.named_oils",
+              "scene.named_steels")
 FILM = 0.42e-6, 0.45e-6  # m, of the self-test, whose grid is good to 1 %
 
 
@@ -24,11 +25,11 @@ def installation():
     return info | {key: str(value) for key, value in runtime.start_or_join().items()} | {"cores": str(cores.available())}
 
 
-def own_entries_checked():
-    """List of (file, name of entry, known value, computed value as text, whether it is right) of the entries of the user."""
+def plugins_checked():
+    """List of (file, name of entry, known value, computed value as text, whether it is right) of the entries of plugins."""
     for registry in REGISTRIES:
         importlib.import_module(f"tehl_taichi.{registry}")
-    return [(module.__file__, entry.name, *_checked(known)) for module in own_entries.loaded()
+    return [(module.__file__, entry.name, *_checked(known)) for module in plugins.loaded()
             for entry in entries_of(module) for known in entry.checked]
 
 

@@ -14,6 +14,7 @@ from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.sections import Body, Fatigue
 from tehl_taichi.scene.strength import scene_tables
 from tehl_taichi.scene.unit_texts import in_units
+from tehl_taichi.values import plugins
 from tehl_taichi.values.checks import text
 from tehl_taichi.values.quantity import kinds
 
@@ -28,6 +29,7 @@ def load(path, changes=()):
     Raises SceneError (also for broken TOML)."""
     path = Path(path)
     data = toml_file.read(path, "scene")
+    plugins.use(data.pop(plugins.KEY, []), path)
     toml_file.check_brackets(path, data, ("contact", "bodies", "operation", "oil", *SECTIONS), ("feature",))
     return from_data(with_folder(data, path.absolute().parent), path.stem, changes)
 

@@ -26,7 +26,7 @@ def scene_of(path, attrs):
         if found is None:
             raise
         return found, (f"{path} was made with {fault}. Its results can be shown and plotted; computing with it needs the file "
-                       "of this entry (TEHL_ENTRIES)")
+                       "of this entry (TEHL_PLUGINS)")
 
 
 def _with_replaced(path, attrs):

@@ -12,7 +12,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.values import own_entries
+from tehl_taichi.values import plugins
+
+started: set[str] = set()  # folders that were read: their choices do not change afterwards
 
 
 @dataclass(frozen=True)
@@ -38,10 +40,11 @@ class Entry:
 
 def collect(folder, kind):
     """{name: entry} of all entries of this kind that the modules of a folder (a package), and those of the user
-    (:mod:`tehl_taichi.values.own_entries`), declare, in the order of their names.
+    (:mod:`tehl_taichi.values.plugins`), declare, in the order of their names.
 
     Raises SceneError when two entries have one name, or a file of the user has no entry.
     """
+    started.add(folder.__name__)
     found: dict[str, Any] = {}
     names = sorted(name for _, name, _ in pkgutil.iter_modules(folder.__path__))
     installed = (importlib.import_module(f"{folder.__name__}.{name}") for name in names)
@@ -60,7 +63,7 @@ def entries_of(module, kind=Entry):
 
 def _with_entries(subfolder, kind):
     """Generator of the modules of the user. Raises SceneError for one without an entry."""
-    for module in own_entries.modules(subfolder):
+    for module in plugins.modules(subfolder):
         if not entries_of(module):
             raise SceneError(f"{module.__file__} has no entry; assign a {kind.__name__}(name=...) to a name of the module, or "
                              "begin the name of the file with an underscore")
