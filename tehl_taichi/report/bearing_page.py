@@ -6,11 +6,12 @@ from tehl_taichi.fatigue.judged_surfaces import others
 from tehl_taichi.report.document import Answer, Page, Section, drawn, facts, sentences, table
 from tehl_taichi.report.number_text import FEW, value_text
 from tehl_taichi.report.plots import Figure, axis, colour, line, stacked
-from tehl_taichi.report.verdict import of_fatigue
+from tehl_taichi.report.verdict import limit_words, of_fatigue
 from tehl_taichi.runs.bearing import bearing_figure, bearing_table
 from tehl_taichi.runs.bearing.rolling_bearing import OF_BALLS, OF_ROLLERS, ROLLER, RollingBearing
 from tehl_taichi.runs.bearing.stored_bearing import Bearing
 from tehl_taichi.runs.flank.flank_columns import dig, error_of
+from tehl_taichi.scene import scene_file
 from tehl_taichi.values.digits import fitting
 from tehl_taichi.values.quantity import kinds
 
@@ -39,7 +40,7 @@ def _answer(found):
     headline = f"{'Yes' if safe >= 1 else 'No'}: static safety {safe:.2f} at the {ring} ring. {_film(found)}"
     why = [f"The Hertz pressure is {value_text(worst['p_Hertz_Pa'], unit='Pa', digits=FEW)}; ISO 76 allows "
            f"{limit / 1e9:g} GPa, where the permanent deformation is 0.0001 of the diameter of an element.", *_fatigue(found)]
-    doubts = [f"Assumed: {'; '.join(found.record['assumptions'])}.",
+    doubts = [*_limits(found), f"Assumed: {'; '.join(found.record['assumptions'])}.",
               *filter(None, [_sentence(bearing_table.estimated_words(found))]),
               *[f"Number of warnings, listed below: {count}." for count in (len(bearing_table.warnings(found)),) if count]]
     return Answer(QUESTION, headline, "none" if safe >= 1 else "yes", tuple(why), tuple(doubts))
@@ -65,6 +66,12 @@ def _fatigue(found):
         if "fatigue" in (one["summary"] or {}):
             question, answer, *_ = of_fatigue(one["summary"]["fatigue"], beside=others(one["summary"]))
             yield f"{ring.capitalize()} ring: {question} {answer}"
+
+
+def _limits(found):
+    """What the index 1 stands for, where a feature passed."""
+    judged = [ring for ring, one in found.rings.items() if "fatigue" in (one["summary"] or {})]
+    return limit_words(scene_file.load(found.folder / f"{judged[0]}.toml")) if judged else ()
 
 
 def _sentence(words):

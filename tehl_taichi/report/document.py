@@ -25,10 +25,12 @@ class PageBlock:
 
 @dataclass(frozen=True)
 class Section:
-    """A heading and its parts (None: nothing to show); a section without parts is left out."""
+    """A heading and its parts (None: nothing to show); a section without parts is left out. front: whether it belongs to the
+    answer, right below it and on the second page of paper; the others are an appendix."""
 
     title: str
     parts: tuple
+    front: bool = False
 
     @property
     def shown(self):
@@ -72,8 +74,16 @@ class Page:
     sections: tuple = field(default_factory=tuple)
 
     @property
+    def front(self):
+        """Sections that belong to the answer: those that say so, else the first."""
+        found = [section for section in self.sections if section.shown]
+        return [section for section in found if section.front] or found[:1]
+
+    @property
     def shown(self):
-        return [section for section in self.sections if section.shown]
+        """All sections with something to show, those of the answer first."""
+        first = self.front
+        return first + [section for section in self.sections if section.shown and section not in first]
 
     @property
     def figures(self):

@@ -55,10 +55,11 @@ def _film(store):
     line, histories = passage_plots.centreline(store), passage_plots.histories(store)
     moved, maps = line.more.get("slides"), tuple(drawn(*row) for row in map_plots.rows(store))
     if not moved:
-        return Section("Film and pressure", (drawn(line), *maps)),
+        return Section("Film and pressure", (drawn(line), *maps), front=True),
     slider = PageBlock("slider", {"figures": [line], "first": moved["first"], "last": len(moved["at"]) - 1,
                              "what": where(store.scene)})
-    return (Section("Passage", (slider,)), Section("Histories", (drawn(histories), run_tables.solid_contact(store.summary))),
+    return (Section("Passage", (slider,), front="fatigue" not in store.summary),
+            Section("Histories", (drawn(histories), run_tables.solid_contact(store.summary))),
             Section("Moment of the largest pressure", maps))
 
 
@@ -67,17 +68,20 @@ def _fatigue(store, result):
     if "fatigue" not in store.summary:
         return ()
     found = searches(store, result)
-    return tuple(section for search, of in zip(found, OF[len(found) - 1 :]) for section in _of_search(store, search, *of))
+    return tuple(section for search, of in zip(found, OF[len(found) - 1 :])
+                 for section in _of_search(store, search, *of, search is found[0]))
 
 
-def _of_search(store, search, of, lead):
-    """Two sections; of: said in their headings; lead: begins the words on its moments, where there are two searches."""
+def _of_search(store, search, of, lead, front):
+    """Three sections; of: said in their headings; lead: begins the words on its moments, where there are two searches; front:
+    whether the answer rests on it."""
     shown = drawn(*fatigue_plots.distribution(search), *fatigue_plots.index(search), *fatigue_plots.depth(search))
     behind = NO_MAPS if shown is None else DARK if search.on else ""
     words, numbers = [_sentence(f"{lead}{search.when}.") + behind] * bool(search.short), search.result.numbers
     return (Section(f"Fatigue{of}", (PageBlock("text", {"sentences": words}) if words else None,
-                                     drawn(*chain_plot.figures(store, search)), shown, numbered_points.rows(search),
-                                     run_tables.worst_points(numbers, search.scene), run_tables.tension(numbers))),
+                                     drawn(*chain_plot.figures(store, search)), shown, numbered_points.rows(search)),
+                    front),
+            Section(f"Critical points{of}", (run_tables.worst_points(numbers, search.scene), run_tables.tension(numbers))),
             Section(f"Stresses at the critical points{of}", tuple(drawn(*pair) for pair in fatigue_plots.worst_points(search))))
 
 

@@ -6,8 +6,10 @@ from tehl_taichi.report.document import Answer, Page, Section, drawn, facts, sen
 from tehl_taichi.report.number_text import value_text
 from tehl_taichi.report.run_page import scene_section
 from tehl_taichi.report.study_plots import column, figures
+from tehl_taichi.report.verdict import limit_words
 from tehl_taichi.runs.sweep import study_figures
 from tehl_taichi.runs.sweep.study_table import Study, attributes
+from tehl_taichi.scene.aliases import full_name
 
 MOST_ROWS = 500
 ERROR, BELOW = "fatigue_error_Fi_max", "fatigue_below_Fi_max"
@@ -40,7 +42,15 @@ def _answer(study):
     tone = "yes" if above == of_all else "open" if above else "no"
     return Answer("In which cases does a fatigue crack start?", headline, tone,
                   (_extreme(study, Fi, "largest", np.nanargmax), _extreme(study, Fi, "smallest", np.nanargmin)),
-                  (*doubts, *_errors(study)))
+                  (*_limits(study), *doubts, *_errors(study)))
+
+
+def _limits(study):
+    """What Fi = 1 stands for, where it is the same in all cases."""
+    swept = [key for key in study.plan.keys if full_name(key).startswith("fatigue.")]
+    if swept:
+        return (f"The fatigue limit, or what belongs to it, differs between the cases: {', '.join(swept)}.",)
+    return limit_words(study.plan.scene)
 
 
 def _extreme(study, Fi, text, which):

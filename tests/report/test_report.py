@@ -78,7 +78,8 @@ def test_the_numbers_are_those_of_the_summary(thermal, pages):
                  "something is doubtful", "σ_eF = 400 MPa with κ = 0.3 (findley): example values, replace them"):
         assert text in seen.text, text
     assert all(sentence in seen.text for sentence in tehl.open(thermal).scene.left_out())
-    assert seen.headings[0] == "How sure" and seen.text.index("Probably yes") < seen.text.index("Scene")
+    assert seen.headings[:3] == ["How sure", "Fatigue", "Scene"]
+    assert seen.text.index("Probably yes") < seen.text.index("Largest index") < seen.text.index("Appendix")
 
 
 def test_the_slider_has_every_moment_and_the_worst_first(thermal, pages):
@@ -186,11 +187,20 @@ def test_warnings_of_the_result_stand_before_those_of_the_scene(pages, tmp_path)
 def test_a_study_shows_its_results_and_what_failed(pages):
     seen = pages["study"]
     assert "is above 1 in 1 of 8 cases with a result" in seen.text and "Without a result: 1 of 9 cases" in seen.text
+    assert "Fi = 1 is the fatigue limit σ_eF = 400 MPa with κ = 0.3 (findley): example values" in seen.text
     assert "The largest is Fi = 1.05: slide-to-roll ratio -0.1, feature height (µm) 1.5." in seen.text
     assert "Case 5 (slide-to-roll ratio 0, feature height (µm) 1.5): not converged: made up" in seen.text
     cells = numbers(seen.figures["fatigue_Fi_max-map"]["data"][0])
     assert np.isnan(cells).sum() == 1 and np.nanmax(cells) == pytest.approx(1.05)
     assert len(seen.figures["fatigue_Fi_max-lines"]["data"]) == 3
+
+
+def test_a_study_over_the_limit_names_its_keys(tmp_path):
+    from tehl_taichi.report import study_page
+
+    swept = plan(scene("gear").replace(**{"thermal.on": False, "grid.nx": 64, "grid.ny": 16}), {"endurance": [4e8, 5e8]})
+    found = sweeping.run(swept, tmp_path / "s.zarr", workers=1, work=formula)
+    assert "differs between the cases: endurance." in study_page.of(found.path).answer.doubts[0]
 
 
 def test_a_flank_says_where(pages):

@@ -123,8 +123,9 @@ CONTRAST = """(() => {
 def test_paper_is_light_and_holds_every_figure(browser, whole, tmp_path):
     browser.open(whole, scheme="dark")
     browser.run("dispatchEvent(new Event('beforeprint')); new Promise(done => setTimeout(done, 500))")
-    widths = browser.run(f"{DRAWN}.map(svg => svg.getBoundingClientRect().width)")
-    assert 300 <= min(widths) and max(widths) <= 660
+    widths = "[...document.querySelectorAll({!r})].map(svg => svg.getBoundingClientRect().width)".format
+    beside, every = browser.run(widths(".front .three .main-svg")), browser.run(widths(".plot .main-svg"))
+    assert min(every) >= 200 and max(every) <= 660 and min(width for width in every if width not in beside) >= 300
     assert browser.run("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"
     assert browser.run(CONTRAST) >= 4.5
     browser.run("dispatchEvent(new Event('afterprint')); new Promise(done => setTimeout(done, 500))")
@@ -132,3 +133,25 @@ def test_paper_is_light_and_holds_every_figure(browser, whole, tmp_path):
     assert browser.run("document.querySelector('[data-figure=centreline] .main-svg').getBoundingClientRect().width") > 900
     browser.paper(tmp_path / "a.pdf")
     assert (tmp_path / "a.pdf").read_bytes()[:4] == b"%PDF" and browser.complaints() == []
+
+
+PAGE = 1017  # px: height of A4 between its margins
+
+
+def test_paper_has_the_answer_and_its_figures_on_two_pages(browser, whole):
+    """The chain and three figures follow the verdict; the rest is an appendix that begins on a new page."""
+    browser.open(whole, width=688)
+    hidden = "getComputedStyle(document.querySelector('.appendix'))"
+    assert browser.run(f"{hidden}.display") == "none"
+    browser.ask("Emulation.setEmulatedMedia", media="print")
+    browser.run("dispatchEvent(new Event('beforeprint')); new Promise(done => setTimeout(done, 500))")
+    assert browser.run(f"[{hidden}.display, {hidden}.breakBefore]") == ["block", "page"]
+    height = "document.querySelector({!r}).getBoundingClientRect().height".format
+    assert browser.run(height("header")) < PAGE and browser.run(height("section.front")) < PAGE
+    assert browser.run("document.querySelectorAll('.front .plot').length") == 4
+    assert browser.run("document.querySelector('.appendix').nextElementSibling.id") == "scene"
+    assert browser.run("[...document.querySelectorAll('.front')].pop().nextElementSibling.className") == "appendix"
+    plot = browser.run("document.querySelector('.front .plot').offsetHeight")
+    browser.ask("Emulation.setEmulatedMedia", media="")
+    browser.run("dispatchEvent(new Event('afterprint')); new Promise(done => setTimeout(done, 500))")
+    assert browser.run("document.querySelector('.front .plot').offsetHeight") > plot

@@ -1,6 +1,7 @@
 "use strict";
 (() => {
   const PAPER = 660; // px, width of a printed page between its margins
+  const LOW = 430, LOWER = 290; // px, heights of the figures of the answer on paper: alone, and side by side
   const touch = matchMedia("(pointer: coarse)").matches; // there a finger on a figure scrolls the page
   const BUTTONS = [["toImage"], ["zoom2d", "pan2d", "zoomIn2d", "zoomOut2d", "resetScale2d"]]; // none that sends data anywhere
   const dark = matchMedia("(prefers-color-scheme: dark)");
@@ -60,17 +61,25 @@
     return show();
   };
 
-  /* on paper: light colours, and figures as wide as their column of it */
+  /* on paper: light colours, figures as wide as their column of it, and those of the answer low enough for one page */
   const toPaper = () => {
     document.documentElement.classList.add("print");
     repaint(place => {
-      const row = place.closest(".row"), many = row ? row.children.length : 1;
-      return {width: many > 1 ? PAPER / 2 - 8 : PAPER};
+      const row = place.closest(".row"), many = row ? row.children.length : 1, front = place.closest(".front");
+      const width = many === 1 ? PAPER : front && many === 3 ? PAPER / 3 - 11 : PAPER / 2 - 8;
+      if (!front) return {width};
+      const height = Math.min(place.offsetHeight, many === 1 ? LOW : LOWER);
+      place.dataset.height = place.dataset.height || place.style.height;
+      place.style.height = `${height}px`;
+      return {width, height, "font.size": many === 3 ? 9 : 12};
     });
   };
   const toScreen = () => {
     document.documentElement.classList.remove("print");
-    repaint(() => ({autosize: true, width: null}));
+    repaint(place => {
+      place.style.height = place.dataset.height || place.style.height;
+      return {autosize: true, width: null, height: null, "font.size": 12};
+    });
   };
 
   const start = async () => {

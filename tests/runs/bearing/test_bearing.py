@@ -15,6 +15,7 @@ from tehl_taichi.errors import SceneError, StoreError
 from tehl_taichi.report import bearing_page, document
 from tehl_taichi.runs.bearing import bearing_figure, bearing_table
 from tehl_taichi.runs.bearing.bearing_source import bearing_source
+from tehl_taichi.runs.bearing.stored_bearing import Bearing
 from tehl_taichi.runs.open_results import kind
 from tehl_taichi.runs.sweep import case
 from tehl_taichi.scene.scales import Scales
@@ -69,6 +70,14 @@ def test_the_page_begins_with_safety_and_film(dry):
     text = document.rendered(page)
     assert all(words in text for words in ("9.525 mm", "E = 206 GPa, nu = 0.3", "reference-pao", "inner.toml"))
     assert "profile of a roller" not in text
+
+
+def test_the_page_names_the_limit_where_a_feature_passed(dry):
+    """Whose it is, and from where: of the scene of that ring."""
+    assert bearing_page._limits(dry) == ()
+    ran = Bearing(dry.folder, {**dry.record, "inner": {**dry.record["inner"], "summary": {"fatigue": {}}}})
+    sentence, = bearing_page._limits(ran)
+    assert sentence.startswith("Fi = 1 is the fatigue limit σ_eF = 400 MPa with κ = 0.3 (findley): example values")
 
 
 def test_the_page_of_too_much_load_says_no(tmp_path):
