@@ -29,10 +29,6 @@ class Curves:
         for name, values in self.curves.items():
             self._widen(name, values, FILMS * snapshot.scalars["h_c_m"] * 1e6)
 
-    def clear(self):
-        """Draw none until the next snapshot."""
-        self.curves = {}
-
     def _widen(self, name, values, thick):
         """Let the axis of a curve hold it; thick: end of the film's, um, as it was at first."""
         if name == "film":

@@ -7,7 +7,7 @@ from typing import Any
 
 from tehl_cli.stdout import put
 
-from tehl_taichi.runs.progress import LATE, PASSAGE, Lines, line
+from tehl_taichi.runs.progress import LATE, PASSAGE, STEADY, Lines, line
 
 
 def say(text):
@@ -16,9 +16,35 @@ def say(text):
         put(text, file=sys.stderr)
 
 
+LOADING, SOLVING = "loading", "steady contact: loading kernels (new ones are compiled), then solving"
+
+
+class StatusLine:
+    """What is being done, in the last line of a terminal, until the next text; on: whether there is one."""
+
+    def __init__(self, on):
+        self.on, self.text = on, ""
+
+    def show(self, text):
+        """Replace it; an empty text takes the line back."""
+        if self.on and (text or self.text):
+            with contextlib.suppress(OSError):  # a terminal that was closed
+                sys.stderr.write(f"\r\x1b[K{text}")
+                sys.stderr.flush()
+        self.text = text
+
+    @contextlib.contextmanager
+    def away(self):
+        """Take it back while something else is printed."""
+        text = self.text
+        self.show("")
+        yield
+        self.show(text)
+
+
 class Live(Lines):
     """Progress of a run in the terminal: warnings alone if `quiet`, a bar without curves if not `curves`; a context manager
-    that ends them."""
+    that ends them. A status line says what is done before the first step; the last picture of a passage stays."""
 
     DRAWN = 0.5  # s at least between two pictures
     SHARE = 0.005  # of the time at most for drawing
@@ -29,27 +55,35 @@ class Live(Lines):
         self.bar: Any = None
         self.curves: Any = None
         self.shows_curves = curves and not quiet and sys.stdout.isatty() and sys.stderr.isatty()
+        self.status = StatusLine(not quiet and sys.stderr.isatty())
 
     def __enter__(self):
+        self.status.show(LOADING)
         return self
 
     def __exit__(self, *_):
+        self.status.show("")
+        self._end_bar()
+
+    def _end_bar(self):
         if self.bar:
-            self.curves.clear()
             with contextlib.suppress(OSError):  # a terminal that was closed: the reason for the end is still to be printed
                 self.bar.stop()
             self.bar = None
 
     def say(self, text):
         if not self.quiet:
-            say(text)
+            with self.status.away():
+                say(text)
 
     def warn(self, sentence):
-        say(f"warning: {sentence}")
+        with self.status.away():
+            say(f"warning: {sentence}")
 
     def stage(self, name, done, total):
+        self.status.show(SOLVING if name == STEADY and done < total else "")
         if name != self.shown:
-            self.__exit__()
+            self._end_bar()
             self.shown = name
         if not self.bar and done < total and name in (PASSAGE, *LATE) and not self.quiet and sys.stderr.isatty():
             self._start_bar(name, done, total)

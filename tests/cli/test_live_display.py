@@ -119,10 +119,33 @@ def passed(stderr, steps=1, **options):
     return before, stderr.getvalue()[len(before):]
 
 
-def test_curves_are_drawn_beside_the_bar_and_taken_back(terminal):
+def test_curves_are_drawn_beside_the_bar_and_stay(terminal):
     text, end = passed(terminal())
     assert "pressure 0 to 2 GPa" in text and "▲" in text and "1/1000" in text and "p_max 2.000 GPa" in text
-    assert "pressure" not in end and "1/1000" in end
+    assert "pressure 0 to 2 GPa" in end and "1/1000" in end
+
+
+def test_a_status_line_says_what_is_done_before_the_first_step(terminal):
+    """From the start: loading, then the steady contact; messages take its place, and nothing of it stays."""
+    stderr = terminal()
+    with live_display.Live() as shows:
+        assert stderr.getvalue().endswith("loading")
+        shows.say("left out: half")
+        assert stderr.getvalue().endswith("\r\x1b[Kleft out: half\n\r\x1b[Kloading")
+        shows.stage(STEADY, 0, 1)
+        assert stderr.getvalue().endswith("\r\x1b[Ksteady contact: loading kernels (new ones are compiled), then solving")
+        shows.stage(STEADY, 1, 1)
+        assert stderr.getvalue().endswith("\r\x1b[K")
+    for options, other in (({"quiet": True}, None), ({}, io.StringIO())):
+        stderr = terminal(stderr=other)
+        with live_display.Live(**options) as shows:
+            shows.stage(STEADY, 0, 1)
+        assert stderr.getvalue() == ""
+    with pytest.raises(ValueError), live_display.Live() as shows:
+        stderr = terminal()
+        shows.status.on = True
+        raise ValueError
+    assert stderr.getvalue() == "\r\x1b[K"
 
 
 def test_drawing_takes_half_a_percent_at_most(terminal, monkeypatch):
