@@ -224,9 +224,9 @@ def test_commands_that_run_can_do_without_curves(monkeypatch, tmp_path):
 
     seen = []
     monkeypatch.setattr(tehl, "run", lambda *words, progress, **more: seen.append(progress.shows_curves) or sys.exit(0))
+    made = live_display.Live.__init__
     for more in ([], ["--no-live"]):
-        monkeypatch.setattr(live_display.Live, "__init__", lambda self, quiet,
-                            curves: setattr(self, "shows_curves", curves) or setattr(
-            self, "bar", None))
+        monkeypatch.setattr(live_display.Live, "__init__", lambda self, quiet, curves: made(self, quiet, curves) or setattr(
+            self, "shows_curves", curves))
         CliRunner().invoke(app, ["run", "smooth-line", *more])
     assert seen == [True, False]
