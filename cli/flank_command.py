@@ -30,6 +30,7 @@ def flank(
     scene: Optional[str] = typer.Option(None, help="scene with oil, bodies, feature and numerics: built-in name, TOML file or "
                                                    "store"),
     steady: bool = typer.Option(False, "--steady", help="steady contacts without a feature"),
+    oil: Optional[str] = typer.Option(None, help="name of the oil (`tehl oils`)"),
     temperature: Optional[float] = number("inlet temperature, deg C"),
     height: Optional[float] = number("feature height, m (negative: dent)"),
     width: Optional[float] = number("feature width, m"),
@@ -61,7 +62,8 @@ def flank(
 
     page = FigureStyle(format, dpi, figure_width, force=True)
     folder_figure.check(out, page, "flank") if figure else say_idle(context, "--no-figure draws none", *DRAWS)
-    changes = given_by({"temperature": temperature, "height": height, "width": width, "thermal.on": thermal}, grid, set_ or [])
+    options = {"oil.name": oil, "temperature": temperature, "height": height, "width": width, "thermal.on": thermal}
+    changes = given_by(options, grid, set_ or [])
     base = find(scene) if scene else None
     check_rows(grid, changes, lambda: _line(gear, base, changes, steady))
     with Live(quiet, curves) as live:

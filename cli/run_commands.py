@@ -26,6 +26,7 @@ def run(
     hertz_pressure: Optional[float] = number("Hertz pressure, Pa (instead of a load)"),
     speed: Optional[float] = number("mean surface speed u_m, m/s"),
     temperature: Optional[float] = number("inlet temperature, deg C"),
+    oil: Optional[str] = typer.Option(None, help="name of the oil (`tehl oils`)"),
     height: Optional[float] = number("feature height, m (negative: dent)"),
     width: Optional[float] = number("feature width, m"),
     set_: Optional[List[str]] = typer.Option(None, "--set", help="any scene value, dotted.key=value; repeatable"),
@@ -63,14 +64,16 @@ def run(
 ):
     """Run one contact: steady start, passage of the feature, stresses, fatigue; write all results to a store.
 
-    Examples: `tehl run --srr -0.12` · `tehl run dent --grid coarse` · `tehl run my.toml --set feature.height=1e-6`
+    Numbers may have a unit. Examples: `tehl run --srr -0.12` · `tehl run dent --grid coarse --load 900N/mm --temperature 343K` ·
+    `tehl run my.toml --set feature.height=1um`
     """
     import tehl_taichi as tehl
     from tehl_taichi.store.load_scene import find_changed
 
     changes = given_by(
         {"srr": srr, "load": load, "hertz_pressure": hertz_pressure, "speed": speed, "temperature": temperature,
-         "height": height, "width": width, "kappa": kappa, "endurance": endurance, "time.steps": steps, "thermal.on": thermal,
+         "oil.name": oil, "height": height, "width": width, "kappa": kappa, "endurance": endurance, "time.steps": steps,
+         "thermal.on": thermal,
          "bending_limit": bending_limit, "torsion_limit": torsion_limit,
          "fatigue.on": fatigue, "zoom.factor": zoom, "time.run_in": run_in,
          "numerics.estimate_error": estimate_error, "numerics.precision": precision, "time.steady_only": steady or None},

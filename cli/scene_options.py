@@ -7,6 +7,7 @@ WORDS = {("thermal.on", True): "--thermal", ("thermal.on", False): "--isothermal
          ("fatigue.on", True): "--fatigue", ("fatigue.on", False): "--no-fatigue",
          **{("zoom.factor", factor): f"--zoom {factor}" for factor in (0, 2, 4, 8)},
          ("numerics.estimate_error", True): "--estimate-error", ("numerics.estimate_error", False): "--no-estimate-error"}
+NAMES = {"oil.name": "oil"}  # of options that are not the end of their key
 
 
 def given_by(options, grid, settings):
@@ -22,7 +23,7 @@ def given_by(options, grid, settings):
 def _typed(key, value):
     """An option as it was typed."""
     shown = value if isinstance(value, str) else f"{value:g}"
-    return WORDS.get((key, value), f"--{key.rpartition('.')[2].replace('_', '-')} {shown}")
+    return WORDS.get((key, value), f"--{NAMES.get(key, key.rpartition('.')[2]).replace('_', '-')} {shown}")
 
 
 def _grid(text):

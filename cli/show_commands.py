@@ -40,7 +40,7 @@ def oils():
                [(name, oil.says, *oil.shown_numbers) for name, oil in NAMED.items()])
     for name, oil in NAMED.items():
         wrapped(f"{name}: {oil.source} [{oil.oil.viscosity}]")
-    wrapped("To choose one: --set oil.name=NAME. For your own oil give its data sheet (m2/s, kg/m3): --set oil.nu_40=220e-6 "
+    wrapped("To choose one: --oil NAME. For your own oil give its data sheet (m2/s, kg/m3): --set oil.nu_40=220e-6 "
             "--set oil.nu_100=19e-6 --set oil.rho_15=890")
 
 

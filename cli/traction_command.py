@@ -25,6 +25,7 @@ def traction(
     srr: str = typer.Option("0:0.5:11", help=f"slide-roll ratios, {LIST}"),
     temperature: Optional[str] = typer.Option(None, help=f"inlet temperatures, deg C, {LIST} (default: that of the scene)"),
     speed: Optional[str] = typer.Option(None, help=f"mean speeds, m/s, {LIST}; with one --srr a Stribeck curve"),
+    oil: Optional[str] = typer.Option(None, help="name of the oil (`tehl oils`)"),
     load: Optional[float] = number("load, N (line: N/m)"),
     hertz_pressure: Optional[float] = number("Hertz pressure instead of a load, Pa"),
     thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="with (default) or without energy equation"),
@@ -44,8 +45,8 @@ def traction(
     """Compute traction curves of a steady contact: friction, film and temperature over slip, for several inlet temperatures or
     speeds. Repeat the command to resume.
 
-    Examples: `tehl traction smooth-line --srr 0:0.5:11 --temperature 40,80,120` · `tehl traction ball-on-disc --srr 0.2 --speed
-    0.01:1:9:log --set rheology.law=limiting`
+    Examples: `tehl traction smooth-line --srr 0:0.5:11 --temperature 40,80,120` · `tehl traction mtm --srr 0.1 --speed
+    0.1:10:9:log --oil mineral-vg220`
     """
     from tehl_cli.sweep_display import SweepLive
 
@@ -56,7 +57,8 @@ def traction(
 
     page = FigureStyle(format, dpi, figure_width, force=True)
     drawing() if figure else say_idle(context, "--no-figure draws none", *DRAWS)
-    changes = given_by({"load": load, "hertz_pressure": hertz_pressure, "thermal.on": thermal}, grid, set_ or [])
+    options = {"oil.name": oil, "load": load, "hertz_pressure": hertz_pressure, "thermal.on": thermal}
+    changes = given_by(options, grid, set_ or [])
     base = find(scene)
     check_rows(grid, changes, lambda: base)
     with SweepLive(quiet) as live:

@@ -52,3 +52,14 @@ def test_a_dent_with_units():
 def test_another_unit_is_refused(command, parts, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert all(part in refusal(command.split()) for part in parts)
+
+
+def test_an_oil_by_its_option_is_that_of_its_key():
+    """Also in what is said of two that contradict each other."""
+    named = typed("run gear --dry-run --oil mineral-vg220".split())
+    assert named.exit_code == 0 and named.output == typed("run gear --dry-run --set oil.name=mineral-vg220".split()).output
+    assert "mineral-vg220" in named.output
+    assert "--oil mineral-vg220 and --set oil.name=mineral-vg320 contradict" in refusal(
+        "run gear --dry-run --oil mineral-vg220 --set oil.name=mineral-vg320".split())
+    assert "did you mean 'mineral-vg220'" in refusal("flank fzg-c --oil vg220".split())
+    assert "did you mean 'mineral-vg220'" in refusal("traction mtm --oil vg220".split())
