@@ -94,9 +94,10 @@ def _found(which, own, live, oil, temperature, thermal, grid, set_, out, **share
 
 
 def print_bearing(found):
-    """Print the tables of a bearing, what was assumed, and where its scenes are."""
+    """Print the tables of a bearing, its answer, what was assumed, and where its scenes are."""
     from tehl_cli.tables import list_table, warning_lines
 
+    from tehl_taichi.report import bearing_page
     from tehl_taichi.runs.bearing import bearing_table
 
     put(found.title)
@@ -105,6 +106,9 @@ def print_bearing(found):
     list_table("elements", heads, rows, whole=True)
     for title, rows in bearing_table.tables(found).items():
         list_table(title, ("quantity", "inner ring", "outer ring"), rows, whole=True)
+    answer = bearing_page.answer(found)
+    for sentence in (f"{answer.question} {answer.headline}", *answer.sentences, *bearing_page.limits(found)):
+        put(sentence)
     put(f"dimensions: {found.record['source']}")
     for sentence in filter(None, (bearing_table.estimated_words(found), f"assumed: {'; '.join(found.record['assumptions'])}")):
         put(sentence)

@@ -64,7 +64,7 @@ def run(
 ):
     """Run one contact: steady start, passage of the feature, stresses, fatigue; write all results to a store.
 
-    Numbers may have a unit. Examples: `tehl run --srr -0.12` · `tehl run dent --grid coarse --load 900N/mm --temperature 343K` ·
+    Numbers may have a unit. Examples: `tehl run --srr -0.12` · `tehl run dent --grid coarse --load 900N/mm` ·
     `tehl run my.toml --set feature.height=1um`
     """
     import tehl_taichi as tehl

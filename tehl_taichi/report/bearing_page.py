@@ -22,7 +22,7 @@ def of(folder):
     """The :class:`tehl_taichi.report.document.Page` of the bearing in `folder`. Raises StoreError."""
     found = Bearing.open(folder)
     heads, rows = bearing_table.elements(found)
-    return Page(f"{found.name}: report", found.title, _answer(found), (
+    return Page(f"{found.name}: report", found.title, answer(found), (
         Section("Loads and contacts", (facts(bearing_table.facts(found)), drawn(*figures(found)))),
         Section("Both rings", tuple(table(["quantity", "inner ring", "outer ring"], rows, title)
                                     for title, rows in bearing_table.tables(found).items())),
@@ -33,14 +33,14 @@ def of(folder):
         Section("Provenance", (facts(_provenance(found)),))))
 
 
-def _answer(found):
+def answer(found):
     """Static safety, smallest film and ratio to the roughness; the fatigue of a feature that passes."""
     ring, worst = min(found.rings.items(), key=lambda entry: entry[1]["static_safety"])
     safe, limit = worst["static_safety"], found.record["static_limit_Pa"]
     headline = f"{'Yes' if safe >= 1 else 'No'}: static safety {safe:.2f} at the {ring} ring. {_film(found)}"
     why = [f"The Hertz pressure is {value_text(worst['p_Hertz_Pa'], unit='Pa', digits=FEW)}; ISO 76 allows "
            f"{limit / 1e9:g} GPa, where the permanent deformation is 0.0001 of the diameter of an element.", *_fatigue(found)]
-    doubts = [*_limits(found), f"Assumed: {'; '.join(found.record['assumptions'])}.",
+    doubts = [*limits(found), f"Assumed: {'; '.join(found.record['assumptions'])}.",
               *filter(None, [_sentence(bearing_table.estimated_words(found))]),
               *[f"Number of warnings, listed below: {count}." for count in (len(bearing_table.warnings(found)),) if count]]
     return Answer(QUESTION, headline, "none" if safe >= 1 else "yes", tuple(why), tuple(doubts))
@@ -68,7 +68,7 @@ def _fatigue(found):
             yield f"{ring.capitalize()} ring: {question} {answer}"
 
 
-def _limits(found):
+def limits(found):
     """What the index 1 stands for, where a feature passed."""
     judged = [ring for ring, one in found.rings.items() if "fatigue" in (one["summary"] or {})]
     return limit_words(scene_file.load(found.folder / f"{judged[0]}.toml")) if judged else ()

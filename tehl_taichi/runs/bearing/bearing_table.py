@@ -109,7 +109,7 @@ ROWS = (
     RingRow(FILM, "sliding_loss_W", "sliding loss of the most loaded contact, W", 1, ".3g", sliding_loss),
     _result(FILM, "film_max_C", "film temperature, deg C", 1, ".1f", "steady", "film_max_C"),
     _result(PASSAGE, "passage_p_max_Pa", "largest pressure, GPa", 1e-9, ".3f", "transient", "p_max_Pa"),
-    _result(PASSAGE, "passage_h_min_m", "smallest film, um", 1e6, ".3f", "transient", "h_min_m"),
+    _result(PASSAGE, "passage_h_min_m", "smallest film, um", 1e6, ".3g", "transient", "h_min_m"),
     _result(PASSAGE, "Fi_max", "Fi at the surface", 1, ".3f", "fatigue", "Fi_max"),
     _result(PASSAGE, "Fi_max_below", "Fi below the surface", 1, ".3f", "fatigue", "below", "Fi_max"))
 

@@ -74,9 +74,9 @@ def test_the_page_begins_with_safety_and_film(dry):
 
 def test_the_page_names_the_limit_where_a_feature_passed(dry):
     """Whose it is, and from where: of the scene of that ring."""
-    assert bearing_page._limits(dry) == ()
+    assert bearing_page.limits(dry) == ()
     ran = Bearing(dry.folder, {**dry.record, "inner": {**dry.record["inner"], "summary": {"fatigue": {}}}})
-    sentence, = bearing_page._limits(ran)
+    sentence, = bearing_page.limits(ran)
     assert sentence.startswith("Fi = 1 is the fatigue limit σ_eF = 400 MPa with κ = 0.3 (findley): example values")
 
 
@@ -259,6 +259,7 @@ def test_commands_print_and_show_a_bearing(tmp_path):
     assert found.returncode == 0 and json.loads(found.stdout)["name"] == "mine"
     shown = here("show", "b", cwd=tmp_path)
     assert "static safety (ISO 76)" in shown.stdout and "estimated, because not published" in shown.stdout
+    assert "Does the bearing carry its load, and how thick is the film? Yes: static safety" in " ".join(shown.stdout.split())
     own = ("--roller-diameter", 8e-3, "--rollers", 18, "--pitch-diameter", 60e-3, "--length", 10e-3)
     roller = here("roller", "--json", *own, *quick, cwd=tmp_path)
     assert json.loads(roller.stdout)["inner"]["contact"] == "line contact of a straight roller"
