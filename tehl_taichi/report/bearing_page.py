@@ -1,8 +1,10 @@
 """The page of a rolling bearing: static safety and film first, then loads, contacts and slip, from what its folder keeps."""
 
+import dataclasses
 from pathlib import Path
 
 from tehl_taichi.fatigue.judged_surfaces import others
+from tehl_taichi.report import place_sections
 from tehl_taichi.report.document import Answer, Page, Section, drawn, facts, sentences, table
 from tehl_taichi.report.number_text import FEW, value_text
 from tehl_taichi.report.plots import Figure, axis, colour, line, stacked
@@ -12,6 +14,7 @@ from tehl_taichi.runs.bearing.rolling_bearing import OF_BALLS, OF_ROLLERS, ROLLE
 from tehl_taichi.runs.bearing.stored_bearing import Bearing
 from tehl_taichi.runs.flank.flank_columns import dig, error_of
 from tehl_taichi.scene import scene_file
+from tehl_taichi.store.reader import Reader
 from tehl_taichi.values.digits import fitting
 from tehl_taichi.values.quantity import kinds
 
@@ -22,8 +25,11 @@ def of(folder):
     """The :class:`tehl_taichi.report.document.Page` of the bearing in `folder`. Raises StoreError."""
     found = Bearing.open(folder)
     heads, rows = bearing_table.elements(found)
+    store, ring = _store(found)
     return Page(f"{found.name}: report", found.title, answer(found), (
         Section("Loads and contacts", (facts(bearing_table.facts(found)), drawn(*figures(found)))),
+        *(dataclasses.replace(one, front=True) for one in place_sections.critical(store, f"{ring} ring")),
+        *place_sections.scene(store, f"the {ring} ring"),
         Section("Both rings", tuple(table(["quantity", "inner ring", "outer ring"], rows, title)
                                     for title, rows in bearing_table.tables(found).items())),
         Section("Elements", (table(heads, rows),)),
@@ -31,6 +37,15 @@ def of(folder):
         Section("Bearing", (facts(_dimensions(found)), sentences(_sources(found)))),
         Section("Warnings", (sentences(bearing_table.warnings(found)),)),
         Section("Provenance", (facts(_provenance(found)),))))
+
+
+def _store(found):
+    """(Reader, name) of the ring that a feature passes, else of that with the smaller static safety; (None, name) without a
+    run."""
+    order = sorted(found.rings, key=lambda ring: ("fatigue" not in (found.rings[ring]["summary"] or {}),
+                                                  found.rings[ring]["static_safety"]))
+    path = found.folder / Path(found.rings[order[0]]["store"]).name
+    return Reader.open(path) if path.exists() else None, order[0]
 
 
 def answer(found):

@@ -7,6 +7,7 @@ from tehl_taichi.report.verdict import limit_words
 from tehl_taichi.runs.flank.flank_columns import dig
 from tehl_taichi.runs.summary import limit_meaning
 from tehl_taichi.store.attributes import text
+from tehl_taichi.view.figures.map_panels import lies
 
 MAPS = ("map-pressure", "map-film")
 
@@ -26,7 +27,8 @@ def critical(store, words):
         return ()
     maps = [figure for figure in map_plots.maps(store) if figure.name in MAPS]
     index = fatigue_plots.index(searches(store)[0]) if "fatigue" in store.summary else []
-    parts = [part for part in (drawn(*index), drawn(*maps)) if part]
+    rows = [[one] for one in maps] if lies(store.scene) else [maps]
+    parts = [part for part in (drawn(*index), *(drawn(*row) for row in rows)) if part]
     return (Section(f"Critical position: {words}", tuple(parts)),) if parts else ()
 
 

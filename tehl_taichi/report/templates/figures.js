@@ -1,7 +1,7 @@
 "use strict";
 (() => {
   const PAPER = 660; // px, width of a printed page between its margins
-  const LOW = 430, LOWER = 290; // px, heights of the figures of the answer on paper: alone, and side by side
+  const LOW = 380, LOWER = 290; // px, heights of the figures of the answer on paper: alone, and side by side
   const touch = matchMedia("(pointer: coarse)").matches; // there a finger on a figure scrolls the page
   const BUTTONS = [["toImage"], ["zoom2d", "pan2d", "zoomIn2d", "zoomOut2d", "resetScale2d"]]; // none that sends data anywhere
   const dark = matchMedia("(prefers-color-scheme: dark)");

@@ -4,6 +4,7 @@ import csv
 import json
 import math
 
+import made_results
 import numpy as np
 import pytest
 from commands import here
@@ -12,12 +13,13 @@ from fake_cases import position
 import tehl_taichi as tehl
 from tehl_taichi.disk import user_files
 from tehl_taichi.errors import SceneError, StoreError
-from tehl_taichi.report import bearing_page, document
+from tehl_taichi.report import bearing_page, document, place_sections
 from tehl_taichi.runs.bearing import bearing_figure, bearing_table
 from tehl_taichi.runs.bearing.bearing_source import bearing_source
 from tehl_taichi.runs.bearing.stored_bearing import Bearing
 from tehl_taichi.runs.open_results import kind
 from tehl_taichi.runs.sweep import case
+from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.view.figures.figure_style import FigureStyle
 
@@ -78,6 +80,18 @@ def test_the_page_names_the_limit_where_a_feature_passed(dry):
     ran = Bearing(dry.folder, {**dry.record, "inner": {**dry.record["inner"], "summary": {"fatigue": {}}}})
     sentence, = bearing_page.limits(ran)
     assert sentence.startswith("Fi = 1 is the fatigue limit σ_eF = 400 MPa with κ = 0.3 (findley): example values")
+
+
+def test_the_page_shows_the_contact_that_a_feature_passes(dry, tmp_path):
+    """The maps of its store, lying on their side, right below the answer; without a run there are none."""
+    assert bearing_page._store(dry) == (None, "inner") and bearing_page.of(dry.folder).front[0].title == "Loads and contacts"
+    record = {**dry.record, "outer": {**dry.record["outer"], "store": "elsewhere/made.zarr", "summary": {"fatigue": {}}}}
+    made_results.run(tmp_path / "made.zarr", scene("ball-bearing").replace(**{"grid.nx": 32, "grid.ny": 8}), 1)
+    store, ring = bearing_page._store(Bearing(tmp_path, record))
+    section, = place_sections.critical(store, f"{ring} ring")
+    assert section.title == "Critical position: outer ring"
+    assert [[figure.name for figure in part.figures] for part in section.parts] == [["map-pressure"], ["map-film"]]
+    assert section.parts[0].figures[0].layout["yaxis"]["autorange"] == "reversed"
 
 
 def test_the_page_of_too_much_load_says_no(tmp_path):
