@@ -12,6 +12,7 @@ from tehl_taichi.runs.sweep.study_table import Study, attributes
 from tehl_taichi.scene.aliases import full_name
 
 MOST_ROWS = 500
+ROUNDING = 1e-12  # of the largest value: friction in pure rolling
 ERROR, BELOW = "fatigue_error_Fi_max", "fatigue_below_Fi_max"
 
 
@@ -36,7 +37,7 @@ def _answer(study):
     doubts += [f"Not run yet: {waiting} of {len(study)} cases."] * bool(waiting)
     if not known.any():
         headline = f"{study.counts['converged']} of {len(study)} cases have a result."
-        return Answer("What are the results of the study?", headline, "none", (), tuple(doubts))
+        return Answer("What are the results of the study?", headline, "none", tuple(_ranges(study)), tuple(doubts))
     above, of_all = int((Fi[known] >= 1).sum()), int(known.sum())
     headline = f"The index, at the surface or below it, is above 1 in {above} of {of_all} cases with a result."
     tone = "yes" if above == of_all else "open" if above else "no"
@@ -51,6 +52,21 @@ def _limits(study):
     if swept:
         return (f"The fatigue limit, or what belongs to it, differs between the cases: {', '.join(swept)}.",)
     return limit_words(study.plan.scene)
+
+
+def _ranges(study):
+    """A sentence on each usual result: its smallest and its largest value, and where they are."""
+    for name in study_figures.usual(study):
+        values, label = column(study, name)
+        if np.isfinite(values).any():
+            low, top = int(np.nanargmin(values)), int(np.nanargmax(values))
+            yield (f"{label[0].upper()}{label[1:]}: {_cell(values, low)} ({_changes(study, low)}) to {_cell(values, top)} "
+                   f"({_changes(study, top)}).")
+
+
+def _cell(values, n):
+    """A value with four digits; what is only rounding beside the largest is 0."""
+    return f"{values[n] if abs(values[n]) > ROUNDING * np.nanmax(np.abs(values)) else 0.0:.4g}"
 
 
 def _extreme(study, Fi, text, which):
@@ -75,7 +91,7 @@ def _table(study):
     keys = [study_figures.along(study, key, per_case=True) for key in study.plan.keys]
     columns = [column(study, name) for name in study_figures.usual(study)]
     rows = [[str(n), *(words[n] for *_, words in keys), row["status"],
-             *(f"{values[n]:.4g}" if np.isfinite(values[n]) else "" for values, _ in columns)]
+             *(_cell(values, n) if np.isfinite(values[n]) else "" for values, _ in columns)]
             for n, row in zip(range(MOST_ROWS), study.rows())]
     return table(("case", *(label for _, label, _ in keys), "status", *(label for _, label in columns)), rows)
 

@@ -3,14 +3,14 @@
 import numpy as np
 
 from tehl_taichi.report.plots import colour, field_map, line, marks, stacked
-from tehl_taichi.runs.sweep.study_figures import along, numeric, usual, with_errors
+from tehl_taichi.runs.sweep.study_figures import along, curve_keys, curve_rows, numeric, usual, with_errors
 from tehl_taichi.view.figures.palette import RESULT
 
 MOST_LINES = 12
 
 
 def figures(study):
-    """Figures of each usual result: lines over the first key and a map over two, or points where the cases lie anywhere."""
+    """Figures of each usual result: lines over one key and a map over two, or points where the cases lie anywhere."""
     out = []
     for name in usual(study):
         if study.plan.gridded and len(study.plan.dims) <= 2:
@@ -27,15 +27,16 @@ def column(study, name):
 
 
 def _lines(study, name):
-    """Over the first key, a line for each value of the second (some of many)."""
+    """Over one key, a line for each value of the other (some of many)."""
     values, errors, label = with_errors(study, name)
-    x, x_label, words = along(study, study.plan.keys[0])
-    rows, bars, seconds = values.reshape(len(x), -1).T, errors.reshape(len(x), -1).T, _seconds(study, label)
+    first = curve_keys(study)[0]
+    x, x_label, words = along(study, first)
+    rows, bars, seconds = curve_rows(study, values), curve_rows(study, errors), _seconds(study, label)
     shown = np.unique(np.linspace(0, len(rows) - 1, min(len(rows), MOST_LINES)).astype(int))
     traces = [line(x, rows[n], seconds[n], colour(k), in_legend=len(rows) > 1, mode="lines+markers", **_bars(bars[n]))
               for k, n in enumerate(shown)]
     return stacked(f"{name}-lines", f"{label}, over {x_label}.", x_label, [(label, traces, {})],
-                   _ticks(x, words, numeric(study, study.plan.keys[0])), height=400)
+                   _ticks(x, words, numeric(study, first)), height=400)
 
 
 def _bars(errors):
@@ -49,7 +50,7 @@ def _seconds(study, label):
     """Names of the lines."""
     if len(study.plan.keys) == 1:
         return [label]
-    _, second, words = along(study, study.plan.keys[1])
+    _, second, words = along(study, curve_keys(study)[1])
     return [f"{second} {word}" for word in words]
 
 

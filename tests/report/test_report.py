@@ -6,7 +6,7 @@ import re
 import made_results
 import numpy as np
 import pytest
-from fake_cases import formula
+from fake_cases import formula, position
 from read_pages import numbers, page
 from small_stores import SMALL, store
 from tehl_cli.main import app
@@ -193,6 +193,39 @@ def test_a_study_shows_its_results_and_what_failed(pages):
     cells = numbers(seen.figures["fatigue_Fi_max-map"]["data"][0])
     assert np.isnan(cells).sum() == 1 and np.nanmax(cells) == pytest.approx(1.05)
     assert len(seen.figures["fatigue_Fi_max-lines"]["data"]) == 3
+
+
+def test_curves_of_a_study_are_over_the_key_with_more_values(tmp_path):
+    """A traction curve over slip, a line for each temperature, though the temperatures were named first; its values by hand."""
+    from tehl_taichi.report import study_plots
+    from tehl_taichi.runs.sweep import study_figures
+
+    gear = scene("gear").replace(**{"feature.height": 0.5e-6, "grid.nx": 64, "grid.ny": 16})
+    swept = plan(gear, {"temperature": [60.0, 80.0], "srr": [0.0, 0.1, 0.2]})
+    found = sweeping.run(swept, tmp_path / "s.zarr", workers=1, work=formula)
+    assert study_figures.curve_keys(found) == ["srr", "temperature"]
+    name = study_figures.usual(found)[0]
+    values, label = study_plots.column(found, name)
+    lines = next(figure for figure in study_plots.figures(found) if figure.name == f"{name}-lines")
+    assert [trace["x"].tolist() for trace in lines.traces] == [[0.0, 0.1, 0.2]] * 2
+    assert [list(trace["y"]) for trace in lines.traces] == [values[:3].tolist(), values[3:].tolist()]
+    assert [trace["name"] for trace in lines.traces] == ["inlet temperature (°C) 60", "inlet temperature (°C) 80"]
+
+
+def test_a_study_without_an_index_names_the_range_of_its_results(tmp_path):
+    """A made-up film as thick as the radius."""
+    from tehl_taichi.report import study_page
+
+    swept = plan(scene("mtm"), {"contact.radius_x": [0.01, 0.02]})
+    found = sweeping.run(swept, tmp_path / "s.zarr", workers=1, work=position)
+    sentences = study_page.of(found.path).answer.sentences
+    assert sentences == ("Steady h_c (mm): 10 (reduced radius along x (mm) 10) to 20 (reduced radius along x (mm) 20).",)
+
+
+def test_rounding_beside_the_largest_value_is_no_result():
+    from tehl_taichi.report import study_page
+
+    assert study_page._cell(np.array([7e-19, 0.07]), 0) == "0" and study_page._cell(np.array([7e-19, 0.07]), 1) == "0.07"
 
 
 def test_a_study_over_the_limit_names_its_keys(tmp_path):

@@ -58,21 +58,33 @@ def _known(study, quantity):
     return quantity
 
 
+def curve_keys(study):
+    """The keys of a study with one or two: first that of the axis of curves, which has more values than the other (numbers
+    before words; the first of equal ones), then that of the lines."""
+    return sorted(study.plan.keys, key=lambda key: (not numeric(study, key), -len(study.plan.coordinate(key)[1])))
+
+
+def curve_rows(study, values):
+    """Values of all cases as one row for each line, along the key of the axis."""
+    found = values.reshape(study.plan.shape) if len(study.plan.keys) > 1 else values[:, None]
+    return found.T if curve_keys(study)[0] == study.plan.keys[0] else found
+
+
 def lines(page, study, name):
-    """The quantity with its error over the first key, a line for each value of the second."""
+    """The quantity with its error over one key, a line for each value of the other."""
     values, errors, label = with_errors(study, name)
-    shape = study.plan.shape[0], -1
-    values, errors = values.reshape(shape).T, errors.reshape(shape).T
+    values, errors = curve_rows(study, values), curve_rows(study, errors)
     figure, ((ax,),) = page.figure(height=HIGH * page.row())
-    x, x_label, ticks = along(study, study.plan.keys[0])
-    second = along(study, study.plan.keys[1]) if len(study.plan.keys) > 1 else None
+    first, *others = curve_keys(study)
+    x, x_label, ticks = along(study, first)
+    second = along(study, others[0]) if others else None
     colours = drawing().colormaps[palette.RESULT](np.linspace(0.0, 0.9, len(values)))
     for n, (row, bars) in enumerate(zip(values, errors)):
         ax.errorbar(x, row, bars, fmt="o-", color=colours[n], label=second and second[2][n], **palette.BARS)
         _hollow(ax, x, row, bars)
     if second:
         page.legend(figure, title=second[1])
-    _dress(ax, x_label, x, ticks, numeric(study, study.plan.keys[0]))
+    _dress(ax, x_label, x, ticks, numeric(study, first))
     ax.set_ylabel(label)
     page.title(figure, f"{study.plan.scene.name}: {column_name(name)}{_unknown(values, errors)}")
     return figure
