@@ -136,11 +136,21 @@ def test_paper_is_light_and_holds_every_figure(browser, whole, tmp_path):
 
 
 PAGE = 1017  # px: height of A4 between its margins
+WIDE = 688   # px: its width
+
+
+def test_paper_holds_the_widest_table(browser, others):
+    """Nothing of a table is cut, which a screen would let the reader scroll."""
+    browser.open(others[1], width=WIDE)
+    browser.ask("Emulation.setEmulatedMedia", media="print")
+    widest = browser.run("Math.max(...[...document.querySelectorAll('table')].map(one => one.scrollWidth))")
+    assert widest <= WIDE and browser.run("getComputedStyle(document.querySelector('.wide')).overflowX") == "visible"
+    browser.ask("Emulation.setEmulatedMedia", media="")
 
 
 def test_paper_has_the_answer_and_its_figures_on_two_pages(browser, whole):
     """The chain and three figures follow the verdict; the rest is an appendix that begins on a new page."""
-    browser.open(whole, width=688)
+    browser.open(whole, width=WIDE)
     hidden = "getComputedStyle(document.querySelector('.appendix'))"
     assert browser.run(f"{hidden}.display") == "none"
     browser.ask("Emulation.setEmulatedMedia", media="print")
