@@ -15,6 +15,7 @@ from tehl_taichi.values.coded_warning import coded_warning, once, with_data
 from tehl_taichi.values.digits import micrometres
 
 STILL = 0.01  # of the largest plastic strain: a passage that adds less has run in
+MANY, FIRST = 6, 4  # numbers without an error bar: so many are all named, of more the first
 CROWDED = 0.1  # of the launches; a machine of one's own loses a core for a moment now and then, which costs nothing to speak of
 
 
@@ -74,8 +75,13 @@ def unknown_errors(store, summary):
         grid = film_warnings.finer_exit(store.scene, why)
         window = zoom_option(store.scene) if grid else ""
         more = (f"; try a grid that is finer along x: {grid}" if grid else "") + (f", or {window}" if window else "")
-        yield with_data(f"the error of {', '.join(names)} is not known: {why}{more}", grid, window, numbers=names,
+        yield with_data(f"the error of {few(names)} is not known: {why}{more}", grid, window, numbers=names,
                         reason=str(why), reason_code=why.code)
+
+
+def few(names):
+    """Names in a sentence, the first of many: all of them are in the data of the warning and in the table of errors."""
+    return ", ".join(names) if len(names) <= MANY else f"{', '.join(names[:FIRST])} and {len(names) - FIRST} more numbers"
 
 
 def _unknown(summary):

@@ -1,5 +1,7 @@
 """What the judge of results says about friction, peaks and ripples, on made-up stores."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -179,3 +181,14 @@ def test_a_ripple_at_the_exit_of_oil_without_a_limit(changes, advice):
     made = Made(gear(**changes), pressure=lambda X, smooth: mound(X, smooth)[::-1])
     inside, = film_warnings.ripples(made, rippled(made))
     assert inside.startswith("the pressure ripples") and "X = -" in inside and "time.courant" in inside
+
+
+def test_many_numbers_without_an_error_are_one_short_sentence():
+    """The first of them and how many more; the data of the warning has all."""
+    reason = Reason("no coarser grid gives it", "coarse")
+    keys = [f"n{k}" for k in range(9)]
+    store, summary = SimpleNamespace(scene=scene("gear")), {"steady": {"unknown": dict.fromkeys(keys, reason)}}
+    line, = judge_of_results.unknown_errors(store, summary)
+    assert line.startswith("the error of steady n0, steady n1, steady n2, steady n3 and 5 more numbers is not known")
+    assert line.data["numbers"] == [f"steady {key}" for key in keys]
+    assert judge_of_results.few(keys[:6]) == "n0, n1, n2, n3, n4, n5"
