@@ -38,7 +38,8 @@ FINER = {"dent": {"grid.nx": 512, "grid.ny": 32}}  # its exit is not resolved on
 @dataclass(frozen=True)
 class VerdictRow:
     """The worse body of a scene with a variant: index at its surface and below it (of rough surfaces the 99th percentile), the
-    depth (m) of the latter, errors (None: not known, see `unknown`), limits (Pa) at both; reason: why there are no numbers."""
+    depth (m) of the latter, errors (None: not known, see `unknown`), limits (Pa) at both; until_a: position (a) of the feature
+    up to which its grid resolves the pressure, where the numbers are those up to there; reason: why there are no numbers."""
 
     scene: str
     variant: str
@@ -49,6 +50,7 @@ class VerdictRow:
     surface: str = ""
     limits_Pa: tuple = ()
     unknown: str = ""
+    until_a: float | None = None
     reason: str = ""
 
 
@@ -125,12 +127,13 @@ def _row(name, variant, description, store, coarser):
     found = assessment.run(description, store, until=until, alone=False).summaries
     known, reasons = _errors(description, store, coarser, found, until)
     worst = max(found, key=lambda body: max(value for _, value, *_ in _parts(body, searched(found[body]), known)))
-    (top, at_top, top_error), (deep, below, deep_error), *_ = _parts(worst, searched(found[worst]), known)
     own = searched(found[worst])
+    (top, at_top, top_error), (deep, below, deep_error), *_ = _parts(worst, own, known)
     limits = own["sigma_eF_Pa"], own["below"].get("sigma_eF_Pa", own["sigma_eF_Pa"])
     unknown = next((str(why) for key, why in reasons.items() if key.startswith(f"{worst}:{coarse_runs.FI}")), "")
+    early = [part["to_x_a"] for part in (top, deep) if part in _resolved(own)]
     return VerdictRow(name, variant, at_top, below, deep["depth_m"], {"Fi_surface": top_error, "Fi_below": deep_error}, worst,
-                      limits, unknown if None in (top_error, deep_error) else "")
+                      limits, unknown if None in (top_error, deep_error) else "", min(early, default=None))
 
 
 def _errors(description, store, coarser, found, until):
@@ -168,7 +171,20 @@ def _parts(body, found, known):
     with_bars = {what: {**part, "error": {"Fi_max": known.get(coarse_runs.of_surface(body, errors[what]))}}
                  for what, part in parts.items() if part}
     nested = _nested(with_bars)
-    return [(part, part["Fi_max"], part["error"]["Fi_max"]) for part, _ in material_length.leading(nested)]
+    whole = [(part, part["Fi_max"], part["error"]["Fi_max"]) for part, _ in material_length.leading(nested)]
+    return [_better(one, early, known.get(coarse_runs.of_surface(body, key))) for one, early, key in
+            zip(whole, _resolved(found) or [None, None], (coarse_runs.RESOLVED, coarse_runs.RESOLVED_BELOW))]
+
+
+def _resolved(found):
+    """Parts of a search at the surface and below it up to where the grid resolves the pressure; [] of one that it resolves."""
+    part = found.get("resolved")
+    return [part, {"to_x_a": part["to_x_a"], **part["below"]}] if part else []
+
+
+def _better(whole, early, error):
+    """A part with its index and error, of the resolved part of the passage where its error alone is known."""
+    return (early, early["Fi_max"], error) if early and whole[2] is None and error is not None else whole
 
 
 def _nested(parts):
@@ -205,8 +221,11 @@ def page(rows):
 
 
 def notes(rows):
-    """Sentences on bars that are not known, once each."""
-    return list(dict.fromkeys(f"{NAMES[row.scene]}: errors not known, {row.unknown}." for row in rows if row.unknown))
+    """Sentences on bars that are not known, and on rows of a part of the passage, once each."""
+    open_ = [f"{NAMES[row.scene]}, {MEANS[row.variant]}: errors not known, {row.unknown}." for row in rows if row.unknown]
+    part = [f"{NAMES[row.scene]}, {MEANS[row.variant]}: of the passage up to {row.until_a:.2f} a, later pressures are not "
+            "resolved on this grid." for row in rows if row.until_a is not None]
+    return list(dict.fromkeys([*open_, *part]))
 
 
 def chart(plt, rows):

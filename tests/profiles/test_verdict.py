@@ -90,6 +90,19 @@ def test_indices_are_taken_as_the_verdict_of_a_run_takes_them():
     assert [value[1:] for value in verdict._parts("a", rough, known)] == [(0.7, 0.03), (0.8, 0.04)]
 
 
+def test_the_resolved_part_counts_where_its_error_alone_is_known():
+    found = search(1.3, 1.4, resolved={**search(1.1, 1.2), "to_x_a": 0.9})
+    known = {"a:Fi_max": None, "a:below_Fi_max": 0.02, "a:resolved_Fi_max": 0.01, "a:resolved_below_Fi_max": 0.015}
+    top, deep = verdict._parts("a", found, known)
+    assert top[1:] == (1.1, 0.01) and top[0]["to_x_a"] == 0.9 and deep[1:] == (1.4, 0.02)
+    known["a:below_Fi_max"] = None
+    assert [value[1:] for value in verdict._parts("a", found, known)] == [(1.1, 0.01), (1.2, 0.015)]
+    del known["a:resolved_below_Fi_max"]
+    assert [value[1:] for value in verdict._parts("a", found, known)] == [(1.1, 0.01), (1.4, None)]
+    row = verdict.VerdictRow(**{**vars(ROW), "until_a": 0.9})
+    assert "1.5 µm asperity (default), case profile: of the passage up to 0.90 a" in verdict.page([row])
+
+
 def test_the_table_has_bars_and_says_what_runs_in():
     text = verdict.page([ROW])
     assert "| 1.5 µm asperity (default) | case profile | b | 0.790 ± 0.013 | 1.09 | 34 | 596, 595 |" in text
